@@ -1,0 +1,40 @@
+# How every target of msc_vo is made: one folder is one static library, and links only what stands
+# below it, so that an include that points upward does not even find its symbols.
+
+# Compiler options for our own code only; nothing leaks to those who link us.
+function(msc_vo_compile_options target)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow
+                         -Wnon-virtual-dtor -Woverloaded-virtual)
+  if(MSC_VO_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(MSC_VO_NATIVE)
+    # PUBLIC: Eigen's memory layout depends on it, so a consumer must be compiled alike.
+    target_compile_options(${target} PUBLIC -march=native)
+  endif()
+endfunction()
+
+# msc_vo_library(<folder> SOURCES a.cc ... [DEPENDS target ...] [PRIVATE_DEPENDS target ...])
+# A folder that holds headers only becomes an INTERFACE library.
+function(msc_vo_library folder)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  set(target msc_vo_${folder})
+  if(ARG_SOURCES)
+    add_library(${target} STATIC ${ARG_SOURCES})
+    set(scope PUBLIC)
+    msc_vo_compile_options(${target})
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_link_libraries(${target} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE_DEPENDS})
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+    target_compile_features(${target} INTERFACE cxx_std_17)
+    target_link_libraries(${target} INTERFACE ${ARG_DEPENDS})
+  endif()
+  target_include_directories(${target} ${scope}
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  add_library(msc_vo::${folder} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder})
+  install(TARGETS ${target} EXPORT msc_voTargets)
+endfunction()

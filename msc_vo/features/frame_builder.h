@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "msc_vo/features/line_extractor.h"
+#include "msc_vo/features/point_extractor.h"
+#include "msc_vo/features/rgbd_image.h"
+#include "msc_vo/features/sensor_noise.h"
+#include "msc_vo/geometry/line_fit.h"
+#include "msc_vo/map/frame.h"
+
+namespace msc_vo {
+
+// How a line gets its depth.
+enum class LineDepthMethod {
+  kRobustFit,  // samples along the line, FitLineDepth
+  kEndPoints,  // the depths under the two end points, as they are: the ablation mode pl-vo
+};
+
+struct FrameBuilderOptions {
+  PointExtractorOptions points;
+  LineExtractorOptions lines;
+  SensorNoiseOptions noise;
+  LineFitOptions line_fit;
+  LineDepthMethod line_depth = LineDepthMethod::kRobustFit;
+  double min_depth = 0.2;  // metres; depth outside [min_depth, max_depth] is invalid
+  double max_depth = 10.0;
+
+  bool IsValid(std::string* error) const;
+};
+
+// Milliseconds spent on the last frame.
+struct FrameBuilderTimes {
+  double points = 0.0;
+  double lines = 0.0;
+  double depth = 0.0;  // depth of points and lines
+};
+
+// From an RGB-D image to a Frame: points, lines, their descriptors, their depths; undistorted.
+// Keeps its buffers between calls; not for use from several threads at once.
+class FrameBuilder {
+ public:
+  // Throws std::invalid_argument on options or a camera that are not valid.
+  FrameBuilder(const FrameBuilderOptions& options, const PinholeCamera& camera,
+               const LensDistortion& distortion);
+  ~FrameBuilder();
+
+  // Throws std::invalid_argument if the image's type or size is not the camera's.
+  Frame Build(const RgbdImage& image);
+
+  const FrameBuilderTimes& times() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cstdint>
+
+#include <opencv2/core.hpp>
+
+namespace msc_vo {
+
+// One decoded RGB-D image, registered: the depth of colour pixel (x, y) is depth(y, x).
+struct RgbdImage {
+  int64_t id = 0;          // position in the sequence, from 0
+  double timestamp = 0.0;  // seconds
+  cv::Mat gray;            // CV_8UC1
+  cv::Mat depth;           // CV_32FC1, metres along the optical axis; 0: no measurement
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace msc_vo {
+
+// The matrix [v]x with Skew(v) * w = v x w.
+inline Eigen::Matrix3d Skew(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+// Rotation by |w| radians about w / |w|.
+inline Eigen::Quaterniond ExpSO3(const Eigen::Vector3d& w) {
+  const double half = 0.5 * w.norm();
+  // sin(h)/h near zero: two Taylor terms are exact to double precision below 1e-4.
+  const double sinc = half < 1e-4 ? 1.0 - half * half / 6.0 : std::sin(half) / half;
+  const Eigen::Vector3d v = 0.5 * sinc * w;
+  return Eigen::Quaterniond(std::cos(half), v.x(), v.y(), v.z()).normalized();
+}
+
+// The rotation vector w (radians, |w| <= pi) with ExpSO3(w) == q up to sign.
+inline Eigen::Vector3d LogSO3(const Eigen::Quaterniond& q) {
+  const double sign = q.w() < 0.0 ? -1.0 : 1.0;
+  const Eigen::Vector3d v = sign * q.vec();
+  const double sin_half = v.norm();
+  const double half = std::atan2(sin_half, sign * q.w());
+  return (sin_half < 1e-8 ? 2.0 : 2.0 * half / sin_half) * v;
+}
+
+}  // namespace msc_vo

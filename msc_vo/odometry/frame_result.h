@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "msc_vo/geometry/rigid3.h"
+
+namespace msc_vo {
+
+enum class TrackingStatus {
+  kTracked,    // pose from enough matches with the local map
+  kWeak,       // pose from few matches: usable, but worth a look
+  kPredicted,  // no pose could be estimated; constant velocity bridges a short gap
+  kLost,       // the map was not found for longer than that; the last good pose is repeated
+};
+
+const char* ToString(TrackingStatus status);
+
+// Milliseconds per stage of one frame.
+struct StageTimes {
+  double points = 0.0;
+  double lines = 0.0;
+  double depth = 0.0;
+  double matching = 0.0;
+  double pose = 0.0;
+  double tracking = 0.0;  // everything from the decoded images to the pose
+  double mapping = 0.0;   // of the keyframe step that this frame caused; 0 for other frames
+};
+
+// What is known of one frame once it has been processed.
+struct FrameResult {
+  int64_t id = 0;
+  double timestamp = 0.0;  // seconds
+  TrackingStatus status = TrackingStatus::kLost;
+  Rigid3 cam_from_world;
+  bool is_keyframe = false;
+  int num_points = 0;  // features in the image
+  int num_lines = 0;
+  int num_inlier_points = 0;  // matched with the map and consistent with the pose
+  int num_inlier_lines = 0;
+  // Covariance of the pose in the tangent of Rigid3Manifold: rotation vector in the camera frame
+  // (radians), then translation (metres). Zero where the pose was not estimated.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  StageTimes times;
+};
+
+}  // namespace msc_vo

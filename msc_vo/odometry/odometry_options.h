@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+
+#include "msc_vo/features/frame_builder.h"
+#include "msc_vo/mapping/mapper_options.h"
+#include "msc_vo/tracking/tracker_options.h"
+
+namespace msc_vo {
+
+// The paper's ablation: each mode adds a contribution.
+enum class Mode {
+  kPlVo,       // points and lines, depth of a line from its end points
+  kPlVoDepth,  // + robust line depth
+  kMscVo,      // + structure and Manhattan axes
+};
+
+const char* ToString(Mode mode);
+// "pl-vo", "pl-vo-depth", "msc-vo". Throws std::invalid_argument naming the choices otherwise.
+Mode ModeFromString(const std::string& name);
+
+struct OdometryOptions {
+  Mode mode = Mode::kPlVoDepth;
+  FrameBuilderOptions features;
+  TrackerOptions tracking;
+  MapperOptions mapping;
+
+  bool IsValid(std::string* error) const;
+};
+
+}  // namespace msc_vo

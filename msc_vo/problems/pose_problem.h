@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "msc_vo/geometry/line_fit.h"
+#include "msc_vo/geometry/line_segment.h"
+#include "msc_vo/geometry/pinhole_camera.h"
+#include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/problems/window_problem.h"
+
+namespace msc_vo {
+
+// One frame against a map that is held fixed (paper Eq. poseest).
+struct PoseData {
+  struct Point {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();  // metres, world
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();     // pixels, undistorted
+    double sigma = 1.0;                                  // pixels
+    double inverse_depth = 0.0;                          // 1/metres; 0: no depth measured
+    double inverse_depth_sigma = 0.0;                    // 1/metres
+    bool inlier = true;                                  // out
+  };
+  struct Line {
+    LineSegment3 map_segment;  // metres, world
+    LineSegment2 segment;      // pixels, undistorted
+    double sigma = 1.0;        // pixels
+    bool has_depth = false;
+    LineDepth depth;      // used if has_depth
+    bool inlier = true;   // out
+  };
+
+  PinholeCamera camera;
+  Rigid3 cam_from_world;  // in: prediction, out: estimate
+  std::vector<Point> points;
+  std::vector<Line> lines;
+};
+
+struct PoseOptions {
+  TermOptions point_reprojection{true, 2.448};
+  TermOptions point_depth{true, 1.960};
+  TermOptions line_reprojection{true, 2.448};
+  TermOptions line_depth{true, 2.448};
+  double reject_chi2_2 = 9.210;  // as in WindowOptions
+  double reject_chi2_3 = 11.345;
+  double reject_chi2_4 = 13.277;
+  // Rounds of solving and re-classifying all matches, outliers of earlier rounds included; the last
+  // rounds run without the loss, as what it guarded against is out by then.
+  int num_rounds = 4;
+  int num_robust_rounds = 2;
+  int iterations_per_round = 6;
+
+  bool IsValid(std::string* error) const;
+};
+
+struct PoseSummary {
+  bool usable = false;  // false: too few matches or the solver failed; the pose is the prediction
+  int num_inlier_points = 0;
+  int num_inlier_lines = 0;
+  double final_cost = 0.0;
+  // Inverse of J^T J over the inliers: covariance of the estimate in the tangent of Rigid3Manifold
+  // (rotation vector in the camera frame, radians; then translation, metres). Zero if not usable.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+// Estimates the pose of one frame. Matches behind the camera become outliers. Usable needs six or
+// more residual rows that fix all six degrees of freedom (the covariance exists).
+// Throws std::invalid_argument on numbers that are not finite, sigmas <= 0 or bad options.
+PoseSummary SolvePose(const PoseOptions& options, PoseData* data);
+
+}  // namespace msc_vo

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "msc_vo/geometry/line_fit.h"
+#include "msc_vo/geometry/line_segment.h"
+#include "msc_vo/geometry/pinhole_camera.h"
+#include "msc_vo/geometry/rigid3.h"
+
+namespace msc_vo {
+
+// The sliding window as plain data: what the window problem reads and writes. No pointers into any
+// map; ids are the caller's and need only be unique within their vector.
+struct WindowData {
+  struct Keyframe {
+    int64_t id = 0;
+    Rigid3 cam_from_world;
+    bool fixed = false;  // an observer outside the window, or the gauge
+  };
+  struct Point {
+    int64_t id = 0;
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();  // metres, world
+    bool fixed = false;
+  };
+  struct Line {
+    int64_t id = 0;
+    LineSegment3 segment;  // metres, world
+    bool fixed = false;
+  };
+  struct PointObservation {
+    int64_t keyframe = 0;
+    int64_t point = 0;
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // pixels, undistorted
+    double sigma = 1.0;                               // pixels
+    double inverse_depth = 0.0;                       // 1/metres; 0: no depth measured
+    double inverse_depth_sigma = 0.0;                 // 1/metres
+    bool rejected = false;  // set by the solver: contradicts the solution, or behind the camera
+  };
+  struct LineObservation {
+    int64_t keyframe = 0;
+    int64_t line = 0;
+    LineSegment2 segment;  // pixels, undistorted
+    double sigma = 1.0;    // pixels, of an end point's distance to the true line
+    bool has_depth = false;
+    LineDepth depth;        // used if has_depth
+    bool rejected = false;  // as for points
+  };
+
+  PinholeCamera camera;
+  std::vector<Keyframe> keyframes;
+  std::vector<Point> points;
+  std::vector<Line> lines;
+  std::vector<PointObservation> point_observations;
+  std::vector<LineObservation> line_observations;
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+
+#include "msc_vo/problems/window_data.h"
+
+namespace msc_vo {
+
+// One kind of term of the window: its loss, and whether it takes part. Sigmas belong to the data.
+struct TermOptions {
+  bool enabled = true;
+  double huber = 2.0;  // sigmas; where the loss turns from square to linear
+};
+
+struct WindowOptions {
+  // Huber thresholds: square root of the 95 % chi-square quantile with the term's number of rows
+  // (2 rows 5.991, 1 row 3.841), so that 5 % of good residuals feel the loss.
+  TermOptions point_reprojection{true, 2.448};
+  TermOptions point_depth{true, 1.960};
+  TermOptions line_reprojection{true, 2.448};
+  TermOptions line_depth{true, 2.448};
+  // Weak prior along each line that keeps its end points from sliding: point-to-line residuals do
+  // not see that motion. 5 cm gave the fewest iterations in ../shared/design/field-notes.md.
+  double line_anchor_sigma = 0.05;  // metres
+
+  // An observation whose chi-square exceeds these after the first solve is rejected and the window
+  // solved again without it: 99 % quantiles with 2 and, where there is a depth, 3 (4 for lines) rows.
+  double reject_chi2_2 = 9.210;
+  double reject_chi2_3 = 11.345;
+  double reject_chi2_4 = 13.277;
+
+  int first_iterations = 5;    // with all observations
+  int second_iterations = 10;  // after rejection
+
+  bool IsValid(std::string* error) const;
+};
+
+struct TermSummary {
+  int num_residual_blocks = 0;
+  int num_rejected = 0;
+  double initial_cost = 0.0;  // 0.5 * sum of robustified squares
+  double final_cost = 0.0;
+};
+
+struct WindowSummary {
+  bool usable = false;  // false: the solver failed and the data were left unchanged
+  int num_iterations = 0;
+  double initial_cost = 0.0;
+  double final_cost = 0.0;
+  TermSummary point_reprojection, point_depth, line_reprojection, line_depth, line_anchor;
+  int num_behind_camera = 0;  // observations dropped by the builder, marked rejected
+  std::string schur_structure;  // Ceres' schur_structure_used
+  std::string message;
+
+  std::string BriefReport() const;
+};
+
+// Refines keyframes, points and lines that are not fixed (paper: Local Map Optimization). Marks
+// rejected observations in `data`. At least one keyframe must be fixed: it holds the gauge.
+// Throws std::invalid_argument, naming the offender, on an unknown or repeated id, a number that is
+// not finite, a sigma <= 0, no fixed keyframe, or options that are not valid.
+WindowSummary SolveWindow(const WindowOptions& options, WindowData* data);
+
+}  // namespace msc_vo
