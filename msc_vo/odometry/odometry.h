@@ -10,15 +10,11 @@
 #include "msc_vo/features/frame_builder.h"
 #include "msc_vo/features/rgbd_image.h"
 #include "msc_vo/geometry/line_segment.h"
+#include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/odometry/odometry_options.h"
 
 namespace msc_vo {
-
-struct TimedPose {
-  double timestamp = 0.0;  // seconds
-  Rigid3 world_from_cam;
-};
 
 struct MapPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // metres, world

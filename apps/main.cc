@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <exception>
+#include <iostream>
+#include <vector>
+
+#include "apps/commands.h"
+
+namespace msc_vo {
+
+std::string HelpFooter(const std::string& example) {
+  return "Example:\n  " + example +
+         "\n\nExit codes: 0 success, 1 wrong input or failed run, 2 wrong command line,\n"
+         "130 interrupted (what was computed until then has been written).";
+}
+
+namespace {
+
+using AddCommand = Command (*)(CLI::App*);
+constexpr AddCommand kCommands[] = {AddReplayCommand, AddEvaluateCommand, AddCheckCommand,
+                                    AddSynthesizeCommand};
+
+int Main(int argc, char** argv) {
+  CLI::App app("RGB-D visual odometry from points, lines and the structure of the scene", "msc_vo");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "msc_vo " MSC_VO_VERSION);
+  app.footer(HelpFooter("msc_vo replay my_sequence --output out"));
+  std::vector<Command> commands;
+  for (const AddCommand add : kCommands) commands.push_back(add(&app));
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitSuccess : kExitUsage;
+  }
+  for (const Command& command : commands) {
+    if (command.arguments->parsed()) return command.run();
+  }
+  return kExitUsage;
+}
+
+}  // namespace
+}  // namespace msc_vo
+
+int main(int argc, char** argv) {
+  try {
+    return msc_vo::Main(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "msc_vo: error: " << error.what() << std::endl;
+    return msc_vo::kExitError;
+  }
+}
