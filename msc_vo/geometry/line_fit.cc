@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/geometry/line_fit.h"
+
+#include <algorithm>
+#include <random>
+#include <stdexcept>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+namespace msc_vo {
+
+namespace {
+
+// Inverse depth at both end points of the segment, (w_start, w_end).
+using Line = Eigen::Vector2d;
+
+// The inlier set of a least-squares line settles in two or three rounds; this only ends a cycle.
+constexpr int kMaxRefits = 10;
+// Two samples closer than this on the segment do not determine a line.
+constexpr double kMinSampleGap = 1e-6;
+
+double NormalizedResidual(const Line& line, const LineFitSample& sample) {
+  const double predicted = (1.0 - sample.s) * line[0] + sample.s * line[1];
+  return (sample.inverse_depth - predicted) / sample.sigma;
+}
+
+// Sum of squared residuals (in sigmas), each cut off at the inlier threshold: unlike the number of
+// inliers it also tells a good line from one that barely catches its samples.
+double TruncatedCost(const Line& line, const std::vector<LineFitSample>& samples,
+                     double threshold) {
+  double cost = 0.0;
+  for (const LineFitSample& sample : samples) {
+    const double r = NormalizedResidual(line, sample);
+    cost += std::min(r * r, threshold * threshold);
+  }
+  return cost;
+}
+
+std::optional<Line> LineThrough(const LineFitSample& a, const LineFitSample& b) {
+  if (std::abs(b.s - a.s) < kMinSampleGap) return std::nullopt;
+  const double slope = (b.inverse_depth - a.inverse_depth) / (b.s - a.s);
+  return Line(a.inverse_depth - slope * a.s, a.inverse_depth + slope * (1.0 - a.s));
+}
+
+struct LeastSquares {
+  Line line = Line::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  int num_inliers = 0;
+};
+
+// Weighted least squares over the samples that are inliers of `line`.
+std::optional<LeastSquares> Refit(const Line& line, const std::vector<LineFitSample>& samples,
+                                  double threshold) {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d rhs = Eigen::Vector2d::Zero();
+  double s_min = 1e9;
+  double s_max = -1e9;
+  LeastSquares fit;
+  for (const LineFitSample& sample : samples) {
+    if (std::abs(NormalizedResidual(line, sample)) > threshold) continue;
+    const Eigen::Vector2d a = Eigen::Vector2d(1.0 - sample.s, sample.s) / sample.sigma;
+    information += a * a.transpose();
+    rhs += a * (sample.inverse_depth / sample.sigma);
+    s_min = std::min(s_min, sample.s);
+    s_max = std::max(s_max, sample.s);
+    ++fit.num_inliers;
+  }
+  if (fit.num_inliers < 2 || s_max - s_min < kMinSampleGap) return std::nullopt;
+  fit.covariance = information.inverse();
+  fit.line = fit.covariance * rhs;
+  return fit;
+}
+
+// The best line through two samples, each candidate that leads improved by one least-squares step.
+class PairSearch {
+ public:
+  PairSearch(const std::vector<LineFitSample>& samples, double threshold)
+      : samples_(samples), threshold_(threshold) {}
+
+  std::optional<Line> Run(int max_iterations, uint32_t seed) {
+    const size_t n = samples_.size();
+    if (n * (n - 1) / 2 <= static_cast<size_t>(max_iterations)) {
+      for (size_t i = 0; i < n; ++i) {
+        for (size_t j = i + 1; j < n; ++j) Try(i, j);
+      }
+      return best_;
+    }
+    std::minstd_rand random(seed % 2147483646u + 1u);  // its state must not be 0
+    for (int iteration = 0; iteration < max_iterations; ++iteration) {
+      const size_t i = random() % n;
+      const size_t j = (i + 1 + random() % (n - 1)) % n;
+      Try(i, j);
+    }
+    return best_;
+  }
+
+ private:
+  void Try(size_t i, size_t j) {
+    const std::optional<Line> line = LineThrough(samples_[i], samples_[j]);
+    if (!line || !Keep(*line)) return;
+    const auto fit = Refit(*line, samples_, threshold_);
+    if (fit) Keep(fit->line);
+  }
+
+  bool Keep(const Line& line) {
+    const double cost = TruncatedCost(line, samples_, threshold_);
+    if (best_ && cost >= best_cost_) return false;
+    best_ = line;
+    best_cost_ = cost;
+    return true;
+  }
+
+  const std::vector<LineFitSample>& samples_;
+  double threshold_;
+  std::optional<Line> best_;
+  double best_cost_ = 0.0;
+};
+
+}  // namespace
+
+LineSegment3 BackProject(const PinholeCamera& camera, const LineSegment2& segment,
+                         const LineDepth& depth) {
+  return {camera.BackProject(segment.start, 1.0 / depth.start),
+          camera.BackProject(segment.end, 1.0 / depth.end)};
+}
+
+double DirectionSigma(const PinholeCamera& camera, const LineSegment2& segment,
+                      const LineDepth& depth) {
+  // Scaling both end points by w_s w_e leaves D = w_s r_e - w_e r_s, parallel to the 3-D segment;
+  // its derivatives are r_e and -r_s, and only what is across D turns it.
+  const Eigen::Vector3d ray_start = camera.Ray(segment.start);
+  const Eigen::Vector3d ray_end = camera.Ray(segment.end);
+  const Eigen::Vector3d d = depth.start * ray_end - depth.end * ray_start;
+  const Eigen::Vector3d direction = d.normalized();
+  const Eigen::Vector3d across_start = ray_end - direction * direction.dot(ray_end);
+  const Eigen::Vector3d across_end = ray_start - direction * direction.dot(ray_start);
+  // Both lie in the plane of sight, across D: along one and the same axis.
+  const Eigen::Vector3d axis = direction.cross(ray_start.cross(ray_end).normalized());
+  const Eigen::Vector2d jacobian(across_start.dot(axis), -across_end.dot(axis));
+  return std::sqrt(jacobian.dot(depth.covariance * jacobian)) / d.norm();
+}
+
+bool LineFitOptions::IsValid(std::string* error) const {
+  if (!(inlier_sigmas > 0.0)) {
+    *error = "line_fit.inlier_sigmas must be positive";
+  } else if (max_iterations < 1) {
+    *error = "line_fit.max_iterations must be at least 1";
+  } else if (!(min_inlier_ratio >= 0.0 && min_inlier_ratio <= 1.0)) {
+    *error = "line_fit.min_inlier_ratio must be in [0, 1]";
+  } else if (min_inliers < 2) {
+    *error = "line_fit.min_inliers must be at least 2: a line has two unknowns";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+std::optional<LineDepth> FitLineDepth(const LineFitOptions& options,
+                                      const std::vector<LineFitSample>& samples, uint32_t seed) {
+  std::string error;
+  if (!options.IsValid(&error)) throw std::invalid_argument("FitLineDepth: " + error);
+  if (samples.size() < static_cast<size_t>(options.min_inliers)) return std::nullopt;
+
+  std::optional<Line> line =
+      PairSearch(samples, options.inlier_sigmas).Run(options.max_iterations, seed);
+  std::optional<LeastSquares> fit;
+  for (int round = 0; round < kMaxRefits && line; ++round) {
+    fit = Refit(*line, samples, options.inlier_sigmas);
+    if (!fit || fit->line == *line) break;
+    line = fit->line;
+  }
+  if (!fit || fit->num_inliers < options.min_inliers) return std::nullopt;
+
+  LineDepth depth;
+  depth.start = fit->line[0];
+  depth.end = fit->line[1];
+  depth.covariance = fit->covariance;
+  depth.num_inliers = fit->num_inliers;
+  depth.inlier_ratio = static_cast<double>(fit->num_inliers) / samples.size();
+  const bool in_front = depth.start > 0.0 && depth.end > 0.0;
+  if (!in_front || depth.inlier_ratio < options.min_inlier_ratio) return std::nullopt;
+  return depth;
+}
+
+}  // namespace msc_vo
