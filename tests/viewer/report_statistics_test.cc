@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/viewer/report_statistics.h"
+
+#include <limits>
+
+#include "fake_run.h"
+#include <gtest/gtest.h>
+
+namespace msc_vo {
+namespace {
+
+TEST(SummarizeStage, HandComputed) {
+  const StageStatistics stage = SummarizeStage("lines", {4.0, 1.0, 3.0, 2.0, 10.0});
+  EXPECT_EQ(stage.name, "lines");
+  EXPECT_EQ(stage.count, 5);
+  EXPECT_DOUBLE_EQ(stage.mean, 4.0);
+  EXPECT_DOUBLE_EQ(stage.median, 3.0);
+  EXPECT_DOUBLE_EQ(stage.p95, 4.0 + 0.8 * 6.0);  // position 0.95 * 4 = 3.8 among the sorted
+  EXPECT_DOUBLE_EQ(stage.max, 10.0);
+}
+
+TEST(SummarizeStage, IgnoresWhatIsNotFiniteAndSurvivesNothing) {
+  EXPECT_EQ(SummarizeStage("x", {std::numeric_limits<double>::quiet_NaN(), 2.0}).count, 1);
+  EXPECT_EQ(SummarizeStage("x", {}).max, 0.0);
+}
+
+TEST(SummarizeStages, CountsMappingOverKeyframeStepsOnly) {
+  const ReportData data = MakeFakeRun(120);
+  const auto stages = SummarizeStages(data);
+  ASSERT_EQ(stages.size(), data.stage_names.size() + 2);
+  EXPECT_EQ(stages.front().name, "points");
+  EXPECT_EQ(stages.front().count, 120);
+  EXPECT_EQ(stages.back().count, 10);
+  EXPECT_GE(stages.back().median, 40.0);
+}
+
+TEST(FindNotTrackedSpans, OneSpanPerGap) {
+  std::vector<ReportFrame> frames(8);
+  frames[1].status = ReportStatus::kWeak;
+  frames[2].status = ReportStatus::kPredicted;
+  frames[3].status = ReportStatus::kLost;
+  frames[7].status = ReportStatus::kLost;
+  const auto spans = FindNotTrackedSpans(frames);
+  ASSERT_EQ(spans.size(), 2u);
+  EXPECT_EQ(spans[0].first_frame, 2);
+  EXPECT_EQ(spans[0].last_frame, 3);
+  EXPECT_EQ(spans[0].num_lost, 1);
+  EXPECT_EQ(spans[1].first_frame, 7);
+  EXPECT_EQ(spans[1].last_frame, 7);
+}
+
+}  // namespace
+}  // namespace msc_vo
