@@ -74,7 +74,7 @@ struct Frame {
   PinholeCamera camera;    // without distortion: features are undistorted already
   std::vector<PointFeature> points;
   std::vector<LineFeature> lines;
-  FeatureGrid grid;        // over `points`
+  FeatureGrid grid;  // over `points`
 
   // Position in camera coordinates (metres) of a point that has a depth.
   Eigen::Vector3d PointInCamera(int index) const {

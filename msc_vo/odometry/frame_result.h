@@ -3,22 +3,14 @@
 
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <string>
+
+#include <Eigen/Core>
 
 #include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/tracking/tracking_status.h"
 
 namespace msc_vo {
-
-enum class TrackingStatus {
-  kTracked,    // pose from enough matches with the local map
-  kWeak,       // pose from few matches: usable, but worth a look
-  kPredicted,  // no pose could be estimated; constant velocity bridges a short gap
-  kLost,       // the map was not found for longer than that; the last good pose is repeated
-};
-
-const char* ToString(TrackingStatus status);
 
 // Milliseconds per stage of one frame.
 struct StageTimes {

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "msc_vo/features/frame_builder.h"
 #include "msc_vo/features/rgbd_image.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/timed_pose.h"
@@ -16,6 +15,7 @@
 
 namespace msc_vo {
 
+// A landmark as the result tells it.
 struct MapPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // metres, world
   int num_observations = 0;
@@ -29,8 +29,8 @@ struct MapLine {
 
 // Everything that a run leaves behind.
 struct OdometryResult {
-  std::vector<FrameResult> frames;    // one per image, in order, with the final poses
-  std::vector<TimedPose> keyframes;   // in order of time
+  std::vector<FrameResult> frames;   // one per image, in order, with the final poses
+  std::vector<TimedPose> keyframes;  // in order of time
   std::vector<MapPoint> points;
   std::vector<MapLine> lines;
 };

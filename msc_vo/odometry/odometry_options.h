@@ -24,6 +24,8 @@ Mode ModeFromString(const std::string& name);
 
 struct OdometryOptions {
   Mode mode = Mode::kPlVoDepth;
+  bool use_points = true;
+  bool use_lines = true;
   FrameBuilderOptions features;
   TrackerOptions tracking;
   MapperOptions mapping;

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "msc_vo/map/keyframe.h"
+#include "msc_vo/map/landmark.h"
+
+namespace msc_vo {
+
+// Keyframes, landmarks and who sees what. A value: a copy is a snapshot that nobody else changes.
+//
+// Ids grow in order of creation and are never used again; all containers are ordered by id, so that
+// every walk over the map is the same at every run.
+class Map {
+ public:
+  // Another keyframe and how many landmarks it shares with the one that was asked about.
+  struct Covisible {
+    KeyframeId keyframe = kNoId;
+    int num_shared = 0;
+  };
+
+  const std::map<KeyframeId, Keyframe>& keyframes() const { return keyframes_; }
+  const std::map<LandmarkId, PointLandmark>& points() const { return points_; }
+  const std::map<LandmarkId, LineLandmark>& lines() const { return lines_; }
+
+  // nullptr if there is none, or no longer.
+  const Keyframe* FindKeyframe(KeyframeId id) const;
+  const PointLandmark* FindPoint(LandmarkId id) const;
+  const LineLandmark* FindLine(LandmarkId id) const;
+
+  // Adds a keyframe without associations and returns its id.
+  KeyframeId AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& cam_from_world);
+  // Adds a landmark first seen in `keyframe`'s feature `feature`, observation included.
+  LandmarkId AddPoint(KeyframeId keyframe, int feature, const Eigen::Vector3d& position);
+  LandmarkId AddLine(KeyframeId keyframe, int feature, const LineSegment3& segment);
+
+  // Adds an observation. Returns false, changing nothing, if the landmark is gone, is seen in this
+  // keyframe already, or the feature is taken.
+  bool ObservePoint(LandmarkId point, KeyframeId keyframe, int feature);
+  bool ObserveLine(LandmarkId line, KeyframeId keyframe, int feature);
+  // Removes an observation if it exists; a landmark without any observation goes with it.
+  void ForgetPoint(LandmarkId point, KeyframeId keyframe);
+  void ForgetLine(LandmarkId line, KeyframeId keyframe);
+
+  void RemovePoint(LandmarkId point);
+  void RemoveLine(LandmarkId line);
+  // Moves the observations of `from` to `into` where they do not collide, and removes `from`.
+  void MergePoints(LandmarkId from, LandmarkId into);
+  void MergeLines(LandmarkId from, LandmarkId into);
+
+  // Removes a keyframe and its observations. Its pose relative to `heir`, which must be in the map,
+  // is remembered, so that frames tracked against it keep a place on the trajectory.
+  void RemoveKeyframe(KeyframeId id, KeyframeId heir);
+  // Pose of a keyframe that is in the map or was removed from it.
+  Rigid3 CamFromWorld(KeyframeId id) const;
+
+  void SetPose(KeyframeId keyframe, const Rigid3& cam_from_world);
+  void SetPoint(LandmarkId point, const Eigen::Vector3d& position);
+  void SetLine(LandmarkId line, const LineSegment3& segment);
+  void CountTracking(LandmarkId landmark, bool is_line, int num_visible, int num_found);
+
+  // Recomputes descriptor, viewing direction and reference distance from the observations.
+  void RefreshPoint(LandmarkId point);
+  void RefreshLine(LandmarkId line);
+
+  // Keyframes that share landmarks with `keyframe`, most shared first, then newest first.
+  std::vector<Covisible> FindCovisible(KeyframeId keyframe) const;
+
+ private:
+  struct Removed {
+    KeyframeId heir = kNoId;
+    Rigid3 cam_from_heir;
+  };
+
+  std::map<KeyframeId, Keyframe> keyframes_;
+  std::map<LandmarkId, PointLandmark> points_;
+  std::map<LandmarkId, LineLandmark> lines_;
+  std::map<KeyframeId, Removed> removed_;
+  KeyframeId next_keyframe_ = 0;
+  LandmarkId next_landmark_ = 0;
+};
+
+// Scale between neighbouring pyramid levels of point features.
+constexpr double kPyramidScale = 1.2;
+
+}  // namespace msc_vo

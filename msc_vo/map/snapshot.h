@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <memory>
+
+#include "msc_vo/map/map.h"
+
+namespace msc_vo {
+
+// The map as one keyframe step left it: an immutable copy that any thread may read.
+struct MapSnapshot {
+  Map map;
+  KeyframeId newest_keyframe = kNoId;
+};
+using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;
+
+}  // namespace msc_vo

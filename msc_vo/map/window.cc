@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/map/window.h"
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+namespace msc_vo {
+
+namespace {
+
+// Collects the landmarks that the window's keyframes see, and every keyframe that sees them.
+template <typename L, typename Find>
+std::vector<const L*> SeenLandmarks(const Map& map, const std::set<KeyframeId>& window,
+                                    std::vector<LandmarkId> Keyframe::*slots, const Find& find,
+                                    int min_observations, std::map<KeyframeId, int>* observers) {
+  std::set<LandmarkId> ids;
+  for (const KeyframeId keyframe : window) {
+    for (const LandmarkId id : map.FindKeyframe(keyframe)->*slots) {
+      if (id != kNoId) ids.insert(id);
+    }
+  }
+  std::vector<const L*> landmarks;
+  for (const LandmarkId id : ids) {
+    const L* landmark = find(id);
+    if (static_cast<int>(landmark->observations.size()) < min_observations) continue;
+    landmarks.push_back(landmark);
+    for (const Observation& observation : landmark->observations) {
+      if (window.count(observation.keyframe) == 0) ++(*observers)[observation.keyframe];
+    }
+  }
+  return landmarks;
+}
+
+std::set<KeyframeId> SelectKeyframes(const WindowSelectionOptions& options, const Map& map,
+                                     KeyframeId keyframe) {
+  std::set<KeyframeId> window = {keyframe};
+  for (const Map::Covisible& covisible : map.FindCovisible(keyframe)) {
+    if (static_cast<int>(window.size()) >= options.max_keyframes) break;
+    if (covisible.num_shared >= options.min_shared) window.insert(covisible.keyframe);
+  }
+  return window;
+}
+
+std::set<KeyframeId> SelectFixed(const WindowSelectionOptions& options,
+                                 const std::map<KeyframeId, int>& observers) {
+  std::vector<std::pair<int, KeyframeId>> ranked;
+  for (const auto& [id, shared] : observers) ranked.emplace_back(-shared, -id);
+  std::sort(ranked.begin(), ranked.end());
+  if (static_cast<int>(ranked.size()) > options.max_fixed_keyframes) {
+    ranked.resize(options.max_fixed_keyframes);
+  }
+  std::set<KeyframeId> fixed;
+  for (const auto& [shared, id] : ranked) fixed.insert(-id);
+  return fixed;
+}
+
+void AddKeyframes(const Map& map, const std::set<KeyframeId>& window,
+                  const std::set<KeyframeId>& fixed, WindowData* data) {
+  const KeyframeId first = map.keyframes().begin()->first;
+  for (const KeyframeId id : window) {
+    data->keyframes.push_back({id, map.FindKeyframe(id)->cam_from_world, id == first});
+  }
+  // Without any other observer the oldest keyframe holds the gauge.
+  if (fixed.empty()) data->keyframes.front().fixed = true;
+  for (const KeyframeId id : fixed) {
+    data->keyframes.push_back({id, map.FindKeyframe(id)->cam_from_world, true});
+  }
+}
+
+WindowData::PointObservation MakeObservation(const Keyframe& keyframe, const PointLandmark& point,
+                                             int feature_index) {
+  const PointFeature& feature = keyframe.frame->points[feature_index];
+  WindowData::PointObservation observation;
+  observation.keyframe = keyframe.id;
+  observation.point = point.id;
+  observation.pixel = feature.pixel;
+  observation.sigma = feature.sigma;
+  observation.inverse_depth = feature.inverse_depth;
+  observation.inverse_depth_sigma = feature.inverse_depth_sigma;
+  return observation;
+}
+
+WindowData::LineObservation MakeObservation(const Keyframe& keyframe, const LineLandmark& line,
+                                            int feature_index) {
+  const LineFeature& feature = keyframe.frame->lines[feature_index];
+  WindowData::LineObservation observation;
+  observation.keyframe = keyframe.id;
+  observation.line = line.id;
+  observation.segment = feature.segment;
+  observation.sigma = feature.sigma;
+  observation.has_depth = feature.depth.has_value();
+  if (observation.has_depth) observation.depth = *feature.depth;
+  return observation;
+}
+
+// Parameter on the line a + s (b - a) of the point that is nearest to the ray origin + t ray.
+// Returns false if the ray is too nearly parallel to the line to say.
+bool IntersectRay(const LineSegment3& line, const Eigen::Vector3d& origin,
+                  const Eigen::Vector3d& ray, double* s) {
+  const Eigen::Vector3d d = line.end - line.start;
+  const Eigen::Vector3d w = origin - line.start;
+  const double dd = d.squaredNorm();
+  const double rr = ray.squaredNorm();
+  const double dr = d.dot(ray);
+  const double determinant = dd * rr - dr * dr;
+  // sin^2 of the angle between ray and line: below 0.1 (18 degrees) one pixel moves the
+  // intersection by more than three times its size across the line.
+  if (determinant < 0.1 * dd * rr) return false;
+  *s = (d.dot(w) * rr - ray.dot(w) * dr) / determinant;
+  return true;
+}
+
+}  // namespace
+
+bool WindowSelectionOptions::IsValid(std::string* error) const {
+  if (max_keyframes < 1) {
+    *error = "window: max_keyframes must be at least 1";
+  } else if (max_fixed_keyframes < 0) {
+    *error = "window: max_fixed_keyframes must not be negative";
+  } else if (min_observations < 1) {
+    *error = "window: min_observations must be at least 1";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map,
+                        KeyframeId keyframe) {
+  const std::set<KeyframeId> window = SelectKeyframes(options, map, keyframe);
+  std::map<KeyframeId, int> observers;
+  const auto points = SeenLandmarks<PointLandmark>(
+      map, window, &Keyframe::points, [&](LandmarkId id) { return map.FindPoint(id); },
+      options.min_observations, &observers);
+  const auto lines = SeenLandmarks<LineLandmark>(
+      map, window, &Keyframe::lines, [&](LandmarkId id) { return map.FindLine(id); },
+      options.min_observations, &observers);
+  const std::set<KeyframeId> fixed = SelectFixed(options, observers);
+
+  WindowData data;
+  data.camera = map.FindKeyframe(keyframe)->frame->camera;
+  AddKeyframes(map, window, fixed, &data);
+  const auto takes_part = [&](KeyframeId id) {
+    return window.count(id) > 0 || fixed.count(id) > 0;
+  };
+  for (const PointLandmark* point : points) {
+    data.points.push_back({point->id, point->position, false});
+    for (const Observation& seen : point->observations) {
+      if (!takes_part(seen.keyframe)) continue;
+      data.point_observations.push_back(
+          MakeObservation(*map.FindKeyframe(seen.keyframe), *point, seen.feature));
+    }
+  }
+  for (const LineLandmark* line : lines) {
+    data.lines.push_back({line->id, line->segment, false});
+    for (const Observation& seen : line->observations) {
+      if (!takes_part(seen.keyframe)) continue;
+      data.line_observations.push_back(
+          MakeObservation(*map.FindKeyframe(seen.keyframe), *line, seen.feature));
+    }
+  }
+  return data;
+}
+
+LineSegment3 CutToObservations(const Map& map, const LineLandmark& line,
+                               const LineSegment3& segment) {
+  double first = 0.0;
+  double last = 0.0;
+  bool any = false;
+  for (const Observation& seen : line.observations) {
+    const Keyframe& keyframe = *map.FindKeyframe(seen.keyframe);
+    const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
+    const LineSegment2& image = keyframe.frame->lines[seen.feature].segment;
+    for (const Eigen::Vector2d& pixel :
+         {Eigen::Vector2d(image.start), Eigen::Vector2d(image.end)}) {
+      double s = 0.0;
+      const Eigen::Vector3d ray = world_from_cam.rotation() * keyframe.frame->camera.Ray(pixel);
+      if (!IntersectRay(segment, world_from_cam.translation(), ray, &s)) continue;
+      first = any ? std::min(first, s) : s;
+      last = any ? std::max(last, s) : s;
+      any = true;
+    }
+  }
+  if (!any || last - first < 1e-3) return segment;
+  LineSegment3 cut;
+  cut.start = segment.At(first);
+  cut.end = segment.At(last);
+  return cut;
+}
+
+void WriteBack(const WindowData& window, Map* map) {
+  for (const WindowData::Keyframe& keyframe : window.keyframes) {
+    if (!keyframe.fixed) map->SetPose(keyframe.id, keyframe.cam_from_world);
+  }
+  for (const WindowData::PointObservation& observation : window.point_observations) {
+    if (observation.rejected) map->ForgetPoint(observation.point, observation.keyframe);
+  }
+  for (const WindowData::LineObservation& observation : window.line_observations) {
+    if (observation.rejected) map->ForgetLine(observation.line, observation.keyframe);
+  }
+  for (const WindowData::Point& point : window.points) {
+    if (map->FindPoint(point.id) == nullptr) continue;
+    map->SetPoint(point.id, point.position);
+    map->RefreshPoint(point.id);
+  }
+  for (const WindowData::Line& line : window.lines) {
+    const LineLandmark* landmark = map->FindLine(line.id);
+    if (landmark == nullptr) continue;
+    map->SetLine(line.id, CutToObservations(*map, *landmark, line.segment));
+    map->RefreshLine(line.id);
+  }
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/culling.h"
+
+#include <iterator>
+#include <vector>
+
+namespace msc_vo {
+
+namespace {
+
+enum class Verdict { kWait, kPassed, kFailed };
+
+Verdict Judge(const CullingOptions& options, KeyframeId newest, const Landmark& landmark) {
+  if (landmark.num_found < options.min_found_ratio * landmark.num_visible) return Verdict::kFailed;
+  if (newest - landmark.first_keyframe < options.probation_keyframes) return Verdict::kWait;
+  const int num_observations = static_cast<int>(landmark.observations.size());
+  return num_observations >= options.min_observations ? Verdict::kPassed : Verdict::kFailed;
+}
+
+template <typename Find, typename Remove>
+void CullKind(const CullingOptions& options, KeyframeId newest, const Find& find,
+              const Remove& remove, std::set<LandmarkId>* probation) {
+  for (auto it = probation->begin(); it != probation->end();) {
+    const Landmark* landmark = find(*it);
+    const Verdict verdict =
+        landmark == nullptr ? Verdict::kPassed : Judge(options, newest, *landmark);
+    if (verdict == Verdict::kFailed) remove(*it);
+    it = verdict == Verdict::kWait ? std::next(it) : probation->erase(it);
+  }
+}
+
+// True if enough other keyframes see the landmark; `is_as_fine(observation)` says which count.
+template <typename IsAsFine>
+bool IsCovered(const CullingOptions& options, KeyframeId keyframe, const Landmark& landmark,
+               const IsAsFine& is_as_fine) {
+  int observers = 0;
+  for (const Observation& observation : landmark.observations) {
+    if (observation.keyframe == keyframe || !is_as_fine(observation)) continue;
+    if (++observers >= options.redundant_observers) return true;
+  }
+  return false;
+}
+
+bool IsRedundant(const CullingOptions& options, const Map& map, const Keyframe& keyframe) {
+  int num_landmarks = 0;
+  int num_covered = 0;
+  for (size_t i = 0; i < keyframe.points.size(); ++i) {
+    const PointLandmark* point = map.FindPoint(keyframe.points[i]);
+    if (point == nullptr) continue;
+    const int level = keyframe.frame->points[i].level;
+    const bool covered =
+        IsCovered(options, keyframe.id, *point, [&](const Observation& observation) {
+          const Keyframe& other = *map.FindKeyframe(observation.keyframe);
+          return other.frame->points[observation.feature].level <= level + 1;
+        });
+    ++num_landmarks;
+    num_covered += covered ? 1 : 0;
+  }
+  for (const LandmarkId id : keyframe.lines) {
+    const LineLandmark* line = map.FindLine(id);
+    if (line == nullptr) continue;
+    ++num_landmarks;
+    num_covered +=
+        IsCovered(options, keyframe.id, *line, [](const Observation&) { return true; }) ? 1 : 0;
+  }
+  return num_landmarks > 0 && num_covered > options.redundant_share * num_landmarks;
+}
+
+}  // namespace
+
+bool CullingOptions::IsValid(std::string* error) const {
+  if (probation_keyframes < 1 || min_observations < 1 || redundant_observers < 1) {
+    *error = "culling: probation_keyframes, min_observations and redundant_observers must be >= 1";
+  } else if (!(min_found_ratio >= 0.0 && min_found_ratio <= 1.0)) {
+    *error = "culling: min_found_ratio must be in [0, 1]";
+  } else if (!(redundant_share > 0.0 && redundant_share <= 1.0)) {
+    *error = "culling: redundant_share must be in (0, 1]";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+void CullLandmarks(const CullingOptions& options, KeyframeId newest, Probation* probation,
+                   Map* map) {
+  CullKind(
+      options, newest, [&](LandmarkId id) { return map->FindPoint(id); },
+      [&](LandmarkId id) { map->RemovePoint(id); }, &probation->points);
+  CullKind(
+      options, newest, [&](LandmarkId id) { return map->FindLine(id); },
+      [&](LandmarkId id) { map->RemoveLine(id); }, &probation->lines);
+}
+
+int CullKeyframes(const CullingOptions& options, KeyframeId newest, Map* map) {
+  const KeyframeId first = map->keyframes().begin()->first;
+  int num_removed = 0;
+  for (const Map::Covisible& covisible : map->FindCovisible(newest)) {
+    const KeyframeId id = covisible.keyframe;
+    // The predecessor is still needed: frames are tracked against it and its landmarks are young.
+    if (id == first || id + 1 >= newest) continue;
+    if (!IsRedundant(options, *map, *map->FindKeyframe(id))) continue;
+    const std::vector<Map::Covisible> neighbours = map->FindCovisible(id);
+    map->RemoveKeyframe(id, neighbours.front().keyframe);
+    ++num_removed;
+  }
+  return num_removed;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include "msc_vo/map/map.h"
+#include "msc_vo/mapping/culling.h"
+
+namespace msc_vo {
+
+// Turns every feature of `keyframe` that has a depth and no landmark into a landmark on probation.
+void CreatePoints(KeyframeId keyframe, Probation* probation, Map* map);
+void CreateLines(KeyframeId keyframe, Probation* probation, Map* map);
+
+}  // namespace msc_vo

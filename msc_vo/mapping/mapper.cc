@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/mapper.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "msc_vo/mapping/landmark_creation.h"
+
+namespace msc_vo {
+
+Mapper::Mapper(const MapperOptions& options) : options_(options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw std::invalid_argument(error);
+}
+
+MappingSummary Mapper::Process(const KeyframePacket& packet) {
+  MappingSummary summary;
+  summary.keyframe = InsertKeyframe(packet);
+  CullLandmarks(options_.culling, summary.keyframe, &probation_, &map_);
+  CreatePoints(summary.keyframe, &probation_, &map_);
+  CreateLines(summary.keyframe, &probation_, &map_);
+  FusePoints(options_.fusion, summary.keyframe, &map_);
+  FuseLines(options_.fusion, summary.keyframe, &map_);
+  summary.window = OptimizeWindow(summary.keyframe);
+  summary.num_culled_keyframes = CullKeyframes(options_.culling, summary.keyframe, &map_);
+  return summary;
+}
+
+MapSnapshotPtr Mapper::Snapshot() const {
+  auto snapshot = std::make_shared<MapSnapshot>();
+  snapshot->map = map_;
+  snapshot->newest_keyframe = newest_keyframe_;
+  return snapshot;
+}
+
+KeyframeId Mapper::InsertKeyframe(const KeyframePacket& packet) {
+  Rigid3 cam_from_world = packet.cam_from_reference;
+  if (packet.reference != kNoId) {
+    cam_from_world = cam_from_world * map_.CamFromWorld(packet.reference);
+  }
+  newest_keyframe_ = map_.AddKeyframe(packet.frame, cam_from_world);
+  for (const PointMatch& match : packet.matches.points) {
+    map_.ObservePoint(match.id, newest_keyframe_, match.feature);
+  }
+  for (const LineMatch& match : packet.matches.lines) {
+    map_.ObserveLine(match.id, newest_keyframe_, match.feature);
+  }
+  for (const auto& [id, count] : packet.point_counts) {
+    map_.CountTracking(id, false, count.num_visible, count.num_found);
+  }
+  for (const auto& [id, count] : packet.line_counts) {
+    map_.CountTracking(id, true, count.num_visible, count.num_found);
+  }
+  return newest_keyframe_;
+}
+
+WindowSummary Mapper::OptimizeWindow(KeyframeId keyframe) {
+  WindowData window = SelectWindow(options_.selection, map_, keyframe);
+  last_window_lines_.clear();
+  for (const WindowData::Line& line : window.lines) last_window_lines_.insert(line.id);
+  // One keyframe alone has nothing to agree with.
+  if (window.keyframes.size() < 2) return {};
+  const WindowSummary summary = SolveWindow(options_.window, &window);
+  if (summary.usable) WriteBack(window, &map_);
+  return summary;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <set>
+
+#include "msc_vo/map/snapshot.h"
+#include "msc_vo/mapping/keyframe_packet.h"
+#include "msc_vo/mapping/mapper_options.h"
+
+namespace msc_vo {
+
+// What one keyframe step did.
+struct MappingSummary {
+  KeyframeId keyframe = kNoId;
+  int num_culled_keyframes = 0;
+  WindowSummary window;
+};
+
+// Owns the map and alone changes it: one call per keyframe (paper: Local Mapping).
+class Mapper {
+ public:
+  // Throws std::invalid_argument on options that are not valid.
+  explicit Mapper(const MapperOptions& options);
+
+  // Takes a keyframe into the map: observations, new landmarks, fusion, window optimisation,
+  // culling.
+  MappingSummary Process(const KeyframePacket& packet);
+
+  // A copy of the map as the last step left it.
+  MapSnapshotPtr Snapshot() const;
+
+  const Map& map() const { return map_; }
+  // Lines that took part in the last window.
+  const std::set<LandmarkId>& last_window_lines() const { return last_window_lines_; }
+
+ private:
+  KeyframeId InsertKeyframe(const KeyframePacket& packet);
+  WindowSummary OptimizeWindow(KeyframeId keyframe);
+
+  MapperOptions options_;
+  Map map_;
+  Probation probation_;
+  KeyframeId newest_keyframe_ = kNoId;
+  std::set<LandmarkId> last_window_lines_;
+};
+
+}  // namespace msc_vo

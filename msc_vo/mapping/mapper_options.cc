@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/mapper_options.h"
+
+namespace msc_vo {
+
+bool MapperOptions::IsValid(std::string* error) const {
+  return fusion.IsValid(error) && selection.IsValid(error) && window.IsValid(error) &&
+         culling.IsValid(error);
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "msc_vo/geometry/line_segment.h"
+#include "msc_vo/map/landmark.h"
+
+namespace msc_vo {
+
+// What one feature of a frame was matched with: a landmark of the map, or a feature of another
+// frame whose depth was measured (id == kNoId).
+struct PointMatch {
+  int feature = 0;
+  LandmarkId id = kNoId;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // metres, world
+  bool inlier = true;
+};
+
+struct LineMatch {
+  int feature = 0;
+  LandmarkId id = kNoId;
+  LineSegment3 segment;  // metres, world
+  bool inlier = true;
+};
+
+// The matches of one frame; each feature occurs at most once.
+struct FrameMatches {
+  std::vector<PointMatch> points;
+  std::vector<LineMatch> lines;
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/matching/local_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace msc_vo {
+
+namespace {
+
+// Highest pyramid level of the extractor's default; beyond it a point is too near to be recognised.
+constexpr int kMaxLevel = 7;
+// A patch seen from more than 60 degrees off looks different: as in the ORB literature.
+constexpr double kMinViewingCosine = 0.5;
+
+std::vector<std::pair<int, KeyframeId>> Votes(const Map& map, const FrameMatches& matches) {
+  std::map<KeyframeId, int> votes;
+  const auto count = [&](const Landmark* landmark) {
+    if (landmark == nullptr) return;
+    for (const Observation& observation : landmark->observations) ++votes[observation.keyframe];
+  };
+  for (const PointMatch& match : matches.points) {
+    if (match.inlier) count(map.FindPoint(match.id));
+  }
+  for (const LineMatch& match : matches.lines) {
+    if (match.inlier) count(map.FindLine(match.id));
+  }
+  std::vector<std::pair<int, KeyframeId>> ranked;
+  for (const auto& [keyframe, num] : votes) ranked.emplace_back(num, keyframe);
+  std::sort(ranked.rbegin(), ranked.rend());  // most votes first, then newest
+  return ranked;
+}
+
+std::set<KeyframeId> SelectKeyframes(const Map& map, const FrameMatches& matches,
+                                     KeyframeId fallback, int max_keyframes,
+                                     KeyframeId* reference) {
+  std::vector<std::pair<int, KeyframeId>> ranked = Votes(map, matches);
+  if (ranked.empty()) ranked.emplace_back(0, fallback);
+  *reference = ranked.front().second;
+  std::set<KeyframeId> selected;
+  for (const auto& [num, keyframe] : ranked) {
+    if (static_cast<int>(selected.size()) >= max_keyframes) return selected;
+    selected.insert(keyframe);
+  }
+  // Neighbours of the best one see what comes into view next.
+  for (const Map::Covisible& covisible : map.FindCovisible(*reference)) {
+    if (static_cast<int>(selected.size()) >= max_keyframes) break;
+    selected.insert(covisible.keyframe);
+  }
+  return selected;
+}
+
+bool IsSeenFromNear(const Landmark& landmark, const Eigen::Vector3d& ray) {
+  return landmark.viewing_direction.dot(ray) >= kMinViewingCosine * ray.norm();
+}
+
+void AddPoint(const PointLandmark& point, const Frame& frame, const Rigid3& cam_from_world,
+              const Eigen::Vector3d& center, std::vector<PointCandidate>* candidates) {
+  const Eigen::Vector3d ray = point.position - center;
+  if (!IsSeenFromNear(point, ray)) return;
+  const double level = std::log(point.reference_distance / ray.norm()) / std::log(kPyramidScale);
+  // One level of tolerance on both sides, as the matcher has.
+  if (!(level > -1.5 && level < kMaxLevel + 1.5)) return;
+  PointCandidate candidate;
+  candidate.id = point.id;
+  candidate.position = point.position;
+  candidate.descriptor = point.descriptor;
+  candidate.level = std::clamp(static_cast<int>(std::lround(level)), 0, kMaxLevel);
+  if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) candidates->push_back(candidate);
+}
+
+void AddLine(const LineLandmark& line, const Frame& frame, const Rigid3& cam_from_world,
+             const Eigen::Vector3d& center, std::vector<LineCandidate>* candidates) {
+  if (!IsSeenFromNear(line, line.segment.Midpoint() - center)) return;
+  LineCandidate candidate;
+  candidate.id = line.id;
+  candidate.segment = line.segment;
+  candidate.descriptor = line.descriptor;
+  if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) candidates->push_back(candidate);
+}
+
+}  // namespace
+
+LocalMap SelectLocalMap(const Map& map, const Frame& frame, const Rigid3& cam_from_world,
+                        const FrameMatches& matches, KeyframeId fallback, int max_keyframes) {
+  LocalMap local;
+  const std::set<KeyframeId> keyframes =
+      SelectKeyframes(map, matches, fallback, max_keyframes, &local.reference);
+  std::set<LandmarkId> points;
+  std::set<LandmarkId> lines;
+  for (const KeyframeId id : keyframes) {
+    const Keyframe& keyframe = *map.FindKeyframe(id);
+    points.insert(keyframe.points.begin(), keyframe.points.end());
+    lines.insert(keyframe.lines.begin(), keyframe.lines.end());
+  }
+  points.erase(kNoId);
+  lines.erase(kNoId);
+  const Eigen::Vector3d center = cam_from_world.OriginInSource();
+  for (const LandmarkId id : points) {
+    AddPoint(*map.FindPoint(id), frame, cam_from_world, center, &local.points);
+  }
+  for (const LandmarkId id : lines) {
+    AddLine(*map.FindLine(id), frame, cam_from_world, center, &local.lines);
+  }
+  return local;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/matching/point_matcher.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include "msc_vo/map/map.h"
+
+namespace msc_vo {
+
+namespace {
+
+constexpr int kNoDistance = 257;  // more than 256 bits can differ
+
+struct Best {
+  int feature = -1;
+  int distance = kNoDistance;
+};
+
+// Best feature for one candidate, or feature -1.
+Best FindBest(const PointMatcherOptions& options, const Frame& frame,
+              const PointCandidate& candidate, double radius, const std::vector<bool>& taken) {
+  Best best;
+  Best second;
+  const double scaled_radius = radius * std::pow(kPyramidScale, candidate.level);
+  for (const int index : frame.grid.Near(frame.points, candidate.pixel, scaled_radius)) {
+    const PointFeature& feature = frame.points[index];
+    if (std::abs(feature.level - candidate.level) > options.max_level_difference) continue;
+    if (!taken.empty() && taken[index]) continue;
+    const int distance = HammingDistance(candidate.descriptor, feature.descriptor);
+    if (distance < best.distance) {
+      second = best;
+      best = {index, distance};
+    } else if (distance < second.distance) {
+      second = {index, distance};
+    }
+  }
+  if (best.distance > options.max_distance) return {};
+  const bool ambiguous = second.feature >= 0 &&
+                         frame.points[second.feature].level == frame.points[best.feature].level &&
+                         best.distance > options.max_ratio * second.distance;
+  return ambiguous ? Best() : best;
+}
+
+}  // namespace
+
+bool PointMatcherOptions::IsValid(std::string* error) const {
+  if (max_distance < 0 || max_distance > 256) {
+    *error = "point matcher: max_distance must be between 0 and 256 bits";
+  } else if (!(max_ratio > 0.0 && max_ratio <= 1.0)) {
+    *error = "point matcher: max_ratio must be in (0, 1]";
+  } else if (max_level_difference < 0) {
+    *error = "point matcher: max_level_difference must not be negative";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,
+                      PointCandidate* candidate) {
+  // Nearer than this no depth sensor of the kind works, and the projection becomes unstable.
+  constexpr double kNear = 0.05;
+  const Eigen::Vector3d in_cam = cam_from_world * candidate->position;
+  if (in_cam.z() < kNear) return false;
+  candidate->pixel = camera.Project(in_cam);
+  return camera.IsInside(candidate->pixel);
+}
+
+std::vector<PointMatch> MatchPoints(const PointMatcherOptions& options, const Frame& frame,
+                                    const std::vector<PointCandidate>& candidates, double radius,
+                                    const std::vector<bool>& taken) {
+  struct Claim {
+    int candidate = -1;
+    int distance = kNoDistance;
+  };
+  std::vector<Claim> claims(frame.points.size());
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    const Best best = FindBest(options, frame, candidates[i], radius, taken);
+    if (best.feature < 0 || best.distance >= claims[best.feature].distance) continue;
+    claims[best.feature] = {static_cast<int>(i), best.distance};
+  }
+  std::vector<PointMatch> matches;
+  for (size_t feature = 0; feature < claims.size(); ++feature) {
+    if (claims[feature].candidate < 0) continue;
+    const PointCandidate& candidate = candidates[claims[feature].candidate];
+    matches.push_back({static_cast<int>(feature), candidate.id, candidate.position, true});
+  }
+  return matches;
+}
+
+}  // namespace msc_vo

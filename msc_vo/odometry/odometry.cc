@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/odometry.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "msc_vo/mapping/mapper.h"
+#include "msc_vo/tracking/stopwatch.h"
+#include "msc_vo/tracking/tracker.h"
+
+namespace msc_vo {
+
+namespace {
+
+OdometryOptions Checked(OdometryOptions options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw std::invalid_argument(error);
+  if (options.mode == Mode::kPlVo) options.features.line_depth = LineDepthMethod::kEndPoints;
+  return options;
+}
+
+FrameResult MakeResult(const TrackedFrame& tracked) {
+  FrameResult result;
+  result.id = tracked.frame->id;
+  result.timestamp = tracked.frame->timestamp;
+  result.status = tracked.status;
+  result.cam_from_world = tracked.cam_from_world;
+  result.is_keyframe = tracked.is_keyframe;
+  result.num_points = static_cast<int>(tracked.frame->points.size());
+  result.num_lines = static_cast<int>(tracked.frame->lines.size());
+  result.num_inlier_points = static_cast<int>(tracked.matches.points.size());
+  result.num_inlier_lines = static_cast<int>(tracked.matches.lines.size());
+  result.covariance = tracked.pose.covariance;
+  result.times.matching = tracked.matching_ms;
+  result.times.pose = tracked.pose_ms;
+  return result;
+}
+
+}  // namespace
+
+struct Odometry::State {
+  // Where a frame stands relative to a keyframe, which may still move.
+  struct Place {
+    KeyframeId reference = kNoId;
+    Rigid3 cam_from_reference;
+  };
+
+  State(const OdometryOptions& options_in, const PinholeCamera& camera,
+        const LensDistortion& distortion)
+      : options(Checked(options_in)),
+        builder(options.features, camera, distortion),
+        tracker(options.tracking),
+        mapper(options.mapping),
+        snapshot(mapper.Snapshot()) {}
+
+  void Count(const TrackedFrame& tracked);
+  Place InsertKeyframe(const TrackedFrame& tracked);
+
+  OdometryOptions options;
+  FrameBuilder builder;
+  Tracker tracker;
+  Mapper mapper;
+  MapSnapshotPtr snapshot;
+  KeyframePacket packet;  // its counts grow until the next keyframe
+  std::vector<FrameResult> results;
+  std::vector<Place> places;  // one per result
+};
+
+void Odometry::State::Count(const TrackedFrame& tracked) {
+  for (const LandmarkId id : tracked.visible_points) ++packet.point_counts[id].num_visible;
+  for (const LandmarkId id : tracked.visible_lines) ++packet.line_counts[id].num_visible;
+  for (const PointMatch& match : tracked.matches.points) ++packet.point_counts[match.id].num_found;
+  for (const LineMatch& match : tracked.matches.lines) ++packet.line_counts[match.id].num_found;
+}
+
+Odometry::State::Place Odometry::State::InsertKeyframe(const TrackedFrame& tracked) {
+  packet.frame = tracked.frame;
+  packet.reference = tracked.reference;
+  packet.cam_from_reference = tracked.cam_from_reference;
+  packet.matches = tracked.matches;
+  const MappingSummary summary = mapper.Process(packet);
+  packet = {};
+  snapshot = mapper.Snapshot();
+  return {summary.keyframe, Rigid3()};
+}
+
+Odometry::Odometry(const OdometryOptions& options, const PinholeCamera& camera,
+                   const LensDistortion& distortion)
+    : state_(std::make_unique<State>(options, camera, distortion)) {}
+
+Odometry::~Odometry() = default;
+
+FrameResult Odometry::Process(const RgbdImage& image) {
+  if (!state_->results.empty() && image.timestamp <= state_->results.back().timestamp) {
+    throw std::invalid_argument("image " + std::to_string(image.id) +
+                                ": its time stamp is not later than that of the image before");
+  }
+  Stopwatch stopwatch;
+  auto frame = std::make_shared<Frame>(state_->builder.Build(image));
+  if (!state_->options.use_points) {
+    frame->points.clear();
+    frame->grid = FeatureGrid(frame->camera, frame->points);
+  }
+  if (!state_->options.use_lines) frame->lines.clear();
+  const TrackedFrame tracked = state_->tracker.Track(std::move(frame), *state_->snapshot);
+  FrameResult result = MakeResult(tracked);
+  result.times.points = state_->builder.times().points;
+  result.times.lines = state_->builder.times().lines;
+  result.times.depth = state_->builder.times().depth;
+  result.times.tracking = stopwatch.Restart();
+
+  state_->Count(tracked);
+  State::Place place = {tracked.reference, tracked.cam_from_reference};
+  if (tracked.is_keyframe) {
+    place = state_->InsertKeyframe(tracked);
+    result.times.mapping = stopwatch.Milliseconds();
+    result.cam_from_world = state_->mapper.map().CamFromWorld(place.reference);
+  }
+  state_->results.push_back(result);
+  state_->places.push_back(place);
+  return result;
+}
+
+OdometryResult Odometry::Finish() {
+  const Map& map = state_->mapper.map();
+  OdometryResult result;
+  result.frames = state_->results;
+  for (size_t i = 0; i < result.frames.size(); ++i) {
+    const State::Place& place = state_->places[i];
+    if (place.reference == kNoId) continue;
+    result.frames[i].cam_from_world = place.cam_from_reference * map.CamFromWorld(place.reference);
+  }
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    result.keyframes.push_back({keyframe.frame->timestamp, keyframe.cam_from_world.Inverse()});
+  }
+  for (const auto& [id, point] : map.points()) {
+    result.points.push_back({point.position, static_cast<int>(point.observations.size())});
+  }
+  for (const auto& [id, line] : map.lines()) {
+    result.lines.push_back({line.segment, static_cast<int>(line.observations.size()),
+                            state_->mapper.last_window_lines().count(id) > 0});
+  }
+  return result;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/odometry_options.h"
+
+#include <stdexcept>
+
+namespace msc_vo {
+
+const char* ToString(Mode mode) {
+  switch (mode) {
+    case Mode::kPlVo:
+      return "pl-vo";
+    case Mode::kPlVoDepth:
+      return "pl-vo-depth";
+    case Mode::kMscVo:
+      return "msc-vo";
+  }
+  return "unknown";
+}
+
+Mode ModeFromString(const std::string& name) {
+  for (const Mode mode : {Mode::kPlVo, Mode::kPlVoDepth, Mode::kMscVo}) {
+    if (name == ToString(mode)) return mode;
+  }
+  throw std::invalid_argument("unknown mode '" + name + "': choose pl-vo, pl-vo-depth or msc-vo");
+}
+
+bool OdometryOptions::IsValid(std::string* error) const {
+  if (mode == Mode::kMscVo) {
+    *error =
+        "mode msc-vo: the structural terms are not part of this version; choose pl-vo-depth "
+        "or pl-vo";
+    return false;
+  }
+  if (!use_points && !use_lines) {
+    *error = "options: use_points and use_lines must not both be off";
+    return false;
+  }
+  return features.IsValid(error) && tracking.IsValid(error) && mapping.IsValid(error);
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/tracking/keyframe_policy.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace msc_vo {
+
+bool KeyframePolicyOptions::IsValid(std::string* error) const {
+  if (!(min_relative_share >= 0.0 && min_relative_share <= 1.0)) {
+    *error = "keyframe policy: min_relative_share must be in [0, 1]";
+  } else if (min_interval < 1 || max_interval < min_interval) {
+    *error = "keyframe policy: 1 <= min_interval <= max_interval must hold";
+  } else if (!(close_relative_sigma > 0.0)) {
+    *error = "keyframe policy: close_relative_sigma must be positive";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+KeyframePolicy::Shares KeyframePolicy::ComputeShares(const Frame& frame,
+                                                     const FrameMatches& matches) const {
+  struct Count {
+    int tracked = 0;
+    int creatable = 0;
+    double Share() const {
+      return tracked + creatable == 0 ? 1.0 : tracked / static_cast<double>(tracked + creatable);
+    }
+  };
+  Count all;
+  Count close;
+  std::vector<bool> tracked_points(frame.points.size(), false);
+  std::vector<bool> tracked_lines(frame.lines.size(), false);
+  for (const PointMatch& match : matches.points) tracked_points[match.feature] = match.inlier;
+  for (const LineMatch& match : matches.lines) tracked_lines[match.feature] = match.inlier;
+  for (size_t i = 0; i < frame.points.size(); ++i) {
+    const PointFeature& point = frame.points[i];
+    if (!point.HasDepth() && !tracked_points[i]) continue;
+    ++(tracked_points[i] ? all.tracked : all.creatable);
+    // Relative error of the depth z = 1/w: sigma_z / z = sigma_w / w.
+    const bool is_close =
+        point.HasDepth() &&
+        point.inverse_depth_sigma < options_.close_relative_sigma * point.inverse_depth;
+    if (is_close) ++(tracked_points[i] ? close.tracked : close.creatable);
+  }
+  for (size_t i = 0; i < frame.lines.size(); ++i) {
+    if (!frame.lines[i].depth && !tracked_lines[i]) continue;
+    ++(tracked_lines[i] ? all.tracked : all.creatable);
+  }
+  return {all.Share(), close.Share()};
+}
+
+bool KeyframePolicy::IsDue(const Frame& frame, const FrameMatches& matches) {
+  ++frames_since_keyframe_;
+  const Shares shares = ComputeShares(frame, matches);
+  best_.all = std::max(best_.all, shares.all);
+  best_.close = std::max(best_.close, shares.close);
+  if (frames_since_keyframe_ < options_.min_interval) return false;
+  return frames_since_keyframe_ >= options_.max_interval ||
+         shares.all < options_.min_relative_share * best_.all ||
+         shares.close < options_.min_relative_share * best_.close;
+}
+
+void KeyframePolicy::Inserted() {
+  frames_since_keyframe_ = 0;
+  best_ = {0.0, 0.0};
+}
+
+}  // namespace msc_vo

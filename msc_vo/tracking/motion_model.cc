@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/tracking/motion_model.h"
+
+#include <algorithm>
+
+#include "msc_vo/geometry/so3.h"
+
+namespace msc_vo {
+
+void MotionModel::Observe(double timestamp, const Rigid3& cam_from_last) {
+  interval_ = timestamp - last_timestamp_;
+  velocity_ = cam_from_last;
+  last_timestamp_ = timestamp;
+}
+
+void MotionModel::Reset(double timestamp) {
+  interval_ = 0.0;
+  velocity_ = Rigid3();
+  last_timestamp_ = timestamp;
+}
+
+Rigid3 MotionModel::Predict(double timestamp) const {
+  if (interval_ <= 0.0) return Rigid3();
+  // Half a second ahead a hand has changed its mind: the model is not carried further than that.
+  constexpr double kHorizon = 0.5;
+  const double scale = std::min(timestamp - last_timestamp_, kHorizon) / interval_;
+  return {ExpSO3(scale * LogSO3(velocity_.rotation())), scale * velocity_.translation()};
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/tracking/tracker.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/matching/local_map.h"
+#include "msc_vo/tracking/pose_estimation.h"
+#include "msc_vo/tracking/stopwatch.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Pose of a tracked frame, with its reference keyframe where the map has it now.
+Rigid3 CamFromWorld(const Map& map, const TrackedFrame& tracked) {
+  if (tracked.reference == kNoId) return tracked.cam_from_world;
+  return tracked.cam_from_reference * map.CamFromWorld(tracked.reference);
+}
+
+// The keyframe of the map that stands for `id`, which may have been removed: the newest one then.
+KeyframeId LivingReference(const Map& map, KeyframeId id) {
+  return map.FindKeyframe(id) != nullptr ? id : map.keyframes().rbegin()->first;
+}
+
+void SetReference(const Map& map, KeyframeId reference, TrackedFrame* tracked) {
+  tracked->reference = reference;
+  tracked->cam_from_reference = tracked->cam_from_world * map.CamFromWorld(reference).Inverse();
+}
+
+// If `keyframe` is what became of `tracked`, takes over its place and its landmarks.
+void AdoptKeyframe(const Keyframe& keyframe, TrackedFrame* tracked) {
+  if (keyframe.frame != tracked->frame) return;
+  tracked->reference = keyframe.id;
+  tracked->cam_from_reference = Rigid3();
+  tracked->matches = {};
+  for (size_t i = 0; i < keyframe.points.size(); ++i) {
+    if (keyframe.points[i] == kNoId) continue;
+    tracked->matches.points.push_back({static_cast<int>(i), keyframe.points[i], {}, true});
+  }
+  for (size_t i = 0; i < keyframe.lines.size(); ++i) {
+    if (keyframe.lines[i] == kNoId) continue;
+    tracked->matches.lines.push_back({static_cast<int>(i), keyframe.lines[i], {}, true});
+  }
+}
+
+int NumMatches(const FrameMatches& matches) {
+  return static_cast<int>(matches.points.size() + matches.lines.size());
+}
+
+}  // namespace
+
+Tracker::Tracker(const TrackerOptions& options) : options_(options), policy_(options.keyframes) {
+  std::string error;
+  if (!options.IsValid(&error)) throw std::invalid_argument(error);
+}
+
+TrackedFrame Tracker::Track(std::shared_ptr<const Frame> frame, const MapSnapshot& snapshot) {
+  const Map& map = snapshot.map;
+  if (map.keyframes().empty()) return Initialize(std::move(frame));
+
+  if (last_.is_keyframe) AdoptKeyframe(*map.FindKeyframe(snapshot.newest_keyframe), &last_);
+  TrackedFrame tracked;
+  tracked.frame = std::move(frame);
+  const double timestamp = tracked.frame->timestamp;
+  const Rigid3 last_from_world = CamFromWorld(map, last_);
+  const Rigid3 prediction = motion_.Predict(timestamp) * last_from_world;
+  const bool found = TrackMotion(map, prediction, options_.prediction_radius, &tracked) ||
+                     TrackMotion(map, prediction, options_.wide_radius, &tracked) ||
+                     TrackReference(map, prediction, &tracked) || TrackByAppearance(map, &tracked);
+  const double gap = timestamp - last_.frame->timestamp;
+  if (!found) {
+    tracked.status =
+        gap <= options_.max_prediction ? TrackingStatus::kPredicted : TrackingStatus::kLost;
+    tracked.matches = {};
+    tracked.pose = {};
+    tracked.cam_from_world = prediction;
+    SetReference(map, LivingReference(map, last_.reference), &tracked);
+    return tracked;
+  }
+  tracked.status = TrackLocalMap(map, &tracked) ? Judge(tracked) : TrackingStatus::kWeak;
+  tracked.is_keyframe = policy_.IsDue(*tracked.frame, tracked.matches);
+  if (tracked.is_keyframe) policy_.Inserted();
+  if (gap <= options_.max_prediction) {
+    motion_.Observe(timestamp, tracked.cam_from_world * last_from_world.Inverse());
+  } else {
+    motion_.Reset(timestamp);
+  }
+  last_ = tracked;
+  return tracked;
+}
+
+TrackedFrame Tracker::Initialize(std::shared_ptr<const Frame> frame) {
+  TrackedFrame tracked;
+  tracked.frame = std::move(frame);
+  int num_features = 0;
+  for (const PointFeature& point : tracked.frame->points) {
+    num_features += point.HasDepth() ? 1 : 0;
+  }
+  for (const LineFeature& line : tracked.frame->lines) {
+    num_features += line.depth ? 1 : 0;
+  }
+  if (num_features < options_.min_initial_features) return tracked;
+  tracked.status = TrackingStatus::kTracked;
+  tracked.is_keyframe = true;
+  policy_.Inserted();
+  motion_.Reset(tracked.frame->timestamp);
+  last_ = tracked;
+  return tracked;
+}
+
+bool Tracker::TrackMotion(const Map& map, const Rigid3& prediction, double radius,
+                          TrackedFrame* tracked) const {
+  Stopwatch stopwatch;
+  const LocalMap seen = CandidatesFromFrame(map, last_, CamFromWorld(map, last_), prediction);
+  tracked->cam_from_world = prediction;
+  tracked->matches = MatchLocalMap(options_, *tracked->frame, seen, radius, {});
+  tracked->matching_ms += stopwatch.Milliseconds();
+  return EstimatePose(tracked);
+}
+
+bool Tracker::TrackReference(const Map& map, const Rigid3& prediction,
+                             TrackedFrame* tracked) const {
+  Stopwatch stopwatch;
+  const LocalMap local =
+      SelectLocalMap(map, *tracked->frame, prediction, {}, LivingReference(map, last_.reference),
+                     options_.max_local_keyframes);
+  tracked->cam_from_world = prediction;
+  tracked->matches = MatchLocalMap(options_, *tracked->frame, local, options_.wide_radius, {});
+  tracked->matching_ms += stopwatch.Milliseconds();
+  return EstimatePose(tracked);
+}
+
+bool Tracker::TrackByAppearance(const Map& map, TrackedFrame* tracked) {
+  for (int i = 0; i < options_.relocalization_keyframes; ++i) {
+    // From newest to oldest, a few per frame, and around again.
+    auto keyframe = map.keyframes().upper_bound(next_candidate_);
+    if (next_candidate_ == kNoId || keyframe == map.keyframes().begin()) {
+      keyframe = map.keyframes().end();
+    }
+    --keyframe;
+    next_candidate_ = keyframe->first - 1;
+    Stopwatch stopwatch;
+    const std::optional<Relocalization> hit =
+        Relocalize(options_.relocalizer, *tracked->frame, map, keyframe->second);
+    tracked->matching_ms += stopwatch.Milliseconds();
+    if (!hit) continue;
+    tracked->cam_from_world = hit->cam_from_world;
+    tracked->matches = hit->matches;
+    if (EstimatePose(tracked)) {
+      next_candidate_ = kNoId;
+      return true;
+    }
+  }
+  return false;
+}
+
+bool Tracker::TrackLocalMap(const Map& map, TrackedFrame* tracked) const {
+  Stopwatch stopwatch;
+  const TrackedFrame before = *tracked;
+  const LocalMap local =
+      SelectLocalMap(map, *tracked->frame, tracked->cam_from_world, tracked->matches,
+                     LivingReference(map, last_.reference), options_.max_local_keyframes);
+  tracked->matches = MatchLocalMap(options_, *tracked->frame, local, options_.local_map_radius,
+                                   LandmarkInliers(tracked->matches));
+  for (const PointCandidate& point : local.points) tracked->visible_points.push_back(point.id);
+  for (const LineCandidate& line : local.lines) tracked->visible_lines.push_back(line.id);
+  tracked->matching_ms += stopwatch.Milliseconds();
+  const bool found = EstimatePose(tracked);
+  if (!found) {
+    // The map is thin here, but the last frame was found again: that pose holds.
+    tracked->pose = before.pose;
+    tracked->matches = before.matches;
+  }
+  tracked->matches = LandmarkInliers(tracked->matches);
+  SetReference(map, local.reference, tracked);
+  return found;
+}
+
+bool Tracker::EstimatePose(TrackedFrame* tracked) const {
+  if (NumMatches(tracked->matches) < options_.min_matches) return false;
+  Stopwatch stopwatch;
+  const Rigid3 start = tracked->cam_from_world;
+  tracked->pose = EstimateFramePose(options_.pose, *tracked->frame, &tracked->cam_from_world,
+                                    &tracked->matches);
+  tracked->pose_ms += stopwatch.Milliseconds();
+  const int num_inliers = tracked->pose.num_inlier_points + tracked->pose.num_inlier_lines;
+  const bool good = tracked->pose.usable && num_inliers >= options_.min_matches &&
+                    num_inliers >= options_.min_inlier_ratio * NumMatches(tracked->matches);
+  if (!good) tracked->cam_from_world = start;
+  return good;
+}
+
+TrackingStatus Tracker::Judge(const TrackedFrame& tracked) const {
+  const Eigen::Matrix<double, 6, 1> variance = tracked.pose.covariance.diagonal();
+  const double rotation_sigma = std::sqrt(variance.head<3>().maxCoeff());
+  const double translation_sigma = std::sqrt(variance.tail<3>().maxCoeff());
+  const bool sharp = translation_sigma <= options_.weak_translation_sigma &&
+                     rotation_sigma <= DegreesToRadians(options_.weak_rotation_sigma);
+  return sharp ? TrackingStatus::kTracked : TrackingStatus::kWeak;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <memory>
+
+#include "msc_vo/map/snapshot.h"
+#include "msc_vo/tracking/motion_model.h"
+#include "msc_vo/tracking/tracked_frame.h"
+#include "msc_vo/tracking/tracker_options.h"
+
+namespace msc_vo {
+
+// Estimates the pose of every frame against a snapshot of the map (paper: Tracking), and says which
+// frames should become keyframes. Never changes the map.
+class Tracker {
+ public:
+  // Throws std::invalid_argument on options that are not valid.
+  explicit Tracker(const TrackerOptions& options);
+
+  // Tracks the next frame. Frames come in the order of time; snapshots never get older.
+  TrackedFrame Track(std::shared_ptr<const Frame> frame, const MapSnapshot& snapshot);
+
+ private:
+  TrackedFrame Initialize(std::shared_ptr<const Frame> frame);
+  // The first steps of tracking: each returns false if it did not find a pose.
+  bool TrackMotion(const Map& map, const Rigid3& prediction, double radius,
+                   TrackedFrame* tracked) const;
+  bool TrackReference(const Map& map, const Rigid3& prediction, TrackedFrame* tracked) const;
+  bool TrackByAppearance(const Map& map, TrackedFrame* tracked);
+  // The second step: against all that the map holds around the pose. Returns false, and leaves the
+  // pose as it was, if the map has too little there.
+  bool TrackLocalMap(const Map& map, TrackedFrame* tracked) const;
+
+  bool EstimatePose(TrackedFrame* tracked) const;
+  TrackingStatus Judge(const TrackedFrame& tracked) const;
+
+  TrackerOptions options_;
+  KeyframePolicy policy_;
+  MotionModel motion_;
+  TrackedFrame last_;                  // the last frame whose pose was estimated
+  KeyframeId next_candidate_ = kNoId;  // keyframe at which the search for the map goes on
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/tracking/tracking_status.h"
+
+namespace msc_vo {
+
+const char* ToString(TrackingStatus status) {
+  switch (status) {
+    case TrackingStatus::kTracked:
+      return "tracked";
+    case TrackingStatus::kWeak:
+      return "weak";
+    case TrackingStatus::kPredicted:
+      return "predicted";
+    case TrackingStatus::kLost:
+      return "lost";
+  }
+  return "unknown";
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+namespace msc_vo {
+
+enum class TrackingStatus {
+  kTracked,    // pose from enough matches with the local map
+  kWeak,       // pose from few or badly spread matches: usable, but worth a look
+  kPredicted,  // no pose could be estimated; constant velocity bridges a short gap
+  kLost,       // the map was not found for longer than that; the last good pose is repeated
+};
+
+const char* ToString(TrackingStatus status);
+
+}  // namespace msc_vo
