@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/io/rgbd_source.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace msc_vo {
+
+RgbdSource::RgbdSource(const RgbdDecoder& decoder, int begin, int end)
+    : decoder_(decoder), next_(begin), end_(end) {
+  if (begin < 0 || begin > end || end > decoder.size()) {
+    throw std::invalid_argument("images " + std::to_string(begin) + " to " + std::to_string(end) +
+                                " wanted from a sequence of " + std::to_string(decoder.size()));
+  }
+  DecodeAhead();
+}
+
+void RgbdSource::DecodeAhead() {
+  if (next_ == end_) return;
+  ahead_ = std::async(std::launch::async, [this, i = next_] { return decoder_.Decode(i); });
+}
+
+bool RgbdSource::Next(RgbdImage* image) {
+  if (next_ == end_) return false;
+  std::future<RgbdImage> current = std::move(ahead_);
+  current.wait();
+  ++next_;
+  DecodeAhead();
+  *image = current.get();
+  return true;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace msc_vo {
+
+// One line of a text file that carries data, with the place it came from.
+struct TextLine {
+  std::string file;
+  int number = 0;                   // from 1
+  std::vector<std::string> fields;  // separated by blanks, tabs or commas
+
+  std::string Where() const;  // "file:12"
+};
+
+// The lines of a file that are neither blank nor a comment (#); CRLF is understood.
+// Throws std::runtime_error, naming the file, if it cannot be read.
+std::vector<TextLine> ReadTextLines(const std::string& path);
+
+// The whole file, byte for byte. Throws std::runtime_error, naming the file, if it cannot be read.
+std::string ReadFile(const std::string& path);
+
+// Writes `content` beside `path` and renames it into place, so that a reader never sees half a file
+// and an interrupted run leaves the previous one. Throws std::runtime_error naming the file.
+void WriteFile(const std::string& path, const std::string& content);
+
+// The number that all of `text` spells, whatever the locale; none if it spells none.
+std::optional<double> ParseNumber(const std::string& text);
+// All fields of the line as finite numbers. Throws std::runtime_error naming file, line and field.
+std::vector<double> ParseNumbers(const TextLine& line);
+
+}  // namespace msc_vo
