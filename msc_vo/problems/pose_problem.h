@@ -31,8 +31,8 @@ struct PoseData {
     LineSegment2 segment;      // pixels, undistorted
     double sigma = 1.0;        // pixels
     bool has_depth = false;
-    LineDepth depth;      // used if has_depth
-    bool inlier = true;   // out
+    LineDepth depth;     // used if has_depth
+    bool inlier = true;  // out
   };
 
   PinholeCamera camera;

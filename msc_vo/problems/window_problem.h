@@ -27,7 +27,8 @@ struct WindowOptions {
   double line_anchor_sigma = 0.05;  // metres
 
   // An observation whose chi-square exceeds these after the first solve is rejected and the window
-  // solved again without it: 99 % quantiles with 2 and, where there is a depth, 3 (4 for lines) rows.
+  // solved again without it: 99 % quantiles with 2 and, where there is a depth, 3 (4 for lines)
+  // rows.
   double reject_chi2_2 = 9.210;
   double reject_chi2_3 = 11.345;
   double reject_chi2_4 = 13.277;
@@ -51,7 +52,7 @@ struct WindowSummary {
   double initial_cost = 0.0;
   double final_cost = 0.0;
   TermSummary point_reprojection, point_depth, line_reprojection, line_depth, line_anchor;
-  int num_behind_camera = 0;  // observations dropped by the builder, marked rejected
+  int num_behind_camera = 0;    // observations dropped by the builder, marked rejected
   std::string schur_structure;  // Ceres' schur_structure_used
   std::string message;
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include "msc_vo/factors/camera_factor.h"
+
+namespace msc_vo {
+
+// Depth of a point, 1 row (not in the paper's text; its code base carries it as a virtual stereo
+// coordinate):
+//
+//   r = (1 / z(T X) - w) / sigma
+//
+// T: cam_from_world (block 0, 7). X: map point in the world, metres (block 1, 3). z: third camera
+// coordinate, metres. w: measured inverse depth, 1/metres. sigma: its standard deviation, 1/metres.
+// Inverse depth, because the noise of a disparity sensor is constant in it: the weight of a metre
+// falls with z^-4 by itself, and far points stay nearly free, as they should.
+class DepthReprojection : public CameraFactor<DepthReprojection, 1, 1> {
+ public:
+  DepthReprojection(double inverse_depth, double sigma)
+      : inverse_depth_(inverse_depth), inverse_sigma_(1.0 / sigma) {}
+
+  template <typename T>
+  void Residual(int /*k*/, const Eigen::Matrix<T, 3, 1>& x_in_cam, T* r) const {
+    r[0] = (1.0 / x_in_cam.z() - inverse_depth_) * inverse_sigma_;
+  }
+
+ private:
+  double inverse_depth_;  // 1/metres
+  double inverse_sigma_;  // metres
+};
+
+}  // namespace msc_vo

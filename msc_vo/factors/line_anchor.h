@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include "msc_vo/factors/cost_functor.h"
+#include "msc_vo/geometry/line_segment.h"
+
+namespace msc_vo {
+
+// Anchor of a line's end points (none in the paper), 2 rows:
+//
+//   r = ((S - S0) . d0 / sigma, (E - E0) . d0 / sigma)
+//
+// S, E: end points in the world, metres (block 0, 6). S0, E0: where they started; d0: unit
+// direction of the line then. sigma: metres. No image of a line says where along it an end point
+// lies, so two of the six numbers are free without this; held weakly, the normal equations are well
+// conditioned and the line's four real degrees of freedom stay untouched.
+class LineAnchor : public CostFunctor<LineAnchor, 2, 6> {
+ public:
+  LineAnchor(const LineSegment3& initial, double sigma)
+      : initial_(initial), direction_(initial.Direction()), inverse_sigma_(1.0 / sigma) {}
+
+  template <typename T>
+  bool operator()(const T* line, T* residuals) const {
+    residuals[0] = T(0.0);
+    residuals[1] = T(0.0);
+    for (int i = 0; i < 3; ++i) {
+      residuals[0] += (line[i] - initial_.start[i]) * (direction_[i] * inverse_sigma_);
+      residuals[1] += (line[i + 3] - initial_.end[i]) * (direction_[i] * inverse_sigma_);
+    }
+    return true;
+  }
+
+ private:
+  LineSegment3 initial_;
+  Eigen::Vector3d direction_;
+  double inverse_sigma_;  // 1/metres
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/problems/observation.h"
+
+#include <cmath>
+
+namespace msc_vo {
+
+Activity TestChiSquare(double reprojection, double depth, double limit, double limit_with_depth) {
+  const bool passes = reprojection <= limit;
+  return {passes, passes && reprojection + depth <= limit_with_depth};
+}
+
+bool IsInFront(const Eigen::Vector3d& x_in_cam) { return x_in_cam.z() >= kMinCameraDepth; }
+
+bool IsInFront(const LineSegment3& line_in_cam) {
+  return line_in_cam.start.z() >= kMinCameraDepth && line_in_cam.end.z() >= kMinCameraDepth;
+}
+
+double ImageLineSigma(const LineSegment2& segment, double sigma, const Eigen::Vector2d& pixel) {
+  const double s = segment.Parameter(pixel);
+  return sigma * std::hypot(1.0 - s, s);
+}
+
+LineReprojection MakeLineReprojection(const PinholeCamera& camera, const LineSegment2& segment,
+                                      double sigma, const LineSegment3& line_in_cam) {
+  return {camera, segment, ImageLineSigma(segment, sigma, camera.Project(line_in_cam.start)),
+          ImageLineSigma(segment, sigma, camera.Project(line_in_cam.end))};
+}
+
+LineDepthReprojection MakeLineDepthReprojection(const PinholeCamera& camera,
+                                                const LineSegment2& segment, const LineDepth& depth,
+                                                const LineSegment3& line_in_cam) {
+  const double s_start = segment.Parameter(camera.Project(line_in_cam.start));
+  const double s_end = segment.Parameter(camera.Project(line_in_cam.end));
+  return {camera, segment, depth, depth.SigmaAt(s_start), depth.SigmaAt(s_end)};
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/problems/window_validation.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "msc_vo/problems/validation.h"
+
+namespace msc_vo {
+
+namespace {
+
+[[noreturn]] void Throw(const std::string& what) {
+  throw std::invalid_argument("SolveWindow: " + what);
+}
+
+// Positions by id, of keyframes, points or lines.
+class IdMap {
+ public:
+  template <typename Item>
+  IdMap(const char* kind, const std::vector<Item>& items) : kind_(kind) {
+    positions_.reserve(items.size());
+    for (size_t i = 0; i < items.size(); ++i) {
+      positions_.emplace_back(items[i].id, static_cast<int>(i));
+    }
+    std::sort(positions_.begin(), positions_.end());
+    for (size_t i = 1; i < positions_.size(); ++i) {
+      if (positions_[i].first == positions_[i - 1].first) {
+        Throw(Name(positions_[i].first) + ": the id is given twice");
+      }
+    }
+  }
+
+  int At(int64_t id) const {
+    const auto it = std::lower_bound(positions_.begin(), positions_.end(), std::make_pair(id, 0));
+    if (it == positions_.end() || it->first != id) {
+      Throw(Name(id) + " is observed but not in the window");
+    }
+    return it->second;
+  }
+
+ private:
+  std::string Name(int64_t id) const { return std::string(kind_) + " " + std::to_string(id); }
+
+  const char* kind_;
+  std::vector<std::pair<int64_t, int>> positions_;
+};
+
+void CheckKeyframesAndLandmarks(const WindowData& data) {
+  const auto check = [](const char* error, const char* kind, int64_t id) {
+    if (error != nullptr) Throw(std::string(kind) + " " + std::to_string(id) + ": " + error);
+  };
+  bool any_fixed = false;
+  for (const WindowData::Keyframe& k : data.keyframes) {
+    check(PoseError(k.cam_from_world), "keyframe", k.id);
+    any_fixed = any_fixed || k.fixed;
+  }
+  if (!any_fixed) Throw("no keyframe is fixed: the gauge is free");
+  for (const WindowData::Point& p : data.points) check(PositionError(p.position), "point", p.id);
+  for (const WindowData::Line& l : data.lines) check(MapLineError(l.segment), "line", l.id);
+}
+
+}  // namespace
+
+WindowIndex ValidateWindow(const WindowOptions& options, const WindowData& data) {
+  std::string error;
+  if (!options.IsValid(&error) || !data.camera.IsValid(&error)) Throw(error);
+  CheckKeyframesAndLandmarks(data);
+
+  const IdMap keyframes("keyframe", data.keyframes);
+  const IdMap points("point", data.points);
+  const IdMap lines("line", data.lines);
+  const auto check = [](const char* what, const char* kind, int64_t landmark, int64_t keyframe) {
+    if (what == nullptr) return;
+    Throw(std::string("observation of ") + kind + " " + std::to_string(landmark) + " in keyframe " +
+          std::to_string(keyframe) + ": " + what);
+  };
+  WindowIndex index;
+  index.points.reserve(data.point_observations.size());
+  for (const WindowData::PointObservation& o : data.point_observations) {
+    check(PointObservationError(o.pixel, o.sigma, o.inverse_depth, o.inverse_depth_sigma), "point",
+          o.point, o.keyframe);
+    index.points.push_back({keyframes.At(o.keyframe), points.At(o.point)});
+  }
+  index.lines.reserve(data.line_observations.size());
+  for (const WindowData::LineObservation& o : data.line_observations) {
+    check(LineObservationError(o.segment, o.sigma, o.has_depth, o.depth), "line", o.line,
+          o.keyframe);
+    index.lines.push_back({keyframes.At(o.keyframe), lines.At(o.line)});
+  }
+  return index;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <vector>
+
+#include "msc_vo/problems/window_data.h"
+#include "msc_vo/problems/window_problem.h"
+
+namespace msc_vo {
+
+// Where the ids of the observations lead: positions in the vectors of WindowData.
+struct WindowIndex {
+  struct Link {
+    int keyframe = 0;
+    int landmark = 0;
+  };
+  std::vector<Link> points;  // one per point observation
+  std::vector<Link> lines;   // one per line observation
+};
+
+// Checks everything that SolveWindow asks of its input, and resolves the ids on the way.
+// Throws std::invalid_argument naming the offender.
+WindowIndex ValidateWindow(const WindowOptions& options, const WindowData& data);
+
+}  // namespace msc_vo
