@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "msc_vo/features/line_backprojection.h"
 #include "msc_vo/features/line_extractor.h"
 #include "msc_vo/features/point_extractor.h"
 #include "msc_vo/features/rgbd_image.h"
@@ -14,12 +15,6 @@
 #include "msc_vo/map/frame.h"
 
 namespace msc_vo {
-
-// How a line gets its depth.
-enum class LineDepthMethod {
-  kRobustFit,  // samples along the line, FitLineDepth
-  kEndPoints,  // the depths under the two end points, as they are: the ablation mode pl-vo
-};
 
 struct FrameBuilderOptions {
   PointExtractorOptions points;

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/features/frame_builder.h"
+
+#include <chrono>
+#include <stdexcept>
+#include <string>
+
+#include "msc_vo/features/depth_sampler.h"
+#include "msc_vo/features/inverse_depth_image.h"
+#include "msc_vo/features/lens_remap.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Milliseconds since `*last`, which moves to now.
+double Lap(std::chrono::steady_clock::time_point* last) {
+  const auto now = std::chrono::steady_clock::now();
+  const double elapsed = std::chrono::duration<double, std::milli>(now - *last).count();
+  *last = now;
+  return elapsed;
+}
+
+void CheckImage(const cv::Mat& image, int type, const PinholeCamera& camera, const char* name,
+                const char* type_name) {
+  if (image.type() == type && image.cols == camera.width && image.rows == camera.height) return;
+  throw std::invalid_argument(
+      "FrameBuilder: the " + std::string(name) + " image must be " + type_name + " of " +
+      std::to_string(camera.width) + "x" + std::to_string(camera.height) +
+      " pixels, as the camera says; it is " + std::to_string(image.cols) + "x" +
+      std::to_string(image.rows) + ", OpenCV type " + std::to_string(image.type()));
+}
+
+}  // namespace
+
+struct FrameBuilder::State {
+  FrameBuilderOptions options;
+  PinholeCamera camera;
+  LensRemap lens;
+  PointExtractor point_extractor;
+  LineExtractor line_extractor;
+  FrameBuilderTimes times;
+
+  State(const FrameBuilderOptions& o, const PinholeCamera& c, const LensDistortion& distortion)
+      : options(o),
+        camera(c),
+        lens(camera, distortion),
+        point_extractor(o.points),
+        line_extractor(o.lines) {}
+
+  // Points at their raw pixels.
+  std::vector<PointFeature> Points(const cv::Mat& gray) {
+    std::vector<PointFeature> points = point_extractor.Extract(gray);
+    for (PointFeature& point : points) point.sigma *= options.noise.point_sigma;
+    return points;
+  }
+
+  std::vector<LineFeature> Lines(const cv::Mat& gray) {
+    std::vector<LineFeature> lines = line_extractor.Extract(lens.Undistort(gray), lens.mask());
+    for (LineFeature& line : lines) line.sigma = options.noise.line_sigma;
+    return lines;
+  }
+
+  // Depth of points at their raw pixels, which become undistorted.
+  void LocatePoints(const InverseDepthImage& depth, std::vector<PointFeature>* points) const {
+    for (PointFeature& point : *points) {
+      const auto sample = SampleDepth(depth, point.pixel, options.noise.inverse_depth_sigma);
+      if (sample) {
+        point.inverse_depth = sample->inverse_depth;
+        point.inverse_depth_sigma = sample->sigma;
+      }
+      point.pixel = lens.IdealFromRaw(point.pixel);
+    }
+  }
+
+  void LocateLines(const InverseDepthImage& depth, std::vector<LineFeature>* lines) const {
+    const double sigma = options.noise.inverse_depth_sigma;
+    uint32_t seed = 0;
+    for (LineFeature& line : *lines) {
+      line.depth = options.line_depth == LineDepthMethod::kRobustFit
+                       ? FitDepthAlongLine(options.line_fit, depth, lens, line.segment, sigma, seed)
+                       : EndPointDepth(depth, lens, line.segment, sigma);
+      ++seed;
+    }
+  }
+};
+
+bool FrameBuilderOptions::IsValid(std::string* error) const {
+  if (!points.IsValid(error) || !lines.IsValid(error) || !noise.IsValid(error) ||
+      !line_fit.IsValid(error)) {
+    return false;
+  }
+  if (!(min_depth > 0.0 && max_depth > min_depth)) {
+    *error = "depth range: 0 < min_depth < max_depth (metres) must hold";
+    return false;
+  }
+  return true;
+}
+
+FrameBuilder::FrameBuilder(const FrameBuilderOptions& options, const PinholeCamera& camera,
+                           const LensDistortion& distortion) {
+  std::string error;
+  if (!options.IsValid(&error) || !camera.IsValid(&error)) {
+    throw std::invalid_argument("FrameBuilder: " + error);
+  }
+  state_ = std::make_unique<State>(options, camera, distortion);
+}
+
+FrameBuilder::~FrameBuilder() = default;
+
+Frame FrameBuilder::Build(const RgbdImage& image) {
+  CheckImage(image.gray, CV_8UC1, state_->camera, "grey", "8-bit grey (CV_8UC1)");
+  CheckImage(image.depth, CV_32FC1, state_->camera, "depth", "float (CV_32FC1, metres)");
+  Frame frame;
+  frame.id = image.id;
+  frame.timestamp = image.timestamp;
+  frame.camera = state_->camera;
+  auto last = std::chrono::steady_clock::now();
+  frame.points = state_->Points(image.gray);
+  state_->times.points = Lap(&last);
+  frame.lines = state_->Lines(image.gray);
+  state_->times.lines = Lap(&last);
+  const InverseDepthImage depth(image.depth, state_->options.min_depth, state_->options.max_depth);
+  state_->LocatePoints(depth, &frame.points);
+  state_->LocateLines(depth, &frame.lines);
+  frame.grid = FeatureGrid(frame.camera, frame.points);
+  state_->times.depth = Lap(&last);
+  return frame;
+}
+
+const FrameBuilderTimes& FrameBuilder::times() const { return state_->times; }
+
+}  // namespace msc_vo

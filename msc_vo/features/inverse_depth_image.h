@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+namespace msc_vo {
+
+// A depth image as inverse depths (1/metres), 0 where there is none: outside the image, outside
+// [min_depth, max_depth], not measured, not a number.
+//
+// Why inverse: it is affine in the image over every plane, and its noise is the same everywhere.
+class InverseDepthImage {
+ public:
+  // `depth` is CV_32FC1, metres.
+  InverseDepthImage(const cv::Mat& depth, double min_depth, double max_depth);
+
+  double At(int x, int y) const {
+    const bool inside = x >= 0 && y >= 0 && x < image_.cols && y < image_.rows;
+    return inside ? image_.at<float>(y, x) : 0.0;
+  }
+  // At the pixel nearest to `pixel`.
+  double Nearest(const Eigen::Vector2d& pixel) const {
+    return At(static_cast<int>(std::floor(pixel.x() + 0.5)),
+              static_cast<int>(std::floor(pixel.y() + 0.5)));
+  }
+
+ private:
+  cv::Mat image_;  // CV_32FC1
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/features/line_backprojection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace msc_vo {
+
+namespace {
+
+using Eigen::Vector2d;
+
+// Pixels between samples along a line: dense enough that a line of 24 px has 8.
+constexpr double kSpacing = 3.0;
+// Length over which the noise of depth pixels is one and the same, pixels: structured light matches
+// windows of 7 to 9 px, of which the middle half dominates.
+constexpr double kCorrelationLength = 5.0;
+// The profile across the line reaches so many pixels to both sides.
+constexpr int kReach = 5;
+// A surface reaches the line if it comes this close: one pixel for the edge's own place, one for
+// the mixed pixel that sensors put between two surfaces.
+constexpr int kMaxDistance = 2;
+// The depth jumps between two pixels of a profile if their difference exceeds those of the
+// neighbours by so many sigmas: three times the deviation of such a difference, sqrt(3) sigma.
+constexpr double kJumpSigmas = 5.2;
+// A surface of one pixel is a mixed pixel.
+constexpr int kMinRun = 2;
+// A surface beside the line is extrapolated to it over so many of its pixels, if it has them.
+constexpr int kMaxFitPixels = 4;
+constexpr double kEndPointRadius = 2.0;
+
+// Inverse depths at offsets -kReach .. kReach across the line, 0 for none.
+using Profile = std::array<double, 2 * kReach + 1>;
+
+// Consecutive pixels of a profile that lie on one surface: indices first .. last.
+struct Run {
+  int first = 0;
+  int last = 0;
+
+  // Offset of its pixel nearest to the line.
+  int NearestOffset() const { return std::clamp(0, first - kReach, last - kReach); }
+  int Size() const { return last - first + 1; }
+};
+
+// Difference between pixels i and i + 1, none if one of them is missing.
+std::optional<double> Step(const Profile& profile, int i) {
+  if (i < 0 || i + 1 >= static_cast<int>(profile.size())) return std::nullopt;
+  if (profile[i] <= 0.0 || profile[i + 1] <= 0.0) return std::nullopt;
+  return std::abs(profile[i + 1] - profile[i]);
+}
+
+// Whether there is a depth edge between pixels i and i + 1. Steep surfaces have large steps too,
+// but then the neighbouring steps are alike.
+bool Jumps(const Profile& profile, int i, double sigma) {
+  const std::optional<double> step = Step(profile, i);
+  if (!step) return true;
+  const std::optional<double> before = Step(profile, i - 1);
+  const std::optional<double> after = Step(profile, i + 1);
+  double usual = 0.0;
+  if (before && after) {
+    usual = std::min(*before, *after);
+  } else if (before || after) {
+    usual = before ? *before : *after;
+  }
+  return *step - usual > kJumpSigmas * sigma;
+}
+
+std::vector<Run> SplitAtJumps(const Profile& profile, double sigma) {
+  std::vector<Run> runs;
+  for (int i = 0; i < static_cast<int>(profile.size()); ++i) {
+    if (profile[i] <= 0.0) continue;
+    if (i > 0 && !runs.empty() && runs.back().last == i - 1 && !Jumps(profile, i - 1, sigma)) {
+      runs.back().last = i;
+    } else {
+      runs.push_back({i, i});
+    }
+  }
+  return runs;
+}
+
+// Inverse depth at offset 0 of the surface that a run shows, and its sigma in units of a pixel's.
+struct Crossing {
+  double w = 0.0;
+  double sigma = 1.0;
+};
+
+Crossing AtLine(const Profile& profile, const Run& run) {
+  const int nearest = run.NearestOffset();
+  if (nearest == 0) {
+    // The surface lies on both sides, or there is a fold here: only the pixels at the line count.
+    double sum = 0.0;
+    int count = 0;
+    for (int i = std::max(run.first, kReach - 1); i <= std::min(run.last, kReach + 1); ++i) {
+      sum += profile[i];
+      ++count;
+    }
+    return {sum / count, 1.0};
+  }
+  // The surface ends beside the line: linear extrapolation from its nearest pixels.
+  const int toward = nearest > 0 ? 1 : -1;
+  const int n = std::min(run.Size(), kMaxFitPixels);
+  double mean_w = 0.0;
+  double moment = 0.0;
+  double spread = 0.0;
+  const double mean_x = std::abs(nearest) + 0.5 * (n - 1);
+  for (int k = 0; k < n; ++k) {
+    const double w = profile[kReach + nearest + toward * k];
+    const double x = std::abs(nearest) + k - mean_x;
+    mean_w += w / n;
+    moment += x * w;
+    spread += x * x;
+  }
+  if (n < 3) return {mean_w, 2.0};
+  return {mean_w - moment / spread * mean_x, std::sqrt(1.0 / n + mean_x * mean_x / spread)};
+}
+
+std::optional<Crossing> NearestCrossing(const Profile& profile, double sigma) {
+  std::optional<Crossing> nearest;
+  for (const Run& run : SplitAtJumps(profile, sigma)) {
+    if (run.Size() < kMinRun || std::abs(run.NearestOffset()) > kMaxDistance) continue;
+    const Crossing crossing = AtLine(profile, run);
+    if (!nearest || crossing.w > nearest->w) nearest = crossing;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+std::vector<LineFitSample> SampleLineDepth(const InverseDepthImage& image, const LensRemap& lens,
+                                           const LineSegment2& segment, double sigma) {
+  const Vector2d direction = segment.Direction();
+  const Vector2d across(-direction.y(), direction.x());
+  const int intervals = std::max(1, static_cast<int>(segment.Length() / kSpacing));
+  std::vector<LineFitSample> samples;
+  for (int i = 0; i <= intervals; ++i) {
+    const double s = static_cast<double>(i) / intervals;
+    const Vector2d raw = lens.RawFromIdeal(segment.At(s));
+    Profile profile;
+    for (int k = -kReach; k <= kReach; ++k) {
+      profile[kReach + k] = image.Nearest(raw + k * across);
+    }
+    const std::optional<Crossing> crossing = NearestCrossing(profile, sigma);
+    if (crossing) samples.push_back({s, crossing->w, crossing->sigma * sigma});
+  }
+  return samples;
+}
+
+std::optional<LineDepth> FitDepthAlongLine(const LineFitOptions& options,
+                                           const InverseDepthImage& image, const LensRemap& lens,
+                                           const LineSegment2& segment, double sigma,
+                                           uint32_t seed) {
+  std::optional<LineDepth> depth =
+      FitLineDepth(options, SampleLineDepth(image, lens, segment, sigma), seed);
+  if (!depth) return std::nullopt;
+  // n samples, kSpacing apart, of a noise that stays the same over kCorrelationLength say as much
+  // as n kSpacing / kCorrelationLength independent ones.
+  depth->covariance *= std::max(1.0, kCorrelationLength / kSpacing);
+  return depth;
+}
+
+std::optional<LineDepth> EndPointDepth(const InverseDepthImage& image, const LensRemap& lens,
+                                       const LineSegment2& segment, double sigma) {
+  const auto nearest_valid = [&](const Vector2d& ideal) {
+    const Vector2d raw = lens.RawFromIdeal(ideal);
+    const Vector2d center(std::floor(raw.x() + 0.5), std::floor(raw.y() + 0.5));
+    double best_distance = kEndPointRadius * kEndPointRadius + 0.5;
+    double best = 0.0;
+    for (int dy = -2; dy <= 2; ++dy) {
+      for (int dx = -2; dx <= 2; ++dx) {
+        const double w = image.Nearest(center + Vector2d(dx, dy));
+        const double distance = dx * dx + dy * dy;
+        if (w <= 0.0 || distance >= best_distance) continue;
+        best_distance = distance;
+        best = w;
+      }
+    }
+    return best;
+  };
+  LineDepth depth;
+  depth.start = nearest_valid(segment.start);
+  depth.end = nearest_valid(segment.end);
+  if (depth.start <= 0.0 || depth.end <= 0.0) return std::nullopt;
+  depth.covariance = Eigen::Matrix2d::Identity() * (sigma * sigma);
+  depth.num_inliers = 2;
+  depth.inlier_ratio = 1.0;
+  return depth;
+}
+
+}  // namespace msc_vo

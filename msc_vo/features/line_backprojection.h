@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "msc_vo/features/inverse_depth_image.h"
+#include "msc_vo/features/lens_remap.h"
+#include "msc_vo/geometry/line_fit.h"
+#include "msc_vo/geometry/line_segment.h"
+
+namespace msc_vo {
+
+// How a line gets its depth.
+enum class LineDepthMethod {
+  kRobustFit,  // samples along the line, FitLineDepth
+  kEndPoints,  // the depths under the two end points, as they are: the ablation mode pl-vo
+};
+
+// Samples of the inverse depth along `segment` (pixels without distortion), a few pixels apart.
+//
+// At each place the depth is read along a short profile across the line, which is cut where the
+// depth jumps; the line belongs to the nearest of the surfaces that reach it, since an edge in the
+// image that is an edge in depth is the edge of the occluding surface. `sigma` (1/metres) is the
+// noise of one depth pixel.
+std::vector<LineFitSample> SampleLineDepth(const InverseDepthImage& image, const LensRemap& lens,
+                                           const LineSegment2& segment, double sigma);
+
+// Depth of a line by a robust fit to those samples; std::nullopt if there is no good fit. The
+// covariance allows for the correlation between the noise of neighbouring depth pixels.
+std::optional<LineDepth> FitDepthAlongLine(const LineFitOptions& options,
+                                           const InverseDepthImage& image, const LensRemap& lens,
+                                           const LineSegment2& segment, double sigma,
+                                           uint32_t seed);
+
+// Depth of a line from its end points alone, each the nearest valid pixel within 2 px;
+// std::nullopt if one of them has none.
+std::optional<LineDepth> EndPointDepth(const InverseDepthImage& image, const LensRemap& lens,
+                                       const LineSegment2& segment, double sigma);
+
+}  // namespace msc_vo

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/features/line_merging.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "msc_vo/geometry/angles.h"
+
+namespace msc_vo {
+
+namespace {
+
+using Eigen::Vector2d;
+
+// A total order: longest first, equal lengths by coordinates.
+bool Longer(const LineSegment2& a, const LineSegment2& b) {
+  const auto key = [](const LineSegment2& s) {
+    return std::make_tuple(-s.Length(), s.start.x(), s.start.y(), s.end.x(), s.end.y());
+  };
+  return key(a) < key(b);
+}
+
+// The line of least squares through all pixels of both segments, as centre and unit direction.
+struct CommonLine {
+  Vector2d center;
+  Vector2d direction;
+
+  CommonLine(const LineSegment2& a, const LineSegment2& b) {
+    const double weight_a = a.Length();
+    const double weight_b = b.Length();
+    center = (weight_a * a.Midpoint() + weight_b * b.Midpoint()) / (weight_a + weight_b);
+    // Second moments; a uniform segment of length l has l^2 / 12 along itself.
+    Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
+    for (const LineSegment2* segment : {&a, &b}) {
+      const Vector2d offset = segment->Midpoint() - center;
+      const Vector2d extent = segment->end - segment->start;
+      moments +=
+          segment->Length() * (offset * offset.transpose() + extent * extent.transpose() / 12.0);
+    }
+    const double angle = 0.5 * std::atan2(2.0 * moments(0, 1), moments(0, 0) - moments(1, 1));
+    direction = Vector2d(std::cos(angle), std::sin(angle));
+    if (direction.dot(a.end - a.start) < 0.0) direction = -direction;
+  }
+
+  double Along(const Vector2d& x) const { return direction.dot(x - center); }
+  double Across(const Vector2d& x) const {
+    const Vector2d d = x - center;
+    return std::abs(direction.x() * d.y() - direction.y() * d.x());
+  }
+};
+
+std::optional<LineSegment2> Merge(const LineMergingOptions& options, const LineSegment2& a,
+                                  const LineSegment2& b) {
+  const CommonLine line(a, b);
+  for (const Vector2d& x :
+       {Vector2d(a.start), Vector2d(a.end), Vector2d(b.start), Vector2d(b.end)}) {
+    if (line.Across(x) > options.max_distance) return std::nullopt;
+  }
+  const double a0 = line.Along(a.start);
+  const double a1 = line.Along(a.end);
+  const double b0 = line.Along(b.start);
+  const double b1 = line.Along(b.end);
+  if (std::max(b0 - a1, a0 - b1) > options.max_gap) return std::nullopt;
+  return LineSegment2{line.center + std::min(a0, b0) * line.direction,
+                      line.center + std::max(a1, b1) * line.direction};
+}
+
+}  // namespace
+
+bool LineMergingOptions::IsValid(std::string* error) const {
+  if (!(max_angle >= 0.0 && max_angle < kPi / 4)) {
+    *error = "lines.merging.max_angle must be in [0, pi/4) radians";
+  } else if (!(max_distance >= 0.0)) {
+    *error = "lines.merging.max_distance must not be negative (pixels)";
+  } else if (!(max_gap >= 0.0)) {
+    *error = "lines.merging.max_gap must not be negative (pixels)";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+std::vector<LineSegment2> MergeCollinear(const LineMergingOptions& options,
+                                         std::vector<LineSegment2> segments) {
+  std::sort(segments.begin(), segments.end(), Longer);
+  std::vector<Vector2d> directions;
+  for (const LineSegment2& segment : segments) directions.push_back(segment.Direction());
+  const double min_cosine = std::cos(options.max_angle);
+  std::vector<char> taken(segments.size(), 0);
+  std::vector<LineSegment2> merged;
+  for (size_t i = 0; i < segments.size(); ++i) {
+    if (taken[i]) continue;
+    LineSegment2 line = segments[i];
+    for (bool grown = true; grown;) {
+      grown = false;
+      for (size_t j = i + 1; j < segments.size(); ++j) {
+        if (taken[j] || directions[i].dot(directions[j]) < min_cosine) continue;
+        // No end point may be far from the common line, so the middle cannot be far from this one.
+        if (line.DistanceToLine(segments[j].Midpoint()) > 3.0 * options.max_distance) continue;
+        const std::optional<LineSegment2> joined = Merge(options, line, segments[j]);
+        if (!joined) continue;
+        line = *joined;
+        taken[j] = 1;
+        grown = true;
+      }
+    }
+    merged.push_back(line);
+  }
+  std::sort(merged.begin(), merged.end(), Longer);
+  return merged;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/features/point_extractor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <tuple>
+
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "msc_vo/geometry/angles.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Radius of the patch whose intensity centroid gives the orientation, pixels of the level (ORB).
+constexpr int kPatchRadius = 15;
+// No corner nearer than this to a level's border: ORB's tests reach 13 px along x and y, rotated
+// 18.4 px.
+constexpr int kBorder = 19;
+// FAST looks at a circle of this radius.
+constexpr int kFastRadius = 3;
+
+struct Corner {
+  cv::Point pixel;  // of the level
+  float response = 0.0f;
+};
+
+bool Stronger(const Corner& a, const Corner& b) {
+  return std::make_tuple(-a.response, a.pixel.y, a.pixel.x) <
+         std::make_tuple(-b.response, b.pixel.y, b.pixel.x);
+}
+
+// FAST corners whose centres lie in `area`; one pixel more is looked at around it, so that a corner
+// is a maximum of the response also across the border of the area.
+void DetectFast(const cv::Mat& image, const cv::Rect& area, int threshold,
+                std::vector<Corner>* corners) {
+  const int margin = kFastRadius + 1;
+  const cv::Rect window(area.x - margin, area.y - margin, area.width + 2 * margin,
+                        area.height + 2 * margin);
+  std::vector<cv::KeyPoint> found;
+  cv::FAST(image(window), found, threshold, /*nonmaxSuppression=*/true);
+  for (const cv::KeyPoint& keypoint : found) {
+    const cv::Point pixel(static_cast<int>(keypoint.pt.x) + window.x,
+                          static_cast<int>(keypoint.pt.y) + window.y);
+    if (area.contains(pixel)) corners->push_back({pixel, keypoint.response});
+  }
+}
+
+// The corners of one level, in square cells of about the size that gives each corner wanted its
+// own.
+class CellGrid {
+ public:
+  CellGrid(const cv::Rect& area, int num_wanted) : area_(area) {
+    const double size = std::sqrt(static_cast<double>(area.area()) / std::max(1, num_wanted));
+    columns_ = std::max(1, static_cast<int>(std::lround(area.width / size)));
+    rows_ = std::max(1, static_cast<int>(std::lround(area.height / size)));
+    cells_.resize(static_cast<size_t>(columns_) * rows_);
+  }
+
+  void Add(const std::vector<Corner>& corners) {
+    for (const Corner& corner : corners) {
+      const int column = (corner.pixel.x - area_.x) * columns_ / area_.width;
+      const int row = (corner.pixel.y - area_.y) * rows_ / area_.height;
+      cells_[row * columns_ + column].push_back(corner);
+    }
+  }
+
+  std::vector<cv::Rect> EmptyCells() const {
+    std::vector<cv::Rect> empty;
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        if (cells_[row * columns_ + column].empty()) empty.push_back(CellArea(row, column));
+      }
+    }
+    return empty;
+  }
+
+  // The strongest corner of every cell, then the second of every cell, and so on, `num_wanted` in
+  // all; within one round the stronger first.
+  std::vector<Corner> Choose(int num_wanted) {
+    std::vector<Corner> chosen;
+    for (auto& cell : cells_) std::sort(cell.begin(), cell.end(), Stronger);
+    for (size_t round = 0; static_cast<int>(chosen.size()) < num_wanted; ++round) {
+      const size_t before = chosen.size();
+      for (const auto& cell : cells_) {
+        if (round < cell.size()) chosen.push_back(cell[round]);
+      }
+      if (chosen.size() == before) break;
+      std::sort(chosen.begin() + before, chosen.end(), Stronger);
+    }
+    if (static_cast<int>(chosen.size()) > num_wanted) chosen.resize(num_wanted);
+    return chosen;
+  }
+
+ private:
+  // First coordinates that Add() sends to this column and row, up to those of the next.
+  cv::Rect CellArea(int row, int column) const {
+    const auto first = [](int index, int extent, int count) {
+      return (index * extent + count - 1) / count;
+    };
+    const int x0 = first(column, area_.width, columns_);
+    const int y0 = first(row, area_.height, rows_);
+    const int x1 = first(column + 1, area_.width, columns_);
+    const int y1 = first(row + 1, area_.height, rows_);
+    return {area_.x + x0, area_.y + y0, x1 - x0, y1 - y0};
+  }
+
+  cv::Rect area_;
+  int columns_ = 1;
+  int rows_ = 1;
+  std::vector<std::vector<Corner>> cells_;
+};
+
+std::vector<Corner> DetectCorners(const cv::Mat& level, int num_wanted,
+                                  const PointExtractorOptions& options) {
+  const cv::Rect area(kBorder, kBorder, level.cols - 2 * kBorder, level.rows - 2 * kBorder);
+  CellGrid grid(area, num_wanted);
+  std::vector<Corner> corners;
+  DetectFast(level, area, options.fast_threshold, &corners);
+  grid.Add(corners);
+  corners.clear();
+  for (const cv::Rect& cell : grid.EmptyCells()) {
+    DetectFast(level, cell, options.min_fast_threshold, &corners);
+  }
+  grid.Add(corners);
+  return grid.Choose(num_wanted);
+}
+
+// Pixel of the full image from one of a level. Resizing keeps the image's outline, which is half a
+// pixel outside the centre of the first pixel, and sizes are whole numbers.
+Eigen::Vector2d ToFullImage(const Eigen::Vector2d& pixel, const cv::Size& level,
+                            const cv::Size& image) {
+  return {(pixel.x() + 0.5) * image.width / level.width - 0.5,
+          (pixel.y() + 0.5) * image.height / level.height - 0.5};
+}
+
+// Half width of the circular patch in each of its rows.
+std::array<int, kPatchRadius + 1> PatchHalfWidths() {
+  std::array<int, kPatchRadius + 1> half_widths;
+  for (int y = 0; y <= kPatchRadius; ++y) {
+    half_widths[y] = static_cast<int>(std::lround(std::sqrt(kPatchRadius * kPatchRadius - y * y)));
+  }
+  return half_widths;
+}
+
+// Direction from the centre of a patch to its intensity centroid, radians.
+double IntensityCentroidAngle(const cv::Mat& level, const cv::Point& center) {
+  static const std::array<int, kPatchRadius + 1> half_widths = PatchHalfWidths();
+  int moment_x = 0;
+  int moment_y = 0;
+  for (int y = -kPatchRadius; y <= kPatchRadius; ++y) {
+    const int half = half_widths[std::abs(y)];
+    const uint8_t* row = level.ptr<uint8_t>(center.y + y) + center.x;
+    int sum = 0;
+    for (int x = -half; x <= half; ++x) {
+      sum += row[x];
+      moment_x += x * row[x];
+    }
+    moment_y += y * sum;
+  }
+  return std::atan2(static_cast<double>(moment_y), static_cast<double>(moment_x));
+}
+
+// Puts the descriptors into `points`; a corner that OpenCV leaves out (near the border) is removed.
+void Describe(const cv::Mat& level, const std::vector<Corner>& corners, cv::Feature2D* orb,
+              std::vector<PointFeature>* points) {
+  std::vector<cv::KeyPoint> keypoints;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const double degrees = RadiansToDegrees((*points)[i].angle);
+    keypoints.emplace_back(cv::Point2f(corners[i].pixel), 2.0f * kPatchRadius + 1.0f,
+                           static_cast<float>(degrees < 0.0 ? degrees + 360.0 : degrees),
+                           corners[i].response, /*octave=*/0, /*class_id=*/static_cast<int>(i));
+  }
+  cv::Mat descriptors;
+  orb->compute(level, keypoints, descriptors);
+  std::vector<PointFeature> described;
+  for (size_t i = 0; i < keypoints.size(); ++i) {
+    described.push_back((*points)[keypoints[i].class_id]);
+    std::memcpy(described.back().descriptor.data(), descriptors.ptr(static_cast<int>(i)),
+                described.back().descriptor.size());
+  }
+  *points = std::move(described);
+}
+
+}  // namespace
+
+bool PointExtractorOptions::IsValid(std::string* error) const {
+  if (num_points < 0) {
+    *error = "points.num_points must not be negative";
+  } else if (num_levels < 1) {
+    *error = "points.num_levels must be at least 1";
+  } else if (!(scale_factor > 1.0)) {
+    *error = "points.scale_factor must be greater than 1";
+  } else if (min_fast_threshold < 1 || fast_threshold > 255) {
+    *error = "points: FAST thresholds must be in [1, 255]";
+  } else if (min_fast_threshold > fast_threshold) {
+    *error = "points.min_fast_threshold must not exceed points.fast_threshold";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+PointExtractor::PointExtractor(const PointExtractorOptions& options) : options_(options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw std::invalid_argument("PointExtractor: " + error);
+  pyramid_.resize(options.num_levels);
+}
+
+std::vector<PointFeature> PointExtractor::Extract(const cv::Mat& gray) {
+  if (gray.type() != CV_8UC1) {
+    throw std::invalid_argument("PointExtractor: the image must be 8-bit grey (CV_8UC1)");
+  }
+  // One call of ORB per level, told that it is the only one: our pyramid is the only pyramid.
+  const cv::Ptr<cv::ORB> orb = cv::ORB::create(
+      /*nfeatures=*/1, /*scaleFactor=*/1.2f, /*nlevels=*/1, /*edgeThreshold=*/kBorder);
+  std::vector<PointFeature> points;
+  pyramid_[0] = gray;
+  // Shares fall with the level's side length, as in ORB: q^l (1 - q) / (1 - q^levels).
+  const double q = 1.0 / options_.scale_factor;
+  double share = options_.num_points * (1.0 - q) / (1.0 - std::pow(q, options_.num_levels));
+  double scale = 1.0;
+  for (int l = 0; l < options_.num_levels; ++l, share *= q, scale *= options_.scale_factor) {
+    const cv::Size size(cvRound(gray.cols / scale), cvRound(gray.rows / scale));
+    if (std::min(size.width, size.height) <= 2 * kBorder) break;
+    if (l > 0) cv::resize(pyramid_[l - 1], pyramid_[l], size, 0.0, 0.0, cv::INTER_LINEAR);
+    const cv::Mat& level = pyramid_[l];
+    const std::vector<Corner> corners = DetectCorners(level, cvRound(share), options_);
+    std::vector<PointFeature> of_level;
+    for (const Corner& corner : corners) {
+      PointFeature point;
+      point.pixel = ToFullImage(Eigen::Vector2d(corner.pixel.x, corner.pixel.y), size, gray.size());
+      point.sigma = scale;
+      point.level = l;
+      point.angle = IntensityCentroidAngle(level, corner.pixel);
+      of_level.push_back(point);
+    }
+    Describe(level, corners, orb.get(), &of_level);
+    points.insert(points.end(), of_level.begin(), of_level.end());
+  }
+  return points;
+}
+
+}  // namespace msc_vo
