@@ -33,8 +33,16 @@ function(msc_vo_library folder)
     target_link_libraries(${target} INTERFACE ${ARG_DEPENDS})
   endif()
   target_include_directories(${target} ${scope}
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  add_library(msc_vo::${folder} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder})
-  install(TARGETS ${target} EXPORT msc_voTargets)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  msc_vo_export(${folder} ${ARG_DEPENDS} ${ARG_PRIVATE_DEPENDS})
+endfunction()
+
+# msc_vo_umbrella(<name> <folder> ...): several folders under one name.
+function(msc_vo_umbrella name)
+  list(TRANSFORM ARGN PREPEND msc_vo:: OUTPUT_VARIABLE depends)
+  add_library(msc_vo_${name} INTERFACE)
+  target_link_libraries(msc_vo_${name} INTERFACE ${depends})
+  msc_vo_export(${name} ${depends})
 endfunction()

@@ -1,0 +1,75 @@
+# Installation for find_package(msc_vo COMPONENTS ...). Every library is a component with an export
+# set of its own, so that a component asks for the packages that it links and for no others: whoever
+# wants the solver needs no OpenCV.
+include(CMakePackageConfigHelpers)
+set(MSC_VO_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/msc_vo)
+
+# The package of a target that is not ours, as arguments of find_package(); empty: needs none.
+function(msc_vo_package_of target out)
+  if(target MATCHES "^opencv_(.*)$")
+    set(package "OpenCV 4.5 COMPONENTS ${CMAKE_MATCH_1}")
+  elseif(target STREQUAL "Eigen3::Eigen")
+    set(package "Eigen3 3.3 NO_MODULE")
+  elseif(target STREQUAL "Ceres::ceres")
+    set(package "Ceres 2.1")
+  elseif(target MATCHES "^([^:]+)::")
+    set(package ${CMAKE_MATCH_1})
+  else()
+    set(package ${target})
+  endif()
+  set(${out} ${package} PARENT_SCOPE)
+endfunction()
+
+# Gives msc_vo_<component> its public name msc_vo::<component> and an export set, and records the
+# components (lowest first) and packages that it needs.
+function(msc_vo_export component)
+  set(target msc_vo_${component})
+  add_library(msc_vo::${component} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
+  install(TARGETS ${target} EXPORT ${target})
+  install(EXPORT ${target} NAMESPACE msc_vo:: DESTINATION ${MSC_VO_CMAKE_DIR})
+
+  set(components)
+  set(packages)
+  foreach(dependency ${ARGN})
+    if(dependency MATCHES "^msc_vo::(.*)$")
+      get_property(below GLOBAL PROPERTY MSC_VO_COMPONENTS_OF_${CMAKE_MATCH_1})
+      if(NOT below)
+        message(FATAL_ERROR "${dependency} is not below ${component} in msc_vo/CMakeLists.txt")
+      endif()
+      list(APPEND components ${below})
+    else()
+      msc_vo_package_of(${dependency} package)
+      list(APPEND packages ${package})
+    endif()
+  endforeach()
+  list(APPEND components ${component})
+  list(REMOVE_DUPLICATES components)
+  set_property(GLOBAL APPEND PROPERTY MSC_VO_COMPONENTS ${component})
+  set_property(GLOBAL PROPERTY MSC_VO_COMPONENTS_OF_${component} ${components})
+  set_property(GLOBAL PROPERTY MSC_VO_PACKAGES_OF_${component} ${packages})
+endfunction()
+
+# Installs the headers and the package files. Called once, after all libraries are there.
+function(msc_vo_install)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/msc_vo ${PROJECT_BINARY_DIR}/include/msc_vo
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+
+  get_property(all GLOBAL PROPERTY MSC_VO_COMPONENTS)
+  set(MSC_VO_COMPONENT_TABLE "set(msc_vo_all_components ${all})\n")
+  foreach(component ${all})
+    get_property(components GLOBAL PROPERTY MSC_VO_COMPONENTS_OF_${component})
+    get_property(packages GLOBAL PROPERTY MSC_VO_PACKAGES_OF_${component})
+    string(APPEND MSC_VO_COMPONENT_TABLE
+           "set(msc_vo_components_of_${component} \"${components}\")\n"
+           "set(msc_vo_packages_of_${component} \"${packages}\")\n")
+  endforeach()
+  configure_package_config_file(
+    ${PROJECT_SOURCE_DIR}/cmake/msc_voConfig.cmake.in ${PROJECT_BINARY_DIR}/msc_voConfig.cmake
+    INSTALL_DESTINATION ${MSC_VO_CMAKE_DIR} NO_SET_AND_CHECK_MACRO)
+  write_basic_package_version_file(
+    ${PROJECT_BINARY_DIR}/msc_voConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_BINARY_DIR}/msc_voConfig.cmake
+                ${PROJECT_BINARY_DIR}/msc_voConfigVersion.cmake
+          DESTINATION ${MSC_VO_CMAKE_DIR})
+endfunction()

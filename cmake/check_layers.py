@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+"""Checks that the source tree keeps to the floors of docs/architecture.md.
+
+    check_layers.py ROOT         reports every offence as file:line: message; exit status 1 if any
+    check_layers.py --self-test  proves on small bad trees that each rule bites
+
+Rules: a folder includes only folders of lower floors; third-party and system headers stay in the
+folders that may use them; x.cc includes its own x.h first, which proves that x.h compiles alone;
+files and functions stay short.
+"""
+import argparse
+import pathlib
+import re
+import sys
+import tempfile
+
+# Lowest first. Folders of one floor do not know each other.
+FLOORS = [
+    ["geometry"],
+    ["factors", "evaluation"],
+    ["problems"],
+    ["map", "manhattan", "synthetic"],
+    ["matching"],
+    ["features", "tracking", "mapping", "viewer"],
+    ["odometry"],
+    ["io"],
+    ["apps"],
+]
+FLOOR_OF = {folder: floor for floor, folders in enumerate(FLOORS) for folder in folders}
+
+
+def floors(first, last):
+    """Folders from the floor of `first` to the floor of `last`, both included."""
+    chosen = FLOORS[FLOOR_OF[first]:FLOOR_OF[last] + 1]
+    return {folder for folder_names in chosen for folder in folder_names}
+
+
+# Header pattern -> folders that may include it. What no pattern matches is free.
+OUTSIDE_HEADERS = [
+    (r"opencv2/", {"features", "io", "apps"}),
+    (r"spdlog/", {"odometry", "io", "apps"}),
+    (r"yaml-cpp/", {"io", "apps"}),
+    (r"ceres/", {"factors", "problems"}),
+    (r"(thread|mutex|shared_mutex|future|condition_variable|atomic)$", {"odometry", "io"}),
+    (r"chrono$", floors("features", "apps")),
+    (r"(fstream|filesystem)$", floors("features", "apps")),
+    (r"gtest/|gmock/|benchmark/", set()),
+]
+# Generated; belongs to no folder.
+COMMON_HEADERS = {"msc_vo/version.h"}
+
+MAX_FILE_LINES = 400
+MAX_FUNCTION_LINES = 60
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+# What a line that opens a body starts with when the body is none of a function.
+NO_FUNCTION = re.compile(r"^\s*(namespace|(template\s*<.*>\s*)?(class|struct|enum|union)|extern)\b")
+STRINGS_AND_COMMENTS = re.compile(
+    r'R"(?P<delimiter>[^(\s]*)\(.*?\)(?P=delimiter)"|"(?:\\.|[^"\\\n])*"'
+    r"|(?<![0-9a-fA-F])'(?:\\.|[^'\\\n])+'|//[^\n]*|/\*.*?\*/", re.DOTALL)
+
+
+def check_includes(folder, path, lines):
+    for number, line in enumerate(lines, 1):
+        match = INCLUDE.match(line)
+        if not match:
+            continue
+        header = match.group(2)
+        if header in COMMON_HEADERS:
+            continue
+        parts = header.split("/")
+        if parts[0] in ("msc_vo", "apps"):
+            other = parts[1] if parts[0] == "msc_vo" else "apps"
+            if other not in FLOOR_OF:
+                yield number, f"includes {header}, whose folder has no floor in check_layers.py"
+            elif other != folder and FLOOR_OF[other] >= FLOOR_OF[folder]:
+                yield number, f"{folder} must not include {header}: {other} is not below it"
+            continue
+        for pattern, allowed in OUTSIDE_HEADERS:
+            if re.match(pattern, header) and folder not in allowed:
+                where = ", ".join(sorted(allowed)) or "tests"
+                yield number, f"{folder} must not include <{header}>: only {where} may"
+
+
+def check_own_header_first(path, root, lines):
+    own = path.with_suffix(".h")
+    if path.suffix != ".cc" or not own.exists():
+        return
+    for number, line in enumerate(lines, 1):
+        match = INCLUDE.match(line)
+        if match:
+            if match.group(2) != own.relative_to(root).as_posix():
+                yield number, f"must include its own header {own.name} first"
+            return
+
+
+def blank_out(match):
+    return re.sub(r"[^\n]", " ", match.group())
+
+
+def function_bodies(text):
+    """Yields (first line, last line) of every outermost body that is not of a namespace or type.
+
+    Goes by braces and, as the project is formatted by clang-format, needs no real parser.
+    """
+    code = STRINGS_AND_COMMENTS.sub(blank_out, text)
+    open_bodies = []  # (line where the statement starts, is it a function)
+    statement_line, statement = None, ""
+    for number, line in enumerate(code.splitlines(), 1):
+        if line.lstrip().startswith("#"):
+            continue
+        for char in line:
+            if char == "{":
+                inside_function = any(is_function for _, is_function in open_bodies)
+                is_function = ("(" in statement and not inside_function and
+                               not NO_FUNCTION.match(statement))
+                open_bodies.append((statement_line or number, is_function))
+            elif char == "}" and open_bodies:
+                first, is_function = open_bodies.pop()
+                if is_function:
+                    yield first, number
+            if char in "{};":
+                statement_line, statement = None, ""
+            elif statement_line is not None or not char.isspace():
+                statement_line = statement_line or number
+                statement += char
+        statement += " " if statement else ""
+
+
+def check_lengths(text, lines):
+    if len(lines) > MAX_FILE_LINES:
+        yield len(lines), f"file has {len(lines)} lines, more than {MAX_FILE_LINES}"
+    for first, last in function_bodies(text):
+        if last - first + 1 > MAX_FUNCTION_LINES:
+            yield first, f"function has {last - first + 1} lines, more than {MAX_FUNCTION_LINES}"
+
+
+def folder_of(path, root):
+    """The folder with a floor that `path` belongs to, or None (tests)."""
+    parts = path.relative_to(root).parts
+    if parts[0] == "apps":
+        return "apps"
+    return parts[1] if parts[0] == "msc_vo" and len(parts) > 2 else None
+
+
+def check_tree(root):
+    """All offences in the tree as (path, line, message)."""
+    for top in ("msc_vo", "apps", "tests"):
+        for path in sorted((root / top).rglob("*")):
+            if path.suffix not in (".h", ".cc"):
+                continue
+            text = path.read_text(encoding="utf-8")
+            lines = text.splitlines()
+            offences = list(check_lengths(text, lines))
+            folder = folder_of(path, root)
+            if folder in FLOOR_OF:
+                offences += check_includes(folder, path, lines)
+                offences += check_own_header_first(path, root, lines)
+            elif top == "msc_vo":
+                offences.append((1, f"folder {folder} has no floor in check_layers.py"))
+            for number, message in sorted(offences):
+                yield path.relative_to(root), number, message
+
+
+def self_test():
+    long_body = "void F() {\n" + "  G();\n" * MAX_FUNCTION_LINES + "}\n"
+    # File, contents, a part of the message that must be the only one (None: must pass).
+    cases = [
+        ("msc_vo/geometry/a.h", '#include "msc_vo/problems/b.h"\n', "problems is not below it"),
+        ("msc_vo/tracking/a.h", '#include "msc_vo/mapping/b.h"\n', "mapping is not below it"),
+        ("msc_vo/io/a.cc", '#include "apps/commands.h"\n', "apps is not below it"),
+        ("msc_vo/tracking/a.h", '#include "msc_vo/attic/b.h"\n', "has no floor"),
+        ("msc_vo/attic/a.h", "", "attic has no floor"),
+        ("msc_vo/tracking/a.h", "#include <opencv2/core.hpp>\n", "tracking must not include"),
+        ("msc_vo/mapping/a.h", "#include <ceres/ceres.h>\n", "only factors, problems may"),
+        ("msc_vo/mapping/a.h", '#  include "spdlog/spdlog.h"\n', "must not include <spdlog/"),
+        ("msc_vo/map/a.h", "#include <mutex>\n", "only io, odometry may"),
+        ("msc_vo/synthetic/a.h", "#include <chrono>\n", "must not include <chrono>"),
+        ("msc_vo/synthetic/a.cc", "#include <fstream>\n", "must not include <fstream>"),
+        ("msc_vo/map/a.cc", "\n" * (MAX_FILE_LINES + 1), "file has 401 lines"),
+        ("msc_vo/map/a.cc", long_body, "function has 62 lines"),
+        ("msc_vo/map/a.cc", "class A {\n" + long_body + "};\n", "function has 62 lines"),
+        ("tests/map/a.cc", long_body, "function has 62 lines"),
+        ("msc_vo/geometry/so3.cc", "#include <cmath>\n", "must include its own header so3.h"),
+        # Nothing to object to:
+        ("msc_vo/odometry/a.h", '#include "msc_vo/features/b.h"\n#include <thread>\n', None),
+        ("msc_vo/map/a.h", '#include "msc_vo/map/b.h"\n#include "msc_vo/version.h"\n', None),
+        ("msc_vo/map/a.cc", "// #include <mutex>\n", None),
+        ("msc_vo/map/a.cc", "namespace a {\nclass B {\n" + "  int c();\n" * 70 + "};\n}\n", None),
+        ("msc_vo/map/a.cc", 'const char a[] = R"x(\n' + "(){\n" * 70 + ')x";\n', None),
+        ("msc_vo/map/a.cc", "int a[] = {\n" + "  1,\n" * 70 + "};\n", None),
+    ]
+    for path, contents, expected in cases:
+        with tempfile.TemporaryDirectory() as directory:
+            root = pathlib.Path(directory)
+            for name in ("msc_vo/geometry/so3.h", path):
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / "msc_vo/geometry/so3.h").write_text("")
+            (root / path).write_text(contents)
+            messages = [message for _, _, message in check_tree(root)]
+            passed = (not messages if expected is None else
+                      len(messages) == 1 and expected in messages[0])
+            if not passed:
+                print(f"self-test: {path} with {contents[:60]!r}: expected {expected!r}, "
+                      f"got {messages}", file=sys.stderr)
+                return 1
+    print(f"self-test: all {len(cases)} cases as expected")
+    return 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("root", nargs="?", type=pathlib.Path)
+    parser.add_argument("--self-test", action="store_true")
+    arguments = parser.parse_args()
+    if arguments.self_test:
+        return self_test()
+    if arguments.root is None or not (arguments.root / "msc_vo").is_dir():
+        parser.error("ROOT must be the folder that holds msc_vo/")
+    offences = list(check_tree(arguments.root))
+    for path, number, message in offences:
+        print(f"{path}:{number}: {message}", file=sys.stderr)
+    return 1 if offences else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Shows the odometry a black image: it must neither crash nor claim to have tracked anything.
+
+#include <opencv2/core.hpp>
+
+#include "msc_vo/odometry/odometry.h"
+
+int main() {
+  const msc_vo::PinholeCamera camera;
+  msc_vo::Odometry odometry(msc_vo::OdometryOptions(), camera, msc_vo::LensDistortion());
+  msc_vo::RgbdImage image;
+  image.gray = cv::Mat::zeros(camera.height, camera.width, CV_8UC1);
+  image.depth = cv::Mat::zeros(camera.height, camera.width, CV_32FC1);
+  const msc_vo::FrameResult result = odometry.Process(image);
+  const bool has_one_frame = odometry.Finish().frames.size() == 1;
+  return has_one_frame && result.status != msc_vo::TrackingStatus::kTracked ? 0 : 1;
+}

@@ -1,0 +1,21 @@
+# Every public header compiles alone. A header with a source file of its own is included first by it
+# (cmake/check_layers.py sees to that); each of the others gets a source file here that holds nothing
+# but the include.
+get_property(components GLOBAL PROPERTY MSC_VO_COMPONENTS)
+foreach(component ${components})
+  file(GLOB headers RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
+       ${PROJECT_SOURCE_DIR}/msc_vo/${component}/*.h)
+  set(sources)
+  foreach(header ${headers})
+    cmake_path(REPLACE_EXTENSION header .cc OUTPUT_VARIABLE source)
+    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/${source})
+      file(CONFIGURE OUTPUT headers/${source} CONTENT "#include \"@header@\"\n" @ONLY)
+      list(APPEND sources ${CMAKE_CURRENT_BINARY_DIR}/headers/${source})
+    endif()
+  endforeach()
+  if(sources)
+    add_library(${component}_headers OBJECT ${sources})
+    msc_vo_compile_options(${component}_headers)
+    target_link_libraries(${component}_headers PRIVATE msc_vo::${component})
+  endif()
+endforeach()
