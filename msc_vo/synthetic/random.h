@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "msc_vo/geometry/angles.h"
+
+namespace msc_vo {
+
+// Mixes the bits of a word (finalizer of SplitMix64).
+inline uint64_t MixBits(uint64_t x) {
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+// A small seeded generator whose numbers are the same with every standard library.
+class Random {
+ public:
+  // Streams of one seed are independent of each other: one per frame, per keyframe, per purpose.
+  explicit Random(uint64_t seed, uint64_t stream = 0) : state_(MixBits(seed) ^ MixBits(~stream)) {}
+
+  uint64_t Next() { return MixBits(state_ += 0x9e3779b97f4a7c15ULL); }
+  // In [0, 1).
+  double Uniform() { return static_cast<double>(Next() >> 11) * 0x1p-53; }
+  double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
+  // In 0 .. count - 1; count must be positive.
+  int Index(int count) { return static_cast<int>(Uniform() * count); }
+  // Standard normal (Box-Muller).
+  double Normal() {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - Uniform()));
+    return radius * std::cos(2.0 * kPi * Uniform());
+  }
+  Eigen::Vector2d Normal2() {
+    const double x = Normal();
+    return {x, Normal()};
+  }
+  Eigen::Vector3d Normal3() {
+    const Eigen::Vector2d xy = Normal2();
+    return {xy.x(), xy.y(), Normal()};
+  }
+
+ private:
+  uint64_t state_;
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/synthetic/renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "msc_vo/synthetic/random.h"
+
+namespace msc_vo {
+
+namespace {
+
+using Color = Eigen::Vector3f;
+
+constexpr double kNear = 0.01;  // metres: nothing nearer is drawn; a path keeps farther off
+// Slack of a rectangle's border, pixels: neighbours share their edge without a gap, and rounding
+// errors are many orders smaller.
+constexpr double kBorder = 1e-6;
+// Contrast between neighbouring pixels, of 1. Below the first the pixel's centre speaks for all of
+// it: two grey levels, the noise of a camera. Above the second four samples would leave visible
+// steps.
+constexpr float kFlatContrast = 2.0f / 255.0f;
+constexpr float kSharpContrast = 12.0f / 255.0f;
+
+// A rectangle as the image sees it. 1/z, u/z and v/z are linear in the pixel (x, y, 1): that is the
+// plane's homography, and the reason why no ray needs a division to find whether it hits.
+struct QuadView {
+  int quad = 0;
+  Eigen::Vector3d inverse_depth, u_over_z, v_over_z;
+
+  bool Contains(const Eigen::Vector3d& pixel, double w) const {
+    const double u = u_over_z.dot(pixel), v = v_over_z.dot(pixel);
+    const double slack = 1e-9 * w;
+    return w > 0.0 && w < 1.0 / kNear && u >= -slack && v >= -slack && u <= w + slack &&
+           v <= w + slack;
+  }
+};
+
+// Coefficients on (x, y, 1) of the number c . ray(x, y).
+Eigen::Vector3d LinearForm(const PinholeCamera& camera, const Eigen::Vector3d& c) {
+  const double x = c.x() / camera.fx, y = c.y() / camera.fy;
+  return {x, y, c.z() - x * camera.cx - y * camera.cy};
+}
+
+std::vector<QuadView> ViewQuads(const Scene& scene, const PinholeCamera& camera,
+                                const Rigid3& cam_from_world) {
+  std::vector<QuadView> views;
+  for (size_t i = 0; i < scene.quads.size(); ++i) {
+    const Quad& quad = scene.quads[i];
+    const Eigen::Vector3d origin = cam_from_world * quad.origin;
+    const Eigen::Vector3d a = cam_from_world.rotation() * quad.edge_u;
+    const Eigen::Vector3d b = cam_from_world.rotation() * quad.edge_v;
+    const Eigen::Vector3d normal = a.cross(b);
+    const double offset = normal.dot(origin);
+    if (offset >= 0.0) continue;  // seen from behind
+    QuadView view;
+    view.quad = static_cast<int>(i);
+    view.inverse_depth = LinearForm(camera, normal / offset);
+    const Eigen::Vector3d per_u = a / a.squaredNorm(), per_v = b / b.squaredNorm();
+    view.u_over_z = LinearForm(camera, per_u) - per_u.dot(origin) * view.inverse_depth;
+    view.v_over_z = LinearForm(camera, per_v) - per_v.dot(origin) * view.inverse_depth;
+    views.push_back(view);
+  }
+  return views;
+}
+
+// Narrows [*low, *high] to the x where form . (x, y, 1) >= 0.
+void ClipSpan(const Eigen::Vector3d& form, double y, double* low, double* high) {
+  const double slope = form.x(), offset = form.y() * y + form.z();
+  if (slope > 0.0) {
+    *low = std::max(*low, -offset / slope - kBorder);
+  } else if (slope < 0.0) {
+    *high = std::min(*high, -offset / slope + kBorder);
+  } else if (offset < 0.0) {
+    *high = *low - 1.0;
+  }
+}
+
+// What the pixel centres see: index into the views (-1: nothing) and inverse depth.
+struct HitBuffer {
+  std::vector<int> view;
+  std::vector<double> inverse_depth;
+};
+
+HitBuffer Rasterize(const std::vector<QuadView>& views, const PinholeCamera& camera) {
+  const size_t size = static_cast<size_t>(camera.width) * camera.height;
+  HitBuffer hits{std::vector<int>(size, -1), std::vector<double>(size, 0.0)};
+  for (size_t i = 0; i < views.size(); ++i) {
+    const QuadView& view = views[i];
+    const Eigen::Vector3d& w = view.inverse_depth;
+    const std::array<Eigen::Vector3d, 5> inside = {view.u_over_z, w - view.u_over_z, view.v_over_z,
+                                                   w - view.v_over_z,
+                                                   Eigen::Vector3d(0, 0, 1.0 / kNear) - w};
+    for (int y = 0; y < camera.height; ++y) {
+      double low = 0.0, high = camera.width - 1.0;
+      for (const Eigen::Vector3d& form : inside) ClipSpan(form, y, &low, &high);
+      if (low > high) continue;
+      const double row_offset = w.y() * y + w.z();
+      const size_t row = static_cast<size_t>(y) * camera.width;
+      for (int x = static_cast<int>(std::ceil(low)); x <= static_cast<int>(high); ++x) {
+        const double here = w.x() * x + row_offset;
+        if (here <= hits.inverse_depth[row + x]) continue;
+        hits.inverse_depth[row + x] = here;
+        hits.view[row + x] = static_cast<int>(i);
+      }
+    }
+  }
+  return hits;
+}
+
+// A rectangle prepared for shading.
+struct Surface {
+  const Texture* texture = nullptr;
+  Eigen::Vector3f origin, edge_u, edge_v, normal;
+  float width = 0.0f, height = 0.0f;
+};
+
+// Colours the points of a scene as one view sees them.
+class Shader {
+ public:
+  Shader(const Scene& scene, const std::vector<QuadView>& views) : scene_(scene), views_(views) {
+    for (const QuadView& view : views) {
+      const Quad& quad = scene.quads[view.quad];
+      surfaces_.push_back({&quad.texture, quad.origin.cast<float>(), quad.edge_u.cast<float>(),
+                           quad.edge_v.cast<float>(), quad.Normal().cast<float>(),
+                           static_cast<float>(quad.edge_u.norm()),
+                           static_cast<float>(quad.edge_v.norm())});
+    }
+  }
+
+  // Colour of view `index` at a pixel where 1/z is `w`.
+  Color Shade(int index, const Eigen::Vector3d& pixel, double w) const {
+    const float u = static_cast<float>(views_[index].u_over_z.dot(pixel) / w);
+    const float v = static_cast<float>(views_[index].v_over_z.dot(pixel) / w);
+    const Surface& surface = surfaces_[index];
+    const SurfacePoint point{u * surface.width, v * surface.height, surface.width, surface.height};
+    const Eigen::Vector3f x = surface.origin + u * surface.edge_u + v * surface.edge_v;
+    return EvaluateTexture(*surface.texture, point) * Brightness(x, surface.normal);
+  }
+
+  // Colour of the nearest of `candidates` at a pixel; `background` where none is hit.
+  template <typename Candidates>
+  Color ShadeNearest(const Candidates& candidates, const Eigen::Vector3d& pixel,
+                     const Color& background) const {
+    int nearest = -1;
+    double nearest_w = 0.0;
+    for (const int index : candidates) {
+      const double w = views_[index].inverse_depth.dot(pixel);
+      if (w <= nearest_w || !views_[index].Contains(pixel, w)) continue;
+      nearest = index;
+      nearest_w = w;
+    }
+    return nearest < 0 ? background : Shade(nearest, pixel, nearest_w);
+  }
+
+ private:
+  // Ambient light and Lambert's law under every lamp, without cast shadows.
+  float Brightness(const Eigen::Vector3f& x, const Eigen::Vector3f& normal) const {
+    float brightness = static_cast<float>(scene_.ambient);
+    for (const PointLight& light : scene_.lights) {
+      const Eigen::Vector3f to_light = light.position.cast<float>() - x;
+      const float cosine_times_distance = normal.dot(to_light);
+      if (cosine_times_distance <= 0.0f) continue;
+      const float squared = to_light.squaredNorm();
+      const float reach = static_cast<float>(light.reach);
+      brightness += static_cast<float>(light.intensity) * cosine_times_distance /
+                    (std::sqrt(squared) * (1.0f + squared / (reach * reach)));
+    }
+    return brightness;
+  }
+
+  const Scene& scene_;
+  const std::vector<QuadView>& views_;
+  std::vector<Surface> surfaces_;
+};
+
+// The distinct views in the 3x3 pixels around one: all that its area can show, but for what is
+// thinner than a pixel.
+class Neighborhood {
+ public:
+  void Add(int view) {
+    if (view < 0 || std::find(begin(), end(), view) != end()) return;
+    views_[count_++] = view;
+  }
+  const int* begin() const { return views_.data(); }
+  const int* end() const { return views_.data() + count_; }
+  int size() const { return count_; }
+
+ private:
+  std::array<int, 9> views_{};
+  int count_ = 0;
+};
+
+// Mean colour of the square of a pixel by `side` x `side` samples.
+Color SampleSquare(const Shader& shader, const Neighborhood& views, int x, int y, int side,
+                   const Color& background) {
+  Color sum = Color::Zero();
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      const Eigen::Vector3d pixel(x + (i + 0.5) / side - 0.5, y + (j + 0.5) / side - 0.5, 1.0);
+      sum += shader.ShadeNearest(views, pixel, background);
+    }
+  }
+  return sum / static_cast<float>(side * side);
+}
+
+std::vector<Color> ShadeCenters(const Shader& shader, const HitBuffer& hits, int width) {
+  std::vector<Color> colors(hits.view.size(), Color::Zero());
+  for (size_t i = 0; i < colors.size(); ++i) {
+    if (hits.view[i] < 0) continue;
+    const Eigen::Vector3d pixel(static_cast<double>(i % width), static_cast<double>(i / width),
+                                1.0);
+    colors[i] = shader.Shade(hits.view[i], pixel, hits.inverse_depth[i]);
+  }
+  return colors;
+}
+
+// Colour of a pixel from as many samples as its neighbourhood asks for.
+Color FilterPixel(const Shader& shader, const HitBuffer& hits, const std::vector<Color>& centers,
+                  const PinholeCamera& camera, int x, int y) {
+  const size_t here = static_cast<size_t>(y) * camera.width + x;
+  Neighborhood views;
+  float contrast = 0.0f;
+  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, camera.height - 1); ++j) {
+    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, camera.width - 1); ++i) {
+      const size_t there = static_cast<size_t>(j) * camera.width + i;
+      views.Add(hits.view[there]);
+      contrast = std::max(contrast, (centers[there] - centers[here]).cwiseAbs().maxCoeff());
+    }
+  }
+  if (contrast < kFlatContrast) return centers[here];
+  const int side = contrast > kSharpContrast ? 4 : 2;
+  return SampleSquare(shader, views, x, y, side, centers[here]);
+}
+
+uint8_t ToByte(float value) { return static_cast<uint8_t>(std::clamp(value, 0.0f, 255.0f) + 0.5f); }
+
+}  // namespace
+
+std::vector<uint8_t> RenderedImage::Gray() const {
+  std::vector<uint8_t> gray(rgb.size() / 3);
+  for (size_t i = 0; i < gray.size(); ++i) {
+    gray[i] = ToByte(0.299f * rgb[3 * i] + 0.587f * rgb[3 * i + 1] + 0.114f * rgb[3 * i + 2]);
+  }
+  return gray;
+}
+
+Renderer::Renderer(Scene scene, const PinholeCamera& camera)
+    : scene_(std::move(scene)), camera_(camera) {
+  std::string error;
+  if (!camera.IsValid(&error)) throw std::invalid_argument("Renderer: " + error);
+}
+
+RenderedImage Renderer::Render(const Rigid3& cam_from_world) const {
+  const std::vector<QuadView> views = ViewQuads(scene_, camera_, cam_from_world);
+  const HitBuffer hits = Rasterize(views, camera_);
+  const Shader shader(scene_, views);
+  const std::vector<Color> centers = ShadeCenters(shader, hits, camera_.width);
+
+  RenderedImage image;
+  image.width = camera_.width;
+  image.height = camera_.height;
+  image.rgb.resize(3 * centers.size());
+  image.depth.resize(centers.size(), 0.0f);
+  for (size_t i = 0; i < centers.size(); ++i) {
+    const int x = static_cast<int>(i % camera_.width), y = static_cast<int>(i / camera_.width);
+    const Color color = FilterPixel(shader, hits, centers, camera_, x, y);
+    for (int k = 0; k < 3; ++k) image.rgb[3 * i + k] = ToByte(255.0f * color[k]);
+    if (hits.view[i] >= 0) image.depth[i] = static_cast<float>(1.0 / hits.inverse_depth[i]);
+  }
+  return image;
+}
+
+PinholeCamera KinectCamera(int width, int height) {
+  PinholeCamera camera;
+  camera.fx = camera.fy = 525.0 * width / 640.0;
+  camera.cx = 0.5 * (width - 1);
+  camera.cy = 0.5 * (height - 1);
+  camera.width = width;
+  camera.height = height;
+  return camera;
+}
+
+void AddImageNoise(double sigma, uint64_t seed, uint64_t frame, RenderedImage* image) {
+  Random random(seed, frame);
+  for (size_t i = 0; i < image->rgb.size(); i += 3) {
+    const float noise = static_cast<float>(sigma * random.Normal());
+    for (size_t k = i; k < i + 3; ++k) image->rgb[k] = ToByte(image->rgb[k] + noise);
+  }
+}
+
+}  // namespace msc_vo

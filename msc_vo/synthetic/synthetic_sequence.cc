@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/synthetic/synthetic_sequence.h"
+
+#include <stdexcept>
+
+namespace msc_vo {
+
+namespace {
+
+// Time of the first frame, seconds: some tools take a time of 0 for a missing one.
+constexpr double kFirstTime = 1.0;
+
+const SyntheticSequenceOptions& Checked(const SyntheticSequenceOptions& options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw std::invalid_argument("SyntheticSequence: " + error);
+  return options;
+}
+
+PathOptions SeededPath(const SyntheticSequenceOptions& options) {
+  PathOptions path = options.path;
+  path.seed = options.seed;
+  return path;
+}
+
+}  // namespace
+
+bool SyntheticSequenceOptions::IsValid(std::string* error) const {
+  if (width < 32 || height < 32 || width > 8192 || height > 8192) {
+    *error = "width and height must be from 32 to 8192 pixels";
+  } else if (!(fps > 0.0)) {
+    *error = "fps must be positive";
+  } else if (!(image_sigma >= 0.0)) {
+    *error = "image_sigma must not be negative";
+  } else {
+    return kinect.IsValid(error) && path.IsValid(error);
+  }
+  return false;
+}
+
+SyntheticSequence::SyntheticSequence(const SyntheticSequenceOptions& options)
+    : options_(Checked(options)),
+      renderer_(MakeScene(options.scene, options.seed),
+                KinectCamera(options.width, options.height)),
+      path_(renderer_.scene(), SeededPath(options)) {}
+
+TimedPose SyntheticSequence::PoseAt(int index) const {
+  const double seconds = index / options_.fps;
+  return {kFirstTime + seconds, path_.CamFromWorld(seconds).Inverse()};
+}
+
+SyntheticFrame SyntheticSequence::Render(int index) const {
+  SyntheticFrame frame;
+  frame.pose = PoseAt(index);
+  frame.image = renderer_.Render(frame.pose.world_from_cam.Inverse());
+  // Even streams for colour, odd ones for depth: independent of each other in every frame.
+  const uint64_t stream = 2 * static_cast<uint64_t>(index);
+  if (options_.image_sigma > 0.0) {
+    AddImageNoise(options_.image_sigma, options_.seed, stream, &frame.image);
+  }
+  if (options_.kinect_depth) {
+    AddKinectNoise(options_.kinect, renderer_.camera(), options_.seed, stream + 1,
+                   &frame.image.depth);
+  }
+  return frame;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+namespace msc_vo {
+
+enum class TextureKind {
+  kPlain,     // one colour
+  kPlaster,   // one colour with faint, smooth stains: no corners
+  kWood,      // grain along s
+  kPlanks,    // floor boards along s with staggered joints
+  kTiles,     // square tiles with grout
+  kPoster,    // random rectangles and discs at three sizes
+  kBooks,     // spines side by side, standing on t = 0
+  kRug,       // border stripes and a lattice of diamonds
+  kSpeckle,   // small blocks of random brightness: fabric, stone
+  kOutdoors,  // sky over trees, for windows
+};
+
+// A procedural texture: a colour for every point of a surface, without stored images.
+struct Texture {
+  TextureKind kind = TextureKind::kPlain;
+  Eigen::Vector3f color{0.8f, 0.8f, 0.8f};   // red, green, blue, 0..1
+  Eigen::Vector3f accent{0.3f, 0.3f, 0.3f};  // of grout, joints, motifs
+  float scale = 1.0f;                        // size of the pattern's elements relative to life size
+  uint32_t seed = 0;
+};
+
+// A place on a rectangle: metres along its sides, and the lengths of the sides.
+struct SurfacePoint {
+  float s = 0.0f, t = 0.0f;
+  float width = 1.0f, height = 1.0f;
+};
+
+// Colour at that place, 0..1, unlit and unfiltered.
+Eigen::Vector3f EvaluateTexture(const Texture& texture, const SurfacePoint& point);
+
+}  // namespace msc_vo
