@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Installs those of cmake/debian_packages.txt that are missing; asks nothing. Does nothing, and needs
+# neither root nor a network, if all are there.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "Not a Debian system: taking for granted what cmake/debian_packages.txt lists."
+  exit 0
+fi
+
+missing=()
+while read -r package; do
+  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [[ $status == installed ]] || missing+=("$package")
+done < <(grep --invert-match --extended-regexp '^(#|$)' debian_packages.txt)
+if [[ ${#missing[@]} -eq 0 ]]; then
+  exit 0
+fi
+
+echo "Installing ${missing[*]}"
+as_root=()
+if [[ $EUID -ne 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "Neither root nor sudo: install these packages and run again." >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get --yes --quiet)
+"${apt[@]}" update
+"${apt[@]}" install --no-install-recommends "${missing[@]}"
