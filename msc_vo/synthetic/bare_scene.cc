@@ -35,8 +35,8 @@ Scene MakeBare(uint64_t seed) {
   const Texture white = builder.NewTexture(TextureKind::kPlain, kWhite);
   const Texture floor = builder.NewTexture(TextureKind::kPlain, 0.75f * kWhite);
   builder.AddHall({-x, -y, 0}, {x, y, height}, floor, white, white);
-  builder.scene().ambient = 0.22;
-  builder.scene().lights = {{{0.9, -0.5, 2.2}, 0.75, 2.2}, {{-1.4, 0.3, 2.2}, 0.25, 2.2}};
+  builder.scene().ambient = 0.36;
+  builder.scene().lights = {{{0.9, -0.5, 2.2}, 0.85, 2.4}, {{-1.4, 0.3, 2.2}, 0.30, 2.4}};
 
   // Folds along the two long walls, seen from the middle.
   const double panel = 0.62, fold = panel * std::sqrt(0.5);

@@ -53,7 +53,7 @@ void FurnishQuarter(const Eigen::Vector2d& center, int index, SceneBuilder* buil
   AddRug(UprightFrame({center.x(), center.y(), 0}, 0.0), {1.9, 1.5}, builder);
   AddTable(UprightFrame({center.x(), center.y(), 0.008}, 0.0), {0.9, 0.6}, 0.5, builder);
   AddCeilingLamp(UprightFrame({center.x(), center.y(), kHeight}, 0.0), {0.5, 0.5}, builder);
-  builder->scene().lights.push_back({{center.x(), center.y(), kHeight - 0.3}, 0.65, 2.2});
+  builder->scene().lights.push_back({{center.x(), center.y(), kHeight - 0.3}, 0.85, 2.4});
 }
 
 // Pictures on both sides of the partitions, away from the doorways.
@@ -96,7 +96,7 @@ Scene MakeHouse(uint64_t seed) {
   const Texture ceiling = builder.NewTexture(TextureKind::kPlaster, {0.9f, 0.9f, 0.88f});
   const Texture paint = builder.NewTexture(TextureKind::kPlaster, {0.86f, 0.84f, 0.78f});
   builder.AddHall({-kHalfX, -kHalfY, 0}, {kHalfX, kHalfY, kHeight}, floor, ceiling, paint);
-  builder.scene().ambient = 0.30;
+  builder.scene().ambient = 0.36;
   const double x = 0.5 * kHalfX, y = 0.5 * kHalfY;
   const Rigid3 along_x = UprightFrame({0, 0, 0}, 0.0), along_y = UprightFrame({0, 0, 0}, 0.5 * kPi);
   AddPartition(along_x, {-kHalfX, -kWall}, -x, paint, &builder);

@@ -33,6 +33,7 @@ constexpr float kSharpContrast = 12.0f / 255.0f;
 struct QuadView {
   int quad = 0;
   Eigen::Vector3d inverse_depth, u_over_z, v_over_z;
+  int first_row = 0, last_row = -1;  // all that it touches lies between
 
   bool Contains(const Eigen::Vector3d& pixel, double w) const {
     const double u = u_over_z.dot(pixel), v = v_over_z.dot(pixel);
@@ -46,6 +47,22 @@ struct QuadView {
 Eigen::Vector3d LinearForm(const PinholeCamera& camera, const Eigen::Vector3d& c) {
   const double x = c.x() / camera.fx, y = c.y() / camera.fy;
   return {x, y, c.z() - x * camera.cx - y * camera.cy};
+}
+
+// Sets the rows of the image that the rectangle origin, a, b (camera coordinates) may touch.
+void BoundRows(const PinholeCamera& camera, const Eigen::Vector3d& origin, const Eigen::Vector3d& a,
+               const Eigen::Vector3d& b, QuadView* view) {
+  double low = camera.height, high = -1.0;
+  for (const Eigen::Vector3d& corner :
+       {origin, Eigen::Vector3d(origin + a), Eigen::Vector3d(origin + b),
+        Eigen::Vector3d(origin + a + b)}) {
+    // A rectangle that reaches behind the camera has no bound that its corners know of.
+    const bool in_front = corner.z() > kNear;
+    low = std::min(low, in_front ? camera.Project(corner).y() : 0.0);
+    high = std::max(high, in_front ? camera.Project(corner).y() : camera.height);
+  }
+  view->first_row = static_cast<int>(std::clamp(low - 1.0, 0.0, camera.height - 1.0));
+  view->last_row = static_cast<int>(std::clamp(high + 1.0, -1.0, camera.height - 1.0));
 }
 
 std::vector<QuadView> ViewQuads(const Scene& scene, const PinholeCamera& camera,
@@ -65,21 +82,43 @@ std::vector<QuadView> ViewQuads(const Scene& scene, const PinholeCamera& camera,
     const Eigen::Vector3d per_u = a / a.squaredNorm(), per_v = b / b.squaredNorm();
     view.u_over_z = LinearForm(camera, per_u) - per_u.dot(origin) * view.inverse_depth;
     view.v_over_z = LinearForm(camera, per_v) - per_v.dot(origin) * view.inverse_depth;
+    BoundRows(camera, origin, a, b, &view);
     views.push_back(view);
   }
   return views;
 }
 
-// Narrows [*low, *high] to the x where form . (x, y, 1) >= 0.
-void ClipSpan(const Eigen::Vector3d& form, double y, double* low, double* high) {
-  const double slope = form.x(), offset = form.y() * y + form.z();
-  if (slope > 0.0) {
-    *low = std::max(*low, -offset / slope - kBorder);
-  } else if (slope < 0.0) {
-    *high = std::min(*high, -offset / slope + kBorder);
-  } else if (offset < 0.0) {
-    *high = *low - 1.0;
+// The x of row `y` where every form is >= 0 for a place within `reach` pixels of (x, y) along both
+// axes: of centres for a reach of 0, of touched pixels for 0.5. Empty if first > last.
+struct RowSpan {
+  int first = 0;
+  int last = -1;
+};
+
+using Outline = std::array<Eigen::Vector3d, 5>;
+
+RowSpan SpanOfRow(const Outline& inside, int width, int y, double reach) {
+  double low = 0.0, high = width - 1.0;
+  for (const Eigen::Vector3d& form : inside) {
+    const double slope = form.x();
+    const double offset =
+        form.y() * y + form.z() + reach * (std::abs(form.x()) + std::abs(form.y()));
+    if (slope > 0.0) {
+      low = std::max(low, -offset / slope - kBorder);
+    } else if (slope < 0.0) {
+      high = std::min(high, -offset / slope + kBorder);
+    } else if (offset < 0.0) {
+      return {};
+    }
   }
+  if (low > high) return {};
+  return {static_cast<int>(std::ceil(low)), static_cast<int>(high)};
+}
+
+Outline InsideForms(const QuadView& view) {
+  const Eigen::Vector3d& w = view.inverse_depth;
+  return {view.u_over_z, w - view.u_over_z, view.v_over_z, w - view.v_over_z,
+          Eigen::Vector3d(0.0, 0.0, 1.0 / kNear) - w};
 }
 
 // What the pixel centres see: index into the views (-1: nothing) and inverse depth.
@@ -92,18 +131,13 @@ HitBuffer Rasterize(const std::vector<QuadView>& views, const PinholeCamera& cam
   const size_t size = static_cast<size_t>(camera.width) * camera.height;
   HitBuffer hits{std::vector<int>(size, -1), std::vector<double>(size, 0.0)};
   for (size_t i = 0; i < views.size(); ++i) {
-    const QuadView& view = views[i];
-    const Eigen::Vector3d& w = view.inverse_depth;
-    const std::array<Eigen::Vector3d, 5> inside = {view.u_over_z, w - view.u_over_z, view.v_over_z,
-                                                   w - view.v_over_z,
-                                                   Eigen::Vector3d(0, 0, 1.0 / kNear) - w};
-    for (int y = 0; y < camera.height; ++y) {
-      double low = 0.0, high = camera.width - 1.0;
-      for (const Eigen::Vector3d& form : inside) ClipSpan(form, y, &low, &high);
-      if (low > high) continue;
+    const Eigen::Vector3d& w = views[i].inverse_depth;
+    const Outline inside = InsideForms(views[i]);
+    for (int y = views[i].first_row; y <= views[i].last_row; ++y) {
+      const RowSpan span = SpanOfRow(inside, camera.width, y, 0.0);
       const double row_offset = w.y() * y + w.z();
       const size_t row = static_cast<size_t>(y) * camera.width;
-      for (int x = static_cast<int>(std::ceil(low)); x <= static_cast<int>(high); ++x) {
+      for (int x = span.first; x <= span.last; ++x) {
         const double here = w.x() * x + row_offset;
         if (here <= hits.inverse_depth[row + x]) continue;
         hits.inverse_depth[row + x] = here;
@@ -113,6 +147,66 @@ HitBuffer Rasterize(const std::vector<QuadView>& views, const PinholeCamera& cam
   }
   return hits;
 }
+
+// For every pixel the views that touch its square but not its centre, unless they are hidden behind
+// what the centre sees: borders, and whatever is thinner than a pixel.
+class BorderBuffer {
+ public:
+  BorderBuffer(const std::vector<QuadView>& views, const HitBuffer& hits,
+               const PinholeCamera& camera)
+      : first_(hits.view.size() + 1, 0) {
+    for (size_t i = 0; i < views.size(); ++i) {
+      const Outline inside = InsideForms(views[i]);
+      for (int y = 0; y < camera.height; ++y) {
+        const RowSpan touched = SpanOfRow(inside, camera.width, y, 0.5);
+        if (touched.first > touched.last) continue;
+        const RowSpan covered = SpanOfRow(inside, camera.width, y, 0.0);
+        for (int x = touched.first; x <= touched.last; ++x) {
+          if (x == covered.first && covered.first <= covered.last) x = covered.last + 1;
+          if (x <= touched.last) AddIfInFront(views, hits, camera.width, static_cast<int>(i), x, y);
+        }
+      }
+    }
+    SortByPixel();
+  }
+
+  const int* begin(size_t pixel) const { return views_.data() + first_[pixel]; }
+  const int* end(size_t pixel) const { return views_.data() + first_[pixel + 1]; }
+
+ private:
+  struct Entry {
+    size_t pixel;
+    int view;
+  };
+
+  void AddIfInFront(const std::vector<QuadView>& views, const HitBuffer& hits, int width, int view,
+                    int x, int y) {
+    const size_t pixel = static_cast<size_t>(y) * width + x;
+    const int hit = hits.view[pixel];
+    if (hit >= 0) {
+      // The nearest that one can be within the pixel, against the farthest that the other can.
+      const Eigen::Vector3d& w = views[view].inverse_depth;
+      const Eigen::Vector3d& hit_w = views[hit].inverse_depth;
+      const double reach = 0.5 * (w.head<2>().lpNorm<1>() + hit_w.head<2>().lpNorm<1>());
+      if (w.dot(Eigen::Vector3d(x, y, 1.0)) + reach < hits.inverse_depth[pixel]) return;
+    }
+    entries_.push_back({pixel, view});
+    ++first_[pixel + 1];
+  }
+
+  // Counting sort, stable: within a pixel the views stay in their order.
+  void SortByPixel() {
+    for (size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    std::vector<size_t> next(first_.begin(), first_.end() - 1);
+    views_.resize(entries_.size());
+    for (const Entry& entry : entries_) views_[next[entry.pixel]++] = entry.view;
+    entries_.clear();
+  }
+
+  std::vector<size_t> first_;  // of each pixel in views_
+  std::vector<int> views_;
+  std::vector<Entry> entries_;
+};
 
 // A rectangle prepared for shading.
 struct Surface {
@@ -145,8 +239,8 @@ class Shader {
   }
 
   // Colour of the nearest of `candidates` at a pixel; `background` where none is hit.
-  template <typename Candidates>
-  Color ShadeNearest(const Candidates& candidates, const Eigen::Vector3d& pixel,
+  template <typename Indices>
+  Color ShadeNearest(const Indices& candidates, const Eigen::Vector3d& pixel,
                      const Color& background) const {
     int nearest = -1;
     double nearest_w = 0.0;
@@ -162,7 +256,9 @@ class Shader {
  private:
   // Ambient light and Lambert's law under every lamp, without cast shadows.
   float Brightness(const Eigen::Vector3f& x, const Eigen::Vector3f& normal) const {
-    float brightness = static_cast<float>(scene_.ambient);
+    // Daylight from one side, so that no two faces of a white box are equally bright.
+    const Eigen::Vector3f daylight(0.30f, 0.16f, 0.22f);
+    float brightness = static_cast<float>(scene_.ambient) * (1.0f + normal.dot(daylight));
     for (const PointLight& light : scene_.lights) {
       const Eigen::Vector3f to_light = light.position.cast<float>() - x;
       const float cosine_times_distance = normal.dot(to_light);
@@ -180,25 +276,24 @@ class Shader {
   std::vector<Surface> surfaces_;
 };
 
-// The distinct views in the 3x3 pixels around one: all that its area can show, but for what is
-// thinner than a pixel.
-class Neighborhood {
+// The distinct views that a pixel's square may show.
+class Candidates {
  public:
   void Add(int view) {
-    if (view < 0 || std::find(begin(), end(), view) != end()) return;
+    if (view < 0 || count_ == views_.size() || std::find(begin(), end(), view) != end()) return;
     views_[count_++] = view;
   }
   const int* begin() const { return views_.data(); }
   const int* end() const { return views_.data() + count_; }
-  int size() const { return count_; }
 
  private:
-  std::array<int, 9> views_{};
-  int count_ = 0;
+  // A pixel with more is a heap of slivers; the rest of them would not change its mean visibly.
+  std::array<int, 32> views_{};
+  size_t count_ = 0;
 };
 
 // Mean colour of the square of a pixel by `side` x `side` samples.
-Color SampleSquare(const Shader& shader, const Neighborhood& views, int x, int y, int side,
+Color SampleSquare(const Shader& shader, const Candidates& views, int x, int y, int side,
                    const Color& background) {
   Color sum = Color::Zero();
   for (int j = 0; j < side; ++j) {
@@ -222,10 +317,10 @@ std::vector<Color> ShadeCenters(const Shader& shader, const HitBuffer& hits, int
 }
 
 // Colour of a pixel from as many samples as its neighbourhood asks for.
-Color FilterPixel(const Shader& shader, const HitBuffer& hits, const std::vector<Color>& centers,
-                  const PinholeCamera& camera, int x, int y) {
+Color FilterPixel(const Shader& shader, const HitBuffer& hits, const BorderBuffer& borders,
+                  const std::vector<Color>& centers, const PinholeCamera& camera, int x, int y) {
   const size_t here = static_cast<size_t>(y) * camera.width + x;
-  Neighborhood views;
+  Candidates views;
   float contrast = 0.0f;
   for (int j = std::max(y - 1, 0); j <= std::min(y + 1, camera.height - 1); ++j) {
     for (int i = std::max(x - 1, 0); i <= std::min(x + 1, camera.width - 1); ++i) {
@@ -234,8 +329,10 @@ Color FilterPixel(const Shader& shader, const HitBuffer& hits, const std::vector
       contrast = std::max(contrast, (centers[there] - centers[here]).cwiseAbs().maxCoeff());
     }
   }
-  if (contrast < kFlatContrast) return centers[here];
-  const int side = contrast > kSharpContrast ? 4 : 2;
+  const bool has_border = borders.begin(here) != borders.end(here);
+  for (const int* view = borders.begin(here); view != borders.end(here); ++view) views.Add(*view);
+  if (!has_border && contrast < kFlatContrast) return centers[here];
+  const int side = has_border || contrast > kSharpContrast ? 4 : 2;
   return SampleSquare(shader, views, x, y, side, centers[here]);
 }
 
@@ -260,6 +357,7 @@ Renderer::Renderer(Scene scene, const PinholeCamera& camera)
 RenderedImage Renderer::Render(const Rigid3& cam_from_world) const {
   const std::vector<QuadView> views = ViewQuads(scene_, camera_, cam_from_world);
   const HitBuffer hits = Rasterize(views, camera_);
+  const BorderBuffer borders(views, hits, camera_);
   const Shader shader(scene_, views);
   const std::vector<Color> centers = ShadeCenters(shader, hits, camera_.width);
 
@@ -270,7 +368,7 @@ RenderedImage Renderer::Render(const Rigid3& cam_from_world) const {
   image.depth.resize(centers.size(), 0.0f);
   for (size_t i = 0; i < centers.size(); ++i) {
     const int x = static_cast<int>(i % camera_.width), y = static_cast<int>(i / camera_.width);
-    const Color color = FilterPixel(shader, hits, centers, camera_, x, y);
+    const Color color = FilterPixel(shader, hits, borders, centers, camera_, x, y);
     for (int k = 0; k < 3; ++k) image.rgb[3 * i + k] = ToByte(255.0f * color[k]);
     if (hits.view[i] >= 0) image.depth[i] = static_cast<float>(1.0 / hits.inverse_depth[i]);
   }

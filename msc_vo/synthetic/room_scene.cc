@@ -23,9 +23,9 @@ void AddShell(const RoomSize& size, SceneBuilder* builder) {
   const Texture walls = builder->NewTexture(TextureKind::kPlaster, kPaint);
   builder->AddHall({-0.5 * size.x, -0.5 * size.y, 0}, {0.5 * size.x, 0.5 * size.y, size.z}, floor,
                    ceiling, walls);
-  builder->scene().lights = {{{0.6, 0.4, size.z - 0.3}, 0.75, 2.6},
+  builder->scene().lights = {{{0.6, 0.4, size.z - 0.3}, 0.95, 2.8},
                              {{-0.45 * size.x, 0.0, 1.7}, 0.35, 3.0}};  // lamp and window
-  builder->scene().ambient = 0.30;
+  builder->scene().ambient = 0.36;
 }
 
 // Pieces along the four walls; each side's frame looks into the room.

@@ -88,8 +88,8 @@ Scene MakeSlanted(uint64_t seed) {
   Random& random = builder.random();
   AddAtticShell(&builder);
   FurnishAttic(&builder);
-  builder.scene().ambient = 0.30;
-  builder.scene().lights = {{{-0.5, 0.2, 2.3}, 0.70, 2.2}, {{1.6, -0.4, 1.8}, 0.40, 2.0}};
+  builder.scene().ambient = 0.36;
+  builder.scene().lights = {{{-0.5, 0.2, 2.3}, 0.95, 2.5}, {{1.6, -0.4, 1.8}, 0.40, 2.0}};
   const int count = 9;
   for (int i = 0; i < count; ++i) {
     const double around = 2.0 * kPi * i / count, ahead = around + DegreesToRadians(75.0);
