@@ -12,6 +12,8 @@
 #include <opencv2/line_descriptor.hpp>
 #include <opencv2/ximgproc/edge_drawing.hpp>
 
+#include "msc_vo/features/line_refinement.h"
+
 namespace msc_vo {
 
 namespace {
@@ -26,6 +28,10 @@ constexpr double kMinPiece = 8.0;
 constexpr double kSideDistance = 2.0;
 // At most so many places along a line are compared.
 constexpr int kMaxSideSamples = 16;
+// LBD is computed in the image of half the size, with bands of 4 pixels: its region of 9 bands then
+// is 72 px of the image wide (63 with the original 7 px in full size), at a quarter of the time
+// and, measured, with as many correct nearest neighbours.
+constexpr int kBandWidth = 4;
 
 double GrayAt(const cv::Mat& gray, const Vector2d& pixel) {
   const int x = std::clamp(cvRound(pixel.x()), 0, gray.cols - 1);
@@ -72,11 +78,14 @@ bool ClipToMask(const cv::Mat& mask, LineSegment2* segment) {
   return true;
 }
 
-cv::line_descriptor::KeyLine ToKeyLine(const LineSegment2& segment, int index,
-                                       const cv::Size& image) {
-  const cv::Point2f start(static_cast<float>(segment.start.x()),
-                          static_cast<float>(segment.start.y()));
-  const cv::Point2f end(static_cast<float>(segment.end.x()), static_cast<float>(segment.end.y()));
+// The segment in the half-size image, as OpenCV's descriptor wants it.
+cv::line_descriptor::KeyLine ToHalfSizeKeyLine(const LineSegment2& segment, int index) {
+  const auto half = [](const Vector2d& x) {
+    return cv::Point2f(static_cast<float>(0.5 * x.x() - 0.25),
+                       static_cast<float>(0.5 * x.y() - 0.25));
+  };
+  const cv::Point2f start = half(segment.start);
+  const cv::Point2f end = half(segment.end);
   cv::line_descriptor::KeyLine line;
   line.startPointX = line.sPointInOctaveX = start.x;
   line.startPointY = line.sPointInOctaveY = start.y;
@@ -84,9 +93,9 @@ cv::line_descriptor::KeyLine ToKeyLine(const LineSegment2& segment, int index,
   line.endPointY = line.ePointInOctaveY = end.y;
   line.pt = 0.5f * (start + end);
   line.angle = std::atan2(end.y - start.y, end.x - start.x);
-  line.lineLength = static_cast<float>(segment.Length());
-  line.numOfPixels = std::max(1, cvRound(segment.Length()));
-  line.response = line.lineLength / std::max(image.width, image.height);
+  line.lineLength = static_cast<float>(cv::norm(end - start));
+  line.numOfPixels = std::max(1, cvRound(line.lineLength));
+  line.response = line.lineLength;
   line.size = std::abs((end.x - start.x) * (end.y - start.y));
   line.octave = 0;
   line.class_id = index;  // also the row of its descriptor
@@ -99,6 +108,7 @@ struct LineExtractor::Detectors {
   cv::Ptr<cv::LineSegmentDetector> lsd;
   cv::Ptr<cv::ximgproc::EdgeDrawing> edge_drawing;
   cv::Ptr<cv::line_descriptor::BinaryDescriptor> lbd;
+  cv::Mat half_size;
 
   std::vector<cv::Vec4f> Detect(LineDetector detector, const cv::Mat& gray) {
     std::vector<cv::Vec4f> lines;
@@ -112,13 +122,15 @@ struct LineExtractor::Detectors {
   }
 
   void Describe(const cv::Mat& gray, std::vector<LineFeature>* features) {
-    if (features->empty()) return;
+    if (features->empty()) return;  // OpenCV complains on the console
+    cv::resize(gray, half_size, cv::Size((gray.cols + 1) / 2, (gray.rows + 1) / 2), 0.0, 0.0,
+               cv::INTER_AREA);
     std::vector<cv::line_descriptor::KeyLine> lines;
     for (size_t i = 0; i < features->size(); ++i) {
-      lines.push_back(ToKeyLine((*features)[i].segment, static_cast<int>(i), gray.size()));
+      lines.push_back(ToHalfSizeKeyLine((*features)[i].segment, static_cast<int>(i)));
     }
     cv::Mat descriptors;
-    lbd->compute(gray, lines, descriptors);
+    lbd->compute(half_size, lines, descriptors);
     for (size_t i = 0; i < features->size(); ++i) {
       Descriptor& descriptor = (*features)[i].descriptor;
       std::memcpy(descriptor.data(), descriptors.ptr(static_cast<int>(i)), descriptor.size());
@@ -146,7 +158,9 @@ LineExtractor::LineExtractor(const LineExtractorOptions& options)
   } else {
     detectors_->edge_drawing = cv::ximgproc::createEdgeDrawing();
   }
-  detectors_->lbd = cv::line_descriptor::BinaryDescriptor::createBinaryDescriptor();
+  cv::line_descriptor::BinaryDescriptor::Params lbd;
+  lbd.widthOfBand_ = kBandWidth;
+  detectors_->lbd = cv::line_descriptor::BinaryDescriptor::createBinaryDescriptor(lbd);
 }
 
 LineExtractor::~LineExtractor() = default;
@@ -169,6 +183,7 @@ std::vector<LineFeature> LineExtractor::Extract(const cv::Mat& gray, const cv::M
     if (static_cast<int>(features.size()) == options_.max_lines) break;
     LineFeature feature;
     feature.segment = segment;
+    if (options_.detector == LineDetector::kEdgeDrawing) RefineSegment(gray, &feature.segment);
     features.push_back(feature);
   }
   detectors_->Describe(gray, &features);

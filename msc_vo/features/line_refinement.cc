@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/features/line_refinement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <Eigen/LU>
+
+namespace msc_vo {
+
+namespace {
+
+using Eigen::Vector2d;
+
+// Places along the line: one every two pixels (nearer ones share their pixels), at most so many.
+constexpr double kSpacing = 2.0;
+constexpr int kMaxPlaces = 48;
+// Grey values are read this many pixels to both sides.
+constexpr int kReach = 3;
+// A detector is not farther off than this, pixels; what is farther is another edge.
+constexpr double kMaxOffset = 1.5;
+// An edge has at least this contrast per pixel: sensor noise has a sigma of 2 to 3 grey values.
+constexpr double kMinRise = 4.0;
+// Second fit without the places farther than this from the first, pixels.
+constexpr double kInlierDistance = 0.75;
+constexpr int kMinPlaces = 5;
+
+// Bilinear; the pixel must be inside with a margin of one.
+double GrayAt(const cv::Mat& gray, const Vector2d& pixel) {
+  const int x = static_cast<int>(pixel.x());
+  const int y = static_cast<int>(pixel.y());
+  const double fx = pixel.x() - x;
+  const double fy = pixel.y() - y;
+  const uint8_t* upper = gray.ptr<uint8_t>(y) + x;
+  const uint8_t* lower = gray.ptr<uint8_t>(y + 1) + x;
+  return (1.0 - fy) * ((1.0 - fx) * upper[0] + fx * upper[1]) +
+         fy * ((1.0 - fx) * lower[0] + fx * lower[1]);
+}
+
+struct Edge {
+  double t = 0.0;       // along the segment from its middle, pixels
+  double offset = 0.0;  // across it, towards the bright side, pixels
+  double weight = 0.0;
+};
+
+// The steepest rise along `across` through `center`: the vertex of the parabola through the largest
+// difference of neighbours and the two beside it.
+std::optional<Edge> SteepestRise(const cv::Mat& gray, const Vector2d& center,
+                                 const Vector2d& across) {
+  const Vector2d low = center - kReach * across;
+  const Vector2d high = center + kReach * across;
+  for (const Vector2d* x : {&low, &high}) {
+    if (x->x() < 1.0 || x->y() < 1.0 || x->x() >= gray.cols - 2 || x->y() >= gray.rows - 2) {
+      return std::nullopt;
+    }
+  }
+  // rise[k] is at offset k - kReach + 0.5.
+  std::array<double, 2 * kReach> rise;
+  double previous = GrayAt(gray, low);
+  for (int k = 0; k < 2 * kReach; ++k) {
+    const double next = GrayAt(gray, center + (k + 1 - kReach) * across);
+    rise[k] = next - previous;
+    previous = next;
+  }
+  const int best =
+      static_cast<int>(std::max_element(rise.begin() + 1, rise.end() - 1) - rise.begin());
+  if (rise[best] < kMinRise) return std::nullopt;
+  const double curvature = 2.0 * rise[best] - rise[best - 1] - rise[best + 1];
+  const double vertex = curvature > 0.0 ? 0.5 * (rise[best + 1] - rise[best - 1]) / curvature : 0.0;
+  const double offset = best - kReach + 0.5 + std::clamp(vertex, -1.0, 1.0);
+  if (std::abs(offset) > kMaxOffset) return std::nullopt;
+  return Edge{0.0, offset, rise[best]};
+}
+
+// offset = line[0] + line[1] t, weighted, over the edges within `max_distance` of `prior`.
+std::optional<Vector2d> FitOffsets(const std::array<Edge, kMaxPlaces>& edges, int count,
+                                   const Vector2d& prior, double max_distance) {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Vector2d rhs = Vector2d::Zero();
+  int used = 0;
+  for (int i = 0; i < count; ++i) {
+    const Vector2d a(1.0, edges[i].t);
+    if (std::abs(edges[i].offset - a.dot(prior)) > max_distance) continue;
+    information += edges[i].weight * a * a.transpose();
+    rhs += edges[i].weight * edges[i].offset * a;
+    ++used;
+  }
+  if (used < kMinPlaces) return std::nullopt;
+  return Vector2d(information.inverse() * rhs);
+}
+
+}  // namespace
+
+bool RefineSegment(const cv::Mat& gray, LineSegment2* segment) {
+  const Vector2d direction = segment->Direction();
+  const Vector2d across(-direction.y(), direction.x());
+  const double length = segment->Length();
+  const int places = std::clamp(static_cast<int>(length / kSpacing), kMinPlaces, kMaxPlaces);
+  std::array<Edge, kMaxPlaces> edges;
+  int count = 0;
+  for (int i = 0; i < places; ++i) {
+    const double s = (i + 0.5) / places;
+    const std::optional<Edge> edge = SteepestRise(gray, segment->At(s), across);
+    if (!edge) continue;
+    edges[count] = *edge;
+    edges[count].t = (s - 0.5) * length;
+    ++count;
+  }
+  if (2 * count < places) return false;
+  std::optional<Vector2d> line = FitOffsets(edges, count, Vector2d::Zero(), kMaxOffset);
+  if (line) line = FitOffsets(edges, count, *line, kInlierDistance);
+  if (!line) return false;
+  const double at_start = (*line)[0] - 0.5 * length * (*line)[1];
+  const double at_end = (*line)[0] + 0.5 * length * (*line)[1];
+  if (std::max(std::abs(at_start), std::abs(at_end)) > kMaxOffset) return false;
+  segment->start += at_start * across;
+  segment->end += at_end * across;
+  return true;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "msc_vo/geometry/line_segment.h"
+
+namespace msc_vo {
+
+// Moves a segment across itself onto the edge that it stands for, to a small part of a pixel: at
+// places along it the steepest rise of the grey values towards its bright side is found to
+// sub-pixels, and a line is fitted to these (weighted by contrast, the farthest ones left out). The
+// brighter side must be where ImageLine() is positive. Returns false, and leaves the segment, if
+// there is no such edge within a pixel and a half.
+//
+// Why: detectors that chain whole pixels know a line to a sixth of a pixel, this to less than half
+// of that.
+bool RefineSegment(const cv::Mat& gray, LineSegment2* segment);
+
+}  // namespace msc_vo
