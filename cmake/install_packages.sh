@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs those of cmake/debian_packages.txt that are missing; asks nothing. Does nothing, and needs
-# neither root nor a network, if all are there.
+# Installs those of cmake/debian_packages.txt that are missing; asks nothing. If all are there, it does
+# nothing and needs neither root nor a network.
 set -euo pipefail
 cd "$(dirname "$0")"
 

@@ -23,7 +23,8 @@ trap summary EXIT
 begin "packages"
 cmake/install_packages.sh
 begin "configure"
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DMSC_VO_BUILD_APPS=ON -DMSC_VO_BUILD_TESTS=ON
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release \
+      -DMSC_VO_BUILD_APPS=ON -DMSC_VO_BUILD_TESTS=ON
 begin "build"
 cmake --build build --parallel "$jobs"
 begin "test"

@@ -18,7 +18,7 @@ std::vector<Eigen::Vector3d> Positions(const ReportData& data) {
   if (!positions.empty()) return positions;
   for (const ReportFrame& frame : data.frames) {
     if (frame.world_from_cam.params.allFinite()) {
-      positions.push_back(frame.world_from_cam.translation());
+      positions.emplace_back(frame.world_from_cam.translation());
     }
   }
   return positions;
