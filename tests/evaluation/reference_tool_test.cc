@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// The same pair of trajectories through our evaluation and through ../shared/tools/ape.py, which
+// defines the numbers that this project reports.
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <string>
+
+#include "tests/evaluation/curved_path.h"
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "msc_vo/evaluation/trajectory_error.h"
+
+namespace msc_vo {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kTolerance = 1e-6;
+
+std::string OutputOf(const std::string& command) {
+  FILE* const pipe = popen(command.c_str(), "r");
+  std::string output;
+  std::array<char, 4096> buffer;
+  while (size_t count = fread(buffer.data(), 1, buffer.size(), pipe)) {
+    output.append(buffer.data(), count);
+  }
+  return pclose(pipe) == 0 ? output : "";
+}
+
+void Write(const fs::path& path, const std::vector<TimedPose>& poses) {
+  std::ofstream file(path);
+  file << std::setprecision(17);
+  for (const TimedPose& pose : poses) {
+    const Eigen::Vector3d t = pose.world_from_cam.translation();
+    const Eigen::Vector4d q = pose.world_from_cam.rotation().coeffs();
+    file << pose.timestamp << ' ' << t.transpose() << ' ' << q.transpose() << '\n';
+  }
+}
+
+class ReferenceToolTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!fs::exists(MSC_VO_REFERENCE_TOOL)) GTEST_SKIP() << "../shared/tools/ape.py is not here";
+    // The first python3 on the path may be one without numpy, beside the system's own.
+    for (const char* python : {"python3", "/usr/bin/python3"}) {
+      const std::string probe = std::string(python) + " -c 'import numpy; print(1)' 2>/dev/null";
+      if (python_.empty() && !OutputOf(probe).empty()) python_ = python;
+    }
+    if (python_.empty()) GTEST_SKIP() << "python3 with numpy is not installed";
+    folder_ = fs::path(testing::TempDir()) / ("reference_tool_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override {
+    if (!folder_.empty()) fs::remove_all(folder_);
+  }
+
+  void ExpectSameNumbers(const std::vector<TimedPose>& truth,
+                         const std::vector<TimedPose>& estimate) {
+    Write(folder_ / "truth.txt", truth);
+    Write(folder_ / "estimate.txt", estimate);
+    const std::string output = OutputOf(python_ + " '" MSC_VO_REFERENCE_TOOL "' --json '" +
+                                        (folder_ / "truth.txt").string() + "' '" +
+                                        (folder_ / "estimate.txt").string() + "'");
+    ASSERT_FALSE(output.empty());
+    const nlohmann::json tool = nlohmann::json::parse(output);
+    const TrajectoryError ours = EvaluateTrajectory(truth, estimate);
+    ASSERT_TRUE(ours.usable);
+    const double degrees = 180.0 / std::acos(-1.0);
+    EXPECT_NEAR(ours.ape.rmse, tool["ape_rmse"], kTolerance);
+    EXPECT_NEAR(ours.ape.mean, tool["ape_mean"], kTolerance);
+    EXPECT_NEAR(ours.ape.median, tool["ape_median"], kTolerance);
+    EXPECT_NEAR(ours.ape.max, tool["ape_max"], kTolerance);
+    EXPECT_NEAR(degrees * ours.ape_rotation.rmse, tool["ape_rot_deg"], kTolerance);
+    EXPECT_NEAR(ours.rpe_per_second.translation.rmse, tool["rpe_1s"], kTolerance);
+    EXPECT_NEAR(degrees * ours.rpe_per_second.rotation.rmse, tool["rpe_1s_rot_deg"], kTolerance);
+    EXPECT_EQ(ours.rpe_per_second.translation.count, tool["rpe_pairs"]);
+    EXPECT_EQ(ours.num_matched, tool["matched"]);
+    EXPECT_EQ(ours.num_reference_in_range, tool["gt_in_range"]);
+    EXPECT_NEAR(ours.coverage, tool["coverage"], kTolerance);
+    EXPECT_NEAR(ours.coverage_in_range, tool["coverage_in_range"], kTolerance);
+    EXPECT_NEAR(ours.path_length, tool["path_len"], kTolerance);
+  }
+
+  std::string python_;
+  fs::path folder_;
+};
+
+TEST_F(ReferenceToolTest, AgreesOnTheSameStamps) {
+  const std::vector<TimedPose> truth = CurvedPath(150, 30.0);
+  ExpectSameNumbers(truth, Disturbed(truth, 0.03, 0.02, 0.0, 3));
+}
+
+TEST_F(ReferenceToolTest, AgreesOnJitteredStampsAgainstAFasterReference) {
+  const std::vector<TimedPose> truth = CurvedPath(500, 100.0);
+  ExpectSameNumbers(truth, Disturbed(CurvedPath(150, 30.0), 0.03, 0.02, 0.003, 4));
+}
+
+TEST_F(ReferenceToolTest, AgreesWhenTheEstimateIsFasterAndStopsEarly) {
+  const std::vector<TimedPose> truth = CurvedPath(120, 15.0);
+  ExpectSameNumbers(truth, Disturbed(CurvedPath(300, 60.0), 0.03, 0.02, 0.004, 5));
+}
+
+TEST_F(ReferenceToolTest, AgreesWithGapsOnBothSides) {
+  std::vector<TimedPose> truth = CurvedPath(300, 30.0);
+  std::vector<TimedPose> estimate = Disturbed(truth, 0.05, 0.05, 0.001, 6);
+  truth.erase(truth.begin() + 40, truth.begin() + 75);
+  estimate.erase(estimate.begin() + 150, estimate.begin() + 160);
+  ExpectSameNumbers(truth, estimate);
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/evaluation/trajectory_error.h"
+
+#include <algorithm>
+
+#include "tests/evaluation/curved_path.h"
+#include <gtest/gtest.h>
+
+namespace msc_vo {
+namespace {
+
+TimedPose At(double time, double x, double y, double z) {
+  return {time, Rigid3(Eigen::Quaterniond::Identity(), {x, y, z})};
+}
+
+// Corners of a square with side 2: the alignment is the identity by symmetry, as the offsets below
+// sum to zero and have no moment.
+std::vector<TimedPose> Square() {
+  return {At(0.0, 1, 1, 0), At(1.0, -1, 1, 0), At(2.0, -1, -1, 0), At(3.0, 1, -1, 0)};
+}
+
+TEST(EvaluateTrajectory, FindsNoErrorInTheReferenceItself) {
+  const std::vector<TimedPose> path = CurvedPath(200, 30.0);
+  const TrajectoryError error = EvaluateTrajectory(path, path);
+  ASSERT_TRUE(error.usable);
+  EXPECT_EQ(error.num_matched, 200);
+  EXPECT_NEAR(error.ape.max, 0.0, 1e-12);
+  EXPECT_NEAR(error.ape_rotation.max, 0.0, 1e-7);
+  EXPECT_NEAR(error.rpe_per_second.translation.max, 0.0, 1e-12);
+  EXPECT_NEAR(error.rpe_per_metre.rotation.max, 0.0, 1e-7);
+  EXPECT_EQ(error.coverage, 1.0);
+}
+
+TEST(EvaluateTrajectory, HandComputedAbsoluteError) {
+  std::vector<TimedPose> estimate = Square();
+  // +h and -h along z at opposite corners: mean zero, and the best rotation stays the identity
+  // because the moments about both diagonals cancel.
+  const double h = 0.1;
+  const double offsets[] = {h, -h, h, -h};
+  for (int i = 0; i < 4; ++i) estimate[i].world_from_cam.translation().z() += offsets[i];
+  const TrajectoryError error = EvaluateTrajectory(Square(), estimate);
+  ASSERT_TRUE(error.usable);
+  EXPECT_NEAR(error.ape.rmse, h, 1e-12);
+  EXPECT_NEAR(error.ape.mean, h, 1e-12);
+  EXPECT_NEAR(error.ape.median, h, 1e-12);
+  EXPECT_NEAR(error.ape.max, h, 1e-12);
+  EXPECT_NEAR(error.path_length, 6.0, 1e-12);
+  // Each step of one second is off by 2 h, whichever way.
+  EXPECT_EQ(error.rpe_per_second.translation.count, 3);
+  EXPECT_NEAR(error.rpe_per_second.translation.rmse, 2 * h, 1e-12);
+  // The first pose that is at least 1 m away is 2 m away.
+  EXPECT_EQ(error.rpe_per_metre.translation.count, 3);
+  EXPECT_NEAR(error.rpe_per_metre.translation.mean, h, 1e-12);
+}
+
+TEST(EvaluateTrajectory, HandComputedRotationError) {
+  std::vector<TimedPose> estimate = Square();
+  const double angle = 0.2;
+  for (TimedPose& pose : estimate) {
+    pose.world_from_cam.rotation() = ExpSO3({0.0, angle, 0.0});
+  }
+  const TrajectoryError error = EvaluateTrajectory(Square(), estimate);
+  ASSERT_TRUE(error.usable);
+  EXPECT_NEAR(error.ape.rmse, 0.0, 1e-12);
+  EXPECT_NEAR(error.ape_rotation.rmse, angle, 1e-12);
+  EXPECT_NEAR(error.rpe_per_second.rotation.rmse, 0.0, 1e-12);
+  // A motion of 2 m seen from a camera turned by `angle`.
+  EXPECT_GT(error.rpe_per_second.translation.rmse, 0.1);
+}
+
+TEST(EvaluateTrajectory, DoesNotDependOnTheWorldOfTheEstimate) {
+  const std::vector<TimedPose> truth = CurvedPath(300, 30.0);
+  const std::vector<TimedPose> estimate = Disturbed(truth, 0.02, 0.01, 0.0, 1);
+  const Rigid3 shift(ExpSO3({0.5, -1.2, 0.3}), {3.0, -4.0, 5.0});
+  const TrajectoryError a = EvaluateTrajectory(truth, estimate);
+  const TrajectoryError b = EvaluateTrajectory(truth, Transformed(shift, estimate));
+  EXPECT_NEAR(a.ape.rmse, b.ape.rmse, 1e-10);
+  EXPECT_NEAR(a.ape_rotation.rmse, b.ape_rotation.rmse, 1e-10);
+  EXPECT_NEAR(a.rpe_per_second.translation.rmse, b.rpe_per_second.translation.rmse, 1e-10);
+  EXPECT_NEAR(a.rpe_per_metre.rotation.rmse, b.rpe_per_metre.rotation.rmse, 1e-10);
+  EXPECT_NEAR(a.ape.rmse, 0.02 * std::sqrt(3.0), 0.003);
+}
+
+TEST(EvaluateTrajectory, DoesNotDependOnTheOrderOfTheLines) {
+  const std::vector<TimedPose> truth = CurvedPath(100, 30.0);
+  std::vector<TimedPose> estimate = Disturbed(truth, 0.02, 0.01, 0.0, 2);
+  const double expected = EvaluateTrajectory(truth, estimate).ape.rmse;
+  std::reverse(estimate.begin(), estimate.end());
+  EXPECT_EQ(EvaluateTrajectory(truth, estimate).ape.rmse, expected);
+}
+
+TEST(EvaluateTrajectory, DoesNotForgiveAWrongScale) {
+  const std::vector<TimedPose> truth = CurvedPath(100, 30.0);
+  std::vector<TimedPose> estimate = truth;
+  for (TimedPose& pose : estimate) pose.world_from_cam.translation() *= 1.1;
+  EXPECT_GT(EvaluateTrajectory(truth, estimate).ape.rmse, 0.01);
+}
+
+TEST(EvaluateTrajectory, CountsWhatIsMissing) {
+  const std::vector<TimedPose> truth = CurvedPath(100, 30.0);
+  const std::vector<TimedPose> estimate(truth.begin() + 20, truth.begin() + 60);
+  const TrajectoryError error = EvaluateTrajectory(truth, estimate);
+  ASSERT_TRUE(error.usable);
+  EXPECT_EQ(error.num_matched, 40);
+  EXPECT_EQ(error.num_reference, 100);
+  EXPECT_EQ(error.num_reference_in_range, 40);
+  EXPECT_DOUBLE_EQ(error.coverage, 0.4);
+  EXPECT_DOUBLE_EQ(error.coverage_in_range, 1.0);
+}
+
+TEST(EvaluateTrajectory, TooFewMatchesAreAnAnswer) {
+  const std::vector<TimedPose> truth = CurvedPath(100, 30.0);
+  std::vector<TimedPose> estimate = truth;
+  for (TimedPose& pose : estimate) pose.timestamp += 1000.0;
+  const TrajectoryError error = EvaluateTrajectory(truth, estimate);
+  EXPECT_FALSE(error.usable);
+  EXPECT_NE(error.message.find("only 0 of 100"), std::string::npos) << error.message;
+  EXPECT_FALSE(EvaluateTrajectory({}, {}).usable);
+}
+
+TEST(EvaluateTrajectory, RejectsOptionsThatAreNotValid) {
+  EvaluationOptions options;
+  options.rpe_metres = 0.0;
+  EXPECT_THROW(EvaluateTrajectory({}, {}, options), std::invalid_argument);
+  options = {};
+  options.max_time_difference = -1.0;
+  EXPECT_THROW(EvaluateTrajectory({}, {}, options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace msc_vo
