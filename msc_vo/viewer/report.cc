@@ -36,9 +36,9 @@ void CheckStages(const ReportData& data) {
   }
 }
 
-void WriteFigure(const std::string& svg, const std::vector<LegendEntry>& legend,
-                 std::ostream& out) {
-  out << "<figure>\n<figcaption><ul class=\"legend\">";
+void WriteFigure(const std::string& svg, const std::vector<LegendEntry>& legend, std::ostream& out,
+                 const std::string& caption = "") {
+  out << "<figure>\n<figcaption>" << EscapeHtml(caption) << "<ul class=\"legend\">";
   for (const LegendEntry& entry : legend) {
     out << "<li><svg viewBox=\"0 0 18 10\" aria-hidden=\"true\">";
     if (entry.swatch == Swatch::kCurve) {
@@ -84,8 +84,8 @@ void WriteTrajectory(const ReportData& data, std::ostream& out) {
       << "; right is the dominant direction of the trajectory across it. The circle is the start, "
          "small dots are keyframes; frames without an estimated pose have the colour of their "
          "status.</p>\n<div class=\"views\">\n";
-  WriteFigure(PlotTrajectory(data, view, TrajectorySide::kTop), top_legend, out);
-  WriteFigure(PlotTrajectory(data, view, TrajectorySide::kSide), legend, out);
+  WriteFigure(PlotTrajectory(data, view, TrajectorySide::kTop), top_legend, out, "Seen from above");
+  WriteFigure(PlotTrajectory(data, view, TrajectorySide::kSide), legend, out, "Seen from the side");
   out << "</div>\n";
 }
 

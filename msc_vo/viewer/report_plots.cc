@@ -15,7 +15,7 @@ namespace {
 
 constexpr SvgPlot::Size kTrajectorySize{600, 460};
 constexpr SvgPlot::Size kSeriesSize{1200, 240};
-constexpr double kKeyframeRadius = 1.6;
+constexpr double kKeyframeRadius = 2.4;
 constexpr double kGapRadius = 2.2;
 constexpr double kStartRadius = 5.0;
 
@@ -196,7 +196,7 @@ std::string PlotTrajectory(const ReportData& data, const TrajectoryView& view,
   for (int i = 0; i < 4; ++i) plot.AddSegments(drawing.lines[i], line_classes[i]);
   plot.AddPath(drawing.truth, "curve truth");
   plot.AddPath(drawing.estimate, "curve estimate");
-  plot.AddDots(drawing.keyframes, kKeyframeRadius, "fill-estimate");
+  plot.AddDots(drawing.keyframes, kKeyframeRadius, "keyframe");
   plot.AddDots(drawing.predicted, kGapRadius, "status-predicted");
   plot.AddDots(drawing.lost, kGapRadius, "status-lost");
   plot.AddMarker(drawing.estimate.front(), kStartRadius, "start", "start of the estimate");

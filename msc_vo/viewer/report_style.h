@@ -66,7 +66,8 @@ svg text { fill: var(--faint); font-size: 11px; }
 .error { stroke: var(--error); } .points { stroke: var(--points); } .lines { stroke: var(--lines); }
 .whole { stroke: var(--ink); stroke-width: 1; }
 .stem { stroke: var(--mapping); stroke-width: 1; opacity: 0.5; }
-.fill-mapping { fill: var(--mapping); } .fill-estimate { fill: var(--estimate); }
+.fill-mapping { fill: var(--mapping); }
+.keyframe { fill: var(--paper); stroke: var(--estimate); stroke-width: 1.2; }
 .map-line { stroke: var(--map); stroke-width: 0.8; fill: none; }
 .axis-0 { stroke: var(--axis-0); } .axis-1 { stroke: var(--axis-1); }
 .axis-2 { stroke: var(--axis-2); }
