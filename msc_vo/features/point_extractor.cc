@@ -13,6 +13,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "msc_vo/features/corner_refinement.h"
 #include "msc_vo/geometry/angles.h"
 
 namespace msc_vo {
@@ -118,9 +119,13 @@ class CellGrid {
   std::vector<std::vector<Corner>> cells_;
 };
 
+cv::Rect DetectionArea(const cv::Mat& level) {
+  return {kBorder, kBorder, level.cols - 2 * kBorder, level.rows - 2 * kBorder};
+}
+
 std::vector<Corner> DetectCorners(const cv::Mat& level, int num_wanted,
                                   const PointExtractorOptions& options) {
-  const cv::Rect area(kBorder, kBorder, level.cols - 2 * kBorder, level.rows - 2 * kBorder);
+  const cv::Rect area = DetectionArea(level);
   CellGrid grid(area, num_wanted);
   std::vector<Corner> corners;
   DetectFast(level, area, options.fast_threshold, &corners);
@@ -168,25 +173,45 @@ double IntensityCentroidAngle(const cv::Mat& level, const cv::Point& center) {
   return std::atan2(static_cast<double>(moment_y), static_cast<double>(moment_x));
 }
 
-// Puts the descriptors into `points`; a corner that OpenCV leaves out (near the border) is removed.
-void Describe(const cv::Mat& level, const std::vector<Corner>& corners, cv::Feature2D* orb,
-              std::vector<PointFeature>* points) {
+// Where the corners of one level are, to sub-pixels; those that end at the same pixel are one.
+std::vector<RefinedCorner> RefineCorners(const cv::Mat& level, const std::vector<Corner>& corners) {
+  const cv::Rect area = DetectionArea(level);
+  cv::Mat taken = cv::Mat::zeros(level.size(), CV_8UC1);
+  std::vector<RefinedCorner> refined;
+  for (const Corner& corner : corners) {
+    const RefinedCorner candidate = RefineCorner(level, area, corner.pixel);
+    uint8_t& is_taken = taken.at<uint8_t>(candidate.pixel);
+    if (is_taken == 0) refined.push_back(candidate);
+    is_taken = 1;
+  }
+  return refined;
+}
+
+// Points of one level, in its pixels, with orientation and descriptor. OpenCV may leave out and
+// reorder key points; class_id tells whose descriptor a row is.
+std::vector<PointFeature> DescribeCorners(const cv::Mat& level,
+                                          const std::vector<RefinedCorner>& corners,
+                                          cv::Feature2D* orb) {
   std::vector<cv::KeyPoint> keypoints;
+  std::vector<double> angles;
   for (size_t i = 0; i < corners.size(); ++i) {
-    const double degrees = RadiansToDegrees((*points)[i].angle);
+    angles.push_back(IntensityCentroidAngle(level, corners[i].pixel));
+    const double degrees = RadiansToDegrees(angles[i]);
     keypoints.emplace_back(cv::Point2f(corners[i].pixel), 2.0f * kPatchRadius + 1.0f,
                            static_cast<float>(degrees < 0.0 ? degrees + 360.0 : degrees),
-                           corners[i].response, /*octave=*/0, /*class_id=*/static_cast<int>(i));
+                           /*response=*/0.0f, /*octave=*/0, /*class_id=*/static_cast<int>(i));
   }
   cv::Mat descriptors;
   orb->compute(level, keypoints, descriptors);
-  std::vector<PointFeature> described;
+  std::vector<PointFeature> points(keypoints.size());
   for (size_t i = 0; i < keypoints.size(); ++i) {
-    described.push_back((*points)[keypoints[i].class_id]);
-    std::memcpy(described.back().descriptor.data(), descriptors.ptr(static_cast<int>(i)),
-                described.back().descriptor.size());
+    const int corner = keypoints[i].class_id;
+    points[i].pixel = corners[corner].position;
+    points[i].angle = angles[corner];
+    std::memcpy(points[i].descriptor.data(), descriptors.ptr(static_cast<int>(i)),
+                points[i].descriptor.size());
   }
-  *points = std::move(described);
+  return points;
 }
 
 }  // namespace
@@ -222,6 +247,7 @@ std::vector<PointFeature> PointExtractor::Extract(const cv::Mat& gray) {
   const cv::Ptr<cv::ORB> orb = cv::ORB::create(
       /*nfeatures=*/1, /*scaleFactor=*/1.2f, /*nlevels=*/1, /*edgeThreshold=*/kBorder);
   std::vector<PointFeature> points;
+  int left = options_.num_points;
   pyramid_[0] = gray;
   // Shares fall with the level's side length, as in ORB: q^l (1 - q) / (1 - q^levels).
   const double q = 1.0 / options_.scale_factor;
@@ -232,17 +258,15 @@ std::vector<PointFeature> PointExtractor::Extract(const cv::Mat& gray) {
     if (std::min(size.width, size.height) <= 2 * kBorder) break;
     if (l > 0) cv::resize(pyramid_[l - 1], pyramid_[l], size, 0.0, 0.0, cv::INTER_LINEAR);
     const cv::Mat& level = pyramid_[l];
-    const std::vector<Corner> corners = DetectCorners(level, cvRound(share), options_);
-    std::vector<PointFeature> of_level;
-    for (const Corner& corner : corners) {
-      PointFeature point;
-      point.pixel = ToFullImage(Eigen::Vector2d(corner.pixel.x, corner.pixel.y), size, gray.size());
+    const int wanted = std::min(cvRound(share), left);  // rounding may exceed the total
+    std::vector<PointFeature> of_level = DescribeCorners(
+        level, RefineCorners(level, DetectCorners(level, wanted, options_)), orb.get());
+    for (PointFeature& point : of_level) {
+      point.pixel = ToFullImage(point.pixel, size, gray.size());
       point.sigma = scale;
       point.level = l;
-      point.angle = IntensityCentroidAngle(level, corner.pixel);
-      of_level.push_back(point);
     }
-    Describe(level, corners, orb.get(), &of_level);
+    left -= static_cast<int>(of_level.size());
     points.insert(points.end(), of_level.begin(), of_level.end());
   }
   return points;
