@@ -3,6 +3,7 @@
 
 #include "msc_vo/io/calibration.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -28,7 +29,10 @@ void Apply(const CameraSettings& settings, Calibration* calibration) {
   camera.width = settings.width.value_or(camera.width);
   camera.height = settings.height.value_or(camera.height);
   calibration->depth_scale = settings.depth_scale.value_or(calibration->depth_scale);
-  calibration->distortion = settings.distortion.value_or(calibration->distortion);
+  for (size_t i = 0; i < settings.distortion.size(); ++i) {
+    double& k = calibration->distortion.k[i];
+    k = settings.distortion[i].value_or(k);
+  }
 }
 
 bool IsComplete(const CameraSettings& settings) {
@@ -87,7 +91,8 @@ bool Calibration::IsValid(std::string* error) const {
 
 bool CameraSettings::IsEmpty() const {
   return preset.empty() && !fx && !fy && !cx && !cy && !width && !height && !depth_scale &&
-         !distortion;
+         std::none_of(distortion.begin(), distortion.end(),
+                      [](const std::optional<double>& k) { return k.has_value(); });
 }
 
 Calibration ReadCameraFile(const std::string& path) {

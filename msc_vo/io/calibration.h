@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -29,9 +30,9 @@ struct CameraSettings {
   std::string preset;  // name of a built-in camera; may be empty
   std::optional<double> fx, fy, cx, cy;
   std::optional<int> width, height;
-  std::optional<double> depth_scale;  // raw depth units per metre
-  std::optional<LensDistortion> distortion;
-  std::string origin;  // the file, for messages
+  std::optional<double> depth_scale;                // raw depth units per metre
+  std::array<std::optional<double>, 5> distortion;  // k1 k2 p1 p2 k3
+  std::string origin;                               // the file, for messages
 
   bool IsEmpty() const;
 };

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// The JSON faces of a run and of a comparison.
+
+#include <cmath>
+#include <type_traits>
+
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/io/run_summary.h"
+#include "msc_vo/version.h"
+
+namespace msc_vo {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double Degrees(double radians) { return radians * 180.0 / std::acos(-1.0); }
+
+// The number, or null where there were no samples.
+Json NumberIf(int count, double value) { return count > 0 ? Json(value) : Json(); }
+
+Json ErrorToJson(const TrajectoryError& error) {
+  const RelativeError& second = error.rpe_per_second;
+  const RelativeError& metre = error.rpe_per_metre;
+  Json json;
+  json["usable"] = error.usable;
+  if (!error.usable) json["message"] = error.message;
+  json["ape_rmse"] = NumberIf(error.ape.count, error.ape.rmse);
+  json["ape_mean"] = NumberIf(error.ape.count, error.ape.mean);
+  json["ape_median"] = NumberIf(error.ape.count, error.ape.median);
+  json["ape_max"] = NumberIf(error.ape.count, error.ape.max);
+  json["ape_rot_deg"] = NumberIf(error.ape.count, Degrees(error.ape_rotation.rmse));
+  json["rpe_1s"] = NumberIf(second.translation.count, second.translation.rmse);
+  json["rpe_1s_rot_deg"] = NumberIf(second.rotation.count, Degrees(second.rotation.rmse));
+  json["rpe_pairs"] = second.translation.count;
+  json["rpe_1m"] = NumberIf(metre.translation.count, metre.translation.rmse);
+  json["rpe_1m_rot_deg"] = NumberIf(metre.rotation.count, Degrees(metre.rotation.rmse));
+  json["rpe_1m_pairs"] = metre.translation.count;
+  json["matched"] = error.num_matched;
+  json["est"] = error.num_estimate;
+  json["gt"] = error.num_reference;
+  json["gt_in_range"] = error.num_reference_in_range;
+  json["coverage"] = error.coverage;
+  json["coverage_in_range"] = error.coverage_in_range;
+  json["path_len"] = error.path_length;
+  return json;
+}
+
+Json CameraToJson(const Calibration& calibration) {
+  const PinholeCamera& camera = calibration.camera;
+  return {{"origin", calibration.origin},
+          {"fx", camera.fx},
+          {"fy", camera.fy},
+          {"cx", camera.cx},
+          {"cy", camera.cy},
+          {"width", camera.width},
+          {"height", camera.height},
+          {"depth_scale", calibration.depth_scale},
+          {"distortion", calibration.distortion.k}};
+}
+
+// Flat: {"tracking.wide_radius": 60.0}.
+Json OptionsToJson(Configuration configuration) {
+  Json json = Json::object();
+  for (const Option& option : ListOptions(&configuration)) {
+    if (option.path.rfind("camera.", 0) == 0) continue;  // stands in "camera"
+    std::visit(
+        [&](const auto& value) {
+          using Value = std::decay_t<decltype(value)>;
+          if constexpr (std::is_same_v<Value, bool*> || std::is_same_v<Value, int*> ||
+                        std::is_same_v<Value, double*>) {
+            json[option.path] = *value;
+          } else {
+            json[option.path] = FormatOption(option);
+          }
+        },
+        option.value);
+  }
+  return json;
+}
+
+Json StagesToJson(const std::vector<StageStatistics>& stages) {
+  Json json = Json::object();
+  for (const StageStatistics& stage : stages) {
+    json[stage.name] = {{"count", stage.count},
+                        {"mean", stage.mean},
+                        {"median", stage.median},
+                        {"p95", stage.p95},
+                        {"max", stage.max}};
+  }
+  return json;
+}
+
+Json FramesToJson(const RunSummary& summary) {
+  Json json = {{"count", summary.num_frames}};
+  for (size_t i = 0; i < summary.status_counts.size(); ++i) {
+    json[ToString(static_cast<TrackingStatus>(i))] = summary.status_counts[i];
+  }
+  json["tracked_share"] = summary.tracked_share;
+  json["untracked_spans"] = Json::array();
+  for (const UntrackedSpan& span : summary.untracked) {
+    json["untracked_spans"].push_back({{"first_frame", span.first},
+                                       {"last_frame", span.last},
+                                       {"start", span.start},
+                                       {"end", span.end}});
+  }
+  return json;
+}
+
+// Texts from the outside (paths, messages) need not be UTF-8.
+std::string Dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string FormatErrorJson(const TrajectoryError& error) { return Dump(ErrorToJson(error)); }
+
+std::string FormatSummary(const RunSummary& summary, const RunContext& context) {
+  Json json;
+  json["version"] = kVersion;
+  json["command_line"] = context.command_line;
+  json["outcome"] = context.outcome;
+  json["sequence"] = {{"directory", context.sequence.directory},
+                      {"format", context.sequence.format},
+                      {"images", context.sequence.entries.size()},
+                      {"warnings", context.sequence.warnings}};
+  json["camera"] = CameraToJson(context.calibration);
+  json["frames"] = FramesToJson(summary);
+  json["map"] = {{"keyframes", summary.num_keyframes},
+                 {"points", summary.num_points},
+                 {"lines", summary.num_lines}};
+  json["error"] = context.error ? ErrorToJson(*context.error) : Json();
+  json["stages_ms"] = StagesToJson(summary.stages);
+  json["wall_seconds"] = context.seconds;
+  json["frames_per_second"] = NumberIf(context.seconds > 0.0, summary.num_frames / context.seconds);
+  json["peak_memory_mib"] = context.peak_memory;
+  json["options"] = OptionsToJson(context.configuration);
+  return Dump(json);
+}
+
+}  // namespace msc_vo
