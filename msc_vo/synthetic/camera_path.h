@@ -13,8 +13,8 @@
 namespace msc_vo {
 
 struct PathOptions {
-  // Upper bounds along the planned way, as somebody walks who looks around with a camera; the
-  // hand's shake comes on top, with at most 0.06 m/s and 4 degrees/s.
+  // Bounds along the planned way, as somebody walks who looks around with a camera. The pace varies
+  // about them by 30 %, and the hand's shake comes on top: some cm/s and some degrees/s.
   double speed = 0.35;      // metres/second
   double turn_rate = 0.45;  // radians/second, 26 degrees
   double shake = 1.0;       // size of the hand's shake, 0: a rail

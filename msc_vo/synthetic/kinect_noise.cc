@@ -13,21 +13,35 @@ namespace msc_vo {
 
 namespace {
 
-// Convolves with a kernel along one axis of a width x height field that is closed to a ring: so the
-// noise has the same variance up to the border.
-std::vector<float> ConvolveRing(const std::vector<float>& field, int width, int height,
-                                const std::vector<float>& kernel, bool along_x) {
+// Convolves the rows of a width x height field with a kernel. The field is closed to a ring, so
+// that the noise has the same variance up to the border.
+std::vector<float> ConvolveRows(const std::vector<float>& field, int width, int height,
+                                const std::vector<float>& kernel) {
   const int radius = static_cast<int>(kernel.size()) / 2;
-  std::vector<float> out(field.size());
+  std::vector<float> out(field.size(), 0.0f), ring(static_cast<size_t>(width + 2 * radius));
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      float sum = 0.0f;
-      for (int k = -radius; k <= radius; ++k) {
-        const int i = along_x ? (x + k + width) % width : x;
-        const int j = along_x ? y : (y + k + height) % height;
-        sum += kernel[k + radius] * field[static_cast<size_t>(j) * width + i];
-      }
-      out[static_cast<size_t>(y) * width + x] = sum;
+    const float* row = field.data() + static_cast<size_t>(y) * width;
+    float* sum = out.data() + static_cast<size_t>(y) * width;
+    std::copy(row + width - radius, row + width, ring.begin());
+    std::copy(row, row + width, ring.begin() + radius);
+    std::copy(row, row + radius, ring.begin() + radius + width);
+    for (size_t k = 0; k < kernel.size(); ++k) {
+      for (int x = 0; x < width; ++x) sum[x] += kernel[k] * ring[x + k];
+    }
+  }
+  return out;
+}
+
+// The same along the columns.
+std::vector<float> ConvolveColumns(const std::vector<float>& field, int width, int height,
+                                   const std::vector<float>& kernel) {
+  const int radius = static_cast<int>(kernel.size()) / 2;
+  std::vector<float> out(field.size(), 0.0f);
+  for (int y = 0; y < height; ++y) {
+    float* sum = out.data() + static_cast<size_t>(y) * width;
+    for (int k = -radius; k <= radius; ++k) {
+      const float* row = field.data() + static_cast<size_t>((y + k + height) % height) * width;
+      for (int x = 0; x < width; ++x) sum[x] += kernel[k + radius] * row[x];
     }
   }
   return out;
@@ -47,8 +61,7 @@ std::vector<float> SmoothNoise(int width, int height, double sigma, Random* rand
     squares += kernel.back() * kernel.back();
   }
   for (float& weight : kernel) weight /= std::sqrt(squares);  // keeps the variance
-  field = ConvolveRing(field, width, height, kernel, true);
-  return ConvolveRing(field, width, height, kernel, false);
+  return ConvolveColumns(ConvolveRows(field, width, height, kernel), width, height, kernel);
 }
 
 // Tangent of the angle between ray and normal at (x, y), about: the change of depth across a pixel
