@@ -95,8 +95,8 @@ std::optional<Surface> NearestSurface(Pixel* begin, Pixel* end, double sigma) {
 
 std::optional<DepthSample> SampleDepth(const InverseDepthImage& image, const Eigen::Vector2d& pixel,
                                        double sigma) {
-  const int center_x = static_cast<int>(std::floor(pixel.x() + 0.5));
-  const int center_y = static_cast<int>(std::floor(pixel.y() + 0.5));
+  const int center_x = cvRound(pixel.x());
+  const int center_y = cvRound(pixel.y());
   std::array<Pixel, kMaxPixels> pixels;
   int count = 0;
   for (int y = center_y - kRadius; y <= center_y + kRadius; ++y) {

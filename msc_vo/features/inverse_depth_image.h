@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <cmath>
-
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
@@ -25,8 +23,7 @@ class InverseDepthImage {
   }
   // At the pixel nearest to `pixel`.
   double Nearest(const Eigen::Vector2d& pixel) const {
-    return At(static_cast<int>(std::floor(pixel.x() + 0.5)),
-              static_cast<int>(std::floor(pixel.y() + 0.5)));
+    return At(cvRound(pixel.x()), cvRound(pixel.y()));
   }
 
  private:

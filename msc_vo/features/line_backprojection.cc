@@ -68,14 +68,24 @@ bool Jumps(const Profile& profile, int i, double sigma) {
   return *step - usual > kJumpSigmas * sigma;
 }
 
-std::vector<Run> SplitAtJumps(const Profile& profile, double sigma) {
-  std::vector<Run> runs;
+// The surfaces of a profile, in order; there are at most as many as pixels.
+struct Runs {
+  std::array<Run, 2 * kReach + 1> data;
+  int count = 0;
+
+  const Run* begin() const { return data.data(); }
+  const Run* end() const { return data.data() + count; }
+};
+
+Runs SplitAtJumps(const Profile& profile, double sigma) {
+  Runs runs;
   for (int i = 0; i < static_cast<int>(profile.size()); ++i) {
     if (profile[i] <= 0.0) continue;
-    if (i > 0 && !runs.empty() && runs.back().last == i - 1 && !Jumps(profile, i - 1, sigma)) {
-      runs.back().last = i;
+    // A pixel behind a missing one jumps.
+    if (runs.count > 0 && !Jumps(profile, i - 1, sigma)) {
+      runs.data[runs.count - 1].last = i;
     } else {
-      runs.push_back({i, i});
+      runs.data[runs.count++] = {i, i};
     }
   }
   return runs;
@@ -165,7 +175,7 @@ std::optional<LineDepth> EndPointDepth(const InverseDepthImage& image, const Len
                                        const LineSegment2& segment, double sigma) {
   const auto nearest_valid = [&](const Vector2d& ideal) {
     const Vector2d raw = lens.RawFromIdeal(ideal);
-    const Vector2d center(std::floor(raw.x() + 0.5), std::floor(raw.y() + 0.5));
+    const Vector2d center(cvRound(raw.x()), cvRound(raw.y()));
     double best_distance = kEndPointRadius * kEndPointRadius + 0.5;
     double best = 0.0;
     for (int dy = -2; dy <= 2; ++dy) {

@@ -21,22 +21,39 @@ using Line = Eigen::Vector2d;
 constexpr int kMaxRefits = 10;
 // Two samples closer than this on the segment do not determine a line.
 constexpr double kMinSampleGap = 1e-6;
+// Of having drawn a pair without outliers.
+constexpr double kConfidence = 0.99;
+constexpr int kMaxPairs = 1000000;
 
 double NormalizedResidual(const Line& line, const LineFitSample& sample) {
   const double predicted = (1.0 - sample.s) * line[0] + sample.s * line[1];
   return (sample.inverse_depth - predicted) / sample.sigma;
 }
 
-// Sum of squared residuals (in sigmas), each cut off at the inlier threshold: unlike the number of
-// inliers it also tells a good line from one that barely catches its samples.
-double TruncatedCost(const Line& line, const std::vector<LineFitSample>& samples,
-                     double threshold) {
-  double cost = 0.0;
+struct Score {
+  // Sum of squared residuals (in sigmas), each cut off at the inlier threshold: unlike the number
+  // of inliers it also tells a good line from one that barely catches its samples.
+  double truncated_cost = 0.0;
+  int num_inliers = 0;
+};
+
+Score ScoreOf(const Line& line, const std::vector<LineFitSample>& samples, double threshold) {
+  Score score;
   for (const LineFitSample& sample : samples) {
     const double r = NormalizedResidual(line, sample);
-    cost += std::min(r * r, threshold * threshold);
+    const bool inlier = std::abs(r) <= threshold;
+    score.truncated_cost += inlier ? r * r : threshold * threshold;
+    score.num_inliers += inlier;
   }
-  return cost;
+  return score;
+}
+
+// Pairs to draw until one without outliers is among them with the probability kConfidence.
+int PairsNeeded(int num_inliers, size_t num_samples) {
+  const double ratio = static_cast<double>(num_inliers) / static_cast<double>(num_samples);
+  if (ratio >= 1.0) return 1;
+  const double pairs = std::log(1.0 - kConfidence) / std::log(1.0 - ratio * ratio);
+  return pairs < kMaxPairs ? static_cast<int>(std::ceil(pairs)) : kMaxPairs;
 }
 
 std::optional<Line> LineThrough(const LineFitSample& a, const LineFitSample& b) {
@@ -89,7 +106,7 @@ class PairSearch {
       return best_;
     }
     std::minstd_rand random(seed % 2147483646u + 1u);  // its state must not be 0
-    for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    for (int iteration = 0; iteration < std::min(max_iterations, pairs_needed_); ++iteration) {
       const size_t i = random() % n;
       const size_t j = (i + 1 + random() % (n - 1)) % n;
       Try(i, j);
@@ -106,10 +123,11 @@ class PairSearch {
   }
 
   bool Keep(const Line& line) {
-    const double cost = TruncatedCost(line, samples_, threshold_);
-    if (best_ && cost >= best_cost_) return false;
+    const Score score = ScoreOf(line, samples_, threshold_);
+    if (best_ && score.truncated_cost >= best_cost_) return false;
     best_ = line;
-    best_cost_ = cost;
+    best_cost_ = score.truncated_cost;
+    pairs_needed_ = PairsNeeded(score.num_inliers, samples_.size());
     return true;
   }
 
@@ -117,6 +135,7 @@ class PairSearch {
   double threshold_;
   std::optional<Line> best_;
   double best_cost_ = 0.0;
+  int pairs_needed_ = kMaxPairs;
 };
 
 }  // namespace
