@@ -21,6 +21,9 @@ enum ExitCode {
 // Footer of a sub-command's --help: an example, then the exit codes.
 std::string HelpFooter(const std::string& example);
 
+// The command line as it was typed, for the records of a run.
+const std::string& CommandLine();
+
 // One sub-command: where its arguments are declared, and what runs if the user chose it.
 //
 // `run` returns an ExitCode and reports failure by throwing std::exception: main prints

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "msc_vo/version.h"
 
 namespace msc_vo {
 
@@ -17,14 +18,17 @@ std::string HelpFooter(const std::string& example) {
 
 namespace {
 
+std::string command_line;  // set once, before any command runs
+
 using AddCommand = Command (*)(CLI::App*);
 constexpr AddCommand kCommands[] = {AddReplayCommand, AddEvaluateCommand, AddCheckCommand,
                                     AddSynthesizeCommand};
 
 int Main(int argc, char** argv) {
+  for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + std::string(argv[i]);
   CLI::App app("RGB-D visual odometry from points, lines and the structure of the scene", "msc_vo");
   app.require_subcommand(1);
-  app.set_version_flag("--version", "msc_vo " MSC_VO_VERSION);
+  app.set_version_flag("--version", std::string("msc_vo ") + kVersion);
   app.footer(HelpFooter("msc_vo replay my_sequence --output out"));
   std::vector<Command> commands;
   for (const AddCommand add : kCommands) commands.push_back(add(&app));
@@ -41,6 +45,9 @@ int Main(int argc, char** argv) {
 }
 
 }  // namespace
+
+const std::string& CommandLine() { return command_line; }
+
 }  // namespace msc_vo
 
 int main(int argc, char** argv) {

@@ -4,16 +4,17 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/commands.h"
+#include "apps/interrupt_guard.h"
+#include "apps/progress.h"
 #include "msc_vo/synthetic/synthetic_sequence.h"
 
 namespace msc_vo {
@@ -135,7 +136,9 @@ int Run(const Arguments& arguments) {
   TextFile associations(folder / "associations.txt"), truth(folder / "groundtruth.txt");
   for (TextFile* list : {&rgb_list, &depth_list}) list->Write("# timestamp filename");
   truth.Write("# timestamp tx ty tz qx qy qz qw (camera in world)");
-  for (int i = 0; i < arguments.frames; ++i) {
+  const InterruptGuard guard;
+  Progress progress(arguments.frames);
+  for (int i = 0; i < arguments.frames && !guard.IsInterrupted(); ++i) {
     SyntheticFrame frame = sequence.Render(i);
     const std::string stamp = Format("%.6f", frame.pose.timestamp);
     const std::string rgb = "rgb/" + stamp + (arguments.jpeg ? ".jpg" : ".png");
@@ -146,11 +149,10 @@ int Run(const Arguments& arguments) {
     depth_list.Write(stamp + " " + depth);
     associations.Write(stamp + " " + rgb + " " + stamp + " " + depth);
     truth.Write(PoseLine(stamp, frame.pose.world_from_cam));
-    if ((i + 1) % 30 == 0 || i + 1 == arguments.frames) {
-      std::cerr << "synthesize: " << i + 1 << " of " << arguments.frames << " frames" << std::endl;
-    }
+    progress.Update(i + 1, "");
   }
-  return kExitSuccess;
+  progress.Finish();
+  return guard.IsInterrupted() ? kExitInterrupted : kExitSuccess;
 }
 
 }  // namespace

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+#include "apps/commands.h"
+#include "msc_vo/evaluation/trajectory_error.h"
+#include "msc_vo/io/run_summary.h"
+#include "msc_vo/io/trajectory.h"
+
+namespace msc_vo {
+
+namespace {
+
+struct Arguments {
+  std::string truth;
+  std::string estimate;
+  EvaluationOptions options;
+  bool json = false;
+};
+
+void PrintRow(const char* name, const ErrorStatistics& statistics, double factor,
+              const char* unit) {
+  if (statistics.count == 0) {
+    std::printf("%-20s  no pairs that far apart\n", name);
+    return;
+  }
+  std::printf("%-20s %9.3f %9.3f %9.3f %9.3f  %s\n", name, factor * statistics.rmse,
+              factor * statistics.mean, factor * statistics.median, factor * statistics.max, unit);
+}
+
+void PrintTable(const TrajectoryError& error) {
+  constexpr double kMillimetres = 1000.0;
+  const double degrees = 180.0 / std::acos(-1.0);
+  std::printf("%-20s %9s %9s %9s %9s\n", "", "RMSE", "mean", "median", "max");
+  PrintRow("APE", error.ape, kMillimetres, "mm");
+  PrintRow("APE rotation", error.ape_rotation, degrees, "deg");
+  PrintRow("RPE", error.rpe_per_second.translation, kMillimetres, "mm/s");
+  PrintRow("RPE rotation", error.rpe_per_second.rotation, degrees, "deg/s");
+  PrintRow("RPE", error.rpe_per_metre.translation, kMillimetres, "mm/m");
+  PrintRow("RPE rotation", error.rpe_per_metre.rotation, degrees, "deg/m");
+  std::printf(
+      "coverage %.2f %%: %d of %d ground-truth poses matched (%.2f %% of those in the "
+      "time range of the estimate), %d estimated, path %.2f m\n",
+      100.0 * error.coverage, error.num_matched, error.num_reference,
+      100.0 * error.coverage_in_range, error.num_estimate, error.path_length);
+}
+
+int Run(const Arguments& arguments) {
+  const TrajectoryError error = EvaluateTrajectory(
+      ReadTrajectory(arguments.truth), ReadTrajectory(arguments.estimate), arguments.options);
+  if (!error.usable) {
+    throw std::runtime_error(arguments.estimate + " cannot be compared with " + arguments.truth +
+                             ": " + error.message +
+                             "; do both have stamps in seconds on the same clock?");
+  }
+  if (arguments.json) {
+    std::cout << FormatErrorJson(error);
+  } else {
+    PrintTable(error);
+  }
+  return kExitSuccess;
+}
+
+}  // namespace
+
+Command AddEvaluateCommand(CLI::App* app) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app->add_subcommand(
+      "evaluate", "Compare a trajectory with the ground truth (both TUM: t tx ty tz qx qy qz qw)");
+  command->add_option("ground_truth", arguments->truth, "Reference trajectory")->required();
+  command->add_option("estimate", arguments->estimate, "Estimated trajectory")->required();
+  command->add_flag("--json", arguments->json, "Print JSON: metres, degrees");
+  command
+      ->add_option("--max-dt", arguments->options.max_time_difference,
+                   "Seconds between matched poses, at most")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->footer(HelpFooter("msc_vo evaluate my_sequence/groundtruth.txt out/trajectory.txt"));
+  return {command, [arguments] { return Run(*arguments); }};
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "msc_vo/io/option_list.h"
+#include "msc_vo/io/rgbd_decoder.h"
+
+namespace msc_vo {
+
+// How the user says which sequence is meant: the arguments that every command on one shares.
+struct SequenceArguments {
+  std::string directory;
+  std::string format = "auto";
+  std::string camera;  // preset; may be empty
+  std::string config;  // file; may be empty
+};
+
+// Declares SEQUENCE, --format, --camera and --config. The caller makes SEQUENCE required, if it is.
+CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* arguments);
+
+// The sequence, ready to be decoded. `configuration` must have been read already.
+// Throws std::runtime_error naming file, line and fix.
+RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration& configuration);
+
+// The configuration file over the defaults.
+Configuration LoadConfiguration(const SequenceArguments& arguments);
+
+}  // namespace msc_vo
