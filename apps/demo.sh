@@ -16,7 +16,7 @@ cmake/install_packages.sh
 
 say "Build"
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release
-cmake --build build --parallel "$jobs" --target msc_vo
+cmake --build build --parallel "$jobs" --target msc_vo_command
 msc_vo=build/apps/msc_vo
 
 if [[ ! -d $room ]]; then

@@ -4,6 +4,7 @@
 #include "msc_vo/viewer/report.h"
 
 #include <array>
+#include <sstream>
 #include <stdexcept>
 
 #include "msc_vo/viewer/html_text.h"
@@ -59,14 +60,25 @@ void WriteHeader(const ReportData& data, std::ostream& out) {
       << EscapeHtml(data.command_line) << "</code></p>\n";
 }
 
+// Short values as tiles, which catch the eye; long ones as rows of a table below them.
 void WriteNumbers(const ReportData& data, std::ostream& out) {
-  out << "<dl class=\"numbers\">\n";
+  constexpr size_t kMaxTileLength = 16;  // characters that fit a tile on one line
+  std::ostringstream tiles;
+  std::ostringstream rows;
   for (const ReportNumber& number : data.numbers) {
-    out << "<div><dt>" << EscapeHtml(number.name) << "</dt><dd class=\"value\">"
-        << EscapeHtml(number.value) << "</dd><dd class=\"note\">" << EscapeHtml(number.note)
-        << "</dd></div>\n";
+    const std::string name = EscapeHtml(number.name);
+    const std::string value = EscapeHtml(number.value);
+    const std::string note = EscapeHtml(number.note);
+    if (number.value.size() <= kMaxTileLength) {
+      tiles << "<div><dt>" << name << "</dt><dd class=\"value\">" << value
+            << "</dd><dd class=\"note\">" << note << "</dd></div>\n";
+    } else {
+      rows << "<tr><th>" << name << "</th><td>" << value << "</td><td class=\"note\">" << note
+           << "</td></tr>\n";
+    }
   }
-  out << "</dl>\n";
+  out << "<dl class=\"numbers\">\n" << tiles.str() << "</dl>\n";
+  if (!rows.str().empty()) out << "<table class=\"facts\">\n" << rows.str() << "</table>\n";
 }
 
 void WriteTrajectory(const ReportData& data, std::ostream& out) {
@@ -141,7 +153,7 @@ void WriteTimes(const ReportData& data, std::ostream& out) {
               out);
   out << "<h2>Stages</h2>\n<table>\n<tr><th>milliseconds</th><th>mean</th><th>median</th>"
          "<th>95 %</th><th>max</th><th>times</th></tr>\n";
-  for (const StageStatistics& stage : SummarizeStages(data)) {
+  for (const StageTimeStatistics& stage : SummarizeStages(data)) {
     out << "<tr><td>" << EscapeHtml(stage.name) << "</td><td>" << FormatFixed(stage.mean, 2)
         << "</td><td>" << FormatFixed(stage.median, 2) << "</td><td>" << FormatFixed(stage.p95, 2)
         << "</td><td>" << FormatFixed(stage.max, 2) << "</td><td>" << stage.count << "</td></tr>\n";

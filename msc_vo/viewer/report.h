@@ -44,7 +44,7 @@ struct ReportLine {
   int axis = -1;         // Manhattan axis 0, 1, 2 that it belongs to; -1: none
 };
 
-// A row of the first table: "APE RMSE" "12.3 mm" "after SE(3) alignment".
+// A key number: "APE RMSE" "12.3 mm" "after SE(3) alignment". Short values are shown large.
 struct ReportNumber {
   std::string name;
   std::string value;

@@ -10,21 +10,20 @@
 namespace msc_vo {
 namespace {
 
-// `sorted` must not be empty.
+// The smallest value that at least the share q of all values do not exceed. `sorted` must not be
+// empty.
 double Quantile(const std::vector<double>& sorted, double q) {
-  const double position = q * static_cast<double>(sorted.size() - 1);
-  const size_t below = static_cast<size_t>(position);
-  const size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (position - below) * (sorted[above] - sorted[below]);
+  const double rank = std::ceil(q * static_cast<double>(sorted.size()));
+  return sorted[static_cast<size_t>(std::max(rank, 1.0)) - 1];
 }
 
 }  // namespace
 
-StageStatistics SummarizeStage(const std::string& name, std::vector<double> milliseconds) {
+StageTimeStatistics SummarizeStage(const std::string& name, std::vector<double> milliseconds) {
   milliseconds.erase(std::remove_if(milliseconds.begin(), milliseconds.end(),
                                     [](double ms) { return !std::isfinite(ms); }),
                      milliseconds.end());
-  StageStatistics statistics;
+  StageTimeStatistics statistics;
   statistics.name = name;
   if (milliseconds.empty()) return statistics;
   std::sort(milliseconds.begin(), milliseconds.end());
@@ -37,13 +36,13 @@ StageStatistics SummarizeStage(const std::string& name, std::vector<double> mill
   return statistics;
 }
 
-std::vector<StageStatistics> SummarizeStages(const ReportData& data) {
+std::vector<StageTimeStatistics> SummarizeStages(const ReportData& data) {
   const auto summarize = [&data](const std::string& name, const auto& milliseconds_of) {
     std::vector<double> values;
     for (const ReportFrame& frame : data.frames) values.push_back(milliseconds_of(frame));
     return SummarizeStage(name, std::move(values));
   };
-  std::vector<StageStatistics> all;
+  std::vector<StageTimeStatistics> all;
   for (size_t i = 0; i < data.stage_names.size(); ++i) {
     all.push_back(summarize(data.stage_names[i],
                             [i](const ReportFrame& frame) { return frame.stage_ms[i]; }));

@@ -11,7 +11,7 @@
 namespace msc_vo {
 
 // Milliseconds of one stage over the frames in which it ran.
-struct StageStatistics {
+struct StageTimeStatistics {
   std::string name;
   int count = 0;
   double mean = 0.0;
@@ -20,13 +20,13 @@ struct StageStatistics {
   double max = 0.0;
 };
 
-// Median and 95 % quantile are interpolated between neighbours; values that are not finite do not
-// count. All zero if nothing is left.
-StageStatistics SummarizeStage(const std::string& name, std::vector<double> milliseconds);
+// Median and 95 % quantile are values that occurred, as many frames took no longer; values that are
+// not finite do not count. All zero if nothing is left.
+StageTimeStatistics SummarizeStage(const std::string& name, std::vector<double> milliseconds);
 
 // The stages of tracking, tracking as a whole over all frames, and mapping over the frames that
 // caused a keyframe step.
-std::vector<StageStatistics> SummarizeStages(const ReportData& data);
+std::vector<StageTimeStatistics> SummarizeStages(const ReportData& data);
 
 // Successive frames without an estimated pose (predicted or lost).
 struct NotTrackedSpan {

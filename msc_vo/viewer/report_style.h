@@ -43,7 +43,9 @@ pre { margin: 8px 0 0; padding: 12px 14px; overflow-x: auto; background: var(--p
 .numbers dt { color: var(--faint); font-size: 13px; }
 .numbers dd { margin: 0; }
 .numbers .value { font-size: 21px; font-weight: 600; font-variant-numeric: tabular-nums; }
-.numbers .note { color: var(--faint); font-size: 12px; }
+.note { color: var(--faint); font-size: 12px; }
+.facts { margin-top: 14px; }
+.facts th, .facts td { text-align: left; vertical-align: baseline; }
 .views { display: grid; gap: 14px; grid-template-columns: repeat(auto-fit, minmax(420px, 1fr)); }
 figure { margin: 0; padding: 10px 12px 6px; border: 1px solid var(--rule); border-radius: 8px;
   break-inside: avoid; }

@@ -12,13 +12,20 @@ namespace msc_vo {
 namespace {
 
 TEST(SummarizeStage, HandComputed) {
-  const StageStatistics stage = SummarizeStage("lines", {4.0, 1.0, 3.0, 2.0, 10.0});
+  const StageTimeStatistics stage = SummarizeStage("lines", {4.0, 1.0, 3.0, 2.0, 10.0});
   EXPECT_EQ(stage.name, "lines");
   EXPECT_EQ(stage.count, 5);
   EXPECT_DOUBLE_EQ(stage.mean, 4.0);
   EXPECT_DOUBLE_EQ(stage.median, 3.0);
-  EXPECT_DOUBLE_EQ(stage.p95, 4.0 + 0.8 * 6.0);  // position 0.95 * 4 = 3.8 among the sorted
+  EXPECT_DOUBLE_EQ(stage.p95, 10.0);  // four of five are only 80 %
   EXPECT_DOUBLE_EQ(stage.max, 10.0);
+}
+
+TEST(SummarizeStage, NinetyFivePercentTookNoLonger) {
+  std::vector<double> values;
+  for (int i = 100; i >= 1; --i) values.push_back(i);
+  EXPECT_DOUBLE_EQ(SummarizeStage("x", values).p95, 95.0);
+  EXPECT_DOUBLE_EQ(SummarizeStage("x", values).median, 50.0);
 }
 
 TEST(SummarizeStage, IgnoresWhatIsNotFiniteAndSurvivesNothing) {

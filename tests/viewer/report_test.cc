@@ -70,6 +70,14 @@ TEST(Report, EscapesEveryText) {
   EXPECT_EQ(CountOf(html, "&lt;b&gt;&amp;&quot;"), 10);
 }
 
+TEST(Report, ShowsLongValuesInATable) {
+  ReportData data = MakeFakeRun(10);
+  data.numbers = {{"Short", "1 mm", ""}, {"Long", "21.4 ms per frame (median 20.9)", ""}};
+  const std::string html = ReportOf(data);
+  EXPECT_THAT(html, HasSubstr("<dd class=\"value\">1 mm</dd>"));
+  EXPECT_THAT(html, HasSubstr("<th>Long</th><td>21.4 ms per frame (median 20.9)</td>"));
+}
+
 TEST(Report, StaysSmallOnLongRuns) { EXPECT_LT(ReportOf(MakeFakeRun(5000)).size(), 2'000'000u); }
 
 TEST(Report, IsTheSameEveryTime) {
