@@ -79,21 +79,16 @@ void Merge(std::map<LandmarkId, L>* landmarks, std::map<KeyframeId, Keyframe>* k
   target.num_found += source.num_found;
 }
 
-// The descriptor with the least median distance to all others; the first of equals.
-Descriptor MedianDescriptor(const std::vector<Descriptor>& descriptors) {
+// The descriptor with the least total distance to all others; the first of equals.
+Descriptor CentralDescriptor(const std::vector<Descriptor>& descriptors) {
   size_t best = 0;
-  int best_median = std::numeric_limits<int>::max();
-  std::vector<int> distances(descriptors.size());
+  int best_total = std::numeric_limits<int>::max();
   for (size_t i = 0; i < descriptors.size(); ++i) {
-    for (size_t j = 0; j < descriptors.size(); ++j) {
-      distances[j] = HammingDistance(descriptors[i], descriptors[j]);
-    }
-    const auto median = distances.begin() + distances.size() / 2;
-    std::nth_element(distances.begin(), median, distances.end());
-    if (*median < best_median) {
-      best_median = *median;
-      best = i;
-    }
+    int total = 0;
+    for (const Descriptor& other : descriptors) total += HammingDistance(descriptors[i], other);
+    if (total >= best_total) continue;
+    best_total = total;
+    best = i;
   }
   return descriptors[best];
 }
@@ -213,7 +208,7 @@ void Map::RefreshPoint(LandmarkId id) {
     directions += ray.normalized();
     log_reference += std::log(std::max(ray.norm(), 1e-6)) + feature.level * std::log(kPyramidScale);
   }
-  point.descriptor = MedianDescriptor(descriptors);
+  point.descriptor = CentralDescriptor(descriptors);
   point.viewing_direction = directions.normalized();
   point.reference_distance = std::exp(log_reference / point.observations.size());
 }
@@ -227,7 +222,7 @@ void Map::RefreshLine(LandmarkId id) {
     descriptors.push_back(keyframe.frame->lines[observation.feature].descriptor);
     directions += (line.segment.Midpoint() - keyframe.cam_from_world.OriginInSource()).normalized();
   }
-  line.descriptor = MedianDescriptor(descriptors);
+  line.descriptor = CentralDescriptor(descriptors);
   line.viewing_direction = directions.normalized();
 }
 

@@ -11,6 +11,9 @@ namespace msc_vo {
 
 namespace {
 
+// Metres. The shortest segment that a sensor of 1 mm resolution can give a direction.
+constexpr double kMinLineLength = 0.01;
+
 // Collects the landmarks that the window's keyframes see, and every keyframe that sees them.
 template <typename L, typename Find>
 std::vector<const L*> SeenLandmarks(const Map& map, const std::set<KeyframeId>& window,
@@ -184,11 +187,10 @@ LineSegment3 CutToObservations(const Map& map, const LineLandmark& line,
       any = true;
     }
   }
-  if (!any || last - first < 1e-3) return segment;
   LineSegment3 cut;
   cut.start = segment.At(first);
   cut.end = segment.At(last);
-  return cut;
+  return cut.Length() > kMinLineLength ? cut : segment;
 }
 
 void WriteBack(const WindowData& window, Map* map) {
@@ -209,6 +211,11 @@ void WriteBack(const WindowData& window, Map* map) {
   for (const WindowData::Line& line : window.lines) {
     const LineLandmark* landmark = map->FindLine(line.id);
     if (landmark == nullptr) continue;
+    // Wrong matches can pull the end points together; what has no direction is no line.
+    if (!(line.segment.Length() > kMinLineLength)) {
+      map->RemoveLine(line.id);
+      continue;
+    }
     map->SetLine(line.id, CutToObservations(*map, *landmark, line.segment));
     map->RefreshLine(line.id);
   }

@@ -41,11 +41,13 @@ void AdoptKeyframe(const Keyframe& keyframe, TrackedFrame* tracked) {
   tracked->matches = {};
   for (size_t i = 0; i < keyframe.points.size(); ++i) {
     if (keyframe.points[i] == kNoId) continue;
-    tracked->matches.points.push_back({static_cast<int>(i), keyframe.points[i], {}, true});
+    tracked->matches.points.push_back(
+        {static_cast<int>(i), keyframe.points[i], Eigen::Vector3d::Zero(), true});
   }
   for (size_t i = 0; i < keyframe.lines.size(); ++i) {
     if (keyframe.lines[i] == kNoId) continue;
-    tracked->matches.lines.push_back({static_cast<int>(i), keyframe.lines[i], {}, true});
+    tracked->matches.lines.push_back(
+        {static_cast<int>(i), keyframe.lines[i], LineSegment3(), true});
   }
 }
 

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/map/map.h"
+
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+using ::testing::ElementsAre;
+
+// A frame with as many features as asked for, each with a descriptor of its own.
+std::shared_ptr<const Frame> MakeFrame(int num_points, int num_lines) {
+  auto frame = std::make_shared<Frame>();
+  frame->points.resize(num_points);
+  frame->lines.resize(num_lines);
+  for (int i = 0; i < num_points; ++i) frame->points[i].descriptor[0] = static_cast<uint8_t>(i);
+  return frame;
+}
+
+class MapTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d translation(-0.5 * i, 0, 0);  // camera i stands at x = 0.5 i
+      keyframes_[i] =
+          map_.AddKeyframe(MakeFrame(4, 2), Rigid3(Eigen::Quaterniond::Identity(), translation));
+    }
+    a_ = map_.AddPoint(keyframes_[0], 0, {0, 0, 2});
+    b_ = map_.AddPoint(keyframes_[1], 1, {0.1, 0, 2});
+    LineSegment3 segment;
+    segment.start = {0, 0, 2};
+    segment.end = {0, 1, 2};
+    line_ = map_.AddLine(keyframes_[0], 0, segment);
+  }
+
+  Map map_;
+  KeyframeId keyframes_[3];
+  LandmarkId a_ = kNoId;
+  LandmarkId b_ = kNoId;
+  LandmarkId line_ = kNoId;
+};
+
+TEST_F(MapTest, ObservationsStandOnBothSides) {
+  EXPECT_TRUE(map_.ObservePoint(a_, keyframes_[2], 3));
+  EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->points[3], a_);
+  ASSERT_EQ(map_.FindPoint(a_)->observations.size(), 2u);
+  EXPECT_EQ(map_.FindPoint(a_)->observations[1].keyframe, keyframes_[2]);
+  EXPECT_EQ(map_.FindPoint(a_)->observations[1].feature, 3);
+}
+
+TEST_F(MapTest, ObservationsStayAscending) {
+  EXPECT_TRUE(map_.ObservePoint(b_, keyframes_[2], 0));
+  EXPECT_TRUE(map_.ObservePoint(b_, keyframes_[0], 2));
+  std::vector<KeyframeId> order;
+  for (const Observation& seen : map_.FindPoint(b_)->observations) order.push_back(seen.keyframe);
+  EXPECT_THAT(order, ElementsAre(keyframes_[0], keyframes_[1], keyframes_[2]));
+}
+
+TEST_F(MapTest, RefusesSecondObservationTakenFeatureAndUnknownLandmark) {
+  EXPECT_FALSE(map_.ObservePoint(a_, keyframes_[0], 3));  // sees it already
+  EXPECT_FALSE(map_.ObservePoint(a_, keyframes_[1], 1));  // shows b
+  EXPECT_FALSE(map_.ObservePoint(999, keyframes_[0], 3));
+  EXPECT_FALSE(map_.ObserveLine(line_, keyframes_[0], 1));
+  EXPECT_EQ(map_.FindPoint(a_)->observations.size(), 1u);
+}
+
+TEST_F(MapTest, ForgettingTheLastObservationRemovesTheLandmark) {
+  map_.ForgetPoint(a_, keyframes_[1]);  // never seen there: nothing happens
+  EXPECT_NE(map_.FindPoint(a_), nullptr);
+  map_.ForgetPoint(a_, keyframes_[0]);
+  EXPECT_EQ(map_.FindPoint(a_), nullptr);
+  EXPECT_EQ(map_.FindKeyframe(keyframes_[0])->points[0], kNoId);
+}
+
+TEST_F(MapTest, MergeMovesObservationsThatDoNotCollide) {
+  map_.ObservePoint(a_, keyframes_[2], 0);
+  map_.ObservePoint(b_, keyframes_[2], 1);  // both in keyframe 2: only one may stay
+  map_.MergePoints(b_, a_);
+  EXPECT_EQ(map_.FindPoint(b_), nullptr);
+  EXPECT_EQ(map_.FindPoint(a_)->observations.size(), 3u);
+  EXPECT_EQ(map_.FindKeyframe(keyframes_[1])->points[1], a_);
+  EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->points[0], a_);
+  EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->points[1], kNoId);
+  EXPECT_EQ(map_.FindPoint(a_)->num_found, 2);
+}
+
+TEST_F(MapTest, RemovedKeyframeKeepsItsPlaceRelativeToItsHeir) {
+  const Rigid3 before = map_.CamFromWorld(keyframes_[1]);
+  map_.ObservePoint(b_, keyframes_[2], 0);
+  map_.RemoveKeyframe(keyframes_[1], keyframes_[2]);
+  EXPECT_EQ(map_.FindKeyframe(keyframes_[1]), nullptr);
+  EXPECT_EQ(map_.FindPoint(b_)->observations.size(), 1u);
+  EXPECT_TRUE(map_.CamFromWorld(keyframes_[1]).params.isApprox(before.params, 1e-12));
+  // When the heir moves, what stood relative to it moves with it; also over two removals.
+  const Rigid3 shift(Eigen::Quaterniond::Identity(), {0, 0, 1});
+  map_.RemoveKeyframe(keyframes_[2], keyframes_[0]);
+  map_.SetPose(keyframes_[0], shift * map_.CamFromWorld(keyframes_[0]));
+  EXPECT_TRUE(map_.CamFromWorld(keyframes_[1]).params.isApprox((shift * before).params, 1e-12));
+}
+
+TEST_F(MapTest, CovisibleKeyframesAreRankedBySharedLandmarks) {
+  map_.ObservePoint(a_, keyframes_[1], 0);
+  map_.ObserveLine(line_, keyframes_[1], 0);
+  map_.ObservePoint(a_, keyframes_[2], 0);
+  const std::vector<Map::Covisible> covisible = map_.FindCovisible(keyframes_[0]);
+  ASSERT_EQ(covisible.size(), 2u);
+  EXPECT_EQ(covisible[0].keyframe, keyframes_[1]);
+  EXPECT_EQ(covisible[0].num_shared, 2);
+  EXPECT_EQ(covisible[1].keyframe, keyframes_[2]);
+  EXPECT_EQ(covisible[1].num_shared, 1);
+}
+
+TEST_F(MapTest, RefreshTakesTheCentralDescriptorAndMeanDirection) {
+  map_.ObservePoint(a_, keyframes_[1], 3);  // descriptor 0b11, nearest to both others
+  map_.ObservePoint(a_, keyframes_[2], 2);  // descriptor 0b10
+  map_.RefreshPoint(a_);
+  const PointLandmark& point = *map_.FindPoint(a_);
+  EXPECT_EQ(point.descriptor[0], 0b10);
+  const Eigen::Vector3d expected =
+      (Eigen::Vector3d(0, 0, 2).normalized() + Eigen::Vector3d(-0.5, 0, 2).normalized() +
+       Eigen::Vector3d(-1, 0, 2).normalized())
+          .normalized();
+  EXPECT_TRUE(point.viewing_direction.isApprox(expected, 1e-12));
+}
+
+TEST_F(MapTest, ACopyIsASnapshot) {
+  const Map copy = map_;
+  map_.RemovePoint(a_);
+  map_.SetPose(keyframes_[1], Rigid3());
+  EXPECT_NE(copy.FindPoint(a_), nullptr);
+  EXPECT_DOUBLE_EQ(copy.FindKeyframe(keyframes_[1])->cam_from_world.translation().x(), -0.5);
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/landmark_fusion.h"
+
+#include "tests/support/synthetic_frames.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/mapping/landmark_creation.h"
+
+namespace msc_vo {
+namespace {
+
+// Two keyframes that each made landmarks of all they saw, as if tracking had found nothing.
+class FusionTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    SyntheticFrames world{SyntheticFrames::Options()};
+    for (const int index : {0, 15}) {
+      const KeyframeId id =
+          map_.AddKeyframe(world.See(index), SyntheticFrames::CamFromWorld(index));
+      CreatePoints(id, &probation_, &map_);
+      CreateLines(id, &probation_, &map_);
+    }
+    // They are neighbours only through what they share: one true pair.
+    Share();
+  }
+  void Share() {
+    const Keyframe& a = *map_.FindKeyframe(0);
+    const Keyframe& b = *map_.FindKeyframe(1);
+    for (size_t i = 0; i < a.points.size(); ++i) {
+      for (size_t j = 0; j < b.points.size(); ++j) {
+        if (HammingDistance(a.frame->points[i].descriptor, b.frame->points[j].descriptor) > 40) {
+          continue;
+        }
+        map_.MergePoints(b.points[j], a.points[i]);
+        return;
+      }
+    }
+  }
+
+  Map map_;
+  Probation probation_;
+};
+
+TEST_F(FusionTest, DuplicatesBecomeOne) {
+  const size_t points_before = map_.points().size();
+  const size_t lines_before = map_.lines().size();
+  FusePoints(FusionOptions(), 1, &map_);
+  FuseLines(FusionOptions(), 1, &map_);
+  // Nearly all points are visible in both frames; a few leave the image or hide in noise.
+  EXPECT_LT(map_.points().size(), 0.65 * points_before);
+  EXPECT_LT(map_.lines().size(), 0.75 * lines_before);
+  // What was merged is seen by both, and both keyframes agree about it.
+  for (const auto& [id, point] : map_.points()) {
+    for (const Observation& seen : point.observations) {
+      EXPECT_EQ(map_.FindKeyframe(seen.keyframe)->points[seen.feature], id);
+    }
+  }
+}
+
+TEST_F(FusionTest, DifferentLandmarksStayApart) {
+  FusePoints(FusionOptions(), 1, &map_);
+  // Every landmark's sights have one descriptor, but for the bits that noise flips (12 in each).
+  for (const auto& [id, point] : map_.points()) {
+    if (point.observations.size() < 2) continue;
+    const Observation& a = point.observations[0];
+    const Observation& b = point.observations[1];
+    EXPECT_LE(HammingDistance(map_.FindKeyframe(a.keyframe)->frame->points[a.feature].descriptor,
+                              map_.FindKeyframe(b.keyframe)->frame->points[b.feature].descriptor),
+              24)
+        << id;
+  }
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/mapper.h"
+
+#include "tests/support/synthetic_frames.h"
+#include "tests/support/synthetic_map.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+// Keyframes come with poses disturbed by 1 cm and half a degree, as a tracker on a thin map might
+// deliver them, and without any match: fusion must find what they share.
+KeyframePacket Packet(SyntheticFrames* world, int index, std::mt19937* random) {
+  const auto normal = [&] { return std::normal_distribution<double>(0.0, 1.0)(*random); };
+  KeyframePacket packet;
+  packet.frame = world->See(index);
+  const Rigid3 truth =
+      SyntheticFrames::CamFromWorld(index) * SyntheticFrames::CamFromWorld(0).Inverse();
+  packet.cam_from_reference = truth;
+  if (index > 0) {
+    const Eigen::AngleAxisd turn(0.003 * normal(), Eigen::Vector3d::UnitY());
+    packet.cam_from_reference =
+        Rigid3(Eigen::Quaterniond(turn), 0.004 * Eigen::Vector3d(normal(), normal(), normal())) *
+        truth;
+  }
+  return packet;
+}
+
+// Matches by descriptor alone, as unique as they are here.
+void MatchWithMap(const Map& map, KeyframePacket* packet) {
+  for (size_t i = 0; i < packet->frame->points.size(); ++i) {
+    for (const auto& [id, point] : map.points()) {
+      if (HammingDistance(point.descriptor, packet->frame->points[i].descriptor) > 40) continue;
+      packet->matches.points.push_back({static_cast<int>(i), id, point.position, true});
+      break;
+    }
+  }
+}
+
+TEST(Mapper, FirstKeyframeMakesLandmarksOfAllThatHasDepth) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  std::mt19937 random(1);
+  Mapper mapper{MapperOptions()};
+  const KeyframePacket packet = Packet(&world, 0, &random);
+  mapper.Process(packet);
+  EXPECT_EQ(mapper.map().keyframes().size(), 1u);
+  EXPECT_EQ(mapper.map().points().size(), packet.frame->points.size());
+  EXPECT_EQ(mapper.map().lines().size(), packet.frame->lines.size());
+}
+
+TEST(Mapper, WindowPullsDisturbedKeyframesBack) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  std::mt19937 random(1);
+  Mapper mapper{MapperOptions()};
+  double error_before = 0.0;
+  double error_after = 0.0;
+  MappingSummary summary;
+  for (int index = 0; index <= 60; index += 10) {
+    KeyframePacket packet = Packet(&world, index, &random);
+    MatchWithMap(mapper.map(), &packet);
+    summary = mapper.Process(packet);
+    const Rigid3 truth =
+        SyntheticFrames::CamFromWorld(index) * SyntheticFrames::CamFromWorld(0).Inverse();
+    error_before += PositionError(packet.cam_from_reference, truth);
+    error_after += PositionError(mapper.map().CamFromWorld(summary.keyframe), truth);
+  }
+  EXPECT_LT(error_after, 0.5 * error_before);
+  EXPECT_TRUE(summary.window.usable);
+  EXPECT_LT(summary.window.final_cost, summary.window.initial_cost);
+  EXPECT_GT(summary.window.line_reprojection.num_residual_blocks, 0);
+  // The world does not grow with the keyframes: they see the same landmarks.
+  EXPECT_LT(mapper.map().points().size(), 400u);
+  EXPECT_LT(mapper.map().lines().size(), 80u);
+}
+
+TEST(Mapper, SnapshotsDoNotChange) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  std::mt19937 random(1);
+  Mapper mapper{MapperOptions()};
+  mapper.Process(Packet(&world, 0, &random));
+  const MapSnapshotPtr snapshot = mapper.Snapshot();
+  mapper.Process(Packet(&world, 10, &random));
+  EXPECT_EQ(snapshot->map.keyframes().size(), 1u);
+  EXPECT_EQ(snapshot->newest_keyframe, 0);
+  EXPECT_EQ(mapper.Snapshot()->newest_keyframe, 1);
+}
+
+TEST(Mapper, MemoryIsBoundedInOnePlace) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  std::mt19937 random(1);
+  Mapper mapper{MapperOptions()};
+  // Forty keyframes that go to and fro over the same stretch.
+  for (int i = 0; i < 40; ++i) {
+    const int index = 3 * (i % 10);
+    KeyframePacket packet = Packet(&world, index, &random);
+    MatchWithMap(mapper.map(), &packet);
+    mapper.Process(packet);
+  }
+  EXPECT_LT(mapper.map().keyframes().size(), 20u);
+  EXPECT_LT(mapper.map().points().size(), 500u);
+}
+
+TEST(Mapper, RefusesBadOptions) {
+  MapperOptions options;
+  options.culling.redundant_share = 2.0;
+  EXPECT_THROW(Mapper{options}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace msc_vo

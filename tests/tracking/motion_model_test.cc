@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/tracking/motion_model.h"
+
+#include <gmock/gmock.h>
+
+#include "msc_vo/geometry/so3.h"
+
+namespace msc_vo {
+namespace {
+
+TEST(MotionModel, AtRestUntilAMotionWasSeen) {
+  MotionModel model;
+  model.Reset(1.0);
+  EXPECT_TRUE(model.Predict(2.0).params.isApprox(Rigid3().params));
+}
+
+TEST(MotionModel, VelocityScalesWithTime) {
+  MotionModel model;
+  model.Reset(1.0);
+  const Eigen::Vector3d turn(0.0, 0.02, 0.01);
+  model.Observe(1.1, Rigid3(ExpSO3(turn), {0.1, 0.0, -0.2}));
+  const Rigid3 twice = model.Predict(1.3);
+  EXPECT_TRUE(LogSO3(twice.rotation()).isApprox(2.0 * turn, 1e-9));
+  EXPECT_TRUE(twice.translation().isApprox(Eigen::Vector3d(0.2, 0.0, -0.4), 1e-9));
+}
+
+TEST(MotionModel, DoesNotRunAwayOverALongGap) {
+  MotionModel model;
+  model.Reset(1.0);
+  model.Observe(1.1, Rigid3(Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.0}));
+  EXPECT_NEAR(model.Predict(100.0).translation().x(), 0.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/tracking/tracker.h"
+
+#include "tests/support/synthetic_frames.h"
+#include "tests/support/synthetic_map.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+// A tracker that has seen frame 0, and the map made of it. World is camera 0 here, so that truth is
+// told relative to it.
+class TrackerTest : public ::testing::Test {
+ protected:
+  void Start(const SyntheticFrames::Options& options) {
+    world_ = std::make_unique<SyntheticFrames>(options);
+    const std::shared_ptr<const Frame> first = world_->See(0);
+    const TrackedFrame tracked = tracker_.Track(first, MapSnapshot());
+    ASSERT_EQ(tracked.status, TrackingStatus::kTracked);
+    ASSERT_TRUE(tracked.is_keyframe);
+    snapshot_ = MapOfOneKeyframe(first, Rigid3());
+  }
+  static Rigid3 Truth(int index) {
+    return SyntheticFrames::CamFromWorld(index) * SyntheticFrames::CamFromWorld(0).Inverse();
+  }
+  TrackedFrame Track(int index) { return tracker_.Track(world_->See(index), snapshot_); }
+
+  Tracker tracker_{TrackerOptions()};
+  std::unique_ptr<SyntheticFrames> world_;
+  MapSnapshot snapshot_;
+};
+
+TEST_F(TrackerTest, FollowsTheCamera) {
+  Start({});
+  for (int i = 1; i < 30; ++i) {
+    const TrackedFrame tracked = Track(i);
+    ASSERT_EQ(tracked.status, TrackingStatus::kTracked) << i;
+    // One keyframe's landmarks carry its own noise: half a pixel and 1.4e-3 / m.
+    EXPECT_LT(PositionError(tracked.cam_from_world, Truth(i)), 0.01) << i;
+    EXPECT_LT(RotationError(tracked.cam_from_world, Truth(i)), 0.003) << i;
+    EXPECT_GT(tracked.pose.num_inlier_points, 100) << i;
+  }
+}
+
+TEST_F(TrackerTest, FifteenLinesAndTenPointsAreAGoodFrame) {
+  SyntheticFrames::Options options;
+  options.num_points = 14;
+  options.num_lines = 24;
+  Start(options);
+  for (int i = 1; i < 20; ++i) {
+    const TrackedFrame tracked = Track(i);
+    ASSERT_TRUE(tracked.status == TrackingStatus::kTracked) << i << ToString(tracked.status);
+    EXPECT_LT(PositionError(tracked.cam_from_world, Truth(i)), 0.03) << i;
+  }
+}
+
+TEST_F(TrackerTest, LinesAloneCarryIt) {
+  SyntheticFrames::Options options;
+  options.num_points = 0;
+  options.num_lines = 40;
+  Start(options);
+  for (int i = 1; i < 20; ++i) {
+    const TrackedFrame tracked = Track(i);
+    ASSERT_NE(tracked.status, TrackingStatus::kLost) << i;
+    ASSERT_NE(tracked.status, TrackingStatus::kPredicted) << i;
+    EXPECT_LT(PositionError(tracked.cam_from_world, Truth(i)), 0.03) << i;
+  }
+}
+
+TEST_F(TrackerTest, BridgesCoveredFramesAndGoesOn) {
+  Start({});
+  for (int i = 1; i < 10; ++i) Track(i);
+  for (int i = 10; i < 15; ++i) {
+    const TrackedFrame tracked = tracker_.Track(SyntheticFrames::SeeNothing(i), snapshot_);
+    EXPECT_EQ(tracked.status, TrackingStatus::kPredicted) << i;
+    EXPECT_FALSE(tracked.is_keyframe);
+    // Constant velocity over a sixth of a second.
+    EXPECT_LT(PositionError(tracked.cam_from_world, Truth(i)), 0.03) << i;
+  }
+  const TrackedFrame back = Track(15);
+  EXPECT_EQ(back.status, TrackingStatus::kTracked);
+  EXPECT_LT(PositionError(back.cam_from_world, Truth(15)), 0.01);
+}
+
+TEST_F(TrackerTest, SaysThatItIsLostAndFindsTheMapAgain) {
+  Start({});
+  for (int i = 1; i < 5; ++i) Track(i);
+  TrackedFrame tracked;
+  for (int i = 5; i < 40; ++i) tracked = tracker_.Track(SyntheticFrames::SeeNothing(i), snapshot_);
+  EXPECT_EQ(tracked.status, TrackingStatus::kLost);
+  EXPECT_TRUE(tracked.cam_from_world.params.allFinite());
+  // The camera comes back elsewhere, where constant velocity never led.
+  tracked = Track(90);
+  EXPECT_EQ(tracked.status, TrackingStatus::kTracked);
+  EXPECT_LT(PositionError(tracked.cam_from_world, Truth(90)), 0.03);
+}
+
+TEST_F(TrackerTest, WaitsForAFirstFrameWithFeatures) {
+  world_ = std::make_unique<SyntheticFrames>(SyntheticFrames::Options());
+  const TrackedFrame nothing = tracker_.Track(SyntheticFrames::SeeNothing(0), MapSnapshot());
+  EXPECT_EQ(nothing.status, TrackingStatus::kLost);
+  EXPECT_FALSE(nothing.is_keyframe);
+  const TrackedFrame first = tracker_.Track(world_->See(1), MapSnapshot());
+  EXPECT_EQ(first.status, TrackingStatus::kTracked);
+  EXPECT_TRUE(first.is_keyframe);
+}
+
+TEST_F(TrackerTest, RefusesBadOptions) {
+  TrackerOptions options;
+  options.min_matches = 1;
+  EXPECT_THROW(Tracker{options}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace msc_vo
