@@ -32,10 +32,17 @@ class Random {
   double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
   // In 0 .. count - 1; count must be positive.
   int Index(int count) { return static_cast<int>(Uniform() * count); }
-  // Standard normal (Box-Muller).
+  // Standard normal (Box-Muller, which makes two at a time).
   double Normal() {
+    if (has_spare_) {
+      has_spare_ = false;
+      return spare_;
+    }
     const double radius = std::sqrt(-2.0 * std::log(1.0 - Uniform()));
-    return radius * std::cos(2.0 * kPi * Uniform());
+    const double angle = 2.0 * kPi * Uniform();
+    has_spare_ = true;
+    spare_ = radius * std::sin(angle);
+    return radius * std::cos(angle);
   }
   Eigen::Vector2d Normal2() {
     const double x = Normal();
@@ -48,6 +55,8 @@ class Random {
 
  private:
   uint64_t state_;
+  bool has_spare_ = false;
+  double spare_ = 0.0;
 };
 
 }  // namespace msc_vo

@@ -47,6 +47,19 @@ TEST(RandomTest, NormalHasUnitVarianceAndTails) {
   EXPECT_NEAR(beyond / static_cast<double>(count), 0.05, 0.0035);
 }
 
+TEST(RandomTest, SuccessiveNormalsAreIndependent) {
+  Random random(4);
+  double product = 0.0, squares_product = 0.0;
+  const int count = 100000;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector2d pair = random.Normal2();
+    product += pair.x() * pair.y();
+    squares_product += (pair.x() * pair.x() - 1.0) * (pair.y() * pair.y() - 1.0);
+  }
+  EXPECT_NEAR(product / count, 0.0, 0.016);
+  EXPECT_NEAR(squares_product / count, 0.0, 0.032);
+}
+
 TEST(RandomTest, IndexReachesAllAndNothingElse) {
   Random random(3);
   int counts[5] = {};
