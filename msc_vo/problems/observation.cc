@@ -12,10 +12,10 @@ Activity TestChiSquare(double reprojection, double depth, double limit, double l
   return {passes, passes && reprojection + depth <= limit_with_depth};
 }
 
-bool IsInFront(const Eigen::Vector3d& x_in_cam) { return x_in_cam.z() >= kMinCameraDepth; }
+bool IsInFront(const Eigen::Vector3d& x_in_cam) { return x_in_cam.z() >= kMinObservedDepth; }
 
 bool IsInFront(const LineSegment3& line_in_cam) {
-  return line_in_cam.start.z() >= kMinCameraDepth && line_in_cam.end.z() >= kMinCameraDepth;
+  return line_in_cam.start.z() >= kMinObservedDepth && line_in_cam.end.z() >= kMinObservedDepth;
 }
 
 double ImageLineSigma(const LineSegment2& segment, double sigma, const Eigen::Vector2d& pixel) {

@@ -25,6 +25,10 @@ struct Activity {
 // a mixed pixel of the sensor looks like.
 Activity TestChiSquare(double reprojection, double depth, double limit, double limit_with_depth);
 
+// Nearest depth z (metres) at which an observation is believed: nearer than any RGB-D sensor sees,
+// and ten times the factors' own limit, so that no step of a solver leaves the factors' domain.
+constexpr double kMinObservedDepth = 10.0 * kMinCameraDepth;
+
 bool IsInFront(const Eigen::Vector3d& x_in_cam);
 bool IsInFront(const LineSegment3& line_in_cam);
 

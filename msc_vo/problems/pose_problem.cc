@@ -71,9 +71,11 @@ Activity ClassifyPoint(const PoseOptions& options, const PinholeCamera& camera, 
   const Eigen::Vector3d x = pose * p.position;
   if (!IsInFront(x)) return {};
   const bool has_depth = options.point_depth.enabled && p.inverse_depth > 0.0;
-  Eigen::Vector2d pixels;
+  Eigen::Vector2d pixels = Eigen::Vector2d::Zero();
   double depth = 0.0;
-  PointReprojection(camera, p.pixel, p.sigma).Residual(0, x, pixels.data());
+  if (options.point_reprojection.enabled) {
+    PointReprojection(camera, p.pixel, p.sigma).Residual(0, x, pixels.data());
+  }
   if (has_depth) DepthReprojection(p.inverse_depth, p.inverse_depth_sigma).Residual(0, x, &depth);
   Activity activity = TestChiSquare(pixels.squaredNorm(), depth * depth, options.reject_chi2_2,
                                     options.reject_chi2_3);
@@ -92,7 +94,9 @@ Activity ClassifyLine(const PoseOptions& options, const PinholeCamera& camera, c
     return r.squaredNorm();
   };
   const bool has_depth = options.line_depth.enabled && l.has_depth;
-  const double pixels = chi_square(MakeLineReprojection(camera, l.segment, l.sigma, line));
+  const double pixels = options.line_reprojection.enabled
+                            ? chi_square(MakeLineReprojection(camera, l.segment, l.sigma, line))
+                            : 0.0;
   const double depth =
       has_depth ? chi_square(MakeLineDepthReprojection(camera, l.segment, l.depth, line)) : 0.0;
   Activity activity = TestChiSquare(pixels, depth, options.reject_chi2_2, options.reject_chi2_4);
@@ -100,7 +104,8 @@ Activity ClassifyLine(const PoseOptions& options, const PinholeCamera& camera, c
   return activity;
 }
 
-// Chi-square test of every match, outliers of earlier rounds included.
+// Chi-square test of every match over the terms that are enabled, outliers of earlier rounds
+// included.
 Activities Classify(const PoseOptions& options, const PoseData& data, const Rigid3& pose) {
   Activities result;
   for (const PoseData::Point& p : data.points) {

@@ -51,14 +51,14 @@ double WindowTerm::Cost() const {
   return cost;
 }
 
-WindowBuilder::WindowBuilder(const WindowOptions& options, const WindowIndex& index,
-                             const WindowActivity& activity, const WindowData& initial,
-                             WindowData* data)
+WindowBuilder::WindowBuilder(const WindowOptions& options, const WindowData& data,
+                             const WindowIndex& index, const WindowActivity& activity,
+                             WindowState* state)
     : options_(options),
+      data_(data),
       index_(index),
       activity_(activity),
-      initial_(initial),
-      data_(data),
+      state_(state),
       problem_(ProblemOptions()) {
   AddPointReprojections();
   AddPointDepths();
@@ -77,7 +77,7 @@ void WindowBuilder::AddBlock(const Factor& factor, double* pose, double* landmar
 }
 
 LineSegment3 WindowBuilder::LineInCamera(const WindowIndex::Link& link) const {
-  return data_->keyframes[link.keyframe].cam_from_world * data_->lines[link.landmark].segment;
+  return state_->Pose(link.keyframe) * state_->Line(link.landmark);
 }
 
 void WindowBuilder::AddPointReprojections() {
@@ -86,11 +86,9 @@ void WindowBuilder::AddPointReprojections() {
   for (size_t i = 0; i < index_.points.size(); ++i) {
     if (!activity_.points[i].reprojection) continue;
     const WindowIndex::Link& link = index_.points[i];
-    const WindowData::PointObservation& o = data_->point_observations[i];
-    AddBlock(PointReprojection(data_->camera, o.pixel, o.sigma),
-             data_->keyframes[link.keyframe].cam_from_world.params.data(),
-             data_->points[link.landmark].position.data(), static_cast<int>(i),
-             &point_reprojection);
+    const WindowData::PointObservation& o = data_.point_observations[i];
+    AddBlock(PointReprojection(data_.camera, o.pixel, o.sigma), state_->PoseBlock(link.keyframe),
+             state_->PointBlock(link.landmark), static_cast<int>(i), &point_reprojection);
   }
 }
 
@@ -99,11 +97,11 @@ void WindowBuilder::AddPointDepths() {
   point_depth.loss = Huber(options_.point_depth);
   for (size_t i = 0; i < index_.points.size(); ++i) {
     const WindowIndex::Link& link = index_.points[i];
-    const WindowData::PointObservation& o = data_->point_observations[i];
+    const WindowData::PointObservation& o = data_.point_observations[i];
     if (!activity_.points[i].depth) continue;
     AddBlock(DepthReprojection(o.inverse_depth, o.inverse_depth_sigma),
-             data_->keyframes[link.keyframe].cam_from_world.params.data(),
-             data_->points[link.landmark].position.data(), static_cast<int>(i), &point_depth);
+             state_->PoseBlock(link.keyframe), state_->PointBlock(link.landmark),
+             static_cast<int>(i), &point_depth);
   }
 }
 
@@ -113,11 +111,10 @@ void WindowBuilder::AddLineReprojections() {
   for (size_t i = 0; i < index_.lines.size(); ++i) {
     if (!activity_.lines[i].reprojection) continue;
     const WindowIndex::Link& link = index_.lines[i];
-    const WindowData::LineObservation& o = data_->line_observations[i];
-    AddBlock(MakeLineReprojection(data_->camera, o.segment, o.sigma, LineInCamera(link)),
-             data_->keyframes[link.keyframe].cam_from_world.params.data(),
-             data_->lines[link.landmark].segment.start.data(), static_cast<int>(i),
-             &line_reprojection);
+    const WindowData::LineObservation& o = data_.line_observations[i];
+    AddBlock(MakeLineReprojection(data_.camera, o.segment, o.sigma, LineInCamera(link)),
+             state_->PoseBlock(link.keyframe), state_->LineBlock(link.landmark),
+             static_cast<int>(i), &line_reprojection);
   }
 }
 
@@ -127,20 +124,20 @@ void WindowBuilder::AddLineDepths() {
   for (size_t i = 0; i < index_.lines.size(); ++i) {
     if (!activity_.lines[i].depth) continue;
     const WindowIndex::Link& link = index_.lines[i];
-    const WindowData::LineObservation& o = data_->line_observations[i];
-    AddBlock(MakeLineDepthReprojection(data_->camera, o.segment, o.depth, LineInCamera(link)),
-             data_->keyframes[link.keyframe].cam_from_world.params.data(),
-             data_->lines[link.landmark].segment.start.data(), static_cast<int>(i), &line_depth);
+    const WindowData::LineObservation& o = data_.line_observations[i];
+    AddBlock(MakeLineDepthReprojection(data_.camera, o.segment, o.depth, LineInCamera(link)),
+             state_->PoseBlock(link.keyframe), state_->LineBlock(link.landmark),
+             static_cast<int>(i), &line_depth);
   }
 }
 
 // For every line that an observation could move.
 void WindowBuilder::AddLineAnchors() {
-  for (size_t i = 0; i < data_->lines.size(); ++i) {
-    double* line = data_->lines[i].segment.start.data();
-    if (data_->lines[i].fixed || !problem_.HasParameterBlock(line)) continue;
+  for (size_t i = 0; i < data_.lines.size(); ++i) {
+    double* line = state_->LineBlock(i);
+    if (data_.lines[i].fixed || !problem_.HasParameterBlock(line)) continue;
     ceres::CostFunction* cost =
-        LineAnchor::Create(initial_.lines[i].segment, options_.line_anchor_sigma);
+        LineAnchor::Create(data_.lines[i].segment, options_.line_anchor_sigma);
     problem_.AddResidualBlock(cost, nullptr, line);
     line_anchor.blocks.push_back({cost, {line, nullptr}, static_cast<int>(i)});
   }
@@ -148,34 +145,29 @@ void WindowBuilder::AddLineAnchors() {
 
 // Shifting or turning the whole window changes no residual: six numbers are free. They are held by
 // the poses of the fixed keyframes (at least one; the observers outside the window, usually), and
-// nothing else: no prior, no constant coordinate. A free pose moves on Rigid3Manifold.
+// by nothing else: no prior, no constant coordinate. A free pose moves on Rigid3Manifold.
 void WindowBuilder::HoldGauge() {
-  for (WindowData::Keyframe& k : data_->keyframes) {
-    double* pose = k.cam_from_world.params.data();
-    if (!problem_.HasParameterBlock(pose)) continue;
-    problem_.SetManifold(pose, &pose_manifold_);
-    if (k.fixed) problem_.SetParameterBlockConstant(pose);
+  const auto hold = [this](bool fixed, double* block) {
+    if (fixed && problem_.HasParameterBlock(block)) problem_.SetParameterBlockConstant(block);
+  };
+  for (size_t i = 0; i < data_.keyframes.size(); ++i) {
+    double* pose = state_->PoseBlock(i);
+    if (problem_.HasParameterBlock(pose)) problem_.SetManifold(pose, &pose_manifold_);
+    hold(data_.keyframes[i].fixed, pose);
   }
-  for (WindowData::Point& p : data_->points) {
-    double* point = p.position.data();
-    if (p.fixed && problem_.HasParameterBlock(point)) problem_.SetParameterBlockConstant(point);
-  }
-  for (WindowData::Line& l : data_->lines) {
-    double* line = l.segment.start.data();
-    if (l.fixed && problem_.HasParameterBlock(line)) problem_.SetParameterBlockConstant(line);
-  }
+  for (size_t i = 0; i < data_.points.size(); ++i)
+    hold(data_.points[i].fixed, state_->PointBlock(i));
+  for (size_t i = 0; i < data_.lines.size(); ++i) hold(data_.lines[i].fixed, state_->LineBlock(i));
 }
 
 std::shared_ptr<ceres::ParameterBlockOrdering> WindowBuilder::EliminationOrdering() const {
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-  const auto add = [&](const double* block, int group) {
-    if (problem_.HasParameterBlock(block)) {
-      ordering->AddElementToGroup(const_cast<double*>(block), group);
-    }
+  const auto add = [&](double* block, int group) {
+    if (problem_.HasParameterBlock(block)) ordering->AddElementToGroup(block, group);
   };
-  for (const WindowData::Point& p : data_->points) add(p.position.data(), 0);
-  for (const WindowData::Line& l : data_->lines) add(l.segment.start.data(), 0);
-  for (const WindowData::Keyframe& k : data_->keyframes) add(k.cam_from_world.params.data(), 1);
+  for (size_t i = 0; i < data_.points.size(); ++i) add(state_->PointBlock(i), 0);
+  for (size_t i = 0; i < data_.lines.size(); ++i) add(state_->LineBlock(i), 0);
+  for (size_t i = 0; i < data_.keyframes.size(); ++i) add(state_->PoseBlock(i), 1);
   return ordering;
 }
 

@@ -13,6 +13,7 @@
 
 #include "msc_vo/factors/rigid3_manifold.h"
 #include "msc_vo/problems/observation.h"
+#include "msc_vo/problems/window_state.h"
 #include "msc_vo/problems/window_validation.h"
 
 namespace msc_vo {
@@ -39,7 +40,7 @@ struct WindowActivity {
   std::vector<Activity> lines;   // one per line observation
 };
 
-// The sum of factors of a window as a Ceres problem over the numbers in `data`:
+// The sum of factors of a window as a Ceres problem over the numbers in `state`:
 //
 //   sum rho(|PointReprojection|^2) + rho(|DepthReprojection|^2) + rho(|LineReprojection|^2)
 //     + rho(|LineDepthReprojection|^2) + |LineAnchor|^2
@@ -48,8 +49,8 @@ struct WindowActivity {
 // anchors. All arguments must outlive the builder.
 class WindowBuilder {
  public:
-  WindowBuilder(const WindowOptions& options, const WindowIndex& index,
-                const WindowActivity& activity, const WindowData& initial, WindowData* data);
+  WindowBuilder(const WindowOptions& options, const WindowData& data, const WindowIndex& index,
+                const WindowActivity& activity, WindowState* state);
 
   ceres::Problem* problem() { return &problem_; }
   // Landmarks are eliminated first (group 0), then poses (group 1): the Schur complement.
@@ -71,10 +72,10 @@ class WindowBuilder {
   LineSegment3 LineInCamera(const WindowIndex::Link& link) const;
 
   const WindowOptions& options_;
+  const WindowData& data_;
   const WindowIndex& index_;
   const WindowActivity& activity_;
-  const WindowData& initial_;
-  WindowData* data_;
+  WindowState* state_;
   Rigid3Manifold pose_manifold_;
   ceres::Problem problem_;  // last: it goes before what it points to
 };

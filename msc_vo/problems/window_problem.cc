@@ -105,34 +105,21 @@ void WriteCounts(const WindowBuilder& builder, WindowSummary* summary) {
   summary->line_anchor.num_residual_blocks = count(builder.line_anchor);
 }
 
-bool AllFinite(const WindowData& data) {
-  for (const auto& k : data.keyframes) {
-    if (!k.cam_from_world.params.allFinite()) return false;
-  }
-  for (const auto& p : data.points) {
-    if (!p.position.allFinite()) return false;
-  }
-  for (const auto& l : data.lines) {
-    if (!l.segment.start.allFinite() || !l.segment.end.allFinite()) return false;
-  }
-  return true;
-}
-
 // Only what took part in the last solve: a landmark or keyframe that lost its last observation
 // keeps the values it came with.
-void WriteBack(const WindowData& solved, const WindowActivity& activity,
-               const ceres::Problem& problem, WindowData* data) {
+void WriteBack(const ceres::Problem& problem, const WindowActivity& activity, WindowState* state,
+               WindowData* data) {
   for (size_t i = 0; i < data->keyframes.size(); ++i) {
-    const Rigid3& pose = solved.keyframes[i].cam_from_world;
-    if (problem.HasParameterBlock(pose.params.data())) data->keyframes[i].cam_from_world = pose;
+    if (!problem.HasParameterBlock(state->PoseBlock(i))) continue;
+    data->keyframes[i].cam_from_world = state->Pose(i);
   }
   for (size_t i = 0; i < data->points.size(); ++i) {
-    const Eigen::Vector3d& position = solved.points[i].position;
-    if (problem.HasParameterBlock(position.data())) data->points[i].position = position;
+    if (!problem.HasParameterBlock(state->PointBlock(i))) continue;
+    data->points[i].position = state->Point(i);
   }
   for (size_t i = 0; i < data->lines.size(); ++i) {
-    const LineSegment3& segment = solved.lines[i].segment;
-    if (problem.HasParameterBlock(segment.start.data())) data->lines[i].segment = segment;
+    if (!problem.HasParameterBlock(state->LineBlock(i))) continue;
+    data->lines[i].segment = state->Line(i);
   }
   for (size_t i = 0; i < activity.points.size(); ++i) {
     data->point_observations[i].rejected = !activity.points[i].reprojection;
@@ -148,17 +135,17 @@ WindowSummary SolveWindow(const WindowOptions& options, WindowData* data) {
   const WindowIndex index = ValidateWindow(options, *data);
   WindowSummary summary;
   WindowActivity activity = AllInFront(options, index, *data, &summary.num_behind_camera);
-  WindowData work = *data;
+  WindowState state(*data);
 
   const auto solve = [&](int iterations, WindowBuilder* builder) {
     const ceres::Solver::Summary result = Solve(iterations, builder);
     summary.num_iterations += static_cast<int>(result.iterations.size());
     summary.schur_structure = result.schur_structure_used;
     summary.message = result.message;
-    return result.IsSolutionUsable() && AllFinite(work);
+    return result.IsSolutionUsable() && state.AllFinite();
   };
 
-  WindowBuilder first(options, index, activity, *data, &work);
+  WindowBuilder first(options, *data, index, activity, &state);
   summary.initial_cost = WriteCosts(first, &TermSummary::initial_cost, &summary);
   if (!solve(options.first_iterations, &first)) return summary;
   Classify(first.point_reprojection, first.point_depth, options.reject_chi2_2,
@@ -168,12 +155,12 @@ WindowSummary SolveWindow(const WindowOptions& options, WindowData* data) {
            &activity.lines, &summary.line_reprojection.num_rejected,
            &summary.line_depth.num_rejected);
 
-  WindowBuilder second(options, index, activity, *data, &work);
+  WindowBuilder second(options, *data, index, activity, &state);
   if (!solve(options.second_iterations, &second)) return summary;
   WriteCounts(second, &summary);
   summary.final_cost = WriteCosts(second, &TermSummary::final_cost, &summary);
   summary.usable = true;
-  WriteBack(work, activity, *second.problem(), data);
+  WriteBack(*second.problem(), activity, &state, data);
   return summary;
 }
 

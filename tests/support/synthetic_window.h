@@ -15,7 +15,6 @@
 #include "msc_vo/problems/window_data.h"
 
 namespace msc_vo {
-namespace testing {
 
 // A small window for the tests of the problems: cameras that pass a room's wall, points, and lines
 // along the room's axes. Noise is normal with the sigmas that stand in the observations.
@@ -233,5 +232,4 @@ inline PoseData MakePoseData(const SyntheticWindow& window, int k) {
   return data;
 }
 
-}  // namespace testing
 }  // namespace msc_vo

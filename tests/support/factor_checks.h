@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "tests/support/eigen_matchers.h"
+#include <ceres/cost_function.h>
+#include <ceres/gradient_checker.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+#include <gtest/gtest.h>
+
+#include "msc_vo/factors/chain_rule_cost.h"
+#include "msc_vo/factors/rigid3_manifold.h"
+#include "msc_vo/geometry/line_segment.h"
+#include "msc_vo/geometry/rigid3.h"
+
+namespace msc_vo {
+
+using CostPtr = std::unique_ptr<ceres::CostFunction>;
+// Values of the parameter blocks, in the factor's order.
+using Blocks = std::vector<std::vector<double>>;
+
+inline std::vector<double> Block(const Rigid3& pose) {
+  return {pose.params.data(), pose.params.data() + 7};
+}
+inline std::vector<double> Block(const Eigen::Vector3d& x) { return {x.x(), x.y(), x.z()}; }
+inline std::vector<double> Block(const LineSegment3& line) {
+  return {line.start.data(), line.start.data() + 6};
+}
+
+inline std::vector<const double*> Pointers(const Blocks& blocks) {
+  std::vector<const double*> pointers;
+  for (const auto& block : blocks) pointers.push_back(block.data());
+  return pointers;
+}
+
+// The residual; the evaluation must succeed.
+inline Eigen::VectorXd Residual(const ceres::CostFunction& cost, const Blocks& blocks) {
+  Eigen::VectorXd residual(cost.num_residuals());
+  EXPECT_TRUE(cost.Evaluate(Pointers(blocks).data(), residual.data(), nullptr));
+  return residual;
+}
+
+inline bool IsDefined(const ceres::CostFunction& cost, const Blocks& blocks) {
+  Eigen::VectorXd residual(cost.num_residuals());
+  return cost.Evaluate(Pointers(blocks).data(), residual.data(), nullptr);
+}
+
+// Residual and Jacobians with respect to all ambient numbers.
+struct Linearization {
+  Eigen::VectorXd residual;
+  std::vector<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobians;
+};
+
+inline Linearization Linearize(const ceres::CostFunction& cost, const Blocks& blocks) {
+  Linearization at;
+  at.residual.resize(cost.num_residuals());
+  std::vector<double*> jacobians;
+  for (const auto& block : blocks) at.jacobians.emplace_back(cost.num_residuals(), block.size());
+  for (auto& jacobian : at.jacobians) jacobians.push_back(jacobian.data());
+  EXPECT_TRUE(cost.Evaluate(Pointers(blocks).data(), at.residual.data(), jacobians.data()));
+  return at;
+}
+
+// Analytic against numeric derivatives, in tangent space (blocks of seven are poses).
+inline void ExpectGradientsMatch(const ceres::CostFunction& cost, const Blocks& blocks) {
+  static const Rigid3Manifold manifold;
+  std::vector<const ceres::Manifold*> manifolds;
+  for (const auto& block : blocks) manifolds.push_back(block.size() == 7 ? &manifold : nullptr);
+  ceres::NumericDiffOptions options;
+  // Small enough not to leave the functors' domain from any point in view.
+  options.ridders_relative_initial_step_size = 1e-3;
+  const ceres::GradientChecker checker(&cost, &manifolds, options);
+  ceres::GradientChecker::ProbeResults results;
+  // Its own verdict is per entry and relative, which an entry that is zero cannot pass.
+  checker.Probe(Pointers(blocks).data(), 1e-6, &results);
+  ASSERT_TRUE(results.return_value) << results.error_log;
+  ASSERT_EQ(results.local_numeric_jacobians.size(), blocks.size()) << results.error_log;
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    const double size = 1.0 + results.local_jacobians[i].norm();
+    EXPECT_THAT(results.local_jacobians[i],
+                IsNear(results.local_numeric_jacobians[i], 1e-7 * size));
+  }
+}
+
+// The chain-rule form of a camera factor is the automatic derivative, number for number.
+template <typename Factor>
+void ExpectChainRuleMatches(const Factor& factor, const Blocks& blocks) {
+  const CostPtr automatic(Factor::Create(factor));
+  const ChainRuleCost<Factor> chain_rule(factor);
+  const Linearization a = Linearize(*automatic, blocks);
+  const Linearization b = Linearize(chain_rule, blocks);
+  // Relative to the size of the entries: both round differently.
+  EXPECT_THAT(b.residual, IsNear(a.residual, 1e-12 * (1e3 + a.residual.norm())));
+  EXPECT_THAT(Residual(chain_rule, blocks), IsNear(a.residual, 1e-12));
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    EXPECT_THAT(b.jacobians[i], IsNear(a.jacobians[i], 1e-12 * (1.0 + a.jacobians[i].norm())));
+  }
+}
+
+// Covariance of samples against the identity, within five standard errors of the estimate.
+inline void ExpectIdentityCovariance(const std::vector<Eigen::VectorXd>& samples) {
+  const auto dim = samples.front().size();
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(dim, dim);
+  for (const auto& r : samples) covariance += r * r.transpose() / double(samples.size());
+  const double tolerance = 5.0 * std::sqrt(2.0 / double(samples.size()));
+  EXPECT_THAT(covariance, IsNear(Eigen::MatrixXd::Identity(dim, dim), tolerance));
+}
+
+// Solves a toy problem to the last digit.
+inline void SolveToEnd(ceres::Problem* problem) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = 100;
+  options.function_tolerance = 1e-30;
+  options.gradient_tolerance = 1e-14;
+  options.parameter_tolerance = 1e-14;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, problem, &summary);
+  EXPECT_TRUE(summary.IsSolutionUsable()) << summary.FullReport();
+}
+
+// The pose moved by a rotation vector (radians) and a translation (metres), as Rigid3Manifold does.
+inline Rigid3 Moved(const Rigid3& pose, const Eigen::Vector3d& w, const Eigen::Vector3d& u) {
+  return {ExpSO3(w) * pose.rotation(), pose.translation() + u};
+}
+
+// Rotation (radians) and translation (metres) between two poses.
+inline double Distance(const Rigid3& a, const Rigid3& b) {
+  Eigen::Matrix<double, 6, 1> difference;
+  Rigid3Manifold().Minus(a.params.data(), b.params.data(), difference.data());
+  return difference.norm();
+}
+
+// Seeded normal deviates and the like.
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double Normal() { return normal_(engine_); }
+  double Uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine_);
+  }
+  Eigen::Vector2d Normal2() {
+    const double x = Normal(), y = Normal();
+    return {x, y};
+  }
+  Eigen::Vector3d Normal3() {
+    const double x = Normal(), y = Normal(), z = Normal();
+    return {x, y, z};
+  }
+  // Any rotation, and a translation of about a metre.
+  Rigid3 Pose() {
+    const Eigen::Vector3d w = Normal3(), t = Normal3();
+    return {ExpSO3(w), t};
+  }
+  // A point that the camera sees, in camera coordinates.
+  Eigen::Vector3d InView() {
+    const double z = Uniform(0.8, 6.0);
+    const double x = Uniform(-0.5, 0.5), y = Uniform(-0.4, 0.4);
+    return {z * x, z * y, z};
+  }
+
+ private:
+  std::mt19937 engine_;
+  std::normal_distribution<double> normal_;
+};
+
+}  // namespace msc_vo
