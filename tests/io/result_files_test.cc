@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/io/result_files.h"
+
+#include "tests/io/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/io/text_file.h"
+#include "msc_vo/io/trajectory.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::HasSubstr;
+
+class ResultFilesTest : public TemporaryFolder {
+ protected:
+  // Five frames, the third and fourth without a pose; the first is a keyframe.
+  static OdometryResult Result() {
+    OdometryResult result;
+    for (int i = 0; i < 5; ++i) {
+      FrameResult frame;
+      frame.id = i;
+      frame.timestamp = 10.0 + 0.1 * i;
+      frame.status = TrackingStatus::kTracked;
+      frame.cam_from_world.translation() = Eigen::Vector3d(-i, 0.0, 0.0);
+      frame.num_points = 100 + i;
+      frame.num_inlier_points = 50;
+      frame.num_inlier_lines = 7;
+      frame.times.tracking = 10.0 * (i + 1);
+      result.frames.push_back(frame);
+    }
+    result.frames[0].is_keyframe = true;
+    result.frames[0].times.mapping = 40.0;
+    result.frames[1].covariance(3, 3) = 0.04;
+    result.frames[2].status = TrackingStatus::kPredicted;
+    result.frames[3].status = TrackingStatus::kLost;
+    result.frames[4].status = TrackingStatus::kWeak;
+    result.keyframes = {{10.0, Rigid3()}};
+    result.points = {{{1.0, 2.0, 3.0}, 4}};
+    result.lines = {{{{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}}, 5, true},
+                    {{{0.0, 1.0, 1.0}, {1.0, 1.0, 1.0}}, 6, false}};
+    return result;
+  }
+};
+
+TEST_F(ResultFilesTest, SummarizesStatusesSpansAndStages) {
+  const RunSummary summary = Summarize(Result());
+  EXPECT_THAT(summary.status_counts, testing::ElementsAre(2, 1, 1, 1));
+  EXPECT_DOUBLE_EQ(summary.tracked_share, 0.6);
+  ASSERT_EQ(summary.untracked.size(), 1u);
+  EXPECT_EQ(summary.untracked[0].first, 2);
+  EXPECT_EQ(summary.untracked[0].last, 3);
+  EXPECT_DOUBLE_EQ(summary.untracked[0].end, 10.3);
+  const StageStatistics& tracking = summary.stages[5];
+  EXPECT_EQ(tracking.name, "tracking");
+  EXPECT_EQ(tracking.mean, 30.0);
+  EXPECT_EQ(tracking.median, 30.0);
+  EXPECT_EQ(tracking.p95, 50.0);
+  const StageStatistics& mapping = summary.stages[6];
+  EXPECT_EQ(mapping.count, 1);  // frames without a keyframe step do not dilute it
+  EXPECT_EQ(mapping.mean, 40.0);
+}
+
+TEST_F(ResultFilesTest, AnEmptyRunHasASummaryToo) {
+  const RunSummary summary = Summarize({});
+  EXPECT_EQ(summary.num_frames, 0);
+  EXPECT_EQ(summary.tracked_share, 0.0);
+  EXPECT_TRUE(nlohmann::json::accept(FormatSummary(summary, {})));
+}
+
+TEST_F(ResultFilesTest, WritesOneRowPerFrame) {
+  const std::string csv = FormatFramesCsv(Result().frames);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6);
+  EXPECT_THAT(csv, testing::StartsWith("time,status,keyframe,"));
+  EXPECT_THAT(csv, HasSubstr("\n10.000000,tracked,1,100,0,50,7,0.000,"));
+  EXPECT_THAT(csv, HasSubstr(",0,0,0,0.2,0,0\n"));
+  const auto commas = [](const std::string& row) {
+    return std::count(row.begin(), row.end(), ',');
+  };
+  EXPECT_EQ(commas(csv), 6 * commas(csv.substr(0, csv.find('\n'))));
+}
+
+TEST_F(ResultFilesTest, WritesTheMapAsPly) {
+  EXPECT_THAT(FormatPointsPly(Result().points),
+              testing::AllOf(HasSubstr("element vertex 1\n"),
+                             testing::EndsWith("end_header\n1.000000 2.000000 3.000000 4\n")));
+  EXPECT_THAT(FormatLinesPly(Result().lines),
+              testing::AllOf(HasSubstr("element vertex 4\n"), HasSubstr("element edge 2\n"),
+                             testing::EndsWith("1.000000 1.000000 1.000000 6\n0 1\n2 3\n")));
+}
+
+TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
+  RunContext context;
+  context.command_line = "msc_vo replay \xff";  // not UTF-8: JSON must survive it
+  context.outcome = "interrupted";
+  context.seconds = 2.0;
+  const std::string out = Path("deep/down/out");
+  WriteResultFiles(out, Result(), context);
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(out)) {
+    names.push_back(entry.path().filename().string());
+  }
+  EXPECT_THAT(names, testing::UnorderedElementsAre("trajectory.txt", "keyframes.txt", "frames.csv",
+                                                   "map.ply", "lines.ply", "summary.json"));
+  const std::vector<TimedPose> trajectory = ReadTrajectory(out + "/trajectory.txt");
+  ASSERT_EQ(trajectory.size(), 5u);  // a pose for every frame
+  EXPECT_EQ(trajectory[4].world_from_cam.translation().x(), 4.0);
+  const nlohmann::json summary = nlohmann::json::parse(ReadFile(out + "/summary.json"));
+  EXPECT_EQ(summary["outcome"], "interrupted");
+  EXPECT_EQ(summary["frames"]["lost"], 1);
+  EXPECT_EQ(summary["frames_per_second"], 2.5);
+  EXPECT_TRUE(summary["error"].is_null());
+  EXPECT_EQ(summary["options"]["mode"], "pl-vo-depth");
+  EXPECT_EQ(summary["options"]["tracking.wide_radius"], 60.0);
+}
+
+TEST_F(ResultFilesTest, AFileInTheWayIsAnError) {
+  WriteText("out", "");
+  EXPECT_THAT(MessageOf([&] { WriteResultFiles(Path("out"), Result(), {}); }),
+              HasSubstr("out: cannot be made"));
+}
+
+}  // namespace
+}  // namespace msc_vo
