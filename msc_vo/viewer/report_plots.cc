@@ -100,12 +100,12 @@ Projector MakeProjector(const TrajectoryView& view, TrajectorySide side) {
 }
 
 // Covers [min, max] of the trajectory, and the middle 90 % of the map lines as far as the
-// trajectory, by far the smaller in a large room, keeps a third of the width.
+// trajectory, by far the smaller in a large room, keeps a fifth of the width.
 PlotRange CoverTrajectoryAndLines(const std::vector<double>& trajectory, double extent,
                                   std::vector<double> line_ends) {
   PlotRange range{trajectory.front(), trajectory.front()};
   for (const double value : trajectory) Include(value, &range);
-  const PlotRange widest{range.min - extent, range.max + extent};
+  const PlotRange widest{range.min - 2.0 * extent, range.max + 2.0 * extent};
   if (!line_ends.empty()) {
     std::sort(line_ends.begin(), line_ends.end());
     const size_t cut = line_ends.size() / 20;

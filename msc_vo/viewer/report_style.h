@@ -12,7 +12,7 @@ inline constexpr char kReportStyle[] = R"css(
   --paper: #ffffff; --panel: #f6f7f9; --ink: #1b1f24; --faint: #66707c; --rule: #dfe3e8;
   --estimate: #1f6feb; --truth: #8a929c; --error: #b4372f; --points: #1f6feb; --lines: #c2571a;
   --tracked: #3fa66b; --weak: #d8ab22; --predicted: #e07b28; --lost: #d03a3a;
-  --map: #b9c0c9; --axis-0: #d9534f; --axis-1: #3c9d5d; --axis-2: #3d7fd6;
+  --map: #98a2ae; --axis-0: #d9534f; --axis-1: #3c9d5d; --axis-2: #3d7fd6;
   --stage-0: #6aa5e8; --stage-1: #f0a35e; --stage-2: #7cc396; --stage-3: #c49ae0;
   --stage-4: #e58a97; --stage-5: #9aa7b5; --mapping: #7b55c7;
 }
@@ -20,7 +20,7 @@ inline constexpr char kReportStyle[] = R"css(
   :root {
     --paper: #14171b; --panel: #1c2026; --ink: #e6e9ed; --faint: #99a3af; --rule: #30363e;
     --estimate: #6fa8ff; --truth: #9aa3ae; --error: #ff8b80; --points: #6fa8ff; --lines: #ff9d5c;
-    --map: #4a525c; --axis-0: #e5736f; --axis-1: #5cbf7e; --axis-2: #6ba4ee;
+    --map: #65707c; --axis-0: #e5736f; --axis-1: #5cbf7e; --axis-2: #6ba4ee;
     --stage-0: #3f78b8; --stage-1: #b9722f; --stage-2: #45915f; --stage-3: #8c61ab;
     --stage-4: #b05562; --stage-5: #66727f; --mapping: #a98bea;
   }

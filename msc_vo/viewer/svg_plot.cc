@@ -19,7 +19,7 @@ constexpr double kBottom = 40.0;
 constexpr double kStripHeight = 8.0;
 // Room that one tick label needs along x and along y.
 constexpr double kTickSpacingX = 80.0;
-constexpr double kTickSpacingY = 40.0;
+constexpr double kTickSpacingY = 28.0;
 
 std::string Unit(double value) { return FormatFixed(value, 1); }
 
