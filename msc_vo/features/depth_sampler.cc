@@ -17,6 +17,7 @@ constexpr int kRadius = 2;
 constexpr int kMaxPixels = (2 * kRadius + 1) * (2 * kRadius + 1);
 // Fewer pixels than a full row do not show a surface.
 constexpr int kMinPixels = 5;
+constexpr int kParameters = 3;  // of a plane
 // A surface comes to the point if one of its pixels is at most this far: the pixels around the one
 // that holds the point.
 constexpr double kMaxDistance = 1.5;
@@ -38,7 +39,7 @@ struct Pixel {
 struct Surface {
   double w = 0.0;         // inverse depth at the point, 1/metres
   double variance = 0.0;  // of it, in units of the variance of a pixel
-  double rms = 0.0;       // of the residuals, in sigmas
+  double rms = 0.0;       // of the residuals per degree of freedom, in sigmas
 };
 
 // Least squares w = p0 + p1 x + p2 y over pixels [begin, end).
@@ -62,7 +63,7 @@ Surface FitSurface(const Pixel* begin, const Pixel* end, double sigma) {
     const double r = (pixel->w - p[0] - p.tail<2>().dot(pixel->offset)) / sigma;
     sum += r * r;
   }
-  surface.rms = std::sqrt(sum / static_cast<double>(end - begin));
+  surface.rms = std::sqrt(sum / static_cast<double>(end - begin - kParameters));
   return surface;
 }
 

@@ -66,24 +66,31 @@ struct FrameBuilder::State {
   // Depth of points at their raw pixels, which become undistorted.
   void LocatePoints(const InverseDepthImage& depth, std::vector<PointFeature>* points) const {
     for (PointFeature& point : *points) {
-      const auto sample = SampleDepth(depth, point.pixel, options.noise.inverse_depth_sigma);
+      const auto sample = SampleDepth(depth, point.pixel, options.noise.inverse_depth_noise);
       if (sample) {
         point.inverse_depth = sample->inverse_depth;
-        point.inverse_depth_sigma = sample->sigma;
+        point.inverse_depth_sigma = SigmaPerNoise() * sample->sigma;
       }
       point.pixel = lens.IdealFromRaw(point.pixel);
     }
   }
 
   void LocateLines(const InverseDepthImage& depth, std::vector<LineFeature>* lines) const {
-    const double sigma = options.noise.inverse_depth_sigma;
+    const double noise = options.noise.inverse_depth_noise;
     uint32_t seed = 0;
     for (LineFeature& line : *lines) {
       line.depth = options.line_depth == LineDepthMethod::kRobustFit
-                       ? FitDepthAlongLine(options.line_fit, depth, lens, line.segment, sigma, seed)
-                       : EndPointDepth(depth, lens, line.segment, sigma);
+                       ? FitDepthAlongLine(options.line_fit, depth, lens, line.segment, noise, seed)
+                       : EndPointDepth(depth, lens, line.segment, noise);
+      if (line.depth) line.depth->covariance *= SigmaPerNoise() * SigmaPerNoise();
       ++seed;
     }
+  }
+
+  // Inside one image the random noise decides what is a surface; the sigma of the result is that of
+  // the whole error.
+  double SigmaPerNoise() const {
+    return options.noise.inverse_depth_sigma / options.noise.inverse_depth_noise;
   }
 };
 

@@ -166,7 +166,7 @@ LineExtractor::LineExtractor(const LineExtractorOptions& options)
 LineExtractor::~LineExtractor() = default;
 
 std::vector<LineFeature> LineExtractor::Extract(const cv::Mat& gray, const cv::Mat& mask) {
-  if (gray.type() != CV_8UC1) {
+  if (gray.empty() || gray.type() != CV_8UC1) {
     throw std::invalid_argument("LineExtractor: the image must be 8-bit grey (CV_8UC1)");
   }
   std::vector<LineSegment2> pieces;

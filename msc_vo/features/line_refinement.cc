@@ -47,33 +47,33 @@ struct Edge {
   double weight = 0.0;
 };
 
-// The steepest rise along `across` through `center`: the vertex of the parabola through the largest
-// difference of neighbours and the two beside it.
+// The steepest rise along `across` through `center`: the centroid of the largest difference of
+// neighbours and the two beside it.
 std::optional<Edge> SteepestRise(const cv::Mat& gray, const Vector2d& center,
                                  const Vector2d& across) {
-  const Vector2d low = center - kReach * across;
-  const Vector2d high = center + kReach * across;
+  const Vector2d low = center - (kReach + 0.5) * across;
+  const Vector2d high = center + (kReach + 0.5) * across;
   for (const Vector2d* x : {&low, &high}) {
     if (x->x() < 1.0 || x->y() < 1.0 || x->x() >= gray.cols - 2 || x->y() >= gray.rows - 2) {
       return std::nullopt;
     }
   }
-  // rise[k] is at offset k - kReach + 0.5.
-  std::array<double, 2 * kReach> rise;
+  // rise[k] is at offset k - kReach, so that an edge on the segment is in the middle of one.
+  std::array<double, 2 * kReach + 1> rise;
   double previous = GrayAt(gray, low);
-  for (int k = 0; k < 2 * kReach; ++k) {
-    const double next = GrayAt(gray, center + (k + 1 - kReach) * across);
+  for (size_t k = 0; k < rise.size(); ++k) {
+    const double next = GrayAt(gray, low + (k + 1.0) * across);
     rise[k] = next - previous;
     previous = next;
   }
-  const int best =
-      static_cast<int>(std::max_element(rise.begin() + 1, rise.end() - 1) - rise.begin());
-  if (rise[best] < kMinRise) return std::nullopt;
-  const double curvature = 2.0 * rise[best] - rise[best - 1] - rise[best + 1];
-  const double vertex = curvature > 0.0 ? 0.5 * (rise[best + 1] - rise[best - 1]) / curvature : 0.0;
-  const double offset = best - kReach + 0.5 + std::clamp(vertex, -1.0, 1.0);
+  const auto best = std::max_element(rise.begin() + 1, rise.end() - 1);
+  if (*best < kMinRise) return std::nullopt;
+  const double before = std::max(0.0, *(best - 1));
+  const double after = std::max(0.0, *(best + 1));
+  const double offset = static_cast<double>(best - rise.begin()) - kReach +
+                        (after - before) / (before + *best + after);
   if (std::abs(offset) > kMaxOffset) return std::nullopt;
-  return Edge{0.0, offset, rise[best]};
+  return Edge{0.0, offset, *best};
 }
 
 // offset = line[0] + line[1] t, weighted, over the edges within `max_distance` of `prior`.
@@ -93,9 +93,9 @@ std::optional<Vector2d> FitOffsets(const std::array<Edge, kMaxPlaces>& edges, in
   return Vector2d(information.inverse() * rhs);
 }
 
-}  // namespace
-
-bool RefineSegment(const cv::Mat& gray, LineSegment2* segment) {
+// Moves the segment onto the line through the steepest rises across it. Returns false if there is
+// none within kMaxOffset.
+bool MoveOntoEdge(const cv::Mat& gray, LineSegment2* segment) {
   const Vector2d direction = segment->Direction();
   const Vector2d across(-direction.y(), direction.x());
   const double length = segment->Length();
@@ -119,6 +119,16 @@ bool RefineSegment(const cv::Mat& gray, LineSegment2* segment) {
   if (std::max(std::abs(at_start), std::abs(at_end)) > kMaxOffset) return false;
   segment->start += at_start * across;
   segment->end += at_end * across;
+  return true;
+}
+
+}  // namespace
+
+bool RefineSegment(const cv::Mat& gray, LineSegment2* segment) {
+  // The centroid of three is drawn to the middle one if the edge is blurred wider than these; the
+  // second pass has the edge in the middle.
+  if (!MoveOntoEdge(gray, segment)) return false;
+  MoveOntoEdge(gray, segment);
   return true;
 }
 

@@ -15,8 +15,8 @@ namespace msc_vo {
 // brighter side must be where ImageLine() is positive. Returns false, and leaves the segment, if
 // there is no such edge within a pixel and a half.
 //
-// Why: detectors that chain whole pixels know a line to a sixth of a pixel, this to less than half
-// of that.
+// Why: the end points of chains of whole pixels are 0.16 px off their line from frame to frame,
+// refined ones 0.07 px (medians on a rendered sequence; LSD: 0.08 px).
 bool RefineSegment(const cv::Mat& gray, LineSegment2* segment);
 
 }  // namespace msc_vo

@@ -240,7 +240,7 @@ PointExtractor::PointExtractor(const PointExtractorOptions& options) : options_(
 }
 
 std::vector<PointFeature> PointExtractor::Extract(const cv::Mat& gray) {
-  if (gray.type() != CV_8UC1) {
+  if (gray.empty() || gray.type() != CV_8UC1) {
     throw std::invalid_argument("PointExtractor: the image must be 8-bit grey (CV_8UC1)");
   }
   // One call of ORB per level, told that it is the only one: our pyramid is the only pyramid.
