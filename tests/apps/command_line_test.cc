@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// What every sub-command owes its user: help, exit codes, messages.
+
+#include "tests/apps/command_process.h"
+#include "tests/io/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/io/text_file.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CommandLineTest : public TemporaryFolder {};
+
+TEST_F(CommandLineTest, EveryCommandExplainsItself) {
+  for (const char* command : {"replay", "evaluate", "check", "synthesize"}) {
+    const CommandOutcome outcome = RunCommand({command, "--help"});
+    EXPECT_EQ(outcome.exit_code, 0) << command;
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr("Example:\n  msc_vo " + std::string(command)),
+                                      HasSubstr("Exit codes:")));
+    EXPECT_THAT(RunCommand({"--help"}).output, HasSubstr(command));
+  }
+  EXPECT_THAT(RunCommand({"--version"}).output, testing::StartsWith("msc_vo "));
+}
+
+TEST_F(CommandLineTest, WrongUseEndsWithTwo) {
+  const std::vector<std::vector<std::string>> wrong = {{},
+                                                       {"fly"},
+                                                       {"replay"},
+                                                       {"replay", "x", "--fast"},
+                                                       {"replay", "x", "--format", "kitti"},
+                                                       {"replay", "x", "--mode", "orb"},
+                                                       {"replay", "x", "--max-frames", "-3"},
+                                                       {"evaluate", "one.txt"},
+                                                       {"check"}};
+  for (const std::vector<std::string>& arguments : wrong) {
+    const CommandOutcome outcome = RunCommand(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << testing::PrintToString(arguments);
+    EXPECT_FALSE(outcome.output.empty());
+  }
+}
+
+TEST_F(CommandLineTest, WrongInputEndsWithOneAndAMessage) {
+  WriteText("bad.txt", "1 2 3\n");
+  WriteText("bad.yaml", "tracking:\n  wide_raduis: 3\n");
+  const auto expect_error = [](const std::vector<std::string>& arguments,
+                               const std::string& message) {
+    const CommandOutcome outcome = RunCommand(arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << message;
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr("msc_vo: error: "), HasSubstr(message)));
+  };
+  expect_error({"replay", Path("nowhere")}, "does not exist");
+  expect_error({"check", Folder()}, "no RGB-D sequence found here");
+  expect_error({"evaluate", Path("bad.txt"), Path("bad.txt")}, "bad.txt:1: expected 8 numbers");
+  expect_error({"replay", "x", "--config", Path("bad.yaml")},
+               "bad.yaml:2: unknown option 'tracking.wide_raduis'; did you mean");
+  expect_error({"replay", "x", "--set", "tracking.wide_raduis=3"}, "'tracking.wide_radius'?");
+  expect_error({"replay", "x", "--set", "tracking.wide_radius=a"}, "must be a number, not 'a'");
+  expect_error({"replay", "x", "--set", "mode"}, "expected NAME=VALUE");
+}
+
+TEST_F(CommandLineTest, EvaluatesATrajectory) {
+  std::string truth, estimate;
+  const std::string xy[] = {"1 1", "-1 1", "-1 -1", "1 -1"};
+  for (int i = 0; i < 4; ++i) {
+    const std::string time = std::to_string(i);
+    truth += time + " " + xy[i] + " 0 0 0 0 1\n";
+    estimate += time + " " + xy[i] + (i % 2 == 0 ? " 0.1" : " -0.1") + " 0 0 0 1\n";
+  }
+  WriteText("truth.txt", truth + "9 0 0 0 0 0 0 1\n");
+  WriteText("estimate.txt", estimate);
+  const CommandOutcome table = RunCommand({"evaluate", Path("truth.txt"), Path("estimate.txt")});
+  EXPECT_EQ(table.exit_code, 0);
+  EXPECT_THAT(table.output, AllOf(HasSubstr("100.000"), HasSubstr("coverage 80.00 %")));
+  const CommandOutcome json =
+      RunCommand({"evaluate", Path("truth.txt"), Path("estimate.txt"), "--json"});
+  EXPECT_EQ(json.exit_code, 0);
+  const nlohmann::json numbers = nlohmann::json::parse(json.output);
+  EXPECT_NEAR(numbers["ape_rmse"], 0.1, 1e-9);
+  EXPECT_EQ(numbers["matched"], 4);
+
+  WriteText("later.txt", "100 0 0 0 0 0 0 1\n");
+  const CommandOutcome none = RunCommand({"evaluate", Path("truth.txt"), Path("later.txt")});
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.output, HasSubstr("only 0 of 1 estimated poses"));
+}
+
+TEST_F(CommandLineTest, ThePrintedConfigurationIsOneThatCanBeRead) {
+  const CommandOutcome defaults = RunCommand({"replay", "--print-config"});
+  EXPECT_EQ(defaults.exit_code, 0);
+  WriteText("all.yaml", defaults.output);
+  const CommandOutcome read =
+      RunCommand({"replay", "--print-config", "--config", Path("all.yaml")});
+  EXPECT_EQ(read.output, defaults.output);
+  const CommandOutcome changed =
+      RunCommand({"replay", "--print-config", "--lines", "lsd", "--no-points", "--set",
+                  "tracking.wide_radius=77", "--set", "camera.fx=500"});
+  EXPECT_THAT(changed.output, AllOf(HasSubstr("detector: lsd"), HasSubstr("use_points: false"),
+                                    HasSubstr("wide_radius: 77"), HasSubstr("  fx: 500")));
+}
+
+TEST_F(CommandLineTest, ChecksASequence) {
+  for (int i = 0; i < 3; ++i) {
+    WriteColor("rgb/" + std::to_string(i) + ".png");
+    WriteDepth("depth/" + std::to_string(i) + ".png", 10000);
+  }
+  EXPECT_THAT(RunCommand({"check", Folder()}).output, HasSubstr("the camera is not known"));
+  WriteText("camera.txt", "10 10 3.5 2.5 8 6 5000\n");
+  const CommandOutcome good = RunCommand({"check", Folder()});
+  EXPECT_EQ(good.exit_code, 0);
+  EXPECT_THAT(good.output, HasSubstr("0 errors, 0 warnings"));
+  WriteImage("depth/1.png", CV_8UC1, 10);
+  const CommandOutcome bad = RunCommand({"check", Folder(), "--all"});
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_THAT(bad.output, AllOf(HasSubstr("ERROR"), HasSubstr("1 channel of 8 bits")));
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace msc_vo {
+
+// One run of the msc_vo binary, standard output and error together.
+class CommandProcess {
+ public:
+  explicit CommandProcess(const std::vector<std::string>& arguments);
+  // Waits for the program to end.
+  ~CommandProcess();
+  CommandProcess(const CommandProcess&) = delete;
+  CommandProcess& operator=(const CommandProcess&) = delete;
+
+  // Reads on until the output contains `text`; false if the program ends without.
+  bool WaitForOutput(const std::string& text);
+  void Signal(int signal);
+  // Reads to the end. Returns the exit code, or minus the signal that ended the program.
+  int Wait();
+
+  const std::string& output() const { return output_; }
+
+ private:
+  bool ReadSome();
+
+  pid_t pid_ = -1;
+  int pipe_ = -1;
+  bool is_running_ = true;
+  int exit_code_ = 0;
+  std::string output_;
+};
+
+struct CommandOutcome {
+  int exit_code = 0;
+  std::string output;
+};
+
+CommandOutcome RunCommand(const std::vector<std::string>& arguments);
+
+}  // namespace msc_vo

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Whole runs on a small rendered sequence.
+
+#include <csignal>
+
+#include "tests/apps/command_process.h"
+#include "tests/io/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/io/text_file.h"
+#include "msc_vo/io/trajectory.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class ReplayCommandTest : public TemporaryFolder {
+ protected:
+  void Synthesize(int num_frames) {
+    const CommandOutcome outcome =
+        RunCommand({"synthesize", Path("room"), "--scene", "room", "--frames",
+                    std::to_string(num_frames), "--width", "160"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
+  CommandOutcome Replay(const std::string& output, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments = {"replay", Path("room"), "--output", Path(output)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunCommand(arguments);
+  }
+  nlohmann::json Summary(const std::string& output) {
+    return nlohmann::json::parse(ReadFile(Path(output + "/summary.json")));
+  }
+  size_t NumPoses(const std::string& output) {
+    return ReadTrajectory(Path(output + "/trajectory.txt")).size();
+  }
+};
+
+TEST_F(ReplayCommandTest, WritesEverythingAndTheSameTrajectoryTwice) {
+  Synthesize(20);
+  const CommandOutcome outcome = Replay("a");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("20/20"), HasSubstr("APE RMSE"),
+                    HasSubstr("100.0 % of the ground-truth poses"), HasSubstr("evo_ape tum")));
+  for (const char* name : {"trajectory.txt", "keyframes.txt", "groundtruth.txt", "frames.csv",
+                           "map.ply", "lines.ply", "summary.json", "report.html"}) {
+    EXPECT_GT(ReadFile(Path(std::string("a/") + name)).size(), 100u) << name;
+  }
+  EXPECT_EQ(NumPoses("a"), 20u);
+  EXPECT_EQ(Summary("a")["outcome"], "complete");
+  EXPECT_EQ(Summary("a")["frames"]["count"], 20);
+
+  EXPECT_EQ(Replay("b", {"--quiet"}).output, "");
+  for (const char* name : {"trajectory.txt", "keyframes.txt", "map.ply", "lines.ply"}) {
+    EXPECT_EQ(ReadFile(Path(std::string("a/") + name)), ReadFile(Path(std::string("b/") + name)));
+  }
+}
+
+TEST_F(ReplayCommandTest, StopsAfterSoManyImages) {
+  Synthesize(6);
+  EXPECT_EQ(Replay("out", {"--max-frames", "4", "--mode", "pl-vo"}).exit_code, 0);
+  EXPECT_EQ(NumPoses("out"), 4u);
+  EXPECT_EQ(Summary("out")["options"]["mode"], "pl-vo");
+}
+
+TEST_F(ReplayCommandTest, ABadImageEndsTheRunButKeepsItsResults) {
+  Synthesize(8);
+  std::filesystem::path broken;
+  int count = 0;
+  for (const TextLine& line : ReadTextLines(Path("room/rgb.txt"))) {
+    if (count++ == 5) broken = Path("room/" + line.fields[1]);
+  }
+  std::filesystem::resize_file(broken, std::filesystem::file_size(broken) / 2);
+  const CommandOutcome outcome = Replay("out");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("msc_vo: error: "), HasSubstr(broken.filename()),
+                                    HasSubstr("truncated"), HasSubstr("until then is in")));
+  EXPECT_EQ(NumPoses("out"), 5u);
+  EXPECT_THAT(Summary("out")["outcome"].get<std::string>(), HasSubstr("truncated"));
+}
+
+TEST_F(ReplayCommandTest, CtrlCWritesWhatWasComputed) {
+  Synthesize(60);
+  CommandProcess replay({"replay", Path("room"), "--output", Path("out")});
+  ASSERT_TRUE(replay.WaitForOutput("6/60")) << replay.output();
+  replay.Signal(SIGINT);
+  EXPECT_EQ(replay.Wait(), 130) << replay.output();
+  EXPECT_GE(NumPoses("out"), 6u);
+  EXPECT_LT(NumPoses("out"), 60u);
+  EXPECT_EQ(Summary("out")["outcome"], "interrupted");
+  EXPECT_GT(ReadFile(Path("out/report.html")).size(), 100u);
+}
+
+TEST_F(ReplayCommandTest, AFolderThatCannotBeMadeIsAnError) {
+  Synthesize(2);
+  WriteText("file", "");
+  const CommandOutcome outcome = Replay("file/out");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("cannot be made"));
+}
+
+}  // namespace
+}  // namespace msc_vo
