@@ -70,7 +70,9 @@ struct PoseSummary {
 
 // Estimates the pose of one frame. Matches behind the camera become outliers. Usable needs six or
 // more residual rows that fix all six degrees of freedom (the covariance exists).
-// Throws std::invalid_argument on numbers that are not finite, sigmas <= 0 or bad options.
+// An observation whose depth alone contradicts stays an inlier and loses its depth.
+// Throws std::invalid_argument, naming the match, on numbers that are not finite, sigmas <= 0,
+// segments without length or bad options.
 PoseSummary SolvePose(const PoseOptions& options, PoseData* data);
 
 }  // namespace msc_vo

@@ -40,10 +40,11 @@ struct WindowOptions {
 };
 
 struct TermSummary {
-  int num_residual_blocks = 0;
+  int num_residual_blocks = 0;  // in the second solve
+  // Reprojection: observations that contradict. Depth: those that lost their depth alone.
   int num_rejected = 0;
-  double initial_cost = 0.0;  // 0.5 * sum of robustified squares
-  double final_cost = 0.0;
+  double initial_cost = 0.0;  // 0.5 * sum of robustified squares, before the first solve
+  double final_cost = 0.0;    // after the second, of the blocks that are left
 };
 
 struct WindowSummary {
@@ -60,9 +61,11 @@ struct WindowSummary {
 };
 
 // Refines keyframes, points and lines that are not fixed (paper: Local Map Optimization). Marks
-// rejected observations in `data`. At least one keyframe must be fixed: it holds the gauge.
+// rejected observations in `data`, whatever the marks said before. A landmark that loses its last
+// observation keeps its value. At least one keyframe must be fixed: it holds the gauge.
 // Throws std::invalid_argument, naming the offender, on an unknown or repeated id, a number that is
-// not finite, a sigma <= 0, no fixed keyframe, or options that are not valid.
+// not finite, a sigma <= 0, a segment without length, no fixed keyframe, or options that are not
+// valid.
 WindowSummary SolveWindow(const WindowOptions& options, WindowData* data);
 
 }  // namespace msc_vo
