@@ -23,7 +23,7 @@ constexpr int kParameters = 3;  // of a plane
 constexpr double kMaxDistance = 1.5;
 // Pixels are a surface if their residuals have an r.m.s. below this many sigmas. A pure noise would
 // allow 1.3 (chi-square, 99 %, 22 degrees of freedom); folds and sensors that are somewhat worse
-// than their model need the rest, and an edge of 6 sigmas (8 mm at 1 m) exceeds it.
+// than their model need the rest, and an edge of 6 sigmas (12 mm at 1 m) exceeds it.
 constexpr double kMaxRms = 2.0;
 // Weak prior on the slope of a surface, sigmas per pixel: a wall seen at 45 degrees from 1 m has 1.
 // It keeps the fit to a single row or column of pixels from being undetermined.
