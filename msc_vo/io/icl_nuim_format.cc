@@ -5,6 +5,9 @@
 // ground truth in *.gt.freiburg, and a camera with negative fy.
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "msc_vo/io/image_folder.h"
 #include "msc_vo/io/image_list.h"
@@ -16,9 +19,22 @@ namespace msc_vo {
 
 namespace {
 
-// The data set's own ground truth is what tells it from a TUM folder: nothing else justifies a
-// guess of its mirrored camera.
+// Whether the associations name depth first and count frames, which no other data set does.
+bool HasIclNuimAssociations(const std::string& directory) {
+  const std::string path = FindAssociations(directory);
+  if (path.empty()) return false;
+  std::vector<double> stamps;
+  for (const TextLine& line : ReadTextLines(path)) {
+    const std::optional<double> stamp = ParseNumber(line.fields.front());
+    if (line.fields.size() != 4 || !stamp || line.fields[1].rfind("depth", 0) != 0) return false;
+    stamps.push_back(*stamp);
+  }
+  return AreFrameNumbers(stamps);
+}
+
+// Only marks of the data set itself justify the guess of its mirrored camera.
 bool Recognises(const std::string& directory) {
+  if (HasIclNuimAssociations(directory)) return true;
   return !FindFreiburgTruth(directory).empty() &&
          (!FindAssociations(directory).empty() ||
           std::filesystem::is_directory(std::filesystem::path(directory) / "rgb"));
@@ -42,7 +58,8 @@ SequenceIndex Read(const std::string& directory) {
 }  // namespace
 
 const SequenceFormat kIclNuimFormat = {
-    "icl-nuim", "rgb/, depth/ or associations.txt with frame numbers, and *.gt.freiburg",
+    "icl-nuim",
+    "depth-first associations.txt with frame numbers, or rgb/, depth/ and *.gt.freiburg",
     Recognises, Read};
 
 }  // namespace msc_vo

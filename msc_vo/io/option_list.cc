@@ -80,7 +80,10 @@ void ListLines(LineExtractorOptions* lines, OptionLister* list) {
 }
 
 void ListNoise(SensorNoiseOptions* noise, OptionLister* list) {
-  list->Add("inverse_depth_sigma", &noise->inverse_depth_sigma, "1/metres, of the depth sensor");
+  list->Add("inverse_depth_sigma", &noise->inverse_depth_sigma,
+            "1/metres, of the depth sensor, systematic part included");
+  list->Add("inverse_depth_noise", &noise->inverse_depth_noise,
+            "1/metres, its random part: tells outliers within one image");
   list->Add("point_sigma", &noise->point_sigma, "pixels, of a point on level 0");
   list->Add("line_sigma", &noise->line_sigma, "pixels, of a segment's end across the line");
 }

@@ -4,6 +4,8 @@
 #include "msc_vo/io/options_file.h"
 
 #include <set>
+#include <type_traits>
+#include <utility>
 
 #include "tests/io/temporary_folder.h"
 #include <gmock/gmock.h>
@@ -13,6 +15,37 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+
+// Number of fields of an aggregate: how many values its braces take, at most.
+struct Anything {
+  template <typename T>
+  operator T() const;
+};
+template <typename T, typename Fields, typename = void>
+constexpr bool kTakes = false;
+template <typename T, size_t... I>
+constexpr bool kTakes<T, std::index_sequence<I...>,
+                      std::void_t<decltype(T{(static_cast<void>(I), Anything{})...})>> = true;
+template <typename T, size_t N = 64>
+constexpr size_t NumFields() {
+  if constexpr (kTakes<T, std::make_index_sequence<N>>) {
+    return N;
+  } else {
+    return NumFields<T, N - 1>();
+  }
+}
+
+// Number of options and sections right below `section` ("": the top).
+size_t NumListed(const std::string& section) {
+  Configuration configuration;
+  std::set<std::string> names;
+  for (const Option& option : ListOptions(&configuration)) {
+    if (option.path.rfind(section, 0) != 0) continue;
+    const std::string rest = option.path.substr(section.size());
+    names.insert(rest.substr(0, rest.find('.')));
+  }
+  return names.size();
+}
 
 class OptionsFileTest : public TemporaryFolder {
  protected:
@@ -37,6 +70,28 @@ TEST_F(OptionsFileTest, TheDefaultsAreValidAndEveryOptionHasItsOwnNameAndHelp) {
     EXPECT_FALSE(option.help.empty()) << option.path;
   }
   EXPECT_GT(paths.size(), 80u);
+}
+
+TEST_F(OptionsFileTest, NoFieldOfTheOptionsIsForgotten) {
+  EXPECT_EQ(NumListed(""), NumFields<OdometryOptions>() + 1);  // and the camera
+  EXPECT_EQ(NumListed("features."), NumFields<FrameBuilderOptions>());
+  EXPECT_EQ(NumListed("features.points."), NumFields<PointExtractorOptions>());
+  EXPECT_EQ(NumListed("features.lines."), NumFields<LineExtractorOptions>());
+  EXPECT_EQ(NumListed("features.lines.merging."), NumFields<LineMergingOptions>());
+  EXPECT_EQ(NumListed("features.noise."), NumFields<SensorNoiseOptions>());
+  EXPECT_EQ(NumListed("features.line_fit."), NumFields<LineFitOptions>());
+  EXPECT_EQ(NumListed("tracking."), NumFields<TrackerOptions>());
+  EXPECT_EQ(NumListed("tracking.point_matcher."), NumFields<PointMatcherOptions>());
+  EXPECT_EQ(NumListed("tracking.line_matcher."), NumFields<LineMatcherOptions>());
+  EXPECT_EQ(NumListed("tracking.pose."), NumFields<PoseOptions>());
+  EXPECT_EQ(NumListed("tracking.pose.line_depth."), NumFields<TermOptions>());
+  EXPECT_EQ(NumListed("tracking.keyframes."), NumFields<KeyframePolicyOptions>());
+  EXPECT_EQ(NumListed("tracking.relocalizer."), NumFields<RelocalizerOptions>());
+  EXPECT_EQ(NumListed("mapping."), NumFields<MapperOptions>());
+  EXPECT_EQ(NumListed("mapping.fusion."), NumFields<FusionOptions>());
+  EXPECT_EQ(NumListed("mapping.selection."), NumFields<WindowSelectionOptions>());
+  EXPECT_EQ(NumListed("mapping.window."), NumFields<WindowOptions>());
+  EXPECT_EQ(NumListed("mapping.culling."), NumFields<CullingOptions>());
 }
 
 TEST_F(OptionsFileTest, ReadsWhatIsThereAndKeepsTheRest) {

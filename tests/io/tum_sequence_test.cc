@@ -95,6 +95,15 @@ TEST_F(TumSequenceTest, AnIclNuimFolderCountsFrames) {
   EXPECT_EQ(index.preset, "icl-nuim");
 }
 
+TEST_F(TumSequenceTest, AnIclNuimFolderIsKnownWithoutItsGroundTruth) {
+  WriteText("associations.txt", "0 depth/0.png 0 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n");
+  EXPECT_EQ(OpenSequence(Folder()).format, "icl-nuim");
+  WriteText("associations.txt", "0 rgb/0.png 0 depth/0.png\n1 rgb/1.png 1 depth/1.png\n");
+  EXPECT_EQ(OpenSequence(Folder()).format, "tum");
+  WriteText("associations.txt", "0.5 depth/0.png 0.5 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n");
+  EXPECT_EQ(OpenSequence(Folder()).format, "tum");
+}
+
 TEST_F(TumSequenceTest, AnIclNuimFolderNeedsNoList) {
   for (const char* name : {"0", "1", "2", "10"}) {
     WriteColor(std::string("rgb/") + name + ".png");
