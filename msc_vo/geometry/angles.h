@@ -15,8 +15,8 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double DegreesToRadians(double degrees) { return degrees * (kPi / 180.0); }
 constexpr double RadiansToDegrees(double radians) { return radians * (180.0 / kPi); }
 
-// Angle in [0, pi/2] between two undirected lines in space. Any non-zero lengths; accurate near both
-// ends, where the arc cosine of a dot product is not.
+// Angle in [0, pi/2] between two undirected lines in space. Any non-zero lengths; accurate near
+// both ends, where the arc cosine of a dot product is not.
 inline double UndirectedAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
 }

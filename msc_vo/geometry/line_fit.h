@@ -25,8 +25,8 @@ namespace msc_vo {
 // disparity sensor is constant in 1/z. Total least squares on back-projected samples thus becomes
 // weighted linear regression, with the right noise and an exact covariance.
 struct LineDepth {
-  double start = 0.0;  // w_start, 1/metres, positive
-  double end = 0.0;    // w_end, 1/metres, positive
+  double start = 0.0;                                    // w_start, 1/metres, positive
+  double end = 0.0;                                      // w_end, 1/metres, positive
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of (start, end), 1/metres^2
   int num_inliers = 0;
   double inlier_ratio = 0.0;  // inliers / valid samples

@@ -38,7 +38,8 @@ using LineSegment3 = LineSegment<3>;
 static_assert(sizeof(LineSegment3) == 6 * sizeof(double), "must be one parameter block");
 
 inline LineSegment3 operator*(const Rigid3& b_from_a, const LineSegment3& segment_in_a) {
-  return {b_from_a * Eigen::Vector3d(segment_in_a.start), b_from_a * Eigen::Vector3d(segment_in_a.end)};
+  return {b_from_a * Eigen::Vector3d(segment_in_a.start),
+          b_from_a * Eigen::Vector3d(segment_in_a.end)};
 }
 
 // The infinite image line through a segment as (n, c), |n| = 1, so that n . p + c is the signed

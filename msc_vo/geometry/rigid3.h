@@ -13,8 +13,8 @@ namespace msc_vo {
 // The seven numbers are contiguous, quaternion (x, y, z, w) first, translation (metres) second, so
 // that `params.data()` is a parameter block for Rigid3Manifold without any copy.
 struct Rigid3 {
-  Eigen::Matrix<double, 7, 1> params = (Eigen::Matrix<double, 7, 1>() << 0, 0, 0, 1, 0, 0, 0)
-                                           .finished();
+  Eigen::Matrix<double, 7, 1> params =
+      (Eigen::Matrix<double, 7, 1>() << 0, 0, 0, 1, 0, 0, 0).finished();
 
   Rigid3() = default;
   Rigid3(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation) {
@@ -40,7 +40,9 @@ struct Rigid3 {
   // Where the origin of frame a's *target* lies: for cam_from_world, the camera centre in world.
   Eigen::Vector3d OriginInSource() const { return -(rotation().conjugate() * translation()); }
 
-  Eigen::Vector3d operator*(const Eigen::Vector3d& x) const { return rotation() * x + translation(); }
+  Eigen::Vector3d operator*(const Eigen::Vector3d& x) const {
+    return rotation() * x + translation();
+  }
   Rigid3 operator*(const Rigid3& b_from_a) const {
     return {(rotation() * b_from_a.rotation()).normalized(),
             rotation() * b_from_a.translation() + translation()};

@@ -27,12 +27,12 @@ Rigid3 AlignRigid(const std::vector<Eigen::Vector3d>& source,
   for (size_t i = 0; i < source.size(); ++i) {
     correlation += (target[i] - target_mean) * (source[i] - source_mean).transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
   // The last singular vector is flipped where the best orthogonal matrix would be a mirror image.
   Eigen::Vector3d sign(1.0, 1.0, 1.0);
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) sign.z() = -1.0;
-  const Eigen::Matrix3d rotation =
-      svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  const Eigen::Matrix3d rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
   return {Eigen::Quaterniond(rotation), target_mean - rotation * source_mean};
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "msc_vo/mapping/mapper.h"
+#include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/tracking/stopwatch.h"
 #include "msc_vo/tracking/tracker.h"
 
@@ -132,6 +133,7 @@ OdometryResult Odometry::Finish() {
     if (place.reference == kNoId) continue;
     result.frames[i].cam_from_world = place.cam_from_reference * map.CamFromWorld(place.reference);
   }
+  FillGaps(&result.frames);
   for (const auto& [id, keyframe] : map.keyframes()) {
     result.keyframes.push_back({keyframe.frame->timestamp, keyframe.cam_from_world.Inverse()});
   }

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/gap_filling.h"
+
+#include "msc_vo/geometry/so3.h"
+
+namespace msc_vo {
+
+namespace {
+
+bool IsEstimated(const FrameResult& frame) {
+  return frame.status == TrackingStatus::kTracked || frame.status == TrackingStatus::kWeak;
+}
+
+// The pose at share `s` of the way from `a` to `b`: the centre on the straight line, the rotation
+// about the fixed axis between the two.
+Rigid3 Interpolate(const Rigid3& a, const Rigid3& b, double s) {
+  const Eigen::Vector3d center = (1.0 - s) * a.OriginInSource() + s * b.OriginInSource();
+  const Eigen::Quaterniond rotation =
+      ExpSO3(s * LogSO3(b.rotation() * a.rotation().conjugate())) * a.rotation();
+  return {rotation, -(rotation * center)};
+}
+
+}  // namespace
+
+void FillGaps(std::vector<FrameResult>* frames) {
+  size_t before = frames->size();  // the last estimated frame; size(): none yet
+  for (size_t i = 0; i < frames->size(); ++i) {
+    if (!IsEstimated((*frames)[i])) continue;
+    for (size_t gap = before + 1; before < frames->size() && gap < i; ++gap) {
+      const FrameResult& a = (*frames)[before];
+      const FrameResult& b = (*frames)[i];
+      const double share = ((*frames)[gap].timestamp - a.timestamp) / (b.timestamp - a.timestamp);
+      (*frames)[gap].cam_from_world = Interpolate(a.cam_from_world, b.cam_from_world, share);
+    }
+    before = i;
+  }
+}
+
+}  // namespace msc_vo

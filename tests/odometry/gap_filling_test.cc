@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/gap_filling.h"
+
+#include <gmock/gmock.h>
+
+#include "msc_vo/geometry/so3.h"
+
+namespace msc_vo {
+namespace {
+
+FrameResult Frame(double timestamp, TrackingStatus status, double x, double turn = 0.0) {
+  FrameResult frame;
+  frame.timestamp = timestamp;
+  frame.status = status;
+  const Eigen::Quaterniond world_from_cam = ExpSO3({0, turn, 0});
+  frame.cam_from_world = Rigid3(world_from_cam, {x, 0, 0}).Inverse();
+  return frame;
+}
+
+TEST(FillGaps, InterpolatesInTime) {
+  std::vector<FrameResult> frames = {
+      Frame(0.0, TrackingStatus::kTracked, 0.0, 0.0), Frame(0.1, TrackingStatus::kPredicted, 7.0),
+      Frame(0.3, TrackingStatus::kLost, 7.0), Frame(0.4, TrackingStatus::kWeak, 4.0, 0.8)};
+  FillGaps(&frames);
+  for (const FrameResult& frame : frames) {
+    EXPECT_NEAR(frame.cam_from_world.OriginInSource().x(), 10.0 * frame.timestamp, 1e-12);
+    const Eigen::Vector3d turn = LogSO3(frame.cam_from_world.Inverse().rotation());
+    EXPECT_NEAR(turn.y(), 2.0 * frame.timestamp, 1e-12);
+  }
+  EXPECT_EQ(frames[2].status, TrackingStatus::kLost);
+}
+
+TEST(FillGaps, LeavesTheEndsAndEstimatedFramesAlone) {
+  const std::vector<FrameResult> before = {
+      Frame(0.0, TrackingStatus::kLost, 1.0), Frame(0.1, TrackingStatus::kTracked, 2.0),
+      Frame(0.2, TrackingStatus::kTracked, 5.0), Frame(0.3, TrackingStatus::kPredicted, 9.0)};
+  std::vector<FrameResult> after = before;
+  FillGaps(&after);
+  for (size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(after[i].cam_from_world.params, before[i].cam_from_world.params) << i;
+  }
+  std::vector<FrameResult> none;
+  FillGaps(&none);
+}
+
+}  // namespace
+}  // namespace msc_vo
