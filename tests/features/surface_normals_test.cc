@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/features/surface_normals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/features/depth_images.h"
+#include <gtest/gtest.h>
+
+#include "msc_vo/geometry/angles.h"
+
+namespace msc_vo {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using testing::AddInverseDepthNoise;
+using testing::DrawDepth;
+
+// The plane normal . x = -distance, seen from its positive side at the origin.
+struct Plane {
+  Vector3d normal = -Vector3d::UnitZ();  // unit, towards the camera
+  double distance = 2.0;                 // metres, to the camera
+};
+
+double InverseDepth(const PinholeCamera& camera, const Plane& plane, const Vector2d& pixel) {
+  return std::max(0.0, -plane.normal.dot(camera.Ray(pixel)) / plane.distance);
+}
+
+cv::Mat Draw(const PinholeCamera& camera, const Plane& plane) {
+  return DrawDepth(camera,
+                   [&](const Vector2d& pixel) { return InverseDepth(camera, plane, pixel); });
+}
+
+std::vector<SurfaceNormal> Estimate(const PinholeCamera& camera, const cv::Mat& depth) {
+  return SurfaceNormalEstimator({}, camera, {}).Estimate(depth);
+}
+
+double ErrorInDegrees(const SurfaceNormal& normal, const Vector3d& truth) {
+  return RadiansToDegrees(
+      std::atan2(normal.direction.cross(truth).norm(), normal.direction.dot(truth)));
+}
+
+const Plane kTilted = {Vector3d(0.5, -0.4, -1.0).normalized(), 1.5};
+
+class SurfaceNormalsOfAPlane : public ::testing::TestWithParam<double> {};
+
+TEST_P(SurfaceNormalsOfAPlane, AreExact) {
+  PinholeCamera camera;
+  camera.fy = GetParam();
+  const auto normals = Estimate(camera, Draw(camera, kTilted));
+  EXPECT_EQ(normals.size(), 1200u);
+  for (const SurfaceNormal& normal : normals) {
+    EXPECT_LT(ErrorInDegrees(normal, kTilted.normal), 0.05);
+    EXPECT_NEAR(kTilted.normal.dot(normal.position), -kTilted.distance, 1e-4);
+    EXPECT_LT(normal.direction.dot(normal.position), 0.0) << "away from the camera";
+    EXPECT_NEAR(normal.direction.norm(), 1.0, 1e-12);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fy, SurfaceNormalsOfAPlane, ::testing::Values(525.0, -525.0));
+
+TEST(SurfaceNormals, KeepToTheirSigmaInNoise) {
+  const PinholeCamera camera;
+  for (const double distance : {1.0, 2.0, 4.0}) {
+    const Plane plane = {kTilted.normal, distance};
+    cv::Mat depth = Draw(camera, plane);
+    AddInverseDepthNoise(SurfaceNormalOptions().inverse_depth_sigma, 1.5, 7, &depth);
+    const auto normals = Estimate(camera, depth);
+    ASSERT_GT(normals.size(), 900u) << distance;
+    int num_within = 0;
+    for (const SurfaceNormal& normal : normals) {
+      // Two components: 99 % within three sigmas.
+      const double error = DegreesToRadians(ErrorInDegrees(normal, plane.normal));
+      if (error < 3.035 * normal.sigma) ++num_within;
+    }
+    EXPECT_GT(num_within, 0.97 * normals.size()) << distance;
+  }
+}
+
+TEST(SurfaceNormals, WindowsGrowWithDepthUntilTheTargetIsMet) {
+  const PinholeCamera camera;
+  for (const double distance : {0.5, 1.0, 3.0, 6.0}) {
+    const Plane frontal = {-Vector3d::UnitZ(), distance};
+    const auto normals = Estimate(camera, Draw(camera, frontal));
+    ASSERT_FALSE(normals.empty());
+    const double target = SurfaceNormalOptions().target_sigma;
+    for (const SurfaceNormal& normal : normals) {
+      EXPECT_LE(normal.sigma, 1.01 * target) << distance;
+      // Rounding up of the radius is all that it stays below by.
+      EXPECT_GT(normal.sigma, 0.7 * target) << distance;
+    }
+  }
+}
+
+// The mean of any points of a plane lies on it.
+TEST(SurfaceNormals, MissingDepthDoesNotBendThem) {
+  const PinholeCamera camera;
+  cv::Mat depth = Draw(camera, kTilted);
+  for (int y = 0; y < depth.rows; ++y) {
+    for (int x = 0; x < depth.cols; ++x) {
+      if ((x * 7 + y * 13) % 17 < 6) depth.at<float>(y, x) = 0.0f;
+    }
+  }
+  depth(cv::Rect(100, 100, 80, 60)) = std::numeric_limits<float>::quiet_NaN();
+  const auto normals = Estimate(camera, depth);
+  EXPECT_GT(normals.size(), 500u);
+  for (const SurfaceNormal& normal : normals) {
+    EXPECT_LT(ErrorInDegrees(normal, kTilted.normal), 0.1);
+  }
+}
+
+TEST(SurfaceNormals, WindowsWithTooLittleDepthGiveNone) {
+  const PinholeCamera camera;
+  cv::Mat depth = Draw(camera, kTilted);
+  for (int y = 0; y < depth.rows; ++y) {
+    if (y % 8 >= 3) depth.row(y) = 0.0f;
+  }
+  EXPECT_TRUE(Estimate(camera, depth).empty());
+}
+
+// A box half a metre in front of a wall: no window may reach from one to the other.
+TEST(SurfaceNormals, DepthEdgesDoNotBendThem) {
+  const PinholeCamera camera;
+  const Plane box = {Vector3d(-0.3, 0.0, -1.0).normalized(), 1.2};
+  const cv::Mat depth = DrawDepth(camera, [&](const Vector2d& pixel) {
+    const bool on_box = pixel.x() > 200 && pixel.x() < 400 && pixel.y() > 150 && pixel.y() < 300;
+    return InverseDepth(camera, on_box ? box : kTilted, pixel);
+  });
+  int num_on_box = 0;
+  for (const SurfaceNormal& normal : Estimate(camera, depth)) {
+    const double on_box = ErrorInDegrees(normal, box.normal);
+    EXPECT_LT(std::min(on_box, ErrorInDegrees(normal, kTilted.normal)), 0.1);
+    if (on_box < 0.1) ++num_on_box;
+  }
+  EXPECT_GT(num_on_box, 60);
+}
+
+TEST(SurfaceNormals, OfASpherePointAwayFromItsCentre) {
+  const PinholeCamera camera;
+  const Vector3d center(0.1, -0.1, 2.0);
+  const double radius = 0.5;
+  const cv::Mat depth = DrawDepth(camera, [&](const Vector2d& pixel) {
+    // The nearer z with |z ray - center| = radius.
+    const Vector3d ray = camera.Ray(pixel);
+    const double a = ray.squaredNorm();
+    const double b = ray.dot(center);
+    const double root = b * b - a * (center.squaredNorm() - radius * radius);
+    return root > 0.0 ? a / (b - std::sqrt(root)) : 0.0;
+  });
+  const auto normals = Estimate(camera, depth);
+  EXPECT_GT(normals.size(), 100u);
+  for (const SurfaceNormal& normal : normals) {
+    // A window at the rim holds the half of the sphere's cap only that is seen.
+    const Vector3d truth = (normal.position - center).normalized();
+    const bool is_rim = -truth.dot(normal.position.normalized()) < std::cos(1.0);
+    EXPECT_LT(ErrorInDegrees(normal, truth), is_rim ? 10.0 : 1.5);
+  }
+}
+
+TEST(SurfaceNormals, LensDistortionIsUndone) {
+  const PinholeCamera camera;
+  LensDistortion lens;
+  lens.k = {0.262, -0.953, -0.005, 0.003, 1.163};
+  const cv::Mat depth = DrawDepth(camera, [&](const Vector2d& raw) {
+    return InverseDepth(camera, kTilted, lens.Undistort(camera, raw));
+  });
+  const auto normals = SurfaceNormalEstimator({}, camera, lens).Estimate(depth);
+  EXPECT_EQ(normals.size(), 1200u);
+  for (const SurfaceNormal& normal : normals) {
+    EXPECT_LT(ErrorInDegrees(normal, kTilted.normal), 0.1);
+  }
+}
+
+TEST(SurfaceNormals, ComeRowByRowAndEveryCallAlike) {
+  const PinholeCamera camera;
+  cv::Mat depth = Draw(camera, kTilted);
+  AddInverseDepthNoise(1e-3, 1.0, 3, &depth);
+  SurfaceNormalEstimator estimator({}, camera, {});
+  const auto first = estimator.Estimate(depth);
+  estimator.Estimate(Draw(camera, Plane()));
+  const auto again = estimator.Estimate(depth);
+  ASSERT_EQ(first.size(), again.size());
+  for (size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].direction, again[i].direction);
+    EXPECT_EQ(first[i].position, again[i].position);
+  }
+  const auto row_of = [&](const SurfaceNormal& normal) {
+    return std::lround((camera.Project(normal.position).y() - 8.0) / 16.0);
+  };
+  EXPECT_TRUE(std::is_sorted(
+      first.begin() + 80, first.end() - 80,
+      [&](const SurfaceNormal& a, const SurfaceNormal& b) { return row_of(a) < row_of(b); }));
+}
+
+TEST(SurfaceNormals, WithoutDepthThereAreNone) {
+  const PinholeCamera camera;
+  EXPECT_TRUE(Estimate(camera, cv::Mat::zeros(camera.height, camera.width, CV_32FC1)).empty());
+}
+
+TEST(SurfaceNormals, MisuseIsNamed) {
+  const PinholeCamera camera;
+  SurfaceNormalEstimator estimator({}, camera, {});
+  EXPECT_THROW(estimator.Estimate(cv::Mat::zeros(480, 640, CV_16UC1)), std::invalid_argument);
+  EXPECT_THROW(estimator.Estimate(cv::Mat::zeros(240, 320, CV_32FC1)), std::invalid_argument);
+  SurfaceNormalOptions options;
+  options.max_radius = 200;
+  std::string error;
+  EXPECT_FALSE(options.IsValid(&error));
+  EXPECT_NE(error.find("max_radius"), std::string::npos);
+  EXPECT_THROW(SurfaceNormalEstimator(options, camera, {}), std::invalid_argument);
+  EXPECT_TRUE(SurfaceNormalOptions().IsValid(&error));
+}
+
+}  // namespace
+}  // namespace msc_vo
