@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/commands.h"
+#include "apps/configuration_arguments.h"
 #include "apps/sequence_arguments.h"
 #include "msc_vo/io/sequence_check.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 struct Arguments {
   SequenceArguments sequence;
+  ConfigurationArguments configuration;
   SequenceCheckOptions options;
   bool all = false;
 };
@@ -32,7 +34,7 @@ const char* Label(Severity severity) {
 
 int Run(const Arguments& arguments) {
   const RgbdDecoder decoder =
-      OpenDecoder(arguments.sequence, LoadConfiguration(arguments.sequence));
+      OpenDecoder(arguments.sequence, MakeConfiguration(arguments.configuration));
   SequenceCheckOptions options = arguments.options;
   if (arguments.all) options.max_images = decoder.size();
   std::cout << decoder.index().directory << " (" << decoder.index().format << ")\n";
@@ -54,6 +56,7 @@ Command AddCheckCommand(CLI::App* app) {
   CLI::App* command = app->add_subcommand(
       "check", "Examine a sequence: files, sizes, stamps, depth in metres, camera, ground truth");
   AddSequenceArguments(command, &arguments->sequence)->required();
+  AddConfigurationArguments(command, &arguments->configuration);
   command->add_option("--images", arguments->options.max_images, "Images to decode, evenly spread")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -36,6 +36,7 @@ struct Command {
 // Each adds its sub-command to `app`; one file per sub-command.
 Command AddReplayCommand(CLI::App* app);
 Command AddEvaluateCommand(CLI::App* app);
+Command AddBenchmarkCommand(CLI::App* app);
 Command AddSynthesizeCommand(CLI::App* app);
 Command AddCheckCommand(CLI::App* app);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -9,6 +8,7 @@
 
 #include "apps/commands.h"
 #include "msc_vo/evaluation/trajectory_error.h"
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/io/run_summary.h"
 #include "msc_vo/io/trajectory.h"
 
@@ -35,14 +35,14 @@ void PrintRow(const char* name, const ErrorStatistics& statistics, double factor
 
 void PrintTable(const TrajectoryError& error) {
   constexpr double kMillimetres = 1000.0;
-  const double degrees = 180.0 / std::acos(-1.0);
+  constexpr double kDegrees = RadiansToDegrees(1.0);
   std::printf("%-20s %9s %9s %9s %9s\n", "", "RMSE", "mean", "median", "max");
   PrintRow("APE", error.ape, kMillimetres, "mm");
-  PrintRow("APE rotation", error.ape_rotation, degrees, "deg");
+  PrintRow("APE rotation", error.ape_rotation, kDegrees, "deg");
   PrintRow("RPE", error.rpe_per_second.translation, kMillimetres, "mm/s");
-  PrintRow("RPE rotation", error.rpe_per_second.rotation, degrees, "deg/s");
+  PrintRow("RPE rotation", error.rpe_per_second.rotation, kDegrees, "deg/s");
   PrintRow("RPE", error.rpe_per_metre.translation, kMillimetres, "mm/m");
-  PrintRow("RPE rotation", error.rpe_per_metre.rotation, degrees, "deg/m");
+  PrintRow("RPE rotation", error.rpe_per_metre.rotation, kDegrees, "deg/m");
   std::printf(
       "coverage %.2f %%: %d of %d ground-truth poses matched (%.2f %% of those in the "
       "time range of the estimate), %d estimated, path %.2f m\n",

@@ -3,11 +3,11 @@
 
 #include "apps/sequence_arguments.h"
 
+#include <filesystem>
 #include <utility>
 #include <vector>
 
 #include "msc_vo/io/camera_preset.h"
-#include "msc_vo/io/options_file.h"
 #include "msc_vo/io/sequence.h"
 
 namespace msc_vo {
@@ -15,6 +15,11 @@ namespace msc_vo {
 CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* arguments) {
   CLI::Option* sequence = command->add_option("sequence", arguments->directory,
                                               "Folder with an RGB-D sequence, see --format");
+  AddLayoutArguments(command, arguments);
+  return sequence;
+}
+
+void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments) {
   std::vector<std::string> formats = SequenceFormatNames();
   formats.insert(formats.begin(), "auto");
   command->add_option("--format", arguments->format, "Layout of the folder")
@@ -26,9 +31,6 @@ CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* argument
       ->add_option("--camera", arguments->camera,
                    "Built-in camera, if neither --config nor the folder knows it")
       ->check(CLI::IsMember(cameras));
-  command->add_option("--config", arguments->config,
-                      "Options and camera: our YAML (see replay --print-config) or ORB-SLAM's");
-  return sequence;
 }
 
 RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration& configuration) {
@@ -37,10 +39,12 @@ RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration&
   return {std::move(index), std::move(calibration)};
 }
 
-Configuration LoadConfiguration(const SequenceArguments& arguments) {
-  Configuration configuration;
-  if (!arguments.config.empty()) ReadConfiguration(arguments.config, &configuration);
-  return configuration;
+std::string SequenceName(const std::string& directory) {
+  // Also "." and "a/.." have a name then.
+  const std::filesystem::path path = std::filesystem::weakly_canonical(directory);
+  const std::filesystem::path name =
+      path.has_filename() ? path.filename() : path.parent_path().filename();
+  return name.empty() ? "root" : name.string();
 }
 
 }  // namespace msc_vo

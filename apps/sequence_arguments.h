@@ -17,17 +17,18 @@ struct SequenceArguments {
   std::string directory;
   std::string format = "auto";
   std::string camera;  // preset; may be empty
-  std::string config;  // file; may be empty
 };
 
-// Declares SEQUENCE, --format, --camera and --config. The caller makes SEQUENCE required, if it is.
+// Declares SEQUENCE, --format and --camera. The caller makes SEQUENCE required, if it is.
 CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* arguments);
 
-// The sequence, ready to be decoded. `configuration` must have been read already.
-// Throws std::runtime_error naming file, line and fix.
+// The same without SEQUENCE, for a command that takes several.
+void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments);
+
+// The sequence, ready to be decoded. Throws std::runtime_error naming file, line and fix.
 RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration& configuration);
 
-// The configuration file over the defaults.
-Configuration LoadConfiguration(const SequenceArguments& arguments);
+// What the results of the sequence are called: the last part of its path.
+std::string SequenceName(const std::string& directory);
 
 }  // namespace msc_vo

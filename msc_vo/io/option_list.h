@@ -46,6 +46,15 @@ bool SetOption(const Option& option, const std::string& text, std::string* expec
 // The value as text, with as many digits as are needed to read it back; empty: not set.
 std::string FormatOption(const Option& option);
 
+// An option that has a value, as text.
+struct OptionText {
+  std::string path;
+  std::string value;
+};
+
+// Those whose value is not the default.
+std::vector<OptionText> ChangedOptions(const Configuration& configuration);
+
 // The option whose path is most like `path`, for "did you mean ...?"; null if none is alike.
 const Option* FindSimilar(const std::vector<Option>& options, const std::string& path);
 

@@ -128,6 +128,19 @@ bool SetOption(const Option& option, const std::string& text, std::string* expec
 
 std::string FormatOption(const Option& option) { return std::visit(Formatter{}, option.value); }
 
+std::vector<OptionText> ChangedOptions(const Configuration& configuration) {
+  Configuration given = configuration;
+  Configuration defaults;
+  const std::vector<Option> default_options = ListOptions(&defaults);
+  std::vector<OptionText> changed;
+  const std::vector<Option> options = ListOptions(&given);
+  for (size_t i = 0; i < options.size(); ++i) {
+    const std::string value = FormatOption(options[i]);
+    if (value != FormatOption(default_options[i])) changed.push_back({options[i].path, value});
+  }
+  return changed;
+}
+
 const Option* FindSimilar(const std::vector<Option>& options, const std::string& path) {
   const Option* nearest = nullptr;
   // More than a third of the letters wrong is another word, not a typing error.

@@ -22,9 +22,10 @@ std::string FormatPointsPly(const std::vector<MapPoint>& points);
 // The lines of the map as an ASCII PLY of vertices and edges.
 std::string FormatLinesPly(const std::vector<MapLine>& lines);
 
-// Writes trajectory.txt, keyframes.txt, frames.csv, map.ply, lines.ply and summary.json into
-// `directory`, which is made if it does not exist. Each file is complete or as it was before.
-// Throws std::runtime_error naming the file that cannot be written.
+// Writes trajectory.txt, keyframes.txt, frames.csv, map.ply, lines.ply, summary.json, report.html
+// and, if there is one, groundtruth.txt into `directory`, which is made if it does not exist. Each
+// file is complete or as it was before. Throws std::runtime_error naming the file that cannot be
+// written.
 void WriteResultFiles(const std::string& directory, const OdometryResult& result,
                       const RunContext& context);
 

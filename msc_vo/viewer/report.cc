@@ -133,9 +133,8 @@ void WriteNotTracked(const ReportData& data, std::ostream& out) {
   for (const NotTrackedSpan& span : spans) {
     const int count = span.last_frame - span.first_frame + 1;
     out << "<tr><td>" << span.first_frame << " to " << span.last_frame << "</td><td>"
-        << FormatFixed(data.frames[span.first_frame].timestamp - start, 2) << "</td><td>"
-        << FormatFixed(data.frames[span.last_frame].timestamp - start, 2) << "</td><td>"
-        << count - span.num_lost << "</td><td>" << span.num_lost << "</td></tr>\n";
+        << FormatFixed(span.start - start, 2) << "</td><td>" << FormatFixed(span.end - start, 2)
+        << "</td><td>" << count - span.num_lost << "</td><td>" << span.num_lost << "</td></tr>\n";
   }
   out << "</table>\n";
 }
@@ -153,7 +152,7 @@ void WriteTimes(const ReportData& data, std::ostream& out) {
               out);
   out << "<h2>Stages</h2>\n<table>\n<tr><th>milliseconds</th><th>mean</th><th>median</th>"
          "<th>95 %</th><th>max</th><th>times</th></tr>\n";
-  for (const StageTimeStatistics& stage : SummarizeStages(data)) {
+  for (const StageTimeStatistics& stage : SummarizeStages(data.stage_names, data.frames)) {
     out << "<tr><td>" << EscapeHtml(stage.name) << "</td><td>" << FormatFixed(stage.mean, 2)
         << "</td><td>" << FormatFixed(stage.median, 2) << "</td><td>" << FormatFixed(stage.p95, 2)
         << "</td><td>" << FormatFixed(stage.max, 2) << "</td><td>" << stage.count << "</td></tr>\n";

@@ -36,24 +36,24 @@ StageTimeStatistics SummarizeStage(const std::string& name, std::vector<double> 
   return statistics;
 }
 
-std::vector<StageTimeStatistics> SummarizeStages(const ReportData& data) {
-  const auto summarize = [&data](const std::string& name, const auto& milliseconds_of) {
+std::vector<StageTimeStatistics> SummarizeStages(const std::vector<std::string>& stage_names,
+                                                 const std::vector<ReportFrame>& frames) {
+  const auto summarize = [&frames](const std::string& name, const auto& milliseconds_of) {
     std::vector<double> values;
-    for (const ReportFrame& frame : data.frames) values.push_back(milliseconds_of(frame));
+    for (const ReportFrame& frame : frames) values.push_back(milliseconds_of(frame));
     return SummarizeStage(name, std::move(values));
   };
   std::vector<StageTimeStatistics> all;
-  for (size_t i = 0; i < data.stage_names.size(); ++i) {
-    all.push_back(summarize(data.stage_names[i],
-                            [i](const ReportFrame& frame) { return frame.stage_ms[i]; }));
+  for (size_t i = 0; i < stage_names.size(); ++i) {
+    all.push_back(
+        summarize(stage_names[i], [i](const ReportFrame& frame) { return frame.stage_ms[i]; }));
   }
-  all.push_back(
-      summarize("tracking, whole", [](const ReportFrame& frame) { return frame.tracking_ms; }));
+  all.push_back(summarize("tracking", [](const ReportFrame& frame) { return frame.tracking_ms; }));
   std::vector<double> mapping;
-  for (const ReportFrame& frame : data.frames) {
+  for (const ReportFrame& frame : frames) {
     if (frame.mapping_ms > 0.0) mapping.push_back(frame.mapping_ms);
   }
-  all.push_back(SummarizeStage("mapping, per keyframe", std::move(mapping)));
+  all.push_back(SummarizeStage("mapping", std::move(mapping)));
   return all;
 }
 
@@ -61,9 +61,11 @@ std::vector<NotTrackedSpan> FindNotTrackedSpans(const std::vector<ReportFrame>& 
   std::vector<NotTrackedSpan> spans;
   for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
     const ReportStatus status = frames[i].status;
+    const double time = frames[i].timestamp;
     if (status != ReportStatus::kPredicted && status != ReportStatus::kLost) continue;
-    if (spans.empty() || spans.back().last_frame != i - 1) spans.push_back({i, i, 0});
+    if (spans.empty() || spans.back().last_frame != i - 1) spans.push_back({i, i, 0, time, time});
     spans.back().last_frame = i;
+    spans.back().end = time;
     if (status == ReportStatus::kLost) ++spans.back().num_lost;
   }
   return spans;

@@ -24,15 +24,18 @@ struct StageTimeStatistics {
 // not finite do not count. All zero if nothing is left.
 StageTimeStatistics SummarizeStage(const std::string& name, std::vector<double> milliseconds);
 
-// The stages of tracking, tracking as a whole over all frames, and mapping over the frames that
-// caused a keyframe step.
-std::vector<StageTimeStatistics> SummarizeStages(const ReportData& data);
+// The stages of tracking that ReportFrame::stage_ms holds, "tracking" as a whole over all frames,
+// and "mapping" over the frames that caused a keyframe step.
+std::vector<StageTimeStatistics> SummarizeStages(const std::vector<std::string>& stage_names,
+                                                 const std::vector<ReportFrame>& frames);
 
 // Successive frames without an estimated pose (predicted or lost).
 struct NotTrackedSpan {
   int first_frame = 0;  // index into ReportData::frames
   int last_frame = 0;   // inclusive
   int num_lost = 0;     // the others were predicted
+  double start = 0.0;   // seconds, stamps of the two
+  double end = 0.0;
 };
 std::vector<NotTrackedSpan> FindNotTrackedSpans(const std::vector<ReportFrame>& frames);
 

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 class CommandLineTest : public TemporaryFolder {};
 
 TEST_F(CommandLineTest, EveryCommandExplainsItself) {
-  for (const char* command : {"replay", "evaluate", "check", "synthesize"}) {
+  for (const char* command : {"replay", "evaluate", "benchmark", "check", "synthesize"}) {
     const CommandOutcome outcome = RunCommand({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_THAT(outcome.output, AllOf(HasSubstr("Example:\n  msc_vo " + std::string(command)),

@@ -50,16 +50,15 @@ TEST_F(ResultFilesTest, SummarizesStatusesSpansAndStages) {
   const RunSummary summary = Summarize(Result());
   EXPECT_THAT(summary.status_counts, testing::ElementsAre(2, 1, 1, 1));
   EXPECT_DOUBLE_EQ(summary.tracked_share, 0.6);
-  ASSERT_EQ(summary.untracked.size(), 1u);
-  EXPECT_EQ(summary.untracked[0].first, 2);
-  EXPECT_EQ(summary.untracked[0].last, 3);
-  EXPECT_DOUBLE_EQ(summary.untracked[0].end, 10.3);
-  const StageStatistics& tracking = summary.stages[5];
-  EXPECT_EQ(tracking.name, "tracking");
+  ASSERT_EQ(summary.not_tracked.size(), 1u);
+  EXPECT_EQ(summary.not_tracked[0].first_frame, 2);
+  EXPECT_EQ(summary.not_tracked[0].last_frame, 3);
+  EXPECT_DOUBLE_EQ(summary.not_tracked[0].end, 10.3);
+  const StageTimeStatistics tracking = FindStage(summary, "tracking");
   EXPECT_EQ(tracking.mean, 30.0);
   EXPECT_EQ(tracking.median, 30.0);
   EXPECT_EQ(tracking.p95, 50.0);
-  const StageStatistics& mapping = summary.stages[6];
+  const StageTimeStatistics mapping = FindStage(summary, "mapping");
   EXPECT_EQ(mapping.count, 1);  // frames without a keyframe step do not dilute it
   EXPECT_EQ(mapping.mean, 40.0);
 }
@@ -96,7 +95,9 @@ TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
   RunContext context;
   context.command_line = "msc_vo replay \xff";  // not UTF-8: JSON must survive it
   context.outcome = "interrupted";
-  context.seconds = 2.0;
+  context.cost.seconds = 2.0;
+  context.cost.processor_seconds = 3.0;
+  context.sequence.ground_truth = {{10.0, Rigid3()}};
   const std::string out = Path("deep/down/out");
   WriteResultFiles(out, Result(), context);
   std::vector<std::string> names;
@@ -104,7 +105,8 @@ TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
     names.push_back(entry.path().filename().string());
   }
   EXPECT_THAT(names, testing::UnorderedElementsAre("trajectory.txt", "keyframes.txt", "frames.csv",
-                                                   "map.ply", "lines.ply", "summary.json"));
+                                                   "map.ply", "lines.ply", "summary.json",
+                                                   "report.html", "groundtruth.txt"));
   const std::vector<TimedPose> trajectory = ReadTrajectory(out + "/trajectory.txt");
   ASSERT_EQ(trajectory.size(), 5u);  // a pose for every frame
   EXPECT_EQ(trajectory[4].world_from_cam.translation().x(), 4.0);
@@ -112,6 +114,8 @@ TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
   EXPECT_EQ(summary["outcome"], "interrupted");
   EXPECT_EQ(summary["frames"]["lost"], 1);
   EXPECT_EQ(summary["frames_per_second"], 2.5);
+  EXPECT_EQ(summary["processor_seconds"], 3.0);
+  EXPECT_EQ(summary["frames"]["not_tracked_spans"][0]["last_frame"], 3);
   EXPECT_TRUE(summary["error"].is_null());
   EXPECT_EQ(summary["options"]["mode"], "pl-vo-depth");
   EXPECT_EQ(summary["options"]["tracking.wide_radius"], 60.0);

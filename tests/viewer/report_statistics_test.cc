@@ -35,7 +35,7 @@ TEST(SummarizeStage, IgnoresWhatIsNotFiniteAndSurvivesNothing) {
 
 TEST(SummarizeStages, CountsMappingOverKeyframeStepsOnly) {
   const ReportData data = MakeFakeRun(120);
-  const auto stages = SummarizeStages(data);
+  const auto stages = SummarizeStages(data.stage_names, data.frames);
   ASSERT_EQ(stages.size(), data.stage_names.size() + 2);
   EXPECT_EQ(stages.front().name, "points");
   EXPECT_EQ(stages.front().count, 120);
@@ -45,6 +45,7 @@ TEST(SummarizeStages, CountsMappingOverKeyframeStepsOnly) {
 
 TEST(FindNotTrackedSpans, OneSpanPerGap) {
   std::vector<ReportFrame> frames(8);
+  for (int i = 0; i < 8; ++i) frames[i].timestamp = 10.0 + i;
   frames[1].status = ReportStatus::kWeak;
   frames[2].status = ReportStatus::kPredicted;
   frames[3].status = ReportStatus::kLost;
@@ -54,6 +55,8 @@ TEST(FindNotTrackedSpans, OneSpanPerGap) {
   EXPECT_EQ(spans[0].first_frame, 2);
   EXPECT_EQ(spans[0].last_frame, 3);
   EXPECT_EQ(spans[0].num_lost, 1);
+  EXPECT_EQ(spans[0].start, 12.0);
+  EXPECT_EQ(spans[0].end, 13.0);
   EXPECT_EQ(spans[1].first_frame, 7);
   EXPECT_EQ(spans[1].last_frame, 7);
 }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// The JSON faces of a run and of a comparison.
+// The JSON faces of a comparison, a run and a benchmark.
 
-#include <cmath>
 #include <type_traits>
 
 #include <nlohmann/json.hpp>
 
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/io/benchmark.h"
 #include "msc_vo/io/run_summary.h"
 #include "msc_vo/version.h"
 
@@ -16,8 +17,6 @@ namespace msc_vo {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double Degrees(double radians) { return radians * 180.0 / std::acos(-1.0); }
 
 // The number, or null where there were no samples.
 Json NumberIf(int count, double value) { return count > 0 ? Json(value) : Json(); }
@@ -32,12 +31,12 @@ Json ErrorToJson(const TrajectoryError& error) {
   json["ape_mean"] = NumberIf(error.ape.count, error.ape.mean);
   json["ape_median"] = NumberIf(error.ape.count, error.ape.median);
   json["ape_max"] = NumberIf(error.ape.count, error.ape.max);
-  json["ape_rot_deg"] = NumberIf(error.ape.count, Degrees(error.ape_rotation.rmse));
+  json["ape_rot_deg"] = NumberIf(error.ape.count, RadiansToDegrees(error.ape_rotation.rmse));
   json["rpe_1s"] = NumberIf(second.translation.count, second.translation.rmse);
-  json["rpe_1s_rot_deg"] = NumberIf(second.rotation.count, Degrees(second.rotation.rmse));
+  json["rpe_1s_rot_deg"] = NumberIf(second.rotation.count, RadiansToDegrees(second.rotation.rmse));
   json["rpe_pairs"] = second.translation.count;
   json["rpe_1m"] = NumberIf(metre.translation.count, metre.translation.rmse);
-  json["rpe_1m_rot_deg"] = NumberIf(metre.rotation.count, Degrees(metre.rotation.rmse));
+  json["rpe_1m_rot_deg"] = NumberIf(metre.rotation.count, RadiansToDegrees(metre.rotation.rmse));
   json["rpe_1m_pairs"] = metre.translation.count;
   json["matched"] = error.num_matched;
   json["est"] = error.num_estimate;
@@ -82,9 +81,9 @@ Json OptionsToJson(Configuration configuration) {
   return json;
 }
 
-Json StagesToJson(const std::vector<StageStatistics>& stages) {
+Json StagesToJson(const std::vector<StageTimeStatistics>& stages) {
   Json json = Json::object();
-  for (const StageStatistics& stage : stages) {
+  for (const StageTimeStatistics& stage : stages) {
     json[stage.name] = {{"count", stage.count},
                         {"mean", stage.mean},
                         {"median", stage.median},
@@ -100,13 +99,30 @@ Json FramesToJson(const RunSummary& summary) {
     json[ToString(static_cast<TrackingStatus>(i))] = summary.status_counts[i];
   }
   json["tracked_share"] = summary.tracked_share;
-  json["untracked_spans"] = Json::array();
-  for (const UntrackedSpan& span : summary.untracked) {
-    json["untracked_spans"].push_back({{"first_frame", span.first},
-                                       {"last_frame", span.last},
-                                       {"start", span.start},
-                                       {"end", span.end}});
+  json["not_tracked_spans"] = Json::array();
+  for (const NotTrackedSpan& span : summary.not_tracked) {
+    json["not_tracked_spans"].push_back({{"first_frame", span.first_frame},
+                                         {"last_frame", span.last_frame},
+                                         {"start", span.start},
+                                         {"end", span.end}});
   }
+  return json;
+}
+
+// What was measured of a run.
+Json MeasuresToJson(const RunSummary& summary, const std::optional<TrajectoryError>& error,
+                    const RunCost& cost) {
+  Json json;
+  json["frames"] = FramesToJson(summary);
+  json["map"] = {{"keyframes", summary.num_keyframes},
+                 {"points", summary.num_points},
+                 {"lines", summary.num_lines}};
+  json["error"] = error ? ErrorToJson(*error) : Json();
+  json["stages_ms"] = StagesToJson(summary.stages);
+  json["wall_seconds"] = cost.seconds;
+  json["frames_per_second"] = NumberIf(cost.seconds > 0.0, summary.num_frames / cost.seconds);
+  json["processor_seconds"] = cost.processor_seconds;
+  json["peak_memory_mib"] = cost.peak_memory;
   return json;
 }
 
@@ -129,16 +145,35 @@ std::string FormatSummary(const RunSummary& summary, const RunContext& context) 
                       {"images", context.sequence.entries.size()},
                       {"warnings", context.sequence.warnings}};
   json["camera"] = CameraToJson(context.calibration);
-  json["frames"] = FramesToJson(summary);
-  json["map"] = {{"keyframes", summary.num_keyframes},
-                 {"points", summary.num_points},
-                 {"lines", summary.num_lines}};
-  json["error"] = context.error ? ErrorToJson(*context.error) : Json();
-  json["stages_ms"] = StagesToJson(summary.stages);
-  json["wall_seconds"] = context.seconds;
-  json["frames_per_second"] = NumberIf(context.seconds > 0.0, summary.num_frames / context.seconds);
-  json["peak_memory_mib"] = context.peak_memory;
+  json.update(MeasuresToJson(summary, context.error, context.cost));
   json["options"] = OptionsToJson(context.configuration);
+  return Dump(json);
+}
+
+std::string FormatBenchmarkJson(const Benchmark& benchmark) {
+  Json json;
+  json["version"] = kVersion;
+  json["command_line"] = benchmark.command_line;
+  json["build"] = benchmark.build;
+  json["processors"] = benchmark.num_processors;
+  json["changed_options"] = Json::object();
+  for (const OptionText& option : benchmark.changed_options) {
+    json["changed_options"][option.path] = option.value;
+  }
+  json["modes"] = benchmark.modes;
+  json["runs"] = Json::array();
+  for (const BenchmarkRun& run : benchmark.runs) {
+    Json entry = {{"sequence", run.sequence}, {"mode", run.mode}};
+    entry["failure"] = run.failure.empty() ? Json() : Json(run.failure);
+    entry.update(MeasuresToJson(run.summary, run.error, run.cost));
+    json["runs"].push_back(entry);
+  }
+  const MeanError mean = GeometricMean(benchmark);
+  json["geometric_mean"] = {{"sequences", mean.num_sequences}, {"ape_rmse", Json::object()}};
+  for (size_t i = 0; i < benchmark.modes.size(); ++i) {
+    json["geometric_mean"]["ape_rmse"][benchmark.modes[i]] =
+        NumberIf(mean.num_sequences, mean.ape[i]);
+  }
   return Dump(json);
 }
 

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Benchmarks over tiny rendered sequences.
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+
+#include "tests/apps/command_process.h"
+#include "tests/io/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/io/text_file.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+class BenchmarkCommandTest : public TemporaryFolder {
+ protected:
+  void Synthesize(const std::string& scene, int num_frames, const std::string& name) {
+    const CommandOutcome outcome =
+        RunCommand({"synthesize", Path(name), "--scene", scene, "--frames",
+                    std::to_string(num_frames), "--width", "160"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
+  std::string Table() { return ReadFile(Path("out/benchmark.md")); }
+  nlohmann::json Numbers() { return nlohmann::json::parse(ReadFile(Path("out/benchmark.json"))); }
+};
+
+TEST_F(BenchmarkCommandTest, ComparesModesOnSequences) {
+  Synthesize("room", 12, "a/room");
+  Synthesize("corridor", 12, "corridor");
+  const CommandOutcome outcome = RunCommand(
+      {"benchmark", Path("a/room") + "/", Path("corridor"), "--modes", "pl-vo,pl-vo-depth",
+       "--output", Path("out"), "--set", "use_points=true", "--set", "tracking.wide_radius=55"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr(Table()));
+  EXPECT_THAT(Table(),
+              AllOf(HasSubstr("- version: msc_vo "), HasSubstr("- processors: "),
+                    HasSubstr("defaults: `tracking.wide_radius=55`\n"), HasSubstr("\n| room "),
+                    HasSubstr("\n| corridor "), HasSubstr("\n| geometric mean of 2 "),
+                    HasSubstr("\n| ratio to pl-vo "), HasSubstr("## Mode pl-vo\n"),
+                    HasSubstr("## Mode pl-vo-depth\n"), Not(HasSubstr("failed"))));
+
+  const nlohmann::json numbers = Numbers();
+  EXPECT_THAT(numbers["modes"], ElementsAre("pl-vo", "pl-vo-depth"));
+  ASSERT_EQ(numbers["runs"].size(), 4u);
+  double log_sum = 0.0;
+  for (const nlohmann::json& run : numbers["runs"]) {
+    EXPECT_TRUE(run["failure"].is_null());
+    EXPECT_EQ(run["frames"]["count"], 12);
+    EXPECT_GT(run["processor_seconds"], 0.0);
+    EXPECT_GT(run["peak_memory_mib"], 1.0);
+    EXPECT_GT(run["stages_ms"]["tracking"]["p95"], 0.0);
+    if (run["mode"] == "pl-vo") log_sum += std::log(run["error"]["ape_rmse"].get<double>());
+    const std::string folder =
+        "out/" + run["sequence"].get<std::string>() + "/" + run["mode"].get<std::string>() + "/";
+    const nlohmann::json summary = nlohmann::json::parse(ReadFile(Path(folder + "summary.json")));
+    EXPECT_EQ(summary["error"], run["error"]);
+    EXPECT_EQ(summary["options"]["mode"], run["mode"]);
+    EXPECT_TRUE(std::filesystem::exists(Path(folder + "report.html")));
+  }
+  EXPECT_EQ(numbers["geometric_mean"]["sequences"], 2);
+  EXPECT_NEAR(numbers["geometric_mean"]["ape_rmse"]["pl-vo"], std::exp(log_sum / 2.0), 1e-12);
+}
+
+TEST_F(BenchmarkCommandTest, ASequenceThatFailsDoesNotStopTheOthers) {
+  Synthesize("room", 8, "room");
+  Synthesize("room", 4, "b/room");
+  std::filesystem::remove(Path("b/room/groundtruth.txt"));
+  const CommandOutcome outcome =
+      RunCommand({"benchmark", Path("nowhere"), Path("b/room"), Path("room"), "--modes",
+                  "pl-vo-depth", "--max-frames", "6", "--output", Path("out"), "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("msc_vo: error: 2 of 3 runs failed, see "));
+  EXPECT_THAT(Table(), AllOf(HasSubstr("nowhere, pl-vo-depth: "), HasSubstr("does not exist"),
+                             HasSubstr("room, pl-vo-depth: "), HasSubstr("no ground truth"),
+                             HasSubstr("geometric mean of 1 ")));
+  const nlohmann::json runs = Numbers()["runs"];
+  ASSERT_EQ(runs.size(), 3u);
+  EXPECT_THAT(runs[0]["failure"].get<std::string>(), HasSubstr("does not exist"));
+  EXPECT_TRUE(runs[1]["error"].is_null());
+  EXPECT_EQ(runs[2]["sequence"], "room-2");  // its results do not lie where the first one's would
+  EXPECT_EQ(runs[2]["frames"]["count"], 6);
+  EXPECT_TRUE(runs[2]["failure"].is_null());
+}
+
+TEST_F(BenchmarkCommandTest, RunsAllModesThereAreAndRefusesWrongOptionsAtOnce) {
+  Synthesize("room", 4, "room");
+  EXPECT_EQ(RunCommand({"benchmark", Path("room"), "--output", Path("out")}).exit_code, 0);
+  EXPECT_THAT(Numbers()["modes"], testing::IsSupersetOf({"pl-vo", "pl-vo-depth"}));
+  const CommandOutcome wrong = RunCommand({"benchmark", Path("room"), "--output", Path("no"),
+                                           "--set", "use_points=0x", "--modes", "pl-vo"});
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_THAT(wrong.output, HasSubstr("use_points must be"));
+  const CommandOutcome blind =
+      RunCommand({"benchmark", Path("room"), "--output", Path("no"), "--set", "use_points=false",
+                  "--set", "use_lines=false"});
+  EXPECT_EQ(blind.exit_code, 1);
+  EXPECT_THAT(blind.output, HasSubstr("must not both be off"));
+  EXPECT_FALSE(std::filesystem::exists(Path("no")));
+}
+
+TEST_F(BenchmarkCommandTest, CtrlCWritesTheRowsSoFar) {
+  Synthesize("room", 40, "room");
+  CommandProcess benchmark(
+      {"benchmark", Path("room"), Path("room"), "--modes", "pl-vo-depth", "--output", Path("out")});
+  // The first run is over when the second one's heading comes.
+  ASSERT_TRUE(benchmark.WaitForOutput("room-2, pl-vo-depth:")) << benchmark.output();
+  benchmark.Signal(SIGINT);
+  EXPECT_EQ(benchmark.Wait(), 130) << benchmark.output();
+  const nlohmann::json runs = Numbers()["runs"];
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_TRUE(runs[0]["failure"].is_null());
+  EXPECT_EQ(runs[1]["failure"], "interrupted");
+  EXPECT_THAT(Table(), HasSubstr("room-2, pl-vo-depth: interrupted"));
+}
+
+}  // namespace
+}  // namespace msc_vo
