@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -44,6 +45,14 @@ std::vector<std::string> ImplementedModes() {
     if (MakeConfiguration({"", {"mode=" + mode}}).odometry.IsValid(&error)) modes.push_back(mode);
   }
   return modes;
+}
+
+std::vector<std::string> WithoutRepeats(const std::vector<std::string>& names) {
+  std::vector<std::string> unique;
+  for (const std::string& name : names) {
+    if (std::find(unique.begin(), unique.end(), name) == unique.end()) unique.push_back(name);
+  }
+  return unique;
 }
 
 // One for each mode. Throws std::runtime_error if a mode or another option is refused.
@@ -86,13 +95,11 @@ Benchmark Describe(const Arguments& arguments, const std::vector<std::string>& m
   return benchmark;
 }
 
-// Fills in what there is to tell of one run, its files included.
+// Runs one sequence in one mode and writes its files. `row` gets what there is to tell, also if
+// this throws.
 void RunOne(const Arguments& arguments, const RgbdDecoder& decoder,
             const Configuration& configuration, const InterruptGuard& interrupt,
             BenchmarkRun* row) {
-  if (decoder.index().ground_truth.empty()) {
-    throw std::runtime_error(decoder.index().directory + ": no ground truth");
-  }
   const SequenceRun run =
       RunSequence(decoder, configuration, arguments.max_frames, arguments.quiet, interrupt);
   row->summary = run.summary;
@@ -102,40 +109,58 @@ void RunOne(const Arguments& arguments, const RgbdDecoder& decoder,
     const fs::path folder = fs::path(arguments.output) / row->sequence / row->mode;
     WriteResultFiles(folder.string(), run.result, run.context);
   }
-  if (run.exit_code != kExitSuccess) {
-    row->failure = run.context.outcome;
-  } else if (!row->error->usable) {
-    row->failure = "no error known: " + row->error->message;
-  }
+  if (run.exit_code != kExitSuccess) throw std::runtime_error(run.context.outcome);
+  if (!row->error->usable) throw std::runtime_error("no error known: " + row->error->message);
 }
 
 void WriteTables(const std::string& directory, const Benchmark& benchmark) {
-  fs::create_directories(directory);
+  MakeFolder(directory);
   const fs::path folder = directory;
   WriteFile((folder / "benchmark.md").string(), FormatBenchmarkMarkdown(benchmark));
   WriteFile((folder / "benchmark.json").string(), FormatBenchmarkJson(benchmark));
+}
+
+// Nothing can be compared without a ground truth: throws std::runtime_error.
+RgbdDecoder OpenWithTruth(const SequenceArguments& sequence, const Configuration& configuration) {
+  RgbdDecoder decoder = OpenDecoder(sequence, configuration);
+  PrintWarnings(decoder);
+  if (!decoder.index().ground_truth.empty()) return decoder;
+  throw std::runtime_error(decoder.index().directory +
+                           ": no ground truth (groundtruth.txt or the layout's own); add it, or "
+                           "use msc_vo replay");
+}
+
+void PrintFailure(const std::string& what, const std::string& why) {
+  std::cerr << "msc_vo: " << what << " failed: " << why << std::endl;
 }
 
 // Every mode on one sequence. The tables are written after each run: a benchmark takes hours.
 void RunModes(const Arguments& arguments, const std::string& directory, const std::string& name,
               const std::vector<Configuration>& configurations, const InterruptGuard& interrupt,
               Benchmark* benchmark) {
+  std::optional<RgbdDecoder> decoder;
+  std::string failure;
+  try {
+    SequenceArguments sequence = arguments.layout;
+    sequence.directory = directory;
+    decoder.emplace(OpenWithTruth(sequence, configurations.front()));  // one camera for all modes
+  } catch (const std::exception& error) {
+    failure = error.what();
+    PrintFailure(name, failure);
+  }
   for (size_t i = 0; i < configurations.size() && !interrupt.IsInterrupted(); ++i) {
     BenchmarkRun row;
     row.sequence = name;
     row.mode = benchmark->modes[i];
-    if (!arguments.quiet) std::cerr << name << ", " << row.mode << ":" << std::endl;
-    try {
-      SequenceArguments sequence = arguments.layout;
-      sequence.directory = directory;
-      const RgbdDecoder decoder = OpenDecoder(sequence, configurations[i]);
-      if (i == 0) PrintWarnings(decoder);
-      RunOne(arguments, decoder, configurations[i], interrupt, &row);
-    } catch (const std::exception& error) {
-      row.failure = error.what();
-    }
-    if (!row.failure.empty()) {
-      std::cerr << "msc_vo: " << name << ", " << row.mode << ": " << row.failure << std::endl;
+    row.failure = failure;
+    if (decoder) {
+      if (!arguments.quiet) std::cerr << name << ", " << row.mode << ":" << std::endl;
+      try {
+        RunOne(arguments, *decoder, configurations[i], interrupt, &row);
+      } catch (const std::exception& error) {
+        row.failure = error.what();
+        PrintFailure(name + ", " + row.mode, row.failure);
+      }
     }
     benchmark->runs.push_back(std::move(row));
     WriteTables(arguments.output, *benchmark);
@@ -144,7 +169,7 @@ void RunModes(const Arguments& arguments, const std::string& directory, const st
 
 int RunBenchmark(const Arguments& arguments) {
   const std::vector<std::string> modes =
-      arguments.modes.empty() ? ImplementedModes() : arguments.modes;
+      arguments.modes.empty() ? ImplementedModes() : WithoutRepeats(arguments.modes);
   const std::vector<Configuration> configurations = MakeConfigurations(arguments, modes);
   const std::vector<std::string> names = UniqueNames(arguments.sequences);
   Benchmark benchmark = Describe(arguments, modes);

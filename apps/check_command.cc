@@ -45,7 +45,8 @@ int Run(const Arguments& arguments) {
     warnings += finding.severity == Severity::kWarning;
     errors += finding.severity == Severity::kError;
   }
-  std::cout << errors << " errors, " << warnings << " warnings" << std::endl;
+  std::cout << errors << (errors == 1 ? " error, " : " errors, ") << warnings
+            << (warnings == 1 ? " warning" : " warnings") << std::endl;
   return errors > 0 ? kExitError : kExitSuccess;
 }
 

@@ -15,6 +15,7 @@
 #include "msc_vo/io/options_file.h"
 #include "msc_vo/io/result_files.h"
 #include "msc_vo/io/run_report.h"
+#include "msc_vo/io/text_file.h"
 
 namespace msc_vo {
 
@@ -53,6 +54,11 @@ int Replay(const Arguments& arguments) {
   }
   const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
   PrintWarnings(decoder);
+  const std::string output =
+      !arguments.output.empty()
+          ? arguments.output
+          : (std::filesystem::path("out") / SequenceName(arguments.sequence.directory)).string();
+  MakeFolder(output);  // a wrong name shows before the work, not after it
   const InterruptGuard interrupt;
   const SequenceRun run =
       RunSequence(decoder, configuration, arguments.max_frames, arguments.quiet, interrupt);
@@ -60,10 +66,6 @@ int Replay(const Arguments& arguments) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
     return run.exit_code;
   }
-  const std::string output =
-      !arguments.output.empty()
-          ? arguments.output
-          : (std::filesystem::path("out") / SequenceName(arguments.sequence.directory)).string();
   WriteResultFiles(output, run.result, run.context);
   if (!arguments.quiet) {
     std::cout << FormatRunTable(run.summary, run.context, output) << std::flush;

@@ -15,6 +15,7 @@
 #include "apps/commands.h"
 #include "apps/interrupt_guard.h"
 #include "apps/progress.h"
+#include "msc_vo/io/text_file.h"
 #include "msc_vo/synthetic/synthetic_sequence.h"
 
 namespace msc_vo {
@@ -60,7 +61,7 @@ void PrepareFolder(const fs::path& folder, bool overwrite) {
   }
   for (const char* name : {"rgb", "depth"}) {
     fs::remove_all(folder / name);
-    fs::create_directories(folder / name);
+    MakeFolder((folder / name).string());
   }
 }
 

@@ -4,6 +4,7 @@
 #include "msc_vo/io/pose_matrix.h"
 
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 #include <Eigen/Geometry>
@@ -42,6 +43,22 @@ std::optional<Rigid3> RigidFromMatrix(const Eigen::Matrix4d& matrix) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Matrix3d nearest = svd.matrixU() * svd.matrixV().transpose();
   return Rigid3(Eigen::Quaterniond(nearest).normalized(), matrix.topRightCorner<3, 1>());
+}
+
+void ReadPoseFiles(const std::function<std::string(const SequenceEntry&)>& pose_path,
+                   SequenceIndex* index) {
+  int lost = 0;
+  for (const SequenceEntry& entry : index->entries) {
+    const std::string path = pose_path(entry);
+    if (!std::filesystem::exists(path)) continue;
+    const std::optional<Rigid3> pose = RigidFromMatrix(ReadMatrix(path, 4, 4));
+    if (pose) index->ground_truth.push_back({entry.timestamp, *pose});
+    if (!pose) ++lost;
+  }
+  if (lost > 0) {
+    index->warnings.push_back(std::to_string(lost) +
+                              " ground-truth poses are not valid and are left out");
+  }
 }
 
 }  // namespace msc_vo

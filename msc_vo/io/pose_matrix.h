@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/io/sequence.h"
 
 namespace msc_vo {
 
@@ -21,5 +23,10 @@ Eigen::MatrixXd ReadMatrix(const std::string& path, int rows, int columns);
 // The transform of a 4x4 matrix [R t; 0 1]; R is taken to the nearest rotation. None if a number is
 // not finite or R is no rotation by more than rounding: how data sets mark a lost pose.
 std::optional<Rigid3> RigidFromMatrix(const Eigen::Matrix4d& matrix);
+
+// The ground truth of a layout with one file per image, a 4 x 4 matrix camera in world. Files that
+// do not exist are passed over; poses that are none are counted in a warning.
+void ReadPoseFiles(const std::function<std::string(const SequenceEntry&)>& pose_path,
+                   SequenceIndex* index);
 
 }  // namespace msc_vo

@@ -69,12 +69,8 @@ std::string FormatLinesPly(const std::vector<MapLine>& lines) {
 
 void WriteResultFiles(const std::string& directory, const OdometryResult& result,
                       const RunContext& context) {
+  MakeFolder(directory);
   const std::filesystem::path folder = directory;
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw std::runtime_error(directory + ": cannot be made: " + error.message());
-  }
   const auto path = [&](const char* name) { return (folder / name).string(); };
   WriteTrajectory(path("trajectory.txt"), TrajectoryOf(result));
   WriteTrajectory(path("keyframes.txt"), result.keyframes);

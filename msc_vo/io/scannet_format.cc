@@ -25,20 +25,9 @@ bool Recognises(const std::string& directory) {
          (fs::is_directory(folder / "pose") || fs::is_directory(folder / "intrinsic"));
 }
 
-void ReadPoses(const fs::path& folder, SequenceIndex* index) {
-  int lost = 0;
-  for (const SequenceEntry& entry : index->entries) {
-    const std::string stem = fs::path(entry.color_path).stem().string();
-    const fs::path path = folder / "pose" / (stem + ".txt");
-    if (!fs::exists(path)) continue;
-    const auto pose = RigidFromMatrix(ReadMatrix(path.string(), 4, 4));
-    if (pose) index->ground_truth.push_back({entry.timestamp, *pose});
-    if (!pose) ++lost;
-  }
-  if (lost > 0) {
-    index->warnings.push_back(std::to_string(lost) +
-                              " ground-truth poses are not valid and are left out");
-  }
+std::string PosePath(const SequenceEntry& entry) {
+  const fs::path color = entry.color_path;
+  return (color.parent_path().parent_path() / "pose" / (color.stem().string() + ".txt")).string();
 }
 
 // The camera of the colour image after it has been scaled to the depth's size. Pixel centres are at
@@ -77,7 +66,7 @@ SequenceIndex Read(const std::string& directory) {
   PairByFrameNumber(ListImages((folder / "color").string()),
                     ListImages((folder / "depth").string()), &index);
   index.scale_color = true;
-  ReadPoses(folder, &index);
+  ReadPoseFiles(PosePath, &index);
   ReadIntrinsics(folder, &index);
   return index;
 }

@@ -25,21 +25,10 @@ bool Recognises(const std::string& directory) {
   return !ListImages(directory, "frame-", ".color").empty();
 }
 
-void ReadPoses(SequenceIndex* index) {
-  int lost = 0;
-  for (const SequenceEntry& entry : index->entries) {
-    const std::string stem = fs::path(entry.color_path).stem().stem().string();
-    const fs::path path = fs::path(entry.color_path).parent_path() / (stem + ".pose.txt");
-    if (!fs::exists(path)) continue;
-    const auto pose = RigidFromMatrix(ReadMatrix(path.string(), 4, 4));
-    if (pose) index->ground_truth.push_back({entry.timestamp, *pose});
-    if (!pose) ++lost;
-  }
-  if (lost > 0) {
-    index->warnings.push_back(std::to_string(lost) +
-                              " ground-truth poses are not valid and are "
-                              "left out");
-  }
+std::string PosePath(const SequenceEntry& entry) {
+  const fs::path color = entry.color_path;
+  const std::string frame = color.stem().stem().string();
+  return (color.parent_path() / (frame + ".pose.txt")).string();
 }
 
 // camera-intrinsics.txt of 3DMatch lies in the folder or, shared by several sequences, above it.
@@ -66,7 +55,7 @@ SequenceIndex Read(const std::string& directory) {
                     ListImages(directory, "frame-", ".depth"), &index);
   index.invalid_depth = 65535;
   index.preset = "7-scenes";
-  ReadPoses(&index);
+  ReadPoseFiles(PosePath, &index);
   ReadIntrinsics(directory, &index);
   return index;
 }

@@ -77,6 +77,12 @@ void WriteFile(const std::string& path, const std::string& content) {
   if (error) throw std::runtime_error(path + ": cannot be written: " + error.message());
 }
 
+void MakeFolder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw std::runtime_error(path + ": cannot be made: " + error.message());
+}
+
 std::optional<double> ParseNumber(const std::string& text) {
   const char* begin = text.data();
   const char* const end = begin + text.size();

@@ -29,6 +29,9 @@ std::string ReadFile(const std::string& path);
 // and an interrupted run leaves the previous one. Throws std::runtime_error naming the file.
 void WriteFile(const std::string& path, const std::string& content);
 
+// Makes a folder and those above it, if they do not exist. Throws std::runtime_error naming it.
+void MakeFolder(const std::string& path);
+
 // The number that all of `text` spells, whatever the locale; none if it spells none.
 std::optional<double> ParseNumber(const std::string& text);
 // All fields of the line as finite numbers. Throws std::runtime_error naming file, line and field.

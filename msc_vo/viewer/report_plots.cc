@@ -207,9 +207,9 @@ std::string PlotError(const ReportData& data) {
   std::vector<Eigen::Vector2d> points;
   for (size_t i = 0; i < data.frames.size(); ++i) {
     const std::optional<double>& error = data.frames[i].position_error;
-    if (error) points.emplace_back(TimeOf(data, i), 100.0 * *error);
+    if (error) points.emplace_back(TimeOf(data, i), 1000.0 * *error);
   }
-  return PlotCurve(data, points, "curve error", "position error, cm", "Position error over time");
+  return PlotCurve(data, points, "curve error", "position error, mm", "Position error over time");
 }
 
 std::string PlotInliers(const ReportData& data) {
