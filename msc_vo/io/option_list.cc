@@ -205,6 +205,11 @@ void ListSelection(WindowSelectionOptions* selection, OptionLister* list) {
 
 void ListWindow(WindowOptions* window, OptionLister* list) {
   ListTerms(window, list);
+  list->Section("parallel", &window->parallel, ListTerm);
+  list->Section("perpendicular", &window->perpendicular, ListTerm);
+  list->Section("manhattan", &window->manhattan, ListTerm);
+  list->Add("reject_chi2_1", &window->reject_chi2_1, "chi-square limit of 1 residual");
+  list->Add("line_anchor", &window->line_anchor, "whether end points are held along their line");
   list->Add("line_anchor_sigma", &window->line_anchor_sigma,
             "metres, of the prior that keeps end points from sliding along their line");
   list->Add("first_iterations", &window->first_iterations, "with all observations");

@@ -11,12 +11,17 @@ namespace {
 
 bool IsPositive(double x) { return std::isfinite(x) && x > 0.0; }
 
+// Of the norm of a unit quaternion or vector: far above the rounding of any product of rotations,
+// far below a wrong one.
+constexpr double kUnitTolerance = 1e-6;
+
 }  // namespace
 
 const char* PoseError(const Rigid3& cam_from_world) {
   if (!cam_from_world.params.allFinite()) return "pose is not finite";
-  // 1e-6: far above the rounding of any product of rotations, far below a wrong quaternion.
-  if (std::abs(cam_from_world.rotation().norm() - 1.0) > 1e-6) return "rotation is not unit";
+  if (std::abs(cam_from_world.rotation().norm() - 1.0) > kUnitTolerance) {
+    return "rotation is not unit";
+  }
   return nullptr;
 }
 
@@ -56,6 +61,24 @@ const char* LineObservationError(const LineSegment2& segment, double sigma, bool
     return "depth covariance is not positive definite";
   }
   return nullptr;
+}
+
+const char* LinePairError(const WindowData::LinePair& pair) {
+  if (pair.a == pair.b) return "a line with itself";
+  if (!IsPositive(pair.sigma)) return "sigma must be positive";
+  if (pair.count < 1) return "count must be at least 1";
+  return nullptr;
+}
+
+const char* AxisAlignmentError(const WindowData::AxisAlignment& alignment) {
+  if (UnitVectorError(alignment.axis) != nullptr) return "axis is not a unit vector";
+  if (!IsPositive(alignment.sigma)) return "sigma must be positive";
+  return nullptr;
+}
+
+const char* UnitVectorError(const Eigen::Vector3d& v) {
+  // As for rotations; NaN fails too.
+  return std::abs(v.norm() - 1.0) <= kUnitTolerance ? nullptr : "vector is not unit";
 }
 
 }  // namespace msc_vo

@@ -22,6 +22,9 @@ const char* PointObservationError(const Eigen::Vector2d& pixel, double sigma, do
                                   double inverse_depth_sigma);
 const char* LineObservationError(const LineSegment2& segment, double sigma, bool has_depth,
                                  const LineDepth& depth);
+const char* LinePairError(const WindowData::LinePair& pair);
+const char* AxisAlignmentError(const WindowData::AxisAlignment& alignment);
+const char* UnitVectorError(const Eigen::Vector3d& v);
 
 // Options that both problems have, of either option type.
 template <typename Options>

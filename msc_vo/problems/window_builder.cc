@@ -3,9 +3,15 @@
 
 #include "msc_vo/problems/window_builder.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "msc_vo/factors/chain_rule_cost.h"
 #include "msc_vo/factors/depth_reprojection.h"
 #include "msc_vo/factors/line_anchor.h"
+#include "msc_vo/factors/manhattan_axis_alignment.h"
+#include "msc_vo/factors/parallel_lines.h"
+#include "msc_vo/factors/perpendicular_lines.h"
 #include "msc_vo/factors/point_reprojection.h"
 
 namespace msc_vo {
@@ -43,10 +49,12 @@ std::vector<double> WindowTerm::ChiSquares() const {
 
 double WindowTerm::Cost() const {
   double cost = 0.0;
-  for (const double s : ChiSquares()) {
+  const std::vector<double> chi_squares = ChiSquares();
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    const double s = chi_squares[i];
     double rho[3] = {s, 1.0, 0.0};
     if (loss != nullptr) loss->Evaluate(s, rho);
-    cost += 0.5 * rho[0];
+    cost += 0.5 * (blocks[i].count * rho[0]);
   }
   return cost;
 }
@@ -65,6 +73,10 @@ WindowBuilder::WindowBuilder(const WindowOptions& options, const WindowData& dat
   AddLineReprojections();
   AddLineDepths();
   AddLineAnchors();
+  // After the observations: they say which lines are there to be bound.
+  AddParallelPairs();
+  AddPerpendicularPairs();
+  AddAxisAlignments();
   HoldGauge();
 }
 
@@ -133,9 +145,10 @@ void WindowBuilder::AddLineDepths() {
 
 // For every line that an observation could move.
 void WindowBuilder::AddLineAnchors() {
+  if (!options_.line_anchor) return;
   for (size_t i = 0; i < data_.lines.size(); ++i) {
+    if (!IsFree(static_cast<int>(i))) continue;
     double* line = state_->LineBlock(i);
-    if (data_.lines[i].fixed || !problem_.HasParameterBlock(line)) continue;
     ceres::CostFunction* cost =
         LineAnchor::Create(data_.lines[i].segment, options_.line_anchor_sigma);
     problem_.AddResidualBlock(cost, nullptr, line);
@@ -143,9 +156,65 @@ void WindowBuilder::AddLineAnchors() {
   }
 }
 
-// Shifting or turning the whole window changes no residual: six numbers are free. They are held by
-// the poses of the fixed keyframes (at least one; the observers outside the window, usually), and
-// by nothing else: no prior, no constant coordinate. A free pose moves on Rigid3Manifold.
+// An observation could move it.
+bool WindowBuilder::IsFree(int line) const {
+  return !data_.lines[line].fixed && problem_.HasParameterBlock(state_->LineBlock(line));
+}
+
+// n identical terms: the loss times n. The term's own loss if n is 1.
+ceres::LossFunction* WindowBuilder::CountedLoss(const WindowTerm& term, int count) {
+  if (count == 1) return term.loss.get();
+  counted_losses_.push_back(
+      std::make_unique<ceres::ScaledLoss>(term.loss.get(), count, ceres::DO_NOT_TAKE_OWNERSHIP));
+  return counted_losses_.back().get();
+}
+
+template <typename Factor>
+void WindowBuilder::AddPairs(const TermOptions& options,
+                             const std::vector<WindowData::LinePair>& pairs,
+                             const std::vector<WindowIndex::Pair>& lines,
+                             const std::vector<bool>& active, WindowTerm* term) {
+  if (!options.enabled) return;
+  term->loss = Huber(options);
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    double* a = state_->LineBlock(lines[i].a);
+    double* b = state_->LineBlock(lines[i].b);
+    if (!active[i] || !problem_.HasParameterBlock(a) || !problem_.HasParameterBlock(b)) continue;
+    if (!IsFree(lines[i].a) && !IsFree(lines[i].b)) continue;
+    ceres::CostFunction* cost = Factor::Create(pairs[i].sigma);
+    problem_.AddResidualBlock(cost, CountedLoss(*term, pairs[i].count), a, b);
+    term->blocks.push_back({cost, {a, b}, static_cast<int>(i), pairs[i].count});
+  }
+}
+
+void WindowBuilder::AddParallelPairs() {
+  AddPairs<ParallelLines>(options_.parallel, data_.parallel_pairs, index_.parallel,
+                          activity_.parallel, &parallel);
+}
+
+void WindowBuilder::AddPerpendicularPairs() {
+  AddPairs<PerpendicularLines>(options_.perpendicular, data_.perpendicular_pairs,
+                               index_.perpendicular, activity_.perpendicular, &perpendicular);
+}
+
+void WindowBuilder::AddAxisAlignments() {
+  if (!options_.manhattan.enabled) return;
+  manhattan.loss = Huber(options_.manhattan);
+  for (size_t i = 0; i < index_.alignments.size(); ++i) {
+    if (!activity_.alignments[i] || !IsFree(index_.alignments[i])) continue;
+    const WindowData::AxisAlignment& alignment = data_.axis_alignments[i];
+    double* line = state_->LineBlock(index_.alignments[i]);
+    ceres::CostFunction* cost = ManhattanAxisAlignment::Create(alignment.axis, alignment.sigma);
+    problem_.AddResidualBlock(cost, manhattan.loss.get(), line);
+    manhattan.blocks.push_back({cost, {line, nullptr}, static_cast<int>(i)});
+  }
+}
+
+// Shifting or turning the whole window changes no residual of what it sees or of pairs: six numbers
+// are free. They are held by the poses of the fixed keyframes (at least one; the observers outside
+// the window, usually), and by nothing else: no prior, no constant coordinate. Alignments to axes
+// tell of the rotation what a compass would, softly; they do not hold it. A free pose moves on
+// Rigid3Manifold.
 void WindowBuilder::HoldGauge() {
   const auto hold = [this](bool fixed, double* block) {
     if (fixed && problem_.HasParameterBlock(block)) problem_.SetParameterBlockConstant(block);
@@ -160,13 +229,44 @@ void WindowBuilder::HoldGauge() {
   for (size_t i = 0; i < data_.lines.size(); ++i) hold(data_.lines[i].fixed, state_->LineBlock(i));
 }
 
+// Eliminating a line binds all that share a block with it; so Ceres wants the blocks of group 0
+// independent of each other. Of two paired lines one at least must stay in the reduced system, at
+// six unknowns each, and its cost grows with their cube. Lines with few partners are eliminated
+// first (ties by position), each keeping its partners: where pairs lead to a few well-known lines,
+// only those are left. Returns, for every line, whether it stays.
+std::vector<bool> WindowBuilder::LinesToKeep() const {
+  std::vector<std::vector<int>> partners(data_.lines.size());
+  const auto connect = [&](const WindowTerm& term, const std::vector<WindowIndex::Pair>& lines) {
+    for (const WindowTerm::Block& block : term.blocks) {
+      const auto [a, b] = lines[block.source];
+      if (!IsFree(a) || !IsFree(b)) continue;
+      partners[a].push_back(b);
+      partners[b].push_back(a);
+    }
+  };
+  connect(parallel, index_.parallel);
+  connect(perpendicular, index_.perpendicular);
+  std::vector<std::pair<size_t, int>> by_degree;
+  for (size_t i = 0; i < partners.size(); ++i) {
+    by_degree.emplace_back(partners[i].size(), static_cast<int>(i));
+  }
+  std::sort(by_degree.begin(), by_degree.end());
+  std::vector<bool> keep(partners.size(), false);
+  for (const auto& [degree, line] : by_degree) {
+    if (keep[line]) continue;
+    for (const int partner : partners[line]) keep[partner] = true;
+  }
+  return keep;
+}
+
 std::shared_ptr<ceres::ParameterBlockOrdering> WindowBuilder::EliminationOrdering() const {
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   const auto add = [&](double* block, int group) {
     if (problem_.HasParameterBlock(block)) ordering->AddElementToGroup(block, group);
   };
   for (size_t i = 0; i < data_.points.size(); ++i) add(state_->PointBlock(i), 0);
-  for (size_t i = 0; i < data_.lines.size(); ++i) add(state_->LineBlock(i), 0);
+  const std::vector<bool> keep = LinesToKeep();
+  for (size_t i = 0; i < data_.lines.size(); ++i) add(state_->LineBlock(i), keep[i] ? 1 : 0);
   for (size_t i = 0; i < data_.keyframes.size(); ++i) add(state_->PoseBlock(i), 1);
   return ordering;
 }

@@ -52,12 +52,32 @@ struct WindowData {
     bool rejected = false;  // as for points
   };
 
+  // Two lines that should be parallel or perpendicular (paper: L_par^z, L_perp^z), seen together in
+  // `count` keyframes: the paper's sum has the same term once for each.
+  struct LinePair {
+    int64_t a = 0;
+    int64_t b = 0;
+    double sigma = 0.03;    // radians, of the angle between them
+    int count = 1;          // at least 1
+    bool rejected = false;  // set by the solver: contradicts the solution
+  };
+  // A line that should be parallel to a Manhattan axis (paper: M).
+  struct AxisAlignment {
+    int64_t line = 0;
+    Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // unit vector, world; its sign has no meaning
+    double sigma = 0.03;                              // radians, of the angle between them
+    bool rejected = false;                            // as for pairs
+  };
+
   PinholeCamera camera;
   std::vector<Keyframe> keyframes;
   std::vector<Point> points;
   std::vector<Line> lines;
   std::vector<PointObservation> point_observations;
   std::vector<LineObservation> line_observations;
+  std::vector<LinePair> parallel_pairs;
+  std::vector<LinePair> perpendicular_pairs;
+  std::vector<AxisAlignment> axis_alignments;
 };
 
 }  // namespace msc_vo

@@ -3,9 +3,11 @@
 
 #include "msc_vo/problems/window_problem.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include <ceres/solver.h>
 
@@ -40,6 +42,9 @@ WindowActivity AllInFront(const WindowOptions& options, const WindowIndex& index
     activity.lines[i] = {in_front, in_front && has_depth};
     *num_behind += !in_front;
   }
+  activity.parallel.assign(index.parallel.size(), true);
+  activity.perpendicular.assign(index.perpendicular.size(), true);
+  activity.alignments.assign(index.alignments.size(), true);
   return activity;
 }
 
@@ -52,7 +57,7 @@ void Classify(const WindowTerm& reprojection, const WindowTerm& depth, double li
   const auto scatter = [](const WindowTerm& term, std::vector<double>* by_observation) {
     const std::vector<double> chi_squares = term.ChiSquares();
     for (size_t i = 0; i < chi_squares.size(); ++i) {
-      (*by_observation)[term.blocks[i].observation] = chi_squares[i];
+      (*by_observation)[term.blocks[i].source] = chi_squares[i];
     }
   };
   scatter(reprojection, &pixels);
@@ -65,6 +70,32 @@ void Classify(const WindowTerm& reprojection, const WindowTerm& depth, double li
     *num_depths_rejected += now.depth && test.reprojection && !test.depth;
     now = {test.reprojection, now.depth && test.depth};
   }
+}
+
+// The same of pairs or alignments.
+void Classify(const WindowTerm& term, double limit, std::vector<bool>* active, int* num_rejected) {
+  const std::vector<double> chi_squares = term.ChiSquares();
+  for (size_t i = 0; i < chi_squares.size(); ++i) {
+    const bool passes = chi_squares[i] <= limit;
+    (*active)[term.blocks[i].source] = passes;
+    *num_rejected += !passes;
+  }
+}
+
+void ClassifyAll(const WindowOptions& options, const WindowBuilder& builder,
+                 WindowActivity* activity, WindowSummary* summary) {
+  Classify(builder.point_reprojection, builder.point_depth, options.reject_chi2_2,
+           options.reject_chi2_3, &activity->points, &summary->point_reprojection.num_rejected,
+           &summary->point_depth.num_rejected);
+  Classify(builder.line_reprojection, builder.line_depth, options.reject_chi2_2,
+           options.reject_chi2_4, &activity->lines, &summary->line_reprojection.num_rejected,
+           &summary->line_depth.num_rejected);
+  Classify(builder.parallel, options.reject_chi2_2, &activity->parallel,
+           &summary->parallel.num_rejected);
+  Classify(builder.perpendicular, options.reject_chi2_1, &activity->perpendicular,
+           &summary->perpendicular.num_rejected);
+  Classify(builder.manhattan, options.reject_chi2_2, &activity->alignments,
+           &summary->manhattan.num_rejected);
 }
 
 ceres::Solver::Summary Solve(int max_iterations, WindowBuilder* builder) {
@@ -82,27 +113,34 @@ ceres::Solver::Summary Solve(int max_iterations, WindowBuilder* builder) {
   return summary;
 }
 
-using TermMember = double TermSummary::*;
+// Every term of the builder with its summary.
+using TermPair = std::pair<const WindowTerm*, TermSummary*>;
+std::array<TermPair, 8> Terms(const WindowBuilder& builder, WindowSummary* summary) {
+  return {{{&builder.point_reprojection, &summary->point_reprojection},
+           {&builder.point_depth, &summary->point_depth},
+           {&builder.line_reprojection, &summary->line_reprojection},
+           {&builder.line_depth, &summary->line_depth},
+           {&builder.line_anchor, &summary->line_anchor},
+           {&builder.parallel, &summary->parallel},
+           {&builder.perpendicular, &summary->perpendicular},
+           {&builder.manhattan, &summary->manhattan}}};
+}
 
 // Writes the costs of all terms into one member of their summaries; returns their sum.
-double WriteCosts(const WindowBuilder& builder, TermMember member, WindowSummary* summary) {
-  summary->point_reprojection.*member = builder.point_reprojection.Cost();
-  summary->point_depth.*member = builder.point_depth.Cost();
-  summary->line_reprojection.*member = builder.line_reprojection.Cost();
-  summary->line_depth.*member = builder.line_depth.Cost();
-  summary->line_anchor.*member = builder.line_anchor.Cost();
-  return summary->point_reprojection.*member + summary->point_depth.*member +
-         summary->line_reprojection.*member + summary->line_depth.*member +
-         summary->line_anchor.*member;
+double WriteCosts(const WindowBuilder& builder, double TermSummary::*member,
+                  WindowSummary* summary) {
+  double sum = 0.0;
+  for (const auto& [term, its_summary] : Terms(builder, summary)) {
+    its_summary->*member = term->Cost();
+    sum += its_summary->*member;
+  }
+  return sum;
 }
 
 void WriteCounts(const WindowBuilder& builder, WindowSummary* summary) {
-  const auto count = [](const WindowTerm& term) { return static_cast<int>(term.blocks.size()); };
-  summary->point_reprojection.num_residual_blocks = count(builder.point_reprojection);
-  summary->point_depth.num_residual_blocks = count(builder.point_depth);
-  summary->line_reprojection.num_residual_blocks = count(builder.line_reprojection);
-  summary->line_depth.num_residual_blocks = count(builder.line_depth);
-  summary->line_anchor.num_residual_blocks = count(builder.line_anchor);
+  for (const auto& [term, its_summary] : Terms(builder, summary)) {
+    its_summary->num_residual_blocks = static_cast<int>(term->blocks.size());
+  }
 }
 
 // Only what took part in the last solve: a landmark or keyframe that lost its last observation
@@ -127,6 +165,15 @@ void WriteBack(const ceres::Problem& problem, const WindowActivity& activity, Wi
   for (size_t i = 0; i < activity.lines.size(); ++i) {
     data->line_observations[i].rejected = !activity.lines[i].reprojection;
   }
+  for (size_t i = 0; i < activity.parallel.size(); ++i) {
+    data->parallel_pairs[i].rejected = !activity.parallel[i];
+  }
+  for (size_t i = 0; i < activity.perpendicular.size(); ++i) {
+    data->perpendicular_pairs[i].rejected = !activity.perpendicular[i];
+  }
+  for (size_t i = 0; i < activity.alignments.size(); ++i) {
+    data->axis_alignments[i].rejected = !activity.alignments[i];
+  }
 }
 
 }  // namespace
@@ -148,12 +195,7 @@ WindowSummary SolveWindow(const WindowOptions& options, WindowData* data) {
   WindowBuilder first(options, *data, index, activity, &state);
   summary.initial_cost = WriteCosts(first, &TermSummary::initial_cost, &summary);
   if (!solve(options.first_iterations, &first)) return summary;
-  Classify(first.point_reprojection, first.point_depth, options.reject_chi2_2,
-           options.reject_chi2_3, &activity.points, &summary.point_reprojection.num_rejected,
-           &summary.point_depth.num_rejected);
-  Classify(first.line_reprojection, first.line_depth, options.reject_chi2_2, options.reject_chi2_4,
-           &activity.lines, &summary.line_reprojection.num_rejected,
-           &summary.line_depth.num_rejected);
+  ClassifyAll(options, first, &activity, &summary);
 
   WindowBuilder second(options, *data, index, activity, &state);
   if (!solve(options.second_iterations, &second)) return summary;
@@ -166,7 +208,13 @@ WindowSummary SolveWindow(const WindowOptions& options, WindowData* data) {
 
 bool WindowOptions::IsValid(std::string* error) const {
   if (!CommonOptionsAreValid(*this, error)) return false;
-  if (!(std::isfinite(line_anchor_sigma) && line_anchor_sigma > 0.0)) {
+  const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
+  if (!is_positive(parallel.huber) || !is_positive(perpendicular.huber) ||
+      !is_positive(manhattan.huber)) {
+    *error = "every huber threshold must be a positive number of sigmas";
+  } else if (!is_positive(reject_chi2_1)) {
+    *error = "reject_chi2_1 must be positive";
+  } else if (!is_positive(line_anchor_sigma)) {
     *error = "line_anchor_sigma must be positive";
   } else if (first_iterations < 1 || second_iterations < 1) {
     *error = "first_iterations and second_iterations must be at least 1";
@@ -192,6 +240,9 @@ std::string WindowSummary::BriefReport() const {
   add("line reprojection", line_reprojection);
   add("line depth", line_depth);
   add("line anchor", line_anchor);
+  add("parallel", parallel);
+  add("perpendicular", perpendicular);
+  add("manhattan", manhattan);
   return report + "\n  " + schur_structure + (message.empty() ? "" : ": ") + message;
 }
 

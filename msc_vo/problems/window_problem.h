@@ -22,13 +22,19 @@ struct WindowOptions {
   TermOptions point_depth{true, 1.960};
   TermOptions line_reprojection{true, 2.448};
   TermOptions line_depth{true, 2.448};
+  // Parallel and alignment residuals have two degrees of freedom, perpendicular ones one.
+  TermOptions parallel{true, 2.448};
+  TermOptions perpendicular{true, 1.960};
+  TermOptions manhattan{true, 2.448};
+  bool line_anchor = true;
   // Weak prior along each line that keeps its end points from sliding: point-to-line residuals do
   // not see that motion. 5 cm gave the fewest iterations in ../shared/design/field-notes.md.
   double line_anchor_sigma = 0.05;  // metres
 
   // An observation whose chi-square exceeds these after the first solve is rejected and the window
   // solved again without it: 99 % quantiles with 2 and, where there is a depth, 3 (4 for lines)
-  // rows.
+  // rows. Pairs and alignments likewise, 1 for the perpendicular ones and 2 for the others.
+  double reject_chi2_1 = 6.635;
   double reject_chi2_2 = 9.210;
   double reject_chi2_3 = 11.345;
   double reject_chi2_4 = 13.277;
@@ -42,6 +48,7 @@ struct WindowOptions {
 struct TermSummary {
   int num_residual_blocks = 0;  // in the second solve
   // Reprojection: observations that contradict. Depth: those that lost their depth alone.
+  // Structure: pairs or alignments that contradict.
   int num_rejected = 0;
   double initial_cost = 0.0;  // 0.5 * sum of robustified squares, before the first solve
   double final_cost = 0.0;    // after the second, of the blocks that are left
@@ -53,6 +60,7 @@ struct WindowSummary {
   double initial_cost = 0.0;
   double final_cost = 0.0;
   TermSummary point_reprojection, point_depth, line_reprojection, line_depth, line_anchor;
+  TermSummary parallel, perpendicular, manhattan;
   int num_behind_camera = 0;    // observations dropped by the builder, marked rejected
   std::string schur_structure;  // Ceres' schur_structure_used
   std::string message;
@@ -61,11 +69,13 @@ struct WindowSummary {
 };
 
 // Refines keyframes, points and lines that are not fixed (paper: Local Map Optimization). Marks
-// rejected observations in `data`, whatever the marks said before. A landmark that loses its last
-// observation keeps its value. At least one keyframe must be fixed: it holds the gauge.
-// Throws std::invalid_argument, naming the offender, on an unknown or repeated id, a number that is
-// not finite, a sigma <= 0, a segment without length, no fixed keyframe, or options that are not
-// valid.
+// rejected observations, pairs and alignments in `data`, whatever the marks said before. A landmark
+// that loses its last observation keeps its value; a pair or an alignment binds only lines that are
+// observed, and is neither counted nor rejected otherwise, or where no line is free. At least one
+// keyframe must be fixed: it holds the gauge. Throws std::invalid_argument, naming the offender, on
+// an unknown or repeated id, a number that is not finite, a sigma <= 0, a segment without length, a
+// pair of a line with itself, a count below 1, an axis that is not unit, no fixed keyframe, or
+// options that are not valid.
 WindowSummary SolveWindow(const WindowOptions& options, WindowData* data);
 
 }  // namespace msc_vo

@@ -35,10 +35,11 @@ class IdMap {
     }
   }
 
-  int At(int64_t id) const {
+  // `role`: what the id is there, for the message.
+  int At(int64_t id, const std::string& role = "observed") const {
     const auto it = std::lower_bound(positions_.begin(), positions_.end(), std::make_pair(id, 0));
     if (it == positions_.end() || it->first != id) {
-      Throw(Name(id) + " is observed but not in the window");
+      Throw(Name(id) + " is " + role + " but not in the window");
     }
     return it->second;
   }
@@ -62,6 +63,34 @@ void CheckKeyframesAndLandmarks(const WindowData& data) {
   if (!any_fixed) Throw("no keyframe is fixed: the gauge is free");
   for (const WindowData::Point& p : data.points) check(PositionError(p.position), "point", p.id);
   for (const WindowData::Line& l : data.lines) check(MapLineError(l.segment), "line", l.id);
+}
+
+std::vector<WindowIndex::Pair> ResolvePairs(const std::vector<WindowData::LinePair>& pairs,
+                                            const char* kind, const IdMap& lines) {
+  std::vector<WindowIndex::Pair> resolved;
+  resolved.reserve(pairs.size());
+  for (const WindowData::LinePair& p : pairs) {
+    if (const char* error = LinePairError(p)) {
+      Throw(std::string(kind) + " pair of line " + std::to_string(p.a) + " and line " +
+            std::to_string(p.b) + ": " + error);
+    }
+    const std::string role = std::string("of a ") + kind + " pair";
+    resolved.push_back({lines.At(p.a, role), lines.At(p.b, role)});
+  }
+  return resolved;
+}
+
+std::vector<int> ResolveAlignments(const std::vector<WindowData::AxisAlignment>& alignments,
+                                   const IdMap& lines) {
+  std::vector<int> resolved;
+  resolved.reserve(alignments.size());
+  for (const WindowData::AxisAlignment& a : alignments) {
+    if (const char* error = AxisAlignmentError(a)) {
+      Throw("alignment of line " + std::to_string(a.line) + ": " + error);
+    }
+    resolved.push_back(lines.At(a.line, "aligned"));
+  }
+  return resolved;
 }
 
 }  // namespace
@@ -92,6 +121,9 @@ WindowIndex ValidateWindow(const WindowOptions& options, const WindowData& data)
           o.keyframe);
     index.lines.push_back({keyframes.At(o.keyframe), lines.At(o.line)});
   }
+  index.parallel = ResolvePairs(data.parallel_pairs, "parallel", lines);
+  index.perpendicular = ResolvePairs(data.perpendicular_pairs, "perpendicular", lines);
+  index.alignments = ResolveAlignments(data.axis_alignments, lines);
   return index;
 }
 

@@ -18,6 +18,13 @@ struct WindowIndex {
   };
   std::vector<Link> points;  // one per point observation
   std::vector<Link> lines;   // one per line observation
+  struct Pair {
+    int a = 0;
+    int b = 0;
+  };
+  std::vector<Pair> parallel;       // lines of the parallel pairs
+  std::vector<Pair> perpendicular;  // lines of the perpendicular pairs
+  std::vector<int> alignments;      // lines of the axis alignments
 };
 
 // Checks everything that SolveWindow asks of its input, and resolves the ids on the way.

@@ -68,11 +68,15 @@ inline Linearization Linearize(const ceres::CostFunction& cost, const Blocks& bl
   return at;
 }
 
-// Analytic against numeric derivatives, in tangent space (blocks of seven are poses).
-inline void ExpectGradientsMatch(const ceres::CostFunction& cost, const Blocks& blocks) {
-  static const Rigid3Manifold manifold;
+// Analytic against numeric derivatives, in tangent space (blocks of seven are poses; of `manifold`,
+// where one is given, the only block).
+inline void ExpectGradientsMatch(const ceres::CostFunction& cost, const Blocks& blocks,
+                                 const ceres::Manifold* manifold = nullptr) {
+  static const Rigid3Manifold pose_manifold;
   std::vector<const ceres::Manifold*> manifolds;
-  for (const auto& block : blocks) manifolds.push_back(block.size() == 7 ? &manifold : nullptr);
+  for (const auto& block : blocks) {
+    manifolds.push_back(block.size() == 7 ? &pose_manifold : manifold);
+  }
   ceres::NumericDiffOptions options;
   // Small enough not to leave the functors' domain from any point in view.
   options.ridders_relative_initial_step_size = 1e-3;

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace msc_vo {
+
+// Unit direction of a line block (start, end; 6 numbers), from start to end. False if the line has
+// no length: there is no direction then, and no derivative. What the structural factors share.
+template <typename T>
+bool LineDirection(const T* line, Eigen::Matrix<T, 3, 1>* direction) {
+  using std::sqrt;
+  const Eigen::Matrix<T, 3, 1> d(line[3] - line[0], line[4] - line[1], line[5] - line[2]);
+  const T squared = d.squaredNorm();
+  if (!(squared > 0.0)) return false;
+  *direction = d / sqrt(squared);
+  return true;
+}
+
+}  // namespace msc_vo

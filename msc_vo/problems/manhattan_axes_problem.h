@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace msc_vo {
+
+// Directions of lines that belong to Manhattan axes, seen from many keyframes.
+struct ManhattanAxesData {
+  struct Observation {
+    Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  // unit, world; its sign has no meaning
+    int axis = 0;         // 0, 1 or 2: the column of world_from_manhattan that it belongs to
+    double sigma = 0.01;  // radians, of the direction's angle in each of its two components
+    bool inlier = true;   // out
+  };
+  Eigen::Quaterniond world_from_manhattan = Eigen::Quaterniond::Identity();  // in: coarse; out
+  std::vector<Observation> observations;
+};
+
+struct ManhattanAxesOptions {
+  double huber = 2.448;  // sigmas; as for the terms of the window with two rows
+  // An observation whose chi-square exceeds this is an outlier: 99 % quantile with 2 rows.
+  double reject_chi2_2 = 9.210;
+  // Rounds of solving and re-classifying all observations, outliers of earlier rounds included; the
+  // first takes all of them, so that a coarse start far from the truth loses none. It ends sooner
+  // once nothing changes any more.
+  int num_rounds = 5;
+  int iterations_per_round = 10;
+  // Fewer inliers than this do not tell a room from chance.
+  int min_inliers = 6;
+
+  bool IsValid(std::string* error) const;
+};
+
+struct ManhattanAxesSummary {
+  // False: fewer inliers than asked for, or all of one axis, about which nothing fixes the
+  // rotation. The axes are then those that were given.
+  bool usable = false;
+  int num_inliers = 0;
+  double initial_cost =
+      0.0;                  // 0.5 * sum of robustified squares over all observations, at the start
+  double final_cost = 0.0;  // at the end, over the inliers
+  // Of the rotation vector w of Exp(w) q in the world, rad^2. What the sigmas promise, times the
+  // mean squared residual of the inliers where that exceeds one. Zero if not usable.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+// Refines the Manhattan axes over all observed directions (paper: Manhattan Axes Estimation, last
+// equation), as one rotation on SO(3), and classifies the observations.
+// Throws std::invalid_argument, naming the observation, on a direction that is not unit, an axis
+// that is not 0, 1 or 2, a sigma <= 0, or on a start that is not unit or options not valid.
+ManhattanAxesSummary SolveManhattanAxes(const ManhattanAxesOptions& options,
+                                        ManhattanAxesData* data);
+
+}  // namespace msc_vo
