@@ -99,7 +99,7 @@ std::string FormatErrorTable(const Benchmark& benchmark) {
       ratios.push_back(FormatText("%.3f", ape / mean.ape.front()));
     }
     rows.push_back(means);
-    rows.push_back(ratios);
+    if (benchmark.modes.size() > 1) rows.push_back(ratios);
   }
   return "## Position error after alignment\n\n" + FormatTable(rows);
 }
@@ -151,6 +151,7 @@ std::string FormatModeTable(const Benchmark& benchmark, const std::string& mode)
   for (const BenchmarkRun& run : benchmark.runs) {
     if (run.mode == mode) rows.push_back(RunRow(run));
   }
+  if (rows.size() == 1) return "";  // the end came before this mode's turn
   return "\n## Mode " + mode + "\n\n" + FormatTable(rows);
 }
 

@@ -38,7 +38,7 @@ TEST_F(BenchmarkCommandTest, ComparesModesOnSequences) {
   Synthesize("room", 12, "a/room");
   Synthesize("corridor", 12, "corridor");
   const CommandOutcome outcome = RunCommand(
-      {"benchmark", Path("a/room") + "/", Path("corridor"), "--modes", "pl-vo,pl-vo-depth",
+      {"benchmark", Path("a/room") + "/", Path("corridor"), "--modes", "pl-vo,pl-vo-depth,pl-vo",
        "--output", Path("out"), "--set", "use_points=true", "--set", "tracking.wide_radius=55"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr(Table()));

@@ -83,6 +83,18 @@ TEST(Benchmark, WritesTables) {
             HasSubstr("- d, old: unreadable / indeed\n\n")));
 }
 
+TEST(Benchmark, LeavesOutWhatThereIsNothingToSayOf) {
+  Benchmark benchmark;
+  benchmark.modes = {"only"};
+  benchmark.runs = {Run("a", "only", 0.004)};
+  EXPECT_THAT(FormatBenchmarkMarkdown(benchmark),
+              AllOf(HasSubstr("geometric mean of 1"), Not(HasSubstr("ratio"))));
+  benchmark.modes = {"only", "later"};
+  EXPECT_THAT(
+      FormatBenchmarkMarkdown(benchmark),
+      AllOf(HasSubstr("not run"), HasSubstr("## Mode only"), Not(HasSubstr("## Mode later"))));
+}
+
 TEST(Benchmark, WritesTheSameAsJson) {
   const nlohmann::json json = nlohmann::json::parse(FormatBenchmarkJson(FourSequences()));
   EXPECT_EQ(json["changed_options"]["use_lines"], "false");
