@@ -15,7 +15,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-BenchmarkRun Run(const std::string& sequence, const std::string& mode, double ape) {
+BenchmarkRun GoodRun(const std::string& sequence, const std::string& mode, double ape) {
   BenchmarkRun run;
   run.sequence = sequence;
   run.mode = mode;
@@ -43,9 +43,10 @@ Benchmark FourSequences() {
   benchmark.build = "GNU 12, Release";
   benchmark.modes = {"old", "new"};
   benchmark.changed_options = {{"use_lines", "false"}};
-  benchmark.runs = {Run("a", "old", 0.004),   Run("a", "new", 0.001), Run("b|c", "old", 0.001),
-                    Run("b|c", "new", 0.001), FailedRun("d", "old"),  Run("d", "new", 0.5),
-                    Run("e", "old", 0.7)};
+  benchmark.runs = {GoodRun("a", "old", 0.004),   GoodRun("a", "new", 0.001),
+                    GoodRun("b|c", "old", 0.001), GoodRun("b|c", "new", 0.001),
+                    FailedRun("d", "old"),        GoodRun("d", "new", 0.5),
+                    GoodRun("e", "old", 0.7)};
   return benchmark;
 }
 
@@ -86,7 +87,7 @@ TEST(Benchmark, WritesTables) {
 TEST(Benchmark, LeavesOutWhatThereIsNothingToSayOf) {
   Benchmark benchmark;
   benchmark.modes = {"only"};
-  benchmark.runs = {Run("a", "only", 0.004)};
+  benchmark.runs = {GoodRun("a", "only", 0.004)};
   EXPECT_THAT(FormatBenchmarkMarkdown(benchmark),
               AllOf(HasSubstr("geometric mean of 1"), Not(HasSubstr("ratio"))));
   benchmark.modes = {"only", "later"};
