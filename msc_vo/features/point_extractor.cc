@@ -221,8 +221,6 @@ bool PointExtractorOptions::IsValid(std::string* error) const {
     *error = "points.num_points must not be negative";
   } else if (num_levels < 1) {
     *error = "points.num_levels must be at least 1";
-  } else if (!(scale_factor > 1.0)) {
-    *error = "points.scale_factor must be greater than 1";
   } else if (min_fast_threshold < 1 || fast_threshold > 255) {
     *error = "points: FAST thresholds must be in [1, 255]";
   } else if (min_fast_threshold > fast_threshold) {
@@ -250,10 +248,10 @@ std::vector<PointFeature> PointExtractor::Extract(const cv::Mat& gray) {
   int left = options_.num_points;
   pyramid_[0] = gray;
   // Shares fall with the level's side length, as in ORB: q^l (1 - q) / (1 - q^levels).
-  const double q = 1.0 / options_.scale_factor;
+  const double q = 1.0 / kPyramidScale;
   double share = options_.num_points * (1.0 - q) / (1.0 - std::pow(q, options_.num_levels));
   double scale = 1.0;
-  for (int l = 0; l < options_.num_levels; ++l, share *= q, scale *= options_.scale_factor) {
+  for (int l = 0; l < options_.num_levels; ++l, share *= q, scale *= kPyramidScale) {
     const cv::Size size(cvRound(gray.cols / scale), cvRound(gray.rows / scale));
     if (std::min(size.width, size.height) <= 2 * kBorder) break;
     if (l > 0) cv::resize(pyramid_[l - 1], pyramid_[l], size, 0.0, 0.0, cv::INTER_LINEAR);

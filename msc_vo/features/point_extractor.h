@@ -13,10 +13,11 @@
 namespace msc_vo {
 
 struct PointExtractorOptions {
-  int num_points = 1000;      // per image, at most; the levels' shares fall with their scale
-  int num_levels = 8;         // of the pyramid; levels that become too small are left out
-  double scale_factor = 1.2;  // between levels; 1.2^8 = 4.3: a point is found again at 4 x distance
-  int fast_threshold = 20;    // grey values, of a FAST corner
+  int num_points = 1000;  // per image, at most; the levels' shares fall with their scale
+  // Of the pyramid; levels that become too small are left out. 1.2^8 = 4.3: a point is found again
+  // from four times the distance.
+  int num_levels = 8;
+  int fast_threshold = 20;     // grey values, of a FAST corner
   int min_fast_threshold = 7;  // grey values, in cells that have no corner at fast_threshold
 
   bool IsValid(std::string* error) const;

@@ -59,7 +59,6 @@ void ListCamera(CameraSettings* camera, OptionLister* list) {
 void ListPoints(PointExtractorOptions* points, OptionLister* list) {
   list->Add("num_points", &points->num_points, "per image, at most");
   list->Add("num_levels", &points->num_levels, "of the image pyramid");
-  list->Add("scale_factor", &points->scale_factor, "between levels of the pyramid");
   list->Add("fast_threshold", &points->fast_threshold, "grey values, of a FAST corner");
   list->Add("min_fast_threshold", &points->min_fast_threshold,
             "grey values, where there is no corner at fast_threshold");

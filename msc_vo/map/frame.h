@@ -23,6 +23,10 @@ using Descriptor = std::array<uint8_t, 32>;
 // Number of differing bits, 0..256.
 int HammingDistance(const Descriptor& a, const Descriptor& b);
 
+// Scale between neighbouring pyramid levels of point features, as ORB has it. A constant and no
+// option: extraction, matching by projection and culling must agree on it.
+constexpr double kPyramidScale = 1.2;
+
 // A point feature p_i of the paper. Pixels are undistorted.
 struct PointFeature {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();

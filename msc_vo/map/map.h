@@ -85,7 +85,4 @@ class Map {
   LandmarkId next_landmark_ = 0;
 };
 
-// Scale between neighbouring pyramid levels of point features.
-constexpr double kPyramidScale = 1.2;
-
 }  // namespace msc_vo

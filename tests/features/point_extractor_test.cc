@@ -190,7 +190,6 @@ TEST(PointExtractor, MisuseThrows) {
   };
   invalid([](PointExtractorOptions* o) { o->num_points = -1; });
   invalid([](PointExtractorOptions* o) { o->num_levels = 0; });
-  invalid([](PointExtractorOptions* o) { o->scale_factor = 1.0; });
   invalid([](PointExtractorOptions* o) { o->min_fast_threshold = 0; });
   invalid([](PointExtractorOptions* o) { o->min_fast_threshold = 30; });
 }
