@@ -3,8 +3,8 @@
 
 #include "msc_vo/tracking/tracker.h"
 
-#include <algorithm>
-#include <set>
+#include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
