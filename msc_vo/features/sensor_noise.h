@@ -12,8 +12,9 @@ struct SensorNoiseOptions {
   // Standard deviation of 1/z, 1/metres: a structured-light or stereo sensor measures disparity,
   // whose noise is constant. The random part of a Kinect's is 1.4e-3 (Khoshelham and Elberink 2012:
   // 13 mm at 3 m), but its larger part is systematic (registration, calibration) and common to all
-  // views of a point, so that it does not average out. 4e-3 is the best over all sequences of
-  // docs/results.md: half of it costs the real ones 20 to 35 %, twice of it the rendered ones.
+  // views of a point, so that it does not average out. Tried over all sequences of docs/results.md:
+  // 2e-3 and 4e-3. 2e-3 is 20 % worse on kitchen and 34 % worse on fr1_rpy, and up to 40 % better
+  // on some rendered rooms.
   double inverse_depth_sigma = 4e-3;
   // Its random part alone, 1/metres: how much neighbouring pixels of one surface differ. Tells
   // depth edges and outliers along a line from noise, within one image, where the systematic part

@@ -28,7 +28,7 @@ struct WindowOptions {
   TermOptions manhattan{true, 2.448};
   bool line_anchor = true;
   // Weak prior along each line that keeps its end points from sliding: point-to-line residuals do
-  // not see that motion. 5 cm gave the fewest iterations in ../shared/design/field-notes.md.
+  // not see that motion. With 5 cm a solve took 4 iterations, with 50 cm 15, without 27.
   double line_anchor_sigma = 0.05;  // metres
 
   // An observation whose chi-square exceeds these after the first solve is rejected and the window
