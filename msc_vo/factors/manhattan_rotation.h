@@ -11,32 +11,36 @@ namespace msc_vo {
 // Measured direction of a line that belongs to Manhattan axis k (paper: last equation of the
 // method, E_j^{M_j}: parallel to its axis, perpendicular to the two others), 2 rows:
 //
-//   r = (d . m_k', d . m_k'') / sigma,   m_k = R(q) e_k,   (k, k', k'') cyclic
+//   r = (m_k . p / sigma, m_k . n / sigma_n),   m_k = R(q) e_k,   p = n x d
 //
 // q: world_from_manhattan (block 0, 4: x y z w, unit, on Rotation3Manifold); column k of its matrix
-// is axis m_k in the world. d: unit direction in the world, sign free. sigma: radians per
-// direction. The two rows say all three conditions: they are the perpendicular ones, and their
-// norm is that of the parallel one, |d x m_k|^2 = (d . m_k')^2 + (d . m_k'')^2, which as a row of
-// its own would count the same angle twice. One rotation instead of the paper's three free vectors,
-// so that axes stay orthogonal without the SVD at its end.
+// is axis m_k in the world. d: unit direction in the world, sign free. n: unit, across d; the normal
+// of the plane of sight, in which (sigma, radians) a direction stands on depth and is known worse
+// than out of it (sigma_n, radians). With equal sigmas the norm of the two rows is the sine of the
+// angle, |d x m_k|^2 = (m_k . p)^2 + (m_k . n)^2 = (d . m_k')^2 + (d . m_k'')^2: all three of the
+// paper's conditions in one. One rotation instead of its three free vectors, so that axes stay
+// orthogonal without the SVD at its end.
 class ManhattanRotation : public CostFunctor<ManhattanRotation, 2, 4> {
  public:
+  ManhattanRotation(const Eigen::Vector3d& direction, const Eigen::Vector3d& normal, int axis,
+                    double sigma, double normal_sigma)
+      : across_(normal.cross(direction) / sigma), normal_(normal / normal_sigma), axis_(axis) {}
+  // Known equally well to all sides.
   ManhattanRotation(const Eigen::Vector3d& direction, int axis, double sigma)
-      : direction_(direction), axis_(axis), inverse_sigma_(1.0 / sigma) {}
+      : ManhattanRotation(direction, direction.unitOrthogonal(), axis, sigma, sigma) {}
 
   template <typename T>
   bool operator()(const T* world_from_manhattan, T* residuals) const {
     const Eigen::Map<const Eigen::Quaternion<T>> q(world_from_manhattan);
-    const Eigen::Matrix<T, 3, 1> in_manhattan = q.conjugate() * direction_.cast<T>();
-    residuals[0] = in_manhattan[(axis_ + 1) % 3] * inverse_sigma_;
-    residuals[1] = in_manhattan[(axis_ + 2) % 3] * inverse_sigma_;
+    residuals[0] = (q.conjugate() * across_.cast<T>())[axis_];
+    residuals[1] = (q.conjugate() * normal_.cast<T>())[axis_];
     return true;
   }
 
  private:
-  Eigen::Vector3d direction_;
-  int axis_;              // k
-  double inverse_sigma_;  // 1/radians
+  Eigen::Vector3d across_;  // p / sigma
+  Eigen::Vector3d normal_;  // n / sigma_n
+  int axis_;                // k
 };
 
 }  // namespace msc_vo

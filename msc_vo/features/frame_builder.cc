@@ -87,6 +87,19 @@ struct FrameBuilder::State {
     }
   }
 
+  // Lines with a depth, made consistent with each other (paper: 3D Feature Position Estimation).
+  void RefineStructure(std::vector<LineFeature>* lines) const {
+    std::vector<StructureLine> fits;
+    for (const LineFeature& line : *lines) {
+      if (line.depth) fits.push_back({line.segment, *line.depth, line.sigma});
+    }
+    if (!RefineFrameStructure(options.structure, camera, &fits).usable) return;
+    auto fit = fits.begin();
+    for (LineFeature& line : *lines) {
+      if (line.depth) line.depth = (fit++)->depth;
+    }
+  }
+
   // Inside one image the random noise decides what is a surface; the sigma of the result is that of
   // the whole error.
   double SigmaPerNoise() const {
@@ -96,7 +109,7 @@ struct FrameBuilder::State {
 
 bool FrameBuilderOptions::IsValid(std::string* error) const {
   if (!points.IsValid(error) || !lines.IsValid(error) || !noise.IsValid(error) ||
-      !line_fit.IsValid(error)) {
+      !line_fit.IsValid(error) || !structure.IsValid(error)) {
     return false;
   }
   if (!(min_depth > 0.0 && max_depth > min_depth)) {
@@ -132,6 +145,7 @@ Frame FrameBuilder::Build(const RgbdImage& image) {
   const InverseDepthImage depth(image.depth, state_->options.min_depth, state_->options.max_depth);
   state_->LocatePoints(depth, &frame.points);
   state_->LocateLines(depth, &frame.lines);
+  if (state_->options.refine_structure) state_->RefineStructure(&frame.lines);
   frame.grid = FeatureGrid(frame.camera, frame.points);
   state_->times.depth = Lap(&last);
   return frame;

@@ -94,6 +94,15 @@ void ListLineFit(LineFitOptions* fit, OptionLister* list) {
   list->Add("min_inliers", &fit->min_inliers, "below this the line stays 2-D");
 }
 
+void ListFrameStructure(FrameStructureOptions* structure, OptionLister* list) {
+  list->Add("max_angle", &structure->max_angle, "degrees of a pair's angle from 0 or 90");
+  list->Add("pair_sigma", &structure->pair_sigma, "degrees, of the angle of what was built so");
+  list->Add("gate_sigmas", &structure->gate_sigmas, "of the angle of a pair");
+  list->Add("max_partners", &structure->max_partners, "of each kind that a line chooses");
+  list->Add("huber", &structure->huber, "sigmas; where the loss turns from square to linear");
+  list->Add("max_iterations", &structure->max_iterations, "at most");
+}
+
 void ListFeatures(FrameBuilderOptions* features, OptionLister* list) {
   list->Section("points", &features->points, ListPoints);
   list->Section("lines", &features->lines, ListLines);
@@ -101,8 +110,25 @@ void ListFeatures(FrameBuilderOptions* features, OptionLister* list) {
   list->Section("line_fit", &features->line_fit, ListLineFit);
   list->AddChoice("line_depth", &features->line_depth, {"robust-fit", "end-points"},
                   "how a line gets its depth; mode pl-vo always takes end-points");
+  list->Add("refine_structure", &features->refine_structure,
+            "whether parallel and perpendicular lines of a frame refine each other's depth; never "
+            "in mode pl-vo");
+  list->Section("structure", &features->structure, ListFrameStructure);
   list->Add("min_depth", &features->min_depth, "metres; nearer measurements are not valid");
   list->Add("max_depth", &features->max_depth, "metres; farther measurements are not valid");
+}
+
+void ListNormals(SurfaceNormalOptions* normals, OptionLister* list) {
+  list->Add("grid_step", &normals->grid_step, "pixels between normals");
+  list->Add("target_sigma", &normals->target_sigma, "radians that noise may tilt a normal");
+  list->Add("inverse_depth_sigma", &normals->inverse_depth_sigma, "1/metres, random part");
+  list->Add("correlation", &normals->correlation, "pixels within which depth errs alike");
+  list->Add("min_radius", &normals->min_radius, "pixels, of a normal's window");
+  list->Add("max_radius", &normals->max_radius, "pixels, of a normal's window");
+  list->Add("max_incidence", &normals->max_incidence, "radians between ray and normal");
+  list->Add("min_valid", &normals->min_valid, "part of the window that must have a depth");
+  list->Add("min_depth", &normals->min_depth, "metres; nearer measurements are not valid");
+  list->Add("max_depth", &normals->max_depth, "metres; farther measurements are not valid");
 }
 
 void ListPointMatcher(PointMatcherOptions* matcher, OptionLister* list) {
@@ -215,6 +241,60 @@ void ListWindow(WindowOptions* window, OptionLister* list) {
   list->Add("second_iterations", &window->second_iterations, "after rejection");
 }
 
+void ListPairs(StructuralPairOptions* pairs, OptionLister* list) {
+  list->Add("parallel", &pairs->parallel, "whether parallel lines are bound; mode msc-vo only");
+  list->Add("perpendicular", &pairs->perpendicular, "the same for perpendicular ones");
+  list->Add("max_angle", &pairs->max_angle, "degrees of a pair's angle from 0 or 90");
+  list->Add("pair_sigma", &pairs->pair_sigma, "degrees, of the angle of what was built so");
+  list->Add("gate_sigmas", &pairs->gate_sigmas, "of the angle of a pair");
+  list->Add("max_partners", &pairs->max_partners, "of each kind that a line chooses");
+}
+
+void ListCoarseAxes(CoarseAxesOptions* coarse, OptionLister* list) {
+  list->Add("max_angle", &coarse->max_angle, "radians, half angle of an axis' cone");
+  list->Add("max_sigma", &coarse->max_sigma, "radians; evidence known worse does not count");
+  list->Add("first_bandwidth", &coarse->first_bandwidth, "radians, of the mean shift's kernel");
+  list->Add("last_bandwidth", &coarse->last_bandwidth, "radians, of the mean shift's kernel");
+  list->Add("min_share", &coarse->min_share, "of the evidence that axes must explain");
+  list->Add("max_rival", &coarse->max_rival, "what other axes may explain, relative to the best");
+  list->Add("min_axis_share", &coarse->min_axis_share, "of the evidence for one axis to count");
+  list->Add("max_misfit", &coarse->max_misfit, "radians, mean of an axis' evidence off it");
+  list->Add("max_false_alarms", &coarse->max_false_alarms, "axes expected in random evidence");
+}
+
+void ListAxisAssignment(AxisAssignmentOptions* assignment, OptionLister* list) {
+  list->Add("max_sigmas", &assignment->max_sigmas, "between a line and its axis");
+  list->Add("max_angle", &assignment->max_angle, "radians between a line and its axis");
+  list->Add("max_sigma", &assignment->max_sigma, "radians; lines known worse have no axis");
+}
+
+void ListAxesRefinement(ManhattanAxesOptions* refinement, OptionLister* list) {
+  list->Add("huber", &refinement->huber, "sigmas; where the loss turns from square to linear");
+  list->Add("reject_chi2_2", &refinement->reject_chi2_2, "chi-square limit of 2 residuals");
+  list->Add("num_rounds", &refinement->num_rounds, "of solving and classifying all views");
+  list->Add("iterations_per_round", &refinement->iterations_per_round, "at most");
+  list->Add("min_inliers", &refinement->min_inliers, "views of lines that must agree");
+}
+
+void ListAxesEstimator(AxesEstimatorOptions* estimator, OptionLister* list) {
+  list->Add("coarse_sigma", &estimator->coarse_sigma, "radians, of axes from one keyframe");
+  list->Add("min_keyframes", &estimator->min_keyframes, "in the map, for a refinement");
+  list->Add("min_axis_lines", &estimator->min_axis_lines, "in the map, for a refinement");
+  list->Add("min_growth", &estimator->min_growth, "of the lines on axes, for the next refinement");
+  list->Add("min_line_share", &estimator->min_line_share, "of lines on axes, or they are dropped");
+  list->Add("max_correction", &estimator->max_correction, "radians that a refinement may turn");
+  list->Add("freeze_sigma", &estimator->freeze_sigma, "radians; axes known better stay");
+}
+
+void ListAxes(SceneAxesOptions* axes, OptionLister* list) {
+  list->Add("enabled", &axes->enabled, "whether Manhattan axes are used; mode msc-vo only");
+  list->Section("coarse", &axes->coarse, ListCoarseAxes);
+  list->Section("assignment", &axes->assignment, ListAxisAssignment);
+  list->Section("refinement", &axes->refinement, ListAxesRefinement);
+  list->Section("estimator", &axes->estimator, ListAxesEstimator);
+  list->Add("deviation", &axes->deviation, "radians, of lines from the axes they were built along");
+}
+
 void ListCulling(CullingOptions* culling, OptionLister* list) {
   list->Add("probation_keyframes", &culling->probation_keyframes, "of a new landmark");
   list->Add("min_observations", &culling->min_observations, "that a landmark must reach by then");
@@ -227,6 +307,8 @@ void ListCulling(CullingOptions* culling, OptionLister* list) {
 void ListMapping(MapperOptions* mapping, OptionLister* list) {
   list->Section("fusion", &mapping->fusion, ListFusion);
   list->Section("selection", &mapping->selection, ListSelection);
+  list->Section("axes", &mapping->axes, ListAxes);
+  list->Section("pairs", &mapping->pairs, ListPairs);
   list->Section("window", &mapping->window, ListWindow);
   list->Section("culling", &mapping->culling, ListCulling);
 }
@@ -242,6 +324,7 @@ std::vector<Option> ListOptions(Configuration* configuration) {
   list.Add("use_points", &odometry.use_points, "off: lines alone");
   list.Add("use_lines", &odometry.use_lines, "off: points alone");
   list.Section("features", &odometry.features, ListFeatures);
+  list.Section("normals", &odometry.normals, ListNormals);
   list.Section("tracking", &odometry.tracking, ListTracking);
   list.Section("mapping", &odometry.mapping, ListMapping);
   return list.Take();

@@ -20,6 +20,15 @@ std::string FormatVertex(const Eigen::Vector3d& x) {
   return FormatText("%.6f %.6f %.6f", x.x(), x.y(), x.z());
 }
 
+// The paper's colours (its Fig. 1): red, green, blue along an axis; purple along none; black outside
+// the last window.
+const char* LineColor(const MapLine& line) {
+  if (!line.in_last_window) return "0 0 0";
+  if (!line.axis) return "128 0 128";
+  constexpr const char* kAxisColors[] = {"255 0 0", "0 255 0", "0 0 255"};
+  return kAxisColors[*line.axis];
+}
+
 }  // namespace
 
 std::string FormatFramesCsv(const std::vector<FrameResult>& frames) {
@@ -55,15 +64,19 @@ std::string FormatPointsPly(const std::vector<MapPoint>& points) {
 std::string FormatLinesPly(const std::vector<MapLine>& lines) {
   std::string text = FormatText(
       "ply\nformat ascii 1.0\ncomment msc_vo map lines, metres\nelement vertex %zu\n"
-      "property float x\nproperty float y\nproperty float z\nproperty int observations\n"
-      "element edge %zu\nproperty int vertex1\nproperty int vertex2\nend_header\n",
+      "property float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+      "property uchar blue\nproperty int observations\n"
+      "element edge %zu\nproperty int vertex1\nproperty int vertex2\nproperty uchar red\n"
+      "property uchar green\nproperty uchar blue\nend_header\n",
       2 * lines.size(), lines.size());
   for (const MapLine& line : lines) {
-    const std::string observations = FormatText(" %d\n", line.num_observations);
-    text += FormatVertex(line.segment.start) + observations;
-    text += FormatVertex(line.segment.end) + observations;
+    const std::string rest = FormatText(" %s %d\n", LineColor(line), line.num_observations);
+    text += FormatVertex(line.segment.start) + rest;
+    text += FormatVertex(line.segment.end) + rest;
   }
-  for (size_t i = 0; i < lines.size(); ++i) text += FormatText("%zu %zu\n", 2 * i, 2 * i + 1);
+  for (size_t i = 0; i < lines.size(); ++i) {
+    text += FormatText("%zu %zu %s\n", 2 * i, 2 * i + 1, LineColor(lines[i]));
+  }
   return text;
 }
 

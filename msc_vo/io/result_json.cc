@@ -4,6 +4,7 @@
 // The JSON faces of a comparison, a run and a benchmark.
 
 #include <type_traits>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -109,6 +110,39 @@ Json FramesToJson(const RunSummary& summary) {
   return json;
 }
 
+Json AxesToJson(const RunSummary& summary) {
+  const MapAxes& axes = summary.axes;
+  Json json = {{"state", ToString(axes.state)}};
+  if (axes.state == AxesState::kNone) return json;
+  const Eigen::Vector4d q = axes.world_from_axes.coeffs();
+  json["frozen"] = axes.frozen;
+  json["refinements"] = axes.num_refinements;
+  json["sigma_deg"] = RadiansToDegrees(axes.sigma);
+  json["world_from_axes"] = {q.x(), q.y(), q.z(), q.w()};
+  json["lines"] = summary.num_axis_lines;
+  return json;
+}
+
+Json WindowToJson(const WindowSummary& window) {
+  const std::pair<const char*, const TermSummary*> terms[] = {
+      {"point_reprojection", &window.point_reprojection},
+      {"point_depth", &window.point_depth},
+      {"line_reprojection", &window.line_reprojection},
+      {"line_depth", &window.line_depth},
+      {"line_anchor", &window.line_anchor},
+      {"parallel", &window.parallel},
+      {"perpendicular", &window.perpendicular},
+      {"manhattan", &window.manhattan}};
+  Json json = {{"usable", window.usable}, {"iterations", window.num_iterations}};
+  for (const auto& [name, term] : terms) {
+    json[name] = {{"blocks", term->num_residual_blocks},
+                  {"rejected", term->num_rejected},
+                  {"initial_cost", term->initial_cost},
+                  {"final_cost", term->final_cost}};
+  }
+  return json;
+}
+
 // What was measured of a run.
 Json MeasuresToJson(const RunSummary& summary, const std::optional<TrajectoryError>& error,
                     const RunCost& cost) {
@@ -117,6 +151,8 @@ Json MeasuresToJson(const RunSummary& summary, const std::optional<TrajectoryErr
   json["map"] = {{"keyframes", summary.num_keyframes},
                  {"points", summary.num_points},
                  {"lines", summary.num_lines}};
+  json["manhattan_axes"] = AxesToJson(summary);
+  json["last_window"] = WindowToJson(summary.last_window);
   json["error"] = error ? ErrorToJson(*error) : Json();
   json["stages_ms"] = StagesToJson(summary.stages);
   json["wall_seconds"] = cost.seconds;

@@ -33,6 +33,13 @@ std::string MapText(const RunSummary& summary) {
                     summary.num_lines);
 }
 
+std::string AxesText(const RunSummary& summary) {
+  if (summary.axes.state == AxesState::kNone) return "none";
+  const std::array<int, 3>& lines = summary.num_axis_lines;
+  return FormatText("%s, known to %.2f deg; %d + %d + %d lines", ToString(summary.axes.state),
+                    RadiansToDegrees(summary.axes.sigma), lines[0], lines[1], lines[2]);
+}
+
 // `stage`: milliseconds per `unit`.
 std::string TimeText(const StageTimeStatistics& stage, const char* unit) {
   if (stage.count == 0) return "none";
@@ -93,6 +100,7 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
   }
   numbers.push_back({"Frames", StatusText(summary), context.outcome});
   numbers.push_back({"Map", MapText(summary), "at the end"});
+  numbers.push_back({"Manhattan axes", AxesText(summary), ""});
   numbers.push_back({"Tracking", TrackingText(summary), ""});
   numbers.push_back({"Mapping", MappingText(summary), ""});
   numbers.push_back({"Speed", SpeedText(summary, context.cost), ""});
@@ -132,6 +140,7 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
     table += Row("", FormatText("no pose in frames %d to %d", span.first_frame, span.last_frame));
   }
   table += Row("map", MapText(summary));
+  table += Row("axes", AxesText(summary));
   table += Row("tracking", TrackingText(summary));
   table += Row("mapping", MappingText(summary));
   table += Row("speed", SpeedText(summary, context.cost));
@@ -164,7 +173,8 @@ std::string FormatReport(const OdometryResult& result, const RunSummary& summary
   data.frames = AlignedFrames(result, context.error);
   for (const MapLine& line : result.lines) {
     data.lines.push_back(
-        {{truth_from_world * line.segment.start, truth_from_world * line.segment.end}});
+        {{truth_from_world * line.segment.start, truth_from_world * line.segment.end},
+         line.axis.value_or(-1)});
   }
   data.up_in_cam.y() = context.calibration.camera.fy < 0.0 ? 1.0 : -1.0;
   std::ostringstream page;

@@ -31,6 +31,11 @@ RunSummary Summarize(const OdometryResult& result) {
   summary.num_keyframes = static_cast<int>(result.keyframes.size());
   summary.num_points = static_cast<int>(result.points.size());
   summary.num_lines = static_cast<int>(result.lines.size());
+  for (const MapLine& line : result.lines) {
+    if (line.axis) ++summary.num_axis_lines[*line.axis];
+  }
+  summary.axes = result.axes;
+  summary.last_window = result.last_window;
   return summary;
 }
 

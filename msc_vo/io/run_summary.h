@@ -27,6 +27,9 @@ struct RunSummary {
   int num_keyframes = 0;
   int num_points = 0;
   int num_lines = 0;
+  std::array<int, 3> num_axis_lines = {0, 0, 0};  // lines parallel to each Manhattan axis
+  MapAxes axes;
+  WindowSummary last_window;
 };
 
 RunSummary Summarize(const OdometryResult& result);

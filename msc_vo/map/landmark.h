@@ -47,6 +47,9 @@ struct PointLandmark : Landmark {
 // L_j = {S_j, E_j} of the paper.
 struct LineLandmark : Landmark {
   LineSegment3 segment;  // metres, world
+  // Radians, of the direction in its least certain component, as the best single view knows it; pi
+  // if no view has a depth.
+  double direction_sigma = 0.0;
 };
 
 }  // namespace msc_vo

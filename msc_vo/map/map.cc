@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "msc_vo/geometry/angles.h"
+
 namespace msc_vo {
 
 namespace {
@@ -217,9 +219,16 @@ void Map::RefreshLine(LandmarkId id) {
   LineLandmark& line = lines_.at(id);
   std::vector<Descriptor> descriptors;
   Eigen::Vector3d directions = Eigen::Vector3d::Zero();
+  line.direction_sigma = kPi;
   for (const Observation& observation : line.observations) {
     const Keyframe& keyframe = keyframes_.at(observation.keyframe);
-    descriptors.push_back(keyframe.frame->lines[observation.feature].descriptor);
+    const LineFeature& feature = keyframe.frame->lines[observation.feature];
+    descriptors.push_back(feature.descriptor);
+    if (feature.depth) {
+      line.direction_sigma =
+          std::min(line.direction_sigma,
+                   DirectionSigma(keyframe.frame->camera, feature.segment, *feature.depth));
+    }
     directions += (line.segment.Midpoint() - keyframe.cam_from_world.OriginInSource()).normalized();
   }
   line.descriptor = CentralDescriptor(descriptors);

@@ -13,6 +13,7 @@ namespace msc_vo {
 struct MapSnapshot {
   Map map;
   KeyframeId newest_keyframe = kNoId;
+  bool needs_axes = false;  // the next keyframe shall bring surface normals
 };
 using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;
 

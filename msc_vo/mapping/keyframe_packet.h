@@ -5,8 +5,10 @@
 
 #include <map>
 #include <memory>
+#include <vector>
 
 #include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/manhattan/axis_evidence.h"
 #include "msc_vo/map/frame.h"
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/matching/frame_matches.h"
@@ -25,6 +27,8 @@ struct KeyframePacket {
   KeyframeId reference = kNoId;  // kNoId: the first keyframe, cam_from_reference is cam_from_world
   Rigid3 cam_from_reference;
   FrameMatches matches;  // with landmarks of the map
+  // Normals of the surfaces in view, camera frame; empty if the map has its axes already.
+  std::vector<AxisEvidence> normals;
   // Of all frames since the last packet, this one included.
   std::map<LandmarkId, TrackingCount> point_counts;
   std::map<LandmarkId, TrackingCount> line_counts;

@@ -10,7 +10,7 @@
 
 namespace msc_vo {
 
-Mapper::Mapper(const MapperOptions& options) : options_(options) {
+Mapper::Mapper(const MapperOptions& options) : options_(options), axes_(options.axes) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
 }
@@ -23,6 +23,7 @@ MappingSummary Mapper::Process(const KeyframePacket& packet) {
   CreateLines(summary.keyframe, &probation_, &map_);
   FusePoints(options_.fusion, summary.keyframe, &map_);
   FuseLines(options_.fusion, summary.keyframe, &map_);
+  axes_.Update(map_, summary.keyframe, packet.normals);
   summary.window = OptimizeWindow(summary.keyframe);
   summary.num_culled_keyframes = CullKeyframes(options_.culling, summary.keyframe, &map_);
   return summary;
@@ -32,6 +33,7 @@ MapSnapshotPtr Mapper::Snapshot() const {
   auto snapshot = std::make_shared<MapSnapshot>();
   snapshot->map = map_;
   snapshot->newest_keyframe = newest_keyframe_;
+  snapshot->needs_axes = options_.axes.enabled && axes_.estimator().state() == AxesState::kNone;
   return snapshot;
 }
 
@@ -62,6 +64,8 @@ WindowSummary Mapper::OptimizeWindow(KeyframeId keyframe) {
   for (const WindowData::Line& line : window.lines) last_window_lines_.insert(line.id);
   // One keyframe alone has nothing to agree with.
   if (window.keyframes.size() < 2) return {};
+  axes_.AddAlignments(map_, &window);
+  AddStructuralPairs(options_.pairs, map_, &window);
   const WindowSummary summary = SolveWindow(options_.window, &window);
   if (summary.usable) WriteBack(window, &map_);
   return summary;

@@ -33,6 +33,7 @@ class Mapper {
 
   const Map& map() const { return map_; }
   // Lines that took part in the last window.
+  const SceneAxes& axes() const { return axes_; }
   const std::set<LandmarkId>& last_window_lines() const { return last_window_lines_; }
 
  private:
@@ -42,6 +43,7 @@ class Mapper {
   MapperOptions options_;
   Map map_;
   Probation probation_;
+  SceneAxes axes_;
   KeyframeId newest_keyframe_ = kNoId;
   std::set<LandmarkId> last_window_lines_;
 };

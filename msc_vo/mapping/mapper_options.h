@@ -8,6 +8,8 @@
 #include "msc_vo/map/window.h"
 #include "msc_vo/mapping/culling.h"
 #include "msc_vo/mapping/landmark_fusion.h"
+#include "msc_vo/mapping/scene_axes.h"
+#include "msc_vo/mapping/structural_pairs.h"
 #include "msc_vo/problems/window_problem.h"
 
 namespace msc_vo {
@@ -15,6 +17,8 @@ namespace msc_vo {
 struct MapperOptions {
   FusionOptions fusion;
   WindowSelectionOptions selection;
+  SceneAxesOptions axes;
+  StructuralPairOptions pairs;
   WindowOptions window;
   CullingOptions culling;
 

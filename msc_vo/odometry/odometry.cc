@@ -18,7 +18,15 @@ namespace {
 OdometryOptions Checked(OdometryOptions options) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
-  if (options.mode == Mode::kPlVo) options.features.line_depth = LineDepthMethod::kEndPoints;
+  if (options.mode == Mode::kPlVo) {
+    options.features.line_depth = LineDepthMethod::kEndPoints;
+    options.features.refine_structure = false;
+  }
+  if (options.mode != Mode::kMscVo) {
+    options.mapping.pairs.parallel = false;
+    options.mapping.pairs.perpendicular = false;
+    options.mapping.axes.enabled = false;
+  }
   return options;
 }
 
@@ -39,6 +47,11 @@ FrameResult MakeResult(const TrackedFrame& tracked) {
   return result;
 }
 
+MapAxes MakeAxes(const AxesEstimator& axes) {
+  return {axes.state(), axes.frozen(), axes.num_refinements(), axes.world_from_axes(),
+          axes.sigma()};
+}
+
 }  // namespace
 
 struct Odometry::State {
@@ -52,18 +65,21 @@ struct Odometry::State {
         const LensDistortion& distortion)
       : options(Checked(options_in)),
         builder(options.features, camera, distortion),
+        normal_estimator(options.normals, camera, distortion),
         tracker(options.tracking),
         mapper(options.mapping),
         snapshot(mapper.Snapshot()) {}
 
   void Count(const TrackedFrame& tracked);
-  Place InsertKeyframe(const TrackedFrame& tracked);
+  Place InsertKeyframe(const TrackedFrame& tracked, const cv::Mat& depth);
 
   OdometryOptions options;
   FrameBuilder builder;
+  SurfaceNormalEstimator normal_estimator;
   Tracker tracker;
   Mapper mapper;
   MapSnapshotPtr snapshot;
+  WindowSummary last_window;
   KeyframePacket packet;  // its counts grow until the next keyframe
   std::vector<FrameResult> results;
   std::vector<Place> places;  // one per result
@@ -76,13 +92,20 @@ void Odometry::State::Count(const TrackedFrame& tracked) {
   for (const LineMatch& match : tracked.matches.lines) ++packet.line_counts[match.id].num_found;
 }
 
-Odometry::State::Place Odometry::State::InsertKeyframe(const TrackedFrame& tracked) {
+Odometry::State::Place Odometry::State::InsertKeyframe(const TrackedFrame& tracked,
+                                                       const cv::Mat& depth) {
   packet.frame = tracked.frame;
   packet.reference = tracked.reference;
   packet.cam_from_reference = tracked.cam_from_reference;
   packet.matches = tracked.matches;
+  if (snapshot->needs_axes) {
+    for (const SurfaceNormal& normal : normal_estimator.Estimate(depth)) {
+      packet.normals.push_back({normal.direction, normal.sigma});
+    }
+  }
   const MappingSummary summary = mapper.Process(packet);
   packet = {};
+  last_window = summary.window;
   snapshot = mapper.Snapshot();
   return {summary.keyframe, Rigid3()};
 }
@@ -115,7 +138,7 @@ FrameResult Odometry::Process(const RgbdImage& image) {
   state_->Count(tracked);
   State::Place place = {tracked.reference, tracked.cam_from_reference};
   if (tracked.is_keyframe) {
-    place = state_->InsertKeyframe(tracked);
+    place = state_->InsertKeyframe(tracked, image.depth);
     result.times.mapping = stopwatch.Milliseconds();
     result.cam_from_world = state_->mapper.map().CamFromWorld(place.reference);
   }
@@ -142,8 +165,11 @@ OdometryResult Odometry::Finish() {
   }
   for (const auto& [id, line] : map.lines()) {
     result.lines.push_back({line.segment, static_cast<int>(line.observations.size()),
-                            state_->mapper.last_window_lines().count(id) > 0});
+                            state_->mapper.last_window_lines().count(id) > 0,
+                            state_->mapper.axes().AxisOf(line)});
   }
+  result.axes = MakeAxes(state_->mapper.axes().estimator());
+  result.last_window = state_->last_window;
   return result;
 }
 

@@ -4,14 +4,17 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "msc_vo/features/rgbd_image.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/timed_pose.h"
+#include "msc_vo/manhattan/axes_estimator.h"
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/odometry/odometry_options.h"
+#include "msc_vo/problems/window_problem.h"
 
 namespace msc_vo {
 
@@ -25,6 +28,16 @@ struct MapLine {
   LineSegment3 segment;  // metres, world
   int num_observations = 0;
   bool in_last_window = false;
+  std::optional<int> axis;  // Manhattan axis 0, 1, 2 that it is parallel to
+};
+
+// The Manhattan axes of the scene.
+struct MapAxes {
+  AxesState state = AxesState::kNone;
+  bool frozen = false;  // known well enough to stay
+  int num_refinements = 0;
+  Eigen::Quaterniond world_from_axes = Eigen::Quaterniond::Identity();  // unless kNone
+  double sigma = 0.0;                                                   // radians
 };
 
 // Everything that a run leaves behind.
@@ -33,6 +46,8 @@ struct OdometryResult {
   std::vector<TimedPose> keyframes;  // in order of time
   std::vector<MapPoint> points;
   std::vector<MapLine> lines;
+  MapAxes axes;
+  WindowSummary last_window;  // of the last keyframe step
 };
 
 // RGB-D visual odometry from points and lines (paper: PL-VO and MSC-VO).

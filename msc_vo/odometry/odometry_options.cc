@@ -27,17 +27,11 @@ Mode ModeFromString(const std::string& name) {
 }
 
 bool OdometryOptions::IsValid(std::string* error) const {
-  if (mode == Mode::kMscVo) {
-    *error =
-        "mode msc-vo: the structural terms are not part of this version; choose pl-vo-depth "
-        "or pl-vo";
-    return false;
-  }
   if (!use_points && !use_lines) {
     *error = "options: use_points and use_lines must not both be off";
     return false;
   }
-  return features.IsValid(error) && tracking.IsValid(error) && mapping.IsValid(error);
+  return features.IsValid(error) && normals.IsValid(error) && tracking.IsValid(error) && mapping.IsValid(error);
 }
 
 }  // namespace msc_vo

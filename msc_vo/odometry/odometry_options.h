@@ -6,6 +6,7 @@
 #include <string>
 
 #include "msc_vo/features/frame_builder.h"
+#include "msc_vo/features/surface_normals.h"
 #include "msc_vo/mapping/mapper_options.h"
 #include "msc_vo/tracking/tracker_options.h"
 
@@ -14,8 +15,8 @@ namespace msc_vo {
 // The paper's ablation: each mode adds a contribution.
 enum class Mode {
   kPlVo,       // points and lines, depth of a line from its end points
-  kPlVoDepth,  // + robust line depth
-  kMscVo,      // + structure and Manhattan axes
+  kPlVoDepth,  // + robust line depth, lines of a frame refined by their relations
+  kMscVo,      // + structural pairs and Manhattan axes in the map
 };
 
 const char* ToString(Mode mode);
@@ -23,10 +24,11 @@ const char* ToString(Mode mode);
 Mode ModeFromString(const std::string& name);
 
 struct OdometryOptions {
-  Mode mode = Mode::kPlVoDepth;
+  Mode mode = Mode::kMscVo;
   bool use_points = true;
   bool use_lines = true;
   FrameBuilderOptions features;
+  SurfaceNormalOptions normals;
   TrackerOptions tracking;
   MapperOptions mapping;
 

@@ -26,7 +26,13 @@ using Observation = ManhattanAxesData::Observation;
 const char* ObservationError(const Observation& o) {
   if (UnitVectorError(o.direction) != nullptr) return "direction is not a unit vector";
   if (o.axis < 0 || o.axis > 2) return "axis must be 0, 1 or 2";
+  if (UnitVectorError(o.normal) != nullptr || std::abs(o.normal.dot(o.direction)) > 1e-6) {
+    return "normal is not a unit vector perpendicular to the direction";
+  }
   if (!(std::isfinite(o.sigma) && o.sigma > 0.0)) return "sigma must be positive";
+  if (!(std::isfinite(o.normal_sigma) && o.normal_sigma > 0.0)) {
+    return "normal_sigma must be positive";
+  }
   return nullptr;
 }
 
@@ -45,9 +51,13 @@ void Validate(const ManhattanAxesOptions& options, const ManhattanAxesData& data
   }
 }
 
+ManhattanRotation MakeFactor(const Observation& o) {
+  return ManhattanRotation(o.direction, o.normal, o.axis, o.sigma, o.normal_sigma);
+}
+
 double ChiSquare(const Observation& o, const Eigen::Quaterniond& world_from_manhattan) {
   Eigen::Vector2d r;
-  ManhattanRotation(o.direction, o.axis, o.sigma)(world_from_manhattan.coeffs().data(), r.data());
+  MakeFactor(o)(world_from_manhattan.coeffs().data(), r.data());
   return r.squaredNorm();
 }
 
@@ -81,7 +91,7 @@ bool Minimize(const ManhattanAxesOptions& options, const ManhattanAxesData& data
   for (size_t i = 0; i < inliers.size(); ++i) {
     if (!inliers[i]) continue;
     const Observation& o = data.observations[i];
-    problem.AddResidualBlock(ManhattanRotation::Create(o.direction, o.axis, o.sigma),
+    problem.AddResidualBlock(ManhattanRotation::Create(MakeFactor(o)),
                              new ceres::HuberLoss(options.huber), block);
   }
   ceres::Solver::Options solver;
@@ -94,8 +104,8 @@ bool Minimize(const ManhattanAxesOptions& options, const ManhattanAxesData& data
   return summary.IsSolutionUsable() && world_from_manhattan->coeffs().allFinite();
 }
 
-// J^T J over the inliers where every direction lies on its axis m: J^T J = (I - m m^T) / sigma^2 of
-// one, as turning about its own axis does not move it. At the noisy directions J^T J would claim to
+// J^T J over the inliers where every direction lies on its axis m: p p^T / sigma_n^2 + n n^T /
+// sigma^2 of one, with n and p the normal and what completes m and n to a basis, as turning about its own axis does not move it. At the noisy directions J^T J would claim to
 // know that turn a little, from noise alone.
 Eigen::Matrix3d Information(const ManhattanAxesData& data, const std::vector<bool>& inliers,
                             const Eigen::Quaterniond& world_from_manhattan) {
@@ -105,7 +115,10 @@ Eigen::Matrix3d Information(const ManhattanAxesData& data, const std::vector<boo
     if (!inliers[i]) continue;
     const Observation& o = data.observations[i];
     const Eigen::Vector3d m = axes.col(o.axis);
-    information += (Eigen::Matrix3d::Identity() - m * m.transpose()) / (o.sigma * o.sigma);
+    const Eigen::Vector3d p = m.cross(o.normal).normalized();
+    const Eigen::Vector3d n = p.cross(m);
+    information += p * p.transpose() / (o.normal_sigma * o.normal_sigma) +
+                   n * n.transpose() / (o.sigma * o.sigma);
   }
   return information;
 }

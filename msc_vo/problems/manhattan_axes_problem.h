@@ -16,7 +16,11 @@ struct ManhattanAxesData {
   struct Observation {
     Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  // unit, world; its sign has no meaning
     int axis = 0;         // 0, 1 or 2: the column of world_from_manhattan that it belongs to
-    double sigma = 0.01;  // radians, of the direction's angle in each of its two components
+    // Unit, world, perpendicular to the direction: that of the plane of sight, across which a
+    // direction is known best.
+    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+    double sigma = 0.01;         // radians, of the direction's angle in the plane of sight
+    double normal_sigma = 0.01;  // radians, out of it
     bool inlier = true;   // out
   };
   Eigen::Quaterniond world_from_manhattan = Eigen::Quaterniond::Identity();  // in: coarse; out

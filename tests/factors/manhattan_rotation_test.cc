@@ -26,15 +26,17 @@ TEST(ManhattanRotation, ZeroAlongItsAxisInEitherSense) {
 }
 
 TEST(ManhattanRotation, ValueByHand) {
-  // World and Manhattan coincide. Rows are the axes that follow k, cyclically.
-  const Eigen::Vector3d d(0.36, 0.48, 0.8);
+  // World and Manhattan coincide.
+  const Eigen::Vector3d n(0.8, -0.6, 0.0), d = Eigen::Vector3d(0.36, 0.48, 0.0) / 0.6;
+  const Eigen::Vector3d tilted = (d + n.cross(d)).normalized();
   const auto residual = [&](int axis) {
-    return Residual(*CostPtr(ManhattanRotation::Create(d, axis, 0.1)),
+    return Residual(*CostPtr(ManhattanRotation::Create(tilted, n, axis, 0.1, 0.01)),
                     {Block(Eigen::Quaterniond::Identity())});
   };
-  EXPECT_THAT(residual(0), IsNear(Eigen::Vector2d(4.8, 8.0), 1e-12));
-  EXPECT_THAT(residual(1), IsNear(Eigen::Vector2d(8.0, 3.6), 1e-12));
-  EXPECT_THAT(residual(2), IsNear(Eigen::Vector2d(3.6, 4.8), 1e-12));
+  const double s = 10.0 / std::sqrt(2.0);
+  EXPECT_THAT(residual(0), IsNear(Eigen::Vector2d(-0.6 * s, 80.0), 1e-12));
+  EXPECT_THAT(residual(1), IsNear(Eigen::Vector2d(-0.8 * s, -60.0), 1e-12));
+  EXPECT_THAT(residual(2), IsNear(Eigen::Vector2d(s, 0.0), 1e-12));
 }
 
 TEST(ManhattanRotation, IsThePapersParallelAndPerpendicularErrors) {
@@ -43,8 +45,9 @@ TEST(ManhattanRotation, IsThePapersParallelAndPerpendicularErrors) {
   const Eigen::Vector3d d = random.Normal3().normalized();
   const Eigen::VectorXd r =
       0.01 * Residual(*CostPtr(ManhattanRotation::Create(d, 1, 0.01)), {Block(q)});
-  EXPECT_NEAR(r[0], d.dot(q * Eigen::Vector3d::UnitZ()), 1e-12);
-  EXPECT_NEAR(r[1], d.dot(q * Eigen::Vector3d::UnitX()), 1e-12);
+  EXPECT_NEAR(r.norm(),
+              std::hypot(d.dot(q * Eigen::Vector3d::UnitZ()), d.dot(q * Eigen::Vector3d::UnitX())),
+              1e-12);
   EXPECT_NEAR(r.norm(), d.cross(q * Eigen::Vector3d::UnitY()).norm(), 1e-12);
 }
 
