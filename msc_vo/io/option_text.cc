@@ -83,21 +83,16 @@ struct Setter {
   }
 };
 
-std::string Shortest(double value) {
-  char buffer[40];  // the longest double needs 24
-  return {buffer, std::to_chars(buffer, buffer + sizeof(buffer), value).ptr};
-}
-
 struct Formatter {
   std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
   std::string operator()(const int* value) const { return std::to_string(*value); }
-  std::string operator()(const double* value) const { return Shortest(*value); }
+  std::string operator()(const double* value) const { return FormatNumber(*value); }
   std::string operator()(const std::string* value) const { return *value; }
   std::string operator()(const std::optional<int>* value) const {
     return *value ? std::to_string(**value) : "";
   }
   std::string operator()(const std::optional<double>* value) const {
-    return *value ? Shortest(**value) : "";
+    return *value ? FormatNumber(**value) : "";
   }
   std::string operator()(const Choice& choice) const { return choice.names.at(choice.get()); }
 };
@@ -145,12 +140,14 @@ const Option* FindSimilar(const std::vector<Option>& options, const std::string&
   const Option* nearest = nullptr;
   // More than a third of the letters wrong is another word, not a typing error.
   int smallest = static_cast<int>(LastPart(path).size()) / 3 + 1;
+  int smallest_of_path = 0;  // decides between equals
   for (const Option& option : options) {
     // The right name in the wrong section counts as one error.
-    const int distance = std::min(EditDistance(path, option.path),
-                                  EditDistance(LastPart(path), LastPart(option.path)) + 1);
-    if (distance <= smallest && (!nearest || distance < smallest)) {
+    const int of_path = EditDistance(path, option.path);
+    const int distance = std::min(of_path, EditDistance(LastPart(path), LastPart(option.path)) + 1);
+    if (distance < smallest || (distance == smallest && (!nearest || of_path < smallest_of_path))) {
       smallest = distance;
+      smallest_of_path = of_path;
       nearest = &option;
     }
   }

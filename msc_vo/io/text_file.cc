@@ -93,6 +93,11 @@ std::optional<double> ParseNumber(const std::string& text) {
   return value;
 }
 
+std::string FormatNumber(double value) {
+  char buffer[40];  // the longest double needs 24
+  return {buffer, std::to_chars(buffer, buffer + sizeof(buffer), value).ptr};
+}
+
 std::vector<double> ParseNumbers(const TextLine& line) {
   std::vector<double> values;
   for (const std::string& field : line.fields) {
