@@ -66,6 +66,7 @@ WindowSummary Mapper::OptimizeWindow(KeyframeId keyframe) {
   if (window.keyframes.size() < 2) return {};
   axes_.AddAlignments(map_, &window);
   AddStructuralPairs(options_.pairs, map_, &window);
+  if (window_observer_) window_observer_(keyframe, options_.window, window);
   const WindowSummary summary = SolveWindow(options_.window, &window);
   if (summary.usable) WriteBack(window, &map_);
   return summary;

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <set>
+#include <utility>
 
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/mapping/keyframe_packet.h"
 #include "msc_vo/mapping/mapper_options.h"
+#include "msc_vo/mapping/window_observer.h"
 
 namespace msc_vo {
 
@@ -23,6 +25,8 @@ class Mapper {
  public:
   // Throws std::invalid_argument on options that are not valid.
   explicit Mapper(const MapperOptions& options);
+
+  void SetWindowObserver(WindowObserver observer) { window_observer_ = std::move(observer); }
 
   // Takes a keyframe into the map: observations, new landmarks, fusion, window optimisation,
   // culling.
@@ -41,6 +45,7 @@ class Mapper {
   WindowSummary OptimizeWindow(KeyframeId keyframe);
 
   MapperOptions options_;
+  WindowObserver window_observer_;  // may be empty
   Map map_;
   Probation probation_;
   SceneAxes axes_;

@@ -116,6 +116,10 @@ Odometry::Odometry(const OdometryOptions& options, const PinholeCamera& camera,
 
 Odometry::~Odometry() = default;
 
+void Odometry::SetWindowObserver(WindowObserver observer) {
+  state_->mapper.SetWindowObserver(std::move(observer));
+}
+
 FrameResult Odometry::Process(const RgbdImage& image) {
   if (!state_->results.empty() && image.timestamp <= state_->results.back().timestamp) {
     throw std::invalid_argument("image " + std::to_string(image.id) +

@@ -12,6 +12,7 @@
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/manhattan/axes_estimator.h"
+#include "msc_vo/mapping/window_observer.h"
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/odometry/odometry_options.h"
 #include "msc_vo/problems/window_problem.h"
@@ -63,6 +64,9 @@ class Odometry {
   Odometry(const OdometryOptions& options, const PinholeCamera& camera,
            const LensDistortion& distortion);
   ~Odometry();
+
+  // Is shown every window before it is solved; to be set before the first image.
+  void SetWindowObserver(WindowObserver observer);
 
   // Tracks one image and returns what is known of it now. Poses get better until Finish().
   // Throws std::invalid_argument if the image does not fit the camera or time runs backwards.

@@ -87,6 +87,43 @@ TEST(Mapper, SnapshotsDoNotChange) {
   EXPECT_EQ(mapper.Snapshot()->newest_keyframe, 1);
 }
 
+TEST(Mapper, WhatTheObserverSeesIsSolvedToTheSameBytes) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  std::mt19937 random(1);
+  MapperOptions options;
+  options.window.second_iterations = 7;
+  Mapper mapper(options);
+  std::vector<KeyframeId> keyframes;
+  WindowOptions seen_options;
+  WindowData seen;
+  mapper.SetWindowObserver(
+      [&](KeyframeId keyframe, const WindowOptions& window_options, const WindowData& window) {
+        keyframes.push_back(keyframe);
+        seen_options = window_options;
+        seen = window;
+      });
+  MappingSummary summary;
+  for (int index = 0; index <= 30; index += 10) {
+    KeyframePacket packet = Packet(&world, index, &random);
+    MatchWithMap(mapper.map(), &packet);
+    summary = mapper.Process(packet);
+  }
+  ASSERT_TRUE(summary.window.usable);
+  EXPECT_THAT(keyframes, testing::ElementsAre(1, 2, 3));  // the first alone has no window
+  EXPECT_EQ(seen_options.second_iterations, 7);
+
+  const WindowData before = seen;
+  const WindowSummary again = SolveWindow(seen_options, &seen);
+  EXPECT_EQ(again.initial_cost, summary.window.initial_cost);
+  EXPECT_EQ(again.final_cost, summary.window.final_cost);
+  ASSERT_EQ(seen.keyframes.size(), 4u);
+  for (size_t i = 0; i < seen.keyframes.size(); ++i) {
+    const auto& [id, cam_from_world, fixed] = seen.keyframes[i];
+    EXPECT_EQ(cam_from_world.params, mapper.map().CamFromWorld(id).params);
+    EXPECT_EQ(cam_from_world.params == before.keyframes[i].cam_from_world.params, fixed);
+  }
+}
+
 TEST(Mapper, MemoryIsBoundedInOnePlace) {
   SyntheticFrames world{SyntheticFrames::Options()};
   std::mt19937 random(1);

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <functional>
+
+#include "msc_vo/map/landmark.h"
+#include "msc_vo/problems/window_data.h"
+#include "msc_vo/problems/window_problem.h"
+
+namespace msc_vo {
+
+// Is shown every window that the mapper is about to solve, with the keyframe that it was selected
+// for. Runs where the mapper runs; what it throws ends the step.
+using WindowObserver =
+    std::function<void(KeyframeId keyframe, const WindowOptions& options, const WindowData& data)>;
+
+}  // namespace msc_vo
