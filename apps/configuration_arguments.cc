@@ -48,8 +48,8 @@ void AddConfigurationArguments(CLI::App* command, ConfigurationArguments* argume
       ->allow_extra_args(false);
 }
 
-Configuration MakeConfiguration(const ConfigurationArguments& arguments) {
-  Configuration configuration;
+Configuration MakeConfiguration(const ConfigurationArguments& arguments,
+                                Configuration configuration) {
   if (!arguments.config.empty()) ReadConfiguration(arguments.config, &configuration);
   for (const std::string& setting : arguments.settings) {
     const size_t equals = setting.find('=');

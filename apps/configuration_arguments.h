@@ -21,9 +21,10 @@ struct ConfigurationArguments {
 // Declares --config and --set.
 void AddConfigurationArguments(CLI::App* command, ConfigurationArguments* arguments);
 
-// Defaults, then the file, then the settings in their order. Throws std::runtime_error naming the
-// option that is not known or whose value does not fit.
-Configuration MakeConfiguration(const ConfigurationArguments& arguments);
+// `configuration`, then the file, then the settings in their order, each over what was before.
+// Throws std::runtime_error naming the option that is not known or whose value does not fit.
+Configuration MakeConfiguration(const ConfigurationArguments& arguments,
+                                Configuration configuration = {});
 
 // The names of what an option that is a choice may be, "mode" for instance.
 std::vector<std::string> OptionChoices(const std::string& path);

@@ -21,8 +21,8 @@ namespace {
 std::string command_line;  // set once, before any command runs
 
 using AddCommand = Command (*)(CLI::App*);
-constexpr AddCommand kCommands[] = {AddReplayCommand, AddEvaluateCommand, AddBenchmarkCommand,
-                                    AddCheckCommand, AddSynthesizeCommand};
+constexpr AddCommand kCommands[] = {AddReplayCommand, AddEvaluateCommand,   AddBenchmarkCommand,
+                                    AddCheckCommand,  AddSynthesizeCommand, AddSolveWindowCommand};
 
 int Main(int argc, char** argv) {
   for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + std::string(argv[i]);

@@ -12,10 +12,12 @@
 #include "apps/configuration_arguments.h"
 #include "apps/sequence_arguments.h"
 #include "apps/sequence_run.h"
+#include "msc_vo/io/format_text.h"
 #include "msc_vo/io/options_file.h"
 #include "msc_vo/io/result_files.h"
 #include "msc_vo/io/run_report.h"
 #include "msc_vo/io/text_file.h"
+#include "msc_vo/io/window_file.h"
 
 namespace msc_vo {
 
@@ -25,6 +27,7 @@ struct Arguments {
   SequenceArguments sequence;
   ConfigurationArguments configuration;
   std::string output;
+  std::string windows;  // folder; empty: windows are not recorded
   std::string mode;
   std::string lines;
   int max_frames = 0;  // 0: all
@@ -46,6 +49,17 @@ ConfigurationArguments WithShortcuts(const Arguments& arguments) {
   return all;
 }
 
+// Writes every window into `folder`, named by its keyframe.
+WindowObserver WindowRecorder(const std::string& folder) {
+  if (folder.empty()) return {};
+  MakeFolder(folder);
+  return [folder](KeyframeId keyframe, const WindowOptions& options, const WindowData& data) {
+    const std::string name =
+        FormatText("window_%06lld.txt", static_cast<long long>(keyframe));  // sorts by name
+    WriteWindow((std::filesystem::path(folder) / name).string(), options, data);
+  };
+}
+
 int Replay(const Arguments& arguments) {
   const Configuration configuration = MakeConfiguration(WithShortcuts(arguments));
   if (arguments.print_config) {
@@ -60,8 +74,8 @@ int Replay(const Arguments& arguments) {
           : (std::filesystem::path("out") / SequenceName(arguments.sequence.directory)).string();
   MakeFolder(output);  // a wrong name shows before the work, not after it
   const InterruptGuard interrupt;
-  const SequenceRun run =
-      RunSequence(decoder, configuration, arguments.max_frames, arguments.quiet, interrupt);
+  const SequenceRun run = RunSequence(decoder, configuration, arguments.max_frames, arguments.quiet,
+                                      interrupt, WindowRecorder(arguments.windows));
   if (run.result.frames.empty()) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
     return run.exit_code;
@@ -96,6 +110,9 @@ Command AddReplayCommand(CLI::App* app) {
   command->add_flag("--no-lines", arguments->no_lines, "Points alone");
   command->add_option("--max-frames", arguments->max_frames, "Stop after so many images")
       ->check(CLI::PositiveNumber);
+  command->add_option("--dump-windows", arguments->windows,
+                      "Folder for the windows that the mapper solves, one file per keyframe, as "
+                      "they are before (see solve-window)");
   command->add_flag("--quiet", arguments->quiet, "No progress, no table");
   command->add_flag("--print-config", arguments->print_config,
                     "Print all options with their meanings, as a file for --config, and exit");

@@ -14,7 +14,8 @@
 namespace msc_vo {
 
 SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configuration,
-                        int max_frames, bool quiet, const InterruptGuard& interrupt) {
+                        int max_frames, bool quiet, const InterruptGuard& interrupt,
+                        const WindowObserver& window_observer) {
   SequenceRun run;
   RunContext& context = run.context;
   context.command_line = CommandLine();
@@ -27,6 +28,7 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   const CostMeter cost;
   Odometry odometry(configuration.odometry, context.calibration.camera,
                     context.calibration.distortion);
+  odometry.SetWindowObserver(window_observer);
   RgbdSource source(decoder, 0, num_frames);
   Progress progress(num_frames);
   int done = 0;

@@ -21,9 +21,11 @@ struct SequenceRun {
 };
 
 // Runs the odometry over the first `max_frames` images (0: over all), with the progress on standard
-// error unless `quiet`. Throws std::invalid_argument on options that are not valid.
+// error unless `quiet`. `window_observer` may be empty. Throws std::invalid_argument on options
+// that are not valid.
 SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configuration,
-                        int max_frames, bool quiet, const InterruptGuard& interrupt);
+                        int max_frames, bool quiet, const InterruptGuard& interrupt,
+                        const WindowObserver& window_observer = {});
 
 // The warnings about the sequence, on standard error.
 void PrintWarnings(const RgbdDecoder& decoder);

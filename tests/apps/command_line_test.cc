@@ -19,7 +19,8 @@ using testing::HasSubstr;
 class CommandLineTest : public TemporaryFolder {};
 
 TEST_F(CommandLineTest, EveryCommandExplainsItself) {
-  for (const char* command : {"replay", "evaluate", "benchmark", "check", "synthesize"}) {
+  for (const char* command :
+       {"replay", "evaluate", "benchmark", "check", "synthesize", "solve-window"}) {
     const CommandOutcome outcome = RunCommand({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_THAT(outcome.output, AllOf(HasSubstr("Example:\n  msc_vo " + std::string(command)),
@@ -38,7 +39,8 @@ TEST_F(CommandLineTest, WrongUseEndsWithTwo) {
                                                        {"replay", "x", "--mode", "orb"},
                                                        {"replay", "x", "--max-frames", "-3"},
                                                        {"evaluate", "one.txt"},
-                                                       {"check"}};
+                                                       {"check"},
+                                                       {"solve-window"}};
   for (const std::vector<std::string>& arguments : wrong) {
     const CommandOutcome outcome = RunCommand(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << testing::PrintToString(arguments);

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// From the run of a rendered sequence to its windows, solved again outside of it.
+
+#include <algorithm>
+
+#include "tests/apps/command_process.h"
+#include "tests/io/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/io/text_file.h"
+#include "msc_vo/io/trajectory.h"
+#include "msc_vo/io/window_file.h"
+#include "msc_vo/synthetic/synthetic_window.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class SolveWindowCommandTest : public TemporaryFolder {
+ protected:
+  // A small window that can be solved.
+  static WindowData SmallWindow() {
+    SyntheticWindowOptions options;
+    options.num_keyframes = 4;
+    options.num_points = 50;
+    options.num_lines = 10;
+    return MakeSyntheticWindow(options).data;
+  }
+  void ExpectError(const std::vector<std::string>& arguments, const std::string& message) {
+    const CommandOutcome outcome = RunCommand(arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << message;
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr("msc_vo: error: "), HasSubstr(message)));
+  }
+  std::vector<std::string> FilesIn(const std::string& name) {
+    std::vector<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(Path(name))) {
+      files.push_back(entry.path().string());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+  }
+};
+
+// "tx ty tz qx qy qz qw", as in a trajectory on disk.
+std::string PoseText(const Rigid3& cam_from_world) {
+  const std::string line = FormatTrajectory({{0.0, cam_from_world.Inverse()}});
+  return line.substr(line.find(' '));
+}
+
+TEST_F(SolveWindowCommandTest, RecordedWindowsLeadWhereTheMapperWent) {
+  ASSERT_EQ(RunCommand(
+                {"synthesize", Path("room"), "--scene", "room", "--frames", "40", "--width", "160"})
+                .exit_code,
+            0);
+  const CommandOutcome replay = RunCommand({"replay", Path("room"), "--output", Path("out"),
+                                            "--quiet", "--dump-windows", Path("windows")});
+  ASSERT_EQ(replay.exit_code, 0) << replay.output;
+  const std::vector<std::string> files = FilesIn("windows");
+  ASSERT_GE(files.size(), 2u);
+  EXPECT_THAT(files.front(), testing::EndsWith("/window_000001.txt"));
+  for (const std::string& file : files) {
+    const CommandOutcome outcome =
+        RunCommand({"solve-window", file, "--json", "--output", Path("solved.txt")});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    const nlohmann::json json = nlohmann::json::parse(outcome.output);
+    EXPECT_EQ(json["usable"], true);
+    EXPECT_LT(json["final_cost"], json["initial_cost"]);
+  }
+  // Nothing moves the newest keyframe after the last window.
+  const RecordedWindow before = ReadWindow(files.back());
+  const RecordedWindow after = ReadWindow(Path("solved.txt"));
+  const auto newest = std::max_element(after.data.keyframes.begin(), after.data.keyframes.end(),
+                                       [](const auto& a, const auto& b) { return a.id < b.id; });
+  const std::string keyframes = ReadFile(Path("out/keyframes.txt"));
+  const Rigid3& pose_before =
+      before.data.keyframes[newest - after.data.keyframes.begin()].cam_from_world;
+  EXPECT_THAT(keyframes, HasSubstr(PoseText(newest->cam_from_world)));
+  EXPECT_THAT(keyframes, testing::Not(HasSubstr(PoseText(pose_before))));
+}
+
+TEST_F(SolveWindowCommandTest, PrintsATableAndTakesOptions) {
+  WriteWindow(Path("window.txt"), WindowOptions(), SmallWindow());
+  const CommandOutcome table = RunCommand({"solve-window", Path("window.txt")});
+  EXPECT_EQ(table.exit_code, 0);
+  EXPECT_THAT(table.output,
+              AllOf(HasSubstr("4 keyframes (1 fixed), "), HasSubstr("window: solved, "),
+                    HasSubstr("point reprojection"), HasSubstr(" blocks, "), HasSubstr(" ms\n")));
+
+  WriteText("options.yaml", "mapping:\n  window:\n    line_anchor_sigma: 0.125\n");
+  const CommandOutcome changed = RunCommand(
+      {"solve-window", Path("window.txt"), "--json", "--output", Path("solved.txt"), "--config",
+       Path("options.yaml"), "--set", "mapping.window.line_depth.enabled=false"});
+  ASSERT_EQ(changed.exit_code, 0) << changed.output;
+  EXPECT_EQ(nlohmann::json::parse(changed.output)["terms"]["line_depth"]["residual_blocks"], 0);
+  const WindowOptions options = ReadWindow(Path("solved.txt")).options;
+  EXPECT_EQ(options.line_anchor_sigma, 0.125);
+  EXPECT_FALSE(options.line_depth.enabled);
+}
+
+TEST_F(SolveWindowCommandTest, ErrorsNameTheFile) {
+  WindowData data = SmallWindow();
+  WriteWindow(Path("good.txt"), WindowOptions(), data);
+  ExpectError({"solve-window", Path("none.txt")}, "none.txt: does not exist");
+  ExpectError({"solve-window", Path("good.txt"), "--set", "mode=pl-vo"}, "no option of a window");
+  ExpectError({"solve-window", Path("good.txt"), "--set", "mapping.window.parallel.huber=-1"},
+              "huber threshold must be a positive");
+  ExpectError({"solve-window", Path("good.txt"), "--output", Path("no/folder.txt")},
+              "folder.txt: cannot be written");
+  data.point_observations[3].point = 987;
+  WriteWindow(Path("unknown.txt"), WindowOptions(), data);
+  ExpectError({"solve-window", Path("unknown.txt")},
+              "unknown.txt: SolveWindow: point 987 is observed but not in the window");
+  WriteText("other.txt", "1 2 3\n");
+  ExpectError({"solve-window", Path("other.txt")}, "other.txt:1: is no window file");
+}
+
+TEST_F(SolveWindowCommandTest, AWindowThatCannotBeSolvedIsAFailure) {
+  WindowData data = SmallWindow();
+  data.point_observations[0].pixel.x() = 1e200;  // over sigma: a residual that is not finite
+  data.point_observations[0].sigma = 1e-200;
+  WriteWindow(Path("window.txt"), WindowOptions(), data);
+  ExpectError({"solve-window", Path("window.txt"), "--output", Path("solved.txt")},
+              "window.txt: the solver failed");
+  EXPECT_FALSE(std::filesystem::exists(Path("solved.txt")));
+}
+
+}  // namespace
+}  // namespace msc_vo
