@@ -62,7 +62,7 @@ int Run(const Arguments& arguments) {
   try {
     summary = SolveWindow(window.options, &window.data);
   } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(arguments.file + ": " + error.what() + "; correct the file");
+    throw std::runtime_error(arguments.file + ": " + error.what());
   }
   const double milliseconds = stopwatch.Milliseconds();
   if (arguments.json) {
