@@ -33,6 +33,9 @@ struct Arguments {
   int max_frames = 0;  // 0: all
   bool no_points = false;
   bool no_lines = false;
+  bool no_parallel = false;
+  bool no_perpendicular = false;
+  bool no_manhattan = false;
   bool quiet = false;
   bool print_config = false;
 };
@@ -44,6 +47,9 @@ ConfigurationArguments WithShortcuts(const Arguments& arguments) {
   if (!arguments.lines.empty()) settings.push_back("features.lines.detector=" + arguments.lines);
   if (arguments.no_points) settings.push_back("use_points=false");
   if (arguments.no_lines) settings.push_back("use_lines=false");
+  if (arguments.no_parallel) settings.push_back("mapping.pairs.parallel=false");
+  if (arguments.no_perpendicular) settings.push_back("mapping.pairs.perpendicular=false");
+  if (arguments.no_manhattan) settings.push_back("mapping.axes.enabled=false");
   ConfigurationArguments all = arguments.configuration;
   all.settings.insert(all.settings.begin(), settings.begin(), settings.end());
   return all;
@@ -108,6 +114,10 @@ Command AddReplayCommand(CLI::App* app) {
       ->check(CLI::IsMember(OptionChoices("features.lines.detector")));
   command->add_flag("--no-points", arguments->no_points, "Lines alone");
   command->add_flag("--no-lines", arguments->no_lines, "Points alone");
+  command->add_flag("--no-parallel", arguments->no_parallel, "No pairs of parallel map lines");
+  command->add_flag("--no-perpendicular", arguments->no_perpendicular,
+                    "No pairs of perpendicular map lines");
+  command->add_flag("--no-manhattan", arguments->no_manhattan, "No Manhattan axes");
   command->add_option("--max-frames", arguments->max_frames, "Stop after so many images")
       ->check(CLI::PositiveNumber);
   command->add_option("--dump-windows", arguments->windows,

@@ -20,8 +20,8 @@ std::string FormatVertex(const Eigen::Vector3d& x) {
   return FormatText("%.6f %.6f %.6f", x.x(), x.y(), x.z());
 }
 
-// The paper's colours (its Fig. 1): red, green, blue along an axis; purple along none; black outside
-// the last window.
+// The paper's colours (its Fig. 1): red, green, blue along an axis; purple along none; black
+// outside the last window.
 const char* LineColor(const MapLine& line) {
   if (!line.in_last_window) return "0 0 0";
   if (!line.axis) return "128 0 128";
@@ -64,7 +64,8 @@ std::string FormatPointsPly(const std::vector<MapPoint>& points) {
 std::string FormatLinesPly(const std::vector<MapLine>& lines) {
   std::string text = FormatText(
       "ply\nformat ascii 1.0\ncomment msc_vo map lines, metres\nelement vertex %zu\n"
-      "property float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+      "property float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar "
+      "green\n"
       "property uchar blue\nproperty int observations\n"
       "element edge %zu\nproperty int vertex1\nproperty int vertex2\nproperty uchar red\n"
       "property uchar green\nproperty uchar blue\nend_header\n",

@@ -31,7 +31,8 @@ bool OdometryOptions::IsValid(std::string* error) const {
     *error = "options: use_points and use_lines must not both be off";
     return false;
   }
-  return features.IsValid(error) && normals.IsValid(error) && tracking.IsValid(error) && mapping.IsValid(error);
+  return features.IsValid(error) && normals.IsValid(error) && tracking.IsValid(error) &&
+         mapping.IsValid(error);
 }
 
 }  // namespace msc_vo

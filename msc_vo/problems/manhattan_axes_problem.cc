@@ -105,8 +105,9 @@ bool Minimize(const ManhattanAxesOptions& options, const ManhattanAxesData& data
 }
 
 // J^T J over the inliers where every direction lies on its axis m: p p^T / sigma_n^2 + n n^T /
-// sigma^2 of one, with n and p the normal and what completes m and n to a basis, as turning about its own axis does not move it. At the noisy directions J^T J would claim to
-// know that turn a little, from noise alone.
+// sigma^2 of one, with n and p the normal and what completes m and n to a basis, as turning about
+// its own axis does not move it. At the noisy directions J^T J would claim to know that turn a
+// little, from noise alone.
 Eigen::Matrix3d Information(const ManhattanAxesData& data, const std::vector<bool>& inliers,
                             const Eigen::Quaterniond& world_from_manhattan) {
   const Eigen::Matrix3d axes = world_from_manhattan.toRotationMatrix();

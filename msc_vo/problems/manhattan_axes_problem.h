@@ -15,13 +15,13 @@ namespace msc_vo {
 struct ManhattanAxesData {
   struct Observation {
     Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  // unit, world; its sign has no meaning
-    int axis = 0;         // 0, 1 or 2: the column of world_from_manhattan that it belongs to
+    int axis = 0;  // 0, 1 or 2: the column of world_from_manhattan that it belongs to
     // Unit, world, perpendicular to the direction: that of the plane of sight, across which a
     // direction is known best.
     Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
     double sigma = 0.01;         // radians, of the direction's angle in the plane of sight
     double normal_sigma = 0.01;  // radians, out of it
-    bool inlier = true;   // out
+    bool inlier = true;          // out
   };
   Eigen::Quaterniond world_from_manhattan = Eigen::Quaterniond::Identity();  // in: coarse; out
   std::vector<Observation> observations;

@@ -84,8 +84,11 @@ TEST(ManhattanRotation, UnchangedByARotationOfTheWorld) {
   Random random(5);
   const Eigen::Quaterniond q = AnyRotation(&random), turn = AnyRotation(&random);
   const Eigen::Vector3d d = random.Normal3().normalized();
-  EXPECT_THAT(Residual(*CostPtr(ManhattanRotation::Create(turn * d, 2, 0.01)), {Block(turn * q)}),
-              IsNear(Residual(*CostPtr(ManhattanRotation::Create(d, 2, 0.01)), {Block(q)}), 1e-10));
+  const Eigen::Vector3d n = d.unitOrthogonal();
+  EXPECT_THAT(
+      Residual(*CostPtr(ManhattanRotation::Create(turn * d, turn * n, 2, 0.1, 0.01)),
+               {Block(turn * q)}),
+      IsNear(Residual(*CostPtr(ManhattanRotation::Create(d, n, 2, 0.1, 0.01)), {Block(q)}), 1e-10));
 }
 
 TEST(ManhattanRotation, NoiseOfSigmaBecomesUnitCovariance) {

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/io/text_file.h"
 #include "msc_vo/io/trajectory.h"
 
@@ -40,8 +41,12 @@ class ResultFilesTest : public TemporaryFolder {
     result.frames[4].status = TrackingStatus::kWeak;
     result.keyframes = {{10.0, Rigid3()}};
     result.points = {{{1.0, 2.0, 3.0}, 4}};
-    result.lines = {{{{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}}, 5, true},
-                    {{{0.0, 1.0, 1.0}, {1.0, 1.0, 1.0}}, 6, false}};
+    result.lines = {{{{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}}, 5, true, 0},
+                    {{{0.0, 2.0, 1.0}, {1.0, 2.0, 1.0}}, 7, true, std::nullopt},
+                    {{{0.0, 1.0, 1.0}, {1.0, 1.0, 1.0}}, 6, false, 1}};
+    result.axes.state = AxesState::kRefined;
+    result.axes.sigma = DegreesToRadians(0.1);
+    result.last_window.parallel = {12, 3, 5.0, 4.0};
     return result;
   }
 };
@@ -87,8 +92,11 @@ TEST_F(ResultFilesTest, WritesTheMapAsPly) {
               testing::AllOf(HasSubstr("element vertex 1\n"),
                              testing::EndsWith("end_header\n1.000000 2.000000 3.000000 4\n")));
   EXPECT_THAT(FormatLinesPly(Result().lines),
-              testing::AllOf(HasSubstr("element vertex 4\n"), HasSubstr("element edge 2\n"),
-                             testing::EndsWith("1.000000 1.000000 1.000000 6\n0 1\n2 3\n")));
+              testing::AllOf(HasSubstr("element vertex 6\n"), HasSubstr("element edge 3\n"),
+                             HasSubstr("0.000000 0.000000 1.000000 255 0 0 5\n"),
+                             HasSubstr("0.000000 2.000000 1.000000 128 0 128 7\n"),
+                             testing::EndsWith("1.000000 1.000000 1.000000 0 0 0 6\n"
+                                               "0 1 255 0 0\n2 3 128 0 128\n4 5 0 0 0\n")));
 }
 
 TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
@@ -117,7 +125,12 @@ TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
   EXPECT_EQ(summary["processor_seconds"], 3.0);
   EXPECT_EQ(summary["frames"]["not_tracked_spans"][0]["last_frame"], 3);
   EXPECT_TRUE(summary["error"].is_null());
-  EXPECT_EQ(summary["options"]["mode"], "pl-vo-depth");
+  EXPECT_EQ(summary["manhattan_axes"]["state"], "refined");
+  EXPECT_NEAR(summary["manhattan_axes"]["sigma_deg"], 0.1, 1e-9);
+  EXPECT_EQ(summary["manhattan_axes"]["lines"], nlohmann::json({1, 1, 0}));
+  EXPECT_EQ(summary["last_window"]["parallel"]["blocks"], 12);
+  EXPECT_EQ(summary["last_window"]["parallel"]["rejected"], 3);
+  EXPECT_EQ(summary["options"]["mode"], "msc-vo");
   EXPECT_EQ(summary["options"]["tracking.wide_radius"], 60.0);
 }
 

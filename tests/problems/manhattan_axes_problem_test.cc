@@ -29,6 +29,8 @@ ManhattanAxesData Observe(const Eigen::Quaterniond& truth, int count, double sig
     o.sigma = sigma;
     o.direction = ExpSO3(noise * random->Normal3()) * truth * Eigen::Vector3d::Unit(o.axis);
     if (i % 2 == 0) o.direction = -o.direction;
+    o.normal = o.direction.unitOrthogonal();
+    o.normal_sigma = sigma;
     data.observations.push_back(o);
   }
   return data;
