@@ -70,8 +70,9 @@ TEST_F(ManhattanAxesTest, NoiseAndWrongAssociationsFromACoarseStart) {
   const double sigma = DegreesToRadians(0.7);
   ManhattanAxesData data = Observe(truth_, 300, sigma, sigma, &random_);
   for (int i = 0; i < 300; i += 6) {
-    data.observations[i].direction =
-        ExpSO3(0.3 * random_.Normal3()) * data.observations[i].direction;
+    ManhattanAxesData::Observation& o = data.observations[i];
+    o.direction = ExpSO3(0.3 * random_.Normal3()) * o.direction;
+    o.normal = o.direction.unitOrthogonal();
   }
   Disturb(&data, 5.0);
   const ManhattanAxesSummary summary = SolveManhattanAxes(options_, &data);
