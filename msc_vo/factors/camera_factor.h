@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <ceres/jet.h>
 
 #include "msc_vo/factors/cost_functor.h"
 #include "msc_vo/geometry/pinhole_camera.h"
@@ -24,14 +23,24 @@ Eigen::Matrix<T, 2, 1> Project(const PinholeCamera& camera,
           camera.fy * x_in_cam.y() / x_in_cam.z() + camera.cy};
 }
 
+// d pi(x) / dx, pixels per metre.
+inline Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camera,
+                                                      const Eigen::Vector3d& x_in_cam) {
+  const double inverse_z = 1.0 / x_in_cam.z();
+  const double u = camera.fx * inverse_z, v = camera.fy * inverse_z;
+  Eigen::Matrix<double, 2, 3> j;
+  j << u, 0.0, -u * x_in_cam.x() * inverse_z, 0.0, v, -v * x_in_cam.y() * inverse_z;
+  return j;
+}
+
 // Base of the factors that see a landmark through the camera coordinates x = T X of its points only
 // (one for a point, start and end for a line). Blocks: cam_from_world (7), landmark (3 per point).
-// The factor gives the rows that belong to point k,
+// The factor gives the rows that belong to point k, and their derivative by hand,
 //
 //   template <typename T> void Residual(int k, const Eigen::Matrix<T, 3, 1>& x_in_cam, T* r) const;
+//   Eigen::Matrix<double, RowsPerPoint, 3> Jacobian(int k, const Eigen::Vector3d& x_in_cam) const;
 //
-// With that, its derivatives need a Jet of three numbers instead of ten or thirteen; the rest is
-// the same chain rule for all (ChainRuleCost, and the pose problem).
+// From x to pose and landmark it is the same chain rule for all (ChainRuleCost, and the problems).
 template <typename Factor, int Points, int RowsPerPoint>
 struct CameraFactor : CostFunctor<Factor, Points * RowsPerPoint, 7, 3 * Points> {
   static constexpr int kNumPoints = Points;
@@ -56,15 +65,8 @@ template <typename Factor>
 void LinearizeInCamera(const Factor& factor, int k, const Eigen::Vector3d& x_in_cam,
                        double* residual,
                        Eigen::Matrix<double, Factor::kRowsPerPoint, 3>* jacobian) {
-  using Jet = ceres::Jet<double, 3>;
-  const Eigen::Matrix<Jet, 3, 1> x(Jet(x_in_cam.x(), 0), Jet(x_in_cam.y(), 1),
-                                   Jet(x_in_cam.z(), 2));
-  Jet rows[Factor::kRowsPerPoint];
-  factor.Residual(k, x, rows);
-  for (int i = 0; i < Factor::kRowsPerPoint; ++i) {
-    residual[i] = rows[i].a;
-    jacobian->row(i) = rows[i].v.transpose();
-  }
+  factor.Residual(k, x_in_cam, residual);
+  *jacobian = factor.Jacobian(k, x_in_cam);
 }
 
 }  // namespace msc_vo

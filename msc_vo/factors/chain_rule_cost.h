@@ -10,8 +10,8 @@
 
 namespace msc_vo {
 
-// The cost function of a camera factor, about three times faster than Factor::Create: the
-// derivative with respect to the camera coordinates x = R(q) X + t is automatic, the rest is
+// The cost function of a camera factor without automatic derivatives: that with respect to the
+// camera coordinates x = R(q) X + t is the factor's Jacobian, the rest is
 //
 //   dx/dt = I,  dx/dX = R(q),  dx/dq_v = 2 (-q_w [X]x + (q_v . X) I + q_v X^T - 2 X q_v^T),
 //   dx/dq_w = 2 q_v x X,

@@ -25,6 +25,9 @@ class DepthReprojection : public CameraFactor<DepthReprojection, 1, 1> {
   void Residual(int /*k*/, const Eigen::Matrix<T, 3, 1>& x_in_cam, T* r) const {
     r[0] = (1.0 / x_in_cam.z() - inverse_depth_) * inverse_sigma_;
   }
+  Eigen::RowVector3d Jacobian(int /*k*/, const Eigen::Vector3d& x_in_cam) const {
+    return {0.0, 0.0, -inverse_sigma_ / (x_in_cam.z() * x_in_cam.z())};
+  }
 
  private:
   double inverse_depth_;  // 1/metres

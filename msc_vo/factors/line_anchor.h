@@ -31,6 +31,8 @@ class LineAnchor : public CostFunctor<LineAnchor, 2, 6> {
     }
     return true;
   }
+  // Of its own row, with respect to either end point.
+  Eigen::Vector3d Jacobian() const { return inverse_sigma_ * direction_; }
 
  private:
   LineSegment3 initial_;

@@ -39,6 +39,11 @@ class LineDepthReprojection : public CameraFactor<LineDepthReprojection, 2, 1> {
     const T s = (p.x() - start_.x()) * along_.x() + (p.y() - start_.y()) * along_.y();
     r[0] = (1.0 / x_in_cam.z() - inverse_depth_ - s * slope_) * inverse_sigma_[k];
   }
+  Eigen::RowVector3d Jacobian(int k, const Eigen::Vector3d& x_in_cam) const {
+    Eigen::RowVector3d j = -slope_ * along_.transpose() * ProjectionJacobian(camera_, x_in_cam);
+    j.z() -= 1.0 / (x_in_cam.z() * x_in_cam.z());
+    return inverse_sigma_[k] * j;
+  }
 
  private:
   PinholeCamera camera_;

@@ -20,4 +20,13 @@ bool LineDirection(const T* line, Eigen::Matrix<T, 3, 1>* direction) {
   return true;
 }
 
+// d direction / d(end - start), 1/metres: what turns the line, divided by its length; along the
+// line nothing.
+inline Eigen::Matrix3d LineDirectionJacobian(const double* line) {
+  const Eigen::Vector3d v(line[3] - line[0], line[4] - line[1], line[5] - line[2]);
+  const double length = v.norm();
+  const Eigen::Vector3d d = v / length;
+  return (Eigen::Matrix3d::Identity() - d * d.transpose()) / length;
+}
+
 }  // namespace msc_vo

@@ -34,6 +34,10 @@ class LineReprojection : public CameraFactor<LineReprojection, 2, 1> {
     r[0] =
         (image_line_.x() * p.x() + image_line_.y() * p.y() + image_line_.z()) * inverse_sigma_[k];
   }
+  Eigen::RowVector3d Jacobian(int k, const Eigen::Vector3d& x_in_cam) const {
+    return inverse_sigma_[k] * image_line_.head<2>().transpose() *
+           ProjectionJacobian(camera_, x_in_cam);
+  }
 
  private:
   PinholeCamera camera_;

@@ -27,9 +27,20 @@ class ManhattanAxisAlignment : public CostFunctor<ManhattanAxisAlignment, 2, 6> 
   bool operator()(const T* line, T* residuals) const {
     Eigen::Matrix<T, 3, 1> d;
     if (!LineDirection(line, &d)) return false;
-    residuals[0] = (d.x() * e1_.x() + d.y() * e1_.y() + d.z() * e1_.z()) * inverse_sigma_;
-    residuals[1] = (d.x() * e2_.x() + d.y() * e2_.y() + d.z() * e2_.z()) * inverse_sigma_;
+    Residual(d, residuals);
     return true;
+  }
+
+  // The rows as a function of the unit direction, and their derivative.
+  template <typename T>
+  void Residual(const Eigen::Matrix<T, 3, 1>& d, T* r) const {
+    r[0] = (d.x() * e1_.x() + d.y() * e1_.y() + d.z() * e1_.z()) * inverse_sigma_;
+    r[1] = (d.x() * e2_.x() + d.y() * e2_.y() + d.z() * e2_.z()) * inverse_sigma_;
+  }
+  Eigen::Matrix<double, 2, 3> Jacobian() const {
+    Eigen::Matrix<double, 2, 3> j;
+    j << e1_.transpose(), e2_.transpose();
+    return inverse_sigma_ * j;
   }
 
  private:

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "msc_vo/factors/cost_functor.h"
-#include "msc_vo/factors/line_direction.h"
+#include "msc_vo/factors/line_pair_factor.h"
+#include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
 
@@ -19,28 +19,22 @@ namespace msc_vo {
 // Three rows of rank two: at parallel, r has no part along the common direction. A form of two rows
 // needs a basis across one of the lines, which would have to turn with it (no smooth field of such
 // bases exists) or be frozen outside of the equation; the third row costs six products.
-class ParallelLines : public CostFunctor<ParallelLines, 3, 6, 6> {
+class ParallelLines : public LinePairFactor<ParallelLines, 3> {
  public:
-  explicit ParallelLines(double sigma) : inverse_sigma_(1.0 / sigma) {}
+  using LinePairFactor::LinePairFactor;
 
-  template <typename T>
-  bool operator()(const T* line_i, const T* line_j, T* residuals) const {
-    Eigen::Matrix<T, 3, 1> d_i, d_j;
-    if (!LineDirection(line_i, &d_i) || !LineDirection(line_j, &d_j)) return false;
-    Residual(d_i, d_j, residuals);
-    return true;
-  }
-
-  // The rows as a function of the unit directions.
   template <typename T>
   void Residual(const Eigen::Matrix<T, 3, 1>& d_i, const Eigen::Matrix<T, 3, 1>& d_j, T* r) const {
     r[0] = (d_i.y() * d_j.z() - d_i.z() * d_j.y()) * inverse_sigma_;
     r[1] = (d_i.z() * d_j.x() - d_i.x() * d_j.z()) * inverse_sigma_;
     r[2] = (d_i.x() * d_j.y() - d_i.y() * d_j.x()) * inverse_sigma_;
   }
-
- private:
-  double inverse_sigma_;  // 1/radians
+  Jacobian JacobianI(const Eigen::Vector3d& /*d_i*/, const Eigen::Vector3d& d_j) const {
+    return -inverse_sigma_ * Skew(d_j);
+  }
+  Jacobian JacobianJ(const Eigen::Vector3d& d_i, const Eigen::Vector3d& /*d_j*/) const {
+    return inverse_sigma_ * Skew(d_i);
+  }
 };
 
 }  // namespace msc_vo

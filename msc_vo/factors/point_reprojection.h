@@ -26,6 +26,9 @@ class PointReprojection : public CameraFactor<PointReprojection, 1, 2> {
     r[0] = (projection.x() - pixel_.x()) * inverse_sigma_;
     r[1] = (projection.y() - pixel_.y()) * inverse_sigma_;
   }
+  Eigen::Matrix<double, 2, 3> Jacobian(int /*k*/, const Eigen::Vector3d& x_in_cam) const {
+    return inverse_sigma_ * ProjectionJacobian(camera_, x_in_cam);
+  }
 
  private:
   PinholeCamera camera_;

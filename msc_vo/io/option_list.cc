@@ -229,6 +229,13 @@ void ListSelection(WindowSelectionOptions* selection, OptionLister* list) {
 }
 
 void ListWindow(WindowOptions* window, OptionLister* list) {
+  list->AddChoice("solver", &window->solver,
+                  {"block-schur", "ceres-dense-schur", "ceres-suite-sparse", "ceres-eigen-sparse"},
+                  "what minimises the window's sum; the first is the fastest");
+  list->Add("analytic_jacobians", &window->analytic_jacobians,
+            "of the Ceres solvers; off: automatic derivatives");
+  list->Add("explicit_ordering", &window->explicit_ordering,
+            "of the Ceres solvers; off: Ceres chooses what it eliminates first");
   ListTerms(window, list);
   list->Section("parallel", &window->parallel, ListTerm);
   list->Section("perpendicular", &window->perpendicular, ListTerm);

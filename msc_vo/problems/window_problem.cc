@@ -3,16 +3,11 @@
 
 #include "msc_vo/problems/window_problem.h"
 
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
-#include <utility>
 
-#include <ceres/solver.h>
-
+#include "msc_vo/problems/ceres_window.h"
 #include "msc_vo/problems/validation.h"
-#include "msc_vo/problems/window_builder.h"
 #include "msc_vo/problems/window_validation.h"
 
 namespace msc_vo {
@@ -49,19 +44,16 @@ WindowActivity AllInFront(const WindowOptions& options, const WindowIndex& index
 }
 
 // Chi-square test of the observations of one kind at the present solution.
-void Classify(const WindowTerm& reprojection, const WindowTerm& depth, double limit,
-              double limit_with_depth, std::vector<Activity>* activity, int* num_rejected,
-              int* num_depths_rejected) {
+template <typename Reprojection, typename Depth>
+void Classify(const WindowTerm<Reprojection>& reprojection, const WindowTerm<Depth>& depth,
+              const WindowState& state, double limit, double limit_with_depth,
+              std::vector<Activity>* activity, int* num_rejected, int* num_depths_rejected) {
   std::vector<double> pixels(activity->size(), 0.0);
   std::vector<double> depths(activity->size(), 0.0);
-  const auto scatter = [](const WindowTerm& term, std::vector<double>* by_observation) {
-    const std::vector<double> chi_squares = term.ChiSquares();
-    for (size_t i = 0; i < chi_squares.size(); ++i) {
-      (*by_observation)[term.blocks[i].source] = chi_squares[i];
-    }
-  };
-  scatter(reprojection, &pixels);
-  scatter(depth, &depths);
+  for (const auto& block : reprojection.blocks) {
+    pixels[block.source] = ChiSquare<Reprojection>(block, state);
+  }
+  for (const auto& block : depth.blocks) depths[block.source] = ChiSquare<Depth>(block, state);
   for (size_t i = 0; i < activity->size(); ++i) {
     Activity& now = (*activity)[i];
     if (!now.reprojection) continue;  // behind its camera
@@ -73,91 +65,74 @@ void Classify(const WindowTerm& reprojection, const WindowTerm& depth, double li
 }
 
 // The same of pairs or alignments.
-void Classify(const WindowTerm& term, double limit, std::vector<bool>* active, int* num_rejected) {
-  const std::vector<double> chi_squares = term.ChiSquares();
-  for (size_t i = 0; i < chi_squares.size(); ++i) {
-    const bool passes = chi_squares[i] <= limit;
-    (*active)[term.blocks[i].source] = passes;
+template <typename Factor>
+void Classify(const WindowTerm<Factor>& term, const WindowState& state, double limit,
+              std::vector<bool>* active, int* num_rejected) {
+  for (const auto& block : term.blocks) {
+    const bool passes = ChiSquare<Factor>(block, state) <= limit;
+    (*active)[block.source] = passes;
     *num_rejected += !passes;
   }
 }
 
-void ClassifyAll(const WindowOptions& options, const WindowBuilder& builder,
+void ClassifyAll(const WindowOptions& options, const WindowTerms& terms, const WindowState& state,
                  WindowActivity* activity, WindowSummary* summary) {
-  Classify(builder.point_reprojection, builder.point_depth, options.reject_chi2_2,
+  Classify(terms.point_reprojection, terms.point_depth, state, options.reject_chi2_2,
            options.reject_chi2_3, &activity->points, &summary->point_reprojection.num_rejected,
            &summary->point_depth.num_rejected);
-  Classify(builder.line_reprojection, builder.line_depth, options.reject_chi2_2,
+  Classify(terms.line_reprojection, terms.line_depth, state, options.reject_chi2_2,
            options.reject_chi2_4, &activity->lines, &summary->line_reprojection.num_rejected,
            &summary->line_depth.num_rejected);
-  Classify(builder.parallel, options.reject_chi2_2, &activity->parallel,
+  Classify(terms.parallel, state, options.reject_chi2_2, &activity->parallel,
            &summary->parallel.num_rejected);
-  Classify(builder.perpendicular, options.reject_chi2_1, &activity->perpendicular,
+  Classify(terms.perpendicular, state, options.reject_chi2_1, &activity->perpendicular,
            &summary->perpendicular.num_rejected);
-  Classify(builder.manhattan, options.reject_chi2_2, &activity->alignments,
+  Classify(terms.manhattan, state, options.reject_chi2_2, &activity->alignments,
            &summary->manhattan.num_rejected);
 }
 
-ceres::Solver::Summary Solve(int max_iterations, WindowBuilder* builder) {
-  ceres::Solver::Options options;
-  options.max_num_iterations = max_iterations;
-  // The reduced system is small (6 per free keyframe) and mostly full in a window of covisible
-  // keyframes.
-  options.linear_solver_type = ceres::DENSE_SCHUR;
-  options.linear_solver_ordering = builder->EliminationOrdering();
-  // One thread: more would add up in another order, and gain nothing at this size.
-  options.num_threads = 1;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, builder->problem(), &summary);
-  return summary;
-}
-
-// Every term of the builder with its summary.
-using TermPair = std::pair<const WindowTerm*, TermSummary*>;
-std::array<TermPair, 8> Terms(const WindowBuilder& builder, WindowSummary* summary) {
-  return {{{&builder.point_reprojection, &summary->point_reprojection},
-           {&builder.point_depth, &summary->point_depth},
-           {&builder.line_reprojection, &summary->line_reprojection},
-           {&builder.line_depth, &summary->line_depth},
-           {&builder.line_anchor, &summary->line_anchor},
-           {&builder.parallel, &summary->parallel},
-           {&builder.perpendicular, &summary->perpendicular},
-           {&builder.manhattan, &summary->manhattan}}};
+// Calls visit(term, its summary) for every term.
+template <typename Visitor>
+void ForEachTerm(const WindowTerms& terms, WindowSummary* summary, const Visitor& visit) {
+  visit(terms.point_reprojection, &summary->point_reprojection);
+  visit(terms.point_depth, &summary->point_depth);
+  visit(terms.line_reprojection, &summary->line_reprojection);
+  visit(terms.line_depth, &summary->line_depth);
+  visit(terms.line_anchor, &summary->line_anchor);
+  visit(terms.parallel, &summary->parallel);
+  visit(terms.perpendicular, &summary->perpendicular);
+  visit(terms.manhattan, &summary->manhattan);
 }
 
 // Writes the costs of all terms into one member of their summaries; returns their sum.
-double WriteCosts(const WindowBuilder& builder, double TermSummary::*member,
+double WriteCosts(const WindowTerms& terms, const WindowState& state, double TermSummary::*member,
                   WindowSummary* summary) {
   double sum = 0.0;
-  for (const auto& [term, its_summary] : Terms(builder, summary)) {
-    its_summary->*member = term->Cost();
+  ForEachTerm(terms, summary, [&](const auto& term, TermSummary* its_summary) {
+    its_summary->*member = Cost(term, state);
     sum += its_summary->*member;
-  }
+  });
   return sum;
 }
 
-void WriteCounts(const WindowBuilder& builder, WindowSummary* summary) {
-  for (const auto& [term, its_summary] : Terms(builder, summary)) {
-    its_summary->num_residual_blocks = static_cast<int>(term->blocks.size());
-  }
+void WriteCounts(const WindowTerms& terms, WindowSummary* summary) {
+  ForEachTerm(terms, summary, [](const auto& term, TermSummary* its_summary) {
+    its_summary->num_residual_blocks = static_cast<int>(term.blocks.size());
+  });
 }
 
 // Only what took part in the last solve: a landmark or keyframe that lost its last observation
 // keeps the values it came with.
-void WriteBack(const ceres::Problem& problem, const WindowActivity& activity, WindowState* state,
+void WriteBack(const WindowTerms& terms, const WindowActivity& activity, const WindowState& state,
                WindowData* data) {
   for (size_t i = 0; i < data->keyframes.size(); ++i) {
-    if (!problem.HasParameterBlock(state->PoseBlock(i))) continue;
-    data->keyframes[i].cam_from_world = state->Pose(i);
+    if (terms.keyframe_observes[i]) data->keyframes[i].cam_from_world = state.Pose(i);
   }
   for (size_t i = 0; i < data->points.size(); ++i) {
-    if (!problem.HasParameterBlock(state->PointBlock(i))) continue;
-    data->points[i].position = state->Point(i);
+    if (terms.point_observed[i]) data->points[i].position = state.Point(i);
   }
   for (size_t i = 0; i < data->lines.size(); ++i) {
-    if (!problem.HasParameterBlock(state->LineBlock(i))) continue;
-    data->lines[i].segment = state->Line(i);
+    if (terms.line_observed[i]) data->lines[i].segment = state.Line(i);
   }
   for (size_t i = 0; i < activity.points.size(); ++i) {
     data->point_observations[i].rejected = !activity.points[i].reprojection;
@@ -176,6 +151,14 @@ void WriteBack(const ceres::Problem& problem, const WindowActivity& activity, Wi
   }
 }
 
+MinimizerReport Minimize(const WindowOptions& options, const WindowData& data,
+                         const WindowTerms& terms, int max_iterations, WindowState* state) {
+  if (options.solver == WindowSolver::kBlockSchur) {
+    return MinimizeWindow(data, terms, max_iterations, state);
+  }
+  return CeresWindow(options, data, terms, state).Minimize(max_iterations);
+}
+
 }  // namespace
 
 WindowSummary SolveWindow(const WindowOptions& options, WindowData* data) {
@@ -184,25 +167,25 @@ WindowSummary SolveWindow(const WindowOptions& options, WindowData* data) {
   WindowActivity activity = AllInFront(options, index, *data, &summary.num_behind_camera);
   WindowState state(*data);
 
-  const auto solve = [&](int iterations, WindowBuilder* builder) {
-    const ceres::Solver::Summary result = Solve(iterations, builder);
-    summary.num_iterations += static_cast<int>(result.iterations.size());
-    summary.schur_structure = result.schur_structure_used;
-    summary.message = result.message;
-    return result.IsSolutionUsable() && state.AllFinite();
+  const auto minimize = [&](const WindowTerms& terms, int iterations) {
+    const MinimizerReport report = Minimize(options, *data, terms, iterations, &state);
+    summary.num_iterations += report.num_iterations;
+    summary.schur_structure = report.schur_structure;
+    summary.message = report.message;
+    return report.usable && state.AllFinite();
   };
 
-  WindowBuilder first(options, *data, index, activity, &state);
-  summary.initial_cost = WriteCosts(first, &TermSummary::initial_cost, &summary);
-  if (!solve(options.first_iterations, &first)) return summary;
-  ClassifyAll(options, first, &activity, &summary);
+  const WindowTerms first = MakeWindowTerms(options, *data, index, activity, state);
+  summary.initial_cost = WriteCosts(first, state, &TermSummary::initial_cost, &summary);
+  if (!minimize(first, options.first_iterations)) return summary;
+  ClassifyAll(options, first, state, &activity, &summary);
 
-  WindowBuilder second(options, *data, index, activity, &state);
-  if (!solve(options.second_iterations, &second)) return summary;
+  const WindowTerms second = MakeWindowTerms(options, *data, index, activity, state);
+  if (!minimize(second, options.second_iterations)) return summary;
   WriteCounts(second, &summary);
-  summary.final_cost = WriteCosts(second, &TermSummary::final_cost, &summary);
+  summary.final_cost = WriteCosts(second, state, &TermSummary::final_cost, &summary);
   summary.usable = true;
-  WriteBack(*second.problem(), activity, &state, data);
+  WriteBack(second, activity, state, data);
   return summary;
 }
 
@@ -218,6 +201,8 @@ bool WindowOptions::IsValid(std::string* error) const {
     *error = "line_anchor_sigma must be positive";
   } else if (first_iterations < 1 || second_iterations < 1) {
     *error = "first_iterations and second_iterations must be at least 1";
+  } else if (!IsAvailable(solver)) {
+    *error = "solver: this Ceres was built without the sparse library asked for";
   } else {
     return true;
   }

@@ -15,7 +15,22 @@ struct TermOptions {
   double huber = 2.0;  // sigmas; where the loss turns from square to linear
 };
 
+// What minimises the sum of factors. All go the same way, to the same minimum.
+enum class WindowSolver {
+  kBlockSchur,       // linear algebra made for the window: by far the fastest
+  kCeresDenseSchur,  // Ceres: the reference
+  // The same with sparse matrices, of the library that Ceres must have been built with.
+  kCeresSuiteSparse,
+  kCeresEigenSparse,
+};
+
 struct WindowOptions {
+  WindowSolver solver = WindowSolver::kBlockSchur;
+  // Of the Ceres solvers; off: derivatives are automatic, and the order of elimination is Ceres's.
+  // For comparison.
+  bool analytic_jacobians = true;
+  bool explicit_ordering = true;
+
   // Huber thresholds: square root of the 95 % chi-square quantile with the term's number of rows
   // (2 rows 5.991, 1 row 3.841), so that 5 % of good residuals feel the loss.
   TermOptions point_reprojection{true, 2.448};
@@ -55,14 +70,15 @@ struct TermSummary {
 };
 
 struct WindowSummary {
-  bool usable = false;  // false: the solver failed and the data were left unchanged
-  int num_iterations = 0;
+  bool usable = false;     // false: the solver failed and the data were left unchanged
+  int num_iterations = 0;  // steps tried, in both solves
   double initial_cost = 0.0;
   double final_cost = 0.0;
   TermSummary point_reprojection, point_depth, line_reprojection, line_depth, line_anchor;
   TermSummary parallel, perpendicular, manhattan;
-  int num_behind_camera = 0;    // observations dropped by the builder, marked rejected
-  std::string schur_structure;  // Ceres' schur_structure_used
+  int num_behind_camera = 0;  // observations dropped by the builder, marked rejected
+  std::string
+      schur_structure;  // how the normal equations were solved; of Ceres, schur_structure_used
   std::string message;
 
   std::string BriefReport() const;

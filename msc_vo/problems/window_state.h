@@ -33,6 +33,9 @@ class WindowState {
   double* PointBlock(size_t i) { return &numbers_[3 * i]; }
   double* LineBlock(size_t i) { return &numbers_[lines_ + 6 * i]; }
   double* PoseBlock(size_t i) { return &numbers_[poses_ + 7 * i]; }
+  const double* PointBlock(size_t i) const { return &numbers_[3 * i]; }
+  const double* LineBlock(size_t i) const { return &numbers_[lines_ + 6 * i]; }
+  const double* PoseBlock(size_t i) const { return &numbers_[poses_ + 7 * i]; }
 
   // Their present values.
   Eigen::Vector3d Point(size_t i) const { return Eigen::Vector3d(&numbers_[3 * i]); }

@@ -8,11 +8,6 @@
 namespace msc_vo {
 namespace {
 
-LineSegment3 AnyLine(Random* random) {
-  const Eigen::Vector3d start = random->Normal3(), end = random->Normal3();
-  return {start, end};
-}
-
 TEST(ManhattanAxisAlignment, ZeroAlongTheAxisInEitherSense) {
   Random random(1);
   for (int i = 0; i < 10; ++i) {
@@ -36,7 +31,7 @@ TEST(ManhattanAxisAlignment, NormIsTheSine) {
   Random random(2);
   for (int i = 0; i < 10; ++i) {
     const Eigen::Vector3d axis = random.Normal3().normalized();
-    const LineSegment3 line = AnyLine(&random);
+    const LineSegment3 line = random.Line();
     EXPECT_NEAR(
         0.03 * Residual(*CostPtr(ManhattanAxisAlignment::Create(axis, 0.03)), {Block(line)}).norm(),
         axis.cross(line.Direction()).norm(), 1e-12);
@@ -48,7 +43,7 @@ TEST(ManhattanAxisAlignment, GradientsEverywhereAlongOppositeAndSquareToTheAxis)
   for (int i = 0; i < 5; ++i) {
     const Eigen::Vector3d axis = random.Normal3().normalized(), start = random.Normal3();
     const CostPtr cost(ManhattanAxisAlignment::Create(axis, 0.03));
-    ExpectGradientsMatch(*cost, {Block(AnyLine(&random))});
+    ExpectGradientsMatch(*cost, {Block(random.Line())});
     for (const Eigen::Vector3d& d : {axis, Eigen::Vector3d(-axis), axis.unitOrthogonal().eval()}) {
       ExpectGradientsMatch(*cost, {Block(LineSegment3{start, start + 0.8 * d})});
     }
@@ -67,7 +62,7 @@ TEST(ManhattanAxisAlignment, FullRankAtAligned) {
 TEST(ManhattanAxisAlignment, NormUnchangedByMotionOfTheWorldSwappedEndPointsAndSignOfTheAxis) {
   Random random(4);
   const Eigen::Vector3d axis = random.Normal3().normalized();
-  const LineSegment3 line = AnyLine(&random), swapped{line.end, line.start};
+  const LineSegment3 line = random.Line(), swapped{line.end, line.start};
   const Rigid3 motion = random.Pose();
   const auto norm = [](const Eigen::Vector3d& a, const LineSegment3& l) {
     return Residual(*CostPtr(ManhattanAxisAlignment::Create(a, 0.03)), {Block(l)}).norm();

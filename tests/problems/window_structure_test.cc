@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 
 #include "msc_vo/geometry/angles.h"
-#include "msc_vo/problems/window_builder.h"
+#include "msc_vo/problems/ceres_window.h"
 #include "msc_vo/problems/window_problem.h"
 
 namespace msc_vo {
@@ -309,16 +309,16 @@ TEST_F(WindowStructureTest, OfPairedLinesNoTwoAreEliminatedFirst) {
   activity.perpendicular.assign(data_.perpendicular_pairs.size(), true);
   activity.alignments.assign(data_.axis_alignments.size(), true);
   WindowState state(data_);
-  WindowBuilder builder(options_, data_, index, activity, &state);
-  const auto ordering = builder.EliminationOrdering();
+  const WindowTerms terms = MakeWindowTerms(options_, data_, index, activity, state);
+  const auto ordering = CeresWindow(options_, data_, terms, &state).EliminationOrdering();
   const auto group = [&](int line) { return ordering->GroupId(state.LineBlock(line)); };
   EXPECT_EQ(group(0), 1);
   for (int i = 1; i < 10; ++i) EXPECT_EQ(group(i), 0) << i;
   for (int i = 10; i < 14; ++i) EXPECT_EQ(group(i) + group(i + 1), 1) << i;
   for (int i = 15; i < 40; ++i) EXPECT_EQ(group(i), 0) << i;
-  EXPECT_EQ(builder.parallel.blocks.size(), 3u);
-  EXPECT_EQ(builder.perpendicular.blocks.size(), 10u);
-  EXPECT_EQ(builder.manhattan.blocks.size(), 40u);
+  EXPECT_EQ(terms.parallel.blocks.size(), 3u);
+  EXPECT_EQ(terms.perpendicular.blocks.size(), 10u);
+  EXPECT_EQ(terms.manhattan.blocks.size(), 40u);
 }
 
 TEST_F(WindowStructureTest, MisuseNamesTheOffender) {

@@ -93,19 +93,22 @@ inline void ExpectGradientsMatch(const ceres::CostFunction& cost, const Blocks& 
   }
 }
 
-// The chain-rule form of a camera factor is the automatic derivative, number for number.
-template <typename Factor>
-void ExpectChainRuleMatches(const Factor& factor, const Blocks& blocks) {
-  const CostPtr automatic(Factor::Create(factor));
-  const ChainRuleCost<Factor> chain_rule(factor);
-  const Linearization a = Linearize(*automatic, blocks);
-  const Linearization b = Linearize(chain_rule, blocks);
+// A cost function with derivatives by hand is the automatic one, number for number.
+inline void ExpectSameCostFunction(const ceres::CostFunction& analytic,
+                                   const ceres::CostFunction& automatic, const Blocks& blocks) {
+  const Linearization a = Linearize(automatic, blocks);
+  const Linearization b = Linearize(analytic, blocks);
   // Relative to the size of the entries: both round differently.
   EXPECT_THAT(b.residual, IsNear(a.residual, 1e-12 * (1e3 + a.residual.norm())));
-  EXPECT_THAT(Residual(chain_rule, blocks), IsNear(a.residual, 1e-12));
+  EXPECT_THAT(Residual(analytic, blocks), IsNear(a.residual, 1e-12));
   for (size_t i = 0; i < blocks.size(); ++i) {
     EXPECT_THAT(b.jacobians[i], IsNear(a.jacobians[i], 1e-12 * (1.0 + a.jacobians[i].norm())));
   }
+}
+
+template <typename Factor>
+void ExpectChainRuleMatches(const Factor& factor, const Blocks& blocks) {
+  ExpectSameCostFunction(ChainRuleCost<Factor>(factor), *CostPtr(Factor::Create(factor)), blocks);
 }
 
 // Covariance of samples against the identity, within five standard errors of the estimate.
@@ -136,6 +139,8 @@ inline Rigid3 Moved(const Rigid3& pose, const Eigen::Vector3d& w, const Eigen::V
   return {ExpSO3(w) * pose.rotation(), pose.translation() + u};
 }
 
+inline LineSegment3 Swapped(const LineSegment3& line) { return {line.end, line.start}; }
+
 // Rotation (radians) and translation (metres) between two poses.
 inline double Distance(const Rigid3& a, const Rigid3& b) {
   Eigen::Matrix<double, 6, 1> difference;
@@ -163,6 +168,15 @@ class Random {
   Rigid3 Pose() {
     const Eigen::Vector3d w = Normal3(), t = Normal3();
     return {ExpSO3(w), t};
+  }
+  LineSegment3 Line() {
+    const Eigen::Vector3d start = Normal3(), end = Normal3();
+    return {start, end};
+  }
+  // A line along d, anywhere.
+  LineSegment3 LineAlong(const Eigen::Vector3d& d) {
+    const Eigen::Vector3d start = Normal3();
+    return {start, start + Uniform(0.3, 3.0) * d};
   }
   // A point that the camera sees, in camera coordinates.
   Eigen::Vector3d InView() {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <ceres/sized_cost_function.h>
+
+#include "msc_vo/factors/line_pair_factor.h"
+
+namespace msc_vo {
+
+// The cost function of a line pair factor without automatic derivatives: with v = E - S,
+//
+//   dr/dE = dr/dd dd/dv,  dr/dS = -dr/dE
+//
+// of either line. Equal to the automatic derivative of the whole.
+template <typename Factor>
+class LinePairCost final : public ceres::SizedCostFunction<Factor::kNumResiduals, 6, 6> {
+ public:
+  explicit LinePairCost(const Factor& factor) : factor_(factor) {}
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    Eigen::Vector3d d_i, d_j;
+    if (!LineDirection(parameters[0], &d_i) || !LineDirection(parameters[1], &d_j)) return false;
+    factor_.Residual(d_i, d_j, residuals);
+    if (jacobians == nullptr) return true;
+    Write(factor_.JacobianI(d_i, d_j), parameters[0], jacobians[0]);
+    Write(factor_.JacobianJ(d_i, d_j), parameters[1], jacobians[1]);
+    return true;
+  }
+
+ private:
+  static void Write(const typename Factor::Jacobian& by_direction, const double* line,
+                    double* jacobian) {
+    if (jacobian == nullptr) return;
+    Eigen::Map<Eigen::Matrix<double, Factor::kNumResiduals, 6, Eigen::RowMajor>> j(jacobian);
+    j.template rightCols<3>() = by_direction * LineDirectionJacobian(line);
+    j.template leftCols<3>() = -j.template rightCols<3>();
+  }
+
+  Factor factor_;
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/problems/window_minimizer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "msc_vo/problems/schur_window.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Size of the region in which the quadratic model is trusted: the inverse of the relative damping.
+// Rules and constants are those of Ceres, so that both minimisers go the same way.
+class TrustRegion {
+ public:
+  double radius() const { return radius_; }
+  bool IsGone() const { return radius_ < 1e-32; }
+
+  // `gain`: decrease of the cost over the model's.
+  void Accept(double gain) {
+    radius_ = std::min(1e16, radius_ / std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * gain - 1.0, 3)));
+    shrinkage_ = 2.0;
+  }
+  void Reject() {
+    radius_ /= shrinkage_;
+    shrinkage_ *= 2.0;
+  }
+
+ private:
+  double radius_ = 1e4;
+  double shrinkage_ = 2.0;
+};
+
+constexpr double kMinGain = 1e-3;            // a step that gains less is not taken
+constexpr double kFunctionTolerance = 1e-6;  // relative change of the cost at which it has arrived
+
+}  // namespace
+
+MinimizerReport MinimizeWindow(const WindowData& data, const WindowTerms& terms, int max_iterations,
+                               WindowState* state) {
+  const WindowStructure structure(data, terms);
+  MinimizerReport report;
+  report.schur_structure = "block Schur, " + std::to_string(structure.num_poses) + " poses, " +
+                           std::to_string(structure.num_kept_lines) + " line directions";
+  // Equations at the present state, and at the one that a step leads to.
+  WindowEquations equations, next;
+  if (!Linearize(structure, terms, *state, &equations)) {
+    report.message = "a term is not defined, or not finite, at the start";
+    return report;
+  }
+  report.usable = true;
+  report.message = "as many iterations as allowed";
+  TrustRegion region;
+  WindowStep step;
+  for (; report.num_iterations < max_iterations && !region.IsGone(); ++report.num_iterations) {
+    if (!SolveStep(structure, equations, region.radius(), &step) || step.model_decrease < 0.0) {
+      region.Reject();
+      continue;
+    }
+    WindowState candidate = Moved(structure, *state, step);
+    const bool defined = Linearize(structure, terms, candidate, &next);
+    const double decrease = defined ? equations.cost - next.cost : -1.0;
+    const bool arrived = defined && std::abs(decrease) <= kFunctionTolerance * equations.cost;
+    if (defined && decrease >= kMinGain * step.model_decrease) {
+      region.Accept(decrease / step.model_decrease);
+      *state = std::move(candidate);
+      std::swap(equations, next);
+    } else {
+      region.Reject();
+    }
+    if (arrived) {
+      report.message = "converged";
+      ++report.num_iterations;
+      break;
+    }
+  }
+  return report;
+}
+
+}  // namespace msc_vo
