@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 
 #include <opencv2/imgproc.hpp>
-#include <opencv2/line_descriptor.hpp>
-#include <opencv2/ximgproc/edge_drawing.hpp>
 
+#include "msc_vo/features/edge_segments.h"
+#include "msc_vo/features/line_describer.h"
 #include "msc_vo/features/line_refinement.h"
 
 namespace msc_vo {
@@ -28,10 +27,6 @@ constexpr double kMinPiece = 8.0;
 constexpr double kSideDistance = 2.0;
 // At most so many places along a line are compared.
 constexpr int kMaxSideSamples = 16;
-// LBD is computed in the image of half the size, with bands of 4 pixels: its region of 9 bands then
-// is 72 px of the image wide (63 with the original 7 px in full size), at a quarter of the time
-// and, measured, with as many correct nearest neighbours.
-constexpr int kBandWidth = 4;
 
 double GrayAt(const cv::Mat& gray, const Vector2d& pixel) {
   const int x = std::clamp(cvRound(pixel.x()), 0, gray.cols - 1);
@@ -78,62 +73,25 @@ bool ClipToMask(const cv::Mat& mask, LineSegment2* segment) {
   return true;
 }
 
-// The segment in the half-size image, as OpenCV's descriptor wants it.
-cv::line_descriptor::KeyLine ToHalfSizeKeyLine(const LineSegment2& segment, int index) {
-  const auto half = [](const Vector2d& x) {
-    return cv::Point2f(static_cast<float>(0.5 * x.x() - 0.25),
-                       static_cast<float>(0.5 * x.y() - 0.25));
-  };
-  const cv::Point2f start = half(segment.start);
-  const cv::Point2f end = half(segment.end);
-  cv::line_descriptor::KeyLine line;
-  line.startPointX = line.sPointInOctaveX = start.x;
-  line.startPointY = line.sPointInOctaveY = start.y;
-  line.endPointX = line.ePointInOctaveX = end.x;
-  line.endPointY = line.ePointInOctaveY = end.y;
-  line.pt = 0.5f * (start + end);
-  line.angle = std::atan2(end.y - start.y, end.x - start.x);
-  line.lineLength = static_cast<float>(cv::norm(end - start));
-  line.numOfPixels = std::max(1, cvRound(line.lineLength));
-  line.response = line.lineLength;
-  line.size = std::abs((end.x - start.x) * (end.y - start.y));
-  line.octave = 0;
-  line.class_id = index;  // also the row of its descriptor
-  return line;
-}
-
 }  // namespace
 
 struct LineExtractor::Detectors {
   cv::Ptr<cv::LineSegmentDetector> lsd;
-  cv::Ptr<cv::ximgproc::EdgeDrawing> edge_drawing;
-  cv::Ptr<cv::line_descriptor::BinaryDescriptor> lbd;
-  cv::Mat half_size;
+  std::vector<cv::Vec4f> lsd_lines;
+  EdgeSegmentDetector edges;
+  LineDescriber describer;
+  std::vector<LineSegment2> pieces;
 
-  std::vector<cv::Vec4f> Detect(LineDetector detector, const cv::Mat& gray) {
-    std::vector<cv::Vec4f> lines;
-    if (detector == LineDetector::kLsd) {
-      lsd->detect(gray, lines);
-    } else {
-      edge_drawing->detectEdges(gray);
-      edge_drawing->detectLines(lines);
+  // Fills `pieces`.
+  void Detect(LineDetector detector, const cv::Mat& gray) {
+    if (detector == LineDetector::kEdgeDrawing) {
+      pieces = edges.Detect(gray);
+      return;
     }
-    return lines;
-  }
-
-  void Describe(const cv::Mat& gray, std::vector<LineFeature>* features) {
-    if (features->empty()) return;  // OpenCV complains on the console
-    cv::resize(gray, half_size, cv::Size((gray.cols + 1) / 2, (gray.rows + 1) / 2), 0.0, 0.0,
-               cv::INTER_AREA);
-    std::vector<cv::line_descriptor::KeyLine> lines;
-    for (size_t i = 0; i < features->size(); ++i) {
-      lines.push_back(ToHalfSizeKeyLine((*features)[i].segment, static_cast<int>(i)));
-    }
-    cv::Mat descriptors;
-    lbd->compute(half_size, lines, descriptors);
-    for (size_t i = 0; i < features->size(); ++i) {
-      Descriptor& descriptor = (*features)[i].descriptor;
-      std::memcpy(descriptor.data(), descriptors.ptr(static_cast<int>(i)), descriptor.size());
+    lsd->detect(gray, lsd_lines);
+    pieces.clear();
+    for (const cv::Vec4f& line : lsd_lines) {
+      pieces.push_back({Vector2d(line[0], line[1]), Vector2d(line[2], line[3])});
     }
   }
 };
@@ -155,12 +113,7 @@ LineExtractor::LineExtractor(const LineExtractorOptions& options)
   if (!options.IsValid(&error)) throw std::invalid_argument("LineExtractor: " + error);
   if (options.detector == LineDetector::kLsd) {
     detectors_->lsd = cv::createLineSegmentDetector(cv::LSD_REFINE_STD);
-  } else {
-    detectors_->edge_drawing = cv::ximgproc::createEdgeDrawing();
   }
-  cv::line_descriptor::BinaryDescriptor::Params lbd;
-  lbd.widthOfBand_ = kBandWidth;
-  detectors_->lbd = cv::line_descriptor::BinaryDescriptor::createBinaryDescriptor(lbd);
 }
 
 LineExtractor::~LineExtractor() = default;
@@ -169,9 +122,9 @@ std::vector<LineFeature> LineExtractor::Extract(const cv::Mat& gray, const cv::M
   if (gray.empty() || gray.type() != CV_8UC1) {
     throw std::invalid_argument("LineExtractor: the image must be 8-bit grey (CV_8UC1)");
   }
+  detectors_->Detect(options_.detector, gray);
   std::vector<LineSegment2> pieces;
-  for (const cv::Vec4f& line : detectors_->Detect(options_.detector, gray)) {
-    LineSegment2 segment{Vector2d(line[0], line[1]), Vector2d(line[2], line[3])};
+  for (LineSegment2 segment : detectors_->pieces) {
     if (segment.Length() < kMinPiece || !ClipToMask(mask, &segment)) continue;
     OrientToBrighterSide(gray, &segment);
     pieces.push_back(segment);
@@ -186,7 +139,10 @@ std::vector<LineFeature> LineExtractor::Extract(const cv::Mat& gray, const cv::M
     if (options_.detector == LineDetector::kEdgeDrawing) RefineSegment(gray, &feature.segment);
     features.push_back(feature);
   }
-  detectors_->Describe(gray, &features);
+  detectors_->describer.SetImage(gray);
+  for (LineFeature& feature : features) {
+    feature.descriptor = detectors_->describer.Describe(feature.segment);
+  }
   return features;
 }
 

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <cstdlib>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+namespace msc_vo {
+
+// Gradient of a smoothed grey image (Gaussian of sigma 1, then Prewitt's operator: differences over
+// two pixels, summed over three rows or columns). Pixels are addressed by y * width() + x.
+// Keeps its buffers between calls.
+class ImageGradient {
+ public:
+  // `gray` is CV_8UC1.
+  void Compute(const cv::Mat& gray);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int X(int pixel) const { return x_[pixel]; }
+  int Y(int pixel) const { return y_[pixel]; }
+  // |X| + |Y|; 0 on the image's border.
+  int Magnitude(int pixel) const { return magnitude_[pixel]; }
+  // Whether an edge through the pixel runs rather along x than along y.
+  bool IsHorizontalEdge(int pixel) const {
+    return 2 * std::abs(static_cast<int>(y_[pixel])) >= magnitude_[pixel];
+  }
+
+ private:
+  int width_ = 0;
+  int height_ = 0;
+  cv::Mat smooth_;
+  std::vector<int16_t> x_, y_, magnitude_;
+};
+
+}  // namespace msc_vo
