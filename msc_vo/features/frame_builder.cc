@@ -35,12 +35,18 @@ void CheckImage(const cv::Mat& image, int type, const PinholeCamera& camera, con
 
 }  // namespace
 
+void RunInTurn(const std::function<void()>& first, const std::function<void()>& second) {
+  first();
+  second();
+}
+
 struct FrameBuilder::State {
   FrameBuilderOptions options;
   PinholeCamera camera;
   LensRemap lens;
   PointExtractor point_extractor;
   LineExtractor line_extractor;
+  InverseDepthImage depth;
   FrameBuilderTimes times;
 
   State(const FrameBuilderOptions& o, const PinholeCamera& c, const LensDistortion& distortion)
@@ -64,7 +70,7 @@ struct FrameBuilder::State {
   }
 
   // Depth of points at their raw pixels, which become undistorted.
-  void LocatePoints(const InverseDepthImage& depth, std::vector<PointFeature>* points) const {
+  void LocatePoints(std::vector<PointFeature>* points) const {
     for (PointFeature& point : *points) {
       const auto sample = SampleDepth(depth, point.pixel, options.noise.inverse_depth_noise);
       if (sample) {
@@ -75,7 +81,7 @@ struct FrameBuilder::State {
     }
   }
 
-  void LocateLines(const InverseDepthImage& depth, std::vector<LineFeature>* lines) const {
+  void LocateLines(std::vector<LineFeature>* lines) const {
     const double noise = options.noise.inverse_depth_noise;
     uint32_t seed = 0;
     for (LineFeature& line : *lines) {
@@ -130,7 +136,7 @@ FrameBuilder::FrameBuilder(const FrameBuilderOptions& options, const PinholeCame
 
 FrameBuilder::~FrameBuilder() = default;
 
-Frame FrameBuilder::Build(const RgbdImage& image) {
+Frame FrameBuilder::Build(const RgbdImage& image, const PairRunner& run_pair) {
   CheckImage(image.gray, CV_8UC1, state_->camera, "grey", "8-bit grey (CV_8UC1)");
   CheckImage(image.depth, CV_32FC1, state_->camera, "depth", "float (CV_32FC1, metres)");
   Frame frame;
@@ -138,16 +144,28 @@ Frame FrameBuilder::Build(const RgbdImage& image) {
   frame.timestamp = image.timestamp;
   frame.camera = state_->camera;
   auto last = std::chrono::steady_clock::now();
-  frame.points = state_->Points(image.gray);
-  state_->times.points = Lap(&last);
-  frame.lines = state_->Lines(image.gray);
-  state_->times.lines = Lap(&last);
-  const InverseDepthImage depth(image.depth, state_->options.min_depth, state_->options.max_depth);
-  state_->LocatePoints(depth, &frame.points);
-  state_->LocateLines(depth, &frame.lines);
-  if (state_->options.refine_structure) state_->RefineStructure(&frame.lines);
-  frame.grid = FeatureGrid(frame.camera, frame.points);
+  state_->depth.Assign(image.depth, state_->options.min_depth, state_->options.max_depth);
   state_->times.depth = Lap(&last);
+  double point_depth_ms = 0.0;
+  double line_depth_ms = 0.0;
+  run_pair(
+      [&] {
+        auto start = std::chrono::steady_clock::now();
+        frame.points = state_->Points(image.gray);
+        state_->times.points = Lap(&start);
+        state_->LocatePoints(&frame.points);
+        frame.grid = FeatureGrid(frame.camera, frame.points);
+        point_depth_ms = Lap(&start);
+      },
+      [&] {
+        auto start = std::chrono::steady_clock::now();
+        frame.lines = state_->Lines(image.gray);
+        state_->times.lines = Lap(&start);
+        state_->LocateLines(&frame.lines);
+        if (state_->options.refine_structure) state_->RefineStructure(&frame.lines);
+        line_depth_ms = Lap(&start);
+      });
+  state_->times.depth += point_depth_ms + line_depth_ms;
   return frame;
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -31,7 +32,15 @@ struct FrameBuilderOptions {
   bool IsValid(std::string* error) const;
 };
 
-// Milliseconds spent on the last frame.
+// Runs two tasks that share nothing, one after the other or side by side, and returns when both are
+// done; what one of them throws reaches the caller.
+using PairRunner =
+    std::function<void(const std::function<void()>& first, const std::function<void()>& second)>;
+
+// The one that uses no other thread.
+void RunInTurn(const std::function<void()>& first, const std::function<void()>& second);
+
+// Milliseconds spent on the last frame; points and lines may overlap.
 struct FrameBuilderTimes {
   double points = 0.0;
   double lines = 0.0;
@@ -47,8 +56,9 @@ class FrameBuilder {
                const LensDistortion& distortion);
   ~FrameBuilder();
 
-  // Throws std::invalid_argument if the image's type or size is not the camera's.
-  Frame Build(const RgbdImage& image);
+  // `run_pair` gets points and lines as its two tasks; the frame does not depend on how it runs
+  // them. Throws std::invalid_argument if the image's type or size is not the camera's.
+  Frame Build(const RgbdImage& image, const PairRunner& run_pair = RunInTurn);
 
   const FrameBuilderTimes& times() const;
 

@@ -5,16 +5,19 @@
 
 namespace msc_vo {
 
-InverseDepthImage::InverseDepthImage(const cv::Mat& depth, double min_depth, double max_depth)
-    : image_(depth.size(), CV_32FC1) {
+void InverseDepthImage::Assign(const cv::Mat& depth, double min_depth, double max_depth) {
+  image_.create(depth.size(), CV_32FC1);
   const float nearest = static_cast<float>(min_depth);
   const float farthest = static_cast<float>(max_depth);
   for (int y = 0; y < depth.rows; ++y) {
     const float* z = depth.ptr<float>(y);
     float* inverse = image_.ptr<float>(y);
     for (int x = 0; x < depth.cols; ++x) {
-      // False for what is not a number.
-      inverse[x] = z[x] >= nearest && z[x] <= farthest ? 1.0f / z[x] : 0.0f;
+      // False for what is not a number. Dividing always, and by one if in doubt, lets the compiler
+      // do several pixels at once.
+      const bool valid = (z[x] >= nearest) & (z[x] <= farthest);
+      const float quotient = 1.0f / (valid ? z[x] : 1.0f);
+      inverse[x] = valid ? quotient : 0.0f;
     }
   }
 }

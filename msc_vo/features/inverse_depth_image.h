@@ -14,8 +14,13 @@ namespace msc_vo {
 // Why inverse: it is affine in the image over every plane, and its noise is the same everywhere.
 class InverseDepthImage {
  public:
-  // `depth` is CV_32FC1, metres.
-  InverseDepthImage(const cv::Mat& depth, double min_depth, double max_depth);
+  InverseDepthImage() = default;
+  InverseDepthImage(const cv::Mat& depth, double min_depth, double max_depth) {
+    Assign(depth, min_depth, max_depth);
+  }
+
+  // `depth` is CV_32FC1, metres. Keeps its memory if the size stays.
+  void Assign(const cv::Mat& depth, double min_depth, double max_depth);
 
   double At(int x, int y) const {
     const bool inside = x >= 0 && y >= 0 && x < image_.cols && y < image_.rows;

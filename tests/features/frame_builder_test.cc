@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <stdexcept>
 
@@ -167,6 +168,19 @@ TEST(FrameBuilder, IsRepeatableAtAnyThreadCount) {
   cv::setNumThreads(threads);
   ExpectSame(a, b);
   ExpectSame(a, c);
+}
+
+TEST(FrameBuilder, DoesNotDependOnHowPointsAndLinesAreRun) {
+  FrameBuilder builder({}, Camera(), LensDistortion());
+  const Frame in_turn = builder.Build(Poster(Camera()));
+  ExpectSame(in_turn, builder.Build(Poster(Camera()), [](const auto& first, const auto& second) {
+    second();
+    first();
+  }));
+  ExpectSame(in_turn, builder.Build(Poster(Camera()), [](const auto& first, const auto& second) {
+    const auto beside = std::async(std::launch::async, second);
+    first();
+  }));
 }
 
 TEST(FrameBuilder, WorksWithoutDepthOrContrast) {
