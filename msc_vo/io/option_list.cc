@@ -330,6 +330,7 @@ std::vector<Option> ListOptions(Configuration* configuration) {
                  "what of the method is used; each adds to the one before");
   list.Add("use_points", &odometry.use_points, "off: lines alone");
   list.Add("use_lines", &odometry.use_lines, "off: points alone");
+  list.Add("threads", &odometry.threads, "used at most; the result is the same for any number");
   list.Section("features", &odometry.features, ListFeatures);
   list.Section("normals", &odometry.normals, ListNormals);
   list.Section("tracking", &odometry.tracking, ListTracking);

@@ -8,6 +8,7 @@
 
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/gap_filling.h"
+#include "msc_vo/odometry/side_worker.h"
 #include "msc_vo/tracking/stopwatch.h"
 #include "msc_vo/tracking/tracker.h"
 
@@ -68,14 +69,18 @@ struct Odometry::State {
         normal_estimator(options.normals, camera, distortion),
         tracker(options.tracking),
         mapper(options.mapping),
-        snapshot(mapper.Snapshot()) {}
+        snapshot(mapper.Snapshot()) {
+    if (options.threads > 1) side_worker = std::make_unique<SideWorker>();
+  }
 
+  Frame Build(const RgbdImage& image);
   void Count(const TrackedFrame& tracked);
   Place InsertKeyframe(const TrackedFrame& tracked, const cv::Mat& depth);
 
   OdometryOptions options;
   FrameBuilder builder;
   SurfaceNormalEstimator normal_estimator;
+  std::unique_ptr<SideWorker> side_worker;  // none with one thread
   Tracker tracker;
   Mapper mapper;
   MapSnapshotPtr snapshot;
@@ -84,6 +89,13 @@ struct Odometry::State {
   std::vector<FrameResult> results;
   std::vector<Place> places;  // one per result
 };
+
+Frame Odometry::State::Build(const RgbdImage& image) {
+  if (!side_worker) return builder.Build(image);
+  return builder.Build(image, [this](const auto& first, const auto& second) {
+    side_worker->RunPair(first, second);
+  });
+}
 
 void Odometry::State::Count(const TrackedFrame& tracked) {
   for (const LandmarkId id : tracked.visible_points) ++packet.point_counts[id].num_visible;
@@ -126,7 +138,7 @@ FrameResult Odometry::Process(const RgbdImage& image) {
                                 ": its time stamp is not later than that of the image before");
   }
   Stopwatch stopwatch;
-  auto frame = std::make_shared<Frame>(state_->builder.Build(image));
+  auto frame = std::make_shared<Frame>(state_->Build(image));
   if (!state_->options.use_points) {
     frame->points.clear();
     frame->grid = FeatureGrid(frame->camera, frame->points);

@@ -31,6 +31,10 @@ bool OdometryOptions::IsValid(std::string* error) const {
     *error = "options: use_points and use_lines must not both be off";
     return false;
   }
+  if (threads < 1) {
+    *error = "options: threads must be at least 1";
+    return false;
+  }
   return features.IsValid(error) && normals.IsValid(error) && tracking.IsValid(error) &&
          mapping.IsValid(error);
 }

@@ -27,6 +27,9 @@ struct OdometryOptions {
   Mode mode = Mode::kMscVo;
   bool use_points = true;
   bool use_lines = true;
+  // Used for one image, at most: with two, points and lines are extracted side by side. The result
+  // is the same for any number.
+  int threads = 2;
   FrameBuilderOptions features;
   SurfaceNormalOptions normals;
   TrackerOptions tracking;

@@ -103,9 +103,13 @@ TEST_F(OdometryTest, EveryModeAndKindOfFeatureWorksAlone) {
   EXPECT_TRUE(result.points.empty());
 }
 
-TEST_F(OdometryTest, TheSameImagesGiveTheSameBytes) {
-  const OdometryResult a = Run(OdometryOptions(), *images_);
-  const OdometryResult b = Run(OdometryOptions(), *images_);
+TEST_F(OdometryTest, TheSameImagesGiveTheSameBytesAtAnyThreadCount) {
+  OdometryOptions one_thread;
+  one_thread.threads = 1;
+  OdometryOptions two_threads;
+  two_threads.threads = 2;
+  const OdometryResult a = Run(one_thread, *images_);
+  const OdometryResult b = Run(two_threads, *images_);
   ASSERT_EQ(a.frames.size(), b.frames.size());
   for (size_t i = 0; i < a.frames.size(); ++i) {
     EXPECT_EQ(a.frames[i].cam_from_world.params, b.frames[i].cam_from_world.params) << i;
