@@ -49,10 +49,17 @@ Surface FitSurface(const Pixel* begin, const Pixel* end, double sigma) {
       Eigen::Vector3d(0.0, slope_information, slope_information).asDiagonal();
   Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
   for (const Pixel* pixel = begin; pixel != end; ++pixel) {
-    const Eigen::Vector3d a(1.0, pixel->offset.x(), pixel->offset.y());
-    information += a * a.transpose();
-    rhs += a * pixel->w;
+    const double x = pixel->offset.x();
+    const double y = pixel->offset.y();
+    information(1, 0) += x;
+    information(2, 0) += y;
+    information(1, 1) += x * x;
+    information(2, 1) += x * y;
+    information(2, 2) += y * y;
+    rhs += Eigen::Vector3d(pixel->w, x * pixel->w, y * pixel->w);
   }
+  information(0, 0) = static_cast<double>(end - begin);
+  // Reads the lower triangle only.
   const Eigen::LLT<Eigen::Matrix3d> factorization(information);
   const Eigen::Vector3d p = factorization.solve(rhs);
   Surface surface;

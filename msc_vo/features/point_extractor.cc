@@ -73,14 +73,22 @@ class CellGrid {
     }
   }
 
-  std::vector<cv::Rect> EmptyCells() const {
-    std::vector<cv::Rect> empty;
+  // The empty cells, neighbours in a row as one area: each search also looks around its area.
+  std::vector<cv::Rect> EmptyAreas() const {
+    std::vector<cv::Rect> areas;
     for (int row = 0; row < rows_; ++row) {
       for (int column = 0; column < columns_; ++column) {
-        if (cells_[row * columns_ + column].empty()) empty.push_back(CellArea(row, column));
+        if (!cells_[row * columns_ + column].empty()) continue;
+        const bool continues = column > 0 && cells_[row * columns_ + column - 1].empty();
+        const cv::Rect area = CellArea(row, column);
+        if (continues) {
+          areas.back() |= area;
+        } else {
+          areas.push_back(area);
+        }
       }
     }
-    return empty;
+    return areas;
   }
 
   // The strongest corner of every cell, then the second of every cell, and so on, `num_wanted` in
@@ -131,8 +139,8 @@ std::vector<Corner> DetectCorners(const cv::Mat& level, int num_wanted,
   DetectFast(level, area, options.fast_threshold, &corners);
   grid.Add(corners);
   corners.clear();
-  for (const cv::Rect& cell : grid.EmptyCells()) {
-    DetectFast(level, cell, options.min_fast_threshold, &corners);
+  for (const cv::Rect& empty : grid.EmptyAreas()) {
+    DetectFast(level, empty, options.min_fast_threshold, &corners);
   }
   grid.Add(corners);
   return grid.Choose(num_wanted);
@@ -235,15 +243,15 @@ PointExtractor::PointExtractor(const PointExtractorOptions& options) : options_(
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument("PointExtractor: " + error);
   pyramid_.resize(options.num_levels);
+  // One call of ORB per level, told that it is the only one: our pyramid is the only pyramid.
+  orb_ = cv::ORB::create(/*nfeatures=*/1, /*scaleFactor=*/1.2f, /*nlevels=*/1,
+                         /*edgeThreshold=*/kBorder);
 }
 
 std::vector<PointFeature> PointExtractor::Extract(const cv::Mat& gray) {
   if (gray.empty() || gray.type() != CV_8UC1) {
     throw std::invalid_argument("PointExtractor: the image must be 8-bit grey (CV_8UC1)");
   }
-  // One call of ORB per level, told that it is the only one: our pyramid is the only pyramid.
-  const cv::Ptr<cv::ORB> orb = cv::ORB::create(
-      /*nfeatures=*/1, /*scaleFactor=*/1.2f, /*nlevels=*/1, /*edgeThreshold=*/kBorder);
   std::vector<PointFeature> points;
   int left = options_.num_points;
   pyramid_[0] = gray;
@@ -258,7 +266,7 @@ std::vector<PointFeature> PointExtractor::Extract(const cv::Mat& gray) {
     const cv::Mat& level = pyramid_[l];
     const int wanted = std::min(cvRound(share), left);  // rounding may exceed the total
     std::vector<PointFeature> of_level = DescribeCorners(
-        level, RefineCorners(level, DetectCorners(level, wanted, options_)), orb.get());
+        level, RefineCorners(level, DetectCorners(level, wanted, options_)), orb_.get());
     for (PointFeature& point : of_level) {
       point.pixel = ToFullImage(point.pixel, size, gray.size());
       point.sigma = scale;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <opencv2/core.hpp>
+#include <opencv2/features2d.hpp>
 
 #include "msc_vo/map/frame.h"
 
@@ -38,6 +38,7 @@ class PointExtractor {
  private:
   PointExtractorOptions options_;
   std::vector<cv::Mat> pyramid_;
+  cv::Ptr<cv::Feature2D> orb_;
 };
 
 }  // namespace msc_vo

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 namespace msc_vo {
 
@@ -31,10 +32,16 @@ int HammingDistance(const Descriptor& a, const Descriptor& b) {
 FeatureGrid::FeatureGrid(const PinholeCamera& camera, const std::vector<PointFeature>& points)
     : columns_(std::max(1, static_cast<int>(std::ceil(camera.width / kCellSize)))),
       rows_(std::max(1, static_cast<int>(std::ceil(camera.height / kCellSize)))),
-      cells_(static_cast<size_t>(columns_) * rows_) {
-  for (size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector2d& pixel = points[i].pixel;
-    cells_[RowOf(pixel.y()) * columns_ + ColumnOf(pixel.x())].push_back(static_cast<int>(i));
+      begins_(static_cast<size_t>(columns_) * rows_ + 1, 0),
+      indices_(points.size()) {
+  // Counting sort: ends of the buckets first, from which filling backwards makes their begins.
+  const auto bucket_of = [this](const PointFeature& point) {
+    return RowOf(point.pixel.y()) * columns_ + ColumnOf(point.pixel.x());
+  };
+  for (const PointFeature& point : points) ++begins_[bucket_of(point)];
+  std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+  for (size_t i = points.size(); i-- > 0;) {
+    indices_[--begins_[bucket_of(points[i])]] = static_cast<int>(i);
   }
 }
 
@@ -49,15 +56,7 @@ int FeatureGrid::RowOf(double y) const {
 std::vector<int> FeatureGrid::Near(const std::vector<PointFeature>& points,
                                    const Eigen::Vector2d& pixel, double radius) const {
   std::vector<int> near;
-  if (cells_.empty()) return near;
-  for (int row = RowOf(pixel.y() - radius); row <= RowOf(pixel.y() + radius); ++row) {
-    for (int column = ColumnOf(pixel.x() - radius); column <= ColumnOf(pixel.x() + radius);
-         ++column) {
-      for (const int index : cells_[row * columns_ + column]) {
-        if ((points[index].pixel - pixel).squaredNorm() <= radius * radius) near.push_back(index);
-      }
-    }
-  }
+  VisitNear(points, pixel, radius, [&near](int index) { near.push_back(index); });
   std::sort(near.begin(), near.end());
   return near;
 }

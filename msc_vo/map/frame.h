@@ -58,6 +58,22 @@ class FeatureGrid {
   // Indices of the points within `radius` pixels of `pixel`, ascending.
   std::vector<int> Near(const std::vector<PointFeature>& points, const Eigen::Vector2d& pixel,
                         double radius) const;
+  // Calls visit(index) for each of them, in an order that depends on nothing else; makes no list.
+  template <typename Visit>
+  void VisitNear(const std::vector<PointFeature>& points, const Eigen::Vector2d& pixel,
+                 double radius, const Visit& visit) const {
+    if (begins_.empty()) return;
+    const int first = ColumnOf(pixel.x() - radius);
+    const int last = ColumnOf(pixel.x() + radius);
+    for (int row = RowOf(pixel.y() - radius); row <= RowOf(pixel.y() + radius); ++row) {
+      // The buckets of a row follow each other.
+      const int end = begins_[row * columns_ + last + 1];
+      for (int i = begins_[row * columns_ + first]; i < end; ++i) {
+        const int index = indices_[i];
+        if ((points[index].pixel - pixel).squaredNorm() <= radius * radius) visit(index);
+      }
+    }
+  }
 
  private:
   int ColumnOf(double x) const;
@@ -65,7 +81,8 @@ class FeatureGrid {
 
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<std::vector<int>> cells_;
+  std::vector<int> begins_;   // of each bucket among indices_, and their number
+  std::vector<int> indices_;  // bucket by bucket, ascending in each
 };
 
 // What is kept of an image: its features and nothing else. Images end here.

@@ -28,12 +28,20 @@ Overlap OverlapOn(const LineSegment2& a, const LineSegment2& b) {
   return {std::max(0.0, std::min(s, e)), std::min(1.0, std::max(s, e))};
 }
 
-// Cost of taking `feature` for `candidate`: infinite where a gate says no.
-double MatchCost(const LineMatcherOptions& options, double cos_max_angle,
-                 const LineCandidate& candidate, const LineFeature& feature, double radius) {
+std::vector<Eigen::Vector2d> Directions(const std::vector<LineCandidate>& candidates) {
+  std::vector<Eigen::Vector2d> directions;
+  directions.reserve(candidates.size());
+  for (const LineCandidate& candidate : candidates) {
+    directions.push_back(candidate.image.Direction());
+  }
+  return directions;
+}
+
+// Cost of taking `feature` for `candidate`, whose directions agree: infinite where a gate says no.
+double MatchCost(const LineMatcherOptions& options, const LineCandidate& candidate,
+                 const LineFeature& feature, double radius) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const LineSegment2& seen = feature.segment;
-  if (candidate.image.Direction().dot(seen.Direction()) < cos_max_angle) return kNever;
   const Overlap overlap = OverlapOn(seen, candidate.image);
   const double shared = (overlap.last - overlap.first) * seen.Length();
   const double shorter = std::min(seen.Length(), candidate.image.Length());
@@ -81,13 +89,15 @@ std::vector<LineMatch> MatchLines(const LineMatcherOptions& options, const Frame
   };
   std::vector<Claim> claims(frame.lines.size());
   const double cos_max_angle = std::cos(DegreesToRadians(options.max_angle));
+  const std::vector<Eigen::Vector2d> directions = Directions(candidates);
   // At most a few hundred on either side, and the first gate is one dot product: no grid needed.
   // A map line may be seen in several pieces, so each feature chooses for itself.
   for (size_t feature = 0; feature < frame.lines.size(); ++feature) {
     if (!taken.empty() && taken[feature]) continue;
+    const Eigen::Vector2d direction = frame.lines[feature].segment.Direction();
     for (size_t i = 0; i < candidates.size(); ++i) {
-      const double cost =
-          MatchCost(options, cos_max_angle, candidates[i], frame.lines[feature], radius);
+      if (directions[i].dot(direction) < cos_max_angle) continue;
+      const double cost = MatchCost(options, candidates[i], frame.lines[feature], radius);
       if (cost < claims[feature].cost) claims[feature] = {static_cast<int>(i), cost};
     }
   }

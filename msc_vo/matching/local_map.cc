@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -54,6 +56,16 @@ std::set<KeyframeId> SelectKeyframes(const Map& map, const FrameMatches& matches
   return selected;
 }
 
+void AppendLandmarks(const std::vector<LandmarkId>& seen, std::vector<LandmarkId>* landmarks) {
+  std::copy_if(seen.begin(), seen.end(), std::back_inserter(*landmarks),
+               [](LandmarkId id) { return id != kNoId; });
+}
+
+void SortOnce(std::vector<LandmarkId>* ids) {
+  std::sort(ids->begin(), ids->end());
+  ids->erase(std::unique(ids->begin(), ids->end()), ids->end());
+}
+
 bool IsSeenFromNear(const Landmark& landmark, const Eigen::Vector3d& ray) {
   return landmark.viewing_direction.dot(ray) >= kMinViewingCosine * ray.norm();
 }
@@ -90,15 +102,15 @@ LocalMap SelectLocalMap(const Map& map, const Frame& frame, const Rigid3& cam_fr
   LocalMap local;
   const std::set<KeyframeId> keyframes =
       SelectKeyframes(map, matches, fallback, max_keyframes, &local.reference);
-  std::set<LandmarkId> points;
-  std::set<LandmarkId> lines;
+  std::vector<LandmarkId> points;
+  std::vector<LandmarkId> lines;
   for (const KeyframeId id : keyframes) {
     const Keyframe& keyframe = *map.FindKeyframe(id);
-    points.insert(keyframe.points.begin(), keyframe.points.end());
-    lines.insert(keyframe.lines.begin(), keyframe.lines.end());
+    AppendLandmarks(keyframe.points, &points);
+    AppendLandmarks(keyframe.lines, &lines);
   }
-  points.erase(kNoId);
-  lines.erase(kNoId);
+  SortOnce(&points);
+  SortOnce(&lines);
   const Eigen::Vector3d center = cam_from_world.OriginInSource();
   for (const LandmarkId id : points) {
     AddPoint(*map.FindPoint(id), frame, cam_from_world, center, &local.points);

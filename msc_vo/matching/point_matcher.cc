@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <tuple>
 
 #include "msc_vo/map/map.h"
 
@@ -17,6 +18,11 @@ constexpr int kNoDistance = 257;  // more than 256 bits can differ
 struct Best {
   int feature = -1;
   int distance = kNoDistance;
+
+  // Of equal distances the first feature.
+  bool operator<(const Best& other) const {
+    return std::tie(distance, feature) < std::tie(other.distance, other.feature);
+  }
 };
 
 // Best feature for one candidate, or feature -1.
@@ -25,18 +31,18 @@ Best FindBest(const PointMatcherOptions& options, const Frame& frame,
   Best best;
   Best second;
   const double scaled_radius = radius * std::pow(kPyramidScale, candidate.level);
-  for (const int index : frame.grid.Near(frame.points, candidate.pixel, scaled_radius)) {
+  frame.grid.VisitNear(frame.points, candidate.pixel, scaled_radius, [&](int index) {
     const PointFeature& feature = frame.points[index];
-    if (std::abs(feature.level - candidate.level) > options.max_level_difference) continue;
-    if (!taken.empty() && taken[index]) continue;
-    const int distance = HammingDistance(candidate.descriptor, feature.descriptor);
-    if (distance < best.distance) {
+    if (std::abs(feature.level - candidate.level) > options.max_level_difference) return;
+    if (!taken.empty() && taken[index]) return;
+    const Best found{index, HammingDistance(candidate.descriptor, feature.descriptor)};
+    if (found < best) {
       second = best;
-      best = {index, distance};
-    } else if (distance < second.distance) {
-      second = {index, distance};
+      best = found;
+    } else if (found < second) {
+      second = found;
     }
-  }
+  });
   if (best.distance > options.max_distance) return {};
   const bool ambiguous = second.feature >= 0 &&
                          frame.points[second.feature].level == frame.points[best.feature].level &&
