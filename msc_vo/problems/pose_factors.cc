@@ -57,7 +57,11 @@ bool PoseTerm<Factor>::AddTo(const Rigid3& cam_from_world, NormalEquations* sum)
     const Loss loss = Huber(huber, r.squaredNorm());
     sum->cost += 0.5 * loss.rho;
     sum->gradient += loss.weight * (j.transpose() * r);
-    sum->hessian += loss.weight * (j.transpose() * j);
+    for (int column = 0; column < 6; ++column) {
+      for (int row = column; row < 6; ++row) {
+        sum->hessian(row, column) += loss.weight * j.col(row).dot(j.col(column));
+      }
+    }
   }
   return true;
 }
@@ -69,10 +73,14 @@ int PoseFactors::NumRows() const {
 
 bool PoseFactors::Linearize(const Rigid3& cam_from_world, NormalEquations* equations) const {
   *equations = NormalEquations();
-  return point_reprojection.AddTo(cam_from_world, equations) &&
-         point_depth.AddTo(cam_from_world, equations) &&
-         line_reprojection.AddTo(cam_from_world, equations) &&
-         line_depth.AddTo(cam_from_world, equations) && std::isfinite(equations->cost);
+  if (!(point_reprojection.AddTo(cam_from_world, equations) &&
+        point_depth.AddTo(cam_from_world, equations) &&
+        line_reprojection.AddTo(cam_from_world, equations) &&
+        line_depth.AddTo(cam_from_world, equations))) {
+    return false;
+  }
+  equations->hessian.triangularView<Eigen::StrictlyUpper>() = equations->hessian.transpose();
+  return std::isfinite(equations->cost);
 }
 
 PoseTermination MinimizePose(const PoseFactors& factors, int max_iterations,

@@ -34,7 +34,7 @@ struct PoseTerm {
   std::vector<Block> blocks;
 
   int NumRows() const { return static_cast<int>(blocks.size()) * Factor::kNumResiduals; }
-  // False if a point lies behind the camera.
+  // Adds to the lower triangle of the hessian only. False if a point lies behind the camera.
   bool AddTo(const Rigid3& cam_from_world, NormalEquations* sum) const;
 };
 

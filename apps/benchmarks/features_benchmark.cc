@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// What becomes of one 640x480 image, step by step. "allocations" are calls of operator new per
+// image once the buffers have grown (OpenCV's own memory is not counted).
+
+#include <benchmark/benchmark.h>
+
+#include "apps/benchmarks/allocation_counter.h"
+#include "apps/benchmarks/rendered_images.h"
+#include "msc_vo/features/edge_segments.h"
+#include "msc_vo/features/frame_builder.h"
+#include "msc_vo/features/line_describer.h"
+#include "msc_vo/features/surface_normals.h"
+
+namespace msc_vo {
+
+namespace {
+
+struct Input {
+  SyntheticSequence sequence = BenchmarkSequence();
+  RgbdImage image = RenderImage(sequence, 40);
+};
+
+const Input& TheInput() {
+  static const Input input;
+  return input;
+}
+
+// Runs `step` on the image again and again, and says how many features it gave.
+template <typename Step>
+void Measure(benchmark::State& state, const Step& step) {
+  size_t num_features = step(TheInput().image);  // grows the buffers
+  const int64_t before = NumAllocations();
+  for (auto _ : state) num_features = step(TheInput().image);
+  state.counters["allocations"] = benchmark::Counter(static_cast<double>(NumAllocations() - before),
+                                                     benchmark::Counter::kAvgIterations);
+  state.counters["features"] = static_cast<double>(num_features);
+}
+
+void Points(benchmark::State& state) {
+  PointExtractor extractor({});
+  Measure(state, [&](const RgbdImage& image) { return extractor.Extract(image.gray).size(); });
+}
+BENCHMARK(Points)->Unit(benchmark::kMillisecond);
+
+void EdgeSegments(benchmark::State& state) {
+  EdgeSegmentDetector detector;
+  Measure(state, [&](const RgbdImage& image) { return detector.Detect(image.gray).size(); });
+}
+BENCHMARK(EdgeSegments)->Unit(benchmark::kMillisecond);
+
+void Lines(benchmark::State& state, LineDetector detector) {
+  LineExtractorOptions options;
+  options.detector = detector;
+  LineExtractor extractor(options);
+  Measure(state, [&](const RgbdImage& image) { return extractor.Extract(image.gray).size(); });
+}
+BENCHMARK_CAPTURE(Lines, edge_drawing, LineDetector::kEdgeDrawing)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Lines, lsd, LineDetector::kLsd)->Unit(benchmark::kMillisecond);
+
+void LineDescriptors(benchmark::State& state) {
+  const auto lines = LineExtractor({}).Extract(TheInput().image.gray);
+  LineDescriber describer;
+  Measure(state, [&](const RgbdImage& image) {
+    describer.SetImage(image.gray);
+    for (const LineFeature& line : lines) {
+      benchmark::DoNotOptimize(describer.Describe(line.segment));
+    }
+    return lines.size();
+  });
+}
+BENCHMARK(LineDescriptors)->Unit(benchmark::kMillisecond);
+
+void WholeFrame(benchmark::State& state) {
+  FrameBuilder builder({}, TheInput().sequence.camera(), LensDistortion());
+  Measure(state, [&](const RgbdImage& image) {
+    const Frame frame = builder.Build(image);
+    return frame.points.size() + frame.lines.size();
+  });
+}
+BENCHMARK(WholeFrame)->Unit(benchmark::kMillisecond);
+
+void SurfaceNormals(benchmark::State& state) {
+  SurfaceNormalEstimator estimator({}, TheInput().sequence.camera(), LensDistortion());
+  Measure(state, [&](const RgbdImage& image) { return estimator.Estimate(image.depth).size(); });
+}
+BENCHMARK(SurfaceNormals)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+}  // namespace msc_vo
+
+BENCHMARK_MAIN();

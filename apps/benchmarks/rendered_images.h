@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "msc_vo/features/rgbd_image.h"
+#include "msc_vo/synthetic/synthetic_sequence.h"
+
+namespace msc_vo {
+
+// Image `index` of a walk through a furnished room at 640x480, with the noise of a Kinect: what the
+// benchmarks work on, so that they need no data and measure the same everywhere.
+inline SyntheticSequence BenchmarkSequence() {
+  SyntheticSequenceOptions options;
+  options.kinect_depth = true;
+  return SyntheticSequence(options);
+}
+
+inline RgbdImage RenderImage(const SyntheticSequence& sequence, int index) {
+  SyntheticFrame frame = sequence.Render(index);
+  std::vector<uint8_t> gray = frame.image.Gray();
+  RgbdImage image;
+  image.id = index;
+  image.timestamp = frame.pose.timestamp;
+  const int height = frame.image.height;
+  const int width = frame.image.width;
+  image.gray = cv::Mat(height, width, CV_8UC1, gray.data()).clone();
+  image.depth = cv::Mat(height, width, CV_32FC1, frame.image.depth.data()).clone();
+  return image;
+}
+
+}  // namespace msc_vo

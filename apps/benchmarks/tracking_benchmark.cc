@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// From the features of one frame to its pose: against the frame before it, with an empty map.
+
+#include <memory>
+
+#include <benchmark/benchmark.h>
+
+#include "apps/benchmarks/rendered_images.h"
+#include "msc_vo/features/frame_builder.h"
+#include "msc_vo/tracking/pose_estimation.h"
+
+namespace msc_vo {
+
+namespace {
+
+struct Input {
+  Input() {
+    const SyntheticSequence sequence = BenchmarkSequence();
+    FrameBuilder builder({}, sequence.camera(), LensDistortion());
+    last.frame = std::make_shared<Frame>(builder.Build(RenderImage(sequence, 40)));
+    frame = builder.Build(RenderImage(sequence, 41));
+    seen = CandidatesFromFrame(Map(), last, Rigid3(), Rigid3());
+    matches = MatchLocalMap(options, frame, seen, options.prediction_radius, {});
+  }
+
+  TrackerOptions options;
+  TrackedFrame last;  // at the origin
+  Frame frame;
+  LocalMap seen;  // what `last` saw
+  FrameMatches matches;
+};
+
+const Input& TheInput() {
+  static const Input input;
+  return input;
+}
+
+void Candidates(benchmark::State& state) {
+  const Input& input = TheInput();
+  const Map map;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(CandidatesFromFrame(map, input.last, Rigid3(), Rigid3()));
+  }
+  state.counters["points"] = static_cast<double>(input.seen.points.size());
+  state.counters["lines"] = static_cast<double>(input.seen.lines.size());
+}
+BENCHMARK(Candidates)->Unit(benchmark::kMicrosecond);
+
+// The argument is the search radius, pixels.
+void PointMatching(benchmark::State& state) {
+  const Input& input = TheInput();
+  size_t num_matches = 0;
+  for (auto _ : state) {
+    num_matches = MatchPoints(input.options.point_matcher, input.frame, input.seen.points,
+                              static_cast<double>(state.range(0)), {})
+                      .size();
+  }
+  state.counters["matches"] = static_cast<double>(num_matches);
+}
+BENCHMARK(PointMatching)->Arg(4)->Arg(15)->Arg(60)->Unit(benchmark::kMicrosecond);
+
+void LineMatching(benchmark::State& state) {
+  const Input& input = TheInput();
+  size_t num_matches = 0;
+  for (auto _ : state) {
+    num_matches = MatchLines(input.options.line_matcher, input.frame, input.seen.lines,
+                             static_cast<double>(state.range(0)), {})
+                      .size();
+  }
+  state.counters["matches"] = static_cast<double>(num_matches);
+}
+BENCHMARK(LineMatching)->Arg(4)->Arg(15)->Arg(60)->Unit(benchmark::kMicrosecond);
+
+void EstimatePose(benchmark::State& state) {
+  const Input& input = TheInput();
+  PoseSummary summary;
+  for (auto _ : state) {
+    Rigid3 cam_from_world;
+    FrameMatches matches = input.matches;
+    summary = EstimateFramePose(input.options.pose, input.frame, &cam_from_world, &matches);
+  }
+  state.counters["inlier_points"] = summary.num_inlier_points;
+  state.counters["inlier_lines"] = summary.num_inlier_lines;
+}
+BENCHMARK(EstimatePose)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+
+}  // namespace msc_vo
+
+BENCHMARK_MAIN();
