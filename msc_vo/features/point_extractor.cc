@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <stdexcept>
 #include <tuple>
 
@@ -62,15 +63,12 @@ class CellGrid {
     const double size = std::sqrt(static_cast<double>(area.area()) / std::max(1, num_wanted));
     columns_ = std::max(1, static_cast<int>(std::lround(area.width / size)));
     rows_ = std::max(1, static_cast<int>(std::lround(area.height / size)));
-    cells_.resize(static_cast<size_t>(columns_) * rows_);
+    counts_.resize(static_cast<size_t>(columns_) * rows_, 0);
   }
 
   void Add(const std::vector<Corner>& corners) {
-    for (const Corner& corner : corners) {
-      const int column = (corner.pixel.x - area_.x) * columns_ / area_.width;
-      const int row = (corner.pixel.y - area_.y) * rows_ / area_.height;
-      cells_[row * columns_ + column].push_back(corner);
-    }
+    for (const Corner& corner : corners) ++counts_[CellOf(corner)];
+    corners_.insert(corners_.end(), corners.begin(), corners.end());
   }
 
   // The empty cells, neighbours in a row as one area: each search also looks around its area.
@@ -78,8 +76,8 @@ class CellGrid {
     std::vector<cv::Rect> areas;
     for (int row = 0; row < rows_; ++row) {
       for (int column = 0; column < columns_; ++column) {
-        if (!cells_[row * columns_ + column].empty()) continue;
-        const bool continues = column > 0 && cells_[row * columns_ + column - 1].empty();
+        if (counts_[row * columns_ + column] > 0) continue;
+        const bool continues = column > 0 && counts_[row * columns_ + column - 1] == 0;
         const cv::Rect area = CellArea(row, column);
         if (continues) {
           areas.back() |= area;
@@ -94,12 +92,12 @@ class CellGrid {
   // The strongest corner of every cell, then the second of every cell, and so on, `num_wanted` in
   // all; within one round the stronger first.
   std::vector<Corner> Choose(int num_wanted) {
+    const std::vector<int> begins = SortByCell();
     std::vector<Corner> chosen;
-    for (auto& cell : cells_) std::sort(cell.begin(), cell.end(), Stronger);
-    for (size_t round = 0; static_cast<int>(chosen.size()) < num_wanted; ++round) {
+    for (int round = 0; static_cast<int>(chosen.size()) < num_wanted; ++round) {
       const size_t before = chosen.size();
-      for (const auto& cell : cells_) {
-        if (round < cell.size()) chosen.push_back(cell[round]);
+      for (size_t cell = 0; cell < counts_.size(); ++cell) {
+        if (round < counts_[cell]) chosen.push_back(corners_[begins[cell] + round]);
       }
       if (chosen.size() == before) break;
       std::sort(chosen.begin() + before, chosen.end(), Stronger);
@@ -109,7 +107,27 @@ class CellGrid {
   }
 
  private:
-  // First coordinates that Add() sends to this column and row, up to those of the next.
+  int CellOf(const Corner& corner) const {
+    const int column = (corner.pixel.x - area_.x) * columns_ / area_.width;
+    const int row = (corner.pixel.y - area_.y) * rows_ / area_.height;
+    return row * columns_ + column;
+  }
+
+  // Puts the corners cell by cell, the strongest first in each, and returns where cells begin.
+  std::vector<int> SortByCell() {
+    std::vector<int> begins(counts_.size(), 0);
+    std::partial_sum(counts_.begin(), counts_.end() - 1, begins.begin() + 1);
+    std::vector<int> next = begins;
+    std::vector<Corner> sorted(corners_.size());
+    for (const Corner& corner : corners_) sorted[next[CellOf(corner)]++] = corner;
+    for (size_t cell = 0; cell < counts_.size(); ++cell) {
+      std::sort(sorted.begin() + begins[cell], sorted.begin() + next[cell], Stronger);
+    }
+    corners_ = std::move(sorted);
+    return begins;
+  }
+
+  // First coordinates that CellOf() sends to this column and row, up to those of the next.
   cv::Rect CellArea(int row, int column) const {
     const auto first = [](int index, int extent, int count) {
       return (index * extent + count - 1) / count;
@@ -124,7 +142,8 @@ class CellGrid {
   cv::Rect area_;
   int columns_ = 1;
   int rows_ = 1;
-  std::vector<std::vector<Corner>> cells_;
+  std::vector<Corner> corners_;
+  std::vector<int> counts_;  // of corners in each cell, row by row
 };
 
 cv::Rect DetectionArea(const cv::Mat& level) {
