@@ -41,10 +41,12 @@ OUTSIDE_HEADERS = [
     (r"spdlog/", {"odometry", "io", "apps"}),
     (r"yaml-cpp/", {"io", "apps"}),
     (r"ceres/", {"factors", "problems"}),
-    (r"(thread|mutex|shared_mutex|future|condition_variable|atomic)$", {"odometry", "io"}),
+    (r"(thread|mutex|shared_mutex|future|condition_variable)$", {"odometry", "io"}),
+    (r"atomic$", {"odometry", "io", "apps"}),
     (r"chrono$", floors("features", "apps")),
     (r"(fstream|filesystem)$", floors("features", "apps")),
-    (r"gtest/|gmock/|benchmark/", set()),
+    (r"benchmark/", {"apps"}),
+    (r"gtest/|gmock/", set()),
 ]
 # Generated; belongs to no folder.
 COMMON_HEADERS = {"msc_vo/version.h"}

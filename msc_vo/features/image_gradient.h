@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <cstdlib>
 #include <vector>
 
 #include <opencv2/core.hpp>

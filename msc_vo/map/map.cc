@@ -169,6 +169,10 @@ void Map::RemoveKeyframe(KeyframeId id, KeyframeId heir) {
 }
 
 Rigid3 Map::CamFromWorld(KeyframeId id) const {
+  // As it stands, to the last bit: a product would normalise its rotation again.
+  if (const auto keyframe = keyframes_.find(id); keyframe != keyframes_.end()) {
+    return keyframe->second.cam_from_world;
+  }
   Rigid3 cam_from_heir;
   for (auto removed = removed_.find(id); removed != removed_.end(); removed = removed_.find(id)) {
     cam_from_heir = cam_from_heir * removed->second.cam_from_heir;
