@@ -30,6 +30,9 @@ constexpr double kJumpSigmas = 5.2;
 constexpr int kMinRun = 2;
 // A surface beside the line is extrapolated to it over so many of its pixels, if it has them.
 constexpr int kMaxFitPixels = 4;
+// Two surfaces differ in depth if their difference exceeds so many of its sigmas: 99 % quantile of
+// a normal deviate.
+constexpr double kSameSigmas = 2.576;
 constexpr double kEndPointRadius = 2.0;
 
 // Inverse depths at offsets -kReach .. kReach across the line, 0 for none.
@@ -127,12 +130,19 @@ Crossing AtLine(const Profile& profile, const Run& run) {
   return {mean_w - moment / spread * mean_x, std::sqrt(1.0 / n + mean_x * mean_x / spread)};
 }
 
+// Of the surfaces that come to the line the nearest. If noise decides which of two that is, the one
+// that is better known: to take the nearer one would pull all depths towards the camera.
 std::optional<Crossing> NearestCrossing(const Profile& profile, double sigma) {
   std::optional<Crossing> nearest;
   for (const Run& run : SplitAtJumps(profile, sigma)) {
     if (run.Size() < kMinRun || std::abs(run.NearestOffset()) > kMaxDistance) continue;
     const Crossing crossing = AtLine(profile, run);
-    if (!nearest || crossing.w > nearest->w) nearest = crossing;
+    const double margin =
+        nearest ? kSameSigmas * sigma * std::hypot(crossing.sigma, nearest->sigma) : 0.0;
+    const bool is_same = nearest && std::abs(crossing.w - nearest->w) <= margin;
+    if (!nearest || (is_same ? crossing.sigma < nearest->sigma : crossing.w > nearest->w)) {
+      nearest = crossing;
+    }
   }
   return nearest;
 }

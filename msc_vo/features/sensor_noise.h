@@ -12,9 +12,9 @@ struct SensorNoiseOptions {
   // Standard deviation of 1/z, 1/metres: a structured-light or stereo sensor measures disparity,
   // whose noise is constant. The random part of a Kinect's is 1.4e-3 (Khoshelham and Elberink 2012:
   // 13 mm at 3 m), but its larger part is systematic (registration, calibration) and common to all
-  // views of a point, so that it does not average out. Tried over all sequences of docs/results.md:
-  // 2e-3 and 4e-3. 2e-3 is 20 % worse on kitchen and 34 % worse on fr1_rpy, and up to 40 % better
-  // on some rendered rooms.
+  // views of a point, so that it does not average out. Where the estimate of mapping/depth_noise
+  // starts from. Held at one value over a run, 1.4e-3 is the best for rendered rooms and twice as
+  // bad as 8e-3 on fr1_rpy (docs/results.md).
   double inverse_depth_sigma = 4e-3;
   // Its random part alone, 1/metres: how much neighbouring pixels of one surface differ. Tells
   // depth edges and outliers along a line from noise, within one image, where the systematic part

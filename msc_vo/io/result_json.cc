@@ -153,6 +153,8 @@ Json MeasuresToJson(const RunSummary& summary, const std::optional<TrajectoryErr
                  {"points", summary.num_points},
                  {"lines", summary.num_lines}};
   json["manhattan_axes"] = AxesToJson(summary);
+  json["depth_scale"] = {{"points", summary.depth_scale.points},
+                         {"lines", summary.depth_scale.lines}};
   json["last_window"] = WindowToJson(summary.last_window);
   json["error"] = error ? ErrorToJson(*error) : Json();
   json["stages_ms"] = StagesToJson(summary.stages);

@@ -35,6 +35,7 @@ RunSummary Summarize(const OdometryResult& result) {
     if (line.axis) ++summary.num_axis_lines[*line.axis];
   }
   summary.axes = result.axes;
+  summary.depth_scale = result.depth_scale;
   summary.last_window = result.last_window;
   return summary;
 }

@@ -10,7 +10,8 @@
 
 namespace msc_vo {
 
-Mapper::Mapper(const MapperOptions& options) : options_(options), axes_(options.axes) {
+Mapper::Mapper(const MapperOptions& options)
+    : options_(options), axes_(options.axes), depth_noise_(options.depth_noise) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
 }
@@ -33,6 +34,7 @@ MapSnapshotPtr Mapper::Snapshot() const {
   auto snapshot = std::make_shared<MapSnapshot>();
   snapshot->map = map_;
   snapshot->newest_keyframe = newest_keyframe_;
+  snapshot->depth_scale = depth_noise_.scale();
   snapshot->needs_axes = options_.axes.enabled && axes_.estimator().state() == AxesState::kNone;
   return snapshot;
 }
@@ -64,11 +66,15 @@ WindowSummary Mapper::OptimizeWindow(KeyframeId keyframe) {
   for (const WindowData::Line& line : window.lines) last_window_lines_.insert(line.id);
   // One keyframe alone has nothing to agree with.
   if (window.keyframes.size() < 2) return {};
+  depth_noise_.Apply(&window);
   axes_.AddAlignments(map_, &window);
   AddStructuralPairs(options_.pairs, map_, &window);
   if (window_observer_) window_observer_(keyframe, options_.window, window);
   const WindowSummary summary = SolveWindow(options_.window, &window);
-  if (summary.usable) WriteBack(window, &map_);
+  if (summary.usable) {
+    depth_noise_.Update(window);
+    WriteBack(window, &map_);
+  }
   return summary;
 }
 

@@ -36,8 +36,9 @@ class Mapper {
   MapSnapshotPtr Snapshot() const;
 
   const Map& map() const { return map_; }
-  // Lines that took part in the last window.
   const SceneAxes& axes() const { return axes_; }
+  const DepthNoise& depth_noise() const { return depth_noise_; }
+  // Lines that took part in the last window.
   const std::set<LandmarkId>& last_window_lines() const { return last_window_lines_; }
 
  private:
@@ -49,6 +50,7 @@ class Mapper {
   Map map_;
   Probation probation_;
   SceneAxes axes_;
+  DepthNoise depth_noise_;
   KeyframeId newest_keyframe_ = kNoId;
   std::set<LandmarkId> last_window_lines_;
 };

@@ -7,6 +7,7 @@
 
 #include "msc_vo/map/window.h"
 #include "msc_vo/mapping/culling.h"
+#include "msc_vo/mapping/depth_noise.h"
 #include "msc_vo/mapping/landmark_fusion.h"
 #include "msc_vo/mapping/scene_axes.h"
 #include "msc_vo/mapping/structural_pairs.h"
@@ -17,6 +18,7 @@ namespace msc_vo {
 struct MapperOptions {
   FusionOptions fusion;
   WindowSelectionOptions selection;
+  DepthNoiseOptions depth_noise;
   SceneAxesOptions axes;
   StructuralPairOptions pairs;
   WindowOptions window;

@@ -12,6 +12,7 @@
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/manhattan/axes_estimator.h"
+#include "msc_vo/map/depth_scale.h"
 #include "msc_vo/mapping/window_observer.h"
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/odometry/odometry_options.h"
@@ -48,6 +49,7 @@ struct OdometryResult {
   std::vector<MapPoint> points;
   std::vector<MapLine> lines;
   MapAxes axes;
+  DepthScale depth_scale;     // of the sigmas of measured depths, as learnt
   WindowSummary last_window;  // of the last keyframe step
 };
 

@@ -25,7 +25,9 @@ FrameMatches MatchLocalMap(const TrackerOptions& options, const Frame& frame, co
 FrameMatches LandmarkInliers(const FrameMatches& matches);
 
 // Solves the pose problem of `frame` for `matches`, starting from *cam_from_world; marks inliers.
+// depth_scale: factors of the sigmas of its depths.
 PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame,
-                              Rigid3* cam_from_world, FrameMatches* matches);
+                              const DepthScale& depth_scale, Rigid3* cam_from_world,
+                              FrameMatches* matches);
 
 }  // namespace msc_vo
