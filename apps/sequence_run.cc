@@ -47,7 +47,13 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
     context.outcome = "interrupted";
     run.exit_code = kExitInterrupted;
   }
-  run.result = odometry.Finish();
+  try {
+    run.result = odometry.Finish();
+  } catch (const std::exception& error) {  // of a keyframe that no image came behind
+    context.outcome = error.what();
+    run.exit_code = kExitError;
+    run.result = odometry.Finish();
+  }
   context.cost = cost.Read();
   run.summary = Summarize(run.result);
   if (!context.sequence.ground_truth.empty() && done > 0) {

@@ -338,10 +338,15 @@ std::vector<Option> ListOptions(Configuration* configuration) {
                  "what of the method is used; each adds to the one before");
   list.Add("use_points", &odometry.use_points, "off: lines alone");
   list.Add("use_lines", &odometry.use_lines, "off: points alone");
-  list.Add("threads", &odometry.threads, "used at most; the result is the same for any number");
+  list.Add("threads", &odometry.threads,
+           "processors to make use of; the result is the same for any number");
+  list.Add("realtime", &odometry.snapshots.newest,
+           "frames see the newest map, whatever mapping.latency_frames says; nothing repeats");
   list.Section("features", &odometry.features, ListFeatures);
   list.Section("normals", &odometry.normals, ListNormals);
   list.Section("tracking", &odometry.tracking, ListTracking);
+  list.Add("mapping.latency_frames", &odometry.snapshots.latency_frames,
+           "frames from a keyframe to the first that sees the map with it");
   list.Section("mapping", &odometry.mapping, ListMapping);
   return list.Take();
 }

@@ -38,7 +38,8 @@ std::vector<ReportFrame> ReportFrames(const std::vector<FrameResult>& frames) {
     row.num_inlier_points = frame.num_inlier_points;
     row.num_inlier_lines = frame.num_inlier_lines;
     const StageTimes& times = frame.times;
-    row.stage_ms = {times.points, times.lines, times.depth, times.matching, times.pose};
+    row.stage_ms = {times.points,  times.lines,    times.depth,
+                    times.waiting, times.matching, times.pose};
     row.tracking_ms = times.tracking;
     row.mapping_ms = times.mapping;
     rows.push_back(std::move(row));
@@ -47,7 +48,7 @@ std::vector<ReportFrame> ReportFrames(const std::vector<FrameResult>& frames) {
 }
 
 std::vector<std::string> ReportStageNames() {
-  return {"points", "lines", "depth", "matching", "pose"};
+  return {"points", "lines", "depth", "waiting", "matching", "pose"};
 }
 
 }  // namespace msc_vo

@@ -19,6 +19,7 @@ struct StageTimes {
   double depth = 0.0;
   double matching = 0.0;
   double pose = 0.0;
+  double waiting = 0.0;   // for the map that the frame must see
   double tracking = 0.0;  // everything from the decoded images to the pose
   double mapping = 0.0;   // of the keyframe step that this frame caused; 0 for other frames
 };

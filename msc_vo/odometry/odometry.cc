@@ -8,7 +8,9 @@
 
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/gap_filling.h"
+#include "msc_vo/odometry/mapping_runner.h"
 #include "msc_vo/odometry/side_worker.h"
+#include "msc_vo/odometry/snapshot_schedule.h"
 #include "msc_vo/tracking/stopwatch.h"
 #include "msc_vo/tracking/tracker.h"
 
@@ -69,13 +71,17 @@ struct Odometry::State {
         normal_estimator(options.normals, camera, distortion),
         tracker(options.tracking),
         mapper(options.mapping),
-        snapshot(mapper.Snapshot()) {
+        schedule(options.snapshots,
+                 options.threads > 1 ? MakeThreadedRunner(&mapper) : MakeInlineRunner(&mapper),
+                 mapper.Snapshot(),
+                 [this](int frame, const MappingStep& step) { Record(frame, step); }) {
     if (options.threads > 1) side_worker = std::make_unique<SideWorker>();
   }
 
   Frame Build(const RgbdImage& image);
   void Count(const TrackedFrame& tracked);
-  Place InsertKeyframe(const TrackedFrame& tracked, const cv::Mat& depth);
+  void SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat& depth);
+  void Record(int frame, const MappingStep& step);
 
   OdometryOptions options;
   FrameBuilder builder;
@@ -83,11 +89,12 @@ struct Odometry::State {
   std::unique_ptr<SideWorker> side_worker;  // none with one thread
   Tracker tracker;
   Mapper mapper;
-  MapSnapshotPtr snapshot;
+  MapSnapshotPtr snapshot;  // what the last frame saw
   WindowSummary last_window;
   KeyframePacket packet;  // its counts grow until the next keyframe
   std::vector<FrameResult> results;
   std::vector<Place> places;  // one per result
+  SnapshotSchedule schedule;  // last: it works with the members above
 };
 
 Frame Odometry::State::Build(const RgbdImage& image) {
@@ -104,8 +111,7 @@ void Odometry::State::Count(const TrackedFrame& tracked) {
   for (const LineMatch& match : tracked.matches.lines) ++packet.line_counts[match.id].num_found;
 }
 
-Odometry::State::Place Odometry::State::InsertKeyframe(const TrackedFrame& tracked,
-                                                       const cv::Mat& depth) {
+void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat& depth) {
   packet.frame = tracked.frame;
   packet.reference = tracked.reference;
   packet.cam_from_reference = tracked.cam_from_reference;
@@ -115,11 +121,15 @@ Odometry::State::Place Odometry::State::InsertKeyframe(const TrackedFrame& track
       packet.normals.push_back({normal.direction, normal.sigma});
     }
   }
-  const MappingSummary summary = mapper.Process(packet);
+  schedule.Submit(static_cast<int>(results.size()) - 1, std::move(packet));
   packet = {};
-  last_window = summary.window;
-  snapshot = mapper.Snapshot();
-  return {summary.keyframe, Rigid3()};
+}
+
+void Odometry::State::Record(int frame, const MappingStep& step) {
+  results[frame].times.mapping = step.milliseconds;
+  results[frame].cam_from_world = step.snapshot->map.CamFromWorld(step.summary.keyframe);
+  places[frame] = {step.summary.keyframe, Rigid3()};
+  last_window = step.summary.window;
 }
 
 Odometry::Odometry(const OdometryOptions& options, const PinholeCamera& camera,
@@ -144,26 +154,30 @@ FrameResult Odometry::Process(const RgbdImage& image) {
     frame->grid = FeatureGrid(frame->camera, frame->points);
   }
   if (!state_->options.use_lines) frame->lines.clear();
+  const int index = static_cast<int>(state_->results.size());
+  Stopwatch waiting;
+  state_->snapshot = state_->schedule.SnapshotAt(index);
+  const double waiting_ms = waiting.Milliseconds();
   const TrackedFrame tracked = state_->tracker.Track(std::move(frame), *state_->snapshot);
   FrameResult result = MakeResult(tracked);
   result.times.points = state_->builder.times().points;
   result.times.lines = state_->builder.times().lines;
   result.times.depth = state_->builder.times().depth;
-  result.times.tracking = stopwatch.Restart();
+  result.times.waiting = waiting_ms;
+  result.times.tracking = stopwatch.Milliseconds();
 
   state_->Count(tracked);
-  State::Place place = {tracked.reference, tracked.cam_from_reference};
-  if (tracked.is_keyframe) {
-    place = state_->InsertKeyframe(tracked, image.depth);
-    result.times.mapping = stopwatch.Milliseconds();
-    result.cam_from_world = state_->mapper.map().CamFromWorld(place.reference);
-  }
   state_->results.push_back(result);
-  state_->places.push_back(place);
-  return result;
+  state_->places.push_back({tracked.reference, tracked.cam_from_reference});
+  if (tracked.is_keyframe) {
+    state_->SubmitKeyframe(tracked, image.depth);
+    state_->snapshot = state_->schedule.SnapshotAt(index);  // of this keyframe, without latency
+  }
+  return state_->results.back();
 }
 
 OdometryResult Odometry::Finish() {
+  state_->schedule.Drain();
   const Map& map = state_->mapper.map();
   OdometryResult result;
   result.frames = state_->results;

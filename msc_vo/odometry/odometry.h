@@ -67,15 +67,18 @@ class Odometry {
            const LensDistortion& distortion);
   ~Odometry();
 
-  // Is shown every window before it is solved; to be set before the first image.
+  // Is shown every window before it is solved, on the mapper's thread if it has one; to be set
+  // before the first image.
   void SetWindowObserver(WindowObserver observer);
 
   // Tracks one image and returns what is known of it now. Poses get better until Finish().
-  // Throws std::invalid_argument if the image does not fit the camera or time runs backwards.
+  // Throws std::invalid_argument if the image does not fit the camera or time runs backwards, and
+  // what a keyframe step of an earlier frame threw; the next call goes on without that step.
   FrameResult Process(const RgbdImage& image);
 
   // Waits for the mapper and returns the trajectory re-expressed in the final keyframe poses. May
-  // be called at any time, also after an interruption.
+  // be called at any time, also after an interruption. Throws what a keyframe step threw if
+  // Process() did not yet; then it may be called again.
   OdometryResult Finish();
 
  private:

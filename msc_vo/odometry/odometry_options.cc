@@ -36,7 +36,7 @@ bool OdometryOptions::IsValid(std::string* error) const {
     return false;
   }
   return features.IsValid(error) && normals.IsValid(error) && tracking.IsValid(error) &&
-         mapping.IsValid(error);
+         mapping.IsValid(error) && snapshots.IsValid(error);
 }
 
 }  // namespace msc_vo

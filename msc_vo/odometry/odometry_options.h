@@ -8,6 +8,7 @@
 #include "msc_vo/features/frame_builder.h"
 #include "msc_vo/features/surface_normals.h"
 #include "msc_vo/mapping/mapper_options.h"
+#include "msc_vo/odometry/snapshot_schedule.h"
 #include "msc_vo/tracking/tracker_options.h"
 
 namespace msc_vo {
@@ -27,13 +28,14 @@ struct OdometryOptions {
   Mode mode = Mode::kMscVo;
   bool use_points = true;
   bool use_lines = true;
-  // Used for one image, at most: with two, points and lines are extracted side by side. The result
-  // is the same for any number.
+  // Processors to make use of. 1: everything in turn; 2 or more: mapping beside tracking, points
+  // beside lines. The result is the same for any number.
   int threads = 2;
   FrameBuilderOptions features;
   SurfaceNormalOptions normals;
   TrackerOptions tracking;
   MapperOptions mapping;
+  SnapshotOptions snapshots;
 
   bool IsValid(std::string* error) const;
 };

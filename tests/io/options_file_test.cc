@@ -73,7 +73,9 @@ TEST_F(OptionsFileTest, TheDefaultsAreValidAndEveryOptionHasItsOwnNameAndHelp) {
 }
 
 TEST_F(OptionsFileTest, NoFieldOfTheOptionsIsForgotten) {
-  EXPECT_EQ(NumListed(""), NumFields<OdometryOptions>() + 1);  // and the camera
+  // And the camera. The two snapshot options stand where users look for them.
+  EXPECT_EQ(NumListed(""), NumFields<OdometryOptions>() + 1);
+  EXPECT_EQ(NumFields<SnapshotOptions>(), 2);
   EXPECT_EQ(NumListed("features."), NumFields<FrameBuilderOptions>());
   EXPECT_EQ(NumListed("features.points."), NumFields<PointExtractorOptions>());
   EXPECT_EQ(NumListed("features.lines."), NumFields<LineExtractorOptions>());
@@ -87,7 +89,7 @@ TEST_F(OptionsFileTest, NoFieldOfTheOptionsIsForgotten) {
   EXPECT_EQ(NumListed("tracking.pose.line_depth."), NumFields<TermOptions>());
   EXPECT_EQ(NumListed("tracking.keyframes."), NumFields<KeyframePolicyOptions>());
   EXPECT_EQ(NumListed("tracking.relocalizer."), NumFields<RelocalizerOptions>());
-  EXPECT_EQ(NumListed("mapping."), NumFields<MapperOptions>());
+  EXPECT_EQ(NumListed("mapping."), NumFields<MapperOptions>() + 1);  // latency_frames
   EXPECT_EQ(NumListed("mapping.fusion."), NumFields<FusionOptions>());
   EXPECT_EQ(NumListed("mapping.selection."), NumFields<WindowSelectionOptions>());
   EXPECT_EQ(NumListed("mapping.window."), NumFields<WindowOptions>());

@@ -103,13 +103,7 @@ TEST_F(OdometryTest, EveryModeAndKindOfFeatureWorksAlone) {
   EXPECT_TRUE(result.points.empty());
 }
 
-TEST_F(OdometryTest, TheSameImagesGiveTheSameBytesAtAnyThreadCount) {
-  OdometryOptions one_thread;
-  one_thread.threads = 1;
-  OdometryOptions two_threads;
-  two_threads.threads = 2;
-  const OdometryResult a = Run(one_thread, *images_);
-  const OdometryResult b = Run(two_threads, *images_);
+void ExpectSameBytes(const OdometryResult& a, const OdometryResult& b) {
   ASSERT_EQ(a.frames.size(), b.frames.size());
   for (size_t i = 0; i < a.frames.size(); ++i) {
     EXPECT_EQ(a.frames[i].cam_from_world.params, b.frames[i].cam_from_world.params) << i;
@@ -118,6 +112,70 @@ TEST_F(OdometryTest, TheSameImagesGiveTheSameBytesAtAnyThreadCount) {
   for (size_t i = 0; i < a.points.size(); ++i) {
     EXPECT_EQ(a.points[i].position, b.points[i].position) << i;
   }
+}
+
+TEST_F(OdometryTest, TheSameImagesGiveTheSameBytesAtAnyThreadCount) {
+  OdometryOptions one_thread;
+  one_thread.threads = 1;
+  OdometryOptions two_threads;
+  two_threads.threads = 2;
+  for (const int latency_frames : {0, 1, 4}) {
+    one_thread.snapshots.latency_frames = latency_frames;
+    two_threads.snapshots.latency_frames = latency_frames;
+    ExpectSameBytes(Run(one_thread, *images_), Run(two_threads, *images_));
+  }
+}
+
+TEST_F(OdometryTest, LatencyOfOneFrameChangesNoPose) {
+  OdometryOptions none;
+  none.snapshots.latency_frames = 0;
+  OdometryOptions one;
+  one.snapshots.latency_frames = 1;
+  ExpectSameBytes(Run(none, *images_), Run(one, *images_));
+}
+
+TEST_F(OdometryTest, FollowsWithTheNewestMapAsWell) {
+  OdometryOptions options;
+  options.snapshots.newest = true;
+  const OdometryResult result = Run(options, *images_);
+  EXPECT_EQ(Count(result, TrackingStatus::kTracked), kNumFrames);
+  EXPECT_LT(ApeRmse(result), 0.006);  // as it does frame by frame
+}
+
+TEST_F(OdometryTest, AnErrorOfTheMapperIsThrownAndTheRunGoesOn) {
+  for (const int threads : {1, 2}) {
+    OdometryOptions options;
+    options.threads = threads;
+    Odometry odometry(options, camera_, LensDistortion());
+    odometry.SetWindowObserver([](KeyframeId keyframe, const WindowOptions&, const WindowData&) {
+      if (keyframe == 1) throw std::runtime_error("disk full");
+    });
+    int num_errors = 0;
+    for (const RgbdImage& image : *images_) {
+      try {
+        odometry.Process(image);
+      } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "disk full");
+        ++num_errors;
+      }
+    }
+    EXPECT_EQ(num_errors, 1);
+    const OdometryResult result = odometry.Finish();
+    EXPECT_EQ(result.frames.size(), images_->size() - 1);
+    EXPECT_LT(ApeRmse(result), 0.01);
+  }
+}
+
+TEST_F(OdometryTest, FinishThrowsAnErrorThatNoFrameHeardOfAndThenGivesTheResult) {
+  OdometryOptions options;
+  options.snapshots.latency_frames = 1000;
+  Odometry odometry(options, camera_, LensDistortion());
+  odometry.SetWindowObserver([](KeyframeId, const WindowOptions&, const WindowData&) {
+    throw std::runtime_error("disk full");
+  });
+  for (const RgbdImage& image : *images_) odometry.Process(image);
+  EXPECT_THROW(odometry.Finish(), std::runtime_error);
+  EXPECT_EQ(odometry.Finish().frames.size(), images_->size());
 }
 
 TEST_F(OdometryTest, BlackFramesAreSaidAndBridged) {

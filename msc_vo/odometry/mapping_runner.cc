@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/mapping_runner.h"
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "msc_vo/tracking/stopwatch.h"
+
+namespace msc_vo {
+
+namespace {
+
+MappingStep RunStep(const KeyframePacket& packet, Mapper* mapper) {
+  MappingStep step;
+  const Stopwatch stopwatch;
+  try {
+    step.summary = mapper->Process(packet);
+    step.snapshot = mapper->Snapshot();
+  } catch (...) {
+    step = {};
+    step.error = std::current_exception();
+  }
+  step.milliseconds = stopwatch.Milliseconds();
+  return step;
+}
+
+MappingStep PopFront(std::deque<MappingStep>* steps) {
+  MappingStep step = std::move(steps->front());
+  steps->pop_front();
+  return step;
+}
+
+[[noreturn]] void ThrowNothingUnderWay() {
+  throw std::logic_error("mapping: a step was asked for, but no keyframe is under way");
+}
+
+class InlineRunner : public MappingRunner {
+ public:
+  explicit InlineRunner(Mapper* mapper) : mapper_(mapper) {}
+
+  void Submit(KeyframePacket packet) override { done_.push_back(RunStep(packet, mapper_)); }
+  MappingStep Take() override {
+    if (done_.empty()) ThrowNothingUnderWay();
+    return PopFront(&done_);
+  }
+  std::optional<MappingStep> TryTake() override {
+    if (done_.empty()) return std::nullopt;
+    return PopFront(&done_);
+  }
+
+ private:
+  Mapper* mapper_;
+  std::deque<MappingStep> done_;
+};
+
+class ThreadedRunner : public MappingRunner {
+ public:
+  explicit ThreadedRunner(Mapper* mapper) : mapper_(mapper), thread_([this] { Loop(); }) {}
+
+  ~ThreadedRunner() override {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      stopping_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+  }
+
+  void Submit(KeyframePacket packet) override {
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      changed_.wait(lock, [this] { return waiting_.size() < kMaxWaiting; });
+      waiting_.push_back(std::move(packet));
+      ++num_under_way_;
+    }
+    changed_.notify_all();
+  }
+
+  MappingStep Take() override {
+    std::unique_lock<std::mutex> lock(mutex_);
+    if (num_under_way_ == 0) ThrowNothingUnderWay();
+    changed_.wait(lock, [this] { return !done_.empty(); });
+    --num_under_way_;
+    return PopFront(&done_);
+  }
+
+  std::optional<MappingStep> TryTake() override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (done_.empty()) return std::nullopt;
+    --num_under_way_;
+    return PopFront(&done_);
+  }
+
+ private:
+  void Loop() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    for (;;) {
+      changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+      if (stopping_) return;
+      const KeyframePacket packet = std::move(waiting_.front());
+      waiting_.pop_front();
+      lock.unlock();
+      changed_.notify_all();  // there is room
+      MappingStep step = RunStep(packet, mapper_);
+      lock.lock();
+      done_.push_back(std::move(step));
+      changed_.notify_all();
+    }
+  }
+
+  Mapper* mapper_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<KeyframePacket> waiting_;
+  std::deque<MappingStep> done_;
+  int num_under_way_ = 0;  // submitted and not taken
+  bool stopping_ = false;
+  std::thread thread_;  // last: it uses the members above
+};
+
+}  // namespace
+
+std::unique_ptr<MappingRunner> MakeInlineRunner(Mapper* mapper) {
+  return std::make_unique<InlineRunner>(mapper);
+}
+
+std::unique_ptr<MappingRunner> MakeThreadedRunner(Mapper* mapper) {
+  return std::make_unique<ThreadedRunner>(mapper);
+}
+
+}  // namespace msc_vo

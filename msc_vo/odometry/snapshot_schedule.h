@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "msc_vo/odometry/mapping_runner.h"
+
+namespace msc_vo {
+
+struct SnapshotOptions {
+  // The map that a keyframe leaves is seen from the frame so many behind it on, and not earlier
+  // even if it is ready. So every frame sees the same map however fast the mapper is, which makes
+  // the trajectory the same at any number of threads. 0: the keyframe itself waits for it; 1: the
+  // same poses, but the features of the next frame are extracted meanwhile; above, frames are
+  // tracked beside the mapper.
+  int latency_frames = 2;
+  // Every frame sees the newest map that is ready instead: nothing waits, nothing repeats.
+  bool newest = false;
+
+  bool IsValid(std::string* error) const;
+};
+
+// Gives keyframes to the mapper, and decides which map each frame is tracked against. The first map
+// is always waited for, as there is nothing to track against without it.
+class SnapshotSchedule {
+ public:
+  // Is told of every step that did not fail, in order, as soon as the schedule knows: `frame` is
+  // the keyframe as Submit() was told.
+  using Recorder = std::function<void(int frame, const MappingStep& step)>;
+
+  // The mapper, which must outlive the schedule, belongs to it until Drain().
+  SnapshotSchedule(const SnapshotOptions& options, std::unique_ptr<MappingRunner> runner,
+                   MapSnapshotPtr empty, Recorder record);
+
+  // Frame `frame` is a keyframe. Frames are counted from 0.
+  void Submit(int frame, KeyframePacket packet);
+
+  // The map that frame `frame` sees. Throws what the mapper threw, once, where the map that is
+  // missing for it would have become visible; the one before stays.
+  MapSnapshotPtr SnapshotAt(int frame);
+
+  // Waits for all keyframes. What frames see stays as it would have been. Throws what the mapper
+  // threw, unless SnapshotAt() did; what else it did has been recorded by then.
+  void Drain();
+
+ private:
+  struct Keyframe {
+    int frame = 0;
+    std::optional<MappingStep> step;  // once it was taken from the runner
+  };
+
+  bool IsDue(const Keyframe& keyframe, int frame) const;
+  void Receive(std::optional<MappingStep> step, Keyframe* keyframe);
+
+  SnapshotOptions options_;
+  std::unique_ptr<MappingRunner> runner_;
+  MapSnapshotPtr snapshot_;
+  Recorder record_;
+  std::deque<Keyframe> unseen_;  // keyframes whose map no frame sees yet
+};
+
+}  // namespace msc_vo

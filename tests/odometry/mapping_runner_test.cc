@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/mapping_runner.h"
+
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "tests/support/synthetic_frames.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+// Keyframes of a synthetic world in front of one runner or the other. A window is solved from the
+// second keyframe on, and its observer is where these tests look into a step.
+class MappingRunnerTest : public testing::TestWithParam<bool> {
+ protected:
+  static bool IsThreaded() { return GetParam(); }
+
+  std::unique_ptr<MappingRunner> MakeRunner() {
+    return IsThreaded() ? MakeThreadedRunner(&mapper_) : MakeInlineRunner(&mapper_);
+  }
+  // Matched with the points that keyframe 0 makes landmarks of, in their order, so that there is a
+  // window to solve from keyframe 1 on.
+  KeyframePacket Packet(int index) {
+    KeyframePacket packet;
+    packet.frame = world_.See(10 * index);
+    packet.cam_from_reference =
+        SyntheticFrames::CamFromWorld(10 * index) * SyntheticFrames::CamFromWorld(0).Inverse();
+    if (index == 0) first_frame_ = packet.frame;
+    for (size_t i = 0; i < packet.frame->points.size() && index > 0; ++i) {
+      for (size_t id = 0; id < first_frame_->points.size(); ++id) {
+        const int distance = HammingDistance(first_frame_->points[id].descriptor,
+                                             packet.frame->points[i].descriptor);
+        if (distance > 40) continue;
+        packet.matches.points.push_back(
+            {static_cast<int>(i), static_cast<LandmarkId>(id), Eigen::Vector3d::Zero(), true});
+        break;
+      }
+    }
+    return packet;
+  }
+
+  SyntheticFrames world_{SyntheticFrames::Options()};
+  std::shared_ptr<const Frame> first_frame_;
+  Mapper mapper_{MapperOptions()};
+};
+
+std::string RunnerName(const testing::TestParamInfo<bool>& info) {
+  return info.param ? "Threaded" : "Inline";
+}
+INSTANTIATE_TEST_SUITE_P(Both, MappingRunnerTest, testing::Bool(), RunnerName);
+
+TEST_P(MappingRunnerTest, GivesOneStepForEachKeyframeInOrder) {
+  const std::thread::id caller = std::this_thread::get_id();
+  std::thread::id worker;
+  mapper_.SetWindowObserver([&](KeyframeId, const WindowOptions&, const WindowData&) {
+    worker = std::this_thread::get_id();
+  });
+  const std::unique_ptr<MappingRunner> runner = MakeRunner();
+  EXPECT_FALSE(runner->TryTake().has_value());
+  for (int i = 0; i < 3; ++i) runner->Submit(Packet(i));
+  for (int i = 0; i < 3; ++i) {
+    const MappingStep step = runner->Take();
+    EXPECT_EQ(step.summary.keyframe, i);
+    ASSERT_NE(step.snapshot, nullptr);
+    EXPECT_EQ(step.snapshot->newest_keyframe, i);
+    EXPECT_EQ(step.snapshot->map.keyframes().size(), static_cast<size_t>(i + 1));
+    EXPECT_EQ(step.error, nullptr);
+  }
+  EXPECT_FALSE(runner->TryTake().has_value());
+  EXPECT_EQ(worker != caller, IsThreaded());
+}
+
+TEST_P(MappingRunnerTest, AStepThatThrowsIsToldAndTheNextOnesRun) {
+  mapper_.SetWindowObserver([](KeyframeId keyframe, const WindowOptions&, const WindowData&) {
+    if (keyframe == 1) throw std::runtime_error("disk full");
+  });
+  const std::unique_ptr<MappingRunner> runner = MakeRunner();
+  for (int i = 0; i < 3; ++i) runner->Submit(Packet(i));
+  EXPECT_EQ(runner->Take().error, nullptr);
+  const MappingStep failed = runner->Take();
+  EXPECT_EQ(failed.snapshot, nullptr);
+  ASSERT_NE(failed.error, nullptr);
+  try {
+    std::rethrow_exception(failed.error);
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "disk full");
+  }
+  const MappingStep next = runner->Take();
+  EXPECT_EQ(next.error, nullptr);
+  EXPECT_EQ(next.summary.keyframe, 2);
+}
+
+TEST_P(MappingRunnerTest, AStepThatNobodyMakesIsRefused) {
+  const std::unique_ptr<MappingRunner> runner = MakeRunner();
+  EXPECT_THROW(runner->Take(), std::logic_error);
+  runner->Submit(Packet(0));
+  runner->Take();
+  EXPECT_THROW(runner->Take(), std::logic_error);
+}
+
+TEST_P(MappingRunnerTest, EndsWithStepsThatNobodyTook) {
+  const std::unique_ptr<MappingRunner> runner = MakeRunner();
+  for (int i = 0; i < 2; ++i) runner->Submit(Packet(i));
+}
+
+// A mapper that stands still in the window of its second keyframe until it is let go.
+class BusyRunnerTest : public MappingRunnerTest {
+ protected:
+  BusyRunnerTest() {
+    mapper_.SetWindowObserver([this](KeyframeId, const WindowOptions&, const WindowData&) {
+      if (num_windows_++ == 0) {
+        reached_.set_value();
+        gate_.get_future().wait();
+      }
+    });
+  }
+
+  std::promise<void> reached_;
+  std::promise<void> gate_;
+  std::atomic<int> num_windows_{0};
+};
+INSTANTIATE_TEST_SUITE_P(Threads, BusyRunnerTest, testing::Values(true), RunnerName);
+
+TEST_P(BusyRunnerTest, TheQueueIsBounded) {
+  const std::unique_ptr<MappingRunner> runner = MakeRunner();
+  runner->Submit(Packet(0));
+  runner->Submit(Packet(1));
+  reached_.get_future().wait();
+  for (int i = 0; i < MappingRunner::kMaxWaiting; ++i) runner->Submit(Packet(2 + i));
+  std::future<void> one_more = std::async(
+      std::launch::async, [&] { runner->Submit(Packet(2 + MappingRunner::kMaxWaiting)); });
+  // There is no room before the mapper goes on. This is how long it is given to be wrong.
+  EXPECT_EQ(one_more.wait_for(std::chrono::milliseconds(20)), std::future_status::timeout);
+  gate_.set_value();
+  one_more.get();
+  for (int i = 0; i < 3 + MappingRunner::kMaxWaiting; ++i) {
+    EXPECT_EQ(runner->Take().summary.keyframe, i);
+  }
+}
+
+TEST_P(BusyRunnerTest, DestructionDiscardsWhatWaits) {
+  std::unique_ptr<MappingRunner> runner = MakeRunner();
+  runner->Submit(Packet(0));
+  runner->Submit(Packet(1));
+  reached_.get_future().wait();
+  runner->Submit(Packet(2));
+  std::future<void> end = std::async(std::launch::async, [&] { runner.reset(); });
+  // It ends behind the step that runs and not earlier.
+  EXPECT_EQ(end.wait_for(std::chrono::milliseconds(20)), std::future_status::timeout);
+  gate_.set_value();
+  end.get();
+  EXPECT_EQ(mapper_.map().keyframes().size(), 2u);
+}
+
+}  // namespace
+}  // namespace msc_vo
