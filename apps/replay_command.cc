@@ -36,6 +36,7 @@ struct Arguments {
   bool no_parallel = false;
   bool no_perpendicular = false;
   bool no_manhattan = false;
+  bool realtime = false;
   bool quiet = false;
   bool print_config = false;
 };
@@ -50,6 +51,7 @@ ConfigurationArguments WithShortcuts(const Arguments& arguments) {
   if (arguments.no_parallel) settings.push_back("mapping.pairs.parallel=false");
   if (arguments.no_perpendicular) settings.push_back("mapping.pairs.perpendicular=false");
   if (arguments.no_manhattan) settings.push_back("mapping.axes.enabled=false");
+  if (arguments.realtime) settings.push_back("realtime=true");
   ConfigurationArguments all = arguments.configuration;
   all.settings.insert(all.settings.begin(), settings.begin(), settings.end());
   return all;
@@ -118,6 +120,9 @@ Command AddReplayCommand(CLI::App* app) {
   command->add_flag("--no-perpendicular", arguments->no_perpendicular,
                     "No pairs of perpendicular map lines");
   command->add_flag("--no-manhattan", arguments->no_manhattan, "No Manhattan axes");
+  command->add_flag("--realtime", arguments->realtime,
+                    "Images appear when their time stamps say; frames see the newest map, and "
+                    "images that come too late are dropped");
   command->add_option("--max-frames", arguments->max_frames, "Stop after so many images")
       ->check(CLI::PositiveNumber);
   command->add_option("--dump-windows", arguments->windows,

@@ -6,12 +6,75 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <memory>
+#include <optional>
+#include <vector>
 
 #include "apps/cost_meter.h"
 #include "apps/progress.h"
+#include "msc_vo/io/paced_source.h"
 #include "msc_vo/io/rgbd_source.h"
 
 namespace msc_vo {
+
+namespace {
+
+// Gives the odometry one image after the other until there is none left.
+class ImageFeed {
+ public:
+  virtual ~ImageFeed() = default;
+  // False at the end. Throws what decoding and the odometry throw.
+  virtual bool Step(Odometry* odometry, FrameResult* frame) = 0;
+  virtual std::optional<RealtimeSummary> Realtime() const = 0;
+};
+
+class FastFeed : public ImageFeed {
+ public:
+  FastFeed(const RgbdDecoder& decoder, int num_frames) : source_(decoder, 0, num_frames) {}
+
+  bool Step(Odometry* odometry, FrameResult* frame) override {
+    if (!source_.Next(&image_)) return false;
+    *frame = odometry->Process(image_);
+    return true;
+  }
+  std::optional<RealtimeSummary> Realtime() const override { return std::nullopt; }
+
+ private:
+  RgbdSource source_;
+  RgbdImage image_;
+};
+
+class PacedFeed : public ImageFeed {
+ public:
+  PacedFeed(const RgbdDecoder& decoder, int num_frames)
+      : decoder_(decoder), source_(decoder, 0, num_frames) {}
+
+  bool Step(Odometry* odometry, FrameResult* frame) override {
+    dropped_.clear();
+    if (!source_.Next(&image_, &dropped_)) return false;
+    for (const int i : dropped_) odometry->Drop(i, decoder_.index().entries[i].timestamp);
+    *frame = odometry->Process(image_);
+    ages_.push_back(1000.0 * source_.Age());
+    return true;
+  }
+  std::optional<RealtimeSummary> Realtime() const override {
+    return RealtimeSummary{SummarizeStage("pose_age", ages_)};
+  }
+
+ private:
+  const RgbdDecoder& decoder_;
+  PacedSource source_;
+  RgbdImage image_;
+  std::vector<int> dropped_;
+  std::vector<double> ages_;  // milliseconds
+};
+
+std::unique_ptr<ImageFeed> MakeFeed(const RgbdDecoder& decoder, int num_frames, bool realtime) {
+  if (realtime) return std::make_unique<PacedFeed>(decoder, num_frames);
+  return std::make_unique<FastFeed>(decoder, num_frames);
+}
+
+}  // namespace
 
 SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configuration,
                         int max_frames, bool quiet, const InterruptGuard& interrupt,
@@ -29,13 +92,13 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   Odometry odometry(configuration.odometry, context.calibration.camera,
                     context.calibration.distortion);
   odometry.SetWindowObserver(window_observer);
-  RgbdSource source(decoder, 0, num_frames);
+  const std::unique_ptr<ImageFeed> feed =
+      MakeFeed(decoder, num_frames, configuration.odometry.snapshots.newest);
   Progress progress(num_frames);
   int done = 0;
   try {
-    for (RgbdImage image; !interrupt.IsInterrupted() && source.Next(&image);) {
-      const FrameResult frame = odometry.Process(image);
-      ++done;
+    for (FrameResult frame; !interrupt.IsInterrupted() && feed->Step(&odometry, &frame);) {
+      done = static_cast<int>(frame.id) + 1;
       if (!quiet) progress.Update(done, ToString(frame.status));
     }
   } catch (const std::exception& error) {
@@ -55,6 +118,7 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
     run.result = odometry.Finish();
   }
   context.cost = cost.Read();
+  context.realtime = feed->Realtime();
   run.summary = Summarize(run.result);
   if (!context.sequence.ground_truth.empty() && done > 0) {
     context.error = EvaluateTrajectory(context.sequence.ground_truth, TrajectoryOf(run.result));

@@ -17,6 +17,8 @@ ReportStatus ToReportStatus(TrackingStatus status) {
       return ReportStatus::kWeak;
     case TrackingStatus::kPredicted:
       return ReportStatus::kPredicted;
+    case TrackingStatus::kDropped:
+      return ReportStatus::kDropped;
     case TrackingStatus::kLost:
       break;
   }

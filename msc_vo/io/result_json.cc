@@ -83,16 +83,26 @@ Json OptionsToJson(Configuration configuration) {
   return json;
 }
 
+Json StatisticsToJson(const StageTimeStatistics& stage) {
+  return {{"count", stage.count},
+          {"mean", stage.mean},
+          {"median", stage.median},
+          {"p95", stage.p95},
+          {"max", stage.max}};
+}
+
 Json StagesToJson(const std::vector<StageTimeStatistics>& stages) {
   Json json = Json::object();
   for (const StageTimeStatistics& stage : stages) {
-    json[stage.name] = {{"count", stage.count},
-                        {"mean", stage.mean},
-                        {"median", stage.median},
-                        {"p95", stage.p95},
-                        {"max", stage.max}};
+    json[stage.name] = StatisticsToJson(stage);
   }
   return json;
+}
+
+// Null if the sequence was replayed as fast as possible.
+Json RealtimeToJson(const std::optional<RealtimeSummary>& realtime) {
+  if (!realtime) return {};
+  return {{"snapshots", "newest"}, {"pose_age_ms", StatisticsToJson(realtime->pose_age)}};
 }
 
 Json FramesToJson(const RunSummary& summary) {
@@ -191,6 +201,7 @@ std::string FormatSummary(const RunSummary& summary, const RunContext& context) 
                       {"images", context.sequence.entries.size()},
                       {"warnings", context.sequence.warnings}};
   json["camera"] = CameraToJson(context.calibration);
+  json["realtime"] = RealtimeToJson(context.realtime);
   json.update(MeasuresToJson(summary, context.error, context.cost));
   json["options"] = OptionsToJson(context.configuration);
   return Dump(json);

@@ -32,4 +32,15 @@ bool RgbdSource::Next(RgbdImage* image) {
   return true;
 }
 
+void RgbdSource::SkipTo(int i) {
+  if (i < next_ || i > end_) {
+    throw std::invalid_argument("image " + std::to_string(i) + " wanted, but the next one is " +
+                                std::to_string(next_) + " of " + std::to_string(end_));
+  }
+  if (i == next_) return;
+  ahead_.wait();
+  next_ = i;
+  DecodeAhead();
+}
+
 }  // namespace msc_vo

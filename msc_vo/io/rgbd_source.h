@@ -23,6 +23,10 @@ class RgbdSource {
   // the image that caused it, and goes on with the one behind it when called again.
   bool Next(RgbdImage* image);
 
+  // Goes on with image `i`, which must not lie before the next one. What is wrong with an image in
+  // between nobody gets to know.
+  void SkipTo(int i);
+
  private:
   void DecodeAhead();
 

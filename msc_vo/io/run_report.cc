@@ -40,19 +40,26 @@ std::string AxesText(const RunSummary& summary) {
                     RadiansToDegrees(summary.axes.sigma), lines[0], lines[1], lines[2]);
 }
 
-// `stage`: milliseconds per `unit`.
-std::string TimeText(const StageTimeStatistics& stage, const char* unit) {
+// `what` says what the milliseconds are.
+std::string TimeText(const StageTimeStatistics& stage, const char* what) {
   if (stage.count == 0) return "none";
-  return FormatText("%.1f ms per %s (median %.1f, 95 %% %.1f, max %.1f)", stage.mean, unit,
+  return FormatText("%.1f ms %s (median %.1f, 95 %% %.1f, max %.1f)", stage.mean, what,
                     stage.median, stage.p95, stage.max);
 }
 
 std::string TrackingText(const RunSummary& summary) {
-  return TimeText(FindStage(summary, "tracking"), "frame");
+  return TimeText(FindStage(summary, "tracking"), "per frame");
 }
 
 std::string MappingText(const RunSummary& summary) {
-  return TimeText(FindStage(summary, "mapping"), "keyframe");
+  return TimeText(FindStage(summary, "mapping"), "per keyframe");
+}
+
+std::string RealtimeText(const RunSummary& summary, const RealtimeSummary& realtime) {
+  const int dropped = summary.status_counts[static_cast<size_t>(TrackingStatus::kDropped)];
+  return FormatText("paced by the time stamps, newest map; %d of %d images dropped as too late; ",
+                    dropped, summary.num_frames) +
+         TimeText(realtime.pose_age, "from image to pose");
 }
 
 std::string SpeedText(const RunSummary& summary, const RunCost& cost) {
@@ -103,6 +110,9 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
   numbers.push_back({"Manhattan axes", AxesText(summary), ""});
   numbers.push_back({"Tracking", TrackingText(summary), ""});
   numbers.push_back({"Mapping", MappingText(summary), ""});
+  if (context.realtime) {
+    numbers.push_back({"Real time", RealtimeText(summary, *context.realtime), ""});
+  }
   numbers.push_back({"Speed", SpeedText(summary, context.cost), ""});
   numbers.push_back({"Camera", context.calibration.origin, ""});
   return numbers;
@@ -143,6 +153,7 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
   table += Row("axes", AxesText(summary));
   table += Row("tracking", TrackingText(summary));
   table += Row("mapping", MappingText(summary));
+  if (context.realtime) table += Row("real time", RealtimeText(summary, *context.realtime));
   table += Row("speed", SpeedText(summary, context.cost));
   if (context.error) table += ErrorRows(*context.error);
   table += Row("output", output_directory + " (report.html, trajectory.txt, summary.json, ...)");

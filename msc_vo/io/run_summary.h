@@ -20,8 +20,8 @@ namespace msc_vo {
 // A run in numbers.
 struct RunSummary {
   int num_frames = 0;
-  std::array<int, 4> status_counts = {0, 0, 0, 0};  // by TrackingStatus
-  double tracked_share = 0.0;                       // tracked or weak / all, 0..1
+  std::array<int, 5> status_counts = {0, 0, 0, 0, 0};  // by TrackingStatus
+  double tracked_share = 0.0;                          // tracked or weak / all, 0..1
   std::vector<NotTrackedSpan> not_tracked;
   std::vector<StageTimeStatistics> stages;  // as SummarizeStages() gives them
   int num_keyframes = 0;
@@ -45,6 +45,13 @@ struct RunCost {
   double peak_memory = 0.0;        // resident, MiB
 };
 
+// How a replay in real time kept pace with the time stamps.
+struct RealtimeSummary {
+  // Milliseconds from the moment that an image appears to its pose, over the images that were not
+  // dropped.
+  StageTimeStatistics pose_age;
+};
+
 // What only the one who made the run knows.
 struct RunContext {
   std::string command_line;
@@ -54,6 +61,7 @@ struct RunContext {
   Configuration configuration;
   std::optional<TrajectoryError> error;  // against the ground truth, if there is one
   RunCost cost;
+  std::optional<RealtimeSummary> realtime;  // none: as fast as possible
 };
 
 // The contents of summary.json.

@@ -78,6 +78,7 @@ struct Odometry::State {
     if (options.threads > 1) side_worker = std::make_unique<SideWorker>();
   }
 
+  void CheckTime(int64_t id, double timestamp) const;
   Frame Build(const RgbdImage& image);
   void Count(const TrackedFrame& tracked);
   void SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat& depth);
@@ -96,6 +97,12 @@ struct Odometry::State {
   std::vector<Place> places;  // one per result
   SnapshotSchedule schedule;  // last: it works with the members above
 };
+
+void Odometry::State::CheckTime(int64_t id, double timestamp) const {
+  if (results.empty() || timestamp > results.back().timestamp) return;
+  throw std::invalid_argument("image " + std::to_string(id) +
+                              ": its time stamp is not later than that of the image before");
+}
 
 Frame Odometry::State::Build(const RgbdImage& image) {
   if (!side_worker) return builder.Build(image);
@@ -143,10 +150,7 @@ void Odometry::SetWindowObserver(WindowObserver observer) {
 }
 
 FrameResult Odometry::Process(const RgbdImage& image) {
-  if (!state_->results.empty() && image.timestamp <= state_->results.back().timestamp) {
-    throw std::invalid_argument("image " + std::to_string(image.id) +
-                                ": its time stamp is not later than that of the image before");
-  }
+  state_->CheckTime(image.id, image.timestamp);
   Stopwatch stopwatch;
   auto frame = std::make_shared<Frame>(state_->Build(image));
   if (!state_->options.use_points) {
@@ -174,6 +178,21 @@ FrameResult Odometry::Process(const RgbdImage& image) {
     state_->snapshot = state_->schedule.SnapshotAt(index);  // of this keyframe, without latency
   }
   return state_->results.back();
+}
+
+void Odometry::Drop(int64_t id, double timestamp) {
+  state_->CheckTime(id, timestamp);
+  FrameResult result;
+  State::Place place;
+  if (!state_->results.empty()) {
+    result.cam_from_world = state_->results.back().cam_from_world;
+    place = state_->places.back();
+  }
+  result.id = id;
+  result.timestamp = timestamp;
+  result.status = TrackingStatus::kDropped;
+  state_->results.push_back(result);
+  state_->places.push_back(place);
 }
 
 OdometryResult Odometry::Finish() {

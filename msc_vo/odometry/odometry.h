@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -75,6 +76,11 @@ class Odometry {
   // Throws std::invalid_argument if the image does not fit the camera or time runs backwards, and
   // what a keyframe step of an earlier frame threw; the next call goes on without that step.
   FrameResult Process(const RgbdImage& image);
+
+  // Tells of an image that is not looked at because it came too late. It gets the status dropped,
+  // and in the result of Finish() the pose on the way between its neighbours. Throws
+  // std::invalid_argument if time runs backwards.
+  void Drop(int64_t id, double timestamp);
 
   // Waits for the mapper and returns the trajectory re-expressed in the final keyframe poses. May
   // be called at any time, also after an interruption. Throws what a keyframe step threw if

@@ -15,6 +15,8 @@ const char* ToString(TrackingStatus status) {
       return "predicted";
     case TrackingStatus::kLost:
       return "lost";
+    case TrackingStatus::kDropped:
+      return "dropped";
   }
   return "unknown";
 }

@@ -10,6 +10,7 @@ enum class TrackingStatus {
   kWeak,       // pose from few or badly spread matches: usable, but worth a look
   kPredicted,  // no pose could be estimated; constant velocity bridges a short gap
   kLost,       // the map was not found for longer than that; the last good pose is repeated
+  kDropped,    // in real time the image came too late and was not looked at
 };
 
 const char* ToString(TrackingStatus status);

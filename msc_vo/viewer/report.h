@@ -15,7 +15,8 @@
 
 namespace msc_vo {
 
-enum class ReportStatus { kTracked, kWeak, kPredicted, kLost };
+// From good to bad.
+enum class ReportStatus { kTracked, kWeak, kDropped, kPredicted, kLost };
 
 // One frame of the run.
 struct ReportFrame {

@@ -177,6 +177,8 @@ const char* ToString(ReportStatus status) {
       return "tracked";
     case ReportStatus::kWeak:
       return "weak";
+    case ReportStatus::kDropped:
+      return "dropped";
     case ReportStatus::kPredicted:
       return "predicted";
     case ReportStatus::kLost:

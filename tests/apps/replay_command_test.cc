@@ -54,11 +54,26 @@ TEST_F(ReplayCommandTest, WritesEverythingAndTheSameTrajectoryTwice) {
   EXPECT_EQ(NumPoses("a"), 20u);
   EXPECT_EQ(Summary("a")["outcome"], "complete");
   EXPECT_EQ(Summary("a")["frames"]["count"], 20);
+  EXPECT_TRUE(Summary("a")["realtime"].is_null());
 
   EXPECT_EQ(Replay("b", {"--quiet"}).output, "");
   for (const char* name : {"trajectory.txt", "keyframes.txt", "map.ply", "lines.ply"}) {
     EXPECT_EQ(ReadFile(Path(std::string("a/") + name)), ReadFile(Path(std::string("b/") + name)));
   }
+}
+
+TEST_F(ReplayCommandTest, KeepsPaceWithTheTimeStampsInRealTime) {
+  Synthesize(12);
+  const CommandOutcome outcome = Replay("out", {"--realtime"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("real time"), HasSubstr("of 12 images dropped")));
+  const nlohmann::json summary = Summary("out");
+  EXPECT_EQ(summary["frames"]["count"], 12);
+  EXPECT_EQ(summary["options"]["realtime"], true);
+  const int num_dropped = summary["frames"]["dropped"];
+  EXPECT_EQ(summary["realtime"]["pose_age_ms"]["count"], 12 - num_dropped);
+  EXPECT_GE(summary["wall_seconds"], 11 / 30.0);  // the last image does not appear earlier
+  EXPECT_EQ(NumPoses("out"), 12u);
 }
 
 TEST_F(ReplayCommandTest, StopsAfterSoManyImages) {

@@ -20,7 +20,7 @@ BenchmarkRun GoodRun(const std::string& sequence, const std::string& mode, doubl
   run.sequence = sequence;
   run.mode = mode;
   run.summary.num_frames = 4;
-  run.summary.status_counts = {3, 0, 0, 1};
+  run.summary.status_counts = {3, 0, 0, 1, 0};
   run.cost.processor_seconds = 0.2;
   run.error.emplace();
   run.error->usable = true;

@@ -191,6 +191,25 @@ TEST_F(OdometryTest, BlackFramesAreSaidAndBridged) {
   EXPECT_LT(ApeRmse(result), 0.012);  // measured: 3.6 mm
 }
 
+TEST_F(OdometryTest, DroppedFramesGetThePoseBetweenTheirNeighbours) {
+  Odometry odometry(OdometryOptions(), camera_, LensDistortion());
+  for (const RgbdImage& image : *images_) {
+    if (image.id % 10 == 5) {
+      odometry.Drop(image.id, image.timestamp);
+    } else {
+      odometry.Process(image);
+    }
+  }
+  const OdometryResult result = odometry.Finish();
+  ASSERT_EQ(result.frames.size(), images_->size());
+  EXPECT_EQ(Count(result, TrackingStatus::kDropped), kNumFrames / 10);
+  EXPECT_EQ(result.frames[15].status, TrackingStatus::kDropped);
+  EXPECT_EQ(result.frames[15].id, 15);
+  EXPECT_EQ(result.frames[15].timestamp, (*images_)[15].timestamp);
+  EXPECT_LT(ApeRmse(result), 0.006);
+  EXPECT_THROW(odometry.Drop(3, (*images_)[3].timestamp), std::invalid_argument);
+}
+
 TEST_F(OdometryTest, FinishMayBeCalledEarly) {
   Odometry odometry(OdometryOptions(), camera_, LensDistortion());
   EXPECT_TRUE(odometry.Finish().frames.empty());
