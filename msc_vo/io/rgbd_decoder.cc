@@ -27,11 +27,12 @@ std::string SizeText(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
+bool IsJpeg(const std::string& bytes) { return bytes.compare(0, 2, "\xFF\xD8") == 0; }
+
 // A JPEG ends with the marker FF D9, which its compressed data cannot contain. Decoders fill the
 // missing part of a truncated file with grey and say nothing.
 bool IsTruncatedJpeg(const std::string& bytes) {
-  return bytes.size() > 2 && bytes.compare(0, 2, "\xFF\xD8") == 0 &&
-         bytes.rfind("\xFF\xD9") == std::string::npos;
+  return IsJpeg(bytes) && bytes.rfind("\xFF\xD9") == std::string::npos;
 }
 
 cv::Mat ReadImage(const std::string& path, const SequenceEntry& entry) {
@@ -43,8 +44,11 @@ cv::Mat ReadImage(const std::string& path, const SequenceEntry& entry) {
   if (!bytes.empty() && !IsTruncatedJpeg(bytes)) {
     const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1,
                          const_cast<char*>(bytes.data()));
+    // A JPEG has its grey values in a channel of their own and never more than 8 bits: to make
+    // colours of them first, and grey of these, takes longer and rounds twice.
+    const int kind = IsJpeg(bytes) ? cv::IMREAD_GRAYSCALE : cv::IMREAD_UNCHANGED;
     try {
-      image = cv::imdecode(buffer, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
+      image = cv::imdecode(buffer, kind | cv::IMREAD_IGNORE_ORIENTATION);
     } catch (const cv::Exception&) {
       image.release();  // reported below like every damaged file
     }

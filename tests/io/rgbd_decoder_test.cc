@@ -67,6 +67,16 @@ TEST_F(RgbdDecoderTest, TakesGreyAndTransparentImages) {
   EXPECT_EQ(Decoder(1).Decode(0).gray.at<uint8_t>(2, 2), 77);
 }
 
+TEST_F(RgbdDecoderTest, TheGreyOfAColourJpegIsThatOfItsColours) {
+  WriteDepth("0d.png");
+  const cv::Mat color(6, 8, CV_8UC3, cv::Scalar(30, 200, 120));
+  cv::imwrite(Path("0.jpg"), color);
+  std::filesystem::rename(Path("0.jpg"), Path("0.png"));
+  const cv::Mat gray = Decoder(1).Decode(0).gray;
+  EXPECT_EQ(gray.type(), CV_8UC1);
+  EXPECT_NEAR(gray.at<uint8_t>(3, 4), 0.114 * 30 + 0.587 * 200 + 0.299 * 120, 2.0);
+}
+
 TEST_F(RgbdDecoderTest, ScalesLargerColourDownIfTheLayoutSaysSo) {
   WriteColor("0.png", 16, 12);
   WriteDepth("0d.png");
