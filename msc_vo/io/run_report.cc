@@ -122,6 +122,17 @@ std::string Row(const char* name, const std::string& text) {
   return FormatText("%-10s ", name) + text + "\n";
 }
 
+std::string StageRows(const std::vector<StageTimeStatistics>& stages) {
+  std::string rows = Row("time, ms", "               mean  median    95 %     max");
+  for (const StageTimeStatistics& stage : stages) {
+    const bool is_whole = stage.name == "tracking" || stage.name == "mapping";
+    const char* unit = stage.name == "tracking" ? "  per frame" : "  per keyframe";
+    rows += Row("", FormatText("%-11s %7.1f %7.1f %7.1f %7.1f%s", stage.name.c_str(), stage.mean,
+                               stage.median, stage.p95, stage.max, is_whole ? unit : ""));
+  }
+  return rows;
+}
+
 std::string ErrorRows(const TrajectoryError& error) {
   if (!error.usable) return Row("error", "unknown: " + error.message);
   std::string rows =
@@ -151,8 +162,7 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
   }
   table += Row("map", MapText(summary));
   table += Row("axes", AxesText(summary));
-  table += Row("tracking", TrackingText(summary));
-  table += Row("mapping", MappingText(summary));
+  table += StageRows(summary.stages);
   if (context.realtime) table += Row("real time", RealtimeText(summary, *context.realtime));
   table += Row("speed", SpeedText(summary, context.cost));
   if (context.error) table += ErrorRows(*context.error);

@@ -4,6 +4,8 @@
 #include "msc_vo/io/run_summary.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "msc_vo/io/report_frame.h"
 
@@ -13,6 +15,23 @@ namespace {
 
 bool IsTracked(const FrameResult& frame) {
   return frame.status == TrackingStatus::kTracked || frame.status == TrackingStatus::kWeak;
+}
+
+// The stages of the mapper over the frames that caused a keyframe step.
+std::vector<StageTimeStatistics> SummarizeMapping(const std::vector<FrameResult>& frames) {
+  const auto summarize = [&frames](const std::string& name, const auto& milliseconds_of) {
+    std::vector<double> values;
+    for (const FrameResult& frame : frames) {
+      if (frame.times.mapping > 0.0) values.push_back(milliseconds_of(frame.times));
+    }
+    return SummarizeStage(name, std::move(values));
+  };
+  return {summarize("creation", [](const StageTimes& t) { return t.mapping_stages.creation; }),
+          summarize("fusion", [](const StageTimes& t) { return t.mapping_stages.fusion; }),
+          summarize("axes", [](const StageTimes& t) { return t.mapping_stages.axes; }),
+          summarize("window", [](const StageTimes& t) { return t.mapping_stages.window; }),
+          summarize("culling", [](const StageTimes& t) { return t.mapping_stages.culling; }),
+          summarize("snapshot", [](const StageTimes& t) { return t.snapshot; })};
 }
 
 }  // namespace
@@ -28,6 +47,8 @@ RunSummary Summarize(const OdometryResult& result) {
   const std::vector<ReportFrame> frames = ReportFrames(result.frames);
   summary.not_tracked = FindNotTrackedSpans(frames);
   summary.stages = SummarizeStages(ReportStageNames(), frames);
+  const std::vector<StageTimeStatistics> mapping = SummarizeMapping(result.frames);
+  summary.stages.insert(std::prev(summary.stages.end()), mapping.begin(), mapping.end());
   summary.num_keyframes = static_cast<int>(result.keyframes.size());
   summary.num_points = static_cast<int>(result.points.size());
   summary.num_lines = static_cast<int>(result.lines.size());

@@ -23,7 +23,8 @@ struct RunSummary {
   std::array<int, 5> status_counts = {0, 0, 0, 0, 0};  // by TrackingStatus
   double tracked_share = 0.0;                          // tracked or weak / all, 0..1
   std::vector<NotTrackedSpan> not_tracked;
-  std::vector<StageTimeStatistics> stages;  // as SummarizeStages() gives them
+  // Stages of tracking, "tracking" as a whole, stages of mapping, "mapping" as a whole.
+  std::vector<StageTimeStatistics> stages;
   int num_keyframes = 0;
   int num_points = 0;
   int num_lines = 0;

@@ -13,11 +13,21 @@
 
 namespace msc_vo {
 
+// Milliseconds per stage of one keyframe step.
+struct MappingTimes {
+  double creation = 0.0;  // the keyframe with its matches, and new landmarks; bad ones removed
+  double fusion = 0.0;
+  double axes = 0.0;
+  double window = 0.0;   // selected, solved and written back
+  double culling = 0.0;  // of keyframes
+};
+
 // What one keyframe step did.
 struct MappingSummary {
   KeyframeId keyframe = kNoId;
   int num_culled_keyframes = 0;
   WindowSummary window;
+  MappingTimes times;
 };
 
 // Owns the map and alone changes it: one call per keyframe (paper: Local Mapping).

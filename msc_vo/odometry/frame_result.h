@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/mapping/mapper.h"
 #include "msc_vo/tracking/tracking_status.h"
 
 namespace msc_vo {
@@ -21,7 +22,11 @@ struct StageTimes {
   double pose = 0.0;
   double waiting = 0.0;   // for the map that the frame must see
   double tracking = 0.0;  // everything from the decoded images to the pose
-  double mapping = 0.0;   // of the keyframe step that this frame caused; 0 for other frames
+  // Of the keyframe step that this frame caused, snapshot included; 0 for other frames and, as it
+  // goes on behind Process(), until its map has been seen.
+  double mapping = 0.0;
+  MappingTimes mapping_stages;
+  double snapshot = 0.0;
 };
 
 // What is known of one frame once it has been processed.

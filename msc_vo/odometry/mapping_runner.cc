@@ -21,7 +21,9 @@ MappingStep RunStep(const KeyframePacket& packet, Mapper* mapper) {
   const Stopwatch stopwatch;
   try {
     step.summary = mapper->Process(packet);
+    const Stopwatch snapshot;
     step.snapshot = mapper->Snapshot();
+    step.snapshot_ms = snapshot.Milliseconds();
   } catch (...) {
     step = {};
     step.error = std::current_exception();

@@ -15,7 +15,8 @@ namespace msc_vo {
 struct MappingStep {
   MappingSummary summary;
   MapSnapshotPtr snapshot;    // the map behind the step; null if it failed
-  double milliseconds = 0.0;  // it took, the snapshot included
+  double snapshot_ms = 0.0;   // milliseconds that the snapshot took
+  double milliseconds = 0.0;  // the whole step, the snapshot included
   std::exception_ptr error;   // what it threw, if it failed
 };
 

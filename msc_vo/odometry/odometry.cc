@@ -133,7 +133,10 @@ void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat&
 }
 
 void Odometry::State::Record(int frame, const MappingStep& step) {
-  results[frame].times.mapping = step.milliseconds;
+  StageTimes& times = results[frame].times;
+  times.mapping = step.milliseconds;
+  times.mapping_stages = step.summary.times;
+  times.snapshot = step.snapshot_ms;
   results[frame].cam_from_world = step.snapshot->map.CamFromWorld(step.summary.keyframe);
   places[frame] = {step.summary.keyframe, Rigid3()};
   last_window = step.summary.window;
