@@ -5,11 +5,23 @@
 
 #include <cmath>
 
+#include <Eigen/Cholesky>
+
 namespace msc_vo {
 
 namespace {
 
 bool IsPositive(double x) { return std::isfinite(x) && x > 0.0; }
+
+// No camera or map has coordinates beyond this (pixels, metres or their inverse), and what has
+// would overflow where it is squared and squared again: the length of a segment, chi-square, cost.
+constexpr double kMaxCoordinate = 1e9;
+
+template <typename Vector>
+bool AreCoordinates(const Vector& x) {
+  return x.allFinite() && x.template lpNorm<Eigen::Infinity>() <= kMaxCoordinate;
+}
+bool AreCoordinates(double x) { return std::abs(x) <= kMaxCoordinate; }  // NaN fails
 
 // Of the norm of a unit quaternion or vector: far above the rounding of any product of rotations,
 // far below a wrong one.
@@ -18,7 +30,7 @@ constexpr double kUnitTolerance = 1e-6;
 }  // namespace
 
 const char* PoseError(const Rigid3& cam_from_world) {
-  if (!cam_from_world.params.allFinite()) return "pose is not finite";
+  if (!AreCoordinates(cam_from_world.params)) return "pose is not finite, or beyond 1e9 m";
   if (std::abs(cam_from_world.rotation().norm() - 1.0) > kUnitTolerance) {
     return "rotation is not unit";
   }
@@ -26,21 +38,23 @@ const char* PoseError(const Rigid3& cam_from_world) {
 }
 
 const char* PositionError(const Eigen::Vector3d& position) {
-  return position.allFinite() ? nullptr : "position is not finite";
+  return AreCoordinates(position) ? nullptr : "position is not finite, or beyond 1e9 m";
 }
 
 const char* MapLineError(const LineSegment3& segment) {
-  if (!segment.start.allFinite() || !segment.end.allFinite()) return "segment is not finite";
+  if (!AreCoordinates(segment.start) || !AreCoordinates(segment.end)) {
+    return "segment is not finite, or beyond 1e9 m";
+  }
   if (segment.start == segment.end) return "segment has no length";
   return nullptr;
 }
 
 const char* PointObservationError(const Eigen::Vector2d& pixel, double sigma, double inverse_depth,
                                   double inverse_depth_sigma) {
-  if (!pixel.allFinite()) return "pixel is not finite";
+  if (!AreCoordinates(pixel)) return "pixel is not finite, or beyond 1e9";
   if (!IsPositive(sigma)) return "sigma must be positive";
-  if (!std::isfinite(inverse_depth) || inverse_depth < 0.0) {
-    return "inverse_depth must not be negative";
+  if (!AreCoordinates(inverse_depth) || inverse_depth < 0.0) {
+    return "inverse_depth must not be negative, nor beyond 1e9";
   }
   if (inverse_depth > 0.0 && !IsPositive(inverse_depth_sigma)) {
     return "inverse_depth_sigma must be positive";
@@ -50,17 +64,29 @@ const char* PointObservationError(const Eigen::Vector2d& pixel, double sigma, do
 
 const char* LineObservationError(const LineSegment2& segment, double sigma, bool has_depth,
                                  const LineDepth& depth) {
-  if (!segment.start.allFinite() || !segment.end.allFinite()) return "segment is not finite";
+  if (!AreCoordinates(segment.start) || !AreCoordinates(segment.end)) {
+    return "segment is not finite, or beyond 1e9 pixels";
+  }
   if (segment.start == segment.end) return "segment has no length";
   if (!IsPositive(sigma)) return "sigma must be positive";
   if (!has_depth) return nullptr;
-  if (!std::isfinite(depth.start) || !std::isfinite(depth.end)) return "depth is not finite";
-  // SigmaAt must be positive at every parameter.
-  if (!depth.covariance.allFinite() || !IsPositive(depth.covariance(0, 0)) ||
-      !IsPositive(depth.covariance.determinant())) {
-    return "depth covariance is not positive definite";
+  if (!AreCoordinates(depth.start) || !AreCoordinates(depth.end)) {
+    return "depth is not finite, or beyond 1e9";
   }
-  return nullptr;
+  return CovarianceError(depth.covariance) == nullptr ? nullptr
+                                                      : "depth covariance is not positive definite";
+}
+
+const char* CovarianceError(const Eigen::Ref<const Eigen::MatrixXd>& covariance) {
+  constexpr const char* kError = "covariance is not positive definite";
+  const Eigen::VectorXd sigma = covariance.diagonal().cwiseSqrt();
+  if (!covariance.allFinite() || !(sigma.minCoeff() > 0.0)) return kError;
+  // Units differ, so that only correlations compare. Their rounding is far below the tolerance, a
+  // transposed or half-filled matrix far above.
+  const Eigen::MatrixXd correlation =
+      sigma.cwiseInverse().asDiagonal() * covariance * sigma.cwiseInverse().asDiagonal();
+  if (!((correlation - correlation.transpose()).cwiseAbs().maxCoeff() < 1e-6)) return kError;
+  return correlation.llt().info() == Eigen::Success ? nullptr : kError;
 }
 
 const char* LinePairError(const WindowData::LinePair& pair) {

@@ -16,7 +16,9 @@
 namespace msc_vo {
 
 // The sliding window as plain data: what the window problem reads and writes. No pointers into any
-// map; ids are the caller's and need only be unique within their vector.
+// map; ids are the caller's and need only be unique within their vector. Observations, pairs and
+// alignments may repeat, of the same landmarks in the same keyframe: each is a measurement of its
+// own, with an error of its own.
 struct WindowData {
   struct Keyframe {
     int64_t id = 0;

@@ -184,6 +184,11 @@ WindowSummary SolveWindow(const WindowOptions& options, WindowData* data) {
   if (!minimize(second, options.second_iterations)) return summary;
   WriteCounts(second, &summary);
   summary.final_cost = WriteCosts(second, state, &TermSummary::final_cost, &summary);
+  // What overflows is no cost, and its minimum none.
+  if (!std::isfinite(summary.initial_cost) || !std::isfinite(summary.final_cost)) {
+    summary.message = "the cost is not finite";
+    return summary;
+  }
   summary.usable = true;
   WriteBack(second, activity, state, data);
   return summary;

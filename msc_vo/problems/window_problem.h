@@ -88,10 +88,12 @@ struct WindowSummary {
 // rejected observations, pairs and alignments in `data`, whatever the marks said before. A landmark
 // that loses its last observation keeps its value; a pair or an alignment binds only lines that are
 // observed, and is neither counted nor rejected otherwise, or where no line is free. At least one
-// keyframe must be fixed: it holds the gauge. Throws std::invalid_argument, naming the offender, on
-// an unknown or repeated id, a number that is not finite, a sigma <= 0, a segment without length, a
-// pair of a line with itself, a count below 1, an axis that is not unit, no fixed keyframe, or
-// options that are not valid.
+// keyframe must be fixed: it holds the gauge. A window in which nothing is observed comes back as
+// it was. Throws std::invalid_argument, naming the offender, on a window without keyframes, an
+// unknown or repeated id, a number that is not finite or beyond 1e9, a sigma <= 0, a covariance
+// that is not symmetric or not positive definite, a segment without length, a pair of a line with
+// itself, a count below 1, an axis that is not unit, no fixed keyframe, or options that are not
+// valid.
 WindowSummary SolveWindow(const WindowOptions& options, WindowData* data);
 
 }  // namespace msc_vo

@@ -96,6 +96,7 @@ std::vector<int> ResolveAlignments(const std::vector<WindowData::AxisAlignment>&
 }  // namespace
 
 WindowIndex ValidateWindow(const WindowOptions& options, const WindowData& data) {
+  if (data.keyframes.empty()) Throw("the window is empty: it has no keyframe");
   std::string error;
   if (!options.IsValid(&error) || !data.camera.IsValid(&error)) Throw(error);
   CheckKeyframesAndLandmarks(data);

@@ -121,7 +121,7 @@ TEST_F(SolveWindowCommandTest, ErrorsNameTheFile) {
 
 TEST_F(SolveWindowCommandTest, AWindowThatCannotBeSolvedIsAFailure) {
   WindowData data = SmallWindow();
-  data.point_observations[0].pixel.x() = 1e200;  // over sigma: a residual that is not finite
+  data.point_observations[0].sigma = 1e-200;  // a chi-square that is not finite
   data.point_observations[0].sigma = 1e-200;
   WriteWindow(Path("window.txt"), WindowOptions(), data);
   ExpectError({"solve-window", Path("window.txt"), "--output", Path("solved.txt")},

@@ -126,6 +126,29 @@ TEST_P(WindowSolversTest, AFreeKeyframeMayBeAnywhereInTheOrder) {
   ExpectSameSolution(data);
 }
 
+TEST_P(WindowSolversTest, PairsMayRepeatEitherWayAround) {
+  WindowData data = MakeSyntheticWindow(scene_).data;
+  for (int i = 1; i < 9; ++i) {
+    AddPair(0, i, &data);
+    AddPair(i, 0, &data);
+    AddPair(i, 9 - i, &data);
+  }
+  ExpectSameSolution(data);
+}
+
+// An error of so many sigmas that its square is not finite.
+TEST_P(WindowSolversTest, ACostThatOverflowsIsNotUsable) {
+  WindowData data = MakeSyntheticWindow(scene_).data;
+  data.point_observations[7].sigma = 1e-200;
+  for (const WindowOptions& options : {options_, reference_}) {
+    WindowData after = data;
+    const WindowSummary summary = SolveWindow(options, &after);
+    EXPECT_FALSE(summary.usable) << summary.BriefReport();
+    EXPECT_FALSE(summary.message.empty());
+    EXPECT_EQ(after.points[3].position, data.points[3].position);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Solvers, WindowSolversTest,
     ::testing::Values(Variant{"DenseSchur", WindowSolver::kCeresDenseSchur},

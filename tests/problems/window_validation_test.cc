@@ -34,6 +34,7 @@ class WindowValidationTest : public ::testing::Test {
   }
 
   const double nan_ = std::numeric_limits<double>::quiet_NaN();
+  const double infinity_ = std::numeric_limits<double>::infinity();
   WindowOptions options_;
   WindowData data_;
 };
@@ -66,6 +67,17 @@ TEST_F(WindowValidationTest, UnknownIds) {
 TEST_F(WindowValidationTest, RepeatedIds) {
   data_.keyframes[4].id = data_.keyframes[2].id;
   EXPECT_THAT(Message(), HasSubstr("keyframe 106: the id is given twice"));
+  data_.keyframes[4].id = 555;
+  data_.points[7].id = data_.points[2].id;
+  EXPECT_THAT(Message(), HasSubstr("point 1014: the id is given twice"));
+  data_.points[7].id = 555;  // ids of keyframes and points have nothing to do with each other
+  data_.lines[4].id = data_.lines[3].id;
+  EXPECT_THAT(Message(), HasSubstr("line 56: the id is given twice"));
+}
+
+TEST_F(WindowValidationTest, EmptyWindow) {
+  data_ = WindowData();
+  EXPECT_THAT(Message(), HasSubstr("the window is empty"));
 }
 
 TEST_F(WindowValidationTest, NoGauge) {
@@ -125,8 +137,43 @@ TEST_F(WindowValidationTest, LineObservations) {
   data_ = good;
   data_.line_observations[0].depth.covariance << 1.0, 2.0, 2.0, 1.0;
   EXPECT_THAT(Message(), HasSubstr(who + "depth covariance is not positive definite"));
+  data_.line_observations[0].depth.covariance << -1.0, 0.0, 0.0, -1.0;
+  EXPECT_THAT(Message(), HasSubstr(who + "depth covariance is not positive definite"));
+  data_.line_observations[0].depth.covariance << 1.0, 0.3, 0.1, 1.0;  // which of the two?
+  EXPECT_THAT(Message(), HasSubstr(who + "depth covariance is not positive definite"));
   data_.line_observations[0].has_depth = false;  // then nobody reads it
   EXPECT_EQ(Message(), "nothing was thrown");
+}
+
+TEST_F(WindowValidationTest, InfiniteAndHugeNumbers) {
+  const WindowData good = data_;
+  const auto expect = [&](const char* message) {
+    EXPECT_THAT(Message(), HasSubstr(message));
+    data_ = good;
+  };
+  for (const double huge : {infinity_, -infinity_, 1e200, -1e10}) {
+    SCOPED_TRACE(huge);
+    data_.keyframes[1].cam_from_world.translation().z() = huge;
+    expect("keyframe 103: pose is not finite, or beyond 1e9 m");
+    data_.points[2].position.x() = huge;
+    expect("point 1014: position is not finite, or beyond 1e9 m");
+    data_.lines[3].segment.start.z() = huge;
+    expect("line 56: segment is not finite, or beyond 1e9 m");
+    data_.point_observations[5].pixel.y() = huge;
+    expect("pixel is not finite, or beyond 1e9");
+    data_.line_observations[5].segment.start.y() = huge;
+    expect("segment is not finite, or beyond 1e9 pixels");
+    data_.point_observations[5].inverse_depth = huge;
+    expect("inverse_depth must not be negative, nor beyond 1e9");
+    data_.line_observations[5].depth.end = huge;
+    expect("depth is not finite, or beyond 1e9");
+  }
+  data_.point_observations[5].sigma = infinity_;
+  expect("sigma must be positive");
+  data_.point_observations[5].inverse_depth_sigma = infinity_;
+  expect("inverse_depth_sigma must be positive");
+  data_.line_observations[5].depth.covariance.setConstant(infinity_);
+  expect("depth covariance is not positive definite");
 }
 
 TEST_F(WindowValidationTest, Options) {
