@@ -39,14 +39,18 @@ constexpr double kFunctionTolerance = 1e-6;  // relative change of the cost at w
 
 }  // namespace
 
-MinimizerReport MinimizeWindow(const WindowData& data, const WindowTerms& terms, int max_iterations,
+MinimizerReport MinimizeWindow(const WindowStructure& structure, const WindowTerms& terms,
+                               int max_iterations, const WindowStageObserver& enter_stage,
                                WindowState* state) {
-  const WindowStructure structure(data, terms);
+  const auto enter = [&enter_stage](WindowStage stage) {
+    if (enter_stage) enter_stage(stage);
+  };
   MinimizerReport report;
   report.schur_structure = "block Schur, " + std::to_string(structure.num_poses) + " poses, " +
                            std::to_string(structure.num_kept_lines) + " line directions";
   // Equations at the present state, and at the one that a step leads to.
   WindowEquations equations, next;
+  enter(WindowStage::kLinearize);
   if (!Linearize(structure, terms, *state, &equations)) {
     report.message = "a term is not defined, or not finite, at the start";
     return report;
@@ -56,11 +60,13 @@ MinimizerReport MinimizeWindow(const WindowData& data, const WindowTerms& terms,
   TrustRegion region;
   WindowStep step;
   for (; report.num_iterations < max_iterations && !region.IsGone(); ++report.num_iterations) {
+    enter(WindowStage::kStep);
     if (!SolveStep(structure, equations, region.radius(), &step) || step.model_decrease < 0.0) {
       region.Reject();
       continue;
     }
     WindowState candidate = Moved(structure, *state, step);
+    enter(WindowStage::kLinearize);
     const bool defined = Linearize(structure, terms, candidate, &next);
     const double decrease = defined ? equations.cost - next.cost : -1.0;
     const bool arrived = defined && std::abs(decrease) <= kFunctionTolerance * equations.cost;

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "msc_vo/problems/window_terms.h"
+#include "msc_vo/problems/window_equations.h"
 
 namespace msc_vo {
 
@@ -19,8 +19,9 @@ struct MinimizerReport {
 
 // Minimises the sum of `terms` over `state` by Levenberg-Marquardt, in at most `max_iterations`
 // steps: the same steps that Ceres takes with its defaults, to rounding, with linear algebra made
-// for the window (SolveStep).
-MinimizerReport MinimizeWindow(const WindowData& data, const WindowTerms& terms, int max_iterations,
+// for the window (SolveStep). `structure` is that of the terms.
+MinimizerReport MinimizeWindow(const WindowStructure& structure, const WindowTerms& terms,
+                               int max_iterations, const WindowStageObserver& enter_stage,
                                WindowState* state);
 
 }  // namespace msc_vo

@@ -152,23 +152,31 @@ void WriteBack(const WindowTerms& terms, const WindowActivity& activity, const W
 }
 
 MinimizerReport Minimize(const WindowOptions& options, const WindowData& data,
-                         const WindowTerms& terms, int max_iterations, WindowState* state) {
+                         const WindowTerms& terms, int max_iterations,
+                         const WindowStageObserver& enter_stage, WindowState* state) {
   if (options.solver == WindowSolver::kBlockSchur) {
-    return MinimizeWindow(data, terms, max_iterations, state);
+    return MinimizeWindow(WindowStructure(data, terms), terms, max_iterations, enter_stage, state);
   }
+  if (enter_stage) enter_stage(WindowStage::kStep);
   return CeresWindow(options, data, terms, state).Minimize(max_iterations);
 }
 
 }  // namespace
 
-WindowSummary SolveWindow(const WindowOptions& options, WindowData* data) {
+WindowSummary SolveWindow(const WindowOptions& options, WindowData* data,
+                          const WindowStageObserver& enter_stage) {
+  const auto enter = [&enter_stage](WindowStage stage) {
+    if (enter_stage) enter_stage(stage);
+  };
+  enter(WindowStage::kBuild);
   const WindowIndex index = ValidateWindow(options, *data);
   WindowSummary summary;
   WindowActivity activity = AllInFront(options, index, *data, &summary.num_behind_camera);
   WindowState state(*data);
 
   const auto minimize = [&](const WindowTerms& terms, int iterations) {
-    const MinimizerReport report = Minimize(options, *data, terms, iterations, &state);
+    const MinimizerReport report = Minimize(options, *data, terms, iterations, enter_stage, &state);
+    enter(WindowStage::kBuild);
     summary.num_iterations += report.num_iterations;
     summary.schur_structure = report.schur_structure;
     summary.message = report.message;
@@ -190,7 +198,9 @@ WindowSummary SolveWindow(const WindowOptions& options, WindowData* data) {
     return summary;
   }
   summary.usable = true;
+  enter(WindowStage::kWriteBack);
   WriteBack(second, activity, state, data);
+  enter(WindowStage::kDone);
   return summary;
 }
 

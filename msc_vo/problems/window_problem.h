@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "msc_vo/problems/window_data.h"
@@ -84,6 +85,19 @@ struct WindowSummary {
   std::string BriefReport() const;
 };
 
+// What SolveWindow does at a time.
+enum class WindowStage {
+  kBuild,      // checks the data, makes the factors, tests the observations
+  kLinearize,  // evaluates factors and derivatives
+  kStep,       // solves the normal equations; of the Ceres solvers, the whole minimisation
+  kWriteBack,
+  kDone,
+};
+
+// Is told of every stage that begins. The solver has no clock, as nothing that it does may depend
+// on one; whoever wants to know where the time goes brings his own.
+using WindowStageObserver = std::function<void(WindowStage)>;
+
 // Refines keyframes, points and lines that are not fixed (paper: Local Map Optimization). Marks
 // rejected observations, pairs and alignments in `data`, whatever the marks said before. A landmark
 // that loses its last observation keeps its value; a pair or an alignment binds only lines that are
@@ -94,6 +108,7 @@ struct WindowSummary {
 // that is not symmetric or not positive definite, a segment without length, a pair of a line with
 // itself, a count below 1, an axis that is not unit, no fixed keyframe, or options that are not
 // valid.
-WindowSummary SolveWindow(const WindowOptions& options, WindowData* data);
+WindowSummary SolveWindow(const WindowOptions& options, WindowData* data,
+                          const WindowStageObserver& enter_stage = {});
 
 }  // namespace msc_vo

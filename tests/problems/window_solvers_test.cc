@@ -3,6 +3,8 @@
 
 // All solvers of the window go the same way, to the same minimum.
 
+#include <regex>
+
 #include "tests/support/factor_checks.h"
 #include "tests/support/synthetic_window.h"
 
@@ -146,6 +148,23 @@ TEST_P(WindowSolversTest, ACostThatOverflowsIsNotUsable) {
     EXPECT_FALSE(summary.usable) << summary.BriefReport();
     EXPECT_FALSE(summary.message.empty());
     EXPECT_EQ(after.points[3].position, data.points[3].position);
+  }
+}
+
+TEST_P(WindowSolversTest, TellsItsStagesInTheirOrder) {
+  const WindowData start = MakeSyntheticWindow(scene_).data;
+  for (const WindowOptions& options : {options_, reference_}) {
+    std::string stages;
+    const auto note = [&stages](WindowStage stage) {
+      stages += "blswd"[static_cast<int>(stage)];  // in the order of the enum
+    };
+    WindowData data = start, unobserved = start;
+    SolveWindow(options, &data, note);
+    const bool own = options.solver == WindowSolver::kBlockSchur;
+    EXPECT_TRUE(std::regex_match(stages, std::regex(own ? "b(l(sl?)+b){2}wd" : "b(sb){2}wd")))
+        << stages;
+    SolveWindow(options, &unobserved);
+    EXPECT_EQ(data.points[5].position, unobserved.points[5].position);
   }
 }
 
