@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Ways to take pairs of lines through the Schur complement (docs/solver.md), on the first of the
+// two solves of a window. Window files: MSC_VO_WINDOWS=a.txt:b.txt.
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+#include <benchmark/benchmark.h>
+
+#include "apps/benchmarks/benchmark_windows.h"
+#include "msc_vo/problems/window_classification.h"
+#include "msc_vo/problems/window_minimizer.h"
+
+namespace msc_vo {
+
+namespace {
+
+constexpr int kMaxIterations = 50;
+
+// Keeps the directions of all lines that have a partner.
+void KeepAllPaired(WindowStructure* structure) {
+  std::vector<bool> paired(structure->num_lines, false);
+  for (const WindowIndex::Pair& pair : structure->couplings) paired[pair.a] = paired[pair.b] = true;
+  structure->num_kept_lines = 0;
+  for (int i = 0; i < structure->num_lines; ++i) {
+    structure->kept_line[i] = paired[i] ? structure->num_kept_lines++ : -1;
+  }
+}
+
+// Every line takes its partners for constant during a step: no pair couples two unknowns.
+void HoldPartners(WindowStructure* structure) {
+  structure->couplings.clear();
+  structure->kept_line.assign(structure->num_lines, -1);
+  structure->num_kept_lines = 0;
+}
+
+// Parallel lines as a star about one of them: what one shared direction per family would leave.
+// Perpendicular pairs become pairs of the centres. Another sum than that of the window, of which
+// only structure and time compare.
+WindowData WithStars(const WindowData& data) {
+  std::map<int64_t, int64_t> parents;
+  const auto centre = [&parents](int64_t line) {
+    while (parents.count(line) > 0 && parents[line] != line) line = parents[line];
+    return line;
+  };
+  for (const WindowData::LinePair& pair : data.parallel_pairs) {
+    const int64_t a = centre(pair.a), b = centre(pair.b);
+    parents[std::max(a, b)] = std::min(a, b);
+  }
+  WindowData stars = data;
+  if (data.parallel_pairs.empty()) return stars;
+  stars.parallel_pairs.clear();
+  stars.perpendicular_pairs.clear();
+  for (const WindowData::Line& line : data.lines) {
+    if (centre(line.id) == line.id) continue;
+    stars.parallel_pairs.push_back({centre(line.id), line.id, data.parallel_pairs.front().sigma});
+  }
+  std::map<std::pair<int64_t, int64_t>, WindowData::LinePair> of_centres;
+  for (const WindowData::LinePair& pair : data.perpendicular_pairs) {
+    const int64_t a = centre(pair.a), b = centre(pair.b);
+    if (a == b) continue;
+    of_centres[{std::min(a, b), std::max(a, b)}] = {std::min(a, b), std::max(a, b), pair.sigma};
+  }
+  for (const auto& [ids, pair] : of_centres) stars.perpendicular_pairs.push_back(pair);
+  return stars;
+}
+
+using Change = void (*)(WindowStructure*);
+
+void Minimize(benchmark::State& state, const BenchmarkWindow& window, Change change) {
+  const WindowIndex index = ValidateWindow(window.options, window.data);
+  int num_behind = 0;
+  const WindowActivity activity = AllInFront(window.options, index, window.data, &num_behind);
+  const WindowState start(window.data);
+  const WindowTerms terms = MakeWindowTerms(window.options, window.data, index, activity, start);
+  WindowStructure structure(window.data, terms);
+  if (change != nullptr) change(&structure);
+  MinimizerReport report;
+  WindowState end = start;
+  for (auto _ : state) {
+    end = start;
+    report = MinimizeWindow(structure, terms, kMaxIterations, {}, &end);
+  }
+  WindowEquations equations;
+  Linearize(structure, terms, end, &equations);
+  state.counters["iterations"] = report.num_iterations;
+  state.counters["ms_per_iteration"] =
+      benchmark::Counter(1e-3 * static_cast<double>(state.iterations() * report.num_iterations),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["reduced_size"] = 6 * structure.num_poses + 2 * structure.num_kept_lines;
+  state.counters["cost"] = equations.cost;
+}
+
+// What the Cholesky factorisation of a reduced system costs, by its size.
+void ReducedCholesky(benchmark::State& state) {
+  const int size = static_cast<int>(state.range(0));
+  const Eigen::MatrixXd matrix = Eigen::MatrixXd::Constant(size, size, 0.5 / size) +
+                                 Eigen::MatrixXd(Eigen::MatrixXd::Identity(size, size));
+  for (auto _ : state) {
+    Eigen::MatrixXd copy = matrix;
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(copy);
+    benchmark::DoNotOptimize(cholesky.info());
+  }
+}
+BENCHMARK(ReducedCholesky)
+    ->Arg(60)
+    ->Arg(120)
+    ->Arg(240)
+    ->Arg(360)
+    ->Arg(480)
+    ->Arg(960)
+    ->Unit(benchmark::kMillisecond);
+
+void Register(const WindowPtr& window) {
+  const auto add = [](const WindowPtr& its, const char* name, Change change) {
+    benchmark::RegisterBenchmark((its->name() + "/" + name).c_str(), [its, change](
+                                                                         benchmark::State& state) {
+      Minimize(state, its->Get(), change);
+    })->Unit(benchmark::kMillisecond);
+  };
+  add(window, "few_directions_kept", nullptr);
+  add(window, "all_directions_kept", KeepAllPaired);
+  add(window, "partners_held", HoldPartners);
+  const auto with_stars = [window] {
+    return BenchmarkWindow{window->Get().options, WithStars(window->Get().data)};
+  };
+  add(std::make_shared<NamedWindow>(window->name(), with_stars), "stars", nullptr);
+}
+
+}  // namespace
+
+}  // namespace msc_vo
+
+int main(int argc, char** argv) {
+  for (const msc_vo::WindowPtr& window : msc_vo::RecordedWindows()) msc_vo::Register(window);
+  for (const int num_keyframes : {5, 10, 20}) {
+    msc_vo::Register(msc_vo::MadeWindow(msc_vo::WindowContent::kStructure, num_keyframes));
+  }
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
