@@ -35,4 +35,16 @@ inline Eigen::Vector3d LogSO3(const Eigen::Quaterniond& q) {
   return (sin_half < 1e-8 ? 2.0 : 2.0 * half / sin_half) * v;
 }
 
+// J_l^-1(w): LogSO3(ExpSO3(d) ExpSO3(w)) = w + J_l^-1(w) d to first order, for |w| < 2 pi.
+inline Eigen::Matrix3d InverseLeftJacobianSO3(const Eigen::Vector3d& w) {
+  const double angle = w.norm();
+  // (1 - (a / 2) cot(a / 2)) / a^2: near zero two Taylor terms are exact to double precision below
+  // 1e-2, where the difference would lose digits.
+  const double square_factor = angle < 1e-2
+                                   ? 1.0 / 12.0 + angle * angle / 720.0
+                                   : (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / (angle * angle);
+  const Eigen::Matrix3d cross = Skew(w);
+  return Eigen::Matrix3d::Identity() - 0.5 * cross + square_factor * cross * cross;
+}
+
 }  // namespace msc_vo

@@ -223,7 +223,8 @@ std::string FormatWindowJson(const WindowSummary& summary, double milliseconds) 
                    {"line_anchor", TermToJson(summary.line_anchor)},
                    {"parallel", TermToJson(summary.parallel)},
                    {"perpendicular", TermToJson(summary.perpendicular)},
-                   {"manhattan", TermToJson(summary.manhattan)}};
+                   {"manhattan", TermToJson(summary.manhattan)},
+                   {"pose_prior", TermToJson(summary.pose_prior)}};
   json["milliseconds"] = milliseconds;
   return Dump(json);
 }

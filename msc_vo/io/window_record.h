@@ -155,6 +155,26 @@ struct AxisAlignmentRecord {
   }
 };
 
+struct PosePriorRecord {
+  static constexpr const char* kKeyword = "pose_prior";
+  static constexpr const char* kComment =
+      "where a keyframe is believed to be, as its cam_from_world; covariance by rows of rotation "
+      "vector (radians, camera frame), then translation (metres)";
+  static constexpr auto kItems = &WindowData::pose_priors;
+  template <typename Prior, typename Fields>
+  static void Visit(Prior& prior, Fields& fields) {
+    fields.Integer("KEYFRAME", prior.keyframe);
+    constexpr const char* kNames[] = {"QX", "QY", "QZ", "QW", "TX", "TY", "TZ"};
+    for (int i = 0; i < 7; ++i) fields.Number(kNames[i], prior.cam_from_world.params[i]);
+    for (int row = 0; row < 6; ++row) {
+      for (int col = 0; col < 6; ++col) {
+        const char name[] = {'C', static_cast<char>('0' + row), static_cast<char>('0' + col), 0};
+        fields.Number(name, prior.covariance(row, col));
+      }
+    }
+  }
+};
+
 // Calls `action` with a value of every kind that stands for a vector of the window, in the order of
 // the file.
 template <typename Action>
@@ -167,6 +187,7 @@ void ForEachWindowRecord(const Action& action) {
   action(ParallelRecord());
   action(PerpendicularRecord());
   action(AxisAlignmentRecord());
+  action(PosePriorRecord());
 }
 
 }  // namespace msc_vo

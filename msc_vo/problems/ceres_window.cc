@@ -37,6 +37,7 @@ ceres::CostFunction* Analytic(const LinePairFactor<Factor, Rows>& factor) {
   return new LinePairCost<Factor>(static_cast<const Factor&>(factor));
 }
 ceres::CostFunction* Analytic(const LineAnchor& factor) { return LineAnchor::Create(factor); }
+ceres::CostFunction* Analytic(const PosePrior& factor) { return PosePrior::Create(factor); }
 ceres::CostFunction* Analytic(const ManhattanAxisAlignment& factor) {
   return ManhattanAxisAlignment::Create(factor);
 }
@@ -63,6 +64,7 @@ CeresWindow::CeresWindow(const WindowOptions& options, const WindowData& data,
   AddTerm(terms.parallel);
   AddTerm(terms.perpendicular);
   AddTerm(terms.manhattan);
+  AddTerm(terms.pose_prior);
   HoldGauge();
 }
 
@@ -90,8 +92,8 @@ void CeresWindow::AddTerm(const Term& term) {
 }
 
 // Shifting or turning the whole window changes no residual of what it sees or of pairs: six numbers
-// are free. They are held by the poses of the fixed keyframes (at least one; the observers outside
-// the window, usually), and by nothing else: no prior, no constant coordinate. Alignments to axes
+// are free. They are held by the poses of the fixed keyframes (the observers outside the window,
+// usually) or by priors on poses, and by nothing else: no constant coordinate. Alignments to axes
 // tell of the rotation what a compass would, softly; they do not hold it. A free pose moves on
 // Rigid3Manifold.
 void CeresWindow::HoldGauge() {

@@ -71,6 +71,16 @@ struct WindowData {
     bool rejected = false;                            // as for pairs
   };
 
+  // Where a keyframe is believed to be, from elsewhere: a marginalised past, a marker, wheels. On a
+  // fixed keyframe it says nothing.
+  struct PosePrior {
+    int64_t keyframe = 0;
+    Rigid3 cam_from_world;
+    // Of the six numbers of Rigid3Manifold: rotation vector in the camera frame (radians), then
+    // translation (metres). Symmetric, positive definite.
+    Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Identity();
+  };
+
   PinholeCamera camera;
   std::vector<Keyframe> keyframes;
   std::vector<Point> points;
@@ -80,6 +90,7 @@ struct WindowData {
   std::vector<LinePair> parallel_pairs;
   std::vector<LinePair> perpendicular_pairs;
   std::vector<AxisAlignment> axis_alignments;
+  std::vector<PosePrior> pose_priors;
 };
 
 }  // namespace msc_vo

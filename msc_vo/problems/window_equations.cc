@@ -128,6 +128,7 @@ class Linearizer {
     AddAlignments(&cost);
     AddPairs(terms_.parallel, &cost);
     AddPairs(terms_.perpendicular, &cost);
+    AddPriors(&cost);
     equations_->cost = cost;
     return std::isfinite(cost);
   }
@@ -274,6 +275,18 @@ class Linearizer {
     }
   }
 
+  void AddPriors(double* cost) {
+    for (const auto& block : terms_.pose_prior.blocks) {
+      const int pose = structure_.pose[block.first];
+      Pose::Vector r;
+      block.factor(state_.PoseBlock(block.first), r.data());
+      const Pose::Block j = block.factor.TangentJacobian(state_.Pose(block.first));
+      *cost += 0.5 * r.squaredNorm();
+      equations_->pose_hessian[pose] += j.transpose() * j;
+      equations_->pose_gradient[pose] += j.transpose() * r;
+    }
+  }
+
   const WindowStructure& structure_;
   const WindowTerms& terms_;
   const WindowState& state_;
@@ -286,7 +299,7 @@ class Linearizer {
 WindowStructure::WindowStructure(const WindowData& data, const WindowTerms& terms)
     : point_sightings(Sightings(terms.point_reprojection, terms.point_depth)),
       line_sightings(Sightings(terms.line_reprojection, terms.line_depth)) {
-  num_poses = Number(data.keyframes, terms.keyframe_observes, &pose);
+  num_poses = Number(data.keyframes, terms.keyframe_takes_part, &pose);
   num_points = Number(data.points, terms.point_observed, &point);
   num_lines = Number(data.lines, terms.line_observed, &line);
   Link(pose, point, num_points, &point_sightings, &point_links, &point_link_poses);

@@ -26,6 +26,7 @@ void ForEachTerm(const WindowTerms& terms, WindowSummary* summary, const Visitor
   visit(terms.parallel, &summary->parallel);
   visit(terms.perpendicular, &summary->perpendicular);
   visit(terms.manhattan, &summary->manhattan);
+  visit(terms.pose_prior, &summary->pose_prior);
 }
 
 // Writes the costs of all terms into one member of their summaries; returns their sum.
@@ -50,7 +51,7 @@ void WriteCounts(const WindowTerms& terms, WindowSummary* summary) {
 void WriteBack(const WindowTerms& terms, const WindowActivity& activity, const WindowState& state,
                WindowData* data) {
   for (size_t i = 0; i < data->keyframes.size(); ++i) {
-    if (terms.keyframe_observes[i]) data->keyframes[i].cam_from_world = state.Pose(i);
+    if (terms.keyframe_takes_part[i]) data->keyframes[i].cam_from_world = state.Pose(i);
   }
   for (size_t i = 0; i < data->points.size(); ++i) {
     if (terms.point_observed[i]) data->points[i].position = state.Point(i);
@@ -167,6 +168,7 @@ std::string WindowSummary::BriefReport() const {
   add("parallel", parallel);
   add("perpendicular", perpendicular);
   add("manhattan", manhattan);
+  add("pose prior", pose_prior);
   return report + "\n  " + schur_structure + (message.empty() ? "" : ": ") + message;
 }
 

@@ -76,7 +76,7 @@ struct WindowSummary {
   double initial_cost = 0.0;
   double final_cost = 0.0;
   TermSummary point_reprojection, point_depth, line_reprojection, line_depth, line_anchor;
-  TermSummary parallel, perpendicular, manhattan;
+  TermSummary parallel, perpendicular, manhattan, pose_prior;
   int num_behind_camera = 0;  // observations dropped by the builder, marked rejected
   std::string
       schur_structure;  // how the normal equations were solved; of Ceres, schur_structure_used
@@ -102,12 +102,12 @@ using WindowStageObserver = std::function<void(WindowStage)>;
 // rejected observations, pairs and alignments in `data`, whatever the marks said before. A landmark
 // that loses its last observation keeps its value; a pair or an alignment binds only lines that are
 // observed, and is neither counted nor rejected otherwise, or where no line is free. At least one
-// keyframe must be fixed: it holds the gauge. A window in which nothing is observed comes back as
-// it was. Throws std::invalid_argument, naming the offender, on a window without keyframes, an
-// unknown or repeated id, a number that is not finite or beyond 1e9, a sigma <= 0, a covariance
-// that is not symmetric or not positive definite, a segment without length, a pair of a line with
-// itself, a count below 1, an axis that is not unit, no fixed keyframe, or options that are not
-// valid.
+// keyframe must be fixed or have a prior: that holds the gauge. Without any depth, only two that
+// are hold the scale. A window in which nothing is observed comes back as it was. Throws
+// std::invalid_argument, naming the offender, on a window without keyframes, an unknown or repeated
+// id, a number that is not finite or beyond 1e9, a sigma <= 0, a covariance that is not symmetric
+// or not positive definite, a segment without length, a pair of a line with itself, a count below
+// 1, an axis that is not unit, no gauge, or options that are not valid.
 WindowSummary SolveWindow(const WindowOptions& options, WindowData* data,
                           const WindowStageObserver& enter_stage = {});
 

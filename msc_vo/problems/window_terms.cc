@@ -12,7 +12,7 @@ class TermMaker {
   TermMaker(const WindowOptions& options, const WindowData& data, const WindowIndex& index,
             const WindowActivity& activity, const WindowState& state)
       : options_(options), data_(data), index_(index), activity_(activity), state_(state) {
-    terms_.keyframe_observes.assign(data.keyframes.size(), false);
+    terms_.keyframe_takes_part.assign(data.keyframes.size(), false);
     terms_.point_observed.assign(data.points.size(), false);
     terms_.line_observed.assign(data.lines.size(), false);
   }
@@ -27,6 +27,7 @@ class TermMaker {
     AddPairs(options_.perpendicular, data_.perpendicular_pairs, index_.perpendicular,
              activity_.perpendicular, &terms_.perpendicular);
     AddAlignments();
+    AddPriors();
     return std::move(terms_);
   }
 
@@ -51,7 +52,7 @@ class TermMaker {
              Source(i)});
       }
       if (active.reprojection || active.depth) {
-        terms_.keyframe_observes[keyframe] = terms_.point_observed[point] = true;
+        terms_.keyframe_takes_part[keyframe] = terms_.point_observed[point] = true;
       }
     }
   }
@@ -65,7 +66,7 @@ class TermMaker {
       const Activity active = Enabled(activity_.lines[i], options_.line_reprojection.enabled,
                                       options_.line_depth.enabled);
       if (!active.reprojection && !active.depth) continue;
-      terms_.keyframe_observes[keyframe] = terms_.line_observed[line] = true;
+      terms_.keyframe_takes_part[keyframe] = terms_.line_observed[line] = true;
       const LineSegment3 in_cam = state_.Pose(keyframe) * state_.Line(line);
       if (active.reprojection) {
         terms_.line_reprojection.blocks.push_back(
@@ -113,6 +114,18 @@ class TermMaker {
       const WindowData::AxisAlignment& alignment = data_.axis_alignments[i];
       terms_.manhattan.blocks.push_back({ManhattanAxisAlignment(alignment.axis, alignment.sigma),
                                          index_.alignments[i], -1, Source(i)});
+    }
+  }
+
+  // No loss: a prior is not one of many measurements, some of which are wrong.
+  void AddPriors() {
+    for (size_t i = 0; i < index_.priors.size(); ++i) {
+      const int keyframe = index_.priors[i];
+      if (data_.keyframes[keyframe].fixed) continue;
+      const WindowData::PosePrior& prior = data_.pose_priors[i];
+      terms_.keyframe_takes_part[keyframe] = true;
+      terms_.pose_prior.blocks.push_back(
+          {PosePrior(prior.cam_from_world, prior.covariance), keyframe, -1, Source(i)});
     }
   }
 

@@ -12,6 +12,7 @@
 #include "msc_vo/factors/parallel_lines.h"
 #include "msc_vo/factors/perpendicular_lines.h"
 #include "msc_vo/factors/point_reprojection.h"
+#include "msc_vo/factors/pose_prior.h"
 #include "msc_vo/problems/observation.h"
 #include "msc_vo/problems/window_state.h"
 #include "msc_vo/problems/window_validation.h"
@@ -48,11 +49,11 @@ struct WindowTerm {
   struct Block {
     Factor factor;
     // Positions in the state of what the factor is about, in its order: keyframe and landmark, two
-    // lines, or one line (second: -1).
+    // lines, one line or one keyframe (second: -1).
     int first;
     int second;
-    int source;     // position in WindowData of its observation, pair or alignment; of an anchor:
-                    // the line's
+    int source;     // position in WindowData of its observation, pair, alignment or prior; of an
+                    // anchor: the line's
     int count = 1;  // so many identical terms
   };
   HuberLoss loss;
@@ -63,7 +64,7 @@ struct WindowTerm {
 //
 //   sum rho(|PointReprojection|^2) + rho(|DepthReprojection|^2) + rho(|LineReprojection|^2)
 //     + rho(|LineDepthReprojection|^2) + |LineAnchor|^2 + n rho(|ParallelLines|^2)
-//     + n rho(|PerpendicularLines|^2) + rho(|ManhattanAxisAlignment|^2)
+//     + n rho(|PerpendicularLines|^2) + rho(|ManhattanAxisAlignment|^2) + |PosePrior|^2
 //
 // (paper: Local Map Optimization; n: keyframes that see both lines). Plain values: what minimises
 // it, CeresWindow or SchurWindow, is told by the options.
@@ -76,9 +77,11 @@ struct WindowTerms {
   WindowTerm<ParallelLines> parallel;
   WindowTerm<PerpendicularLines> perpendicular;
   WindowTerm<ManhattanAxisAlignment> manhattan;
+  WindowTerm<PosePrior> pose_prior;
 
-  // Whether an observation takes part of every keyframe, point and line.
-  std::vector<bool> keyframe_observes, point_observed, line_observed;
+  // Of every keyframe: whether an observation or a prior takes part. Of every point and line:
+  // whether an observation does.
+  std::vector<bool> keyframe_takes_part, point_observed, line_observed;
 };
 
 // The terms of the active observations, pairs and alignments. Sigmas of lines are those at `state`,
@@ -94,7 +97,9 @@ constexpr bool kSeesPoint = Factor::kBlockSizes.size() == 2 && Factor::kBlockSiz
 template <typename Factor, typename State, typename Block>
 auto ParametersOf(State* state, const Block& block) {
   using Number = decltype(state->PoseBlock(0));
-  if constexpr (Factor::kBlockSizes.size() == 1) {
+  if constexpr (Factor::kBlockSizes.size() == 1 && Factor::kBlockSizes[0] == 7) {
+    return std::array<Number, 1>{state->PoseBlock(block.first)};
+  } else if constexpr (Factor::kBlockSizes.size() == 1) {
     return std::array<Number, 1>{state->LineBlock(block.first)};
   } else if constexpr (Factor::kBlockSizes[0] == 7) {
     return std::array<Number, 2>{

@@ -60,7 +60,9 @@ void CheckKeyframesAndLandmarks(const WindowData& data) {
     check(PoseError(k.cam_from_world), "keyframe", k.id);
     any_fixed = any_fixed || k.fixed;
   }
-  if (!any_fixed) Throw("no keyframe is fixed: the gauge is free");
+  if (!any_fixed && data.pose_priors.empty()) {
+    Throw("no keyframe is fixed or has a prior: the gauge is free");
+  }
   for (const WindowData::Point& p : data.points) check(PositionError(p.position), "point", p.id);
   for (const WindowData::Line& l : data.lines) check(MapLineError(l.segment), "line", l.id);
 }
@@ -89,6 +91,19 @@ std::vector<int> ResolveAlignments(const std::vector<WindowData::AxisAlignment>&
       Throw("alignment of line " + std::to_string(a.line) + ": " + error);
     }
     resolved.push_back(lines.At(a.line, "aligned"));
+  }
+  return resolved;
+}
+
+std::vector<int> ResolvePriors(const std::vector<WindowData::PosePrior>& priors,
+                               const IdMap& keyframes) {
+  std::vector<int> resolved;
+  resolved.reserve(priors.size());
+  for (const WindowData::PosePrior& p : priors) {
+    const char* error = PoseError(p.cam_from_world);
+    if (error == nullptr) error = CovarianceError(p.covariance);
+    if (error != nullptr) Throw("prior of keyframe " + std::to_string(p.keyframe) + ": " + error);
+    resolved.push_back(keyframes.At(p.keyframe, "of a prior"));
   }
   return resolved;
 }
@@ -125,6 +140,7 @@ WindowIndex ValidateWindow(const WindowOptions& options, const WindowData& data)
   index.parallel = ResolvePairs(data.parallel_pairs, "parallel", lines);
   index.perpendicular = ResolvePairs(data.perpendicular_pairs, "perpendicular", lines);
   index.alignments = ResolveAlignments(data.axis_alignments, lines);
+  index.priors = ResolvePriors(data.pose_priors, keyframes);
   return index;
 }
 

@@ -25,6 +25,7 @@ struct WindowIndex {
   std::vector<Pair> parallel;       // lines of the parallel pairs
   std::vector<Pair> perpendicular;  // lines of the perpendicular pairs
   std::vector<int> alignments;      // lines of the axis alignments
+  std::vector<int> priors;          // keyframes of the pose priors
 };
 
 // Checks everything that SolveWindow asks of its input, and resolves the ids on the way.

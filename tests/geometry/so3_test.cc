@@ -41,5 +41,19 @@ TEST(SO3, LogIsTheShortWayRound) {
               IsNear(Eigen::Vector3d(0.0, 0.0, -0.5 * kPi), 1e-14));
 }
 
+TEST(SO3, LeftJacobianIsTheDerivativeOfALeftTurn) {
+  const Eigen::Vector3d axis = Eigen::Vector3d(0.2, -0.5, 0.8).normalized();
+  for (const double angle : {0.0, 1e-6, 9e-3, 1.1e-2, 1.0, 3.0}) {
+    const Eigen::Quaterniond q = ExpSO3(angle * axis);
+    Eigen::Matrix3d numeric;
+    const double h = 1e-6;
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d d = h * Eigen::Vector3d::Unit(i);
+      numeric.col(i) = (LogSO3(ExpSO3(d) * q) - LogSO3(ExpSO3(-d) * q)) / (2.0 * h);
+    }
+    EXPECT_THAT(InverseLeftJacobianSO3(angle * axis), IsNear(numeric, 1e-8)) << angle;
+  }
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -57,6 +57,10 @@ WindowData AwkwardWindow() {
   data.parallel_pairs = {{14, 15, 2.8, 16, true}, {17, 18, 2.9, 19, false}};
   data.perpendicular_pairs = {{20, 21, 3.1, 22, false}};
   data.axis_alignments = {{23, {3.2, 3.3, 3.4}, 3.5, true}, {24, {-0.0, 3.6, 3.7}, 3.8, false}};
+  data.pose_priors.resize(2);
+  data.pose_priors[0].keyframe = 25;
+  data.pose_priors[0].cam_from_world.params << 3.9, 4.1, 4.2, 4.3, 4.4, 4.5, 4.6;
+  for (int i = 0; i < 36; ++i) data.pose_priors[0].covariance.data()[i] = 1.0 / (3.0 + i);
   return data;
 }
 
@@ -114,6 +118,12 @@ void ExpectSameObservations(const WindowData& a, const WindowData& b) {
   }
   ExpectSame(a.parallel_pairs, b.parallel_pairs);
   ExpectSame(a.perpendicular_pairs, b.perpendicular_pairs);
+  ASSERT_EQ(a.pose_priors.size(), b.pose_priors.size());
+  for (size_t i = 0; i < a.pose_priors.size(); ++i) {
+    const WindowData::PosePrior &m = a.pose_priors[i], &n = b.pose_priors[i];
+    EXPECT_EQ(std::tie(m.keyframe, m.cam_from_world.params, m.covariance),
+              std::tie(n.keyframe, n.cam_from_world.params, n.covariance));
+  }
   ASSERT_EQ(a.axis_alignments.size(), b.axis_alignments.size());
   for (size_t i = 0; i < a.axis_alignments.size(); ++i) {
     const WindowData::AxisAlignment &m = a.axis_alignments[i], &n = b.axis_alignments[i];
@@ -300,7 +310,7 @@ TEST_F(WindowFileTest, JsonOfASolution) {
   EXPECT_EQ(json["usable"], true);
   EXPECT_EQ(json["final_cost"], 0.1 + 0.2);
   EXPECT_EQ(json["milliseconds"], 12.5);
-  EXPECT_EQ(json["terms"].size(), 8u);
+  EXPECT_EQ(json["terms"].size(), 9u);
   const nlohmann::json term = json["terms"]["perpendicular"];
   EXPECT_EQ(term["residual_blocks"], 3);
   EXPECT_EQ(term["rejected"], 1);

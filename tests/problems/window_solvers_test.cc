@@ -128,6 +128,20 @@ TEST_P(WindowSolversTest, AFreeKeyframeMayBeAnywhereInTheOrder) {
   ExpectSameSolution(data);
 }
 
+TEST_P(WindowSolversTest, Priors) {
+  SyntheticWindow window = MakeSyntheticWindow(scene_);
+  WindowData data = window.data;
+  for (auto& keyframe : data.keyframes) keyframe.fixed = false;
+  for (const int i : {0, 1, 1, 6}) {  // one of them twice
+    WindowData::PosePrior prior{data.keyframes[i].id, window.truth.keyframes[i].cam_from_world};
+    prior.cam_from_world.translation().x() += 0.01 * i;
+    prior.covariance.diagonal() << 1e-4, 2e-4, 1e-4, 4e-4, 4e-4, 8e-4;
+    prior.covariance(0, 4) = prior.covariance(4, 0) = 1e-4;
+    data.pose_priors.push_back(prior);
+  }
+  ExpectSameSolution(data);
+}
+
 TEST_P(WindowSolversTest, PairsMayRepeatEitherWayAround) {
   WindowData data = MakeSyntheticWindow(scene_).data;
   for (int i = 1; i < 9; ++i) {

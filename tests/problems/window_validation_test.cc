@@ -82,7 +82,30 @@ TEST_F(WindowValidationTest, EmptyWindow) {
 
 TEST_F(WindowValidationTest, NoGauge) {
   for (auto& k : data_.keyframes) k.fixed = false;
-  EXPECT_THAT(Message(), HasSubstr("no keyframe is fixed"));
+  EXPECT_THAT(Message(), HasSubstr("no keyframe is fixed or has a prior"));
+  data_.pose_priors.push_back({data_.keyframes[2].id, data_.keyframes[2].cam_from_world});
+  EXPECT_EQ(Message(), "nothing was thrown");
+}
+
+TEST_F(WindowValidationTest, Priors) {
+  const WindowData::PosePrior good{data_.keyframes[2].id, data_.keyframes[2].cam_from_world};
+  data_.pose_priors = {good};
+  EXPECT_EQ(Message(), "nothing was thrown");
+  WindowData::PosePrior& prior = data_.pose_priors[0];
+  prior.keyframe = 9999;
+  EXPECT_THAT(Message(), HasSubstr("keyframe 9999 is of a prior but not in the window"));
+  prior = good;
+  prior.cam_from_world.params[3] += 1.0;
+  EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: rotation is not unit"));
+  prior = good;
+  prior.covariance(2, 4) = 0.1;
+  EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: covariance is not positive definite"));
+  prior = good;
+  prior.covariance(2, 2) = 0.0;
+  EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: covariance is not positive definite"));
+  prior = good;
+  prior.covariance(5, 5) = nan_;
+  EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: covariance is not positive definite"));
 }
 
 TEST_F(WindowValidationTest, KeyframesAndLandmarks) {
