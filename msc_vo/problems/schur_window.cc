@@ -59,24 +59,29 @@ Matrix6d LineBasis(const Eigen::Vector3d& direction) {
 
 class SchurSolver {
  public:
-  SchurSolver(const WindowStructure& structure, const WindowEquations& equations, double radius,
-              WindowStep* step)
-      : structure_(structure), equations_(equations), radius_(radius), step_(step) {}
+  SchurSolver(const WindowStructure& structure, const WindowEquations& equations, double radius)
+      : structure_(structure), equations_(equations), radius_(radius) {}
 
-  bool Run() {
-    const int size = DirectionOffset(structure_.num_kept_lines);
-    reduced_.setZero(size, size);
-    right_.setZero(size);
-    AddPoses();
-    EliminatePoints();
-    AddCouplings();
-    EliminateLines();
+  bool Solve(WindowStep* step) {
+    Eliminate();
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(reduced_);
-    if (size > 0 && cholesky.info() != Eigen::Success) return false;
-    step_->reduced = size > 0 ? cholesky.solve(right_) : right_;
-    SubstituteBack();
-    step_->model_decrease = ModelDecrease();
-    return std::isfinite(step_->model_decrease);
+    if (right_.size() > 0 && cholesky.info() != Eigen::Success) return false;
+    step->reduced = right_.size() > 0 ? cholesky.solve(right_) : right_;
+    SubstituteBack(step);
+    step->model_decrease = ModelDecrease(*step);
+    return std::isfinite(step->model_decrease);
+  }
+
+  bool Invert(const ChosenUnknowns& chosen, InverseBlocks* inverse) {
+    Eliminate();
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(reduced_);
+    if (right_.size() > 0 && cholesky.info() != Eigen::Success) return false;
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(right_.size(), right_.size());
+    inverse_ = right_.size() > 0 ? cholesky.solve(identity).eval() : identity;
+    for (const int i : chosen.poses) inverse->poses.push_back(inverse_.block<6, 6>(6 * i, 6 * i));
+    for (const int i : chosen.points) inverse->points.push_back(Inverse<3>(points_[i], {}));
+    for (const int i : chosen.lines) inverse->lines.push_back(InverseOfLine(i));
+    return true;
   }
 
  private:
@@ -92,6 +97,17 @@ class SchurSolver {
       return basis.bottomRightCorner<3, 2>() - basis.topRightCorner<3, 2>();
     }
   };
+
+  // The normal equations without the eliminated numbers: reduced_ x = right_.
+  void Eliminate() {
+    const int size = DirectionOffset(structure_.num_kept_lines);
+    reduced_.setZero(size, size);
+    right_.setZero(size);
+    AddPoses();
+    EliminatePoints();
+    AddCouplings();
+    EliminateLines();
+  }
 
   int DirectionOffset(int kept) const { return 6 * structure_.num_poses + 2 * kept; }
 
@@ -213,43 +229,82 @@ class SchurSolver {
     Eliminate<4>(kept.position, kept.own_direction);
   }
 
-  // x = -H^-1 (gradient + sum W_i^T y_i).
+  // x = -H^-1 (gradient + sum W_i^T y_i), y: the reduced unknowns.
   template <int N>
   Eigen::Matrix<double, N, 1> Substitute(const Eliminated<N>& block,
-                                         const std::vector<DirectionLink<N>>& directions) const {
+                                         const std::vector<DirectionLink<N>>& directions,
+                                         const Eigen::VectorXd& reduced) const {
     Eigen::Matrix<double, N, 1> right = block.gradient;
     for (int a = 0; a < block.num_poses; ++a) {
-      right.noalias() +=
-          block.couplings[a].transpose() * step_->reduced.segment<6>(6 * block.poses[a]);
+      right.noalias() += block.couplings[a].transpose() * reduced.segment<6>(6 * block.poses[a]);
     }
     for (const DirectionLink<N>& a : directions) {
-      right.noalias() +=
-          a.coupling.transpose() * step_->reduced.segment<2>(DirectionOffset(a.direction));
+      right.noalias() += a.coupling.transpose() * reduced.segment<2>(DirectionOffset(a.direction));
     }
     return -(block.inverse * right);
   }
 
-  void SubstituteBack() {
-    step_->points.resize(structure_.num_points);
+  void SubstituteBack(WindowStep* step) const {
+    step->points.resize(structure_.num_points);
     for (int i = 0; i < structure_.num_points; ++i) {
-      step_->points[i] = Substitute<3>(points_[i], {});
+      step->points[i] = Substitute<3>(points_[i], {}, step->reduced);
     }
-    step_->lines.resize(structure_.num_lines);
+    step->lines.resize(structure_.num_lines);
     for (int i = 0; i < structure_.num_lines; ++i) {
       const int number = structure_.kept_line[i];
       if (number < 0) {
-        step_->lines[i] = Substitute<6>(lines_[i], line_directions_[i]);
+        step->lines[i] = Substitute<6>(lines_[i], line_directions_[i], step->reduced);
         continue;
       }
       const KeptLine& kept = kept_[number];
-      step_->lines[i] =
-          kept.basis.leftCols<4>() * Substitute<4>(kept.position, kept.own_direction) +
-          kept.basis.rightCols<2>() * step_->reduced.segment<2>(DirectionOffset(number));
+      step->lines[i] =
+          kept.basis.leftCols<4>() *
+              Substitute<4>(kept.position, kept.own_direction, step->reduced) +
+          kept.basis.rightCols<2>() * step->reduced.segment<2>(DirectionOffset(number));
     }
   }
 
+  // H^-1 W^T of an eliminated block, over all reduced unknowns.
+  template <int N>
+  Eigen::Matrix<double, N, Eigen::Dynamic> Influence(
+      const Eliminated<N>& block, const std::vector<DirectionLink<N>>& directions) const {
+    Eigen::Matrix<double, N, Eigen::Dynamic> influence =
+        Eigen::Matrix<double, N, Eigen::Dynamic>::Zero(N, right_.size());
+    for (int a = 0; a < block.num_poses; ++a) {
+      influence.template middleCols<6>(6 * block.poses[a]) +=
+          block.inverse * block.couplings[a].transpose();
+    }
+    for (const DirectionLink<N>& a : directions) {
+      influence.template middleCols<2>(DirectionOffset(a.direction)) +=
+          block.inverse * a.coupling.transpose();
+    }
+    return influence;
+  }
+
+  // H^-1 + H^-1 W^T S^-1 W H^-1, S the reduced system.
+  template <int N>
+  Eigen::Matrix<double, N, N> Inverse(const Eliminated<N>& block,
+                                      const std::vector<DirectionLink<N>>& directions) const {
+    const Eigen::Matrix<double, N, Eigen::Dynamic> influence = Influence<N>(block, directions);
+    return block.inverse + influence * inverse_ * influence.transpose();
+  }
+
+  Matrix6d InverseOfLine(int i) const {
+    const int number = structure_.kept_line[i];
+    if (number < 0) return Inverse<6>(lines_[i], line_directions_[i]);
+    const KeptLine& kept = kept_[number];
+    const int row = DirectionOffset(number);
+    Matrix6d inverse;  // of position, then direction
+    inverse.topLeftCorner<4, 4>() = Inverse<4>(kept.position, kept.own_direction);
+    inverse.topRightCorner<4, 2>() =
+        -Influence<4>(kept.position, kept.own_direction) * inverse_.middleCols<2>(row);
+    inverse.bottomLeftCorner<2, 4>() = inverse.topRightCorner<4, 2>().transpose();
+    inverse.bottomRightCorner<2, 2>() = inverse_.block<2, 2>(row, row);
+    return kept.basis * inverse * kept.basis.transpose();
+  }
+
   // -g^T x - x^T H x / 2, where H x = -g - D x / radius.
-  double ModelDecrease() const {
+  double ModelDecrease(const WindowStep& step) const {
     double sum = 0.0;
     const auto add = [&](const auto& hessian, const auto& gradient, const auto& x) {
       constexpr int kSize = std::decay_t<decltype(hessian)>::RowsAtCompileTime;
@@ -257,13 +312,13 @@ class SchurSolver {
     };
     for (int i = 0; i < structure_.num_poses; ++i) {
       add(equations_.pose_hessian[i], equations_.pose_gradient[i],
-          Vector6d(step_->reduced.segment<6>(6 * i)));
+          Vector6d(step.reduced.segment<6>(6 * i)));
     }
     for (int i = 0; i < structure_.num_points; ++i) {
-      add(equations_.points.hessian[i], equations_.points.gradient[i], step_->points[i]);
+      add(equations_.points.hessian[i], equations_.points.gradient[i], step.points[i]);
     }
     for (int i = 0; i < structure_.num_lines; ++i) {
-      add(equations_.lines.hessian[i], equations_.lines.gradient[i], step_->lines[i]);
+      add(equations_.lines.hessian[i], equations_.lines.gradient[i], step.lines[i]);
     }
     return 0.5 * sum;
   }
@@ -271,20 +326,25 @@ class SchurSolver {
   const WindowStructure& structure_;
   const WindowEquations& equations_;
   double radius_;
-  WindowStep* step_;
   Eigen::MatrixXd reduced_;  // lower triangle
   Eigen::VectorXd right_;
   std::vector<Eliminated<3>> points_;
   std::vector<Eliminated<6>> lines_;
   std::vector<std::vector<DirectionLink<6>>> line_directions_;  // of the eliminated lines
   std::vector<KeptLine> kept_;
+  Eigen::MatrixXd inverse_;  // of the reduced system
 };
 
 }  // namespace
 
 bool SolveStep(const WindowStructure& structure, const WindowEquations& equations, double radius,
                WindowStep* step) {
-  return SchurSolver(structure, equations, radius, step).Run();
+  return SchurSolver(structure, equations, radius).Solve(step);
+}
+
+bool InvertBlocks(const WindowStructure& structure, const WindowEquations& equations, double radius,
+                  const ChosenUnknowns& chosen, InverseBlocks* inverse) {
+  return SchurSolver(structure, equations, radius).Invert(chosen, inverse);
 }
 
 WindowState Moved(const WindowStructure& structure, const WindowState& state,

@@ -22,6 +22,22 @@ struct WindowStep {
 bool SolveStep(const WindowStructure& structure, const WindowEquations& equations, double radius,
                WindowStep* step);
 
+// Numbers of unknowns of which something is asked.
+struct ChosenUnknowns {
+  std::vector<int> poses, points, lines;
+};
+
+// Blocks of (H + D / radius)^-1 on its diagonal, in the order of the choice.
+struct InverseBlocks {
+  std::vector<Eigen::Matrix<double, 6, 6>> poses;
+  std::vector<Eigen::Matrix3d> points;
+  std::vector<Eigen::Matrix<double, 6, 6>> lines;
+};
+
+// By the same Schur complement. False if the system is not positive definite.
+bool InvertBlocks(const WindowStructure& structure, const WindowEquations& equations, double radius,
+                  const ChosenUnknowns& chosen, InverseBlocks* inverse);
+
 // The state after a step.
 WindowState Moved(const WindowStructure& structure, const WindowState& state,
                   const WindowStep& step);
