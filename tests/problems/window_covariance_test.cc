@@ -297,8 +297,8 @@ class Consistency {
   SyntheticWindowOptions scene_;
 };
 
-// Bounds of the mean of n chi-square variables of k degrees, over k: five in a million beyond.
-double Bound(int n, int k) { return 4.56 * std::sqrt(2.0 / (double(n) * k)); }
+// 99 % of the means of n chi-square variables of k degrees, over k, are this near to one.
+double Bound(int n, int k) { return 2.576 * std::sqrt(2.0 / (double(n) * k)); }
 
 TEST(WindowCovarianceConsistency, ErrorsAreAsLargeAsItSays) {
   // Least squares, which is what normal noise asks for.
