@@ -198,22 +198,19 @@ class Linearizer {
     return true;
   }
 
-  // Unit directions of the lines that structure binds. False if one has no length.
+  // Of all lines that are observed, once: each is part of many pairs. False if one has no length.
   bool FindDirections() {
     equations_->directions.resize(structure_.num_lines);
+    directions_.resize(structure_.line.size());
     for (size_t i = 0; i < structure_.line.size(); ++i) {
       if (!terms_.line_observed[i]) continue;
-      Eigen::Vector3d d;
-      if (!LineDirection(state_.LineBlock(i), &d)) return false;
-      if (structure_.line[i] >= 0) equations_->directions[structure_.line[i]] = d;
+      if (!LineDirection(state_.LineBlock(i), &directions_[i].unit)) return false;
+      directions_[i].jacobian = LineDirectionJacobian(state_.LineBlock(i));
+      if (structure_.line[i] >= 0) {
+        equations_->directions[structure_.line[i]] = directions_[i].unit;
+      }
     }
     return true;
-  }
-
-  Eigen::Vector3d Direction(int line) const {
-    Eigen::Vector3d d;
-    LineDirection(state_.LineBlock(line), &d);  // FindDirections has looked
-    return d;
   }
 
   void AddAnchors(double* cost) {
@@ -244,12 +241,12 @@ class Linearizer {
   void AddAlignments(double* cost) {
     for (const auto& block : terms_.manhattan.blocks) {
       Eigen::Vector2d r;
-      block.factor.Residual(Direction(block.first), r.data());
+      const Direction& d = directions_[block.first];
+      block.factor.Residual(d.unit, r.data());
       const double s = r.squaredNorm();
       const double weight = terms_.manhattan.loss.Weight(s);
       *cost += 0.5 * terms_.manhattan.loss.Cost(s);
-      const Eigen::Matrix<double, 2, 3> j =
-          block.factor.Jacobian() * LineDirectionJacobian(state_.LineBlock(block.first));
+      const Eigen::Matrix<double, 2, 3> j = block.factor.Jacobian() * d.jacobian;
       AddToLine(structure_.line[block.first], weight * j.transpose() * j,
                 weight * j.transpose() * r);
     }
@@ -258,16 +255,16 @@ class Linearizer {
   template <typename Factor>
   void AddPairs(const WindowTerm<Factor>& term, double* cost) {
     for (const auto& block : term.blocks) {
-      const Eigen::Vector3d d_i = Direction(block.first), d_j = Direction(block.second);
+      const Direction &d_i = directions_[block.first], &d_j = directions_[block.second];
       Eigen::Matrix<double, Factor::kNumResiduals, 1> r;
-      block.factor.Residual(d_i, d_j, r.data());
+      block.factor.Residual(d_i.unit, d_j.unit, r.data());
       const double s = r.squaredNorm();
       const double weight = block.count * term.loss.Weight(s);
       *cost += 0.5 * (block.count * term.loss.Cost(s));
       const typename Factor::Jacobian by_i =
-          block.factor.JacobianI(d_i, d_j) * LineDirectionJacobian(state_.LineBlock(block.first));
+          block.factor.JacobianI(d_i.unit, d_j.unit) * d_i.jacobian;
       const typename Factor::Jacobian by_j =
-          block.factor.JacobianJ(d_i, d_j) * LineDirectionJacobian(state_.LineBlock(block.second));
+          block.factor.JacobianJ(d_i.unit, d_j.unit) * d_j.jacobian;
       const int i = structure_.line[block.first], j = structure_.line[block.second];
       if (i >= 0) AddToLine(i, weight * by_i.transpose() * by_i, weight * by_i.transpose() * r);
       if (j >= 0) AddToLine(j, weight * by_j.transpose() * by_j, weight * by_j.transpose() * r);
@@ -291,7 +288,12 @@ class Linearizer {
   const WindowTerms& terms_;
   const WindowState& state_;
   WindowEquations* equations_;
+  struct Direction {
+    Eigen::Vector3d unit;
+    Eigen::Matrix3d jacobian;  // of it, with respect to E - S
+  };
   std::vector<Eigen::Matrix3d> rotations_;  // of all keyframes
+  std::vector<Direction> directions_;       // of all lines
 };
 
 }  // namespace
