@@ -87,7 +87,7 @@ void Minimize(benchmark::State& state, const BenchmarkWindow& window, Change cha
   }
   WindowEquations equations;
   Linearize(structure, terms, end, &equations);
-  state.counters["iterations"] = report.num_iterations;
+  state.counters["steps"] = report.num_iterations;
   state.counters["ms_per_iteration"] =
       benchmark::Counter(1e-3 * static_cast<double>(state.iterations() * report.num_iterations),
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);

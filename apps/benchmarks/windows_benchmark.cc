@@ -102,7 +102,7 @@ void Solve(benchmark::State& state, const Variant& variant, const NamedWindow& w
   state.counters["linearize_ms"] = clock.Of(WindowStage::kLinearize) / solves;
   state.counters["step_ms"] = clock.Of(WindowStage::kStep) / solves;
   state.counters["write_ms"] = clock.Of(WindowStage::kWriteBack) / solves;
-  state.counters["iterations"] = summary.num_iterations;
+  state.counters["steps"] = summary.num_iterations;
   state.counters["speedup"] = baseline.milliseconds / best;
   state.counters["cost_change"] = summary.final_cost / baseline.cost - 1.0;
   const WindowData& data = window.Get().data;
