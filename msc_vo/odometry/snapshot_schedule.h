@@ -18,10 +18,10 @@ struct SnapshotOptions {
   // even if it is ready. So every frame sees the same map however fast the mapper is, which makes
   // the trajectory the same at any number of threads. 0: the keyframe itself waits for it; 1: the
   // same poses, but the features of the next frame are extracted meanwhile; above, frames are
-  // tracked beside the mapper. The mapper needs up to 60 ms on 2 cores: with 3 hardly a frame waits
-  // even if frames come twice as fast as from a camera. From 0 to 6 the mean error over all
-  // sequences is the same (docs/performance.md).
-  int latency_frames = 3;
+  // tracked beside the mapper. From a camera, frames never wait with 2, as the mapper needs less
+  // than two thirtieths of a second; the older the map, the less exact the poses
+  // (docs/performance.md).
+  int latency_frames = 2;
   // Every frame sees the newest map that is ready instead: nothing waits, nothing repeats.
   bool newest = false;
 
