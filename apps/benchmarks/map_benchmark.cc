@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// What it costs to publish the map: a copy of it, made by the mapper behind every keyframe.
+
+#include <memory>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "msc_vo/map/snapshot.h"
+
+namespace msc_vo {
+
+namespace {
+
+// As a run leaves them (kitchen of the shared sequences): every keyframe brings new landmarks, and
+// sees those of the keyframes before it.
+constexpr int kNewPoints = 75;
+constexpr int kNewLines = 13;
+constexpr int kObservingKeyframes = 7;
+
+MapSnapshotPtr MakeMap(int num_keyframes) {
+  auto frame = std::make_shared<Frame>();
+  frame->points.resize(kObservingKeyframes * kNewPoints);
+  frame->lines.resize(kObservingKeyframes * kNewLines);
+  auto snapshot = std::make_shared<MapSnapshot>();
+  Map& map = snapshot->map;
+  std::vector<LandmarkId> points, lines;
+  for (int i = 0; i < num_keyframes; ++i) {
+    const KeyframeId keyframe = map.AddKeyframe(frame, Rigid3());
+    const size_t num_points = points.size();
+    const size_t num_lines = lines.size();
+    for (int j = 0; j < kNewPoints; ++j) {
+      points.push_back(map.AddPoint(keyframe, j, Eigen::Vector3d(0.0, 0.0, 2.0)));
+    }
+    for (int j = 0; j < kNewLines; ++j) {
+      lines.push_back(map.AddLine(keyframe, j, {{0.0, 0.0, 2.0}, {1.0, 0.0, 2.0}}));
+    }
+    for (size_t j = kNewPoints; j < frame->points.size() && j - kNewPoints < num_points; ++j) {
+      map.ObservePoint(points[num_points - 1 - (j - kNewPoints)], keyframe, static_cast<int>(j));
+    }
+    for (size_t j = kNewLines; j < frame->lines.size() && j - kNewLines < num_lines; ++j) {
+      map.ObserveLine(lines[num_lines - 1 - (j - kNewLines)], keyframe, static_cast<int>(j));
+    }
+  }
+  return snapshot;
+}
+
+// The argument is the number of keyframes. The copy is also given back.
+void Snapshot(benchmark::State& state) {
+  const MapSnapshotPtr snapshot = MakeMap(static_cast<int>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(std::make_shared<MapSnapshot>(*snapshot));
+  state.counters["points"] = static_cast<double>(snapshot->map.points().size());
+  state.counters["lines"] = static_cast<double>(snapshot->map.lines().size());
+}
+BENCHMARK(Snapshot)->Arg(15)->Arg(60)->Arg(240)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+}  // namespace msc_vo
+
+BENCHMARK_MAIN();
