@@ -69,6 +69,7 @@ std::vector<WindowPtr> RecordedWindows() {
           const RecordedWindow window = ReadWindow(file);
           return BenchmarkWindow{window.options, window.data};
         }));
+    windows.back()->Get();  // what is wrong with a file is said at once
   }
   return windows;
 }

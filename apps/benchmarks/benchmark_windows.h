@@ -47,7 +47,8 @@ enum class WindowContent { kPoints, kLines, kStructure };
 // lines.
 WindowPtr MadeWindow(WindowContent content, int num_keyframes);
 
-// The window files that the environment variable MSC_VO_WINDOWS names, with colons between.
+// The window files that the environment variable MSC_VO_WINDOWS names, with colons between. Throws
+// std::runtime_error, naming the file, on one that cannot be read.
 std::vector<WindowPtr> RecordedWindows();
 
 }  // namespace msc_vo

@@ -5,8 +5,9 @@
 // two solves of a window. Window files: MSC_VO_WINDOWS=a.txt:b.txt.
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
-#include <numeric>
+#include <stdexcept>
 
 #include <Eigen/Cholesky>
 #include <benchmark/benchmark.h>
@@ -136,7 +137,12 @@ void Register(const WindowPtr& window) {
 }  // namespace msc_vo
 
 int main(int argc, char** argv) {
-  for (const msc_vo::WindowPtr& window : msc_vo::RecordedWindows()) msc_vo::Register(window);
+  try {
+    for (const msc_vo::WindowPtr& window : msc_vo::RecordedWindows()) msc_vo::Register(window);
+  } catch (const std::runtime_error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
   for (const int num_keyframes : {5, 10, 20}) {
     msc_vo::Register(msc_vo::MadeWindow(msc_vo::WindowContent::kStructure, num_keyframes));
   }

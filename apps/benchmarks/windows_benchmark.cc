@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <map>
+#include <stdexcept>
 
 #include <benchmark/benchmark.h>
 
@@ -131,7 +133,12 @@ void Register(const WindowPtr& window) {
 
 int main(int argc, char** argv) {
   using msc_vo::WindowContent;
-  for (const msc_vo::WindowPtr& window : msc_vo::RecordedWindows()) msc_vo::Register(window);
+  try {
+    for (const msc_vo::WindowPtr& window : msc_vo::RecordedWindows()) msc_vo::Register(window);
+  } catch (const std::runtime_error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
   for (const int num_keyframes : {5, 10, 20, 40}) {
     for (const auto content :
          {WindowContent::kPoints, WindowContent::kLines, WindowContent::kStructure}) {

@@ -69,18 +69,17 @@ MinimizerReport MinimizeWindow(const WindowStructure& structure, const WindowTer
     enter(WindowStage::kLinearize);
     const bool defined = Linearize(structure, terms, candidate, &next);
     const double decrease = defined ? equations.cost - next.cost : -1.0;
-    const bool arrived = defined && std::abs(decrease) <= kFunctionTolerance * equations.cost;
+    if (defined && std::abs(decrease) <= kFunctionTolerance * equations.cost) {
+      // As Ceres, not taking this last step: what is rejected next may hang on it.
+      report.message = "converged";
+      break;
+    }
     if (defined && decrease >= kMinGain * step.model_decrease) {
       region.Accept(decrease / step.model_decrease);
       *state = std::move(candidate);
       std::swap(equations, next);
     } else {
       region.Reject();
-    }
-    if (arrived) {
-      report.message = "converged";
-      ++report.num_iterations;
-      break;
     }
   }
   return report;

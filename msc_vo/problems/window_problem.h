@@ -72,7 +72,7 @@ struct TermSummary {
 
 struct WindowSummary {
   bool usable = false;     // false: the solver failed and the data were left unchanged
-  int num_iterations = 0;  // steps tried, in both solves
+  int num_iterations = 0;  // in both solves
   double initial_cost = 0.0;
   double final_cost = 0.0;
   TermSummary point_reprojection, point_depth, line_reprojection, line_depth, line_anchor;

@@ -59,6 +59,7 @@ class WindowSolversTest : public ::testing::TestWithParam<Variant> {
     EXPECT_NEAR(b.initial_cost, a.initial_cost, 1e-12 * a.initial_cost);
     EXPECT_NEAR(b.final_cost, a.final_cost, 1e-6 * a.final_cost);
     EXPECT_LT(a.final_cost, 0.5 * a.initial_cost);
+    EXPECT_EQ(b.num_iterations, a.num_iterations);
     EXPECT_EQ(b.point_reprojection.num_rejected, a.point_reprojection.num_rejected);
     EXPECT_EQ(b.line_reprojection.num_rejected, a.line_reprojection.num_rejected);
     EXPECT_EQ(b.parallel.num_rejected, a.parallel.num_rejected);
