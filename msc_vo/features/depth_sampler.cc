@@ -17,7 +17,8 @@ constexpr int kRadius = 2;
 constexpr int kMaxPixels = (2 * kRadius + 1) * (2 * kRadius + 1);
 // Fewer pixels than a full row do not show a surface.
 constexpr int kMinPixels = 5;
-constexpr int kParameters = 3;  // of a plane
+// Deducted from the pixels for the r.m.s.: those of a plane, as priors hold the curvature.
+constexpr int kPlaneParameters = 3;
 // A surface comes to the point if one of its pixels is at most this far: the pixels around the one
 // that holds the point.
 constexpr double kMaxDistance = 1.5;
@@ -25,9 +26,11 @@ constexpr double kMaxDistance = 1.5;
 // allow 1.3 (chi-square, 99 %, 22 degrees of freedom); folds and sensors that are somewhat worse
 // than their model need the rest, and an edge of 6 sigmas (12 mm at 1 m) exceeds it.
 constexpr double kMaxRms = 2.0;
-// Weak prior on the slope of a surface, sigmas per pixel: a wall seen at 45 degrees from 1 m has 1.
-// It keeps the fit to a single row or column of pixels from being undetermined.
+// Weak priors, which keep the fit to a few pixels or a single row of them from being undetermined.
+// On the slope of a surface, sigmas per pixel: a wall seen at 45 degrees from 1 m has 1. On its
+// curvature, sigmas per square pixel: the best parabola through a fold of two such walls has 0.5.
 constexpr double kSlopeSigma = 3.0;
+constexpr double kCurvatureSigma = 1.0;
 // Sigmas of a point next to a depth edge count this much: its surface is a choice.
 constexpr double kEdgeFactor = 2.0;
 
@@ -42,35 +45,42 @@ struct Surface {
   double rms = 0.0;       // of the residuals per degree of freedom, in sigmas
 };
 
-// Least squares w = p0 + p1 x + p2 y over pixels [begin, end).
+// Parameters of w = p0 + p1 x + p2 y + p3 x^2 + p4 x y + p5 y^2.
+using Parameters = Eigen::Matrix<double, 6, 1>;
+
+Parameters Basis(const Eigen::Vector2d& offset) {
+  const double x = offset.x();
+  const double y = offset.y();
+  return (Parameters() << 1.0, x, y, x * x, x * y, y * y).finished();
+}
+
+// Least squares over pixels [begin, end). Why not a plane: where points are rare they lie on folds
+// and corners of boxes and walls, and a plane through a fold misses it by 1.2 times what the depth
+// changes from pixel to pixel, always to the same side (5 mm at 3 m); the parabola by 0.5.
 Surface FitSurface(const Pixel* begin, const Pixel* end, double sigma) {
-  const double slope_information = 1.0 / (kSlopeSigma * kSlopeSigma);
-  Eigen::Matrix3d information =
-      Eigen::Vector3d(0.0, slope_information, slope_information).asDiagonal();
-  Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
+  constexpr double kSlope = 1.0 / (kSlopeSigma * kSlopeSigma);
+  constexpr double kCurvature = 1.0 / (kCurvatureSigma * kCurvatureSigma);
+  Eigen::Matrix<double, 6, 6> information =
+      (Parameters() << 0.0, kSlope, kSlope, kCurvature, kCurvature, kCurvature)
+          .finished()
+          .asDiagonal();
+  Parameters rhs = Parameters::Zero();
   for (const Pixel* pixel = begin; pixel != end; ++pixel) {
-    const double x = pixel->offset.x();
-    const double y = pixel->offset.y();
-    information(1, 0) += x;
-    information(2, 0) += y;
-    information(1, 1) += x * x;
-    information(2, 1) += x * y;
-    information(2, 2) += y * y;
-    rhs += Eigen::Vector3d(pixel->w, x * pixel->w, y * pixel->w);
+    const Parameters basis = Basis(pixel->offset);
+    information.noalias() += basis * basis.transpose();
+    rhs += pixel->w * basis;
   }
-  information(0, 0) = static_cast<double>(end - begin);
-  // Reads the lower triangle only.
-  const Eigen::LLT<Eigen::Matrix3d> factorization(information);
-  const Eigen::Vector3d p = factorization.solve(rhs);
+  const Eigen::LLT<Eigen::Matrix<double, 6, 6>> factorization(information);
+  const Parameters p = factorization.solve(rhs);
   Surface surface;
   surface.w = p[0];
-  surface.variance = factorization.solve(Eigen::Vector3d::UnitX())[0];
+  surface.variance = factorization.solve(Parameters::UnitX())[0];
   double sum = 0.0;
   for (const Pixel* pixel = begin; pixel != end; ++pixel) {
-    const double r = (pixel->w - p[0] - p.tail<2>().dot(pixel->offset)) / sigma;
+    const double r = (pixel->w - p.dot(Basis(pixel->offset))) / sigma;
     sum += r * r;
   }
-  surface.rms = std::sqrt(sum / static_cast<double>(end - begin - kParameters));
+  surface.rms = std::sqrt(sum / static_cast<double>(end - begin - kPlaneParameters));
   return surface;
 }
 

@@ -28,8 +28,12 @@ constexpr int kMaxDistance = 2;
 constexpr double kJumpSigmas = 5.2;
 // A surface of one pixel is a mixed pixel.
 constexpr int kMinRun = 2;
-// A surface beside the line is extrapolated to it over so many of its pixels, if it has them.
-constexpr int kMaxFitPixels = 4;
+// The depth of a surface at the line comes from its pixels up to so much farther from the line than
+// the nearest. With 3, 4 and 5 the mean error of eight rendered rooms was 1.69, 1.73 and 1.80 mm.
+constexpr int kFitReach = 3;
+// Weak prior on the slope of a surface across the line, sigmas per pixel, for runs that are too
+// short to tell: a wall seen at 45 degrees from 1 m has 1.
+constexpr double kSlopeSigma = 3.0;
 // Two surfaces differ in depth if their difference exceeds so many of its sigmas: 99 % quantile of
 // a normal deviate.
 constexpr double kSameSigmas = 2.576;
@@ -94,40 +98,44 @@ Runs SplitAtJumps(const Profile& profile, double sigma) {
   return runs;
 }
 
-// Inverse depth at offset 0 of the surface that a run shows, and its sigma in units of a pixel's.
+// Inverse depth at offset 0 of the surface that a run shows, and its sigma in units of a pixel's:
+// neighbouring pixels share their noise, so that their mean is no better than one of them, and what
+// the fit must extrapolate comes on top.
 struct Crossing {
   double w = 0.0;
   double sigma = 1.0;
 };
 
+// Sums over the pixels of a run on one side of the line: of offsets x and inverse depths w.
+struct Side {
+  double x = 0.0;
+  double xx = 1.0 / (kSlopeSigma * kSlopeSigma);
+  double xw = 0.0;
+};
+
+// Least squares with a slope of its own on either side of the line, w(x) = w + slope x: most lines
+// indoors are folds, where a mean across the line would be nearer than the fold of two walls and
+// farther than that of a box.
 Crossing AtLine(const Profile& profile, const Run& run) {
-  const int nearest = run.NearestOffset();
-  if (nearest == 0) {
-    // The surface lies on both sides, or there is a fold here: only the pixels at the line count.
-    double sum = 0.0;
-    int count = 0;
-    for (int i = std::max(run.first, kReach - 1); i <= std::min(run.last, kReach + 1); ++i) {
-      sum += profile[i];
-      ++count;
-    }
-    return {sum / count, 1.0};
+  const int center = kReach + run.NearestOffset();
+  std::array<Side, 2> sides;
+  double information = 0.0;
+  double rhs = 0.0;
+  for (int i = std::max(run.first, center - kFitReach); i <= std::min(run.last, center + kFitReach);
+       ++i) {
+    const double x = i - kReach;
+    Side& side = sides[x > 0.0];
+    side.x += x;
+    side.xx += x * x;
+    side.xw += x * profile[i];
+    information += 1.0;
+    rhs += profile[i];
   }
-  // The surface ends beside the line: linear extrapolation from its nearest pixels.
-  const int toward = nearest > 0 ? 1 : -1;
-  const int n = std::min(run.Size(), kMaxFitPixels);
-  double mean_w = 0.0;
-  double moment = 0.0;
-  double spread = 0.0;
-  const double mean_x = std::abs(nearest) + 0.5 * (n - 1);
-  for (int k = 0; k < n; ++k) {
-    const double w = profile[kReach + nearest + toward * k];
-    const double x = std::abs(nearest) + k - mean_x;
-    mean_w += w / n;
-    moment += x * w;
-    spread += x * x;
+  for (const Side& side : sides) {
+    information -= side.x * side.x / side.xx;
+    rhs -= side.x * side.xw / side.xx;
   }
-  if (n < 3) return {mean_w, 2.0};
-  return {mean_w - moment / spread * mean_x, std::sqrt(1.0 / n + mean_x * mean_x / spread)};
+  return {rhs / information, std::sqrt(1.0 + 1.0 / information)};
 }
 
 // Of the surfaces that come to the line the nearest. If noise decides which of two that is, the one

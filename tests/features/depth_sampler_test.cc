@@ -50,6 +50,26 @@ TEST(DepthSampler, IsExactOnASlantedPlane) {
   }
 }
 
+TEST(DepthSampler, IsNotPulledByAFold) {
+  // Two walls, farthest (or nearest) where they meet, and the corner of three.
+  constexpr double kSlope = 1e-3;  // 1/metres per pixel
+  for (const double sign : {1.0, -1.0}) {
+    const auto fold = [&](const Vector2d& x) {
+      return 0.4 + sign * kSlope * std::abs(x.x() - 60.3);
+    };
+    const auto corner = [&](const Vector2d& x) {
+      return 0.4 + sign * kSlope * std::max(std::abs(x.x() - 60.3), x.y() - 50.2);
+    };
+    for (const auto& w :
+         {testing::DrawDepth(SmallCamera(), fold), testing::DrawDepth(SmallCamera(), corner)}) {
+      const auto sample = SampleDepth(Image(w), {60.3, 50.2}, kSigma);
+      ASSERT_TRUE(sample);
+      // A plane through the pixels is 1.2 slopes away from the fold, 1.4 from the corner.
+      EXPECT_NEAR(sample->inverse_depth, 0.4, 0.7 * kSlope) << sign;
+    }
+  }
+}
+
 TEST(DepthSampler, SigmaCoversTheNoise) {
   for (const double blur : {0.0, 1.5}) {
     cv::Mat depth = testing::DrawDepth(SmallCamera(), SlantedPlane);

@@ -62,6 +62,26 @@ TEST(LineBackprojection, IsExactOnAPlane) {
   EXPECT_EQ(naive->covariance, Eigen::Matrix2d(Eigen::Matrix2d::Identity() * kSigma * kSigma));
 }
 
+TEST(LineBackprojection, IsNotPulledByAFold) {
+  // The line where two walls meet (farthest there), and the edge of a box (nearest there).
+  for (const double slope : {2e-3, -2e-3}) {  // 1/metres per pixel
+    double sum = 0.0;
+    const int trials = 40;
+    for (int trial = 0; trial < trials; ++trial) {
+      cv::Mat scene = testing::DrawDepth(Camera(), [&](const Vector2d& x) {
+        return SlantedPlane(x) + slope * std::abs(Below(x));
+      });
+      testing::AddInverseDepthNoise(kSigma, 1.5, trial + 1, &scene);
+      const auto depth = Fit(scene, trial);
+      ASSERT_TRUE(depth);
+      const Vector2d middle = 0.5 * (Segment().start + Segment().end);
+      sum += depth->At(0.5) - SlantedPlane(middle);
+    }
+    // The three pixels in the middle are 0.7 slopes away in the mean.
+    EXPECT_LT(std::abs(sum / trials), 0.25 * std::abs(slope)) << slope;
+  }
+}
+
 TEST(LineBackprojection, BelongsToTheSurfaceThatOccludes) {
   const auto depth = Fit(testing::DrawDepth(Camera(), OccludingEdge));
   ASSERT_TRUE(depth);
