@@ -19,6 +19,21 @@ double Quad::Distance(const Eigen::Vector3d& x_in_world) const {
   return (x_in_world - At(u, v)).norm();
 }
 
+std::vector<LineSegment3> Scene::PaintedEdges() const {
+  std::vector<LineSegment3> painted;
+  for (const Quad& quad : quads) {
+    const double width = quad.edge_u.norm(), height = quad.edge_v.norm();
+    const auto at = [&](const Eigen::Vector2d& x) {
+      return quad.At(x.x() / width, x.y() / height);
+    };
+    for (const LineSegment2& edge :
+         TextureEdges(quad.texture, static_cast<float>(width), static_cast<float>(height))) {
+      if (edge.Length() >= kMinEdge) painted.push_back({at(edge.start), at(edge.end)});
+    }
+  }
+  return painted;
+}
+
 double Scene::Clearance(const Eigen::Vector3d& x_in_world) const {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Quad& quad : quads) nearest = std::min(nearest, quad.Distance(x_in_world));

@@ -15,6 +15,9 @@
 
 namespace msc_vo {
 
+// Shorter edges do not make a segment that a detector would keep at some metres.
+constexpr double kMinEdge = 0.15;  // metres
+
 // A textured rectangle, seen from the side that its normal edge_u x edge_v points to; metres,
 // world.
 struct Quad {
@@ -47,9 +50,12 @@ struct Scene {
   std::vector<Quad> quads;
   std::vector<PointLight> lights;
   double ambient = 0.35;            // brightness where no light falls
-  std::vector<LineSegment3> edges;  // of walls and boxes, metres: what a line detector would see
+  std::vector<LineSegment3> edges;  // of walls and boxes, metres, kMinEdge at least
   std::vector<Waypoint> tour;       // closed loop through free space
 
+  // The straight edges that textures paint on the rectangles (TextureEdges), metres, kMinEdge at
+  // least.
+  std::vector<LineSegment3> PaintedEdges() const;
   // Distance to the nearest surface, metres.
   double Clearance(const Eigen::Vector3d& x_in_world) const;
   // Distance along origin + s * direction to the first surface that faces the origin, in units of

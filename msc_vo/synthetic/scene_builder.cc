@@ -9,9 +9,6 @@ namespace msc_vo {
 
 namespace {
 
-// Shorter ones do not make a segment that a detector would keep at some metres.
-constexpr double kMinEdge = 0.15;  // metres
-
 // The face of the box [low, high] with outward normal sign * axis; with `inward` the opposite face,
 // which has that normal on its inner side. Side faces have u horizontal and v up.
 Quad BoxFace(const Eigen::Vector3d& low, const Eigen::Vector3d& high, int axis, double sign,

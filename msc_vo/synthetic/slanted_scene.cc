@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <algorithm>
+#include <limits>
+
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/synthetic/furniture.h"
 #include "msc_vo/synthetic/scene_kinds.h"
@@ -19,6 +22,31 @@ Quad WideWall(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, const
   const Eigen::Vector3d right = guide.cross(n).normalized();
   const Eigen::Vector3d up = n.cross(right);
   return {point - half * (right + up), 2.0 * half * right, 2.0 * half * up, texture};
+}
+
+// The edges of the convex room that `walls` enclose: where two of their planes meet, as far as that
+// is in front of all others.
+std::vector<LineSegment3> ShellEdges(const std::vector<Quad>& walls) {
+  std::vector<LineSegment3> edges;
+  for (size_t i = 0; i < walls.size(); ++i) {
+    for (size_t j = i + 1; j < walls.size(); ++j) {
+      const Eigen::Vector3d a = walls[i].Normal(), b = walls[j].Normal(), along = a.cross(b);
+      Eigen::Matrix3d planes;
+      planes << a.transpose(), b.transpose(), along.transpose();
+      const Eigen::Vector3d start =
+          planes.inverse() * Eigen::Vector3d(a.dot(walls[i].origin), b.dot(walls[j].origin), 0.0);
+      double low = -std::numeric_limits<double>::infinity(), high = -low;
+      for (size_t k = 0; k < walls.size(); ++k) {
+        if (k == i || k == j) continue;
+        const double slope = walls[k].Normal().dot(along);
+        const double s = walls[k].Normal().dot(walls[k].origin - start) / slope;
+        (slope > 0.0 ? low : high) = slope > 0.0 ? std::max(low, s) : std::min(high, s);
+      }
+      const LineSegment3 edge{start + low * along, start + high * along};
+      if (low < high && edge.Length() >= kMinEdge) edges.push_back(edge);
+    }
+  }
+  return edges;
 }
 
 Eigen::Vector3d Heading(double degrees) {
@@ -40,6 +68,7 @@ void AddAtticShell(SceneBuilder* builder) {
   quads.push_back(WideWall({0, 2.6, 0}, -Heading(101.0), plaster));
   quads.push_back(WideWall({0, -0.2, 3.0}, {0.10, 0.80, -1.0}, boards));
   quads.push_back(WideWall({0, 0.2, 3.0}, {-0.12, -1.05, -1.0}, boards));
+  builder->scene().edges = ShellEdges(quads);
 }
 
 // A beam of square section from `from` to `to`.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace msc_vo {
 
@@ -63,25 +64,41 @@ Color Wood(const Texture& texture, const SurfacePoint& p) {
   return texture.color * (0.72f + 0.30f * coarse + 0.14f * fine);
 }
 
+// Boards of one width in rows along s, metres.
+struct PlankLayout {
+  explicit PlankLayout(const Texture& texture)
+      : width(0.14f * texture.scale), length(1.3f * texture.scale), seed(texture.seed) {}
+
+  // By how much the joints of a row are shifted towards -s.
+  float Stagger(int row) const { return length * Byte(HashCell(row, 77, seed), 1); }
+
+  float width, length;
+  float joint = 0.004f;  // width of the dark joints
+  uint32_t seed;
+};
+
 Color Planks(const Texture& texture, const SurfacePoint& p) {
-  const float width = 0.14f * texture.scale, length = 1.3f * texture.scale;  // metres
-  const int row = Floor(p.t / width);
-  const float s = p.s + length * Byte(HashCell(row, 77, texture.seed), 1);
-  const int plank = Floor(s / length);
-  const float t_in = p.t - static_cast<float>(row) * width;
-  const float s_in = s - static_cast<float>(plank) * length;
-  if (t_in < 0.004f || s_in < 0.004f) return texture.accent;
+  const PlankLayout layout(texture);
+  const int row = Floor(p.t / layout.width);
+  const float s = p.s + layout.Stagger(row);
+  const int plank = Floor(s / layout.length);
+  const float t_in = p.t - static_cast<float>(row) * layout.width;
+  const float s_in = s - static_cast<float>(plank) * layout.length;
+  if (t_in < layout.joint || s_in < layout.joint) return texture.accent;
   const uint32_t hash = HashCell(plank, row, texture.seed);
   const SurfacePoint grain{s + 3.0f * Byte(hash, 1), p.t + 5.0f * Byte(hash, 2), 1.0f, 1.0f};
   return Wood(texture, grain) * (0.80f + 0.35f * Byte(hash, 0));
 }
 
+constexpr float kGrout = 0.006f;                                         // metres
+float TileSide(const Texture& texture) { return 0.2f * texture.scale; }  // metres, grout included
+
 Color Tiles(const Texture& texture, const SurfacePoint& p) {
-  const float side = 0.2f * texture.scale, grout = 0.006f;  // metres
+  const float side = TileSide(texture);
   const int column = Floor(p.s / side), row = Floor(p.t / side);
   const float s_in = p.s - static_cast<float>(column) * side;
   const float t_in = p.t - static_cast<float>(row) * side;
-  if (s_in < grout || t_in < grout) return texture.accent;
+  if (s_in < kGrout || t_in < kGrout) return texture.accent;
   const uint32_t hash = HashCell(column, row, texture.seed);
   const float stain = ValueNoise(25.0f * p.s, 25.0f * p.t, texture.seed);
   const Color base =
@@ -89,30 +106,49 @@ Color Tiles(const Texture& texture, const SurfacePoint& p) {
   return base * (0.90f + 0.12f * Byte(hash, 0) + 0.06f * (stain - 0.5f));
 }
 
-// Draws one figure per lattice cell over `color`; `size` is the cell's side in metres.
-void DrawFigures(const Texture& texture, const SurfacePoint& p, float size, uint32_t seed,
-                 Color* color) {
-  const int column = Floor(p.s / size), row = Floor(p.t / size);
+// A rectangle or disc of a poster, in parts of the side of its lattice cell.
+struct Figure {
+  bool is_disc = false;
+  float center_s = 0.0f, center_t = 0.0f;
+  float half_s = 0.0f, half_t = 0.0f;
+  Color color = Color::Zero();
+};
+
+// The figure of a lattice cell; a quarter of the cells stays empty.
+std::optional<Figure> FigureOfCell(const Texture& texture, int column, int row, uint32_t seed) {
   const uint32_t hash = HashCell(column, row, texture.seed ^ seed);
-  if ((hash & 7u) < 2u) return;  // a quarter of the cells stays empty
+  if ((hash & 7u) < 2u) return std::nullopt;
   const uint32_t shape = HashCell(column, row, texture.seed + 31 * seed);
-  const float half_s = 0.14f + 0.30f * Byte(shape, 0), half_t = 0.14f + 0.30f * Byte(shape, 1);
+  Figure figure;
+  figure.is_disc = (hash & 64u) != 0;
+  figure.half_s = 0.14f + 0.30f * Byte(shape, 0);
+  figure.half_t = 0.14f + 0.30f * Byte(shape, 1);
   // The figure stays inside its cell, so that one look-up per layer is enough.
-  const float center_s = half_s + (1.0f - 2.0f * half_s) * Byte(shape, 2);
-  const float center_t = half_t + (1.0f - 2.0f * half_t) * Byte(shape, 3);
-  const float ds = (p.s / size - static_cast<float>(column) - center_s) / half_s;
-  const float dt = (p.t / size - static_cast<float>(row) - center_t) / half_t;
-  const bool disc = (hash & 64u) != 0;
-  const bool inside = disc ? ds * ds + dt * dt < 1.0f : std::max(std::abs(ds), std::abs(dt)) < 1.0f;
-  if (inside) *color = Palette(hash >> 8);
+  figure.center_s = figure.half_s + (1.0f - 2.0f * figure.half_s) * Byte(shape, 2);
+  figure.center_t = figure.half_t + (1.0f - 2.0f * figure.half_t) * Byte(shape, 3);
+  figure.color = Palette(hash >> 8);
+  return figure;
+}
+
+// A poster's layers of figures, each over the one before: seeds from 1 on, cells half as large.
+constexpr uint32_t kPosterLayers = 3;
+float PosterCell(const Texture& texture, uint32_t layer) {
+  return 0.32f * texture.scale / static_cast<float>(1u << (layer - 1));  // metres
 }
 
 Color Poster(const Texture& texture, const SurfacePoint& p) {
   Color color = texture.color * (0.85f + 0.2f * ValueNoise(4.0f * p.s, 4.0f * p.t, texture.seed));
-  const float size = 0.32f * texture.scale;  // metres; halved by every layer
-  DrawFigures(texture, p, size, 1, &color);
-  DrawFigures(texture, p, 0.5f * size, 2, &color);
-  DrawFigures(texture, p, 0.25f * size, 3, &color);
+  for (uint32_t layer = 1; layer <= kPosterLayers; ++layer) {
+    const float size = PosterCell(texture, layer);
+    const int column = Floor(p.s / size), row = Floor(p.t / size);
+    const std::optional<Figure> figure = FigureOfCell(texture, column, row, layer);
+    if (!figure) continue;
+    const float ds = (p.s / size - static_cast<float>(column) - figure->center_s) / figure->half_s;
+    const float dt = (p.t / size - static_cast<float>(row) - figure->center_t) / figure->half_t;
+    const bool inside =
+        figure->is_disc ? ds * ds + dt * dt < 1.0f : std::max(std::abs(ds), std::abs(dt)) < 1.0f;
+    if (inside) color = figure->color;
+  }
   return color;
 }
 
@@ -138,11 +174,14 @@ Color Books(const Texture& texture, const SurfacePoint& p) {
   return cover * (1.0f - 0.5f * (2.0f * across - 1.0f) * (2.0f * across - 1.0f));  // round spine
 }
 
+constexpr int kRugStripes = 4;
+constexpr float kRugStripe = 0.0625f;  // metres
+
 Color Rug(const Texture& texture, const SurfacePoint& p) {
   const float border = std::min(std::min(p.s, p.width - p.s), std::min(p.t, p.height - p.t));
   const float fiber = 0.85f + 0.3f * ValueNoise(150.0f * p.s, 150.0f * p.t, texture.seed);
-  if (border < 0.25f) {  // metres: four stripes around the field
-    const int stripe = Floor(border / 0.0625f);
+  if (border < kRugStripes * kRugStripe) {
+    const int stripe = Floor(border / kRugStripe);
     return (stripe % 2 == 0 ? texture.accent : Color(0.88f, 0.80f, 0.62f)) * fiber;
   }
   const float size = 0.22f * texture.scale;  // metres
@@ -174,6 +213,83 @@ Color Outdoors(const Texture& texture, const SurfacePoint& p) {
   return Color(0.22f, 0.34f, 0.16f) * (0.6f + 0.9f * leaves);
 }
 
+// Collects the straight edges of a pattern, as far as they are inside of the rectangle.
+class EdgeCollector {
+ public:
+  EdgeCollector(float width, float height) : width_(width), height_(height) {}
+
+  void AddAlongS(float t, float s_low, float s_high) {
+    const float low = std::max(s_low, 0.0f), high = std::min(s_high, width_);
+    if (t > 0.0f && t < height_ && low < high) edges_.push_back({{low, t}, {high, t}});
+  }
+  void AddAlongT(float s, float t_low, float t_high) {
+    const float low = std::max(t_low, 0.0f), high = std::min(t_high, height_);
+    if (s > 0.0f && s < width_ && low < high) edges_.push_back({{s, low}, {s, high}});
+  }
+  void AddRectangle(float s_low, float s_high, float t_low, float t_high) {
+    for (const float t : {t_low, t_high}) AddAlongS(t, s_low, s_high);
+    for (const float s : {s_low, s_high}) AddAlongT(s, t_low, t_high);
+  }
+
+  float width() const { return width_; }
+  float height() const { return height_; }
+  const std::vector<LineSegment2>& edges() const { return edges_; }
+
+ private:
+  float width_, height_;
+  std::vector<LineSegment2> edges_;
+};
+
+// Both borders of every joint.
+void CollectPlanks(const Texture& texture, EdgeCollector* edges) {
+  const PlankLayout layout(texture);
+  for (int row = 0; static_cast<float>(row) * layout.width < edges->height(); ++row) {
+    const float low = static_cast<float>(row) * layout.width, stagger = layout.Stagger(row);
+    for (const float t : {low, low + layout.joint}) edges->AddAlongS(t, 0.0f, edges->width());
+    for (int plank = 0; static_cast<float>(plank) * layout.length < edges->width() + stagger;
+         ++plank) {
+      const float s = static_cast<float>(plank) * layout.length - stagger;
+      for (const float joint : {s, s + layout.joint}) {
+        edges->AddAlongT(joint, low + layout.joint, low + layout.width);
+      }
+    }
+  }
+}
+
+void CollectTiles(const Texture& texture, EdgeCollector* edges) {
+  const float side = TileSide(texture);
+  for (int i = 0; static_cast<float>(i) * side < std::max(edges->width(), edges->height()); ++i) {
+    for (const float at : {static_cast<float>(i) * side, static_cast<float>(i) * side + kGrout}) {
+      edges->AddAlongS(at, 0.0f, edges->width());
+      edges->AddAlongT(at, 0.0f, edges->height());
+    }
+  }
+}
+
+// The sides of the rectangles; a later layer may hide a part.
+void CollectPoster(const Texture& texture, EdgeCollector* edges) {
+  for (uint32_t layer = 1; layer <= kPosterLayers; ++layer) {
+    const float size = PosterCell(texture, layer);
+    for (int row = 0; static_cast<float>(row) * size < edges->height(); ++row) {
+      for (int column = 0; static_cast<float>(column) * size < edges->width(); ++column) {
+        const std::optional<Figure> figure = FigureOfCell(texture, column, row, layer);
+        if (!figure || figure->is_disc) continue;
+        const float s = (static_cast<float>(column) + figure->center_s) * size;
+        const float t = (static_cast<float>(row) + figure->center_t) * size;
+        edges->AddRectangle(s - figure->half_s * size, s + figure->half_s * size,
+                            t - figure->half_t * size, t + figure->half_t * size);
+      }
+    }
+  }
+}
+
+void CollectRug(EdgeCollector* edges) {
+  for (int stripe = 1; stripe <= kRugStripes; ++stripe) {
+    const float inset = static_cast<float>(stripe) * kRugStripe;
+    edges->AddRectangle(inset, edges->width() - inset, inset, edges->height() - inset);
+  }
+}
+
 }  // namespace
 
 Eigen::Vector3f EvaluateTexture(const Texture& texture, const SurfacePoint& point) {
@@ -200,6 +316,15 @@ Eigen::Vector3f EvaluateTexture(const Texture& texture, const SurfacePoint& poin
       return Outdoors(texture, point);
   }
   return texture.color;
+}
+
+std::vector<LineSegment2> TextureEdges(const Texture& texture, float width, float height) {
+  EdgeCollector edges(width, height);
+  if (texture.kind == TextureKind::kPlanks) CollectPlanks(texture, &edges);
+  if (texture.kind == TextureKind::kTiles) CollectTiles(texture, &edges);
+  if (texture.kind == TextureKind::kPoster) CollectPoster(texture, &edges);
+  if (texture.kind == TextureKind::kRug) CollectRug(&edges);
+  return edges.edges();
 }
 
 }  // namespace msc_vo

@@ -4,8 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include <Eigen/Core>
+
+#include "msc_vo/geometry/line_segment.h"
 
 namespace msc_vo {
 
@@ -39,5 +42,11 @@ struct SurfacePoint {
 
 // Colour at that place, 0..1, unlit and unfiltered.
 Eigen::Vector3f EvaluateTexture(const Texture& texture, const SurfacePoint& point);
+
+// The straight edges that the pattern paints on a rectangle of width x height metres, in (s, t):
+// both borders of the joints of planks and tiles, stripes of rugs, sides of a poster's rectangles.
+// Not the borders of the rectangle; nor the spines of books, whose colour fades towards a border
+// that a detector finds on either side of its place; nor grain, which is not straight.
+std::vector<LineSegment2> TextureEdges(const Texture& texture, float width, float height);
 
 }  // namespace msc_vo

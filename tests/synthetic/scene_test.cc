@@ -140,5 +140,46 @@ TEST(SceneTest, RoomsAreFullOfTextureAndBareScenesHaveNone) {
   EXPECT_EQ(textured(SceneKind::kBare), 0);
 }
 
+TEST(SceneTest, EdgesAndPaintedEdgesLieOnSurfaces) {
+  for (const SceneKind kind : kKinds) {
+    const Scene scene = MakeScene(kind, 2);
+    std::vector<LineSegment3> edges = scene.PaintedEdges();
+    edges.insert(edges.end(), scene.edges.begin(), scene.edges.end());
+    for (const LineSegment3& edge : edges) {
+      EXPECT_GE(edge.Length(), kMinEdge);
+      for (const double s : {0.0, 0.4, 1.0}) EXPECT_LT(scene.Clearance(edge.At(s)), 1e-6);
+    }
+  }
+}
+
+TEST(SceneTest, PlanksAndPostersHavePaintedEdgesAndBareScenesNone) {
+  EXPECT_TRUE(MakeScene(SceneKind::kBare, 1).PaintedEdges().empty());
+  int num_joints = 0, num_figures = 0;
+  for (const LineSegment3& edge : MakeScene(SceneKind::kRoom, 1).PaintedEdges()) {
+    EXPECT_TRUE(IsAxis(edge.Direction()));
+    if (edge.start.z() == 0.0 && edge.end.z() == 0.0 && edge.Length() > 5.0) ++num_joints;
+    if (edge.start.z() > 1.0 && edge.end.z() > 1.0 && edge.Length() < 0.4) ++num_figures;
+  }
+  EXPECT_GT(num_joints, 60);  // two borders of a joint every 14 cm over 5 m
+  EXPECT_GT(num_figures, 5);  // of the pictures
+}
+
+TEST(SceneTest, TheShellOfTheAtticIsAllOfItsEdges) {
+  // Seven planes, three of which meet in each corner: Euler gives 3 * (7 - 2) edges. They end where
+  // walls meet, so that each end is shared by three edges.
+  const std::vector<LineSegment3> edges = MakeScene(SceneKind::kSlanted, 1).edges;
+  ASSERT_GT(edges.size(), 15u);
+  for (int i = 0; i < 15; ++i) {
+    for (const Vec& end : {Vec(edges[i].start), Vec(edges[i].end)}) {
+      int num_meeting = 0;
+      for (int j = 0; j < 15; ++j) {
+        num_meeting +=
+            (edges[j].start - end).norm() < 1e-9 || (edges[j].end - end).norm() < 1e-9 ? 1 : 0;
+      }
+      EXPECT_EQ(num_meeting, 3) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace msc_vo
