@@ -35,24 +35,14 @@ std::vector<double> Stamps(const std::vector<TimedPose>& poses) {
   return stamps;
 }
 
-ErrorStatistics StatisticsOf(std::vector<double> values) {
-  ErrorStatistics statistics;
-  statistics.count = static_cast<int>(values.size());
-  if (values.empty()) return statistics;
-  std::sort(values.begin(), values.end());
-  double sum = 0.0;
-  double sum_of_squares = 0.0;
-  for (const double value : values) {
-    sum += value;
-    sum_of_squares += value * value;
+// The poses that belong together; both trajectories are in order of time.
+std::vector<PosePair> Pairs(const std::vector<TimedPose>& truth,
+                            const std::vector<TimedPose>& guess, double max_time_difference) {
+  std::vector<PosePair> pairs;
+  for (const StampMatch& match : MatchNearest(Stamps(truth), Stamps(guess), max_time_difference)) {
+    pairs.push_back({truth[match.reference], guess[match.query]});
   }
-  const size_t middle = values.size() / 2;
-  statistics.rmse = std::sqrt(sum_of_squares / statistics.count);
-  statistics.mean = sum / statistics.count;
-  statistics.median =
-      values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-  statistics.max = values.back();
-  return statistics;
+  return pairs;
 }
 
 double AngleOf(const Eigen::Quaterniond& rotation) { return LogSO3(rotation).norm(); }
@@ -157,11 +147,7 @@ TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
   const std::vector<TimedPose> truth = SortedByTime(reference);
   const std::vector<TimedPose> guess = SortedByTime(estimate);
 
-  std::vector<PosePair> pairs;
-  for (const StampMatch& match :
-       MatchNearest(Stamps(truth), Stamps(guess), options.max_time_difference)) {
-    pairs.push_back({truth[match.reference], guess[match.query]});
-  }
+  const std::vector<PosePair> pairs = Pairs(truth, guess, options.max_time_difference);
   TrajectoryError error;
   error.num_reference = static_cast<int>(truth.size());
   error.num_estimate = static_cast<int>(guess.size());
@@ -188,6 +174,21 @@ TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
   error.rpe_per_second = MeasurePerSecond(pairs, options.rpe_seconds, options.max_time_difference);
   error.rpe_per_metre = MeasurePerMetre(pairs, path_lengths, options.rpe_metres);
   return error;
+}
+
+std::optional<Rigid3> AlignOrientations(const std::vector<TimedPose>& reference,
+                                        const std::vector<TimedPose>& estimate,
+                                        const EvaluationOptions& options) {
+  std::string problem;
+  if (!options.IsValid(&problem)) throw std::invalid_argument(problem);
+  std::vector<Rigid3> source, target;
+  for (const PosePair& pair :
+       Pairs(SortedByTime(reference), SortedByTime(estimate), options.max_time_difference)) {
+    source.push_back(pair.estimate.world_from_cam);
+    target.push_back(pair.reference.world_from_cam);
+  }
+  if (source.empty()) return std::nullopt;
+  return AlignPoses(source, target);
 }
 
 std::vector<TimedPose> Transformed(const Rigid3& reference_from_estimate,

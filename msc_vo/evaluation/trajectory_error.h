@@ -3,9 +3,11 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "msc_vo/evaluation/error_statistics.h"
 #include "msc_vo/geometry/timed_pose.h"
 
 namespace msc_vo {
@@ -16,15 +18,6 @@ struct EvaluationOptions {
   double rpe_metres = 1.0;            // length of path over which the second one is taken
 
   bool IsValid(std::string* error) const;
-};
-
-// Of the absolute values of one kind of error. All zero if there are no samples.
-struct ErrorStatistics {
-  int count = 0;
-  double rmse = 0.0;
-  double mean = 0.0;
-  double median = 0.0;  // the mean of the two in the middle if the count is even
-  double max = 0.0;
 };
 
 // Error of one pose after alignment.
@@ -70,6 +63,14 @@ struct TrajectoryError {
 TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
                                    const std::vector<TimedPose>& estimate,
                                    const EvaluationOptions& options = {});
+
+// The alignment for what was mapped along the way: the mean of the differences of orientation (the
+// rotation with the least sum of squares of R Q_estimate - Q_reference), and the mean positions
+// upon each other. Positions alone hardly tell how a nearly straight way is turned about itself, by
+// which every line beside it would be. std::nullopt without a match.
+std::optional<Rigid3> AlignOrientations(const std::vector<TimedPose>& reference,
+                                        const std::vector<TimedPose>& estimate,
+                                        const EvaluationOptions& options = {});
 
 // The estimate expressed in the world of the reference.
 std::vector<TimedPose> Transformed(const Rigid3& reference_from_estimate,

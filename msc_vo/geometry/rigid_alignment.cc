@@ -9,6 +9,19 @@
 
 namespace msc_vo {
 
+namespace {
+
+// The rotation nearest to a matrix in the sense of the Frobenius norm.
+Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  // The last singular vector is flipped where the best orthogonal matrix would be a mirror image.
+  Eigen::Vector3d sign(1.0, 1.0, 1.0);
+  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) sign.z() = -1.0;
+  return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+}
+
+}  // namespace
+
 Rigid3 AlignRigid(const std::vector<Eigen::Vector3d>& source,
                   const std::vector<Eigen::Vector3d>& target) {
   if (source.size() != target.size()) {
@@ -27,12 +40,26 @@ Rigid3 AlignRigid(const std::vector<Eigen::Vector3d>& source,
   for (size_t i = 0; i < source.size(); ++i) {
     correlation += (target[i] - target_mean) * (source[i] - source_mean).transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  // The last singular vector is flipped where the best orthogonal matrix would be a mirror image.
-  Eigen::Vector3d sign(1.0, 1.0, 1.0);
-  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) sign.z() = -1.0;
-  const Eigen::Matrix3d rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  const Eigen::Matrix3d rotation = NearestRotation(correlation);
+  return {Eigen::Quaterniond(rotation), target_mean - rotation * source_mean};
+}
+
+Rigid3 AlignPoses(const std::vector<Rigid3>& source, const std::vector<Rigid3>& target) {
+  if (source.size() != target.size()) {
+    throw std::invalid_argument("AlignPoses: source and target differ in size");
+  }
+  if (source.empty()) throw std::invalid_argument("AlignPoses: no pair");
+
+  const double count = static_cast<double>(source.size());
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d source_mean = Eigen::Vector3d::Zero();
+  Eigen::Vector3d target_mean = Eigen::Vector3d::Zero();
+  for (size_t i = 0; i < source.size(); ++i) {
+    sum += (target[i].rotation() * source[i].rotation().conjugate()).toRotationMatrix();
+    source_mean += source[i].translation() / count;
+    target_mean += target[i].translation() / count;
+  }
+  const Eigen::Matrix3d rotation = NearestRotation(sum);
   return {Eigen::Quaterniond(rotation), target_mean - rotation * source_mean};
 }
 

@@ -129,5 +129,24 @@ TEST(EvaluateTrajectory, RejectsOptionsThatAreNotValid) {
   EXPECT_THROW(EvaluateTrajectory({}, {}, options), std::invalid_argument);
 }
 
+TEST(AlignOrientations, AStraightWayIsNotTurnedAboutItself) {
+  const Rigid3 truth(ExpSO3({0.3, -0.2, 0.5}), {1.0, 2.0, 3.0});
+  std::vector<TimedPose> reference, estimate;
+  for (int i = 0; i < 10; ++i) {
+    reference.push_back(At(i, i, 0.0, 0.0));
+    estimate.push_back({0.001 + i, truth.Inverse() * reference.back().world_from_cam});
+    // A millimetre up, then down: to positions alone this is a way on which anything may turn.
+    estimate.back().world_from_cam.translation().z() += i % 2 == 0 ? 1e-3 : -1e-3;
+  }
+  const std::optional<Rigid3> alignment = AlignOrientations(reference, estimate);
+  ASSERT_TRUE(alignment.has_value());
+  EXPECT_LT(alignment->rotation().angularDistance(truth.rotation()), 1e-9);
+  EXPECT_LT((alignment->translation() - truth.translation()).norm(), 1e-9);
+  EXPECT_FALSE(AlignOrientations(reference, {At(100.0, 0, 0, 0)}).has_value());
+  EvaluationOptions options;
+  options.max_time_difference = -1.0;
+  EXPECT_THROW(AlignOrientations(reference, estimate, options), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -88,6 +88,34 @@ TEST(AlignRigid, IsTheLeastSquaresSolution) {
   }
 }
 
+TEST(AlignPoses, RecoversATransformFromOnePose) {
+  const Rigid3 pose(ExpSO3({-0.4, 0.2, 2.0}), {0.5, 0.1, -3.0});
+  const Rigid3 found = AlignPoses({pose}, {kTruth * pose});
+  EXPECT_LT(found.rotation().angularDistance(kTruth.rotation()), 1e-9);
+  EXPECT_THAT(found.translation(), IsNear(Eigen::Vector3d(kTruth.translation()), 1e-12));
+}
+
+TEST(AlignPoses, TakesTheMeanOfTheOrientations) {
+  // Turns of the estimate by plus and minus 0.1 about each axis have the identity as their mean.
+  std::vector<Rigid3> source, target;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double turn : {-0.1, 0.1}) {
+      const Rigid3 pose(ExpSO3({0.3 * axis, 1.0, -0.5}), {1.0 * axis, turn, 2.0});
+      source.push_back(pose);
+      target.push_back(kTruth * Rigid3(ExpSO3(turn * Eigen::Vector3d::Unit(axis)) * pose.rotation(),
+                                       pose.translation()));
+    }
+  }
+  const Rigid3 found = AlignPoses(source, target);
+  EXPECT_LT(found.rotation().angularDistance(kTruth.rotation()), 1e-9);
+  EXPECT_THAT(found.translation(), IsNear(Eigen::Vector3d(kTruth.translation()), 1e-12));
+}
+
+TEST(AlignPoses, MisuseThrows) {
+  EXPECT_THROW(AlignPoses({}, {}), std::invalid_argument);
+  EXPECT_THROW(AlignPoses({kTruth}, {}), std::invalid_argument);
+}
+
 TEST(AlignRigid, MisuseThrows) {
   const auto cloud = Cloud(5, {1.0, 1.0, 1.0}, 5);
   EXPECT_THROW(AlignRigid(cloud, Cloud(4, {1.0, 1.0, 1.0}, 5)), std::invalid_argument);
