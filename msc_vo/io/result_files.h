@@ -16,12 +16,6 @@ namespace msc_vo {
 // where the pose was not estimated).
 std::string FormatFramesCsv(const std::vector<FrameResult>& frames);
 
-// The points of the map as an ASCII PLY: x y z in metres, number of observations.
-std::string FormatPointsPly(const std::vector<MapPoint>& points);
-
-// The lines of the map as an ASCII PLY of vertices and edges.
-std::string FormatLinesPly(const std::vector<MapLine>& lines);
-
 // Writes trajectory.txt, keyframes.txt, frames.csv, map.ply, lines.ply, summary.json, report.html
 // and, if there is one, groundtruth.txt into `directory`, which is made if it does not exist. Each
 // file is complete or as it was before. Throws std::runtime_error naming the file that cannot be

@@ -50,6 +50,25 @@ Json ErrorToJson(const TrajectoryError& error) {
   return json;
 }
 
+Json StatisticsToJson(const ErrorStatistics& statistics, double factor = 1.0) {
+  return {{"rmse", NumberIf(statistics.count, factor * statistics.rmse)},
+          {"mean", NumberIf(statistics.count, factor * statistics.mean)},
+          {"median", NumberIf(statistics.count, factor * statistics.median)},
+          {"p95", NumberIf(statistics.count, factor * statistics.p95)},
+          {"max", NumberIf(statistics.count, factor * statistics.max)}};
+}
+
+Json LineErrorToJson(const LineError& error) {
+  return {{"count", error.num_lines},
+          {"counted", error.num_counted},
+          {"matched", error.num_matched},
+          {"edges", error.num_edges},
+          {"edges_found", error.num_edges_found},
+          {"direction_deg", StatisticsToJson(error.direction, RadiansToDegrees(1.0))},
+          {"distance", StatisticsToJson(error.distance)},
+          {"distance_across", StatisticsToJson(error.across)}};
+}
+
 Json CameraToJson(const Calibration& calibration) {
   const PinholeCamera& camera = calibration.camera;
   return {{"origin", calibration.origin},
@@ -189,7 +208,11 @@ std::string Dump(const Json& json) {
 
 }  // namespace
 
-std::string FormatErrorJson(const TrajectoryError& error) { return Dump(ErrorToJson(error)); }
+std::string FormatErrorJson(const TrajectoryError& error, const std::optional<LineError>& lines) {
+  Json json = ErrorToJson(error);
+  if (lines) json["lines"] = LineErrorToJson(*lines);
+  return Dump(json);
+}
 
 std::string FormatSummary(const RunSummary& summary, const RunContext& context) {
   Json json;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/evaluation/line_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/io/calibration.h"
 #include "msc_vo/io/option_list.h"
@@ -68,8 +69,10 @@ struct RunContext {
 // The contents of summary.json.
 std::string FormatSummary(const RunSummary& summary, const RunContext& context);
 
-// The numbers of a comparison as JSON: metres, degrees, seconds.
-std::string FormatErrorJson(const TrajectoryError& error);
+// The numbers of a comparison as JSON: metres, degrees, seconds. Those of the lines are the object
+// "lines", which is missing if they were not compared.
+std::string FormatErrorJson(const TrajectoryError& error,
+                            const std::optional<LineError>& lines = std::nullopt);
 
 // The poses of all frames, camera in world.
 std::vector<TimedPose> TrajectoryOf(const OdometryResult& result);

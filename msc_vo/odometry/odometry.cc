@@ -218,7 +218,7 @@ OdometryResult Odometry::Finish() {
   for (const auto& [id, line] : map.lines()) {
     result.lines.push_back({line.segment, static_cast<int>(line.observations.size()),
                             state_->mapper.last_window_lines().count(id) > 0,
-                            state_->mapper.axes().AxisOf(line)});
+                            state_->mapper.axes().AxisOf(line), line.viewing_direction});
   }
   result.depth_scale = state_->mapper.depth_noise().scale();
   result.axes = MakeAxes(state_->mapper.axes().estimator());

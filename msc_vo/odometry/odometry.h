@@ -32,6 +32,8 @@ struct MapLine {
   int num_observations = 0;
   bool in_last_window = false;
   std::optional<int> axis;  // Manhattan axis 0, 1, 2 that it is parallel to
+  // Unit vector, mean of the directions from the cameras that saw it to the line, world.
+  Eigen::Vector3d viewing_direction = Eigen::Vector3d::Zero();
 };
 
 // The Manhattan axes of the scene.

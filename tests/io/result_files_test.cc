@@ -87,18 +87,6 @@ TEST_F(ResultFilesTest, WritesOneRowPerFrame) {
   EXPECT_EQ(commas(csv), 6 * commas(csv.substr(0, csv.find('\n'))));
 }
 
-TEST_F(ResultFilesTest, WritesTheMapAsPly) {
-  EXPECT_THAT(FormatPointsPly(Result().points),
-              testing::AllOf(HasSubstr("element vertex 1\n"),
-                             testing::EndsWith("end_header\n1.000000 2.000000 3.000000 4\n")));
-  EXPECT_THAT(FormatLinesPly(Result().lines),
-              testing::AllOf(HasSubstr("element vertex 6\n"), HasSubstr("element edge 3\n"),
-                             HasSubstr("0.000000 0.000000 1.000000 255 0 0 5\n"),
-                             HasSubstr("0.000000 2.000000 1.000000 128 0 128 7\n"),
-                             testing::EndsWith("1.000000 1.000000 1.000000 0 0 0 6\n"
-                                               "0 1 255 0 0\n2 3 128 0 128\n4 5 0 0 0\n")));
-}
-
 TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
   RunContext context;
   context.command_line = "msc_vo replay \xff";  // not UTF-8: JSON must survive it
