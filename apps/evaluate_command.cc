@@ -4,11 +4,14 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "apps/commands.h"
+#include "msc_vo/evaluation/line_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/io/ply_file.h"
 #include "msc_vo/io/run_summary.h"
 #include "msc_vo/io/trajectory.h"
 
@@ -20,6 +23,7 @@ struct Arguments {
   std::string truth;
   std::string estimate;
   EvaluationOptions options;
+  std::string lines, edges;  // empty: lines are not compared
   bool json = false;
 };
 
@@ -29,14 +33,15 @@ void PrintRow(const char* name, const ErrorStatistics& statistics, double factor
     std::printf("%-20s  no pairs that far apart\n", name);
     return;
   }
-  std::printf("%-20s %9.3f %9.3f %9.3f %9.3f  %s\n", name, factor * statistics.rmse,
-              factor * statistics.mean, factor * statistics.median, factor * statistics.max, unit);
+  std::printf("%-20s %9.3f %9.3f %9.3f %9.3f %9.3f  %s\n", name, factor * statistics.rmse,
+              factor * statistics.mean, factor * statistics.median, factor * statistics.p95,
+              factor * statistics.max, unit);
 }
 
 void PrintTable(const TrajectoryError& error) {
   constexpr double kMillimetres = 1000.0;
   constexpr double kDegrees = RadiansToDegrees(1.0);
-  std::printf("%-20s %9s %9s %9s %9s\n", "", "RMSE", "mean", "median", "max");
+  std::printf("%-20s %9s %9s %9s %9s %9s\n", "", "RMSE", "mean", "median", "95 %", "max");
   PrintRow("APE", error.ape, kMillimetres, "mm");
   PrintRow("APE rotation", error.ape_rotation, kDegrees, "deg");
   PrintRow("RPE", error.rpe_per_second.translation, kMillimetres, "mm/s");
@@ -50,18 +55,38 @@ void PrintTable(const TrajectoryError& error) {
       100.0 * error.coverage_in_range, error.num_estimate, error.path_length);
 }
 
+void PrintLines(const LineError& error) {
+  if (error.num_matched > 0) {
+    PrintRow("line direction", error.direction, RadiansToDegrees(1.0), "deg");
+    PrintRow("line distance", error.distance, 1000.0, "mm");
+    PrintRow("  across the sight", error.across, 1000.0, "mm");
+  }
+  std::printf(
+      "lines: %d in the map, %d of them long and seen often enough, %d of these matched with an "
+      "edge; %d of %d edges found\n",
+      error.num_lines, error.num_counted, error.num_matched, error.num_edges_found,
+      error.num_edges);
+}
+
 int Run(const Arguments& arguments) {
-  const TrajectoryError error = EvaluateTrajectory(
-      ReadTrajectory(arguments.truth), ReadTrajectory(arguments.estimate), arguments.options);
+  const std::vector<TimedPose> truth = ReadTrajectory(arguments.truth);
+  const std::vector<TimedPose> estimate = ReadTrajectory(arguments.estimate);
+  const TrajectoryError error = EvaluateTrajectory(truth, estimate, arguments.options);
   if (!error.usable) {
     throw std::runtime_error(arguments.estimate + " cannot be compared with " + arguments.truth +
                              ": " + error.message +
                              "; do both have stamps in seconds on the same clock?");
   }
+  std::optional<LineError> line_error;
+  if (!arguments.lines.empty()) {
+    line_error = EvaluateLines(ReadEdgesPly(arguments.edges), ReadLinesPly(arguments.lines),
+                               *AlignOrientations(truth, estimate, arguments.options));
+  }
   if (arguments.json) {
-    std::cout << FormatErrorJson(error);
+    std::cout << FormatErrorJson(error, line_error);
   } else {
     PrintTable(error);
+    if (line_error) PrintLines(*line_error);
   }
   return kExitSuccess;
 }
@@ -74,6 +99,12 @@ Command AddEvaluateCommand(CLI::App* app) {
       "evaluate", "Compare a trajectory with the ground truth (both TUM: t tx ty tz qx qy qz qw)");
   command->add_option("ground_truth", arguments->truth, "Reference trajectory")->required();
   command->add_option("estimate", arguments->estimate, "Estimated trajectory")->required();
+  CLI::Option* lines = command->add_option(
+      "--lines", arguments->lines, "lines.ply of the same run as the estimate, to be compared too");
+  CLI::Option* edges = command->add_option(
+      "--edges", arguments->edges, "edges.ply beside the ground truth: the scene's true edges");
+  lines->needs(edges);
+  edges->needs(lines);
   command->add_flag("--json", arguments->json, "Print JSON: metres, degrees");
   command
       ->add_option("--max-dt", arguments->options.max_time_difference,

@@ -15,6 +15,7 @@
 #include "apps/commands.h"
 #include "apps/interrupt_guard.h"
 #include "apps/progress.h"
+#include "msc_vo/io/ply_file.h"
 #include "msc_vo/io/text_file.h"
 #include "msc_vo/synthetic/synthetic_sequence.h"
 
@@ -133,6 +134,10 @@ int Run(const Arguments& arguments) {
   const fs::path folder = arguments.folder;
   PrepareFolder(folder, arguments.overwrite);
   WriteCamera(folder, sequence.camera());
+  std::vector<LineSegment3> edges = sequence.scene().edges;
+  const std::vector<LineSegment3> painted = sequence.scene().PaintedEdges();
+  edges.insert(edges.end(), painted.begin(), painted.end());
+  WriteFile((folder / "edges.ply").string(), FormatEdgesPly(edges));
   TextFile rgb_list(folder / "rgb.txt"), depth_list(folder / "depth.txt");
   TextFile associations(folder / "associations.txt"), truth(folder / "groundtruth.txt");
   for (TextFile* list : {&rgb_list, &depth_list}) list->Write("# timestamp filename");
@@ -160,8 +165,10 @@ int Run(const Arguments& arguments) {
 
 Command AddSynthesizeCommand(CLI::App* app) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app->add_subcommand(
-      "synthesize", "Render an RGB-D sequence with ground truth, in TUM layout");
+  CLI::App* command = app->add_subcommand("synthesize",
+                                          "Render an RGB-D sequence in TUM layout, with "
+                                          "groundtruth.txt and edges.ply, the lines of the "
+                                          "scene");
   command->add_option("out_dir", arguments->folder, "Folder to write")->required();
   command->add_option("--scene", arguments->scene, "What to walk through")
       ->check(CLI::IsMember({"room", "corridor", "bare", "slanted", "house"}))
