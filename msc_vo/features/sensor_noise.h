@@ -12,7 +12,7 @@ struct SensorNoiseOptions {
   // Standard deviation of 1/z, 1/metres: a structured-light or stereo sensor measures disparity,
   // whose noise is constant. The random part of a Kinect's is 1.4e-3 (Khoshelham and Elberink 2012:
   // 13 mm at 3 m), but its larger part is systematic (registration, calibration) and common to all
-  // views of a point, so that it does not average out. Where the estimate of mapping/depth_noise
+  // views of a point, so that it does not average out. Where mapping/noise_estimator
   // starts from. Held at one value over a run, 1.4e-3 is the best for rendered rooms and twice as
   // bad as 8e-3 on fr1_rpy (docs/results.md).
   double inverse_depth_sigma = 4e-3;
@@ -24,9 +24,10 @@ struct SensorNoiseOptions {
   // Standard deviation of a point's pixel on level 0; it grows with the level's scale. Residuals of
   // solved windows: 0.25 px on rendered images, 0.5 to 0.6 px on real ones.
   double point_sigma = 0.5;
-  // Standard deviation of the distance of a segment's end point to the true line, pixels. Residuals
-  // of solved windows: 0.5 px on rendered images, 1 px on real ones with motion blur.
-  double line_sigma = 0.5;
+  // Standard deviation of the distance of a segment's end point to the true line, pixels. Where
+  // mapping/noise_estimator starts from; it ends at 0.1 px on rendered images, at 0.45 and 0.65 px
+  // on real ones.
+  double line_sigma = 0.25;
 
   bool IsValid(std::string* error) const;
 };

@@ -293,8 +293,8 @@ void ListAxesEstimator(AxesEstimatorOptions* estimator, OptionLister* list) {
   list->Add("freeze_sigma", &estimator->freeze_sigma, "radians; axes known better stay");
 }
 
-void ListDepthNoise(DepthNoiseOptions* noise, OptionLister* list) {
-  list->Add("enabled", &noise->enabled, "whether the sigmas of depths are learnt from residuals");
+void ListNoiseEstimator(NoiseEstimatorOptions* noise, OptionLister* list) {
+  list->Add("enabled", &noise->enabled, "whether the sigmas of features are learnt from residuals");
   list->Add("prior", &noise->prior, "quarters of images that the initial sigmas count as");
   list->Add("memory", &noise->memory, "quarters of images that the estimate rests on");
   list->Add("max_scale", &noise->max_scale, "how far sigmas may grow, and shrink");
@@ -321,7 +321,7 @@ void ListCulling(CullingOptions* culling, OptionLister* list) {
 void ListMapping(MapperOptions* mapping, OptionLister* list) {
   list->Section("fusion", &mapping->fusion, ListFusion);
   list->Section("selection", &mapping->selection, ListSelection);
-  list->Section("depth_noise", &mapping->depth_noise, ListDepthNoise);
+  list->Section("noise", &mapping->noise, ListNoiseEstimator);
   list->Section("axes", &mapping->axes, ListAxes);
   list->Section("pairs", &mapping->pairs, ListPairs);
   list->Section("window", &mapping->window, ListWindow);

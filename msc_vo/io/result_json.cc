@@ -153,6 +153,12 @@ Json AxesToJson(const RunSummary& summary) {
   return json;
 }
 
+Json NoiseToJson(const NoiseScale& scale) {
+  return {{"point_depth", scale.point_depth},
+          {"line_pixel", scale.line_pixel},
+          {"line_depth", scale.line_depth}};
+}
+
 Json WindowToJson(const WindowSummary& window) {
   const std::pair<const char*, const TermSummary*> terms[] = {
       {"point_reprojection", &window.point_reprojection},
@@ -182,8 +188,7 @@ Json MeasuresToJson(const RunSummary& summary, const std::optional<TrajectoryErr
                  {"points", summary.num_points},
                  {"lines", summary.num_lines}};
   json["manhattan_axes"] = AxesToJson(summary);
-  json["depth_scale"] = {{"points", summary.depth_scale.points},
-                         {"lines", summary.depth_scale.lines}};
+  json["noise_scale"] = NoiseToJson(summary.noise_scale);
   json["last_window"] = WindowToJson(summary.last_window);
   json["error"] = error ? ErrorToJson(*error) : Json();
   json["stages_ms"] = StagesToJson(summary.stages);

@@ -56,7 +56,7 @@ RunSummary Summarize(const OdometryResult& result) {
     if (line.axis) ++summary.num_axis_lines[*line.axis];
   }
   summary.axes = result.axes;
-  summary.depth_scale = result.depth_scale;
+  summary.noise_scale = result.noise_scale;
   summary.last_window = result.last_window;
   return summary;
 }

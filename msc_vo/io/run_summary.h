@@ -31,7 +31,7 @@ struct RunSummary {
   int num_lines = 0;
   std::array<int, 3> num_axis_lines = {0, 0, 0};  // lines parallel to each Manhattan axis
   MapAxes axes;
-  DepthScale depth_scale;  // of the sigmas of measured depths, as learnt
+  NoiseScale noise_scale;  // of the sigmas of features, as learnt
   WindowSummary last_window;
 };
 

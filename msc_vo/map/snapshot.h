@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "msc_vo/map/depth_scale.h"
+#include "msc_vo/map/noise_scale.h"
 #include "msc_vo/map/map.h"
 
 namespace msc_vo {
@@ -14,7 +14,7 @@ namespace msc_vo {
 struct MapSnapshot {
   Map map;
   KeyframeId newest_keyframe = kNoId;
-  DepthScale depth_scale;   // as learnt
+  NoiseScale noise_scale;   // as learnt
   bool needs_axes = false;  // the next keyframe shall bring surface normals
 };
 using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;

@@ -24,7 +24,7 @@ double Lap(std::chrono::steady_clock::time_point* last) {
 }  // namespace
 
 Mapper::Mapper(const MapperOptions& options)
-    : options_(options), axes_(options.axes), depth_noise_(options.depth_noise) {
+    : options_(options), axes_(options.axes), noise_(options.noise) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
 }
@@ -53,7 +53,7 @@ MapSnapshotPtr Mapper::Snapshot() const {
   auto snapshot = std::make_shared<MapSnapshot>();
   snapshot->map = map_;
   snapshot->newest_keyframe = newest_keyframe_;
-  snapshot->depth_scale = depth_noise_.scale();
+  snapshot->noise_scale = noise_.scale();
   snapshot->needs_axes = options_.axes.enabled && axes_.estimator().state() == AxesState::kNone;
   return snapshot;
 }
@@ -85,13 +85,13 @@ WindowSummary Mapper::OptimizeWindow(KeyframeId keyframe) {
   for (const WindowData::Line& line : window.lines) last_window_lines_.insert(line.id);
   // One keyframe alone has nothing to agree with.
   if (window.keyframes.size() < 2) return {};
-  depth_noise_.Apply(&window);
+  noise_.Apply(&window);
   axes_.AddAlignments(map_, &window);
   AddStructuralPairs(options_.pairs, map_, &window);
   if (window_observer_) window_observer_(keyframe, options_.window, window);
   const WindowSummary summary = SolveWindow(options_.window, &window);
   if (summary.usable) {
-    depth_noise_.Update(window);
+    noise_.Update(window);
     WriteBack(window, &map_);
   }
   return summary;

@@ -47,7 +47,7 @@ class Mapper {
 
   const Map& map() const { return map_; }
   const SceneAxes& axes() const { return axes_; }
-  const DepthNoise& depth_noise() const { return depth_noise_; }
+  const NoiseEstimator& noise() const { return noise_; }
   // Lines that took part in the last window.
   const std::set<LandmarkId>& last_window_lines() const { return last_window_lines_; }
 
@@ -60,7 +60,7 @@ class Mapper {
   Map map_;
   Probation probation_;
   SceneAxes axes_;
-  DepthNoise depth_noise_;
+  NoiseEstimator noise_;
   KeyframeId newest_keyframe_ = kNoId;
   std::set<LandmarkId> last_window_lines_;
 };

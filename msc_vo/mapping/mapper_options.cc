@@ -6,7 +6,7 @@
 namespace msc_vo {
 
 bool MapperOptions::IsValid(std::string* error) const {
-  return fusion.IsValid(error) && selection.IsValid(error) && depth_noise.IsValid(error) &&
+  return fusion.IsValid(error) && selection.IsValid(error) && noise.IsValid(error) &&
          axes.IsValid(error) && pairs.IsValid(error) && window.IsValid(error) &&
          culling.IsValid(error);
 }

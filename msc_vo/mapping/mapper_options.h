@@ -7,7 +7,7 @@
 
 #include "msc_vo/map/window.h"
 #include "msc_vo/mapping/culling.h"
-#include "msc_vo/mapping/depth_noise.h"
+#include "msc_vo/mapping/noise_estimator.h"
 #include "msc_vo/mapping/landmark_fusion.h"
 #include "msc_vo/mapping/scene_axes.h"
 #include "msc_vo/mapping/structural_pairs.h"
@@ -28,7 +28,7 @@ inline WindowOptions LocalWindowOptions() {
 struct MapperOptions {
   FusionOptions fusion;
   WindowSelectionOptions selection;
-  DepthNoiseOptions depth_noise;
+  NoiseEstimatorOptions noise;
   SceneAxesOptions axes;
   StructuralPairOptions pairs;
   WindowOptions window = LocalWindowOptions();

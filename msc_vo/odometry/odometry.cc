@@ -220,7 +220,7 @@ OdometryResult Odometry::Finish() {
                             state_->mapper.last_window_lines().count(id) > 0,
                             state_->mapper.axes().AxisOf(line), line.viewing_direction});
   }
-  result.depth_scale = state_->mapper.depth_noise().scale();
+  result.noise_scale = state_->mapper.noise().scale();
   result.axes = MakeAxes(state_->mapper.axes().estimator());
   result.last_window = state_->last_window;
   return result;

@@ -13,7 +13,7 @@
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/manhattan/axes_estimator.h"
-#include "msc_vo/map/depth_scale.h"
+#include "msc_vo/map/noise_scale.h"
 #include "msc_vo/mapping/window_observer.h"
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/odometry/odometry_options.h"
@@ -52,7 +52,7 @@ struct OdometryResult {
   std::vector<MapPoint> points;
   std::vector<MapLine> lines;
   MapAxes axes;
-  DepthScale depth_scale;     // of the sigmas of measured depths, as learnt
+  NoiseScale noise_scale;     // of the sigmas of features, as learnt
   WindowSummary last_window;  // of the last keyframe step
 };
 

@@ -97,7 +97,7 @@ FrameMatches LandmarkInliers(const FrameMatches& matches) {
 }
 
 PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame,
-                              const DepthScale& depth_scale, Rigid3* cam_from_world,
+                              const NoiseScale& scale, Rigid3* cam_from_world,
                               FrameMatches* matches) {
   PoseData data;
   data.camera = frame.camera;
@@ -105,13 +105,13 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame,
   for (const PointMatch& match : matches->points) {
     const PointFeature& feature = frame.points[match.feature];
     data.points.push_back({match.position, feature.pixel, feature.sigma, feature.inverse_depth,
-                           depth_scale.points * feature.inverse_depth_sigma, true});
+                           scale.point_depth * feature.inverse_depth_sigma, true});
   }
   for (const LineMatch& match : matches->lines) {
     const LineFeature& feature = frame.lines[match.feature];
-    data.lines.push_back({match.segment, feature.segment, feature.sigma, feature.depth.has_value(),
-                          feature.depth.value_or(LineDepth()), true});
-    data.lines.back().depth.covariance *= depth_scale.lines * depth_scale.lines;
+    data.lines.push_back({match.segment, feature.segment, scale.line_pixel * feature.sigma,
+                          feature.depth.has_value(), feature.depth.value_or(LineDepth()), true});
+    data.lines.back().depth.covariance *= scale.line_depth * scale.line_depth;
   }
   const PoseSummary summary = SolvePose(options, &data);
   *cam_from_world = data.cam_from_world;

@@ -25,9 +25,9 @@ FrameMatches MatchLocalMap(const TrackerOptions& options, const Frame& frame, co
 FrameMatches LandmarkInliers(const FrameMatches& matches);
 
 // Solves the pose problem of `frame` for `matches`, starting from *cam_from_world; marks inliers.
-// depth_scale: factors of the sigmas of its depths.
+// scale: factors of the sigmas of its features.
 PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame,
-                              const DepthScale& depth_scale, Rigid3* cam_from_world,
+                              const NoiseScale& scale, Rigid3* cam_from_world,
                               FrameMatches* matches);
 
 }  // namespace msc_vo

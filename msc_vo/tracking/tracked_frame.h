@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/map/depth_scale.h"
+#include "msc_vo/map/noise_scale.h"
 #include "msc_vo/map/frame.h"
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/matching/frame_matches.h"
@@ -28,7 +28,7 @@ struct TrackedFrame {
   // Landmarks that should have been seen, matched ones included: for culling.
   std::vector<LandmarkId> visible_points;
   std::vector<LandmarkId> visible_lines;
-  DepthScale depth_scale;  // of the sigmas of its depths
+  NoiseScale noise_scale;  // of the sigmas of its features
   PoseSummary pose;
   bool is_keyframe = false;
   double matching_ms = 0.0;

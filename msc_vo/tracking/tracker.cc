@@ -69,7 +69,7 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> frame, const MapSnapsho
   if (last_.is_keyframe) AdoptKeyframe(*map.FindKeyframe(snapshot.newest_keyframe), &last_);
   TrackedFrame tracked;
   tracked.frame = std::move(frame);
-  tracked.depth_scale = snapshot.depth_scale;
+  tracked.noise_scale = snapshot.noise_scale;
   const double timestamp = tracked.frame->timestamp;
   const Rigid3 last_from_world = CamFromWorld(map, last_);
   const Rigid3 prediction = motion_.Predict(timestamp) * last_from_world;
@@ -189,7 +189,7 @@ bool Tracker::EstimatePose(TrackedFrame* tracked) const {
   if (NumMatches(tracked->matches) < options_.min_matches) return false;
   Stopwatch stopwatch;
   const Rigid3 start = tracked->cam_from_world;
-  tracked->pose = EstimateFramePose(options_.pose, *tracked->frame, tracked->depth_scale,
+  tracked->pose = EstimateFramePose(options_.pose, *tracked->frame, tracked->noise_scale,
                                     &tracked->cam_from_world, &tracked->matches);
   tracked->pose_ms += stopwatch.Milliseconds();
   const int num_inliers = tracked->pose.num_inlier_points + tracked->pose.num_inlier_lines;

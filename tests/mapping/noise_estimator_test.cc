@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/mapping/depth_noise.h"
+#include "msc_vo/mapping/noise_estimator.h"
 
 #include <map>
 #include <random>
@@ -25,16 +25,16 @@ WindowData NoisyWindow(int seed) {
 }
 
 // Those of a run want more windows until they believe.
-DepthNoiseOptions QuickOptions() {
-  DepthNoiseOptions options;
+NoiseEstimatorOptions QuickOptions() {
+  NoiseEstimatorOptions options;
   options.prior = 2.0;
   return options;
 }
 
 // The scale after some windows whose depth errors `disturb` may change.
 template <typename Disturb>
-double LearntScale(const DepthNoiseOptions& options, const Disturb& disturb) {
-  DepthNoise noise(options);
+double LearntScale(const NoiseEstimatorOptions& options, const Disturb& disturb) {
+  NoiseEstimator noise(options);
   for (int seed = 1; seed <= kWindows; ++seed) {
     WindowData window = NoisyWindow(seed);
     disturb(&window);
@@ -42,7 +42,7 @@ double LearntScale(const DepthNoiseOptions& options, const Disturb& disturb) {
     EXPECT_TRUE(SolveWindow(WindowOptions(), &window).usable);
     noise.Update(window);
   }
-  return noise.scale().points;
+  return noise.scale().point_depth;
 }
 
 void MultiplySigmas(double factor, WindowData* window) {
@@ -50,19 +50,19 @@ void MultiplySigmas(double factor, WindowData* window) {
   for (auto& o : window->line_observations) o.depth.covariance *= factor * factor;
 }
 
-TEST(DepthNoise, RightSigmasStay) {
+TEST(NoiseEstimator, RightSigmasStay) {
   // The poses of a small window take up a part of what the quarters of its images have in common.
   const double scale = LearntScale(QuickOptions(), [](WindowData*) {});
   EXPECT_GT(scale, 0.75);
   EXPECT_LT(scale, 1.1);
 }
 
-TEST(DepthNoise, FindsSigmasThatAreTooLargeOrTooSmall) {
+TEST(NoiseEstimator, FindsSigmasThatAreTooLargeOrTooSmall) {
   EXPECT_NEAR(LearntScale(QuickOptions(), [](WindowData* w) { MultiplySigmas(2.0, w); }), 0.5, 0.1);
   EXPECT_NEAR(LearntScale(QuickOptions(), [](WindowData* w) { MultiplySigmas(0.5, w); }), 2.0, 0.3);
 }
 
-TEST(DepthNoise, ErrorsThatAQuarterOfAnImageSharesCountMore) {
+TEST(NoiseEstimator, ErrorsThatAQuarterOfAnImageSharesCountMore) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   const double scale = LearntScale(QuickOptions(), [&](WindowData* window) {
@@ -79,7 +79,7 @@ TEST(DepthNoise, ErrorsThatAQuarterOfAnImageSharesCountMore) {
   EXPECT_GT(scale, 2.0);
 }
 
-TEST(DepthNoise, FewGrossErrorsChangeLittle) {
+TEST(NoiseEstimator, FewGrossErrorsChangeLittle) {
   const double scale = LearntScale(QuickOptions(), [](WindowData* window) {
     for (size_t i = 0; i < window->point_observations.size(); i += 50) {
       window->point_observations[i].inverse_depth *= 2.0;
@@ -88,31 +88,66 @@ TEST(DepthNoise, FewGrossErrorsChangeLittle) {
   EXPECT_NEAR(scale, 1.0, 0.2);
 }
 
-TEST(DepthNoise, IsBounded) {
-  DepthNoiseOptions options = QuickOptions();
+TEST(NoiseEstimator, IsBounded) {
+  NoiseEstimatorOptions options = QuickOptions();
   options.max_scale = 1.5;
   EXPECT_EQ(LearntScale(options, [](WindowData* w) { MultiplySigmas(4.0, w); }), 1.0 / 1.5);
   EXPECT_EQ(LearntScale(options, [](WindowData* w) { MultiplySigmas(0.25, w); }), 1.5);
 }
 
-TEST(DepthNoise, AppliesToAllDepths) {
-  DepthNoise noise(QuickOptions());
+TEST(NoiseEstimator, AppliesToAllObservations) {
+  NoiseEstimator noise(QuickOptions());
   WindowData window = NoisyWindow(1);
   for (auto& o : window.point_observations) o.inverse_depth_sigma *= 0.1;
   noise.Update(window);
-  ASSERT_GT(noise.scale().points, 1.0);
+  ASSERT_GT(noise.scale().point_depth, 1.0);
   WindowData scaled = window;
   noise.Apply(&scaled);
   const auto &point = window.point_observations[0], &scaled_point = scaled.point_observations[0];
   EXPECT_DOUBLE_EQ(scaled_point.inverse_depth_sigma,
-                   noise.scale().points * point.inverse_depth_sigma);
+                   noise.scale().point_depth * point.inverse_depth_sigma);
   EXPECT_EQ(scaled_point.sigma, point.sigma);
   const auto &line = window.line_observations[0], &scaled_line = scaled.line_observations[0];
-  EXPECT_NEAR(scaled_line.depth.SigmaAt(0.3), noise.scale().lines * line.depth.SigmaAt(0.3), 1e-15);
+  EXPECT_NEAR(scaled_line.depth.SigmaAt(0.3), noise.scale().line_depth * line.depth.SigmaAt(0.3),
+              1e-15);
+  EXPECT_DOUBLE_EQ(scaled_line.sigma, noise.scale().line_pixel * line.sigma);
 }
 
-TEST(DepthNoise, LinesHaveAScaleOfTheirOwn) {
-  DepthNoise noise(QuickOptions());
+// The scale of lines in the image when their sigmas are `factor` times too large, and every
+// `gross`-th observation is off by 20 px.
+double LearntLinePixelScale(double factor, size_t gross) {
+  NoiseEstimator noise(QuickOptions());
+  SyntheticWindowOptions options;
+  options.num_points = 40;
+  options.num_lines = 40;
+  for (int seed = 1; seed <= kWindows; ++seed) {
+    options.seed = static_cast<uint64_t>(seed);
+    WindowData window = MakeSyntheticWindow(options).data;
+    for (size_t i = 0; i < window.line_observations.size(); ++i) {
+      auto& o = window.line_observations[i];
+      o.sigma *= factor;
+      if (i % gross != 0) continue;
+      o.segment.start.y() += 20.0;
+      o.segment.end.y() += 20.0;
+    }
+    noise.Apply(&window);
+    EXPECT_TRUE(SolveWindow(WindowOptions(), &window).usable);
+    noise.Update(window);
+  }
+  return noise.scale().line_pixel;
+}
+
+TEST(NoiseEstimator, FindsSigmasOfLinesInTheImage) {
+  constexpr size_t kNever = 1000000;
+  EXPECT_NEAR(LearntLinePixelScale(1.0, kNever), 1.0, 0.15);
+  EXPECT_NEAR(LearntLinePixelScale(2.0, kNever), 0.5, 0.1);
+  EXPECT_NEAR(LearntLinePixelScale(0.5, kNever), 2.0, 0.3);
+  // One wrong match in ten, most of them rejected.
+  EXPECT_NEAR(LearntLinePixelScale(1.0, 10), 1.15, 0.2);
+}
+
+TEST(NoiseEstimator, LinesHaveAScaleOfTheirOwn) {
+  NoiseEstimator noise(QuickOptions());
   SyntheticWindowOptions options;
   options.num_points = 60;
   options.num_lines = 60;
@@ -124,30 +159,30 @@ TEST(DepthNoise, LinesHaveAScaleOfTheirOwn) {
     ASSERT_TRUE(SolveWindow(WindowOptions(), &window).usable);
     noise.Update(window);
   }
-  EXPECT_GT(noise.scale().lines, 1.4);
-  EXPECT_LT(noise.scale().points, 1.2);
+  EXPECT_GT(noise.scale().line_depth, 1.4);
+  EXPECT_LT(noise.scale().point_depth, 1.2);
 }
 
-TEST(DepthNoise, WithoutDepthsOrSwitchedOffItStays) {
+TEST(NoiseEstimator, WithoutDepthsOrSwitchedOffItStays) {
   const auto forget = [](WindowData* window) {
     for (auto& o : window->point_observations) o.inverse_depth = 0.0;
   };
   EXPECT_EQ(LearntScale(QuickOptions(), forget), 1.0);
-  DepthNoiseOptions off = QuickOptions();
+  NoiseEstimatorOptions off = QuickOptions();
   off.enabled = false;
   EXPECT_EQ(LearntScale(off, [](WindowData* w) { MultiplySigmas(2.0, w); }), 1.0);
 }
 
-TEST(DepthNoise, RefusesBadOptions) {
-  DepthNoiseOptions options;
+TEST(NoiseEstimator, RefusesBadOptions) {
+  NoiseEstimatorOptions options;
   options.prior = 0.0;
-  EXPECT_THROW(DepthNoise{options}, std::invalid_argument);
+  EXPECT_THROW(NoiseEstimator{options}, std::invalid_argument);
   options = {};
   options.memory = 1.0;
-  EXPECT_THROW(DepthNoise{options}, std::invalid_argument);
+  EXPECT_THROW(NoiseEstimator{options}, std::invalid_argument);
   options = {};
   options.max_scale = 0.5;
-  EXPECT_THROW(DepthNoise{options}, std::invalid_argument);
+  EXPECT_THROW(NoiseEstimator{options}, std::invalid_argument);
 }
 
 }  // namespace

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/noise_estimator.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <vector>
+
+#include "msc_vo/problems/observation.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Residuals of depths count up to this many robust standard deviations: single gross errors (an
+// edge, a mirror) are left to the solver's own tests.
+constexpr double kMaxResidual = 3.0;
+// Median of the absolute value of a standard normal variable.
+constexpr double kNormalMedian = 0.6745;
+
+struct Residual {
+  int64_t keyframe = 0;
+  int quarter = 0;     // of its image
+  double value = 0.0;  // in sigmas
+  // Its variance, if errors were independent: the landmark has cost its n measurements of a number
+  // one degree of freedom.
+  double expected = 0.0;  // 1 - 1 / n
+};
+using Residuals = std::vector<Residual>;
+
+int QuarterOf(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
+  return (pixel.x() < 0.5 * camera.width ? 0 : 1) + (pixel.y() < 0.5 * camera.height ? 0 : 2);
+}
+
+// Residuals of a solved window.
+class ResidualReader {
+ public:
+  explicit ResidualReader(const WindowData& window) : window_(window) {
+    for (const WindowData::Keyframe& keyframe : window.keyframes) {
+      poses_[keyframe.id] = &keyframe.cam_from_world;
+    }
+    for (const WindowData::Point& point : window.points) positions_[point.id] = &point.position;
+    for (const WindowData::Line& line : window.lines) segments_[line.id] = &line.segment;
+  }
+
+  Residuals PointDepths() const {
+    std::map<int64_t, int> num_depths;
+    for (const auto& o : window_.point_observations) num_depths[o.point] += HasDepth(o);
+    Residuals residuals;
+    for (const auto& o : window_.point_observations) {
+      if (!HasDepth(o)) continue;
+      const double z = (*poses_.at(o.keyframe) * *positions_.at(o.point)).z();
+      residuals.push_back({o.keyframe, QuarterOf(window_.camera, o.pixel),
+                           (1.0 / z - o.inverse_depth) / o.inverse_depth_sigma,
+                           1.0 - 1.0 / num_depths.at(o.point)});
+    }
+    return residuals;
+  }
+
+  // At the middle of each segment.
+  Residuals LineDepths() const {
+    std::map<int64_t, int> num_depths;
+    for (const auto& o : window_.line_observations) num_depths[o.line] += HasDepth(o);
+    Residuals residuals;
+    for (const auto& o : window_.line_observations) {
+      if (!HasDepth(o)) continue;
+      const double w = InverseDepthAt(0.5, o.segment, InCamera(o));
+      residuals.push_back({o.keyframe, QuarterOf(window_.camera, o.segment.At(0.5)),
+                           (w - o.depth.At(0.5)) / o.depth.SigmaAt(0.5),
+                           1.0 - 1.0 / num_depths.at(o.line)});
+    }
+    return residuals;
+  }
+
+  // Of both end points. Rejected observations are part of it, as otherwise a sigma that is too
+  // small would reject what contradicts it; they have cost nothing.
+  Residuals LinePixels() const {
+    std::map<int64_t, int> num_accepted;
+    for (const auto& o : window_.line_observations) num_accepted[o.line] += !o.rejected;
+    Residuals residuals;
+    for (const auto& o : window_.line_observations) {
+      const LineSegment3 in_cam = InCamera(o);
+      if (!IsInFront(in_cam)) continue;
+      const LineReprojection reprojection =
+          MakeLineReprojection(window_.camera, o.segment, o.sigma, in_cam);
+      const double expected = o.rejected ? 1.0 : 1.0 - 1.0 / num_accepted.at(o.line);
+      for (const int end : {0, 1}) {
+        const Eigen::Vector3d& x_in_cam = end == 0 ? in_cam.start : in_cam.end;
+        double value = 0.0;
+        reprojection.Residual(end, x_in_cam, &value);
+        residuals.push_back(
+            {o.keyframe, QuarterOf(window_.camera, o.segment.At(0.5)), value, expected});
+      }
+    }
+    return residuals;
+  }
+
+ private:
+  static bool HasDepth(const WindowData::PointObservation& o) {
+    return !o.rejected && o.inverse_depth > 0.0;
+  }
+  static bool HasDepth(const WindowData::LineObservation& o) { return !o.rejected && o.has_depth; }
+
+  LineSegment3 InCamera(const WindowData::LineObservation& o) const {
+    return *poses_.at(o.keyframe) * *segments_.at(o.line);
+  }
+
+  // Of the line, camera frame, at parameter s of the image segment: there 1/z is linear.
+  double InverseDepthAt(double s, const LineSegment2& image, const LineSegment3& in_cam) const {
+    const double start = image.Parameter(window_.camera.Project(in_cam.start));
+    const double end = image.Parameter(window_.camera.Project(in_cam.end));
+    const double share = (s - start) / (end - start);
+    return (1.0 - share) / in_cam.start.z() + share / in_cam.end.z();
+  }
+
+  const WindowData& window_;
+  std::map<int64_t, const Rigid3*> poses_;
+  std::map<int64_t, const Eigen::Vector3d*> positions_;
+  std::map<int64_t, const LineSegment3*> segments_;
+};
+
+// Standard deviation by the median of the absolute values.
+double RobustDeviation(const Residuals& residuals) {
+  std::vector<double> sizes;
+  sizes.reserve(residuals.size());
+  for (const Residual& residual : residuals) sizes.push_back(std::abs(residual.value));
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle / kNormalMedian;
+}
+
+double SumOfExpected(const Residuals& residuals) {
+  double sum = 0.0;
+  for (const Residual& residual : residuals) sum += residual.expected;
+  return sum;
+}
+
+// Sums of residuals over the quarters of images, each residual cut off at `bound`.
+using QuarterSums = std::map<std::pair<int64_t, int>, double>;
+
+QuarterSums SumQuarters(const Residuals& residuals, double bound) {
+  QuarterSums sums;
+  for (const Residual& residual : residuals) {
+    sums[{residual.keyframe, residual.quarter}] += std::clamp(residual.value, -bound, bound);
+  }
+  return sums;
+}
+
+// Variance of residuals, relative to that of independent errors with their sigmas.
+struct Evidence {
+  double variance = 1.0;
+  int num_quarters = 0;  // 0: there is none
+};
+
+// By the spread of the residuals' middle half.
+Evidence OfSpread(const Residuals& residuals) {
+  const double expected = SumOfExpected(residuals);
+  if (expected <= 0.0) return {};
+  const double deviation = RobustDeviation(residuals);
+  return {deviation * deviation * static_cast<double>(residuals.size()) / expected,
+          static_cast<int>(SumQuarters(residuals, 0.0).size())};
+}
+
+// By the sums over quarters of images: the mean of their squares.
+Evidence OfSums(const Residuals& residuals) {
+  const double expected = SumOfExpected(residuals);
+  if (expected <= 0.0) return {};
+  const QuarterSums sums = SumQuarters(residuals, kMaxResidual * RobustDeviation(residuals));
+  double squares = 0.0;
+  for (const auto& [where, sum] : sums) squares += sum * sum;
+  return {squares / expected, static_cast<int>(sums.size())};
+}
+
+}  // namespace
+
+bool NoiseEstimatorOptions::IsValid(std::string* error) const {
+  if (!(prior > 0.0 && memory >= prior)) {
+    *error = "noise: prior must be positive, and memory not less";
+  } else if (!(max_scale >= 1.0)) {
+    *error = "noise.max_scale must be at least 1";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+NoiseEstimator::NoiseEstimator(const NoiseEstimatorOptions& options) : options_(options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw std::invalid_argument(error);
+  for (Variance* variance : {&point_depth_, &line_pixel_, &line_depth_}) {
+    variance->weight = options.prior;
+  }
+}
+
+double NoiseEstimator::Scale(const Variance& variance) const {
+  return std::clamp(std::sqrt(variance.value), 1.0 / options_.max_scale, options_.max_scale);
+}
+
+NoiseScale NoiseEstimator::scale() const {
+  return {Scale(point_depth_), Scale(line_pixel_), Scale(line_depth_)};
+}
+
+void NoiseEstimator::Apply(WindowData* window) const {
+  const NoiseScale by = scale();
+  for (WindowData::PointObservation& o : window->point_observations) {
+    o.inverse_depth_sigma *= by.point_depth;
+  }
+  for (WindowData::LineObservation& o : window->line_observations) {
+    o.sigma *= by.line_pixel;
+    o.depth.covariance *= by.line_depth * by.line_depth;
+  }
+}
+
+void NoiseEstimator::Update(const WindowData& solved) {
+  if (!options_.enabled) return;
+  const auto learn = [this](const Evidence& evidence, Variance* variance) {
+    const double scale = Scale(*variance);  // the window was whitened with it
+    const double total = variance->weight + evidence.num_quarters;
+    variance->value = (variance->weight * variance->value +
+                       evidence.num_quarters * scale * scale * evidence.variance) /
+                      total;
+    variance->weight = std::min(total, options_.memory);
+  };
+  const ResidualReader reader(solved);
+  learn(OfSums(reader.PointDepths()), &point_depth_);
+  learn(OfSpread(reader.LinePixels()), &line_pixel_);
+  learn(OfSums(reader.LineDepths()), &line_depth_);
+}
+
+}  // namespace msc_vo
