@@ -18,6 +18,11 @@ constexpr double kSpacing = 3.0;
 // Length over which the noise of depth pixels is one and the same, pixels: structured light matches
 // windows of 7 to 9 px, of which the middle half dominates.
 constexpr double kCorrelationLength = 5.0;
+// What all samples of a line have in common, in sigmas of a pixel: edges of depth and of colour are
+// not registered better than to half a pixel, and a wall seen at 45 degrees from 1 m changes by 1
+// from pixel to pixel. Errors over all sequences with 0, 0.5, 0.7 and 1: geometric mean of the
+// rendered ones 1.08, 1.07, 1.08 and 1.14 mm, fr1_rpy 12.2, 11.5, 12.0 and 11.6 mm.
+constexpr double kCommonNoise = 0.5;
 // The profile across the line reaches so many pixels to both sides.
 constexpr int kReach = 5;
 // A surface reaches the line if it comes this close: one pixel for the edge's own place, one for
@@ -186,6 +191,7 @@ std::optional<LineDepth> FitDepthAlongLine(const LineFitOptions& options,
   // n samples, kSpacing apart, of a noise that stays the same over kCorrelationLength say as much
   // as n kSpacing / kCorrelationLength independent ones.
   depth->covariance *= std::max(1.0, kCorrelationLength / kSpacing);
+  depth->covariance += Eigen::Matrix2d::Constant(kCommonNoise * kCommonNoise * sigma * sigma);
   return depth;
 }
 
