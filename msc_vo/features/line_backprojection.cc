@@ -168,6 +168,7 @@ std::vector<LineFitSample> SampleLineDepth(const InverseDepthImage& image, const
   const Vector2d across(-direction.y(), direction.x());
   const int intervals = std::max(1, static_cast<int>(segment.Length() / kSpacing));
   std::vector<LineFitSample> samples;
+  samples.reserve(intervals + 1);
   for (int i = 0; i <= intervals; ++i) {
     const double s = static_cast<double>(i) / intervals;
     const Vector2d raw = lens.RawFromIdeal(segment.At(s));

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/map/observer_count.h"
 
 namespace msc_vo {
 
@@ -83,16 +83,15 @@ void Merge(std::map<LandmarkId, L>* landmarks, std::map<KeyframeId, Keyframe>* k
 
 // The descriptor with the least total distance to all others; the first of equals.
 Descriptor CentralDescriptor(const std::vector<Descriptor>& descriptors) {
-  size_t best = 0;
-  int best_total = std::numeric_limits<int>::max();
+  std::vector<int> totals(descriptors.size(), 0);
   for (size_t i = 0; i < descriptors.size(); ++i) {
-    int total = 0;
-    for (const Descriptor& other : descriptors) total += HammingDistance(descriptors[i], other);
-    if (total >= best_total) continue;
-    best_total = total;
-    best = i;
+    for (size_t j = i + 1; j < descriptors.size(); ++j) {
+      const int distance = HammingDistance(descriptors[i], descriptors[j]);
+      totals[i] += distance;
+      totals[j] += distance;
+    }
   }
-  return descriptors[best];
+  return descriptors[std::min_element(totals.begin(), totals.end()) - totals.begin()];
 }
 
 }  // namespace
@@ -204,6 +203,7 @@ void Map::CountTracking(LandmarkId landmark, bool is_line, int num_visible, int 
 void Map::RefreshPoint(LandmarkId id) {
   PointLandmark& point = points_.at(id);
   std::vector<Descriptor> descriptors;
+  descriptors.reserve(point.observations.size());
   Eigen::Vector3d directions = Eigen::Vector3d::Zero();
   double log_reference = 0.0;
   for (const Observation& observation : point.observations) {
@@ -222,6 +222,7 @@ void Map::RefreshPoint(LandmarkId id) {
 void Map::RefreshLine(LandmarkId id) {
   LineLandmark& line = lines_.at(id);
   std::vector<Descriptor> descriptors;
+  descriptors.reserve(line.observations.size());
   Eigen::Vector3d directions = Eigen::Vector3d::Zero();
   line.direction_sigma = kPi;
   for (const Observation& observation : line.observations) {
@@ -240,21 +241,19 @@ void Map::RefreshLine(LandmarkId id) {
 }
 
 std::vector<Map::Covisible> Map::FindCovisible(KeyframeId keyframe) const {
-  std::map<KeyframeId, int> shared;
-  const auto count = [&](const Landmark* landmark) {
-    if (landmark == nullptr) return;
-    for (const Observation& observation : landmark->observations) ++shared[observation.keyframe];
-  };
   const Keyframe& center = keyframes_.at(keyframe);
-  for (const LandmarkId point : center.points) count(FindPoint(point));
-  for (const LandmarkId line : center.lines) count(FindLine(line));
-  shared.erase(keyframe);
-
-  std::vector<Covisible> covisible;
-  for (const auto& [id, num_shared] : shared) covisible.push_back({id, num_shared});
-  std::sort(covisible.begin(), covisible.end(), [](const Covisible& a, const Covisible& b) {
-    return a.num_shared != b.num_shared ? a.num_shared > b.num_shared : a.keyframe > b.keyframe;
-  });
+  ObserverCount observers(*this);
+  for (const LandmarkId id : center.points) {
+    if (id != kNoId) observers.Add(points_.at(id));
+  }
+  for (const LandmarkId id : center.lines) {
+    if (id != kNoId) observers.Add(lines_.at(id));
+  }
+  std::vector<Covisible> covisible = observers.Ranked();
+  covisible.erase(
+      std::remove_if(covisible.begin(), covisible.end(),
+                     [&](const Covisible& other) { return other.keyframe == keyframe; }),
+      covisible.end());
   return covisible;
 }
 

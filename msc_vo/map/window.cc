@@ -7,6 +7,8 @@
 #include <set>
 #include <vector>
 
+#include "msc_vo/map/observer_count.h"
+
 namespace msc_vo {
 
 namespace {
@@ -14,25 +16,25 @@ namespace {
 // Metres. The shortest segment that a sensor of 1 mm resolution can give a direction.
 constexpr double kMinLineLength = 0.01;
 
-// Collects the landmarks that the window's keyframes see, and every keyframe that sees them.
+// The landmarks that the window's keyframes see, by id; those that take part are counted.
 template <typename L, typename Find>
 std::vector<const L*> SeenLandmarks(const Map& map, const std::set<KeyframeId>& window,
                                     std::vector<LandmarkId> Keyframe::*slots, const Find& find,
-                                    int min_observations, std::map<KeyframeId, int>* observers) {
-  std::set<LandmarkId> ids;
+                                    int min_observations, ObserverCount* observers) {
+  std::vector<LandmarkId> ids;
   for (const KeyframeId keyframe : window) {
     for (const LandmarkId id : map.FindKeyframe(keyframe)->*slots) {
-      if (id != kNoId) ids.insert(id);
+      if (id != kNoId) ids.push_back(id);
     }
   }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   std::vector<const L*> landmarks;
   for (const LandmarkId id : ids) {
     const L* landmark = find(id);
     if (static_cast<int>(landmark->observations.size()) < min_observations) continue;
     landmarks.push_back(landmark);
-    for (const Observation& observation : landmark->observations) {
-      if (window.count(observation.keyframe) == 0) ++(*observers)[observation.keyframe];
-    }
+    observers->Add(*landmark);
   }
   return landmarks;
 }
@@ -47,18 +49,36 @@ std::set<KeyframeId> SelectKeyframes(const WindowSelectionOptions& options, cons
   return window;
 }
 
+// Of the keyframes outside the window those that observe most of it.
 std::set<KeyframeId> SelectFixed(const WindowSelectionOptions& options,
-                                 const std::map<KeyframeId, int>& observers) {
-  std::vector<std::pair<int, KeyframeId>> ranked;
-  for (const auto& [id, shared] : observers) ranked.emplace_back(-shared, -id);
-  std::sort(ranked.begin(), ranked.end());
-  if (static_cast<int>(ranked.size()) > options.max_fixed_keyframes) {
-    ranked.resize(options.max_fixed_keyframes);
-  }
+                                 const std::set<KeyframeId>& window,
+                                 const ObserverCount& observers) {
   std::set<KeyframeId> fixed;
-  for (const auto& [shared, id] : ranked) fixed.insert(-id);
+  for (const Map::Covisible& observer : observers.Ranked()) {
+    if (static_cast<int>(fixed.size()) >= options.max_fixed_keyframes) break;
+    if (window.count(observer.keyframe) == 0) fixed.insert(observer.keyframe);
+  }
   return fixed;
 }
+
+// Keyframes by id, in one step.
+class KeyframeTable {
+ public:
+  KeyframeTable(const Map& map, const WindowData& data) {
+    first_ = map.keyframes().begin()->first;
+    keyframes_.resize(map.keyframes().rbegin()->first - first_ + 1, nullptr);
+    for (const WindowData::Keyframe& keyframe : data.keyframes) {
+      keyframes_[keyframe.id - first_] = map.FindKeyframe(keyframe.id);
+    }
+  }
+
+  // nullptr if it takes no part in the window.
+  const Keyframe* Find(KeyframeId id) const { return keyframes_[id - first_]; }
+
+ private:
+  KeyframeId first_ = 0;
+  std::vector<const Keyframe*> keyframes_;
+};
 
 void AddKeyframes(const Map& map, const std::set<KeyframeId>& window,
                   const std::set<KeyframeId>& fixed, WindowData* data) {
@@ -134,35 +154,32 @@ bool WindowSelectionOptions::IsValid(std::string* error) const {
 WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map,
                         KeyframeId keyframe) {
   const std::set<KeyframeId> window = SelectKeyframes(options, map, keyframe);
-  std::map<KeyframeId, int> observers;
+  ObserverCount observers(map);
   const auto points = SeenLandmarks<PointLandmark>(
       map, window, &Keyframe::points, [&](LandmarkId id) { return map.FindPoint(id); },
       options.min_observations, &observers);
   const auto lines = SeenLandmarks<LineLandmark>(
       map, window, &Keyframe::lines, [&](LandmarkId id) { return map.FindLine(id); },
       options.min_observations, &observers);
-  const std::set<KeyframeId> fixed = SelectFixed(options, observers);
 
   WindowData data;
   data.camera = map.FindKeyframe(keyframe)->frame->camera;
-  AddKeyframes(map, window, fixed, &data);
-  const auto takes_part = [&](KeyframeId id) {
-    return window.count(id) > 0 || fixed.count(id) > 0;
-  };
+  AddKeyframes(map, window, SelectFixed(options, window, observers), &data);
+  const KeyframeTable table(map, data);
   for (const PointLandmark* point : points) {
     data.points.push_back({point->id, point->position, false});
     for (const Observation& seen : point->observations) {
-      if (!takes_part(seen.keyframe)) continue;
-      data.point_observations.push_back(
-          MakeObservation(*map.FindKeyframe(seen.keyframe), *point, seen.feature));
+      const Keyframe* observer = table.Find(seen.keyframe);
+      if (observer == nullptr) continue;
+      data.point_observations.push_back(MakeObservation(*observer, *point, seen.feature));
     }
   }
   for (const LineLandmark* line : lines) {
     data.lines.push_back({line->id, line->segment, false});
     for (const Observation& seen : line->observations) {
-      if (!takes_part(seen.keyframe)) continue;
-      data.line_observations.push_back(
-          MakeObservation(*map.FindKeyframe(seen.keyframe), *line, seen.feature));
+      const Keyframe* observer = table.Find(seen.keyframe);
+      if (observer == nullptr) continue;
+      data.line_observations.push_back(MakeObservation(*observer, *line, seen.feature));
     }
   }
   return data;

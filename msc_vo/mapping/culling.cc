@@ -3,6 +3,7 @@
 
 #include "msc_vo/mapping/culling.h"
 
+#include <algorithm>
 #include <iterator>
 #include <vector>
 
@@ -43,29 +44,32 @@ bool IsCovered(const CullingOptions& options, KeyframeId keyframe, const Landmar
   return false;
 }
 
+int NumLandmarks(const std::vector<LandmarkId>& slots) {
+  return static_cast<int>(slots.size() - std::count(slots.begin(), slots.end(), kNoId));
+}
+
+// Most keyframes are not redundant, and the first landmarks tell.
 bool IsRedundant(const CullingOptions& options, const Map& map, const Keyframe& keyframe) {
-  int num_landmarks = 0;
-  int num_covered = 0;
-  for (size_t i = 0; i < keyframe.points.size(); ++i) {
-    const PointLandmark* point = map.FindPoint(keyframe.points[i]);
-    if (point == nullptr) continue;
+  const int num_landmarks = NumLandmarks(keyframe.points) + NumLandmarks(keyframe.lines);
+  // As many may be uncovered, and one more is too many.
+  const double allowed = (1.0 - options.redundant_share) * num_landmarks;
+  int num_uncovered = 0;
+  for (size_t i = 0; i < keyframe.points.size() && num_uncovered < allowed; ++i) {
+    if (keyframe.points[i] == kNoId) continue;
     const int level = keyframe.frame->points[i].level;
-    const bool covered =
-        IsCovered(options, keyframe.id, *point, [&](const Observation& observation) {
-          const Keyframe& other = *map.FindKeyframe(observation.keyframe);
-          return other.frame->points[observation.feature].level <= level + 1;
-        });
-    ++num_landmarks;
-    num_covered += covered ? 1 : 0;
+    const PointLandmark& point = *map.FindPoint(keyframe.points[i]);
+    num_uncovered += !IsCovered(options, keyframe.id, point, [&](const Observation& observation) {
+      const Keyframe& other = *map.FindKeyframe(observation.keyframe);
+      return other.frame->points[observation.feature].level <= level + 1;
+    });
   }
-  for (const LandmarkId id : keyframe.lines) {
-    const LineLandmark* line = map.FindLine(id);
-    if (line == nullptr) continue;
-    ++num_landmarks;
-    num_covered +=
-        IsCovered(options, keyframe.id, *line, [](const Observation&) { return true; }) ? 1 : 0;
+  for (size_t i = 0; i < keyframe.lines.size() && num_uncovered < allowed; ++i) {
+    if (keyframe.lines[i] == kNoId) continue;
+    const LineLandmark& line = *map.FindLine(keyframe.lines[i]);
+    num_uncovered +=
+        !IsCovered(options, keyframe.id, line, [](const Observation&) { return true; });
   }
-  return num_landmarks > 0 && num_covered > options.redundant_share * num_landmarks;
+  return num_uncovered < allowed;
 }
 
 }  // namespace

@@ -32,8 +32,10 @@ std::pair<LandmarkId, LandmarkId> StayAndGo(const L& a, const L& b) {
 }
 
 bool IsSeenBy(const Landmark& landmark, KeyframeId keyframe) {
-  return std::any_of(landmark.observations.begin(), landmark.observations.end(),
-                     [&](const Observation& seen) { return seen.keyframe == keyframe; });
+  const auto place =
+      std::lower_bound(landmark.observations.begin(), landmark.observations.end(), keyframe,
+                       [](const Observation& seen, KeyframeId id) { return seen.keyframe < id; });
+  return place != landmark.observations.end() && place->keyframe == keyframe;
 }
 
 std::vector<PointCandidate> PointsOf(const Map& map, const Keyframe& source,

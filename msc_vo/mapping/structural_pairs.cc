@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "msc_vo/geometry/angles.h"
@@ -28,7 +28,6 @@ struct Candidate {
   double sigma = 0.0;  // radians, of the angle between the two
   int i = 0, j = 0;
   int count = 0;
-  bool chosen = false;
 };
 
 std::vector<Direction> Directions(const Map& map, const WindowData& window) {
@@ -51,29 +50,46 @@ std::vector<Direction> Directions(const Map& map, const WindowData& window) {
   return list;
 }
 
+// How many keyframes see both.
 int NumShared(const std::vector<KeyframeId>& a, const std::vector<KeyframeId>& b) {
-  std::vector<KeyframeId> shared;
-  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(shared));
-  return static_cast<int>(shared.size());
+  int count = 0;
+  for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
+    count += *i == *j ? 1 : 0;
+    const bool step_i = *i <= *j, step_j = *j <= *i;
+    i += step_i ? 1 : 0;
+    j += step_j ? 1 : 0;
+  }
+  return count;
 }
 
-// Pairs whose angle is near to `target` (0 or 90 degrees, in radians).
-std::vector<Candidate> FindCandidates(const StructuralPairOptions& options,
-                                      const std::vector<Direction>& lines, double target) {
+struct Candidates {
+  std::vector<Candidate> parallel, perpendicular;
+};
+
+// Pairs whose angle is near to 0 or 90 degrees.
+Candidates FindCandidates(const StructuralPairOptions& options,
+                          const std::vector<Direction>& lines) {
+  const double max_angle = DegreesToRadians(options.max_angle);
   const double pair_sigma = DegreesToRadians(options.pair_sigma);
-  std::vector<Candidate> candidates;
+  // Most pairs are near to neither, which the cosine of their angle tells at once.
+  const double least_parallel = std::cos(max_angle), most_perpendicular = std::sin(max_angle);
+  Candidates candidates;
   for (size_t i = 0; i < lines.size(); ++i) {
     for (size_t j = i + 1; j < lines.size(); ++j) {
       if (lines[i].on_axis && lines[j].on_axis) continue;
+      const double cosine = std::abs(lines[i].direction.dot(lines[j].direction));
+      const bool is_parallel = options.parallel && cosine >= least_parallel;
+      const bool is_perpendicular = options.perpendicular && cosine <= most_perpendicular;
+      if (!is_parallel && !is_perpendicular) continue;
       const double sigma =
           std::sqrt(lines[i].sigma * lines[i].sigma + lines[j].sigma * lines[j].sigma);
-      const double gate = std::min(DegreesToRadians(options.max_angle),
-                                   options.gate_sigmas * std::hypot(sigma, pair_sigma));
+      const double gate = std::min(max_angle, options.gate_sigmas * std::hypot(sigma, pair_sigma));
       const double angle = UndirectedAngle(lines[i].direction, lines[j].direction);
-      if (std::abs(angle - target) > gate) continue;
+      if (std::abs(angle - (is_parallel ? 0.0 : 0.5 * kPi)) > gate) continue;
       const int count = NumShared(lines[i].seen_by, lines[j].seen_by);
       if (count == 0) continue;
-      candidates.push_back({sigma, static_cast<int>(i), static_cast<int>(j), count, false});
+      (is_parallel ? candidates.parallel : candidates.perpendicular)
+          .push_back({sigma, static_cast<int>(i), static_cast<int>(j), count});
     }
   }
   return candidates;
@@ -116,13 +132,9 @@ bool StructuralPairOptions::IsValid(std::string* error) const {
 void AddStructuralPairs(const StructuralPairOptions& options, const Map& map, WindowData* window) {
   if (!options.parallel && !options.perpendicular) return;
   const std::vector<Direction> lines = Directions(map, *window);
-  if (options.parallel) {
-    window->parallel_pairs = ChooseBest(options, lines, FindCandidates(options, lines, 0.0));
-  }
-  if (options.perpendicular) {
-    window->perpendicular_pairs =
-        ChooseBest(options, lines, FindCandidates(options, lines, 0.5 * kPi));
-  }
+  Candidates candidates = FindCandidates(options, lines);
+  window->parallel_pairs = ChooseBest(options, lines, std::move(candidates.parallel));
+  window->perpendicular_pairs = ChooseBest(options, lines, std::move(candidates.perpendicular));
 }
 
 }  // namespace msc_vo

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <set>
-#include <utility>
+#include <vector>
+
+#include "msc_vo/map/observer_count.h"
 
 namespace msc_vo {
 
@@ -19,11 +20,11 @@ constexpr int kMaxLevel = 7;
 // A patch seen from more than 60 degrees off looks different: as in the ORB literature.
 constexpr double kMinViewingCosine = 0.5;
 
-std::vector<std::pair<int, KeyframeId>> Votes(const Map& map, const FrameMatches& matches) {
-  std::map<KeyframeId, int> votes;
-  const auto count = [&](const Landmark* landmark) {
-    if (landmark == nullptr) return;
-    for (const Observation& observation : landmark->observations) ++votes[observation.keyframe];
+// The keyframes that see what the frame sees, those with most of it first.
+std::vector<Map::Covisible> Votes(const Map& map, const FrameMatches& matches) {
+  ObserverCount votes(map);
+  const auto count = [&votes](const Landmark* landmark) {
+    if (landmark != nullptr) votes.Add(*landmark);
   };
   for (const PointMatch& match : matches.points) {
     if (match.inlier) count(map.FindPoint(match.id));
@@ -31,22 +32,19 @@ std::vector<std::pair<int, KeyframeId>> Votes(const Map& map, const FrameMatches
   for (const LineMatch& match : matches.lines) {
     if (match.inlier) count(map.FindLine(match.id));
   }
-  std::vector<std::pair<int, KeyframeId>> ranked;
-  for (const auto& [keyframe, num] : votes) ranked.emplace_back(num, keyframe);
-  std::sort(ranked.rbegin(), ranked.rend());  // most votes first, then newest
-  return ranked;
+  return votes.Ranked();
 }
 
 std::set<KeyframeId> SelectKeyframes(const Map& map, const FrameMatches& matches,
                                      KeyframeId fallback, int max_keyframes,
                                      KeyframeId* reference) {
-  std::vector<std::pair<int, KeyframeId>> ranked = Votes(map, matches);
-  if (ranked.empty()) ranked.emplace_back(0, fallback);
-  *reference = ranked.front().second;
+  std::vector<Map::Covisible> ranked = Votes(map, matches);
+  if (ranked.empty()) ranked.push_back({fallback, 0});
+  *reference = ranked.front().keyframe;
   std::set<KeyframeId> selected;
-  for (const auto& [num, keyframe] : ranked) {
+  for (const Map::Covisible& seen : ranked) {
     if (static_cast<int>(selected.size()) >= max_keyframes) return selected;
-    selected.insert(keyframe);
+    selected.insert(seen.keyframe);
   }
   // Neighbours of the best one see what comes into view next.
   for (const Map::Covisible& covisible : map.FindCovisible(*reference)) {

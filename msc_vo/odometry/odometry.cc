@@ -50,6 +50,15 @@ FrameResult MakeResult(const TrackedFrame& tracked) {
   return result;
 }
 
+// The ids ascend, so that each has its place near to that of the one before.
+void CountVisible(const std::vector<LandmarkId>& ids, std::map<LandmarkId, TrackingCount>* counts) {
+  auto place = counts->begin();
+  for (const LandmarkId id : ids) {
+    place = counts->try_emplace(place, id);
+    ++place->second.num_visible;
+  }
+}
+
 MapAxes MakeAxes(const AxesEstimator& axes) {
   return {axes.state(), axes.frozen(), axes.num_refinements(), axes.world_from_axes(),
           axes.sigma()};
@@ -112,8 +121,8 @@ Frame Odometry::State::Build(const RgbdImage& image) {
 }
 
 void Odometry::State::Count(const TrackedFrame& tracked) {
-  for (const LandmarkId id : tracked.visible_points) ++packet.point_counts[id].num_visible;
-  for (const LandmarkId id : tracked.visible_lines) ++packet.line_counts[id].num_visible;
+  CountVisible(tracked.visible_points, &packet.point_counts);
+  CountVisible(tracked.visible_lines, &packet.line_counts);
   for (const PointMatch& match : tracked.matches.points) ++packet.point_counts[match.id].num_found;
   for (const LineMatch& match : tracked.matches.lines) ++packet.line_counts[match.id].num_found;
 }

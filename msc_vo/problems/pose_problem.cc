@@ -29,25 +29,25 @@ struct Activities {
 };
 
 void Validate(const PoseOptions& options, const PoseData& data) {
-  const auto check = [](const char* error, const std::string& who) {
-    if (error != nullptr) throw std::invalid_argument("SolvePose: " + who + ": " + error);
+  const auto fail = [](const std::string& who, const std::string& what) {
+    throw std::invalid_argument("SolvePose: " + who + ": " + what);
   };
   std::string error;
-  if (!options.IsValid(&error) || !data.camera.IsValid(&error)) check(error.c_str(), "input");
-  check(PoseError(data.cam_from_world), "prediction");
+  if (!options.IsValid(&error) || !data.camera.IsValid(&error)) fail("input", error);
+  if (const char* what = PoseError(data.cam_from_world)) fail("prediction", what);
   for (size_t i = 0; i < data.points.size(); ++i) {
     const PoseData::Point& p = data.points[i];
     const char* what = PositionError(p.position);
     if (what == nullptr) {
       what = PointObservationError(p.pixel, p.sigma, p.inverse_depth, p.inverse_depth_sigma);
     }
-    if (what != nullptr) check(what, "point " + std::to_string(i));
+    if (what != nullptr) fail("point " + std::to_string(i), what);
   }
   for (size_t i = 0; i < data.lines.size(); ++i) {
     const PoseData::Line& l = data.lines[i];
     const char* what = MapLineError(l.map_segment);
     if (what == nullptr) what = LineObservationError(l.segment, l.sigma, l.has_depth, l.depth);
-    if (what != nullptr) check(what, "line " + std::to_string(i));
+    if (what != nullptr) fail("line " + std::to_string(i), what);
   }
 }
 

@@ -27,6 +27,19 @@ bool AreCoordinates(double x) { return std::abs(x) <= kMaxCoordinate; }  // NaN 
 // far below a wrong one.
 constexpr double kUnitTolerance = 1e-6;
 
+template <int N>
+const char* CovarianceErrorOf(const Eigen::Matrix<double, N, N>& covariance) {
+  constexpr const char* kError = "covariance is not positive definite";
+  const Eigen::Matrix<double, N, 1> sigma = covariance.diagonal().cwiseSqrt();
+  if (!covariance.allFinite() || !(sigma.minCoeff() > 0.0)) return kError;
+  // Units differ, so that only correlations compare. Their rounding is far below the tolerance, a
+  // transposed or half-filled matrix far above.
+  const Eigen::Matrix<double, N, N> correlation =
+      sigma.cwiseInverse().asDiagonal() * covariance * sigma.cwiseInverse().asDiagonal();
+  if (!((correlation - correlation.transpose()).cwiseAbs().maxCoeff() < 1e-6)) return kError;
+  return correlation.llt().info() == Eigen::Success ? nullptr : kError;
+}
+
 }  // namespace
 
 const char* PoseError(const Rigid3& cam_from_world) {
@@ -77,16 +90,11 @@ const char* LineObservationError(const LineSegment2& segment, double sigma, bool
                                                       : "depth covariance is not positive definite";
 }
 
-const char* CovarianceError(const Eigen::Ref<const Eigen::MatrixXd>& covariance) {
-  constexpr const char* kError = "covariance is not positive definite";
-  const Eigen::VectorXd sigma = covariance.diagonal().cwiseSqrt();
-  if (!covariance.allFinite() || !(sigma.minCoeff() > 0.0)) return kError;
-  // Units differ, so that only correlations compare. Their rounding is far below the tolerance, a
-  // transposed or half-filled matrix far above.
-  const Eigen::MatrixXd correlation =
-      sigma.cwiseInverse().asDiagonal() * covariance * sigma.cwiseInverse().asDiagonal();
-  if (!((correlation - correlation.transpose()).cwiseAbs().maxCoeff() < 1e-6)) return kError;
-  return correlation.llt().info() == Eigen::Success ? nullptr : kError;
+const char* CovarianceError(const Eigen::Matrix2d& covariance) {
+  return CovarianceErrorOf<2>(covariance);
+}
+const char* CovarianceError(const Eigen::Matrix<double, 6, 6>& covariance) {
+  return CovarianceErrorOf<6>(covariance);
 }
 
 const char* LinePairError(const WindowData::LinePair& pair) {

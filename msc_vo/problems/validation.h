@@ -23,7 +23,8 @@ const char* PointObservationError(const Eigen::Vector2d& pixel, double sigma, do
 const char* LineObservationError(const LineSegment2& segment, double sigma, bool has_depth,
                                  const LineDepth& depth);
 // Symmetric to 1e-6 of its correlations, and positive definite.
-const char* CovarianceError(const Eigen::Ref<const Eigen::MatrixXd>& covariance);
+const char* CovarianceError(const Eigen::Matrix2d& covariance);
+const char* CovarianceError(const Eigen::Matrix<double, 6, 6>& covariance);
 const char* LinePairError(const WindowData::LinePair& pair);
 const char* AxisAlignmentError(const WindowData::AxisAlignment& alignment);
 const char* UnitVectorError(const Eigen::Vector3d& v);

@@ -36,7 +36,7 @@ class IdMap {
   }
 
   // `role`: what the id is there, for the message.
-  int At(int64_t id, const std::string& role = "observed") const {
+  int At(int64_t id, const char* role = "observed") const {
     const auto it = std::lower_bound(positions_.begin(), positions_.end(), std::make_pair(id, 0));
     if (it == positions_.end() || it->first != id) {
       Throw(Name(id) + " is " + role + " but not in the window");
@@ -71,13 +71,13 @@ std::vector<WindowIndex::Pair> ResolvePairs(const std::vector<WindowData::LinePa
                                             const char* kind, const IdMap& lines) {
   std::vector<WindowIndex::Pair> resolved;
   resolved.reserve(pairs.size());
+  const std::string role = std::string("of a ") + kind + " pair";
   for (const WindowData::LinePair& p : pairs) {
     if (const char* error = LinePairError(p)) {
       Throw(std::string(kind) + " pair of line " + std::to_string(p.a) + " and line " +
             std::to_string(p.b) + ": " + error);
     }
-    const std::string role = std::string("of a ") + kind + " pair";
-    resolved.push_back({lines.At(p.a, role), lines.At(p.b, role)});
+    resolved.push_back({lines.At(p.a, role.c_str()), lines.At(p.b, role.c_str())});
   }
   return resolved;
 }

@@ -3,7 +3,7 @@
 
 #include "msc_vo/tracking/pose_estimation.h"
 
-#include <set>
+#include <algorithm>
 
 namespace msc_vo {
 
@@ -12,11 +12,16 @@ namespace {
 // Candidates whose landmark is not matched yet.
 template <typename C, typename M>
 std::vector<C> Unmatched(const std::vector<C>& candidates, const std::vector<M>& known) {
-  std::set<LandmarkId> matched;
-  for (const M& match : known) matched.insert(match.id);
+  std::vector<LandmarkId> matched;
+  matched.reserve(known.size());
+  for (const M& match : known) matched.push_back(match.id);
+  std::sort(matched.begin(), matched.end());
   std::vector<C> unmatched;
+  unmatched.reserve(candidates.size());
   for (const C& candidate : candidates) {
-    if (candidate.id == kNoId || matched.count(candidate.id) == 0) unmatched.push_back(candidate);
+    const bool is_matched =
+        candidate.id != kNoId && std::binary_search(matched.begin(), matched.end(), candidate.id);
+    if (!is_matched) unmatched.push_back(candidate);
   }
   return unmatched;
 }
