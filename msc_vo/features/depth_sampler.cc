@@ -14,7 +14,8 @@ namespace msc_vo {
 namespace {
 
 constexpr int kRadius = 2;
-constexpr int kMaxPixels = (2 * kRadius + 1) * (2 * kRadius + 1);
+constexpr int kSide = 2 * kRadius + 1;
+constexpr int kMaxPixels = kSide * kSide;
 // Fewer pixels than a full row do not show a surface.
 constexpr int kMinPixels = 5;
 // Deducted from the pixels for the r.m.s.: those of a plane, as priors hold the curvature.
@@ -34,9 +35,11 @@ constexpr double kCurvatureSigma = 1.0;
 // Sigmas of a point next to a depth edge count this much: its surface is a choice.
 constexpr double kEdgeFactor = 2.0;
 
+// A pixel of the window that has a depth.
 struct Pixel {
-  Eigen::Vector2d offset;  // from the point, pixels
-  double w = 0.0;          // inverse depth, 1/metres
+  int place = 0;          // in the window, row by row
+  double distance = 0.0;  // from the point, pixels
+  double w = 0.0;         // inverse depth, 1/metres
 };
 
 struct Surface {
@@ -45,42 +48,71 @@ struct Surface {
   double rms = 0.0;       // of the residuals per degree of freedom, in sigmas
 };
 
-// Parameters of w = p0 + p1 x + p2 y + p3 x^2 + p4 x y + p5 y^2.
+// Parameters of w = p0 + p1 x + p2 y + p3 x^2 + p4 x y + p5 y^2, x and y from the window's middle.
 using Parameters = Eigen::Matrix<double, 6, 1>;
+using Information = Eigen::Matrix<double, 6, 6>;
 
-Parameters Basis(const Eigen::Vector2d& offset) {
-  const double x = offset.x();
-  const double y = offset.y();
+Parameters Basis(double x, double y) {
   return (Parameters() << 1.0, x, y, x * x, x * y, y * y).finished();
 }
 
-// Least squares over pixels [begin, end). Why not a plane: where points are rare they lie on folds
-// and corners of boxes and walls, and a plane through a fold misses it by 1.2 times what the depth
-// changes from pixel to pixel, always to the same side (5 mm at 3 m); the parabola by 0.5.
-Surface FitSurface(const Pixel* begin, const Pixel* end, double sigma) {
-  constexpr double kSlope = 1.0 / (kSlopeSigma * kSlopeSigma);
-  constexpr double kCurvature = 1.0 / (kCurvatureSigma * kCurvatureSigma);
-  Eigen::Matrix<double, 6, 6> information =
-      (Parameters() << 0.0, kSlope, kSlope, kCurvature, kCurvature, kCurvature)
-          .finished()
-          .asDiagonal();
+// What is the same for all windows. Most have all their pixels, and then one and the same inverse.
+struct WindowTables {
+  WindowTables() {
+    constexpr double kSlope = 1.0 / (kSlopeSigma * kSlopeSigma);
+    constexpr double kCurvature = 1.0 / (kCurvatureSigma * kCurvatureSigma);
+    prior = (Parameters() << 0.0, kSlope, kSlope, kCurvature, kCurvature, kCurvature)
+                .finished()
+                .asDiagonal();
+    Information information = prior;
+    for (int place = 0; place < kMaxPixels; ++place) {
+      basis[place] = Basis(place % kSide - kRadius, place / kSide - kRadius);
+      information += basis[place] * basis[place].transpose();
+    }
+    covariance_of_all = information.llt().solve(Information::Identity());
+  }
+
+  std::array<Parameters, kMaxPixels> basis;
+  Information prior;
+  Information covariance_of_all;  // in units of the variance of a pixel
+};
+
+const WindowTables& Tables() {
+  static const WindowTables tables;
+  return tables;
+}
+
+Information CovarianceOf(const Pixel* begin, const Pixel* end) {
+  if (end - begin == kMaxPixels) return Tables().covariance_of_all;
+  Information information = Tables().prior;
+  for (const Pixel* pixel = begin; pixel != end; ++pixel) {
+    const Parameters& basis = Tables().basis[pixel->place];
+    information.noalias() += basis * basis.transpose();
+  }
+  return information.llt().solve(Information::Identity());
+}
+
+// Least squares over pixels [begin, end); `at_point`: the basis there. Why not a plane: where
+// points are rare they lie on folds and corners of boxes and walls, and a plane through a fold
+// misses it by 1.2 times what the depth changes from pixel to pixel, always to the same side (5 mm
+// at 3 m); the parabola by 0.5.
+Surface FitSurface(const Pixel* begin, const Pixel* end, const Parameters& at_point, double sigma) {
+  const WindowTables& tables = Tables();
   Parameters rhs = Parameters::Zero();
   for (const Pixel* pixel = begin; pixel != end; ++pixel) {
-    const Parameters basis = Basis(pixel->offset);
-    information.noalias() += basis * basis.transpose();
-    rhs += pixel->w * basis;
+    rhs += pixel->w * tables.basis[pixel->place];
   }
-  const Eigen::LLT<Eigen::Matrix<double, 6, 6>> factorization(information);
-  const Parameters p = factorization.solve(rhs);
+  const Information covariance = CovarianceOf(begin, end);
+  const Parameters p = covariance * rhs;
   Surface surface;
-  surface.w = p[0];
-  surface.variance = factorization.solve(Parameters::UnitX())[0];
+  surface.w = p.dot(at_point);
+  surface.variance = at_point.dot(covariance * at_point);
   double sum = 0.0;
   for (const Pixel* pixel = begin; pixel != end; ++pixel) {
-    const double r = (pixel->w - p.dot(Basis(pixel->offset))) / sigma;
+    const double r = pixel->w - p.dot(tables.basis[pixel->place]);
     sum += r * r;
   }
-  surface.rms = std::sqrt(sum / static_cast<double>(end - begin - kPlaneParameters));
+  surface.rms = std::sqrt(sum / static_cast<double>(end - begin - kPlaneParameters)) / sigma;
   return surface;
 }
 
@@ -94,19 +126,19 @@ Pixel* LargestGap(Pixel* begin, Pixel* end) {
 }
 
 bool ComesToPoint(const Pixel* begin, const Pixel* end) {
-  return std::any_of(begin, end,
-                     [](const Pixel& pixel) { return pixel.offset.norm() <= kMaxDistance; });
+  return std::any_of(begin, end, [](const Pixel& pixel) { return pixel.distance <= kMaxDistance; });
 }
 
 // The nearest surface that comes to the point among pixels sorted by inverse depth: splits at the
 // largest gap, looks among the nearer ones first.
-std::optional<Surface> NearestSurface(Pixel* begin, Pixel* end, double sigma) {
+std::optional<Surface> NearestSurface(Pixel* begin, Pixel* end, const Parameters& at_point,
+                                      double sigma) {
   if (end - begin < kMinPixels || !ComesToPoint(begin, end)) return std::nullopt;
-  const Surface surface = FitSurface(begin, end, sigma);
+  const Surface surface = FitSurface(begin, end, at_point, sigma);
   if (surface.rms <= kMaxRms) return surface;
   Pixel* const gap = LargestGap(begin, end);
-  const std::optional<Surface> nearer = NearestSurface(gap, end, sigma);
-  return nearer ? nearer : NearestSurface(begin, gap, sigma);
+  const std::optional<Surface> nearer = NearestSurface(gap, end, at_point, sigma);
+  return nearer ? nearer : NearestSurface(begin, gap, at_point, sigma);
 }
 
 }  // namespace
@@ -117,16 +149,18 @@ std::optional<DepthSample> SampleDepth(const InverseDepthImage& image, const Eig
   const int center_y = cvRound(pixel.y());
   std::array<Pixel, kMaxPixels> pixels;
   int count = 0;
-  for (int y = center_y - kRadius; y <= center_y + kRadius; ++y) {
-    for (int x = center_x - kRadius; x <= center_x + kRadius; ++x) {
-      const double w = image.At(x, y);
-      if (w > 0.0) pixels[count++] = {Eigen::Vector2d(x, y) - pixel, w};
-    }
+  const Eigen::Vector2d point = pixel - Eigen::Vector2d(center_x, center_y);
+  for (int place = 0; place < kMaxPixels; ++place) {
+    const int x = place % kSide - kRadius;
+    const int y = place / kSide - kRadius;
+    const double w = image.At(center_x + x, center_y + y);
+    if (w > 0.0) pixels[count++] = {place, (Eigen::Vector2d(x, y) - point).norm(), w};
   }
+  const Parameters at_point = Basis(point.x(), point.y());
   Pixel* const begin = pixels.data();
   Pixel* const end = begin + count;
   if (count < kMinPixels || !ComesToPoint(begin, end)) return std::nullopt;
-  const Surface plane = FitSurface(begin, end, sigma);
+  const Surface plane = FitSurface(begin, end, at_point, sigma);
   // Neighbouring pixels share their noise, so that their mean is no better than one of them: hence
   // the 1. What a fit must extrapolate comes on top.
   const auto sample = [&](const Surface& surface, double factor) -> std::optional<DepthSample> {
@@ -135,7 +169,7 @@ std::optional<DepthSample> SampleDepth(const InverseDepthImage& image, const Eig
   };
   if (plane.rms <= kMaxRms) return sample(plane, 1.0);
   std::stable_sort(begin, end, [](const Pixel& a, const Pixel& b) { return a.w < b.w; });
-  const std::optional<Surface> surface = NearestSurface(begin, end, sigma);
+  const std::optional<Surface> surface = NearestSurface(begin, end, at_point, sigma);
   return surface ? sample(*surface, kEdgeFactor) : std::nullopt;
 }
 
