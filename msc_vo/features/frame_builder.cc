@@ -35,9 +35,8 @@ void CheckImage(const cv::Mat& image, int type, const PinholeCamera& camera, con
 
 }  // namespace
 
-void RunInTurn(const std::function<void()>& first, const std::function<void()>& second) {
-  first();
-  second();
+void RunInTurn(const Tasks& tasks) {
+  for (const auto& task : tasks) task();
 }
 
 struct FrameBuilder::State {
@@ -56,9 +55,9 @@ struct FrameBuilder::State {
         point_extractor(o.points),
         line_extractor(o.lines) {}
 
-  // Points at their raw pixels.
-  std::vector<PointFeature> Points(const cv::Mat& gray) {
-    std::vector<PointFeature> points = point_extractor.Extract(gray);
+  // Points of a level at their raw pixels.
+  std::vector<PointFeature> Points(int level) {
+    std::vector<PointFeature> points = point_extractor.ExtractLevel(level);
     for (PointFeature& point : points) point.sigma *= options.noise.point_sigma;
     return points;
   }
@@ -67,6 +66,23 @@ struct FrameBuilder::State {
     std::vector<LineFeature> lines = line_extractor.Extract(lens.Undistort(gray), lens.mask());
     for (LineFeature& line : lines) line.sigma = options.noise.line_sigma;
     return lines;
+  }
+
+  // Of one level of the pyramid.
+  struct PointLevel {
+    std::vector<PointFeature> points;
+    double points_ms = 0.0;
+    double depth_ms = 0.0;
+  };
+
+  PointLevel LocatedPoints(int level) {
+    PointLevel located;
+    auto last = std::chrono::steady_clock::now();
+    located.points = Points(level);
+    located.points_ms = Lap(&last);
+    LocatePoints(&located.points);
+    located.depth_ms = Lap(&last);
+    return located;
   }
 
   // Depth of points at their raw pixels, which become undistorted.
@@ -136,36 +152,40 @@ FrameBuilder::FrameBuilder(const FrameBuilderOptions& options, const PinholeCame
 
 FrameBuilder::~FrameBuilder() = default;
 
-Frame FrameBuilder::Build(const RgbdImage& image, const PairRunner& run_pair) {
+Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
   CheckImage(image.gray, CV_8UC1, state_->camera, "grey", "8-bit grey (CV_8UC1)");
   CheckImage(image.depth, CV_32FC1, state_->camera, "depth", "float (CV_32FC1, metres)");
   Frame frame;
   frame.id = image.id;
   frame.timestamp = image.timestamp;
   frame.camera = state_->camera;
+  FrameBuilderTimes& times = state_->times;
   auto last = std::chrono::steady_clock::now();
   state_->depth.Assign(image.depth, state_->options.min_depth, state_->options.max_depth);
-  state_->times.depth = Lap(&last);
-  double point_depth_ms = 0.0;
+  times.depth = Lap(&last);
+  std::vector<State::PointLevel> levels(state_->point_extractor.SetImage(image.gray));
+  times.points = Lap(&last);
   double line_depth_ms = 0.0;
-  run_pair(
-      [&] {
-        auto start = std::chrono::steady_clock::now();
-        frame.points = state_->Points(image.gray);
-        state_->times.points = Lap(&start);
-        state_->LocatePoints(&frame.points);
-        frame.grid = FeatureGrid(frame.camera, frame.points);
-        point_depth_ms = Lap(&start);
-      },
-      [&] {
-        auto start = std::chrono::steady_clock::now();
-        frame.lines = state_->Lines(image.gray);
-        state_->times.lines = Lap(&start);
-        state_->LocateLines(&frame.lines);
-        if (state_->options.refine_structure) state_->RefineStructure(&frame.lines);
-        line_depth_ms = Lap(&start);
-      });
-  state_->times.depth += point_depth_ms + line_depth_ms;
+  Tasks tasks;
+  tasks.push_back([&] {
+    auto start = std::chrono::steady_clock::now();
+    frame.lines = state_->Lines(image.gray);
+    times.lines = Lap(&start);
+    state_->LocateLines(&frame.lines);
+    if (state_->options.refine_structure) state_->RefineStructure(&frame.lines);
+    line_depth_ms = Lap(&start);
+  });
+  for (size_t l = 0; l < levels.size(); ++l) {
+    tasks.push_back([&, l] { levels[l] = state_->LocatedPoints(static_cast<int>(l)); });
+  }
+  run(tasks);
+  times.depth += line_depth_ms;
+  for (const State::PointLevel& level : levels) {
+    frame.points.insert(frame.points.end(), level.points.begin(), level.points.end());
+    times.points += level.points_ms;
+    times.depth += level.depth_ms;
+  }
+  frame.grid = FeatureGrid(frame.camera, frame.points);
   return frame;
 }
 

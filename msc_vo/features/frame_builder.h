@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "msc_vo/features/line_backprojection.h"
 #include "msc_vo/features/line_extractor.h"
@@ -32,15 +33,16 @@ struct FrameBuilderOptions {
   bool IsValid(std::string* error) const;
 };
 
-// Runs two tasks that share nothing, one after the other or side by side, and returns when both are
+using Tasks = std::vector<std::function<void()>>;
+
+// Runs tasks that share nothing, one after the other or side by side, and returns when all are
 // done; what one of them throws reaches the caller.
-using PairRunner =
-    std::function<void(const std::function<void()>& first, const std::function<void()>& second)>;
+using TaskRunner = std::function<void(const Tasks& tasks)>;
 
 // The one that uses no other thread.
-void RunInTurn(const std::function<void()>& first, const std::function<void()>& second);
+void RunInTurn(const Tasks& tasks);
 
-// Milliseconds spent on the last frame; points and lines may overlap.
+// Milliseconds spent on the last frame; summed over tasks, which may overlap.
 struct FrameBuilderTimes {
   double points = 0.0;
   double lines = 0.0;
@@ -56,9 +58,10 @@ class FrameBuilder {
                const LensDistortion& distortion);
   ~FrameBuilder();
 
-  // `run_pair` gets points and lines as its two tasks; the frame does not depend on how it runs
-  // them. Throws std::invalid_argument if the image's type or size is not the camera's.
-  Frame Build(const RgbdImage& image, const PairRunner& run_pair = RunInTurn);
+  // `run` gets the lines and each level of the points as tasks, the longest first; the frame does
+  // not depend on how it runs them. Throws std::invalid_argument if the image's type or size is not
+  // the camera's.
+  Frame Build(const RgbdImage& image, const TaskRunner& run = RunInTurn);
 
   const FrameBuilderTimes& times() const;
 

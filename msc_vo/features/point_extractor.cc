@@ -261,37 +261,58 @@ bool PointExtractorOptions::IsValid(std::string* error) const {
 PointExtractor::PointExtractor(const PointExtractorOptions& options) : options_(options) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument("PointExtractor: " + error);
-  pyramid_.resize(options.num_levels);
-  // One call of ORB per level, told that it is the only one: our pyramid is the only pyramid.
-  orb_ = cv::ORB::create(/*nfeatures=*/1, /*scaleFactor=*/1.2f, /*nlevels=*/1,
-                         /*edgeThreshold=*/kBorder);
+  levels_.resize(options.num_levels);
+  // Shares fall with the level's side length, as in ORB: q^l (1 - q) / (1 - q^levels).
+  const double q = 1.0 / kPyramidScale;
+  double share = options.num_points * (1.0 - q) / (1.0 - std::pow(q, options.num_levels));
+  double scale = 1.0;
+  int left = options.num_points;  // rounded shares may exceed the total
+  for (Level& level : levels_) {
+    level.num_points = std::min(cvRound(share), left);
+    level.scale = scale;
+    // One call of ORB per level, told that it is the only one: our pyramid is the only pyramid.
+    level.orb = cv::ORB::create(/*nfeatures=*/1, /*scaleFactor=*/1.2f, /*nlevels=*/1,
+                                /*edgeThreshold=*/kBorder);
+    left -= level.num_points;
+    share *= q;
+    scale *= kPyramidScale;
+  }
 }
 
-std::vector<PointFeature> PointExtractor::Extract(const cv::Mat& gray) {
+int PointExtractor::SetImage(const cv::Mat& gray) {
   if (gray.empty() || gray.type() != CV_8UC1) {
     throw std::invalid_argument("PointExtractor: the image must be 8-bit grey (CV_8UC1)");
   }
+  levels_[0].image = gray;
+  for (size_t l = 0; l < levels_.size(); ++l) {
+    const cv::Size size(cvRound(gray.cols / levels_[l].scale),
+                        cvRound(gray.rows / levels_[l].scale));
+    if (std::min(size.width, size.height) <= 2 * kBorder) return static_cast<int>(l);
+    if (l == 0) continue;
+    cv::resize(levels_[l - 1].image, levels_[l].image, size, 0.0, 0.0, cv::INTER_LINEAR);
+  }
+  return static_cast<int>(levels_.size());
+}
+
+std::vector<PointFeature> PointExtractor::ExtractLevel(int l) {
+  const Level& level = levels_[l];
+  std::vector<PointFeature> points = DescribeCorners(
+      level.image,
+      RefineCorners(level.image, DetectCorners(level.image, level.num_points, options_)),
+      level.orb.get());
+  for (PointFeature& point : points) {
+    point.pixel = ToFullImage(point.pixel, level.image.size(), levels_[0].image.size());
+    point.sigma = level.scale;
+    point.level = l;
+  }
+  return points;
+}
+
+std::vector<PointFeature> PointExtractor::Extract(const cv::Mat& gray) {
   std::vector<PointFeature> points;
-  int left = options_.num_points;
-  pyramid_[0] = gray;
-  // Shares fall with the level's side length, as in ORB: q^l (1 - q) / (1 - q^levels).
-  const double q = 1.0 / kPyramidScale;
-  double share = options_.num_points * (1.0 - q) / (1.0 - std::pow(q, options_.num_levels));
-  double scale = 1.0;
-  for (int l = 0; l < options_.num_levels; ++l, share *= q, scale *= kPyramidScale) {
-    const cv::Size size(cvRound(gray.cols / scale), cvRound(gray.rows / scale));
-    if (std::min(size.width, size.height) <= 2 * kBorder) break;
-    if (l > 0) cv::resize(pyramid_[l - 1], pyramid_[l], size, 0.0, 0.0, cv::INTER_LINEAR);
-    const cv::Mat& level = pyramid_[l];
-    const int wanted = std::min(cvRound(share), left);  // rounding may exceed the total
-    std::vector<PointFeature> of_level = DescribeCorners(
-        level, RefineCorners(level, DetectCorners(level, wanted, options_)), orb_.get());
-    for (PointFeature& point : of_level) {
-      point.pixel = ToFullImage(point.pixel, size, gray.size());
-      point.sigma = scale;
-      point.level = l;
-    }
-    left -= static_cast<int>(of_level.size());
+  const int num_levels = SetImage(gray);
+  for (int l = 0; l < num_levels; ++l) {
+    const std::vector<PointFeature> of_level = ExtractLevel(l);
     points.insert(points.end(), of_level.begin(), of_level.end());
   }
   return points;

@@ -35,10 +35,21 @@ class PointExtractor {
   // Throws std::invalid_argument if the image is not CV_8UC1.
   std::vector<PointFeature> Extract(const cv::Mat& gray);
 
+  // The same in steps: SetImage() makes the pyramid and returns how many levels it has; then the
+  // levels, which share nothing, in any order and from several threads.
+  int SetImage(const cv::Mat& gray);
+  std::vector<PointFeature> ExtractLevel(int level);
+
  private:
+  struct Level {
+    cv::Mat image;
+    int num_points = 0;  // at most
+    double scale = 1.0;
+    cv::Ptr<cv::Feature2D> orb;
+  };
+
   PointExtractorOptions options_;
-  std::vector<cv::Mat> pyramid_;
-  cv::Ptr<cv::Feature2D> orb_;
+  std::vector<Level> levels_;
 };
 
 }  // namespace msc_vo

@@ -115,9 +115,7 @@ void Odometry::State::CheckTime(int64_t id, double timestamp) const {
 
 Frame Odometry::State::Build(const RgbdImage& image) {
   if (!side_worker) return builder.Build(image);
-  return builder.Build(image, [this](const auto& first, const auto& second) {
-    side_worker->RunPair(first, second);
-  });
+  return builder.Build(image, [this](const Tasks& tasks) { side_worker->RunAll(tasks); });
 }
 
 void Odometry::State::Count(const TrackedFrame& tracked) {

@@ -3,6 +3,8 @@
 
 #include "msc_vo/odometry/side_worker.h"
 
+#include <utility>
+
 namespace msc_vo {
 
 SideWorker::SideWorker() : thread_([this] { Loop(); }) {}
@@ -16,43 +18,45 @@ SideWorker::~SideWorker() {
   thread_.join();
 }
 
-void SideWorker::RunPair(const std::function<void()>& first, const std::function<void()>& second) {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    task_ = &second;
-  }
-  changed_.notify_all();
-  std::exception_ptr first_error;
-  try {
-    first();
-  } catch (...) {
-    first_error = std::current_exception();
-  }
+void SideWorker::RunAll(const std::vector<std::function<void()>>& tasks) {
   std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait(lock, [this] { return task_ == nullptr; });
-  const std::exception_ptr error = first_error ? first_error : error_;
-  error_ = nullptr;
+  tasks_ = &tasks;
+  next_ = 0;
+  changed_.notify_all();
+  while (HasTask()) RunNext(&lock);
+  changed_.wait(lock, [this] { return num_running_ == 0; });
+  tasks_ = nullptr;
+  const std::exception_ptr error = std::exchange(error_, nullptr);
   lock.unlock();
   if (error) std::rethrow_exception(error);
+}
+
+// Takes the next task and runs it with the lock released.
+void SideWorker::RunNext(std::unique_lock<std::mutex>* lock) {
+  const size_t index = next_++;
+  const std::function<void()>& task = (*tasks_)[index];
+  ++num_running_;
+  lock->unlock();
+  std::exception_ptr error;
+  try {
+    task();
+  } catch (...) {
+    error = std::current_exception();
+  }
+  lock->lock();
+  if (error && (!error_ || index < first_error_)) {
+    error_ = error;
+    first_error_ = index;
+  }
+  if (--num_running_ == 0) changed_.notify_all();
 }
 
 void SideWorker::Loop() {
   std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return stopping_ || task_ != nullptr; });
-    if (task_ == nullptr) return;
-    const std::function<void()>& task = *task_;
-    lock.unlock();
-    std::exception_ptr error;
-    try {
-      task();
-    } catch (...) {
-      error = std::current_exception();
-    }
-    lock.lock();
-    error_ = error;
-    task_ = nullptr;
-    changed_.notify_all();
+    changed_.wait(lock, [this] { return stopping_ || HasTask(); });
+    if (stopping_) return;
+    RunNext(&lock);
   }
 }
 

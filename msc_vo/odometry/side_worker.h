@@ -8,12 +8,13 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 namespace msc_vo {
 
-// A thread that waits for work and does it beside the caller's own: two tasks that share nothing
-// take the time of the longer one. Made once, as making a thread for each frame costs more than it
-// may gain. For one caller at a time.
+// A thread that helps its caller with tasks that share nothing. Both take the next one whenever
+// they are done with one, so that the caller never waits for a helper that got no processor. Made
+// once, as making a thread for each frame costs more than it may gain. For one caller at a time.
 class SideWorker {
  public:
   SideWorker();
@@ -21,17 +22,24 @@ class SideWorker {
   SideWorker(const SideWorker&) = delete;
   SideWorker& operator=(const SideWorker&) = delete;
 
-  // Runs `first` here and `second` on the worker, and returns when both are done. If both throw,
-  // the exception of `first` is rethrown, as it would be if they ran in turn.
-  void RunPair(const std::function<void()>& first, const std::function<void()>& second);
+  // Begins the tasks in their order, here and on the worker, and returns when all are done. If some
+  // throw, the exception of the first of them is rethrown, as if they ran in turn, after the end of
+  // all.
+  void RunAll(const std::vector<std::function<void()>>& tasks);
 
  private:
+  bool HasTask() const { return tasks_ != nullptr && next_ < tasks_->size(); }
+  void RunNext(std::unique_lock<std::mutex>* lock);
   void Loop();
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  const std::function<void()>* task_ = nullptr;  // waiting or running
-  std::exception_ptr error_;                     // of the last task
+  const std::vector<std::function<void()>>* tasks_ = nullptr;
+  size_t next_ = 0;         // the first task that nobody has taken
+  size_t num_running_ = 0;  // taken and not done
+  // Of the tasks that threw, the first, and what.
+  size_t first_error_ = 0;
+  std::exception_ptr error_;
   bool stopping_ = false;
   std::thread thread_;  // last: it uses the members above
 };

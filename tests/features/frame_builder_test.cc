@@ -173,13 +173,12 @@ TEST(FrameBuilder, IsRepeatableAtAnyThreadCount) {
 TEST(FrameBuilder, DoesNotDependOnHowPointsAndLinesAreRun) {
   FrameBuilder builder({}, Camera(), LensDistortion());
   const Frame in_turn = builder.Build(Poster(Camera()));
-  ExpectSame(in_turn, builder.Build(Poster(Camera()), [](const auto& first, const auto& second) {
-    second();
-    first();
+  ExpectSame(in_turn, builder.Build(Poster(Camera()), [](const Tasks& tasks) {
+    for (auto task = tasks.rbegin(); task != tasks.rend(); ++task) (*task)();
   }));
-  ExpectSame(in_turn, builder.Build(Poster(Camera()), [](const auto& first, const auto& second) {
-    const auto beside = std::async(std::launch::async, second);
-    first();
+  ExpectSame(in_turn, builder.Build(Poster(Camera()), [](const Tasks& tasks) {
+    std::vector<std::future<void>> beside;
+    for (const auto& task : tasks) beside.push_back(std::async(std::launch::async, task));
   }));
 }
 

@@ -3,43 +3,62 @@
 
 #include "msc_vo/odometry/side_worker.h"
 
+#include <atomic>
+#include <functional>
 #include <future>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 namespace msc_vo {
 namespace {
 
-TEST(SideWorker, RunsBothTasksSideBySideAgainAndAgain) {
+TEST(SideWorker, RunsTasksSideBySideAgainAndAgain) {
   SideWorker worker;
-  const std::thread::id caller = std::this_thread::get_id();
-  std::thread::id side;
+  std::thread::id ran_first;
+  std::thread::id ran_second;
   for (int i = 0; i < 1000; ++i) {
     // Each waits for the other: this only ends if they run at the same time.
     std::promise<int> to_second;
     std::promise<int> to_first;
     int got_by_first = 0;
     int got_by_second = 0;
-    worker.RunPair(
-        [&] {
-          EXPECT_EQ(std::this_thread::get_id(), caller);
-          to_second.set_value(i);
-          got_by_first = to_first.get_future().get();
-        },
-        [&] {
-          if (i > 0) {
-            EXPECT_EQ(std::this_thread::get_id(), side);
-          }
-          side = std::this_thread::get_id();
-          got_by_second = to_second.get_future().get();
-          to_first.set_value(i + 1);
-        });
+    const auto first = [&] {
+      to_second.set_value(i);
+      got_by_first = to_first.get_future().get();
+      ran_first = std::this_thread::get_id();
+    };
+    const auto second = [&] {
+      got_by_second = to_second.get_future().get();
+      to_first.set_value(i + 1);
+      ran_second = std::this_thread::get_id();
+    };
+    worker.RunAll({first, second});
     ASSERT_EQ(got_by_first, i + 1);
     ASSERT_EQ(got_by_second, i);
   }
-  EXPECT_NE(side, caller);
+  EXPECT_NE(ran_first, ran_second);
+  EXPECT_TRUE(ran_first == std::this_thread::get_id() || ran_second == std::this_thread::get_id());
+}
+
+TEST(SideWorker, TheCallerTakesWhatTheWorkerHasNotBegun) {
+  SideWorker worker;
+  for (int i = 0; i < 100; ++i) {
+    // The one who gets this task only ends when all others are done.
+    std::promise<void> others_done;
+    std::atomic<int> num_done{0};
+    std::vector<std::function<void()>> tasks;
+    tasks.push_back([&] { others_done.get_future().wait(); });
+    for (int k = 0; k < 7; ++k) {
+      tasks.push_back([&] {
+        if (++num_done == 7) others_done.set_value();
+      });
+    }
+    worker.RunAll(tasks);
+    ASSERT_EQ(num_done, 7);
+  }
 }
 
 TEST(SideWorker, CarriesExceptionsOver) {
@@ -48,15 +67,15 @@ TEST(SideWorker, CarriesExceptionsOver) {
   const auto fine = [&done] { done = true; };
   const auto bad = [] { throw std::runtime_error("bad"); };
   const auto worse = [] { throw std::invalid_argument("worse"); };
-  EXPECT_THROW(worker.RunPair(fine, bad), std::runtime_error);
+  EXPECT_THROW(worker.RunAll({fine, bad}), std::runtime_error);
   EXPECT_TRUE(done);  // the other task ran to its end
   done = false;
-  EXPECT_THROW(worker.RunPair(bad, fine), std::runtime_error);
+  EXPECT_THROW(worker.RunAll({bad, fine}), std::runtime_error);
   EXPECT_TRUE(done);
-  EXPECT_THROW(worker.RunPair(worse, bad), std::invalid_argument);
+  EXPECT_THROW(worker.RunAll({worse, bad}), std::invalid_argument);
   // Nothing of it is left.
   done = false;
-  EXPECT_NO_THROW(worker.RunPair(fine, [] {}));
+  EXPECT_NO_THROW(worker.RunAll({fine, [] {}}));
   EXPECT_TRUE(done);
 }
 
