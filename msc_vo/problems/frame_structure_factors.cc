@@ -52,30 +52,18 @@ template <typename Relation>
 void AddPair(const FrameStructureFactors::Pair<Relation>& pair, double huber,
              const std::vector<Direction>& directions, StructureEquations* equations) {
   constexpr int kRows = Relation::kNumResiduals;
-  using Jet = ceres::Jet<double, 6>;
   const Direction& at_i = directions[pair.i];
   const Direction& at_j = directions[pair.j];
-  Eigen::Matrix<Jet, 3, 1> d_i, d_j;
-  for (int k = 0; k < 3; ++k) {
-    d_i[k] = Jet(at_i.value[k], k);
-    d_j[k] = Jet(at_j.value[k], k + 3);
-  }
-  Jet rows[kRows];
-  pair.relation.Residual(d_i, d_j, rows);
   Eigen::Matrix<double, kRows, 1> r;
-  Eigen::Matrix<double, kRows, 6> by_directions;
-  for (int k = 0; k < kRows; ++k) {
-    r[k] = rows[k].a;
-    by_directions.row(k) = rows[k].v.transpose();
-  }
+  pair.relation.Residual(at_i.value, at_j.value, r.data());
   // Huber's rho and its derivative.
   const double s = r.squaredNorm();
   const double norm = std::sqrt(s);
   const bool square = huber == 0.0 || norm <= huber;
   const double weight = square ? 1.0 : huber / norm;
   equations->cost += square ? 0.5 * s : huber * norm - 0.5 * huber * huber;
-  const auto j_i = (by_directions.template leftCols<3>() * at_i.jacobian).eval();
-  const auto j_j = (by_directions.template rightCols<3>() * at_j.jacobian).eval();
+  const auto j_i = (pair.relation.JacobianI(at_i.value, at_j.value) * at_i.jacobian).eval();
+  const auto j_j = (pair.relation.JacobianJ(at_i.value, at_j.value) * at_j.jacobian).eval();
   equations->gradient[pair.i] += weight * (j_i.transpose() * r);
   equations->gradient[pair.j] += weight * (j_j.transpose() * r);
   equations->pairs.push_back({pair.i, pair.j, weight * (j_i.transpose() * j_i),
@@ -90,48 +78,49 @@ double Dot(const Blocks& a, const Blocks& b) {
   return sum;
 }
 
-// J^T J x, with the diagonal blocks raised by the factor 1 + lambda.
-Blocks Multiply(const StructureEquations& equations, double lambda, const Blocks& x) {
-  Blocks y(x.size());
-  for (size_t i = 0; i < x.size(); ++i) y[i] = (1.0 + lambda) * (equations.diagonal[i] * x[i]);
-  for (const StructureEquations::Pair& pair : equations.pairs) {
-    y[pair.i].noalias() += pair.ij * x[pair.j];
-    y[pair.j].noalias() += pair.ij.transpose() * x[pair.i];
+// y = J^T J x, with the diagonal blocks raised by the factor 1 + lambda.
+void Multiply(const StructureEquations& equations, double lambda, const Blocks& x, Blocks* y) {
+  y->resize(x.size());
+  for (size_t i = 0; i < x.size(); ++i) {
+    (*y)[i].noalias() = (1.0 + lambda) * (equations.diagonal[i] * x[i]);
   }
-  return y;
+  for (const StructureEquations::Pair& pair : equations.pairs) {
+    (*y)[pair.i].noalias() += pair.ij * x[pair.j];
+    (*y)[pair.j].noalias() += pair.ij.transpose() * x[pair.i];
+  }
 }
 
 // Solves J^T J x = -J^T r, with the diagonal blocks raised by the factor 1 + lambda, by conjugate
 // gradients; those blocks are the preconditioner.
 Blocks SolveStep(const StructureEquations& equations, double lambda) {
-  // Leaves 1e-4 of the step undone, in the norm of the preconditioner: less than the next step of
+  // Leaves 1e-3 of the step undone, in the norm of the preconditioner: less than the next step of
   // an iteration that is not quadratic anyway, as a loss is in it.
-  constexpr double kTolerance = 1e-8;
+  constexpr double kTolerance = 1e-6;
   constexpr int kMaxIterations = 100;  // in blocks well conditioned by the priors, 10 to 30 do
   std::vector<Matrix> inverse;
   for (const Matrix& block : equations.diagonal) {
     inverse.push_back(((1.0 + lambda) * block).llt().solve(Matrix::Identity()));
   }
-  const auto precondition = [&inverse](const Blocks& r) {
-    Blocks z(r.size());
-    for (size_t i = 0; i < r.size(); ++i) z[i] = inverse[i] * r[i];
-    return z;
+  const auto precondition = [&inverse](const Blocks& r, Blocks* z) {
+    for (size_t i = 0; i < r.size(); ++i) (*z)[i].noalias() = inverse[i] * r[i];
   };
   Blocks x(equations.gradient.size(), Block::Zero());
   Blocks residual = equations.gradient;
   for (Block& r : residual) r = -r;
-  Blocks z = precondition(residual);
+  Blocks z(residual.size());
+  precondition(residual, &z);
   Blocks p = z;
+  Blocks hp;
   double rz = Dot(residual, z);
   const double end = kTolerance * rz;
   for (int iteration = 0; iteration < kMaxIterations && rz > end; ++iteration) {
-    const Blocks hp = Multiply(equations, lambda, p);
+    Multiply(equations, lambda, p, &hp);
     const double alpha = rz / Dot(p, hp);
     for (size_t i = 0; i < x.size(); ++i) {
       x[i] += alpha * p[i];
       residual[i] -= alpha * hp[i];
     }
-    z = precondition(residual);
+    precondition(residual, &z);
     const double next = Dot(residual, z);
     for (size_t i = 0; i < p.size(); ++i) p[i] = z[i] + (next / rz) * p[i];
     rz = next;
@@ -164,9 +153,11 @@ bool MinimizeStructure(const FrameStructureFactors& factors, int max_iterations,
   constexpr double kConverged = 1e-4;
   double lambda = 1e-4;  // relative to the diagonal; small, as priors keep the problem near linear
   StructureEquations next;
+  Blocks product;
   for (; *num_iterations < max_iterations; ++*num_iterations) {
     const Blocks step = SolveStep(*equations, lambda);
-    const double size = Dot(step, Multiply(*equations, 0.0, step));
+    Multiply(*equations, 0.0, step, &product);
+    const double size = Dot(step, product);
     if (!std::isfinite(size)) return false;
     Blocks candidate = *blocks;
     for (size_t i = 0; i < step.size(); ++i) candidate[i] += step[i];

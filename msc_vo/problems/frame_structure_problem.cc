@@ -78,26 +78,50 @@ struct Neighbourhood {
   double num_perpendicular = 0.0, perpendicular_by_chance = 0.0;
 };
 
+// Of angles up to 45 degrees, to three digits, and to seven up to 5: enough for probabilities.
+double SmallSine(double x) { return x * (1.0 - x * x / 6.0); }
+double SmallVersedSine(double x) { return 0.5 * x * x * (1.0 - x * x / 12.0); }
+
+// What decides whether two lines are a pair.
+struct Gates {
+  explicit Gates(const FrameStructureOptions& options)
+      : max_angle(DegreesToRadians(options.max_angle)),
+        cos_max_angle(std::cos(max_angle)),
+        sin_max_angle(std::sin(max_angle)),
+        pair_variance(std::pow(DegreesToRadians(options.pair_sigma), 2)),
+        sigmas(options.gate_sigmas) {}
+
+  double max_angle, cos_max_angle, sin_max_angle;
+  double pair_variance;  // rad^2, of the angle of what was built so
+  double sigmas;
+};
+
 // Looks at one pair: adds it to what both lines see, and to the candidates if it passes.
-void LookAt(const FrameStructureOptions& options, const std::vector<Oriented>& lines, int i, int j,
+void LookAt(const Gates& gates, const std::vector<Oriented>& lines, int i, int j,
             std::vector<Neighbourhood>* seen, std::vector<Candidate>* parallel,
             std::vector<Candidate>* perpendicular) {
-  const double max_angle = DegreesToRadians(options.max_angle);
-  const double pair_sigma = DegreesToRadians(options.pair_sigma);
-  const double sigma = std::sqrt(lines[i].variance + lines[j].variance + pair_sigma * pair_sigma);
+  const double sigma = std::sqrt(lines[i].variance + lines[j].variance + gates.pair_variance);
   // Were the angle known worse than the gate is wide, being inside it would say nothing.
-  if (sigma > max_angle) return;
-  const double gate = std::min(max_angle, options.gate_sigmas * sigma);
-  const double angle = UndirectedAngle(lines[i].direction, lines[j].direction);
-  const bool is_parallel = angle <= gate, is_perpendicular = angle >= 0.5 * kPi - gate;
+  if (sigma > gates.max_angle) return;
+  const double gate = std::min(gates.max_angle, gates.sigmas * sigma);
+  const Eigen::Vector3d &a = lines[i].direction, &b = lines[j].direction;
+  // Most pairs are near neither to 0 nor to 90 degrees, which their cosine tells at once.
+  const double cosine = std::abs(a.dot(b));
+  const bool may_be_parallel = cosine >= gates.cos_max_angle;
+  const bool may_be_perpendicular = cosine <= gates.sin_max_angle;
+  const bool is_unrelated = !may_be_parallel && !may_be_perpendicular;
+  const double angle = is_unrelated ? 0.25 * kPi : UndirectedAngle(a, b);
+  const bool is_parallel = may_be_parallel && angle <= gate;
+  const bool is_perpendicular = may_be_perpendicular && angle >= 0.5 * kPi - gate;
+  // The cosine between random directions is uniform in [0, 1].
+  const double sine = SmallSine(gate), versed_sine = SmallVersedSine(gate);
   for (Neighbourhood* n : {&(*seen)[i], &(*seen)[j]}) {
     n->num_told += 1.0;
-    n->num_unrelated += angle > max_angle && angle < 0.5 * kPi - max_angle;
+    n->num_unrelated += is_unrelated;
     n->num_parallel += is_parallel;
     n->num_perpendicular += is_perpendicular;
-    // The cosine between random directions is uniform in [0, 1].
-    n->parallel_by_chance += 1.0 - std::cos(gate);
-    n->perpendicular_by_chance += std::sin(gate);
+    n->parallel_by_chance += versed_sine;
+    n->perpendicular_by_chance += sine;
   }
   if (is_parallel) parallel->push_back({sigma, i, j, false});
   if (is_perpendicular) perpendicular->push_back({sigma, i, j, false});
@@ -109,14 +133,14 @@ void LookAt(const FrameStructureOptions& options, const std::vector<Oriented>& l
 // random to it. At least every second of the partners must be more than that.
 void FindPairs(const FrameStructureOptions& options, const std::vector<Oriented>& lines,
                std::vector<Candidate>* parallel, std::vector<Candidate>* perpendicular) {
+  const Gates gates(options);
   std::vector<Neighbourhood> seen(lines.size());
   for (int i = 0; i < static_cast<int>(lines.size()); ++i) {
     for (int j = i + 1; j < static_cast<int>(lines.size()); ++j) {
-      LookAt(options, lines, i, j, &seen, parallel, perpendicular);
+      LookAt(gates, lines, i, j, &seen, parallel, perpendicular);
     }
   }
-  const double max_angle = DegreesToRadians(options.max_angle);
-  const double between = std::cos(max_angle) - std::sin(max_angle);  // their share if all is random
+  const double between = gates.cos_max_angle - gates.sin_max_angle;  // their share if all is random
   const auto random_share = [&](const Neighbourhood& n) {
     return n.num_unrelated / (between * n.num_told);
   };
