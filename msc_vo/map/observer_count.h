@@ -13,7 +13,7 @@ namespace msc_vo {
 // step per observation, as this is done for hundreds of landmarks at every frame.
 class ObserverCount {
  public:
-  // `map` must outlive it and keep its keyframes.
+  // Counts observations by the keyframes that `map` has now.
   explicit ObserverCount(const Map& map);
 
   void Add(const Landmark& landmark);

@@ -16,12 +16,12 @@
 namespace msc_vo {
 
 // Every keyframe starts where the one before it left the window, and most of the window is solved
-// again at the next one. Half of the steps that it may take from anywhere change no error over
+// again at the next one. A third of the steps that it may take from anywhere change no error over
 // all sequences, and take half the time of a keyframe (docs/performance.md).
 inline WindowOptions LocalWindowOptions() {
   WindowOptions options;
-  options.first_iterations = 3;
-  options.second_iterations = 4;
+  options.first_iterations = 2;
+  options.second_iterations = 3;
   return options;
 }
 

@@ -22,6 +22,21 @@ TEST(HammingDistance, CountsDifferingBits) {
   EXPECT_EQ(HammingDistance(a, b), 256);
 }
 
+TEST(HammingDistance, IsThatOfEachBit) {
+  std::mt19937 random(5);
+  for (int i = 0; i < 100; ++i) {
+    Descriptor a;
+    Descriptor b;
+    int expected = 0;
+    for (size_t k = 0; k < a.size(); ++k) {
+      a[k] = static_cast<uint8_t>(random());
+      b[k] = static_cast<uint8_t>(random());
+      for (int bit = 0; bit < 8; ++bit) expected += ((a[k] ^ b[k]) >> bit) & 1;
+    }
+    EXPECT_EQ(HammingDistance(a, b), expected);
+  }
+}
+
 TEST(FeatureGrid, FindsWhatASearchThroughAllFinds) {
   const PinholeCamera camera;
   std::mt19937 random(7);
