@@ -5,8 +5,8 @@
 
 #include <memory>
 
-#include "msc_vo/map/noise_scale.h"
 #include "msc_vo/map/map.h"
+#include "msc_vo/map/noise_scale.h"
 
 namespace msc_vo {
 

@@ -7,8 +7,8 @@
 
 #include "msc_vo/map/window.h"
 #include "msc_vo/mapping/culling.h"
-#include "msc_vo/mapping/noise_estimator.h"
 #include "msc_vo/mapping/landmark_fusion.h"
+#include "msc_vo/mapping/noise_estimator.h"
 #include "msc_vo/mapping/scene_axes.h"
 #include "msc_vo/mapping/structural_pairs.h"
 #include "msc_vo/problems/window_problem.h"

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/map/noise_scale.h"
 #include "msc_vo/map/frame.h"
 #include "msc_vo/map/landmark.h"
+#include "msc_vo/map/noise_scale.h"
 #include "msc_vo/matching/frame_matches.h"
 #include "msc_vo/problems/pose_problem.h"
 #include "msc_vo/tracking/tracking_status.h"

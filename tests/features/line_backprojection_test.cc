@@ -146,8 +146,8 @@ TEST(LineBackprojection, HasNothingWithoutDepth) {
   EXPECT_FALSE(Fit(noise));
 }
 
-// Mean normalised squared error of the fit over many noisy images, whose pixels have half a sigma in
-// common besides; 2 if the covariance is right.
+// Mean normalised squared error of the fit over many noisy images, whose pixels have half a sigma
+// in common besides; 2 if the covariance is right.
 double MeanSquaredError(double blur) {
   const int trials = 150;
   double sum = 0.0;
