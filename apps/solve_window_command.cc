@@ -11,7 +11,7 @@
 #include "apps/commands.h"
 #include "apps/configuration_arguments.h"
 #include "msc_vo/io/window_file.h"
-#include "msc_vo/tracking/stopwatch.h"
+#include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {
 

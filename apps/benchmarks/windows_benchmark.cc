@@ -14,7 +14,7 @@
 #include <benchmark/benchmark.h>
 
 #include "apps/benchmarks/benchmark_windows.h"
-#include "msc_vo/tracking/stopwatch.h"
+#include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {
 

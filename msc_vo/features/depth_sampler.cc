@@ -29,7 +29,7 @@ constexpr double kMaxDistance = 1.5;
 constexpr double kMaxRms = 2.0;
 // Weak priors, which keep the fit to a few pixels or a single row of them from being undetermined.
 // On the slope of a surface, sigmas per pixel: a wall seen at 45 degrees from 1 m has 1. On its
-// curvature, sigmas per square pixel: the best parabola through a fold of two such walls has 0.5.
+// curvature, sigmas per square pixel: the best parabola through a fold of two such walls has 0.4.
 constexpr double kSlopeSigma = 3.0;
 constexpr double kCurvatureSigma = 1.0;
 // Sigmas of a point next to a depth edge count this much: its surface is a choice.

@@ -3,25 +3,17 @@
 
 #include "msc_vo/features/frame_builder.h"
 
-#include <chrono>
 #include <stdexcept>
 #include <string>
 
 #include "msc_vo/features/depth_sampler.h"
 #include "msc_vo/features/inverse_depth_image.h"
 #include "msc_vo/features/lens_remap.h"
+#include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {
 
 namespace {
-
-// Milliseconds since `*last`, which moves to now.
-double Lap(std::chrono::steady_clock::time_point* last) {
-  const auto now = std::chrono::steady_clock::now();
-  const double elapsed = std::chrono::duration<double, std::milli>(now - *last).count();
-  *last = now;
-  return elapsed;
-}
 
 void CheckImage(const cv::Mat& image, int type, const PinholeCamera& camera, const char* name,
                 const char* type_name) {
@@ -77,11 +69,11 @@ struct FrameBuilder::State {
 
   PointLevel LocatedPoints(int level) {
     PointLevel located;
-    auto last = std::chrono::steady_clock::now();
+    Stopwatch stopwatch;
     located.points = Points(level);
-    located.points_ms = Lap(&last);
+    located.points_ms = stopwatch.Restart();
     LocatePoints(&located.points);
-    located.depth_ms = Lap(&last);
+    located.depth_ms = stopwatch.Restart();
     return located;
   }
 
@@ -160,20 +152,20 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
   frame.timestamp = image.timestamp;
   frame.camera = state_->camera;
   FrameBuilderTimes& times = state_->times;
-  auto last = std::chrono::steady_clock::now();
+  Stopwatch stopwatch;
   state_->depth.Assign(image.depth, state_->options.min_depth, state_->options.max_depth);
-  times.depth = Lap(&last);
+  times.depth = stopwatch.Restart();
   std::vector<State::PointLevel> levels(state_->point_extractor.SetImage(image.gray));
-  times.points = Lap(&last);
+  times.points = stopwatch.Restart();
   double line_depth_ms = 0.0;
   Tasks tasks;
   tasks.push_back([&] {
-    auto start = std::chrono::steady_clock::now();
+    Stopwatch line_stopwatch;
     frame.lines = state_->Lines(image.gray);
-    times.lines = Lap(&start);
+    times.lines = line_stopwatch.Restart();
     state_->LocateLines(&frame.lines);
     if (state_->options.refine_structure) state_->RefineStructure(&frame.lines);
-    line_depth_ms = Lap(&start);
+    line_depth_ms = line_stopwatch.Restart();
   });
   for (size_t l = 0; l < levels.size(); ++l) {
     tasks.push_back([&, l] { levels[l] = state_->LocatedPoints(static_cast<int>(l)); });

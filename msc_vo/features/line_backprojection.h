@@ -24,13 +24,15 @@ enum class LineDepthMethod {
 //
 // At each place the depth is read along a short profile across the line, which is cut where the
 // depth jumps; the line belongs to the nearest of the surfaces that reach it, since an edge in the
-// image that is an edge in depth is the edge of the occluding surface. `sigma` (1/metres) is the
-// noise of one depth pixel.
+// image that is an edge in depth is the edge of the occluding surface. Where surfaces meet at the
+// line each has a slope of its own, so that the sample is the depth of the fold. `sigma` (1/metres)
+// is the noise of one depth pixel.
 std::vector<LineFitSample> SampleLineDepth(const InverseDepthImage& image, const LensRemap& lens,
                                            const LineSegment2& segment, double sigma);
 
 // Depth of a line by a robust fit to those samples; std::nullopt if there is no good fit. The
-// covariance allows for the correlation between the noise of neighbouring depth pixels.
+// covariance allows for the correlation between the noise of neighbouring depth pixels, and for an
+// error that all samples have in common.
 std::optional<LineDepth> FitDepthAlongLine(const LineFitOptions& options,
                                            const InverseDepthImage& image, const LensRemap& lens,
                                            const LineSegment2& segment, double sigma,

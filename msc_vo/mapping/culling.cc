@@ -51,7 +51,7 @@ int NumLandmarks(const std::vector<LandmarkId>& slots) {
 // Most keyframes are not redundant, and the first landmarks tell.
 bool IsRedundant(const CullingOptions& options, const Map& map, const Keyframe& keyframe) {
   const int num_landmarks = NumLandmarks(keyframe.points) + NumLandmarks(keyframe.lines);
-  // As many may be uncovered, and one more is too many.
+  // As many uncovered ones are too many.
   const double allowed = (1.0 - options.redundant_share) * num_landmarks;
   int num_uncovered = 0;
   for (size_t i = 0; i < keyframe.points.size() && num_uncovered < allowed; ++i) {

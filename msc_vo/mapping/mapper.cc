@@ -3,25 +3,13 @@
 
 #include "msc_vo/mapping/mapper.h"
 
-#include <chrono>
 #include <stdexcept>
 #include <string>
 
 #include "msc_vo/mapping/landmark_creation.h"
+#include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {
-
-namespace {
-
-// Milliseconds since `last`, which becomes now.
-double Lap(std::chrono::steady_clock::time_point* last) {
-  const auto now = std::chrono::steady_clock::now();
-  const double elapsed = std::chrono::duration<double, std::milli>(now - *last).count();
-  *last = now;
-  return elapsed;
-}
-
-}  // namespace
 
 Mapper::Mapper(const MapperOptions& options)
     : options_(options), axes_(options.axes), noise_(options.noise) {
@@ -31,21 +19,21 @@ Mapper::Mapper(const MapperOptions& options)
 
 MappingSummary Mapper::Process(const KeyframePacket& packet) {
   MappingSummary summary;
-  auto last = std::chrono::steady_clock::now();
+  Stopwatch stopwatch;
   summary.keyframe = InsertKeyframe(packet);
   CullLandmarks(options_.culling, summary.keyframe, &probation_, &map_);
   CreatePoints(summary.keyframe, &probation_, &map_);
   CreateLines(summary.keyframe, &probation_, &map_);
-  summary.times.creation = Lap(&last);
+  summary.times.creation = stopwatch.Restart();
   FusePoints(options_.fusion, summary.keyframe, &map_);
   FuseLines(options_.fusion, summary.keyframe, &map_);
-  summary.times.fusion = Lap(&last);
+  summary.times.fusion = stopwatch.Restart();
   axes_.Update(map_, summary.keyframe, packet.normals);
-  summary.times.axes = Lap(&last);
+  summary.times.axes = stopwatch.Restart();
   summary.window = OptimizeWindow(summary.keyframe);
-  summary.times.window = Lap(&last);
+  summary.times.window = stopwatch.Restart();
   summary.num_culled_keyframes = CullKeyframes(options_.culling, summary.keyframe, &map_);
-  summary.times.culling = Lap(&last);
+  summary.times.culling = stopwatch.Restart();
   return summary;
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -139,37 +140,36 @@ double SumOfExpected(const Residuals& residuals) {
   return sum;
 }
 
-// Sums of residuals over the quarters of images, each residual cut off at `bound`.
-using QuarterSums = std::map<std::pair<int64_t, int>, double>;
-
-QuarterSums SumQuarters(const Residuals& residuals, double bound) {
-  QuarterSums sums;
-  for (const Residual& residual : residuals) {
-    sums[{residual.keyframe, residual.quarter}] += std::clamp(residual.value, -bound, bound);
-  }
-  return sums;
-}
-
 // Variance of residuals, relative to that of independent errors with their sigmas.
 struct Evidence {
   double variance = 1.0;
   int num_quarters = 0;  // 0: there is none
 };
 
+using Quarter = std::pair<int64_t, int>;  // keyframe, quarter of its image
+
 // By the spread of the residuals' middle half.
 Evidence OfSpread(const Residuals& residuals) {
   const double expected = SumOfExpected(residuals);
   if (expected <= 0.0) return {};
+  std::set<Quarter> quarters;
+  for (const Residual& residual : residuals) {
+    quarters.emplace(residual.keyframe, residual.quarter);
+  }
   const double deviation = RobustDeviation(residuals);
   return {deviation * deviation * static_cast<double>(residuals.size()) / expected,
-          static_cast<int>(SumQuarters(residuals, 0.0).size())};
+          static_cast<int>(quarters.size())};
 }
 
 // By the sums over quarters of images: the mean of their squares.
 Evidence OfSums(const Residuals& residuals) {
   const double expected = SumOfExpected(residuals);
   if (expected <= 0.0) return {};
-  const QuarterSums sums = SumQuarters(residuals, kMaxResidual * RobustDeviation(residuals));
+  const double bound = kMaxResidual * RobustDeviation(residuals);
+  std::map<Quarter, double> sums;
+  for (const Residual& residual : residuals) {
+    sums[{residual.keyframe, residual.quarter}] += std::clamp(residual.value, -bound, bound);
+  }
   double squares = 0.0;
   for (const auto& [where, sum] : sums) squares += sum * sum;
   return {squares / expected, static_cast<int>(sums.size())};

@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "msc_vo/tracking/stopwatch.h"
+#include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {
 

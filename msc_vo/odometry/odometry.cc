@@ -11,7 +11,7 @@
 #include "msc_vo/odometry/mapping_runner.h"
 #include "msc_vo/odometry/side_worker.h"
 #include "msc_vo/odometry/snapshot_schedule.h"
-#include "msc_vo/tracking/stopwatch.h"
+#include "msc_vo/timing/stopwatch.h"
 #include "msc_vo/tracking/tracker.h"
 
 namespace msc_vo {

@@ -10,8 +10,8 @@
 
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/matching/local_map.h"
+#include "msc_vo/timing/stopwatch.h"
 #include "msc_vo/tracking/pose_estimation.h"
-#include "msc_vo/tracking/stopwatch.h"
 
 namespace msc_vo {
 

@@ -132,7 +132,11 @@ TEST(LineBackprojection, UsesTheDepthThatThereIs) {
       Camera(), [](const Vector2d& x) { return x.x() > 132.0 ? 0.0 : SlantedPlane(x); });
   const auto depth = Fit(scene);
   ASSERT_TRUE(depth);
-  EXPECT_GT(depth->SigmaAt(1.0), 1.5 * depth->SigmaAt(0.0));
+  // All samples have half a sigma in common besides.
+  const auto own_sigma = [&](double s) {
+    return std::sqrt(std::pow(depth->SigmaAt(s), 2) - std::pow(0.5 * kSigma, 2));
+  };
+  EXPECT_GT(own_sigma(1.0), 2.0 * own_sigma(0.0));
   EXPECT_LT(std::abs(depth->end - SlantedPlane(Segment().end)), 3.0 * depth->SigmaAt(1.0));
   EXPECT_FALSE(Naive(scene));
 }
