@@ -16,69 +16,71 @@ namespace {
 // The points or the lines of a keyframe: the logic of observations is the same for both.
 using Slots = std::vector<LandmarkId> Keyframe::*;
 
-template <typename L>
-const L* Find(const std::map<int64_t, L>& table, int64_t id) {
-  const auto it = table.find(id);
-  return it == table.end() ? nullptr : &it->second;
-}
-
-std::vector<Observation>::iterator LowerBound(Landmark* landmark, KeyframeId keyframe) {
+// Where the observation by `keyframe` stands or would stand.
+template <typename Observations>
+auto LowerBound(Observations* observations, KeyframeId keyframe) {
   return std::lower_bound(
-      landmark->observations.begin(), landmark->observations.end(), keyframe,
+      observations->begin(), observations->end(), keyframe,
       [](const Observation& observation, KeyframeId id) { return observation.keyframe < id; });
 }
 
-template <typename L>
-bool Observe(std::map<LandmarkId, L>* landmarks, std::map<KeyframeId, Keyframe>* keyframes,
-             Slots slots, LandmarkId id, const Observation& observation) {
-  const auto landmark = landmarks->find(id);
-  const auto keyframe = keyframes->find(observation.keyframe);
-  if (landmark == landmarks->end() || keyframe == keyframes->end()) return false;
-  LandmarkId& slot = (keyframe->second.*slots)[observation.feature];
-  const auto place = LowerBound(&landmark->second, observation.keyframe);
-  const bool seen_already =
-      place != landmark->second.observations.end() && place->keyframe == observation.keyframe;
-  if (slot != kNoId || seen_already) return false;
-  slot = id;
-  landmark->second.observations.insert(place, observation);
+// nullptr if the keyframe does not see the landmark.
+const Observation* FindObservation(const Landmark& landmark, KeyframeId keyframe) {
+  const auto place = LowerBound(&landmark.observations, keyframe);
+  return place != landmark.observations.end() && place->keyframe == keyframe ? &*place : nullptr;
+}
+
+template <typename Table>
+bool Observe(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, LandmarkId id,
+             const Observation& observation) {
+  const auto* landmark = landmarks->Find(id);
+  const Keyframe* keyframe = keyframes->Find(observation.keyframe);
+  if (landmark == nullptr || keyframe == nullptr) return false;
+  if ((keyframe->*slots)[observation.feature] != kNoId) return false;
+  if (FindObservation(*landmark, observation.keyframe) != nullptr) return false;
+  (keyframes->FindToChange(observation.keyframe)->*slots)[observation.feature] = id;
+  std::vector<Observation>& observations = landmarks->FindToChange(id)->observations;
+  observations.insert(LowerBound(&observations, observation.keyframe), observation);
   return true;
 }
 
-template <typename L>
-void Forget(std::map<LandmarkId, L>* landmarks, std::map<KeyframeId, Keyframe>* keyframes,
-            Slots slots, LandmarkId id, KeyframeId keyframe) {
-  const auto landmark = landmarks->find(id);
-  if (landmark == landmarks->end()) return;
-  std::vector<Observation>& observations = landmark->second.observations;
-  const auto place = LowerBound(&landmark->second, keyframe);
-  if (place == observations.end() || place->keyframe != keyframe) return;
-  (keyframes->at(keyframe).*slots)[place->feature] = kNoId;
-  observations.erase(place);
-  if (observations.empty()) landmarks->erase(landmark);
-}
-
-template <typename L>
-void Remove(std::map<LandmarkId, L>* landmarks, std::map<KeyframeId, Keyframe>* keyframes,
-            Slots slots, LandmarkId id) {
-  const auto landmark = landmarks->find(id);
-  if (landmark == landmarks->end()) return;
-  for (const Observation& observation : landmark->second.observations) {
-    (keyframes->at(observation.keyframe).*slots)[observation.feature] = kNoId;
+template <typename Table>
+void Forget(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, LandmarkId id,
+            KeyframeId keyframe) {
+  const auto* landmark = landmarks->Find(id);
+  if (landmark == nullptr) return;
+  const Observation* observation = FindObservation(*landmark, keyframe);
+  if (observation == nullptr) return;
+  (keyframes->FindToChange(keyframe)->*slots)[observation->feature] = kNoId;
+  if (landmark->observations.size() == 1) {
+    landmarks->Erase(id);
+    return;
   }
-  landmarks->erase(landmark);
+  std::vector<Observation>& observations = landmarks->FindToChange(id)->observations;
+  observations.erase(LowerBound(&observations, keyframe));
 }
 
-template <typename L>
-void Merge(std::map<LandmarkId, L>* landmarks, std::map<KeyframeId, Keyframe>* keyframes,
-           Slots slots, LandmarkId from, LandmarkId into) {
-  const L source = landmarks->at(from);
+template <typename Table>
+void Remove(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, LandmarkId id) {
+  const auto* landmark = landmarks->Find(id);
+  if (landmark == nullptr) return;
+  for (const Observation& observation : landmark->observations) {
+    (keyframes->FindToChange(observation.keyframe)->*slots)[observation.feature] = kNoId;
+  }
+  landmarks->Erase(id);
+}
+
+template <typename Table>
+void Merge(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, LandmarkId from,
+           LandmarkId into) {
+  const auto source = *landmarks->Find(from);
   Remove(landmarks, keyframes, slots, from);
   for (const Observation& observation : source.observations) {
     Observe(landmarks, keyframes, slots, into, observation);
   }
-  L& target = landmarks->at(into);
-  target.num_visible += source.num_visible;
-  target.num_found += source.num_found;
+  auto* target = landmarks->FindToChange(into);
+  target->num_visible += source.num_visible;
+  target->num_found += source.num_found;
 }
 
 // The descriptor with the least total distance to all others; the first of equals.
@@ -96,9 +98,20 @@ Descriptor CentralDescriptor(const std::vector<Descriptor>& descriptors) {
 
 }  // namespace
 
-const Keyframe* Map::FindKeyframe(KeyframeId id) const { return Find(keyframes_, id); }
-const PointLandmark* Map::FindPoint(LandmarkId id) const { return Find(points_, id); }
-const LineLandmark* Map::FindLine(LandmarkId id) const { return Find(lines_, id); }
+Map Map::Share() {
+  Map map;
+  map.keyframes_ = keyframes_.Share();
+  map.points_ = points_.Share();
+  map.lines_ = lines_.Share();
+  map.places_ = places_.Share();
+  map.next_keyframe_ = next_keyframe_;
+  map.next_landmark_ = next_landmark_;
+  return map;
+}
+
+const Keyframe* Map::FindKeyframe(KeyframeId id) const { return keyframes_.Find(id); }
+const PointLandmark* Map::FindPoint(LandmarkId id) const { return points_.Find(id); }
+const LineLandmark* Map::FindLine(LandmarkId id) const { return lines_.Find(id); }
 
 KeyframeId Map::AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& cam_from_world) {
   Keyframe keyframe;
@@ -108,30 +121,33 @@ KeyframeId Map::AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& ca
   keyframe.lines.assign(frame->lines.size(), kNoId);
   keyframe.frame = std::move(frame);
   const KeyframeId id = keyframe.id;
-  keyframes_.emplace(id, std::move(keyframe));
+  keyframes_.Append(id, std::move(keyframe));
+  places_.Append(id, {});
   return id;
 }
 
 LandmarkId Map::AddPoint(KeyframeId keyframe, int feature, const Eigen::Vector3d& position) {
+  const LandmarkId id = next_landmark_++;
   PointLandmark point;
-  point.id = next_landmark_++;
+  point.id = id;
   point.first_keyframe = keyframe;
   point.position = position;
-  points_.emplace(point.id, point);
-  ObservePoint(point.id, keyframe, feature);
-  RefreshPoint(point.id);
-  return point.id;
+  points_.Append(id, std::move(point));
+  ObservePoint(id, keyframe, feature);
+  RefreshPoint(id);
+  return id;
 }
 
 LandmarkId Map::AddLine(KeyframeId keyframe, int feature, const LineSegment3& segment) {
+  const LandmarkId id = next_landmark_++;
   LineLandmark line;
-  line.id = next_landmark_++;
+  line.id = id;
   line.first_keyframe = keyframe;
   line.segment = segment;
-  lines_.emplace(line.id, line);
-  ObserveLine(line.id, keyframe, feature);
-  RefreshLine(line.id);
-  return line.id;
+  lines_.Append(id, std::move(line));
+  ObserveLine(id, keyframe, feature);
+  RefreshLine(id);
+  return id;
 }
 
 bool Map::ObservePoint(LandmarkId point, KeyframeId keyframe, int feature) {
@@ -156,58 +172,57 @@ void Map::MergeLines(LandmarkId from, LandmarkId into) {
 }
 
 void Map::RemoveKeyframe(KeyframeId id, KeyframeId heir) {
-  const Keyframe keyframe = keyframes_.at(id);
-  removed_[id] = {heir, keyframe.cam_from_world * keyframes_.at(heir).cam_from_world.Inverse()};
+  const Keyframe keyframe = *keyframes_.Find(id);
+  *places_.FindToChange(id) = {
+      heir, keyframe.cam_from_world * keyframes_.Find(heir)->cam_from_world.Inverse()};
   for (const LandmarkId point : keyframe.points) {
     if (point != kNoId) ForgetPoint(point, id);
   }
   for (const LandmarkId line : keyframe.lines) {
     if (line != kNoId) ForgetLine(line, id);
   }
-  keyframes_.erase(id);
+  keyframes_.Erase(id);
 }
 
 Rigid3 Map::CamFromWorld(KeyframeId id) const {
   // As it stands, to the last bit: a product would normalise its rotation again.
-  if (const auto keyframe = keyframes_.find(id); keyframe != keyframes_.end()) {
-    return keyframe->second.cam_from_world;
-  }
+  if (const Keyframe* keyframe = keyframes_.Find(id)) return keyframe->cam_from_world;
   Rigid3 cam_from_heir;
-  for (auto removed = removed_.find(id); removed != removed_.end(); removed = removed_.find(id)) {
-    cam_from_heir = cam_from_heir * removed->second.cam_from_heir;
-    id = removed->second.heir;
+  for (const Place* place = places_.Find(id); place->heir != kNoId; place = places_.Find(id)) {
+    cam_from_heir = cam_from_heir * place->cam_from_heir;
+    id = place->heir;
   }
-  return cam_from_heir * keyframes_.at(id).cam_from_world;
+  return cam_from_heir * keyframes_.Find(id)->cam_from_world;
 }
 
 void Map::SetPose(KeyframeId keyframe, const Rigid3& cam_from_world) {
-  keyframes_.at(keyframe).cam_from_world = cam_from_world;
+  keyframes_.FindToChange(keyframe)->cam_from_world = cam_from_world;
 }
 void Map::SetPoint(LandmarkId point, const Eigen::Vector3d& position) {
-  points_.at(point).position = position;
+  points_.FindToChange(point)->position = position;
 }
 void Map::SetLine(LandmarkId line, const LineSegment3& segment) {
-  lines_.at(line).segment = segment;
+  lines_.FindToChange(line)->segment = segment;
 }
 
 void Map::CountTracking(LandmarkId landmark, bool is_line, int num_visible, int num_found) {
   const auto count = [&](auto* landmarks) {
-    const auto it = landmarks->find(landmark);
-    if (it == landmarks->end()) return;
-    it->second.num_visible += num_visible;
-    it->second.num_found += num_found;
+    auto* counted = landmarks->FindToChange(landmark);
+    if (counted == nullptr) return;
+    counted->num_visible += num_visible;
+    counted->num_found += num_found;
   };
   is_line ? count(&lines_) : count(&points_);
 }
 
 void Map::RefreshPoint(LandmarkId id) {
-  PointLandmark& point = points_.at(id);
+  PointLandmark& point = *points_.FindToChange(id);
   std::vector<Descriptor> descriptors;
   descriptors.reserve(point.observations.size());
   Eigen::Vector3d directions = Eigen::Vector3d::Zero();
   double log_reference = 0.0;
   for (const Observation& observation : point.observations) {
-    const Keyframe& keyframe = keyframes_.at(observation.keyframe);
+    const Keyframe& keyframe = *keyframes_.Find(observation.keyframe);
     const PointFeature& feature = keyframe.frame->points[observation.feature];
     const Eigen::Vector3d ray = point.position - keyframe.cam_from_world.OriginInSource();
     descriptors.push_back(feature.descriptor);
@@ -220,13 +235,13 @@ void Map::RefreshPoint(LandmarkId id) {
 }
 
 void Map::RefreshLine(LandmarkId id) {
-  LineLandmark& line = lines_.at(id);
+  LineLandmark& line = *lines_.FindToChange(id);
   std::vector<Descriptor> descriptors;
   descriptors.reserve(line.observations.size());
   Eigen::Vector3d directions = Eigen::Vector3d::Zero();
   line.direction_sigma = kPi;
   for (const Observation& observation : line.observations) {
-    const Keyframe& keyframe = keyframes_.at(observation.keyframe);
+    const Keyframe& keyframe = *keyframes_.Find(observation.keyframe);
     const LineFeature& feature = keyframe.frame->lines[observation.feature];
     descriptors.push_back(feature.descriptor);
     if (feature.depth) {
@@ -241,13 +256,13 @@ void Map::RefreshLine(LandmarkId id) {
 }
 
 std::vector<Map::Covisible> Map::FindCovisible(KeyframeId keyframe) const {
-  const Keyframe& center = keyframes_.at(keyframe);
+  const Keyframe& center = *keyframes_.Find(keyframe);
   ObserverCount observers(*this);
   for (const LandmarkId id : center.points) {
-    if (id != kNoId) observers.Add(points_.at(id));
+    if (id != kNoId) observers.Add(*points_.Find(id));
   }
   for (const LandmarkId id : center.lines) {
-    if (id != kNoId) observers.Add(lines_.at(id));
+    if (id != kNoId) observers.Add(*lines_.Find(id));
   }
   std::vector<Covisible> covisible = observers.Ranked();
   covisible.erase(

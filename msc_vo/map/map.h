@@ -3,30 +3,42 @@
 
 #pragma once
 
-#include <map>
 #include <memory>
 #include <vector>
 
 #include "msc_vo/map/keyframe.h"
 #include "msc_vo/map/landmark.h"
+#include "msc_vo/map/shared_table.h"
 
 namespace msc_vo {
 
-// Keyframes, landmarks and who sees what. A value: a copy is a snapshot that nobody else changes.
+// Keyframes, landmarks and who sees what. Share() gives snapshots that nobody else changes.
+//
+// Pointers and references to its parts hold until the next change of the map.
 //
 // Ids grow in order of creation and are never used again; all containers are ordered by id, so that
 // every walk over the map is the same at every run.
 class Map {
  public:
+  // Blocks of keyframes are one keyframe each, as its lists of landmarks are long; those of
+  // landmarks are small enough that few others are copied with one that changes, and large enough
+  // that there are few blocks (with 8 or 32 a keyframe step takes as long).
+  using KeyframeTable = SharedTable<Keyframe, 1>;
+  using PointTable = SharedTable<PointLandmark, 16>;
+  using LineTable = SharedTable<LineLandmark, 16>;
+
   // Another keyframe and how many landmarks it shares with the one that was asked about.
   struct Covisible {
     KeyframeId keyframe = kNoId;
     int num_shared = 0;
   };
 
-  const std::map<KeyframeId, Keyframe>& keyframes() const { return keyframes_; }
-  const std::map<LandmarkId, PointLandmark>& points() const { return points_; }
-  const std::map<LandmarkId, LineLandmark>& lines() const { return lines_; }
+  // The map as it is now, in time and memory of what changes afterwards.
+  Map Share();
+
+  const KeyframeTable& keyframes() const { return keyframes_; }
+  const PointTable& points() const { return points_; }
+  const LineTable& lines() const { return lines_; }
 
   // nullptr if there is none, or no longer.
   const Keyframe* FindKeyframe(KeyframeId id) const;
@@ -72,15 +84,16 @@ class Map {
   std::vector<Covisible> FindCovisible(KeyframeId keyframe) const;
 
  private:
-  struct Removed {
+  // Where a removed keyframe stands; nothing while it is in the map.
+  struct Place {
     KeyframeId heir = kNoId;
     Rigid3 cam_from_heir;
   };
 
-  std::map<KeyframeId, Keyframe> keyframes_;
-  std::map<LandmarkId, PointLandmark> points_;
-  std::map<LandmarkId, LineLandmark> lines_;
-  std::map<KeyframeId, Removed> removed_;
+  KeyframeTable keyframes_;
+  PointTable points_;
+  LineTable lines_;
+  SharedTable<Place, 16> places_;  // of every keyframe that ever was
   KeyframeId next_keyframe_ = 0;
   LandmarkId next_landmark_ = 0;
 };

@@ -9,8 +9,8 @@ namespace msc_vo {
 
 ObserverCount::ObserverCount(const Map& map) {
   if (map.keyframes().empty()) return;
-  first_ = map.keyframes().begin()->first;
-  counts_.assign(map.keyframes().rbegin()->first - first_ + 1, 0);
+  first_ = map.keyframes().front().first;
+  counts_.assign(map.keyframes().back().first - first_ + 1, 0);
 }
 
 void ObserverCount::Add(const Landmark& landmark) {

@@ -10,7 +10,7 @@
 
 namespace msc_vo {
 
-// The map as one keyframe step left it: an immutable copy that any thread may read.
+// The map as one keyframe step left it, immutable: any thread may read it.
 struct MapSnapshot {
   Map map;
   KeyframeId newest_keyframe = kNoId;

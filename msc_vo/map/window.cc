@@ -65,8 +65,8 @@ std::set<KeyframeId> SelectFixed(const WindowSelectionOptions& options,
 class KeyframeTable {
  public:
   KeyframeTable(const Map& map, const WindowData& data) {
-    first_ = map.keyframes().begin()->first;
-    keyframes_.resize(map.keyframes().rbegin()->first - first_ + 1, nullptr);
+    first_ = map.keyframes().front().first;
+    keyframes_.resize(map.keyframes().back().first - first_ + 1, nullptr);
     for (const WindowData::Keyframe& keyframe : data.keyframes) {
       keyframes_[keyframe.id - first_] = map.FindKeyframe(keyframe.id);
     }
@@ -82,7 +82,7 @@ class KeyframeTable {
 
 void AddKeyframes(const Map& map, const std::set<KeyframeId>& window,
                   const std::set<KeyframeId>& fixed, WindowData* data) {
-  const KeyframeId first = map.keyframes().begin()->first;
+  const KeyframeId first = map.keyframes().front().first;
   for (const KeyframeId id : window) {
     data->keyframes.push_back({id, map.FindKeyframe(id)->cam_from_world, id == first});
   }

@@ -98,7 +98,7 @@ void CullLandmarks(const CullingOptions& options, KeyframeId newest, Probation* 
 }
 
 int CullKeyframes(const CullingOptions& options, KeyframeId newest, Map* map) {
-  const KeyframeId first = map->keyframes().begin()->first;
+  const KeyframeId first = map->keyframes().front().first;
   int num_removed = 0;
   for (const Map::Covisible& covisible : map->FindCovisible(newest)) {
     const KeyframeId id = covisible.keyframe;

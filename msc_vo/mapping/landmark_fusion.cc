@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "msc_vo/geometry/angles.h"
@@ -85,14 +86,15 @@ bool AgreesWithDepth(const Keyframe& keyframe, const PointFeature& feature,
 }
 
 void FusePointsInto(const FusionOptions& options, KeyframeId source, KeyframeId target, Map* map) {
-  const Keyframe& keyframe = *map->FindKeyframe(target);
-  const std::vector<PointMatch> matches =
-      MatchPoints(options.point_matcher, *keyframe.frame,
-                  PointsOf(*map, *map->FindKeyframe(source), keyframe), options.radius, {});
+  const std::shared_ptr<const Frame> frame = map->FindKeyframe(target)->frame;
+  const std::vector<PointMatch> matches = MatchPoints(
+      options.point_matcher, *frame,
+      PointsOf(*map, *map->FindKeyframe(source), *map->FindKeyframe(target)), options.radius, {});
   for (const PointMatch& match : matches) {
     const PointLandmark* point = map->FindPoint(match.id);
-    if (point == nullptr) continue;  // merged by an earlier match
-    if (!AgreesWithDepth(keyframe, keyframe.frame->points[match.feature], *point)) continue;
+    if (point == nullptr) continue;                         // merged by an earlier match
+    const Keyframe& keyframe = *map->FindKeyframe(target);  // earlier matches changed it
+    if (!AgreesWithDepth(keyframe, frame->points[match.feature], *point)) continue;
     const PointLandmark* holder = map->FindPoint(keyframe.points[match.feature]);
     if (holder == nullptr) {
       map->ObservePoint(match.id, target, match.feature);
@@ -114,13 +116,14 @@ bool AreOneLine(const FusionOptions& options, const Keyframe& keyframe, const Li
 }
 
 void FuseLinesInto(const FusionOptions& options, KeyframeId source, KeyframeId target, Map* map) {
-  const Keyframe& keyframe = *map->FindKeyframe(target);
-  const std::vector<LineMatch> matches =
-      MatchLines(options.line_matcher, *keyframe.frame,
-                 LinesOf(*map, *map->FindKeyframe(source), keyframe), options.radius, {});
+  const std::shared_ptr<const Frame> frame = map->FindKeyframe(target)->frame;
+  const std::vector<LineMatch> matches = MatchLines(
+      options.line_matcher, *frame,
+      LinesOf(*map, *map->FindKeyframe(source), *map->FindKeyframe(target)), options.radius, {});
   for (const LineMatch& match : matches) {
     const LineLandmark* line = map->FindLine(match.id);
-    if (line == nullptr) continue;  // merged by an earlier match
+    if (line == nullptr) continue;                          // merged by an earlier match
+    const Keyframe& keyframe = *map->FindKeyframe(target);  // earlier matches changed it
     const LineLandmark* holder = map->FindLine(keyframe.lines[match.feature]);
     if (holder == nullptr) {
       map->ObserveLine(match.id, target, match.feature);

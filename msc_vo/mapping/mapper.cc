@@ -37,9 +37,9 @@ MappingSummary Mapper::Process(const KeyframePacket& packet) {
   return summary;
 }
 
-MapSnapshotPtr Mapper::Snapshot() const {
+MapSnapshotPtr Mapper::Snapshot() {
   auto snapshot = std::make_shared<MapSnapshot>();
-  snapshot->map = map_;
+  snapshot->map = map_.Share();
   snapshot->newest_keyframe = newest_keyframe_;
   snapshot->noise_scale = noise_.scale();
   snapshot->needs_axes = options_.axes.enabled && axes_.estimator().state() == AxesState::kNone;

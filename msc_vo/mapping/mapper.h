@@ -42,8 +42,8 @@ class Mapper {
   // culling.
   MappingSummary Process(const KeyframePacket& packet);
 
-  // A copy of the map as the last step left it.
-  MapSnapshotPtr Snapshot() const;
+  // The map as the last step left it.
+  MapSnapshotPtr Snapshot();
 
   const Map& map() const { return map_; }
   const SceneAxes& axes() const { return axes_; }

@@ -25,7 +25,7 @@ Rigid3 CamFromWorld(const Map& map, const TrackedFrame& tracked) {
 
 // The keyframe of the map that stands for `id`, which may have been removed: the newest one then.
 KeyframeId LivingReference(const Map& map, KeyframeId id) {
-  return map.FindKeyframe(id) != nullptr ? id : map.keyframes().rbegin()->first;
+  return map.FindKeyframe(id) != nullptr ? id : map.keyframes().back().first;
 }
 
 void SetReference(const Map& map, KeyframeId reference, TrackedFrame* tracked) {
@@ -142,11 +142,8 @@ bool Tracker::TrackReference(const Map& map, const Rigid3& prediction,
 bool Tracker::TrackByAppearance(const Map& map, TrackedFrame* tracked) {
   for (int i = 0; i < options_.relocalization_keyframes; ++i) {
     // From newest to oldest, a few per frame, and around again.
-    auto keyframe = map.keyframes().upper_bound(next_candidate_);
-    if (next_candidate_ == kNoId || keyframe == map.keyframes().begin()) {
-      keyframe = map.keyframes().end();
-    }
-    --keyframe;
+    const auto* keyframe = map.keyframes().FindUpTo(next_candidate_);
+    if (keyframe == nullptr) keyframe = &map.keyframes().back();
     next_candidate_ = keyframe->first - 1;
     Stopwatch stopwatch;
     const std::optional<Relocalization> hit =

@@ -125,12 +125,14 @@ TEST_F(MapTest, RefreshTakesTheCentralDescriptorAndMeanDirection) {
   EXPECT_TRUE(point.viewing_direction.isApprox(expected, 1e-12));
 }
 
-TEST_F(MapTest, ACopyIsASnapshot) {
-  const Map copy = map_;
+TEST_F(MapTest, SharedMapsChangeEachOnItsOwn) {
+  Map copy = map_.Share();
   map_.RemovePoint(a_);
   map_.SetPose(keyframes_[1], Rigid3());
   EXPECT_NE(copy.FindPoint(a_), nullptr);
   EXPECT_DOUBLE_EQ(copy.FindKeyframe(keyframes_[1])->cam_from_world.translation().x(), -0.5);
+  copy.RemoveLine(line_);
+  EXPECT_NE(map_.FindLine(line_), nullptr);
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ TEST_F(WindowTest, WriteBackMovesWhatIsFreeAndForgetsWhatWasRejected) {
 }
 
 TEST_F(WindowTest, CutFollowsTheObservationsNotTheEndPoints) {
-  const LineLandmark& line = map_.lines().begin()->second;
+  const LineLandmark& line = map_.lines().front().second;
   // Slide both end points far along the line: the same line, other end points.
   LineSegment3 slid;
   slid.start = line.segment.At(-3.0);

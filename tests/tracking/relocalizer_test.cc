@@ -16,7 +16,7 @@ TEST(Relocalizer, FindsTheFrameFarFromAnyPrediction) {
   const Rigid3 truth = SyntheticFrames::CamFromWorld(60);
   const std::shared_ptr<const Frame> frame = world.See(60);
   const auto hit = Relocalize(RelocalizerOptions(), *frame, snapshot.map,
-                              snapshot.map.keyframes().begin()->second);
+                              snapshot.map.keyframes().front().second);
   ASSERT_TRUE(hit.has_value());
   // From three noisy pairs at 2..6 m only: good enough as a start for the pose problem.
   EXPECT_LT(PositionError(hit->cam_from_world, truth), 0.15);
@@ -27,7 +27,7 @@ TEST(Relocalizer, SameFrameSameAnswer) {
   SyntheticFrames world{SyntheticFrames::Options()};
   const MapSnapshot snapshot = MapOfOneKeyframe(world.See(0), SyntheticFrames::CamFromWorld(0));
   const std::shared_ptr<const Frame> frame = world.See(30);
-  const Keyframe& keyframe = snapshot.map.keyframes().begin()->second;
+  const Keyframe& keyframe = snapshot.map.keyframes().front().second;
   const auto a = Relocalize(RelocalizerOptions(), *frame, snapshot.map, keyframe);
   const auto b = Relocalize(RelocalizerOptions(), *frame, snapshot.map, keyframe);
   ASSERT_TRUE(a && b);
@@ -40,7 +40,7 @@ TEST(Relocalizer, RefusesAnotherPlaceAndAnEmptyFrame) {
   other_options.seed = 99;
   SyntheticFrames other(other_options);
   const MapSnapshot snapshot = MapOfOneKeyframe(world.See(0), SyntheticFrames::CamFromWorld(0));
-  const Keyframe& keyframe = snapshot.map.keyframes().begin()->second;
+  const Keyframe& keyframe = snapshot.map.keyframes().front().second;
   EXPECT_FALSE(Relocalize(RelocalizerOptions(), *other.See(0), snapshot.map, keyframe));
   EXPECT_FALSE(
       Relocalize(RelocalizerOptions(), *SyntheticFrames::SeeNothing(3), snapshot.map, keyframe));

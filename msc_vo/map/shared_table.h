@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace msc_vo {
+
+// Values by ascending id in blocks of at most `kBlockSize`, the leaves of a B+ tree of height one.
+// Two tables share a block until one of them is about to change it and takes a copy of its own
+// (copy on write): a snapshot costs a pointer per block, and later what has changed.
+//
+// Pointers and references to values hold until the next change of the table.
+template <typename T, int kBlockSize>
+class SharedTable {
+ public:
+  using Entry = std::pair<int64_t, T>;
+
+ private:
+  using Entries = std::vector<Entry>;
+  struct Block {
+    int64_t first = 0;                 // id of the first entry: a search need not go there
+    bool shared = false;               // perhaps with another table: not to be written
+    std::shared_ptr<Entries> entries;  // never empty
+  };
+
+ public:
+  // Walks through the entries by ascending id.
+  class Iterator {
+   public:
+    Iterator(const std::vector<Block>& blocks, size_t block) : blocks_(&blocks), block_(block) {}
+
+    const Entry& operator*() const { return (*(*blocks_)[block_].entries)[entry_]; }
+    const Entry* operator->() const { return &**this; }
+    Iterator& operator++() {
+      if (++entry_ == (*blocks_)[block_].entries->size()) {
+        ++block_;
+        entry_ = 0;
+      }
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const {
+      return block_ != other.block_ || entry_ != other.entry_;
+    }
+
+   private:
+    const std::vector<Block>* blocks_;
+    size_t block_;
+    size_t entry_ = 0;
+  };
+
+  SharedTable() = default;
+  SharedTable(SharedTable&&) = default;
+  SharedTable& operator=(SharedTable&&) = default;
+  // A copy must know that it shares: see Share().
+  SharedTable(const SharedTable&) = delete;
+  SharedTable& operator=(const SharedTable&) = delete;
+
+  Iterator begin() const { return {blocks_, 0}; }
+  Iterator end() const { return {blocks_, blocks_.size()}; }
+  bool empty() const { return blocks_.empty(); }
+  size_t size() const {
+    size_t size = 0;
+    for (const Block& block : blocks_) size += block.entries->size();
+    return size;
+  }
+  // The entries with the lowest and the highest id; the table must not be empty.
+  const Entry& front() const { return blocks_.front().entries->front(); }
+  const Entry& back() const { return blocks_.back().entries->back(); }
+
+  // The last entry with an id of at most `id`; nullptr if there is none.
+  const Entry* FindUpTo(int64_t id) const {
+    if (blocks_.empty() || id < blocks_.front().first) return nullptr;
+    const Entries& entries = *blocks_[BlockOf(id)].entries;
+    return &*std::prev(
+        std::upper_bound(entries.begin(), entries.end(), id,
+                         [](int64_t value, const Entry& entry) { return value < entry.first; }));
+  }
+  // nullptr if there is none.
+  const T* Find(int64_t id) const {
+    const Entry* entry = FindUpTo(id);
+    return entry != nullptr && entry->first == id ? &entry->second : nullptr;
+  }
+  // As Find(), to write. Takes a copy of the block if it is shared: not for reading.
+  T* FindToChange(int64_t id) {
+    if (Find(id) == nullptr) return nullptr;
+    Entries* entries = ToChange(BlockOf(id));
+    return &LowerBound(entries, id)->second;
+  }
+
+  // `id` must be higher than all before.
+  void Append(int64_t id, T value) {
+    if (blocks_.empty() || blocks_.back().entries->size() == kBlockSize) {
+      blocks_.push_back({id, false, std::make_shared<Entries>()});
+    }
+    ToChange(blocks_.size() - 1)->emplace_back(id, std::move(value));
+  }
+
+  // Does nothing if there is none. Neighbouring blocks become one when they are half empty, so that
+  // there are about as many as the values need.
+  void Erase(int64_t id) {
+    if (Find(id) == nullptr) return;
+    const size_t block = BlockOf(id);
+    if (blocks_[block].entries->size() == 1) {
+      blocks_.erase(blocks_.begin() + block);
+      return;
+    }
+    Entries* entries = ToChange(block);
+    entries->erase(LowerBound(entries, id));
+    blocks_[block].first = entries->front().first;
+    if (!JoinWithNext(block) && block > 0) JoinWithNext(block - 1);
+  }
+
+  // A table of the same values. Both may be changed later, each by one thread at a time, without
+  // the other's noticing.
+  SharedTable Share() {
+    for (Block& block : blocks_) block.shared = true;
+    SharedTable copy;
+    copy.blocks_ = blocks_;
+    return copy;
+  }
+
+ private:
+  static typename Entries::iterator LowerBound(Entries* entries, int64_t id) {
+    return std::lower_bound(entries->begin(), entries->end(), id,
+                            [](const Entry& entry, int64_t value) { return entry.first < value; });
+  }
+
+  // The last block that begins at or before `id`, which no block before the first does.
+  size_t BlockOf(int64_t id) const {
+    const auto next =
+        std::upper_bound(blocks_.begin(), blocks_.end(), id,
+                         [](int64_t value, const Block& block) { return value < block.first; });
+    return next - blocks_.begin() - 1;
+  }
+
+  Entries* ToChange(size_t index) {
+    Block& block = blocks_[index];
+    if (block.shared) block.entries = std::make_shared<Entries>(*block.entries);
+    block.shared = false;
+    return block.entries.get();
+  }
+
+  bool JoinWithNext(size_t index) {
+    if (index + 1 == blocks_.size()) return false;
+    const Entries& next = *blocks_[index + 1].entries;
+    if (2 * (blocks_[index].entries->size() + next.size()) > kBlockSize) return false;
+    Entries* entries = ToChange(index);
+    entries->insert(entries->end(), next.begin(), next.end());
+    blocks_.erase(blocks_.begin() + index + 1);
+    return true;
+  }
+
+  std::vector<Block> blocks_;
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/map/shared_table.h"
+
+#include <map>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace msc_vo {
+namespace {
+
+using Table = SharedTable<int, 4>;
+
+std::map<int64_t, int> Contents(const Table& table) {
+  std::map<int64_t, int> contents;
+  for (const auto& [id, value] : table) contents[id] = value;
+  return contents;
+}
+
+// Of the ids 10, 20, ... in four blocks and a bit.
+Table MakeTable() {
+  Table table;
+  for (int i = 1; i <= 18; ++i) table.Append(10 * i, i);
+  return table;
+}
+
+TEST(SharedTableTest, FindsWhatIsThere) {
+  const Table table = MakeTable();
+  EXPECT_EQ(table.size(), 18u);
+  for (int i = 1; i <= 18; ++i) {
+    ASSERT_NE(table.Find(10 * i), nullptr) << i;
+    EXPECT_EQ(*table.Find(10 * i), i);
+    EXPECT_EQ(table.Find(10 * i + 1), nullptr) << i;
+    EXPECT_EQ(table.FindUpTo(10 * i + 9)->first, 10 * i);
+  }
+  EXPECT_EQ(table.Find(9), nullptr);
+  EXPECT_EQ(table.FindUpTo(9), nullptr);
+  EXPECT_EQ(table.front().first, 10);
+  EXPECT_EQ(table.back().first, 180);
+}
+
+TEST(SharedTableTest, AnEmptyTableFindsNothing) {
+  Table table;
+  EXPECT_TRUE(table.empty());
+  EXPECT_EQ(table.size(), 0u);
+  EXPECT_EQ(table.Find(1), nullptr);
+  EXPECT_EQ(table.FindUpTo(1), nullptr);
+  EXPECT_EQ(table.FindToChange(1), nullptr);
+  table.Erase(1);
+  EXPECT_TRUE(Contents(table).empty());
+}
+
+TEST(SharedTableTest, ValuesStayWhereTheyAreUntilTheyChange) {
+  Table table = MakeTable();
+  const Table shared = table.Share();
+  EXPECT_EQ(shared.Find(50), table.Find(50));
+  *table.FindToChange(60) = -6;
+  EXPECT_NE(shared.Find(50), table.Find(50));  // in the block of 60
+  EXPECT_EQ(shared.Find(90), table.Find(90));  // in the next
+  EXPECT_EQ(*shared.Find(60), 6);
+  EXPECT_EQ(*table.Find(60), -6);
+}
+
+TEST(SharedTableTest, BlocksThatAreNotSharedChangeInPlace) {
+  Table table = MakeTable();
+  { const Table shared = table.Share(); }
+  *table.FindToChange(60) = -6;
+  const int* place = table.Find(50);
+  *table.FindToChange(50) = -5;
+  EXPECT_EQ(table.Find(50), place);
+}
+
+// Beside a map of the standard library, and snapshots on the way beside copies of it.
+TEST(SharedTableTest, IsAMapUnderAnyChanges) {
+  std::mt19937 random(5);
+  Table table;
+  std::map<int64_t, int> expected;
+  std::vector<Table> snapshots;
+  std::vector<std::map<int64_t, int>> copies;
+  for (int64_t id = 0; id < 3000; ++id) {
+    table.Append(id, static_cast<int>(id));
+    expected[id] = static_cast<int>(id);
+    const int64_t chosen = random() % (id + 1);
+    if (int* value = table.FindToChange(chosen)) {
+      *value += 1;
+      expected.at(chosen) += 1;
+    }
+    for (int i = random() % 3; i > 0; --i) {
+      const int64_t gone = random() % (id + 1);
+      table.Erase(gone);
+      expected.erase(gone);
+    }
+    if (id % 300 != 0) continue;
+    snapshots.push_back(table.Share());
+    copies.push_back(expected);
+  }
+  EXPECT_EQ(Contents(table), expected);
+  EXPECT_EQ(table.size(), expected.size());
+  for (int64_t id = 0; id < 3000; ++id) {
+    EXPECT_EQ(table.Find(id) != nullptr, expected.count(id) > 0) << id;
+  }
+  for (size_t i = 0; i < snapshots.size(); ++i) EXPECT_EQ(Contents(snapshots[i]), copies[i]) << i;
+}
+
+TEST(SharedTableTest, ASnapshotMayChangeToo) {
+  Table table = MakeTable();
+  Table shared = table.Share();
+  shared.Erase(10);
+  shared.Append(190, 19);
+  EXPECT_EQ(Contents(table), Contents(MakeTable()));
+  EXPECT_EQ(shared.size(), 18u);
+}
+
+}  // namespace
+}  // namespace msc_vo
