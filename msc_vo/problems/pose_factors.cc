@@ -66,6 +66,22 @@ bool PoseTerm<Factor>::AddTo(const Rigid3& cam_from_world, NormalEquations* sum)
   return true;
 }
 
+template <typename Factor>
+bool PoseTerm<Factor>::AddCostTo(const Rigid3& cam_from_world, double* sum) const {
+  const Eigen::Matrix3d rotation = cam_from_world.rotation().toRotationMatrix();
+  const Eigen::Vector3d translation = cam_from_world.translation();
+  Eigen::Matrix<double, Factor::kNumResiduals, 1> r;
+  for (const Block& block : blocks) {
+    for (int k = 0; k < Factor::kNumPoints; ++k) {
+      const Eigen::Vector3d x_in_cam = rotation * block.x_in_world[k] + translation;
+      if (!(x_in_cam.z() >= kMinCameraDepth)) return false;
+      block.factor.Residual(k, x_in_cam, &r[k * Factor::kRowsPerPoint]);
+    }
+    *sum += 0.5 * Huber(huber, r.squaredNorm()).rho;
+  }
+  return true;
+}
+
 int PoseFactors::NumRows() const {
   return point_reprojection.NumRows() + point_depth.NumRows() + line_reprojection.NumRows() +
          line_depth.NumRows();
@@ -83,6 +99,14 @@ bool PoseFactors::Linearize(const Rigid3& cam_from_world, NormalEquations* equat
   return std::isfinite(equations->cost);
 }
 
+bool PoseFactors::Cost(const Rigid3& cam_from_world, double* cost) const {
+  *cost = 0.0;
+  return point_reprojection.AddCostTo(cam_from_world, cost) &&
+         point_depth.AddCostTo(cam_from_world, cost) &&
+         line_reprojection.AddCostTo(cam_from_world, cost) &&
+         line_depth.AddCostTo(cam_from_world, cost) && std::isfinite(*cost);
+}
+
 PoseTermination MinimizePose(const PoseFactors& factors, int max_iterations,
                              Rigid3* cam_from_world) {
   NormalEquations at;
@@ -97,19 +121,21 @@ PoseTermination MinimizePose(const PoseFactors& factors, int max_iterations,
     const Vector6 step = -damped.ldlt().solve(at.gradient);
     if (!step.allFinite()) return PoseTermination::kFailed;
     const Rigid3 candidate = Plus(*cam_from_world, step);
+    // In units of the estimate's own standard deviation. Steps shrink at least tenfold here, so
+    // what a step below 1e-3 leaves undone is of no consequence, and no further one needs
+    // derivatives. At the minimum, rounding may refuse it.
+    if (step.dot(at.hessian * step) < 1e-6) {
+      double cost;
+      if (factors.Cost(candidate, &cost) && cost <= at.cost) *cam_from_world = candidate;
+      return PoseTermination::kConverged;
+    }
     NormalEquations next;
     if (factors.Linearize(candidate, &next) && next.cost <= at.cost) {
-      // In units of the estimate's own standard deviation. Steps shrink at least tenfold here, so
-      // what a step below 1e-3 leaves undone is of no consequence.
-      const bool converged = step.dot(at.hessian * step) < 1e-6;
       *cam_from_world = candidate;
       at = next;
       lambda *= 0.1;
-      if (converged) return PoseTermination::kConverged;
     } else {
-      // At the minimum, rounding may refuse a step of no length.
-      if (step.dot(at.hessian * step) < 1e-6) return PoseTermination::kConverged;
-      lambda = lambda * 100.0;
+      lambda *= 100.0;
     }
   }
   return PoseTermination::kIterationLimit;

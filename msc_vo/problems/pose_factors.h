@@ -36,6 +36,8 @@ struct PoseTerm {
   int NumRows() const { return static_cast<int>(blocks.size()) * Factor::kNumResiduals; }
   // Adds to the lower triangle of the hessian only. False if a point lies behind the camera.
   bool AddTo(const Rigid3& cam_from_world, NormalEquations* sum) const;
+  // The same for the cost alone, to the last bit.
+  bool AddCostTo(const Rigid3& cam_from_world, double* sum) const;
 };
 
 // One round of the pose problem (paper Eq. poseest): the factors that take part in it.
@@ -52,7 +54,9 @@ struct PoseFactors {
   PoseTerm<LineDepthReprojection> line_depth;
 
   int NumRows() const;
+  // False if a point lies behind the camera, or the cost is not finite.
   bool Linearize(const Rigid3& cam_from_world, NormalEquations* equations) const;
+  bool Cost(const Rigid3& cam_from_world, double* cost) const;
 };
 
 enum class PoseTermination { kConverged, kIterationLimit, kFailed };

@@ -4,6 +4,8 @@
 #include "msc_vo/problems/window_minimizer.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "msc_vo/problems/schur_window.h"
@@ -37,6 +39,13 @@ class TrustRegion {
 constexpr double kMinGain = 1e-3;            // a step that gains less is not taken
 constexpr double kFunctionTolerance = 1e-6;  // relative change of the cost at which it has arrived
 
+// Not finite where a term is not.
+double CostAndEquations(const WindowStructure& structure, const WindowTerms& terms,
+                        const WindowState& state, WindowEquations* equations) {
+  return Linearize(structure, terms, state, equations) ? equations->cost
+                                                       : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 MinimizerReport MinimizeWindow(const WindowStructure& structure, const WindowTerms& terms,
@@ -67,14 +76,17 @@ MinimizerReport MinimizeWindow(const WindowStructure& structure, const WindowTer
     }
     WindowState candidate = Moved(structure, *state, step);
     enter(WindowStage::kLinearize);
-    const bool defined = Linearize(structure, terms, candidate, &next);
-    const double decrease = defined ? equations.cost - next.cost : -1.0;
-    if (defined && std::abs(decrease) <= kFunctionTolerance * equations.cost) {
+    // No step follows the last one: its derivatives would be of no use.
+    const bool is_last = report.num_iterations + 1 == max_iterations;
+    const double cost =
+        is_last ? Cost(terms, candidate) : CostAndEquations(structure, terms, candidate, &next);
+    const double decrease = equations.cost - cost;
+    if (std::abs(decrease) <= kFunctionTolerance * equations.cost) {
       // As Ceres, not taking this last step: what is rejected next may hang on it.
       report.message = "converged";
       break;
     }
-    if (defined && decrease >= kMinGain * step.model_decrease) {
+    if (decrease >= kMinGain * step.model_decrease) {
       region.Accept(decrease / step.model_decrease);
       *state = std::move(candidate);
       std::swap(equations, next);

@@ -152,4 +152,12 @@ WindowTerms MakeWindowTerms(const WindowOptions& options, const WindowData& data
   return TermMaker(options, data, index, activity, state).Make();
 }
 
+double Cost(const WindowTerms& terms, const WindowState& state) {
+  return Cost(terms.point_reprojection, state) + Cost(terms.point_depth, state) +
+         Cost(terms.line_reprojection, state) + Cost(terms.line_depth, state) +
+         Cost(terms.line_anchor, state) + Cost(terms.parallel, state) +
+         Cost(terms.perpendicular, state) + Cost(terms.manhattan, state) +
+         Cost(terms.pose_prior, state);
+}
+
 }  // namespace msc_vo

@@ -90,6 +90,9 @@ WindowTerms MakeWindowTerms(const WindowOptions& options, const WindowData& data
                             const WindowIndex& index, const WindowActivity& activity,
                             const WindowState& state);
 
+// Half the sum of robustified squares over all terms; not finite where one is not defined.
+double Cost(const WindowTerms& terms, const WindowState& state);
+
 // The parameter blocks of a block of a term.
 template <typename Factor>
 constexpr bool kSeesPoint = Factor::kBlockSizes.size() == 2 && Factor::kBlockSizes[1] == 3;
