@@ -89,9 +89,11 @@ class SharedTable {
   }
   // As Find(), to write. Takes a copy of the block if it is shared: not for reading.
   T* FindToChange(int64_t id) {
-    if (Find(id) == nullptr) return nullptr;
-    Entries* entries = ToChange(BlockOf(id));
-    return &LowerBound(entries, id)->second;
+    const Entry* entry = FindUpTo(id);
+    if (entry == nullptr || entry->first != id) return nullptr;
+    const size_t block = BlockOf(id);
+    const size_t place = entry - blocks_[block].entries->data();
+    return &(*ToChange(block))[place].second;
   }
 
   // `id` must be higher than all before.

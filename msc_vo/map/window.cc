@@ -7,6 +7,8 @@
 #include <set>
 #include <vector>
 
+#include "msc_vo/map/id_set.h"
+#include "msc_vo/map/keyframe_index.h"
 #include "msc_vo/map/observer_count.h"
 
 namespace msc_vo {
@@ -17,25 +19,23 @@ namespace {
 constexpr double kMinLineLength = 0.01;
 
 // The landmarks that the window's keyframes see, by id; those that take part are counted.
-template <typename L, typename Find>
+template <typename L, typename Table>
 std::vector<const L*> SeenLandmarks(const Map& map, const std::set<KeyframeId>& window,
-                                    std::vector<LandmarkId> Keyframe::*slots, const Find& find,
+                                    std::vector<LandmarkId> Keyframe::*slots, const Table& table,
                                     int min_observations, ObserverCount* observers) {
-  std::vector<LandmarkId> ids;
+  IdSet ids(table);
   for (const KeyframeId keyframe : window) {
     for (const LandmarkId id : map.FindKeyframe(keyframe)->*slots) {
-      if (id != kNoId) ids.push_back(id);
+      if (id != kNoId) ids.Insert(id);
     }
   }
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   std::vector<const L*> landmarks;
-  for (const LandmarkId id : ids) {
-    const L* landmark = find(id);
-    if (static_cast<int>(landmark->observations.size()) < min_observations) continue;
+  ids.VisitAll([&](LandmarkId id) {
+    const L* landmark = table.Find(id);
+    if (static_cast<int>(landmark->observations.size()) < min_observations) return;
     landmarks.push_back(landmark);
     observers->Add(*landmark);
-  }
+  });
   return landmarks;
 }
 
@@ -60,25 +60,6 @@ std::set<KeyframeId> SelectFixed(const WindowSelectionOptions& options,
   }
   return fixed;
 }
-
-// Keyframes by id, in one step.
-class KeyframeTable {
- public:
-  KeyframeTable(const Map& map, const WindowData& data) {
-    first_ = map.keyframes().front().first;
-    keyframes_.resize(map.keyframes().back().first - first_ + 1, nullptr);
-    for (const WindowData::Keyframe& keyframe : data.keyframes) {
-      keyframes_[keyframe.id - first_] = map.FindKeyframe(keyframe.id);
-    }
-  }
-
-  // nullptr if it takes no part in the window.
-  const Keyframe* Find(KeyframeId id) const { return keyframes_[id - first_]; }
-
- private:
-  KeyframeId first_ = 0;
-  std::vector<const Keyframe*> keyframes_;
-};
 
 void AddKeyframes(const Map& map, const std::set<KeyframeId>& window,
                   const std::set<KeyframeId>& fixed, WindowData* data) {
@@ -155,21 +136,22 @@ WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map,
                         KeyframeId keyframe) {
   const std::set<KeyframeId> window = SelectKeyframes(options, map, keyframe);
   ObserverCount observers(map);
-  const auto points = SeenLandmarks<PointLandmark>(
-      map, window, &Keyframe::points, [&](LandmarkId id) { return map.FindPoint(id); },
-      options.min_observations, &observers);
-  const auto lines = SeenLandmarks<LineLandmark>(
-      map, window, &Keyframe::lines, [&](LandmarkId id) { return map.FindLine(id); },
-      options.min_observations, &observers);
+  const auto points = SeenLandmarks<PointLandmark>(map, window, &Keyframe::points, map.points(),
+                                                   options.min_observations, &observers);
+  const auto lines = SeenLandmarks<LineLandmark>(map, window, &Keyframe::lines, map.lines(),
+                                                 options.min_observations, &observers);
 
   WindowData data;
   data.camera = map.FindKeyframe(keyframe)->frame->camera;
   AddKeyframes(map, window, SelectFixed(options, window, observers), &data);
-  const KeyframeTable table(map, data);
+  KeyframeIndex taking_part(map);
+  for (const WindowData::Keyframe& keyframe_data : data.keyframes) {
+    taking_part.Add(*map.FindKeyframe(keyframe_data.id));
+  }
   for (const PointLandmark* point : points) {
     data.points.push_back({point->id, point->position, false});
     for (const Observation& seen : point->observations) {
-      const Keyframe* observer = table.Find(seen.keyframe);
+      const Keyframe* observer = taking_part.Find(seen.keyframe);
       if (observer == nullptr) continue;
       data.point_observations.push_back(MakeObservation(*observer, *point, seen.feature));
     }
@@ -177,7 +159,7 @@ WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map,
   for (const LineLandmark* line : lines) {
     data.lines.push_back({line->id, line->segment, false});
     for (const Observation& seen : line->observations) {
-      const Keyframe* observer = table.Find(seen.keyframe);
+      const Keyframe* observer = taking_part.Find(seen.keyframe);
       if (observer == nullptr) continue;
       data.line_observations.push_back(MakeObservation(*observer, *line, seen.feature));
     }

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <vector>
 
+#include "msc_vo/map/keyframe_index.h"
+
 namespace msc_vo {
 
 namespace {
@@ -48,8 +50,15 @@ int NumLandmarks(const std::vector<LandmarkId>& slots) {
   return static_cast<int>(slots.size() - std::count(slots.begin(), slots.end(), kNoId));
 }
 
+KeyframeIndex IndexAll(const Map& map) {
+  KeyframeIndex index(map);
+  for (const auto& [id, keyframe] : map.keyframes()) index.Add(keyframe);
+  return index;
+}
+
 // Most keyframes are not redundant, and the first landmarks tell.
-bool IsRedundant(const CullingOptions& options, const Map& map, const Keyframe& keyframe) {
+bool IsRedundant(const CullingOptions& options, const Map& map, const KeyframeIndex& keyframes,
+                 const Keyframe& keyframe) {
   const int num_landmarks = NumLandmarks(keyframe.points) + NumLandmarks(keyframe.lines);
   // As many uncovered ones are too many.
   const double allowed = (1.0 - options.redundant_share) * num_landmarks;
@@ -59,7 +68,7 @@ bool IsRedundant(const CullingOptions& options, const Map& map, const Keyframe& 
     const int level = keyframe.frame->points[i].level;
     const PointLandmark& point = *map.FindPoint(keyframe.points[i]);
     num_uncovered += !IsCovered(options, keyframe.id, point, [&](const Observation& observation) {
-      const Keyframe& other = *map.FindKeyframe(observation.keyframe);
+      const Keyframe& other = *keyframes.Find(observation.keyframe);
       return other.frame->points[observation.feature].level <= level + 1;
     });
   }
@@ -100,13 +109,15 @@ void CullLandmarks(const CullingOptions& options, KeyframeId newest, Probation* 
 int CullKeyframes(const CullingOptions& options, KeyframeId newest, Map* map) {
   const KeyframeId first = map->keyframes().front().first;
   int num_removed = 0;
+  KeyframeIndex keyframes = IndexAll(*map);
   for (const Map::Covisible& covisible : map->FindCovisible(newest)) {
     const KeyframeId id = covisible.keyframe;
     // The predecessor is still needed: frames are tracked against it and its landmarks are young.
     if (id == first || id + 1 >= newest) continue;
-    if (!IsRedundant(options, *map, *map->FindKeyframe(id))) continue;
+    if (!IsRedundant(options, *map, keyframes, *keyframes.Find(id))) continue;
     const std::vector<Map::Covisible> neighbours = map->FindCovisible(id);
     map->RemoveKeyframe(id, neighbours.front().keyframe);
+    keyframes = IndexAll(*map);
     ++num_removed;
   }
   return num_removed;

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <set>
 #include <vector>
 
+#include "msc_vo/map/id_set.h"
 #include "msc_vo/map/observer_count.h"
 
 namespace msc_vo {
@@ -54,14 +54,10 @@ std::set<KeyframeId> SelectKeyframes(const Map& map, const FrameMatches& matches
   return selected;
 }
 
-void AppendLandmarks(const std::vector<LandmarkId>& seen, std::vector<LandmarkId>* landmarks) {
-  std::copy_if(seen.begin(), seen.end(), std::back_inserter(*landmarks),
-               [](LandmarkId id) { return id != kNoId; });
-}
-
-void SortOnce(std::vector<LandmarkId>* ids) {
-  std::sort(ids->begin(), ids->end());
-  ids->erase(std::unique(ids->begin(), ids->end()), ids->end());
+void AddLandmarks(const std::vector<LandmarkId>& seen, IdSet* landmarks) {
+  for (const LandmarkId id : seen) {
+    if (id != kNoId) landmarks->Insert(id);
+  }
 }
 
 bool IsSeenFromNear(const Landmark& landmark, const Eigen::Vector3d& ray) {
@@ -100,22 +96,20 @@ LocalMap SelectLocalMap(const Map& map, const Frame& frame, const Rigid3& cam_fr
   LocalMap local;
   const std::set<KeyframeId> keyframes =
       SelectKeyframes(map, matches, fallback, max_keyframes, &local.reference);
-  std::vector<LandmarkId> points;
-  std::vector<LandmarkId> lines;
+  IdSet points(map.points());
+  IdSet lines(map.lines());
   for (const KeyframeId id : keyframes) {
     const Keyframe& keyframe = *map.FindKeyframe(id);
-    AppendLandmarks(keyframe.points, &points);
-    AppendLandmarks(keyframe.lines, &lines);
+    AddLandmarks(keyframe.points, &points);
+    AddLandmarks(keyframe.lines, &lines);
   }
-  SortOnce(&points);
-  SortOnce(&lines);
   const Eigen::Vector3d center = cam_from_world.OriginInSource();
-  for (const LandmarkId id : points) {
+  points.VisitAll([&](LandmarkId id) {
     AddPoint(*map.FindPoint(id), frame, cam_from_world, center, &local.points);
-  }
-  for (const LandmarkId id : lines) {
+  });
+  lines.VisitAll([&](LandmarkId id) {
     AddLine(*map.FindLine(id), frame, cam_from_world, center, &local.lines);
-  }
+  });
   return local;
 }
 

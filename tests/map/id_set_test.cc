@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/map/id_set.h"
+
+#include <gmock/gmock.h>
+
+#include "msc_vo/map/shared_table.h"
+
+namespace msc_vo {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+std::vector<int64_t> Ids(const IdSet& set) {
+  std::vector<int64_t> ids;
+  set.VisitAll([&](int64_t id) { ids.push_back(id); });
+  return ids;
+}
+
+TEST(IdSetTest, EveryIdComesOnceAndAscending) {
+  SharedTable<int, 4> table;
+  for (const int64_t id : {7, 8, 70, 71, 134, 135, 1000}) table.Append(id, 0);
+  IdSet set(table);
+  EXPECT_THAT(Ids(set), IsEmpty());
+  // Both ends, both sides of the borders of words, and one of them twice.
+  for (const int64_t id : {1000, 134, 7, 71, 70, 134}) set.Insert(id);
+  EXPECT_THAT(Ids(set), ElementsAre(7, 70, 71, 134, 1000));
+}
+
+TEST(IdSetTest, ThereIsNoneOfAnEmptyTable) {
+  EXPECT_THAT(Ids(IdSet(SharedTable<int, 4>())), IsEmpty());
+}
+
+}  // namespace
+}  // namespace msc_vo
