@@ -20,9 +20,9 @@ namespace msc_vo {
 // every walk over the map is the same at every run.
 class Map {
  public:
-  // Blocks of keyframes are one keyframe each, as its lists of landmarks are long; those of
-  // landmarks are small enough that few others are copied with one that changes, and large enough
-  // that there are few blocks (with 8 or 32 a keyframe step takes as long).
+  // Keyframes are shared one by one, as their lists of landmarks are long. Blocks of 16 landmarks,
+  // 2 kB without observations: few others are copied with one that changes, and a snapshot copies a
+  // sixteenth of the pointers.
   using KeyframeTable = SharedTable<Keyframe, 1>;
   using PointTable = SharedTable<PointLandmark, 16>;
   using LineTable = SharedTable<LineLandmark, 16>;
