@@ -140,6 +140,13 @@ class PairSearch {
 
 }  // namespace
 
+LineDepth Nearer(const LineDepth& depth, double offset) {
+  LineDepth nearer = depth;
+  nearer.start = depth.start / (1.0 - depth.start * offset);
+  nearer.end = depth.end / (1.0 - depth.end * offset);
+  return nearer;
+}
+
 LineSegment3 BackProject(const PinholeCamera& camera, const LineSegment2& segment,
                          const LineDepth& depth) {
   return {camera.BackProject(segment.start, 1.0 / depth.start),

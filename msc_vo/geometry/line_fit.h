@@ -40,6 +40,9 @@ struct LineDepth {
   }
 };
 
+// The same line with its depths z (metres) smaller by `offset`, |offset| much less than z.
+LineDepth Nearer(const LineDepth& depth, double offset);
+
 // The measured 3-D segment in camera coordinates (metres). `segment` is the image segment (pixels,
 // undistorted) that `depth` belongs to.
 LineSegment3 BackProject(const PinholeCamera& camera, const LineSegment2& segment,

@@ -293,6 +293,13 @@ void ListAxesEstimator(AxesEstimatorOptions* estimator, OptionLister* list) {
   list->Add("freeze_sigma", &estimator->freeze_sigma, "radians; axes known better stay");
 }
 
+void ListLandmarkNoise(LandmarkNoiseOptions* noise, OptionLister* list) {
+  list->Add("enabled", &noise->enabled, "whether every landmark has a noise of its own");
+  list->Add("prior", &noise->prior, "residuals that a noise of 1 counts as");
+  list->Add("depth_offset_sigma", &noise->depth_offset_sigma,
+            "metres, of what depths of a line are off in all views alike");
+}
+
 void ListNoiseEstimator(NoiseEstimatorOptions* noise, OptionLister* list) {
   list->Add("enabled", &noise->enabled, "whether the sigmas of features are learnt from residuals");
   list->Add("prior", &noise->prior, "quarters of images that the initial sigmas count as");
@@ -322,6 +329,7 @@ void ListMapping(MapperOptions* mapping, OptionLister* list) {
   list->Section("fusion", &mapping->fusion, ListFusion);
   list->Section("selection", &mapping->selection, ListSelection);
   list->Section("noise", &mapping->noise, ListNoiseEstimator);
+  list->Section("landmark_noise", &mapping->landmark_noise, ListLandmarkNoise);
   list->Section("axes", &mapping->axes, ListAxes);
   list->Section("pairs", &mapping->pairs, ListPairs);
   list->Section("window", &mapping->window, ListWindow);

@@ -34,6 +34,8 @@ struct Landmark {
   // Frames in which the landmark should have been seen, and those in which it was.
   int num_visible = 1;
   int num_found = 1;
+  // How many times larger the errors of its observations are than the sigmas of its features.
+  double noise = 1.0;
 };
 
 // P_i of the paper.
@@ -50,6 +52,8 @@ struct LineLandmark : Landmark {
   // Radians, of the direction in its least certain component, as the best single view knows it; pi
   // if no view has a depth.
   double direction_sigma = 0.0;
+  // Metres by which its depths are measured too far, in all views alike.
+  double depth_offset = 0.0;
 };
 
 }  // namespace msc_vo

@@ -204,6 +204,14 @@ void Map::SetPoint(LandmarkId point, const Eigen::Vector3d& position) {
 void Map::SetLine(LandmarkId line, const LineSegment3& segment) {
   lines_.FindToChange(line)->segment = segment;
 }
+void Map::SetPointNoise(LandmarkId point, double noise) {
+  points_.FindToChange(point)->noise = noise;
+}
+void Map::SetLineNoise(LandmarkId line, double noise, double depth_offset) {
+  LineLandmark* const landmark = lines_.FindToChange(line);
+  landmark->noise = noise;
+  landmark->depth_offset = depth_offset;
+}
 
 void Map::CountTracking(LandmarkId landmark, bool is_line, int num_visible, int num_found) {
   const auto count = [&](auto* landmarks) {

@@ -74,6 +74,9 @@ class Map {
   void SetPose(KeyframeId keyframe, const Rigid3& cam_from_world);
   void SetPoint(LandmarkId point, const Eigen::Vector3d& position);
   void SetLine(LandmarkId line, const LineSegment3& segment);
+  // Of the landmark's observations.
+  void SetPointNoise(LandmarkId point, double noise);
+  void SetLineNoise(LandmarkId line, double noise, double depth_offset);
   void CountTracking(LandmarkId landmark, bool is_line, int num_visible, int num_found);
 
   // Recomputes descriptor, viewing direction and reference distance from the observations.

@@ -8,6 +8,7 @@
 #include "msc_vo/map/window.h"
 #include "msc_vo/mapping/culling.h"
 #include "msc_vo/mapping/landmark_fusion.h"
+#include "msc_vo/mapping/landmark_noise.h"
 #include "msc_vo/mapping/noise_estimator.h"
 #include "msc_vo/mapping/scene_axes.h"
 #include "msc_vo/mapping/structural_pairs.h"
@@ -29,6 +30,7 @@ struct MapperOptions {
   FusionOptions fusion;
   WindowSelectionOptions selection;
   NoiseEstimatorOptions noise;
+  LandmarkNoiseOptions landmark_noise;
   SceneAxesOptions axes;
   StructuralPairOptions pairs;
   WindowOptions window = LocalWindowOptions();

@@ -11,8 +11,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "msc_vo/problems/observation.h"
-
 namespace msc_vo {
 
 namespace {
@@ -37,91 +35,78 @@ int QuarterOf(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
   return (pixel.x() < 0.5 * camera.width ? 0 : 1) + (pixel.y() < 0.5 * camera.height ? 0 : 2);
 }
 
-// Residuals of a solved window.
+// Residuals of one kind in the sigmas that features come with, times the scale they had: what a
+// landmark adds to that (mapping/landmark_noise) is no matter of the sensor.
 class ResidualReader {
  public:
-  explicit ResidualReader(const WindowData& window) : window_(window) {
-    for (const WindowData::Keyframe& keyframe : window.keyframes) {
-      poses_[keyframe.id] = &keyframe.cam_from_world;
-    }
-    for (const WindowData::Point& point : window.points) positions_[point.id] = &point.position;
-    for (const WindowData::Line& line : window.lines) segments_[line.id] = &line.segment;
-  }
+  ResidualReader(const WindowResiduals& residuals, const Map& map)
+      : residuals_(residuals), window_(residuals.window()), map_(map) {}
 
   Residuals PointDepths() const {
+    const auto& observations = window_.point_observations;
     std::map<int64_t, int> num_depths;
-    for (const auto& o : window_.point_observations) num_depths[o.point] += HasDepth(o);
-    Residuals residuals;
-    for (const auto& o : window_.point_observations) {
-      if (!HasDepth(o)) continue;
-      const double z = (*poses_.at(o.keyframe) * *positions_.at(o.point)).z();
-      residuals.push_back({o.keyframe, QuarterOf(window_.camera, o.pixel),
-                           (1.0 / z - o.inverse_depth) / o.inverse_depth_sigma,
-                           1.0 - 1.0 / num_depths.at(o.point)});
+    for (size_t i = 0; i < observations.size(); ++i) {
+      num_depths[observations[i].point] += !observations[i].rejected && residuals_.PointDepth(i);
     }
-    return residuals;
+    Residuals all;
+    for (size_t i = 0; i < observations.size(); ++i) {
+      const WindowData::PointObservation& o = observations[i];
+      const std::optional<double> residual = residuals_.PointDepth(i);
+      if (o.rejected || !residual) continue;
+      all.push_back({o.keyframe, QuarterOf(window_.camera, o.pixel),
+                     *residual * NoiseOf(map_.FindPoint(o.point)),
+                     1.0 - 1.0 / num_depths.at(o.point)});
+    }
+    return all;
   }
 
-  // At the middle of each segment.
   Residuals LineDepths() const {
+    const auto& observations = window_.line_observations;
     std::map<int64_t, int> num_depths;
-    for (const auto& o : window_.line_observations) num_depths[o.line] += HasDepth(o);
-    Residuals residuals;
-    for (const auto& o : window_.line_observations) {
-      if (!HasDepth(o)) continue;
-      const double w = InverseDepthAt(0.5, o.segment, InCamera(o));
-      residuals.push_back({o.keyframe, QuarterOf(window_.camera, o.segment.At(0.5)),
-                           (w - o.depth.At(0.5)) / o.depth.SigmaAt(0.5),
-                           1.0 - 1.0 / num_depths.at(o.line)});
+    for (size_t i = 0; i < observations.size(); ++i) {
+      num_depths[observations[i].line] += !observations[i].rejected && residuals_.LineDepth(i);
     }
-    return residuals;
+    Residuals all;
+    for (size_t i = 0; i < observations.size(); ++i) {
+      const WindowData::LineObservation& o = observations[i];
+      const std::optional<double> residual = residuals_.LineDepth(i);
+      if (o.rejected || !residual) continue;
+      all.push_back({o.keyframe, QuarterOf(window_.camera, o.segment.At(0.5)),
+                     *residual * NoiseOf(map_.FindLine(o.line)),
+                     1.0 - 1.0 / num_depths.at(o.line)});
+    }
+    return all;
   }
 
   // Of both end points. Rejected observations are part of it, as otherwise a sigma that is too
   // small would reject what contradicts it; they have cost nothing.
   Residuals LinePixels() const {
+    const auto& observations = window_.line_observations;
     std::map<int64_t, int> num_accepted;
-    for (const auto& o : window_.line_observations) num_accepted[o.line] += !o.rejected;
-    Residuals residuals;
-    for (const auto& o : window_.line_observations) {
-      const LineSegment3 in_cam = InCamera(o);
-      if (!IsInFront(in_cam)) continue;
-      const LineReprojection reprojection =
-          MakeLineReprojection(window_.camera, o.segment, o.sigma, in_cam);
+    for (const auto& o : observations) num_accepted[o.line] += !o.rejected;
+    Residuals all;
+    for (size_t i = 0; i < observations.size(); ++i) {
+      const WindowData::LineObservation& o = observations[i];
+      const std::optional<Eigen::Vector2d> residual = residuals_.LinePixel(i);
+      if (!residual) continue;
+      const int quarter = QuarterOf(window_.camera, o.segment.At(0.5));
       const double expected = o.rejected ? 1.0 : 1.0 - 1.0 / num_accepted.at(o.line);
+      const double noise = NoiseOf(map_.FindLine(o.line));
       for (const int end : {0, 1}) {
-        const Eigen::Vector3d& x_in_cam = end == 0 ? in_cam.start : in_cam.end;
-        double value = 0.0;
-        reprojection.Residual(end, x_in_cam, &value);
-        residuals.push_back(
-            {o.keyframe, QuarterOf(window_.camera, o.segment.At(0.5)), value, expected});
+        all.push_back({o.keyframe, quarter, (*residual)[end] * noise, expected});
       }
     }
-    return residuals;
+    return all;
   }
 
  private:
-  static bool HasDepth(const WindowData::PointObservation& o) {
-    return !o.rejected && o.inverse_depth > 0.0;
-  }
-  static bool HasDepth(const WindowData::LineObservation& o) { return !o.rejected && o.has_depth; }
-
-  LineSegment3 InCamera(const WindowData::LineObservation& o) const {
-    return *poses_.at(o.keyframe) * *segments_.at(o.line);
+  static double NoiseOf(const Landmark* landmark) {
+    return landmark != nullptr ? landmark->noise : 1.0;
   }
 
-  // Of the line, camera frame, at parameter s of the image segment: there 1/z is linear.
-  double InverseDepthAt(double s, const LineSegment2& image, const LineSegment3& in_cam) const {
-    const double start = image.Parameter(window_.camera.Project(in_cam.start));
-    const double end = image.Parameter(window_.camera.Project(in_cam.end));
-    const double share = (s - start) / (end - start);
-    return (1.0 - share) / in_cam.start.z() + share / in_cam.end.z();
-  }
-
+  const WindowResiduals& residuals_;
   const WindowData& window_;
-  std::map<int64_t, const Rigid3*> poses_;
-  std::map<int64_t, const Eigen::Vector3d*> positions_;
-  std::map<int64_t, const LineSegment3*> segments_;
+  const Map& map_;
 };
 
 // Standard deviation by the median of the absolute values.
@@ -215,7 +200,7 @@ void NoiseEstimator::Apply(WindowData* window) const {
   }
 }
 
-void NoiseEstimator::Update(const WindowData& solved) {
+void NoiseEstimator::Update(const WindowResiduals& residuals, const Map& map) {
   if (!options_.enabled) return;
   const auto learn = [this](const Evidence& evidence, Variance* variance) {
     const double scale = Scale(*variance);  // the window was whitened with it
@@ -225,7 +210,7 @@ void NoiseEstimator::Update(const WindowData& solved) {
                       total;
     variance->weight = std::min(total, options_.memory);
   };
-  const ResidualReader reader(solved);
+  const ResidualReader reader(residuals, map);
   learn(OfSums(reader.PointDepths()), &point_depth_);
   learn(OfSpread(reader.LinePixels()), &line_pixel_);
   learn(OfSums(reader.LineDepths()), &line_depth_);

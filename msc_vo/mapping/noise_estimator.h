@@ -5,8 +5,9 @@
 
 #include <string>
 
+#include "msc_vo/map/map.h"
 #include "msc_vo/map/noise_scale.h"
-#include "msc_vo/problems/window_data.h"
+#include "msc_vo/mapping/window_residuals.h"
 
 namespace msc_vo {
 
@@ -47,8 +48,8 @@ class NoiseEstimator {
 
   // Multiplies the sigmas of the window's observations.
   void Apply(WindowData* window) const;
-  // Learns from the same window when it is solved.
-  void Update(const WindowData& solved);
+  // Learns from the same window when it is solved. `map` knows the noise of its landmarks.
+  void Update(const WindowResiduals& residuals, const Map& map);
 
  private:
   // Square of one scale.

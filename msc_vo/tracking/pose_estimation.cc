@@ -42,6 +42,33 @@ std::vector<M> LandmarkInliersOf(const std::vector<M>& matches) {
   return inliers;
 }
 
+// Sigmas are those of the feature, times the scale that was learnt for all and the noise of the
+// landmark. Without a landmark (nullptr) the match is with the frame before.
+PoseData::Point Observe(const PointMatch& match, const PointFeature& feature,
+                        const PointLandmark* landmark, const NoiseScale& scale) {
+  const double noise = landmark != nullptr ? landmark->noise : 1.0;
+  return {match.position,
+          feature.pixel,
+          noise * feature.sigma,
+          feature.inverse_depth,
+          noise * scale.point_depth * feature.inverse_depth_sigma,
+          true};
+}
+
+PoseData::Line Observe(const LineMatch& match, const LineFeature& feature,
+                       const LineLandmark* landmark, const NoiseScale& scale) {
+  const double noise = landmark != nullptr ? landmark->noise : 1.0;
+  LineDepth depth = feature.depth.value_or(LineDepth());
+  if (landmark != nullptr) depth = Nearer(depth, landmark->depth_offset);
+  depth.covariance *= noise * noise * scale.line_depth * scale.line_depth;
+  return {match.segment,
+          feature.segment,
+          noise * scale.line_pixel * feature.sigma,
+          feature.depth.has_value(),
+          depth,
+          true};
+}
+
 }  // namespace
 
 LocalMap CandidatesFromFrame(const Map& map, const TrackedFrame& last,
@@ -101,22 +128,18 @@ FrameMatches LandmarkInliers(const FrameMatches& matches) {
   return {LandmarkInliersOf(matches.points), LandmarkInliersOf(matches.lines)};
 }
 
-PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame,
+PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, const Map& map,
                               const NoiseScale& scale, Rigid3* cam_from_world,
                               FrameMatches* matches) {
   PoseData data;
   data.camera = frame.camera;
   data.cam_from_world = *cam_from_world;
   for (const PointMatch& match : matches->points) {
-    const PointFeature& feature = frame.points[match.feature];
-    data.points.push_back({match.position, feature.pixel, feature.sigma, feature.inverse_depth,
-                           scale.point_depth * feature.inverse_depth_sigma, true});
+    data.points.push_back(
+        Observe(match, frame.points[match.feature], map.FindPoint(match.id), scale));
   }
   for (const LineMatch& match : matches->lines) {
-    const LineFeature& feature = frame.lines[match.feature];
-    data.lines.push_back({match.segment, feature.segment, scale.line_pixel * feature.sigma,
-                          feature.depth.has_value(), feature.depth.value_or(LineDepth()), true});
-    data.lines.back().depth.covariance *= scale.line_depth * scale.line_depth;
+    data.lines.push_back(Observe(match, frame.lines[match.feature], map.FindLine(match.id), scale));
   }
   const PoseSummary summary = SolvePose(options, &data);
   *cam_from_world = data.cam_from_world;

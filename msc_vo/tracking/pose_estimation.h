@@ -26,7 +26,7 @@ FrameMatches LandmarkInliers(const FrameMatches& matches);
 
 // Solves the pose problem of `frame` for `matches`, starting from *cam_from_world; marks inliers.
 // scale: factors of the sigmas of its features.
-PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame,
+PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, const Map& map,
                               const NoiseScale& scale, Rigid3* cam_from_world,
                               FrameMatches* matches);
 

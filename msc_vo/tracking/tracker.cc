@@ -124,7 +124,7 @@ bool Tracker::TrackMotion(const Map& map, const Rigid3& prediction, double radiu
   tracked->cam_from_world = prediction;
   tracked->matches = MatchLocalMap(options_, *tracked->frame, seen, radius, {});
   tracked->matching_ms += stopwatch.Milliseconds();
-  return EstimatePose(tracked);
+  return EstimatePose(map, tracked);
 }
 
 bool Tracker::TrackReference(const Map& map, const Rigid3& prediction,
@@ -136,7 +136,7 @@ bool Tracker::TrackReference(const Map& map, const Rigid3& prediction,
   tracked->cam_from_world = prediction;
   tracked->matches = MatchLocalMap(options_, *tracked->frame, local, options_.wide_radius, {});
   tracked->matching_ms += stopwatch.Milliseconds();
-  return EstimatePose(tracked);
+  return EstimatePose(map, tracked);
 }
 
 bool Tracker::TrackByAppearance(const Map& map, TrackedFrame* tracked) {
@@ -152,7 +152,7 @@ bool Tracker::TrackByAppearance(const Map& map, TrackedFrame* tracked) {
     if (!hit) continue;
     tracked->cam_from_world = hit->cam_from_world;
     tracked->matches = hit->matches;
-    if (EstimatePose(tracked)) {
+    if (EstimatePose(map, tracked)) {
       next_candidate_ = kNoId;
       return true;
     }
@@ -171,7 +171,7 @@ bool Tracker::TrackLocalMap(const Map& map, TrackedFrame* tracked) const {
   for (const PointCandidate& point : local.points) tracked->visible_points.push_back(point.id);
   for (const LineCandidate& line : local.lines) tracked->visible_lines.push_back(line.id);
   tracked->matching_ms += stopwatch.Milliseconds();
-  const bool found = EstimatePose(tracked);
+  const bool found = EstimatePose(map, tracked);
   if (!found) {
     // The map is thin here, but the last frame was found again: that pose holds.
     tracked->pose = before.pose;
@@ -182,11 +182,11 @@ bool Tracker::TrackLocalMap(const Map& map, TrackedFrame* tracked) const {
   return found;
 }
 
-bool Tracker::EstimatePose(TrackedFrame* tracked) const {
+bool Tracker::EstimatePose(const Map& map, TrackedFrame* tracked) const {
   if (NumMatches(tracked->matches) < options_.min_matches) return false;
   Stopwatch stopwatch;
   const Rigid3 start = tracked->cam_from_world;
-  tracked->pose = EstimateFramePose(options_.pose, *tracked->frame, tracked->noise_scale,
+  tracked->pose = EstimateFramePose(options_.pose, *tracked->frame, map, tracked->noise_scale,
                                     &tracked->cam_from_world, &tracked->matches);
   tracked->pose_ms += stopwatch.Milliseconds();
   const int num_inliers = tracked->pose.num_inlier_points + tracked->pose.num_inlier_lines;

@@ -33,7 +33,7 @@ class Tracker {
   // pose as it was, if the map has too little there.
   bool TrackLocalMap(const Map& map, TrackedFrame* tracked) const;
 
-  bool EstimatePose(TrackedFrame* tracked) const;
+  bool EstimatePose(const Map& map, TrackedFrame* tracked) const;
   TrackingStatus Judge(const TrackedFrame& tracked) const;
 
   TrackerOptions options_;

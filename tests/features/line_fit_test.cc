@@ -174,5 +174,16 @@ TEST(LineFit, DirectionSigmaAgreesWithSimulation) {
   EXPECT_NEAR(std::sqrt(sum / trials) / sigma, 1.0, 0.05);
 }
 
+TEST(LineDepth, NearerMovesBothEndsByTheSameDistance) {
+  LineDepth depth;
+  depth.start = 1.0 / 2.0;
+  depth.end = 1.0 / 3.0;
+  depth.covariance.setIdentity();
+  const LineDepth nearer = Nearer(depth, 0.01);
+  EXPECT_NEAR(1.0 / nearer.start, 1.99, 1e-12);
+  EXPECT_NEAR(1.0 / nearer.end, 2.99, 1e-12);
+  EXPECT_EQ(nearer.covariance, depth.covariance);
+}
+
 }  // namespace
 }  // namespace msc_vo
