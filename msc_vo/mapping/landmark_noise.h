@@ -18,7 +18,8 @@ struct LandmarkNoiseOptions {
   // they are a third larger.
   double prior = 2.0;
   // Metres, of what the depths of a line are off in all views alike: the thickness of a door's
-  // casing, a rounded edge. Errors with 0.0025 and 0.006 are larger by 5 %.
+  // casing, a rounded edge. With 0.0025, 0.004 and 0.006 the geometric mean of the errors of the
+  // ten rendered sequences was 0.81, 0.74 and 0.75 mm, without 0.81.
   double depth_offset_sigma = 0.005;
 
   bool IsValid(std::string* error) const;
