@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "msc_vo/problems/observation.h"
 
@@ -35,8 +36,8 @@ struct Evidence {
 };
 using EvidenceById = std::map<LandmarkId, Evidence>;
 
-// Adds what an observation leaves in the image (2 rows) and, if the solver believes it, in depth.
-// Returns whether it does.
+// Adds what an observation leaves in the image (2 rows) and, where that agrees with it, in depth (1
+// row). Returns whether the depth was added.
 bool AddObservation(double pixel_chi2, const std::optional<double>& depth, double limit,
                     double limit_with_depth, Evidence* evidence) {
   evidence->AddResiduals(pixel_chi2, 2);

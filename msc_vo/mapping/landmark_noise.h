@@ -14,8 +14,8 @@ namespace msc_vo {
 struct LandmarkNoiseOptions {
   bool enabled = true;
   // Residuals that a noise of 1 counts as, before any are seen: the degrees of freedom of Student's
-  // distribution. With 1, 2, 3 and 5 the errors over all sequences are alike; without (infinity)
-  // they are a third larger.
+  // distribution. With 1, 2 and 3 the geometric mean of the errors of the ten rendered sequences
+  // was 0.78, 0.74 and 0.76 mm; before offsets of depth 0.81 with 2, 0.84 with 5 and 1.09 without.
   double prior = 2.0;
   // Metres, of what the depths of a line are off in all views alike: the thickness of a door's
   // casing, a rounded edge. With 0.0025, 0.004 and 0.006 the geometric mean of the errors of the
@@ -39,11 +39,12 @@ struct LandmarkNoiseOptions {
 // many views removes their noise, but not that edges of depth and of colour are different edges.
 
 // Multiplies the sigmas of the window's observations, and takes the offsets off depths of lines.
+// All landmarks of the window must be in the map.
 void ApplyLandmarkNoise(const Map& map, WindowData* window);
 
 // Learns from the same window when it is solved with `window_options`: writes noise and offsets of
-// its landmarks to the map. Rejected observations, and depths that the solver rejects alone, do not
-// count.
+// its landmarks to the map. Rejected observations do not count, and no depths that fail the
+// chi-square test of `window_options` for an observation with one row of depth.
 void LearnLandmarkNoise(const LandmarkNoiseOptions& options, const WindowOptions& window_options,
                         const WindowResiduals& residuals, Map* map);
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <vector>
@@ -31,10 +32,6 @@ struct Residual {
 };
 using Residuals = std::vector<Residual>;
 
-int QuarterOf(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
-  return (pixel.x() < 0.5 * camera.width ? 0 : 1) + (pixel.y() < 0.5 * camera.height ? 0 : 2);
-}
-
 // Residuals of one kind in the sigmas that features come with, times the scale they had: what a
 // landmark adds to that (mapping/landmark_noise) is no matter of the sensor.
 class ResidualReader {
@@ -43,39 +40,10 @@ class ResidualReader {
       : residuals_(residuals), window_(residuals.window()), map_(map) {}
 
   Residuals PointDepths() const {
-    const auto& observations = window_.point_observations;
-    std::map<int64_t, int> num_depths;
-    for (size_t i = 0; i < observations.size(); ++i) {
-      num_depths[observations[i].point] += !observations[i].rejected && residuals_.PointDepth(i);
-    }
-    Residuals all;
-    for (size_t i = 0; i < observations.size(); ++i) {
-      const WindowData::PointObservation& o = observations[i];
-      const std::optional<double> residual = residuals_.PointDepth(i);
-      if (o.rejected || !residual) continue;
-      all.push_back({o.keyframe, QuarterOf(window_.camera, o.pixel),
-                     *residual * NoiseOf(map_.FindPoint(o.point)),
-                     1.0 - 1.0 / num_depths.at(o.point)});
-    }
-    return all;
+    return Depths(window_.point_observations, &WindowResiduals::PointDepth);
   }
-
   Residuals LineDepths() const {
-    const auto& observations = window_.line_observations;
-    std::map<int64_t, int> num_depths;
-    for (size_t i = 0; i < observations.size(); ++i) {
-      num_depths[observations[i].line] += !observations[i].rejected && residuals_.LineDepth(i);
-    }
-    Residuals all;
-    for (size_t i = 0; i < observations.size(); ++i) {
-      const WindowData::LineObservation& o = observations[i];
-      const std::optional<double> residual = residuals_.LineDepth(i);
-      if (o.rejected || !residual) continue;
-      all.push_back({o.keyframe, QuarterOf(window_.camera, o.segment.At(0.5)),
-                     *residual * NoiseOf(map_.FindLine(o.line)),
-                     1.0 - 1.0 / num_depths.at(o.line)});
-    }
-    return all;
+    return Depths(window_.line_observations, &WindowResiduals::LineDepth);
   }
 
   // Of both end points. Rejected observations are part of it, as otherwise a sigma that is too
@@ -89,17 +57,50 @@ class ResidualReader {
       const WindowData::LineObservation& o = observations[i];
       const std::optional<Eigen::Vector2d> residual = residuals_.LinePixel(i);
       if (!residual) continue;
-      const int quarter = QuarterOf(window_.camera, o.segment.At(0.5));
       const double expected = o.rejected ? 1.0 : 1.0 - 1.0 / num_accepted.at(o.line);
-      const double noise = NoiseOf(map_.FindLine(o.line));
       for (const int end : {0, 1}) {
-        all.push_back({o.keyframe, quarter, (*residual)[end] * noise, expected});
+        all.push_back({o.keyframe, QuarterOf(o), (*residual)[end] * NoiseOf(o), expected});
       }
     }
     return all;
   }
 
  private:
+  template <typename Observation>
+  Residuals Depths(const std::vector<Observation>& observations,
+                   std::optional<double> (WindowResiduals::*depth)(size_t) const) const {
+    std::map<int64_t, int> num_depths;
+    for (size_t i = 0; i < observations.size(); ++i) {
+      const Observation& o = observations[i];
+      num_depths[LandmarkOf(o)] += !o.rejected && (residuals_.*depth)(i).has_value();
+    }
+    Residuals all;
+    for (size_t i = 0; i < observations.size(); ++i) {
+      const Observation& o = observations[i];
+      const std::optional<double> residual = (residuals_.*depth)(i);
+      if (o.rejected || !residual) continue;
+      all.push_back({o.keyframe, QuarterOf(o), *residual * NoiseOf(o),
+                     1.0 - 1.0 / num_depths.at(LandmarkOf(o))});
+    }
+    return all;
+  }
+
+  static int64_t LandmarkOf(const WindowData::PointObservation& o) { return o.point; }
+  static int64_t LandmarkOf(const WindowData::LineObservation& o) { return o.line; }
+
+  int QuarterOf(const WindowData::PointObservation& o) const { return QuarterOf(o.pixel); }
+  int QuarterOf(const WindowData::LineObservation& o) const { return QuarterOf(o.segment.At(0.5)); }
+  int QuarterOf(const Eigen::Vector2d& pixel) const {
+    const PinholeCamera& camera = window_.camera;
+    return (pixel.x() < 0.5 * camera.width ? 0 : 1) + (pixel.y() < 0.5 * camera.height ? 0 : 2);
+  }
+
+  double NoiseOf(const WindowData::PointObservation& o) const {
+    return NoiseOf(map_.FindPoint(o.point));
+  }
+  double NoiseOf(const WindowData::LineObservation& o) const {
+    return NoiseOf(map_.FindLine(o.line));
+  }
   static double NoiseOf(const Landmark* landmark) {
     return landmark != nullptr ? landmark->noise : 1.0;
   }

@@ -25,7 +25,8 @@ FrameMatches MatchLocalMap(const TrackerOptions& options, const Frame& frame, co
 FrameMatches LandmarkInliers(const FrameMatches& matches);
 
 // Solves the pose problem of `frame` for `matches`, starting from *cam_from_world; marks inliers.
-// scale: factors of the sigmas of its features.
+// map: where the landmarks of the matches are, for their noise. scale: factors of the sigmas of the
+// frame's features.
 PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, const Map& map,
                               const NoiseScale& scale, Rigid3* cam_from_world,
                               FrameMatches* matches);
