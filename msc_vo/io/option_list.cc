@@ -228,6 +228,13 @@ void ListSelection(WindowSelectionOptions* selection, OptionLister* list) {
   list->Add("min_observations", &selection->min_observations, "of a landmark");
 }
 
+void ListLandmarkNoise(LandmarkNoiseOptions* noise, OptionLister* list) {
+  list->Add("enabled", &noise->enabled, "whether every landmark has a noise of its own");
+  list->Add("prior", &noise->prior, "residuals that a noise of 1 counts as");
+  list->Add("depth_offset_sigma", &noise->depth_offset_sigma,
+            "metres, of what depths of a line are off in all views alike");
+}
+
 void ListWindow(WindowOptions* window, OptionLister* list) {
   list->AddChoice("solver", &window->solver,
                   {"block-schur", "ceres-dense-schur", "ceres-suite-sparse", "ceres-eigen-sparse"},
@@ -244,6 +251,7 @@ void ListWindow(WindowOptions* window, OptionLister* list) {
   list->Add("line_anchor", &window->line_anchor, "whether end points are held along their line");
   list->Add("line_anchor_sigma", &window->line_anchor_sigma,
             "metres, of the prior that keeps end points from sliding along their line");
+  list->Section("landmark_noise", &window->landmark_noise, ListLandmarkNoise);
   list->Add("first_iterations", &window->first_iterations, "with all observations");
   list->Add("second_iterations", &window->second_iterations, "after rejection");
 }
@@ -293,13 +301,6 @@ void ListAxesEstimator(AxesEstimatorOptions* estimator, OptionLister* list) {
   list->Add("freeze_sigma", &estimator->freeze_sigma, "radians; axes known better stay");
 }
 
-void ListLandmarkNoise(LandmarkNoiseOptions* noise, OptionLister* list) {
-  list->Add("enabled", &noise->enabled, "whether every landmark has a noise of its own");
-  list->Add("prior", &noise->prior, "residuals that a noise of 1 counts as");
-  list->Add("depth_offset_sigma", &noise->depth_offset_sigma,
-            "metres, of what depths of a line are off in all views alike");
-}
-
 void ListNoiseEstimator(NoiseEstimatorOptions* noise, OptionLister* list) {
   list->Add("enabled", &noise->enabled, "whether the sigmas of features are learnt from residuals");
   list->Add("prior", &noise->prior, "quarters of images that the initial sigmas count as");
@@ -329,7 +330,6 @@ void ListMapping(MapperOptions* mapping, OptionLister* list) {
   list->Section("fusion", &mapping->fusion, ListFusion);
   list->Section("selection", &mapping->selection, ListSelection);
   list->Section("noise", &mapping->noise, ListNoiseEstimator);
-  list->Section("landmark_noise", &mapping->landmark_noise, ListLandmarkNoise);
   list->Section("axes", &mapping->axes, ListAxes);
   list->Section("pairs", &mapping->pairs, ListPairs);
   list->Section("window", &mapping->window, ListWindow);

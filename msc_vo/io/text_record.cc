@@ -32,6 +32,10 @@ void FieldReader::Number(const char* name, double& value) {
   value = *number;
 }
 
+void FieldReader::OptionalNumber(const char* name, double& value) {
+  if (next_ < line_.fields.size()) Number(name, value);
+}
+
 void FieldReader::Integer(const char* name, int64_t& value) {
   using Limits = std::numeric_limits<int64_t>;
   value = ReadInteger(name, Limits::min(), Limits::max());

@@ -26,6 +26,7 @@ class FieldWriter {
   FieldWriter(const char* keyword, std::string* text) : text_(text) { *text_ += keyword; }
 
   void Number(const char* name, double value);
+  void OptionalNumber(const char* name, double value) { Number(name, value); }
   void Integer(const char* name, int64_t value);
   void Flag(const char* if_false, const char* if_true, bool value);
   void EndRecord() { *text_ += '\n'; }
@@ -34,10 +35,11 @@ class FieldWriter {
   std::string* text_;
 };
 
-// Lists the names of the fields: "ID X free|fixed".
+// Lists the names of the fields: "ID X free|fixed", those that may be left out in brackets.
 class FieldNames {
  public:
   void Number(const char* name, double) { Add(name); }
+  void OptionalNumber(const char* name, double) { Add(std::string("[") + name + "]"); }
   void Integer(const char* name, int64_t) { Add(name); }
   void Flag(const char* if_false, const char* if_true, bool);
 
@@ -56,6 +58,8 @@ class FieldReader {
   FieldReader(const TextLine& line, std::string names) : line_(line), names_(std::move(names)) {}
 
   void Number(const char* name, double& value);
+  // Only at the end of a record. Where it is left out, the value stays.
+  void OptionalNumber(const char* name, double& value);
   void Integer(const char* name, int64_t& value);
   void Integer(const char* name, int& value);
   void Flag(const char* if_false, const char* if_true, bool& value);

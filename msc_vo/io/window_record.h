@@ -42,7 +42,8 @@ struct KeyframeRecord {
 
 struct PointRecord {
   static constexpr const char* kKeyword = "point";
-  static constexpr const char* kComment = "position in the world, metres";
+  static constexpr const char* kComment =
+      "position in the world, metres; factor of its observations' sigmas";
   static constexpr auto kItems = &WindowData::points;
   template <typename Point, typename Fields>
   static void Visit(Point& point, Fields& fields) {
@@ -51,12 +52,15 @@ struct PointRecord {
     fields.Number("X", point.position[0]);
     fields.Number("Y", point.position[1]);
     fields.Number("Z", point.position[2]);
+    fields.OptionalNumber("NOISE", point.noise);
   }
 };
 
 struct LineRecord {
   static constexpr const char* kKeyword = "line";
-  static constexpr const char* kComment = "end points in the world, metres";
+  static constexpr const char* kComment =
+      "end points in the world, metres; factor of its observations' sigmas; metres that its depths "
+      "are measured too far";
   static constexpr auto kItems = &WindowData::lines;
   template <typename Line, typename Fields>
   static void Visit(Line& line, Fields& fields) {
@@ -65,6 +69,8 @@ struct LineRecord {
     constexpr const char* kNames[2][3] = {{"SX", "SY", "SZ"}, {"EX", "EY", "EZ"}};
     for (int i = 0; i < 3; ++i) fields.Number(kNames[0][i], line.segment.start[i]);
     for (int i = 0; i < 3; ++i) fields.Number(kNames[1][i], line.segment.end[i]);
+    fields.OptionalNumber("NOISE", line.noise);
+    fields.OptionalNumber("DEPTH_OFFSET", line.depth_offset);
   }
 };
 

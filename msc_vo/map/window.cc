@@ -149,7 +149,7 @@ WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map,
     taking_part.Add(*map.FindKeyframe(keyframe_data.id));
   }
   for (const PointLandmark* point : points) {
-    data.points.push_back({point->id, point->position, false});
+    data.points.push_back({point->id, point->position, false, point->noise});
     for (const Observation& seen : point->observations) {
       const Keyframe* observer = taking_part.Find(seen.keyframe);
       if (observer == nullptr) continue;
@@ -157,7 +157,7 @@ WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map,
     }
   }
   for (const LineLandmark* line : lines) {
-    data.lines.push_back({line->id, line->segment, false});
+    data.lines.push_back({line->id, line->segment, false, line->noise, line->depth_offset});
     for (const Observation& seen : line->observations) {
       const Keyframe* observer = taking_part.Find(seen.keyframe);
       if (observer == nullptr) continue;
@@ -205,6 +205,7 @@ void WriteBack(const WindowData& window, Map* map) {
   for (const WindowData::Point& point : window.points) {
     if (map->FindPoint(point.id) == nullptr) continue;
     map->SetPoint(point.id, point.position);
+    map->SetPointNoise(point.id, point.noise);
     map->RefreshPoint(point.id);
   }
   for (const WindowData::Line& line : window.lines) {
@@ -216,6 +217,7 @@ void WriteBack(const WindowData& window, Map* map) {
       continue;
     }
     map->SetLine(line.id, CutToObservations(*map, *landmark, line.segment));
+    map->SetLineNoise(line.id, line.noise, line.depth_offset);
     map->RefreshLine(line.id);
   }
 }

@@ -74,15 +74,12 @@ WindowSummary Mapper::OptimizeWindow(KeyframeId keyframe) {
   // One keyframe alone has nothing to agree with.
   if (window.keyframes.size() < 2) return {};
   noise_.Apply(&window);
-  ApplyLandmarkNoise(map_, &window);
   axes_.AddAlignments(map_, &window);
   AddStructuralPairs(options_.pairs, map_, &window);
   if (window_observer_) window_observer_(keyframe, options_.window, window);
   const WindowSummary summary = SolveWindow(options_.window, &window);
   if (summary.usable) {
-    const WindowResiduals residuals(window);
-    noise_.Update(residuals, map_);
-    LearnLandmarkNoise(options_.landmark_noise, options_.window, residuals, &map_);
+    noise_.Update(WindowResiduals(window));
     WriteBack(window, &map_);
   }
   return summary;

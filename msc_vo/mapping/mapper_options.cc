@@ -7,8 +7,8 @@ namespace msc_vo {
 
 bool MapperOptions::IsValid(std::string* error) const {
   return fusion.IsValid(error) && selection.IsValid(error) && noise.IsValid(error) &&
-         landmark_noise.IsValid(error) && axes.IsValid(error) && pairs.IsValid(error) &&
-         window.IsValid(error) && culling.IsValid(error);
+         axes.IsValid(error) && pairs.IsValid(error) && window.IsValid(error) &&
+         culling.IsValid(error);
 }
 
 }  // namespace msc_vo

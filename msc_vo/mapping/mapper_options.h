@@ -8,7 +8,6 @@
 #include "msc_vo/map/window.h"
 #include "msc_vo/mapping/culling.h"
 #include "msc_vo/mapping/landmark_fusion.h"
-#include "msc_vo/mapping/landmark_noise.h"
 #include "msc_vo/mapping/noise_estimator.h"
 #include "msc_vo/mapping/scene_axes.h"
 #include "msc_vo/mapping/structural_pairs.h"
@@ -23,6 +22,7 @@ inline WindowOptions LocalWindowOptions() {
   WindowOptions options;
   options.first_iterations = 2;
   options.second_iterations = 3;
+  options.landmark_noise.enabled = true;
   return options;
 }
 
@@ -30,7 +30,6 @@ struct MapperOptions {
   FusionOptions fusion;
   WindowSelectionOptions selection;
   NoiseEstimatorOptions noise;
-  LandmarkNoiseOptions landmark_noise;
   SceneAxesOptions axes;
   StructuralPairOptions pairs;
   WindowOptions window = LocalWindowOptions();

@@ -32,12 +32,11 @@ struct Residual {
 };
 using Residuals = std::vector<Residual>;
 
-// Residuals of one kind in the sigmas that features come with, times the scale they had: what a
-// landmark adds to that (mapping/landmark_noise) is no matter of the sensor.
+// Residuals of one kind.
 class ResidualReader {
  public:
-  ResidualReader(const WindowResiduals& residuals, const Map& map)
-      : residuals_(residuals), window_(residuals.window()), map_(map) {}
+  explicit ResidualReader(const WindowResiduals& residuals)
+      : residuals_(residuals), window_(residuals.window()) {}
 
   Residuals PointDepths() const {
     return Depths(window_.point_observations, &WindowResiduals::PointDepth);
@@ -59,7 +58,7 @@ class ResidualReader {
       if (!residual) continue;
       const double expected = o.rejected ? 1.0 : 1.0 - 1.0 / num_accepted.at(o.line);
       for (const int end : {0, 1}) {
-        all.push_back({o.keyframe, QuarterOf(o), (*residual)[end] * NoiseOf(o), expected});
+        all.push_back({o.keyframe, QuarterOf(o), (*residual)[end], expected});
       }
     }
     return all;
@@ -79,8 +78,8 @@ class ResidualReader {
       const Observation& o = observations[i];
       const std::optional<double> residual = (residuals_.*depth)(i);
       if (o.rejected || !residual) continue;
-      all.push_back({o.keyframe, QuarterOf(o), *residual * NoiseOf(o),
-                     1.0 - 1.0 / num_depths.at(LandmarkOf(o))});
+      all.push_back(
+          {o.keyframe, QuarterOf(o), *residual, 1.0 - 1.0 / num_depths.at(LandmarkOf(o))});
     }
     return all;
   }
@@ -95,19 +94,8 @@ class ResidualReader {
     return (pixel.x() < 0.5 * camera.width ? 0 : 1) + (pixel.y() < 0.5 * camera.height ? 0 : 2);
   }
 
-  double NoiseOf(const WindowData::PointObservation& o) const {
-    return NoiseOf(map_.FindPoint(o.point));
-  }
-  double NoiseOf(const WindowData::LineObservation& o) const {
-    return NoiseOf(map_.FindLine(o.line));
-  }
-  static double NoiseOf(const Landmark* landmark) {
-    return landmark != nullptr ? landmark->noise : 1.0;
-  }
-
   const WindowResiduals& residuals_;
   const WindowData& window_;
-  const Map& map_;
 };
 
 // Standard deviation by the median of the absolute values.
@@ -201,7 +189,7 @@ void NoiseEstimator::Apply(WindowData* window) const {
   }
 }
 
-void NoiseEstimator::Update(const WindowResiduals& residuals, const Map& map) {
+void NoiseEstimator::Update(const WindowResiduals& residuals) {
   if (!options_.enabled) return;
   const auto learn = [this](const Evidence& evidence, Variance* variance) {
     const double scale = Scale(*variance);  // the window was whitened with it
@@ -211,7 +199,7 @@ void NoiseEstimator::Update(const WindowResiduals& residuals, const Map& map) {
                       total;
     variance->weight = std::min(total, options_.memory);
   };
-  const ResidualReader reader(residuals, map);
+  const ResidualReader reader(residuals);
   learn(OfSums(reader.PointDepths()), &point_depth_);
   learn(OfSpread(reader.LinePixels()), &line_pixel_);
   learn(OfSums(reader.LineDepths()), &line_depth_);

@@ -48,8 +48,8 @@ class NoiseEstimator {
 
   // Multiplies the sigmas of the window's observations.
   void Apply(WindowData* window) const;
-  // Learns from the same window when it is solved. `map` knows the noise of its landmarks.
-  void Update(const WindowResiduals& residuals, const Map& map);
+  // Learns from the same window when it is solved.
+  void Update(const WindowResiduals& residuals);
 
  private:
   // Square of one scale.

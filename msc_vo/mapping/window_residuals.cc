@@ -34,14 +34,10 @@ WindowResiduals::WindowResiduals(const WindowData& solved) : window_(solved) {
   }
   lines_in_cam_.reserve(solved.line_observations.size());
   for (const WindowData::LineObservation& o : solved.line_observations) {
-    lines_in_cam_.push_back(keyframes.at(o.keyframe)->cam_from_world * lines.at(o.line)->segment);
+    const WindowData::Line& line = *lines.at(o.line);
+    lines_in_cam_.push_back(keyframes.at(o.keyframe)->cam_from_world * line.segment);
+    depth_offsets_.push_back(line.depth_offset);
   }
-}
-
-std::optional<Eigen::Vector2d> WindowResiduals::PointPixel(size_t i) const {
-  if (!IsInFront(points_in_cam_[i])) return std::nullopt;
-  const WindowData::PointObservation& o = window_.point_observations[i];
-  return (window_.camera.Project(points_in_cam_[i]) - o.pixel) / o.sigma;
 }
 
 std::optional<double> WindowResiduals::PointDepth(size_t i) const {
@@ -51,31 +47,16 @@ std::optional<double> WindowResiduals::PointDepth(size_t i) const {
 }
 
 std::optional<Eigen::Vector2d> WindowResiduals::LinePixel(size_t i) const {
-  const LineSegment3& in_cam = lines_in_cam_[i];
-  if (!IsInFront(in_cam)) return std::nullopt;
+  if (!IsInFront(lines_in_cam_[i])) return std::nullopt;
   const WindowData::LineObservation& o = window_.line_observations[i];
-  const LineReprojection reprojection =
-      MakeLineReprojection(window_.camera, o.segment, o.sigma, in_cam);
-  Eigen::Vector2d residual;
-  reprojection.Residual(0, Eigen::Vector3d(in_cam.start), &residual[0]);
-  reprojection.Residual(1, Eigen::Vector3d(in_cam.end), &residual[1]);
-  return residual;
+  return LineResidual(window_.camera, o.segment, o.sigma, lines_in_cam_[i]);
 }
 
 std::optional<double> WindowResiduals::LineDepth(size_t i) const {
   const WindowData::LineObservation& o = window_.line_observations[i];
   if (!o.has_depth || !IsInFront(lines_in_cam_[i])) return std::nullopt;
-  return (LineInverseDepth(i) - o.depth.At(0.5)) / o.depth.SigmaAt(0.5);
-}
-
-double WindowResiduals::LineInverseDepth(size_t i) const {
-  // Along the image of a line 1/z is linear.
-  const LineSegment2& image = window_.line_observations[i].segment;
-  const LineSegment3& in_cam = lines_in_cam_[i];
-  const double start = image.Parameter(window_.camera.Project(in_cam.start));
-  const double end = image.Parameter(window_.camera.Project(in_cam.end));
-  const double share = (0.5 - start) / (end - start);
-  return (1.0 - share) / in_cam.start.z() + share / in_cam.end.z();
+  const double inverse_depth = InverseDepthAt(window_.camera, o.segment, lines_in_cam_[i], 0.5);
+  return (inverse_depth - Nearer(o.depth, depth_offsets_[i]).At(0.5)) / o.depth.SigmaAt(0.5);
 }
 
 }  // namespace msc_vo

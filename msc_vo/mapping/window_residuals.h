@@ -14,8 +14,9 @@
 
 namespace msc_vo {
 
-// What a window leaves of its observations when it is solved, in their sigmas: what is learnt about
-// noise is learnt from this. Observations are named by their position in the window's lists.
+// What a window leaves of its observations when it is solved, in their sigmas without the noise of
+// their landmarks: what the sensor is learnt from. Observations are named by their position in the
+// window's lists.
 class WindowResiduals {
  public:
   // Keeps a reference to `solved`. Throws std::out_of_range if an observation is of a keyframe or
@@ -24,23 +25,20 @@ class WindowResiduals {
 
   const WindowData& window() const { return window_; }
 
-  // Of a point in the image, both coordinates; none behind the camera.
-  std::optional<Eigen::Vector2d> PointPixel(size_t i) const;
-  // Of its inverse depth; none if it was not measured.
+  // Of a point's inverse depth; none if it was not measured, or behind the camera.
   std::optional<double> PointDepth(size_t i) const;
   // Of a line in the image, at both end points of the map line; none behind the camera.
   std::optional<Eigen::Vector2d> LinePixel(size_t i) const;
-  // Of its inverse depth at the middle of the observed segment; none if it was not measured.
+  // Of its inverse depth at the middle of the observed segment, less the line's offset; none if it
+  // was not measured.
   std::optional<double> LineDepth(size_t i) const;
-
-  // Inverse depth (1/metres) of the map line at the middle of the observed segment.
-  double LineInverseDepth(size_t i) const;
 
  private:
   const WindowData& window_;
   // In the observing camera, metres, by observation.
   std::vector<Eigen::Vector3d> points_in_cam_;
   std::vector<LineSegment3> lines_in_cam_;
+  std::vector<double> depth_offsets_;  // metres, of lines
 };
 
 }  // namespace msc_vo

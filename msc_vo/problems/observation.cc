@@ -37,4 +37,22 @@ LineDepthReprojection MakeLineDepthReprojection(const PinholeCamera& camera,
   return {camera, segment, depth, depth.SigmaAt(s_start), depth.SigmaAt(s_end)};
 }
 
+Eigen::Vector2d LineResidual(const PinholeCamera& camera, const LineSegment2& segment, double sigma,
+                             const LineSegment3& line_in_cam) {
+  const LineReprojection reprojection = MakeLineReprojection(camera, segment, sigma, line_in_cam);
+  Eigen::Vector2d residual;
+  reprojection.Residual(0, Eigen::Vector3d(line_in_cam.start), &residual[0]);
+  reprojection.Residual(1, Eigen::Vector3d(line_in_cam.end), &residual[1]);
+  return residual;
+}
+
+double InverseDepthAt(const PinholeCamera& camera, const LineSegment2& segment,
+                      const LineSegment3& line_in_cam, double s) {
+  // Along the image of a line 1/z is linear.
+  const double start = segment.Parameter(camera.Project(line_in_cam.start));
+  const double end = segment.Parameter(camera.Project(line_in_cam.end));
+  const double share = (s - start) / (end - start);
+  return (1.0 - share) / line_in_cam.start.z() + share / line_in_cam.end.z();
+}
+
 }  // namespace msc_vo

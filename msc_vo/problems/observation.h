@@ -46,4 +46,12 @@ LineDepthReprojection MakeLineDepthReprojection(const PinholeCamera& camera,
                                                 const LineSegment2& segment, const LineDepth& depth,
                                                 const LineSegment3& line_in_cam);
 
+// The residual of the first of them, in its sigmas.
+Eigen::Vector2d LineResidual(const PinholeCamera& camera, const LineSegment2& segment, double sigma,
+                             const LineSegment3& line_in_cam);
+
+// Inverse depth (1/metres) of the map line where the observed segment has parameter s.
+double InverseDepthAt(const PinholeCamera& camera, const LineSegment2& segment,
+                      const LineSegment3& line_in_cam, double s);
+
 }  // namespace msc_vo

@@ -54,6 +54,14 @@ const char* PositionError(const Eigen::Vector3d& position) {
   return AreCoordinates(position) ? nullptr : "position is not finite, or beyond 1e9 m";
 }
 
+const char* NoiseError(double noise) {
+  return IsPositive(noise) ? nullptr : "noise must be a positive number";
+}
+
+const char* DepthOffsetError(double offset) {
+  return AreCoordinates(offset) ? nullptr : "depth_offset is not finite, or beyond 1e9 m";
+}
+
 const char* MapLineError(const LineSegment3& segment) {
   if (!AreCoordinates(segment.start) || !AreCoordinates(segment.end)) {
     return "segment is not finite, or beyond 1e9 m";

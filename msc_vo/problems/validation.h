@@ -22,6 +22,8 @@ const char* PointObservationError(const Eigen::Vector2d& pixel, double sigma, do
                                   double inverse_depth_sigma);
 const char* LineObservationError(const LineSegment2& segment, double sigma, bool has_depth,
                                  const LineDepth& depth);
+const char* NoiseError(double noise);
+const char* DepthOffsetError(double offset);
 // Symmetric to 1e-6 of its correlations, and positive definite.
 const char* CovarianceError(const Eigen::Matrix2d& covariance);
 const char* CovarianceError(const Eigen::Matrix<double, 6, 6>& covariance);

@@ -29,11 +29,17 @@ struct WindowData {
     int64_t id = 0;
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  // metres, world
     bool fixed = false;
+    // By which the sigmas of its observations are multiplied; positive. The solver learns it.
+    double noise = 1.0;
   };
   struct Line {
     int64_t id = 0;
     LineSegment3 segment;  // metres, world
     bool fixed = false;
+    double noise = 1.0;  // as of points
+    // Metres, by which its depths are measured too far in all views alike; much less than they are.
+    // The solver learns it.
+    double depth_offset = 0.0;
   };
   struct PointObservation {
     int64_t keyframe = 0;

@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "msc_vo/problems/ceres_window.h"
+#include "msc_vo/problems/landmark_noise.h"
 #include "msc_vo/problems/validation.h"
 #include "msc_vo/problems/window_classification.h"
 #include "msc_vo/problems/window_validation.h"
@@ -113,7 +115,10 @@ WindowSummary SolveWindow(const WindowOptions& options, WindowData* data,
   if (!minimize(first, options.first_iterations)) return summary;
   ClassifyAll(options, first, state, &activity, &summary);
 
-  const WindowTerms second = MakeWindowTerms(options, *data, index, activity, state);
+  // Not yet in *data, which stays as it was if the second solve fails.
+  WindowData learnt = *data;
+  LearnLandmarkNoise(options.landmark_noise, index, activity, state, &learnt);
+  const WindowTerms second = MakeWindowTerms(options, learnt, index, activity, state);
   if (!minimize(second, options.second_iterations)) return summary;
   WriteCounts(second, &summary);
   summary.final_cost = WriteCosts(second, state, &TermSummary::final_cost, &summary);
@@ -124,13 +129,15 @@ WindowSummary SolveWindow(const WindowOptions& options, WindowData* data,
   }
   summary.usable = true;
   enter(WindowStage::kWriteBack);
+  LearnLandmarkNoise(options.landmark_noise, index, activity, state, &learnt);
+  *data = std::move(learnt);
   WriteBack(second, activity, state, data);
   enter(WindowStage::kDone);
   return summary;
 }
 
 bool WindowOptions::IsValid(std::string* error) const {
-  if (!CommonOptionsAreValid(*this, error)) return false;
+  if (!CommonOptionsAreValid(*this, error) || !landmark_noise.IsValid(error)) return false;
   const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
   if (!is_positive(parallel.huber) || !is_positive(perpendicular.huber) ||
       !is_positive(manhattan.huber)) {

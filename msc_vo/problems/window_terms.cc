@@ -40,15 +40,17 @@ class TermMaker {
     for (size_t i = 0; i < index_.points.size(); ++i) {
       const auto& [keyframe, point] = index_.points[i];
       const WindowData::PointObservation& o = data_.point_observations[i];
+      const double noise = data_.points[point].noise;
       const Activity active = Enabled(activity_.points[i], options_.point_reprojection.enabled,
                                       options_.point_depth.enabled);
       if (active.reprojection) {
         terms_.point_reprojection.blocks.push_back(
-            {PointReprojection(data_.camera, o.pixel, o.sigma), keyframe, point, Source(i)});
+            {PointReprojection(data_.camera, o.pixel, noise * o.sigma), keyframe, point,
+             Source(i)});
       }
       if (active.depth) {
         terms_.point_depth.blocks.push_back(
-            {DepthReprojection(o.inverse_depth, o.inverse_depth_sigma), keyframe, point,
+            {DepthReprojection(o.inverse_depth, noise * o.inverse_depth_sigma), keyframe, point,
              Source(i)});
       }
       if (active.reprojection || active.depth) {
@@ -63,6 +65,7 @@ class TermMaker {
     for (size_t i = 0; i < index_.lines.size(); ++i) {
       const auto& [keyframe, line] = index_.lines[i];
       const WindowData::LineObservation& o = data_.line_observations[i];
+      const double noise = data_.lines[line].noise;
       const Activity active = Enabled(activity_.lines[i], options_.line_reprojection.enabled,
                                       options_.line_depth.enabled);
       if (!active.reprojection && !active.depth) continue;
@@ -70,12 +73,14 @@ class TermMaker {
       const LineSegment3 in_cam = state_.Pose(keyframe) * state_.Line(line);
       if (active.reprojection) {
         terms_.line_reprojection.blocks.push_back(
-            {MakeLineReprojection(data_.camera, o.segment, o.sigma, in_cam), keyframe, line,
+            {MakeLineReprojection(data_.camera, o.segment, noise * o.sigma, in_cam), keyframe, line,
              Source(i)});
       }
       if (active.depth) {
+        LineDepth depth = Nearer(o.depth, data_.lines[line].depth_offset);
+        depth.covariance *= noise * noise;
         terms_.line_depth.blocks.push_back(
-            {MakeLineDepthReprojection(data_.camera, o.segment, o.depth, in_cam), keyframe, line,
+            {MakeLineDepthReprojection(data_.camera, o.segment, depth, in_cam), keyframe, line,
              Source(i)});
       }
     }

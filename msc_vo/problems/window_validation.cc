@@ -63,8 +63,15 @@ void CheckKeyframesAndLandmarks(const WindowData& data) {
   if (!any_fixed && data.pose_priors.empty()) {
     Throw("no keyframe is fixed or has a prior: the gauge is free");
   }
-  for (const WindowData::Point& p : data.points) check(PositionError(p.position), "point", p.id);
-  for (const WindowData::Line& l : data.lines) check(MapLineError(l.segment), "line", l.id);
+  for (const WindowData::Point& p : data.points) {
+    check(PositionError(p.position), "point", p.id);
+    check(NoiseError(p.noise), "point", p.id);
+  }
+  for (const WindowData::Line& l : data.lines) {
+    check(MapLineError(l.segment), "line", l.id);
+    check(NoiseError(l.noise), "line", l.id);
+    check(DepthOffsetError(l.depth_offset), "line", l.id);
+  }
 }
 
 std::vector<WindowIndex::Pair> ResolvePairs(const std::vector<WindowData::LinePair>& pairs,

@@ -32,11 +32,11 @@ WindowData AwkwardWindow() {
   data.keyframes[0].cam_from_world.params << 0.1, 0.2, 0.3, -0.4, 0.1 + 0.2, 1e-17, -1e22;
   data.keyframes[1].id = std::numeric_limits<int64_t>::max();
   data.points = {{3, {Limits::denorm_min(), Limits::max(), -Limits::min()}, true},
-                 {4, {0.6, -0.5, 0.25}, false}};
+                 {4, {0.6, -0.5, 0.25}, false, 1.0 / 9.0}};
   LineSegment3 segment;
   segment.start = {1.0 / 7.0, 2.0 / 7.0, 3.0 / 7.0};
   segment.end = {4.0 / 7.0, 5.0 / 7.0, 6.0 / 7.0};
-  data.lines = {{5, segment, true}, {6, segment, false}};
+  data.lines = {{5, segment, true}, {6, segment, false, 0.37, -1.0 / 13.0}};
   data.point_observations = {{7, 8, {0.7, 0.8}, 0.9, 1.1, 1.2, true}, {9, 10, {1.3, 1.4}}};
   WindowData::LineObservation observation;
   observation.keyframe = 11;
@@ -233,7 +233,7 @@ TEST_F(WindowFileTest, ErrorsNameLineAndFix) {
   expect("point 3 ", "pint 3 ", "unknown record 'pint'; known are option camera keyframe point");
   expect("point 3 fixed", "point 3 held",
          "'held' should be 'free' or 'fixed'; correct the line to "
-         "'point ID free|fixed X Y Z'");
+         "'point ID free|fixed X Y Z [NOISE]'");
   expect("point 3 fixed", "point 3.5 fixed", "'3.5' should be ID, a whole number");
   expect("point 3 fixed", "point 99999999999999999999 fixed", "should be ID, a whole number");
   expect("481.2", "nan", "'nan' should be FX, a finite number; correct the line to 'camera FX FY");
@@ -269,11 +269,29 @@ TEST_F(WindowFileTest, ErrorsOfTheWholeFile) {
   EXPECT_THAT(MessageOf([&] { ReadWindow(Folder()); }), HasSubstr("is a folder"));
 }
 
+TEST_F(WindowFileTest, NoiseMayBeLeftOut) {
+  const std::string start = "msc_vo_window 1\ncamera 1 1 1 1 1 1\n";
+  WriteText("window.txt", start +
+                              "point 3 free 1 2 3\npoint 4 free 1 2 3 0.5\n"
+                              "line 5 free 0 0 0 1 1 1\nline 6 free 0 0 0 1 1 1 0.7\n"
+                              "line 7 free 0 0 0 1 1 1 0.7 -0.01\nend 6\n");
+  const WindowData data = ReadWindow(Path("window.txt")).data;
+  EXPECT_EQ(data.points[0].noise, 1.0);
+  EXPECT_EQ(data.points[1].noise, 0.5);
+  EXPECT_EQ(data.lines[0].noise, 1.0);
+  EXPECT_EQ(data.lines[1].noise, 0.7);
+  EXPECT_EQ(data.lines[1].depth_offset, 0.0);
+  EXPECT_EQ(data.lines[2].depth_offset, -0.01);
+  EXPECT_THAT(ErrorOf(start + "point 3 free 1 2 3 4 5\nend 2\n"),
+              HasSubstr("expected 'point ID free|fixed X Y Z [NOISE]', found 7 fields"));
+  EXPECT_THAT(ErrorOf(start + "point 3 free 1 2 3 x\nend 2\n"), HasSubstr("'x' should be NOISE"));
+}
+
 TEST_F(WindowFileTest, NumbersThatAreNotFiniteAreWrittenAndRefused) {
   WindowData data;
   data.points = {{7, {0.0, std::nan(""), 1.0}}};
   const std::string text = FormatWindow(WindowOptions(), data);
-  EXPECT_THAT(text, HasSubstr("point 7 free 0 nan 1\n"));
+  EXPECT_THAT(text, HasSubstr("point 7 free 0 nan 1 1\n"));
   EXPECT_THAT(ErrorOf(text), HasSubstr("'nan' should be Y, a finite number"));
 }
 

@@ -40,7 +40,7 @@ double LearntScale(const NoiseEstimatorOptions& options, const Disturb& disturb)
     disturb(&window);
     noise.Apply(&window);
     EXPECT_TRUE(SolveWindow(WindowOptions(), &window).usable);
-    noise.Update(WindowResiduals(window), Map());
+    noise.Update(WindowResiduals(window));
   }
   return noise.scale().point_depth;
 }
@@ -99,7 +99,7 @@ TEST(NoiseEstimator, AppliesToAllObservations) {
   NoiseEstimator noise(QuickOptions());
   WindowData window = NoisyWindow(1);
   for (auto& o : window.point_observations) o.inverse_depth_sigma *= 0.1;
-  noise.Update(WindowResiduals(window), Map());
+  noise.Update(WindowResiduals(window));
   ASSERT_GT(noise.scale().point_depth, 1.0);
   WindowData scaled = window;
   noise.Apply(&scaled);
@@ -132,7 +132,7 @@ double LearntLinePixelScale(double factor, size_t gross) {
     }
     noise.Apply(&window);
     EXPECT_TRUE(SolveWindow(WindowOptions(), &window).usable);
-    noise.Update(WindowResiduals(window), Map());
+    noise.Update(WindowResiduals(window));
   }
   return noise.scale().line_pixel;
 }
@@ -157,7 +157,7 @@ TEST(NoiseEstimator, LinesHaveAScaleOfTheirOwn) {
     for (auto& o : window.line_observations) o.depth.covariance *= 0.25;
     noise.Apply(&window);
     ASSERT_TRUE(SolveWindow(WindowOptions(), &window).usable);
-    noise.Update(WindowResiduals(window), Map());
+    noise.Update(WindowResiduals(window));
   }
   EXPECT_GT(noise.scale().line_depth, 1.4);
   EXPECT_LT(noise.scale().point_depth, 1.2);

@@ -124,6 +124,17 @@ TEST_F(WindowValidationTest, KeyframesAndLandmarks) {
   data_ = good;
   data_.lines[3].segment.end = data_.lines[3].segment.start;
   EXPECT_THAT(Message(), HasSubstr("line 56: segment has no length"));
+  for (const double noise : {0.0, -1.0, nan_, infinity_}) {
+    data_ = good;
+    data_.points[2].noise = noise;
+    EXPECT_THAT(Message(), HasSubstr("point 1014: noise must be a positive number"));
+    data_ = good;
+    data_.lines[3].noise = noise;
+    EXPECT_THAT(Message(), HasSubstr("line 56: noise must be a positive number"));
+  }
+  data_ = good;
+  data_.lines[3].depth_offset = nan_;
+  EXPECT_THAT(Message(), HasSubstr("line 56: depth_offset is not finite"));
 }
 
 TEST_F(WindowValidationTest, PointObservations) {
