@@ -202,11 +202,11 @@ double IntensityCentroidAngle(const cv::Mat& level, const cv::Point& center) {
 
 // Where the corners of one level are, to sub-pixels; those that end at the same pixel are one.
 std::vector<RefinedCorner> RefineCorners(const cv::Mat& level, const std::vector<Corner>& corners) {
-  const cv::Rect area = DetectionArea(level);
+  const CornerRefiner refiner(level, DetectionArea(level));
   cv::Mat taken = cv::Mat::zeros(level.size(), CV_8UC1);
   std::vector<RefinedCorner> refined;
   for (const Corner& corner : corners) {
-    const RefinedCorner candidate = RefineCorner(level, area, corner.pixel);
+    const RefinedCorner candidate = refiner.Refine(corner.pixel);
     uint8_t& is_taken = taken.at<uint8_t>(candidate.pixel);
     if (is_taken == 0) refined.push_back(candidate);
     is_taken = 1;

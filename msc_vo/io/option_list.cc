@@ -168,6 +168,9 @@ void ListPose(PoseOptions* pose, OptionLister* list) {
   list->Add("num_rounds", &pose->num_rounds, "of solving and classifying all matches");
   list->Add("num_robust_rounds", &pose->num_robust_rounds, "the first ones, with the loss");
   list->Add("iterations_per_round", &pose->iterations_per_round, "at most");
+  list->Add(
+      "max_frame_noise", &pose->max_frame_noise,
+      "how far chi-square limits grow, in sigmas, where all points of a frame are seen worse");
 }
 
 void ListKeyframePolicy(KeyframePolicyOptions* policy, OptionLister* list) {

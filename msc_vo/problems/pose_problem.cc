@@ -104,9 +104,35 @@ Activity ClassifyLine(const PoseOptions& options, const PinholeCamera& camera, c
   return activity;
 }
 
+// Chi-square of a normal error of two coordinates in the median.
+constexpr double kChiSquareMedian2 = 1.386;
+// Fewer do not tell the noise of a frame.
+constexpr size_t kMinPointsForNoise = 10;
+
+// Square of how many times larger than their sigmas the errors of this frame's points are, by their
+// median: within [1, max_frame_noise^2]. A blurred image shows all its points worse.
+double SquaredFrameNoise(const PoseOptions& options, const PoseData& data, const Rigid3& pose) {
+  std::vector<double> chi2;
+  chi2.reserve(data.points.size());
+  for (const PoseData::Point& p : data.points) {
+    const Eigen::Vector3d in_cam = pose * p.position;
+    if (!IsInFront(in_cam)) continue;
+    chi2.push_back((data.camera.Project(in_cam) - p.pixel).squaredNorm() / (p.sigma * p.sigma));
+  }
+  if (chi2.size() < kMinPointsForNoise) return 1.0;
+  const auto middle = chi2.begin() + static_cast<std::ptrdiff_t>(chi2.size() / 2);
+  std::nth_element(chi2.begin(), middle, chi2.end());
+  return std::clamp(*middle / kChiSquareMedian2, 1.0,
+                    options.max_frame_noise * options.max_frame_noise);
+}
+
 // Chi-square test of every match over the terms that are enabled, outliers of earlier rounds
-// included.
-Activities Classify(const PoseOptions& options, const PoseData& data, const Rigid3& pose) {
+// included, in the noise of the frame.
+Activities Classify(PoseOptions options, const PoseData& data, const Rigid3& pose) {
+  const double noise2 = SquaredFrameNoise(options, data, pose);
+  for (double* limit : {&options.reject_chi2_2, &options.reject_chi2_3, &options.reject_chi2_4}) {
+    *limit *= noise2;
+  }
   Activities result;
   for (const PoseData::Point& p : data.points) {
     result.points.push_back(ClassifyPoint(options, data.camera, pose, p));
@@ -218,6 +244,8 @@ bool PoseOptions::IsValid(std::string* error) const {
     *error = "num_rounds must be at least 1, and num_robust_rounds within [0, num_rounds]";
   } else if (iterations_per_round < 1) {
     *error = "iterations_per_round must be at least 1";
+  } else if (!(max_frame_noise >= 1.0)) {
+    *error = "max_frame_noise must be at least 1";
   } else {
     return true;
   }

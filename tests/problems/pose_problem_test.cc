@@ -108,6 +108,22 @@ TEST_P(PoseProblemTest, NoiseAndWrongMatches) {
   EXPECT_EQ(kept, summary.num_inlier_points + summary.num_inlier_lines);
 }
 
+TEST_P(PoseProblemTest, AFrameThatIsSeenWorseKeepsItsMatches) {
+  SyntheticWindowOptions scene = Scene();
+  scene.noise = 1.8;
+  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const auto share_of_inliers = [&](double max_frame_noise) {
+    PoseOptions options;
+    options.max_frame_noise = max_frame_noise;
+    PoseData data = MakePoseData(window, kFrame);
+    const auto num_points = static_cast<double>(data.points.size());
+    return SolvePose(options, &data).num_inlier_points / num_points;
+  };
+  // Of normal errors 1 - exp(-9.21 / 2 / 1.8^2) = 0.76 pass a test for sigmas 1.8 times too small.
+  EXPECT_NEAR(share_of_inliers(1.0), 0.76, 0.1);
+  EXPECT_GT(share_of_inliers(2.0), 0.95);
+}
+
 TEST_P(PoseProblemTest, AMatchThatBecomesGoodComesBack) {
   SyntheticWindowOptions scene = Scene();
   scene.noise = 0.0;
@@ -116,6 +132,7 @@ TEST_P(PoseProblemTest, AMatchThatBecomesGoodComesBack) {
   // A prediction so far off that many matches fail the test after a first round of one step.
   data.cam_from_world = Moved(Truth(window), {0.03, 0.06, 0.03}, {0.1, -0.05, 0.15});
   PoseOptions options;
+  options.max_frame_noise = 1.0;  // else the test would take such a frame for a noisy one
   options.iterations_per_round = 1;
   options.num_rounds = 1;
   options.num_robust_rounds = 1;
@@ -258,6 +275,14 @@ TEST_P(PoseProblemTest, OnePointSeenOftenIsNotUsable) {
   data.lines.clear();
   data.points.assign(20, data.points[0]);
   ExpectNotUsable(data);
+}
+
+TEST(PoseOptions, FrameNoiseBelowOneIsRefused) {
+  PoseOptions options;
+  options.max_frame_noise = 0.9;
+  std::string error;
+  EXPECT_FALSE(options.IsValid(&error));
+  EXPECT_THAT(error, HasSubstr("max_frame_noise"));
 }
 
 TEST_P(PoseProblemTest, MisuseNamesTheOffender) {
