@@ -120,8 +120,8 @@ enum class WindowStage {
 // on one; whoever wants to know where the time goes brings his own.
 using WindowStageObserver = std::function<void(WindowStage)>;
 
-// Refines keyframes, points and lines that are not fixed (paper: Local Map Optimization), and what
-// is learnt of the noise of landmarks. Marks
+// Refines keyframes, points and lines that are not fixed (paper: Local Map Optimization).
+// Where options.landmark_noise is on, learns the noise of all points and lines, fixed or not. Marks
 // rejected observations, pairs and alignments in `data`, whatever the marks said before. A landmark
 // that loses its last observation keeps its value; a pair or an alignment binds only lines that are
 // observed, and is neither counted nor rejected otherwise, or where no line is free. At least one

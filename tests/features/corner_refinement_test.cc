@@ -3,18 +3,20 @@
 
 #include "msc_vo/features/corner_refinement.h"
 
+#include <cmath>
+
 #include "tests/features/drawing.h"
 #include <gtest/gtest.h>
 
 namespace msc_vo {
 namespace {
 
-// The upper left corner of a bright square at `corner`.
-cv::Mat DrawCorner(const Eigen::Vector2d& corner, double noise, uint32_t seed) {
+// The upper left corner of a bright square at `corner`, blurred as by a lens (pixels).
+cv::Mat DrawCorner(const Eigen::Vector2d& corner, double noise, uint32_t seed, double blur = 0.8) {
   testing::Canvas canvas(60, 60, 70);
   canvas.FillRectangle(corner.x(), corner.y(), 200.0, 200.0, 190);
   cv::Mat image = canvas.Render();
-  cv::GaussianBlur(image, image, cv::Size(), 0.5);  // as a good lens does
+  cv::GaussianBlur(image, image, cv::Size(), blur);
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, noise);
   for (int i = 0; i < image.rows * image.cols && noise > 0.0; ++i) {
@@ -27,43 +29,54 @@ RefinedCorner Refine(const cv::Mat& image, const cv::Rect& area, const cv::Point
   return CornerRefiner(image, area).Refine(corner);
 }
 
-TEST(CornerRefinement, FollowsSubPixelShifts) {
+// Largest difference between shifts of a corner and those that are found, pixels.
+double WorstShift(double blur) {
   const cv::Rect area(10, 10, 40, 40);
   const Eigen::Vector2d base(30.0, 30.0);
-  const RefinedCorner first = Refine(DrawCorner(base, 1.0, 1), area, {31, 31});
+  const RefinedCorner first = Refine(DrawCorner(base, 1.0, 1, blur), area, {31, 31});
   double worst = 0.0;
   for (int i = 1; i < 16; ++i) {
     const Eigen::Vector2d shift(0.125 * (i % 8), 0.125 * ((3 * i) % 8));
-    const RefinedCorner moved = Refine(DrawCorner(base + shift, 1.0, i + 1), area, {31, 31});
+    const RefinedCorner moved = Refine(DrawCorner(base + shift, 1.0, i + 1, blur), area, {31, 31});
     worst = std::max(worst, (moved.position - first.position - shift).cwiseAbs().maxCoeff());
   }
-  // Whole pixels are up to 0.5 px off. (The maximum of the response alone: 0.25; what the apex
-  // scatters more is the price of where it is.)
-  EXPECT_LT(worst, 0.3);
+  return worst;
+}
+
+// Whole pixels are up to 0.5 px off. The maximum of the response alone: 0.30 and 0.16. In blurred
+// images, where the position is between maximum and apex, it follows worse than the maximum does.
+TEST(CornerRefinement, FollowsSubPixelShifts) {
+  EXPECT_LT(WorstShift(0.5), 0.3);
+  EXPECT_LT(WorstShift(0.8), 0.4);
 }
 
 TEST(CornerRefinement, EndsNearTheApex) {
-  // The response is largest at 0.9 px from it in either coordinate.
+  // In a sharp image; the response is largest 1.15 px from it.
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   constexpr int kCorners = 32;
   for (int i = 0; i < kCorners; ++i) {
     const Eigen::Vector2d apex(30.0 + 0.125 * (i % 8), 30.0 + 0.125 * ((3 * i) % 8));
     const RefinedCorner corner =
-        Refine(DrawCorner(apex, 1.0, i + 1), cv::Rect(10, 10, 40, 40), {31, 31});
+        Refine(DrawCorner(apex, 1.0, i + 1, 0.5), cv::Rect(10, 10, 40, 40), {31, 31});
     EXPECT_LT((corner.position - apex).norm(), 0.6);
     mean += (corner.position - apex) / kCorners;
   }
   EXPECT_LT(mean.norm(), 0.45);
 }
 
-TEST(CornerRefinement, WhatHasNoApexStaysAtTheMaximum) {
-  // A dot: its edges meet nowhere.
+TEST(CornerRefinement, ADotStaysAtItsCentre) {
+  // Its edges meet nowhere.
+  const Eigen::Vector2d center(30.3, 29.8);
+  std::vector<Eigen::Vector2d> circle;
+  for (int i = 0; i < 64; ++i) {
+    circle.emplace_back(center + 1.5 * Eigen::Vector2d(std::cos(0.1 * i), std::sin(0.1 * i)));
+  }
   testing::Canvas canvas(60, 60, 70);
-  canvas.FillRectangle(28.3, 28.4, 32.3, 32.4, 190);
+  canvas.FillPolygon(circle, 190);
   cv::Mat image = canvas.Render();
-  cv::GaussianBlur(image, image, cv::Size(), 1.0);
+  cv::GaussianBlur(image, image, cv::Size(), 0.5);
   const RefinedCorner dot = Refine(image, cv::Rect(10, 10, 40, 40), {30, 30});
-  EXPECT_LT((dot.position - Eigen::Vector2d(dot.pixel.x, dot.pixel.y)).cwiseAbs().maxCoeff(), 1.0);
+  EXPECT_LT((dot.position - center).norm(), 0.2);
 }
 
 TEST(CornerRefinement, ClimbsToTheSamePixelFromAround) {
