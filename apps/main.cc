@@ -9,6 +9,8 @@
 #include <malloc.h>
 #endif
 
+#include <opencv2/core/utility.hpp>
+
 #include "apps/commands.h"
 #include "msc_vo/version.h"
 
@@ -66,6 +68,7 @@ const std::string& CommandLine() { return command_line; }
 
 int main(int argc, char** argv) {
   msc_vo::KeepFreedMemory();
+  cv::setNumThreads(1);
   try {
     return msc_vo::Main(argc, argv);
   } catch (const std::exception& error) {

@@ -28,6 +28,7 @@ constexpr int kPatch = 2 * kPatchRadius + 1;
 // pixels see an edge at a place that depends on where the pixels lie. In simulation (corners of 60
 // to 120 degrees, noise of 3 grey values) that takes a third off the scatter of the apex.
 constexpr double kApexBlur = 1.0;  // pixels
+constexpr int kApexBlurWindow = 5;
 constexpr int kApexRadius = 3;
 constexpr int kApexWindow = 2 * kApexRadius + 1;
 constexpr double kApexSigma = 1.5;  // pixels
@@ -52,43 +53,52 @@ std::array<float, kWindow> GaussianWeights() {
   return weights;
 }
 
+// A row of pixels' numbers, with room for eight: two vectors of what every processor has.
+using Row = Eigen::Array<float, 8, 1>;
+
+// Products of the gradients of the eight pixels from `row` on.
+struct GradientProducts {
+  Row xx, xy, yy;
+
+  GradientProducts() = default;
+  GradientProducts(const uint8_t* row, size_t step) {
+    using Bytes = Eigen::Map<const Eigen::Array<uint8_t, 8, 1>>;
+    const Row gx = Bytes(row + 1).cast<float>() - Bytes(row - 1).cast<float>();
+    const Row gy = Bytes(row + step).cast<float>() - Bytes(row - step).cast<float>();
+    xx = gx * gx;
+    xy = gx * gy;
+    yy = gy * gy;
+  }
+};
+
 // Corner responses of the 3x3 pixels around one.
 class ResponsePatch {
  public:
   ResponsePatch(const cv::Mat& gray, const cv::Point& center) {
     static const std::array<float, kWindow> weights = GaussianWeights();
-    // Columns of the three moments, summed over the rows of each of the three windows.
-    float xx[3][kPatch] = {};
-    float xy[3][kPatch] = {};
-    float yy[3][kPatch] = {};
+    std::array<GradientProducts, kPatch> rows;
     for (int y = 0; y < kPatch; ++y) {
-      const uint8_t* row = gray.ptr<uint8_t>(center.y + y - kPatchRadius) + center.x - kPatchRadius;
-      const uint8_t* above = row - gray.step;
-      const uint8_t* below = row + gray.step;
-      for (int v = 0; v < 3; ++v) {
-        if (y < v || y >= v + kWindow) continue;
-        const float weight = weights[y - v];
-        for (int x = 0; x < kPatch; ++x) {
-          const float gx = static_cast<float>(row[x + 1] - row[x - 1]);
-          const float gy = static_cast<float>(below[x] - above[x]);
-          xx[v][x] += weight * gx * gx;
-          xy[v][x] += weight * gx * gy;
-          yy[v][x] += weight * gy * gy;
-        }
-      }
+      rows[y] = {gray.ptr<uint8_t>(center.y + y - kPatchRadius) + center.x - kPatchRadius,
+                 gray.step};
     }
     for (int v = 0; v < 3; ++v) {
+      // Columns of the moments, summed over the rows of the window; then for each of its places.
+      Row xx = Row::Zero(), xy = Row::Zero(), yy = Row::Zero();
+      for (int y = 0; y < kWindow; ++y) {
+        xx += weights[y] * rows[v + y].xx;
+        xy += weights[y] * rows[v + y].xy;
+        yy += weights[y] * rows[v + y].yy;
+      }
+      Eigen::Array4f a = Eigen::Array4f::Zero(), b = a, c = a;
+      for (int x = 0; x < kWindow; ++x) {
+        a += weights[x] * xx.segment<4>(x);
+        b += weights[x] * xy.segment<4>(x);
+        c += weights[x] * yy.segment<4>(x);
+      }
       for (int u = 0; u < 3; ++u) {
-        float a = 0.0f;
-        float b = 0.0f;
-        float c = 0.0f;
-        for (int x = 0; x < kWindow; ++x) {
-          a += weights[x] * xx[v][u + x];
-          b += weights[x] * xy[v][u + x];
-          c += weights[x] * yy[v][u + x];
-        }
-        const double trace = static_cast<double>(a) + c;
-        response_[v][u] = trace > 0.0 ? (static_cast<double>(a) * c - b * b) / trace : 0.0;
+        const double trace = static_cast<double>(a[u]) + c[u];
+        response_[v][u] =
+            trace > 0.0 ? (static_cast<double>(a[u]) * c[u] - b[u] * b[u]) / trace : 0.0;
       }
     }
   }
@@ -124,6 +134,32 @@ class ResponsePatch {
   double response_[3][3];
 };
 
+// Gaussian weights of the pixels of an apex's window, and their distances from it.
+struct ApexWeights {
+  Row distance, weight;  // the eighth weighs nothing
+
+  // The first pixel is at `first` from the apex.
+  explicit ApexWeights(double first) {
+    static const Row of_squares = OfSquares();
+    // Of exp(-(first + i)^2 / 2 sigma^2) the part of first^2 is left out: it is in all of them.
+    const float ratio = std::exp(static_cast<float>(-first / (kApexSigma * kApexSigma)));
+    float power = 1.0f;
+    for (int i = 0; i < 8; ++i, power *= ratio) {
+      distance[i] = static_cast<float>(first + i);
+      weight[i] = power * of_squares[i];
+    }
+  }
+
+ private:
+  static Row OfSquares() {
+    Row weights = Row::Zero();
+    for (int i = 0; i < kApexWindow; ++i) {
+      weights[i] = static_cast<float>(std::exp(-0.5 * i * i / (kApexSigma * kApexSigma)));
+    }
+    return weights;
+  }
+};
+
 // The apex of a corner: Gauss-Newton is one linear solution after the other, as the window follows.
 class ApexSearch {
  public:
@@ -152,44 +188,49 @@ class ApexSearch {
  private:
   // Weighted sums over the window at the apex. False if that leaves the image.
   bool SumMoments() {
-    const int x0 = cvRound(apex_.x()) - kApexRadius;
-    const int y0 = cvRound(apex_.y()) - kApexRadius;
-    const cv::Rect inner(1, 1, smooth_.cols - 2 - kApexWindow, smooth_.rows - 2 - kApexWindow);
-    if (!inner.contains(cv::Point(x0, y0))) return false;
-    const std::array<double, kApexWindow> weights_x = Weights(x0 - apex_.x());
-    const std::array<double, kApexWindow> weights_y = Weights(y0 - apex_.y());
-    moments_.setZero();
-    offset_.setZero();
-    double squares = 0.0;
-    for (int v = 0; v < kApexWindow; ++v) {
-      const uint8_t* row = smooth_.ptr<uint8_t>(y0 + v) + x0;
-      const uint8_t* above = row - smooth_.step;
-      const uint8_t* below = row + smooth_.step;
-      for (int u = 0; u < kApexWindow; ++u) {
-        const Eigen::Vector2d g(row[u + 1] - row[u - 1], below[u] - above[u]);
-        const double distance =
-            g.x() * (x0 + u - apex_.x()) + g.y() * (y0 + v - apex_.y());  // times |g|
-        const Eigen::Vector2d weighted = weights_x[u] * weights_y[v] * g;
-        moments_.noalias() += weighted * g.transpose();
-        offset_ += weighted * distance;
-        squares += weights_x[u] * weights_y[v] * distance * distance;
-      }
+    if (!MoveWindow({cvRound(apex_.x()) - kApexRadius, cvRound(apex_.y()) - kApexRadius})) {
+      return false;
     }
-    misfit_ = squares / moments_.trace();
+    const ApexWeights x(window_.x - apex_.x()), y(window_.y - apex_.y());
+    // Columns first: of g g^T, of its second column times y, and of the last times y^2.
+    Row xx = Row::Zero(), xy = xx, yy = xx, xy_y = xx, yy_y = xx, yy_yy = xx;
+    for (int v = 0; v < kApexWindow; ++v) {
+      const GradientProducts& row = products_[v];
+      const Row weighted_xy = y.weight[v] * row.xy, weighted_yy = y.weight[v] * row.yy;
+      xx += y.weight[v] * row.xx;
+      xy += weighted_xy;
+      yy += weighted_yy;
+      xy_y += y.distance[v] * weighted_xy;
+      yy_y += y.distance[v] * weighted_yy;
+      yy_yy += y.distance[v] * y.distance[v] * weighted_yy;
+    }
+    moments_(0, 0) = (x.weight * xx).sum();
+    moments_(0, 1) = moments_(1, 0) = (x.weight * xy).sum();
+    moments_(1, 1) = (x.weight * yy).sum();
+    offset_.x() = (x.weight * (xx * x.distance + xy_y)).sum();
+    offset_.y() = (x.weight * (xy * x.distance + yy_y)).sum();
+    const Row squares = (xx * x.distance + 2.0f * xy_y) * x.distance + yy_yy;
+    misfit_ = (x.weight * squares).sum() / moments_.trace();
     return true;
   }
 
-  static std::array<double, kApexWindow> Weights(double first) {
-    std::array<double, kApexWindow> weights;
-    for (int i = 0; i < kApexWindow; ++i) {
-      const double x = (first + i) / kApexSigma;
-      weights[i] = std::exp(-0.5 * x * x);
+  // Gradients are taken once while the window stays on the same pixels.
+  bool MoveWindow(const cv::Point& corner) {
+    if (corner == window_) return true;
+    // With the eighth pixel of a row, and those beside.
+    const cv::Rect inner(1, 1, smooth_.cols - 2 - kApexWindow, smooth_.rows - 2 - kApexWindow);
+    if (!inner.contains(corner)) return false;
+    window_ = corner;
+    for (int v = 0; v < kApexWindow; ++v) {
+      products_[v] = {smooth_.ptr<uint8_t>(corner.y + v) + corner.x, smooth_.step};
     }
-    return weights;
+    return true;
   }
 
   const cv::Mat& smooth_;
   Eigen::Vector2d apex_;
+  cv::Point window_{-1, -1};  // its first pixel; outside of the image: none yet
+  std::array<GradientProducts, kApexWindow> products_;
   Eigen::Matrix2d moments_;
   Eigen::Vector2d offset_;  // of the linear solution: moments^-1 offset leads from the apex to it
   double misfit_ = 0.0;
@@ -198,7 +239,7 @@ class ApexSearch {
 }  // namespace
 
 CornerRefiner::CornerRefiner(const cv::Mat& gray, const cv::Rect& area) : gray_(gray), area_(area) {
-  cv::GaussianBlur(gray, smooth_, cv::Size(), kApexBlur);
+  cv::GaussianBlur(gray, smooth_, cv::Size(kApexBlurWindow, kApexBlurWindow), kApexBlur);
 }
 
 RefinedCorner CornerRefiner::Refine(const cv::Point& corner) const {

@@ -101,19 +101,6 @@ struct FrameBuilder::State {
     }
   }
 
-  // Lines with a depth, made consistent with each other (paper: 3D Feature Position Estimation).
-  void RefineStructure(std::vector<LineFeature>* lines) const {
-    std::vector<StructureLine> fits;
-    for (const LineFeature& line : *lines) {
-      if (line.depth) fits.push_back({line.segment, *line.depth, line.sigma});
-    }
-    if (!RefineFrameStructure(options.structure, camera, &fits).usable) return;
-    auto fit = fits.begin();
-    for (LineFeature& line : *lines) {
-      if (line.depth) line.depth = (fit++)->depth;
-    }
-  }
-
   // Inside one image the random noise decides what is a surface; the sigma of the result is that of
   // the whole error.
   double SigmaPerNoise() const {
@@ -123,7 +110,7 @@ struct FrameBuilder::State {
 
 bool FrameBuilderOptions::IsValid(std::string* error) const {
   if (!points.IsValid(error) || !lines.IsValid(error) || !noise.IsValid(error) ||
-      !line_fit.IsValid(error) || !structure.IsValid(error)) {
+      !line_fit.IsValid(error)) {
     return false;
   }
   if (!(min_depth > 0.0 && max_depth > min_depth)) {
@@ -164,7 +151,6 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
     frame.lines = state_->Lines(image.gray);
     times.lines = line_stopwatch.Restart();
     state_->LocateLines(&frame.lines);
-    if (state_->options.refine_structure) state_->RefineStructure(&frame.lines);
     line_depth_ms = line_stopwatch.Restart();
   });
   for (size_t l = 0; l < levels.size(); ++l) {

@@ -15,7 +15,6 @@
 #include "msc_vo/features/sensor_noise.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/map/frame.h"
-#include "msc_vo/problems/frame_structure_problem.h"
 
 namespace msc_vo {
 
@@ -25,8 +24,6 @@ struct FrameBuilderOptions {
   SensorNoiseOptions noise;
   LineFitOptions line_fit;
   LineDepthMethod line_depth = LineDepthMethod::kRobustFit;
-  bool refine_structure = true;  // of line depths, by RefineFrameStructure()
-  FrameStructureOptions structure;
   double min_depth = 0.2;  // metres; depth outside [min_depth, max_depth] is invalid
   double max_depth = 10.0;
 

@@ -94,15 +94,6 @@ void ListLineFit(LineFitOptions* fit, OptionLister* list) {
   list->Add("min_inliers", &fit->min_inliers, "below this the line stays 2-D");
 }
 
-void ListFrameStructure(FrameStructureOptions* structure, OptionLister* list) {
-  list->Add("max_angle", &structure->max_angle, "degrees of a pair's angle from 0 or 90");
-  list->Add("pair_sigma", &structure->pair_sigma, "degrees, of the angle of what was built so");
-  list->Add("gate_sigmas", &structure->gate_sigmas, "of the angle of a pair");
-  list->Add("max_partners", &structure->max_partners, "of each kind that a line chooses");
-  list->Add("huber", &structure->huber, "sigmas; where the loss turns from square to linear");
-  list->Add("max_iterations", &structure->max_iterations, "at most");
-}
-
 void ListFeatures(FrameBuilderOptions* features, OptionLister* list) {
   list->Section("points", &features->points, ListPoints);
   list->Section("lines", &features->lines, ListLines);
@@ -110,10 +101,6 @@ void ListFeatures(FrameBuilderOptions* features, OptionLister* list) {
   list->Section("line_fit", &features->line_fit, ListLineFit);
   list->AddChoice("line_depth", &features->line_depth, {"robust-fit", "end-points"},
                   "how a line gets its depth; mode pl-vo always takes end-points");
-  list->Add("refine_structure", &features->refine_structure,
-            "whether parallel and perpendicular lines of a frame refine each other's depth; never "
-            "in mode pl-vo");
-  list->Section("structure", &features->structure, ListFrameStructure);
   list->Add("min_depth", &features->min_depth, "metres; nearer measurements are not valid");
   list->Add("max_depth", &features->max_depth, "metres; farther measurements are not valid");
 }
@@ -213,6 +200,15 @@ void ListTracking(TrackerOptions* tracking, OptionLister* list) {
             "tried per frame while the map is searched");
   list->Add("min_initial_features", &tracking->min_initial_features,
             "with depth, in the first frame");
+}
+
+void ListFrameStructure(FrameStructureOptions* structure, OptionLister* list) {
+  list->Add("max_angle", &structure->max_angle, "degrees of a pair's angle from 0 or 90");
+  list->Add("pair_sigma", &structure->pair_sigma, "degrees, of the angle of what was built so");
+  list->Add("gate_sigmas", &structure->gate_sigmas, "of the angle of a pair");
+  list->Add("max_partners", &structure->max_partners, "of each kind that a line chooses");
+  list->Add("huber", &structure->huber, "sigmas; where the loss turns from square to linear");
+  list->Add("max_iterations", &structure->max_iterations, "at most");
 }
 
 void ListFusion(FusionOptions* fusion, OptionLister* list) {
@@ -330,6 +326,11 @@ void ListCulling(CullingOptions* culling, OptionLister* list) {
 }
 
 void ListMapping(MapperOptions* mapping, OptionLister* list) {
+  list->Add(
+      "refine_structure", &mapping->refine_structure,
+      "whether parallel and perpendicular lines of a keyframe refine each other's depth; never "
+      "in mode pl-vo");
+  list->Section("structure", &mapping->structure, ListFrameStructure);
   list->Section("fusion", &mapping->fusion, ListFusion);
   list->Section("selection", &mapping->selection, ListSelection);
   list->Section("noise", &mapping->noise, ListNoiseEstimator);

@@ -26,7 +26,8 @@ std::vector<StageTimeStatistics> SummarizeMapping(const std::vector<FrameResult>
     }
     return SummarizeStage(name, std::move(values));
   };
-  return {summarize("creation", [](const StageTimes& t) { return t.mapping_stages.creation; }),
+  return {summarize("structure", [](const StageTimes& t) { return t.mapping_stages.structure; }),
+          summarize("creation", [](const StageTimes& t) { return t.mapping_stages.creation; }),
           summarize("fusion", [](const StageTimes& t) { return t.mapping_stages.fusion; }),
           summarize("axes", [](const StageTimes& t) { return t.mapping_stages.axes; }),
           summarize("window", [](const StageTimes& t) { return t.mapping_stages.window; }),

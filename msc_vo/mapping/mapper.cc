@@ -5,7 +5,9 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
+#include "msc_vo/mapping/keyframe_structure.h"
 #include "msc_vo/mapping/landmark_creation.h"
 #include "msc_vo/timing/stopwatch.h"
 
@@ -20,7 +22,10 @@ Mapper::Mapper(const MapperOptions& options)
 MappingSummary Mapper::Process(const KeyframePacket& packet) {
   MappingSummary summary;
   Stopwatch stopwatch;
-  summary.keyframe = InsertKeyframe(packet);
+  std::shared_ptr<const Frame> frame = packet.frame;
+  if (options_.refine_structure) frame = RefineStructure(options_.structure, frame);
+  summary.times.structure = stopwatch.Restart();
+  summary.keyframe = InsertKeyframe(packet, std::move(frame));
   CullLandmarks(options_.culling, summary.keyframe, &probation_, &map_);
   CreatePoints(summary.keyframe, &probation_, &map_);
   CreateLines(summary.keyframe, &probation_, &map_);
@@ -46,12 +51,13 @@ MapSnapshotPtr Mapper::Snapshot() {
   return snapshot;
 }
 
-KeyframeId Mapper::InsertKeyframe(const KeyframePacket& packet) {
+KeyframeId Mapper::InsertKeyframe(const KeyframePacket& packet,
+                                  std::shared_ptr<const Frame> frame) {
   Rigid3 cam_from_world = packet.cam_from_reference;
   if (packet.reference != kNoId) {
     cam_from_world = cam_from_world * map_.CamFromWorld(packet.reference);
   }
-  newest_keyframe_ = map_.AddKeyframe(packet.frame, cam_from_world);
+  newest_keyframe_ = map_.AddKeyframe(std::move(frame), cam_from_world);
   for (const PointMatch& match : packet.matches.points) {
     map_.ObservePoint(match.id, newest_keyframe_, match.feature);
   }

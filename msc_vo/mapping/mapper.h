@@ -15,7 +15,8 @@ namespace msc_vo {
 
 // Milliseconds per stage of one keyframe step.
 struct MappingTimes {
-  double creation = 0.0;  // the keyframe with its matches, and new landmarks; bad ones removed
+  double structure = 0.0;  // of the keyframe's lines
+  double creation = 0.0;   // the keyframe with its matches, and new landmarks; bad ones removed
   double fusion = 0.0;
   double axes = 0.0;
   double window = 0.0;   // selected, solved and written back
@@ -52,7 +53,7 @@ class Mapper {
   const std::set<LandmarkId>& last_window_lines() const { return last_window_lines_; }
 
  private:
-  KeyframeId InsertKeyframe(const KeyframePacket& packet);
+  KeyframeId InsertKeyframe(const KeyframePacket& packet, std::shared_ptr<const Frame> frame);
   WindowSummary OptimizeWindow(KeyframeId keyframe);
 
   MapperOptions options_;

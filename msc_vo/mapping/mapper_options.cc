@@ -6,9 +6,9 @@
 namespace msc_vo {
 
 bool MapperOptions::IsValid(std::string* error) const {
-  return fusion.IsValid(error) && selection.IsValid(error) && noise.IsValid(error) &&
-         axes.IsValid(error) && pairs.IsValid(error) && window.IsValid(error) &&
-         culling.IsValid(error);
+  return structure.IsValid(error) && fusion.IsValid(error) && selection.IsValid(error) &&
+         noise.IsValid(error) && axes.IsValid(error) && pairs.IsValid(error) &&
+         window.IsValid(error) && culling.IsValid(error);
 }
 
 }  // namespace msc_vo

@@ -11,6 +11,7 @@
 #include "msc_vo/mapping/noise_estimator.h"
 #include "msc_vo/mapping/scene_axes.h"
 #include "msc_vo/mapping/structural_pairs.h"
+#include "msc_vo/problems/frame_structure_problem.h"
 #include "msc_vo/problems/window_problem.h"
 
 namespace msc_vo {
@@ -27,6 +28,9 @@ inline WindowOptions LocalWindowOptions() {
 }
 
 struct MapperOptions {
+  // Of the lines of keyframes; frames between them stay as they are measured.
+  bool refine_structure = true;
+  FrameStructureOptions structure;
   FusionOptions fusion;
   WindowSelectionOptions selection;
   NoiseEstimatorOptions noise;

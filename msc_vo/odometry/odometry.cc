@@ -23,7 +23,7 @@ OdometryOptions Checked(OdometryOptions options) {
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
   if (options.mode == Mode::kPlVo) {
     options.features.line_depth = LineDepthMethod::kEndPoints;
-    options.features.refine_structure = false;
+    options.mapping.refine_structure = false;
   }
   if (options.mode != Mode::kMscVo) {
     options.mapping.pairs.parallel = false;

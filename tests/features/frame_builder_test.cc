@@ -52,16 +52,8 @@ void ExpectSame(const Frame& a, const Frame& b) {
   }
 }
 
-// Depths as fitted: the lines of the poster have angles of chance, a few of them near to 90
-// degrees.
-FrameBuilderOptions WithoutStructure() {
-  FrameBuilderOptions options;
-  options.refine_structure = false;
-  return options;
-}
-
 TEST(FrameBuilder, BuildsAFrame) {
-  FrameBuilder builder(WithoutStructure(), Camera(), LensDistortion());
+  FrameBuilder builder(FrameBuilderOptions(), Camera(), LensDistortion());
   const Frame frame = builder.Build(Poster(Camera()));
   EXPECT_EQ(frame.id, 17);
   EXPECT_EQ(frame.timestamp, 4.25);
@@ -124,8 +116,8 @@ TEST(FrameBuilder, UndistortsPointsLinesAndTheirDepth) {
   RgbdImage raw = ideal;
   raw.gray = testing::DistortImage(camera, distortion, ideal.gray);
   raw.depth = testing::DistortImage(camera, distortion, ideal.depth, cv::INTER_LINEAR);
-  const Frame expected = FrameBuilder(WithoutStructure(), camera, LensDistortion()).Build(ideal);
-  const Frame frame = FrameBuilder(WithoutStructure(), camera, distortion).Build(raw);
+  const Frame expected = FrameBuilder(FrameBuilderOptions(), camera, LensDistortion()).Build(ideal);
+  const Frame frame = FrameBuilder(FrameBuilderOptions(), camera, distortion).Build(raw);
   // Most points and lines are found again where they are in the ideal image.
   const auto has_point = [&](const PointFeature& point) {
     for (const int i : expected.grid.Near(expected.points, point.pixel, 0.7 * point.sigma)) {

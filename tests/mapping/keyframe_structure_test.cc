@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/keyframe_structure.h"
+
+#include <cmath>
+
+#include "tests/support/synthetic_frames.h"
+#include <gtest/gtest.h>
+
+#include "msc_vo/mapping/mapper.h"
+
+namespace msc_vo {
+namespace {
+
+// Root mean square over lines of the sine of their angles from the nearest direction of the box
+// that they are drawn in.
+double DirectionError(const std::vector<LineSegment3>& lines, const Rigid3& world_from_lines) {
+  double squares = 0.0;
+  for (const LineSegment3& line : lines) {
+    const double cosine = (world_from_lines * line).Direction().cwiseAbs().maxCoeff();
+    squares += 1.0 - cosine * cosine;
+  }
+  return std::sqrt(squares / static_cast<double>(lines.size()));
+}
+
+std::vector<LineSegment3> LinesInCamera(const Frame& frame) {
+  std::vector<LineSegment3> lines;
+  for (size_t i = 0; i < frame.lines.size(); ++i) {
+    if (frame.lines[i].depth) lines.push_back(frame.LineInCamera(static_cast<int>(i)));
+  }
+  return lines;
+}
+
+TEST(KeyframeStructure, MakesDirectionsAgree) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  const std::shared_ptr<const Frame> frame = world.See(0);
+  const Rigid3 world_from_cam = SyntheticFrames::CamFromWorld(0).Inverse();
+  const double before = DirectionError(LinesInCamera(*frame), world_from_cam);
+  const auto refined = RefineStructure(FrameStructureOptions(), frame);
+  EXPECT_LT(DirectionError(LinesInCamera(*refined), world_from_cam), 0.7 * before);
+  // The frame that tracking holds is as it was, and all but the depths of lines is the same.
+  EXPECT_EQ(DirectionError(LinesInCamera(*frame), world_from_cam), before);
+  EXPECT_EQ(refined->id, frame->id);
+  EXPECT_EQ(refined->points.size(), frame->points.size());
+  ASSERT_EQ(refined->lines.size(), frame->lines.size());
+  for (size_t i = 0; i < frame->lines.size(); ++i) {
+    EXPECT_EQ(refined->lines[i].segment.start, frame->lines[i].segment.start);
+    EXPECT_EQ(refined->lines[i].depth.has_value(), frame->lines[i].depth.has_value());
+  }
+}
+
+TEST(KeyframeStructure, LeavesAFrameWithoutPairsAlone) {
+  const std::shared_ptr<const Frame> nothing = SyntheticFrames::SeeNothing(0);
+  EXPECT_EQ(RefineStructure(FrameStructureOptions(), nothing), nothing);
+}
+
+// The map gets the refined lines if the option says so.
+TEST(KeyframeStructure, ReachesTheMap) {
+  const auto error = [](bool refine) {
+    SyntheticFrames world{SyntheticFrames::Options()};
+    MapperOptions options;
+    options.refine_structure = refine;
+    Mapper mapper(options);
+    KeyframePacket packet;
+    packet.frame = world.See(0);
+    packet.cam_from_reference = SyntheticFrames::CamFromWorld(0);
+    mapper.Process(packet);
+    std::vector<LineSegment3> lines;
+    for (const auto& [id, line] : mapper.map().lines()) lines.push_back(line.segment);
+    return DirectionError(lines, Rigid3());
+  };
+  EXPECT_LT(error(true), 0.7 * error(false));
+}
+
+}  // namespace
+}  // namespace msc_vo
