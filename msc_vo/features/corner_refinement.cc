@@ -28,7 +28,6 @@ constexpr int kPatch = 2 * kPatchRadius + 1;
 // pixels see an edge at a place that depends on where the pixels lie. In simulation (corners of 60
 // to 120 degrees, noise of 3 grey values) that takes a third off the scatter of the apex.
 constexpr double kApexBlur = 1.0;  // pixels
-constexpr int kApexBlurWindow = 5;
 constexpr int kApexRadius = 3;
 constexpr int kApexWindow = 2 * kApexRadius + 1;
 constexpr double kApexSigma = 1.5;  // pixels
@@ -239,7 +238,7 @@ class ApexSearch {
 }  // namespace
 
 CornerRefiner::CornerRefiner(const cv::Mat& gray, const cv::Rect& area) : gray_(gray), area_(area) {
-  cv::GaussianBlur(gray, smooth_, cv::Size(kApexBlurWindow, kApexBlurWindow), kApexBlur);
+  cv::GaussianBlur(gray, smooth_, cv::Size(), kApexBlur);
 }
 
 RefinedCorner CornerRefiner::Refine(const cv::Point& corner) const {

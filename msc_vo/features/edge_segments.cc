@@ -74,7 +74,7 @@ struct EdgeSegmentDetector::FittedLine {
   explicit FittedLine(const PixelMoments& moments) : point(moments.Mean()) {
     const Eigen::Vector3d c = moments.Covariance();
     const double half_difference = 0.5 * (c[0] - c[2]);
-    const double radius = std::hypot(half_difference, c[1]);
+    const double radius = std::sqrt(half_difference * half_difference + c[1] * c[1]);
     variance = 0.5 * (c[0] + c[2]) - radius;
     // Of the two forms of the eigenvector the one without cancellation.
     direction = half_difference >= 0.0 ? Vector2d(half_difference + radius, c[1])

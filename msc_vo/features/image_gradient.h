@@ -31,6 +31,8 @@ class ImageGradient {
   }
 
  private:
+  void ClearBorder(std::vector<int16_t>* values) const;
+
   int width_ = 0;
   int height_ = 0;
   cv::Mat smooth_;

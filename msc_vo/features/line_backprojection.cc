@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace msc_vo {
 
@@ -57,27 +58,27 @@ struct Run {
   int Size() const { return last - first + 1; }
 };
 
-// Difference between pixels i and i + 1, none if one of them is missing.
-std::optional<double> Step(const Profile& profile, int i) {
-  if (i < 0 || i + 1 >= static_cast<int>(profile.size())) return std::nullopt;
-  if (profile[i] <= 0.0 || profile[i + 1] <= 0.0) return std::nullopt;
-  return std::abs(profile[i + 1] - profile[i]);
+// Differences of neighbours in a profile: of pixels i - 1 and i at i; infinite where one of them is
+// missing, also at both ends.
+using Steps = std::array<double, 2 * kReach + 2>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Steps StepsOf(const Profile& profile) {
+  Steps steps;
+  steps.front() = steps.back() = kInfinity;
+  for (size_t i = 1; i < profile.size(); ++i) {
+    const bool measured = profile[i - 1] > 0.0 && profile[i] > 0.0;
+    steps[i] = measured ? std::abs(profile[i] - profile[i - 1]) : kInfinity;
+  }
+  return steps;
 }
 
-// Whether there is a depth edge between pixels i and i + 1. Steep surfaces have large steps too,
+// Whether there is a depth edge between pixels i - 1 and i. Steep surfaces have large steps too,
 // but then the neighbouring steps are alike.
-bool Jumps(const Profile& profile, int i, double sigma) {
-  const std::optional<double> step = Step(profile, i);
-  if (!step) return true;
-  const std::optional<double> before = Step(profile, i - 1);
-  const std::optional<double> after = Step(profile, i + 1);
-  double usual = 0.0;
-  if (before && after) {
-    usual = std::min(*before, *after);
-  } else if (before || after) {
-    usual = before ? *before : *after;
-  }
-  return *step - usual > kJumpSigmas * sigma;
+bool Jumps(const Steps& steps, int i, double sigma) {
+  const double usual = std::min(steps[i - 1], steps[i + 1]);
+  return steps[i] - (usual < kInfinity ? usual : 0.0) > kJumpSigmas * sigma;
 }
 
 // The surfaces of a profile, in order; there are at most as many as pixels.
@@ -90,11 +91,12 @@ struct Runs {
 };
 
 Runs SplitAtJumps(const Profile& profile, double sigma) {
+  const Steps steps = StepsOf(profile);
   Runs runs;
   for (int i = 0; i < static_cast<int>(profile.size()); ++i) {
     if (profile[i] <= 0.0) continue;
     // A pixel behind a missing one jumps.
-    if (runs.count > 0 && !Jumps(profile, i - 1, sigma)) {
+    if (runs.count > 0 && !Jumps(steps, i, sigma)) {
       runs.data[runs.count - 1].last = i;
     } else {
       runs.data[runs.count++] = {i, i};

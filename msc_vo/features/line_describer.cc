@@ -20,9 +20,6 @@ constexpr int kBandWidth = 4;  // rows
 constexpr int kRows = kBands * kBandWidth;
 // The region reaches half its width to both sides of a line, and rounding adds one pixel.
 constexpr int kMargin = kRows / 2 + 2;
-// Gradients are up to 4 * 255 in each direction; a unit vector in units of 1/256 leaves room in 32
-// bits for the sum over a row of 5800 pixels.
-constexpr double kUnit = 256.0;
 // Positions along a row are counted in units of 2^-16 pixels.
 constexpr int kFractionBits = 16;
 
@@ -104,38 +101,31 @@ void LineDescriber::SetImage(const cv::Mat& gray) {
              cv::INTER_AREA);
   cv::copyMakeBorder(half_, padded_, kMargin, kMargin, kMargin, kMargin, cv::BORDER_REPLICATE);
   cv::spatialGradient(padded_, gradient_x_, gradient_y_);
+  const std::array<cv::Mat, 2> parts{gradient_x_, gradient_y_};
+  cv::merge(parts, both_);
+  both_.convertTo(gradient_, CV_32F);
 }
 
 // A row of `steps` pixels from `first` on in direction `d`.
 Row LineDescriber::SumRow(const Vector2d& first, const Vector2d& d, int steps) const {
-  const size_t stride = gradient_x_.step1();
-  const int16_t* const gradient_x = gradient_x_.ptr<int16_t>();
-  const int16_t* const gradient_y = gradient_y_.ptr<int16_t>();
-  const int dx = cvRound(kUnit * d.x());
-  const int dy = cvRound(kUnit * d.y());
+  const size_t stride = gradient_.step1() / 2;
+  const cv::Vec2f* const gradient = gradient_.ptr<cv::Vec2f>();
+  const Eigen::Array2f along = d.cast<float>();
+  const Row by_x(-along.y(), along.y(), along.x(), -along.x());
+  const Row by_y(along.x(), -along.x(), along.y(), -along.y());
   const int step_x = ToFixed(d.x());
   const int step_y = ToFixed(d.y());
   // + 0.5: cutting the fraction off then gives the nearest pixel.
   int x = ToFixed(first.x() + 0.5);
   int y = ToFixed(first.y() + 0.5);
-  // The sum of the negative parts is that of the positive ones less the whole.
-  int bright = 0;
-  int across = 0;
-  int forward = 0;
-  int along = 0;
+  Row sum = Row::Zero();
   for (int i = 0; i < steps; ++i) {
-    const size_t at = (y >> kFractionBits) * stride + (x >> kFractionBits);
-    const int g_across = gradient_y[at] * dx - gradient_x[at] * dy;
-    const int g_along = gradient_x[at] * dx + gradient_y[at] * dy;
-    bright += std::max(g_across, 0);
-    across += g_across;
-    forward += std::max(g_along, 0);
-    along += g_along;
+    const cv::Vec2f& g = gradient[(y >> kFractionBits) * stride + (x >> kFractionBits)];
+    sum += (g[0] * by_x + g[1] * by_y).max(0.0f);
     x += step_x;
     y += step_y;
   }
-  return {static_cast<float>(bright), static_cast<float>(bright - across),
-          static_cast<float>(forward), static_cast<float>(forward - along)};
+  return sum;
 }
 
 Descriptor LineDescriber::Describe(const LineSegment2& segment) const {

@@ -41,6 +41,8 @@ class LineDescriber {
   cv::Mat padded_;      // half_ with a margin, so that no region reaches beyond it
   cv::Mat gradient_x_;  // of padded_, CV_16SC1
   cv::Mat gradient_y_;
+  cv::Mat both_;      // CV_16SC2
+  cv::Mat gradient_;  // CV_32FC2
 };
 
 }  // namespace msc_vo
