@@ -19,7 +19,8 @@ using Eigen::Vector2d;
 // A total order: longest first, equal lengths by coordinates.
 bool Longer(const LineSegment2& a, const LineSegment2& b) {
   const auto key = [](const LineSegment2& s) {
-    return std::make_tuple(-s.Length(), s.start.x(), s.start.y(), s.end.x(), s.end.y());
+    return std::make_tuple(-(s.end - s.start).squaredNorm(), s.start.x(), s.start.y(), s.end.x(),
+                           s.end.y());
   };
   return key(a) < key(b);
 }
@@ -95,15 +96,19 @@ std::vector<LineSegment2> MergeCollinear(const LineMergingOptions& options,
   for (size_t i = 0; i < segments.size(); ++i) {
     if (taken[i]) continue;
     LineSegment2 line = segments[i];
+    Vector2d direction = directions[i];
     for (bool grown = true; grown;) {
       grown = false;
       for (size_t j = i + 1; j < segments.size(); ++j) {
         if (taken[j] || directions[i].dot(directions[j]) < min_cosine) continue;
         // No end point may be far from the common line, so the middle cannot be far from this one.
-        if (line.DistanceToLine(segments[j].Midpoint()) > 3.0 * options.max_distance) continue;
+        const Vector2d offset = segments[j].Midpoint() - line.start;
+        const double across = direction.x() * offset.y() - direction.y() * offset.x();
+        if (std::abs(across) > 3.0 * options.max_distance) continue;
         const std::optional<LineSegment2> joined = Merge(options, line, segments[j]);
         if (!joined) continue;
         line = *joined;
+        direction = line.Direction();
         taken[j] = 1;
         grown = true;
       }

@@ -16,9 +16,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Places along the line: one every two pixels (nearer ones share their pixels), at most so many.
+// Places along the line: one every two pixels (nearer ones share their pixels), at most so many,
+// and a third of them where the line need only come near to the edge.
 constexpr double kSpacing = 2.0;
 constexpr int kMaxPlaces = 48;
+constexpr int kMaxCoarsePlaces = 16;
 // Grey values are read this many pixels to both sides.
 constexpr int kReach = 3;
 // A detector is not farther off than this, pixels; what is farther is another edge.
@@ -95,11 +97,11 @@ std::optional<Vector2d> FitOffsets(const std::array<Edge, kMaxPlaces>& edges, in
 
 // Moves the segment onto the line through the steepest rises across it. Returns false if there is
 // none within kMaxOffset.
-bool MoveOntoEdge(const cv::Mat& gray, LineSegment2* segment) {
+bool MoveOntoEdge(const cv::Mat& gray, int max_places, LineSegment2* segment) {
   const Vector2d direction = segment->Direction();
   const Vector2d across(-direction.y(), direction.x());
   const double length = segment->Length();
-  const int places = std::clamp(static_cast<int>(length / kSpacing), kMinPlaces, kMaxPlaces);
+  const int places = std::clamp(static_cast<int>(length / kSpacing), kMinPlaces, max_places);
   std::array<Edge, kMaxPlaces> edges;
   int count = 0;
   for (int i = 0; i < places; ++i) {
@@ -127,8 +129,8 @@ bool MoveOntoEdge(const cv::Mat& gray, LineSegment2* segment) {
 bool RefineSegment(const cv::Mat& gray, LineSegment2* segment) {
   // The centroid of three is drawn to the middle one if the edge is blurred wider than these; the
   // second pass has the edge in the middle.
-  if (!MoveOntoEdge(gray, segment)) return false;
-  MoveOntoEdge(gray, segment);
+  if (!MoveOntoEdge(gray, kMaxCoarsePlaces, segment)) return false;
+  MoveOntoEdge(gray, kMaxPlaces, segment);
   return true;
 }
 

@@ -15,43 +15,43 @@ namespace {
 
 constexpr double kNear = 0.05;        // metres, see ProjectCandidate of points
 constexpr double kMinVisible = 10.0;  // pixels; one pixel of noise then turns it by 6 degrees
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// The stretch that two segments share, as parameters of the first. Empty if last <= first.
-struct Overlap {
-  double first = 0.0;
-  double last = 0.0;
+// An image segment with what every pair needs of it.
+struct Ruler {
+  Eigen::Vector2d start;
+  Eigen::Vector2d direction;
+  double length;
+
+  explicit Ruler(const LineSegment2& segment)
+      : start(segment.start), direction(segment.Direction()), length(segment.Length()) {}
+
+  // Pixels from the start along the direction.
+  double Along(const Eigen::Vector2d& pixel) const { return direction.dot(pixel - start); }
+  double Across(const Eigen::Vector2d& pixel) const {
+    const Eigen::Vector2d d = pixel - start;
+    return std::abs(direction.x() * d.y() - direction.y() * d.x());
+  }
 };
 
-Overlap OverlapOn(const LineSegment2& a, const LineSegment2& b) {
-  const double s = a.Parameter(b.start);
-  const double e = a.Parameter(b.end);
-  return {std::max(0.0, std::min(s, e)), std::min(1.0, std::max(s, e))};
+std::vector<Ruler> RulersOf(const std::vector<LineCandidate>& candidates) {
+  std::vector<Ruler> rulers;
+  rulers.reserve(candidates.size());
+  for (const LineCandidate& candidate : candidates) rulers.emplace_back(candidate.image);
+  return rulers;
 }
 
-std::vector<Eigen::Vector2d> Directions(const std::vector<LineCandidate>& candidates) {
-  std::vector<Eigen::Vector2d> directions;
-  directions.reserve(candidates.size());
-  for (const LineCandidate& candidate : candidates) {
-    directions.push_back(candidate.image.Direction());
-  }
-  return directions;
-}
-
-// Cost of taking `feature` for `candidate`, whose directions agree: infinite where a gate says no.
-double MatchCost(const LineMatcherOptions& options, const LineCandidate& candidate,
-                 const LineFeature& feature, double radius) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  const LineSegment2& seen = feature.segment;
-  const Overlap overlap = OverlapOn(seen, candidate.image);
-  const double shared = (overlap.last - overlap.first) * seen.Length();
-  const double shorter = std::min(seen.Length(), candidate.image.Length());
-  if (shared < options.min_overlap * shorter) return kNever;
-  const Eigen::Vector2d middle = seen.At(0.5 * (overlap.first + overlap.last));
-  const double offset = candidate.image.DistanceToLine(middle);
-  if (offset > radius) return kNever;
-  const int distance = HammingDistance(candidate.descriptor, feature.descriptor);
-  if (distance > options.max_distance) return kNever;
-  return distance + options.bits_per_pixel * offset;
+// Pixels between the candidate's line and the middle of the stretch that it shares with the
+// feature; infinite if they share too little.
+double Offset(const LineMatcherOptions& options, const Ruler& candidate, const Ruler& feature,
+              const LineSegment2& image) {
+  const double s = feature.Along(image.start);
+  const double e = feature.Along(image.end);
+  const double first = std::max(0.0, std::min(s, e));
+  const double last = std::min(feature.length, std::max(s, e));
+  const double shorter = std::min(feature.length, candidate.length);
+  if (last - first < options.min_overlap * shorter) return kNever;
+  return candidate.Across(feature.start + 0.5 * (first + last) * feature.direction);
 }
 
 }  // namespace
@@ -85,20 +85,25 @@ std::vector<LineMatch> MatchLines(const LineMatcherOptions& options, const Frame
                                   const std::vector<bool>& taken) {
   struct Claim {
     int candidate = -1;
-    double cost = std::numeric_limits<double>::infinity();
+    double cost = kNever;
   };
   std::vector<Claim> claims(frame.lines.size());
   const double cos_max_angle = std::cos(DegreesToRadians(options.max_angle));
-  const std::vector<Eigen::Vector2d> directions = Directions(candidates);
+  const std::vector<Ruler> rulers = RulersOf(candidates);
   // At most a few hundred on either side, and the first gate is one dot product: no grid needed.
   // A map line may be seen in several pieces, so each feature chooses for itself.
-  for (size_t feature = 0; feature < frame.lines.size(); ++feature) {
-    if (!taken.empty() && taken[feature]) continue;
-    const Eigen::Vector2d direction = frame.lines[feature].segment.Direction();
-    for (size_t i = 0; i < candidates.size(); ++i) {
-      if (directions[i].dot(direction) < cos_max_angle) continue;
-      const double cost = MatchCost(options, candidates[i], frame.lines[feature], radius);
-      if (cost < claims[feature].cost) claims[feature] = {static_cast<int>(i), cost};
+  for (size_t i = 0; i < frame.lines.size(); ++i) {
+    if (!taken.empty() && taken[i]) continue;
+    const LineFeature& feature = frame.lines[i];
+    const Ruler ruler(feature.segment);
+    for (size_t j = 0; j < candidates.size(); ++j) {
+      if (rulers[j].direction.dot(ruler.direction) < cos_max_angle) continue;
+      const double offset = Offset(options, rulers[j], ruler, candidates[j].image);
+      if (offset > radius) continue;
+      const int distance = HammingDistance(candidates[j].descriptor, feature.descriptor);
+      if (distance > options.max_distance) continue;
+      const double cost = distance + options.bits_per_pixel * offset;
+      if (cost < claims[i].cost) claims[i] = {static_cast<int>(j), cost};
     }
   }
   std::vector<LineMatch> matches;

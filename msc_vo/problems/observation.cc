@@ -20,7 +20,7 @@ bool IsInFront(const LineSegment3& line_in_cam) {
 
 double ImageLineSigma(const LineSegment2& segment, double sigma, const Eigen::Vector2d& pixel) {
   const double s = segment.Parameter(pixel);
-  return sigma * std::hypot(1.0 - s, s);
+  return sigma * std::sqrt((1.0 - s) * (1.0 - s) + s * s);
 }
 
 LineReprojection MakeLineReprojection(const PinholeCamera& camera, const LineSegment2& segment,

@@ -33,10 +33,11 @@ class Tracker {
   // pose as it was, if the map has too little there.
   bool TrackLocalMap(const Map& map, TrackedFrame* tracked) const;
 
-  bool EstimatePose(const Map& map, TrackedFrame* tracked) const;
+  bool EstimatePose(const PoseOptions& options, const Map& map, TrackedFrame* tracked) const;
   TrackingStatus Judge(const TrackedFrame& tracked) const;
 
   TrackerOptions options_;
+  PoseOptions rough_pose_;  // of the first step
   KeyframePolicy policy_;
   MotionModel motion_;
   TrackedFrame last_;                  // the last frame whose pose was estimated
