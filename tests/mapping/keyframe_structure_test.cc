@@ -24,6 +24,14 @@ double DirectionError(const std::vector<LineSegment3>& lines, const Rigid3& worl
   return std::sqrt(squares / static_cast<double>(lines.size()));
 }
 
+// Gates that lines of single frames pass whose depth is as noisy as theirs; where the mapper has
+// learnt that it is less noisy, narrower ones do.
+FrameStructureOptions WideGates() {
+  FrameStructureOptions options;
+  options.max_angle = 5.0;
+  return options;
+}
+
 std::vector<LineSegment3> LinesInCamera(const Frame& frame) {
   std::vector<LineSegment3> lines;
   for (size_t i = 0; i < frame.lines.size(); ++i) {
@@ -37,7 +45,7 @@ TEST(KeyframeStructure, MakesDirectionsAgree) {
   const std::shared_ptr<const Frame> frame = world.See(0);
   const Rigid3 world_from_cam = SyntheticFrames::CamFromWorld(0).Inverse();
   const double before = DirectionError(LinesInCamera(*frame), world_from_cam);
-  const auto refined = RefineStructure(FrameStructureOptions(), frame);
+  const auto refined = RefineStructure(WideGates(), NoiseScale(), frame);
   EXPECT_LT(DirectionError(LinesInCamera(*refined), world_from_cam), 0.7 * before);
   // The frame that tracking holds is as it was, and all but the depths of lines is the same.
   EXPECT_EQ(DirectionError(LinesInCamera(*frame), world_from_cam), before);
@@ -50,9 +58,31 @@ TEST(KeyframeStructure, MakesDirectionsAgree) {
   }
 }
 
+TEST(KeyframeStructure, TrustsFitsAsFarAsNoiseIsKnown) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  const std::shared_ptr<const Frame> frame = world.See(0);
+  const Rigid3 world_from_cam = SyntheticFrames::CamFromWorld(0).Inverse();
+  const auto error_with = [&](double scale) {
+    const NoiseScale noise{1.0, scale, scale};
+    const auto refined = RefineStructure(FrameStructureOptions(), noise, frame);
+    return DirectionError(LinesInCamera(*refined), world_from_cam);
+  };
+  // Of lines as noisy as they say most are known worse than the default gate is wide.
+  EXPECT_LT(error_with(0.6), error_with(1.0));
+  EXPECT_LT(error_with(1.0), error_with(100.0));
+  EXPECT_EQ(error_with(100.0), DirectionError(LinesInCamera(*frame), world_from_cam));
+  // Covariances come out in the units they went in with.
+  const auto refined = RefineStructure(FrameStructureOptions(), NoiseScale{1.0, 0.01, 0.01}, frame);
+  for (size_t i = 0; i < frame->lines.size(); ++i) {
+    EXPECT_NEAR(
+        refined->lines[i].depth->covariance.trace() / frame->lines[i].depth->covariance.trace(),
+        1.0, 0.05);
+  }
+}
+
 TEST(KeyframeStructure, LeavesAFrameWithoutPairsAlone) {
   const std::shared_ptr<const Frame> nothing = SyntheticFrames::SeeNothing(0);
-  EXPECT_EQ(RefineStructure(FrameStructureOptions(), nothing), nothing);
+  EXPECT_EQ(RefineStructure(FrameStructureOptions(), NoiseScale(), nothing), nothing);
 }
 
 // The map gets the refined lines if the option says so.
@@ -61,6 +91,7 @@ TEST(KeyframeStructure, ReachesTheMap) {
     SyntheticFrames world{SyntheticFrames::Options()};
     MapperOptions options;
     options.refine_structure = refine;
+    options.structure = WideGates();
     Mapper mapper(options);
     KeyframePacket packet;
     packet.frame = world.See(0);
