@@ -14,7 +14,7 @@ struct StructuralPairOptions {
   bool parallel = true;
   bool perpendicular = true;
   // As for the pairs of a frame (FrameStructureOptions), and for the same reasons.
-  double max_angle = 2.5;    // degrees from 0 or 90
+  double max_angle = 1.75;   // degrees from 0 or 90
   double pair_sigma = 0.7;   // degrees, standard deviation of the angle of what was built so
   double gate_sigmas = 3.0;  // of that angle, as far as both lines and pair_sigma say
   int max_partners = 4;      // of each kind that a line chooses; those known best
