@@ -87,8 +87,8 @@ class FeatureGrid {
 
 // What is kept of an image: its features and nothing else. Images end here.
 //
-// A frame does not change after FrameBuilder made it; poses and associations live beside it, so
-// that frames can be shared between threads without locks.
+// A frame does not change after it was made; poses and associations live beside it, so that frames
+// can be shared between threads without locks.
 struct Frame {
   int64_t id = 0;          // position in the sequence, from 0
   double timestamp = 0.0;  // seconds
