@@ -34,7 +34,8 @@ struct RefinedCorner {
 // frames.
 class CornerRefiner {
  public:
-  // Keeps a reference to `gray` (8 bits), which must outlive it.
+  // Keeps a reference to `gray` (8 bits), which must outlive it; `area` lies at least five pixels
+  // inside of it.
   CornerRefiner(const cv::Mat& gray, const cv::Rect& area);
 
   RefinedCorner Refine(const cv::Point& corner) const;
