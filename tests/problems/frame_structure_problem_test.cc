@@ -150,8 +150,8 @@ TEST_P(FrameStructureTest, AGoodFitIsNotBentTowardsADoubtfulPartner) {
             0.2 * before[1].depth.covariance.determinant());
 }
 
-TEST_P(FrameStructureTest, TwoGoodFitsFourDegreesOffAreLeftAlone) {
-  const PinholeCamera camera;
+// Two lines that are four degrees from parallel, with this variance of their inverse depths.
+std::vector<StructureLine> FourDegreesOff(const PinholeCamera& camera, double variance) {
   std::vector<StructureLine> lines(2);
   const Eigen::Vector3d d = Eigen::Vector3d(0.8, 0.0, 0.5).normalized();
   const LineSegment3 a{{-0.5, 0.2, 2.0}, Eigen::Vector3d(-0.5, 0.2, 2.0) + d};
@@ -163,13 +163,30 @@ TEST_P(FrameStructureTest, TwoGoodFitsFourDegreesOffAreLeftAlone) {
     lines[i].sigma = 0.2;
     lines[i].depth.start = 1.0 / line.start.z();
     lines[i].depth.end = 1.0 / line.end.z();
-    lines[i].depth.covariance = 1e-7 * Eigen::Matrix2d::Identity();
+    lines[i].depth.covariance = variance * Eigen::Matrix2d::Identity();
   }
+  return lines;
+}
+
+TEST_P(FrameStructureTest, TwoGoodFitsFourDegreesOffAreLeftAlone) {
+  const PinholeCamera camera;
+  std::vector<StructureLine> lines = FourDegreesOff(camera, 1e-7);
   const std::vector<StructureLine> before = lines;
   EXPECT_FALSE(RefineFrameStructure(options_, camera, &lines).usable);
   for (int i = 0; i < 2; ++i) EXPECT_TRUE(SameDepth(lines[i].depth, before[i].depth));
   options_.gate_sigmas = 10.0;  // then the gate of 5 degrees alone decides
   EXPECT_EQ(RefineFrameStructure(options_, camera, &lines).num_parallel, 1);
+}
+
+// Fits that are known to a degree would let them pass.
+TEST_P(FrameStructureTest, WhatLeansByFourDegreesIsNoPairByDefault) {
+  const PinholeCamera camera;
+  const std::vector<StructureLine> lines = FourDegreesOff(camera, 1e-5);
+  std::vector<StructureLine> refined = lines;
+  EXPECT_EQ(RefineFrameStructure(options_, camera, &refined).num_parallel, 1);
+  refined = lines;
+  EXPECT_EQ(RefineFrameStructure(FrameStructureOptions(), camera, &refined).num_parallel, 0);
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(SameDepth(refined[i].depth, lines[i].depth));
 }
 
 TEST_P(FrameStructureTest, LinesStayOnTheirSegmentsAndThoseWithoutPartnerUntouched) {
