@@ -29,6 +29,7 @@ struct Landmark {
   KeyframeId first_keyframe = kNoId;      // the one that created it
   std::vector<Observation> observations;  // ascending keyframes, one each at most
   Descriptor descriptor{};                // the observed one nearest to all others
+  bool descriptor_is_current = false;     // no observation has come or gone since it was chosen
   // Unit vector, mean of the directions from the observing cameras to the landmark, world.
   Eigen::Vector3d viewing_direction = Eigen::Vector3d::Zero();
   // Frames in which the landmark should have been seen, and those in which it was.

@@ -39,8 +39,10 @@ bool Observe(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, Landm
   if ((keyframe->*slots)[observation.feature] != kNoId) return false;
   if (FindObservation(*landmark, observation.keyframe) != nullptr) return false;
   (keyframes->FindToChange(observation.keyframe)->*slots)[observation.feature] = id;
-  std::vector<Observation>& observations = landmarks->FindToChange(id)->observations;
+  auto* changed = landmarks->FindToChange(id);
+  std::vector<Observation>& observations = changed->observations;
   observations.insert(LowerBound(&observations, observation.keyframe), observation);
+  changed->descriptor_is_current = false;
   return true;
 }
 
@@ -56,8 +58,9 @@ void Forget(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, Landma
     landmarks->Erase(id);
     return;
   }
-  std::vector<Observation>& observations = landmarks->FindToChange(id)->observations;
-  observations.erase(LowerBound(&observations, keyframe));
+  auto* changed = landmarks->FindToChange(id);
+  changed->observations.erase(LowerBound(&changed->observations, keyframe));
+  changed->descriptor_is_current = false;
 }
 
 template <typename Table>
@@ -94,6 +97,21 @@ Descriptor CentralDescriptor(const std::vector<Descriptor>& descriptors) {
     }
   }
   return descriptors[std::min_element(totals.begin(), totals.end()) - totals.begin()];
+}
+
+// Chooses it again if observations have changed: most landmarks of a window keep theirs.
+template <typename Feature>
+void RefreshDescriptor(const Map::KeyframeTable& keyframes, std::vector<Feature> Frame::*features,
+                       Landmark* landmark) {
+  if (landmark->descriptor_is_current) return;
+  std::vector<Descriptor> descriptors;
+  descriptors.reserve(landmark->observations.size());
+  for (const Observation& seen : landmark->observations) {
+    const Frame& frame = *keyframes.Find(seen.keyframe)->frame;
+    descriptors.push_back((frame.*features)[seen.feature].descriptor);
+  }
+  landmark->descriptor = CentralDescriptor(descriptors);
+  landmark->descriptor_is_current = true;
 }
 
 }  // namespace
@@ -225,33 +243,28 @@ void Map::CountTracking(LandmarkId landmark, bool is_line, int num_visible, int 
 
 void Map::RefreshPoint(LandmarkId id) {
   PointLandmark& point = *points_.FindToChange(id);
-  std::vector<Descriptor> descriptors;
-  descriptors.reserve(point.observations.size());
+  RefreshDescriptor(keyframes_, &Frame::points, &point);
   Eigen::Vector3d directions = Eigen::Vector3d::Zero();
   double log_reference = 0.0;
   for (const Observation& observation : point.observations) {
     const Keyframe& keyframe = *keyframes_.Find(observation.keyframe);
     const PointFeature& feature = keyframe.frame->points[observation.feature];
     const Eigen::Vector3d ray = point.position - keyframe.cam_from_world.OriginInSource();
-    descriptors.push_back(feature.descriptor);
     directions += ray.normalized();
     log_reference += std::log(std::max(ray.norm(), 1e-6)) + feature.level * std::log(kPyramidScale);
   }
-  point.descriptor = CentralDescriptor(descriptors);
   point.viewing_direction = directions.normalized();
   point.reference_distance = std::exp(log_reference / point.observations.size());
 }
 
 void Map::RefreshLine(LandmarkId id) {
   LineLandmark& line = *lines_.FindToChange(id);
-  std::vector<Descriptor> descriptors;
-  descriptors.reserve(line.observations.size());
+  RefreshDescriptor(keyframes_, &Frame::lines, &line);
   Eigen::Vector3d directions = Eigen::Vector3d::Zero();
   line.direction_sigma = kPi;
   for (const Observation& observation : line.observations) {
     const Keyframe& keyframe = *keyframes_.Find(observation.keyframe);
     const LineFeature& feature = keyframe.frame->lines[observation.feature];
-    descriptors.push_back(feature.descriptor);
     if (feature.depth) {
       line.direction_sigma =
           std::min(line.direction_sigma,
@@ -259,7 +272,6 @@ void Map::RefreshLine(LandmarkId id) {
     }
     directions += (line.segment.Midpoint() - keyframe.cam_from_world.OriginInSource()).normalized();
   }
-  line.descriptor = CentralDescriptor(descriptors);
   line.viewing_direction = directions.normalized();
 }
 
