@@ -177,7 +177,7 @@ class ApexSearch {
       if (!((apex_ - start).norm() <= kMaxApexDistance)) return false;
       if (step.squaredNorm() < kApexTolerance * kApexTolerance) break;
     }
-    return SumMoments();
+    return SumMoments() && moments_.trace() > 0.0;
   }
 
   const Eigen::Vector2d& apex() const { return apex_; }

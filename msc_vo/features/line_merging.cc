@@ -25,6 +25,12 @@ bool Longer(const LineSegment2& a, const LineSegment2& b) {
   return key(a) < key(b);
 }
 
+// Distance of x from the line through `point`, pixels.
+double DistanceToLine(const Vector2d& point, const Vector2d& direction, const Vector2d& x) {
+  const Vector2d d = x - point;
+  return std::abs(direction.x() * d.y() - direction.y() * d.x());
+}
+
 // The line of least squares through all pixels of both segments, as centre and unit direction.
 struct CommonLine {
   Vector2d center;
@@ -48,10 +54,7 @@ struct CommonLine {
   }
 
   double Along(const Vector2d& x) const { return direction.dot(x - center); }
-  double Across(const Vector2d& x) const {
-    const Vector2d d = x - center;
-    return std::abs(direction.x() * d.y() - direction.y() * d.x());
-  }
+  double Across(const Vector2d& x) const { return DistanceToLine(center, direction, x); }
 };
 
 std::optional<LineSegment2> Merge(const LineMergingOptions& options, const LineSegment2& a,
@@ -102,9 +105,8 @@ std::vector<LineSegment2> MergeCollinear(const LineMergingOptions& options,
       for (size_t j = i + 1; j < segments.size(); ++j) {
         if (taken[j] || directions[i].dot(directions[j]) < min_cosine) continue;
         // No end point may be far from the common line, so the middle cannot be far from this one.
-        const Vector2d offset = segments[j].Midpoint() - line.start;
-        const double across = direction.x() * offset.y() - direction.y() * offset.x();
-        if (std::abs(across) > 3.0 * options.max_distance) continue;
+        const double across = DistanceToLine(line.start, direction, segments[j].Midpoint());
+        if (across > 3.0 * options.max_distance) continue;
         const std::optional<LineSegment2> joined = Merge(options, line, segments[j]);
         if (!joined) continue;
         line = *joined;

@@ -125,6 +125,18 @@ TEST_F(MapTest, RefreshTakesTheCentralDescriptorAndMeanDirection) {
   EXPECT_TRUE(point.viewing_direction.isApprox(expected, 1e-12));
 }
 
+TEST_F(MapTest, RefreshChoosesTheDescriptorAgainWhenObservationsComeOrGo) {
+  const Descriptor first = map_.FindPoint(a_)->descriptor;
+  map_.ObservePoint(a_, keyframes_[1], 3);
+  map_.ObservePoint(a_, keyframes_[2], 2);
+  map_.RefreshPoint(a_);
+  EXPECT_NE(map_.FindPoint(a_)->descriptor, first);
+  map_.ForgetPoint(a_, keyframes_[1]);
+  map_.ForgetPoint(a_, keyframes_[2]);
+  map_.RefreshPoint(a_);
+  EXPECT_EQ(map_.FindPoint(a_)->descriptor, first);
+}
+
 TEST_F(MapTest, SharedMapsChangeEachOnItsOwn) {
   Map copy = map_.Share();
   map_.RemovePoint(a_);
