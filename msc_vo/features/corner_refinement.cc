@@ -24,10 +24,9 @@ constexpr int kWindow = 2 * kWindowRadius + 1;
 constexpr int kPatchRadius = kWindowRadius + 1;
 constexpr int kPatch = 2 * kPatchRadius + 1;
 
-// The window of an apex and its weights. Blurred before gradients are taken: differences of single
-// pixels see an edge at a place that depends on where the pixels lie. In simulation (corners of 60
-// to 120 degrees, noise of 3 grey values) that takes a third off the scatter of the apex.
-constexpr double kApexBlur = 1.0;  // pixels
+// The window of an apex and its weights. Gradients are those of the smoothed image: differences of
+// single pixels see an edge at a place that depends on where the pixels lie. In simulation (corners
+// of 60 to 120 degrees, noise of 3 grey values) that takes a third off the scatter of the apex.
 constexpr int kApexRadius = 3;
 constexpr int kApexWindow = 2 * kApexRadius + 1;
 constexpr double kApexSigma = 1.5;  // pixels
@@ -236,10 +235,6 @@ class ApexSearch {
 };
 
 }  // namespace
-
-CornerRefiner::CornerRefiner(const cv::Mat& gray, const cv::Rect& area) : gray_(gray), area_(area) {
-  cv::GaussianBlur(gray, smooth_, cv::Size(), kApexBlur);
-}
 
 RefinedCorner CornerRefiner::Refine(const cv::Point& corner) const {
   cv::Point pixel = corner;

@@ -34,9 +34,10 @@ struct RefinedCorner {
 // frames.
 class CornerRefiner {
  public:
-  // Keeps a reference to `gray` (8 bits), which must outlive it; `area` lies at least five pixels
-  // inside of it.
-  CornerRefiner(const cv::Mat& gray, const cv::Rect& area);
+  // Keeps references to an 8-bit image and to itself smoothed with a Gaussian of one pixel; `area`
+  // lies at least five pixels inside.
+  CornerRefiner(const cv::Mat& gray, const cv::Mat& smooth, const cv::Rect& area)
+      : gray_(gray), smooth_(smooth), area_(area) {}
 
   RefinedCorner Refine(const cv::Point& corner) const;
 
@@ -44,7 +45,7 @@ class CornerRefiner {
   Eigen::Vector2d TowardsApex(const Eigen::Vector2d& maximum) const;
 
   const cv::Mat& gray_;
-  cv::Mat smooth_;  // for the gradients of apices
+  const cv::Mat& smooth_;  // for the gradients of apices
   cv::Rect area_;
 };
 

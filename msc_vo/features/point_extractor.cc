@@ -4,165 +4,89 @@
 #include "msc_vo/features/point_extractor.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
 
-#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "msc_vo/features/corner_refinement.h"
-#include "msc_vo/geometry/angles.h"
+#include "msc_vo/features/fast_corners.h"
+#include "msc_vo/features/point_describer.h"
 
 namespace msc_vo {
 
 namespace {
 
-// Radius of the patch whose intensity centroid gives the orientation, pixels of the level (ORB).
-constexpr int kPatchRadius = 15;
-// No corner nearer than this to a level's border: ORB's tests reach 13 px along x and y, rotated
-// 18.4 px.
-constexpr int kBorder = 19;
-// FAST looks at a circle of this radius.
-constexpr int kFastRadius = 3;
+constexpr int kBorder = PointDescriber::kBorder;
 
-struct Corner {
-  cv::Point pixel;  // of the level
-  float response = 0.0f;
-};
-
-bool Stronger(const Corner& a, const Corner& b) {
+bool Stronger(const FastCorner& a, const FastCorner& b) {
   return std::make_tuple(-a.response, a.pixel.y, a.pixel.x) <
          std::make_tuple(-b.response, b.pixel.y, b.pixel.x);
 }
 
-// FAST corners whose centres lie in `area`; one pixel more is looked at around it, so that a corner
-// is a maximum of the response also across the border of the area.
-void DetectFast(const cv::Mat& image, const cv::Rect& area, int threshold,
-                std::vector<Corner>* corners) {
-  const int margin = kFastRadius + 1;
-  const cv::Rect window(area.x - margin, area.y - margin, area.width + 2 * margin,
-                        area.height + 2 * margin);
-  std::vector<cv::KeyPoint> found;
-  cv::FAST(image(window), found, threshold, /*nonmaxSuppression=*/true);
-  for (const cv::KeyPoint& keypoint : found) {
-    const cv::Point pixel(static_cast<int>(keypoint.pt.x) + window.x,
-                          static_cast<int>(keypoint.pt.y) + window.y);
-    if (area.contains(pixel)) corners->push_back({pixel, keypoint.response});
-  }
-}
-
-// The corners of one level, in square cells of about the size that gives each corner wanted its
-// own.
+// Corners of one level, in square cells of about the size that gives each corner wanted its own.
 class CellGrid {
  public:
-  CellGrid(const cv::Rect& area, int num_wanted) : area_(area) {
+  CellGrid(const cv::Rect& area, int num_wanted, const std::vector<FastCorner>& corners)
+      : area_(area), num_wanted_(num_wanted) {
     const double size = std::sqrt(static_cast<double>(area.area()) / std::max(1, num_wanted));
     columns_ = std::max(1, static_cast<int>(std::lround(area.width / size)));
     rows_ = std::max(1, static_cast<int>(std::lround(area.height / size)));
-    counts_.resize(static_cast<size_t>(columns_) * rows_, 0);
+    cells_.resize(static_cast<size_t>(columns_) * rows_);
+    for (const FastCorner& corner : corners) cells_[CellOf(corner)].push_back(corner);
+    for (std::vector<FastCorner>& cell : cells_) std::sort(cell.begin(), cell.end(), Stronger);
   }
 
-  void Add(const std::vector<Corner>& corners) {
-    for (const Corner& corner : corners) ++counts_[CellOf(corner)];
-    corners_.insert(corners_.end(), corners.begin(), corners.end());
-  }
-
-  // The empty cells, neighbours in a row as one area: each search also looks around its area.
-  std::vector<cv::Rect> EmptyAreas() const {
-    std::vector<cv::Rect> areas;
-    for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column) {
-        if (counts_[row * columns_ + column] > 0) continue;
-        const bool continues = column > 0 && counts_[row * columns_ + column - 1] == 0;
-        const cv::Rect area = CellArea(row, column);
-        if (continues) {
-          areas.back() |= area;
-        } else {
-          areas.push_back(area);
-        }
-      }
+  // Leaves out what does not exceed the threshold where a cell has corners that do.
+  void DropWeakBesideStrong(int threshold) {
+    for (std::vector<FastCorner>& cell : cells_) {
+      if (cell.empty() || cell.front().response <= threshold) continue;
+      while (cell.back().response <= threshold) cell.pop_back();
     }
-    return areas;
   }
 
-  // The strongest corner of every cell, then the second of every cell, and so on, `num_wanted` in
-  // all; within one round the stronger first.
-  std::vector<Corner> Choose(int num_wanted) {
-    const std::vector<int> begins = SortByCell();
-    std::vector<Corner> chosen;
-    for (int round = 0; static_cast<int>(chosen.size()) < num_wanted; ++round) {
+  // The strongest corner of every cell, then the second of every cell, and so on, as many as are
+  // wanted; within one round the stronger first.
+  std::vector<FastCorner> Choose() const {
+    std::vector<FastCorner> chosen;
+    for (size_t round = 0; static_cast<int>(chosen.size()) < num_wanted_; ++round) {
       const size_t before = chosen.size();
-      for (size_t cell = 0; cell < counts_.size(); ++cell) {
-        if (round < counts_[cell]) chosen.push_back(corners_[begins[cell] + round]);
+      for (const std::vector<FastCorner>& cell : cells_) {
+        if (round < cell.size()) chosen.push_back(cell[round]);
       }
       if (chosen.size() == before) break;
       std::sort(chosen.begin() + before, chosen.end(), Stronger);
     }
-    if (static_cast<int>(chosen.size()) > num_wanted) chosen.resize(num_wanted);
+    if (static_cast<int>(chosen.size()) > num_wanted_) chosen.resize(num_wanted_);
     return chosen;
   }
 
  private:
-  int CellOf(const Corner& corner) const {
+  int CellOf(const FastCorner& corner) const {
     const int column = (corner.pixel.x - area_.x) * columns_ / area_.width;
     const int row = (corner.pixel.y - area_.y) * rows_ / area_.height;
     return row * columns_ + column;
   }
 
-  // Puts the corners cell by cell, the strongest first in each, and returns where cells begin.
-  std::vector<int> SortByCell() {
-    std::vector<int> begins(counts_.size(), 0);
-    std::partial_sum(counts_.begin(), counts_.end() - 1, begins.begin() + 1);
-    std::vector<int> next = begins;
-    std::vector<Corner> sorted(corners_.size());
-    for (const Corner& corner : corners_) sorted[next[CellOf(corner)]++] = corner;
-    for (size_t cell = 0; cell < counts_.size(); ++cell) {
-      std::sort(sorted.begin() + begins[cell], sorted.begin() + next[cell], Stronger);
-    }
-    corners_ = std::move(sorted);
-    return begins;
-  }
-
-  // First coordinates that CellOf() sends to this column and row, up to those of the next.
-  cv::Rect CellArea(int row, int column) const {
-    const auto first = [](int index, int extent, int count) {
-      return (index * extent + count - 1) / count;
-    };
-    const int x0 = first(column, area_.width, columns_);
-    const int y0 = first(row, area_.height, rows_);
-    const int x1 = first(column + 1, area_.width, columns_);
-    const int y1 = first(row + 1, area_.height, rows_);
-    return {area_.x + x0, area_.y + y0, x1 - x0, y1 - y0};
-  }
-
   cv::Rect area_;
+  int num_wanted_;
   int columns_ = 1;
   int rows_ = 1;
-  std::vector<Corner> corners_;
-  std::vector<int> counts_;  // of corners in each cell, row by row
+  std::vector<std::vector<FastCorner>> cells_;  // row by row, the strongest of each first
 };
 
 cv::Rect DetectionArea(const cv::Mat& level) {
   return {kBorder, kBorder, level.cols - 2 * kBorder, level.rows - 2 * kBorder};
 }
 
-std::vector<Corner> DetectCorners(const cv::Mat& level, int num_wanted,
-                                  const PointExtractorOptions& options) {
+std::vector<FastCorner> DetectCorners(const cv::Mat& level, int num_wanted,
+                                      const PointExtractorOptions& options) {
   const cv::Rect area = DetectionArea(level);
-  CellGrid grid(area, num_wanted);
-  std::vector<Corner> corners;
-  DetectFast(level, area, options.fast_threshold, &corners);
-  grid.Add(corners);
-  corners.clear();
-  for (const cv::Rect& empty : grid.EmptyAreas()) {
-    DetectFast(level, empty, options.min_fast_threshold, &corners);
-  }
-  grid.Add(corners);
-  return grid.Choose(num_wanted);
+  CellGrid grid(area, num_wanted, DetectFastCorners(level, area, options.min_fast_threshold));
+  grid.DropWeakBesideStrong(options.fast_threshold);
+  return grid.Choose();
 }
 
 // Pixel of the full image from one of a level. Resizing keeps the image's outline, which is half a
@@ -173,72 +97,19 @@ Eigen::Vector2d ToFullImage(const Eigen::Vector2d& pixel, const cv::Size& level,
           (pixel.y() + 0.5) * image.height / level.height - 0.5};
 }
 
-// Half width of the circular patch in each of its rows.
-std::array<int, kPatchRadius + 1> PatchHalfWidths() {
-  std::array<int, kPatchRadius + 1> half_widths;
-  for (int y = 0; y <= kPatchRadius; ++y) {
-    half_widths[y] = static_cast<int>(std::lround(std::sqrt(kPatchRadius * kPatchRadius - y * y)));
-  }
-  return half_widths;
-}
-
-// Direction from the centre of a patch to its intensity centroid, radians.
-double IntensityCentroidAngle(const cv::Mat& level, const cv::Point& center) {
-  static const std::array<int, kPatchRadius + 1> half_widths = PatchHalfWidths();
-  int moment_x = 0;
-  int moment_y = 0;
-  for (int y = -kPatchRadius; y <= kPatchRadius; ++y) {
-    const int half = half_widths[std::abs(y)];
-    const uint8_t* row = level.ptr<uint8_t>(center.y + y) + center.x;
-    int sum = 0;
-    for (int x = -half; x <= half; ++x) {
-      sum += row[x];
-      moment_x += x * row[x];
-    }
-    moment_y += y * sum;
-  }
-  return std::atan2(static_cast<double>(moment_y), static_cast<double>(moment_x));
-}
-
 // Where the corners of one level are, to sub-pixels; those that end at the same pixel are one.
-std::vector<RefinedCorner> RefineCorners(const cv::Mat& level, const std::vector<Corner>& corners) {
-  const CornerRefiner refiner(level, DetectionArea(level));
+std::vector<RefinedCorner> RefineCorners(const cv::Mat& level, const cv::Mat& smooth,
+                                         const std::vector<FastCorner>& corners) {
+  const CornerRefiner refiner(level, smooth, DetectionArea(level));
   cv::Mat taken = cv::Mat::zeros(level.size(), CV_8UC1);
   std::vector<RefinedCorner> refined;
-  for (const Corner& corner : corners) {
+  for (const FastCorner& corner : corners) {
     const RefinedCorner candidate = refiner.Refine(corner.pixel);
     uint8_t& is_taken = taken.at<uint8_t>(candidate.pixel);
     if (is_taken == 0) refined.push_back(candidate);
     is_taken = 1;
   }
   return refined;
-}
-
-// Points of one level, in its pixels, with orientation and descriptor. OpenCV may leave out and
-// reorder key points; class_id tells whose descriptor a row is.
-std::vector<PointFeature> DescribeCorners(const cv::Mat& level,
-                                          const std::vector<RefinedCorner>& corners,
-                                          cv::Feature2D* orb) {
-  std::vector<cv::KeyPoint> keypoints;
-  std::vector<double> angles;
-  for (size_t i = 0; i < corners.size(); ++i) {
-    angles.push_back(IntensityCentroidAngle(level, corners[i].pixel));
-    const double degrees = RadiansToDegrees(angles[i]);
-    keypoints.emplace_back(cv::Point2f(corners[i].pixel), 2.0f * kPatchRadius + 1.0f,
-                           static_cast<float>(degrees < 0.0 ? degrees + 360.0 : degrees),
-                           /*response=*/0.0f, /*octave=*/0, /*class_id=*/static_cast<int>(i));
-  }
-  cv::Mat descriptors;
-  orb->compute(level, keypoints, descriptors);
-  std::vector<PointFeature> points(keypoints.size());
-  for (size_t i = 0; i < keypoints.size(); ++i) {
-    const int corner = keypoints[i].class_id;
-    points[i].pixel = corners[corner].position;
-    points[i].angle = angles[corner];
-    std::memcpy(points[i].descriptor.data(), descriptors.ptr(static_cast<int>(i)),
-                points[i].descriptor.size());
-  }
-  return points;
 }
 
 }  // namespace
@@ -270,9 +141,6 @@ PointExtractor::PointExtractor(const PointExtractorOptions& options) : options_(
   for (Level& level : levels_) {
     level.num_points = std::min(cvRound(share), left);
     level.scale = scale;
-    // One call of ORB per level, told that it is the only one: our pyramid is the only pyramid.
-    level.orb = cv::ORB::create(/*nfeatures=*/1, /*scaleFactor=*/1.2f, /*nlevels=*/1,
-                                /*edgeThreshold=*/kBorder);
     left -= level.num_points;
     share *= q;
     scale *= kPyramidScale;
@@ -295,15 +163,20 @@ int PointExtractor::SetImage(const cv::Mat& gray) {
 }
 
 std::vector<PointFeature> PointExtractor::ExtractLevel(int l) {
-  const Level& level = levels_[l];
-  std::vector<PointFeature> points = DescribeCorners(
-      level.image,
-      RefineCorners(level.image, DetectCorners(level.image, level.num_points, options_)),
-      level.orb.get());
-  for (PointFeature& point : points) {
-    point.pixel = ToFullImage(point.pixel, level.image.size(), levels_[0].image.size());
+  Level& level = levels_[l];
+  const std::vector<FastCorner> corners = DetectCorners(level.image, level.num_points, options_);
+  // The binomial filter of five: a Gaussian of one pixel.
+  cv::GaussianBlur(level.image, level.smooth, cv::Size(5, 5), /*sigmaX=*/0.0);
+  const PointDescriber describer(level.image, level.smooth);
+  std::vector<PointFeature> points;
+  for (const RefinedCorner& corner : RefineCorners(level.image, level.smooth, corners)) {
+    PointFeature point;
+    point.pixel = ToFullImage(corner.position, level.image.size(), levels_[0].image.size());
     point.sigma = level.scale;
     point.level = l;
+    point.angle = describer.Angle(corner.pixel);
+    point.descriptor = describer.Describe(corner.pixel, point.angle);
+    points.push_back(point);
   }
   return points;
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <opencv2/features2d.hpp>
+#include <opencv2/core.hpp>
 
 #include "msc_vo/map/frame.h"
 
@@ -23,7 +23,7 @@ struct PointExtractorOptions {
   bool IsValid(std::string* error) const;
 };
 
-// FAST corners over an image pyramid, evenly spread, with orientation and ORB descriptor.
+// FAST corners over an image pyramid, evenly spread, with orientation and descriptor.
 // Keeps its buffers between calls; not for use from several threads at once.
 class PointExtractor {
  public:
@@ -43,9 +43,9 @@ class PointExtractor {
  private:
   struct Level {
     cv::Mat image;
+    cv::Mat smooth;
     int num_points = 0;  // at most
     double scale = 1.0;
-    cv::Ptr<cv::Feature2D> orb;
   };
 
   PointExtractorOptions options_;

@@ -17,7 +17,7 @@
 
 namespace msc_vo {
 
-// 256-bit binary descriptor (ORB for points, LBD for lines).
+// 256-bit binary descriptor (turned BRIEF for points, LBD for lines).
 using Descriptor = std::array<uint8_t, 32>;
 
 // Number of differing bits, 0..256.

@@ -26,7 +26,9 @@ cv::Mat DrawCorner(const Eigen::Vector2d& corner, double noise, uint32_t seed, d
 }
 
 RefinedCorner Refine(const cv::Mat& image, const cv::Rect& area, const cv::Point& corner) {
-  return CornerRefiner(image, area).Refine(corner);
+  cv::Mat smooth;
+  cv::GaussianBlur(image, smooth, cv::Size(5, 5), 0.0);
+  return CornerRefiner(image, smooth, area).Refine(corner);
 }
 
 // Largest difference between shifts of a corner and those that are found, pixels.
