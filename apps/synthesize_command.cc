@@ -148,12 +148,13 @@ int Run(const Arguments& arguments) {
     SyntheticFrame frame = sequence.Render(i);
     const std::string stamp = Format("%.6f", frame.pose.timestamp);
     const std::string rgb = "rgb/" + stamp + (arguments.jpeg ? ".jpg" : ".png");
-    const std::string depth = "depth/" + stamp + ".png";
+    const std::string depth_stamp = Format("%.6f", frame.pose.timestamp + options.depth_delay);
+    const std::string depth = "depth/" + depth_stamp + ".png";
     WriteColor(folder / rgb, &frame.image);
     WriteDepth(folder / depth, &frame.image);
     rgb_list.Write(stamp + " " + rgb);
-    depth_list.Write(stamp + " " + depth);
-    associations.Write(stamp + " " + rgb + " " + stamp + " " + depth);
+    depth_list.Write(depth_stamp + " " + depth);
+    associations.Write(stamp + " " + rgb + " " + depth_stamp + " " + depth);
     truth.Write(PoseLine(stamp, frame.pose.world_from_cam));
     progress.Update(i + 1, "");
   }
@@ -186,6 +187,10 @@ Command AddSynthesizeCommand(CLI::App* app) {
   command->add_option("--height", arguments->height,
                       "Pixels; default: three quarters of the width");
   command->add_option("--fps", arguments->options.fps, "Frames per second of the recording")
+      ->capture_default_str();
+  command
+      ->add_option("--depth-delay", arguments->options.depth_delay,
+                   "Seconds after its colour image that a depth image is taken, as most cameras do")
       ->capture_default_str();
   command->add_option("--speed", arguments->options.path.speed, "Of the walk, metres/second")
       ->capture_default_str();

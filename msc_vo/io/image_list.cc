@@ -51,6 +51,12 @@ bool IsDepthFirst(const TextLine& line) {
   return HasSixteenBits(Relative(line, 1)) && !HasSixteenBits(Relative(line, 3));
 }
 
+// Two clocks, or frame numbers, say nothing about who came first.
+double DepthDelay(double color_stamp, double depth_stamp) {
+  const double delay = depth_stamp - color_stamp;
+  return std::abs(delay) <= kMaxPairDifference ? delay : 0.0;
+}
+
 void CheckAssociation(const TextLine& line) {
   const size_t count = line.fields.size();
   if (count != 4) {
@@ -118,8 +124,9 @@ void PairByTime(const std::vector<ListedImage>& color, const std::vector<ListedI
     if (depth_of_color[i] == kNone) continue;
     ++paired;
     const ListedImage& partner = depth[depth_of_color[i]];
-    index->entries.push_back(
-        {color[i].stamp, color[i].path, partner.path, color[i].origin + " and " + partner.origin});
+    index->entries.push_back({color[i].stamp, color[i].path, partner.path,
+                              color[i].origin + " and " + partner.origin,
+                              DepthDelay(color[i].stamp, partner.stamp)});
   }
   if (paired < color.size()) {
     index->warnings.push_back(
@@ -141,7 +148,8 @@ std::vector<SequenceEntry> ReadAssociations(const std::string& path) {
     const size_t color = depth_first ? 2 : 0;
     const size_t depth = depth_first ? 0 : 2;
     entries.push_back({ParseStamp(line, color), Relative(line, color + 1),
-                       Relative(line, depth + 1), line.Where()});
+                       Relative(line, depth + 1), line.Where(),
+                       DepthDelay(ParseStamp(line, color), ParseStamp(line, depth))});
   }
   return entries;
 }

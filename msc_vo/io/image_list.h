@@ -10,6 +10,9 @@
 
 namespace msc_vo {
 
+// TUM's own limit for pairing colour and depth: less than the 33 ms between two frames.
+constexpr double kMaxPairDifference = 0.02;  // seconds
+
 // A row of rgb.txt or depth.txt.
 struct ListedImage {
   double stamp = 0.0;  // seconds, or a frame number

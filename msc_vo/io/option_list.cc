@@ -326,10 +326,10 @@ void ListCulling(CullingOptions* culling, OptionLister* list) {
 }
 
 void ListMapping(MapperOptions* mapping, OptionLister* list) {
-  list->Add(
-      "refine_structure", &mapping->refine_structure,
-      "whether parallel and perpendicular lines of a keyframe refine each other's depth; never "
-      "in mode pl-vo");
+  list->AddChoice(
+      "frame_structure", &mapping->frame_structure, {"without-pairs", "always", "never"},
+      "when parallel and perpendicular lines of a keyframe refine each other's depth: where the "
+      "map has no pairs (mode pl-vo-depth), always, or never (mode pl-vo)");
   list->Section("structure", &mapping->structure, ListFrameStructure);
   list->Section("fusion", &mapping->fusion, ListFusion);
   list->Section("selection", &mapping->selection, ListSelection);
@@ -350,6 +350,8 @@ std::vector<Option> ListOptions(Configuration* configuration) {
                  "what of the method is used; each adds to the one before");
   list.Add("use_points", &odometry.use_points, "off: lines alone");
   list.Add("use_lines", &odometry.use_lines, "off: points alone");
+  list.Add("align_depth", &odometry.align_depth,
+           "move depth images to the time of their colour image where the two stamps differ");
   list.Add("threads", &odometry.threads,
            "processors to make use of; the result is the same for any number");
   list.Add("realtime", &odometry.snapshots.newest,

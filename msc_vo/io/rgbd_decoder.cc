@@ -130,6 +130,7 @@ RgbdImage RgbdDecoder::Decode(int i) const {
   RgbdImage image;
   image.id = i;
   image.timestamp = entry.timestamp;
+  image.depth_delay = entry.depth_delay;
   image.gray = ToGray(color);
   image.depth = ToMetres(depth, calibration_.depth_scale, index_.invalid_depth);
   return image;

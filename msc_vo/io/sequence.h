@@ -19,6 +19,8 @@ struct SequenceEntry {
   std::string color_path;
   std::string depth_path;
   std::string origin;  // what named the pair: "rgb.txt:12"; empty: the listing of a folder
+  // Seconds from the colour image to the depth image, as far as their stamps tell.
+  double depth_delay = 0.0;
 };
 
 // What a folder holds. Nothing of the images has been decoded yet.

@@ -41,6 +41,7 @@ class SequenceChecker {
     for (const std::string& warning : index_.warnings) Add(Severity::kWarning, warning);
     CheckFiles();
     CheckStamps();
+    CheckDelays();
     CheckCamera();
     CheckImages();
     CheckGroundTruth();
@@ -90,6 +91,17 @@ class SequenceChecker {
       Add(Severity::kWarning, std::to_string(gaps) + " gaps of three frames or more, the longest " +
                                   Rounded(longest, 3) + " s");
     }
+  }
+
+  void CheckDelays() {
+    const auto [first, last] = std::minmax_element(
+        index_.entries.begin(), index_.entries.end(),
+        [](const auto& a, const auto& b) { return a.depth_delay < b.depth_delay; });
+    if (first->depth_delay == 0.0 && last->depth_delay == 0.0) return;
+    Add(Severity::kGood, "depth images are " + Rounded(1e3 * first->depth_delay, 1) + " to " +
+                             Rounded(1e3 * last->depth_delay, 1) +
+                             " ms later than their colour images; replay makes up for how the "
+                             "camera moves in that time");
   }
 
   void CheckCamera() {

@@ -18,9 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The data set's own limit for pairing colour and depth: less than the 33 ms between two frames.
-constexpr double kMaxPairDifference = 0.02;  // seconds
-
 // Numbers frames / kDefaultFrameRate if that is what the stamps of `items` are.
 template <typename Item>
 void FrameNumbersToSeconds(double Item::*stamp, std::vector<Item>* items) {

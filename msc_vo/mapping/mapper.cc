@@ -23,7 +23,7 @@ MappingSummary Mapper::Process(const KeyframePacket& packet) {
   MappingSummary summary;
   Stopwatch stopwatch;
   std::shared_ptr<const Frame> frame = packet.frame;
-  if (options_.refine_structure) frame = RefineStructure(options_.structure, noise_.scale(), frame);
+  if (options_.RefinesFrames()) frame = RefineStructure(options_.structure, noise_.scale(), frame);
   summary.times.structure = stopwatch.Restart();
   summary.keyframe = InsertKeyframe(packet, std::move(frame));
   CullLandmarks(options_.culling, summary.keyframe, &probation_, &map_);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "msc_vo/features/depth_alignment.h"
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/odometry/mapping_runner.h"
@@ -23,7 +24,7 @@ OdometryOptions Checked(OdometryOptions options) {
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
   if (options.mode == Mode::kPlVo) {
     options.features.line_depth = LineDepthMethod::kEndPoints;
-    options.mapping.refine_structure = false;
+    options.mapping.frame_structure = FrameStructureUse::kNever;
   }
   if (options.mode != Mode::kMscVo) {
     options.mapping.pairs.parallel = false;
@@ -73,9 +74,10 @@ struct Odometry::State {
     Rigid3 cam_from_reference;
   };
 
-  State(const OdometryOptions& options_in, const PinholeCamera& camera,
+  State(const OdometryOptions& options_in, const PinholeCamera& camera_in,
         const LensDistortion& distortion)
       : options(Checked(options_in)),
+        camera(camera_in),
         builder(options.features, camera, distortion),
         normal_estimator(options.normals, camera, distortion),
         tracker(options.tracking),
@@ -88,12 +90,14 @@ struct Odometry::State {
   }
 
   void CheckTime(int64_t id, double timestamp) const;
+  RgbdImage Align(const RgbdImage& image) const;
   Frame Build(const RgbdImage& image);
   void Count(const TrackedFrame& tracked);
   void SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat& depth);
   void Record(int frame, const MappingStep& step);
 
   OdometryOptions options;
+  PinholeCamera camera;
   FrameBuilder builder;
   SurfaceNormalEstimator normal_estimator;
   std::unique_ptr<SideWorker> side_worker;  // none with one thread
@@ -111,6 +115,16 @@ void Odometry::State::CheckTime(int64_t id, double timestamp) const {
   if (results.empty() || timestamp > results.back().timestamp) return;
   throw std::invalid_argument("image " + std::to_string(id) +
                               ": its time stamp is not later than that of the image before");
+}
+
+// With the depth of the time of its colour image.
+RgbdImage Odometry::State::Align(const RgbdImage& image) const {
+  RgbdImage aligned = image;
+  if (options.align_depth && image.depth_delay != 0.0) {
+    aligned.depth = AlignDepth(camera, image.depth, tracker.motion().Over(image.depth_delay));
+    aligned.depth_delay = 0.0;
+  }
+  return aligned;
 }
 
 Frame Odometry::State::Build(const RgbdImage& image) {
@@ -159,9 +173,11 @@ void Odometry::SetWindowObserver(WindowObserver observer) {
   state_->mapper.SetWindowObserver(std::move(observer));
 }
 
-FrameResult Odometry::Process(const RgbdImage& image) {
-  state_->CheckTime(image.id, image.timestamp);
+FrameResult Odometry::Process(const RgbdImage& recorded) {
+  state_->CheckTime(recorded.id, recorded.timestamp);
   Stopwatch stopwatch;
+  const RgbdImage image = state_->Align(recorded);
+  const double alignment_ms = stopwatch.Milliseconds();
   auto frame = std::make_shared<Frame>(state_->Build(image));
   if (!state_->options.use_points) {
     frame->points.clear();
@@ -176,7 +192,7 @@ FrameResult Odometry::Process(const RgbdImage& image) {
   FrameResult result = MakeResult(tracked);
   result.times.points = state_->builder.times().points;
   result.times.lines = state_->builder.times().lines;
-  result.times.depth = state_->builder.times().depth;
+  result.times.depth = state_->builder.times().depth + alignment_ms;
   result.times.waiting = waiting_ms;
   result.times.tracking = stopwatch.Milliseconds();
 

@@ -28,6 +28,8 @@ struct OdometryOptions {
   Mode mode = Mode::kMscVo;
   bool use_points = true;
   bool use_lines = true;
+  // Depth images are moved to the time of their colour image, as the camera moved in between.
+  bool align_depth = true;
   // Processors to make use of. 1: everything in turn; 2 or more: mapping beside tracking, points
   // beside lines. The result is the same for any number.
   int threads = 2;

@@ -99,7 +99,8 @@ CameraPath::Gaze CameraPath::GazeAt(double parameter) const {
 }
 
 double CameraPath::ParameterAt(double seconds) const {
-  const double in_loop = std::fmod(seconds, LoopSeconds());
+  const double remainder = std::fmod(seconds, LoopSeconds());
+  const double in_loop = remainder < 0.0 ? remainder + LoopSeconds() : remainder;
   const auto after = std::upper_bound(seconds_at_.begin(), seconds_at_.end() - 1, in_loop);
   const size_t i = static_cast<size_t>(after - seconds_at_.begin()) - 1;
   const double f = (in_loop - seconds_at_[i]) / (seconds_at_[i + 1] - seconds_at_[i]);

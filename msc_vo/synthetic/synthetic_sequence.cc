@@ -3,6 +3,7 @@
 
 #include "msc_vo/synthetic/synthetic_sequence.h"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace msc_vo {
@@ -31,6 +32,8 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
     *error = "width and height must be from 32 to 8192 pixels";
   } else if (!(fps > 0.0)) {
     *error = "fps must be positive";
+  } else if (!(std::abs(depth_delay) < 0.5 / fps)) {
+    *error = "depth_delay must be less than half the time between two images";
   } else if (!(image_sigma >= 0.0)) {
     *error = "image_sigma must not be negative";
   } else {
@@ -54,6 +57,10 @@ SyntheticFrame SyntheticSequence::Render(int index) const {
   SyntheticFrame frame;
   frame.pose = PoseAt(index);
   frame.image = renderer_.Render(frame.pose.world_from_cam.Inverse());
+  if (options_.depth_delay != 0.0) {
+    const double seconds = index / options_.fps + options_.depth_delay;
+    frame.image.depth = renderer_.Render(path_.CamFromWorld(seconds)).depth;
+  }
   // Even streams for colour, odd ones for depth: independent of each other in every frame.
   const uint64_t stream = 2 * static_cast<uint64_t>(index);
   if (options_.image_sigma > 0.0) {

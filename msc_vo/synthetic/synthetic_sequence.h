@@ -21,6 +21,8 @@ struct SyntheticSequenceOptions {
   int width = 640;    // pixels
   int height = 480;
   double fps = 30.0;
+  // Seconds after its colour image that each depth image is taken; negative: before.
+  double depth_delay = 0.0;
   // Grey levels: a Kinect's colour camera indoors has about 2. 0: none.
   double image_sigma = 2.0;
   bool kinect_depth = false;  // otherwise depth is exact
@@ -31,8 +33,8 @@ struct SyntheticSequenceOptions {
 };
 
 struct SyntheticFrame {
-  TimedPose pose;  // the truth; its time stamp is the images'
-  RenderedImage image;
+  TimedPose pose;       // the truth; its time stamp is the images'
+  RenderedImage image;  // its depth is of depth_delay later
 };
 
 // An endless RGB-D recording: a walk through a scene, frame by frame in any order.

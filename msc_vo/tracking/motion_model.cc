@@ -22,10 +22,14 @@ void MotionModel::Reset(double timestamp) {
 }
 
 Rigid3 MotionModel::Predict(double timestamp) const {
-  if (interval_ <= 0.0) return Rigid3();
   // Half a second ahead a hand has changed its mind: the model is not carried further than that.
   constexpr double kHorizon = 0.5;
-  const double scale = std::min(timestamp - last_timestamp_, kHorizon) / interval_;
+  return Over(std::min(timestamp - last_timestamp_, kHorizon));
+}
+
+Rigid3 MotionModel::Over(double seconds) const {
+  if (interval_ <= 0.0) return Rigid3();
+  const double scale = seconds / interval_;
   return {ExpSO3(scale * LogSO3(velocity_.rotation())), scale * velocity_.translation()};
 }
 

@@ -18,6 +18,8 @@ class MotionModel {
 
   // Motion from the last observed frame to a frame at `timestamp`.
   Rigid3 Predict(double timestamp) const;
+  // Motion over so many seconds; backwards in time if negative.
+  Rigid3 Over(double seconds) const;
 
  private:
   double last_timestamp_ = 0.0;

@@ -22,6 +22,9 @@ class Tracker {
   // Tracks the next frame. Frames come in the order of time; snapshots never get older.
   TrackedFrame Track(std::shared_ptr<const Frame> frame, const MapSnapshot& snapshot);
 
+  // Of the camera, as the last frames showed it; at rest where they were not tracked.
+  const MotionModel& motion() const { return motion_; }
+
  private:
   TrackedFrame Initialize(std::shared_ptr<const Frame> frame);
   // The first steps of tracking: each returns false if it did not find a pose.

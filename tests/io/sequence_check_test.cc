@@ -48,6 +48,13 @@ TEST_F(SequenceCheckTest, ASoundSequenceRaisesNothing) {
   EXPECT_THAT(findings, Contains(Is(Severity::kGood, "6 of 6 images have one")));
 }
 
+TEST_F(SequenceCheckTest, TellsDelaysOfDepth) {
+  EXPECT_THAT(Check(), Not(Contains(Is(Severity::kGood, "later than"))));
+  index_.entries[1].depth_delay = 0.004;
+  index_.entries[2].depth_delay = -0.001;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kGood, "-1.0 to 4.0 ms later than")));
+}
+
 TEST_F(SequenceCheckTest, SuspectsTheDepthScale) {
   calibration_.depth_scale = 1000.0;
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "5000.0 would give 2.00 m")));

@@ -38,6 +38,8 @@ TEST_F(TumSequenceTest, PairsByNearestTime) {
   EXPECT_EQ(index.entries[0].color_path, Path("rgb/a.png"));
   EXPECT_EQ(index.entries[1].depth_path, Path("depth/b.png"));
   EXPECT_THAT(index.entries[0].origin, HasSubstr("rgb.txt:2"));
+  EXPECT_NEAR(index.entries[0].depth_delay, 0.01, 1e-9);
+  EXPECT_NEAR(index.entries[1].depth_delay, 0.005, 1e-9);
   ASSERT_EQ(index.ground_truth.size(), 1u);
   EXPECT_EQ(index.ground_truth[0].timestamp, 0.99);
   EXPECT_THAT(index.warnings, ElementsAre(HasSubstr("1 of 3 colour images")));
@@ -71,7 +73,15 @@ TEST_F(TumSequenceTest, ReadsAssociationsInEitherOrder) {
   EXPECT_THAT(Stamps(index), ElementsAre(1.0, 2.5));
   EXPECT_EQ(index.entries[0].color_path, Path("rgb/1.png"));
   EXPECT_EQ(index.entries[0].depth_path, Path("depth/1.png"));
+  EXPECT_NEAR(index.entries[0].depth_delay, 0.01, 1e-9);
   EXPECT_EQ(index.entries[1].origin, Path("associations.txt") + ":2");
+}
+
+TEST_F(TumSequenceTest, StampsOfTwoClocksTellNoDelay) {
+  WriteText("associations.txt", "1.5 rgb/1.png 9.01 depth/1.png\n2.5 rgb/2.png 2.5 depth/2.png\n");
+  for (const SequenceEntry& entry : OpenSequence(Folder()).entries) {
+    EXPECT_EQ(entry.depth_delay, 0.0);
+  }
 }
 
 TEST_F(TumSequenceTest, TellsTheColumnsByBitDepthWhereNamesDoNot) {

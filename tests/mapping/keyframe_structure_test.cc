@@ -85,12 +85,13 @@ TEST(KeyframeStructure, LeavesAFrameWithoutPairsAlone) {
   EXPECT_EQ(RefineStructure(FrameStructureOptions(), NoiseScale(), nothing), nothing);
 }
 
-// The map gets the refined lines if the option says so.
+// The map gets the refined lines if the option says so, or has no pairs.
 TEST(KeyframeStructure, ReachesTheMap) {
-  const auto error = [](bool refine) {
+  const auto error = [](FrameStructureUse use, bool pairs) {
     SyntheticFrames world{SyntheticFrames::Options()};
     MapperOptions options;
-    options.refine_structure = refine;
+    options.frame_structure = use;
+    options.pairs.parallel = options.pairs.perpendicular = pairs;
     options.structure = WideGates();
     Mapper mapper(options);
     KeyframePacket packet;
@@ -101,7 +102,11 @@ TEST(KeyframeStructure, ReachesTheMap) {
     for (const auto& [id, line] : mapper.map().lines()) lines.push_back(line.segment);
     return DirectionError(lines, Rigid3());
   };
-  EXPECT_LT(error(true), 0.7 * error(false));
+  const double measured = error(FrameStructureUse::kNever, false);
+  const double refined = error(FrameStructureUse::kAlways, true);
+  EXPECT_LT(refined, 0.7 * measured);
+  EXPECT_EQ(error(FrameStructureUse::kWithoutPairs, false), refined);
+  EXPECT_EQ(error(FrameStructureUse::kWithoutPairs, true), measured);
 }
 
 }  // namespace

@@ -49,6 +49,20 @@ TEST(SyntheticSequenceTest, StampsFollowTheFrameRate) {
   EXPECT_DOUBLE_EQ(sequence.PoseAt(30).timestamp, 3.0);
 }
 
+TEST(SyntheticSequenceTest, DelayedDepthIsThatOfLater) {
+  SyntheticSequenceOptions options = Small();
+  const SyntheticSequence at_once(options);
+  options.depth_delay = 0.25 / options.fps;
+  const SyntheticSequence delayed(options);
+  options.depth_delay = 0.0;
+  options.fps *= 4.0;
+  const SyntheticSequence fine(options);
+  EXPECT_EQ(delayed.Render(3).image.rgb, at_once.Render(3).image.rgb);
+  EXPECT_NE(delayed.Render(3).image.depth, at_once.Render(3).image.depth);
+  EXPECT_EQ(delayed.Render(3).image.depth, fine.Render(13).image.depth);
+  EXPECT_DOUBLE_EQ(delayed.PoseAt(3).timestamp, at_once.PoseAt(3).timestamp);
+}
+
 TEST(SyntheticSequenceTest, DepthOfOneFrameIsWhereTheNextOneSeesIt) {
   SyntheticSequenceOptions options = Small();
   options.image_sigma = 0.0;
