@@ -17,7 +17,7 @@ namespace msc_vo {
 enum class Mode {
   kPlVo,       // points and lines, depth of a line from its end points
   kPlVoDepth,  // + robust line depth, lines of a frame refined by their relations
-  kMscVo,      // + structural pairs and Manhattan axes in the map
+  kMscVo,      // relations of lines in the map, as structural pairs, and Manhattan axes
 };
 
 const char* ToString(Mode mode);
