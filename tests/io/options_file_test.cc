@@ -125,7 +125,7 @@ TEST_F(OptionsFileTest, EveryOptionSurvivesWritingAndReading) {
     const std::string before = FormatOption(option);
     bool changed = false;
     for (const char* text : {"true", "false", "17", "0.12345678901234567", "pl-vo", "end-points",
-                             "lsd", "edge-drawing", "ceres-dense-schur"}) {
+                             "lsd", "edge-drawing", "ceres-dense-schur", "never"}) {
       std::string expected;
       changed = changed || (text != before && SetOption(option, text, &expected));
     }
