@@ -48,7 +48,7 @@ class Lookup {
   float At(const Eigen::Vector3f& direction) const {
     float there = Nearest(direction);
     if (has_parallax_ && there > 0.0f) there = Nearest(there / direction.z() * direction + shift_);
-    return there > 0.0f ? (there - shift_.z()) / direction.z() : 0.0f;
+    return there > shift_.z() && there > 0.0f ? (there - shift_.z()) / direction.z() : 0.0f;
   }
 
  private:

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <random>
 
 namespace msc_vo {
@@ -43,8 +44,8 @@ struct Pattern {
   std::array<float, 2 * kNumPairs> x, y;
 };
 
-// Coordinates of a place are sums of three numbers of -5 to 5, close to a Gaussian of 5.5 px: a
-// fifth of the patch's width, as was best of the distributions in BRIEF's paper.
+// Coordinates of a place are sums of three numbers of -5 to 5, close to a Gaussian of 5.5 px:
+// about a fifth of the patch's width, as was best of the distributions in BRIEF's paper.
 Pattern MakePattern() {
   std::mt19937 random(1);  // whose numbers the standard fixes
   const auto coordinate = [&random] {
