@@ -15,13 +15,9 @@ namespace {
 // Half a pixel does not change which one is the nearest.
 constexpr double kMinShift = 0.5;
 
-// How far rotation and translation move what is at a metre, pixels.
-double TurnShift(const PinholeCamera& camera, const Rigid3& motion) {
-  const double angle = motion.rotation().angularDistance(Eigen::Quaterniond::Identity());
+// How far an angle (radians), or a way (metres) at one metre, moves the image, pixels.
+double Shift(const PinholeCamera& camera, double angle) {
   return std::max(std::abs(camera.fx), std::abs(camera.fy)) * angle;
-}
-double StepShift(const PinholeCamera& camera, const Rigid3& motion) {
-  return std::max(std::abs(camera.fx), std::abs(camera.fy)) * motion.translation().norm();
 }
 
 // Depth of what a pixel of the colour image shows, by where the depth image has it.
@@ -33,7 +29,7 @@ class Lookup {
     turn_ =
         (intrinsics * motion.rotation().toRotationMatrix() * intrinsics.inverse()).cast<float>();
     shift_ = (intrinsics * motion.translation()).cast<float>();
-    has_parallax_ = StepShift(camera, motion) >= kMinShift;
+    has_parallax_ = Shift(camera, motion.translation().norm()) >= kMinShift;
   }
 
   // Homogeneous pixel of the depth image of what (x, y) shows at infinity, and its change with x.
@@ -69,7 +65,8 @@ class Lookup {
 }  // namespace
 
 cv::Mat AlignDepth(const PinholeCamera& camera, const cv::Mat& depth, const Rigid3& motion) {
-  if (TurnShift(camera, motion) + StepShift(camera, motion) < kMinShift) return depth;
+  const double angle = motion.rotation().angularDistance(Eigen::Quaterniond::Identity());
+  if (Shift(camera, angle + motion.translation().norm()) < kMinShift) return depth;
   const Lookup lookup(camera, depth, motion);
   cv::Mat aligned(depth.size(), CV_32FC1);
   for (int y = 0; y < depth.rows; ++y) {

@@ -13,7 +13,8 @@ namespace msc_vo {
 // turned by the direction of its intensity centroid (as ORB's are, with pairs of our own).
 class PointDescriber {
  public:
-  // No point nearer than this to the image's border: patches reach 15 px, smoothing 2 px further.
+  // No point nearer than this to the image's border: patches reach 15 px and smoothing 2 px
+  // further. 19 px are ORB's border, with which everything here was measured.
   static constexpr int kBorder = 19;
 
   // Of an 8-bit image and of itself smoothed, between whose pixels the comparisons are. Keeps

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <tuple>
 
@@ -30,20 +29,28 @@ bool Stronger(const FastCorner& a, const FastCorner& b) {
 class CellGrid {
  public:
   CellGrid(const cv::Rect& area, int num_wanted, const std::vector<FastCorner>& corners)
-      : area_(area), num_wanted_(num_wanted) {
+      : area_(area), num_wanted_(num_wanted), corners_(corners.size()) {
     const double size = std::sqrt(static_cast<double>(area.area()) / std::max(1, num_wanted));
     columns_ = std::max(1, static_cast<int>(std::lround(area.width / size)));
     rows_ = std::max(1, static_cast<int>(std::lround(area.height / size)));
     cells_.resize(static_cast<size_t>(columns_) * rows_);
-    for (const FastCorner& corner : corners) cells_[CellOf(corner)].push_back(corner);
-    for (std::vector<FastCorner>& cell : cells_) std::sort(cell.begin(), cell.end(), Stronger);
+    for (const FastCorner& corner : corners) ++cells_[CellOf(corner)].count;
+    for (size_t i = 1; i < cells_.size(); ++i) cells_[i].begin = cells_[i - 1].end();
+    for (Cell& cell : cells_) cell.count = 0;
+    for (const FastCorner& corner : corners) {
+      Cell& cell = cells_[CellOf(corner)];
+      corners_[cell.begin + cell.count++] = corner;
+    }
+    for (const Cell& cell : cells_) {
+      std::sort(corners_.begin() + cell.begin, corners_.begin() + cell.end(), Stronger);
+    }
   }
 
   // Leaves out what does not exceed the threshold where a cell has corners that do.
   void DropWeakBesideStrong(int threshold) {
-    for (std::vector<FastCorner>& cell : cells_) {
-      if (cell.empty() || cell.front().response <= threshold) continue;
-      while (cell.back().response <= threshold) cell.pop_back();
+    for (Cell& cell : cells_) {
+      if (cell.count == 0 || corners_[cell.begin].response <= threshold) continue;
+      while (corners_[cell.end() - 1].response <= threshold) --cell.count;
     }
   }
 
@@ -51,10 +58,10 @@ class CellGrid {
   // wanted; within one round the stronger first.
   std::vector<FastCorner> Choose() const {
     std::vector<FastCorner> chosen;
-    for (size_t round = 0; static_cast<int>(chosen.size()) < num_wanted_; ++round) {
+    for (int round = 0; static_cast<int>(chosen.size()) < num_wanted_; ++round) {
       const size_t before = chosen.size();
-      for (const std::vector<FastCorner>& cell : cells_) {
-        if (round < cell.size()) chosen.push_back(cell[round]);
+      for (const Cell& cell : cells_) {
+        if (round < cell.count) chosen.push_back(corners_[cell.begin + round]);
       }
       if (chosen.size() == before) break;
       std::sort(chosen.begin() + before, chosen.end(), Stronger);
@@ -64,6 +71,13 @@ class CellGrid {
   }
 
  private:
+  // Which of the corners lie in a cell.
+  struct Cell {
+    int begin = 0;
+    int count = 0;
+    int end() const { return begin + count; }
+  };
+
   int CellOf(const FastCorner& corner) const {
     const int column = (corner.pixel.x - area_.x) * columns_ / area_.width;
     const int row = (corner.pixel.y - area_.y) * rows_ / area_.height;
@@ -74,7 +88,8 @@ class CellGrid {
   int num_wanted_;
   int columns_ = 1;
   int rows_ = 1;
-  std::vector<std::vector<FastCorner>> cells_;  // row by row, the strongest of each first
+  std::vector<FastCorner> corners_;  // cell by cell, the strongest of each first
+  std::vector<Cell> cells_;          // row by row
 };
 
 cv::Rect DetectionArea(const cv::Mat& level) {

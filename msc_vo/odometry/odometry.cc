@@ -121,7 +121,8 @@ void Odometry::State::CheckTime(int64_t id, double timestamp) const {
 RgbdImage Odometry::State::Align(const RgbdImage& image) const {
   RgbdImage aligned = image;
   if (options.align_depth && image.depth_delay != 0.0) {
-    aligned.depth = AlignDepth(camera, image.depth, tracker.motion().Over(image.depth_delay));
+    const Rigid3 motion = tracker.motion().Over(image.timestamp, image.depth_delay);
+    aligned.depth = AlignDepth(camera, image.depth, motion);
     aligned.depth_delay = 0.0;
   }
   return aligned;

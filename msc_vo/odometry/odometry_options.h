@@ -17,7 +17,7 @@ namespace msc_vo {
 enum class Mode {
   kPlVo,       // points and lines, depth of a line from its end points
   kPlVoDepth,  // + robust line depth, lines of a frame refined by their relations
-  kMscVo,      // relations of lines in the map, as structural pairs, and Manhattan axes
+  kMscVo,      // + Manhattan axes, and relations of lines in the map instead of in frames
 };
 
 const char* ToString(Mode mode);

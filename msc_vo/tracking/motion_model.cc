@@ -9,6 +9,13 @@
 
 namespace msc_vo {
 
+namespace {
+
+// Half a second ahead a hand has changed its mind: the model is not carried further than that.
+constexpr double kHorizon = 0.5;
+
+}  // namespace
+
 void MotionModel::Observe(double timestamp, const Rigid3& cam_from_last) {
   interval_ = timestamp - last_timestamp_;
   velocity_ = cam_from_last;
@@ -22,12 +29,14 @@ void MotionModel::Reset(double timestamp) {
 }
 
 Rigid3 MotionModel::Predict(double timestamp) const {
-  // Half a second ahead a hand has changed its mind: the model is not carried further than that.
-  constexpr double kHorizon = 0.5;
-  return Over(std::min(timestamp - last_timestamp_, kHorizon));
+  return Scaled(std::min(timestamp - last_timestamp_, kHorizon));
 }
 
-Rigid3 MotionModel::Over(double seconds) const {
+Rigid3 MotionModel::Over(double timestamp, double seconds) const {
+  return timestamp - last_timestamp_ > kHorizon ? Rigid3() : Scaled(seconds);
+}
+
+Rigid3 MotionModel::Scaled(double seconds) const {
   if (interval_ <= 0.0) return Rigid3();
   const double scale = seconds / interval_;
   return {ExpSO3(scale * LogSO3(velocity_.rotation())), scale * velocity_.translation()};

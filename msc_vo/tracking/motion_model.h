@@ -18,10 +18,13 @@ class MotionModel {
 
   // Motion from the last observed frame to a frame at `timestamp`.
   Rigid3 Predict(double timestamp) const;
-  // Motion over so many seconds; backwards in time if negative.
-  Rigid3 Over(double seconds) const;
+  // Motion over so many seconds from `timestamp` on, backwards in time if negative. At rest if the
+  // last observed frame is too long ago to tell.
+  Rigid3 Over(double timestamp, double seconds) const;
 
  private:
+  Rigid3 Scaled(double seconds) const;
+
   double last_timestamp_ = 0.0;
   double interval_ = 0.0;  // seconds that velocity_ took; 0: at rest
   Rigid3 velocity_;        // motion over that interval

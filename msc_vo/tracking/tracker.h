@@ -22,7 +22,7 @@ class Tracker {
   // Tracks the next frame. Frames come in the order of time; snapshots never get older.
   TrackedFrame Track(std::shared_ptr<const Frame> frame, const MapSnapshot& snapshot);
 
-  // Of the camera, as the last frames showed it; at rest where they were not tracked.
+  // Of the camera, as the last tracked frames showed it.
   const MotionModel& motion() const { return motion_; }
 
  private:

@@ -103,11 +103,26 @@ TEST(PointDescriber, TellsPatchesApart) {
   EXPECT_NEAR(other[other.size() / 2], 128.0, 20.0);
 }
 
+// What lies around an image, in a larger one that it is a view into, changes nothing.
 TEST(PointDescriber, StaysInsideAtTheBorder) {
-  const Picture picture(testing::DrawQuadrilaterals(2 * kBorder + 1, 2 * kBorder + 1, {0.0, 0.0}));
+  constexpr int kSize = 2 * kBorder + 1;
+  const Picture picture(testing::DrawQuadrilaterals(kSize, kSize, {0.0, 0.0}));
   const cv::Point only(kBorder, kBorder);
-  for (double angle = 0.0; angle < 6.3; angle += 0.1) picture.describer().Describe(only, angle);
-  EXPECT_TRUE(std::isfinite(picture.describer().Angle(only)));
+  const auto framed = [](const cv::Mat& image, int surroundings) {
+    cv::Mat larger;
+    cv::copyMakeBorder(image, larger, 5, 5, 5, 5, cv::BORDER_CONSTANT, cv::Scalar(surroundings));
+    return larger;
+  };
+  for (const int surroundings : {0, 255}) {
+    const cv::Rect inside(5, 5, kSize, kSize);
+    const cv::Mat gray = framed(picture.gray, surroundings)(inside);
+    const cv::Mat smooth = framed(picture.smooth, surroundings)(inside);
+    const PointDescriber view(gray, smooth);
+    EXPECT_EQ(view.Angle(only), picture.describer().Angle(only));
+    for (double angle = 0.0; angle < 2.0 * kPi; angle += 0.1) {
+      EXPECT_EQ(view.Describe(only, angle), picture.describer().Describe(only, angle));
+    }
+  }
 }
 
 }  // namespace

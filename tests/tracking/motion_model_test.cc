@@ -29,12 +29,13 @@ TEST(MotionModel, VelocityScalesWithTime) {
 TEST(MotionModel, GoesBackwardsAsWell) {
   MotionModel model;
   model.Reset(1.0);
-  EXPECT_TRUE(model.Over(-0.01).params.isApprox(Rigid3().params));
+  EXPECT_TRUE(model.Over(1.0, -0.01).params.isApprox(Rigid3().params));
   const Eigen::Vector3d turn(0.0, 0.02, 0.01);
   model.Observe(1.1, Rigid3(ExpSO3(turn), {0.1, 0.0, -0.2}));
-  const Rigid3 back = model.Over(-0.05);
+  const Rigid3 back = model.Over(1.2, -0.05);
   EXPECT_TRUE(LogSO3(back.rotation()).isApprox(-0.5 * turn, 1e-9));
   EXPECT_TRUE(back.translation().isApprox(Eigen::Vector3d(-0.05, 0.0, 0.1), 1e-9));
+  EXPECT_TRUE(model.Over(2.0, -0.05).params.isApprox(Rigid3().params));  // too long ago
 }
 
 TEST(MotionModel, DoesNotRunAwayOverALongGap) {
