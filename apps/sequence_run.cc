@@ -89,8 +89,11 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   const int num_frames = max_frames > 0 ? std::min(max_frames, decoder.size()) : decoder.size();
 
   const CostMeter cost;
-  Odometry odometry(configuration.odometry, context.calibration.camera,
-                    context.calibration.distortion);
+  OdometryOptions& options = context.configuration.odometry;
+  if (!options.mapping.readout_time) {
+    options.mapping.readout_time = context.calibration.readout_time;
+  }
+  Odometry odometry(options, context.calibration.camera, context.calibration.distortion);
   odometry.SetWindowObserver(window_observer);
   const std::unique_ptr<ImageFeed> feed =
       MakeFeed(decoder, num_frames, configuration.odometry.snapshots.newest);

@@ -192,6 +192,11 @@ Command AddSynthesizeCommand(CLI::App* app) {
       ->add_option("--depth-delay", arguments->options.depth_delay,
                    "Seconds after its colour image that a depth image is taken, as most cameras do")
       ->capture_default_str();
+  command
+      ->add_option("--readout-time", arguments->options.readout_time,
+                   "Seconds that the rows of an image take one after the other, a rolling shutter "
+                   "(Kinect: 0.026); time stamps are of the middle")
+      ->capture_default_str();
   command->add_option("--speed", arguments->options.path.speed, "Of the walk, metres/second")
       ->capture_default_str();
   command

@@ -48,6 +48,19 @@ bool IsComplete(const CameraSettings& settings) {
                            "  give --camera with one of:" + names);
 }
 
+// The calibration of the folder, with the readout time that is known of the camera that the name of
+// the folder tells: no calibration file has one.
+Calibration WithShutterByName(const SequenceIndex& index) {
+  Calibration calibration = *index.calibration;
+  const std::string name = GuessCameraPreset(index.directory);
+  if (name.empty()) return calibration;
+  calibration.readout_time = FindCameraPreset(name).calibration.readout_time;
+  if (calibration.readout_time) {
+    calibration.origin += ", shutter of " + name + " by the folder's name";
+  }
+  return calibration;
+}
+
 // What the settings are written over.
 Calibration BaseCalibration(const CameraSettings& settings, const std::string& preset,
                             SequenceIndex* index) {
@@ -63,7 +76,7 @@ Calibration BaseCalibration(const CameraSettings& settings, const std::string& p
       index->warnings.push_back("the camera preset " + preset + " is not used: " +
                                 index->calibration->origin + " says what the camera is");
     }
-    return *index->calibration;
+    return WithShutterByName(*index);
   }
   if (!preset.empty()) return FindCameraPreset(preset).calibration;
   if (index->preset.empty()) FailWithoutCalibration(*index);

@@ -16,7 +16,10 @@ struct Calibration {
   PinholeCamera camera;
   LensDistortion distortion;
   double depth_scale = 5000.0;  // raw depth units per metre
-  std::string origin;           // where the numbers come from, for messages: "camera.txt"
+  // Of a rolling shutter, seconds from the first row of an image to its last, negative if the last
+  // comes first; 0: a global one. None: not known.
+  std::optional<double> readout_time;
+  std::string origin;  // where the numbers come from, for messages: "camera.txt"
 
   bool IsValid(std::string* error) const;
 };
@@ -41,7 +44,8 @@ struct SequenceIndex;
 
 // The calibration of a sequence. In order of precedence: the values of `settings`, a file of the
 // folder, the preset named by `settings` or `preset`, the preset that the folder suggests. A
-// missing image size is taken from the first depth image. Warnings for the user go to
+// missing image size is taken from the first depth image, and the readout time that a file of
+// the folder lacks from the preset that the folder's name suggests. Warnings for the user go to
 // `index->warnings`. Throws std::runtime_error, listing what can be done, if that does not make a
 // whole calibration; std::invalid_argument on an unknown preset.
 Calibration ResolveCalibration(const CameraSettings& settings, const std::string& preset,

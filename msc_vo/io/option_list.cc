@@ -338,6 +338,9 @@ void ListMapping(MapperOptions* mapping, OptionLister* list) {
   list->Section("pairs", &mapping->pairs, ListPairs);
   list->Section("window", &mapping->window, ListWindow);
   list->Section("culling", &mapping->culling, ListCulling);
+  list->Add("readout_time", &mapping->readout_time,
+            "seconds from the first row of an image to its last, 0: global shutter; learnt if not "
+            "given");
 }
 
 }  // namespace

@@ -189,6 +189,7 @@ Json MeasuresToJson(const RunSummary& summary, const std::optional<TrajectoryErr
                  {"lines", summary.num_lines}};
   json["manhattan_axes"] = AxesToJson(summary);
   json["noise_scale"] = NoiseToJson(summary.noise_scale);
+  json["readout_time"] = summary.readout_time;
   json["last_window"] = WindowToJson(summary.last_window);
   json["error"] = error ? ErrorToJson(*error) : Json();
   json["stages_ms"] = StagesToJson(summary.stages);

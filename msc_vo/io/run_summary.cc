@@ -58,6 +58,7 @@ RunSummary Summarize(const OdometryResult& result) {
   }
   summary.axes = result.axes;
   summary.noise_scale = result.noise_scale;
+  summary.readout_time = result.readout_time;
   summary.last_window = result.last_window;
   return summary;
 }

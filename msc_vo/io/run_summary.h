@@ -31,7 +31,8 @@ struct RunSummary {
   int num_lines = 0;
   std::array<int, 3> num_axis_lines = {0, 0, 0};  // lines parallel to each Manhattan axis
   MapAxes axes;
-  NoiseScale noise_scale;  // of the sigmas of features, as learnt
+  NoiseScale noise_scale;     // of the sigmas of features, as learnt
+  double readout_time = 0.0;  // of a rolling shutter, seconds, as known or learnt
   WindowSummary last_window;
 };
 

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/pinhole_camera.h"
@@ -96,6 +97,10 @@ struct Frame {
   std::vector<PointFeature> points;
   std::vector<LineFeature> lines;
   FeatureGrid grid;  // over `points`
+  // What features were unrolled with, see rolling_shutter.h: the camera's velocity, none while it
+  // is not known, and the readout time, seconds.
+  std::optional<CameraVelocity> velocity;
+  double readout_time = 0.0;
 
   // Position in camera coordinates (metres) of a point that has a depth.
   Eigen::Vector3d PointInCamera(int index) const {

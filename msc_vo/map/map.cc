@@ -213,6 +213,10 @@ Rigid3 Map::CamFromWorld(KeyframeId id) const {
   return cam_from_heir * keyframes_.Find(id)->cam_from_world;
 }
 
+void Map::SetFrame(KeyframeId keyframe, std::shared_ptr<const Frame> frame) {
+  keyframes_.FindToChange(keyframe)->frame = std::move(frame);
+}
+
 void Map::SetPose(KeyframeId keyframe, const Rigid3& cam_from_world) {
   keyframes_.FindToChange(keyframe)->cam_from_world = cam_from_world;
 }

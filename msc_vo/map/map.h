@@ -71,6 +71,8 @@ class Map {
   // Pose of a keyframe that is in the map or was removed from it.
   Rigid3 CamFromWorld(KeyframeId id) const;
 
+  // Another state of the same features, in the same order.
+  void SetFrame(KeyframeId keyframe, std::shared_ptr<const Frame> frame);
   void SetPose(KeyframeId keyframe, const Rigid3& cam_from_world);
   void SetPoint(LandmarkId point, const Eigen::Vector3d& position);
   void SetLine(LandmarkId line, const LineSegment3& segment);

@@ -14,8 +14,9 @@ namespace msc_vo {
 struct MapSnapshot {
   Map map;
   KeyframeId newest_keyframe = kNoId;
-  NoiseScale noise_scale;   // as learnt
-  bool needs_axes = false;  // the next keyframe shall bring surface normals
+  NoiseScale noise_scale;     // as learnt
+  double readout_time = 0.0;  // seconds, that keyframes are unrolled with
+  bool needs_axes = false;    // the next keyframe shall bring surface normals
 };
 using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;
 

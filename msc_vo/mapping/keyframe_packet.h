@@ -5,8 +5,10 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/manhattan/axis_evidence.h"
 #include "msc_vo/map/frame.h"
@@ -27,6 +29,8 @@ struct KeyframePacket {
   KeyframeId reference = kNoId;  // kNoId: the first keyframe, cam_from_reference is cam_from_world
   Rigid3 cam_from_reference;
   FrameMatches matches;  // with landmarks of the map
+  // Of the keyframe before this one, as the frame after it showed; none if that was not found.
+  std::optional<CameraVelocity> last_velocity;
   // Normals of the surfaces in view, camera frame; empty if the map has its axes already.
   std::vector<AxisEvidence> normals;
   // Of all frames since the last packet, this one included.

@@ -8,13 +8,17 @@
 #include <utility>
 
 #include "msc_vo/mapping/keyframe_structure.h"
+#include "msc_vo/mapping/keyframe_unrolling.h"
 #include "msc_vo/mapping/landmark_creation.h"
 #include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {
 
 Mapper::Mapper(const MapperOptions& options)
-    : options_(options), axes_(options.axes), noise_(options.noise) {
+    : options_(options),
+      axes_(options.axes),
+      noise_(options.noise),
+      readout_(options.readout_time) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
 }
@@ -22,10 +26,13 @@ Mapper::Mapper(const MapperOptions& options)
 MappingSummary Mapper::Process(const KeyframePacket& packet) {
   MappingSummary summary;
   Stopwatch stopwatch;
+  if (packet.last_velocity) SetVelocity(newest_keyframe_, *packet.last_velocity, &map_);
   std::shared_ptr<const Frame> frame = packet.frame;
   if (options_.RefinesFrames()) frame = RefineStructure(options_.structure, noise_.scale(), frame);
   summary.times.structure = stopwatch.Restart();
   summary.keyframe = InsertKeyframe(packet, std::move(frame));
+  readout_time_ = readout_.readout_time();
+  UnrollKeyframes(readout_time_, &map_);
   CullLandmarks(options_.culling, summary.keyframe, &probation_, &map_);
   CreatePoints(summary.keyframe, &probation_, &map_);
   CreateLines(summary.keyframe, &probation_, &map_);
@@ -36,6 +43,7 @@ MappingSummary Mapper::Process(const KeyframePacket& packet) {
   axes_.Update(map_, summary.keyframe, packet.normals);
   summary.times.axes = stopwatch.Restart();
   summary.window = OptimizeWindow(summary.keyframe);
+  readout_.Update(map_, summary.keyframe);
   summary.times.window = stopwatch.Restart();
   summary.num_culled_keyframes = CullKeyframes(options_.culling, summary.keyframe, &map_);
   summary.times.culling = stopwatch.Restart();
@@ -47,6 +55,7 @@ MapSnapshotPtr Mapper::Snapshot() {
   snapshot->map = map_.Share();
   snapshot->newest_keyframe = newest_keyframe_;
   snapshot->noise_scale = noise_.scale();
+  snapshot->readout_time = readout_time_;
   snapshot->needs_axes = options_.axes.enabled && axes_.estimator().state() == AxesState::kNone;
   return snapshot;
 }

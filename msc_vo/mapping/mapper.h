@@ -9,6 +9,7 @@
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/mapping/keyframe_packet.h"
 #include "msc_vo/mapping/mapper_options.h"
+#include "msc_vo/mapping/readout_estimator.h"
 #include "msc_vo/mapping/window_observer.h"
 
 namespace msc_vo {
@@ -49,6 +50,7 @@ class Mapper {
   const Map& map() const { return map_; }
   const SceneAxes& axes() const { return axes_; }
   const NoiseEstimator& noise() const { return noise_; }
+  const ReadoutEstimator& readout() const { return readout_; }
   // Lines that took part in the last window.
   const std::set<LandmarkId>& last_window_lines() const { return last_window_lines_; }
 
@@ -62,6 +64,8 @@ class Mapper {
   Probation probation_;
   SceneAxes axes_;
   NoiseEstimator noise_;
+  ReadoutEstimator readout_;
+  double readout_time_ = 0.0;  // that the keyframes of the map are unrolled with, seconds
   KeyframeId newest_keyframe_ = kNoId;
   std::set<LandmarkId> last_window_lines_;
 };

@@ -3,9 +3,15 @@
 
 #include "msc_vo/mapping/mapper_options.h"
 
+#include <cmath>
+
 namespace msc_vo {
 
 bool MapperOptions::IsValid(std::string* error) const {
+  if (readout_time && !(std::abs(*readout_time) < 1.0)) {
+    *error = "readout_time: the seconds from the first row of an image to its last, less than 1";
+    return false;
+  }
   return structure.IsValid(error) && fusion.IsValid(error) && selection.IsValid(error) &&
          noise.IsValid(error) && axes.IsValid(error) && pairs.IsValid(error) &&
          window.IsValid(error) && culling.IsValid(error);

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "msc_vo/map/window.h"
@@ -49,6 +50,8 @@ struct MapperOptions {
   StructuralPairOptions pairs;
   WindowOptions window = LocalWindowOptions();
   CullingOptions culling;
+  // Of a rolling shutter, seconds (see rolling_shutter.h); 0: a global one. None: it is learnt.
+  std::optional<double> readout_time;
 
   bool RefinesFrames() const {
     if (frame_structure != FrameStructureUse::kWithoutPairs) {

@@ -121,8 +121,10 @@ void Odometry::State::CheckTime(int64_t id, double timestamp) const {
 RgbdImage Odometry::State::Align(const RgbdImage& image) const {
   RgbdImage aligned = image;
   if (options.align_depth && image.depth_delay != 0.0) {
-    const Rigid3 motion = tracker.motion().Over(image.timestamp, image.depth_delay);
-    aligned.depth = AlignDepth(camera, image.depth, motion);
+    const auto velocity = tracker.motion().VelocityAt(image.timestamp);
+    if (velocity) {
+      aligned.depth = AlignDepth(camera, image.depth, velocity->Over(image.depth_delay));
+    }
     aligned.depth_delay = 0.0;
   }
   return aligned;
@@ -198,6 +200,9 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   result.times.tracking = stopwatch.Milliseconds();
 
   state_->Count(tracked);
+  if (tracked.last_keyframe_velocity) {
+    state_->packet.last_velocity = tracked.last_keyframe_velocity;
+  }
   state_->results.push_back(result);
   state_->places.push_back({tracked.reference, tracked.cam_from_reference});
   if (tracked.is_keyframe) {
@@ -245,6 +250,7 @@ OdometryResult Odometry::Finish() {
                             state_->mapper.axes().AxisOf(line), line.viewing_direction});
   }
   result.noise_scale = state_->mapper.noise().scale();
+  result.readout_time = state_->mapper.readout().readout_time();
   result.axes = MakeAxes(state_->mapper.axes().estimator());
   result.last_window = state_->last_window;
   return result;

@@ -53,6 +53,7 @@ struct OdometryResult {
   std::vector<MapLine> lines;
   MapAxes axes;
   NoiseScale noise_scale;     // of the sigmas of features, as learnt
+  double readout_time = 0.0;  // of a rolling shutter, seconds, as known or learnt; 0: global
   WindowSummary last_window;  // of the last keyframe step
 };
 

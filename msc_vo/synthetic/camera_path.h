@@ -31,7 +31,7 @@ class CameraPath {
   // Throws std::invalid_argument on options that are not valid or a tour of fewer than 4 waypoints.
   CameraPath(const Scene& scene, const PathOptions& options);
 
-  // Pose after `seconds` >= 0.
+  // Pose after `seconds`; before the start, where they are negative, the same way goes on.
   Rigid3 CamFromWorld(double seconds) const;
 
   // Time of one round.

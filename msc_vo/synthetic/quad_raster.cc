@@ -22,9 +22,10 @@ Eigen::Vector3d LinearForm(const PinholeCamera& camera, const Eigen::Vector3d& c
   return {x, y, c.z() - x * camera.cx - y * camera.cy};
 }
 
-// Sets the rows of the image that the rectangle origin, a, b (camera coordinates) may touch.
-void BoundRows(const PinholeCamera& camera, const Eigen::Vector3d& origin, const Eigen::Vector3d& a,
-               const Eigen::Vector3d& b, QuadView* view) {
+// The rows of `band` that the rectangle origin, a, b (camera coordinates) may touch; none of them
+// if first > last.
+RowBand BoundRows(const PinholeCamera& camera, const RowBand& band, const Eigen::Vector3d& origin,
+                  const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   double low = camera.height, high = -1.0;
   for (const Eigen::Vector3d& corner :
        {origin, Eigen::Vector3d(origin + a), Eigen::Vector3d(origin + b),
@@ -34,8 +35,8 @@ void BoundRows(const PinholeCamera& camera, const Eigen::Vector3d& origin, const
     low = std::min(low, in_front ? camera.Project(corner).y() : 0.0);
     high = std::max(high, in_front ? camera.Project(corner).y() : camera.height);
   }
-  view->first_row = static_cast<int>(std::clamp(low - 1.0, 0.0, camera.height - 1.0));
-  view->last_row = static_cast<int>(std::clamp(high + 1.0, -1.0, camera.height - 1.0));
+  return {static_cast<int>(std::clamp(low - 1.0, band.first + 0.0, band.last + 1.0)),
+          static_cast<int>(std::clamp(high + 1.0, band.first - 1.0, band.last + 0.0))};
 }
 
 // The x of row `y` where every form is >= 0 for a place within `reach` pixels of (x, y) along both
@@ -81,7 +82,7 @@ bool QuadView::Contains(const Eigen::Vector3d& pixel, double w) const {
 }
 
 std::vector<QuadView> ViewQuads(const Scene& scene, const PinholeCamera& camera,
-                                const Rigid3& cam_from_world) {
+                                const Rigid3& cam_from_world, const RowBand& band) {
   std::vector<QuadView> views;
   for (size_t i = 0; i < scene.quads.size(); ++i) {
     const Quad& quad = scene.quads[i];
@@ -92,27 +93,28 @@ std::vector<QuadView> ViewQuads(const Scene& scene, const PinholeCamera& camera,
     const double offset = normal.dot(origin);
     if (offset >= 0.0) continue;  // seen from behind
     QuadView view;
+    view.rows = BoundRows(camera, band, origin, a, b);
+    if (view.rows.first > view.rows.last) continue;
     view.quad = static_cast<int>(i);
     view.inverse_depth = LinearForm(camera, normal / offset);
     const Eigen::Vector3d per_u = a / a.squaredNorm(), per_v = b / b.squaredNorm();
     view.u_over_z = LinearForm(camera, per_u) - per_u.dot(origin) * view.inverse_depth;
     view.v_over_z = LinearForm(camera, per_v) - per_v.dot(origin) * view.inverse_depth;
-    BoundRows(camera, origin, a, b, &view);
     views.push_back(view);
   }
   return views;
 }
 
-HitBuffer Rasterize(const std::vector<QuadView>& views, const PinholeCamera& camera) {
-  const size_t size = static_cast<size_t>(camera.width) * camera.height;
-  HitBuffer hits{std::vector<int>(size, -1), std::vector<double>(size, 0.0)};
+HitBuffer Rasterize(const std::vector<QuadView>& views, const RowBand& band, int width) {
+  const size_t size = static_cast<size_t>(band.last - band.first + 1) * width;
+  HitBuffer hits{band, width, std::vector<int>(size, -1), std::vector<double>(size, 0.0)};
   for (size_t i = 0; i < views.size(); ++i) {
     const Eigen::Vector3d& w = views[i].inverse_depth;
     const Outline inside = InsideForms(views[i]);
-    for (int y = views[i].first_row; y <= views[i].last_row; ++y) {
-      const RowSpan span = SpanOfRow(inside, camera.width, y, 0.0);
+    for (int y = views[i].rows.first; y <= views[i].rows.last; ++y) {
+      const RowSpan span = SpanOfRow(inside, width, y, 0.0);
       const double row_offset = w.y() * y + w.z();
-      const size_t row = static_cast<size_t>(y) * camera.width;
+      const size_t row = hits.Index(0, y);
       for (int x = span.first; x <= span.last; ++x) {
         const double here = w.x() * x + row_offset;
         if (here <= hits.inverse_depth[row + x]) continue;
@@ -124,29 +126,28 @@ HitBuffer Rasterize(const std::vector<QuadView>& views, const PinholeCamera& cam
   return hits;
 }
 
-BorderBuffer::BorderBuffer(const std::vector<QuadView>& views, const HitBuffer& hits,
-                           const PinholeCamera& camera)
+BorderBuffer::BorderBuffer(const std::vector<QuadView>& views, const HitBuffer& hits)
     : first_(hits.view.size() + 1, 0) {
   for (size_t i = 0; i < views.size(); ++i) {
     const Outline inside = InsideForms(views[i]);
-    for (int y = views[i].first_row; y <= views[i].last_row; ++y) {
-      const RowSpan touched = SpanOfRow(inside, camera.width, y, 0.5);
-      RowSpan covered = SpanOfRow(inside, camera.width, y, 0.0);
+    for (int y = views[i].rows.first; y <= views[i].rows.last; ++y) {
+      const RowSpan touched = SpanOfRow(inside, hits.width, y, 0.5);
+      RowSpan covered = SpanOfRow(inside, hits.width, y, 0.0);
       if (covered.first > covered.last) covered = {touched.last + 1, touched.last};
       for (int x = touched.first; x < covered.first; ++x) {
-        AddIfInFront(views, hits, camera.width, static_cast<int>(i), x, y);
+        AddIfInFront(views, hits, static_cast<int>(i), x, y);
       }
       for (int x = covered.last + 1; x <= touched.last; ++x) {
-        AddIfInFront(views, hits, camera.width, static_cast<int>(i), x, y);
+        AddIfInFront(views, hits, static_cast<int>(i), x, y);
       }
     }
   }
   SortByPixel();
 }
 
-void BorderBuffer::AddIfInFront(const std::vector<QuadView>& views, const HitBuffer& hits,
-                                int width, int view, int x, int y) {
-  const size_t pixel = static_cast<size_t>(y) * width + x;
+void BorderBuffer::AddIfInFront(const std::vector<QuadView>& views, const HitBuffer& hits, int view,
+                                int x, int y) {
+  const size_t pixel = hits.Index(x, y);
   const int hit = hits.view[pixel];
   if (hit >= 0) {
     // The nearest that one can be within the pixel, against the farthest that the other can.

@@ -122,27 +122,28 @@ Color SampleSquare(const Shader& shader, const Candidates& views, int x, int y, 
   return sum / static_cast<float>(side * side);
 }
 
-std::vector<Color> ShadeCenters(const Shader& shader, const HitBuffer& hits, int width) {
+std::vector<Color> ShadeCenters(const Shader& shader, const HitBuffer& hits) {
   std::vector<Color> colors(hits.view.size(), Color::Zero());
-  for (size_t i = 0; i < colors.size(); ++i) {
-    if (hits.view[i] < 0) continue;
-    const Eigen::Vector3d pixel(static_cast<double>(i % width), static_cast<double>(i / width),
-                                1.0);
-    colors[i] = shader.Shade(hits.view[i], pixel, hits.inverse_depth[i]);
+  for (int y = hits.rows.first; y <= hits.rows.last; ++y) {
+    for (int x = 0; x < hits.width; ++x) {
+      const size_t i = hits.Index(x, y);
+      if (hits.view[i] < 0) continue;
+      colors[i] = shader.Shade(hits.view[i], Eigen::Vector3d(x, y, 1.0), hits.inverse_depth[i]);
+    }
   }
   return colors;
 }
 
 // Colour of a pixel from as many samples as its neighbourhood asks for.
 Color FilterPixel(const Shader& shader, const HitBuffer& hits, const BorderBuffer& borders,
-                  const std::vector<Color>& centers, const PinholeCamera& camera, int x, int y) {
-  const size_t here = static_cast<size_t>(y) * camera.width + x;
+                  const std::vector<Color>& centers, int x, int y) {
+  const size_t here = hits.Index(x, y);
   Candidates views;
   views.Add(hits.view[here]);
   float contrast = 0.0f;
-  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, camera.height - 1); ++j) {
-    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, camera.width - 1); ++i) {
-      const size_t there = static_cast<size_t>(j) * camera.width + i;
+  for (int j = std::max(y - 1, hits.rows.first); j <= std::min(y + 1, hits.rows.last); ++j) {
+    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, hits.width - 1); ++i) {
+      const size_t there = hits.Index(i, j);
       if (hits.view[there] != hits.view[here]) views.Add(hits.view[there]);
       contrast = std::max(contrast, (centers[there] - centers[here]).cwiseAbs().maxCoeff());
     }
@@ -173,24 +174,45 @@ Renderer::Renderer(Scene scene, const PinholeCamera& camera)
 }
 
 RenderedImage Renderer::Render(const Rigid3& cam_from_world) const {
-  const std::vector<QuadView> views = ViewQuads(scene_, camera_, cam_from_world);
-  const HitBuffer hits = Rasterize(views, camera_);
-  const BorderBuffer borders(views, hits, camera_);
-  const Shader shader(scene_, views);
-  const std::vector<Color> centers = ShadeCenters(shader, hits, camera_.width);
+  RenderedImage image = BlankImage();
+  DrawBand(cam_from_world, {0, camera_.height - 1}, &image);
+  return image;
+}
 
+RenderedImage Renderer::RenderRows(const std::function<Rigid3(int y)>& cam_from_world_of) const {
+  RenderedImage image = BlankImage();
+  for (int y = 0; y < camera_.height; ++y) DrawBand(cam_from_world_of(y), {y, y}, &image);
+  return image;
+}
+
+RenderedImage Renderer::BlankImage() const {
+  const size_t size = static_cast<size_t>(camera_.width) * camera_.height;
   RenderedImage image;
   image.width = camera_.width;
   image.height = camera_.height;
-  image.rgb.resize(3 * centers.size());
-  image.depth.resize(centers.size(), 0.0f);
-  for (size_t i = 0; i < centers.size(); ++i) {
-    const int x = static_cast<int>(i % camera_.width), y = static_cast<int>(i / camera_.width);
-    const Color color = FilterPixel(shader, hits, borders, centers, camera_, x, y);
-    for (int k = 0; k < 3; ++k) image.rgb[3 * i + k] = ToByte(255.0f * color[k]);
-    if (hits.view[i] >= 0) image.depth[i] = static_cast<float>(1.0 / hits.inverse_depth[i]);
-  }
+  image.rgb.resize(3 * size);
+  image.depth.resize(size, 0.0f);
   return image;
+}
+
+void Renderer::DrawBand(const Rigid3& cam_from_world, const RowBand& band,
+                        RenderedImage* image) const {
+  // The filter looks at the neighbours of a pixel, as this pose sees them.
+  const RowBand looked_at{std::max(band.first - 1, 0), std::min(band.last + 1, camera_.height - 1)};
+  const std::vector<QuadView> views = ViewQuads(scene_, camera_, cam_from_world, looked_at);
+  const HitBuffer hits = Rasterize(views, looked_at, camera_.width);
+  const BorderBuffer borders(views, hits);
+  const Shader shader(scene_, views);
+  const std::vector<Color> centers = ShadeCenters(shader, hits);
+  for (int y = band.first; y <= band.last; ++y) {
+    for (int x = 0; x < camera_.width; ++x) {
+      const size_t pixel = static_cast<size_t>(y) * camera_.width + x, hit = hits.Index(x, y);
+      const Color color = FilterPixel(shader, hits, borders, centers, x, y);
+      for (int k = 0; k < 3; ++k) image->rgb[3 * pixel + k] = ToByte(255.0f * color[k]);
+      if (hits.view[hit] < 0) continue;
+      image->depth[pixel] = static_cast<float>(1.0 / hits.inverse_depth[hit]);
+    }
+  }
 }
 
 PinholeCamera KinectCamera(int width, int height) {

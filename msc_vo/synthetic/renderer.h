@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "msc_vo/geometry/pinhole_camera.h"
@@ -10,6 +11,8 @@
 #include "msc_vo/synthetic/scene.h"
 
 namespace msc_vo {
+
+struct RowBand;
 
 // A rendered RGB-D image in plain buffers, row by row from the upper left pixel.
 struct RenderedImage {
@@ -32,10 +35,16 @@ class Renderer {
 
   RenderedImage Render(const Rigid3& cam_from_world) const;
 
+  // A rolling shutter: row y is that of Render(cam_from_world_of(y)), to the last bit.
+  RenderedImage RenderRows(const std::function<Rigid3(int y)>& cam_from_world_of) const;
+
   const Scene& scene() const { return scene_; }
   const PinholeCamera& camera() const { return camera_; }
 
  private:
+  RenderedImage BlankImage() const;
+  void DrawBand(const Rigid3& cam_from_world, const RowBand& band, RenderedImage* image) const;
+
   Scene scene_;
   PinholeCamera camera_;
 };

@@ -34,6 +34,8 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
     *error = "fps must be positive";
   } else if (!(std::abs(depth_delay) < 0.5 / fps)) {
     *error = "depth_delay must be less than half the time between two images";
+  } else if (!(std::abs(readout_time) <= 1.0 / fps)) {
+    *error = "readout_time must be at most the time between two images";
   } else if (!(image_sigma >= 0.0)) {
     *error = "image_sigma must not be negative";
   } else {
@@ -53,13 +55,24 @@ TimedPose SyntheticSequence::PoseAt(int index) const {
   return {kFirstTime + seconds, path_.CamFromWorld(seconds).Inverse()};
 }
 
+RenderedImage SyntheticSequence::RenderRolling(double seconds) const {
+  return renderer_.RenderRows([&](int y) {
+    const double after_middle = (y + 0.5) / options_.height - 0.5;  // of the readout, -0.5 to 0.5
+    return path_.CamFromWorld(seconds + options_.readout_time * after_middle);
+  });
+}
+
 SyntheticFrame SyntheticSequence::Render(int index) const {
+  const bool rolling = options_.readout_time != 0.0;
+  const double seconds = index / options_.fps;
   SyntheticFrame frame;
   frame.pose = PoseAt(index);
-  frame.image = renderer_.Render(frame.pose.world_from_cam.Inverse());
+  frame.image =
+      rolling ? RenderRolling(seconds) : renderer_.Render(frame.pose.world_from_cam.Inverse());
   if (options_.depth_delay != 0.0) {
-    const double seconds = index / options_.fps + options_.depth_delay;
-    frame.image.depth = renderer_.Render(path_.CamFromWorld(seconds)).depth;
+    const double later = seconds + options_.depth_delay;
+    frame.image.depth =
+        (rolling ? RenderRolling(later) : renderer_.Render(path_.CamFromWorld(later))).depth;
   }
   // Even streams for colour, odd ones for depth: independent of each other in every frame.
   const uint64_t stream = 2 * static_cast<uint64_t>(index);

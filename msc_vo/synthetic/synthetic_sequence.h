@@ -23,6 +23,10 @@ struct SyntheticSequenceOptions {
   double fps = 30.0;
   // Seconds after its colour image that each depth image is taken; negative: before.
   double depth_delay = 0.0;
+  // Seconds that the rows of an image, colour or depth, take one after the other: a rolling
+  // shutter, for a Kinect about 0.026. Row v of `height` is of readout_time * ((v + 0.5) / height -
+  // 0.5) after the image's time. Negative: the last row is first; 0: all at once.
+  double readout_time = 0.0;
   // Grey levels: a Kinect's colour camera indoors has about 2. 0: none.
   double image_sigma = 2.0;
   bool kinect_depth = false;  // otherwise depth is exact
@@ -33,7 +37,7 @@ struct SyntheticSequenceOptions {
 };
 
 struct SyntheticFrame {
-  TimedPose pose;       // the truth; its time stamp is the images'
+  TimedPose pose;       // the truth; its time stamp is the images', the middle of their readout
   RenderedImage image;  // its depth is of depth_delay later
 };
 
@@ -51,6 +55,9 @@ class SyntheticSequence {
   const Scene& scene() const { return renderer_.scene(); }
 
  private:
+  // The image whose readout has its middle `seconds` after the start.
+  RenderedImage RenderRolling(double seconds) const;
+
   SyntheticSequenceOptions options_;
   Renderer renderer_;
   CameraPath path_;

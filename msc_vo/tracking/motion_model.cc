@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "msc_vo/geometry/so3.h"
-
 namespace msc_vo {
 
 namespace {
@@ -17,29 +15,44 @@ constexpr double kHorizon = 0.5;
 }  // namespace
 
 void MotionModel::Observe(double timestamp, const Rigid3& cam_from_last) {
+  const std::optional<CameraVelocity> velocity = VelocitySince(timestamp, cam_from_last);
+  if (!velocity) return Reset(timestamp);
+  velocity_ = *velocity;
   interval_ = timestamp - last_timestamp_;
-  velocity_ = cam_from_last;
   last_timestamp_ = timestamp;
 }
 
 void MotionModel::Reset(double timestamp) {
+  velocity_ = {};
   interval_ = 0.0;
-  velocity_ = Rigid3();
   last_timestamp_ = timestamp;
 }
 
 Rigid3 MotionModel::Predict(double timestamp) const {
-  return Scaled(std::min(timestamp - last_timestamp_, kHorizon));
+  return velocity_.Over(std::min(timestamp - last_timestamp_, kHorizon));
 }
 
-Rigid3 MotionModel::Over(double timestamp, double seconds) const {
-  return timestamp - last_timestamp_ > kHorizon ? Rigid3() : Scaled(seconds);
+std::optional<CameraVelocity> MotionModel::VelocityAt(double timestamp) const {
+  if (interval_ <= 0.0 || timestamp - last_timestamp_ > kHorizon) return std::nullopt;
+  return velocity_;
 }
 
-Rigid3 MotionModel::Scaled(double seconds) const {
-  if (interval_ <= 0.0) return Rigid3();
-  const double scale = seconds / interval_;
-  return {ExpSO3(scale * LogSO3(velocity_.rotation())), scale * velocity_.translation()};
+std::optional<CameraVelocity> MotionModel::VelocitySince(double timestamp,
+                                                         const Rigid3& cam_from_last) const {
+  const double seconds = timestamp - last_timestamp_;
+  if (!(seconds > 0.0 && seconds <= kHorizon)) return std::nullopt;
+  return CameraVelocity{LogSO3(cam_from_last.rotation()) / seconds,
+                        cam_from_last.translation() / seconds};
+}
+
+std::optional<CameraVelocity> MotionModel::LastVelocity(double timestamp,
+                                                        const Rigid3& cam_from_last) const {
+  std::optional<CameraVelocity> after = VelocitySince(timestamp, cam_from_last);
+  if (!after || interval_ <= 0.0) return after;
+  // Means are those of the middles of the intervals; the frame is nearer to that of the shorter.
+  const double share = interval_ / (interval_ + timestamp - last_timestamp_);
+  return CameraVelocity{velocity_.angular + share * (after->angular - velocity_.angular),
+                        velocity_.linear + share * (after->linear - velocity_.linear)};
 }
 
 }  // namespace msc_vo

@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <optional>
+
+#include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/rigid3.h"
 
 namespace msc_vo {
@@ -18,16 +21,20 @@ class MotionModel {
 
   // Motion from the last observed frame to a frame at `timestamp`.
   Rigid3 Predict(double timestamp) const;
-  // Motion over so many seconds from `timestamp` on, backwards in time if negative. At rest if the
-  // last observed frame is too long ago to tell.
-  Rigid3 Over(double timestamp, double seconds) const;
+  // At `timestamp`, if nothing changed since the last observed frame. None if nothing is known of
+  // the motion, or no longer.
+  std::optional<CameraVelocity> VelocityAt(double timestamp) const;
+
+  // The two below ask before the frame at `timestamp` is told to Observe(), and know nothing of
+  // what is too long after the last one. The mean since the last observed frame:
+  std::optional<CameraVelocity> VelocitySince(double timestamp, const Rigid3& cam_from_last) const;
+  // At the last observed frame, from the means before and after it.
+  std::optional<CameraVelocity> LastVelocity(double timestamp, const Rigid3& cam_from_last) const;
 
  private:
-  Rigid3 Scaled(double seconds) const;
-
   double last_timestamp_ = 0.0;
-  double interval_ = 0.0;  // seconds that velocity_ took; 0: at rest
-  Rigid3 velocity_;        // motion over that interval
+  double interval_ = 0.0;  // seconds that velocity_ is the mean of; 0: at rest
+  CameraVelocity velocity_;
 };
 
 }  // namespace msc_vo

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/frame.h"
 #include "msc_vo/map/landmark.h"
@@ -31,6 +33,8 @@ struct TrackedFrame {
   NoiseScale noise_scale;  // of the sigmas of its features
   PoseSummary pose;
   bool is_keyframe = false;
+  // Of the frame before, where that became a keyframe: better than it was known then.
+  std::optional<CameraVelocity> last_keyframe_velocity;
   double matching_ms = 0.0;
   double pose_ms = 0.0;
 };

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/timing/stopwatch.h"
 #include "msc_vo/tracking/pose_estimation.h"
@@ -57,6 +58,24 @@ int NumMatches(const FrameMatches& matches) {
   return static_cast<int>(matches.points.size() + matches.lines.size());
 }
 
+// Whether the map knows its only keyframe as its rows were taken: nothing told its velocity yet.
+bool IsRolled(const MapSnapshot& snapshot) {
+  const Map::KeyframeTable& keyframes = snapshot.map.keyframes();
+  return keyframes.size() == 1 && !keyframes.back().second.frame->velocity;
+}
+
+// What frames are unrolled with so that they look as the map does.
+double ReadoutTime(const MapSnapshot& snapshot) {
+  return IsRolled(snapshot) ? 0.0 : snapshot.readout_time;
+}
+
+std::shared_ptr<const Frame> Unrolled(std::shared_ptr<const Frame> rolled,
+                                      const std::optional<CameraVelocity>& velocity,
+                                      double readout_time) {
+  if (!velocity) return rolled;
+  return std::make_shared<Frame>(Unroll(*rolled, *velocity, readout_time));
+}
+
 // Of the pose that the local map is projected with: it is found once more, from what matches then.
 // The robust rounds are enough for that; the others take 0.2 ms and change no error by 1 %.
 PoseOptions RoughPoseOptions(PoseOptions options) {
@@ -72,22 +91,24 @@ Tracker::Tracker(const TrackerOptions& options)
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
 }
 
-TrackedFrame Tracker::Track(std::shared_ptr<const Frame> frame, const MapSnapshot& snapshot) {
+TrackedFrame Tracker::Track(std::shared_ptr<const Frame> rolled, const MapSnapshot& snapshot) {
   const Map& map = snapshot.map;
-  if (map.keyframes().empty()) return Initialize(std::move(frame));
+  if (map.keyframes().empty()) return Initialize(std::move(rolled));
 
   if (last_.is_keyframe) AdoptKeyframe(*map.FindKeyframe(snapshot.newest_keyframe), &last_);
   TrackedFrame tracked;
-  tracked.frame = std::move(frame);
+  const double timestamp = rolled->timestamp;
+  const double readout_time = ReadoutTime(snapshot);
+  tracked.frame =
+      readout_time == 0.0 ? rolled : Unrolled(rolled, motion_.VelocityAt(timestamp), readout_time);
   tracked.noise_scale = snapshot.noise_scale;
-  const double timestamp = tracked.frame->timestamp;
   const Rigid3 last_from_world = CamFromWorld(map, last_);
   const Rigid3 prediction = motion_.Predict(timestamp) * last_from_world;
   const bool found = TrackMotion(map, prediction, options_.prediction_radius, &tracked) ||
                      TrackMotion(map, prediction, options_.wide_radius, &tracked) ||
                      TrackReference(map, prediction, &tracked) || TrackByAppearance(map, &tracked);
-  const double gap = timestamp - last_.frame->timestamp;
   if (!found) {
+    const double gap = timestamp - last_.frame->timestamp;
     tracked.status =
         gap <= options_.max_prediction ? TrackingStatus::kPredicted : TrackingStatus::kLost;
     tracked.matches = {};
@@ -96,15 +117,13 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> frame, const MapSnapsho
     SetReference(map, LivingReference(map, last_.reference), &tracked);
     return tracked;
   }
+  // Once more, now that it is known how the camera has moved.
+  const Rigid3 cam_from_last = tracked.cam_from_world * last_from_world.Inverse();
+  tracked.frame = Unrolled(rolled, motion_.VelocitySince(timestamp, cam_from_last), readout_time);
   tracked.status = TrackLocalMap(map, &tracked) ? Judge(tracked) : TrackingStatus::kWeak;
-  tracked.is_keyframe = policy_.IsDue(*tracked.frame, tracked.matches);
+  tracked.is_keyframe = IsKeyframeDue(snapshot, tracked);
   if (tracked.is_keyframe) policy_.Inserted();
-  if (gap <= options_.max_prediction) {
-    motion_.Observe(timestamp, tracked.cam_from_world * last_from_world.Inverse());
-  } else {
-    motion_.Reset(timestamp);
-  }
-  last_ = tracked;
+  Remember(last_from_world, &tracked);
   return tracked;
 }
 
@@ -205,6 +224,28 @@ bool Tracker::EstimatePose(const PoseOptions& options, const Map& map,
                     num_inliers >= options_.min_inlier_ratio * NumMatches(tracked->matches);
   if (!good) tracked->cam_from_world = start;
   return good;
+}
+
+bool Tracker::IsKeyframeDue(const MapSnapshot& snapshot, const TrackedFrame& tracked) {
+  // The second frame tells the velocity of the first, so that the map can be unrolled.
+  const Keyframe& newest = snapshot.map.keyframes().back().second;
+  const bool is_second = last_.frame->timestamp == newest.frame->timestamp;
+  if (snapshot.readout_time != 0.0 && IsRolled(snapshot) && is_second) return true;
+  return policy_.IsDue(*tracked.frame, tracked.matches);
+}
+
+void Tracker::Remember(const Rigid3& last_from_world, TrackedFrame* tracked) {
+  const double timestamp = tracked->frame->timestamp;
+  if (timestamp - last_.frame->timestamp <= options_.max_prediction) {
+    const Rigid3 cam_from_last = tracked->cam_from_world * last_from_world.Inverse();
+    if (last_.is_keyframe) {
+      tracked->last_keyframe_velocity = motion_.LastVelocity(timestamp, cam_from_last);
+    }
+    motion_.Observe(timestamp, cam_from_last);
+  } else {
+    motion_.Reset(timestamp);
+  }
+  last_ = *tracked;
 }
 
 TrackingStatus Tracker::Judge(const TrackedFrame& tracked) const {

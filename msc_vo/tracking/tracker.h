@@ -19,8 +19,10 @@ class Tracker {
   // Throws std::invalid_argument on options that are not valid.
   explicit Tracker(const TrackerOptions& options);
 
-  // Tracks the next frame. Frames come in the order of time; snapshots never get older.
-  TrackedFrame Track(std::shared_ptr<const Frame> frame, const MapSnapshot& snapshot);
+  // Tracks the next frame; the one that comes back is unrolled as the map is, if it is known how
+  // the camera has moved: not after a gap. Frames come in the order of time; snapshots never get
+  // older.
+  TrackedFrame Track(std::shared_ptr<const Frame> rolled, const MapSnapshot& snapshot);
 
   // Of the camera, as the last tracked frames showed it.
   const MotionModel& motion() const { return motion_; }
@@ -38,6 +40,9 @@ class Tracker {
 
   bool EstimatePose(const PoseOptions& options, const Map& map, TrackedFrame* tracked) const;
   TrackingStatus Judge(const TrackedFrame& tracked) const;
+  bool IsKeyframeDue(const MapSnapshot& snapshot, const TrackedFrame& tracked);
+  // Keeps the frame, and what it tells about the one before, for those to come.
+  void Remember(const Rigid3& last_from_world, TrackedFrame* tracked);
 
   TrackerOptions options_;
   PoseOptions rough_pose_;  // of the first step

@@ -66,6 +66,7 @@ TEST_F(CalibrationTest, KnowsThePublishedCameras) {
   EXPECT_EQ(GuessCameraPreset("/data/rgbd_dataset_freiburg2_xyz"), "tum-fr2");
   EXPECT_EQ(GuessCameraPreset("/data/fr1_desk"), "tum-fr1");
   EXPECT_EQ(GuessCameraPreset("/data/freiburg1/mine"), "");
+  EXPECT_EQ(GuessCameraPreset("/data/fr10_lab"), "");
 }
 
 TEST_F(CalibrationTest, SettingsComeBeforeTheFolderAndThatBeforePresets) {
@@ -88,6 +89,23 @@ TEST_F(CalibrationTest, SettingsComeBeforeTheFolderAndThatBeforePresets) {
   EXPECT_THAT(calibration.origin, HasSubstr("mine.yaml"));
   settings.preset = "tum-fr2";
   EXPECT_EQ(ResolveCalibration(settings, "", &index).camera.fx, 520.908620);
+}
+
+TEST_F(CalibrationTest, TheNameOfTheFolderTellsTheShutterWhereTheCameraIsKnown) {
+  SequenceIndex index = Index();
+  index.calibration = FindCameraPreset("replica").calibration;
+  index.calibration->readout_time.reset();
+  EXPECT_FALSE(ResolveCalibration({}, "", &index).readout_time.has_value());
+  index.directory = "/data/fr2_desk";
+  const Calibration by_name = ResolveCalibration({}, "", &index);
+  EXPECT_EQ(*by_name.readout_time, 0.026);
+  EXPECT_EQ(by_name.camera.fx, 600.0);
+  EXPECT_THAT(by_name.origin, HasSubstr("shutter of tum-fr2"));
+  CameraSettings settings;
+  settings.preset = "tum-fr3";
+  EXPECT_FALSE(ResolveCalibration(settings, "", &index).readout_time.has_value());
+  index.directory = "/data/fr3_office";  // another camera, of which nothing is known
+  EXPECT_FALSE(ResolveCalibration({}, "", &index).readout_time.has_value());
 }
 
 TEST_F(CalibrationTest, CompleteSettingsLetNothingShineThrough) {

@@ -75,6 +75,29 @@ TEST(Mapper, WindowPullsDisturbedKeyframesBack) {
   EXPECT_LT(mapper.map().lines().size(), 80u);
 }
 
+TEST(Mapper, UnrollsTheKeyframeWhoseVelocityThePacketTells) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  std::mt19937 random(1);
+  MapperOptions options;
+  options.readout_time = 0.026;
+  Mapper mapper{options};
+  const CameraVelocity velocity{{0.5, 0.0, 0.0}, {0.0, 0.1, 0.0}};
+  mapper.Process(Packet(&world, 0, &random));
+  EXPECT_EQ(mapper.Snapshot()->readout_time, 0.026);
+  EXPECT_EQ(mapper.map().FindKeyframe(0)->frame->readout_time, 0.0);  // nothing told how it moved
+  for (const int index : {10, 20}) {
+    KeyframePacket packet = Packet(&world, index, &random);
+    packet.last_velocity = velocity;
+    mapper.Process(packet);
+  }
+  for (const KeyframeId id : {0, 1}) {
+    const Frame& frame = *mapper.map().FindKeyframe(id)->frame;
+    EXPECT_EQ(frame.readout_time, 0.026);
+    EXPECT_EQ(frame.velocity->angular, velocity.angular);
+  }
+  EXPECT_FALSE(mapper.map().FindKeyframe(2)->frame->velocity.has_value());
+}
+
 TEST(Mapper, SnapshotsDoNotChange) {
   SyntheticFrames world{SyntheticFrames::Options()};
   std::mt19937 random(1);

@@ -84,6 +84,25 @@ TEST(RendererTest, NegativeFyMirrorsTheImage) {
   EXPECT_LT(different, 5);  // pixel centres on an edge, where rounding decides
 }
 
+TEST(RendererTest, EveryRowIsThatOfItsPose) {
+  const Scene scene = MakeScene(SceneKind::kRoom, 1);
+  const CameraPath path(scene, PathOptions());
+  const Renderer renderer(scene, KinectCamera(64, 48));
+  const RenderedImage first = renderer.Render(path.CamFromWorld(1.0));
+  const RenderedImage second = renderer.Render(path.CamFromWorld(1.5));
+  // Poses that alternate: no row may take anything from the one above or below.
+  const RenderedImage mixed =
+      renderer.RenderRows([&](int y) { return path.CamFromWorld(y % 2 == 0 ? 1.0 : 1.5); });
+  ASSERT_EQ(mixed.rgb.size(), first.rgb.size());
+  ASSERT_EQ(mixed.depth.size(), first.depth.size());
+  for (int i = 0; i < mixed.width * mixed.height; ++i) {
+    const RenderedImage& whole = i / mixed.width % 2 == 0 ? first : second;
+    ASSERT_EQ(mixed.depth[i], whole.depth[i]) << i;
+    for (int k = 3 * i; k < 3 * i + 3; ++k) ASSERT_EQ(mixed.rgb[k], whole.rgb[k]) << i;
+  }
+  EXPECT_NE(first.depth, second.depth);
+}
+
 TEST(RendererTest, TexturedWallLooksTheSameFromTwoPlaces) {
   const Texture poster{TextureKind::kPoster, {0.85f, 0.82f, 0.74f}, {0.1f, 0.1f, 0.1f}, 3.0f, 5};
   const Renderer renderer(OneWall({0.1, 0.2, 0}, poster), kCamera);

@@ -6,8 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "msc_vo/synthetic/camera_path.h"
+#include "msc_vo/synthetic/renderer.h"
 
 namespace msc_vo {
 namespace {
@@ -61,6 +66,47 @@ TEST(SyntheticSequenceTest, DelayedDepthIsThatOfLater) {
   EXPECT_NE(delayed.Render(3).image.depth, at_once.Render(3).image.depth);
   EXPECT_EQ(delayed.Render(3).image.depth, fine.Render(13).image.depth);
   EXPECT_DOUBLE_EQ(delayed.PoseAt(3).timestamp, at_once.PoseAt(3).timestamp);
+}
+
+TEST(SyntheticSequenceTest, WithoutReadoutTheImageIsThatOfThePose) {
+  SyntheticSequenceOptions options = Small();
+  options.image_sigma = 0.0;
+  const SyntheticSequence sequence(options);
+  const SyntheticFrame frame = sequence.Render(3);
+  const RenderedImage image =
+      Renderer(sequence.scene(), sequence.camera()).Render(frame.pose.world_from_cam.Inverse());
+  EXPECT_EQ(frame.image.rgb, image.rgb);
+  EXPECT_EQ(frame.image.depth, image.depth);
+}
+
+TEST(SyntheticSequenceTest, RollingShutterTakesEveryRowAtItsOwnTime) {
+  SyntheticSequenceOptions options = Small();
+  options.width = 64;
+  options.height = 48;
+  options.fps = 4.0;  // slow, so that half a row, 2.6 ms, is a motion to be seen
+  options.image_sigma = 0.0;
+  options.depth_delay = 0.1;
+  const SyntheticSequence global(options);
+  const Renderer renderer(global.scene(), global.camera());
+  const CameraPath path(global.scene(), options.path);
+  for (const double readout_time : {0.25, -0.25}) {
+    options.readout_time = readout_time;
+    const SyntheticSequence rolling(options);
+    const SyntheticFrame frame = rolling.Render(3);
+    EXPECT_EQ(frame.pose.timestamp, global.PoseAt(3).timestamp);
+    EXPECT_EQ(frame.pose.world_from_cam.params, global.PoseAt(3).world_from_cam.params);
+    for (const int row : {0, 1, 12, 24, 46, 47}) {
+      const double seconds = 0.75 + readout_time * ((row + 0.5) / 48.0 - 0.5);
+      const RenderedImage color = renderer.Render(path.CamFromWorld(seconds));
+      const RenderedImage depth = renderer.Render(path.CamFromWorld(seconds + 0.1));
+      for (int i = 64 * row; i < 64 * (row + 1); ++i) {
+        ASSERT_NEAR(frame.image.depth[i], depth.depth[i], 1e-5) << row;
+        for (int k = 3 * i; k < 3 * i + 3; ++k) {
+          ASSERT_NEAR(frame.image.rgb[k], color.rgb[k], 1) << row;
+        }
+      }
+    }
+  }
 }
 
 TEST(SyntheticSequenceTest, DepthOfOneFrameIsWhereTheNextOneSeesIt) {
@@ -126,6 +172,22 @@ TEST(SyntheticSequenceTest, RejectsNonsense) {
   options = Small();
   options.path.speed = -1.0;
   EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
+}
+
+TEST(SyntheticSequenceTest, ReadoutIsNotLongerThanAFrame) {
+  SyntheticSequenceOptions options = Small();
+  options.fps = 20.0;
+  for (const double readout_time : {0.05, -0.05}) {
+    options.readout_time = readout_time;
+    EXPECT_NO_THROW(SyntheticSequence{options}) << readout_time;
+  }
+  for (const double readout_time : {0.051, -0.051, std::nan("")}) {
+    options.readout_time = readout_time;
+    std::string error;
+    EXPECT_FALSE(options.IsValid(&error)) << readout_time;
+    EXPECT_THAT(error, testing::HasSubstr("readout_time")) << readout_time;
+    EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument) << readout_time;
+  }
 }
 
 }  // namespace

@@ -29,13 +29,25 @@ TEST(MotionModel, VelocityScalesWithTime) {
 TEST(MotionModel, GoesBackwardsAsWell) {
   MotionModel model;
   model.Reset(1.0);
-  EXPECT_TRUE(model.Over(1.0, -0.01).params.isApprox(Rigid3().params));
+  EXPECT_FALSE(model.VelocityAt(1.0).has_value());
   const Eigen::Vector3d turn(0.0, 0.02, 0.01);
   model.Observe(1.1, Rigid3(ExpSO3(turn), {0.1, 0.0, -0.2}));
-  const Rigid3 back = model.Over(1.2, -0.05);
+  const Rigid3 back = model.VelocityAt(1.2)->Over(-0.05);
   EXPECT_TRUE(LogSO3(back.rotation()).isApprox(-0.5 * turn, 1e-9));
   EXPECT_TRUE(back.translation().isApprox(Eigen::Vector3d(-0.05, 0.0, 0.1), 1e-9));
-  EXPECT_TRUE(model.Over(2.0, -0.05).params.isApprox(Rigid3().params));  // too long ago
+  EXPECT_FALSE(model.VelocityAt(2.0).has_value());  // too long ago
+}
+
+TEST(MotionModel, TheVelocityAtAFrameIsBetweenThoseBeforeAndAfter) {
+  MotionModel model;
+  model.Reset(1.0);
+  const Rigid3 metre(Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.0});
+  EXPECT_NEAR(model.LastVelocity(1.1, metre)->linear.x(), 1.0, 1e-9);  // nothing before
+  model.Observe(1.1, metre);
+  // 1 m/s until 1.1 s, 2.5 m/s from there to 1.14 s, linear in between: at 1.05 and 1.12 s.
+  EXPECT_NEAR(model.LastVelocity(1.14, metre)->linear.x(), 1.0 + 1.5 * 5.0 / 7.0, 1e-9);
+  EXPECT_FALSE(model.LastVelocity(1.7, metre).has_value());
+  EXPECT_FALSE(model.VelocitySince(1.7, metre).has_value());
 }
 
 TEST(MotionModel, DoesNotRunAwayOverALongGap) {

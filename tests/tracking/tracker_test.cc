@@ -44,6 +44,30 @@ TEST_F(TrackerTest, FollowsTheCamera) {
   }
 }
 
+TEST_F(TrackerTest, TheSecondFrameTellsHowTheFirstOneMoved) {
+  Start({});
+  const TrackedFrame tracked = Track(1);
+  ASSERT_TRUE(tracked.last_keyframe_velocity.has_value());
+  const Eigen::Vector3d metres = tracked.last_keyframe_velocity->linear / 30.0;
+  EXPECT_TRUE(metres.isApprox(tracked.cam_from_world.translation(), 1e-6));
+  EXPECT_FALSE(Track(2).last_keyframe_velocity.has_value());
+}
+
+TEST_F(TrackerTest, AMapOfRolledRowsIsUnrolledSoon) {
+  Start({});
+  snapshot_.readout_time = 0.026;
+  const TrackedFrame second = Track(1);
+  EXPECT_TRUE(second.is_keyframe);
+  EXPECT_EQ(second.frame->readout_time, 0.0);  // as the map is
+  EXPECT_TRUE(second.frame->velocity.has_value());
+  EXPECT_FALSE(Track(2).is_keyframe);  // the map with the second one is not there yet
+  // When the mapper knows the velocity of the first frame.
+  auto first = std::make_shared<Frame>(*snapshot_.map.FindKeyframe(0)->frame);
+  first->velocity = CameraVelocity();
+  snapshot_.map.SetFrame(0, first);
+  EXPECT_EQ(Track(3).frame->readout_time, 0.026);
+}
+
 TEST_F(TrackerTest, FifteenLinesAndTenPointsAreAGoodFrame) {
   SyntheticFrames::Options options;
   options.num_points = 14;

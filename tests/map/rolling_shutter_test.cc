@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/map/rolling_shutter.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "tests/support/rolling_frames.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+constexpr double kReadout = 0.026;
+const CameraVelocity kVelocity{{1.2, -0.7, 0.4}, {0.3, 0.1, -0.5}};
+
+// Points all over the image, at 1 to 4 metres; the first and the last pairs of them make lines.
+std::vector<Eigen::Vector3d> Points() {
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 20; ++i) {
+    const double z = 1.0 + 0.15 * i;
+    points.push_back({z * (-0.5 + 0.05 * i), z * (0.4 - 0.02 * ((7 * i) % 20)), z});
+  }
+  return points;
+}
+
+Frame Rolled(double readout_time) {
+  Frame frame;
+  for (const Eigen::Vector3d& point : Points()) {
+    frame.points.push_back(SeeRolling(frame.camera, point, kVelocity, readout_time));
+  }
+  LineFeature line;
+  line.segment = {frame.points.front().pixel, frame.points.back().pixel};
+  line.depth = LineDepth();
+  line.depth->start = frame.points.front().inverse_depth;
+  line.depth->end = frame.points.back().inverse_depth;
+  frame.lines.push_back(line);
+  frame.grid = FeatureGrid(frame.camera, frame.points);
+  return frame;
+}
+
+double LargestError(const Frame& frame) {
+  double largest = 0.0;
+  for (size_t i = 0; i < frame.points.size(); ++i) {
+    const Eigen::Vector2d truth = frame.camera.Project(Points()[i]);
+    largest = std::max(largest, (frame.points[i].pixel - truth).norm());
+  }
+  return largest;
+}
+
+TEST(RollingShutter, PhaseGoesFromTheFirstRowToTheLast) {
+  const PinholeCamera camera;
+  EXPECT_DOUBLE_EQ(RowPhase(camera, {7.0, -0.5}), -0.5);
+  EXPECT_DOUBLE_EQ(RowPhase(camera, {600.0, 479.5}), 0.5);
+}
+
+TEST(RollingShutter, UnrolledFeaturesAreWhereAGlobalShutterShowsThem) {
+  for (const double readout_time : {kReadout, -kReadout}) {
+    const Frame rolled = Rolled(readout_time);
+    EXPECT_GT(LargestError(rolled), 5.0);
+    const Frame frame = Unroll(rolled, kVelocity, readout_time);
+    EXPECT_LT(LargestError(frame), 1e-6);
+    for (size_t i = 0; i < frame.points.size(); ++i) {
+      EXPECT_NEAR(frame.points[i].inverse_depth, 1.0 / Points()[i].z(), 1e-9);
+    }
+    EXPECT_TRUE(frame.lines[0].segment.start.isApprox(frame.points.front().pixel));
+    EXPECT_TRUE(frame.lines[0].segment.end.isApprox(frame.points.back().pixel));
+    EXPECT_NEAR(frame.lines[0].depth->end, frame.points.back().inverse_depth, 1e-12);
+    EXPECT_EQ(frame.readout_time, readout_time);
+    EXPECT_EQ(frame.grid.Near(frame.points, frame.points[3].pixel, 0.1), std::vector<int>{3});
+  }
+}
+
+TEST(RollingShutter, AGlobalOneLeavesFeaturesWhereTheyAre) {
+  const Frame rolled = Rolled(kReadout);
+  const Frame frame = Unroll(rolled, kVelocity, 0.0);
+  for (size_t i = 0; i < frame.points.size(); ++i) {
+    EXPECT_EQ(frame.points[i].pixel, rolled.points[i].pixel);
+  }
+  EXPECT_EQ(frame.velocity->angular, kVelocity.angular);
+}
+
+TEST(RollingShutter, WhatHasNoDepthMovesByTheRotation) {
+  Frame rolled;
+  rolled.points.push_back(PointFeature());
+  rolled.points[0].pixel = {100.0, 450.0};
+  rolled.lines.push_back(LineFeature());
+  rolled.lines[0].segment = {{10.0, 20.0}, {100.0, 450.0}};
+  const Frame turned = Unroll(rolled, {kVelocity.angular, {0.0, 0.0, 0.0}}, kReadout);
+  const Frame moved = Unroll(rolled, kVelocity, kReadout);
+  EXPECT_GT((turned.points[0].pixel - rolled.points[0].pixel).norm(), 1.0);
+  EXPECT_EQ(moved.points[0].pixel, turned.points[0].pixel);
+  EXPECT_FALSE(moved.points[0].HasDepth());
+  EXPECT_TRUE(moved.lines[0].segment.end.isApprox(turned.points[0].pixel));
+  EXPECT_FALSE(moved.lines[0].depth.has_value());
+}
+
+TEST(RollingShutter, WhatAWrongVelocityWouldPutBehindTheCameraStays) {
+  const Frame rolled = Rolled(kReadout);
+  const Frame frame = Unroll(rolled, {Eigen::Vector3d::Zero(), {0.0, 0.0, 500.0}}, kReadout);
+  for (size_t i = 0; i < frame.points.size(); ++i) {
+    EXPECT_GT(frame.points[i].inverse_depth, 0.0);
+  }
+  EXPECT_GT(frame.lines[0].depth->start, 0.0);
+  EXPECT_GT(frame.lines[0].depth->end, 0.0);
+}
+
+TEST(RollingShutter, UnrollsAnewFromWhatWasUnrolledWrongly) {
+  const Frame rolled = Rolled(kReadout);
+  const Frame wrong = Unroll(rolled, {0.7 * kVelocity.angular, {0.1, 0.0, 0.0}}, 0.6 * kReadout);
+  EXPECT_GT(LargestError(wrong), 3.0);
+  // Phases are those of the pixels as they are now: some rows off, some percent of the difference.
+  EXPECT_LT(LargestError(Unroll(wrong, kVelocity, kReadout)), 0.04 * LargestError(wrong));
+}
+
+TEST(RollingShutter, RayChangeIsTheDerivativeByTheReadoutTime) {
+  const Frame rolled = Rolled(kReadout);
+  const Frame frame = Unroll(rolled, kVelocity, kReadout);
+  const Frame later = Unroll(frame, kVelocity, kReadout + 1e-6);
+  for (size_t i = 0; i < frame.points.size(); ++i) {
+    const PointFeature& point = frame.points[i];
+    const Eigen::Vector3d ray =
+        frame.camera.Ray(point.pixel) + 1e-6 * RayChange(frame, point.pixel, point.inverse_depth);
+    const Eigen::Vector2d moved = frame.camera.Project(ray) - point.pixel;
+    const Eigen::Vector2d truth = later.points[i].pixel - point.pixel;
+    EXPECT_LT((moved - truth).norm(), 0.01 * truth.norm() + 1e-9);
+  }
+  EXPECT_TRUE(RayChange(rolled, {10.0, 10.0}, 1.0).isZero());  // its velocity is not known
+}
+
+}  // namespace
+}  // namespace msc_vo

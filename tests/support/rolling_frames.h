@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "msc_vo/map/rolling_shutter.h"
+
+namespace msc_vo {
+
+// Where a rolling shutter shows a point that is at `in_cam` (metres) at the time stamp, and its
+// inverse depth there: its row decides when it was taken, and that decides its row.
+inline PointFeature SeeRolling(const PinholeCamera& camera, const Eigen::Vector3d& in_cam,
+                               const CameraVelocity& velocity, double readout_time) {
+  PointFeature point;
+  point.pixel = camera.Project(in_cam);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Vector3d then =
+        velocity.Over(RowPhase(camera, point.pixel) * readout_time) * in_cam;
+    point.pixel = camera.Project(then);
+    point.inverse_depth = 1.0 / then.z();
+  }
+  return point;
+}
+
+// A camera that looks around in a world of points, each the feature of the same index.
+class RollingFrames {
+ public:
+  RollingFrames(double readout_time, double pixel_noise)
+      : readout_time_(readout_time), pixel_noise_(pixel_noise) {
+    for (int i = 0; i < 150; ++i) {
+      points_.push_back({Uniform(-1.5, 1.5), Uniform(-1.0, 1.0), Uniform(2.0, 4.0)});
+    }
+  }
+
+  const std::vector<Eigen::Vector3d>& points() const { return points_; }
+
+  // Turns by a radian per second, now this way, now that.
+  static CameraVelocity Velocity(int index) {
+    return {Eigen::Vector3d(std::cos(1.3 * index), std::sin(0.9 * index), 0.5 * std::sin(index)),
+            Eigen::Vector3d(0.1, 0.0, 0.2 * std::cos(index))};
+  }
+  static Rigid3 CamFromWorld(int index) {
+    return Rigid3(ExpSO3({0.02 * std::sin(index), 0.03 * std::cos(2.0 * index), 0.0}),
+                  {0.05 * std::sin(2.0 * index), 0.0, 0.02 * index});
+  }
+
+  // As its rows were taken; the velocity is told, but nothing is unrolled.
+  std::shared_ptr<Frame> See(int index) {
+    auto frame = std::make_shared<Frame>();
+    frame->id = index;
+    frame->timestamp = 0.3 * index;
+    frame->velocity = Velocity(index);
+    for (const Eigen::Vector3d& point : points_) {
+      PointFeature feature =
+          SeeRolling(frame->camera, CamFromWorld(index) * point, Velocity(index), readout_time_);
+      feature.pixel.x() += Normal();
+      feature.pixel.y() += Normal();
+      feature.inverse_depth_sigma = 1e-3;
+      frame->points.push_back(feature);
+    }
+    frame->grid = FeatureGrid(frame->camera, frame->points);
+    return frame;
+  }
+
+ private:
+  double Uniform(double low, double high) {
+    return low + (high - low) * (random_() / 4294967296.0);
+  }
+  double Normal() { return std::normal_distribution<double>(0.0, 1.0)(random_) * pixel_noise_; }
+
+  double readout_time_;
+  double pixel_noise_;
+  std::mt19937 random_{1};
+  std::vector<Eigen::Vector3d> points_;
+};
+
+}  // namespace msc_vo
