@@ -46,6 +46,36 @@ double CostAndEquations(const WindowStructure& structure, const WindowTerms& ter
                                                        : std::numeric_limits<double>::infinity();
 }
 
+// Landmarks that a step takes behind a camera that sees them, where no term is defined, stay where
+// they were before it: their depth is hardly known, which is no reason to refuse all other steps.
+template <int Points, typename AnySighting, typename Block>
+void KeepInFront(const std::vector<AnySighting>& sightings, const std::vector<int>& unknown,
+                 const WindowState& before, const Block& block, WindowState* moved) {
+  for (const AnySighting& s : sightings) {
+    if (unknown[s.landmark] < 0) continue;
+    double* const landmark = block(moved, s.landmark);
+    const Rigid3 cam_from_world = moved->Pose(s.keyframe);
+    for (int k = 0; k < Points; ++k) {
+      const Eigen::Vector3d x_in_cam = cam_from_world * Eigen::Vector3d(landmark + 3 * k);
+      if (x_in_cam.z() >= kMinCameraDepth) continue;
+      std::copy_n(block(&before, s.landmark), 3 * Points, landmark);
+      break;
+    }
+  }
+}
+
+WindowState Step(const WindowStructure& structure, const WindowState& state,
+                 const WindowStep& step) {
+  WindowState moved = Moved(structure, state, step);
+  KeepInFront<1>(
+      structure.point_sightings, structure.point, state,
+      [](auto* s, size_t i) { return s->PointBlock(i); }, &moved);
+  KeepInFront<2>(
+      structure.line_sightings, structure.line, state,
+      [](auto* s, size_t i) { return s->LineBlock(i); }, &moved);
+  return moved;
+}
+
 }  // namespace
 
 MinimizerReport MinimizeWindow(const WindowStructure& structure, const WindowTerms& terms,
@@ -74,7 +104,7 @@ MinimizerReport MinimizeWindow(const WindowStructure& structure, const WindowTer
       region.Reject();
       continue;
     }
-    WindowState candidate = Moved(structure, *state, step);
+    WindowState candidate = Step(structure, *state, step);
     enter(WindowStage::kLinearize);
     // No step follows the last one: its derivatives would be of no use.
     const bool is_last = report.num_iterations + 1 == max_iterations;

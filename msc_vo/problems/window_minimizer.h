@@ -19,7 +19,9 @@ struct MinimizerReport {
 
 // Minimises the sum of `terms` over `state` by Levenberg-Marquardt, in at most `max_iterations`
 // steps: the same steps that Ceres takes with its defaults, to rounding, with linear algebra made
-// for the window (SolveStep). `structure` is that of the terms.
+// for the window (SolveStep). But where a step takes a landmark behind a camera that sees it, the
+// landmark stays and the others move, while Ceres refuses the step. `structure` is that of the
+// terms.
 MinimizerReport MinimizeWindow(const WindowStructure& structure, const WindowTerms& terms,
                                int max_iterations, const WindowStageObserver& enter_stage,
                                WindowState* state);

@@ -125,8 +125,9 @@ TEST_F(CeresWindowTest, AnchorsHoldTheInitialLinesNotTheCurrentOnes) {
   Build();
   const Eigen::Vector3d along = 0.1 * data_.lines[0].segment.Direction();
   for (int i = 0; i < 3; ++i) state_->LineBlock(0)[i] += along[i];
-  // (0.1 m / 0.05 m)^2: the motion is along the initial direction.
-  EXPECT_NEAR(ChiSquare<LineAnchor>(terms_.line_anchor.blocks[0], *state_), 4.0, 1e-9);
+  // The motion is along the initial direction.
+  EXPECT_NEAR(ChiSquare<LineAnchor>(terms_.line_anchor.blocks[0], *state_),
+              std::pow(0.1 / options_.line_anchor_sigma, 2), 1e-9);
   EXPECT_NEAR(ChiSquare<LineAnchor>(terms_.line_anchor.blocks[1], *state_), 0.0, 1e-12);
 }
 

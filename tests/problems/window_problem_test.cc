@@ -245,6 +245,34 @@ TEST_P(WindowProblemTest, ALandmarkThatLosesEveryObservationKeepsItsValue) {
   EXPECT_LT(WorstPose(window.truth, data), 1e-4);
 }
 
+// From three times its distance, one step takes a point without depth behind the cameras.
+TEST_P(WindowProblemTest, ALandmarkThatAStepTakesBehindACameraHoldsUpNoOther) {
+  SyntheticWindow window = MakeSyntheticWindow(scene_);
+  WindowData::Point& far = window.data.points[3];
+  const Eigen::Vector3d eye = window.truth.keyframes[0].cam_from_world.Inverse().translation();
+  far.position = eye + 3.0 * (far.position - eye);
+  for (auto& o : window.data.point_observations) {
+    if (o.point == far.id) o.inverse_depth = 0.0;
+  }
+  options_.first_iterations = options_.second_iterations = 1;
+  WindowData data = window.data;
+  const WindowSummary summary = SolveWindow(options_, &data);
+  ASSERT_TRUE(summary.usable) << summary.BriefReport();
+  EXPECT_LT(WorstPose(window.truth, data), 0.2 * WorstPose(window.truth, window.data));
+}
+
+// No image sees that motion. With an anchor of 5 cm, end points of these lines slide by 16 cm.
+TEST_P(WindowProblemTest, EndPointsDoNotSlideAlongTheirLine) {
+  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  WindowData data = window.data;
+  ASSERT_TRUE(SolveWindow(options_, &data).usable);
+  for (size_t i = 0; i < data.lines.size(); ++i) {
+    const LineSegment3 &before = window.data.lines[i].segment, &after = data.lines[i].segment;
+    EXPECT_LT(std::abs((after.start - before.start).dot(before.Direction())), 0.01);
+    EXPECT_LT(std::abs((after.end - before.end).dot(before.Direction())), 0.01);
+  }
+}
+
 TEST_P(WindowProblemTest, AContradictingDepthIsLostAlone) {
   scene_.noise = 0.0;
   SyntheticWindow window = MakeSyntheticWindow(scene_);

@@ -85,6 +85,9 @@ TEST_P(WindowSolversTest, WithoutDepth) {
 }
 
 TEST_P(WindowSolversTest, OneTermOfEachObservation) {
+  // A wrong line without depth may be taken behind a camera, where block Schur goes its own way
+  // (MinimizeWindow).
+  scene_.wrong_ratio = 0.0;
   for (WindowOptions* options : {&options_, &reference_}) {
     options->point_reprojection.enabled = false;  // depth alone holds nothing across: all but
     options->line_depth.enabled = false;          // points come from lines
