@@ -14,7 +14,7 @@ namespace msc_vo {
 //
 // S, E: end points in the world, metres (block 0, 6). S0, E0: where they started; d0: unit
 // direction of the line then. sigma: metres. No image of a line says where along it an end point
-// lies, so two of the six numbers are free without this; held weakly, the normal equations are well
+// lies, so two of the six numbers are free without this; held, the normal equations are well
 // conditioned and the line's four real degrees of freedom stay untouched.
 class LineAnchor : public CostFunctor<LineAnchor, 2, 6> {
  public:
