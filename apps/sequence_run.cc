@@ -58,7 +58,7 @@ class PacedFeed : public ImageFeed {
     return true;
   }
   std::optional<RealtimeSummary> Realtime() const override {
-    return RealtimeSummary{SummarizeStage("pose_age", ages_)};
+    return RealtimeSummary{SummarizeStage("pose_age", ages_), 0};
   }
 
  private:
@@ -96,7 +96,7 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   Odometry odometry(options, context.calibration.camera, context.calibration.distortion);
   odometry.SetWindowObserver(window_observer);
   const std::unique_ptr<ImageFeed> feed =
-      MakeFeed(decoder, num_frames, configuration.odometry.snapshots.newest);
+      MakeFeed(decoder, num_frames, configuration.odometry.snapshots.realtime);
   Progress progress(num_frames);
   int done = 0;
   try {
@@ -122,6 +122,7 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   }
   context.cost = cost.Read();
   context.realtime = feed->Realtime();
+  if (context.realtime) context.realtime->num_late_maps = run.result.num_late_maps;
   run.summary = Summarize(run.result);
   if (!context.sequence.ground_truth.empty() && done > 0) {
     context.error = EvaluateTrajectory(context.sequence.ground_truth, TrajectoryOf(run.result));

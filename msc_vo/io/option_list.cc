@@ -357,8 +357,8 @@ std::vector<Option> ListOptions(Configuration* configuration) {
            "move depth images to the time of their colour image where the two stamps differ");
   list.Add("threads", &odometry.threads,
            "processors to make use of; the result is the same for any number");
-  list.Add("realtime", &odometry.snapshots.newest,
-           "frames see the newest map, whatever mapping.latency_frames says; nothing repeats");
+  list.Add("realtime", &odometry.snapshots.realtime,
+           "no frame waits for a map that is late; runs repeat as long as none is");
   list.Section("features", &odometry.features, ListFeatures);
   list.Section("normals", &odometry.normals, ListNormals);
   list.Section("tracking", &odometry.tracking, ListTracking);

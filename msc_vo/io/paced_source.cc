@@ -3,6 +3,7 @@
 
 #include "msc_vo/io/paced_source.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -40,11 +41,12 @@ bool PacedSource::Next(RgbdImage* image, std::vector<int>* dropped) {
   const double now = clock_.now();
   int newest = next_;
   while (newest + 1 < end_ && *start_ + Time(newest + 1) <= now) ++newest;
-  for (int i = next_; i < newest; ++i) dropped->push_back(i);
-  next_ = newest + 1;
-  source_.SkipTo(newest);
+  const int oldest = std::max(next_, newest + 1 - kMaxWaiting);
+  for (int i = next_; i < oldest; ++i) dropped->push_back(i);
+  next_ = oldest + 1;
+  source_.SkipTo(oldest);
   source_.Next(image);
-  appeared_ = *start_ + Time(newest);
+  appeared_ = *start_ + Time(oldest);
   clock_.sleep_until(appeared_);
   return true;
 }

@@ -20,16 +20,20 @@ struct PacingClock {
 };
 
 // The images of a sequence as a camera would deliver them: the first at once, each other one when
-// as much time has passed as between their time stamps. A reader who is late gets the newest
-// image; those before it are dropped.
+// as much time has passed as between their time stamps. Images wait for a reader who is late, as
+// they do in the driver of a camera; where one more would have to wait, the oldest is dropped.
 class PacedSource {
  public:
+  // Images that wait. A tenth of a second at 30 Hz: who tracks in half the time between two images
+  // has made up for it after as many more, and a pose that is later is of little use.
+  static constexpr int kMaxWaiting = 3;
+
   // Images begin..end-1 of the decoder, which must outlive the source. Throws as RgbdSource does.
   PacedSource(const RgbdDecoder& decoder, int begin, int end,
               PacingClock clock = PacingClock::Steady());
 
-  // Waits for the next image, or takes the newest one. The indices of the dropped ones before it
-  // are appended to `dropped`. False at the end. Throws as RgbdSource does.
+  // Waits for the next image, or takes the oldest that waits. The indices of the dropped ones
+  // before it are appended to `dropped`. False at the end. Throws as RgbdSource does.
   bool Next(RgbdImage* image, std::vector<int>* dropped);
 
   // Seconds since the last image appeared.

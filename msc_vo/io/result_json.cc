@@ -121,7 +121,8 @@ Json StagesToJson(const std::vector<StageTimeStatistics>& stages) {
 // Null if the sequence was replayed as fast as possible.
 Json RealtimeToJson(const std::optional<RealtimeSummary>& realtime) {
   if (!realtime) return {};
-  return {{"snapshots", "newest"}, {"pose_age_ms", StatisticsToJson(realtime->pose_age)}};
+  return {{"late_maps", realtime->num_late_maps},
+          {"pose_age_ms", StatisticsToJson(realtime->pose_age)}};
 }
 
 Json FramesToJson(const RunSummary& summary) {

@@ -57,8 +57,8 @@ std::string MappingText(const RunSummary& summary) {
 
 std::string RealtimeText(const RunSummary& summary, const RealtimeSummary& realtime) {
   const int dropped = summary.status_counts[static_cast<size_t>(TrackingStatus::kDropped)];
-  return FormatText("paced by the time stamps, newest map; %d of %d images dropped as too late; ",
-                    dropped, summary.num_frames) +
+  return FormatText("paced by the time stamps; %d of %d images dropped as too late, %d maps late; ",
+                    dropped, summary.num_frames, realtime.num_late_maps) +
          TimeText(realtime.pose_age, "from image to pose");
 }
 

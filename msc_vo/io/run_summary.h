@@ -53,6 +53,7 @@ struct RealtimeSummary {
   // Milliseconds from the moment that an image appears to its pose, over the images that were not
   // dropped.
   StageTimeStatistics pose_age;
+  int num_late_maps = 0;  // 0, and no image dropped: the run as it is without real time
 };
 
 // What only the one who made the run knows.

@@ -251,6 +251,7 @@ OdometryResult Odometry::Finish() {
   }
   result.noise_scale = state_->mapper.noise().scale();
   result.readout_time = state_->mapper.readout().readout_time();
+  result.num_late_maps = state_->schedule.num_late();
   result.axes = MakeAxes(state_->mapper.axes().estimator());
   result.last_window = state_->last_window;
   return result;

@@ -27,14 +27,12 @@ void SnapshotSchedule::Submit(int frame, KeyframePacket packet) {
 }
 
 MapSnapshotPtr SnapshotSchedule::SnapshotAt(int frame) {
-  while (!unseen_.empty()) {
+  while (!unseen_.empty() && IsDue(unseen_.front(), frame)) {
     Keyframe& keyframe = unseen_.front();
-    if (IsDue(keyframe, frame)) {
-      if (!keyframe.step) Receive(runner_->Take(), &keyframe);
-    } else if (options_.newest) {
-      if (!keyframe.step) Receive(runner_->TryTake(), &keyframe);
-      if (!keyframe.step) break;
-    } else {
+    if (!keyframe.step) Receive(Waits() ? runner_->Take() : runner_->TryTake(), &keyframe);
+    if (!keyframe.step) {
+      num_late_ += keyframe.late ? 0 : 1;
+      keyframe.late = true;
       break;
     }
     const MappingStep step = std::move(*keyframe.step);
@@ -55,10 +53,14 @@ void SnapshotSchedule::Drain() {
   if (error) std::rethrow_exception(error);
 }
 
-// Whether the frame must not be tracked without the map of this keyframe.
+// Whether the frame should see the map of this keyframe.
 bool SnapshotSchedule::IsDue(const Keyframe& keyframe, int frame) const {
-  if (snapshot_->map.keyframes().empty()) return true;
-  return !options_.newest && keyframe.frame + options_.latency_frames <= frame;
+  return snapshot_->map.keyframes().empty() || keyframe.frame + options_.latency_frames <= frame;
+}
+
+// Whether a map that is due is waited for. The first always is.
+bool SnapshotSchedule::Waits() const {
+  return !options_.realtime || snapshot_->map.keyframes().empty();
 }
 
 void SnapshotSchedule::Receive(std::optional<MappingStep> step, Keyframe* keyframe) {

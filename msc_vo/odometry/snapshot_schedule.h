@@ -22,8 +22,9 @@ struct SnapshotOptions {
   // than two thirtieths of a second; the older the map, the less exact the poses
   // (docs/performance.md).
   int latency_frames = 2;
-  // Every frame sees the newest map that is ready instead: nothing waits, nothing repeats.
-  bool newest = false;
+  // Nothing waits, as nothing can with a camera: a map that is not ready for the frame that should
+  // see it is seen by the first one that finds it ready. A run repeats as long as no map is late.
+  bool realtime = false;
 
   bool IsValid(std::string* error) const;
 };
@@ -51,13 +52,18 @@ class SnapshotSchedule {
   // threw, unless SnapshotAt() did; what else it did has been recorded by then.
   void Drain();
 
+  // Maps that were not ready for the frame that should have seen them.
+  int num_late() const { return num_late_; }
+
  private:
   struct Keyframe {
     int frame = 0;
     std::optional<MappingStep> step;  // once it was taken from the runner
+    bool late = false;
   };
 
   bool IsDue(const Keyframe& keyframe, int frame) const;
+  bool Waits() const;
   void Receive(std::optional<MappingStep> step, Keyframe* keyframe);
 
   SnapshotOptions options_;
@@ -65,6 +71,7 @@ class SnapshotSchedule {
   MapSnapshotPtr snapshot_;
   Recorder record_;
   std::deque<Keyframe> unseen_;  // keyframes whose map no frame sees yet
+  int num_late_ = 0;
 };
 
 }  // namespace msc_vo

@@ -72,6 +72,7 @@ TEST_F(ReplayCommandTest, KeepsPaceWithTheTimeStampsInRealTime) {
   EXPECT_EQ(summary["options"]["realtime"], true);
   const int num_dropped = summary["frames"]["dropped"];
   EXPECT_EQ(summary["realtime"]["pose_age_ms"]["count"], 12 - num_dropped);
+  EXPECT_TRUE(summary["realtime"]["late_maps"].is_number_integer());
   EXPECT_GE(summary["wall_seconds"], 11 / 30.0);  // the last image does not appear earlier
   EXPECT_EQ(NumPoses("out"), 12u);
 }

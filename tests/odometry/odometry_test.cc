@@ -144,9 +144,20 @@ TEST_F(OdometryTest, LatencyOfOneFrameChangesNoPose) {
   ExpectSameBytes(Run(none, *images_), Run(one, *images_));
 }
 
-TEST_F(OdometryTest, FollowsWithTheNewestMapAsWell) {
+TEST_F(OdometryTest, InRealTimeTheSameIfNoMapIsLate) {
   OdometryOptions options;
-  options.snapshots.newest = true;
+  options.threads = 1;  // the mapper is ready at once
+  const OdometryResult expected = Run(options, *images_);
+  options.snapshots.realtime = true;
+  const OdometryResult result = Run(options, *images_);
+  EXPECT_EQ(result.num_late_maps, 0);
+  ExpectSameBytes(expected, result);
+}
+
+TEST_F(OdometryTest, FollowsWithMapsThatMayBeLate) {
+  OdometryOptions options;
+  options.snapshots.realtime = true;
+  options.snapshots.latency_frames = 0;
   const OdometryResult result = Run(options, *images_);
   EXPECT_EQ(Count(result, TrackingStatus::kTracked), kNumFrames);
   EXPECT_LT(ApeRmse(result), 0.006);  // as it does frame by frame

@@ -48,10 +48,10 @@ class FakeRunner : public MappingRunner {
 
 class SnapshotScheduleTest : public testing::Test {
  protected:
-  SnapshotSchedule MakeSchedule(int latency_frames, bool newest = false) {
+  SnapshotSchedule MakeSchedule(int latency_frames, bool realtime = false) {
     auto runner = std::make_unique<FakeRunner>();
     runner_ = runner.get();
-    return {{latency_frames, newest},
+    return {{latency_frames, realtime},
             std::move(runner),
             std::make_shared<MapSnapshot>(),
             [this](int frame, const MappingStep&) { recorded_.push_back(frame); }};
@@ -91,17 +91,32 @@ TEST_F(SnapshotScheduleTest, WithoutLatencyAKeyframeSeesItsOwnMap) {
   EXPECT_EQ(schedule.SnapshotAt(1)->newest_keyframe, 1);
 }
 
-TEST_F(SnapshotScheduleTest, TheNewestMapIsSeenAsSoonAsItIsReady) {
+TEST_F(SnapshotScheduleTest, InRealTimeNoFrameWaitsForAMapThatIsLate) {
   SnapshotSchedule schedule = MakeSchedule(3, true);
   schedule.Submit(0, {});
   EXPECT_EQ(schedule.SnapshotAt(1)->newest_keyframe, 0);  // waited for
   schedule.Submit(1, {});
   schedule.Submit(3, {});
   EXPECT_THAT(Seen(&schedule, 4, 20), testing::Each(0));  // nothing else is
+  EXPECT_EQ(schedule.num_late(), 1);
   runner_->num_ready = 2;
   EXPECT_EQ(schedule.SnapshotAt(20)->newest_keyframe, 1);
+  EXPECT_EQ(schedule.num_late(), 2);
   runner_->num_ready = 3;
   EXPECT_EQ(schedule.SnapshotAt(21)->newest_keyframe, 2);
+  EXPECT_EQ(schedule.num_late(), 2);
+}
+
+TEST_F(SnapshotScheduleTest, InRealTimeFramesSeeWhatTheyAlwaysSeeIfNoMapIsLate) {
+  SnapshotSchedule schedule = MakeSchedule(3, true);
+  runner_->num_ready = 3;
+  schedule.Submit(0, {});
+  schedule.SnapshotAt(1);
+  schedule.Submit(4, {});
+  EXPECT_THAT(Seen(&schedule, 4, 7), ElementsAre(0, 0, 0));
+  schedule.Submit(6, {});
+  EXPECT_THAT(Seen(&schedule, 6, 11), ElementsAre(0, 1, 1, 2, 2));
+  EXPECT_EQ(schedule.num_late(), 0);
 }
 
 TEST_F(SnapshotScheduleTest, DrainingRecordsAllAndChangesNothingForTheFrames) {
