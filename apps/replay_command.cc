@@ -121,8 +121,8 @@ Command AddReplayCommand(CLI::App* app) {
                     "No pairs of perpendicular map lines");
   command->add_flag("--no-manhattan", arguments->no_manhattan, "No Manhattan axes");
   command->add_flag("--realtime", arguments->realtime,
-                    "Images appear when their time stamps say; frames see the newest map, and "
-                    "images that come too late are dropped");
+                    "Images appear when their time stamps say; no frame waits for a map that is "
+                    "late, and images that come too late are dropped");
   command->add_option("--max-frames", arguments->max_frames, "Stop after so many images")
       ->check(CLI::PositiveNumber);
   command->add_option("--dump-windows", arguments->windows,
