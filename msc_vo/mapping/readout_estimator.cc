@@ -12,55 +12,80 @@ namespace msc_vo {
 
 namespace {
 
-// Keyframes that each new one is compared with. The sooner the time is known the better: five
-// rendered sequences have 2.9, 3.3 and 4.0 mm in the mean with 4, 3 and 2 of them.
-constexpr int kMaxPartners = 4;
-// Of so many pairs the estimate remembers, 25 keyframes: the first ones are of poses that suffered
-// from the shutter, and say too little.
-constexpr double kMemory = 100.0;
+// Keyframes that each new one is compared with: those that see most of the same.
+constexpr size_t kMaxPartners = 2;
+// Of so many keyframes the estimate remembers: the first ones are of poses that suffered from the
+// shutter, and say too little.
+constexpr double kMemory = 25.0;
 // Seconds. Rows of an image are read while those of the next are not: the cameras run at 30 Hz,
 // whatever was kept of their images.
 constexpr double kMaxReadout = 1.0 / 30.0;
-// A shutter rolls if the estimate is at least so large: less moves no row by more than 1.6 px at 70
-// degrees per second ...
-constexpr double kMinReadout = 0.005;
-// ... and has so many sigmas: 30 sequences with a global shutter have 3.7 at most (a corridor; the
-// second one 3.2), and six of seven with a rolling one reach four. It is global again below half of
-// that size.
-constexpr double kCertain = 4.0;
+// Seconds: rolling shutters of depth cameras and phones take 10 to 33 ms.
+constexpr double kTypicalReadout = 0.020;
+constexpr double kReadoutSpread = 0.008;
+// Rows are read from the top, unless the camera hangs upside down: one in a thousand.
+constexpr double kUpsideDown = 0.001;
+// A shutter rolls if that is so many times as likely as that it is global, and is global again if
+// that is the likelier.
+constexpr double kCertain = 10.0;
 // Seconds, sigma of what was estimated with poses that did not know of the shutter.
 constexpr double kFirstSigma = 0.01;
 
 double Square(double x) { return x * x; }
+
+// Logarithm of the density of a normal deviate with that variance, but for a constant.
+double LogDensity(double x, double variance) {
+  return -0.5 * (x * x / variance + std::log(variance));
+}
+
+// Logarithm of how many times as likely an estimate with that variance (seconds^2) is with a
+// rolling shutter as with a global one.
+double RollingLogOdds(double estimate, double variance) {
+  const double spread = variance + Square(kReadoutSpread);
+  const double upright = LogDensity(estimate - kTypicalReadout, spread);
+  const double upside_down = std::log(kUpsideDown) + LogDensity(estimate + kTypicalReadout, spread);
+  return std::max(upright, upside_down) - LogDensity(estimate, variance);
+}
 
 }  // namespace
 
 void ReadoutEstimator::Update(const Map& map, KeyframeId newest) {
   if (!learns_) return;
   const Keyframe& to = *map.FindKeyframe(newest);
-  int num_partners = 0;
-  for (const Map::Covisible& other : map.FindCovisible(newest)) {
-    const auto estimate =
-        EstimateReadout(map, *map.FindKeyframe(other.keyframe), to, readout_time_);
+  auto partners = map.FindCovisible(newest);
+  partners.resize(std::min(partners.size(), kMaxPartners));
+  double sum = 0.0, weighted_sum = 0.0, largest = 0.0;
+  for (const Map::Covisible& other : partners) {
+    const auto estimate = EstimateReadout(*map.FindKeyframe(other.keyframe), to, readout_time_);
     if (!estimate) continue;
-    information_ += estimate->information - information_ / kMemory;
-    weighted_sum_ += estimate->information * estimate->readout_time - weighted_sum_ / kMemory;
-    if (++num_partners == kMaxPartners) break;
+    sum += estimate->information;
+    weighted_sum +=
+        estimate->information * std::clamp(estimate->readout_time, -kMaxReadout, kMaxReadout);
+    largest = std::max(largest, estimate->information);
   }
-  if (information_ > 0.0) Decide();
+  if (sum <= 0.0) return;
+  // All share what is wrong with the newest one: together they are as good as the best of them.
+  Remember(weighted_sum / sum, largest);
+  Decide();
+}
+
+void ReadoutEstimator::Remember(double estimate, double information) {
+  information_ += information - information_ / kMemory;
+  weighted_sum_ += information * estimate - weighted_sum_ / kMemory;
 }
 
 void ReadoutEstimator::Decide() {
-  const double estimate = weighted_sum_ / information_;
+  double estimate = weighted_sum_ / information_;
+  const double log_odds = RollingLogOdds(estimate, 1.0 / information_);
   if (readout_time_ == 0.0) {
-    if (std::abs(estimate) * std::sqrt(information_) < kCertain) return;
-    if (std::abs(estimate) < kMinReadout) return;
-    information_ = 1.0 / Square(kFirstSigma);
+    if (log_odds < std::log(kCertain)) return;
+    information_ = std::min(information_, 1.0 / Square(kFirstSigma));
     weighted_sum_ = information_ * estimate;
   }
-  readout_time_ = std::abs(estimate) < 0.5 * kMinReadout
-                      ? 0.0
-                      : std::clamp(estimate, -kMaxReadout, kMaxReadout);
+  const double prior = 1.0 / Square(kReadoutSpread);
+  estimate =
+      (weighted_sum_ + prior * std::copysign(kTypicalReadout, estimate)) / (information_ + prior);
+  readout_time_ = log_odds < 0.0 ? 0.0 : std::clamp(estimate, -kMaxReadout, kMaxReadout);
 }
 
 }  // namespace msc_vo

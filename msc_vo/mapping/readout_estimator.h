@@ -24,6 +24,8 @@ class ReadoutEstimator {
   double readout_time() const { return readout_time_; }
 
  private:
+  // One more estimate (seconds), with its information (1/seconds^2).
+  void Remember(double estimate, double information);
   void Decide();
 
   bool learns_;

@@ -17,9 +17,9 @@ struct ReadoutEstimate {
 // What two keyframes with known velocities say about the readout time of a rolling shutter: where
 // one was turning otherwise than the other, or a point has moved across the rows, its time is the
 // seventh unknown of their relative pose. Least squares over the points that `from` has the depth
-// of and `to` sees as well, from `readout_time` on; robust, as some are wrong. None if they share
-// less than 30.
-std::optional<ReadoutEstimate> EstimateReadout(const Map& map, const Keyframe& from,
-                                               const Keyframe& to, double readout_time);
+// of and whose descriptors are found again in `to`, from `readout_time` on; robust, as some are
+// wrong. None if there are less than 30.
+std::optional<ReadoutEstimate> EstimateReadout(const Keyframe& from, const Keyframe& to,
+                                               double readout_time);
 
 }  // namespace msc_vo

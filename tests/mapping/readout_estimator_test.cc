@@ -35,7 +35,7 @@ KeyframeId AddKeyframe(RollingFrames* world, int index, Map* map) {
 }
 
 std::optional<ReadoutEstimate> EstimateFirst(const Map& map, double start = 0.0) {
-  return EstimateReadout(map, *map.FindKeyframe(0), *map.FindKeyframe(1), start);
+  return EstimateReadout(*map.FindKeyframe(0), *map.FindKeyframe(1), start);
 }
 
 TEST(ReadoutPair, FindsTheTimeFromTwoKeyframes) {
@@ -85,13 +85,15 @@ TEST(ReadoutPair, NeedsVelocitiesAndPoints) {
   RollingFrames world(kReadout, 0.0);
   Map map;
   for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
-  Map without_velocity = map.Share();
-  auto frame = std::make_shared<Frame>(*map.FindKeyframe(0)->frame);
+  const auto whole = std::make_shared<Frame>(*map.FindKeyframe(0)->frame);
+  auto frame = std::make_shared<Frame>(*whole);
   frame->velocity.reset();
-  without_velocity.SetFrame(0, frame);
-  EXPECT_FALSE(EstimateFirst(without_velocity).has_value());
-  for (LandmarkId id = 0; id < 121; ++id) map.RemovePoint(id);
-  EXPECT_FALSE(EstimateFirst(map).has_value());  // 29 points
+  map.SetFrame(0, frame);
+  EXPECT_FALSE(EstimateFirst(map).has_value());
+  frame = std::make_shared<Frame>(*whole);
+  for (size_t i = 29; i < frame->points.size(); ++i) frame->points[i].inverse_depth = 0.0;
+  map.SetFrame(0, frame);
+  EXPECT_FALSE(EstimateFirst(map).has_value());
 }
 
 double Learnt(double truth, const std::optional<double>& known) {
@@ -119,7 +121,9 @@ TEST(ReadoutEstimator, WhatIsKnownStays) {
 }
 
 TEST(ReadoutEstimator, IsNotLongerThanAnImage) {
-  EXPECT_DOUBLE_EQ(Learnt(0.045, std::nullopt), 1.0 / 30.0);
+  const double learnt = Learnt(0.045, std::nullopt);
+  EXPECT_LE(learnt, 1.0 / 30.0);
+  EXPECT_GT(learnt, 0.032);
 }
 
 TEST(KeyframeUnrolling, LeavesWhatIsNearEnoughOrHasNoVelocity) {

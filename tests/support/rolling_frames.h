@@ -34,6 +34,8 @@ class RollingFrames {
       : readout_time_(readout_time), pixel_noise_(pixel_noise) {
     for (int i = 0; i < 150; ++i) {
       points_.push_back({Uniform(-1.5, 1.5), Uniform(-1.0, 1.0), Uniform(2.0, 4.0)});
+      descriptors_.emplace_back();
+      for (uint8_t& bits : descriptors_.back()) bits = static_cast<uint8_t>(random_());
     }
   }
 
@@ -55,9 +57,10 @@ class RollingFrames {
     frame->id = index;
     frame->timestamp = 0.3 * index;
     frame->velocity = Velocity(index);
-    for (const Eigen::Vector3d& point : points_) {
-      PointFeature feature =
-          SeeRolling(frame->camera, CamFromWorld(index) * point, Velocity(index), readout_time_);
+    for (size_t i = 0; i < points_.size(); ++i) {
+      PointFeature feature = SeeRolling(frame->camera, CamFromWorld(index) * points_[i],
+                                        Velocity(index), readout_time_);
+      feature.descriptor = descriptors_[i];
       feature.pixel.x() += Normal();
       feature.pixel.y() += Normal();
       feature.inverse_depth_sigma = 1e-3;
@@ -77,6 +80,7 @@ class RollingFrames {
   double pixel_noise_;
   std::mt19937 random_{1};
   std::vector<Eigen::Vector3d> points_;
+  std::vector<Descriptor> descriptors_;
 };
 
 }  // namespace msc_vo
