@@ -12,6 +12,8 @@ function(msc_vo_compile_options target)
   if(MSC_VO_NATIVE)
     # PUBLIC: Eigen's memory layout depends on it, so a consumer must be compiled alike.
     target_compile_options(${target} PUBLIC -march=native)
+    # GCC 12 takes variables of its own AVX-512 headers for uninitialized.
+    target_compile_options(${target} PRIVATE -Wno-error=maybe-uninitialized)
   endif()
 endfunction()
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace msc_vo {
 
@@ -43,6 +44,10 @@ constexpr double kSlopeSigma = 3.0;
 // Two surfaces differ in depth if their difference exceeds so many of its sigmas: 99 % quantile of
 // a normal deviate.
 constexpr double kSameSigmas = 2.576;
+// Beside an edge sensors drop pixels of either surface, so that the one that the line belongs to
+// may seem to end before it. If the line is on the one as likely as on the other, its depth has
+// half their difference as a standard deviation.
+constexpr double kDoubt = 0.5;
 constexpr double kEndPointRadius = 2.0;
 
 // Inverse depths at offsets -kReach .. kReach across the line, 0 for none.
@@ -111,6 +116,7 @@ Runs SplitAtJumps(const Profile& profile, double sigma) {
 struct Crossing {
   double w = 0.0;
   double sigma = 1.0;
+  double doubt = 0.0;  // 1/metres, common to all places along the line
 };
 
 // Sums over the pixels of a run on one side of the line: of offsets x and inverse depths w.
@@ -142,16 +148,22 @@ Crossing AtLine(const Profile& profile, const Run& run) {
     information -= side.x * side.x / side.xx;
     rhs -= side.x * side.xw / side.xx;
   }
-  return {rhs / information, std::sqrt(1.0 + 1.0 / information)};
+  return {rhs / information, std::sqrt(1.0 + 1.0 / information), 0.0};
 }
 
 // Of the surfaces that come to the line the nearest. If noise decides which of two that is, the one
-// that is better known: to take the nearer one would pull all depths towards the camera.
+// that is better known: to take the nearer one would pull all depths towards the camera. One that
+// is nearer still, but ends before the line, leaves a doubt.
 std::optional<Crossing> NearestCrossing(const Profile& profile, double sigma) {
   std::optional<Crossing> nearest;
+  double nearest_aside = 0.0;
   for (const Run& run : SplitAtJumps(profile, sigma)) {
-    if (run.Size() < kMinRun || std::abs(run.NearestOffset()) > kMaxDistance) continue;
+    if (run.Size() < kMinRun) continue;
     const Crossing crossing = AtLine(profile, run);
+    if (std::abs(run.NearestOffset()) > kMaxDistance) {
+      nearest_aside = std::max(nearest_aside, crossing.w);
+      continue;
+    }
     const double margin =
         nearest ? kSameSigmas * sigma * std::hypot(crossing.sigma, nearest->sigma) : 0.0;
     const bool is_same = nearest && std::abs(crossing.w - nearest->w) <= margin;
@@ -159,18 +171,25 @@ std::optional<Crossing> NearestCrossing(const Profile& profile, double sigma) {
       nearest = crossing;
     }
   }
+  if (nearest && nearest_aside - nearest->w > kJumpSigmas * sigma) {
+    nearest->doubt = kDoubt * (nearest_aside - nearest->w);
+  }
   return nearest;
 }
 
-}  // namespace
+struct DepthSamples {
+  std::vector<LineFitSample> along;
+  double doubt = 0.0;  // 1/metres, mean
+};
 
-std::vector<LineFitSample> SampleLineDepth(const InverseDepthImage& image, const LensRemap& lens,
-                                           const LineSegment2& segment, double sigma) {
+// Samples of the inverse depth along `segment` (pixels without distortion), a few pixels apart.
+DepthSamples SampleLineDepth(const InverseDepthImage& image, const LensRemap& lens,
+                             const LineSegment2& segment, double sigma) {
   const Vector2d direction = segment.Direction();
   const Vector2d across(-direction.y(), direction.x());
   const int intervals = std::max(1, static_cast<int>(segment.Length() / kSpacing));
-  std::vector<LineFitSample> samples;
-  samples.reserve(intervals + 1);
+  DepthSamples samples;
+  samples.along.reserve(intervals + 1);
   for (int i = 0; i <= intervals; ++i) {
     const double s = static_cast<double>(i) / intervals;
     const Vector2d raw = lens.RawFromIdeal(segment.At(s));
@@ -179,22 +198,28 @@ std::vector<LineFitSample> SampleLineDepth(const InverseDepthImage& image, const
       profile[kReach + k] = image.Nearest(raw + k * across);
     }
     const std::optional<Crossing> crossing = NearestCrossing(profile, sigma);
-    if (crossing) samples.push_back({s, crossing->w, crossing->sigma * sigma});
+    if (!crossing) continue;
+    samples.along.push_back({s, crossing->w, crossing->sigma * sigma});
+    samples.doubt += crossing->doubt;
   }
+  if (!samples.along.empty()) samples.doubt /= static_cast<double>(samples.along.size());
   return samples;
 }
+
+}  // namespace
 
 std::optional<LineDepth> FitDepthAlongLine(const LineFitOptions& options,
                                            const InverseDepthImage& image, const LensRemap& lens,
                                            const LineSegment2& segment, double sigma,
                                            uint32_t seed) {
-  std::optional<LineDepth> depth =
-      FitLineDepth(options, SampleLineDepth(image, lens, segment, sigma), seed);
+  const DepthSamples samples = SampleLineDepth(image, lens, segment, sigma);
+  std::optional<LineDepth> depth = FitLineDepth(options, samples.along, seed);
   if (!depth) return std::nullopt;
   // n samples, kSpacing apart, of a noise that stays the same over kCorrelationLength say as much
   // as n kSpacing / kCorrelationLength independent ones.
   depth->covariance *= std::max(1.0, kCorrelationLength / kSpacing);
-  depth->covariance += Eigen::Matrix2d::Constant(kCommonNoise * kCommonNoise * sigma * sigma);
+  const double common = std::hypot(kCommonNoise * sigma, samples.doubt);
+  depth->covariance += Eigen::Matrix2d::Constant(common * common);
   return depth;
 }
 

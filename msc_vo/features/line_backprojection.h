@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "msc_vo/features/inverse_depth_image.h"
 #include "msc_vo/features/lens_remap.h"
@@ -20,19 +19,15 @@ enum class LineDepthMethod {
   kEndPoints,  // the depths under the two end points, as they are: the ablation mode pl-vo
 };
 
-// Samples of the inverse depth along `segment` (pixels without distortion), a few pixels apart.
+// Depth of a line (`segment`: pixels without distortion) by a robust fit to samples a few pixels
+// apart; std::nullopt if there is no good fit. `sigma` (1/metres) is the noise of one depth pixel.
 //
 // At each place the depth is read along a short profile across the line, which is cut where the
 // depth jumps; the line belongs to the nearest of the surfaces that reach it, since an edge in the
 // image that is an edge in depth is the edge of the occluding surface. Where surfaces meet at the
-// line each has a slope of its own, so that the sample is the depth of the fold. `sigma` (1/metres)
-// is the noise of one depth pixel.
-std::vector<LineFitSample> SampleLineDepth(const InverseDepthImage& image, const LensRemap& lens,
-                                           const LineSegment2& segment, double sigma);
-
-// Depth of a line by a robust fit to those samples; std::nullopt if there is no good fit. The
-// covariance allows for the correlation between the noise of neighbouring depth pixels, and for an
-// error that all samples have in common.
+// line each has a slope of its own, so that the sample is the depth of the fold. The covariance
+// allows for the correlation between the noise of neighbouring depth pixels, for an error that all
+// samples have in common, and for a nearer surface beside the line that the line may belong to.
 std::optional<LineDepth> FitDepthAlongLine(const LineFitOptions& options,
                                            const InverseDepthImage& image, const LensRemap& lens,
                                            const LineSegment2& segment, double sigma,

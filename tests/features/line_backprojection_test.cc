@@ -96,6 +96,18 @@ TEST(LineBackprojection, BelongsToTheSurfaceThatOccludes) {
   }
 }
 
+TEST(LineBackprojection, DoubtsItsDepthBesideANearerSurface) {
+  // Three rows of pixels are missing at the edge, so that the line has the depth of the wall.
+  const auto depth = Fit(testing::DrawDepth(Camera(), [](const Vector2d& x) {
+    return Below(x) > 0.0 && Below(x) < 3.0 ? 0.0 : OccludingEdge(x);
+  }));
+  ASSERT_TRUE(depth);
+  EXPECT_NEAR(depth->At(0.5), 0.3, 0.01);
+  const Vector2d half(0.5, 0.5);
+  const double gap = SlantedPlane(0.5 * (Segment().start + Segment().end)) - 0.3;
+  EXPECT_NEAR(std::sqrt(half.dot(depth->covariance * half)), 0.5 * gap, 0.05 * gap);
+}
+
 TEST(LineBackprojection, SurvivesNoiseMixedPixelsAndHoles) {
   for (uint32_t seed = 0; seed < 10; ++seed) {
     std::mt19937 random(seed);
