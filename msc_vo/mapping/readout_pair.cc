@@ -25,9 +25,9 @@ using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
 // Four would do for seven unknowns; more, so that wrong ones do not decide.
 constexpr int kMinPoints = 30;
-// Pixels. Two rows of an image that turns by a radian per second are this far off after 26 ms with
-// 525 pixels per radian, half of it in either frame, and what is matched must not depend on what is
-// to be found: the inliers of poses that know of no shutter say 10 ms where 26 are true.
+// Pixels. The last row of an image that turns by a radian per second is off by 7 of them after half
+// of 26 ms, and two images may turn in opposite ways. What is matched must not depend on what is to
+// be found: the inliers of poses that know of no shutter say 10 ms where 26 are true.
 constexpr double kSearchRadius = 20.0;
 // Three robust iterations find the points that agree, two take those alone.
 constexpr int kRobustIterations = 3;
