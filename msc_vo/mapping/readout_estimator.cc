@@ -12,7 +12,8 @@ namespace msc_vo {
 
 namespace {
 
-// Keyframes that each new one is compared with: those that see most of the same.
+// Keyframes that each new one is compared with: those that see most of the same. More would add
+// little, as all of them count as one.
 constexpr size_t kMaxPartners = 2;
 // Of so many keyframes the estimate remembers: the first ones are of poses that suffered from the
 // shutter, and say too little.

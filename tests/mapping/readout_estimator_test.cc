@@ -48,6 +48,16 @@ TEST(ReadoutPair, FindsTheTimeFromTwoKeyframes) {
   }
 }
 
+// Landmarks are what a pose with another time, or none, has left.
+TEST(ReadoutPair, DoesNotDependOnLandmarks) {
+  RollingFrames world(kReadout, 0.0);
+  Map map;
+  for (const int index : {0, 1}) {
+    map.AddKeyframe(world.See(index), RollingFrames::CamFromWorld(index));
+  }
+  EXPECT_NEAR(EstimateFirst(map)->readout_time, kReadout, 2e-4);
+}
+
 TEST(ReadoutPair, KnowsWhatKeyframesAreUnrolledWith) {
   RollingFrames world(kReadout, 0.0);
   Map map;
