@@ -150,6 +150,17 @@ void ListTerms(ProblemOptions* problem, OptionLister* list) {
   list->Add("reject_chi2_4", &problem->reject_chi2_4, "chi-square limit of 4 residuals");
 }
 
+void ListConsensus(ConsensusOptions* consensus, OptionLister* list) {
+  list->Add("enabled", &consensus->enabled, "leave out what moves by itself");
+  list->Add("columns", &consensus->columns, "of parts of the image that vote on a pose");
+  list->Add("rows", &consensus->rows, "of parts of the image that vote on a pose");
+  list->Add("reject_chi2_6", &consensus->reject_chi2_6,
+            "chi-square of the common errors of a part, beyond which it votes against a pose");
+  list->Add("unproven_weight", &consensus->unproven_weight,
+            "of a vote of what no two keyframes have seen");
+  list->Add("min_parts", &consensus->min_parts, "by which another pose must be better");
+}
+
 void ListPose(PoseOptions* pose, OptionLister* list) {
   ListTerms(pose, list);
   list->Add("num_rounds", &pose->num_rounds, "of solving and classifying all matches");
@@ -158,6 +169,7 @@ void ListPose(PoseOptions* pose, OptionLister* list) {
   list->Add(
       "max_frame_noise", &pose->max_frame_noise,
       "how far chi-square limits grow, in sigmas, where all points of a frame are seen worse");
+  list->Section("consensus", &pose->consensus, ListConsensus);
 }
 
 void ListKeyframePolicy(KeyframePolicyOptions* policy, OptionLister* list) {

@@ -24,6 +24,8 @@ struct PoseData {
     double sigma = 1.0;                                  // pixels
     double inverse_depth = 0.0;                          // 1/metres; 0: no depth measured
     double inverse_depth_sigma = 0.0;                    // 1/metres
+    bool proven = true;                                  // stood still from one keyframe to another
+    bool moves = false;                                  // out: by itself, see pose_consensus.h
     bool inlier = true;                                  // out
   };
   struct Line {
@@ -32,6 +34,8 @@ struct PoseData {
     double sigma = 1.0;        // pixels
     bool has_depth = false;
     LineDepth depth;     // used if has_depth
+    bool proven = true;  // as of points
+    bool moves = false;  // out
     bool inlier = true;  // out
   };
 
@@ -39,6 +43,23 @@ struct PoseData {
   Rigid3 cam_from_world;  // in: prediction, out: estimate
   std::vector<Point> points;
   std::vector<Line> lines;
+};
+
+// Of pose_consensus.h: whether most of the image agrees on the pose.
+struct ConsensusOptions {
+  bool enabled = true;
+  int columns = 12;  // of parts
+  int rows = 9;
+  // Beyond this many squared sigmas a part disagrees: the 99.9 % quantile of six rows, as a step of
+  // its own takes away as many.
+  double reject_chi2_6 = 22.458;
+  // Of a vote of matches that are not proven, next to that of others. Without it (1) something that
+  // moves, seen anew in each frame, holds half of the parts of a bare room.
+  double unproven_weight = 0.5;
+  // Parts by which another pose must be better: one or two are always wrong.
+  double min_parts = 2.0;
+
+  bool IsValid(std::string* error) const;
 };
 
 struct PoseOptions {
@@ -59,6 +80,7 @@ struct PoseOptions {
   int num_rounds = 4;
   int num_robust_rounds = 2;
   int iterations_per_round = 6;
+  ConsensusOptions consensus;
 
   bool IsValid(std::string* error) const;
 };
@@ -67,6 +89,7 @@ struct PoseSummary {
   bool usable = false;  // false: too few matches or the solver failed; the pose is the prediction
   int num_inlier_points = 0;
   int num_inlier_lines = 0;
+  int num_moving = 0;  // points and lines that move by themselves: no inliers, and no failures
   double final_cost = 0.0;
   // Inverse of J^T J over the inliers: covariance of the estimate in the tangent of Rigid3Manifold
   // (rotation vector in the camera frame, radians; then translation, metres). Zero if not usable.

@@ -42,6 +42,12 @@ std::vector<M> LandmarkInliersOf(const std::vector<M>& matches) {
   return inliers;
 }
 
+// Whether a landmark has stood still, as two keyframes saw it at one place.
+template <typename L>
+bool IsProven(const L* landmark) {
+  return landmark != nullptr && landmark->observations.size() >= 2;
+}
+
 // Sigmas are those of the feature, times the scale that was learnt for all and the noise of the
 // landmark. Without a landmark (nullptr) the match is with the frame before.
 PoseData::Point Observe(const PointMatch& match, const PointFeature& feature,
@@ -52,7 +58,7 @@ PoseData::Point Observe(const PointMatch& match, const PointFeature& feature,
           noise * feature.sigma,
           feature.inverse_depth,
           noise * scale.point_depth * feature.inverse_depth_sigma,
-          true};
+          IsProven(landmark)};
 }
 
 PoseData::Line Observe(const LineMatch& match, const LineFeature& feature,
@@ -66,7 +72,7 @@ PoseData::Line Observe(const LineMatch& match, const LineFeature& feature,
           noise * scale.line_pixel * feature.sigma,
           feature.depth.has_value(),
           depth,
-          true};
+          IsProven(landmark)};
 }
 
 }  // namespace

@@ -220,8 +220,9 @@ bool Tracker::EstimatePose(const PoseOptions& options, const Map& map,
                                     &tracked->cam_from_world, &tracked->matches);
   tracked->pose_ms += stopwatch.Milliseconds();
   const int num_inliers = tracked->pose.num_inlier_points + tracked->pose.num_inlier_lines;
+  const int num_resting = NumMatches(tracked->matches) - tracked->pose.num_moving;
   const bool good = tracked->pose.usable && num_inliers >= options_.min_matches &&
-                    num_inliers >= options_.min_inlier_ratio * NumMatches(tracked->matches);
+                    num_inliers >= options_.min_inlier_ratio * num_resting;
   if (!good) tracked->cam_from_world = start;
   return good;
 }
