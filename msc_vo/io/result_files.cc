@@ -19,7 +19,7 @@ std::string FormatFramesCsv(const std::vector<FrameResult>& frames) {
   std::string text =
       "time,status,keyframe,points,lines,inlier_points,inlier_lines,points_ms,lines_ms,depth_ms,"
       "waiting_ms,matching_ms,pose_ms,tracking_ms,mapping_ms,sigma_rx,sigma_ry,sigma_rz,sigma_tx,"
-      "sigma_ty,sigma_tz\n";
+      "sigma_ty,sigma_tz,moving\n";
   for (const FrameResult& frame : frames) {
     const StageTimes& ms = frame.times;
     text += FormatText("%.6f,%s,%d,%d,%d,%d,%d", frame.timestamp, ToString(frame.status),
@@ -28,7 +28,7 @@ std::string FormatFramesCsv(const std::vector<FrameResult>& frames) {
     text += FormatText(",%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f", ms.points, ms.lines, ms.depth,
                        ms.waiting, ms.matching, ms.pose, ms.tracking, ms.mapping);
     for (int i = 0; i < 6; ++i) text += FormatText(",%.9g", std::sqrt(frame.covariance(i, i)));
-    text += '\n';
+    text += FormatText(",%d\n", frame.num_moving);
   }
   return text;
 }

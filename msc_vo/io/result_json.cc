@@ -131,6 +131,7 @@ Json FramesToJson(const RunSummary& summary) {
     json[ToString(static_cast<TrackingStatus>(i))] = summary.status_counts[i];
   }
   json["tracked_share"] = summary.tracked_share;
+  json["with_motion"] = summary.num_frames_with_motion;
   json["not_tracked_spans"] = Json::array();
   for (const NotTrackedSpan& span : summary.not_tracked) {
     json["not_tracked_spans"].push_back({{"first_frame", span.first_frame},

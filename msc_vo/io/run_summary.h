@@ -24,6 +24,7 @@ struct RunSummary {
   std::array<int, 5> status_counts = {0, 0, 0, 0, 0};  // by TrackingStatus
   double tracked_share = 0.0;                          // tracked or weak / all, 0..1
   std::vector<NotTrackedSpan> not_tracked;
+  int num_frames_with_motion = 0;  // in which something moved by itself
   // Stages of tracking, "tracking" as a whole, stages of mapping, "mapping" as a whole.
   std::vector<StageTimeStatistics> stages;
   int num_keyframes = 0;

@@ -45,6 +45,7 @@ FrameResult MakeResult(const TrackedFrame& tracked) {
   result.num_lines = static_cast<int>(tracked.frame->lines.size());
   result.num_inlier_points = static_cast<int>(tracked.matches.points.size());
   result.num_inlier_lines = static_cast<int>(tracked.matches.lines.size());
+  result.num_moving = tracked.num_moving;
   result.covariance = tracked.pose.covariance;
   result.times.matching = tracked.matching_ms;
   result.times.pose = tracked.pose_ms;

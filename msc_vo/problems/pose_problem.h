@@ -55,9 +55,9 @@ struct ConsensusOptions {
   double reject_chi2_6 = 22.458;
   // Of a vote of matches that are not proven, next to that of others. Without it (1) something that
   // moves, seen anew in each frame, holds half of the parts of a bare room.
-  double unproven_weight = 0.5;
+  double unproven_weight = 0.1;
   // Parts by which another pose must be better: one or two are always wrong.
-  double min_parts = 2.0;
+  double min_parts = 3.0;
 
   bool IsValid(std::string* error) const;
 };

@@ -219,6 +219,7 @@ bool Tracker::EstimatePose(const PoseOptions& options, const Map& map,
   tracked->pose = EstimateFramePose(options, *tracked->frame, map, tracked->noise_scale,
                                     &tracked->cam_from_world, &tracked->matches);
   tracked->pose_ms += stopwatch.Milliseconds();
+  tracked->num_moving = std::max(tracked->num_moving, tracked->pose.num_moving);
   const int num_inliers = tracked->pose.num_inlier_points + tracked->pose.num_inlier_lines;
   const int num_resting = NumMatches(tracked->matches) - tracked->pose.num_moving;
   const bool good = tracked->pose.usable && num_inliers >= options_.min_matches &&

@@ -36,6 +36,7 @@ class ResultFilesTest : public TemporaryFolder {
     result.frames[0].is_keyframe = true;
     result.frames[0].times.mapping = 40.0;
     result.frames[1].covariance(3, 3) = 0.04;
+    result.frames[4].num_moving = 80;
     result.frames[2].status = TrackingStatus::kPredicted;
     result.frames[3].status = TrackingStatus::kLost;
     result.frames[4].status = TrackingStatus::kWeak;
@@ -55,6 +56,7 @@ TEST_F(ResultFilesTest, SummarizesStatusesSpansAndStages) {
   const RunSummary summary = Summarize(Result());
   EXPECT_THAT(summary.status_counts, testing::ElementsAre(2, 1, 1, 1, 0));
   EXPECT_DOUBLE_EQ(summary.tracked_share, 0.6);
+  EXPECT_EQ(summary.num_frames_with_motion, 1);
   ASSERT_EQ(summary.not_tracked.size(), 1u);
   EXPECT_EQ(summary.not_tracked[0].first_frame, 2);
   EXPECT_EQ(summary.not_tracked[0].last_frame, 3);
@@ -80,7 +82,8 @@ TEST_F(ResultFilesTest, WritesOneRowPerFrame) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6);
   EXPECT_THAT(csv, testing::StartsWith("time,status,keyframe,"));
   EXPECT_THAT(csv, HasSubstr("\n10.000000,tracked,1,100,0,50,7,0.000,"));
-  EXPECT_THAT(csv, HasSubstr(",0,0,0,0.2,0,0\n"));
+  EXPECT_THAT(csv, HasSubstr(",0,0,0,0.2,0,0,0\n"));
+  EXPECT_THAT(csv, testing::EndsWith(",80\n"));
   const auto commas = [](const std::string& row) {
     return std::count(row.begin(), row.end(), ',');
   };

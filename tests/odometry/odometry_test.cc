@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include <gmock/gmock.h>
+#include <opencv2/imgproc.hpp>
 
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/synthetic/synthetic_sequence.h"
@@ -268,6 +269,43 @@ TEST_F(OdometryTest, DroppedFramesGetThePoseBetweenTheirNeighbours) {
   EXPECT_EQ(result.frames[15].timestamp, (*images_)[15].timestamp);
   EXPECT_LT(ApeRmse(result), 0.006);
   EXPECT_THROW(odometry.Drop(3, (*images_)[3].timestamp), std::invalid_argument);
+}
+
+// A board with a coarse random pattern, 28 % of the image, 1 m away, that goes from left to right
+// in front of the room; at its left edge it first stands still in the image.
+void PaintBoard(int step, int num_steps, RgbdImage* image) {
+  const int width = image->gray.cols, height = image->gray.rows;
+  const int half = static_cast<int>(0.14 * width);
+  const int center = step * width / num_steps;
+  const cv::Rect area(std::max(0, center - half), height / 10,
+                      std::min(width, center + half) - std::max(0, center - half),
+                      height - height / 10);
+  cv::Mat cells(40, 16, CV_8UC1), pattern;
+  cv::RNG(1).fill(cells, cv::RNG::UNIFORM, 0, 256);
+  cv::resize(cells, pattern, cv::Size(2 * half, area.height), 0.0, 0.0, cv::INTER_LINEAR);
+  pattern(cv::Rect(0, 0, area.width, area.height)).copyTo(image->gray(area));
+  image->depth(area) = 1.0f;
+}
+
+TEST_F(OdometryTest, SomethingThatMovesThroughTheImageDoesNotTakeTheCameraAlong) {
+  constexpr int kFirst = 15, kNumSteps = 30;
+  std::vector<RgbdImage> images;
+  for (const RgbdImage& image : *images_) {
+    images.push_back(image);
+    images.back().gray = image.gray.clone();
+    images.back().depth = image.depth.clone();
+    const int step = static_cast<int>(image.id) - kFirst;
+    if (step >= 0 && step < kNumSteps) PaintBoard(step, kNumSteps, &images.back());
+  }
+  OdometryOptions options;
+  const OdometryResult result = Run(options, images);
+  EXPECT_EQ(Count(result, TrackingStatus::kTracked), kNumFrames);
+  EXPECT_LT(ApeRmse(result), 0.006);  // as without a board
+  const auto moving = [&](int i) { return result.frames[i].num_moving; };
+  EXPECT_EQ(moving(kFirst - 5), 0);
+  EXPECT_GT(moving(kFirst + kNumSteps / 2), 50);
+  options.tracking.pose.consensus.enabled = false;
+  EXPECT_GT(ApeRmse(Run(options, images)), 0.03);
 }
 
 TEST_F(OdometryTest, FinishMayBeCalledEarly) {

@@ -132,7 +132,7 @@ TEST_P(PoseProblemTest, AMatchThatBecomesGoodComesBack) {
   // A prediction so far off that many matches fail the test after a first round of one step.
   data.cam_from_world = Moved(Truth(window), {0.03, 0.06, 0.03}, {0.1, -0.05, 0.15});
   PoseOptions options;
-  options.max_frame_noise = 1.0;  // else the test would take such a frame for a noisy one
+  options.max_frame_noise = 1.0;      // else the test would take such a frame for a noisy one
   options.consensus.enabled = false;  // it would find the pose at once
   options.iterations_per_round = 1;
   options.num_rounds = 1;
