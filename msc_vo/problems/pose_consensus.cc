@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 
 #include <Eigen/Cholesky>
 
@@ -59,54 +58,40 @@ class PartGrid {
   double per_pixel_y_;
 };
 
+// The parts that each match is in.
+struct Membership {
+  std::vector<int> of_points;
+  std::vector<std::vector<int>> of_lines;
+};
+
+Membership FindParts(const PartGrid& grid, const PoseData& data) {
+  Membership parts;
+  for (const PoseData::Point& p : data.points) parts.of_points.push_back(grid.PartOf(p.pixel));
+  for (const PoseData::Line& l : data.lines) parts.of_lines.push_back(grid.PartsOf(l.segment));
+  return parts;
+}
+
 // What one part says of a step d from the pose that its equations are for.
 struct Vote {
-  int part = 0;
-  double weight = 0.0;
-  Matrix6 hessian = Matrix6::Zero();
-  Vector6 gradient = Vector6::Zero();
+  double weight = 0.0;       // 1 if all of it is proven
+  double num_matches = 0.0;  // a line in n parts counts 1/n in each
+  double num_proven = 0.0;
+  NormalEquations equations;
   double gain = 0.0;  // of the part's own best step, in squared sigmas
 
+  void Add(const NormalEquations& match, bool is_proven, double share) {
+    equations.hessian += share * match.hessian;
+    equations.gradient += share * match.gradient;
+    num_matches += share;
+    num_proven += is_proven ? share : 0.0;
+  }
   // How many squared sigmas d leaves that the part's own best step would not.
   double Misfit(const Vector6& d) const {
-    return std::max(0.0, d.dot(hessian * d) + 2.0 * gradient.dot(d) + gain);
+    return std::max(0.0, d.dot(equations.hessian * d + 2.0 * equations.gradient) + gain);
   }
 };
 
-using Votes = std::vector<Vote>;
-
-// A match in one of the parts that it is in.
-struct Member {
-  int part;
-  bool is_line;
-  size_t match;
-  int num_parts;  // share their information
-  bool operator<(const Member& other) const {
-    return std::tie(part, is_line, match) < std::tie(other.part, other.is_line, other.match);
-  }
-};
-
-std::vector<Member> MembersOfParts(const PartGrid& grid, const PoseData& data) {
-  std::vector<Member> members;
-  for (size_t i = 0; i < data.points.size(); ++i) {
-    members.push_back({grid.PartOf(data.points[i].pixel), false, i, 1});
-  }
-  for (size_t i = 0; i < data.lines.size(); ++i) {
-    const std::vector<int> parts = grid.PartsOf(data.lines[i].segment);
-    for (const int part : parts) {
-      members.push_back({part, true, i, static_cast<int>(parts.size())});
-    }
-  }
-  std::sort(members.begin(), members.end());
-  return members;
-}
-
-// A line that tells n parts of an image what it tells has n times the variance in each.
-PoseData::Line Shared(PoseData::Line line, int num_parts) {
-  line.sigma *= std::sqrt(num_parts);
-  line.depth.covariance *= num_parts;
-  return line;
-}
+using Votes = std::vector<Vote>;  // by part; one without matches has no weight
 
 // What a step of their own would gain; directions that a part does not see gain nothing.
 double OwnGain(const NormalEquations& equations) {
@@ -116,49 +101,34 @@ double OwnGain(const NormalEquations& equations) {
   return equations.gradient.dot(damped.ldlt().solve(equations.gradient));
 }
 
-// The members from `first` to `last` are those of one part. No vote if none is in front of the
-// camera.
-template <typename Iterator>
-Vote VoteOf(const PoseOptions& options, const PoseData& data, const PoseActivities& active,
-            const Rigid3& pose, Iterator first, Iterator last) {
-  Vote vote;
-  vote.part = first->part;
-  PoseFactors factors;
-  SetLosses(options, &factors);
-  int num_proven = 0;
-  for (Iterator member = first; member != last; ++member) {
-    const size_t i = member->match;
-    if (member->is_line) {
-      AddFactors(options, data.camera, Shared(data.lines[i], member->num_parts), active.lines[i],
-                 pose, &factors);
-      num_proven += data.lines[i].proven;
-    } else {
-      AddFactors(options, data.camera, data.points[i], active.points[i], &factors);
-      num_proven += data.points[i].proven;
+// Outliers vote with the others: they may be those who are right.
+Votes CollectVotes(const PoseOptions& options, const PoseData& data, const Membership& parts,
+                   const Rigid3& pose) {
+  const PoseActivities active = AllInFront(options, data, pose);
+  Votes votes(options.consensus.columns * options.consensus.rows);
+  PoseFactors match;
+  SetLosses(options, &match);
+  NormalEquations equations;
+  for (size_t i = 0; i < data.points.size(); ++i) {
+    match.Clear();
+    AddFactors(options, data.camera, data.points[i], active.points[i], &match);
+    if (match.NumRows() == 0 || !match.Linearize(pose, &equations)) continue;
+    votes[parts.of_points[i]].Add(equations, data.points[i].proven, 1.0);
+  }
+  for (size_t i = 0; i < data.lines.size(); ++i) {
+    match.Clear();
+    AddFactors(options, data.camera, data.lines[i], active.lines[i], pose, &match);
+    if (match.NumRows() == 0 || !match.Linearize(pose, &equations)) continue;
+    const double share = 1.0 / static_cast<double>(parts.of_lines[i].size());
+    for (const int part : parts.of_lines[i]) {
+      votes[part].Add(equations, data.lines[i].proven, share);
     }
   }
-  NormalEquations equations;
-  if (factors.NumRows() == 0 || !factors.Linearize(pose, &equations)) return vote;
-  const double share = num_proven / static_cast<double>(last - first);
-  vote.weight = share + (1.0 - share) * options.consensus.unproven_weight;
-  vote.hessian = equations.hessian;
-  vote.gradient = equations.gradient;
-  vote.gain = OwnGain(equations);
-  return vote;
-}
-
-// Outliers vote with the others: they may be those who are right.
-Votes CollectVotes(const PoseOptions& options, const PoseData& data,
-                   const std::vector<Member>& members, const Rigid3& pose) {
-  const PoseActivities active = AllInFront(options, data, pose);
-  Votes votes;
-  for (auto first = members.begin(); first != members.end();) {
-    const auto last = std::find_if(first, members.end(), [&first](const Member& member) {
-      return member.part != first->part;
-    });
-    const Vote vote = VoteOf(options, data, active, pose, first, last);
-    if (vote.weight > 0.0) votes.push_back(vote);
-    first = last;
+  for (Vote& vote : votes) {
+    if (vote.num_matches == 0.0) continue;
+    const double proven = vote.num_proven / vote.num_matches;
+    vote.weight = proven + (1.0 - proven) * options.consensus.unproven_weight;
+    vote.gain = OwnGain(vote.equations);
   }
   return votes;
 }
@@ -181,10 +151,11 @@ template <typename Weight>
 Vector6 WeightedMinimum(const Votes& votes, const Matrix6& all, const Weight& weight) {
   Matrix6 hessian = 1e-4 * all;
   Vector6 gradient = Vector6::Zero();
-  for (const Vote& vote : votes) {
-    const double w = weight(vote);
-    hessian += w * vote.hessian;
-    gradient += w * vote.gradient;
+  for (size_t part = 0; part < votes.size(); ++part) {
+    const double w = weight(static_cast<int>(part));
+    if (w == 0.0) continue;
+    hessian += w * votes[part].equations.hessian;
+    gradient += w * votes[part].equations.gradient;
   }
   return -hessian.ldlt().solve(gradient);
 }
@@ -208,23 +179,26 @@ constexpr std::array<Region, 10> kRegions{{{0.0, 0.0, 1.0, 1.0},
                                            {1.0 - kThird, 0.0, 1.0, 1.0},
                                            {0.0, 0.0, 1.0, kThird},
                                            {0.0, 1.0 - kThird, 1.0, 1.0}}};
-// Steps of reweighting (Geman and McClure) from each of them.
+// Steps of reweighting (Geman and McClure) from each of them, fewer if one gains less than 1 %.
 constexpr int kReweightings = 5;
+constexpr double kSmallGain = 0.01;
 
 Step FindBestStep(const PartGrid& grid, const Votes& votes, double limit) {
   Step best{Vector6::Zero(), TotalMisfit(votes, Vector6::Zero(), limit)};
   Matrix6 all = Matrix6::Zero();
-  for (const Vote& vote : votes) all += vote.hessian;
+  for (const Vote& vote : votes) all += vote.equations.hessian;
   for (const Region& region : kRegions) {
-    Vector6 d = WeightedMinimum(votes, all, [&](const Vote& vote) {
-      return region.Contains(grid.CenterOf(vote.part)) ? 1.0 : 0.0;
-    });
+    Step step;
+    step.d = WeightedMinimum(
+        votes, all, [&](int part) { return region.Contains(grid.CenterOf(part)) ? 1.0 : 0.0; });
     for (int i = 0; i < kReweightings; ++i) {
-      const double misfit = TotalMisfit(votes, d, limit);
-      if (misfit < best.misfit) best = {d, misfit};
-      d = WeightedMinimum(votes, all, [&](const Vote& vote) {
-        const double w = limit / (limit + vote.Misfit(d));
-        return vote.weight * w * w;
+      const double last = step.misfit;
+      step.misfit = TotalMisfit(votes, step.d, limit);
+      if (step.misfit < best.misfit) best = step;
+      if (i > 0 && step.misfit > (1.0 - kSmallGain) * last) break;
+      step.d = WeightedMinimum(votes, all, [&](int part) {
+        const double w = limit / (limit + votes[part].Misfit(step.d));
+        return votes[part].weight * w * w;
       });
     }
   }
@@ -240,12 +214,8 @@ double WeightAgainst(const Votes& votes, const Vector6& d, double limit) {
 
 PoseConsensus MakeConsensus(const PartGrid& grid, const PoseData& data, const Votes& votes,
                             const Vector6& d, double limit, const Rigid3& cam_from_world) {
-  std::vector<int> against;  // ascending
-  for (const Vote& vote : votes) {
-    if (vote.Misfit(d) > limit) against.push_back(vote.part);
-  }
   const auto moves = [&](const Eigen::Vector2d& pixel) {
-    return std::binary_search(against.begin(), against.end(), grid.PartOf(pixel));
+    return votes[grid.PartOf(pixel)].Misfit(d) > limit;
   };
   PoseConsensus consensus;
   consensus.cam_from_world = cam_from_world;
@@ -265,16 +235,18 @@ std::optional<PoseConsensus> FindConsensus(const PoseOptions& options, const Pos
   const double limit = options.consensus.reject_chi2_6;
   const double min_parts = options.consensus.min_parts;
   const PartGrid grid(options.consensus, data.camera);
-  const std::vector<Member> members = MembersOfParts(grid, data);
-  Votes votes = CollectVotes(options, data, members, pose);
+  const Membership parts = FindParts(grid, data);
+  Votes votes = CollectVotes(options, data, parts, pose);
   // Others cannot have more votes than there are against this one.
   if (WeightAgainst(votes, Vector6::Zero(), limit) <= min_parts) return std::nullopt;
   const double misfit = TotalMisfit(votes, Vector6::Zero(), limit);
   Rigid3 best = pose;
   Step step;
   for (int round = 0; round < kRounds; ++round) {
-    if (round > 0) votes = CollectVotes(options, data, members, best);
+    if (round > 0) votes = CollectVotes(options, data, parts, best);
     step = FindBestStep(grid, votes, limit);
+    // Half of what is asked, as the next equations may show the rest.
+    if (misfit - step.misfit <= 0.5 * min_parts * limit) return std::nullopt;
     const Rigid3 from = best;
     Rigid3Manifold().Plus(from.params.data(), step.d.data(), best.params.data());
   }

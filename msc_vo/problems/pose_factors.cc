@@ -92,6 +92,13 @@ int PoseFactors::NumRows() const {
          line_depth.NumRows();
 }
 
+void PoseFactors::Clear() {
+  point_reprojection.blocks.clear();
+  point_depth.blocks.clear();
+  line_reprojection.blocks.clear();
+  line_depth.blocks.clear();
+}
+
 bool PoseFactors::Linearize(const Rigid3& cam_from_world, NormalEquations* equations) const {
   *equations = NormalEquations();
   if (!(point_reprojection.AddTo(cam_from_world, equations) &&

@@ -54,6 +54,8 @@ struct PoseFactors {
   PoseTerm<LineDepthReprojection> line_depth;
 
   int NumRows() const;
+  // Without factors, but with the losses and the memory that there were.
+  void Clear();
   // False if a point lies behind the camera, or the cost is not finite.
   bool Linearize(const Rigid3& cam_from_world, NormalEquations* equations) const;
   bool Cost(const Rigid3& cam_from_world, double* cost) const;
