@@ -20,7 +20,7 @@ namespace msc_vo {
 // Every keyframe starts where the one before it left the window, and most of the window is solved
 // again at the next one. So the second solve is at its end after one step: another one lowers the
 // cost by 0.03 % in the median of 195 windows, by 0.12 % in nine of ten (docs/solver.md). With one
-// step in the first one as well, a corridor had 3.9 instead of 1.8 mm (docs/results.md).
+// step in the first one as well, a corridor had 3.9 instead of 1.8 mm (docs/experiments.md).
 inline WindowOptions LocalWindowOptions() {
   WindowOptions options;
   options.first_iterations = 2;
