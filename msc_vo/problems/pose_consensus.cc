@@ -29,9 +29,10 @@ class PartGrid {
         per_pixel_y_(options.rows / static_cast<double>(camera.height)) {}
 
   int PartOf(const Eigen::Vector2d& pixel) const {
-    const int column = static_cast<int>(pixel.x() * per_pixel_x_);
-    const int row = static_cast<int>(pixel.y() * per_pixel_y_);
-    return std::clamp(row, 0, rows_ - 1) * columns_ + std::clamp(column, 0, columns_ - 1);
+    // Undistortion moves some pixels out of the image.
+    const double column = std::clamp(pixel.x() * per_pixel_x_, 0.0, columns_ - 1.0);
+    const double row = std::clamp(pixel.y() * per_pixel_y_, 0.0, rows_ - 1.0);
+    return static_cast<int>(row) * columns_ + static_cast<int>(column);
   }
   // Those that a segment runs through, looked up four times per part.
   std::vector<int> PartsOf(const LineSegment2& segment) const {

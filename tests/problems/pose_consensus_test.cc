@@ -146,14 +146,20 @@ TEST(PoseConsensusTest, ARoomThatStandsStillIsLeftAlone) {
   }
 }
 
-// The room has a tenth of the points, in as many parts as the board; but its lines run through
-// more.
+// The room has a tenth of the points, in as many parts as the board. Its lines run through more.
 TEST(PoseConsensusTest, LinesVoteWhereverTheyRun) {
-  BoardScene scene;
-  scene.num_room = 25;
-  scene.right = 180.0;
-  EXPECT_LT(ErrorOf(scene, PoseOptions()), 0.01);
-  EXPECT_GT(ErrorOf(scene, WithoutConsensus()), 0.02);
+  int num_captured = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    BoardScene scene;
+    scene.seed = seed;
+    scene.num_room = 25;
+    scene.right = 180.0;
+    scene.board_motion = {0.08, 0.0, 0.0};
+    EXPECT_LT(ErrorOf(scene, PoseOptions()), 0.01) << seed;  // measured: 0.6 to 2 mm
+    scene.num_lines = 3;
+    num_captured += ErrorOf(scene, PoseOptions()) > 0.02 ? 1 : 0;
+  }
+  EXPECT_GE(num_captured, 4);  // without them; measured: 5 of 6
 }
 
 // Half of the image each.
