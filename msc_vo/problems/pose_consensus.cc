@@ -238,7 +238,7 @@ std::optional<PoseConsensus> FindConsensus(const PoseOptions& options, const Pos
   const PartGrid grid(options.consensus, data.camera);
   const Membership parts = FindParts(grid, data);
   Votes votes = CollectVotes(options, data, parts, pose);
-  // Others cannot have more votes than there are against this one.
+  // Not worth a search where no more parts disagree than another pose must win.
   if (WeightAgainst(votes, Vector6::Zero(), limit) <= min_parts) return std::nullopt;
   const double misfit = TotalMisfit(votes, Vector6::Zero(), limit);
   Rigid3 best = pose;

@@ -3,10 +3,9 @@
 
 #include "msc_vo/problems/pose_problem.h"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -66,18 +65,25 @@ bool SolveRounds(const PoseOptions& options, const PoseData& data, PoseActivitie
                    pose);
 }
 
-// Solves once more without what moves by itself, if anything does.
-bool LeaveOutWhatMoves(const PoseOptions& options, PoseData* data, PoseActivities* active,
+// Solves once more without what moves by itself, if anything does. Leaves all as it is if what then
+// remains fixes no pose.
+void LeaveOutWhatMoves(const PoseOptions& options, PoseData* data, PoseActivities* active,
                        Rigid3* pose) {
   const std::optional<PoseConsensus> consensus = FindConsensus(options, *data, *pose);
-  if (!consensus) return true;
-  for (size_t i = 0; i < data->points.size(); ++i) {
-    data->points[i].moves = consensus->moving_points[i];
+  if (!consensus) return;
+  PoseData resting = *data;
+  for (size_t i = 0; i < resting.points.size(); ++i) {
+    resting.points[i].moves = consensus->moving_points[i];
   }
-  for (size_t i = 0; i < data->lines.size(); ++i) data->lines[i].moves = consensus->moving_lines[i];
-  *pose = consensus->cam_from_world;
-  *active = ClassifyMatches(options, *data, *pose);
-  return SolveRounds(options, *data, active, pose);
+  for (size_t i = 0; i < resting.lines.size(); ++i) {
+    resting.lines[i].moves = consensus->moving_lines[i];
+  }
+  Rigid3 next = consensus->cam_from_world;
+  PoseActivities kept = ClassifyMatches(options, resting, next);
+  if (!SolveRounds(options, resting, &kept, &next)) return;
+  *data = std::move(resting);
+  *active = std::move(kept);
+  *pose = next;
 }
 
 // Inverse of J^T J, or nothing if it has none in a numerically sound way. Judged with its diagonal
@@ -145,10 +151,8 @@ PoseSummary SolvePose(const PoseOptions& options, PoseData* data) {
   PoseActivities active = AllInFront(options, *data, pose);
   for (PoseData::Point& point : data->points) point.moves = false;
   for (PoseData::Line& line : data->lines) line.moves = false;
-  bool solved = SolveRounds(options, *data, &active, &pose);
-  if (solved && options.consensus.enabled) {
-    solved = LeaveOutWhatMoves(options, data, &active, &pose);
-  }
+  const bool solved = SolveRounds(options, *data, &active, &pose);
+  if (solved && options.consensus.enabled) LeaveOutWhatMoves(options, data, &active, &pose);
 
   PoseSummary summary;
   WriteFlags(active, data, &summary);
