@@ -48,8 +48,8 @@ struct PoseData {
 // Of pose_consensus.h: whether most of the image agrees on the pose.
 struct ConsensusOptions {
   bool enabled = true;
-  // Of parts, 53 pixels wide and high at 640x480. Nine sequences with something that moves,
-  // geometric means: 8 x 6 13 mm, 12 x 9 11, 16 x 12 21.
+  // Of parts, 53 pixels wide and high at 640x480. Nine sequences with something that moves, in a
+  // first form with limits of 30, 20 and 15: 8 x 6 13 mm, 12 x 9 11, 16 x 12 23.
   int columns = 12;
   int rows = 9;
   // Beyond this many squared sigmas a part disagrees: the 99.9 % quantile of six rows, as a step of
@@ -60,7 +60,7 @@ struct ConsensusOptions {
   // mm with 0.5, 1.64 with 0.3 and 1.55 with 0.1.
   double unproven_weight = 0.1;
   // Parts by which another pose must be better. With two, four of six corridors in which nothing
-  // moves changed, with three none; with four fr1_rpy was lost behind something that moves.
+  // moves changed, with three one, with four none.
   double min_parts = 3.0;
 
   bool IsValid(std::string* error) const;

@@ -32,7 +32,8 @@ struct TrackerOptions {
   // A pose stands on at least this many matched features, points and lines together: with 10, a
   // wrong consensus among random matches is out of the question (six are needed to fix a pose).
   int min_matches = 10;
-  // ... and on at least this share of all that were matched; the wrong ones scatter.
+  // ... and on at least this share of all that were matched, but for what moves by itself; the
+  // wrong ones scatter.
   double min_inlier_ratio = 0.3;
   // Standard deviations of a pose above which a frame counts as weak: what one frame may add to
   // the error of a trajectory that is to be good to a few centimetres and a degree.
