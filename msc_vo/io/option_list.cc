@@ -374,8 +374,10 @@ std::vector<Option> ListOptions(Configuration* configuration) {
   list.Section("features", &odometry.features, ListFeatures);
   list.Section("normals", &odometry.normals, ListNormals);
   list.Section("tracking", &odometry.tracking, ListTracking);
+  list.Add("mapping.insertion_latency_frames", &odometry.snapshots.insertion_latency_frames,
+           "frames from a keyframe to the first that sees its new landmarks");
   list.Add("mapping.latency_frames", &odometry.snapshots.latency_frames,
-           "frames from a keyframe to the first that sees the map with it");
+           "frames from a keyframe to the first that sees the map refined with it");
   list.Section("mapping", &odometry.mapping, ListMapping);
   return list.Take();
 }

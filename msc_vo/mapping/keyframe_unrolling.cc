@@ -18,6 +18,23 @@ namespace {
 // sigma of a point.
 constexpr double kMaxDifference = 0.001;
 
+void PlaceLandmarks(KeyframeId id, Map* map) {
+  const Keyframe keyframe = *map->FindKeyframe(id);
+  const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
+  for (size_t i = 0; i < keyframe.points.size(); ++i) {
+    const int feature = static_cast<int>(i);
+    if (keyframe.points[i] == kNoId || !keyframe.frame->points[i].HasDepth()) continue;
+    if (map->FindPoint(keyframe.points[i])->observations.size() > 1) continue;
+    map->SetPoint(keyframe.points[i], world_from_cam * keyframe.frame->PointInCamera(feature));
+  }
+  for (size_t i = 0; i < keyframe.lines.size(); ++i) {
+    const int feature = static_cast<int>(i);
+    if (keyframe.lines[i] == kNoId || !keyframe.frame->lines[i].depth) continue;
+    if (map->FindLine(keyframe.lines[i])->observations.size() > 1) continue;
+    map->SetLine(keyframe.lines[i], world_from_cam * keyframe.frame->LineInCamera(feature));
+  }
+}
+
 }  // namespace
 
 void SetVelocity(KeyframeId keyframe, const CameraVelocity& velocity, Map* map) {
@@ -27,15 +44,23 @@ void SetVelocity(KeyframeId keyframe, const CameraVelocity& velocity, Map* map) 
                 std::make_shared<Frame>(Unroll(*old->frame, velocity, old->frame->readout_time)));
 }
 
+std::shared_ptr<const Frame> Unrolled(std::shared_ptr<const Frame> frame, double readout_time) {
+  if (!frame->velocity || std::abs(frame->readout_time - readout_time) < kMaxDifference) {
+    return frame;
+  }
+  return std::make_shared<Frame>(Unroll(*frame, *frame->velocity, readout_time));
+}
+
 void UnrollKeyframes(double readout_time, Map* map) {
   std::vector<std::pair<KeyframeId, std::shared_ptr<const Frame>>> unrolled;
   for (const auto& [id, keyframe] : map->keyframes()) {
-    const Frame& frame = *keyframe.frame;
-    if (!frame.velocity || std::abs(frame.readout_time - readout_time) < kMaxDifference) continue;
-    unrolled.emplace_back(id,
-                          std::make_shared<Frame>(Unroll(frame, *frame.velocity, readout_time)));
+    std::shared_ptr<const Frame> frame = Unrolled(keyframe.frame, readout_time);
+    if (frame != keyframe.frame) unrolled.emplace_back(id, std::move(frame));
   }
-  for (auto& [id, frame] : unrolled) map->SetFrame(id, std::move(frame));
+  for (auto& [id, frame] : unrolled) {
+    map->SetFrame(id, std::move(frame));
+    PlaceLandmarks(id, map);
+  }
 }
 
 }  // namespace msc_vo

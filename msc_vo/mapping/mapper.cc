@@ -23,16 +23,16 @@ Mapper::Mapper(const MapperOptions& options)
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
 }
 
-MappingSummary Mapper::Process(const KeyframePacket& packet) {
+MappingSummary Mapper::Insert(const KeyframePacket& packet) {
   MappingSummary summary;
   Stopwatch stopwatch;
   if (packet.last_velocity) SetVelocity(newest_keyframe_, *packet.last_velocity, &map_);
-  std::shared_ptr<const Frame> frame = packet.frame;
+  readout_time_ = readout_.readout_time();
+  UnrollKeyframes(readout_time_, &map_);
+  std::shared_ptr<const Frame> frame = Unrolled(packet.frame, readout_time_);
   if (options_.RefinesFrames()) frame = RefineStructure(options_.structure, noise_.scale(), frame);
   summary.times.structure = stopwatch.Restart();
   summary.keyframe = InsertKeyframe(packet, std::move(frame));
-  readout_time_ = readout_.readout_time();
-  UnrollKeyframes(readout_time_, &map_);
   CullLandmarks(options_.culling, summary.keyframe, &probation_, &map_);
   CreatePoints(summary.keyframe, &probation_, &map_);
   CreateLines(summary.keyframe, &probation_, &map_);
@@ -40,13 +40,23 @@ MappingSummary Mapper::Process(const KeyframePacket& packet) {
   FusePoints(options_.fusion, summary.keyframe, &map_);
   FuseLines(options_.fusion, summary.keyframe, &map_);
   summary.times.fusion = stopwatch.Restart();
-  axes_.Update(map_, summary.keyframe, packet.normals);
-  summary.times.axes = stopwatch.Restart();
-  summary.window = OptimizeWindow(summary.keyframe);
-  readout_.Update(map_, summary.keyframe);
-  summary.times.window = stopwatch.Restart();
-  summary.num_culled_keyframes = CullKeyframes(options_.culling, summary.keyframe, &map_);
-  summary.times.culling = stopwatch.Restart();
+  return summary;
+}
+
+void Mapper::Refine(const KeyframePacket& packet, MappingSummary* summary) {
+  Stopwatch stopwatch;
+  axes_.Update(map_, summary->keyframe, packet.normals);
+  summary->times.axes = stopwatch.Restart();
+  summary->window = OptimizeWindow(summary->keyframe);
+  readout_.Update(map_, summary->keyframe);
+  summary->times.window = stopwatch.Restart();
+  summary->num_culled_keyframes = CullKeyframes(options_.culling, summary->keyframe, &map_);
+  summary->times.culling = stopwatch.Restart();
+}
+
+MappingSummary Mapper::Process(const KeyframePacket& packet) {
+  MappingSummary summary = Insert(packet);
+  Refine(packet, &summary);
   return summary;
 }
 

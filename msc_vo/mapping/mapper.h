@@ -24,7 +24,7 @@ struct MappingTimes {
   double culling = 0.0;  // of keyframes
 };
 
-// What one keyframe step did.
+// What was done with one keyframe.
 struct MappingSummary {
   KeyframeId keyframe = kNoId;
   int num_culled_keyframes = 0;
@@ -32,7 +32,7 @@ struct MappingSummary {
   MappingTimes times;
 };
 
-// Owns the map and alone changes it: one call per keyframe (paper: Local Mapping).
+// Owns the map and alone changes it (paper: Local Mapping).
 class Mapper {
  public:
   // Throws std::invalid_argument on options that are not valid.
@@ -40,8 +40,13 @@ class Mapper {
 
   void SetWindowObserver(WindowObserver observer) { window_observer_ = std::move(observer); }
 
-  // Takes a keyframe into the map: observations, new landmarks, fusion, window optimisation,
-  // culling.
+  // A keyframe is worked on in two steps. Insert() takes it into the map: observations, new
+  // landmarks, fusion. Frames can be tracked against them from then on. Refine(), with the same
+  // packet and what Insert() returned, makes all agree: axes, window optimisation, culling of
+  // keyframes. It takes several times as long.
+  MappingSummary Insert(const KeyframePacket& packet);
+  void Refine(const KeyframePacket& packet, MappingSummary* summary);
+  // Both.
   MappingSummary Process(const KeyframePacket& packet);
 
   // The map as the last step left it.

@@ -22,8 +22,8 @@ struct StageTimes {
   double pose = 0.0;
   double waiting = 0.0;   // for the map that the frame must see
   double tracking = 0.0;  // everything from the decoded images to the pose
-  // Of the keyframe step that this frame caused, snapshot included; 0 for other frames and, as it
-  // goes on behind Process(), until its map has been seen.
+  // Of what the mapper did with this frame, snapshots included; 0 for frames that are no keyframes
+  // and, as it goes on behind Process(), until the maps have been seen.
   double mapping = 0.0;
   MappingTimes mapping_stages;
   double snapshot = 0.0;

@@ -5,6 +5,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -16,20 +17,35 @@ namespace msc_vo {
 
 namespace {
 
-MappingStep RunStep(const KeyframePacket& packet, Mapper* mapper) {
-  MappingStep step;
+using MappingCall = std::function<void(MappingSummary*)>;
+
+// What a call of the mapper adds to the step before.
+MappingStep RunStep(const MappingCall& call, Mapper* mapper, MappingStep step) {
   const Stopwatch stopwatch;
+  const double milliseconds_before = step.milliseconds;
   try {
-    step.summary = mapper->Process(packet);
+    call(&step.summary);
     const Stopwatch snapshot;
     step.snapshot = mapper->Snapshot();
-    step.snapshot_ms = snapshot.Milliseconds();
+    step.snapshot_ms += snapshot.Milliseconds();
   } catch (...) {
     step = {};
     step.error = std::current_exception();
   }
-  step.milliseconds = stopwatch.Milliseconds();
+  step.milliseconds = milliseconds_before + stopwatch.Milliseconds();
   return step;
+}
+
+// Delivers the two steps of a keyframe as they are done. Where the first one fails there is nothing
+// to refine.
+void RunKeyframe(const KeyframePacket& packet, Mapper* mapper,
+                 const std::function<void(MappingStep)>& deliver) {
+  const MappingStep inserted = RunStep(
+      [&](MappingSummary* summary) { *summary = mapper->Insert(packet); }, mapper, MappingStep());
+  deliver(inserted);
+  if (inserted.error) return deliver(MappingStep());
+  deliver(
+      RunStep([&](MappingSummary* summary) { mapper->Refine(packet, summary); }, mapper, inserted));
 }
 
 MappingStep PopFront(std::deque<MappingStep>* steps) {
@@ -46,7 +62,9 @@ class InlineRunner : public MappingRunner {
  public:
   explicit InlineRunner(Mapper* mapper) : mapper_(mapper) {}
 
-  void Submit(KeyframePacket packet) override { done_.push_back(RunStep(packet, mapper_)); }
+  void Submit(KeyframePacket packet) override {
+    RunKeyframe(packet, mapper_, [this](MappingStep step) { done_.push_back(std::move(step)); });
+  }
   MappingStep Take() override {
     if (done_.empty()) ThrowNothingUnderWay();
     return PopFront(&done_);
@@ -79,7 +97,7 @@ class ThreadedRunner : public MappingRunner {
       std::unique_lock<std::mutex> lock(mutex_);
       changed_.wait(lock, [this] { return waiting_.size() < kMaxWaiting; });
       waiting_.push_back(std::move(packet));
-      ++num_under_way_;
+      num_under_way_ += 2;
     }
     changed_.notify_all();
   }
@@ -109,11 +127,17 @@ class ThreadedRunner : public MappingRunner {
       waiting_.pop_front();
       lock.unlock();
       changed_.notify_all();  // there is room
-      MappingStep step = RunStep(packet, mapper_);
+      RunKeyframe(packet, mapper_, [this](MappingStep step) { Deliver(std::move(step)); });
       lock.lock();
-      done_.push_back(std::move(step));
-      changed_.notify_all();
     }
+  }
+
+  void Deliver(MappingStep step) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      done_.push_back(std::move(step));
+    }
+    changed_.notify_all();
   }
 
   Mapper* mapper_;
@@ -121,7 +145,7 @@ class ThreadedRunner : public MappingRunner {
   std::condition_variable changed_;
   std::deque<KeyframePacket> waiting_;
   std::deque<MappingStep> done_;
-  int num_under_way_ = 0;  // submitted and not taken
+  int num_under_way_ = 0;  // steps of keyframes that were submitted, not taken
   bool stopping_ = false;
   std::thread thread_;  // last: it uses the members above
 };

@@ -11,20 +11,21 @@
 
 namespace msc_vo {
 
-// What became of one keyframe.
+// What became of one keyframe so far. There are two steps to it, as to the mapper's work on it: the
+// map that it has been inserted into, then the map refined with it.
 struct MappingStep {
   MappingSummary summary;
-  MapSnapshotPtr snapshot;    // the map behind the step; null if it failed
-  double snapshot_ms = 0.0;   // milliseconds that the snapshot took
-  double milliseconds = 0.0;  // the whole step, the snapshot included
-  std::exception_ptr error;   // what it threw, if it failed
+  MapSnapshotPtr snapshot;    // the map behind the step; null if it or the one before failed
+  double snapshot_ms = 0.0;   // milliseconds that snapshots took
+  double milliseconds = 0.0;  // all since the keyframe's first step began
+  std::exception_ptr error;   // what the step threw, if it failed
 };
 
 // Takes keyframes to the mapper, either at once or on a thread of its own; the calls and their
 // results are the same. For one caller at a time.
 //
 // Steps run one after the other in the order of their keyframes. One that throws does not keep the
-// next ones from running.
+// next keyframes from being worked on.
 class MappingRunner {
  public:
   // Discards the keyframes that wait, and ends behind the step that runs.
@@ -33,7 +34,7 @@ class MappingRunner {
   // Hands a keyframe over. Waits if kMaxWaiting others wait already.
   virtual void Submit(KeyframePacket packet) = 0;
 
-  // The oldest step that was not taken yet: one for each keyframe. Waits for it. Throws
+  // The oldest step that was not taken yet: two for each keyframe. Waits for it. Throws
   // std::logic_error if no keyframe is under way.
   virtual MappingStep Take() = 0;
   // The same if it is ready.
@@ -43,7 +44,7 @@ class MappingRunner {
   static constexpr int kMaxWaiting = 2;
 };
 
-// The mapper must outlive the runner. While a keyframe is under way (submitted, and its step not
+// The mapper must outlive the runner. While a keyframe is under way (submitted, and its steps not
 // taken) nobody else may use it.
 std::unique_ptr<MappingRunner> MakeInlineRunner(Mapper* mapper);
 std::unique_ptr<MappingRunner> MakeThreadedRunner(Mapper* mapper);

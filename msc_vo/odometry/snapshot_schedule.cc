@@ -3,13 +3,17 @@
 
 #include "msc_vo/odometry/snapshot_schedule.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace msc_vo {
 
 bool SnapshotOptions::IsValid(std::string* error) const {
-  if (latency_frames >= 0) return true;
-  *error = "options: mapping.latency_frames must not be negative";
+  const char* negative = insertion_latency_frames < 0 ? "insertion_latency_frames"
+                         : latency_frames < 0         ? "latency_frames"
+                                                      : nullptr;
+  if (negative == nullptr) return true;
+  *error = std::string("options: mapping.") + negative + " must not be negative";
   return false;
 }
 
@@ -23,19 +27,21 @@ SnapshotSchedule::SnapshotSchedule(const SnapshotOptions& options,
 
 void SnapshotSchedule::Submit(int frame, KeyframePacket packet) {
   runner_->Submit(std::move(packet));
-  unseen_.push_back({frame, std::nullopt});
+  const int latency = options_.latency_frames;
+  unseen_.push_back({frame, frame + std::min(options_.insertion_latency_frames, latency)});
+  unseen_.push_back({frame, frame + latency});
 }
 
 MapSnapshotPtr SnapshotSchedule::SnapshotAt(int frame) {
-  while (!unseen_.empty() && IsDue(unseen_.front(), frame)) {
-    Keyframe& keyframe = unseen_.front();
-    if (!keyframe.step) Receive(Waits() ? runner_->Take() : runner_->TryTake(), &keyframe);
-    if (!keyframe.step) {
-      num_late_ += keyframe.late ? 0 : 1;
-      keyframe.late = true;
+  while (IsAnyDue(frame)) {
+    Unseen& next = unseen_.front();
+    if (!next.step) Receive(Waits() ? runner_->Take() : runner_->TryTake(), &next);
+    if (!next.step) {
+      num_late_ += next.late ? 0 : 1;
+      next.late = true;
       break;
     }
-    const MappingStep step = std::move(*keyframe.step);
+    const MappingStep step = std::move(*next.step);
     unseen_.pop_front();
     if (step.error) std::rethrow_exception(step.error);
     if (step.snapshot) snapshot_ = step.snapshot;
@@ -45,17 +51,20 @@ MapSnapshotPtr SnapshotSchedule::SnapshotAt(int frame) {
 
 void SnapshotSchedule::Drain() {
   std::exception_ptr error;
-  for (Keyframe& keyframe : unseen_) {
-    if (!keyframe.step) Receive(runner_->Take(), &keyframe);
-    if (!error) error = keyframe.step->error;
-    keyframe.step->error = nullptr;
+  for (Unseen& unseen : unseen_) {
+    if (!unseen.step) Receive(runner_->Take(), &unseen);
+    if (!error) error = unseen.step->error;
+    unseen.step->error = nullptr;
   }
   if (error) std::rethrow_exception(error);
 }
 
-// Whether the frame should see the map of this keyframe.
-bool SnapshotSchedule::IsDue(const Keyframe& keyframe, int frame) const {
-  return snapshot_->map.keyframes().empty() || keyframe.frame + options_.latency_frames <= frame;
+// Whether the frame should see one of the maps. It then sees those before it as well: the map that
+// a keyframe is inserted into has been refined with the one before.
+bool SnapshotSchedule::IsAnyDue(int frame) const {
+  if (snapshot_->map.keyframes().empty()) return !unseen_.empty();
+  return std::any_of(unseen_.begin(), unseen_.end(),
+                     [frame](const Unseen& unseen) { return unseen.due <= frame; });
 }
 
 // Whether a map that is due is waited for. The first always is.
@@ -63,9 +72,9 @@ bool SnapshotSchedule::Waits() const {
   return !options_.realtime || snapshot_->map.keyframes().empty();
 }
 
-void SnapshotSchedule::Receive(std::optional<MappingStep> step, Keyframe* keyframe) {
-  if (step && !step->error) record_(keyframe->frame, *step);
-  keyframe->step = std::move(step);
+void SnapshotSchedule::Receive(std::optional<MappingStep> step, Unseen* unseen) {
+  if (step && step->snapshot) record_(unseen->keyframe, *step);
+  unseen->step = std::move(step);
 }
 
 }  // namespace msc_vo

@@ -14,14 +14,16 @@
 namespace msc_vo {
 
 struct SnapshotOptions {
-  // The map that a keyframe leaves is seen from the frame so many behind it on, and not earlier
-  // even if it is ready. So every frame sees the same map however fast the mapper is, which makes
-  // the trajectory the same at any number of threads. 0: the keyframe itself waits for it; 1: the
-  // same poses, but the features of the next frame are extracted meanwhile; above, frames are
-  // tracked beside the mapper. From a camera, frames never wait with 2, as the mapper needs less
-  // than two thirtieths of a second; the older the map, the less exact the poses
-  // (docs/performance.md).
-  int latency_frames = 2;
+  // A map is seen from the frame so many behind its keyframe on, and not earlier even if it is
+  // ready. So every frame sees the same map however fast the mapper is, which makes the trajectory
+  // the same at any number of threads. 0: the keyframe itself waits for it; 1: the same poses, but
+  // the features of the next frame are extracted meanwhile; above, frames are tracked beside the
+  // mapper. The first is for the map that the keyframe has been inserted into: what tracking needs
+  // where the camera moves on, and quickly there. The second is for the map refined with it, which
+  // takes the mapper longer than a frame takes the tracker; between 2 and 4 poses are equally exact
+  // (docs/performance.md). The first counts no more than the second.
+  int insertion_latency_frames = 1;
+  int latency_frames = 4;
   // Nothing waits, as nothing can with a camera: a map that is not ready for the frame that should
   // see it is seen by the first one that finds it ready. A run repeats as long as no map is late.
   bool realtime = false;
@@ -33,8 +35,8 @@ struct SnapshotOptions {
 // is always waited for, as there is nothing to track against without it.
 class SnapshotSchedule {
  public:
-  // Is told of every step that did not fail, in order, as soon as the schedule knows: `frame` is
-  // the keyframe as Submit() was told.
+  // Is told of every step that left a map, in order, as soon as the schedule knows: `frame` is the
+  // keyframe as Submit() was told.
   using Recorder = std::function<void(int frame, const MappingStep& step)>;
 
   // The mapper, which must outlive the schedule, belongs to it until Drain().
@@ -56,21 +58,23 @@ class SnapshotSchedule {
   int num_late() const { return num_late_; }
 
  private:
-  struct Keyframe {
-    int frame = 0;
-    std::optional<MappingStep> step;  // once it was taken from the runner
+  // A step that no frame has seen the map of yet.
+  struct Unseen {
+    int keyframe = 0;                                // its frame
+    int due = 0;                                     // the first frame that should see it
+    std::optional<MappingStep> step = std::nullopt;  // once it was taken from the runner
     bool late = false;
   };
 
-  bool IsDue(const Keyframe& keyframe, int frame) const;
+  bool IsAnyDue(int frame) const;
   bool Waits() const;
-  void Receive(std::optional<MappingStep> step, Keyframe* keyframe);
+  void Receive(std::optional<MappingStep> step, Unseen* unseen);
 
   SnapshotOptions options_;
   std::unique_ptr<MappingRunner> runner_;
   MapSnapshotPtr snapshot_;
   Recorder record_;
-  std::deque<Keyframe> unseen_;  // keyframes whose map no frame sees yet
+  std::deque<Unseen> unseen_;  // in the order of the mapper
   int num_late_ = 0;
 };
 

@@ -89,7 +89,7 @@ TEST_F(OptionsFileTest, NoFieldOfTheOptionsIsForgotten) {
   EXPECT_EQ(NumListed("tracking.pose.line_depth."), NumFields<TermOptions>());
   EXPECT_EQ(NumListed("tracking.keyframes."), NumFields<KeyframePolicyOptions>());
   EXPECT_EQ(NumListed("tracking.relocalizer."), NumFields<RelocalizerOptions>());
-  EXPECT_EQ(NumListed("mapping."), NumFields<MapperOptions>() + 1);  // latency_frames
+  EXPECT_EQ(NumListed("mapping."), NumFields<MapperOptions>() + 2);  // two latencies
   EXPECT_EQ(NumListed("mapping.fusion."), NumFields<FusionOptions>());
   EXPECT_EQ(NumListed("mapping.selection."), NumFields<WindowSelectionOptions>());
   EXPECT_EQ(NumListed("mapping.window."), NumFields<WindowOptions>());

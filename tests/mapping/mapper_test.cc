@@ -98,6 +98,31 @@ TEST(Mapper, UnrollsTheKeyframeWhoseVelocityThePacketTells) {
   EXPECT_FALSE(mapper.map().FindKeyframe(2)->frame->velocity.has_value());
 }
 
+TEST(Mapper, LandmarksOfTheFirstKeyframeMoveWithItsRowsBeforeAnyWindow) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  std::mt19937 random(1);
+  MapperOptions options;
+  options.readout_time = 0.026;
+  Mapper mapper{options};
+  mapper.Process(Packet(&world, 0, &random));
+  const std::shared_ptr<const Frame> rolled = mapper.map().FindKeyframe(0)->frame;
+  KeyframePacket packet = Packet(&world, 10, &random);
+  packet.last_velocity = CameraVelocity{{0.5, 0.0, 0.0}, {0.0, 0.1, 0.0}};
+  mapper.Insert(packet);
+  const Keyframe& first = *mapper.map().FindKeyframe(0);
+  double largest_move = 0.0;
+  for (size_t i = 0; i < first.points.size(); ++i) {
+    const int feature = static_cast<int>(i);
+    const PointLandmark* point = mapper.map().FindPoint(first.points[i]);
+    if (point == nullptr) continue;
+    EXPECT_EQ(point->position, first.frame->PointInCamera(feature)) << i;
+    largest_move =
+        std::max(largest_move, (point->position - rolled->PointInCamera(feature)).norm());
+  }
+  // At 0.5 radians per second, half of 26 ms is 6.5 mm per metre of depth.
+  EXPECT_GT(largest_move, 0.006);
+}
+
 TEST(Mapper, SnapshotsDoNotChange) {
   SyntheticFrames world{SyntheticFrames::Options()};
   std::mt19937 random(1);

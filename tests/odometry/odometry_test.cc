@@ -190,7 +190,7 @@ TEST_F(OdometryTest, AnErrorOfTheMapperIsThrownAndTheRunGoesOn) {
 
 TEST_F(OdometryTest, FinishThrowsAnErrorThatNoFrameHeardOfAndThenGivesTheResult) {
   OdometryOptions options;
-  options.snapshots.latency_frames = 1000;
+  options.snapshots.insertion_latency_frames = options.snapshots.latency_frames = 1000;
   Odometry odometry(options, camera_, LensDistortion());
   odometry.SetWindowObserver([](KeyframeId, const WindowOptions&, const WindowData&) {
     throw std::runtime_error("disk full");
@@ -241,7 +241,8 @@ TEST_F(OdometryTest, ARollingShutterThatIsKnownIsAsGoodAsAGlobalOne) {
 
 TEST_F(OdometryTest, BlackFramesAreSaidAndBridged) {
   std::vector<RgbdImage> images = *images_;
-  for (const int i : {0, 1, 25, 26, 27, 28}) images[i].gray = cv::Mat::zeros(240, 320, CV_8UC1);
+  for (const int i : {0, 1, 25, 26, 27, 28})
+    images[i].gray = cv::Mat(240, 320, CV_8UC1, cv::Scalar(0));
   const OdometryResult result = Run(OdometryOptions(), images);
   EXPECT_EQ(result.frames[0].status, TrackingStatus::kLost);
   EXPECT_EQ(result.frames[1].status, TrackingStatus::kLost);
