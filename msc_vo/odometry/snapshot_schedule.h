@@ -18,12 +18,13 @@ struct SnapshotOptions {
   // ready. So every frame sees the same map however fast the mapper is, which makes the trajectory
   // the same at any number of threads. 0: the keyframe itself waits for it; 1: the same poses, but
   // the features of the next frame are extracted meanwhile; above, frames are tracked beside the
-  // mapper. The first is for the map that the keyframe has been inserted into: what tracking needs
-  // where the camera moves on, and quickly there. The second is for the map refined with it, which
-  // takes the mapper longer than a frame takes the tracker; between 2 and 4 poses are equally exact
-  // (docs/performance.md). The first counts no more than the second.
+  // mapper. The first is for the map that the keyframe has been inserted into, which is soon ready
+  // and holds what tracking needs where the camera goes on: with 2 instead of 1, errors are 10 %
+  // larger. The second is for the map refined with the keyframe, which takes the mapper longer than
+  // the tracker takes for a frame: between 2 and 4 they are the same (docs/performance.md). The
+  // first counts no more than the second.
   int insertion_latency_frames = 1;
-  int latency_frames = 4;
+  int latency_frames = 3;
   // Nothing waits, as nothing can with a camera: a map that is not ready for the frame that should
   // see it is seen by the first one that finds it ready. A run repeats as long as no map is late.
   bool realtime = false;

@@ -224,19 +224,19 @@ TEST_F(OdometryTest, DepthOfAnotherTimeIsMovedToTheColourImages) {
 TEST_F(OdometryTest, ARollingShutterThatIsKnownIsAsGoodAsAGlobalOne) {
   SyntheticSequenceOptions scene = SceneOptions();
   scene.path.speed = 1.0;
-  scene.path.turn_rate = 2.0;
+  scene.path.turn_rate = 2.5;
   const std::vector<TimedPose> truth = TruthOf(SyntheticSequence(scene));
   const double global = ApeRmse(Run(OdometryOptions(), Render(scene)), truth);
   scene.readout_time = 0.03;
   const std::vector<RgbdImage> images = Render(scene);
   OdometryOptions options;
   options.mapping.readout_time = 0.0;
-  EXPECT_GT(ApeRmse(Run(options, images), truth), 1.4 * global);  // measured: 1.67
+  EXPECT_GT(ApeRmse(Run(options, images), truth), 1.4 * global);  // measured: 2.46
   options.mapping.readout_time = scene.readout_time;
   const OdometryResult known = Run(options, images);
   EXPECT_EQ(Count(known, TrackingStatus::kTracked), kNumFrames);
   EXPECT_EQ(known.readout_time, scene.readout_time);
-  EXPECT_LT(ApeRmse(known, truth), 1.2 * global);  // measured: 0.86
+  EXPECT_LT(ApeRmse(known, truth), 1.2 * global);  // measured: 0.87
 }
 
 TEST_F(OdometryTest, BlackFramesAreSaidAndBridged) {
