@@ -73,9 +73,9 @@ TEST_F(OptionsFileTest, TheDefaultsAreValidAndEveryOptionHasItsOwnNameAndHelp) {
 }
 
 TEST_F(OptionsFileTest, NoFieldOfTheOptionsIsForgotten) {
-  // And the camera. The two snapshot options stand where users look for them.
+  // And the camera. The three snapshot options stand where users look for them.
   EXPECT_EQ(NumListed(""), NumFields<OdometryOptions>() + 1);
-  EXPECT_EQ(NumFields<SnapshotOptions>(), 2);
+  EXPECT_EQ(NumFields<SnapshotOptions>(), 3);
   EXPECT_EQ(NumListed("features."), NumFields<FrameBuilderOptions>());
   EXPECT_EQ(NumListed("features.points."), NumFields<PointExtractorOptions>());
   EXPECT_EQ(NumListed("features.lines."), NumFields<LineExtractorOptions>());
