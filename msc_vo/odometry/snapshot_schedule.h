@@ -19,10 +19,10 @@ struct SnapshotOptions {
   // the same at any number of threads. 0: the keyframe itself waits for it; 1: the same poses, but
   // the features of the next frame are extracted meanwhile; above, frames are tracked beside the
   // mapper. The first is for the map that the keyframe has been inserted into, which is soon ready
-  // and holds what tracking needs where the camera goes on: with 2 instead of 1, errors are 4 to 14
-  // % larger. The second is for the map refined with the keyframe, which takes the mapper longer
-  // than the tracker takes for a frame: between 2 and 4 they are the same (docs/performance.md).
-  // The first counts no more than the second.
+  // and holds what tracking needs where the camera goes on: with 2 instead of 1, errors were larger
+  // by 4 and 14 %. The second is for the map refined with the keyframe, which takes the mapper
+  // longer than the tracker takes for a frame: between 1 and 4 nothing is to be told apart
+  // (docs/performance.md). The first counts no more than the second.
   int insertion_latency_frames = 1;
   int latency_frames = 3;
   // Nothing waits, as nothing can with a camera: a map that is not ready for the frame that should
