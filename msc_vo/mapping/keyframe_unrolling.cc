@@ -18,20 +18,23 @@ namespace {
 // sigma of a point.
 constexpr double kMaxDifference = 0.001;
 
+// Puts the landmarks that only this keyframe has seen where its frame has them.
 void PlaceLandmarks(KeyframeId id, Map* map) {
   const Keyframe keyframe = *map->FindKeyframe(id);
   const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
   for (size_t i = 0; i < keyframe.points.size(); ++i) {
     const int feature = static_cast<int>(i);
-    if (keyframe.points[i] == kNoId || !keyframe.frame->points[i].HasDepth()) continue;
-    if (map->FindPoint(keyframe.points[i])->observations.size() > 1) continue;
-    map->SetPoint(keyframe.points[i], world_from_cam * keyframe.frame->PointInCamera(feature));
+    const PointLandmark* point = map->FindPoint(keyframe.points[i]);
+    if (point == nullptr || point->observations.size() > 1) continue;
+    if (!keyframe.frame->points[i].HasDepth()) continue;
+    map->SetPoint(point->id, world_from_cam * keyframe.frame->PointInCamera(feature));
   }
   for (size_t i = 0; i < keyframe.lines.size(); ++i) {
     const int feature = static_cast<int>(i);
-    if (keyframe.lines[i] == kNoId || !keyframe.frame->lines[i].depth) continue;
-    if (map->FindLine(keyframe.lines[i])->observations.size() > 1) continue;
-    map->SetLine(keyframe.lines[i], world_from_cam * keyframe.frame->LineInCamera(feature));
+    const LineLandmark* line = map->FindLine(keyframe.lines[i]);
+    if (line == nullptr || line->observations.size() > 1) continue;
+    if (!keyframe.frame->lines[i].depth) continue;
+    map->SetLine(line->id, world_from_cam * keyframe.frame->LineInCamera(feature));
   }
 }
 

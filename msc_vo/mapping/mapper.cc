@@ -30,13 +30,14 @@ MappingSummary Mapper::Insert(const KeyframePacket& packet) {
   readout_time_ = readout_.readout_time();
   UnrollKeyframes(readout_time_, &map_);
   std::shared_ptr<const Frame> frame = Unrolled(packet.frame, readout_time_);
+  summary.times.creation = stopwatch.Restart();
   if (options_.RefinesFrames()) frame = RefineStructure(options_.structure, noise_.scale(), frame);
   summary.times.structure = stopwatch.Restart();
   summary.keyframe = InsertKeyframe(packet, std::move(frame));
   CullLandmarks(options_.culling, summary.keyframe, &probation_, &map_);
   CreatePoints(summary.keyframe, &probation_, &map_);
   CreateLines(summary.keyframe, &probation_, &map_);
-  summary.times.creation = stopwatch.Restart();
+  summary.times.creation += stopwatch.Restart();
   FusePoints(options_.fusion, summary.keyframe, &map_);
   FuseLines(options_.fusion, summary.keyframe, &map_);
   summary.times.fusion = stopwatch.Restart();

@@ -27,7 +27,7 @@ class FakeRunner : public MappingRunner {
     step.summary.keyframe = number / 2;
     if (number == failing) {
       step.error = std::make_exception_ptr(std::runtime_error("disk full"));
-    } else if (number % 2 == 0 || number != failing + 1) {
+    } else if (!IsRefinementOfFailed(number)) {
       auto snapshot = std::make_shared<MapSnapshot>();
       snapshot->map.AddKeyframe(std::make_shared<Frame>(), Rigid3());
       snapshot->newest_keyframe = number;
@@ -44,6 +44,8 @@ class FakeRunner : public MappingRunner {
   int failing = -2;
 
  private:
+  bool IsRefinementOfFailed(int number) const { return number % 2 == 1 && number == failing + 1; }
+
   int num_submitted_ = 0;
   int num_taken_ = 0;
 };
