@@ -33,6 +33,7 @@ struct PointFeature {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double sigma = 1.0;                // pixels, standard deviation of each coordinate
   int level = 0;                     // pyramid level, 0 is the full image
+  bool moves = false;                // by itself, as tracking found: it becomes no landmark
   double angle = 0.0;                // radians, orientation in the image
   double inverse_depth = 0.0;        // 1/metres; 0: no depth here
   double inverse_depth_sigma = 0.0;  // 1/metres; > 0 if there is a depth
@@ -45,6 +46,7 @@ struct PointFeature {
 struct LineFeature {
   LineSegment2 segment;
   double sigma = 1.0;              // pixels, of an end point's distance to the true line
+  bool moves = false;              // as of points
   std::optional<LineDepth> depth;  // none: the line stays 2-D
   Descriptor descriptor{};
 };

@@ -10,7 +10,8 @@ void CreatePoints(KeyframeId id, Probation* probation, Map* map) {
   const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
   for (size_t i = 0; i < keyframe.points.size(); ++i) {
     const int feature = static_cast<int>(i);
-    if (keyframe.points[i] != kNoId || !keyframe.frame->points[i].HasDepth()) continue;
+    const PointFeature& point = keyframe.frame->points[i];
+    if (keyframe.points[i] != kNoId || !point.HasDepth() || point.moves) continue;
     probation->points.insert(
         map->AddPoint(id, feature, world_from_cam * keyframe.frame->PointInCamera(feature)));
   }
@@ -21,7 +22,8 @@ void CreateLines(KeyframeId id, Probation* probation, Map* map) {
   const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
   for (size_t i = 0; i < keyframe.lines.size(); ++i) {
     const int feature = static_cast<int>(i);
-    if (keyframe.lines[i] != kNoId || !keyframe.frame->lines[i].depth) continue;
+    const LineFeature& line = keyframe.frame->lines[i];
+    if (keyframe.lines[i] != kNoId || !line.depth || line.moves) continue;
     probation->lines.insert(
         map->AddLine(id, feature, world_from_cam * keyframe.frame->LineInCamera(feature)));
   }

@@ -8,7 +8,8 @@
 
 namespace msc_vo {
 
-// Turns every feature of `keyframe` that has a depth and no landmark into a landmark on probation.
+// Turns every feature of `keyframe` that has a depth and no landmark into a landmark on probation,
+// but what moves: it would stand still in the map until the next keyframe contradicts.
 void CreatePoints(KeyframeId keyframe, Probation* probation, Map* map);
 void CreateLines(KeyframeId keyframe, Probation* probation, Map* map);
 

@@ -42,7 +42,7 @@ bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,
 
 // Matches candidates with the lines of `frame` whose distance at the middle of the overlap is below
 // `radius` pixels. A feature goes to the candidate with the lowest cost, the first of equals.
-// Features with `taken[feature]` are left out; `taken` may be empty.
+// Features that move and those with `taken[feature]` are left out; `taken` may be empty.
 std::vector<LineMatch> MatchLines(const LineMatcherOptions& options, const Frame& frame,
                                   const std::vector<LineCandidate>& candidates, double radius,
                                   const std::vector<bool>& taken);

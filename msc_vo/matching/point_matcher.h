@@ -40,7 +40,7 @@ bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,
 
 // Matches candidates with the features of `frame` within `radius` pixels (at level 0; it grows with
 // the level) by descriptor. A feature goes to the candidate with the smallest distance, the first
-// of equals. Features with `taken[feature]` are left out; `taken` may be empty.
+// of equals. Features that move and those with `taken[feature]` are left out; `taken` may be empty.
 std::vector<PointMatch> MatchPoints(const PointMatcherOptions& options, const Frame& frame,
                                     const std::vector<PointCandidate>& candidates, double radius,
                                     const std::vector<bool>& taken);

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 
 #include "msc_vo/factors/rigid3_manifold.h"
+#include "msc_vo/problems/image_parts.h"
 #include "msc_vo/problems/pose_matches.h"
 
 namespace msc_vo {
@@ -19,57 +20,17 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// The parts of an image, row by row.
-class PartGrid {
- public:
-  PartGrid(const ConsensusOptions& options, const PinholeCamera& camera)
-      : columns_(options.columns),
-        rows_(options.rows),
-        per_pixel_x_(options.columns / static_cast<double>(camera.width)),
-        per_pixel_y_(options.rows / static_cast<double>(camera.height)) {}
-
-  int PartOf(const Eigen::Vector2d& pixel) const {
-    // Undistortion moves some pixels out of the image.
-    const double column = std::clamp(pixel.x() * per_pixel_x_, 0.0, columns_ - 1.0);
-    const double row = std::clamp(pixel.y() * per_pixel_y_, 0.0, rows_ - 1.0);
-    return static_cast<int>(row) * columns_ + static_cast<int>(column);
-  }
-  // Those that a segment runs through, looked up four times per part.
-  std::vector<int> PartsOf(const LineSegment2& segment) const {
-    const Eigen::Vector2d along = segment.end - segment.start;
-    const int steps = 1 + static_cast<int>(4.0 * std::max(std::abs(along.x()) * per_pixel_x_,
-                                                          std::abs(along.y()) * per_pixel_y_));
-    std::vector<int> parts;
-    for (int k = 0; k <= steps; ++k) {
-      parts.push_back(PartOf(segment.start + static_cast<double>(k) / steps * along));
-    }
-    std::sort(parts.begin(), parts.end());
-    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
-    return parts;
-  }
-  // Centre of a part, as a share of the image's width and height.
-  Eigen::Vector2d CenterOf(int part) const {
-    return {(part % columns_ + 0.5) / columns_, (part / columns_ + 0.5) / rows_};
-  }
-
- private:
-  int columns_;
-  int rows_;
-  double per_pixel_x_;
-  double per_pixel_y_;
-};
-
 // The parts that each match is in.
 struct Membership {
   std::vector<int> of_points;
   std::vector<std::vector<int>> of_lines;
 };
 
-Membership FindParts(const PartGrid& grid, const PoseData& data) {
-  Membership parts;
-  for (const PoseData::Point& p : data.points) parts.of_points.push_back(grid.PartOf(p.pixel));
-  for (const PoseData::Line& l : data.lines) parts.of_lines.push_back(grid.PartsOf(l.segment));
-  return parts;
+Membership FindMembers(const ImageParts& parts, const PoseData& data) {
+  Membership members;
+  for (const PoseData::Point& p : data.points) members.of_points.push_back(parts.PartOf(p.pixel));
+  for (const PoseData::Line& l : data.lines) members.of_lines.push_back(parts.PartsOf(l.segment));
+  return members;
 }
 
 // What one part says of a step d from the pose that its equations are for.
@@ -103,7 +64,7 @@ double OwnGain(const NormalEquations& equations) {
 }
 
 // Outliers vote with the others: they may be those who are right.
-Votes CollectVotes(const PoseOptions& options, const PoseData& data, const Membership& parts,
+Votes CollectVotes(const PoseOptions& options, const PoseData& data, const Membership& members,
                    const Rigid3& pose) {
   const PoseActivities active = AllInFront(options, data, pose);
   Votes votes(options.consensus.columns * options.consensus.rows);
@@ -114,14 +75,14 @@ Votes CollectVotes(const PoseOptions& options, const PoseData& data, const Membe
     match.Clear();
     AddFactors(options, data.camera, data.points[i], active.points[i], &match);
     if (match.NumRows() == 0 || !match.Linearize(pose, &equations)) continue;
-    votes[parts.of_points[i]].Add(equations, data.points[i].proven, 1.0);
+    votes[members.of_points[i]].Add(equations, data.points[i].proven, 1.0);
   }
   for (size_t i = 0; i < data.lines.size(); ++i) {
     match.Clear();
     AddFactors(options, data.camera, data.lines[i], active.lines[i], pose, &match);
     if (match.NumRows() == 0 || !match.Linearize(pose, &equations)) continue;
-    const double share = 1.0 / static_cast<double>(parts.of_lines[i].size());
-    for (const int part : parts.of_lines[i]) {
+    const double share = 1.0 / static_cast<double>(members.of_lines[i].size());
+    for (const int part : members.of_lines[i]) {
       votes[part].Add(equations, data.lines[i].proven, share);
     }
   }
@@ -184,14 +145,14 @@ constexpr std::array<Region, 10> kRegions{{{0.0, 0.0, 1.0, 1.0},
 constexpr int kReweightings = 5;
 constexpr double kSmallGain = 0.01;
 
-Step FindBestStep(const PartGrid& grid, const Votes& votes, double limit) {
+Step FindBestStep(const ImageParts& parts, const Votes& votes, double limit) {
   Step best{Vector6::Zero(), TotalMisfit(votes, Vector6::Zero(), limit)};
   Matrix6 all = Matrix6::Zero();
   for (const Vote& vote : votes) all += vote.equations.hessian;
   for (const Region& region : kRegions) {
     Step step;
     step.d = WeightedMinimum(
-        votes, all, [&](int part) { return region.Contains(grid.CenterOf(part)) ? 1.0 : 0.0; });
+        votes, all, [&](int part) { return region.Contains(parts.CenterOf(part)) ? 1.0 : 0.0; });
     for (int i = 0; i < kReweightings; ++i) {
       const double last = step.misfit;
       step.misfit = TotalMisfit(votes, step.d, limit);
@@ -213,20 +174,6 @@ double WeightAgainst(const Votes& votes, const Vector6& d, double limit) {
   return sum;
 }
 
-PoseConsensus MakeConsensus(const PartGrid& grid, const PoseData& data, const Votes& votes,
-                            const Vector6& d, double limit, const Rigid3& cam_from_world) {
-  const auto moves = [&](const Eigen::Vector2d& pixel) {
-    return votes[grid.PartOf(pixel)].Misfit(d) > limit;
-  };
-  PoseConsensus consensus;
-  consensus.cam_from_world = cam_from_world;
-  for (const PoseData::Point& p : data.points) consensus.moving_points.push_back(moves(p.pixel));
-  for (const PoseData::Line& l : data.lines) {
-    consensus.moving_lines.push_back(moves(0.5 * (l.segment.start + l.segment.end)));
-  }
-  return consensus;
-}
-
 }  // namespace
 
 std::optional<PoseConsensus> FindConsensus(const PoseOptions& options, const PoseData& data,
@@ -235,24 +182,26 @@ std::optional<PoseConsensus> FindConsensus(const PoseOptions& options, const Pos
   constexpr int kRounds = 3;
   const double limit = options.consensus.reject_chi2_6;
   const double min_parts = options.consensus.min_parts;
-  const PartGrid grid(options.consensus, data.camera);
-  const Membership parts = FindParts(grid, data);
-  Votes votes = CollectVotes(options, data, parts, pose);
+  const ImageParts parts(options.consensus, data.camera);
+  const Membership members = FindMembers(parts, data);
+  Votes votes = CollectVotes(options, data, members, pose);
   // Not worth a search where no more parts disagree than another pose must win.
   if (WeightAgainst(votes, Vector6::Zero(), limit) <= min_parts) return std::nullopt;
   const double misfit = TotalMisfit(votes, Vector6::Zero(), limit);
   Rigid3 best = pose;
   Step step;
   for (int round = 0; round < kRounds; ++round) {
-    if (round > 0) votes = CollectVotes(options, data, parts, best);
-    step = FindBestStep(grid, votes, limit);
+    if (round > 0) votes = CollectVotes(options, data, members, best);
+    step = FindBestStep(parts, votes, limit);
     // Half of what is asked, as the next equations may show the rest.
     if (misfit - step.misfit <= 0.5 * min_parts * limit) return std::nullopt;
     const Rigid3 from = best;
     Rigid3Manifold().Plus(from.params.data(), step.d.data(), best.params.data());
   }
   if (misfit - step.misfit <= min_parts * limit) return std::nullopt;
-  return MakeConsensus(grid, data, votes, step.d, limit, best);
+  PoseConsensus consensus{best, {}};
+  for (const Vote& vote : votes) consensus.moving_parts.push_back(vote.Misfit(step.d) > limit);
+  return consensus;
 }
 
 }  // namespace msc_vo

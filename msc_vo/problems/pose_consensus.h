@@ -20,9 +20,7 @@ namespace msc_vo {
 // long before one of them is an outlier.
 struct PoseConsensus {
   Rigid3 cam_from_world;
-  // Of every match: whether the part that it is in (a line: its middle) votes against the pose.
-  std::vector<bool> moving_points;
-  std::vector<bool> moving_lines;
+  std::vector<bool> moving_parts;  // of ImageParts: those that vote against the pose
 };
 
 // Searches the surroundings of `pose`, as far as the equations hold that are linear there; nullopt

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "msc_vo/problems/image_parts.h"
 #include "msc_vo/problems/pose_consensus.h"
 #include "msc_vo/problems/pose_matches.h"
 #include "msc_vo/problems/validation.h"
@@ -65,25 +66,27 @@ bool SolveRounds(const PoseOptions& options, const PoseData& data, PoseActivitie
                    pose);
 }
 
-// Solves once more without what moves by itself, if anything does. Leaves all as it is if what then
-// remains fixes no pose.
-void LeaveOutWhatMoves(const PoseOptions& options, PoseData* data, PoseActivities* active,
-                       Rigid3* pose) {
+// Solves once more without the parts of the image that move by themselves, if any do, and returns
+// them. Leaves all as it is and returns none if what then remains fixes no pose.
+std::vector<bool> LeaveOutWhatMoves(const PoseOptions& options, PoseData* data,
+                                    PoseActivities* active, Rigid3* pose) {
   const std::optional<PoseConsensus> consensus = FindConsensus(options, *data, *pose);
-  if (!consensus) return;
+  if (!consensus) return {};
+  const ImageParts parts(options.consensus, data->camera);
   PoseData resting = *data;
-  for (size_t i = 0; i < resting.points.size(); ++i) {
-    resting.points[i].moves = consensus->moving_points[i];
+  for (PoseData::Point& point : resting.points) {
+    point.moves = consensus->moving_parts[parts.PartOf(point.pixel)];
   }
-  for (size_t i = 0; i < resting.lines.size(); ++i) {
-    resting.lines[i].moves = consensus->moving_lines[i];
+  for (PoseData::Line& line : resting.lines) {
+    line.moves = consensus->moving_parts[parts.PartOf(line.segment.Midpoint())];
   }
   Rigid3 next = consensus->cam_from_world;
   PoseActivities kept = ClassifyMatches(options, resting, next);
-  if (!SolveRounds(options, resting, &kept, &next)) return;
+  if (!SolveRounds(options, resting, &kept, &next)) return {};
   *data = std::move(resting);
   *active = std::move(kept);
   *pose = next;
+  return consensus->moving_parts;
 }
 
 // Inverse of J^T J, or nothing if it has none in a numerically sound way. Judged with its diagonal
@@ -152,9 +155,10 @@ PoseSummary SolvePose(const PoseOptions& options, PoseData* data) {
   for (PoseData::Point& point : data->points) point.moves = false;
   for (PoseData::Line& line : data->lines) line.moves = false;
   const bool solved = SolveRounds(options, *data, &active, &pose);
-  if (solved && options.consensus.enabled) LeaveOutWhatMoves(options, data, &active, &pose);
-
   PoseSummary summary;
+  if (solved && options.consensus.enabled) {
+    summary.moving_parts = LeaveOutWhatMoves(options, data, &active, &pose);
+  }
   WriteFlags(active, data, &summary);
   const PoseFactors inliers = BuildFactors(options, *data, active, pose, false);
   NormalEquations equations;

@@ -94,6 +94,7 @@ struct PoseSummary {
   int num_inlier_points = 0;
   int num_inlier_lines = 0;
   int num_moving = 0;  // points and lines that move by themselves: no inliers, and no failures
+  std::vector<bool> moving_parts;  // of ImageParts; empty if nothing moves
   double final_cost = 0.0;
   // Inverse of J^T J over the inliers: covariance of the estimate in the tangent of Rigid3Manifold
   // (rotation vector in the camera frame, radians; then translation, metres). Zero if not usable.

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <memory>
+
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/problems/pose_problem.h"
 #include "msc_vo/tracking/tracked_frame.h"
@@ -30,5 +32,10 @@ FrameMatches LandmarkInliers(const FrameMatches& matches);
 PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, const Map& map,
                               const NoiseScale& scale, Rigid3* cam_from_world,
                               FrameMatches* matches);
+
+// The frame of `tracked`, its features marked that are (a line: with its middle) in parts of the
+// image that move.
+std::shared_ptr<const Frame> MarkWhatMoves(const ConsensusOptions& options,
+                                           const TrackedFrame& tracked);
 
 }  // namespace msc_vo

@@ -122,7 +122,10 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> rolled, const MapSnapsh
   tracked.frame = Unrolled(rolled, motion_.VelocitySince(timestamp, cam_from_last), readout_time);
   tracked.status = TrackLocalMap(map, &tracked) ? Judge(tracked) : TrackingStatus::kWeak;
   tracked.is_keyframe = IsKeyframeDue(snapshot, tracked);
-  if (tracked.is_keyframe) policy_.Inserted();
+  if (tracked.is_keyframe) {
+    policy_.Inserted();
+    tracked.frame = MarkWhatMoves(options_.pose.consensus, tracked);
+  }
   Remember(last_from_world, &tracked);
   return tracked;
 }
@@ -219,7 +222,10 @@ bool Tracker::EstimatePose(const PoseOptions& options, const Map& map,
   tracked->pose = EstimateFramePose(options, *tracked->frame, map, tracked->noise_scale,
                                     &tracked->cam_from_world, &tracked->matches);
   tracked->pose_ms += stopwatch.Milliseconds();
-  tracked->num_moving = std::max(tracked->num_moving, tracked->pose.num_moving);
+  if (tracked->pose.num_moving > tracked->num_moving) {
+    tracked->num_moving = tracked->pose.num_moving;
+    tracked->moving_parts = tracked->pose.moving_parts;
+  }
   const int num_inliers = tracked->pose.num_inlier_points + tracked->pose.num_inlier_lines;
   const int num_resting = NumMatches(tracked->matches) - tracked->pose.num_moving;
   const bool good = tracked->pose.usable && num_inliers >= options_.min_matches &&

@@ -50,6 +50,22 @@ TEST(Mapper, FirstKeyframeMakesLandmarksOfAllThatHasDepth) {
   EXPECT_EQ(mapper.map().lines().size(), packet.frame->lines.size());
 }
 
+TEST(Mapper, WhatMovesBecomesNoLandmark) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  std::mt19937 random(1);
+  Mapper mapper{MapperOptions()};
+  KeyframePacket packet = Packet(&world, 0, &random);
+  auto marked = std::make_shared<Frame>(*packet.frame);
+  marked->points[3].moves = true;
+  marked->lines[1].moves = true;
+  packet.frame = marked;
+  mapper.Process(packet);
+  EXPECT_EQ(mapper.map().points().size(), marked->points.size() - 1);
+  EXPECT_EQ(mapper.map().lines().size(), marked->lines.size() - 1);
+  EXPECT_EQ(mapper.map().FindKeyframe(0)->points[3], kNoId);
+  EXPECT_EQ(mapper.map().FindKeyframe(0)->lines[1], kNoId);
+}
+
 TEST(Mapper, WindowPullsDisturbedKeyframesBack) {
   SyntheticFrames world{SyntheticFrames::Options()};
   std::mt19937 random(1);

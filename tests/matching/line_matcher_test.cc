@@ -55,6 +55,8 @@ TEST(LineMatcher, TakesTheNearerOfTwoAlike) {
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches[0].id, 2);
   EXPECT_TRUE(MatchLines(LineMatcherOptions(), frame, {far, near}, 5.0, {true}).empty());
+  frame.lines[0].moves = true;
+  EXPECT_TRUE(MatchLines(LineMatcherOptions(), frame, {far, near}, 5.0, {}).empty());
 }
 
 TEST(LineMatcher, ProjectsTheVisiblePart) {

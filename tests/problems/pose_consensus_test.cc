@@ -9,6 +9,8 @@
 #include "tests/support/factor_checks.h"
 #include <gtest/gtest.h>
 
+#include "msc_vo/problems/image_parts.h"
+
 namespace msc_vo {
 namespace {
 
@@ -122,6 +124,17 @@ TEST(PoseConsensusTest, WhatMovesIsSaidAndIsNeitherInlierNorFailure) {
   EXPECT_EQ(summary.num_moving, board_moves + room_moves +
                                     std::count_if(data.lines.begin(), data.lines.end(),
                                                   [](const PoseData::Line& l) { return l.moves; }));
+  // Parts are those of their matches, and those without a match do not move.
+  const ImageParts parts(ConsensusOptions(), data.camera);
+  ASSERT_EQ(summary.moving_parts.size(), static_cast<size_t>(parts.size()));
+  std::vector<bool> with_matches(parts.size());
+  for (const PoseData::Point& point : data.points) {
+    EXPECT_EQ(point.moves, summary.moving_parts[parts.PartOf(point.pixel)]);
+    with_matches[parts.PartOf(point.pixel)] = true;
+  }
+  for (int part = 0; part < parts.size(); ++part) {
+    EXPECT_TRUE(with_matches[part] || !summary.moving_parts[part]) << part;
+  }
 }
 
 TEST(PoseConsensusTest, ItDoesNotMatterWhereTheBoardIs) {
@@ -140,7 +153,9 @@ TEST(PoseConsensusTest, ARoomThatStandsStillIsLeftAlone) {
     scene.seed = seed;
     PoseData with = BoardMaker(scene).Make();
     PoseData without = with;
-    EXPECT_EQ(SolvePose(PoseOptions(), &with).num_moving, 0) << seed;
+    const PoseSummary summary = SolvePose(PoseOptions(), &with);
+    EXPECT_EQ(summary.num_moving, 0) << seed;
+    EXPECT_TRUE(summary.moving_parts.empty()) << seed;
     SolvePose(WithoutConsensus(), &without);
     EXPECT_EQ(with.cam_from_world.params, without.cam_from_world.params) << seed;
   }
