@@ -105,7 +105,7 @@ TEST(DepthSampler, TakesTheNearerSurfaceAtAStep) {
   const auto beside = SampleDepth(image, {61.2, 50.0}, kSigma);
   ASSERT_TRUE(beside);
   EXPECT_NEAR(beside->inverse_depth, 0.5, 1e-6);
-  // Outside the reach of the step nothing is doubled.
+  // Outside the reach of the step there is no doubt.
   EXPECT_LT(SampleDepth(image, {70.0, 50.0}, kSigma)->sigma, 1.3 * kSigma);
 }
 
