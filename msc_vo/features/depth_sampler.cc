@@ -33,10 +33,11 @@ constexpr double kMaxRms = 2.0;
 // curvature, sigmas per square pixel: the best parabola through a fold of two such walls has 0.4.
 constexpr double kSlopeSigma = 3.0;
 constexpr double kCurvatureSigma = 1.0;
-// The surface of a point beside a depth edge is a choice, and the other one is as far away as the
-// edge is high: with one wrong choice in ten the depth has this share of it as a standard
-// deviation. (Noise like a Kinect's, which takes pixels from edges, changes the choice for 9 to 17
-// % of all points of the rendered rooms.)
+// The surface of a point beside a depth edge is a choice, and the pixel of the window that is
+// farthest from it tells by how much another one would differ: if one choice in ten is wrong, the
+// error has about this share of that as a root mean square, sqrt(0.1). (Noise like a Kinect's,
+// which takes pixels from edges, changes the choice for 9 to 17 % of all points of the rendered
+// rooms.)
 constexpr double kEdgeDoubt = 0.3;
 
 // A pixel of the window that has a depth.

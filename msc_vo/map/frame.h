@@ -33,7 +33,7 @@ struct PointFeature {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double sigma = 1.0;                // pixels, standard deviation of each coordinate
   int level = 0;                     // pyramid level, 0 is the full image
-  bool moves = false;                // by itself, as tracking found: it becomes no landmark
+  bool moves = false;                // by itself, as tracking found: shows no landmark
   double angle = 0.0;                // radians, orientation in the image
   double inverse_depth = 0.0;        // 1/metres; 0: no depth here
   double inverse_depth_sigma = 0.0;  // 1/metres; > 0 if there is a depth

@@ -9,7 +9,7 @@
 namespace msc_vo {
 
 // Turns every feature of `keyframe` that has a depth and no landmark into a landmark on probation,
-// but what moves: it would stand still in the map until the next keyframe contradicts.
+// except what moves: the map would keep it where it is now until later keyframes contradict that.
 void CreatePoints(KeyframeId keyframe, Probation* probation, Map* map);
 void CreateLines(KeyframeId keyframe, Probation* probation, Map* map);
 

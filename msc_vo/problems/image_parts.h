@@ -25,6 +25,8 @@ class ImageParts {
   int size() const { return columns_ * rows_; }
   // Of a pixel outside the image, where undistortion moves some, the nearest.
   int PartOf(const Eigen::Vector2d& pixel) const;
+  // Of a segment, where it must be one: that of its middle.
+  int PartOf(const LineSegment2& segment) const { return PartOf(segment.Midpoint()); }
   // Those that a segment runs through, looked up four times per part; ascending.
   std::vector<int> PartsOf(const LineSegment2& segment) const;
   // Centre of a part, as a share of the image's width and height.

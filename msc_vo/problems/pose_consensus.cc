@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <Eigen/Cholesky>
 
@@ -64,10 +63,10 @@ double OwnGain(const NormalEquations& equations) {
 }
 
 // Outliers vote with the others: they may be those who are right.
-Votes CollectVotes(const PoseOptions& options, const PoseData& data, const Membership& members,
-                   const Rigid3& pose) {
+Votes CollectVotes(const PoseOptions& options, const PoseData& data, int num_parts,
+                   const Membership& members, const Rigid3& pose) {
   const PoseActivities active = AllInFront(options, data, pose);
-  Votes votes(options.consensus.columns * options.consensus.rows);
+  Votes votes(num_parts);
   PoseFactors match;
   SetLosses(options, &match);
   NormalEquations equations;
@@ -184,14 +183,14 @@ std::optional<PoseConsensus> FindConsensus(const PoseOptions& options, const Pos
   const double min_parts = options.consensus.min_parts;
   const ImageParts parts(options.consensus, data.camera);
   const Membership members = FindMembers(parts, data);
-  Votes votes = CollectVotes(options, data, members, pose);
+  Votes votes = CollectVotes(options, data, parts.size(), members, pose);
   // Not worth a search where no more parts disagree than another pose must win.
   if (WeightAgainst(votes, Vector6::Zero(), limit) <= min_parts) return std::nullopt;
   const double misfit = TotalMisfit(votes, Vector6::Zero(), limit);
   Rigid3 best = pose;
   Step step;
   for (int round = 0; round < kRounds; ++round) {
-    if (round > 0) votes = CollectVotes(options, data, members, best);
+    if (round > 0) votes = CollectVotes(options, data, parts.size(), members, best);
     step = FindBestStep(parts, votes, limit);
     // Half of what is asked, as the next equations may show the rest.
     if (misfit - step.misfit <= 0.5 * min_parts * limit) return std::nullopt;

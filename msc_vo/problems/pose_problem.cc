@@ -78,7 +78,7 @@ std::vector<bool> LeaveOutWhatMoves(const PoseOptions& options, PoseData* data,
     point.moves = consensus->moving_parts[parts.PartOf(point.pixel)];
   }
   for (PoseData::Line& line : resting.lines) {
-    line.moves = consensus->moving_parts[parts.PartOf(line.segment.Midpoint())];
+    line.moves = consensus->moving_parts[parts.PartOf(line.segment)];
   }
   Rigid3 next = consensus->cam_from_world;
   PoseActivities kept = ClassifyMatches(options, resting, next);

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "msc_vo/problems/image_parts.h"
-
 namespace msc_vo {
 
 namespace {
@@ -154,20 +152,6 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
   for (size_t i = 0; i < data.points.size(); ++i) matches->points[i].inlier = data.points[i].inlier;
   for (size_t i = 0; i < data.lines.size(); ++i) matches->lines[i].inlier = data.lines[i].inlier;
   return summary;
-}
-
-std::shared_ptr<const Frame> MarkWhatMoves(const ConsensusOptions& options,
-                                           const TrackedFrame& tracked) {
-  if (tracked.moving_parts.empty()) return tracked.frame;
-  auto marked = std::make_shared<Frame>(*tracked.frame);
-  const ImageParts parts(options, marked->camera);
-  for (PointFeature& point : marked->points) {
-    point.moves = tracked.moving_parts[parts.PartOf(point.pixel)];
-  }
-  for (LineFeature& line : marked->lines) {
-    line.moves = tracked.moving_parts[parts.PartOf(line.segment.Midpoint())];
-  }
-  return marked;
 }
 
 }  // namespace msc_vo

@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <memory>
-
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/problems/pose_problem.h"
 #include "msc_vo/tracking/tracked_frame.h"
@@ -32,10 +30,5 @@ FrameMatches LandmarkInliers(const FrameMatches& matches);
 PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, const Map& map,
                               const NoiseScale& scale, Rigid3* cam_from_world,
                               FrameMatches* matches);
-
-// The frame of `tracked`, its features marked that are (a line: with its middle) in parts of the
-// image that move.
-std::shared_ptr<const Frame> MarkWhatMoves(const ConsensusOptions& options,
-                                           const TrackedFrame& tracked);
 
 }  // namespace msc_vo

@@ -27,8 +27,8 @@ struct TrackedFrame {
   Rigid3 cam_from_reference;
   Rigid3 cam_from_world;  // with the reference where the snapshot has it
   FrameMatches matches;   // inliers among the landmarks
-  // Matches with what moves by itself, and the parts of the image that they vote for, at the step
-  // that found most.
+  // Matches with what moves by itself, and the parts of the image that move, at the step that found
+  // most of them.
   int num_moving = 0;
   std::vector<bool> moving_parts;  // of ImageParts; empty if nothing moves
   // Landmarks that should have been seen, matched ones included: for culling.

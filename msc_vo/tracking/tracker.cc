@@ -13,6 +13,7 @@
 #include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/timing/stopwatch.h"
+#include "msc_vo/tracking/moving_features.h"
 #include "msc_vo/tracking/pose_estimation.h"
 
 namespace msc_vo {
@@ -124,7 +125,7 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> rolled, const MapSnapsh
   tracked.is_keyframe = IsKeyframeDue(snapshot, tracked);
   if (tracked.is_keyframe) {
     policy_.Inserted();
-    tracked.frame = MarkWhatMoves(options_.pose.consensus, tracked);
+    tracked.frame = MarkMovingFeatures(options_.pose.consensus, tracked);
   }
   Remember(last_from_world, &tracked);
   return tracked;
@@ -222,15 +223,16 @@ bool Tracker::EstimatePose(const PoseOptions& options, const Map& map,
   tracked->pose = EstimateFramePose(options, *tracked->frame, map, tracked->noise_scale,
                                     &tracked->cam_from_world, &tracked->matches);
   tracked->pose_ms += stopwatch.Milliseconds();
-  if (tracked->pose.num_moving > tracked->num_moving) {
-    tracked->num_moving = tracked->pose.num_moving;
-    tracked->moving_parts = tracked->pose.moving_parts;
-  }
   const int num_inliers = tracked->pose.num_inlier_points + tracked->pose.num_inlier_lines;
   const int num_resting = NumMatches(tracked->matches) - tracked->pose.num_moving;
   const bool good = tracked->pose.usable && num_inliers >= options_.min_matches &&
                     num_inliers >= options_.min_inlier_ratio * num_resting;
-  if (!good) tracked->cam_from_world = start;
+  if (!good) {
+    tracked->cam_from_world = start;
+  } else if (tracked->pose.num_moving > tracked->num_moving) {
+    tracked->num_moving = tracked->pose.num_moving;
+    tracked->moving_parts = tracked->pose.moving_parts;
+  }
   return good;
 }
 

@@ -99,7 +99,7 @@ TEST(DepthSampler, TakesTheNearerSurfaceAtAStep) {
     const auto sample = SampleDepth(image, {x, 50.0}, kSigma);
     ASSERT_TRUE(sample) << x;
     EXPECT_NEAR(sample->inverse_depth, 1.0, 1e-6) << x;
-    EXPECT_GE(sample->sigma, 2.0 * kSigma) << x;
+    EXPECT_NEAR(sample->sigma, 0.3 * 0.5, 0.01) << x;
   }
   // Two pixels from it: on the farther one.
   const auto beside = SampleDepth(image, {61.2, 50.0}, kSigma);
@@ -107,6 +107,20 @@ TEST(DepthSampler, TakesTheNearerSurfaceAtAStep) {
   EXPECT_NEAR(beside->inverse_depth, 0.5, 1e-6);
   // Outside the reach of the step there is no doubt.
   EXPECT_LT(SampleDepth(image, {70.0, 50.0}, kSigma)->sigma, 1.3 * kSigma);
+}
+
+TEST(DepthSampler, DoubtsItsChoiceByTheHeightOfTheStep) {
+  for (const double far : {0.9, 0.7, 0.3}) {
+    const auto image = Image(testing::DrawDepth(
+        SmallCamera(), [far](const Vector2d& x) { return x.x() < 60.0 ? 1.0 : far; }));
+    // The last is on the farther surface, and would be as wrong if it belonged to the nearer one.
+    for (const double x : {58.6, 60.2, 61.2}) {
+      const auto sample = SampleDepth(image, {x, 50.0}, kSigma);
+      ASSERT_TRUE(sample) << x;
+      EXPECT_GT(sample->sigma, 0.2 * (1.0 - far)) << x;
+      EXPECT_LT(sample->sigma, 0.5 * (1.0 - far)) << x;
+    }
+  }
 }
 
 TEST(DepthSampler, SeesThroughMixedPixels) {

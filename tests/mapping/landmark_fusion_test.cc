@@ -59,6 +59,30 @@ TEST_F(FusionTest, DuplicatesBecomeOne) {
   }
 }
 
+TEST_F(FusionTest, FeaturesThatMoveTakeNoPart) {
+  Map map;
+  SyntheticFrames world{SyntheticFrames::Options()};
+  const KeyframeId first = map.AddKeyframe(world.See(0), SyntheticFrames::CamFromWorld(0));
+  CreatePoints(first, &probation_, &map);
+  auto marked = std::make_shared<Frame>(*world.See(15));
+  for (size_t i = 1; i < marked->points.size(); ++i) marked->points[i].moves = i % 2 == 0;
+  const KeyframeId second = map.AddKeyframe(marked, SyntheticFrames::CamFromWorld(15));
+  // One that both see makes them neighbours.
+  for (const LandmarkId id : map.FindKeyframe(first)->points) {
+    if (HammingDistance(map.FindPoint(id)->descriptor, marked->points[0].descriptor) > 40) continue;
+    map.ObservePoint(id, second, 0);
+    break;
+  }
+  FusePoints(FusionOptions(), second, &map);
+  int num_seen = 0;
+  for (size_t i = 0; i < marked->points.size(); ++i) {
+    const bool is_seen = map.FindKeyframe(second)->points[i] != kNoId;
+    EXPECT_FALSE(is_seen && marked->points[i].moves) << i;
+    num_seen += is_seen;
+  }
+  EXPECT_GT(num_seen, 0.3 * marked->points.size());  // of the half that rests
+}
+
 TEST_F(FusionTest, DifferentLandmarksStayApart) {
   FusePoints(FusionOptions(), 1, &map_);
   // Every landmark's sights have one descriptor, but for the bits that noise flips (12 in each).

@@ -305,9 +305,10 @@ TEST_F(OdometryTest, SomethingThatMovesThroughTheImageDoesNotTakeTheCameraAlong)
   constexpr int kNumSteps = 30;
   OdometryOptions options;
   for (const int first : {9, 15}) {
+    SCOPED_TRACE(first);
     const OdometryResult result = Run(options, WithBoard(*images_, first, kNumSteps));
     EXPECT_EQ(Count(result, TrackingStatus::kTracked), kNumFrames);
-    EXPECT_LT(ApeRmse(result), 0.006) << first;  // as without a board
+    EXPECT_LT(ApeRmse(result), 0.006);  // as without a board
     EXPECT_EQ(result.frames[first - 5].num_moving, 0);
     EXPECT_GT(result.frames[first + kNumSteps / 2].num_moving, 50);
   }

@@ -124,13 +124,17 @@ TEST(PoseConsensusTest, WhatMovesIsSaidAndIsNeitherInlierNorFailure) {
   EXPECT_EQ(summary.num_moving, board_moves + room_moves +
                                     std::count_if(data.lines.begin(), data.lines.end(),
                                                   [](const PoseData::Line& l) { return l.moves; }));
-  // Parts are those of their matches, and those without a match do not move.
+  // Matches move with their part (a line: of its middle), and parts without a match rest.
   const ImageParts parts(ConsensusOptions(), data.camera);
   ASSERT_EQ(summary.moving_parts.size(), static_cast<size_t>(parts.size()));
   std::vector<bool> with_matches(parts.size());
   for (const PoseData::Point& point : data.points) {
     EXPECT_EQ(point.moves, summary.moving_parts[parts.PartOf(point.pixel)]);
     with_matches[parts.PartOf(point.pixel)] = true;
+  }
+  for (const PoseData::Line& line : data.lines) {
+    EXPECT_EQ(line.moves, summary.moving_parts[parts.PartOf(line.segment)]);
+    for (const int part : parts.PartsOf(line.segment)) with_matches[part] = true;
   }
   for (int part = 0; part < parts.size(); ++part) {
     EXPECT_TRUE(with_matches[part] || !summary.moving_parts[part]) << part;
