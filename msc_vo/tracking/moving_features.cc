@@ -18,8 +18,9 @@ std::shared_ptr<const Frame> MarkMovingFeatures(const ConsensusOptions& options,
   for (LineFeature& line : marked->lines) {
     line.moves = tracked.moving_parts[parts.PartOf(line.segment)];
   }
-  for (const PointMatch& match : tracked.matches.points)
+  for (const PointMatch& match : tracked.matches.points) {
     marked->points[match.feature].moves = false;
+  }
   for (const LineMatch& match : tracked.matches.lines) marked->lines[match.feature].moves = false;
   return marked;
 }
