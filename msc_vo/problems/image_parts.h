@@ -9,18 +9,17 @@
 
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/pinhole_camera.h"
-#include "msc_vo/problems/pose_problem.h"
 
 namespace msc_vo {
 
 // The parts that an image is cut into for votes on its pose, numbered row by row.
 class ImageParts {
  public:
-  ImageParts(const ConsensusOptions& options, const PinholeCamera& camera)
-      : columns_(options.columns),
-        rows_(options.rows),
-        per_pixel_x_(options.columns / static_cast<double>(camera.width)),
-        per_pixel_y_(options.rows / static_cast<double>(camera.height)) {}
+  ImageParts(int columns, int rows, const PinholeCamera& camera)
+      : columns_(columns),
+        rows_(rows),
+        per_pixel_x_(columns / static_cast<double>(camera.width)),
+        per_pixel_y_(rows / static_cast<double>(camera.height)) {}
 
   int size() const { return columns_ * rows_; }
   // Of a pixel outside the image, where undistortion moves some, the nearest.

@@ -181,7 +181,7 @@ std::optional<PoseConsensus> FindConsensus(const PoseOptions& options, const Pos
   constexpr int kRounds = 3;
   const double limit = options.consensus.reject_chi2_6;
   const double min_parts = options.consensus.min_parts;
-  const ImageParts parts(options.consensus, data.camera);
+  const ImageParts parts(options.consensus.columns, options.consensus.rows, data.camera);
   const Membership members = FindMembers(parts, data);
   Votes votes = CollectVotes(options, data, parts.size(), members, pose);
   // Not worth a search where no more parts disagree than another pose must win.

@@ -72,7 +72,7 @@ std::vector<bool> LeaveOutWhatMoves(const PoseOptions& options, PoseData* data,
                                     PoseActivities* active, Rigid3* pose) {
   const std::optional<PoseConsensus> consensus = FindConsensus(options, *data, *pose);
   if (!consensus) return {};
-  const ImageParts parts(options.consensus, data->camera);
+  const ImageParts parts(options.consensus.columns, options.consensus.rows, data->camera);
   PoseData resting = *data;
   for (PoseData::Point& point : resting.points) {
     point.moves = consensus->moving_parts[parts.PartOf(point.pixel)];

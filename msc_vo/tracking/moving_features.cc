@@ -11,7 +11,7 @@ std::shared_ptr<const Frame> MarkMovingFeatures(const ConsensusOptions& options,
                                                 const TrackedFrame& tracked) {
   if (tracked.moving_parts.empty()) return tracked.frame;
   auto marked = std::make_shared<Frame>(*tracked.frame);
-  const ImageParts parts(options, marked->camera);
+  const ImageParts parts(options.columns, options.rows, marked->camera);
   for (PointFeature& point : marked->points) {
     point.moves = tracked.moving_parts[parts.PartOf(point.pixel)];
   }

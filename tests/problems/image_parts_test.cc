@@ -12,13 +12,10 @@ using ::testing::ElementsAre;
 
 // Four columns and two rows of 25 x 50 pixels.
 ImageParts FourByTwo() {
-  ConsensusOptions options;
-  options.columns = 4;
-  options.rows = 2;
   PinholeCamera camera;
   camera.width = 100;
   camera.height = 100;
-  return {options, camera};
+  return {4, 2, camera};
 }
 
 TEST(ImageParts, AreNumberedRowByRow) {

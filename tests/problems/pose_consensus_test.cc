@@ -125,7 +125,8 @@ TEST(PoseConsensusTest, WhatMovesIsSaidAndIsNeitherInlierNorFailure) {
                                     std::count_if(data.lines.begin(), data.lines.end(),
                                                   [](const PoseData::Line& l) { return l.moves; }));
   // Matches move with their part (a line: of its middle), and parts without a match rest.
-  const ImageParts parts(ConsensusOptions(), data.camera);
+  const ConsensusOptions options;
+  const ImageParts parts(options.columns, options.rows, data.camera);
   ASSERT_EQ(summary.moving_parts.size(), static_cast<size_t>(parts.size()));
   std::vector<bool> with_matches(parts.size());
   for (const PoseData::Point& point : data.points) {
