@@ -22,8 +22,8 @@ struct DepthSample {
 // image. Where a plane and noise of standard deviation `sigma` (1/metres) do not explain them there
 // is a depth edge: the point then belongs to the nearest surface that comes within 1.5 px of it,
 // since a corner at an occlusion moves with the surface that occludes. That may be wrong: 0.3 of
-// the difference to the farthest pixel is added to its sigma, in quadrature. std::nullopt if there is too little depth, or
-// nothing that looks like a surface.
+// the difference to the farthest pixel is added to its sigma, in quadrature. std::nullopt if there
+// is too little depth, or nothing that looks like a surface.
 std::optional<DepthSample> SampleDepth(const InverseDepthImage& image, const Eigen::Vector2d& pixel,
                                        double sigma);
 
