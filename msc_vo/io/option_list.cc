@@ -349,6 +349,8 @@ void ListMapping(MapperOptions* mapping, OptionLister* list) {
   list->Section("axes", &mapping->axes, ListAxes);
   list->Section("pairs", &mapping->pairs, ListPairs);
   list->Section("window", &mapping->window, ListWindow);
+  list->Add("min_window_interval", &mapping->min_window_interval,
+            "seconds from a keyframe with a window to the next one, at least");
   list->Section("culling", &mapping->culling, ListCulling);
   list->Add("readout_time", &mapping->readout_time,
             "seconds from the first row of an image to its last, 0: global shutter; learnt if not "

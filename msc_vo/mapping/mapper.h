@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -28,7 +30,7 @@ struct MappingTimes {
 struct MappingSummary {
   KeyframeId keyframe = kNoId;
   int num_culled_keyframes = 0;
-  WindowSummary window;
+  std::optional<WindowSummary> window;  // none if it was not optimised
   MappingTimes times;
 };
 
@@ -42,8 +44,8 @@ class Mapper {
 
   // A keyframe is worked on in two steps. Insert() takes it into the map: observations, new
   // landmarks, fusion. Frames can be tracked against them from then on. Refine(), with the same
-  // packet and what Insert() returned, makes all agree: axes, window optimisation, culling of
-  // keyframes. It takes several times as long.
+  // packet and what Insert() returned, makes all agree: axes, window optimisation if one is due,
+  // culling of keyframes. It takes several times as long.
   MappingSummary Insert(const KeyframePacket& packet);
   void Refine(const KeyframePacket& packet, MappingSummary* summary);
   // Both.
@@ -61,7 +63,8 @@ class Mapper {
 
  private:
   KeyframeId InsertKeyframe(const KeyframePacket& packet, std::shared_ptr<const Frame> frame);
-  WindowSummary OptimizeWindow(KeyframeId keyframe);
+  bool IsWindowDue(double timestamp) const;
+  std::optional<WindowSummary> OptimizeWindow(KeyframeId keyframe);
 
   MapperOptions options_;
   WindowObserver window_observer_;  // may be empty
@@ -72,6 +75,7 @@ class Mapper {
   ReadoutEstimator readout_;
   double readout_time_ = 0.0;  // that the keyframes of the map are unrolled with, seconds
   KeyframeId newest_keyframe_ = kNoId;
+  double last_window_time_ = -std::numeric_limits<double>::infinity();  // seconds, of its keyframe
   std::set<LandmarkId> last_window_lines_;
 };
 

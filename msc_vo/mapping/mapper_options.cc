@@ -12,6 +12,10 @@ bool MapperOptions::IsValid(std::string* error) const {
     *error = "readout_time: the seconds from the first row of an image to its last, less than 1";
     return false;
   }
+  if (!(min_window_interval >= 0.0)) {
+    *error = "mapping: min_window_interval must not be negative";
+    return false;
+  }
   return structure.IsValid(error) && fusion.IsValid(error) && selection.IsValid(error) &&
          noise.IsValid(error) && axes.IsValid(error) && pairs.IsValid(error) &&
          window.IsValid(error) && culling.IsValid(error);

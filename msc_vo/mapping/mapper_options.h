@@ -48,6 +48,10 @@ struct MapperOptions {
   SceneAxesOptions axes;
   StructuralPairOptions pairs;
   WindowOptions window = LocalWindowOptions();
+  // Seconds from a keyframe that the window was optimised with to the next one, at least; 0: it is
+  // optimised with each. Keyframes that come sooner are inserted and wait for the next window,
+  // which solves most of the last one again (measured: docs/experiments.md).
+  double min_window_interval = 0.0;
   CullingOptions culling;
   // Of a rolling shutter, seconds (see rolling_shutter.h); 0: a global one. None: it is learnt.
   std::optional<double> readout_time;

@@ -164,7 +164,7 @@ void Odometry::State::Record(int frame, const MappingStep& step) {
   times.snapshot = step.snapshot_ms;
   results[frame].cam_from_world = step.snapshot->map.CamFromWorld(step.summary.keyframe);
   places[frame] = {step.summary.keyframe, Rigid3()};
-  last_window = step.summary.window;
+  if (step.summary.window) last_window = *step.summary.window;
 }
 
 Odometry::Odometry(const OdometryOptions& options, const PinholeCamera& camera,

@@ -54,8 +54,8 @@ struct OdometryResult {
   MapAxes axes;
   NoiseScale noise_scale;     // of the sigmas of features, as learnt
   double readout_time = 0.0;  // of a rolling shutter, seconds, as known or learnt; 0: global
-  WindowSummary last_window;  // of the last keyframe step
-  int num_late_maps = 0;      // in real time: maps that came later than they should be seen
+  WindowSummary last_window;
+  int num_late_maps = 0;  // in real time: maps that came later than they should be seen
 };
 
 // RGB-D visual odometry from points and lines (paper: PL-VO and MSC-VO).

@@ -83,9 +83,10 @@ TEST(Mapper, WindowPullsDisturbedKeyframesBack) {
     error_after += PositionError(mapper.map().CamFromWorld(summary.keyframe), truth);
   }
   EXPECT_LT(error_after, 0.5 * error_before);
-  EXPECT_TRUE(summary.window.usable);
-  EXPECT_LT(summary.window.final_cost, summary.window.initial_cost);
-  EXPECT_GT(summary.window.line_reprojection.num_residual_blocks, 0);
+  ASSERT_TRUE(summary.window.has_value());
+  EXPECT_TRUE(summary.window->usable);
+  EXPECT_LT(summary.window->final_cost, summary.window->initial_cost);
+  EXPECT_GT(summary.window->line_reprojection.num_residual_blocks, 0);
   // The world does not grow with the keyframes: they see the same landmarks.
   EXPECT_LT(mapper.map().points().size(), 400u);
   EXPECT_LT(mapper.map().lines().size(), 80u);
@@ -172,20 +173,42 @@ TEST(Mapper, WhatTheObserverSeesIsSolvedToTheSameBytes) {
     MatchWithMap(mapper.map(), &packet);
     summary = mapper.Process(packet);
   }
-  ASSERT_TRUE(summary.window.usable);
+  ASSERT_TRUE(summary.window.has_value());
   EXPECT_THAT(keyframes, testing::ElementsAre(1, 2, 3));  // the first alone has no window
   EXPECT_EQ(seen_options.second_iterations, 7);
 
   const WindowData before = seen;
   const WindowSummary again = SolveWindow(seen_options, &seen);
-  EXPECT_EQ(again.initial_cost, summary.window.initial_cost);
-  EXPECT_EQ(again.final_cost, summary.window.final_cost);
+  EXPECT_EQ(again.initial_cost, summary.window->initial_cost);
+  EXPECT_EQ(again.final_cost, summary.window->final_cost);
   ASSERT_EQ(seen.keyframes.size(), 4u);
   for (size_t i = 0; i < seen.keyframes.size(); ++i) {
     const auto& [id, cam_from_world, fixed] = seen.keyframes[i];
     EXPECT_EQ(cam_from_world.params, mapper.map().CamFromWorld(id).params);
     EXPECT_EQ(cam_from_world.params == before.keyframes[i].cam_from_world.params, fixed);
   }
+}
+
+// Keyframes 0, 2, 4, 6, 8, 10 at 30 Hz: the window of 2 is the first, those of 4 and 6 come within
+// 0.15 s of it, and 8 is 0.2 s behind.
+TEST(Mapper, KeyframesThatComeSoonWaitForTheNextWindow) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  std::mt19937 random(1);
+  MapperOptions options;
+  options.min_window_interval = 0.15;
+  Mapper mapper{options};
+  std::vector<KeyframeId> with_window;
+  for (int index = 0; index <= 10; index += 2) {
+    KeyframePacket packet = Packet(&world, index, &random);
+    MatchWithMap(mapper.map(), &packet);
+    const MappingSummary summary = mapper.Process(packet);
+    if (summary.window) with_window.push_back(summary.keyframe);
+  }
+  EXPECT_THAT(with_window, testing::ElementsAre(1, 4));
+  EXPECT_EQ(mapper.Snapshot()->newest_keyframe, 5);  // it is in the map all the same
+
+  options.min_window_interval = -0.1;
+  EXPECT_THROW(Mapper{options}, std::invalid_argument);
 }
 
 TEST(Mapper, MemoryIsBoundedInOnePlace) {
