@@ -49,7 +49,12 @@ void Mapper::Refine(const KeyframePacket& packet, MappingSummary* summary) {
   Stopwatch stopwatch;
   axes_.Update(map_, summary->keyframe, packet.normals);
   summary->times.axes = stopwatch.Restart();
-  if (IsWindowDue(packet.frame->timestamp)) summary->window = OptimizeWindow(summary->keyframe);
+  // Absolute, so that 0 means each keyframe also where time stamps do not ascend.
+  const double since_window = std::abs(packet.frame->timestamp - last_window_time_);
+  if (since_window >= options_.min_window_interval) {
+    summary->window = OptimizeWindow(summary->keyframe);
+    if (summary->window) last_window_time_ = packet.frame->timestamp;
+  }
   readout_.Update(map_, summary->keyframe);
   summary->times.window = stopwatch.Restart();
   summary->num_culled_keyframes = CullKeyframes(options_.culling, summary->keyframe, &map_);
@@ -94,17 +99,12 @@ KeyframeId Mapper::InsertKeyframe(const KeyframePacket& packet,
   return newest_keyframe_;
 }
 
-bool Mapper::IsWindowDue(double timestamp) const {
-  return std::abs(timestamp - last_window_time_) >= options_.min_window_interval;
-}
-
 std::optional<WindowSummary> Mapper::OptimizeWindow(KeyframeId keyframe) {
   WindowData window = SelectWindow(options_.selection, map_, keyframe);
   last_window_lines_.clear();
   for (const WindowData::Line& line : window.lines) last_window_lines_.insert(line.id);
   // One keyframe alone has nothing to agree with.
   if (window.keyframes.size() < 2) return std::nullopt;
-  last_window_time_ = map_.FindKeyframe(keyframe)->frame->timestamp;
   noise_.Apply(&window);
   axes_.AddAlignments(map_, &window);
   AddStructuralPairs(options_.pairs, map_, &window);

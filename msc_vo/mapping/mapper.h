@@ -63,7 +63,7 @@ class Mapper {
 
  private:
   KeyframeId InsertKeyframe(const KeyframePacket& packet, std::shared_ptr<const Frame> frame);
-  bool IsWindowDue(double timestamp) const;
+  // None if there is nothing to optimise.
   std::optional<WindowSummary> OptimizeWindow(KeyframeId keyframe);
 
   MapperOptions options_;

@@ -39,6 +39,12 @@ void MatchWithMap(const Map& map, KeyframePacket* packet) {
   }
 }
 
+MappingSummary Process(SyntheticFrames* world, int index, std::mt19937* random, Mapper* mapper) {
+  KeyframePacket packet = Packet(world, index, random);
+  MatchWithMap(mapper->map(), &packet);
+  return mapper->Process(packet);
+}
+
 TEST(Mapper, FirstKeyframeMakesLandmarksOfAllThatHasDepth) {
   SyntheticFrames world{SyntheticFrames::Options()};
   std::mt19937 random(1);
@@ -169,11 +175,9 @@ TEST(Mapper, WhatTheObserverSeesIsSolvedToTheSameBytes) {
       });
   MappingSummary summary;
   for (int index = 0; index <= 30; index += 10) {
-    KeyframePacket packet = Packet(&world, index, &random);
-    MatchWithMap(mapper.map(), &packet);
-    summary = mapper.Process(packet);
+    summary = Process(&world, index, &random, &mapper);
   }
-  ASSERT_TRUE(summary.window.has_value());
+  ASSERT_TRUE(summary.window && summary.window->usable);
   EXPECT_THAT(keyframes, testing::ElementsAre(1, 2, 3));  // the first alone has no window
   EXPECT_EQ(seen_options.second_iterations, 7);
 
@@ -199,9 +203,7 @@ TEST(Mapper, KeyframesThatComeSoonWaitForTheNextWindow) {
   Mapper mapper{options};
   std::vector<KeyframeId> with_window;
   for (int index = 0; index <= 10; index += 2) {
-    KeyframePacket packet = Packet(&world, index, &random);
-    MatchWithMap(mapper.map(), &packet);
-    const MappingSummary summary = mapper.Process(packet);
+    const MappingSummary summary = Process(&world, index, &random, &mapper);
     if (summary.window) with_window.push_back(summary.keyframe);
   }
   EXPECT_THAT(with_window, testing::ElementsAre(1, 4));
@@ -217,10 +219,7 @@ TEST(Mapper, MemoryIsBoundedInOnePlace) {
   Mapper mapper{MapperOptions()};
   // Forty keyframes that go to and fro over the same stretch.
   for (int i = 0; i < 40; ++i) {
-    const int index = 3 * (i % 10);
-    KeyframePacket packet = Packet(&world, index, &random);
-    MatchWithMap(mapper.map(), &packet);
-    mapper.Process(packet);
+    Process(&world, 3 * (i % 10), &random, &mapper);
   }
   EXPECT_LT(mapper.map().keyframes().size(), 20u);
   EXPECT_LT(mapper.map().points().size(), 500u);
