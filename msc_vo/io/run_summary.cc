@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "msc_vo/io/report_frame.h"
@@ -17,12 +18,14 @@ bool IsTracked(const FrameResult& frame) {
   return frame.status == TrackingStatus::kTracked || frame.status == TrackingStatus::kWeak;
 }
 
-// The stages of the mapper over the frames that caused a keyframe step.
+// The stages of the mapper over the frames that caused a keyframe step, and have such a stage.
 std::vector<StageTimeStatistics> SummarizeMapping(const std::vector<FrameResult>& frames) {
   const auto summarize = [&frames](const std::string& name, const auto& milliseconds_of) {
     std::vector<double> values;
     for (const FrameResult& frame : frames) {
-      if (frame.times.mapping > 0.0) values.push_back(milliseconds_of(frame.times));
+      if (frame.times.mapping <= 0.0) continue;
+      const std::optional<double> milliseconds = milliseconds_of(frame.times);
+      if (milliseconds) values.push_back(*milliseconds);
     }
     return SummarizeStage(name, std::move(values));
   };

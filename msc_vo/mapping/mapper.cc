@@ -53,10 +53,12 @@ void Mapper::Refine(const KeyframePacket& packet, MappingSummary* summary) {
   const double since_window = std::abs(packet.frame->timestamp - last_window_time_);
   if (since_window >= options_.min_window_interval) {
     summary->window = OptimizeWindow(summary->keyframe);
-    if (summary->window) last_window_time_ = packet.frame->timestamp;
   }
-  readout_.Update(map_, summary->keyframe);
-  summary->times.window = stopwatch.Restart();
+  if (summary->window) {
+    last_window_time_ = packet.frame->timestamp;
+    readout_.Update(map_, summary->keyframe);
+    summary->times.window = stopwatch.Restart();
+  }
   summary->num_culled_keyframes = CullKeyframes(options_.culling, summary->keyframe, &map_);
   summary->times.culling = stopwatch.Restart();
 }

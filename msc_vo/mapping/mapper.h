@@ -22,7 +22,8 @@ struct MappingTimes {
   double creation = 0.0;   // the keyframe with its matches, and new landmarks; bad ones removed
   double fusion = 0.0;
   double axes = 0.0;
-  double window = 0.0;   // selected, solved and written back
+  // Selected, solved and written back, and the readout time learnt from it; none without a window.
+  std::optional<double> window;
   double culling = 0.0;  // of keyframes
 };
 
