@@ -34,6 +34,7 @@ std::vector<StageTimeStatistics> SummarizeMapping(const std::vector<FrameResult>
           summarize("fusion", [](const StageTimes& t) { return t.mapping_stages.fusion; }),
           summarize("axes", [](const StageTimes& t) { return t.mapping_stages.axes; }),
           summarize("window", [](const StageTimes& t) { return t.mapping_stages.window; }),
+          summarize("readout", [](const StageTimes& t) { return t.mapping_stages.readout; }),
           summarize("culling", [](const StageTimes& t) { return t.mapping_stages.culling; }),
           summarize("snapshot", [](const StageTimes& t) { return t.snapshot; })};
 }

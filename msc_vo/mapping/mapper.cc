@@ -56,9 +56,10 @@ void Mapper::Refine(const KeyframePacket& packet, MappingSummary* summary) {
   }
   if (summary->window) {
     last_window_time_ = packet.frame->timestamp;
-    readout_.Update(map_, summary->keyframe);
     summary->times.window = stopwatch.Restart();
   }
+  readout_.Update(map_, summary->keyframe);
+  summary->times.readout = stopwatch.Restart();
   summary->num_culled_keyframes = CullKeyframes(options_.culling, summary->keyframe, &map_);
   summary->times.culling = stopwatch.Restart();
 }

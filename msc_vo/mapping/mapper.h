@@ -22,9 +22,9 @@ struct MappingTimes {
   double creation = 0.0;   // the keyframe with its matches, and new landmarks; bad ones removed
   double fusion = 0.0;
   double axes = 0.0;
-  // Selected, solved and written back, and the readout time learnt from it; none without a window.
-  std::optional<double> window;
-  double culling = 0.0;  // of keyframes
+  std::optional<double> window;  // selected, solved and written back; none if it was not due
+  double readout = 0.0;          // its time learnt
+  double culling = 0.0;          // of keyframes
 };
 
 // What was done with one keyframe.

@@ -17,7 +17,8 @@ class ReadoutEstimator {
   explicit ReadoutEstimator(const std::optional<double>& known)
       : learns_(!known), readout_time_(known.value_or(0.0)) {}
 
-  // Learns from `newest` and the keyframes that see most of the same, after the window was solved.
+  // Learns from `newest` and the keyframes that see most of the same, after the window was solved
+  // if it was due.
   void Update(const Map& map, KeyframeId newest);
 
   // Seconds.
