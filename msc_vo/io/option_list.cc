@@ -328,14 +328,9 @@ void ListAxes(SceneAxesOptions* axes, OptionLister* list) {
   list->Add("deviation", &axes->deviation, "radians, of lines from the axes they were built along");
 }
 
-void ListProbation(ProbationOptions* probation, OptionLister* list) {
-  list->Add("keyframes", &probation->keyframes, "that follow a new landmark until it is judged");
-  list->Add("min_observations", &probation->min_observations, "that it must have by then");
-}
-
 void ListCulling(CullingOptions* culling, OptionLister* list) {
-  list->Section("points", &culling->points, ListProbation);
-  list->Section("lines", &culling->lines, ListProbation);
+  list->Add("probation_keyframes", &culling->probation_keyframes, "of a new landmark");
+  list->Add("min_observations", &culling->min_observations, "that a landmark must reach by then");
   list->Add("min_found_ratio", &culling->min_found_ratio, "frames that find it / should show it");
   list->Add("redundant_share", &culling->redundant_share,
             "of a keyframe's landmarks that others show as well");

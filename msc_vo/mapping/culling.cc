@@ -15,20 +15,20 @@ namespace {
 
 enum class Verdict { kWait, kPassed, kFailed };
 
-Verdict Judge(const ProbationOptions& options, double min_found_ratio, KeyframeId newest,
-              const Landmark& landmark) {
-  if (landmark.num_found < min_found_ratio * landmark.num_visible) return Verdict::kFailed;
-  if (newest - landmark.first_keyframe < options.keyframes) return Verdict::kWait;
+Verdict Judge(const CullingOptions& options, KeyframeId newest, const Landmark& landmark) {
+  if (landmark.num_found < options.min_found_ratio * landmark.num_visible) return Verdict::kFailed;
+  if (newest - landmark.first_keyframe < options.probation_keyframes) return Verdict::kWait;
   const int num_observations = static_cast<int>(landmark.observations.size());
   return num_observations >= options.min_observations ? Verdict::kPassed : Verdict::kFailed;
 }
 
-template <typename JudgeLandmark, typename Find, typename Remove>
-void CullKind(const JudgeLandmark& judge, const Find& find, const Remove& remove,
-              std::set<LandmarkId>* probation) {
+template <typename Find, typename Remove>
+void CullKind(const CullingOptions& options, KeyframeId newest, const Find& find,
+              const Remove& remove, std::set<LandmarkId>* probation) {
   for (auto it = probation->begin(); it != probation->end();) {
     const Landmark* landmark = find(*it);
-    const Verdict verdict = landmark == nullptr ? Verdict::kPassed : judge(*landmark);
+    const Verdict verdict =
+        landmark == nullptr ? Verdict::kPassed : Judge(options, newest, *landmark);
     if (verdict == Verdict::kFailed) remove(*it);
     it = verdict == Verdict::kWait ? std::next(it) : probation->erase(it);
   }
@@ -83,19 +83,9 @@ bool IsRedundant(const CullingOptions& options, const Map& map, const KeyframeIn
 
 }  // namespace
 
-bool ProbationOptions::IsValid(std::string* error) const {
-  if (keyframes >= 1 && min_observations >= 1) return true;
-  *error = "keyframes and min_observations must be >= 1";
-  return false;
-}
-
 bool CullingOptions::IsValid(std::string* error) const {
-  if (!points.IsValid(error)) {
-    *error = "culling: points: " + *error;
-  } else if (!lines.IsValid(error)) {
-    *error = "culling: lines: " + *error;
-  } else if (redundant_observers < 1) {
-    *error = "culling: redundant_observers must be >= 1";
+  if (probation_keyframes < 1 || min_observations < 1 || redundant_observers < 1) {
+    *error = "culling: probation_keyframes, min_observations and redundant_observers must be >= 1";
   } else if (!(min_found_ratio >= 0.0 && min_found_ratio <= 1.0)) {
     *error = "culling: min_found_ratio must be in [0, 1]";
   } else if (!(redundant_share > 0.0 && redundant_share <= 1.0)) {
@@ -108,16 +98,11 @@ bool CullingOptions::IsValid(std::string* error) const {
 
 void CullLandmarks(const CullingOptions& options, KeyframeId newest, Probation* probation,
                    Map* map) {
-  const auto judge = [&](const ProbationOptions& kind) {
-    return [&options, &kind, newest](const Landmark& landmark) {
-      return Judge(kind, options.min_found_ratio, newest, landmark);
-    };
-  };
   CullKind(
-      judge(options.points), [&](LandmarkId id) { return map->FindPoint(id); },
+      options, newest, [&](LandmarkId id) { return map->FindPoint(id); },
       [&](LandmarkId id) { map->RemovePoint(id); }, &probation->points);
   CullKind(
-      judge(options.lines), [&](LandmarkId id) { return map->FindLine(id); },
+      options, newest, [&](LandmarkId id) { return map->FindLine(id); },
       [&](LandmarkId id) { map->RemoveLine(id); }, &probation->lines);
 }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr size_t kMaxPartners = 2;
 // Of so many keyframes the estimate remembers: the first ones are of poses that suffered from the
 // shutter, and say too little.
-constexpr double kMemory = 50.0;
+constexpr double kMemory = 25.0;
 // Seconds. Rows of an image are read while those of the next are not: the cameras run at 30 Hz,
 // whatever was kept of their images.
 constexpr double kMaxReadout = 1.0 / 30.0;
@@ -27,8 +27,8 @@ constexpr double kReadoutSpread = 0.008;
 // Rows are read from the top, unless the camera hangs upside down: one in a thousand.
 constexpr double kUpsideDown = 0.001;
 // A shutter rolls if that is so many times as likely as that it is global, and is global again if
-// that is the likelier. The odds of 42 sequences with a global one come to 7 at most (a bare room;
-// the second one 4), those of eight with a rolling one to 11 (a bare room) and to 230 and more.
+// that is the likelier. The odds of 35 sequences with a global one come to 7 at most (a corridor;
+// the second one 3), those of eight with a rolling one to 20 and more.
 constexpr double kCertain = 10.0;
 // Seconds, sigma of what was estimated with poses that did not know of the shutter.
 constexpr double kFirstSigma = 0.01;

@@ -13,10 +13,10 @@ namespace msc_vo {
 struct KeyframePolicyOptions {
   // A keyframe is due when the share of tracked features has fallen to this part of what it was
   // right after the last keyframe. Relative, because that share depends on how well features repeat
-  // in a scene, which no fixed threshold knows. A keyframe is cheap where the window does not
-  // follow it at once: instead of 0.8 and a window at each, the errors over 24 sequences are 0.89
-  // and 0.90, RPE 0.85; 0.95 is no more exact, for 5 to 12 % more time (docs/experiments.md).
-  double min_relative_share = 0.92;
+  // in a scene, which no fixed threshold knows. Between 0.75 and 0.85 the errors over all sequences
+  // of docs/results.md differ by 2 %, the number of keyframes by a third; with 0.92 they are a
+  // tenth less, for up to a fifth more time (docs/experiments.md).
+  double min_relative_share = 0.8;
   // The landmarks that the last keyframe created are only there after it; frames between keyframes,
   // at least and at most. 30 frames are one second.
   int min_interval = 2;

@@ -94,7 +94,6 @@ TEST_F(OptionsFileTest, NoFieldOfTheOptionsIsForgotten) {
   EXPECT_EQ(NumListed("mapping.selection."), NumFields<WindowSelectionOptions>());
   EXPECT_EQ(NumListed("mapping.window."), NumFields<WindowOptions>());
   EXPECT_EQ(NumListed("mapping.culling."), NumFields<CullingOptions>());
-  EXPECT_EQ(NumListed("mapping.culling.lines."), NumFields<ProbationOptions>());
 }
 
 TEST_F(OptionsFileTest, ReadsWhatIsThereAndKeepsTheRest) {

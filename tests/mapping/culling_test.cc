@@ -43,27 +43,6 @@ TEST_F(CullingTest, OnlyConfirmedLandmarksSurviveProbation) {
   EXPECT_TRUE(probation.points.empty());
 }
 
-TEST_F(CullingTest, LinesHaveAProbationOfTheirOwn) {
-  options_.lines = {3, 3};
-  const LandmarkId line = map_.AddLine(0, 0, {{0, 0, 2}, {1, 0, 2}});
-  Probation probation;
-  probation.lines.insert(line);
-  map_.ObserveLine(line, AddKeyframe(), 0);
-  AddKeyframe();
-  CullLandmarks(options_, 2, &probation, &map_);
-  EXPECT_NE(map_.FindLine(line), nullptr);  // with the terms of points it would have passed
-  EXPECT_EQ(probation.lines.size(), 1u);
-  CullLandmarks(options_, AddKeyframe(), &probation, &map_);
-  EXPECT_EQ(map_.FindLine(line), nullptr);  // two observations, where three are asked for
-  EXPECT_TRUE(probation.lines.empty());
-  EXPECT_EQ(map_.points().size(), 4u);
-
-  std::string error;
-  options_.lines.keyframes = 0;
-  EXPECT_FALSE(options_.IsValid(&error));
-  EXPECT_EQ(error, "culling: lines: keyframes and min_observations must be >= 1");
-}
-
 TEST_F(CullingTest, LandmarksThatAreNotFoundAgainGoAtOnce) {
   Probation probation;
   probation.points.insert(points_.begin(), points_.end());

@@ -22,9 +22,7 @@ bool Ask(KeyframePolicy* policy, int num, int tracked, double depth = 2.0) {
 }
 
 TEST(KeyframePolicy, DueWhenTheShareHasFallen) {
-  KeyframePolicyOptions options;
-  options.min_relative_share = 0.8;
-  KeyframePolicy policy(options);
+  KeyframePolicy policy{KeyframePolicyOptions()};
   EXPECT_FALSE(Ask(&policy, 100, 60));
   EXPECT_FALSE(Ask(&policy, 100, 60));
   EXPECT_FALSE(Ask(&policy, 100, 54));
