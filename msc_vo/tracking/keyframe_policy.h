@@ -14,8 +14,9 @@ struct KeyframePolicyOptions {
   // A keyframe is due when the share of tracked features has fallen to this part of what it was
   // right after the last keyframe. Relative, because that share depends on how well features repeat
   // in a scene, which no fixed threshold knows. Between 0.75 and 0.85 the errors over all sequences
-  // of docs/results.md differ by 2 %, the number of keyframes by a third; with 0.92 they are a
-  // tenth less, for up to a fifth more time (docs/experiments.md).
+  // of docs/results.md differ by 2 %, the number of keyframes by a third; with 0.92 and
+  // mapping.min_window_interval they are a tenth less, for more time and worse lines of the map far
+  // away (docs/experiments.md).
   double min_relative_share = 0.8;
   // The landmarks that the last keyframe created are only there after it; frames between keyframes,
   // at least and at most. 30 frames are one second.
