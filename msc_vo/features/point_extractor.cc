@@ -19,6 +19,7 @@ namespace msc_vo {
 namespace {
 
 constexpr int kBorder = PointDescriber::kBorder;
+static_assert(kFastMinColumns > 2 * kBorder);
 
 bool Stronger(const FastCorner& a, const FastCorner& b) {
   return std::make_tuple(-a.response, a.pixel.y, a.pixel.x) <
@@ -170,7 +171,7 @@ int PointExtractor::SetImage(const cv::Mat& gray) {
   for (size_t l = 0; l < levels_.size(); ++l) {
     const cv::Size size(cvRound(gray.cols / levels_[l].scale),
                         cvRound(gray.rows / levels_[l].scale));
-    if (std::min(size.width, size.height) <= 2 * kBorder) return static_cast<int>(l);
+    if (size.width < kFastMinColumns || size.height <= 2 * kBorder) return static_cast<int>(l);
     if (l == 0) continue;
     cv::resize(levels_[l - 1].image, levels_[l].image, size, 0.0, 0.0, cv::INTER_LINEAR);
   }

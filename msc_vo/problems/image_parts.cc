@@ -19,11 +19,12 @@ std::vector<int> ImageParts::PartsOf(const LineSegment2& segment) const {
   const int steps = 1 + static_cast<int>(4.0 * std::max(std::abs(along.x()) * per_pixel_x_,
                                                         std::abs(along.y()) * per_pixel_y_));
   std::vector<int> parts;
+  parts.reserve(steps + 1);
   for (int k = 0; k <= steps; ++k) {
-    parts.push_back(PartOf(segment.start + static_cast<double>(k) / steps * along));
+    // A straight line does not come back to a part that it has left.
+    const int part = PartOf(segment.start + static_cast<double>(k) / steps * along);
+    if (parts.empty() || parts.back() != part) parts.push_back(part);
   }
-  std::sort(parts.begin(), parts.end());
-  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
   return parts;
 }
 

@@ -26,7 +26,7 @@ class ImageParts {
   int PartOf(const Eigen::Vector2d& pixel) const;
   // Of a segment, where it must be one: that of its middle.
   int PartOf(const LineSegment2& segment) const { return PartOf(segment.Midpoint()); }
-  // Those that a segment runs through, looked up four times per part; ascending.
+  // Those that a segment runs through, looked up four times per part; in its order.
   std::vector<int> PartsOf(const LineSegment2& segment) const;
   // Centre of a part, as a share of the image's width and height.
   Eigen::Vector2d CenterOf(int part) const {

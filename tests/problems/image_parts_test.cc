@@ -38,7 +38,7 @@ TEST(ImageParts, PixelsOutsideBelongToTheNearest) {
 
 TEST(ImageParts, SegmentsRunThroughSeveral) {
   const ImageParts parts = FourByTwo();
-  EXPECT_THAT(parts.PartsOf({{90.0, 20.0}, {10.0, 20.0}}), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(parts.PartsOf({{90.0, 20.0}, {10.0, 20.0}}), ElementsAre(3, 2, 1, 0));
   EXPECT_THAT(parts.PartsOf({{10.0, 20.0}, {10.0, 90.0}}), ElementsAre(0, 4));
   EXPECT_THAT(parts.PartsOf({{10.0, 20.0}, {12.0, 22.0}}), ElementsAre(0));
   EXPECT_EQ(parts.PartOf(LineSegment2{{90.0, 20.0}, {14.0, 20.0}}), 2);
