@@ -39,24 +39,29 @@ class ResidualReader {
       : residuals_(residuals), window_(residuals.window()) {}
 
   Residuals PointDepths() const {
-    return Depths(window_.point_observations, &WindowResiduals::PointDepth);
+    return Depths(window_.point_observations, window_.points.size(), &WindowResiduals::PointOf,
+                  &WindowResiduals::PointDepth);
   }
   Residuals LineDepths() const {
-    return Depths(window_.line_observations, &WindowResiduals::LineDepth);
+    return Depths(window_.line_observations, window_.lines.size(), &WindowResiduals::LineOf,
+                  &WindowResiduals::LineDepth);
   }
 
   // Of both end points. Rejected observations are part of it, as otherwise a sigma that is too
   // small would reject what contradicts it; they have cost nothing.
   Residuals LinePixels() const {
     const auto& observations = window_.line_observations;
-    std::map<int64_t, int> num_accepted;
-    for (const auto& o : observations) num_accepted[o.line] += !o.rejected;
+    std::vector<int> num_accepted(window_.lines.size(), 0);
+    for (size_t i = 0; i < observations.size(); ++i) {
+      num_accepted[residuals_.LineOf(i)] += !observations[i].rejected;
+    }
     Residuals all;
+    all.reserve(2 * observations.size());
     for (size_t i = 0; i < observations.size(); ++i) {
       const WindowData::LineObservation& o = observations[i];
       const std::optional<Eigen::Vector2d> residual = residuals_.LinePixel(i);
       if (!residual) continue;
-      const double expected = o.rejected ? 1.0 : 1.0 - 1.0 / num_accepted.at(o.line);
+      const double expected = o.rejected ? 1.0 : 1.0 - 1.0 / num_accepted[residuals_.LineOf(i)];
       for (const int end : {0, 1}) {
         all.push_back({o.keyframe, QuarterOf(o), (*residual)[end], expected});
       }
@@ -66,26 +71,25 @@ class ResidualReader {
 
  private:
   template <typename Observation>
-  Residuals Depths(const std::vector<Observation>& observations,
+  Residuals Depths(const std::vector<Observation>& observations, size_t num_landmarks,
+                   int (WindowResiduals::*landmark)(size_t) const,
                    std::optional<double> (WindowResiduals::*depth)(size_t) const) const {
-    std::map<int64_t, int> num_depths;
+    std::vector<int> num_depths(num_landmarks, 0);
     for (size_t i = 0; i < observations.size(); ++i) {
-      const Observation& o = observations[i];
-      num_depths[LandmarkOf(o)] += !o.rejected && (residuals_.*depth)(i).has_value();
+      num_depths[(residuals_.*landmark)(i)] +=
+          !observations[i].rejected && (residuals_.*depth)(i).has_value();
     }
     Residuals all;
+    all.reserve(observations.size());
     for (size_t i = 0; i < observations.size(); ++i) {
       const Observation& o = observations[i];
       const std::optional<double> residual = (residuals_.*depth)(i);
       if (o.rejected || !residual) continue;
-      all.push_back(
-          {o.keyframe, QuarterOf(o), *residual, 1.0 - 1.0 / num_depths.at(LandmarkOf(o))});
+      const int count = num_depths[(residuals_.*landmark)(i)];
+      all.push_back({o.keyframe, QuarterOf(o), *residual, 1.0 - 1.0 / count});
     }
     return all;
   }
-
-  static int64_t LandmarkOf(const WindowData::PointObservation& o) { return o.point; }
-  static int64_t LandmarkOf(const WindowData::LineObservation& o) { return o.line; }
 
   int QuarterOf(const WindowData::PointObservation& o) const { return QuarterOf(o.pixel); }
   int QuarterOf(const WindowData::LineObservation& o) const { return QuarterOf(o.segment.At(0.5)); }
@@ -128,7 +132,7 @@ Evidence OfSpread(const Residuals& residuals) {
   if (expected <= 0.0) return {};
   std::set<Quarter> quarters;
   for (const Residual& residual : residuals) {
-    quarters.emplace(residual.keyframe, residual.quarter);
+    quarters.insert({residual.keyframe, residual.quarter});
   }
   const double deviation = RobustDeviation(residuals);
   return {deviation * deviation * static_cast<double>(residuals.size()) / expected,

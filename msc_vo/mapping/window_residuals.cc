@@ -12,31 +12,34 @@ namespace msc_vo {
 
 namespace {
 
-// For look-ups alone: nothing depends on the order inside.
+// Where each item stands. For look-ups alone: nothing depends on the order inside.
 template <typename Item>
-std::unordered_map<int64_t, const Item*> ById(const std::vector<Item>& items) {
-  std::unordered_map<int64_t, const Item*> by_id;
-  by_id.reserve(items.size());
-  for (const Item& item : items) by_id[item.id] = &item;
-  return by_id;
+std::unordered_map<int64_t, int> Positions(const std::vector<Item>& items) {
+  std::unordered_map<int64_t, int> positions;
+  positions.reserve(items.size());
+  for (size_t i = 0; i < items.size(); ++i) positions[items[i].id] = static_cast<int>(i);
+  return positions;
 }
 
 }  // namespace
 
 WindowResiduals::WindowResiduals(const WindowData& solved) : window_(solved) {
-  const auto keyframes = ById(solved.keyframes);
-  const auto points = ById(solved.points);
-  const auto lines = ById(solved.lines);
+  const auto keyframes = Positions(solved.keyframes);
+  const auto points = Positions(solved.points);
+  const auto lines = Positions(solved.lines);
   points_in_cam_.reserve(solved.point_observations.size());
+  points_.reserve(solved.point_observations.size());
   for (const WindowData::PointObservation& o : solved.point_observations) {
-    points_in_cam_.push_back(keyframes.at(o.keyframe)->cam_from_world *
-                             points.at(o.point)->position);
+    points_.push_back(points.at(o.point));
+    points_in_cam_.push_back(solved.keyframes[keyframes.at(o.keyframe)].cam_from_world *
+                             solved.points[points_.back()].position);
   }
   lines_in_cam_.reserve(solved.line_observations.size());
+  lines_.reserve(solved.line_observations.size());
   for (const WindowData::LineObservation& o : solved.line_observations) {
-    const WindowData::Line& line = *lines.at(o.line);
-    lines_in_cam_.push_back(keyframes.at(o.keyframe)->cam_from_world * line.segment);
-    depth_offsets_.push_back(line.depth_offset);
+    lines_.push_back(lines.at(o.line));
+    lines_in_cam_.push_back(solved.keyframes[keyframes.at(o.keyframe)].cam_from_world *
+                            solved.lines[lines_.back()].segment);
   }
 }
 
@@ -56,7 +59,8 @@ std::optional<double> WindowResiduals::LineDepth(size_t i) const {
   const WindowData::LineObservation& o = window_.line_observations[i];
   if (!o.has_depth || !IsInFront(lines_in_cam_[i])) return std::nullopt;
   const double inverse_depth = InverseDepthAt(window_.camera, o.segment, lines_in_cam_[i], 0.5);
-  return (inverse_depth - Nearer(o.depth, depth_offsets_[i]).At(0.5)) / o.depth.SigmaAt(0.5);
+  return (inverse_depth - Nearer(o.depth, window_.lines[lines_[i]].depth_offset).At(0.5)) /
+         o.depth.SigmaAt(0.5);
 }
 
 }  // namespace msc_vo

@@ -24,6 +24,9 @@ class WindowResiduals {
   explicit WindowResiduals(const WindowData& solved);
 
   const WindowData& window() const { return window_; }
+  // Position of an observation's landmark in the window's list.
+  int PointOf(size_t i) const { return points_[i]; }
+  int LineOf(size_t i) const { return lines_[i]; }
 
   // Of a point's inverse depth; none if it was not measured, or behind the camera.
   std::optional<double> PointDepth(size_t i) const;
@@ -35,10 +38,10 @@ class WindowResiduals {
 
  private:
   const WindowData& window_;
-  // In the observing camera, metres, by observation.
+  // By observation: its landmark, and where that is in the observing camera, metres.
+  std::vector<int> points_, lines_;
   std::vector<Eigen::Vector3d> points_in_cam_;
   std::vector<LineSegment3> lines_in_cam_;
-  std::vector<double> depth_offsets_;  // metres, of lines
 };
 
 }  // namespace msc_vo

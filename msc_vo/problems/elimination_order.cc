@@ -4,23 +4,33 @@
 #include "msc_vo/problems/elimination_order.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace msc_vo {
 
 std::vector<bool> LinesToKeep(int num_lines, const std::vector<WindowIndex::Pair>& pairs) {
-  std::vector<std::vector<int>> partners(num_lines);
+  // Those of line i are partners[begins[i]] to partners[begins[i + 1] - 1].
+  std::vector<int> begins(num_lines + 1, 0);
   for (const auto& [a, b] : pairs) {
-    partners[a].push_back(b);
-    partners[b].push_back(a);
+    ++begins[a + 1];
+    ++begins[b + 1];
   }
-  std::vector<std::pair<size_t, int>> by_degree;
-  for (int i = 0; i < num_lines; ++i) by_degree.emplace_back(partners[i].size(), i);
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::vector<int> partners(begins.back());
+  std::vector<int> ends = begins;
+  for (const auto& [a, b] : pairs) {
+    partners[ends[a]++] = b;
+    partners[ends[b]++] = a;
+  }
+  std::vector<std::pair<int, int>> by_degree;
+  by_degree.reserve(num_lines);
+  for (int i = 0; i < num_lines; ++i) by_degree.emplace_back(begins[i + 1] - begins[i], i);
   std::sort(by_degree.begin(), by_degree.end());
   std::vector<bool> keep(num_lines, false);
   for (const auto& [degree, line] : by_degree) {
     if (keep[line]) continue;
-    for (const int partner : partners[line]) keep[partner] = true;
+    for (int k = begins[line]; k < begins[line + 1]; ++k) keep[partners[k]] = true;
   }
   return keep;
 }
