@@ -17,11 +17,11 @@ namespace msc_vo {
 namespace {
 
 // Thirty-two pixels at once. Where the processor has AVX2 they are one vector, elsewhere two: the
-// functions over rows are compiled for both, and the loader chooses. What works on integers alone
-// gives the same numbers.
+// functions over rows are compiled for both, and the loader chooses, but for ThreadSanitizer, which
+// is not ready when the loader asks. What works on integers alone gives the same numbers.
 using Pixels [[gnu::vector_size(32)]] = uint8_t;
 constexpr int kLanes = sizeof(Pixels), kWord = sizeof(uint64_t);
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 #define MSC_VO_AVX2_IF_PRESENT [[gnu::target_clones("avx2", "default")]]
 #else
 #define MSC_VO_AVX2_IF_PRESENT
