@@ -19,10 +19,12 @@ function(msc_vo_compile_options target)
 endfunction()
 
 # msc_vo_library(<folder> SOURCES a.cc ... [DEPENDS target ...] [PRIVATE_DEPENDS target ...])
-# A folder that holds headers only becomes an INTERFACE library.
+# The component has the folder's name, with _ for /. A folder that holds headers only becomes an
+# INTERFACE library.
 function(msc_vo_library folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
-  set(target msc_vo_${folder})
+  string(REPLACE / _ component ${folder})
+  set(target msc_vo_${component})
   if(ARG_SOURCES)
     add_library(${target} STATIC ${ARG_SOURCES})
     set(scope PUBLIC)
@@ -39,7 +41,8 @@ function(msc_vo_library folder)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  msc_vo_export(${folder} ${ARG_DEPENDS} ${ARG_PRIVATE_DEPENDS})
+  set_property(GLOBAL PROPERTY MSC_VO_FOLDER_OF_${component} ${folder})
+  msc_vo_export(${component} ${ARG_DEPENDS} ${ARG_PRIVATE_DEPENDS})
 endfunction()
 
 # msc_vo_umbrella(<name> <folder> ...): several folders under one name.

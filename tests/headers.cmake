@@ -3,8 +3,12 @@
 # but the include.
 get_property(components GLOBAL PROPERTY MSC_VO_COMPONENTS)
 foreach(component ${components})
-  file(GLOB headers RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
-       ${PROJECT_SOURCE_DIR}/msc_vo/${component}/*.h)
+  get_property(folder GLOBAL PROPERTY MSC_VO_FOLDER_OF_${component})
+  set(headers)
+  if(folder)  # an umbrella has none
+    file(GLOB_RECURSE headers RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
+         ${PROJECT_SOURCE_DIR}/msc_vo/${folder}/*.h)
+  endif()
   set(sources)
   foreach(header ${headers})
     cmake_path(REPLACE_EXTENSION header .cc OUTPUT_VARIABLE source)

@@ -10,9 +10,9 @@
 #include "msc_vo/features/frame_builder.h"
 #include "msc_vo/features/surface_normals.h"
 #include "msc_vo/geometry/so3.h"
-#include "msc_vo/manhattan/coarse_axes.h"
-#include "msc_vo/problems/manhattan_axes_problem.h"
-#include "msc_vo/synthetic/random.h"
+#include "msc_vo/structure/coarse_axes.h"
+#include "msc_vo/structure/axes_refinement.h"
+#include "msc_vo/synthetic/scene/random.h"
 
 namespace msc_vo {
 

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "msc_vo/io/window_file.h"
-#include "msc_vo/synthetic/synthetic_window.h"
+#include "msc_vo/recording/window_file.h"
+#include "msc_vo/synthetic/window/synthetic_window.h"
 
 namespace msc_vo {
 

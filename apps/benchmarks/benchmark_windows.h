@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "msc_vo/problems/window_problem.h"
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 
 namespace msc_vo {
 

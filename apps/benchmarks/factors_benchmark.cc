@@ -9,18 +9,18 @@
 
 #include <benchmark/benchmark.h>
 
-#include "msc_vo/factors/chain_rule_cost.h"
+#include "msc_vo/factors/analytic_cost_function.h"
 #include "msc_vo/factors/depth_reprojection.h"
-#include "msc_vo/factors/line_anchor.h"
+#include "msc_vo/factors/line_endpoint_prior.h"
 #include "msc_vo/factors/line_depth_reprojection.h"
-#include "msc_vo/factors/line_pair_cost.h"
+#include "msc_vo/factors/analytic_line_pair_cost_function.h"
 #include "msc_vo/factors/line_reprojection.h"
 #include "msc_vo/factors/manhattan_axis_alignment.h"
 #include "msc_vo/factors/parallel_lines.h"
 #include "msc_vo/factors/perpendicular_lines.h"
 #include "msc_vo/factors/point_reprojection.h"
-#include "msc_vo/problems/observation.h"
-#include "msc_vo/synthetic/synthetic_window.h"
+#include "msc_vo/bundle_adjustment/observation.h"
+#include "msc_vo/synthetic/window/synthetic_window.h"
 
 namespace msc_vo {
 

@@ -10,7 +10,7 @@
 #include "apps/benchmarks/rendered_images.h"
 #include "msc_vo/features/edge_segments.h"
 #include "msc_vo/features/frame_builder.h"
-#include "msc_vo/features/line_describer.h"
+#include "msc_vo/features/line_descriptor_extractor.h"
 #include "msc_vo/features/surface_normals.h"
 
 namespace msc_vo {

@@ -13,8 +13,8 @@
 #include <benchmark/benchmark.h>
 
 #include "apps/benchmarks/benchmark_windows.h"
-#include "msc_vo/problems/window_classification.h"
-#include "msc_vo/problems/window_minimizer.h"
+#include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
+#include "msc_vo/bundle_adjustment/internal/block_schur_backend.h"
 
 namespace msc_vo {
 

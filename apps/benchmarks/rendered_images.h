@@ -5,8 +5,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "msc_vo/features/rgbd_image.h"
-#include "msc_vo/synthetic/synthetic_sequence.h"
+#include "msc_vo/sensor/rgbd_image.h"
+#include "msc_vo/synthetic/scene/synthetic_sequence.h"
 
 namespace msc_vo {
 

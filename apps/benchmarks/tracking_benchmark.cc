@@ -9,7 +9,7 @@
 
 #include "apps/benchmarks/rendered_images.h"
 #include "msc_vo/features/frame_builder.h"
-#include "msc_vo/tracking/pose_estimation.h"
+#include "msc_vo/tracking/frame_pose.h"
 
 namespace msc_vo {
 

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "msc_vo/factors/cost_functor.h"
-#include "msc_vo/geometry/pinhole_camera.h"
+#include "msc_vo/camera/pinhole_camera.h"
 
 namespace msc_vo {
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "msc_vo/features/inverse_depth_image.h"
+#include "msc_vo/sensor/inverse_depth_image.h"
 
 namespace msc_vo {
 

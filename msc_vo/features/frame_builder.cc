@@ -7,8 +7,8 @@
 #include <string>
 
 #include "msc_vo/features/depth_sampler.h"
-#include "msc_vo/features/inverse_depth_image.h"
-#include "msc_vo/features/lens_remap.h"
+#include "msc_vo/sensor/inverse_depth_image.h"
+#include "msc_vo/sensor/lens_remap.h"
 #include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {

@@ -11,8 +11,8 @@
 #include "msc_vo/features/line_backprojection.h"
 #include "msc_vo/features/line_extractor.h"
 #include "msc_vo/features/point_extractor.h"
-#include "msc_vo/features/rgbd_image.h"
-#include "msc_vo/features/sensor_noise.h"
+#include "msc_vo/sensor/rgbd_image.h"
+#include "msc_vo/sensor/sensor_noise.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/map/frame.h"
 

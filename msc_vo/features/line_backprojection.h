@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "msc_vo/features/inverse_depth_image.h"
-#include "msc_vo/features/lens_remap.h"
+#include "msc_vo/sensor/inverse_depth_image.h"
+#include "msc_vo/sensor/lens_remap.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
 

@@ -10,7 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "msc_vo/features/edge_segments.h"
-#include "msc_vo/features/line_describer.h"
+#include "msc_vo/features/line_descriptor_extractor.h"
 #include "msc_vo/features/line_refinement.h"
 
 namespace msc_vo {

@@ -12,7 +12,7 @@
 
 #include "msc_vo/features/corner_refinement.h"
 #include "msc_vo/features/fast_corners.h"
-#include "msc_vo/features/point_describer.h"
+#include "msc_vo/features/point_descriptor_extractor.h"
 
 namespace msc_vo {
 

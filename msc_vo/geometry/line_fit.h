@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 
 #include "msc_vo/geometry/line_segment.h"
-#include "msc_vo/geometry/pinhole_camera.h"
+#include "msc_vo/camera/pinhole_camera.h"
 
 namespace msc_vo {
 

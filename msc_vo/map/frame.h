@@ -13,7 +13,7 @@
 #include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
-#include "msc_vo/geometry/pinhole_camera.h"
+#include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/rigid3.h"
 
 namespace msc_vo {

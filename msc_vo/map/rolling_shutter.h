@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "msc_vo/geometry/camera_velocity.h"
-#include "msc_vo/geometry/pinhole_camera.h"
+#include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/map/frame.h"
 
 namespace msc_vo {

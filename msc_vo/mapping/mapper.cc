@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "msc_vo/mapping/keyframe_structure.h"
-#include "msc_vo/mapping/keyframe_unrolling.h"
+#include "msc_vo/structure/keyframe_structure.h"
+#include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
 #include "msc_vo/mapping/landmark_creation.h"
 #include "msc_vo/timing/stopwatch.h"
 

@@ -11,7 +11,7 @@
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/mapping/keyframe_packet.h"
 #include "msc_vo/mapping/mapper_options.h"
-#include "msc_vo/mapping/readout_estimator.h"
+#include "msc_vo/self_calibration/readout_time_estimator.h"
 #include "msc_vo/mapping/window_observer.h"
 
 namespace msc_vo {

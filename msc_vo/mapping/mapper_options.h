@@ -6,14 +6,14 @@
 #include <optional>
 #include <string>
 
-#include "msc_vo/map/window.h"
+#include "msc_vo/map/window_selection.h"
 #include "msc_vo/mapping/culling.h"
 #include "msc_vo/mapping/landmark_fusion.h"
-#include "msc_vo/mapping/noise_estimator.h"
-#include "msc_vo/mapping/scene_axes.h"
-#include "msc_vo/mapping/structural_pairs.h"
-#include "msc_vo/problems/frame_structure_problem.h"
-#include "msc_vo/problems/window_problem.h"
+#include "msc_vo/self_calibration/noise_estimator.h"
+#include "msc_vo/structure/scene_axes.h"
+#include "msc_vo/structure/structural_pairs.h"
+#include "msc_vo/structure/frame_structure.h"
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 
 namespace msc_vo {
 

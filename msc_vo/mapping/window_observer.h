@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "msc_vo/map/landmark.h"
-#include "msc_vo/problems/window_data.h"
-#include "msc_vo/problems/window_problem.h"
+#include "msc_vo/bundle_adjustment/window_data.h"
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 
 namespace msc_vo {
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "msc_vo/features/depth_alignment.h"
+#include "msc_vo/sensor/depth_alignment.h"
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/odometry/mapping_runner.h"

@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "msc_vo/features/rgbd_image.h"
+#include "msc_vo/sensor/rgbd_image.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/timed_pose.h"
-#include "msc_vo/manhattan/axes_estimator.h"
+#include "msc_vo/structure/axes_estimator.h"
 #include "msc_vo/map/noise_scale.h"
 #include "msc_vo/mapping/window_observer.h"
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/odometry/odometry_options.h"
-#include "msc_vo/problems/window_problem.h"
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 
 namespace msc_vo {
 

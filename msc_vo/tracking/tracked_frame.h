@@ -13,7 +13,7 @@
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/map/noise_scale.h"
 #include "msc_vo/matching/frame_matches.h"
-#include "msc_vo/problems/pose_problem.h"
+#include "msc_vo/pose_estimation/pose_optimization.h"
 #include "msc_vo/tracking/tracking_status.h"
 
 namespace msc_vo {

@@ -13,8 +13,8 @@
 #include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/timing/stopwatch.h"
-#include "msc_vo/tracking/moving_features.h"
-#include "msc_vo/tracking/pose_estimation.h"
+#include "msc_vo/tracking/dynamic_features.h"
+#include "msc_vo/tracking/frame_pose.h"
 
 namespace msc_vo {
 

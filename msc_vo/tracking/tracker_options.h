@@ -7,9 +7,9 @@
 
 #include "msc_vo/matching/line_matcher.h"
 #include "msc_vo/matching/point_matcher.h"
-#include "msc_vo/problems/pose_problem.h"
+#include "msc_vo/pose_estimation/pose_optimization.h"
 #include "msc_vo/tracking/keyframe_policy.h"
-#include "msc_vo/tracking/relocalizer.h"
+#include "msc_vo/pose_estimation/relocalizer.h"
 
 namespace msc_vo {
 

@@ -8,11 +8,11 @@
 #include <filesystem>
 
 #include "tests/apps/command_process.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "msc_vo/io/text_file.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 namespace {

@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include "tests/apps/command_process.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "msc_vo/io/ply_file.h"
-#include "msc_vo/io/text_file.h"
+#include "msc_vo/results/ply_file.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 namespace {

@@ -6,14 +6,14 @@
 #include <algorithm>
 
 #include "tests/apps/command_process.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "msc_vo/io/text_file.h"
-#include "msc_vo/io/trajectory.h"
-#include "msc_vo/io/window_file.h"
-#include "msc_vo/synthetic/synthetic_window.h"
+#include "msc_vo/text/text_file.h"
+#include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/recording/window_file.h"
+#include "msc_vo/synthetic/window/synthetic_window.h"
 
 namespace msc_vo {
 namespace {

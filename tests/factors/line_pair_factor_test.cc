@@ -7,7 +7,7 @@
 
 #include "tests/support/factor_checks.h"
 
-#include "msc_vo/factors/line_pair_cost.h"
+#include "msc_vo/factors/analytic_line_pair_cost_function.h"
 #include "msc_vo/factors/parallel_lines.h"
 #include "msc_vo/factors/perpendicular_lines.h"
 

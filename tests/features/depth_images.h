@@ -10,7 +10,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "msc_vo/geometry/pinhole_camera.h"
+#include "msc_vo/camera/pinhole_camera.h"
 
 namespace msc_vo::testing {
 

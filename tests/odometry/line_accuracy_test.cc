@@ -8,7 +8,7 @@
 #include "msc_vo/evaluation/line_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/odometry/odometry.h"
-#include "msc_vo/synthetic/synthetic_sequence.h"
+#include "msc_vo/synthetic/scene/synthetic_sequence.h"
 
 namespace msc_vo {
 namespace {

@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "msc_vo/evaluation/trajectory_error.h"
-#include "msc_vo/synthetic/synthetic_sequence.h"
+#include "msc_vo/synthetic/scene/synthetic_sequence.h"
 
 namespace msc_vo {
 namespace {

@@ -15,7 +15,7 @@
 #include <ceres/solver.h>
 #include <gtest/gtest.h>
 
-#include "msc_vo/factors/chain_rule_cost.h"
+#include "msc_vo/factors/analytic_cost_function.h"
 #include "msc_vo/factors/rigid3_manifold.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/rigid3.h"

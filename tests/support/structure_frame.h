@@ -10,7 +10,7 @@
 #include <Eigen/LU>
 
 #include "msc_vo/geometry/angles.h"
-#include "msc_vo/problems/frame_structure_problem.h"
+#include "msc_vo/structure/frame_structure.h"
 
 namespace msc_vo {
 

@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-#include "msc_vo/problems/window_problem.h"
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/version.h"
 
 int main() {

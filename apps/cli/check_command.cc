@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <iostream>
+#include <memory>
+
+#include "apps/cli/commands.h"
+#include "apps/cli/configuration_arguments.h"
+#include "apps/cli/sequence_arguments.h"
+#include "msc_vo/datasets/sequence_check.h"
+
+namespace msc_vo {
+
+namespace {
+
+struct Arguments {
+  SequenceArguments sequence;
+  ConfigurationArguments configuration;
+  SequenceCheckOptions options;
+  bool all = false;
+};
+
+const char* Label(Severity severity) {
+  switch (severity) {
+    case Severity::kGood:
+      return "ok       ";
+    case Severity::kWarning:
+      return "warning  ";
+    case Severity::kError:
+      return "ERROR    ";
+  }
+  return "";
+}
+
+int Run(const Arguments& arguments) {
+  const RgbdDecoder decoder =
+      OpenDecoder(arguments.sequence, MakeConfiguration(arguments.configuration));
+  SequenceCheckOptions options = arguments.options;
+  if (arguments.all) options.max_images = decoder.size();
+  std::cout << decoder.index().directory << " (" << decoder.index().format << ")\n";
+  int warnings = 0;
+  int errors = 0;
+  for (const Finding& finding : CheckSequence(decoder, options)) {
+    std::cout << Label(finding.severity) << finding.text << "\n";
+    warnings += finding.severity == Severity::kWarning;
+    errors += finding.severity == Severity::kError;
+  }
+  std::cout << errors << (errors == 1 ? " error, " : " errors, ") << warnings
+            << (warnings == 1 ? " warning" : " warnings") << std::endl;
+  return errors > 0 ? kExitError : kExitSuccess;
+}
+
+}  // namespace
+
+Command AddCheckCommand(CLI::App* app) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app->add_subcommand(
+      "check", "Examine a sequence: files, sizes, stamps, depth in metres, camera, ground truth");
+  AddSequenceArguments(command, &arguments->sequence)->required();
+  AddConfigurationArguments(command, &arguments->configuration);
+  command->add_option("--images", arguments->options.max_images, "Images to decode, evenly spread")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_flag("--all", arguments->all, "Decode every image");
+  command->footer(HelpFooter("msc_vo check my_sequence"));
+  return {command, [arguments] { return Run(*arguments); }};
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/cli/cost_meter.h"
+
+#include <fstream>
+#include <string>
+
+#include <sys/resource.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace msc_vo {
+
+namespace {
+
+double Seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+double ProcessorSeconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return Seconds(usage.ru_utime) + Seconds(usage.ru_stime);
+}
+
+// Linux forgets the peak when 5 is written here (man 5 proc). Where that is not allowed the peak
+// remains the one of the whole process.
+void ForgetPeakMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+  std::ofstream("/proc/self/clear_refs") << "5" << std::flush;
+}
+
+// Peak resident memory, MiB.
+double PeakMemory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string name; status >> name;) {
+    double kibibytes = 0.0;
+    if (name == "VmHWM:" && status >> kibibytes) return kibibytes / 1024.0;
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts kibibytes
+}
+
+}  // namespace
+
+CostMeter::CostMeter() {
+  ForgetPeakMemory();
+  start_processor_seconds_ = ProcessorSeconds();
+  start_ = std::chrono::steady_clock::now();
+}
+
+RunCost CostMeter::Read() const {
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+  return {elapsed.count(), ProcessorSeconds() - start_processor_seconds_, PeakMemory()};
+}
+
+}  // namespace msc_vo

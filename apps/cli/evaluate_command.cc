@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "apps/cli/commands.h"
+#include "msc_vo/evaluation/line_error.h"
+#include "msc_vo/evaluation/trajectory_error.h"
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/results/ply_file.h"
+#include "msc_vo/results/run_summary.h"
+#include "msc_vo/datasets/trajectory.h"
+
+namespace msc_vo {
+
+namespace {
+
+struct Arguments {
+  std::string truth;
+  std::string estimate;
+  EvaluationOptions options;
+  std::string lines, edges;  // empty: lines are not compared
+  bool json = false;
+};
+
+void PrintRow(const char* name, const ErrorStatistics& statistics, double factor,
+              const char* unit) {
+  if (statistics.count == 0) {
+    std::printf("%-20s  no pairs that far apart\n", name);
+    return;
+  }
+  std::printf("%-20s %9.3f %9.3f %9.3f %9.3f %9.3f  %s\n", name, factor * statistics.rmse,
+              factor * statistics.mean, factor * statistics.median, factor * statistics.p95,
+              factor * statistics.max, unit);
+}
+
+void PrintTable(const TrajectoryError& error) {
+  constexpr double kMillimetres = 1000.0;
+  constexpr double kDegrees = RadiansToDegrees(1.0);
+  std::printf("%-20s %9s %9s %9s %9s %9s\n", "", "RMSE", "mean", "median", "95 %", "max");
+  PrintRow("APE", error.ape, kMillimetres, "mm");
+  PrintRow("APE rotation", error.ape_rotation, kDegrees, "deg");
+  PrintRow("RPE", error.rpe_per_second.translation, kMillimetres, "mm/s");
+  PrintRow("RPE rotation", error.rpe_per_second.rotation, kDegrees, "deg/s");
+  PrintRow("RPE", error.rpe_per_metre.translation, kMillimetres, "mm/m");
+  PrintRow("RPE rotation", error.rpe_per_metre.rotation, kDegrees, "deg/m");
+  std::printf(
+      "coverage %.2f %%: %d of %d ground-truth poses matched (%.2f %% of those in the "
+      "time range of the estimate), %d estimated, path %.2f m\n",
+      100.0 * error.coverage, error.num_matched, error.num_reference,
+      100.0 * error.coverage_in_range, error.num_estimate, error.path_length);
+}
+
+void PrintLines(const LineError& error) {
+  if (error.num_matched > 0) {
+    PrintRow("line direction", error.direction, RadiansToDegrees(1.0), "deg");
+    PrintRow("line distance", error.distance, 1000.0, "mm");
+    PrintRow("  across the sight", error.across, 1000.0, "mm");
+  }
+  std::printf(
+      "lines: %d in the map, %d of them long and seen often enough, %d of these matched with an "
+      "edge; %d of %d edges found\n",
+      error.num_lines, error.num_counted, error.num_matched, error.num_edges_found,
+      error.num_edges);
+}
+
+int Run(const Arguments& arguments) {
+  const std::vector<TimedPose> truth = ReadTrajectory(arguments.truth);
+  const std::vector<TimedPose> estimate = ReadTrajectory(arguments.estimate);
+  const TrajectoryError error = EvaluateTrajectory(truth, estimate, arguments.options);
+  if (!error.usable) {
+    throw std::runtime_error(arguments.estimate + " cannot be compared with " + arguments.truth +
+                             ": " + error.message +
+                             "; do both have stamps in seconds on the same clock?");
+  }
+  std::optional<LineError> line_error;
+  if (!arguments.lines.empty()) {
+    line_error = EvaluateLines(ReadEdgesPly(arguments.edges), ReadLinesPly(arguments.lines),
+                               *AlignOrientations(truth, estimate, arguments.options));
+  }
+  if (arguments.json) {
+    std::cout << FormatErrorJson(error, line_error);
+  } else {
+    PrintTable(error);
+    if (line_error) PrintLines(*line_error);
+  }
+  return kExitSuccess;
+}
+
+}  // namespace
+
+Command AddEvaluateCommand(CLI::App* app) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app->add_subcommand(
+      "evaluate", "Compare a trajectory with the ground truth (both TUM: t tx ty tz qx qy qz qw)");
+  command->add_option("ground_truth", arguments->truth, "Reference trajectory")->required();
+  command->add_option("estimate", arguments->estimate, "Estimated trajectory")->required();
+  CLI::Option* lines = command->add_option(
+      "--lines", arguments->lines, "lines.ply of the same run as the estimate, to be compared too");
+  CLI::Option* edges = command->add_option(
+      "--edges", arguments->edges, "edges.ply beside the ground truth: the scene's true edges");
+  lines->needs(edges);
+  edges->needs(lines);
+  command->add_flag("--json", arguments->json, "Print JSON: metres, degrees");
+  command
+      ->add_option("--max-dt", arguments->options.max_time_difference,
+                   "Seconds between matched poses, at most")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->footer(HelpFooter("msc_vo evaluate my_sequence/groundtruth.txt out/trajectory.txt"));
+  return {command, [arguments] { return Run(*arguments); }};
+}
+
+}  // namespace msc_vo

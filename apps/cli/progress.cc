@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/cli/progress.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <unistd.h>
+
+namespace msc_vo {
+
+namespace {
+
+constexpr double kTerminalInterval = 0.1;  // seconds; faster than the eye is work for nothing
+constexpr double kPlainInterval = 2.0;     // seconds
+constexpr int kBarWidth = 24;              // characters
+
+}  // namespace
+
+Progress::Progress(int total)
+    : total_(std::max(total, 1)),
+      is_terminal_(isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
+      last_shown_(start_) {}
+
+double Progress::Seconds() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+std::string Progress::Text(int done, const std::string& note) const {
+  const double rate = done / std::max(Seconds(), 1e-6);
+  const int left = static_cast<int>((total_ - done) / std::max(rate, 1e-6) + 0.5);
+  char text[160];
+  std::snprintf(text, sizeof(text), "%d/%d  %.1f frames/s  %d:%02d left", done, total_, rate,
+                left / 60, left % 60);
+  return text + (note.empty() ? "" : "  " + note);
+}
+
+void Progress::Update(int done, const std::string& note) {
+  const Clock::time_point now = Clock::now();
+  const double since = std::chrono::duration<double>(now - last_shown_).count();
+  const bool last = done == total_;
+  if (is_terminal_) {
+    if (since < kTerminalInterval && !last) return;
+    const int filled = kBarWidth * done / total_;
+    const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
+    // The code clears what is left of a longer text before.
+    std::fprintf(stderr, "\r[%s] %s\x1b[K", bar.c_str(), Text(done, note).c_str());
+  } else {
+    const bool tenth = 10 * done / total_ > 10 * last_done_ / total_;
+    if (since < kPlainInterval && !tenth) return;
+    std::fprintf(stderr, "%s\n", Text(done, note).c_str());
+  }
+  std::fflush(stderr);
+  last_shown_ = now;
+  last_done_ = done;
+}
+
+void Progress::Finish() {
+  if (is_terminal_) std::fprintf(stderr, "\n");
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/cli/commands.h"
+#include "apps/cli/interrupt_guard.h"
+#include "apps/cli/progress.h"
+#include "msc_vo/results/ply_file.h"
+#include "msc_vo/text/text_file.h"
+#include "msc_vo/synthetic/scene/synthetic_sequence.h"
+
+namespace msc_vo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Raw units per metre of TUM's depth images: 0.2 mm steps, 13 m at most.
+constexpr double kDepthFactor = 5000.0;
+// A line of camera.txt that tells our own folders from anybody else's.
+constexpr char kMark[] = "# written by msc_vo synthesize";
+
+struct Arguments {
+  std::string folder;
+  std::string scene = "room";
+  std::string noise = "none";
+  int frames = 260;
+  int height = 0;  // pixels; 0: three quarters of the width
+  bool jpeg = false;
+  bool overwrite = false;
+  SyntheticSequenceOptions options;
+};
+
+bool IsOurs(const fs::path& folder) {
+  std::ifstream file(folder / "camera.txt");
+  for (std::string line; std::getline(file, line);) {
+    if (line == kMark) return true;
+  }
+  return false;
+}
+
+// Makes OUT_DIR with empty rgb/ and depth/; of an older run only what this command had written
+// goes.
+void PrepareFolder(const fs::path& folder, bool overwrite) {
+  if (fs::exists(folder) && !fs::is_directory(folder)) {
+    throw std::runtime_error(folder.string() + " is a file: give a folder");
+  }
+  if (fs::exists(folder) && !fs::is_empty(folder) && !IsOurs(folder) && !overwrite) {
+    throw std::runtime_error(folder.string() +
+                             " is not empty and was not written by msc_vo synthesize: give another "
+                             "folder, or --overwrite to write into it");
+  }
+  for (const char* name : {"rgb", "depth"}) {
+    fs::remove_all(folder / name);
+    MakeFolder((folder / name).string());
+  }
+}
+
+class TextFile {
+ public:
+  explicit TextFile(const fs::path& path) : path_(path), stream_(path) {}
+  void Write(const std::string& line) {
+    stream_ << line << '\n';
+    if (!stream_)
+      throw std::runtime_error("cannot write " + path_.string() + ": is the disk full?");
+  }
+
+ private:
+  fs::path path_;
+  std::ofstream stream_;
+};
+
+template <typename... Values>
+std::string Format(const char* format, Values... values) {
+  char text[256];
+  std::snprintf(text, sizeof(text), format, values...);
+  return text;
+}
+
+void WriteImage(const fs::path& path, const cv::Mat& image, const std::vector<int>& parameters) {
+  if (!cv::imwrite(path.string(), image, parameters)) {
+    throw std::runtime_error("cannot write " + path.string());
+  }
+}
+
+void WriteColor(const fs::path& path, RenderedImage* image) {
+  const cv::Mat rgb(image->height, image->width, CV_8UC3, image->rgb.data());
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  // PNG level 1: noise does not compress, so that more effort only takes time. JPEG as recorded.
+  WriteImage(path, bgr, {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_JPEG_QUALITY, 95});
+}
+
+void WriteDepth(const fs::path& path, RenderedImage* image) {
+  const cv::Mat depth(image->height, image->width, CV_32FC1, image->depth.data());
+  cv::Mat raw;
+  depth.convertTo(raw, CV_16U, kDepthFactor);  // rounds, and saturates at 13.1 m
+  WriteImage(path, raw, {cv::IMWRITE_PNG_COMPRESSION, 1});
+}
+
+void WriteCamera(const fs::path& folder, const PinholeCamera& camera) {
+  TextFile file(folder / "camera.txt");
+  // Numbers first: simple readers take the first line, whatever it is.
+  file.Write(Format("%.17g %.17g %.17g %.17g %d %d %.17g", camera.fx, camera.fy, camera.cx,
+                    camera.cy, camera.width, camera.height, kDepthFactor));
+  file.Write("# fx fy cx cy width height depth_factor");
+  file.Write(kMark);
+}
+
+std::string PoseLine(const std::string& stamp, const Rigid3& world_from_cam) {
+  const Eigen::Vector3d t = world_from_cam.translation();
+  const Eigen::Quaterniond q(world_from_cam.rotation());
+  return stamp + Format(" %.7f %.7f %.7f %.8f %.8f %.8f %.8f", t.x(), t.y(), t.z(), q.x(), q.y(),
+                        q.z(), q.w());
+}
+
+int Run(const Arguments& arguments) {
+  SyntheticSequenceOptions options = arguments.options;
+  options.scene = *SceneKindFromName(arguments.scene);
+  options.height = arguments.height > 0 ? arguments.height : options.width * 3 / 4;
+  options.kinect_depth = arguments.noise == "kinect";
+  const SyntheticSequence sequence(options);
+
+  const fs::path folder = arguments.folder;
+  PrepareFolder(folder, arguments.overwrite);
+  WriteCamera(folder, sequence.camera());
+  std::vector<LineSegment3> edges = sequence.scene().edges;
+  const std::vector<LineSegment3> painted = sequence.scene().PaintedEdges();
+  edges.insert(edges.end(), painted.begin(), painted.end());
+  WriteFile((folder / "edges.ply").string(), FormatEdgesPly(edges));
+  TextFile rgb_list(folder / "rgb.txt"), depth_list(folder / "depth.txt");
+  TextFile associations(folder / "associations.txt"), truth(folder / "groundtruth.txt");
+  for (TextFile* list : {&rgb_list, &depth_list}) list->Write("# timestamp filename");
+  truth.Write("# timestamp tx ty tz qx qy qz qw (camera in world)");
+  const InterruptGuard guard;
+  Progress progress(arguments.frames);
+  for (int i = 0; i < arguments.frames && !guard.IsInterrupted(); ++i) {
+    SyntheticFrame frame = sequence.Render(i);
+    const std::string stamp = Format("%.6f", frame.pose.timestamp);
+    const std::string rgb = "rgb/" + stamp + (arguments.jpeg ? ".jpg" : ".png");
+    const std::string depth_stamp = Format("%.6f", frame.pose.timestamp + options.depth_delay);
+    const std::string depth = "depth/" + depth_stamp + ".png";
+    WriteColor(folder / rgb, &frame.image);
+    WriteDepth(folder / depth, &frame.image);
+    rgb_list.Write(stamp + " " + rgb);
+    depth_list.Write(depth_stamp + " " + depth);
+    associations.Write(stamp + " " + rgb + " " + depth_stamp + " " + depth);
+    truth.Write(PoseLine(stamp, frame.pose.world_from_cam));
+    progress.Update(i + 1, "");
+  }
+  progress.Finish();
+  return guard.IsInterrupted() ? kExitInterrupted : kExitSuccess;
+}
+
+}  // namespace
+
+Command AddSynthesizeCommand(CLI::App* app) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app->add_subcommand("synthesize",
+                                          "Render an RGB-D sequence in TUM layout, with "
+                                          "groundtruth.txt and edges.ply, the lines of the "
+                                          "scene");
+  command->add_option("out_dir", arguments->folder, "Folder to write")->required();
+  command->add_option("--scene", arguments->scene, "What to walk through")
+      ->check(CLI::IsMember({"room", "corridor", "bare", "slanted", "house"}))
+      ->capture_default_str();
+  command->add_option("--frames", arguments->frames, "Number of frames")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--seed", arguments->options.seed, "Of the scene, the path and the noise")
+      ->capture_default_str();
+  command->add_option("--noise", arguments->noise, "Depth: exact, or as a Kinect measures it")
+      ->check(CLI::IsMember({"none", "kinect"}))
+      ->capture_default_str();
+  command->add_option("--width", arguments->options.width, "Pixels; the focal length follows")
+      ->capture_default_str();
+  command->add_option("--height", arguments->height,
+                      "Pixels; default: three quarters of the width");
+  command->add_option("--fps", arguments->options.fps, "Frames per second of the recording")
+      ->capture_default_str();
+  command
+      ->add_option("--depth-delay", arguments->options.depth_delay,
+                   "Seconds after its colour image that a depth image is taken, as most cameras do")
+      ->capture_default_str();
+  command
+      ->add_option("--readout-time", arguments->options.readout_time,
+                   "Seconds that the rows of an image take one after the other, a rolling shutter "
+                   "(Kinect: 0.026); time stamps are of the middle")
+      ->capture_default_str();
+  command->add_option("--speed", arguments->options.path.speed, "Of the walk, metres/second")
+      ->capture_default_str();
+  command
+      ->add_option("--image-sigma", arguments->options.image_sigma,
+                   "Noise of the colour image, grey levels")
+      ->capture_default_str();
+  command->add_flag("--jpeg", arguments->jpeg, "Colour as JPEG of quality 95: small, as recorded");
+  command->add_flag(
+      "--overwrite", arguments->overwrite,
+      "Write into a folder that this command has not made; replaces its rgb/ and depth/");
+  command->footer(HelpFooter("msc_vo synthesize room --scene room --frames 260 --noise kinect"));
+  return {command, [arguments] { return Run(*arguments); }};
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <ceres/solver.h>
+
+#include "msc_vo/factors/analytic_cost_function.h"
+#include "msc_vo/factors/analytic_line_pair_cost_function.h"
+#include "msc_vo/bundle_adjustment/internal/elimination_order.h"
+
+namespace msc_vo {
+
+namespace {
+
+ceres::Problem::Options ProblemOptions() {
+  ceres::Problem::Options options;
+  // Losses and the manifold are shared between blocks.
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  // ValidateWindow has looked already.
+  options.disable_all_safety_checks = true;
+  return options;
+}
+
+// The cost function of a factor with derivatives by hand, of those factors that are many.
+template <typename Factor, int Points, int RowsPerPoint>
+ceres::CostFunction* Analytic(const CameraFactor<Factor, Points, RowsPerPoint>& factor) {
+  return new ChainRuleCost<Factor>(static_cast<const Factor&>(factor));
+}
+template <typename Factor, int Rows>
+ceres::CostFunction* Analytic(const LinePairFactor<Factor, Rows>& factor) {
+  return new LinePairCost<Factor>(static_cast<const Factor&>(factor));
+}
+ceres::CostFunction* Analytic(const LineAnchor& factor) { return LineAnchor::Create(factor); }
+ceres::CostFunction* Analytic(const PosePrior& factor) { return PosePrior::Create(factor); }
+ceres::CostFunction* Analytic(const ManhattanAxisAlignment& factor) {
+  return ManhattanAxisAlignment::Create(factor);
+}
+
+ceres::SparseLinearAlgebraLibraryType SparseLibrary(WindowSolver solver) {
+  return solver == WindowSolver::kCeresSuiteSparse ? ceres::SUITE_SPARSE : ceres::EIGEN_SPARSE;
+}
+
+}  // namespace
+
+bool IsAvailable(WindowSolver solver) {
+  return solver == WindowSolver::kBlockSchur || solver == WindowSolver::kCeresDenseSchur ||
+         ceres::IsSparseLinearAlgebraLibraryTypeAvailable(SparseLibrary(solver));
+}
+
+CeresWindow::CeresWindow(const WindowOptions& options, const WindowData& data,
+                         const WindowTerms& terms, WindowState* state)
+    : options_(options), data_(data), terms_(terms), state_(state), problem_(ProblemOptions()) {
+  AddTerm(terms.point_reprojection);
+  AddTerm(terms.point_depth);
+  AddTerm(terms.line_reprojection);
+  AddTerm(terms.line_depth);
+  AddTerm(terms.line_anchor);
+  AddTerm(terms.parallel);
+  AddTerm(terms.perpendicular);
+  AddTerm(terms.manhattan);
+  AddTerm(terms.pose_prior);
+  HoldGauge();
+}
+
+template <typename Term>
+void CeresWindow::AddTerm(const Term& term) {
+  using Factor = typename Term::Factor;
+  std::map<int, ceres::LossFunction*> losses;  // by count: n identical terms have the loss n times
+  const auto loss = [&](int count) -> ceres::LossFunction* {
+    if (term.loss.threshold == 0.0 && count == 1) return nullptr;
+    ceres::LossFunction*& it = losses[count];
+    if (it == nullptr) {
+      losses_.push_back(std::make_unique<ceres::ScaledLoss>(
+          new ceres::HuberLoss(term.loss.threshold), count, ceres::TAKE_OWNERSHIP));
+      it = losses_.back().get();
+    }
+    return it;
+  };
+  for (const auto& block : term.blocks) {
+    const auto blocks = ParametersOf<Factor>(state_, block);
+    ceres::CostFunction* cost =
+        options_.analytic_jacobians ? Analytic(block.factor) : Factor::Create(block.factor);
+    problem_.AddResidualBlock(cost, loss(block.count), blocks.data(),
+                              static_cast<int>(blocks.size()));
+  }
+}
+
+// Shifting or turning the whole window changes no residual of what it sees or of pairs: six numbers
+// are free. They are held by the poses of the fixed keyframes (the observers outside the window,
+// usually) or by priors on poses, and by nothing else: no constant coordinate. Alignments to axes
+// tell of the rotation what a compass would, softly; they do not hold it. A free pose moves on
+// Rigid3Manifold.
+void CeresWindow::HoldGauge() {
+  const auto hold = [this](bool fixed, double* block) {
+    if (fixed && problem_.HasParameterBlock(block)) problem_.SetParameterBlockConstant(block);
+  };
+  for (size_t i = 0; i < data_.keyframes.size(); ++i) {
+    double* pose = state_->PoseBlock(i);
+    if (problem_.HasParameterBlock(pose)) problem_.SetManifold(pose, &pose_manifold_);
+    hold(data_.keyframes[i].fixed, pose);
+  }
+  for (size_t i = 0; i < data_.points.size(); ++i)
+    hold(data_.points[i].fixed, state_->PointBlock(i));
+  for (size_t i = 0; i < data_.lines.size(); ++i) hold(data_.lines[i].fixed, state_->LineBlock(i));
+}
+
+std::shared_ptr<ceres::ParameterBlockOrdering> CeresWindow::EliminationOrdering() const {
+  auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+  const auto add = [&](double* block, int group) {
+    if (problem_.HasParameterBlock(block)) ordering->AddElementToGroup(block, group);
+  };
+  for (size_t i = 0; i < data_.points.size(); ++i) add(state_->PointBlock(i), 0);
+  std::vector<WindowIndex::Pair> pairs;
+  const auto collect = [&](const auto& term) {
+    for (const auto& block : term.blocks) {
+      if (data_.lines[block.first].fixed || data_.lines[block.second].fixed) continue;
+      pairs.push_back({block.first, block.second});
+    }
+  };
+  collect(terms_.parallel);
+  collect(terms_.perpendicular);
+  const std::vector<bool> keep = LinesToKeep(static_cast<int>(data_.lines.size()), pairs);
+  for (size_t i = 0; i < data_.lines.size(); ++i) add(state_->LineBlock(i), keep[i] ? 1 : 0);
+  for (size_t i = 0; i < data_.keyframes.size(); ++i) add(state_->PoseBlock(i), 1);
+  return ordering;
+}
+
+MinimizerReport CeresWindow::Minimize(int max_iterations) {
+  ceres::Solver::Options options;
+  options.max_num_iterations = max_iterations;
+  if (options_.solver == WindowSolver::kCeresDenseSchur) {
+    options.linear_solver_type = ceres::DENSE_SCHUR;
+  } else {
+    options.linear_solver_type = ceres::SPARSE_SCHUR;
+    options.sparse_linear_algebra_library_type = SparseLibrary(options_.solver);
+  }
+  if (options_.explicit_ordering) options.linear_solver_ordering = EliminationOrdering();
+  // One thread: more would add up in another order, and gain nothing at this size.
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem_, &summary);
+  MinimizerReport report;
+  report.usable = summary.IsSolutionUsable();
+  report.num_iterations = static_cast<int>(summary.iterations.size()) - 1;
+  report.schur_structure = "Ceres, " + summary.schur_structure_used;
+  report.message = summary.message;
+  return report;
+}
+
+}  // namespace msc_vo

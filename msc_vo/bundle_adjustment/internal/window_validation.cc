@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/bundle_adjustment/internal/window_validation.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "msc_vo/bundle_adjustment/validation.h"
+
+namespace msc_vo {
+
+namespace {
+
+[[noreturn]] void Throw(const std::string& what) {
+  throw std::invalid_argument("SolveWindow: " + what);
+}
+
+// Positions by id, of keyframes, points or lines.
+class IdMap {
+ public:
+  template <typename Item>
+  IdMap(const char* kind, const std::vector<Item>& items) : kind_(kind) {
+    positions_.reserve(items.size());
+    for (size_t i = 0; i < items.size(); ++i) {
+      positions_.emplace_back(items[i].id, static_cast<int>(i));
+    }
+    std::sort(positions_.begin(), positions_.end());
+    for (size_t i = 1; i < positions_.size(); ++i) {
+      if (positions_[i].first == positions_[i - 1].first) {
+        Throw(Name(positions_[i].first) + ": the id is given twice");
+      }
+    }
+  }
+
+  // `role`: what the id is there, for the message.
+  int At(int64_t id, const char* role = "observed") const {
+    const auto it = std::lower_bound(positions_.begin(), positions_.end(), std::make_pair(id, 0));
+    if (it == positions_.end() || it->first != id) {
+      Throw(Name(id) + " is " + role + " but not in the window");
+    }
+    return it->second;
+  }
+
+ private:
+  std::string Name(int64_t id) const { return std::string(kind_) + " " + std::to_string(id); }
+
+  const char* kind_;
+  std::vector<std::pair<int64_t, int>> positions_;
+};
+
+void CheckKeyframesAndLandmarks(const WindowData& data) {
+  const auto check = [](const char* error, const char* kind, int64_t id) {
+    if (error != nullptr) Throw(std::string(kind) + " " + std::to_string(id) + ": " + error);
+  };
+  bool any_fixed = false;
+  for (const WindowData::Keyframe& k : data.keyframes) {
+    check(PoseError(k.cam_from_world), "keyframe", k.id);
+    any_fixed = any_fixed || k.fixed;
+  }
+  if (!any_fixed && data.pose_priors.empty()) {
+    Throw("no keyframe is fixed or has a prior: the gauge is free");
+  }
+  for (const WindowData::Point& p : data.points) {
+    check(PositionError(p.position), "point", p.id);
+    check(NoiseError(p.noise), "point", p.id);
+  }
+  for (const WindowData::Line& l : data.lines) {
+    check(MapLineError(l.segment), "line", l.id);
+    check(NoiseError(l.noise), "line", l.id);
+    check(DepthOffsetError(l.depth_offset), "line", l.id);
+  }
+}
+
+std::vector<WindowIndex::Pair> ResolvePairs(const std::vector<WindowData::LinePair>& pairs,
+                                            const char* kind, const IdMap& lines) {
+  std::vector<WindowIndex::Pair> resolved;
+  resolved.reserve(pairs.size());
+  const std::string role = std::string("of a ") + kind + " pair";
+  for (const WindowData::LinePair& p : pairs) {
+    if (const char* error = LinePairError(p)) {
+      Throw(std::string(kind) + " pair of line " + std::to_string(p.a) + " and line " +
+            std::to_string(p.b) + ": " + error);
+    }
+    resolved.push_back({lines.At(p.a, role.c_str()), lines.At(p.b, role.c_str())});
+  }
+  return resolved;
+}
+
+std::vector<int> ResolveAlignments(const std::vector<WindowData::AxisAlignment>& alignments,
+                                   const IdMap& lines) {
+  std::vector<int> resolved;
+  resolved.reserve(alignments.size());
+  for (const WindowData::AxisAlignment& a : alignments) {
+    if (const char* error = AxisAlignmentError(a)) {
+      Throw("alignment of line " + std::to_string(a.line) + ": " + error);
+    }
+    resolved.push_back(lines.At(a.line, "aligned"));
+  }
+  return resolved;
+}
+
+std::vector<int> ResolvePriors(const std::vector<WindowData::PosePrior>& priors,
+                               const IdMap& keyframes) {
+  std::vector<int> resolved;
+  resolved.reserve(priors.size());
+  for (const WindowData::PosePrior& p : priors) {
+    const char* error = PoseError(p.cam_from_world);
+    if (error == nullptr) error = CovarianceError(p.covariance);
+    if (error != nullptr) Throw("prior of keyframe " + std::to_string(p.keyframe) + ": " + error);
+    resolved.push_back(keyframes.At(p.keyframe, "of a prior"));
+  }
+  return resolved;
+}
+
+}  // namespace
+
+WindowIndex ValidateWindow(const WindowOptions& options, const WindowData& data) {
+  if (data.keyframes.empty()) Throw("the window is empty: it has no keyframe");
+  std::string error;
+  if (!options.IsValid(&error) || !data.camera.IsValid(&error)) Throw(error);
+  CheckKeyframesAndLandmarks(data);
+
+  const IdMap keyframes("keyframe", data.keyframes);
+  const IdMap points("point", data.points);
+  const IdMap lines("line", data.lines);
+  const auto check = [](const char* what, const char* kind, int64_t landmark, int64_t keyframe) {
+    if (what == nullptr) return;
+    Throw(std::string("observation of ") + kind + " " + std::to_string(landmark) + " in keyframe " +
+          std::to_string(keyframe) + ": " + what);
+  };
+  WindowIndex index;
+  index.points.reserve(data.point_observations.size());
+  for (const WindowData::PointObservation& o : data.point_observations) {
+    check(PointObservationError(o.pixel, o.sigma, o.inverse_depth, o.inverse_depth_sigma), "point",
+          o.point, o.keyframe);
+    index.points.push_back({keyframes.At(o.keyframe), points.At(o.point)});
+  }
+  index.lines.reserve(data.line_observations.size());
+  for (const WindowData::LineObservation& o : data.line_observations) {
+    check(LineObservationError(o.segment, o.sigma, o.has_depth, o.depth), "line", o.line,
+          o.keyframe);
+    index.lines.push_back({keyframes.At(o.keyframe), lines.At(o.line)});
+  }
+  index.parallel = ResolvePairs(data.parallel_pairs, "parallel", lines);
+  index.perpendicular = ResolvePairs(data.perpendicular_pairs, "perpendicular", lines);
+  index.alignments = ResolveAlignments(data.axis_alignments, lines);
+  index.priors = ResolvePriors(data.pose_priors, keyframes);
+  return index;
+}
+
+}  // namespace msc_vo

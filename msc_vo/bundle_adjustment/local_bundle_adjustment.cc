@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
+#include "msc_vo/bundle_adjustment/internal/landmark_noise.h"
+#include "msc_vo/bundle_adjustment/validation.h"
+#include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
+#include "msc_vo/bundle_adjustment/internal/window_validation.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Calls visit(term, its summary) for every term.
+template <typename Visitor>
+void ForEachTerm(const WindowTerms& terms, WindowSummary* summary, const Visitor& visit) {
+  visit(terms.point_reprojection, &summary->point_reprojection);
+  visit(terms.point_depth, &summary->point_depth);
+  visit(terms.line_reprojection, &summary->line_reprojection);
+  visit(terms.line_depth, &summary->line_depth);
+  visit(terms.line_anchor, &summary->line_anchor);
+  visit(terms.parallel, &summary->parallel);
+  visit(terms.perpendicular, &summary->perpendicular);
+  visit(terms.manhattan, &summary->manhattan);
+  visit(terms.pose_prior, &summary->pose_prior);
+}
+
+// Writes the costs of all terms into one member of their summaries; returns their sum.
+double WriteCosts(const WindowTerms& terms, const WindowState& state, double TermSummary::*member,
+                  WindowSummary* summary) {
+  double sum = 0.0;
+  ForEachTerm(terms, summary, [&](const auto& term, TermSummary* its_summary) {
+    its_summary->*member = Cost(term, state);
+    sum += its_summary->*member;
+  });
+  return sum;
+}
+
+void WriteCounts(const WindowTerms& terms, WindowSummary* summary) {
+  ForEachTerm(terms, summary, [](const auto& term, TermSummary* its_summary) {
+    its_summary->num_residual_blocks = static_cast<int>(term.blocks.size());
+  });
+}
+
+// Only what took part in the last solve: a landmark or keyframe that lost its last observation
+// keeps the values it came with.
+void WriteBack(const WindowTerms& terms, const WindowActivity& activity, const WindowState& state,
+               WindowData* data) {
+  for (size_t i = 0; i < data->keyframes.size(); ++i) {
+    if (terms.keyframe_takes_part[i]) data->keyframes[i].cam_from_world = state.Pose(i);
+  }
+  for (size_t i = 0; i < data->points.size(); ++i) {
+    if (terms.point_observed[i]) data->points[i].position = state.Point(i);
+  }
+  for (size_t i = 0; i < data->lines.size(); ++i) {
+    if (terms.line_observed[i]) data->lines[i].segment = state.Line(i);
+  }
+  for (size_t i = 0; i < activity.points.size(); ++i) {
+    data->point_observations[i].rejected = !activity.points[i].reprojection;
+  }
+  for (size_t i = 0; i < activity.lines.size(); ++i) {
+    data->line_observations[i].rejected = !activity.lines[i].reprojection;
+  }
+  for (size_t i = 0; i < activity.parallel.size(); ++i) {
+    data->parallel_pairs[i].rejected = !activity.parallel[i];
+  }
+  for (size_t i = 0; i < activity.perpendicular.size(); ++i) {
+    data->perpendicular_pairs[i].rejected = !activity.perpendicular[i];
+  }
+  for (size_t i = 0; i < activity.alignments.size(); ++i) {
+    data->axis_alignments[i].rejected = !activity.alignments[i];
+  }
+}
+
+MinimizerReport Minimize(const WindowOptions& options, const WindowData& data,
+                         const WindowTerms& terms, int max_iterations,
+                         const WindowStageObserver& enter_stage, WindowState* state) {
+  if (options.solver == WindowSolver::kBlockSchur) {
+    return MinimizeWindow(WindowStructure(data, terms), terms, max_iterations, enter_stage, state);
+  }
+  if (enter_stage) enter_stage(WindowStage::kStep);
+  return CeresWindow(options, data, terms, state).Minimize(max_iterations);
+}
+
+}  // namespace
+
+WindowSummary SolveWindow(const WindowOptions& options, WindowData* data,
+                          const WindowStageObserver& enter_stage) {
+  const auto enter = [&enter_stage](WindowStage stage) {
+    if (enter_stage) enter_stage(stage);
+  };
+  enter(WindowStage::kBuild);
+  const WindowIndex index = ValidateWindow(options, *data);
+  WindowSummary summary;
+  WindowActivity activity = AllInFront(options, index, *data, &summary.num_behind_camera);
+  WindowState state(*data);
+
+  const auto minimize = [&](const WindowTerms& terms, int iterations) {
+    const MinimizerReport report = Minimize(options, *data, terms, iterations, enter_stage, &state);
+    enter(WindowStage::kBuild);
+    summary.num_iterations += report.num_iterations;
+    summary.schur_structure = report.schur_structure;
+    summary.message = report.message;
+    return report.usable && state.AllFinite();
+  };
+
+  const WindowTerms first = MakeWindowTerms(options, *data, index, activity, state);
+  summary.initial_cost = WriteCosts(first, state, &TermSummary::initial_cost, &summary);
+  if (!minimize(first, options.first_iterations)) return summary;
+  ClassifyAll(options, first, state, &activity, &summary);
+
+  // Not yet in *data, which stays as it was if the second solve fails.
+  WindowData learnt = *data;
+  LearnLandmarkNoise(options.landmark_noise, index, activity, state, &learnt);
+  const WindowTerms second = MakeWindowTerms(options, learnt, index, activity, state);
+  if (!minimize(second, options.second_iterations)) return summary;
+  WriteCounts(second, &summary);
+  summary.final_cost = WriteCosts(second, state, &TermSummary::final_cost, &summary);
+  // What overflows is no cost, and its minimum none.
+  if (!std::isfinite(summary.initial_cost) || !std::isfinite(summary.final_cost)) {
+    summary.message = "the cost is not finite";
+    return summary;
+  }
+  summary.usable = true;
+  enter(WindowStage::kWriteBack);
+  LearnLandmarkNoise(options.landmark_noise, index, activity, state, &learnt);
+  *data = std::move(learnt);
+  WriteBack(second, activity, state, data);
+  enter(WindowStage::kDone);
+  return summary;
+}
+
+bool WindowOptions::IsValid(std::string* error) const {
+  if (!CommonOptionsAreValid(*this, error) || !landmark_noise.IsValid(error)) return false;
+  const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
+  if (!is_positive(parallel.huber) || !is_positive(perpendicular.huber) ||
+      !is_positive(manhattan.huber)) {
+    *error = "every huber threshold must be a positive number of sigmas";
+  } else if (!is_positive(reject_chi2_1)) {
+    *error = "reject_chi2_1 must be positive";
+  } else if (!is_positive(line_anchor_sigma)) {
+    *error = "line_anchor_sigma must be positive";
+  } else if (first_iterations < 1 || second_iterations < 1) {
+    *error = "first_iterations and second_iterations must be at least 1";
+  } else if (!IsAvailable(solver)) {
+    *error = "solver: this Ceres was built without the sparse library asked for";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+std::string WindowSummary::BriefReport() const {
+  char text[160];
+  std::snprintf(
+      text, sizeof(text), "window: %s, %d iterations, cost %.6g -> %.6g, %d behind camera",
+      usable ? "solved" : "failed", num_iterations, initial_cost, final_cost, num_behind_camera);
+  std::string report = text;
+  const auto add = [&](const char* name, const TermSummary& term) {
+    std::snprintf(text, sizeof(text), "\n  %-18s %6d blocks, %4d rejected, cost %.6g -> %.6g", name,
+                  term.num_residual_blocks, term.num_rejected, term.initial_cost, term.final_cost);
+    report += text;
+  };
+  add("point reprojection", point_reprojection);
+  add("point depth", point_depth);
+  add("line reprojection", line_reprojection);
+  add("line depth", line_depth);
+  add("line anchor", line_anchor);
+  add("parallel", parallel);
+  add("perpendicular", perpendicular);
+  add("manhattan", manhattan);
+  add("pose prior", pose_prior);
+  return report + "\n  " + schur_structure + (message.empty() ? "" : ": ") + message;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/bundle_adjustment/observation.h"
+
+#include <cmath>
+
+namespace msc_vo {
+
+Activity TestChiSquare(double reprojection, double depth, double limit, double limit_with_depth) {
+  const bool passes = reprojection <= limit;
+  return {passes, passes && reprojection + depth <= limit_with_depth};
+}
+
+bool IsInFront(const Eigen::Vector3d& x_in_cam) { return x_in_cam.z() >= kMinObservedDepth; }
+
+bool IsInFront(const LineSegment3& line_in_cam) {
+  return line_in_cam.start.z() >= kMinObservedDepth && line_in_cam.end.z() >= kMinObservedDepth;
+}
+
+double ImageLineSigma(const LineSegment2& segment, double sigma, const Eigen::Vector2d& pixel) {
+  const double s = segment.Parameter(pixel);
+  return sigma * std::sqrt((1.0 - s) * (1.0 - s) + s * s);
+}
+
+LineReprojection MakeLineReprojection(const PinholeCamera& camera, const LineSegment2& segment,
+                                      double sigma, const LineSegment3& line_in_cam) {
+  return {camera, segment, ImageLineSigma(segment, sigma, camera.Project(line_in_cam.start)),
+          ImageLineSigma(segment, sigma, camera.Project(line_in_cam.end))};
+}
+
+LineDepthReprojection MakeLineDepthReprojection(const PinholeCamera& camera,
+                                                const LineSegment2& segment, const LineDepth& depth,
+                                                const LineSegment3& line_in_cam) {
+  const double s_start = segment.Parameter(camera.Project(line_in_cam.start));
+  const double s_end = segment.Parameter(camera.Project(line_in_cam.end));
+  return {camera, segment, depth, depth.SigmaAt(s_start), depth.SigmaAt(s_end)};
+}
+
+Eigen::Vector2d LineResidual(const PinholeCamera& camera, const LineSegment2& segment, double sigma,
+                             const LineSegment3& line_in_cam) {
+  const LineReprojection reprojection = MakeLineReprojection(camera, segment, sigma, line_in_cam);
+  Eigen::Vector2d residual;
+  reprojection.Residual(0, Eigen::Vector3d(line_in_cam.start), &residual[0]);
+  reprojection.Residual(1, Eigen::Vector3d(line_in_cam.end), &residual[1]);
+  return residual;
+}
+
+double InverseDepthAt(const PinholeCamera& camera, const LineSegment2& segment,
+                      const LineSegment3& line_in_cam, double s) {
+  // Along the image of a line 1/z is linear.
+  const double start = segment.Parameter(camera.Project(line_in_cam.start));
+  const double end = segment.Parameter(camera.Project(line_in_cam.end));
+  const double share = (s - start) / (end - start);
+  return (1.0 - share) / line_in_cam.start.z() + share / line_in_cam.end.z();
+}
+
+}  // namespace msc_vo

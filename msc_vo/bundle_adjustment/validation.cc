@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/bundle_adjustment/validation.h"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace msc_vo {
+
+namespace {
+
+bool IsPositive(double x) { return std::isfinite(x) && x > 0.0; }
+
+// No camera or map has coordinates beyond this (pixels, metres or their inverse), and what has
+// would overflow where it is squared and squared again: the length of a segment, chi-square, cost.
+constexpr double kMaxCoordinate = 1e9;
+
+template <typename Vector>
+bool AreCoordinates(const Vector& x) {
+  return x.allFinite() && x.template lpNorm<Eigen::Infinity>() <= kMaxCoordinate;
+}
+bool AreCoordinates(double x) { return std::abs(x) <= kMaxCoordinate; }  // NaN fails
+
+// Of the norm of a unit quaternion or vector: far above the rounding of any product of rotations,
+// far below a wrong one.
+constexpr double kUnitTolerance = 1e-6;
+
+template <int N>
+const char* CovarianceErrorOf(const Eigen::Matrix<double, N, N>& covariance) {
+  constexpr const char* kError = "covariance is not positive definite";
+  const Eigen::Matrix<double, N, 1> sigma = covariance.diagonal().cwiseSqrt();
+  if (!covariance.allFinite() || !(sigma.minCoeff() > 0.0)) return kError;
+  // Units differ, so that only correlations compare. Their rounding is far below the tolerance, a
+  // transposed or half-filled matrix far above.
+  const Eigen::Matrix<double, N, N> correlation =
+      sigma.cwiseInverse().asDiagonal() * covariance * sigma.cwiseInverse().asDiagonal();
+  if (!((correlation - correlation.transpose()).cwiseAbs().maxCoeff() < 1e-6)) return kError;
+  return correlation.llt().info() == Eigen::Success ? nullptr : kError;
+}
+
+}  // namespace
+
+const char* PoseError(const Rigid3& cam_from_world) {
+  if (!AreCoordinates(cam_from_world.params)) return "pose is not finite, or beyond 1e9 m";
+  if (std::abs(cam_from_world.rotation().norm() - 1.0) > kUnitTolerance) {
+    return "rotation is not unit";
+  }
+  return nullptr;
+}
+
+const char* PositionError(const Eigen::Vector3d& position) {
+  return AreCoordinates(position) ? nullptr : "position is not finite, or beyond 1e9 m";
+}
+
+const char* NoiseError(double noise) {
+  return IsPositive(noise) ? nullptr : "noise must be a positive number";
+}
+
+const char* DepthOffsetError(double offset) {
+  return AreCoordinates(offset) ? nullptr : "depth_offset is not finite, or beyond 1e9 m";
+}
+
+const char* MapLineError(const LineSegment3& segment) {
+  if (!AreCoordinates(segment.start) || !AreCoordinates(segment.end)) {
+    return "segment is not finite, or beyond 1e9 m";
+  }
+  if (segment.start == segment.end) return "segment has no length";
+  return nullptr;
+}
+
+const char* PointObservationError(const Eigen::Vector2d& pixel, double sigma, double inverse_depth,
+                                  double inverse_depth_sigma) {
+  if (!AreCoordinates(pixel)) return "pixel is not finite, or beyond 1e9";
+  if (!IsPositive(sigma)) return "sigma must be positive";
+  if (!AreCoordinates(inverse_depth) || inverse_depth < 0.0) {
+    return "inverse_depth must not be negative, nor beyond 1e9";
+  }
+  if (inverse_depth > 0.0 && !IsPositive(inverse_depth_sigma)) {
+    return "inverse_depth_sigma must be positive";
+  }
+  return nullptr;
+}
+
+const char* LineObservationError(const LineSegment2& segment, double sigma, bool has_depth,
+                                 const LineDepth& depth) {
+  if (!AreCoordinates(segment.start) || !AreCoordinates(segment.end)) {
+    return "segment is not finite, or beyond 1e9 pixels";
+  }
+  if (segment.start == segment.end) return "segment has no length";
+  if (!IsPositive(sigma)) return "sigma must be positive";
+  if (!has_depth) return nullptr;
+  if (!AreCoordinates(depth.start) || !AreCoordinates(depth.end)) {
+    return "depth is not finite, or beyond 1e9";
+  }
+  return CovarianceError(depth.covariance) == nullptr ? nullptr
+                                                      : "depth covariance is not positive definite";
+}
+
+const char* CovarianceError(const Eigen::Matrix2d& covariance) {
+  return CovarianceErrorOf<2>(covariance);
+}
+const char* CovarianceError(const Eigen::Matrix<double, 6, 6>& covariance) {
+  return CovarianceErrorOf<6>(covariance);
+}
+
+const char* LinePairError(const WindowData::LinePair& pair) {
+  if (pair.a == pair.b) return "a line with itself";
+  if (!IsPositive(pair.sigma)) return "sigma must be positive";
+  if (pair.count < 1) return "count must be at least 1";
+  return nullptr;
+}
+
+const char* AxisAlignmentError(const WindowData::AxisAlignment& alignment) {
+  if (UnitVectorError(alignment.axis) != nullptr) return "axis is not a unit vector";
+  if (!IsPositive(alignment.sigma)) return "sigma must be positive";
+  return nullptr;
+}
+
+const char* UnitVectorError(const Eigen::Vector3d& v) {
+  // As for rotations; NaN fails too.
+  return std::abs(v.norm() - 1.0) <= kUnitTolerance ? nullptr : "vector is not unit";
+}
+
+}  // namespace msc_vo

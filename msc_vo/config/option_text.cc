@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Options as text: setting, formatting, and finding the one that was meant.
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+#include "msc_vo/config/option_list.h"
+#include "msc_vo/text/text_file.h"
+
+namespace msc_vo {
+
+namespace {
+
+std::optional<bool> ParseBool(const std::string& text) {
+  for (const char* yes : {"true", "True", "yes", "on"}) {
+    if (text == yes) return true;
+  }
+  for (const char* no : {"false", "False", "no", "off"}) {
+    if (text == no) return false;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> ParseFinite(const std::string& text) {
+  const std::optional<double> value = ParseNumber(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<int> ParseInt(const std::string& text) {
+  int value = 0;
+  const char* const end = text.data() + text.size();
+  const std::from_chars_result result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  return value;
+}
+
+// Writes the parsed value; false if there is none.
+template <typename Target, typename T>
+bool Assign(const std::optional<T>& parsed, Target* target) {
+  if (parsed) *target = *parsed;
+  return parsed.has_value();
+}
+
+struct Setter {
+  const std::string& text;
+  std::string* expected;
+
+  bool operator()(bool* value) const {
+    *expected = "true or false";
+    return Assign(ParseBool(text), value);
+  }
+  bool operator()(int* value) const {
+    *expected = "a whole number";
+    return Assign(ParseInt(text), value);
+  }
+  bool operator()(double* value) const {
+    *expected = "a number";
+    return Assign(ParseFinite(text), value);
+  }
+  bool operator()(std::string* value) const {
+    *value = text;
+    return true;
+  }
+  bool operator()(std::optional<int>* value) const {
+    *expected = "a whole number";
+    return Assign(ParseInt(text), value);
+  }
+  bool operator()(std::optional<double>* value) const {
+    *expected = "a number";
+    return Assign(ParseFinite(text), value);
+  }
+  bool operator()(const Choice& choice) const {
+    *expected = "one of";
+    for (const std::string& name : choice.names) *expected += " " + name;
+    const auto found = std::find(choice.names.begin(), choice.names.end(), text);
+    if (found == choice.names.end()) return false;
+    choice.set(static_cast<int>(found - choice.names.begin()));
+    return true;
+  }
+};
+
+struct Formatter {
+  std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
+  std::string operator()(const int* value) const { return std::to_string(*value); }
+  std::string operator()(const double* value) const { return FormatNumber(*value); }
+  std::string operator()(const std::string* value) const { return *value; }
+  std::string operator()(const std::optional<int>* value) const {
+    return *value ? std::to_string(**value) : "";
+  }
+  std::string operator()(const std::optional<double>* value) const {
+    return *value ? FormatNumber(**value) : "";
+  }
+  std::string operator()(const Choice& choice) const { return choice.names.at(choice.get()); }
+};
+
+// Number of letters to insert, delete or replace to turn one text into the other (Levenshtein).
+int EditDistance(const std::string& a, const std::string& b) {
+  std::vector<int> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (size_t i = 1; i <= a.size(); ++i) {
+    int diagonal = row[0];
+    row[0] = static_cast<int>(i);
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const int replaced = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+std::string LastPart(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+}  // namespace
+
+bool SetOption(const Option& option, const std::string& text, std::string* expected) {
+  return std::visit(Setter{text, expected}, option.value);
+}
+
+std::string FormatOption(const Option& option) { return std::visit(Formatter{}, option.value); }
+
+std::vector<OptionText> ChangedOptions(const Configuration& configuration) {
+  Configuration given = configuration;
+  Configuration defaults;
+  const std::vector<Option> default_options = ListOptions(&defaults);
+  std::vector<OptionText> changed;
+  const std::vector<Option> options = ListOptions(&given);
+  for (size_t i = 0; i < options.size(); ++i) {
+    const std::string value = FormatOption(options[i]);
+    if (value != FormatOption(default_options[i])) changed.push_back({options[i].path, value});
+  }
+  return changed;
+}
+
+const Option* FindSimilar(const std::vector<Option>& options, const std::string& path) {
+  const Option* nearest = nullptr;
+  // More than a third of the letters wrong is another word, not a typing error.
+  int smallest = static_cast<int>(LastPart(path).size()) / 3 + 1;
+  int smallest_of_path = 0;  // decides between equals
+  for (const Option& option : options) {
+    // The right name in the wrong section counts as one error.
+    const int of_path = EditDistance(path, option.path);
+    const int distance = std::min(of_path, EditDistance(LastPart(path), LastPart(option.path)) + 1);
+    if (distance < smallest || (distance == smallest && (!nearest || of_path < smallest_of_path))) {
+      smallest = distance;
+      smallest_of_path = of_path;
+      nearest = &option;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/config/options_file.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include <yaml-cpp/yaml.h>
+
+#include "msc_vo/config/orb_slam_config.h"
+#include "msc_vo/text/text_file.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Walks a YAML tree along the list of options.
+class YamlReader {
+ public:
+  YamlReader(std::string file, std::vector<Option> options)
+      : file_(std::move(file)), options_(std::move(options)) {}
+
+  void ReadSection(const YAML::Node& section, const std::string& prefix) {
+    for (const auto& entry : section) {
+      const std::string path = prefix + entry.first.Scalar();
+      const int line = entry.first.Mark().line + 1;
+      if (!seen_.insert(path).second) Fail(line, "'" + path + "' is given twice");
+      if (IsSection(path)) {
+        if (entry.second.IsNull()) continue;
+        if (!entry.second.IsMap()) Fail(line, "'" + path + "' is a section; it takes no value");
+        ReadSection(entry.second, path + ".");
+      } else {
+        ReadValue(entry.second, path, line);
+      }
+    }
+  }
+
+  [[noreturn]] void Fail(int line, const std::string& what) const {
+    throw std::runtime_error(file_ + ":" + std::to_string(line) + ": " + what);
+  }
+
+ private:
+  bool IsSection(const std::string& path) const {
+    return std::any_of(options_.begin(), options_.end(),
+                       [&](const Option& option) { return option.path.rfind(path + ".", 0) == 0; });
+  }
+
+  void ReadValue(const YAML::Node& node, const std::string& path, int line) const {
+    const auto option = std::find_if(options_.begin(), options_.end(),
+                                     [&](const Option& known) { return known.path == path; });
+    if (option == options_.end()) {
+      const Option* similar = FindSimilar(options_, path);
+      Fail(line, "unknown option '" + path + "'" +
+                     (similar ? "; did you mean '" + similar->path + "'?"
+                              : "; msc_vo replay --print-config lists all"));
+    }
+    std::string expected = "a value";
+    if (!node.IsScalar() || !SetOption(*option, node.Scalar(), &expected)) {
+      Fail(line, "'" + path + "' must be " + expected +
+                     (node.IsScalar() ? ", not '" + node.Scalar() + "'" : ""));
+    }
+  }
+
+  std::string file_;
+  std::vector<Option> options_;
+  std::set<std::string> seen_;
+};
+
+std::vector<std::string> Sections(const std::string& path) {
+  std::vector<std::string> parts;
+  size_t begin = 0;
+  for (size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', begin)) {
+    parts.push_back(path.substr(begin, dot - begin));
+    begin = dot + 1;
+  }
+  return parts;
+}
+
+std::string Indent(size_t depth) { return std::string(2 * depth, ' '); }
+
+}  // namespace
+
+void ReadConfiguration(const std::string& path, Configuration* configuration) {
+  const std::string content = ReadFile(path);
+  if (IsOrbSlamConfig(content)) {
+    configuration->camera = ReadOrbSlamConfig(path);
+    return;
+  }
+  YamlReader reader(path, ListOptions(configuration));
+  YAML::Node root;
+  try {
+    root = YAML::Load(content);
+  } catch (const YAML::Exception& error) {
+    reader.Fail(error.mark.line + 1, "is no YAML: " + error.msg);
+  }
+  if (!root.IsMap() && !root.IsNull()) reader.Fail(1, "expected 'name: value' lines");
+  configuration->camera.origin = path;
+  reader.ReadSection(root, "");
+}
+
+std::string FormatConfiguration(const Configuration& configuration) {
+  Configuration copy = configuration;
+  std::string text = "# msc_vo configuration: every option, with its value and meaning.\n";
+  std::vector<std::string> open;
+  for (const Option& option : ListOptions(&copy)) {
+    const std::vector<std::string> sections = Sections(option.path);
+    size_t common = 0;
+    while (common < open.size() && common < sections.size() && open[common] == sections[common]) {
+      ++common;
+    }
+    for (size_t depth = common; depth < sections.size(); ++depth) {
+      text += Indent(depth) + sections[depth] + ":\n";
+    }
+    open = sections;
+    const std::string name = option.path.substr(option.path.rfind('.') + 1);
+    const std::string value = FormatOption(option);
+    std::string line = Indent(sections.size()) + (value.empty() ? "# " : "") + name + ": " + value;
+    constexpr size_t kCommentColumn = 36;  // behind most values
+    line.resize(std::max(line.size() + 2, kCommentColumn), ' ');
+    text += line + "# " + option.help;
+    if (const Choice* choice = std::get_if<Choice>(&option.value)) {
+      text += " (";
+      for (size_t i = 0; i < choice->names.size(); ++i) {
+        text += (i > 0 ? ", " : "") + choice->names[i];
+      }
+      text += ")";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace msc_vo

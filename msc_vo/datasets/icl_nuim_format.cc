@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// ICL-NUIM: a TUM-style folder whose stamps are frame numbers, depth first in its associations,
+// ground truth in *.gt.freiburg, and a camera with negative fy.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "msc_vo/datasets/image_folder.h"
+#include "msc_vo/datasets/image_list.h"
+#include "msc_vo/datasets/sequence_format.h"
+#include "msc_vo/text/text_file.h"
+#include "msc_vo/datasets/tum_folder.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Whether the associations name depth first and count frames, which no other data set does.
+bool HasIclNuimAssociations(const std::string& directory) {
+  const std::string path = FindAssociations(directory);
+  if (path.empty()) return false;
+  std::vector<double> stamps;
+  for (const TextLine& line : ReadTextLines(path)) {
+    const std::optional<double> stamp = ParseNumber(line.fields.front());
+    if (line.fields.size() != 4 || !stamp || line.fields[1].rfind("depth", 0) != 0) return false;
+    stamps.push_back(*stamp);
+  }
+  return AreFrameNumbers(stamps);
+}
+
+// Only marks of the data set itself justify the guess of its mirrored camera.
+bool Recognises(const std::string& directory) {
+  if (HasIclNuimAssociations(directory)) return true;
+  return !FindFreiburgTruth(directory).empty() &&
+         (!FindAssociations(directory).empty() ||
+          std::filesystem::is_directory(std::filesystem::path(directory) / "rgb"));
+}
+
+SequenceIndex Read(const std::string& directory) {
+  SequenceIndex index;
+  const std::filesystem::path folder = directory;
+  if (!FindAssociations(directory).empty() || std::filesystem::exists(folder / "rgb.txt")) {
+    ReadTumEntries(directory, &index);
+  } else {
+    PairByFrameNumber(ListImages((folder / "rgb").string()),
+                      ListImages((folder / "depth").string()), &index);
+  }
+  ReadTumGroundTruth(directory, &index);
+  ReadFolderCamera(directory, &index);
+  index.preset = "icl-nuim";
+  return index;
+}
+
+}  // namespace
+
+const SequenceFormat kIclNuimFormat = {
+    "icl-nuim",
+    "depth-first associations.txt with frame numbers, or rgb/, depth/ and *.gt.freiburg",
+    Recognises, Read};
+
+}  // namespace msc_vo

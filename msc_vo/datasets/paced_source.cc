@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/paced_source.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+namespace msc_vo {
+
+PacingClock PacingClock::Steady() {
+  using Clock = std::chrono::steady_clock;
+  return {[] { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); },
+          [](double seconds) {
+            const std::chrono::duration<double> time(seconds);
+            std::this_thread::sleep_until(
+                Clock::time_point(std::chrono::duration_cast<Clock::duration>(time)));
+          }};
+}
+
+PacedSource::PacedSource(const RgbdDecoder& decoder, int begin, int end, PacingClock clock)
+    : decoder_(decoder),
+      source_(decoder, begin, end),
+      clock_(std::move(clock)),
+      begin_(begin),
+      next_(begin),
+      end_(end) {}
+
+bool PacedSource::Next(RgbdImage* image, std::vector<int>* dropped) {
+  if (next_ == end_) return false;
+  if (!start_) {
+    const int first = next_++;
+    source_.Next(image);
+    // That it had to be decoded first is not the camera's time.
+    appeared_ = clock_.now();
+    start_ = appeared_ - Time(first);
+    return true;
+  }
+  const double now = clock_.now();
+  int newest = next_;
+  while (newest + 1 < end_ && *start_ + Time(newest + 1) <= now) ++newest;
+  const int oldest = std::max(next_, newest + 1 - kMaxWaiting);
+  for (int i = next_; i < oldest; ++i) dropped->push_back(i);
+  next_ = oldest + 1;
+  source_.SkipTo(oldest);
+  source_.Next(image);
+  appeared_ = *start_ + Time(oldest);
+  clock_.sleep_until(appeared_);
+  return true;
+}
+
+double PacedSource::Age() const { return clock_.now() - appeared_; }
+
+double PacedSource::Time(int i) const {
+  const std::vector<SequenceEntry>& entries = decoder_.index().entries;
+  return entries[i].timestamp - entries[begin_].timestamp;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/pose_matrix.h"
+
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+
+#include "msc_vo/text/text_file.h"
+
+namespace msc_vo {
+
+Eigen::MatrixXd ReadMatrix(const std::string& path, int rows, int columns) {
+  std::vector<double> values;
+  for (const TextLine& line : ReadTextLines(path)) {
+    for (const std::string& field : line.fields) {
+      const std::optional<double> value = ParseNumber(field);
+      if (!value) {
+        throw std::runtime_error(line.Where() + ": '" + field + "' is not a number");
+      }
+      values.push_back(*value);
+    }
+  }
+  if (values.size() != static_cast<size_t>(rows) * columns) {
+    throw std::runtime_error(path + ": expected " + std::to_string(rows) + " x " +
+                             std::to_string(columns) + " numbers, found " +
+                             std::to_string(values.size()));
+  }
+  return Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+      values.data(), rows, columns);
+}
+
+std::optional<Rigid3> RigidFromMatrix(const Eigen::Matrix4d& matrix) {
+  if (!matrix.allFinite()) return std::nullopt;
+  const Eigen::Matrix3d r = matrix.topLeftCorner<3, 3>();
+  // Files carry 6 digits or so; 1 % is far above rounding and far below any other matrix.
+  const double deviation = (r.transpose() * r - Eigen::Matrix3d::Identity()).norm();
+  if (deviation > 1e-2 || r.determinant() < 0.0) return std::nullopt;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Matrix3d nearest = svd.matrixU() * svd.matrixV().transpose();
+  return Rigid3(Eigen::Quaterniond(nearest).normalized(), matrix.topRightCorner<3, 1>());
+}
+
+void ReadPoseFiles(const std::function<std::string(const SequenceEntry&)>& pose_path,
+                   SequenceIndex* index) {
+  int lost = 0;
+  for (const SequenceEntry& entry : index->entries) {
+    const std::string path = pose_path(entry);
+    if (!std::filesystem::exists(path)) continue;
+    const std::optional<Rigid3> pose = RigidFromMatrix(ReadMatrix(path, 4, 4));
+    if (pose) index->ground_truth.push_back({entry.timestamp, *pose});
+    if (!pose) ++lost;
+  }
+  if (lost > 0) {
+    index->warnings.push_back(std::to_string(lost) +
+                              " ground-truth poses are not valid and are left out");
+  }
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Replica, as rendered for NICE-SLAM: results/frameXXXXXX.jpg, results/depthXXXXXX.png, traj.txt
+// with one 4x4 camera-in-world matrix per row and frame.
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "msc_vo/datasets/image_folder.h"
+#include "msc_vo/datasets/pose_matrix.h"
+#include "msc_vo/datasets/sequence_format.h"
+#include "msc_vo/text/text_file.h"
+#include "msc_vo/datasets/tum_folder.h"
+
+namespace msc_vo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string Results(const std::string& directory) {
+  return (fs::path(directory) / "results").string();
+}
+
+bool Recognises(const std::string& directory) {
+  return !ListImages(Results(directory), "frame").empty();
+}
+
+// Row i is the pose of frame i.
+void ReadPoses(const std::string& path, SequenceIndex* index) {
+  int row = 0;
+  for (const TextLine& line : ReadTextLines(path)) {
+    if (line.fields.size() != 16) {
+      throw std::runtime_error(line.Where() + ": expected the 16 numbers of a 4x4 pose, found " +
+                               std::to_string(line.fields.size()));
+    }
+    const std::vector<double> values = ParseNumbers(line);
+    const Eigen::Matrix4d matrix =
+        Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data());
+    if (const auto pose = RigidFromMatrix(matrix)) {
+      index->ground_truth.push_back({row / kDefaultFrameRate, *pose});
+    }
+    ++row;
+  }
+}
+
+SequenceIndex Read(const std::string& directory) {
+  SequenceIndex index;
+  PairByFrameNumber(ListImages(Results(directory), "frame"),
+                    ListImages(Results(directory), "depth"), &index);
+  index.preset = "replica";
+  const fs::path poses = fs::path(directory) / "traj.txt";
+  if (fs::exists(poses)) ReadPoses(poses.string(), &index);
+  ReadFolderCamera(directory, &index);
+  return index;
+}
+
+}  // namespace
+
+const SequenceFormat kReplicaFormat = {
+    "replica", "results/frameXXXXXX.jpg, results/depthXXXXXX.png, traj.txt", Recognises, Read};
+
+}  // namespace msc_vo

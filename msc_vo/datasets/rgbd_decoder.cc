@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/rgbd_decoder.h"
+
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "msc_vo/text/text_file.h"
+
+namespace msc_vo {
+
+namespace {
+
+// "path (named in rgb.txt:12): what"
+[[noreturn]] void Fail(const std::string& path, const SequenceEntry& entry,
+                       const std::string& what) {
+  const std::string origin = entry.origin.empty() ? "" : " (named in " + entry.origin + ")";
+  throw std::runtime_error(path + origin + ": " + what);
+}
+
+std::string SizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+bool IsJpeg(const std::string& bytes) { return bytes.compare(0, 2, "\xFF\xD8") == 0; }
+
+// A JPEG ends with the marker FF D9, which its compressed data cannot contain. Decoders fill the
+// missing part of a truncated file with grey and say nothing.
+bool IsTruncatedJpeg(const std::string& bytes) {
+  return IsJpeg(bytes) && bytes.rfind("\xFF\xD9") == std::string::npos;
+}
+
+cv::Mat ReadImage(const std::string& path, const SequenceEntry& entry) {
+  if (!std::filesystem::exists(path)) {
+    Fail(path, entry, "does not exist; restore the file or remove its line");
+  }
+  const std::string bytes = ReadFile(path);
+  cv::Mat image;
+  if (!bytes.empty() && !IsTruncatedJpeg(bytes)) {
+    const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1,
+                         const_cast<char*>(bytes.data()));
+    // A JPEG has its grey values in a channel of their own and never more than 8 bits: to make
+    // colours of them first, and grey of these, takes longer and rounds twice.
+    const int kind = IsJpeg(bytes) ? cv::IMREAD_GRAYSCALE : cv::IMREAD_UNCHANGED;
+    try {
+      image = cv::imdecode(buffer, kind | cv::IMREAD_IGNORE_ORIENTATION);
+    } catch (const cv::Exception&) {
+      image.release();  // reported below like every damaged file
+    }
+  }
+  if (image.empty()) {
+    Fail(path, entry,
+         "is damaged, truncated or no image (" + std::to_string(bytes.size()) +
+             " bytes); restore the file");
+  }
+  return image;
+}
+
+std::string TypeText(const cv::Mat& image) {
+  const int bits = static_cast<int>(8 * image.elemSize1());
+  return std::to_string(image.channels()) + " channel" + (image.channels() == 1 ? "" : "s") +
+         " of " + std::to_string(bits) + " bits";
+}
+
+cv::Mat ToGray(const cv::Mat& image) {
+  cv::Mat gray;
+  switch (image.channels()) {
+    case 1:
+      return image;
+    case 3:
+      cv::cvtColor(image, gray, cv::COLOR_BGR2GRAY);
+      return gray;
+    default:
+      cv::cvtColor(image, gray, cv::COLOR_BGRA2GRAY);
+      return gray;
+  }
+}
+
+cv::Mat ToMetres(const cv::Mat& raw, double depth_scale, int invalid_depth) {
+  cv::Mat metres;
+  raw.convertTo(metres, CV_32F, 1.0 / depth_scale);
+  if (invalid_depth != 0) metres.setTo(0.0f, raw == invalid_depth);
+  return metres;
+}
+
+}  // namespace
+
+RgbdDecoder::RgbdDecoder(SequenceIndex index, Calibration calibration)
+    : index_(std::move(index)), calibration_(std::move(calibration)) {}
+
+RgbdImage RgbdDecoder::Decode(int i) const {
+  const SequenceEntry& entry = index_.entries.at(i);
+  cv::Mat color = ReadImage(entry.color_path, entry);
+  const cv::Mat depth = ReadImage(entry.depth_path, entry);
+  if (color.type() == CV_16UC1 && depth.depth() == CV_8U) {
+    Fail(entry.color_path, entry,
+         "is a depth image and its partner a colour image; swap the two columns or folders");
+  }
+  if (color.depth() != CV_8U || color.channels() == 2) {
+    Fail(entry.color_path, entry,
+         "has " + TypeText(color) + "; colour images need 8 bits and 1, 3 or 4 channels");
+  }
+  if (depth.type() != CV_16UC1) {
+    Fail(entry.depth_path, entry,
+         "has " + TypeText(depth) +
+             "; depth images need 1 channel of 16 bits (a picture of the "
+             "depth for the eye does not carry the measurements)");
+  }
+  const PinholeCamera& camera = calibration_.camera;
+  if (depth.cols != camera.width || depth.rows != camera.height) {
+    Fail(entry.depth_path, entry,
+         "is " + SizeText(depth.cols, depth.rows) + ", but the camera is " +
+             SizeText(camera.width, camera.height) + " (" + calibration_.origin +
+             "); give the calibration of these images");
+  }
+  if (index_.scale_color && color.cols > depth.cols && color.rows > depth.rows) {
+    cv::resize(color, color, depth.size(), 0.0, 0.0, cv::INTER_AREA);
+  }
+  if (color.size() != depth.size()) {
+    Fail(entry.color_path, entry,
+         "is " + SizeText(color.cols, color.rows) + ", but its depth image " + entry.depth_path +
+             " is " + SizeText(depth.cols, depth.rows) +
+             "; register the depth to the colour image first");
+  }
+  RgbdImage image;
+  image.id = i;
+  image.timestamp = entry.timestamp;
+  image.depth_delay = entry.depth_delay;
+  image.gray = ToGray(color);
+  image.depth = ToMetres(depth, calibration_.depth_scale, index_.invalid_depth);
+  return image;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// ScanNet, exported from its .sens files: color/N.jpg, depth/N.png (millimetres), pose/N.txt
+// (camera in world, 4x4; -inf where it was lost), intrinsic/intrinsic_color.txt and
+// intrinsic_depth.txt (4x4).
+
+#include <filesystem>
+#include <string>
+
+#include "msc_vo/datasets/image_folder.h"
+#include "msc_vo/datasets/pose_matrix.h"
+#include "msc_vo/datasets/sequence_format.h"
+#include "msc_vo/datasets/tum_folder.h"
+
+namespace msc_vo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool Recognises(const std::string& directory) {
+  const fs::path folder = directory;
+  return fs::is_directory(folder / "color") && fs::is_directory(folder / "depth") &&
+         (fs::is_directory(folder / "pose") || fs::is_directory(folder / "intrinsic"));
+}
+
+std::string PosePath(const SequenceEntry& entry) {
+  const fs::path color = entry.color_path;
+  return (color.parent_path().parent_path() / "pose" / (color.stem().string() + ".txt")).string();
+}
+
+// The camera of the colour image after it has been scaled to the depth's size. Pixel centres are at
+// whole numbers, so it is the coordinate plus one half that scales.
+PinholeCamera Scaled(const Eigen::MatrixXd& k, const ImageSize& from, const ImageSize& to) {
+  const double sx = static_cast<double>(to.width) / from.width;
+  const double sy = static_cast<double>(to.height) / from.height;
+  return {sx * k(0, 0), sy * k(1, 1), sx * (k(0, 2) + 0.5) - 0.5, sy * (k(1, 2) + 0.5) - 0.5,
+          to.width,     to.height};
+}
+
+void ReadIntrinsics(const fs::path& folder, SequenceIndex* index) {
+  ReadFolderCamera(folder.string(), index);
+  if (index->calibration || index->entries.empty()) return;
+  const ImageSize color = ReadImageSize(index->entries.front().color_path);
+  const ImageSize depth = ReadImageSize(index->entries.front().depth_path);
+  const fs::path of_color = folder / "intrinsic" / "intrinsic_color.txt";
+  const fs::path of_depth = folder / "intrinsic" / "intrinsic_depth.txt";
+  Calibration calibration;
+  calibration.depth_scale = 1000.0;  // millimetres
+  if (fs::exists(of_color)) {
+    calibration.camera = Scaled(ReadMatrix(of_color.string(), 4, 4), color, depth);
+    calibration.origin = of_color.string();
+  } else if (fs::exists(of_depth)) {
+    calibration.camera = Scaled(ReadMatrix(of_depth.string(), 4, 4), depth, depth);
+    calibration.origin = of_depth.string();
+  } else {
+    return;
+  }
+  index->calibration = calibration;
+}
+
+SequenceIndex Read(const std::string& directory) {
+  SequenceIndex index;
+  const fs::path folder = directory;
+  PairByFrameNumber(ListImages((folder / "color").string()),
+                    ListImages((folder / "depth").string()), &index);
+  index.scale_color = true;
+  ReadPoseFiles(PosePath, &index);
+  ReadIntrinsics(folder, &index);
+  return index;
+}
+
+}  // namespace
+
+const SequenceFormat kScanNetFormat = {
+    "scannet", "color/, depth/, pose/, intrinsic/ as exported from .sens files", Recognises, Read};
+
+}  // namespace msc_vo

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/sequence.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "msc_vo/datasets/sequence_format.h"
+
+namespace msc_vo {
+
+namespace {
+
+// From the most particular layout to the most general one: the first that recognises a folder
+// gets it.
+constexpr const SequenceFormat* kFormats[] = {&kSevenScenesFormat, &kReplicaFormat,
+                                              &kScanNetFormat,     &kIclNuimFormat,
+                                              &kTumFormat,         &kRgbDepthFormat};
+
+const SequenceFormat* Recognise(const std::string& directory) {
+  for (const SequenceFormat* format : kFormats) {
+    if (format->recognises(directory)) return format;
+  }
+  return nullptr;
+}
+
+[[noreturn]] void FailUnrecognised(const std::string& directory) {
+  std::string message = directory + ": no RGB-D sequence found here. Known layouts:";
+  for (const SequenceFormat* format : kFormats) {
+    message += std::string("\n  ") + format->name + ": " + format->description;
+  }
+  // The parent folder of a sequence is the usual mistake.
+  std::vector<std::string> children;
+  for (const auto& child : std::filesystem::directory_iterator(directory)) {
+    if (child.is_directory() && Recognise(child.path().string())) {
+      children.push_back(child.path().string());
+    }
+  }
+  if (!children.empty()) {
+    message += "\nDid you mean " + *std::min_element(children.begin(), children.end()) + "?";
+  }
+  throw std::runtime_error(message);
+}
+
+const SequenceFormat& FormatByName(const std::string& name) {
+  std::string names;
+  for (const SequenceFormat* format : kFormats) {
+    if (name == format->name) return *format;
+    names += std::string(", ") + format->name;
+  }
+  throw std::invalid_argument("unknown sequence format '" + name + "'; known: auto" + names);
+}
+
+// Puts the entries in order of time; of several with one stamp the first stays.
+void OrderEntries(SequenceIndex* index) {
+  const auto earlier = [](const SequenceEntry& a, const SequenceEntry& b) {
+    return a.timestamp < b.timestamp;
+  };
+  std::vector<SequenceEntry>& entries = index->entries;
+  if (!std::is_sorted(entries.begin(), entries.end(), earlier)) {
+    index->warnings.push_back("the images are not listed in order of time; they were sorted");
+    std::stable_sort(entries.begin(), entries.end(), earlier);
+  }
+  const size_t before = entries.size();
+  entries.erase(std::unique(entries.begin(), entries.end(),
+                            [](const SequenceEntry& a, const SequenceEntry& b) {
+                              return a.timestamp == b.timestamp;
+                            }),
+                entries.end());
+  if (entries.size() < before) {
+    index->warnings.push_back(std::to_string(before - entries.size()) +
+                              " images have the time stamp of another one and are left out");
+  }
+}
+
+std::string WithoutTrailingSlash(const std::string& directory) {
+  std::filesystem::path path = std::filesystem::path(directory).lexically_normal();
+  if (!path.has_filename() && path.has_relative_path()) path = path.parent_path();
+  return path.string();
+}
+
+}  // namespace
+
+std::vector<std::string> SequenceFormatNames() {
+  std::vector<std::string> names;
+  for (const SequenceFormat* format : kFormats) names.push_back(format->name);
+  return names;
+}
+
+SequenceIndex OpenSequence(const std::string& directory, const std::string& format_name) {
+  const std::string folder = WithoutTrailingSlash(directory);
+  const SequenceFormat* format = format_name == "auto" ? nullptr : &FormatByName(format_name);
+  if (!std::filesystem::is_directory(folder)) {
+    throw std::runtime_error(directory + ": " +
+                             (std::filesystem::exists(folder)
+                                  ? "is a file; give the folder of the sequence"
+                                  : "does not exist; give the folder of the sequence"));
+  }
+  if (!format) format = Recognise(folder);
+  if (!format) FailUnrecognised(folder);
+  SequenceIndex index = format->read(folder);
+  index.format = format->name;
+  index.directory = folder;
+  OrderEntries(&index);
+  if (index.entries.empty()) {
+    throw std::runtime_error(folder + ": no pair of colour and depth image found (read as " +
+                             format->name + ": " + format->description + ")");
+  }
+  return index;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// 7-Scenes and 3DMatch: frame-XXXXXX.color.png, .depth.png (millimetres, 65535 invalid) and
+// .pose.txt (camera in world, 4x4); 3DMatch adds camera-intrinsics.txt.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "msc_vo/datasets/image_folder.h"
+#include "msc_vo/datasets/pose_matrix.h"
+#include "msc_vo/datasets/sequence_format.h"
+#include "msc_vo/datasets/tum_folder.h"
+
+namespace msc_vo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kMillimetres = 1000.0;  // raw units per metre
+
+bool Recognises(const std::string& directory) {
+  return !ListImages(directory, "frame-", ".color").empty();
+}
+
+std::string PosePath(const SequenceEntry& entry) {
+  const fs::path color = entry.color_path;
+  const std::string frame = color.stem().stem().string();
+  return (color.parent_path() / (frame + ".pose.txt")).string();
+}
+
+// camera-intrinsics.txt of 3DMatch lies in the folder or, shared by several sequences, above it.
+void ReadIntrinsics(const std::string& directory, SequenceIndex* index) {
+  ReadFolderCamera(directory, index);
+  if (index->calibration) return;
+  for (const fs::path& folder : {fs::path(directory), fs::path(directory).parent_path()}) {
+    const fs::path path = folder / "camera-intrinsics.txt";
+    if (!fs::exists(path) || index->entries.empty()) continue;
+    const Eigen::MatrixXd k = ReadMatrix(path.string(), 3, 3);
+    const ImageSize size = ReadImageSize(index->entries.front().depth_path);
+    Calibration calibration;
+    calibration.camera = {k(0, 0), k(1, 1), k(0, 2), k(1, 2), size.width, size.height};
+    calibration.depth_scale = kMillimetres;
+    calibration.origin = path.string();
+    index->calibration = calibration;
+    return;
+  }
+}
+
+SequenceIndex Read(const std::string& directory) {
+  SequenceIndex index;
+  PairByFrameNumber(ListImages(directory, "frame-", ".color"),
+                    ListImages(directory, "frame-", ".depth"), &index);
+  index.invalid_depth = 65535;
+  index.preset = "7-scenes";
+  ReadPoseFiles(PosePath, &index);
+  ReadIntrinsics(directory, &index);
+  return index;
+}
+
+}  // namespace
+
+const SequenceFormat kSevenScenesFormat = {
+    "7-scenes", "frame-XXXXXX.color.png (or .jpg), .depth.png, .pose.txt (also 3DMatch)",
+    Recognises, Read};
+
+}  // namespace msc_vo

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/trajectory.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "msc_vo/text/text_file.h"
+
+namespace msc_vo {
+
+namespace {
+
+constexpr size_t kFieldsPerPose = 8;
+
+void SortByTime(std::vector<TimedPose>* poses) {
+  std::stable_sort(poses->begin(), poses->end(), [](const TimedPose& a, const TimedPose& b) {
+    return a.timestamp < b.timestamp;
+  });
+}
+
+// "0.1000000000", and no "-0.0000000000".
+std::string Fixed(double value, int decimals) {
+  std::array<char, 400> buffer;  // 309 digits of the largest double, sign, point, decimals
+  std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, value);
+  std::string text = buffer.data();
+  if (text.find_first_of("123456789") == std::string::npos && text[0] == '-') text.erase(0, 1);
+  return text;
+}
+
+}  // namespace
+
+std::vector<TimedPose> ReadTrajectory(const std::string& path) {
+  std::vector<TimedPose> poses;
+  for (const TextLine& line : ReadTextLines(path)) {
+    if (line.fields.size() != kFieldsPerPose) {
+      throw std::runtime_error(line.Where() +
+                               ": expected 8 numbers 'time tx ty tz qx qy qz qw', found " +
+                               std::to_string(line.fields.size()) + " fields");
+    }
+    std::array<double, kFieldsPerPose> v;
+    bool finite = true;
+    for (size_t i = 0; i < kFieldsPerPose; ++i) {
+      const std::optional<double> value = ParseNumber(line.fields[i]);
+      if (!value) {
+        throw std::runtime_error(line.Where() + ": '" + line.fields[i] +
+                                 "' is not a number; correct or remove the line");
+      }
+      v[i] = *value;
+      finite = finite && std::isfinite(v[i]);
+    }
+    if (!finite) continue;
+    const Eigen::Quaterniond rotation(v[7], v[4], v[5], v[6]);
+    if (rotation.norm() < 1e-6) {  // far below any rounding of a unit quaternion
+      throw std::runtime_error(line.Where() +
+                               ": the quaternion is zero; correct or remove the line");
+    }
+    poses.push_back({v[0], Rigid3(rotation.normalized(), {v[1], v[2], v[3]})});
+  }
+  SortByTime(&poses);
+  return poses;
+}
+
+std::string FormatTrajectory(std::vector<TimedPose> poses) {
+  SortByTime(&poses);
+  std::string text;
+  std::string previous_stamp;
+  for (const TimedPose& pose : poses) {
+    const std::string stamp = Fixed(pose.timestamp, 6);
+    if (stamp == previous_stamp) continue;
+    previous_stamp = stamp;
+    text += stamp;
+    const Eigen::Vector3d t = pose.world_from_cam.translation();
+    Eigen::Vector4d q = pose.world_from_cam.rotation().normalized().coeffs();
+    if (q.w() < 0.0) q = -q;
+    for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) {
+      text += ' ' + Fixed(value, 10);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+void WriteTrajectory(const std::string& path, const std::vector<TimedPose>& poses) {
+  WriteFile(path, FormatTrajectory(poses));
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// TUM RGB-D: rgb.txt and depth.txt, or an association file; groundtruth.txt; camera.txt.
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "msc_vo/datasets/camera_preset.h"
+#include "msc_vo/datasets/image_list.h"
+#include "msc_vo/datasets/sequence_format.h"
+#include "msc_vo/datasets/tum_folder.h"
+
+namespace msc_vo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool Recognises(const std::string& directory) {
+  const fs::path folder = directory;
+  return fs::exists(folder / "rgb.txt") || fs::exists(folder / "depth.txt") ||
+         !FindAssociations(directory).empty();
+}
+
+SequenceIndex Read(const std::string& directory) {
+  SequenceIndex index;
+  ReadTumEntries(directory, &index);
+  ReadTumGroundTruth(directory, &index);
+  ReadFolderCamera(directory, &index);
+  index.preset = GuessCameraPreset(directory);
+  return index;
+}
+
+}  // namespace
+
+const SequenceFormat kTumFormat = {
+    "tum", "rgb.txt and depth.txt with 'time path' rows, or associations.txt", Recognises, Read};
+
+}  // namespace msc_vo

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include "msc_vo/factors/cost_functor.h"
+#include "msc_vo/factors/inverse_depth_line.h"
+
+namespace msc_vo {
+
+// A pair of lines of one frame that should be parallel or perpendicular (paper Eqs. par_error and
+// perp_error in the frame), rows of Relation:
+//
+//   r = Relation(d(w_i), d(w_j))
+//
+// Relation: ParallelLines or PerpendicularLines. d: direction of a SightLine from its block (blocks
+// 0 and 1, 4 each: two inverse depths, 1/metres, and two unit normal deviates).
+template <typename Relation>
+class SightLinePair : public CostFunctor<SightLinePair<Relation>, Relation::kNumResiduals,
+                                         SightLine::kBlockSize, SightLine::kBlockSize> {
+ public:
+  SightLinePair(const SightLine& line_i, const SightLine& line_j, double sigma)
+      : line_i_(line_i), line_j_(line_j), relation_(sigma) {}
+
+  template <typename T>
+  bool operator()(const T* block_i, const T* block_j, T* residuals) const {
+    Eigen::Matrix<T, 3, 1> d_i, d_j;
+    if (!line_i_.Direction(block_i, &d_i) || !line_j_.Direction(block_j, &d_j)) return false;
+    relation_.Residual(d_i, d_j, residuals);
+    return true;
+  }
+
+ private:
+  SightLine line_i_, line_j_;
+  Relation relation_;
+};
+
+}  // namespace msc_vo

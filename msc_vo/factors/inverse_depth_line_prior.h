@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <Eigen/Cholesky>
+
+#include "msc_vo/factors/cost_functor.h"
+#include "msc_vo/factors/inverse_depth_line.h"
+
+namespace msc_vo {
+
+// What the fit of a line's own depth samples says (the end-point anchor of the frame), 4 rows:
+//
+//   r = (L^-1 (w - w_0), a, c),   L L^T = covariance of the fit
+//
+// w = (w_S, w_E): inverse depths, 1/metres; a, c: see SightLine (block 0, 4). w_0: those of the
+// fit. With the full covariance a well-fitted line gives way to nobody, and a poor one just where
+// it is poor: in its slope, which is what structure knows.
+class SightLinePrior : public CostFunctor<SightLinePrior, 4, SightLine::kBlockSize> {
+ public:
+  explicit SightLinePrior(const LineDepth& depth)
+      : mean_(depth.start, depth.end),
+        root_information_(depth.covariance.llt().matrixL().solve(Eigen::Matrix2d::Identity())) {}
+
+  template <typename T>
+  bool operator()(const T* block, T* residuals) const {
+    const T start = block[0] - mean_[0];
+    const T end = block[1] - mean_[1];
+    residuals[0] = root_information_(0, 0) * start;  // L^-1 is lower triangular
+    residuals[1] = root_information_(1, 0) * start + root_information_(1, 1) * end;
+    residuals[2] = block[2];
+    residuals[3] = block[3];
+    return true;
+  }
+
+ private:
+  Eigen::Vector2d mean_;              // w_0
+  Eigen::Matrix2d root_information_;  // L^-1, metres
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/map/window_selection.h"
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "msc_vo/map/id_set.h"
+#include "msc_vo/map/keyframe_index.h"
+#include "msc_vo/map/observer_count.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Metres. The shortest segment that a sensor of 1 mm resolution can give a direction.
+constexpr double kMinLineLength = 0.01;
+
+// The landmarks that the window's keyframes see, by id; those that take part are counted.
+template <typename L, typename Table>
+std::vector<const L*> SeenLandmarks(const Map& map, const std::set<KeyframeId>& window,
+                                    std::vector<LandmarkId> Keyframe::*slots, const Table& table,
+                                    int min_observations, ObserverCount* observers) {
+  IdSet ids(table);
+  for (const KeyframeId keyframe : window) {
+    for (const LandmarkId id : map.FindKeyframe(keyframe)->*slots) {
+      if (id != kNoId) ids.Insert(id);
+    }
+  }
+  std::vector<const L*> landmarks;
+  ids.VisitAll([&](LandmarkId id) {
+    const L* landmark = table.Find(id);
+    if (static_cast<int>(landmark->observations.size()) < min_observations) return;
+    landmarks.push_back(landmark);
+    observers->Add(*landmark);
+  });
+  return landmarks;
+}
+
+std::set<KeyframeId> SelectKeyframes(const WindowSelectionOptions& options, const Map& map,
+                                     KeyframeId keyframe) {
+  std::set<KeyframeId> window = {keyframe};
+  for (const Map::Covisible& covisible : map.FindCovisible(keyframe)) {
+    if (static_cast<int>(window.size()) >= options.max_keyframes) break;
+    if (covisible.num_shared >= options.min_shared) window.insert(covisible.keyframe);
+  }
+  return window;
+}
+
+// Of the keyframes outside the window those that observe most of it.
+std::set<KeyframeId> SelectFixed(const WindowSelectionOptions& options,
+                                 const std::set<KeyframeId>& window,
+                                 const ObserverCount& observers) {
+  std::set<KeyframeId> fixed;
+  for (const Map::Covisible& observer : observers.Ranked()) {
+    if (static_cast<int>(fixed.size()) >= options.max_fixed_keyframes) break;
+    if (window.count(observer.keyframe) == 0) fixed.insert(observer.keyframe);
+  }
+  return fixed;
+}
+
+void AddKeyframes(const Map& map, const std::set<KeyframeId>& window,
+                  const std::set<KeyframeId>& fixed, WindowData* data) {
+  const KeyframeId first = map.keyframes().front().first;
+  for (const KeyframeId id : window) {
+    data->keyframes.push_back({id, map.FindKeyframe(id)->cam_from_world, id == first});
+  }
+  // Without any other observer the oldest keyframe holds the gauge.
+  if (fixed.empty()) data->keyframes.front().fixed = true;
+  for (const KeyframeId id : fixed) {
+    data->keyframes.push_back({id, map.FindKeyframe(id)->cam_from_world, true});
+  }
+}
+
+WindowData::PointObservation MakeObservation(const Keyframe& keyframe, const PointLandmark& point,
+                                             int feature_index) {
+  const PointFeature& feature = keyframe.frame->points[feature_index];
+  WindowData::PointObservation observation;
+  observation.keyframe = keyframe.id;
+  observation.point = point.id;
+  observation.pixel = feature.pixel;
+  observation.sigma = feature.sigma;
+  observation.inverse_depth = feature.inverse_depth;
+  observation.inverse_depth_sigma = feature.inverse_depth_sigma;
+  return observation;
+}
+
+WindowData::LineObservation MakeObservation(const Keyframe& keyframe, const LineLandmark& line,
+                                            int feature_index) {
+  const LineFeature& feature = keyframe.frame->lines[feature_index];
+  WindowData::LineObservation observation;
+  observation.keyframe = keyframe.id;
+  observation.line = line.id;
+  observation.segment = feature.segment;
+  observation.sigma = feature.sigma;
+  observation.has_depth = feature.depth.has_value();
+  if (observation.has_depth) observation.depth = *feature.depth;
+  return observation;
+}
+
+// Parameter on the line a + s (b - a) of the point that is nearest to the ray origin + t ray.
+// Returns false if the ray is too nearly parallel to the line to say.
+bool IntersectRay(const LineSegment3& line, const Eigen::Vector3d& origin,
+                  const Eigen::Vector3d& ray, double* s) {
+  const Eigen::Vector3d d = line.end - line.start;
+  const Eigen::Vector3d w = origin - line.start;
+  const double dd = d.squaredNorm();
+  const double rr = ray.squaredNorm();
+  const double dr = d.dot(ray);
+  const double determinant = dd * rr - dr * dr;
+  // sin^2 of the angle between ray and line: below 0.1 (18 degrees) one pixel moves the
+  // intersection by more than three times its size across the line.
+  if (determinant < 0.1 * dd * rr) return false;
+  *s = (d.dot(w) * rr - ray.dot(w) * dr) / determinant;
+  return true;
+}
+
+}  // namespace
+
+bool WindowSelectionOptions::IsValid(std::string* error) const {
+  if (max_keyframes < 1) {
+    *error = "window: max_keyframes must be at least 1";
+  } else if (max_fixed_keyframes < 0) {
+    *error = "window: max_fixed_keyframes must not be negative";
+  } else if (min_observations < 1) {
+    *error = "window: min_observations must be at least 1";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map,
+                        KeyframeId keyframe) {
+  const std::set<KeyframeId> window = SelectKeyframes(options, map, keyframe);
+  ObserverCount observers(map);
+  const auto points = SeenLandmarks<PointLandmark>(map, window, &Keyframe::points, map.points(),
+                                                   options.min_observations, &observers);
+  const auto lines = SeenLandmarks<LineLandmark>(map, window, &Keyframe::lines, map.lines(),
+                                                 options.min_observations, &observers);
+
+  WindowData data;
+  data.camera = map.FindKeyframe(keyframe)->frame->camera;
+  AddKeyframes(map, window, SelectFixed(options, window, observers), &data);
+  KeyframeIndex taking_part(map);
+  for (const WindowData::Keyframe& keyframe_data : data.keyframes) {
+    taking_part.Add(*map.FindKeyframe(keyframe_data.id));
+  }
+  for (const PointLandmark* point : points) {
+    data.points.push_back({point->id, point->position, false, point->noise});
+    for (const Observation& seen : point->observations) {
+      const Keyframe* observer = taking_part.Find(seen.keyframe);
+      if (observer == nullptr) continue;
+      data.point_observations.push_back(MakeObservation(*observer, *point, seen.feature));
+    }
+  }
+  for (const LineLandmark* line : lines) {
+    data.lines.push_back({line->id, line->segment, false, line->noise, line->depth_offset});
+    for (const Observation& seen : line->observations) {
+      const Keyframe* observer = taking_part.Find(seen.keyframe);
+      if (observer == nullptr) continue;
+      data.line_observations.push_back(MakeObservation(*observer, *line, seen.feature));
+    }
+  }
+  return data;
+}
+
+LineSegment3 CutToObservations(const Map& map, const LineLandmark& line,
+                               const LineSegment3& segment) {
+  double first = 0.0;
+  double last = 0.0;
+  bool any = false;
+  for (const Observation& seen : line.observations) {
+    const Keyframe& keyframe = *map.FindKeyframe(seen.keyframe);
+    const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
+    const LineSegment2& image = keyframe.frame->lines[seen.feature].segment;
+    for (const Eigen::Vector2d& pixel :
+         {Eigen::Vector2d(image.start), Eigen::Vector2d(image.end)}) {
+      double s = 0.0;
+      const Eigen::Vector3d ray = world_from_cam.rotation() * keyframe.frame->camera.Ray(pixel);
+      if (!IntersectRay(segment, world_from_cam.translation(), ray, &s)) continue;
+      first = any ? std::min(first, s) : s;
+      last = any ? std::max(last, s) : s;
+      any = true;
+    }
+  }
+  LineSegment3 cut;
+  cut.start = segment.At(first);
+  cut.end = segment.At(last);
+  return cut.Length() > kMinLineLength ? cut : segment;
+}
+
+void WriteBack(const WindowData& window, Map* map) {
+  for (const WindowData::Keyframe& keyframe : window.keyframes) {
+    if (!keyframe.fixed) map->SetPose(keyframe.id, keyframe.cam_from_world);
+  }
+  for (const WindowData::PointObservation& observation : window.point_observations) {
+    if (observation.rejected) map->ForgetPoint(observation.point, observation.keyframe);
+  }
+  for (const WindowData::LineObservation& observation : window.line_observations) {
+    if (observation.rejected) map->ForgetLine(observation.line, observation.keyframe);
+  }
+  for (const WindowData::Point& point : window.points) {
+    if (map->FindPoint(point.id) == nullptr) continue;
+    map->SetPoint(point.id, point.position);
+    map->SetPointNoise(point.id, point.noise);
+    map->RefreshPoint(point.id);
+  }
+  for (const WindowData::Line& line : window.lines) {
+    const LineLandmark* landmark = map->FindLine(line.id);
+    if (landmark == nullptr) continue;
+    // Wrong matches can pull the end points together; what has no direction is no line.
+    if (!(line.segment.Length() > kMinLineLength)) {
+      map->RemoveLine(line.id);
+      continue;
+    }
+    map->SetLine(line.id, CutToObservations(*map, *landmark, line.segment));
+    map->SetLineNoise(line.id, line.noise, line.depth_offset);
+    map->RefreshLine(line.id);
+  }
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/pose_estimation/pose_matches.h"
+
+#include <algorithm>
+#include <array>
+
+namespace msc_vo {
+
+namespace {
+
+Activity ClassifyPoint(const PoseOptions& options, const PinholeCamera& camera, const Rigid3& pose,
+                       const PoseData::Point& p) {
+  const Eigen::Vector3d x = pose * p.position;
+  if (!IsInFront(x)) return {};
+  const bool has_depth = options.point_depth.enabled && p.inverse_depth > 0.0;
+  Eigen::Vector2d pixels = Eigen::Vector2d::Zero();
+  double depth = 0.0;
+  if (options.point_reprojection.enabled) {
+    PointReprojection(camera, p.pixel, p.sigma).Residual(0, x, pixels.data());
+  }
+  if (has_depth) DepthReprojection(p.inverse_depth, p.inverse_depth_sigma).Residual(0, x, &depth);
+  Activity activity = TestChiSquare(pixels.squaredNorm(), depth * depth, options.reject_chi2_2,
+                                    options.reject_chi2_3);
+  activity.depth = activity.depth && has_depth;
+  return activity;
+}
+
+Activity ClassifyLine(const PoseOptions& options, const PinholeCamera& camera, const Rigid3& pose,
+                      const PoseData::Line& l) {
+  const LineSegment3 line = pose * l.map_segment;
+  if (!IsInFront(line)) return {};
+  const auto chi_square = [&line](const auto& factor) {
+    Eigen::Vector2d r;
+    factor.Residual(0, Eigen::Vector3d(line.start), &r[0]);
+    factor.Residual(1, Eigen::Vector3d(line.end), &r[1]);
+    return r.squaredNorm();
+  };
+  const bool has_depth = options.line_depth.enabled && l.has_depth;
+  const double pixels = options.line_reprojection.enabled
+                            ? chi_square(MakeLineReprojection(camera, l.segment, l.sigma, line))
+                            : 0.0;
+  const double depth =
+      has_depth ? chi_square(MakeLineDepthReprojection(camera, l.segment, l.depth, line)) : 0.0;
+  Activity activity = TestChiSquare(pixels, depth, options.reject_chi2_2, options.reject_chi2_4);
+  activity.depth = activity.depth && has_depth;
+  return activity;
+}
+
+// Chi-square of a normal error of two coordinates in the median.
+constexpr double kChiSquareMedian2 = 1.386;
+// Fewer do not tell the noise of a frame.
+constexpr size_t kMinPointsForNoise = 10;
+
+// Square of how many times larger than their sigmas the errors of this frame's points are, by their
+// median: within [1, max_frame_noise^2]. A blurred image shows all its points worse.
+double SquaredFrameNoise(const PoseOptions& options, const PoseData& data, const Rigid3& pose) {
+  std::vector<double> chi2;
+  chi2.reserve(data.points.size());
+  for (const PoseData::Point& p : data.points) {
+    const Eigen::Vector3d in_cam = pose * p.position;
+    if (!IsInFront(in_cam)) continue;
+    chi2.push_back((data.camera.Project(in_cam) - p.pixel).squaredNorm() / (p.sigma * p.sigma));
+  }
+  if (chi2.size() < kMinPointsForNoise) return 1.0;
+  const auto middle = chi2.begin() + static_cast<std::ptrdiff_t>(chi2.size() / 2);
+  std::nth_element(chi2.begin(), middle, chi2.end());
+  return std::clamp(*middle / kChiSquareMedian2, 1.0,
+                    options.max_frame_noise * options.max_frame_noise);
+}
+
+}  // namespace
+
+PoseActivities AllInFront(const PoseOptions& options, const PoseData& data, const Rigid3& pose) {
+  PoseActivities all;
+  for (const PoseData::Point& p : data.points) {
+    const bool in_front = IsInFront(pose * p.position);
+    all.points.push_back(
+        {in_front, in_front && options.point_depth.enabled && p.inverse_depth > 0.0});
+  }
+  for (const PoseData::Line& l : data.lines) {
+    const bool in_front = IsInFront(pose * l.map_segment);
+    all.lines.push_back({in_front, in_front && options.line_depth.enabled && l.has_depth});
+  }
+  return all;
+}
+
+PoseActivities ClassifyMatches(PoseOptions options, const PoseData& data, const Rigid3& pose) {
+  const double noise2 = SquaredFrameNoise(options, data, pose);
+  for (double* limit : {&options.reject_chi2_2, &options.reject_chi2_3, &options.reject_chi2_4}) {
+    *limit *= noise2;
+  }
+  PoseActivities result;
+  for (const PoseData::Point& p : data.points) {
+    result.points.push_back(p.moves ? Activity() : ClassifyPoint(options, data.camera, pose, p));
+  }
+  for (const PoseData::Line& l : data.lines) {
+    result.lines.push_back(l.moves ? Activity() : ClassifyLine(options, data.camera, pose, l));
+  }
+  return result;
+}
+
+void AddFactors(const PoseOptions& options, const PinholeCamera& camera,
+                const PoseData::Point& point, const Activity& active, PoseFactors* factors) {
+  if (active.reprojection && options.point_reprojection.enabled) {
+    factors->point_reprojection.blocks.push_back(
+        {PointReprojection(camera, point.pixel, point.sigma), {point.position}});
+  }
+  if (active.depth) {
+    factors->point_depth.blocks.push_back(
+        {DepthReprojection(point.inverse_depth, point.inverse_depth_sigma), {point.position}});
+  }
+}
+
+void AddFactors(const PoseOptions& options, const PinholeCamera& camera, const PoseData::Line& line,
+                const Activity& active, const Rigid3& pose, PoseFactors* factors) {
+  if (!active.reprojection) return;
+  const LineSegment3 in_cam = pose * line.map_segment;
+  const std::array<Eigen::Vector3d, 2> ends{line.map_segment.start, line.map_segment.end};
+  if (options.line_reprojection.enabled) {
+    factors->line_reprojection.blocks.push_back(
+        {MakeLineReprojection(camera, line.segment, line.sigma, in_cam), ends});
+  }
+  if (active.depth) {
+    factors->line_depth.blocks.push_back(
+        {MakeLineDepthReprojection(camera, line.segment, line.depth, in_cam), ends});
+  }
+}
+
+void SetLosses(const PoseOptions& options, PoseFactors* factors) {
+  factors->point_reprojection.huber = options.point_reprojection.huber;
+  factors->point_depth.huber = options.point_depth.huber;
+  factors->line_reprojection.huber = options.line_reprojection.huber;
+  factors->line_depth.huber = options.line_depth.huber;
+}
+
+PoseFactors BuildFactors(const PoseOptions& options, const PoseData& data,
+                         const PoseActivities& active, const Rigid3& pose, bool robust) {
+  PoseFactors factors;
+  if (robust) SetLosses(options, &factors);
+  for (size_t i = 0; i < data.points.size(); ++i) {
+    AddFactors(options, data.camera, data.points[i], active.points[i], &factors);
+  }
+  for (size_t i = 0; i < data.lines.size(); ++i) {
+    AddFactors(options, data.camera, data.lines[i], active.lines[i], pose, &factors);
+  }
+  return factors;
+}
+
+}  // namespace msc_vo

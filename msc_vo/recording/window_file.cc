@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/recording/window_file.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <type_traits>
+
+#include "msc_vo/config/option_list.h"
+#include "msc_vo/text/text_file.h"
+#include "msc_vo/text/text_record.h"
+#include "msc_vo/recording/window_record.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Counts up with every change that an older reader would misunderstand.
+constexpr int kFormatVersion = 1;
+constexpr char kFormatKeyword[] = "msc_vo_window";
+constexpr char kOptionKeyword[] = "option";
+constexpr char kEndKeyword[] = "end";
+
+constexpr char kPreamble[] =
+    "# A window of msc_vo: keyframes, landmarks and what the keyframes saw of them, as the window\n"
+    "# solver takes or leaves it. One record per line, its fields named in the comment above its\n"
+    "# kind. Numbers read back exactly. Solve it: msc_vo solve-window THIS_FILE\n";
+
+// The options of a window, under the names that they have in a configuration.
+std::vector<Option> ListWindowOptions(Configuration* configuration) {
+  std::vector<Option> options = ListOptions(configuration);
+  const auto is_other = [](const Option& option) {
+    return option.path.rfind("mapping.window.", 0) != 0;
+  };
+  options.erase(std::remove_if(options.begin(), options.end(), is_other), options.end());
+  return options;
+}
+
+// The fields of a kind of record, by name.
+template <typename Record, typename Item>
+std::string NamesOf(Record, const Item& item) {
+  FieldNames names;
+  Record::Visit(item, names);
+  return names.text();
+}
+
+// The type of the items of a vector of WindowData.
+template <typename Record>
+using ItemOf = typename std::decay_t<decltype(WindowData().*Record::kItems)>::value_type;
+
+class WindowWriter {
+ public:
+  std::string Write(const WindowOptions& options, const WindowData& data) {
+    text_ = kPreamble;
+    text_ += std::string(kFormatKeyword) + " " + std::to_string(kFormatVersion) + "\n";
+    WriteOptions(options);
+    WriteComment(CameraRecord(), data.camera);
+    Write(CameraRecord(), data.camera);
+    ForEachWindowRecord([&](auto record) {
+      using Record = decltype(record);
+      WriteComment(record, ItemOf<Record>());
+      for (const auto& item : data.*Record::kItems) Write(record, item);
+    });
+    text_ += "# end NUMBER: of records from here up to the version, so that a cut file shows\n";
+    text_ += std::string(kEndKeyword) + " " + std::to_string(num_records_) + "\n";
+    return std::move(text_);
+  }
+
+ private:
+  void WriteOptions(const WindowOptions& options) {
+    Configuration configuration;
+    configuration.odometry.mapping.window = options;
+    text_ += "# option NAME VALUE: as in a configuration (msc_vo replay --print-config)\n";
+    for (const Option& option : ListWindowOptions(&configuration)) {
+      text_ += std::string(kOptionKeyword) + " " + option.path + " " + FormatOption(option) + "\n";
+      ++num_records_;
+    }
+  }
+
+  template <typename Record, typename Item>
+  void WriteComment(Record record, const Item& item) {
+    text_ += std::string("# ") + Record::kKeyword + " " + NamesOf(record, item) + ": " +
+             Record::kComment + "\n";
+  }
+
+  template <typename Record, typename Item>
+  void Write(Record, const Item& item) {
+    FieldWriter writer(Record::kKeyword, &text_);
+    Record::Visit(item, writer);
+    writer.EndRecord();
+    ++num_records_;
+  }
+
+  std::string text_;
+  int64_t num_records_ = 0;
+};
+
+[[noreturn]] void Fail(const TextLine& line, const std::string& what) {
+  throw std::runtime_error(line.Where() + ": " + what);
+}
+
+class WindowReader {
+ public:
+  WindowReader() : options_(ListWindowOptions(&configuration_)) {}
+
+  RecordedWindow Read(const std::string& path) {
+    const std::vector<TextLine> lines = ReadTextLines(path);
+    if (lines.empty()) throw std::runtime_error(path + ": is empty; a window file is needed");
+    CheckVersion(lines.front());
+    for (size_t i = 1; i < lines.size(); ++i) {
+      if (ended_) Fail(lines[i], "stands behind the 'end'; remove what follows the window");
+      ReadLine(lines[i], static_cast<int64_t>(i) - 1);
+    }
+    if (!ended_) {
+      Fail(lines.back(), "the file stops here without an 'end': it was cut short; record it again");
+    }
+    window_.options = configuration_.odometry.mapping.window;
+    return std::move(window_);
+  }
+
+ private:
+  static void CheckVersion(const TextLine& line) {
+    if (line.fields.front() != kFormatKeyword) {
+      Fail(line, "is no window file: its first record must be '" + std::string(kFormatKeyword) +
+                     " " + std::to_string(kFormatVersion) + "'");
+    }
+    FieldReader fields(line, "VERSION");
+    int version = 0;
+    fields.Integer("VERSION", version);
+    fields.EndRecord();
+    if (version < 1 || version > kFormatVersion) {
+      Fail(line, "version " + std::to_string(version) + " of the window file is not known, only 1" +
+                     (kFormatVersion > 1 ? " to " + std::to_string(kFormatVersion) : "") +
+                     "; read it with the msc_vo that wrote it, or a newer one");
+    }
+  }
+
+  void ReadLine(const TextLine& line, int64_t num_records_before) {
+    const std::string& keyword = line.fields.front();
+    if (keyword == kOptionKeyword) {
+      ReadOption(line);
+    } else if (keyword == CameraRecord::kKeyword) {
+      if (!seen_.insert(keyword).second) Fail(line, "a second camera; remove one of them");
+      ReadFields(CameraRecord(), line, &window_.data.camera);
+    } else if (keyword == kEndKeyword) {
+      ReadEnd(line, num_records_before);
+    } else {
+      ReadItem(line);
+    }
+  }
+
+  void ReadOption(const TextLine& line) {
+    if (line.fields.size() != 3) Fail(line, "expected 'option NAME VALUE'");
+    const std::string& path = line.fields[1];
+    const auto option = std::find_if(options_.begin(), options_.end(),
+                                     [&](const Option& known) { return known.path == path; });
+    if (option == options_.end()) {
+      const Option* similar = FindSimilar(options_, path);
+      Fail(line, "unknown option '" + path + "'" +
+                     (similar ? "; did you mean '" + similar->path + "'?"
+                              : "; remove the line to take the defaults"));
+    }
+    if (!seen_.insert(path).second) Fail(line, "'" + path + "' is given twice; remove one of them");
+    std::string expected;
+    if (!SetOption(*option, line.fields[2], &expected)) {
+      Fail(line, "'" + path + "' must be " + expected + ", not '" + line.fields[2] + "'");
+    }
+  }
+
+  void ReadItem(const TextLine& line) {
+    bool known = false;
+    std::string keywords = std::string(kOptionKeyword) + " " + CameraRecord::kKeyword;
+    ForEachWindowRecord([&](auto record) {
+      using Record = decltype(record);
+      keywords += std::string(" ") + Record::kKeyword;
+      if (line.fields.front() != Record::kKeyword) return;
+      known = true;
+      auto& items = window_.data.*Record::kItems;
+      items.emplace_back();
+      ReadFields(record, line, &items.back());
+    });
+    if (!known) {
+      Fail(line, "unknown record '" + line.fields.front() + "'; known are " + keywords + " " +
+                     kEndKeyword);
+    }
+  }
+
+  template <typename Record, typename Item>
+  static void ReadFields(Record record, const TextLine& line, Item* item) {
+    FieldReader fields(line, NamesOf(record, *item));
+    Record::Visit(*item, fields);
+    fields.EndRecord();
+  }
+
+  void ReadEnd(const TextLine& line, int64_t num_records_before) {
+    FieldReader fields(line, "NUMBER_OF_RECORDS");
+    int64_t num_records = 0;
+    fields.Integer("NUMBER_OF_RECORDS", num_records);
+    fields.EndRecord();
+    if (num_records != num_records_before) {
+      Fail(line, "'end' says " + std::to_string(num_records) + " records, the file has " +
+                     std::to_string(num_records_before) +
+                     "; correct the number if you changed the file on purpose, else record it "
+                     "again");
+    }
+    if (seen_.count(CameraRecord::kKeyword) == 0) {
+      Fail(line, "the window has no camera; add 'camera " +
+                     NamesOf(CameraRecord(), window_.data.camera) + "' above");
+    }
+    ended_ = true;
+  }
+
+  Configuration configuration_;
+  std::vector<Option> options_;  // into configuration_
+  std::set<std::string> seen_;   // what may stand in the file once only
+  RecordedWindow window_;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+std::string FormatWindow(const WindowOptions& options, const WindowData& data) {
+  return WindowWriter().Write(options, data);
+}
+
+void WriteWindow(const std::string& path, const WindowOptions& options, const WindowData& data) {
+  WriteFile(path, FormatWindow(options, data));
+}
+
+RecordedWindow ReadWindow(const std::string& path) { return WindowReader().Read(path); }
+
+}  // namespace msc_vo

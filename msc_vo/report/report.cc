@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/report/report.h"
+
+#include <array>
+#include <sstream>
+#include <stdexcept>
+
+#include "msc_vo/report/html_text.h"
+#include "msc_vo/report/report_plots.h"
+#include "msc_vo/report/report_statistics.h"
+#include "msc_vo/report/report_style.h"
+#include "msc_vo/report/trajectory_view.h"
+
+namespace msc_vo {
+namespace {
+
+enum class Swatch { kCurve, kFill };
+
+struct LegendEntry {
+  Swatch swatch;
+  std::string css_class;
+  std::string label;
+};
+
+const std::array<ReportStatus, 5> kAllStatuses = {ReportStatus::kTracked, ReportStatus::kWeak,
+                                                  ReportStatus::kDropped, ReportStatus::kPredicted,
+                                                  ReportStatus::kLost};
+
+void CheckStages(const ReportData& data) {
+  for (size_t i = 0; i < data.frames.size(); ++i) {
+    if (data.frames[i].stage_ms.size() == data.stage_names.size()) continue;
+    throw std::invalid_argument("ReportData: frame " + std::to_string(i) + " has " +
+                                std::to_string(data.frames[i].stage_ms.size()) +
+                                " stage times, but there are " +
+                                std::to_string(data.stage_names.size()) + " stage names");
+  }
+}
+
+void WriteFigure(const std::string& svg, const std::vector<LegendEntry>& legend, std::ostream& out,
+                 const std::string& caption = "") {
+  out << "<figure>\n<figcaption>" << EscapeHtml(caption) << "<ul class=\"legend\">";
+  for (const LegendEntry& entry : legend) {
+    out << "<li><svg viewBox=\"0 0 18 10\" aria-hidden=\"true\">";
+    if (entry.swatch == Swatch::kCurve) {
+      out << "<path class=\"" << entry.css_class << "\" d=\"M0 5H18\"/>";
+    } else {
+      out << "<rect class=\"" << entry.css_class << "\" width=\"18\" height=\"10\"/>";
+    }
+    out << "</svg>" << EscapeHtml(entry.label) << "</li>";
+  }
+  out << "</ul></figcaption>\n" << svg << "</figure>\n";
+}
+
+void WriteHeader(const ReportData& data, std::ostream& out) {
+  out << "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      << "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>"
+      << EscapeHtml(data.title) << "</title>\n<style>" << kReportStyle << "</style>\n</head>\n"
+      << "<body>\n<h1>" << EscapeHtml(data.title) << "</h1>\n<p><code>"
+      << EscapeHtml(data.command_line) << "</code></p>\n";
+}
+
+// Short values as tiles, which catch the eye; long ones as rows of a table below them.
+void WriteNumbers(const ReportData& data, std::ostream& out) {
+  constexpr size_t kMaxTileLength = 16;  // characters that fit a tile on one line
+  std::ostringstream tiles;
+  std::ostringstream rows;
+  for (const ReportNumber& number : data.numbers) {
+    const std::string name = EscapeHtml(number.name);
+    const std::string value = EscapeHtml(number.value);
+    const std::string note = EscapeHtml(number.note);
+    if (number.value.size() <= kMaxTileLength) {
+      tiles << "<div><dt>" << name << "</dt><dd class=\"value\">" << value
+            << "</dd><dd class=\"note\">" << note << "</dd></div>\n";
+    } else {
+      rows << "<tr><th>" << name << "</th><td>" << value << "</td><td class=\"note\">" << note
+           << "</td></tr>\n";
+    }
+  }
+  out << "<dl class=\"numbers\">\n" << tiles.str() << "</dl>\n";
+  if (!rows.str().empty()) out << "<table class=\"facts\">\n" << rows.str() << "</table>\n";
+}
+
+void WriteTrajectory(const ReportData& data, std::ostream& out) {
+  const TrajectoryView view = ChooseTrajectoryView(data);
+  std::vector<LegendEntry> legend = {{Swatch::kCurve, "curve estimate", "estimate"}};
+  if (!data.truth.empty()) legend.push_back({Swatch::kCurve, "curve truth", "truth"});
+  std::vector<LegendEntry> top_legend = legend;
+  if (!data.lines.empty()) {
+    top_legend.push_back({Swatch::kCurve, "map-line", "map lines"});
+  }
+  out << "<h2>Trajectory</h2>\n<p>Up is "
+      << (view.up_from_cameras ? "the mean up direction of the camera"
+                               : "the direction in which the trajectory extends least, as the "
+                                 "camera has no common up direction")
+      << "; right is the dominant direction of the trajectory across it. The circle is the start, "
+         "small dots are keyframes; frames without an estimated pose have the colour of their "
+         "status.</p>\n<div class=\"views\">\n";
+  WriteFigure(PlotTrajectory(data, view, TrajectorySide::kTop), top_legend, out, "Seen from above");
+  WriteFigure(PlotTrajectory(data, view, TrajectorySide::kSide), legend, out, "Seen from the side");
+  out << "</div>\n";
+}
+
+void WriteSeries(const ReportData& data, std::ostream& out) {
+  std::vector<LegendEntry> statuses;
+  for (const ReportStatus status : kAllStatuses) {
+    statuses.push_back(
+        {Swatch::kFill, std::string("status-") + ToString(status), ToString(status)});
+  }
+  if (!data.truth.empty()) {
+    out << "<h2>Position error over time</h2>\n";
+    std::vector<LegendEntry> legend = {{Swatch::kCurve, "curve error", "distance from the truth"}};
+    legend.insert(legend.end(), statuses.begin(), statuses.end());
+    WriteFigure(PlotError(data), legend, out);
+  }
+  out << "<h2>Inliers and status over time</h2>\n";
+  std::vector<LegendEntry> legend = {{Swatch::kCurve, "curve points", "inlier points"},
+                                     {Swatch::kCurve, "curve lines", "inlier lines"}};
+  legend.insert(legend.end(), statuses.begin(), statuses.end());
+  WriteFigure(PlotInliers(data), legend, out);
+}
+
+void WriteNotTracked(const ReportData& data, std::ostream& out) {
+  const std::vector<NotTrackedSpan> spans = FindNotTrackedSpans(data.frames);
+  out << "<h2>Frames without an estimated pose</h2>\n";
+  if (spans.empty()) {
+    out << "<p>None: all " << data.frames.size() << " frames were tracked.</p>\n";
+    return;
+  }
+  out << "<table>\n<tr><th>frames</th><th>from, s</th><th>to, s</th><th>predicted</th>"
+         "<th>lost</th></tr>\n";
+  const double start = data.frames.front().timestamp;
+  for (const NotTrackedSpan& span : spans) {
+    const int count = span.last_frame - span.first_frame + 1;
+    out << "<tr><td>" << span.first_frame << " to " << span.last_frame << "</td><td>"
+        << FormatFixed(span.start - start, 2) << "</td><td>" << FormatFixed(span.end - start, 2)
+        << "</td><td>" << count - span.num_lost << "</td><td>" << span.num_lost << "</td></tr>\n";
+  }
+  out << "</table>\n";
+}
+
+void WriteTimes(const ReportData& data, std::ostream& out) {
+  out << "<h2>Time per frame</h2>\n";
+  std::vector<LegendEntry> legend;
+  for (size_t i = 0; i < data.stage_names.size(); ++i) {
+    legend.push_back({Swatch::kFill, "stage-" + std::to_string(i % 6), data.stage_names[i]});
+  }
+  legend.push_back({Swatch::kCurve, "curve whole", "tracking, whole"});
+  WriteFigure(PlotStages(data), legend, out);
+  out << "<h2>Time per keyframe</h2>\n";
+  WriteFigure(PlotMapping(data), {{Swatch::kFill, "fill-mapping", "keyframe step of the mapper"}},
+              out);
+  out << "<h2>Stages</h2>\n<table>\n<tr><th>milliseconds</th><th>mean</th><th>median</th>"
+         "<th>95 %</th><th>max</th><th>times</th></tr>\n";
+  for (const StageTimeStatistics& stage : SummarizeStages(data.stage_names, data.frames)) {
+    out << "<tr><td>" << EscapeHtml(stage.name) << "</td><td>" << FormatFixed(stage.mean, 2)
+        << "</td><td>" << FormatFixed(stage.median, 2) << "</td><td>" << FormatFixed(stage.p95, 2)
+        << "</td><td>" << FormatFixed(stage.max, 2) << "</td><td>" << stage.count << "</td></tr>\n";
+  }
+  out << "</table>\n";
+}
+
+void WriteFooter(const ReportData& data, std::ostream& out) {
+  out << "<h2>Options</h2>\n<details><summary>All options in effect (YAML)</summary>\n<pre>"
+      << EscapeHtml(data.options_text) << "</pre></details>\n<footer>" << EscapeHtml(data.version)
+      << "</footer>\n</body>\n</html>\n";
+}
+
+}  // namespace
+
+void WriteReport(const ReportData& data, std::ostream& out) {
+  CheckStages(data);
+  WriteHeader(data, out);
+  WriteNumbers(data, out);
+  if (data.frames.empty()) {
+    out << "<p>No frame was processed.</p>\n";
+  } else {
+    WriteTrajectory(data, out);
+    WriteSeries(data, out);
+    WriteNotTracked(data, out);
+    WriteTimes(data, out);
+  }
+  WriteFooter(data, out);
+}
+
+}  // namespace msc_vo

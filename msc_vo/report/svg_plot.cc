@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/report/svg_plot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "msc_vo/report/html_text.h"
+
+namespace msc_vo {
+namespace {
+
+// Room around the axes for labels, in drawing units.
+constexpr double kLeft = 56.0;
+constexpr double kRight = 14.0;
+constexpr double kTop = 18.0;
+constexpr double kBottom = 40.0;
+constexpr double kStripHeight = 8.0;
+// Room that one tick label needs along x and along y.
+constexpr double kTickSpacingX = 80.0;
+constexpr double kTickSpacingY = 28.0;
+
+std::string Unit(double value) { return FormatFixed(value, 1); }
+
+std::string PointText(const Eigen::Vector2d& p) { return Unit(p.x()) + ',' + Unit(p.y()); }
+
+// A range of some length, whatever comes in.
+PlotRange Widened(const PlotRange& range) {
+  const double magnitude = std::max(std::abs(range.min), std::abs(range.max));
+  if (range.Length() > 1e-9 * magnitude) return range;
+  const double half = magnitude > 0.0 ? 0.5 * magnitude : 0.5;
+  return {range.min - half, range.max + half};
+}
+
+double NiceStep(double length, int max_ticks) {
+  const double raw = length / std::max(1, max_ticks);
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= raw) return factor * power;
+  }
+  return 10.0 * power;
+}
+
+// As many decimals as the step between ticks needs.
+int DecimalsOf(const std::vector<double>& ticks) {
+  if (ticks.size() < 2) return 1;
+  return std::clamp(static_cast<int>(std::ceil(-std::log10(ticks[1] - ticks[0]) - 1e-9)), 0, 9);
+}
+
+}  // namespace
+
+std::vector<double> NiceTicks(const PlotRange& range, int max_ticks) {
+  const double step = NiceStep(range.Length(), max_ticks);
+  std::vector<double> ticks;
+  // Counted, not summed up, so that no rounding error grows. The slack keeps ticks at the ends.
+  const double first = std::ceil(range.min / step - 1e-9);
+  for (double i = first; i * step <= range.max + 1e-9 * step; i += 1.0) ticks.push_back(i * step);
+  return ticks;
+}
+
+SvgPlot::SvgPlot(const Size& size, const PlotRange& x, const PlotRange& y)
+    : size_(size), x_(Widened(x)), y_(Widened(y)) {}
+
+SvgPlot SvgPlot::WithEqualAxes(const Size& size, const PlotRange& x, const PlotRange& y) {
+  SvgPlot plot(size, x, y);
+  const double width = plot.Right() - plot.Left();
+  const double height = plot.Bottom() - plot.Top();
+  const double unit = std::max(plot.x_.Length() / width, plot.y_.Length() / height);
+  const auto grow = [](double length, PlotRange* range) {
+    const double missing = length - range->Length();
+    range->min -= 0.5 * missing;
+    range->max += 0.5 * missing;
+  };
+  grow(unit * width, &plot.x_);
+  grow(unit * height, &plot.y_);
+  return plot;
+}
+
+double SvgPlot::Left() const { return kLeft; }
+double SvgPlot::Right() const { return size_.width - kRight; }
+double SvgPlot::Top() const { return kTop; }
+double SvgPlot::Bottom() const { return size_.height - kBottom; }
+
+double SvgPlot::XResolution() const { return x_.Length() / (Right() - Left()); }
+
+Eigen::Vector2d SvgPlot::ToDrawing(const Eigen::Vector2d& point) const {
+  return {Left() + (point.x() - x_.min) / x_.Length() * (Right() - Left()),
+          Bottom() - (point.y() - y_.min) / y_.Length() * (Bottom() - Top())};
+}
+
+void SvgPlot::AppendText(const Eigen::Vector2d& at, const std::string& css_class,
+                         const std::string& text) {
+  outside_ += "<text class=\"" + css_class + "\" x=\"" + Unit(at.x()) + "\" y=\"" + Unit(at.y()) +
+              "\">" + EscapeHtml(text) + "</text>\n";
+}
+
+void SvgPlot::AddAxes(const std::string& x_name, const std::string& y_name) {
+  const std::vector<double> x_ticks =
+      NiceTicks(x_, static_cast<int>((Right() - Left()) / kTickSpacingX));
+  const std::vector<double> y_ticks =
+      NiceTicks(y_, static_cast<int>((Bottom() - Top()) / kTickSpacingY));
+  std::vector<LineSegment2> grid;
+  for (const double tick : x_ticks) {
+    grid.push_back({Eigen::Vector2d(tick, y_.min), Eigen::Vector2d(tick, y_.max)});
+    AppendText({ToDrawing({tick, y_.min}).x(), Bottom() + 15.0}, "tick-x",
+               FormatFixed(tick, DecimalsOf(x_ticks)));
+  }
+  for (const double tick : y_ticks) {
+    grid.push_back({Eigen::Vector2d(x_.min, tick), Eigen::Vector2d(x_.max, tick)});
+    AppendText({Left() - 6.0, ToDrawing({x_.min, tick}).y() + 4.0}, "tick-y",
+               FormatFixed(tick, DecimalsOf(y_ticks)));
+  }
+  AddSegments(grid, "grid");
+  AppendText({0.5 * (Left() + Right()), size_.height - 6.0}, "tick-x name", x_name);
+  outside_ += "<text class=\"tick-x name\" transform=\"translate(13," +
+              Unit(0.5 * (Top() + Bottom())) + ") rotate(-90)\">" + EscapeHtml(y_name) +
+              "</text>\n";
+}
+
+void SvgPlot::AppendPath(const std::vector<Eigen::Vector2d>& drawing_points,
+                         const std::string& css_class, bool closed) {
+  if (drawing_points.empty()) return;
+  inside_ += closed ? "<polygon" : "<polyline";
+  inside_ += " class=\"" + css_class + "\" points=\"";
+  for (const Eigen::Vector2d& p : drawing_points) inside_ += PointText(p) + ' ';
+  inside_.back() = '"';
+  inside_ += "/>\n";
+}
+
+std::vector<Eigen::Vector2d> SvgPlot::ThinColumns(
+    const std::vector<Eigen::Vector2d>& points) const {
+  std::vector<Eigen::Vector2d> thin;
+  std::vector<Eigen::Vector2d> column;
+  const auto flush = [&] {
+    const auto lower = [](const auto& a, const auto& b) { return a.y() < b.y(); };
+    const auto [low, high] = std::minmax_element(column.begin(), column.end(), lower);
+    for (auto it = column.begin(); it != column.end(); ++it) {
+      if (it == low || it == high || it == column.begin() || it + 1 == column.end()) {
+        thin.push_back(*it);
+      }
+    }
+    column.clear();
+  };
+  for (const Eigen::Vector2d& point : points) {
+    if (!point.allFinite()) continue;
+    const Eigen::Vector2d drawn = ToDrawing(point);
+    if (!column.empty() && std::floor(drawn.x()) != std::floor(column.front().x())) flush();
+    column.push_back(drawn);
+  }
+  if (!column.empty()) flush();
+  return thin;
+}
+
+void SvgPlot::AddSeries(const std::vector<Eigen::Vector2d>& points, const std::string& css_class) {
+  AppendPath(ThinColumns(points), css_class, false);
+}
+
+void SvgPlot::AddArea(const std::vector<Eigen::Vector2d>& points, const std::string& css_class) {
+  std::vector<Eigen::Vector2d> outline = ThinColumns(points);
+  if (outline.empty()) return;
+  outline.insert(outline.begin(), {outline.front().x(), Bottom()});
+  outline.emplace_back(outline.back().x(), Bottom());
+  AppendPath(outline, css_class, true);
+}
+
+void SvgPlot::AddPath(const std::vector<Eigen::Vector2d>& points, const std::string& css_class) {
+  std::vector<Eigen::Vector2d> thin;
+  Eigen::Vector2d last = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& point : points) {
+    if (!point.allFinite()) continue;
+    last = ToDrawing(point);
+    if (thin.empty() || (last - thin.back()).norm() >= 0.5) thin.push_back(last);
+  }
+  if (!thin.empty() && thin.back() != last) thin.push_back(last);
+  AppendPath(thin, css_class, false);
+}
+
+void SvgPlot::AddSegments(const std::vector<LineSegment2>& segments, const std::string& css_class) {
+  std::string path;
+  for (const LineSegment2& segment : segments) {
+    if (!segment.start.allFinite() || !segment.end.allFinite()) continue;
+    path += 'M' + PointText(ToDrawing(segment.start)) + 'L' + PointText(ToDrawing(segment.end));
+  }
+  if (path.empty()) return;
+  inside_ += "<path class=\"" + css_class + "\" d=\"" + path + "\"/>\n";
+}
+
+void SvgPlot::AddDots(const std::vector<Eigen::Vector2d>& points, double radius,
+                      const std::string& css_class) {
+  std::string dots;
+  for (const Eigen::Vector2d& point : points) {
+    if (!point.allFinite()) continue;
+    const Eigen::Vector2d p = ToDrawing(point);
+    dots += "<circle cx=\"" + Unit(p.x()) + "\" cy=\"" + Unit(p.y()) + "\" r=\"" + Unit(radius) +
+            "\"/>";
+  }
+  if (dots.empty()) return;
+  inside_ += "<g class=\"" + css_class + "\">" + dots + "</g>\n";
+}
+
+void SvgPlot::AddMarker(const Eigen::Vector2d& point, double radius, const std::string& css_class,
+                        const std::string& tip) {
+  if (!point.allFinite()) return;
+  const Eigen::Vector2d p = ToDrawing(point);
+  inside_ += "<circle class=\"" + css_class + "\" cx=\"" + Unit(p.x()) + "\" cy=\"" + Unit(p.y()) +
+             "\" r=\"" + Unit(radius) + "\"><title>" + EscapeHtml(tip) + "</title></circle>\n";
+}
+
+void SvgPlot::AddStrip(const PlotRange& x, const std::string& css_class, const std::string& tip) {
+  const double from = std::max(Left(), ToDrawing({x.min, y_.min}).x());
+  const double to = std::min(Right(), ToDrawing({x.max, y_.min}).x());
+  if (!(to > from)) return;
+  outside_ += "<rect class=\"" + css_class + "\" x=\"" + Unit(from) + "\" y=\"" +
+              Unit(Top() - kStripHeight - 3.0) + "\" width=\"" + Unit(to - from) + "\" height=\"" +
+              Unit(kStripHeight) + "\"><title>" + EscapeHtml(tip) + "</title></rect>\n";
+}
+
+std::string SvgPlot::ToString(const std::string& description) const {
+  // A nested <svg> clips what leaves the axes, and needs no id that would have to be unique.
+  const std::string width = Unit(Right() - Left());
+  const std::string height = Unit(Bottom() - Top());
+  const std::string box = Unit(Left()) + ' ' + Unit(Top()) + ' ' + width + ' ' + height;
+  return "<svg viewBox=\"0 0 " + std::to_string(size_.width) + ' ' + std::to_string(size_.height) +
+         "\" role=\"img\" aria-label=\"" + EscapeHtml(description) + "\">\n<svg x=\"" +
+         Unit(Left()) + "\" y=\"" + Unit(Top()) + "\" width=\"" + width + "\" height=\"" + height +
+         "\" viewBox=\"" + box + "\">\n" + inside_ + "</svg>\n" + outside_ + "</svg>\n";
+}
+
+}  // namespace msc_vo

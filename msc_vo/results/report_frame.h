@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <vector>
+
+#include "msc_vo/odometry/frame_result.h"
+#include "msc_vo/report/report.h"
+
+namespace msc_vo {
+
+// Frames of the odometry as the viewer takes them: poses in the world of the odometry, stage times
+// in the order of ReportStageNames(), no errors.
+std::vector<ReportFrame> ReportFrames(const std::vector<FrameResult>& frames);
+
+// Stages of tracking, in order of time.
+std::vector<std::string> ReportStageNames();
+
+}  // namespace msc_vo

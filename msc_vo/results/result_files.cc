@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/results/result_files.h"
+
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "msc_vo/text/format_text.h"
+#include "msc_vo/results/ply_file.h"
+#include "msc_vo/results/run_report.h"
+#include "msc_vo/text/text_file.h"
+#include "msc_vo/datasets/trajectory.h"
+
+namespace msc_vo {
+
+std::string FormatFramesCsv(const std::vector<FrameResult>& frames) {
+  std::string text =
+      "time,status,keyframe,points,lines,inlier_points,inlier_lines,points_ms,lines_ms,depth_ms,"
+      "waiting_ms,matching_ms,pose_ms,tracking_ms,mapping_ms,sigma_rx,sigma_ry,sigma_rz,sigma_tx,"
+      "sigma_ty,sigma_tz,moving\n";
+  for (const FrameResult& frame : frames) {
+    const StageTimes& ms = frame.times;
+    text += FormatText("%.6f,%s,%d,%d,%d,%d,%d", frame.timestamp, ToString(frame.status),
+                       frame.is_keyframe ? 1 : 0, frame.num_points, frame.num_lines,
+                       frame.num_inlier_points, frame.num_inlier_lines);
+    text += FormatText(",%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f", ms.points, ms.lines, ms.depth,
+                       ms.waiting, ms.matching, ms.pose, ms.tracking, ms.mapping);
+    for (int i = 0; i < 6; ++i) text += FormatText(",%.9g", std::sqrt(frame.covariance(i, i)));
+    text += FormatText(",%d\n", frame.num_moving);
+  }
+  return text;
+}
+
+void WriteResultFiles(const std::string& directory, const OdometryResult& result,
+                      const RunContext& context) {
+  MakeFolder(directory);
+  const std::filesystem::path folder = directory;
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  WriteTrajectory(path("trajectory.txt"), TrajectoryOf(result));
+  WriteTrajectory(path("keyframes.txt"), result.keyframes);
+  const std::vector<TimedPose>& truth = context.sequence.ground_truth;
+  if (!truth.empty()) WriteTrajectory(path("groundtruth.txt"), truth);
+  WriteFile(path("frames.csv"), FormatFramesCsv(result.frames));
+  WriteFile(path("map.ply"), FormatPointsPly(result.points));
+  WriteFile(path("lines.ply"), FormatLinesPly(result.lines));
+  const RunSummary summary = Summarize(result);
+  WriteFile(path("summary.json"), FormatSummary(summary, context));
+  WriteFile(path("report.html"), FormatReport(result, summary, context));
+}
+
+}  // namespace msc_vo

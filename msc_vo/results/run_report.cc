@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/results/run_report.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/text/format_text.h"
+#include "msc_vo/config/options_file.h"
+#include "msc_vo/results/report_frame.h"
+#include "msc_vo/version.h"
+#include "msc_vo/report/report.h"
+
+namespace msc_vo {
+
+namespace {
+
+std::string StatusText(const RunSummary& summary) {
+  std::string text = std::to_string(summary.num_frames) + ":";
+  for (size_t i = 0; i < summary.status_counts.size(); ++i) {
+    text += FormatText("%s %d %s", i > 0 ? "," : "", summary.status_counts[i],
+                       ToString(static_cast<TrackingStatus>(i)));
+  }
+  return text;
+}
+
+std::string MapText(const RunSummary& summary) {
+  return FormatText("%d keyframes, %d points, %d lines", summary.num_keyframes, summary.num_points,
+                    summary.num_lines);
+}
+
+std::string AxesText(const RunSummary& summary) {
+  if (summary.axes.state == AxesState::kNone) return "none";
+  const std::array<int, 3>& lines = summary.num_axis_lines;
+  return FormatText("%s, known to %.2f deg; %d + %d + %d lines", ToString(summary.axes.state),
+                    RadiansToDegrees(summary.axes.sigma), lines[0], lines[1], lines[2]);
+}
+
+// `what` says what the milliseconds are.
+std::string TimeText(const StageTimeStatistics& stage, const char* what) {
+  if (stage.count == 0) return "none";
+  return FormatText("%.1f ms %s (median %.1f, 95 %% %.1f, max %.1f)", stage.mean, what,
+                    stage.median, stage.p95, stage.max);
+}
+
+std::string TrackingText(const RunSummary& summary) {
+  return TimeText(FindStage(summary, "tracking"), "per frame");
+}
+
+std::string MappingText(const RunSummary& summary) {
+  return TimeText(FindStage(summary, "mapping"), "per keyframe");
+}
+
+std::string RealtimeText(const RunSummary& summary, const RealtimeSummary& realtime) {
+  const int dropped = summary.status_counts[static_cast<size_t>(TrackingStatus::kDropped)];
+  return FormatText("paced by the time stamps; %d of %d images dropped as too late, %d maps late; ",
+                    dropped, summary.num_frames, realtime.num_late_maps) +
+         TimeText(realtime.pose_age, "from image to pose");
+}
+
+std::string SpeedText(const RunSummary& summary, const RunCost& cost) {
+  const int frames = std::max(summary.num_frames, 1);
+  return FormatText(
+      "%.1f frames/s, reading the images included; %.1f s; processor %.1f ms per frame; "
+      "%.0f MiB at most",
+      summary.num_frames / std::max(cost.seconds, 1e-9), cost.seconds,
+      1000.0 * cost.processor_seconds / frames, cost.peak_memory);
+}
+
+// The frames in the world of the ground truth, as far as there is one.
+std::vector<ReportFrame> AlignedFrames(const OdometryResult& result,
+                                       const std::optional<TrajectoryError>& error) {
+  std::vector<ReportFrame> frames = ReportFrames(result.frames);
+  if (!error || !error->usable) return frames;
+  std::map<double, double> errors;  // metres, by time stamp
+  for (const PoseError& pose : error->per_pose) errors[pose.timestamp] = pose.translation;
+  for (ReportFrame& frame : frames) {
+    frame.world_from_cam = error->reference_from_estimate * frame.world_from_cam;
+    const auto found = errors.find(frame.timestamp);
+    if (found != errors.end()) frame.position_error = found->second;
+  }
+  return frames;
+}
+
+std::string ShutterText(const RunSummary& summary, const RunContext& context) {
+  return FormatText("rolling shutter, %.1f ms from the first row to the last (%s)",
+                    1000.0 * summary.readout_time,
+                    context.configuration.odometry.mapping.readout_time ? "known" : "learnt");
+}
+
+std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContext& context) {
+  std::vector<ReportNumber> numbers;
+  if (context.error && context.error->usable) {
+    const TrajectoryError& error = *context.error;
+    numbers.push_back({"APE RMSE", FormatText("%.1f mm", 1000.0 * error.ape.rmse),
+                       "position, after SE(3) alignment"});
+    numbers.push_back({"APE maximum", FormatText("%.1f mm", 1000.0 * error.ape.max), ""});
+    numbers.push_back(
+        {"APE rotation", FormatText("%.3f deg", RadiansToDegrees(error.ape_rotation.rmse)), ""});
+    if (error.rpe_per_second.translation.count > 0) {
+      numbers.push_back(
+          {"RPE per second",
+           FormatText("%.1f mm, %.3f deg", 1000.0 * error.rpe_per_second.translation.rmse,
+                      RadiansToDegrees(error.rpe_per_second.rotation.rmse)),
+           FormatText("%d pairs", error.rpe_per_second.translation.count)});
+    }
+    numbers.push_back({"Coverage", FormatText("%.1f %%", 100.0 * error.coverage),
+                       "ground-truth poses with an estimate"});
+  }
+  numbers.push_back({"Frames", StatusText(summary), context.outcome});
+  numbers.push_back({"Map", MapText(summary), "at the end"});
+  numbers.push_back({"Manhattan axes", AxesText(summary), ""});
+  numbers.push_back({"Tracking", TrackingText(summary), ""});
+  numbers.push_back({"Mapping", MappingText(summary), ""});
+  if (context.realtime) {
+    numbers.push_back({"Real time", RealtimeText(summary, *context.realtime), ""});
+  }
+  numbers.push_back({"Speed", SpeedText(summary, context.cost), ""});
+  numbers.push_back({"Camera", context.calibration.origin, ""});
+  if (summary.readout_time != 0.0) {
+    numbers.push_back({"Shutter", ShutterText(summary, context), ""});
+  }
+  return numbers;
+}
+
+std::string Row(const char* name, const std::string& text) {
+  return FormatText("%-10s ", name) + text + "\n";
+}
+
+std::string StageRows(const std::vector<StageTimeStatistics>& stages) {
+  std::string rows = Row("time, ms", "               mean  median    95 %     max");
+  for (const StageTimeStatistics& stage : stages) {
+    const bool is_whole = stage.name == "tracking" || stage.name == "mapping";
+    const char* unit = stage.name == "tracking" ? "  per frame" : "  per keyframe";
+    rows += Row("", FormatText("%-11s %7.1f %7.1f %7.1f %7.1f%s", stage.name.c_str(), stage.mean,
+                               stage.median, stage.p95, stage.max, is_whole ? unit : ""));
+  }
+  return rows;
+}
+
+std::string ErrorRows(const TrajectoryError& error) {
+  if (!error.usable) return Row("error", "unknown: " + error.message);
+  std::string rows =
+      Row("error", FormatText("APE RMSE %.1f mm (median %.1f, max %.1f), rotation %.2f deg",
+                              1000.0 * error.ape.rmse, 1000.0 * error.ape.median,
+                              1000.0 * error.ape.max, RadiansToDegrees(error.ape_rotation.rmse)));
+  const RelativeError& second = error.rpe_per_second;
+  if (second.translation.count > 0) {
+    rows += Row("", FormatText("RPE %.1f mm/s, %.2f deg/s", 1000.0 * second.translation.rmse,
+                               RadiansToDegrees(second.rotation.rmse)));
+  }
+  return rows + Row("", FormatText("%.1f %% of the ground-truth poses have an estimate",
+                                   100.0 * error.coverage));
+}
+
+}  // namespace
+
+std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
+                           const std::string& output_directory) {
+  std::string table =
+      Row("sequence", context.sequence.directory + " (" + context.sequence.format + ", " +
+                          std::to_string(context.sequence.entries.size()) + " images)");
+  table += Row("camera", context.calibration.origin);
+  if (summary.readout_time != 0.0) table += Row("", ShutterText(summary, context));
+  table += Row("frames", StatusText(summary));
+  for (const NotTrackedSpan& span : summary.not_tracked) {
+    table += Row("", FormatText("no pose in frames %d to %d", span.first_frame, span.last_frame));
+  }
+  table += Row("map", MapText(summary));
+  table += Row("axes", AxesText(summary));
+  table += StageRows(summary.stages);
+  if (context.realtime) table += Row("real time", RealtimeText(summary, *context.realtime));
+  table += Row("speed", SpeedText(summary, context.cost));
+  if (context.error) table += ErrorRows(*context.error);
+  table += Row("output", output_directory + " (report.html, trajectory.txt, summary.json, ...)");
+  if (context.error && context.error->usable) {
+    const std::filesystem::path output = output_directory;
+    table += Row("check with", "evo_ape tum " + (output / "groundtruth.txt").string() + " " +
+                                   (output / "trajectory.txt").string() + " -a --t_max_diff 0.02");
+  }
+  return table;
+}
+
+std::string FormatReport(const OdometryResult& result, const RunSummary& summary,
+                         const RunContext& context) {
+  ReportData data;
+  Rigid3 truth_from_world;
+  if (context.error && context.error->usable) {
+    truth_from_world = context.error->reference_from_estimate;
+    for (const TimedPose& pose : context.sequence.ground_truth) {
+      data.truth.push_back({pose.timestamp, pose.world_from_cam.translation()});
+    }
+  }
+  data.title = std::filesystem::path(context.sequence.directory).filename().string();
+  data.version = std::string("msc_vo ") + kVersion;
+  data.command_line = context.command_line;
+  data.options_text = FormatConfiguration(context.configuration);
+  data.numbers = MakeNumbers(summary, context);
+  data.stage_names = ReportStageNames();
+  data.frames = AlignedFrames(result, context.error);
+  for (const MapLine& line : result.lines) {
+    data.lines.push_back(
+        {{truth_from_world * line.segment.start, truth_from_world * line.segment.end},
+         line.axis.value_or(-1)});
+  }
+  data.up_in_cam.y() = context.calibration.camera.fy < 0.0 ? 1.0 : -1.0;
+  std::ostringstream page;
+  WriteReport(data, page);
+  return page.str();
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+
+#include "msc_vo/results/run_summary.h"
+#include "msc_vo/odometry/odometry.h"
+
+namespace msc_vo {
+
+// What a finished run shows to its user.
+
+// A short table for the terminal. `output_directory`: where the results lie.
+std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
+                           const std::string& output_directory);
+
+// The contents of report.html.
+std::string FormatReport(const OdometryResult& result, const RunSummary& summary,
+                         const RunContext& context);
+
+}  // namespace msc_vo

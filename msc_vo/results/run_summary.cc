@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/results/run_summary.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "msc_vo/results/report_frame.h"
+
+namespace msc_vo {
+
+namespace {
+
+bool IsTracked(const FrameResult& frame) {
+  return frame.status == TrackingStatus::kTracked || frame.status == TrackingStatus::kWeak;
+}
+
+// The stages of the mapper over the frames that caused a keyframe step, and have such a stage.
+std::vector<StageTimeStatistics> SummarizeMapping(const std::vector<FrameResult>& frames) {
+  const auto summarize = [&frames](const std::string& name, const auto& milliseconds_of) {
+    std::vector<double> values;
+    for (const FrameResult& frame : frames) {
+      if (frame.times.mapping <= 0.0) continue;
+      const std::optional<double> milliseconds = milliseconds_of(frame.times);
+      if (milliseconds) values.push_back(*milliseconds);
+    }
+    return SummarizeStage(name, std::move(values));
+  };
+  return {summarize("structure", [](const StageTimes& t) { return t.mapping_stages.structure; }),
+          summarize("creation", [](const StageTimes& t) { return t.mapping_stages.creation; }),
+          summarize("fusion", [](const StageTimes& t) { return t.mapping_stages.fusion; }),
+          summarize("axes", [](const StageTimes& t) { return t.mapping_stages.axes; }),
+          summarize("window", [](const StageTimes& t) { return t.mapping_stages.window; }),
+          summarize("readout", [](const StageTimes& t) { return t.mapping_stages.readout; }),
+          summarize("culling", [](const StageTimes& t) { return t.mapping_stages.culling; }),
+          summarize("snapshot", [](const StageTimes& t) { return t.snapshot; })};
+}
+
+}  // namespace
+
+RunSummary Summarize(const OdometryResult& result) {
+  RunSummary summary;
+  summary.num_frames = static_cast<int>(result.frames.size());
+  for (const FrameResult& frame : result.frames) {
+    ++summary.status_counts.at(static_cast<size_t>(frame.status));
+    summary.num_frames_with_motion += frame.num_moving > 0 ? 1 : 0;
+  }
+  const auto tracked = std::count_if(result.frames.begin(), result.frames.end(), IsTracked);
+  summary.tracked_share = static_cast<double>(tracked) / std::max(summary.num_frames, 1);
+  const std::vector<ReportFrame> frames = ReportFrames(result.frames);
+  summary.not_tracked = FindNotTrackedSpans(frames);
+  summary.stages = SummarizeStages(ReportStageNames(), frames);
+  const std::vector<StageTimeStatistics> mapping = SummarizeMapping(result.frames);
+  summary.stages.insert(std::prev(summary.stages.end()), mapping.begin(), mapping.end());
+  summary.num_keyframes = static_cast<int>(result.keyframes.size());
+  summary.num_points = static_cast<int>(result.points.size());
+  summary.num_lines = static_cast<int>(result.lines.size());
+  for (const MapLine& line : result.lines) {
+    if (line.axis) ++summary.num_axis_lines[*line.axis];
+  }
+  summary.axes = result.axes;
+  summary.noise_scale = result.noise_scale;
+  summary.readout_time = result.readout_time;
+  summary.last_window = result.last_window;
+  return summary;
+}
+
+StageTimeStatistics FindStage(const RunSummary& summary, const std::string& name) {
+  for (const StageTimeStatistics& stage : summary.stages) {
+    if (stage.name == name) return stage;
+  }
+  return {};
+}
+
+std::vector<TimedPose> TrajectoryOf(const OdometryResult& result) {
+  std::vector<TimedPose> poses;
+  for (const FrameResult& frame : result.frames) {
+    poses.push_back({frame.timestamp, frame.cam_from_world.Inverse()});
+  }
+  return poses;
+}
+
+}  // namespace msc_vo

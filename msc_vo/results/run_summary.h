@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "msc_vo/evaluation/line_error.h"
+#include "msc_vo/evaluation/trajectory_error.h"
+#include "msc_vo/datasets/calibration.h"
+#include "msc_vo/config/option_list.h"
+#include "msc_vo/datasets/sequence.h"
+#include "msc_vo/odometry/odometry.h"
+#include "msc_vo/report/report_statistics.h"
+
+namespace msc_vo {
+
+// A run in numbers.
+struct RunSummary {
+  int num_frames = 0;
+  std::array<int, 5> status_counts = {0, 0, 0, 0, 0};  // by TrackingStatus
+  double tracked_share = 0.0;                          // tracked or weak / all, 0..1
+  std::vector<NotTrackedSpan> not_tracked;
+  int num_frames_with_motion = 0;  // in which something moved by itself
+  // Stages of tracking, "tracking" as a whole, stages of mapping, "mapping" as a whole.
+  std::vector<StageTimeStatistics> stages;
+  int num_keyframes = 0;
+  int num_points = 0;
+  int num_lines = 0;
+  std::array<int, 3> num_axis_lines = {0, 0, 0};  // lines parallel to each Manhattan axis
+  MapAxes axes;
+  NoiseScale noise_scale;     // of the sigmas of features, as learnt
+  double readout_time = 0.0;  // of a rolling shutter, seconds, as known or learnt
+  WindowSummary last_window;
+};
+
+RunSummary Summarize(const OdometryResult& result);
+
+// The statistics of a stage; all zero if it never ran.
+StageTimeStatistics FindStage(const RunSummary& summary, const std::string& name);
+
+// What a run took from the machine.
+struct RunCost {
+  double seconds = 0.0;            // wall time from the first image to the last pose
+  double processor_seconds = 0.0;  // of all threads, in user and in system mode
+  double peak_memory = 0.0;        // resident, MiB
+};
+
+// How a replay in real time kept pace with the time stamps.
+struct RealtimeSummary {
+  // Milliseconds from the moment that an image appears to its pose, over the images that were not
+  // dropped.
+  StageTimeStatistics pose_age;
+  int num_late_maps = 0;  // 0, and no image dropped: the run as it is without real time
+};
+
+// What only the one who made the run knows.
+struct RunContext {
+  std::string command_line;
+  std::string outcome;  // "complete", "interrupted", or the error that ended the run
+  SequenceIndex sequence;
+  Calibration calibration;
+  Configuration configuration;
+  std::optional<TrajectoryError> error;  // against the ground truth, if there is one
+  RunCost cost;
+  std::optional<RealtimeSummary> realtime;  // none: as fast as possible
+};
+
+// The contents of summary.json.
+std::string FormatSummary(const RunSummary& summary, const RunContext& context);
+
+// The numbers of a comparison as JSON: metres, degrees, seconds. Those of the lines are the object
+// "lines", which is missing if they were not compared.
+std::string FormatErrorJson(const TrajectoryError& error,
+                            const std::optional<LineError>& lines = std::nullopt);
+
+// The poses of all frames, camera in world.
+std::vector<TimedPose> TrajectoryOf(const OdometryResult& result);
+
+}  // namespace msc_vo

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/self_calibration/window_residuals.h"
+
+#include <cstdint>
+#include <unordered_map>
+
+#include "msc_vo/bundle_adjustment/observation.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Where each item stands. For look-ups alone: nothing depends on the order inside.
+template <typename Item>
+std::unordered_map<int64_t, int> Positions(const std::vector<Item>& items) {
+  std::unordered_map<int64_t, int> positions;
+  positions.reserve(items.size());
+  for (size_t i = 0; i < items.size(); ++i) positions[items[i].id] = static_cast<int>(i);
+  return positions;
+}
+
+}  // namespace
+
+WindowResiduals::WindowResiduals(const WindowData& solved) : window_(solved) {
+  const auto keyframes = Positions(solved.keyframes);
+  const auto points = Positions(solved.points);
+  const auto lines = Positions(solved.lines);
+  points_in_cam_.reserve(solved.point_observations.size());
+  points_.reserve(solved.point_observations.size());
+  for (const WindowData::PointObservation& o : solved.point_observations) {
+    points_.push_back(points.at(o.point));
+    points_in_cam_.push_back(solved.keyframes[keyframes.at(o.keyframe)].cam_from_world *
+                             solved.points[points_.back()].position);
+  }
+  lines_in_cam_.reserve(solved.line_observations.size());
+  lines_.reserve(solved.line_observations.size());
+  for (const WindowData::LineObservation& o : solved.line_observations) {
+    lines_.push_back(lines.at(o.line));
+    lines_in_cam_.push_back(solved.keyframes[keyframes.at(o.keyframe)].cam_from_world *
+                            solved.lines[lines_.back()].segment);
+  }
+}
+
+std::optional<double> WindowResiduals::PointDepth(size_t i) const {
+  const WindowData::PointObservation& o = window_.point_observations[i];
+  if (!(o.inverse_depth > 0.0) || !IsInFront(points_in_cam_[i])) return std::nullopt;
+  return (1.0 / points_in_cam_[i].z() - o.inverse_depth) / o.inverse_depth_sigma;
+}
+
+std::optional<Eigen::Vector2d> WindowResiduals::LinePixel(size_t i) const {
+  if (!IsInFront(lines_in_cam_[i])) return std::nullopt;
+  const WindowData::LineObservation& o = window_.line_observations[i];
+  return LineResidual(window_.camera, o.segment, o.sigma, lines_in_cam_[i]);
+}
+
+std::optional<double> WindowResiduals::LineDepth(size_t i) const {
+  const WindowData::LineObservation& o = window_.line_observations[i];
+  if (!o.has_depth || !IsInFront(lines_in_cam_[i])) return std::nullopt;
+  const double inverse_depth = InverseDepthAt(window_.camera, o.segment, lines_in_cam_[i], 0.5);
+  return (inverse_depth - Nearer(o.depth, window_.lines[lines_[i]].depth_offset).At(0.5)) /
+         o.depth.SigmaAt(0.5);
+}
+
+}  // namespace msc_vo

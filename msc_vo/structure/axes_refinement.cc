@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/structure/axes_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include <Eigen/Eigenvalues>
+#include <ceres/loss_function.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include "msc_vo/factors/manhattan_rotation.h"
+#include "msc_vo/factors/rotation3_manifold.h"
+#include "msc_vo/bundle_adjustment/validation.h"
+
+namespace msc_vo {
+
+namespace {
+
+using Observation = ManhattanAxesData::Observation;
+
+const char* ObservationError(const Observation& o) {
+  if (UnitVectorError(o.direction) != nullptr) return "direction is not a unit vector";
+  if (o.axis < 0 || o.axis > 2) return "axis must be 0, 1 or 2";
+  if (UnitVectorError(o.normal) != nullptr || std::abs(o.normal.dot(o.direction)) > 1e-6) {
+    return "normal is not a unit vector perpendicular to the direction";
+  }
+  if (!(std::isfinite(o.sigma) && o.sigma > 0.0)) return "sigma must be positive";
+  if (!(std::isfinite(o.normal_sigma) && o.normal_sigma > 0.0)) {
+    return "normal_sigma must be positive";
+  }
+  return nullptr;
+}
+
+void Validate(const ManhattanAxesOptions& options, const ManhattanAxesData& data) {
+  const auto fail = [](const std::string& what) {
+    throw std::invalid_argument("SolveManhattanAxes: " + what);
+  };
+  std::string error;
+  if (!options.IsValid(&error)) fail(error);
+  if (PoseError(Rigid3(data.world_from_manhattan, Eigen::Vector3d::Zero())) != nullptr) {
+    fail("world_from_manhattan is not a unit quaternion");
+  }
+  for (size_t i = 0; i < data.observations.size(); ++i) {
+    const char* what = ObservationError(data.observations[i]);
+    if (what != nullptr) fail("observation " + std::to_string(i) + ": " + what);
+  }
+}
+
+ManhattanRotation MakeFactor(const Observation& o) {
+  return ManhattanRotation(o.direction, o.normal, o.axis, o.sigma, o.normal_sigma);
+}
+
+double ChiSquare(const Observation& o, const Eigen::Quaterniond& world_from_manhattan) {
+  Eigen::Vector2d r;
+  MakeFactor(o)(world_from_manhattan.coeffs().data(), r.data());
+  return r.squaredNorm();
+}
+
+std::vector<bool> Classify(const ManhattanAxesOptions& options, const ManhattanAxesData& data,
+                           const Eigen::Quaterniond& world_from_manhattan) {
+  std::vector<bool> inliers;
+  for (const Observation& o : data.observations) {
+    inliers.push_back(ChiSquare(o, world_from_manhattan) <= options.reject_chi2_2);
+  }
+  return inliers;
+}
+
+double Cost(const ManhattanAxesData& data, const std::vector<bool>& inliers,
+            const ceres::LossFunction& loss, const Eigen::Quaterniond& world_from_manhattan) {
+  double cost = 0.0;
+  for (size_t i = 0; i < inliers.size(); ++i) {
+    if (!inliers[i]) continue;
+    double rho[3];
+    loss.Evaluate(ChiSquare(data.observations[i], world_from_manhattan), rho);
+    cost += 0.5 * rho[0];
+  }
+  return cost;
+}
+
+// One round over the inliers. Nothing holds the gauge but the directions, which are in the world.
+bool Minimize(const ManhattanAxesOptions& options, const ManhattanAxesData& data,
+              const std::vector<bool>& inliers, Eigen::Quaterniond* world_from_manhattan) {
+  double* block = world_from_manhattan->coeffs().data();
+  ceres::Problem problem;
+  problem.AddParameterBlock(block, 4, new Rotation3Manifold);
+  for (size_t i = 0; i < inliers.size(); ++i) {
+    if (!inliers[i]) continue;
+    const Observation& o = data.observations[i];
+    problem.AddResidualBlock(ManhattanRotation::Create(MakeFactor(o)),
+                             new ceres::HuberLoss(options.huber), block);
+  }
+  ceres::Solver::Options solver;
+  solver.max_num_iterations = options.iterations_per_round;
+  solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;  // three unknowns
+  solver.num_threads = 1;
+  solver.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  return summary.IsSolutionUsable() && world_from_manhattan->coeffs().allFinite();
+}
+
+// J^T J over the inliers where every direction lies on its axis m: p p^T / sigma_n^2 + n n^T /
+// sigma^2 of one, with n and p the normal and what completes m and n to a basis, as turning about
+// its own axis does not move it. At the noisy directions J^T J would claim to know that turn a
+// little, from noise alone.
+Eigen::Matrix3d Information(const ManhattanAxesData& data, const std::vector<bool>& inliers,
+                            const Eigen::Quaterniond& world_from_manhattan) {
+  const Eigen::Matrix3d axes = world_from_manhattan.toRotationMatrix();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  for (size_t i = 0; i < inliers.size(); ++i) {
+    if (!inliers[i]) continue;
+    const Observation& o = data.observations[i];
+    const Eigen::Vector3d m = axes.col(o.axis);
+    const Eigen::Vector3d p = m.cross(o.normal).normalized();
+    const Eigen::Vector3d n = p.cross(m);
+    information += p * p.transpose() / (o.normal_sigma * o.normal_sigma) +
+                   n * n.transpose() / (o.sigma * o.sigma);
+  }
+  return information;
+}
+
+// Fills what the summary says of the end; usable if the information is of full rank.
+void Summarize(const ManhattanAxesOptions& options, const ManhattanAxesData& data,
+               const std::vector<bool>& inliers, const Eigen::Quaterniond& world_from_manhattan,
+               ManhattanAxesSummary* summary) {
+  summary->num_inliers = static_cast<int>(std::count(inliers.begin(), inliers.end(), true));
+  if (summary->num_inliers < options.min_inliers) return;
+  const Eigen::Matrix3d information = Information(data, inliers, world_from_manhattan);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
+  // Exactly singular with one axis alone, up to rounding; one observation of a second axis among a
+  // million of the first is 1e-6.
+  if (!(eigen.eigenvalues()[0] > 1e-10 * eigen.eigenvalues()[2])) return;
+  double chi_square = 0.0;
+  for (size_t i = 0; i < inliers.size(); ++i) {
+    if (inliers[i]) chi_square += ChiSquare(data.observations[i], world_from_manhattan);
+  }
+  const double inflation = std::max(1.0, chi_square / (2.0 * summary->num_inliers - 3.0));
+  summary->covariance = inflation * information.inverse();
+  summary->final_cost = Cost(data, inliers, ceres::HuberLoss(options.huber), world_from_manhattan);
+  summary->usable = true;
+}
+
+}  // namespace
+
+bool ManhattanAxesOptions::IsValid(std::string* error) const {
+  if (!(std::isfinite(huber) && huber > 0.0)) {
+    *error = "huber must be a positive number of sigmas";
+  } else if (!(std::isfinite(reject_chi2_2) && reject_chi2_2 > 0.0)) {
+    *error = "reject_chi2_2 must be positive";
+  } else if (num_rounds < 1 || iterations_per_round < 1) {
+    *error = "num_rounds and iterations_per_round must be at least 1";
+  } else if (min_inliers < 2) {
+    *error = "min_inliers must be at least 2: one direction does not fix a rotation";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+ManhattanAxesSummary SolveManhattanAxes(const ManhattanAxesOptions& options,
+                                        ManhattanAxesData* data) {
+  Validate(options, *data);
+  Eigen::Quaterniond world_from_manhattan = data->world_from_manhattan;
+  std::vector<bool> inliers(data->observations.size(), true);
+  ManhattanAxesSummary summary;
+  summary.initial_cost =
+      Cost(*data, inliers, ceres::HuberLoss(options.huber), world_from_manhattan);
+  bool solved = true;
+  for (int round = 0; round < options.num_rounds && solved; ++round) {
+    solved = Minimize(options, *data, inliers, &world_from_manhattan);
+    std::vector<bool> next = Classify(options, *data, world_from_manhattan);
+    const bool settled = next == inliers;
+    inliers = std::move(next);
+    if (settled) break;
+  }
+  for (size_t i = 0; i < inliers.size(); ++i) data->observations[i].inlier = inliers[i];
+  if (solved) Summarize(options, *data, inliers, world_from_manhattan, &summary);
+  if (summary.usable) data->world_from_manhattan = world_from_manhattan;
+  return summary;
+}
+
+}  // namespace msc_vo

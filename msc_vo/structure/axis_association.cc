@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/structure/axis_association.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace msc_vo {
+
+bool AxisAssignmentOptions::IsValid(std::string* error) const {
+  if (!(max_sigmas > 0.0)) {
+    *error = "max_sigmas must be positive";
+  } else if (!(max_angle > 0.0 && max_angle < DegreesToRadians(45.0))) {
+    *error = "max_angle must lie between 0 and pi/4 (radians): a line has one axis at most";
+  } else if (!(max_sigma > 0.0)) {
+    *error = "max_sigma must be positive (radians)";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+std::optional<int> AssignAxis(const AxisAssignmentOptions& options,
+                              const Eigen::Quaterniond& rotation, double rotation_sigma,
+                              const AxisEvidence& line) {
+  std::string error;
+  if (!options.IsValid(&error)) throw std::invalid_argument("AssignAxis: " + error);
+  if (!(line.sigma <= options.max_sigma)) return std::nullopt;
+  const Eigen::Vector3d direction = rotation.conjugate() * line.direction;
+  int axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  const double angle = UndirectedAngle(direction, Eigen::Vector3d(Eigen::Vector3d::Unit(axis)));
+  const double gate = options.max_sigmas * std::hypot(line.sigma, rotation_sigma);
+  if (!(angle <= std::min(gate, options.max_angle))) return std::nullopt;
+  return axis;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/structure/frame_structure_factors.h"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <ceres/jet.h>
+
+namespace msc_vo {
+
+namespace {
+
+using Block = SightLineBlock;
+using Blocks = std::vector<Block>;
+using Matrix = StructureEquations::Matrix;
+
+// Direction of a line and its derivative by its block.
+struct Direction {
+  Eigen::Vector3d value;
+  Eigen::Matrix<double, 3, SightLine::kBlockSize> jacobian;
+};
+
+bool Linearize(const SightLine& line, const Block& block, Direction* direction) {
+  using Jet = ceres::Jet<double, SightLine::kBlockSize>;
+  Jet x[SightLine::kBlockSize];
+  for (int i = 0; i < SightLine::kBlockSize; ++i) x[i] = Jet(block[i], i);
+  Eigen::Matrix<Jet, 3, 1> d;
+  if (!line.Direction(x, &d)) return false;
+  for (int i = 0; i < 3; ++i) {
+    direction->value[i] = d[i].a;
+    direction->jacobian.row(i) = d[i].v.transpose();
+  }
+  return true;
+}
+
+void AddPrior(const SightLinePrior& prior, int line, const Block& block,
+              StructureEquations* equations) {
+  using Jet = ceres::Jet<double, SightLine::kBlockSize>;
+  Jet x[SightLine::kBlockSize], rows[SightLinePrior::kNumResiduals];
+  for (int i = 0; i < SightLine::kBlockSize; ++i) x[i] = Jet(block[i], i);
+  prior(x, rows);
+  for (const Jet& row : rows) {
+    equations->cost += 0.5 * row.a * row.a;
+    equations->gradient[line] += row.a * row.v;
+    equations->diagonal[line] += row.v * row.v.transpose();
+  }
+}
+
+template <typename Relation>
+void AddPair(const FrameStructureFactors::Pair<Relation>& pair, double huber,
+             const std::vector<Direction>& directions, StructureEquations* equations) {
+  constexpr int kRows = Relation::kNumResiduals;
+  const Direction& at_i = directions[pair.i];
+  const Direction& at_j = directions[pair.j];
+  Eigen::Matrix<double, kRows, 1> r;
+  pair.relation.Residual(at_i.value, at_j.value, r.data());
+  // Huber's rho and its derivative.
+  const double s = r.squaredNorm();
+  const double norm = std::sqrt(s);
+  const bool square = huber == 0.0 || norm <= huber;
+  const double weight = square ? 1.0 : huber / norm;
+  equations->cost += square ? 0.5 * s : huber * norm - 0.5 * huber * huber;
+  const auto j_i = (pair.relation.JacobianI(at_i.value, at_j.value) * at_i.jacobian).eval();
+  const auto j_j = (pair.relation.JacobianJ(at_i.value, at_j.value) * at_j.jacobian).eval();
+  equations->gradient[pair.i] += weight * (j_i.transpose() * r);
+  equations->gradient[pair.j] += weight * (j_j.transpose() * r);
+  equations->pairs.push_back({pair.i, pair.j, weight * (j_i.transpose() * j_i),
+                              weight * (j_i.transpose() * j_j), weight * (j_j.transpose() * j_j)});
+  equations->diagonal[pair.i] += equations->pairs.back().ii;
+  equations->diagonal[pair.j] += equations->pairs.back().jj;
+}
+
+double Dot(const Blocks& a, const Blocks& b) {
+  double sum = 0.0;
+  for (size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
+  return sum;
+}
+
+// y = J^T J x, with the diagonal blocks raised by the factor 1 + lambda.
+void Multiply(const StructureEquations& equations, double lambda, const Blocks& x, Blocks* y) {
+  y->resize(x.size());
+  for (size_t i = 0; i < x.size(); ++i) {
+    (*y)[i].noalias() = (1.0 + lambda) * (equations.diagonal[i] * x[i]);
+  }
+  for (const StructureEquations::Pair& pair : equations.pairs) {
+    (*y)[pair.i].noalias() += pair.ij * x[pair.j];
+    (*y)[pair.j].noalias() += pair.ij.transpose() * x[pair.i];
+  }
+}
+
+// Solves J^T J x = -J^T r, with the diagonal blocks raised by the factor 1 + lambda, by conjugate
+// gradients; those blocks are the preconditioner.
+Blocks SolveStep(const StructureEquations& equations, double lambda) {
+  // Leaves 1e-3 of the step undone, in the norm of the preconditioner: less than the next step of
+  // an iteration that is not quadratic anyway, as a loss is in it.
+  constexpr double kTolerance = 1e-6;
+  constexpr int kMaxIterations = 100;  // in blocks well conditioned by the priors, 10 to 30 do
+  std::vector<Matrix> inverse;
+  for (const Matrix& block : equations.diagonal) {
+    inverse.push_back(((1.0 + lambda) * block).llt().solve(Matrix::Identity()));
+  }
+  const auto precondition = [&inverse](const Blocks& r, Blocks* z) {
+    for (size_t i = 0; i < r.size(); ++i) (*z)[i].noalias() = inverse[i] * r[i];
+  };
+  Blocks x(equations.gradient.size(), Block::Zero());
+  Blocks residual = equations.gradient;
+  for (Block& r : residual) r = -r;
+  Blocks z(residual.size());
+  precondition(residual, &z);
+  Blocks p = z;
+  Blocks hp;
+  double rz = Dot(residual, z);
+  const double end = kTolerance * rz;
+  for (int iteration = 0; iteration < kMaxIterations && rz > end; ++iteration) {
+    Multiply(equations, lambda, p, &hp);
+    const double alpha = rz / Dot(p, hp);
+    for (size_t i = 0; i < x.size(); ++i) {
+      x[i] += alpha * p[i];
+      residual[i] -= alpha * hp[i];
+    }
+    precondition(residual, &z);
+    const double next = Dot(residual, z);
+    for (size_t i = 0; i < p.size(); ++i) p[i] = z[i] + (next / rz) * p[i];
+    rz = next;
+  }
+  return x;
+}
+
+}  // namespace
+
+bool FrameStructureFactors::Linearize(const Blocks& blocks, StructureEquations* equations) const {
+  *equations = StructureEquations();
+  equations->gradient.assign(lines.size(), Block::Zero());
+  equations->diagonal.assign(lines.size(), Matrix::Zero());
+  equations->pairs.reserve(parallel.size() + perpendicular.size());
+  std::vector<Direction> directions(lines.size());
+  for (size_t i = 0; i < lines.size(); ++i) {
+    if (!msc_vo::Linearize(lines[i], blocks[i], &directions[i])) return false;
+    AddPrior(priors[i], static_cast<int>(i), blocks[i], equations);
+  }
+  for (const auto& pair : parallel) AddPair(pair, huber, directions, equations);
+  for (const auto& pair : perpendicular) AddPair(pair, huber, directions, equations);
+  return std::isfinite(equations->cost);
+}
+
+bool MinimizeStructure(const FrameStructureFactors& factors, int max_iterations, Blocks* blocks,
+                       StructureEquations* equations, int* num_iterations) {
+  *num_iterations = 0;
+  if (!factors.Linearize(*blocks, equations)) return false;
+  // A hundredth of the estimate's own standard deviations, of all lines together.
+  constexpr double kConverged = 1e-4;
+  double lambda = 1e-4;  // relative to the diagonal; small, as priors keep the problem near linear
+  StructureEquations next;
+  Blocks product;
+  for (; *num_iterations < max_iterations; ++*num_iterations) {
+    const Blocks step = SolveStep(*equations, lambda);
+    Multiply(*equations, 0.0, step, &product);
+    const double size = Dot(step, product);
+    if (!std::isfinite(size)) return false;
+    Blocks candidate = *blocks;
+    for (size_t i = 0; i < step.size(); ++i) candidate[i] += step[i];
+    if (factors.Linearize(candidate, &next) && next.cost <= equations->cost) {
+      blocks->swap(candidate);
+      std::swap(*equations, next);
+      lambda *= 0.1;
+    } else {
+      lambda *= 100.0;
+    }
+    // At the minimum, rounding may refuse a step of no length.
+    if (size < kConverged) break;
+  }
+  return true;
+}
+
+std::vector<Matrix> BoundCovariances(const FrameStructureFactors& factors,
+                                     const StructureEquations& equations) {
+  std::vector<Matrix> priors = equations.diagonal;
+  for (const StructureEquations::Pair& pair : equations.pairs) {
+    priors[pair.i] -= pair.ii;
+    priors[pair.j] -= pair.jj;
+  }
+  // Of each line, with its partners eliminated one by one: they meet in this line only.
+  std::vector<Matrix> information = priors;
+  for (const StructureEquations::Pair& pair : equations.pairs) {
+    const Matrix given_j = pair.ij * (priors[pair.j] + pair.jj).llt().solve(pair.ij.transpose());
+    const Matrix given_i = pair.ij.transpose() * (priors[pair.i] + pair.ii).llt().solve(pair.ij);
+    information[pair.i] += pair.ii - given_j;
+    information[pair.j] += pair.jj - given_i;
+  }
+  std::vector<Matrix> covariances;
+  for (size_t i = 0; i < factors.lines.size(); ++i) {
+    covariances.push_back(information[i].llt().solve(Matrix::Identity()));
+  }
+  return covariances;
+}
+
+}  // namespace msc_vo

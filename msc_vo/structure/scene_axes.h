@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/structure/axes_estimator.h"
+#include "msc_vo/structure/axis_association.h"
+#include "msc_vo/structure/axis_evidence.h"
+#include "msc_vo/structure/coarse_axes.h"
+#include "msc_vo/map/map.h"
+#include "msc_vo/structure/axes_refinement.h"
+#include "msc_vo/bundle_adjustment/window_data.h"
+
+namespace msc_vo {
+
+struct SceneAxesOptions {
+  bool enabled = true;
+  CoarseAxesOptions coarse;
+  AxisAssignmentOptions assignment;
+  ManhattanAxesOptions refinement;
+  AxesEstimatorOptions estimator;
+  // How exactly lines that were built along an axis keep to it, radians: see FrameStructureOptions.
+  double deviation = DegreesToRadians(0.7);
+
+  bool IsValid(std::string* error) const;
+};
+
+// The Manhattan axes of the map (paper: Manhattan Axes Estimation and Association): found in one
+// keyframe, refined over the lines of all, and what they say about the lines of a window.
+class SceneAxes {
+ public:
+  // Throws std::invalid_argument on options that are not valid.
+  explicit SceneAxes(const SceneAxesOptions& options);
+
+  // To be called when `keyframe` is in the map. `normals`: of its surfaces, camera frame; needed
+  // only as long as there are no axes.
+  void Update(const Map& map, KeyframeId keyframe, const std::vector<AxisEvidence>& normals);
+
+  // Index 0..2 of the axis that the line is parallel to; none if there are no axes either.
+  std::optional<int> AxisOf(const LineLandmark& line) const;
+  // Binds the lines of the window to their axes (paper: M_j).
+  void AddAlignments(const Map& map, WindowData* window) const;
+
+  const AxesEstimator& estimator() const { return estimator_; }
+
+ private:
+  void Search(const Map& map, KeyframeId keyframe, const std::vector<AxisEvidence>& normals);
+  AxesSupport CountSupport(const Map& map) const;
+  void Refine(const Map& map);
+
+  SceneAxesOptions options_;
+  AxesEstimator estimator_;
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/structure/structural_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "msc_vo/geometry/angles.h"
+
+namespace msc_vo {
+
+namespace {
+
+struct Direction {
+  LandmarkId line = kNoId;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+  double sigma = 0.0;               // radians
+  std::vector<KeyframeId> seen_by;  // ascending
+  bool on_axis = false;
+};
+
+struct Candidate {
+  double sigma = 0.0;  // radians, of the angle between the two
+  int i = 0, j = 0;
+  int count = 0;
+};
+
+std::vector<Direction> Directions(const Map& map, const WindowData& window) {
+  std::map<LandmarkId, Direction> directions;
+  for (const WindowData::Line& line : window.lines) {
+    directions[line.id] = {
+        line.id, line.segment.Direction(), map.FindLine(line.id)->direction_sigma, {}, false};
+  }
+  for (const WindowData::LineObservation& seen : window.line_observations) {
+    directions[seen.line].seen_by.push_back(seen.keyframe);
+  }
+  for (const WindowData::AxisAlignment& alignment : window.axis_alignments) {
+    directions[alignment.line].on_axis = true;
+  }
+  std::vector<Direction> list;
+  for (auto& [id, direction] : directions) {
+    std::sort(direction.seen_by.begin(), direction.seen_by.end());
+    list.push_back(std::move(direction));
+  }
+  return list;
+}
+
+// How many keyframes see both.
+int NumShared(const std::vector<KeyframeId>& a, const std::vector<KeyframeId>& b) {
+  int count = 0;
+  for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
+    count += *i == *j ? 1 : 0;
+    const bool step_i = *i <= *j, step_j = *j <= *i;
+    i += step_i ? 1 : 0;
+    j += step_j ? 1 : 0;
+  }
+  return count;
+}
+
+struct Candidates {
+  std::vector<Candidate> parallel, perpendicular;
+};
+
+// Pairs whose angle is near to 0 or 90 degrees.
+Candidates FindCandidates(const StructuralPairOptions& options,
+                          const std::vector<Direction>& lines) {
+  const double max_angle = DegreesToRadians(options.max_angle);
+  const double pair_sigma = DegreesToRadians(options.pair_sigma);
+  // Most pairs are near to neither, which the cosine of their angle tells at once.
+  const double least_parallel = std::cos(max_angle), most_perpendicular = std::sin(max_angle);
+  Candidates candidates;
+  for (size_t i = 0; i < lines.size(); ++i) {
+    for (size_t j = i + 1; j < lines.size(); ++j) {
+      if (lines[i].on_axis && lines[j].on_axis) continue;
+      const double cosine = std::abs(lines[i].direction.dot(lines[j].direction));
+      const bool is_parallel = options.parallel && cosine >= least_parallel;
+      const bool is_perpendicular = options.perpendicular && cosine <= most_perpendicular;
+      if (!is_parallel && !is_perpendicular) continue;
+      const double sigma =
+          std::sqrt(lines[i].sigma * lines[i].sigma + lines[j].sigma * lines[j].sigma);
+      const double gate = std::min(max_angle, options.gate_sigmas * std::hypot(sigma, pair_sigma));
+      const double angle = UndirectedAngle(lines[i].direction, lines[j].direction);
+      if (std::abs(angle - (is_parallel ? 0.0 : 0.5 * kPi)) > gate) continue;
+      const int count = NumShared(lines[i].seen_by, lines[j].seen_by);
+      if (count == 0) continue;
+      (is_parallel ? candidates.parallel : candidates.perpendicular)
+          .push_back({sigma, static_cast<int>(i), static_cast<int>(j), count});
+    }
+  }
+  return candidates;
+}
+
+// The pairs that either line counts among its best. A well-known line may serve many.
+std::vector<WindowData::LinePair> ChooseBest(const StructuralPairOptions& options,
+                                             const std::vector<Direction>& lines,
+                                             std::vector<Candidate> candidates) {
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.sigma, a.i, a.j) < std::tie(b.sigma, b.i, b.j);
+  });
+  std::vector<int> num_chosen(lines.size(), 0);
+  std::vector<WindowData::LinePair> pairs;
+  for (const Candidate& candidate : candidates) {
+    const bool by_i = num_chosen[candidate.i]++ < options.max_partners;
+    const bool by_j = num_chosen[candidate.j]++ < options.max_partners;
+    if (!by_i && !by_j) continue;
+    pairs.push_back({lines[candidate.i].line, lines[candidate.j].line,
+                     DegreesToRadians(options.pair_sigma), candidate.count, false});
+  }
+  return pairs;
+}
+
+}  // namespace
+
+bool StructuralPairOptions::IsValid(std::string* error) const {
+  if (!(max_angle > 0.0 && max_angle < 45.0)) {
+    *error = "pairs.max_angle must be in (0, 45) degrees";
+  } else if (!(gate_sigmas > 0.0 && pair_sigma > 0.0)) {
+    *error = "pairs.gate_sigmas and pair_sigma must be positive";
+  } else if (max_partners < 1) {
+    *error = "pairs.max_partners must be at least 1";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+void AddStructuralPairs(const StructuralPairOptions& options, const Map& map, WindowData* window) {
+  if (!options.parallel && !options.perpendicular) return;
+  const std::vector<Direction> lines = Directions(map, *window);
+  Candidates candidates = FindCandidates(options, lines);
+  window->parallel_pairs = ChooseBest(options, lines, std::move(candidates.parallel));
+  window->perpendicular_pairs = ChooseBest(options, lines, std::move(candidates.perpendicular));
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/synthetic/scene/camera_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <Eigen/Geometry>
+
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/geometry/so3.h"
+#include "msc_vo/synthetic/scene/random.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Time is tabulated at this many steps per waypoint: 2-3 mm of way each, a fraction of a frame.
+constexpr int kStepsPerWaypoint = 400;
+
+// The hand's tremor: two sines per axis. Frequencies of slow sway and of steps, and ratios that are
+// no fractions, so that the sum does not repeat; amplitudes as measured on hand-held recordings to
+// within a factor of two.
+constexpr double kSlow = 0.61, kFast = 1.37;  // hertz, times the axis factors below
+constexpr double kAxisFactor[6] = {1.0, 0.87, 1.23, 1.07, 0.79, 1.31};
+constexpr double kShiftSlow = 0.006, kShiftFast = 0.002;                      // metres
+constexpr double kTurnSlow = 0.35 * kPi / 180, kTurnFast = 0.15 * kPi / 180;  // radians
+
+// Pace: the path's own time runs up to a third faster or slower than the clock.
+constexpr double kPaceFrequency[2] = {0.11, 0.173};  // hertz
+constexpr double kPaceDepth = 0.15;                  // of each of the two sines
+
+// Uniform cubic B-spline at fraction f between the two middle ones of four control points.
+Eigen::Vector3d CubicBSpline(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                             const Eigen::Vector3d& c, const Eigen::Vector3d& d, double f) {
+  const double g = 1.0 - f;
+  return (g * g * g * a + (3 * f * f * f - 6 * f * f + 4) * b +
+          (3 * g * g * g - 6 * g * g + 4) * c + f * f * f * d) /
+         6.0;
+}
+
+// Two sines of unit weight with the axis' own frequencies.
+double Shake(double slow, double fast, int axis, double seconds, const double* phases) {
+  const double cycle = 2.0 * kPi * kAxisFactor[axis] * seconds;
+  return slow * std::sin(kSlow * cycle + phases[0]) + fast * std::sin(kFast * cycle + phases[1]);
+}
+
+}  // namespace
+
+bool PathOptions::IsValid(std::string* error) const {
+  if (!(speed > 0.0) || !(turn_rate > 0.0)) {
+    *error = "path: speed and turn_rate must be positive";
+  } else if (!(shake >= 0.0)) {
+    *error = "path: shake must not be negative";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+CameraPath::CameraPath(const Scene& scene, const PathOptions& options)
+    : tour_(scene.tour), options_(options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw std::invalid_argument("CameraPath: " + error);
+  if (tour_.size() < 4) {
+    throw std::invalid_argument("CameraPath: the scene's tour needs at least 4 waypoints");
+  }
+  Random random(options.seed, 0x70617468);
+  for (double& phase : phases_) phase = random.Uniform(0.0, 2.0 * kPi);
+  BuildTimetable();
+  start_seconds_ = random.Uniform(0.0, LoopSeconds());
+}
+
+void CameraPath::BuildTimetable() {
+  const int steps = kStepsPerWaypoint * static_cast<int>(tour_.size());
+  seconds_at_.assign(1, 0.0);
+  Gaze last = GazeAt(0.0);
+  for (int i = 1; i <= steps; ++i) {
+    const Gaze gaze = GazeAt(static_cast<double>(i) / kStepsPerWaypoint);
+    const double way = (gaze.position - last.position).norm() / options_.speed;
+    const Eigen::Vector3d from = last.target - last.position, to = gaze.target - gaze.position;
+    const double turn = std::atan2(from.cross(to).norm(), from.dot(to)) / options_.turn_rate;
+    // The norm of both keeps each below its bound, without a corner where one takes over.
+    seconds_at_.push_back(seconds_at_.back() + std::hypot(way, turn));
+    last = gaze;
+  }
+}
+
+CameraPath::Gaze CameraPath::GazeAt(double parameter) const {
+  const size_t count = tour_.size();
+  const size_t knot = static_cast<size_t>(parameter);
+  const double f = parameter - static_cast<double>(knot);
+  const Waypoint* w[4];
+  for (size_t k = 0; k < 4; ++k) w[k] = &tour_[(knot + k) % count];
+  return {CubicBSpline(w[0]->position, w[1]->position, w[2]->position, w[3]->position, f),
+          CubicBSpline(w[0]->target, w[1]->target, w[2]->target, w[3]->target, f)};
+}
+
+double CameraPath::ParameterAt(double seconds) const {
+  const double remainder = std::fmod(seconds, LoopSeconds());
+  const double in_loop = remainder < 0.0 ? remainder + LoopSeconds() : remainder;
+  const auto after = std::upper_bound(seconds_at_.begin(), seconds_at_.end() - 1, in_loop);
+  const size_t i = static_cast<size_t>(after - seconds_at_.begin()) - 1;
+  const double f = (in_loop - seconds_at_[i]) / (seconds_at_[i + 1] - seconds_at_[i]);
+  return (static_cast<double>(i) + f) / kStepsPerWaypoint;
+}
+
+Rigid3 CameraPath::CamFromWorld(double seconds) const {
+  double walked = start_seconds_ + seconds;
+  for (int k = 0; k < 2; ++k) {
+    const double rate = 2.0 * kPi * kPaceFrequency[k], phase = phases_[12 + k];
+    walked += kPaceDepth / rate * (std::sin(rate * seconds + phase) - std::sin(phase));
+  }
+  const Gaze gaze = GazeAt(ParameterAt(walked));
+  Eigen::Vector3d shift, turn;
+  for (int axis = 0; axis < 3; ++axis) {
+    shift[axis] = Shake(kShiftSlow, kShiftFast, axis, seconds, &phases_[2 * axis]);
+    turn[axis] = Shake(kTurnSlow, kTurnFast, axis + 3, seconds, &phases_[2 * axis + 6]);
+  }
+  const Rigid3 shaken_from_cam(ExpSO3(options_.shake * turn), options_.shake * shift);
+  return shaken_from_cam * LookAt(gaze.position, gaze.target);
+}
+
+Rigid3 LookAt(const Eigen::Vector3d& position, const Eigen::Vector3d& target) {
+  const Eigen::Vector3d z = (target - position).normalized();
+  const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
+  Eigen::Matrix3d cam_from_world;
+  cam_from_world << x.transpose(), z.cross(x).transpose(), z.transpose();
+  const Eigen::Quaterniond rotation(cam_from_world);
+  return {rotation, -(rotation * position)};
+}
+
+}  // namespace msc_vo

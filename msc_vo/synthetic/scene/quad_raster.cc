@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/synthetic/scene/quad_raster.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace msc_vo {
+
+namespace {
+
+constexpr double kNear = 0.01;  // metres: nothing nearer is drawn; a path keeps farther off
+// Slack of a rectangle's border, pixels: neighbours share their edge without a gap, and rounding
+// errors are many orders smaller.
+constexpr double kBorder = 1e-6;
+
+// Coefficients on (x, y, 1) of the number c . ray(x, y).
+Eigen::Vector3d LinearForm(const PinholeCamera& camera, const Eigen::Vector3d& c) {
+  const double x = c.x() / camera.fx, y = c.y() / camera.fy;
+  return {x, y, c.z() - x * camera.cx - y * camera.cy};
+}
+
+// The rows of `band` that the rectangle origin, a, b (camera coordinates) may touch; none of them
+// if first > last.
+RowBand BoundRows(const PinholeCamera& camera, const RowBand& band, const Eigen::Vector3d& origin,
+                  const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  double low = camera.height, high = -1.0;
+  for (const Eigen::Vector3d& corner :
+       {origin, Eigen::Vector3d(origin + a), Eigen::Vector3d(origin + b),
+        Eigen::Vector3d(origin + a + b)}) {
+    // A rectangle that reaches behind the camera has no bound that its corners know of.
+    const bool in_front = corner.z() > kNear;
+    low = std::min(low, in_front ? camera.Project(corner).y() : 0.0);
+    high = std::max(high, in_front ? camera.Project(corner).y() : camera.height);
+  }
+  return {static_cast<int>(std::clamp(low - 1.0, band.first + 0.0, band.last + 1.0)),
+          static_cast<int>(std::clamp(high + 1.0, band.first - 1.0, band.last + 0.0))};
+}
+
+// The x of row `y` where every form is >= 0 for a place within `reach` pixels of (x, y) along both
+// axes: of centres for a reach of 0, of touched pixels for 0.5. Empty if first > last.
+struct RowSpan {
+  int first = 0;
+  int last = -1;
+};
+
+using Outline = std::array<Eigen::Vector3d, 5>;
+
+RowSpan SpanOfRow(const Outline& inside, int width, int y, double reach) {
+  double low = 0.0, high = width - 1.0;
+  for (const Eigen::Vector3d& form : inside) {
+    const double slope = form.x();
+    const double offset =
+        form.y() * y + form.z() + reach * (std::abs(form.x()) + std::abs(form.y()));
+    if (slope > 0.0) {
+      low = std::max(low, -offset / slope - kBorder);
+    } else if (slope < 0.0) {
+      high = std::min(high, -offset / slope + kBorder);
+    } else if (offset < 0.0) {
+      return {};
+    }
+  }
+  if (low > high) return {};
+  return {static_cast<int>(std::ceil(low)), static_cast<int>(high)};
+}
+
+Outline InsideForms(const QuadView& view) {
+  const Eigen::Vector3d& w = view.inverse_depth;
+  return {view.u_over_z, w - view.u_over_z, view.v_over_z, w - view.v_over_z,
+          Eigen::Vector3d(0.0, 0.0, 1.0 / kNear) - w};
+}
+
+}  // namespace
+
+bool QuadView::Contains(const Eigen::Vector3d& pixel, double w) const {
+  const double u = u_over_z.dot(pixel), v = v_over_z.dot(pixel);
+  const double slack = 1e-9 * w;  // as kBorder, at some hundred pixels per rectangle
+  return w > 0.0 && w < 1.0 / kNear && u >= -slack && v >= -slack && u <= w + slack &&
+         v <= w + slack;
+}
+
+std::vector<QuadView> ViewQuads(const Scene& scene, const PinholeCamera& camera,
+                                const Rigid3& cam_from_world, const RowBand& band) {
+  std::vector<QuadView> views;
+  for (size_t i = 0; i < scene.quads.size(); ++i) {
+    const Quad& quad = scene.quads[i];
+    const Eigen::Vector3d origin = cam_from_world * quad.origin;
+    const Eigen::Vector3d a = cam_from_world.rotation() * quad.edge_u;
+    const Eigen::Vector3d b = cam_from_world.rotation() * quad.edge_v;
+    const Eigen::Vector3d normal = a.cross(b);
+    const double offset = normal.dot(origin);
+    if (offset >= 0.0) continue;  // seen from behind
+    QuadView view;
+    view.rows = BoundRows(camera, band, origin, a, b);
+    if (view.rows.first > view.rows.last) continue;
+    view.quad = static_cast<int>(i);
+    view.inverse_depth = LinearForm(camera, normal / offset);
+    const Eigen::Vector3d per_u = a / a.squaredNorm(), per_v = b / b.squaredNorm();
+    view.u_over_z = LinearForm(camera, per_u) - per_u.dot(origin) * view.inverse_depth;
+    view.v_over_z = LinearForm(camera, per_v) - per_v.dot(origin) * view.inverse_depth;
+    views.push_back(view);
+  }
+  return views;
+}
+
+HitBuffer Rasterize(const std::vector<QuadView>& views, const RowBand& band, int width) {
+  const size_t size = static_cast<size_t>(band.last - band.first + 1) * width;
+  HitBuffer hits{band, width, std::vector<int>(size, -1), std::vector<double>(size, 0.0)};
+  for (size_t i = 0; i < views.size(); ++i) {
+    const Eigen::Vector3d& w = views[i].inverse_depth;
+    const Outline inside = InsideForms(views[i]);
+    for (int y = views[i].rows.first; y <= views[i].rows.last; ++y) {
+      const RowSpan span = SpanOfRow(inside, width, y, 0.0);
+      const double row_offset = w.y() * y + w.z();
+      const size_t row = hits.Index(0, y);
+      for (int x = span.first; x <= span.last; ++x) {
+        const double here = w.x() * x + row_offset;
+        if (here <= hits.inverse_depth[row + x]) continue;
+        hits.inverse_depth[row + x] = here;
+        hits.view[row + x] = static_cast<int>(i);
+      }
+    }
+  }
+  return hits;
+}
+
+BorderBuffer::BorderBuffer(const std::vector<QuadView>& views, const HitBuffer& hits)
+    : first_(hits.view.size() + 1, 0) {
+  for (size_t i = 0; i < views.size(); ++i) {
+    const Outline inside = InsideForms(views[i]);
+    for (int y = views[i].rows.first; y <= views[i].rows.last; ++y) {
+      const RowSpan touched = SpanOfRow(inside, hits.width, y, 0.5);
+      RowSpan covered = SpanOfRow(inside, hits.width, y, 0.0);
+      if (covered.first > covered.last) covered = {touched.last + 1, touched.last};
+      for (int x = touched.first; x < covered.first; ++x) {
+        AddIfInFront(views, hits, static_cast<int>(i), x, y);
+      }
+      for (int x = covered.last + 1; x <= touched.last; ++x) {
+        AddIfInFront(views, hits, static_cast<int>(i), x, y);
+      }
+    }
+  }
+  SortByPixel();
+}
+
+void BorderBuffer::AddIfInFront(const std::vector<QuadView>& views, const HitBuffer& hits, int view,
+                                int x, int y) {
+  const size_t pixel = hits.Index(x, y);
+  const int hit = hits.view[pixel];
+  if (hit >= 0) {
+    // The nearest that one can be within the pixel, against the farthest that the other can.
+    const Eigen::Vector3d& w = views[view].inverse_depth;
+    const Eigen::Vector3d& hit_w = views[hit].inverse_depth;
+    const double reach = 0.5 * (w.head<2>().lpNorm<1>() + hit_w.head<2>().lpNorm<1>());
+    if (w.dot(Eigen::Vector3d(x, y, 1.0)) + reach < hits.inverse_depth[pixel]) return;
+  }
+  entries_.push_back({pixel, view});
+  ++first_[pixel + 1];
+}
+
+// Counting sort, stable: within a pixel the views stay in their order.
+void BorderBuffer::SortByPixel() {
+  for (size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  std::vector<size_t> next(first_.begin(), first_.end() - 1);
+  views_.resize(entries_.size());
+  for (const Entry& entry : entries_) views_[next[entry.pixel]++] = entry.view;
+  entries_.clear();
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/synthetic/scene/renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "msc_vo/synthetic/scene/quad_raster.h"
+#include "msc_vo/synthetic/scene/random.h"
+
+namespace msc_vo {
+
+namespace {
+
+using Color = Eigen::Vector3f;
+
+// Contrast between neighbouring pixels, of 1. Below the first the pixel's centre speaks for all of
+// it: two grey levels, the noise of a camera. Above the second the mean of four samples, which errs
+// by an eighth of the contrast or so, would err by more than the noise.
+constexpr float kFlatContrast = 2.0f / 255.0f;
+constexpr float kSharpContrast = 20.0f / 255.0f;
+
+// A rectangle prepared for shading.
+struct Surface {
+  const Texture* texture = nullptr;
+  Eigen::Vector3f origin, edge_u, edge_v, normal;
+  float width = 0.0f, height = 0.0f;
+};
+
+// Colours the points of a scene as one view sees them.
+class Shader {
+ public:
+  Shader(const Scene& scene, const std::vector<QuadView>& views) : scene_(scene), views_(views) {
+    for (const QuadView& view : views) {
+      const Quad& quad = scene.quads[view.quad];
+      surfaces_.push_back({&quad.texture, quad.origin.cast<float>(), quad.edge_u.cast<float>(),
+                           quad.edge_v.cast<float>(), quad.Normal().cast<float>(),
+                           static_cast<float>(quad.edge_u.norm()),
+                           static_cast<float>(quad.edge_v.norm())});
+    }
+  }
+
+  // Colour of view `index` at a pixel where 1/z is `w`.
+  Color Shade(int index, const Eigen::Vector3d& pixel, double w) const {
+    const float u = static_cast<float>(views_[index].u_over_z.dot(pixel) / w);
+    const float v = static_cast<float>(views_[index].v_over_z.dot(pixel) / w);
+    const Surface& surface = surfaces_[index];
+    const SurfacePoint point{u * surface.width, v * surface.height, surface.width, surface.height};
+    const Eigen::Vector3f x = surface.origin + u * surface.edge_u + v * surface.edge_v;
+    return EvaluateTexture(*surface.texture, point) * Brightness(x, surface.normal);
+  }
+
+  // Colour of the nearest of `candidates` at a pixel; `background` where none is hit.
+  template <typename Indices>
+  Color ShadeNearest(const Indices& candidates, const Eigen::Vector3d& pixel,
+                     const Color& background) const {
+    int nearest = -1;
+    double nearest_w = 0.0;
+    for (const int index : candidates) {
+      const double w = views_[index].inverse_depth.dot(pixel);
+      if (w <= nearest_w || !views_[index].Contains(pixel, w)) continue;
+      nearest = index;
+      nearest_w = w;
+    }
+    return nearest < 0 ? background : Shade(nearest, pixel, nearest_w);
+  }
+
+ private:
+  // Ambient light and Lambert's law under every lamp, without cast shadows.
+  float Brightness(const Eigen::Vector3f& x, const Eigen::Vector3f& normal) const {
+    // Daylight from one side, so that no two faces of a white box are equally bright.
+    const Eigen::Vector3f daylight(0.30f, 0.16f, 0.22f);
+    float brightness = static_cast<float>(scene_.ambient) * (1.0f + normal.dot(daylight));
+    for (const PointLight& light : scene_.lights) {
+      const Eigen::Vector3f to_light = light.position.cast<float>() - x;
+      const float cosine_times_distance = normal.dot(to_light);
+      if (cosine_times_distance <= 0.0f) continue;
+      const float squared = to_light.squaredNorm();
+      const float reach = static_cast<float>(light.reach);
+      brightness += static_cast<float>(light.intensity) * cosine_times_distance /
+                    (std::sqrt(squared) * (1.0f + squared / (reach * reach)));
+    }
+    return brightness;
+  }
+
+  const Scene& scene_;
+  const std::vector<QuadView>& views_;
+  std::vector<Surface> surfaces_;
+};
+
+// The distinct views that a pixel's square may show.
+class Candidates {
+ public:
+  void Add(int view) {
+    if (view < 0 || count_ == views_.size() || std::find(begin(), end(), view) != end()) return;
+    views_[count_++] = view;
+  }
+  const int* begin() const { return views_.data(); }
+  const int* end() const { return views_.data() + count_; }
+
+ private:
+  // A pixel with more is a heap of slivers; the rest of them would not change its mean visibly.
+  std::array<int, 32> views_{};
+  size_t count_ = 0;
+};
+
+// Mean colour of the square of a pixel by `side` x `side` samples.
+Color SampleSquare(const Shader& shader, const Candidates& views, int x, int y, int side,
+                   const Color& background) {
+  Color sum = Color::Zero();
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      const Eigen::Vector3d pixel(x + (i + 0.5) / side - 0.5, y + (j + 0.5) / side - 0.5, 1.0);
+      sum += shader.ShadeNearest(views, pixel, background);
+    }
+  }
+  return sum / static_cast<float>(side * side);
+}
+
+std::vector<Color> ShadeCenters(const Shader& shader, const HitBuffer& hits) {
+  std::vector<Color> colors(hits.view.size(), Color::Zero());
+  for (int y = hits.rows.first; y <= hits.rows.last; ++y) {
+    for (int x = 0; x < hits.width; ++x) {
+      const size_t i = hits.Index(x, y);
+      if (hits.view[i] < 0) continue;
+      colors[i] = shader.Shade(hits.view[i], Eigen::Vector3d(x, y, 1.0), hits.inverse_depth[i]);
+    }
+  }
+  return colors;
+}
+
+// Colour of a pixel from as many samples as its neighbourhood asks for.
+Color FilterPixel(const Shader& shader, const HitBuffer& hits, const BorderBuffer& borders,
+                  const std::vector<Color>& centers, int x, int y) {
+  const size_t here = hits.Index(x, y);
+  Candidates views;
+  views.Add(hits.view[here]);
+  float contrast = 0.0f;
+  for (int j = std::max(y - 1, hits.rows.first); j <= std::min(y + 1, hits.rows.last); ++j) {
+    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, hits.width - 1); ++i) {
+      const size_t there = hits.Index(i, j);
+      if (hits.view[there] != hits.view[here]) views.Add(hits.view[there]);
+      contrast = std::max(contrast, (centers[there] - centers[here]).cwiseAbs().maxCoeff());
+    }
+  }
+  const bool has_border = borders.begin(here) != borders.end(here);
+  for (const int* view = borders.begin(here); view != borders.end(here); ++view) views.Add(*view);
+  if (!has_border && contrast < kFlatContrast) return centers[here];
+  const int side = has_border || contrast > kSharpContrast ? 4 : 2;
+  return SampleSquare(shader, views, x, y, side, centers[here]);
+}
+
+uint8_t ToByte(float value) { return static_cast<uint8_t>(std::clamp(value, 0.0f, 255.0f) + 0.5f); }
+
+}  // namespace
+
+std::vector<uint8_t> RenderedImage::Gray() const {
+  std::vector<uint8_t> gray(rgb.size() / 3);
+  for (size_t i = 0; i < gray.size(); ++i) {
+    gray[i] = ToByte(0.299f * rgb[3 * i] + 0.587f * rgb[3 * i + 1] + 0.114f * rgb[3 * i + 2]);
+  }
+  return gray;
+}
+
+Renderer::Renderer(Scene scene, const PinholeCamera& camera)
+    : scene_(std::move(scene)), camera_(camera) {
+  std::string error;
+  if (!camera.IsValid(&error)) throw std::invalid_argument("Renderer: " + error);
+}
+
+RenderedImage Renderer::Render(const Rigid3& cam_from_world) const {
+  RenderedImage image = BlankImage();
+  DrawBand(cam_from_world, {0, camera_.height - 1}, &image);
+  return image;
+}
+
+RenderedImage Renderer::RenderRows(const std::function<Rigid3(int y)>& cam_from_world_of) const {
+  RenderedImage image = BlankImage();
+  for (int y = 0; y < camera_.height; ++y) DrawBand(cam_from_world_of(y), {y, y}, &image);
+  return image;
+}
+
+RenderedImage Renderer::BlankImage() const {
+  const size_t size = static_cast<size_t>(camera_.width) * camera_.height;
+  RenderedImage image;
+  image.width = camera_.width;
+  image.height = camera_.height;
+  image.rgb.resize(3 * size);
+  image.depth.resize(size, 0.0f);
+  return image;
+}
+
+void Renderer::DrawBand(const Rigid3& cam_from_world, const RowBand& band,
+                        RenderedImage* image) const {
+  // The filter looks at the neighbours of a pixel, as this pose sees them.
+  const RowBand looked_at{std::max(band.first - 1, 0), std::min(band.last + 1, camera_.height - 1)};
+  const std::vector<QuadView> views = ViewQuads(scene_, camera_, cam_from_world, looked_at);
+  const HitBuffer hits = Rasterize(views, looked_at, camera_.width);
+  const BorderBuffer borders(views, hits);
+  const Shader shader(scene_, views);
+  const std::vector<Color> centers = ShadeCenters(shader, hits);
+  for (int y = band.first; y <= band.last; ++y) {
+    for (int x = 0; x < camera_.width; ++x) {
+      const size_t pixel = static_cast<size_t>(y) * camera_.width + x, hit = hits.Index(x, y);
+      const Color color = FilterPixel(shader, hits, borders, centers, x, y);
+      for (int k = 0; k < 3; ++k) image->rgb[3 * pixel + k] = ToByte(255.0f * color[k]);
+      if (hits.view[hit] < 0) continue;
+      image->depth[pixel] = static_cast<float>(1.0 / hits.inverse_depth[hit]);
+    }
+  }
+}
+
+PinholeCamera KinectCamera(int width, int height) {
+  PinholeCamera camera;
+  camera.fx = camera.fy = 525.0 * width / 640.0;
+  camera.cx = 0.5 * (width - 1);
+  camera.cy = 0.5 * (height - 1);
+  camera.width = width;
+  camera.height = height;
+  return camera;
+}
+
+void AddImageNoise(double sigma, uint64_t seed, uint64_t frame, RenderedImage* image) {
+  Random random(seed, frame);
+  for (size_t i = 0; i < image->rgb.size(); i += 3) {
+    const float noise = static_cast<float>(sigma * random.Normal());
+    for (size_t k = i; k < i + 3; ++k) image->rgb[k] = ToByte(image->rgb[k] + noise);
+  }
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/synthetic/scene/scene.h"
+
+namespace msc_vo {
+
+struct RowBand;
+
+// A rendered RGB-D image in plain buffers, row by row from the upper left pixel.
+struct RenderedImage {
+  int width = 0;
+  int height = 0;
+  std::vector<uint8_t> rgb;  // 3 * width * height: red, green, blue
+  std::vector<float>
+      depth;  // width * height, metres along z, exact at the pixel's centre; 0: nothing
+
+  // ITU-R 601 luma, the usual grey image, width * height.
+  std::vector<uint8_t> Gray() const;
+};
+
+// Draws a scene: rectangles through a depth buffer, one exact hit per pixel centre; then colour by
+// box-filtered samples, more of them where neighbouring pixels differ.
+class Renderer {
+ public:
+  // Throws std::invalid_argument if the camera is not valid.
+  Renderer(Scene scene, const PinholeCamera& camera);
+
+  RenderedImage Render(const Rigid3& cam_from_world) const;
+
+  // A rolling shutter: row y is that of Render(cam_from_world_of(y)), to the last bit.
+  RenderedImage RenderRows(const std::function<Rigid3(int y)>& cam_from_world_of) const;
+
+  const Scene& scene() const { return scene_; }
+  const PinholeCamera& camera() const { return camera_; }
+
+ private:
+  RenderedImage BlankImage() const;
+  void DrawBand(const Rigid3& cam_from_world, const RowBand& band, RenderedImage* image) const;
+
+  Scene scene_;
+  PinholeCamera camera_;
+};
+
+// 525 px at 640 pixels of width, as a Kinect, and in proportion at other sizes; centred.
+PinholeCamera KinectCamera(int width, int height);
+
+// Adds normal noise of `sigma` grey levels, the same deviate to the three colours of a pixel.
+void AddImageNoise(double sigma, uint64_t seed, uint64_t frame, RenderedImage* image);
+
+}  // namespace msc_vo

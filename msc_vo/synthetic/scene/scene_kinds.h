@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "msc_vo/synthetic/scene/scene.h"
+
+namespace msc_vo {
+
+// One function per SceneKind; MakeScene chooses among them.
+Scene MakeRoom(uint64_t seed);
+Scene MakeCorridor(uint64_t seed);
+Scene MakeBare(uint64_t seed);
+Scene MakeSlanted(uint64_t seed);
+Scene MakeHouse(uint64_t seed);
+
+}  // namespace msc_vo

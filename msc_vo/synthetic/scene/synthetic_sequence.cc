@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/synthetic/scene/synthetic_sequence.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace msc_vo {
+
+namespace {
+
+// Time of the first frame, seconds: some tools take a time of 0 for a missing one.
+constexpr double kFirstTime = 1.0;
+
+const SyntheticSequenceOptions& Checked(const SyntheticSequenceOptions& options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw std::invalid_argument("SyntheticSequence: " + error);
+  return options;
+}
+
+PathOptions SeededPath(const SyntheticSequenceOptions& options) {
+  PathOptions path = options.path;
+  path.seed = options.seed;
+  return path;
+}
+
+}  // namespace
+
+bool SyntheticSequenceOptions::IsValid(std::string* error) const {
+  if (width < 32 || height < 32 || width > 8192 || height > 8192) {
+    *error = "width and height must be from 32 to 8192 pixels";
+  } else if (!(fps > 0.0)) {
+    *error = "fps must be positive";
+  } else if (!(std::abs(depth_delay) < 0.5 / fps)) {
+    *error = "depth_delay must be less than half the time between two images";
+  } else if (!(std::abs(readout_time) <= 1.0 / fps)) {
+    *error = "readout_time must be at most the time between two images";
+  } else if (!(image_sigma >= 0.0)) {
+    *error = "image_sigma must not be negative";
+  } else {
+    return kinect.IsValid(error) && path.IsValid(error);
+  }
+  return false;
+}
+
+SyntheticSequence::SyntheticSequence(const SyntheticSequenceOptions& options)
+    : options_(Checked(options)),
+      renderer_(MakeScene(options.scene, options.seed),
+                KinectCamera(options.width, options.height)),
+      path_(renderer_.scene(), SeededPath(options)) {}
+
+TimedPose SyntheticSequence::PoseAt(int index) const {
+  const double seconds = index / options_.fps;
+  return {kFirstTime + seconds, path_.CamFromWorld(seconds).Inverse()};
+}
+
+RenderedImage SyntheticSequence::RenderRolling(double seconds) const {
+  return renderer_.RenderRows([&](int y) {
+    const double after_middle = (y + 0.5) / options_.height - 0.5;  // of the readout, -0.5 to 0.5
+    return path_.CamFromWorld(seconds + options_.readout_time * after_middle);
+  });
+}
+
+SyntheticFrame SyntheticSequence::Render(int index) const {
+  const bool rolling = options_.readout_time != 0.0;
+  const double seconds = index / options_.fps;
+  SyntheticFrame frame;
+  frame.pose = PoseAt(index);
+  frame.image =
+      rolling ? RenderRolling(seconds) : renderer_.Render(frame.pose.world_from_cam.Inverse());
+  if (options_.depth_delay != 0.0) {
+    const double later = seconds + options_.depth_delay;
+    frame.image.depth =
+        (rolling ? RenderRolling(later) : renderer_.Render(path_.CamFromWorld(later))).depth;
+  }
+  // Even streams for colour, odd ones for depth: independent of each other in every frame.
+  const uint64_t stream = 2 * static_cast<uint64_t>(index);
+  if (options_.image_sigma > 0.0) {
+    AddImageNoise(options_.image_sigma, options_.seed, stream, &frame.image);
+  }
+  if (options_.kinect_depth) {
+    AddKinectNoise(options_.kinect, renderer_.camera(), options_.seed, stream + 1,
+                   &frame.image.depth);
+  }
+  return frame;
+}
+
+}  // namespace msc_vo

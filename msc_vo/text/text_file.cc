@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/text/text_file.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace msc_vo {
+
+namespace {
+
+std::vector<std::string> SplitFields(const std::string& text) {
+  constexpr char kSeparators[] = " \t\r\n,";
+  std::vector<std::string> fields;
+  size_t begin = text.find_first_not_of(kSeparators);
+  while (begin != std::string::npos) {
+    const size_t end = text.find_first_of(kSeparators, begin);
+    fields.push_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(kSeparators, end);
+  }
+  return fields;
+}
+
+}  // namespace
+
+std::string TextLine::Where() const { return file + ":" + std::to_string(number); }
+
+std::vector<TextLine> ReadTextLines(const std::string& path) {
+  std::istringstream content(ReadFile(path));
+  std::vector<TextLine> lines;
+  std::string text;
+  for (int number = 1; std::getline(content, text); ++number) {
+    // Some editors on Windows put a byte order mark in front of the first line.
+    if (number == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
+    TextLine line{path, number, SplitFields(text)};
+    if (line.fields.empty() || line.fields.front()[0] == '#') continue;
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+std::string ReadFile(const std::string& path) {
+  if (std::filesystem::is_directory(path)) {
+    throw std::runtime_error(path + ": is a folder, a file is needed");
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw std::runtime_error(path + ": " +
+                             (std::filesystem::exists(path)
+                                  ? "cannot be read (check its permissions)"
+                                  : "does not exist"));
+  }
+  std::ostringstream content;
+  content << file.rdbuf();
+  return content.str();
+}
+
+void WriteFile(const std::string& path, const std::string& content) {
+  const std::string partial = path + ".partial";
+  {
+    std::ofstream file(partial, std::ios::binary | std::ios::trunc);
+    file.write(content.data(), static_cast<std::streamsize>(content.size()));
+    file.close();
+    if (!file) {
+      std::remove(partial.c_str());
+      throw std::runtime_error(path + ": cannot be written (check the folder and the free space)");
+    }
+  }
+  std::error_code error;
+  std::filesystem::rename(partial, path, error);
+  if (error) throw std::runtime_error(path + ": cannot be written: " + error.message());
+}
+
+void MakeFolder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw std::runtime_error(path + ": cannot be made: " + error.message());
+}
+
+std::optional<double> ParseNumber(const std::string& text) {
+  const char* begin = text.data();
+  const char* const end = begin + text.size();
+  if (begin != end && *begin == '+') ++begin;  // from_chars knows no plus sign
+  double value = 0.0;
+  const std::from_chars_result result = std::from_chars(begin, end, value);
+  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  return value;
+}
+
+std::string FormatNumber(double value) {
+  char buffer[40];  // the longest double needs 24
+  return {buffer, std::to_chars(buffer, buffer + sizeof(buffer), value).ptr};
+}
+
+std::vector<double> ParseNumbers(const TextLine& line) {
+  std::vector<double> values;
+  for (const std::string& field : line.fields) {
+    const std::optional<double> value = ParseNumber(field);
+    if (!value || !std::isfinite(*value)) {
+      throw std::runtime_error(line.Where() + ": '" + field +
+                               "' is not a finite number; correct or remove the line");
+    }
+    values.push_back(*value);
+  }
+  return values;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/tracking/frame_pose.h"
+
+#include <algorithm>
+
+namespace msc_vo {
+
+namespace {
+
+// Candidates whose landmark is not matched yet.
+template <typename C, typename M>
+std::vector<C> Unmatched(const std::vector<C>& candidates, const std::vector<M>& known) {
+  std::vector<LandmarkId> matched;
+  matched.reserve(known.size());
+  for (const M& match : known) matched.push_back(match.id);
+  std::sort(matched.begin(), matched.end());
+  std::vector<C> unmatched;
+  unmatched.reserve(candidates.size());
+  for (const C& candidate : candidates) {
+    const bool is_matched =
+        candidate.id != kNoId && std::binary_search(matched.begin(), matched.end(), candidate.id);
+    if (!is_matched) unmatched.push_back(candidate);
+  }
+  return unmatched;
+}
+
+template <typename M>
+std::vector<bool> TakenFeatures(const std::vector<M>& matches, size_t num_features) {
+  std::vector<bool> taken(num_features, false);
+  for (const M& match : matches) taken[match.feature] = true;
+  return taken;
+}
+
+template <typename M>
+std::vector<M> LandmarkInliersOf(const std::vector<M>& matches) {
+  std::vector<M> inliers;
+  for (const M& match : matches) {
+    if (match.inlier && match.id != kNoId) inliers.push_back(match);
+  }
+  return inliers;
+}
+
+// Whether a landmark has stood still, as two keyframes saw it at one place.
+template <typename L>
+bool IsProven(const L* landmark) {
+  return landmark != nullptr && landmark->observations.size() >= 2;
+}
+
+// Sigmas are those of the feature, times the scale that was learnt for all and the noise of the
+// landmark. Without a landmark (nullptr) the match is with the frame before.
+PoseData::Point Observe(const PointMatch& match, const PointFeature& feature,
+                        const PointLandmark* landmark, const NoiseScale& scale) {
+  const double noise = landmark != nullptr ? landmark->noise : 1.0;
+  return {match.position,
+          feature.pixel,
+          noise * feature.sigma,
+          feature.inverse_depth,
+          noise * scale.point_depth * feature.inverse_depth_sigma,
+          IsProven(landmark)};
+}
+
+PoseData::Line Observe(const LineMatch& match, const LineFeature& feature,
+                       const LineLandmark* landmark, const NoiseScale& scale) {
+  const double noise = landmark != nullptr ? landmark->noise : 1.0;
+  LineDepth depth = feature.depth.value_or(LineDepth());
+  if (landmark != nullptr) depth = Nearer(depth, landmark->depth_offset);
+  depth.covariance *= noise * noise * scale.line_depth * scale.line_depth;
+  return {match.segment,
+          feature.segment,
+          noise * scale.line_pixel * feature.sigma,
+          feature.depth.has_value(),
+          depth,
+          IsProven(landmark)};
+}
+
+}  // namespace
+
+LocalMap CandidatesFromFrame(const Map& map, const TrackedFrame& last,
+                             const Rigid3& last_from_world, const Rigid3& cam_from_world) {
+  const Frame& frame = *last.frame;
+  std::vector<LandmarkId> point_ids(frame.points.size(), kNoId);
+  std::vector<LandmarkId> line_ids(frame.lines.size(), kNoId);
+  for (const PointMatch& match : last.matches.points) point_ids[match.feature] = match.id;
+  for (const LineMatch& match : last.matches.lines) line_ids[match.feature] = match.id;
+
+  LocalMap seen;
+  seen.reference = last.reference;
+  const Rigid3 world_from_last = last_from_world.Inverse();
+  for (size_t i = 0; i < frame.points.size(); ++i) {
+    const PointLandmark* landmark = map.FindPoint(point_ids[i]);
+    if (landmark == nullptr && !frame.points[i].HasDepth()) continue;
+    PointCandidate candidate;
+    candidate.id = landmark != nullptr ? landmark->id : kNoId;
+    candidate.position = landmark != nullptr
+                             ? landmark->position
+                             : world_from_last * frame.PointInCamera(static_cast<int>(i));
+    candidate.descriptor = frame.points[i].descriptor;
+    candidate.level = frame.points[i].level;
+    if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) {
+      seen.points.push_back(candidate);
+    }
+  }
+  for (size_t i = 0; i < frame.lines.size(); ++i) {
+    const LineLandmark* landmark = map.FindLine(line_ids[i]);
+    if (landmark == nullptr && !frame.lines[i].depth) continue;
+    LineCandidate candidate;
+    candidate.id = landmark != nullptr ? landmark->id : kNoId;
+    candidate.segment = landmark != nullptr
+                            ? landmark->segment
+                            : world_from_last * frame.LineInCamera(static_cast<int>(i));
+    candidate.descriptor = frame.lines[i].descriptor;
+    if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) seen.lines.push_back(candidate);
+  }
+  return seen;
+}
+
+FrameMatches MatchLocalMap(const TrackerOptions& options, const Frame& frame, const LocalMap& local,
+                           double radius, const FrameMatches& known) {
+  FrameMatches matches = known;
+  const std::vector<PointMatch> points =
+      MatchPoints(options.point_matcher, frame, Unmatched(local.points, known.points), radius,
+                  TakenFeatures(known.points, frame.points.size()));
+  matches.points.insert(matches.points.end(), points.begin(), points.end());
+  const std::vector<LineMatch> lines =
+      MatchLines(options.line_matcher, frame, Unmatched(local.lines, known.lines), radius,
+                 TakenFeatures(known.lines, frame.lines.size()));
+  matches.lines.insert(matches.lines.end(), lines.begin(), lines.end());
+  return matches;
+}
+
+FrameMatches LandmarkInliers(const FrameMatches& matches) {
+  return {LandmarkInliersOf(matches.points), LandmarkInliersOf(matches.lines)};
+}
+
+PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, const Map& map,
+                              const NoiseScale& scale, Rigid3* cam_from_world,
+                              FrameMatches* matches) {
+  PoseData data;
+  data.camera = frame.camera;
+  data.cam_from_world = *cam_from_world;
+  for (const PointMatch& match : matches->points) {
+    data.points.push_back(
+        Observe(match, frame.points[match.feature], map.FindPoint(match.id), scale));
+  }
+  for (const LineMatch& match : matches->lines) {
+    data.lines.push_back(Observe(match, frame.lines[match.feature], map.FindLine(match.id), scale));
+  }
+  const PoseSummary summary = SolvePose(options, &data);
+  *cam_from_world = data.cam_from_world;
+  for (size_t i = 0; i < data.points.size(); ++i) matches->points[i].inlier = data.points[i].inlier;
+  for (size_t i = 0; i < data.lines.size(); ++i) matches->lines[i].inlier = data.lines[i].inlier;
+  return summary;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
+
+#include <memory>
+
+#include "tests/support/factor_checks.h"
+#include "tests/support/synthetic_window.h"
+
+namespace msc_vo {
+namespace {
+
+class CeresWindowTest : public ::testing::Test {
+ protected:
+  CeresWindowTest() {
+    SyntheticWindowOptions scene;
+    scene.num_keyframes = 5;
+    scene.num_fixed = 2;
+    scene.num_points = 12;
+    scene.num_lines = 4;
+    scene.max_observations = 3;
+    window_ = MakeSyntheticWindow(scene);
+    data_ = window_.data;
+    activity_.points.assign(data_.point_observations.size(), {true, true});
+    activity_.lines.assign(data_.line_observations.size(), {true, true});
+  }
+
+  std::unique_ptr<CeresWindow> Build() {
+    state_ = std::make_unique<WindowState>(data_);
+    terms_ = MakeWindowTerms(options_, data_, ValidateWindow(options_, data_), activity_, *state_);
+    return std::make_unique<CeresWindow>(options_, data_, terms_, state_.get());
+  }
+  bool IsConstant(CeresWindow* window, const double* block) {
+    return window->problem()->IsParameterBlockConstant(block);
+  }
+
+  WindowOptions options_;
+  SyntheticWindow window_;
+  WindowData data_;
+  std::unique_ptr<WindowState> state_;
+  WindowTerms terms_;
+  WindowActivity activity_;
+};
+
+TEST_F(CeresWindowTest, CountsOfBlocksAndResiduals) {
+  const auto window = Build();
+  EXPECT_EQ(terms_.point_reprojection.blocks.size(), 36u);
+  EXPECT_EQ(terms_.point_depth.blocks.size(), 36u);
+  EXPECT_EQ(terms_.line_reprojection.blocks.size(), 12u);
+  EXPECT_EQ(terms_.line_depth.blocks.size(), 12u);
+  EXPECT_EQ(terms_.line_anchor.blocks.size(), 4u);
+  const ceres::Problem& problem = *window->problem();
+  EXPECT_EQ(problem.NumResidualBlocks(), 36 + 36 + 12 + 12 + 4);
+  EXPECT_EQ(problem.NumResiduals(), 36 * (2 + 1) + 12 * (2 + 2) + 4 * 2);
+  EXPECT_EQ(problem.NumParameterBlocks(), 5 + 12 + 4);
+  EXPECT_EQ(problem.NumParameters(), 5 * 7 + 12 * 3 + 4 * 6);
+}
+
+TEST_F(CeresWindowTest, InactiveObservationsAndDisabledTermsAddNothing) {
+  activity_.points[5] = {false, false};
+  activity_.points[6] = {true, false};
+  activity_.lines[2] = {true, false};
+  options_.line_reprojection.enabled = false;
+  Build();
+  EXPECT_EQ(terms_.point_reprojection.blocks.size(), 35u);
+  EXPECT_EQ(terms_.point_depth.blocks.size(), 34u);
+  EXPECT_EQ(terms_.line_reprojection.blocks.size(), 0u);
+  EXPECT_EQ(terms_.line_depth.blocks.size(), 11u);
+}
+
+TEST_F(CeresWindowTest, FixedBlocksAreConstantAndPosesMoveOnTheManifold) {
+  data_.points[1].fixed = true;
+  data_.lines[2].fixed = true;
+  const auto window = Build();
+  for (size_t i = 0; i < data_.keyframes.size(); ++i) {
+    const double* pose = state_->PoseBlock(i);
+    EXPECT_EQ(IsConstant(window.get(), pose), i < 2) << i;
+    EXPECT_EQ(window->problem()->ParameterBlockTangentSize(pose), 6);
+  }
+  for (size_t i = 0; i < data_.points.size(); ++i) {
+    EXPECT_EQ(IsConstant(window.get(), state_->PointBlock(i)), i == 1) << i;
+  }
+  for (size_t i = 0; i < data_.lines.size(); ++i) {
+    EXPECT_EQ(IsConstant(window.get(), state_->LineBlock(i)), i == 2) << i;
+  }
+  EXPECT_EQ(terms_.line_anchor.blocks.size(), 3u);  // a fixed line needs none
+}
+
+TEST_F(CeresWindowTest, LandmarksAreEliminatedBeforePoses) {
+  const auto window = Build();
+  const auto ordering = window->EliminationOrdering();
+  EXPECT_EQ(ordering->NumElements(), 21);
+  for (size_t i = 0; i < 12; ++i) EXPECT_EQ(ordering->GroupId(state_->PointBlock(i)), 0);
+  for (size_t i = 0; i < 4; ++i) EXPECT_EQ(ordering->GroupId(state_->LineBlock(i)), 0);
+  for (size_t i = 0; i < 5; ++i) EXPECT_EQ(ordering->GroupId(state_->PoseBlock(i)), 1);
+}
+
+TEST_F(CeresWindowTest, CostsOfTheTermsAreThoseOfCeres) {
+  const auto window = Build();
+  const double sum = Cost(terms_.point_reprojection, *state_) + Cost(terms_.point_depth, *state_) +
+                     Cost(terms_.line_reprojection, *state_) + Cost(terms_.line_depth, *state_) +
+                     Cost(terms_.line_anchor, *state_);
+  double ceres = 0.0;
+  ASSERT_TRUE(window->problem()->Evaluate({}, &ceres, nullptr, nullptr, nullptr));
+  EXPECT_NEAR(sum, ceres, 1e-9 * ceres);
+  EXPECT_GT(Cost(terms_.line_depth, *state_), 0.0);
+}
+
+TEST_F(CeresWindowTest, ChiSquareIsBeforeTheLoss) {
+  // One pixel off in each coordinate at the truth, hence 1 + 1, whatever the threshold.
+  data_ = window_.truth;
+  data_.point_observations[0].pixel =
+      data_.camera.Project(data_.keyframes[0].cam_from_world * data_.points[0].position) +
+      Eigen::Vector2d(1.0, 1.0);
+  data_.point_observations[0].keyframe = data_.keyframes[0].id;
+  data_.point_observations[0].point = data_.points[0].id;
+  options_.point_reprojection.huber = 0.1;
+  Build();
+  EXPECT_NEAR(ChiSquare<PointReprojection>(terms_.point_reprojection.blocks[0], *state_), 2.0,
+              1e-9);
+}
+
+TEST_F(CeresWindowTest, AnchorsHoldTheInitialLinesNotTheCurrentOnes) {
+  Build();
+  const Eigen::Vector3d along = 0.1 * data_.lines[0].segment.Direction();
+  for (int i = 0; i < 3; ++i) state_->LineBlock(0)[i] += along[i];
+  // The motion is along the initial direction.
+  EXPECT_NEAR(ChiSquare<LineAnchor>(terms_.line_anchor.blocks[0], *state_),
+              std::pow(0.1 / options_.line_anchor_sigma, 2), 1e-9);
+  EXPECT_NEAR(ChiSquare<LineAnchor>(terms_.line_anchor.blocks[1], *state_), 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+
+#include <stdexcept>
+
+#include "tests/support/factor_checks.h"
+#include "tests/support/synthetic_window.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+double WorstPose(const WindowData& a, const WindowData& b) {
+  double worst = 0.0;
+  for (size_t i = 0; i < a.keyframes.size(); ++i) {
+    worst = std::max(worst, Distance(a.keyframes[i].cam_from_world, b.keyframes[i].cam_from_world));
+  }
+  return worst;
+}
+
+double RmsPoint(const WindowData& a, const WindowData& b) {
+  double sum = 0.0;
+  for (size_t i = 0; i < a.points.size(); ++i) {
+    sum += (a.points[i].position - b.points[i].position).squaredNorm();
+  }
+  return std::sqrt(sum / double(a.points.size()));
+}
+
+// Distance of solved end points to the true infinite lines.
+double RmsLine(const WindowData& truth, const WindowData& solved) {
+  double sum = 0.0;
+  for (size_t i = 0; i < truth.lines.size(); ++i) {
+    const LineSegment3& line = truth.lines[i].segment;
+    sum += std::pow(line.DistanceToLine(solved.lines[i].segment.start), 2) +
+           std::pow(line.DistanceToLine(solved.lines[i].segment.end), 2);
+  }
+  return std::sqrt(sum / double(2 * truth.lines.size()));
+}
+
+bool SameNumbers(const WindowData& a, const WindowData& b) {
+  for (size_t i = 0; i < a.keyframes.size(); ++i) {
+    if (a.keyframes[i].cam_from_world.params != b.keyframes[i].cam_from_world.params) return false;
+  }
+  for (size_t i = 0; i < a.points.size(); ++i) {
+    if (a.points[i].position != b.points[i].position) return false;
+  }
+  for (size_t i = 0; i < a.lines.size(); ++i) {
+    if (a.lines[i].segment.start != b.lines[i].segment.start) return false;
+    if (a.lines[i].segment.end != b.lines[i].segment.end) return false;
+  }
+  return true;
+}
+
+// The parameter is fy.
+class WindowProblemTest : public ::testing::TestWithParam<double> {
+ protected:
+  WindowProblemTest() {
+    scene_.fy = GetParam();
+    options_.second_iterations = 30;
+  }
+  SyntheticWindowOptions scene_;
+  WindowOptions options_;
+};
+INSTANTIATE_TEST_SUITE_P(FocalLength, WindowProblemTest, ::testing::Values(525.0, -480.0));
+
+TEST_P(WindowProblemTest, ExactObservationsGiveTheExactWindow) {
+  scene_.noise = 0.0;
+  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  WindowData data = window.data;
+  const WindowSummary summary = SolveWindow(options_, &data);
+  ASSERT_TRUE(summary.usable) << summary.BriefReport();
+  EXPECT_EQ(summary.point_reprojection.num_rejected, 0) << summary.BriefReport();
+  EXPECT_EQ(summary.line_reprojection.num_rejected, 0);
+  EXPECT_LT(WorstPose(window.truth, data), 1e-5);
+  EXPECT_LT(RmsPoint(window.truth, data), 1e-5);
+  EXPECT_LT(RmsLine(window.truth, data), 1e-5);
+  EXPECT_LT(summary.final_cost, 1e-3);
+}
+
+TEST_P(WindowProblemTest, NoiseAndWrongMatches) {
+  scene_.wrong_ratio = 0.08;
+  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  WindowData data = window.data;
+  const WindowSummary summary = SolveWindow(options_, &data);
+  ASSERT_TRUE(summary.usable) << summary.BriefReport();
+  EXPECT_LT(WorstPose(window.truth, data), 0.008);
+  EXPECT_LT(RmsPoint(window.truth, data), 0.012);
+  EXPECT_LT(RmsLine(window.truth, data), 0.012);
+  int wrong_kept = 0, good = 0, good_lost = 0, wrong = 0;
+  const auto count = [&](bool is_wrong, bool rejected) {
+    wrong += is_wrong;
+    good += !is_wrong;
+    wrong_kept += is_wrong && !rejected;
+    good_lost += !is_wrong && rejected;
+  };
+  for (size_t i = 0; i < window.wrong_points.size(); ++i) {
+    count(window.wrong_points[i], data.point_observations[i].rejected);
+  }
+  for (size_t i = 0; i < window.wrong_lines.size(); ++i) {
+    count(window.wrong_lines[i], data.line_observations[i].rejected);
+  }
+  EXPECT_GT(wrong, 100);
+  EXPECT_EQ(wrong_kept, 0);
+  EXPECT_LT(good_lost, 0.02 * good);  // the test lets 1 % of good ones go
+  EXPECT_EQ(summary.point_reprojection.num_rejected + summary.line_reprojection.num_rejected,
+            wrong - wrong_kept + good_lost);
+}
+
+TEST_P(WindowProblemTest, WithoutDepthsTheFixedKeyframesHoldTheScale) {
+  scene_.noise = 0.0;
+  scene_.has_depth = false;
+  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  WindowData data = window.data;
+  const WindowSummary summary = SolveWindow(options_, &data);
+  ASSERT_TRUE(summary.usable) << summary.BriefReport();
+  EXPECT_EQ(summary.point_depth.num_residual_blocks, 0);
+  EXPECT_EQ(summary.line_depth.num_residual_blocks, 0);
+  EXPECT_LT(WorstPose(window.truth, data), 1e-3);
+}
+
+TEST_P(WindowProblemTest, SummaryCountsBlocksAndCosts) {
+  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  WindowData data = window.data;
+  const WindowSummary s = SolveWindow(options_, &data);
+  ASSERT_TRUE(s.usable);
+  EXPECT_EQ(s.point_reprojection.num_residual_blocks + s.point_reprojection.num_rejected, 2000);
+  // An observation that is rejected takes its depth along.
+  EXPECT_EQ(s.point_depth.num_residual_blocks + s.point_depth.num_rejected +
+                s.point_reprojection.num_rejected,
+            2000);
+  EXPECT_EQ(s.line_reprojection.num_residual_blocks + s.line_reprojection.num_rejected, 400);
+  EXPECT_EQ(s.line_depth.num_residual_blocks + s.line_depth.num_rejected +
+                s.line_reprojection.num_rejected,
+            400);
+  EXPECT_EQ(s.line_anchor.num_residual_blocks, 40);
+  const auto sum = [&](double TermSummary::*cost) {
+    return s.point_reprojection.*cost + s.point_depth.*cost + s.line_reprojection.*cost +
+           s.line_depth.*cost + s.line_anchor.*cost;
+  };
+  EXPECT_DOUBLE_EQ(sum(&TermSummary::initial_cost), s.initial_cost);
+  EXPECT_DOUBLE_EQ(sum(&TermSummary::final_cost), s.final_cost);
+  EXPECT_LT(s.final_cost, 0.1 * s.initial_cost);
+  // Of the order of half the redundancy: 6000 + 1600 rows less 48 + 600 + 160 unknowns.
+  EXPECT_NEAR(s.final_cost, 3396.0, 500.0);
+  EXPECT_GT(s.num_iterations, 2);
+  EXPECT_FALSE(s.schur_structure.empty());
+  EXPECT_THAT(s.BriefReport(), ::testing::HasSubstr("line reprojection"));
+}
+
+TEST_P(WindowProblemTest, FixedBlocksStayAndFreeOnesMove) {
+  SyntheticWindow window = MakeSyntheticWindow(scene_);
+  window.data.points[7].fixed = true;
+  window.data.lines[9].fixed = true;
+  WindowData data = window.data;
+  ASSERT_TRUE(SolveWindow(options_, &data).usable);
+  for (size_t i = 0; i < data.keyframes.size(); ++i) {
+    EXPECT_EQ(
+        data.keyframes[i].cam_from_world.params == window.data.keyframes[i].cam_from_world.params,
+        data.keyframes[i].fixed)
+        << i;
+  }
+  for (size_t i = 0; i < data.points.size(); ++i) {
+    EXPECT_EQ(data.points[i].position == window.data.points[i].position, i == 7) << i;
+  }
+  for (size_t i = 0; i < data.lines.size(); ++i) {
+    EXPECT_EQ(data.lines[i].segment.start == window.data.lines[i].segment.start, i == 9) << i;
+    EXPECT_EQ(data.lines[i].segment.end == window.data.lines[i].segment.end, i == 9) << i;
+  }
+}
+
+TEST_P(WindowProblemTest, AllKeyframesFixedRefinesTheLandmarks) {
+  scene_.num_fixed = scene_.num_keyframes;
+  scene_.noise = 0.0;
+  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  WindowData data = window.data;
+  ASSERT_TRUE(SolveWindow(options_, &data).usable);
+  EXPECT_LT(RmsPoint(window.truth, data), 1e-5);
+  EXPECT_LT(RmsLine(window.truth, data), 1e-5);
+}
+
+TEST_P(WindowProblemTest, AllLandmarksFixedRefinesTheKeyframes) {
+  scene_.noise = 0.0;
+  SyntheticWindow window = MakeSyntheticWindow(scene_);
+  window.data.points = window.truth.points;
+  window.data.lines = window.truth.lines;
+  for (auto& p : window.data.points) p.fixed = true;
+  for (auto& l : window.data.lines) l.fixed = true;
+  WindowData data = window.data;
+  ASSERT_TRUE(SolveWindow(options_, &data).usable);
+  EXPECT_LT(WorstPose(window.truth, data), 1e-6);
+}
+
+TEST_P(WindowProblemTest, EverythingFixedOrNothingObservedChangesNothing) {
+  SyntheticWindow window = MakeSyntheticWindow(scene_);
+  WindowData data = window.data;
+  data.point_observations.clear();
+  data.line_observations.clear();
+  EXPECT_TRUE(SolveWindow(options_, &data).usable);
+  EXPECT_TRUE(SameNumbers(data, window.data));
+  data = window.data;
+  for (auto& k : data.keyframes) k.fixed = true;
+  for (auto& p : data.points) p.fixed = true;
+  for (auto& l : data.lines) l.fixed = true;
+  EXPECT_TRUE(SolveWindow(options_, &data).usable);
+  EXPECT_TRUE(SameNumbers(data, window.data));
+}
+
+TEST_P(WindowProblemTest, ObservationsBehindTheCameraAreDroppedAndCounted) {
+  scene_.noise = 0.0;
+  SyntheticWindow window = MakeSyntheticWindow(scene_);
+  window.data.points[3].position.z() = -3.0;
+  window.data.lines[5].segment.end.z() = -3.0;
+  WindowData data = window.data;
+  const WindowSummary summary = SolveWindow(options_, &data);
+  ASSERT_TRUE(summary.usable);
+  EXPECT_EQ(summary.num_behind_camera, 20);
+  EXPECT_EQ(summary.point_reprojection.num_rejected, 0);
+  for (const auto& o : data.point_observations) {
+    EXPECT_EQ(o.rejected, o.point == data.points[3].id);
+  }
+  for (const auto& o : data.line_observations) EXPECT_EQ(o.rejected, o.line == data.lines[5].id);
+  EXPECT_EQ(data.points[3].position, window.data.points[3].position);
+  EXPECT_EQ(data.lines[5].segment.end, window.data.lines[5].segment.end);
+  EXPECT_LT(WorstPose(window.truth, data), 1e-5);
+}
+
+TEST_P(WindowProblemTest, ALandmarkThatLosesEveryObservationKeepsItsValue) {
+  scene_.noise = 0.0;
+  SyntheticWindow window = MakeSyntheticWindow(scene_);
+  // Seen at places that no point can be seen at.
+  int i = 0;
+  for (auto& o : window.data.point_observations) {
+    if (o.point != window.data.points[3].id) continue;
+    o.pixel += 60.0 * Eigen::Vector2d(std::cos(2.4 * i), std::sin(2.4 * i));
+    ++i;
+  }
+  WindowData data = window.data;
+  ASSERT_TRUE(SolveWindow(options_, &data).usable);
+  for (const auto& o : data.point_observations) {
+    EXPECT_EQ(o.rejected, o.point == data.points[3].id);
+  }
+  EXPECT_EQ(data.points[3].position, window.data.points[3].position);
+  EXPECT_LT(WorstPose(window.truth, data), 1e-4);
+}
+
+// From three times its distance, one step takes a point without depth behind the cameras.
+TEST_P(WindowProblemTest, ALandmarkThatAStepTakesBehindACameraHoldsUpNoOther) {
+  SyntheticWindow window = MakeSyntheticWindow(scene_);
+  WindowData::Point& far = window.data.points[3];
+  const Eigen::Vector3d eye = window.truth.keyframes[0].cam_from_world.Inverse().translation();
+  far.position = eye + 3.0 * (far.position - eye);
+  for (auto& o : window.data.point_observations) {
+    if (o.point == far.id) o.inverse_depth = 0.0;
+  }
+  options_.first_iterations = options_.second_iterations = 1;
+  WindowData data = window.data;
+  const WindowSummary summary = SolveWindow(options_, &data);
+  ASSERT_TRUE(summary.usable) << summary.BriefReport();
+  EXPECT_LT(WorstPose(window.truth, data), 0.2 * WorstPose(window.truth, window.data));
+}
+
+// No image sees that motion. With an anchor of 5 cm, end points of these lines slide by 16 cm.
+TEST_P(WindowProblemTest, EndPointsDoNotSlideAlongTheirLine) {
+  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  WindowData data = window.data;
+  ASSERT_TRUE(SolveWindow(options_, &data).usable);
+  for (size_t i = 0; i < data.lines.size(); ++i) {
+    const LineSegment3 &before = window.data.lines[i].segment, &after = data.lines[i].segment;
+    EXPECT_LT(std::abs((after.start - before.start).dot(before.Direction())), 0.01);
+    EXPECT_LT(std::abs((after.end - before.end).dot(before.Direction())), 0.01);
+  }
+}
+
+TEST_P(WindowProblemTest, AContradictingDepthIsLostAlone) {
+  scene_.noise = 0.0;
+  SyntheticWindow window = MakeSyntheticWindow(scene_);
+  window.data.point_observations[11].inverse_depth += 0.1;
+  window.data.line_observations[13].depth.end += 0.1;
+  WindowData data = window.data;
+  const WindowSummary summary = SolveWindow(options_, &data);
+  ASSERT_TRUE(summary.usable);
+  EXPECT_EQ(summary.point_depth.num_rejected, 1);
+  EXPECT_EQ(summary.line_depth.num_rejected, 1);
+  EXPECT_EQ(summary.point_reprojection.num_rejected, 0);
+  EXPECT_EQ(summary.line_reprojection.num_rejected, 0);
+  EXPECT_FALSE(data.point_observations[11].rejected);
+  EXPECT_FALSE(data.line_observations[13].rejected);
+  EXPECT_LT(WorstPose(window.truth, data), 1e-5);
+}
+
+TEST_P(WindowProblemTest, RejectionIsForgottenAtTheNextSolve) {
+  scene_.noise = 0.0;
+  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  WindowData data = window.data;
+  for (auto& o : data.point_observations) o.rejected = true;
+  ASSERT_TRUE(SolveWindow(options_, &data).usable);
+  for (const auto& o : data.point_observations) EXPECT_FALSE(o.rejected);
+}
+
+TEST_P(WindowProblemTest, SwitchedOffTermsTakeNoPart) {
+  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  options_.line_reprojection.enabled = options_.line_depth.enabled = false;
+  WindowData data = window.data;
+  const WindowSummary summary = SolveWindow(options_, &data);
+  ASSERT_TRUE(summary.usable);
+  EXPECT_EQ(summary.line_reprojection.num_residual_blocks, 0);
+  EXPECT_EQ(summary.line_depth.num_residual_blocks, 0);
+  EXPECT_EQ(summary.line_anchor.num_residual_blocks, 0);
+  for (size_t i = 0; i < data.lines.size(); ++i) {
+    EXPECT_EQ(data.lines[i].segment.start, window.data.lines[i].segment.start);
+  }
+}
+
+TEST_P(WindowProblemTest, FailureLeavesTheDataUnchanged) {
+  SyntheticWindow window = MakeSyntheticWindow(scene_);
+  window.data.point_observations[5].pixel.x() += 3.0;  // so many sigmas that no square is finite
+  window.data.point_observations[5].sigma = 1e-200;
+  WindowData data = window.data;
+  const WindowSummary summary = SolveWindow(options_, &data);
+  EXPECT_FALSE(summary.usable);
+  EXPECT_FALSE(summary.message.empty());
+  EXPECT_TRUE(SameNumbers(data, window.data));
+}
+
+TEST_P(WindowProblemTest, SameInputSameBytes) {
+  scene_.wrong_ratio = 0.05;
+  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  WindowData a = window.data, b = window.data;
+  SolveWindow(options_, &a);
+  SolveWindow(options_, &b);
+  EXPECT_TRUE(SameNumbers(a, b));
+  EXPECT_FALSE(SameNumbers(a, window.data));
+}
+
+TEST_P(WindowProblemTest, MisuseThrowsAndLeavesTheDataUnchanged) {
+  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  WindowData data = window.data;
+  data.point_observations[0].sigma = 0.0;
+  EXPECT_THROW(SolveWindow(options_, &data), std::invalid_argument);
+  EXPECT_TRUE(SameNumbers(data, window.data));
+}
+
+}  // namespace
+}  // namespace msc_vo

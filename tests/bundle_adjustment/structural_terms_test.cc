@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// The structural terms of the window problem.
+
+#include <stdexcept>
+#include <string>
+
+#include "tests/support/factor_checks.h"
+#include "tests/support/synthetic_window.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+
+namespace msc_vo {
+namespace {
+
+using ::testing::HasSubstr;
+
+double RmsDirection(const WindowData& truth, const WindowData& solved) {
+  double sum = 0.0;
+  for (size_t i = 0; i < truth.lines.size(); ++i) {
+    sum += std::pow(
+        UndirectedAngle(truth.lines[i].segment.Direction(), solved.lines[i].segment.Direction()),
+        2);
+  }
+  return RadiansToDegrees(std::sqrt(sum / double(truth.lines.size())));
+}
+
+bool SameNumbers(const WindowData& a, const WindowData& b) {
+  for (size_t i = 0; i < a.keyframes.size(); ++i) {
+    if (a.keyframes[i].cam_from_world.params != b.keyframes[i].cam_from_world.params) return false;
+  }
+  for (size_t i = 0; i < a.points.size(); ++i) {
+    if (a.points[i].position != b.points[i].position) return false;
+  }
+  for (size_t i = 0; i < a.lines.size(); ++i) {
+    if (a.lines[i].segment.start != b.lines[i].segment.start) return false;
+    if (a.lines[i].segment.end != b.lines[i].segment.end) return false;
+  }
+  return true;
+}
+
+// Lines of the synthetic window: line i lies along axis i % 3.
+class WindowStructureTest : public ::testing::Test {
+ protected:
+  WindowStructureTest() {
+    scene_.inverse_depth_sigma = 0.02;  // a noisy sensor
+    options_.second_iterations = 30;
+  }
+  void Make() {
+    window_ = MakeSyntheticWindow(scene_);
+    data_ = window_.data;
+  }
+  WindowData::LinePair Pair(int i, int j, int count = 1) const {
+    WindowData::LinePair pair;
+    pair.a = data_.lines[i].id;
+    pair.b = data_.lines[j].id;
+    pair.sigma = 0.01;
+    pair.count = count;
+    return pair;
+  }
+  void AddPair(int i, int j, int count = 1) {
+    (i % 3 == j % 3 ? data_.parallel_pairs : data_.perpendicular_pairs)
+        .push_back(Pair(i, j, count));
+  }
+  // Every line with the next `count` ones.
+  void AddTruePairs(int count) {
+    const int n = static_cast<int>(data_.lines.size());
+    for (int i = 0; i < n; ++i) {
+      for (int k = 1; k <= count && i + k < n; ++k) AddPair(i, i + k);
+    }
+  }
+  void AddAlignments() {
+    for (size_t i = 0; i < data_.lines.size(); ++i) {
+      WindowData::AxisAlignment alignment;
+      alignment.line = data_.lines[i].id;
+      alignment.axis = (i % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(i % 3);
+      alignment.sigma = 0.01;
+      data_.axis_alignments.push_back(alignment);
+    }
+  }
+
+  SyntheticWindowOptions scene_;
+  WindowOptions options_;
+  SyntheticWindow window_;
+  WindowData data_;
+};
+
+TEST_F(WindowStructureTest, PairsHalveTheDirectionErrors) {
+  Make();
+  WindowData without = data_;
+  ASSERT_TRUE(SolveWindow(options_, &without).usable);
+  AddTruePairs(8);
+  const WindowSummary summary = SolveWindow(options_, &data_);
+  ASSERT_TRUE(summary.usable) << summary.BriefReport();
+  const double before = RmsDirection(window_.truth, without);
+  const double after = RmsDirection(window_.truth, data_);
+  RecordProperty("without", std::to_string(before));
+  RecordProperty("with", std::to_string(after));
+  EXPECT_GT(before, 0.5);
+  EXPECT_LT(after, 0.5 * before);
+  EXPECT_LE(summary.parallel.num_rejected + summary.perpendicular.num_rejected, 6);
+  EXPECT_EQ(summary.parallel.num_residual_blocks + summary.parallel.num_rejected,
+            static_cast<int>(data_.parallel_pairs.size()));
+}
+
+TEST_F(WindowStructureTest, AlignmentsHalveTheDirectionErrors) {
+  Make();
+  WindowData without = data_;
+  ASSERT_TRUE(SolveWindow(options_, &without).usable);
+  AddAlignments();
+  const WindowSummary summary = SolveWindow(options_, &data_);
+  ASSERT_TRUE(summary.usable);
+  EXPECT_LT(RmsDirection(window_.truth, data_), 0.5 * RmsDirection(window_.truth, without));
+  EXPECT_EQ(summary.manhattan.num_residual_blocks + summary.manhattan.num_rejected, 40);
+  EXPECT_GT(summary.manhattan.final_cost, 0.0);
+}
+
+TEST_F(WindowStructureTest, ExactStructureLeavesTheExactWindow) {
+  scene_.noise = 0.0;
+  Make();
+  AddTruePairs(4);
+  AddAlignments();
+  const WindowSummary summary = SolveWindow(options_, &data_);
+  ASSERT_TRUE(summary.usable);
+  EXPECT_EQ(summary.parallel.num_rejected, 0);
+  EXPECT_EQ(summary.perpendicular.num_rejected, 0);
+  EXPECT_EQ(summary.manhattan.num_rejected, 0);
+  EXPECT_LT(RmsDirection(window_.truth, data_), 1e-3);
+  EXPECT_LT(summary.final_cost, 1e-3);
+}
+
+TEST_F(WindowStructureTest, WrongPairsAndAlignmentsAreRejected) {
+  scene_.inverse_depth_sigma = 0.002;
+  Make();
+  AddTruePairs(6);
+  AddAlignments();
+  const size_t parallel = data_.parallel_pairs.size();
+  const size_t perpendicular = data_.perpendicular_pairs.size();
+  data_.parallel_pairs.push_back(Pair(3, 7));       // square
+  data_.perpendicular_pairs.push_back(Pair(3, 9));  // parallel
+  data_.axis_alignments.push_back(data_.axis_alignments[5]);
+  data_.axis_alignments.back().axis = Eigen::Vector3d(0.0, std::sin(0.1), std::cos(0.1));
+  const WindowSummary summary = SolveWindow(options_, &data_);
+  ASSERT_TRUE(summary.usable);
+  EXPECT_TRUE(data_.parallel_pairs[parallel].rejected);
+  EXPECT_TRUE(data_.perpendicular_pairs[perpendicular].rejected);
+  EXPECT_TRUE(data_.axis_alignments[40].rejected);
+  int rejected = 0;
+  for (const auto& p : data_.parallel_pairs) rejected += p.rejected;
+  EXPECT_EQ(rejected, summary.parallel.num_rejected);
+  EXPECT_LE(rejected, 1 + static_cast<int>(parallel) / 20);
+  rejected = 0;
+  for (const auto& a : data_.axis_alignments) rejected += a.rejected;
+  EXPECT_EQ(rejected, summary.manhattan.num_rejected);
+  EXPECT_LE(rejected, 1 + 2);
+  EXPECT_LT(RmsDirection(window_.truth, data_), 0.5);
+}
+
+TEST_F(WindowStructureTest, RejectionIsForgottenAtTheNextSolve) {
+  scene_.noise = 0.0;
+  Make();
+  AddTruePairs(2);
+  AddAlignments();
+  for (auto& p : data_.parallel_pairs) p.rejected = true;
+  for (auto& a : data_.axis_alignments) a.rejected = true;
+  const WindowSummary summary = SolveWindow(options_, &data_);
+  ASSERT_TRUE(summary.usable);
+  EXPECT_EQ(summary.parallel.num_residual_blocks, static_cast<int>(data_.parallel_pairs.size()));
+  for (const auto& p : data_.parallel_pairs) EXPECT_FALSE(p.rejected);
+  for (const auto& a : data_.axis_alignments) EXPECT_FALSE(a.rejected);
+}
+
+TEST_F(WindowStructureTest, TermsThatAreOffLeaveNoTrace) {
+  Make();
+  WindowData without = data_;
+  const WindowSummary plain = SolveWindow(options_, &without);
+  AddTruePairs(4);
+  AddAlignments();
+  options_.parallel.enabled = options_.perpendicular.enabled = options_.manhattan.enabled = false;
+  const WindowSummary off = SolveWindow(options_, &data_);
+  EXPECT_TRUE(SameNumbers(without, data_));
+  EXPECT_EQ(plain.final_cost, off.final_cost);
+  EXPECT_EQ(plain.num_iterations, off.num_iterations);
+  EXPECT_EQ(off.parallel.num_residual_blocks + off.perpendicular.num_residual_blocks +
+                off.manhattan.num_residual_blocks,
+            0);
+  EXPECT_EQ(off.parallel.final_cost, 0.0);
+}
+
+TEST_F(WindowStructureTest, EachTermHasItsOwnSwitchAndCost) {
+  Make();
+  AddTruePairs(4);
+  AddAlignments();
+  const auto blocks = [&](bool parallel, bool perpendicular, bool manhattan) {
+    WindowOptions options = options_;
+    options.parallel.enabled = parallel;
+    options.perpendicular.enabled = perpendicular;
+    options.manhattan.enabled = manhattan;
+    WindowData data = data_;
+    const WindowSummary s = SolveWindow(options, &data);
+    EXPECT_DOUBLE_EQ(s.final_cost, s.point_reprojection.final_cost + s.point_depth.final_cost +
+                                       s.line_reprojection.final_cost + s.line_depth.final_cost +
+                                       s.line_anchor.final_cost + s.parallel.final_cost +
+                                       s.perpendicular.final_cost + s.manhattan.final_cost);
+    EXPECT_EQ(s.parallel.initial_cost > 0.0, parallel);
+    EXPECT_EQ(s.perpendicular.initial_cost > 0.0, perpendicular);
+    EXPECT_EQ(s.manhattan.initial_cost > 0.0, manhattan);
+  };
+  blocks(true, false, false);
+  blocks(false, true, false);
+  blocks(false, false, true);
+  blocks(true, true, true);
+}
+
+TEST_F(WindowStructureTest, TheAnchorHasASwitch) {
+  Make();
+  options_.line_anchor = false;
+  const WindowSummary summary = SolveWindow(options_, &data_);
+  ASSERT_TRUE(summary.usable) << summary.BriefReport();
+  EXPECT_EQ(summary.line_anchor.num_residual_blocks, 0);
+  EXPECT_EQ(summary.line_anchor.final_cost, 0.0);
+}
+
+TEST_F(WindowStructureTest, OneCountedPairIsAsManyEqualOnes) {
+  Make();
+  WindowData many = data_;
+  for (int i = 0; i + 1 < 40; ++i) {
+    AddPair(i, i + 1, 3);
+    auto& pairs = i % 3 == (i + 1) % 3 ? many.parallel_pairs : many.perpendicular_pairs;
+    pairs.insert(pairs.end(), 3, Pair(i, i + 1));
+  }
+  const WindowSummary counted = SolveWindow(options_, &data_);
+  const WindowSummary repeated = SolveWindow(options_, &many);
+  ASSERT_TRUE(counted.usable && repeated.usable);
+  EXPECT_NEAR(counted.perpendicular.initial_cost, repeated.perpendicular.initial_cost,
+              1e-9 * repeated.perpendicular.initial_cost);
+  EXPECT_NEAR(counted.final_cost, repeated.final_cost, 1e-6 * repeated.final_cost);
+  EXPECT_EQ(3 * counted.perpendicular.num_residual_blocks,
+            repeated.perpendicular.num_residual_blocks);
+  for (size_t i = 0; i < data_.lines.size(); ++i) {
+    EXPECT_THAT(data_.lines[i].segment.end, IsNear(many.lines[i].segment.end, 1e-5));
+  }
+}
+
+TEST_F(WindowStructureTest, OnlyObservedLinesAreBound) {
+  scene_.noise = 0.0;
+  Make();
+  AddTruePairs(3);
+  AddAlignments();
+  auto& observations = data_.line_observations;
+  const int64_t unseen = data_.lines[4].id;
+  observations.erase(
+      std::remove_if(observations.begin(), observations.end(),
+                     [&](const WindowData::LineObservation& o) { return o.line == unseen; }),
+      observations.end());
+  const LineSegment3 before = data_.lines[4].segment;
+  const WindowSummary summary = SolveWindow(options_, &data_);
+  ASSERT_TRUE(summary.usable);
+  EXPECT_EQ(data_.lines[4].segment.start, before.start);
+  EXPECT_EQ(data_.lines[4].segment.end, before.end);
+  EXPECT_EQ(summary.manhattan.num_residual_blocks, 39);
+  EXPECT_EQ(summary.manhattan.num_rejected, 0);
+  EXPECT_FALSE(data_.axis_alignments[4].rejected);
+}
+
+TEST_F(WindowStructureTest, FixedLinesStayAndBindOthers) {
+  Make();
+  for (int i : {0, 1, 2}) data_.lines[i] = window_.truth.lines[i];
+  for (int i : {0, 1, 2}) data_.lines[i].fixed = true;
+  const WindowData before = data_;
+  for (int i = 3; i < 40; ++i) {
+    for (int j : {0, 1, 2}) AddPair(j, i);
+  }
+  AddPair(0, 1);  // of fixed lines alone: nothing to say
+  WindowData without = before;
+  ASSERT_TRUE(SolveWindow(options_, &without).usable);
+  const WindowSummary summary = SolveWindow(options_, &data_);
+  ASSERT_TRUE(summary.usable);
+  EXPECT_EQ(summary.perpendicular.num_residual_blocks + summary.perpendicular.num_rejected, 74);
+  for (int i : {0, 1, 2}) EXPECT_EQ(data_.lines[i].segment.end, before.lines[i].segment.end);
+  EXPECT_LT(RmsDirection(window_.truth, data_), 0.5 * RmsDirection(window_.truth, without));
+}
+
+TEST_F(WindowStructureTest, SameInputSameBytes) {
+  Make();
+  AddTruePairs(6);
+  AddAlignments();
+  WindowData other = data_;
+  SolveWindow(options_, &data_);
+  SolveWindow(options_, &other);
+  EXPECT_TRUE(SameNumbers(data_, other));
+}
+
+TEST_F(WindowStructureTest, OfPairedLinesNoTwoAreEliminatedFirst) {
+  Make();
+  // A hub, a chain, and lines without pairs.
+  for (int i = 1; i < 10; ++i) AddPair(0, i);
+  for (int i = 10; i < 14; ++i) AddPair(i, i + 1);
+  AddAlignments();
+  const WindowIndex index = ValidateWindow(options_, data_);
+  WindowActivity activity;
+  activity.points.assign(data_.point_observations.size(), {true, true});
+  activity.lines.assign(data_.line_observations.size(), {true, true});
+  activity.parallel.assign(data_.parallel_pairs.size(), true);
+  activity.perpendicular.assign(data_.perpendicular_pairs.size(), true);
+  activity.alignments.assign(data_.axis_alignments.size(), true);
+  WindowState state(data_);
+  const WindowTerms terms = MakeWindowTerms(options_, data_, index, activity, state);
+  const auto ordering = CeresWindow(options_, data_, terms, &state).EliminationOrdering();
+  const auto group = [&](int line) { return ordering->GroupId(state.LineBlock(line)); };
+  EXPECT_EQ(group(0), 1);
+  for (int i = 1; i < 10; ++i) EXPECT_EQ(group(i), 0) << i;
+  for (int i = 10; i < 14; ++i) EXPECT_EQ(group(i) + group(i + 1), 1) << i;
+  for (int i = 15; i < 40; ++i) EXPECT_EQ(group(i), 0) << i;
+  EXPECT_EQ(terms.parallel.blocks.size(), 3u);
+  EXPECT_EQ(terms.perpendicular.blocks.size(), 10u);
+  EXPECT_EQ(terms.manhattan.blocks.size(), 40u);
+}
+
+TEST_F(WindowStructureTest, MisuseNamesTheOffender) {
+  Make();
+  AddTruePairs(3);
+  AddAlignments();
+  const WindowData good = data_;
+  const auto message = [&](const auto& spoil) -> std::string {
+    data_ = good;
+    spoil(&data_);
+    try {
+      SolveWindow(options_, &data_);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  using Data = WindowData;
+  EXPECT_THAT(message([](Data* d) { d->parallel_pairs[0].b = 7777; }),
+              HasSubstr("line 7777 is of a parallel pair but not in the window"));
+  EXPECT_THAT(message([](Data* d) { d->perpendicular_pairs[0].a = -3; }),
+              HasSubstr("line -3 is of a perpendicular pair but not in the window"));
+  EXPECT_THAT(message([](Data* d) { d->parallel_pairs[0].b = d->parallel_pairs[0].a; }),
+              HasSubstr("parallel pair of line 50 and line 50: a line with itself"));
+  EXPECT_THAT(message([](Data* d) { d->perpendicular_pairs[0].sigma = 0.0; }),
+              HasSubstr("perpendicular pair of line 50 and line 52: sigma must be positive"));
+  EXPECT_THAT(message([](Data* d) { d->perpendicular_pairs[0].count = 0; }),
+              HasSubstr("perpendicular pair of line 50 and line 52: count must be at least 1"));
+  EXPECT_THAT(message([](Data* d) { d->axis_alignments[2].axis *= 2.0; }),
+              HasSubstr("alignment of line 54: axis is not a unit vector"));
+  EXPECT_THAT(message([](Data* d) { d->axis_alignments[2].sigma = -1.0; }),
+              HasSubstr("alignment of line 54: sigma must be positive"));
+  EXPECT_THAT(message([](Data* d) { d->axis_alignments[2].line = 5; }),
+              HasSubstr("line 5 is aligned but not in the window"));
+  EXPECT_TRUE(SameNumbers(data_, good));
+  data_ = good;
+  options_.manhattan.huber = 0.0;
+  EXPECT_THAT(message([](Data*) {}), HasSubstr("huber"));
+  options_.manhattan.huber = 2.0;
+  options_.reject_chi2_1 = 0.0;
+  EXPECT_THAT(message([](Data*) {}), HasSubstr("reject_chi2_1"));
+}
+
+}  // namespace
+}  // namespace msc_vo

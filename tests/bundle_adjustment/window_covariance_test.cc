@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/bundle_adjustment/window_covariance.h"
+
+#include <stdexcept>
+
+#include "tests/support/factor_checks.h"
+#include "tests/support/synthetic_window.h"
+#include <ceres/covariance.h>
+#include <gmock/gmock.h>
+
+#include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
+#include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
+
+namespace msc_vo {
+namespace {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+template <typename Items>
+std::vector<int64_t> Ids(const Items& items) {
+  std::vector<int64_t> ids;
+  for (const auto& item : items) ids.push_back(item.id);
+  return ids;
+}
+
+class WindowCovarianceTest : public ::testing::Test {
+ protected:
+  WindowCovarianceTest() {
+    scene_.num_keyframes = 6;
+    scene_.num_points = 40;
+    scene_.num_lines = 12;
+    scene_.wrong_ratio = 0.03;
+  }
+
+  void Solve() {
+    window_ = MakeSyntheticWindow(scene_);
+    data_ = window_.data;
+    if (with_structure_) AddStructure();
+    ASSERT_TRUE(SolveWindow(options_, &data_).usable);
+  }
+  // A clique, a star, and alignments: lines that are kept, bound to kept ones, and alone.
+  void AddStructure() {
+    const auto add = [this](int i, int j) {
+      (i % 3 == j % 3 ? data_.parallel_pairs : data_.perpendicular_pairs)
+          .push_back({data_.lines[i].id, data_.lines[j].id, 0.02});
+    };
+    for (int i = 0; i < 4; ++i) {
+      for (int j = i + 1; j < 4; ++j) add(i, j);
+    }
+    for (int i = 5; i < 9; ++i) add(4, i);
+    data_.axis_alignments.push_back({data_.lines[9].id, Eigen::Vector3d::UnitX(), 0.02});
+    data_.pose_priors.push_back({data_.keyframes[3].id, data_.keyframes[3].cam_from_world});
+    data_.pose_priors[0].covariance *= 1e-4;
+  }
+  WindowChoice All() const { return {Ids(data_.keyframes), Ids(data_.points), Ids(data_.lines)}; }
+
+  SyntheticWindowOptions scene_;
+  SyntheticWindow window_;
+  WindowOptions options_;
+  WindowData data_;
+  bool with_structure_ = false;
+};
+
+// What Ceres makes of the same factors.
+class CeresCovariance {
+ public:
+  CeresCovariance(const WindowOptions& options, const WindowData& data) : state_(data) {
+    const WindowIndex index = ValidateWindow(options, data);
+    int num_behind = 0;
+    WindowActivity activity = AllInFront(options, index, data, &num_behind);
+    const auto drop = [](const auto& items, auto* active) {
+      for (size_t i = 0; i < items.size(); ++i) {
+        if (items[i].rejected) (*active)[i] = {};
+      }
+    };
+    drop(data.point_observations, &activity.points);
+    drop(data.line_observations, &activity.lines);
+    drop(data.parallel_pairs, &activity.parallel);
+    drop(data.perpendicular_pairs, &activity.perpendicular);
+    terms_ = MakeWindowTerms(options, data, index, activity, state_);
+    window_ = std::make_unique<CeresWindow>(options, data, terms_, &state_);
+    ceres::Covariance::Options covariance_options;
+    covariance_options.algorithm_type = ceres::DENSE_SVD;
+    covariance_ = std::make_unique<ceres::Covariance>(covariance_options);
+    std::vector<std::pair<const double*, const double*>> blocks;
+    const auto add = [&blocks](const double* block) { blocks.push_back({block, block}); };
+    for (size_t i = 0; i < data.keyframes.size(); ++i) add(state_.PoseBlock(i));
+    for (size_t i = 0; i < data.points.size(); ++i) add(state_.PointBlock(i));
+    for (size_t i = 0; i < data.lines.size(); ++i) add(state_.LineBlock(i));
+    EXPECT_TRUE(covariance_->Compute(blocks, window_->problem()));
+  }
+  template <int N>
+  Eigen::Matrix<double, N, N> Of(const double* block) const {
+    Eigen::Matrix<double, N, N> matrix;  // symmetric: the order of its storage does not matter
+    EXPECT_TRUE(covariance_->GetCovarianceBlockInTangentSpace(block, block, matrix.data()));
+    return matrix;
+  }
+  WindowState state_;
+
+ private:
+  WindowTerms terms_;
+  std::unique_ptr<CeresWindow> window_;
+  std::unique_ptr<ceres::Covariance> covariance_;
+};
+
+// With as many sigmas as there are: a relative error in units of each number's own sigma.
+template <typename Matrix>
+void ExpectSameCovariance(const std::optional<Matrix>& found, const Matrix& expected) {
+  ASSERT_TRUE(found.has_value());
+  const auto sigma = expected.diagonal().cwiseSqrt().eval();
+  const Matrix scale = sigma * sigma.transpose();
+  EXPECT_LT((*found - expected).cwiseQuotient(scale).cwiseAbs().maxCoeff(), 1e-5)
+      << *found << "\n\n"
+      << expected;
+}
+
+TEST_F(WindowCovarianceTest, IsThatOfCeres) {
+  for (const bool with_structure : {false, true}) {
+    SCOPED_TRACE(with_structure);
+    with_structure_ = with_structure;
+    options_.reject_chi2_3 = options_.reject_chi2_4 = 1e9;  // no depth is lost alone
+    Solve();
+    const WindowCovariance found = EstimateCovariance(options_, data_, All());
+    const CeresCovariance expected(options_, data_);
+    for (size_t i = 0; i < data_.keyframes.size(); ++i) {
+      if (data_.keyframes[i].fixed) {
+        EXPECT_EQ(*found.keyframes[i], Matrix6d(Matrix6d::Zero()));
+      } else {
+        ExpectSameCovariance(found.keyframes[i], expected.Of<6>(expected.state_.PoseBlock(i)));
+      }
+    }
+    for (size_t i = 0; i < data_.points.size(); ++i) {
+      ExpectSameCovariance(found.points[i], expected.Of<3>(expected.state_.PointBlock(i)));
+    }
+    for (size_t i = 0; i < data_.lines.size(); ++i) {
+      ExpectSameCovariance(found.lines[i], expected.Of<6>(expected.state_.LineBlock(i)));
+    }
+  }
+}
+
+TEST_F(WindowCovarianceTest, AnyChoiceInAnyOrderGivesTheSame) {
+  with_structure_ = true;
+  Solve();
+  const WindowCovariance all = EstimateCovariance(options_, data_, All());
+  const WindowCovariance some = EstimateCovariance(
+      options_, data_,
+      {{data_.keyframes[4].id, data_.keyframes[0].id}, {data_.points[7].id}, {data_.lines[2].id}});
+  ASSERT_EQ(some.keyframes.size(), 2u);
+  EXPECT_EQ(*some.keyframes[0], *all.keyframes[4]);
+  EXPECT_EQ(*some.keyframes[1], Matrix6d(Matrix6d::Zero()));
+  EXPECT_EQ(*some.points.at(0), *all.points[7]);
+  EXPECT_EQ(*some.lines.at(0), *all.lines[2]);
+}
+
+TEST_F(WindowCovarianceTest, WhatTheWindowDoesNotDetermineHasNone) {
+  scene_.wrong_ratio = 0.0;
+  Solve();
+  // A point seen once, without depth; one that nobody sees; a lost depth that makes no difference.
+  int num_seen = 0;
+  for (auto& o : data_.point_observations) {
+    if (o.point == data_.points[3].id) {
+      o.rejected = num_seen++ > 0;
+      o.inverse_depth = 0.0;
+    }
+    if (o.point == data_.points[5].id) o.rejected = true;
+  }
+  const WindowCovariance found = EstimateCovariance(options_, data_, All());
+  for (size_t i = 0; i < data_.points.size(); ++i) {
+    EXPECT_EQ(found.points[i].has_value(), i != 3 && i != 5) << i;
+  }
+  for (const auto& pose : found.keyframes) EXPECT_TRUE(pose.has_value());
+}
+
+TEST_F(WindowCovarianceTest, WithoutDepthTheScaleIsNotDetermined) {
+  scene_.wrong_ratio = 0.0;
+  scene_.has_depth = false;
+  options_.line_anchor_sigma = 1e6;
+  Solve();
+  // Two keyframes are fixed: they hold it.
+  for (const auto& pose : EstimateCovariance(options_, data_, All()).keyframes) {
+    EXPECT_TRUE(pose.has_value());
+  }
+  data_.keyframes[1].fixed = false;
+  const WindowCovariance found = EstimateCovariance(options_, data_, All());
+  EXPECT_TRUE(found.keyframes[0].has_value());
+  for (size_t i = 1; i < found.keyframes.size(); ++i) EXPECT_FALSE(found.keyframes[i].has_value());
+}
+
+TEST_F(WindowCovarianceTest, MoreObservationsMakeItSmaller) {
+  Solve();
+  const Matrix6d all = *EstimateCovariance(options_, data_, All()).keyframes[4];
+  for (size_t i = 0; i < data_.point_observations.size(); i += 2) {
+    data_.point_observations[i].rejected = true;
+  }
+  const Matrix6d half = *EstimateCovariance(options_, data_, All()).keyframes[4];
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(half - all).eigenvalues()[0], 0.0);
+}
+
+TEST_F(WindowCovarianceTest, MisuseThrows) {
+  Solve();
+  const auto message = [this](const WindowChoice& choice) -> std::string {
+    try {
+      EstimateCovariance(options_, data_, choice);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  EXPECT_THAT(message({{9999}, {}, {}}),
+              ::testing::HasSubstr("keyframe 9999 is asked for but not"));
+  EXPECT_THAT(message({{}, {-1}, {}}), ::testing::HasSubstr("point -1 is asked for but not"));
+  EXPECT_THAT(message({{}, {}, {8888}}), ::testing::HasSubstr("line 8888 is asked for but not"));
+  data_.keyframes[0].cam_from_world.params[3] = 7.0;
+  EXPECT_THAT(message({}), ::testing::HasSubstr("rotation is not unit"));
+}
+
+TEST(CovarianceInWorld, IsThatOfSamples) {
+  Random random(1);
+  const Rigid3 pose = random.Pose();
+  Matrix6d factor;
+  for (int i = 0; i < 36; ++i) factor.data()[i] = 1e-3 * random.Normal();
+  const Matrix6d expected = CovarianceInWorld(pose, factor * factor.transpose());
+  const Rigid3 camera = pose.Inverse();
+  Matrix6d found = Matrix6d::Zero();
+  constexpr int kSamples = 20000;
+  for (int i = 0; i < kSamples; ++i) {
+    Eigen::Matrix<double, 6, 1> d;
+    for (int k = 0; k < 6; ++k) d[k] = random.Normal();
+    d = factor * d;
+    const Rigid3 moved = Moved(pose, d.head<3>(), d.tail<3>()).Inverse();
+    Eigen::Matrix<double, 6, 1> difference;
+    Rigid3Manifold().Minus(moved.params.data(), camera.params.data(), difference.data());
+    found += difference * difference.transpose() / kSamples;
+  }
+  const auto sigma = expected.diagonal().cwiseSqrt().eval();
+  // Five standard errors of a sample covariance.
+  EXPECT_LT((found - expected).cwiseQuotient(sigma * sigma.transpose()).cwiseAbs().maxCoeff(),
+            5.0 * std::sqrt(2.0 / kSamples));
+}
+
+// Simulation: the squared error in units of the covariance is chi-square. Windows differ by seed in
+// landmarks, noise and start.
+class Consistency {
+ public:
+  explicit Consistency(double noise) {
+    scene_.num_keyframes = 5;
+    scene_.num_fixed = 1;
+    scene_.num_points = 40;
+    scene_.num_lines = 10;
+    scene_.noise = noise;
+  }
+  // Means over windows of the error squared, per degree of freedom.
+  void Run(const WindowOptions& options, int num_windows) {
+    for (int i = 0; i < num_windows; ++i) {
+      scene_.seed = 100 + i;
+      Add(options, MakeSyntheticWindow(scene_));
+    }
+    pose /= 6.0 * num_windows;
+    point /= 3.0 * num_windows;
+    line /= 4.0 * num_windows;
+  }
+  double pose = 0.0, point = 0.0, line = 0.0;
+
+ private:
+  void Add(const WindowOptions& options, const SyntheticWindow& window) {
+    WindowData data = window.data;
+    ASSERT_TRUE(SolveWindow(options, &data).usable);
+    const WindowCovariance covariance = EstimateCovariance(
+        options, data, {{data.keyframes[3].id}, {data.points[11].id}, {data.lines[7].id}});
+    Eigen::Matrix<double, 6, 1> error;
+    Rigid3Manifold().Minus(data.keyframes[3].cam_from_world.params.data(),
+                           window.truth.keyframes[3].cam_from_world.params.data(), error.data());
+    pose += error.dot(covariance.keyframes[0]->inverse() * error);
+    const Eigen::Vector3d off = data.points[11].position - window.truth.points[11].position;
+    point += off.dot(covariance.points[0]->inverse() * off);
+
+    // A line has four degrees of freedom: its end points across it.
+    const LineSegment3& truth = window.truth.lines[7].segment;
+    const LineSegment3& found = data.lines[7].segment;
+    const Eigen::Vector3d d = truth.Direction(), u = d.unitOrthogonal(), v = d.cross(u);
+    Eigen::Matrix<double, 4, 6> across = Eigen::Matrix<double, 4, 6>::Zero();
+    across.block<1, 3>(0, 0) = across.block<1, 3>(2, 3) = u.transpose();
+    across.block<1, 3>(1, 0) = across.block<1, 3>(3, 3) = v.transpose();
+    Eigen::Matrix<double, 6, 1> ends;
+    ends << Nearest(truth, found.start), Nearest(truth, found.end);
+    const Eigen::Vector4d distance = across * ends;
+    line += distance.dot((across * *covariance.lines[0] * across.transpose()).inverse() * distance);
+  }
+  // From the infinite line to a point.
+  static Eigen::Vector3d Nearest(const LineSegment3& line, const Eigen::Vector3d& x) {
+    const Eigen::Vector3d d = line.Direction(), w = x - line.start;
+    return w - d.dot(w) * d;
+  }
+
+  SyntheticWindowOptions scene_;
+};
+
+// 99 % of the means of n chi-square variables of k degrees, over k, are this near to one.
+double Bound(int n, int k) { return 2.576 * std::sqrt(2.0 / (double(n) * k)); }
+
+TEST(WindowCovarianceConsistency, ErrorsAreAsLargeAsItSays) {
+  // Least squares, which is what normal noise asks for.
+  WindowOptions options;
+  options.point_reprojection.huber = options.point_depth.huber = 1e3;
+  options.line_reprojection.huber = options.line_depth.huber = 1e3;
+  options.reject_chi2_2 = options.reject_chi2_3 = options.reject_chi2_4 = 1e9;
+  constexpr int kWindows = 300;
+  Consistency errors(1.0);
+  errors.Run(options, kWindows);
+  EXPECT_NEAR(errors.pose, 1.0, Bound(kWindows, 6));
+  EXPECT_NEAR(errors.point, 1.0, Bound(kWindows, 3));
+  EXPECT_NEAR(errors.line, 1.0, Bound(kWindows, 4));
+}
+
+TEST(WindowCovarianceConsistency, RobustLossesAndRejectionCostLittle) {
+  constexpr int kWindows = 300;
+  Consistency errors(1.0);
+  errors.Run(WindowOptions(), kWindows);
+  // Weights below one stand for errors that were good: what is lost stays below a tenth.
+  EXPECT_NEAR(errors.pose, 1.0, 0.1 + Bound(kWindows, 6));
+  EXPECT_NEAR(errors.point, 1.0, 0.1 + Bound(kWindows, 3));
+  EXPECT_NEAR(errors.line, 1.0, 0.1 + Bound(kWindows, 4));
+}
+
+TEST(WindowCovarianceConsistency, TwiceTheNoiseIsNoticed) {
+  WindowOptions options;
+  options.point_reprojection.huber = options.point_depth.huber = 1e3;
+  options.line_reprojection.huber = options.line_depth.huber = 1e3;
+  options.reject_chi2_2 = options.reject_chi2_3 = options.reject_chi2_4 = 1e9;
+  Consistency errors(2.0);
+  errors.Run(options, 100);
+  EXPECT_GT(errors.pose, 3.0);
+  EXPECT_GT(errors.point, 3.0);
+  EXPECT_GT(errors.line, 3.0);
+}
+
+}  // namespace
+}  // namespace msc_vo

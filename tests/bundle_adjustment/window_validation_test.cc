@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/bundle_adjustment/internal/window_validation.h"
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "tests/support/synthetic_window.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+using ::testing::HasSubstr;
+
+class WindowValidationTest : public ::testing::Test {
+ protected:
+  WindowValidationTest() {
+    SyntheticWindowOptions scene;
+    scene.num_points = 20;
+    scene.num_lines = 5;
+    data_ = MakeSyntheticWindow(scene).data;
+  }
+  // What is thrown for the present data.
+  std::string Message() const {
+    try {
+      ValidateWindow(options_, data_);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "nothing was thrown";
+  }
+
+  const double nan_ = std::numeric_limits<double>::quiet_NaN();
+  const double infinity_ = std::numeric_limits<double>::infinity();
+  WindowOptions options_;
+  WindowData data_;
+};
+
+TEST_F(WindowValidationTest, ResolvesIds) {
+  const WindowIndex index = ValidateWindow(options_, data_);
+  ASSERT_EQ(index.points.size(), data_.point_observations.size());
+  ASSERT_EQ(index.lines.size(), data_.line_observations.size());
+  for (size_t i = 0; i < index.points.size(); ++i) {
+    EXPECT_EQ(data_.keyframes[index.points[i].keyframe].id, data_.point_observations[i].keyframe);
+    EXPECT_EQ(data_.points[index.points[i].landmark].id, data_.point_observations[i].point);
+  }
+  for (size_t i = 0; i < index.lines.size(); ++i) {
+    EXPECT_EQ(data_.keyframes[index.lines[i].keyframe].id, data_.line_observations[i].keyframe);
+    EXPECT_EQ(data_.lines[index.lines[i].landmark].id, data_.line_observations[i].line);
+  }
+}
+
+TEST_F(WindowValidationTest, UnknownIds) {
+  data_.point_observations[3].keyframe = 9999;
+  EXPECT_THAT(Message(), HasSubstr("keyframe 9999 is observed but not in the window"));
+  data_.point_observations[3].keyframe = data_.keyframes[0].id;
+  data_.point_observations[3].point = -5;
+  EXPECT_THAT(Message(), HasSubstr("point -5 is observed but not in the window"));
+  data_.point_observations[3].point = data_.points[0].id;
+  data_.line_observations[0].line = 77777;
+  EXPECT_THAT(Message(), HasSubstr("line 77777 is observed but not in the window"));
+}
+
+TEST_F(WindowValidationTest, RepeatedIds) {
+  data_.keyframes[4].id = data_.keyframes[2].id;
+  EXPECT_THAT(Message(), HasSubstr("keyframe 106: the id is given twice"));
+  data_.keyframes[4].id = 555;
+  data_.points[7].id = data_.points[2].id;
+  EXPECT_THAT(Message(), HasSubstr("point 1014: the id is given twice"));
+  data_.points[7].id = 555;  // ids of keyframes and points have nothing to do with each other
+  data_.lines[4].id = data_.lines[3].id;
+  EXPECT_THAT(Message(), HasSubstr("line 56: the id is given twice"));
+}
+
+TEST_F(WindowValidationTest, EmptyWindow) {
+  data_ = WindowData();
+  EXPECT_THAT(Message(), HasSubstr("the window is empty"));
+}
+
+TEST_F(WindowValidationTest, NoGauge) {
+  for (auto& k : data_.keyframes) k.fixed = false;
+  EXPECT_THAT(Message(), HasSubstr("no keyframe is fixed or has a prior"));
+  data_.pose_priors.push_back({data_.keyframes[2].id, data_.keyframes[2].cam_from_world});
+  EXPECT_EQ(Message(), "nothing was thrown");
+}
+
+TEST_F(WindowValidationTest, Priors) {
+  const WindowData::PosePrior good{data_.keyframes[2].id, data_.keyframes[2].cam_from_world};
+  data_.pose_priors = {good};
+  EXPECT_EQ(Message(), "nothing was thrown");
+  WindowData::PosePrior& prior = data_.pose_priors[0];
+  prior.keyframe = 9999;
+  EXPECT_THAT(Message(), HasSubstr("keyframe 9999 is of a prior but not in the window"));
+  prior = good;
+  prior.cam_from_world.params[3] += 1.0;
+  EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: rotation is not unit"));
+  prior = good;
+  prior.covariance(2, 4) = 0.1;
+  EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: covariance is not positive definite"));
+  prior = good;
+  prior.covariance(2, 2) = 0.0;
+  EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: covariance is not positive definite"));
+  prior = good;
+  prior.covariance(5, 5) = nan_;
+  EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: covariance is not positive definite"));
+}
+
+TEST_F(WindowValidationTest, KeyframesAndLandmarks) {
+  const WindowData good = data_;
+  data_.keyframes[1].cam_from_world.params[5] = nan_;
+  EXPECT_THAT(Message(), HasSubstr("keyframe 103: pose is not finite"));
+  data_ = good;
+  data_.keyframes[1].cam_from_world.params.head<4>() *= 2.0;
+  EXPECT_THAT(Message(), HasSubstr("keyframe 103: rotation is not unit"));
+  data_ = good;
+  data_.points[2].position.y() = nan_;
+  EXPECT_THAT(Message(), HasSubstr("point 1014: position is not finite"));
+  data_ = good;
+  data_.lines[3].segment.end.y() = nan_;
+  EXPECT_THAT(Message(), HasSubstr("line 56: segment is not finite"));
+  data_ = good;
+  data_.lines[3].segment.end = data_.lines[3].segment.start;
+  EXPECT_THAT(Message(), HasSubstr("line 56: segment has no length"));
+  for (const double noise : {0.0, -1.0, nan_, infinity_}) {
+    data_ = good;
+    data_.points[2].noise = noise;
+    EXPECT_THAT(Message(), HasSubstr("point 1014: noise must be a positive number"));
+    data_ = good;
+    data_.lines[3].noise = noise;
+    EXPECT_THAT(Message(), HasSubstr("line 56: noise must be a positive number"));
+  }
+  data_ = good;
+  data_.lines[3].depth_offset = nan_;
+  EXPECT_THAT(Message(), HasSubstr("line 56: depth_offset is not finite"));
+}
+
+TEST_F(WindowValidationTest, PointObservations) {
+  const WindowData good = data_;
+  WindowData::PointObservation& o = data_.point_observations[0];
+  const std::string who = "observation of point " + std::to_string(o.point) + " in keyframe " +
+                          std::to_string(o.keyframe) + ": ";
+  o.pixel.x() = nan_;
+  EXPECT_THAT(Message(), HasSubstr(who + "pixel is not finite"));
+  data_ = good;
+  data_.point_observations[0].sigma = 0.0;
+  EXPECT_THAT(Message(), HasSubstr(who + "sigma must be positive"));
+  data_ = good;
+  data_.point_observations[0].inverse_depth_sigma = -1.0;
+  EXPECT_THAT(Message(), HasSubstr(who + "inverse_depth_sigma must be positive"));
+  data_ = good;
+  data_.point_observations[0].inverse_depth = nan_;
+  EXPECT_THAT(Message(), HasSubstr(who + "inverse_depth must not be negative"));
+}
+
+TEST_F(WindowValidationTest, LineObservations) {
+  const WindowData good = data_;
+  WindowData::LineObservation& o = data_.line_observations[0];
+  const std::string who = "observation of line " + std::to_string(o.line) + " in keyframe " +
+                          std::to_string(o.keyframe) + ": ";
+  o.segment.end = o.segment.start;
+  EXPECT_THAT(Message(), HasSubstr(who + "segment has no length"));
+  data_ = good;
+  data_.line_observations[0].sigma = nan_;
+  EXPECT_THAT(Message(), HasSubstr(who + "sigma must be positive"));
+  data_ = good;
+  data_.line_observations[0].depth.start = nan_;
+  EXPECT_THAT(Message(), HasSubstr(who + "depth is not finite"));
+  data_ = good;
+  data_.line_observations[0].depth.covariance << 1.0, 2.0, 2.0, 1.0;
+  EXPECT_THAT(Message(), HasSubstr(who + "depth covariance is not positive definite"));
+  data_.line_observations[0].depth.covariance << -1.0, 0.0, 0.0, -1.0;
+  EXPECT_THAT(Message(), HasSubstr(who + "depth covariance is not positive definite"));
+  data_.line_observations[0].depth.covariance << 1.0, 0.3, 0.1, 1.0;  // which of the two?
+  EXPECT_THAT(Message(), HasSubstr(who + "depth covariance is not positive definite"));
+  data_.line_observations[0].has_depth = false;  // then nobody reads it
+  EXPECT_EQ(Message(), "nothing was thrown");
+}
+
+TEST_F(WindowValidationTest, InfiniteAndHugeNumbers) {
+  const WindowData good = data_;
+  const auto expect = [&](const char* message) {
+    EXPECT_THAT(Message(), HasSubstr(message));
+    data_ = good;
+  };
+  for (const double huge : {infinity_, -infinity_, 1e200, -1e10}) {
+    SCOPED_TRACE(huge);
+    data_.keyframes[1].cam_from_world.translation().z() = huge;
+    expect("keyframe 103: pose is not finite, or beyond 1e9 m");
+    data_.points[2].position.x() = huge;
+    expect("point 1014: position is not finite, or beyond 1e9 m");
+    data_.lines[3].segment.start.z() = huge;
+    expect("line 56: segment is not finite, or beyond 1e9 m");
+    data_.point_observations[5].pixel.y() = huge;
+    expect("pixel is not finite, or beyond 1e9");
+    data_.line_observations[5].segment.start.y() = huge;
+    expect("segment is not finite, or beyond 1e9 pixels");
+    data_.point_observations[5].inverse_depth = huge;
+    expect("inverse_depth must not be negative, nor beyond 1e9");
+    data_.line_observations[5].depth.end = huge;
+    expect("depth is not finite, or beyond 1e9");
+  }
+  data_.point_observations[5].sigma = infinity_;
+  expect("sigma must be positive");
+  data_.point_observations[5].inverse_depth_sigma = infinity_;
+  expect("inverse_depth_sigma must be positive");
+  data_.line_observations[5].depth.covariance.setConstant(infinity_);
+  expect("depth covariance is not positive definite");
+}
+
+TEST_F(WindowValidationTest, Options) {
+  options_.line_anchor_sigma = 0.0;
+  EXPECT_THAT(Message(), HasSubstr("line_anchor_sigma"));
+  options_ = WindowOptions();
+  options_.second_iterations = 0;
+  EXPECT_THAT(Message(), HasSubstr("second_iterations"));
+  options_ = WindowOptions();
+  options_.reject_chi2_3 = -1.0;
+  EXPECT_THAT(Message(), HasSubstr("reject_chi2_3"));
+  options_ = WindowOptions();
+  options_.point_depth.huber = nan_;
+  EXPECT_THAT(Message(), HasSubstr("huber"));
+  options_ = WindowOptions();
+  data_.camera.fy = 0.0;
+  EXPECT_THAT(Message(), HasSubstr("fy"));
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/calibration.h"
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/datasets/camera_preset.h"
+#include "msc_vo/config/orb_slam_config.h"
+#include "msc_vo/datasets/sequence.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CalibrationTest : public TemporaryFolder {
+ protected:
+  std::string CameraFileError(const std::string& text) {
+    WriteText("camera.txt", text);
+    return MessageOf([&] { ReadCameraFile(Path("camera.txt")); });
+  }
+  // A sequence of one image pair, 8 x 6 pixels.
+  SequenceIndex Index() {
+    WriteDepth("depth.png");
+    SequenceIndex index;
+    index.directory = Folder();
+    index.entries = {{0.0, Path("color.png"), Path("depth.png"), ""}};
+    return index;
+  }
+};
+
+TEST_F(CalibrationTest, ReadsCameraFiles) {
+  WriteText("camera.txt", "# fx ...\r\n481.2 -480 319.5 239.5 640 480 5000\r\n");
+  Calibration calibration = ReadCameraFile(Path("camera.txt"));
+  EXPECT_EQ(calibration.camera.fy, -480.0);
+  EXPECT_EQ(calibration.camera.height, 480);
+  EXPECT_EQ(calibration.depth_scale, 5000.0);
+  EXPECT_TRUE(calibration.distortion.IsZero());
+  WriteText("camera.txt", "517 516 318 255 640 480 5000 0.26 -0.95 -0.005 0.002 1.16\n");
+  calibration = ReadCameraFile(Path("camera.txt"));
+  EXPECT_EQ(calibration.distortion.k[2], -0.005);
+  EXPECT_EQ(calibration.distortion.k[4], 1.16);
+}
+
+TEST_F(CalibrationTest, CameraFileErrorsNameTheLine) {
+  EXPECT_THAT(CameraFileError(""), HasSubstr("camera.txt: is empty"));
+  EXPECT_THAT(CameraFileError("#\n1 2 3\n"), HasSubstr("camera.txt:2: expected 7 or 12 numbers"));
+  EXPECT_THAT(CameraFileError("a 500 320 240 640 480 5000"), HasSubstr("'a' is not a finite"));
+  EXPECT_THAT(CameraFileError("0 500 320 240 640 480 5000"), HasSubstr("must not be zero"));
+  EXPECT_THAT(CameraFileError("500 500 320 240 640 480 0"), HasSubstr("depth_scale"));
+}
+
+TEST_F(CalibrationTest, KnowsThePublishedCameras) {
+  EXPECT_EQ(FindCameraPreset("tum-fr2").calibration.depth_scale, 5208.0);
+  EXPECT_EQ(FindCameraPreset("icl-nuim").calibration.camera.fy, -480.0);
+  EXPECT_TRUE(FindCameraPreset("tum-fr3").calibration.distortion.IsZero());
+  for (const CameraPreset& preset : CameraPresets()) {
+    std::string error;
+    EXPECT_TRUE(preset.calibration.IsValid(&error)) << preset.name << ": " << error;
+  }
+  EXPECT_THAT(MessageOf([] { FindCameraPreset("tum-fr9"); }),
+              AllOf(HasSubstr("'tum-fr9'"), HasSubstr("tum-fr1, tum-fr2")));
+  EXPECT_EQ(GuessCameraPreset("/data/rgbd_dataset_freiburg2_xyz"), "tum-fr2");
+  EXPECT_EQ(GuessCameraPreset("/data/fr1_desk"), "tum-fr1");
+  EXPECT_EQ(GuessCameraPreset("/data/freiburg1/mine"), "");
+  EXPECT_EQ(GuessCameraPreset("/data/fr10_lab"), "");
+}
+
+TEST_F(CalibrationTest, SettingsComeBeforeTheFolderAndThatBeforePresets) {
+  SequenceIndex index = Index();
+  index.preset = "tum-fr1";
+  EXPECT_EQ(ResolveCalibration({}, "", &index).camera.fx, 517.306408);
+  EXPECT_THAT(ResolveCalibration({}, "", &index).origin, HasSubstr("guessed"));
+  EXPECT_EQ(ResolveCalibration({}, "tum-fr3", &index).camera.fx, 535.4);
+
+  index.calibration = FindCameraPreset("replica").calibration;
+  EXPECT_EQ(ResolveCalibration({}, "tum-fr3", &index).camera.fx, 600.0);
+  EXPECT_THAT(index.warnings, testing::ElementsAre(HasSubstr("tum-fr3 is not used")));
+
+  CameraSettings settings;
+  settings.origin = "mine.yaml";
+  settings.depth_scale = 1234.0;  // one number over the rest
+  const Calibration calibration = ResolveCalibration(settings, "", &index);
+  EXPECT_EQ(calibration.depth_scale, 1234.0);
+  EXPECT_EQ(calibration.camera.fx, 600.0);
+  EXPECT_THAT(calibration.origin, HasSubstr("mine.yaml"));
+  settings.preset = "tum-fr2";
+  EXPECT_EQ(ResolveCalibration(settings, "", &index).camera.fx, 520.908620);
+}
+
+TEST_F(CalibrationTest, TheNameOfTheFolderTellsTheShutterWhereTheCameraIsKnown) {
+  SequenceIndex index = Index();
+  index.calibration = FindCameraPreset("replica").calibration;
+  index.calibration->readout_time.reset();
+  EXPECT_FALSE(ResolveCalibration({}, "", &index).readout_time.has_value());
+  index.directory = "/data/fr2_desk";
+  const Calibration by_name = ResolveCalibration({}, "", &index);
+  EXPECT_EQ(*by_name.readout_time, 0.026);
+  EXPECT_EQ(by_name.camera.fx, 600.0);
+  EXPECT_THAT(by_name.origin, HasSubstr("shutter of tum-fr2"));
+  CameraSettings settings;
+  settings.preset = "tum-fr3";
+  EXPECT_FALSE(ResolveCalibration(settings, "", &index).readout_time.has_value());
+  index.directory = "/data/fr3_office";  // another camera, of which nothing is known
+  EXPECT_FALSE(ResolveCalibration({}, "", &index).readout_time.has_value());
+}
+
+TEST_F(CalibrationTest, CompleteSettingsLetNothingShineThrough) {
+  SequenceIndex index = Index();
+  index.calibration = FindCameraPreset("tum-fr1").calibration;
+  CameraSettings settings;
+  settings.fx = settings.fy = 10.0;
+  settings.cx = settings.cy = 3.0;
+  settings.depth_scale = 1000.0;
+  const Calibration calibration = ResolveCalibration(settings, "", &index);
+  EXPECT_TRUE(calibration.distortion.IsZero());
+  EXPECT_EQ(calibration.camera.width, 8);  // from the depth image
+  EXPECT_EQ(calibration.camera.height, 6);
+}
+
+TEST_F(CalibrationTest, AnUnknownCameraIsAnErrorThatSaysWhatToDo) {
+  SequenceIndex index = Index();
+  EXPECT_THAT(MessageOf([&] { ResolveCalibration({}, "", &index); }),
+              AllOf(HasSubstr("camera.txt"), HasSubstr("--config"), HasSubstr("--camera"),
+                    HasSubstr("tum-fr1")));
+}
+
+TEST_F(CalibrationTest, ReadsOrbSlamSettingsDespiteTheirBrokenLines) {
+  WriteText("orb.yaml",
+            "%YAML:1.0\n\n# Camera\nCamera.fx: 517.3  # pixels\nCamera.fy: 516.4\n"
+            "Camera.cx: 318.6\nCamera.cy: 255.3\nCamera.k1: 0.26\nCamera.p2: 0.002\n"
+            "Camera.bf: 40.0\nDepthMapFactor: 5208.0\nViewer.PointSize:2\n: :\n\"x\n");
+  const CameraSettings camera = ReadOrbSlamConfig(Path("orb.yaml"));
+  EXPECT_EQ(*camera.fx, 517.3);
+  EXPECT_EQ(*camera.depth_scale, 5208.0);
+  EXPECT_EQ(*camera.distortion[0], 0.26);
+  EXPECT_EQ(*camera.distortion[3], 0.002);
+  EXPECT_FALSE(camera.distortion[4].has_value());
+  EXPECT_FALSE(camera.width.has_value());
+}
+
+TEST_F(CalibrationTest, ReadsOrbSlam3Settings) {
+  WriteText("orb3.yaml",
+            "%YAML:1.0\nCamera.type: \"PinHole\"\nCamera1.fx: 600\nCamera1.fy: 601\n"
+            "Camera1.cx: 320\nCamera1.cy: 240\nCamera.width: 640\nCamera.height: 480\n"
+            "RGBD.DepthMapFactor: 1000.0\n");
+  const CameraSettings camera = ReadOrbSlamConfig(Path("orb3.yaml"));
+  EXPECT_EQ(*camera.fy, 601.0);
+  EXPECT_EQ(*camera.width, 640);
+  EXPECT_EQ(*camera.depth_scale, 1000.0);
+}
+
+TEST_F(CalibrationTest, OrbSlamErrorsNameWhatIsMissing) {
+  WriteText("orb.yaml", "Camera.fx: 500\nCamera.fy: 500\nCamera.cx: 320\nCamera.cy: 240\n");
+  EXPECT_THAT(MessageOf([&] { ReadOrbSlamConfig(Path("orb.yaml")); }),
+              HasSubstr("orb.yaml: DepthMapFactor is missing"));
+  WriteText("orb.yaml", "\nCamera.fx: wide\n");
+  EXPECT_THAT(MessageOf([&] { ReadOrbSlamConfig(Path("orb.yaml")); }),
+              HasSubstr("orb.yaml:2: Camera.fx must be a number, not 'wide'"));
+}
+
+}  // namespace
+}  // namespace msc_vo

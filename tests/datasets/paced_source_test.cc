@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/paced_source.h"
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <opencv2/imgcodecs.hpp>
+
+namespace msc_vo {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// Ten images, one per second from 100 s on, and a clock that stands still unless a test or a sleep
+// moves it.
+class PacedSourceTest : public TemporaryFolder {
+ protected:
+  RgbdDecoder Decoder() {
+    SequenceIndex index;
+    for (int i = 0; i < 10; ++i) {
+      const std::string name = std::to_string(i);
+      cv::imwrite(Path(name + ".png"), cv::Mat(6, 8, CV_8UC1, cv::Scalar(i)));
+      cv::imwrite(Path(name + "d.png"), cv::Mat(6, 8, CV_16UC1, cv::Scalar(1000)));
+      index.entries.push_back({100.0 + i, Path(name + ".png"), Path(name + "d.png"), ""});
+    }
+    Calibration calibration;
+    calibration.camera = {10.0, 10.0, 3.5, 2.5, 8, 6};
+    calibration.depth_scale = 1000.0;
+    return {index, calibration};
+  }
+  PacingClock Clock() {
+    return {[this] { return now_; }, [this](double time) { now_ = std::max(now_, time); }};
+  }
+  // The id of the next image; -1: the end.
+  int64_t Next(PacedSource* source) {
+    dropped_.clear();
+    RgbdImage image;
+    return source->Next(&image, &dropped_) ? image.id : -1;
+  }
+
+  double now_ = 5.0;
+  std::vector<int> dropped_;
+};
+
+TEST_F(PacedSourceTest, AReaderInTimeWaitsForEveryImage) {
+  const RgbdDecoder decoder = Decoder();
+  PacedSource source(decoder, 0, 10, Clock());
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(Next(&source), i);
+    EXPECT_THAT(dropped_, IsEmpty());
+    EXPECT_DOUBLE_EQ(now_, 5.0 + i);
+    EXPECT_DOUBLE_EQ(source.Age(), 0.0);
+    now_ += 0.4;  // the work on it
+    EXPECT_NEAR(source.Age(), 0.4, 1e-9);
+    now_ -= i % 2 == 0 ? 0.0 : 0.2;
+  }
+  EXPECT_EQ(Next(&source), -1);
+}
+
+TEST_F(PacedSourceTest, ThreeImagesWaitForAReaderWhoIsLate) {
+  const RgbdDecoder decoder = Decoder();
+  PacedSource source(decoder, 2, 10, Clock());
+  EXPECT_EQ(Next(&source), 2);
+  now_ += 1.5;  // image 3 is half a second old, image 4 does not exist yet
+  EXPECT_EQ(Next(&source), 3);
+  EXPECT_THAT(dropped_, IsEmpty());
+  EXPECT_DOUBLE_EQ(source.Age(), 0.5);
+  now_ += 2.6;  // images 4 to 6 are there
+  EXPECT_EQ(Next(&source), 4);
+  EXPECT_THAT(dropped_, IsEmpty());
+  EXPECT_NEAR(source.Age(), 2.1, 1e-9);
+  now_ += 2.0;  // and 7 and 8
+  EXPECT_EQ(Next(&source), 6);
+  EXPECT_THAT(dropped_, ElementsAre(5));
+  EXPECT_NEAR(source.Age(), 2.1, 1e-9);
+  for (int i = 7; i < 10; ++i) {  // as fast as can be
+    EXPECT_EQ(Next(&source), i);
+    EXPECT_THAT(dropped_, IsEmpty());
+  }
+  EXPECT_EQ(Next(&source), -1);
+}
+
+TEST_F(PacedSourceTest, WhatIsMuchTooLateIsDropped) {
+  const RgbdDecoder decoder = Decoder();
+  PacedSource source(decoder, 0, 10, Clock());
+  EXPECT_EQ(Next(&source), 0);
+  now_ += 100.0;
+  EXPECT_EQ(Next(&source), 7);
+  EXPECT_THAT(dropped_, ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
+TEST_F(PacedSourceTest, ABadImageIsNamedAndTheOthersKeepTheirTimes) {
+  const RgbdDecoder decoder = Decoder();
+  for (const int bad : {0, 4}) std::filesystem::remove(Path(std::to_string(bad) + "d.png"));
+  PacedSource source(decoder, 0, 10, Clock());
+  EXPECT_THAT(MessageOf([&] { Next(&source); }), HasSubstr("0d.png"));
+  for (int i = 1; i < 4; ++i) {
+    EXPECT_EQ(Next(&source), i);
+    EXPECT_DOUBLE_EQ(now_, 4.0 + i);
+  }
+  EXPECT_THAT(MessageOf([&] { Next(&source); }), HasSubstr("4d.png"));
+  EXPECT_EQ(Next(&source), 5);
+  EXPECT_DOUBLE_EQ(now_, 9.0);
+}
+
+TEST_F(PacedSourceTest, ADroppedImageMayBeBad) {
+  const RgbdDecoder decoder = Decoder();
+  for (const int bad : {1, 2}) std::filesystem::remove(Path(std::to_string(bad) + "d.png"));
+  PacedSource source(decoder, 0, 10, Clock());
+  EXPECT_EQ(Next(&source), 0);
+  now_ += 5.0;
+  EXPECT_EQ(Next(&source), 3);
+  EXPECT_THAT(dropped_, ElementsAre(1, 2));
+}
+
+TEST_F(PacedSourceTest, TheSteadyClockSleeps) {
+  const PacingClock clock = PacingClock::Steady();
+  const double start = clock.now();
+  clock.sleep_until(start + 0.02);
+  EXPECT_GE(clock.now(), start + 0.02);
+}
+
+TEST_F(PacedSourceTest, ASourceDoesNotGoBack) {
+  const RgbdDecoder decoder = Decoder();
+  RgbdSource source(decoder, 0, 10);
+  RgbdImage image;
+  source.SkipTo(4);
+  EXPECT_TRUE(source.Next(&image));
+  EXPECT_EQ(image.id, 4);
+  EXPECT_THROW(source.SkipTo(4), std::invalid_argument);
+  EXPECT_THROW(source.SkipTo(11), std::invalid_argument);
+  source.SkipTo(10);
+  EXPECT_FALSE(source.Next(&image));
+}
+
+}  // namespace
+}  // namespace msc_vo

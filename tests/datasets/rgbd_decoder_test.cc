@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/rgbd_decoder.h"
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/datasets/rgbd_source.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class RgbdDecoderTest : public TemporaryFolder {
+ protected:
+  // Entry i is <i>.png and <i>d.png, one second apart, for a camera of 8 x 6 pixels.
+  RgbdDecoder Decoder(int count, bool scale_color = false) {
+    SequenceIndex index;
+    index.scale_color = scale_color;
+    index.invalid_depth = 65535;
+    for (int i = 0; i < count; ++i) {
+      const std::string name = std::to_string(i);
+      index.entries.push_back(
+          {1.0 * i, Path(name + ".png"), Path(name + "d.png"), "rgb.txt:" + std::to_string(i + 1)});
+    }
+    Calibration calibration;
+    calibration.camera = {10.0, 10.0, 3.5, 2.5, 8, 6};
+    calibration.depth_scale = 1000.0;
+    calibration.origin = "camera.txt";
+    return {index, calibration};
+  }
+  std::string ErrorOf(const RgbdDecoder& decoder) {
+    return MessageOf([&] { decoder.Decode(0); });
+  }
+  // Keeps the first part of a file.
+  void Truncate(const std::string& name, double share) {
+    const auto size = std::filesystem::file_size(Path(name));
+    std::filesystem::resize_file(Path(name), static_cast<std::uintmax_t>(share * size));
+  }
+};
+
+TEST_F(RgbdDecoderTest, GivesGreyAndMetres) {
+  cv::Mat color(6, 8, CV_8UC3, cv::Scalar(255, 0, 0));  // blue
+  cv::imwrite(Path("0.png"), color);
+  cv::Mat depth(6, 8, CV_16UC1, cv::Scalar(2500));
+  depth.at<uint16_t>(0, 1) = 65535;
+  depth.at<uint16_t>(0, 2) = 0;
+  cv::imwrite(Path("0d.png"), depth);
+  const RgbdImage image = Decoder(1).Decode(0);
+  EXPECT_EQ(image.id, 0);
+  EXPECT_EQ(image.gray.type(), CV_8UC1);
+  EXPECT_EQ(image.depth.type(), CV_32FC1);
+  EXPECT_NEAR(image.gray.at<uint8_t>(0, 0), 0.114 * 255, 1.0);
+  EXPECT_FLOAT_EQ(image.depth.at<float>(0, 0), 2.5f);
+  EXPECT_EQ(image.depth.at<float>(0, 1), 0.0f);
+  EXPECT_EQ(image.depth.at<float>(0, 2), 0.0f);
+}
+
+TEST_F(RgbdDecoderTest, TakesGreyAndTransparentImages) {
+  WriteDepth("0d.png");
+  WriteImage("0.png", CV_8UC1, 77);
+  EXPECT_EQ(Decoder(1).Decode(0).gray.at<uint8_t>(2, 2), 77);
+  WriteImage("0.png", CV_8UC4, 77);
+  EXPECT_EQ(Decoder(1).Decode(0).gray.at<uint8_t>(2, 2), 77);
+}
+
+TEST_F(RgbdDecoderTest, TheGreyOfAColourJpegIsThatOfItsColours) {
+  WriteDepth("0d.png");
+  const cv::Mat color(6, 8, CV_8UC3, cv::Scalar(30, 200, 120));
+  cv::imwrite(Path("0.jpg"), color);
+  std::filesystem::rename(Path("0.jpg"), Path("0.png"));
+  const cv::Mat gray = Decoder(1).Decode(0).gray;
+  EXPECT_EQ(gray.type(), CV_8UC1);
+  EXPECT_NEAR(gray.at<uint8_t>(3, 4), 0.114 * 30 + 0.587 * 200 + 0.299 * 120, 2.0);
+}
+
+TEST_F(RgbdDecoderTest, ScalesLargerColourDownIfTheLayoutSaysSo) {
+  WriteColor("0.png", 16, 12);
+  WriteDepth("0d.png");
+  EXPECT_EQ(Decoder(1, true).Decode(0).gray.size(), cv::Size(8, 6));
+  EXPECT_THAT(ErrorOf(Decoder(1, false)), HasSubstr("is 16x12, but its depth image"));
+}
+
+TEST_F(RgbdDecoderTest, ErrorsNameFileLineAndFix) {
+  EXPECT_THAT(ErrorOf(Decoder(1)),
+              HasSubstr(Path("0.png") + " (named in rgb.txt:1): does not exist"));
+  WriteColor("0.png");
+  WriteDepth("0d.png", 1000, 4, 3);
+  EXPECT_THAT(ErrorOf(Decoder(1)),
+              AllOf(HasSubstr("0d.png"), HasSubstr("is 4x3, but the camera is 8x6 (camera.txt)")));
+  WriteImage("0d.png", CV_8UC1, 100);
+  EXPECT_THAT(ErrorOf(Decoder(1)),
+              AllOf(HasSubstr("1 channel of 8 bits"), HasSubstr("need 1 channel of 16 bits")));
+  WriteColor("0d.png");
+  EXPECT_THAT(ErrorOf(Decoder(1)), HasSubstr("3 channels of 8 bits"));
+  WriteDepth("0.png");
+  EXPECT_THAT(ErrorOf(Decoder(1)), HasSubstr("swap the two columns or folders"));
+  WriteDepth("0d.png");
+  EXPECT_THAT(ErrorOf(Decoder(1)), HasSubstr("colour images need 8 bits"));
+}
+
+TEST_F(RgbdDecoderTest, DamagedFilesAreErrors) {
+  WriteDepth("0d.png");
+  WriteText("0.png", "");
+  EXPECT_THAT(ErrorOf(Decoder(1)), HasSubstr("is damaged, truncated or no image (0 bytes)"));
+  WriteText("0.png", "hello");
+  EXPECT_THAT(ErrorOf(Decoder(1)), HasSubstr("no image (5 bytes)"));
+  WriteColor("0.png", 200, 200);
+  Truncate("0.png", 0.5);
+  EXPECT_THAT(ErrorOf(Decoder(1)), HasSubstr("truncated"));
+}
+
+TEST_F(RgbdDecoderTest, ATruncatedJpegIsNotTakenForAGreyOne) {
+  WriteDepth("0d.png");
+  WriteColor("0.jpg");
+  std::filesystem::copy_file(Path("0.jpg"), Path("0.png"));  // the content counts, not the name
+  EXPECT_EQ(ErrorOf(Decoder(1)), "");
+  Truncate("0.png", 0.95);
+  EXPECT_THAT(ErrorOf(Decoder(1)), HasSubstr("truncated"));
+}
+
+TEST_F(RgbdDecoderTest, TheSourceGivesAllImagesInOrder) {
+  for (int i = 0; i < 5; ++i) {
+    WriteImage(std::to_string(i) + ".png", CV_8UC1, 10 * i);
+    WriteDepth(std::to_string(i) + "d.png");
+  }
+  const RgbdDecoder decoder = Decoder(5);
+  RgbdSource source(decoder, 1, 4);
+  RgbdImage image;
+  for (int i = 1; i < 4; ++i) {
+    ASSERT_TRUE(source.Next(&image));
+    EXPECT_EQ(image.id, i);
+    EXPECT_EQ(image.timestamp, i);
+    EXPECT_EQ(image.gray.at<uint8_t>(0, 0), 10 * i);
+  }
+  EXPECT_FALSE(source.Next(&image));
+  EXPECT_FALSE(source.Next(&image));
+  EXPECT_THROW(RgbdSource(decoder, 2, 6), std::invalid_argument);
+}
+
+TEST_F(RgbdDecoderTest, TheSourceThrowsAtTheImageThatIsBadAndGoesOn) {
+  for (int i = 0; i < 4; ++i) {
+    WriteColor(std::to_string(i) + ".png");
+    if (i != 2) WriteDepth(std::to_string(i) + "d.png");
+  }
+  const RgbdDecoder decoder = Decoder(4);
+  RgbdSource source(decoder, 0, 4);
+  RgbdImage image;
+  EXPECT_TRUE(source.Next(&image));
+  EXPECT_TRUE(source.Next(&image));
+  EXPECT_THAT(MessageOf([&] { source.Next(&image); }), HasSubstr("2d.png"));
+  EXPECT_TRUE(source.Next(&image));
+  EXPECT_EQ(image.id, 3);
+  EXPECT_FALSE(source.Next(&image));
+}
+
+TEST_F(RgbdDecoderTest, ASourceMayBeLeftEarly) {
+  WriteColor("0.png");
+  WriteDepth("0d.png");
+  const RgbdDecoder decoder = Decoder(2);
+  RgbdImage image;
+  {
+    RgbdSource source(decoder, 0, 2);  // image 1 does not exist; nobody asks for it
+    EXPECT_TRUE(source.Next(&image));
+  }
+  EXPECT_EQ(image.id, 0);
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/sequence_check.h"
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::Field;
+using testing::HasSubstr;
+
+testing::Matcher<const Finding&> Is(Severity severity, const std::string& text) {
+  return AllOf(Field(&Finding::severity, severity), Field(&Finding::text, HasSubstr(text)));
+}
+
+class SequenceCheckTest : public TemporaryFolder {
+ protected:
+  void SetUp() override {
+    TemporaryFolder::SetUp();
+    calibration_.camera = {10.0, 10.0, 3.5, 2.5, 8, 6};
+    calibration_.depth_scale = 5000.0;
+    calibration_.origin = "camera.txt";
+    index_.format = "tum";
+    for (int i = 0; i < 6; ++i) {
+      const std::string name = std::to_string(i);
+      WriteColor(name + ".png");
+      WriteDepth(name + "d.png", 10000);
+      index_.entries.push_back({0.1 * i, Path(name + ".png"), Path(name + "d.png"), ""});
+      index_.ground_truth.push_back({0.1 * i, Rigid3()});
+    }
+  }
+  std::vector<Finding> Check() { return CheckSequence(RgbdDecoder(index_, calibration_)); }
+
+  SequenceIndex index_;
+  Calibration calibration_;
+};
+
+TEST_F(SequenceCheckTest, ASoundSequenceRaisesNothing) {
+  const std::vector<Finding> findings = Check();
+  EXPECT_THAT(findings, Each(Field(&Finding::severity, Severity::kGood)));
+  EXPECT_THAT(findings, Contains(Is(Severity::kGood, "median 2.00 m")));
+  EXPECT_THAT(findings, Contains(Is(Severity::kGood, "6 of 6 images have one")));
+}
+
+TEST_F(SequenceCheckTest, TellsDelaysOfDepth) {
+  EXPECT_THAT(Check(), Not(Contains(Is(Severity::kGood, "later than"))));
+  index_.entries[1].depth_delay = 0.004;
+  index_.entries[2].depth_delay = -0.001;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kGood, "-1.0 to 4.0 ms later than")));
+}
+
+TEST_F(SequenceCheckTest, SuspectsTheDepthScale) {
+  calibration_.depth_scale = 1000.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "5000.0 would give 2.00 m")));
+  calibration_.depth_scale = 100000.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "0.100 m is unusual")));
+}
+
+TEST_F(SequenceCheckTest, FindsMissingAndUnusableImages) {
+  std::filesystem::remove(Path("3.png"));
+  WriteImage("4d.png", CV_8UC1, 9);
+  const std::vector<Finding> findings = Check();
+  EXPECT_THAT(findings, Contains(Is(Severity::kError, "3.png does not exist")));
+  EXPECT_THAT(findings, Contains(Is(Severity::kError, "4d.png")));
+}
+
+TEST_F(SequenceCheckTest, FindsGapsInTime) {
+  index_.entries.erase(index_.entries.begin() + 1, index_.entries.begin() + 4);
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "1 gaps of three frames or more")));
+}
+
+TEST_F(SequenceCheckTest, SuspectsTheCamera) {
+  calibration_.camera.fy = -10.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "fy is negative")));
+  calibration_.camera.fy = 14.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "fx and fy differ")));
+  calibration_.camera.cx = 320.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "another image size")));
+  index_.format = "icl-nuim";
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "fy is positive")));
+}
+
+TEST_F(SequenceCheckTest, SuspectsGroundTruthOfAnotherTime) {
+  for (TimedPose& pose : index_.ground_truth) pose.timestamp += 1000.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "its stamps begin 1000.000 s after")));
+}
+
+TEST_F(SequenceCheckTest, EmptyDepthIsAnError) {
+  for (int i = 0; i < 6; ++i) WriteDepth(std::to_string(i) + "d.png", 0);
+  EXPECT_THAT(Check(), Contains(Is(Severity::kError, "no measurement at all")));
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// The layouts that are not TUM's, and how a folder is recognised.
+
+#include "msc_vo/datasets/sequence.h"
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr char kPose[] = "1 0 0 0.5\n0 1 0 -1\n0 0 1 2\n0 0 0 1\n";
+constexpr char kLostPose[] =
+    "-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n"
+    "-inf -inf -inf -inf\n";
+
+class SequenceTest : public TemporaryFolder {
+ protected:
+  std::string ErrorOf(const std::string& format = "auto") {
+    return MessageOf([&] { OpenSequence(Folder(), format); });
+  }
+};
+
+TEST_F(SequenceTest, SevenScenes) {
+  for (const std::string number : {"000000", "000001", "000003"}) {
+    WriteColor("frame-" + number + ".color.png");
+    WriteDepth("frame-" + number + ".depth.png", 1500);
+    WriteText("frame-" + number + ".pose.txt", number == "000001" ? kLostPose : kPose);
+  }
+  WriteColor("frame-000009.color.png");  // no depth
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_EQ(index.format, "7-scenes");
+  ASSERT_EQ(index.entries.size(), 3u);
+  EXPECT_DOUBLE_EQ(index.entries[2].timestamp, 0.1);
+  EXPECT_EQ(index.invalid_depth, 65535);
+  EXPECT_EQ(index.preset, "7-scenes");
+  ASSERT_EQ(index.ground_truth.size(), 2u);
+  EXPECT_EQ(index.ground_truth[1].world_from_cam.translation(), Eigen::Vector3d(0.5, -1, 2));
+  EXPECT_EQ(index.warnings.size(), 2u);  // one image alone, one pose lost
+}
+
+TEST_F(SequenceTest, ThreeDMatchBringsItsIntrinsics) {
+  WriteColor("seq/frame-000000.color.png");
+  WriteDepth("seq/frame-000000.depth.png");
+  WriteText("camera-intrinsics.txt", "572 0 320\n0 573 240\n0 0 1\n");
+  const SequenceIndex index = OpenSequence(Path("seq"));
+  ASSERT_TRUE(index.calibration.has_value());
+  EXPECT_EQ(index.calibration->camera.fy, 573.0);
+  EXPECT_EQ(index.calibration->camera.width, 8);
+  EXPECT_EQ(index.calibration->depth_scale, 1000.0);
+}
+
+TEST_F(SequenceTest, Replica) {
+  for (const std::string number : {"000000", "000001"}) {
+    WriteColor("results/frame" + number + ".jpg");
+    WriteDepth("results/depth" + number + ".png");
+  }
+  WriteText("traj.txt", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n1 0 0 4 0 1 0 5 0 0 1 6 0 0 0 1\n");
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_EQ(index.format, "replica");
+  ASSERT_EQ(index.entries.size(), 2u);
+  EXPECT_EQ(index.entries[1].depth_path, Path("results/depth000001.png"));
+  ASSERT_EQ(index.ground_truth.size(), 2u);
+  EXPECT_DOUBLE_EQ(index.ground_truth[1].timestamp, 1.0 / 30.0);
+  EXPECT_EQ(index.ground_truth[1].world_from_cam.translation(), Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(index.preset, "replica");
+  WriteText("traj.txt", "1 0 0\n");
+  EXPECT_THAT(ErrorOf(), HasSubstr("traj.txt:1: expected the 16 numbers"));
+}
+
+TEST_F(SequenceTest, ScanNetScalesTheCameraToTheDepth) {
+  for (const std::string number : {"0", "2", "10"}) {
+    WriteColor("color/" + number + ".jpg", 16, 12);
+    WriteDepth("depth/" + number + ".png");
+    WriteText("pose/" + number + ".txt", kPose);
+  }
+  WriteText("pose/2.txt", kLostPose);
+  WriteText("intrinsic/intrinsic_color.txt", "20 0 7.5 0\n0 22 5.5 0\n0 0 1 0\n0 0 0 1\n");
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_EQ(index.format, "scannet");
+  ASSERT_EQ(index.entries.size(), 3u);
+  EXPECT_EQ(index.entries[1].color_path, Path("color/2.jpg"));  // natural order
+  EXPECT_TRUE(index.scale_color);
+  EXPECT_EQ(index.ground_truth.size(), 2u);
+  const PinholeCamera& camera = index.calibration->camera;
+  EXPECT_DOUBLE_EQ(camera.fx, 10.0);
+  EXPECT_DOUBLE_EQ(camera.fy, 11.0);
+  // The middle of 16 x 12 pixels stays the middle of 8 x 6.
+  EXPECT_DOUBLE_EQ(camera.cx, 3.5);
+  EXPECT_DOUBLE_EQ(camera.cy, 2.5);
+  EXPECT_EQ(camera.width, 8);
+}
+
+TEST_F(SequenceTest, PlainFoldersArePairedByName) {
+  for (const std::string name : {"1.000000", "1.033333", "1.066667"}) {
+    WriteColor("rgb/" + name + ".png");
+  }
+  for (const std::string name : {"1.001000", "1.065000"}) WriteDepth("depth/" + name + ".png");
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_EQ(index.format, "rgb-depth");
+  ASSERT_EQ(index.entries.size(), 2u);
+  EXPECT_DOUBLE_EQ(index.entries[1].timestamp, 1.066667);
+  EXPECT_EQ(index.entries[1].depth_path, Path("depth/1.065000.png"));
+}
+
+TEST_F(SequenceTest, PlainFoldersWithoutNumbersArePairedByOrder) {
+  for (const std::string name : {"a", "b"}) {
+    WriteColor("color/" + name + ".png");
+    WriteDepth("depth/" + name + "_depth.png");
+  }
+  const SequenceIndex index = OpenSequence(Folder());
+  ASSERT_EQ(index.entries.size(), 2u);
+  EXPECT_DOUBLE_EQ(index.entries[1].timestamp, 1.0 / 30.0);
+  EXPECT_EQ(index.entries[1].depth_path, Path("depth/b_depth.png"));
+  WriteDepth("depth/c_depth.png");
+  EXPECT_THAT(ErrorOf(), HasSubstr("2 colour images, but 3 depth images"));
+}
+
+TEST_F(SequenceTest, TheFormatCanBeForced) {
+  WriteColor("rgb/0.png");
+  WriteDepth("depth/0.png");
+  WriteText("rgb.txt", "garbage\n");
+  EXPECT_THAT(ErrorOf(), HasSubstr("depth.txt: does not exist"));
+  EXPECT_EQ(OpenSequence(Folder(), "rgb-depth").entries.size(), 1u);
+  EXPECT_THAT(ErrorOf("replica"), HasSubstr("no pair of colour and depth image"));
+  EXPECT_THAT(ErrorOf("kitti"), HasSubstr("unknown sequence format 'kitti'; known: auto, "));
+}
+
+TEST_F(SequenceTest, WhatIsNoSequenceGetsHelp) {
+  EXPECT_THAT(ErrorOf(), testing::AllOf(HasSubstr("no RGB-D sequence found"), HasSubstr("tum:")));
+  WriteText("inner/rgb.txt", "1.5 a\n");
+  EXPECT_THAT(ErrorOf(), HasSubstr("Did you mean " + Path("inner") + "?"));
+  EXPECT_THAT(MessageOf([&] { OpenSequence(Path("nowhere")); }), HasSubstr("does not exist"));
+  EXPECT_THAT(MessageOf([&] { OpenSequence(Path("inner/rgb.txt")); }), HasSubstr("is a file"));
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/trajectory.h"
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/geometry/so3.h"
+#include "msc_vo/text/text_file.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::HasSubstr;
+
+class TrajectoryTest : public TemporaryFolder {
+ protected:
+  std::string ErrorOf(const std::string& text) {
+    WriteText("trajectory.txt", text);
+    return MessageOf([&] { ReadTrajectory(Path("trajectory.txt")); });
+  }
+};
+
+TEST_F(TrajectoryTest, WritesWhatEveryToolReads) {
+  const Eigen::Quaterniond rotation(-0.5, 0.5, 0.5, 0.5);  // w < 0
+  EXPECT_EQ(FormatTrajectory({{1.5, Rigid3(rotation, {1.0, -2.0, -1e-15})}}),
+            "1.500000 1.0000000000 -2.0000000000 0.0000000000 "
+            "-0.5000000000 -0.5000000000 -0.5000000000 0.5000000000\n");
+}
+
+TEST_F(TrajectoryTest, WritesSortedUniqueStamps) {
+  const TimedPose a{2.0, Rigid3()};
+  const TimedPose b{1.0, Rigid3()};
+  const TimedPose c{1.0 + 1e-9, Rigid3(Eigen::Quaterniond::Identity(), {9.0, 9.0, 9.0})};
+  const std::string text = FormatTrajectory({a, b, c});
+  EXPECT_THAT(text, testing::StartsWith("1.000000 0.0"));
+  EXPECT_THAT(text, HasSubstr("\n2.000000 "));
+  EXPECT_EQ(text.find('9'), std::string::npos);
+}
+
+TEST_F(TrajectoryTest, ReadsBackWhatItWrote) {
+  const std::vector<TimedPose> poses = {
+      {1305031102.175304, Rigid3(ExpSO3({0.3, -2.0, 0.7}), {0.123456789, -4.0, 7.5})},
+      {1305031102.211214, Rigid3()}};
+  WriteTrajectory(Path("t.txt"), poses);
+  const std::vector<TimedPose> read = ReadTrajectory(Path("t.txt"));
+  ASSERT_EQ(read.size(), 2u);
+  for (size_t i = 0; i < read.size(); ++i) {
+    EXPECT_NEAR(read[i].timestamp, poses[i].timestamp, 1e-6);
+    EXPECT_TRUE(
+        read[i].world_from_cam.translation().isApprox(poses[i].world_from_cam.translation(), 1e-9));
+    EXPECT_LT(read[i].world_from_cam.rotation().angularDistance(poses[i].world_from_cam.rotation()),
+              1e-9);
+  }
+  EXPECT_EQ(FormatTrajectory(read), ReadFile(Path("t.txt")));
+}
+
+TEST_F(TrajectoryTest, ReadsCommentsCommasTabsBlankLinesAndWindowsLineEnds) {
+  WriteText("t.txt",
+            "\xEF\xBB\xBF# time x y z\r\n\r\n2,1,2,3,0,0,0,2\r\n1\t4 5\t6 0 0 0 1  \r\n"
+            "3 nan 0 0 0 0 0 1\n");
+  const std::vector<TimedPose> poses = ReadTrajectory(Path("t.txt"));
+  ASSERT_EQ(poses.size(), 2u);  // a lost frame (nan) is no pose
+  EXPECT_EQ(poses[0].timestamp, 1.0);
+  EXPECT_EQ(poses[0].world_from_cam.translation(), Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(poses[1].world_from_cam.rotation().w(), 1.0);  // normalised
+}
+
+TEST_F(TrajectoryTest, ErrorsNameFileAndLine) {
+  EXPECT_THAT(ErrorOf("# c\n1 2 3\n"), HasSubstr("trajectory.txt:2: expected 8 numbers"));
+  EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 1 9\n"), HasSubstr("found 9 fields"));
+  EXPECT_THAT(ErrorOf("1 0 0 x 0 0 0 1\n"), HasSubstr("trajectory.txt:1: 'x' is not a number"));
+  EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 0\n"), HasSubstr("quaternion is zero"));
+  EXPECT_THAT(MessageOf([&] { ReadTrajectory(Path("none.txt")); }),
+              HasSubstr("none.txt: does not exist"));
+  EXPECT_THAT(MessageOf([&] { ReadTrajectory(Folder()); }), HasSubstr("is a folder"));
+}
+
+TEST_F(TrajectoryTest, AFileThatCannotBeWrittenIsAnErrorAndLeavesNothing) {
+  EXPECT_THAT(MessageOf([&] { WriteTrajectory(Path("no/such/t.txt"), {}); }),
+              HasSubstr("t.txt: cannot be written"));
+  EXPECT_TRUE(std::filesystem::is_empty(Folder()));
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// TUM-style folders: lists, associations, frame numbers.
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/datasets/sequence.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class TumSequenceTest : public TemporaryFolder {
+ protected:
+  std::string ErrorOf() {
+    return MessageOf([&] { OpenSequence(Folder()); });
+  }
+  static std::vector<double> Stamps(const SequenceIndex& index) {
+    std::vector<double> stamps;
+    for (const SequenceEntry& entry : index.entries) stamps.push_back(entry.timestamp);
+    return stamps;
+  }
+};
+
+TEST_F(TumSequenceTest, PairsByNearestTime) {
+  WriteText("rgb.txt", "# colour\n1.00 rgb/a.png\n1.03 rgb/b.png\n1.06 rgb/c.png\n");
+  WriteText("depth.txt", "1.01 depth/a.png\r\n1.035\tdepth/b.png\r\n1.2 depth/c.png\r\n");
+  WriteText("groundtruth.txt", "0.99 1 2 3 0 0 0 1\n");
+  const SequenceIndex index = OpenSequence(Folder() + "///");
+  EXPECT_EQ(index.format, "tum");
+  EXPECT_EQ(index.directory, Folder());
+  EXPECT_THAT(Stamps(index), ElementsAre(1.00, 1.03));
+  EXPECT_EQ(index.entries[0].color_path, Path("rgb/a.png"));
+  EXPECT_EQ(index.entries[1].depth_path, Path("depth/b.png"));
+  EXPECT_THAT(index.entries[0].origin, HasSubstr("rgb.txt:2"));
+  EXPECT_NEAR(index.entries[0].depth_delay, 0.01, 1e-9);
+  EXPECT_NEAR(index.entries[1].depth_delay, 0.005, 1e-9);
+  ASSERT_EQ(index.ground_truth.size(), 1u);
+  EXPECT_EQ(index.ground_truth[0].timestamp, 0.99);
+  EXPECT_THAT(index.warnings, ElementsAre(HasSubstr("1 of 3 colour images")));
+}
+
+TEST_F(TumSequenceTest, PairsOneToOneTheClosestFirst) {
+  WriteText("rgb.txt", "1.00 a\n1.01 b\n");
+  WriteText("depth.txt", "1.012 x\n");
+  const SequenceIndex index = OpenSequence(Folder());
+  ASSERT_EQ(index.entries.size(), 1u);
+  EXPECT_EQ(index.entries[0].color_path, Path("b"));
+}
+
+TEST_F(TumSequenceTest, WhoLosesItsNearestTakesTheNextOne) {
+  WriteText("rgb.txt", "1.00 a\n1.01 b\n");
+  WriteText("depth.txt", "0.99 w\n1.009 x\n");
+  const SequenceIndex index = OpenSequence(Folder());
+  ASSERT_EQ(index.entries.size(), 2u);
+  EXPECT_EQ(index.entries[0].depth_path, Path("w"));
+  EXPECT_EQ(index.entries[1].depth_path, Path("x"));
+}
+
+TEST_F(TumSequenceTest, ReadsAssociationsInEitherOrder) {
+  WriteText("associations.txt", "1.0 rgb/1.png 1.01 depth/1.png\n2.5 rgb/2.png 2.51 depth/2.png\n");
+  SequenceIndex index = OpenSequence(Folder());
+  EXPECT_THAT(Stamps(index), ElementsAre(1.0, 2.5));
+  EXPECT_EQ(index.entries[0].depth_path, Path("depth/1.png"));
+
+  WriteText("associations.txt", "1.01 depth/1.png 1.0 rgb/1.png\n2.51 depth/2.png 2.5 rgb/2.png\n");
+  index = OpenSequence(Folder());
+  EXPECT_THAT(Stamps(index), ElementsAre(1.0, 2.5));
+  EXPECT_EQ(index.entries[0].color_path, Path("rgb/1.png"));
+  EXPECT_EQ(index.entries[0].depth_path, Path("depth/1.png"));
+  EXPECT_NEAR(index.entries[0].depth_delay, 0.01, 1e-9);
+  EXPECT_EQ(index.entries[1].origin, Path("associations.txt") + ":2");
+}
+
+TEST_F(TumSequenceTest, StampsOfTwoClocksTellNoDelay) {
+  WriteText("associations.txt", "1.5 rgb/1.png 9.01 depth/1.png\n2.5 rgb/2.png 2.5 depth/2.png\n");
+  for (const SequenceEntry& entry : OpenSequence(Folder()).entries) {
+    EXPECT_EQ(entry.depth_delay, 0.0);
+  }
+}
+
+TEST_F(TumSequenceTest, TellsTheColumnsByBitDepthWhereNamesDoNot) {
+  WriteColor("a/1.png");
+  WriteDepth("b/1.png");
+  WriteText("associations.txt", "1.5 b/1.png 1.5 a/1.png\n");
+  EXPECT_EQ(OpenSequence(Folder()).entries[0].depth_path, Path("b/1.png"));
+}
+
+TEST_F(TumSequenceTest, AnIclNuimFolderCountsFrames) {
+  WriteText(
+      "associations.txt",
+      "0 depth/0.png 0 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n30 depth/30.png 30 rgb/30.png\n");
+  WriteText("livingRoom2.gt.freiburg", "1 0 0 -2.25 0 0 0 1\n30 0 0 -2.25 0 0 0 1\n");
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_EQ(index.format, "icl-nuim");
+  EXPECT_THAT(Stamps(index), ElementsAre(0.0, 1.0 / 30.0, 1.0));
+  EXPECT_EQ(index.entries[2].color_path, Path("rgb/30.png"));
+  ASSERT_EQ(index.ground_truth.size(), 2u);  // image 0 has no pose
+  EXPECT_DOUBLE_EQ(index.ground_truth[0].timestamp, 1.0 / 30.0);
+  EXPECT_EQ(index.preset, "icl-nuim");
+}
+
+TEST_F(TumSequenceTest, AnIclNuimFolderIsKnownWithoutItsGroundTruth) {
+  WriteText("associations.txt", "0 depth/0.png 0 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n");
+  EXPECT_EQ(OpenSequence(Folder()).format, "icl-nuim");
+  WriteText("associations.txt", "0 rgb/0.png 0 depth/0.png\n1 rgb/1.png 1 depth/1.png\n");
+  EXPECT_EQ(OpenSequence(Folder()).format, "tum");
+  WriteText("associations.txt", "0.5 depth/0.png 0.5 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n");
+  EXPECT_EQ(OpenSequence(Folder()).format, "tum");
+}
+
+TEST_F(TumSequenceTest, AnIclNuimFolderNeedsNoList) {
+  for (const char* name : {"0", "1", "2", "10"}) {
+    WriteColor(std::string("rgb/") + name + ".png");
+    WriteDepth(std::string("depth/") + name + ".png");
+  }
+  WriteText("traj0.gt.freiburg", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_EQ(index.format, "icl-nuim");
+  EXPECT_THAT(Stamps(index), ElementsAre(0.0, 1.0 / 30.0, 2.0 / 30.0, 10.0 / 30.0));
+}
+
+TEST_F(TumSequenceTest, SortsAndDropsRepeatedStamps) {
+  WriteText("associations.txt",
+            "2.5 rgb/2 2.5 depth/2\n1.5 rgb/1 1.5 depth/1\n1.5 rgb/1b 1.5 depth/1b\n");
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_THAT(Stamps(index), ElementsAre(1.5, 2.5));
+  EXPECT_EQ(index.entries[0].color_path, Path("rgb/1"));
+  EXPECT_EQ(index.warnings.size(), 2u);
+}
+
+TEST_F(TumSequenceTest, ErrorsNameFileLineAndFix) {
+  WriteText("rgb.txt", "1.0 rgb/1.png\n");
+  EXPECT_THAT(ErrorOf(), testing::AllOf(HasSubstr("depth.txt: does not exist"),
+                                        HasSubstr("--format rgb-depth")));
+  WriteText("depth.txt", "\n1.0\n");
+  EXPECT_THAT(ErrorOf(), HasSubstr("depth.txt:2: expected 2 fields 'time path', found 1"));
+  WriteText("depth.txt", "now depth/1.png\n");
+  EXPECT_THAT(ErrorOf(), HasSubstr("depth.txt:1: 'now' is not a time stamp"));
+  WriteText("depth.txt", "# nothing\n");
+  EXPECT_THAT(ErrorOf(), HasSubstr("depth.txt: lists no image"));
+  WriteText("depth.txt", "9.0 depth/1.png\n");
+  EXPECT_THAT(ErrorOf(), HasSubstr("no pair of colour and depth image"));
+  WriteText("associations.txt", "1.0 rgb/1.png 1.0\n");
+  EXPECT_THAT(ErrorOf(), HasSubstr("associations.txt:1: expected 4 fields"));
+  WriteText("associations.txt", "1.0 rgb/1.png 1.0 0.5\n");
+  EXPECT_THAT(ErrorOf(), HasSubstr("'0.5' should be the path of an image"));
+  WriteText("associations.txt", "1.0 rgb/1 1.0 depth/1 1.0 0 0 0 0 0 0 1\n");
+  EXPECT_THAT(ErrorOf(), HasSubstr("ground-truth poses?"));
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/map/window_selection.h"
+
+#include "tests/support/synthetic_frames.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+// Keyframes 10 frames apart that see the same world; all associations known.
+class WindowTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    SyntheticFrames::Options options;
+    options.pixel_noise = 0.0;
+    options.inverse_depth_noise = 0.0;
+    options.flipped_bits = 0;
+    SyntheticFrames world(options);
+    for (int i = 0; i < 6; ++i) Insert(world.See(10 * i), SyntheticFrames::CamFromWorld(10 * i));
+  }
+
+  // Features are matched with landmarks by their descriptors, which are unique.
+  void Insert(const std::shared_ptr<const Frame>& frame, const Rigid3& cam_from_world) {
+    const KeyframeId id = map_.AddKeyframe(frame, cam_from_world);
+    for (size_t i = 0; i < frame->points.size(); ++i) {
+      const auto [known, is_new] = point_of_.emplace(frame->points[i].descriptor, kNoId);
+      const int feature = static_cast<int>(i);
+      if (!is_new && map_.ObservePoint(known->second, id, feature)) continue;
+      known->second =
+          map_.AddPoint(id, feature, cam_from_world.Inverse() * frame->PointInCamera(feature));
+    }
+    for (size_t i = 0; i < frame->lines.size(); ++i) {
+      const auto [known, is_new] = line_of_.emplace(frame->lines[i].descriptor, kNoId);
+      const int feature = static_cast<int>(i);
+      if (!is_new && map_.ObserveLine(known->second, id, feature)) continue;
+      known->second =
+          map_.AddLine(id, feature, cam_from_world.Inverse() * frame->LineInCamera(feature));
+    }
+  }
+
+  Map map_;
+  std::map<Descriptor, LandmarkId> point_of_;
+  std::map<Descriptor, LandmarkId> line_of_;
+};
+
+TEST_F(WindowTest, HoldsTheGaugeAndTheObservers) {
+  WindowSelectionOptions options;
+  options.max_keyframes = 3;
+  options.max_fixed_keyframes = 2;
+  const WindowData window = SelectWindow(options, map_, 5);
+  int num_free = 0;
+  int num_fixed = 0;
+  for (const WindowData::Keyframe& keyframe : window.keyframes) {
+    ++(keyframe.fixed ? num_fixed : num_free);
+  }
+  EXPECT_EQ(num_free, 3);
+  EXPECT_EQ(num_fixed, 2);
+  EXPECT_GT(window.points.size(), 100u);
+  EXPECT_GT(window.lines.size(), 10u);
+}
+
+TEST_F(WindowTest, FirstKeyframeIsFixedWhenAllAreInTheWindow) {
+  const WindowData window = SelectWindow(WindowSelectionOptions(), map_, 5);
+  ASSERT_EQ(window.keyframes.size(), 6u);
+  for (const WindowData::Keyframe& keyframe : window.keyframes) {
+    EXPECT_EQ(keyframe.fixed, keyframe.id == 0) << keyframe.id;
+  }
+}
+
+TEST_F(WindowTest, EveryObservationRefersToWhatIsInTheWindow) {
+  WindowSelectionOptions options;
+  options.max_keyframes = 2;
+  options.max_fixed_keyframes = 1;
+  const WindowData window = SelectWindow(options, map_, 3);
+  std::map<int64_t, int> seen_points;
+  std::map<int64_t, int> keyframes;
+  for (const auto& keyframe : window.keyframes) keyframes[keyframe.id] = 1;
+  for (const auto& seen : window.point_observations) {
+    EXPECT_EQ(keyframes.count(seen.keyframe), 1u);
+    ++seen_points[seen.point];
+  }
+  for (const auto& point : window.points) EXPECT_GE(seen_points[point.id], 1) << point.id;
+}
+
+TEST_F(WindowTest, WriteBackMovesWhatIsFreeAndForgetsWhatWasRejected) {
+  WindowData window = SelectWindow(WindowSelectionOptions(), map_, 5);
+  const size_t observations_before =
+      map_.FindPoint(window.point_observations[0].point)->observations.size();
+  ASSERT_GE(observations_before, 2u);
+  window.point_observations[0].rejected = true;
+  const Eigen::Vector3d moved(9, 9, 9);
+  window.points[0].position = moved;
+  window.keyframes.back().cam_from_world.translation().x() += 0.25;
+  const Rigid3 pose = window.keyframes.back().cam_from_world;
+  WriteBack(window, &map_);
+  EXPECT_EQ(map_.FindPoint(window.points[0].id)->position, moved);
+  EXPECT_EQ(map_.FindPoint(window.point_observations[0].point)->observations.size(),
+            observations_before - 1);
+  EXPECT_EQ(map_.FindKeyframe(window.keyframes.back().id)->cam_from_world.params, pose.params);
+}
+
+TEST_F(WindowTest, CutFollowsTheObservationsNotTheEndPoints) {
+  const LineLandmark& line = map_.lines().front().second;
+  // Slide both end points far along the line: the same line, other end points.
+  LineSegment3 slid;
+  slid.start = line.segment.At(-3.0);
+  slid.end = line.segment.At(0.2);
+  const LineSegment3 cut = CutToObservations(map_, line, slid);
+  EXPECT_LT((cut.start - line.segment.start).norm(), 1e-6);
+  EXPECT_LT((cut.end - line.segment.end).norm(), 1e-6);
+}
+
+}  // namespace
+}  // namespace msc_vo

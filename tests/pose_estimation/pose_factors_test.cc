@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/pose_estimation/pose_factors.h"
+
+#include <memory>
+
+#include "tests/support/factor_checks.h"
+#include "tests/support/synthetic_window.h"
+#include <ceres/loss_function.h>
+
+#include "msc_vo/bundle_adjustment/observation.h"
+
+namespace msc_vo {
+namespace {
+
+// All matches of one frame, some of them wrong, with robust losses.
+PoseFactors MakeFactors(const PoseData& data) {
+  PoseFactors factors;
+  factors.point_reprojection.huber = factors.line_reprojection.huber = 2.448;
+  factors.point_depth.huber = 1.96;
+  factors.line_depth.huber = 2.448;
+  for (const PoseData::Point& p : data.points) {
+    factors.point_reprojection.blocks.push_back(
+        {PointReprojection(data.camera, p.pixel, p.sigma), {p.position}});
+    factors.point_depth.blocks.push_back(
+        {DepthReprojection(p.inverse_depth, p.inverse_depth_sigma), {p.position}});
+  }
+  for (const PoseData::Line& l : data.lines) {
+    const LineSegment3 line = data.cam_from_world * l.map_segment;
+    const std::array<Eigen::Vector3d, 2> ends{l.map_segment.start, l.map_segment.end};
+    factors.line_reprojection.blocks.push_back(
+        {MakeLineReprojection(data.camera, l.segment, l.sigma, line), ends});
+    factors.line_depth.blocks.push_back(
+        {MakeLineDepthReprojection(data.camera, l.segment, l.depth, line), ends});
+  }
+  return factors;
+}
+
+// The same sum of factors as a Ceres problem: the definition.
+class CeresForm {
+ public:
+  CeresForm(const PoseFactors& factors, const Rigid3& pose) : pose_(pose) {
+    problem_.AddParameterBlock(pose_.params.data(), 7, new Rigid3Manifold);
+    Add(factors.point_reprojection);
+    Add(factors.point_depth);
+    Add(factors.line_reprojection);
+    Add(factors.line_depth);
+  }
+
+  NormalEquations Linearize() {
+    ceres::Problem::EvaluateOptions options;
+    options.parameter_blocks = {pose_.params.data()};
+    NormalEquations equations;
+    std::vector<double> gradient;
+    ceres::CRSMatrix jacobian;
+    EXPECT_TRUE(problem_.Evaluate(options, &equations.cost, nullptr, &gradient, &jacobian));
+    equations.gradient = Eigen::Map<Eigen::Matrix<double, 6, 1>>(gradient.data());
+    const Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>> j(
+        jacobian.values.data(), jacobian.num_rows, 6);
+    equations.hessian = j.transpose() * j;
+    return equations;
+  }
+
+  Rigid3 Solve() {
+    SolveToEnd(&problem_);
+    return pose_;
+  }
+
+ private:
+  template <typename Factor>
+  void Add(const PoseTerm<Factor>& term) {
+    for (const auto& block : term.blocks) {
+      landmarks_.push_back(std::make_unique<std::array<double, 6>>());
+      double* landmark = landmarks_.back()->data();
+      for (int k = 0; k < Factor::kNumPoints; ++k) {
+        Eigen::Map<Eigen::Vector3d>(landmark + 3 * k, 3) = block.x_in_world[k];
+      }
+      problem_.AddResidualBlock(Factor::Create(block.factor), new ceres::HuberLoss(term.huber),
+                                pose_.params.data(), landmark);
+      problem_.SetParameterBlockConstant(landmark);
+    }
+  }
+
+  Rigid3 pose_;
+  std::vector<std::unique_ptr<std::array<double, 6>>> landmarks_;
+  ceres::Problem problem_;
+};
+
+class PoseFactorsTest : public ::testing::TestWithParam<double> {
+ protected:
+  PoseFactorsTest() {
+    SyntheticWindowOptions options;
+    options.fy = GetParam();
+    options.num_points = 60;
+    options.num_lines = 20;
+    options.wrong_ratio = 0.1;
+    data_ = MakePoseData(MakeSyntheticWindow(options), 4);
+    factors_ = MakeFactors(data_);
+  }
+  PoseData data_;
+  PoseFactors factors_;
+};
+INSTANTIATE_TEST_SUITE_P(FocalLength, PoseFactorsTest, ::testing::Values(525.0, -480.0));
+
+TEST_P(PoseFactorsTest, RowsAreCounted) {
+  EXPECT_EQ(factors_.NumRows(), 60 * (2 + 1) + 20 * (2 + 2));
+}
+
+TEST_P(PoseFactorsTest, NormalEquationsAreThoseOfCeres) {
+  NormalEquations ours;
+  ASSERT_TRUE(factors_.Linearize(data_.cam_from_world, &ours));
+  const NormalEquations ceres = CeresForm(factors_, data_.cam_from_world).Linearize();
+  EXPECT_NEAR(ours.cost, ceres.cost, 1e-10 * ceres.cost);
+  EXPECT_THAT(ours.gradient, IsNear(ceres.gradient, 1e-10 * ceres.gradient.norm()));
+  EXPECT_THAT(ours.hessian, IsNear(ceres.hessian, 1e-10 * ceres.hessian.norm()));
+}
+
+TEST_P(PoseFactorsTest, MinimumIsThatOfCeres) {
+  Rigid3 pose = data_.cam_from_world;
+  EXPECT_EQ(MinimizePose(factors_, 50, &pose), PoseTermination::kConverged);
+  const Rigid3 ceres = CeresForm(factors_, data_.cam_from_world).Solve();
+  // A thousandth of the pose's standard deviation (about 1 mm) is the promise.
+  EXPECT_LT(Distance(pose, ceres), 1e-6);
+}
+
+TEST_P(PoseFactorsTest, IterationLimitIsReported) {
+  Rigid3 pose = data_.cam_from_world;
+  EXPECT_EQ(MinimizePose(factors_, 1, &pose), PoseTermination::kIterationLimit);
+}
+
+TEST_P(PoseFactorsTest, FailsUnchangedWhereAFactorIsUndefined) {
+  const Rigid3 behind(Eigen::Quaterniond::Identity(), {0.0, 0.0, -10.0});
+  Rigid3 pose = behind;
+  EXPECT_EQ(MinimizePose(factors_, 10, &pose), PoseTermination::kFailed);
+  EXPECT_EQ(pose.params, behind.params);
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/pose_estimation/pose_optimization.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/support/factor_checks.h"
+#include "tests/support/synthetic_window.h"
+#include <Eigen/Cholesky>
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+using ::testing::HasSubstr;
+constexpr int kFrame = 4;  // of the synthetic window
+
+Rigid3 Truth(const SyntheticWindow& window) {
+  return window.truth.keyframes[kFrame].cam_from_world;
+}
+
+// Normalised estimation error squared: chi-square with six degrees of freedom if the covariance is
+// right.
+double Nees(const Rigid3& estimate, const PoseSummary& summary, const Rigid3& truth) {
+  Eigen::Matrix<double, 6, 1> error;
+  Rigid3Manifold().Minus(estimate.params.data(), truth.params.data(), error.data());
+  return error.dot(summary.covariance.llt().solve(error));
+}
+
+// The parameter is fy.
+class PoseProblemTest : public ::testing::TestWithParam<double> {
+ protected:
+  SyntheticWindowOptions Scene() const {
+    SyntheticWindowOptions options;
+    options.fy = GetParam();
+    return options;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(FocalLength, PoseProblemTest, ::testing::Values(525.0, -480.0));
+
+TEST_P(PoseProblemTest, ExactMatchesGiveTheExactPose) {
+  SyntheticWindowOptions scene = Scene();
+  scene.noise = 0.0;
+  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  PoseData data = MakePoseData(window, kFrame);
+  const PoseSummary summary = SolvePose(PoseOptions(), &data);
+  EXPECT_TRUE(summary.usable);
+  EXPECT_EQ(summary.num_inlier_points, 200);
+  EXPECT_EQ(summary.num_inlier_lines, 40);
+  EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-7);
+  EXPECT_NEAR(summary.final_cost, 0.0, 1e-8);
+}
+
+TEST_P(PoseProblemTest, PixelsOfPointsOrOfLinesAloneFixThePose) {
+  SyntheticWindowOptions scene = Scene();
+  scene.noise = 0.0;
+  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  for (const bool points : {true, false}) {
+    PoseOptions options;
+    options.point_reprojection.enabled = points;
+    options.line_reprojection.enabled = !points;
+    options.point_depth.enabled = options.line_depth.enabled = false;
+    PoseData data = MakePoseData(window, kFrame);
+    EXPECT_TRUE(SolvePose(options, &data).usable) << points;
+    EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-7) << points;
+  }
+}
+
+TEST_P(PoseProblemTest, DepthOfPointsAloneIsNotUsable) {
+  // It says nothing of a turn about the optical axis, among others.
+  PoseOptions options;
+  options.point_reprojection.enabled = options.line_reprojection.enabled = false;
+  options.line_depth.enabled = false;
+  PoseData data = MakePoseData(MakeSyntheticWindow(Scene()), kFrame);
+  EXPECT_FALSE(SolvePose(options, &data).usable);
+}
+
+TEST_P(PoseProblemTest, NoiseAndWrongMatches) {
+  SyntheticWindowOptions scene = Scene();
+  scene.wrong_ratio = 0.3;
+  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  PoseData data = MakePoseData(window, kFrame);
+  const PoseSummary summary = SolvePose(PoseOptions(), &data);
+  ASSERT_TRUE(summary.usable);
+  // Within the ellipsoid of its own covariance that holds 99.9 % (six degrees of freedom).
+  EXPECT_LT(Nees(data.cam_from_world, summary, Truth(window)), 22.46);
+  EXPECT_LT(std::sqrt(summary.covariance.trace()), 0.005);
+  // The flags, against which matches were made wrong.
+  int point = 0, line = 0, good = 0, kept = 0;
+  const auto count = [&](bool wrong, bool inlier) {
+    EXPECT_FALSE(wrong && inlier);
+    good += !wrong;
+    kept += inlier;
+  };
+  for (size_t i = 0; i < window.wrong_points.size(); ++i) {
+    if (window.truth.point_observations[i].keyframe != window.truth.keyframes[kFrame].id) continue;
+    count(window.wrong_points[i], data.points[point++].inlier);
+  }
+  for (size_t i = 0; i < window.wrong_lines.size(); ++i) {
+    if (window.truth.line_observations[i].keyframe != window.truth.keyframes[kFrame].id) continue;
+    count(window.wrong_lines[i], data.lines[line++].inlier);
+  }
+  // The test lets 1 % of good matches go.
+  EXPECT_GE(kept, 0.96 * good);
+  EXPECT_EQ(kept, summary.num_inlier_points + summary.num_inlier_lines);
+}
+
+TEST_P(PoseProblemTest, AFrameThatIsSeenWorseKeepsItsMatches) {
+  SyntheticWindowOptions scene = Scene();
+  scene.noise = 1.8;
+  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const auto share_of_inliers = [&](double max_frame_noise) {
+    PoseOptions options;
+    options.max_frame_noise = max_frame_noise;
+    PoseData data = MakePoseData(window, kFrame);
+    const auto num_points = static_cast<double>(data.points.size());
+    return SolvePose(options, &data).num_inlier_points / num_points;
+  };
+  // Of normal errors 1 - exp(-9.21 / 2 / 1.8^2) = 0.76 pass a test for sigmas 1.8 times too small.
+  EXPECT_NEAR(share_of_inliers(1.0), 0.76, 0.1);
+  EXPECT_GT(share_of_inliers(2.0), 0.95);
+}
+
+TEST_P(PoseProblemTest, AMatchThatBecomesGoodComesBack) {
+  SyntheticWindowOptions scene = Scene();
+  scene.noise = 0.0;
+  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  PoseData data = MakePoseData(window, kFrame);
+  // A prediction so far off that many matches fail the test after a first round of one step.
+  data.cam_from_world = Moved(Truth(window), {0.03, 0.06, 0.03}, {0.1, -0.05, 0.15});
+  PoseOptions options;
+  options.max_frame_noise = 1.0;      // else the test would take such a frame for a noisy one
+  options.consensus.enabled = false;  // it would find the pose at once
+  options.iterations_per_round = 1;
+  options.num_rounds = 1;
+  options.num_robust_rounds = 1;
+  PoseData first = data;
+  SolvePose(options, &first);
+  int inliers_at_first = 0;
+  for (const auto& p : first.points) inliers_at_first += p.inlier;
+  ASSERT_LT(inliers_at_first, 180);
+  ASSERT_GT(inliers_at_first, 10);
+  options.num_rounds = 8;
+  options.num_robust_rounds = 4;
+  EXPECT_EQ(SolvePose(options, &data).num_inlier_points, 200);
+  EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-6);
+}
+
+TEST_P(PoseProblemTest, AWrongDepthCostsItsDepthOnly) {
+  SyntheticWindowOptions scene = Scene();
+  scene.noise = 0.0;
+  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  PoseData data = MakePoseData(window, kFrame);
+  for (int i = 0; i < 40; ++i) data.points[i].inverse_depth += 0.1;
+  for (int i = 0; i < 8; ++i) data.lines[i].depth.start += 0.1;
+  const PoseSummary summary = SolvePose(PoseOptions(), &data);
+  EXPECT_EQ(summary.num_inlier_points, 200);
+  EXPECT_EQ(summary.num_inlier_lines, 40);
+  EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-7);
+  EXPECT_NEAR(summary.final_cost, 0.0, 1e-8);
+}
+
+TEST_P(PoseProblemTest, MatchesBehindTheCameraAreOutliers) {
+  SyntheticWindowOptions scene = Scene();
+  scene.noise = 0.0;
+  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  PoseData data = MakePoseData(window, kFrame);
+  data.points[3].position.z() = -2.0;
+  data.lines[5].map_segment.end.z() = -2.0;
+  const PoseSummary summary = SolvePose(PoseOptions(), &data);
+  EXPECT_TRUE(summary.usable);
+  EXPECT_FALSE(data.points[3].inlier);
+  EXPECT_FALSE(data.lines[5].inlier);
+  EXPECT_EQ(summary.num_inlier_points, 199);
+  EXPECT_EQ(summary.num_inlier_lines, 39);
+  EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-7);
+}
+
+// Mean NEES over `runs` windows that differ in noise only.
+double MeanNees(SyntheticWindowOptions scene, int runs) {
+  double sum = 0.0;
+  for (int run = 0; run < runs; ++run) {
+    scene.seed = 1000 + run;
+    const SyntheticWindow window = MakeSyntheticWindow(scene);
+    PoseData data = MakePoseData(window, kFrame);
+    const PoseSummary summary = SolvePose(PoseOptions(), &data);
+    EXPECT_TRUE(summary.usable) << run;
+    sum += Nees(data.cam_from_world, summary, Truth(window));
+  }
+  return sum / runs;
+}
+
+TEST_P(PoseProblemTest, CovarianceIsConsistent) {
+  // 200 times the mean is chi-square with 1200 degrees of freedom: 6 +- 2.576 sqrt(2 * 6 / 200) is
+  // its 99 % interval.
+  SyntheticWindowOptions scene = Scene();
+  scene.num_keyframes = 6;
+  scene.num_points = 60;
+  scene.num_lines = 15;
+  EXPECT_NEAR(MeanNees(scene, 200), 6.0, 0.631);
+}
+
+TEST_P(PoseProblemTest, CovarianceFromLinesAloneIsNotOptimistic) {
+  // Where map lines reach beyond what is seen of them, the two rows of a line are anti-correlated,
+  // which the factor leaves out: the covariance is then somewhat too large, never too small.
+  SyntheticWindowOptions scene = Scene();
+  scene.num_keyframes = 6;
+  scene.num_points = 0;
+  scene.num_lines = 25;
+  const double nees = MeanNees(scene, 200);
+  EXPECT_LT(nees, 6.0 + 0.631);
+  EXPECT_GT(nees, 4.5);
+}
+
+TEST_P(PoseProblemTest, SameInputSameBytes) {
+  SyntheticWindowOptions scene = Scene();
+  scene.wrong_ratio = 0.2;
+  PoseData a = MakePoseData(MakeSyntheticWindow(scene), kFrame);
+  PoseData b = MakePoseData(MakeSyntheticWindow(scene), kFrame);
+  SolvePose(PoseOptions(), &a);
+  SolvePose(PoseOptions(), &b);
+  EXPECT_EQ(a.cam_from_world.params, b.cam_from_world.params);
+}
+
+// Not usable: the pose is the prediction, bit for bit, and there is no covariance.
+void ExpectNotUsable(PoseData data) {
+  const Rigid3 prediction = data.cam_from_world;
+  const PoseSummary summary = SolvePose(PoseOptions(), &data);
+  EXPECT_FALSE(summary.usable);
+  EXPECT_EQ(data.cam_from_world.params, prediction.params);
+  EXPECT_TRUE(summary.covariance.isZero(0.0));
+}
+
+TEST_P(PoseProblemTest, TooFewRowsAreNotUsable) {
+  SyntheticWindowOptions scene = Scene();
+  scene.has_depth = false;
+  PoseData data = MakePoseData(MakeSyntheticWindow(scene), kFrame);
+  data.lines.clear();
+  data.points.resize(2);
+  ExpectNotUsable(data);
+  data.points.clear();
+  ExpectNotUsable(data);
+}
+
+TEST_P(PoseProblemTest, ThreePointsWithDepthAreEnough) {
+  SyntheticWindowOptions scene = Scene();
+  scene.noise = 0.0;
+  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  PoseData data = MakePoseData(window, kFrame);
+  data.lines.clear();
+  data.points.resize(3);
+  EXPECT_TRUE(SolvePose(PoseOptions(), &data).usable);
+  EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-6);
+}
+
+TEST_P(PoseProblemTest, ParallelLinesAloneAreNotUsable) {
+  // Any number of lines along x leaves the shift along x free.
+  SyntheticWindowOptions scene = Scene();
+  scene.noise = 0.0;
+  PoseData data = MakePoseData(MakeSyntheticWindow(scene), kFrame);
+  data.points.clear();
+  std::vector<PoseData::Line> along_x;
+  for (size_t i = 0; i < data.lines.size(); i += 3) along_x.push_back(data.lines[i]);
+  data.lines = along_x;
+  ASSERT_GE(data.lines.size(), 10u);
+  ExpectNotUsable(data);
+}
+
+TEST_P(PoseProblemTest, OnePointSeenOftenIsNotUsable) {
+  SyntheticWindowOptions scene = Scene();
+  scene.noise = 0.0;
+  PoseData data = MakePoseData(MakeSyntheticWindow(scene), kFrame);
+  data.lines.clear();
+  data.points.assign(20, data.points[0]);
+  ExpectNotUsable(data);
+}
+
+TEST(PoseOptions, FrameNoiseBelowOneIsRefused) {
+  PoseOptions options;
+  options.max_frame_noise = 0.9;
+  std::string error;
+  EXPECT_FALSE(options.IsValid(&error));
+  EXPECT_THAT(error, HasSubstr("max_frame_noise"));
+}
+
+TEST_P(PoseProblemTest, MisuseNamesTheOffender) {
+  const PoseData good = MakePoseData(MakeSyntheticWindow(Scene()), kFrame);
+  const auto message = [](PoseData data, const PoseOptions& options = PoseOptions()) {
+    try {
+      SolvePose(options, &data);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing was thrown");
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  PoseData bad = good;
+  bad.points[7].pixel.x() = nan;
+  EXPECT_THAT(message(bad), HasSubstr("point 7: pixel is not finite"));
+  bad = good;
+  bad.points[8].position.z() = nan;
+  EXPECT_THAT(message(bad), HasSubstr("point 8: position is not finite"));
+  bad = good;
+  bad.points[9].sigma = 0.0;
+  EXPECT_THAT(message(bad), HasSubstr("point 9: sigma must be positive"));
+  bad = good;
+  bad.points[10].inverse_depth_sigma = 0.0;
+  EXPECT_THAT(message(bad), HasSubstr("point 10: inverse_depth_sigma must be positive"));
+  bad = good;
+  bad.points[10].inverse_depth = -1.0;
+  EXPECT_THAT(message(bad), HasSubstr("point 10: inverse_depth must not be negative"));
+  bad = good;
+  bad.lines[3].map_segment.end = bad.lines[3].map_segment.start;
+  EXPECT_THAT(message(bad), HasSubstr("line 3: segment has no length"));
+  bad = good;
+  bad.lines[4].sigma = -1.0;
+  EXPECT_THAT(message(bad), HasSubstr("line 4: sigma must be positive"));
+  bad = good;
+  bad.lines[5].depth.covariance.setZero();
+  EXPECT_THAT(message(bad), HasSubstr("line 5: depth covariance is not positive definite"));
+  bad = good;
+  bad.cam_from_world.params.setZero();
+  EXPECT_THAT(message(bad), HasSubstr("prediction: rotation is not unit"));
+  bad = good;
+  bad.camera.fx = 0.0;
+  EXPECT_THAT(message(bad), HasSubstr("fx"));
+  PoseOptions options;
+  options.num_robust_rounds = 5;
+  EXPECT_THAT(message(good, options), HasSubstr("num_robust_rounds"));
+  options = PoseOptions();
+  options.line_depth.huber = 0.0;
+  EXPECT_THAT(message(good, options), HasSubstr("huber"));
+}
+
+}  // namespace
+}  // namespace msc_vo

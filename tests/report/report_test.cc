@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/report/report.h"
+
+#include <limits>
+#include <regex>
+#include <sstream>
+
+#include "fake_run.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace msc_vo {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string ReportOf(const ReportData& data) {
+  std::ostringstream out;
+  WriteReport(data, out);
+  return out.str();
+}
+
+int CountOf(const std::string& text, const std::string& what) {
+  int count = 0;
+  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+  return count;
+}
+
+TEST(Report, ShowsEverything) {
+  const std::string html = ReportOf(MakeFakeRun(300));
+  for (const char* text :
+       {"<h1>a figure of eight</h1>", "msc_vo replay eight", "mode: pl-vo-depth", "12.3 mm",
+        "after SE(3) alignment", "Top view", "Side view", "Position error over time",
+        "Inliers and status over time", "Time per keyframe", "matching", "msc_vo 0.1.0",
+        "<td>50 to 59</td><td>1.67</td><td>1.97</td><td>5</td><td>5</td>"}) {
+    EXPECT_THAT(html, HasSubstr(text));
+  }
+}
+
+TEST(Report, LoadsNothingAndRunsNothing) {
+  const std::string html = ReportOf(MakeFakeRun(100));
+  for (const char* text : {"<script", "http:", "https:", "url(", "@import", " src=", " href="}) {
+    EXPECT_THAT(html, Not(HasSubstr(text)));
+  }
+}
+
+TEST(Report, ClosesEveryElement) {
+  const std::string html = ReportOf(MakeFakeRun(100));
+  for (const std::string name : {"html", "body", "svg", "figure", "table", "tr", "td", "div", "dl",
+                                 "ul", "li", "text", "g", "title", "pre", "details"}) {
+    const std::regex opening("<" + name + "[ >]");
+    const auto begin = std::sregex_iterator(html.begin(), html.end(), opening);
+    EXPECT_EQ(std::distance(begin, std::sregex_iterator()), CountOf(html, "</" + name + ">"))
+        << name;
+  }
+}
+
+TEST(Report, EscapesEveryText) {
+  ReportData data = MakeFakeRun(10);
+  const std::string evil = "<b>&\"";
+  data.title = data.version = data.command_line = data.options_text = evil;
+  data.numbers = {{evil, evil, evil}};
+  data.stage_names[0] = evil;
+  const std::string html = ReportOf(data);
+  EXPECT_THAT(html, Not(HasSubstr("<b>")));
+  // title, h1, command line, three of the number, options, version; stage: legend and table.
+  EXPECT_EQ(CountOf(html, "&lt;b&gt;&amp;&quot;"), 10);
+}
+
+TEST(Report, ShowsLongValuesInATable) {
+  ReportData data = MakeFakeRun(10);
+  data.numbers = {{"Short", "1 mm", ""}, {"Long", "21.4 ms per frame (median 20.9)", ""}};
+  const std::string html = ReportOf(data);
+  EXPECT_THAT(html, HasSubstr("<dd class=\"value\">1 mm</dd>"));
+  EXPECT_THAT(html, HasSubstr("<th>Long</th><td>21.4 ms per frame (median 20.9)</td>"));
+}
+
+TEST(Report, StaysSmallOnLongRuns) { EXPECT_LT(ReportOf(MakeFakeRun(5000)).size(), 2'000'000u); }
+
+TEST(Report, IsTheSameEveryTime) {
+  EXPECT_EQ(ReportOf(MakeFakeRun(200)), ReportOf(MakeFakeRun(200)));
+}
+
+TEST(Report, SaysNothingOfATruthThatIsNotThere) {
+  ReportData data = MakeFakeRun(100);
+  data.truth.clear();
+  for (ReportFrame& frame : data.frames) frame.position_error.reset();
+  const std::string html = ReportOf(data);
+  EXPECT_THAT(html, Not(HasSubstr("truth</li>")));
+  EXPECT_THAT(html, Not(HasSubstr("Position error")));
+}
+
+TEST(Report, SaysWhenAllWasTracked) {
+  EXPECT_THAT(ReportOf(MakeFakeRun(40)), HasSubstr("all 40 frames were tracked"));
+}
+
+TEST(Report, SurvivesShortAndBrokenRuns) {
+  EXPECT_THAT(ReportOf(ReportData{}), HasSubstr("No frame was processed"));
+  EXPECT_THAT(ReportOf(MakeFakeRun(1)), HasSubstr("</html>"));
+  ReportData data = MakeFakeRun(20);
+  data.frames[0].world_from_cam.params.setConstant(std::numeric_limits<double>::quiet_NaN());
+  data.frames[1].tracking_ms = std::numeric_limits<double>::infinity();
+  data.lines[0].segment.start.setConstant(std::numeric_limits<double>::quiet_NaN());
+  data.truth[3].position.setConstant(std::numeric_limits<double>::quiet_NaN());
+  // FormatFixed writes a dash for what is not finite; no coordinate may be one.
+  EXPECT_FALSE(std::regex_search(ReportOf(data), std::regex("[ML \"]-,|,-[ML \"]|=\"-\"")));
+}
+
+TEST(Report, RefusesStageTimesThatDoNotFit) {
+  ReportData data = MakeFakeRun(10);
+  data.frames[7].stage_ms.pop_back();
+  EXPECT_THAT([&] { ReportOf(data); },
+              ::testing::ThrowsMessage<std::invalid_argument>(HasSubstr("frame 7 has 4")));
+}
+
+}  // namespace
+}  // namespace msc_vo

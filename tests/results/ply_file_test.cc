@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/results/ply_file.h"
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+// Lines along the first axis, along none, and outside of the last window.
+const std::vector<MapLine> kLines = {
+    {{{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}}, 5, true, 0, {0.0, 0.6, 0.8}},
+    {{{0.0, 2.0, 1.0}, {1.0, 2.0, 1.0}}, 7, true, std::nullopt, {0.0, 1.0, 0.0}},
+    {{{0.0, 1.0, 1.0}, {1.0, 1.0, 1.25}}, 6, false, 1, {1.0, 0.0, 0.0}}};
+
+constexpr char kEdges[] =
+    "ply\nformat ascii 1.0\ncomment two edges\nelement vertex 3\nproperty float x\n"
+    "property float y\nproperty float z\nelement edge 2\nproperty int vertex1\n"
+    "property int vertex2\nend_header\n0 0 0\n1 0 0\n1 2 0\n0 1\n2 1\n";
+
+class PlyFileTest : public TemporaryFolder {
+ protected:
+  // What is said of kEdges with `from` replaced by `to`.
+  std::string ErrorOf(const std::string& from, const std::string& to) {
+    std::string text = kEdges;
+    const size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    WriteText("edges.ply", text);
+    return MessageOf([&] { ReadEdgesPly(Path("edges.ply")); });
+  }
+};
+
+TEST_F(PlyFileTest, WritesPoints) {
+  EXPECT_THAT(FormatPointsPly({{{1.0, 2.0, 3.0}, 4}}),
+              AllOf(HasSubstr("element vertex 1\n"),
+                    testing::EndsWith("end_header\n1.000000 2.000000 3.000000 4\n")));
+}
+
+TEST_F(PlyFileTest, WritesLinesInTheColoursOfTheirAxes) {
+  EXPECT_THAT(FormatLinesPly(kLines),
+              AllOf(HasSubstr("element vertex 6\n"), HasSubstr("element edge 3\n"),
+                    HasSubstr("\n0.000000 0.000000 1.000000 0.000000 -0.600000 -0.800000 "
+                              "255 0 0 5\n"),
+                    HasSubstr("1.000000 2.000000 1.000000 0.000000 -1.000000 0.000000 "
+                              "128 0 128 7\n"),
+                    testing::EndsWith("0 0 0 6\n0 1 255 0 0\n2 3 128 0 128\n4 5 0 0 0\n")));
+}
+
+TEST_F(PlyFileTest, ReadsTheLinesThatItWrote) {
+  WriteText("lines.ply", FormatLinesPly(kLines));
+  const std::vector<EstimatedLine> lines = ReadLinesPly(Path("lines.ply"));
+  ASSERT_EQ(lines.size(), kLines.size());
+  for (size_t i = 0; i < lines.size(); ++i) {
+    EXPECT_EQ(lines[i].segment.start, kLines[i].segment.start);
+    EXPECT_EQ(lines[i].segment.end, kLines[i].segment.end);
+    EXPECT_EQ(lines[i].num_observations, kLines[i].num_observations);
+    EXPECT_EQ(lines[i].viewing_direction, kLines[i].viewing_direction);
+  }
+  WriteText("none.ply", FormatLinesPly({}));
+  EXPECT_TRUE(ReadLinesPly(Path("none.ply")).empty());
+}
+
+TEST_F(PlyFileTest, ReadsTheEdgesThatItWrote) {
+  const std::vector<LineSegment3> edges = {{{0.5, -2.0, 1.0}, {0.5, -2.0, 1e-6}},
+                                           {{0.0, 0.0, 0.0}, {123.456789, 0.0, 0.0}}};
+  WriteText("edges.ply", FormatEdgesPly(edges));
+  const std::vector<LineSegment3> read = ReadEdgesPly(Path("edges.ply"));
+  ASSERT_EQ(read.size(), edges.size());
+  for (size_t i = 0; i < read.size(); ++i) {
+    EXPECT_EQ(read[i].start, edges[i].start);
+    EXPECT_EQ(read[i].end, edges[i].end);
+  }
+}
+
+TEST_F(PlyFileTest, VerticesMayBeShared) {
+  WriteText("edges.ply", kEdges);
+  const std::vector<LineSegment3> edges = ReadEdgesPly(Path("edges.ply"));
+  ASSERT_EQ(edges.size(), 2u);
+  EXPECT_EQ(edges[1].start, Eigen::Vector3d(1, 2, 0));
+  EXPECT_EQ(edges[1].end, Eigen::Vector3d(1, 0, 0));
+}
+
+TEST_F(PlyFileTest, BadFilesAreNamedWithTheirLine) {
+  EXPECT_THAT(ErrorOf("ply", "plain"), HasSubstr("edges.ply:1: expected 'ply'"));
+  EXPECT_THAT(ErrorOf("ascii", "binary_little_endian"),
+              AllOf(HasSubstr("edges.ply:2: expected 'format ascii 1.0'"),
+                    HasSubstr("found 'format binary_little_endian 1.0'")));
+  EXPECT_THAT(ErrorOf("vertex 3", "vertex 1e30"), HasSubstr("edges.ply:4: expected a whole"));
+  EXPECT_THAT(ErrorOf("vertex 3", "vertex three"), HasSubstr("edges.ply:4: expected a whole"));
+  EXPECT_THAT(ErrorOf("property float x", "property list uchar int x"),
+              HasSubstr("edges.ply:5: expected 'comment', 'element NAME COUNT'"));
+  EXPECT_THAT(ErrorOf("float z", "float w"), HasSubstr("edges.ply:4: element 'vertex' has no "
+                                                       "property 'z'"));
+  EXPECT_THAT(ErrorOf("element edge", "element face"),
+              HasSubstr("edges.ply: has no element 'edge'"));
+  EXPECT_THAT(ErrorOf("end_header\n", ""), HasSubstr("edges.ply:11: expected 'comment'"));
+  EXPECT_THAT(ErrorOf("1 0 0", "1 0"), HasSubstr("edges.ply:13: expected 3 numbers"));
+  EXPECT_THAT(ErrorOf("1 0 0", "1 0 nan"), HasSubstr("edges.ply:13: 'nan' is not a finite"));
+  EXPECT_THAT(ErrorOf("2 1\n", "2 3\n"), HasSubstr("edges.ply:16: expected two of the 3 vertices"));
+  EXPECT_THAT(ErrorOf("2 1\n", "2 0.5\n"),
+              HasSubstr("edges.ply:16: expected two of the 3 vertices"));
+  EXPECT_THAT(ErrorOf("2 1\n", "2 2\n"), HasSubstr("edges.ply:16: expected an edge between two"));
+  EXPECT_THAT(ErrorOf("2 1\n", "2 1\n2 1\n"), HasSubstr("edges.ply:17: expected the end of"));
+  EXPECT_THAT(ErrorOf("2 1\n", ""), HasSubstr("edges.ply:15: the file ends after 1 of 2 rows of "
+                                              "element 'edge'"));
+  EXPECT_THAT(ErrorOf(kEdges, ""), HasSubstr("edges.ply:1: the file is empty"));
+  EXPECT_THAT(ErrorOf(kEdges, "ply\n"), HasSubstr("edges.ply:1: expected 'format ascii 1.0'"));
+  EXPECT_THAT(ErrorOf(kEdges, "ply\nformat ascii 1.0\n"),
+              HasSubstr("edges.ply:2: the file ends before 'end_header'"));
+  EXPECT_THAT(MessageOf([&] { ReadEdgesPly(Path("none.ply")); }), HasSubstr("does not exist"));
+  WriteText("edges.ply", kEdges);
+  EXPECT_THAT(MessageOf([&] { ReadLinesPly(Path("edges.ply")); }),
+              HasSubstr("edges.ply:4: element 'vertex' has no property 'nx'"));
+  std::string lines = FormatLinesPly(kLines);
+  WriteText("lines.ply", lines.replace(lines.find(" 5\n"), 2, " 5.5"));
+  EXPECT_THAT(MessageOf([&] { ReadLinesPly(Path("lines.ply")); }),
+              HasSubstr("lines.ply:22: expected a whole number of observations"));
+}
+
+}  // namespace
+}  // namespace msc_vo

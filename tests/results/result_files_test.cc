@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/results/result_files.h"
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/text/text_file.h"
+#include "msc_vo/datasets/trajectory.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::HasSubstr;
+
+class ResultFilesTest : public TemporaryFolder {
+ protected:
+  // Five frames, the third and fourth without a pose; the first is a keyframe.
+  static OdometryResult Result() {
+    OdometryResult result;
+    for (int i = 0; i < 5; ++i) {
+      FrameResult frame;
+      frame.id = i;
+      frame.timestamp = 10.0 + 0.1 * i;
+      frame.status = TrackingStatus::kTracked;
+      frame.cam_from_world.translation() = Eigen::Vector3d(-i, 0.0, 0.0);
+      frame.num_points = 100 + i;
+      frame.num_inlier_points = 50;
+      frame.num_inlier_lines = 7;
+      frame.times.tracking = 10.0 * (i + 1);
+      result.frames.push_back(frame);
+    }
+    result.frames[0].is_keyframe = true;
+    result.frames[0].times.mapping = 40.0;
+    result.frames[1].covariance(3, 3) = 0.04;
+    result.frames[4].num_moving = 80;
+    result.frames[2].status = TrackingStatus::kPredicted;
+    result.frames[3].status = TrackingStatus::kLost;
+    result.frames[4].status = TrackingStatus::kWeak;
+    result.keyframes = {{10.0, Rigid3()}};
+    result.points = {{{1.0, 2.0, 3.0}, 4}};
+    result.lines = {{{{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}}, 5, true, 0},
+                    {{{0.0, 2.0, 1.0}, {1.0, 2.0, 1.0}}, 7, true, std::nullopt},
+                    {{{0.0, 1.0, 1.0}, {1.0, 1.0, 1.0}}, 6, false, 1}};
+    result.axes.state = AxesState::kRefined;
+    result.axes.sigma = DegreesToRadians(0.1);
+    result.last_window.parallel = {12, 3, 5.0, 4.0};
+    return result;
+  }
+};
+
+TEST_F(ResultFilesTest, SummarizesStatusesSpansAndStages) {
+  const RunSummary summary = Summarize(Result());
+  EXPECT_THAT(summary.status_counts, testing::ElementsAre(2, 1, 1, 1, 0));
+  EXPECT_DOUBLE_EQ(summary.tracked_share, 0.6);
+  EXPECT_EQ(summary.num_frames_with_motion, 1);
+  ASSERT_EQ(summary.not_tracked.size(), 1u);
+  EXPECT_EQ(summary.not_tracked[0].first_frame, 2);
+  EXPECT_EQ(summary.not_tracked[0].last_frame, 3);
+  EXPECT_DOUBLE_EQ(summary.not_tracked[0].end, 10.3);
+  const StageTimeStatistics tracking = FindStage(summary, "tracking");
+  EXPECT_EQ(tracking.mean, 30.0);
+  EXPECT_EQ(tracking.median, 30.0);
+  EXPECT_EQ(tracking.p95, 50.0);
+  const StageTimeStatistics mapping = FindStage(summary, "mapping");
+  EXPECT_EQ(mapping.count, 1);  // frames without a keyframe step do not dilute it
+  EXPECT_EQ(mapping.mean, 40.0);
+}
+
+TEST_F(ResultFilesTest, AnEmptyRunHasASummaryToo) {
+  const RunSummary summary = Summarize({});
+  EXPECT_EQ(summary.num_frames, 0);
+  EXPECT_EQ(summary.tracked_share, 0.0);
+  EXPECT_TRUE(nlohmann::json::accept(FormatSummary(summary, {})));
+}
+
+TEST_F(ResultFilesTest, WritesOneRowPerFrame) {
+  const std::string csv = FormatFramesCsv(Result().frames);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6);
+  EXPECT_THAT(csv, testing::StartsWith("time,status,keyframe,"));
+  EXPECT_THAT(csv, HasSubstr("\n10.000000,tracked,1,100,0,50,7,0.000,"));
+  EXPECT_THAT(csv, HasSubstr(",0,0,0,0.2,0,0,0\n"));
+  EXPECT_THAT(csv, testing::EndsWith(",80\n"));
+  const auto commas = [](const std::string& row) {
+    return std::count(row.begin(), row.end(), ',');
+  };
+  EXPECT_EQ(commas(csv), 6 * commas(csv.substr(0, csv.find('\n'))));
+}
+
+TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
+  RunContext context;
+  context.command_line = "msc_vo replay \xff";  // not UTF-8: JSON must survive it
+  context.outcome = "interrupted";
+  context.cost.seconds = 2.0;
+  context.cost.processor_seconds = 3.0;
+  context.sequence.ground_truth = {{10.0, Rigid3()}};
+  const std::string out = Path("deep/down/out");
+  WriteResultFiles(out, Result(), context);
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(out)) {
+    names.push_back(entry.path().filename().string());
+  }
+  EXPECT_THAT(names, testing::UnorderedElementsAre("trajectory.txt", "keyframes.txt", "frames.csv",
+                                                   "map.ply", "lines.ply", "summary.json",
+                                                   "report.html", "groundtruth.txt"));
+  const std::vector<TimedPose> trajectory = ReadTrajectory(out + "/trajectory.txt");
+  ASSERT_EQ(trajectory.size(), 5u);  // a pose for every frame
+  EXPECT_EQ(trajectory[4].world_from_cam.translation().x(), 4.0);
+  const nlohmann::json summary = nlohmann::json::parse(ReadFile(out + "/summary.json"));
+  EXPECT_EQ(summary["outcome"], "interrupted");
+  EXPECT_EQ(summary["frames"]["lost"], 1);
+  EXPECT_EQ(summary["frames_per_second"], 2.5);
+  EXPECT_EQ(summary["processor_seconds"], 3.0);
+  EXPECT_EQ(summary["frames"]["not_tracked_spans"][0]["last_frame"], 3);
+  EXPECT_TRUE(summary["error"].is_null());
+  EXPECT_EQ(summary["manhattan_axes"]["state"], "refined");
+  EXPECT_NEAR(summary["manhattan_axes"]["sigma_deg"], 0.1, 1e-9);
+  EXPECT_EQ(summary["manhattan_axes"]["lines"], nlohmann::json({1, 1, 0}));
+  EXPECT_EQ(summary["last_window"]["parallel"]["blocks"], 12);
+  EXPECT_EQ(summary["last_window"]["parallel"]["rejected"], 3);
+  EXPECT_EQ(summary["options"]["mode"], "msc-vo");
+  EXPECT_EQ(summary["options"]["tracking.wide_radius"], 60.0);
+}
+
+TEST_F(ResultFilesTest, AFileInTheWayIsAnError) {
+  WriteText("out", "");
+  EXPECT_THAT(MessageOf([&] { WriteResultFiles(Path("out"), Result(), {}); }),
+              HasSubstr("out: cannot be made"));
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/self_calibration/readout_time_estimator.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "tests/support/rolling_frames.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
+#include "msc_vo/self_calibration/readout_time_pair.h"
+
+namespace msc_vo {
+namespace {
+
+constexpr double kReadout = 0.026;
+
+// Adds the next keyframe; landmark i is feature i of all.
+KeyframeId AddKeyframe(RollingFrames* world, int index, Map* map) {
+  const KeyframeId id = map->AddKeyframe(world->See(index), RollingFrames::CamFromWorld(index));
+  const bool is_first = map->points().size() == 0;
+  std::vector<LandmarkId> landmarks;
+  for (const auto& [landmark, point] : map->points()) landmarks.push_back(landmark);
+  for (int i = 0; i < static_cast<int>(world->points().size()); ++i) {
+    if (is_first) {
+      map->AddPoint(id, i, world->points()[i]);
+    } else {
+      map->ObservePoint(landmarks[i], id, i);
+    }
+  }
+  return id;
+}
+
+std::optional<ReadoutEstimate> EstimateFirst(const Map& map, double start = 0.0) {
+  return EstimateReadout(*map.FindKeyframe(0), *map.FindKeyframe(1), start);
+}
+
+TEST(ReadoutPair, FindsTheTimeFromTwoKeyframes) {
+  for (const double truth : {kReadout, 0.0, -0.015}) {
+    RollingFrames world(truth, 0.0);
+    Map map;
+    for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
+    EXPECT_NEAR(EstimateFirst(map)->readout_time, truth, 2e-4);
+    EXPECT_NEAR(EstimateFirst(map, 0.03)->readout_time, truth, 2e-4);
+  }
+}
+
+// Landmarks are what a pose with another time, or none, has left.
+TEST(ReadoutPair, DoesNotDependOnLandmarks) {
+  RollingFrames world(kReadout, 0.0);
+  Map map;
+  for (const int index : {0, 1}) {
+    map.AddKeyframe(world.See(index), RollingFrames::CamFromWorld(index));
+  }
+  EXPECT_NEAR(EstimateFirst(map)->readout_time, kReadout, 2e-4);
+}
+
+TEST(ReadoutPair, KnowsWhatKeyframesAreUnrolledWith) {
+  RollingFrames world(kReadout, 0.0);
+  Map map;
+  for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
+  UnrollKeyframes(0.02, &map);
+  EXPECT_EQ(map.FindKeyframe(1)->frame->readout_time, 0.02);
+  EXPECT_NEAR(EstimateFirst(map)->readout_time, kReadout, 5e-4);
+}
+
+TEST(ReadoutPair, WrongMatchesDoNotDecide) {
+  RollingFrames world(kReadout, 0.3);
+  Map map;
+  AddKeyframe(&world, 0, &map);
+  auto frame = world.See(1);
+  for (int i = 0; i < 15; ++i) frame->points[i].pixel.x() += 6.0;
+  const KeyframeId id = AddKeyframe(&world, 1, &map);
+  map.SetFrame(id, frame);
+  EXPECT_NEAR(EstimateFirst(map)->readout_time, kReadout, 2e-3);
+}
+
+TEST(ReadoutPair, AStandingCameraTellsNothing) {
+  RollingFrames world(kReadout, 0.3);
+  Map map;
+  for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
+  const double information = EstimateFirst(map)->information;
+  for (const KeyframeId id : {0, 1}) {
+    auto frame = std::make_shared<Frame>(*map.FindKeyframe(id)->frame);
+    frame->velocity = CameraVelocity();
+    map.SetFrame(id, frame);
+  }
+  EXPECT_LT(EstimateFirst(map)->information, 1e-9 * information);
+}
+
+TEST(ReadoutPair, NeedsVelocitiesAndPoints) {
+  RollingFrames world(kReadout, 0.0);
+  Map map;
+  for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
+  const auto whole = std::make_shared<Frame>(*map.FindKeyframe(0)->frame);
+  auto frame = std::make_shared<Frame>(*whole);
+  frame->velocity.reset();
+  map.SetFrame(0, frame);
+  EXPECT_FALSE(EstimateFirst(map).has_value());
+  frame = std::make_shared<Frame>(*whole);
+  for (size_t i = 29; i < frame->points.size(); ++i) frame->points[i].inverse_depth = 0.0;
+  map.SetFrame(0, frame);
+  EXPECT_FALSE(EstimateFirst(map).has_value());
+}
+
+double Learnt(double truth, const std::optional<double>& known) {
+  RollingFrames world(truth, 0.5);
+  Map map;
+  ReadoutEstimator readout(known);
+  for (int index = 0; index < 12; ++index) {
+    const KeyframeId id = AddKeyframe(&world, index, &map);
+    UnrollKeyframes(readout.readout_time(), &map);
+    readout.Update(map, id);
+  }
+  return readout.readout_time();
+}
+
+TEST(ReadoutEstimator, LearnsTheTimeOfARollingShutter) {
+  EXPECT_NEAR(Learnt(kReadout, std::nullopt), kReadout, 1e-3);
+  EXPECT_NEAR(Learnt(-kReadout, std::nullopt), -kReadout, 1e-3);
+}
+
+TEST(ReadoutEstimator, AGlobalShutterStaysGlobal) { EXPECT_EQ(Learnt(0.0, std::nullopt), 0.0); }
+
+TEST(ReadoutEstimator, WhatIsKnownStays) {
+  EXPECT_EQ(Learnt(kReadout, 0.02), 0.02);
+  EXPECT_EQ(Learnt(kReadout, 0.0), 0.0);
+}
+
+TEST(ReadoutEstimator, IsNotLongerThanAnImage) {
+  const double learnt = Learnt(0.045, std::nullopt);
+  EXPECT_LE(learnt, 1.0 / 30.0);
+  EXPECT_GT(learnt, 0.032);
+}
+
+TEST(KeyframeUnrolling, LeavesWhatIsNearEnoughOrHasNoVelocity) {
+  RollingFrames world(kReadout, 0.0);
+  Map map;
+  for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
+  auto frame = std::make_shared<Frame>(*map.FindKeyframe(0)->frame);
+  frame->velocity.reset();
+  map.SetFrame(0, frame);
+  UnrollKeyframes(kReadout, &map);
+  EXPECT_EQ(map.FindKeyframe(0)->frame, frame);
+  const auto unrolled = map.FindKeyframe(1)->frame;
+  EXPECT_EQ(unrolled->readout_time, kReadout);
+  UnrollKeyframes(kReadout + 0.0005, &map);
+  EXPECT_EQ(map.FindKeyframe(1)->frame, unrolled);
+}
+
+TEST(KeyframeUnrolling, ABetterVelocityUnrollsAnew) {
+  RollingFrames world(kReadout, 0.0);
+  Map map;
+  AddKeyframe(&world, 0, &map);
+  SetVelocity(0, {1.1 * RollingFrames::Velocity(0).angular, {0.0, 0.0, 0.0}}, &map);
+  UnrollKeyframes(kReadout, &map);
+  SetVelocity(0, RollingFrames::Velocity(0), &map);
+  const Frame& frame = *map.FindKeyframe(0)->frame;
+  EXPECT_EQ(frame.readout_time, kReadout);
+  for (size_t i = 0; i < frame.points.size(); ++i) {
+    const Eigen::Vector3d in_cam = RollingFrames::CamFromWorld(0) * world.points()[i];
+    EXPECT_LT((frame.points[i].pixel - frame.camera.Project(in_cam)).norm(), 0.05);
+  }
+  SetVelocity(7, RollingFrames::Velocity(0), &map);  // was removed: nothing happens
+  EXPECT_EQ(map.keyframes().size(), 1u);
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/structure/coarse_axes.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "tests/structure/evidence.h"
+#include <gtest/gtest.h>
+
+namespace msc_vo {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using testing::AddClutter;
+using testing::AddLines;
+using testing::AddNormals;
+using testing::AxesErrorInDegrees;
+using testing::RandomDirection;
+using testing::RandomRotation;
+using testing::RoomView;
+using testing::View;
+
+std::optional<ManhattanAxes> Find(const View& view) {
+  return FindCoarseAxes({}, view.lines, view.normals);
+}
+
+class CoarseAxesInClutter : public ::testing::TestWithParam<double> {};
+
+TEST_P(CoarseAxesInClutter, AreFoundWithinOneDegree) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    const Quaterniond truth = RandomRotation(&random);
+    const auto axes = Find(RoomView(truth, GetParam(), &random));
+    ASSERT_TRUE(axes) << "seed " << seed;
+    EXPECT_LT(AxesErrorInDegrees(axes->rotation, truth), 1.0) << "seed " << seed;
+    EXPECT_NEAR(axes->share, 1.0 - GetParam(), 0.08) << "seed " << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shares, CoarseAxesInClutter, ::testing::Values(0.0, 0.1, 0.2, 0.3, 0.4));
+
+TEST(CoarseAxes, AreRefusedWhenClutterHasTheMajority) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    EXPECT_FALSE(Find(RoomView(RandomRotation(&random), 0.6, &random))) << "seed " << seed;
+  }
+}
+
+TEST(CoarseAxes, PureClutterGivesNoFalseAlarm) {
+  for (uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    View view;
+    AddClutter(60, testing::kLineSigma, &random, &view.lines);
+    AddClutter(400, testing::kNormalSigma, &random, &view.normals);
+    EXPECT_FALSE(Find(view)) << "seed " << seed;
+  }
+}
+
+// Of few, two that are perpendicular by chance soon are the majority.
+TEST(CoarseAxes, LittleClutterGivesNoFalseAlarm) {
+  for (uint64_t seed = 0; seed < 1000; ++seed) {
+    Random random(seed);
+    View view;
+    AddClutter(static_cast<int>(seed % 5), testing::kLineSigma, &random, &view.lines);
+    AddClutter(2 + static_cast<int>(seed % 7), testing::kNormalSigma, &random, &view.normals);
+    EXPECT_FALSE(Find(view)) << "seed " << seed;
+  }
+}
+
+// Four planes at any angles and lines along their creases: what a scene without Manhattan
+// structure looks like. 1 in 100 may be taken for a room: two planes are square to each other
+// within the misfit in 7 % of all cases, and then what lies on them must still have a majority.
+TEST(CoarseAxes, RandomPlanesGiveFewFalseAlarms) {
+  int num_false_alarms = 0;
+  for (uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    View view;
+    std::vector<Vector3d> planes;
+    for (int i = 0; i < 4; ++i) {
+      planes.push_back(RandomDirection(&random));
+      AddNormals(planes.back(), 200, &random, &view);
+      for (int j = 0; j < i; ++j) {
+        AddLines(planes[i].cross(planes[j]).normalized(), 10, &random, &view);
+      }
+    }
+    if (Find(view)) ++num_false_alarms;
+  }
+  EXPECT_LE(num_false_alarms, 2);
+}
+
+TEST(CoarseAxes, TwoAxesAreEnough) {
+  Random random(3);
+  const Quaterniond truth = RandomRotation(&random);
+  const Matrix3d axes = truth.toRotationMatrix();
+  View view;
+  AddLines(axes.col(0), 30, &random, &view);
+  AddLines(axes.col(1), 20, &random, &view);
+  AddNormals(axes.col(0), 300, &random, &view);
+  AddNormals(axes.col(1), 300, &random, &view);
+  const auto found = Find(view);
+  ASSERT_TRUE(found);
+  EXPECT_LT(AxesErrorInDegrees(found->rotation, truth), 1.0);
+}
+
+TEST(CoarseAxes, LinesAlongThreeAxesAreEnough) {
+  Random random(4);
+  const Quaterniond truth = RandomRotation(&random);
+  View view;
+  for (int i = 0; i < 3; ++i) AddLines(truth.toRotationMatrix().col(i), 10, &random, &view);
+  const auto found = Find(view);
+  ASSERT_TRUE(found);
+  EXPECT_LT(AxesErrorInDegrees(found->rotation, truth), 1.0);
+}
+
+TEST(CoarseAxes, SurfacesAcrossTwoAxesAreEnough) {
+  Random random(5);
+  const Quaterniond truth = RandomRotation(&random);
+  View view;
+  AddNormals(truth.toRotationMatrix().col(0), 400, &random, &view);
+  AddNormals(truth.toRotationMatrix().col(2), 300, &random, &view);
+  const auto found = Find(view);
+  ASSERT_TRUE(found);
+  EXPECT_LT(AxesErrorInDegrees(found->rotation, truth), 1.0);
+}
+
+// A window in a sloped roof.
+TEST(CoarseAxes, OneRectangleIsRefused) {
+  Random random(6);
+  const Matrix3d axes = RandomRotation(&random).toRotationMatrix();
+  View view;
+  AddLines(axes.col(0), 40, &random, &view);
+  AddLines(axes.col(1), 40, &random, &view);
+  AddNormals(axes.col(2), 800, &random, &view);
+  EXPECT_FALSE(Find(view));
+  AddNormals(axes.col(0), 100, &random, &view);  // its reveal
+  EXPECT_TRUE(Find(view));
+}
+
+TEST(CoarseAxes, OneDirectionIsRefused) {
+  Random random(7);
+  View view;
+  AddLines(Vector3d::UnitX(), 50, &random, &view);
+  AddNormals(Vector3d::UnitY(), 500, &random, &view);
+  EXPECT_FALSE(Find(view));
+}
+
+TEST(CoarseAxes, WallsThatAreNotSquareAreRefused) {
+  for (const double degrees : {70.0, 80.0, 83.0}) {
+    Random random(8);
+    View view;
+    const Vector3d wall(std::cos(DegreesToRadians(degrees)), std::sin(DegreesToRadians(degrees)),
+                        0.0);
+    AddNormals(Vector3d::UnitX(), 400, &random, &view);
+    AddNormals(wall, 400, &random, &view);
+    AddLines(Vector3d::UnitZ(), 30, &random, &view);
+    EXPECT_FALSE(Find(view)) << degrees;
+  }
+}
+
+// Both halves of such a house explain two thirds of it: the vertical is common.
+TEST(CoarseAxes, TwoEqualFramesWithOneVerticalAreRefused) {
+  const auto house = [](int annexe_percent) {
+    Random random(9);
+    View view;
+    for (const double yaw : {0.0, 35.0}) {
+      const Eigen::AngleAxisd turn(DegreesToRadians(yaw), Vector3d::UnitZ());
+      const int percent = yaw > 0.0 ? annexe_percent : 100;
+      for (const Vector3d& axis : {Vector3d(turn * Vector3d::UnitX()), Vector3d::UnitZ().eval(),
+                                   Vector3d(turn * Vector3d::UnitY())}) {
+        AddLines(axis, percent / 5, &random, &view);
+        AddNormals(axis, 2 * percent, &random, &view);
+      }
+    }
+    return view;
+  };
+  EXPECT_FALSE(Find(house(100)));
+  EXPECT_FALSE(Find(house(70)));
+  const auto axes = Find(house(25));
+  ASSERT_TRUE(axes);
+  EXPECT_LT(AxesErrorInDegrees(axes->rotation, Quaterniond::Identity()), 1.0);
+}
+
+TEST(CoarseAxes, UncertainEvidenceDoesNotCount) {
+  Random random(10);
+  View view = RoomView(RandomRotation(&random), 0.0, &random);
+  ASSERT_TRUE(Find(view));
+  for (AxisEvidence& line : view.lines) line.sigma = DegreesToRadians(10.0);
+  for (AxisEvidence& normal : view.normals) normal.sigma = DegreesToRadians(10.0);
+  EXPECT_FALSE(Find(view));
+}
+
+TEST(CoarseAxes, NothingIsRefused) { EXPECT_FALSE(Find({})); }
+
+TEST(CoarseAxes, DoNotDependOnOrderAndSigns) {
+  Random random(11);
+  View view = RoomView(RandomRotation(&random), 0.3, &random);
+  const auto first = Find(view);
+  ASSERT_TRUE(first);
+  const auto expect_same = [&](const ManhattanAxes& other) {
+    EXPECT_EQ(other.rotation.coeffs(), first->rotation.coeffs());
+    EXPECT_EQ(other.share, first->share);
+    EXPECT_EQ(other.line_share, first->line_share);
+    EXPECT_EQ(other.normal_share, first->normal_share);
+  };
+  expect_same(*Find(view));
+  std::reverse(view.lines.begin(), view.lines.end());
+  std::rotate(view.normals.begin(), view.normals.begin() + 123, view.normals.end());
+  expect_same(*Find(view));
+  for (AxisEvidence& line : view.lines) line.direction = -line.direction;
+  const auto negated = Find(view);
+  ASSERT_TRUE(negated);
+  EXPECT_LT(negated->rotation.angularDistance(first->rotation), 1e-9);
+}
+
+// Turning the world turns the axes.
+TEST(CoarseAxes, FollowTheFrameOfTheEvidence) {
+  Random random(12);
+  View view = RoomView(RandomRotation(&random), 0.2, &random);
+  const auto before = Find(view);
+  ASSERT_TRUE(before);
+  const Quaterniond turn = RandomRotation(&random);
+  for (AxisEvidence& line : view.lines) line.direction = turn * line.direction;
+  for (AxisEvidence& normal : view.normals) normal.direction = turn * normal.direction;
+  const auto after = Find(view);
+  ASSERT_TRUE(after);
+  EXPECT_LT(AxesErrorInDegrees(after->rotation, turn * before->rotation), 0.01);
+  // The mirror image of a room, which a negative fy shows, is a room.
+  for (AxisEvidence& line : view.lines) line.direction.y() *= -1.0;
+  for (AxisEvidence& normal : view.normals) normal.direction.y() *= -1.0;
+  const auto mirrored = Find(view);
+  ASSERT_TRUE(mirrored);
+  EXPECT_NEAR(mirrored->rotation.toRotationMatrix().determinant(), 1.0, 1e-12);
+  const Matrix3d expected =
+      Vector3d(1.0, -1.0, 1.0).asDiagonal() * after->rotation.toRotationMatrix();
+  const Matrix3d cosines =
+      (expected.transpose() * mirrored->rotation.toRotationMatrix()).cwiseAbs();
+  EXPECT_GT(cosines.rowwise().maxCoeff().minCoeff(), 1.0 - 1e-6);
+}
+
+TEST(CoarseAxes, AreNearestToTheIdentityAndSayWhatSupportsEach) {
+  Random random(13);
+  // Lines 40:30:10 and normals 150:250:400 on the truth's axes.
+  const Quaterniond truth(
+      Eigen::AngleAxisd(DegreesToRadians(20.0), Vector3d(1, 2, 3).normalized()));
+  const auto axes = Find(RoomView(truth, 0.0, &random));
+  ASSERT_TRUE(axes);
+  EXPECT_LT(RadiansToDegrees(axes->rotation.angularDistance(truth)), 1.0);
+  EXPECT_NEAR(axes->line_share.x(), 0.5, 0.02);
+  EXPECT_NEAR(axes->line_share.z(), 0.125, 0.02);
+  EXPECT_NEAR(axes->normal_share.x(), 0.1875, 0.02);
+  EXPECT_NEAR(axes->normal_share.z(), 0.5, 0.02);
+}
+
+TEST(CoarseAxes, BadOptionsAreNamed) {
+  CoarseAxesOptions options;
+  options.min_share = 1.5;
+  std::string error;
+  EXPECT_FALSE(options.IsValid(&error));
+  EXPECT_NE(error.find("min_share"), std::string::npos);
+  EXPECT_THROW(FindCoarseAxes(options, {}, {}), std::invalid_argument);
+  EXPECT_TRUE(CoarseAxesOptions().IsValid(&error));
+}
+
+}  // namespace
+}  // namespace msc_vo

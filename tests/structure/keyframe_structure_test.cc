@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/structure/keyframe_structure.h"
+
+#include <cmath>
+
+#include "tests/support/synthetic_frames.h"
+#include <gtest/gtest.h>
+
+#include "msc_vo/mapping/mapper.h"
+
+namespace msc_vo {
+namespace {
+
+// Root mean square over lines of the sine of their angles from the nearest direction of the box
+// that they are drawn in.
+double DirectionError(const std::vector<LineSegment3>& lines, const Rigid3& world_from_lines) {
+  double squares = 0.0;
+  for (const LineSegment3& line : lines) {
+    const double cosine = (world_from_lines * line).Direction().cwiseAbs().maxCoeff();
+    squares += 1.0 - cosine * cosine;
+  }
+  return std::sqrt(squares / static_cast<double>(lines.size()));
+}
+
+// Gates that lines of single frames pass whose depth is as noisy as theirs; where the mapper has
+// learnt that it is less noisy, narrower ones do.
+FrameStructureOptions WideGates() {
+  FrameStructureOptions options;
+  options.max_angle = 5.0;
+  return options;
+}
+
+std::vector<LineSegment3> LinesInCamera(const Frame& frame) {
+  std::vector<LineSegment3> lines;
+  for (size_t i = 0; i < frame.lines.size(); ++i) {
+    if (frame.lines[i].depth) lines.push_back(frame.LineInCamera(static_cast<int>(i)));
+  }
+  return lines;
+}
+
+TEST(KeyframeStructure, MakesDirectionsAgree) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  const std::shared_ptr<const Frame> frame = world.See(0);
+  const Rigid3 world_from_cam = SyntheticFrames::CamFromWorld(0).Inverse();
+  const double before = DirectionError(LinesInCamera(*frame), world_from_cam);
+  const auto refined = RefineStructure(WideGates(), NoiseScale(), frame);
+  EXPECT_LT(DirectionError(LinesInCamera(*refined), world_from_cam), 0.7 * before);
+  // The frame that tracking holds is as it was, and all but the depths of lines is the same.
+  EXPECT_EQ(DirectionError(LinesInCamera(*frame), world_from_cam), before);
+  EXPECT_EQ(refined->id, frame->id);
+  EXPECT_EQ(refined->points.size(), frame->points.size());
+  ASSERT_EQ(refined->lines.size(), frame->lines.size());
+  for (size_t i = 0; i < frame->lines.size(); ++i) {
+    EXPECT_EQ(refined->lines[i].segment.start, frame->lines[i].segment.start);
+    EXPECT_EQ(refined->lines[i].depth.has_value(), frame->lines[i].depth.has_value());
+  }
+}
+
+TEST(KeyframeStructure, TrustsFitsAsFarAsNoiseIsKnown) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  const std::shared_ptr<const Frame> frame = world.See(0);
+  const Rigid3 world_from_cam = SyntheticFrames::CamFromWorld(0).Inverse();
+  const auto error_with = [&](double scale) {
+    const NoiseScale noise{1.0, scale, scale};
+    const auto refined = RefineStructure(FrameStructureOptions(), noise, frame);
+    return DirectionError(LinesInCamera(*refined), world_from_cam);
+  };
+  // Of lines as noisy as they say most are known worse than the default gate is wide.
+  EXPECT_LT(error_with(0.6), error_with(1.0));
+  EXPECT_LT(error_with(1.0), error_with(100.0));
+  EXPECT_EQ(error_with(100.0), DirectionError(LinesInCamera(*frame), world_from_cam));
+  // Covariances come out in the units they went in with.
+  const auto refined = RefineStructure(FrameStructureOptions(), NoiseScale{1.0, 0.01, 0.01}, frame);
+  for (size_t i = 0; i < frame->lines.size(); ++i) {
+    EXPECT_NEAR(
+        refined->lines[i].depth->covariance.trace() / frame->lines[i].depth->covariance.trace(),
+        1.0, 0.05);
+  }
+}
+
+TEST(KeyframeStructure, LeavesAFrameWithoutPairsAlone) {
+  const std::shared_ptr<const Frame> nothing = SyntheticFrames::SeeNothing(0);
+  EXPECT_EQ(RefineStructure(FrameStructureOptions(), NoiseScale(), nothing), nothing);
+}
+
+// The map gets the refined lines if the option says so, or has no pairs.
+TEST(KeyframeStructure, ReachesTheMap) {
+  const auto error = [](FrameStructureUse use, bool pairs) {
+    SyntheticFrames world{SyntheticFrames::Options()};
+    MapperOptions options;
+    options.frame_structure = use;
+    options.pairs.parallel = options.pairs.perpendicular = pairs;
+    options.structure = WideGates();
+    Mapper mapper(options);
+    KeyframePacket packet;
+    packet.frame = world.See(0);
+    packet.cam_from_reference = SyntheticFrames::CamFromWorld(0);
+    mapper.Process(packet);
+    std::vector<LineSegment3> lines;
+    for (const auto& [id, line] : mapper.map().lines()) lines.push_back(line.segment);
+    return DirectionError(lines, Rigid3());
+  };
+  const double measured = error(FrameStructureUse::kNever, false);
+  const double refined = error(FrameStructureUse::kAlways, true);
+  EXPECT_LT(refined, 0.7 * measured);
+  EXPECT_EQ(error(FrameStructureUse::kWithoutPairs, false), refined);
+  EXPECT_EQ(error(FrameStructureUse::kWithoutPairs, true), measured);
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/structure/scene_axes.h"
+
+#include "tests/support/synthetic_frames.h"
+#include "tests/support/synthetic_map.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/map/window_selection.h"
+#include "msc_vo/mapping/mapper.h"
+
+namespace msc_vo {
+namespace {
+
+// A map of `count` keyframes, ten frames apart, with the true poses: the first camera is the world.
+// Lines are matched by their descriptors, unique as they are here.
+Map Walk(SyntheticFrames* world, int count) {
+  Map map;
+  for (int k = 0; k < count; ++k) {
+    const int index = 10 * k;
+    const Rigid3 cam_from_world =
+        SyntheticFrames::CamFromWorld(index) * SyntheticFrames::CamFromWorld(0).Inverse();
+    const KeyframeId id = map.AddKeyframe(world->See(index), cam_from_world);
+    const Frame& frame = *map.FindKeyframe(id)->frame;
+    for (int i = 0; i < static_cast<int>(frame.lines.size()); ++i) {
+      LandmarkId seen = kNoId;
+      for (const auto& [line_id, line] : map.lines()) {
+        if (HammingDistance(line.descriptor, frame.lines[i].descriptor) < 40) seen = line_id;
+      }
+      if (seen != kNoId) {
+        map.ObserveLine(seen, id, i);
+        map.RefreshLine(seen);
+      } else if (frame.lines[i].depth) {
+        map.AddLine(id, i, cam_from_world.Inverse() * frame.LineInCamera(i));
+      }
+    }
+  }
+  return map;
+}
+
+// Angle (degrees) of each axis to the nearest edge of the box that the lines run along.
+double AxesError(const Eigen::Quaterniond& world_from_axes) {
+  const Eigen::Matrix3d axes_in_box =
+      (SyntheticFrames::CamFromWorld(0).rotation().conjugate() * world_from_axes)
+          .toRotationMatrix();
+  double worst = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    worst = std::max(worst, std::acos(std::min(1.0, axes_in_box.col(k).cwiseAbs().maxCoeff())));
+  }
+  return RadiansToDegrees(worst);
+}
+
+TEST(SceneAxes, AreFoundInOneKeyframeAndRefinedOverMany) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  SceneAxes axes{SceneAxesOptions()};
+  axes.Update(Walk(&world, 1), 0, {});
+  ASSERT_EQ(axes.estimator().state(), AxesState::kCoarse);
+  EXPECT_LT(AxesError(axes.estimator().world_from_axes()), 1.5);
+  axes.Update(Walk(&world, 7), 6, {});
+  ASSERT_EQ(axes.estimator().state(), AxesState::kRefined);
+  EXPECT_LT(AxesError(axes.estimator().world_from_axes()), 0.3);
+  EXPECT_LT(axes.estimator().sigma(), DegreesToRadians(0.3));
+}
+
+TEST(SceneAxes, BindTheLinesOfAWindowToTheirAxes) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  SceneAxes axes{SceneAxesOptions()};
+  const Map map = Walk(&world, 7);
+  axes.Update(map, 6, {});
+  WindowData window = SelectWindow(WindowSelectionOptions(), map, 6);
+  axes.AddAlignments(map, &window);
+  EXPECT_GT(window.axis_alignments.size(), 0.7 * window.lines.size());
+  for (const WindowData::AxisAlignment& alignment : window.axis_alignments) {
+    const LineLandmark& line = *map.FindLine(alignment.line);
+    EXPECT_LT(UndirectedAngle(line.segment.Direction(), alignment.axis), DegreesToRadians(5.0));
+    EXPECT_GE(alignment.sigma, SceneAxesOptions().deviation);
+  }
+}
+
+TEST(SceneAxes, DoNothingWhereThereAreNone) {
+  SyntheticFrames::Options options;
+  options.num_lines = 2;  // too few to speak for axes
+  SyntheticFrames world{options};
+  const Map map = Walk(&world, 3);
+  SceneAxes axes{SceneAxesOptions()};
+  axes.Update(map, 2, {});
+  EXPECT_EQ(axes.estimator().state(), AxesState::kNone);
+  WindowData window = SelectWindow(WindowSelectionOptions(), map, 2);
+  axes.AddAlignments(map, &window);
+  EXPECT_TRUE(window.axis_alignments.empty());
+  for (const auto& [id, line] : map.lines()) EXPECT_FALSE(axes.AxisOf(line));
+}
+
+TEST(SceneAxes, CanBeSwitchedOff) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  SceneAxesOptions options;
+  options.enabled = false;
+  SceneAxes axes(options);
+  axes.Update(Walk(&world, 7), 6, {});
+  EXPECT_EQ(axes.estimator().state(), AxesState::kNone);
+}
+
+TEST(SceneAxes, AskForNormalsOnlyAsLongAsThereAreNone) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  Mapper mapper{MapperOptions()};
+  EXPECT_TRUE(mapper.Snapshot()->needs_axes);
+  KeyframePacket packet;
+  packet.frame = world.See(0);
+  mapper.Process(packet);
+  EXPECT_FALSE(mapper.Snapshot()->needs_axes);
+}
+
+TEST(SceneAxes, BadOptionsAreNamed) {
+  SceneAxesOptions options;
+  options.deviation = 0.0;
+  EXPECT_THROW(SceneAxes{options}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/synthetic/scene/kinect_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "msc_vo/synthetic/scene/renderer.h"
+
+namespace msc_vo {
+namespace {
+
+const PinholeCamera kCamera = KinectCamera(320, 240);
+
+std::vector<float> Flat(float depth) {
+  return std::vector<float>(static_cast<size_t>(kCamera.width) * kCamera.height, depth);
+}
+
+// Root mean square error over the pixels that have depth.
+double Rms(const std::vector<float>& depth, double truth) {
+  double squares = 0.0;
+  int count = 0;
+  for (const float z : depth) {
+    if (z == 0.0f) continue;
+    squares += (z - truth) * (z - truth);
+    ++count;
+  }
+  return std::sqrt(squares / count);
+}
+
+double MissingShare(const std::vector<float>& depth) {
+  return static_cast<double>(std::count(depth.begin(), depth.end(), 0.0f)) / depth.size();
+}
+
+// Mean over depths around `depth`, so that the place between two quantisation steps does not
+// matter.
+double MeanRms(double depth) {
+  double sum = 0.0;
+  for (int i = 0; i < 10; ++i) {
+    const float z = static_cast<float>(depth * (1.0 + 0.01 * i));
+    std::vector<float> noisy = Flat(z);
+    AddKinectNoise({}, kCamera, 1, i, &noisy);
+    sum += Rms(noisy, z) / std::pow(1.0 + 0.01 * i, 2);
+  }
+  return sum / 10.0;
+}
+
+TEST(KinectNoiseTest, GrowsWithTheSquareOfDepth) {
+  // sqrt(0.05^2 + 0.125^2 / 12) px of disparity over f b = 39.375 px m.
+  const double sigma = std::sqrt(0.05 * 0.05 + 0.125 * 0.125 / 12.0) / (525.0 * 0.075);  // 1/metres
+  for (const double depth : {1.0, 2.0, 4.0}) {
+    EXPECT_NEAR(MeanRms(depth) / (sigma * depth * depth), 1.0, 0.12) << depth;
+  }
+}
+
+TEST(KinectNoiseTest, DisparityComesInSteps) {
+  std::vector<float> depth = Flat(2.3f);
+  AddKinectNoise({}, kCamera, 1, 0, &depth);
+  for (const float z : depth) {
+    if (z == 0.0f) continue;
+    const double steps = 525.0 * 0.075 / z / 0.125;
+    ASSERT_NEAR(steps, std::round(steps), 1e-3);
+  }
+}
+
+TEST(KinectNoiseTest, NeighborsErrAlikeAndFarPixelsDoNot) {
+  KinectNoiseOptions options;
+  options.disparity_step = 1e-4;  // noise alone
+  std::vector<float> depth = Flat(2.0f);
+  AddKinectNoise(options, kCamera, 1, 0, &depth);
+  const auto correlation = [&](int distance) {
+    double product = 0.0, squares = 0.0;
+    for (int y = 0; y < kCamera.height; ++y) {
+      for (int x = 0; x + distance < kCamera.width; ++x) {
+        const double a = 1.0 / depth[y * kCamera.width + x] - 0.5;
+        product += a * (1.0 / depth[y * kCamera.width + x + distance] - 0.5);
+        squares += a * a;
+      }
+    }
+    return product / squares;
+  };
+  // The kernel's own correlation at one pixel: exp(-1 / (4 sigma^2)), sigma = 0.75 px at this size.
+  EXPECT_NEAR(correlation(1), std::exp(-1.0 / (4.0 * 0.75 * 0.75)), 0.05);
+  EXPECT_NEAR(correlation(10), 0.0, 0.05);
+}
+
+TEST(KinectNoiseTest, KeepsItsRange) {
+  for (const float z : {0.3f, 5.5f}) {
+    std::vector<float> depth = Flat(z);
+    AddKinectNoise({}, kCamera, 1, 0, &depth);
+    EXPECT_EQ(MissingShare(depth), 1.0) << z;
+  }
+  std::vector<float> depth = Flat(2.0f);
+  AddKinectNoise({}, kCamera, 1, 0, &depth);
+  EXPECT_EQ(MissingShare(depth), 0.0);
+  std::vector<float> nothing = Flat(0.0f);
+  AddKinectNoise({}, kCamera, 1, 0, &nothing);
+  EXPECT_EQ(MissingShare(nothing), 1.0);
+}
+
+// Depth of a plane through (0, 0, 2) whose normal leans by `tangent` out of the view.
+std::vector<float> Leaning(double tangent) {
+  std::vector<float> depth = Flat(0.0f);
+  for (int y = 0; y < kCamera.height; ++y) {
+    for (int x = 0; x < kCamera.width; ++x) {
+      const double w = (1.0 - tangent * (x - kCamera.cx) / kCamera.fx) / 2.0;
+      depth[y * kCamera.width + x] = w > 0.0 ? static_cast<float>(1.0 / w) : 0.0f;
+    }
+  }
+  return depth;
+}
+
+double MissingAtTheMiddle(double tangent) {
+  std::vector<float> depth = Leaning(tangent);
+  AddKinectNoise({}, kCamera, 1, 0, &depth);
+  int missing = 0;
+  for (int y = 0; y < kCamera.height; ++y) {
+    for (int x = 158; x < 162; ++x) missing += depth[y * kCamera.width + x] == 0.0f ? 1 : 0;
+  }
+  return missing / (4.0 * kCamera.height);
+}
+
+TEST(KinectNoiseTest, LosesDepthAtGrazingAngles) {
+  EXPECT_EQ(MissingAtTheMiddle(1.0), 0.0);
+  EXPECT_NEAR(MissingAtTheMiddle(6.0), 0.5, 0.07);
+  EXPECT_NEAR(MissingAtTheMiddle(20.0), 0.95, 0.03);
+}
+
+TEST(KinectNoiseTest, LosesAndMixesDepthAtEdges) {
+  std::vector<float> depth = Flat(1.5f);
+  for (int y = 0; y < kCamera.height; ++y) {
+    for (int x = 160; x < kCamera.width; ++x) depth[y * kCamera.width + x] = 3.0f;
+  }
+  AddKinectNoise({}, kCamera, 1, 0, &depth);
+  int missing = 0, elsewhere = 0;
+  for (int y = 0; y < kCamera.height; ++y) {
+    for (int x = 0; x < kCamera.width; ++x) {
+      const bool none = depth[y * kCamera.width + x] == 0.0f;
+      (x == 159 || x == 160 ? missing : elsewhere) += none ? 1 : 0;
+    }
+  }
+  EXPECT_GT(missing, 2 * kCamera.height * 0.9);
+  EXPECT_EQ(elsewhere, 0);
+}
+
+TEST(KinectNoiseTest, IsTheSameAtEveryImageSize) {
+  const PinholeCamera large = KinectCamera(640, 480);
+  std::vector<float> a = Flat(2.0f), b(640 * 480, 2.0f);
+  AddKinectNoise({}, kCamera, 1, 0, &a);
+  AddKinectNoise({}, large, 1, 0, &b);
+  EXPECT_NEAR(Rms(a, 2.0) / Rms(b, 2.0), 1.0, 0.1);
+}
+
+TEST(KinectNoiseTest, RepeatsBySeedAndFrame) {
+  std::vector<float> a = Flat(2.0f), b = a, frame = a, seed = a;
+  AddKinectNoise({}, kCamera, 1, 4, &a);
+  AddKinectNoise({}, kCamera, 1, 4, &b);
+  AddKinectNoise({}, kCamera, 1, 5, &frame);
+  AddKinectNoise({}, kCamera, 2, 4, &seed);
+  EXPECT_EQ(a, b);
+  EXPECT_NE(a, frame);
+  EXPECT_NE(a, seed);
+}
+
+TEST(KinectNoiseTest, RejectsNonsense) {
+  std::vector<float> depth(7, 1.0f);
+  EXPECT_THROW(AddKinectNoise({}, kCamera, 1, 0, &depth), std::invalid_argument);
+  KinectNoiseOptions options;
+  options.max_depth = 0.1;
+  std::vector<float> good = Flat(1.0f);
+  EXPECT_THROW(AddKinectNoise(options, kCamera, 1, 0, &good), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/synthetic/scene/synthetic_sequence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "msc_vo/synthetic/scene/camera_path.h"
+#include "msc_vo/synthetic/scene/renderer.h"
+
+namespace msc_vo {
+namespace {
+
+SyntheticSequenceOptions Small() {
+  SyntheticSequenceOptions options;
+  options.width = 160;
+  options.height = 120;
+  return options;
+}
+
+TEST(SyntheticSequenceTest, SameSeedSameBytesInAnyOrder) {
+  SyntheticSequenceOptions options = Small();
+  options.kinect_depth = true;
+  const SyntheticSequence a(options), b(options);
+  const SyntheticFrame late = a.Render(9), early = a.Render(2);
+  const SyntheticFrame early_again = b.Render(2), late_again = b.Render(9);
+  EXPECT_EQ(late.image.rgb, late_again.image.rgb);
+  EXPECT_EQ(late.image.depth, late_again.image.depth);
+  EXPECT_EQ(early.image.rgb, early_again.image.rgb);
+  EXPECT_EQ(early.pose.world_from_cam.params, early_again.pose.world_from_cam.params);
+  EXPECT_NE(early.image.rgb, late.image.rgb);
+}
+
+TEST(SyntheticSequenceTest, OtherSeedOtherBytes) {
+  SyntheticSequenceOptions options = Small();
+  const SyntheticFrame a = SyntheticSequence(options).Render(0);
+  options.seed = 2;
+  const SyntheticFrame b = SyntheticSequence(options).Render(0);
+  EXPECT_NE(a.image.rgb, b.image.rgb);
+  EXPECT_NE(a.image.depth, b.image.depth);
+}
+
+TEST(SyntheticSequenceTest, StampsFollowTheFrameRate) {
+  SyntheticSequenceOptions options = Small();
+  options.fps = 15.0;
+  const SyntheticSequence sequence(options);
+  EXPECT_DOUBLE_EQ(sequence.PoseAt(0).timestamp, 1.0);
+  EXPECT_DOUBLE_EQ(sequence.PoseAt(30).timestamp, 3.0);
+}
+
+TEST(SyntheticSequenceTest, DelayedDepthIsThatOfLater) {
+  SyntheticSequenceOptions options = Small();
+  const SyntheticSequence at_once(options);
+  options.depth_delay = 0.25 / options.fps;
+  const SyntheticSequence delayed(options);
+  options.depth_delay = 0.0;
+  options.fps *= 4.0;
+  const SyntheticSequence fine(options);
+  EXPECT_EQ(delayed.Render(3).image.rgb, at_once.Render(3).image.rgb);
+  EXPECT_NE(delayed.Render(3).image.depth, at_once.Render(3).image.depth);
+  EXPECT_EQ(delayed.Render(3).image.depth, fine.Render(13).image.depth);
+  EXPECT_DOUBLE_EQ(delayed.PoseAt(3).timestamp, at_once.PoseAt(3).timestamp);
+}
+
+TEST(SyntheticSequenceTest, WithoutReadoutTheImageIsThatOfThePose) {
+  SyntheticSequenceOptions options = Small();
+  options.image_sigma = 0.0;
+  const SyntheticSequence sequence(options);
+  const SyntheticFrame frame = sequence.Render(3);
+  const RenderedImage image =
+      Renderer(sequence.scene(), sequence.camera()).Render(frame.pose.world_from_cam.Inverse());
+  EXPECT_EQ(frame.image.rgb, image.rgb);
+  EXPECT_EQ(frame.image.depth, image.depth);
+}
+
+TEST(SyntheticSequenceTest, RollingShutterTakesEveryRowAtItsOwnTime) {
+  SyntheticSequenceOptions options = Small();
+  options.width = 64;
+  options.height = 48;
+  options.fps = 4.0;  // slow, so that half a row, 2.6 ms, is a motion to be seen
+  options.image_sigma = 0.0;
+  options.depth_delay = 0.1;
+  const SyntheticSequence global(options);
+  const Renderer renderer(global.scene(), global.camera());
+  const CameraPath path(global.scene(), options.path);
+  for (const double readout_time : {0.25, -0.25}) {
+    options.readout_time = readout_time;
+    const SyntheticSequence rolling(options);
+    const SyntheticFrame frame = rolling.Render(3);
+    EXPECT_EQ(frame.pose.timestamp, global.PoseAt(3).timestamp);
+    EXPECT_EQ(frame.pose.world_from_cam.params, global.PoseAt(3).world_from_cam.params);
+    for (const int row : {0, 1, 12, 24, 46, 47}) {
+      const double seconds = 0.75 + readout_time * ((row + 0.5) / 48.0 - 0.5);
+      const RenderedImage color = renderer.Render(path.CamFromWorld(seconds));
+      const RenderedImage depth = renderer.Render(path.CamFromWorld(seconds + 0.1));
+      for (int i = 64 * row; i < 64 * (row + 1); ++i) {
+        ASSERT_NEAR(frame.image.depth[i], depth.depth[i], 1e-5) << row;
+        for (int k = 3 * i; k < 3 * i + 3; ++k) {
+          ASSERT_NEAR(frame.image.rgb[k], color.rgb[k], 1) << row;
+        }
+      }
+    }
+  }
+}
+
+TEST(SyntheticSequenceTest, DepthOfOneFrameIsWhereTheNextOneSeesIt) {
+  SyntheticSequenceOptions options = Small();
+  options.image_sigma = 0.0;
+  for (const SceneKind kind : {SceneKind::kRoom, SceneKind::kSlanted}) {
+    options.scene = kind;
+    const SyntheticSequence sequence(options);
+    const SyntheticFrame a = sequence.Render(0), b = sequence.Render(10);
+    const Rigid3 b_from_a = b.pose.world_from_cam.Inverse() * a.pose.world_from_cam;
+    const PinholeCamera& camera = sequence.camera();
+    int seen = 0, agree = 0;
+    for (int i = 0; i < camera.width * camera.height; ++i) {
+      const Eigen::Vector2d pixel(i % camera.width, i / camera.width);
+      const Eigen::Vector3d x = b_from_a * camera.BackProject(pixel, a.image.depth[i]);
+      if (x.z() < 0.1 || !camera.IsInside(camera.Project(x))) continue;
+      const Eigen::Vector2d there = camera.Project(x);
+      const int j = static_cast<int>(std::lround(there.y())) * camera.width +
+                    static_cast<int>(std::lround(there.x()));
+      ++seen;
+      agree += std::abs(b.image.depth[j] - x.z()) < 0.02 * x.z() ? 1 : 0;
+    }
+    EXPECT_GT(seen, camera.width * camera.height / 2);
+    EXPECT_GT(agree, 0.93 * seen);  // the rest is occluded, or half a pixel beside an edge
+  }
+}
+
+TEST(SyntheticSequenceTest, KinectDepthMissesAPlausibleShare) {
+  SyntheticSequenceOptions options = Small();
+  options.kinect_depth = true;
+  const SyntheticSequence sequence(options);
+  for (int i = 0; i < 200; i += 50) {
+    const std::vector<float> depth = sequence.Render(i).image.depth;
+    const auto missing = std::count(depth.begin(), depth.end(), 0.0f);
+    EXPECT_GT(missing, 0.005 * depth.size());
+    EXPECT_LT(missing, 0.4 * depth.size());
+  }
+}
+
+TEST(SyntheticSequenceTest, ImagesAreExposedWell) {
+  for (const SceneKind kind : {SceneKind::kRoom, SceneKind::kCorridor, SceneKind::kBare,
+                               SceneKind::kSlanted, SceneKind::kHouse}) {
+    SyntheticSequenceOptions options = Small();
+    options.scene = kind;
+    const SyntheticSequence sequence(options);
+    for (int i = 0; i < 300; i += 100) {
+      const std::vector<uint8_t> gray = sequence.Render(i).image.Gray();
+      double mean = 0.0;
+      for (const uint8_t value : gray) mean += value / static_cast<double>(gray.size());
+      EXPECT_GT(mean, 60.0) << static_cast<int>(kind) << " frame " << i;
+      EXPECT_LT(mean, 200.0) << static_cast<int>(kind) << " frame " << i;
+    }
+  }
+}
+
+TEST(SyntheticSequenceTest, RejectsNonsense) {
+  SyntheticSequenceOptions options = Small();
+  options.width = 3;
+  EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
+  options = Small();
+  options.fps = 0.0;
+  EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
+  options = Small();
+  options.path.speed = -1.0;
+  EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
+}
+
+TEST(SyntheticSequenceTest, ReadoutIsNotLongerThanAFrame) {
+  SyntheticSequenceOptions options = Small();
+  options.fps = 20.0;
+  for (const double readout_time : {0.05, -0.05}) {
+    options.readout_time = readout_time;
+    EXPECT_NO_THROW(SyntheticSequence{options}) << readout_time;
+  }
+  for (const double readout_time : {0.051, -0.051, std::nan("")}) {
+    options.readout_time = readout_time;
+    std::string error;
+    EXPECT_FALSE(options.IsValid(&error)) << readout_time;
+    EXPECT_THAT(error, testing::HasSubstr("readout_time")) << readout_time;
+    EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument) << readout_time;
+  }
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/tracking/dynamic_features.h"
+
+#include <gtest/gtest.h>
+
+namespace msc_vo {
+namespace {
+
+// Two points and two lines, one each in the left and in the right half of the image.
+class MovingFeaturesTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    options_.columns = 2;
+    options_.rows = 1;
+    auto frame = std::make_shared<Frame>();
+    frame->camera.width = 200;
+    frame->camera.height = 100;
+    frame->points.resize(2);
+    frame->points[0].pixel = {50.0, 50.0};
+    frame->points[1].pixel = {150.0, 50.0};
+    frame->lines.resize(2);
+    frame->lines[0].segment = {{20.0, 10.0}, {170.0, 10.0}};  // its middle is on the left
+    frame->lines[1].segment = {{120.0, 10.0}, {170.0, 10.0}};
+    tracked_.frame = frame;
+  }
+
+  ConsensusOptions options_;
+  TrackedFrame tracked_;
+};
+
+TEST_F(MovingFeaturesTest, AreThoseInPartsThatMove) {
+  tracked_.moving_parts = {true, false};
+  const auto marked = MarkMovingFeatures(options_, tracked_);
+  EXPECT_TRUE(marked->points[0].moves);
+  EXPECT_FALSE(marked->points[1].moves);
+  EXPECT_TRUE(marked->lines[0].moves);
+  EXPECT_FALSE(marked->lines[1].moves);
+  EXPECT_FALSE(tracked_.frame->points[0].moves);  // others may have that frame
+}
+
+TEST_F(MovingFeaturesTest, AreNotWhatAgreesWithThePose) {
+  tracked_.moving_parts = {true, true};
+  tracked_.matches.points.resize(1);
+  tracked_.matches.lines.resize(1);
+  tracked_.matches.lines[0].feature = 1;
+  const auto marked = MarkMovingFeatures(options_, tracked_);
+  EXPECT_FALSE(marked->points[0].moves);
+  EXPECT_TRUE(marked->points[1].moves);
+  EXPECT_TRUE(marked->lines[0].moves);
+  EXPECT_FALSE(marked->lines[1].moves);
+}
+
+TEST_F(MovingFeaturesTest, AFrameInWhichNothingMovesStaysAsItIs) {
+  EXPECT_EQ(MarkMovingFeatures(options_, tracked_), tracked_.frame);
+}
+
+}  // namespace
+}  // namespace msc_vo
