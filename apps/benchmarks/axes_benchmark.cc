@@ -10,8 +10,8 @@
 #include "msc_vo/features/frame_builder.h"
 #include "msc_vo/features/surface_normals.h"
 #include "msc_vo/geometry/so3.h"
-#include "msc_vo/structure/coarse_axes.h"
 #include "msc_vo/structure/axes_refinement.h"
+#include "msc_vo/structure/coarse_axes.h"
 #include "msc_vo/synthetic/scene/random.h"
 
 namespace msc_vo {
@@ -67,7 +67,7 @@ void RefineAxes(benchmark::State& state) {
   ManhattanAxesSummary summary;
   for (auto _ : state) {
     ManhattanAxesData copy = data;
-    summary = SolveManhattanAxes({}, &copy);
+    summary = RefineManhattanAxes({}, &copy);
   }
   state.counters["inliers"] = summary.num_inliers;
 }

@@ -15,7 +15,7 @@
 namespace msc_vo {
 
 struct BenchmarkWindow {
-  WindowOptions options;
+  BundleAdjustmentOptions options;
   WindowData data;
 };
 

@@ -9,17 +9,17 @@
 
 #include <benchmark/benchmark.h>
 
+#include "msc_vo/bundle_adjustment/observation.h"
 #include "msc_vo/factors/analytic_cost_function.h"
-#include "msc_vo/factors/depth_reprojection.h"
-#include "msc_vo/factors/line_endpoint_prior.h"
-#include "msc_vo/factors/line_depth_reprojection.h"
 #include "msc_vo/factors/analytic_line_pair_cost_function.h"
+#include "msc_vo/factors/depth_reprojection.h"
+#include "msc_vo/factors/line_depth_reprojection.h"
+#include "msc_vo/factors/line_endpoint_prior.h"
 #include "msc_vo/factors/line_reprojection.h"
 #include "msc_vo/factors/manhattan_axis_alignment.h"
 #include "msc_vo/factors/parallel_lines.h"
 #include "msc_vo/factors/perpendicular_lines.h"
 #include "msc_vo/factors/point_reprojection.h"
-#include "msc_vo/bundle_adjustment/observation.h"
 #include "msc_vo/synthetic/window/synthetic_window.h"
 
 namespace msc_vo {
@@ -92,26 +92,27 @@ void RegisterBoth(const std::string& name, const Factor& factor, const Blocks& b
 void RegisterAll() {
   const Input& in = TheInput();
   const PinholeCamera& camera = in.data.camera;
-  RegisterBoth<ChainRuleCost<PointReprojection>>(
+  RegisterBoth<AnalyticCostFunction<PointReprojection>>(
       "PointReprojection", PointReprojection(camera, in.seen_point.pixel, in.seen_point.sigma),
       in.pose_and_point);
-  RegisterBoth<ChainRuleCost<DepthReprojection>>(
+  RegisterBoth<AnalyticCostFunction<DepthReprojection>>(
       "DepthReprojection",
       DepthReprojection(in.seen_point.inverse_depth, in.seen_point.inverse_depth_sigma),
       in.pose_and_point);
-  RegisterBoth<ChainRuleCost<LineReprojection>>(
+  RegisterBoth<AnalyticCostFunction<LineReprojection>>(
       "LineReprojection",
       MakeLineReprojection(camera, in.seen_line.segment, in.seen_line.sigma, in.in_cam),
       in.pose_and_line);
-  RegisterBoth<ChainRuleCost<LineDepthReprojection>>(
+  RegisterBoth<AnalyticCostFunction<LineDepthReprojection>>(
       "LineDepthReprojection",
       MakeLineDepthReprojection(camera, in.seen_line.segment, in.seen_line.depth, in.in_cam),
       in.pose_and_line);
   const Blocks two_lines{Block(in.line), Block(in.other)};
-  RegisterBoth<LinePairCost<ParallelLines>>("ParallelLines", ParallelLines(0.01), two_lines);
-  RegisterBoth<LinePairCost<PerpendicularLines>>("PerpendicularLines", PerpendicularLines(0.01),
-                                                 two_lines);
-  Register("LineAnchor", LineAnchor(in.line, 0.05), {Block(in.line)});
+  RegisterBoth<AnalyticLinePairCostFunction<ParallelLines>>("ParallelLines", ParallelLines(0.01),
+                                                            two_lines);
+  RegisterBoth<AnalyticLinePairCostFunction<PerpendicularLines>>(
+      "PerpendicularLines", PerpendicularLines(0.01), two_lines);
+  Register("LineEndpointPrior", LineEndpointPrior(in.line, 0.05), {Block(in.line)});
   Register("ManhattanAxisAlignment", ManhattanAxisAlignment(Eigen::Vector3d::UnitX(), 0.01),
            {Block(in.line)});
 }

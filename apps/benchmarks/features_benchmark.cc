@@ -61,11 +61,11 @@ BENCHMARK_CAPTURE(Lines, lsd, LineDetector::kLsd)->Unit(benchmark::kMillisecond)
 
 void LineDescriptors(benchmark::State& state) {
   const auto lines = LineExtractor({}).Extract(TheInput().image.gray);
-  LineDescriber describer;
+  LineDescriptorExtractor descriptor_extractor;
   Measure(state, [&](const RgbdImage& image) {
-    describer.SetImage(image.gray);
+    descriptor_extractor.SetImage(image.gray);
     for (const LineFeature& line : lines) {
-      benchmark::DoNotOptimize(describer.Describe(line.segment));
+      benchmark::DoNotOptimize(descriptor_extractor.Describe(line.segment));
     }
     return lines.size();
   });

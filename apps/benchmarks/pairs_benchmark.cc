@@ -13,8 +13,8 @@
 #include <benchmark/benchmark.h>
 
 #include "apps/benchmarks/benchmark_windows.h"
-#include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
 #include "msc_vo/bundle_adjustment/internal/block_schur_backend.h"
+#include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
 
 namespace msc_vo {
 
@@ -26,17 +26,17 @@ constexpr int kMaxIterations = 50;
 void KeepAllPaired(WindowStructure* structure) {
   std::vector<bool> paired(structure->num_lines, false);
   for (const WindowIndex::Pair& pair : structure->couplings) paired[pair.a] = paired[pair.b] = true;
-  structure->num_kept_lines = 0;
+  structure->num_reduced_lines = 0;
   for (int i = 0; i < structure->num_lines; ++i) {
-    structure->kept_line[i] = paired[i] ? structure->num_kept_lines++ : -1;
+    structure->reduced_line[i] = paired[i] ? structure->num_reduced_lines++ : -1;
   }
 }
 
 // Every line takes its partners for constant during a step: no pair couples two unknowns.
 void HoldPartners(WindowStructure* structure) {
   structure->couplings.clear();
-  structure->kept_line.assign(structure->num_lines, -1);
-  structure->num_kept_lines = 0;
+  structure->reduced_line.assign(structure->num_lines, -1);
+  structure->num_reduced_lines = 0;
 }
 
 // Parallel lines as a star about one of them: what one shared direction per family would leave.
@@ -75,9 +75,9 @@ using Change = void (*)(WindowStructure*);
 void Minimize(benchmark::State& state, const BenchmarkWindow& window, Change change) {
   const WindowIndex index = ValidateWindow(window.options, window.data);
   int num_behind = 0;
-  const WindowActivity activity = AllInFront(window.options, index, window.data, &num_behind);
+  const WindowInlierMask inlier_mask = AllInFront(window.options, index, window.data, &num_behind);
   const WindowState start(window.data);
-  const WindowTerms terms = MakeWindowTerms(window.options, window.data, index, activity, start);
+  const WindowTerms terms = MakeWindowTerms(window.options, window.data, index, inlier_mask, start);
   WindowStructure structure(window.data, terms);
   if (change != nullptr) change(&structure);
   MinimizerReport report;
@@ -92,7 +92,7 @@ void Minimize(benchmark::State& state, const BenchmarkWindow& window, Change cha
   state.counters["ms_per_iteration"] =
       benchmark::Counter(1e-3 * static_cast<double>(state.iterations() * report.num_iterations),
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-  state.counters["reduced_size"] = 6 * structure.num_poses + 2 * structure.num_kept_lines;
+  state.counters["reduced_size"] = 6 * structure.num_poses + 2 * structure.num_reduced_lines;
   state.counters["cost"] = equations.cost;
 }
 

@@ -22,20 +22,20 @@ namespace {
 
 struct Variant {
   const char* name;
-  WindowSolver solver;
+  BundleAdjustmentSolver solver;
   bool analytic_jacobians;
   bool explicit_ordering;
 };
 constexpr Variant kVariants[] = {
-    {"baseline", WindowSolver::kCeresDenseSchur, false, false},
-    {"ceres_dense", WindowSolver::kCeresDenseSchur, true, true},
-    {"ceres_suite_sparse", WindowSolver::kCeresSuiteSparse, true, true},
-    {"ceres_eigen_sparse", WindowSolver::kCeresEigenSparse, true, true},
-    {"block_schur", WindowSolver::kBlockSchur, true, true},
+    {"baseline", BundleAdjustmentSolver::kCeresDenseSchur, false, false},
+    {"ceres_dense", BundleAdjustmentSolver::kCeresDenseSchur, true, true},
+    {"ceres_suite_sparse", BundleAdjustmentSolver::kCeresSuiteSparse, true, true},
+    {"ceres_eigen_sparse", BundleAdjustmentSolver::kCeresEigenSparse, true, true},
+    {"block_schur", BundleAdjustmentSolver::kBlockSchur, true, true},
 };
 
-WindowOptions OptionsOf(const Variant& variant, const NamedWindow& window) {
-  WindowOptions options = window.Get().options;
+BundleAdjustmentOptions OptionsOf(const Variant& variant, const NamedWindow& window) {
+  BundleAdjustmentOptions options = window.Get().options;
   options.solver = variant.solver;
   options.analytic_jacobians = variant.analytic_jacobians;
   options.explicit_ordering = variant.explicit_ordering;
@@ -73,7 +73,8 @@ const Baseline& BaselineOf(const NamedWindow& window) {
   for (int i = 0; i < 3; ++i) {
     WindowData data = window.Get().data;
     const Stopwatch stopwatch;
-    const WindowSummary summary = SolveWindow(OptionsOf(kVariants[0], window), &data);
+    const BundleAdjustmentSummary summary =
+        LocalBundleAdjustment(OptionsOf(kVariants[0], window), &data);
     const double milliseconds = stopwatch.Milliseconds();
     it->second.cost = summary.final_cost;
     it->second.milliseconds =
@@ -83,10 +84,10 @@ const Baseline& BaselineOf(const NamedWindow& window) {
 }
 
 void Solve(benchmark::State& state, const Variant& variant, const NamedWindow& window) {
-  const WindowOptions options = OptionsOf(variant, window);
+  const BundleAdjustmentOptions options = OptionsOf(variant, window);
   const Baseline& baseline = BaselineOf(window);
   StageClock clock;
-  WindowSummary summary;
+  BundleAdjustmentSummary summary;
   Stopwatch stopwatch;
   double best = 1e9;
   for (auto _ : state) {
@@ -94,7 +95,8 @@ void Solve(benchmark::State& state, const Variant& variant, const NamedWindow& w
     WindowData data = window.Get().data;
     state.ResumeTiming();
     stopwatch.Restart();
-    summary = SolveWindow(options, &data, [&clock](WindowStage stage) { clock.Enter(stage); });
+    summary =
+        LocalBundleAdjustment(options, &data, [&clock](WindowStage stage) { clock.Enter(stage); });
     best = std::min(best, stopwatch.Milliseconds());
   }
   if (!summary.usable) state.SkipWithError(summary.message.c_str());
@@ -116,7 +118,7 @@ void Solve(benchmark::State& state, const Variant& variant, const NamedWindow& w
 
 void Register(const WindowPtr& window) {
   for (const Variant& variant : kVariants) {
-    WindowOptions options;
+    BundleAdjustmentOptions options;
     options.solver = variant.solver;
     std::string error;
     if (!options.IsValid(&error)) continue;  // this Ceres cannot

@@ -8,12 +8,12 @@
 #include <stdexcept>
 
 #include "apps/cli/commands.h"
+#include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/evaluation/line_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/results/run_summary.h"
-#include "msc_vo/datasets/trajectory.h"
 
 namespace msc_vo {
 

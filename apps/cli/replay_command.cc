@@ -12,12 +12,12 @@
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
-#include "msc_vo/text/format_text.h"
 #include "msc_vo/config/options_file.h"
+#include "msc_vo/recording/window_file.h"
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/results/run_report.h"
+#include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
-#include "msc_vo/recording/window_file.h"
 
 namespace msc_vo {
 
@@ -61,7 +61,8 @@ ConfigurationArguments WithShortcuts(const Arguments& arguments) {
 WindowObserver WindowRecorder(const std::string& folder) {
   if (folder.empty()) return {};
   MakeFolder(folder);
-  return [folder](KeyframeId keyframe, const WindowOptions& options, const WindowData& data) {
+  return [folder](KeyframeId keyframe, const BundleAdjustmentOptions& options,
+                  const WindowData& data) {
     const std::string name =
         FormatText("window_%06lld.txt", static_cast<long long>(keyframe));  // sorts by name
     WriteWindow((std::filesystem::path(folder) / name).string(), options, data);

@@ -6,8 +6,8 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/interrupt_guard.h"
 #include "msc_vo/datasets/rgbd_decoder.h"
-#include "msc_vo/results/run_summary.h"
 #include "msc_vo/odometry/odometry.h"
+#include "msc_vo/results/run_summary.h"
 
 namespace msc_vo {
 

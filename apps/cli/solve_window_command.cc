@@ -26,7 +26,8 @@ struct Arguments {
 
 // The options in the file, changed by the arguments. A setting that no window has would do nothing,
 // so it is refused.
-WindowOptions Options(const WindowOptions& recorded, const ConfigurationArguments& arguments) {
+BundleAdjustmentOptions Options(const BundleAdjustmentOptions& recorded,
+                                const ConfigurationArguments& arguments) {
   for (const std::string& setting : arguments.settings) {
     if (setting.rfind("mapping.window.", 0) != 0) {
       throw std::runtime_error("--set: '" + setting +
@@ -43,7 +44,8 @@ size_t NumFixed(const Items& items) {
   return std::count_if(items.begin(), items.end(), [](const auto& item) { return item.fixed; });
 }
 
-void PrintSummary(const WindowData& data, const WindowSummary& summary, double milliseconds) {
+void PrintSummary(const WindowData& data, const BundleAdjustmentSummary& summary,
+                  double milliseconds) {
   std::printf("%zu keyframes (%zu fixed), %zu points, %zu lines\n", data.keyframes.size(),
               NumFixed(data.keyframes), data.points.size(), data.lines.size());
   std::printf("%zu point and %zu line observations\n", data.point_observations.size(),
@@ -58,9 +60,9 @@ int Run(const Arguments& arguments) {
   RecordedWindow window = ReadWindow(arguments.file);
   window.options = Options(window.options, arguments.configuration);
   const Stopwatch stopwatch;
-  WindowSummary summary;
+  BundleAdjustmentSummary summary;
   try {
-    summary = SolveWindow(window.options, &window.data);
+    summary = LocalBundleAdjustment(window.options, &window.data);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(arguments.file + ": " + error.what());
   }

@@ -16,8 +16,8 @@
 #include "apps/cli/interrupt_guard.h"
 #include "apps/cli/progress.h"
 #include "msc_vo/results/ply_file.h"
-#include "msc_vo/text/text_file.h"
 #include "msc_vo/synthetic/scene/synthetic_sequence.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// How to embed the window solver: fill a WindowData, call SolveWindow, read the WindowSummary.
-// Needs the component `solver` alone (Eigen and Ceres). Your front end takes the place of See(): it
-// knows which pixels show which landmark.
+// How to embed the window solver: fill a WindowData, call LocalBundleAdjustment, read the
+// BundleAdjustmentSummary. Needs the component `solver` alone (Eigen and Ceres). Your front end
+// takes the place of See(): it knows which pixels show which landmark.
 //
 // The scene: a camera slides past a wall with a door frame. What it sees is exact, where the poses
 // and the landmarks are believed to be is off by some centimetres.
@@ -95,7 +95,8 @@ int main() {
   Disturb(&window);
 
   const double before = LargestError(window, truth);
-  const msc_vo::WindowSummary summary = msc_vo::SolveWindow(msc_vo::WindowOptions(), &window);
+  const msc_vo::BundleAdjustmentSummary summary =
+      msc_vo::LocalBundleAdjustment(msc_vo::BundleAdjustmentOptions(), &window);
   const double after = LargestError(window, truth);
 
   std::printf("%s\nlargest error of a pose: %.1f mm before, %.1e mm after\n",

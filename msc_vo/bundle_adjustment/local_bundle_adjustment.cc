@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
-#include "msc_vo/bundle_adjustment/internal/landmark_noise.h"
-#include "msc_vo/bundle_adjustment/validation.h"
 #include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
+#include "msc_vo/bundle_adjustment/internal/landmark_noise.h"
 #include "msc_vo/bundle_adjustment/internal/window_validation.h"
+#include "msc_vo/bundle_adjustment/validation.h"
 
 namespace msc_vo {
 
@@ -19,12 +19,12 @@ namespace {
 
 // Calls visit(term, its summary) for every term.
 template <typename Visitor>
-void ForEachTerm(const WindowTerms& terms, WindowSummary* summary, const Visitor& visit) {
+void ForEachTerm(const WindowTerms& terms, BundleAdjustmentSummary* summary, const Visitor& visit) {
   visit(terms.point_reprojection, &summary->point_reprojection);
   visit(terms.point_depth, &summary->point_depth);
   visit(terms.line_reprojection, &summary->line_reprojection);
   visit(terms.line_depth, &summary->line_depth);
-  visit(terms.line_anchor, &summary->line_anchor);
+  visit(terms.line_endpoint_prior, &summary->line_endpoint_prior);
   visit(terms.parallel, &summary->parallel);
   visit(terms.perpendicular, &summary->perpendicular);
   visit(terms.manhattan, &summary->manhattan);
@@ -33,7 +33,7 @@ void ForEachTerm(const WindowTerms& terms, WindowSummary* summary, const Visitor
 
 // Writes the costs of all terms into one member of their summaries; returns their sum.
 double WriteCosts(const WindowTerms& terms, const WindowState& state, double TermSummary::*member,
-                  WindowSummary* summary) {
+                  BundleAdjustmentSummary* summary) {
   double sum = 0.0;
   ForEachTerm(terms, summary, [&](const auto& term, TermSummary* its_summary) {
     its_summary->*member = Cost(term, state);
@@ -42,7 +42,7 @@ double WriteCosts(const WindowTerms& terms, const WindowState& state, double Ter
   return sum;
 }
 
-void WriteCounts(const WindowTerms& terms, WindowSummary* summary) {
+void WriteCounts(const WindowTerms& terms, BundleAdjustmentSummary* summary) {
   ForEachTerm(terms, summary, [](const auto& term, TermSummary* its_summary) {
     its_summary->num_residual_blocks = static_cast<int>(term.blocks.size());
   });
@@ -50,8 +50,8 @@ void WriteCounts(const WindowTerms& terms, WindowSummary* summary) {
 
 // Only what took part in the last solve: a landmark or keyframe that lost its last observation
 // keeps the values it came with.
-void WriteBack(const WindowTerms& terms, const WindowActivity& activity, const WindowState& state,
-               WindowData* data) {
+void WriteBack(const WindowTerms& terms, const WindowInlierMask& inlier_mask,
+               const WindowState& state, WindowData* data) {
   for (size_t i = 0; i < data->keyframes.size(); ++i) {
     if (terms.keyframe_takes_part[i]) data->keyframes[i].cam_from_world = state.Pose(i);
   }
@@ -61,44 +61,45 @@ void WriteBack(const WindowTerms& terms, const WindowActivity& activity, const W
   for (size_t i = 0; i < data->lines.size(); ++i) {
     if (terms.line_observed[i]) data->lines[i].segment = state.Line(i);
   }
-  for (size_t i = 0; i < activity.points.size(); ++i) {
-    data->point_observations[i].rejected = !activity.points[i].reprojection;
+  for (size_t i = 0; i < inlier_mask.points.size(); ++i) {
+    data->point_observations[i].rejected = !inlier_mask.points[i].reprojection;
   }
-  for (size_t i = 0; i < activity.lines.size(); ++i) {
-    data->line_observations[i].rejected = !activity.lines[i].reprojection;
+  for (size_t i = 0; i < inlier_mask.lines.size(); ++i) {
+    data->line_observations[i].rejected = !inlier_mask.lines[i].reprojection;
   }
-  for (size_t i = 0; i < activity.parallel.size(); ++i) {
-    data->parallel_pairs[i].rejected = !activity.parallel[i];
+  for (size_t i = 0; i < inlier_mask.parallel.size(); ++i) {
+    data->parallel_pairs[i].rejected = !inlier_mask.parallel[i];
   }
-  for (size_t i = 0; i < activity.perpendicular.size(); ++i) {
-    data->perpendicular_pairs[i].rejected = !activity.perpendicular[i];
+  for (size_t i = 0; i < inlier_mask.perpendicular.size(); ++i) {
+    data->perpendicular_pairs[i].rejected = !inlier_mask.perpendicular[i];
   }
-  for (size_t i = 0; i < activity.alignments.size(); ++i) {
-    data->axis_alignments[i].rejected = !activity.alignments[i];
+  for (size_t i = 0; i < inlier_mask.alignments.size(); ++i) {
+    data->axis_alignments[i].rejected = !inlier_mask.alignments[i];
   }
 }
 
-MinimizerReport Minimize(const WindowOptions& options, const WindowData& data,
+MinimizerReport Minimize(const BundleAdjustmentOptions& options, const WindowData& data,
                          const WindowTerms& terms, int max_iterations,
                          const WindowStageObserver& enter_stage, WindowState* state) {
-  if (options.solver == WindowSolver::kBlockSchur) {
+  if (options.solver == BundleAdjustmentSolver::kBlockSchur) {
     return MinimizeWindow(WindowStructure(data, terms), terms, max_iterations, enter_stage, state);
   }
   if (enter_stage) enter_stage(WindowStage::kStep);
-  return CeresWindow(options, data, terms, state).Minimize(max_iterations);
+  return CeresBackend(options, data, terms, state).Minimize(max_iterations);
 }
 
 }  // namespace
 
-WindowSummary SolveWindow(const WindowOptions& options, WindowData* data,
-                          const WindowStageObserver& enter_stage) {
+BundleAdjustmentSummary LocalBundleAdjustment(const BundleAdjustmentOptions& options,
+                                              WindowData* data,
+                                              const WindowStageObserver& enter_stage) {
   const auto enter = [&enter_stage](WindowStage stage) {
     if (enter_stage) enter_stage(stage);
   };
   enter(WindowStage::kBuild);
   const WindowIndex index = ValidateWindow(options, *data);
-  WindowSummary summary;
-  WindowActivity activity = AllInFront(options, index, *data, &summary.num_behind_camera);
+  BundleAdjustmentSummary summary;
+  WindowInlierMask inlier_mask = AllInFront(options, index, *data, &summary.num_behind_camera);
   WindowState state(*data);
 
   const auto minimize = [&](const WindowTerms& terms, int iterations) {
@@ -110,15 +111,15 @@ WindowSummary SolveWindow(const WindowOptions& options, WindowData* data,
     return report.usable && state.AllFinite();
   };
 
-  const WindowTerms first = MakeWindowTerms(options, *data, index, activity, state);
+  const WindowTerms first = MakeWindowTerms(options, *data, index, inlier_mask, state);
   summary.initial_cost = WriteCosts(first, state, &TermSummary::initial_cost, &summary);
   if (!minimize(first, options.first_iterations)) return summary;
-  ClassifyAll(options, first, state, &activity, &summary);
+  ClassifyAll(options, first, state, &inlier_mask, &summary);
 
   // Not yet in *data, which stays as it was if the second solve fails.
   WindowData learnt = *data;
-  LearnLandmarkNoise(options.landmark_noise, index, activity, state, &learnt);
-  const WindowTerms second = MakeWindowTerms(options, learnt, index, activity, state);
+  LearnLandmarkNoise(options.landmark_noise, index, inlier_mask, state, &learnt);
+  const WindowTerms second = MakeWindowTerms(options, learnt, index, inlier_mask, state);
   if (!minimize(second, options.second_iterations)) return summary;
   WriteCounts(second, &summary);
   summary.final_cost = WriteCosts(second, state, &TermSummary::final_cost, &summary);
@@ -129,14 +130,14 @@ WindowSummary SolveWindow(const WindowOptions& options, WindowData* data,
   }
   summary.usable = true;
   enter(WindowStage::kWriteBack);
-  LearnLandmarkNoise(options.landmark_noise, index, activity, state, &learnt);
+  LearnLandmarkNoise(options.landmark_noise, index, inlier_mask, state, &learnt);
   *data = std::move(learnt);
-  WriteBack(second, activity, state, data);
+  WriteBack(second, inlier_mask, state, data);
   enter(WindowStage::kDone);
   return summary;
 }
 
-bool WindowOptions::IsValid(std::string* error) const {
+bool BundleAdjustmentOptions::IsValid(std::string* error) const {
   if (!CommonOptionsAreValid(*this, error) || !landmark_noise.IsValid(error)) return false;
   const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
   if (!is_positive(parallel.huber) || !is_positive(perpendicular.huber) ||
@@ -144,8 +145,8 @@ bool WindowOptions::IsValid(std::string* error) const {
     *error = "every huber threshold must be a positive number of sigmas";
   } else if (!is_positive(reject_chi2_1)) {
     *error = "reject_chi2_1 must be positive";
-  } else if (!is_positive(line_anchor_sigma)) {
-    *error = "line_anchor_sigma must be positive";
+  } else if (!is_positive(line_endpoint_prior_sigma)) {
+    *error = "line_endpoint_prior_sigma must be positive";
   } else if (first_iterations < 1 || second_iterations < 1) {
     *error = "first_iterations and second_iterations must be at least 1";
   } else if (!IsAvailable(solver)) {
@@ -156,7 +157,7 @@ bool WindowOptions::IsValid(std::string* error) const {
   return false;
 }
 
-std::string WindowSummary::BriefReport() const {
+std::string BundleAdjustmentSummary::BriefReport() const {
   char text[160];
   std::snprintf(
       text, sizeof(text), "window: %s, %d iterations, cost %.6g -> %.6g, %d behind camera",
@@ -171,7 +172,7 @@ std::string WindowSummary::BriefReport() const {
   add("point depth", point_depth);
   add("line reprojection", line_reprojection);
   add("line depth", line_depth);
-  add("line anchor", line_anchor);
+  add("line anchor", line_endpoint_prior);
   add("parallel", parallel);
   add("perpendicular", perpendicular);
   add("manhattan", manhattan);

@@ -34,7 +34,7 @@ struct LandmarkNoiseOptions {
 };
 
 // What minimises the sum of factors. All go the same way, to the same minimum.
-enum class WindowSolver {
+enum class BundleAdjustmentSolver {
   kBlockSchur,       // linear algebra made for the window: by far the fastest
   kCeresDenseSchur,  // Ceres: the reference
   // The same with sparse matrices, of the library that Ceres must have been built with.
@@ -42,8 +42,8 @@ enum class WindowSolver {
   kCeresEigenSparse,
 };
 
-struct WindowOptions {
-  WindowSolver solver = WindowSolver::kBlockSchur;
+struct BundleAdjustmentOptions {
+  BundleAdjustmentSolver solver = BundleAdjustmentSolver::kBlockSchur;
   // Of the Ceres solvers; off: derivatives are automatic, and the order of elimination is Ceres's.
   // For comparison.
   bool analytic_jacobians = true;
@@ -59,13 +59,13 @@ struct WindowOptions {
   TermOptions parallel{true, 2.448};
   TermOptions perpendicular{true, 1.960};
   TermOptions manhattan{true, 2.448};
-  bool line_anchor = true;
+  bool line_endpoint_prior = true;
   // Prior along each line that keeps its end points from sliding: point-to-line residuals do not
   // see that motion, and where they disagree, they shrink the line towards the place where its
   // images cross. On that way a short line may turn to anywhere, and its pairs make the whole step
   // pay for it. Of 975 steps in 195 windows of ten sequences 16 % were refused with 5 cm, 1.7 %
   // with 2 cm, one with 1 cm, none with less.
-  double line_anchor_sigma = 0.01;  // metres
+  double line_endpoint_prior_sigma = 0.01;  // metres
 
   // An observation whose chi-square exceeds these after the first solve is rejected and the window
   // solved again without it: 99 % quantiles with 2 and, where there is a depth, 3 (4 for lines)
@@ -95,12 +95,12 @@ struct TermSummary {
   double final_cost = 0.0;
 };
 
-struct WindowSummary {
+struct BundleAdjustmentSummary {
   bool usable = false;     // false: the solver failed and the data were left unchanged
   int num_iterations = 0;  // in both solves
   double initial_cost = 0.0;
   double final_cost = 0.0;
-  TermSummary point_reprojection, point_depth, line_reprojection, line_depth, line_anchor;
+  TermSummary point_reprojection, point_depth, line_reprojection, line_depth, line_endpoint_prior;
   TermSummary parallel, perpendicular, manhattan, pose_prior;
   int num_behind_camera = 0;  // observations dropped by the builder, marked rejected
   std::string
@@ -110,7 +110,7 @@ struct WindowSummary {
   std::string BriefReport() const;
 };
 
-// What SolveWindow does at a time.
+// What LocalBundleAdjustment does at a time.
 enum class WindowStage {
   kBuild,      // checks the data, makes the factors, tests the observations
   kLinearize,  // evaluates factors and derivatives
@@ -134,7 +134,8 @@ using WindowStageObserver = std::function<void(WindowStage)>;
 // id, a number that is not finite or beyond 1e9, a sigma <= 0, a covariance that is not symmetric
 // or not positive definite, a segment without length, a pair of a line with itself, a count below
 // 1, an axis that is not unit, no gauge, or options that are not valid.
-WindowSummary SolveWindow(const WindowOptions& options, WindowData* data,
-                          const WindowStageObserver& enter_stage = {});
+BundleAdjustmentSummary LocalBundleAdjustment(const BundleAdjustmentOptions& options,
+                                              WindowData* data,
+                                              const WindowStageObserver& enter_stage = {});
 
 }  // namespace msc_vo

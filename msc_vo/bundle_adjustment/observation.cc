@@ -7,7 +7,7 @@
 
 namespace msc_vo {
 
-Activity TestChiSquare(double reprojection, double depth, double limit, double limit_with_depth) {
+InlierMask TestChiSquare(double reprojection, double depth, double limit, double limit_with_depth) {
   const bool passes = reprojection <= limit;
   return {passes, passes && reprojection + depth <= limit_with_depth};
 }

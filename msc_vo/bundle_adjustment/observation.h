@@ -11,10 +11,10 @@ namespace msc_vo {
 // What both problems do with one observation.
 
 // Which factors of an observation take part.
-struct Activity {
+struct InlierMask {
   bool reprojection = false;
   bool depth = false;
-  bool operator==(const Activity& other) const {
+  bool operator==(const InlierMask& other) const {
     return reprojection == other.reprojection && depth == other.depth;
   }
 };
@@ -23,7 +23,7 @@ struct Activity {
 // residuals in sigmas (0 where there is none), the limits are quantiles for the rows of the first
 // and of both. An observation whose depth alone contradicts stays and loses its depth: that is what
 // a mixed pixel of the sensor looks like.
-Activity TestChiSquare(double reprojection, double depth, double limit, double limit_with_depth);
+InlierMask TestChiSquare(double reprojection, double depth, double limit, double limit_with_depth);
 
 // Nearest depth z (metres) at which an observation is believed: nearer than any RGB-D sensor sees,
 // and ten times the factors' own limit, so that no step of a solver leaves the factors' domain.

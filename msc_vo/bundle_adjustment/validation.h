@@ -6,10 +6,10 @@
 #include <cmath>
 #include <string>
 
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 
 namespace msc_vo {
 

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "msc_vo/geometry/so3.h"
-#include "msc_vo/bundle_adjustment/internal/schur_complement.h"
 #include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
+#include "msc_vo/bundle_adjustment/internal/schur_complement.h"
+#include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
 
@@ -24,14 +24,14 @@ constexpr double kRadius = 1e12;
 constexpr double kMaxInflation = 1e8;
 
 // What took part in the last solve.
-WindowActivity LeftBySolver(const WindowOptions& options, const WindowData& data,
-                            const WindowIndex& index, const WindowState& state) {
+WindowInlierMask LeftBySolver(const BundleAdjustmentOptions& options, const WindowData& data,
+                              const WindowIndex& index, const WindowState& state) {
   int num_behind = 0;
-  WindowActivity left = AllInFront(options, index, data, &num_behind);
+  WindowInlierMask left = AllInFront(options, index, data, &num_behind);
   const auto keep = [](const auto& items, std::vector<bool>* active) {
     for (size_t i = 0; i < items.size(); ++i) (*active)[i] = !items[i].rejected;
   };
-  const auto keep_observations = [](const auto& items, std::vector<Activity>* active) {
+  const auto keep_observations = [](const auto& items, std::vector<InlierMask>* active) {
     for (size_t i = 0; i < items.size(); ++i) {
       if (items[i].rejected) (*active)[i] = {};
     }
@@ -43,10 +43,11 @@ WindowActivity LeftBySolver(const WindowOptions& options, const WindowData& data
   keep(data.axis_alignments, &left.alignments);
 
   // Depths that were lost alone have no mark.
-  WindowActivity tested = left;
-  WindowSummary unused;
+  WindowInlierMask tested = left;
+  BundleAdjustmentSummary unused;
   ClassifyAll(options, MakeWindowTerms(options, data, index, left, state), state, &tested, &unused);
-  const auto drop_depths = [](const std::vector<Activity>& test, std::vector<Activity>* active) {
+  const auto drop_depths = [](const std::vector<InlierMask>& test,
+                              std::vector<InlierMask>* active) {
     for (size_t i = 0; i < test.size(); ++i) {
       if (test[i].reprojection && !test[i].depth) (*active)[i].depth = false;
     }
@@ -110,8 +111,8 @@ std::vector<std::optional<Matrix>> Collect(const std::vector<Item>& items,
 
 }  // namespace
 
-WindowCovariance EstimateCovariance(const WindowOptions& options, const WindowData& solved,
-                                    const WindowChoice& chosen) {
+WindowCovariance EstimateCovariance(const BundleAdjustmentOptions& options,
+                                    const WindowData& solved, const WindowChoice& chosen) {
   const WindowIndex index = ValidateWindow(options, solved);
   const std::vector<int> keyframes = Positions(solved.keyframes, chosen.keyframes, "keyframe");
   const std::vector<int> points = Positions(solved.points, chosen.points, "point");

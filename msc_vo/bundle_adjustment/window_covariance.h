@@ -24,17 +24,17 @@ struct WindowCovariance {
   std::vector<std::optional<Eigen::Matrix<double, 6, 6>>> keyframes;
   std::vector<std::optional<Eigen::Matrix3d>> points;  // world, metres^2
   // Of start, then end, world, metres^2. Along the line only the anchor holds them: there it says
-  // line_anchor_sigma, unless something else does better.
+  // line_endpoint_prior_sigma, unless something else does better.
   std::vector<std::optional<Eigen::Matrix<double, 6, 6>>> lines;
 };
 
 // Covariances from the normal equations of the window's sum (J^T J)^-1 at `solved`, a window as
-// SolveWindow left it: observations, pairs and alignments that it rejected take no part, and depths
-// that contradict neither. Each factor weighs with the derivative of its loss. As good as the
-// sigmas in the data are: what is fixed counts as exact. Throws std::invalid_argument as
-// SolveWindow does, and on a choice that is not in the window.
-WindowCovariance EstimateCovariance(const WindowOptions& options, const WindowData& solved,
-                                    const WindowChoice& chosen);
+// LocalBundleAdjustment left it: observations, pairs and alignments that it rejected take no part,
+// and depths that contradict neither. Each factor weighs with the derivative of its loss. As good
+// as the sigmas in the data are: what is fixed counts as exact. Throws std::invalid_argument as
+// LocalBundleAdjustment does, and on a choice that is not in the window.
+WindowCovariance EstimateCovariance(const BundleAdjustmentOptions& options,
+                                    const WindowData& solved, const WindowChoice& chosen);
 
 // The covariance of a camera in the world from that of its cam_from_world (order as above):
 // rotation vector in the world (radians), then position in the world (metres).

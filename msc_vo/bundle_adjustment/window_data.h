@@ -8,9 +8,9 @@
 
 #include <Eigen/Core>
 
+#include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
-#include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/rigid3.h"
 
 namespace msc_vo {

@@ -150,15 +150,15 @@ void ListTerms(ProblemOptions* problem, OptionLister* list) {
   list->Add("reject_chi2_4", &problem->reject_chi2_4, "chi-square limit of 4 residuals");
 }
 
-void ListConsensus(ConsensusOptions* consensus, OptionLister* list) {
+void ListConsensus(CellConsensusOptions* consensus, OptionLister* list) {
   list->Add("enabled", &consensus->enabled, "leave out what moves by itself");
   list->Add("columns", &consensus->columns, "of parts of the image that vote on a pose");
   list->Add("rows", &consensus->rows, "of parts of the image that vote on a pose");
   list->Add("reject_chi2_6", &consensus->reject_chi2_6,
             "chi-square of the common errors of a part, beyond which it votes against a pose");
-  list->Add("unproven_weight", &consensus->unproven_weight,
+  list->Add("unconfirmed_weight", &consensus->unconfirmed_weight,
             "of a vote of what no two keyframes have seen");
-  list->Add("min_parts", &consensus->min_parts, "by which another pose must be better");
+  list->Add("min_cells", &consensus->min_cells, "by which another pose must be better");
 }
 
 void ListPose(PoseOptions* pose, OptionLister* list) {
@@ -173,7 +173,7 @@ void ListPose(PoseOptions* pose, OptionLister* list) {
 }
 
 void ListKeyframePolicy(KeyframePolicyOptions* policy, OptionLister* list) {
-  list->Add("min_relative_share", &policy->min_relative_share,
+  list->Add("min_tracked_ratio", &policy->min_tracked_ratio,
             "of tracked features, relative to what it was after the last keyframe");
   list->Add("min_interval", &policy->min_interval, "frames between keyframes");
   list->Add("max_interval", &policy->max_interval, "frames between keyframes");
@@ -246,7 +246,7 @@ void ListLandmarkNoise(LandmarkNoiseOptions* noise, OptionLister* list) {
             "metres, of what depths of a line are off in all views alike");
 }
 
-void ListWindow(WindowOptions* window, OptionLister* list) {
+void ListWindow(BundleAdjustmentOptions* window, OptionLister* list) {
   list->AddChoice("solver", &window->solver,
                   {"block-schur", "ceres-dense-schur", "ceres-suite-sparse", "ceres-eigen-sparse"},
                   "what minimises the window's sum; the first is the fastest");
@@ -259,8 +259,9 @@ void ListWindow(WindowOptions* window, OptionLister* list) {
   list->Section("perpendicular", &window->perpendicular, ListTerm);
   list->Section("manhattan", &window->manhattan, ListTerm);
   list->Add("reject_chi2_1", &window->reject_chi2_1, "chi-square limit of 1 residual");
-  list->Add("line_anchor", &window->line_anchor, "whether end points are held along their line");
-  list->Add("line_anchor_sigma", &window->line_anchor_sigma,
+  list->Add("line_endpoint_prior", &window->line_endpoint_prior,
+            "whether end points are held along their line");
+  list->Add("line_endpoint_prior_sigma", &window->line_endpoint_prior_sigma,
             "metres, of the prior that keeps end points from sliding along their line");
   list->Section("landmark_noise", &window->landmark_noise, ListLandmarkNoise);
   list->Add("first_iterations", &window->first_iterations, "with all observations");
@@ -281,17 +282,18 @@ void ListCoarseAxes(CoarseAxesOptions* coarse, OptionLister* list) {
   list->Add("max_sigma", &coarse->max_sigma, "radians; evidence known worse does not count");
   list->Add("first_bandwidth", &coarse->first_bandwidth, "radians, of the mean shift's kernel");
   list->Add("last_bandwidth", &coarse->last_bandwidth, "radians, of the mean shift's kernel");
-  list->Add("min_share", &coarse->min_share, "of the evidence that axes must explain");
+  list->Add("min_explained_ratio", &coarse->min_explained_ratio,
+            "of the evidence that axes must explain");
   list->Add("max_rival", &coarse->max_rival, "what other axes may explain, relative to the best");
-  list->Add("min_axis_share", &coarse->min_axis_share, "of the evidence for one axis to count");
+  list->Add("min_axis_ratio", &coarse->min_axis_ratio, "of the evidence for one axis to count");
   list->Add("max_misfit", &coarse->max_misfit, "radians, mean of an axis' evidence off it");
   list->Add("max_false_alarms", &coarse->max_false_alarms, "axes expected in random evidence");
 }
 
-void ListAxisAssignment(AxisAssignmentOptions* assignment, OptionLister* list) {
-  list->Add("max_sigmas", &assignment->max_sigmas, "between a line and its axis");
-  list->Add("max_angle", &assignment->max_angle, "radians between a line and its axis");
-  list->Add("max_sigma", &assignment->max_sigma, "radians; lines known worse have no axis");
+void ListAxisAssignment(AxisAssociationOptions* association, OptionLister* list) {
+  list->Add("max_sigmas", &association->max_sigmas, "between a line and its axis");
+  list->Add("max_angle", &association->max_angle, "radians between a line and its axis");
+  list->Add("max_sigma", &association->max_sigma, "radians; lines known worse have no axis");
 }
 
 void ListAxesRefinement(ManhattanAxesOptions* refinement, OptionLister* list) {
@@ -307,7 +309,7 @@ void ListAxesEstimator(AxesEstimatorOptions* estimator, OptionLister* list) {
   list->Add("min_keyframes", &estimator->min_keyframes, "in the map, for a refinement");
   list->Add("min_axis_lines", &estimator->min_axis_lines, "in the map, for a refinement");
   list->Add("min_growth", &estimator->min_growth, "of the lines on axes, for the next refinement");
-  list->Add("min_line_share", &estimator->min_line_share, "of lines on axes, or they are dropped");
+  list->Add("min_line_ratio", &estimator->min_line_ratio, "of lines on axes, or they are dropped");
   list->Add("max_correction", &estimator->max_correction, "radians that a refinement may turn");
   list->Add("freeze_sigma", &estimator->freeze_sigma, "radians; axes known better stay");
 }
@@ -322,7 +324,7 @@ void ListNoiseEstimator(NoiseEstimatorOptions* noise, OptionLister* list) {
 void ListAxes(SceneAxesOptions* axes, OptionLister* list) {
   list->Add("enabled", &axes->enabled, "whether Manhattan axes are used; mode msc-vo only");
   list->Section("coarse", &axes->coarse, ListCoarseAxes);
-  list->Section("assignment", &axes->assignment, ListAxisAssignment);
+  list->Section("association", &axes->association, ListAxisAssignment);
   list->Section("refinement", &axes->refinement, ListAxesRefinement);
   list->Section("estimator", &axes->estimator, ListAxesEstimator);
   list->Add("deviation", &axes->deviation, "radians, of lines from the axes they were built along");
@@ -332,7 +334,7 @@ void ListCulling(CullingOptions* culling, OptionLister* list) {
   list->Add("probation_keyframes", &culling->probation_keyframes, "of a new landmark");
   list->Add("min_observations", &culling->min_observations, "that a landmark must reach by then");
   list->Add("min_found_ratio", &culling->min_found_ratio, "frames that find it / should show it");
-  list->Add("redundant_share", &culling->redundant_share,
+  list->Add("redundant_ratio", &culling->redundant_ratio,
             "of a keyframe's landmarks that others show as well");
   list->Add("redundant_observers", &culling->redundant_observers, "how many others");
 }

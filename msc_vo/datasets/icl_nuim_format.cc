@@ -12,8 +12,8 @@
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/image_list.h"
 #include "msc_vo/datasets/sequence_format.h"
-#include "msc_vo/text/text_file.h"
 #include "msc_vo/datasets/tum_folder.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 

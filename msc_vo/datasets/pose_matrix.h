@@ -10,8 +10,8 @@
 
 #include <Eigen/Core>
 
-#include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/datasets/sequence.h"
+#include "msc_vo/geometry/rigid3.h"
 
 namespace msc_vo {
 

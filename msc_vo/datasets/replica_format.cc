@@ -11,8 +11,8 @@
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_format.h"
-#include "msc_vo/text/text_file.h"
 #include "msc_vo/datasets/tum_folder.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 

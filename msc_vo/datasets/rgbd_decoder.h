@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "msc_vo/sensor/rgbd_image.h"
 #include "msc_vo/datasets/calibration.h"
 #include "msc_vo/datasets/sequence.h"
+#include "msc_vo/sensor/rgbd_image.h"
 
 namespace msc_vo {
 

@@ -5,8 +5,8 @@
 
 #include <future>
 
-#include "msc_vo/sensor/rgbd_image.h"
 #include "msc_vo/datasets/rgbd_decoder.h"
+#include "msc_vo/sensor/rgbd_image.h"
 
 namespace msc_vo {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/datasets/calibration.h"
+#include "msc_vo/geometry/timed_pose.h"
 
 namespace msc_vo {
 

@@ -19,10 +19,10 @@ namespace msc_vo {
 // from R(q) X = X + 2 q_w (q_v x X) + 2 q_v x (q_v x X). Equal to the automatic derivative of the
 // whole, in all seven ambient numbers.
 template <typename Factor>
-class ChainRuleCost final
+class AnalyticCostFunction final
     : public ceres::SizedCostFunction<Factor::kNumResiduals, 7, 3 * Factor::kNumPoints> {
  public:
-  explicit ChainRuleCost(const Factor& factor) : factor_(factor) {}
+  explicit AnalyticCostFunction(const Factor& factor) : factor_(factor) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {

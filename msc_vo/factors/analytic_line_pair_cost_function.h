@@ -15,9 +15,10 @@ namespace msc_vo {
 //
 // of either line. Equal to the automatic derivative of the whole.
 template <typename Factor>
-class LinePairCost final : public ceres::SizedCostFunction<Factor::kNumResiduals, 6, 6> {
+class AnalyticLinePairCostFunction final
+    : public ceres::SizedCostFunction<Factor::kNumResiduals, 6, 6> {
  public:
-  explicit LinePairCost(const Factor& factor) : factor_(factor) {}
+  explicit AnalyticLinePairCostFunction(const Factor& factor) : factor_(factor) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {

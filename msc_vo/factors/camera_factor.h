@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "msc_vo/factors/cost_functor.h"
 #include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/factors/cost_functor.h"
 
 namespace msc_vo {
 
@@ -40,7 +40,8 @@ inline Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camer
 //   template <typename T> void Residual(int k, const Eigen::Matrix<T, 3, 1>& x_in_cam, T* r) const;
 //   Eigen::Matrix<double, RowsPerPoint, 3> Jacobian(int k, const Eigen::Vector3d& x_in_cam) const;
 //
-// From x to pose and landmark it is the same chain rule for all (ChainRuleCost, and the problems).
+// From x to pose and landmark it is the same chain rule for all (AnalyticCostFunction, and the
+// problems).
 template <typename Factor, int Points, int RowsPerPoint>
 struct CameraFactor : CostFunctor<Factor, Points * RowsPerPoint, 7, 3 * Points> {
   static constexpr int kNumPoints = Points;

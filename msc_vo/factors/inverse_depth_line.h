@@ -8,9 +8,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
-#include "msc_vo/camera/pinhole_camera.h"
 
 namespace msc_vo {
 
@@ -19,28 +19,28 @@ namespace msc_vo {
 //   (w_S, w_E, a, c)
 //
 // w_S, w_E: inverse depths, 1/metres. a, c: unit normal deviates that say how the line as it was
-// meant to be built lies to the line as it is seen: turned by a in the plane of sight and by c out
-// of it. The direction of the former, which structure is about, is that of
+// meant to be built lies to the line as it is seen: turned by a in the interpretation plane and by
+// c out of it. The direction of the former, which structure is about, is that of
 //
 //   u = b_E w_S - b_S w_E + |u_0| (sigma_a a p_0 + sigma_c c n_0)
 //
 // as E - S = b_E / w_E - b_S / w_S is parallel to its first part: linear in the block, no division.
-// n_0: normal of the plane of sight. p_0: across the line in that plane. sigma_a: deviation of a
-// built line from its ideal. sigma_c: the same and the angle by which image noise tilts the plane
-// of sight. These two errors are common to all pairs of a line; as variables, however many partners
-// agree, they do not average out.
-class SightLine {
+// n_0: normal of the interpretation plane. p_0: across the line in that plane. sigma_a: deviation
+// of a built line from its ideal. sigma_c: the same and the angle by which image noise tilts the
+// plane of sight. These two errors are common to all pairs of a line; as variables, however many
+// partners agree, they do not average out.
+class InverseDepthLine {
  public:
   static constexpr int kBlockSize = 4;
 
   // image_sigma: pixels, of an end point's distance to the true image line. deviation: sigma_a,
   // radians.
-  SightLine(const PinholeCamera& camera, const LineSegment2& segment, const LineDepth& depth,
-            double image_sigma, double deviation)
+  InverseDepthLine(const PinholeCamera& camera, const LineSegment2& segment, const LineDepth& depth,
+                   double image_sigma, double deviation)
       : ray_start_(camera.Ray(segment.start)), ray_end_(camera.Ray(segment.end)) {
     const Eigen::Vector3d u = depth.start * ray_end_ - depth.end * ray_start_;
     const Eigen::Vector3d normal = ray_start_.cross(ray_end_).normalized();
-    // A pixel across the segment, as a shift of its viewing ray out of the plane of sight.
+    // A pixel across the segment, as a shift of its viewing ray out of the interpretation plane.
     const Eigen::Vector2d d = segment.Direction();
     const double pixel = std::abs(normal.x() * -d.y() / camera.fx + normal.y() * d.x() / camera.fy);
     image_angle_ = image_sigma * pixel * std::hypot(depth.start, depth.end) / u.norm();
@@ -48,7 +48,7 @@ class SightLine {
     out_of_plane_ = std::hypot(deviation, image_angle_) * u.norm() * normal;
   }
 
-  // Standard deviation of the tilt of the plane of sight by image noise, radians.
+  // Standard deviation of the tilt of the interpretation plane by image noise, radians.
   double image_angle() const { return image_angle_; }
 
   // False if the line points at the camera and has no length across its rays.

@@ -13,13 +13,14 @@ namespace msc_vo {
 //
 //   r = Relation(d(w_i), d(w_j))
 //
-// Relation: ParallelLines or PerpendicularLines. d: direction of a SightLine from its block (blocks
-// 0 and 1, 4 each: two inverse depths, 1/metres, and two unit normal deviates).
+// Relation: ParallelLines or PerpendicularLines. d: direction of a InverseDepthLine from its block
+// (blocks 0 and 1, 4 each: two inverse depths, 1/metres, and two unit normal deviates).
 template <typename Relation>
-class SightLinePair : public CostFunctor<SightLinePair<Relation>, Relation::kNumResiduals,
-                                         SightLine::kBlockSize, SightLine::kBlockSize> {
+class InverseDepthLinePair
+    : public CostFunctor<InverseDepthLinePair<Relation>, Relation::kNumResiduals,
+                         InverseDepthLine::kBlockSize, InverseDepthLine::kBlockSize> {
  public:
-  SightLinePair(const SightLine& line_i, const SightLine& line_j, double sigma)
+  InverseDepthLinePair(const InverseDepthLine& line_i, const InverseDepthLine& line_j, double sigma)
       : line_i_(line_i), line_j_(line_j), relation_(sigma) {}
 
   template <typename T>
@@ -31,7 +32,7 @@ class SightLinePair : public CostFunctor<SightLinePair<Relation>, Relation::kNum
   }
 
  private:
-  SightLine line_i_, line_j_;
+  InverseDepthLine line_i_, line_j_;
   Relation relation_;
 };
 

@@ -14,12 +14,13 @@ namespace msc_vo {
 //
 //   r = (L^-1 (w - w_0), a, c),   L L^T = covariance of the fit
 //
-// w = (w_S, w_E): inverse depths, 1/metres; a, c: see SightLine (block 0, 4). w_0: those of the
-// fit. With the full covariance a well-fitted line gives way to nobody, and a poor one just where
-// it is poor: in its slope, which is what structure knows.
-class SightLinePrior : public CostFunctor<SightLinePrior, 4, SightLine::kBlockSize> {
+// w = (w_S, w_E): inverse depths, 1/metres; a, c: see InverseDepthLine (block 0, 4). w_0: those of
+// the fit. With the full covariance a well-fitted line gives way to nobody, and a poor one just
+// where it is poor: in its slope, which is what structure knows.
+class InverseDepthLinePrior
+    : public CostFunctor<InverseDepthLinePrior, 4, InverseDepthLine::kBlockSize> {
  public:
-  explicit SightLinePrior(const LineDepth& depth)
+  explicit InverseDepthLinePrior(const LineDepth& depth)
       : mean_(depth.start, depth.end),
         root_information_(depth.covariance.llt().matrixL().solve(Eigen::Matrix2d::Identity())) {}
 

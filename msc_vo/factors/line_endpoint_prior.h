@@ -16,9 +16,9 @@ namespace msc_vo {
 // direction of the line then. sigma: metres. No image of a line says where along it an end point
 // lies, so two of the six numbers are free without this; held, the normal equations are well
 // conditioned and the line's four real degrees of freedom stay untouched.
-class LineAnchor : public CostFunctor<LineAnchor, 2, 6> {
+class LineEndpointPrior : public CostFunctor<LineEndpointPrior, 2, 6> {
  public:
-  LineAnchor(const LineSegment3& initial, double sigma)
+  LineEndpointPrior(const LineSegment3& initial, double sigma)
       : initial_(initial), direction_(initial.Direction()), inverse_sigma_(1.0 / sigma) {}
 
   template <typename T>

@@ -15,11 +15,11 @@ namespace msc_vo {
 //
 // q: world_from_manhattan (block 0, 4: x y z w, unit, on Rotation3Manifold); column k of its matrix
 // is axis m_k in the world. d: unit direction in the world, sign free. n: unit, across d; the
-// normal of the plane of sight, in which (sigma, radians) a direction stands on depth and is known
-// worse than out of it (sigma_n, radians). With equal sigmas the norm of the two rows is the sine
-// of the angle, |d x m_k|^2 = (m_k . p)^2 + (m_k . n)^2 = (d . m_k')^2 + (d . m_k'')^2: all three
-// of the paper's conditions in one. One rotation instead of its three free vectors, so that axes
-// stay orthogonal without the SVD at its end.
+// normal of the interpretation plane, in which (sigma, radians) a direction stands on depth and is
+// known worse than out of it (sigma_n, radians). With equal sigmas the norm of the two rows is the
+// sine of the angle, |d x m_k|^2 = (m_k . p)^2 + (m_k . n)^2 = (d . m_k')^2 + (d . m_k'')^2: all
+// three of the paper's conditions in one. One rotation instead of its three free vectors, so that
+// axes stay orthogonal without the SVD at its end.
 class ManhattanRotation : public CostFunctor<ManhattanRotation, 2, 4> {
  public:
   ManhattanRotation(const Eigen::Vector3d& direction, const Eigen::Vector3d& normal, int axis,

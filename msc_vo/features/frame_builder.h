@@ -11,10 +11,10 @@
 #include "msc_vo/features/line_backprojection.h"
 #include "msc_vo/features/line_extractor.h"
 #include "msc_vo/features/point_extractor.h"
-#include "msc_vo/sensor/rgbd_image.h"
-#include "msc_vo/sensor/sensor_noise.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/map/frame.h"
+#include "msc_vo/sensor/rgbd_image.h"
+#include "msc_vo/sensor/sensor_noise.h"
 
 namespace msc_vo {
 

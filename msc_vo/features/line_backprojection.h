@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "msc_vo/sensor/inverse_depth_image.h"
-#include "msc_vo/sensor/lens_remap.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
+#include "msc_vo/sensor/inverse_depth_image.h"
+#include "msc_vo/sensor/lens_remap.h"
 
 namespace msc_vo {
 

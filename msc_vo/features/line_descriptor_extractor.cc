@@ -96,7 +96,7 @@ int ToFixed(double x) { return cvRound(x * (1 << kFractionBits)); }
 
 }  // namespace
 
-void LineDescriber::SetImage(const cv::Mat& gray) {
+void LineDescriptorExtractor::SetImage(const cv::Mat& gray) {
   cv::resize(gray, half_, cv::Size((gray.cols + 1) / 2, (gray.rows + 1) / 2), 0.0, 0.0,
              cv::INTER_AREA);
   cv::copyMakeBorder(half_, padded_, kMargin, kMargin, kMargin, kMargin, cv::BORDER_REPLICATE);
@@ -107,7 +107,7 @@ void LineDescriber::SetImage(const cv::Mat& gray) {
 }
 
 // A row of `steps` pixels from `first` on in direction `d`.
-Row LineDescriber::SumRow(const Vector2d& first, const Vector2d& d, int steps) const {
+Row LineDescriptorExtractor::SumRow(const Vector2d& first, const Vector2d& d, int steps) const {
   const size_t stride = gradient_.step1() / 2;
   const cv::Vec2f* const gradient = gradient_.ptr<cv::Vec2f>();
   const Eigen::Array2f along = d.cast<float>();
@@ -128,7 +128,7 @@ Row LineDescriber::SumRow(const Vector2d& first, const Vector2d& d, int steps) c
   return sum;
 }
 
-Descriptor LineDescriber::Describe(const LineSegment2& segment) const {
+Descriptor LineDescriptorExtractor::Describe(const LineSegment2& segment) const {
   // As in the original.
   static const std::array<float, kRows> weights = Gaussian<kRows>(0.5 * (kRows - 1));
   const Vector2d d = segment.Direction();

@@ -23,7 +23,7 @@ namespace msc_vo {
 // as many correct nearest neighbours.
 //
 // Keeps its buffers between calls; not for use from several threads at once.
-class LineDescriber {
+class LineDescriptorExtractor {
  public:
   // The image of the lines to come, CV_8UC1, not empty.
   void SetImage(const cv::Mat& gray);

@@ -79,7 +79,7 @@ struct LineExtractor::Detectors {
   cv::Ptr<cv::LineSegmentDetector> lsd;
   std::vector<cv::Vec4f> lsd_lines;
   EdgeSegmentDetector edges;
-  LineDescriber describer;
+  LineDescriptorExtractor descriptor_extractor;
   std::vector<LineSegment2> pieces;
 
   // Fills `pieces`.
@@ -139,9 +139,9 @@ std::vector<LineFeature> LineExtractor::Extract(const cv::Mat& gray, const cv::M
     if (options_.detector == LineDetector::kEdgeDrawing) RefineSegment(gray, &feature.segment);
     features.push_back(feature);
   }
-  detectors_->describer.SetImage(gray);
+  detectors_->descriptor_extractor.SetImage(gray);
   for (LineFeature& feature : features) {
-    feature.descriptor = detectors_->describer.Describe(feature.segment);
+    feature.descriptor = detectors_->descriptor_extractor.Describe(feature.segment);
   }
   return features;
 }

@@ -67,7 +67,7 @@ inline int Round(float value) { return static_cast<int>(value + 64.5f) - 64; }
 
 }  // namespace
 
-double PointDescriber::Angle(const cv::Point& pixel) const {
+double PointDescriptorExtractor::Angle(const cv::Point& pixel) const {
   static const PatchRows rows = MakePatchRows();
   int moment_x = 0, moment_y = 0;
   for (int y = -kPatchRadius; y <= kPatchRadius; ++y) {
@@ -83,7 +83,7 @@ double PointDescriber::Angle(const cv::Point& pixel) const {
   return std::atan2(static_cast<double>(moment_y), static_cast<double>(moment_x));
 }
 
-Descriptor PointDescriber::Describe(const cv::Point& pixel, double angle) const {
+Descriptor PointDescriptorExtractor::Describe(const cv::Point& pixel, double angle) const {
   static const Pattern pattern = MakePattern();
   const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
   const auto step = static_cast<int>(smooth_.step);

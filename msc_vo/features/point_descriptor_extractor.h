@@ -11,7 +11,7 @@ namespace msc_vo {
 
 // Orientation and binary descriptor of points of one image: BRIEF's comparisons of pairs of pixels,
 // turned by the direction of its intensity centroid (as ORB's are, with pairs of our own).
-class PointDescriber {
+class PointDescriptorExtractor {
  public:
   // No point nearer than this to the image's border: patches reach 15 px and smoothing 2 px
   // further. 19 px are ORB's border, with which everything here was measured.
@@ -19,7 +19,8 @@ class PointDescriber {
 
   // Of an 8-bit image and of itself smoothed, between whose pixels the comparisons are. Keeps
   // references to both.
-  PointDescriber(const cv::Mat& gray, const cv::Mat& smooth) : gray_(gray), smooth_(smooth) {}
+  PointDescriptorExtractor(const cv::Mat& gray, const cv::Mat& smooth)
+      : gray_(gray), smooth_(smooth) {}
 
   // Direction from a pixel to the intensity centroid of the disc around it, radians in (-pi, pi].
   double Angle(const cv::Point& pixel) const;

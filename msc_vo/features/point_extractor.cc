@@ -18,7 +18,7 @@ namespace msc_vo {
 
 namespace {
 
-constexpr int kBorder = PointDescriber::kBorder;
+constexpr int kBorder = PointDescriptorExtractor::kBorder;
 static_assert(kFastMinColumns > 2 * kBorder);
 
 bool Stronger(const FastCorner& a, const FastCorner& b) {
@@ -183,15 +183,15 @@ std::vector<PointFeature> PointExtractor::ExtractLevel(int l) {
   const std::vector<FastCorner> corners = DetectCorners(level.image, level.num_points, options_);
   // The binomial filter of five: a Gaussian of one pixel.
   cv::GaussianBlur(level.image, level.smooth, cv::Size(5, 5), /*sigmaX=*/0.0);
-  const PointDescriber describer(level.image, level.smooth);
+  const PointDescriptorExtractor descriptor_extractor(level.image, level.smooth);
   std::vector<PointFeature> points;
   for (const RefinedCorner& corner : RefineCorners(level.image, level.smooth, corners)) {
     PointFeature point;
     point.pixel = ToFullImage(corner.position, level.image.size(), levels_[0].image.size());
     point.sigma = level.scale;
     point.level = l;
-    point.angle = describer.Angle(corner.pixel);
-    point.descriptor = describer.Describe(corner.pixel, point.angle);
+    point.angle = descriptor_extractor.Angle(corner.pixel);
+    point.descriptor = descriptor_extractor.Describe(corner.pixel, point.angle);
     points.push_back(point);
   }
   return points;

@@ -163,7 +163,7 @@ double DirectionSigma(const PinholeCamera& camera, const LineSegment2& segment,
   const Eigen::Vector3d direction = d.normalized();
   const Eigen::Vector3d across_start = ray_end - direction * direction.dot(ray_end);
   const Eigen::Vector3d across_end = ray_start - direction * direction.dot(ray_start);
-  // Both lie in the plane of sight, across D: along one and the same axis.
+  // Both lie in the interpretation plane, across D: along one and the same axis.
   const Eigen::Vector3d axis = direction.cross(ray_start.cross(ray_end).normalized());
   const Eigen::Vector2d jacobian(across_start.dot(axis), -across_end.dot(axis));
   return std::sqrt(jacobian.dot(depth.covariance * jacobian)) / d.norm();

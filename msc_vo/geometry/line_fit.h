@@ -11,8 +11,8 @@
 
 #include <Eigen/Core>
 
-#include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/geometry/line_segment.h"
 
 namespace msc_vo {
 

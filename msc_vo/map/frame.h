@@ -10,10 +10,10 @@
 
 #include <Eigen/Core>
 
+#include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
-#include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/rigid3.h"
 
 namespace msc_vo {
@@ -33,7 +33,7 @@ struct PointFeature {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double sigma = 1.0;                // pixels, standard deviation of each coordinate
   int level = 0;                     // pyramid level, 0 is the full image
-  bool moves = false;                // by itself, as tracking found: shows no landmark
+  bool dynamic = false;              // by itself, as tracking found: shows no landmark
   double angle = 0.0;                // radians, orientation in the image
   double inverse_depth = 0.0;        // 1/metres; 0: no depth here
   double inverse_depth_sigma = 0.0;  // 1/metres; > 0 if there is a depth
@@ -46,7 +46,7 @@ struct PointFeature {
 struct LineFeature {
   LineSegment2 segment;
   double sigma = 1.0;              // pixels, of an end point's distance to the true line
-  bool moves = false;              // as of points
+  bool dynamic = false;            // as of points
   std::optional<LineDepth> depth;  // none: the line stays 2-D
   Descriptor descriptor{};
 };

@@ -53,7 +53,8 @@ Eigen::Vector3d RayChange(const Frame& frame, const Eigen::Vector2d& pixel, doub
                                            inverse_depth * frame.velocity->linear);
 }
 
-Frame Unroll(const Frame& rolled, const CameraVelocity& velocity, double readout_time) {
+Frame CompensateRollingShutter(const Frame& rolled, const CameraVelocity& velocity,
+                               double readout_time) {
   Frame frame = rolled;
   frame.velocity = velocity;
   frame.readout_time = readout_time;

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/map/frame.h"
 
 namespace msc_vo {
@@ -28,6 +28,7 @@ Eigen::Vector3d RayChange(const Frame& frame, const Eigen::Vector2d& pixel, doub
 // the camera moved between that and the time of their row. Features without a depth move as if far
 // away. Of a frame that was unrolled before the difference is applied, with the phases of its
 // pixels as they are: these are some rows off, so that some percent of the difference remain.
-Frame Unroll(const Frame& rolled, const CameraVelocity& velocity, double readout_time);
+Frame CompensateRollingShutter(const Frame& rolled, const CameraVelocity& velocity,
+                               double readout_time);
 
 }  // namespace msc_vo

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "msc_vo/map/map.h"
 #include "msc_vo/bundle_adjustment/window_data.h"
+#include "msc_vo/map/map.h"
 
 namespace msc_vo {
 

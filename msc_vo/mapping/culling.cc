@@ -61,7 +61,7 @@ bool IsRedundant(const CullingOptions& options, const Map& map, const KeyframeIn
                  const Keyframe& keyframe) {
   const int num_landmarks = NumLandmarks(keyframe.points) + NumLandmarks(keyframe.lines);
   // As many uncovered ones are too many.
-  const double allowed = (1.0 - options.redundant_share) * num_landmarks;
+  const double allowed = (1.0 - options.redundant_ratio) * num_landmarks;
   int num_uncovered = 0;
   for (size_t i = 0; i < keyframe.points.size() && num_uncovered < allowed; ++i) {
     if (keyframe.points[i] == kNoId) continue;
@@ -88,8 +88,8 @@ bool CullingOptions::IsValid(std::string* error) const {
     *error = "culling: probation_keyframes, min_observations and redundant_observers must be >= 1";
   } else if (!(min_found_ratio >= 0.0 && min_found_ratio <= 1.0)) {
     *error = "culling: min_found_ratio must be in [0, 1]";
-  } else if (!(redundant_share > 0.0 && redundant_share <= 1.0)) {
-    *error = "culling: redundant_share must be in (0, 1]";
+  } else if (!(redundant_ratio > 0.0 && redundant_ratio <= 1.0)) {
+    *error = "culling: redundant_ratio must be in (0, 1]";
   } else {
     return true;
   }

@@ -19,7 +19,7 @@ struct CullingOptions {
   double min_found_ratio = 0.25;
   // A keyframe is redundant if this share of its landmarks is seen by three other keyframes at the
   // same or a finer scale: what it shows is known without it.
-  double redundant_share = 0.9;
+  double redundant_ratio = 0.9;
   int redundant_observers = 3;
 
   bool IsValid(std::string* error) const;

@@ -10,10 +10,10 @@
 
 #include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/structure/axis_evidence.h"
 #include "msc_vo/map/frame.h"
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/matching/frame_matches.h"
+#include "msc_vo/structure/axis_evidence.h"
 
 namespace msc_vo {
 

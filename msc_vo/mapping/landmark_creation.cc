@@ -11,7 +11,7 @@ void CreatePoints(KeyframeId id, Probation* probation, Map* map) {
   for (size_t i = 0; i < keyframe.points.size(); ++i) {
     const int feature = static_cast<int>(i);
     const PointFeature& point = keyframe.frame->points[i];
-    if (keyframe.points[i] != kNoId || !point.HasDepth() || point.moves) continue;
+    if (keyframe.points[i] != kNoId || !point.HasDepth() || point.dynamic) continue;
     probation->points.insert(
         map->AddPoint(id, feature, world_from_cam * keyframe.frame->PointInCamera(feature)));
   }
@@ -23,7 +23,7 @@ void CreateLines(KeyframeId id, Probation* probation, Map* map) {
   for (size_t i = 0; i < keyframe.lines.size(); ++i) {
     const int feature = static_cast<int>(i);
     const LineFeature& line = keyframe.frame->lines[i];
-    if (keyframe.lines[i] != kNoId || !line.depth || line.moves) continue;
+    if (keyframe.lines[i] != kNoId || !line.depth || line.dynamic) continue;
     probation->lines.insert(
         map->AddLine(id, feature, world_from_cam * keyframe.frame->LineInCamera(feature)));
   }

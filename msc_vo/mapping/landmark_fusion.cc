@@ -25,7 +25,7 @@ std::vector<KeyframeId> Neighbours(const FusionOptions& options, const Map& map,
 
 // The landmark that stays, and the one that goes into it.
 template <typename L>
-std::pair<LandmarkId, LandmarkId> StayAndGo(const L& a, const L& b) {
+std::pair<LandmarkId, LandmarkId> SelectSurvivor(const L& a, const L& b) {
   const bool a_stays = a.observations.size() != b.observations.size()
                            ? a.observations.size() > b.observations.size()
                            : a.id < b.id;
@@ -99,7 +99,7 @@ void FusePointsInto(const FusionOptions& options, KeyframeId source, KeyframeId 
     if (holder == nullptr) {
       map->ObservePoint(match.id, target, match.feature);
     } else if (holder->id != match.id) {
-      const auto [stays, goes] = StayAndGo(*point, *holder);
+      const auto [stays, goes] = SelectSurvivor(*point, *holder);
       map->MergePoints(goes, stays);
     }
   }
@@ -129,7 +129,7 @@ void FuseLinesInto(const FusionOptions& options, KeyframeId source, KeyframeId t
       map->ObserveLine(match.id, target, match.feature);
     } else if (holder->id != match.id &&
                AreOneLine(options, keyframe, line->segment, holder->segment)) {
-      const auto [stays, goes] = StayAndGo(*line, *holder);
+      const auto [stays, goes] = SelectSurvivor(*line, *holder);
       map->MergeLines(goes, stays);
     }
   }

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "msc_vo/structure/keyframe_structure.h"
-#include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
 #include "msc_vo/mapping/landmark_creation.h"
+#include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
+#include "msc_vo/structure/keyframe_structure.h"
 #include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {
@@ -29,8 +29,8 @@ MappingSummary Mapper::Insert(const KeyframePacket& packet) {
   Stopwatch stopwatch;
   if (packet.last_velocity) SetVelocity(newest_keyframe_, *packet.last_velocity, &map_);
   readout_time_ = readout_.readout_time();
-  UnrollKeyframes(readout_time_, &map_);
-  std::shared_ptr<const Frame> frame = Unrolled(packet.frame, readout_time_);
+  CompensateKeyframes(readout_time_, &map_);
+  std::shared_ptr<const Frame> frame = Compensated(packet.frame, readout_time_);
   summary.times.creation = stopwatch.Restart();
   if (options_.RefinesFrames()) frame = RefineStructure(options_.structure, noise_.scale(), frame);
   summary.times.structure = stopwatch.Restart();
@@ -102,7 +102,7 @@ KeyframeId Mapper::InsertKeyframe(const KeyframePacket& packet,
   return newest_keyframe_;
 }
 
-std::optional<WindowSummary> Mapper::OptimizeWindow(KeyframeId keyframe) {
+std::optional<BundleAdjustmentSummary> Mapper::OptimizeWindow(KeyframeId keyframe) {
   WindowData window = SelectWindow(options_.selection, map_, keyframe);
   last_window_lines_.clear();
   for (const WindowData::Line& line : window.lines) last_window_lines_.insert(line.id);
@@ -112,7 +112,7 @@ std::optional<WindowSummary> Mapper::OptimizeWindow(KeyframeId keyframe) {
   axes_.AddAlignments(map_, &window);
   AddStructuralPairs(options_.pairs, map_, &window);
   if (window_observer_) window_observer_(keyframe, options_.window, window);
-  const WindowSummary summary = SolveWindow(options_.window, &window);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_.window, &window);
   if (summary.usable) {
     noise_.Update(WindowResiduals(window));
     WriteBack(window, &map_);

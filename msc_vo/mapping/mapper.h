@@ -11,8 +11,8 @@
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/mapping/keyframe_packet.h"
 #include "msc_vo/mapping/mapper_options.h"
-#include "msc_vo/self_calibration/readout_time_estimator.h"
 #include "msc_vo/mapping/window_observer.h"
+#include "msc_vo/self_calibration/readout_time_estimator.h"
 
 namespace msc_vo {
 
@@ -31,7 +31,7 @@ struct MappingTimes {
 struct MappingSummary {
   KeyframeId keyframe = kNoId;
   int num_culled_keyframes = 0;
-  std::optional<WindowSummary> window;  // none if it was not optimised
+  std::optional<BundleAdjustmentSummary> window;  // none if it was not optimised
   MappingTimes times;
 };
 
@@ -58,14 +58,14 @@ class Mapper {
   const Map& map() const { return map_; }
   const SceneAxes& axes() const { return axes_; }
   const NoiseEstimator& noise() const { return noise_; }
-  const ReadoutEstimator& readout() const { return readout_; }
+  const ReadoutTimeEstimator& readout() const { return readout_; }
   // Lines that took part in the last window.
   const std::set<LandmarkId>& last_window_lines() const { return last_window_lines_; }
 
  private:
   KeyframeId InsertKeyframe(const KeyframePacket& packet, std::shared_ptr<const Frame> frame);
   // None if there is nothing to optimise.
-  std::optional<WindowSummary> OptimizeWindow(KeyframeId keyframe);
+  std::optional<BundleAdjustmentSummary> OptimizeWindow(KeyframeId keyframe);
 
   MapperOptions options_;
   WindowObserver window_observer_;  // may be empty
@@ -73,7 +73,7 @@ class Mapper {
   Probation probation_;
   SceneAxes axes_;
   NoiseEstimator noise_;
-  ReadoutEstimator readout_;
+  ReadoutTimeEstimator readout_;
   double readout_time_ = 0.0;  // that the keyframes of the map are unrolled with, seconds
   KeyframeId newest_keyframe_ = kNoId;
   double last_window_time_ = -std::numeric_limits<double>::infinity();  // seconds, of its keyframe

@@ -6,14 +6,14 @@
 #include <optional>
 #include <string>
 
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/map/window_selection.h"
 #include "msc_vo/mapping/culling.h"
 #include "msc_vo/mapping/landmark_fusion.h"
 #include "msc_vo/self_calibration/noise_estimator.h"
+#include "msc_vo/structure/frame_structure.h"
 #include "msc_vo/structure/scene_axes.h"
 #include "msc_vo/structure/structural_pairs.h"
-#include "msc_vo/structure/frame_structure.h"
-#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 
 namespace msc_vo {
 
@@ -21,8 +21,8 @@ namespace msc_vo {
 // again at the next one. So the second solve is at its end after one step: another one lowers the
 // cost by 0.03 % in the median of 195 windows, by 0.12 % in nine of ten (docs/solver.md). With one
 // step in the first one as well, a corridor had 3.9 instead of 1.8 mm (docs/experiments.md).
-inline WindowOptions LocalWindowOptions() {
-  WindowOptions options;
+inline BundleAdjustmentOptions MapperBundleAdjustmentOptions() {
+  BundleAdjustmentOptions options;
   options.first_iterations = 2;
   options.second_iterations = 1;
   options.landmark_noise.enabled = true;
@@ -47,7 +47,7 @@ struct MapperOptions {
   NoiseEstimatorOptions noise;
   SceneAxesOptions axes;
   StructuralPairOptions pairs;
-  WindowOptions window = LocalWindowOptions();
+  BundleAdjustmentOptions window = MapperBundleAdjustmentOptions();
   // Seconds from a keyframe that the window was optimised with to the next one, at least; 0: it is
   // optimised with each. Keyframes that come sooner are inserted and wait for the next window,
   // which solves most of the last one again. Four frames at 30 Hz, less some jitter: then frames

@@ -94,7 +94,7 @@ std::vector<LineMatch> MatchLines(const LineMatcherOptions& options, const Frame
   // A map line may be seen in several pieces, so each feature chooses for itself.
   for (size_t i = 0; i < frame.lines.size(); ++i) {
     const LineFeature& feature = frame.lines[i];
-    if (feature.moves || (!taken.empty() && taken[i])) continue;
+    if (feature.dynamic || (!taken.empty() && taken[i])) continue;
     const Ruler ruler(feature.segment);
     for (size_t j = 0; j < candidates.size(); ++j) {
       if (rulers[j].direction.dot(ruler.direction) < cos_max_angle) continue;

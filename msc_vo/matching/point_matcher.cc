@@ -34,7 +34,7 @@ Best FindBest(const PointMatcherOptions& options, const Frame& frame,
   frame.grid.VisitNear(frame.points, candidate.pixel, scaled_radius, [&](int index) {
     const PointFeature& feature = frame.points[index];
     if (std::abs(feature.level - candidate.level) > options.max_level_difference) return;
-    if (feature.moves || (!taken.empty() && taken[index])) return;
+    if (feature.dynamic || (!taken.empty() && taken[index])) return;
     const Best found{index, HammingDistance(candidate.descriptor, feature.descriptor)};
     if (found < best) {
       second = best;

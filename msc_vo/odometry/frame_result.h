@@ -40,7 +40,7 @@ struct FrameResult {
   int num_lines = 0;
   int num_inlier_points = 0;  // matched with the map and consistent with the pose
   int num_inlier_lines = 0;
-  int num_moving = 0;  // matches with what moves by itself
+  int num_dynamic = 0;  // matches with what moves by itself
   // Covariance of the pose in the tangent of Rigid3Manifold: rotation vector in the camera frame
   // (radians), then translation (metres). Zero where the pose was not estimated.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();

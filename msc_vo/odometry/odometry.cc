@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "msc_vo/sensor/depth_alignment.h"
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/odometry/mapping_runner.h"
 #include "msc_vo/odometry/side_worker.h"
 #include "msc_vo/odometry/snapshot_schedule.h"
+#include "msc_vo/sensor/depth_alignment.h"
 #include "msc_vo/timing/stopwatch.h"
 #include "msc_vo/tracking/tracker.h"
 
@@ -45,7 +45,7 @@ FrameResult MakeResult(const TrackedFrame& tracked) {
   result.num_lines = static_cast<int>(tracked.frame->lines.size());
   result.num_inlier_points = static_cast<int>(tracked.matches.points.size());
   result.num_inlier_lines = static_cast<int>(tracked.matches.lines.size());
-  result.num_moving = tracked.num_moving;
+  result.num_dynamic = tracked.num_dynamic;
   result.covariance = tracked.pose.covariance;
   result.times.matching = tracked.matching_ms;
   result.times.pose = tracked.pose_ms;
@@ -105,7 +105,7 @@ struct Odometry::State {
   Tracker tracker;
   Mapper mapper;
   MapSnapshotPtr snapshot;  // what the last frame saw
-  WindowSummary last_window;
+  BundleAdjustmentSummary last_window;
   KeyframePacket packet;  // its counts grow until the next keyframe
   std::vector<FrameResult> results;
   std::vector<Place> places;  // one per result

@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "msc_vo/sensor/rgbd_image.h"
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/timed_pose.h"
-#include "msc_vo/structure/axes_estimator.h"
 #include "msc_vo/map/noise_scale.h"
 #include "msc_vo/mapping/window_observer.h"
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/odometry/odometry_options.h"
-#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+#include "msc_vo/sensor/rgbd_image.h"
+#include "msc_vo/structure/axes_estimator.h"
 
 namespace msc_vo {
 
@@ -54,7 +54,7 @@ struct OdometryResult {
   MapAxes axes;
   NoiseScale noise_scale;     // of the sigmas of features, as learnt
   double readout_time = 0.0;  // of a rolling shutter, seconds, as known or learnt; 0: global
-  WindowSummary last_window;
+  BundleAdjustmentSummary last_window;
   int num_late_maps = 0;  // in real time: maps that came later than they should be seen
 };
 

@@ -25,10 +25,10 @@ struct Membership {
   std::vector<std::vector<int>> of_lines;
 };
 
-Membership FindMembers(const ImageParts& parts, const PoseData& data) {
+Membership FindMembers(const ImageGrid& parts, const PoseData& data) {
   Membership members;
-  for (const PoseData::Point& p : data.points) members.of_points.push_back(parts.PartOf(p.pixel));
-  for (const PoseData::Line& l : data.lines) members.of_lines.push_back(parts.PartsOf(l.segment));
+  for (const PoseData::Point& p : data.points) members.of_points.push_back(parts.CellOf(p.pixel));
+  for (const PoseData::Line& l : data.lines) members.of_lines.push_back(parts.CellsOf(l.segment));
   return members;
 }
 
@@ -36,7 +36,7 @@ Membership FindMembers(const ImageParts& parts, const PoseData& data) {
 struct Vote {
   double weight = 0.0;       // 1 if all of it is proven
   double num_matches = 0.0;  // a line in n parts counts 1/n in each
-  double num_proven = 0.0;
+  double num_confirmed = 0.0;
   NormalEquations equations;
   double gain = 0.0;  // of the part's own best step, in squared sigmas
 
@@ -44,7 +44,7 @@ struct Vote {
     equations.hessian += share * match.hessian;
     equations.gradient += share * match.gradient;
     num_matches += share;
-    num_proven += is_proven ? share : 0.0;
+    num_confirmed += is_proven ? share : 0.0;
   }
   // How many squared sigmas d leaves that the part's own best step would not.
   double Misfit(const Vector6& d) const {
@@ -65,7 +65,7 @@ double OwnGain(const NormalEquations& equations) {
 // Outliers vote with the others: they may be those who are right.
 Votes CollectVotes(const PoseOptions& options, const PoseData& data, int num_parts,
                    const Membership& members, const Rigid3& pose) {
-  const PoseActivities active = AllInFront(options, data, pose);
+  const PoseInlierMask active = AllInFront(options, data, pose);
   Votes votes(num_parts);
   PoseFactors match;
   SetLosses(options, &match);
@@ -74,7 +74,7 @@ Votes CollectVotes(const PoseOptions& options, const PoseData& data, int num_par
     match.Clear();
     AddFactors(options, data.camera, data.points[i], active.points[i], &match);
     if (match.NumRows() == 0 || !match.Linearize(pose, &equations)) continue;
-    votes[members.of_points[i]].Add(equations, data.points[i].proven, 1.0);
+    votes[members.of_points[i]].Add(equations, data.points[i].confirmed, 1.0);
   }
   for (size_t i = 0; i < data.lines.size(); ++i) {
     match.Clear();
@@ -82,13 +82,13 @@ Votes CollectVotes(const PoseOptions& options, const PoseData& data, int num_par
     if (match.NumRows() == 0 || !match.Linearize(pose, &equations)) continue;
     const double share = 1.0 / static_cast<double>(members.of_lines[i].size());
     for (const int part : members.of_lines[i]) {
-      votes[part].Add(equations, data.lines[i].proven, share);
+      votes[part].Add(equations, data.lines[i].confirmed, share);
     }
   }
   for (Vote& vote : votes) {
     if (vote.num_matches == 0.0) continue;
-    const double proven = vote.num_proven / vote.num_matches;
-    vote.weight = proven + (1.0 - proven) * options.consensus.unproven_weight;
+    const double proven = vote.num_confirmed / vote.num_matches;
+    vote.weight = proven + (1.0 - proven) * options.consensus.unconfirmed_weight;
     vote.gain = OwnGain(vote.equations);
   }
   return votes;
@@ -144,7 +144,7 @@ constexpr std::array<Region, 10> kRegions{{{0.0, 0.0, 1.0, 1.0},
 constexpr int kReweightings = 5;
 constexpr double kSmallGain = 0.01;
 
-Step FindBestStep(const ImageParts& parts, const Votes& votes, double limit) {
+Step FindBestStep(const ImageGrid& parts, const Votes& votes, double limit) {
   Step best{Vector6::Zero(), TotalMisfit(votes, Vector6::Zero(), limit)};
   Matrix6 all = Matrix6::Zero();
   for (const Vote& vote : votes) all += vote.equations.hessian;
@@ -175,17 +175,17 @@ double WeightAgainst(const Votes& votes, const Vector6& d, double limit) {
 
 }  // namespace
 
-std::optional<PoseConsensus> FindConsensus(const PoseOptions& options, const PoseData& data,
-                                           const Rigid3& pose) {
+std::optional<CellConsensus> FindCellConsensus(const PoseOptions& options, const PoseData& data,
+                                               const Rigid3& pose) {
   // Equations are made anew where the last ones led.
   constexpr int kRounds = 3;
   const double limit = options.consensus.reject_chi2_6;
-  const double min_parts = options.consensus.min_parts;
-  const ImageParts parts(options.consensus.columns, options.consensus.rows, data.camera);
+  const double min_cells = options.consensus.min_cells;
+  const ImageGrid parts(options.consensus.columns, options.consensus.rows, data.camera);
   const Membership members = FindMembers(parts, data);
   Votes votes = CollectVotes(options, data, parts.size(), members, pose);
   // Not worth a search where no more parts disagree than another pose must win.
-  if (WeightAgainst(votes, Vector6::Zero(), limit) <= min_parts) return std::nullopt;
+  if (WeightAgainst(votes, Vector6::Zero(), limit) <= min_cells) return std::nullopt;
   const double misfit = TotalMisfit(votes, Vector6::Zero(), limit);
   Rigid3 best = pose;
   Step step;
@@ -193,13 +193,13 @@ std::optional<PoseConsensus> FindConsensus(const PoseOptions& options, const Pos
     if (round > 0) votes = CollectVotes(options, data, parts.size(), members, best);
     step = FindBestStep(parts, votes, limit);
     // Half of what is asked, as the next equations may show the rest.
-    if (misfit - step.misfit <= 0.5 * min_parts * limit) return std::nullopt;
+    if (misfit - step.misfit <= 0.5 * min_cells * limit) return std::nullopt;
     const Rigid3 from = best;
     Rigid3Manifold().Plus(from.params.data(), step.d.data(), best.params.data());
   }
-  if (misfit - step.misfit <= min_parts * limit) return std::nullopt;
-  PoseConsensus consensus{best, {}};
-  for (const Vote& vote : votes) consensus.moving_parts.push_back(vote.Misfit(step.d) > limit);
+  if (misfit - step.misfit <= min_cells * limit) return std::nullopt;
+  CellConsensus consensus{best, {}};
+  for (const Vote& vote : votes) consensus.dynamic_cells.push_back(vote.Misfit(step.d) > limit);
   return consensus;
 }
 

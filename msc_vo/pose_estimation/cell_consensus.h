@@ -18,14 +18,14 @@ namespace msc_vo {
 // one vote each, however many matches they hold: how much worse a pose is for them than their own
 // best one, and no more than a limit. The errors of a part that moves go the same way and add up,
 // long before one of them is an outlier.
-struct PoseConsensus {
+struct CellConsensus {
   Rigid3 cam_from_world;
-  std::vector<bool> moving_parts;  // of ImageParts: those that vote against the pose
+  std::vector<bool> dynamic_cells;  // of ImageGrid: those that vote against the pose
 };
 
 // Searches the surroundings of `pose`, as far as the equations hold that are linear there; nullopt
-// if no other pose has `options.consensus.min_parts` votes more. Deterministic.
-std::optional<PoseConsensus> FindConsensus(const PoseOptions& options, const PoseData& data,
-                                           const Rigid3& pose);
+// if no other pose has `options.consensus.min_cells` votes more. Deterministic.
+std::optional<CellConsensus> FindCellConsensus(const PoseOptions& options, const PoseData& data,
+                                               const Rigid3& pose);
 
 }  // namespace msc_vo

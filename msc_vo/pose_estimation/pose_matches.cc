@@ -10,8 +10,8 @@ namespace msc_vo {
 
 namespace {
 
-Activity ClassifyPoint(const PoseOptions& options, const PinholeCamera& camera, const Rigid3& pose,
-                       const PoseData::Point& p) {
+InlierMask ClassifyPoint(const PoseOptions& options, const PinholeCamera& camera,
+                         const Rigid3& pose, const PoseData::Point& p) {
   const Eigen::Vector3d x = pose * p.position;
   if (!IsInFront(x)) return {};
   const bool has_depth = options.point_depth.enabled && p.inverse_depth > 0.0;
@@ -21,14 +21,14 @@ Activity ClassifyPoint(const PoseOptions& options, const PinholeCamera& camera, 
     PointReprojection(camera, p.pixel, p.sigma).Residual(0, x, pixels.data());
   }
   if (has_depth) DepthReprojection(p.inverse_depth, p.inverse_depth_sigma).Residual(0, x, &depth);
-  Activity activity = TestChiSquare(pixels.squaredNorm(), depth * depth, options.reject_chi2_2,
-                                    options.reject_chi2_3);
-  activity.depth = activity.depth && has_depth;
-  return activity;
+  InlierMask inlier_mask = TestChiSquare(pixels.squaredNorm(), depth * depth, options.reject_chi2_2,
+                                         options.reject_chi2_3);
+  inlier_mask.depth = inlier_mask.depth && has_depth;
+  return inlier_mask;
 }
 
-Activity ClassifyLine(const PoseOptions& options, const PinholeCamera& camera, const Rigid3& pose,
-                      const PoseData::Line& l) {
+InlierMask ClassifyLine(const PoseOptions& options, const PinholeCamera& camera, const Rigid3& pose,
+                        const PoseData::Line& l) {
   const LineSegment3 line = pose * l.map_segment;
   if (!IsInFront(line)) return {};
   const auto chi_square = [&line](const auto& factor) {
@@ -43,9 +43,10 @@ Activity ClassifyLine(const PoseOptions& options, const PinholeCamera& camera, c
                             : 0.0;
   const double depth =
       has_depth ? chi_square(MakeLineDepthReprojection(camera, l.segment, l.depth, line)) : 0.0;
-  Activity activity = TestChiSquare(pixels, depth, options.reject_chi2_2, options.reject_chi2_4);
-  activity.depth = activity.depth && has_depth;
-  return activity;
+  InlierMask inlier_mask =
+      TestChiSquare(pixels, depth, options.reject_chi2_2, options.reject_chi2_4);
+  inlier_mask.depth = inlier_mask.depth && has_depth;
+  return inlier_mask;
 }
 
 // Chi-square of a normal error of two coordinates in the median.
@@ -72,8 +73,8 @@ double SquaredFrameNoise(const PoseOptions& options, const PoseData& data, const
 
 }  // namespace
 
-PoseActivities AllInFront(const PoseOptions& options, const PoseData& data, const Rigid3& pose) {
-  PoseActivities all;
+PoseInlierMask AllInFront(const PoseOptions& options, const PoseData& data, const Rigid3& pose) {
+  PoseInlierMask all;
   for (const PoseData::Point& p : data.points) {
     const bool in_front = IsInFront(pose * p.position);
     all.points.push_back(
@@ -86,23 +87,24 @@ PoseActivities AllInFront(const PoseOptions& options, const PoseData& data, cons
   return all;
 }
 
-PoseActivities ClassifyMatches(PoseOptions options, const PoseData& data, const Rigid3& pose) {
+PoseInlierMask ClassifyMatches(PoseOptions options, const PoseData& data, const Rigid3& pose) {
   const double noise2 = SquaredFrameNoise(options, data, pose);
   for (double* limit : {&options.reject_chi2_2, &options.reject_chi2_3, &options.reject_chi2_4}) {
     *limit *= noise2;
   }
-  PoseActivities result;
+  PoseInlierMask result;
   for (const PoseData::Point& p : data.points) {
-    result.points.push_back(p.moves ? Activity() : ClassifyPoint(options, data.camera, pose, p));
+    result.points.push_back(p.dynamic ? InlierMask()
+                                      : ClassifyPoint(options, data.camera, pose, p));
   }
   for (const PoseData::Line& l : data.lines) {
-    result.lines.push_back(l.moves ? Activity() : ClassifyLine(options, data.camera, pose, l));
+    result.lines.push_back(l.dynamic ? InlierMask() : ClassifyLine(options, data.camera, pose, l));
   }
   return result;
 }
 
 void AddFactors(const PoseOptions& options, const PinholeCamera& camera,
-                const PoseData::Point& point, const Activity& active, PoseFactors* factors) {
+                const PoseData::Point& point, const InlierMask& active, PoseFactors* factors) {
   if (active.reprojection && options.point_reprojection.enabled) {
     factors->point_reprojection.blocks.push_back(
         {PointReprojection(camera, point.pixel, point.sigma), {point.position}});
@@ -114,7 +116,7 @@ void AddFactors(const PoseOptions& options, const PinholeCamera& camera,
 }
 
 void AddFactors(const PoseOptions& options, const PinholeCamera& camera, const PoseData::Line& line,
-                const Activity& active, const Rigid3& pose, PoseFactors* factors) {
+                const InlierMask& active, const Rigid3& pose, PoseFactors* factors) {
   if (!active.reprojection) return;
   const LineSegment3 in_cam = pose * line.map_segment;
   const std::array<Eigen::Vector3d, 2> ends{line.map_segment.start, line.map_segment.end};
@@ -136,7 +138,7 @@ void SetLosses(const PoseOptions& options, PoseFactors* factors) {
 }
 
 PoseFactors BuildFactors(const PoseOptions& options, const PoseData& data,
-                         const PoseActivities& active, const Rigid3& pose, bool robust) {
+                         const PoseInlierMask& active, const Rigid3& pose, bool robust) {
   PoseFactors factors;
   if (robust) SetLosses(options, &factors);
   for (size_t i = 0; i < data.points.size(); ++i) {

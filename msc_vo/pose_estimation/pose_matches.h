@@ -12,30 +12,30 @@
 namespace msc_vo {
 
 // Which factors of every match take part in a round of the pose problem.
-struct PoseActivities {
-  std::vector<Activity> points;
-  std::vector<Activity> lines;
-  bool operator==(const PoseActivities& other) const {
+struct PoseInlierMask {
+  std::vector<InlierMask> points;
+  std::vector<InlierMask> lines;
+  bool operator==(const PoseInlierMask& other) const {
     return points == other.points && lines == other.lines;
   }
 };
 
 // Before anything is known of a match, it takes part if it is in front of the camera.
-PoseActivities AllInFront(const PoseOptions& options, const PoseData& data, const Rigid3& pose);
+PoseInlierMask AllInFront(const PoseOptions& options, const PoseData& data, const Rigid3& pose);
 
 // Chi-square test of every match over the terms that are enabled, outliers of earlier rounds
 // included, in the noise of the frame. What moves by itself takes no part.
-PoseActivities ClassifyMatches(PoseOptions options, const PoseData& data, const Rigid3& pose);
+PoseInlierMask ClassifyMatches(PoseOptions options, const PoseData& data, const Rigid3& pose);
 
 // Adds the active factors of one match, linearised (as far as sigmas go) at `pose`.
 void AddFactors(const PoseOptions& options, const PinholeCamera& camera,
-                const PoseData::Point& point, const Activity& active, PoseFactors* factors);
+                const PoseData::Point& point, const InlierMask& active, PoseFactors* factors);
 void AddFactors(const PoseOptions& options, const PinholeCamera& camera, const PoseData::Line& line,
-                const Activity& active, const Rigid3& pose, PoseFactors* factors);
+                const InlierMask& active, const Rigid3& pose, PoseFactors* factors);
 void SetLosses(const PoseOptions& options, PoseFactors* factors);
 
 // The factors of all active matches, with the losses or without.
 PoseFactors BuildFactors(const PoseOptions& options, const PoseData& data,
-                         const PoseActivities& active, const Rigid3& pose, bool robust);
+                         const PoseInlierMask& active, const Rigid3& pose, bool robust);
 
 }  // namespace msc_vo

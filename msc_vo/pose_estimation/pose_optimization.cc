@@ -10,10 +10,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include "msc_vo/pose_estimation/image_grid.h"
-#include "msc_vo/pose_estimation/cell_consensus.h"
-#include "msc_vo/pose_estimation/pose_matches.h"
 #include "msc_vo/bundle_adjustment/validation.h"
+#include "msc_vo/pose_estimation/cell_consensus.h"
+#include "msc_vo/pose_estimation/image_grid.h"
+#include "msc_vo/pose_estimation/pose_matches.h"
 
 namespace msc_vo {
 
@@ -21,7 +21,7 @@ namespace {
 
 void Validate(const PoseOptions& options, const PoseData& data) {
   const auto fail = [](const std::string& who, const std::string& what) {
-    throw std::invalid_argument("SolvePose: " + who + ": " + what);
+    throw std::invalid_argument("OptimizePose: " + who + ": " + what);
   };
   std::string error;
   if (!options.IsValid(&error) || !data.camera.IsValid(&error)) fail("input", error);
@@ -45,13 +45,13 @@ void Validate(const PoseOptions& options, const PoseData& data) {
 // Solves and classifies up to `num_rounds` times; earlier if that changes nothing any more. False
 // if there are fewer than six rows or the solver failed.
 bool RunRounds(const PoseOptions& options, const PoseData& data, int num_rounds, bool robust,
-               PoseActivities* active, Rigid3* pose) {
+               PoseInlierMask* active, Rigid3* pose) {
   for (int round = 0; round < num_rounds; ++round) {
     const PoseFactors factors = BuildFactors(options, data, *active, *pose, robust);
     if (factors.NumRows() < 6) return false;
     const PoseTermination end = MinimizePose(factors, options.iterations_per_round, pose);
     if (end == PoseTermination::kFailed) return false;
-    PoseActivities next = ClassifyMatches(options, data, *pose);
+    PoseInlierMask next = ClassifyMatches(options, data, *pose);
     const bool settled = end == PoseTermination::kConverged && next == *active;
     *active = std::move(next);
     if (settled) break;
@@ -59,7 +59,7 @@ bool RunRounds(const PoseOptions& options, const PoseData& data, int num_rounds,
   return true;
 }
 
-bool SolveRounds(const PoseOptions& options, const PoseData& data, PoseActivities* active,
+bool SolveRounds(const PoseOptions& options, const PoseData& data, PoseInlierMask* active,
                  Rigid3* pose) {
   return RunRounds(options, data, options.num_robust_rounds, true, active, pose) &&
          RunRounds(options, data, options.num_rounds - options.num_robust_rounds, false, active,
@@ -69,24 +69,24 @@ bool SolveRounds(const PoseOptions& options, const PoseData& data, PoseActivitie
 // Solves once more without the parts of the image that move by themselves, if any do, and returns
 // them. Leaves all as it is and returns none if what then remains fixes no pose.
 std::vector<bool> LeaveOutWhatMoves(const PoseOptions& options, PoseData* data,
-                                    PoseActivities* active, Rigid3* pose) {
-  const std::optional<PoseConsensus> consensus = FindConsensus(options, *data, *pose);
+                                    PoseInlierMask* active, Rigid3* pose) {
+  const std::optional<CellConsensus> consensus = FindCellConsensus(options, *data, *pose);
   if (!consensus) return {};
-  const ImageParts parts(options.consensus.columns, options.consensus.rows, data->camera);
+  const ImageGrid parts(options.consensus.columns, options.consensus.rows, data->camera);
   PoseData resting = *data;
   for (PoseData::Point& point : resting.points) {
-    point.moves = consensus->moving_parts[parts.PartOf(point.pixel)];
+    point.dynamic = consensus->dynamic_cells[parts.CellOf(point.pixel)];
   }
   for (PoseData::Line& line : resting.lines) {
-    line.moves = consensus->moving_parts[parts.PartOf(line.segment)];
+    line.dynamic = consensus->dynamic_cells[parts.CellOf(line.segment)];
   }
   Rigid3 next = consensus->cam_from_world;
-  PoseActivities kept = ClassifyMatches(options, resting, next);
+  PoseInlierMask kept = ClassifyMatches(options, resting, next);
   if (!SolveRounds(options, resting, &kept, &next)) return {};
   *data = std::move(resting);
   *active = std::move(kept);
   *pose = next;
-  return consensus->moving_parts;
+  return consensus->dynamic_cells;
 }
 
 // Inverse of J^T J, or nothing if it has none in a numerically sound way. Judged with its diagonal
@@ -106,28 +106,28 @@ std::optional<Eigen::Matrix<double, 6, 6>> Covariance(const Eigen::Matrix<double
 }
 
 // Inlier flags and their counts.
-void WriteFlags(const PoseActivities& active, PoseData* data, PoseSummary* summary) {
+void WriteFlags(const PoseInlierMask& active, PoseData* data, PoseSummary* summary) {
   for (size_t i = 0; i < data->points.size(); ++i) {
     data->points[i].inlier = active.points[i].reprojection;
     summary->num_inlier_points += data->points[i].inlier;
-    summary->num_moving += data->points[i].moves;
+    summary->num_dynamic += data->points[i].dynamic;
   }
   for (size_t i = 0; i < data->lines.size(); ++i) {
     data->lines[i].inlier = active.lines[i].reprojection;
     summary->num_inlier_lines += data->lines[i].inlier;
-    summary->num_moving += data->lines[i].moves;
+    summary->num_dynamic += data->lines[i].dynamic;
   }
 }
 
 }  // namespace
 
-bool ConsensusOptions::IsValid(std::string* error) const {
+bool CellConsensusOptions::IsValid(std::string* error) const {
   if (columns < 1 || rows < 1) {
     *error = "consensus: columns and rows must be at least 1";
-  } else if (!(reject_chi2_6 > 0.0) || !(min_parts >= 0.0)) {
-    *error = "consensus: reject_chi2_6 must be positive, min_parts not negative";
-  } else if (!(unproven_weight > 0.0 && unproven_weight <= 1.0)) {
-    *error = "consensus: unproven_weight must be in (0, 1]";
+  } else if (!(reject_chi2_6 > 0.0) || !(min_cells >= 0.0)) {
+    *error = "consensus: reject_chi2_6 must be positive, min_cells not negative";
+  } else if (!(unconfirmed_weight > 0.0 && unconfirmed_weight <= 1.0)) {
+    *error = "consensus: unconfirmed_weight must be in (0, 1]";
   } else {
     return true;
   }
@@ -148,16 +148,16 @@ bool PoseOptions::IsValid(std::string* error) const {
   return false;
 }
 
-PoseSummary SolvePose(const PoseOptions& options, PoseData* data) {
+PoseSummary OptimizePose(const PoseOptions& options, PoseData* data) {
   Validate(options, *data);
   Rigid3 pose = data->cam_from_world;
-  PoseActivities active = AllInFront(options, *data, pose);
-  for (PoseData::Point& point : data->points) point.moves = false;
-  for (PoseData::Line& line : data->lines) line.moves = false;
+  PoseInlierMask active = AllInFront(options, *data, pose);
+  for (PoseData::Point& point : data->points) point.dynamic = false;
+  for (PoseData::Line& line : data->lines) line.dynamic = false;
   const bool solved = SolveRounds(options, *data, &active, &pose);
   PoseSummary summary;
   if (solved && options.consensus.enabled) {
-    summary.moving_parts = LeaveOutWhatMoves(options, data, &active, &pose);
+    summary.dynamic_cells = LeaveOutWhatMoves(options, data, &active, &pose);
   }
   WriteFlags(active, data, &summary);
   const PoseFactors inliers = BuildFactors(options, *data, active, pose, false);

@@ -8,11 +8,11 @@
 
 #include <Eigen/Core>
 
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+#include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
-#include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 
 namespace msc_vo {
 
@@ -24,8 +24,8 @@ struct PoseData {
     double sigma = 1.0;                                  // pixels
     double inverse_depth = 0.0;                          // 1/metres; 0: no depth measured
     double inverse_depth_sigma = 0.0;                    // 1/metres
-    bool proven = true;                                  // stood still from one keyframe to another
-    bool moves = false;                                  // out: by itself, see cell_consensus.h
+    bool confirmed = true;                               // stood still from one keyframe to another
+    bool dynamic = false;                                // out: by itself, see cell_consensus.h
     bool inlier = true;                                  // out
   };
   struct Line {
@@ -33,10 +33,10 @@ struct PoseData {
     LineSegment2 segment;      // pixels, undistorted
     double sigma = 1.0;        // pixels
     bool has_depth = false;
-    LineDepth depth;     // used if has_depth
-    bool proven = true;  // as of points
-    bool moves = false;  // out
-    bool inlier = true;  // out
+    LineDepth depth;        // used if has_depth
+    bool confirmed = true;  // as of points
+    bool dynamic = false;   // out
+    bool inlier = true;     // out
   };
 
   PinholeCamera camera;
@@ -46,7 +46,7 @@ struct PoseData {
 };
 
 // Of cell_consensus.h: whether most of the image agrees on the pose.
-struct ConsensusOptions {
+struct CellConsensusOptions {
   bool enabled = true;
   // Of parts, 53 pixels wide and high at 640x480. Nine sequences with something that moves, in a
   // first form with limits of 30, 20 and 15: 8 x 6 13 mm, 12 x 9 11, 16 x 12 23.
@@ -58,10 +58,10 @@ struct ConsensusOptions {
   // Of a vote of matches that are not proven, next to that of others. Without it (1) something that
   // moves, seen anew in each frame, holds half of the parts of a bare room. Fifteen sequences: 1.83
   // mm with 0.5, 1.64 with 0.3 and 1.55 with 0.1.
-  double unproven_weight = 0.1;
+  double unconfirmed_weight = 0.1;
   // Parts by which another pose must be better. With two, four of six corridors in which nothing
   // moves changed, with three one, with four none.
-  double min_parts = 3.0;
+  double min_cells = 3.0;
 
   bool IsValid(std::string* error) const;
 };
@@ -71,7 +71,7 @@ struct PoseOptions {
   TermOptions point_depth{true, 1.960};
   TermOptions line_reprojection{true, 2.448};
   TermOptions line_depth{true, 2.448};
-  double reject_chi2_2 = 9.210;  // as in WindowOptions
+  double reject_chi2_2 = 9.210;  // as in BundleAdjustmentOptions
   double reject_chi2_3 = 11.345;
   double reject_chi2_4 = 13.277;
   // The limits are for errors up to so many times the sigmas, as far as the median of the frame's
@@ -84,7 +84,7 @@ struct PoseOptions {
   int num_rounds = 4;
   int num_robust_rounds = 2;
   int iterations_per_round = 6;
-  ConsensusOptions consensus;
+  CellConsensusOptions consensus;
 
   bool IsValid(std::string* error) const;
 };
@@ -93,8 +93,8 @@ struct PoseSummary {
   bool usable = false;  // false: too few matches or the solver failed; the pose is the prediction
   int num_inlier_points = 0;
   int num_inlier_lines = 0;
-  int num_moving = 0;  // points and lines that move by themselves: no inliers, and no failures
-  std::vector<bool> moving_parts;  // of ImageParts; empty if nothing moves
+  int num_dynamic = 0;  // points and lines that move by themselves: no inliers, and no failures
+  std::vector<bool> dynamic_cells;  // of ImageGrid; empty if nothing moves
   double final_cost = 0.0;
   // Inverse of J^T J over the inliers: covariance of the estimate in the tangent of Rigid3Manifold
   // (rotation vector in the camera frame, radians; then translation, metres). Zero if not usable.
@@ -106,6 +106,6 @@ struct PoseSummary {
 // An observation whose depth alone contradicts stays an inlier and loses its depth.
 // Throws std::invalid_argument, naming the match, on numbers that are not finite, sigmas <= 0,
 // segments without length or bad options.
-PoseSummary SolvePose(const PoseOptions& options, PoseData* data);
+PoseSummary OptimizePose(const PoseOptions& options, PoseData* data);
 
 }  // namespace msc_vo

@@ -9,9 +9,9 @@
 #include <type_traits>
 
 #include "msc_vo/config/option_list.h"
+#include "msc_vo/recording/window_record.h"
 #include "msc_vo/text/text_file.h"
 #include "msc_vo/text/text_record.h"
-#include "msc_vo/recording/window_record.h"
 
 namespace msc_vo {
 
@@ -52,7 +52,7 @@ using ItemOf = typename std::decay_t<decltype(WindowData().*Record::kItems)>::va
 
 class WindowWriter {
  public:
-  std::string Write(const WindowOptions& options, const WindowData& data) {
+  std::string Write(const BundleAdjustmentOptions& options, const WindowData& data) {
     text_ = kPreamble;
     text_ += std::string(kFormatKeyword) + " " + std::to_string(kFormatVersion) + "\n";
     WriteOptions(options);
@@ -69,7 +69,7 @@ class WindowWriter {
   }
 
  private:
-  void WriteOptions(const WindowOptions& options) {
+  void WriteOptions(const BundleAdjustmentOptions& options) {
     Configuration configuration;
     configuration.odometry.mapping.window = options;
     text_ += "# option NAME VALUE: as in a configuration (msc_vo replay --print-config)\n";
@@ -221,11 +221,12 @@ class WindowReader {
 
 }  // namespace
 
-std::string FormatWindow(const WindowOptions& options, const WindowData& data) {
+std::string FormatWindow(const BundleAdjustmentOptions& options, const WindowData& data) {
   return WindowWriter().Write(options, data);
 }
 
-void WriteWindow(const std::string& path, const WindowOptions& options, const WindowData& data) {
+void WriteWindow(const std::string& path, const BundleAdjustmentOptions& options,
+                 const WindowData& data) {
   WriteFile(path, FormatWindow(options, data));
 }
 

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "msc_vo/text/format_text.h"
+#include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/results/run_report.h"
+#include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
-#include "msc_vo/datasets/trajectory.h"
 
 namespace msc_vo {
 
@@ -28,7 +28,7 @@ std::string FormatFramesCsv(const std::vector<FrameResult>& frames) {
     text += FormatText(",%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f", ms.points, ms.lines, ms.depth,
                        ms.waiting, ms.matching, ms.pose, ms.tracking, ms.mapping);
     for (int i = 0; i < 6; ++i) text += FormatText(",%.9g", std::sqrt(frame.covariance(i, i)));
-    text += FormatText(",%d\n", frame.num_moving);
+    text += FormatText(",%d\n", frame.num_dynamic);
   }
   return text;
 }

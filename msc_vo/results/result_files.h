@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "msc_vo/results/run_summary.h"
 #include "msc_vo/odometry/odometry.h"
+#include "msc_vo/results/run_summary.h"
 
 namespace msc_vo {
 

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/recording/window_file.h"
 #include "msc_vo/results/benchmark.h"
 #include "msc_vo/results/run_summary.h"
-#include "msc_vo/recording/window_file.h"
 #include "msc_vo/version.h"
 
 namespace msc_vo {
@@ -161,13 +161,13 @@ Json NoiseToJson(const NoiseScale& scale) {
           {"line_depth", scale.line_depth}};
 }
 
-Json WindowToJson(const WindowSummary& window) {
+Json WindowToJson(const BundleAdjustmentSummary& window) {
   const std::pair<const char*, const TermSummary*> terms[] = {
       {"point_reprojection", &window.point_reprojection},
       {"point_depth", &window.point_depth},
       {"line_reprojection", &window.line_reprojection},
       {"line_depth", &window.line_depth},
-      {"line_anchor", &window.line_anchor},
+      {"line_endpoint_prior", &window.line_endpoint_prior},
       {"parallel", &window.parallel},
       {"perpendicular", &window.perpendicular},
       {"manhattan", &window.manhattan}};
@@ -238,7 +238,7 @@ std::string FormatSummary(const RunSummary& summary, const RunContext& context) 
   return Dump(json);
 }
 
-std::string FormatWindowJson(const WindowSummary& summary, double milliseconds) {
+std::string FormatWindowJson(const BundleAdjustmentSummary& summary, double milliseconds) {
   Json json;
   json["usable"] = summary.usable;
   json["message"] = summary.message;
@@ -251,7 +251,7 @@ std::string FormatWindowJson(const WindowSummary& summary, double milliseconds) 
                    {"point_depth", TermToJson(summary.point_depth)},
                    {"line_reprojection", TermToJson(summary.line_reprojection)},
                    {"line_depth", TermToJson(summary.line_depth)},
-                   {"line_anchor", TermToJson(summary.line_anchor)},
+                   {"line_endpoint_prior", TermToJson(summary.line_endpoint_prior)},
                    {"parallel", TermToJson(summary.parallel)},
                    {"perpendicular", TermToJson(summary.perpendicular)},
                    {"manhattan", TermToJson(summary.manhattan)},

@@ -8,12 +8,12 @@
 #include <map>
 #include <sstream>
 
-#include "msc_vo/geometry/angles.h"
-#include "msc_vo/text/format_text.h"
 #include "msc_vo/config/options_file.h"
-#include "msc_vo/results/report_frame.h"
-#include "msc_vo/version.h"
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/report/report.h"
+#include "msc_vo/results/report_frame.h"
+#include "msc_vo/text/format_text.h"
+#include "msc_vo/version.h"
 
 namespace msc_vo {
 

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "msc_vo/results/run_summary.h"
 #include "msc_vo/odometry/odometry.h"
+#include "msc_vo/results/run_summary.h"
 
 namespace msc_vo {
 

@@ -46,7 +46,7 @@ RunSummary Summarize(const OdometryResult& result) {
   summary.num_frames = static_cast<int>(result.frames.size());
   for (const FrameResult& frame : result.frames) {
     ++summary.status_counts.at(static_cast<size_t>(frame.status));
-    summary.num_frames_with_motion += frame.num_moving > 0 ? 1 : 0;
+    summary.num_frames_with_motion += frame.num_dynamic > 0 ? 1 : 0;
   }
   const auto tracked = std::count_if(result.frames.begin(), result.frames.end(), IsTracked);
   summary.tracked_share = static_cast<double>(tracked) / std::max(summary.num_frames, 1);

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/config/option_list.h"
+#include "msc_vo/datasets/calibration.h"
+#include "msc_vo/datasets/sequence.h"
 #include "msc_vo/evaluation/line_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
-#include "msc_vo/datasets/calibration.h"
-#include "msc_vo/config/option_list.h"
-#include "msc_vo/datasets/sequence.h"
 #include "msc_vo/odometry/odometry.h"
 #include "msc_vo/report/report_statistics.h"
 
@@ -34,7 +34,7 @@ struct RunSummary {
   MapAxes axes;
   NoiseScale noise_scale;     // of the sigmas of features, as learnt
   double readout_time = 0.0;  // of a rolling shutter, seconds, as known or learnt
-  WindowSummary last_window;
+  BundleAdjustmentSummary last_window;
 };
 
 RunSummary Summarize(const OdometryResult& result);

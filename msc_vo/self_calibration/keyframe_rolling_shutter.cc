@@ -43,21 +43,21 @@ void PlaceLandmarks(KeyframeId id, Map* map) {
 void SetVelocity(KeyframeId keyframe, const CameraVelocity& velocity, Map* map) {
   const Keyframe* old = map->FindKeyframe(keyframe);
   if (old == nullptr) return;
-  map->SetFrame(keyframe,
-                std::make_shared<Frame>(Unroll(*old->frame, velocity, old->frame->readout_time)));
+  map->SetFrame(keyframe, std::make_shared<Frame>(CompensateRollingShutter(
+                              *old->frame, velocity, old->frame->readout_time)));
 }
 
-std::shared_ptr<const Frame> Unrolled(std::shared_ptr<const Frame> frame, double readout_time) {
+std::shared_ptr<const Frame> Compensated(std::shared_ptr<const Frame> frame, double readout_time) {
   if (!frame->velocity || std::abs(frame->readout_time - readout_time) < kMaxDifference) {
     return frame;
   }
-  return std::make_shared<Frame>(Unroll(*frame, *frame->velocity, readout_time));
+  return std::make_shared<Frame>(CompensateRollingShutter(*frame, *frame->velocity, readout_time));
 }
 
-void UnrollKeyframes(double readout_time, Map* map) {
+void CompensateKeyframes(double readout_time, Map* map) {
   std::vector<std::pair<KeyframeId, std::shared_ptr<const Frame>>> unrolled;
   for (const auto& [id, keyframe] : map->keyframes()) {
-    std::shared_ptr<const Frame> frame = Unrolled(keyframe.frame, readout_time);
+    std::shared_ptr<const Frame> frame = Compensated(keyframe.frame, readout_time);
     if (frame != keyframe.frame) unrolled.emplace_back(id, std::move(frame));
   }
   for (auto& [id, frame] : unrolled) {

@@ -15,11 +15,11 @@ void SetVelocity(KeyframeId keyframe, const CameraVelocity& velocity, Map* map);
 
 // The frame unrolled with a readout time (seconds), if its velocity is known; as it is if it was
 // unrolled with that before.
-std::shared_ptr<const Frame> Unrolled(std::shared_ptr<const Frame> frame, double readout_time);
+std::shared_ptr<const Frame> Compensated(std::shared_ptr<const Frame> frame, double readout_time);
 
 // Unrolls the keyframes anew that were unrolled with another readout time: older ones than what is
 // known of it, or taken before their velocity was known. Landmarks that nothing else has seen go
 // where the keyframe has them then, so that frames find them there before a window moves them.
-void UnrollKeyframes(double readout_time, Map* map);
+void CompensateKeyframes(double readout_time, Map* map);
 
 }  // namespace msc_vo

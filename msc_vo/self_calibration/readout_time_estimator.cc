@@ -51,14 +51,14 @@ double RollingLogOdds(double estimate, double variance) {
 
 }  // namespace
 
-void ReadoutEstimator::Update(const Map& map, KeyframeId newest) {
+void ReadoutTimeEstimator::Update(const Map& map, KeyframeId newest) {
   if (!learns_) return;
   const Keyframe& to = *map.FindKeyframe(newest);
   auto partners = map.FindCovisible(newest);
   partners.resize(std::min(partners.size(), kMaxPartners));
   double sum = 0.0, weighted_sum = 0.0, largest = 0.0;
   for (const Map::Covisible& other : partners) {
-    const auto estimate = EstimateReadout(*map.FindKeyframe(other.keyframe), to, readout_time_);
+    const auto estimate = EstimateReadoutTime(*map.FindKeyframe(other.keyframe), to, readout_time_);
     if (!estimate) continue;
     sum += estimate->information;
     weighted_sum +=
@@ -71,12 +71,12 @@ void ReadoutEstimator::Update(const Map& map, KeyframeId newest) {
   Decide();
 }
 
-void ReadoutEstimator::Remember(double estimate, double information) {
+void ReadoutTimeEstimator::Remember(double estimate, double information) {
   information_ += information - information_ / kMemory;
   weighted_sum_ += information * estimate - weighted_sum_ / kMemory;
 }
 
-void ReadoutEstimator::Decide() {
+void ReadoutTimeEstimator::Decide() {
   double estimate = weighted_sum_ / information_;
   const double log_odds = RollingLogOdds(estimate, 1.0 / information_);
   if (readout_time_ == 0.0) {

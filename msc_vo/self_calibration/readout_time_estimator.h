@@ -10,11 +10,11 @@
 namespace msc_vo {
 
 // The readout time of the camera's rolling shutter, which hardly a file format tells: learnt from
-// pairs of keyframes (see EstimateReadout). A shutter is global until the contrary is certain.
-class ReadoutEstimator {
+// pairs of keyframes (see EstimateReadoutTime). A shutter is global until the contrary is certain.
+class ReadoutTimeEstimator {
  public:
   // known: the readout time, seconds, to be kept; none: it shall be learnt.
-  explicit ReadoutEstimator(const std::optional<double>& known)
+  explicit ReadoutTimeEstimator(const std::optional<double>& known)
       : learns_(!known), readout_time_(known.value_or(0.0)) {}
 
   // Learns from `newest` and the keyframes that see most of the same, after the window was solved

@@ -179,8 +179,8 @@ class PairProblem {
 
 }  // namespace
 
-std::optional<ReadoutEstimate> EstimateReadout(const Keyframe& from, const Keyframe& to,
-                                               double readout_time) {
+std::optional<ReadoutTimeEstimate> EstimateReadoutTime(const Keyframe& from, const Keyframe& to,
+                                                       double readout_time) {
   if (!from.frame->velocity || !to.frame->velocity) return std::nullopt;
   const std::vector<PointPair> pairs = MatchFrames(from, to);
   if (pairs.size() < kMinPoints) return std::nullopt;
@@ -196,7 +196,7 @@ std::optional<ReadoutEstimate> EstimateReadout(const Keyframe& from, const Keyfr
     state.motion = Rigid3(ExpSO3(step.head<3>()), step.segment<3>(3)) * state.motion;
     state.readout_time += step(6);
   }
-  return ReadoutEstimate{state.readout_time, information};
+  return ReadoutTimeEstimate{state.readout_time, information};
 }
 
 }  // namespace msc_vo

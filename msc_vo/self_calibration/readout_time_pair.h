@@ -9,7 +9,7 @@
 
 namespace msc_vo {
 
-struct ReadoutEstimate {
+struct ReadoutTimeEstimate {
   double readout_time = 0.0;  // seconds
   double information = 0.0;   // 1 / seconds^2, of random and common errors
 };
@@ -19,7 +19,7 @@ struct ReadoutEstimate {
 // seventh unknown of their relative pose. Least squares over the points that `from` has the depth
 // of and whose descriptors are found again in `to`, from `readout_time` on; robust, as some are
 // wrong. None if there are less than 30.
-std::optional<ReadoutEstimate> EstimateReadout(const Keyframe& from, const Keyframe& to,
-                                               double readout_time);
+std::optional<ReadoutTimeEstimate> EstimateReadoutTime(const Keyframe& from, const Keyframe& to,
+                                                       double readout_time);
 
 }  // namespace msc_vo

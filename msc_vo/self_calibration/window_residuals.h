@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
-#include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/bundle_adjustment/window_data.h"
+#include "msc_vo/geometry/line_segment.h"
 
 namespace msc_vo {
 

@@ -31,8 +31,8 @@ bool AxesEstimatorOptions::IsValid(std::string* error) const {
     *error = "min_axis_lines must be at least 2: one direction is no frame";
   } else if (!(min_growth > 1.0)) {
     *error = "min_growth must be larger than 1";
-  } else if (!(min_line_share >= 0.0 && min_line_share <= 1.0)) {
-    *error = "min_line_share must lie in [0, 1]";
+  } else if (!(min_line_ratio >= 0.0 && min_line_ratio <= 1.0)) {
+    *error = "min_line_ratio must lie in [0, 1]";
   } else if (!(max_correction > 0.0)) {
     *error = "max_correction must be positive (radians)";
   } else if (!(freeze_sigma >= 0.0)) {
@@ -61,7 +61,7 @@ void AxesEstimator::Update(const AxesSupport& support) {
   const bool is_tested = support.num_keyframes >= options_.min_keyframes &&
                          support.num_lines >= options_.min_axis_lines;
   if (state_ == AxesState::kCoarse && is_tested &&
-      support.num_axis_lines < options_.min_line_share * support.num_lines) {
+      support.num_axis_lines < options_.min_line_ratio * support.num_lines) {
     Drop();
   }
 }

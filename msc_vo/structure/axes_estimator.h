@@ -33,7 +33,7 @@ struct AxesEstimatorOptions {
   double min_growth = 1.5;
   // Coarse axes are dropped when fewer of the map's lines keep to them than this: they fitted one
   // keyframe, not the scene. Half of what the keyframe must show.
-  double min_line_share = 0.25;
+  double min_line_ratio = 0.25;
   // A refinement that turns the axes farther contradicts what it started from, radians: three
   // sigmas of coarse axes with a real sensor.
   double max_correction = DegreesToRadians(4.0);

@@ -13,9 +13,9 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
+#include "msc_vo/bundle_adjustment/validation.h"
 #include "msc_vo/factors/manhattan_rotation.h"
 #include "msc_vo/factors/rotation3_manifold.h"
-#include "msc_vo/bundle_adjustment/validation.h"
 
 namespace msc_vo {
 
@@ -38,7 +38,7 @@ const char* ObservationError(const Observation& o) {
 
 void Validate(const ManhattanAxesOptions& options, const ManhattanAxesData& data) {
   const auto fail = [](const std::string& what) {
-    throw std::invalid_argument("SolveManhattanAxes: " + what);
+    throw std::invalid_argument("RefineManhattanAxes: " + what);
   };
   std::string error;
   if (!options.IsValid(&error)) fail(error);
@@ -162,8 +162,8 @@ bool ManhattanAxesOptions::IsValid(std::string* error) const {
   return false;
 }
 
-ManhattanAxesSummary SolveManhattanAxes(const ManhattanAxesOptions& options,
-                                        ManhattanAxesData* data) {
+ManhattanAxesSummary RefineManhattanAxes(const ManhattanAxesOptions& options,
+                                         ManhattanAxesData* data) {
   Validate(options, *data);
   Eigen::Quaterniond world_from_manhattan = data->world_from_manhattan;
   std::vector<bool> inliers(data->observations.size(), true);

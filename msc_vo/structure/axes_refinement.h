@@ -16,10 +16,10 @@ struct ManhattanAxesData {
   struct Observation {
     Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  // unit, world; its sign has no meaning
     int axis = 0;  // 0, 1 or 2: the column of world_from_manhattan that it belongs to
-    // Unit, world, perpendicular to the direction: that of the plane of sight, across which a
+    // Unit, world, perpendicular to the direction: that of the interpretation plane, across which a
     // direction is known best.
     Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-    double sigma = 0.01;         // radians, of the direction's angle in the plane of sight
+    double sigma = 0.01;         // radians, of the direction's angle in the interpretation plane
     double normal_sigma = 0.01;  // radians, out of it
     bool inlier = true;          // out
   };
@@ -59,7 +59,7 @@ struct ManhattanAxesSummary {
 // equation), as one rotation on SO(3), and classifies the observations.
 // Throws std::invalid_argument, naming the observation, on a direction that is not unit, an axis
 // that is not 0, 1 or 2, a sigma <= 0, or on a start that is not unit or options not valid.
-ManhattanAxesSummary SolveManhattanAxes(const ManhattanAxesOptions& options,
-                                        ManhattanAxesData* data);
+ManhattanAxesSummary RefineManhattanAxes(const ManhattanAxesOptions& options,
+                                         ManhattanAxesData* data);
 
 }  // namespace msc_vo

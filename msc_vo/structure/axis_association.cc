@@ -9,7 +9,7 @@
 
 namespace msc_vo {
 
-bool AxisAssignmentOptions::IsValid(std::string* error) const {
+bool AxisAssociationOptions::IsValid(std::string* error) const {
   if (!(max_sigmas > 0.0)) {
     *error = "max_sigmas must be positive";
   } else if (!(max_angle > 0.0 && max_angle < DegreesToRadians(45.0))) {
@@ -22,11 +22,11 @@ bool AxisAssignmentOptions::IsValid(std::string* error) const {
   return false;
 }
 
-std::optional<int> AssignAxis(const AxisAssignmentOptions& options,
-                              const Eigen::Quaterniond& rotation, double rotation_sigma,
-                              const AxisEvidence& line) {
+std::optional<int> AssociateAxis(const AxisAssociationOptions& options,
+                                 const Eigen::Quaterniond& rotation, double rotation_sigma,
+                                 const AxisEvidence& line) {
   std::string error;
-  if (!options.IsValid(&error)) throw std::invalid_argument("AssignAxis: " + error);
+  if (!options.IsValid(&error)) throw std::invalid_argument("AssociateAxis: " + error);
   if (!(line.sigma <= options.max_sigma)) return std::nullopt;
   const Eigen::Vector3d direction = rotation.conjugate() * line.direction;
   int axis = 0;

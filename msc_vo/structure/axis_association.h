@@ -13,7 +13,7 @@
 
 namespace msc_vo {
 
-struct AxisAssignmentOptions {
+struct AxisAssociationOptions {
   // A line belongs to an axis below so many sigmas of line and axes together: the 99 % quantile of
   // the length of an error with two components.
   double max_sigmas = 3.035;
@@ -31,8 +31,8 @@ struct AxisAssignmentOptions {
 // the line's direction, and `rotation_sigma` (radians) about each of its three components. The
 // other two axes are 85 degrees away at least, so that the nearest one is never in doubt. Throws
 // std::invalid_argument on options that are not valid.
-std::optional<int> AssignAxis(const AxisAssignmentOptions& options,
-                              const Eigen::Quaterniond& rotation, double rotation_sigma,
-                              const AxisEvidence& line);
+std::optional<int> AssociateAxis(const AxisAssociationOptions& options,
+                                 const Eigen::Quaterniond& rotation, double rotation_sigma,
+                                 const AxisEvidence& line);
 
 }  // namespace msc_vo

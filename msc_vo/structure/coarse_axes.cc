@@ -210,17 +210,17 @@ bool IsNoAccident(const CoarseAxesOptions& options, const Evidence& evidence,
 // A kind with few members has no vote of its own.
 bool HasMajority(const CoarseAxesOptions& options, const Evidence& evidence,
                  const Candidate& candidate) {
-  const double min_lines = options.min_share * evidence.num_lines;
-  const double min_normals = options.min_share * evidence.NumNormals();
-  return candidate.share >= options.min_share &&
+  const double min_lines = options.min_explained_ratio * evidence.num_lines;
+  const double min_normals = options.min_explained_ratio * evidence.NumNormals();
+  return candidate.share >= options.min_explained_ratio &&
          (evidence.num_lines < kFullLines || candidate.num_lines.sum() >= min_lines) &&
          (evidence.NumNormals() < kFullNormals || candidate.num_normals.sum() >= min_normals);
 }
 
 bool IsVolume(const CoarseAxesOptions& options, const Evidence& evidence,
               const Candidate& candidate) {
-  const double min_normals = options.min_axis_share * evidence.NumNormals();
-  const double min_lines = std::max(kMinLinesOfAxis, options.min_axis_share * evidence.num_lines);
+  const double min_normals = options.min_axis_ratio * evidence.NumNormals();
+  const double min_lines = std::max(kMinLinesOfAxis, options.min_axis_ratio * evidence.num_lines);
   int axes_with_surfaces = 0;
   int axes_with_lines = 0;
   for (int i = 0; i < 3; ++i) {
@@ -285,8 +285,8 @@ ManhattanAxes InCanonicalOrder(const Evidence& evidence, const Candidate& candid
   const double num_lines = std::max<double>(1.0, evidence.num_lines);
   const double num_normals = std::max<double>(1.0, evidence.NumNormals());
   for (int i = 0; i < 3; ++i) {
-    result.line_share[i] = candidate.num_lines[best_order[i]] / num_lines;
-    result.normal_share[i] = candidate.num_normals[best_order[i]] / num_normals;
+    result.line_ratio[i] = candidate.num_lines[best_order[i]] / num_lines;
+    result.normal_ratio[i] = candidate.num_normals[best_order[i]] / num_normals;
   }
   result.share = candidate.share;
   return result;
@@ -302,12 +302,12 @@ bool CoarseAxesOptions::IsValid(std::string* error) const {
   } else if (!(last_bandwidth > 0.0 && first_bandwidth >= last_bandwidth &&
                first_bandwidth < DegreesToRadians(15.0))) {
     *error = "0 < last_bandwidth <= first_bandwidth < 15 degrees (in radians) must hold";
-  } else if (!(min_share >= 0.0 && min_share <= 1.0)) {
-    *error = "min_share must lie in [0, 1]";
+  } else if (!(min_explained_ratio >= 0.0 && min_explained_ratio <= 1.0)) {
+    *error = "min_explained_ratio must lie in [0, 1]";
   } else if (!(max_rival > 0.0 && max_rival <= 1.0)) {
     *error = "max_rival must lie in (0, 1]";
-  } else if (!(min_axis_share >= 0.0 && min_axis_share <= 1.0)) {
-    *error = "min_axis_share must lie in [0, 1]";
+  } else if (!(min_axis_ratio >= 0.0 && min_axis_ratio <= 1.0)) {
+    *error = "min_axis_ratio must lie in [0, 1]";
   } else if (!(max_misfit > 0.0)) {
     *error = "max_misfit must be positive (radians)";
   } else if (!(max_false_alarms > 0.0)) {

@@ -20,8 +20,8 @@ struct ManhattanAxes {
   // Its matrix has the axes as columns, in the frame of the evidence. Of the 24 rotations that
   // differ in order and signs of the axes only, the one nearest to the identity.
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d line_share = Eigen::Vector3d::Zero();    // of all lines, per axis
-  Eigen::Vector3d normal_share = Eigen::Vector3d::Zero();  // of all normals, per axis
+  Eigen::Vector3d line_ratio = Eigen::Vector3d::Zero();    // of all lines, per axis
+  Eigen::Vector3d normal_ratio = Eigen::Vector3d::Zero();  // of all normals, per axis
   double share = 0.0;  // of the evidence that the axes explain; both kinds together
 };
 
@@ -37,13 +37,13 @@ struct CoarseAxesOptions {
   double last_bandwidth = DegreesToRadians(2.0);
   // Of all evidence, and of the lines and of the normals where there are enough of them. A
   // majority: what is left cannot explain as much by other axes.
-  double min_share = 0.5;
+  double min_explained_ratio = 0.5;
   // Axes that differ may share one of the directions, as the walls of a house and of its annexe
   // share the vertical. Of what is not common, others may explain half as much at most.
   double max_rival = 0.5;
   // Share of the normals (of the lines) from which on an axis counts as having surfaces (lines):
   // ten times what chance puts into its cone.
-  double min_axis_share = 0.05;
+  double min_axis_ratio = 0.05;
   // Mean of the evidence of an axis off that axis, radians. Two walls at 80 degrees fit into the
   // cones of two axes, but each is off by 5 degrees. Depth sensors bend surfaces by 1 degree.
   double max_misfit = DegreesToRadians(2.0);

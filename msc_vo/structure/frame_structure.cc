@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "msc_vo/bundle_adjustment/validation.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/structure/frame_structure_factors.h"
-#include "msc_vo/bundle_adjustment/validation.h"
 
 namespace msc_vo {
 
@@ -48,21 +48,21 @@ void Validate(const FrameStructureOptions& options, const PinholeCamera& camera,
 
 // Half of a pair's variance is taken to be the two lines' own deviations from how they were meant,
 // a quarter each, common to all their pairs; the other half the pair's own.
-SightLine MakeSightLine(const FrameStructureOptions& options, const PinholeCamera& camera,
-                        const StructureLine& line) {
+InverseDepthLine MakeInverseDepthLine(const FrameStructureOptions& options,
+                                      const PinholeCamera& camera, const StructureLine& line) {
   const double deviation = 0.5 * DegreesToRadians(options.pair_sigma);
-  return SightLine(camera, line.segment, line.depth, line.sigma, deviation);
+  return InverseDepthLine(camera, line.segment, line.depth, line.sigma, deviation);
 }
 double PairSigma(const FrameStructureOptions& options) {
   return std::sqrt(0.5) * DegreesToRadians(options.pair_sigma);
 }
 
 std::vector<Oriented> Orient(const PinholeCamera& camera, const std::vector<StructureLine>& lines,
-                             const std::vector<SightLine>& sight_lines) {
+                             const std::vector<InverseDepthLine>& inverse_depth_lines) {
   std::vector<Oriented> oriented;
   for (size_t i = 0; i < lines.size(); ++i) {
     const double in_plane = DirectionSigma(camera, lines[i].segment, lines[i].depth);
-    const double out_of_plane = sight_lines[i].image_angle();
+    const double out_of_plane = inverse_depth_lines[i].image_angle();
     oriented.push_back({BackProject(camera, lines[i].segment, lines[i].depth).Direction(),
                         in_plane * in_plane + out_of_plane * out_of_plane});
   }
@@ -179,7 +179,7 @@ void KeepBest(int max_partners, size_t num_lines, std::vector<Candidate>* pairs)
 // Positions of the lines that have a partner, and the factors over them.
 std::vector<int> BuildFactors(const FrameStructureOptions& options,
                               const std::vector<StructureLine>& lines,
-                              const std::vector<SightLine>& sight_lines,
+                              const std::vector<InverseDepthLine>& inverse_depth_lines,
                               const std::vector<Candidate>& parallel,
                               const std::vector<Candidate>& perpendicular,
                               FrameStructureFactors* factors) {
@@ -192,7 +192,7 @@ std::vector<int> BuildFactors(const FrameStructureOptions& options,
     if (position[i] < 0) continue;
     position[i] = static_cast<int>(refined.size());
     refined.push_back(static_cast<int>(i));
-    factors->lines.push_back(sight_lines[i]);
+    factors->lines.push_back(inverse_depth_lines[i]);
     factors->priors.emplace_back(lines[i].depth);
   }
   const double sigma = PairSigma(options);
@@ -227,20 +227,21 @@ FrameStructureSummary RefineFrameStructure(const FrameStructureOptions& options,
                                            const PinholeCamera& camera,
                                            std::vector<StructureLine>* lines) {
   Validate(options, camera, *lines);
-  std::vector<SightLine> sight_lines;
-  for (const StructureLine& l : *lines) sight_lines.push_back(MakeSightLine(options, camera, l));
+  std::vector<InverseDepthLine> inverse_depth_lines;
+  for (const StructureLine& l : *lines)
+    inverse_depth_lines.push_back(MakeInverseDepthLine(options, camera, l));
   std::vector<Candidate> parallel, perpendicular;
-  FindPairs(options, Orient(camera, *lines, sight_lines), &parallel, &perpendicular);
+  FindPairs(options, Orient(camera, *lines, inverse_depth_lines), &parallel, &perpendicular);
   KeepBest(options.max_partners, lines->size(), &parallel);
   KeepBest(options.max_partners, lines->size(), &perpendicular);
 
   FrameStructureFactors factors;
   const std::vector<int> refined =
-      BuildFactors(options, *lines, sight_lines, parallel, perpendicular, &factors);
+      BuildFactors(options, *lines, inverse_depth_lines, parallel, perpendicular, &factors);
   FrameStructureSummary summary;
   summary.num_parallel = static_cast<int>(parallel.size());
   summary.num_perpendicular = static_cast<int>(perpendicular.size());
-  std::vector<SightLineBlock> blocks;
+  std::vector<InverseDepthLineBlock> blocks;
   for (const int i : refined) {
     blocks.emplace_back((*lines)[i].depth.start, (*lines)[i].depth.end, 0.0, 0.0);
   }

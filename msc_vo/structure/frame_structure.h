@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
-#include "msc_vo/camera/pinhole_camera.h"
 
 namespace msc_vo {
 

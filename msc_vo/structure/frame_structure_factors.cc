@@ -12,20 +12,20 @@ namespace msc_vo {
 
 namespace {
 
-using Block = SightLineBlock;
+using Block = InverseDepthLineBlock;
 using Blocks = std::vector<Block>;
 using Matrix = StructureEquations::Matrix;
 
 // Direction of a line and its derivative by its block.
 struct Direction {
   Eigen::Vector3d value;
-  Eigen::Matrix<double, 3, SightLine::kBlockSize> jacobian;
+  Eigen::Matrix<double, 3, InverseDepthLine::kBlockSize> jacobian;
 };
 
-bool Linearize(const SightLine& line, const Block& block, Direction* direction) {
-  using Jet = ceres::Jet<double, SightLine::kBlockSize>;
-  Jet x[SightLine::kBlockSize];
-  for (int i = 0; i < SightLine::kBlockSize; ++i) x[i] = Jet(block[i], i);
+bool Linearize(const InverseDepthLine& line, const Block& block, Direction* direction) {
+  using Jet = ceres::Jet<double, InverseDepthLine::kBlockSize>;
+  Jet x[InverseDepthLine::kBlockSize];
+  for (int i = 0; i < InverseDepthLine::kBlockSize; ++i) x[i] = Jet(block[i], i);
   Eigen::Matrix<Jet, 3, 1> d;
   if (!line.Direction(x, &d)) return false;
   for (int i = 0; i < 3; ++i) {
@@ -35,11 +35,11 @@ bool Linearize(const SightLine& line, const Block& block, Direction* direction) 
   return true;
 }
 
-void AddPrior(const SightLinePrior& prior, int line, const Block& block,
+void AddPrior(const InverseDepthLinePrior& prior, int line, const Block& block,
               StructureEquations* equations) {
-  using Jet = ceres::Jet<double, SightLine::kBlockSize>;
-  Jet x[SightLine::kBlockSize], rows[SightLinePrior::kNumResiduals];
-  for (int i = 0; i < SightLine::kBlockSize; ++i) x[i] = Jet(block[i], i);
+  using Jet = ceres::Jet<double, InverseDepthLine::kBlockSize>;
+  Jet x[InverseDepthLine::kBlockSize], rows[InverseDepthLinePrior::kNumResiduals];
+  for (int i = 0; i < InverseDepthLine::kBlockSize; ++i) x[i] = Jet(block[i], i);
   prior(x, rows);
   for (const Jet& row : rows) {
     equations->cost += 0.5 * row.a * row.a;

@@ -7,34 +7,34 @@
 
 #include <Eigen/Core>
 
-#include "msc_vo/factors/parallel_lines.h"
-#include "msc_vo/factors/perpendicular_lines.h"
 #include "msc_vo/factors/inverse_depth_line.h"
 #include "msc_vo/factors/inverse_depth_line_prior.h"
+#include "msc_vo/factors/parallel_lines.h"
+#include "msc_vo/factors/perpendicular_lines.h"
 
 namespace msc_vo {
 
-// The block of a line: w_S, w_E (1/metres), a, c; see SightLine.
-using SightLineBlock = Eigen::Matrix<double, SightLine::kBlockSize, 1>;
+// The block of a line: w_S, w_E (1/metres), a, c; see InverseDepthLine.
+using InverseDepthLineBlock = Eigen::Matrix<double, InverseDepthLine::kBlockSize, 1>;
 
 // J^T J, J^T r and half the sum of robustified squares, in blocks of four per line.
 struct StructureEquations {
-  using Matrix = Eigen::Matrix<double, SightLine::kBlockSize, SightLine::kBlockSize>;
+  using Matrix = Eigen::Matrix<double, InverseDepthLine::kBlockSize, InverseDepthLine::kBlockSize>;
   // What one pair adds to J^T J.
   struct Pair {
     int i = 0, j = 0;
     Matrix ii, ij, jj;
   };
   double cost = 0.0;
-  std::vector<SightLineBlock> gradient;
+  std::vector<InverseDepthLineBlock> gradient;
   std::vector<Matrix> diagonal;  // priors and pairs
   std::vector<Pair> pairs;
 };
 
 // The factors of the frame-structure problem:
 //
-//   sum |SightLinePrior|^2 + rho(|SightLinePair<ParallelLines>|^2)
-//     + rho(|SightLinePair<PerpendicularLines>|^2)
+//   sum |InverseDepthLinePrior|^2 + rho(|InverseDepthLinePair<ParallelLines>|^2)
+//     + rho(|InverseDepthLinePair<PerpendicularLines>|^2)
 //
 // (paper: 3D Feature Position Estimation). Solved at every frame, in a few milliseconds for 150
 // lines and a thousand pairs: so each line's direction is differentiated once and not with every
@@ -47,20 +47,21 @@ struct FrameStructureFactors {
     Relation relation;
     int i = 0, j = 0;  // positions in lines
   };
-  double huber = 0.0;                  // sigmas, of pairs
-  std::vector<SightLine> lines;        // those that have a partner
-  std::vector<SightLinePrior> priors;  // one per line
+  double huber = 0.0;                         // sigmas, of pairs
+  std::vector<InverseDepthLine> lines;        // those that have a partner
+  std::vector<InverseDepthLinePrior> priors;  // one per line
   std::vector<Pair<ParallelLines>> parallel;
   std::vector<Pair<PerpendicularLines>> perpendicular;
 
   // False if a line has no direction.
-  bool Linearize(const std::vector<SightLineBlock>& blocks, StructureEquations* equations) const;
+  bool Linearize(const std::vector<InverseDepthLineBlock>& blocks,
+                 StructureEquations* equations) const;
 };
 
 // Levenberg-Marquardt from *blocks; a failure leaves them unchanged and returns false. *equations:
 // those at the end; *num_iterations: steps tried.
 bool MinimizeStructure(const FrameStructureFactors& factors, int max_iterations,
-                       std::vector<SightLineBlock>* blocks, StructureEquations* equations,
+                       std::vector<InverseDepthLineBlock>* blocks, StructureEquations* equations,
                        int* num_iterations);
 
 // Covariance of every block from its own prior, its pairs and the priors of its partners. Pairs

@@ -24,8 +24,8 @@ std::vector<AxisEvidence> LineEvidence(const Frame& frame) {
   return evidence;
 }
 
-// What one view of a line says of its direction. In the plane of sight it stands on depth, across
-// that plane on the image alone, ten times as exact.
+// What one view of a line says of its direction. In the interpretation plane it stands on depth,
+// across that plane on the image alone, ten times as exact.
 ManhattanAxesData::Observation Observe(const Keyframe& keyframe, int feature, int axis) {
   const Frame& frame = *keyframe.frame;
   const LineFeature& line = frame.lines[feature];
@@ -38,7 +38,7 @@ ManhattanAxesData::Observation Observe(const Keyframe& keyframe, int feature, in
   observation.normal = world_from_cam * normal;
   observation.sigma = DirectionSigma(frame.camera, line.segment, *line.depth);
   observation.normal_sigma =
-      SightLine(frame.camera, line.segment, *line.depth, line.sigma, 0.0).image_angle();
+      InverseDepthLine(frame.camera, line.segment, *line.depth, line.sigma, 0.0).image_angle();
   return observation;
 }
 
@@ -49,7 +49,7 @@ bool SceneAxesOptions::IsValid(std::string* error) const {
     *error = "axes.deviation must be positive (radians)";
     return false;
   }
-  return coarse.IsValid(error) && assignment.IsValid(error) && refinement.IsValid(error) &&
+  return coarse.IsValid(error) && association.IsValid(error) && refinement.IsValid(error) &&
          estimator.IsValid(error);
 }
 
@@ -76,16 +76,16 @@ void SceneAxes::Search(const Map& map, KeyframeId id, const std::vector<AxisEvid
 
 std::optional<int> SceneAxes::AxisOf(const LineLandmark& line) const {
   if (estimator_.state() == AxesState::kNone) return std::nullopt;
-  return AssignAxis(options_.assignment, estimator_.world_from_axes(),
-                    std::hypot(estimator_.sigma(), options_.deviation),
-                    {line.segment.Direction(), line.direction_sigma});
+  return AssociateAxis(options_.association, estimator_.world_from_axes(),
+                       std::hypot(estimator_.sigma(), options_.deviation),
+                       {line.segment.Direction(), line.direction_sigma});
 }
 
 AxesSupport SceneAxes::CountSupport(const Map& map) const {
   AxesSupport support;
   support.num_keyframes = static_cast<int>(map.keyframes().size());
   for (const auto& [id, line] : map.lines()) {
-    if (line.direction_sigma > options_.assignment.max_sigma) continue;
+    if (line.direction_sigma > options_.association.max_sigma) continue;
     ++support.num_lines;
     if (AxisOf(line)) ++support.num_axis_lines;
   }
@@ -111,7 +111,7 @@ void SceneAxes::Refine(const Map& map) {
           std::hypot(data.observations.back().normal_sigma, deviation);
     }
   }
-  const ManhattanAxesSummary summary = SolveManhattanAxes(options_.refinement, &data);
+  const ManhattanAxesSummary summary = RefineManhattanAxes(options_.refinement, &data);
   if (summary.usable) {
     estimator_.Refine(data.world_from_manhattan, summary.covariance);
   } else {

@@ -7,21 +7,21 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/bundle_adjustment/window_data.h"
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/map/map.h"
 #include "msc_vo/structure/axes_estimator.h"
+#include "msc_vo/structure/axes_refinement.h"
 #include "msc_vo/structure/axis_association.h"
 #include "msc_vo/structure/axis_evidence.h"
 #include "msc_vo/structure/coarse_axes.h"
-#include "msc_vo/map/map.h"
-#include "msc_vo/structure/axes_refinement.h"
-#include "msc_vo/bundle_adjustment/window_data.h"
 
 namespace msc_vo {
 
 struct SceneAxesOptions {
   bool enabled = true;
   CoarseAxesOptions coarse;
-  AxisAssignmentOptions assignment;
+  AxisAssociationOptions association;
   ManhattanAxesOptions refinement;
   AxesEstimatorOptions estimator;
   // How exactly lines that were built along an axis keep to it, radians: see FrameStructureOptions.

@@ -7,21 +7,21 @@
 
 namespace msc_vo {
 
-std::shared_ptr<const Frame> MarkMovingFeatures(const ConsensusOptions& options,
-                                                const TrackedFrame& tracked) {
-  if (tracked.moving_parts.empty()) return tracked.frame;
+std::shared_ptr<const Frame> MarkDynamicFeatures(const CellConsensusOptions& options,
+                                                 const TrackedFrame& tracked) {
+  if (tracked.dynamic_cells.empty()) return tracked.frame;
   auto marked = std::make_shared<Frame>(*tracked.frame);
-  const ImageParts parts(options.columns, options.rows, marked->camera);
+  const ImageGrid parts(options.columns, options.rows, marked->camera);
   for (PointFeature& point : marked->points) {
-    point.moves = tracked.moving_parts[parts.PartOf(point.pixel)];
+    point.dynamic = tracked.dynamic_cells[parts.CellOf(point.pixel)];
   }
   for (LineFeature& line : marked->lines) {
-    line.moves = tracked.moving_parts[parts.PartOf(line.segment)];
+    line.dynamic = tracked.dynamic_cells[parts.CellOf(line.segment)];
   }
   for (const PointMatch& match : tracked.matches.points) {
-    marked->points[match.feature].moves = false;
+    marked->points[match.feature].dynamic = false;
   }
-  for (const LineMatch& match : tracked.matches.lines) marked->lines[match.feature].moves = false;
+  for (const LineMatch& match : tracked.matches.lines) marked->lines[match.feature].dynamic = false;
   return marked;
 }
 

@@ -44,7 +44,7 @@ std::vector<M> LandmarkInliersOf(const std::vector<M>& matches) {
 
 // Whether a landmark has stood still, as two keyframes saw it at one place.
 template <typename L>
-bool IsProven(const L* landmark) {
+bool IsConfirmed(const L* landmark) {
   return landmark != nullptr && landmark->observations.size() >= 2;
 }
 
@@ -58,7 +58,7 @@ PoseData::Point Observe(const PointMatch& match, const PointFeature& feature,
           noise * feature.sigma,
           feature.inverse_depth,
           noise * scale.point_depth * feature.inverse_depth_sigma,
-          IsProven(landmark)};
+          IsConfirmed(landmark)};
 }
 
 PoseData::Line Observe(const LineMatch& match, const LineFeature& feature,
@@ -72,7 +72,7 @@ PoseData::Line Observe(const LineMatch& match, const LineFeature& feature,
           noise * scale.line_pixel * feature.sigma,
           feature.depth.has_value(),
           depth,
-          IsProven(landmark)};
+          IsConfirmed(landmark)};
 }
 
 }  // namespace
@@ -147,7 +147,7 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
   for (const LineMatch& match : matches->lines) {
     data.lines.push_back(Observe(match, frame.lines[match.feature], map.FindLine(match.id), scale));
   }
-  const PoseSummary summary = SolvePose(options, &data);
+  const PoseSummary summary = OptimizePose(options, &data);
   *cam_from_world = data.cam_from_world;
   for (size_t i = 0; i < data.points.size(); ++i) matches->points[i].inlier = data.points[i].inlier;
   for (size_t i = 0; i < data.lines.size(); ++i) matches->lines[i].inlier = data.lines[i].inlier;

@@ -9,8 +9,8 @@
 namespace msc_vo {
 
 bool KeyframePolicyOptions::IsValid(std::string* error) const {
-  if (!(min_relative_share >= 0.0 && min_relative_share <= 1.0)) {
-    *error = "keyframe policy: min_relative_share must be in [0, 1]";
+  if (!(min_tracked_ratio >= 0.0 && min_tracked_ratio <= 1.0)) {
+    *error = "keyframe policy: min_tracked_ratio must be in [0, 1]";
   } else if (min_interval < 1 || max_interval < min_interval) {
     *error = "keyframe policy: 1 <= min_interval <= max_interval must hold";
   } else if (!(close_relative_sigma > 0.0)) {
@@ -60,8 +60,8 @@ bool KeyframePolicy::IsDue(const Frame& frame, const FrameMatches& matches) {
   best_.close = std::max(best_.close, shares.close);
   if (frames_since_keyframe_ < options_.min_interval) return false;
   return frames_since_keyframe_ >= options_.max_interval ||
-         shares.all < options_.min_relative_share * best_.all ||
-         shares.close < options_.min_relative_share * best_.close;
+         shares.all < options_.min_tracked_ratio * best_.all ||
+         shares.close < options_.min_tracked_ratio * best_.close;
 }
 
 void KeyframePolicy::Inserted() {

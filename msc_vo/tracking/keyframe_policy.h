@@ -17,7 +17,7 @@ struct KeyframePolicyOptions {
   // of docs/results.md differ by 2 %, the number of keyframes by a third; with 0.92 and
   // mapping.min_window_interval they are a tenth less, for more time and worse lines of the map far
   // away (docs/experiments.md).
-  double min_relative_share = 0.8;
+  double min_tracked_ratio = 0.8;
   // The landmarks that the last keyframe created are only there after it; frames between keyframes,
   // at least and at most. 30 frames are one second.
   int min_interval = 2;

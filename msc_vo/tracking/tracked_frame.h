@@ -29,8 +29,8 @@ struct TrackedFrame {
   FrameMatches matches;   // inliers among the landmarks
   // Matches with what moves by itself, and the parts of the image that move, at the step that found
   // most of them.
-  int num_moving = 0;
-  std::vector<bool> moving_parts;  // of ImageParts; empty if nothing moves
+  int num_dynamic = 0;
+  std::vector<bool> dynamic_cells;  // of ImageGrid; empty if nothing moves
   // Landmarks that should have been seen, matched ones included: for culling.
   std::vector<LandmarkId> visible_points;
   std::vector<LandmarkId> visible_lines;

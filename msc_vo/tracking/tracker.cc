@@ -70,11 +70,11 @@ double ReadoutTime(const MapSnapshot& snapshot) {
   return IsRolled(snapshot) ? 0.0 : snapshot.readout_time;
 }
 
-std::shared_ptr<const Frame> Unrolled(std::shared_ptr<const Frame> rolled,
-                                      const std::optional<CameraVelocity>& velocity,
-                                      double readout_time) {
+std::shared_ptr<const Frame> Compensated(std::shared_ptr<const Frame> rolled,
+                                         const std::optional<CameraVelocity>& velocity,
+                                         double readout_time) {
   if (!velocity) return rolled;
-  return std::make_shared<Frame>(Unroll(*rolled, *velocity, readout_time));
+  return std::make_shared<Frame>(CompensateRollingShutter(*rolled, *velocity, readout_time));
 }
 
 // Of the pose that the local map is projected with: it is found once more, from what matches then.
@@ -100,8 +100,9 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> rolled, const MapSnapsh
   TrackedFrame tracked;
   const double timestamp = rolled->timestamp;
   const double readout_time = ReadoutTime(snapshot);
-  tracked.frame =
-      readout_time == 0.0 ? rolled : Unrolled(rolled, motion_.VelocityAt(timestamp), readout_time);
+  tracked.frame = readout_time == 0.0
+                      ? rolled
+                      : Compensated(rolled, motion_.VelocityAt(timestamp), readout_time);
   tracked.noise_scale = snapshot.noise_scale;
   const Rigid3 last_from_world = CamFromWorld(map, last_);
   const Rigid3 prediction = motion_.Predict(timestamp) * last_from_world;
@@ -120,12 +121,13 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> rolled, const MapSnapsh
   }
   // Once more, now that it is known how the camera has moved.
   const Rigid3 cam_from_last = tracked.cam_from_world * last_from_world.Inverse();
-  tracked.frame = Unrolled(rolled, motion_.VelocitySince(timestamp, cam_from_last), readout_time);
-  tracked.status = TrackLocalMap(map, &tracked) ? Judge(tracked) : TrackingStatus::kWeak;
+  tracked.frame =
+      Compensated(rolled, motion_.VelocitySince(timestamp, cam_from_last), readout_time);
+  tracked.status = TrackLocalMap(map, &tracked) ? ClassifyStatus(tracked) : TrackingStatus::kWeak;
   tracked.is_keyframe = IsKeyframeDue(snapshot, tracked);
   if (tracked.is_keyframe) {
     policy_.Inserted();
-    tracked.frame = MarkMovingFeatures(options_.pose.consensus, tracked);
+    tracked.frame = MarkDynamicFeatures(options_.pose.consensus, tracked);
   }
   Remember(last_from_world, &tracked);
   return tracked;
@@ -224,14 +226,14 @@ bool Tracker::EstimatePose(const PoseOptions& options, const Map& map,
                                     &tracked->cam_from_world, &tracked->matches);
   tracked->pose_ms += stopwatch.Milliseconds();
   const int num_inliers = tracked->pose.num_inlier_points + tracked->pose.num_inlier_lines;
-  const int num_resting = NumMatches(tracked->matches) - tracked->pose.num_moving;
+  const int num_resting = NumMatches(tracked->matches) - tracked->pose.num_dynamic;
   const bool good = tracked->pose.usable && num_inliers >= options_.min_matches &&
                     num_inliers >= options_.min_inlier_ratio * num_resting;
   if (!good) {
     tracked->cam_from_world = start;
-  } else if (tracked->pose.num_moving > tracked->num_moving) {
-    tracked->num_moving = tracked->pose.num_moving;
-    tracked->moving_parts = tracked->pose.moving_parts;
+  } else if (tracked->pose.num_dynamic > tracked->num_dynamic) {
+    tracked->num_dynamic = tracked->pose.num_dynamic;
+    tracked->dynamic_cells = tracked->pose.dynamic_cells;
   }
   return good;
 }
@@ -258,7 +260,7 @@ void Tracker::Remember(const Rigid3& last_from_world, TrackedFrame* tracked) {
   last_ = *tracked;
 }
 
-TrackingStatus Tracker::Judge(const TrackedFrame& tracked) const {
+TrackingStatus Tracker::ClassifyStatus(const TrackedFrame& tracked) const {
   const Eigen::Matrix<double, 6, 1> variance = tracked.pose.covariance.diagonal();
   const double rotation_sigma = std::sqrt(variance.head<3>().maxCoeff());
   const double translation_sigma = std::sqrt(variance.tail<3>().maxCoeff());

@@ -39,7 +39,7 @@ class Tracker {
   bool TrackLocalMap(const Map& map, TrackedFrame* tracked) const;
 
   bool EstimatePose(const PoseOptions& options, const Map& map, TrackedFrame* tracked) const;
-  TrackingStatus Judge(const TrackedFrame& tracked) const;
+  TrackingStatus ClassifyStatus(const TrackedFrame& tracked) const;
   bool IsKeyframeDue(const MapSnapshot& snapshot, const TrackedFrame& tracked);
   // Keeps the frame, and what it tells about the one before, for those to come.
   void Remember(const Rigid3& last_from_world, TrackedFrame* tracked);

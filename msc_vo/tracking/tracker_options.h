@@ -8,8 +8,8 @@
 #include "msc_vo/matching/line_matcher.h"
 #include "msc_vo/matching/point_matcher.h"
 #include "msc_vo/pose_estimation/pose_optimization.h"
-#include "msc_vo/tracking/keyframe_policy.h"
 #include "msc_vo/pose_estimation/relocalizer.h"
+#include "msc_vo/tracking/keyframe_policy.h"
 
 namespace msc_vo {
 

@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "msc_vo/text/text_file.h"
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 namespace {

@@ -10,10 +10,10 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "msc_vo/text/text_file.h"
 #include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/recording/window_file.h"
 #include "msc_vo/synthetic/window/synthetic_window.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 namespace {
@@ -84,27 +84,27 @@ TEST_F(SolveWindowCommandTest, RecordedWindowsLeadWhereTheMapperWent) {
 }
 
 TEST_F(SolveWindowCommandTest, PrintsATableAndTakesOptions) {
-  WriteWindow(Path("window.txt"), WindowOptions(), SmallWindow());
+  WriteWindow(Path("window.txt"), BundleAdjustmentOptions(), SmallWindow());
   const CommandOutcome table = RunCommand({"solve-window", Path("window.txt")});
   EXPECT_EQ(table.exit_code, 0);
   EXPECT_THAT(table.output,
               AllOf(HasSubstr("4 keyframes (1 fixed), "), HasSubstr("window: solved, "),
                     HasSubstr("point reprojection"), HasSubstr(" blocks, "), HasSubstr(" ms\n")));
 
-  WriteText("options.yaml", "mapping:\n  window:\n    line_anchor_sigma: 0.125\n");
+  WriteText("options.yaml", "mapping:\n  window:\n    line_endpoint_prior_sigma: 0.125\n");
   const CommandOutcome changed = RunCommand(
       {"solve-window", Path("window.txt"), "--json", "--output", Path("solved.txt"), "--config",
        Path("options.yaml"), "--set", "mapping.window.line_depth.enabled=false"});
   ASSERT_EQ(changed.exit_code, 0) << changed.output;
   EXPECT_EQ(nlohmann::json::parse(changed.output)["terms"]["line_depth"]["residual_blocks"], 0);
-  const WindowOptions options = ReadWindow(Path("solved.txt")).options;
-  EXPECT_EQ(options.line_anchor_sigma, 0.125);
+  const BundleAdjustmentOptions options = ReadWindow(Path("solved.txt")).options;
+  EXPECT_EQ(options.line_endpoint_prior_sigma, 0.125);
   EXPECT_FALSE(options.line_depth.enabled);
 }
 
 TEST_F(SolveWindowCommandTest, ErrorsNameTheFile) {
   WindowData data = SmallWindow();
-  WriteWindow(Path("good.txt"), WindowOptions(), data);
+  WriteWindow(Path("good.txt"), BundleAdjustmentOptions(), data);
   ExpectError({"solve-window", Path("none.txt")}, "none.txt: does not exist");
   ExpectError({"solve-window", Path("good.txt"), "--set", "mode=pl-vo"}, "no option of a window");
   ExpectError({"solve-window", Path("good.txt"), "--set", "mapping.window.parallel.huber=-1"},
@@ -112,9 +112,9 @@ TEST_F(SolveWindowCommandTest, ErrorsNameTheFile) {
   ExpectError({"solve-window", Path("good.txt"), "--output", Path("no/folder.txt")},
               "folder.txt: cannot be written");
   data.point_observations[3].point = 987;
-  WriteWindow(Path("unknown.txt"), WindowOptions(), data);
+  WriteWindow(Path("unknown.txt"), BundleAdjustmentOptions(), data);
   ExpectError({"solve-window", Path("unknown.txt")},
-              "unknown.txt: SolveWindow: point 987 is observed but not in the window");
+              "unknown.txt: LocalBundleAdjustment: point 987 is observed but not in the window");
   WriteText("other.txt", "1 2 3\n");
   ExpectError({"solve-window", Path("other.txt")}, "other.txt:1: is no window file");
 }
@@ -123,7 +123,7 @@ TEST_F(SolveWindowCommandTest, AWindowThatCannotBeSolvedIsAFailure) {
   WindowData data = SmallWindow();
   data.point_observations[0].sigma = 1e-200;  // a chi-square that is not finite
   data.point_observations[0].sigma = 1e-200;
-  WriteWindow(Path("window.txt"), WindowOptions(), data);
+  WriteWindow(Path("window.txt"), BundleAdjustmentOptions(), data);
   ExpectError({"solve-window", Path("window.txt"), "--output", Path("solved.txt")},
               "window.txt: the solver failed");
   EXPECT_FALSE(std::filesystem::exists(Path("solved.txt")));

@@ -16,7 +16,7 @@ namespace {
 
 struct Variant {
   const char* name;
-  WindowSolver solver;
+  BundleAdjustmentSolver solver;
   bool analytic_jacobians = true;
   bool explicit_ordering = true;
 };
@@ -27,7 +27,7 @@ class WindowSolversTest : public ::testing::TestWithParam<Variant> {
   WindowSolversTest() {
     scene_.wrong_ratio = 0.05;
     scene_.max_observations = 5;
-    reference_.solver = WindowSolver::kBlockSchur;
+    reference_.solver = BundleAdjustmentSolver::kBlockSchur;
     options_.solver = GetParam().solver;
     options_.analytic_jacobians = GetParam().analytic_jacobians;
     options_.explicit_ordering = GetParam().explicit_ordering;
@@ -53,8 +53,8 @@ class WindowSolversTest : public ::testing::TestWithParam<Variant> {
 
   void ExpectSameSolution(const WindowData& start) {
     WindowData expected = start, data = start;
-    const WindowSummary a = SolveWindow(reference_, &expected);
-    const WindowSummary b = SolveWindow(options_, &data);
+    const BundleAdjustmentSummary a = LocalBundleAdjustment(reference_, &expected);
+    const BundleAdjustmentSummary b = LocalBundleAdjustment(options_, &data);
     ASSERT_TRUE(a.usable && b.usable) << a.BriefReport() << b.BriefReport();
     EXPECT_NEAR(b.initial_cost, a.initial_cost, 1e-12 * a.initial_cost);
     EXPECT_NEAR(b.final_cost, a.final_cost, 1e-6 * a.final_cost);
@@ -74,7 +74,7 @@ class WindowSolversTest : public ::testing::TestWithParam<Variant> {
   }
 
   SyntheticWindowOptions scene_;
-  WindowOptions options_, reference_;
+  BundleAdjustmentOptions options_, reference_;
 };
 
 TEST_P(WindowSolversTest, PointsAndLines) { ExpectSameSolution(MakeSyntheticWindow(scene_).data); }
@@ -88,7 +88,7 @@ TEST_P(WindowSolversTest, OneTermOfEachObservation) {
   // A wrong line without depth may be taken behind a camera, where block Schur goes its own way
   // (MinimizeWindow).
   scene_.wrong_ratio = 0.0;
-  for (WindowOptions* options : {&options_, &reference_}) {
+  for (BundleAdjustmentOptions* options : {&options_, &reference_}) {
     options->point_reprojection.enabled = false;  // depth alone holds nothing across: all but
     options->line_depth.enabled = false;          // points come from lines
   }
@@ -160,9 +160,9 @@ TEST_P(WindowSolversTest, PairsMayRepeatEitherWayAround) {
 TEST_P(WindowSolversTest, ACostThatOverflowsIsNotUsable) {
   WindowData data = MakeSyntheticWindow(scene_).data;
   data.point_observations[7].sigma = 1e-200;
-  for (const WindowOptions& options : {options_, reference_}) {
+  for (const BundleAdjustmentOptions& options : {options_, reference_}) {
     WindowData after = data;
-    const WindowSummary summary = SolveWindow(options, &after);
+    const BundleAdjustmentSummary summary = LocalBundleAdjustment(options, &after);
     EXPECT_FALSE(summary.usable) << summary.BriefReport();
     EXPECT_FALSE(summary.message.empty());
     EXPECT_EQ(after.points[3].position, data.points[3].position);
@@ -171,28 +171,29 @@ TEST_P(WindowSolversTest, ACostThatOverflowsIsNotUsable) {
 
 TEST_P(WindowSolversTest, TellsItsStagesInTheirOrder) {
   const WindowData start = MakeSyntheticWindow(scene_).data;
-  for (const WindowOptions& options : {options_, reference_}) {
+  for (const BundleAdjustmentOptions& options : {options_, reference_}) {
     std::string stages;
     const auto note = [&stages](WindowStage stage) {
       stages += "blswd"[static_cast<int>(stage)];  // in the order of the enum
     };
     WindowData data = start, unobserved = start;
-    SolveWindow(options, &data, note);
-    const bool own = options.solver == WindowSolver::kBlockSchur;
+    LocalBundleAdjustment(options, &data, note);
+    const bool own = options.solver == BundleAdjustmentSolver::kBlockSchur;
     EXPECT_TRUE(std::regex_match(stages, std::regex(own ? "b(l(sl?)+b){2}wd" : "b(sb){2}wd")))
         << stages;
-    SolveWindow(options, &unobserved);
+    LocalBundleAdjustment(options, &unobserved);
     EXPECT_EQ(data.points[5].position, unobserved.points[5].position);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Solvers, WindowSolversTest,
-    ::testing::Values(Variant{"DenseSchur", WindowSolver::kCeresDenseSchur},
-                      Variant{"AutomaticDerivatives", WindowSolver::kCeresDenseSchur, false},
-                      Variant{"AutomaticOrdering", WindowSolver::kCeresDenseSchur, true, false},
-                      Variant{"SuiteSparse", WindowSolver::kCeresSuiteSparse},
-                      Variant{"EigenSparse", WindowSolver::kCeresEigenSparse}),
+    ::testing::Values(
+        Variant{"DenseSchur", BundleAdjustmentSolver::kCeresDenseSchur},
+        Variant{"AutomaticDerivatives", BundleAdjustmentSolver::kCeresDenseSchur, false},
+        Variant{"AutomaticOrdering", BundleAdjustmentSolver::kCeresDenseSchur, true, false},
+        Variant{"SuiteSparse", BundleAdjustmentSolver::kCeresSuiteSparse},
+        Variant{"EigenSparse", BundleAdjustmentSolver::kCeresEigenSparse}),
     [](const auto& variant) { return std::string(variant.param.name); });
 
 }  // namespace

@@ -26,21 +26,21 @@ class CeresWindowTest : public ::testing::Test {
     activity_.lines.assign(data_.line_observations.size(), {true, true});
   }
 
-  std::unique_ptr<CeresWindow> Build() {
+  std::unique_ptr<CeresBackend> Build() {
     state_ = std::make_unique<WindowState>(data_);
     terms_ = MakeWindowTerms(options_, data_, ValidateWindow(options_, data_), activity_, *state_);
-    return std::make_unique<CeresWindow>(options_, data_, terms_, state_.get());
+    return std::make_unique<CeresBackend>(options_, data_, terms_, state_.get());
   }
-  bool IsConstant(CeresWindow* window, const double* block) {
+  bool IsConstant(CeresBackend* window, const double* block) {
     return window->problem()->IsParameterBlockConstant(block);
   }
 
-  WindowOptions options_;
+  BundleAdjustmentOptions options_;
   SyntheticWindow window_;
   WindowData data_;
   std::unique_ptr<WindowState> state_;
   WindowTerms terms_;
-  WindowActivity activity_;
+  WindowInlierMask activity_;
 };
 
 TEST_F(CeresWindowTest, CountsOfBlocksAndResiduals) {
@@ -49,7 +49,7 @@ TEST_F(CeresWindowTest, CountsOfBlocksAndResiduals) {
   EXPECT_EQ(terms_.point_depth.blocks.size(), 36u);
   EXPECT_EQ(terms_.line_reprojection.blocks.size(), 12u);
   EXPECT_EQ(terms_.line_depth.blocks.size(), 12u);
-  EXPECT_EQ(terms_.line_anchor.blocks.size(), 4u);
+  EXPECT_EQ(terms_.line_endpoint_prior.blocks.size(), 4u);
   const ceres::Problem& problem = *window->problem();
   EXPECT_EQ(problem.NumResidualBlocks(), 36 + 36 + 12 + 12 + 4);
   EXPECT_EQ(problem.NumResiduals(), 36 * (2 + 1) + 12 * (2 + 2) + 4 * 2);
@@ -84,7 +84,7 @@ TEST_F(CeresWindowTest, FixedBlocksAreConstantAndPosesMoveOnTheManifold) {
   for (size_t i = 0; i < data_.lines.size(); ++i) {
     EXPECT_EQ(IsConstant(window.get(), state_->LineBlock(i)), i == 2) << i;
   }
-  EXPECT_EQ(terms_.line_anchor.blocks.size(), 3u);  // a fixed line needs none
+  EXPECT_EQ(terms_.line_endpoint_prior.blocks.size(), 3u);  // a fixed line needs none
 }
 
 TEST_F(CeresWindowTest, LandmarksAreEliminatedBeforePoses) {
@@ -100,7 +100,7 @@ TEST_F(CeresWindowTest, CostsOfTheTermsAreThoseOfCeres) {
   const auto window = Build();
   const double sum = Cost(terms_.point_reprojection, *state_) + Cost(terms_.point_depth, *state_) +
                      Cost(terms_.line_reprojection, *state_) + Cost(terms_.line_depth, *state_) +
-                     Cost(terms_.line_anchor, *state_);
+                     Cost(terms_.line_endpoint_prior, *state_);
   double ceres = 0.0;
   ASSERT_TRUE(window->problem()->Evaluate({}, &ceres, nullptr, nullptr, nullptr));
   EXPECT_NEAR(sum, ceres, 1e-9 * ceres);
@@ -126,9 +126,10 @@ TEST_F(CeresWindowTest, AnchorsHoldTheInitialLinesNotTheCurrentOnes) {
   const Eigen::Vector3d along = 0.1 * data_.lines[0].segment.Direction();
   for (int i = 0; i < 3; ++i) state_->LineBlock(0)[i] += along[i];
   // The motion is along the initial direction.
-  EXPECT_NEAR(ChiSquare<LineAnchor>(terms_.line_anchor.blocks[0], *state_),
-              std::pow(0.1 / options_.line_anchor_sigma, 2), 1e-9);
-  EXPECT_NEAR(ChiSquare<LineAnchor>(terms_.line_anchor.blocks[1], *state_), 0.0, 1e-12);
+  EXPECT_NEAR(ChiSquare<LineEndpointPrior>(terms_.line_endpoint_prior.blocks[0], *state_),
+              std::pow(0.1 / options_.line_endpoint_prior_sigma, 2), 1e-9);
+  EXPECT_NEAR(ChiSquare<LineEndpointPrior>(terms_.line_endpoint_prior.blocks[1], *state_), 0.0,
+              1e-12);
 }
 
 }  // namespace

@@ -26,21 +26,21 @@ class WindowGaugeTest : public ::testing::Test {
   }
   void Solve() {
     options_.first_iterations = options_.second_iterations = 50;
-    summary_ = SolveWindow(options_, &data_);
+    summary_ = LocalBundleAdjustment(options_, &data_);
     ASSERT_TRUE(summary_.usable) << summary_.BriefReport();
   }
   Rigid3 Pose(int i) const { return data_.keyframes[i].cam_from_world; }
 
   SyntheticWindowOptions scene_;
   SyntheticWindow window_;
-  WindowOptions options_;
+  BundleAdjustmentOptions options_;
   WindowData data_;
-  WindowSummary summary_;
+  BundleAdjustmentSummary summary_;
 };
 
 TEST_F(WindowGaugeTest, APriorHoldsItWhereItIsAndChangesNothingElse) {
   // Anchors, too, say where the world is.
-  options_.line_anchor_sigma = 10.0;
+  options_.line_endpoint_prior_sigma = 10.0;
   Make();
   Solve();
   const WindowData fixed = data_;
@@ -127,7 +127,7 @@ TEST_F(WindowGaugeTest, TwoKeyframesHoldTheScaleWithoutDepth) {
     for (auto& p : data_.points) p.position *= 1.1;
     for (auto& l : data_.lines) l.segment = {1.1 * l.segment.start, 1.1 * l.segment.end};
     options_.reject_chi2_2 = 1e12;  // wrong scale, no wrong match
-    options_.line_anchor_sigma = 100.0;
+    options_.line_endpoint_prior_sigma = 100.0;
     Solve();
     double worst = 0.0;
     for (size_t i = 0; i < data_.keyframes.size(); ++i) {

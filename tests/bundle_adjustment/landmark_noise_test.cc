@@ -49,14 +49,15 @@ class LandmarkNoise : public ::testing::Test {
 
   // With the window as it is; `active`: whether observations take part.
   void Learn(bool active = true) {
-    const WindowIndex index = ValidateWindow(WindowOptions(), window_);
+    const WindowIndex index = ValidateWindow(BundleAdjustmentOptions(), window_);
     int num_behind = 0;
-    WindowActivity activity = AllInFront(WindowOptions(), index, window_, &num_behind);
+    WindowInlierMask inlier_mask =
+        AllInFront(BundleAdjustmentOptions(), index, window_, &num_behind);
     if (!active) {
-      activity.points.assign(activity.points.size(), {});
-      activity.lines.assign(activity.lines.size(), {});
+      inlier_mask.points.assign(inlier_mask.points.size(), {});
+      inlier_mask.lines.assign(inlier_mask.lines.size(), {});
     }
-    LearnLandmarkNoise(options_, index, activity, WindowState(window_), &window_);
+    LearnLandmarkNoise(options_, index, inlier_mask, WindowState(window_), &window_);
   }
 
   WindowData window_;
@@ -167,21 +168,22 @@ TEST_F(LandmarkNoise, ScalesSigmasAndOffsetsShiftDepths) {
     o.depth.start = 1.0 / (1.0 / o.depth.start - 0.01);
     o.depth.end = 1.0 / (1.0 / o.depth.end - 0.01);
   }
-  const double cost = SolveWindow(WindowOptions(), &window_).initial_cost;
+  const double cost = LocalBundleAdjustment(BundleAdjustmentOptions(), &window_).initial_cost;
   EXPECT_GT(cost, 1.0);
-  EXPECT_NEAR(SolveWindow(WindowOptions(), &same).initial_cost, cost, 1e-9 * cost);
+  EXPECT_NEAR(LocalBundleAdjustment(BundleAdjustmentOptions(), &same).initial_cost, cost,
+              1e-9 * cost);
 }
 
 TEST_F(LandmarkNoise, IsLearntByTheSolver) {
   See({0.2, 2.0, 0.2}, {0.2, 0.2}, {0.0, 0.0});
   WindowData without = window_;
-  WindowOptions options;
+  BundleAdjustmentOptions options;
   options.landmark_noise = options_;
-  ASSERT_TRUE(SolveWindow(options, &window_).usable);
+  ASSERT_TRUE(LocalBundleAdjustment(options, &window_).usable);
   EXPECT_LT(window_.points[0].noise, 0.6);
   EXPECT_GT(window_.points[1].noise, 1.2);
   // Its second solve knows already: the point that is seen badly no longer pulls at the cameras.
-  ASSERT_TRUE(SolveWindow(WindowOptions(), &without).usable);
+  ASSERT_TRUE(LocalBundleAdjustment(BundleAdjustmentOptions(), &without).usable);
   EXPECT_EQ(without.points[1].noise, 1.0);
   const auto error = [](const WindowData& window) {
     double sum = 0.0;

@@ -61,7 +61,7 @@ class WindowProblemTest : public ::testing::TestWithParam<double> {
     options_.second_iterations = 30;
   }
   SyntheticWindowOptions scene_;
-  WindowOptions options_;
+  BundleAdjustmentOptions options_;
 };
 INSTANTIATE_TEST_SUITE_P(FocalLength, WindowProblemTest, ::testing::Values(525.0, -480.0));
 
@@ -69,7 +69,7 @@ TEST_P(WindowProblemTest, ExactObservationsGiveTheExactWindow) {
   scene_.noise = 0.0;
   const SyntheticWindow window = MakeSyntheticWindow(scene_);
   WindowData data = window.data;
-  const WindowSummary summary = SolveWindow(options_, &data);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
   ASSERT_TRUE(summary.usable) << summary.BriefReport();
   EXPECT_EQ(summary.point_reprojection.num_rejected, 0) << summary.BriefReport();
   EXPECT_EQ(summary.line_reprojection.num_rejected, 0);
@@ -83,7 +83,7 @@ TEST_P(WindowProblemTest, NoiseAndWrongMatches) {
   scene_.wrong_ratio = 0.08;
   const SyntheticWindow window = MakeSyntheticWindow(scene_);
   WindowData data = window.data;
-  const WindowSummary summary = SolveWindow(options_, &data);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
   ASSERT_TRUE(summary.usable) << summary.BriefReport();
   EXPECT_LT(WorstPose(window.truth, data), 0.008);
   EXPECT_LT(RmsPoint(window.truth, data), 0.012);
@@ -113,7 +113,7 @@ TEST_P(WindowProblemTest, WithoutDepthsTheFixedKeyframesHoldTheScale) {
   scene_.has_depth = false;
   const SyntheticWindow window = MakeSyntheticWindow(scene_);
   WindowData data = window.data;
-  const WindowSummary summary = SolveWindow(options_, &data);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
   ASSERT_TRUE(summary.usable) << summary.BriefReport();
   EXPECT_EQ(summary.point_depth.num_residual_blocks, 0);
   EXPECT_EQ(summary.line_depth.num_residual_blocks, 0);
@@ -123,7 +123,7 @@ TEST_P(WindowProblemTest, WithoutDepthsTheFixedKeyframesHoldTheScale) {
 TEST_P(WindowProblemTest, SummaryCountsBlocksAndCosts) {
   const SyntheticWindow window = MakeSyntheticWindow(scene_);
   WindowData data = window.data;
-  const WindowSummary s = SolveWindow(options_, &data);
+  const BundleAdjustmentSummary s = LocalBundleAdjustment(options_, &data);
   ASSERT_TRUE(s.usable);
   EXPECT_EQ(s.point_reprojection.num_residual_blocks + s.point_reprojection.num_rejected, 2000);
   // An observation that is rejected takes its depth along.
@@ -134,10 +134,10 @@ TEST_P(WindowProblemTest, SummaryCountsBlocksAndCosts) {
   EXPECT_EQ(s.line_depth.num_residual_blocks + s.line_depth.num_rejected +
                 s.line_reprojection.num_rejected,
             400);
-  EXPECT_EQ(s.line_anchor.num_residual_blocks, 40);
+  EXPECT_EQ(s.line_endpoint_prior.num_residual_blocks, 40);
   const auto sum = [&](double TermSummary::*cost) {
     return s.point_reprojection.*cost + s.point_depth.*cost + s.line_reprojection.*cost +
-           s.line_depth.*cost + s.line_anchor.*cost;
+           s.line_depth.*cost + s.line_endpoint_prior.*cost;
   };
   EXPECT_DOUBLE_EQ(sum(&TermSummary::initial_cost), s.initial_cost);
   EXPECT_DOUBLE_EQ(sum(&TermSummary::final_cost), s.final_cost);
@@ -154,7 +154,7 @@ TEST_P(WindowProblemTest, FixedBlocksStayAndFreeOnesMove) {
   window.data.points[7].fixed = true;
   window.data.lines[9].fixed = true;
   WindowData data = window.data;
-  ASSERT_TRUE(SolveWindow(options_, &data).usable);
+  ASSERT_TRUE(LocalBundleAdjustment(options_, &data).usable);
   for (size_t i = 0; i < data.keyframes.size(); ++i) {
     EXPECT_EQ(
         data.keyframes[i].cam_from_world.params == window.data.keyframes[i].cam_from_world.params,
@@ -175,7 +175,7 @@ TEST_P(WindowProblemTest, AllKeyframesFixedRefinesTheLandmarks) {
   scene_.noise = 0.0;
   const SyntheticWindow window = MakeSyntheticWindow(scene_);
   WindowData data = window.data;
-  ASSERT_TRUE(SolveWindow(options_, &data).usable);
+  ASSERT_TRUE(LocalBundleAdjustment(options_, &data).usable);
   EXPECT_LT(RmsPoint(window.truth, data), 1e-5);
   EXPECT_LT(RmsLine(window.truth, data), 1e-5);
 }
@@ -188,7 +188,7 @@ TEST_P(WindowProblemTest, AllLandmarksFixedRefinesTheKeyframes) {
   for (auto& p : window.data.points) p.fixed = true;
   for (auto& l : window.data.lines) l.fixed = true;
   WindowData data = window.data;
-  ASSERT_TRUE(SolveWindow(options_, &data).usable);
+  ASSERT_TRUE(LocalBundleAdjustment(options_, &data).usable);
   EXPECT_LT(WorstPose(window.truth, data), 1e-6);
 }
 
@@ -197,13 +197,13 @@ TEST_P(WindowProblemTest, EverythingFixedOrNothingObservedChangesNothing) {
   WindowData data = window.data;
   data.point_observations.clear();
   data.line_observations.clear();
-  EXPECT_TRUE(SolveWindow(options_, &data).usable);
+  EXPECT_TRUE(LocalBundleAdjustment(options_, &data).usable);
   EXPECT_TRUE(SameNumbers(data, window.data));
   data = window.data;
   for (auto& k : data.keyframes) k.fixed = true;
   for (auto& p : data.points) p.fixed = true;
   for (auto& l : data.lines) l.fixed = true;
-  EXPECT_TRUE(SolveWindow(options_, &data).usable);
+  EXPECT_TRUE(LocalBundleAdjustment(options_, &data).usable);
   EXPECT_TRUE(SameNumbers(data, window.data));
 }
 
@@ -213,7 +213,7 @@ TEST_P(WindowProblemTest, ObservationsBehindTheCameraAreDroppedAndCounted) {
   window.data.points[3].position.z() = -3.0;
   window.data.lines[5].segment.end.z() = -3.0;
   WindowData data = window.data;
-  const WindowSummary summary = SolveWindow(options_, &data);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
   ASSERT_TRUE(summary.usable);
   EXPECT_EQ(summary.num_behind_camera, 20);
   EXPECT_EQ(summary.point_reprojection.num_rejected, 0);
@@ -237,7 +237,7 @@ TEST_P(WindowProblemTest, ALandmarkThatLosesEveryObservationKeepsItsValue) {
     ++i;
   }
   WindowData data = window.data;
-  ASSERT_TRUE(SolveWindow(options_, &data).usable);
+  ASSERT_TRUE(LocalBundleAdjustment(options_, &data).usable);
   for (const auto& o : data.point_observations) {
     EXPECT_EQ(o.rejected, o.point == data.points[3].id);
   }
@@ -256,7 +256,7 @@ TEST_P(WindowProblemTest, ALandmarkThatAStepTakesBehindACameraHoldsUpNoOther) {
   }
   options_.first_iterations = options_.second_iterations = 1;
   WindowData data = window.data;
-  const WindowSummary summary = SolveWindow(options_, &data);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
   ASSERT_TRUE(summary.usable) << summary.BriefReport();
   EXPECT_LT(WorstPose(window.truth, data), 0.2 * WorstPose(window.truth, window.data));
 }
@@ -265,7 +265,7 @@ TEST_P(WindowProblemTest, ALandmarkThatAStepTakesBehindACameraHoldsUpNoOther) {
 TEST_P(WindowProblemTest, EndPointsDoNotSlideAlongTheirLine) {
   const SyntheticWindow window = MakeSyntheticWindow(scene_);
   WindowData data = window.data;
-  ASSERT_TRUE(SolveWindow(options_, &data).usable);
+  ASSERT_TRUE(LocalBundleAdjustment(options_, &data).usable);
   for (size_t i = 0; i < data.lines.size(); ++i) {
     const LineSegment3 &before = window.data.lines[i].segment, &after = data.lines[i].segment;
     EXPECT_LT(std::abs((after.start - before.start).dot(before.Direction())), 0.01);
@@ -279,7 +279,7 @@ TEST_P(WindowProblemTest, AContradictingDepthIsLostAlone) {
   window.data.point_observations[11].inverse_depth += 0.1;
   window.data.line_observations[13].depth.end += 0.1;
   WindowData data = window.data;
-  const WindowSummary summary = SolveWindow(options_, &data);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
   ASSERT_TRUE(summary.usable);
   EXPECT_EQ(summary.point_depth.num_rejected, 1);
   EXPECT_EQ(summary.line_depth.num_rejected, 1);
@@ -295,7 +295,7 @@ TEST_P(WindowProblemTest, RejectionIsForgottenAtTheNextSolve) {
   const SyntheticWindow window = MakeSyntheticWindow(scene_);
   WindowData data = window.data;
   for (auto& o : data.point_observations) o.rejected = true;
-  ASSERT_TRUE(SolveWindow(options_, &data).usable);
+  ASSERT_TRUE(LocalBundleAdjustment(options_, &data).usable);
   for (const auto& o : data.point_observations) EXPECT_FALSE(o.rejected);
 }
 
@@ -303,11 +303,11 @@ TEST_P(WindowProblemTest, SwitchedOffTermsTakeNoPart) {
   const SyntheticWindow window = MakeSyntheticWindow(scene_);
   options_.line_reprojection.enabled = options_.line_depth.enabled = false;
   WindowData data = window.data;
-  const WindowSummary summary = SolveWindow(options_, &data);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
   ASSERT_TRUE(summary.usable);
   EXPECT_EQ(summary.line_reprojection.num_residual_blocks, 0);
   EXPECT_EQ(summary.line_depth.num_residual_blocks, 0);
-  EXPECT_EQ(summary.line_anchor.num_residual_blocks, 0);
+  EXPECT_EQ(summary.line_endpoint_prior.num_residual_blocks, 0);
   for (size_t i = 0; i < data.lines.size(); ++i) {
     EXPECT_EQ(data.lines[i].segment.start, window.data.lines[i].segment.start);
   }
@@ -318,7 +318,7 @@ TEST_P(WindowProblemTest, FailureLeavesTheDataUnchanged) {
   window.data.point_observations[5].pixel.x() += 3.0;  // so many sigmas that no square is finite
   window.data.point_observations[5].sigma = 1e-200;
   WindowData data = window.data;
-  const WindowSummary summary = SolveWindow(options_, &data);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
   EXPECT_FALSE(summary.usable);
   EXPECT_FALSE(summary.message.empty());
   EXPECT_TRUE(SameNumbers(data, window.data));
@@ -328,8 +328,8 @@ TEST_P(WindowProblemTest, SameInputSameBytes) {
   scene_.wrong_ratio = 0.05;
   const SyntheticWindow window = MakeSyntheticWindow(scene_);
   WindowData a = window.data, b = window.data;
-  SolveWindow(options_, &a);
-  SolveWindow(options_, &b);
+  LocalBundleAdjustment(options_, &a);
+  LocalBundleAdjustment(options_, &b);
   EXPECT_TRUE(SameNumbers(a, b));
   EXPECT_FALSE(SameNumbers(a, window.data));
 }
@@ -338,7 +338,7 @@ TEST_P(WindowProblemTest, MisuseThrowsAndLeavesTheDataUnchanged) {
   const SyntheticWindow window = MakeSyntheticWindow(scene_);
   WindowData data = window.data;
   data.point_observations[0].sigma = 0.0;
-  EXPECT_THROW(SolveWindow(options_, &data), std::invalid_argument);
+  EXPECT_THROW(LocalBundleAdjustment(options_, &data), std::invalid_argument);
   EXPECT_TRUE(SameNumbers(data, window.data));
 }
 

@@ -66,9 +66,9 @@ TEST(MakeLineDepthReprojection, TakesSigmasWhereTheEndPointsProject) {
 }
 
 TEST(TestChiSquare, ADepthThatAloneContradictsIsLostAlone) {
-  EXPECT_EQ(TestChiSquare(5.0, 3.0, 9.0, 11.0), (Activity{true, true}));
-  EXPECT_EQ(TestChiSquare(5.0, 7.0, 9.0, 11.0), (Activity{true, false}));
-  EXPECT_EQ(TestChiSquare(9.5, 0.0, 9.0, 11.0), (Activity{false, false}));
+  EXPECT_EQ(TestChiSquare(5.0, 3.0, 9.0, 11.0), (InlierMask{true, true}));
+  EXPECT_EQ(TestChiSquare(5.0, 7.0, 9.0, 11.0), (InlierMask{true, false}));
+  EXPECT_EQ(TestChiSquare(9.5, 0.0, 9.0, 11.0), (InlierMask{false, false}));
 }
 
 TEST(IsInFront, NeedsBothEndPointsOfALine) {

@@ -10,9 +10,9 @@
 #include "tests/support/synthetic_window.h"
 #include <gmock/gmock.h>
 
-#include "msc_vo/geometry/angles.h"
 #include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+#include "msc_vo/geometry/angles.h"
 
 namespace msc_vo {
 namespace {
@@ -84,7 +84,7 @@ class WindowStructureTest : public ::testing::Test {
   }
 
   SyntheticWindowOptions scene_;
-  WindowOptions options_;
+  BundleAdjustmentOptions options_;
   SyntheticWindow window_;
   WindowData data_;
 };
@@ -92,9 +92,9 @@ class WindowStructureTest : public ::testing::Test {
 TEST_F(WindowStructureTest, PairsHalveTheDirectionErrors) {
   Make();
   WindowData without = data_;
-  ASSERT_TRUE(SolveWindow(options_, &without).usable);
+  ASSERT_TRUE(LocalBundleAdjustment(options_, &without).usable);
   AddTruePairs(8);
-  const WindowSummary summary = SolveWindow(options_, &data_);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data_);
   ASSERT_TRUE(summary.usable) << summary.BriefReport();
   const double before = RmsDirection(window_.truth, without);
   const double after = RmsDirection(window_.truth, data_);
@@ -110,9 +110,9 @@ TEST_F(WindowStructureTest, PairsHalveTheDirectionErrors) {
 TEST_F(WindowStructureTest, AlignmentsHalveTheDirectionErrors) {
   Make();
   WindowData without = data_;
-  ASSERT_TRUE(SolveWindow(options_, &without).usable);
+  ASSERT_TRUE(LocalBundleAdjustment(options_, &without).usable);
   AddAlignments();
-  const WindowSummary summary = SolveWindow(options_, &data_);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data_);
   ASSERT_TRUE(summary.usable);
   EXPECT_LT(RmsDirection(window_.truth, data_), 0.5 * RmsDirection(window_.truth, without));
   EXPECT_EQ(summary.manhattan.num_residual_blocks + summary.manhattan.num_rejected, 40);
@@ -124,7 +124,7 @@ TEST_F(WindowStructureTest, ExactStructureLeavesTheExactWindow) {
   Make();
   AddTruePairs(4);
   AddAlignments();
-  const WindowSummary summary = SolveWindow(options_, &data_);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data_);
   ASSERT_TRUE(summary.usable);
   EXPECT_EQ(summary.parallel.num_rejected, 0);
   EXPECT_EQ(summary.perpendicular.num_rejected, 0);
@@ -144,7 +144,7 @@ TEST_F(WindowStructureTest, WrongPairsAndAlignmentsAreRejected) {
   data_.perpendicular_pairs.push_back(Pair(3, 9));  // parallel
   data_.axis_alignments.push_back(data_.axis_alignments[5]);
   data_.axis_alignments.back().axis = Eigen::Vector3d(0.0, std::sin(0.1), std::cos(0.1));
-  const WindowSummary summary = SolveWindow(options_, &data_);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data_);
   ASSERT_TRUE(summary.usable);
   EXPECT_TRUE(data_.parallel_pairs[parallel].rejected);
   EXPECT_TRUE(data_.perpendicular_pairs[perpendicular].rejected);
@@ -167,7 +167,7 @@ TEST_F(WindowStructureTest, RejectionIsForgottenAtTheNextSolve) {
   AddAlignments();
   for (auto& p : data_.parallel_pairs) p.rejected = true;
   for (auto& a : data_.axis_alignments) a.rejected = true;
-  const WindowSummary summary = SolveWindow(options_, &data_);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data_);
   ASSERT_TRUE(summary.usable);
   EXPECT_EQ(summary.parallel.num_residual_blocks, static_cast<int>(data_.parallel_pairs.size()));
   for (const auto& p : data_.parallel_pairs) EXPECT_FALSE(p.rejected);
@@ -177,11 +177,11 @@ TEST_F(WindowStructureTest, RejectionIsForgottenAtTheNextSolve) {
 TEST_F(WindowStructureTest, TermsThatAreOffLeaveNoTrace) {
   Make();
   WindowData without = data_;
-  const WindowSummary plain = SolveWindow(options_, &without);
+  const BundleAdjustmentSummary plain = LocalBundleAdjustment(options_, &without);
   AddTruePairs(4);
   AddAlignments();
   options_.parallel.enabled = options_.perpendicular.enabled = options_.manhattan.enabled = false;
-  const WindowSummary off = SolveWindow(options_, &data_);
+  const BundleAdjustmentSummary off = LocalBundleAdjustment(options_, &data_);
   EXPECT_TRUE(SameNumbers(without, data_));
   EXPECT_EQ(plain.final_cost, off.final_cost);
   EXPECT_EQ(plain.num_iterations, off.num_iterations);
@@ -196,15 +196,15 @@ TEST_F(WindowStructureTest, EachTermHasItsOwnSwitchAndCost) {
   AddTruePairs(4);
   AddAlignments();
   const auto blocks = [&](bool parallel, bool perpendicular, bool manhattan) {
-    WindowOptions options = options_;
+    BundleAdjustmentOptions options = options_;
     options.parallel.enabled = parallel;
     options.perpendicular.enabled = perpendicular;
     options.manhattan.enabled = manhattan;
     WindowData data = data_;
-    const WindowSummary s = SolveWindow(options, &data);
+    const BundleAdjustmentSummary s = LocalBundleAdjustment(options, &data);
     EXPECT_DOUBLE_EQ(s.final_cost, s.point_reprojection.final_cost + s.point_depth.final_cost +
                                        s.line_reprojection.final_cost + s.line_depth.final_cost +
-                                       s.line_anchor.final_cost + s.parallel.final_cost +
+                                       s.line_endpoint_prior.final_cost + s.parallel.final_cost +
                                        s.perpendicular.final_cost + s.manhattan.final_cost);
     EXPECT_EQ(s.parallel.initial_cost > 0.0, parallel);
     EXPECT_EQ(s.perpendicular.initial_cost > 0.0, perpendicular);
@@ -218,11 +218,11 @@ TEST_F(WindowStructureTest, EachTermHasItsOwnSwitchAndCost) {
 
 TEST_F(WindowStructureTest, TheAnchorHasASwitch) {
   Make();
-  options_.line_anchor = false;
-  const WindowSummary summary = SolveWindow(options_, &data_);
+  options_.line_endpoint_prior = false;
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data_);
   ASSERT_TRUE(summary.usable) << summary.BriefReport();
-  EXPECT_EQ(summary.line_anchor.num_residual_blocks, 0);
-  EXPECT_EQ(summary.line_anchor.final_cost, 0.0);
+  EXPECT_EQ(summary.line_endpoint_prior.num_residual_blocks, 0);
+  EXPECT_EQ(summary.line_endpoint_prior.final_cost, 0.0);
 }
 
 TEST_F(WindowStructureTest, OneCountedPairIsAsManyEqualOnes) {
@@ -233,8 +233,8 @@ TEST_F(WindowStructureTest, OneCountedPairIsAsManyEqualOnes) {
     auto& pairs = i % 3 == (i + 1) % 3 ? many.parallel_pairs : many.perpendicular_pairs;
     pairs.insert(pairs.end(), 3, Pair(i, i + 1));
   }
-  const WindowSummary counted = SolveWindow(options_, &data_);
-  const WindowSummary repeated = SolveWindow(options_, &many);
+  const BundleAdjustmentSummary counted = LocalBundleAdjustment(options_, &data_);
+  const BundleAdjustmentSummary repeated = LocalBundleAdjustment(options_, &many);
   ASSERT_TRUE(counted.usable && repeated.usable);
   EXPECT_NEAR(counted.perpendicular.initial_cost, repeated.perpendicular.initial_cost,
               1e-9 * repeated.perpendicular.initial_cost);
@@ -258,7 +258,7 @@ TEST_F(WindowStructureTest, OnlyObservedLinesAreBound) {
                      [&](const WindowData::LineObservation& o) { return o.line == unseen; }),
       observations.end());
   const LineSegment3 before = data_.lines[4].segment;
-  const WindowSummary summary = SolveWindow(options_, &data_);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data_);
   ASSERT_TRUE(summary.usable);
   EXPECT_EQ(data_.lines[4].segment.start, before.start);
   EXPECT_EQ(data_.lines[4].segment.end, before.end);
@@ -277,8 +277,8 @@ TEST_F(WindowStructureTest, FixedLinesStayAndBindOthers) {
   }
   AddPair(0, 1);  // of fixed lines alone: nothing to say
   WindowData without = before;
-  ASSERT_TRUE(SolveWindow(options_, &without).usable);
-  const WindowSummary summary = SolveWindow(options_, &data_);
+  ASSERT_TRUE(LocalBundleAdjustment(options_, &without).usable);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data_);
   ASSERT_TRUE(summary.usable);
   EXPECT_EQ(summary.perpendicular.num_residual_blocks + summary.perpendicular.num_rejected, 74);
   for (int i : {0, 1, 2}) EXPECT_EQ(data_.lines[i].segment.end, before.lines[i].segment.end);
@@ -290,8 +290,8 @@ TEST_F(WindowStructureTest, SameInputSameBytes) {
   AddTruePairs(6);
   AddAlignments();
   WindowData other = data_;
-  SolveWindow(options_, &data_);
-  SolveWindow(options_, &other);
+  LocalBundleAdjustment(options_, &data_);
+  LocalBundleAdjustment(options_, &other);
   EXPECT_TRUE(SameNumbers(data_, other));
 }
 
@@ -302,15 +302,15 @@ TEST_F(WindowStructureTest, OfPairedLinesNoTwoAreEliminatedFirst) {
   for (int i = 10; i < 14; ++i) AddPair(i, i + 1);
   AddAlignments();
   const WindowIndex index = ValidateWindow(options_, data_);
-  WindowActivity activity;
-  activity.points.assign(data_.point_observations.size(), {true, true});
-  activity.lines.assign(data_.line_observations.size(), {true, true});
-  activity.parallel.assign(data_.parallel_pairs.size(), true);
-  activity.perpendicular.assign(data_.perpendicular_pairs.size(), true);
-  activity.alignments.assign(data_.axis_alignments.size(), true);
+  WindowInlierMask inlier_mask;
+  inlier_mask.points.assign(data_.point_observations.size(), {true, true});
+  inlier_mask.lines.assign(data_.line_observations.size(), {true, true});
+  inlier_mask.parallel.assign(data_.parallel_pairs.size(), true);
+  inlier_mask.perpendicular.assign(data_.perpendicular_pairs.size(), true);
+  inlier_mask.alignments.assign(data_.axis_alignments.size(), true);
   WindowState state(data_);
-  const WindowTerms terms = MakeWindowTerms(options_, data_, index, activity, state);
-  const auto ordering = CeresWindow(options_, data_, terms, &state).EliminationOrdering();
+  const WindowTerms terms = MakeWindowTerms(options_, data_, index, inlier_mask, state);
+  const auto ordering = CeresBackend(options_, data_, terms, &state).EliminationOrdering();
   const auto group = [&](int line) { return ordering->GroupId(state.LineBlock(line)); };
   EXPECT_EQ(group(0), 1);
   for (int i = 1; i < 10; ++i) EXPECT_EQ(group(i), 0) << i;
@@ -330,7 +330,7 @@ TEST_F(WindowStructureTest, MisuseNamesTheOffender) {
     data_ = good;
     spoil(&data_);
     try {
-      SolveWindow(options_, &data_);
+      LocalBundleAdjustment(options_, &data_);
     } catch (const std::invalid_argument& error) {
       return error.what();
     }

@@ -38,7 +38,7 @@ class WindowCovarianceTest : public ::testing::Test {
     window_ = MakeSyntheticWindow(scene_);
     data_ = window_.data;
     if (with_structure_) AddStructure();
-    ASSERT_TRUE(SolveWindow(options_, &data_).usable);
+    ASSERT_TRUE(LocalBundleAdjustment(options_, &data_).usable);
   }
   // A clique, a star, and alignments: lines that are kept, bound to kept ones, and alone.
   void AddStructure() {
@@ -58,7 +58,7 @@ class WindowCovarianceTest : public ::testing::Test {
 
   SyntheticWindowOptions scene_;
   SyntheticWindow window_;
-  WindowOptions options_;
+  BundleAdjustmentOptions options_;
   WindowData data_;
   bool with_structure_ = false;
 };
@@ -66,21 +66,21 @@ class WindowCovarianceTest : public ::testing::Test {
 // What Ceres makes of the same factors.
 class CeresCovariance {
  public:
-  CeresCovariance(const WindowOptions& options, const WindowData& data) : state_(data) {
+  CeresCovariance(const BundleAdjustmentOptions& options, const WindowData& data) : state_(data) {
     const WindowIndex index = ValidateWindow(options, data);
     int num_behind = 0;
-    WindowActivity activity = AllInFront(options, index, data, &num_behind);
+    WindowInlierMask inlier_mask = AllInFront(options, index, data, &num_behind);
     const auto drop = [](const auto& items, auto* active) {
       for (size_t i = 0; i < items.size(); ++i) {
         if (items[i].rejected) (*active)[i] = {};
       }
     };
-    drop(data.point_observations, &activity.points);
-    drop(data.line_observations, &activity.lines);
-    drop(data.parallel_pairs, &activity.parallel);
-    drop(data.perpendicular_pairs, &activity.perpendicular);
-    terms_ = MakeWindowTerms(options, data, index, activity, state_);
-    window_ = std::make_unique<CeresWindow>(options, data, terms_, &state_);
+    drop(data.point_observations, &inlier_mask.points);
+    drop(data.line_observations, &inlier_mask.lines);
+    drop(data.parallel_pairs, &inlier_mask.parallel);
+    drop(data.perpendicular_pairs, &inlier_mask.perpendicular);
+    terms_ = MakeWindowTerms(options, data, index, inlier_mask, state_);
+    window_ = std::make_unique<CeresBackend>(options, data, terms_, &state_);
     ceres::Covariance::Options covariance_options;
     covariance_options.algorithm_type = ceres::DENSE_SVD;
     covariance_ = std::make_unique<ceres::Covariance>(covariance_options);
@@ -101,7 +101,7 @@ class CeresCovariance {
 
  private:
   WindowTerms terms_;
-  std::unique_ptr<CeresWindow> window_;
+  std::unique_ptr<CeresBackend> window_;
   std::unique_ptr<ceres::Covariance> covariance_;
 };
 
@@ -176,7 +176,7 @@ TEST_F(WindowCovarianceTest, WhatTheWindowDoesNotDetermineHasNone) {
 TEST_F(WindowCovarianceTest, WithoutDepthTheScaleIsNotDetermined) {
   scene_.wrong_ratio = 0.0;
   scene_.has_depth = false;
-  options_.line_anchor_sigma = 1e6;
+  options_.line_endpoint_prior_sigma = 1e6;
   Solve();
   // Two keyframes are fixed: they hold it.
   for (const auto& pose : EstimateCovariance(options_, data_, All()).keyframes) {
@@ -252,7 +252,7 @@ class Consistency {
     scene_.noise = noise;
   }
   // Means over windows of the error squared, per degree of freedom.
-  void Run(const WindowOptions& options, int num_windows) {
+  void Run(const BundleAdjustmentOptions& options, int num_windows) {
     for (int i = 0; i < num_windows; ++i) {
       scene_.seed = 100 + i;
       Add(options, MakeSyntheticWindow(scene_));
@@ -264,9 +264,9 @@ class Consistency {
   double pose = 0.0, point = 0.0, line = 0.0;
 
  private:
-  void Add(const WindowOptions& options, const SyntheticWindow& window) {
+  void Add(const BundleAdjustmentOptions& options, const SyntheticWindow& window) {
     WindowData data = window.data;
-    ASSERT_TRUE(SolveWindow(options, &data).usable);
+    ASSERT_TRUE(LocalBundleAdjustment(options, &data).usable);
     const WindowCovariance covariance = EstimateCovariance(
         options, data, {{data.keyframes[3].id}, {data.points[11].id}, {data.lines[7].id}});
     Eigen::Matrix<double, 6, 1> error;
@@ -302,7 +302,7 @@ double Bound(int n, int k) { return 2.576 * std::sqrt(2.0 / (double(n) * k)); }
 
 TEST(WindowCovarianceConsistency, ErrorsAreAsLargeAsItSays) {
   // Least squares, which is what normal noise asks for.
-  WindowOptions options;
+  BundleAdjustmentOptions options;
   options.point_reprojection.huber = options.point_depth.huber = 1e3;
   options.line_reprojection.huber = options.line_depth.huber = 1e3;
   options.reject_chi2_2 = options.reject_chi2_3 = options.reject_chi2_4 = 1e9;
@@ -317,7 +317,7 @@ TEST(WindowCovarianceConsistency, ErrorsAreAsLargeAsItSays) {
 TEST(WindowCovarianceConsistency, RobustLossesAndRejectionCostLittle) {
   constexpr int kWindows = 300;
   Consistency errors(1.0);
-  errors.Run(WindowOptions(), kWindows);
+  errors.Run(BundleAdjustmentOptions(), kWindows);
   // Weights below one stand for errors that were good: what is lost stays below a tenth.
   EXPECT_NEAR(errors.pose, 1.0, 0.1 + Bound(kWindows, 6));
   EXPECT_NEAR(errors.point, 1.0, 0.1 + Bound(kWindows, 3));
@@ -325,7 +325,7 @@ TEST(WindowCovarianceConsistency, RobustLossesAndRejectionCostLittle) {
 }
 
 TEST(WindowCovarianceConsistency, TwiceTheNoiseIsNoticed) {
-  WindowOptions options;
+  BundleAdjustmentOptions options;
   options.point_reprojection.huber = options.point_depth.huber = 1e3;
   options.line_reprojection.huber = options.line_depth.huber = 1e3;
   options.reject_chi2_2 = options.reject_chi2_3 = options.reject_chi2_4 = 1e9;

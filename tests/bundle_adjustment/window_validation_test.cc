@@ -35,7 +35,7 @@ class WindowValidationTest : public ::testing::Test {
 
   const double nan_ = std::numeric_limits<double>::quiet_NaN();
   const double infinity_ = std::numeric_limits<double>::infinity();
-  WindowOptions options_;
+  BundleAdjustmentOptions options_;
   WindowData data_;
 };
 
@@ -211,18 +211,18 @@ TEST_F(WindowValidationTest, InfiniteAndHugeNumbers) {
 }
 
 TEST_F(WindowValidationTest, Options) {
-  options_.line_anchor_sigma = 0.0;
-  EXPECT_THAT(Message(), HasSubstr("line_anchor_sigma"));
-  options_ = WindowOptions();
+  options_.line_endpoint_prior_sigma = 0.0;
+  EXPECT_THAT(Message(), HasSubstr("line_endpoint_prior_sigma"));
+  options_ = BundleAdjustmentOptions();
   options_.second_iterations = 0;
   EXPECT_THAT(Message(), HasSubstr("second_iterations"));
-  options_ = WindowOptions();
+  options_ = BundleAdjustmentOptions();
   options_.reject_chi2_3 = -1.0;
   EXPECT_THAT(Message(), HasSubstr("reject_chi2_3"));
-  options_ = WindowOptions();
+  options_ = BundleAdjustmentOptions();
   options_.point_depth.huber = nan_;
   EXPECT_THAT(Message(), HasSubstr("huber"));
-  options_ = WindowOptions();
+  options_ = BundleAdjustmentOptions();
   data_.camera.fy = 0.0;
   EXPECT_THAT(Message(), HasSubstr("fy"));
 }

@@ -92,7 +92,7 @@ TEST_F(OptionsFileTest, NoFieldOfTheOptionsIsForgotten) {
   EXPECT_EQ(NumListed("mapping."), NumFields<MapperOptions>() + 2);  // two latencies
   EXPECT_EQ(NumListed("mapping.fusion."), NumFields<FusionOptions>());
   EXPECT_EQ(NumListed("mapping.selection."), NumFields<WindowSelectionOptions>());
-  EXPECT_EQ(NumListed("mapping.window."), NumFields<WindowOptions>());
+  EXPECT_EQ(NumListed("mapping.window."), NumFields<BundleAdjustmentOptions>());
   EXPECT_EQ(NumListed("mapping.culling."), NumFields<CullingOptions>());
 }
 

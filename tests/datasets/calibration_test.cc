@@ -6,8 +6,8 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
-#include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/config/orb_slam_config.h"
+#include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/sequence.h"
 
 namespace msc_vo {

@@ -5,21 +5,21 @@
 
 #include "tests/support/factor_checks.h"
 
-#include "msc_vo/factors/parallel_lines.h"
-#include "msc_vo/factors/perpendicular_lines.h"
 #include "msc_vo/factors/inverse_depth_line_pair.h"
 #include "msc_vo/factors/inverse_depth_line_prior.h"
+#include "msc_vo/factors/parallel_lines.h"
+#include "msc_vo/factors/perpendicular_lines.h"
 
 namespace msc_vo {
 namespace {
 
-using Parallel = SightLinePair<ParallelLines>;
-using Perpendicular = SightLinePair<PerpendicularLines>;
+using Parallel = InverseDepthLinePair<ParallelLines>;
+using Perpendicular = InverseDepthLinePair<PerpendicularLines>;
 
 // The parameter is fy: the mirrored image must behave like any other.
-class SightLineTest : public ::testing::TestWithParam<double> {
+class InverseDepthLineTest : public ::testing::TestWithParam<double> {
  protected:
-  SightLineTest() { camera_.fy = GetParam(); }
+  InverseDepthLineTest() { camera_.fy = GetParam(); }
   // Any segment that is long in the image: a short one turns so fast with its depths that numeric
   // derivatives are poor.
   LineSegment3 InView() {
@@ -39,13 +39,13 @@ class SightLineTest : public ::testing::TestWithParam<double> {
     depth.covariance << 4e-6, -1e-6, -1e-6, 9e-6;
     return depth;
   }
-  SightLine See(const LineSegment3& line) const {
-    return SightLine(camera_, Project(line), DepthOf(line), 1.0, 0.005);
+  InverseDepthLine See(const LineSegment3& line) const {
+    return InverseDepthLine(camera_, Project(line), DepthOf(line), 1.0, 0.005);
   }
   static std::vector<double> BlockOf(const LineSegment3& line, double a = 0.0, double c = 0.0) {
     return {1.0 / line.start.z(), 1.0 / line.end.z(), a, c};
   }
-  Eigen::Vector3d Direction(const SightLine& line, const std::vector<double>& block) const {
+  Eigen::Vector3d Direction(const InverseDepthLine& line, const std::vector<double>& block) const {
     Eigen::Vector3d d;
     EXPECT_TRUE(line.Direction(block.data(), &d));
     return d;
@@ -53,21 +53,21 @@ class SightLineTest : public ::testing::TestWithParam<double> {
   PinholeCamera camera_;
   Random random_{1};
 };
-INSTANTIATE_TEST_SUITE_P(FocalLength, SightLineTest, ::testing::Values(525.0, -480.0));
+INSTANTIATE_TEST_SUITE_P(FocalLength, InverseDepthLineTest, ::testing::Values(525.0, -480.0));
 
-TEST_P(SightLineTest, DirectionIsThatOfTheSegmentInSpaceAtAnyDepths) {
+TEST_P(InverseDepthLineTest, DirectionIsThatOfTheSegmentInSpaceAtAnyDepths) {
   for (int i = 0; i < 10; ++i) {
     const LineSegment3 line = InView();
-    const SightLine sight = See(line);
+    const InverseDepthLine sight = See(line);
     EXPECT_THAT(Direction(sight, BlockOf(line)), IsNear(line.Direction(), 1e-12));
     const LineSegment3 other{1.3 * line.start, 0.8 * line.end};  // on the same rays
     EXPECT_THAT(Direction(sight, BlockOf(other)), IsNear(other.Direction(), 1e-12));
   }
 }
 
-TEST_P(SightLineTest, DeviatesTurnTheLineInAndOutOfThePlaneOfSight) {
+TEST_P(InverseDepthLineTest, DeviatesTurnTheLineInAndOutOfTheInterpretationPlane) {
   const LineSegment3 line = InView();
-  const SightLine sight = See(line);
+  const InverseDepthLine sight = See(line);
   const Eigen::Vector3d normal = line.start.cross(line.end).normalized();
   const Eigen::Vector3d in_plane = Direction(sight, BlockOf(line, 1.0, 0.0));
   EXPECT_NEAR(in_plane.dot(normal), 0.0, 1e-12);
@@ -76,7 +76,7 @@ TEST_P(SightLineTest, DeviatesTurnTheLineInAndOutOfThePlaneOfSight) {
   EXPECT_NEAR(out.dot(normal), std::sin(std::atan(std::hypot(0.005, sight.image_angle()))), 1e-9);
 }
 
-TEST_P(SightLineTest, ImageAngleIsWhatPixelNoiseDoes) {
+TEST_P(InverseDepthLineTest, ImageAngleIsWhatPixelNoiseDoes) {
   // Both end points shifted across the image segment by normal deviates of 0.1 px.
   const LineSegment3 line{{-0.4, 0.1, 2.0}, {0.2, 0.3, 3.0}};
   const LineSegment2 seen = Project(line);
@@ -91,11 +91,11 @@ TEST_P(SightLineTest, ImageAngleIsWhatPixelNoiseDoes) {
     variance += out * out / count;
   }
   const double expected =
-      std::pow(SightLine(camera_, seen, DepthOf(line), 0.1, 0.005).image_angle(), 2);
+      std::pow(InverseDepthLine(camera_, seen, DepthOf(line), 0.1, 0.005).image_angle(), 2);
   EXPECT_NEAR(variance, expected, 5.0 * expected * std::sqrt(2.0 / count));
 }
 
-TEST_P(SightLineTest, PairsAreTheRelationsOfTheirDirections) {
+TEST_P(InverseDepthLineTest, PairsAreTheRelationsOfTheirDirections) {
   const LineSegment3 a = InView(), b = InView();
   const Eigen::Vector3d cross = a.Direction().cross(b.Direction());
   EXPECT_THAT(Residual(*CostPtr(Parallel::Create(See(a), See(b), 0.1)), {BlockOf(a), BlockOf(b)}),
@@ -105,17 +105,17 @@ TEST_P(SightLineTest, PairsAreTheRelationsOfTheirDirections) {
       10.0 * a.Direction().dot(b.Direction()), 1e-9);
 }
 
-TEST_P(SightLineTest, Gradients) {
+TEST_P(InverseDepthLineTest, Gradients) {
   for (int i = 0; i < 10; ++i) {
     const LineSegment3 a = InView(), b = InView();
     const Blocks blocks{BlockOf(a, 0.3, -0.8), BlockOf(b, -0.2, 1.1)};
     ExpectGradientsMatch(*CostPtr(Parallel::Create(See(a), See(b), 0.01)), blocks);
     ExpectGradientsMatch(*CostPtr(Perpendicular::Create(See(a), See(b), 0.01)), blocks);
-    ExpectGradientsMatch(*CostPtr(SightLinePrior::Create(DepthOf(a))), {blocks[0]});
+    ExpectGradientsMatch(*CostPtr(InverseDepthLinePrior::Create(DepthOf(a))), {blocks[0]});
   }
 }
 
-TEST_P(SightLineTest, GradientsAtParallelOppositeAndPerpendicular) {
+TEST_P(InverseDepthLineTest, GradientsAtParallelOppositeAndPerpendicular) {
   const LineSegment3 a{{-0.5, 0.2, 2.0}, {0.3, 0.2, 2.5}};
   const Eigen::Vector3d d = a.end - a.start, start(0.1, -0.3, 3.0);
   for (const Eigen::Vector3d& other : {d, Eigen::Vector3d(-d), Eigen::Vector3d(0.1, 0.5, -0.16)}) {
@@ -126,16 +126,16 @@ TEST_P(SightLineTest, GradientsAtParallelOppositeAndPerpendicular) {
   }
 }
 
-TEST_P(SightLineTest, UndefinedWithoutADirection) {
+TEST_P(InverseDepthLineTest, UndefinedWithoutADirection) {
   const LineSegment3 a = InView();
   EXPECT_FALSE(IsDefined(*CostPtr(Parallel::Create(See(a), See(a), 0.01)),
                          {{0.0, 0.0, 0.0, 0.0}, BlockOf(a)}));
 }
 
-TEST_P(SightLineTest, PriorIsZeroAtTheFitAndWhitensItsCovariance) {
+TEST_P(InverseDepthLineTest, PriorIsZeroAtTheFitAndWhitensItsCovariance) {
   const LineSegment3 line = InView();
   const LineDepth depth = DepthOf(line);
-  const CostPtr cost(SightLinePrior::Create(depth));
+  const CostPtr cost(InverseDepthLinePrior::Create(depth));
   EXPECT_THAT(Residual(*cost, {BlockOf(line)}), IsNear(Eigen::Vector4d::Zero(), 1e-12));
   const Eigen::Matrix2d root = depth.covariance.llt().matrixL();
   std::vector<Eigen::VectorXd> samples;
@@ -147,7 +147,7 @@ TEST_P(SightLineTest, PriorIsZeroAtTheFitAndWhitensItsCovariance) {
   ExpectIdentityCovariance(samples);
 }
 
-TEST_P(SightLineTest, AGoodFitStaysAndAPoorOneTurns) {
+TEST_P(InverseDepthLineTest, AGoodFitStaysAndAPoorOneTurns) {
   // Both 4 degrees off or so before; the sum of priors decides which of them gives way.
   const LineSegment3 good{{-0.5, 0.2, 2.0}, {0.3, 0.2, 2.5}};
   const LineSegment3 truth{{-0.4, -0.3, 2.4}, {0.4, -0.3, 2.9}};
@@ -156,12 +156,12 @@ TEST_P(SightLineTest, AGoodFitStaysAndAPoorOneTurns) {
   good_depth.covariance *= 1e-2;
   poor_depth.covariance *= 1e2;
   std::vector<double> a = BlockOf(good), b = BlockOf(poor);
-  const SightLine sight_a(camera_, Project(good), good_depth, 0.1, 1e-4);
-  const SightLine sight_b(camera_, Project(poor), poor_depth, 0.1, 1e-4);
+  const InverseDepthLine sight_a(camera_, Project(good), good_depth, 0.1, 1e-4);
+  const InverseDepthLine sight_b(camera_, Project(poor), poor_depth, 0.1, 1e-4);
   ceres::Problem problem;
   problem.AddResidualBlock(Parallel::Create(sight_a, sight_b, 1e-3), nullptr, a.data(), b.data());
-  problem.AddResidualBlock(SightLinePrior::Create(good_depth), nullptr, a.data());
-  problem.AddResidualBlock(SightLinePrior::Create(poor_depth), nullptr, b.data());
+  problem.AddResidualBlock(InverseDepthLinePrior::Create(good_depth), nullptr, a.data());
+  problem.AddResidualBlock(InverseDepthLinePrior::Create(poor_depth), nullptr, b.data());
   SolveToEnd(&problem);
   EXPECT_GT(poor.Direction().cross(good.Direction()).norm(), 0.03);
   EXPECT_LT(Direction(sight_a, a).cross(good.Direction()).norm(), 1e-3);

@@ -12,33 +12,33 @@ namespace {
 
 const LineSegment3 kInitial{{1.0, 2.0, 3.0}, {1.0, 4.0, 3.0}};  // along y
 
-TEST(LineAnchor, ZeroWhereTheLineStarted) {
-  EXPECT_EQ(Residual(*CostPtr(LineAnchor::Create(kInitial, 0.05)), {Block(kInitial)}),
+TEST(LineEndpointPrior, ZeroWhereTheLineStarted) {
+  EXPECT_EQ(Residual(*CostPtr(LineEndpointPrior::Create(kInitial, 0.05)), {Block(kInitial)}),
             Eigen::VectorXd(Eigen::Vector2d::Zero()));
 }
 
-TEST(LineAnchor, ValueByHand) {
+TEST(LineEndpointPrior, ValueByHand) {
   // S moved 0.1 m along the line, E 0.2 m back; motion across it does not count.
-  const CostPtr cost(LineAnchor::Create(kInitial, 0.05));
+  const CostPtr cost(LineEndpointPrior::Create(kInitial, 0.05));
   EXPECT_THAT(Residual(*cost, {{1.5, 2.1, 3.0, 1.0, 3.8, 2.0}}),
               IsNear(Eigen::Vector2d(2.0, -4.0), 1e-12));
 }
 
-TEST(LineAnchor, Gradients) {
+TEST(LineEndpointPrior, Gradients) {
   Random random(1);
   for (int i = 0; i < 5; ++i) {
     const LineSegment3 initial{random.Normal3(), random.Normal3()};
     const LineSegment3 line{random.Normal3(), random.Normal3()};
-    ExpectGradientsMatch(*CostPtr(LineAnchor::Create(initial, 0.05)), {Block(line)});
+    ExpectGradientsMatch(*CostPtr(LineEndpointPrior::Create(initial, 0.05)), {Block(line)});
   }
 }
 
-TEST(LineAnchor, BlindToTheFourDegreesOfFreedomOfALine) {
+TEST(LineEndpointPrior, BlindToTheFourDegreesOfFreedomOfALine) {
   // Every motion of an end point across the line leaves the residual alone.
   Random random(2);
   const LineSegment3 initial{random.Normal3(), random.Normal3()};
   const Eigen::Vector3d d = initial.Direction();
-  const CostPtr cost(LineAnchor::Create(initial, 0.05));
+  const CostPtr cost(LineEndpointPrior::Create(initial, 0.05));
   const Linearization at = Linearize(*cost, {Block(initial)});
   for (const Eigen::Vector3d& across : {d.unitOrthogonal(), d.cross(d.unitOrthogonal()).eval()}) {
     EXPECT_NEAR((at.jacobians[0].leftCols(3) * across).norm(), 0.0, 1e-12);
@@ -48,23 +48,25 @@ TEST(LineAnchor, BlindToTheFourDegreesOfFreedomOfALine) {
   EXPECT_NEAR(at.jacobians[0].rightCols(3).row(1).dot(d), 20.0, 1e-12);
 }
 
-TEST(LineAnchor, UnchangedByAShiftOfTheWorldAndSwappedWithTheEndPoints) {
+TEST(LineEndpointPrior, UnchangedByAShiftOfTheWorldAndSwappedWithTheEndPoints) {
   Random random(3);
   const Rigid3 shift = random.Pose();
   const LineSegment3 initial{random.Normal3(), random.Normal3()};
   const LineSegment3 line{random.Normal3(), random.Normal3()};
-  const Eigen::VectorXd r = Residual(*CostPtr(LineAnchor::Create(initial, 0.05)), {Block(line)});
-  EXPECT_THAT(Residual(*CostPtr(LineAnchor::Create(shift * initial, 0.05)), {Block(shift * line)}),
-              IsNear(r, 1e-10));
+  const Eigen::VectorXd r =
+      Residual(*CostPtr(LineEndpointPrior::Create(initial, 0.05)), {Block(line)});
+  EXPECT_THAT(
+      Residual(*CostPtr(LineEndpointPrior::Create(shift * initial, 0.05)), {Block(shift * line)}),
+      IsNear(r, 1e-10));
   const LineSegment3 initial_back{initial.end, initial.start}, line_back{line.end, line.start};
-  EXPECT_THAT(Residual(*CostPtr(LineAnchor::Create(initial_back, 0.05)), {Block(line_back)}),
+  EXPECT_THAT(Residual(*CostPtr(LineEndpointPrior::Create(initial_back, 0.05)), {Block(line_back)}),
               IsNear(Eigen::Vector2d(-r[1], -r[0]), 1e-10));
 }
 
-TEST(LineAnchor, NoiseOfSigmaAlongTheLineBecomesUnitCovariance) {
+TEST(LineEndpointPrior, NoiseOfSigmaAlongTheLineBecomesUnitCovariance) {
   Random random(4);
   const double sigma = 0.05;
-  const CostPtr cost(LineAnchor::Create(kInitial, sigma));
+  const CostPtr cost(LineEndpointPrior::Create(kInitial, sigma));
   std::vector<Eigen::VectorXd> samples;
   for (int i = 0; i < 4000; ++i) {
     const LineSegment3 line{kInitial.start + sigma * random.Normal3(),
@@ -74,7 +76,7 @@ TEST(LineAnchor, NoiseOfSigmaAlongTheLineBecomesUnitCovariance) {
   ExpectIdentityCovariance(samples);
 }
 
-TEST(LineAnchor, MakesALineFromTwoViewsWellPosed) {
+TEST(LineEndpointPrior, MakesALineFromTwoViewsWellPosed) {
   // Two images fix the line but not its end points; the anchor keeps them where they started.
   const PinholeCamera camera;
   const LineSegment3 truth{{-0.4, 0.1, 2.0}, {0.6, 0.3, 3.0}};
@@ -89,7 +91,7 @@ TEST(LineAnchor, MakesALineFromTwoViewsWellPosed) {
                              pose.params.data(), line.start.data());
     problem.SetParameterBlockConstant(pose.params.data());
   }
-  problem.AddResidualBlock(LineAnchor::Create(initial, 0.05), nullptr, line.start.data());
+  problem.AddResidualBlock(LineEndpointPrior::Create(initial, 0.05), nullptr, line.start.data());
   SolveToEnd(&problem);
   EXPECT_LT(truth.DistanceToLine(line.start), 1e-8);
   EXPECT_LT(truth.DistanceToLine(line.end), 1e-8);

@@ -21,7 +21,7 @@ class LinePairFactorTest : public ::testing::Test {
     const Blocks blocks{Block(a), Block(b)};
     const CostPtr automatic(Factor::Create(factor_));
     ExpectGradientsMatch(*automatic, blocks);
-    ExpectSameCostFunction(LinePairCost<Factor>(factor_), *automatic, blocks);
+    ExpectSameCostFunction(AnalyticLinePairCostFunction<Factor>(factor_), *automatic, blocks);
   }
   Factor factor_{0.03};
   Random random_{3};
@@ -41,7 +41,7 @@ TYPED_TEST(LinePairFactorTest, GradientsEverywhereAndAtTheSingularPlacesOfThePap
 }
 
 TYPED_TEST(LinePairFactorTest, OneJacobianAtATime) {
-  const LinePairCost<TypeParam> cost(this->factor_);
+  const AnalyticLinePairCostFunction<TypeParam> cost(this->factor_);
   const Blocks blocks{Block(this->random_.Line()), Block(this->random_.Line())};
   const Linearization both = Linearize(cost, blocks);
   for (int k = 0; k < 2; ++k) {
@@ -56,7 +56,7 @@ TYPED_TEST(LinePairFactorTest, OneJacobianAtATime) {
 
 TYPED_TEST(LinePairFactorTest, UndefinedWithoutLength) {
   const CostPtr automatic(TypeParam::Create(this->factor_));
-  const LinePairCost<TypeParam> analytic(this->factor_);
+  const AnalyticLinePairCostFunction<TypeParam> analytic(this->factor_);
   const std::vector<double> point{1.0, 2.0, 3.0, 1.0, 2.0, 3.0}, line{0.0, 0.0, 0.0, 1.0, 0.0, 0.0};
   for (const ceres::CostFunction* cost :
        std::initializer_list<const ceres::CostFunction*>{automatic.get(), &analytic}) {

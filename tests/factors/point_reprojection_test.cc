@@ -74,7 +74,7 @@ TEST_P(PointReprojectionTest, NoiseOfSigmaBecomesUnitCovariance) {
 TEST_P(PointReprojectionTest, UndefinedBehindTheCamera) {
   const PointReprojection factor(camera_, {300.0, 200.0}, 1.0);
   const CostPtr cost(PointReprojection::Create(factor));
-  const ChainRuleCost<PointReprojection> chain_rule(factor);
+  const AnalyticCostFunction<PointReprojection> chain_rule(factor);
   for (const double z : {-1.0, 0.0, 0.009}) {
     EXPECT_FALSE(IsDefined(*cost, {Block(Rigid3()), {0.0, 0.0, z}})) << z;
     EXPECT_FALSE(IsDefined(chain_rule, {Block(Rigid3()), {0.0, 0.0, z}})) << z;

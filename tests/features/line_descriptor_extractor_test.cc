@@ -14,12 +14,12 @@ using Eigen::Vector2d;
 const LineSegment2 kSegment{Vector2d(200.0, 150.0), Vector2d(310.0, 240.0)};
 
 Descriptor Describe(const cv::Mat& image, const LineSegment2& segment) {
-  LineDescriber describer;
-  describer.SetImage(image);
-  return describer.Describe(segment);
+  LineDescriptorExtractor descriptor_extractor;
+  descriptor_extractor.SetImage(image);
+  return descriptor_extractor.Describe(segment);
 }
 
-TEST(LineDescriber, KnowsNeitherContrastNorBrightness) {
+TEST(LineDescriptorExtractor, KnowsNeitherContrastNorBrightness) {
   const cv::Mat image = testing::DrawQuadrilaterals(640, 480, {0.0, 0.0}, 0.0, 0.0);
   cv::Mat paler;
   image.convertTo(paler, CV_8U, 0.6, 50.0);
@@ -27,7 +27,7 @@ TEST(LineDescriber, KnowsNeitherContrastNorBrightness) {
   EXPECT_LE(HammingDistance(Describe(image, kSegment), Describe(paler, kSegment)), 8);
 }
 
-TEST(LineDescriber, FollowsTheLine) {
+TEST(LineDescriptorExtractor, FollowsTheLine) {
   const auto moved = [](const Vector2d& shift, double angle) {
     const Vector2d middle(319.5, 239.5);
     Eigen::Matrix2d turn;
@@ -44,7 +44,7 @@ TEST(LineDescriber, FollowsTheLine) {
   EXPECT_LE(HammingDistance(still, moved({0.0, 0.0}, 3.0)), 40);
 }
 
-TEST(LineDescriber, TellsLinesAndDirectionsApart) {
+TEST(LineDescriptorExtractor, TellsLinesAndDirectionsApart) {
   const cv::Mat image = testing::DrawQuadrilaterals(640, 480, {0.0, 0.0});
   const Descriptor here = Describe(image, kSegment);
   EXPECT_GT(HammingDistance(here, Describe(image, {kSegment.end, kSegment.start})), 80);
@@ -52,14 +52,16 @@ TEST(LineDescriber, TellsLinesAndDirectionsApart) {
             80);
 }
 
-TEST(LineDescriber, ReachesBeyondTheBorder) {
+TEST(LineDescriptorExtractor, ReachesBeyondTheBorder) {
   const cv::Mat image = testing::DrawQuadrilaterals(641, 479, {0.0, 0.0});
-  LineDescriber describer;
-  describer.SetImage(image);
+  LineDescriptorExtractor descriptor_extractor;
+  descriptor_extractor.SetImage(image);
   const Vector2d corner(640.0, 478.0);
-  const Descriptor along_border = describer.Describe({Vector2d(0.0, 0.0), Vector2d(0.0, 478.0)});
-  EXPECT_EQ(along_border, describer.Describe({Vector2d(0.0, 0.0), Vector2d(0.0, 478.0)}));
-  EXPECT_NE(along_border, describer.Describe({Vector2d(0.0, 0.0), corner}));
+  const Descriptor along_border =
+      descriptor_extractor.Describe({Vector2d(0.0, 0.0), Vector2d(0.0, 478.0)});
+  EXPECT_EQ(along_border,
+            descriptor_extractor.Describe({Vector2d(0.0, 0.0), Vector2d(0.0, 478.0)}));
+  EXPECT_NE(along_border, descriptor_extractor.Describe({Vector2d(0.0, 0.0), corner}));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 namespace msc_vo {
 namespace {
 
-constexpr int kBorder = PointDescriber::kBorder;
+constexpr int kBorder = PointDescriptorExtractor::kBorder;
 
 struct Picture {
   cv::Mat gray;
@@ -26,7 +26,7 @@ struct Picture {
   explicit Picture(const cv::Mat& image) : gray(image) {
     cv::GaussianBlur(gray, smooth, cv::Size(5, 5), 0.0);
   }
-  PointDescriber describer() const { return {gray, smooth}; }
+  PointDescriptorExtractor descriptor_extractor() const { return {gray, smooth}; }
 };
 
 // Every seventh pixel that may be described.
@@ -38,7 +38,7 @@ std::vector<cv::Point> Places(const cv::Size& size) {
   return places;
 }
 
-TEST(PointDescriber, AnglePointsToTheBrightSide) {
+TEST(PointDescriptorExtractor, AnglePointsToTheBrightSide) {
   for (const double degrees : {0.0, 30.0, 90.0, -120.0, 179.0}) {
     const double angle = DegreesToRadians(degrees);
     cv::Mat ramp(60, 60, CV_8UC1);
@@ -49,23 +49,24 @@ TEST(PointDescriber, AnglePointsToTheBrightSide) {
       }
     }
     const Picture picture(ramp);
-    EXPECT_NEAR(picture.describer().Angle({30, 30}), angle, DegreesToRadians(0.5));
+    EXPECT_NEAR(picture.descriptor_extractor().Angle({30, 30}), angle, DegreesToRadians(0.5));
   }
 }
 
-TEST(PointDescriber, QuarterTurnsTurnAngleAndKeepDescriptor) {
+TEST(PointDescriptorExtractor, QuarterTurnsTurnAngleAndKeepDescriptor) {
   const Picture picture(testing::DrawQuadrilaterals(161, 161, {0.0, 0.0}));
   cv::Mat turned_image;
   cv::rotate(picture.gray, turned_image, cv::ROTATE_90_CLOCKWISE);
   const Picture turned(turned_image);
   for (const cv::Point& place : Places(picture.gray.size())) {
     const cv::Point there(160 - place.y, place.x);
-    const double angle = picture.describer().Angle(place);
-    EXPECT_NEAR(std::remainder(turned.describer().Angle(there) - angle - kPi / 2.0, 2.0 * kPi), 0.0,
-                1e-9);
+    const double angle = picture.descriptor_extractor().Angle(place);
+    EXPECT_NEAR(
+        std::remainder(turned.descriptor_extractor().Angle(there) - angle - kPi / 2.0, 2.0 * kPi),
+        0.0, 1e-9);
     // Half pixels are rounded to one side: few pairs compare other pixels.
-    EXPECT_LE(HammingDistance(picture.describer().Describe(place, angle),
-                              turned.describer().Describe(there, angle + kPi / 2.0)),
+    EXPECT_LE(HammingDistance(picture.descriptor_extractor().Describe(place, angle),
+                              turned.descriptor_extractor().Describe(there, angle + kPi / 2.0)),
               16);
   }
 }
@@ -82,7 +83,7 @@ cv::Mat WithNoise(const cv::Mat& image, uint32_t seed) {
 
 // What matching rests on: the same patch with other noise and another contrast is near, another
 // patch is half of the bits away.
-TEST(PointDescriber, TellsPatchesApart) {
+TEST(PointDescriptorExtractor, TellsPatchesApart) {
   const cv::Mat image = testing::DrawQuadrilaterals(320, 240, {0.0, 0.0}, 0.0, /*noise=*/0.0);
   cv::Mat darker;
   image.convertTo(darker, CV_8U, 0.6, 20.0);
@@ -93,9 +94,9 @@ TEST(PointDescriber, TellsPatchesApart) {
   for (size_t i = 0; i < corners.size(); ++i) {
     const cv::Point& here = corners[i].pixel;
     const cv::Point& elsewhere = corners[(i + corners.size() / 2) % corners.size()].pixel;
-    const Descriptor descriptor = a.describer().Describe(here, 0.0);
-    same.push_back(HammingDistance(descriptor, b.describer().Describe(here, 0.0)));
-    other.push_back(HammingDistance(descriptor, b.describer().Describe(elsewhere, 0.0)));
+    const Descriptor descriptor = a.descriptor_extractor().Describe(here, 0.0);
+    same.push_back(HammingDistance(descriptor, b.descriptor_extractor().Describe(here, 0.0)));
+    other.push_back(HammingDistance(descriptor, b.descriptor_extractor().Describe(elsewhere, 0.0)));
   }
   std::sort(same.begin(), same.end());
   std::sort(other.begin(), other.end());
@@ -104,7 +105,7 @@ TEST(PointDescriber, TellsPatchesApart) {
 }
 
 // What lies around an image, in a larger one that it is a view into, changes nothing.
-TEST(PointDescriber, StaysInsideAtTheBorder) {
+TEST(PointDescriptorExtractor, StaysInsideAtTheBorder) {
   constexpr int kSize = 2 * kBorder + 1;
   const Picture picture(testing::DrawQuadrilaterals(kSize, kSize, {0.0, 0.0}));
   const cv::Point only(kBorder, kBorder);
@@ -117,10 +118,10 @@ TEST(PointDescriber, StaysInsideAtTheBorder) {
     const cv::Rect inside(5, 5, kSize, kSize);
     const cv::Mat gray = framed(picture.gray, surroundings)(inside);
     const cv::Mat smooth = framed(picture.smooth, surroundings)(inside);
-    const PointDescriber view(gray, smooth);
-    EXPECT_EQ(view.Angle(only), picture.describer().Angle(only));
+    const PointDescriptorExtractor view(gray, smooth);
+    EXPECT_EQ(view.Angle(only), picture.descriptor_extractor().Angle(only));
     for (double angle = 0.0; angle < 2.0 * kPi; angle += 0.1) {
-      EXPECT_EQ(view.Describe(only, angle), picture.describer().Describe(only, angle));
+      EXPECT_EQ(view.Describe(only, angle), picture.descriptor_extractor().Describe(only, angle));
     }
   }
 }

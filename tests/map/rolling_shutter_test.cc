@@ -59,7 +59,7 @@ TEST(RollingShutter, UnrolledFeaturesAreWhereAGlobalShutterShowsThem) {
   for (const double readout_time : {kReadout, -kReadout}) {
     const Frame rolled = Rolled(readout_time);
     EXPECT_GT(LargestError(rolled), 5.0);
-    const Frame frame = Unroll(rolled, kVelocity, readout_time);
+    const Frame frame = CompensateRollingShutter(rolled, kVelocity, readout_time);
     EXPECT_LT(LargestError(frame), 1e-6);
     for (size_t i = 0; i < frame.points.size(); ++i) {
       EXPECT_NEAR(frame.points[i].inverse_depth, 1.0 / Points()[i].z(), 1e-9);
@@ -74,7 +74,7 @@ TEST(RollingShutter, UnrolledFeaturesAreWhereAGlobalShutterShowsThem) {
 
 TEST(RollingShutter, AGlobalOneLeavesFeaturesWhereTheyAre) {
   const Frame rolled = Rolled(kReadout);
-  const Frame frame = Unroll(rolled, kVelocity, 0.0);
+  const Frame frame = CompensateRollingShutter(rolled, kVelocity, 0.0);
   for (size_t i = 0; i < frame.points.size(); ++i) {
     EXPECT_EQ(frame.points[i].pixel, rolled.points[i].pixel);
   }
@@ -87,8 +87,9 @@ TEST(RollingShutter, WhatHasNoDepthMovesByTheRotation) {
   rolled.points[0].pixel = {100.0, 450.0};
   rolled.lines.push_back(LineFeature());
   rolled.lines[0].segment = {{10.0, 20.0}, {100.0, 450.0}};
-  const Frame turned = Unroll(rolled, {kVelocity.angular, {0.0, 0.0, 0.0}}, kReadout);
-  const Frame moved = Unroll(rolled, kVelocity, kReadout);
+  const Frame turned =
+      CompensateRollingShutter(rolled, {kVelocity.angular, {0.0, 0.0, 0.0}}, kReadout);
+  const Frame moved = CompensateRollingShutter(rolled, kVelocity, kReadout);
   EXPECT_GT((turned.points[0].pixel - rolled.points[0].pixel).norm(), 1.0);
   EXPECT_EQ(moved.points[0].pixel, turned.points[0].pixel);
   EXPECT_FALSE(moved.points[0].HasDepth());
@@ -98,7 +99,8 @@ TEST(RollingShutter, WhatHasNoDepthMovesByTheRotation) {
 
 TEST(RollingShutter, WhatAWrongVelocityWouldPutBehindTheCameraStays) {
   const Frame rolled = Rolled(kReadout);
-  const Frame frame = Unroll(rolled, {Eigen::Vector3d::Zero(), {0.0, 0.0, 500.0}}, kReadout);
+  const Frame frame =
+      CompensateRollingShutter(rolled, {Eigen::Vector3d::Zero(), {0.0, 0.0, 500.0}}, kReadout);
   for (size_t i = 0; i < frame.points.size(); ++i) {
     EXPECT_GT(frame.points[i].inverse_depth, 0.0);
   }
@@ -108,16 +110,18 @@ TEST(RollingShutter, WhatAWrongVelocityWouldPutBehindTheCameraStays) {
 
 TEST(RollingShutter, UnrollsAnewFromWhatWasUnrolledWrongly) {
   const Frame rolled = Rolled(kReadout);
-  const Frame wrong = Unroll(rolled, {0.7 * kVelocity.angular, {0.1, 0.0, 0.0}}, 0.6 * kReadout);
+  const Frame wrong =
+      CompensateRollingShutter(rolled, {0.7 * kVelocity.angular, {0.1, 0.0, 0.0}}, 0.6 * kReadout);
   EXPECT_GT(LargestError(wrong), 3.0);
   // Phases are those of the pixels as they are now: some rows off, some percent of the difference.
-  EXPECT_LT(LargestError(Unroll(wrong, kVelocity, kReadout)), 0.04 * LargestError(wrong));
+  EXPECT_LT(LargestError(CompensateRollingShutter(wrong, kVelocity, kReadout)),
+            0.04 * LargestError(wrong));
 }
 
 TEST(RollingShutter, RayChangeIsTheDerivativeByTheReadoutTime) {
   const Frame rolled = Rolled(kReadout);
-  const Frame frame = Unroll(rolled, kVelocity, kReadout);
-  const Frame later = Unroll(frame, kVelocity, kReadout + 1e-6);
+  const Frame frame = CompensateRollingShutter(rolled, kVelocity, kReadout);
+  const Frame later = CompensateRollingShutter(frame, kVelocity, kReadout + 1e-6);
   for (size_t i = 0; i < frame.points.size(); ++i) {
     const PointFeature& point = frame.points[i];
     const Eigen::Vector3d ray =

@@ -65,7 +65,7 @@ TEST_F(FusionTest, FeaturesThatMoveTakeNoPart) {
   const KeyframeId first = map.AddKeyframe(world.See(0), SyntheticFrames::CamFromWorld(0));
   CreatePoints(first, &probation_, &map);
   auto marked = std::make_shared<Frame>(*world.See(15));
-  for (size_t i = 1; i < marked->points.size(); ++i) marked->points[i].moves = i % 2 == 0;
+  for (size_t i = 1; i < marked->points.size(); ++i) marked->points[i].dynamic = i % 2 == 0;
   const KeyframeId second = map.AddKeyframe(marked, SyntheticFrames::CamFromWorld(15));
   // One that both see makes them neighbours.
   for (const LandmarkId id : map.FindKeyframe(first)->points) {
@@ -77,7 +77,7 @@ TEST_F(FusionTest, FeaturesThatMoveTakeNoPart) {
   int num_seen = 0;
   for (size_t i = 0; i < marked->points.size(); ++i) {
     const bool is_seen = map.FindKeyframe(second)->points[i] != kNoId;
-    EXPECT_FALSE(is_seen && marked->points[i].moves) << i;
+    EXPECT_FALSE(is_seen && marked->points[i].dynamic) << i;
     num_seen += is_seen;
   }
   EXPECT_GT(num_seen, 0.3 * marked->points.size());  // of the half that rests

@@ -62,8 +62,8 @@ TEST(Mapper, WhatMovesBecomesNoLandmark) {
   Mapper mapper{MapperOptions()};
   KeyframePacket packet = Packet(&world, 0, &random);
   auto marked = std::make_shared<Frame>(*packet.frame);
-  marked->points[3].moves = true;
-  marked->lines[1].moves = true;
+  marked->points[3].dynamic = true;
+  marked->lines[1].dynamic = true;
   packet.frame = marked;
   mapper.Process(packet);
   EXPECT_EQ(mapper.map().points().size(), marked->points.size() - 1);
@@ -165,14 +165,14 @@ TEST(Mapper, WhatTheObserverSeesIsSolvedToTheSameBytes) {
   options.window.second_iterations = 7;
   Mapper mapper(options);
   std::vector<KeyframeId> keyframes;
-  WindowOptions seen_options;
+  BundleAdjustmentOptions seen_options;
   WindowData seen;
-  mapper.SetWindowObserver(
-      [&](KeyframeId keyframe, const WindowOptions& window_options, const WindowData& window) {
-        keyframes.push_back(keyframe);
-        seen_options = window_options;
-        seen = window;
-      });
+  mapper.SetWindowObserver([&](KeyframeId keyframe, const BundleAdjustmentOptions& window_options,
+                               const WindowData& window) {
+    keyframes.push_back(keyframe);
+    seen_options = window_options;
+    seen = window;
+  });
   MappingSummary summary;
   for (int index = 0; index <= 30; index += 10) {
     summary = Process(&world, index, &random, &mapper);
@@ -182,7 +182,7 @@ TEST(Mapper, WhatTheObserverSeesIsSolvedToTheSameBytes) {
   EXPECT_EQ(seen_options.second_iterations, 7);
 
   const WindowData before = seen;
-  const WindowSummary again = SolveWindow(seen_options, &seen);
+  const BundleAdjustmentSummary again = LocalBundleAdjustment(seen_options, &seen);
   EXPECT_EQ(again.initial_cost, summary.window->initial_cost);
   EXPECT_EQ(again.final_cost, summary.window->final_cost);
   ASSERT_EQ(seen.keyframes.size(), 4u);
@@ -227,7 +227,7 @@ TEST(Mapper, MemoryIsBoundedInOnePlace) {
 
 TEST(Mapper, RefusesBadOptions) {
   MapperOptions options;
-  options.culling.redundant_share = 2.0;
+  options.culling.redundant_ratio = 2.0;
   EXPECT_THROW(Mapper{options}, std::invalid_argument);
 }
 

@@ -55,7 +55,7 @@ TEST(LineMatcher, TakesTheNearerOfTwoAlike) {
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches[0].id, 2);
   EXPECT_TRUE(MatchLines(LineMatcherOptions(), frame, {far, near}, 5.0, {true}).empty());
-  frame.lines[0].moves = true;
+  frame.lines[0].dynamic = true;
   EXPECT_TRUE(MatchLines(LineMatcherOptions(), frame, {far, near}, 5.0, {}).empty());
 }
 

@@ -60,7 +60,7 @@ TEST_F(PointMatcherTest, RefusesUnlikeAmbiguousOrTakenFeatures) {
       MatchPoints(options_, frame_, {Candidate(7, 100, 100, zero_)}, 10.0, {false, true, false});
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches[0].feature, 2);
-  frame_.points[2].moves = true;
+  frame_.points[2].dynamic = true;
   EXPECT_TRUE(
       MatchPoints(options_, frame_, {Candidate(7, 100, 100, zero_)}, 10.0, {false, true, false})
           .empty());

@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Both, MappingRunnerTest, testing::Bool(), RunnerName);
 TEST_P(MappingRunnerTest, GivesTwoStepsForEachKeyframeInOrder) {
   const std::thread::id caller = std::this_thread::get_id();
   std::thread::id worker;
-  mapper_.SetWindowObserver([&](KeyframeId, const WindowOptions&, const WindowData&) {
+  mapper_.SetWindowObserver([&](KeyframeId, const BundleAdjustmentOptions&, const WindowData&) {
     worker = std::this_thread::get_id();
   });
   const std::unique_ptr<MappingRunner> runner = MakeRunner();
@@ -86,9 +86,10 @@ TEST_P(MappingRunnerTest, GivesTwoStepsForEachKeyframeInOrder) {
 }
 
 TEST_P(MappingRunnerTest, AStepThatThrowsIsToldAndTheNextOnesRun) {
-  mapper_.SetWindowObserver([](KeyframeId keyframe, const WindowOptions&, const WindowData&) {
-    if (keyframe == 1) throw std::runtime_error("disk full");
-  });
+  mapper_.SetWindowObserver(
+      [](KeyframeId keyframe, const BundleAdjustmentOptions&, const WindowData&) {
+        if (keyframe == 1) throw std::runtime_error("disk full");
+      });
   const std::unique_ptr<MappingRunner> runner = MakeRunner();
   for (int i = 0; i < 3; ++i) runner->Submit(Packet(i));
   for (int i = 0; i < 3; ++i) EXPECT_EQ(runner->Take().error, nullptr);
@@ -122,12 +123,13 @@ TEST_P(MappingRunnerTest, EndsWithStepsThatNobodyTook) {
 class BusyRunnerTest : public MappingRunnerTest {
  protected:
   BusyRunnerTest() {
-    mapper_.SetWindowObserver([this](KeyframeId, const WindowOptions&, const WindowData&) {
-      if (num_windows_++ == 0) {
-        reached_.set_value();
-        gate_.get_future().wait();
-      }
-    });
+    mapper_.SetWindowObserver(
+        [this](KeyframeId, const BundleAdjustmentOptions&, const WindowData&) {
+          if (num_windows_++ == 0) {
+            reached_.set_value();
+            gate_.get_future().wait();
+          }
+        });
   }
 
   std::promise<void> reached_;

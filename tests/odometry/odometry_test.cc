@@ -169,9 +169,10 @@ TEST_F(OdometryTest, AnErrorOfTheMapperIsThrownAndTheRunGoesOn) {
     OdometryOptions options;
     options.threads = threads;
     Odometry odometry(options, camera_, LensDistortion());
-    odometry.SetWindowObserver([](KeyframeId keyframe, const WindowOptions&, const WindowData&) {
-      if (keyframe == 1) throw std::runtime_error("disk full");
-    });
+    odometry.SetWindowObserver(
+        [](KeyframeId keyframe, const BundleAdjustmentOptions&, const WindowData&) {
+          if (keyframe == 1) throw std::runtime_error("disk full");
+        });
     int num_errors = 0;
     for (const RgbdImage& image : *images_) {
       try {
@@ -192,7 +193,7 @@ TEST_F(OdometryTest, FinishThrowsAnErrorThatNoFrameHeardOfAndThenGivesTheResult)
   OdometryOptions options;
   options.snapshots.insertion_latency_frames = options.snapshots.latency_frames = 1000;
   Odometry odometry(options, camera_, LensDistortion());
-  odometry.SetWindowObserver([](KeyframeId, const WindowOptions&, const WindowData&) {
+  odometry.SetWindowObserver([](KeyframeId, const BundleAdjustmentOptions&, const WindowData&) {
     throw std::runtime_error("disk full");
   });
   for (const RgbdImage& image : *images_) odometry.Process(image);
@@ -309,8 +310,8 @@ TEST_F(OdometryTest, SomethingThatMovesThroughTheImageDoesNotTakeTheCameraAlong)
     const OdometryResult result = Run(options, WithBoard(*images_, first, kNumSteps));
     EXPECT_EQ(Count(result, TrackingStatus::kTracked), kNumFrames);
     EXPECT_LT(ApeRmse(result), 0.006);  // as without a board
-    EXPECT_EQ(result.frames[first - 5].num_moving, 0);
-    EXPECT_GT(result.frames[first + kNumSteps / 2].num_moving, 50);
+    EXPECT_EQ(result.frames[first - 5].num_dynamic, 0);
+    EXPECT_GT(result.frames[first + kNumSteps / 2].num_dynamic, 50);
   }
   options.tracking.pose.consensus.enabled = false;
   EXPECT_GT(ApeRmse(Run(options, WithBoard(*images_, 15, kNumSteps))), 0.03);

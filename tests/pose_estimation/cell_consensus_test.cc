@@ -56,14 +56,14 @@ class BoardMaker {
     return low + (high - low) * (random_() / 4294967296.0);
   }
 
-  void AddPoint(const Eigen::Vector2d& pixel, double z, const Eigen::Vector3d& offset, bool proven,
-                PoseData* data) {
+  void AddPoint(const Eigen::Vector2d& pixel, double z, const Eigen::Vector3d& offset,
+                bool confirmed, PoseData* data) {
     PoseData::Point point;
     point.position = data->camera.BackProject(pixel, z) + offset;
     point.pixel = pixel + 0.7 * Eigen::Vector2d(normal_(random_), normal_(random_));
     point.inverse_depth_sigma = 2e-3;
     point.inverse_depth = 1.0 / z + point.inverse_depth_sigma * normal_(random_);
-    point.proven = proven;
+    point.confirmed = proven;
     data->points.push_back(point);
   }
 
@@ -88,7 +88,7 @@ class BoardMaker {
 
 double ErrorOf(const BoardScene& scene, const PoseOptions& options) {
   PoseData data = BoardMaker(scene).Make();
-  EXPECT_TRUE(SolvePose(options, &data).usable);
+  EXPECT_TRUE(OptimizePose(options, &data).usable);
   return data.cam_from_world.translation().norm();  // the true one is the identity
 }
 
@@ -99,7 +99,7 @@ PoseOptions WithoutConsensus() {
 }
 
 // Turning and moving along, a camera explains the board and nearly explains the room.
-TEST(PoseConsensusTest, ABoardThatMovesDoesNotMoveTheCamera) {
+TEST(CellConsensusTest, ABoardThatMovesDoesNotMoveTheCamera) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     BoardScene scene;
     scene.seed = seed;
@@ -109,40 +109,41 @@ TEST(PoseConsensusTest, ABoardThatMovesDoesNotMoveTheCamera) {
   }
 }
 
-TEST(PoseConsensusTest, WhatMovesIsSaidAndIsNeitherInlierNorFailure) {
+TEST(CellConsensusTest, WhatMovesIsSaidAndIsNeitherInlierNorFailure) {
   const BoardScene scene;
   const BoardMaker maker(scene);
   PoseData data = BoardMaker(scene).Make();
-  const PoseSummary summary = SolvePose(PoseOptions(), &data);
+  const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   int board_moves = 0, room_moves = 0;
   for (const PoseData::Point& point : data.points) {
-    EXPECT_FALSE(point.moves && point.inlier);
-    (maker.IsBoard(point.pixel) ? board_moves : room_moves) += point.moves;
+    EXPECT_FALSE(point.dynamic && point.inlier);
+    (maker.IsBoard(point.pixel) ? board_moves : room_moves) += point.dynamic;
   }
   EXPECT_GT(board_moves, 0.9 * scene.num_board);
   EXPECT_LT(room_moves, 0.2 * scene.num_room);  // parts at the edges hold both
-  EXPECT_EQ(summary.num_moving, board_moves + room_moves +
-                                    std::count_if(data.lines.begin(), data.lines.end(),
-                                                  [](const PoseData::Line& l) { return l.moves; }));
+  EXPECT_EQ(summary.num_dynamic,
+            board_moves + room_moves +
+                std::count_if(data.lines.begin(), data.lines.end(),
+                              [](const PoseData::Line& l) { return l.dynamic; }));
   // Matches move with their part (a line: of its middle), and parts without a match rest.
-  const ConsensusOptions options;
-  const ImageParts parts(options.columns, options.rows, data.camera);
-  ASSERT_EQ(summary.moving_parts.size(), static_cast<size_t>(parts.size()));
+  const CellConsensusOptions options;
+  const ImageGrid parts(options.columns, options.rows, data.camera);
+  ASSERT_EQ(summary.dynamic_cells.size(), static_cast<size_t>(parts.size()));
   std::vector<bool> with_matches(parts.size());
   for (const PoseData::Point& point : data.points) {
-    EXPECT_EQ(point.moves, summary.moving_parts[parts.PartOf(point.pixel)]);
-    with_matches[parts.PartOf(point.pixel)] = true;
+    EXPECT_EQ(point.dynamic, summary.dynamic_cells[parts.CellOf(point.pixel)]);
+    with_matches[parts.CellOf(point.pixel)] = true;
   }
   for (const PoseData::Line& line : data.lines) {
-    EXPECT_EQ(line.moves, summary.moving_parts[parts.PartOf(line.segment)]);
-    for (const int part : parts.PartsOf(line.segment)) with_matches[part] = true;
+    EXPECT_EQ(line.dynamic, summary.dynamic_cells[parts.CellOf(line.segment)]);
+    for (const int part : parts.CellsOf(line.segment)) with_matches[part] = true;
   }
   for (int part = 0; part < parts.size(); ++part) {
-    EXPECT_TRUE(with_matches[part] || !summary.moving_parts[part]) << part;
+    EXPECT_TRUE(with_matches[part] || !summary.dynamic_cells[part]) << part;
   }
 }
 
-TEST(PoseConsensusTest, ItDoesNotMatterWhereTheBoardIs) {
+TEST(CellConsensusTest, ItDoesNotMatterWhereTheBoardIs) {
   for (const double left : {0.0, 120.0, 230.0, 340.0}) {
     BoardScene scene;
     scene.left = left;
@@ -151,23 +152,23 @@ TEST(PoseConsensusTest, ItDoesNotMatterWhereTheBoardIs) {
   }
 }
 
-TEST(PoseConsensusTest, ARoomThatStandsStillIsLeftAlone) {
+TEST(CellConsensusTest, ARoomThatStandsStillIsLeftAlone) {
   for (unsigned seed = 1; seed <= 50; ++seed) {
     BoardScene scene;
     scene.board_motion = Eigen::Vector3d::Zero();
     scene.seed = seed;
     PoseData with = BoardMaker(scene).Make();
     PoseData without = with;
-    const PoseSummary summary = SolvePose(PoseOptions(), &with);
-    EXPECT_EQ(summary.num_moving, 0) << seed;
-    EXPECT_TRUE(summary.moving_parts.empty()) << seed;
-    SolvePose(WithoutConsensus(), &without);
+    const PoseSummary summary = OptimizePose(PoseOptions(), &with);
+    EXPECT_EQ(summary.num_dynamic, 0) << seed;
+    EXPECT_TRUE(summary.dynamic_cells.empty()) << seed;
+    OptimizePose(WithoutConsensus(), &without);
     EXPECT_EQ(with.cam_from_world.params, without.cam_from_world.params) << seed;
   }
 }
 
 // The room has a tenth of the points, in as many parts as the board. Its lines run through more.
-TEST(PoseConsensusTest, LinesVoteWhereverTheyRun) {
+TEST(CellConsensusTest, LinesVoteWhereverTheyRun) {
   int num_captured = 0;
   for (unsigned seed = 1; seed <= 6; ++seed) {
     BoardScene scene;
@@ -183,7 +184,7 @@ TEST(PoseConsensusTest, LinesVoteWhereverTheyRun) {
 }
 
 // Half of the image each.
-TEST(PoseConsensusTest, WhatIsProvenHasMoreToSay) {
+TEST(CellConsensusTest, WhatIsProvenHasMoreToSay) {
   BoardScene scene;
   scene.left = 0.0;
   scene.right = 340.0;
@@ -196,19 +197,19 @@ TEST(PoseConsensusTest, WhatIsProvenHasMoreToSay) {
   EXPECT_GT(ErrorOf(scene, PoseOptions()), 0.02);
 }
 
-TEST(PoseConsensusTest, RejectsOptionsThatMeanNothing) {
-  const auto is_valid = [](void (*spoil)(ConsensusOptions*)) {
-    ConsensusOptions options;
+TEST(CellConsensusTest, RejectsOptionsThatMeanNothing) {
+  const auto is_valid = [](void (*spoil)(CellConsensusOptions*)) {
+    CellConsensusOptions options;
     spoil(&options);
     std::string error;
     return options.IsValid(&error) || error.find("consensus: ") != 0;
   };
-  EXPECT_FALSE(is_valid([](ConsensusOptions* o) { o->columns = 0; }));
-  EXPECT_FALSE(is_valid([](ConsensusOptions* o) { o->rows = 0; }));
-  EXPECT_FALSE(is_valid([](ConsensusOptions* o) { o->reject_chi2_6 = 0.0; }));
-  EXPECT_FALSE(is_valid([](ConsensusOptions* o) { o->min_parts = -1.0; }));
-  EXPECT_FALSE(is_valid([](ConsensusOptions* o) { o->unproven_weight = 0.0; }));
-  EXPECT_FALSE(is_valid([](ConsensusOptions* o) { o->unproven_weight = 1.5; }));
+  EXPECT_FALSE(is_valid([](CellConsensusOptions* o) { o->columns = 0; }));
+  EXPECT_FALSE(is_valid([](CellConsensusOptions* o) { o->rows = 0; }));
+  EXPECT_FALSE(is_valid([](CellConsensusOptions* o) { o->reject_chi2_6 = 0.0; }));
+  EXPECT_FALSE(is_valid([](CellConsensusOptions* o) { o->min_cells = -1.0; }));
+  EXPECT_FALSE(is_valid([](CellConsensusOptions* o) { o->unconfirmed_weight = 0.0; }));
+  EXPECT_FALSE(is_valid([](CellConsensusOptions* o) { o->unconfirmed_weight = 1.5; }));
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST_P(PoseProblemTest, ExactMatchesGiveTheExactPose) {
   scene.noise = 0.0;
   const SyntheticWindow window = MakeSyntheticWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
-  const PoseSummary summary = SolvePose(PoseOptions(), &data);
+  const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   EXPECT_TRUE(summary.usable);
   EXPECT_EQ(summary.num_inlier_points, 200);
   EXPECT_EQ(summary.num_inlier_lines, 40);
@@ -64,7 +64,7 @@ TEST_P(PoseProblemTest, PixelsOfPointsOrOfLinesAloneFixThePose) {
     options.line_reprojection.enabled = !points;
     options.point_depth.enabled = options.line_depth.enabled = false;
     PoseData data = MakePoseData(window, kFrame);
-    EXPECT_TRUE(SolvePose(options, &data).usable) << points;
+    EXPECT_TRUE(OptimizePose(options, &data).usable) << points;
     EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-7) << points;
   }
 }
@@ -75,7 +75,7 @@ TEST_P(PoseProblemTest, DepthOfPointsAloneIsNotUsable) {
   options.point_reprojection.enabled = options.line_reprojection.enabled = false;
   options.line_depth.enabled = false;
   PoseData data = MakePoseData(MakeSyntheticWindow(Scene()), kFrame);
-  EXPECT_FALSE(SolvePose(options, &data).usable);
+  EXPECT_FALSE(OptimizePose(options, &data).usable);
 }
 
 TEST_P(PoseProblemTest, NoiseAndWrongMatches) {
@@ -83,7 +83,7 @@ TEST_P(PoseProblemTest, NoiseAndWrongMatches) {
   scene.wrong_ratio = 0.3;
   const SyntheticWindow window = MakeSyntheticWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
-  const PoseSummary summary = SolvePose(PoseOptions(), &data);
+  const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   ASSERT_TRUE(summary.usable);
   // Within the ellipsoid of its own covariance that holds 99.9 % (six degrees of freedom).
   EXPECT_LT(Nees(data.cam_from_world, summary, Truth(window)), 22.46);
@@ -117,7 +117,7 @@ TEST_P(PoseProblemTest, AFrameThatIsSeenWorseKeepsItsMatches) {
     options.max_frame_noise = max_frame_noise;
     PoseData data = MakePoseData(window, kFrame);
     const auto num_points = static_cast<double>(data.points.size());
-    return SolvePose(options, &data).num_inlier_points / num_points;
+    return OptimizePose(options, &data).num_inlier_points / num_points;
   };
   // Of normal errors 1 - exp(-9.21 / 2 / 1.8^2) = 0.76 pass a test for sigmas 1.8 times too small.
   EXPECT_NEAR(share_of_inliers(1.0), 0.76, 0.1);
@@ -138,14 +138,14 @@ TEST_P(PoseProblemTest, AMatchThatBecomesGoodComesBack) {
   options.num_rounds = 1;
   options.num_robust_rounds = 1;
   PoseData first = data;
-  SolvePose(options, &first);
+  OptimizePose(options, &first);
   int inliers_at_first = 0;
   for (const auto& p : first.points) inliers_at_first += p.inlier;
   ASSERT_LT(inliers_at_first, 180);
   ASSERT_GT(inliers_at_first, 10);
   options.num_rounds = 8;
   options.num_robust_rounds = 4;
-  EXPECT_EQ(SolvePose(options, &data).num_inlier_points, 200);
+  EXPECT_EQ(OptimizePose(options, &data).num_inlier_points, 200);
   EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-6);
 }
 
@@ -156,7 +156,7 @@ TEST_P(PoseProblemTest, AWrongDepthCostsItsDepthOnly) {
   PoseData data = MakePoseData(window, kFrame);
   for (int i = 0; i < 40; ++i) data.points[i].inverse_depth += 0.1;
   for (int i = 0; i < 8; ++i) data.lines[i].depth.start += 0.1;
-  const PoseSummary summary = SolvePose(PoseOptions(), &data);
+  const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   EXPECT_EQ(summary.num_inlier_points, 200);
   EXPECT_EQ(summary.num_inlier_lines, 40);
   EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-7);
@@ -170,7 +170,7 @@ TEST_P(PoseProblemTest, MatchesBehindTheCameraAreOutliers) {
   PoseData data = MakePoseData(window, kFrame);
   data.points[3].position.z() = -2.0;
   data.lines[5].map_segment.end.z() = -2.0;
-  const PoseSummary summary = SolvePose(PoseOptions(), &data);
+  const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   EXPECT_TRUE(summary.usable);
   EXPECT_FALSE(data.points[3].inlier);
   EXPECT_FALSE(data.lines[5].inlier);
@@ -186,7 +186,7 @@ double MeanNees(SyntheticWindowOptions scene, int runs) {
     scene.seed = 1000 + run;
     const SyntheticWindow window = MakeSyntheticWindow(scene);
     PoseData data = MakePoseData(window, kFrame);
-    const PoseSummary summary = SolvePose(PoseOptions(), &data);
+    const PoseSummary summary = OptimizePose(PoseOptions(), &data);
     EXPECT_TRUE(summary.usable) << run;
     sum += Nees(data.cam_from_world, summary, Truth(window));
   }
@@ -220,15 +220,15 @@ TEST_P(PoseProblemTest, SameInputSameBytes) {
   scene.wrong_ratio = 0.2;
   PoseData a = MakePoseData(MakeSyntheticWindow(scene), kFrame);
   PoseData b = MakePoseData(MakeSyntheticWindow(scene), kFrame);
-  SolvePose(PoseOptions(), &a);
-  SolvePose(PoseOptions(), &b);
+  OptimizePose(PoseOptions(), &a);
+  OptimizePose(PoseOptions(), &b);
   EXPECT_EQ(a.cam_from_world.params, b.cam_from_world.params);
 }
 
 // Not usable: the pose is the prediction, bit for bit, and there is no covariance.
 void ExpectNotUsable(PoseData data) {
   const Rigid3 prediction = data.cam_from_world;
-  const PoseSummary summary = SolvePose(PoseOptions(), &data);
+  const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   EXPECT_FALSE(summary.usable);
   EXPECT_EQ(data.cam_from_world.params, prediction.params);
   EXPECT_TRUE(summary.covariance.isZero(0.0));
@@ -252,7 +252,7 @@ TEST_P(PoseProblemTest, ThreePointsWithDepthAreEnough) {
   PoseData data = MakePoseData(window, kFrame);
   data.lines.clear();
   data.points.resize(3);
-  EXPECT_TRUE(SolvePose(PoseOptions(), &data).usable);
+  EXPECT_TRUE(OptimizePose(PoseOptions(), &data).usable);
   EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-6);
 }
 
@@ -290,7 +290,7 @@ TEST_P(PoseProblemTest, MisuseNamesTheOffender) {
   const PoseData good = MakePoseData(MakeSyntheticWindow(Scene()), kFrame);
   const auto message = [](PoseData data, const PoseOptions& options = PoseOptions()) {
     try {
-      SolvePose(options, &data);
+      OptimizePose(options, &data);
     } catch (const std::invalid_argument& error) {
       return std::string(error.what());
     }

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "msc_vo/config/option_list.h"
-#include "msc_vo/text/text_file.h"
 #include "msc_vo/synthetic/window/synthetic_window.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 namespace {
@@ -154,7 +154,7 @@ class WindowFileTest : public TemporaryFolder {
 
 TEST_F(WindowFileTest, EveryNumberComesBack) {
   const WindowData data = AwkwardWindow();
-  WriteWindow(Path("window.txt"), WindowOptions(), data);
+  WriteWindow(Path("window.txt"), BundleAdjustmentOptions(), data);
   const RecordedWindow read = ReadWindow(Path("window.txt"));
   ExpectSameStates(read.data, data);
   ExpectSameObservations(read.data, data);
@@ -193,10 +193,10 @@ TEST_F(WindowFileTest, AWindowThatWasReadIsSolvedToTheSameBytes) {
   options.outlier_ratio = 0.05;
   WindowData data = MakeSyntheticWindow(options).data;
   data.parallel_pairs = {{data.lines[0].id, data.lines[1].id, 0.03, 2}};
-  WriteWindow(Path("window.txt"), WindowOptions(), data);
+  WriteWindow(Path("window.txt"), BundleAdjustmentOptions(), data);
   RecordedWindow read = ReadWindow(Path("window.txt"));
-  const WindowSummary wanted = SolveWindow(WindowOptions(), &data);
-  const WindowSummary found = SolveWindow(read.options, &read.data);
+  const BundleAdjustmentSummary wanted = LocalBundleAdjustment(BundleAdjustmentOptions(), &data);
+  const BundleAdjustmentSummary found = LocalBundleAdjustment(read.options, &read.data);
   ASSERT_TRUE(wanted.usable);
   EXPECT_EQ(found.final_cost, wanted.final_cost);
   ExpectSameStates(read.data, data);
@@ -212,13 +212,13 @@ TEST_F(WindowFileTest, CanBeEditedByHand) {
             "end 3");
   const RecordedWindow window = ReadWindow(Path("window.txt"));
   EXPECT_EQ(window.options.parallel.huber, 3.0);
-  EXPECT_EQ(window.options.manhattan.huber, WindowOptions().manhattan.huber);
+  EXPECT_EQ(window.options.manhattan.huber, BundleAdjustmentOptions().manhattan.huber);
   ASSERT_EQ(window.data.keyframes.size(), 1u);
   EXPECT_EQ(window.data.keyframes[0].cam_from_world.translation(), Eigen::Vector3d(0.5, 0, 1));
 }
 
 TEST_F(WindowFileTest, ErrorsNameLineAndFix) {
-  const std::string text = FormatWindow(WindowOptions(), AwkwardWindow());
+  const std::string text = FormatWindow(BundleAdjustmentOptions(), AwkwardWindow());
   const auto expect = [&](const std::string& from, const std::string& to, const std::string& what) {
     const std::string where = "window.txt:" + std::to_string(LineOf(text, from)) + ": ";
     const std::string error = ErrorOf(Replaced(text, from, to));
@@ -253,17 +253,17 @@ TEST_F(WindowFileTest, ErrorsNameLineAndFix) {
 }
 
 TEST_F(WindowFileTest, ErrorsOfTheWholeFile) {
-  const std::string text = FormatWindow(WindowOptions(), AwkwardWindow());
+  const std::string text = FormatWindow(BundleAdjustmentOptions(), AwkwardWindow());
   const std::string camera = "camera 1 1 1 1 1 1\n";
   EXPECT_EQ(ErrorOf(""), "window.txt: is empty; a window file is needed");
   EXPECT_THAT(ErrorOf("msc_vo_window 1\nend 0\n"),
               StartsWith("window.txt:2: the window has no cam"));
   EXPECT_THAT(ErrorOf("msc_vo_window 1\n" + camera + camera + "end 2\n"),
               StartsWith("window.txt:3: a second camera"));
-  EXPECT_THAT(ErrorOf("msc_vo_window 1\noption mapping.window.line_anchor true\n"
-                      "option mapping.window.line_anchor true\n" +
+  EXPECT_THAT(ErrorOf("msc_vo_window 1\noption mapping.window.line_endpoint_prior true\n"
+                      "option mapping.window.line_endpoint_prior true\n" +
                       camera + "end 3\n"),
-              StartsWith("window.txt:3: 'mapping.window.line_anchor' is given twice"));
+              StartsWith("window.txt:3: 'mapping.window.line_endpoint_prior' is given twice"));
   EXPECT_THAT(ErrorOf(text + camera), HasSubstr("stands behind the 'end'"));
   EXPECT_THAT(MessageOf([&] { ReadWindow(Path("none.txt")); }), HasSubstr("none.txt: does not"));
   EXPECT_THAT(MessageOf([&] { ReadWindow(Folder()); }), HasSubstr("is a folder"));
@@ -290,13 +290,13 @@ TEST_F(WindowFileTest, NoiseMayBeLeftOut) {
 TEST_F(WindowFileTest, NumbersThatAreNotFiniteAreWrittenAndRefused) {
   WindowData data;
   data.points = {{7, {0.0, std::nan(""), 1.0}}};
-  const std::string text = FormatWindow(WindowOptions(), data);
+  const std::string text = FormatWindow(BundleAdjustmentOptions(), data);
   EXPECT_THAT(text, HasSubstr("point 7 free 0 nan 1 1\n"));
   EXPECT_THAT(ErrorOf(text), HasSubstr("'nan' should be Y, a finite number"));
 }
 
 TEST_F(WindowFileTest, AFileThatIsCutAnywhereIsRefused) {
-  const std::string text = FormatWindow(WindowOptions(), AwkwardWindow());
+  const std::string text = FormatWindow(BundleAdjustmentOptions(), AwkwardWindow());
   const size_t whole = text.size() - 1;  // the last line break is not missed
   for (size_t size = 0; size < whole; ++size) {
     EXPECT_THAT(ErrorOf(text.substr(0, size)), StartsWith("window.txt:")) << size;
@@ -305,7 +305,7 @@ TEST_F(WindowFileTest, AFileThatIsCutAnywhereIsRefused) {
 }
 
 TEST_F(WindowFileTest, WrongBytesAreReadOrRefused) {
-  const std::string text = FormatWindow(WindowOptions(), AwkwardWindow());
+  const std::string text = FormatWindow(BundleAdjustmentOptions(), AwkwardWindow());
   std::mt19937 random(1);
   int num_refused = 0;
   for (int trial = 0; trial < 2000; ++trial) {
@@ -320,7 +320,7 @@ TEST_F(WindowFileTest, WrongBytesAreReadOrRefused) {
 }
 
 TEST_F(WindowFileTest, JsonOfASolution) {
-  WindowSummary summary;
+  BundleAdjustmentSummary summary;
   summary.usable = true;
   summary.final_cost = 0.1 + 0.2;
   summary.perpendicular = {3, 1, 2.5, 1.5};

@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/text/text_file.h"
-#include "msc_vo/datasets/trajectory.h"
 
 namespace msc_vo {
 namespace {
@@ -36,7 +36,7 @@ class ResultFilesTest : public TemporaryFolder {
     result.frames[0].is_keyframe = true;
     result.frames[0].times.mapping = 40.0;
     result.frames[1].covariance(3, 3) = 0.04;
-    result.frames[4].num_moving = 80;
+    result.frames[4].num_dynamic = 80;
     result.frames[2].status = TrackingStatus::kPredicted;
     result.frames[3].status = TrackingStatus::kLost;
     result.frames[4].status = TrackingStatus::kWeak;

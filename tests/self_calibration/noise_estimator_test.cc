@@ -39,7 +39,7 @@ double LearntScale(const NoiseEstimatorOptions& options, const Disturb& disturb)
     WindowData window = NoisyWindow(seed);
     disturb(&window);
     noise.Apply(&window);
-    EXPECT_TRUE(SolveWindow(WindowOptions(), &window).usable);
+    EXPECT_TRUE(LocalBundleAdjustment(BundleAdjustmentOptions(), &window).usable);
     noise.Update(WindowResiduals(window));
   }
   return noise.scale().point_depth;
@@ -135,7 +135,7 @@ double LearntLinePixelScale(double factor, size_t gross) {
       o.segment.end.y() += 20.0;
     }
     noise.Apply(&window);
-    EXPECT_TRUE(SolveWindow(WindowOptions(), &window).usable);
+    EXPECT_TRUE(LocalBundleAdjustment(BundleAdjustmentOptions(), &window).usable);
     noise.Update(WindowResiduals(window));
   }
   return noise.scale().line_pixel;
@@ -160,7 +160,7 @@ TEST(NoiseEstimator, LinesHaveAScaleOfTheirOwn) {
     WindowData window = MakeSyntheticWindow(options).data;
     for (auto& o : window.line_observations) o.depth.covariance *= 0.25;
     noise.Apply(&window);
-    ASSERT_TRUE(SolveWindow(WindowOptions(), &window).usable);
+    ASSERT_TRUE(LocalBundleAdjustment(BundleAdjustmentOptions(), &window).usable);
     noise.Update(WindowResiduals(window));
   }
   EXPECT_GT(noise.scale().line_depth, 1.4);

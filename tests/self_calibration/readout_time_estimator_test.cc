@@ -34,11 +34,11 @@ KeyframeId AddKeyframe(RollingFrames* world, int index, Map* map) {
   return id;
 }
 
-std::optional<ReadoutEstimate> EstimateFirst(const Map& map, double start = 0.0) {
-  return EstimateReadout(*map.FindKeyframe(0), *map.FindKeyframe(1), start);
+std::optional<ReadoutTimeEstimate> EstimateFirst(const Map& map, double start = 0.0) {
+  return EstimateReadoutTime(*map.FindKeyframe(0), *map.FindKeyframe(1), start);
 }
 
-TEST(ReadoutPair, FindsTheTimeFromTwoKeyframes) {
+TEST(ReadoutTimePair, FindsTheTimeFromTwoKeyframes) {
   for (const double truth : {kReadout, 0.0, -0.015}) {
     RollingFrames world(truth, 0.0);
     Map map;
@@ -49,7 +49,7 @@ TEST(ReadoutPair, FindsTheTimeFromTwoKeyframes) {
 }
 
 // Landmarks are what a pose with another time, or none, has left.
-TEST(ReadoutPair, DoesNotDependOnLandmarks) {
+TEST(ReadoutTimePair, DoesNotDependOnLandmarks) {
   RollingFrames world(kReadout, 0.0);
   Map map;
   for (const int index : {0, 1}) {
@@ -58,16 +58,16 @@ TEST(ReadoutPair, DoesNotDependOnLandmarks) {
   EXPECT_NEAR(EstimateFirst(map)->readout_time, kReadout, 2e-4);
 }
 
-TEST(ReadoutPair, KnowsWhatKeyframesAreUnrolledWith) {
+TEST(ReadoutTimePair, KnowsWhatKeyframesAreUnrolledWith) {
   RollingFrames world(kReadout, 0.0);
   Map map;
   for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
-  UnrollKeyframes(0.02, &map);
+  CompensateKeyframes(0.02, &map);
   EXPECT_EQ(map.FindKeyframe(1)->frame->readout_time, 0.02);
   EXPECT_NEAR(EstimateFirst(map)->readout_time, kReadout, 5e-4);
 }
 
-TEST(ReadoutPair, WrongMatchesDoNotDecide) {
+TEST(ReadoutTimePair, WrongMatchesDoNotDecide) {
   RollingFrames world(kReadout, 0.3);
   Map map;
   AddKeyframe(&world, 0, &map);
@@ -78,7 +78,7 @@ TEST(ReadoutPair, WrongMatchesDoNotDecide) {
   EXPECT_NEAR(EstimateFirst(map)->readout_time, kReadout, 2e-3);
 }
 
-TEST(ReadoutPair, AStandingCameraTellsNothing) {
+TEST(ReadoutTimePair, AStandingCameraTellsNothing) {
   RollingFrames world(kReadout, 0.3);
   Map map;
   for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
@@ -91,7 +91,7 @@ TEST(ReadoutPair, AStandingCameraTellsNothing) {
   EXPECT_LT(EstimateFirst(map)->information, 1e-9 * information);
 }
 
-TEST(ReadoutPair, NeedsVelocitiesAndPoints) {
+TEST(ReadoutTimePair, NeedsVelocitiesAndPoints) {
   RollingFrames world(kReadout, 0.0);
   Map map;
   for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
@@ -109,54 +109,54 @@ TEST(ReadoutPair, NeedsVelocitiesAndPoints) {
 double Learnt(double truth, const std::optional<double>& known) {
   RollingFrames world(truth, 0.5);
   Map map;
-  ReadoutEstimator readout(known);
+  ReadoutTimeEstimator readout(known);
   for (int index = 0; index < 12; ++index) {
     const KeyframeId id = AddKeyframe(&world, index, &map);
-    UnrollKeyframes(readout.readout_time(), &map);
+    CompensateKeyframes(readout.readout_time(), &map);
     readout.Update(map, id);
   }
   return readout.readout_time();
 }
 
-TEST(ReadoutEstimator, LearnsTheTimeOfARollingShutter) {
+TEST(ReadoutTimeEstimator, LearnsTheTimeOfARollingShutter) {
   EXPECT_NEAR(Learnt(kReadout, std::nullopt), kReadout, 1e-3);
   EXPECT_NEAR(Learnt(-kReadout, std::nullopt), -kReadout, 1e-3);
 }
 
-TEST(ReadoutEstimator, AGlobalShutterStaysGlobal) { EXPECT_EQ(Learnt(0.0, std::nullopt), 0.0); }
+TEST(ReadoutTimeEstimator, AGlobalShutterStaysGlobal) { EXPECT_EQ(Learnt(0.0, std::nullopt), 0.0); }
 
-TEST(ReadoutEstimator, WhatIsKnownStays) {
+TEST(ReadoutTimeEstimator, WhatIsKnownStays) {
   EXPECT_EQ(Learnt(kReadout, 0.02), 0.02);
   EXPECT_EQ(Learnt(kReadout, 0.0), 0.0);
 }
 
-TEST(ReadoutEstimator, IsNotLongerThanAnImage) {
+TEST(ReadoutTimeEstimator, IsNotLongerThanAnImage) {
   const double learnt = Learnt(0.045, std::nullopt);
   EXPECT_LE(learnt, 1.0 / 30.0);
   EXPECT_GT(learnt, 0.032);
 }
 
-TEST(KeyframeUnrolling, LeavesWhatIsNearEnoughOrHasNoVelocity) {
+TEST(KeyframeRollingShutter, LeavesWhatIsNearEnoughOrHasNoVelocity) {
   RollingFrames world(kReadout, 0.0);
   Map map;
   for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
   auto frame = std::make_shared<Frame>(*map.FindKeyframe(0)->frame);
   frame->velocity.reset();
   map.SetFrame(0, frame);
-  UnrollKeyframes(kReadout, &map);
+  CompensateKeyframes(kReadout, &map);
   EXPECT_EQ(map.FindKeyframe(0)->frame, frame);
   const auto unrolled = map.FindKeyframe(1)->frame;
   EXPECT_EQ(unrolled->readout_time, kReadout);
-  UnrollKeyframes(kReadout + 0.0005, &map);
+  CompensateKeyframes(kReadout + 0.0005, &map);
   EXPECT_EQ(map.FindKeyframe(1)->frame, unrolled);
 }
 
-TEST(KeyframeUnrolling, ABetterVelocityUnrollsAnew) {
+TEST(KeyframeRollingShutter, ABetterVelocityUnrollsAnew) {
   RollingFrames world(kReadout, 0.0);
   Map map;
   AddKeyframe(&world, 0, &map);
   SetVelocity(0, {1.1 * RollingFrames::Velocity(0).angular, {0.0, 0.0, 0.0}}, &map);
-  UnrollKeyframes(kReadout, &map);
+  CompensateKeyframes(kReadout, &map);
   SetVelocity(0, RollingFrames::Velocity(0), &map);
   const Frame& frame = *map.FindKeyframe(0)->frame;
   EXPECT_EQ(frame.readout_time, kReadout);

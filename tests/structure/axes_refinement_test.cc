@@ -57,7 +57,7 @@ class ManhattanAxesTest : public ::testing::Test {
 TEST_F(ManhattanAxesTest, ExactDirectionsGiveTheExactRotation) {
   ManhattanAxesData data = Observe(truth_, 30, 0.01, 0.0, &random_);
   Disturb(&data, 5.0);
-  const ManhattanAxesSummary summary = SolveManhattanAxes(options_, &data);
+  const ManhattanAxesSummary summary = RefineManhattanAxes(options_, &data);
   ASSERT_TRUE(summary.usable);
   EXPECT_LT(Error(data, truth_).norm(), 1e-6);
   EXPECT_EQ(summary.num_inliers, 30);
@@ -75,7 +75,7 @@ TEST_F(ManhattanAxesTest, NoiseAndWrongAssociationsFromACoarseStart) {
     o.normal = o.direction.unitOrthogonal();
   }
   Disturb(&data, 5.0);
-  const ManhattanAxesSummary summary = SolveManhattanAxes(options_, &data);
+  const ManhattanAxesSummary summary = RefineManhattanAxes(options_, &data);
   ASSERT_TRUE(summary.usable);
   EXPECT_LT(RadiansToDegrees(Error(data, truth_).norm()), 0.2);
   int inliers = 0, wrong_kept = 0;
@@ -94,7 +94,7 @@ TEST_F(ManhattanAxesTest, CovarianceIsThatOfTheErrors) {
   const int count = 300;
   for (int k = 0; k < count; ++k) {
     ManhattanAxesData data = Observe(truth_, 30, 0.01, 0.01, &random_);
-    const ManhattanAxesSummary summary = SolveManhattanAxes(options_, &data);
+    const ManhattanAxesSummary summary = RefineManhattanAxes(options_, &data);
     ASSERT_TRUE(summary.usable);
     const Eigen::Vector3d error = Error(data, truth_);
     sum += error * error.transpose() / count;
@@ -109,9 +109,9 @@ TEST_F(ManhattanAxesTest, CovarianceIsThatOfTheErrors) {
 TEST_F(ManhattanAxesTest, CovarianceGrowsWithTheResiduals) {
   ManhattanAxesData data = Observe(truth_, 300, 0.01, 0.015, &random_);
   options_.reject_chi2_2 = 1e6;
-  const ManhattanAxesSummary noisy = SolveManhattanAxes(options_, &data);
+  const ManhattanAxesSummary noisy = RefineManhattanAxes(options_, &data);
   data = Observe(truth_, 300, 0.01, 0.005, &random_);
-  const ManhattanAxesSummary quiet = SolveManhattanAxes(options_, &data);
+  const ManhattanAxesSummary quiet = RefineManhattanAxes(options_, &data);
   ASSERT_TRUE(noisy.usable && quiet.usable);
   EXPECT_NEAR(noisy.covariance.trace() / quiet.covariance.trace(), 2.25, 0.4);
   EXPECT_NEAR(quiet.covariance.trace(), 3.0 * 1e-4 / 200.0, 1e-8);  // what the sigmas promise
@@ -123,7 +123,7 @@ TEST_F(ManhattanAxesTest, OneAxisAloneDoesNotFixTheRotation) {
     data.observations[i] = data.observations[i - i % 3];
   }
   const Eigen::Vector4d before = data.world_from_manhattan.coeffs();
-  const ManhattanAxesSummary summary = SolveManhattanAxes(options_, &data);
+  const ManhattanAxesSummary summary = RefineManhattanAxes(options_, &data);
   EXPECT_FALSE(summary.usable);
   EXPECT_EQ(summary.covariance, Eigen::Matrix3d::Zero());
   EXPECT_EQ(data.world_from_manhattan.coeffs(), before);
@@ -135,15 +135,15 @@ TEST_F(ManhattanAxesTest, TwoAxesDo) {
     if (i % 3 == 2) data.observations[i] = data.observations[i - 1];
   }
   Disturb(&data, 4.0);
-  ASSERT_TRUE(SolveManhattanAxes(options_, &data).usable);
+  ASSERT_TRUE(RefineManhattanAxes(options_, &data).usable);
   EXPECT_LT(RadiansToDegrees(Error(data, truth_).norm()), 0.5);
 }
 
 TEST_F(ManhattanAxesTest, TooFewInliersOrNoObservations) {
   ManhattanAxesData data = Observe(truth_, 5, 0.01, 0.0, &random_);
-  EXPECT_FALSE(SolveManhattanAxes(options_, &data).usable);
+  EXPECT_FALSE(RefineManhattanAxes(options_, &data).usable);
   data.observations.clear();
-  const ManhattanAxesSummary summary = SolveManhattanAxes(options_, &data);
+  const ManhattanAxesSummary summary = RefineManhattanAxes(options_, &data);
   EXPECT_FALSE(summary.usable);
   EXPECT_EQ(summary.num_inliers, 0);
 }
@@ -152,7 +152,7 @@ TEST_F(ManhattanAxesTest, OutliersOfEarlierRoundsMayReturn) {
   ManhattanAxesData data = Observe(truth_, 60, 0.01, 0.005, &random_);
   for (auto& o : data.observations) o.inlier = false;  // forgotten at the next solve
   Disturb(&data, 8.0);
-  ASSERT_TRUE(SolveManhattanAxes(options_, &data).usable);
+  ASSERT_TRUE(RefineManhattanAxes(options_, &data).usable);
   for (const auto& o : data.observations) EXPECT_TRUE(o.inlier);
 }
 
@@ -160,8 +160,8 @@ TEST_F(ManhattanAxesTest, SameInputSameBytes) {
   ManhattanAxesData a = Observe(truth_, 60, 0.01, 0.01, &random_);
   Disturb(&a, 3.0);
   ManhattanAxesData b = a;
-  SolveManhattanAxes(options_, &a);
-  SolveManhattanAxes(options_, &b);
+  RefineManhattanAxes(options_, &a);
+  RefineManhattanAxes(options_, &b);
   EXPECT_EQ(a.world_from_manhattan.coeffs(), b.world_from_manhattan.coeffs());
 }
 
@@ -171,7 +171,7 @@ TEST_F(ManhattanAxesTest, MisuseNamesTheObservation) {
     ManhattanAxesData data = good;
     spoil(&data);
     try {
-      SolveManhattanAxes(options_, &data);
+      RefineManhattanAxes(options_, &data);
     } catch (const std::invalid_argument& error) {
       return error.what();
     }

@@ -25,51 +25,51 @@ class AxisAssignment : public ::testing::Test {
  protected:
   Random random_{1};
   Quaterniond rotation_ = testing::RandomRotation(&random_);
-  AxisAssignmentOptions options_;
+  AxisAssociationOptions options_;
 };
 
 TEST_F(AxisAssignment, FindsTheAxisOfALineOfEitherSign) {
   for (int axis = 0; axis < 3; ++axis) {
     AxisEvidence line = LineOff(rotation_, axis, 1.0, 0.5);
-    EXPECT_EQ(AssignAxis(options_, rotation_, 0.0, line), axis);
+    EXPECT_EQ(AssociateAxis(options_, rotation_, 0.0, line), axis);
     line.direction = -line.direction;
-    EXPECT_EQ(AssignAxis(options_, rotation_, 0.0, line), axis);
+    EXPECT_EQ(AssociateAxis(options_, rotation_, 0.0, line), axis);
   }
 }
 
 TEST_F(AxisAssignment, GateIsInSigmasOfTheLine) {
-  EXPECT_TRUE(AssignAxis(options_, rotation_, 0.0, LineOff(rotation_, 1, 1.4, 0.5)));
-  EXPECT_FALSE(AssignAxis(options_, rotation_, 0.0, LineOff(rotation_, 1, 1.6, 0.5)));
-  EXPECT_TRUE(AssignAxis(options_, rotation_, 0.0, LineOff(rotation_, 1, 1.6, 0.6)));
+  EXPECT_TRUE(AssociateAxis(options_, rotation_, 0.0, LineOff(rotation_, 1, 1.4, 0.5)));
+  EXPECT_FALSE(AssociateAxis(options_, rotation_, 0.0, LineOff(rotation_, 1, 1.6, 0.5)));
+  EXPECT_TRUE(AssociateAxis(options_, rotation_, 0.0, LineOff(rotation_, 1, 1.6, 0.6)));
 }
 
 TEST_F(AxisAssignment, GateKnowsTheSigmaOfTheAxes) {
   const AxisEvidence line = LineOff(rotation_, 2, 3.0, 0.5);
-  EXPECT_FALSE(AssignAxis(options_, rotation_, DegreesToRadians(0.5), line));
-  EXPECT_TRUE(AssignAxis(options_, rotation_, DegreesToRadians(1.0), line));
+  EXPECT_FALSE(AssociateAxis(options_, rotation_, DegreesToRadians(0.5), line));
+  EXPECT_TRUE(AssociateAxis(options_, rotation_, DegreesToRadians(1.0), line));
 }
 
 TEST_F(AxisAssignment, NoLineIsTakenBeyondTheAngle) {
-  EXPECT_TRUE(AssignAxis(options_, rotation_, 0.0, LineOff(rotation_, 0, 4.9, 3.0)));
-  EXPECT_FALSE(AssignAxis(options_, rotation_, 0.0, LineOff(rotation_, 0, 5.1, 3.0)));
+  EXPECT_TRUE(AssociateAxis(options_, rotation_, 0.0, LineOff(rotation_, 0, 4.9, 3.0)));
+  EXPECT_FALSE(AssociateAxis(options_, rotation_, 0.0, LineOff(rotation_, 0, 5.1, 3.0)));
 }
 
 TEST_F(AxisAssignment, UncertainLinesAreLeftAlone) {
-  EXPECT_TRUE(AssignAxis(options_, rotation_, 0.0, LineOff(rotation_, 0, 0.0, 4.9)));
-  EXPECT_FALSE(AssignAxis(options_, rotation_, 0.0, LineOff(rotation_, 0, 0.0, 5.1)));
-  EXPECT_FALSE(AssignAxis(options_, rotation_, 0.0, LineOff(rotation_, 0, 0.0, std::nan(""))));
+  EXPECT_TRUE(AssociateAxis(options_, rotation_, 0.0, LineOff(rotation_, 0, 0.0, 4.9)));
+  EXPECT_FALSE(AssociateAxis(options_, rotation_, 0.0, LineOff(rotation_, 0, 0.0, 5.1)));
+  EXPECT_FALSE(AssociateAxis(options_, rotation_, 0.0, LineOff(rotation_, 0, 0.0, std::nan(""))));
 }
 
 TEST_F(AxisAssignment, DiagonalsBelongToNoAxis) {
   const Vector3d diagonal = rotation_ * Vector3d(1, 1, 0).normalized();
-  EXPECT_FALSE(AssignAxis(options_, rotation_, 0.0, {diagonal, DegreesToRadians(5.0)}));
+  EXPECT_FALSE(AssociateAxis(options_, rotation_, 0.0, {diagonal, DegreesToRadians(5.0)}));
 }
 
 TEST_F(AxisAssignment, OfRandomLinesOneInAHundredIsTaken) {
   int num_taken = 0;
   for (int i = 0; i < 20000; ++i) {
     const AxisEvidence line = {testing::RandomDirection(&random_), DegreesToRadians(4.0)};
-    if (AssignAxis(options_, rotation_, 0.0, line)) ++num_taken;
+    if (AssociateAxis(options_, rotation_, 0.0, line)) ++num_taken;
   }
   // 3 (1 - cos 5 degrees) of 20000 is 228; its standard deviation is 15.
   EXPECT_NEAR(num_taken, 228, 60);
@@ -81,7 +81,7 @@ TEST_F(AxisAssignment, OfLinesOnAxesNinetyNineInAHundredAreTaken) {
     testing::Evidence lines;
     const Vector3d axis = rotation_ * Vector3d::UnitX();
     testing::AddAlong(axis, 1, DegreesToRadians(1.0), &random_, &lines);
-    if (AssignAxis(options_, rotation_, 0.0, lines[0]) == 0) ++num_taken;
+    if (AssociateAxis(options_, rotation_, 0.0, lines[0]) == 0) ++num_taken;
   }
   EXPECT_NEAR(num_taken, 9900, 50);
 }
@@ -91,7 +91,7 @@ TEST_F(AxisAssignment, BadOptionsAreNamed) {
   std::string error;
   EXPECT_FALSE(options_.IsValid(&error));
   EXPECT_NE(error.find("max_angle"), std::string::npos);
-  EXPECT_THROW(AssignAxis(options_, rotation_, 0.0, {}), std::invalid_argument);
+  EXPECT_THROW(AssociateAxis(options_, rotation_, 0.0, {}), std::invalid_argument);
 }
 
 }  // namespace

@@ -203,8 +203,8 @@ TEST(CoarseAxes, DoNotDependOnOrderAndSigns) {
   const auto expect_same = [&](const ManhattanAxes& other) {
     EXPECT_EQ(other.rotation.coeffs(), first->rotation.coeffs());
     EXPECT_EQ(other.share, first->share);
-    EXPECT_EQ(other.line_share, first->line_share);
-    EXPECT_EQ(other.normal_share, first->normal_share);
+    EXPECT_EQ(other.line_ratio, first->line_ratio);
+    EXPECT_EQ(other.normal_ratio, first->normal_ratio);
   };
   expect_same(*Find(view));
   std::reverse(view.lines.begin(), view.lines.end());
@@ -249,18 +249,18 @@ TEST(CoarseAxes, AreNearestToTheIdentityAndSayWhatSupportsEach) {
   const auto axes = Find(RoomView(truth, 0.0, &random));
   ASSERT_TRUE(axes);
   EXPECT_LT(RadiansToDegrees(axes->rotation.angularDistance(truth)), 1.0);
-  EXPECT_NEAR(axes->line_share.x(), 0.5, 0.02);
-  EXPECT_NEAR(axes->line_share.z(), 0.125, 0.02);
-  EXPECT_NEAR(axes->normal_share.x(), 0.1875, 0.02);
-  EXPECT_NEAR(axes->normal_share.z(), 0.5, 0.02);
+  EXPECT_NEAR(axes->line_ratio.x(), 0.5, 0.02);
+  EXPECT_NEAR(axes->line_ratio.z(), 0.125, 0.02);
+  EXPECT_NEAR(axes->normal_ratio.x(), 0.1875, 0.02);
+  EXPECT_NEAR(axes->normal_ratio.z(), 0.5, 0.02);
 }
 
 TEST(CoarseAxes, BadOptionsAreNamed) {
   CoarseAxesOptions options;
-  options.min_share = 1.5;
+  options.min_explained_ratio = 1.5;
   std::string error;
   EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_NE(error.find("min_share"), std::string::npos);
+  EXPECT_NE(error.find("min_explained_ratio"), std::string::npos);
   EXPECT_THROW(FindCoarseAxes(options, {}, {}), std::invalid_argument);
   EXPECT_TRUE(CoarseAxesOptions().IsValid(&error));
 }

@@ -37,9 +37,9 @@ class FrameStructureFactorsTest : public ::testing::Test {
   }
 
   // The same factors in Ceres.
-  void AddTo(ceres::Problem* problem, std::vector<SightLineBlock>* blocks) const {
+  void AddTo(ceres::Problem* problem, std::vector<InverseDepthLineBlock>* blocks) const {
     for (size_t i = 0; i < factors_.lines.size(); ++i) {
-      problem->AddResidualBlock(SightLinePrior::Create(frame_.lines[i].depth), nullptr,
+      problem->AddResidualBlock(InverseDepthLinePrior::Create(frame_.lines[i].depth), nullptr,
                                 (*blocks)[i].data());
     }
     const auto add = [&](ceres::CostFunction* cost, int i, int j) {
@@ -47,12 +47,13 @@ class FrameStructureFactorsTest : public ::testing::Test {
                                 (*blocks)[j].data());
     };
     for (const auto& p : factors_.parallel) {
-      add(SightLinePair<ParallelLines>::Create(factors_.lines[p.i], factors_.lines[p.j], kSigma),
+      add(InverseDepthLinePair<ParallelLines>::Create(factors_.lines[p.i], factors_.lines[p.j],
+                                                      kSigma),
           p.i, p.j);
     }
     for (const auto& p : factors_.perpendicular) {
-      add(SightLinePair<PerpendicularLines>::Create(factors_.lines[p.i], factors_.lines[p.j],
-                                                    kSigma),
+      add(InverseDepthLinePair<PerpendicularLines>::Create(factors_.lines[p.i], factors_.lines[p.j],
+                                                           kSigma),
           p.i, p.j);
     }
   }
@@ -60,14 +61,14 @@ class FrameStructureFactorsTest : public ::testing::Test {
   static constexpr double kSigma = 0.008;
   StructureFrame frame_;
   FrameStructureFactors factors_;
-  std::vector<SightLineBlock> blocks_;
+  std::vector<InverseDepthLineBlock> blocks_;
 };
 
 TEST_F(FrameStructureFactorsTest, CostAndGradientAreThoseOfCeres) {
   ASSERT_GT(factors_.parallel.size(), 5u);
   ASSERT_GT(factors_.perpendicular.size(), 5u);
   Random random(3);
-  for (SightLineBlock& b : blocks_) {
+  for (InverseDepthLineBlock& b : blocks_) {
     b.head<2>() += 0.004 * random.Normal2();
     b.tail<2>() += random.Normal2();
   }
@@ -80,7 +81,7 @@ TEST_F(FrameStructureFactorsTest, CostAndGradientAreThoseOfCeres) {
   ASSERT_TRUE(problem.Evaluate({}, &cost, nullptr, &gradient, nullptr));
   EXPECT_NEAR(equations.cost, cost, 1e-9 * cost);
   for (size_t i = 0; i < blocks_.size(); ++i) {
-    const SightLineBlock expected(&gradient[4 * i]);
+    const InverseDepthLineBlock expected(&gradient[4 * i]);
     EXPECT_THAT(equations.gradient[i], IsNear(expected, 1e-9 * (1.0 + expected.norm())));
   }
 }
@@ -89,7 +90,7 @@ TEST_F(FrameStructureFactorsTest, MinimumIsThatOfCeres) {
   // A pair that is wrong by far: the loss is at work in both.
   factors_.perpendicular.push_back(
       {PerpendicularLines(kSigma), factors_.parallel[0].i, factors_.parallel[0].j});
-  std::vector<SightLineBlock> in_ceres = blocks_, mine = blocks_;
+  std::vector<InverseDepthLineBlock> in_ceres = blocks_, mine = blocks_;
   ceres::Problem problem;
   AddTo(&problem, &in_ceres);
   SolveToEnd(&problem);
@@ -102,10 +103,10 @@ TEST_F(FrameStructureFactorsTest, MinimumIsThatOfCeres) {
   for (size_t i = 0; i < mine.size(); ++i) {
     // In sigmas of the fit; the minimiser stops at a hundredth.
     Eigen::Vector4d error;
-    const SightLineBlock difference = mine[i] - in_ceres[i];
+    const InverseDepthLineBlock difference = mine[i] - in_ceres[i];
     LineDepth at_zero = frame_.lines[i].depth;
     at_zero.start = at_zero.end = 0.0;
-    SightLinePrior prior(at_zero);
+    InverseDepthLinePrior prior(at_zero);
     prior(difference.data(), error.data());
     EXPECT_LT(error.norm(), 0.02) << i;
   }

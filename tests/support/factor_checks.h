@@ -108,7 +108,8 @@ inline void ExpectSameCostFunction(const ceres::CostFunction& analytic,
 
 template <typename Factor>
 void ExpectChainRuleMatches(const Factor& factor, const Blocks& blocks) {
-  ExpectSameCostFunction(ChainRuleCost<Factor>(factor), *CostPtr(Factor::Create(factor)), blocks);
+  ExpectSameCostFunction(AnalyticCostFunction<Factor>(factor), *CostPtr(Factor::Create(factor)),
+                         blocks);
 }
 
 // Covariance of samples against the identity, within five standard errors of the estimate.

@@ -10,9 +10,9 @@
 
 #include <Eigen/Cholesky>
 
+#include "msc_vo/bundle_adjustment/window_data.h"
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/pose_estimation/pose_optimization.h"
-#include "msc_vo/bundle_adjustment/window_data.h"
 
 namespace msc_vo {
 

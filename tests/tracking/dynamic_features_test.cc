@@ -9,7 +9,7 @@ namespace msc_vo {
 namespace {
 
 // Two points and two lines, one each in the left and in the right half of the image.
-class MovingFeaturesTest : public ::testing::Test {
+class DynamicFeaturesTest : public ::testing::Test {
  protected:
   void SetUp() override {
     options_.columns = 2;
@@ -26,34 +26,34 @@ class MovingFeaturesTest : public ::testing::Test {
     tracked_.frame = frame;
   }
 
-  ConsensusOptions options_;
+  CellConsensusOptions options_;
   TrackedFrame tracked_;
 };
 
-TEST_F(MovingFeaturesTest, AreThoseInPartsThatMove) {
-  tracked_.moving_parts = {true, false};
-  const auto marked = MarkMovingFeatures(options_, tracked_);
-  EXPECT_TRUE(marked->points[0].moves);
-  EXPECT_FALSE(marked->points[1].moves);
-  EXPECT_TRUE(marked->lines[0].moves);
-  EXPECT_FALSE(marked->lines[1].moves);
-  EXPECT_FALSE(tracked_.frame->points[0].moves);  // others may have that frame
+TEST_F(DynamicFeaturesTest, AreThoseInPartsThatMove) {
+  tracked_.dynamic_cells = {true, false};
+  const auto marked = MarkDynamicFeatures(options_, tracked_);
+  EXPECT_TRUE(marked->points[0].dynamic);
+  EXPECT_FALSE(marked->points[1].dynamic);
+  EXPECT_TRUE(marked->lines[0].dynamic);
+  EXPECT_FALSE(marked->lines[1].dynamic);
+  EXPECT_FALSE(tracked_.frame->points[0].dynamic);  // others may have that frame
 }
 
-TEST_F(MovingFeaturesTest, AreNotWhatAgreesWithThePose) {
-  tracked_.moving_parts = {true, true};
+TEST_F(DynamicFeaturesTest, AreNotWhatAgreesWithThePose) {
+  tracked_.dynamic_cells = {true, true};
   tracked_.matches.points.resize(1);
   tracked_.matches.lines.resize(1);
   tracked_.matches.lines[0].feature = 1;
-  const auto marked = MarkMovingFeatures(options_, tracked_);
-  EXPECT_FALSE(marked->points[0].moves);
-  EXPECT_TRUE(marked->points[1].moves);
-  EXPECT_TRUE(marked->lines[0].moves);
-  EXPECT_FALSE(marked->lines[1].moves);
+  const auto marked = MarkDynamicFeatures(options_, tracked_);
+  EXPECT_FALSE(marked->points[0].dynamic);
+  EXPECT_TRUE(marked->points[1].dynamic);
+  EXPECT_TRUE(marked->lines[0].dynamic);
+  EXPECT_FALSE(marked->lines[1].dynamic);
 }
 
-TEST_F(MovingFeaturesTest, AFrameInWhichNothingMovesStaysAsItIs) {
-  EXPECT_EQ(MarkMovingFeatures(options_, tracked_), tracked_.frame);
+TEST_F(DynamicFeaturesTest, AFrameInWhichNothingMovesStaysAsItIs) {
+  EXPECT_EQ(MarkDynamicFeatures(options_, tracked_), tracked_.frame);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ MinimizerReport MinimizeWindow(const WindowStructure& structure, const WindowTer
   };
   MinimizerReport report;
   report.schur_structure = "block Schur, " + std::to_string(structure.num_poses) + " poses, " +
-                           std::to_string(structure.num_kept_lines) + " line directions";
+                           std::to_string(structure.num_reduced_lines) + " line directions";
   // Equations at the present state, and at the one that a step leads to.
   WindowEquations equations, next;
   enter(WindowStage::kLinearize);

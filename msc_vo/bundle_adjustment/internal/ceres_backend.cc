@@ -9,9 +9,9 @@
 
 #include <ceres/solver.h>
 
+#include "msc_vo/bundle_adjustment/internal/elimination_order.h"
 #include "msc_vo/factors/analytic_cost_function.h"
 #include "msc_vo/factors/analytic_line_pair_cost_function.h"
-#include "msc_vo/bundle_adjustment/internal/elimination_order.h"
 
 namespace msc_vo {
 
@@ -30,37 +30,41 @@ ceres::Problem::Options ProblemOptions() {
 // The cost function of a factor with derivatives by hand, of those factors that are many.
 template <typename Factor, int Points, int RowsPerPoint>
 ceres::CostFunction* Analytic(const CameraFactor<Factor, Points, RowsPerPoint>& factor) {
-  return new ChainRuleCost<Factor>(static_cast<const Factor&>(factor));
+  return new AnalyticCostFunction<Factor>(static_cast<const Factor&>(factor));
 }
 template <typename Factor, int Rows>
 ceres::CostFunction* Analytic(const LinePairFactor<Factor, Rows>& factor) {
-  return new LinePairCost<Factor>(static_cast<const Factor&>(factor));
+  return new AnalyticLinePairCostFunction<Factor>(static_cast<const Factor&>(factor));
 }
-ceres::CostFunction* Analytic(const LineAnchor& factor) { return LineAnchor::Create(factor); }
+ceres::CostFunction* Analytic(const LineEndpointPrior& factor) {
+  return LineEndpointPrior::Create(factor);
+}
 ceres::CostFunction* Analytic(const PosePrior& factor) { return PosePrior::Create(factor); }
 ceres::CostFunction* Analytic(const ManhattanAxisAlignment& factor) {
   return ManhattanAxisAlignment::Create(factor);
 }
 
-ceres::SparseLinearAlgebraLibraryType SparseLibrary(WindowSolver solver) {
-  return solver == WindowSolver::kCeresSuiteSparse ? ceres::SUITE_SPARSE : ceres::EIGEN_SPARSE;
+ceres::SparseLinearAlgebraLibraryType SparseLibrary(BundleAdjustmentSolver solver) {
+  return solver == BundleAdjustmentSolver::kCeresSuiteSparse ? ceres::SUITE_SPARSE
+                                                             : ceres::EIGEN_SPARSE;
 }
 
 }  // namespace
 
-bool IsAvailable(WindowSolver solver) {
-  return solver == WindowSolver::kBlockSchur || solver == WindowSolver::kCeresDenseSchur ||
+bool IsAvailable(BundleAdjustmentSolver solver) {
+  return solver == BundleAdjustmentSolver::kBlockSchur ||
+         solver == BundleAdjustmentSolver::kCeresDenseSchur ||
          ceres::IsSparseLinearAlgebraLibraryTypeAvailable(SparseLibrary(solver));
 }
 
-CeresWindow::CeresWindow(const WindowOptions& options, const WindowData& data,
-                         const WindowTerms& terms, WindowState* state)
+CeresBackend::CeresBackend(const BundleAdjustmentOptions& options, const WindowData& data,
+                           const WindowTerms& terms, WindowState* state)
     : options_(options), data_(data), terms_(terms), state_(state), problem_(ProblemOptions()) {
   AddTerm(terms.point_reprojection);
   AddTerm(terms.point_depth);
   AddTerm(terms.line_reprojection);
   AddTerm(terms.line_depth);
-  AddTerm(terms.line_anchor);
+  AddTerm(terms.line_endpoint_prior);
   AddTerm(terms.parallel);
   AddTerm(terms.perpendicular);
   AddTerm(terms.manhattan);
@@ -69,7 +73,7 @@ CeresWindow::CeresWindow(const WindowOptions& options, const WindowData& data,
 }
 
 template <typename Term>
-void CeresWindow::AddTerm(const Term& term) {
+void CeresBackend::AddTerm(const Term& term) {
   using Factor = typename Term::Factor;
   std::map<int, ceres::LossFunction*> losses;  // by count: n identical terms have the loss n times
   const auto loss = [&](int count) -> ceres::LossFunction* {
@@ -96,7 +100,7 @@ void CeresWindow::AddTerm(const Term& term) {
 // usually) or by priors on poses, and by nothing else: no constant coordinate. Alignments to axes
 // tell of the rotation what a compass would, softly; they do not hold it. A free pose moves on
 // Rigid3Manifold.
-void CeresWindow::HoldGauge() {
+void CeresBackend::HoldGauge() {
   const auto hold = [this](bool fixed, double* block) {
     if (fixed && problem_.HasParameterBlock(block)) problem_.SetParameterBlockConstant(block);
   };
@@ -110,7 +114,7 @@ void CeresWindow::HoldGauge() {
   for (size_t i = 0; i < data_.lines.size(); ++i) hold(data_.lines[i].fixed, state_->LineBlock(i));
 }
 
-std::shared_ptr<ceres::ParameterBlockOrdering> CeresWindow::EliminationOrdering() const {
+std::shared_ptr<ceres::ParameterBlockOrdering> CeresBackend::EliminationOrdering() const {
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   const auto add = [&](double* block, int group) {
     if (problem_.HasParameterBlock(block)) ordering->AddElementToGroup(block, group);
@@ -125,16 +129,16 @@ std::shared_ptr<ceres::ParameterBlockOrdering> CeresWindow::EliminationOrdering(
   };
   collect(terms_.parallel);
   collect(terms_.perpendicular);
-  const std::vector<bool> keep = LinesToKeep(static_cast<int>(data_.lines.size()), pairs);
+  const std::vector<bool> keep = LinesInReducedSystem(static_cast<int>(data_.lines.size()), pairs);
   for (size_t i = 0; i < data_.lines.size(); ++i) add(state_->LineBlock(i), keep[i] ? 1 : 0);
   for (size_t i = 0; i < data_.keyframes.size(); ++i) add(state_->PoseBlock(i), 1);
   return ordering;
 }
 
-MinimizerReport CeresWindow::Minimize(int max_iterations) {
+MinimizerReport CeresBackend::Minimize(int max_iterations) {
   ceres::Solver::Options options;
   options.max_num_iterations = max_iterations;
-  if (options_.solver == WindowSolver::kCeresDenseSchur) {
+  if (options_.solver == BundleAdjustmentSolver::kCeresDenseSchur) {
     options.linear_solver_type = ceres::DENSE_SCHUR;
   } else {
     options.linear_solver_type = ceres::SPARSE_SCHUR;

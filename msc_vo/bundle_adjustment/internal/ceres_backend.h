@@ -10,24 +10,24 @@
 #include <ceres/ordered_groups.h>
 #include <ceres/problem.h>
 
-#include "msc_vo/factors/rigid3_manifold.h"
 #include "msc_vo/bundle_adjustment/internal/block_schur_backend.h"
+#include "msc_vo/factors/rigid3_manifold.h"
 
 namespace msc_vo {
 
 // Whether the Ceres that we are linked with can do it.
-bool IsAvailable(WindowSolver solver);
+bool IsAvailable(BundleAdjustmentSolver solver);
 
 // The sum of factors of a window as a Ceres problem over the numbers in `state`. All arguments must
 // outlive it.
-class CeresWindow {
+class CeresBackend {
  public:
-  CeresWindow(const WindowOptions& options, const WindowData& data, const WindowTerms& terms,
-              WindowState* state);
+  CeresBackend(const BundleAdjustmentOptions& options, const WindowData& data,
+               const WindowTerms& terms, WindowState* state);
 
   ceres::Problem* problem() { return &problem_; }
   // Landmarks are eliminated first (group 0), then poses (group 1): the Schur complement. Lines of
-  // one pair cannot both be in group 0 (LinesToKeep).
+  // one pair cannot both be in group 0 (LinesInReducedSystem).
   std::shared_ptr<ceres::ParameterBlockOrdering> EliminationOrdering() const;
 
   MinimizerReport Minimize(int max_iterations);
@@ -37,7 +37,7 @@ class CeresWindow {
   void AddTerm(const Term& term);
   void HoldGauge();
 
-  const WindowOptions& options_;
+  const BundleAdjustmentOptions& options_;
   const WindowData& data_;
   const WindowTerms& terms_;
   WindowState* state_;

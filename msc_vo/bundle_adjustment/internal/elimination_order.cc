@@ -9,7 +9,7 @@
 
 namespace msc_vo {
 
-std::vector<bool> LinesToKeep(int num_lines, const std::vector<WindowIndex::Pair>& pairs) {
+std::vector<bool> LinesInReducedSystem(int num_lines, const std::vector<WindowIndex::Pair>& pairs) {
   // Those of line i are partners[begins[i]] to partners[begins[i + 1] - 1].
   std::vector<int> begins(num_lines + 1, 0);
   for (const auto& [a, b] : pairs) {

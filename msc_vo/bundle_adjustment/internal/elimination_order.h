@@ -13,6 +13,6 @@ namespace msc_vo {
 // least must stay in the reduced system, whose cost grows with its cube. Lines with few partners
 // are eliminated first (ties by position), each keeping its partners: where pairs lead to a few
 // well-known lines, only those are left. Returns, for each of `num_lines`, whether it stays.
-std::vector<bool> LinesToKeep(int num_lines, const std::vector<WindowIndex::Pair>& pairs);
+std::vector<bool> LinesInReducedSystem(int num_lines, const std::vector<WindowIndex::Pair>& pairs);
 
 }  // namespace msc_vo

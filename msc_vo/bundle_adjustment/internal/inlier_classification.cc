@@ -5,18 +5,18 @@
 
 namespace msc_vo {
 
-WindowActivity AllInFront(const WindowOptions& options, const WindowIndex& index,
-                          const WindowData& data, int* num_behind) {
-  WindowActivity activity;
-  activity.points.resize(index.points.size());
-  activity.lines.resize(index.lines.size());
+WindowInlierMask AllInFront(const BundleAdjustmentOptions& options, const WindowIndex& index,
+                            const WindowData& data, int* num_behind) {
+  WindowInlierMask inlier_mask;
+  inlier_mask.points.resize(index.points.size());
+  inlier_mask.lines.resize(index.lines.size());
   for (size_t i = 0; i < index.points.size(); ++i) {
     const WindowIndex::Link& link = index.points[i];
     const bool in_front = IsInFront(data.keyframes[link.keyframe].cam_from_world *
                                     data.points[link.landmark].position);
     const bool has_depth =
         options.point_depth.enabled && data.point_observations[i].inverse_depth > 0.0;
-    activity.points[i] = {in_front, in_front && has_depth};
+    inlier_mask.points[i] = {in_front, in_front && has_depth};
     *num_behind += !in_front;
   }
   for (size_t i = 0; i < index.lines.size(); ++i) {
@@ -24,13 +24,13 @@ WindowActivity AllInFront(const WindowOptions& options, const WindowIndex& index
     const bool in_front =
         IsInFront(data.keyframes[link.keyframe].cam_from_world * data.lines[link.landmark].segment);
     const bool has_depth = options.line_depth.enabled && data.line_observations[i].has_depth;
-    activity.lines[i] = {in_front, in_front && has_depth};
+    inlier_mask.lines[i] = {in_front, in_front && has_depth};
     *num_behind += !in_front;
   }
-  activity.parallel.assign(index.parallel.size(), true);
-  activity.perpendicular.assign(index.perpendicular.size(), true);
-  activity.alignments.assign(index.alignments.size(), true);
-  return activity;
+  inlier_mask.parallel.assign(index.parallel.size(), true);
+  inlier_mask.perpendicular.assign(index.perpendicular.size(), true);
+  inlier_mask.alignments.assign(index.alignments.size(), true);
+  return inlier_mask;
 }
 
 namespace {
@@ -39,17 +39,17 @@ namespace {
 template <typename Reprojection, typename Depth>
 void Classify(const WindowTerm<Reprojection>& reprojection, const WindowTerm<Depth>& depth,
               const WindowState& state, double limit, double limit_with_depth,
-              std::vector<Activity>* activity, int* num_rejected, int* num_depths_rejected) {
-  std::vector<double> pixels(activity->size(), 0.0);
-  std::vector<double> depths(activity->size(), 0.0);
+              std::vector<InlierMask>* inlier_mask, int* num_rejected, int* num_depths_rejected) {
+  std::vector<double> pixels(inlier_mask->size(), 0.0);
+  std::vector<double> depths(inlier_mask->size(), 0.0);
   for (const auto& block : reprojection.blocks) {
     pixels[block.source] = ChiSquare<Reprojection>(block, state);
   }
   for (const auto& block : depth.blocks) depths[block.source] = ChiSquare<Depth>(block, state);
-  for (size_t i = 0; i < activity->size(); ++i) {
-    Activity& now = (*activity)[i];
+  for (size_t i = 0; i < inlier_mask->size(); ++i) {
+    InlierMask& now = (*inlier_mask)[i];
     if (!now.reprojection) continue;  // behind its camera
-    const Activity test = TestChiSquare(pixels[i], depths[i], limit, limit_with_depth);
+    const InlierMask test = TestChiSquare(pixels[i], depths[i], limit, limit_with_depth);
     *num_rejected += !test.reprojection;
     *num_depths_rejected += now.depth && test.reprojection && !test.depth;
     now = {test.reprojection, now.depth && test.depth};
@@ -69,19 +69,20 @@ void Classify(const WindowTerm<Factor>& term, const WindowState& state, double l
 
 }  // namespace
 
-void ClassifyAll(const WindowOptions& options, const WindowTerms& terms, const WindowState& state,
-                 WindowActivity* activity, WindowSummary* summary) {
+void ClassifyAll(const BundleAdjustmentOptions& options, const WindowTerms& terms,
+                 const WindowState& state, WindowInlierMask* inlier_mask,
+                 BundleAdjustmentSummary* summary) {
   Classify(terms.point_reprojection, terms.point_depth, state, options.reject_chi2_2,
-           options.reject_chi2_3, &activity->points, &summary->point_reprojection.num_rejected,
+           options.reject_chi2_3, &inlier_mask->points, &summary->point_reprojection.num_rejected,
            &summary->point_depth.num_rejected);
   Classify(terms.line_reprojection, terms.line_depth, state, options.reject_chi2_2,
-           options.reject_chi2_4, &activity->lines, &summary->line_reprojection.num_rejected,
+           options.reject_chi2_4, &inlier_mask->lines, &summary->line_reprojection.num_rejected,
            &summary->line_depth.num_rejected);
-  Classify(terms.parallel, state, options.reject_chi2_2, &activity->parallel,
+  Classify(terms.parallel, state, options.reject_chi2_2, &inlier_mask->parallel,
            &summary->parallel.num_rejected);
-  Classify(terms.perpendicular, state, options.reject_chi2_1, &activity->perpendicular,
+  Classify(terms.perpendicular, state, options.reject_chi2_1, &inlier_mask->perpendicular,
            &summary->perpendicular.num_rejected);
-  Classify(terms.manhattan, state, options.reject_chi2_2, &activity->alignments,
+  Classify(terms.manhattan, state, options.reject_chi2_2, &inlier_mask->alignments,
            &summary->manhattan.num_rejected);
 }
 

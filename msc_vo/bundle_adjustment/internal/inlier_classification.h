@@ -8,11 +8,12 @@
 namespace msc_vo {
 
 // Every observation in front of its camera takes part at first; the others are counted.
-WindowActivity AllInFront(const WindowOptions& options, const WindowIndex& index,
-                          const WindowData& data, int* num_behind);
+WindowInlierMask AllInFront(const BundleAdjustmentOptions& options, const WindowIndex& index,
+                            const WindowData& data, int* num_behind);
 
 // Chi-square test, at `state`, of everything that takes part; what fails is counted in *summary.
-void ClassifyAll(const WindowOptions& options, const WindowTerms& terms, const WindowState& state,
-                 WindowActivity* activity, WindowSummary* summary);
+void ClassifyAll(const BundleAdjustmentOptions& options, const WindowTerms& terms,
+                 const WindowState& state, WindowInlierMask* inlier_mask,
+                 BundleAdjustmentSummary* summary);
 
 }  // namespace msc_vo

@@ -32,17 +32,17 @@ struct Evidence {
   }
 };
 
-std::vector<Evidence> OfPoints(const WindowIndex& index, const WindowActivity& activity,
+std::vector<Evidence> OfPoints(const WindowIndex& index, const WindowInlierMask& inlier_mask,
                                const WindowState& state, const WindowData& data) {
   std::vector<Evidence> evidence(data.points.size());
   for (size_t i = 0; i < index.points.size(); ++i) {
     const auto& [keyframe, point] = index.points[i];
     const WindowData::PointObservation& o = data.point_observations[i];
     const Eigen::Vector3d in_cam = state.Pose(keyframe) * state.Point(point);
-    if (!activity.points[i].reprojection || !IsInFront(in_cam)) continue;
+    if (!inlier_mask.points[i].reprojection || !IsInFront(in_cam)) continue;
     const Eigen::Vector2d pixels = data.camera.Project(in_cam) - o.pixel;
     evidence[point].AddResiduals(pixels.squaredNorm() / (o.sigma * o.sigma), 2);
-    if (!activity.points[i].depth) continue;
+    if (!inlier_mask.points[i].depth) continue;
     const double depth = (1.0 / in_cam.z() - o.inverse_depth) / o.inverse_depth_sigma;
     evidence[point].AddResiduals(depth * depth, 1);
   }
@@ -50,17 +50,17 @@ std::vector<Evidence> OfPoints(const WindowIndex& index, const WindowActivity& a
 }
 
 // Of depth one row, in the middle of the observed segment: the errors of its ends are one error.
-std::vector<Evidence> OfLines(const WindowIndex& index, const WindowActivity& activity,
+std::vector<Evidence> OfLines(const WindowIndex& index, const WindowInlierMask& inlier_mask,
                               const WindowState& state, const WindowData& data) {
   std::vector<Evidence> evidence(data.lines.size());
   for (size_t i = 0; i < index.lines.size(); ++i) {
     const auto& [keyframe, line] = index.lines[i];
     const WindowData::LineObservation& o = data.line_observations[i];
     const LineSegment3 in_cam = state.Pose(keyframe) * state.Line(line);
-    if (!activity.lines[i].reprojection || !IsInFront(in_cam)) continue;
+    if (!inlier_mask.lines[i].reprojection || !IsInFront(in_cam)) continue;
     const Eigen::Vector2d pixels = LineResidual(data.camera, o.segment, o.sigma, in_cam);
     evidence[line].AddResiduals(pixels.squaredNorm(), 2);
-    if (!activity.lines[i].depth) continue;
+    if (!inlier_mask.lines[i].depth) continue;
     const WindowData::Line& before = data.lines[line];
     const double inverse_depth = InverseDepthAt(data.camera, o.segment, in_cam, 0.5);
     const double sigma = o.depth.SigmaAt(0.5);
@@ -96,11 +96,11 @@ bool LandmarkNoiseOptions::IsValid(std::string* error) const {
 }
 
 void LearnLandmarkNoise(const LandmarkNoiseOptions& options, const WindowIndex& index,
-                        const WindowActivity& activity, const WindowState& state,
+                        const WindowInlierMask& inlier_mask, const WindowState& state,
                         WindowData* data) {
   if (!options.enabled) return;
-  const std::vector<Evidence> points = OfPoints(index, activity, state, *data);
-  const std::vector<Evidence> lines = OfLines(index, activity, state, *data);
+  const std::vector<Evidence> points = OfPoints(index, inlier_mask, state, *data);
+  const std::vector<Evidence> lines = OfLines(index, inlier_mask, state, *data);
   for (size_t i = 0; i < points.size(); ++i) {
     if (points[i].num_residuals == 0) continue;
     data->points[i].noise = Noise(options, points[i], kPointParameters);

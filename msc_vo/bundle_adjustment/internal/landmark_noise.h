@@ -23,6 +23,7 @@ namespace msc_vo {
 //
 // Learns both for all points and lines in *data from the observations that are active, at `state`.
 void LearnLandmarkNoise(const LandmarkNoiseOptions& options, const WindowIndex& index,
-                        const WindowActivity& activity, const WindowState& state, WindowData* data);
+                        const WindowInlierMask& inlier_mask, const WindowState& state,
+                        WindowData* data);
 
 }  // namespace msc_vo

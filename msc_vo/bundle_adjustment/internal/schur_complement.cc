@@ -86,7 +86,7 @@ class SchurSolver {
 
  private:
   // A line whose direction stays.
-  struct KeptLine {
+  struct ReducedLine {
     Matrix6d basis;
     std::vector<Eigen::Matrix<double, 6, 4>> poses;
     Eliminated<4> position;
@@ -100,7 +100,7 @@ class SchurSolver {
 
   // The normal equations without the eliminated numbers: reduced_ x = right_.
   void Eliminate() {
-    const int size = DirectionOffset(structure_.num_kept_lines);
+    const int size = DirectionOffset(structure_.num_reduced_lines);
     reduced_.setZero(size, size);
     right_.setZero(size);
     AddPoses();
@@ -166,20 +166,20 @@ class SchurSolver {
   // Pairs of two kept lines bind their directions; of one kept and one eliminated, that line to the
   // direction.
   void AddCouplings() {
-    kept_.resize(structure_.num_kept_lines);
+    kept_.resize(structure_.num_reduced_lines);
     for (int i = 0; i < structure_.num_lines; ++i) {
-      const int kept = structure_.kept_line[i];
+      const int kept = structure_.reduced_line[i];
       if (kept >= 0) kept_[kept].basis = LineBasis(equations_.directions[i]);
     }
     line_directions_.assign(structure_.num_lines, {});
     for (size_t k = 0; k < structure_.couplings.size(); ++k) {
       auto [a, b] = structure_.couplings[k];
       Eigen::Matrix3d h = equations_.couplings[k];
-      if (structure_.kept_line[a] < structure_.kept_line[b]) {
+      if (structure_.reduced_line[a] < structure_.reduced_line[b]) {
         std::swap(a, b);
         h.transposeInPlace();
       }
-      const int kept_a = structure_.kept_line[a], kept_b = structure_.kept_line[b];
+      const int kept_a = structure_.reduced_line[a], kept_b = structure_.reduced_line[b];
       const Eigen::Matrix<double, 2, 3> h_a = kept_[kept_a].Across().transpose() * h;
       if (kept_b >= 0) {
         reduced_.block<2, 2>(DirectionOffset(kept_a), DirectionOffset(kept_b)) +=
@@ -201,8 +201,8 @@ class SchurSolver {
       lines_[i] = {Matrix6d::Zero(), equations_.lines.gradient[i],
                    equations_.lines.poses.data() + links.begin,
                    structure_.line_link_poses.data() + links.begin, links.size};
-      if (structure_.kept_line[i] >= 0) {
-        EliminatePosition(lines_[i], h, structure_.kept_line[i]);
+      if (structure_.reduced_line[i] >= 0) {
+        EliminatePosition(lines_[i], h, structure_.reduced_line[i]);
       } else {
         lines_[i].inverse = h.llt().solve(Matrix6d::Identity());
         Eliminate<6>(lines_[i], line_directions_[i]);
@@ -211,7 +211,7 @@ class SchurSolver {
   }
 
   void EliminatePosition(const Eliminated<6>& line, const Matrix6d& hessian, int number) {
-    KeptLine& kept = kept_[number];
+    ReducedLine& kept = kept_[number];
     const Matrix6d h = kept.basis.transpose() * hessian * kept.basis;
     const Vector6d g = kept.basis.transpose() * line.gradient;
     const int row = DirectionOffset(number);
@@ -251,12 +251,12 @@ class SchurSolver {
     }
     step->lines.resize(structure_.num_lines);
     for (int i = 0; i < structure_.num_lines; ++i) {
-      const int number = structure_.kept_line[i];
+      const int number = structure_.reduced_line[i];
       if (number < 0) {
         step->lines[i] = Substitute<6>(lines_[i], line_directions_[i], step->reduced);
         continue;
       }
-      const KeptLine& kept = kept_[number];
+      const ReducedLine& kept = kept_[number];
       step->lines[i] =
           kept.basis.leftCols<4>() *
               Substitute<4>(kept.position, kept.own_direction, step->reduced) +
@@ -290,9 +290,9 @@ class SchurSolver {
   }
 
   Matrix6d InverseOfLine(int i) const {
-    const int number = structure_.kept_line[i];
+    const int number = structure_.reduced_line[i];
     if (number < 0) return Inverse<6>(lines_[i], line_directions_[i]);
-    const KeptLine& kept = kept_[number];
+    const ReducedLine& kept = kept_[number];
     const int row = DirectionOffset(number);
     Matrix6d inverse;  // of position, then direction
     inverse.topLeftCorner<4, 4>() = Inverse<4>(kept.position, kept.own_direction);
@@ -331,7 +331,7 @@ class SchurSolver {
   std::vector<Eliminated<3>> points_;
   std::vector<Eliminated<6>> lines_;
   std::vector<std::vector<DirectionLink<6>>> line_directions_;  // of the eliminated lines
-  std::vector<KeptLine> kept_;
+  std::vector<ReducedLine> kept_;
   Eigen::MatrixXd inverse_;  // of the reduced system
 };
 

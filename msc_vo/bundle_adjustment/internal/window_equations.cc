@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "msc_vo/geometry/so3.h"
 #include "msc_vo/bundle_adjustment/internal/elimination_order.h"
+#include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
 
@@ -124,7 +124,7 @@ class Linearizer {
       }
     }
     if (!FindDirections()) return false;
-    AddAnchors(&cost);
+    AddEndpointPriors(&cost);
     AddAlignments(&cost);
     AddPairs(terms_.parallel, &cost);
     AddPairs(terms_.perpendicular, &cost);
@@ -213,8 +213,8 @@ class Linearizer {
     return true;
   }
 
-  void AddAnchors(double* cost) {
-    for (const auto& block : terms_.line_anchor.blocks) {
+  void AddEndpointPriors(double* cost) {
+    for (const auto& block : terms_.line_endpoint_prior.blocks) {
       const int unknown = structure_.line[block.first];
       Eigen::Vector2d r;
       block.factor(state_.LineBlock(block.first), r.data());
@@ -315,8 +315,8 @@ WindowStructure::WindowStructure(const WindowData& data, const WindowTerms& term
   };
   couple(terms.parallel);
   couple(terms.perpendicular);
-  for (const bool keep : LinesToKeep(num_lines, couplings)) {
-    kept_line.push_back(keep ? num_kept_lines++ : -1);
+  for (const bool keep : LinesInReducedSystem(num_lines, couplings)) {
+    reduced_line.push_back(keep ? num_reduced_lines++ : -1);
   }
 }
 

@@ -45,8 +45,8 @@ struct WindowStructure {
   // Pairs of two unknown lines, parallel ones first.
   std::vector<WindowIndex::Pair> couplings;
   // Number of each unknown line among those that cannot be eliminated for their partners; -1: can.
-  std::vector<int> kept_line;
-  int num_kept_lines = 0;
+  std::vector<int> reduced_line;
+  int num_reduced_lines = 0;
 };
 
 // The normal equations of a window, H step = -gradient, in blocks. H is the Gauss-Newton Hessian of

@@ -9,9 +9,9 @@ namespace {
 
 class TermMaker {
  public:
-  TermMaker(const WindowOptions& options, const WindowData& data, const WindowIndex& index,
-            const WindowActivity& activity, const WindowState& state)
-      : options_(options), data_(data), index_(index), activity_(activity), state_(state) {
+  TermMaker(const BundleAdjustmentOptions& options, const WindowData& data,
+            const WindowIndex& index, const WindowInlierMask& inlier_mask, const WindowState& state)
+      : options_(options), data_(data), index_(index), activity_(inlier_mask), state_(state) {
     terms_.keyframe_takes_part.assign(data.keyframes.size(), false);
     terms_.point_observed.assign(data.points.size(), false);
     terms_.line_observed.assign(data.lines.size(), false);
@@ -21,7 +21,7 @@ class TermMaker {
     AddPoints();
     AddLines();
     // After the observations: they say which lines are there to be bound.
-    AddAnchors();
+    AddEndpointPriors();
     AddPairs(options_.parallel, data_.parallel_pairs, index_.parallel, activity_.parallel,
              &terms_.parallel);
     AddPairs(options_.perpendicular, data_.perpendicular_pairs, index_.perpendicular,
@@ -41,8 +41,8 @@ class TermMaker {
       const auto& [keyframe, point] = index_.points[i];
       const WindowData::PointObservation& o = data_.point_observations[i];
       const double noise = data_.points[point].noise;
-      const Activity active = Enabled(activity_.points[i], options_.point_reprojection.enabled,
-                                      options_.point_depth.enabled);
+      const InlierMask active = Enabled(activity_.points[i], options_.point_reprojection.enabled,
+                                        options_.point_depth.enabled);
       if (active.reprojection) {
         terms_.point_reprojection.blocks.push_back(
             {PointReprojection(data_.camera, o.pixel, noise * o.sigma), keyframe, point,
@@ -66,8 +66,8 @@ class TermMaker {
       const auto& [keyframe, line] = index_.lines[i];
       const WindowData::LineObservation& o = data_.line_observations[i];
       const double noise = data_.lines[line].noise;
-      const Activity active = Enabled(activity_.lines[i], options_.line_reprojection.enabled,
-                                      options_.line_depth.enabled);
+      const InlierMask active = Enabled(activity_.lines[i], options_.line_reprojection.enabled,
+                                        options_.line_depth.enabled);
       if (!active.reprojection && !active.depth) continue;
       terms_.keyframe_takes_part[keyframe] = terms_.line_observed[line] = true;
       const LineSegment3 in_cam = state_.Pose(keyframe) * state_.Line(line);
@@ -87,13 +87,13 @@ class TermMaker {
   }
 
   // For every line that an observation could move.
-  void AddAnchors() {
-    if (!options_.line_anchor) return;
+  void AddEndpointPriors() {
+    if (!options_.line_endpoint_prior) return;
     for (size_t i = 0; i < data_.lines.size(); ++i) {
       if (!IsFree(Source(i))) continue;
-      terms_.line_anchor.blocks.push_back(
-          {LineAnchor(data_.lines[i].segment, options_.line_anchor_sigma), Source(i), -1,
-           Source(i)});
+      terms_.line_endpoint_prior.blocks.push_back(
+          {LineEndpointPrior(data_.lines[i].segment, options_.line_endpoint_prior_sigma), Source(i),
+           -1, Source(i)});
     }
   }
 
@@ -135,32 +135,32 @@ class TermMaker {
   }
 
   static int Source(size_t i) { return static_cast<int>(i); }
-  static Activity Enabled(const Activity& active, bool reprojection, bool depth) {
+  static InlierMask Enabled(const InlierMask& active, bool reprojection, bool depth) {
     return {active.reprojection && reprojection, active.depth && depth};
   }
   // An observation could move it.
   bool IsFree(int line) const { return !data_.lines[line].fixed && terms_.line_observed[line]; }
 
-  const WindowOptions& options_;
+  const BundleAdjustmentOptions& options_;
   const WindowData& data_;
   const WindowIndex& index_;
-  const WindowActivity& activity_;
+  const WindowInlierMask& activity_;
   const WindowState& state_;
   WindowTerms terms_;
 };
 
 }  // namespace
 
-WindowTerms MakeWindowTerms(const WindowOptions& options, const WindowData& data,
-                            const WindowIndex& index, const WindowActivity& activity,
+WindowTerms MakeWindowTerms(const BundleAdjustmentOptions& options, const WindowData& data,
+                            const WindowIndex& index, const WindowInlierMask& inlier_mask,
                             const WindowState& state) {
-  return TermMaker(options, data, index, activity, state).Make();
+  return TermMaker(options, data, index, inlier_mask, state).Make();
 }
 
 double Cost(const WindowTerms& terms, const WindowState& state) {
   return Cost(terms.point_reprojection, state) + Cost(terms.point_depth, state) +
          Cost(terms.line_reprojection, state) + Cost(terms.line_depth, state) +
-         Cost(terms.line_anchor, state) + Cost(terms.parallel, state) +
+         Cost(terms.line_endpoint_prior, state) + Cost(terms.parallel, state) +
          Cost(terms.perpendicular, state) + Cost(terms.manhattan, state) +
          Cost(terms.pose_prior, state);
 }

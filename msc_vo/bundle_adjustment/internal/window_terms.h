@@ -6,6 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "msc_vo/bundle_adjustment/internal/window_state.h"
+#include "msc_vo/bundle_adjustment/internal/window_validation.h"
+#include "msc_vo/bundle_adjustment/observation.h"
 #include "msc_vo/factors/depth_reprojection.h"
 #include "msc_vo/factors/line_endpoint_prior.h"
 #include "msc_vo/factors/manhattan_axis_alignment.h"
@@ -13,16 +16,13 @@
 #include "msc_vo/factors/perpendicular_lines.h"
 #include "msc_vo/factors/point_reprojection.h"
 #include "msc_vo/factors/pose_prior.h"
-#include "msc_vo/bundle_adjustment/observation.h"
-#include "msc_vo/bundle_adjustment/internal/window_state.h"
-#include "msc_vo/bundle_adjustment/internal/window_validation.h"
 
 namespace msc_vo {
 
 // Which factors of every observation take part.
-struct WindowActivity {
-  std::vector<Activity> points;  // one per point observation
-  std::vector<Activity> lines;   // one per line observation
+struct WindowInlierMask {
+  std::vector<InlierMask> points;  // one per point observation
+  std::vector<InlierMask> lines;   // one per line observation
   // Whether they may take part: false once rejected.
   std::vector<bool> parallel;       // one per parallel pair
   std::vector<bool> perpendicular;  // one per perpendicular pair
@@ -63,17 +63,17 @@ struct WindowTerm {
 // The sum of factors of a window:
 //
 //   sum rho(|PointReprojection|^2) + rho(|DepthReprojection|^2) + rho(|LineReprojection|^2)
-//     + rho(|LineDepthReprojection|^2) + |LineAnchor|^2 + n rho(|ParallelLines|^2)
+//     + rho(|LineDepthReprojection|^2) + |LineEndpointPrior|^2 + n rho(|ParallelLines|^2)
 //     + n rho(|PerpendicularLines|^2) + rho(|ManhattanAxisAlignment|^2) + |PosePrior|^2
 //
 // (paper: Local Map Optimization; n: keyframes that see both lines). Plain values: what minimises
-// it, CeresWindow or SchurWindow, is told by the options.
+// it, CeresBackend or SchurWindow, is told by the options.
 struct WindowTerms {
   WindowTerm<PointReprojection> point_reprojection;
   WindowTerm<DepthReprojection> point_depth;
   WindowTerm<LineReprojection> line_reprojection;
   WindowTerm<LineDepthReprojection> line_depth;
-  WindowTerm<LineAnchor> line_anchor;
+  WindowTerm<LineEndpointPrior> line_endpoint_prior;
   WindowTerm<ParallelLines> parallel;
   WindowTerm<PerpendicularLines> perpendicular;
   WindowTerm<ManhattanAxisAlignment> manhattan;
@@ -86,8 +86,8 @@ struct WindowTerms {
 
 // The terms of the active observations, pairs and alignments. Sigmas of lines are those at `state`,
 // anchors those of `data`.
-WindowTerms MakeWindowTerms(const WindowOptions& options, const WindowData& data,
-                            const WindowIndex& index, const WindowActivity& activity,
+WindowTerms MakeWindowTerms(const BundleAdjustmentOptions& options, const WindowData& data,
+                            const WindowIndex& index, const WindowInlierMask& inlier_mask,
                             const WindowState& state);
 
 // Half the sum of robustified squares over all terms; not finite where one is not defined.

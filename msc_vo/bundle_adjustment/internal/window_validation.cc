@@ -15,7 +15,7 @@ namespace msc_vo {
 namespace {
 
 [[noreturn]] void Throw(const std::string& what) {
-  throw std::invalid_argument("SolveWindow: " + what);
+  throw std::invalid_argument("LocalBundleAdjustment: " + what);
 }
 
 // Positions by id, of keyframes, points or lines.
@@ -117,7 +117,7 @@ std::vector<int> ResolvePriors(const std::vector<WindowData::PosePrior>& priors,
 
 }  // namespace
 
-WindowIndex ValidateWindow(const WindowOptions& options, const WindowData& data) {
+WindowIndex ValidateWindow(const BundleAdjustmentOptions& options, const WindowData& data) {
   if (data.keyframes.empty()) Throw("the window is empty: it has no keyframe");
   std::string error;
   if (!options.IsValid(&error) || !data.camera.IsValid(&error)) Throw(error);

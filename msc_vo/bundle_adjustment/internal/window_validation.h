@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "msc_vo/bundle_adjustment/window_data.h"
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+#include "msc_vo/bundle_adjustment/window_data.h"
 
 namespace msc_vo {
 
@@ -28,8 +28,8 @@ struct WindowIndex {
   std::vector<int> priors;          // keyframes of the pose priors
 };
 
-// Checks everything that SolveWindow asks of its input, and resolves the ids on the way.
+// Checks everything that LocalBundleAdjustment asks of its input, and resolves the ids on the way.
 // Throws std::invalid_argument naming the offender.
-WindowIndex ValidateWindow(const WindowOptions& options, const WindowData& data);
+WindowIndex ValidateWindow(const BundleAdjustmentOptions& options, const WindowData& data);
 
 }  // namespace msc_vo

@@ -34,7 +34,8 @@ int main() {
   window.keyframes[1].cam_from_world = msc_vo::Rigid3(
       Eigen::Quaterniond(Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitY())), {-0.08, 0.01, 0.0});
 
-  const msc_vo::WindowSummary summary = msc_vo::SolveWindow(msc_vo::WindowOptions(), &window);
+  const msc_vo::BundleAdjustmentSummary summary =
+      msc_vo::LocalBundleAdjustment(msc_vo::BundleAdjustmentOptions(), &window);
   const double error =
       (window.keyframes[1].cam_from_world.translation() - truth.translation()).norm();
   std::printf("msc_vo %s: %s\nposition error %.2e m\n", msc_vo::kVersion,

@@ -114,7 +114,7 @@ void CountEdges(const Texture& texture, double shift, EdgeCount* count) {
 TEST(TextureTest, EdgesAreWhereTheColorChanges) {
   struct Case {
     TextureKind kind;
-    double min_share;
+    double min_explained_ratio;
   };
   // Figures may have the colour of their ground and lie upon each other; joints of tiles cross
   // other joints.
@@ -127,8 +127,8 @@ TEST(TextureTest, EdgesAreWhereTheColorChanges) {
       CountEdges(texture, 0.015, &beside);
     }
     EXPECT_GE(in_place.edges, 30) << static_cast<int>(c.kind);
-    EXPECT_GE(in_place.Share(), c.min_share) << static_cast<int>(c.kind);
-    EXPECT_LE(beside.Share(), 0.4 * c.min_share) << static_cast<int>(c.kind);
+    EXPECT_GE(in_place.Share(), c.min_explained_ratio) << static_cast<int>(c.kind);
+    EXPECT_LE(beside.Share(), 0.4 * c.min_explained_ratio) << static_cast<int>(c.kind);
   }
 }
 

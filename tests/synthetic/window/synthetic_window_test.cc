@@ -10,9 +10,9 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/geometry/so3.h"
-#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 
 namespace msc_vo {
 namespace {
@@ -99,7 +99,8 @@ TEST_P(SyntheticWindowTest, SolverRecoversTheTruth) {
   SyntheticWindowOptions options;
   options.scene = GetParam();
   SyntheticWindow window = MakeSyntheticWindow(options);
-  const WindowSummary summary = SolveWindow(WindowOptions(), &window.data);
+  const BundleAdjustmentSummary summary =
+      LocalBundleAdjustment(BundleAdjustmentOptions(), &window.data);
   ASSERT_TRUE(summary.usable) << summary.message;
   for (size_t i = 0; i < window.data.keyframes.size(); ++i) {
     const Rigid3 error = window.data.keyframes[i].cam_from_world *
@@ -215,7 +216,7 @@ TEST(SyntheticWindowOptionsTest, MirroredCameraIsLegal) {
   options.camera.fy = -480.0;
   SyntheticWindow window = MakeSyntheticWindow(options);
   EXPECT_EQ(window.data.points.size(), 300u);
-  EXPECT_TRUE(SolveWindow(WindowOptions(), &window.data).usable);
+  EXPECT_TRUE(LocalBundleAdjustment(BundleAdjustmentOptions(), &window.data).usable);
   const Rigid3 error = window.data.keyframes.back().cam_from_world *
                        window.truth.keyframes.back().cam_from_world.Inverse();
   EXPECT_LT(error.translation().norm(), 0.015);
