@@ -10,21 +10,24 @@
 
 namespace msc_vo {
 
-// What most of an image agrees on, and what moves by itself before it.
-//
-// Something near and textured may hold more matches than the room behind it, and they agree with
-// each other. No test of single matches sees it: while it begins to move, a pose in between makes
-// inliers of both. But it covers a part of the image only. So the image is cut into parts that have
-// one vote each, however many matches they hold: how much worse a pose is for them than their own
-// best one, and no more than a limit. The errors of a part that moves go the same way and add up,
-// long before one of them is an outlier.
+/// A pose that most of the image agrees with, and the cells that contradict it.
+///
+/// Dynamic-object rejection by cell consensus: a near, textured object may hold more matches than
+/// the static scene behind it, and these matches agree with each other. Chi-square tests of single
+/// matches do not detect this, because a pose between the two motions makes inliers of both. But
+/// the object covers only a part of the image. Therefore the image is divided into the cells of an
+/// ImageGrid, and the score of a pose is summed over cells, each bounded, rather than over matches:
+/// the score of a cell is the increase of its chi-square over that of the cell's own best pose.
+/// The errors of the matches on a moving object have a common direction, so they add up in their
+/// cell long before a single match becomes an outlier.
 struct CellConsensus {
   Rigid3 cam_from_world;
-  std::vector<bool> dynamic_cells;  // of ImageGrid: those that vote against the pose
+  std::vector<bool> dynamic_cells;  ///< one per cell of the ImageGrid: contradicts the pose
 };
 
-// Searches the surroundings of `pose`, as far as the equations hold that are linear there; nullopt
-// if no other pose has `options.consensus.min_cells` votes more. Deterministic.
+/// Searches for a better pose in the neighbourhood of `pose` where the linearised equations are
+/// valid. Returns std::nullopt unless the score of the best pose found improves by the limits of
+/// `options.consensus.min_cells` cells. Deterministic.
 std::optional<CellConsensus> FindCellConsensus(const PoseOptions& options, const PoseData& data,
                                                const Rigid3& pose);
 

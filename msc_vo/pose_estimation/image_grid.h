@@ -12,32 +12,39 @@
 
 namespace msc_vo {
 
-// The parts that an image is cut into for votes on its pose, numbered row by row.
+/// A regular grid of cells over an image, numbered row by row from the upper left.
 class ImageGrid {
  public:
   ImageGrid(int columns, int rows, const PinholeCamera& camera)
       : columns_(columns),
         rows_(rows),
-        per_pixel_x_(columns / static_cast<double>(camera.width)),
-        per_pixel_y_(rows / static_cast<double>(camera.height)) {}
+        columns_per_pixel_(columns / static_cast<double>(camera.width)),
+        rows_per_pixel_(rows / static_cast<double>(camera.height)) {}
 
+  /// Number of cells.
   int size() const { return columns_ * rows_; }
-  // Of a pixel outside the image, where undistortion moves some, the nearest.
+
+  /// Returns the cell that contains `pixel`. Pixels outside the image, where undistortion may move
+  /// features, belong to the nearest cell.
   int CellOf(const Eigen::Vector2d& pixel) const;
-  // Of a segment, where it must be one: that of its middle.
+
+  /// Returns the cell that contains the segment's midpoint.
   int CellOf(const LineSegment2& segment) const { return CellOf(segment.Midpoint()); }
-  // Those that a segment runs through, looked up four times per part; in its order.
+
+  /// Returns the cells that the segment crosses, in order from its start, sampled four times per
+  /// cell.
   std::vector<int> CellsOf(const LineSegment2& segment) const;
-  // Centre of a part, as a share of the image's width and height.
-  Eigen::Vector2d CenterOf(int part) const {
-    return {(part % columns_ + 0.5) / columns_, (part / columns_ + 0.5) / rows_};
+
+  /// Centre of a cell, as a fraction of the image's width and height.
+  Eigen::Vector2d CenterOf(int cell) const {
+    return {(cell % columns_ + 0.5) / columns_, (cell / columns_ + 0.5) / rows_};
   }
 
  private:
   int columns_;
   int rows_;
-  double per_pixel_x_;
-  double per_pixel_y_;
+  double columns_per_pixel_;
+  double rows_per_pixel_;
 };
 
 }  // namespace msc_vo

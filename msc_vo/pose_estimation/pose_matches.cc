@@ -21,10 +21,10 @@ InlierMask ClassifyPoint(const PoseOptions& options, const PinholeCamera& camera
     PointReprojection(camera, p.pixel, p.sigma).Residual(0, x, pixels.data());
   }
   if (has_depth) DepthReprojection(p.inverse_depth, p.inverse_depth_sigma).Residual(0, x, &depth);
-  InlierMask inlier_mask = TestChiSquare(pixels.squaredNorm(), depth * depth, options.reject_chi2_2,
-                                         options.reject_chi2_3);
-  inlier_mask.depth = inlier_mask.depth && has_depth;
-  return inlier_mask;
+  InlierMask mask = TestChiSquare(pixels.squaredNorm(), depth * depth, options.reject_chi2_2,
+                                  options.reject_chi2_3);
+  mask.depth = mask.depth && has_depth;
+  return mask;
 }
 
 InlierMask ClassifyLine(const PoseOptions& options, const PinholeCamera& camera, const Rigid3& pose,
@@ -43,19 +43,18 @@ InlierMask ClassifyLine(const PoseOptions& options, const PinholeCamera& camera,
                             : 0.0;
   const double depth =
       has_depth ? chi_square(MakeLineDepthReprojection(camera, l.segment, l.depth, line)) : 0.0;
-  InlierMask inlier_mask =
-      TestChiSquare(pixels, depth, options.reject_chi2_2, options.reject_chi2_4);
-  inlier_mask.depth = inlier_mask.depth && has_depth;
-  return inlier_mask;
+  InlierMask mask = TestChiSquare(pixels, depth, options.reject_chi2_2, options.reject_chi2_4);
+  mask.depth = mask.depth && has_depth;
+  return mask;
 }
 
-// Chi-square of a normal error of two coordinates in the median.
+// Median of chi-square with two degrees of freedom.
 constexpr double kChiSquareMedian2 = 1.386;
-// Fewer do not tell the noise of a frame.
+// Fewer points do not determine the noise of a frame.
 constexpr size_t kMinPointsForNoise = 10;
 
-// Square of how many times larger than their sigmas the errors of this frame's points are, by their
-// median: within [1, max_frame_noise^2]. A blurred image shows all its points worse.
+// Ratio of the median squared residual of the frame's points to its expectation, clamped to
+// [1, max_frame_noise^2]: the variance inflation of a blurred image.
 double SquaredFrameNoise(const PoseOptions& options, const PoseData& data, const Rigid3& pose) {
   std::vector<double> chi2;
   chi2.reserve(data.points.size());
@@ -104,27 +103,27 @@ PoseInlierMask ClassifyMatches(PoseOptions options, const PoseData& data, const 
 }
 
 void AddFactors(const PoseOptions& options, const PinholeCamera& camera,
-                const PoseData::Point& point, const InlierMask& active, PoseFactors* factors) {
-  if (active.reprojection && options.point_reprojection.enabled) {
+                const PoseData::Point& point, const InlierMask& mask, PoseFactors* factors) {
+  if (mask.reprojection && options.point_reprojection.enabled) {
     factors->point_reprojection.blocks.push_back(
         {PointReprojection(camera, point.pixel, point.sigma), {point.position}});
   }
-  if (active.depth) {
+  if (mask.depth) {
     factors->point_depth.blocks.push_back(
         {DepthReprojection(point.inverse_depth, point.inverse_depth_sigma), {point.position}});
   }
 }
 
 void AddFactors(const PoseOptions& options, const PinholeCamera& camera, const PoseData::Line& line,
-                const InlierMask& active, const Rigid3& pose, PoseFactors* factors) {
-  if (!active.reprojection) return;
+                const InlierMask& mask, const Rigid3& pose, PoseFactors* factors) {
+  if (!mask.reprojection) return;
   const LineSegment3 in_cam = pose * line.map_segment;
   const std::array<Eigen::Vector3d, 2> ends{line.map_segment.start, line.map_segment.end};
   if (options.line_reprojection.enabled) {
     factors->line_reprojection.blocks.push_back(
         {MakeLineReprojection(camera, line.segment, line.sigma, in_cam), ends});
   }
-  if (active.depth) {
+  if (mask.depth) {
     factors->line_depth.blocks.push_back(
         {MakeLineDepthReprojection(camera, line.segment, line.depth, in_cam), ends});
   }
@@ -138,14 +137,14 @@ void SetLosses(const PoseOptions& options, PoseFactors* factors) {
 }
 
 PoseFactors BuildFactors(const PoseOptions& options, const PoseData& data,
-                         const PoseInlierMask& active, const Rigid3& pose, bool robust) {
+                         const PoseInlierMask& mask, const Rigid3& pose, bool robust) {
   PoseFactors factors;
   if (robust) SetLosses(options, &factors);
   for (size_t i = 0; i < data.points.size(); ++i) {
-    AddFactors(options, data.camera, data.points[i], active.points[i], &factors);
+    AddFactors(options, data.camera, data.points[i], mask.points[i], &factors);
   }
   for (size_t i = 0; i < data.lines.size(); ++i) {
-    AddFactors(options, data.camera, data.lines[i], active.lines[i], pose, &factors);
+    AddFactors(options, data.camera, data.lines[i], mask.lines[i], pose, &factors);
   }
   return factors;
 }

@@ -11,31 +11,32 @@
 
 namespace msc_vo {
 
-// Which factors of every match take part in a round of the pose problem.
+/// The factors of every match that are active in a round of motion-only bundle adjustment.
 struct PoseInlierMask {
-  std::vector<InlierMask> points;
-  std::vector<InlierMask> lines;
+  std::vector<InlierMask> points;  ///< one per point of PoseData
+  std::vector<InlierMask> lines;   ///< one per line of PoseData
   bool operator==(const PoseInlierMask& other) const {
     return points == other.points && lines == other.lines;
   }
 };
 
-// Before anything is known of a match, it takes part if it is in front of the camera.
+/// Initial mask: every match in front of the camera is active.
 PoseInlierMask AllInFront(const PoseOptions& options, const PoseData& data, const Rigid3& pose);
 
-// Chi-square test of every match over the terms that are enabled, outliers of earlier rounds
-// included, in the noise of the frame. What moves by itself takes no part.
+/// Chi-square test of every match over the enabled terms, outliers of earlier rounds included, with
+/// limits that are inflated by the noise of the frame (PoseOptions::max_frame_noise). Matches on
+/// dynamic objects are inactive.
 PoseInlierMask ClassifyMatches(PoseOptions options, const PoseData& data, const Rigid3& pose);
 
-// Adds the active factors of one match, linearised (as far as sigmas go) at `pose`.
+/// Adds the active factors of one match. Sigmas of lines are evaluated at `pose`.
 void AddFactors(const PoseOptions& options, const PinholeCamera& camera,
-                const PoseData::Point& point, const InlierMask& active, PoseFactors* factors);
+                const PoseData::Point& point, const InlierMask& mask, PoseFactors* factors);
 void AddFactors(const PoseOptions& options, const PinholeCamera& camera, const PoseData::Line& line,
-                const InlierMask& active, const Rigid3& pose, PoseFactors* factors);
+                const InlierMask& mask, const Rigid3& pose, PoseFactors* factors);
 void SetLosses(const PoseOptions& options, PoseFactors* factors);
 
-// The factors of all active matches, with the losses or without.
+/// The factors of all active matches, with the robust losses or without.
 PoseFactors BuildFactors(const PoseOptions& options, const PoseData& data,
-                         const PoseInlierMask& active, const Rigid3& pose, bool robust);
+                         const PoseInlierMask& mask, const Rigid3& pose, bool robust);
 
 }  // namespace msc_vo

@@ -42,56 +42,62 @@ void Validate(const PoseOptions& options, const PoseData& data) {
   }
 }
 
-// Solves and classifies up to `num_rounds` times; earlier if that changes nothing any more. False
-// if there are fewer than six rows or the solver failed.
+// Optimises the pose and reclassifies all matches, up to `num_rounds` times, until the inlier mask
+// is stable. Returns false if fewer than six rows are left or the solver failed.
 bool RunRounds(const PoseOptions& options, const PoseData& data, int num_rounds, bool robust,
-               PoseInlierMask* active, Rigid3* pose) {
+               PoseInlierMask* mask, Rigid3* pose) {
   for (int round = 0; round < num_rounds; ++round) {
-    const PoseFactors factors = BuildFactors(options, data, *active, *pose, robust);
+    const PoseFactors factors = BuildFactors(options, data, *mask, *pose, robust);
     if (factors.NumRows() < 6) return false;
     const PoseTermination end = MinimizePose(factors, options.iterations_per_round, pose);
     if (end == PoseTermination::kFailed) return false;
     PoseInlierMask next = ClassifyMatches(options, data, *pose);
-    const bool settled = end == PoseTermination::kConverged && next == *active;
-    *active = std::move(next);
+    const bool settled = end == PoseTermination::kConverged && next == *mask;
+    *mask = std::move(next);
     if (settled) break;
   }
   return true;
 }
 
-bool SolveRounds(const PoseOptions& options, const PoseData& data, PoseInlierMask* active,
+// The robust rounds, then those without a loss.
+bool SolveRounds(const PoseOptions& options, const PoseData& data, PoseInlierMask* mask,
                  Rigid3* pose) {
-  return RunRounds(options, data, options.num_robust_rounds, true, active, pose) &&
-         RunRounds(options, data, options.num_rounds - options.num_robust_rounds, false, active,
+  return RunRounds(options, data, options.num_robust_rounds, true, mask, pose) &&
+         RunRounds(options, data, options.num_rounds - options.num_robust_rounds, false, mask,
                    pose);
 }
 
-// Solves once more without the parts of the image that move by themselves, if any do, and returns
-// them. Leaves all as it is and returns none if what then remains fixes no pose.
-std::vector<bool> LeaveOutWhatMoves(const PoseOptions& options, PoseData* data,
-                                    PoseInlierMask* active, Rigid3* pose) {
+// Marks the matches in dynamic cells.
+PoseData MarkDynamicMatches(const PoseOptions& options, const PoseData& data,
+                            const std::vector<bool>& dynamic_cells) {
+  const ImageGrid grid(options.consensus.columns, options.consensus.rows, data.camera);
+  PoseData marked = data;
+  for (PoseData::Point& point : marked.points) {
+    point.dynamic = dynamic_cells[grid.CellOf(point.pixel)];
+  }
+  for (PoseData::Line& line : marked.lines) line.dynamic = dynamic_cells[grid.CellOf(line.segment)];
+  return marked;
+}
+
+// Optimises once more without the cells of dynamic objects, if there are any, and returns the
+// cells. Changes nothing and returns none if the remaining matches do not determine a pose.
+std::vector<bool> RejectDynamicObjects(const PoseOptions& options, PoseData* data,
+                                       PoseInlierMask* mask, Rigid3* pose) {
   const std::optional<CellConsensus> consensus = FindCellConsensus(options, *data, *pose);
   if (!consensus) return {};
-  const ImageGrid parts(options.consensus.columns, options.consensus.rows, data->camera);
-  PoseData resting = *data;
-  for (PoseData::Point& point : resting.points) {
-    point.dynamic = consensus->dynamic_cells[parts.CellOf(point.pixel)];
-  }
-  for (PoseData::Line& line : resting.lines) {
-    line.dynamic = consensus->dynamic_cells[parts.CellOf(line.segment)];
-  }
-  Rigid3 next = consensus->cam_from_world;
-  PoseInlierMask kept = ClassifyMatches(options, resting, next);
-  if (!SolveRounds(options, resting, &kept, &next)) return {};
-  *data = std::move(resting);
-  *active = std::move(kept);
-  *pose = next;
+  PoseData marked = MarkDynamicMatches(options, *data, consensus->dynamic_cells);
+  Rigid3 static_pose = consensus->cam_from_world;
+  PoseInlierMask static_mask = ClassifyMatches(options, marked, static_pose);
+  if (!SolveRounds(options, marked, &static_mask, &static_pose)) return {};
+  *data = std::move(marked);
+  *mask = std::move(static_mask);
+  *pose = static_pose;
   return consensus->dynamic_cells;
 }
 
-// Inverse of J^T J, or nothing if it has none in a numerically sound way. Judged with its diagonal
-// scaled to one, as radians and metres do not compare; then 6 >= eigenvalues, and 1e-10 leaves six
-// digits above the rounding of the sums.
+// Inverse of J^T J, or std::nullopt if it is numerically singular. The test scales the diagonal to
+// one, because radians and metres are not comparable; the eigenvalues are then at most 6, and a
+// limit of 1e-10 leaves six digits above the rounding of the sums.
 std::optional<Eigen::Matrix<double, 6, 6>> Covariance(const Eigen::Matrix<double, 6, 6>& hessian) {
   const Eigen::Matrix<double, 6, 1> diagonal = hessian.diagonal();
   if (!(diagonal.minCoeff() > 0.0)) return std::nullopt;
@@ -105,15 +111,15 @@ std::optional<Eigen::Matrix<double, 6, 6>> Covariance(const Eigen::Matrix<double
   return scale.asDiagonal() * inverse * scale.asDiagonal();
 }
 
-// Inlier flags and their counts.
-void WriteFlags(const PoseInlierMask& active, PoseData* data, PoseSummary* summary) {
+// Writes the flags of the matches and counts them.
+void WriteFlags(const PoseInlierMask& mask, PoseData* data, PoseSummary* summary) {
   for (size_t i = 0; i < data->points.size(); ++i) {
-    data->points[i].inlier = active.points[i].reprojection;
+    data->points[i].inlier = mask.points[i].reprojection;
     summary->num_inlier_points += data->points[i].inlier;
     summary->num_dynamic += data->points[i].dynamic;
   }
   for (size_t i = 0; i < data->lines.size(); ++i) {
-    data->lines[i].inlier = active.lines[i].reprojection;
+    data->lines[i].inlier = mask.lines[i].reprojection;
     summary->num_inlier_lines += data->lines[i].inlier;
     summary->num_dynamic += data->lines[i].dynamic;
   }
@@ -151,16 +157,16 @@ bool PoseOptions::IsValid(std::string* error) const {
 PoseSummary OptimizePose(const PoseOptions& options, PoseData* data) {
   Validate(options, *data);
   Rigid3 pose = data->cam_from_world;
-  PoseInlierMask active = AllInFront(options, *data, pose);
+  PoseInlierMask mask = AllInFront(options, *data, pose);
   for (PoseData::Point& point : data->points) point.dynamic = false;
   for (PoseData::Line& line : data->lines) line.dynamic = false;
-  const bool solved = SolveRounds(options, *data, &active, &pose);
+  const bool solved = SolveRounds(options, *data, &mask, &pose);
   PoseSummary summary;
   if (solved && options.consensus.enabled) {
-    summary.dynamic_cells = LeaveOutWhatMoves(options, data, &active, &pose);
+    summary.dynamic_cells = RejectDynamicObjects(options, data, &mask, &pose);
   }
-  WriteFlags(active, data, &summary);
-  const PoseFactors inliers = BuildFactors(options, *data, active, pose, false);
+  WriteFlags(mask, data, &summary);
+  const PoseFactors inliers = BuildFactors(options, *data, mask, pose, false);
   NormalEquations equations;
   if (!solved || inliers.NumRows() < 6 || !inliers.Linearize(pose, &equations)) return summary;
   const auto covariance = Covariance(equations.hessian);

@@ -13,7 +13,8 @@ namespace msc_vo {
 
 namespace {
 
-// Nearest landmark of `keyframe` by descriptor for every feature of `frame` that has a depth.
+// Matches every feature of `frame` that has a depth with the nearest landmark of `keyframe` by
+// descriptor.
 std::vector<PointMatch> MatchDescriptors(const RelocalizerOptions& options, const Frame& frame,
                                          const Map& map, const Keyframe& keyframe) {
   std::vector<const PointLandmark*> landmarks;
@@ -67,7 +68,7 @@ Rigid3 AlignPairs(const Frame& frame, const std::vector<PointMatch>& matches,
   return AlignRigid(in_world, in_cam);
 }
 
-// Three different indices below `size`.
+// Draws three distinct indices below `size`.
 std::vector<int> DrawTriple(int size, std::mt19937* random) {
   std::vector<int> triple;
   while (triple.size() < 3) {

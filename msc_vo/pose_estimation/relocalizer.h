@@ -12,11 +12,15 @@
 namespace msc_vo {
 
 struct RelocalizerOptions {
-  int max_distance = 64;     // bits; stricter than with a predicted position, which excludes most
-  double max_ratio = 0.8;    // best over second best descriptor distance
-  int max_iterations = 200;  // three pairs, 30 % good: 99.6 % to find a clean sample
-  int min_inliers = 12;      // more than chance gives among some hundred false matches
-  // A pair agrees if it reprojects within this many sigmas (99 % of a chi with 2 degrees).
+  /// Bits between descriptors; stricter than for matching by projection, where the predicted
+  /// position excludes most wrong candidates.
+  int max_distance = 64;
+  double max_ratio = 0.8;  ///< best over second best descriptor distance
+  /// RANSAC iterations: with 30 % inliers, 200 triples contain a clean one with 99.6 % probability.
+  int max_iterations = 200;
+  int min_inliers = 12;  ///< more than chance yields among some hundred wrong matches
+  /// Reprojection error of an inlier, sigmas: square root of the 99 % quantile of chi-square with
+  /// two degrees of freedom.
   double inlier_sigmas = 3.035;
 
   bool IsValid(std::string* error) const;
@@ -24,12 +28,13 @@ struct RelocalizerOptions {
 
 struct Relocalization {
   Rigid3 cam_from_world;
-  FrameMatches matches;  // with landmarks, all of them inliers
+  FrameMatches matches;  ///< with landmarks; all of them are inliers
 };
 
-// Finds the pose of `frame` from the landmarks of one keyframe without any prediction: descriptor
-// matching, then RANSAC over triples of 3-D/3-D pairs, scored by reprojection. Deterministic:
-// seeded with the frame's id. std::nullopt if too few pairs agree.
+/// Finds the pose of `frame` from the landmarks of one keyframe without a prediction: descriptor
+/// matching, then RANSAC over triples of 3-D/3-D correspondences, scored by reprojection.
+/// Deterministic: the random numbers are seeded with the frame's id. Returns std::nullopt if too
+/// few correspondences agree.
 std::optional<Relocalization> Relocalize(const RelocalizerOptions& options, const Frame& frame,
                                          const Map& map, const Keyframe& keyframe);
 
