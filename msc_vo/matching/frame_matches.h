@@ -12,8 +12,8 @@
 
 namespace msc_vo {
 
-// What one feature of a frame was matched with: a landmark of the map, or a feature of another
-// frame whose depth was measured (id == kNoId).
+/// The match of one feature of a frame with a landmark of the map, or with a feature of another
+/// frame that has a measured depth (id == kNoId).
 struct PointMatch {
   int feature = 0;
   LandmarkId id = kNoId;
@@ -28,7 +28,7 @@ struct LineMatch {
   bool inlier = true;
 };
 
-// The matches of one frame; each feature occurs at most once.
+/// The matches of one frame; each feature occurs at most once.
 struct FrameMatches {
   std::vector<PointMatch> points;
   std::vector<LineMatch> lines;

@@ -13,44 +13,45 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kNear = 0.05;        // metres, see ProjectCandidate of points
-constexpr double kMinVisible = 10.0;  // pixels; one pixel of noise then turns it by 6 degrees
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNear = 0.05;        // metres, as for points
+constexpr double kMinVisible = 10.0;  // pixels; one pixel of noise rotates this length by 6 degrees
+constexpr double kNoMatch = std::numeric_limits<double>::infinity();
 
-// An image segment with what every pair needs of it.
-struct Ruler {
+// An image segment with its precomputed direction and length.
+struct MeasuredSegment {
   Eigen::Vector2d start;
   Eigen::Vector2d direction;
   double length;
 
-  explicit Ruler(const LineSegment2& segment)
+  explicit MeasuredSegment(const LineSegment2& segment)
       : start(segment.start), direction(segment.Direction()), length(segment.Length()) {}
 
-  // Pixels from the start along the direction.
+  // Coordinate of `pixel` along the segment, pixels from its start.
   double Along(const Eigen::Vector2d& pixel) const { return direction.dot(pixel - start); }
+  // Distance of `pixel` to the infinite line, pixels.
   double Across(const Eigen::Vector2d& pixel) const {
     const Eigen::Vector2d d = pixel - start;
     return std::abs(direction.x() * d.y() - direction.y() * d.x());
   }
 };
 
-std::vector<Ruler> RulersOf(const std::vector<LineCandidate>& candidates) {
-  std::vector<Ruler> rulers;
-  rulers.reserve(candidates.size());
-  for (const LineCandidate& candidate : candidates) rulers.emplace_back(candidate.image);
-  return rulers;
+std::vector<MeasuredSegment> MeasureCandidates(const std::vector<LineCandidate>& candidates) {
+  std::vector<MeasuredSegment> segments;
+  segments.reserve(candidates.size());
+  for (const LineCandidate& candidate : candidates) segments.emplace_back(candidate.image);
+  return segments;
 }
 
-// Pixels between the candidate's line and the middle of the stretch that it shares with the
-// feature; infinite if they share too little.
-double Offset(const LineMatcherOptions& options, const Ruler& candidate, const Ruler& feature,
-              const LineSegment2& image) {
+// Distance, pixels, of the candidate's line to the middle of its overlap with the feature; kNoMatch
+// if the overlap is too short.
+double OverlapDistance(const LineMatcherOptions& options, const MeasuredSegment& candidate,
+                       const MeasuredSegment& feature, const LineSegment2& image) {
   const double s = feature.Along(image.start);
   const double e = feature.Along(image.end);
   const double first = std::max(0.0, std::min(s, e));
   const double last = std::min(feature.length, std::max(s, e));
   const double shorter = std::min(feature.length, candidate.length);
-  if (last - first < options.min_overlap * shorter) return kNever;
+  if (last - first < options.min_overlap * shorter) return kNoMatch;
   return candidate.Across(feature.start + 0.5 * (first + last) * feature.direction);
 }
 
@@ -85,24 +86,25 @@ std::vector<LineMatch> MatchLines(const LineMatcherOptions& options, const Frame
                                   const std::vector<bool>& taken) {
   struct Claim {
     int candidate = -1;
-    double cost = kNever;
+    double cost = kNoMatch;
   };
   std::vector<Claim> claims(frame.lines.size());
   const double cos_max_angle = std::cos(DegreesToRadians(options.max_angle));
-  const std::vector<Ruler> rulers = RulersOf(candidates);
-  // At most a few hundred on either side, and the first gate is one dot product: no grid needed.
-  // A map line may be seen in several pieces, so each feature chooses for itself.
+  const std::vector<MeasuredSegment> segments = MeasureCandidates(candidates);
+  // Exhaustive search: a few hundred lines on either side, and the first gate is one dot product.
+  // Each feature selects its candidate, because a map line may be detected in several fragments.
   for (size_t i = 0; i < frame.lines.size(); ++i) {
     const LineFeature& feature = frame.lines[i];
     if (feature.dynamic || (!taken.empty() && taken[i])) continue;
-    const Ruler ruler(feature.segment);
+    const MeasuredSegment measured(feature.segment);
     for (size_t j = 0; j < candidates.size(); ++j) {
-      if (rulers[j].direction.dot(ruler.direction) < cos_max_angle) continue;
-      const double offset = Offset(options, rulers[j], ruler, candidates[j].image);
-      if (offset > radius) continue;
+      if (segments[j].direction.dot(measured.direction) < cos_max_angle) continue;
+      const double distance_px =
+          OverlapDistance(options, segments[j], measured, candidates[j].image);
+      if (distance_px > radius) continue;
       const int distance = HammingDistance(candidates[j].descriptor, feature.descriptor);
       if (distance > options.max_distance) continue;
-      const double cost = distance + options.bits_per_pixel * offset;
+      const double cost = distance + options.bits_per_pixel * distance_px;
       if (cost < claims[i].cost) claims[i] = {static_cast<int>(j), cost};
     }
   }

@@ -13,36 +13,36 @@
 namespace msc_vo {
 
 struct LineMatcherOptions {
-  // Largest difference of direction in the image, degrees. Directed: a segment runs with its
-  // brighter side always on the same hand, so the two edges of a thin bar are told apart.
+  /// Largest difference of direction in the image, degrees. Segments are directed: the brighter
+  /// side is always on the same hand, which distinguishes the two edges of a thin bar.
   double max_angle = 8.0;
-  // Share of the shorter segment that must lie beside the other one.
+  /// Fraction of the shorter segment that must overlap with the other one.
   double min_overlap = 0.5;
-  // LBD descriptors of one line seen twice differ in fewer bits than this.
+  /// Largest Hamming distance, bits, between LBD descriptors of two observations of one line.
   int max_distance = 80;
-  // Along one stretch of edge several fragments pass the gates; among them descriptor and position
-  // decide together: this many bits weigh as much as one pixel of distance.
+  /// Weight of a pixel of distance in the matching cost, in bits of descriptor distance. Along one
+  /// edge several fragments pass the gates; descriptor and position select among them together.
   double bits_per_pixel = 5.0;
 
   bool IsValid(std::string* error) const;
 };
 
-// A segment that should be seen in a frame.
+/// A map line that is expected to be visible in a frame.
 struct LineCandidate {
   LandmarkId id = kNoId;
   LineSegment3 segment;  // metres, world
   Descriptor descriptor{};
-  LineSegment2 image;  // its visible part, pixels
+  LineSegment2 image;  ///< projection of the visible part, pixels
 };
 
-// Projects `segment` and clips it to the image; returns false if nothing is visible or the visible
-// part is too short (pixels) to have a direction.
+/// Projects `segment` and clips it to the image. Returns false if no part is visible or the visible
+/// part is too short to have a direction.
 bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,
                       LineCandidate* candidate);
 
-// Matches candidates with the lines of `frame` whose distance at the middle of the overlap is below
-// `radius` pixels. A feature goes to the candidate with the lowest cost, the first of equals.
-// Features that move and those with `taken[feature]` are left out; `taken` may be empty.
+/// Matches candidates with the lines of `frame` whose distance at the middle of the overlap is
+/// below `radius` pixels. A feature is matched with the candidate of lowest cost, the first one on
+/// ties. Dynamic features and those with `taken[feature]` are excluded; `taken` may be empty.
 std::vector<LineMatch> MatchLines(const LineMatcherOptions& options, const Frame& frame,
                                   const std::vector<LineCandidate>& candidates, double radius,
                                   const std::vector<bool>& taken);

@@ -15,16 +15,16 @@ namespace msc_vo {
 
 namespace {
 
-// Highest pyramid level of the extractor's default; beyond it a point is too near to be recognised.
+// Highest pyramid level of the extractor's default; nearer points cannot be matched.
 constexpr int kMaxLevel = 7;
-// A patch seen from more than 60 degrees off looks different: as in the ORB literature.
+// Cosine of the largest viewing-angle difference, 60 degrees: beyond it ORB descriptors change.
 constexpr double kMinViewingCosine = 0.5;
 
-// The keyframes that see what the frame sees, those with most of it first.
-std::vector<Map::Covisible> Votes(const Map& map, const FrameMatches& matches) {
-  ObserverCount votes(map);
-  const auto count = [&votes](const Landmark* landmark) {
-    if (landmark != nullptr) votes.Add(*landmark);
+// The keyframes that observe the matched landmarks, most shared landmarks first.
+std::vector<Map::Covisible> RankObservers(const Map& map, const FrameMatches& matches) {
+  ObserverCount observers(map);
+  const auto count = [&observers](const Landmark* landmark) {
+    if (landmark != nullptr) observers.Add(*landmark);
   };
   for (const PointMatch& match : matches.points) {
     if (match.inlier) count(map.FindPoint(match.id));
@@ -32,21 +32,21 @@ std::vector<Map::Covisible> Votes(const Map& map, const FrameMatches& matches) {
   for (const LineMatch& match : matches.lines) {
     if (match.inlier) count(map.FindLine(match.id));
   }
-  return votes.Ranked();
+  return observers.Ranked();
 }
 
 std::set<KeyframeId> SelectKeyframes(const Map& map, const FrameMatches& matches,
                                      KeyframeId fallback, int max_keyframes,
                                      KeyframeId* reference) {
-  std::vector<Map::Covisible> ranked = Votes(map, matches);
+  std::vector<Map::Covisible> ranked = RankObservers(map, matches);
   if (ranked.empty()) ranked.push_back({fallback, 0});
   *reference = ranked.front().keyframe;
   std::set<KeyframeId> selected;
-  for (const Map::Covisible& seen : ranked) {
+  for (const Map::Covisible& observer : ranked) {
     if (static_cast<int>(selected.size()) >= max_keyframes) return selected;
-    selected.insert(seen.keyframe);
+    selected.insert(observer.keyframe);
   }
-  // Neighbours of the best one see what comes into view next.
+  // Covisible keyframes of the best one observe landmarks that are about to enter the view.
   for (const Map::Covisible& covisible : map.FindCovisible(*reference)) {
     if (static_cast<int>(selected.size()) >= max_keyframes) break;
     selected.insert(covisible.keyframe);
@@ -54,22 +54,23 @@ std::set<KeyframeId> SelectKeyframes(const Map& map, const FrameMatches& matches
   return selected;
 }
 
-void AddLandmarks(const std::vector<LandmarkId>& seen, IdSet* landmarks) {
-  for (const LandmarkId id : seen) {
+void AddLandmarks(const std::vector<LandmarkId>& observed, IdSet* landmarks) {
+  for (const LandmarkId id : observed) {
     if (id != kNoId) landmarks->Insert(id);
   }
 }
 
-bool IsSeenFromNear(const Landmark& landmark, const Eigen::Vector3d& ray) {
+// Whether the ray from the camera to the landmark is near to its mean viewing direction.
+bool IsViewedAlike(const Landmark& landmark, const Eigen::Vector3d& ray) {
   return landmark.viewing_direction.dot(ray) >= kMinViewingCosine * ray.norm();
 }
 
 void AddPoint(const PointLandmark& point, const Frame& frame, const Rigid3& cam_from_world,
               const Eigen::Vector3d& center, std::vector<PointCandidate>* candidates) {
   const Eigen::Vector3d ray = point.position - center;
-  if (!IsSeenFromNear(point, ray)) return;
+  if (!IsViewedAlike(point, ray)) return;
   const double level = std::log(point.reference_distance / ray.norm()) / std::log(kPyramidScale);
-  // One level of tolerance on both sides, as the matcher has.
+  // One level of tolerance on both sides, as in the matcher.
   if (!(level > -1.5 && level < kMaxLevel + 1.5)) return;
   PointCandidate candidate;
   candidate.id = point.id;
@@ -81,7 +82,7 @@ void AddPoint(const PointLandmark& point, const Frame& frame, const Rigid3& cam_
 
 void AddLine(const LineLandmark& line, const Frame& frame, const Rigid3& cam_from_world,
              const Eigen::Vector3d& center, std::vector<LineCandidate>* candidates) {
-  if (!IsSeenFromNear(line, line.segment.Midpoint() - center)) return;
+  if (!IsViewedAlike(line, line.segment.Midpoint() - center)) return;
   LineCandidate candidate;
   candidate.id = line.id;
   candidate.segment = line.segment;

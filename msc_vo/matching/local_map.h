@@ -12,17 +12,19 @@
 
 namespace msc_vo {
 
-// The part of the map that a frame should see.
+/// The part of the map that is expected to be visible in a frame.
 struct LocalMap {
-  KeyframeId reference = kNoId;  // the keyframe that shares most landmarks with the frame
+  KeyframeId reference = kNoId;  ///< the keyframe that shares most landmarks with the frame
   std::vector<PointCandidate> points;
   std::vector<LineCandidate> lines;
 };
 
-// The landmarks of the keyframes that share landmarks with `matches`, and of the neighbours of the
-// best of them, as far as they project into `frame` from `cam_from_world`, are seen from a similar
-// direction, and (points) at a scale that the pyramid covers. If no match is a landmark, the
-// neighbourhood of keyframe `fallback` is taken.
+/// Selects the local map of a frame (paper: local map tracking): the landmarks of the keyframes
+/// that share landmarks with `matches`, and of the covisible keyframes of the best of them. A
+/// landmark is included if it projects into `frame` from `cam_from_world`, is observed from a
+/// similar direction, and (points) at a scale that the pyramid covers. If no match is a landmark,
+/// the neighbourhood of keyframe `fallback` is selected. At most `max_keyframes` keyframes
+/// contribute.
 LocalMap SelectLocalMap(const Map& map, const Frame& frame, const Rigid3& cam_from_world,
                         const FrameMatches& matches, KeyframeId fallback, int max_keyframes);
 

@@ -13,19 +13,19 @@ namespace msc_vo {
 
 namespace {
 
-constexpr int kNoDistance = 257;  // more than 256 bits can differ
+constexpr int kNoDistance = 257;  // more than the 256 bits of a descriptor
 
 struct Best {
   int feature = -1;
   int distance = kNoDistance;
 
-  // Of equal distances the first feature.
+  // Ties are broken by the feature index.
   bool operator<(const Best& other) const {
     return std::tie(distance, feature) < std::tie(other.distance, other.feature);
   }
 };
 
-// Best feature for one candidate, or feature -1.
+// Best feature for one candidate; feature -1 if there is none.
 Best FindBest(const PointMatcherOptions& options, const Frame& frame,
               const PointCandidate& candidate, double radius, const std::vector<bool>& taken) {
   Best best;
@@ -67,7 +67,7 @@ bool PointMatcherOptions::IsValid(std::string* error) const {
 
 bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,
                       PointCandidate* candidate) {
-  // Nearer than this no depth sensor of the kind works, and the projection becomes unstable.
+  // Metres: below the range of RGB-D sensors, where the projection becomes unstable.
   constexpr double kNear = 0.05;
   const Eigen::Vector3d in_cam = cam_from_world * candidate->position;
   if (in_cam.z() < kNear) return false;
