@@ -12,13 +12,13 @@ namespace msc_vo {
 
 namespace {
 
-// Pixels per bucket: about the radius of a search by projection, so that one looks into few cells.
+// Pixels per cell: about the radius of a search by projection, so that a search visits few cells.
 constexpr double kCellSize = 16.0;
 
 }  // namespace
 
-// Bits are summed in parallel, in fields of 2, 4, 8 and 16 bits: four times as fast as calls of the
-// library's population count, which is what compilers make of theirs for every x86 processor.
+// Sums bits in parallel, in fields of 2, 4, 8 and 16 bits: baseline x86-64 has no population count
+// instruction, and this is four times as fast as the compiler's library call.
 int HammingDistance(const Descriptor& a, const Descriptor& b) {
   uint64_t bytes = 0;  // eight counts, of up to 32
   for (size_t i = 0; i < a.size(); i += sizeof(uint64_t)) {
@@ -40,14 +40,15 @@ FeatureGrid::FeatureGrid(const PinholeCamera& camera, const std::vector<PointFea
       rows_(std::max(1, static_cast<int>(std::ceil(camera.height / kCellSize)))),
       begins_(static_cast<size_t>(columns_) * rows_ + 1, 0),
       indices_(points.size()) {
-  // Counting sort: ends of the buckets first, from which filling backwards makes their begins.
-  const auto bucket_of = [this](const PointFeature& point) {
+  // Counting sort: the partial sums are the ends of the cells; filling backwards turns them into
+  // their beginnings.
+  const auto cell_of = [this](const PointFeature& point) {
     return RowOf(point.pixel.y()) * columns_ + ColumnOf(point.pixel.x());
   };
-  for (const PointFeature& point : points) ++begins_[bucket_of(point)];
+  for (const PointFeature& point : points) ++begins_[cell_of(point)];
   std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
   for (size_t i = points.size(); i-- > 0;) {
-    indices_[--begins_[bucket_of(points[i])]] = static_cast<int>(i);
+    indices_[--begins_[cell_of(points[i])]] = static_cast<int>(i);
   }
 }
 

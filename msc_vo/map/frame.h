@@ -18,14 +18,14 @@
 
 namespace msc_vo {
 
-// 256-bit binary descriptor (turned BRIEF for points, LBD for lines).
+/// 256-bit binary descriptor (rotated BRIEF for points, LBD for lines).
 using Descriptor = std::array<uint8_t, 32>;
 
 // Number of differing bits, 0..256.
 int HammingDistance(const Descriptor& a, const Descriptor& b);
 
-// Scale between neighbouring pyramid levels of point features, as ORB has it. A constant and no
-// option: extraction, matching by projection and culling must agree on it.
+/// Scale between adjacent pyramid levels of point features, as in ORB. A constant rather than an
+/// option, because extraction, matching by projection and culling must agree on it.
 constexpr double kPyramidScale = 1.2;
 
 // A point feature p_i of the paper. Pixels are undistorted.
@@ -33,9 +33,9 @@ struct PointFeature {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double sigma = 1.0;                // pixels, standard deviation of each coordinate
   int level = 0;                     // pyramid level, 0 is the full image
-  bool dynamic = false;              // by itself, as tracking found: shows no landmark
+  bool dynamic = false;              // on a dynamic object: must not create a landmark
   double angle = 0.0;                // radians, orientation in the image
-  double inverse_depth = 0.0;        // 1/metres; 0: no depth here
+  double inverse_depth = 0.0;        // 1/metres; 0: no depth measured
   double inverse_depth_sigma = 0.0;  // 1/metres; > 0 if there is a depth
   Descriptor descriptor{};
 
@@ -46,13 +46,13 @@ struct PointFeature {
 struct LineFeature {
   LineSegment2 segment;
   double sigma = 1.0;              // pixels, of an end point's distance to the true line
-  bool dynamic = false;            // as of points
+  bool dynamic = false;            // as for points
   std::optional<LineDepth> depth;  // none: the line stays 2-D
   Descriptor descriptor{};
 };
 
-// Buckets of feature indices over the image, for searches by radius in time proportional to the
-// answer. Points outside the image (undistortion moves some there) go to the nearest bucket.
+// Feature indices in square cells over the image, for radius searches in time proportional to the
+// result. Points outside the image, where undistortion may move them, belong to the nearest cell.
 class FeatureGrid {
  public:
   FeatureGrid() = default;
@@ -61,7 +61,8 @@ class FeatureGrid {
   // Indices of the points within `radius` pixels of `pixel`, ascending.
   std::vector<int> Near(const std::vector<PointFeature>& points, const Eigen::Vector2d& pixel,
                         double radius) const;
-  // Calls visit(index) for each of them, in an order that depends on nothing else; makes no list.
+  // Calls visit(index) for each of these points without allocating; the order depends on the
+  // features alone.
   template <typename Visit>
   void VisitNear(const std::vector<PointFeature>& points, const Eigen::Vector2d& pixel,
                  double radius, const Visit& visit) const {
@@ -69,7 +70,7 @@ class FeatureGrid {
     const int first = ColumnOf(pixel.x() - radius);
     const int last = ColumnOf(pixel.x() + radius);
     for (int row = RowOf(pixel.y() - radius); row <= RowOf(pixel.y() + radius); ++row) {
-      // The buckets of a row follow each other.
+      // The cells of a row are contiguous.
       const int end = begins_[row * columns_ + last + 1];
       for (int i = begins_[row * columns_ + first]; i < end; ++i) {
         const int index = indices_[i];
@@ -84,14 +85,14 @@ class FeatureGrid {
 
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<int> begins_;   // of each bucket among indices_, and their number
-  std::vector<int> indices_;  // bucket by bucket, ascending in each
+  std::vector<int> begins_;   // offset of each cell in indices_; last: their number
+  std::vector<int> indices_;  // cell by cell, ascending within each
 };
 
-// What is kept of an image: its features and nothing else. Images end here.
+// The features of one image. No image data is kept beyond this type.
 //
-// A frame does not change after it was made; poses and associations live beside it, so that frames
-// can be shared between threads without locks.
+// A frame is immutable once it is built; poses and associations are stored separately, so that
+// frames can be shared between threads without locks.
 struct Frame {
   int64_t id = 0;          // position in the sequence, from 0
   double timestamp = 0.0;  // seconds
@@ -99,8 +100,9 @@ struct Frame {
   std::vector<PointFeature> points;
   std::vector<LineFeature> lines;
   FeatureGrid grid;  // over `points`
-  // What features were unrolled with, see rolling_shutter.h: the camera's velocity, none while it
-  // is not known, and the readout time, seconds.
+  // Parameters of the rolling-shutter compensation that was applied to the features (see
+  // rolling_shutter.h): the camera's velocity, std::nullopt while it is unknown, and the readout
+  // time, seconds.
   std::optional<CameraVelocity> velocity;
   double readout_time = 0.0;
 

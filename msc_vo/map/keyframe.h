@@ -12,12 +12,12 @@
 
 namespace msc_vo {
 
-// A frame that stays in the map, its pose, and the landmarks that its features show.
+// A frame that is kept in the map, its pose, and the landmarks that its features observe.
 struct Keyframe {
   KeyframeId id = kNoId;
   std::shared_ptr<const Frame> frame;
   Rigid3 cam_from_world;
-  std::vector<LandmarkId> points;  // one per point feature, kNoId: none
+  std::vector<LandmarkId> points;  // one per point feature; kNoId: none
   std::vector<LandmarkId> lines;   // one per line feature
 };
 

@@ -13,10 +13,11 @@ namespace msc_vo {
 
 namespace {
 
-// The points or the lines of a keyframe: the logic of observations is the same for both.
+// Either the points or the lines of a keyframe; the bookkeeping of observations is the same for
+// both.
 using Slots = std::vector<LandmarkId> Keyframe::*;
 
-// Where the observation by `keyframe` stands or would stand.
+// Position of the observation by `keyframe`, or where it is to be inserted.
 template <typename Observations>
 auto LowerBound(Observations* observations, KeyframeId keyframe) {
   return std::lower_bound(
@@ -24,7 +25,7 @@ auto LowerBound(Observations* observations, KeyframeId keyframe) {
       [](const Observation& observation, KeyframeId id) { return observation.keyframe < id; });
 }
 
-// nullptr if the keyframe does not see the landmark.
+// Returns nullptr if the keyframe does not observe the landmark.
 const Observation* FindObservation(const Landmark& landmark, KeyframeId keyframe) {
   const auto place = LowerBound(&landmark.observations, keyframe);
   return place != landmark.observations.end() && place->keyframe == keyframe ? &*place : nullptr;
@@ -47,8 +48,8 @@ bool Observe(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, Landm
 }
 
 template <typename Table>
-void Forget(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, LandmarkId id,
-            KeyframeId keyframe) {
+void RemoveObservation(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, LandmarkId id,
+                       KeyframeId keyframe) {
   const auto* landmark = landmarks->Find(id);
   if (landmark == nullptr) return;
   const Observation* observation = FindObservation(*landmark, keyframe);
@@ -86,7 +87,15 @@ void Merge(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, Landmar
   target->num_found += source.num_found;
 }
 
-// The descriptor with the least total distance to all others; the first of equals.
+template <typename Table>
+void CountTracking(LandmarkId id, int num_visible, int num_found, Table* landmarks) {
+  auto* landmark = landmarks->FindToChange(id);
+  if (landmark == nullptr) return;
+  landmark->num_visible += num_visible;
+  landmark->num_found += num_found;
+}
+
+// Returns the descriptor with the smallest total distance to all others; the first one on ties.
 Descriptor CentralDescriptor(const std::vector<Descriptor>& descriptors) {
   std::vector<int> totals(descriptors.size(), 0);
   for (size_t i = 0; i < descriptors.size(); ++i) {
@@ -99,16 +108,16 @@ Descriptor CentralDescriptor(const std::vector<Descriptor>& descriptors) {
   return descriptors[std::min_element(totals.begin(), totals.end()) - totals.begin()];
 }
 
-// Chooses it again if observations have changed: most landmarks of a window keep theirs.
+// Selects the descriptor again if the observations have changed.
 template <typename Feature>
 void RefreshDescriptor(const Map::KeyframeTable& keyframes, std::vector<Feature> Frame::*features,
                        Landmark* landmark) {
   if (landmark->descriptor_is_current) return;
   std::vector<Descriptor> descriptors;
   descriptors.reserve(landmark->observations.size());
-  for (const Observation& seen : landmark->observations) {
-    const Frame& frame = *keyframes.Find(seen.keyframe)->frame;
-    descriptors.push_back((frame.*features)[seen.feature].descriptor);
+  for (const Observation& observation : landmark->observations) {
+    const Frame& frame = *keyframes.Find(observation.keyframe)->frame;
+    descriptors.push_back((frame.*features)[observation.feature].descriptor);
   }
   landmark->descriptor = CentralDescriptor(descriptors);
   landmark->descriptor_is_current = true;
@@ -121,7 +130,7 @@ Map Map::Share() {
   map.keyframes_ = keyframes_.Share();
   map.points_ = points_.Share();
   map.lines_ = lines_.Share();
-  map.places_ = places_.Share();
+  map.relative_poses_ = relative_poses_.Share();
   map.next_keyframe_ = next_keyframe_;
   map.next_landmark_ = next_landmark_;
   return map;
@@ -140,7 +149,7 @@ KeyframeId Map::AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& ca
   keyframe.frame = std::move(frame);
   const KeyframeId id = keyframe.id;
   keyframes_.Append(id, std::move(keyframe));
-  places_.Append(id, {});
+  relative_poses_.Append(id, {});
   return id;
 }
 
@@ -174,11 +183,11 @@ bool Map::ObservePoint(LandmarkId point, KeyframeId keyframe, int feature) {
 bool Map::ObserveLine(LandmarkId line, KeyframeId keyframe, int feature) {
   return Observe(&lines_, &keyframes_, &Keyframe::lines, line, {keyframe, feature});
 }
-void Map::ForgetPoint(LandmarkId point, KeyframeId keyframe) {
-  Forget(&points_, &keyframes_, &Keyframe::points, point, keyframe);
+void Map::RemovePointObservation(LandmarkId point, KeyframeId keyframe) {
+  RemoveObservation(&points_, &keyframes_, &Keyframe::points, point, keyframe);
 }
-void Map::ForgetLine(LandmarkId line, KeyframeId keyframe) {
-  Forget(&lines_, &keyframes_, &Keyframe::lines, line, keyframe);
+void Map::RemoveLineObservation(LandmarkId line, KeyframeId keyframe) {
+  RemoveObservation(&lines_, &keyframes_, &Keyframe::lines, line, keyframe);
 }
 void Map::RemovePoint(LandmarkId point) { Remove(&points_, &keyframes_, &Keyframe::points, point); }
 void Map::RemoveLine(LandmarkId line) { Remove(&lines_, &keyframes_, &Keyframe::lines, line); }
@@ -189,28 +198,29 @@ void Map::MergeLines(LandmarkId from, LandmarkId into) {
   Merge(&lines_, &keyframes_, &Keyframe::lines, from, into);
 }
 
-void Map::RemoveKeyframe(KeyframeId id, KeyframeId heir) {
+void Map::RemoveKeyframe(KeyframeId id, KeyframeId successor) {
   const Keyframe keyframe = *keyframes_.Find(id);
-  *places_.FindToChange(id) = {
-      heir, keyframe.cam_from_world * keyframes_.Find(heir)->cam_from_world.Inverse()};
+  *relative_poses_.FindToChange(id) = {
+      successor, keyframe.cam_from_world * keyframes_.Find(successor)->cam_from_world.Inverse()};
   for (const LandmarkId point : keyframe.points) {
-    if (point != kNoId) ForgetPoint(point, id);
+    if (point != kNoId) RemovePointObservation(point, id);
   }
   for (const LandmarkId line : keyframe.lines) {
-    if (line != kNoId) ForgetLine(line, id);
+    if (line != kNoId) RemoveLineObservation(line, id);
   }
   keyframes_.Erase(id);
 }
 
 Rigid3 Map::CamFromWorld(KeyframeId id) const {
-  // As it stands, to the last bit: a product would normalise its rotation again.
+  // The stored pose to the last bit: a product would normalise its rotation again.
   if (const Keyframe* keyframe = keyframes_.Find(id)) return keyframe->cam_from_world;
-  Rigid3 cam_from_heir;
-  for (const Place* place = places_.Find(id); place->heir != kNoId; place = places_.Find(id)) {
-    cam_from_heir = cam_from_heir * place->cam_from_heir;
-    id = place->heir;
+  Rigid3 cam_from_successor;
+  for (const RelativePose* relative = relative_poses_.Find(id); relative->successor != kNoId;
+       relative = relative_poses_.Find(id)) {
+    cam_from_successor = cam_from_successor * relative->cam_from_successor;
+    id = relative->successor;
   }
-  return cam_from_heir * keyframes_.Find(id)->cam_from_world;
+  return cam_from_successor * keyframes_.Find(id)->cam_from_world;
 }
 
 void Map::SetFrame(KeyframeId keyframe, std::shared_ptr<const Frame> frame) {
@@ -235,14 +245,11 @@ void Map::SetLineNoise(LandmarkId line, double noise, double depth_offset) {
   landmark->depth_offset = depth_offset;
 }
 
-void Map::CountTracking(LandmarkId landmark, bool is_line, int num_visible, int num_found) {
-  const auto count = [&](auto* landmarks) {
-    auto* counted = landmarks->FindToChange(landmark);
-    if (counted == nullptr) return;
-    counted->num_visible += num_visible;
-    counted->num_found += num_found;
-  };
-  is_line ? count(&lines_) : count(&points_);
+void Map::CountPointTracking(LandmarkId point, int num_visible, int num_found) {
+  CountTracking(point, num_visible, num_found, &points_);
+}
+void Map::CountLineTracking(LandmarkId line, int num_visible, int num_found) {
+  CountTracking(line, num_visible, num_found, &lines_);
 }
 
 void Map::RefreshPoint(LandmarkId id) {

@@ -12,35 +12,35 @@
 
 namespace msc_vo {
 
-// Keyframes, landmarks and who sees what. Share() gives snapshots that nobody else changes.
+// Keyframes, landmarks and their observations. Share() returns immutable snapshots.
 //
-// Pointers and references to its parts hold until the next change of the map.
+// Pointers and references into the map are valid until its next change.
 //
-// Ids grow in order of creation and are never used again; all containers are ordered by id, so that
-// every walk over the map is the same at every run.
+// Ids increase in order of creation and are never reused. All containers are ordered by id, so that
+// iteration is deterministic.
 class Map {
  public:
-  // Keyframes are shared one by one, as their lists of landmarks are long. Blocks of 16 landmarks,
-  // 2 kB without observations: few others are copied with one that changes, and a snapshot copies a
-  // sixteenth of the pointers.
+  // Block sizes of the copy-on-write tables. Keyframes have long lists of landmarks and are shared
+  // one by one. Sixteen landmarks take 2 kB without observations: few neighbours are copied with
+  // one that changes, and a snapshot copies a sixteenth of the pointers.
   using KeyframeTable = SharedTable<Keyframe, 1>;
   using PointTable = SharedTable<PointLandmark, 16>;
   using LineTable = SharedTable<LineLandmark, 16>;
 
-  // Another keyframe and how many landmarks it shares with the one that was asked about.
+  // Another keyframe and the number of landmarks that it shares with the given one.
   struct Covisible {
     KeyframeId keyframe = kNoId;
     int num_shared = 0;
   };
 
-  // The map as it is now, in time and memory of what changes afterwards.
+  // Returns a snapshot of the map. It shares memory with this map until either changes.
   Map Share();
 
   const KeyframeTable& keyframes() const { return keyframes_; }
   const PointTable& points() const { return points_; }
   const LineTable& lines() const { return lines_; }
 
-  // nullptr if there is none, or no longer.
+  // Returns nullptr if the map does not contain the id.
   const Keyframe* FindKeyframe(KeyframeId id) const;
   const PointLandmark* FindPoint(LandmarkId id) const;
   const LineLandmark* FindLine(LandmarkId id) const;
@@ -51,13 +51,13 @@ class Map {
   LandmarkId AddPoint(KeyframeId keyframe, int feature, const Eigen::Vector3d& position);
   LandmarkId AddLine(KeyframeId keyframe, int feature, const LineSegment3& segment);
 
-  // Adds an observation. Returns false, changing nothing, if the landmark is gone, is seen in this
-  // keyframe already, or the feature is taken.
+  // Adds an observation. Returns false and changes nothing if the landmark does not exist, is
+  // already observed by this keyframe, or the feature observes another landmark.
   bool ObservePoint(LandmarkId point, KeyframeId keyframe, int feature);
   bool ObserveLine(LandmarkId line, KeyframeId keyframe, int feature);
-  // Removes an observation if it exists; a landmark without any observation goes with it.
-  void ForgetPoint(LandmarkId point, KeyframeId keyframe);
-  void ForgetLine(LandmarkId line, KeyframeId keyframe);
+  // Removes an observation if it exists, and the landmark with its last observation.
+  void RemovePointObservation(LandmarkId point, KeyframeId keyframe);
+  void RemoveLineObservation(LandmarkId line, KeyframeId keyframe);
 
   void RemovePoint(LandmarkId point);
   void RemoveLine(LandmarkId line);
@@ -65,21 +65,23 @@ class Map {
   void MergePoints(LandmarkId from, LandmarkId into);
   void MergeLines(LandmarkId from, LandmarkId into);
 
-  // Removes a keyframe and its observations. Its pose relative to `heir`, which must be in the map,
-  // is remembered, so that frames tracked against it keep a place on the trajectory.
-  void RemoveKeyframe(KeyframeId id, KeyframeId heir);
+  // Removes a keyframe and its observations. Its pose relative to `successor`, which must be in the
+  // map, is kept, so that frames that were tracked relative to it keep their pose.
+  void RemoveKeyframe(KeyframeId id, KeyframeId successor);
   // Pose of a keyframe that is in the map or was removed from it.
   Rigid3 CamFromWorld(KeyframeId id) const;
 
-  // Another state of the same features, in the same order.
+  // Replaces the frame by one with the same features in the same order.
   void SetFrame(KeyframeId keyframe, std::shared_ptr<const Frame> frame);
   void SetPose(KeyframeId keyframe, const Rigid3& cam_from_world);
   void SetPoint(LandmarkId point, const Eigen::Vector3d& position);
   void SetLine(LandmarkId line, const LineSegment3& segment);
-  // Of the landmark's observations.
+  // Sets Landmark::noise and LineLandmark::depth_offset.
   void SetPointNoise(LandmarkId point, double noise);
   void SetLineNoise(LandmarkId line, double noise, double depth_offset);
-  void CountTracking(LandmarkId landmark, bool is_line, int num_visible, int num_found);
+  // Adds to Landmark::num_visible and num_found; no effect if the landmark does not exist.
+  void CountPointTracking(LandmarkId point, int num_visible, int num_found);
+  void CountLineTracking(LandmarkId line, int num_visible, int num_found);
 
   // Recomputes descriptor, viewing direction and reference distance from the observations.
   void RefreshPoint(LandmarkId point);
@@ -89,16 +91,16 @@ class Map {
   std::vector<Covisible> FindCovisible(KeyframeId keyframe) const;
 
  private:
-  // Where a removed keyframe stands; nothing while it is in the map.
-  struct Place {
-    KeyframeId heir = kNoId;
-    Rigid3 cam_from_heir;
+  // Pose of a removed keyframe relative to its successor; kNoId while the keyframe is in the map.
+  struct RelativePose {
+    KeyframeId successor = kNoId;
+    Rigid3 cam_from_successor;
   };
 
   KeyframeTable keyframes_;
   PointTable points_;
   LineTable lines_;
-  SharedTable<Place, 16> places_;  // of every keyframe that ever was
+  SharedTable<RelativePose, 16> relative_poses_;  // of all keyframes ever added
   KeyframeId next_keyframe_ = 0;
   LandmarkId next_landmark_ = 0;
 };

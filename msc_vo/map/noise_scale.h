@@ -5,7 +5,7 @@
 
 namespace msc_vo {
 
-// How many times larger the errors of measurements are than the sigmas that features come with.
+// Ratio of the actual errors of measurements to the sigmas of the features (self-calibration).
 struct NoiseScale {
   double point_depth = 1.0;
   double line_pixel = 1.0;

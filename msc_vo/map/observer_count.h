@@ -9,16 +9,16 @@
 
 namespace msc_vo {
 
-// Counts how many of some landmarks each keyframe observes. Ids are dense enough for a table: one
-// step per observation, as this is done for hundreds of landmarks at every frame.
+// Counts, for each keyframe, how many of the given landmarks it observes. Ids are dense, so that a
+// table serves with one step per observation.
 class ObserverCount {
  public:
-  // Counts observations by the keyframes that `map` has now.
+  // Counts observations by the keyframes of `map`.
   explicit ObserverCount(const Map& map);
 
   void Add(const Landmark& landmark);
 
-  // Keyframes that were counted, most landmarks first, then newest first.
+  // Keyframes with at least one landmark, most landmarks first, then newest first.
   std::vector<Map::Covisible> Ranked() const;
 
  private:

@@ -7,21 +7,21 @@ namespace msc_vo {
 
 namespace {
 
-// What would come to less than half of its depth during a readout stays: no camera is so fast, but
-// a wrong pose may say so.
+// Features whose depth would shrink below this fraction during a readout are not moved: no camera
+// is so fast, but the velocity of a wrong pose may be.
 constexpr double kMinDepthRatio = 0.5;
 
-// Moves features of a frame from where they are to where it unrolls them.
-class Shutter {
+// Moves the features of a frame from its present compensation to another one.
+class RowMotion {
  public:
-  Shutter(const Frame& rolled, const CameraVelocity& velocity, double readout_time)
-      : camera_(rolled.camera),
-        old_velocity_(rolled.velocity.value_or(CameraVelocity())),
-        old_readout_time_(rolled.readout_time),
+  RowMotion(const Frame& frame, const CameraVelocity& velocity, double readout_time)
+      : camera_(frame.camera),
+        old_velocity_(frame.velocity.value_or(CameraVelocity())),
+        old_readout_time_(frame.readout_time),
         velocity_(velocity),
         readout_time_(readout_time) {}
 
-  // *inverse_depth (1/metres) stays zero where it is: far away only the rotation counts.
+  // *inverse_depth (1/metres); zero stays zero, because only the rotation moves points at infinity.
   Eigen::Vector2d Moved(const Eigen::Vector2d& pixel, double* inverse_depth) const {
     const double phase = RowPhase(camera_, pixel);
     const Rigid3 motion = velocity_.Over(phase * readout_time_).Inverse() *
@@ -53,24 +53,24 @@ Eigen::Vector3d RayChange(const Frame& frame, const Eigen::Vector2d& pixel, doub
                                            inverse_depth * frame.velocity->linear);
 }
 
-Frame CompensateRollingShutter(const Frame& rolled, const CameraVelocity& velocity,
+Frame CompensateRollingShutter(const Frame& frame, const CameraVelocity& velocity,
                                double readout_time) {
-  Frame frame = rolled;
-  frame.velocity = velocity;
-  frame.readout_time = readout_time;
-  if (readout_time == 0.0 && rolled.readout_time == 0.0) return frame;
-  const Shutter shutter(rolled, velocity, readout_time);
-  for (PointFeature& point : frame.points) {
-    point.pixel = shutter.Moved(point.pixel, &point.inverse_depth);
+  Frame compensated = frame;
+  compensated.velocity = velocity;
+  compensated.readout_time = readout_time;
+  if (readout_time == 0.0 && frame.readout_time == 0.0) return compensated;
+  const RowMotion motion(frame, velocity, readout_time);
+  for (PointFeature& point : compensated.points) {
+    point.pixel = motion.Moved(point.pixel, &point.inverse_depth);
   }
-  for (LineFeature& line : frame.lines) {
-    LineDepth far;
-    LineDepth& depth = line.depth ? *line.depth : far;
-    line.segment.start = shutter.Moved(line.segment.start, &depth.start);
-    line.segment.end = shutter.Moved(line.segment.end, &depth.end);
+  for (LineFeature& line : compensated.lines) {
+    LineDepth at_infinity;
+    LineDepth& depth = line.depth ? *line.depth : at_infinity;
+    line.segment.start = motion.Moved(line.segment.start, &depth.start);
+    line.segment.end = motion.Moved(line.segment.end, &depth.end);
   }
-  frame.grid = FeatureGrid(frame.camera, frame.points);
-  return frame;
+  compensated.grid = FeatureGrid(compensated.camera, compensated.points);
+  return compensated;
 }
 
 }  // namespace msc_vo

@@ -11,24 +11,26 @@
 
 namespace msc_vo {
 
-// A rolling shutter takes the rows of an image one after the other, each at the time stamp plus its
-// phase times the readout time: the seconds from the first row to the last, negative if the last
-// comes first. A Kinect's are 26 ms: at the 70 degrees per second of TUM's freiburg1_rpy the last
-// row is shifted by 17 pixels against the first, and no pose explains what the image shows.
+// Rolling-shutter compensation. A rolling shutter exposes the rows of an image one after the other:
+// each at the time stamp plus its phase times the readout time, which is the time in seconds from
+// the first row to the last, negative if the last row is read first. A Kinect's is 26 ms: at 70
+// degrees per second the last row is shifted by 17 pixels relative to the first, and no single pose
+// explains the image.
 
-// Of the row of a pixel: -0.5 before the first, 0.5 after the last. Distortion is left out: where a
-// lens bends the image by 10 rows, that is 2 % of the readout time.
+// Phase of a pixel's row: -0.5 at the upper border of the image, 0.5 at the lower one. Lens
+// distortion is neglected: a displacement of 10 rows is an error of 2 % of the readout time.
 double RowPhase(const PinholeCamera& camera, const Eigen::Vector2d& pixel);
 
-// How the ray of a feature (z = 1) with an inverse depth (1/metres) changes with the readout time
-// that the frame is unrolled with, 1/seconds, to first order. Zero if the velocity is not known.
+// Derivative (1/seconds) of the ray of a feature (z = 1) with the given inverse depth (1/metres)
+// with respect to the readout time of the compensation. Zero if the velocity is unknown.
 Eigen::Vector3d RayChange(const Frame& frame, const Eigen::Vector2d& pixel, double inverse_depth);
 
-// The frame as a global shutter would have seen it at its time stamp: pixels and depths moved as
-// the camera moved between that and the time of their row. Features without a depth move as if far
-// away. Of a frame that was unrolled before the difference is applied, with the phases of its
-// pixels as they are: these are some rows off, so that some percent of the difference remain.
-Frame CompensateRollingShutter(const Frame& rolled, const CameraVelocity& velocity,
+// Returns the frame as a global shutter would have recorded it at its time stamp: pixels and depths
+// are moved by the camera's motion between the time stamp and the time of their row. Features
+// without a depth move as if at infinity. For a frame that was compensated before, the difference
+// is applied with the phases of the compensated pixels: a few rows off, so that some percent of the
+// difference remain.
+Frame CompensateRollingShutter(const Frame& frame, const CameraVelocity& velocity,
                                double readout_time);
 
 }  // namespace msc_vo

@@ -12,11 +12,11 @@
 
 namespace msc_vo {
 
-// Values by ascending id in blocks of at most `kBlockSize`, the leaves of a B+ tree of height one.
-// Two tables share a block until one of them is about to change it and takes a copy of its own
-// (copy on write): a snapshot costs a pointer per block, and later what has changed.
+// A copy-on-write table of values by ascending id, in blocks of at most `kBlockSize`: the leaves of
+// a B+ tree of height one. Two tables share a block until one of them changes it and copies it
+// first. A snapshot costs one pointer per block, and later a copy of each block that changes.
 //
-// Pointers and references to values hold until the next change of the table.
+// Pointers and references to values are valid until the next change of the table.
 template <typename T, int kBlockSize>
 class SharedTable {
  public:
@@ -25,13 +25,13 @@ class SharedTable {
  private:
   using Entries = std::vector<Entry>;
   struct Block {
-    int64_t first = 0;                 // id of the first entry: a search need not go there
-    bool shared = false;               // perhaps with another table: not to be written
+    int64_t first = 0;    // id of the first entry, so that searches stay in this vector
+    bool shared = false;  // possibly with another table: must be copied before a write
     std::shared_ptr<Entries> entries;  // never empty
   };
 
  public:
-  // Walks through the entries by ascending id.
+  // Iterates over the entries by ascending id.
   class Iterator {
    public:
     Iterator(const std::vector<Block>& blocks, size_t block) : blocks_(&blocks), block_(block) {}
@@ -58,7 +58,7 @@ class SharedTable {
   SharedTable() = default;
   SharedTable(SharedTable&&) = default;
   SharedTable& operator=(SharedTable&&) = default;
-  // A copy must know that it shares: see Share().
+  // Copies are made by Share(), which marks the shared blocks.
   SharedTable(const SharedTable&) = delete;
   SharedTable& operator=(const SharedTable&) = delete;
 
@@ -82,12 +82,12 @@ class SharedTable {
         std::upper_bound(entries.begin(), entries.end(), id,
                          [](int64_t value, const Entry& entry) { return value < entry.first; }));
   }
-  // nullptr if there is none.
+  // Returns nullptr if there is none.
   const T* Find(int64_t id) const {
     const Entry* entry = FindUpTo(id);
     return entry != nullptr && entry->first == id ? &entry->second : nullptr;
   }
-  // As Find(), to write. Takes a copy of the block if it is shared: not for reading.
+  // Like Find(), for writing: copies the block if it is shared.
   T* FindToChange(int64_t id) {
     const Entry* entry = FindUpTo(id);
     if (entry == nullptr || entry->first != id) return nullptr;
@@ -96,7 +96,7 @@ class SharedTable {
     return &(*ToChange(block))[place].second;
   }
 
-  // `id` must be higher than all before.
+  // `id` must be higher than all ids added before.
   void Append(int64_t id, T value) {
     if (blocks_.empty() || blocks_.back().entries->size() == kBlockSize) {
       blocks_.push_back({id, false, std::make_shared<Entries>()});
@@ -104,8 +104,7 @@ class SharedTable {
     ToChange(blocks_.size() - 1)->emplace_back(id, std::move(value));
   }
 
-  // Does nothing if there is none. Neighbouring blocks become one when they are half empty, so that
-  // there are about as many as the values need.
+  // No effect if there is none. Adjacent half-empty blocks are joined, which bounds their number.
   void Erase(int64_t id) {
     if (Find(id) == nullptr) return;
     const size_t block = BlockOf(id);
@@ -119,8 +118,8 @@ class SharedTable {
     if (!JoinWithNext(block) && block > 0) JoinWithNext(block - 1);
   }
 
-  // A table of the same values. Both may be changed later, each by one thread at a time, without
-  // the other's noticing.
+  // Returns a table with the same values. Either may change afterwards without affecting the other;
+  // each table may be used by one thread at a time.
   SharedTable Share() {
     for (Block& block : blocks_) block.shared = true;
     SharedTable copy;
@@ -134,7 +133,7 @@ class SharedTable {
                             [](const Entry& entry, int64_t value) { return entry.first < value; });
   }
 
-  // The last block that begins at or before `id`, which no block before the first does.
+  // Index of the last block that begins at or before `id`. `id` must not precede the first block.
   size_t BlockOf(int64_t id) const {
     const auto next =
         std::upper_bound(blocks_.begin(), blocks_.end(), id,

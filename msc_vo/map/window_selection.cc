@@ -15,14 +15,15 @@ namespace msc_vo {
 
 namespace {
 
-// Metres. The shortest segment that a sensor of 1 mm resolution can give a direction.
+// Metres; the shortest segment whose direction a sensor of 1 mm resolution can determine.
 constexpr double kMinLineLength = 0.01;
 
-// The landmarks that the window's keyframes see, by id; those that take part are counted.
+// The landmarks that the window's keyframes observe, by id; counts their observers.
 template <typename L, typename Table>
-std::vector<const L*> SeenLandmarks(const Map& map, const std::set<KeyframeId>& window,
-                                    std::vector<LandmarkId> Keyframe::*slots, const Table& table,
-                                    int min_observations, ObserverCount* observers) {
+std::vector<const L*> ObservedLandmarks(const Map& map, const std::set<KeyframeId>& window,
+                                        std::vector<LandmarkId> Keyframe::*slots,
+                                        const Table& table, int min_observations,
+                                        ObserverCount* observers) {
   IdSet ids(table);
   for (const KeyframeId keyframe : window) {
     for (const LandmarkId id : map.FindKeyframe(keyframe)->*slots) {
@@ -49,7 +50,7 @@ std::set<KeyframeId> SelectKeyframes(const WindowSelectionOptions& options, cons
   return window;
 }
 
-// Of the keyframes outside the window those that observe most of it.
+// The keyframes outside the window that observe most of its landmarks.
 std::set<KeyframeId> SelectFixed(const WindowSelectionOptions& options,
                                  const std::set<KeyframeId>& window,
                                  const ObserverCount& observers) {
@@ -67,7 +68,7 @@ void AddKeyframes(const Map& map, const std::set<KeyframeId>& window,
   for (const KeyframeId id : window) {
     data->keyframes.push_back({id, map.FindKeyframe(id)->cam_from_world, id == first});
   }
-  // Without any other observer the oldest keyframe holds the gauge.
+  // Without fixed observers the oldest keyframe holds the gauge.
   if (fixed.empty()) data->keyframes.front().fixed = true;
   for (const KeyframeId id : fixed) {
     data->keyframes.push_back({id, map.FindKeyframe(id)->cam_from_world, true});
@@ -100,8 +101,8 @@ WindowData::LineObservation MakeObservation(const Keyframe& keyframe, const Line
   return observation;
 }
 
-// Parameter on the line a + s (b - a) of the point that is nearest to the ray origin + t ray.
-// Returns false if the ray is too nearly parallel to the line to say.
+// Computes the parameter s of the point of the line a + s (b - a) that is nearest to the ray
+// origin + t ray. Returns false if the ray is nearly parallel to the line.
 bool IntersectRay(const LineSegment3& line, const Eigen::Vector3d& origin,
                   const Eigen::Vector3d& ray, double* s) {
   const Eigen::Vector3d d = line.end - line.start;
@@ -136,46 +137,46 @@ WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map,
                         KeyframeId keyframe) {
   const std::set<KeyframeId> window = SelectKeyframes(options, map, keyframe);
   ObserverCount observers(map);
-  const auto points = SeenLandmarks<PointLandmark>(map, window, &Keyframe::points, map.points(),
-                                                   options.min_observations, &observers);
-  const auto lines = SeenLandmarks<LineLandmark>(map, window, &Keyframe::lines, map.lines(),
-                                                 options.min_observations, &observers);
+  const auto points = ObservedLandmarks<PointLandmark>(map, window, &Keyframe::points, map.points(),
+                                                       options.min_observations, &observers);
+  const auto lines = ObservedLandmarks<LineLandmark>(map, window, &Keyframe::lines, map.lines(),
+                                                     options.min_observations, &observers);
 
   WindowData data;
   data.camera = map.FindKeyframe(keyframe)->frame->camera;
   AddKeyframes(map, window, SelectFixed(options, window, observers), &data);
-  KeyframeIndex taking_part(map);
+  KeyframeIndex observers_by_id(map);
   for (const WindowData::Keyframe& keyframe_data : data.keyframes) {
-    taking_part.Add(*map.FindKeyframe(keyframe_data.id));
+    observers_by_id.Add(*map.FindKeyframe(keyframe_data.id));
   }
   for (const PointLandmark* point : points) {
     data.points.push_back({point->id, point->position, false, point->noise});
-    for (const Observation& seen : point->observations) {
-      const Keyframe* observer = taking_part.Find(seen.keyframe);
+    for (const Observation& observation : point->observations) {
+      const Keyframe* observer = observers_by_id.Find(observation.keyframe);
       if (observer == nullptr) continue;
-      data.point_observations.push_back(MakeObservation(*observer, *point, seen.feature));
+      data.point_observations.push_back(MakeObservation(*observer, *point, observation.feature));
     }
   }
   for (const LineLandmark* line : lines) {
     data.lines.push_back({line->id, line->segment, false, line->noise, line->depth_offset});
-    for (const Observation& seen : line->observations) {
-      const Keyframe* observer = taking_part.Find(seen.keyframe);
+    for (const Observation& observation : line->observations) {
+      const Keyframe* observer = observers_by_id.Find(observation.keyframe);
       if (observer == nullptr) continue;
-      data.line_observations.push_back(MakeObservation(*observer, *line, seen.feature));
+      data.line_observations.push_back(MakeObservation(*observer, *line, observation.feature));
     }
   }
   return data;
 }
 
-LineSegment3 CutToObservations(const Map& map, const LineLandmark& line,
-                               const LineSegment3& segment) {
+LineSegment3 TrimToObservations(const Map& map, const LineLandmark& line,
+                                const LineSegment3& segment) {
   double first = 0.0;
   double last = 0.0;
   bool any = false;
-  for (const Observation& seen : line.observations) {
-    const Keyframe& keyframe = *map.FindKeyframe(seen.keyframe);
+  for (const Observation& observation : line.observations) {
+    const Keyframe& keyframe = *map.FindKeyframe(observation.keyframe);
     const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
-    const LineSegment2& image = keyframe.frame->lines[seen.feature].segment;
+    const LineSegment2& image = keyframe.frame->lines[observation.feature].segment;
     for (const Eigen::Vector2d& pixel :
          {Eigen::Vector2d(image.start), Eigen::Vector2d(image.end)}) {
       double s = 0.0;
@@ -197,10 +198,10 @@ void WriteBack(const WindowData& window, Map* map) {
     if (!keyframe.fixed) map->SetPose(keyframe.id, keyframe.cam_from_world);
   }
   for (const WindowData::PointObservation& observation : window.point_observations) {
-    if (observation.rejected) map->ForgetPoint(observation.point, observation.keyframe);
+    if (observation.rejected) map->RemovePointObservation(observation.point, observation.keyframe);
   }
   for (const WindowData::LineObservation& observation : window.line_observations) {
-    if (observation.rejected) map->ForgetLine(observation.line, observation.keyframe);
+    if (observation.rejected) map->RemoveLineObservation(observation.line, observation.keyframe);
   }
   for (const WindowData::Point& point : window.points) {
     if (map->FindPoint(point.id) == nullptr) continue;
@@ -211,12 +212,12 @@ void WriteBack(const WindowData& window, Map* map) {
   for (const WindowData::Line& line : window.lines) {
     const LineLandmark* landmark = map->FindLine(line.id);
     if (landmark == nullptr) continue;
-    // Wrong matches can pull the end points together; what has no direction is no line.
+    // Wrong matches may contract a line until it has no direction.
     if (!(line.segment.Length() > kMinLineLength)) {
       map->RemoveLine(line.id);
       continue;
     }
-    map->SetLine(line.id, CutToObservations(*map, *landmark, line.segment));
+    map->SetLine(line.id, TrimToObservations(*map, *landmark, line.segment));
     map->SetLineNoise(line.id, line.noise, line.depth_offset);
     map->RefreshLine(line.id);
   }

@@ -13,13 +13,17 @@ namespace msc_vo {
 
 namespace {
 
-enum class Verdict { kWait, kPassed, kFailed };
+enum class ProbationState { kPending, kPassed, kFailed };
 
-Verdict Judge(const CullingOptions& options, KeyframeId newest, const Landmark& landmark) {
-  if (landmark.num_found < options.min_found_ratio * landmark.num_visible) return Verdict::kFailed;
-  if (newest - landmark.first_keyframe < options.probation_keyframes) return Verdict::kWait;
+ProbationState Evaluate(const CullingOptions& options, KeyframeId newest,
+                        const Landmark& landmark) {
+  if (landmark.num_found < options.min_found_ratio * landmark.num_visible)
+    return ProbationState::kFailed;
+  if (newest - landmark.first_keyframe < options.probation_keyframes)
+    return ProbationState::kPending;
   const int num_observations = static_cast<int>(landmark.observations.size());
-  return num_observations >= options.min_observations ? Verdict::kPassed : Verdict::kFailed;
+  return num_observations >= options.min_observations ? ProbationState::kPassed
+                                                      : ProbationState::kFailed;
 }
 
 template <typename Find, typename Remove>
@@ -27,14 +31,14 @@ void CullKind(const CullingOptions& options, KeyframeId newest, const Find& find
               const Remove& remove, std::set<LandmarkId>* probation) {
   for (auto it = probation->begin(); it != probation->end();) {
     const Landmark* landmark = find(*it);
-    const Verdict verdict =
-        landmark == nullptr ? Verdict::kPassed : Judge(options, newest, *landmark);
-    if (verdict == Verdict::kFailed) remove(*it);
-    it = verdict == Verdict::kWait ? std::next(it) : probation->erase(it);
+    const ProbationState state =
+        landmark == nullptr ? ProbationState::kPassed : Evaluate(options, newest, *landmark);
+    if (state == ProbationState::kFailed) remove(*it);
+    it = state == ProbationState::kPending ? std::next(it) : probation->erase(it);
   }
 }
 
-// True if enough other keyframes see the landmark; `is_as_fine(observation)` says which count.
+// Whether enough other keyframes observe the landmark with an observation that is_as_fine accepts.
 template <typename IsAsFine>
 bool IsCovered(const CullingOptions& options, KeyframeId keyframe, const Landmark& landmark,
                const IsAsFine& is_as_fine) {
@@ -56,11 +60,10 @@ KeyframeIndex IndexAll(const Map& map) {
   return index;
 }
 
-// Most keyframes are not redundant, and the first landmarks tell.
+// Stops at the first landmarks that prove the keyframe not redundant, as for most keyframes.
 bool IsRedundant(const CullingOptions& options, const Map& map, const KeyframeIndex& keyframes,
                  const Keyframe& keyframe) {
   const int num_landmarks = NumLandmarks(keyframe.points) + NumLandmarks(keyframe.lines);
-  // As many uncovered ones are too many.
   const double allowed = (1.0 - options.redundant_ratio) * num_landmarks;
   int num_uncovered = 0;
   for (size_t i = 0; i < keyframe.points.size() && num_uncovered < allowed; ++i) {
@@ -112,7 +115,7 @@ int CullKeyframes(const CullingOptions& options, KeyframeId newest, Map* map) {
   KeyframeIndex keyframes = IndexAll(*map);
   for (const Map::Covisible& covisible : map->FindCovisible(newest)) {
     const KeyframeId id = covisible.keyframe;
-    // The predecessor is still needed: frames are tracked against it and its landmarks are young.
+    // The predecessor is kept: frames are tracked against it and its landmarks are on probation.
     if (id == first || id + 1 >= newest) continue;
     if (!IsRedundant(options, *map, keyframes, *keyframes.Find(id))) continue;
     const std::vector<Map::Covisible> neighbours = map->FindCovisible(id);

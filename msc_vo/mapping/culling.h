@@ -11,32 +11,34 @@
 namespace msc_vo {
 
 struct CullingOptions {
-  // A landmark is on probation until this many keyframes after the one that created it; if by then
-  // no second keyframe has seen it, it was noise, or is of no use.
+  // Number of keyframes after its creation during which a landmark is on probation. A landmark that
+  // has fewer than min_observations observations by then is removed.
   int probation_keyframes = 2;
   int min_observations = 2;
-  // A landmark that is seen in fewer of the frames that should show it is not what it seems.
+  // Smallest ratio of the frames that matched a landmark on probation to those in which it was
+  // predicted to be visible.
   double min_found_ratio = 0.25;
-  // A keyframe is redundant if this share of its landmarks is seen by three other keyframes at the
-  // same or a finer scale: what it shows is known without it.
+  // A keyframe is redundant if this fraction of its landmarks is observed by at least
+  // redundant_observers other keyframes at the same or a finer scale.
   double redundant_ratio = 0.9;
   int redundant_observers = 3;
 
   bool IsValid(std::string* error) const;
 };
 
-// Landmarks that have not proved themselves yet.
+// Landmarks on probation.
 struct Probation {
   std::set<LandmarkId> points;
   std::set<LandmarkId> lines;
 };
 
-// Removes bad landmarks among those on probation; lets go of those that passed.
+// Removes the landmarks on probation that fail the tests of CullingOptions, and ends the probation
+// of those that pass.
 void CullLandmarks(const CullingOptions& options, KeyframeId newest, Probation* probation,
                    Map* map);
 
-// Removes redundant keyframes among the neighbours of `newest`; never it, its predecessor, nor the
-// first keyframe, which defines the world. Returns how many.
+// Removes redundant keyframes among those covisible with `newest`, except `newest`, its predecessor
+// and the first keyframe, which defines the world. Returns their number.
 int CullKeyframes(const CullingOptions& options, KeyframeId newest, Map* map);
 
 }  // namespace msc_vo

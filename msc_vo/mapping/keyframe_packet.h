@@ -17,23 +17,23 @@
 
 namespace msc_vo {
 
-// In how many frames a landmark should have been seen, and in how many it was.
+// Number of frames in which a landmark was predicted to be visible, and in which it was matched.
 struct TrackingCount {
   int num_visible = 0;
   int num_found = 0;
 };
 
-// What goes from tracking down to the mapper: plain data, nothing shared that changes.
+// Plain data that tracking passes to the mapper for each keyframe; shared parts are immutable.
 struct KeyframePacket {
   std::shared_ptr<const Frame> frame;
   KeyframeId reference = kNoId;  // kNoId: the first keyframe, cam_from_reference is cam_from_world
   Rigid3 cam_from_reference;
   FrameMatches matches;  // with landmarks of the map
-  // Of the keyframe before this one, as the frame after it showed; none if that was not found.
+  // Velocity at the previous keyframe, from the frames before and after it; none if unknown.
   std::optional<CameraVelocity> last_velocity;
-  // Normals of the surfaces in view, camera frame; empty if the map has its axes already.
+  // Normals of visible surfaces, camera frame; empty if the map already has Manhattan axes.
   std::vector<AxisEvidence> normals;
-  // Of all frames since the last packet, this one included.
+  // Over all frames since the last packet, including this one.
   std::map<LandmarkId, TrackingCount> point_counts;
   std::map<LandmarkId, TrackingCount> line_counts;
 };

@@ -6,7 +6,7 @@
 namespace msc_vo {
 
 void CreatePoints(KeyframeId id, Probation* probation, Map* map) {
-  const Keyframe keyframe = *map->FindKeyframe(id);  // as it is before
+  const Keyframe keyframe = *map->FindKeyframe(id);  // a copy: adding landmarks changes it
   const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
   for (size_t i = 0; i < keyframe.points.size(); ++i) {
     const int feature = static_cast<int>(i);
@@ -18,7 +18,7 @@ void CreatePoints(KeyframeId id, Probation* probation, Map* map) {
 }
 
 void CreateLines(KeyframeId id, Probation* probation, Map* map) {
-  const Keyframe keyframe = *map->FindKeyframe(id);  // as it is before
+  const Keyframe keyframe = *map->FindKeyframe(id);  // a copy: adding landmarks changes it
   const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
   for (size_t i = 0; i < keyframe.lines.size(); ++i) {
     const int feature = static_cast<int>(i);

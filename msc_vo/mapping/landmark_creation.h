@@ -8,8 +8,8 @@
 
 namespace msc_vo {
 
-// Turns every feature of `keyframe` that has a depth and no landmark into a landmark on probation,
-// except what moves: the map would keep it where it is now until later keyframes contradict that.
+// Creates a landmark on probation from every feature of `keyframe` that has a depth and no
+// landmark, except on dynamic objects.
 void CreatePoints(KeyframeId keyframe, Probation* probation, Map* map);
 void CreateLines(KeyframeId keyframe, Probation* probation, Map* map);
 

@@ -23,7 +23,7 @@ std::vector<KeyframeId> Neighbours(const FusionOptions& options, const Map& map,
   return neighbours;
 }
 
-// The landmark that stays, and the one that goes into it.
+// Returns the landmark that survives a merge, and the one that is merged into it.
 template <typename L>
 std::pair<LandmarkId, LandmarkId> SelectSurvivor(const L& a, const L& b) {
   const bool a_stays = a.observations.size() != b.observations.size()
@@ -32,10 +32,10 @@ std::pair<LandmarkId, LandmarkId> SelectSurvivor(const L& a, const L& b) {
   return a_stays ? std::make_pair(a.id, b.id) : std::make_pair(b.id, a.id);
 }
 
-bool IsSeenBy(const Landmark& landmark, KeyframeId keyframe) {
-  const auto place =
-      std::lower_bound(landmark.observations.begin(), landmark.observations.end(), keyframe,
-                       [](const Observation& seen, KeyframeId id) { return seen.keyframe < id; });
+bool IsObservedBy(const Landmark& landmark, KeyframeId keyframe) {
+  const auto place = std::lower_bound(
+      landmark.observations.begin(), landmark.observations.end(), keyframe,
+      [](const Observation& observation, KeyframeId id) { return observation.keyframe < id; });
   return place != landmark.observations.end() && place->keyframe == keyframe;
 }
 
@@ -45,7 +45,7 @@ std::vector<PointCandidate> PointsOf(const Map& map, const Keyframe& source,
   const Eigen::Vector3d center = target.cam_from_world.OriginInSource();
   for (const LandmarkId id : source.points) {
     const PointLandmark* point = map.FindPoint(id);
-    if (point == nullptr || IsSeenBy(*point, target.id)) continue;
+    if (point == nullptr || IsObservedBy(*point, target.id)) continue;
     PointCandidate candidate;
     candidate.id = id;
     candidate.position = point->position;
@@ -64,7 +64,7 @@ std::vector<LineCandidate> LinesOf(const Map& map, const Keyframe& source, const
   std::vector<LineCandidate> candidates;
   for (const LandmarkId id : source.lines) {
     const LineLandmark* line = map.FindLine(id);
-    if (line == nullptr || IsSeenBy(*line, target.id)) continue;
+    if (line == nullptr || IsObservedBy(*line, target.id)) continue;
     LineCandidate candidate;
     candidate.id = id;
     candidate.segment = line->segment;
@@ -76,7 +76,7 @@ std::vector<LineCandidate> LinesOf(const Map& map, const Keyframe& source, const
   return candidates;
 }
 
-// The measured depth, where there is one, must agree with the landmark (99 % of a normal deviate).
+// Whether the measured depth, if any, agrees with the landmark at the 99 % quantile.
 bool AgreesWithDepth(const Keyframe& keyframe, const PointFeature& feature,
                      const PointLandmark& point) {
   if (!feature.HasDepth()) return true;
@@ -99,8 +99,8 @@ void FusePointsInto(const FusionOptions& options, KeyframeId source, KeyframeId 
     if (holder == nullptr) {
       map->ObservePoint(match.id, target, match.feature);
     } else if (holder->id != match.id) {
-      const auto [stays, goes] = SelectSurvivor(*point, *holder);
-      map->MergePoints(goes, stays);
+      const auto [survivor, duplicate] = SelectSurvivor(*point, *holder);
+      map->MergePoints(duplicate, survivor);
     }
   }
 }
@@ -129,8 +129,8 @@ void FuseLinesInto(const FusionOptions& options, KeyframeId source, KeyframeId t
       map->ObserveLine(match.id, target, match.feature);
     } else if (holder->id != match.id &&
                AreOneLine(options, keyframe, line->segment, holder->segment)) {
-      const auto [stays, goes] = SelectSurvivor(*line, *holder);
-      map->MergeLines(goes, stays);
+      const auto [survivor, duplicate] = SelectSurvivor(*line, *holder);
+      map->MergeLines(duplicate, survivor);
     }
   }
 }

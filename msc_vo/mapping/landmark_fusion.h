@@ -14,22 +14,22 @@ namespace msc_vo {
 struct FusionOptions {
   PointMatcherOptions point_matcher;
   LineMatcherOptions line_matcher;
-  int max_neighbours = 10;  // keyframes that are searched: the size of the window
-  // Pixels between a projected landmark and the feature that shows it, at level 0: both poses are
-  // estimated, so what is left is the landmark's own error, about three sigmas of a feature.
+  int max_neighbours = 10;  // covisible keyframes that are searched; the size of the window
+  // Search radius around a projected landmark, pixels at level 0. Both poses are estimated, so that
+  // the landmark's own error remains: about three sigmas of a feature.
   double radius = 3.0;
-  // Two line landmarks are one if their directions differ by less than this (degrees) in space, and
-  // the middle of each lies this near to the other, relative to its distance from the camera.
+  // Two line landmarks are duplicates if the angle between them (degrees) and the distance of each
+  // midpoint from the other line, relative to the distance from the camera, are below these.
   double max_line_angle = 5.0;
   double max_line_offset = 0.02;
 
   bool IsValid(std::string* error) const;
 };
 
-// Looks for the landmarks of keyframe `id` in its neighbours, and for the neighbours' landmarks in
-// it. Where a free feature shows the landmark it becomes an observation; where the feature belongs
-// to another landmark, the two are duplicates and the one seen more often (the older of equals)
-// stays.
+// Matches the landmarks of keyframe `id` with the features of its covisible keyframes, and theirs
+// with its features. A matched feature without a landmark becomes an observation. If it observes
+// another landmark, the two are duplicates and are merged into the one with more observations (the
+// older one on ties).
 void FusePoints(const FusionOptions& options, KeyframeId id, Map* map);
 void FuseLines(const FusionOptions& options, KeyframeId id, Map* map);
 

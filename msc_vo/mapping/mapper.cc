@@ -49,7 +49,7 @@ void Mapper::Refine(const KeyframePacket& packet, MappingSummary* summary) {
   Stopwatch stopwatch;
   axes_.Update(map_, summary->keyframe, packet.normals);
   summary->times.axes = stopwatch.Restart();
-  // Absolute, so that 0 means each keyframe also where time stamps do not ascend.
+  // The absolute value lets an interval of 0 mean every keyframe even if time stamps do not ascend.
   const double since_window = std::abs(packet.frame->timestamp - last_window_time_);
   if (since_window >= options_.min_window_interval) {
     summary->window = OptimizeWindow(summary->keyframe);
@@ -94,10 +94,10 @@ KeyframeId Mapper::InsertKeyframe(const KeyframePacket& packet,
     map_.ObserveLine(match.id, newest_keyframe_, match.feature);
   }
   for (const auto& [id, count] : packet.point_counts) {
-    map_.CountTracking(id, false, count.num_visible, count.num_found);
+    map_.CountPointTracking(id, count.num_visible, count.num_found);
   }
   for (const auto& [id, count] : packet.line_counts) {
-    map_.CountTracking(id, true, count.num_visible, count.num_found);
+    map_.CountLineTracking(id, count.num_visible, count.num_found);
   }
   return newest_keyframe_;
 }
@@ -106,7 +106,6 @@ std::optional<BundleAdjustmentSummary> Mapper::OptimizeWindow(KeyframeId keyfram
   WindowData window = SelectWindow(options_.selection, map_, keyframe);
   last_window_lines_.clear();
   for (const WindowData::Line& line : window.lines) last_window_lines_.insert(line.id);
-  // One keyframe alone has nothing to agree with.
   if (window.keyframes.size() < 2) return std::nullopt;
   noise_.Apply(&window);
   axes_.AddAlignments(map_, &window);

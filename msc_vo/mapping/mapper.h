@@ -16,26 +16,26 @@
 
 namespace msc_vo {
 
-// Milliseconds per stage of one keyframe step.
+// Time of each stage of one keyframe step, milliseconds.
 struct MappingTimes {
-  double structure = 0.0;  // of the keyframe's lines
-  double creation = 0.0;   // the keyframe with its matches, and new landmarks; bad ones removed
+  double structure = 0.0;  // refinement of the keyframe's lines
+  double creation = 0.0;   // insertion of the keyframe, landmark culling and creation
   double fusion = 0.0;
   double axes = 0.0;
-  std::optional<double> window;  // selected, solved and written back; none if it was not due
-  double readout = 0.0;          // its time learnt
-  double culling = 0.0;          // of keyframes
+  std::optional<double> window;  // local bundle adjustment; none if it was not due
+  double readout = 0.0;          // estimation of the readout time
+  double culling = 0.0;          // keyframe culling
 };
 
-// What was done with one keyframe.
+// Result of one keyframe step.
 struct MappingSummary {
   KeyframeId keyframe = kNoId;
   int num_culled_keyframes = 0;
-  std::optional<BundleAdjustmentSummary> window;  // none if it was not optimised
+  std::optional<BundleAdjustmentSummary> window;  // none if no bundle adjustment was due
   MappingTimes times;
 };
 
-// Owns the map and alone changes it (paper: Local Mapping).
+// Local mapping (paper): owns the map and is the only one to change it.
 class Mapper {
  public:
   // Throws std::invalid_argument on options that are not valid.
@@ -43,28 +43,28 @@ class Mapper {
 
   void SetWindowObserver(WindowObserver observer) { window_observer_ = std::move(observer); }
 
-  // A keyframe is worked on in two steps. Insert() takes it into the map: observations, new
-  // landmarks, fusion. Frames can be tracked against them from then on. Refine(), with the same
-  // packet and what Insert() returned, makes all agree: axes, window optimisation if one is due,
-  // culling of keyframes. It takes several times as long.
+  // A keyframe is processed in two steps. Insert() adds it to the map with its observations and new
+  // landmarks and fuses duplicates; frames can be tracked against them from then on. Refine(),
+  // called with the same packet and the summary that Insert() returned, updates the Manhattan axes,
+  // runs local bundle adjustment if it is due, and culls keyframes; it takes several times as long.
   MappingSummary Insert(const KeyframePacket& packet);
   void Refine(const KeyframePacket& packet, MappingSummary* summary);
-  // Both.
+  // Insert() and Refine().
   MappingSummary Process(const KeyframePacket& packet);
 
-  // The map as the last step left it.
+  // The map after the last step.
   MapSnapshotPtr Snapshot();
 
   const Map& map() const { return map_; }
   const SceneAxes& axes() const { return axes_; }
   const NoiseEstimator& noise() const { return noise_; }
   const ReadoutTimeEstimator& readout() const { return readout_; }
-  // Lines that took part in the last window.
+  // Lines of the last local bundle adjustment.
   const std::set<LandmarkId>& last_window_lines() const { return last_window_lines_; }
 
  private:
   KeyframeId InsertKeyframe(const KeyframePacket& packet, std::shared_ptr<const Frame> frame);
-  // None if there is nothing to optimise.
+  // Returns std::nullopt if the window has a single keyframe.
   std::optional<BundleAdjustmentSummary> OptimizeWindow(KeyframeId keyframe);
 
   MapperOptions options_;
@@ -74,7 +74,7 @@ class Mapper {
   SceneAxes axes_;
   NoiseEstimator noise_;
   ReadoutTimeEstimator readout_;
-  double readout_time_ = 0.0;  // that the keyframes of the map are unrolled with, seconds
+  double readout_time_ = 0.0;  // seconds, of the compensation of the map's keyframes
   KeyframeId newest_keyframe_ = kNoId;
   double last_window_time_ = -std::numeric_limits<double>::infinity();  // seconds, of its keyframe
   std::set<LandmarkId> last_window_lines_;

@@ -17,10 +17,9 @@
 
 namespace msc_vo {
 
-// Every keyframe starts where the one before it left the window, and most of the window is solved
-// again at the next one. So the second solve is at its end after one step: another one lowers the
-// cost by 0.03 % in the median of 195 windows, by 0.12 % in nine of ten (docs/solver.md). With one
-// step in the first one as well, a corridor had 3.9 instead of 1.8 mm (docs/experiments.md).
+// Options of local bundle adjustment for the mapper. Consecutive windows overlap, so that each
+// starts near its optimum and few iterations suffice. Chosen by measurement, see
+// docs/lab/bundle_adjustment.md.
 inline BundleAdjustmentOptions MapperBundleAdjustmentOptions() {
   BundleAdjustmentOptions options;
   options.first_iterations = 2;
@@ -29,7 +28,7 @@ inline BundleAdjustmentOptions MapperBundleAdjustmentOptions() {
   return options;
 }
 
-// When the lines of a keyframe refine each other before they come into the map.
+// When the lines of a keyframe refine each other before they enter the map.
 enum class FrameStructureUse {
   kWithoutPairs,  // where the map has no structural pairs of its own
   kAlways,
@@ -37,9 +36,8 @@ enum class FrameStructureUse {
 };
 
 struct MapperOptions {
-  // Not beside the pairs of the map: they say the same once, each keyframe would say it again,
-  // as if that were news. Always instead, over 24 sequences at three times: 1.03, 0.98 and 0.99 of
-  // the error, which is chance (docs/experiments.md): what costs nothing stays.
+  // By default not together with the structural pairs of the map: the pairs hold the same
+  // constraint, and each keyframe would count it again. See docs/lab/structure.md.
   FrameStructureUse frame_structure = FrameStructureUse::kWithoutPairs;
   FrameStructureOptions structure;
   FusionOptions fusion;
@@ -48,16 +46,14 @@ struct MapperOptions {
   SceneAxesOptions axes;
   StructuralPairOptions pairs;
   BundleAdjustmentOptions window = MapperBundleAdjustmentOptions();
-  // Seconds from a keyframe that the window was optimised with to the next one, at least; 0: it is
-  // optimised with each. Keyframes that come sooner are inserted and wait for the next window,
-  // which solves most of the last one again. Four frames at 30 Hz, less some jitter: then frames
-  // have seen what the last window found. Over 24 sequences, twice two runs each, errors are 1.01
-  // and 1.00 times those of a window at each keyframe, kitchen takes a twelfth less time. Lines of
-  // the map are off by 9.5 instead of 7.1 mm in a corridor, 8.9 instead of 9.5 in six rooms
-  // (docs/experiments.md).
+  // Smallest interval between keyframes with local bundle adjustment, seconds; 0: after every
+  // keyframe. Keyframes in between are inserted and optimised with the next window. The default is
+  // four frames at 30 Hz less some jitter, after which frames have been tracked against the map of
+  // the last window. Chosen by measurement, see docs/lab/bundle_adjustment.md.
   double min_window_interval = 0.12;
   CullingOptions culling;
-  // Of a rolling shutter, seconds (see rolling_shutter.h); 0: a global one. None: it is learnt.
+  // Readout time of the rolling shutter, seconds (see rolling_shutter.h); 0: global shutter. None:
+  // it is estimated.
   std::optional<double> readout_time;
 
   bool RefinesFrames() const {

@@ -11,8 +11,8 @@
 
 namespace msc_vo {
 
-// Is shown every window that the mapper is about to solve, with the keyframe that it was selected
-// for. Runs where the mapper runs; what it throws ends the step.
+// Called with every window before its local bundle adjustment, and with the keyframe that the
+// window was selected for. Runs on the mapper's thread; an exception ends the keyframe step.
 using WindowObserver = std::function<void(
     KeyframeId keyframe, const BundleAdjustmentOptions& options, const WindowData& data)>;
 

@@ -67,9 +67,9 @@ TEST_F(MapTest, RefusesSecondObservationTakenFeatureAndUnknownLandmark) {
 }
 
 TEST_F(MapTest, ForgettingTheLastObservationRemovesTheLandmark) {
-  map_.ForgetPoint(a_, keyframes_[1]);  // never seen there: nothing happens
+  map_.RemovePointObservation(a_, keyframes_[1]);  // never seen there: nothing happens
   EXPECT_NE(map_.FindPoint(a_), nullptr);
-  map_.ForgetPoint(a_, keyframes_[0]);
+  map_.RemovePointObservation(a_, keyframes_[0]);
   EXPECT_EQ(map_.FindPoint(a_), nullptr);
   EXPECT_EQ(map_.FindKeyframe(keyframes_[0])->points[0], kNoId);
 }
@@ -131,8 +131,8 @@ TEST_F(MapTest, RefreshChoosesTheDescriptorAgainWhenObservationsComeOrGo) {
   map_.ObservePoint(a_, keyframes_[2], 2);
   map_.RefreshPoint(a_);
   EXPECT_NE(map_.FindPoint(a_)->descriptor, first);
-  map_.ForgetPoint(a_, keyframes_[1]);
-  map_.ForgetPoint(a_, keyframes_[2]);
+  map_.RemovePointObservation(a_, keyframes_[1]);
+  map_.RemovePointObservation(a_, keyframes_[2]);
   map_.RefreshPoint(a_);
   EXPECT_EQ(map_.FindPoint(a_)->descriptor, first);
 }

@@ -107,7 +107,7 @@ TEST_F(WindowTest, CutFollowsTheObservationsNotTheEndPoints) {
   LineSegment3 slid;
   slid.start = line.segment.At(-3.0);
   slid.end = line.segment.At(0.2);
-  const LineSegment3 cut = CutToObservations(map_, line, slid);
+  const LineSegment3 cut = TrimToObservations(map_, line, slid);
   EXPECT_LT((cut.start - line.segment.start).norm(), 1e-6);
   EXPECT_LT((cut.end - line.segment.end).norm(), 1e-6);
 }
