@@ -52,8 +52,17 @@ endfunction()
 
 # Installs the headers and the package files. Called once, after all libraries are there.
 function(msc_vo_install)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/msc_vo ${PROJECT_BINARY_DIR}/include/msc_vo
-          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+  msc_vo_include_closure(headers "${MSC_VO_PUBLIC_HEADERS}")
+  foreach(header ${headers})
+    cmake_path(GET header PARENT_PATH folder)
+    install(FILES ${PROJECT_SOURCE_DIR}/${header}
+            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+  endforeach()
+  install(FILES ${PROJECT_BINARY_DIR}/include/msc_vo/version.h
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/msc_vo)
+  install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}
+          PATTERN lab EXCLUDE PATTERN Doxyfile.in EXCLUDE)
 
   get_property(all GLOBAL PROPERTY MSC_VO_COMPONENTS)
   set(MSC_VO_COMPONENT_TABLE "set(msc_vo_all_components ${all})\n")
@@ -72,4 +81,47 @@ function(msc_vo_install)
   install(FILES ${PROJECT_BINARY_DIR}/msc_voConfig.cmake
                 ${PROJECT_BINARY_DIR}/msc_voConfigVersion.cmake
           DESTINATION ${MSC_VO_CMAKE_DIR})
+  msc_vo_pkg_config(solver "Local bundle adjustment with points, lines and structure")
+  msc_vo_pkg_config(odometry "RGB-D visual odometry from points, lines and structure")
+endfunction()
+
+# Writes msc_vo-<component>.pc for those who build without CMake.
+function(msc_vo_pkg_config component description)
+  get_property(components GLOBAL PROPERTY MSC_VO_COMPONENTS_OF_${component})
+  set(libraries)
+  set(packages)
+  foreach(below ${components})
+    get_target_property(type msc_vo_${below} TYPE)
+    if(type STREQUAL STATIC_LIBRARY OR type STREQUAL SHARED_LIBRARY)
+      list(PREPEND libraries -lmsc_vo_${below})  # the linker resolves from left to right
+    endif()
+    get_property(below_packages GLOBAL PROPERTY MSC_VO_PACKAGES_OF_${below})
+    list(APPEND packages ${below_packages})
+  endforeach()
+  # Ceres has no file for pkg-config on Debian; the others are known by these names.
+  set(requires eigen3)
+  set(others)
+  foreach(package ${packages})
+    if(package MATCHES "^OpenCV")
+      list(APPEND requires opencv4)
+    elseif(package MATCHES "^spdlog")
+      list(APPEND requires spdlog)
+    elseif(package MATCHES "^Ceres")
+      list(APPEND others -lceres -lglog)
+    elseif(package MATCHES "^Threads")
+      list(APPEND others -pthread)
+    endif()
+  endforeach()
+  list(REMOVE_DUPLICATES requires)
+  list(REMOVE_DUPLICATES others)
+  list(JOIN requires ", " PC_REQUIRES)
+  list(JOIN libraries " " PC_LIBRARIES)
+  list(JOIN others " " PC_OTHERS)
+  file(RELATIVE_PATH PC_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)  # may be moved as a whole
+  set(PC_COMPONENT ${component})
+  set(PC_DESCRIPTION ${description})
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/msc_vo.pc.in
+                 ${PROJECT_BINARY_DIR}/msc_vo-${component}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/msc_vo-${component}.pc
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endfunction()

@@ -46,7 +46,7 @@ TEST_F(CullingTest, OnlyConfirmedLandmarksSurviveProbation) {
 TEST_F(CullingTest, LandmarksThatAreNotFoundAgainGoAtOnce) {
   Probation probation;
   probation.points.insert(points_.begin(), points_.end());
-  map_.CountTracking(points_[1], false, 20, 1);
+  map_.CountPointTracking(points_[1], 20, 1);
   CullLandmarks(options_, 0, &probation, &map_);
   EXPECT_EQ(map_.FindPoint(points_[1]), nullptr);
   EXPECT_EQ(map_.points().size(), 3u);
