@@ -24,7 +24,7 @@ const char* ToString(AxesState state) {
 
 bool AxesEstimatorOptions::IsValid(std::string* error) const {
   if (!(coarse_sigma > 0.0)) {
-    *error = "coarse_sigma must be positive (radians)";
+    *error = "coarse_sigma must be positive (degrees)";
   } else if (min_keyframes < 1) {
     *error = "min_keyframes must be at least 1";
   } else if (min_axis_lines < 2) {
@@ -34,9 +34,9 @@ bool AxesEstimatorOptions::IsValid(std::string* error) const {
   } else if (!(min_line_ratio >= 0.0 && min_line_ratio <= 1.0)) {
     *error = "min_line_ratio must lie in [0, 1]";
   } else if (!(max_correction > 0.0)) {
-    *error = "max_correction must be positive (radians)";
+    *error = "max_correction must be positive (degrees)";
   } else if (!(freeze_sigma >= 0.0)) {
-    *error = "freeze_sigma must not be negative (radians)";
+    *error = "freeze_sigma must not be negative (degrees)";
   } else {
     return true;
   }
@@ -52,7 +52,7 @@ void AxesEstimator::Propose(const Eigen::Quaterniond& world_from_axes) {
   if (state_ != AxesState::kNone) return;
   state_ = AxesState::kCoarse;
   world_from_axes_ = world_from_axes.normalized();
-  sigma_ = options_.coarse_sigma;
+  sigma_ = DegreesToRadians(options_.coarse_sigma);
   num_axis_lines_tried_ = 0;
 }
 
@@ -79,14 +79,16 @@ bool AxesEstimator::Refine(const Eigen::Quaterniond& world_from_axes,
   const double correction = world_from_axes_.angularDistance(world_from_axes.normalized());
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance, Eigen::EigenvaluesOnly);
   const double sigma = std::sqrt(eigen.eigenvalues().z());
-  // False for what is not a number.
-  if (!(correction <= options_.max_correction && sigma <= options_.max_correction)) {
+  const double max_correction = DegreesToRadians(options_.max_correction);
+  // The negation also rejects NaN.
+  if (!(correction <= max_correction && sigma <= max_correction)) {
     RejectRefinement();
     return false;
   }
-  // Whether it stands still is known from the second refinement on.
-  frozen_ = state_ == AxesState::kRefined && sigma <= options_.freeze_sigma &&
-            correction <= 3.0 * options_.freeze_sigma;
+  // Convergence can be judged from the second refinement on.
+  const double freeze_sigma = DegreesToRadians(options_.freeze_sigma);
+  frozen_ =
+      state_ == AxesState::kRefined && sigma <= freeze_sigma && correction <= 3.0 * freeze_sigma;
   state_ = AxesState::kRefined;
   world_from_axes_ = world_from_axes.normalized();
   sigma_ = sigma;

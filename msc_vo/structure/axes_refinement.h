@@ -11,13 +11,12 @@
 
 namespace msc_vo {
 
-// Directions of lines that belong to Manhattan axes, seen from many keyframes.
+// Observed directions of lines that are associated with Manhattan axes.
 struct ManhattanAxesData {
   struct Observation {
     Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  // unit, world; its sign has no meaning
     int axis = 0;  // 0, 1 or 2: the column of world_from_manhattan that it belongs to
-    // Unit, world, perpendicular to the direction: that of the interpretation plane, across which a
-    // direction is known best.
+    // Normal of the interpretation plane: unit, world, perpendicular to the direction.
     Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
     double sigma = 0.01;         // radians, of the direction's angle in the interpretation plane
     double normal_sigma = 0.01;  // radians, out of it
@@ -31,27 +30,27 @@ struct ManhattanAxesOptions {
   double huber = 2.448;  // sigmas; as for the terms of the window with two rows
   // An observation whose chi-square exceeds this is an outlier: 99 % quantile with 2 rows.
   double reject_chi2_2 = 9.210;
-  // Rounds of solving and re-classifying all observations, outliers of earlier rounds included; the
-  // first takes all of them, so that a coarse start far from the truth loses none. It ends sooner
-  // once nothing changes any more.
+  // Rounds of optimisation and reclassification of all observations, outliers of earlier rounds
+  // included. The first round uses all observations, so that a poor start rejects none. Stops early
+  // once the classification is stable.
   int num_rounds = 5;
   int iterations_per_round = 10;
-  // Fewer inliers than this do not tell a room from chance.
+  // Smallest number of inliers of a usable result.
   int min_inliers = 6;
 
   bool IsValid(std::string* error) const;
 };
 
 struct ManhattanAxesSummary {
-  // False: fewer inliers than asked for, or all of one axis, about which nothing fixes the
-  // rotation. The axes are then those that were given.
+  // False if there are too few inliers, or all belong to one axis, which leaves the rotation about
+  // it undetermined. The axes are then unchanged.
   bool usable = false;
   int num_inliers = 0;
   double initial_cost =
       0.0;                  // 0.5 * sum of robustified squares over all observations, at the start
   double final_cost = 0.0;  // at the end, over the inliers
-  // Of the rotation vector w of Exp(w) q in the world, rad^2. What the sigmas promise, times the
-  // mean squared residual of the inliers where that exceeds one. Zero if not usable.
+  // Covariance of the rotation vector w of Exp(w) q in the world, radians^2: the inverse of J^T J,
+  // scaled by the mean squared residual of the inliers where that exceeds one. Zero if not usable.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 

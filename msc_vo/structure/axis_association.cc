@@ -12,10 +12,10 @@ namespace msc_vo {
 bool AxisAssociationOptions::IsValid(std::string* error) const {
   if (!(max_sigmas > 0.0)) {
     *error = "max_sigmas must be positive";
-  } else if (!(max_angle > 0.0 && max_angle < DegreesToRadians(45.0))) {
-    *error = "max_angle must lie between 0 and pi/4 (radians): a line has one axis at most";
+  } else if (!(max_angle > 0.0 && max_angle < 45.0)) {
+    *error = "max_angle must lie between 0 and 45 degrees: a line has one axis at most";
   } else if (!(max_sigma > 0.0)) {
-    *error = "max_sigma must be positive (radians)";
+    *error = "max_sigma must be positive (degrees)";
   } else {
     return true;
   }
@@ -27,13 +27,13 @@ std::optional<int> AssociateAxis(const AxisAssociationOptions& options,
                                  const AxisEvidence& line) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument("AssociateAxis: " + error);
-  if (!(line.sigma <= options.max_sigma)) return std::nullopt;
+  if (!(line.sigma <= DegreesToRadians(options.max_sigma))) return std::nullopt;
   const Eigen::Vector3d direction = rotation.conjugate() * line.direction;
   int axis = 0;
   direction.cwiseAbs().maxCoeff(&axis);
   const double angle = UndirectedAngle(direction, Eigen::Vector3d(Eigen::Vector3d::Unit(axis)));
   const double gate = options.max_sigmas * std::hypot(line.sigma, rotation_sigma);
-  if (!(angle <= std::min(gate, options.max_angle))) return std::nullopt;
+  if (!(angle <= std::min(gate, DegreesToRadians(options.max_angle)))) return std::nullopt;
   return axis;
 }
 

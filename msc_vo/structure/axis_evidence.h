@@ -9,10 +9,10 @@
 
 namespace msc_vo {
 
-// What speaks for an axis: the direction of a 3-D line or the normal of a surface, in whichever
-// frame of reference the caller works.
+// Evidence for an axis: the direction of a 3-D line or the normal of a surface, in a frame of the
+// caller's choice.
 struct AxisEvidence {
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit; its sign means nothing
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit; its sign is arbitrary
   double sigma = DegreesToRadians(1.0);                  // radians, of each of its two components
 };
 

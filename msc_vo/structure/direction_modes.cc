@@ -12,9 +12,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Beyond so many bandwidths the kernel is 1 % and taken as 0.
+// Bandwidths beyond which the kernel, below 1 %, is truncated.
 constexpr double kReach = 3.0;
-// Mean shift from the densest member halves its distance to the mode at least at each step.
+// Mean-shift steps; each at least halves the distance of the densest member to the mode.
 constexpr int kShifts = 5;
 
 // Gaussian kernel of the angle between two undirected lines, by its sine; 0 beyond its reach.

@@ -9,15 +9,15 @@
 
 namespace msc_vo {
 
-// A direction whose sign means nothing, with the weight that it counts with.
+// An undirected direction with its weight.
 struct WeightedDirection {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit
   double weight = 1.0;
 };
 
-// Where directions crowd: modes of their density (Gaussian kernel of standard deviation
-// `bandwidth`, radians), densest first, at most `max_modes`, each `separation` (radians) from the
-// others at least. Quadratic in the number of directions: 3 ms for 1000.
+// Returns the modes of the density of the directions under a Gaussian kernel of standard deviation
+// `bandwidth` (radians), densest first: at most `max_modes`, at least `separation` (radians) apart.
+// Quadratic in the number of directions.
 std::vector<Eigen::Vector3d> FindDirectionModes(const std::vector<WeightedDirection>& directions,
                                                 double bandwidth, double separation, int max_modes);
 

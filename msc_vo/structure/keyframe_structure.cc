@@ -18,7 +18,7 @@ std::shared_ptr<const Frame> RefineStructure(const FrameStructureOptions& option
     fits.back().depth.covariance *= variance_scale;
   }
   if (!RefineFrameStructure(options, frame->camera, &fits).usable) return frame;
-  // A copy: tracking may still be at work with the frame.
+  // A copy, because tracking may still use the frame.
   auto refined = std::make_shared<Frame>(*frame);
   auto fit = fits.begin();
   for (LineFeature& line : refined->lines) {

@@ -11,9 +11,9 @@
 
 namespace msc_vo {
 
-// The frame with the depths of its lines refined by their parallel and perpendicular relations
-// (paper: 3D Feature Position Estimation); the frame itself where there are none. `scale` is what
-// the sigmas of lines are multiplied with before they say which angles are near to 0 or 90 degrees.
+// Returns the frame with the depths of its lines refined by their parallel and perpendicular
+// relations (paper: 3D Feature Position Estimation), or the frame itself if there are none. `scale`
+// multiplies the sigmas of the lines.
 std::shared_ptr<const Frame> RefineStructure(const FrameStructureOptions& options,
                                              const NoiseScale& scale,
                                              std::shared_ptr<const Frame> frame);

@@ -12,7 +12,7 @@ namespace msc_vo {
 
 namespace {
 
-// The frame's lines that have a depth, camera frame.
+// Directions of the frame's lines that have a depth, camera frame.
 std::vector<AxisEvidence> LineEvidence(const Frame& frame) {
   std::vector<AxisEvidence> evidence;
   for (size_t i = 0; i < frame.lines.size(); ++i) {
@@ -24,8 +24,8 @@ std::vector<AxisEvidence> LineEvidence(const Frame& frame) {
   return evidence;
 }
 
-// What one view of a line says of its direction. In the interpretation plane it stands on depth,
-// across that plane on the image alone, ten times as exact.
+// Observation of a line's direction in one view. In the interpretation plane its uncertainty is
+// that of depth; across the plane it is that of the image, ten times smaller.
 ManhattanAxesData::Observation Observe(const Keyframe& keyframe, int feature, int axis) {
   const Frame& frame = *keyframe.frame;
   const LineFeature& line = frame.lines[feature];
@@ -46,7 +46,7 @@ ManhattanAxesData::Observation Observe(const Keyframe& keyframe, int feature, in
 
 bool SceneAxesOptions::IsValid(std::string* error) const {
   if (!(deviation > 0.0)) {
-    *error = "axes.deviation must be positive (radians)";
+    *error = "axes.deviation must be positive (degrees)";
     return false;
   }
   return coarse.IsValid(error) && association.IsValid(error) && refinement.IsValid(error) &&
@@ -77,7 +77,7 @@ void SceneAxes::Search(const Map& map, KeyframeId id, const std::vector<AxisEvid
 std::optional<int> SceneAxes::AxisOf(const LineLandmark& line) const {
   if (estimator_.state() == AxesState::kNone) return std::nullopt;
   return AssociateAxis(options_.association, estimator_.world_from_axes(),
-                       std::hypot(estimator_.sigma(), options_.deviation),
+                       std::hypot(estimator_.sigma(), DegreesToRadians(options_.deviation)),
                        {line.segment.Direction(), line.direction_sigma});
 }
 
@@ -85,7 +85,7 @@ AxesSupport SceneAxes::CountSupport(const Map& map) const {
   AxesSupport support;
   support.num_keyframes = static_cast<int>(map.keyframes().size());
   for (const auto& [id, line] : map.lines()) {
-    if (line.direction_sigma > options_.association.max_sigma) continue;
+    if (line.direction_sigma > DegreesToRadians(options_.association.max_sigma)) continue;
     ++support.num_lines;
     if (AxisOf(line)) ++support.num_axis_lines;
   }
@@ -98,14 +98,14 @@ void SceneAxes::Refine(const Map& map) {
   for (const auto& [id, line] : map.lines()) {
     const std::optional<int> axis = AxisOf(line);
     if (!axis) continue;
-    // The line's own deviation from its axis is common to all its views: with it in each, n views
-    // know the axis no better than that.
-    const double deviation =
-        options_.deviation * std::sqrt(static_cast<double>(line.observations.size()));
-    for (const Observation& seen : line.observations) {
-      const Keyframe& keyframe = *map.FindKeyframe(seen.keyframe);
-      if (!keyframe.frame->lines[seen.feature].depth) continue;
-      data.observations.push_back(Observe(keyframe, seen.feature, *axis));
+    // The deviation of a line from its axis is common to its n observations; sqrt(n) makes their
+    // sum count it once.
+    const double deviation = DegreesToRadians(options_.deviation) *
+                             std::sqrt(static_cast<double>(line.observations.size()));
+    for (const Observation& observation : line.observations) {
+      const Keyframe& keyframe = *map.FindKeyframe(observation.keyframe);
+      if (!keyframe.frame->lines[observation.feature].depth) continue;
+      data.observations.push_back(Observe(keyframe, observation.feature, *axis));
       data.observations.back().sigma = std::hypot(data.observations.back().sigma, deviation);
       data.observations.back().normal_sigma =
           std::hypot(data.observations.back().normal_sigma, deviation);
@@ -126,7 +126,8 @@ void SceneAxes::AddAlignments(const Map& map, WindowData* window) const {
     const std::optional<int> axis = AxisOf(*map.FindLine(line.id));
     if (!axis) continue;
     window->axis_alignments.push_back(
-        {line.id, axes.col(*axis), std::hypot(estimator_.sigma(), options_.deviation), false});
+        {line.id, axes.col(*axis),
+         std::hypot(estimator_.sigma(), DegreesToRadians(options_.deviation)), false});
   }
 }
 

@@ -19,8 +19,8 @@ namespace {
 struct Direction {
   LandmarkId line = kNoId;
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
-  double sigma = 0.0;               // radians
-  std::vector<KeyframeId> seen_by;  // ascending
+  double sigma = 0.0;                 // radians
+  std::vector<KeyframeId> observers;  // ascending
   bool on_axis = false;
 };
 
@@ -36,21 +36,21 @@ std::vector<Direction> Directions(const Map& map, const WindowData& window) {
     directions[line.id] = {
         line.id, line.segment.Direction(), map.FindLine(line.id)->direction_sigma, {}, false};
   }
-  for (const WindowData::LineObservation& seen : window.line_observations) {
-    directions[seen.line].seen_by.push_back(seen.keyframe);
+  for (const WindowData::LineObservation& observation : window.line_observations) {
+    directions[observation.line].observers.push_back(observation.keyframe);
   }
   for (const WindowData::AxisAlignment& alignment : window.axis_alignments) {
     directions[alignment.line].on_axis = true;
   }
   std::vector<Direction> list;
   for (auto& [id, direction] : directions) {
-    std::sort(direction.seen_by.begin(), direction.seen_by.end());
+    std::sort(direction.observers.begin(), direction.observers.end());
     list.push_back(std::move(direction));
   }
   return list;
 }
 
-// How many keyframes see both.
+// Number of keyframes that observe both lines.
 int NumShared(const std::vector<KeyframeId>& a, const std::vector<KeyframeId>& b) {
   int count = 0;
   for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
@@ -71,7 +71,7 @@ Candidates FindCandidates(const StructuralPairOptions& options,
                           const std::vector<Direction>& lines) {
   const double max_angle = DegreesToRadians(options.max_angle);
   const double pair_sigma = DegreesToRadians(options.pair_sigma);
-  // Most pairs are near to neither, which the cosine of their angle tells at once.
+  // A test of the cosine rejects most pairs cheaply.
   const double least_parallel = std::cos(max_angle), most_perpendicular = std::sin(max_angle);
   Candidates candidates;
   for (size_t i = 0; i < lines.size(); ++i) {
@@ -86,7 +86,7 @@ Candidates FindCandidates(const StructuralPairOptions& options,
       const double gate = std::min(max_angle, options.gate_sigmas * std::hypot(sigma, pair_sigma));
       const double angle = UndirectedAngle(lines[i].direction, lines[j].direction);
       if (std::abs(angle - (is_parallel ? 0.0 : 0.5 * kPi)) > gate) continue;
-      const int count = NumShared(lines[i].seen_by, lines[j].seen_by);
+      const int count = NumShared(lines[i].observers, lines[j].observers);
       if (count == 0) continue;
       (is_parallel ? candidates.parallel : candidates.perpendicular)
           .push_back({sigma, static_cast<int>(i), static_cast<int>(j), count});
@@ -95,7 +95,7 @@ Candidates FindCandidates(const StructuralPairOptions& options,
   return candidates;
 }
 
-// The pairs that either line counts among its best. A well-known line may serve many.
+// Selects the pairs that are among the most certain ones of either line.
 std::vector<WindowData::LinePair> ChooseBest(const StructuralPairOptions& options,
                                              const std::vector<Direction>& lines,
                                              std::vector<Candidate> candidates) {

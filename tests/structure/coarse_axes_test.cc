@@ -202,7 +202,7 @@ TEST(CoarseAxes, DoNotDependOnOrderAndSigns) {
   ASSERT_TRUE(first);
   const auto expect_same = [&](const ManhattanAxes& other) {
     EXPECT_EQ(other.rotation.coeffs(), first->rotation.coeffs());
-    EXPECT_EQ(other.share, first->share);
+    EXPECT_EQ(other.explained_ratio, first->explained_ratio);
     EXPECT_EQ(other.line_ratio, first->line_ratio);
     EXPECT_EQ(other.normal_ratio, first->normal_ratio);
   };

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include "msc_vo/structure/internal/axes_evidence.h"
+
+namespace msc_vo {
+
+/// Support of a hypothesis of Manhattan axes in the evidence of a view.
+struct ScoredAxes {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d num_lines = Eigen::Vector3d::Zero();    ///< in the cone of each axis
+  Eigen::Vector3d num_normals = Eigen::Vector3d::Zero();  ///< in the cone of each axis
+  Eigen::Vector3d misfit = Eigen::Vector3d::Zero();  ///< radians, mean of each cone to its axis
+  double explained_ratio = 0.0;  ///< total weight of the evidence in the three cones
+  double density = 0.0;          ///< weights under the last kernel: the objective of mean shift
+};
+
+ScoredAxes ScoreAxes(const CoarseAxesOptions& options, const DirectionEvidence& evidence,
+                     const Eigen::Matrix3d& axes);
+
+}  // namespace msc_vo
