@@ -74,6 +74,17 @@ std::unique_ptr<ImageFeed> MakeFeed(const RgbdDecoder& decoder, int num_frames, 
   return std::make_unique<FastFeed>(decoder, num_frames);
 }
 
+// The readout time that the options give precedes that of the calibration; both get the one that
+// applies, none if it is to be learnt.
+void ResolveReadoutTime(std::optional<double>* option, Calibration* calibration) {
+  if (*option) {
+    calibration->readout_time = *option;
+    calibration->readout_origin = "mapping.readout_time";
+  } else {
+    *option = calibration->readout_time;
+  }
+}
+
 }  // namespace
 
 SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configuration,
@@ -90,9 +101,7 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
 
   const CostMeter cost;
   OdometryOptions& options = context.configuration.odometry;
-  if (!options.mapping.readout_time) {
-    options.mapping.readout_time = context.calibration.readout_time;
-  }
+  ResolveReadoutTime(&options.mapping.readout_time, &context.calibration);
   Odometry odometry(options, context.calibration.camera, context.calibration.distortion);
   odometry.SetWindowObserver(window_observer);
   const std::unique_ptr<ImageFeed> feed =

@@ -37,6 +37,7 @@ struct Arguments {
   int frames = 260;
   int height = 0;  // pixels; 0: three quarters of the width
   bool jpeg = false;
+  int jpeg_quality = 95;
   bool overwrite = false;
   SyntheticSequenceOptions options;
 };
@@ -93,19 +94,20 @@ void WriteImage(const fs::path& path, const cv::Mat& image, const std::vector<in
   }
 }
 
-void WriteColor(const fs::path& path, RenderedImage* image) {
+void WriteColor(const fs::path& path, int jpeg_quality, RenderedImage* image) {
   const cv::Mat rgb(image->height, image->width, CV_8UC3, image->rgb.data());
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  // PNG level 1: noise does not compress, so that more effort only takes time. JPEG as recorded.
-  WriteImage(path, bgr, {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_JPEG_QUALITY, 95});
+  // PNG level 1: the noise of a colour image does not compress, more effort only takes time.
+  WriteImage(path, bgr, {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
 }
 
 void WriteDepth(const fs::path& path, RenderedImage* image) {
   const cv::Mat depth(image->height, image->width, CV_32FC1, image->depth.data());
   cv::Mat raw;
   depth.convertTo(raw, CV_16U, kDepthFactor);  // rounds, and saturates at 13.1 m
-  WriteImage(path, raw, {cv::IMWRITE_PNG_COMPRESSION, 1});
+  // The steps of a disparity do compress: a fifth less than with level 1.
+  WriteImage(path, raw, {cv::IMWRITE_PNG_COMPRESSION, 6});
 }
 
 void WriteCamera(const fs::path& folder, const PinholeCamera& camera) {
@@ -150,7 +152,7 @@ int Run(const Arguments& arguments) {
     const std::string rgb = "rgb/" + stamp + (arguments.jpeg ? ".jpg" : ".png");
     const std::string depth_stamp = Format("%.6f", frame.pose.timestamp + options.depth_delay);
     const std::string depth = "depth/" + depth_stamp + ".png";
-    WriteColor(folder / rgb, &frame.image);
+    WriteColor(folder / rgb, arguments.jpeg_quality, &frame.image);
     WriteDepth(folder / depth, &frame.image);
     rgb_list.Write(stamp + " " + rgb);
     depth_list.Write(depth_stamp + " " + depth);
@@ -203,7 +205,12 @@ Command AddSynthesizeCommand(CLI::App* app) {
       ->add_option("--image-sigma", arguments->options.image_sigma,
                    "Noise of the colour image, grey levels")
       ->capture_default_str();
-  command->add_flag("--jpeg", arguments->jpeg, "Colour as JPEG of quality 95: small, as recorded");
+  CLI::Option* jpeg =
+      command->add_flag("--jpeg", arguments->jpeg, "Colour as JPEG: small, as recorded");
+  command->add_option("--jpeg-quality", arguments->jpeg_quality, "Of --jpeg, percent")
+      ->check(CLI::Range(1, 100))
+      ->needs(jpeg)
+      ->capture_default_str();
   command->add_flag(
       "--overwrite", arguments->overwrite,
       "Write into a folder that this command has not made; replaces its rgb/ and depth/");

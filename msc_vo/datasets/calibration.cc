@@ -18,6 +18,9 @@ namespace msc_vo {
 namespace {
 
 constexpr char kCameraFileFormat[] = "'fx fy cx cy width height depth_scale [k1 k2 p1 p2 k3]'";
+constexpr char kReadoutLineFormat[] = "'readout_time SECONDS'";
+// Seconds: no camera takes longer for an image.
+constexpr double kMaxReadoutTime = 1.0;
 
 // Writes what the settings say over the calibration.
 void Apply(const CameraSettings& settings, Calibration* calibration) {
@@ -48,19 +51,6 @@ bool IsComplete(const CameraSettings& settings) {
                            "  give --camera with one of:" + names);
 }
 
-// The calibration of the folder, with the readout time that is known of the camera that the name of
-// the folder tells: no calibration file has one.
-Calibration WithShutterByName(const SequenceIndex& index) {
-  Calibration calibration = *index.calibration;
-  const std::string name = GuessCameraPreset(index.directory);
-  if (name.empty()) return calibration;
-  calibration.readout_time = FindCameraPreset(name).calibration.readout_time;
-  if (calibration.readout_time) {
-    calibration.origin += ", shutter of " + name + " by the folder's name";
-  }
-  return calibration;
-}
-
 // What the settings are written over.
 Calibration BaseCalibration(const CameraSettings& settings, const std::string& preset,
                             SequenceIndex* index) {
@@ -76,13 +66,31 @@ Calibration BaseCalibration(const CameraSettings& settings, const std::string& p
       index->warnings.push_back("the camera preset " + preset + " is not used: " +
                                 index->calibration->origin + " says what the camera is");
     }
-    return WithShutterByName(*index);
+    return *index->calibration;
   }
   if (!preset.empty()) return FindCameraPreset(preset).calibration;
   if (index->preset.empty()) FailWithoutCalibration(*index);
   Calibration guess = FindCameraPreset(index->preset).calibration;
   guess.origin += " (guessed from the folder)";
+  guess.readout_time.reset();
+  guess.readout_origin = Calibration::kReadoutLearnt;
   return guess;
+}
+
+// Reads the line of camera.txt that tells the readout time.
+void ReadReadoutLine(const TextLine& line, Calibration* calibration) {
+  std::optional<double> seconds;
+  if (line.fields.size() == 2 && line.fields[0] == "readout_time") {
+    seconds = ParseNumber(line.fields[1]);
+  }
+  if (!seconds) {
+    throw std::runtime_error(line.Where() + ": expected " + kReadoutLineFormat +
+                             " or nothing behind the line " + kCameraFileFormat);
+  }
+  calibration->readout_time = seconds;
+  calibration->readout_origin = line.file;
+  std::string error;
+  if (!calibration->IsValid(&error)) throw std::runtime_error(line.Where() + ": " + error);
 }
 
 }  // namespace
@@ -97,6 +105,10 @@ bool Calibration::IsValid(std::string* error) const {
   }
   if (!(depth_scale > 0.0) || !std::isfinite(depth_scale)) {
     *error = "camera: depth_scale (raw depth units per metre) must be positive";
+    return false;
+  }
+  if (readout_time && !(std::abs(*readout_time) < kMaxReadoutTime)) {
+    *error = "camera: readout_time (seconds from the first row to the last) must be less than 1";
     return false;
   }
   return true;
@@ -128,6 +140,8 @@ Calibration ReadCameraFile(const std::string& path) {
     throw std::runtime_error(lines.front().Where() + ": " + error + "; expected " +
                              kCameraFileFormat);
   }
+  if (lines.size() > 1) ReadReadoutLine(lines[1], &calibration);
+  if (lines.size() > 2) throw std::runtime_error(lines[2].Where() + ": one line too many");
   return calibration;
 }
 

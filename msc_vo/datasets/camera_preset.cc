@@ -16,7 +16,9 @@ namespace {
 CameraPreset Preset(const std::string& name, const PinholeCamera& camera, double depth_scale,
                     const LensDistortion& distortion = {},
                     const std::optional<double>& readout_time = {}) {
-  return {name, {camera, distortion, depth_scale, readout_time, "preset " + name}};
+  const std::string origin = "preset " + name;
+  const std::string readout_origin = readout_time ? origin : Calibration::kReadoutLearnt;
+  return {name, {camera, distortion, depth_scale, readout_time, readout_origin, origin}};
 }
 
 // Of the colour camera of a Kinect, seconds, by the one sequence at hand that turns fast enough:

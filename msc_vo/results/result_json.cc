@@ -234,6 +234,7 @@ std::string FormatSummary(const RunSummary& summary, const RunContext& context) 
   json["camera"] = CameraToJson(context.calibration);
   json["realtime"] = RealtimeToJson(context.realtime);
   json.update(MeasuresToJson(summary, context.error, context.cost));
+  json["readout_time_origin"] = context.calibration.readout_origin;
   json["options"] = OptionsToJson(context.configuration);
   return Dump(json);
 }

@@ -87,9 +87,12 @@ std::vector<ReportFrame> AlignedFrames(const OdometryResult& result,
 }
 
 std::string ShutterText(const RunSummary& summary, const RunContext& context) {
-  return FormatText("rolling shutter, %.1f ms from the first row to the last (%s)",
-                    1000.0 * summary.readout_time,
-                    context.configuration.odometry.mapping.readout_time ? "known" : "learnt");
+  const std::string shutter =
+      summary.readout_time == 0.0
+          ? "global shutter"
+          : FormatText("rolling shutter, %.1f ms from the first row to the last",
+                       1000.0 * summary.readout_time);
+  return shutter + " (" + context.calibration.readout_origin + ")";
 }
 
 std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContext& context) {
@@ -121,9 +124,7 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
   }
   numbers.push_back({"Speed", SpeedText(summary, context.cost), ""});
   numbers.push_back({"Camera", context.calibration.origin, ""});
-  if (summary.readout_time != 0.0) {
-    numbers.push_back({"Shutter", ShutterText(summary, context), ""});
-  }
+  numbers.push_back({"Shutter", ShutterText(summary, context), ""});
   return numbers;
 }
 
@@ -165,7 +166,7 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
       Row("sequence", context.sequence.directory + " (" + context.sequence.format + ", " +
                           std::to_string(context.sequence.entries.size()) + " images)");
   table += Row("camera", context.calibration.origin);
-  if (summary.readout_time != 0.0) table += Row("", ShutterText(summary, context));
+  table += Row("", ShutterText(summary, context));
   table += Row("frames", StatusText(summary));
   for (const NotTrackedSpan& span : summary.not_tracked) {
     table += Row("", FormatText("no pose in frames %d to %d", span.first_frame, span.last_frame));

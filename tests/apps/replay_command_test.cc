@@ -77,6 +77,32 @@ TEST_F(ReplayCommandTest, KeepsPaceWithTheTimeStampsInRealTime) {
   EXPECT_EQ(NumPoses("out"), 12u);
 }
 
+TEST_F(ReplayCommandTest, FolderNameDoesNotChangeTheTrajectory) {
+  Synthesize(12);
+  std::filesystem::create_directory_symlink(Path("room"), Path("fr1_room"));
+  ASSERT_EQ(Replay("plain").exit_code, 0);
+  const CommandOutcome outcome =
+      RunCommand({"replay", Path("fr1_room"), "--output", Path("named")});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_EQ(ReadFile(Path("plain/trajectory.txt")), ReadFile(Path("named/trajectory.txt")));
+  EXPECT_THAT(outcome.output, HasSubstr("global shutter (learnt from the images)"));
+  EXPECT_EQ(Summary("named")["readout_time_origin"], "learnt from the images");
+}
+
+TEST_F(ReplayCommandTest, SaysWhereTheReadoutTimeComesFrom) {
+  Synthesize(4);
+  const std::string camera = ReadFile(Path("room/camera.txt"));
+  WriteText("room/camera.txt", camera + "readout_time 0.02\n");
+  CommandOutcome outcome = Replay("file");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("rolling shutter, 20.0 ms"));
+  EXPECT_EQ(Summary("file")["readout_time"], 0.02);
+  EXPECT_EQ(Summary("file")["readout_time_origin"], Path("room/camera.txt"));
+  outcome = Replay("option", {"--set", "mapping.readout_time=0"});
+  EXPECT_THAT(outcome.output, HasSubstr("global shutter (mapping.readout_time)"));
+  EXPECT_EQ(Summary("option")["readout_time_origin"], "mapping.readout_time");
+}
+
 TEST_F(ReplayCommandTest, StopsAfterSoManyImages) {
   Synthesize(6);
   EXPECT_EQ(Replay("out", {"--max-frames", "4", "--mode", "pl-vo"}).exit_code, 0);

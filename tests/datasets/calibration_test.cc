@@ -91,21 +91,53 @@ TEST_F(CalibrationTest, SettingsComeBeforeTheFolderAndThatBeforePresets) {
   EXPECT_EQ(ResolveCalibration(settings, "", &index).camera.fx, 520.908620);
 }
 
-TEST_F(CalibrationTest, TheNameOfTheFolderTellsTheShutterWhereTheCameraIsKnown) {
+TEST_F(CalibrationTest, FolderNameSaysNothingAboutTheShutter) {
   SequenceIndex index = Index();
-  index.calibration = FindCameraPreset("replica").calibration;
-  index.calibration->readout_time.reset();
-  EXPECT_FALSE(ResolveCalibration({}, "", &index).readout_time.has_value());
   index.directory = "/data/fr2_desk";
-  const Calibration by_name = ResolveCalibration({}, "", &index);
-  EXPECT_EQ(*by_name.readout_time, 0.026);
-  EXPECT_EQ(by_name.camera.fx, 600.0);
-  EXPECT_THAT(by_name.origin, HasSubstr("shutter of tum-fr2"));
-  CameraSettings settings;
-  settings.preset = "tum-fr3";
-  EXPECT_FALSE(ResolveCalibration(settings, "", &index).readout_time.has_value());
-  index.directory = "/data/fr3_office";  // another camera, of which nothing is known
+  index.calibration = FindCameraPreset("tum-fr3").calibration;
   EXPECT_FALSE(ResolveCalibration({}, "", &index).readout_time.has_value());
+
+  index.calibration.reset();
+  index.preset = "tum-fr2";  // guessed: its lens must do, its shutter need not
+  const Calibration guess = ResolveCalibration({}, "", &index);
+  EXPECT_EQ(guess.camera.fx, 520.908620);
+  EXPECT_FALSE(guess.readout_time.has_value());
+  EXPECT_EQ(guess.readout_origin, Calibration::kReadoutLearnt);
+}
+
+TEST_F(CalibrationTest, PresetNamedByTheUserTellsTheReadoutTime) {
+  SequenceIndex index = Index();
+  Calibration named = ResolveCalibration({}, "tum-fr1", &index);
+  EXPECT_EQ(named.readout_time, 0.026);
+  EXPECT_EQ(named.readout_origin, "preset tum-fr1");
+  CameraSettings settings;
+  settings.preset = "tum-fr2";
+  EXPECT_EQ(ResolveCalibration(settings, "", &index).readout_time, 0.026);
+  settings.preset = "tum-fr3";
+  named = ResolveCalibration(settings, "", &index);
+  EXPECT_FALSE(named.readout_time.has_value());
+  EXPECT_EQ(named.readout_origin, Calibration::kReadoutLearnt);
+}
+
+TEST_F(CalibrationTest, CameraFileMayTellTheReadoutTime) {
+  const std::string camera = "500 500 320 240 640 480 5000\n";
+  WriteText("camera.txt", camera + "# rolling shutter\nreadout_time 0.026\n");
+  SequenceIndex index = Index();
+  index.directory = "/data/fr1_desk";
+  index.calibration = ReadCameraFile(Path("camera.txt"));
+  const Calibration calibration = ResolveCalibration({}, "", &index);
+  EXPECT_EQ(calibration.readout_time, 0.026);
+  EXPECT_EQ(calibration.readout_origin, Path("camera.txt"));
+  WriteText("camera.txt", camera);
+  EXPECT_FALSE(ReadCameraFile(Path("camera.txt")).readout_time.has_value());
+
+  EXPECT_THAT(CameraFileError(camera + "readout 0.026\n"),
+              AllOf(HasSubstr("camera.txt:2: "), HasSubstr("'readout_time SECONDS'")));
+  EXPECT_THAT(CameraFileError(camera + "readout_time fast\n"), HasSubstr("camera.txt:2: "));
+  EXPECT_THAT(CameraFileError(camera + "readout_time 26\n"),
+              AllOf(HasSubstr("camera.txt:2: "), HasSubstr("less than 1")));
+  EXPECT_THAT(CameraFileError(camera + "readout_time 0\n\nreadout_time 1\n"),
+              HasSubstr("camera.txt:4: "));
 }
 
 TEST_F(CalibrationTest, CompleteSettingsLetNothingShineThrough) {

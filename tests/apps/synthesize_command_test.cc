@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "tests/apps/command_process.h"
+#include "tests/io/temporary_folder.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/io/text_file.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::HasSubstr;
+
+class SynthesizeCommandTest : public TemporaryFolder {
+ protected:
+  // One small image; the command's outcome.
+  CommandOutcome Synthesize(const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"synthesize", Path(name), "--frames", "1",
+                                          "--width",    "160"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunCommand(arguments);
+  }
+  size_t ColorBytes(const std::string& name) {
+    return ReadFile(Path(name + "/rgb/1.000000.jpg")).size();
+  }
+};
+
+TEST_F(SynthesizeCommandTest, JpegQualitySetsTheSizeOfTheColorImages) {
+  ASSERT_EQ(Synthesize("default", {"--jpeg"}).exit_code, 0);
+  ASSERT_EQ(Synthesize("same", {"--jpeg", "--jpeg-quality", "95"}).exit_code, 0);
+  ASSERT_EQ(Synthesize("small", {"--jpeg", "--jpeg-quality", "50"}).exit_code, 0);
+  EXPECT_EQ(ColorBytes("same"), ColorBytes("default"));
+  EXPECT_LT(ColorBytes("small"), ColorBytes("default") / 2);
+}
+
+TEST_F(SynthesizeCommandTest, RefusesAJpegQualityWithoutJpeg) {
+  const CommandOutcome outcome = Synthesize("png", {"--jpeg-quality", "90"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("--jpeg"));
+}
+
+}  // namespace
+}  // namespace msc_vo
