@@ -40,15 +40,15 @@ FrameResult MakeResult(const TrackedFrame& tracked) {
   result.timestamp = tracked.frame->timestamp;
   result.status = tracked.status;
   result.cam_from_world = tracked.cam_from_world;
-  result.is_keyframe = tracked.is_keyframe;
+  result.is_keyframe = tracked.keyframe.is_due;
   result.num_points = static_cast<int>(tracked.frame->points.size());
   result.num_lines = static_cast<int>(tracked.frame->lines.size());
   result.num_inlier_points = static_cast<int>(tracked.matches.points.size());
   result.num_inlier_lines = static_cast<int>(tracked.matches.lines.size());
   result.num_dynamic = tracked.num_dynamic;
   result.covariance = tracked.pose.covariance;
-  result.times.matching = tracked.matching_ms;
-  result.times.pose = tracked.pose_ms;
+  result.times.matching = tracked.times.matching;
+  result.times.pose = tracked.times.pose;
   return result;
 }
 
@@ -137,8 +137,8 @@ Frame Odometry::State::Build(const RgbdImage& image) {
 }
 
 void Odometry::State::Count(const TrackedFrame& tracked) {
-  CountVisible(tracked.visible_points, &packet.point_counts);
-  CountVisible(tracked.visible_lines, &packet.line_counts);
+  CountVisible(tracked.keyframe.visible_points, &packet.point_counts);
+  CountVisible(tracked.keyframe.visible_lines, &packet.line_counts);
   for (const PointMatch& match : tracked.matches.points) ++packet.point_counts[match.id].num_found;
   for (const LineMatch& match : tracked.matches.lines) ++packet.line_counts[match.id].num_found;
 }
@@ -201,12 +201,12 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   result.times.tracking = stopwatch.Milliseconds();
 
   state_->Count(tracked);
-  if (tracked.last_keyframe_velocity) {
-    state_->packet.last_velocity = tracked.last_keyframe_velocity;
+  if (tracked.keyframe.previous_velocity) {
+    state_->packet.last_velocity = tracked.keyframe.previous_velocity;
   }
   state_->results.push_back(result);
   state_->places.push_back({tracked.reference, tracked.cam_from_reference});
-  if (tracked.is_keyframe) {
+  if (tracked.keyframe.is_due) {
     state_->SubmitKeyframe(tracked, image.depth);
     state_->snapshot = state_->schedule.SnapshotAt(index);  // of this keyframe, without latency
   }

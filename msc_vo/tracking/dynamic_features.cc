@@ -11,12 +11,12 @@ std::shared_ptr<const Frame> MarkDynamicFeatures(const CellConsensusOptions& opt
                                                  const TrackedFrame& tracked) {
   if (tracked.dynamic_cells.empty()) return tracked.frame;
   auto marked = std::make_shared<Frame>(*tracked.frame);
-  const ImageGrid parts(options.columns, options.rows, marked->camera);
+  const ImageGrid grid(options.columns, options.rows, marked->camera);
   for (PointFeature& point : marked->points) {
-    point.dynamic = tracked.dynamic_cells[parts.CellOf(point.pixel)];
+    point.dynamic = tracked.dynamic_cells[grid.CellOf(point.pixel)];
   }
   for (LineFeature& line : marked->lines) {
-    line.dynamic = tracked.dynamic_cells[parts.CellOf(line.segment)];
+    line.dynamic = tracked.dynamic_cells[grid.CellOf(line.segment)];
   }
   for (const PointMatch& match : tracked.matches.points) {
     marked->points[match.feature].dynamic = false;

@@ -9,9 +9,8 @@
 
 namespace msc_vo {
 
-// The frame of `tracked` with a mark on every feature in a part of the image that moves (a line:
-// with its middle), but for those whose match agrees with the pose. The frame itself if no part
-// moves. options: those that the parts are of.
+// Returns the frame of `tracked` with every feature in a cell of a dynamic object marked (lines: by
+// their midpoint), except inliers of the pose. Returns the frame itself if there are no such cells.
 std::shared_ptr<const Frame> MarkDynamicFeatures(const CellConsensusOptions& options,
                                                  const TrackedFrame& tracked);
 

@@ -9,7 +9,7 @@ namespace msc_vo {
 
 namespace {
 
-// Candidates whose landmark is not matched yet.
+// Candidates whose landmark is not among the known matches.
 template <typename C, typename M>
 std::vector<C> Unmatched(const std::vector<C>& candidates, const std::vector<M>& known) {
   std::vector<LandmarkId> matched;
@@ -42,14 +42,14 @@ std::vector<M> LandmarkInliersOf(const std::vector<M>& matches) {
   return inliers;
 }
 
-// Whether a landmark has stood still, as two keyframes saw it at one place.
+// Whether a landmark is confirmed static: two keyframes observed it at the same position.
 template <typename L>
 bool IsConfirmed(const L* landmark) {
   return landmark != nullptr && landmark->observations.size() >= 2;
 }
 
-// Sigmas are those of the feature, times the scale that was learnt for all and the noise of the
-// landmark. Without a landmark (nullptr) the match is with the frame before.
+// The sigmas of the feature are multiplied by the calibrated scale and the noise of the landmark
+// (nullptr: the match is with a feature of the last frame).
 PoseData::Point Observe(const PointMatch& match, const PointFeature& feature,
                         const PointLandmark* landmark, const NoiseScale& scale) {
   const double noise = landmark != nullptr ? landmark->noise : 1.0;
@@ -85,8 +85,8 @@ LocalMap CandidatesFromFrame(const Map& map, const TrackedFrame& last,
   for (const PointMatch& match : last.matches.points) point_ids[match.feature] = match.id;
   for (const LineMatch& match : last.matches.lines) line_ids[match.feature] = match.id;
 
-  LocalMap seen;
-  seen.reference = last.reference;
+  LocalMap candidates;
+  candidates.reference = last.reference;
   const Rigid3 world_from_last = last_from_world.Inverse();
   for (size_t i = 0; i < frame.points.size(); ++i) {
     const PointLandmark* landmark = map.FindPoint(point_ids[i]);
@@ -99,7 +99,7 @@ LocalMap CandidatesFromFrame(const Map& map, const TrackedFrame& last,
     candidate.descriptor = frame.points[i].descriptor;
     candidate.level = frame.points[i].level;
     if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) {
-      seen.points.push_back(candidate);
+      candidates.points.push_back(candidate);
     }
   }
   for (size_t i = 0; i < frame.lines.size(); ++i) {
@@ -111,9 +111,10 @@ LocalMap CandidatesFromFrame(const Map& map, const TrackedFrame& last,
                             ? landmark->segment
                             : world_from_last * frame.LineInCamera(static_cast<int>(i));
     candidate.descriptor = frame.lines[i].descriptor;
-    if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) seen.lines.push_back(candidate);
+    if (ProjectCandidate(frame.camera, cam_from_world, &candidate))
+      candidates.lines.push_back(candidate);
   }
-  return seen;
+  return candidates;
 }
 
 FrameMatches MatchLocalMap(const TrackerOptions& options, const Frame& frame, const LocalMap& local,

@@ -21,12 +21,12 @@ bool KeyframePolicyOptions::IsValid(std::string* error) const {
   return false;
 }
 
-KeyframePolicy::Shares KeyframePolicy::ComputeShares(const Frame& frame,
-                                                     const FrameMatches& matches) const {
+KeyframePolicy::TrackedRatios KeyframePolicy::ComputeRatios(const Frame& frame,
+                                                            const FrameMatches& matches) const {
   struct Count {
     int tracked = 0;
     int creatable = 0;
-    double Share() const {
+    double Ratio() const {
       return tracked + creatable == 0 ? 1.0 : tracked / static_cast<double>(tracked + creatable);
     }
   };
@@ -50,18 +50,18 @@ KeyframePolicy::Shares KeyframePolicy::ComputeShares(const Frame& frame,
     if (!frame.lines[i].depth && !tracked_lines[i]) continue;
     ++(tracked_lines[i] ? all.tracked : all.creatable);
   }
-  return {all.Share(), close.Share()};
+  return {all.Ratio(), close.Ratio()};
 }
 
 bool KeyframePolicy::IsDue(const Frame& frame, const FrameMatches& matches) {
   ++frames_since_keyframe_;
-  const Shares shares = ComputeShares(frame, matches);
-  best_.all = std::max(best_.all, shares.all);
-  best_.close = std::max(best_.close, shares.close);
+  const TrackedRatios ratios = ComputeRatios(frame, matches);
+  best_.all = std::max(best_.all, ratios.all);
+  best_.close = std::max(best_.close, ratios.close);
   if (frames_since_keyframe_ < options_.min_interval) return false;
   return frames_since_keyframe_ >= options_.max_interval ||
-         shares.all < options_.min_tracked_ratio * best_.all ||
-         shares.close < options_.min_tracked_ratio * best_.close;
+         ratios.all < options_.min_tracked_ratio * best_.all ||
+         ratios.close < options_.min_tracked_ratio * best_.close;
 }
 
 void KeyframePolicy::Inserted() {

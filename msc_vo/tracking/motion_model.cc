@@ -9,7 +9,7 @@ namespace msc_vo {
 
 namespace {
 
-// Half a second ahead a hand has changed its mind: the model is not carried further than that.
+// Seconds; the motion of a hand-held camera is not predictable over longer intervals.
 constexpr double kHorizon = 0.5;
 
 }  // namespace
@@ -49,10 +49,10 @@ std::optional<CameraVelocity> MotionModel::LastVelocity(double timestamp,
                                                         const Rigid3& cam_from_last) const {
   std::optional<CameraVelocity> after = VelocitySince(timestamp, cam_from_last);
   if (!after || interval_ <= 0.0) return after;
-  // Means are those of the middles of the intervals; the frame is nearer to that of the shorter.
-  const double share = interval_ / (interval_ + timestamp - last_timestamp_);
-  return CameraVelocity{velocity_.angular + share * (after->angular - velocity_.angular),
-                        velocity_.linear + share * (after->linear - velocity_.linear)};
+  // Mean velocities are those at the middles of the intervals: interpolate linearly between them.
+  const double weight = interval_ / (interval_ + timestamp - last_timestamp_);
+  return CameraVelocity{velocity_.angular + weight * (after->angular - velocity_.angular),
+                        velocity_.linear + weight * (after->linear - velocity_.linear)};
 }
 
 }  // namespace msc_vo

@@ -18,29 +18,39 @@
 
 namespace msc_vo {
 
-// What tracking found out about one frame. The pose is told relative to a keyframe: the mapper may
-// move that keyframe later, and the frame moves with it.
+// Time of the stages of tracking one frame, milliseconds.
+struct TrackingTimes {
+  double matching = 0.0;
+  double pose = 0.0;  // motion-only bundle adjustment
+};
+
+// What a tracked frame contributes to local mapping.
+struct KeyframeProposal {
+  bool is_due = false;  // the frame shall become a keyframe
+  // Velocity at the previous frame if that became a keyframe, from the frames before and after it.
+  std::optional<CameraVelocity> previous_velocity;
+  // Landmarks that were predicted to be visible, matched ones included; for culling.
+  std::vector<LandmarkId> visible_points;
+  std::vector<LandmarkId> visible_lines;
+};
+
+// Result of tracking one frame. The pose is stored relative to a keyframe, because the mapper may
+// move that keyframe later and the frame moves with it.
 struct TrackedFrame {
-  std::shared_ptr<const Frame> frame;
+  std::shared_ptr<const Frame> frame;  // with rolling-shutter compensation
   TrackingStatus status = TrackingStatus::kLost;
   KeyframeId reference = kNoId;  // kNoId: no map yet, and cam_from_reference is cam_from_world
   Rigid3 cam_from_reference;
-  Rigid3 cam_from_world;  // with the reference where the snapshot has it
-  FrameMatches matches;   // inliers among the landmarks
-  // Matches with what moves by itself, and the parts of the image that move, at the step that found
-  // most of them.
-  int num_dynamic = 0;
-  std::vector<bool> dynamic_cells;  // of ImageGrid; empty if nothing moves
-  // Landmarks that should have been seen, matched ones included: for culling.
-  std::vector<LandmarkId> visible_points;
-  std::vector<LandmarkId> visible_lines;
+  Rigid3 cam_from_world;   // with the reference as in the snapshot
+  FrameMatches matches;    // inliers among the landmarks
   NoiseScale noise_scale;  // of the sigmas of its features
   PoseSummary pose;
-  bool is_keyframe = false;
-  // Of the frame before, where that became a keyframe: better than it was known then.
-  std::optional<CameraVelocity> last_keyframe_velocity;
-  double matching_ms = 0.0;
-  double pose_ms = 0.0;
+  // Matches on dynamic objects, and the cells of these in the ImageGrid (empty if there are none),
+  // of the pose optimisation that found most of them.
+  int num_dynamic = 0;
+  std::vector<bool> dynamic_cells;
+  KeyframeProposal keyframe;
+  TrackingTimes times;
 };
 
 }  // namespace msc_vo

@@ -20,30 +20,28 @@ struct TrackerOptions {
   KeyframePolicyOptions keyframes;
   RelocalizerOptions relocalizer;
 
-  // Search radii, pixels. Around the constant-velocity prediction at 30 Hz a hand shakes by up to
-  // about 15 pixels; the wide search allows four times that. Around an estimated pose what remains
-  // is the error of the landmarks: a few sigmas.
+  // Search radii, pixels. The error of the constant-velocity prediction of a hand-held camera at 30
+  // Hz is up to about 15 pixels; the wide search allows four times that. Around an estimated pose
+  // the error of the landmarks remains: a few sigmas.
   double prediction_radius = 15.0;
   double wide_radius = 60.0;
   double local_map_radius = 4.0;
 
   int max_local_keyframes = 30;
 
-  // A pose stands on at least this many matched features, points and lines together: with 10, a
-  // wrong consensus among random matches is out of the question (six are needed to fix a pose).
+  // Smallest number of inlier matches of a pose, points and lines together. Six rows determine a
+  // pose; ten matches exclude a consensus of random ones.
   int min_matches = 10;
-  // ... and on at least this share of all that were matched, but for what moves by itself; the
-  // wrong ones scatter.
+  // Smallest fraction of inliers among all matches except those on dynamic objects.
   double min_inlier_ratio = 0.3;
-  // Standard deviations of a pose above which a frame counts as weak: what one frame may add to
-  // the error of a trajectory that is to be good to a few centimetres and a degree.
+  // Standard deviations of a pose above which the status is kWeak.
   double weak_translation_sigma = 0.02;  // metres
   double weak_rotation_sigma = 1.0;      // degrees
-  // A gap is bridged by constant velocity for this long; a hand does not keep it up longer.
+  // Longest gap that is bridged by constant velocity.
   double max_prediction = 0.5;  // seconds
-  // Keyframes tried per frame while the map is searched, newest and least recently tried first.
+  // Keyframes per frame that relocalisation tries, newest and least recently tried first.
   int relocalization_keyframes = 3;
-  // A first frame needs this many features with depth, points and lines together.
+  // Features with depth that the first frame needs, points and lines together.
   int min_initial_features = 20;
 
   bool IsValid(std::string* error) const;

@@ -7,10 +7,10 @@ namespace msc_vo {
 
 enum class TrackingStatus {
   kTracked,    // pose from enough matches with the local map
-  kWeak,       // pose from few or badly spread matches: usable, but worth a look
+  kWeak,       // pose from few or badly distributed matches: large covariance
   kPredicted,  // no pose could be estimated; constant velocity bridges a short gap
-  kLost,       // the map was not found for longer than that; the last good pose is repeated
-  kDropped,    // in real time the image came too late and was not looked at
+  kLost,       // no pose for longer than that; the last pose is repeated
+  kDropped,    // real time: the image came too late and was not processed
 };
 
 const char* ToString(TrackingStatus status);

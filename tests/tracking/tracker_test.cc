@@ -19,7 +19,7 @@ class TrackerTest : public ::testing::Test {
     const std::shared_ptr<const Frame> first = world_->See(0);
     const TrackedFrame tracked = tracker_.Track(first, MapSnapshot());
     ASSERT_EQ(tracked.status, TrackingStatus::kTracked);
-    ASSERT_TRUE(tracked.is_keyframe);
+    ASSERT_TRUE(tracked.keyframe.is_due);
     snapshot_ = MapOfOneKeyframe(first, Rigid3());
   }
   static Rigid3 Truth(int index) {
@@ -47,17 +47,17 @@ TEST_F(TrackerTest, FollowsTheCamera) {
 TEST_F(TrackerTest, TheSecondFrameTellsHowTheFirstOneMoved) {
   Start({});
   const TrackedFrame tracked = Track(1);
-  ASSERT_TRUE(tracked.last_keyframe_velocity.has_value());
-  const Eigen::Vector3d metres = tracked.last_keyframe_velocity->linear / 30.0;
+  ASSERT_TRUE(tracked.keyframe.previous_velocity.has_value());
+  const Eigen::Vector3d metres = tracked.keyframe.previous_velocity->linear / 30.0;
   EXPECT_TRUE(metres.isApprox(tracked.cam_from_world.translation(), 1e-6));
-  EXPECT_FALSE(Track(2).last_keyframe_velocity.has_value());
+  EXPECT_FALSE(Track(2).keyframe.previous_velocity.has_value());
 }
 
 TEST_F(TrackerTest, AMapOfRolledRowsIsUnrolledSoon) {
   Start({});
   snapshot_.readout_time = 0.026;
   const TrackedFrame second = Track(1);
-  EXPECT_TRUE(second.is_keyframe);
+  EXPECT_TRUE(second.keyframe.is_due);
   EXPECT_EQ(second.frame->readout_time, 0.0);  // as the map is
   EXPECT_TRUE(second.frame->velocity.has_value());
   EXPECT_FALSE(Track(2).is_keyframe);  // the map with the second one is not there yet
@@ -99,7 +99,7 @@ TEST_F(TrackerTest, BridgesCoveredFramesAndGoesOn) {
   for (int i = 10; i < 15; ++i) {
     const TrackedFrame tracked = tracker_.Track(SyntheticFrames::SeeNothing(i), snapshot_);
     EXPECT_EQ(tracked.status, TrackingStatus::kPredicted) << i;
-    EXPECT_FALSE(tracked.is_keyframe);
+    EXPECT_FALSE(tracked.keyframe.is_due);
     // Constant velocity over a sixth of a second.
     EXPECT_LT(PositionError(tracked.cam_from_world, Truth(i)), 0.03) << i;
   }

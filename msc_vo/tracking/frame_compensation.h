@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "msc_vo/geometry/camera_velocity.h"
+#include "msc_vo/map/frame.h"
+#include "msc_vo/map/snapshot.h"
+
+namespace msc_vo {
+
+// Whether the only keyframe of the map has no rolling-shutter compensation yet, because its
+// velocity is unknown until the next frame is tracked.
+bool AwaitsCompensation(const MapSnapshot& snapshot);
+
+// Readout time (seconds) that frames are compensated with to be consistent with the map.
+double CompensationReadoutTime(const MapSnapshot& snapshot);
+
+// The frame with its rolling shutter compensated; the frame itself if the velocity is unknown.
+std::shared_ptr<const Frame> CompensateFrame(std::shared_ptr<const Frame> frame,
+                                             const std::optional<CameraVelocity>& velocity,
+                                             double readout_time);
+
+}  // namespace msc_vo
