@@ -60,7 +60,7 @@ TEST_F(TrackerTest, AMapOfRolledRowsIsUnrolledSoon) {
   EXPECT_TRUE(second.keyframe.is_due);
   EXPECT_EQ(second.frame->readout_time, 0.0);  // as the map is
   EXPECT_TRUE(second.frame->velocity.has_value());
-  EXPECT_FALSE(Track(2).is_keyframe);  // the map with the second one is not there yet
+  EXPECT_FALSE(Track(2).keyframe.is_due);  // the map with the second one is not there yet
   // When the mapper knows the velocity of the first frame.
   auto first = std::make_shared<Frame>(*snapshot_.map.FindKeyframe(0)->frame);
   first->velocity = CameraVelocity();
@@ -125,10 +125,10 @@ TEST_F(TrackerTest, WaitsForAFirstFrameWithFeatures) {
   world_ = std::make_unique<SyntheticFrames>(SyntheticFrames::Options());
   const TrackedFrame nothing = tracker_.Track(SyntheticFrames::SeeNothing(0), MapSnapshot());
   EXPECT_EQ(nothing.status, TrackingStatus::kLost);
-  EXPECT_FALSE(nothing.is_keyframe);
+  EXPECT_FALSE(nothing.keyframe.is_due);
   const TrackedFrame first = tracker_.Track(world_->See(1), MapSnapshot());
   EXPECT_EQ(first.status, TrackingStatus::kTracked);
-  EXPECT_TRUE(first.is_keyframe);
+  EXPECT_TRUE(first.keyframe.is_due);
 }
 
 TEST_F(TrackerTest, RefusesBadOptions) {
