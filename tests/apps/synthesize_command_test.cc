@@ -16,8 +16,8 @@ class SynthesizeCommandTest : public TemporaryFolder {
  protected:
   // One small image; the command's outcome.
   CommandOutcome Synthesize(const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"synthesize", Path(name), "--frames", "1",
-                                          "--width",    "160"};
+    std::vector<std::string> arguments = {"synthesize", Path(name), "--frames",
+                                          "1",          "--width",  "160"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return RunCommand(arguments);
   }
