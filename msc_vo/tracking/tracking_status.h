@@ -6,11 +6,12 @@
 namespace msc_vo {
 
 enum class TrackingStatus {
-  kTracked,    // pose from enough matches with the local map
-  kWeak,       // pose from few or badly spread matches: usable, but worth a look
-  kPredicted,  // no pose could be estimated; constant velocity bridges a short gap
-  kLost,       // the map was not found for longer than that; the last good pose is repeated
-  kDropped,    // in real time the image came too late and was not looked at
+  kTracked,     // pose from enough matches with the local map
+  kWeak,        // pose from few or badly spread matches: usable, but worth a look
+  kPredicted,   // no pose could be estimated; constant velocity bridges a short gap
+  kLost,        // the map was not found for longer than that; the last good pose is repeated
+  kDropped,     // in real time the image came too late and was not looked at
+  kUnreadable,  // there is no image: its file is missing or damaged
 };
 
 const char* ToString(TrackingStatus status);
