@@ -63,14 +63,15 @@ void ToSeconds(const std::string& color_name, const std::string& depth_name, Who
   ToSeconds(depth_name, &ListedImage::stamp, whole, range, &images->depth, index);
 }
 
-std::vector<ListedImage> ReadListOf(const fs::path& folder, const char* name) {
-  const fs::path path = folder / name;
-  if (!fs::exists(path)) {
+Associations ReadLists(const fs::path& folder) {
+  const fs::path color = folder / "rgb.txt", depth = folder / "depth.txt";
+  for (const fs::path& path : {color, depth}) {
+    if (fs::exists(path)) continue;
     throw std::runtime_error(path.string() +
                              ": does not exist; a TUM folder needs rgb.txt and depth.txt (or "
                              "associations.txt). --format rgb-depth pairs rgb/ and depth/ by name");
   }
-  return ReadImageList(path.string());
+  return {ReadImageList(color.string()), ReadImageList(depth.string())};
 }
 
 }  // namespace
@@ -84,7 +85,7 @@ void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceInd
     AddPairs(pairs, index);
     return;
   }
-  Associations lists = {ReadListOf(directory, "rgb.txt"), ReadListOf(directory, "depth.txt")};
+  Associations lists = ReadLists(directory);
   ToSeconds("rgb.txt", "depth.txt", whole, &lists, index);
   PairByTime(lists.color, lists.depth, kMaxPairDifference, index);
 }
