@@ -123,6 +123,18 @@ TEST_F(CommandLineTest, EvaluatesATrajectory) {
   EXPECT_EQ(holes["est_left_out"], 2);
   EXPECT_EQ(holes["gt_left_out"], 0);
 
+  std::string nanoseconds, seconds;
+  for (int i = 0; i < 4; ++i) {
+    const std::string time = std::to_string(1305031100 + i), pose = " " + xy[i] + " 0 0 0 0 1\n";
+    nanoseconds += time + "000000000" + pose;
+    seconds += time + pose;
+  }
+  WriteText("nanoseconds.txt", nanoseconds);
+  WriteText("seconds.txt", seconds);
+  EXPECT_THAT(RunCommand({"evaluate", Path("nanoseconds.txt"), Path("seconds.txt")}).output,
+              AllOf(HasSubstr("nanoseconds.txt: the stamps are nanoseconds"),
+                    HasSubstr("4 of 4 ground-truth poses matched")));
+
   WriteText("later.txt", "100 0 0 0 0 0 0 1\n");
   const CommandOutcome none = RunCommand({"evaluate", Path("truth.txt"), Path("later.txt")});
   EXPECT_EQ(none.exit_code, 1);
