@@ -178,13 +178,15 @@ TEST_F(ReplayCommandTest, ASequenceWithoutAGoodImageEndsEarlyAndLeavesNoResults)
 }
 
 TEST_F(ReplayCommandTest, ADayWithoutImagesIsNamedInRealTime) {
-  Synthesize(2);
+  Synthesize(4);
   std::filesystem::remove(Path("room/associations.txt"));
   std::string lists[2];
   for (int k = 0; k < 2; ++k) {
     const std::vector<TextLine> lines =
         ReadTextLines(Path(k == 0 ? "room/rgb.txt" : "room/depth.txt"));
-    lists[k] = "1.0 " + lines[0].fields[1] + "\n86401.0 " + lines[1].fields[1] + "\n";
+    const char* const stamps[] = {"1.0", "1.1", "1.2", "86401.2"};
+    for (int i = 0; i < 4; ++i)
+      lists[k] += std::string(stamps[i]) + " " + lines[i].fields[1] + "\n";
   }
   WriteText("room/rgb.txt", lists[0]);
   WriteText("room/depth.txt", lists[1]);
