@@ -6,8 +6,11 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "apps/cli/commands.h"
+#include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/evaluation/line_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
@@ -68,9 +71,33 @@ void PrintLines(const LineError& error) {
       error.num_edges);
 }
 
+std::vector<double> StampsOf(const std::vector<TimedPose>& poses) {
+  std::vector<double> stamps;
+  for (const TimedPose& pose : poses) stamps.push_back(pose.timestamp);
+  return stamps;
+}
+
+// Brings the stamps of the trajectory from `unit` to seconds.
+void ToSeconds(const std::string& path, TimeUnit unit, std::vector<TimedPose>* poses) {
+  if (unit == TimeUnit::kSeconds) return;
+  std::cerr << "msc_vo: warning: " << path << ": the stamps are " << ToString(unit)
+            << " and are converted to seconds" << std::endl;
+  for (TimedPose& pose : *poses) pose.timestamp /= UnitsPerSecond(unit);
+}
+
+void PrintLeftOut(const std::string& path, int num_left_out) {
+  if (num_left_out == 0) return;
+  std::printf("left out: %d rows of %s with nan or inf\n", num_left_out, path.c_str());
+}
+
 int Run(const Arguments& arguments) {
-  const std::vector<TimedPose> truth = ReadTrajectory(arguments.truth);
-  const std::vector<TimedPose> estimate = ReadTrajectory(arguments.estimate);
+  LeftOutRows left_out;
+  std::vector<TimedPose> truth = ReadTrajectory(arguments.truth, &left_out.reference);
+  std::vector<TimedPose> estimate = ReadTrajectory(arguments.estimate, &left_out.estimate);
+  const TimeUnit unit = GuessTimeUnit(StampsOf(truth));
+  ToSeconds(arguments.truth, unit, &truth);
+  ToSeconds(arguments.estimate, GuessTimeUnit(StampsOf(estimate), RangeOf(StampsOf(truth), unit)),
+            &estimate);
   const TrajectoryError error = EvaluateTrajectory(truth, estimate, arguments.options);
   if (!error.usable) {
     throw std::runtime_error(arguments.estimate + " cannot be compared with " + arguments.truth +
@@ -83,9 +110,11 @@ int Run(const Arguments& arguments) {
                                *AlignOrientations(truth, estimate, arguments.options));
   }
   if (arguments.json) {
-    std::cout << FormatErrorJson(error, line_error);
+    std::cout << FormatErrorJson(error, left_out, line_error);
   } else {
     PrintTable(error);
+    PrintLeftOut(arguments.truth, left_out.reference);
+    PrintLeftOut(arguments.estimate, left_out.estimate);
     if (line_error) PrintLines(*line_error);
   }
   return kExitSuccess;

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 
 #include "msc_vo/config/option_list.h"
+#include "msc_vo/text/similar_name.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -97,22 +97,6 @@ struct Formatter {
   std::string operator()(const Choice& choice) const { return choice.names.at(choice.get()); }
 };
 
-// Number of letters to insert, delete or replace to turn one text into the other (Levenshtein).
-int EditDistance(const std::string& a, const std::string& b) {
-  std::vector<int> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = row[0];
-    row[0] = static_cast<int>(i);
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const int replaced = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
 std::string LastPart(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
 }  // namespace
@@ -138,8 +122,7 @@ std::vector<OptionText> ChangedOptions(const Configuration& configuration) {
 
 const Option* FindSimilar(const std::vector<Option>& options, const std::string& path) {
   const Option* nearest = nullptr;
-  // More than a third of the letters wrong is another word, not a typing error.
-  int smallest = static_cast<int>(LastPart(path).size()) / 3 + 1;
+  int smallest = MaxTypingErrors(LastPart(path)) + 1;
   int smallest_of_path = 0;  // decides between equals
   for (const Option& option : options) {
     // The right name in the wrong section counts as one error.

@@ -44,12 +44,12 @@ SequenceIndex Read(const std::string& directory) {
   SequenceIndex index;
   const std::filesystem::path folder = directory;
   if (!FindAssociations(directory).empty() || std::filesystem::exists(folder / "rgb.txt")) {
-    ReadTumEntries(directory, &index);
+    ReadTumEntries(directory, WholeStamps::kFrameNumbers, &index);
   } else {
     PairByFrameNumber(ListImages((folder / "rgb").string()),
                       ListImages((folder / "depth").string()), &index);
   }
-  ReadTumGroundTruth(directory, &index);
+  ReadTumGroundTruth(directory, WholeStamps::kFrameNumbers, &index);
   ReadFolderCamera(directory, &index);
   index.preset = "icl-nuim";
   return index;

@@ -110,6 +110,7 @@ std::optional<double> StampFromName(const std::string& path) {
   const std::optional<double> value = ParseNumber(stem);
   if (value && std::isfinite(*value)) {
     if (stem.find('.') != std::string::npos) return value;
+    if (const auto unit = UnitOfDate(*value)) return *value / UnitsPerSecond(*unit);
     if (stem.size() >= kNanosecondDigits) return 1e-9 * *value;
   }
   const std::optional<int64_t> number = FrameNumber(path);

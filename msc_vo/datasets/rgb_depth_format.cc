@@ -82,7 +82,7 @@ SequenceIndex Read(const std::string& directory) {
     index.warnings.clear();
     PairByPosition(color, depth, &index);
   }
-  ReadTumGroundTruth(directory, &index);
+  ReadTumGroundTruth(directory, WholeStamps::kFrameNumbers, &index);
   ReadFolderCamera(directory, &index);
   index.preset = GuessCameraPreset(directory);
   return index;

@@ -94,6 +94,14 @@ RgbdDecoder::RgbdDecoder(SequenceIndex index, Calibration calibration)
     : index_(std::move(index)), calibration_(std::move(calibration)) {}
 
 RgbdImage RgbdDecoder::Decode(int i) const {
+  try {
+    return DecodeFiles(i);
+  } catch (const std::runtime_error& error) {
+    throw UnreadableImage(i, error.what());
+  }
+}
+
+RgbdImage RgbdDecoder::DecodeFiles(int i) const {
   const SequenceEntry& entry = index_.entries.at(i);
   cv::Mat color = ReadImage(entry.color_path, entry);
   const cv::Mat depth = ReadImage(entry.depth_path, entry);

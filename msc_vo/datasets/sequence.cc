@@ -105,8 +105,10 @@ SequenceIndex OpenSequence(const std::string& directory, const std::string& form
   index.directory = folder;
   OrderEntries(&index);
   if (index.entries.empty()) {
-    throw std::runtime_error(folder + ": no pair of colour and depth image found (read as " +
-                             format->name + ": " + format->description + ")");
+    std::string message = folder + ": no pair of colour and depth image found (read as " +
+                          format->name + ": " + format->description + ")";
+    for (const std::string& warning : index.warnings) message += "\n" + warning;
+    throw std::runtime_error(message);
   }
   return index;
 }

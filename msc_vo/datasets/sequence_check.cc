@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "msc_vo/evaluation/association.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -82,6 +83,12 @@ class SequenceChecker {
     Add(Severity::kGood, std::to_string(entries.size()) + " image pairs in " +
                              Rounded(duration, 1) + " s, " + Rounded(1.0 / median, 1) +
                              " per second");
+    constexpr double kMinInterval = 0.001, kMaxInterval = 5.0;  // seconds; no RGB-D camera's
+    if (median < kMinInterval || median > kMaxInterval) {
+      Add(Severity::kWarning, FormatText("%g s from image to image are unusual: are the stamps in "
+                                         "seconds?",
+                                         median));
+    }
     // Constant velocity survives one or two dropped frames, not more.
     constexpr double kMaxGap = 3.5;  // in median intervals
     const auto gaps = std::count_if(intervals.begin(), intervals.end(),

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -16,6 +17,8 @@ namespace msc_vo {
 namespace {
 
 constexpr size_t kFieldsPerPose = 8;
+// Two decimals of each component are off by less.
+constexpr double kMaxQuaternionError = 0.05;
 
 void SortByTime(std::vector<TimedPose>* poses) {
   std::stable_sort(poses->begin(), poses->end(), [](const TimedPose& a, const TimedPose& b) {
@@ -34,8 +37,9 @@ std::string Fixed(double value, int decimals) {
 
 }  // namespace
 
-std::vector<TimedPose> ReadTrajectory(const std::string& path) {
+std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out) {
   std::vector<TimedPose> poses;
+  if (num_left_out) *num_left_out = 0;
   for (const TextLine& line : ReadTextLines(path)) {
     if (line.fields.size() != kFieldsPerPose) {
       throw std::runtime_error(line.Where() +
@@ -53,11 +57,16 @@ std::vector<TimedPose> ReadTrajectory(const std::string& path) {
       v[i] = *value;
       finite = finite && std::isfinite(v[i]);
     }
-    if (!finite) continue;
+    if (!finite) {
+      if (num_left_out) ++*num_left_out;
+      continue;
+    }
     const Eigen::Quaterniond rotation(v[7], v[4], v[5], v[6]);
-    if (rotation.norm() < 1e-6) {  // far below any rounding of a unit quaternion
+    if (!(std::abs(rotation.norm() - 1.0) <= kMaxQuaternionError)) {
       throw std::runtime_error(line.Where() +
-                               ": the quaternion is zero; correct or remove the line");
+                               FormatText(": the quaternion qx qy qz qw has length %.3f instead of "
+                                          "1; correct or remove the line",
+                                          rotation.norm()));
     }
     poses.push_back({v[0], Rigid3(rotation.normalized(), {v[1], v[2], v[3]})});
   }

@@ -12,10 +12,11 @@ namespace msc_vo {
 
 // Reads a TUM trajectory: one pose per line, "time tx ty tz qx qy qz qw", camera in world, seconds
 // and metres. Comments (#), blank lines, commas, tabs and CRLF are understood; quaternions are
-// normalised; poses with a nan or inf (how some programs write a lost frame) are left out. The
-// answer is in order of time.
-// Throws std::runtime_error naming file and line if a line is anything else.
-std::vector<TimedPose> ReadTrajectory(const std::string& path);
+// normalised; poses with a nan or inf (how some programs write a lost frame) are left out, and
+// counted in `num_left_out` unless that is null. The answer is in order of time.
+// Throws std::runtime_error naming file and line if a line is anything else, or its quaternion is
+// far from unit length.
+std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out = nullptr);
 
 // The poses as a TUM trajectory that every tool reads: single spaces, none at the end of a line,
 // times with six decimals, ascending and unique (the first pose of a stamp stays), unit quaternions

@@ -25,8 +25,8 @@ bool Recognises(const std::string& directory) {
 
 SequenceIndex Read(const std::string& directory) {
   SequenceIndex index;
-  ReadTumEntries(directory, &index);
-  ReadTumGroundTruth(directory, &index);
+  ReadTumEntries(directory, WholeStamps::kTimes, &index);
+  ReadTumGroundTruth(directory, WholeStamps::kTimes, &index);
   ReadFolderCamera(directory, &index);
   index.preset = GuessCameraPreset(directory);
   return index;

@@ -19,19 +19,10 @@ namespace msc_vo {
 
 namespace {
 
-OdometryOptions Checked(OdometryOptions options) {
+OdometryOptions Checked(const OdometryOptions& options) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
-  if (options.mode == Mode::kPlVo) {
-    options.features.line_depth = LineDepthMethod::kEndPoints;
-    options.mapping.frame_structure = FrameStructureUse::kNever;
-  }
-  if (options.mode != Mode::kMscVo) {
-    options.mapping.pairs.parallel = false;
-    options.mapping.pairs.perpendicular = false;
-    options.mapping.axes.enabled = false;
-  }
-  return options;
+  return WithModeApplied(options);
 }
 
 FrameResult MakeResult(const TrackedFrame& tracked) {
@@ -213,7 +204,11 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   return state_->results.back();
 }
 
-void Odometry::Drop(int64_t id, double timestamp) {
+FrameResult Odometry::Drop(int64_t id, double timestamp, TrackingStatus status) {
+  if (status != TrackingStatus::kDropped && status != TrackingStatus::kUnreadable) {
+    throw std::invalid_argument(std::string("a frame without an image cannot be ") +
+                                ToString(status));
+  }
   state_->CheckTime(id, timestamp);
   FrameResult result;
   State::Place place;
@@ -223,9 +218,10 @@ void Odometry::Drop(int64_t id, double timestamp) {
   }
   result.id = id;
   result.timestamp = timestamp;
-  result.status = TrackingStatus::kDropped;
+  result.status = status;
   state_->results.push_back(result);
   state_->places.push_back(place);
+  return result;
 }
 
 OdometryResult Odometry::Finish() {

@@ -39,4 +39,17 @@ bool OdometryOptions::IsValid(std::string* error) const {
          mapping.IsValid(error) && snapshots.IsValid(error);
 }
 
+OdometryOptions WithModeApplied(OdometryOptions options) {
+  if (options.mode == Mode::kPlVo) {
+    options.features.line_depth = LineDepthMethod::kEndPoints;
+    options.mapping.frame_structure = FrameStructureUse::kNever;
+  }
+  if (options.mode != Mode::kMscVo) {
+    options.mapping.pairs.parallel = false;
+    options.mapping.pairs.perpendicular = false;
+    options.mapping.axes.enabled = false;
+  }
+  return options;
+}
+
 }  // namespace msc_vo

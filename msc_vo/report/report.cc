@@ -24,9 +24,9 @@ struct LegendEntry {
   std::string label;
 };
 
-const std::array<ReportStatus, 5> kAllStatuses = {ReportStatus::kTracked, ReportStatus::kWeak,
-                                                  ReportStatus::kDropped, ReportStatus::kPredicted,
-                                                  ReportStatus::kLost};
+const std::array<ReportStatus, 6> kAllStatuses = {
+    ReportStatus::kTracked,    ReportStatus::kWeak,      ReportStatus::kDropped,
+    ReportStatus::kUnreadable, ReportStatus::kPredicted, ReportStatus::kLost};
 
 void CheckStages(const ReportData& data) {
   for (size_t i = 0; i < data.frames.size(); ++i) {

@@ -16,7 +16,7 @@
 namespace msc_vo {
 
 // From good to bad.
-enum class ReportStatus { kTracked, kWeak, kDropped, kPredicted, kLost };
+enum class ReportStatus { kTracked, kWeak, kDropped, kUnreadable, kPredicted, kLost };
 
 // One frame of the run.
 struct ReportFrame {

@@ -179,6 +179,8 @@ const char* ToString(ReportStatus status) {
       return "weak";
     case ReportStatus::kDropped:
       return "dropped";
+    case ReportStatus::kUnreadable:
+      return "unreadable";
     case ReportStatus::kPredicted:
       return "predicted";
     case ReportStatus::kLost:

@@ -30,8 +30,8 @@ std::string PlotStages(const ReportData& data);
 // Milliseconds of each keyframe step.
 std::string PlotMapping(const ReportData& data);
 
-// "tracked", "weak", "dropped", "predicted", "lost": for the reader and, prefixed with "status-",
-// the style.
+// "tracked", "weak", "dropped", "unreadable", "predicted", "lost": for the reader and, prefixed
+// with "status-", the style.
 const char* ToString(ReportStatus status);
 
 }  // namespace msc_vo

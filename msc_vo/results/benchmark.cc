@@ -131,7 +131,7 @@ Row RunRow(const BenchmarkRun& run) {
   }
   const StageTimeStatistics tracking = FindStage(summary, "tracking");
   const StageTimeStatistics mapping = FindStage(summary, "mapping");
-  const int num_tracked = summary.status_counts[static_cast<size_t>(TrackingStatus::kTracked)];
+  const int num_tracked = summary.Count(TrackingStatus::kTracked);
   row.push_back(std::to_string(summary.num_frames));
   row.push_back(FormatText("%.1f", 100.0 * num_tracked / summary.num_frames));
   row.push_back(OtherStatuses(summary));

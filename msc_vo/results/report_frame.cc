@@ -19,6 +19,8 @@ ReportStatus ToReportStatus(TrackingStatus status) {
       return ReportStatus::kPredicted;
     case TrackingStatus::kDropped:
       return ReportStatus::kDropped;
+    case TrackingStatus::kUnreadable:
+      return ReportStatus::kUnreadable;
     case TrackingStatus::kLost:
       break;
   }

@@ -216,8 +216,11 @@ std::string Dump(const Json& json) {
 
 }  // namespace
 
-std::string FormatErrorJson(const TrajectoryError& error, const std::optional<LineError>& lines) {
+std::string FormatErrorJson(const TrajectoryError& error, const LeftOutRows& left_out,
+                            const std::optional<LineError>& lines) {
   Json json = ErrorToJson(error);
+  json["est_left_out"] = left_out.estimate;
+  json["gt_left_out"] = left_out.reference;
   if (lines) json["lines"] = LineErrorToJson(*lines);
   return Dump(json);
 }
@@ -232,6 +235,8 @@ std::string FormatSummary(const RunSummary& summary, const RunContext& context) 
                       {"images", context.sequence.entries.size()},
                       {"warnings", context.sequence.warnings}};
   json["camera"] = CameraToJson(context.calibration);
+  json["first_unreadable_image"] =
+      context.first_unreadable.empty() ? Json() : Json(context.first_unreadable);
   json["realtime"] = RealtimeToJson(context.realtime);
   json.update(MeasuresToJson(summary, context.error, context.cost));
   json["readout_time_origin"] = context.calibration.readout_origin;

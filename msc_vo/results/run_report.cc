@@ -56,9 +56,9 @@ std::string MappingText(const RunSummary& summary) {
 }
 
 std::string RealtimeText(const RunSummary& summary, const RealtimeSummary& realtime) {
-  const int dropped = summary.status_counts[static_cast<size_t>(TrackingStatus::kDropped)];
   return FormatText("paced by the time stamps; %d of %d images dropped as too late, %d maps late; ",
-                    dropped, summary.num_frames, realtime.num_late_maps) +
+                    summary.Count(TrackingStatus::kDropped), summary.num_frames,
+                    realtime.num_late_maps) +
          TimeText(realtime.pose_age, "from image to pose");
 }
 
@@ -115,6 +115,11 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
                        "ground-truth poses with an estimate"});
   }
   numbers.push_back({"Frames", StatusText(summary), context.outcome});
+  if (!context.first_unreadable.empty()) {
+    numbers.push_back({"Unreadable images",
+                       std::to_string(summary.Count(TrackingStatus::kUnreadable)),
+                       "the first: " + context.first_unreadable});
+  }
   numbers.push_back({"Map", MapText(summary), "at the end"});
   numbers.push_back({"Manhattan axes", AxesText(summary), ""});
   numbers.push_back({"Tracking", TrackingText(summary), ""});

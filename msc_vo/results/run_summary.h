@@ -21,8 +21,8 @@ namespace msc_vo {
 // A run in numbers.
 struct RunSummary {
   int num_frames = 0;
-  std::array<int, 5> status_counts = {0, 0, 0, 0, 0};  // by TrackingStatus
-  double tracked_share = 0.0;                          // tracked or weak / all, 0..1
+  std::array<int, 6> status_counts = {0, 0, 0, 0, 0, 0};  // by TrackingStatus
+  double tracked_share = 0.0;                             // tracked or weak / all, 0..1
   std::vector<NotTrackedSpan> not_tracked;
   int num_frames_with_motion = 0;  // in which something moved by itself
   // Stages of tracking, "tracking" as a whole, stages of mapping, "mapping" as a whole.
@@ -35,6 +35,9 @@ struct RunSummary {
   NoiseScale noise_scale;     // of the sigmas of features, as learnt
   double readout_time = 0.0;  // of a rolling shutter, seconds, as known or learnt
   BundleAdjustmentSummary last_window;
+
+  // Number of frames with the status.
+  int Count(TrackingStatus status) const { return status_counts[static_cast<size_t>(status)]; }
 };
 
 RunSummary Summarize(const OdometryResult& result);
@@ -64,6 +67,9 @@ struct RunContext {
   SequenceIndex sequence;
   Calibration calibration;
   Configuration configuration;
+  // Why the first image with status unreadable could not be read, with the name of its file; empty:
+  // there is none.
+  std::string first_unreadable;
   std::optional<TrajectoryError> error;  // against the ground truth, if there is one
   RunCost cost;
   std::optional<RealtimeSummary> realtime;  // none: as fast as possible
@@ -72,9 +78,15 @@ struct RunContext {
 // The contents of summary.json.
 std::string FormatSummary(const RunSummary& summary, const RunContext& context);
 
+// Rows of two trajectory files that are no poses (nan, inf).
+struct LeftOutRows {
+  int reference = 0;
+  int estimate = 0;
+};
+
 // The numbers of a comparison as JSON: metres, degrees, seconds. Those of the lines are the object
 // "lines", which is missing if they were not compared.
-std::string FormatErrorJson(const TrajectoryError& error,
+std::string FormatErrorJson(const TrajectoryError& error, const LeftOutRows& left_out,
                             const std::optional<LineError>& lines = std::nullopt);
 
 // The poses of all frames, camera in world.

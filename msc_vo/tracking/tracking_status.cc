@@ -17,6 +17,8 @@ const char* ToString(TrackingStatus status) {
       return "lost";
     case TrackingStatus::kDropped:
       return "dropped";
+    case TrackingStatus::kUnreadable:
+      return "unreadable";
   }
   return "unknown";
 }

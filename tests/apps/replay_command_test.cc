@@ -35,6 +35,13 @@ class ReplayCommandTest : public TemporaryFolder {
   nlohmann::json Summary(const std::string& output) {
     return nlohmann::json::parse(ReadFile(Path(output + "/summary.json")));
   }
+  // Cuts a colour image in half; the name of its file.
+  std::string BreakColor(int i) {
+    const std::filesystem::path path =
+        Path("room/" + ReadTextLines(Path("room/rgb.txt")).at(i).fields[1]);
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+    return path.filename().string();
+  }
   size_t NumPoses(const std::string& output) {
     return ReadTrajectory(Path(output + "/trajectory.txt")).size();
   }
@@ -110,20 +117,83 @@ TEST_F(ReplayCommandTest, StopsAfterSoManyImages) {
   EXPECT_EQ(Summary("out")["options"]["mode"], "pl-vo");
 }
 
-TEST_F(ReplayCommandTest, ABadImageEndsTheRunButKeepsItsResults) {
-  Synthesize(8);
-  std::filesystem::path broken;
-  int count = 0;
-  for (const TextLine& line : ReadTextLines(Path("room/rgb.txt"))) {
-    if (count++ == 5) broken = Path("room/" + line.fields[1]);
+TEST_F(ReplayCommandTest, ABadImageIsCountedAndTheRunGoesOn) {
+  Synthesize(12);
+  const std::string first = BreakColor(0), second = BreakColor(5);
+  for (const char* pace : {"--realtime=false", "--realtime"}) {
+    const CommandOutcome outcome = Replay("out", {pace});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr("warning: 2 of 12 images cannot be read"),
+                                      HasSubstr(first + " (named in "), HasSubstr("truncated"),
+                                      HasSubstr("2 unreadable")));
+    EXPECT_EQ(NumPoses("out"), 12u);
+    const nlohmann::json summary = Summary("out");
+    EXPECT_EQ(summary["outcome"], "complete");
+    EXPECT_EQ(summary["frames"]["unreadable"], 2);
+    EXPECT_THAT(summary["first_unreadable_image"].get<std::string>(), HasSubstr(first));
+    EXPECT_THAT(ReadFile(Path("out/report.html")),
+                AllOf(HasSubstr("Unreadable images"), HasSubstr(first)));
+    EXPECT_LT(summary["error"]["ape_max"], 0.02);  // the pose of image 5 as well
   }
-  std::filesystem::resize_file(broken, std::filesystem::file_size(broken) / 2);
-  const CommandOutcome outcome = Replay("out");
+  EXPECT_THAT(Replay("out", {"--quiet"}).output, HasSubstr("2 of 12 images cannot be read"));
+}
+
+TEST_F(ReplayCommandTest, ABadImageEndsAStrictRunWhichKeepsItsResults) {
+  Synthesize(8);
+  const std::string broken = BreakColor(5);
+  const CommandOutcome outcome = Replay("out", {"--strict"});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("msc_vo: error: "), HasSubstr(broken.filename()),
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("msc_vo: error: "), HasSubstr(broken),
                                     HasSubstr("truncated"), HasSubstr("until then is in")));
   EXPECT_EQ(NumPoses("out"), 5u);
   EXPECT_THAT(Summary("out")["outcome"].get<std::string>(), HasSubstr("truncated"));
+}
+
+TEST_F(ReplayCommandTest, MoreThanHalfOfTheImagesBadIsAnErrorThatNamesTheFirst) {
+  Synthesize(8);
+  std::string first;
+  for (const int i : {6, 5, 4, 3}) first = BreakColor(i);
+  EXPECT_EQ(Replay("half").exit_code, 0);
+  BreakColor(7);
+  const CommandOutcome outcome = Replay("more");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("more than half of the 8 images cannot be read"),
+                                    HasSubstr(first), HasSubstr("until then is in")));
+  EXPECT_THAT(Summary("more")["outcome"].get<std::string>(), HasSubstr("more than half"));
+}
+
+TEST_F(ReplayCommandTest, ASequenceWithoutAGoodImageEndsEarlyAndLeavesNoResults) {
+  Synthesize(2);
+  std::string list;
+  for (int i = 0; i < 100; ++i) {
+    const std::string time = std::to_string(0.1 * i);
+    list += time + " rgb/none" + std::to_string(i) + " " + time + " depth/none\n";
+  }
+  WriteText("room/associations.txt", list);
+  const CommandOutcome outcome = Replay("out");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("none of the first 30 images can be read"),
+                                    HasSubstr("none0 (named in")));
+  EXPECT_FALSE(std::filesystem::exists(Path("out/trajectory.txt")));
+}
+
+TEST_F(ReplayCommandTest, ADayWithoutImagesIsNamedInRealTime) {
+  Synthesize(4);
+  std::filesystem::remove(Path("room/associations.txt"));
+  std::string lists[2];
+  for (int k = 0; k < 2; ++k) {
+    const std::vector<TextLine> lines =
+        ReadTextLines(Path(k == 0 ? "room/rgb.txt" : "room/depth.txt"));
+    const char* const stamps[] = {"1.0", "1.1", "1.2", "86401.2"};
+    for (int i = 0; i < 4; ++i)
+      lists[k] += std::string(stamps[i]) + " " + lines[i].fields[1] + "\n";
+  }
+  WriteText("room/rgb.txt", lists[0]);
+  WriteText("room/depth.txt", lists[1]);
+  CommandProcess replay({"replay", Path("room"), "--output", Path("out"), "--realtime"});
+  EXPECT_TRUE(replay.WaitForOutput("the longest, 86400.000 s, is before")) << replay.output();
+  replay.Signal(SIGTERM);
+  replay.Signal(SIGTERM);
 }
 
 TEST_F(ReplayCommandTest, CtrlCWritesWhatWasComputed) {

@@ -275,6 +275,14 @@ TEST_F(OdometryTest, DroppedFramesGetThePoseBetweenTheirNeighbours) {
   EXPECT_THROW(odometry.Drop(3, (*images_)[3].timestamp), std::invalid_argument);
 }
 
+TEST_F(OdometryTest, AFrameWithoutAnImageSaysWhy) {
+  Odometry odometry(OdometryOptions(), camera_, LensDistortion());
+  EXPECT_EQ(odometry.Drop(0, 0.0, TrackingStatus::kUnreadable).status, TrackingStatus::kUnreadable);
+  EXPECT_EQ(odometry.Drop(1, 1.0).status, TrackingStatus::kDropped);
+  EXPECT_THROW(odometry.Drop(2, 2.0, TrackingStatus::kLost), std::invalid_argument);
+  EXPECT_EQ(odometry.Finish().frames.size(), 2u);
+}
+
 // A board with a coarse random pattern, 28 % of the image, 1 m away, that goes from left to right
 // in front of the room; at its left edge it first stands still in the image.
 void PaintBoard(int step, int num_steps, RgbdImage* image) {

@@ -54,7 +54,7 @@ class ResultFilesTest : public TemporaryFolder {
 
 TEST_F(ResultFilesTest, SummarizesStatusesSpansAndStages) {
   const RunSummary summary = Summarize(Result());
-  EXPECT_THAT(summary.status_counts, testing::ElementsAre(2, 1, 1, 1, 0));
+  EXPECT_THAT(summary.status_counts, testing::ElementsAre(2, 1, 1, 1, 0, 0));
   EXPECT_DOUBLE_EQ(summary.tracked_share, 0.6);
   EXPECT_EQ(summary.num_frames_with_motion, 1);
   ASSERT_EQ(summary.not_tracked.size(), 1u);
