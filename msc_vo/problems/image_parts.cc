@@ -6,18 +6,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "msc_vo/geometry/cell_index.h"
+
 namespace msc_vo {
 
+namespace {
+
+// Along a line, four to each part of the image that it crosses: no line in an image needs as many.
+constexpr int kMaxSteps = 1 << 16;
+
+}  // namespace
+
 int ImageParts::PartOf(const Eigen::Vector2d& pixel) const {
-  const double column = std::clamp(pixel.x() * per_pixel_x_, 0.0, columns_ - 1.0);
-  const double row = std::clamp(pixel.y() * per_pixel_y_, 0.0, rows_ - 1.0);
-  return static_cast<int>(row) * columns_ + static_cast<int>(column);
+  return CellIndex(pixel.y() * per_pixel_y_, rows_) * columns_ +
+         CellIndex(pixel.x() * per_pixel_x_, columns_);
 }
 
 std::vector<int> ImageParts::PartsOf(const LineSegment2& segment) const {
   const Eigen::Vector2d along = segment.end - segment.start;
-  const int steps = 1 + static_cast<int>(4.0 * std::max(std::abs(along.x()) * per_pixel_x_,
-                                                        std::abs(along.y()) * per_pixel_y_));
+  const int steps = 1 + CellIndex(4.0 * std::max(std::abs(along.x()) * per_pixel_x_,
+                                                 std::abs(along.y()) * per_pixel_y_),
+                                  kMaxSteps);
   std::vector<int> parts;
   parts.reserve(steps + 1);
   for (int k = 0; k <= steps; ++k) {

@@ -3,6 +3,8 @@
 
 #include "msc_vo/problems/image_parts.h"
 
+#include <limits>
+
 #include <gmock/gmock.h>
 
 namespace msc_vo {
@@ -34,6 +36,17 @@ TEST(ImageParts, PixelsOutsideBelongToTheNearest) {
   EXPECT_EQ(parts.PartOf({-3.0, 20.0}), 0);
   EXPECT_EQ(parts.PartOf({102.0, 20.0}), 3);
   EXPECT_EQ(parts.PartOf({60.0, 104.0}), 6);
+}
+
+TEST(ImageParts, PixelsThatAreNoNumbersBelongToSomePart) {
+  const ImageParts parts = FourByTwo();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(parts.PartOf({nan, nan}), 0);
+  EXPECT_EQ(parts.PartOf({1e300, -1e300}), 3);
+  for (const int part : parts.PartsOf({{nan, 0.0}, {1e300, 1e300}})) {
+    EXPECT_GE(part, 0);
+    EXPECT_LT(part, parts.size());
+  }
 }
 
 TEST(ImageParts, SegmentsRunThroughSeveral) {
