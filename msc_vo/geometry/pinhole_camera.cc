@@ -22,8 +22,8 @@ constexpr double kMaxFocalLength = 200.0;
 constexpr double kMaxAspect = 2.0;
 
 // Of the undistortion: at most so many steps, and what a step must leave of the residual.
-constexpr int kMaxSteps = 50;
-constexpr double kGoodStep = 0.9;
+constexpr int kMaxSteps = 100;
+constexpr double kGoodStep = 0.75;
 
 // Applies the lens to a point of the plane z = 1.
 Eigen::Vector2d DistortNormalized(const std::array<double, 5>& k, const Eigen::Vector2d& x) {
