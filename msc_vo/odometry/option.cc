@@ -13,10 +13,10 @@ namespace msc_vo {
 namespace {
 
 struct NumberReader {
-  std::optional<double> operator()(const int* value) const { return *value; }
-  std::optional<double> operator()(const double* value) const { return *value; }
-  std::optional<double> operator()(const std::optional<int>* value) const { return *value; }
-  std::optional<double> operator()(const std::optional<double>* value) const { return *value; }
+  std::optional<double> operator()(int* value) const { return *value; }
+  std::optional<double> operator()(double* value) const { return *value; }
+  std::optional<double> operator()(std::optional<int>* value) const { return *value; }
+  std::optional<double> operator()(std::optional<double>* value) const { return *value; }
   template <typename T>
   std::optional<double> operator()(const T& /* no number */) const {
     return std::nullopt;
