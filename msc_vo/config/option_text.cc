@@ -45,8 +45,16 @@ bool Assign(const std::optional<T>& parsed, Target* target) {
   return parsed.has_value();
 }
 
+// The same of a number that must be in its range.
+template <typename Target, typename T>
+bool Assign(const std::optional<T>& parsed, const std::optional<Range>& range, Target* target) {
+  if (parsed && range && !range->Contains(*parsed)) return false;
+  return Assign(parsed, target);
+}
+
 struct Setter {
   const std::string& text;
+  const std::optional<Range>& range;
   std::string* expected;
 
   bool operator()(bool* value) const {
@@ -54,24 +62,24 @@ struct Setter {
     return Assign(ParseBool(text), value);
   }
   bool operator()(int* value) const {
-    *expected = "a whole number";
-    return Assign(ParseInt(text), value);
+    *expected = "a whole number" + RangeText();
+    return Assign(ParseInt(text), range, value);
   }
   bool operator()(double* value) const {
-    *expected = "a number";
-    return Assign(ParseFinite(text), value);
+    *expected = "a number" + RangeText();
+    return Assign(ParseFinite(text), range, value);
   }
   bool operator()(std::string* value) const {
     *value = text;
     return true;
   }
   bool operator()(std::optional<int>* value) const {
-    *expected = "a whole number";
-    return Assign(ParseInt(text), value);
+    *expected = "a whole number" + RangeText();
+    return Assign(ParseInt(text), range, value);
   }
   bool operator()(std::optional<double>* value) const {
-    *expected = "a number";
-    return Assign(ParseFinite(text), value);
+    *expected = "a number" + RangeText();
+    return Assign(ParseFinite(text), range, value);
   }
   bool operator()(const Choice& choice) const {
     *expected = "one of";
@@ -81,6 +89,9 @@ struct Setter {
     choice.set(static_cast<int>(found - choice.names.begin()));
     return true;
   }
+
+ private:
+  std::string RangeText() const { return range ? " " + ToString(*range) : ""; }
 };
 
 struct Formatter {
@@ -102,7 +113,7 @@ std::string LastPart(const std::string& path) { return path.substr(path.rfind('.
 }  // namespace
 
 bool SetOption(const Option& option, const std::string& text, std::string* expected) {
-  return std::visit(Setter{text, expected}, option.value);
+  return std::visit(Setter{text, option.range, expected}, option.value);
 }
 
 std::string FormatOption(const Option& option) { return std::visit(Formatter{}, option.value); }

@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+#include "msc_vo/geometry/cell_index.h"
+
 namespace msc_vo {
 
 namespace {
@@ -17,6 +19,7 @@ using Eigen::Vector2d;
 
 // Pixels between samples along a line: dense enough that a line of 24 px has 8.
 constexpr double kSpacing = 3.0;
+constexpr int kMaxIntervals = 1 << 14;  // longer than any image
 // Length over which the noise of depth pixels is one and the same, pixels: structured light matches
 // windows of 7 to 9 px, of which the middle half dominates.
 constexpr double kCorrelationLength = 5.0;
@@ -187,7 +190,7 @@ DepthSamples SampleLineDepth(const InverseDepthImage& image, const LensRemap& le
                              const LineSegment2& segment, double sigma) {
   const Vector2d direction = segment.Direction();
   const Vector2d across(-direction.y(), direction.x());
-  const int intervals = std::max(1, static_cast<int>(segment.Length() / kSpacing));
+  const int intervals = std::max(1, CellIndex(segment.Length() / kSpacing, kMaxIntervals));
   DepthSamples samples;
   samples.along.reserve(intervals + 1);
   for (int i = 0; i <= intervals; ++i) {

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/geometry/angles.h"
 
 namespace msc_vo {
@@ -82,7 +83,8 @@ SurfaceNormalEstimator::SurfaceNormalEstimator(const SurfaceNormalOptions& optio
                                                const LensDistortion& distortion)
     : options_(options), camera_(camera) {
   std::string error;
-  if (!options.IsValid(&error) || !camera.IsValid(&error)) {
+  if (!options.IsValid(&error) || !camera.IsValid(&error) ||
+      !IsInvertible(distortion, camera, &error)) {
     throw std::invalid_argument("SurfaceNormalEstimator: " + error);
   }
   rays_.reserve(static_cast<size_t>(camera.width) * camera.height);

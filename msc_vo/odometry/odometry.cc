@@ -3,9 +3,11 @@
 
 #include "msc_vo/odometry/odometry.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/odometry/mapping_runner.h"
@@ -19,10 +21,22 @@ namespace msc_vo {
 
 namespace {
 
+// Seconds between a depth image and its colour image, at most: the motion of the last two frames
+// says nothing about more.
+constexpr double kMaxDepthDelay = 1.0;
+
 OdometryOptions Checked(const OdometryOptions& options) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
   return WithModeApplied(options);
+}
+
+const PinholeCamera& Checked(const PinholeCamera& camera, const LensDistortion& distortion) {
+  std::string error;
+  if (!camera.IsValid(&error) || !IsInvertible(distortion, camera, &error)) {
+    throw std::invalid_argument(error);
+  }
+  return camera;
 }
 
 FrameResult MakeResult(const TrackedFrame& tracked) {
@@ -69,7 +83,7 @@ struct Odometry::State {
   State(const OdometryOptions& options_in, const PinholeCamera& camera_in,
         const LensDistortion& distortion)
       : options(Checked(options_in)),
-        camera(camera_in),
+        camera(Checked(camera_in, distortion)),
         builder(options.features, camera, distortion),
         normal_estimator(options.normals, camera, distortion),
         tracker(options.tracking),
@@ -82,6 +96,7 @@ struct Odometry::State {
   }
 
   void CheckTime(int64_t id, double timestamp) const;
+  static void CheckDepthDelay(int64_t id, double delay);
   RgbdImage Align(const RgbdImage& image) const;
   Frame Build(const RgbdImage& image);
   void Count(const TrackedFrame& tracked);
@@ -104,9 +119,21 @@ struct Odometry::State {
 };
 
 void Odometry::State::CheckTime(int64_t id, double timestamp) const {
+  const std::string image = "image " + std::to_string(id);
+  if (!std::isfinite(timestamp)) {
+    throw std::invalid_argument(image + ": its time stamp must be a finite number of seconds");
+  }
   if (results.empty() || timestamp > results.back().timestamp) return;
-  throw std::invalid_argument("image " + std::to_string(id) +
+  throw std::invalid_argument(image +
                               ": its time stamp is not later than that of the image before");
+}
+
+void Odometry::State::CheckDepthDelay(int64_t id, double delay) {
+  if (std::abs(delay) <= kMaxDepthDelay) return;
+  throw std::invalid_argument("image " + std::to_string(id) +
+                              ": depth_delay = " + std::to_string(delay) + " must be from -" +
+                              std::to_string(kMaxDepthDelay) + " to " +
+                              std::to_string(kMaxDepthDelay) + " seconds");
 }
 
 // With the depth of the time of its colour image.
@@ -170,6 +197,7 @@ void Odometry::SetWindowObserver(WindowObserver observer) {
 
 FrameResult Odometry::Process(const RgbdImage& recorded) {
   state_->CheckTime(recorded.id, recorded.timestamp);
+  State::CheckDepthDelay(recorded.id, recorded.depth_delay);
   Stopwatch stopwatch;
   const RgbdImage image = state_->Align(recorded);
   const double alignment_ms = stopwatch.Milliseconds();

@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "msc_vo/odometry/option.h"
+
 namespace msc_vo {
 
 const char* ToString(Mode mode) {
@@ -31,10 +33,8 @@ bool OdometryOptions::IsValid(std::string* error) const {
     *error = "options: use_points and use_lines must not both be off";
     return false;
   }
-  if (threads < 1) {
-    *error = "options: threads must be at least 1";
-    return false;
-  }
+  OdometryOptions copy = *this;  // the list points to what can be set
+  if (!AreInRange(ListOptions(&copy), error)) return false;
   return features.IsValid(error) && normals.IsValid(error) && tracking.IsValid(error) &&
          mapping.IsValid(error) && snapshots.IsValid(error);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "msc_vo/geometry/cell_index.h"
 #include "msc_vo/report/html_text.h"
 
 namespace msc_vo {
@@ -45,7 +46,7 @@ double NiceStep(double length, int max_ticks) {
 // As many decimals as the step between ticks needs.
 int DecimalsOf(const std::vector<double>& ticks) {
   if (ticks.size() < 2) return 1;
-  return std::clamp(static_cast<int>(std::ceil(-std::log10(ticks[1] - ticks[0]) - 1e-9)), 0, 9);
+  return CellIndex(std::ceil(-std::log10(ticks[1] - ticks[0]) - 1e-9), 10);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -91,6 +92,12 @@ std::optional<double> ParseNumber(const std::string& text) {
   const std::from_chars_result result = std::from_chars(begin, end, value);
   if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
   return value;
+}
+
+std::optional<int> WholeNumber(double value) {
+  constexpr double kLargest = std::numeric_limits<int>::max();
+  if (!(std::abs(value) <= kLargest) || value != std::floor(value)) return std::nullopt;
+  return static_cast<int>(value);
 }
 
 std::string FormatNumber(double value) {

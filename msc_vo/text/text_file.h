@@ -34,6 +34,8 @@ void MakeFolder(const std::string& path);
 
 // The number that all of `text` spells, whatever the locale; none if it spells none.
 std::optional<double> ParseNumber(const std::string& text);
+// The value as an int, if it is a whole number that fits.
+std::optional<int> WholeNumber(double value);
 // The shortest text that ParseNumber reads back to the very same number; "nan" and "inf" too.
 std::string FormatNumber(double value);
 // All fields of the line as finite numbers. Throws std::runtime_error naming file, line and field.

@@ -4,6 +4,7 @@
 #include "msc_vo/odometry/odometry.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <opencv2/imgproc.hpp>
@@ -332,6 +333,40 @@ TEST_F(OdometryTest, FinishMayBeCalledEarly) {
   EXPECT_EQ(odometry.Finish().frames.size(), 1u);
   odometry.Process((*images_)[1]);
   EXPECT_EQ(odometry.Finish().frames.size(), 2u);
+}
+
+// A lens that folds over used to end in features whose pixels are no numbers.
+TEST_F(OdometryTest, RefusesALensThatDoesNotInvert) {
+  const LensDistortion swapped{{0.262383, -0.953104, 1.163314, -0.005358, 0.002628}};
+  EXPECT_THROW(Odometry(OdometryOptions(), camera_, swapped), std::invalid_argument);
+  PinholeCamera mirrored = camera_;
+  mirrored.fx = -mirrored.fx;
+  EXPECT_THROW(Odometry(OdometryOptions(), mirrored, LensDistortion()), std::invalid_argument);
+}
+
+TEST_F(OdometryTest, RefusesTimesThatAreNoTimes) {
+  Odometry odometry(OdometryOptions(), camera_, LensDistortion());
+  const auto error_of = [&](double timestamp, double depth_delay) {
+    RgbdImage image = (*images_)[0];
+    image.timestamp = timestamp;
+    image.depth_delay = depth_delay;
+    try {
+      odometry.Process(image);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const double time : {nan, inf, -inf}) {
+    EXPECT_THAT(error_of(time, 0.0), HasSubstr("image 0: its time stamp must be a finite number"));
+    EXPECT_THROW(odometry.Drop(0, time), std::invalid_argument);
+  }
+  for (const double delay : {nan, inf, -1.5, 1e9}) {
+    EXPECT_THAT(error_of(0.0, delay), HasSubstr("image 0: depth_delay = "));
+  }
+  EXPECT_EQ(error_of(0.0, 0.02), "");
 }
 
 TEST_F(OdometryTest, MisuseThrows) {
