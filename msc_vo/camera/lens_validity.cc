@@ -8,8 +8,6 @@
 #include <limits>
 #include <sstream>
 
-#include "msc_vo/geometry/angles.h"
-
 namespace msc_vo {
 
 namespace {
@@ -39,7 +37,7 @@ struct Circle {
 Circle DistortCircle(const LensDistortion& distortion, double radius) {
   Circle circle;
   for (int i = 0; i < kDirections; ++i) {
-    const double angle = 2.0 * kPi * i / kDirections;
+    const double angle = 2.0 * M_PI * i / kDirections;
     const Eigen::Vector2d x(radius * std::cos(angle), radius * std::sin(angle));
     const double stretch = SmallerEigenvalue(DistortionJacobian(distortion, x));
     // An overflow is no number and counts as a fold.
