@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/io/files.h"
 #include "msc_vo/io/image_folder.h"
 #include "msc_vo/io/image_list.h"
 #include "msc_vo/io/sequence_format.h"
@@ -37,13 +38,13 @@ bool Recognises(const std::string& directory) {
   if (HasIclNuimAssociations(directory)) return true;
   return !FindFreiburgTruth(directory).empty() &&
          (!FindAssociations(directory).empty() ||
-          std::filesystem::is_directory(std::filesystem::path(directory) / "rgb"));
+          IsFolder((std::filesystem::path(directory) / "rgb").string()));
 }
 
 SequenceIndex Read(const std::string& directory) {
   SequenceIndex index;
   const std::filesystem::path folder = directory;
-  if (!FindAssociations(directory).empty() || std::filesystem::exists(folder / "rgb.txt")) {
+  if (!FindAssociations(directory).empty() || HasEntry((folder / "rgb.txt").string())) {
     ReadTumEntries(directory, WholeStamps::kFrameNumbers, &index);
   } else {
     PairByFrameNumber(ListImages((folder / "rgb").string()),

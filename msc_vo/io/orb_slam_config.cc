@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "msc_vo/io/files.h"
 #include "msc_vo/io/text_file.h"
 
 namespace msc_vo {
@@ -50,7 +51,7 @@ bool IsOrbSlamConfig(const std::string& content) {
 }
 
 CameraSettings ReadOrbSlamConfig(const std::string& path) {
-  const std::map<std::string, Value> values = ReadValues(ReadFile(path));
+  const std::map<std::string, Value> values = ReadValues(ReadFile(path, kMaxOptionsBytes));
   // The first of the names that the file has.
   const auto find = [&](std::initializer_list<const char*> names) -> std::optional<double> {
     for (const char* name : names) {

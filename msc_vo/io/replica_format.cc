@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "msc_vo/io/files.h"
 #include "msc_vo/io/image_folder.h"
 #include "msc_vo/io/pose_matrix.h"
 #include "msc_vo/io/sequence_format.h"
@@ -51,8 +52,8 @@ SequenceIndex Read(const std::string& directory) {
   PairByFrameNumber(ListImages(Results(directory), "frame"),
                     ListImages(Results(directory), "depth"), &index);
   index.preset = "replica";
-  const fs::path poses = fs::path(directory) / "traj.txt";
-  if (fs::exists(poses)) ReadPoses(poses.string(), &index);
+  const std::string poses = (fs::path(directory) / "traj.txt").string();
+  if (HasEntry(poses)) ReadPoses(poses, &index);
   ReadFolderCamera(directory, &index);
   return index;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/io/files.h"
 #include "msc_vo/io/image_folder.h"
 #include "msc_vo/io/pose_matrix.h"
 #include "msc_vo/io/sequence_format.h"
@@ -36,14 +37,14 @@ void ReadIntrinsics(const std::string& directory, SequenceIndex* index) {
   ReadFolderCamera(directory, index);
   if (index->calibration) return;
   for (const fs::path& folder : {fs::path(directory), fs::path(directory).parent_path()}) {
-    const fs::path path = folder / "camera-intrinsics.txt";
-    if (!fs::exists(path) || index->entries.empty()) continue;
-    const Eigen::MatrixXd k = ReadMatrix(path.string(), 3, 3);
+    const std::string path = (folder / "camera-intrinsics.txt").string();
+    if (!HasEntry(path) || index->entries.empty()) continue;
+    const Eigen::MatrixXd k = ReadMatrix(path, 3, 3);
     const ImageSize size = ReadImageSize(index->entries.front().depth_path);
     Calibration calibration;
     calibration.camera = {k(0, 0), k(1, 1), k(0, 2), k(1, 2), size.width, size.height};
     calibration.depth_scale = kMillimetres;
-    calibration.origin = path.string();
+    calibration.origin = path;
     index->calibration = calibration;
     return;
   }

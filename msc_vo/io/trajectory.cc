@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "msc_vo/io/files.h"
 #include "msc_vo/io/format_text.h"
 #include "msc_vo/io/text_file.h"
 

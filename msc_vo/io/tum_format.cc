@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "msc_vo/io/camera_preset.h"
+#include "msc_vo/io/files.h"
 #include "msc_vo/io/image_list.h"
 #include "msc_vo/io/sequence_format.h"
 #include "msc_vo/io/tum_folder.h"
@@ -18,9 +19,10 @@ namespace fs = std::filesystem;
 namespace {
 
 bool Recognises(const std::string& directory) {
-  const fs::path folder = directory;
-  return fs::exists(folder / "rgb.txt") || fs::exists(folder / "depth.txt") ||
-         !FindAssociations(directory).empty();
+  const auto has = [&](const char* name) {
+    return HasEntry((fs::path(directory) / name).string());
+  };
+  return has("rgb.txt") || has("depth.txt") || !FindAssociations(directory).empty();
 }
 
 SequenceIndex Read(const std::string& directory) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "msc_vo/io/files.h"
 #include "msc_vo/io/option_list.h"
 #include "msc_vo/io/text_file.h"
 #include "msc_vo/io/text_record.h"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "msc_vo/geometry/angles.h"
-#include "msc_vo/io/text_file.h"
+#include "msc_vo/io/files.h"
 #include "msc_vo/io/trajectory.h"
 
 namespace msc_vo {

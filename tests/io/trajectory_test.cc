@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "msc_vo/geometry/so3.h"
-#include "msc_vo/io/text_file.h"
+#include "msc_vo/io/files.h"
 
 namespace msc_vo {
 namespace {

@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "msc_vo/io/files.h"
 #include "msc_vo/io/option_list.h"
-#include "msc_vo/io/text_file.h"
 #include "msc_vo/synthetic/synthetic_window.h"
 
 namespace msc_vo {
