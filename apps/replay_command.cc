@@ -12,11 +12,12 @@
 #include "apps/configuration_arguments.h"
 #include "apps/sequence_arguments.h"
 #include "apps/sequence_run.h"
+#include "msc_vo/io/files.h"
 #include "msc_vo/io/format_text.h"
+#include "msc_vo/io/online_results.h"
 #include "msc_vo/io/options_file.h"
 #include "msc_vo/io/result_files.h"
 #include "msc_vo/io/run_report.h"
-#include "msc_vo/io/text_file.h"
 #include "msc_vo/io/window_file.h"
 
 namespace msc_vo {
@@ -57,8 +58,9 @@ ConfigurationArguments WithShortcuts(const Arguments& arguments) {
 }
 
 // Writes every window into `folder`, named by its keyframe.
-WindowObserver WindowRecorder(const std::string& folder) {
+WindowObserver WindowRecorder(const std::string& folder, const SequenceIndex& sequence) {
   if (folder.empty()) return {};
+  RefuseToOverwrite(InputFolders(sequence), folder);
   MakeFolder(folder);
   return [folder](KeyframeId keyframe, const WindowOptions& options, const WindowData& data) {
     const std::string name =
@@ -81,10 +83,14 @@ int Replay(const Arguments& arguments) {
       !arguments.output.empty()
           ? arguments.output
           : (std::filesystem::path("out") / SequenceName(arguments.sequence.directory)).string();
+  RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, output);
   MakeFolder(output);  // a wrong name shows before the work, not after it
   const InterruptGuard interrupt;
-  const SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt,
-                                      WindowRecorder(arguments.windows));
+  OnlineResults online(output);
+  const SequenceRun run = RunSequence(
+      decoder, configuration, arguments.run, interrupt,
+      [&](const FrameResult& frame) { online.Add(frame); },
+      WindowRecorder(arguments.windows, decoder.index()));
   if (!run.HasImages()) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
     return run.exit_code;

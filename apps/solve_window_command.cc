@@ -10,6 +10,7 @@
 
 #include "apps/commands.h"
 #include "apps/configuration_arguments.h"
+#include "msc_vo/io/files.h"
 #include "msc_vo/io/window_file.h"
 #include "msc_vo/timing/stopwatch.h"
 
@@ -55,6 +56,7 @@ void PrintSummary(const WindowData& data, const WindowSummary& summary, double m
 }
 
 int Run(const Arguments& arguments) {
+  RefuseToOverwrite({arguments.file, arguments.configuration.config}, arguments.output);
   RecordedWindow window = ReadWindow(arguments.file);
   window.options = Options(window.options, arguments.configuration);
   const Stopwatch stopwatch;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
 #include "msc_vo/io/files.h"
@@ -108,6 +109,16 @@ SequenceIndex OpenSequence(const std::string& directory, const std::string& form
     throw std::runtime_error(message);
   }
   return index;
+}
+
+std::vector<std::string> InputFolders(const SequenceIndex& index) {
+  std::set<std::string> folders = {index.directory};
+  for (const SequenceEntry& entry : index.entries) {
+    for (const std::string& path : {entry.color_path, entry.depth_path}) {
+      folders.insert(std::filesystem::path(path).parent_path().string());
+    }
+  }
+  return {folders.begin(), folders.end()};
 }
 
 }  // namespace msc_vo

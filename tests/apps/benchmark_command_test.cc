@@ -12,7 +12,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "msc_vo/io/text_file.h"
+#include "msc_vo/io/files.h"
 
 namespace msc_vo {
 namespace {

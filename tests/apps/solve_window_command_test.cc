@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "msc_vo/io/text_file.h"
+#include "msc_vo/io/files.h"
 #include "msc_vo/io/trajectory.h"
 #include "msc_vo/io/window_file.h"
 #include "msc_vo/synthetic/synthetic_window.h"
