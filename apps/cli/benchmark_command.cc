@@ -18,7 +18,9 @@
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/results/benchmark.h"
+#include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -100,14 +102,15 @@ Benchmark Describe(const Arguments& arguments, const std::vector<std::string>& m
 void RunOne(const Arguments& arguments, const RgbdDecoder& decoder,
             const Configuration& configuration, const InterruptGuard& interrupt,
             BenchmarkRun* row) {
-  const SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt);
+  const std::string folder = (fs::path(arguments.output) / row->sequence / row->mode).string();
+  RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, folder);
+  OnlineResults online(folder);
+  const SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt,
+                                      [&](const FrameResult& frame) { online.Add(frame); });
   row->summary = run.summary;
   row->cost = run.context.cost;
   row->error = run.context.error;
-  if (run.HasImages()) {
-    const fs::path folder = fs::path(arguments.output) / row->sequence / row->mode;
-    WriteResultFiles(folder.string(), run.result, run.context);
-  }
+  if (run.HasImages()) WriteResultFiles(folder, run.result, run.context);
   if (run.exit_code != kExitSuccess) throw std::runtime_error(run.context.outcome);
   if (!row->error->usable) throw std::runtime_error("no error known: " + row->error->message);
 }
@@ -173,6 +176,7 @@ int RunBenchmark(const Arguments& arguments) {
   const std::vector<std::string> names = UniqueNames(arguments.sequences);
   Benchmark benchmark = Describe(arguments, modes);
   const InterruptGuard interrupt;
+  RefuseToOverwrite(arguments.sequences, arguments.output);
   WriteTables(arguments.output, benchmark);  // a folder that cannot be written shows at once
   for (size_t i = 0; i < names.size() && !interrupt.IsInterrupted(); ++i) {
     RunModes(arguments, arguments.sequences[i], names[i], configurations, interrupt, &benchmark);

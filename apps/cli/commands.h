@@ -15,7 +15,7 @@ enum ExitCode {
   kExitSuccess = 0,
   kExitError = 1,          // the input is wrong or the run failed; the message says which
   kExitUsage = 2,          // the command line is wrong
-  kExitInterrupted = 130,  // Ctrl-C; what was computed until then has been written
+  kExitInterrupted = 130,  // Ctrl-C, SIGTERM, SIGHUP; what was computed until then has been written
 };
 
 // Footer of a sub-command's --help: an example, then the exit codes.

@@ -14,6 +14,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/standard_streams.h"
 #include "msc_vo/text/similar_name.h"
 #include "msc_vo/version.h"
 
@@ -95,8 +96,11 @@ const std::string& CommandLine() { return command_line; }
 int main(int argc, char** argv) {
   msc_vo::KeepFreedMemory();
   msc_vo::KeepOpenCvToOneThread();
+  msc_vo::PrepareStandardStreams();
   try {
-    return msc_vo::Main(argc, argv);
+    const int exit_code = msc_vo::Main(argc, argv);
+    msc_vo::FinishStandardOutput();
+    return exit_code;
   } catch (const std::exception& error) {
     std::cerr << "msc_vo: error: " << error.what() << std::endl;
     return msc_vo::kExitError;

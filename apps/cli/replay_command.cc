@@ -14,8 +14,10 @@
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/recording/window_file.h"
+#include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/results/run_report.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -57,8 +59,9 @@ ConfigurationArguments WithShortcuts(const Arguments& arguments) {
 }
 
 // Writes every window into `folder`, named by its keyframe.
-WindowObserver WindowRecorder(const std::string& folder) {
+WindowObserver WindowRecorder(const std::string& folder, const SequenceIndex& sequence) {
   if (folder.empty()) return {};
+  RefuseToOverwrite(InputFolders(sequence), folder);
   MakeFolder(folder);
   return [folder](KeyframeId keyframe, const BundleAdjustmentOptions& options,
                   const WindowData& data) {
@@ -82,10 +85,14 @@ int Replay(const Arguments& arguments) {
       !arguments.output.empty()
           ? arguments.output
           : (std::filesystem::path("out") / SequenceName(arguments.sequence.directory)).string();
+  RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, output);
   MakeFolder(output);  // a wrong name shows before the work, not after it
   const InterruptGuard interrupt;
-  const SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt,
-                                      WindowRecorder(arguments.windows));
+  OnlineResults online(output);
+  const SequenceRun run = RunSequence(
+      decoder, configuration, arguments.run, interrupt,
+      [&](const FrameResult& frame) { online.Add(frame); },
+      WindowRecorder(arguments.windows, decoder.index()));
   if (!run.HasImages()) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
     return run.exit_code;

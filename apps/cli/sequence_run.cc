@@ -215,6 +215,7 @@ bool SequenceRun::HasImages() const {
 
 SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configuration,
                         const RunArguments& arguments, const InterruptGuard& interrupt,
+                        const FrameObserver& frame_observer,
                         const WindowObserver& window_observer) {
   SequenceRun run;
   RunContext& context = run.context;
@@ -240,6 +241,7 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   try {
     for (FrameResult frame; !interrupt.IsInterrupted() && loop.Step(&frame);) {
       done = static_cast<int>(frame.id) + 1;
+      frame_observer(frame);
       if (!arguments.quiet) progress.Update(done, ToString(frame.status));
     }
   } catch (const std::exception& error) {

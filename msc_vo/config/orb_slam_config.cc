@@ -10,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -81,7 +82,7 @@ bool IsOrbSlamConfig(const std::string& content) {
 }
 
 CameraSettings ReadOrbSlamConfig(const std::string& path) {
-  const std::map<std::string, Value> values = ReadValues(ReadFile(path));
+  const std::map<std::string, Value> values = ReadValues(ReadFile(path, kMaxOptionsBytes));
   // The first of the names that the file has.
   const auto find = [&](std::initializer_list<const char*> names) -> std::optional<double> {
     for (const char* name : names) {

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 

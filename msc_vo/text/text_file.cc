@@ -46,44 +46,6 @@ std::vector<TextLine> ReadTextLines(const std::string& path) {
   return lines;
 }
 
-std::string ReadFile(const std::string& path) {
-  if (std::filesystem::is_directory(path)) {
-    throw std::runtime_error(path + ": is a folder, a file is needed");
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw std::runtime_error(path + ": " +
-                             (std::filesystem::exists(path)
-                                  ? "cannot be read (check its permissions)"
-                                  : "does not exist"));
-  }
-  std::ostringstream content;
-  content << file.rdbuf();
-  return content.str();
-}
-
-void WriteFile(const std::string& path, const std::string& content) {
-  const std::string partial = path + ".partial";
-  {
-    std::ofstream file(partial, std::ios::binary | std::ios::trunc);
-    file.write(content.data(), static_cast<std::streamsize>(content.size()));
-    file.close();
-    if (!file) {
-      std::remove(partial.c_str());
-      throw std::runtime_error(path + ": cannot be written (check the folder and the free space)");
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(partial, path, error);
-  if (error) throw std::runtime_error(path + ": cannot be written: " + error.message());
-}
-
-void MakeFolder(const std::string& path) {
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (error) throw std::runtime_error(path + ": cannot be made: " + error.message());
-}
-
 std::optional<double> ParseNumber(const std::string& text) {
   const char* begin = text.data();
   const char* const end = begin + text.size();

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -206,6 +207,30 @@ TEST_F(ReplayCommandTest, CtrlCWritesWhatWasComputed) {
   EXPECT_LT(NumPoses("out"), 60u);
   EXPECT_EQ(Summary("out")["outcome"], "interrupted");
   EXPECT_GT(ReadFile(Path("out/report.html")).size(), 100u);
+}
+
+TEST_F(ReplayCommandTest, AClosedTerminalWritesWhatWasComputed) {
+  Synthesize(60);
+  CommandProcess replay({"replay", Path("room"), "--output", Path("out")});
+  ASSERT_TRUE(replay.WaitForOutput("6/60")) << replay.output();
+  replay.Signal(SIGHUP);
+  replay.Signal(SIGHUP);  // from the system and from the shell
+  EXPECT_EQ(replay.Wait(), 130) << replay.output();
+  EXPECT_EQ(Summary("out")["outcome"], "interrupted");
+}
+
+TEST_F(ReplayCommandTest, AKilledRunLeavesItsFramesAndSaysSo) {
+  Synthesize(60);
+  ASSERT_EQ(Replay("out", {"--max-frames", "4", "--quiet"}).exit_code, 0);
+  CommandProcess replay({"replay", Path("room"), "--output", Path("out")});
+  ASSERT_TRUE(replay.WaitForOutput("6/60")) << replay.output();
+  replay.Signal(SIGKILL);
+  ASSERT_EQ(replay.Wait(), -SIGKILL) << replay.output();
+  EXPECT_THAT(ReadFile(Path("out/trajectory.txt")), testing::StartsWith("# unfinished run"));
+  EXPECT_GE(NumPoses("out"), 6u);
+  const std::string frames = ReadFile(Path("out/frames.csv"));
+  EXPECT_GE(std::count(frames.begin(), frames.end(), '\n'), 7);
+  EXPECT_FALSE(std::filesystem::exists(Path("out/summary.json")));  // that of the run before
 }
 
 TEST_F(ReplayCommandTest, AFolderThatCannotBeMadeIsAnError) {

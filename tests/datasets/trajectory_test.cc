@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
