@@ -16,8 +16,9 @@ namespace msc_vo {
 struct SequenceRun {
   OdometryResult result;
   RunSummary summary;
-  RunContext context;                 // compared with the ground truth, if there is one
-  ExitCode exit_code = kExitSuccess;  // kExitError: context.outcome is the message
+  RunContext context;  // compared with the ground truth, if there is one
+  // kExitError, kExitTrackingFailed: context.outcome is the message.
+  ExitCode exit_code = kExitSuccess;
 };
 
 // Runs the odometry over the first `max_frames` images (0: over all), with the progress on standard

@@ -16,6 +16,7 @@ namespace msc_vo {
 namespace {
 
 constexpr size_t kFieldsPerPose = 8;
+constexpr char kNotEstimated[] = "not estimated";
 
 void SortByTime(std::vector<TimedPose>* poses) {
   std::stable_sort(poses->begin(), poses->end(), [](const TimedPose& a, const TimedPose& b) {
@@ -59,7 +60,8 @@ std::vector<TimedPose> ReadTrajectory(const std::string& path) {
       throw std::runtime_error(line.Where() +
                                ": the quaternion is zero; correct or remove the line");
     }
-    poses.push_back({v[0], Rigid3(rotation.normalized(), {v[1], v[2], v[3]})});
+    poses.push_back(
+        {v[0], Rigid3(rotation.normalized(), {v[1], v[2], v[3]}), line.comment != kNotEstimated});
   }
   SortByTime(&poses);
   return poses;
@@ -73,6 +75,7 @@ std::string FormatTrajectory(std::vector<TimedPose> poses) {
     const std::string stamp = Fixed(pose.timestamp, 6);
     if (stamp == previous_stamp) continue;
     previous_stamp = stamp;
+    if (!pose.is_estimated) text += "# " + std::string(kNotEstimated) + "\n";
     text += stamp;
     const Eigen::Vector3d t = pose.world_from_cam.translation();
     Eigen::Vector4d q = pose.world_from_cam.rotation().normalized().coeffs();
