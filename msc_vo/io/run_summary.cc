@@ -53,7 +53,7 @@ RunSummary Summarize(const OdometryResult& result) {
       static_cast<double>(summary.num_estimated) / std::max(summary.num_frames, 1);
   const std::vector<ReportFrame> frames = ReportFrames(result.frames);
   summary.not_tracked = FindNotTrackedSpans(frames);
-  summary.stages = SummarizeStages(ReportStageNames(), frames);
+  summary.stages = SummarizeStages(ReportStages(), frames);
   const std::vector<StageTimeStatistics> mapping = SummarizeMapping(result.frames);
   summary.stages.insert(std::prev(summary.stages.end()), mapping.begin(), mapping.end());
   summary.num_keyframes = static_cast<int>(result.keyframes.size());
