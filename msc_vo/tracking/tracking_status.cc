@@ -23,4 +23,8 @@ const char* ToString(TrackingStatus status) {
   return "unknown";
 }
 
+bool IsEstimated(TrackingStatus status) {
+  return status == TrackingStatus::kTracked || status == TrackingStatus::kWeak;
+}
+
 }  // namespace msc_vo

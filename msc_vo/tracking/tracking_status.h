@@ -16,4 +16,8 @@ enum class TrackingStatus {
 
 const char* ToString(TrackingStatus status);
 
+// Whether the pose comes from the image of the frame itself: tracked or weak. Any other pose is
+// predicted, repeated, or interpolated between the neighbours.
+bool IsEstimated(TrackingStatus status);
+
 }  // namespace msc_vo
