@@ -97,6 +97,9 @@ int Replay(const Arguments& arguments) {
     throw std::runtime_error(run.context.outcome + "\n(what was computed until then is in " +
                              output + ")");
   }
+  if (run.exit_code == kExitTrackingFailed) {
+    std::cerr << "msc_vo: error: " << run.context.outcome << std::endl;
+  }
   return run.exit_code;
 }
 

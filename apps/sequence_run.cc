@@ -263,6 +263,10 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   if (context.realtime) context.realtime->num_late_maps = run.result.num_late_maps;
   context.first_unreadable = loop.first_unreadable();
   run.summary = Summarize(run.result);
+  if (run.exit_code == kExitSuccess && TrackingFailed(run.summary)) {
+    context.outcome = DescribeFailure(run.summary);
+    run.exit_code = kExitTrackingFailed;
+  }
   if (!context.sequence.ground_truth.empty() && done > 0) {
     context.error = EvaluateTrajectory(context.sequence.ground_truth, TrajectoryOf(run.result));
   }

@@ -137,6 +137,16 @@ TEST_F(OdometryTest, TheSameImagesGiveTheSameBytesAtAnyThreadCount) {
   }
 }
 
+TEST_F(OdometryTest, StagesOfAFrameTakeNoLongerThanTheFrame) {
+  OdometryOptions options;
+  options.threads = 2;  // points and lines side by side
+  for (const FrameResult& frame : Run(options, *images_).frames) {
+    const StageTimes& ms = frame.times;
+    EXPECT_GT(ms.features, 0.0);
+    EXPECT_LE(ms.features + ms.waiting + ms.matching + ms.pose, ms.tracking) << frame.id;
+  }
+}
+
 TEST_F(OdometryTest, LatencyOfOneFrameChangesNoPose) {
   OdometryOptions none;
   none.snapshots.latency_frames = 0;
