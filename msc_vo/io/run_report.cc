@@ -140,13 +140,21 @@ std::string Row(const char* name, const std::string& text) {
   return FormatText("%-10s ", name) + text + "\n";
 }
 
+// What the row of a stage is, beside its numbers.
+const char* StageNote(const std::string& name) {
+  if (name == "tracking") return "  per frame";
+  if (name == "mapping") return "  per keyframe";
+  for (const ReportStage& stage : ReportStages()) {
+    if (stage.name == name && !stage.is_stacked) return "  side by side, within features";
+  }
+  return "";
+}
+
 std::string StageRows(const std::vector<StageTimeStatistics>& stages) {
   std::string rows = Row("time, ms", "               mean  median    95 %     max");
   for (const StageTimeStatistics& stage : stages) {
-    const bool is_whole = stage.name == "tracking" || stage.name == "mapping";
-    const char* unit = stage.name == "tracking" ? "  per frame" : "  per keyframe";
     rows += Row("", FormatText("%-11s %7.1f %7.1f %7.1f %7.1f%s", stage.name.c_str(), stage.mean,
-                               stage.median, stage.p95, stage.max, is_whole ? unit : ""));
+                               stage.median, stage.p95, stage.max, StageNote(stage.name)));
   }
   return rows;
 }
@@ -216,7 +224,7 @@ std::string FormatReport(const OdometryResult& result, const RunSummary& summary
   data.command_line = context.command_line;
   data.options_text = FormatConfiguration(context.configuration);
   data.numbers = MakeNumbers(summary, context);
-  data.stage_names = ReportStageNames();
+  data.stages = ReportStages();
   data.frames = AlignedFrames(result, context.error);
   for (const MapLine& line : result.lines) {
     data.lines.push_back(

@@ -36,6 +36,11 @@ std::vector<StageTimeStatistics> SummarizeMapping(const std::vector<FrameResult>
           summarize("snapshot", [](const StageTimes& t) { return t.snapshot; })};
 }
 
+int NumProcessed(const RunSummary& summary) {
+  return summary.num_frames - summary.Count(TrackingStatus::kDropped) -
+         summary.Count(TrackingStatus::kUnreadable);
+}
+
 }  // namespace
 
 RunSummary Summarize(const OdometryResult& result) {
@@ -53,7 +58,7 @@ RunSummary Summarize(const OdometryResult& result) {
       static_cast<double>(summary.num_estimated) / std::max(summary.num_frames, 1);
   const std::vector<ReportFrame> frames = ReportFrames(result.frames);
   summary.not_tracked = FindNotTrackedSpans(frames);
-  summary.stages = SummarizeStages(ReportStageNames(), frames);
+  summary.stages = SummarizeStages(ReportStages(), frames);
   const std::vector<StageTimeStatistics> mapping = SummarizeMapping(result.frames);
   summary.stages.insert(std::prev(summary.stages.end()), mapping.begin(), mapping.end());
   summary.num_keyframes = static_cast<int>(result.keyframes.size());
@@ -77,9 +82,8 @@ StageTimeStatistics FindStage(const RunSummary& summary, const std::string& name
 }
 
 bool TrackingFailed(const RunSummary& summary) {
-  const int num_processed = summary.num_frames - summary.Count(TrackingStatus::kDropped) -
-                            summary.Count(TrackingStatus::kUnreadable);
-  return summary.num_estimated == 0 || summary.num_estimated < kMinTrackedShare * num_processed;
+  return summary.num_estimated == 0 ||
+         summary.num_estimated < kMinTrackedShare * NumProcessed(summary);
 }
 
 std::string DescribeLosses(const RunSummary& summary) {
@@ -95,7 +99,7 @@ std::string DescribeLosses(const RunSummary& summary) {
 std::string DescribeFailure(const RunSummary& summary) {
   std::string text = FormatText(
       "tracking failed: %d of %d images have an estimated pose, at least %.0f %% are needed",
-      summary.num_estimated, summary.num_frames, 100.0 * kMinTrackedShare);
+      summary.num_estimated, NumProcessed(summary), 100.0 * kMinTrackedShare);
   const std::string losses = DescribeLosses(summary);
   return losses.empty() ? text : text + "; the others: " + losses;
 }
