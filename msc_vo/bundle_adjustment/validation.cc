@@ -13,18 +13,17 @@ namespace {
 
 bool IsPositive(double x) { return std::isfinite(x) && x > 0.0; }
 
-// No camera or map has coordinates beyond this (pixels, metres or their inverse), and what has
-// would overflow where it is squared and squared again: the length of a segment, chi-square, cost.
+// Largest coordinate (pixels, metres or their inverse). Fourth powers of valid coordinates, as in
+// the chi-square of a segment's length, do not overflow.
 constexpr double kMaxCoordinate = 1e9;
 
 template <typename Vector>
 bool AreCoordinates(const Vector& x) {
   return x.allFinite() && x.template lpNorm<Eigen::Infinity>() <= kMaxCoordinate;
 }
-bool AreCoordinates(double x) { return std::abs(x) <= kMaxCoordinate; }  // NaN fails
+bool AreCoordinates(double x) { return std::abs(x) <= kMaxCoordinate; }  // false for NaN
 
-// Of the norm of a unit quaternion or vector: far above the rounding of any product of rotations,
-// far below a wrong one.
+// Tolerance of the norm of a unit quaternion or vector: well above accumulated rounding errors.
 constexpr double kUnitTolerance = 1e-6;
 
 template <int N>
@@ -32,8 +31,7 @@ const char* CovarianceErrorOf(const Eigen::Matrix<double, N, N>& covariance) {
   constexpr const char* kError = "covariance is not positive definite";
   const Eigen::Matrix<double, N, 1> sigma = covariance.diagonal().cwiseSqrt();
   if (!covariance.allFinite() || !(sigma.minCoeff() > 0.0)) return kError;
-  // Units differ, so that only correlations compare. Their rounding is far below the tolerance, a
-  // transposed or half-filled matrix far above.
+  // Correlations are dimensionless, so one tolerance fits all entries.
   const Eigen::Matrix<double, N, N> correlation =
       sigma.cwiseInverse().asDiagonal() * covariance * sigma.cwiseInverse().asDiagonal();
   if (!((correlation - correlation.transpose()).cwiseAbs().maxCoeff() < 1e-6)) return kError;
@@ -119,7 +117,7 @@ const char* AxisAlignmentError(const WindowData::AxisAlignment& alignment) {
 }
 
 const char* UnitVectorError(const Eigen::Vector3d& v) {
-  // As for rotations; NaN fails too.
+  // False for NaN.
   return std::abs(v.norm() - 1.0) <= kUnitTolerance ? nullptr : "vector is not unit";
 }
 

@@ -118,7 +118,7 @@ TEST_P(PoseFactorsTest, NormalEquationsAreThoseOfCeres) {
 
 TEST_P(PoseFactorsTest, MinimumIsThatOfCeres) {
   Rigid3 pose = data_.cam_from_world;
-  EXPECT_EQ(MinimizePose(factors_, 50, &pose), PoseTermination::kConverged);
+  EXPECT_EQ(MinimizePose(factors_, 50, &pose), LevenbergMarquardtTermination::kConverged);
   const Rigid3 ceres = CeresForm(factors_, data_.cam_from_world).Solve();
   // A thousandth of the pose's standard deviation (about 1 mm) is the promise.
   EXPECT_LT(Distance(pose, ceres), 1e-6);
@@ -126,13 +126,13 @@ TEST_P(PoseFactorsTest, MinimumIsThatOfCeres) {
 
 TEST_P(PoseFactorsTest, IterationLimitIsReported) {
   Rigid3 pose = data_.cam_from_world;
-  EXPECT_EQ(MinimizePose(factors_, 1, &pose), PoseTermination::kIterationLimit);
+  EXPECT_EQ(MinimizePose(factors_, 1, &pose), LevenbergMarquardtTermination::kIterationLimit);
 }
 
 TEST_P(PoseFactorsTest, FailsUnchangedWhereAFactorIsUndefined) {
   const Rigid3 behind(Eigen::Quaterniond::Identity(), {0.0, 0.0, -10.0});
   Rigid3 pose = behind;
-  EXPECT_EQ(MinimizePose(factors_, 10, &pose), PoseTermination::kFailed);
+  EXPECT_EQ(MinimizePose(factors_, 10, &pose), LevenbergMarquardtTermination::kFailed);
   EXPECT_EQ(pose.params, behind.params);
 }
 

@@ -18,7 +18,7 @@ namespace {
   throw std::invalid_argument("LocalBundleAdjustment: " + what);
 }
 
-// Positions by id, of keyframes, points or lines.
+// Position of each keyframe, point or line by its id.
 class IdMap {
  public:
   template <typename Item>
@@ -35,7 +35,7 @@ class IdMap {
     }
   }
 
-  // `role`: what the id is there, for the message.
+  // `role`: use of the id, for the error message.
   int At(int64_t id, const char* role = "observed") const {
     const auto it = std::lower_bound(positions_.begin(), positions_.end(), std::make_pair(id, 0));
     if (it == positions_.end() || it->first != id) {
