@@ -17,7 +17,7 @@ struct TermOptions {
 };
 
 /// Estimation of a noise factor per landmark and a depth offset per line from their residuals. The
-/// defaults were chosen by measurement, see docs/lab/bundle_adjustment.md.
+/// defaults were chosen by measurement, see docs/lab/noise.md.
 struct LandmarkNoiseOptions {
   /// Off by default: noise estimated from few residuals is itself uncertain, so covariances would
   /// be optimistic. MapperOptions enables it.

@@ -147,7 +147,7 @@ bool PoseFactors::Cost(const Rigid3& cam_from_world, double* cost) const {
 LevenbergMarquardtTermination MinimizePose(const PoseFactors& factors, int max_iterations,
                                            Rigid3* cam_from_world) {
   // Steps shrink at least tenfold, so a step of this squared length leaves an error of 0.3 % of a
-  // standard deviation. Chosen by measurement, see docs/lab/bundle_adjustment.md.
+  // standard deviation. Chosen by measurement, see docs/lab/tracking.md.
   constexpr double kMinSquaredStep = 1e-3;
   PoseProblem problem(factors, *cam_from_world);
   const LevenbergMarquardtTermination termination =

@@ -45,7 +45,7 @@ struct PoseTerm {
 /// poseest).
 ///
 /// The normal equations have six unknowns and are accumulated here rather than in Ceres, whose
-/// overhead per residual block exceeds the cost of the factors (docs/lab/bundle_adjustment.md). A
+/// overhead per residual block exceeds the cost of the factors (docs/lab/tracking.md). A
 /// test compares them with Ceres.
 struct PoseFactors {
   PoseTerm<PointReprojection> point_reprojection;

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "tests/support/factor_checks.h"
-#include "tests/support/synthetic_window.h"
+#include "tests/support/test_window.h"
 #include <ceres/loss_function.h>
 
 #include "msc_vo/bundle_adjustment/observation.h"
@@ -90,12 +90,12 @@ class CeresForm {
 class PoseFactorsTest : public ::testing::TestWithParam<double> {
  protected:
   PoseFactorsTest() {
-    SyntheticWindowOptions options;
+    TestWindowOptions options;
     options.fy = GetParam();
     options.num_points = 60;
     options.num_lines = 20;
-    options.wrong_ratio = 0.1;
-    data_ = MakePoseData(MakeSyntheticWindow(options), 4);
+    options.outlier_ratio = 0.1;
+    data_ = MakePoseData(MakeTestWindow(options), 4);
     factors_ = MakeFactors(data_);
   }
   PoseData data_;
