@@ -41,15 +41,15 @@ const char* CovarianceErrorOf(const Eigen::Matrix<double, N, N>& covariance) {
 }  // namespace
 
 const char* PoseError(const Rigid3& cam_from_world) {
-  if (!AreCoordinates(cam_from_world.params)) return "pose is not finite, or beyond 1e9 m";
+  if (!AreCoordinates(cam_from_world.params)) return "pose is not finite or beyond 1e9 m";
   if (std::abs(cam_from_world.rotation().norm() - 1.0) > kUnitTolerance) {
-    return "rotation is not unit";
+    return "rotation is not a unit quaternion";
   }
   return nullptr;
 }
 
 const char* PositionError(const Eigen::Vector3d& position) {
-  return AreCoordinates(position) ? nullptr : "position is not finite, or beyond 1e9 m";
+  return AreCoordinates(position) ? nullptr : "position is not finite or beyond 1e9 m";
 }
 
 const char* NoiseError(double noise) {
@@ -57,23 +57,23 @@ const char* NoiseError(double noise) {
 }
 
 const char* DepthOffsetError(double offset) {
-  return AreCoordinates(offset) ? nullptr : "depth_offset is not finite, or beyond 1e9 m";
+  return AreCoordinates(offset) ? nullptr : "depth_offset is not finite or beyond 1e9 m";
 }
 
 const char* MapLineError(const LineSegment3& segment) {
   if (!AreCoordinates(segment.start) || !AreCoordinates(segment.end)) {
-    return "segment is not finite, or beyond 1e9 m";
+    return "segment is not finite or beyond 1e9 m";
   }
-  if (segment.start == segment.end) return "segment has no length";
+  if (segment.start == segment.end) return "segment has zero length";
   return nullptr;
 }
 
 const char* PointObservationError(const Eigen::Vector2d& pixel, double sigma, double inverse_depth,
                                   double inverse_depth_sigma) {
-  if (!AreCoordinates(pixel)) return "pixel is not finite, or beyond 1e9";
+  if (!AreCoordinates(pixel)) return "pixel is not finite or beyond 1e9";
   if (!IsPositive(sigma)) return "sigma must be positive";
   if (!AreCoordinates(inverse_depth) || inverse_depth < 0.0) {
-    return "inverse_depth must not be negative, nor beyond 1e9";
+    return "inverse_depth must be in [0, 1e9]";
   }
   if (inverse_depth > 0.0 && !IsPositive(inverse_depth_sigma)) {
     return "inverse_depth_sigma must be positive";
@@ -84,13 +84,13 @@ const char* PointObservationError(const Eigen::Vector2d& pixel, double sigma, do
 const char* LineObservationError(const LineSegment2& segment, double sigma, bool has_depth,
                                  const LineDepth& depth) {
   if (!AreCoordinates(segment.start) || !AreCoordinates(segment.end)) {
-    return "segment is not finite, or beyond 1e9 pixels";
+    return "segment is not finite or beyond 1e9 pixels";
   }
-  if (segment.start == segment.end) return "segment has no length";
+  if (segment.start == segment.end) return "segment has zero length";
   if (!IsPositive(sigma)) return "sigma must be positive";
   if (!has_depth) return nullptr;
   if (!AreCoordinates(depth.start) || !AreCoordinates(depth.end)) {
-    return "depth is not finite, or beyond 1e9";
+    return "depth is not finite or beyond 1e9";
   }
   return CovarianceError(depth.covariance) == nullptr ? nullptr
                                                       : "depth covariance is not positive definite";
@@ -104,7 +104,7 @@ const char* CovarianceError(const Eigen::Matrix<double, 6, 6>& covariance) {
 }
 
 const char* LinePairError(const WindowData::LinePair& pair) {
-  if (pair.a == pair.b) return "a line with itself";
+  if (pair.a == pair.b) return "pairs a line with itself";
   if (!IsPositive(pair.sigma)) return "sigma must be positive";
   if (pair.count < 1) return "count must be at least 1";
   return nullptr;
@@ -118,7 +118,7 @@ const char* AxisAlignmentError(const WindowData::AxisAlignment& alignment) {
 
 const char* UnitVectorError(const Eigen::Vector3d& v) {
   // False for NaN.
-  return std::abs(v.norm() - 1.0) <= kUnitTolerance ? nullptr : "vector is not unit";
+  return std::abs(v.norm() - 1.0) <= kUnitTolerance ? nullptr : "not a unit vector";
 }
 
 }  // namespace msc_vo

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// The structural terms of the window problem.
+// Structural terms of local bundle adjustment.
 
 #include <stdexcept>
 #include <string>
@@ -338,11 +338,11 @@ TEST_F(StructuralTermsTest, InvalidInputThrowsAndNamesTheItem) {
   };
   using Data = WindowData;
   EXPECT_THAT(message([](Data* d) { d->parallel_pairs[0].b = 7777; }),
-              HasSubstr("line 7777 is of a parallel pair but not in the window"));
+              HasSubstr("line 7777 is part of a parallel pair but not in the window"));
   EXPECT_THAT(message([](Data* d) { d->perpendicular_pairs[0].a = -3; }),
-              HasSubstr("line -3 is of a perpendicular pair but not in the window"));
+              HasSubstr("line -3 is part of a perpendicular pair but not in the window"));
   EXPECT_THAT(message([](Data* d) { d->parallel_pairs[0].b = d->parallel_pairs[0].a; }),
-              HasSubstr("parallel pair of line 50 and line 50: a line with itself"));
+              HasSubstr("parallel pair of line 50 and line 50: pairs a line with itself"));
   EXPECT_THAT(message([](Data* d) { d->perpendicular_pairs[0].sigma = 0.0; }),
               HasSubstr("perpendicular pair of line 50 and line 52: sigma must be positive"));
   EXPECT_THAT(message([](Data* d) { d->perpendicular_pairs[0].count = 0; }),
@@ -352,7 +352,7 @@ TEST_F(StructuralTermsTest, InvalidInputThrowsAndNamesTheItem) {
   EXPECT_THAT(message([](Data* d) { d->axis_alignments[2].sigma = -1.0; }),
               HasSubstr("alignment of line 54: sigma must be positive"));
   EXPECT_THAT(message([](Data* d) { d->axis_alignments[2].line = 5; }),
-              HasSubstr("line 5 is aligned but not in the window"));
+              HasSubstr("line 5 is aligned with an axis but not in the window"));
   EXPECT_TRUE(SameNumbers(data_, good));
   data_ = good;
   options_.manhattan.huber = 0.0;

@@ -215,7 +215,7 @@ TEST_F(WindowCovarianceTest, ThrowsOnInvalidInput) {
   EXPECT_THAT(message({{}, {-1}, {}}), ::testing::HasSubstr("point -1 is selected but not"));
   EXPECT_THAT(message({{}, {}, {8888}}), ::testing::HasSubstr("line 8888 is selected but not"));
   data_.keyframes[0].cam_from_world.params[3] = 7.0;
-  EXPECT_THAT(message({}), ::testing::HasSubstr("rotation is not unit"));
+  EXPECT_THAT(message({}), ::testing::HasSubstr("rotation is not a unit quaternion"));
 }
 
 TEST(CovarianceInWorld, MatchesSamples) {

@@ -93,10 +93,11 @@ TEST_F(WindowValidationTest, RejectsInvalidPriors) {
   EXPECT_EQ(Message(), "no exception");
   WindowData::PosePrior& prior = data_.pose_priors[0];
   prior.keyframe = 9999;
-  EXPECT_THAT(Message(), HasSubstr("keyframe 9999 is of a prior but not in the window"));
+  EXPECT_THAT(Message(),
+              HasSubstr("keyframe 9999 is constrained by a prior but not in the window"));
   prior = good;
   prior.cam_from_world.params[3] += 1.0;
-  EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: rotation is not unit"));
+  EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: rotation is not a unit quaternion"));
   prior = good;
   prior.covariance(2, 4) = 0.1;
   EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: covariance is not positive definite"));
@@ -114,7 +115,7 @@ TEST_F(WindowValidationTest, RejectsInvalidKeyframesAndLandmarks) {
   EXPECT_THAT(Message(), HasSubstr("keyframe 103: pose is not finite"));
   data_ = good;
   data_.keyframes[1].cam_from_world.params.head<4>() *= 2.0;
-  EXPECT_THAT(Message(), HasSubstr("keyframe 103: rotation is not unit"));
+  EXPECT_THAT(Message(), HasSubstr("keyframe 103: rotation is not a unit quaternion"));
   data_ = good;
   data_.points[2].position.y() = nan_;
   EXPECT_THAT(Message(), HasSubstr("point 1014: position is not finite"));
@@ -123,7 +124,7 @@ TEST_F(WindowValidationTest, RejectsInvalidKeyframesAndLandmarks) {
   EXPECT_THAT(Message(), HasSubstr("line 56: segment is not finite"));
   data_ = good;
   data_.lines[3].segment.end = data_.lines[3].segment.start;
-  EXPECT_THAT(Message(), HasSubstr("line 56: segment has no length"));
+  EXPECT_THAT(Message(), HasSubstr("line 56: segment has zero length"));
   for (const double noise : {0.0, -1.0, nan_, infinity_}) {
     data_ = good;
     data_.points[2].noise = noise;
@@ -152,7 +153,7 @@ TEST_F(WindowValidationTest, RejectsInvalidPointObservations) {
   EXPECT_THAT(Message(), HasSubstr(item + "inverse_depth_sigma must be positive"));
   data_ = good;
   data_.point_observations[0].inverse_depth = nan_;
-  EXPECT_THAT(Message(), HasSubstr(item + "inverse_depth must not be negative"));
+  EXPECT_THAT(Message(), HasSubstr(item + "inverse_depth must be in [0, 1e9]"));
 }
 
 TEST_F(WindowValidationTest, RejectsInvalidLineObservations) {
@@ -161,7 +162,7 @@ TEST_F(WindowValidationTest, RejectsInvalidLineObservations) {
   const std::string item = "observation of line " + std::to_string(o.line) + " in keyframe " +
                            std::to_string(o.keyframe) + ": ";
   o.segment.end = o.segment.start;
-  EXPECT_THAT(Message(), HasSubstr(item + "segment has no length"));
+  EXPECT_THAT(Message(), HasSubstr(item + "segment has zero length"));
   data_ = good;
   data_.line_observations[0].sigma = nan_;
   EXPECT_THAT(Message(), HasSubstr(item + "sigma must be positive"));
@@ -188,19 +189,19 @@ TEST_F(WindowValidationTest, RejectsInfiniteAndHugeNumbers) {
   for (const double huge : {infinity_, -infinity_, 1e200, -1e10}) {
     SCOPED_TRACE(huge);
     data_.keyframes[1].cam_from_world.translation().z() = huge;
-    expect("keyframe 103: pose is not finite, or beyond 1e9 m");
+    expect("keyframe 103: pose is not finite or beyond 1e9 m");
     data_.points[2].position.x() = huge;
-    expect("point 1014: position is not finite, or beyond 1e9 m");
+    expect("point 1014: position is not finite or beyond 1e9 m");
     data_.lines[3].segment.start.z() = huge;
-    expect("line 56: segment is not finite, or beyond 1e9 m");
+    expect("line 56: segment is not finite or beyond 1e9 m");
     data_.point_observations[5].pixel.y() = huge;
-    expect("pixel is not finite, or beyond 1e9");
+    expect("pixel is not finite or beyond 1e9");
     data_.line_observations[5].segment.start.y() = huge;
-    expect("segment is not finite, or beyond 1e9 pixels");
+    expect("segment is not finite or beyond 1e9 pixels");
     data_.point_observations[5].inverse_depth = huge;
-    expect("inverse_depth must not be negative, nor beyond 1e9");
+    expect("inverse_depth must be in [0, 1e9]");
     data_.line_observations[5].depth.end = huge;
-    expect("depth is not finite, or beyond 1e9");
+    expect("depth is not finite or beyond 1e9");
   }
   data_.point_observations[5].sigma = infinity_;
   expect("sigma must be positive");

@@ -309,10 +309,10 @@ TEST_P(PoseProblemTest, MisuseNamesTheOffender) {
   EXPECT_THAT(message(bad), HasSubstr("point 10: inverse_depth_sigma must be positive"));
   bad = good;
   bad.points[10].inverse_depth = -1.0;
-  EXPECT_THAT(message(bad), HasSubstr("point 10: inverse_depth must not be negative"));
+  EXPECT_THAT(message(bad), HasSubstr("point 10: inverse_depth must be in [0, 1e9]"));
   bad = good;
   bad.lines[3].map_segment.end = bad.lines[3].map_segment.start;
-  EXPECT_THAT(message(bad), HasSubstr("line 3: segment has no length"));
+  EXPECT_THAT(message(bad), HasSubstr("line 3: segment has zero length"));
   bad = good;
   bad.lines[4].sigma = -1.0;
   EXPECT_THAT(message(bad), HasSubstr("line 4: sigma must be positive"));
@@ -321,7 +321,7 @@ TEST_P(PoseProblemTest, MisuseNamesTheOffender) {
   EXPECT_THAT(message(bad), HasSubstr("line 5: depth covariance is not positive definite"));
   bad = good;
   bad.cam_from_world.params.setZero();
-  EXPECT_THAT(message(bad), HasSubstr("prediction: rotation is not unit"));
+  EXPECT_THAT(message(bad), HasSubstr("prediction: rotation is not a unit quaternion"));
   bad = good;
   bad.camera.fx = 0.0;
   EXPECT_THAT(message(bad), HasSubstr("fx"));
