@@ -15,8 +15,8 @@ namespace msc_vo {
 /// S, E: end points in the world, metres (block 0, 6). S0, E0: their initial values; d0: initial
 /// unit direction. sigma: metres.
 ///
-/// Line observations do not constrain the position of an end point along its line, so two of the six
-/// coordinates are free without this prior. It conditions the normal equations and leaves the
+/// Line observations do not constrain the position of an end point along its line, so two of the
+/// six coordinates are free without this prior. It conditions the normal equations and leaves the
 /// line's four degrees of freedom unconstrained.
 class LineEndpointPrior : public CostFunctor<LineEndpointPrior, 2, 6> {
  public:

@@ -13,9 +13,9 @@ namespace msc_vo {
 ///
 ///   r = (e_1 . d, e_2 . d) / sigma,   d = (E - S) / |E - S|
 ///
-/// S, E: end points in the world, metres (block 0, 6). e_1, e_2: unit vectors that complete the axis
-/// m to an orthonormal basis. sigma: radians, of each component of the angle. |r| sigma is the sine
-/// of the angle, as for ParallelLines; two rows suffice here because the axis is constant. The
+/// S, E: end points in the world, metres (block 0, 6). e_1, e_2: unit vectors that complete the
+/// axis m to an orthonormal basis. sigma: radians, of each component of the angle. |r| sigma is the
+/// sine of the angle, as for ParallelLines; two rows suffice here because the axis is constant. The
 /// residual is smooth everywhere and its norm does not depend on the sign of d.
 class ManhattanAxisAlignment : public CostFunctor<ManhattanAxisAlignment, 2, 6> {
  public:

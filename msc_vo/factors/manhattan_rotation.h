@@ -13,10 +13,11 @@ namespace msc_vo {
 ///
 ///   r = (m_k . p / sigma, m_k . n / sigma_n),   m_k = R(q) e_k,   p = n x d
 ///
-/// q: world_from_manhattan (block 0, 4: x y z w, unit, on Rotation3Manifold); column k of its matrix
-/// is axis m_k in the world. d: unit direction in the world, of either sign. n: unit normal of the
-/// interpretation plane, perpendicular to d. sigma, sigma_n: standard deviations of the direction in
-/// and out of the interpretation plane, radians; the first depends on depth and is the larger one.
+/// q: world_from_manhattan (block 0, 4: x y z w, unit, on Rotation3Manifold); column k of its
+/// matrix is axis m_k in the world. d: unit direction in the world, of either sign. n: unit normal
+/// of the interpretation plane, perpendicular to d. sigma, sigma_n: standard deviations of the
+/// direction in and out of the interpretation plane, radians; the first depends on depth and is the
+/// larger one.
 ///
 /// With equal sigmas the norm of the rows is the sine of the angle, |d x m_k|^2 = (m_k . p)^2 +
 /// (m_k . n)^2 = (d . m_k')^2 + (d . m_k'')^2, which covers all three conditions of the paper. One
