@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "msc_vo/datasets/camera_preset.h"
+#include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/datasets/sequence.h"
 
 namespace msc_vo {

@@ -158,7 +158,7 @@ TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
 TEST_F(ResultFilesTest, AFileInTheWayIsAnError) {
   WriteText("out", "");
   EXPECT_THAT(MessageOf([&] { WriteResultFiles(Path("out"), Result(), {}); }),
-              HasSubstr("out: cannot be made"));
+              HasSubstr("out: cannot be created"));
 }
 
 }  // namespace
