@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Ways to take pairs of lines through the Schur complement (docs/solver.md), on the first of the
-// two solves of a window. Window files: MSC_VO_WINDOWS=a.txt:b.txt.
+// Ways to take pairs of lines through the Schur complement (docs/lab/bundle_adjustment.md), on the
+// first of the two solves of a window. Window files: MSC_VO_WINDOWS=a.txt:b.txt.
 
 #include <algorithm>
 #include <cstdio>
