@@ -18,7 +18,9 @@
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/results/benchmark.h"
+#include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -31,10 +33,9 @@ struct Arguments {
   std::vector<std::string> sequences;
   SequenceArguments layout;  // the directory is none of them
   ConfigurationArguments configuration;
+  RunArguments run;
   std::vector<std::string> modes;
   std::string output = "out/benchmark";
-  int max_frames = 0;  // 0: all
-  bool quiet = false;
 };
 
 // The modes that this version implements: those whose default options are accepted.
@@ -63,6 +64,7 @@ std::vector<Configuration> MakeConfigurations(const Arguments& arguments,
     ConfigurationArguments with_mode = arguments.configuration;
     with_mode.settings.push_back("mode=" + mode);
     configurations.push_back(MakeConfiguration(with_mode));
+    PrintWarnings(DescribeIgnoredOptions(with_mode, configurations.back()));
     std::string error;
     if (!configurations.back().odometry.IsValid(&error)) throw std::runtime_error(error);
   }
@@ -100,15 +102,15 @@ Benchmark Describe(const Arguments& arguments, const std::vector<std::string>& m
 void RunOne(const Arguments& arguments, const RgbdDecoder& decoder,
             const Configuration& configuration, const InterruptGuard& interrupt,
             BenchmarkRun* row) {
-  const SequenceRun run =
-      RunSequence(decoder, configuration, arguments.max_frames, arguments.quiet, interrupt);
+  const std::string folder = (fs::path(arguments.output) / row->sequence / row->mode).string();
+  RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, folder);
+  OnlineResults online(folder);
+  const SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt,
+                                      [&](const FrameResult& frame) { online.Add(frame); });
   row->summary = run.summary;
   row->cost = run.context.cost;
   row->error = run.context.error;
-  if (!run.result.frames.empty()) {
-    const fs::path folder = fs::path(arguments.output) / row->sequence / row->mode;
-    WriteResultFiles(folder.string(), run.result, run.context);
-  }
+  if (run.HasImages()) WriteResultFiles(folder, run.result, run.context);
   if (run.exit_code != kExitSuccess) throw std::runtime_error(run.context.outcome);
   if (!row->error->usable) throw std::runtime_error("no error known: " + row->error->message);
 }
@@ -123,7 +125,7 @@ void WriteTables(const std::string& directory, const Benchmark& benchmark) {
 // Nothing can be compared without a ground truth: throws std::runtime_error.
 RgbdDecoder OpenWithTruth(const SequenceArguments& sequence, const Configuration& configuration) {
   RgbdDecoder decoder = OpenDecoder(sequence, configuration);
-  PrintWarnings(decoder);
+  PrintWarnings(decoder.index().warnings);
   if (!decoder.index().ground_truth.empty()) return decoder;
   throw std::runtime_error(decoder.index().directory +
                            ": no ground truth (groundtruth.txt or the layout's own); add it, or "
@@ -154,7 +156,7 @@ void RunModes(const Arguments& arguments, const std::string& directory, const st
     row.mode = benchmark->modes[i];
     row.failure = failure;
     if (decoder) {
-      if (!arguments.quiet) std::cerr << name << ", " << row.mode << ":" << std::endl;
+      if (!arguments.run.quiet) std::cerr << name << ", " << row.mode << ":" << std::endl;
       try {
         RunOne(arguments, *decoder, configurations[i], interrupt, &row);
       } catch (const std::exception& error) {
@@ -174,11 +176,12 @@ int RunBenchmark(const Arguments& arguments) {
   const std::vector<std::string> names = UniqueNames(arguments.sequences);
   Benchmark benchmark = Describe(arguments, modes);
   const InterruptGuard interrupt;
+  RefuseToOverwrite(arguments.sequences, arguments.output);
   WriteTables(arguments.output, benchmark);  // a folder that cannot be written shows at once
   for (size_t i = 0; i < names.size() && !interrupt.IsInterrupted(); ++i) {
     RunModes(arguments, arguments.sequences[i], names[i], configurations, interrupt, &benchmark);
   }
-  if (!arguments.quiet) std::cout << FormatBenchmarkMarkdown(benchmark) << std::flush;
+  if (!arguments.run.quiet) std::cout << FormatBenchmarkMarkdown(benchmark) << std::flush;
   if (interrupt.IsInterrupted()) return kExitInterrupted;
   const auto num_failed =
       std::count_if(benchmark.runs.begin(), benchmark.runs.end(),
@@ -209,9 +212,7 @@ Command AddBenchmarkCommand(CLI::App* app) {
       ->add_option("--output", arguments->output,
                    "Folder for benchmark.md, benchmark.json and <sequence>/<mode>/ as of replay")
       ->capture_default_str();
-  command->add_option("--max-frames", arguments->max_frames, "Stop after so many images of each")
-      ->check(CLI::PositiveNumber);
-  command->add_flag("--quiet", arguments->quiet, "No progress, no table");
+  AddRunArguments(command, &arguments->run);
   command->footer(
       HelpFooter("msc_vo benchmark data/living data/corridor --modes pl-vo,pl-vo-depth"));
   return {command, [arguments] { return RunBenchmark(*arguments); }};

@@ -18,6 +18,12 @@ const Option* FindOption(const std::vector<Option>& options, const std::string& 
   return option == options.end() ? nullptr : &*option;
 }
 
+// Whether one of the settings names the option.
+bool IsSet(const std::string& path, const ConfigurationArguments& arguments) {
+  return std::any_of(arguments.settings.begin(), arguments.settings.end(),
+                     [&](const std::string& setting) { return setting.rfind(path + "=", 0) == 0; });
+}
+
 void Set(const std::string& path, const std::string& value, Configuration* configuration) {
   const std::vector<Option> options = ListOptions(configuration);
   const Option* option = FindOption(options, path);
@@ -59,6 +65,33 @@ Configuration MakeConfiguration(const ConfigurationArguments& arguments,
     Set(setting.substr(0, equals), setting.substr(equals + 1), &configuration);
   }
   return configuration;
+}
+
+std::vector<std::string> DescribeIgnoredOptions(const ConfigurationArguments& arguments,
+                                                const Configuration& configuration) {
+  Configuration given = configuration, effective = configuration;
+  effective.odometry = WithModeApplied(effective.odometry);
+  Configuration defaults, effective_defaults;
+  defaults.odometry.mode = configuration.odometry.mode;
+  effective_defaults.odometry = WithModeApplied(defaults.odometry);
+  const std::vector<Option> given_options = ListOptions(&given);
+  const std::vector<Option> effective_options = ListOptions(&effective);
+  const std::vector<Option> default_options = ListOptions(&defaults);
+  const std::vector<Option> effective_default_options = ListOptions(&effective_defaults);
+  std::vector<std::string> sentences;
+  for (size_t i = 0; i < given_options.size(); ++i) {
+    const std::string& path = given_options[i].path;
+    const std::string value = FormatOption(given_options[i]);
+    const std::string decided = FormatOption(effective_options[i]);
+    const std::string usual = FormatOption(default_options[i]);
+    const bool mode_decides =
+        decided != value || usual != FormatOption(effective_default_options[i]);
+    if (!mode_decides || (value == usual && !IsSet(path, arguments))) continue;
+    sentences.push_back(
+        path + "=" + value + " " + (value == decided ? "changes nothing" : "is ignored") +
+        ": with mode=" + ToString(configuration.odometry.mode) + " it is always " + decided);
+  }
+  return sentences;
 }
 
 std::vector<std::string> OptionChoices(const std::string& path) {

@@ -26,6 +26,11 @@ void AddConfigurationArguments(CLI::App* command, ConfigurationArguments* argume
 Configuration MakeConfiguration(const ConfigurationArguments& arguments,
                                 Configuration configuration = {});
 
+// What the user has set in `arguments`, or changed in their file, although the mode decides it: one
+// sentence each.
+std::vector<std::string> DescribeIgnoredOptions(const ConfigurationArguments& arguments,
+                                                const Configuration& configuration);
+
 // The names of what an option that is a choice may be, "mode" for instance.
 std::vector<std::string> OptionChoices(const std::string& path);
 

@@ -3,6 +3,8 @@
 
 #include <exception>
 #include <iostream>
+#include <optional>
+#include <string>
 #include <vector>
 
 #ifdef __GLIBC__
@@ -12,6 +14,8 @@
 #include <opencv2/core/utility.hpp>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/standard_streams.h"
+#include "msc_vo/text/similar_name.h"
 #include "msc_vo/version.h"
 
 namespace msc_vo {
@@ -19,7 +23,8 @@ namespace msc_vo {
 std::string HelpFooter(const std::string& example) {
   return "Example:\n  " + example +
          "\n\nExit codes: 0 success, 1 wrong input or failed run, 2 wrong command line,\n"
-         "130 interrupted (what was computed until then has been written).";
+         "3 tracking failed: less than half of the images have an estimated pose (results are\n"
+         "written), 130 interrupted (what was computed until then has been written).";
 }
 
 namespace {
@@ -45,6 +50,23 @@ void KeepFreedMemory() {
 // frame, with any number of ours.
 void KeepOpenCvToOneThread() { cv::setNumThreads(1); }
 
+// An error if the first argument looks like a sub-command and is none.
+void CheckSubcommand(const std::vector<Command>& commands, const std::string& name) {
+  if (name.rfind('-', 0) == 0) return;
+  std::vector<std::string> names;
+  std::string list;
+  for (const Command& command : commands) {
+    names.push_back(command.arguments->get_name());
+    if (names.back() == name) return;
+    list += (list.empty() ? "" : ", ") + names.back();
+  }
+  const std::optional<std::string> similar = FindSimilarName(names, name);
+  throw CLI::ExtrasError("msc_vo: error: unknown command '" + name + "'" +
+                             (similar ? "; did you mean '" + *similar + "'?" : "") +
+                             "\nCommands: " + list,
+                         CLI::ExitCodes::ExtrasError);
+}
+
 int Main(int argc, char** argv) {
   for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + std::string(argv[i]);
   CLI::App app("RGB-D visual odometry from points, lines and the structure of the scene", "msc_vo");
@@ -55,6 +77,7 @@ int Main(int argc, char** argv) {
   for (const AddCommand add : kCommands) commands.push_back(add(&app));
 
   try {
+    if (argc > 1) CheckSubcommand(commands, argv[1]);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kExitSuccess : kExitUsage;
@@ -74,8 +97,11 @@ const std::string& CommandLine() { return command_line; }
 int main(int argc, char** argv) {
   msc_vo::KeepFreedMemory();
   msc_vo::KeepOpenCvToOneThread();
+  msc_vo::PrepareStandardStreams();
   try {
-    return msc_vo::Main(argc, argv);
+    const int exit_code = msc_vo::Main(argc, argv);
+    msc_vo::FinishStandardOutput();
+    return exit_code;
   } catch (const std::exception& error) {
     std::cerr << "msc_vo: error: " << error.what() << std::endl;
     return msc_vo::kExitError;

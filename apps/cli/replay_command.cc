@@ -14,8 +14,10 @@
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/recording/window_file.h"
+#include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/results/run_report.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -26,18 +28,17 @@ namespace {
 struct Arguments {
   SequenceArguments sequence;
   ConfigurationArguments configuration;
+  RunArguments run;
   std::string output;
   std::string windows;  // folder; empty: windows are not recorded
   std::string mode;
   std::string lines;
-  int max_frames = 0;  // 0: all
   bool no_points = false;
   bool no_lines = false;
   bool no_parallel = false;
   bool no_perpendicular = false;
   bool no_manhattan = false;
   bool realtime = false;
-  bool quiet = false;
   bool print_config = false;
 };
 
@@ -58,8 +59,9 @@ ConfigurationArguments WithShortcuts(const Arguments& arguments) {
 }
 
 // Writes every window into `folder`, named by its keyframe.
-WindowObserver WindowRecorder(const std::string& folder) {
+WindowObserver WindowRecorder(const std::string& folder, const SequenceIndex& sequence) {
   if (folder.empty()) return {};
+  RefuseToOverwrite(InputFolders(sequence), folder);
   MakeFolder(folder);
   return [folder](KeyframeId keyframe, const BundleAdjustmentOptions& options,
                   const WindowData& data) {
@@ -70,32 +72,41 @@ WindowObserver WindowRecorder(const std::string& folder) {
 }
 
 int Replay(const Arguments& arguments) {
-  const Configuration configuration = MakeConfiguration(WithShortcuts(arguments));
+  const ConfigurationArguments settings = WithShortcuts(arguments);
+  const Configuration configuration = MakeConfiguration(settings);
+  PrintWarnings(DescribeIgnoredOptions(settings, configuration));
   if (arguments.print_config) {
     std::cout << FormatConfiguration(configuration);
     return kExitSuccess;
   }
   const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
-  PrintWarnings(decoder);
+  PrintWarnings(decoder.index().warnings);
   const std::string output =
       !arguments.output.empty()
           ? arguments.output
           : (std::filesystem::path("out") / SequenceName(arguments.sequence.directory)).string();
+  RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, output);
   MakeFolder(output);  // a wrong name shows before the work, not after it
   const InterruptGuard interrupt;
-  const SequenceRun run = RunSequence(decoder, configuration, arguments.max_frames, arguments.quiet,
-                                      interrupt, WindowRecorder(arguments.windows));
-  if (run.result.frames.empty()) {
+  OnlineResults online(output);
+  const SequenceRun run = RunSequence(
+      decoder, configuration, arguments.run, interrupt,
+      [&](const FrameResult& frame) { online.Add(frame); },
+      WindowRecorder(arguments.windows, decoder.index()));
+  if (!run.HasImages()) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
     return run.exit_code;
   }
   WriteResultFiles(output, run.result, run.context);
-  if (!arguments.quiet) {
+  if (!arguments.run.quiet) {
     std::cout << FormatRunTable(run.summary, run.context, output) << std::flush;
   }
   if (run.exit_code == kExitError) {
     throw std::runtime_error(run.context.outcome + "\n(what was computed until then is in " +
                              output + ")");
+  }
+  if (run.exit_code == kExitTrackingFailed) {
+    std::cerr << "msc_vo: error: " << run.context.outcome << std::endl;
   }
   return run.exit_code;
 }
@@ -124,12 +135,10 @@ Command AddReplayCommand(CLI::App* app) {
   command->add_flag("--realtime", arguments->realtime,
                     "Images appear when their time stamps say; no frame waits for a map that is "
                     "late, and images that come too late are dropped");
-  command->add_option("--max-frames", arguments->max_frames, "Stop after so many images")
-      ->check(CLI::PositiveNumber);
+  AddRunArguments(command, &arguments->run);
   command->add_option("--dump-windows", arguments->windows,
                       "Folder for the windows that the mapper solves, one file per keyframe, as "
                       "they are before (see solve-window)");
-  command->add_flag("--quiet", arguments->quiet, "No progress, no table");
   command->add_flag("--print-config", arguments->print_config,
                     "Print all options with their meanings, as a file for --config, and exit");
   command->footer(HelpFooter("msc_vo replay my_sequence --output out/my_sequence"));

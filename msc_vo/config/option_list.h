@@ -3,35 +3,16 @@
 
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "msc_vo/datasets/calibration.h"
 #include "msc_vo/odometry/odometry_options.h"
+#include "msc_vo/odometry/option.h"
 
 namespace msc_vo {
 
-// An enumeration as its names.
-struct Choice {
-  std::vector<std::string> names;  // in order of the enumerators
-  std::function<int()> get;
-  std::function<void(int)> set;
-};
-
-// One option: what it is called in a file, where its value lives, what it means.
-struct Option {
-  std::string path;  // "tracking.pose.num_rounds"
-  std::variant<bool*, int*, double*, std::string*, std::optional<int>*, std::optional<double>*,
-               Choice>
-      value;
-  std::string help;  // one line, with the unit
-};
-
-// Everything that a configuration file can say. This list is the only place that knows the options
-// by name: reading, writing and checking all walk it.
+// Everything that a configuration file can say.
 struct Configuration {
   CameraSettings camera;
   OdometryOptions odometry;
@@ -40,7 +21,8 @@ struct Configuration {
 // Pointers into `configuration`, grouped by section.
 std::vector<Option> ListOptions(Configuration* configuration);
 
-// Sets an option from text. Returns false, with what was expected, if the text does not fit.
+// Sets an option from text. Returns false, with what was expected and the option as it was, if the
+// text or its number does not fit.
 bool SetOption(const Option& option, const std::string& text, std::string* expected);
 
 // The value as text, with as many digits as are needed to read it back; empty: not set.

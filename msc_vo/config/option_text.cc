@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 
 #include "msc_vo/config/option_list.h"
+#include "msc_vo/text/similar_name.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -45,8 +45,16 @@ bool Assign(const std::optional<T>& parsed, Target* target) {
   return parsed.has_value();
 }
 
+// The same of a number that must be in its range.
+template <typename Target, typename T>
+bool Assign(const std::optional<T>& parsed, const std::optional<Range>& range, Target* target) {
+  if (parsed && range && !range->Contains(*parsed)) return false;
+  return Assign(parsed, target);
+}
+
 struct Setter {
   const std::string& text;
+  const std::optional<Range>& range;
   std::string* expected;
 
   bool operator()(bool* value) const {
@@ -54,24 +62,24 @@ struct Setter {
     return Assign(ParseBool(text), value);
   }
   bool operator()(int* value) const {
-    *expected = "a whole number";
-    return Assign(ParseInt(text), value);
+    *expected = "a whole number" + RangeText();
+    return Assign(ParseInt(text), range, value);
   }
   bool operator()(double* value) const {
-    *expected = "a number";
-    return Assign(ParseFinite(text), value);
+    *expected = "a number" + RangeText();
+    return Assign(ParseFinite(text), range, value);
   }
   bool operator()(std::string* value) const {
     *value = text;
     return true;
   }
   bool operator()(std::optional<int>* value) const {
-    *expected = "a whole number";
-    return Assign(ParseInt(text), value);
+    *expected = "a whole number" + RangeText();
+    return Assign(ParseInt(text), range, value);
   }
   bool operator()(std::optional<double>* value) const {
-    *expected = "a number";
-    return Assign(ParseFinite(text), value);
+    *expected = "a number" + RangeText();
+    return Assign(ParseFinite(text), range, value);
   }
   bool operator()(const Choice& choice) const {
     *expected = "one of";
@@ -81,6 +89,9 @@ struct Setter {
     choice.set(static_cast<int>(found - choice.names.begin()));
     return true;
   }
+
+ private:
+  std::string RangeText() const { return range ? " " + ToString(*range) : ""; }
 };
 
 struct Formatter {
@@ -97,28 +108,12 @@ struct Formatter {
   std::string operator()(const Choice& choice) const { return choice.names.at(choice.get()); }
 };
 
-// Number of letters to insert, delete or replace to turn one text into the other (Levenshtein).
-int EditDistance(const std::string& a, const std::string& b) {
-  std::vector<int> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = row[0];
-    row[0] = static_cast<int>(i);
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const int replaced = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
 std::string LastPart(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
 }  // namespace
 
 bool SetOption(const Option& option, const std::string& text, std::string* expected) {
-  return std::visit(Setter{text, expected}, option.value);
+  return std::visit(Setter{text, option.range, expected}, option.value);
 }
 
 std::string FormatOption(const Option& option) { return std::visit(Formatter{}, option.value); }
@@ -138,8 +133,7 @@ std::vector<OptionText> ChangedOptions(const Configuration& configuration) {
 
 const Option* FindSimilar(const std::vector<Option>& options, const std::string& path) {
   const Option* nearest = nullptr;
-  // More than a third of the letters wrong is another word, not a typing error.
-  int smallest = static_cast<int>(LastPart(path).size()) / 3 + 1;
+  int smallest = MaxTypingErrors(LastPart(path)) + 1;
   int smallest_of_path = 0;  // decides between equals
   for (const Option& option : options) {
     // The right name in the wrong section counts as one error.

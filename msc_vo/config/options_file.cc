@@ -10,6 +10,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "msc_vo/config/orb_slam_config.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -83,7 +84,7 @@ std::string Indent(size_t depth) { return std::string(2 * depth, ' '); }
 }  // namespace
 
 void ReadConfiguration(const std::string& path, Configuration* configuration) {
-  const std::string content = ReadFile(path);
+  const std::string content = ReadFile(path, kMaxOptionsBytes);
   if (IsOrbSlamConfig(content)) {
     configuration->camera = ReadOrbSlamConfig(path);
     return;

@@ -4,11 +4,13 @@
 #include "msc_vo/config/orb_slam_config.h"
 
 #include <algorithm>
+#include <cctype>
 #include <initializer_list>
 #include <map>
 #include <sstream>
 #include <stdexcept>
 
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -27,6 +29,12 @@ std::string Trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
 }
 
+std::string Lowercase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
 std::map<std::string, Value> ReadValues(const std::string& content) {
   std::map<std::string, Value> values;
   std::istringstream lines(content);
@@ -40,6 +48,30 @@ std::map<std::string, Value> ReadValues(const std::string& content) {
   return values;
 }
 
+// Throws unless the file describes a pinhole camera with at most the coefficients k1 k2 p1 p2 k3.
+// Returns whether its images have a lens at all: those of a rectified camera have none.
+bool HasLens(const std::map<std::string, Value>& values, const std::string& path) {
+  for (const char* prefix : {"Camera.k", "Camera1.k"}) {
+    for (const char digit : {'4', '5', '6'}) {
+      const auto found = values.find(prefix + std::string(1, digit));
+      if (found == values.end() || ParseNumber(found->second.text) == 0.0) continue;
+      throw std::runtime_error(path + ":" + std::to_string(found->second.line) + ": " +
+                               found->first +
+                               ": msc_vo knows the lens coefficients k1 k2 p1 p2 "
+                               "k3 alone; calibrate with these, or undistort the images");
+    }
+  }
+  const auto found = values.find("Camera.type");
+  if (found == values.end()) return true;
+  const std::string type = Lowercase(found->second.text);
+  if (type == "pinhole" || type == "\"pinhole\"") return true;
+  if (type == "rectified" || type == "\"rectified\"") return false;
+  throw std::runtime_error(path + ":" + std::to_string(found->second.line) + ": Camera.type " +
+                           found->second.text +
+                           " is not supported, only PinHole and Rectified; undistort the images "
+                           "to a pinhole camera");
+}
+
 }  // namespace
 
 bool IsOrbSlamConfig(const std::string& content) {
@@ -50,7 +82,7 @@ bool IsOrbSlamConfig(const std::string& content) {
 }
 
 CameraSettings ReadOrbSlamConfig(const std::string& path) {
-  const std::map<std::string, Value> values = ReadValues(ReadFile(path));
+  const std::map<std::string, Value> values = ReadValues(ReadFile(path, kMaxOptionsBytes));
   // The first of the names that the file has.
   const auto find = [&](std::initializer_list<const char*> names) -> std::optional<double> {
     for (const char* name : names) {
@@ -71,9 +103,14 @@ CameraSettings ReadOrbSlamConfig(const std::string& path) {
     }
     return *value;
   };
-  const auto to_int = [](const std::optional<double>& value) {
-    return value ? std::optional<int>(static_cast<int>(*value)) : std::nullopt;
+  const auto find_int = [&](std::initializer_list<const char*> names) -> std::optional<int> {
+    const std::optional<double> value = find(names);
+    if (!value) return std::nullopt;
+    if (const std::optional<int> whole = WholeNumber(*value)) return whole;
+    throw std::runtime_error(path + ": " + *names.begin() + " must be a whole number, not " +
+                             FormatNumber(*value));
   };
+  const bool has_lens = HasLens(values, path);
 
   CameraSettings camera;
   camera.fx = require({"Camera.fx", "Camera1.fx"});
@@ -81,11 +118,13 @@ CameraSettings ReadOrbSlamConfig(const std::string& path) {
   camera.cx = require({"Camera.cx", "Camera1.cx"});
   camera.cy = require({"Camera.cy", "Camera1.cy"});
   camera.depth_scale = require({"DepthMapFactor", "RGBD.DepthMapFactor", "depthmap_factor"});
-  camera.width = to_int(find({"Camera.width", "Camera.cols"}));
-  camera.height = to_int(find({"Camera.height", "Camera.rows"}));
-  camera.distortion = {find({"Camera.k1", "Camera1.k1"}), find({"Camera.k2", "Camera1.k2"}),
-                       find({"Camera.p1", "Camera1.p1"}), find({"Camera.p2", "Camera1.p2"}),
-                       find({"Camera.k3", "Camera1.k3"})};
+  camera.width = find_int({"Camera.width", "Camera.cols"});
+  camera.height = find_int({"Camera.height", "Camera.rows"});
+  if (has_lens) {
+    camera.distortion = {find({"Camera.k1", "Camera1.k1"}), find({"Camera.k2", "Camera1.k2"}),
+                         find({"Camera.p1", "Camera1.p1"}), find({"Camera.p2", "Camera1.p2"}),
+                         find({"Camera.k3", "Camera1.k3"})};
+  }
   camera.origin = path;
   return camera;
 }

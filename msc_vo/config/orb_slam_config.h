@@ -15,8 +15,9 @@ bool IsOrbSlamConfig(const std::string& content);
 
 // The camera of such a file: Camera.fx (or Camera1.fx) ... Camera.k3, Camera.width and .height if
 // given, DepthMapFactor (or RGBD.DepthMapFactor). Everything else, and every malformed line, is
-// passed over. Throws std::runtime_error naming the file, and the line of a bad value, if the
-// camera is not there.
+// passed over. Camera.type may be PinHole or Rectified; the images of the latter have no
+// distortion. Throws std::runtime_error naming the file, and the line of a bad value, if the camera
+// is not there, is of another type, or has more coefficients than k1 k2 p1 p2 k3.
 CameraSettings ReadOrbSlamConfig(const std::string& path);
 
 }  // namespace msc_vo

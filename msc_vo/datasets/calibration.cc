@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/sequence.h"
@@ -21,6 +22,10 @@ constexpr char kCameraFileFormat[] = "'fx fy cx cy width height depth_scale [k1 
 constexpr char kReadoutLineFormat[] = "'readout_time SECONDS'";
 // Seconds: no camera takes longer for an image.
 constexpr double kMaxReadoutTime = 1.0;
+
+// Raw depth units per metre of 16-bit depth images: steps of 10 cm, and a range of 65 cm.
+constexpr double kMinDepthScale = 10.0;
+constexpr double kMaxDepthScale = 1e5;
 
 // Writes what the settings say over the calibration.
 void Apply(const CameraSettings& settings, Calibration* calibration) {
@@ -97,14 +102,11 @@ void ReadReadoutLine(const TextLine& line, Calibration* calibration) {
 
 bool Calibration::IsValid(std::string* error) const {
   if (!camera.IsValid(error)) return false;
-  for (const double k : distortion.k) {
-    if (!std::isfinite(k)) {
-      *error = "camera: distortion coefficients must be finite numbers";
-      return false;
-    }
-  }
-  if (!(depth_scale > 0.0) || !std::isfinite(depth_scale)) {
-    *error = "camera: depth_scale (raw depth units per metre) must be positive";
+  if (!IsInvertible(distortion, camera, error)) return false;
+  if (!(depth_scale >= kMinDepthScale && depth_scale <= kMaxDepthScale)) {
+    *error = "camera: depth_scale = " + FormatNumber(depth_scale) + " must be from " +
+             FormatNumber(kMinDepthScale) + " to " + FormatNumber(kMaxDepthScale) +
+             " raw depth units per metre";
     return false;
   }
   if (readout_time && !(std::abs(*readout_time) < kMaxReadoutTime)) {
@@ -130,8 +132,15 @@ Calibration ReadCameraFile(const std::string& path) {
     throw std::runtime_error(lines.front().Where() + ": expected 7 or 12 numbers " +
                              kCameraFileFormat + ", found " + std::to_string(v.size()));
   }
+  const std::optional<int> width = WholeNumber(v[4]);
+  const std::optional<int> height = WholeNumber(v[5]);
+  if (!width || !height) {
+    throw std::runtime_error(lines.front().Where() +
+                             ": width and height must be whole numbers; expected " +
+                             kCameraFileFormat);
+  }
   Calibration calibration;
-  calibration.camera = {v[0], v[1], v[2], v[3], static_cast<int>(v[4]), static_cast<int>(v[5])};
+  calibration.camera = {v[0], v[1], v[2], v[3], *width, *height};
   calibration.depth_scale = v[6];
   for (size_t i = 7; i < v.size(); ++i) calibration.distortion.k[i - 7] = v[i];
   calibration.origin = path;

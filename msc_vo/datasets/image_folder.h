@@ -24,8 +24,9 @@ bool NaturalLess(const std::string& a, const std::string& b);
 // The last run of digits in the stem of a path ("frame-000012.color" -> 12).
 std::optional<int64_t> FrameNumber(const std::string& path);
 
-// Time that the name of an image tells, seconds: "1.033333.png" is a time, a number of 16 digits or
-// more counts nanoseconds, any other number counts frames at kDefaultFrameRate. None: no number.
+// Time that the name of an image tells, seconds: "1.033333.png" is a time, a date of this century
+// in any TimeUnit too; other numbers of 16 digits or more count nanoseconds, and the rest count
+// frames at kDefaultFrameRate. None: no number.
 std::optional<double> StampFromName(const std::string& path);
 
 // Pairs colour and depth images that carry the same frame number; images without a partner are

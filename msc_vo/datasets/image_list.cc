@@ -9,8 +9,11 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
+#include "msc_vo/datasets/image_file.h"
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -41,7 +44,8 @@ bool NamesDepth(const std::string& path) {
 }
 
 bool HasSixteenBits(const std::string& path) {
-  return cv::imread(path, cv::IMREAD_UNCHANGED).depth() == CV_16U;
+  // What cannot be read is reported with the frame that it belongs to.
+  return FileProblem(path, kMaxImageBytes).empty() && ReadImageFile(path).depth() == CV_16U;
 }
 
 // Whether the second path of the row is the colour image.
@@ -51,10 +55,30 @@ bool IsDepthFirst(const TextLine& line) {
   return HasSixteenBits(Relative(line, 1)) && !HasSixteenBits(Relative(line, 3));
 }
 
-// Two clocks, or frame numbers, say nothing about who came first.
-double DepthDelay(double color_stamp, double depth_stamp) {
-  const double delay = depth_stamp - color_stamp;
-  return std::abs(delay) <= kMaxPairDifference ? delay : 0.0;
+void AddPair(const ListedImage& color, const ListedImage& depth, SequenceIndex* index) {
+  const bool same_row = color.origin == depth.origin;
+  const double delay = depth.stamp - color.stamp;
+  // The stamps of two clocks do not tell which image came first.
+  const bool same_clock = std::abs(delay) <= kMaxPairDifference;
+  index->entries.push_back({color.stamp, color.path, depth.path,
+                            same_row ? color.origin : color.origin + " and " + depth.origin,
+                            same_clock ? delay : 0.0});
+}
+
+// Warns if one list begins and ends later than the other, by the same time: a recording has ends
+// that do not match, but they match equally badly at both ends only by chance.
+void CheckOffset(const std::vector<ListedImage>& color, const std::vector<ListedImage>& depth,
+                 double max_difference, SequenceIndex* index) {
+  if (color.size() < 2 || depth.size() < 2) return;
+  const double at_begin = depth.front().stamp - color.front().stamp;
+  const double at_end = depth.back().stamp - color.back().stamp;
+  if (std::min(std::abs(at_begin), std::abs(at_end)) <= max_difference) return;
+  if (std::abs(at_begin - at_end) > max_difference) return;
+  const double offset = 0.5 * (at_begin + at_end);
+  index->warnings.push_back(FormatText(
+      "the stamps of the depth images begin and end %.3f s %s than those of the colour images; if "
+      "the clock of the depth camera is off by that, %s it in the list of depth images",
+      std::abs(offset), offset > 0.0 ? "later" : "earlier", offset > 0.0 ? "subtract" : "add"));
 }
 
 void CheckAssociation(const TextLine& line) {
@@ -123,10 +147,7 @@ void PairByTime(const std::vector<ListedImage>& color, const std::vector<ListedI
   for (size_t i = 0; i < color.size(); ++i) {
     if (depth_of_color[i] == kNone) continue;
     ++paired;
-    const ListedImage& partner = depth[depth_of_color[i]];
-    index->entries.push_back({color[i].stamp, color[i].path, partner.path,
-                              color[i].origin + " and " + partner.origin,
-                              DepthDelay(color[i].stamp, partner.stamp)});
+    AddPair(color[i], depth[depth_of_color[i]], index);
   }
   if (paired < color.size()) {
     index->warnings.push_back(
@@ -134,31 +155,37 @@ void PairByTime(const std::vector<ListedImage>& color, const std::vector<ListedI
         " colour images have no depth image within " +
         std::to_string(static_cast<int>(1000.0 * max_difference)) + " ms and are left out");
   }
+  CheckOffset(color, depth, max_difference, index);
 }
 
-std::vector<SequenceEntry> ReadAssociations(const std::string& path) {
+Associations ReadAssociations(const std::string& path) {
   const std::vector<TextLine> lines = ReadTextLines(path);
   if (lines.empty()) {
     throw std::runtime_error(path + ": lists no image; expected 'time colour time depth' rows");
   }
   for (const TextLine& line : lines) CheckAssociation(line);
   const bool depth_first = IsDepthFirst(lines.front());
-  std::vector<SequenceEntry> entries;
+  const auto image = [](const TextLine& line, size_t field) {
+    return ListedImage{ParseStamp(line, field), Relative(line, field + 1), line.Where()};
+  };
+  Associations pairs;
   for (const TextLine& line : lines) {
-    const size_t color = depth_first ? 2 : 0;
-    const size_t depth = depth_first ? 0 : 2;
-    entries.push_back({ParseStamp(line, color), Relative(line, color + 1),
-                       Relative(line, depth + 1), line.Where(),
-                       DepthDelay(ParseStamp(line, color), ParseStamp(line, depth))});
+    pairs.color.push_back(image(line, depth_first ? 2 : 0));
+    pairs.depth.push_back(image(line, depth_first ? 0 : 2));
   }
-  return entries;
+  return pairs;
+}
+
+void AddPairs(const Associations& pairs, SequenceIndex* index) {
+  for (size_t i = 0; i < pairs.color.size(); ++i) AddPair(pairs.color[i], pairs.depth[i], index);
+  CheckOffset(pairs.color, pairs.depth, kMaxPairDifference, index);
 }
 
 std::string FindAssociations(const std::string& directory) {
   for (const char* name :
        {"associations.txt", "association.txt", "associated.txt", "assoc.txt", "associate.txt"}) {
-    const fs::path path = fs::path(directory) / name;
-    if (fs::is_regular_file(path)) return path.string();
+    const std::string path = (fs::path(directory) / name).string();
+    if (HasEntry(path)) return path;
   }
   return "";
 }

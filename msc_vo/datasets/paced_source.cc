@@ -20,13 +20,26 @@ PacingClock PacingClock::Steady() {
           }};
 }
 
+namespace {
+
+std::vector<double> TimesFrom(const std::vector<SequenceEntry>& entries, int begin, int end) {
+  std::vector<double> times = {0.0};
+  for (int i = begin + 1; i < end; ++i) {
+    const double pause = entries[i].timestamp - entries[i - 1].timestamp;
+    times.push_back(times.back() + std::min(pause, PacedSource::kMaxPause));
+  }
+  return times;
+}
+
+}  // namespace
+
 PacedSource::PacedSource(const RgbdDecoder& decoder, int begin, int end, PacingClock clock)
-    : decoder_(decoder),
-      source_(decoder, begin, end),
+    : source_(decoder, begin, end),
       clock_(std::move(clock)),
       begin_(begin),
       next_(begin),
-      end_(end) {}
+      end_(end),
+      times_(TimesFrom(decoder.index().entries, begin, end)) {}
 
 bool PacedSource::Next(RgbdImage* image, std::vector<int>* dropped) {
   if (next_ == end_) return false;
@@ -52,10 +65,5 @@ bool PacedSource::Next(RgbdImage* image, std::vector<int>* dropped) {
 }
 
 double PacedSource::Age() const { return clock_.now() - appeared_; }
-
-double PacedSource::Time(int i) const {
-  const std::vector<SequenceEntry>& entries = decoder_.index().entries;
-  return entries[i].timestamp - entries[begin_].timestamp;
-}
 
 }  // namespace msc_vo

@@ -22,11 +22,15 @@ struct PacingClock {
 // The images of a sequence as a camera would deliver them: the first at once, each other one when
 // as much time has passed as between their time stamps. Images wait for a reader who is late, as
 // they do in the driver of a camera; where one more would have to wait, the oldest is dropped.
+// Longer pauses than kMaxPause between two stamps are cut to that.
 class PacedSource {
  public:
   // Images that wait. A tenth of a second at 30 Hz: who tracks in half the time between two images
   // has made up for it after as many more, and a pose that is later is of little use.
   static constexpr int kMaxWaiting = 3;
+  // Seconds. Far more than a recording pauses, less than a user waits before he thinks that the
+  // program hangs.
+  static constexpr double kMaxPause = 10.0;
 
   // Images begin..end-1 of the decoder, which must outlive the source. Throws as RgbdSource does.
   PacedSource(const RgbdDecoder& decoder, int begin, int end,
@@ -40,14 +44,14 @@ class PacedSource {
   double Age() const;
 
  private:
-  double Time(int i) const;  // seconds from the stamp of image begin_ to that of image i
+  double Time(int i) const { return times_[i - begin_]; }
 
-  const RgbdDecoder& decoder_;
   RgbdSource source_;
   PacingClock clock_;
   int begin_;
   int next_;
   int end_;
+  std::vector<double> times_;    // seconds from image begin_, one for each image
   std::optional<double> start_;  // where time 0 is on the clock; none before the first image
   double appeared_ = 0.0;        // on the clock, the last image
 };

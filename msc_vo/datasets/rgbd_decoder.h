@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 #include "msc_vo/datasets/calibration.h"
@@ -10,6 +11,19 @@
 #include "msc_vo/sensor/rgbd_image.h"
 
 namespace msc_vo {
+
+// An image of a sequence that cannot be used. The message names the file, the line that named it
+// and the fix.
+class UnreadableImage : public std::runtime_error {
+ public:
+  UnreadableImage(int index, const std::string& message)
+      : std::runtime_error(message), index_(index) {}
+
+  int index() const { return index_; }  // of the entry in the sequence
+
+ private:
+  int index_;
+};
 
 // Turns entry i of a sequence into an RgbdImage. Holds no state that changes: may be used from
 // several threads.
@@ -23,11 +37,13 @@ class RgbdDecoder {
 
   // Decodes entry i, 0 <= i < size(): colour to grey, depth to metres (0: no measurement), colour
   // scaled down if the index says so. The id is i.
-  // Throws std::runtime_error naming the file, the line that named it and the fix if a file is
-  // missing, damaged, of another size than the camera, or of the wrong bit depth.
+  // Throws UnreadableImage if a file is missing, damaged, of another size than the camera, or of
+  // the wrong bit depth.
   RgbdImage Decode(int i) const;
 
  private:
+  RgbdImage DecodeFiles(int i) const;
+
   SequenceIndex index_;
   Calibration calibration_;
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "msc_vo/datasets/calibration.h"
+#include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/geometry/timed_pose.h"
 
 namespace msc_vo {
@@ -25,9 +26,10 @@ struct SequenceEntry {
 
 // What a folder holds. Nothing of the images has been decoded yet.
 struct SequenceIndex {
-  std::string format;                  // name of the layout, "tum"
-  std::string directory;               // without a trailing slash
-  std::vector<SequenceEntry> entries;  // in order of time, stamps unique
+  std::string format;                        // name of the layout, "tum"
+  std::string directory;                     // without a trailing slash
+  std::vector<SequenceEntry> entries;        // in order of time, stamps unique
+  TimeUnit stamp_unit = TimeUnit::kSeconds;  // of the images' stamps, as the folder gives them
   // From a file of the folder. Describes images of the depth's size.
   std::optional<Calibration> calibration;
   std::string preset;        // camera preset that the layout or the name suggests; may be empty
@@ -44,5 +46,8 @@ std::vector<std::string> SequenceFormatNames();
 // Throws std::runtime_error naming file, line and fix if the folder is no sequence, a list or a
 // ground truth is malformed, or no image is left; std::invalid_argument on an unknown format.
 SequenceIndex OpenSequence(const std::string& directory, const std::string& format = "auto");
+
+// The folder of the sequence and those that its images lie in.
+std::vector<std::string> InputFolders(const SequenceIndex& index);
 
 }  // namespace msc_vo

@@ -7,9 +7,10 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 
 #include "msc_vo/evaluation/association.h"
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -55,15 +56,17 @@ class SequenceChecker {
     int missing = 0;
     for (const SequenceEntry& entry : index_.entries) {
       for (const std::string& path : {entry.color_path, entry.depth_path}) {
-        if (std::filesystem::exists(path)) continue;
+        const std::string problem = FileProblem(path, kMaxImageBytes);
+        if (problem.empty()) continue;
         if (++missing > kMaxReportsOfOneKind) continue;
-        Add(Severity::kError, path + " does not exist" +
+        Add(Severity::kError, path + " " + problem +
                                   (entry.origin.empty() ? "" : " (named in " + entry.origin + ")"));
       }
     }
     if (missing == 0) Add(Severity::kGood, "all image files are there");
     if (missing > kMaxReportsOfOneKind) {
-      Add(Severity::kError, std::to_string(missing) + " image files are missing in total");
+      Add(Severity::kError,
+          std::to_string(missing) + " image files are missing or no files in total");
     }
   }
 
@@ -82,6 +85,12 @@ class SequenceChecker {
     Add(Severity::kGood, std::to_string(entries.size()) + " image pairs in " +
                              Rounded(duration, 1) + " s, " + Rounded(1.0 / median, 1) +
                              " per second");
+    constexpr double kMinInterval = 0.001, kMaxInterval = 5.0;  // seconds; no RGB-D camera's
+    if (median < kMinInterval || median > kMaxInterval) {
+      Add(Severity::kWarning, FormatText("%g s from image to image are unusual: are the stamps in "
+                                         "seconds?",
+                                         median));
+    }
     // Constant velocity survives one or two dropped frames, not more.
     constexpr double kMaxGap = 3.5;  // in median intervals
     const auto gaps = std::count_if(intervals.begin(), intervals.end(),

@@ -13,7 +13,7 @@ namespace msc_vo {
 enum class Severity {
   kGood,     // as it should be
   kWarning,  // legal, but a usual sign of a mistake
-  kError,    // replay would fail
+  kError,    // replay would fail, or go on without the image
 };
 
 // One thing that was looked at, in a sentence for the user.

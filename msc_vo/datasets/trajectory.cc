@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -16,6 +18,9 @@ namespace msc_vo {
 namespace {
 
 constexpr size_t kFieldsPerPose = 8;
+// Two decimals of each component are off by less.
+constexpr double kMaxQuaternionError = 0.05;
+constexpr char kNotEstimated[] = "not estimated";
 
 void SortByTime(std::vector<TimedPose>* poses) {
   std::stable_sort(poses->begin(), poses->end(), [](const TimedPose& a, const TimedPose& b) {
@@ -34,8 +39,9 @@ std::string Fixed(double value, int decimals) {
 
 }  // namespace
 
-std::vector<TimedPose> ReadTrajectory(const std::string& path) {
+std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out) {
   std::vector<TimedPose> poses;
+  if (num_left_out) *num_left_out = 0;
   for (const TextLine& line : ReadTextLines(path)) {
     if (line.fields.size() != kFieldsPerPose) {
       throw std::runtime_error(line.Where() +
@@ -53,13 +59,19 @@ std::vector<TimedPose> ReadTrajectory(const std::string& path) {
       v[i] = *value;
       finite = finite && std::isfinite(v[i]);
     }
-    if (!finite) continue;
-    const Eigen::Quaterniond rotation(v[7], v[4], v[5], v[6]);
-    if (rotation.norm() < 1e-6) {  // far below any rounding of a unit quaternion
-      throw std::runtime_error(line.Where() +
-                               ": the quaternion is zero; correct or remove the line");
+    if (!finite) {
+      if (num_left_out) ++*num_left_out;
+      continue;
     }
-    poses.push_back({v[0], Rigid3(rotation.normalized(), {v[1], v[2], v[3]})});
+    const Eigen::Quaterniond rotation(v[7], v[4], v[5], v[6]);
+    if (!(std::abs(rotation.norm() - 1.0) <= kMaxQuaternionError)) {
+      throw std::runtime_error(line.Where() +
+                               FormatText(": the quaternion qx qy qz qw has length %.3f instead of "
+                                          "1; correct or remove the line",
+                                          rotation.norm()));
+    }
+    poses.push_back(
+        {v[0], Rigid3(rotation.normalized(), {v[1], v[2], v[3]}), line.comment != kNotEstimated});
   }
   SortByTime(&poses);
   return poses;
@@ -73,6 +85,7 @@ std::string FormatTrajectory(std::vector<TimedPose> poses) {
     const std::string stamp = Fixed(pose.timestamp, 6);
     if (stamp == previous_stamp) continue;
     previous_stamp = stamp;
+    if (!pose.is_estimated) text += "# " + std::string(kNotEstimated) + "\n";
     text += stamp;
     const Eigen::Vector3d t = pose.world_from_cam.translation();
     Eigen::Vector4d q = pose.world_from_cam.rotation().normalized().coeffs();

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "msc_vo/datasets/image_list.h"
 #include "msc_vo/datasets/sequence_format.h"
+#include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
@@ -18,58 +21,102 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Numbers frames / kDefaultFrameRate if that is what the stamps of `items` are.
 template <typename Item>
-void FrameNumbersToSeconds(double Item::*stamp, std::vector<Item>* items) {
+std::vector<double> StampsOf(const std::vector<Item>& items, double Item::*stamp) {
   std::vector<double> stamps;
-  for (const Item& item : *items) stamps.push_back(item.*stamp);
-  if (!AreFrameNumbers(stamps)) return;
-  for (Item& item : *items) item.*stamp /= kDefaultFrameRate;
+  for (const Item& item : items) stamps.push_back(item.*stamp);
+  return stamps;
 }
 
-std::vector<ListedImage> ReadListOf(const fs::path& folder, const char* name) {
-  const fs::path path = folder / name;
-  if (!fs::exists(path)) {
-    throw std::runtime_error(path.string() +
+// How many of the units that the stamps of the list `name` count make a second. `images`: the time
+// of the images, if that is known.
+double StampsPerSecond(const std::string& name, const std::vector<double>& stamps,
+                       WholeStamps whole, const std::optional<TimeRange>& images,
+                       SequenceIndex* index) {
+  if (whole == WholeStamps::kFrameNumbers && AreFrameNumbers(stamps)) return kDefaultFrameRate;
+  const TimeUnit unit = images ? GuessTimeUnit(stamps, *images) : GuessTimeUnit(stamps);
+  if (!images) index->stamp_unit = unit;
+  if (!images && unit == TimeUnit::kSeconds && AreFrameNumbers(stamps)) {
+    index->warnings.push_back(name +
+                              ": the stamps are whole numbers and taken as seconds; if they count "
+                              "frames, --format icl-nuim takes them at 30 per second");
+  }
+  if (unit != TimeUnit::kSeconds) {
+    index->warnings.push_back(name + ": the stamps are " + ToString(unit) +
+                              " and are converted to seconds");
+  }
+  return UnitsPerSecond(unit);
+}
+
+// Brings the stamps of the items to seconds.
+template <typename Item>
+void ToSeconds(const std::string& name, double Item::*stamp, WholeStamps whole,
+               const std::optional<TimeRange>& images, std::vector<Item>* items,
+               SequenceIndex* index) {
+  const double rate = StampsPerSecond(name, StampsOf(*items, stamp), whole, images, index);
+  for (Item& item : *items) item.*stamp /= rate;
+}
+
+void ToSeconds(const std::string& color_name, const std::string& depth_name, WholeStamps whole,
+               Associations* images, SequenceIndex* index) {
+  ToSeconds(color_name, &ListedImage::stamp, whole, std::nullopt, &images->color, index);
+  const TimeRange range = RangeOf(StampsOf(images->color, &ListedImage::stamp), index->stamp_unit);
+  ToSeconds(depth_name, &ListedImage::stamp, whole, range, &images->depth, index);
+}
+
+Associations ReadLists(const fs::path& folder) {
+  const std::string color = (folder / "rgb.txt").string();
+  const std::string depth = (folder / "depth.txt").string();
+  for (const std::string& path : {color, depth}) {
+    if (HasEntry(path)) continue;
+    throw std::runtime_error(path +
                              ": does not exist; a TUM folder needs rgb.txt and depth.txt (or "
                              "associations.txt). --format rgb-depth pairs rgb/ and depth/ by name");
   }
-  std::vector<ListedImage> images = ReadImageList(path.string());
-  FrameNumbersToSeconds(&ListedImage::stamp, &images);
-  return images;
+  return {ReadImageList(color), ReadImageList(depth)};
 }
 
 }  // namespace
 
-void ReadTumEntries(const std::string& directory, SequenceIndex* index) {
+void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceIndex* index) {
   const std::string associations = FindAssociations(directory);
   if (!associations.empty()) {
-    index->entries = ReadAssociations(associations);
-    FrameNumbersToSeconds(&SequenceEntry::timestamp, &index->entries);
+    Associations pairs = ReadAssociations(associations);
+    const std::string name = fs::path(associations).filename().string();
+    ToSeconds(name + ", colour", name + ", depth", whole, &pairs, index);
+    AddPairs(pairs, index);
     return;
   }
-  PairByTime(ReadListOf(directory, "rgb.txt"), ReadListOf(directory, "depth.txt"),
-             kMaxPairDifference, index);
+  Associations lists = ReadLists(directory);
+  ToSeconds("rgb.txt", "depth.txt", whole, &lists, index);
+  PairByTime(lists.color, lists.depth, kMaxPairDifference, index);
 }
 
-void ReadTumGroundTruth(const std::string& directory, SequenceIndex* index) {
-  const fs::path path = fs::path(directory) / "groundtruth.txt";
-  const std::string truth = fs::exists(path) ? path.string() : FindFreiburgTruth(directory);
+void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, SequenceIndex* index) {
+  const std::string path = (fs::path(directory) / "groundtruth.txt").string();
+  const std::string truth = HasEntry(path) ? path : FindFreiburgTruth(directory);
   if (truth.empty()) return;
-  index->ground_truth = ReadTrajectory(truth);
-  FrameNumbersToSeconds(&TimedPose::timestamp, &index->ground_truth);
+  int num_left_out = 0;
+  index->ground_truth = ReadTrajectory(truth, &num_left_out);
+  const std::string name = fs::path(truth).filename().string();
+  if (num_left_out > 0) {
+    index->warnings.push_back(name + ": " + std::to_string(num_left_out) +
+                              " poses with nan or inf are left out");
+  }
+  const TimeRange images =
+      RangeOf(StampsOf(index->entries, &SequenceEntry::timestamp), index->stamp_unit);
+  ToSeconds(name, &TimedPose::timestamp, whole, images, &index->ground_truth, index);
 }
 
 void ReadFolderCamera(const std::string& directory, SequenceIndex* index) {
-  const fs::path path = fs::path(directory) / "camera.txt";
-  if (fs::exists(path)) index->calibration = ReadCameraFile(path.string());
+  const std::string path = (fs::path(directory) / "camera.txt").string();
+  if (HasEntry(path)) index->calibration = ReadCameraFile(path);
 }
 
 std::string FindFreiburgTruth(const std::string& directory) {
   constexpr char kEnding[] = ".gt.freiburg";
   std::string first;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
-    const std::string path = entry.path().string();
+  for (const std::string& path : ListFolder(directory)) {
     const size_t at = path.rfind(kEnding);
     if (at == std::string::npos || at + sizeof(kEnding) - 1 != path.size()) continue;
     if (first.empty() || path < first) first = path;

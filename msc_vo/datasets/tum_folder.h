@@ -12,12 +12,18 @@ namespace msc_vo {
 // Parts of a TUM-style folder, which several layouts share. All throw std::runtime_error naming
 // file, line and fix.
 
-// Pairs from an association file if there is one, else from rgb.txt and depth.txt by nearest time
-// within 0.02 s. Stamps that are frame numbers are taken at kDefaultFrameRate.
-void ReadTumEntries(const std::string& directory, SequenceIndex* index);
+// What stamps that are all whole numbers mean in a layout.
+enum class WholeStamps {
+  kTimes,
+  kFrameNumbers,  // time = number / kDefaultFrameRate
+};
 
-// groundtruth.txt, or *.gt.freiburg; none is no error. Frame numbers are taken as times as above.
-void ReadTumGroundTruth(const std::string& directory, SequenceIndex* index);
+// Pairs from an association file if there is one, else from rgb.txt and depth.txt by nearest time
+// within 0.02 s. Times in milliseconds, microseconds or nanoseconds become seconds, with a warning.
+void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceIndex* index);
+
+// groundtruth.txt, or *.gt.freiburg, after the images; none is no error. Stamps as above.
+void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, SequenceIndex* index);
 
 // camera.txt; none is no error.
 void ReadFolderCamera(const std::string& directory, SequenceIndex* index);

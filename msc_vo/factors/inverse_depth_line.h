@@ -27,8 +27,8 @@ namespace msc_vo {
 // as E - S = b_E / w_E - b_S / w_S is parallel to its first part: linear in the block, no division.
 // n_0: normal of the interpretation plane. p_0: across the line in that plane. sigma_a: deviation
 // of a built line from its ideal. sigma_c: the same and the angle by which image noise tilts the
-// plane of sight. These two errors are common to all pairs of a line; as variables, however many
-// partners agree, they do not average out.
+// interpretation plane. These two errors are common to all pairs of a line; as variables, however
+// many partners agree, they do not average out.
 class InverseDepthLine {
  public:
   static constexpr int kBlockSize = 4;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/features/internal/depth_sampler.h"
 #include "msc_vo/sensor/inverse_depth_image.h"
 #include "msc_vo/sensor/lens_remap.h"
@@ -123,7 +124,8 @@ bool FrameBuilderOptions::IsValid(std::string* error) const {
 FrameBuilder::FrameBuilder(const FrameBuilderOptions& options, const PinholeCamera& camera,
                            const LensDistortion& distortion) {
   std::string error;
-  if (!options.IsValid(&error) || !camera.IsValid(&error)) {
+  if (!options.IsValid(&error) || !camera.IsValid(&error) ||
+      !IsInvertible(distortion, camera, &error)) {
     throw std::invalid_argument("FrameBuilder: " + error);
   }
   state_ = std::make_unique<State>(options, camera, distortion);

@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+#include "msc_vo/geometry/cell_index.h"
+
 namespace msc_vo {
 
 namespace {
@@ -17,6 +19,7 @@ using Eigen::Vector2d;
 
 // Spacing of the samples along a line, pixels: the shortest line, 24 px, has 8.
 constexpr double kSpacing = 3.0;
+constexpr int kMaxIntervals = 1 << 14;  // more than the diagonal of any image needs
 // Length over which the noise of depth pixels is fully correlated, pixels: structured light matches
 // windows of 7 to 9 px, dominated by their middle half.
 constexpr double kCorrelationLength = 5.0;
@@ -191,7 +194,7 @@ DepthSamples SampleLineDepth(const InverseDepthImage& image, const LensRemap& le
                              const LineSegment2& segment, double sigma) {
   const Vector2d direction = segment.Direction();
   const Vector2d across(-direction.y(), direction.x());
-  const int intervals = std::max(1, static_cast<int>(segment.Length() / kSpacing));
+  const int intervals = std::max(1, CellIndex(segment.Length() / kSpacing, kMaxIntervals));
   DepthSamples samples;
   samples.along.reserve(intervals + 1);
   for (int i = 0; i <= intervals; ++i) {

@@ -13,6 +13,7 @@
 #include "msc_vo/features/internal/line_descriptor_extractor.h"
 #include "msc_vo/features/internal/line_merging.h"
 #include "msc_vo/features/internal/line_refinement.h"
+#include "msc_vo/geometry/cell_index.h"
 
 namespace msc_vo {
 
@@ -39,7 +40,7 @@ double GrayAt(const cv::Mat& gray, const Vector2d& pixel) {
 void OrientToBrighterSide(const cv::Mat& gray, LineSegment2* segment) {
   const Vector2d direction = segment->Direction();
   const Vector2d side = kSideDistance * Vector2d(-direction.y(), direction.x());
-  const int samples = std::clamp(static_cast<int>(segment->Length() / 2.0), 1, kMaxSideSamples);
+  const int samples = std::max(CellIndex(segment->Length() / 2.0, kMaxSideSamples + 1), 1);
   double contrast = 0.0;
   for (int i = 0; i < samples; ++i) {
     const Vector2d x = segment->At((i + 0.5) / samples);

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/features/internal/depth_sums.h"
 
 namespace msc_vo {
@@ -69,7 +70,8 @@ SurfaceNormalEstimator::SurfaceNormalEstimator(const SurfaceNormalOptions& optio
                                                const LensDistortion& distortion)
     : options_(options), camera_(camera) {
   std::string error;
-  if (!options.IsValid(&error) || !camera.IsValid(&error)) {
+  if (!options.IsValid(&error) || !camera.IsValid(&error) ||
+      !IsInvertible(distortion, camera, &error)) {
     throw std::invalid_argument("SurfaceNormalEstimator: " + error);
   }
   rays_.reserve(static_cast<size_t>(camera.width) * camera.height);

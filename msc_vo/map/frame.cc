@@ -8,6 +8,8 @@
 #include <cstring>
 #include <numeric>
 
+#include "msc_vo/geometry/cell_index.h"
+
 namespace msc_vo {
 
 namespace {
@@ -52,13 +54,9 @@ FeatureGrid::FeatureGrid(const PinholeCamera& camera, const std::vector<PointFea
   }
 }
 
-int FeatureGrid::ColumnOf(double x) const {
-  return static_cast<int>(std::clamp(std::floor(x / kCellSize), 0.0, columns_ - 1.0));
-}
+int FeatureGrid::ColumnOf(double x) const { return CellIndex(x / kCellSize, columns_); }
 
-int FeatureGrid::RowOf(double y) const {
-  return static_cast<int>(std::clamp(std::floor(y / kCellSize), 0.0, rows_ - 1.0));
-}
+int FeatureGrid::RowOf(double y) const { return CellIndex(y / kCellSize, rows_); }
 
 std::vector<int> FeatureGrid::Near(const std::vector<PointFeature>& points,
                                    const Eigen::Vector2d& pixel, double radius) const {

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/geometry/cell_index.h"
 
 namespace msc_vo {
 
@@ -52,7 +54,7 @@ std::vector<PointCandidate> PointsOf(const Map& map, const Keyframe& source,
     candidate.descriptor = point->descriptor;
     const double distance = (point->position - center).norm();
     const double level = std::log(point->reference_distance / distance) / std::log(kPyramidScale);
-    candidate.level = std::max(0, static_cast<int>(std::lround(level)));
+    candidate.level = CellIndex(std::round(level), std::numeric_limits<int>::max());
     if (ProjectCandidate(target.frame->camera, target.cam_from_world, &candidate)) {
       candidates.push_back(candidate);
     }

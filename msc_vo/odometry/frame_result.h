@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "msc_vo/features/image_statistics.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/tracking/tracking_status.h"
@@ -15,6 +16,9 @@ namespace msc_vo {
 
 // Milliseconds per stage of one frame.
 struct StageTimes {
+  // Points, lines and their depths: wall time. The next three are summed over threads that work
+  // side by side, and may together be more.
+  double features = 0.0;
   double points = 0.0;
   double lines = 0.0;
   double depth = 0.0;
@@ -38,12 +42,14 @@ struct FrameResult {
   bool is_keyframe = false;
   int num_points = 0;  // features in the image
   int num_lines = 0;
+  int num_with_depth = 0;     // points and lines whose depth was measured
   int num_inlier_points = 0;  // matched with the map and consistent with the pose
   int num_inlier_lines = 0;
   int num_dynamic = 0;  // matches with what moves by itself
   // Covariance of the pose in the tangent of Rigid3Manifold: rotation vector in the camera frame
   // (radians), then translation (metres). Zero where the pose was not estimated.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  ImageStatistics image;  // zero if the image was dropped
   StageTimes times;
 };
 

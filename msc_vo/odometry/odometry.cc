@@ -3,9 +3,13 @@
 
 #include "msc_vo/odometry/odometry.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "msc_vo/camera/lens_validity.h"
+#include "msc_vo/features/image_statistics.h"
+#include "msc_vo/map/feature_counts.h"
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/odometry/mapping_runner.h"
@@ -19,19 +23,22 @@ namespace msc_vo {
 
 namespace {
 
-OdometryOptions Checked(OdometryOptions options) {
+// Seconds between a depth image and its colour image, at most: the motion of the last two frames
+// says nothing about more.
+constexpr double kMaxDepthDelay = 1.0;
+
+OdometryOptions Checked(const OdometryOptions& options) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
-  if (options.mode == Mode::kPlVo) {
-    options.features.line_depth = LineDepthMethod::kEndPoints;
-    options.mapping.frame_structure = FrameStructureUse::kNever;
+  return WithModeApplied(options);
+}
+
+const PinholeCamera& Checked(const PinholeCamera& camera, const LensDistortion& distortion) {
+  std::string error;
+  if (!camera.IsValid(&error) || !IsInvertible(distortion, camera, &error)) {
+    throw std::invalid_argument(error);
   }
-  if (options.mode != Mode::kMscVo) {
-    options.mapping.pairs.parallel = false;
-    options.mapping.pairs.perpendicular = false;
-    options.mapping.axes.enabled = false;
-  }
-  return options;
+  return camera;
 }
 
 FrameResult MakeResult(const TrackedFrame& tracked) {
@@ -43,6 +50,7 @@ FrameResult MakeResult(const TrackedFrame& tracked) {
   result.is_keyframe = tracked.keyframe.is_due;
   result.num_points = static_cast<int>(tracked.frame->points.size());
   result.num_lines = static_cast<int>(tracked.frame->lines.size());
+  result.num_with_depth = NumWithDepth(*tracked.frame);
   result.num_inlier_points = static_cast<int>(tracked.matches.points.size());
   result.num_inlier_lines = static_cast<int>(tracked.matches.lines.size());
   result.num_dynamic = tracked.num_dynamic;
@@ -78,7 +86,7 @@ struct Odometry::State {
   State(const OdometryOptions& options_in, const PinholeCamera& camera_in,
         const LensDistortion& distortion)
       : options(Checked(options_in)),
-        camera(camera_in),
+        camera(Checked(camera_in, distortion)),
         builder(options.features, camera, distortion),
         normal_estimator(options.normals, camera, distortion),
         tracker(options.tracking),
@@ -91,6 +99,7 @@ struct Odometry::State {
   }
 
   void CheckTime(int64_t id, double timestamp) const;
+  static void CheckDepthDelay(int64_t id, double delay);
   RgbdImage Align(const RgbdImage& image) const;
   Frame Build(const RgbdImage& image);
   void Count(const TrackedFrame& tracked);
@@ -113,9 +122,21 @@ struct Odometry::State {
 };
 
 void Odometry::State::CheckTime(int64_t id, double timestamp) const {
+  const std::string image = "image " + std::to_string(id);
+  if (!std::isfinite(timestamp)) {
+    throw std::invalid_argument(image + ": its time stamp must be a finite number of seconds");
+  }
   if (results.empty() || timestamp > results.back().timestamp) return;
-  throw std::invalid_argument("image " + std::to_string(id) +
+  throw std::invalid_argument(image +
                               ": its time stamp is not later than that of the image before");
+}
+
+void Odometry::State::CheckDepthDelay(int64_t id, double delay) {
+  if (std::abs(delay) <= kMaxDepthDelay) return;
+  throw std::invalid_argument("image " + std::to_string(id) +
+                              ": depth_delay = " + std::to_string(delay) + " must be from -" +
+                              std::to_string(kMaxDepthDelay) + " to " +
+                              std::to_string(kMaxDepthDelay) + " seconds");
 }
 
 // With the depth of the time of its colour image.
@@ -179,6 +200,7 @@ void Odometry::SetWindowObserver(WindowObserver observer) {
 
 FrameResult Odometry::Process(const RgbdImage& recorded) {
   state_->CheckTime(recorded.id, recorded.timestamp);
+  State::CheckDepthDelay(recorded.id, recorded.depth_delay);
   Stopwatch stopwatch;
   const RgbdImage image = state_->Align(recorded);
   const double alignment_ms = stopwatch.Milliseconds();
@@ -188,12 +210,15 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
     frame->grid = FeatureGrid(frame->camera, frame->points);
   }
   if (!state_->options.use_lines) frame->lines.clear();
+  const double features_ms = stopwatch.Milliseconds();
   const int index = static_cast<int>(state_->results.size());
   Stopwatch waiting;
   state_->snapshot = state_->schedule.SnapshotAt(index);
   const double waiting_ms = waiting.Milliseconds();
   const TrackedFrame tracked = state_->tracker.Track(std::move(frame), *state_->snapshot);
   FrameResult result = MakeResult(tracked);
+  result.image = MeasureImage(image);
+  result.times.features = features_ms;
   result.times.points = state_->builder.times().points;
   result.times.lines = state_->builder.times().lines;
   result.times.depth = state_->builder.times().depth + alignment_ms;
@@ -213,7 +238,11 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   return state_->results.back();
 }
 
-void Odometry::Drop(int64_t id, double timestamp) {
+FrameResult Odometry::Drop(int64_t id, double timestamp, TrackingStatus status) {
+  if (status != TrackingStatus::kDropped && status != TrackingStatus::kUnreadable) {
+    throw std::invalid_argument(std::string("a frame without an image cannot be ") +
+                                ToString(status));
+  }
   state_->CheckTime(id, timestamp);
   FrameResult result;
   State::Place place;
@@ -223,9 +252,10 @@ void Odometry::Drop(int64_t id, double timestamp) {
   }
   result.id = id;
   result.timestamp = timestamp;
-  result.status = TrackingStatus::kDropped;
+  result.status = status;
   state_->results.push_back(result);
   state_->places.push_back(place);
+  return result;
 }
 
 OdometryResult Odometry::Finish() {

@@ -81,10 +81,11 @@ class Odometry {
   // what a keyframe step of an earlier frame threw; the next call goes on without that step.
   FrameResult Process(const RgbdImage& image);
 
-  // Tells of an image that is not looked at because it came too late. It gets the status dropped,
-  // and in the result of Finish() the pose on the way between its neighbours. Throws
-  // std::invalid_argument if time runs backwards.
-  void Drop(int64_t id, double timestamp);
+  // Records a frame without an image: one that came too late to be looked at (kDropped), or that
+  // could not be read (kUnreadable). It gets the pose of the frame before, and in the result of
+  // Finish() the one on the way between its neighbours. Throws std::invalid_argument if time runs
+  // backwards or on another status.
+  FrameResult Drop(int64_t id, double timestamp, TrackingStatus status = TrackingStatus::kDropped);
 
   // Waits for the mapper and returns the trajectory re-expressed in the final keyframe poses. May
   // be called at any time, also after an interruption. Throws what a keyframe step threw if

@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "msc_vo/odometry/option.h"
+
 namespace msc_vo {
 
 const char* ToString(Mode mode) {
@@ -31,12 +33,23 @@ bool OdometryOptions::IsValid(std::string* error) const {
     *error = "options: use_points and use_lines must not both be off";
     return false;
   }
-  if (threads < 1) {
-    *error = "options: threads must be at least 1";
-    return false;
-  }
+  OdometryOptions copy = *this;  // the list points to what can be set
+  if (!AreInRange(ListOptions(&copy), error)) return false;
   return features.IsValid(error) && normals.IsValid(error) && tracking.IsValid(error) &&
          mapping.IsValid(error) && snapshots.IsValid(error);
+}
+
+OdometryOptions WithModeApplied(OdometryOptions options) {
+  if (options.mode == Mode::kPlVo) {
+    options.features.line_depth = LineDepthMethod::kEndPoints;
+    options.mapping.frame_structure = FrameStructureUse::kNever;
+  }
+  if (options.mode != Mode::kMscVo) {
+    options.mapping.pairs.parallel = false;
+    options.mapping.pairs.perpendicular = false;
+    options.mapping.axes.enabled = false;
+  }
+  return options;
 }
 
 }  // namespace msc_vo

@@ -42,4 +42,7 @@ struct OdometryOptions {
   bool IsValid(std::string* error) const;
 };
 
+// The options as they take effect: what the mode decides is as it decides.
+OdometryOptions WithModeApplied(OdometryOptions options);
+
 }  // namespace msc_vo

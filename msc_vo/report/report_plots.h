@@ -24,14 +24,17 @@ std::string PlotError(const ReportData& data);
 // Inlier points and lines of every frame.
 std::string PlotInliers(const ReportData& data);
 
-// Stages of tracking stacked on each other, and the whole; milliseconds.
+// Style of the map lines of a Manhattan axis; -1: of none.
+std::string LineClass(int axis);
+
+// The stages of tracking that are stacked, on each other, and the whole; milliseconds.
 std::string PlotStages(const ReportData& data);
 
 // Milliseconds of each keyframe step.
 std::string PlotMapping(const ReportData& data);
 
-// "tracked", "weak", "dropped", "predicted", "lost": for the reader and, prefixed with "status-",
-// the style.
+// "tracked", "weak", "dropped", "unreadable", "predicted", "lost": for the reader and, prefixed
+// with "status-", the style.
 const char* ToString(ReportStatus status);
 
 }  // namespace msc_vo

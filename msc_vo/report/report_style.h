@@ -11,7 +11,7 @@ inline constexpr char kReportStyle[] = R"css(
   color-scheme: light dark;
   --paper: #ffffff; --panel: #f6f7f9; --ink: #1b1f24; --faint: #66707c; --rule: #dfe3e8;
   --estimate: #1f6feb; --truth: #8a929c; --error: #b4372f; --points: #1f6feb; --lines: #c2571a;
-  --tracked: #3fa66b; --weak: #d8ab22; --dropped: #7a86a8; --predicted: #e07b28; --lost: #d03a3a;
+  --tracked: #3fa66b; --weak: #d8ab22; --dropped: #7a86a8; --unreadable: #8d5fb0; --predicted: #e07b28; --lost: #d03a3a;
   --map: #98a2ae; --axis-0: #d9534f; --axis-1: #3c9d5d; --axis-2: #3d7fd6;
   --stage-0: #6aa5e8; --stage-1: #f0a35e; --stage-2: #7cc396; --stage-3: #c49ae0;
   --stage-4: #e58a97; --stage-5: #9aa7b5; --mapping: #7b55c7;
@@ -75,7 +75,8 @@ svg text { fill: var(--faint); font-size: 11px; }
 .axis-2 { stroke: var(--axis-2); }
 .start { fill: var(--paper); stroke: var(--ink); stroke-width: 2; }
 .status-tracked { fill: var(--tracked); } .status-weak { fill: var(--weak); }
-.status-dropped { fill: var(--dropped); } .status-predicted { fill: var(--predicted); } .status-lost { fill: var(--lost); }
+.status-dropped { fill: var(--dropped); } .status-unreadable { fill: var(--unreadable); }
+ .status-predicted { fill: var(--predicted); } .status-lost { fill: var(--lost); }
 .stage-0 { fill: var(--stage-0); } .stage-1 { fill: var(--stage-1); }
 .stage-2 { fill: var(--stage-2); } .stage-3 { fill: var(--stage-3); }
 .stage-4 { fill: var(--stage-4); } .stage-5 { fill: var(--stage-5); }

@@ -26,6 +26,11 @@ class InverseDepthImage {
     const bool inside = x >= 0 && y >= 0 && x < image_.cols && y < image_.rows;
     return inside ? image_.at<float>(y, x) : 0.0;
   }
+  // Whether the pixel nearest to `pixel` is one of the image.
+  bool Contains(const Eigen::Vector2d& pixel) const {
+    return pixel.x() > -0.5 && pixel.y() > -0.5 && pixel.x() < image_.cols - 0.5 &&
+           pixel.y() < image_.rows - 0.5;
+  }
   // At the pixel nearest to `pixel`.
   double Nearest(const Eigen::Vector2d& pixel) const {
     return At(cvRound(pixel.x()), cvRound(pixel.y()));

@@ -17,8 +17,14 @@ const char* ToString(TrackingStatus status) {
       return "lost";
     case TrackingStatus::kDropped:
       return "dropped";
+    case TrackingStatus::kUnreadable:
+      return "unreadable";
   }
   return "unknown";
+}
+
+bool IsEstimated(TrackingStatus status) {
+  return status == TrackingStatus::kTracked || status == TrackingStatus::kWeak;
 }
 
 }  // namespace msc_vo

@@ -24,7 +24,7 @@ TEST_F(CommandLineTest, EveryCommandExplainsItself) {
     const CommandOutcome outcome = RunCommand({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_THAT(outcome.output, AllOf(HasSubstr("Example:\n  msc_vo " + std::string(command)),
-                                      HasSubstr("Exit codes:")));
+                                      HasSubstr("Exit codes:"), HasSubstr("3 tracking failed")));
     EXPECT_THAT(RunCommand({"--help"}).output, HasSubstr(command));
   }
   EXPECT_THAT(RunCommand({"--version"}).output, testing::StartsWith("msc_vo "));
@@ -46,6 +46,34 @@ TEST_F(CommandLineTest, WrongUseEndsWithTwo) {
     EXPECT_EQ(outcome.exit_code, 2) << testing::PrintToString(arguments);
     EXPECT_FALSE(outcome.output.empty());
   }
+}
+
+TEST_F(CommandLineTest, AnUnknownCommandIsAnsweredWithTheNearest) {
+  EXPECT_THAT(RunCommand({"repaly", "x"}).output,
+              AllOf(HasSubstr("unknown command 'repaly'; did you mean 'replay'?"),
+                    HasSubstr("Commands: replay, evaluate")));
+  EXPECT_THAT(RunCommand({"fly"}).output,
+              AllOf(HasSubstr("unknown command 'fly'"), testing::Not(HasSubstr("did you mean"))));
+}
+
+TEST_F(CommandLineTest, NoImagesAtAllIsAnsweredWithWhatToDo) {
+  const CommandOutcome outcome = RunCommand({"replay", "x", "--max-frames", "0"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("must be at least 1, not 0; leave it out"));
+}
+
+TEST_F(CommandLineTest, OptionsThatTheModeDecidesAreSaid) {
+  const auto output = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"replay", "--print-config"});
+    return RunCommand(arguments).output;
+  };
+  EXPECT_THAT(output({"--mode", "pl-vo", "--no-manhattan"}),
+              HasSubstr("warning: mapping.axes.enabled=false changes nothing: with mode=pl-vo it "
+                        "is always false"));
+  EXPECT_THAT(output({"--mode", "pl-vo", "--set", "mapping.axes.enabled=true"}),
+              HasSubstr("warning: mapping.axes.enabled=true is ignored: with mode=pl-vo"));
+  EXPECT_THAT(output({"--no-manhattan"}), testing::Not(HasSubstr("warning")));
+  EXPECT_THAT(output({"--mode", "pl-vo"}), testing::Not(HasSubstr("warning")));
 }
 
 TEST_F(CommandLineTest, WrongInputEndsWithOneAndAMessage) {
@@ -86,6 +114,26 @@ TEST_F(CommandLineTest, EvaluatesATrajectory) {
   const nlohmann::json numbers = nlohmann::json::parse(json.output);
   EXPECT_NEAR(numbers["ape_rmse"], 0.1, 1e-9);
   EXPECT_EQ(numbers["matched"], 4);
+
+  WriteText("holes.txt", "10 nan 0 0 0 0 0 1\n11 0 0 inf 0 0 0 1\n" + estimate);
+  EXPECT_THAT(RunCommand({"evaluate", Path("truth.txt"), Path("holes.txt")}).output,
+              AllOf(HasSubstr("left out: 2 rows of"), HasSubstr("holes.txt with nan")));
+  const nlohmann::json holes = nlohmann::json::parse(
+      RunCommand({"evaluate", Path("truth.txt"), Path("holes.txt"), "--json"}).output);
+  EXPECT_EQ(holes["est_left_out"], 2);
+  EXPECT_EQ(holes["gt_left_out"], 0);
+
+  std::string nanoseconds, seconds;
+  for (int i = 0; i < 4; ++i) {
+    const std::string time = std::to_string(1305031100 + i), pose = " " + xy[i] + " 0 0 0 0 1\n";
+    nanoseconds += time + "000000000" + pose;
+    seconds += time + pose;
+  }
+  WriteText("nanoseconds.txt", nanoseconds);
+  WriteText("seconds.txt", seconds);
+  EXPECT_THAT(RunCommand({"evaluate", Path("nanoseconds.txt"), Path("seconds.txt")}).output,
+              AllOf(HasSubstr("nanoseconds.txt: the stamps are nanoseconds"),
+                    HasSubstr("4 of 4 ground-truth poses matched")));
 
   WriteText("later.txt", "100 0 0 0 0 0 0 1\n");
   const CommandOutcome none = RunCommand({"evaluate", Path("truth.txt"), Path("later.txt")});

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -32,8 +33,22 @@ class ReplayCommandTest : public TemporaryFolder {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return RunCommand(arguments);
   }
+  // Images [first, end) of the sequence become black.
+  void Blacken(const std::string& sequence, int first, int end) {
+    const std::vector<TextLine> images = ReadTextLines(Path(sequence + "/rgb.txt"));
+    for (int i = first; i < end; ++i) {
+      WriteImage(sequence + "/" + images.at(i).fields.at(1), CV_8UC3, 0, 160, 120);
+    }
+  }
   nlohmann::json Summary(const std::string& output) {
     return nlohmann::json::parse(ReadFile(Path(output + "/summary.json")));
+  }
+  // Cuts a colour image in half; the name of its file.
+  std::string BreakColor(int i) {
+    const std::filesystem::path path =
+        Path("room/" + ReadTextLines(Path("room/rgb.txt")).at(i).fields[1]);
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+    return path.filename().string();
   }
   size_t NumPoses(const std::string& output) {
     return ReadTrajectory(Path(output + "/trajectory.txt")).size();
@@ -110,20 +125,121 @@ TEST_F(ReplayCommandTest, StopsAfterSoManyImages) {
   EXPECT_EQ(Summary("out")["options"]["mode"], "pl-vo");
 }
 
-TEST_F(ReplayCommandTest, ABadImageEndsTheRunButKeepsItsResults) {
-  Synthesize(8);
-  std::filesystem::path broken;
-  int count = 0;
-  for (const TextLine& line : ReadTextLines(Path("room/rgb.txt"))) {
-    if (count++ == 5) broken = Path("room/" + line.fields[1]);
+TEST_F(ReplayCommandTest, ABadImageIsCountedAndTheRunGoesOn) {
+  Synthesize(12);
+  const std::string first = BreakColor(0), second = BreakColor(5);
+  for (const char* pace : {"--realtime=false", "--realtime"}) {
+    const CommandOutcome outcome = Replay("out", {pace});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr("warning: 2 of 12 images cannot be read"),
+                                      HasSubstr(first + " (named in "), HasSubstr("truncated"),
+                                      HasSubstr("2 unreadable")));
+    EXPECT_EQ(NumPoses("out"), 12u);
+    const nlohmann::json summary = Summary("out");
+    EXPECT_EQ(summary["outcome"], "complete");
+    EXPECT_EQ(summary["frames"]["unreadable"], 2);
+    EXPECT_THAT(summary["first_unreadable_image"].get<std::string>(), HasSubstr(first));
+    EXPECT_THAT(ReadFile(Path("out/report.html")),
+                AllOf(HasSubstr("Unreadable images"), HasSubstr(first)));
+    EXPECT_LT(summary["error"]["ape_max"], 0.02);  // the pose of image 5 as well
   }
-  std::filesystem::resize_file(broken, std::filesystem::file_size(broken) / 2);
-  const CommandOutcome outcome = Replay("out");
+  EXPECT_THAT(Replay("out", {"--quiet"}).output, HasSubstr("2 of 12 images cannot be read"));
+}
+
+TEST_F(ReplayCommandTest, ABadImageEndsAStrictRunWhichKeepsItsResults) {
+  Synthesize(8);
+  const std::string broken = BreakColor(5);
+  const CommandOutcome outcome = Replay("out", {"--strict"});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("msc_vo: error: "), HasSubstr(broken.filename()),
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("msc_vo: error: "), HasSubstr(broken),
                                     HasSubstr("truncated"), HasSubstr("until then is in")));
   EXPECT_EQ(NumPoses("out"), 5u);
   EXPECT_THAT(Summary("out")["outcome"].get<std::string>(), HasSubstr("truncated"));
+}
+
+TEST_F(ReplayCommandTest, MoreThanHalfOfTheImagesBadIsAnErrorThatNamesTheFirst) {
+  Synthesize(8);
+  std::string first;
+  for (const int i : {6, 5, 4, 3}) first = BreakColor(i);
+  EXPECT_EQ(Replay("half").exit_code, 0);
+  BreakColor(7);
+  const CommandOutcome outcome = Replay("more");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("more than half of the 8 images cannot be read"),
+                                    HasSubstr(first), HasSubstr("until then is in")));
+  EXPECT_THAT(Summary("more")["outcome"].get<std::string>(), HasSubstr("more than half"));
+}
+
+TEST_F(ReplayCommandTest, ASequenceWithoutAGoodImageEndsEarlyAndLeavesNoResults) {
+  Synthesize(2);
+  std::string list;
+  for (int i = 0; i < 100; ++i) {
+    const std::string time = std::to_string(0.1 * i);
+    list += time + " rgb/none" + std::to_string(i) + " " + time + " depth/none\n";
+  }
+  WriteText("room/associations.txt", list);
+  const CommandOutcome outcome = Replay("out");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("none of the first 30 images can be read"),
+                                    HasSubstr("none0 (named in")));
+  EXPECT_FALSE(std::filesystem::exists(Path("out/trajectory.txt")));
+}
+
+TEST_F(ReplayCommandTest, ADayWithoutImagesIsNamedInRealTime) {
+  Synthesize(4);
+  std::filesystem::remove(Path("room/associations.txt"));
+  std::string lists[2];
+  for (int k = 0; k < 2; ++k) {
+    const std::vector<TextLine> lines =
+        ReadTextLines(Path(k == 0 ? "room/rgb.txt" : "room/depth.txt"));
+    const char* const stamps[] = {"1.0", "1.1", "1.2", "86401.2"};
+    for (int i = 0; i < 4; ++i)
+      lists[k] += std::string(stamps[i]) + " " + lines[i].fields[1] + "\n";
+  }
+  WriteText("room/rgb.txt", lists[0]);
+  WriteText("room/depth.txt", lists[1]);
+  CommandProcess replay({"replay", Path("room"), "--output", Path("out"), "--realtime"});
+  EXPECT_TRUE(replay.WaitForOutput("the longest, 86400.000 s, is before")) << replay.output();
+  replay.Signal(SIGTERM);
+  replay.Signal(SIGTERM);
+}
+
+TEST_F(ReplayCommandTest, ARunWithoutAPoseFailsAndSaysWhy) {
+  Synthesize(8);
+  Blacken("room", 0, 8);
+  const CommandOutcome outcome = Replay("out");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("msc_vo: error: tracking failed: 0 of 8 images have an estimated "
+                              "pose, at least 50 % are needed; the others: 8 black or uniform\n"),
+                    testing::Not(HasSubstr("APE RMSE"))));
+  EXPECT_EQ(NumPoses("out"), 8u);  // every one of them marked
+  for (const TimedPose& pose : ReadTrajectory(Path("out/trajectory.txt"))) {
+    EXPECT_FALSE(pose.is_estimated);
+  }
+  EXPECT_TRUE(ReadTrajectory(Path("out/keyframes.txt")).empty());
+  EXPECT_THAT(Summary("out")["outcome"].get<std::string>(), HasSubstr("tracking failed"));
+  EXPECT_EQ(Summary("out")["frames"]["loss_causes"]["uniform_image"], 8);
+  EXPECT_FALSE(Summary("out")["error"]["usable"]);
+  EXPECT_THAT(ReadFile(Path("out/report.html")), HasSubstr("tracking failed"));
+}
+
+TEST_F(ReplayCommandTest, PosesThatAreNotEstimatedAreNoCoverage) {
+  Synthesize(10);
+  Blacken("room", 7, 10);
+  const CommandOutcome outcome = Replay("out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("images without a pose: 3 black or uniform"),
+                                    HasSubstr("70.0 % of the ground-truth poses")));
+  EXPECT_EQ(Summary("out")["error"]["coverage"], 0.7);
+  EXPECT_EQ(Summary("out")["error"]["not_estimated"], 3);
+
+  const std::vector<std::string> evaluate = {"evaluate", Path("room/groundtruth.txt"),
+                                             Path("out/trajectory.txt"), "--json"};
+  EXPECT_EQ(nlohmann::json::parse(RunCommand(evaluate).output)["matched"], 7);
+  std::vector<std::string> all = evaluate;
+  all.push_back("--all-poses");
+  EXPECT_EQ(nlohmann::json::parse(RunCommand(all).output)["matched"], 10);
 }
 
 TEST_F(ReplayCommandTest, CtrlCWritesWhatWasComputed) {
@@ -136,6 +252,30 @@ TEST_F(ReplayCommandTest, CtrlCWritesWhatWasComputed) {
   EXPECT_LT(NumPoses("out"), 60u);
   EXPECT_EQ(Summary("out")["outcome"], "interrupted");
   EXPECT_GT(ReadFile(Path("out/report.html")).size(), 100u);
+}
+
+TEST_F(ReplayCommandTest, AClosedTerminalWritesWhatWasComputed) {
+  Synthesize(60);
+  CommandProcess replay({"replay", Path("room"), "--output", Path("out")});
+  ASSERT_TRUE(replay.WaitForOutput("6/60")) << replay.output();
+  replay.Signal(SIGHUP);
+  replay.Signal(SIGHUP);  // from the system and from the shell
+  EXPECT_EQ(replay.Wait(), 130) << replay.output();
+  EXPECT_EQ(Summary("out")["outcome"], "interrupted");
+}
+
+TEST_F(ReplayCommandTest, AKilledRunLeavesItsFramesAndSaysSo) {
+  Synthesize(60);
+  ASSERT_EQ(Replay("out", {"--max-frames", "4", "--quiet"}).exit_code, 0);
+  CommandProcess replay({"replay", Path("room"), "--output", Path("out")});
+  ASSERT_TRUE(replay.WaitForOutput("6/60")) << replay.output();
+  replay.Signal(SIGKILL);
+  ASSERT_EQ(replay.Wait(), -SIGKILL) << replay.output();
+  EXPECT_THAT(ReadFile(Path("out/trajectory.txt")), testing::StartsWith("# unfinished run"));
+  EXPECT_GE(NumPoses("out"), 6u);
+  const std::string frames = ReadFile(Path("out/frames.csv"));
+  EXPECT_GE(std::count(frames.begin(), frames.end(), '\n'), 7);
+  EXPECT_FALSE(std::filesystem::exists(Path("out/summary.json")));  // that of the run before
 }
 
 TEST_F(ReplayCommandTest, AFolderThatCannotBeMadeIsAnError) {

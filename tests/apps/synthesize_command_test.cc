@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include "tests/apps/command_process.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
-#include "msc_vo/io/text_file.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 namespace {
@@ -16,8 +16,8 @@ class SynthesizeCommandTest : public TemporaryFolder {
  protected:
   // One small image; the command's outcome.
   CommandOutcome Synthesize(const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"synthesize", Path(name), "--frames", "1",
-                                          "--width",    "160"};
+    std::vector<std::string> arguments = {"synthesize", Path(name), "--frames",
+                                          "1",          "--width",  "160"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return RunCommand(arguments);
   }

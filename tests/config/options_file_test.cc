@@ -155,6 +155,17 @@ TEST_F(OptionsFileTest, WrongTypesAreErrors) {
   EXPECT_THAT(ErrorOf("tracking:\n  wide_radius: .inf\n"), HasSubstr("must be a number"));
 }
 
+TEST_F(OptionsFileTest, NumbersOutOfTheirRangeAreErrorsOfTheirLine) {
+  EXPECT_THAT(
+      ErrorOf("features:\n  points:\n    num_points: 2147483647\n"),
+      HasSubstr("options.yaml:3: 'features.points.num_points' must be a whole number from 0 "
+                "to 20000, not '2147483647'"));
+  EXPECT_THAT(ErrorOf("normals: {grid_step: 1}\n"), HasSubstr("from 8 to 1000, not '1'"));
+  EXPECT_THAT(
+      ErrorOf("mapping:\n  readout_time: 5\n"),
+      HasSubstr("options.yaml:2: 'mapping.readout_time' must be a number from -0.99 to 0.99"));
+}
+
 TEST_F(OptionsFileTest, BrokenFilesAreErrors) {
   EXPECT_THAT(ErrorOf("mode: pl-vo\nmode: pl-vo\n"), HasSubstr("options.yaml:2: 'mode' is given"));
   EXPECT_THAT(ErrorOf("mode: pl-vo\n  x: [1\n"), HasSubstr("is no YAML"));

@@ -49,8 +49,39 @@ TEST_F(CalibrationTest, CameraFileErrorsNameTheLine) {
   EXPECT_THAT(CameraFileError(""), HasSubstr("camera.txt: is empty"));
   EXPECT_THAT(CameraFileError("#\n1 2 3\n"), HasSubstr("camera.txt:2: expected 7 or 12 numbers"));
   EXPECT_THAT(CameraFileError("a 500 320 240 640 480 5000"), HasSubstr("'a' is not a finite"));
-  EXPECT_THAT(CameraFileError("0 500 320 240 640 480 5000"), HasSubstr("must not be zero"));
+  EXPECT_THAT(CameraFileError("0 500 320 240 640 480 5000"),
+              HasSubstr("camera.txt:1: camera: fx = 0 must be"));
   EXPECT_THAT(CameraFileError("500 500 320 240 640 480 0"), HasSubstr("depth_scale"));
+}
+
+TEST_F(CalibrationTest, CamerasThatCannotBeAreErrorsOfTheirLine) {
+  const std::string fr1 = "517.306408 516.469215 318.643040 255.313989 640 480 5000 ";
+  EXPECT_EQ(CameraFileError(fr1 + "0.262383 -0.953104 -0.005358 0.002628 1.163314"), "");
+  EXPECT_THAT(CameraFileError(fr1 + "0.262383 -0.953104 1.163314 -0.005358 0.002628"),
+              AllOf(HasSubstr("camera.txt:1: camera: the lens"), HasSubstr("folds over"),
+                    HasSubstr("k1 k2 p1 p2 k3")));
+  EXPECT_THAT(CameraFileError("-535 535 320 240 640 480 5000"), HasSubstr("camera: fx = -535"));
+  EXPECT_THAT(CameraFileError("535 535 3200 240 640 480 5000"), HasSubstr("camera: cx = 3200"));
+  EXPECT_THAT(CameraFileError("535 535 320 240 1e20 480 5000"), HasSubstr("whole numbers"));
+  EXPECT_THAT(CameraFileError("535 535 320 240 640.5 480 5000"), HasSubstr("whole numbers"));
+  for (const char* scale : {"-5000", "5", "1e9"}) {
+    EXPECT_THAT(CameraFileError(std::string("535 535 320 240 640 480 ") + scale),
+                HasSubstr("camera.txt:1: camera: depth_scale = "));
+  }
+}
+
+TEST_F(CalibrationTest, SettingsThatMakeNoCameraAreErrors) {
+  SequenceIndex index = Index();
+  index.calibration = FindCameraPreset("tum-fr1").calibration;
+  CameraSettings settings;
+  settings.origin = "mine.yaml";
+  settings.fx = -535.0;
+  EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
+              AllOf(HasSubstr("mine.yaml"), HasSubstr("fx = -535")));
+  settings.fx.reset();
+  settings.distortion[4] = 0.0;
+  EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
+              AllOf(HasSubstr("mine.yaml"), HasSubstr("folds over")));
 }
 
 TEST_F(CalibrationTest, KnowsThePublishedCameras) {
@@ -183,6 +214,27 @@ TEST_F(CalibrationTest, ReadsOrbSlam3Settings) {
   EXPECT_EQ(*camera.fy, 601.0);
   EXPECT_EQ(*camera.width, 640);
   EXPECT_EQ(*camera.depth_scale, 1000.0);
+}
+
+TEST_F(CalibrationTest, OtherCameraModelsOfOrbSlamAreErrors) {
+  const std::string camera =
+      "Camera1.fx: 600\nCamera1.fy: 601\nCamera1.cx: 320\nCamera1.cy: 240\n"
+      "RGBD.DepthMapFactor: 1000.0\nCamera1.k1: -0.03\n";
+  const auto error_of = [&](const std::string& text) {
+    WriteText("orb3.yaml", text + camera);
+    return MessageOf([&] { ReadOrbSlamConfig(Path("orb3.yaml")); });
+  };
+  EXPECT_THAT(error_of("%YAML:1.0\nCamera.type: \"KannalaBrandt8\"\n"),
+              AllOf(HasSubstr("orb3.yaml:2: Camera.type \"KannalaBrandt8\" is not supported"),
+                    HasSubstr("PinHole and Rectified")));
+  EXPECT_THAT(error_of("Camera1.k4: 0.01\n"), HasSubstr("orb3.yaml:1: Camera1.k4: msc_vo knows"));
+  EXPECT_THAT(error_of("Camera.k6: 0.01\n"), HasSubstr("Camera.k6"));
+  EXPECT_THAT(error_of("Camera.width: 640.5\n"), HasSubstr("Camera.width must be a whole number"));
+  EXPECT_EQ(error_of("Camera.k4: 0.0\n"), "");
+  EXPECT_EQ(error_of("Camera.type: Pinhole\n"), "");
+  EXPECT_EQ(*ReadOrbSlamConfig(Path("orb3.yaml")).distortion[0], -0.03);
+  EXPECT_EQ(error_of("Camera.type: \"Rectified\"\n"), "");  // its images are undistorted
+  EXPECT_FALSE(ReadOrbSlamConfig(Path("orb3.yaml")).distortion[0].has_value());
 }
 
 TEST_F(CalibrationTest, OrbSlamErrorsNameWhatIsMissing) {

@@ -37,6 +37,8 @@ TEST_F(ImageFolderTest, TellsTheTimeFromAName) {
   EXPECT_DOUBLE_EQ(*StampFromName("rgb/15.png"), 0.5);
   EXPECT_DOUBLE_EQ(*StampFromName("rgb/frame000030.jpg"), 1.0);
   EXPECT_NEAR(*StampFromName("1403636579763555584.png"), 1403636579.763555584, 1e-6);
+  EXPECT_NEAR(*StampFromName("1403636579763.png"), 1403636579.763, 1e-6);
+  EXPECT_NEAR(*StampFromName("1403636579763555.png"), 1403636579.763555, 1e-6);
   EXPECT_FALSE(StampFromName("rgb/left.png").has_value());
 }
 

@@ -18,13 +18,15 @@ using testing::IsEmpty;
 // moves it.
 class PacedSourceTest : public TemporaryFolder {
  protected:
-  RgbdDecoder Decoder() {
+  // `pause` seconds more before image 5.
+  RgbdDecoder Decoder(double pause = 0.0) {
     SequenceIndex index;
     for (int i = 0; i < 10; ++i) {
       const std::string name = std::to_string(i);
       cv::imwrite(Path(name + ".png"), cv::Mat(6, 8, CV_8UC1, cv::Scalar(i)));
       cv::imwrite(Path(name + "d.png"), cv::Mat(6, 8, CV_16UC1, cv::Scalar(1000)));
-      index.entries.push_back({100.0 + i, Path(name + ".png"), Path(name + "d.png"), ""});
+      index.entries.push_back(
+          {100.0 + i + (i >= 5 ? pause : 0.0), Path(name + ".png"), Path(name + "d.png"), ""});
     }
     Calibration calibration;
     calibration.camera = {10.0, 10.0, 3.5, 2.5, 8, 6};
@@ -90,6 +92,16 @@ TEST_F(PacedSourceTest, WhatIsMuchTooLateIsDropped) {
   now_ += 100.0;
   EXPECT_EQ(Next(&source), 7);
   EXPECT_THAT(dropped_, ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
+TEST_F(PacedSourceTest, ADayWithoutImagesIsCutShort) {
+  for (const double pause : {86400.0, 1e300}) {
+    const RgbdDecoder decoder = Decoder(pause);
+    PacedSource source(decoder, 0, 10, Clock());
+    now_ = 5.0;
+    for (int i = 0; i < 6; ++i) EXPECT_EQ(Next(&source), i);
+    EXPECT_DOUBLE_EQ(now_, 5.0 + 4.0 + PacedSource::kMaxPause);
+  }
 }
 
 TEST_F(PacedSourceTest, ABadImageIsNamedAndTheOthersKeepTheirTimes) {

@@ -75,6 +75,11 @@ TEST_F(SequenceCheckTest, FindsGapsInTime) {
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "1 gaps of three frames or more")));
 }
 
+TEST_F(SequenceCheckTest, SuspectsStampsThatAreNoSeconds) {
+  for (SequenceEntry& entry : index_.entries) entry.timestamp *= 333333333.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "are the stamps in seconds?")));
+}
+
 TEST_F(SequenceCheckTest, SuspectsTheCamera) {
   calibration_.camera.fy = -10.0;
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "fy is negative")));

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -56,12 +57,27 @@ TEST_F(TrajectoryTest, ReadsBackWhatItWrote) {
   EXPECT_EQ(FormatTrajectory(read), ReadFile(Path("t.txt")));
 }
 
+TEST_F(TrajectoryTest, MarksPosesThatAreNotEstimatedInACommentAboveThem) {
+  const std::string text =
+      FormatTrajectory({{1.0, Rigid3()}, {2.0, Rigid3(), false}, {3.0, Rigid3()}});
+  EXPECT_THAT(text, HasSubstr("\n# not estimated\n2.000000 "));
+  WriteText("t.txt", text + "# other\r\n4 0 0 0 0 0 0 1\n#  not estimated \r\n5 0 0 0 0 0 0 1\n" +
+                         "# not estimated\n\n6 0 0 0 0 0 0 1\n");
+  std::vector<bool> is_estimated;
+  for (const TimedPose& pose : ReadTrajectory(Path("t.txt"))) {
+    is_estimated.push_back(pose.is_estimated);
+  }
+  EXPECT_THAT(is_estimated, testing::ElementsAre(true, false, true, true, false, true));
+}
+
 TEST_F(TrajectoryTest, ReadsCommentsCommasTabsBlankLinesAndWindowsLineEnds) {
   WriteText("t.txt",
-            "\xEF\xBB\xBF# time x y z\r\n\r\n2,1,2,3,0,0,0,2\r\n1\t4 5\t6 0 0 0 1  \r\n"
+            "\xEF\xBB\xBF# time x y z\r\n\r\n2,1,2,3,0,0,0,0.99\r\n1\t4 5\t6 0 0 0 1  \r\n"
             "3 nan 0 0 0 0 0 1\n");
-  const std::vector<TimedPose> poses = ReadTrajectory(Path("t.txt"));
+  int num_left_out = -1;
+  const std::vector<TimedPose> poses = ReadTrajectory(Path("t.txt"), &num_left_out);
   ASSERT_EQ(poses.size(), 2u);  // a lost frame (nan) is no pose
+  EXPECT_EQ(num_left_out, 1);
   EXPECT_EQ(poses[0].timestamp, 1.0);
   EXPECT_EQ(poses[0].world_from_cam.translation(), Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(poses[1].world_from_cam.rotation().w(), 1.0);  // normalised
@@ -71,7 +87,9 @@ TEST_F(TrajectoryTest, ErrorsNameFileAndLine) {
   EXPECT_THAT(ErrorOf("# c\n1 2 3\n"), HasSubstr("trajectory.txt:2: expected 8 numbers"));
   EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 1 9\n"), HasSubstr("found 9 fields"));
   EXPECT_THAT(ErrorOf("1 0 0 x 0 0 0 1\n"), HasSubstr("trajectory.txt:1: 'x' is not a number"));
-  EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 0\n"), HasSubstr("quaternion is zero"));
+  EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 0\n"), HasSubstr("has length 0.000"));
+  EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0.6 0.5\n"),
+              HasSubstr("trajectory.txt:2: the quaternion qx qy qz qw has length 0.781"));
   EXPECT_THAT(MessageOf([&] { ReadTrajectory(Path("none.txt")); }),
               HasSubstr("none.txt: does not exist"));
   EXPECT_THAT(MessageOf([&] { ReadTrajectory(Folder()); }), HasSubstr("is a folder"));

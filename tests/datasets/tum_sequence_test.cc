@@ -125,6 +125,63 @@ TEST_F(TumSequenceTest, AnIclNuimFolderNeedsNoList) {
   EXPECT_THAT(Stamps(index), ElementsAre(0.0, 1.0 / 30.0, 2.0 / 30.0, 10.0 / 30.0));
 }
 
+TEST_F(TumSequenceTest, StampsInOtherUnitsBecomeSeconds) {
+  WriteText("rgb.txt", "1305031102175304000 a\n1305031102208637000 b\n1305031102241970000 c\n");
+  WriteText("depth.txt", "1305031102.180304 x\n1305031102.213637 y\n1305031102.246970 z\n");
+  WriteText("groundtruth.txt", "1305031102175.3 0 0 0 0 0 0 1\n1305031102241.97 0 0 0 0 0 0 1\n");
+  const SequenceIndex index = OpenSequence(Folder());
+  ASSERT_EQ(index.entries.size(), 3u);
+  EXPECT_NEAR(index.entries[0].timestamp, 1305031102.175304, 1e-6);
+  EXPECT_NEAR(index.entries[2].timestamp, 1305031102.241970, 1e-6);
+  EXPECT_NEAR(index.entries[1].depth_delay, 0.005, 1e-6);
+  ASSERT_EQ(index.ground_truth.size(), 2u);
+  EXPECT_NEAR(index.ground_truth[1].timestamp, 1305031102.241970, 1e-6);
+  EXPECT_THAT(index.warnings, ElementsAre(HasSubstr("rgb.txt: the stamps are nanoseconds"),
+                                          HasSubstr("groundtruth.txt: the stamps are milli")));
+}
+
+TEST_F(TumSequenceTest, AssociationsMayCountMilliseconds) {
+  WriteText("associations.txt", "0 rgb/a 4 depth/a\n33 rgb/b 37 depth/b\n67 rgb/c 71 depth/c\n");
+  WriteText("groundtruth.txt", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n67 0 0 0 0 0 0 1\n");  // 1 kHz
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_THAT(Stamps(index), ElementsAre(0.0, 0.033, 0.067));
+  EXPECT_NEAR(index.entries[1].depth_delay, 0.004, 1e-9);
+  EXPECT_EQ(index.ground_truth.back().timestamp, 0.067);
+}
+
+TEST_F(TumSequenceTest, WholeStampsAreSecondsUnlessTheLayoutCountsFrames) {
+  WriteText("associations.txt", "1.0 rgb/1 1.0 depth/1\n2.0 rgb/2 2.0 depth/2\n");
+  WriteText("groundtruth.txt", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_THAT(Stamps(index), ElementsAre(1.0, 2.0));
+  EXPECT_EQ(index.ground_truth.back().timestamp, 2.0);
+  EXPECT_THAT(index.warnings, ElementsAre(HasSubstr("taken as seconds")));
+  EXPECT_THAT(Stamps(OpenSequence(Folder(), "icl-nuim")), ElementsAre(1.0 / 30.0, 2.0 / 30.0));
+}
+
+TEST_F(TumSequenceTest, DepthOfAnotherClockIsNamedWithItsOffset) {
+  std::string color, depth;
+  for (int i = 0; i < 30; ++i) {
+    color += std::to_string(1.0 + i / 30.0) + " rgb/" + std::to_string(i) + "\n";
+    depth += std::to_string(1.1 + i / 30.0) + " depth/" + std::to_string(i) + "\n";
+  }
+  WriteText("rgb.txt", color);
+  WriteText("depth.txt", depth);
+  EXPECT_THAT(OpenSequence(Folder()).warnings,
+              ElementsAre(HasSubstr("3 of 30 colour images"), HasSubstr("0.100 s later")));
+  WriteText("depth.txt", "0.90 x\n1.866667 y\n");
+  EXPECT_THAT(OpenSequence(Folder()).warnings, testing::Contains(HasSubstr("0.100 s earlier")));
+  WriteText("depth.txt", "6.0 x\n6.97 y\n");
+  EXPECT_THAT(ErrorOf(), testing::AllOf(HasSubstr("no pair"), HasSubstr("5.002 s later")));
+}
+
+TEST_F(TumSequenceTest, PosesThatAreNoneAreCounted) {
+  WriteText("associations.txt", "1.5 rgb/1 1.5 depth/1\n");
+  WriteText("groundtruth.txt", "1.5 0 0 0 0 0 0 1\n1.6 nan 0 0 0 0 0 1\n");
+  EXPECT_THAT(OpenSequence(Folder()).warnings,
+              ElementsAre(HasSubstr("groundtruth.txt: 1 poses with nan or inf")));
+}
+
 TEST_F(TumSequenceTest, SortsAndDropsRepeatedStamps) {
   WriteText("associations.txt",
             "2.5 rgb/2 2.5 depth/2\n1.5 rgb/1 1.5 depth/1\n1.5 rgb/1b 1.5 depth/1b\n");

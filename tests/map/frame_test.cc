@@ -3,6 +3,7 @@
 
 #include "msc_vo/map/frame.h"
 
+#include <limits>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -35,6 +36,22 @@ TEST(HammingDistance, IsThatOfEachBit) {
     }
     EXPECT_EQ(HammingDistance(a, b), expected);
   }
+}
+
+TEST(FeatureGrid, TakesPixelsThatAreNoNumbers) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  std::vector<PointFeature> points(5);
+  points[0].pixel = {nan, nan};
+  points[1].pixel = {inf, -inf};
+  points[2].pixel = {1e300, nan};
+  points[3].pixel = {-inf, 1e300};
+  points[4].pixel = {100.0, 100.0};
+  const FeatureGrid grid(PinholeCamera(), points);
+  EXPECT_THAT(grid.Near(points, {101.0, 100.0}, 5.0), ::testing::ElementsAre(4));
+  EXPECT_TRUE(grid.Near(points, {nan, 100.0}, 5.0).empty());
+  EXPECT_TRUE(grid.Near(points, {inf, -inf}, 5.0).empty());
+  EXPECT_TRUE(grid.Near(points, {100.0, 100.0}, nan).empty());
 }
 
 TEST(FeatureGrid, FindsWhatASearchThroughAllFinds) {

@@ -4,6 +4,7 @@
 #include "msc_vo/odometry/odometry.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <opencv2/imgproc.hpp>
@@ -134,6 +135,16 @@ TEST_F(OdometryTest, TheSameImagesGiveTheSameBytesAtAnyThreadCount) {
     one_thread.snapshots.latency_frames = latency_frames;
     two_threads.snapshots.latency_frames = latency_frames;
     ExpectSameBytes(Run(one_thread, *images_), Run(two_threads, *images_));
+  }
+}
+
+TEST_F(OdometryTest, StagesOfAFrameTakeNoLongerThanTheFrame) {
+  OdometryOptions options;
+  options.threads = 2;  // points and lines side by side
+  for (const FrameResult& frame : Run(options, *images_).frames) {
+    const StageTimes& ms = frame.times;
+    EXPECT_GT(ms.features, 0.0);
+    EXPECT_LE(ms.features + ms.waiting + ms.matching + ms.pose, ms.tracking) << frame.id;
   }
 }
 
@@ -275,6 +286,14 @@ TEST_F(OdometryTest, DroppedFramesGetThePoseBetweenTheirNeighbours) {
   EXPECT_THROW(odometry.Drop(3, (*images_)[3].timestamp), std::invalid_argument);
 }
 
+TEST_F(OdometryTest, AFrameWithoutAnImageSaysWhy) {
+  Odometry odometry(OdometryOptions(), camera_, LensDistortion());
+  EXPECT_EQ(odometry.Drop(0, 0.0, TrackingStatus::kUnreadable).status, TrackingStatus::kUnreadable);
+  EXPECT_EQ(odometry.Drop(1, 1.0).status, TrackingStatus::kDropped);
+  EXPECT_THROW(odometry.Drop(2, 2.0, TrackingStatus::kLost), std::invalid_argument);
+  EXPECT_EQ(odometry.Finish().frames.size(), 2u);
+}
+
 // A board with a coarse random pattern, 28 % of the image, 1 m away, that goes from left to right
 // in front of the room; at its left edge it first stands still in the image.
 void PaintBoard(int step, int num_steps, RgbdImage* image) {
@@ -324,6 +343,40 @@ TEST_F(OdometryTest, FinishMayBeCalledEarly) {
   EXPECT_EQ(odometry.Finish().frames.size(), 1u);
   odometry.Process((*images_)[1]);
   EXPECT_EQ(odometry.Finish().frames.size(), 2u);
+}
+
+// A lens that folds over used to end in features whose pixels are no numbers.
+TEST_F(OdometryTest, RefusesALensThatDoesNotInvert) {
+  const LensDistortion swapped{{0.262383, -0.953104, 1.163314, -0.005358, 0.002628}};
+  EXPECT_THROW(Odometry(OdometryOptions(), camera_, swapped), std::invalid_argument);
+  PinholeCamera mirrored = camera_;
+  mirrored.fx = -mirrored.fx;
+  EXPECT_THROW(Odometry(OdometryOptions(), mirrored, LensDistortion()), std::invalid_argument);
+}
+
+TEST_F(OdometryTest, RefusesTimesThatAreNoTimes) {
+  Odometry odometry(OdometryOptions(), camera_, LensDistortion());
+  const auto error_of = [&](double timestamp, double depth_delay) {
+    RgbdImage image = (*images_)[0];
+    image.timestamp = timestamp;
+    image.depth_delay = depth_delay;
+    try {
+      odometry.Process(image);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const double time : {nan, inf, -inf}) {
+    EXPECT_THAT(error_of(time, 0.0), HasSubstr("image 0: its time stamp must be a finite number"));
+    EXPECT_THROW(odometry.Drop(0, time), std::invalid_argument);
+  }
+  for (const double delay : {nan, inf, -1.5, 1e9}) {
+    EXPECT_THAT(error_of(0.0, delay), HasSubstr("image 0: depth_delay = "));
+  }
+  EXPECT_EQ(error_of(0.0, 0.02), "");
 }
 
 TEST_F(OdometryTest, MisuseThrows) {

@@ -3,6 +3,8 @@
 
 #include "msc_vo/pose_estimation/image_grid.h"
 
+#include <limits>
+
 #include <gmock/gmock.h>
 
 namespace msc_vo {
@@ -26,6 +28,17 @@ TEST(ImageGrid, AreNumberedRowByRow) {
   EXPECT_EQ(parts.CellOf({60.0, 70.0}), 6);
   for (int part = 0; part < parts.size(); ++part) {
     EXPECT_EQ(parts.CellOf(100.0 * parts.CenterOf(part)), part);
+  }
+}
+
+TEST(ImageGrid, MapsNonFinitePixelsToSomeCell) {
+  const ImageGrid grid = FourByTwo();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(grid.CellOf({nan, nan}), 0);
+  EXPECT_EQ(grid.CellOf({1e300, -1e300}), 3);
+  for (const int cell : grid.CellsOf({{nan, 0.0}, {1e300, 1e300}})) {
+    EXPECT_GE(cell, 0);
+    EXPECT_LT(cell, grid.size());
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include "msc_vo/config/option_list.h"
 #include "msc_vo/synthetic/window/synthetic_window.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {

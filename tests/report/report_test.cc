@@ -14,6 +14,7 @@
 namespace msc_vo {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -63,7 +64,7 @@ TEST(Report, EscapesEveryText) {
   const std::string evil = "<b>&\"";
   data.title = data.version = data.command_line = data.options_text = evil;
   data.numbers = {{evil, evil, evil}};
-  data.stage_names[0] = evil;
+  data.stages[2].name = evil;
   const std::string html = ReportOf(data);
   EXPECT_THAT(html, Not(HasSubstr("<b>")));
   // title, h1, command line, three of the number, options, version; stage: legend and table.
@@ -91,6 +92,60 @@ TEST(Report, SaysNothingOfATruthThatIsNotThere) {
   const std::string html = ReportOf(data);
   EXPECT_THAT(html, Not(HasSubstr("truth</li>")));
   EXPECT_THAT(html, Not(HasSubstr("Position error")));
+}
+
+TEST(Report, LegendsHoldWhatOccursAndNothingElse) {
+  const std::string mixed = ReportOf(MakeFakeRun(100));
+  EXPECT_THAT(mixed, AllOf(HasSubstr("</svg>weak</li>"), HasSubstr("</svg>lost</li>"),
+                           HasSubstr("</svg>map lines along Manhattan axis 1</li>"),
+                           HasSubstr("</svg>map lines along Manhattan axis 3</li>"),
+                           Not(HasSubstr("</svg>dropped</li>")), Not(HasSubstr("of no axis"))));
+  const std::string good = ReportOf(MakeFakeRun(40));
+  EXPECT_THAT(good, AllOf(HasSubstr("</svg>tracked</li>"), Not(HasSubstr("</svg>weak</li>")),
+                          Not(HasSubstr("</svg>lost</li>"))));
+}
+
+// The highest point of the area of that class in the drawing, whose y points down.
+double TopOfArea(const std::string& html, const std::string& css_class) {
+  const std::string opening = "<polygon class=\"" + css_class + "\" points=\"";
+  const size_t begin = html.find(opening) + opening.size();
+  std::istringstream text(html.substr(begin, html.find('"', begin) - begin));
+  double x = 0.0, y = 0.0, top = std::numeric_limits<double>::infinity();
+  char comma = 0;
+  while (text >> x >> comma >> y) top = std::min(top, y);
+  return top;
+}
+
+TEST(Report, StagesThatRunSideBySideAreNotStacked) {
+  ReportData data = MakeFakeRun(10);
+  data.stages = {{"left", false}, {"right", false}, {"both"}, {"rest"}};
+  for (ReportFrame& frame : data.frames) {
+    frame.stage_ms = {9.0, 8.0, 9.5, 0.5};
+    frame.tracking_ms = 10.0;
+  }
+  const std::string html = ReportOf(data);
+  EXPECT_THAT(html, AllOf(HasSubstr("</svg>both</li>"), HasSubstr("</svg>rest</li>"),
+                          Not(HasSubstr("</svg>left</li>")), HasSubstr("<td>left</td>")));
+  const std::regex whole("class=\"curve whole\" points=\"[0-9.]+,([0-9.]+)");
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(html, match, whole));
+  EXPECT_NEAR(TopOfArea(html, "stage-1"), std::stod(match[1]), 0.11);
+  EXPECT_GT(TopOfArea(html, "stage-0"), std::stod(match[1]) + 1.0);
+}
+
+TEST(Report, ShowsTheMapAroundACameraThatHardlyMoves) {
+  ReportData data = MakeFakeRun(40);
+  for (ReportFrame& frame : data.frames) frame.world_from_cam.translation() *= 0.01;
+  for (ReportTruthPose& pose : data.truth) pose.position *= 0.01;
+  const std::string html = ReportOf(data);
+  // All edges of the room and of the cupboard in it.
+  const std::regex line_path("class=\"map-line axis-[012]\" d=\"([^\"]*)\"");
+  int num_segments = 0;
+  for (auto it = std::sregex_iterator(html.begin(), html.end(), line_path);
+       it != std::sregex_iterator(); ++it) {
+    num_segments += CountOf((*it)[1], "M");
+  }
+  EXPECT_EQ(num_segments, 24);
 }
 
 TEST(Report, SaysWhenAllWasTracked) {

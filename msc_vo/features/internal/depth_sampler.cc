@@ -152,6 +152,7 @@ std::optional<Surface> NearestSurface(Pixel* begin, Pixel* end, const Parameters
 
 std::optional<DepthSample> SampleDepth(const InverseDepthImage& image, const Eigen::Vector2d& pixel,
                                        double sigma) {
+  if (!image.Contains(pixel)) return std::nullopt;
   const int center_x = cvRound(pixel.x());
   const int center_y = cvRound(pixel.y());
   std::array<Pixel, kMaxPixels> pixels;

@@ -93,6 +93,12 @@ Descriptor CompareBands(const std::array<Band, kBands>& bands) {
   return descriptor;
 }
 
+// True if the region of a segment with this end point stays inside the padded image.
+bool IsNearImage(const Vector2d& end, const cv::Mat& half) {
+  return end.x() >= -2.0 && end.y() >= -2.0 && end.x() <= 2.0 * half.cols + 1.0 &&
+         end.y() <= 2.0 * half.rows + 1.0;
+}
+
 int ToFixed(double x) { return cvRound(x * (1 << kFractionBits)); }
 
 }  // namespace
@@ -130,6 +136,7 @@ Row LineDescriptorExtractor::SumRow(const Vector2d& first, const Vector2d& d, in
 }
 
 Descriptor LineDescriptorExtractor::Describe(const LineSegment2& segment) const {
+  if (!IsNearImage(segment.start, half_) || !IsNearImage(segment.end, half_)) return {};
   // Weights of the rows of the region, as in the original.
   static const std::array<float, kRows> weights = Gaussian<kRows>(0.5 * (kRows - 1));
   const Vector2d d = segment.Direction();

@@ -10,6 +10,8 @@
 
 #include <Eigen/LU>
 
+#include "msc_vo/geometry/cell_index.h"
+
 namespace msc_vo {
 
 namespace {
@@ -56,9 +58,9 @@ std::optional<Edge> SteepestRise(const cv::Mat& gray, const Vector2d& center,
   const Vector2d low = center - (kReach + 0.5) * across;
   const Vector2d high = center + (kReach + 0.5) * across;
   for (const Vector2d* x : {&low, &high}) {
-    if (x->x() < 1.0 || x->y() < 1.0 || x->x() >= gray.cols - 2 || x->y() >= gray.rows - 2) {
-      return std::nullopt;
-    }
+    const bool is_inside =
+        x->x() >= 1.0 && x->y() >= 1.0 && x->x() < gray.cols - 2 && x->y() < gray.rows - 2;
+    if (!is_inside) return std::nullopt;
   }
   // rise[k] is the difference centred at offset k - kReach.
   std::array<double, 2 * kReach + 1> rise;
@@ -102,7 +104,7 @@ bool MoveOntoEdge(const cv::Mat& gray, int max_samples, LineSegment2* segment) {
   const Vector2d direction = segment->Direction();
   const Vector2d across(-direction.y(), direction.x());
   const double length = segment->Length();
-  const int samples = std::clamp(static_cast<int>(length / kSpacing), kMinSamples, max_samples);
+  const int samples = std::max(CellIndex(length / kSpacing, max_samples + 1), kMinSamples);
   std::array<Edge, kMaxSamples> edges;
   int count = 0;
   for (int i = 0; i < samples; ++i) {

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/time_unit.h"
+
+#include <algorithm>
+
+namespace msc_vo {
+
+namespace {
+
+constexpr TimeUnit kUnits[] = {TimeUnit::kSeconds, TimeUnit::kMilliseconds, TimeUnit::kMicroseconds,
+                               TimeUnit::kNanoseconds};
+
+// In the unit of the stamps; 0 for fewer than two.
+double MedianInterval(std::vector<double> stamps) {
+  if (stamps.size() < 2) return 0.0;
+  std::sort(stamps.begin(), stamps.end());
+  std::vector<double> intervals;
+  for (size_t i = 1; i < stamps.size(); ++i) intervals.push_back(stamps[i] - stamps[i - 1]);
+  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  return *middle;
+}
+
+// The part of the time of either list that both cover, 0..1.
+double Overlap(const TimeRange& a, const TimeRange& b) {
+  const double common = std::min(a.end, b.end) - std::max(a.begin, b.begin);
+  const double all = std::max(a.end, b.end) - std::min(a.begin, b.begin);
+  return all > 0.0 ? std::max(common, 0.0) / all : 1.0;
+}
+
+}  // namespace
+
+const char* ToString(TimeUnit unit) {
+  switch (unit) {
+    case TimeUnit::kSeconds:
+      return "seconds";
+    case TimeUnit::kMilliseconds:
+      return "milliseconds";
+    case TimeUnit::kMicroseconds:
+      return "microseconds";
+    case TimeUnit::kNanoseconds:
+      return "nanoseconds";
+  }
+  return "unknown";
+}
+
+double UnitsPerSecond(TimeUnit unit) {
+  switch (unit) {
+    case TimeUnit::kSeconds:
+      return 1.0;
+    case TimeUnit::kMilliseconds:
+      return 1e3;
+    case TimeUnit::kMicroseconds:
+      return 1e6;
+    case TimeUnit::kNanoseconds:
+      return 1e9;
+  }
+  return 1.0;
+}
+
+TimeRange RangeOf(const std::vector<double>& seconds, TimeUnit unit) {
+  if (seconds.empty()) return {0.0, 0.0, unit};
+  const auto [first, last] = std::minmax_element(seconds.begin(), seconds.end());
+  return {*first, *last, unit};
+}
+
+std::optional<TimeUnit> UnitOfDate(double stamp) {
+  constexpr double kYear2000 = 946684800.0;   // seconds since 1970
+  constexpr double kYear2100 = 4102444800.0;  // seconds since 1970
+  for (const TimeUnit unit : kUnits) {
+    const double seconds = stamp / UnitsPerSecond(unit);
+    if (seconds >= kYear2000 && seconds < kYear2100) return unit;
+  }
+  return std::nullopt;
+}
+
+TimeUnit GuessTimeUnit(const std::vector<double>& stamps) {
+  if (stamps.empty()) return TimeUnit::kSeconds;
+  const double interval = MedianInterval(stamps);
+  // Nanoseconds since a machine started look like a date in milliseconds for an hour; the time
+  // between two images tells them apart.
+  constexpr double kMaxIntervalOfDates = 3600.0;  // seconds
+  const std::optional<TimeUnit> date = UnitOfDate(stamps.front());
+  if (date && interval / UnitsPerSecond(*date) < kMaxIntervalOfDates) return *date;
+  constexpr double kMaxInterval = 5.0;  // seconds
+  for (const TimeUnit unit : kUnits) {
+    if (interval / UnitsPerSecond(unit) < kMaxInterval) return unit;
+  }
+  return TimeUnit::kNanoseconds;
+}
+
+TimeUnit GuessTimeUnit(const std::vector<double>& stamps, const TimeRange& reference) {
+  const TimeUnit own = GuessTimeUnit(stamps);
+  const TimeRange counted = RangeOf(stamps, own);
+  const auto overlap_in = [&](TimeUnit unit) {
+    const double rate = UnitsPerSecond(unit);
+    return Overlap({counted.begin / rate, counted.end / rate, unit}, reference);
+  };
+  return overlap_in(reference.unit) > overlap_in(own) ? reference.unit : own;
+}
+
+}  // namespace msc_vo

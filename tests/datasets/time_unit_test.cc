@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/time_unit.h"
+
+#include <gtest/gtest.h>
+
+namespace msc_vo {
+namespace {
+
+// Ten stamps.
+std::vector<double> Stamps(double first, double interval) {
+  std::vector<double> stamps;
+  for (int i = 0; i < 10; ++i) stamps.push_back(first + i * interval);
+  return stamps;
+}
+
+TEST(TimeUnitTest, IsKnownByTheDate) {
+  EXPECT_EQ(GuessTimeUnit(Stamps(1305031102.1753, 0.033)), TimeUnit::kSeconds);
+  EXPECT_EQ(GuessTimeUnit(Stamps(1305031102175.3, 33)), TimeUnit::kMilliseconds);
+  EXPECT_EQ(GuessTimeUnit(Stamps(1305031102175304, 33333)), TimeUnit::kMicroseconds);
+  EXPECT_EQ(GuessTimeUnit(Stamps(1305031102175304000, 33333333)), TimeUnit::kNanoseconds);
+  EXPECT_EQ(GuessTimeUnit(Stamps(1305031102175304000, 1000000)), TimeUnit::kNanoseconds);  // 1 kHz
+  EXPECT_EQ(GuessTimeUnit({1305031102175304000.0}), TimeUnit::kNanoseconds);
+}
+
+TEST(TimeUnitTest, OrElseByTheTimeBetweenImages) {
+  EXPECT_EQ(GuessTimeUnit(Stamps(0, 1)), TimeUnit::kSeconds);
+  EXPECT_EQ(GuessTimeUnit(Stamps(0, 33)), TimeUnit::kMilliseconds);
+  EXPECT_EQ(GuessTimeUnit(Stamps(0, 33333)), TimeUnit::kMicroseconds);
+  EXPECT_EQ(GuessTimeUnit(Stamps(0, 33333333)), TimeUnit::kNanoseconds);
+  // Half an hour after the start of the machine: a date in milliseconds, a day between two images.
+  EXPECT_EQ(GuessTimeUnit(Stamps(1.8e12, 33333333)), TimeUnit::kNanoseconds);
+  EXPECT_EQ(GuessTimeUnit({12.0}), TimeUnit::kSeconds);
+  EXPECT_EQ(GuessTimeUnit({}), TimeUnit::kSeconds);
+}
+
+TEST(TimeUnitTest, FollowsTheImages) {
+  const TimeRange images = {0.0, 9.0, TimeUnit::kMilliseconds};
+  EXPECT_EQ(GuessTimeUnit(Stamps(0, 1)), TimeUnit::kSeconds);
+  EXPECT_EQ(GuessTimeUnit(Stamps(0, 1000), images), TimeUnit::kMilliseconds);
+  EXPECT_EQ(GuessTimeUnit(Stamps(0, 1), images), TimeUnit::kSeconds);
+  EXPECT_EQ(GuessTimeUnit({0, 1, 2, 9000}, images), TimeUnit::kMilliseconds);  // 1 kHz
+}
+
+}  // namespace
+}  // namespace msc_vo

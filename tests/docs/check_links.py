@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+"""Checks that every link inside the repository resolves, in each of its Markdown files.
+
+    check_links.py ROOT         reports every broken link as file:line: message; exit status 1 if any
+    check_links.py --self-test  proves on small files that broken links are found
+
+Links to other sites are not followed. An anchor must be a heading of the file, as GitHub names it, or
+an element with that id.
+"""
+import argparse
+import pathlib
+import re
+import sys
+import tempfile
+import urllib.parse
+
+from markdown import read_blocks
+
+# Folders of the root that hold no documents of ours: results and builds.
+NOT_OURS = re.compile(r"^(build.*|out|\.git|\.cache)$")
+INLINE_CODE = re.compile(r"(`+)(.+?)\1")
+# [text](target), ![text](target "title"), [name]: target
+LINKS = [re.compile(r"\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)"),
+         re.compile(r"^\s*\[[^\]]+\]:\s+<?(\S+?)>?(?:\s|$)"),
+         re.compile(r"<(?:a|img)\b[^>]*\b(?:href|src)=\"([^\"]+)\"")]
+SCHEME = re.compile(r"^([a-z][a-z0-9+.-]*:|//)", re.IGNORECASE)
+HEADING = re.compile(r"^ {0,3}(#{1,6})\s+(.*?)\s*#*\s*$")
+ID = re.compile(r"<[a-z]+\b[^>]*\b(?:id|name)=\"([^\"]+)\"")
+
+
+def documents(root):
+    for path in sorted(root.rglob("*.md")):
+        if not NOT_OURS.match(path.relative_to(root).parts[0]):
+            yield path
+
+
+def text_lines(path):
+    """Number and text of each line that is not in a fenced block."""
+    for block in read_blocks(path.read_text()):
+        if block.language is None:
+            yield from enumerate(block.lines, start=block.first_line)
+
+
+def slug(heading):
+    """The anchor that GitHub gives a heading."""
+    heading = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", heading)
+    return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+
+
+def anchors(path):
+    found = set()
+    for _, line in text_lines(path):
+        found.update(ID.findall(line))
+        match = HEADING.match(line)
+        if match:
+            name = slug(match.group(2))
+            candidates = [name] + [f"{name}-{i}" for i in range(1, 100)]
+            found.add(next(candidate for candidate in candidates if candidate not in found))
+    return found
+
+
+def links(path):
+    """Number of the line and target of each link."""
+    for number, line in text_lines(path):
+        plain = INLINE_CODE.sub("", line)
+        for pattern in LINKS:
+            for target in pattern.findall(plain):
+                yield number, target
+
+
+def problem_of(document, target, root):
+    """What is wrong with a link, or None."""
+    if SCHEME.match(target):
+        return None
+    name, _, anchor = urllib.parse.unquote(target).partition("#")
+    linked = (document.parent / name).resolve() if name else document
+    if root.resolve() not in (linked, *linked.parents):
+        return f"{target} is outside of the repository"
+    if not linked.exists():
+        return f"{target}: there is no {linked.relative_to(root.resolve())}"
+    if anchor and linked.suffix == ".md" and anchor not in anchors(linked):
+        return f"{target}: {linked.name} has no heading #{anchor}"
+    return None
+
+
+def check(root):
+    """Yields file:line: message."""
+    for document in documents(root):
+        for number, target in links(document):
+            problem = problem_of(document, target, root)
+            if problem:
+                yield f"{document.relative_to(root)}:{number}: {problem}"
+
+
+def self_test():
+    # Text of docs/a.md, a part of the only message (None: must pass).
+    cases = [
+        ("[b](b.md) and ![i](i.png)", None),
+        ("[up](../README.md#one-two)", None),
+        ("[up](../README.md#one-two-1)", None),
+        ("[up](../README.md#a-b--c)", None),
+        ("[own](#here)\n\n## Here", None),
+        ("[own](#mark)\n<a id=\"mark\"></a>", None),
+        ("[b]: b.md", None),
+        ("[site](https://example.org/none) <mailto:a@b.c>", None),
+        ("```sh\n[x](none.md)\n```\n`[x](none.md)`", None),
+        ("[folder](.)", None),
+        ("\n[x](none.md)", "docs/a.md:2: none.md: there is no docs/none.md"),
+        ("![x](none.png \"title\")", "there is no docs/none.png"),
+        ("[x]: none.md", "there is no docs/none.md"),
+        ("<img src=\"none.png\">", "there is no docs/none.png"),
+        ("[x](../README.md#one-two-2)", "README.md has no heading #one-two-2"),
+        ("[x](#none)", "a.md has no heading #none"),
+        ("[x](../../elsewhere)", "outside of the repository"),
+        ("```\n# Here\n```\n[x](#here)", "a.md has no heading #here"),
+    ]
+    for text, expected in cases:
+        with tempfile.TemporaryDirectory() as directory:
+            root = pathlib.Path(directory).resolve()
+            (root / "docs").mkdir()
+            (root / "README.md").write_text("# One two\n# One *two*\n## `a_b`, c\n# A (b)  c\n")
+            for name, contents in (("a.md", text), ("b.md", ""), ("i.png", "")):
+                (root / "docs" / name).write_text(contents)
+            messages = list(check(root))
+            passed = (not messages if expected is None else
+                      len(messages) == 1 and expected in messages[0])
+            if not passed:
+                print(f"self-test: {text!r}: expected {expected!r}, got {messages}",
+                      file=sys.stderr)
+                return 1
+    print(f"self-test: all {len(cases)} cases as expected")
+    return 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("root", nargs="?", type=pathlib.Path)
+    parser.add_argument("--self-test", action="store_true")
+    arguments = parser.parse_args()
+    if arguments.self_test:
+        return self_test()
+    if arguments.root is None or not (arguments.root / "README.md").is_file():
+        parser.error("ROOT must be the folder that holds README.md")
+    problems = list(check(arguments.root.resolve()))
+    print("\n".join(problems) or "every link resolves", file=sys.stderr if problems else sys.stdout)
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
