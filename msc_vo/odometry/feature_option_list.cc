@@ -15,20 +15,12 @@ void ListPoints(PointExtractorOptions* points, OptionLister* list) {
             "grey values, where there is no corner at fast_threshold");
 }
 
-void ListLineMerging(LineMergingOptions* merging, OptionLister* list) {
-  list->Add("max_angle", &merging->max_angle, {0, 0.78}, "radians, between pieces of one line");
-  list->Add("max_distance", &merging->max_distance, {0, 100},
-            "pixels, of end points from the common line");
-  list->Add("max_gap", &merging->max_gap, {0, 1000}, "pixels, along the line");
-}
-
 void ListLines(LineExtractorOptions* lines, OptionLister* list) {
   list->AddChoice("detector", &lines->detector, {"lsd", "edge-drawing"},
                   "the paper's, or a several times faster one");
   list->Add("max_lines", &lines->max_lines, {0, 10000}, "per image, the longest are kept");
   list->Add("min_length", &lines->min_length, {0.001, 1},
             "of a line, as part of the image's shorter side");
-  list->Section("merging", &lines->merging, ListLineMerging);
 }
 
 void ListNoise(SensorNoiseOptions* noise, OptionLister* list) {
@@ -66,17 +58,6 @@ void ListFeatures(FrameBuilderOptions* features, OptionLister* list) {
 
 void ListNormals(SurfaceNormalOptions* normals, OptionLister* list) {
   list->Add("grid_step", &normals->grid_step, {8, 1000}, "pixels between normals");
-  list->Add("target_sigma", &normals->target_sigma, {1e-4, 1.57},
-            "radians that noise may tilt a normal");
-  list->Add("inverse_depth_sigma", &normals->inverse_depth_sigma, {1e-6, 1},
-            "1/metres, random part");
-  list->Add("correlation", &normals->correlation, {1, 100}, "pixels within which depth errs alike");
-  list->Add("min_radius", &normals->min_radius, {1, 50}, "pixels, of a normal's window");
-  list->Add("max_radius", &normals->max_radius, {1, 50}, "pixels, of a normal's window");
-  list->Add("max_incidence", &normals->max_incidence, {0.01, 1.57},
-            "radians between ray and normal");
-  list->Add("min_valid", &normals->min_valid, {0.001, 1},
-            "part of the window that must have a depth");
   list->Add("min_depth", &normals->min_depth, {0.001, 25},
             "metres; nearer measurements are not valid");
   list->Add("max_depth", &normals->max_depth, {0.001, 25},

@@ -79,7 +79,6 @@ TEST_F(OptionsFileTest, NoFieldOfTheOptionsIsForgotten) {
   EXPECT_EQ(NumListed("features."), NumFields<FrameBuilderOptions>());
   EXPECT_EQ(NumListed("features.points."), NumFields<PointExtractorOptions>());
   EXPECT_EQ(NumListed("features.lines."), NumFields<LineExtractorOptions>());
-  EXPECT_EQ(NumListed("features.lines.merging."), NumFields<LineMergingOptions>());
   EXPECT_EQ(NumListed("features.noise."), NumFields<SensorNoiseOptions>());
   EXPECT_EQ(NumListed("features.line_fit."), NumFields<LineFitOptions>());
   EXPECT_EQ(NumListed("tracking."), NumFields<TrackerOptions>());

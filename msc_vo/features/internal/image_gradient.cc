@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/image_gradient.h"
+#include "msc_vo/features/internal/image_gradient.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,8 +12,8 @@ namespace msc_vo {
 
 namespace {
 
-// Of one row of pixels. In 16 bits all along and with all pointers apart, so that the compiler does
-// eight pixels at once.
+// Computes the gradients of one row. 16-bit arithmetic and non-aliasing pointers let the compiler
+// process eight pixels at once.
 void Differentiate(const uint8_t* __restrict above, const uint8_t* __restrict here,
                    const uint8_t* __restrict below, int width, int16_t* __restrict x,
                    int16_t* __restrict y, int16_t* __restrict magnitude) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/corner_refinement.h"
+#include "msc_vo/features/internal/corner_refinement.h"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +15,9 @@ namespace msc_vo {
 namespace {
 
 constexpr int kMaxSteps = 3;
-// The window of a response, and its Gaussian weights: the smaller the window the nearer its
-// maximum is to the corner, the larger the less it is moved by noise; 3x3 to 11x11 were measured.
+// Window of the corner response and its Gaussian weights. A smaller window has its maximum closer
+// to the corner, a larger one is less sensitive to noise.
+// Chosen by measurement, see docs/lab/features.md.
 constexpr int kWindowRadius = 2;
 constexpr float kWindowSigma = 1.2f;
 constexpr int kWindow = 2 * kWindowRadius + 1;
@@ -24,21 +25,19 @@ constexpr int kWindow = 2 * kWindowRadius + 1;
 constexpr int kPatchRadius = kWindowRadius + 1;
 constexpr int kPatch = 2 * kPatchRadius + 1;
 
-// The window of an apex and its weights. Gradients are those of the smoothed image: differences of
-// single pixels see an edge at a place that depends on where the pixels lie. In simulation (corners
-// of 60 to 120 degrees, noise of 3 grey values) that takes a third off the scatter of the apex.
+// Window of the apex search and its Gaussian weights. Gradients are those of the smoothed image:
+// between unsmoothed pixels, the position of an edge depends on the phase of the pixel grid.
 constexpr int kApexRadius = 3;
 constexpr int kApexWindow = 2 * kApexRadius + 1;
 constexpr double kApexSigma = 1.5;  // pixels
-// From the response's maximum: it is up to 2 px from the apex of a corner of 60 degrees.
+// Largest distance of the apex from the maximum of the response, pixels: 2 for a corner of 60
+// degrees.
 constexpr double kMaxApexDistance = 3.0;
 constexpr int kMaxApexSteps = 10;
 constexpr double kApexTolerance = 0.01;  // pixels
-// Pixels^2, mean square distance of the apex from the lines along the edges. In simulation corners
-// of 60 to 120 degrees have 0.55 to 0.75 where images are sharp (blur of up to 0.5 px) and 0.7 to
-// 0.9 at 0.8 px. Geometric means of the errors of ten rendered sequences and of six with other
-// noise, in a first form: 0.69 and 1.06 mm with these two, 0.79 and 1.12 with the apex for all
-// features, 0.75 and 1.19 with the maximum for all.
+// Mean square distance of the apex from the lines along the edges, pixels^2: up to kCornerMisfit
+// the position is the apex, from kNoCornerMisfit on the maximum of the response.
+// Chosen by measurement, see docs/lab/features.md.
 constexpr double kCornerMisfit = 0.7;
 constexpr double kNoCornerMisfit = 1.0;
 
@@ -51,10 +50,10 @@ std::array<float, kWindow> GaussianWeights() {
   return weights;
 }
 
-// A row of pixels' numbers, with room for eight: two vectors of what every processor has.
+// Values of eight consecutive pixels of a row: two vectors of four floats.
 using Row = Eigen::Array<float, 8, 1>;
 
-// Products of the gradients of the eight pixels from `row` on.
+// Products of the gradient components of the eight pixels from `row` on.
 struct GradientProducts {
   Row xx, xy, yy;
 
@@ -69,7 +68,7 @@ struct GradientProducts {
   }
 };
 
-// Corner responses of the 3x3 pixels around one.
+// Corner responses of the 3x3 pixels around a pixel.
 class ResponsePatch {
  public:
   ResponsePatch(const cv::Mat& gray, const cv::Point& center) {
@@ -80,7 +79,7 @@ class ResponsePatch {
                  gray.step};
     }
     for (int v = 0; v < 3; ++v) {
-      // Columns of the moments, summed over the rows of the window; then for each of its places.
+      // Moments summed over the rows of the window, then over its columns at each position.
       Row xx = Row::Zero(), xy = Row::Zero(), yy = Row::Zero();
       for (int y = 0; y < kWindow; ++y) {
         xx += weights[y] * rows[v + y].xx;
@@ -101,8 +100,8 @@ class ResponsePatch {
     }
   }
 
-  // Offset of the largest response; zero if it is the centre's.
-  cv::Point Uphill() const {
+  // Offset of the largest response from the centre.
+  cv::Point OffsetOfMaximum() const {
     cv::Point best(0, 0);
     for (int v = -1; v <= 1; ++v) {
       for (int u = -1; u <= 1; ++u) {
@@ -112,9 +111,9 @@ class ResponsePatch {
     return best;
   }
 
-  // Maximum of the quadratic through the responses, as an offset from the centre; zero if there is
-  // none within the patch.
-  Eigen::Vector2d Vertex() const {
+  // Maximum of the quadratic through the responses, as an offset from the centre; zero if the
+  // quadratic has no maximum within the patch.
+  Eigen::Vector2d QuadraticVertex() const {
     const Eigen::Vector2d gradient(0.5 * (At(1, 0) - At(-1, 0)), 0.5 * (At(0, 1) - At(0, -1)));
     Eigen::Matrix2d hessian;
     hessian(0, 0) = At(1, 0) + At(-1, 0) - 2.0 * At(0, 0);
@@ -132,24 +131,27 @@ class ResponsePatch {
   double response_[3][3];
 };
 
-// Gaussian weights of the pixels of an apex's window, and their distances from it.
+// Distances of the pixels of a row or column of the apex window from the apex, and their Gaussian
+// weights.
 struct ApexWeights {
-  Row distance, weight;  // the eighth weighs nothing
+  Row distance, weight;  // the eighth weight is zero
 
-  // The first pixel is at `first` from the apex.
+  // `first` is the coordinate of the first pixel relative to the apex.
   explicit ApexWeights(double first) {
-    static const Row of_squares = OfSquares();
-    // Of exp(-(first + i)^2 / 2 sigma^2) the part of first^2 is left out: it is in all of them.
+    static const Row centered_weights = CenteredWeights();
+    // exp(-(first + i)^2 / 2 sigma^2), without the factor exp(-first^2 / 2 sigma^2) that all
+    // weights have in common.
     const float ratio = std::exp(static_cast<float>(-first / (kApexSigma * kApexSigma)));
     float power = 1.0f;
     for (int i = 0; i < 8; ++i, power *= ratio) {
       distance[i] = static_cast<float>(first + i);
-      weight[i] = power * of_squares[i];
+      weight[i] = power * centered_weights[i];
     }
   }
 
  private:
-  static Row OfSquares() {
+  // exp(-i^2 / 2 sigma^2)
+  static Row CenteredWeights() {
     Row weights = Row::Zero();
     for (int i = 0; i < kApexWindow; ++i) {
       weights[i] = static_cast<float>(std::exp(-0.5 * i * i / (kApexSigma * kApexSigma)));
@@ -158,18 +160,19 @@ struct ApexWeights {
   }
 };
 
-// The apex of a corner: Gauss-Newton is one linear solution after the other, as the window follows.
+// Estimates the apex of a corner. Every iteration solves a linear least-squares problem and centres
+// the window on the solution.
 class ApexSearch {
  public:
   ApexSearch(const cv::Mat& smooth, const Eigen::Vector2d& start) : smooth_(smooth), apex_(start) {}
 
-  // False if the gradients around `start` have no common point, or one that is not nearby.
+  // Returns false if the lines along the edges around `start` do not intersect, or too far away.
   bool Run() {
     const Eigen::Vector2d start = apex_;
     for (int i = 0; i < kMaxApexSteps; ++i) {
       if (!SumMoments()) return false;
       const double determinant = moments_.determinant();
-      // Of a straight edge it is zero, to rounding.
+      // Zero for a straight edge, up to rounding.
       if (!(determinant > 1e-6 * moments_.trace() * moments_.trace())) return false;
       const Eigen::Vector2d step = moments_.inverse() * offset_;
       apex_ += step;
@@ -184,13 +187,14 @@ class ApexSearch {
   double misfit() const { return misfit_; }
 
  private:
-  // Weighted sums over the window at the apex. False if that leaves the image.
+  // Computes the weighted sums over the window at the apex. Returns false if the window leaves the
+  // image.
   bool SumMoments() {
     if (!MoveWindow({cvRound(apex_.x()) - kApexRadius, cvRound(apex_.y()) - kApexRadius})) {
       return false;
     }
     const ApexWeights x(window_.x - apex_.x()), y(window_.y - apex_.y());
-    // Columns first: of g g^T, of its second column times y, and of the last times y^2.
+    // Sums over the rows of the window: g g^T, its second column times y, its last entry times y^2.
     Row xx = Row::Zero(), xy = xx, yy = xx, xy_y = xx, yy_y = xx, yy_yy = xx;
     for (int v = 0; v < kApexWindow; ++v) {
       const GradientProducts& row = products_[v];
@@ -212,25 +216,26 @@ class ApexSearch {
     return true;
   }
 
-  // Gradients are taken once while the window stays on the same pixels.
-  bool MoveWindow(const cv::Point& corner) {
-    if (corner == window_) return true;
-    // With the eighth pixel of a row, and those beside.
+  // Computes the gradients of the window whose first pixel is `first_pixel`, unless they are
+  // known. Returns false if the window leaves the image.
+  bool MoveWindow(const cv::Point& first_pixel) {
+    if (first_pixel == window_) return true;
+    // Includes the eighth pixel of a row and the neighbours that gradients need.
     const cv::Rect inner(1, 1, smooth_.cols - 2 - kApexWindow, smooth_.rows - 2 - kApexWindow);
-    if (!inner.contains(corner)) return false;
-    window_ = corner;
+    if (!inner.contains(first_pixel)) return false;
+    window_ = first_pixel;
     for (int v = 0; v < kApexWindow; ++v) {
-      products_[v] = {smooth_.ptr<uint8_t>(corner.y + v) + corner.x, smooth_.step};
+      products_[v] = {smooth_.ptr<uint8_t>(first_pixel.y + v) + first_pixel.x, smooth_.step};
     }
     return true;
   }
 
   const cv::Mat& smooth_;
   Eigen::Vector2d apex_;
-  cv::Point window_{-1, -1};  // its first pixel; outside of the image: none yet
+  cv::Point window_{-1, -1};  // first pixel of the window; (-1, -1): no gradients yet
   std::array<GradientProducts, kApexWindow> products_;
   Eigen::Matrix2d moments_;
-  Eigen::Vector2d offset_;  // of the linear solution: moments^-1 offset leads from the apex to it
+  Eigen::Vector2d offset_;  // the step to the solution is moments_^-1 offset_
   double misfit_ = 0.0;
 };
 
@@ -240,19 +245,19 @@ RefinedCorner CornerRefiner::Refine(const cv::Point& corner) const {
   cv::Point pixel = corner;
   ResponsePatch patch(gray_, pixel);
   for (int step = 0; step < kMaxSteps; ++step) {
-    const cv::Point uphill = patch.Uphill();
-    if (uphill == cv::Point(0, 0) || !area_.contains(pixel + uphill)) break;
-    pixel += uphill;
+    const cv::Point offset = patch.OffsetOfMaximum();
+    if (offset == cv::Point(0, 0) || !area_.contains(pixel + offset)) break;
+    pixel += offset;
     patch = ResponsePatch(gray_, pixel);
   }
-  return {pixel, TowardsApex(Eigen::Vector2d(pixel.x, pixel.y) + patch.Vertex())};
+  return {pixel, BlendWithApex(Eigen::Vector2d(pixel.x, pixel.y) + patch.QuadraticVertex())};
 }
 
-Eigen::Vector2d CornerRefiner::TowardsApex(const Eigen::Vector2d& maximum) const {
+Eigen::Vector2d CornerRefiner::BlendWithApex(const Eigen::Vector2d& maximum) const {
   ApexSearch search(smooth_, maximum);
   if (!search.Run()) return maximum;
-  const double share = (kNoCornerMisfit - search.misfit()) / (kNoCornerMisfit - kCornerMisfit);
-  return maximum + std::clamp(share, 0.0, 1.0) * (search.apex() - maximum);
+  const double weight = (kNoCornerMisfit - search.misfit()) / (kNoCornerMisfit - kCornerMisfit);
+  return maximum + std::clamp(weight, 0.0, 1.0) * (search.apex() - maximum);
 }
 
 }  // namespace msc_vo

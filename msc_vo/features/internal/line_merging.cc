@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/line_merging.h"
+#include "msc_vo/features/internal/line_merging.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <tuple>
 
-#include "msc_vo/geometry/angles.h"
-
 namespace msc_vo {
 
 namespace {
 
 using Eigen::Vector2d;
+
+// Largest angle between the directions of two pieces, radians (5 degrees). The standard deviation
+// of the direction of a piece of 20 px is 4 degrees (1 px at each end).
+constexpr double kMaxAngle = 0.0873;
+// Largest distance of any of the four end points from the common line, pixels: two sigmas of an end
+// point.
+constexpr double kMaxDistance = 2.0;
+// Largest gap between two pieces along the line, pixels: an object that crosses and occludes the
+// line, such as a thin bar, or another edge with its blur. Pieces that overlap have no gap.
+constexpr double kMaxGap = 15.0;
 
 // A total order: longest first, equal lengths by coordinates.
 bool Longer(const LineSegment2& a, const LineSegment2& b) {
@@ -31,7 +39,7 @@ double DistanceToLine(const Vector2d& point, const Vector2d& direction, const Ve
   return std::abs(direction.x() * d.y() - direction.y() * d.x());
 }
 
-// The line of least squares through all pixels of both segments, as centre and unit direction.
+// Least-squares line through all pixels of both segments, as centre and unit direction.
 struct CommonLine {
   Vector2d center;
   Vector2d direction;
@@ -40,7 +48,7 @@ struct CommonLine {
     const double weight_a = a.Length();
     const double weight_b = b.Length();
     center = (weight_a * a.Midpoint() + weight_b * b.Midpoint()) / (weight_a + weight_b);
-    // Second moments; a uniform segment of length l has l^2 / 12 along itself.
+    // Second moments; that of a uniform segment of length l along itself is l^2 / 12.
     Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
     for (const LineSegment2* segment : {&a, &b}) {
       const Vector2d offset = segment->Midpoint() - center;
@@ -57,43 +65,28 @@ struct CommonLine {
   double Across(const Vector2d& x) const { return DistanceToLine(center, direction, x); }
 };
 
-std::optional<LineSegment2> Merge(const LineMergingOptions& options, const LineSegment2& a,
-                                  const LineSegment2& b) {
+std::optional<LineSegment2> Merge(const LineSegment2& a, const LineSegment2& b) {
   const CommonLine line(a, b);
   for (const Vector2d& x :
        {Vector2d(a.start), Vector2d(a.end), Vector2d(b.start), Vector2d(b.end)}) {
-    if (line.Across(x) > options.max_distance) return std::nullopt;
+    if (line.Across(x) > kMaxDistance) return std::nullopt;
   }
   const double a0 = line.Along(a.start);
   const double a1 = line.Along(a.end);
   const double b0 = line.Along(b.start);
   const double b1 = line.Along(b.end);
-  if (std::max(b0 - a1, a0 - b1) > options.max_gap) return std::nullopt;
+  if (std::max(b0 - a1, a0 - b1) > kMaxGap) return std::nullopt;
   return LineSegment2{line.center + std::min(a0, b0) * line.direction,
                       line.center + std::max(a1, b1) * line.direction};
 }
 
 }  // namespace
 
-bool LineMergingOptions::IsValid(std::string* error) const {
-  if (!(max_angle >= 0.0 && max_angle < kPi / 4)) {
-    *error = "lines.merging.max_angle must be in [0, pi/4) radians";
-  } else if (!(max_distance >= 0.0)) {
-    *error = "lines.merging.max_distance must not be negative (pixels)";
-  } else if (!(max_gap >= 0.0)) {
-    *error = "lines.merging.max_gap must not be negative (pixels)";
-  } else {
-    return true;
-  }
-  return false;
-}
-
-std::vector<LineSegment2> MergeCollinear(const LineMergingOptions& options,
-                                         std::vector<LineSegment2> segments) {
+std::vector<LineSegment2> MergeCollinear(std::vector<LineSegment2> segments) {
   std::sort(segments.begin(), segments.end(), Longer);
   std::vector<Vector2d> directions;
   for (const LineSegment2& segment : segments) directions.push_back(segment.Direction());
-  const double min_cosine = std::cos(options.max_angle);
+  const double min_cosine = std::cos(kMaxAngle);
   std::vector<char> taken(segments.size(), 0);
   std::vector<LineSegment2> merged;
   for (size_t i = 0; i < segments.size(); ++i) {
@@ -104,10 +97,11 @@ std::vector<LineSegment2> MergeCollinear(const LineMergingOptions& options,
       grown = false;
       for (size_t j = i + 1; j < segments.size(); ++j) {
         if (taken[j] || directions[i].dot(directions[j]) < min_cosine) continue;
-        // No end point may be far from the common line, so the middle cannot be far from this one.
+        // Quick rejection: if all end points are close to the common line, the midpoint is close to
+        // this one.
         const double across = DistanceToLine(line.start, direction, segments[j].Midpoint());
-        if (across > 3.0 * options.max_distance) continue;
-        const std::optional<LineSegment2> joined = Merge(options, line, segments[j]);
+        if (across > 3.0 * kMaxDistance) continue;
+        const std::optional<LineSegment2> joined = Merge(line, segments[j]);
         if (!joined) continue;
         line = *joined;
         direction = line.Direction();

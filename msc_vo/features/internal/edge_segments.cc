@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/edge_segments.h"
+#include "msc_vo/features/internal/edge_segments.h"
 
 #include <cmath>
 
@@ -11,22 +11,22 @@ namespace {
 
 using Eigen::Vector2d;
 
-// A gradient agrees with a line if it is within 22.5 degrees of its normal: with the probability
-// 1/8 if it is random.
-constexpr double kAgreementByChance = 0.125;
+// A gradient agrees with a line if it is within 22.5 degrees of the line's normal. The probability
+// for a random gradient is 1/8.
+constexpr double kChanceOfAgreement = 0.125;
 const double kMaxSineSquared = 0.5 - std::sqrt(0.125);  // sin^2(22.5 degrees)
-// A pixel of a line is at most this far from it, pixels: half a pixel of rounding and as much for
+// Largest distance of a pixel from its line, pixels: half a pixel of rounding and half a pixel of
 // noise.
 constexpr double kMaxDistance = 1.0;
-// Of the pixels of a line across it, square pixels: rounding alone gives 1/12, noise of half a
-// pixel the rest.
+// Largest variance of a line's pixels across it, square pixels: 1/12 from rounding, the rest from
+// noise of half a pixel.
 constexpr double kMaxVariance = 0.25;
-// A line ends where so many pixels in a row are farther away; fewer are noise on it.
+// A line ends after this number of consecutive pixels that are farther away.
 constexpr int kMaxMisses = 4;
-// The line is fitted again whenever its pixels have become more by this factor.
+// The line is refitted whenever the number of its pixels has grown by this factor.
 constexpr double kRefitGrowth = 1.25;
 
-// Kullback-Leibler divergence of a coin with probability p from one with probability q, nats.
+// Kullback-Leibler divergence between Bernoulli distributions with probabilities p and q, nats.
 double Divergence(double p, double q) {
   const auto term = [](double a, double b) { return a > 0.0 ? a * std::log(a / b) : 0.0; };
   return term(p, q) + term(1.0 - p, 1.0 - q);
@@ -34,7 +34,7 @@ double Divergence(double p, double q) {
 
 }  // namespace
 
-// Sums over pixels, relative to an origin among them so that no digits are lost.
+// Moments of pixels, accumulated relative to an origin among them for numerical accuracy.
 class EdgeSegmentDetector::PixelMoments {
  public:
   explicit PixelMoments(const Vector2d& origin) : origin_(origin) {}
@@ -65,18 +65,18 @@ class EdgeSegmentDetector::PixelMoments {
   Eigen::Vector3d squares_ = Eigen::Vector3d::Zero();
 };
 
-// The line of total least squares.
+// Total least-squares line through pixels.
 struct EdgeSegmentDetector::FittedLine {
   Vector2d point;
   Vector2d direction;
-  double variance = 0.0;  // of the pixels across it
+  double variance = 0.0;  // across the line, square pixels
 
   explicit FittedLine(const PixelMoments& moments) : point(moments.Mean()) {
     const Eigen::Vector3d c = moments.Covariance();
     const double half_difference = 0.5 * (c[0] - c[2]);
     const double radius = std::sqrt(half_difference * half_difference + c[1] * c[1]);
     variance = 0.5 * (c[0] + c[2]) - radius;
-    // Of the two forms of the eigenvector the one without cancellation.
+    // The eigenvector has two forms; this is the one without cancellation.
     direction = half_difference >= 0.0 ? Vector2d(half_difference + radius, c[1])
                                        : Vector2d(c[1], radius - half_difference);
     direction.normalize();
@@ -90,9 +90,9 @@ struct EdgeSegmentDetector::FittedLine {
 };
 
 const std::vector<LineSegment2>& EdgeSegmentDetector::Detect(const cv::Mat& gray) {
-  // A segment has two end points anywhere in the image: so many segments are possible.
+  // Number of tests: a segment has two end points, each any pixel of the image.
   min_information_ = 2.0 * std::log(static_cast<double>(gray.total()));
-  min_pixels_ = static_cast<int>(std::ceil(min_information_ / -std::log(kAgreementByChance)));
+  min_pixels_ = static_cast<int>(std::ceil(min_information_ / -std::log(kChanceOfAgreement)));
   segments_.clear();
   gradient_.Compute(gray);
   drawing_.Draw(gradient_);
@@ -108,7 +108,7 @@ Vector2d EdgeSegmentDetector::PixelAt(int index) const {
 void EdgeSegmentDetector::FitChain(const EdgeDrawing::Chain& chain) {
   int begin = chain.begin;
   while (begin + min_pixels_ <= chain.end) {
-    // The first place from which enough pixels lie on a line.
+    // Find the first min_pixels_ consecutive pixels that lie on a line.
     PixelMoments moments(PixelAt(begin));
     int end = begin;
     while (end < begin + min_pixels_) moments.Add(PixelAt(end++));
@@ -127,8 +127,8 @@ void EdgeSegmentDetector::FitChain(const EdgeDrawing::Chain& chain) {
   }
 }
 
-// Extends a piece that ends at `end` and has these moments as far as the chain goes along its line,
-// and fits the line to it. Returns the new end.
+// Extends a piece with the given end and moments as long as the chain follows its line, and fits
+// the line to it. Returns the new end.
 int EdgeSegmentDetector::Extend(int chain_end, int end, PixelMoments moments,
                                 FittedLine* line) const {
   double refit_count = kRefitGrowth * moments.count();
@@ -146,15 +146,15 @@ int EdgeSegmentDetector::Extend(int chain_end, int end, PixelMoments moments,
     if (line->Distance(pixel) > kMaxDistance) continue;
     moments.Add(pixel);
     reached = next + 1;
-    // A chain may bend so slowly that each pixel is near the line fitted last.
+    // Detects slow bends, where each pixel is close to the line fitted last.
     if (moments.count() >= refit_count && !refit()) return end;
   }
   refit();
   return end;
 }
 
-// By Chernoff's bound, k of n independent gradients agree by chance with a probability of at most
-// exp(-n D(k/n || 1/8)) if k/n > 1/8.
+// By the Chernoff bound, the probability that k of n independent gradients agree by chance is at
+// most exp(-n D(k/n || 1/8)) if k/n > 1/8.
 bool EdgeSegmentDetector::IsMeaningful(int begin, int end, const Vector2d& direction) const {
   int num_agreeing = 0;
   for (int i = begin; i < end; ++i) {
@@ -163,9 +163,9 @@ bool EdgeSegmentDetector::IsMeaningful(int begin, int end, const Vector2d& direc
     const double along = g.dot(direction);
     num_agreeing += along * along <= kMaxSineSquared * g.squaredNorm();
   }
-  const double share = num_agreeing / static_cast<double>(end - begin);
-  return share > kAgreementByChance &&
-         (end - begin) * Divergence(share, kAgreementByChance) >= min_information_;
+  const double ratio = num_agreeing / static_cast<double>(end - begin);
+  return ratio > kChanceOfAgreement &&
+         (end - begin) * Divergence(ratio, kChanceOfAgreement) >= min_information_;
 }
 
 }  // namespace msc_vo

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/depth_sampler.h"
+#include "msc_vo/features/internal/depth_sampler.h"
 
 #include <algorithm>
 #include <array>
@@ -17,43 +17,44 @@ namespace {
 constexpr int kRadius = 2;
 constexpr int kSide = 2 * kRadius + 1;
 constexpr int kMaxPixels = kSide * kSide;
-// Fewer pixels than a full row do not show a surface.
+// A surface needs at least one full row of pixels.
 constexpr int kMinPixels = 5;
-// Deducted from the pixels for the r.m.s.: those of a plane, as priors hold the curvature.
+// Degrees of freedom that a fit consumes: those of a plane, because the prior determines the
+// curvature.
 constexpr int kPlaneParameters = 3;
-// A surface comes to the point if one of its pixels is at most this far: the pixels around the one
-// that holds the point.
+// A surface reaches the point if one of its pixels is at most this far away, pixels: the
+// neighbours of the pixel that contains the point.
 constexpr double kMaxDistance = 1.5;
-// Pixels are a surface if their residuals have an r.m.s. below this many sigmas. A pure noise would
-// allow 1.3 (chi-square, 99 %, 22 degrees of freedom); folds and sensors that are somewhat worse
-// than their model need the rest, and an edge of 6 sigmas (12 mm at 1 m) exceeds it.
+// Pixels form one surface if the r.m.s. of their residuals is below this many sigmas. Pure noise
+// would allow 1.3 (chi-square, 99 %, 22 degrees of freedom); the margin covers folds and sensors
+// somewhat worse than their model. An edge of 6 sigmas (12 mm at 1 m) exceeds it.
 constexpr double kMaxRms = 2.0;
-// Weak priors, which keep the fit to a few pixels or a single row of them from being undetermined.
-// On the slope of a surface, sigmas per pixel: a wall seen at 45 degrees from 1 m has 1. On its
-// curvature, sigmas per square pixel: the best parabola through a fold of two such walls has 0.4.
+// Weak priors that regularise fits to a few pixels or to a single row. Slope of a surface, sigmas
+// per pixel: 1 for a wall at 45 degrees and 1 m. Curvature, sigmas per square pixel: 0.4 for the
+// best parabola through a fold of two such walls.
 constexpr double kSlopeSigma = 3.0;
 constexpr double kCurvatureSigma = 1.0;
-// The surface of a point beside a depth edge is a choice, and the pixel of the window that is
-// farthest from it tells by how much another one would differ: if one choice in ten is wrong, the
-// error has about this share of that as a root mean square, sqrt(0.1). (Noise like a Kinect's,
-// which takes pixels from edges, changes the choice for 9 to 17 % of all points of the rendered
-// rooms.)
-constexpr double kEdgeDoubt = 0.3;
+// The assignment of a point beside a depth edge to a surface may be wrong, and the pixel of the
+// window farthest from that surface shows by how much. The r.m.s. error is about this fraction of
+// the difference if one assignment in ten is wrong, sqrt(0.1).
+// Chosen by measurement, see docs/lab/features.md.
+constexpr double kEdgeInflation = 0.3;
 
 // A pixel of the window that has a depth.
 struct Pixel {
-  int place = 0;          // in the window, row by row
+  int index = 0;          // in the window, row by row
   double distance = 0.0;  // from the point, pixels
   double w = 0.0;         // inverse depth, 1/metres
 };
 
 struct Surface {
   double w = 0.0;         // inverse depth at the point, 1/metres
-  double variance = 0.0;  // of it, in units of the variance of a pixel
-  double rms = 0.0;       // of the residuals per degree of freedom, in sigmas
+  double variance = 0.0;  // variance of w, in units of the variance of a pixel
+  double rms = 0.0;       // r.m.s. of the residuals per degree of freedom, in sigmas
 };
 
-// Parameters of w = p0 + p1 x + p2 y + p3 x^2 + p4 x y + p5 y^2, x and y from the window's middle.
+// Parameters of w = p0 + p1 x + p2 y + p3 x^2 + p4 x y + p5 y^2, with x and y relative to the
+// centre of the window.
 using Parameters = Eigen::Matrix<double, 6, 1>;
 using Information = Eigen::Matrix<double, 6, 6>;
 
@@ -61,7 +62,7 @@ Parameters Basis(double x, double y) {
   return (Parameters() << 1.0, x, y, x * x, x * y, y * y).finished();
 }
 
-// What is the same for all windows. Most have all their pixels, and then one and the same inverse.
+// Constants of the fit. Most windows have all their pixels and therefore the same covariance.
 struct WindowTables {
   WindowTables() {
     constexpr double kSlope = 1.0 / (kSlopeSigma * kSlopeSigma);
@@ -70,16 +71,16 @@ struct WindowTables {
                 .finished()
                 .asDiagonal();
     Information information = prior;
-    for (int place = 0; place < kMaxPixels; ++place) {
-      basis[place] = Basis(place % kSide - kRadius, place / kSide - kRadius);
-      information += basis[place] * basis[place].transpose();
+    for (int i = 0; i < kMaxPixels; ++i) {
+      basis[i] = Basis(i % kSide - kRadius, i / kSide - kRadius);
+      information += basis[i] * basis[i].transpose();
     }
-    covariance_of_all = information.llt().solve(Information::Identity());
+    full_covariance = information.llt().solve(Information::Identity());
   }
 
   std::array<Parameters, kMaxPixels> basis;
   Information prior;
-  Information covariance_of_all;  // in units of the variance of a pixel
+  Information full_covariance;  // with all pixels, in units of the variance of a pixel
 };
 
 const WindowTables& Tables() {
@@ -88,24 +89,24 @@ const WindowTables& Tables() {
 }
 
 Information CovarianceOf(const Pixel* begin, const Pixel* end) {
-  if (end - begin == kMaxPixels) return Tables().covariance_of_all;
+  if (end - begin == kMaxPixels) return Tables().full_covariance;
   Information information = Tables().prior;
   for (const Pixel* pixel = begin; pixel != end; ++pixel) {
-    const Parameters& basis = Tables().basis[pixel->place];
+    const Parameters& basis = Tables().basis[pixel->index];
     information.noalias() += basis * basis.transpose();
   }
   return information.llt().solve(Information::Identity());
 }
 
-// Least squares over pixels [begin, end); `at_point`: the basis there. Why not a plane: where
-// points are rare they lie on folds and corners of boxes and walls, and a plane through a fold
-// misses it by 1.2 times what the depth changes from pixel to pixel, always to the same side (5 mm
-// at 3 m); the parabola by 0.5.
+// Least-squares fit to pixels [begin, end); `at_point` is the basis at the point. A quadratic
+// instead of a plane, because points in scenes with little texture lie on folds and corners of
+// boxes and walls: the error of a plane at a fold is 1.2 times the change of inverse depth per
+// pixel, always with the same sign (5 mm at 3 m), that of the quadratic 0.5 times.
 Surface FitSurface(const Pixel* begin, const Pixel* end, const Parameters& at_point, double sigma) {
   const WindowTables& tables = Tables();
   Parameters rhs = Parameters::Zero();
   for (const Pixel* pixel = begin; pixel != end; ++pixel) {
-    rhs += pixel->w * tables.basis[pixel->place];
+    rhs += pixel->w * tables.basis[pixel->index];
   }
   const Information covariance = CovarianceOf(begin, end);
   const Parameters p = covariance * rhs;
@@ -114,15 +115,16 @@ Surface FitSurface(const Pixel* begin, const Pixel* end, const Parameters& at_po
   surface.variance = at_point.dot(covariance * at_point);
   double sum = 0.0;
   for (const Pixel* pixel = begin; pixel != end; ++pixel) {
-    const double r = pixel->w - p.dot(tables.basis[pixel->place]);
+    const double r = pixel->w - p.dot(tables.basis[pixel->index]);
     sum += r * r;
   }
   surface.rms = std::sqrt(sum / static_cast<double>(end - begin - kPlaneParameters)) / sigma;
   return surface;
 }
 
-// Where the largest gap between consecutive inverse depths (sorted, farthest first) ends.
-Pixel* LargestGap(Pixel* begin, Pixel* end) {
+// Returns the first pixel after the largest gap between inverse depths, which are sorted, farthest
+// first.
+Pixel* AfterLargestGap(Pixel* begin, Pixel* end) {
   Pixel* best = begin + 1;
   for (Pixel* pixel = begin + 1; pixel != end; ++pixel) {
     if (pixel->w - (pixel - 1)->w > best->w - (best - 1)->w) best = pixel;
@@ -130,18 +132,18 @@ Pixel* LargestGap(Pixel* begin, Pixel* end) {
   return best;
 }
 
-bool ComesToPoint(const Pixel* begin, const Pixel* end) {
+bool ReachesPoint(const Pixel* begin, const Pixel* end) {
   return std::any_of(begin, end, [](const Pixel& pixel) { return pixel.distance <= kMaxDistance; });
 }
 
-// The nearest surface that comes to the point among pixels sorted by inverse depth: splits at the
-// largest gap, looks among the nearer ones first.
+// Returns the nearest surface that reaches the point among pixels sorted by inverse depth: splits
+// at the largest gap and searches the nearer part first.
 std::optional<Surface> NearestSurface(Pixel* begin, Pixel* end, const Parameters& at_point,
                                       double sigma) {
-  if (end - begin < kMinPixels || !ComesToPoint(begin, end)) return std::nullopt;
+  if (end - begin < kMinPixels || !ReachesPoint(begin, end)) return std::nullopt;
   const Surface surface = FitSurface(begin, end, at_point, sigma);
   if (surface.rms <= kMaxRms) return surface;
-  Pixel* const gap = LargestGap(begin, end);
+  Pixel* const gap = AfterLargestGap(begin, end);
   const std::optional<Surface> nearer = NearestSurface(gap, end, at_point, sigma);
   return nearer ? nearer : NearestSurface(begin, gap, at_point, sigma);
 }
@@ -156,25 +158,25 @@ std::optional<DepthSample> SampleDepth(const InverseDepthImage& image, const Eig
   std::array<Pixel, kMaxPixels> pixels;
   int count = 0;
   const Eigen::Vector2d point = pixel - Eigen::Vector2d(center_x, center_y);
-  for (int place = 0; place < kMaxPixels; ++place) {
-    const int x = place % kSide - kRadius;
-    const int y = place / kSide - kRadius;
+  for (int i = 0; i < kMaxPixels; ++i) {
+    const int x = i % kSide - kRadius;
+    const int y = i / kSide - kRadius;
     const double w = image.At(center_x + x, center_y + y);
-    if (w > 0.0) pixels[count++] = {place, (Eigen::Vector2d(x, y) - point).norm(), w};
+    if (w > 0.0) pixels[count++] = {i, (Eigen::Vector2d(x, y) - point).norm(), w};
   }
   const Parameters at_point = Basis(point.x(), point.y());
   Pixel* const begin = pixels.data();
   Pixel* const end = begin + count;
-  if (count < kMinPixels || !ComesToPoint(begin, end)) return std::nullopt;
-  const Surface plane = FitSurface(begin, end, at_point, sigma);
-  // Neighbouring pixels share their noise, so that their mean is no better than one of them: hence
-  // the 1. What a fit must extrapolate comes on top.
+  if (count < kMinPixels || !ReachesPoint(begin, end)) return std::nullopt;
+  const Surface only = FitSurface(begin, end, at_point, sigma);
+  // The noise of neighbouring pixels is correlated, so their mean is as uncertain as one pixel:
+  // hence the 1. The variance of the fit, which grows with extrapolation, is added.
   const auto sample = [&](const Surface& surface, double step) -> std::optional<DepthSample> {
     if (surface.w <= 0.0) return std::nullopt;
-    return DepthSample{surface.w,
-                       std::hypot(sigma * std::sqrt(1.0 + surface.variance), kEdgeDoubt * step)};
+    return DepthSample{
+        surface.w, std::hypot(sigma * std::sqrt(1.0 + surface.variance), kEdgeInflation * step)};
   };
-  if (plane.rms <= kMaxRms) return sample(plane, 0.0);
+  if (only.rms <= kMaxRms) return sample(only, 0.0);
   std::stable_sort(begin, end, [](const Pixel& a, const Pixel& b) { return a.w < b.w; });
   const std::optional<Surface> surface = NearestSurface(begin, end, at_point, sigma);
   if (!surface) return std::nullopt;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/point_descriptor_extractor.h"
+#include "msc_vo/features/internal/point_descriptor_extractor.h"
 
 #include <algorithm>
 #include <array>
@@ -16,13 +16,13 @@ namespace msc_vo {
 namespace {
 
 constexpr int kPatchRadius = 15;  // pixels
-constexpr int kPatchRow = 32;     // one more than a patch is wide, for whole vectors
+constexpr int kPatchRow = 32;     // width of the patch, rounded up to whole vectors
 constexpr int kNumPairs = 8 * std::tuple_size<Descriptor>::value;
 
-// Which pixels of a row of the patch are inside of the disc, and their x there.
+// One row of the disc-shaped patch.
 struct PatchRow {
-  std::array<int16_t, kPatchRow> inside;
-  std::array<int16_t, kPatchRow> x;
+  std::array<int16_t, kPatchRow> inside;  // 1 inside the disc, 0 outside
+  std::array<int16_t, kPatchRow> x;       // coordinate relative to the centre; 0 outside
 };
 
 using PatchRows = std::array<PatchRow, kPatchRadius + 1>;  // by their distance from the centre
@@ -30,7 +30,7 @@ PatchRows MakePatchRows() {
   PatchRows rows{};
   for (int y = 0; y <= kPatchRadius; ++y) {
     for (int x = -kPatchRadius; x <= kPatchRadius; ++x) {
-      // Up to half a pixel beyond the radius, and the same along x and y.
+      // The disc extends half a pixel beyond the radius.
       const bool is_inside = x * x + y * y <= kPatchRadius * (kPatchRadius + 1);
       rows[y].inside[x + kPatchRadius] = is_inside ? 1 : 0;
       rows[y].x[x + kPatchRadius] = static_cast<int16_t>(is_inside ? x : 0);
@@ -39,15 +39,15 @@ PatchRows MakePatchRows() {
   return rows;
 }
 
-// The places that are compared: the first of all pairs, then the second.
+// Positions of the compared pixels: the first of all pairs, then the second of all pairs.
 struct Pattern {
   std::array<float, 2 * kNumPairs> x, y;
 };
 
-// Coordinates of a place are sums of three numbers of -5 to 5, close to a Gaussian of 5.5 px:
-// about a fifth of the patch's width, as was best of the distributions in BRIEF's paper.
+// Draws each coordinate as the sum of three integers from -5 to 5, approximately a Gaussian of
+// 5.5 px: about a fifth of the patch's width, the best distribution in the BRIEF paper.
 Pattern MakePattern() {
-  std::mt19937 random(1);  // whose numbers the standard fixes
+  std::mt19937 random(1);  // its sequence is defined by the C++ standard
   const auto coordinate = [&random] {
     int sum = 0;
     for (int i = 0; i < 3; ++i) sum += static_cast<int>(random() % 11) - 5;
@@ -62,7 +62,7 @@ Pattern MakePattern() {
   return pattern;
 }
 
-// Of a value in (-64, 64), without a branch.
+// Rounds a value in (-64, 64) without a branch.
 inline int Round(float value) { return static_cast<int>(value + 64.5f) - 64; }
 
 }  // namespace

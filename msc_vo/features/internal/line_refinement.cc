@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/line_refinement.h"
+#include "msc_vo/features/internal/line_refinement.h"
 
 #include <algorithm>
 #include <array>
@@ -18,22 +18,22 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Places along the line: one every two pixels (nearer ones share their pixels), at most so many,
-// and a third of them where the line need only come near to the edge.
+// Spacing of the samples along the line, pixels (closer ones would use the same pixels), and their
+// largest number in the fine and in the coarse pass.
 constexpr double kSpacing = 2.0;
-constexpr int kMaxPlaces = 48;
-constexpr int kMaxCoarsePlaces = 16;
-// Grey values are read this many pixels to both sides.
+constexpr int kMaxSamples = 48;
+constexpr int kMaxCoarseSamples = 16;
+// Length of the profile of grey values on each side of the line, pixels.
 constexpr int kReach = 3;
-// A detector is not farther off than this, pixels; what is farther is another edge.
+// Largest error of a detector, pixels; an edge farther away is another one.
 constexpr double kMaxOffset = 1.5;
-// An edge has at least this contrast per pixel: sensor noise has a sigma of 2 to 3 grey values.
+// Smallest contrast of an edge, grey values per pixel: the sigma of sensor noise is 2 to 3.
 constexpr double kMinRise = 4.0;
-// Second fit without the places farther than this from the first, pixels.
+// Inliers of the second fit are within this distance of the first, pixels.
 constexpr double kInlierDistance = 0.75;
-constexpr int kMinPlaces = 5;
+constexpr int kMinSamples = 5;
 
-// Bilinear; the pixel must be inside with a margin of one.
+// Bilinear interpolation; the pixel must be at least one pixel inside the image.
 double GrayAt(const cv::Mat& gray, const Vector2d& pixel) {
   const int x = static_cast<int>(pixel.x());
   const int y = static_cast<int>(pixel.y());
@@ -46,13 +46,13 @@ double GrayAt(const cv::Mat& gray, const Vector2d& pixel) {
 }
 
 struct Edge {
-  double t = 0.0;       // along the segment from its middle, pixels
-  double offset = 0.0;  // across it, towards the bright side, pixels
+  double t = 0.0;       // position along the segment from its midpoint, pixels
+  double offset = 0.0;  // position across it, towards the bright side, pixels
   double weight = 0.0;
 };
 
-// The steepest rise along `across` through `center`: the centroid of the largest difference of
-// neighbours and the two beside it.
+// Locates the steepest increase along `across` through `center`: the centroid of the largest
+// difference between neighbours and the two adjacent differences.
 std::optional<Edge> SteepestRise(const cv::Mat& gray, const Vector2d& center,
                                  const Vector2d& across) {
   const Vector2d low = center - (kReach + 0.5) * across;
@@ -62,7 +62,7 @@ std::optional<Edge> SteepestRise(const cv::Mat& gray, const Vector2d& center,
         x->x() >= 1.0 && x->y() >= 1.0 && x->x() < gray.cols - 2 && x->y() < gray.rows - 2;
     if (!is_inside) return std::nullopt;
   }
-  // rise[k] is at offset k - kReach, so that an edge on the segment is in the middle of one.
+  // rise[k] is the difference centred at offset k - kReach.
   std::array<double, 2 * kReach + 1> rise;
   double previous = GrayAt(gray, low);
   for (size_t k = 0; k < rise.size(); ++k) {
@@ -80,8 +80,9 @@ std::optional<Edge> SteepestRise(const cv::Mat& gray, const Vector2d& center,
   return Edge{0.0, offset, *best};
 }
 
-// offset = line[0] + line[1] t, weighted, over the edges within `max_distance` of `prior`.
-std::optional<Vector2d> FitOffsets(const std::array<Edge, kMaxPlaces>& edges, int count,
+// Weighted least-squares fit of offset = line[0] + line[1] t to the edges within `max_distance` of
+// `prior`.
+std::optional<Vector2d> FitOffsets(const std::array<Edge, kMaxSamples>& edges, int count,
                                    const Vector2d& prior, double max_distance) {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   Vector2d rhs = Vector2d::Zero();
@@ -93,28 +94,28 @@ std::optional<Vector2d> FitOffsets(const std::array<Edge, kMaxPlaces>& edges, in
     rhs += edges[i].weight * edges[i].offset * a;
     ++used;
   }
-  if (used < kMinPlaces) return std::nullopt;
+  if (used < kMinSamples) return std::nullopt;
   return Vector2d(information.inverse() * rhs);
 }
 
-// Moves the segment onto the line through the steepest rises across it. Returns false if there is
-// none within kMaxOffset.
-bool MoveOntoEdge(const cv::Mat& gray, int max_places, LineSegment2* segment) {
+// Moves the segment onto the line through the steepest increases across it. Returns false if there
+// is no edge within kMaxOffset.
+bool MoveOntoEdge(const cv::Mat& gray, int max_samples, LineSegment2* segment) {
   const Vector2d direction = segment->Direction();
   const Vector2d across(-direction.y(), direction.x());
   const double length = segment->Length();
-  const int places = std::max(CellIndex(length / kSpacing, max_places + 1), kMinPlaces);
-  std::array<Edge, kMaxPlaces> edges;
+  const int samples = std::max(CellIndex(length / kSpacing, max_samples + 1), kMinSamples);
+  std::array<Edge, kMaxSamples> edges;
   int count = 0;
-  for (int i = 0; i < places; ++i) {
-    const double s = (i + 0.5) / places;
+  for (int i = 0; i < samples; ++i) {
+    const double s = (i + 0.5) / samples;
     const std::optional<Edge> edge = SteepestRise(gray, segment->At(s), across);
     if (!edge) continue;
     edges[count] = *edge;
     edges[count].t = (s - 0.5) * length;
     ++count;
   }
-  if (2 * count < places) return false;
+  if (2 * count < samples) return false;
   std::optional<Vector2d> line = FitOffsets(edges, count, Vector2d::Zero(), kMaxOffset);
   if (line) line = FitOffsets(edges, count, *line, kInlierDistance);
   if (!line) return false;
@@ -129,10 +130,10 @@ bool MoveOntoEdge(const cv::Mat& gray, int max_places, LineSegment2* segment) {
 }  // namespace
 
 bool RefineSegment(const cv::Mat& gray, LineSegment2* segment) {
-  // The centroid of three is drawn to the middle one if the edge is blurred wider than these; the
-  // second pass has the edge in the middle.
-  if (!MoveOntoEdge(gray, kMaxCoarsePlaces, segment)) return false;
-  MoveOntoEdge(gray, kMaxPlaces, segment);
+  // If the blur of the edge is wider than three differences, their centroid is biased towards the
+  // middle one. The second pass starts with the edge in the middle.
+  if (!MoveOntoEdge(gray, kMaxCoarseSamples, segment)) return false;
+  MoveOntoEdge(gray, kMaxSamples, segment);
   return true;
 }
 

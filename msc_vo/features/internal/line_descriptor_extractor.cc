@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/line_descriptor_extractor.h"
+#include "msc_vo/features/internal/line_descriptor_extractor.h"
 
 #include <algorithm>
 #include <array>
@@ -18,14 +18,15 @@ using Eigen::Vector2d;
 constexpr int kBands = 9;
 constexpr int kBandWidth = 4;  // rows
 constexpr int kRows = kBands * kBandWidth;
-// The region reaches half its width to both sides of a line, and rounding adds one pixel.
+// Half the width of the region, and one pixel for rounding.
 constexpr int kMargin = kRows / 2 + 2;
-// Positions along a row are counted in units of 2^-16 pixels.
+// Positions along a row are fixed-point numbers in units of 2^-16 pixels.
 constexpr int kFractionBits = 16;
 
-// The four sums of a row: towards the bright side, away from it, along the line, against it.
+// The four gradient sums of a row: towards the bright side, away from it, along the line, against
+// it.
 using Row = Eigen::Array4f;
-// Means and standard deviations of these over the rows of a band.
+// Means and standard deviations of the four sums over the rows of a band.
 using Band = Eigen::Array<float, 8, 1>;
 
 struct BandPair {
@@ -33,15 +34,15 @@ struct BandPair {
   int second;
 };
 
-// 32 of the 36 pairs of bands: the middle one holds the edge itself and always wins against the
-// outermost two on each side, which says nothing.
+// 32 of the 36 pairs of bands. The comparisons of the middle band with the two outermost bands on
+// each side carry no information, because the middle band contains the edge itself.
 std::array<BandPair, 32> MakePairs() {
   std::array<BandPair, 32> pairs;
   int count = 0;
   for (int i = 0; i < kBands; ++i) {
     for (int j = i + 1; j < kBands; ++j) {
-      const bool is_idle = (j == kBands / 2 && i < 2) || (i == kBands / 2 && j >= kBands - 2);
-      if (!is_idle) pairs[count++] = {i, j};
+      const bool is_constant = (j == kBands / 2 && i < 2) || (i == kBands / 2 && j >= kBands - 2);
+      if (!is_constant) pairs[count++] = {i, j};
     }
   }
   return pairs;
@@ -58,7 +59,7 @@ std::array<float, size> Gaussian(double sigma) {
   return weights;
 }
 
-// Rows count less the farther they are from the middle of their band.
+// The weight of a row decreases with its distance from the centre of the band.
 std::array<Band, kBands> SummarizeBands(const std::array<Row, kRows>& rows) {
   static const std::array<float, 3 * kBandWidth> weights = Gaussian<3 * kBandWidth>(kBandWidth);
   std::array<Band, kBands> bands;
@@ -115,7 +116,7 @@ void LineDescriptorExtractor::SetImage(const cv::Mat& gray) {
   both_.convertTo(gradient_, CV_32F);
 }
 
-// A row of `steps` pixels from `first` on in direction `d`.
+// Computes the four gradient sums over a row of `steps` pixels from `first` on in direction `d`.
 Row LineDescriptorExtractor::SumRow(const Vector2d& first, const Vector2d& d, int steps) const {
   const size_t stride = gradient_.step1() / 2;
   const cv::Vec2f* const gradient = gradient_.ptr<cv::Vec2f>();
@@ -124,7 +125,7 @@ Row LineDescriptorExtractor::SumRow(const Vector2d& first, const Vector2d& d, in
   const Row by_y(along.x(), -along.x(), along.y(), -along.y());
   const int step_x = ToFixed(d.x());
   const int step_y = ToFixed(d.y());
-  // + 0.5: cutting the fraction off then gives the nearest pixel.
+  // With + 0.5, truncation gives the nearest pixel.
   int x = ToFixed(first.x() + 0.5);
   int y = ToFixed(first.y() + 0.5);
   Row sum = Row::Zero();
@@ -139,12 +140,12 @@ Row LineDescriptorExtractor::SumRow(const Vector2d& first, const Vector2d& d, in
 
 Descriptor LineDescriptorExtractor::Describe(const LineSegment2& segment) const {
   if (!IsNearImage(segment.start, half_) || !IsNearImage(segment.end, half_)) return {};
-  // As in the original.
+  // Weights of the rows of the region, as in the original.
   static const std::array<float, kRows> weights = Gaussian<kRows>(0.5 * (kRows - 1));
   const Vector2d d = segment.Direction();
   const Vector2d across(-d.y(), d.x());
   const int steps = std::max(1, cvRound(0.5 * segment.Length()));
-  // The middle of the line's first pixel, in the padded image.
+  // Centre of the line's first pixel, in the padded image.
   const Vector2d first = 0.5 * (segment.start + d) + Vector2d::Constant(kMargin - 0.25);
   std::array<Row, kRows> rows;
   for (int r = 0; r < kRows; ++r) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/edge_drawing.h"
+#include "msc_vo/features/internal/edge_drawing.h"
 
 #include <algorithm>
 #include <array>
@@ -10,25 +10,26 @@ namespace msc_vo {
 
 namespace {
 
-// Smallest magnitude of a pixel of an edge: a step of 7 grey values, or three sigmas of a camera's
+// Smallest gradient magnitude of an edge pixel: a step of 7 grey values, or three sigmas of sensor
 // noise of 2 to 3 grey values after smoothing.
 constexpr int kMinMagnitude = 20;
-// Largest: both components at most 3 * 255.
+// Largest gradient magnitude: each component is at most 3 * 255.
 constexpr int kMaxMagnitude = 2 * 3 * 255;
-// Anchors are looked for in every so many rows (edges along y) and columns (edges along x): the
-// shortest line of use passes several.
+// Spacing of the rows (for edges along y) and columns (for edges along x) that are searched for
+// anchors, pixels. The shortest useful line crosses several.
 constexpr int kScanInterval = 4;
-// Shorter chains hold no line.
+// Shortest chain that is kept, pixels.
 constexpr int kMinChain = 10;
 
 bool IsAnchor(const ImageGradient& gradient, int pixel, int across) {
   const int magnitude = gradient.Magnitude(pixel);
-  // Of two equal neighbours the first one.
+  // Of two equal neighbours, the first one is the anchor.
   return magnitude >= kMinMagnitude && magnitude > gradient.Magnitude(pixel - across) &&
          magnitude >= gradient.Magnitude(pixel + across);
 }
 
-// Of the three pixels ahead of `pixel` the one of the largest magnitude, straight on if equal.
+// Returns the pixel of largest magnitude among the three ahead of `pixel`; the one straight ahead
+// if they are equal.
 int StrongestAhead(const ImageGradient& gradient, int pixel, int along, int across) {
   int best = pixel + along;
   for (const int candidate : {pixel + along - across, pixel + along + across}) {
@@ -50,10 +51,9 @@ void EdgeDrawing::Draw(const ImageGradient& gradient) {
   }
 }
 
-// Counting sort by magnitude; of equal ones the first pixel comes first.
 void EdgeDrawing::FindAnchors(const ImageGradient& gradient) {
   const int width = gradient.width();
-  candidates_.clear();
+  unsorted_anchors_.clear();
   for (int y = 1; y + 1 < gradient.height(); ++y) {
     const int row = y * width;
     const bool scan_row = y % kScanInterval == 0;
@@ -63,20 +63,25 @@ void EdgeDrawing::FindAnchors(const ImageGradient& gradient) {
       const bool is_horizontal = gradient.IsHorizontalEdge(pixel);
       const bool scanned = is_horizontal ? x % kScanInterval == 0 : scan_row;
       if (scanned && IsAnchor(gradient, pixel, is_horizontal ? width : 1)) {
-        candidates_.push_back(pixel);
+        unsorted_anchors_.push_back(pixel);
       }
     }
   }
+  SortAnchors(gradient);
+}
+
+// Counting sort by decreasing magnitude, stable.
+void EdgeDrawing::SortAnchors(const ImageGradient& gradient) {
   first_of_magnitude_.assign(kMaxMagnitude + 1, 0);
-  for (const int pixel : candidates_) {
+  for (const int pixel : unsorted_anchors_) {
     const int magnitude = gradient.Magnitude(pixel);
     if (magnitude > 0) ++first_of_magnitude_[magnitude - 1];
   }
   for (int m = kMaxMagnitude - 1; m >= 0; --m) {
     first_of_magnitude_[m] += first_of_magnitude_[m + 1];
   }
-  anchors_.resize(candidates_.size());
-  for (const int pixel : candidates_) {
+  anchors_.resize(unsorted_anchors_.size());
+  for (const int pixel : unsorted_anchors_) {
     anchors_[first_of_magnitude_[gradient.Magnitude(pixel)]++] = pixel;
   }
 }
@@ -87,9 +92,9 @@ void EdgeDrawing::DrawThrough(const ImageGradient& gradient, int anchor) {
   const int dx = is_horizontal ? 1 : 0;
   const int dy = is_horizontal ? 0 : 1;
   Append(gradient, anchor);
-  Walk(gradient, anchor, -dx, -dy);
+  FollowRidge(gradient, anchor, -dx, -dy);
   std::reverse(pixels_.begin() + begin, pixels_.end());
-  Walk(gradient, anchor, dx, dy);
+  FollowRidge(gradient, anchor, dx, dy);
   const int end = static_cast<int>(pixels_.size());
   if (end - begin >= kMinChain) {
     chains_.push_back({begin, end});
@@ -98,8 +103,8 @@ void EdgeDrawing::DrawThrough(const ImageGradient& gradient, int anchor) {
   }
 }
 
-// From `pixel`, reached by a step (dx, dy), as far as the edge goes.
-void EdgeDrawing::Walk(const ImageGradient& gradient, int pixel, int dx, int dy) {
+// Follows the edge to its end from `pixel`, which was reached by a step (dx, dy).
+void EdgeDrawing::FollowRidge(const ImageGradient& gradient, int pixel, int dx, int dy) {
   const int width = gradient.width();
   for (;;) {
     const bool is_horizontal = gradient.IsHorizontalEdge(pixel);
@@ -110,12 +115,12 @@ void EdgeDrawing::Walk(const ImageGradient& gradient, int pixel, int dx, int dy)
     if (sense != 0) {
       next = StrongestAhead(gradient, pixel, sense * along, across);
     } else {
-      // The edge turns by a right angle.
+      // The edge has turned by a right angle.
       const int forward = StrongestAhead(gradient, pixel, along, across);
       const int backward = StrongestAhead(gradient, pixel, -along, across);
       next = gradient.Magnitude(forward) >= gradient.Magnitude(backward) ? forward : backward;
     }
-    // The image's border has no magnitude, so that no step leads out of it.
+    // The magnitude is zero on the border of the image, so the path stays inside.
     if (gradient.Magnitude(next) < kMinMagnitude || marks_[next] == Mark::kDrawn) return;
     const int step = next - pixel;
     dy = (step > 1) - (step < -1);
@@ -125,7 +130,7 @@ void EdgeDrawing::Walk(const ImageGradient& gradient, int pixel, int dx, int dy)
   }
 }
 
-// Pixels beside an edge are part of its blur: no edge starts there.
+// Also marks the pixels beside the edge: they belong to its blur, and no other edge starts there.
 void EdgeDrawing::Append(const ImageGradient& gradient, int pixel) {
   pixels_.push_back(pixel);
   marks_[pixel] = Mark::kDrawn;

@@ -11,21 +11,21 @@
 
 namespace msc_vo {
 
-// Gradient of a smoothed grey image (Gaussian of sigma 1, then Prewitt's operator: differences over
-// two pixels, summed over three rows or columns). Pixels are addressed by y * width() + x.
-// Keeps its buffers between calls.
+/// Gradient of a smoothed grey image: Gaussian of sigma 1 px, then Prewitt's operator (differences
+/// over two pixels, summed over three rows or columns). The index of a pixel is y * width() + x.
+/// Keeps its buffers between calls.
 class ImageGradient {
  public:
-  // `gray` is CV_8UC1.
+  /// `gray` is CV_8UC1.
   void Compute(const cv::Mat& gray);
 
   int width() const { return width_; }
   int height() const { return height_; }
   int X(int pixel) const { return x_[pixel]; }
   int Y(int pixel) const { return y_[pixel]; }
-  // |X| + |Y|; 0 on the image's border.
+  /// |X| + |Y|; 0 on the border of the image.
   int Magnitude(int pixel) const { return magnitude_[pixel]; }
-  // Whether an edge through the pixel runs rather along x than along y.
+  /// True if an edge through the pixel is closer to the x axis than to the y axis.
   bool IsHorizontalEdge(int pixel) const {
     return 2 * std::abs(static_cast<int>(y_[pixel])) >= magnitude_[pixel];
   }
