@@ -16,7 +16,7 @@ using Block = InverseDepthLineBlock;
 using Blocks = std::vector<Block>;
 using Matrix = StructureEquations::Matrix;
 
-// Direction of a line and its derivative by its block.
+// Direction of a line and its derivative with respect to its block.
 struct Direction {
   Eigen::Vector3d value;
   Eigen::Matrix<double, 3, InverseDepthLine::kBlockSize> jacobian;
@@ -59,9 +59,9 @@ void AddPair(const FrameStructureFactors::Pair<Relation>& pair, double huber,
   // Huber's rho and its derivative.
   const double s = r.squaredNorm();
   const double norm = std::sqrt(s);
-  const bool square = huber == 0.0 || norm <= huber;
-  const double weight = square ? 1.0 : huber / norm;
-  equations->cost += square ? 0.5 * s : huber * norm - 0.5 * huber * huber;
+  const bool is_quadratic = huber == 0.0 || norm <= huber;
+  const double weight = is_quadratic ? 1.0 : huber / norm;
+  equations->cost += is_quadratic ? 0.5 * s : huber * norm - 0.5 * huber * huber;
   const auto j_i = (pair.relation.JacobianI(at_i.value, at_j.value) * at_i.jacobian).eval();
   const auto j_j = (pair.relation.JacobianJ(at_i.value, at_j.value) * at_j.jacobian).eval();
   equations->gradient[pair.i] += weight * (j_i.transpose() * r);
@@ -78,7 +78,7 @@ double Dot(const Blocks& a, const Blocks& b) {
   return sum;
 }
 
-// y = J^T J x, with the diagonal blocks raised by the factor 1 + lambda.
+// y = J^T J x, with the diagonal blocks multiplied by 1 + lambda.
 void Multiply(const StructureEquations& equations, double lambda, const Blocks& x, Blocks* y) {
   y->resize(x.size());
   for (size_t i = 0; i < x.size(); ++i) {
@@ -90,13 +90,13 @@ void Multiply(const StructureEquations& equations, double lambda, const Blocks& 
   }
 }
 
-// Solves J^T J x = -J^T r, with the diagonal blocks raised by the factor 1 + lambda, by conjugate
-// gradients; those blocks are the preconditioner.
+// Solves J^T J x = -J^T r, with the diagonal blocks multiplied by 1 + lambda, by conjugate
+// gradients with the block-Jacobi preconditioner.
 Blocks SolveStep(const StructureEquations& equations, double lambda) {
-  // Leaves 1e-3 of the step undone, in the norm of the preconditioner: less than the next step of
-  // an iteration that is not quadratic anyway, as a loss is in it.
+  // Relative error 1e-3 of the step in the norm of the preconditioner. Higher accuracy would not
+  // reduce the number of steps, because the robust loss prevents quadratic convergence.
   constexpr double kTolerance = 1e-6;
-  constexpr int kMaxIterations = 100;  // in blocks well conditioned by the priors, 10 to 30 do
+  constexpr int kMaxIterations = 100;  // 10 to 30 suffice, as priors condition the blocks
   std::vector<Matrix> inverse;
   for (const Matrix& block : equations.diagonal) {
     inverse.push_back(((1.0 + lambda) * block).llt().solve(Matrix::Identity()));
@@ -149,9 +149,9 @@ bool MinimizeStructure(const FrameStructureFactors& factors, int max_iterations,
                        StructureEquations* equations, int* num_iterations) {
   *num_iterations = 0;
   if (!factors.Linearize(*blocks, equations)) return false;
-  // A hundredth of the estimate's own standard deviations, of all lines together.
+  // Squared length of the last step in standard deviations of the estimate, all lines together.
   constexpr double kConverged = 1e-4;
-  double lambda = 1e-4;  // relative to the diagonal; small, as priors keep the problem near linear
+  double lambda = 1e-4;  // relative to the diagonal; small, because priors keep the problem linear
   StructureEquations next;
   Blocks product;
   for (; *num_iterations < max_iterations; ++*num_iterations) {
@@ -168,7 +168,7 @@ bool MinimizeStructure(const FrameStructureFactors& factors, int max_iterations,
     } else {
       lambda *= 100.0;
     }
-    // At the minimum, rounding may refuse a step of no length.
+    // Tested for rejected steps too, because rounding may reject a tiny step at the minimum.
     if (size < kConverged) break;
   }
   return true;
@@ -181,7 +181,8 @@ std::vector<Matrix> BoundCovariances(const FrameStructureFactors& factors,
     priors[pair.i] -= pair.ii;
     priors[pair.j] -= pair.jj;
   }
-  // Of each line, with its partners eliminated one by one: they meet in this line only.
+  // Information of each line, with its partners eliminated. They are independent of each other
+  // given this line, because the pairs among them are neglected.
   std::vector<Matrix> information = priors;
   for (const StructureEquations::Pair& pair : equations.pairs) {
     const Matrix given_j = pair.ij * (priors[pair.j] + pair.jj).llt().solve(pair.ij.transpose());
