@@ -30,7 +30,7 @@ constexpr double kMaxDepthDelay = 1.0;
 OdometryOptions Checked(const OdometryOptions& options) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
-  return WithModeApplied(options);
+  return EffectiveOptions(options);
 }
 
 const PinholeCamera& Checked(const PinholeCamera& camera, const LensDistortion& distortion) {
@@ -88,7 +88,7 @@ struct Odometry::State {
       : options(Checked(options_in)),
         camera(Checked(camera_in, distortion)),
         builder(options.features, camera, distortion),
-        normal_estimator(options.normals, camera, distortion),
+        normal_estimator(NormalOptions(options), camera, distortion),
         tracker(options.tracking),
         mapper(options.mapping),
         schedule(options.snapshots,
