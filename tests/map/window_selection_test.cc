@@ -18,7 +18,8 @@ class WindowTest : public ::testing::Test {
     options.inverse_depth_noise = 0.0;
     options.flipped_bits = 0;
     SyntheticFrames world(options);
-    for (int i = 0; i < 6; ++i) Insert(world.See(10 * i), SyntheticFrames::CamFromWorld(10 * i));
+    for (int i = 0; i < 6; ++i)
+      Insert(world.MakeFrame(10 * i), SyntheticFrames::CamFromWorld(10 * i));
   }
 
   // Features are matched with landmarks by their descriptors, which are unique.

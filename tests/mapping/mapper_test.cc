@@ -15,7 +15,7 @@ namespace {
 KeyframePacket Packet(SyntheticFrames* world, int index, std::mt19937* random) {
   const auto normal = [&] { return std::normal_distribution<double>(0.0, 1.0)(*random); };
   KeyframePacket packet;
-  packet.frame = world->See(index);
+  packet.frame = world->MakeFrame(index);
   const Rigid3 truth =
       SyntheticFrames::CamFromWorld(index) * SyntheticFrames::CamFromWorld(0).Inverse();
   packet.cam_from_reference = truth;

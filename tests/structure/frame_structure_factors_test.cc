@@ -18,7 +18,7 @@ class FrameStructureFactorsTest : public ::testing::Test {
   FrameStructureFactorsTest() {
     StructureFrameOptions scene;
     scene.num_lines = 12;
-    scene.free_share = 0.0;
+    scene.free_ratio = 0.0;
     frame_ = MakeStructureFrame(scene);
     factors_.huber = 2.0;
     for (const StructureLine& line : frame_.lines) {

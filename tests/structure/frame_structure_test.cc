@@ -107,7 +107,7 @@ TEST_P(FrameStructureTest, NoisierDepthIsHelpedMore) {
 }
 
 TEST_P(FrameStructureTest, ASceneWithoutStructureIsHardlyTouched) {
-  scene_.free_share = 1.0;
+  scene_.free_ratio = 1.0;
   const Errors errors = Simulate(options_, scene_, true, 20);
   EXPECT_LT(errors.direction_after, 1.15 * errors.direction_before);
   EXPECT_LT(errors.normalized_after, 1.5 * errors.normalized_before);

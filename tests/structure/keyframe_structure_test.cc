@@ -42,7 +42,7 @@ std::vector<LineSegment3> LinesInCamera(const Frame& frame) {
 
 TEST(KeyframeStructure, MakesDirectionsAgree) {
   SyntheticFrames world{SyntheticFrames::Options()};
-  const std::shared_ptr<const Frame> frame = world.See(0);
+  const std::shared_ptr<const Frame> frame = world.MakeFrame(0);
   const Rigid3 world_from_cam = SyntheticFrames::CamFromWorld(0).Inverse();
   const double before = DirectionError(LinesInCamera(*frame), world_from_cam);
   const auto refined = RefineStructure(WideGates(), NoiseScale(), frame);
@@ -60,7 +60,7 @@ TEST(KeyframeStructure, MakesDirectionsAgree) {
 
 TEST(KeyframeStructure, TrustsFitsAsFarAsNoiseIsKnown) {
   SyntheticFrames world{SyntheticFrames::Options()};
-  const std::shared_ptr<const Frame> frame = world.See(0);
+  const std::shared_ptr<const Frame> frame = world.MakeFrame(0);
   const Rigid3 world_from_cam = SyntheticFrames::CamFromWorld(0).Inverse();
   const auto error_with = [&](double scale) {
     const NoiseScale noise{1.0, scale, scale};
@@ -81,7 +81,7 @@ TEST(KeyframeStructure, TrustsFitsAsFarAsNoiseIsKnown) {
 }
 
 TEST(KeyframeStructure, LeavesAFrameWithoutPairsAlone) {
-  const std::shared_ptr<const Frame> nothing = SyntheticFrames::SeeNothing(0);
+  const std::shared_ptr<const Frame> nothing = SyntheticFrames::MakeEmptyFrame(0);
   EXPECT_EQ(RefineStructure(FrameStructureOptions(), NoiseScale(), nothing), nothing);
 }
 
@@ -95,7 +95,7 @@ TEST(KeyframeStructure, ReachesTheMap) {
     options.structure = WideGates();
     Mapper mapper(options);
     KeyframePacket packet;
-    packet.frame = world.See(0);
+    packet.frame = world.MakeFrame(0);
     packet.cam_from_reference = SyntheticFrames::CamFromWorld(0);
     mapper.Process(packet);
     std::vector<LineSegment3> lines;

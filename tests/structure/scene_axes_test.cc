@@ -21,7 +21,7 @@ Map Walk(SyntheticFrames* world, int count) {
     const int index = 10 * k;
     const Rigid3 cam_from_world =
         SyntheticFrames::CamFromWorld(index) * SyntheticFrames::CamFromWorld(0).Inverse();
-    const KeyframeId id = map.AddKeyframe(world->See(index), cam_from_world);
+    const KeyframeId id = map.AddKeyframe(world->MakeFrame(index), cam_from_world);
     const Frame& frame = *map.FindKeyframe(id)->frame;
     for (int i = 0; i < static_cast<int>(frame.lines.size()); ++i) {
       LandmarkId seen = kNoId;
@@ -106,7 +106,7 @@ TEST(SceneAxes, AskForNormalsOnlyAsLongAsThereAreNone) {
   Mapper mapper{MapperOptions()};
   EXPECT_TRUE(mapper.Snapshot()->needs_axes);
   KeyframePacket packet;
-  packet.frame = world.See(0);
+  packet.frame = world.MakeFrame(0);
   mapper.Process(packet);
   EXPECT_FALSE(mapper.Snapshot()->needs_axes);
 }

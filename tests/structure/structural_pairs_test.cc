@@ -20,7 +20,7 @@ class StructuralPairs : public ::testing::Test {
  protected:
   StructuralPairs() {
     SyntheticFrames world{SyntheticFrames::Options()};
-    map_ = MapOfOneKeyframe(world.See(0), Rigid3()).map;
+    map_ = MapOfOneKeyframe(world.MakeFrame(0), Rigid3()).map;
     WindowSelectionOptions selection;
     selection.min_observations = 1;
     window_ = SelectWindow(selection, map_, 0);
