@@ -22,7 +22,7 @@ struct SnapshotOptions {
   // and holds what tracking needs where the camera goes on: with 2 instead of 1, errors were larger
   // by 4 and 14 %. The second is for the map refined with the keyframe, which takes the mapper
   // longer than the tracker takes for a frame: between 1 and 4 nothing is to be told apart
-  // (docs/performance.md). The first counts no more than the second.
+  // (docs/lab/performance.md). The first counts no more than the second.
   int insertion_latency_frames = 1;
   int latency_frames = 3;
   // Nothing waits, as nothing can with a camera: a map that is not ready for the frame that should

@@ -36,6 +36,11 @@ std::vector<StageTimeStatistics> SummarizeMapping(const std::vector<FrameResult>
           summarize("snapshot", [](const StageTimes& t) { return t.snapshot; })};
 }
 
+int NumProcessed(const RunSummary& summary) {
+  return summary.num_frames - summary.Count(TrackingStatus::kDropped) -
+         summary.Count(TrackingStatus::kUnreadable);
+}
+
 }  // namespace
 
 RunSummary Summarize(const OdometryResult& result) {
@@ -45,9 +50,7 @@ RunSummary Summarize(const OdometryResult& result) {
     ++summary.status_counts.at(static_cast<size_t>(frame.status));
     summary.num_frames_with_motion += frame.num_dynamic > 0 ? 1 : 0;
     summary.num_estimated += IsEstimated(frame.status) ? 1 : 0;
-    const bool has_image =
-        frame.status != TrackingStatus::kDropped && frame.status != TrackingStatus::kUnreadable;
-    if (!IsEstimated(frame.status) && has_image) {
+    if (HasImage(frame.status) && !IsEstimated(frame.status)) {
       ++summary.loss_causes.at(static_cast<size_t>(FindLossCause(frame)));
     }
   }
@@ -79,9 +82,8 @@ StageTimeStatistics FindStage(const RunSummary& summary, const std::string& name
 }
 
 bool TrackingFailed(const RunSummary& summary) {
-  const int num_dropped = summary.status_counts[static_cast<size_t>(TrackingStatus::kDropped)];
-  const int num_processed = summary.num_frames - num_dropped;
-  return summary.num_estimated == 0 || summary.num_estimated < kMinTrackedShare * num_processed;
+  return summary.num_estimated == 0 ||
+         summary.num_estimated < kMinTrackedShare * NumProcessed(summary);
 }
 
 std::string DescribeLosses(const RunSummary& summary) {
@@ -97,7 +99,7 @@ std::string DescribeLosses(const RunSummary& summary) {
 std::string DescribeFailure(const RunSummary& summary) {
   std::string text = FormatText(
       "tracking failed: %d of %d images have an estimated pose, at least %.0f %% are needed",
-      summary.num_estimated, summary.num_frames, 100.0 * kMinTrackedShare);
+      summary.num_estimated, NumProcessed(summary), 100.0 * kMinTrackedShare);
   const std::string losses = DescribeLosses(summary);
   return losses.empty() ? text : text + "; the others: " + losses;
 }

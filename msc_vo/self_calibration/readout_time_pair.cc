@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "msc_vo/factors/camera_factor.h"
+#include "msc_vo/factors/robust_loss.h"
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/matching/point_matcher.h"
@@ -34,7 +35,7 @@ constexpr int kRobustIterations = 3;
 constexpr int kIterations = 5;
 // Square roots of the 95 % and 99 % chi-square quantiles with two degrees of freedom, and the
 // median.
-constexpr double kHuber = 2.448;
+constexpr HuberLoss kLoss{2.448};
 constexpr double kCut = 3.035;
 constexpr double kMedian = 1.177;
 // Pixels that all residuals may be off by alike, as they follow the row: by what depth, lens and
@@ -126,7 +127,7 @@ class PairProblem {
     for (const Residual& residual : residuals_) {
       const double sigmas = residual.Sigmas() / scale;
       if (cut && sigmas > kCut) continue;
-      equations.Add(residual, std::min(1.0, kHuber / std::max(sigmas, kHuber)) / (scale * scale));
+      equations.Add(residual, kLoss.Weight(sigmas * sigmas) / (scale * scale));
     }
     return equations;
   }

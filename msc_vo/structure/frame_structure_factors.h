@@ -58,8 +58,9 @@ struct FrameStructureFactors {
                  StructureEquations* equations) const;
 };
 
-// Levenberg-Marquardt from *blocks; a failure leaves them unchanged and returns false. *equations:
-// those at the end; *num_iterations: steps tried.
+// Minimises the cost by Levenberg-Marquardt from *blocks. Returns false, and leaves *blocks
+// unchanged, if a factor is undefined there or a step is not finite. *equations: normal equations
+// at the solution. *num_iterations: steps that were evaluated.
 bool MinimizeStructure(const FrameStructureFactors& factors, int max_iterations,
                        std::vector<InverseDepthLineBlock>* blocks, StructureEquations* equations,
                        int* num_iterations);

@@ -11,6 +11,7 @@
 
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/map/feature_counts.h"
+#include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/timing/stopwatch.h"
 #include "msc_vo/tracking/dynamic_features.h"

@@ -27,4 +27,8 @@ bool IsEstimated(TrackingStatus status) {
   return status == TrackingStatus::kTracked || status == TrackingStatus::kWeak;
 }
 
+bool HasImage(TrackingStatus status) {
+  return status != TrackingStatus::kDropped && status != TrackingStatus::kUnreadable;
+}
+
 }  // namespace msc_vo

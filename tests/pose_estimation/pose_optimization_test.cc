@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "tests/support/factor_checks.h"
-#include "tests/support/synthetic_window.h"
+#include "tests/support/test_window.h"
 #include <Eigen/Cholesky>
 #include <gmock/gmock.h>
 
@@ -18,9 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 constexpr int kFrame = 4;  // of the synthetic window
 
-Rigid3 Truth(const SyntheticWindow& window) {
-  return window.truth.keyframes[kFrame].cam_from_world;
-}
+Rigid3 Truth(const TestWindow& window) { return window.truth.keyframes[kFrame].cam_from_world; }
 
 // Normalised estimation error squared: chi-square with six degrees of freedom if the covariance is
 // right.
@@ -33,8 +31,8 @@ double Nees(const Rigid3& estimate, const PoseSummary& summary, const Rigid3& tr
 // The parameter is fy.
 class PoseProblemTest : public ::testing::TestWithParam<double> {
  protected:
-  SyntheticWindowOptions Scene() const {
-    SyntheticWindowOptions options;
+  TestWindowOptions Scene() const {
+    TestWindowOptions options;
     options.fy = GetParam();
     return options;
   }
@@ -42,9 +40,9 @@ class PoseProblemTest : public ::testing::TestWithParam<double> {
 INSTANTIATE_TEST_SUITE_P(FocalLength, PoseProblemTest, ::testing::Values(525.0, -480.0));
 
 TEST_P(PoseProblemTest, ExactMatchesGiveTheExactPose) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const TestWindow window = MakeTestWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
   const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   EXPECT_TRUE(summary.usable);
@@ -55,9 +53,9 @@ TEST_P(PoseProblemTest, ExactMatchesGiveTheExactPose) {
 }
 
 TEST_P(PoseProblemTest, PixelsOfPointsOrOfLinesAloneFixThePose) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const TestWindow window = MakeTestWindow(scene);
   for (const bool points : {true, false}) {
     PoseOptions options;
     options.point_reprojection.enabled = points;
@@ -74,14 +72,14 @@ TEST_P(PoseProblemTest, DepthOfPointsAloneIsNotUsable) {
   PoseOptions options;
   options.point_reprojection.enabled = options.line_reprojection.enabled = false;
   options.line_depth.enabled = false;
-  PoseData data = MakePoseData(MakeSyntheticWindow(Scene()), kFrame);
+  PoseData data = MakePoseData(MakeTestWindow(Scene()), kFrame);
   EXPECT_FALSE(OptimizePose(options, &data).usable);
 }
 
 TEST_P(PoseProblemTest, NoiseAndWrongMatches) {
-  SyntheticWindowOptions scene = Scene();
-  scene.wrong_ratio = 0.3;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  TestWindowOptions scene = Scene();
+  scene.outlier_ratio = 0.3;
+  const TestWindow window = MakeTestWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
   const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   ASSERT_TRUE(summary.usable);
@@ -95,13 +93,13 @@ TEST_P(PoseProblemTest, NoiseAndWrongMatches) {
     good += !wrong;
     kept += inlier;
   };
-  for (size_t i = 0; i < window.wrong_points.size(); ++i) {
+  for (size_t i = 0; i < window.point_outliers.size(); ++i) {
     if (window.truth.point_observations[i].keyframe != window.truth.keyframes[kFrame].id) continue;
-    count(window.wrong_points[i], data.points[point++].inlier);
+    count(window.point_outliers[i], data.points[point++].inlier);
   }
-  for (size_t i = 0; i < window.wrong_lines.size(); ++i) {
+  for (size_t i = 0; i < window.line_outliers.size(); ++i) {
     if (window.truth.line_observations[i].keyframe != window.truth.keyframes[kFrame].id) continue;
-    count(window.wrong_lines[i], data.lines[line++].inlier);
+    count(window.line_outliers[i], data.lines[line++].inlier);
   }
   // The test lets 1 % of good matches go.
   EXPECT_GE(kept, 0.96 * good);
@@ -109,9 +107,9 @@ TEST_P(PoseProblemTest, NoiseAndWrongMatches) {
 }
 
 TEST_P(PoseProblemTest, AFrameThatIsSeenWorseKeepsItsMatches) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 1.8;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const TestWindow window = MakeTestWindow(scene);
   const auto share_of_inliers = [&](double max_frame_noise) {
     PoseOptions options;
     options.max_frame_noise = max_frame_noise;
@@ -125,9 +123,9 @@ TEST_P(PoseProblemTest, AFrameThatIsSeenWorseKeepsItsMatches) {
 }
 
 TEST_P(PoseProblemTest, AMatchThatBecomesGoodComesBack) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const TestWindow window = MakeTestWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
   // A prediction so far off that many matches fail the test after a first round of one step.
   data.cam_from_world = Moved(Truth(window), {0.03, 0.06, 0.03}, {0.1, -0.05, 0.15});
@@ -150,9 +148,9 @@ TEST_P(PoseProblemTest, AMatchThatBecomesGoodComesBack) {
 }
 
 TEST_P(PoseProblemTest, AWrongDepthCostsItsDepthOnly) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const TestWindow window = MakeTestWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
   for (int i = 0; i < 40; ++i) data.points[i].inverse_depth += 0.1;
   for (int i = 0; i < 8; ++i) data.lines[i].depth.start += 0.1;
@@ -164,9 +162,9 @@ TEST_P(PoseProblemTest, AWrongDepthCostsItsDepthOnly) {
 }
 
 TEST_P(PoseProblemTest, MatchesBehindTheCameraAreOutliers) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const TestWindow window = MakeTestWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
   data.points[3].position.z() = -2.0;
   data.lines[5].map_segment.end.z() = -2.0;
@@ -180,11 +178,11 @@ TEST_P(PoseProblemTest, MatchesBehindTheCameraAreOutliers) {
 }
 
 // Mean NEES over `runs` windows that differ in noise only.
-double MeanNees(SyntheticWindowOptions scene, int runs) {
+double MeanNees(TestWindowOptions scene, int runs) {
   double sum = 0.0;
   for (int run = 0; run < runs; ++run) {
     scene.seed = 1000 + run;
-    const SyntheticWindow window = MakeSyntheticWindow(scene);
+    const TestWindow window = MakeTestWindow(scene);
     PoseData data = MakePoseData(window, kFrame);
     const PoseSummary summary = OptimizePose(PoseOptions(), &data);
     EXPECT_TRUE(summary.usable) << run;
@@ -196,7 +194,7 @@ double MeanNees(SyntheticWindowOptions scene, int runs) {
 TEST_P(PoseProblemTest, CovarianceIsConsistent) {
   // 200 times the mean is chi-square with 1200 degrees of freedom: 6 +- 2.576 sqrt(2 * 6 / 200) is
   // its 99 % interval.
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.num_keyframes = 6;
   scene.num_points = 60;
   scene.num_lines = 15;
@@ -206,7 +204,7 @@ TEST_P(PoseProblemTest, CovarianceIsConsistent) {
 TEST_P(PoseProblemTest, CovarianceFromLinesAloneIsNotOptimistic) {
   // Where map lines reach beyond what is seen of them, the two rows of a line are anti-correlated,
   // which the factor leaves out: the covariance is then somewhat too large, never too small.
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.num_keyframes = 6;
   scene.num_points = 0;
   scene.num_lines = 25;
@@ -216,10 +214,10 @@ TEST_P(PoseProblemTest, CovarianceFromLinesAloneIsNotOptimistic) {
 }
 
 TEST_P(PoseProblemTest, SameInputSameBytes) {
-  SyntheticWindowOptions scene = Scene();
-  scene.wrong_ratio = 0.2;
-  PoseData a = MakePoseData(MakeSyntheticWindow(scene), kFrame);
-  PoseData b = MakePoseData(MakeSyntheticWindow(scene), kFrame);
+  TestWindowOptions scene = Scene();
+  scene.outlier_ratio = 0.2;
+  PoseData a = MakePoseData(MakeTestWindow(scene), kFrame);
+  PoseData b = MakePoseData(MakeTestWindow(scene), kFrame);
   OptimizePose(PoseOptions(), &a);
   OptimizePose(PoseOptions(), &b);
   EXPECT_EQ(a.cam_from_world.params, b.cam_from_world.params);
@@ -235,9 +233,9 @@ void ExpectNotUsable(PoseData data) {
 }
 
 TEST_P(PoseProblemTest, TooFewRowsAreNotUsable) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.has_depth = false;
-  PoseData data = MakePoseData(MakeSyntheticWindow(scene), kFrame);
+  PoseData data = MakePoseData(MakeTestWindow(scene), kFrame);
   data.lines.clear();
   data.points.resize(2);
   ExpectNotUsable(data);
@@ -246,9 +244,9 @@ TEST_P(PoseProblemTest, TooFewRowsAreNotUsable) {
 }
 
 TEST_P(PoseProblemTest, ThreePointsWithDepthAreEnough) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const TestWindow window = MakeTestWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
   data.lines.clear();
   data.points.resize(3);
@@ -258,9 +256,9 @@ TEST_P(PoseProblemTest, ThreePointsWithDepthAreEnough) {
 
 TEST_P(PoseProblemTest, ParallelLinesAloneAreNotUsable) {
   // Any number of lines along x leaves the shift along x free.
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  PoseData data = MakePoseData(MakeSyntheticWindow(scene), kFrame);
+  PoseData data = MakePoseData(MakeTestWindow(scene), kFrame);
   data.points.clear();
   std::vector<PoseData::Line> along_x;
   for (size_t i = 0; i < data.lines.size(); i += 3) along_x.push_back(data.lines[i]);
@@ -270,9 +268,9 @@ TEST_P(PoseProblemTest, ParallelLinesAloneAreNotUsable) {
 }
 
 TEST_P(PoseProblemTest, OnePointSeenOftenIsNotUsable) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  PoseData data = MakePoseData(MakeSyntheticWindow(scene), kFrame);
+  PoseData data = MakePoseData(MakeTestWindow(scene), kFrame);
   data.lines.clear();
   data.points.assign(20, data.points[0]);
   ExpectNotUsable(data);
@@ -287,7 +285,7 @@ TEST(PoseOptions, FrameNoiseBelowOneIsRefused) {
 }
 
 TEST_P(PoseProblemTest, MisuseNamesTheOffender) {
-  const PoseData good = MakePoseData(MakeSyntheticWindow(Scene()), kFrame);
+  const PoseData good = MakePoseData(MakeTestWindow(Scene()), kFrame);
   const auto message = [](PoseData data, const PoseOptions& options = PoseOptions()) {
     try {
       OptimizePose(options, &data);
@@ -311,10 +309,10 @@ TEST_P(PoseProblemTest, MisuseNamesTheOffender) {
   EXPECT_THAT(message(bad), HasSubstr("point 10: inverse_depth_sigma must be positive"));
   bad = good;
   bad.points[10].inverse_depth = -1.0;
-  EXPECT_THAT(message(bad), HasSubstr("point 10: inverse_depth must not be negative"));
+  EXPECT_THAT(message(bad), HasSubstr("point 10: inverse_depth must be in [0, 1e9]"));
   bad = good;
   bad.lines[3].map_segment.end = bad.lines[3].map_segment.start;
-  EXPECT_THAT(message(bad), HasSubstr("line 3: segment has no length"));
+  EXPECT_THAT(message(bad), HasSubstr("line 3: segment has zero length"));
   bad = good;
   bad.lines[4].sigma = -1.0;
   EXPECT_THAT(message(bad), HasSubstr("line 4: sigma must be positive"));
@@ -323,7 +321,7 @@ TEST_P(PoseProblemTest, MisuseNamesTheOffender) {
   EXPECT_THAT(message(bad), HasSubstr("line 5: depth covariance is not positive definite"));
   bad = good;
   bad.cam_from_world.params.setZero();
-  EXPECT_THAT(message(bad), HasSubstr("prediction: rotation is not unit"));
+  EXPECT_THAT(message(bad), HasSubstr("prediction: rotation is not a unit quaternion"));
   bad = good;
   bad.camera.fx = 0.0;
   EXPECT_THAT(message(bad), HasSubstr("fx"));

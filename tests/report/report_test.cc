@@ -15,7 +15,9 @@ namespace msc_vo {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Gt;
 using ::testing::HasSubstr;
+using ::testing::Lt;
 using ::testing::Not;
 
 std::string ReportOf(const ReportData& data) {
@@ -138,12 +140,15 @@ TEST(Report, ShowsTheMapAroundACameraThatHardlyMoves) {
   for (ReportFrame& frame : data.frames) frame.world_from_cam.translation() *= 0.01;
   for (ReportTruthPose& pose : data.truth) pose.position *= 0.01;
   const std::string html = ReportOf(data);
-  // All edges of the room and of the cupboard in it.
-  const std::regex line_path("class=\"map-line axis-[012]\" d=\"([^\"]*)\"");
+  // All edges of the room and of the cupboard in it, at places inside of the drawing.
+  const std::regex segment("M([0-9.-]+),([0-9.-]+)L([0-9.-]+),([0-9.-]+)");
+  const size_t begin = html.find("class=\"map-line axis-0\" d=\"M", html.find("Top view"));
+  const std::string drawn = html.substr(begin, html.find("<polyline", begin) - begin);
   int num_segments = 0;
-  for (auto it = std::sregex_iterator(html.begin(), html.end(), line_path);
-       it != std::sregex_iterator(); ++it) {
-    num_segments += CountOf((*it)[1], "M");
+  for (auto it = std::sregex_iterator(drawn.begin(), drawn.end(), segment);
+       it != std::sregex_iterator(); ++it, ++num_segments) {
+    for (const int x : {1, 3}) EXPECT_THAT(std::stod((*it)[x]), AllOf(Gt(0.0), Lt(600.0)));
+    for (const int y : {2, 4}) EXPECT_THAT(std::stod((*it)[y]), AllOf(Gt(0.0), Lt(460.0)));
   }
   EXPECT_EQ(num_segments, 24);
 }

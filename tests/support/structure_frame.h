@@ -52,7 +52,7 @@ struct StructureFrame {
 inline StructureFrame MakeStructureFrame(const StructureFrameOptions& options) {
   StructureFrame frame;
   frame.camera.fy = options.fy;
-  Random random(options.seed);
+  RandomGeometry random(options.seed);
   const Eigen::Quaterniond axes = random.Pose().rotation();
   while (static_cast<int>(frame.lines.size()) < options.num_lines) {
     const double z = random.Uniform(1.2, 4.5);

@@ -16,17 +16,18 @@
 
 namespace msc_vo {
 
-// A small window for the tests of the problems: cameras that pass a room's wall, points, and lines
-// along the room's axes. Noise is normal with the sigmas that stand in the observations.
-struct SyntheticWindowOptions {
+// Small window for the tests of bundle adjustment and pose optimization: cameras that pass a wall,
+// points, and axis-aligned lines. Line i is parallel to axis i % 3. Measurement noise is normal
+// with the sigmas of the observations.
+struct TestWindowOptions {
   int num_keyframes = 10;
   int num_fixed = 2;
   int num_points = 200;
   int num_lines = 40;
   int max_observations = 10;           // per landmark
-  double noise = 1.0;                  // factor on every measurement's noise; 0: exact
-  double perturbation = 1.0;           // factor on the start's distance to the truth
-  double wrong_ratio = 0.0;            // share of observations replaced by wrong matches
+  double noise = 1.0;                  // factor on the measurement noise; 0: exact
+  double perturbation = 1.0;           // factor on the error of the initial state
+  double outlier_ratio = 0.0;          // fraction of observations replaced by outliers
   double fy = 525.0;                   // may be negative
   double point_sigma = 1.0;            // pixels
   double line_sigma = 1.0;             // pixels
@@ -35,19 +36,19 @@ struct SyntheticWindowOptions {
   unsigned seed = 1;
 };
 
-struct SyntheticWindow {
-  WindowData truth;                // poses and landmarks as they are
-  WindowData data;                 // where the solver starts
-  std::vector<bool> wrong_points;  // per point observation
-  std::vector<bool> wrong_lines;   // per line observation
+struct TestWindow {
+  WindowData truth;                  // true poses and landmarks, with the observations of `data`
+  WindowData data;                   // initial state of the solver
+  std::vector<bool> point_outliers;  // per point observation
+  std::vector<bool> line_outliers;   // per line observation
 };
 
-class SyntheticWindowMaker {
+class TestWindowMaker {
  public:
-  explicit SyntheticWindowMaker(const SyntheticWindowOptions& options)
+  explicit TestWindowMaker(const TestWindowOptions& options)
       : options_(options), random_(options.seed) {}
 
-  SyntheticWindow Make() {
+  TestWindow Make() {
     window_.truth.camera.fy = options_.fy;
     MakeKeyframes();
     MakeLandmarks();
@@ -100,7 +101,7 @@ class SyntheticWindowMaker {
     }
   }
 
-  // Keyframes of one landmark: as many as allowed, spread over the window.
+  // Keyframes that observe a landmark: max_observations of them, spread over the window.
   std::vector<int> Observers(int landmark) const {
     const int count = std::min(options_.max_observations, options_.num_keyframes);
     std::vector<int> observers;
@@ -125,11 +126,11 @@ class SyntheticWindowMaker {
         o.inverse_depth_sigma = options_.inverse_depth_sigma;
         o.inverse_depth = 1.0 / x.z() + options_.noise * o.inverse_depth_sigma * dw;
       }
-      const bool wrong = Uniform(0.0, 1.0) < options_.wrong_ratio;
-      // Off by 15 px at least, in any direction.
+      const bool is_outlier = Uniform(0.0, 1.0) < options_.outlier_ratio;
+      // At least 15 px off, in any direction.
       const double angle = Uniform(-3.1, 3.1), radius = Uniform(15.0, 80.0);
-      if (wrong) o.pixel += radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-      window_.wrong_points.push_back(wrong);
+      if (is_outlier) o.pixel += radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      window_.point_outliers.push_back(is_outlier);
       window_.truth.point_observations.push_back(o);
     }
   }
@@ -138,7 +139,7 @@ class SyntheticWindowMaker {
     for (const int k : Observers(static_cast<int>(line.id) / 2)) {
       const WindowData::Keyframe& keyframe = window_.truth.keyframes[k];
       const LineSegment3 in_cam = keyframe.cam_from_world * line.segment;
-      // Every frame sees another part of the line.
+      // Every frame observes a different part of the line.
       const double first = Uniform(-0.05, 0.2), last = Uniform(0.8, 1.05);
       const Eigen::Vector3d start = in_cam.At(first), end = in_cam.At(last);
       WindowData::LineObservation o;
@@ -152,15 +153,15 @@ class SyntheticWindowMaker {
       const double ds = Normal(), de = Normal(), dws = Normal(), dwe = Normal();
       o.segment.start += options_.noise * o.sigma * ds * across;
       o.segment.end += options_.noise * o.sigma * de * across;
-      const bool wrong = Uniform(0.0, 1.0) < options_.wrong_ratio;
+      const bool is_outlier = Uniform(0.0, 1.0) < options_.outlier_ratio;
       const double offset = Uniform(15.0, 60.0), tilt = Uniform(-5.0, 5.0);
-      if (wrong) {
+      if (is_outlier) {
         o.segment.start += (offset + tilt) * across;
         o.segment.end += (offset - tilt) * across;
       }
-      window_.wrong_lines.push_back(wrong);
+      window_.line_outliers.push_back(is_outlier);
       o.has_depth = options_.has_depth;
-      // As a fit to many samples leaves it: better than one sample, ends anti-correlated.
+      // As of a fit to many samples: smaller than that of one sample, ends anti-correlated.
       const double variance = std::pow(0.5 * options_.inverse_depth_sigma, 2);
       o.depth.covariance << variance, -0.4 * variance, -0.4 * variance, variance;
       const Eigen::Vector2d dw =
@@ -186,19 +187,19 @@ class SyntheticWindowMaker {
     }
   }
 
-  SyntheticWindowOptions options_;
+  TestWindowOptions options_;
   std::mt19937 random_;
   std::normal_distribution<double> normal_;
-  SyntheticWindow window_;
+  TestWindow window_;
 };
 
-inline SyntheticWindow MakeSyntheticWindow(const SyntheticWindowOptions& options) {
-  return SyntheticWindowMaker(options).Make();
+inline TestWindow MakeTestWindow(const TestWindowOptions& options) {
+  return TestWindowMaker(options).Make();
 }
 
-// What keyframe `k` of the window sees of the true landmarks; the prediction is off by 1 degree and
-// 3 cm.
-inline PoseData MakePoseData(const SyntheticWindow& window, int k) {
+// Observations of the true landmarks in keyframe `k` of the window. The predicted pose has an error
+// of 1 degree and 3 cm.
+inline PoseData MakePoseData(const TestWindow& window, int k) {
   PoseData data;
   data.camera = window.truth.camera;
   const WindowData::Keyframe& keyframe = window.truth.keyframes[k];
