@@ -8,7 +8,7 @@
 namespace msc_vo {
 
 /// Noise of the depth sensor and of the features: initial values, which NoiseEstimator refines
-/// during a run. Chosen by measurement, see docs/lab/sensor.md.
+/// during a run. Chosen by measurement, see docs/lab/noise.md.
 struct SensorNoiseOptions {
   /// Standard deviation of 1/z, 1/metres; constant for structured-light and stereo sensors, which
   /// measure disparity. The random part for a Kinect is 1.4e-3 (Khoshelham and Elberink 2012: 13 mm
