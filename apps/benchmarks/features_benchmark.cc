@@ -8,9 +8,9 @@
 
 #include "apps/benchmarks/allocation_counter.h"
 #include "apps/benchmarks/rendered_images.h"
-#include "msc_vo/features/edge_segments.h"
 #include "msc_vo/features/frame_builder.h"
-#include "msc_vo/features/line_descriptor_extractor.h"
+#include "msc_vo/features/internal/edge_segments.h"
+#include "msc_vo/features/internal/line_descriptor_extractor.h"
 #include "msc_vo/features/surface_normals.h"
 
 namespace msc_vo {

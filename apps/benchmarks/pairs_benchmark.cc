@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Ways to take pairs of lines through the Schur complement (docs/solver.md), on the first of the
-// two solves of a window. Window files: MSC_VO_WINDOWS=a.txt:b.txt.
+// Ways to take pairs of lines through the Schur complement (docs/lab/bundle_adjustment.md), on the
+// first of the two solves of a window. Window files: MSC_VO_WINDOWS=a.txt:b.txt.
 
 #include <algorithm>
 #include <cstdio>
@@ -23,9 +23,10 @@ namespace {
 constexpr int kMaxIterations = 50;
 
 // Keeps the directions of all lines that have a partner.
-void KeepAllPaired(WindowStructure* structure) {
+void KeepAllPaired(BlockStructure* structure) {
   std::vector<bool> paired(structure->num_lines, false);
-  for (const WindowIndex::Pair& pair : structure->couplings) paired[pair.a] = paired[pair.b] = true;
+  for (const WindowIndex::Pair& pair : structure->line_pairs)
+    paired[pair.a] = paired[pair.b] = true;
   structure->num_reduced_lines = 0;
   for (int i = 0; i < structure->num_lines; ++i) {
     structure->reduced_line[i] = paired[i] ? structure->num_reduced_lines++ : -1;
@@ -33,8 +34,8 @@ void KeepAllPaired(WindowStructure* structure) {
 }
 
 // Every line takes its partners for constant during a step: no pair couples two unknowns.
-void HoldPartners(WindowStructure* structure) {
-  structure->couplings.clear();
+void HoldPartners(BlockStructure* structure) {
+  structure->line_pairs.clear();
   structure->reduced_line.assign(structure->num_lines, -1);
   structure->num_reduced_lines = 0;
 }
@@ -70,21 +71,22 @@ WindowData WithStars(const WindowData& data) {
   return stars;
 }
 
-using Change = void (*)(WindowStructure*);
+using Change = void (*)(BlockStructure*);
 
 void Minimize(benchmark::State& state, const BenchmarkWindow& window, Change change) {
   const WindowIndex index = ValidateWindow(window.options, window.data);
   int num_behind = 0;
-  const WindowInlierMask inlier_mask = AllInFront(window.options, index, window.data, &num_behind);
+  const WindowInlierMask inlier_mask =
+      InitialInlierMask(window.options, index, window.data, &num_behind);
   const WindowState start(window.data);
   const WindowTerms terms = MakeWindowTerms(window.options, window.data, index, inlier_mask, start);
-  WindowStructure structure(window.data, terms);
+  BlockStructure structure(window.data, terms);
   if (change != nullptr) change(&structure);
   MinimizerReport report;
   WindowState end = start;
   for (auto _ : state) {
     end = start;
-    report = MinimizeWindow(structure, terms, kMaxIterations, {}, &end);
+    report = MinimizeWithBlockSchur(structure, terms, kMaxIterations, {}, &end);
   }
   WindowEquations equations;
   Linearize(structure, terms, end, &equations);

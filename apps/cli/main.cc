@@ -23,7 +23,8 @@ namespace msc_vo {
 std::string HelpFooter(const std::string& example) {
   return "Example:\n  " + example +
          "\n\nExit codes: 0 success, 1 wrong input or failed run, 2 wrong command line,\n"
-         "130 interrupted (what was computed until then has been written).";
+         "3 tracking failed: less than half of the images have an estimated pose (results are\n"
+         "written), 130 interrupted (what was computed until then has been written).";
 }
 
 namespace {

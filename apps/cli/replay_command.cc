@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/sequence_arguments.h"
@@ -123,6 +124,9 @@ int Replay(const Arguments& arguments) {
   if (run.exit_code == kExitError) {
     throw std::runtime_error(run.context.outcome + "\n(what was computed until then is in " +
                              output + ")");
+  }
+  if (run.exit_code == kExitTrackingFailed) {
+    PrintError(run.context.outcome);
   }
   return run.exit_code;
 }

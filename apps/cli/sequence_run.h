@@ -30,8 +30,9 @@ void AddRunArguments(CLI::App* command, RunArguments* arguments);
 struct SequenceRun {
   OdometryResult result;
   RunSummary summary;
-  RunContext context;                 // compared with the ground truth, if there is one
-  ExitCode exit_code = kExitSuccess;  // kExitError: context.outcome is the message
+  RunContext context;  // compared with the ground truth, if there is one
+  // kExitError, kExitTrackingFailed: context.outcome is the message.
+  ExitCode exit_code = kExitSuccess;
 
   bool HasImages() const;  // at least one image could be read
 };

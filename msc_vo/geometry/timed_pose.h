@@ -11,6 +11,8 @@ namespace msc_vo {
 struct TimedPose {
   double timestamp = 0.0;  // seconds
   Rigid3 world_from_cam;
+  // False: predicted or interpolated in time, not measured from the image of this time.
+  bool is_estimated = true;
 };
 
 }  // namespace msc_vo

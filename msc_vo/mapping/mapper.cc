@@ -36,10 +36,12 @@ Mapper::Mapper(const MapperOptions& options)
 MappingSummary Mapper::Insert(const KeyframePacket& packet) {
   MappingSummary summary;
   Stopwatch stopwatch;
-  if (packet.last_velocity) SetVelocity(newest_keyframe_, *packet.last_velocity, &map_);
+  if (packet.last_velocity) {
+    SetKeyframeVelocity(newest_keyframe_, *packet.last_velocity, &map_);
+  }
   readout_time_ = readout_.readout_time();
   CompensateKeyframes(readout_time_, &map_);
-  std::shared_ptr<const Frame> frame = Compensated(packet.frame, readout_time_);
+  std::shared_ptr<const Frame> frame = UpdateCompensation(packet.frame, readout_time_);
   summary.times.creation = stopwatch.Restart();
   if (options_.RefinesFrames()) frame = RefineStructure(options_.structure, noise_.scale(), frame);
   summary.times.structure = stopwatch.Restart();

@@ -3,7 +3,11 @@
 
 #include "msc_vo/odometry/event_log.h"
 
+#include <string>
+#include <utility>
+
 #include "msc_vo/logging/logger.h"
+#include "msc_vo/odometry/loss_cause.h"
 
 namespace msc_vo {
 
@@ -11,6 +15,10 @@ namespace {
 
 spdlog::level::level_enum LevelOf(TrackingStatus status) {
   return status == TrackingStatus::kTracked ? spdlog::level::info : spdlog::level::warn;
+}
+
+bool HasLossCause(TrackingStatus status) {
+  return status == TrackingStatus::kPredicted || status == TrackingStatus::kLost;
 }
 
 }  // namespace
@@ -34,16 +42,17 @@ void EventLog::LogFrame(const FrameResult& frame, bool relocalized) {
 void EventLog::LogStatus(const FrameResult& frame, bool relocalized) {
   if (relocalized) Log().info("frame {} is relocalised in the map", frame.id);
   if (frame.status == status_) return;
-  if (status_) {
-    Log().log(LevelOf(frame.status), "frame {} ({:.6f} s) is {}; the {} before it: {}", frame.id,
-              frame.timestamp, ToString(frame.status), frame.id - status_since_,
-              ToString(*status_));
-  } else {
-    Log().log(LevelOf(frame.status), "frame {} ({:.6f} s) is {}", frame.id, frame.timestamp,
-              ToString(frame.status));
+  const std::optional<TrackingStatus> last_status = std::exchange(status_, frame.status);
+  const int64_t num_before = frame.id - std::exchange(status_since_, frame.id);
+  if (!Log().should_log(LevelOf(frame.status))) return;
+  std::string event = "is " + std::string(ToString(frame.status));
+  if (HasLossCause(frame.status)) {
+    event += std::string(", image ") + Describe(FindLossCause(frame));
   }
-  status_ = frame.status;
-  status_since_ = frame.id;
+  if (last_status) {
+    event += "; the " + std::to_string(num_before) + " before it: " + ToString(*last_status);
+  }
+  Log().log(LevelOf(frame.status), "frame {} ({:.6f} s) {}", frame.id, frame.timestamp, event);
 }
 
 void EventLog::LogMapping(const MappingStep& step) {

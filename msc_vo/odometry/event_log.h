@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "msc_vo/map/noise_scale.h"
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/odometry/mapping_runner.h"

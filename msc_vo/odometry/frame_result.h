@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "msc_vo/features/image_statistics.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/tracking/tracking_status.h"
@@ -15,6 +16,9 @@ namespace msc_vo {
 
 /// Time of each stage of one frame, milliseconds.
 struct StageTimes {
+  /// Wall time of points, lines and their depths. The next three are summed over parallel threads,
+  /// so that their sum may be larger.
+  double features = 0.0;
   double points = 0.0;
   double lines = 0.0;
   double depth = 0.0;
@@ -38,12 +42,14 @@ struct FrameResult {
   bool is_keyframe = false;
   int num_points = 0;  ///< features in the image
   int num_lines = 0;
+  int num_with_depth = 0;     ///< points and lines with a measured depth
   int num_inlier_points = 0;  ///< matched with the map and consistent with the pose
   int num_inlier_lines = 0;
   int num_dynamic = 0;  ///< matches on dynamic objects
   /// Covariance of the pose in the tangent of Rigid3Manifold: rotation vector in the camera frame
   /// (radians), then translation (metres). Zero if the pose was not estimated.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  ImageStatistics image;  ///< zero if the image was not processed
   StageTimes times;
 };
 

@@ -9,10 +9,6 @@ namespace msc_vo {
 
 namespace {
 
-bool IsEstimated(const FrameResult& frame) {
-  return frame.status == TrackingStatus::kTracked || frame.status == TrackingStatus::kWeak;
-}
-
 // Interpolates from `a` (s = 0) to `b` (s = 1): the centre along the straight line, the rotation
 // about a fixed axis.
 Rigid3 Interpolate(const Rigid3& a, const Rigid3& b, double s) {
@@ -27,7 +23,7 @@ Rigid3 Interpolate(const Rigid3& a, const Rigid3& b, double s) {
 void FillGaps(std::vector<FrameResult>* frames) {
   size_t before = frames->size();  // index of the last estimated frame; size(): none
   for (size_t i = 0; i < frames->size(); ++i) {
-    if (!IsEstimated((*frames)[i])) continue;
+    if (!IsEstimated((*frames)[i].status)) continue;
     for (size_t gap = before + 1; before < frames->size() && gap < i; ++gap) {
       const FrameResult& a = (*frames)[before];
       const FrameResult& b = (*frames)[i];

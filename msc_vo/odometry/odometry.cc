@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "msc_vo/camera/lens_validity.h"
+#include "msc_vo/features/image_statistics.h"
+#include "msc_vo/map/feature_counts.h"
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/event_log.h"
 #include "msc_vo/odometry/gap_filling.h"
@@ -49,6 +51,7 @@ FrameResult MakeResult(const TrackedFrame& tracked) {
   result.is_keyframe = tracked.keyframe.is_due;
   result.num_points = static_cast<int>(tracked.frame->points.size());
   result.num_lines = static_cast<int>(tracked.frame->lines.size());
+  result.num_with_depth = NumWithDepth(*tracked.frame);
   result.num_inlier_points = static_cast<int>(tracked.matches.points.size());
   result.num_inlier_lines = static_cast<int>(tracked.matches.lines.size());
   result.num_dynamic = tracked.num_dynamic;
@@ -211,12 +214,15 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
     frame->grid = FeatureGrid(frame->camera, frame->points);
   }
   if (!state_->options.use_lines) frame->lines.clear();
+  const double features_ms = stopwatch.Milliseconds();
   const int index = static_cast<int>(state_->results.size());
   Stopwatch waiting;
   state_->snapshot = state_->schedule.SnapshotAt(index);
   const double waiting_ms = waiting.Milliseconds();
   const TrackedFrame tracked = state_->tracker.Track(std::move(frame), *state_->snapshot);
   FrameResult result = MakeResult(tracked);
+  result.image = MeasureImage(image);
+  result.times.features = features_ms;
   result.times.points = state_->builder.times().points;
   result.times.lines = state_->builder.times().lines;
   result.times.depth = state_->builder.times().depth + alignment_ms;

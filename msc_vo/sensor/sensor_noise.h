@@ -14,7 +14,7 @@ struct SensorNoiseOptions {
   // 13 mm at 3 m), but its larger part is systematic (registration, calibration) and common to all
   // views of a point, so that it does not average out. Where mapping/noise_estimator
   // starts from. Held at one value over a run, 1.4e-3 is the best for rendered rooms and twice as
-  // bad as 8e-3 on fr1_rpy (docs/experiments.md).
+  // bad as 8e-3 on fr1_rpy (docs/lab/depth.md).
   double inverse_depth_sigma = 4e-3;
   // Its random part alone, 1/metres: how much neighbouring pixels of one surface differ. Tells
   // depth edges and outliers along a line from noise, within one image, where the systematic part

@@ -4,9 +4,13 @@
 #include "msc_vo/structure/frame_structure_factors.h"
 
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <ceres/jet.h>
+
+#include "msc_vo/bundle_adjustment/levenberg_marquardt.h"
+#include "msc_vo/factors/robust_loss.h"
 
 namespace msc_vo {
 
@@ -16,7 +20,7 @@ using Block = InverseDepthLineBlock;
 using Blocks = std::vector<Block>;
 using Matrix = StructureEquations::Matrix;
 
-// Direction of a line and its derivative by its block.
+// Direction of a line and its derivative with respect to its block.
 struct Direction {
   Eigen::Vector3d value;
   Eigen::Matrix<double, 3, InverseDepthLine::kBlockSize> jacobian;
@@ -49,19 +53,16 @@ void AddPrior(const InverseDepthLinePrior& prior, int line, const Block& block,
 }
 
 template <typename Relation>
-void AddPair(const FrameStructureFactors::Pair<Relation>& pair, double huber,
+void AddPair(const FrameStructureFactors::Pair<Relation>& pair, const HuberLoss& loss,
              const std::vector<Direction>& directions, StructureEquations* equations) {
   constexpr int kRows = Relation::kNumResiduals;
   const Direction& at_i = directions[pair.i];
   const Direction& at_j = directions[pair.j];
   Eigen::Matrix<double, kRows, 1> r;
   pair.relation.Residual(at_i.value, at_j.value, r.data());
-  // Huber's rho and its derivative.
   const double s = r.squaredNorm();
-  const double norm = std::sqrt(s);
-  const bool square = huber == 0.0 || norm <= huber;
-  const double weight = square ? 1.0 : huber / norm;
-  equations->cost += square ? 0.5 * s : huber * norm - 0.5 * huber * huber;
+  const double weight = loss.Weight(s);
+  equations->cost += 0.5 * loss.Cost(s);
   const auto j_i = (pair.relation.JacobianI(at_i.value, at_j.value) * at_i.jacobian).eval();
   const auto j_j = (pair.relation.JacobianJ(at_i.value, at_j.value) * at_j.jacobian).eval();
   equations->gradient[pair.i] += weight * (j_i.transpose() * r);
@@ -78,7 +79,7 @@ double Dot(const Blocks& a, const Blocks& b) {
   return sum;
 }
 
-// y = J^T J x, with the diagonal blocks raised by the factor 1 + lambda.
+// y = J^T J x, with the diagonal blocks multiplied by 1 + lambda.
 void Multiply(const StructureEquations& equations, double lambda, const Blocks& x, Blocks* y) {
   y->resize(x.size());
   for (size_t i = 0; i < x.size(); ++i) {
@@ -90,13 +91,13 @@ void Multiply(const StructureEquations& equations, double lambda, const Blocks& 
   }
 }
 
-// Solves J^T J x = -J^T r, with the diagonal blocks raised by the factor 1 + lambda, by conjugate
-// gradients; those blocks are the preconditioner.
+// Solves J^T J x = -J^T r, with the diagonal blocks multiplied by 1 + lambda, by conjugate
+// gradients with the block-Jacobi preconditioner.
 Blocks SolveStep(const StructureEquations& equations, double lambda) {
-  // Leaves 1e-3 of the step undone, in the norm of the preconditioner: less than the next step of
-  // an iteration that is not quadratic anyway, as a loss is in it.
+  // Relative error 1e-3 of the step in the norm of the preconditioner. Higher accuracy would not
+  // reduce the number of steps, because the robust loss prevents quadratic convergence.
   constexpr double kTolerance = 1e-6;
-  constexpr int kMaxIterations = 100;  // in blocks well conditioned by the priors, 10 to 30 do
+  constexpr int kMaxIterations = 100;  // 10 to 30 suffice, as priors condition the blocks
   std::vector<Matrix> inverse;
   for (const Matrix& block : equations.diagonal) {
     inverse.push_back(((1.0 + lambda) * block).llt().solve(Matrix::Identity()));
@@ -128,6 +129,41 @@ Blocks SolveStep(const StructureEquations& equations, double lambda) {
   return x;
 }
 
+// The unknown blocks and their normal equations, for MinimizeByLevenbergMarquardt.
+class StructureProblem {
+ public:
+  StructureProblem(const FrameStructureFactors& factors, const Blocks& blocks,
+                   StructureEquations* equations)
+      : factors_(factors), blocks_(blocks), equations_(equations) {}
+
+  const Blocks& blocks() const { return blocks_; }
+
+  bool Linearize() { return factors_.Linearize(blocks_, equations_); }
+
+  bool SolveStep(double lambda, double* squared_step) {
+    const Blocks step = msc_vo::SolveStep(*equations_, lambda);
+    Multiply(*equations_, 0.0, step, &product_);
+    *squared_step = Dot(step, product_);
+    candidate_ = blocks_;
+    for (size_t i = 0; i < step.size(); ++i) candidate_[i] += step[i];
+    return std::isfinite(*squared_step);
+  }
+
+  // Derivatives are needed after the last step too: covariances are computed from them.
+  bool TakeStep(bool /*is_last*/) {
+    if (!factors_.Linearize(candidate_, &next_) || !(next_.cost <= equations_->cost)) return false;
+    blocks_.swap(candidate_);
+    std::swap(*equations_, next_);
+    return true;
+  }
+
+ private:
+  const FrameStructureFactors& factors_;
+  Blocks blocks_, candidate_, product_;
+  StructureEquations* equations_;  // at blocks_
+  StructureEquations next_;        // at candidate_
+};
+
 }  // namespace
 
 bool FrameStructureFactors::Linearize(const Blocks& blocks, StructureEquations* equations) const {
@@ -135,42 +171,27 @@ bool FrameStructureFactors::Linearize(const Blocks& blocks, StructureEquations* 
   equations->gradient.assign(lines.size(), Block::Zero());
   equations->diagonal.assign(lines.size(), Matrix::Zero());
   equations->pairs.reserve(parallel.size() + perpendicular.size());
+  const HuberLoss loss{huber};
   std::vector<Direction> directions(lines.size());
   for (size_t i = 0; i < lines.size(); ++i) {
     if (!msc_vo::Linearize(lines[i], blocks[i], &directions[i])) return false;
     AddPrior(priors[i], static_cast<int>(i), blocks[i], equations);
   }
-  for (const auto& pair : parallel) AddPair(pair, huber, directions, equations);
-  for (const auto& pair : perpendicular) AddPair(pair, huber, directions, equations);
+  for (const auto& pair : parallel) AddPair(pair, loss, directions, equations);
+  for (const auto& pair : perpendicular) AddPair(pair, loss, directions, equations);
   return std::isfinite(equations->cost);
 }
 
 bool MinimizeStructure(const FrameStructureFactors& factors, int max_iterations, Blocks* blocks,
                        StructureEquations* equations, int* num_iterations) {
-  *num_iterations = 0;
-  if (!factors.Linearize(*blocks, equations)) return false;
   // A hundredth of the estimate's own standard deviations, of all lines together.
-  constexpr double kConverged = 1e-4;
-  double lambda = 1e-4;  // relative to the diagonal; small, as priors keep the problem near linear
-  StructureEquations next;
-  Blocks product;
-  for (; *num_iterations < max_iterations; ++*num_iterations) {
-    const Blocks step = SolveStep(*equations, lambda);
-    Multiply(*equations, 0.0, step, &product);
-    const double size = Dot(step, product);
-    if (!std::isfinite(size)) return false;
-    Blocks candidate = *blocks;
-    for (size_t i = 0; i < step.size(); ++i) candidate[i] += step[i];
-    if (factors.Linearize(candidate, &next) && next.cost <= equations->cost) {
-      blocks->swap(candidate);
-      std::swap(*equations, next);
-      lambda *= 0.1;
-    } else {
-      lambda *= 100.0;
-    }
-    // At the minimum, rounding may refuse a step of no length.
-    if (size < kConverged) break;
-  }
+  constexpr double kMinSquaredStep = 1e-4;
+  StructureProblem problem(factors, *blocks, equations);
+  const LevenbergMarquardtSummary summary =
+      MinimizeByLevenbergMarquardt(max_iterations, kMinSquaredStep, &problem);
+  *num_iterations = summary.num_iterations;
+  if (summary.termination == LevenbergMarquardtTermination::kFailed) return false;
+  *blocks = problem.blocks();
   return true;
 }
 
@@ -181,7 +202,8 @@ std::vector<Matrix> BoundCovariances(const FrameStructureFactors& factors,
     priors[pair.i] -= pair.ii;
     priors[pair.j] -= pair.jj;
   }
-  // Of each line, with its partners eliminated one by one: they meet in this line only.
+  // Information of each line, with its partners eliminated. They are independent of each other
+  // given this line, because the pairs among them are neglected.
   std::vector<Matrix> information = priors;
   for (const StructureEquations::Pair& pair : equations.pairs) {
     const Matrix given_j = pair.ij * (priors[pair.j] + pair.jj).llt().solve(pair.ij.transpose());

@@ -16,6 +16,8 @@ struct TextLine {
   std::string file;
   int number = 0;                   // from 1
   std::vector<std::string> fields;  // separated by blanks, tabs or commas
+  // Of the comment in the line right above, if that is one: without its '#' and blanks around it.
+  std::string comment;
 
   std::string Where() const;  // "file:12"
 };

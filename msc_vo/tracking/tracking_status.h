@@ -6,14 +6,21 @@
 namespace msc_vo {
 
 enum class TrackingStatus {
-  kTracked,     // pose from enough matches with the local map
-  kWeak,        // pose from few or badly distributed matches: large covariance
-  kPredicted,   // no pose could be estimated; constant velocity bridges a short gap
-  kLost,        // no pose for longer than that; the last pose is repeated
-  kDropped,     // real time: the image came too late and was not processed
-  kUnreadable,  // the image file is missing or damaged
+  kTracked,     ///< pose from enough matches with the local map
+  kWeak,        ///< pose from few or badly distributed matches: large covariance
+  kPredicted,   ///< no pose could be estimated; constant velocity bridges a short gap
+  kLost,        ///< no pose for longer than that; the last pose is repeated
+  kDropped,     ///< real time: the image came too late and was not processed
+  kUnreadable,  ///< the image file is missing or damaged
 };
 
 const char* ToString(TrackingStatus status);
+
+// Whether the pose comes from the image of the frame itself: tracked or weak. Any other pose is
+// predicted, repeated, or interpolated between the neighbours.
+bool IsEstimated(TrackingStatus status);
+
+// Whether there was an image to look at: not dropped, not unreadable.
+bool HasImage(TrackingStatus status);
 
 }  // namespace msc_vo

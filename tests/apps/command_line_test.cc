@@ -24,7 +24,7 @@ TEST_F(CommandLineTest, EveryCommandExplainsItself) {
     const CommandOutcome outcome = RunCommand({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_THAT(outcome.output, AllOf(HasSubstr("Example:\n  msc_vo " + std::string(command)),
-                                      HasSubstr("Exit codes:")));
+                                      HasSubstr("Exit codes:"), HasSubstr("3 tracking failed")));
     EXPECT_THAT(RunCommand({"--help"}).output, HasSubstr(command));
   }
   EXPECT_THAT(RunCommand({"--version"}).output, testing::StartsWith("msc_vo "));

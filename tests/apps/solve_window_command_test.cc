@@ -89,7 +89,7 @@ TEST_F(SolveWindowCommandTest, PrintsATableAndTakesOptions) {
   const CommandOutcome table = RunCommand({"solve-window", Path("window.txt")});
   EXPECT_EQ(table.exit_code, 0);
   EXPECT_THAT(table.output,
-              AllOf(HasSubstr("4 keyframes (1 fixed), "), HasSubstr("window: solved, "),
+              AllOf(HasSubstr("4 keyframes (1 fixed), "), HasSubstr("local BA: solved, "),
                     HasSubstr("point reprojection"), HasSubstr(" blocks, "), HasSubstr(" ms\n")));
 
   WriteText("options.yaml", "mapping:\n  window:\n    line_endpoint_prior_sigma: 0.125\n");

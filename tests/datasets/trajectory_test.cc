@@ -57,6 +57,19 @@ TEST_F(TrajectoryTest, ReadsBackWhatItWrote) {
   EXPECT_EQ(FormatTrajectory(read), ReadFile(Path("t.txt")));
 }
 
+TEST_F(TrajectoryTest, MarksPosesThatAreNotEstimatedInACommentAboveThem) {
+  const std::string text =
+      FormatTrajectory({{1.0, Rigid3()}, {2.0, Rigid3(), false}, {3.0, Rigid3()}});
+  EXPECT_THAT(text, HasSubstr("\n# not estimated\n2.000000 "));
+  WriteText("t.txt", text + "# other\r\n4 0 0 0 0 0 0 1\n#  not estimated \r\n5 0 0 0 0 0 0 1\n" +
+                         "# not estimated\n\n6 0 0 0 0 0 0 1\n");
+  std::vector<bool> is_estimated;
+  for (const TimedPose& pose : ReadTrajectory(Path("t.txt"))) {
+    is_estimated.push_back(pose.is_estimated);
+  }
+  EXPECT_THAT(is_estimated, testing::ElementsAre(true, false, true, true, false, true));
+}
+
 TEST_F(TrajectoryTest, ReadsCommentsCommasTabsBlankLinesAndWindowsLineEnds) {
   WriteText("t.txt",
             "\xEF\xBB\xBF# time x y z\r\n\r\n2,1,2,3,0,0,0,0.99\r\n1\t4 5\t6 0 0 0 1  \r\n"

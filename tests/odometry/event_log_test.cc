@@ -68,12 +68,14 @@ TEST_F(EventLogTest, WritesChangesOfTheStatus) {
   log_.LogFrame(Frame(3, TrackingStatus::kLost), false);
   log_.LogFrame(Frame(4, TrackingStatus::kLost), false);
   log_.LogFrame(Frame(5, TrackingStatus::kTracked), true);
-  EXPECT_THAT(Lines(),
-              ElementsAre("info: frame 0 (0.000000 s) is tracked",
-                          "warning: frame 2 (1.000000 s) is weak; the 2 before it: tracked",
-                          "warning: frame 3 (1.500000 s) is lost; the 1 before it: weak",
-                          "info: frame 5 is relocalised in the map",
-                          "info: frame 5 (2.500000 s) is tracked; the 2 before it: lost"));
+  EXPECT_THAT(
+      Lines(),
+      ElementsAre(
+          "info: frame 0 (0.000000 s) is tracked",
+          "warning: frame 2 (1.000000 s) is weak; the 2 before it: tracked",
+          "warning: frame 3 (1.500000 s) is lost, image black or uniform; the 1 before it: weak",
+          "info: frame 5 is relocalised in the map",
+          "info: frame 5 (2.500000 s) is tracked; the 2 before it: lost"));
 }
 
 TEST_F(EventLogTest, WritesKeyframesForDebugging) {
@@ -99,6 +101,14 @@ TEST_F(EventLogTest, WritesAxesAndReadoutTimeWhenTheyChange) {
   EXPECT_THAT(Lines(), ElementsAre("info: Manhattan axes at keyframe 4: coarse, 0 refinements",
                                    "info: Manhattan axes at keyframe 4: refined, 1 refinements",
                                    "info: readout time accepted at keyframe 4: 25.00 ms"));
+}
+
+TEST_F(EventLogTest, CountsFramesBelowTheLevel) {
+  Log().set_level(spdlog::level::warn);
+  for (int i = 0; i < 3; ++i) log_.LogFrame(Frame(i, TrackingStatus::kTracked), false);
+  log_.LogFrame(Frame(3, TrackingStatus::kWeak), false);
+  EXPECT_THAT(Lines(),
+              ElementsAre("warning: frame 3 (1.500000 s) is weak; the 3 before it: tracked"));
 }
 
 TEST_F(EventLogTest, WritesNothingBelowTheLevel) {

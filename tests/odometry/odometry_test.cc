@@ -138,6 +138,16 @@ TEST_F(OdometryTest, IsDeterministicAtAnyThreadCount) {
   }
 }
 
+TEST_F(OdometryTest, TimesStagesNotLongerThanTheFrame) {
+  OdometryOptions options;
+  options.threads = 2;  // points and lines in parallel
+  for (const FrameResult& frame : Run(options, *images_).frames) {
+    const StageTimes& ms = frame.times;
+    EXPECT_GT(ms.features, 0.0);
+    EXPECT_LE(ms.features + ms.waiting + ms.matching + ms.pose, ms.tracking) << frame.id;
+  }
+}
+
 TEST_F(OdometryTest, HasTheSamePosesWithALatencyOfOneFrame) {
   OdometryOptions none;
   none.snapshots.latency_frames = 0;

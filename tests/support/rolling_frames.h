@@ -12,10 +12,12 @@
 
 namespace msc_vo {
 
-// Where a rolling shutter shows a point that is at `in_cam` (metres) at the time stamp, and its
-// inverse depth there: its row decides when it was taken, and that decides its row.
-inline PointFeature SeeRolling(const PinholeCamera& camera, const Eigen::Vector3d& in_cam,
-                               const CameraVelocity& velocity, double readout_time) {
+// Observation by a rolling shutter of a point at `in_cam` (metres, camera at the time stamp). The
+// row of the pixel determines its time of exposure, which determines the row: fixed-point
+// iteration.
+inline PointFeature ObserveWithRollingShutter(const PinholeCamera& camera,
+                                              const Eigen::Vector3d& in_cam,
+                                              const CameraVelocity& velocity, double readout_time) {
   PointFeature point;
   point.pixel = camera.Project(in_cam);
   for (int i = 0; i < 20; ++i) {
@@ -27,7 +29,7 @@ inline PointFeature SeeRolling(const PinholeCamera& camera, const Eigen::Vector3
   return point;
 }
 
-// A camera that looks around in a world of points, each the feature of the same index.
+// A rotating camera that observes a world of points; feature i of every frame is point i.
 class RollingFrames {
  public:
   RollingFrames(double readout_time, double pixel_noise)
@@ -41,7 +43,7 @@ class RollingFrames {
 
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
 
-  // Turns by a radian per second, now this way, now that.
+  // About one radian per second in varying directions.
   static CameraVelocity Velocity(int index) {
     return {Eigen::Vector3d(std::cos(1.3 * index), std::sin(0.9 * index), 0.5 * std::sin(index)),
             Eigen::Vector3d(0.1, 0.0, 0.2 * std::cos(index))};
@@ -51,15 +53,15 @@ class RollingFrames {
                   {0.05 * std::sin(2.0 * index), 0.0, 0.02 * index});
   }
 
-  // As its rows were taken; the velocity is told, but nothing is unrolled.
-  std::shared_ptr<Frame> See(int index) {
+  // Frame `index` with its velocity, without compensation.
+  std::shared_ptr<Frame> Observe(int index) {
     auto frame = std::make_shared<Frame>();
     frame->id = index;
     frame->timestamp = 0.3 * index;
     frame->velocity = Velocity(index);
     for (size_t i = 0; i < points_.size(); ++i) {
-      PointFeature feature = SeeRolling(frame->camera, CamFromWorld(index) * points_[i],
-                                        Velocity(index), readout_time_);
+      PointFeature feature = ObserveWithRollingShutter(
+          frame->camera, CamFromWorld(index) * points_[i], Velocity(index), readout_time_);
       feature.descriptor = descriptors_[i];
       feature.pixel.x() += Normal();
       feature.pixel.y() += Normal();
