@@ -20,7 +20,8 @@ constexpr double kReadoutTime = 0.026;  // seconds
 
 // Adds a keyframe that observes landmark i with feature i.
 KeyframeId AddKeyframe(RollingFrames* world, int index, Map* map) {
-  const KeyframeId id = map->AddKeyframe(world->MakeFrame(index), RollingFrames::CamFromWorld(index));
+  const KeyframeId id =
+      map->AddKeyframe(world->MakeFrame(index), RollingFrames::CamFromWorld(index));
   const bool is_first = map->points().size() == 0;
   std::vector<LandmarkId> landmarks;
   for (const auto& [landmark, point] : map->points()) landmarks.push_back(landmark);

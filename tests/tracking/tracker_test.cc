@@ -112,7 +112,8 @@ TEST_F(TrackerTest, ReportsLossAndRelocalizes) {
   Start({});
   for (int i = 1; i < 5; ++i) Track(i);
   TrackedFrame tracked;
-  for (int i = 5; i < 40; ++i) tracked = tracker_.Track(SyntheticFrames::MakeEmptyFrame(i), snapshot_);
+  for (int i = 5; i < 40; ++i)
+    tracked = tracker_.Track(SyntheticFrames::MakeEmptyFrame(i), snapshot_);
   EXPECT_EQ(tracked.status, TrackingStatus::kLost);
   EXPECT_TRUE(tracked.cam_from_world.params.allFinite());
   // The camera reappears far from the pose that constant velocity predicts.
