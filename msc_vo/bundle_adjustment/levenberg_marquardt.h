@@ -13,7 +13,7 @@ struct LevenbergMarquardtSummary {
 };
 
 /// Levenberg-Marquardt with Marquardt's damping for small problems that start close to their
-/// minimum: pose optimization and frame structure. Minimises up to `max_iterations` steps.
+/// minimum: pose optimization and frame structure. Takes at most `max_iterations` steps.
 ///
 /// The damping lambda is relative to the diagonal of the Hessian H. A step that does not increase
 /// the cost is taken and lambda is divided by 10; otherwise lambda is multiplied by 100. A step
@@ -22,11 +22,13 @@ struct LevenbergMarquardtSummary {
 ///
 /// `Problem` holds the estimate and its normal equations:
 ///
-///   bool Linearize();     // at the initial estimate; false if undefined
-///   bool SolveStep(double lambda, double* squared_step);  // false if the step is not finite
-///   bool TakeStep(bool is_last);  // evaluates the estimate after the step, and moves to it unless
-///                                 // the cost increases; returns whether it moved. No derivatives
-///                                 // are needed after the last step.
+///   // Evaluates the initial estimate. Returns false if it is undefined there.
+///   bool Linearize();
+///   // Computes a step and step^T H step. Returns false if they are not finite.
+///   bool SolveStep(double lambda, double* squared_step);
+///   // Evaluates the estimate after the step and moves to it unless the cost increases. Returns
+///   // whether it moved. The loop needs no derivatives after the last step.
+///   bool TakeStep(bool is_last);
 ///
 /// Local bundle adjustment has a loop of its own (MinimizeWithBlockSchur): it follows the
 /// trust-region rules of Ceres, which accept a step by the ratio of actual to predicted decrease

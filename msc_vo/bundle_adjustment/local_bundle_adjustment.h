@@ -130,9 +130,8 @@ using WindowStageObserver = std::function<void(WindowStage)>;
 /// - With options.landmark_noise, also estimates the noise of all points and lines, fixed or not.
 /// - A landmark without inlier observations keeps its value, as does a keyframe without inlier
 ///   observations or prior.
-/// - Pairs and alignments are used only between observed lines of which at least one is free.
-/// Others
-///   are neither counted nor rejected.
+/// - Pairs and alignments are used only between observed lines of which at least one is free;
+///   others are neither counted nor rejected.
 /// - The gauge must be fixed by at least one keyframe that is fixed or has a prior. Without depth,
 ///   the scale requires two of them.
 ///

@@ -40,8 +40,7 @@ inline Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camer
 ///
 ///   template <typename T>
 ///   void Residual(int k, const Eigen::Matrix<T, 3, 1>& x_in_cam, T* r) const;
-///   Eigen::Matrix<double, RowsPerPoint, 3> Jacobian(int k,
-///                                                   const Eigen::Vector3d& x_in_cam) const;
+///   Eigen::Matrix<double, RowsPerPoint, 3> Jacobian(int k, const Vector3d& x_in_cam) const;
 ///
 /// The chain rule from x to pose and landmark is shared (AnalyticCostFunction, pose optimization
 /// and local bundle adjustment).

@@ -7,14 +7,15 @@ namespace msc_vo {
 
 struct RgbdImage;
 
-// What an image has to offer, before any feature is extracted.
+/// Statistics of an image that explain why few features are found in it.
 struct ImageStatistics {
-  double brightness = 0.0;      // mean grey level, 0..255
-  double contrast = 0.0;        // standard deviation of the grey level
-  double measured_depth = 0.0;  // share of the pixels that have a depth, 0..1
+  double brightness = 0.0;      ///< mean grey value, 0..255
+  double contrast = 0.0;        ///< standard deviation of the grey values
+  double measured_depth = 0.0;  ///< fraction of the pixels that have a depth, 0..1
 };
 
-// From every eighth pixel of every eighth row: 20 microseconds for 640 x 480.
+/// Computes the statistics of every eighth pixel of every eighth row; 20 microseconds for 640x480.
+/// Returns zeros for an image without pixels.
 ImageStatistics MeasureImage(const RgbdImage& image);
 
 }  // namespace msc_vo

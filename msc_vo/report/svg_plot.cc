@@ -70,26 +70,6 @@ std::optional<LineSegment2> Clipped(const LineSegment2& segment, const Eigen::Ve
   return LineSegment2{segment.start + from * direction, segment.start + to * direction};
 }
 
-// The part of the segment inside the rectangle of `low` and `high`, if there is one (Liang and
-// Barsky 1984).
-std::optional<LineSegment2> Clipped(const LineSegment2& segment, const Eigen::Vector2d& low,
-                                    const Eigen::Vector2d& high) {
-  const Eigen::Vector2d direction = segment.end - segment.start;
-  double from = 0.0, to = 1.0;  // along the segment
-  for (int axis = 0; axis < 2; ++axis) {
-    if (direction[axis] == 0.0) {
-      if (segment.start[axis] < low[axis] || segment.start[axis] > high[axis]) return std::nullopt;
-      continue;
-    }
-    const double a = (low[axis] - segment.start[axis]) / direction[axis];
-    const double b = (high[axis] - segment.start[axis]) / direction[axis];
-    from = std::max(from, std::min(a, b));
-    to = std::min(to, std::max(a, b));
-  }
-  if (from > to) return std::nullopt;
-  return LineSegment2{segment.start + from * direction, segment.start + to * direction};
-}
-
 }  // namespace
 
 std::vector<double> NiceTicks(const PlotRange& range, int max_ticks) {

@@ -25,7 +25,7 @@ TEST(MeasureImage, MeasuresGreyLevelsAndDepth) {
   EXPECT_DOUBLE_EQ(statistics.measured_depth, 0.5);
 }
 
-TEST(MeasureImage, SurvivesAnImageWithoutPixels) {
+TEST(MeasureImage, ReturnsZerosForEmptyImage) {
   EXPECT_EQ(MeasureImage(RgbdImage()).contrast, 0.0);
 }
 

@@ -10,23 +10,25 @@
 namespace msc_vo {
 namespace {
 
-TEST(Relocalizer, FindsTheFrameFarFromAnyPrediction) {
+TEST(Relocalizer, EstimatesAPoseWithoutPrediction) {
   SyntheticFrames world{SyntheticFrames::Options()};
-  const MapSnapshot snapshot = MapOfOneKeyframe(world.See(0), SyntheticFrames::CamFromWorld(0));
+  const MapSnapshot snapshot =
+      MapOfOneKeyframe(world.MakeFrame(0), SyntheticFrames::CamFromWorld(0));
   const Rigid3 truth = SyntheticFrames::CamFromWorld(60);
-  const std::shared_ptr<const Frame> frame = world.See(60);
+  const std::shared_ptr<const Frame> frame = world.MakeFrame(60);
   const auto hit = Relocalize(RelocalizerOptions(), *frame, snapshot.map,
                               snapshot.map.keyframes().front().second);
   ASSERT_TRUE(hit.has_value());
-  // From three noisy pairs at 2..6 m only: good enough as a start for the pose problem.
+  // From three noisy matches at 2 to 6 m: good enough to start pose optimisation.
   EXPECT_LT(PositionError(hit->cam_from_world, truth), 0.15);
   EXPECT_GT(hit->matches.points.size(), 50u);
 }
 
-TEST(Relocalizer, SameFrameSameAnswer) {
+TEST(Relocalizer, IsDeterministic) {
   SyntheticFrames world{SyntheticFrames::Options()};
-  const MapSnapshot snapshot = MapOfOneKeyframe(world.See(0), SyntheticFrames::CamFromWorld(0));
-  const std::shared_ptr<const Frame> frame = world.See(30);
+  const MapSnapshot snapshot =
+      MapOfOneKeyframe(world.MakeFrame(0), SyntheticFrames::CamFromWorld(0));
+  const std::shared_ptr<const Frame> frame = world.MakeFrame(30);
   const Keyframe& keyframe = snapshot.map.keyframes().front().second;
   const auto a = Relocalize(RelocalizerOptions(), *frame, snapshot.map, keyframe);
   const auto b = Relocalize(RelocalizerOptions(), *frame, snapshot.map, keyframe);
@@ -34,16 +36,17 @@ TEST(Relocalizer, SameFrameSameAnswer) {
   EXPECT_EQ(a->cam_from_world.params, b->cam_from_world.params);
 }
 
-TEST(Relocalizer, RefusesAnotherPlaceAndAnEmptyFrame) {
+TEST(Relocalizer, RejectsAnotherSceneAndAnEmptyFrame) {
   SyntheticFrames world{SyntheticFrames::Options()};
   SyntheticFrames::Options other_options;
   other_options.seed = 99;
   SyntheticFrames other(other_options);
-  const MapSnapshot snapshot = MapOfOneKeyframe(world.See(0), SyntheticFrames::CamFromWorld(0));
+  const MapSnapshot snapshot =
+      MapOfOneKeyframe(world.MakeFrame(0), SyntheticFrames::CamFromWorld(0));
   const Keyframe& keyframe = snapshot.map.keyframes().front().second;
-  EXPECT_FALSE(Relocalize(RelocalizerOptions(), *other.See(0), snapshot.map, keyframe));
-  EXPECT_FALSE(
-      Relocalize(RelocalizerOptions(), *SyntheticFrames::SeeNothing(3), snapshot.map, keyframe));
+  EXPECT_FALSE(Relocalize(RelocalizerOptions(), *other.MakeFrame(0), snapshot.map, keyframe));
+  EXPECT_FALSE(Relocalize(RelocalizerOptions(), *SyntheticFrames::MakeEmptyFrame(3), snapshot.map,
+                          keyframe));
 }
 
 }  // namespace

@@ -12,10 +12,11 @@
 
 namespace msc_vo {
 
-// Where a rolling shutter shows a point that is at `in_cam` (metres) at the time stamp, and its
-// inverse depth there: its row decides when it was taken, and that decides its row.
-inline PointFeature SeeRolling(const PinholeCamera& camera, const Eigen::Vector3d& in_cam,
-                               const CameraVelocity& velocity, double readout_time) {
+// Projects a point with a rolling shutter: pixel and inverse depth of the point that is at `in_cam`
+// (metres, camera frame) at the time stamp. The exposure time of the point depends on its row and
+// vice versa, hence the iteration.
+inline PointFeature ProjectRolling(const PinholeCamera& camera, const Eigen::Vector3d& in_cam,
+                                   const CameraVelocity& velocity, double readout_time) {
   PointFeature point;
   point.pixel = camera.Project(in_cam);
   for (int i = 0; i < 20; ++i) {
@@ -27,7 +28,8 @@ inline PointFeature SeeRolling(const PinholeCamera& camera, const Eigen::Vector3
   return point;
 }
 
-// A camera that looks around in a world of points, each the feature of the same index.
+// Frames of a rotating camera with a rolling shutter in a world of points; every point is the
+// feature with the same index.
 class RollingFrames {
  public:
   RollingFrames(double readout_time, double pixel_noise)
@@ -41,7 +43,7 @@ class RollingFrames {
 
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
 
-  // Turns by a radian per second, now this way, now that.
+  // Rotates at about one radian per second in changing directions.
   static CameraVelocity Velocity(int index) {
     return {Eigen::Vector3d(std::cos(1.3 * index), std::sin(0.9 * index), 0.5 * std::sin(index)),
             Eigen::Vector3d(0.1, 0.0, 0.2 * std::cos(index))};
@@ -51,15 +53,15 @@ class RollingFrames {
                   {0.05 * std::sin(2.0 * index), 0.0, 0.02 * index});
   }
 
-  // As its rows were taken; the velocity is told, but nothing is unrolled.
-  std::shared_ptr<Frame> See(int index) {
+  // The frame with its velocity, but not compensated for the rolling shutter.
+  std::shared_ptr<Frame> MakeFrame(int index) {
     auto frame = std::make_shared<Frame>();
     frame->id = index;
     frame->timestamp = 0.3 * index;
     frame->velocity = Velocity(index);
     for (size_t i = 0; i < points_.size(); ++i) {
-      PointFeature feature = SeeRolling(frame->camera, CamFromWorld(index) * points_[i],
-                                        Velocity(index), readout_time_);
+      PointFeature feature = ProjectRolling(frame->camera, CamFromWorld(index) * points_[i],
+                                            Velocity(index), readout_time_);
       feature.descriptor = descriptors_[i];
       feature.pixel.x() += Normal();
       feature.pixel.y() += Normal();

@@ -14,12 +14,12 @@
 
 namespace msc_vo {
 
-// One frame of a room for the tests of structure: lines along three axes that are turned to the
-// camera in any way, others in any direction, with fits to depth samples as a sensor leaves them.
+// One frame of a room for the tests of structure: lines along three orthogonal axes with a random
+// orientation, other lines in random directions, and line depths with the noise of a sensor.
 struct StructureFrameOptions {
   int num_lines = 60;
-  double free_share = 0.2;              // of lines in any direction
-  double deviation = 0.35;              // degrees, of a built line from its axis, per component
+  double free_ratio = 0.2;              // fraction of lines in random directions
+  double deviation = 0.35;              // degrees, of a line from its axis, per component
   double inverse_depth_sigma = 1.4e-3;  // 1/metres, of a sample; one every four pixels
   double image_sigma = 1.0;             // pixels, of an end point across its segment
   double fy = 525.0;                    // may be negative
@@ -30,19 +30,19 @@ struct StructureFrame {
   PinholeCamera camera;
   std::vector<StructureLine> lines;
   std::vector<LineSegment3> truth;  // metres, camera
-  std::vector<bool> free;           // without an axis
+  std::vector<bool> free;           // not along an axis
 
   Eigen::Vector2d TrueDepths(size_t i) const {
     return {1.0 / truth[i].start.z(), 1.0 / truth[i].end.z()};
   }
-  // Squared error (radians) of the direction that `line`, which is line i, gets from its depths:
-  // of its true image segment, as no depth can mend the noise of the other.
+  // Squared error (radians^2) of the direction of line i with the depths of `line`. Uses the true
+  // image segment, whose noise depth cannot reduce.
   double SquaredDirectionError(size_t i, const StructureLine& line) const {
     const LineSegment2 image{camera.Project(truth[i].start), camera.Project(truth[i].end)};
     const Eigen::Vector3d d = BackProject(camera, image, line.depth).Direction();
     return d.cross(truth[i].Direction()).squaredNorm();
   }
-  // Squared error of its depths in sigmas: two degrees of freedom.
+  // Normalised squared error of the depths of line i: chi-square with two degrees of freedom.
   double SquaredNormalizedError(size_t i, const StructureLine& line) const {
     const Eigen::Vector2d error = Eigen::Vector2d(line.depth.start, line.depth.end) - TrueDepths(i);
     return error.dot(line.depth.covariance.inverse() * error);
@@ -57,7 +57,7 @@ inline StructureFrame MakeStructureFrame(const StructureFrameOptions& options) {
   while (static_cast<int>(frame.lines.size()) < options.num_lines) {
     const double z = random.Uniform(1.2, 4.5);
     const double x = random.Uniform(-0.55, 0.55), y = random.Uniform(-0.4, 0.4);
-    const bool is_free = random.Uniform(0.0, 1.0) < options.free_share;
+    const bool is_free = random.Uniform(0.0, 1.0) < options.free_ratio;
     Eigen::Vector3d d = random.Normal3().normalized();
     if (!is_free) {
       const Eigen::Vector3d turn = options.deviation * kPi / 180.0 * random.Normal3();

@@ -11,8 +11,8 @@
 
 namespace msc_vo {
 
-// A world of points and line segments with descriptors of their own, and frames that see it: what a
-// FrameBuilder would deliver, without images.
+// A world of points and line segments with distinct descriptors, and frames that observe it as a
+// FrameBuilder would extract them, without images.
 class SyntheticFrames {
  public:
   struct Options {
@@ -20,12 +20,12 @@ class SyntheticFrames {
     int num_lines = 40;
     double pixel_noise = 0.5;           // standard deviation of every coordinate, pixels
     double inverse_depth_noise = 1e-3;  // standard deviation, 1/metres
-    int flipped_bits = 12;              // of every descriptor, at every sight
+    int flipped_bits = 12;              // of every descriptor, per observation
     unsigned seed = 1;
   };
 
   explicit SyntheticFrames(const Options& options) : options_(options), random_(options.seed) {
-    // A box of 6 x 4 x 3 metres in front of the first cameras; lines along its three directions.
+    // A box of 6 x 3 x 4 metres in front of the first cameras; lines along its three directions.
     for (int i = 0; i < options.num_points; ++i) {
       points_.push_back({Uniform(-3, 3), Uniform(-1.5, 1.5), Uniform(2, 6)});
       point_descriptors_.push_back(RandomDescriptor());
@@ -44,7 +44,7 @@ class SyntheticFrames {
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
   const std::vector<LineSegment3>& lines() const { return lines_; }
 
-  // A smooth hand-held motion, metres and radians per frame as at 30 Hz.
+  // Smooth trajectory of a hand-held camera at 30 Hz, metres.
   static Rigid3 CamFromWorld(int index) {
     const double t = index / 30.0;
     const Eigen::Vector3d center(0.4 * std::sin(0.9 * t), 0.1 * std::sin(1.3 * t), 0.25 * t);
@@ -55,19 +55,21 @@ class SyntheticFrames {
     return Rigid3(world_from_cam, center).Inverse();
   }
 
-  // Frame `index`, seen from CamFromWorld(index) or any other pose.
-  std::shared_ptr<const Frame> See(int index) { return See(index, CamFromWorld(index)); }
-  std::shared_ptr<const Frame> See(int index, const Rigid3& cam_from_world) {
+  // Frame `index`, observed from CamFromWorld(index) or any other pose.
+  std::shared_ptr<const Frame> MakeFrame(int index) {
+    return MakeFrame(index, CamFromWorld(index));
+  }
+  std::shared_ptr<const Frame> MakeFrame(int index, const Rigid3& cam_from_world) {
     auto frame = std::make_shared<Frame>();
     frame->id = index;
     frame->timestamp = index / 30.0;
-    for (size_t i = 0; i < points_.size(); ++i) SeePoint(i, cam_from_world, frame.get());
-    for (size_t i = 0; i < lines_.size(); ++i) SeeLine(i, cam_from_world, frame.get());
+    for (size_t i = 0; i < points_.size(); ++i) ObservePoint(i, cam_from_world, frame.get());
+    for (size_t i = 0; i < lines_.size(); ++i) ObserveLine(i, cam_from_world, frame.get());
     frame->grid = FeatureGrid(frame->camera, frame->points);
     return frame;
   }
-  // A frame that shows nothing, as with the lens covered.
-  static std::shared_ptr<const Frame> SeeNothing(int index) {
+  // A frame without features, as with a covered lens.
+  static std::shared_ptr<const Frame> MakeEmptyFrame(int index) {
     auto frame = std::make_shared<Frame>();
     frame->id = index;
     frame->timestamp = index / 30.0;
@@ -96,7 +98,7 @@ class SyntheticFrames {
     return descriptor;
   }
 
-  void SeePoint(size_t i, const Rigid3& cam_from_world, Frame* frame) {
+  void ObservePoint(size_t i, const Rigid3& cam_from_world, Frame* frame) {
     const Eigen::Vector3d in_cam = cam_from_world * points_[i];
     if (in_cam.z() < 0.3) return;
     PointFeature feature;
@@ -109,7 +111,7 @@ class SyntheticFrames {
     frame->points.push_back(feature);
   }
 
-  void SeeLine(size_t i, const Rigid3& cam_from_world, Frame* frame) {
+  void ObserveLine(size_t i, const Rigid3& cam_from_world, Frame* frame) {
     LineSegment3 in_cam = cam_from_world * lines_[i];
     if (!ClipToNear(0.3, &in_cam)) return;
     LineSegment2 image;
