@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "msc_vo/datasets/camera_preset.h"
-#include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/datasets/sequence.h"
+#include "msc_vo/datasets/sequence_calibration.h"
 
 namespace msc_vo {
 

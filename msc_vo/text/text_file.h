@@ -36,8 +36,8 @@ std::optional<int> WholeNumber(double value);
 /// Returns the shortest text that ParseNumber() converts to exactly the same number, including
 /// "nan" and "inf".
 std::string FormatNumber(double value);
-/// Returns all fields of the line as finite numbers. Throws std::runtime_error naming file, line and
-/// field.
+/// Returns all fields of the line as finite numbers. Throws std::runtime_error naming file, line
+/// and field.
 std::vector<double> ParseNumbers(const TextLine& line);
 
 }  // namespace msc_vo
