@@ -29,7 +29,7 @@ class MappingRunnerTest : public testing::TestWithParam<bool> {
   // a window from keyframe 1 on.
   KeyframePacket Packet(int index) {
     KeyframePacket packet;
-    packet.frame = world_.Observe(10 * index);
+    packet.frame = world_.MakeFrame(10 * index);
     packet.cam_from_reference =
         SyntheticFrames::CamFromWorld(10 * index) * SyntheticFrames::CamFromWorld(0).Inverse();
     if (index == 0) first_frame_ = packet.frame;
