@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "msc_vo/geometry/angles.h"
-#include "msc_vo/recording/window_file.h"
 #include "msc_vo/results/benchmark.h"
 #include "msc_vo/results/run_summary.h"
 #include "msc_vo/version.h"

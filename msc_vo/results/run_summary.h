@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/config/option_list.h"
 #include "msc_vo/datasets/calibration.h"
 #include "msc_vo/datasets/sequence.h"
@@ -110,5 +111,8 @@ std::string FormatErrorJson(const TrajectoryError& error, const LeftOutRows& lef
 // The poses of all frames, camera in world; those of frames that are neither tracked nor weak are
 // marked as not estimated.
 std::vector<TimedPose> TrajectoryOf(const OdometryResult& result);
+
+/// JSON of a solved window (`solve-window --json`). `milliseconds`: duration of the solve.
+std::string FormatWindowJson(const BundleAdjustmentSummary& summary, double milliseconds);
 
 }  // namespace msc_vo

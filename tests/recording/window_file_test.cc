@@ -8,7 +8,6 @@
 
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 #include "msc_vo/config/option_list.h"
 #include "msc_vo/synthetic/window/synthetic_window.h"
@@ -246,9 +245,8 @@ TEST_F(WindowFileTest, ErrorsNameLineAndFix) {
   expect(" 641 ", " ", "found 5 fields behind 'camera'; complete the line");
   expect(" 641 ", " 641 1 ", "expected 'camera FX FY CX CY WIDTH HEIGHT', found 7 fields");
   expect("parallel.huber", "paralel.huber", "did you mean 'mapping.window.parallel.huber'?");
-  expect(
-      "line_endpoint_prior ", "line_endpoint_prior ",
-      "unknown option 'mapping.window.line_endpoint_prior'; remove the line to take the defaults");
+  expect("line_endpoint_prior ", "line_anchor ",
+         "unknown option 'mapping.window.line_anchor'; remove the line to take the defaults");
   expect("option mapping", "option x mapping", "expected 'option NAME VALUE'");
   expect("reject_chi2_2 ", "reject_chi2_2 x", "must be a number, not 'x9.21'");
   const std::string end = text.substr(text.rfind("end "));
@@ -321,23 +319,6 @@ TEST_F(WindowFileTest, WrongBytesAreReadOrRefused) {
     EXPECT_THAT(error, StartsWith("window.txt:"));
   }
   EXPECT_GT(num_refused, 1000);
-}
-
-TEST_F(WindowFileTest, JsonOfASolution) {
-  BundleAdjustmentSummary summary;
-  summary.usable = true;
-  summary.final_cost = 0.1 + 0.2;
-  summary.perpendicular = {3, 1, 2.5, 1.5};
-  const nlohmann::json json = nlohmann::json::parse(FormatWindowJson(summary, 12.5));
-  EXPECT_EQ(json["usable"], true);
-  EXPECT_EQ(json["final_cost"], 0.1 + 0.2);
-  EXPECT_EQ(json["milliseconds"], 12.5);
-  EXPECT_EQ(json["terms"].size(), 9u);
-  const nlohmann::json term = json["terms"]["perpendicular"];
-  EXPECT_EQ(term["residual_blocks"], 3);
-  EXPECT_EQ(term["rejected"], 1);
-  EXPECT_EQ(term["initial_cost"], 2.5);
-  EXPECT_EQ(term["final_cost"], 1.5);
 }
 
 }  // namespace
