@@ -13,6 +13,7 @@
 
 #include <unistd.h>
 
+#include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/sequence_arguments.h"
@@ -133,7 +134,7 @@ RgbdDecoder OpenWithTruth(const SequenceArguments& sequence, const Configuration
 }
 
 void PrintFailure(const std::string& what, const std::string& why) {
-  std::cerr << "msc_vo: " << what << " failed: " << why << std::endl;
+  PrintError(what + " failed: " + why);
 }
 
 // Every mode on one sequence. The tables are written after each run: a benchmark takes hours.

@@ -5,17 +5,18 @@
 
 #include <algorithm>
 #include <exception>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "apps/cli/command_log.h"
 #include "apps/cli/cost_meter.h"
 #include "apps/cli/progress.h"
 #include "msc_vo/datasets/paced_source.h"
 #include "msc_vo/datasets/rgbd_source.h"
+#include "msc_vo/logging/logger.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -124,6 +125,7 @@ class FrameLoop {
  private:
   FrameResult Skip(const UnreadableImage& image) {
     if (num_unreadable_++ == 0) first_unreadable_ = image.what();
+    Log().warn("{}", image.what());
     const FrameResult frame = odometry_->Drop(image.index(), entries_[image.index()].timestamp,
                                               TrackingStatus::kUnreadable);
     CheckNumUnreadable(image.index() + 1);
@@ -157,10 +159,6 @@ class FrameLoop {
   std::string first_unreadable_;
 };
 
-void PrintWarning(const std::string& text) {
-  std::cerr << "msc_vo: warning: " << text << std::endl;
-}
-
 // The readout time that the options give precedes that of the calibration; both get the one that
 // applies, none if it is to be learnt.
 void ResolveReadoutTime(std::optional<double>* option, Calibration* calibration) {
@@ -182,6 +180,14 @@ RunContext MakeContext(const RgbdDecoder& decoder, const Configuration& configur
   context.configuration = configuration;
   ResolveReadoutTime(&context.configuration.odometry.mapping.readout_time, &context.calibration);
   return context;
+}
+
+void LogStart(const RunContext& context, int num_frames) {
+  const Calibration& calibration = context.calibration;
+  Log().info("{}", context.command_line);
+  Log().info("sequence {}: {} images", context.sequence.directory, num_frames);
+  Log().info("camera: {}; depth scale {}; readout time: {}", calibration.origin,
+             calibration.depth_scale, calibration.readout_origin);
 }
 
 void Fail(ExitCode exit_code, const std::string& outcome, SequenceRun* run) {
@@ -264,6 +270,8 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   context = MakeContext(decoder, configuration);
   const int num_frames =
       arguments.max_frames > 0 ? std::min(arguments.max_frames, decoder.size()) : decoder.size();
+
+  LogStart(context, num_frames);
 
   const CostMeter cost;
   const OdometryOptions& options = context.configuration.odometry;

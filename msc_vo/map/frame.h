@@ -21,48 +21,48 @@ namespace msc_vo {
 /// 256-bit binary descriptor (rotated BRIEF for points, LBD for lines).
 using Descriptor = std::array<uint8_t, 32>;
 
-// Number of differing bits, 0..256.
+/// Number of differing bits, 0..256.
 int HammingDistance(const Descriptor& a, const Descriptor& b);
 
 /// Scale between adjacent pyramid levels of point features, as in ORB. A constant rather than an
 /// option, because extraction, matching by projection and culling must agree on it.
 constexpr double kPyramidScale = 1.2;
 
-// A point feature p_i of the paper. Pixels are undistorted.
+/// A point feature p_i of the paper. Pixels are undistorted.
 struct PointFeature {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  double sigma = 1.0;                // pixels, standard deviation of each coordinate
-  int level = 0;                     // pyramid level, 0 is the full image
-  bool dynamic = false;              // on a dynamic object: must not create a landmark
-  double angle = 0.0;                // radians, orientation in the image
-  double inverse_depth = 0.0;        // 1/metres; 0: no depth measured
-  double inverse_depth_sigma = 0.0;  // 1/metres; > 0 if there is a depth
+  double sigma = 1.0;                ///< pixels, standard deviation of each coordinate
+  int level = 0;                     ///< pyramid level, 0 is the full image
+  bool dynamic = false;              ///< on a dynamic object: must not create a landmark
+  double angle = 0.0;                ///< radians, orientation in the image
+  double inverse_depth = 0.0;        ///< 1/metres; 0: no depth measured
+  double inverse_depth_sigma = 0.0;  ///< 1/metres; > 0 if there is a depth
   Descriptor descriptor{};
 
   bool HasDepth() const { return inverse_depth > 0.0; }
 };
 
-// A line feature l_j of the paper. Pixels are undistorted.
+/// A line feature l_j of the paper. Pixels are undistorted.
 struct LineFeature {
   LineSegment2 segment;
-  double sigma = 1.0;              // pixels, of an end point's distance to the true line
-  bool dynamic = false;            // as for points
-  std::optional<LineDepth> depth;  // none: the line stays 2-D
+  double sigma = 1.0;              ///< pixels, of an end point's distance to the true line
+  bool dynamic = false;            ///< as for points
+  std::optional<LineDepth> depth;  ///< none: the line stays 2-D
   Descriptor descriptor{};
 };
 
-// Feature indices in square cells over the image, for radius searches in time proportional to the
-// result. Points outside the image, where undistortion may move them, belong to the nearest cell.
+/// Feature indices in square cells over the image, for radius searches in time proportional to the
+/// result. Points outside the image, where undistortion may move them, belong to the nearest cell.
 class FeatureGrid {
  public:
   FeatureGrid() = default;
   FeatureGrid(const PinholeCamera& camera, const std::vector<PointFeature>& points);
 
-  // Indices of the points within `radius` pixels of `pixel`, ascending.
+  /// Indices of the points within `radius` pixels of `pixel`, ascending.
   std::vector<int> Near(const std::vector<PointFeature>& points, const Eigen::Vector2d& pixel,
                         double radius) const;
-  // Calls visit(index) for each of these points without allocating; the order depends on the
-  // features alone.
+  /// Calls visit(index) for each of these points without allocating; the order depends on the
+  /// features alone.
   template <typename Visit>
   void VisitNear(const std::vector<PointFeature>& points, const Eigen::Vector2d& pixel,
                  double radius, const Visit& visit) const {
@@ -89,29 +89,29 @@ class FeatureGrid {
   std::vector<int> indices_;  // cell by cell, ascending within each
 };
 
-// The features of one image. No image data is kept beyond this type.
-//
-// A frame is immutable once it is built; poses and associations are stored separately, so that
-// frames can be shared between threads without locks.
+/// The features of one image. No image data is kept beyond this type.
+///
+/// A frame is immutable once it is built; poses and associations are stored separately, so that
+/// frames can be shared between threads without locks.
 struct Frame {
-  int64_t id = 0;          // position in the sequence, from 0
-  double timestamp = 0.0;  // seconds
-  PinholeCamera camera;    // without distortion: features are undistorted already
+  int64_t id = 0;          ///< position in the sequence, from 0
+  double timestamp = 0.0;  ///< seconds
+  PinholeCamera camera;    ///< without distortion: features are undistorted already
   std::vector<PointFeature> points;
   std::vector<LineFeature> lines;
-  FeatureGrid grid;  // over `points`
-  // Parameters of the rolling-shutter compensation that was applied to the features (see
-  // rolling_shutter.h): the camera's velocity, std::nullopt while it is unknown, and the readout
-  // time, seconds.
+  FeatureGrid grid;  ///< over `points`
+  /// Parameters of the rolling-shutter compensation that was applied to the features (see
+  /// rolling_shutter.h): the camera's velocity, std::nullopt while it is unknown, and the readout
+  /// time, seconds.
   std::optional<CameraVelocity> velocity;
   double readout_time = 0.0;
 
-  // Position in camera coordinates (metres) of a point that has a depth.
+  /// Position in camera coordinates (metres) of a point that has a depth.
   Eigen::Vector3d PointInCamera(int index) const {
     const PointFeature& point = points[index];
     return camera.BackProject(point.pixel, 1.0 / point.inverse_depth);
   }
-  // Segment in camera coordinates (metres) of a line that has a depth.
+  /// Segment in camera coordinates (metres) of a line that has a depth.
   LineSegment3 LineInCamera(int index) const {
     return BackProject(camera, lines[index].segment, *lines[index].depth);
   }

@@ -9,8 +9,8 @@
 
 namespace msc_vo {
 
-// A sorted set of ids of a table, stored as one bit per id between the table's lowest and highest.
-// Collecting the landmarks of twenty keyframes in order is faster this way than by sorting.
+/// A sorted set of ids of a table, stored as one bit per id between the table's lowest and highest.
+/// Collecting the landmarks of twenty keyframes in order is faster this way than by sorting.
 class IdSet {
  public:
   template <typename Table>
@@ -20,13 +20,13 @@ class IdSet {
     words_.resize((table.back().first - first_) / kBits + 1);
   }
 
-  // `id` must be in the table.
+  /// `id` must be in the table.
   void Insert(int64_t id) {
     const int64_t bit = id - first_;
     words_[bit / kBits] |= uint64_t{1} << (bit % kBits);
   }
 
-  // Calls visit(id) for each, ascending.
+  /// Calls visit(id) for each, ascending.
   template <typename Visit>
   void VisitAll(const Visit& visit) const {
     for (size_t i = 0; i < words_.size(); ++i) {

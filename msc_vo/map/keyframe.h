@@ -12,13 +12,13 @@
 
 namespace msc_vo {
 
-// A frame that is kept in the map, its pose, and the landmarks that its features observe.
+/// A frame that is kept in the map, its pose, and the landmarks that its features observe.
 struct Keyframe {
   KeyframeId id = kNoId;
   std::shared_ptr<const Frame> frame;
   Rigid3 cam_from_world;
-  std::vector<LandmarkId> points;  // one per point feature; kNoId: none
-  std::vector<LandmarkId> lines;   // one per line feature
+  std::vector<LandmarkId> points;  ///< one per point feature; kNoId: none
+  std::vector<LandmarkId> lines;   ///< one per line feature
 };
 
 }  // namespace msc_vo

@@ -9,8 +9,8 @@
 
 namespace msc_vo {
 
-// Constant-time lookup of selected keyframes of a map by id. Valid until the next change of the
-// map.
+/// Constant-time lookup of selected keyframes of a map by id. Valid until the next change of the
+/// map.
 class KeyframeIndex {
  public:
   explicit KeyframeIndex(const Map& map) {
@@ -21,7 +21,7 @@ class KeyframeIndex {
 
   void Add(const Keyframe& keyframe) { keyframes_[keyframe.id - first_] = &keyframe; }
 
-  // Returns nullptr if the keyframe was not added. `id` must belong to a keyframe of the map.
+  /// Returns nullptr if the keyframe was not added. `id` must belong to a keyframe of the map.
   const Keyframe* Find(KeyframeId id) const { return keyframes_[id - first_]; }
 
  private:

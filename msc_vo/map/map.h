@@ -12,82 +12,82 @@
 
 namespace msc_vo {
 
-// Keyframes, landmarks and their observations. Share() returns immutable snapshots.
-//
-// Pointers and references into the map are valid until its next change.
-//
-// Ids increase in order of creation and are never reused. All containers are ordered by id, so that
-// iteration is deterministic.
+/// Keyframes, landmarks and their observations. Share() returns immutable snapshots.
+///
+/// Pointers and references into the map are valid until its next change.
+///
+/// Ids increase in order of creation and are never reused. All containers are ordered by id, so
+/// that iteration is deterministic.
 class Map {
  public:
-  // Block sizes of the copy-on-write tables. Keyframes have long lists of landmarks and are shared
-  // one by one. Sixteen landmarks take 2 kB without observations: few neighbours are copied with
-  // one that changes, and a snapshot copies a sixteenth of the pointers.
+  /// Block sizes of the copy-on-write tables. Keyframes have long lists of landmarks and are shared
+  /// one by one. Sixteen landmarks take 2 kB without observations: few neighbours are copied with
+  /// one that changes, and a snapshot copies a sixteenth of the pointers.
   using KeyframeTable = SharedTable<Keyframe, 1>;
   using PointTable = SharedTable<PointLandmark, 16>;
   using LineTable = SharedTable<LineLandmark, 16>;
 
-  // Another keyframe and the number of landmarks that it shares with the given one.
+  /// Another keyframe and the number of landmarks that it shares with the given one.
   struct Covisible {
     KeyframeId keyframe = kNoId;
     int num_shared = 0;
   };
 
-  // Returns a snapshot of the map. It shares memory with this map until either changes.
+  /// Returns a snapshot of the map. It shares memory with this map until either changes.
   Map Share();
 
   const KeyframeTable& keyframes() const { return keyframes_; }
   const PointTable& points() const { return points_; }
   const LineTable& lines() const { return lines_; }
 
-  // Returns nullptr if the map does not contain the id.
+  /// Returns nullptr if the map does not contain the id.
   const Keyframe* FindKeyframe(KeyframeId id) const;
   const PointLandmark* FindPoint(LandmarkId id) const;
   const LineLandmark* FindLine(LandmarkId id) const;
 
-  // Adds a keyframe without associations and returns its id.
+  /// Adds a keyframe without associations and returns its id.
   KeyframeId AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& cam_from_world);
-  // Adds a landmark first seen in `keyframe`'s feature `feature`, observation included.
+  /// Adds a landmark and its observation by feature `feature` of `keyframe`.
   LandmarkId AddPoint(KeyframeId keyframe, int feature, const Eigen::Vector3d& position);
   LandmarkId AddLine(KeyframeId keyframe, int feature, const LineSegment3& segment);
 
-  // Adds an observation. Returns false and changes nothing if the landmark does not exist, is
-  // already observed by this keyframe, or the feature observes another landmark.
+  /// Adds an observation. Returns false and changes nothing if the landmark does not exist, is
+  /// already observed by this keyframe, or the feature observes another landmark.
   bool ObservePoint(LandmarkId point, KeyframeId keyframe, int feature);
   bool ObserveLine(LandmarkId line, KeyframeId keyframe, int feature);
-  // Removes an observation if it exists, and the landmark with its last observation.
+  /// Removes an observation if it exists, and the landmark with its last observation.
   void RemovePointObservation(LandmarkId point, KeyframeId keyframe);
   void RemoveLineObservation(LandmarkId line, KeyframeId keyframe);
 
   void RemovePoint(LandmarkId point);
   void RemoveLine(LandmarkId line);
-  // Moves the observations of `from` to `into` where they do not collide, and removes `from`.
+  /// Moves the observations of `from` to `into` where they do not collide, and removes `from`.
   void MergePoints(LandmarkId from, LandmarkId into);
   void MergeLines(LandmarkId from, LandmarkId into);
 
-  // Removes a keyframe and its observations. Its pose relative to `successor`, which must be in the
-  // map, is kept, so that frames that were tracked relative to it keep their pose.
+  /// Removes a keyframe and its observations. Its pose relative to `successor`, which must be in
+  /// the map, is kept, so that frames that were tracked relative to it keep their pose.
   void RemoveKeyframe(KeyframeId id, KeyframeId successor);
-  // Pose of a keyframe that is in the map or was removed from it.
+  /// Pose of a keyframe that is in the map or was removed from it.
   Rigid3 CamFromWorld(KeyframeId id) const;
 
-  // Replaces the frame by one with the same features in the same order.
+  /// Replaces the frame by one with the same features in the same order.
   void SetFrame(KeyframeId keyframe, std::shared_ptr<const Frame> frame);
   void SetPose(KeyframeId keyframe, const Rigid3& cam_from_world);
   void SetPoint(LandmarkId point, const Eigen::Vector3d& position);
   void SetLine(LandmarkId line, const LineSegment3& segment);
-  // Sets Landmark::noise and LineLandmark::depth_offset.
+  /// Sets Landmark::noise and LineLandmark::depth_offset.
   void SetPointNoise(LandmarkId point, double noise);
   void SetLineNoise(LandmarkId line, double noise, double depth_offset);
-  // Adds to Landmark::num_visible and num_found; no effect if the landmark does not exist.
+  /// Adds to Landmark::num_visible and num_found; no effect if the landmark does not exist.
   void CountPointTracking(LandmarkId point, int num_visible, int num_found);
   void CountLineTracking(LandmarkId line, int num_visible, int num_found);
 
-  // Recomputes descriptor, viewing direction and reference distance from the observations.
+  /// Recomputes descriptor, viewing direction and reference distance from the observations.
   void RefreshPoint(LandmarkId point);
   void RefreshLine(LandmarkId line);
 
-  // Keyframes that share landmarks with `keyframe`, most shared first, then newest first.
+  /// Keyframes that share landmarks with `keyframe`, most shared first, then newest first.
   std::vector<Covisible> FindCovisible(KeyframeId keyframe) const;
 
  private:

@@ -5,7 +5,7 @@
 
 namespace msc_vo {
 
-// Ratio of the actual errors of measurements to the sigmas of the features (self-calibration).
+/// Ratio of the actual errors of measurements to the sigmas of the features (self-calibration).
 struct NoiseScale {
   double point_depth = 1.0;
   double line_pixel = 1.0;

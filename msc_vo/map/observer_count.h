@@ -9,16 +9,16 @@
 
 namespace msc_vo {
 
-// Counts, for each keyframe, how many of the given landmarks it observes. Ids are dense, so that a
-// table serves with one step per observation.
+/// Counts, for each keyframe, how many of the given landmarks it observes. Ids are dense, so that a
+/// table serves with one step per observation.
 class ObserverCount {
  public:
-  // Counts observations by the keyframes of `map`.
+  /// Counts observations by the keyframes of `map`.
   explicit ObserverCount(const Map& map);
 
   void Add(const Landmark& landmark);
 
-  // Keyframes with at least one landmark, most landmarks first, then newest first.
+  /// Keyframes with at least one landmark, most landmarks first, then newest first.
   std::vector<Map::Covisible> Ranked() const;
 
  private:

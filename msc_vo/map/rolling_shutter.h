@@ -17,19 +17,19 @@ namespace msc_vo {
 // degrees per second the last row is shifted by 17 pixels relative to the first, and no single pose
 // explains the image.
 
-// Phase of a pixel's row: -0.5 at the upper border of the image, 0.5 at the lower one. Lens
-// distortion is neglected: a displacement of 10 rows is an error of 2 % of the readout time.
+/// Phase of a pixel's row: -0.5 at the upper border of the image, 0.5 at the lower one. Lens
+/// distortion is neglected: a displacement of 10 rows is an error of 2 % of the readout time.
 double RowPhase(const PinholeCamera& camera, const Eigen::Vector2d& pixel);
 
-// Derivative (1/seconds) of the ray of a feature (z = 1) with the given inverse depth (1/metres)
-// with respect to the readout time of the compensation. Zero if the velocity is unknown.
+/// Derivative (1/seconds) of the ray of a feature (z = 1) with the given inverse depth (1/metres)
+/// with respect to the readout time of the compensation. Zero if the velocity is unknown.
 Eigen::Vector3d RayChange(const Frame& frame, const Eigen::Vector2d& pixel, double inverse_depth);
 
-// Returns the frame as a global shutter would have recorded it at its time stamp: pixels and depths
-// are moved by the camera's motion between the time stamp and the time of their row. Features
-// without a depth move as if at infinity. For a frame that was compensated before, the difference
-// is applied with the phases of the compensated pixels: a few rows off, so that some percent of the
-// difference remain.
+/// Returns the frame as a global shutter would have recorded it at its time stamp: pixels and
+/// depths are moved by the camera's motion between the time stamp and the time of their row.
+/// Features without a depth move as if at infinity. For a frame that was compensated before, the
+/// difference is applied with the phases of the compensated pixels: a few rows off, so that some
+/// percent of the difference remain.
 Frame CompensateRollingShutter(const Frame& frame, const CameraVelocity& velocity,
                                double readout_time);
 

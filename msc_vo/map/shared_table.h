@@ -12,11 +12,11 @@
 
 namespace msc_vo {
 
-// A copy-on-write table of values by ascending id, in blocks of at most `kBlockSize`: the leaves of
-// a B+ tree of height one. Two tables share a block until one of them changes it and copies it
-// first. A snapshot costs one pointer per block, and later a copy of each block that changes.
-//
-// Pointers and references to values are valid until the next change of the table.
+/// A copy-on-write table of values by ascending id, in blocks of at most `kBlockSize`: the leaves
+/// of a B+ tree of height one. Two tables share a block until one of them changes it and copies it
+/// first. A snapshot costs one pointer per block, and later a copy of each block that changes.
+///
+/// Pointers and references to values are valid until the next change of the table.
 template <typename T, int kBlockSize>
 class SharedTable {
  public:
@@ -31,7 +31,7 @@ class SharedTable {
   };
 
  public:
-  // Iterates over the entries by ascending id.
+  /// Iterates over the entries by ascending id.
   class Iterator {
    public:
     Iterator(const std::vector<Block>& blocks, size_t block) : blocks_(&blocks), block_(block) {}
@@ -58,7 +58,7 @@ class SharedTable {
   SharedTable() = default;
   SharedTable(SharedTable&&) = default;
   SharedTable& operator=(SharedTable&&) = default;
-  // Copies are made by Share(), which marks the shared blocks.
+  /// Copies are made by Share(), which marks the shared blocks.
   SharedTable(const SharedTable&) = delete;
   SharedTable& operator=(const SharedTable&) = delete;
 
@@ -70,11 +70,11 @@ class SharedTable {
     for (const Block& block : blocks_) size += block.entries->size();
     return size;
   }
-  // The entries with the lowest and the highest id; the table must not be empty.
+  /// The entries with the lowest and the highest id; the table must not be empty.
   const Entry& front() const { return blocks_.front().entries->front(); }
   const Entry& back() const { return blocks_.back().entries->back(); }
 
-  // The last entry with an id of at most `id`; nullptr if there is none.
+  /// The last entry with an id of at most `id`; nullptr if there is none.
   const Entry* FindUpTo(int64_t id) const {
     if (blocks_.empty() || id < blocks_.front().first) return nullptr;
     const Entries& entries = *blocks_[BlockOf(id)].entries;
@@ -82,12 +82,12 @@ class SharedTable {
         std::upper_bound(entries.begin(), entries.end(), id,
                          [](int64_t value, const Entry& entry) { return value < entry.first; }));
   }
-  // Returns nullptr if there is none.
+  /// Returns nullptr if there is none.
   const T* Find(int64_t id) const {
     const Entry* entry = FindUpTo(id);
     return entry != nullptr && entry->first == id ? &entry->second : nullptr;
   }
-  // Like Find(), for writing: copies the block if it is shared.
+  /// Like Find(), for writing: copies the block if it is shared.
   T* FindToChange(int64_t id) {
     const Entry* entry = FindUpTo(id);
     if (entry == nullptr || entry->first != id) return nullptr;
@@ -96,7 +96,7 @@ class SharedTable {
     return &(*ToChange(block))[place].second;
   }
 
-  // `id` must be higher than all ids added before.
+  /// `id` must be higher than all ids added before.
   void Append(int64_t id, T value) {
     if (blocks_.empty() || blocks_.back().entries->size() == kBlockSize) {
       blocks_.push_back({id, false, std::make_shared<Entries>()});
@@ -104,7 +104,7 @@ class SharedTable {
     ToChange(blocks_.size() - 1)->emplace_back(id, std::move(value));
   }
 
-  // No effect if there is none. Adjacent half-empty blocks are joined, which bounds their number.
+  /// No effect if there is none. Adjacent half-empty blocks are joined, which bounds their number.
   void Erase(int64_t id) {
     if (Find(id) == nullptr) return;
     const size_t block = BlockOf(id);
@@ -118,8 +118,8 @@ class SharedTable {
     if (!JoinWithNext(block) && block > 0) JoinWithNext(block - 1);
   }
 
-  // Returns a table with the same values. Either may change afterwards without affecting the other;
-  // each table may be used by one thread at a time.
+  /// Returns a table with the same values. Either may change afterwards without affecting the
+  /// other; each table may be used by one thread at a time.
   SharedTable Share() {
     for (Block& block : blocks_) block.shared = true;
     SharedTable copy;

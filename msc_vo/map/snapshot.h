@@ -10,13 +10,13 @@
 
 namespace msc_vo {
 
-// The immutable map after one keyframe step. Any thread may read it.
+/// The immutable map after one keyframe step. Any thread may read it.
 struct MapSnapshot {
   Map map;
   KeyframeId newest_keyframe = kNoId;
-  NoiseScale noise_scale;     // self-calibrated
-  double readout_time = 0.0;  // seconds, of the rolling-shutter compensation of its keyframes
-  bool needs_axes = false;    // the next keyframe packet shall contain surface normals
+  NoiseScale noise_scale;     ///< self-calibrated
+  double readout_time = 0.0;  ///< seconds, of the rolling-shutter compensation of its keyframes
+  bool needs_axes = false;    ///< the next keyframe packet shall contain surface normals
 };
 using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;
 

@@ -11,32 +11,33 @@
 namespace msc_vo {
 
 struct WindowSelectionOptions {
-  // Keyframes that are optimised: the current one and its most covisible ones.
+  /// Keyframes that are optimised: the current one and its most covisible ones.
   int max_keyframes = 10;
-  // Keyframes outside the window that observe its landmarks and are held fixed, most shared
-  // landmarks first. Further ones add cost but little information.
+  /// Keyframes outside the window that observe its landmarks and are held fixed, most shared
+  /// landmarks first. Further ones add cost but little information.
   int max_fixed_keyframes = 10;
-  // Smallest number of landmarks that a keyframe of the window shares with the current one.
+  /// Smallest number of landmarks that a keyframe of the window shares with the current one.
   int min_shared = 10;
-  // Smallest number of observations of a landmark. One observation adds as many unknowns as
-  // equations, apart from its depth.
+  /// Smallest number of observations of a landmark. One observation adds as many unknowns as
+  /// equations, apart from its depth.
   int min_observations = 2;
 
   bool IsValid(std::string* error) const;
 };
 
-// Selects the window around `keyframe` (paper: K_c, K_f, P, L of Local Map Optimization) as plain
-// data. The first keyframe of the map, which defines the world, is fixed if it is in the window. If
-// no other keyframe is fixed, the oldest keyframe of the window holds the gauge.
+/// Selects the window around `keyframe` (paper: K_c, K_f, P, L of Local Map Optimization) as plain
+/// data. The first keyframe of the map, which defines the world, is fixed if it is in the window.
+/// If no other keyframe is fixed, the oldest keyframe of the window holds the gauge.
 WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, KeyframeId keyframe);
 
-// Writes the optimised window back into the map and removes rejected observations. End points of
-// lines are recomputed from the observations, because bundle adjustment leaves them free along the
-// line.
+/// Writes the optimised window back into the map and removes rejected observations. End points of
+/// lines are recomputed from the observations, because bundle adjustment leaves them free along the
+/// line.
 void WriteBack(const WindowData& window, Map* map);
 
-// Returns the part of the infinite line of `segment` (world) that the keyframes observe: the union
-// of the observed image segments, projected onto the line. Observations along the line are ignored.
+/// Returns the part of the infinite line of `segment` (world) that the keyframes observe: the union
+/// of the observed image segments, projected onto the line. Observations along the line are
+/// ignored.
 LineSegment3 TrimToObservations(const Map& map, const LineLandmark& line,
                                 const LineSegment3& segment);
 

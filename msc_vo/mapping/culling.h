@@ -11,34 +11,34 @@
 namespace msc_vo {
 
 struct CullingOptions {
-  // Number of keyframes after its creation during which a landmark is on probation. A landmark that
-  // has fewer than min_observations observations by then is removed.
+  /// Number of keyframes after its creation during which a landmark is on probation. A landmark
+  /// that has fewer than min_observations observations by then is removed.
   int probation_keyframes = 2;
   int min_observations = 2;
-  // Smallest ratio of the frames that matched a landmark on probation to those in which it was
-  // predicted to be visible.
+  /// Smallest ratio of the frames that matched a landmark on probation to those in which it was
+  /// predicted to be visible.
   double min_found_ratio = 0.25;
-  // A keyframe is redundant if this fraction of its landmarks is observed by at least
-  // redundant_observers other keyframes at the same or a finer scale.
+  /// A keyframe is redundant if this fraction of its landmarks is observed by at least
+  /// redundant_observers other keyframes at the same or a finer scale.
   double redundant_ratio = 0.9;
   int redundant_observers = 3;
 
   bool IsValid(std::string* error) const;
 };
 
-// Landmarks on probation.
+/// Landmarks on probation.
 struct Probation {
   std::set<LandmarkId> points;
   std::set<LandmarkId> lines;
 };
 
-// Removes the landmarks on probation that fail the tests of CullingOptions, and ends the probation
-// of those that pass.
+/// Removes the landmarks on probation that fail the tests of CullingOptions, and ends the probation
+/// of those that pass.
 void CullLandmarks(const CullingOptions& options, KeyframeId newest, Probation* probation,
                    Map* map);
 
-// Removes redundant keyframes among those covisible with `newest`, except `newest`, its predecessor
-// and the first keyframe, which defines the world. Returns their number.
+/// Removes redundant keyframes among those covisible with `newest`, except `newest`, its
+/// predecessor and the first keyframe, which defines the world. Returns their number.
 int CullKeyframes(const CullingOptions& options, KeyframeId newest, Map* map);
 
 }  // namespace msc_vo

@@ -17,23 +17,24 @@
 
 namespace msc_vo {
 
-// Number of frames in which a landmark was predicted to be visible, and in which it was matched.
+/// Number of frames in which a landmark was predicted to be visible, and in which it was matched.
 struct TrackingCount {
   int num_visible = 0;
   int num_found = 0;
 };
 
-// Plain data that tracking passes to the mapper for each keyframe; shared parts are immutable.
+/// Plain data that tracking passes to the mapper for each keyframe; shared parts are immutable.
 struct KeyframePacket {
   std::shared_ptr<const Frame> frame;
-  KeyframeId reference = kNoId;  // kNoId: the first keyframe, cam_from_reference is cam_from_world
+  KeyframeId reference =
+      kNoId;  ///< kNoId: the first keyframe, cam_from_reference is cam_from_world
   Rigid3 cam_from_reference;
-  FrameMatches matches;  // with landmarks of the map
-  // Velocity at the previous keyframe, from the frames before and after it; none if unknown.
+  FrameMatches matches;  ///< with landmarks of the map
+  /// Velocity at the previous keyframe, from the frames before and after it; none if unknown.
   std::optional<CameraVelocity> last_velocity;
-  // Normals of visible surfaces, camera frame; empty if the map already has Manhattan axes.
+  /// Normals of visible surfaces, camera frame; empty if the map already has Manhattan axes.
   std::vector<AxisEvidence> normals;
-  // Over all frames since the last packet, including this one.
+  /// Over all frames since the last packet, including this one.
   std::map<LandmarkId, TrackingCount> point_counts;
   std::map<LandmarkId, TrackingCount> line_counts;
 };

@@ -14,22 +14,22 @@ namespace msc_vo {
 struct FusionOptions {
   PointMatcherOptions point_matcher;
   LineMatcherOptions line_matcher;
-  int max_neighbours = 10;  // covisible keyframes that are searched; the size of the window
-  // Search radius around a projected landmark, pixels at level 0. Both poses are estimated, so that
-  // the landmark's own error remains: about three sigmas of a feature.
+  int max_neighbours = 10;  ///< covisible keyframes that are searched; the size of the window
+  /// Search radius around a projected landmark, pixels at level 0. Both poses are estimated, so
+  /// that the landmark's own error remains: about three sigmas of a feature.
   double radius = 3.0;
-  // Two line landmarks are duplicates if the angle between them (degrees) and the distance of each
-  // midpoint from the other line, relative to the distance from the camera, are below these.
+  /// Two line landmarks are duplicates if the angle between them (degrees) and the distance of each
+  /// midpoint from the other line, relative to the distance from the camera, are below these.
   double max_line_angle = 5.0;
   double max_line_offset = 0.02;
 
   bool IsValid(std::string* error) const;
 };
 
-// Matches the landmarks of keyframe `id` with the features of its covisible keyframes, and theirs
-// with its features. A matched feature without a landmark becomes an observation. If it observes
-// another landmark, the two are duplicates and are merged into the one with more observations (the
-// older one on ties).
+/// Matches the landmarks of keyframe `id` with the features of its covisible keyframes, and theirs
+/// with its features. A matched feature without a landmark becomes an observation. If it observes
+/// another landmark, the two are duplicates and are merged into the one with more observations (the
+/// older one on ties).
 void FusePoints(const FusionOptions& options, KeyframeId id, Map* map);
 void FuseLines(const FusionOptions& options, KeyframeId id, Map* map);
 

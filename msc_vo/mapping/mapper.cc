@@ -15,6 +15,15 @@
 
 namespace msc_vo {
 
+namespace {
+
+void DescribeAxes(const AxesEstimator& axes, MappingSummary* summary) {
+  summary->axes_state = axes.state();
+  summary->num_axes_refinements = axes.num_refinements();
+}
+
+}  // namespace
+
 Mapper::Mapper(const MapperOptions& options)
     : options_(options),
       axes_(options.axes),
@@ -27,10 +36,12 @@ Mapper::Mapper(const MapperOptions& options)
 MappingSummary Mapper::Insert(const KeyframePacket& packet) {
   MappingSummary summary;
   Stopwatch stopwatch;
-  if (packet.last_velocity) SetVelocity(newest_keyframe_, *packet.last_velocity, &map_);
+  if (packet.last_velocity) {
+    SetKeyframeVelocity(newest_keyframe_, *packet.last_velocity, &map_);
+  }
   readout_time_ = readout_.readout_time();
   CompensateKeyframes(readout_time_, &map_);
-  std::shared_ptr<const Frame> frame = Compensated(packet.frame, readout_time_);
+  std::shared_ptr<const Frame> frame = UpdateCompensation(packet.frame, readout_time_);
   summary.times.creation = stopwatch.Restart();
   if (options_.RefinesFrames()) frame = RefineStructure(options_.structure, noise_.scale(), frame);
   summary.times.structure = stopwatch.Restart();
@@ -42,12 +53,14 @@ MappingSummary Mapper::Insert(const KeyframePacket& packet) {
   FusePoints(options_.fusion, summary.keyframe, &map_);
   FuseLines(options_.fusion, summary.keyframe, &map_);
   summary.times.fusion = stopwatch.Restart();
+  DescribeAxes(axes_.estimator(), &summary);
   return summary;
 }
 
 void Mapper::Refine(const KeyframePacket& packet, MappingSummary* summary) {
   Stopwatch stopwatch;
   axes_.Update(map_, summary->keyframe, packet.normals);
+  DescribeAxes(axes_.estimator(), summary);
   summary->times.axes = stopwatch.Restart();
   // The absolute value lets an interval of 0 mean every keyframe even if time stamps do not ascend.
   const double since_window = std::abs(packet.frame->timestamp - last_window_time_);

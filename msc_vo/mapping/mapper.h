@@ -16,50 +16,53 @@
 
 namespace msc_vo {
 
-// Time of each stage of one keyframe step, milliseconds.
+/// Time of each stage of one keyframe step, milliseconds.
 struct MappingTimes {
-  double structure = 0.0;  // refinement of the keyframe's lines
-  double creation = 0.0;   // insertion of the keyframe, landmark culling and creation
+  double structure = 0.0;  ///< refinement of the keyframe's lines
+  double creation = 0.0;   ///< insertion of the keyframe, landmark culling and creation
   double fusion = 0.0;
   double axes = 0.0;
-  std::optional<double> window;  // local bundle adjustment; none if it was not due
-  double readout = 0.0;          // estimation of the readout time
-  double culling = 0.0;          // keyframe culling
+  std::optional<double> window;  ///< local bundle adjustment; none if it was not due
+  double readout = 0.0;          ///< estimation of the readout time
+  double culling = 0.0;          ///< keyframe culling
 };
 
-// Result of one keyframe step.
+/// Result of one keyframe step.
 struct MappingSummary {
   KeyframeId keyframe = kNoId;
   int num_culled_keyframes = 0;
-  std::optional<BundleAdjustmentSummary> window;  // none if no bundle adjustment was due
+  std::optional<BundleAdjustmentSummary> window;  ///< none if no bundle adjustment was due
+  AxesState axes_state = AxesState::kNone;        ///< after the step
+  int num_axes_refinements = 0;                   ///< in the run so far
   MappingTimes times;
 };
 
-// Local mapping (paper): owns the map and is the only one to change it.
+/// Local mapping (paper): owns the map and is the only one to change it.
 class Mapper {
  public:
-  // Throws std::invalid_argument on options that are not valid.
+  /// Throws std::invalid_argument on options that are not valid.
   explicit Mapper(const MapperOptions& options);
 
   void SetWindowObserver(WindowObserver observer) { window_observer_ = std::move(observer); }
 
-  // A keyframe is processed in two steps. Insert() adds it to the map with its observations and new
-  // landmarks and fuses duplicates; frames can be tracked against them from then on. Refine(),
-  // called with the same packet and the summary that Insert() returned, updates the Manhattan axes,
-  // runs local bundle adjustment if it is due, and culls keyframes; it takes several times as long.
+  /// A keyframe is processed in two steps. Insert() adds it to the map with its observations and
+  /// new landmarks and fuses duplicates; frames can be tracked against them from then on. Refine(),
+  /// called with the same packet and the summary that Insert() returned, updates the Manhattan
+  /// axes, runs local bundle adjustment if it is due, and culls keyframes; it takes several times
+  /// as long.
   MappingSummary Insert(const KeyframePacket& packet);
   void Refine(const KeyframePacket& packet, MappingSummary* summary);
-  // Insert() and Refine().
+  /// Insert() and Refine().
   MappingSummary Process(const KeyframePacket& packet);
 
-  // The map after the last step.
+  /// The map after the last step.
   MapSnapshotPtr Snapshot();
 
   const Map& map() const { return map_; }
   const SceneAxes& axes() const { return axes_; }
   const NoiseEstimator& noise() const { return noise_; }
   const ReadoutTimeEstimator& readout() const { return readout_; }
-  // Lines of the last local bundle adjustment.
+  /// Lines of the last local bundle adjustment.
   const std::set<LandmarkId>& last_window_lines() const { return last_window_lines_; }
 
  private:

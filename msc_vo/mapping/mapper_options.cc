@@ -9,7 +9,7 @@ namespace msc_vo {
 
 bool MapperOptions::IsValid(std::string* error) const {
   if (readout_time && !(std::abs(*readout_time) < 1.0)) {
-    *error = "readout_time: the seconds from the first row of an image to its last, less than 1";
+    *error = "mapping: readout_time must be between -1 and 1 seconds";
     return false;
   }
   if (!(min_window_interval >= 0.0)) {

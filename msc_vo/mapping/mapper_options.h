@@ -17,9 +17,9 @@
 
 namespace msc_vo {
 
-// Options of local bundle adjustment for the mapper. Consecutive windows overlap, so that each
-// starts near its optimum and few iterations suffice. Chosen by measurement, see
-// docs/lab/bundle_adjustment.md.
+/// Options of local bundle adjustment for the mapper. Consecutive windows overlap, so that each
+/// starts near its optimum and few iterations suffice. Chosen by measurement, see
+/// docs/lab/bundle_adjustment.md.
 inline BundleAdjustmentOptions MapperBundleAdjustmentOptions() {
   BundleAdjustmentOptions options;
   options.first_iterations = 2;
@@ -28,16 +28,16 @@ inline BundleAdjustmentOptions MapperBundleAdjustmentOptions() {
   return options;
 }
 
-// When the lines of a keyframe refine each other before they enter the map.
+/// When the lines of a keyframe refine each other before they enter the map.
 enum class FrameStructureUse {
-  kWithoutPairs,  // where the map has no structural pairs of its own
+  kWithoutPairs,  ///< where the map has no structural pairs of its own
   kAlways,
   kNever,
 };
 
 struct MapperOptions {
-  // By default not together with the structural pairs of the map: the pairs hold the same
-  // constraint, and each keyframe would count it again. See docs/lab/structure.md.
+  /// By default not together with the structural pairs of the map: the pairs hold the same
+  /// constraint, and each keyframe would count it again. See docs/lab/structure.md.
   FrameStructureUse frame_structure = FrameStructureUse::kWithoutPairs;
   FrameStructureOptions structure;
   FusionOptions fusion;
@@ -46,14 +46,14 @@ struct MapperOptions {
   SceneAxesOptions axes;
   StructuralPairOptions pairs;
   BundleAdjustmentOptions window = MapperBundleAdjustmentOptions();
-  // Smallest interval between keyframes with local bundle adjustment, seconds; 0: after every
-  // keyframe. Keyframes in between are inserted and optimised with the next window. The default is
-  // four frames at 30 Hz less some jitter, after which frames have been tracked against the map of
-  // the last window. Chosen by measurement, see docs/lab/bundle_adjustment.md.
+  /// Smallest interval between keyframes with local bundle adjustment, seconds; 0: after every
+  /// keyframe. Keyframes in between are inserted and optimised with the next window. The default is
+  /// four frames at 30 Hz less some jitter, after which frames have been tracked against the map of
+  /// the last window. Chosen by measurement, see docs/lab/bundle_adjustment.md.
   double min_window_interval = 0.12;
   CullingOptions culling;
-  // Readout time of the rolling shutter, seconds (see rolling_shutter.h); 0: global shutter. None:
-  // it is estimated.
+  /// Readout time of the rolling shutter, seconds (see rolling_shutter.h); 0: global shutter. None:
+  /// it is estimated.
   std::optional<double> readout_time;
 
   bool RefinesFrames() const {

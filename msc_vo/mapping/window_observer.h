@@ -11,8 +11,8 @@
 
 namespace msc_vo {
 
-// Called with every window before its local bundle adjustment, and with the keyframe that the
-// window was selected for. Runs on the mapper's thread; an exception ends the keyframe step.
+/// Called with every window before its local bundle adjustment, and with the keyframe that the
+/// window was selected for. Runs on the mapper's thread; an exception ends the keyframe step.
 using WindowObserver = std::function<void(
     KeyframeId keyframe, const BundleAdjustmentOptions& options, const WindowData& data)>;
 

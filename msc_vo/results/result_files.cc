@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/logging/logger.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/results/run_report.h"
 #include "msc_vo/text/files.h"
@@ -83,6 +84,7 @@ void WriteResultFiles(const std::string& directory, const OdometryResult& result
   const RunSummary summary = Summarize(result);
   WriteFile(path("summary.json"), FormatSummary(summary, context));
   WriteFile(path("report.html"), FormatReport(result, summary, context));
+  Log().info("results written to {}", directory);
 }
 
 }  // namespace msc_vo

@@ -84,11 +84,11 @@ Json CameraToJson(const Calibration& calibration) {
           {"distortion", calibration.distortion.k}};
 }
 
-// Flat: {"tracking.wide_radius": 60.0}.
-Json OptionsToJson(Configuration configuration) {
+// The options in effect, flat: {"tracking.wide_radius": 60.0}.
+Json OptionsToJson(const Configuration& configuration) {
+  OdometryOptions effective = EffectiveOptions(configuration.odometry);
   Json json = Json::object();
-  for (const Option& option : ListOptions(&configuration)) {
-    if (option.path.rfind("camera.", 0) == 0) continue;  // stands in "camera"
+  for (const Option& option : ListOptions(&effective)) {
     std::visit(
         [&](const auto& value) {
           using Value = std::decay_t<decltype(value)>;

@@ -222,7 +222,8 @@ std::string FormatReport(const OdometryResult& result, const RunSummary& summary
   data.title = std::filesystem::path(context.sequence.directory).filename().string();
   data.version = std::string("msc_vo ") + kVersion;
   data.command_line = context.command_line;
-  data.options_text = FormatConfiguration(context.configuration);
+  data.options_text =
+      FormatConfiguration(EffectiveConfiguration(context.configuration), OptionSelection::kAll);
   data.numbers = MakeNumbers(summary, context);
   data.stages = ReportStages();
   data.frames = AlignedFrames(result, context.error);

@@ -14,12 +14,12 @@ namespace msc_vo {
 
 namespace {
 
-// Seconds: at 70 degrees per second this moves the first and the last row by 0.3 px, less than the
-// sigma of a point.
-constexpr double kMaxDifference = 0.001;
+// Smallest change of the readout time (seconds) that is applied: at 70 degrees per second a
+// millisecond shifts the first and the last row by 0.3 px, less than the sigma of a point.
+constexpr double kMinChange = 0.001;
 
-// Puts the landmarks that only this keyframe has seen where its frame has them.
-void PlaceLandmarks(KeyframeId id, Map* map) {
+// Moves the landmarks that only this keyframe observes to their position in its frame.
+void MoveExclusiveLandmarks(KeyframeId id, Map* map) {
   const Keyframe keyframe = *map->FindKeyframe(id);
   const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
   for (size_t i = 0; i < keyframe.points.size(); ++i) {
@@ -40,29 +40,30 @@ void PlaceLandmarks(KeyframeId id, Map* map) {
 
 }  // namespace
 
-void SetVelocity(KeyframeId keyframe, const CameraVelocity& velocity, Map* map) {
+void SetKeyframeVelocity(KeyframeId keyframe, const CameraVelocity& velocity, Map* map) {
   const Keyframe* old = map->FindKeyframe(keyframe);
   if (old == nullptr) return;
   map->SetFrame(keyframe, std::make_shared<Frame>(CompensateRollingShutter(
                               *old->frame, velocity, old->frame->readout_time)));
 }
 
-std::shared_ptr<const Frame> Compensated(std::shared_ptr<const Frame> frame, double readout_time) {
-  if (!frame->velocity || std::abs(frame->readout_time - readout_time) < kMaxDifference) {
+std::shared_ptr<const Frame> UpdateCompensation(std::shared_ptr<const Frame> frame,
+                                                double readout_time) {
+  if (!frame->velocity || std::abs(frame->readout_time - readout_time) < kMinChange) {
     return frame;
   }
   return std::make_shared<Frame>(CompensateRollingShutter(*frame, *frame->velocity, readout_time));
 }
 
 void CompensateKeyframes(double readout_time, Map* map) {
-  std::vector<std::pair<KeyframeId, std::shared_ptr<const Frame>>> unrolled;
+  std::vector<std::pair<KeyframeId, std::shared_ptr<const Frame>>> compensated;
   for (const auto& [id, keyframe] : map->keyframes()) {
-    std::shared_ptr<const Frame> frame = Compensated(keyframe.frame, readout_time);
-    if (frame != keyframe.frame) unrolled.emplace_back(id, std::move(frame));
+    std::shared_ptr<const Frame> frame = UpdateCompensation(keyframe.frame, readout_time);
+    if (frame != keyframe.frame) compensated.emplace_back(id, std::move(frame));
   }
-  for (auto& [id, frame] : unrolled) {
+  for (auto& [id, frame] : compensated) {
     map->SetFrame(id, std::move(frame));
-    PlaceLandmarks(id, map);
+    MoveExclusiveLandmarks(id, map);
   }
 }
 

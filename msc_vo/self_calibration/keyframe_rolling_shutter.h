@@ -10,16 +10,19 @@
 
 namespace msc_vo {
 
-// Unrolls a keyframe anew when its velocity is known better. Nothing happens if it was removed.
-void SetVelocity(KeyframeId keyframe, const CameraVelocity& velocity, Map* map);
+/// Replaces the velocity of a keyframe and repeats its rolling-shutter compensation with the
+/// readout time that it was compensated with. No effect if the map does not contain the keyframe.
+void SetKeyframeVelocity(KeyframeId keyframe, const CameraVelocity& velocity, Map* map);
 
-// The frame unrolled with a readout time (seconds), if its velocity is known; as it is if it was
-// unrolled with that before.
-std::shared_ptr<const Frame> Compensated(std::shared_ptr<const Frame> frame, double readout_time);
+/// Returns the frame compensated with `readout_time` (seconds) and its own velocity. Returns the
+/// frame itself if its velocity is unknown or its readout time differs by less than a millisecond.
+std::shared_ptr<const Frame> UpdateCompensation(std::shared_ptr<const Frame> frame,
+                                                double readout_time);
 
-// Unrolls the keyframes anew that were unrolled with another readout time: older ones than what is
-// known of it, or taken before their velocity was known. Landmarks that nothing else has seen go
-// where the keyframe has them then, so that frames find them there before a window moves them.
+/// Applies UpdateCompensation() to all keyframes: an earlier estimate of the readout time may have
+/// been used for them, or their velocity was unknown. Landmarks that no other keyframe observes
+/// move to their position in the new frame, so that tracking finds them there before the next local
+/// bundle adjustment.
 void CompensateKeyframes(double readout_time, Map* map);
 
 }  // namespace msc_vo

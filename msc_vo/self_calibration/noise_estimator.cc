@@ -16,44 +16,45 @@ namespace msc_vo {
 
 namespace {
 
-// Residuals of depths count up to this many robust standard deviations: single gross errors (an
-// edge, a mirror) are left to the solver's own tests.
+// Bound of depth residuals in robust standard deviations, against single gross errors (an edge, a
+// mirror).
 constexpr double kMaxResidual = 3.0;
 // Median of the absolute value of a standard normal variable.
 constexpr double kNormalMedian = 0.6745;
 
 struct Residual {
   int64_t keyframe = 0;
-  int quarter = 0;     // of its image
+  int quadrant = 0;    // of the image, 0..3
   double value = 0.0;  // in sigmas
-  // Its variance, if errors were independent: the landmark has cost its n measurements of a number
-  // one degree of freedom.
-  double expected = 0.0;  // 1 - 1 / n
+  // Expected variance for independent errors, 1 - 1 / n: the estimated landmark absorbs one degree
+  // of freedom of its n measurements.
+  double expected = 0.0;
 };
 using Residuals = std::vector<Residual>;
 
-// Residuals of one kind.
-class ResidualReader {
+// Collects the residuals of one kind of measurement.
+class ResidualCollector {
  public:
-  explicit ResidualReader(const WindowResiduals& residuals)
+  explicit ResidualCollector(const WindowResiduals& residuals)
       : residuals_(residuals), window_(residuals.window()) {}
 
   Residuals PointDepths() const {
-    return Depths(window_.point_observations, window_.points.size(), &WindowResiduals::PointOf,
+    return Depths(window_.point_observations, window_.points.size(), &WindowResiduals::PointIndex,
                   &WindowResiduals::PointDepth);
   }
   Residuals LineDepths() const {
-    return Depths(window_.line_observations, window_.lines.size(), &WindowResiduals::LineOf,
+    return Depths(window_.line_observations, window_.lines.size(), &WindowResiduals::LineIndex,
                   &WindowResiduals::LineDepth);
   }
 
-  // Of both end points. Rejected observations are part of it, as otherwise a sigma that is too
-  // small would reject what contradicts it; they have cost nothing.
+  // Residuals at both end points. Rejected observations are included, because otherwise a sigma
+  // that is too small would reject the observations that contradict it. They did not contribute to
+  // the landmark, so that their expected variance is 1.
   Residuals LinePixels() const {
     const auto& observations = window_.line_observations;
     std::vector<int> num_accepted(window_.lines.size(), 0);
     for (size_t i = 0; i < observations.size(); ++i) {
-      num_accepted[residuals_.LineOf(i)] += !observations[i].rejected;
+      num_accepted[residuals_.LineIndex(i)] += !observations[i].rejected;
     }
     Residuals all;
     all.reserve(2 * observations.size());
@@ -61,9 +62,9 @@ class ResidualReader {
       const WindowData::LineObservation& o = observations[i];
       const std::optional<Eigen::Vector2d> residual = residuals_.LinePixel(i);
       if (!residual) continue;
-      const double expected = o.rejected ? 1.0 : 1.0 - 1.0 / num_accepted[residuals_.LineOf(i)];
+      const double expected = o.rejected ? 1.0 : 1.0 - 1.0 / num_accepted[residuals_.LineIndex(i)];
       for (const int end : {0, 1}) {
-        all.push_back({o.keyframe, QuarterOf(o), (*residual)[end], expected});
+        all.push_back({o.keyframe, QuadrantOf(o), (*residual)[end], expected});
       }
     }
     return all;
@@ -86,14 +87,16 @@ class ResidualReader {
       const std::optional<double> residual = (residuals_.*depth)(i);
       if (o.rejected || !residual) continue;
       const int count = num_depths[(residuals_.*landmark)(i)];
-      all.push_back({o.keyframe, QuarterOf(o), *residual, 1.0 - 1.0 / count});
+      all.push_back({o.keyframe, QuadrantOf(o), *residual, 1.0 - 1.0 / count});
     }
     return all;
   }
 
-  int QuarterOf(const WindowData::PointObservation& o) const { return QuarterOf(o.pixel); }
-  int QuarterOf(const WindowData::LineObservation& o) const { return QuarterOf(o.segment.At(0.5)); }
-  int QuarterOf(const Eigen::Vector2d& pixel) const {
+  int QuadrantOf(const WindowData::PointObservation& o) const { return QuadrantOf(o.pixel); }
+  int QuadrantOf(const WindowData::LineObservation& o) const {
+    return QuadrantOf(o.segment.At(0.5));
+  }
+  int QuadrantOf(const Eigen::Vector2d& pixel) const {
     const PinholeCamera& camera = window_.camera;
     return (pixel.x() < 0.5 * camera.width ? 0 : 1) + (pixel.y() < 0.5 * camera.height ? 0 : 2);
   }
@@ -102,7 +105,7 @@ class ResidualReader {
   const WindowData& window_;
 };
 
-// Standard deviation by the median of the absolute values.
+// Standard deviation from the median of the absolute values.
 double RobustDeviation(const Residuals& residuals) {
   std::vector<double> sizes;
   sizes.reserve(residuals.size());
@@ -112,44 +115,44 @@ double RobustDeviation(const Residuals& residuals) {
   return *middle / kNormalMedian;
 }
 
-double SumOfExpected(const Residuals& residuals) {
+double SumExpected(const Residuals& residuals) {
   double sum = 0.0;
   for (const Residual& residual : residuals) sum += residual.expected;
   return sum;
 }
 
-// Variance of residuals, relative to that of independent errors with their sigmas.
-struct Evidence {
-  double variance = 1.0;
-  int num_quarters = 0;  // 0: there is none
+// Ratio of the variance of residuals to the expected one of independent errors.
+struct VarianceRatio {
+  double value = 1.0;
+  int num_quadrants = 0;  // 0: no residuals
 };
 
-using Quarter = std::pair<int64_t, int>;  // keyframe, quarter of its image
+using Quadrant = std::pair<int64_t, int>;  // keyframe, quadrant of its image
 
-// By the spread of the residuals' middle half.
-Evidence OfSpread(const Residuals& residuals) {
-  const double expected = SumOfExpected(residuals);
+// Variance ratio of single residuals, from their robust standard deviation.
+VarianceRatio RatioOfSpread(const Residuals& residuals) {
+  const double expected = SumExpected(residuals);
   if (expected <= 0.0) return {};
-  std::set<Quarter> quarters;
+  std::set<Quadrant> quadrants;
   for (const Residual& residual : residuals) {
-    quarters.insert({residual.keyframe, residual.quarter});
+    quadrants.insert({residual.keyframe, residual.quadrant});
   }
   const double deviation = RobustDeviation(residuals);
   return {deviation * deviation * static_cast<double>(residuals.size()) / expected,
-          static_cast<int>(quarters.size())};
+          static_cast<int>(quadrants.size())};
 }
 
-// By the sums over quarters of images: the mean of their squares.
-Evidence OfSums(const Residuals& residuals) {
-  const double expected = SumOfExpected(residuals);
+// Variance ratio of the sums of residuals over image quadrants.
+VarianceRatio RatioOfQuadrantSums(const Residuals& residuals) {
+  const double expected = SumExpected(residuals);
   if (expected <= 0.0) return {};
   const double bound = kMaxResidual * RobustDeviation(residuals);
-  std::map<Quarter, double> sums;
+  std::map<Quadrant, double> sums;
   for (const Residual& residual : residuals) {
-    sums[{residual.keyframe, residual.quarter}] += std::clamp(residual.value, -bound, bound);
+    sums[{residual.keyframe, residual.quadrant}] += std::clamp(residual.value, -bound, bound);
   }
   double squares = 0.0;
-  for (const auto& [where, sum] : sums) squares += sum * sum;
+  for (const auto& [quadrant, sum] : sums) squares += sum * sum;
   return {squares / expected, static_cast<int>(sums.size())};
 }
 
@@ -157,9 +160,9 @@ Evidence OfSums(const Residuals& residuals) {
 
 bool NoiseEstimatorOptions::IsValid(std::string* error) const {
   if (!(prior > 0.0 && memory >= prior)) {
-    *error = "noise: prior must be positive, and memory not less";
+    *error = "noise: 0 < prior <= memory must hold";
   } else if (!(max_scale >= 1.0)) {
-    *error = "noise.max_scale must be at least 1";
+    *error = "noise: max_scale must be at least 1";
   } else {
     return true;
   }
@@ -183,30 +186,34 @@ NoiseScale NoiseEstimator::scale() const {
 }
 
 void NoiseEstimator::Apply(WindowData* window) const {
-  const NoiseScale by = scale();
+  const NoiseScale scales = scale();
   for (WindowData::PointObservation& o : window->point_observations) {
-    o.inverse_depth_sigma *= by.point_depth;
+    o.inverse_depth_sigma *= scales.point_depth;
   }
   for (WindowData::LineObservation& o : window->line_observations) {
-    o.sigma *= by.line_pixel;
-    o.depth.covariance *= by.line_depth * by.line_depth;
+    o.sigma *= scales.line_pixel;
+    o.depth.covariance *= scales.line_depth * scales.line_depth;
   }
+}
+
+void NoiseEstimator::AddEstimate(double variance_ratio, int num_quadrants,
+                                 Variance* variance) const {
+  const double scale = Scale(*variance);
+  const double total = variance->weight + num_quadrants;
+  variance->value =
+      (variance->weight * variance->value + num_quadrants * scale * scale * variance_ratio) / total;
+  variance->weight = std::min(total, options_.memory);
 }
 
 void NoiseEstimator::Update(const WindowResiduals& residuals) {
   if (!options_.enabled) return;
-  const auto learn = [this](const Evidence& evidence, Variance* variance) {
-    const double scale = Scale(*variance);  // the window was whitened with it
-    const double total = variance->weight + evidence.num_quarters;
-    variance->value = (variance->weight * variance->value +
-                       evidence.num_quarters * scale * scale * evidence.variance) /
-                      total;
-    variance->weight = std::min(total, options_.memory);
+  const auto add = [this](const VarianceRatio& ratio, Variance* variance) {
+    AddEstimate(ratio.value, ratio.num_quadrants, variance);
   };
-  const ResidualReader reader(residuals);
-  learn(OfSums(reader.PointDepths()), &point_depth_);
-  learn(OfSpread(reader.LinePixels()), &line_pixel_);
-  learn(OfSums(reader.LineDepths()), &line_depth_);
+  const ResidualCollector collector(residuals);
+  add(RatioOfQuadrantSums(collector.PointDepths()), &point_depth_);
+  add(RatioOfSpread(collector.LinePixels()), &line_pixel_);
+  add(RatioOfQuadrantSums(collector.LineDepths()), &line_depth_);
 }
 
 }  // namespace msc_vo

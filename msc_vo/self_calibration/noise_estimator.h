@@ -13,51 +13,55 @@ namespace msc_vo {
 
 struct NoiseEstimatorOptions {
   bool enabled = true;
-  // The sigmas that features come with count as much as what this many quarters of images show. A
-  // window of ten keyframes and ten fixed ones has up to 80.
+  /// Weight of the initial scale 1, in image quadrants. A window of ten free and ten fixed
+  /// keyframes has up to 80 quadrants.
   double prior = 40.0;
-  // Older windows are forgotten: the estimate rests on the last quarters, this many. Its own error
-  // is sqrt(2 / 400) = 7 % of the variance. 150 to 400 are alike over all sequences.
+  /// Largest weight of the past, in image quadrants: the influence of older windows decays. The
+  /// relative standard deviation of the estimated variance is sqrt(2 / 400) = 7 %.
+  /// Chosen by measurement, see docs/lab/self_calibration.md.
   double memory = 400.0;
-  // Bound of each scale, and of its inverse. Where measurements of one kind count little, the map
-  // drifts away from them, and residuals say less and less about the sensor. 2, 3 and 5 are alike
-  // over all sequences.
+  /// Upper bound of each scale and of its inverse. If one kind of measurement had little weight,
+  /// the map would drift away from it, and its residuals would no longer reflect the sensor.
+  /// Chosen by measurement, see docs/lab/self_calibration.md.
   double max_scale = 3.0;
 
   bool IsValid(std::string* error) const;
 };
 
-// How large the errors of measurements are: learnt from solved windows, as no data sheet knows the
-// calibration of one's sensor or how sharp the lines of its images are.
-//
-// Lines in the image: their end points come from the fit to a whole edge, to 0.1 px where images
-// are sharp, and to 0.7 px where they are blurred. The estimate is the spread of the middle half of
-// the residuals; what lies far outside is left to the loss. (Points gain nothing from a scale of
-// their own: theirs is alike everywhere.)
-//
-// Depths: it is not the spread of single residuals that counts. Errors of calibration and of
-// rounding are common to whole parts of an image, so that many observations know no more than a
-// few. The sum of n whitened residuals of independent errors has the variance n; the scale is the
-// one with which that holds for the sums over the quarters of the images.
+/// Self-calibration of the measurement noise: estimates the ratio of the actual errors to the
+/// sigmas of the features from the residuals of optimised windows. It adapts to the calibration of
+/// the sensor and to the sharpness of the images.
+///
+/// Lines in the image: the end points come from a fit to a whole edge, with errors of 0.1 px in
+/// sharp images and 0.7 px in blurred ones. The scale is the robust standard deviation (by the
+/// median) of the residuals; outliers are left to the robust loss. Pixels of points have no scale,
+/// because their errors hardly vary between sequences.
+///
+/// Depths: errors of calibration and quantisation are common to whole regions of an image, so that
+/// many observations contain little more information than one. The spread of single residuals does
+/// not show this. The sum of n whitened residuals with independent errors has variance n; the scale
+/// is the one for which this holds for the sums over the quadrants of the images.
 class NoiseEstimator {
  public:
-  // Throws std::invalid_argument on options that are not valid.
+  /// Throws std::invalid_argument on invalid options.
   explicit NoiseEstimator(const NoiseEstimatorOptions& options);
 
   NoiseScale scale() const;
 
-  // Multiplies the sigmas of the window's observations.
+  /// Multiplies the sigmas of the window's observations by the scales.
   void Apply(WindowData* window) const;
-  // Learns from the same window when it is solved.
+  /// Updates the scales from a window after Apply() and its optimisation.
   void Update(const WindowResiduals& residuals);
 
  private:
-  // Square of one scale.
+  // Square of a scale.
   struct Variance {
     double value = 1.0;
-    double weight = 0.0;  // quarters of images that it rests on
+    double weight = 0.0;  // image quadrants
   };
   double Scale(const Variance& variance) const;
+  // Blends in the variance ratio of a window whose sigmas had been multiplied by Scale(*variance).
+  void AddEstimate(double variance_ratio, int num_quadrants, Variance* variance) const;
 
   NoiseEstimatorOptions options_;
   Variance point_depth_, line_pixel_, line_depth_;

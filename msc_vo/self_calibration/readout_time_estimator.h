@@ -9,30 +9,32 @@
 
 namespace msc_vo {
 
-// The readout time of the camera's rolling shutter, which hardly a file format tells: learnt from
-// pairs of keyframes (see EstimateReadoutTime). A shutter is global until the contrary is certain.
+/// Self-calibration of the readout time of the camera's rolling shutter, which datasets rarely
+/// provide. It accumulates the estimates of keyframe pairs (EstimateReadoutTime). The shutter
+/// counts as global (readout time 0) until a rolling shutter is sufficiently more likely.
 class ReadoutTimeEstimator {
  public:
-  // known: the readout time, seconds, to be kept; none: it shall be learnt.
+  /// `known` is the readout time in seconds, which is then kept; std::nullopt: it is estimated.
   explicit ReadoutTimeEstimator(const std::optional<double>& known)
-      : learns_(!known), readout_time_(known.value_or(0.0)) {}
+      : estimates_(!known), readout_time_(known.value_or(0.0)) {}
 
-  // Learns from `newest` and the keyframes that see most of the same, after the window was solved
-  // if it was due.
+  /// Updates the estimate with the pairs of keyframe `newest` and its most covisible keyframes.
+  /// Call it after local bundle adjustment.
   void Update(const Map& map, KeyframeId newest);
 
-  // Seconds.
+  /// Seconds; negative if the rows are read from the bottom to the top.
   double readout_time() const { return readout_time_; }
 
  private:
-  // One more estimate (seconds), with its information (1/seconds^2).
-  void Remember(double estimate, double information);
-  void Decide();
+  // Adds an estimate (seconds) with its information (1/seconds^2).
+  void AddEstimate(double estimate, double information);
+  // Decides between global and rolling shutter, and updates the readout time.
+  void UpdateDecision();
 
-  bool learns_;
+  bool estimates_;
   double readout_time_;
   double information_ = 0.0;   // 1/seconds^2
-  double weighted_sum_ = 0.0;  // of estimates, each times its information
+  double weighted_sum_ = 0.0;  // sum of the estimates, weighted by their information
 };
 
 }  // namespace msc_vo

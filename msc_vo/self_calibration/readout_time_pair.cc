@@ -24,25 +24,24 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
-// Four would do for seven unknowns; more, so that wrong ones do not decide.
+// Four matches determine the seven unknowns; more are required as a protection against outliers.
 constexpr int kMinPoints = 30;
-// Pixels. The last row of an image that turns by a radian per second is off by 7 of them after half
-// of 26 ms, and two images may turn in opposite ways. What is matched must not depend on what is to
-// be found: the inliers of poses that know of no shutter say 10 ms where 26 are true.
+// Search radius, pixels. It exceeds the displacement by fast rotation during the readout, because
+// the matches must not depend on the current estimate: the inliers of poses that were estimated
+// without compensation bias the readout time. See docs/lab/self_calibration.md.
 constexpr double kSearchRadius = 20.0;
-// Three robust iterations find the points that agree, two take those alone.
+// The robust iterations find the inliers; the last two use the inliers alone.
 constexpr int kRobustIterations = 3;
 constexpr int kIterations = 5;
-// Square roots of the 95 % and 99 % chi-square quantiles with two degrees of freedom, and the
-// median.
+// Square roots of the 95 %, 99 % and 50 % quantiles of chi-square with two degrees of freedom.
 constexpr HuberLoss kLoss{2.448};
-constexpr double kCut = 3.035;
-constexpr double kMedian = 1.177;
-// Pixels that all residuals may be off by alike, as they follow the row: by what depth, lens and
-// velocity are off. Less than half the sigma of a point. With 0.15 a shutter is known to roll some
-// keyframes sooner, but the odds of a corridor's global one came to 60.
+constexpr double kOutlierSigmas = 3.035;
+constexpr double kMedianSigmas = 1.177;
+// Standard deviation, pixels, of the error that all residuals have in common, from errors of the
+// depths, the lens model and the velocities that vary with the row like the readout time.
+// Chosen by measurement, see docs/lab/self_calibration.md.
 constexpr double kCommonError = 0.2;
-// 1/seconds^2: keeps the time where it is if nothing depends on it.
+// Damping of the readout time, 1/seconds^2: keeps it unchanged if the points do not determine it.
 constexpr double kDamping = 1.0;
 
 struct PointPair {
@@ -50,7 +49,7 @@ struct PointPair {
   const PointFeature* to;
 };
 
-// The points of `from` that have a depth, where they are found again in `to` by their descriptors.
+// Matches the points of `from` that have a depth with the points of `to` by descriptor.
 std::vector<PointPair> MatchFrames(const Keyframe& from, const Keyframe& to) {
   const Rigid3 world_from_cam = from.cam_from_world.Inverse();
   std::vector<PointCandidate> candidates;
@@ -73,23 +72,23 @@ std::vector<PointPair> MatchFrames(const Keyframe& from, const Keyframe& to) {
   return pairs;
 }
 
-// Rigid motion from the one camera to the other, and the readout time of both.
+// Unknowns of the least-squares problem.
 struct State {
-  Rigid3 motion;
+  Rigid3 relative_pose;       // maps coordinates of the first camera to the second one
   double readout_time = 0.0;  // seconds
 };
 
-// A point pair at a state. Unknowns: rotation and translation of the motion, from the left, and the
-// readout time.
+// Reprojection residual of a point pair. The columns of the Jacobian are rotation and translation
+// of the relative pose (left perturbation) and the readout time.
 struct Residual {
-  Eigen::Vector2d value;                 // pixels
-  Eigen::Matrix<double, 2, 7> jacobian;  // of the value
-  Eigen::Matrix2d information;           // 1/pixels^2
+  Eigen::Vector2d value;  // pixels
+  Eigen::Matrix<double, 2, 7> jacobian;
+  Eigen::Matrix2d information;  // 1/pixels^2
 
   double Sigmas() const { return std::sqrt(value.dot(information * value)); }
 };
 
-// The sum over the points of a pair of frames.
+// Sum over the point pairs of two frames.
 struct NormalEquations {
   Matrix7 matrix = Matrix7::Zero();
   Vector7 gradient = Vector7::Zero();
@@ -103,8 +102,8 @@ struct NormalEquations {
     weight += 0.5 * factor * residual.information.trace();
   }
 
-  // Of the time, if the pose is not known otherwise. A common error of so many pixels is as good as
-  // one point of that sigma.
+  // Information of the readout time, marginalised over the pose. The common error of the residuals
+  // bounds it: all points together count at most like one point with this sigma.
   double TimeInformation() const {
     const Vector6 coupling = matrix.col(6).head<6>();
     const Vector6 explained = matrix.topLeftCorner<6, 6>().ldlt().solve(coupling);
@@ -118,15 +117,15 @@ class PairProblem {
   PairProblem(const Frame& from, const Frame& to, const std::vector<PointPair>& pairs)
       : from_(from), to_(to), pairs_(pairs), residuals_(pairs.size()) {}
 
-  // Residuals in sigmas are measured by their median, as blur and wrong velocities make all of them
-  // larger. With `cut`, those that do not agree are left out, else they weigh less.
-  NormalEquations Linearize(const State& state, bool cut) {
+  // Sigmas are inflated as far as the median residual requires it, because blur and velocity errors
+  // increase all residuals. Outliers are down-weighted, or rejected if `rejects_outliers`.
+  NormalEquations Linearize(const State& state, bool rejects_outliers) {
     for (size_t i = 0; i < pairs_.size(); ++i) residuals_[i] = ResidualOf(pairs_[i], state);
-    const double scale = std::max(1.0, MedianSigmas() / kMedian);
+    const double scale = std::max(1.0, MedianSigmas() / kMedianSigmas);
     NormalEquations equations;
     for (const Residual& residual : residuals_) {
       const double sigmas = residual.Sigmas() / scale;
-      if (cut && sigmas > kCut) continue;
+      if (rejects_outliers && sigmas > kOutlierSigmas) continue;
       equations.Add(residual, kLoss.Weight(sigmas * sigmas) / (scale * scale));
     }
     return equations;
@@ -144,18 +143,18 @@ class PairProblem {
         camera.Ray(a.pixel) + (state.readout_time - from_.readout_time) * a_change;
     const Eigen::Vector3d b_ray =
         camera.Ray(b.pixel) + (state.readout_time - to_.readout_time) * b_change;
-    const Eigen::Vector3d moved =
-        state.motion.rotation() * a_ray + a.inverse_depth * state.motion.translation();
+    const Eigen::Vector3d moved = state.relative_pose.rotation() * a_ray +
+                                  a.inverse_depth * state.relative_pose.translation();
 
     Residual residual;
     residual.value = camera.Project(moved) - camera.Project(b_ray);
     const Eigen::Matrix<double, 2, 3> projection = ProjectionJacobian(camera, moved);
     residual.jacobian.leftCols<3>() = -projection * Skew(moved);
     residual.jacobian.middleCols<3>(3) = a.inverse_depth * projection;
-    residual.jacobian.col(6) = projection * (state.motion.rotation() * a_change) -
+    residual.jacobian.col(6) = projection * (state.relative_pose.rotation() * a_change) -
                                ProjectionJacobian(camera, b_ray) * b_change;
     const Eigen::Vector2d depth_error =
-        a.inverse_depth_sigma * (projection * state.motion.translation());
+        a.inverse_depth_sigma * (projection * state.relative_pose.translation());
     const Eigen::Matrix2d covariance =
         (a.sigma * a.sigma + b.sigma * b.sigma) * Eigen::Matrix2d::Identity() +
         depth_error * depth_error.transpose();
@@ -194,7 +193,7 @@ std::optional<ReadoutTimeEstimate> EstimateReadoutTime(const Keyframe& from, con
     equations.matrix(6, 6) += kDamping;
     const Vector7 step = -equations.matrix.ldlt().solve(equations.gradient);
     if (!step.allFinite()) return std::nullopt;
-    state.motion = Rigid3(ExpSO3(step.head<3>()), step.segment<3>(3)) * state.motion;
+    state.relative_pose = Rigid3(ExpSO3(step.head<3>()), step.segment<3>(3)) * state.relative_pose;
     state.readout_time += step(6);
   }
   return ReadoutTimeEstimate{state.readout_time, information};

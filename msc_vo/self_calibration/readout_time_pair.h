@@ -10,15 +10,16 @@
 namespace msc_vo {
 
 struct ReadoutTimeEstimate {
-  double readout_time = 0.0;  // seconds
-  double information = 0.0;   // 1 / seconds^2, of random and common errors
+  double readout_time = 0.0;  ///< seconds
+  double information = 0.0;   ///< 1/seconds^2, of random and common errors together
 };
 
-// What two keyframes with known velocities say about the readout time of a rolling shutter: where
-// one was turning otherwise than the other, or a point has moved across the rows, its time is the
-// seventh unknown of their relative pose. Least squares over the points that `from` has the depth
-// of and whose descriptors are found again in `to`, from `readout_time` on; robust, as some are
-// wrong. None if there are less than 30.
+/// Estimates the readout time of a rolling shutter from two keyframes with known velocities. The
+/// readout time is observable where the angular velocities of the two differ, or where points moved
+/// across the rows; it is the seventh unknown beside the relative pose. Robust least squares,
+/// starting at `readout_time` (seconds), over the points of `from` that have a depth and are
+/// matched by descriptor in `to`. Returns std::nullopt if there are fewer than 30 matches or a
+/// velocity is unknown.
 std::optional<ReadoutTimeEstimate> EstimateReadoutTime(const Keyframe& from, const Keyframe& to,
                                                        double readout_time);
 

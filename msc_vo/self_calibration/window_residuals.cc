@@ -12,34 +12,34 @@ namespace msc_vo {
 
 namespace {
 
-// Where each item stands. For look-ups alone: nothing depends on the order inside.
+// Index of each item by its id. Used for look-ups only, because the order is unspecified.
 template <typename Item>
-std::unordered_map<int64_t, int> Positions(const std::vector<Item>& items) {
-  std::unordered_map<int64_t, int> positions;
-  positions.reserve(items.size());
-  for (size_t i = 0; i < items.size(); ++i) positions[items[i].id] = static_cast<int>(i);
-  return positions;
+std::unordered_map<int64_t, int> IndexById(const std::vector<Item>& items) {
+  std::unordered_map<int64_t, int> indices;
+  indices.reserve(items.size());
+  for (size_t i = 0; i < items.size(); ++i) indices[items[i].id] = static_cast<int>(i);
+  return indices;
 }
 
 }  // namespace
 
-WindowResiduals::WindowResiduals(const WindowData& solved) : window_(solved) {
-  const auto keyframes = Positions(solved.keyframes);
-  const auto points = Positions(solved.points);
-  const auto lines = Positions(solved.lines);
-  points_in_cam_.reserve(solved.point_observations.size());
-  points_.reserve(solved.point_observations.size());
-  for (const WindowData::PointObservation& o : solved.point_observations) {
+WindowResiduals::WindowResiduals(const WindowData& optimized) : window_(optimized) {
+  const auto keyframes = IndexById(optimized.keyframes);
+  const auto points = IndexById(optimized.points);
+  const auto lines = IndexById(optimized.lines);
+  points_in_cam_.reserve(optimized.point_observations.size());
+  points_.reserve(optimized.point_observations.size());
+  for (const WindowData::PointObservation& o : optimized.point_observations) {
     points_.push_back(points.at(o.point));
-    points_in_cam_.push_back(solved.keyframes[keyframes.at(o.keyframe)].cam_from_world *
-                             solved.points[points_.back()].position);
+    points_in_cam_.push_back(optimized.keyframes[keyframes.at(o.keyframe)].cam_from_world *
+                             optimized.points[points_.back()].position);
   }
-  lines_in_cam_.reserve(solved.line_observations.size());
-  lines_.reserve(solved.line_observations.size());
-  for (const WindowData::LineObservation& o : solved.line_observations) {
+  lines_in_cam_.reserve(optimized.line_observations.size());
+  lines_.reserve(optimized.line_observations.size());
+  for (const WindowData::LineObservation& o : optimized.line_observations) {
     lines_.push_back(lines.at(o.line));
-    lines_in_cam_.push_back(solved.keyframes[keyframes.at(o.keyframe)].cam_from_world *
-                            solved.lines[lines_.back()].segment);
+    lines_in_cam_.push_back(optimized.keyframes[keyframes.at(o.keyframe)].cam_from_world *
+                            optimized.lines[lines_.back()].segment);
   }
 }
 

@@ -14,31 +14,34 @@
 
 namespace msc_vo {
 
-// What a window leaves of its observations when it is solved, in their sigmas without the noise of
-// their landmarks: what the sensor is learnt from. Observations are named by their position in the
-// window's lists.
+/// Residuals of the observations of an optimised window, in sigmas of the observations without the
+/// noise of their landmarks. Self-calibration estimates the noise of the sensor from them.
+/// Observations are addressed by their index in the lists of the window.
 class WindowResiduals {
  public:
-  // Keeps a reference to `solved`. Throws std::out_of_range if an observation is of a keyframe or
-  // landmark that the window does not have.
-  explicit WindowResiduals(const WindowData& solved);
+  /// Keeps a reference to `optimized`. Throws std::out_of_range if an observation refers to a
+  /// keyframe or landmark that the window does not contain.
+  explicit WindowResiduals(const WindowData& optimized);
 
   const WindowData& window() const { return window_; }
-  // Position of an observation's landmark in the window's list.
-  int PointOf(size_t i) const { return points_[i]; }
-  int LineOf(size_t i) const { return lines_[i]; }
+  /// Index in window().points of the landmark of point observation `i`.
+  int PointIndex(size_t i) const { return points_[i]; }
+  /// Index in window().lines of the landmark of line observation `i`.
+  int LineIndex(size_t i) const { return lines_[i]; }
 
-  // Of a point's inverse depth; none if it was not measured, or behind the camera.
+  /// Residual of the inverse depth of a point; std::nullopt if no depth was measured or the point
+  /// lies behind the camera.
   std::optional<double> PointDepth(size_t i) const;
-  // Of a line in the image, at both end points of the map line; none behind the camera.
+  /// Reprojection residuals of a line at both end points of the map line; std::nullopt if the line
+  /// lies behind the camera.
   std::optional<Eigen::Vector2d> LinePixel(size_t i) const;
-  // Of its inverse depth at the middle of the observed segment, less the line's offset; none if it
-  // was not measured.
+  /// Residual of the inverse depth of a line at the midpoint of the observed segment, corrected for
+  /// the depth offset of the line; std::nullopt if no depth was measured.
   std::optional<double> LineDepth(size_t i) const;
 
  private:
   const WindowData& window_;
-  // By observation: its landmark, and where that is in the observing camera, metres.
+  // Per observation: index of the landmark, and its position in the observing camera, metres.
   std::vector<int> points_, lines_;
   std::vector<Eigen::Vector3d> points_in_cam_;
   std::vector<LineSegment3> lines_in_cam_;

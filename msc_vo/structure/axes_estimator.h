@@ -13,77 +13,77 @@
 namespace msc_vo {
 
 enum class AxesState {
-  kNone,     // no axes: coarse axes are searched for in every keyframe
-  kCoarse,   // estimated from one keyframe
-  kRefined,  // estimated from the lines of many keyframes
+  kNone,     ///< no axes: coarse axes are searched for in every keyframe
+  kCoarse,   ///< estimated from one keyframe
+  kRefined,  ///< estimated from the lines of many keyframes
 };
 
-// "none", "coarse", "refined".
+/// "none", "coarse", "refined".
 const char* ToString(AxesState state);
 
 struct AxesEstimatorOptions {
-  // Standard deviation of coarse axes about each direction, degrees. Measured errors are 0.1
-  // degrees in rendered rooms and 1 to 1.5 degrees with a structured-light sensor, which bends
-  // surfaces.
+  /// Standard deviation of coarse axes about each direction, degrees. Measured errors are 0.1
+  /// degrees in rendered rooms and 1 to 1.5 degrees with a structured-light sensor, which bends
+  /// surfaces.
   double coarse_sigma = 1.0;
-  // Keyframes in the map before the first refinement, so that lines have several views.
+  /// Keyframes in the map before the first refinement, so that lines have several views.
   int min_keyframes = 5;
-  // Lines associated with axes before a refinement: three unknowns under a robust loss need many
-  // more equations than unknowns.
+  /// Lines associated with axes before a refinement: three unknowns under a robust loss need many
+  /// more equations than unknowns.
   int min_axis_lines = 20;
-  // Factor by which the number of lines on axes grows between refinements; 1.5 lowers the standard
-  // deviation by a fifth.
+  /// Factor by which the number of lines on axes grows between refinements; 1.5 lowers the standard
+  /// deviation by a fifth.
   double min_growth = 1.5;
-  // Smallest fraction of the map's lines on the axes; coarse axes below it fit one keyframe, not
-  // the scene, and are dropped. Half of CoarseAxesOptions::min_explained_ratio.
+  /// Smallest fraction of the map's lines on the axes; coarse axes below it fit one keyframe, not
+  /// the scene, and are dropped. Half of CoarseAxesOptions::min_explained_ratio.
   double min_line_ratio = 0.25;
-  // Largest rotation by a refinement, degrees; a larger one contradicts the axes so far. Three
-  // sigmas of coarse axes with a real sensor.
+  /// Largest rotation by a refinement, degrees; a larger one contradicts the axes so far. Three
+  /// sigmas of coarse axes with a real sensor.
   double max_correction = 4.0;
-  // Standard deviation below which axes are frozen if the last refinement rotated them by less than
-  // three times as much, degrees.
+  /// Standard deviation below which axes are frozen if the last refinement rotated them by less
+  /// than three times as much, degrees.
   double freeze_sigma = 0.1;
 
   bool IsValid(std::string* error) const;
 };
 
-// Support of the axes in the map, counted by the caller after each keyframe.
+/// Support of the axes in the map, counted by the caller after each keyframe.
 struct AxesSupport {
   int num_keyframes = 0;
-  int num_lines = 0;       // with a direction that is certain enough for an association
-  int num_axis_lines = 0;  // of these, associated with an axis
+  int num_lines = 0;       ///< with a direction that is certain enough for an association
+  int num_axis_lines = 0;  ///< of these, associated with an axis
 };
 
-// State machine of the Manhattan axes of the world (paper: Manhattan Axes Estimation, coarse to
-// fine): none -> coarse -> refined, refined again as the map grows, until frozen; back to none if
-// coarse axes prove wrong. The caller computes the axes:
-//
-//   if (estimator.state() == AxesState::kNone) Propose() the result of FindCoarseAxes()
-//   Update() with the support in the map
-//   if (estimator.RefinementDue()) RefineManhattanAxes(), then Refine() or RejectRefinement()
+/// State machine of the Manhattan axes of the world (paper: Manhattan Axes Estimation, coarse to
+/// fine): none -> coarse -> refined, refined again as the map grows, until frozen; back to none if
+/// coarse axes prove wrong. The caller computes the axes:
+///
+///   if (estimator.state() == AxesState::kNone) Propose() the result of FindCoarseAxes()
+///   Update() with the support in the map
+///   if (estimator.RefinementDue()) RefineManhattanAxes(), then Refine() or RejectRefinement()
 class AxesEstimator {
  public:
-  // Throws std::invalid_argument on options that are not valid.
+  /// Throws std::invalid_argument on options that are not valid.
   explicit AxesEstimator(const AxesEstimatorOptions& options);
 
-  // Sets coarse axes; no effect unless the state is kNone.
+  /// Sets coarse axes; no effect unless the state is kNone.
   void Propose(const Eigen::Quaterniond& world_from_axes);
   void Update(const AxesSupport& support);
   bool RefinementDue() const;
-  // Sets refined axes with the covariance (radians^2) of their rotation vector, of which the
-  // largest eigenvalue is used. Returns false, with the effect of RejectRefinement(), if they
-  // contradict the axes so far. Throws std::invalid_argument if no refinement was due.
+  /// Sets refined axes with the covariance (radians^2) of their rotation vector, of which the
+  /// largest eigenvalue is used. Returns false, with the effect of RejectRefinement(), if they
+  /// contradict the axes so far. Throws std::invalid_argument if no refinement was due.
   bool Refine(const Eigen::Quaterniond& world_from_axes, const Eigen::Matrix3d& covariance);
-  // Reports a failed refinement: coarse axes are dropped, refined ones are kept, and the next
-  // refinement is due when the map has grown. Throws std::invalid_argument if none was due.
+  /// Reports a failed refinement: coarse axes are dropped, refined ones are kept, and the next
+  /// refinement is due when the map has grown. Throws std::invalid_argument if none was due.
   void RejectRefinement();
 
   AxesState state() const { return state_; }
   bool frozen() const { return frozen_; }
   int num_refinements() const { return num_refinements_; }
-  // The columns of its matrix are the axes in the world. Meaningless in state kNone.
+  /// The columns of its matrix are the axes in the world. Meaningless in state kNone.
   const Eigen::Quaterniond& world_from_axes() const { return world_from_axes_; }
-  double sigma() const { return sigma_; }  // radians, of the least certain direction
+  double sigma() const { return sigma_; }  ///< radians, of the least certain direction
 
  private:
   void Drop();

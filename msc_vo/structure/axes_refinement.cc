@@ -82,7 +82,7 @@ double Cost(const ManhattanAxesData& data, const std::vector<bool>& inliers,
   return cost;
 }
 
-// One round over the inliers. Nothing holds the gauge but the directions, which are in the world.
+// One round of optimisation over the inliers. The observed directions fix the gauge.
 bool Minimize(const ManhattanAxesOptions& options, const ManhattanAxesData& data,
               const std::vector<bool>& inliers, Eigen::Quaterniond* world_from_manhattan) {
   double* block = world_from_manhattan->coeffs().data();
@@ -104,10 +104,10 @@ bool Minimize(const ManhattanAxesOptions& options, const ManhattanAxesData& data
   return summary.IsSolutionUsable() && world_from_manhattan->coeffs().allFinite();
 }
 
-// J^T J over the inliers where every direction lies on its axis m: p p^T / sigma_n^2 + n n^T /
-// sigma^2 of one, with n and p the normal and what completes m and n to a basis, as turning about
-// its own axis does not move it. At the noisy directions J^T J would claim to know that turn a
-// little, from noise alone.
+// Sum of J^T J over the inliers, linearised at directions that coincide with their axis m. One
+// direction contributes p p^T / sigma_n^2 + n n^T / sigma^2, where m, n (the normal) and p are an
+// orthonormal basis; it does not constrain the rotation about m. At the measured directions, J^T J
+// would contain spurious information about that rotation from noise alone.
 Eigen::Matrix3d Information(const ManhattanAxesData& data, const std::vector<bool>& inliers,
                             const Eigen::Quaterniond& world_from_manhattan) {
   const Eigen::Matrix3d axes = world_from_manhattan.toRotationMatrix();
@@ -124,7 +124,8 @@ Eigen::Matrix3d Information(const ManhattanAxesData& data, const std::vector<boo
   return information;
 }
 
-// Fills what the summary says of the end; usable if the information is of full rank.
+// Fills in inliers, final cost and covariance. The result is usable if the information has full
+// rank.
 void Summarize(const ManhattanAxesOptions& options, const ManhattanAxesData& data,
                const std::vector<bool>& inliers, const Eigen::Quaterniond& world_from_manhattan,
                ManhattanAxesSummary* summary) {
@@ -132,8 +133,8 @@ void Summarize(const ManhattanAxesOptions& options, const ManhattanAxesData& dat
   if (summary->num_inliers < options.min_inliers) return;
   const Eigen::Matrix3d information = Information(data, inliers, world_from_manhattan);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
-  // Exactly singular with one axis alone, up to rounding; one observation of a second axis among a
-  // million of the first is 1e-6.
+  // With one axis the information is singular up to rounding. A single observation of a second axis
+  // among a million of the first gives a ratio of 1e-6.
   if (!(eigen.eigenvalues()[0] > 1e-10 * eigen.eigenvalues()[2])) return;
   double chi_square = 0.0;
   for (size_t i = 0; i < inliers.size(); ++i) {
@@ -155,7 +156,7 @@ bool ManhattanAxesOptions::IsValid(std::string* error) const {
   } else if (num_rounds < 1 || iterations_per_round < 1) {
     *error = "num_rounds and iterations_per_round must be at least 1";
   } else if (min_inliers < 2) {
-    *error = "min_inliers must be at least 2: one direction does not fix a rotation";
+    *error = "min_inliers must be at least 2: one direction does not determine a rotation";
   } else {
     return true;
   }
@@ -174,9 +175,9 @@ ManhattanAxesSummary RefineManhattanAxes(const ManhattanAxesOptions& options,
   for (int round = 0; round < options.num_rounds && solved; ++round) {
     solved = Minimize(options, *data, inliers, &world_from_manhattan);
     std::vector<bool> next = Classify(options, *data, world_from_manhattan);
-    const bool settled = next == inliers;
+    const bool is_stable = next == inliers;
     inliers = std::move(next);
-    if (settled) break;
+    if (is_stable) break;
   }
   for (size_t i = 0; i < inliers.size(); ++i) data->observations[i].inlier = inliers[i];
   if (solved) Summarize(options, *data, inliers, world_from_manhattan, &summary);

@@ -14,24 +14,24 @@
 namespace msc_vo {
 
 struct AxisAssociationOptions {
-  // Largest angle between a line and its axis, in sigmas of both together: square root of the 99 %
-  // quantile of chi-square with two degrees of freedom.
+  /// Largest angle between a line and its axis, in sigmas of both together: square root of the 99 %
+  /// quantile of chi-square with two degrees of freedom.
   double max_sigmas = 3.035;
-  // Largest angle between a line and its axis, degrees. Random directions are within 5 degrees of
-  // an axis with a probability of 1 %.
+  /// Largest angle between a line and its axis, degrees. Random directions are within 5 degrees of
+  /// an axis with a probability of 1 %.
   double max_angle = 5.0;
-  // Largest standard deviation of a line's direction, degrees. Less certain lines would pass the
-  // angle test by chance.
+  /// Largest standard deviation of a line's direction, degrees. Less certain lines would pass the
+  /// angle test by chance.
   double max_sigma = 5.0;
 
   bool IsValid(std::string* error) const;
 };
 
-// Returns the index 0..2 of the axis that a line is parallel to (paper: Manhattan Axes
-// Association); std::nullopt if it is parallel to none, or too uncertain. The columns of `rotation`
-// are the axes in the frame of the line's direction; `rotation_sigma` (radians) is the standard
-// deviation of each component of its rotation vector. Throws std::invalid_argument on invalid
-// options.
+/// Returns the index 0..2 of the axis that a line is parallel to (paper: Manhattan Axes
+/// Association); std::nullopt if it is parallel to none, or too uncertain. The columns of
+/// `rotation` are the axes in the frame of the line's direction; `rotation_sigma` (radians) is the
+/// standard deviation of each component of its rotation vector. Throws std::invalid_argument on
+/// invalid options.
 std::optional<int> AssociateAxis(const AxisAssociationOptions& options,
                                  const Eigen::Quaterniond& rotation, double rotation_sigma,
                                  const AxisEvidence& line);

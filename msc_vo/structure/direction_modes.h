@@ -9,15 +9,15 @@
 
 namespace msc_vo {
 
-// An undirected direction with its weight.
+/// An undirected direction with its weight.
 struct WeightedDirection {
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit
   double weight = 1.0;
 };
 
-// Returns the modes of the density of the directions under a Gaussian kernel of standard deviation
-// `bandwidth` (radians), densest first: at most `max_modes`, at least `separation` (radians) apart.
-// Quadratic in the number of directions.
+/// Returns the modes of the density of the directions under a Gaussian kernel of standard deviation
+/// `bandwidth` (radians), densest first: at most `max_modes`, at least `separation` (radians)
+/// apart. Quadratic in the number of directions.
 std::vector<Eigen::Vector3d> FindDirectionModes(const std::vector<WeightedDirection>& directions,
                                                 double bandwidth, double separation, int max_modes);
 

@@ -20,13 +20,13 @@ namespace {
 struct Candidate {
   double sigma = 0.0;  // radians, of the angle between them
   int i = 0, j = 0;    // i < j
-  bool chosen = false;
+  bool selected = false;
 };
 
-// A line as the search of pairs sees it.
-struct Oriented {
+// Direction of a line and its uncertainty.
+struct LineDirection {
   Eigen::Vector3d direction;
-  double variance = 0.0;  // of the direction, rad^2
+  double variance = 0.0;  // rad^2
 };
 
 void Validate(const FrameStructureOptions& options, const PinholeCamera& camera,
@@ -46,8 +46,8 @@ void Validate(const FrameStructureOptions& options, const PinholeCamera& camera,
   }
 }
 
-// Half of a pair's variance is taken to be the two lines' own deviations from how they were meant,
-// a quarter each, common to all their pairs; the other half the pair's own.
+// Half of the variance of a pair is attributed to the deviations of the two lines, which all their
+// pairs have in common (a quarter each); the other half to the pair itself.
 InverseDepthLine MakeInverseDepthLine(const FrameStructureOptions& options,
                                       const PinholeCamera& camera, const StructureLine& line) {
   const double deviation = 0.5 * DegreesToRadians(options.pair_sigma);
@@ -57,32 +57,34 @@ double PairSigma(const FrameStructureOptions& options) {
   return std::sqrt(0.5) * DegreesToRadians(options.pair_sigma);
 }
 
-std::vector<Oriented> Orient(const PinholeCamera& camera, const std::vector<StructureLine>& lines,
-                             const std::vector<InverseDepthLine>& inverse_depth_lines) {
-  std::vector<Oriented> oriented;
+std::vector<LineDirection> ComputeDirections(
+    const PinholeCamera& camera, const std::vector<StructureLine>& lines,
+    const std::vector<InverseDepthLine>& inverse_depth_lines) {
+  std::vector<LineDirection> directions;
   for (size_t i = 0; i < lines.size(); ++i) {
     const double in_plane = DirectionSigma(camera, lines[i].segment, lines[i].depth);
     const double out_of_plane = inverse_depth_lines[i].image_angle();
-    oriented.push_back({BackProject(camera, lines[i].segment, lines[i].depth).Direction(),
-                        in_plane * in_plane + out_of_plane * out_of_plane});
+    directions.push_back({BackProject(camera, lines[i].segment, lines[i].depth).Direction(),
+                          in_plane * in_plane + out_of_plane * out_of_plane});
   }
-  return oriented;
+  return directions;
 }
 
-// What one line sees of all the others.
-struct Neighbourhood {
-  double num_told = 0.0;       // whose angle is known well enough to tell
+// Counts of the relations of one line to all others.
+struct RelationCounts {
+  double num_certain = 0.0;    // lines with a sufficiently certain angle
   double num_unrelated = 0.0;  // of these, near neither 0 nor 90 degrees
-  // Of these, partners; and their number if each angle were of two random directions.
+  // Of these, partners, and their expected number among random directions.
   double num_parallel = 0.0, parallel_by_chance = 0.0;
   double num_perpendicular = 0.0, perpendicular_by_chance = 0.0;
 };
 
-// Of angles up to 45 degrees, to three digits, and to seven up to 5: enough for probabilities.
+// Series for angles (radians) up to 45 degrees with three digits, up to 5 degrees with seven, which
+// suffices for probabilities.
 double SmallSine(double x) { return x * (1.0 - x * x / 6.0); }
 double SmallVersedSine(double x) { return 0.5 * x * x * (1.0 - x * x / 12.0); }
 
-// What decides whether two lines are a pair.
+// Precomputed gates of a pair.
 struct Gates {
   explicit Gates(const FrameStructureOptions& options)
       : max_angle(DegreesToRadians(options.max_angle)),
@@ -92,20 +94,20 @@ struct Gates {
         sigmas(options.gate_sigmas) {}
 
   double max_angle, cos_max_angle, sin_max_angle;
-  double pair_variance;  // rad^2, of the angle of what was built so
+  double pair_variance;  // rad^2, of the true angle of a pair
   double sigmas;
 };
 
-// Looks at one pair: adds it to what both lines see, and to the candidates if it passes.
-void LookAt(const Gates& gates, const std::vector<Oriented>& lines, int i, int j,
-            std::vector<Neighbourhood>* seen, std::vector<Candidate>* parallel,
-            std::vector<Candidate>* perpendicular) {
+// Updates the counts of lines i and j, and adds the pair to the candidates if it passes the gates.
+void EvaluatePair(const Gates& gates, const std::vector<LineDirection>& lines, int i, int j,
+                  std::vector<RelationCounts>* counts, std::vector<Candidate>* parallel,
+                  std::vector<Candidate>* perpendicular) {
   const double sigma = std::sqrt(lines[i].variance + lines[j].variance + gates.pair_variance);
-  // Were the angle known worse than the gate is wide, being inside it would say nothing.
+  // A less certain angle would pass the gate by chance.
   if (sigma > gates.max_angle) return;
   const double gate = std::min(gates.max_angle, gates.sigmas * sigma);
   const Eigen::Vector3d &a = lines[i].direction, &b = lines[j].direction;
-  // Most pairs are near neither to 0 nor to 90 degrees, which their cosine tells at once.
+  // Most pairs are near neither 0 nor 90 degrees; the test of their cosine saves the arc cosine.
   const double cosine = std::abs(a.dot(b));
   const bool may_be_parallel = cosine >= gates.cos_max_angle;
   const bool may_be_perpendicular = cosine <= gates.sin_max_angle;
@@ -115,8 +117,8 @@ void LookAt(const Gates& gates, const std::vector<Oriented>& lines, int i, int j
   const bool is_perpendicular = may_be_perpendicular && angle >= 0.5 * kPi - gate;
   // The cosine between random directions is uniform in [0, 1].
   const double sine = SmallSine(gate), versed_sine = SmallVersedSine(gate);
-  for (Neighbourhood* n : {&(*seen)[i], &(*seen)[j]}) {
-    n->num_told += 1.0;
+  for (RelationCounts* n : {&(*counts)[i], &(*counts)[j]}) {
+    n->num_certain += 1.0;
     n->num_unrelated += is_unrelated;
     n->num_parallel += is_parallel;
     n->num_perpendicular += is_perpendicular;
@@ -127,22 +129,23 @@ void LookAt(const Gates& gates, const std::vector<Oriented>& lines, int i, int j
   if (is_perpendicular) perpendicular->push_back({sigma, i, j, false});
 }
 
-// All pairs with angles near 0 and near 90 degrees, but for lines that have no more of them than
-// chance would give: in a scene without structure, every eleventh pair is within 5 degrees of 90.
-// Chance is told from the angles in between: their share says how much of what a line sees is
-// random to it. At least every second of the partners must be more than that.
-void FindPairs(const FrameStructureOptions& options, const std::vector<Oriented>& lines,
+// Finds all pairs with angles near 0 and near 90 degrees. In a scene without structure, every
+// eleventh pair is within 5 degrees of 90 by chance. The number of such pairs of a line is
+// estimated from its unrelated lines, with angles in between. A line is excluded unless it has at
+// least twice as many partners as expected by chance.
+void FindPairs(const FrameStructureOptions& options, const std::vector<LineDirection>& lines,
                std::vector<Candidate>* parallel, std::vector<Candidate>* perpendicular) {
   const Gates gates(options);
-  std::vector<Neighbourhood> seen(lines.size());
+  std::vector<RelationCounts> counts(lines.size());
   for (int i = 0; i < static_cast<int>(lines.size()); ++i) {
     for (int j = i + 1; j < static_cast<int>(lines.size()); ++j) {
-      LookAt(gates, lines, i, j, &seen, parallel, perpendicular);
+      EvaluatePair(gates, lines, i, j, &counts, parallel, perpendicular);
     }
   }
-  const double between = gates.cos_max_angle - gates.sin_max_angle;  // their share if all is random
-  const auto random_share = [&](const Neighbourhood& n) {
-    return n.num_unrelated / (between * n.num_told);
+  // Ratio of unrelated lines among random directions.
+  const double unrelated_ratio = gates.cos_max_angle - gates.sin_max_angle;
+  const auto random_ratio = [&](const RelationCounts& n) {
+    return n.num_unrelated / (unrelated_ratio * n.num_certain);
   };
   const auto erase_if = [](std::vector<Candidate>* pairs, const auto& is_chance) {
     pairs->erase(std::remove_if(
@@ -151,32 +154,32 @@ void FindPairs(const FrameStructureOptions& options, const std::vector<Oriented>
                  pairs->end());
   };
   erase_if(parallel, [&](int line) {
-    const Neighbourhood& n = seen[line];
-    return n.num_parallel < 2.0 * random_share(n) * n.parallel_by_chance;
+    const RelationCounts& n = counts[line];
+    return n.num_parallel < 2.0 * random_ratio(n) * n.parallel_by_chance;
   });
   erase_if(perpendicular, [&](int line) {
-    const Neighbourhood& n = seen[line];
-    return n.num_perpendicular < 2.0 * random_share(n) * n.perpendicular_by_chance;
+    const RelationCounts& n = counts[line];
+    return n.num_perpendicular < 2.0 * random_ratio(n) * n.perpendicular_by_chance;
   });
 }
 
-// Keeps the pairs that either line counts among its best. A well-known line may serve many.
-void KeepBest(int max_partners, size_t num_lines, std::vector<Candidate>* pairs) {
+// Keeps the pairs that are among the `max_partners` most certain ones of either line.
+void SelectMostCertain(int max_partners, size_t num_lines, std::vector<Candidate>* pairs) {
   std::sort(pairs->begin(), pairs->end(), [](const Candidate& a, const Candidate& b) {
     return std::tie(a.sigma, a.i, a.j) < std::tie(b.sigma, b.i, b.j);
   });
-  std::vector<int> num_chosen(num_lines, 0);
-  const auto choose = [&](int line) { return num_chosen[line]++ < max_partners; };
+  std::vector<int> num_selected(num_lines, 0);
+  const auto select = [&](int line) { return num_selected[line]++ < max_partners; };
   for (Candidate& pair : *pairs) {
-    const bool by_i = choose(pair.i), by_j = choose(pair.j);
-    pair.chosen = by_i || by_j;
+    const bool by_i = select(pair.i), by_j = select(pair.j);
+    pair.selected = by_i || by_j;
   }
   pairs->erase(std::remove_if(pairs->begin(), pairs->end(),
-                              [](const Candidate& pair) { return !pair.chosen; }),
+                              [](const Candidate& pair) { return !pair.selected; }),
                pairs->end());
 }
 
-// Positions of the lines that have a partner, and the factors over them.
+// Builds the factors of the lines that have a partner, and returns the indices of these lines.
 std::vector<int> BuildFactors(const FrameStructureOptions& options,
                               const std::vector<StructureLine>& lines,
                               const std::vector<InverseDepthLine>& inverse_depth_lines,
@@ -231,9 +234,10 @@ FrameStructureSummary RefineFrameStructure(const FrameStructureOptions& options,
   for (const StructureLine& l : *lines)
     inverse_depth_lines.push_back(MakeInverseDepthLine(options, camera, l));
   std::vector<Candidate> parallel, perpendicular;
-  FindPairs(options, Orient(camera, *lines, inverse_depth_lines), &parallel, &perpendicular);
-  KeepBest(options.max_partners, lines->size(), &parallel);
-  KeepBest(options.max_partners, lines->size(), &perpendicular);
+  FindPairs(options, ComputeDirections(camera, *lines, inverse_depth_lines), &parallel,
+            &perpendicular);
+  SelectMostCertain(options.max_partners, lines->size(), &parallel);
+  SelectMostCertain(options.max_partners, lines->size(), &perpendicular);
 
   FrameStructureFactors factors;
   const std::vector<int> refined =
@@ -256,7 +260,7 @@ FrameStructureSummary RefineFrameStructure(const FrameStructureOptions& options,
   summary.final_cost = equations.cost;
   const auto covariances = BoundCovariances(factors, equations);
   for (size_t k = 0; k < refined.size(); ++k) {
-    // A line that would leave through infinity keeps its fit.
+    // A line that would pass through infinity keeps its fit.
     if (!(blocks[k][0] > 0.0 && blocks[k][1] > 0.0)) continue;
     LineDepth& depth = (*lines)[refined[k]].depth;
     depth.start = blocks[k][0];

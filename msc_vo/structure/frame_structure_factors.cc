@@ -20,7 +20,7 @@ using Block = InverseDepthLineBlock;
 using Blocks = std::vector<Block>;
 using Matrix = StructureEquations::Matrix;
 
-// Direction of a line and its derivative by its block.
+// Direction of a line and its derivative with respect to its block.
 struct Direction {
   Eigen::Vector3d value;
   Eigen::Matrix<double, 3, InverseDepthLine::kBlockSize> jacobian;
@@ -79,7 +79,7 @@ double Dot(const Blocks& a, const Blocks& b) {
   return sum;
 }
 
-// y = J^T J x, with the diagonal blocks raised by the factor 1 + lambda.
+// y = J^T J x, with the diagonal blocks multiplied by 1 + lambda.
 void Multiply(const StructureEquations& equations, double lambda, const Blocks& x, Blocks* y) {
   y->resize(x.size());
   for (size_t i = 0; i < x.size(); ++i) {
@@ -91,13 +91,13 @@ void Multiply(const StructureEquations& equations, double lambda, const Blocks& 
   }
 }
 
-// Solves J^T J x = -J^T r, with the diagonal blocks raised by the factor 1 + lambda, by conjugate
-// gradients; those blocks are the preconditioner.
+// Solves J^T J x = -J^T r, with the diagonal blocks multiplied by 1 + lambda, by conjugate
+// gradients with the block-Jacobi preconditioner.
 Blocks SolveStep(const StructureEquations& equations, double lambda) {
-  // Leaves 1e-3 of the step undone, in the norm of the preconditioner: less than the next step of
-  // an iteration that is not quadratic anyway, as a loss is in it.
+  // Relative error 1e-3 of the step in the norm of the preconditioner. Higher accuracy would not
+  // reduce the number of steps, because the robust loss prevents quadratic convergence.
   constexpr double kTolerance = 1e-6;
-  constexpr int kMaxIterations = 100;  // in blocks well conditioned by the priors, 10 to 30 do
+  constexpr int kMaxIterations = 100;  // 10 to 30 suffice, as priors condition the blocks
   std::vector<Matrix> inverse;
   for (const Matrix& block : equations.diagonal) {
     inverse.push_back(((1.0 + lambda) * block).llt().solve(Matrix::Identity()));
@@ -202,7 +202,8 @@ std::vector<Matrix> BoundCovariances(const FrameStructureFactors& factors,
     priors[pair.i] -= pair.ii;
     priors[pair.j] -= pair.jj;
   }
-  // Of each line, with its partners eliminated one by one: they meet in this line only.
+  // Information of each line, with its partners eliminated. They are independent of each other
+  // given this line, because the pairs among them are neglected.
   std::vector<Matrix> information = priors;
   for (const StructureEquations::Pair& pair : equations.pairs) {
     const Matrix given_j = pair.ij * (priors[pair.j] + pair.jj).llt().solve(pair.ij.transpose());

@@ -14,60 +14,59 @@
 
 namespace msc_vo {
 
-// The block of a line: w_S, w_E (1/metres), a, c; see InverseDepthLine.
+/// The block of a line: w_S, w_E (1/metres), a, c; see InverseDepthLine.
 using InverseDepthLineBlock = Eigen::Matrix<double, InverseDepthLine::kBlockSize, 1>;
 
-// J^T J, J^T r and half the sum of robustified squares, in blocks of four per line.
+/// J^T J, J^T r and half the sum of robustified squares, in blocks of four per line.
 struct StructureEquations {
   using Matrix = Eigen::Matrix<double, InverseDepthLine::kBlockSize, InverseDepthLine::kBlockSize>;
-  // What one pair adds to J^T J.
+  /// Contribution of one pair to J^T J.
   struct Pair {
     int i = 0, j = 0;
     Matrix ii, ij, jj;
   };
   double cost = 0.0;
   std::vector<InverseDepthLineBlock> gradient;
-  std::vector<Matrix> diagonal;  // priors and pairs
+  std::vector<Matrix> diagonal;  ///< priors and pairs
   std::vector<Pair> pairs;
 };
 
-// The factors of the frame-structure problem:
-//
-//   sum |InverseDepthLinePrior|^2 + rho(|InverseDepthLinePair<ParallelLines>|^2)
-//     + rho(|InverseDepthLinePair<PerpendicularLines>|^2)
-//
-// (paper: 3D Feature Position Estimation). Solved at every frame, in a few milliseconds for 150
-// lines and a thousand pairs: so each line's direction is differentiated once and not with every
-// pair, and the normal equations are solved by conjugate gradients, as their Cholesky factor fills
-// up in a graph where everything is parallel or square to everything. A test holds this equal to
-// the same factors in Ceres.
+/// The factors of the frame-structure problem:
+///
+///   sum |InverseDepthLinePrior|^2 + rho(|InverseDepthLinePair<ParallelLines>|^2)
+///     + rho(|InverseDepthLinePair<PerpendicularLines>|^2)
+///
+/// (paper: 3D Feature Position Estimation). To solve 150 lines and a thousand pairs in a few
+/// milliseconds per frame, the direction of each line is differentiated once rather than for every
+/// pair, and the normal equations are solved by conjugate gradients, because their Cholesky factor
+/// is dense. The tests compare the result with the same factors in Ceres.
 struct FrameStructureFactors {
   template <typename Relation>
   struct Pair {
     Relation relation;
-    int i = 0, j = 0;  // positions in lines
+    int i = 0, j = 0;  ///< indices in lines
   };
-  double huber = 0.0;                         // sigmas, of pairs
-  std::vector<InverseDepthLine> lines;        // those that have a partner
-  std::vector<InverseDepthLinePrior> priors;  // one per line
+  double huber = 0.0;                         ///< sigmas, of pairs
+  std::vector<InverseDepthLine> lines;        ///< those that have a partner
+  std::vector<InverseDepthLinePrior> priors;  ///< one per line
   std::vector<Pair<ParallelLines>> parallel;
   std::vector<Pair<PerpendicularLines>> perpendicular;
 
-  // False if a line has no direction.
+  /// Returns false if a line has no direction.
   bool Linearize(const std::vector<InverseDepthLineBlock>& blocks,
                  StructureEquations* equations) const;
 };
 
-// Minimises the cost by Levenberg-Marquardt from *blocks. Returns false, and leaves *blocks
-// unchanged, if a factor is undefined there or a step is not finite. *equations: normal equations
-// at the solution. *num_iterations: steps that were evaluated.
+/// Minimises the cost by Levenberg-Marquardt from *blocks. Returns false, and leaves *blocks
+/// unchanged, if a factor is undefined there or a step is not finite. *equations: normal equations
+/// at the solution. *num_iterations: steps that were evaluated.
 bool MinimizeStructure(const FrameStructureFactors& factors, int max_iterations,
                        std::vector<InverseDepthLineBlock>* blocks, StructureEquations* equations,
                        int* num_iterations);
 
-// Covariance of every block from its own prior, its pairs and the priors of its partners. Pairs
-// among partners and all beyond could only make it smaller: a bound from above, at the price of a
-// few small inverses instead of that of the whole system.
+/// Upper bound of the covariance of every block, from its own prior, its pairs and the priors of
+/// its partners. Further pairs could only reduce it. This requires a few small inverses instead of
+/// the inverse of the whole system.
 std::vector<StructureEquations::Matrix> BoundCovariances(const FrameStructureFactors& factors,
                                                          const StructureEquations& equations);
 

@@ -11,9 +11,9 @@
 
 namespace msc_vo {
 
-// Returns the frame with the depths of its lines refined by their parallel and perpendicular
-// relations (paper: 3D Feature Position Estimation), or the frame itself if there are none. `scale`
-// multiplies the sigmas of the lines.
+/// Returns the frame with the depths of its lines refined by their parallel and perpendicular
+/// relations (paper: 3D Feature Position Estimation), or the frame itself if there are none.
+/// `scale` multiplies the sigmas of the lines.
 std::shared_ptr<const Frame> RefineStructure(const FrameStructureOptions& options,
                                              const NoiseScale& scale,
                                              std::shared_ptr<const Frame> frame);

@@ -24,27 +24,27 @@ struct SceneAxesOptions {
   AxisAssociationOptions association;
   ManhattanAxesOptions refinement;
   AxesEstimatorOptions estimator;
-  // Standard deviation of the direction of a built line from its axis, degrees; as
-  // FrameStructureOptions::pair_sigma.
+  /// Standard deviation of the direction of a built line from its axis, degrees; as
+  /// FrameStructureOptions::pair_sigma.
   double deviation = 0.7;
 
   bool IsValid(std::string* error) const;
 };
 
-// The Manhattan axes of the map (paper: Manhattan Axes Estimation and Association): found in one
-// keyframe, refined over the lines of all keyframes, and associated with the lines of a window.
+/// The Manhattan axes of the map (paper: Manhattan Axes Estimation and Association): found in one
+/// keyframe, refined over the lines of all keyframes, and associated with the lines of a window.
 class SceneAxes {
  public:
-  // Throws std::invalid_argument on options that are not valid.
+  /// Throws std::invalid_argument on options that are not valid.
   explicit SceneAxes(const SceneAxesOptions& options);
 
-  // Call after `keyframe` was added to the map. `normals`: its surface normals, camera frame;
-  // needed only while there are no axes.
+  /// Call after `keyframe` was added to the map. `normals`: its surface normals, camera frame;
+  /// needed only while there are no axes.
   void Update(const Map& map, KeyframeId keyframe, const std::vector<AxisEvidence>& normals);
 
-  // Index 0..2 of the axis that the line is parallel to; std::nullopt if there is none.
+  /// Index 0..2 of the axis that the line is parallel to; std::nullopt if there is none.
   std::optional<int> AxisOf(const LineLandmark& line) const;
-  // Adds alignments of the window's lines with their axes (paper: M_j).
+  /// Adds alignments of the window's lines with their axes (paper: M_j).
   void AddAlignments(const Map& map, WindowData* window) const;
 
   const AxesEstimator& estimator() const { return estimator_; }

@@ -9,8 +9,9 @@
 
 namespace msc_vo {
 
-// Returns the frame of `tracked` with every feature in a cell of a dynamic object marked (lines: by
-// their midpoint), except inliers of the pose. Returns the frame itself if there are no such cells.
+/// Returns the frame of `tracked` with every feature in a cell of a dynamic object marked (lines:
+/// by their midpoint), except inliers of the pose. Returns the frame itself if there are no such
+/// cells.
 std::shared_ptr<const Frame> MarkDynamicFeatures(const CellConsensusOptions& options,
                                                  const TrackedFrame& tracked);
 

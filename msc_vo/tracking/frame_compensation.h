@@ -12,14 +12,14 @@
 
 namespace msc_vo {
 
-// Whether the only keyframe of the map has no rolling-shutter compensation yet, because its
-// velocity is unknown until the next frame is tracked.
+/// Whether the only keyframe of the map has no rolling-shutter compensation yet, because its
+/// velocity is unknown until the next frame is tracked.
 bool AwaitsCompensation(const MapSnapshot& snapshot);
 
-// Readout time (seconds) that frames are compensated with to be consistent with the map.
+/// Readout time (seconds) that frames are compensated with to be consistent with the map.
 double CompensationReadoutTime(const MapSnapshot& snapshot);
 
-// The frame with its rolling shutter compensated; the frame itself if the velocity is unknown.
+/// The frame with its rolling shutter compensated; the frame itself if the velocity is unknown.
 std::shared_ptr<const Frame> CompensateFrame(std::shared_ptr<const Frame> frame,
                                              const std::optional<CameraVelocity>& velocity,
                                              double readout_time);

@@ -10,23 +10,23 @@
 
 namespace msc_vo {
 
-// The features of the last frame as candidates for matching from `cam_from_world`: its landmarks at
-// their present position in the map, and its other features that have a depth at their measured
-// position. The latter carry the tracking where the map has few landmarks.
+/// The features of the last frame as candidates for matching from `cam_from_world`: its landmarks
+/// at their present position in the map, and its other features that have a depth at their measured
+/// position. The latter carry the tracking where the map has few landmarks.
 LocalMap CandidatesFromFrame(const Map& map, const TrackedFrame& last,
                              const Rigid3& last_from_world, const Rigid3& cam_from_world);
 
-// Matches `frame` with the candidates of `local` within `radius` pixels, in addition to the `known`
-// matches, whose landmarks and features are not matched again. Returns both.
+/// Matches `frame` with the candidates of `local` within `radius` pixels, in addition to the
+/// `known` matches, whose landmarks and features are not matched again. Returns both.
 FrameMatches MatchLocalMap(const TrackerOptions& options, const Frame& frame, const LocalMap& local,
                            double radius, const FrameMatches& known);
 
-// The inliers among the matches with landmarks.
+/// The inliers among the matches with landmarks.
 FrameMatches LandmarkInliers(const FrameMatches& matches);
 
-// Motion-only bundle adjustment of `frame` with `matches`, starting from *cam_from_world; marks the
-// inliers. The sigmas of the features are multiplied by `scale` and by the noise of their landmark
-// in `map`.
+/// Motion-only bundle adjustment of `frame` with `matches`, starting from *cam_from_world; marks
+/// the inliers. The sigmas of the features are multiplied by `scale` and by the noise of their
+/// landmark in `map`.
 PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, const Map& map,
                               const NoiseScale& scale, Rigid3* cam_from_world,
                               FrameMatches* matches);

@@ -11,31 +11,31 @@
 namespace msc_vo {
 
 struct KeyframePolicyOptions {
-  // A keyframe is due when the ratio of tracked features falls below this fraction of its best
-  // value since the last keyframe. Relative, because the ratio depends on how well features repeat
-  // in the scene. Chosen by measurement, see docs/lab/tracking.md.
+  /// A keyframe is due when the ratio of tracked features falls below this fraction of its best
+  /// value since the last keyframe. Relative, because the ratio depends on how well features repeat
+  /// in the scene. Chosen by measurement, see docs/lab/tracking.md.
   double min_tracked_ratio = 0.8;
-  // Frames between keyframes, at least and at most.
+  /// Frames between keyframes, at least and at most.
   int min_interval = 2;
   int max_interval = 30;
-  // A point is close if the standard deviation of its depth is below this fraction of the depth
-  // (0.5 %: 3.5 m for a Kinect). Close points determine the translation, so that their ratio is
-  // tested separately too.
+  /// A point is close if the standard deviation of its depth is below this fraction of the depth
+  /// (0.5 %: 3.5 m for a Kinect). Close points determine the translation, so that their ratio is
+  /// tested separately too.
   double close_relative_sigma = 0.005;
 
   bool IsValid(std::string* error) const;
 };
 
-// Decides whether a tracked frame becomes a keyframe (paper: Keyframe Insertion), by the ratio of
-// the features that are tracked in the map to all features that are or could become landmarks.
-// There is no fixed number of features: a frame with 15 lines and 10 points is a good frame.
+/// Decides whether a tracked frame becomes a keyframe (paper: Keyframe Insertion), by the ratio of
+/// the features that are tracked in the map to all features that are or could become landmarks.
+/// There is no fixed number of features: a frame with 15 lines and 10 points is a good frame.
 class KeyframePolicy {
  public:
   explicit KeyframePolicy(const KeyframePolicyOptions& options) : options_(options) {}
 
-  // Call once for every frame with a pose.
+  /// Call once for every frame with a pose.
   bool IsDue(const Frame& frame, const FrameMatches& matches);
-  // Reports that the last frame became a keyframe.
+  /// Reports that the last frame became a keyframe.
   void Inserted();
 
  private:

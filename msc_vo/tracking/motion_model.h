@@ -10,24 +10,24 @@
 
 namespace msc_vo {
 
-// Constant-velocity motion model from the last two estimated poses, scaled with time, so that it
-// tolerates dropped frames.
+/// Constant-velocity motion model from the last two estimated poses, scaled with time, so that it
+/// tolerates dropped frames.
 class MotionModel {
  public:
-  // Adds an estimated pose. `cam_from_last` is the motion since the previous one.
+  /// Adds an estimated pose. `cam_from_last` is the motion since the previous one.
   void Observe(double timestamp, const Rigid3& cam_from_last);
-  // Restarts at rest: the previous frame is too old, or the motion is unknown.
+  /// Restarts at rest: the previous frame is too old, or the motion is unknown.
   void Reset(double timestamp);
 
-  // Predicted motion from the last observed frame to a frame at `timestamp`.
+  /// Predicted motion from the last observed frame to a frame at `timestamp`.
   Rigid3 Predict(double timestamp) const;
-  // Predicted velocity at `timestamp`; std::nullopt if the motion is unknown or too old.
+  /// Predicted velocity at `timestamp`; std::nullopt if the motion is unknown or too old.
   std::optional<CameraVelocity> VelocityAt(double timestamp) const;
 
-  // Velocities for a frame at `timestamp` before it is added by Observe(); std::nullopt if the last
-  // frame is too old. Mean velocity since the last observed frame:
+  /// Velocities for a frame at `timestamp` before it is added by Observe(); std::nullopt if the
+  /// last frame is too old. Mean velocity since the last observed frame:
   std::optional<CameraVelocity> VelocitySince(double timestamp, const Rigid3& cam_from_last) const;
-  // Velocity at the last observed frame, from the means before and after it.
+  /// Velocity at the last observed frame, from the means before and after it.
   std::optional<CameraVelocity> LastVelocity(double timestamp, const Rigid3& cam_from_last) const;
 
  private:

@@ -18,35 +18,36 @@
 
 namespace msc_vo {
 
-// Time of the stages of tracking one frame, milliseconds.
+/// Time of the stages of tracking one frame, milliseconds.
 struct TrackingTimes {
   double matching = 0.0;
-  double pose = 0.0;  // motion-only bundle adjustment
+  double pose = 0.0;  ///< motion-only bundle adjustment
 };
 
-// What a tracked frame contributes to local mapping.
+/// Contribution of a tracked frame to local mapping.
 struct KeyframeProposal {
-  bool is_due = false;  // the frame shall become a keyframe
-  // Velocity at the previous frame if that became a keyframe, from the frames before and after it.
+  bool is_due = false;  ///< the frame is to become a keyframe
+  /// Velocity at the previous frame if that became a keyframe, from the frames before and after it.
   std::optional<CameraVelocity> previous_velocity;
-  // Landmarks that were predicted to be visible, matched ones included; for culling.
+  /// Landmarks that were predicted to be visible, matched ones included; for culling.
   std::vector<LandmarkId> visible_points;
   std::vector<LandmarkId> visible_lines;
 };
 
-// Result of tracking one frame. The pose is stored relative to a keyframe, because the mapper may
-// move that keyframe later and the frame moves with it.
+/// Result of tracking one frame. The pose is stored relative to a keyframe, because the mapper may
+/// move that keyframe later and the frame moves with it.
 struct TrackedFrame {
-  std::shared_ptr<const Frame> frame;  // with rolling-shutter compensation
+  std::shared_ptr<const Frame> frame;  ///< with rolling-shutter compensation
   TrackingStatus status = TrackingStatus::kLost;
-  KeyframeId reference = kNoId;  // kNoId: no map yet, and cam_from_reference is cam_from_world
+  bool relocalized = false;      ///< the pose was found without a prediction
+  KeyframeId reference = kNoId;  ///< kNoId: no map yet, and cam_from_reference is cam_from_world
   Rigid3 cam_from_reference;
-  Rigid3 cam_from_world;   // with the reference as in the snapshot
-  FrameMatches matches;    // inliers among the landmarks
-  NoiseScale noise_scale;  // of the sigmas of its features
+  Rigid3 cam_from_world;   ///< with the reference as in the snapshot
+  FrameMatches matches;    ///< inliers among the landmarks
+  NoiseScale noise_scale;  ///< of the sigmas of its features
   PoseSummary pose;
-  // Matches on dynamic objects, and the cells of these in the ImageGrid (empty if there are none),
-  // of the pose optimisation that found most of them.
+  /// Matches on dynamic objects, and the cells of these in the ImageGrid (empty if there are none),
+  /// of the pose optimisation that found most of them.
   int num_dynamic = 0;
   std::vector<bool> dynamic_cells;
   KeyframeProposal keyframe;

@@ -12,19 +12,19 @@
 
 namespace msc_vo {
 
-// Estimates the pose of every frame against a snapshot of the map (paper: Tracking), and proposes
-// keyframes. Never changes the map.
+/// Estimates the pose of every frame against a snapshot of the map (paper: Tracking), and proposes
+/// keyframes. Never changes the map.
 class Tracker {
  public:
-  // Throws std::invalid_argument on invalid options.
+  /// Throws std::invalid_argument on invalid options.
   explicit Tracker(const TrackerOptions& options);
 
-  // Tracks the next frame. The returned frame is compensated for the rolling shutter like the map,
-  // unless the camera's velocity is unknown, as after a gap. Frames must be in order of time, and
-  // snapshots never older than those before.
+  /// Tracks the next frame. The returned frame is compensated for the rolling shutter like the map,
+  /// unless the camera's velocity is unknown, as after a gap. Frames must be in order of time, and
+  /// snapshots never older than those before.
   TrackedFrame Track(std::shared_ptr<const Frame> raw, const MapSnapshot& snapshot);
 
-  // Motion of the camera over the last tracked frames.
+  /// Motion of the camera over the last tracked frames.
   const MotionModel& motion() const { return motion_; }
 
  private:

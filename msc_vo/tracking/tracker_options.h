@@ -20,28 +20,28 @@ struct TrackerOptions {
   KeyframePolicyOptions keyframes;
   RelocalizerOptions relocalizer;
 
-  // Search radii, pixels. The error of the constant-velocity prediction of a hand-held camera at 30
-  // Hz is up to about 15 pixels; the wide search allows four times that. Around an estimated pose
-  // the error of the landmarks remains: a few sigmas.
+  /// Search radii, pixels. The error of the constant-velocity prediction of a hand-held camera at
+  /// 30 Hz is up to about 15 pixels; the wide search allows four times that. Around an estimated
+  /// pose the error of the landmarks remains: a few sigmas.
   double prediction_radius = 15.0;
   double wide_radius = 60.0;
   double local_map_radius = 4.0;
 
   int max_local_keyframes = 30;
 
-  // Smallest number of inlier matches of a pose, points and lines together. Six rows determine a
-  // pose; ten matches exclude a consensus of random ones.
+  /// Smallest number of inlier matches of a pose, points and lines together. Six rows determine a
+  /// pose; ten matches exclude a consensus of random ones.
   int min_matches = 10;
-  // Smallest fraction of inliers among all matches except those on dynamic objects.
+  /// Smallest fraction of inliers among all matches except those on dynamic objects.
   double min_inlier_ratio = 0.3;
-  // Standard deviations of a pose above which the status is kWeak.
-  double weak_translation_sigma = 0.02;  // metres
-  double weak_rotation_sigma = 1.0;      // degrees
-  // Longest gap that is bridged by constant velocity.
-  double max_prediction = 0.5;  // seconds
-  // Keyframes per frame that relocalisation tries, newest and least recently tried first.
+  /// Standard deviations of a pose above which the status is kWeak.
+  double weak_translation_sigma = 0.02;  ///< metres
+  double weak_rotation_sigma = 1.0;      ///< degrees
+  /// Longest gap that is bridged by constant velocity.
+  double max_prediction = 0.5;  ///< seconds
+  /// Keyframes per frame that relocalisation tries, newest and least recently tried first.
   int relocalization_keyframes = 3;
-  // Features with depth that the first frame needs, points and lines together.
+  /// Features with depth that the first frame needs, points and lines together.
   int min_initial_features = 20;
 
   bool IsValid(std::string* error) const;

@@ -6,12 +6,12 @@
 namespace msc_vo {
 
 enum class TrackingStatus {
-  kTracked,     // pose from enough matches with the local map
-  kWeak,        // pose from few or badly distributed matches: large covariance
-  kPredicted,   // no pose could be estimated; constant velocity bridges a short gap
-  kLost,        // no pose for longer than that; the last pose is repeated
-  kDropped,     // real time: the image came too late and was not processed
-  kUnreadable,  // the image file is missing or damaged
+  kTracked,     ///< pose from enough matches with the local map
+  kWeak,        ///< pose from few or badly distributed matches: large covariance
+  kPredicted,   ///< no pose could be estimated; constant velocity bridges a short gap
+  kLost,        ///< no pose for longer than that; the last pose is repeated
+  kDropped,     ///< real time: the image came too late and was not processed
+  kUnreadable,  ///< the image file is missing or damaged
 };
 
 const char* ToString(TrackingStatus status);

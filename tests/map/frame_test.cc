@@ -23,7 +23,7 @@ TEST(HammingDistance, CountsDifferingBits) {
   EXPECT_EQ(HammingDistance(a, b), 256);
 }
 
-TEST(HammingDistance, IsThatOfEachBit) {
+TEST(HammingDistance, MatchesBitwiseCount) {
   std::mt19937 random(5);
   for (int i = 0; i < 100; ++i) {
     Descriptor a;
@@ -38,7 +38,7 @@ TEST(HammingDistance, IsThatOfEachBit) {
   }
 }
 
-TEST(FeatureGrid, TakesPixelsThatAreNoNumbers) {
+TEST(FeatureGrid, AcceptsNonFinitePixels) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   std::vector<PointFeature> points(5);
@@ -54,12 +54,12 @@ TEST(FeatureGrid, TakesPixelsThatAreNoNumbers) {
   EXPECT_TRUE(grid.Near(points, {100.0, 100.0}, nan).empty());
 }
 
-TEST(FeatureGrid, FindsWhatASearchThroughAllFinds) {
+TEST(FeatureGrid, MatchesExhaustiveSearch) {
   const PinholeCamera camera;
   std::mt19937 random(7);
   std::vector<PointFeature> points(500);
   for (PointFeature& point : points) {
-    // Some lie outside: undistortion moves features there.
+    // Some lie outside the image, where undistortion may move them.
     point.pixel = {random() % 700 - 30.0, random() % 540 - 30.0};
   }
   const FeatureGrid grid(camera, points);
@@ -75,7 +75,7 @@ TEST(FeatureGrid, FindsWhatASearchThroughAllFinds) {
   }
 }
 
-TEST(FeatureGrid, EmptyGridFindsNothing) {
+TEST(FeatureGrid, FindsNothingIfEmpty) {
   EXPECT_TRUE(FeatureGrid().Near({}, {10, 10}, 100).empty());
 }
 

@@ -19,17 +19,17 @@ std::vector<int64_t> Ids(const IdSet& set) {
   return ids;
 }
 
-TEST(IdSetTest, EveryIdComesOnceAndAscending) {
+TEST(IdSetTest, VisitsEveryIdOnceInAscendingOrder) {
   SharedTable<int, 4> table;
   for (const int64_t id : {7, 8, 70, 71, 134, 135, 1000}) table.Append(id, 0);
   IdSet set(table);
   EXPECT_THAT(Ids(set), IsEmpty());
-  // Both ends, both sides of the borders of words, and one of them twice.
+  // First and last id, both sides of word boundaries, and a duplicate.
   for (const int64_t id : {1000, 134, 7, 71, 70, 134}) set.Insert(id);
   EXPECT_THAT(Ids(set), ElementsAre(7, 70, 71, 134, 1000));
 }
 
-TEST(IdSetTest, ThereIsNoneOfAnEmptyTable) {
+TEST(IdSetTest, IsEmptyForAnEmptyTable) {
   EXPECT_THAT(Ids(IdSet(SharedTable<int, 4>())), IsEmpty());
 }
 

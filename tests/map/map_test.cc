@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-// A frame with as many features as asked for, each with a descriptor of its own.
+// A frame whose points have different descriptors.
 std::shared_ptr<const Frame> MakeFrame(int num_points, int num_lines) {
   auto frame = std::make_shared<Frame>();
   frame->points.resize(num_points);
@@ -23,7 +23,7 @@ class MapTest : public ::testing::Test {
  protected:
   void SetUp() override {
     for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d translation(-0.5 * i, 0, 0);  // camera i stands at x = 0.5 i
+      const Eigen::Vector3d translation(-0.5 * i, 0, 0);  // camera i at x = 0.5 i
       keyframes_[i] =
           map_.AddKeyframe(MakeFrame(4, 2), Rigid3(Eigen::Quaterniond::Identity(), translation));
     }
@@ -42,7 +42,7 @@ class MapTest : public ::testing::Test {
   LandmarkId line_ = kNoId;
 };
 
-TEST_F(MapTest, ObservationsStandOnBothSides) {
+TEST_F(MapTest, StoresObservationsInLandmarkAndKeyframe) {
   EXPECT_TRUE(map_.ObservePoint(a_, keyframes_[2], 3));
   EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->points[3], a_);
   ASSERT_EQ(map_.FindPoint(a_)->observations.size(), 2u);
@@ -50,33 +50,33 @@ TEST_F(MapTest, ObservationsStandOnBothSides) {
   EXPECT_EQ(map_.FindPoint(a_)->observations[1].feature, 3);
 }
 
-TEST_F(MapTest, ObservationsStayAscending) {
+TEST_F(MapTest, SortsObservationsByKeyframe) {
   EXPECT_TRUE(map_.ObservePoint(b_, keyframes_[2], 0));
   EXPECT_TRUE(map_.ObservePoint(b_, keyframes_[0], 2));
   std::vector<KeyframeId> order;
-  for (const Observation& seen : map_.FindPoint(b_)->observations) order.push_back(seen.keyframe);
+  for (const Observation& o : map_.FindPoint(b_)->observations) order.push_back(o.keyframe);
   EXPECT_THAT(order, ElementsAre(keyframes_[0], keyframes_[1], keyframes_[2]));
 }
 
-TEST_F(MapTest, RefusesSecondObservationTakenFeatureAndUnknownLandmark) {
-  EXPECT_FALSE(map_.ObservePoint(a_, keyframes_[0], 3));  // sees it already
-  EXPECT_FALSE(map_.ObservePoint(a_, keyframes_[1], 1));  // shows b
+TEST_F(MapTest, RejectsDuplicateTakenAndUnknownObservations) {
+  EXPECT_FALSE(map_.ObservePoint(a_, keyframes_[0], 3));  // already observed
+  EXPECT_FALSE(map_.ObservePoint(a_, keyframes_[1], 1));  // feature of b
   EXPECT_FALSE(map_.ObservePoint(999, keyframes_[0], 3));
   EXPECT_FALSE(map_.ObserveLine(line_, keyframes_[0], 1));
   EXPECT_EQ(map_.FindPoint(a_)->observations.size(), 1u);
 }
 
-TEST_F(MapTest, ForgettingTheLastObservationRemovesTheLandmark) {
-  map_.RemovePointObservation(a_, keyframes_[1]);  // never seen there: nothing happens
+TEST_F(MapTest, RemovesTheLandmarkWithItsLastObservation) {
+  map_.RemovePointObservation(a_, keyframes_[1]);  // not observed there: no effect
   EXPECT_NE(map_.FindPoint(a_), nullptr);
   map_.RemovePointObservation(a_, keyframes_[0]);
   EXPECT_EQ(map_.FindPoint(a_), nullptr);
   EXPECT_EQ(map_.FindKeyframe(keyframes_[0])->points[0], kNoId);
 }
 
-TEST_F(MapTest, MergeMovesObservationsThatDoNotCollide) {
+TEST_F(MapTest, MergesObservationsWithoutCollision) {
   map_.ObservePoint(a_, keyframes_[2], 0);
-  map_.ObservePoint(b_, keyframes_[2], 1);  // both in keyframe 2: only one may stay
+  map_.ObservePoint(b_, keyframes_[2], 1);  // both observed in keyframe 2: one remains
   map_.MergePoints(b_, a_);
   EXPECT_EQ(map_.FindPoint(b_), nullptr);
   EXPECT_EQ(map_.FindPoint(a_)->observations.size(), 3u);
@@ -86,21 +86,21 @@ TEST_F(MapTest, MergeMovesObservationsThatDoNotCollide) {
   EXPECT_EQ(map_.FindPoint(a_)->num_found, 2);
 }
 
-TEST_F(MapTest, RemovedKeyframeKeepsItsPlaceRelativeToItsHeir) {
+TEST_F(MapTest, KeepsThePoseOfARemovedKeyframeRelativeToItsSuccessor) {
   const Rigid3 before = map_.CamFromWorld(keyframes_[1]);
   map_.ObservePoint(b_, keyframes_[2], 0);
   map_.RemoveKeyframe(keyframes_[1], keyframes_[2]);
   EXPECT_EQ(map_.FindKeyframe(keyframes_[1]), nullptr);
   EXPECT_EQ(map_.FindPoint(b_)->observations.size(), 1u);
   EXPECT_TRUE(map_.CamFromWorld(keyframes_[1]).params.isApprox(before.params, 1e-12));
-  // When the heir moves, what stood relative to it moves with it; also over two removals.
+  // The pose moves with the successor, also after its removal.
   const Rigid3 shift(Eigen::Quaterniond::Identity(), {0, 0, 1});
   map_.RemoveKeyframe(keyframes_[2], keyframes_[0]);
   map_.SetPose(keyframes_[0], shift * map_.CamFromWorld(keyframes_[0]));
   EXPECT_TRUE(map_.CamFromWorld(keyframes_[1]).params.isApprox((shift * before).params, 1e-12));
 }
 
-TEST_F(MapTest, CovisibleKeyframesAreRankedBySharedLandmarks) {
+TEST_F(MapTest, RanksCovisibleKeyframesBySharedLandmarks) {
   map_.ObservePoint(a_, keyframes_[1], 0);
   map_.ObserveLine(line_, keyframes_[1], 0);
   map_.ObservePoint(a_, keyframes_[2], 0);
@@ -112,7 +112,7 @@ TEST_F(MapTest, CovisibleKeyframesAreRankedBySharedLandmarks) {
   EXPECT_EQ(covisible[1].num_shared, 1);
 }
 
-TEST_F(MapTest, RefreshTakesTheCentralDescriptorAndMeanDirection) {
+TEST_F(MapTest, RefreshComputesTheCentralDescriptorAndMeanDirection) {
   map_.ObservePoint(a_, keyframes_[1], 3);  // descriptor 0b11, nearest to both others
   map_.ObservePoint(a_, keyframes_[2], 2);  // descriptor 0b10
   map_.RefreshPoint(a_);
@@ -125,7 +125,7 @@ TEST_F(MapTest, RefreshTakesTheCentralDescriptorAndMeanDirection) {
   EXPECT_TRUE(point.viewing_direction.isApprox(expected, 1e-12));
 }
 
-TEST_F(MapTest, RefreshChoosesTheDescriptorAgainWhenObservationsComeOrGo) {
+TEST_F(MapTest, RefreshUpdatesTheDescriptorWithTheObservations) {
   const Descriptor first = map_.FindPoint(a_)->descriptor;
   map_.ObservePoint(a_, keyframes_[1], 3);
   map_.ObservePoint(a_, keyframes_[2], 2);
@@ -137,7 +137,7 @@ TEST_F(MapTest, RefreshChoosesTheDescriptorAgainWhenObservationsComeOrGo) {
   EXPECT_EQ(map_.FindPoint(a_)->descriptor, first);
 }
 
-TEST_F(MapTest, SharedMapsChangeEachOnItsOwn) {
+TEST_F(MapTest, SharedMapsChangeIndependently) {
   Map copy = map_.Share();
   map_.RemovePoint(a_);
   map_.SetPose(keyframes_[1], Rigid3());

@@ -16,7 +16,7 @@ std::vector<KeyframeId> Keyframes(const std::vector<Map::Covisible>& ranked) {
   return ids;
 }
 
-// Four keyframes; point i is seen by keyframe 0 and the i others after it.
+// Four keyframes; point i is observed by keyframes 0 to i.
 class ObserverCountTest : public ::testing::Test {
  protected:
   ObserverCountTest() {
@@ -43,7 +43,7 @@ TEST_F(ObserverCountTest, RanksByCountThenNewestFirst) {
   EXPECT_EQ(observers.Ranked().front().num_shared, 2);
 }
 
-TEST_F(ObserverCountTest, WorksWhereTheFirstKeyframesAreGone) {
+TEST_F(ObserverCountTest, SupportsRemovedKeyframes) {
   map_.RemoveKeyframe(0, 1);
   map_.RemoveKeyframe(2, 1);
   ObserverCount observers(map_);
@@ -54,7 +54,7 @@ TEST_F(ObserverCountTest, WorksWhereTheFirstKeyframesAreGone) {
   EXPECT_EQ(observers.Ranked().front().num_shared, 3);
 }
 
-TEST_F(ObserverCountTest, AnEmptyMapHasNoObservers) {
+TEST_F(ObserverCountTest, IsEmptyForAnEmptyMap) {
   EXPECT_TRUE(ObserverCount(Map()).Ranked().empty());
 }
 

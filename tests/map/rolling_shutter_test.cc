@@ -15,7 +15,7 @@ namespace {
 constexpr double kReadout = 0.026;
 const CameraVelocity kVelocity{{1.2, -0.7, 0.4}, {0.3, 0.1, -0.5}};
 
-// Points all over the image, at 1 to 4 metres; the first and the last pairs of them make lines.
+// Points all over the image, at 1 to 4 metres.
 std::vector<Eigen::Vector3d> Points() {
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < 20; ++i) {
@@ -25,7 +25,8 @@ std::vector<Eigen::Vector3d> Points() {
   return points;
 }
 
-Frame Rolled(double readout_time) {
+// Observes Points() and the line from the first to the last one.
+Frame RollingShutterFrame(double readout_time) {
   Frame frame;
   for (const Eigen::Vector3d& point : Points()) {
     frame.points.push_back(ProjectRolling(frame.camera, point, kVelocity, readout_time));
@@ -49,17 +50,17 @@ double LargestError(const Frame& frame) {
   return largest;
 }
 
-TEST(RollingShutter, PhaseGoesFromTheFirstRowToTheLast) {
+TEST(RollingShutter, PhaseIncreasesFromTheFirstRowToTheLast) {
   const PinholeCamera camera;
   EXPECT_DOUBLE_EQ(RowPhase(camera, {7.0, -0.5}), -0.5);
   EXPECT_DOUBLE_EQ(RowPhase(camera, {600.0, 479.5}), 0.5);
 }
 
-TEST(RollingShutter, UnrolledFeaturesAreWhereAGlobalShutterShowsThem) {
+TEST(RollingShutter, CompensatesToTheViewOfAGlobalShutter) {
   for (const double readout_time : {kReadout, -kReadout}) {
-    const Frame rolled = Rolled(readout_time);
-    EXPECT_GT(LargestError(rolled), 5.0);
-    const Frame frame = CompensateRollingShutter(rolled, kVelocity, readout_time);
+    const Frame raw = RollingShutterFrame(readout_time);
+    EXPECT_GT(LargestError(raw), 5.0);
+    const Frame frame = CompensateRollingShutter(raw, kVelocity, readout_time);
     EXPECT_LT(LargestError(frame), 1e-6);
     for (size_t i = 0; i < frame.points.size(); ++i) {
       EXPECT_NEAR(frame.points[i].inverse_depth, 1.0 / Points()[i].z(), 1e-9);
@@ -72,35 +73,35 @@ TEST(RollingShutter, UnrolledFeaturesAreWhereAGlobalShutterShowsThem) {
   }
 }
 
-TEST(RollingShutter, AGlobalOneLeavesFeaturesWhereTheyAre) {
-  const Frame rolled = Rolled(kReadout);
-  const Frame frame = CompensateRollingShutter(rolled, kVelocity, 0.0);
+TEST(RollingShutter, KeepsFeaturesWithZeroReadoutTime) {
+  const Frame raw = RollingShutterFrame(kReadout);
+  const Frame frame = CompensateRollingShutter(raw, kVelocity, 0.0);
   for (size_t i = 0; i < frame.points.size(); ++i) {
-    EXPECT_EQ(frame.points[i].pixel, rolled.points[i].pixel);
+    EXPECT_EQ(frame.points[i].pixel, raw.points[i].pixel);
   }
   EXPECT_EQ(frame.velocity->angular, kVelocity.angular);
 }
 
-TEST(RollingShutter, WhatHasNoDepthMovesByTheRotation) {
-  Frame rolled;
-  rolled.points.push_back(PointFeature());
-  rolled.points[0].pixel = {100.0, 450.0};
-  rolled.lines.push_back(LineFeature());
-  rolled.lines[0].segment = {{10.0, 20.0}, {100.0, 450.0}};
+TEST(RollingShutter, CompensatesFeaturesWithoutDepthForRotation) {
+  Frame raw;
+  raw.points.push_back(PointFeature());
+  raw.points[0].pixel = {100.0, 450.0};
+  raw.lines.push_back(LineFeature());
+  raw.lines[0].segment = {{10.0, 20.0}, {100.0, 450.0}};
   const Frame turned =
-      CompensateRollingShutter(rolled, {kVelocity.angular, {0.0, 0.0, 0.0}}, kReadout);
-  const Frame moved = CompensateRollingShutter(rolled, kVelocity, kReadout);
-  EXPECT_GT((turned.points[0].pixel - rolled.points[0].pixel).norm(), 1.0);
+      CompensateRollingShutter(raw, {kVelocity.angular, {0.0, 0.0, 0.0}}, kReadout);
+  const Frame moved = CompensateRollingShutter(raw, kVelocity, kReadout);
+  EXPECT_GT((turned.points[0].pixel - raw.points[0].pixel).norm(), 1.0);
   EXPECT_EQ(moved.points[0].pixel, turned.points[0].pixel);
   EXPECT_FALSE(moved.points[0].HasDepth());
   EXPECT_TRUE(moved.lines[0].segment.end.isApprox(turned.points[0].pixel));
   EXPECT_FALSE(moved.lines[0].depth.has_value());
 }
 
-TEST(RollingShutter, WhatAWrongVelocityWouldPutBehindTheCameraStays) {
-  const Frame rolled = Rolled(kReadout);
+TEST(RollingShutter, KeepsDepthsPositiveWithAWrongVelocity) {
+  const Frame raw = RollingShutterFrame(kReadout);
   const Frame frame =
-      CompensateRollingShutter(rolled, {Eigen::Vector3d::Zero(), {0.0, 0.0, 500.0}}, kReadout);
+      CompensateRollingShutter(raw, {Eigen::Vector3d::Zero(), {0.0, 0.0, 500.0}}, kReadout);
   for (size_t i = 0; i < frame.points.size(); ++i) {
     EXPECT_GT(frame.points[i].inverse_depth, 0.0);
   }
@@ -108,19 +109,19 @@ TEST(RollingShutter, WhatAWrongVelocityWouldPutBehindTheCameraStays) {
   EXPECT_GT(frame.lines[0].depth->end, 0.0);
 }
 
-TEST(RollingShutter, UnrollsAnewFromWhatWasUnrolledWrongly) {
-  const Frame rolled = Rolled(kReadout);
+TEST(RollingShutter, CorrectsAWrongCompensation) {
+  const Frame raw = RollingShutterFrame(kReadout);
   const Frame wrong =
-      CompensateRollingShutter(rolled, {0.7 * kVelocity.angular, {0.1, 0.0, 0.0}}, 0.6 * kReadout);
+      CompensateRollingShutter(raw, {0.7 * kVelocity.angular, {0.1, 0.0, 0.0}}, 0.6 * kReadout);
   EXPECT_GT(LargestError(wrong), 3.0);
-  // Phases are those of the pixels as they are now: some rows off, some percent of the difference.
+  // Phases are computed from the compensated pixels, whose row error leaves a few percent.
   EXPECT_LT(LargestError(CompensateRollingShutter(wrong, kVelocity, kReadout)),
             0.04 * LargestError(wrong));
 }
 
 TEST(RollingShutter, RayChangeIsTheDerivativeByTheReadoutTime) {
-  const Frame rolled = Rolled(kReadout);
-  const Frame frame = CompensateRollingShutter(rolled, kVelocity, kReadout);
+  const Frame raw = RollingShutterFrame(kReadout);
+  const Frame frame = CompensateRollingShutter(raw, kVelocity, kReadout);
   const Frame later = CompensateRollingShutter(frame, kVelocity, kReadout + 1e-6);
   for (size_t i = 0; i < frame.points.size(); ++i) {
     const PointFeature& point = frame.points[i];
@@ -130,7 +131,7 @@ TEST(RollingShutter, RayChangeIsTheDerivativeByTheReadoutTime) {
     const Eigen::Vector2d truth = later.points[i].pixel - point.pixel;
     EXPECT_LT((moved - truth).norm(), 0.01 * truth.norm() + 1e-9);
   }
-  EXPECT_TRUE(RayChange(rolled, {10.0, 10.0}, 1.0).isZero());  // its velocity is not known
+  EXPECT_TRUE(RayChange(raw, {10.0, 10.0}, 1.0).isZero());  // unknown velocity
 }
 
 }  // namespace

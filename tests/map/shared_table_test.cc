@@ -19,14 +19,14 @@ std::map<int64_t, int> Contents(const Table& table) {
   return contents;
 }
 
-// Of the ids 10, 20, ... in four blocks and a bit.
+// Ids 10, 20, ..., 180: four full blocks and a partial one.
 Table MakeTable() {
   Table table;
   for (int i = 1; i <= 18; ++i) table.Append(10 * i, i);
   return table;
 }
 
-TEST(SharedTableTest, FindsWhatIsThere) {
+TEST(SharedTableTest, FindsIds) {
   const Table table = MakeTable();
   EXPECT_EQ(table.size(), 18u);
   for (int i = 1; i <= 18; ++i) {
@@ -41,7 +41,7 @@ TEST(SharedTableTest, FindsWhatIsThere) {
   EXPECT_EQ(table.back().first, 180);
 }
 
-TEST(SharedTableTest, AnEmptyTableFindsNothing) {
+TEST(SharedTableTest, FindsNothingIfEmpty) {
   Table table;
   EXPECT_TRUE(table.empty());
   EXPECT_EQ(table.size(), 0u);
@@ -52,18 +52,18 @@ TEST(SharedTableTest, AnEmptyTableFindsNothing) {
   EXPECT_TRUE(Contents(table).empty());
 }
 
-TEST(SharedTableTest, ValuesStayWhereTheyAreUntilTheyChange) {
+TEST(SharedTableTest, CopiesOnlyBlocksThatChange) {
   Table table = MakeTable();
   const Table shared = table.Share();
   EXPECT_EQ(shared.Find(50), table.Find(50));
   *table.FindToChange(60) = -6;
-  EXPECT_NE(shared.Find(50), table.Find(50));  // in the block of 60
-  EXPECT_EQ(shared.Find(90), table.Find(90));  // in the next
+  EXPECT_NE(shared.Find(50), table.Find(50));  // same block as 60
+  EXPECT_EQ(shared.Find(90), table.Find(90));  // next block
   EXPECT_EQ(*shared.Find(60), 6);
   EXPECT_EQ(*table.Find(60), -6);
 }
 
-TEST(SharedTableTest, BlocksThatAreNotSharedChangeInPlace) {
+TEST(SharedTableTest, ChangesUnsharedBlocksInPlace) {
   Table table = MakeTable();
   { const Table shared = table.Share(); }
   *table.FindToChange(60) = -6;
@@ -72,8 +72,8 @@ TEST(SharedTableTest, BlocksThatAreNotSharedChangeInPlace) {
   EXPECT_EQ(table.Find(50), place);
 }
 
-// Beside a map of the standard library, and snapshots on the way beside copies of it.
-TEST(SharedTableTest, IsAMapUnderAnyChanges) {
+// Compares table and snapshots with a std::map and copies of it.
+TEST(SharedTableTest, MatchesStdMapUnderRandomChanges) {
   std::mt19937 random(5);
   Table table;
   std::map<int64_t, int> expected;
@@ -88,9 +88,9 @@ TEST(SharedTableTest, IsAMapUnderAnyChanges) {
       expected.at(chosen) += 1;
     }
     for (int i = random() % 3; i > 0; --i) {
-      const int64_t gone = random() % (id + 1);
-      table.Erase(gone);
-      expected.erase(gone);
+      const int64_t erased = random() % (id + 1);
+      table.Erase(erased);
+      expected.erase(erased);
     }
     if (id % 300 != 0) continue;
     snapshots.push_back(table.Share());
@@ -104,7 +104,7 @@ TEST(SharedTableTest, IsAMapUnderAnyChanges) {
   for (size_t i = 0; i < snapshots.size(); ++i) EXPECT_EQ(Contents(snapshots[i]), copies[i]) << i;
 }
 
-TEST(SharedTableTest, ASnapshotMayChangeToo) {
+TEST(SharedTableTest, ChangesInASnapshotDoNotAffectTheTable) {
   Table table = MakeTable();
   Table shared = table.Share();
   shared.Erase(10);

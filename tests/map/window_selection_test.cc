@@ -9,8 +9,8 @@
 namespace msc_vo {
 namespace {
 
-// Keyframes 10 frames apart that see the same world; all associations known.
-class WindowTest : public ::testing::Test {
+// Keyframes 10 frames apart in one world, with the true associations.
+class WindowSelectionTest : public ::testing::Test {
  protected:
   void SetUp() override {
     SyntheticFrames::Options options;
@@ -22,7 +22,7 @@ class WindowTest : public ::testing::Test {
       Insert(world.MakeFrame(10 * i), SyntheticFrames::CamFromWorld(10 * i));
   }
 
-  // Features are matched with landmarks by their descriptors, which are unique.
+  // Matches features with landmarks by their descriptors, which are unique.
   void Insert(const std::shared_ptr<const Frame>& frame, const Rigid3& cam_from_world) {
     const KeyframeId id = map_.AddKeyframe(frame, cam_from_world);
     for (size_t i = 0; i < frame->points.size(); ++i) {
@@ -46,7 +46,7 @@ class WindowTest : public ::testing::Test {
   std::map<Descriptor, LandmarkId> line_of_;
 };
 
-TEST_F(WindowTest, HoldsTheGaugeAndTheObservers) {
+TEST_F(WindowSelectionTest, LimitsFreeAndFixedKeyframes) {
   WindowSelectionOptions options;
   options.max_keyframes = 3;
   options.max_fixed_keyframes = 2;
@@ -62,7 +62,7 @@ TEST_F(WindowTest, HoldsTheGaugeAndTheObservers) {
   EXPECT_GT(window.lines.size(), 10u);
 }
 
-TEST_F(WindowTest, FirstKeyframeIsFixedWhenAllAreInTheWindow) {
+TEST_F(WindowSelectionTest, FixesTheFirstKeyframeIfAllAreSelected) {
   const WindowData window = SelectWindow(WindowSelectionOptions(), map_, 5);
   ASSERT_EQ(window.keyframes.size(), 6u);
   for (const WindowData::Keyframe& keyframe : window.keyframes) {
@@ -70,22 +70,22 @@ TEST_F(WindowTest, FirstKeyframeIsFixedWhenAllAreInTheWindow) {
   }
 }
 
-TEST_F(WindowTest, EveryObservationRefersToWhatIsInTheWindow) {
+TEST_F(WindowSelectionTest, ObservationsReferToKeyframesOfTheWindow) {
   WindowSelectionOptions options;
   options.max_keyframes = 2;
   options.max_fixed_keyframes = 1;
   const WindowData window = SelectWindow(options, map_, 3);
-  std::map<int64_t, int> seen_points;
+  std::map<int64_t, int> num_observations;
   std::map<int64_t, int> keyframes;
   for (const auto& keyframe : window.keyframes) keyframes[keyframe.id] = 1;
-  for (const auto& seen : window.point_observations) {
-    EXPECT_EQ(keyframes.count(seen.keyframe), 1u);
-    ++seen_points[seen.point];
+  for (const auto& o : window.point_observations) {
+    EXPECT_EQ(keyframes.count(o.keyframe), 1u);
+    ++num_observations[o.point];
   }
-  for (const auto& point : window.points) EXPECT_GE(seen_points[point.id], 1) << point.id;
+  for (const auto& point : window.points) EXPECT_GE(num_observations[point.id], 1) << point.id;
 }
 
-TEST_F(WindowTest, WriteBackMovesWhatIsFreeAndForgetsWhatWasRejected) {
+TEST_F(WindowSelectionTest, WriteBackUpdatesTheMapAndRemovesRejectedObservations) {
   WindowData window = SelectWindow(WindowSelectionOptions(), map_, 5);
   const size_t observations_before =
       map_.FindPoint(window.point_observations[0].point)->observations.size();
@@ -102,15 +102,15 @@ TEST_F(WindowTest, WriteBackMovesWhatIsFreeAndForgetsWhatWasRejected) {
   EXPECT_EQ(map_.FindKeyframe(window.keyframes.back().id)->cam_from_world.params, pose.params);
 }
 
-TEST_F(WindowTest, CutFollowsTheObservationsNotTheEndPoints) {
+TEST_F(WindowSelectionTest, TrimsLinesToTheirObservations) {
   const LineLandmark& line = map_.lines().front().second;
-  // Slide both end points far along the line: the same line, other end points.
-  LineSegment3 slid;
-  slid.start = line.segment.At(-3.0);
-  slid.end = line.segment.At(0.2);
-  const LineSegment3 cut = TrimToObservations(map_, line, slid);
-  EXPECT_LT((cut.start - line.segment.start).norm(), 1e-6);
-  EXPECT_LT((cut.end - line.segment.end).norm(), 1e-6);
+  // The same infinite line with end points far along it.
+  LineSegment3 shifted;
+  shifted.start = line.segment.At(-3.0);
+  shifted.end = line.segment.At(0.2);
+  const LineSegment3 trimmed = TrimToObservations(map_, line, shifted);
+  EXPECT_LT((trimmed.start - line.segment.start).norm(), 1e-6);
+  EXPECT_LT((trimmed.end - line.segment.end).norm(), 1e-6);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ class CullingTest : public ::testing::Test {
     frame->lines.resize(1);
     return map_.AddKeyframe(frame, Rigid3());
   }
-  void SeeAll(KeyframeId keyframe) {
+  void ObserveAllPoints(KeyframeId keyframe) {
     for (int i = 0; i < 4; ++i) map_.ObservePoint(points_[i], keyframe, i);
   }
   void SetUp() override {
@@ -29,13 +29,13 @@ class CullingTest : public ::testing::Test {
   CullingOptions options_;
 };
 
-TEST_F(CullingTest, OnlyConfirmedLandmarksSurviveProbation) {
+TEST_F(CullingTest, RemovesUnconfirmedLandmarksAfterProbation) {
   Probation probation;
   probation.points.insert(points_.begin(), points_.end());
   const KeyframeId second = AddKeyframe();
   map_.ObservePoint(points_[0], second, 0);
   CullLandmarks(options_, second, &probation, &map_);
-  EXPECT_EQ(map_.points().size(), 4u);  // too early to say
+  EXPECT_EQ(map_.points().size(), 4u);  // still on probation
   const KeyframeId third = AddKeyframe();
   CullLandmarks(options_, third, &probation, &map_);
   EXPECT_EQ(map_.points().size(), 1u);
@@ -43,7 +43,7 @@ TEST_F(CullingTest, OnlyConfirmedLandmarksSurviveProbation) {
   EXPECT_TRUE(probation.points.empty());
 }
 
-TEST_F(CullingTest, LandmarksThatAreNotFoundAgainGoAtOnce) {
+TEST_F(CullingTest, RemovesLandmarksThatAreRarelyFound) {
   Probation probation;
   probation.points.insert(points_.begin(), points_.end());
   map_.CountPointTracking(points_[1], 20, 1);
@@ -52,17 +52,17 @@ TEST_F(CullingTest, LandmarksThatAreNotFoundAgainGoAtOnce) {
   EXPECT_EQ(map_.points().size(), 3u);
 }
 
-TEST_F(CullingTest, RedundantKeyframesGoButNotTheEnds) {
-  for (int i = 1; i <= 5; ++i) SeeAll(AddKeyframe());
+TEST_F(CullingTest, RemovesRedundantKeyframesExceptTheEnds) {
+  for (int i = 1; i <= 5; ++i) ObserveAllPoints(AddKeyframe());
   EXPECT_GT(CullKeyframes(options_, 5, &map_), 0);
   EXPECT_NE(map_.FindKeyframe(0), nullptr);
   EXPECT_NE(map_.FindKeyframe(4), nullptr);
   EXPECT_NE(map_.FindKeyframe(5), nullptr);
-  // Every landmark keeps the three observers that made the others redundant.
+  // Three observers of every landmark remain, which made the others redundant.
   EXPECT_EQ(map_.keyframes().size(), 3u);
 }
 
-TEST_F(CullingTest, AKeyframeWithAViewOfItsOwnStays) {
+TEST_F(CullingTest, KeepsKeyframesWithFewObservedLandmarks) {
   for (int i = 1; i <= 5; ++i) AddKeyframe();
   map_.ObservePoint(points_[0], 2, 0);
   map_.ObservePoint(points_[0], 5, 0);

@@ -11,7 +11,8 @@
 namespace msc_vo {
 namespace {
 
-// Two keyframes that each made landmarks of all they saw, as if tracking had found nothing.
+// Two keyframes of the same world, each with its own landmarks for all features, and one shared
+// landmark that makes them covisible.
 class FusionTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -22,10 +23,9 @@ class FusionTest : public ::testing::Test {
       CreatePoints(id, &probation_, &map_);
       CreateLines(id, &probation_, &map_);
     }
-    // They are neighbours only through what they share: one true pair.
-    Share();
+    MergeOnePair();
   }
-  void Share() {
+  void MergeOnePair() {
     const Keyframe& a = *map_.FindKeyframe(0);
     const Keyframe& b = *map_.FindKeyframe(1);
     for (size_t i = 0; i < a.points.size(); ++i) {
@@ -43,23 +43,23 @@ class FusionTest : public ::testing::Test {
   Probation probation_;
 };
 
-TEST_F(FusionTest, DuplicatesBecomeOne) {
+TEST_F(FusionTest, MergesDuplicates) {
   const size_t points_before = map_.points().size();
   const size_t lines_before = map_.lines().size();
   FusePoints(FusionOptions(), 1, &map_);
   FuseLines(FusionOptions(), 1, &map_);
-  // Nearly all points are visible in both frames; a few leave the image or hide in noise.
+  // Nearly all points are visible in both frames; a few leave the image or fail to match.
   EXPECT_LT(map_.points().size(), 0.65 * points_before);
   EXPECT_LT(map_.lines().size(), 0.75 * lines_before);
-  // What was merged is seen by both, and both keyframes agree about it.
+  // Observations and associations of the merged landmarks are consistent.
   for (const auto& [id, point] : map_.points()) {
-    for (const Observation& seen : point.observations) {
-      EXPECT_EQ(map_.FindKeyframe(seen.keyframe)->points[seen.feature], id);
+    for (const Observation& o : point.observations) {
+      EXPECT_EQ(map_.FindKeyframe(o.keyframe)->points[o.feature], id);
     }
   }
 }
 
-TEST_F(FusionTest, FeaturesThatMoveTakeNoPart) {
+TEST_F(FusionTest, IgnoresDynamicFeatures) {
   Map map;
   SyntheticFrames world{SyntheticFrames::Options()};
   const KeyframeId first = map.AddKeyframe(world.MakeFrame(0), SyntheticFrames::CamFromWorld(0));
@@ -67,25 +67,25 @@ TEST_F(FusionTest, FeaturesThatMoveTakeNoPart) {
   auto marked = std::make_shared<Frame>(*world.MakeFrame(15));
   for (size_t i = 1; i < marked->points.size(); ++i) marked->points[i].dynamic = i % 2 == 0;
   const KeyframeId second = map.AddKeyframe(marked, SyntheticFrames::CamFromWorld(15));
-  // One that both see makes them neighbours.
+  // One shared landmark makes the keyframes covisible.
   for (const LandmarkId id : map.FindKeyframe(first)->points) {
     if (HammingDistance(map.FindPoint(id)->descriptor, marked->points[0].descriptor) > 40) continue;
     map.ObservePoint(id, second, 0);
     break;
   }
   FusePoints(FusionOptions(), second, &map);
-  int num_seen = 0;
+  int num_observed = 0;
   for (size_t i = 0; i < marked->points.size(); ++i) {
-    const bool is_seen = map.FindKeyframe(second)->points[i] != kNoId;
-    EXPECT_FALSE(is_seen && marked->points[i].dynamic) << i;
-    num_seen += is_seen;
+    const bool is_observed = map.FindKeyframe(second)->points[i] != kNoId;
+    EXPECT_FALSE(is_observed && marked->points[i].dynamic) << i;
+    num_observed += is_observed;
   }
-  EXPECT_GT(num_seen, 0.3 * marked->points.size());  // of the half that rests
+  EXPECT_GT(num_observed, 0.3 * marked->points.size());  // of the static half
 }
 
-TEST_F(FusionTest, DifferentLandmarksStayApart) {
+TEST_F(FusionTest, KeepsDifferentLandmarksSeparate) {
   FusePoints(FusionOptions(), 1, &map_);
-  // Every landmark's sights have one descriptor, but for the bits that noise flips (12 in each).
+  // Descriptors of one landmark differ in the 12 bits at most that are flipped per observation.
   for (const auto& [id, point] : map_.points()) {
     if (point.observations.size() < 2) continue;
     const Observation& a = point.observations[0];

@@ -3,6 +3,8 @@
 
 #include "msc_vo/mapping/mapper.h"
 
+#include <cmath>
+
 #include "tests/support/synthetic_frames.h"
 #include "tests/support/synthetic_map.h"
 #include <gmock/gmock.h>
@@ -10,8 +12,7 @@
 namespace msc_vo {
 namespace {
 
-// Keyframes come with poses disturbed by 1 cm and half a degree, as a tracker on a thin map might
-// deliver them, and without any match: fusion must find what they share.
+// A keyframe without matches, whose pose has errors of 4 mm and 0.2 degrees (one sigma).
 KeyframePacket Packet(SyntheticFrames* world, int index, std::mt19937* random) {
   const auto normal = [&] { return std::normal_distribution<double>(0.0, 1.0)(*random); };
   KeyframePacket packet;
@@ -28,7 +29,7 @@ KeyframePacket Packet(SyntheticFrames* world, int index, std::mt19937* random) {
   return packet;
 }
 
-// Matches by descriptor alone, as unique as they are here.
+// Matches by descriptor alone; the descriptors are unique.
 void MatchWithMap(const Map& map, KeyframePacket* packet) {
   for (size_t i = 0; i < packet->frame->points.size(); ++i) {
     for (const auto& [id, point] : map.points()) {
@@ -45,7 +46,7 @@ MappingSummary Process(SyntheticFrames* world, int index, std::mt19937* random, 
   return mapper->Process(packet);
 }
 
-TEST(Mapper, FirstKeyframeMakesLandmarksOfAllThatHasDepth) {
+TEST(Mapper, CreatesLandmarksFromAllFeaturesOfTheFirstKeyframe) {
   SyntheticFrames world{SyntheticFrames::Options()};
   std::mt19937 random(1);
   Mapper mapper{MapperOptions()};
@@ -56,7 +57,7 @@ TEST(Mapper, FirstKeyframeMakesLandmarksOfAllThatHasDepth) {
   EXPECT_EQ(mapper.map().lines().size(), packet.frame->lines.size());
 }
 
-TEST(Mapper, WhatMovesBecomesNoLandmark) {
+TEST(Mapper, CreatesNoLandmarksOnDynamicObjects) {
   SyntheticFrames world{SyntheticFrames::Options()};
   std::mt19937 random(1);
   Mapper mapper{MapperOptions()};
@@ -72,7 +73,7 @@ TEST(Mapper, WhatMovesBecomesNoLandmark) {
   EXPECT_EQ(mapper.map().FindKeyframe(0)->lines[1], kNoId);
 }
 
-TEST(Mapper, WindowPullsDisturbedKeyframesBack) {
+TEST(Mapper, CorrectsPoseErrorsByBundleAdjustment) {
   SyntheticFrames world{SyntheticFrames::Options()};
   std::mt19937 random(1);
   Mapper mapper{MapperOptions()};
@@ -93,12 +94,12 @@ TEST(Mapper, WindowPullsDisturbedKeyframesBack) {
   EXPECT_TRUE(summary.window->usable);
   EXPECT_LT(summary.window->final_cost, summary.window->initial_cost);
   EXPECT_GT(summary.window->line_reprojection.num_residual_blocks, 0);
-  // The world does not grow with the keyframes: they see the same landmarks.
+  // The keyframes observe the same landmarks, so that the map does not grow with them.
   EXPECT_LT(mapper.map().points().size(), 400u);
   EXPECT_LT(mapper.map().lines().size(), 80u);
 }
 
-TEST(Mapper, UnrollsTheKeyframeWhoseVelocityThePacketTells) {
+TEST(Mapper, CompensatesKeyframesWhoseVelocityIsKnown) {
   SyntheticFrames world{SyntheticFrames::Options()};
   std::mt19937 random(1);
   MapperOptions options;
@@ -107,7 +108,7 @@ TEST(Mapper, UnrollsTheKeyframeWhoseVelocityThePacketTells) {
   const CameraVelocity velocity{{0.5, 0.0, 0.0}, {0.0, 0.1, 0.0}};
   mapper.Process(Packet(&world, 0, &random));
   EXPECT_EQ(mapper.Snapshot()->readout_time, 0.026);
-  EXPECT_EQ(mapper.map().FindKeyframe(0)->frame->readout_time, 0.0);  // nothing told how it moved
+  EXPECT_EQ(mapper.map().FindKeyframe(0)->frame->readout_time, 0.0);  // unknown velocity
   for (const int index : {10, 20}) {
     KeyframePacket packet = Packet(&world, index, &random);
     packet.last_velocity = velocity;
@@ -121,14 +122,14 @@ TEST(Mapper, UnrollsTheKeyframeWhoseVelocityThePacketTells) {
   EXPECT_FALSE(mapper.map().FindKeyframe(2)->frame->velocity.has_value());
 }
 
-TEST(Mapper, LandmarksOfTheFirstKeyframeMoveWithItsRowsBeforeAnyWindow) {
+TEST(Mapper, MovesLandmarksWithTheCompensationOfTheFirstKeyframe) {
   SyntheticFrames world{SyntheticFrames::Options()};
   std::mt19937 random(1);
   MapperOptions options;
   options.readout_time = 0.026;
   Mapper mapper{options};
   mapper.Process(Packet(&world, 0, &random));
-  const std::shared_ptr<const Frame> rolled = mapper.map().FindKeyframe(0)->frame;
+  const std::shared_ptr<const Frame> raw = mapper.map().FindKeyframe(0)->frame;
   KeyframePacket packet = Packet(&world, 10, &random);
   packet.last_velocity = CameraVelocity{{0.5, 0.0, 0.0}, {0.0, 0.1, 0.0}};
   mapper.Insert(packet);
@@ -139,14 +140,13 @@ TEST(Mapper, LandmarksOfTheFirstKeyframeMoveWithItsRowsBeforeAnyWindow) {
     const PointLandmark* point = mapper.map().FindPoint(first.points[i]);
     if (point == nullptr) continue;
     EXPECT_EQ(point->position, first.frame->PointInCamera(feature)) << i;
-    largest_move =
-        std::max(largest_move, (point->position - rolled->PointInCamera(feature)).norm());
+    largest_move = std::max(largest_move, (point->position - raw->PointInCamera(feature)).norm());
   }
-  // At 0.5 radians per second, half of 26 ms is 6.5 mm per metre of depth.
+  // 0.5 rad/s over half of 26 ms displace by 6.5 mm per metre of depth.
   EXPECT_GT(largest_move, 0.006);
 }
 
-TEST(Mapper, SnapshotsDoNotChange) {
+TEST(Mapper, TakesImmutableSnapshots) {
   SyntheticFrames world{SyntheticFrames::Options()};
   std::mt19937 random(1);
   Mapper mapper{MapperOptions()};
@@ -158,44 +158,44 @@ TEST(Mapper, SnapshotsDoNotChange) {
   EXPECT_EQ(mapper.Snapshot()->newest_keyframe, 1);
 }
 
-TEST(Mapper, WhatTheObserverSeesIsSolvedToTheSameBytes) {
+TEST(Mapper, PassesTheExactWindowToItsObserver) {
   SyntheticFrames world{SyntheticFrames::Options()};
   std::mt19937 random(1);
   MapperOptions options;
   options.window.second_iterations = 7;
   Mapper mapper(options);
   std::vector<KeyframeId> keyframes;
-  BundleAdjustmentOptions seen_options;
-  WindowData seen;
+  BundleAdjustmentOptions observed_options;
+  WindowData observed;
   mapper.SetWindowObserver([&](KeyframeId keyframe, const BundleAdjustmentOptions& window_options,
                                const WindowData& window) {
     keyframes.push_back(keyframe);
-    seen_options = window_options;
-    seen = window;
+    observed_options = window_options;
+    observed = window;
   });
   MappingSummary summary;
   for (int index = 0; index <= 30; index += 10) {
     summary = Process(&world, index, &random, &mapper);
   }
   ASSERT_TRUE(summary.window && summary.window->usable);
-  EXPECT_THAT(keyframes, testing::ElementsAre(1, 2, 3));  // the first alone has no window
-  EXPECT_EQ(seen_options.second_iterations, 7);
+  EXPECT_THAT(keyframes, testing::ElementsAre(1, 2, 3));  // one keyframe makes no window
+  EXPECT_EQ(observed_options.second_iterations, 7);
 
-  const WindowData before = seen;
-  const BundleAdjustmentSummary again = LocalBundleAdjustment(seen_options, &seen);
-  EXPECT_EQ(again.initial_cost, summary.window->initial_cost);
-  EXPECT_EQ(again.final_cost, summary.window->final_cost);
-  ASSERT_EQ(seen.keyframes.size(), 4u);
-  for (size_t i = 0; i < seen.keyframes.size(); ++i) {
-    const auto& [id, cam_from_world, fixed] = seen.keyframes[i];
+  const WindowData before = observed;
+  const BundleAdjustmentSummary repeated = LocalBundleAdjustment(observed_options, &observed);
+  EXPECT_EQ(repeated.initial_cost, summary.window->initial_cost);
+  EXPECT_EQ(repeated.final_cost, summary.window->final_cost);
+  ASSERT_EQ(observed.keyframes.size(), 4u);
+  for (size_t i = 0; i < observed.keyframes.size(); ++i) {
+    const auto& [id, cam_from_world, fixed] = observed.keyframes[i];
     EXPECT_EQ(cam_from_world.params, mapper.map().CamFromWorld(id).params);
     EXPECT_EQ(cam_from_world.params == before.keyframes[i].cam_from_world.params, fixed);
   }
 }
 
-// Keyframes 0, 2, 4, 6, 8, 10 at 30 Hz: the window of 2 is the first, those of 4 and 6 come within
-// 0.15 s of it, and 8 is 0.2 s behind.
-TEST(Mapper, KeyframesThatComeSoonWaitForTheNextWindow) {
+// Keyframes from frames 0, 2, ..., 10 at 30 Hz. The first window is that of frame 2; frames 4 and 6
+// follow within 0.15 s, frame 8 after 0.2 s.
+TEST(Mapper, WaitsForTheIntervalBetweenWindows) {
   SyntheticFrames world{SyntheticFrames::Options()};
   std::mt19937 random(1);
   MapperOptions options;
@@ -207,17 +207,17 @@ TEST(Mapper, KeyframesThatComeSoonWaitForTheNextWindow) {
     if (summary.window) with_window.push_back(summary.keyframe);
   }
   EXPECT_THAT(with_window, testing::ElementsAre(1, 4));
-  EXPECT_EQ(mapper.Snapshot()->newest_keyframe, 5);  // it is in the map all the same
+  EXPECT_EQ(mapper.Snapshot()->newest_keyframe, 5);  // inserted without a window
 
   options.min_window_interval = -0.1;
   EXPECT_THROW(Mapper{options}, std::invalid_argument);
 }
 
-TEST(Mapper, MemoryIsBoundedInOnePlace) {
+TEST(Mapper, BoundsTheMapOfOnePlace) {
   SyntheticFrames world{SyntheticFrames::Options()};
   std::mt19937 random(1);
   Mapper mapper{MapperOptions()};
-  // Forty keyframes that go to and fro over the same stretch.
+  // Forty keyframes along the same short trajectory, again and again.
   for (int i = 0; i < 40; ++i) {
     Process(&world, 3 * (i % 10), &random, &mapper);
   }
@@ -225,7 +225,46 @@ TEST(Mapper, MemoryIsBoundedInOnePlace) {
   EXPECT_LT(mapper.map().points().size(), 500u);
 }
 
-TEST(Mapper, RefusesBadOptions) {
+TEST(Mapper, RequestsNormalsUntilTheAxesAreKnown) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  Mapper mapper{MapperOptions()};
+  EXPECT_TRUE(mapper.Snapshot()->needs_axes);
+  KeyframePacket packet;
+  packet.frame = world.MakeFrame(0);
+  mapper.Process(packet);
+  EXPECT_FALSE(mapper.Snapshot()->needs_axes);
+}
+
+// Root mean square of the sines of the angles between the lines of the map and the nearest axis of
+// the box.
+double DirectionErrorOfTheMap(FrameStructureUse use, bool pairs) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  MapperOptions options;
+  options.frame_structure = use;
+  options.pairs.parallel = options.pairs.perpendicular = pairs;
+  options.structure.max_angle = 5.0;
+  Mapper mapper(options);
+  KeyframePacket packet;
+  packet.frame = world.MakeFrame(0);
+  packet.cam_from_reference = SyntheticFrames::CamFromWorld(0);
+  mapper.Process(packet);
+  double squares = 0.0;
+  for (const auto& [id, line] : mapper.map().lines()) {
+    const double cosine = line.segment.Direction().cwiseAbs().maxCoeff();
+    squares += 1.0 - cosine * cosine;
+  }
+  return std::sqrt(squares / static_cast<double>(mapper.map().lines().size()));
+}
+
+TEST(Mapper, RefinesLinesOfKeyframesAsTheOptionsRequire) {
+  const double measured = DirectionErrorOfTheMap(FrameStructureUse::kNever, false);
+  const double refined = DirectionErrorOfTheMap(FrameStructureUse::kAlways, true);
+  EXPECT_LT(refined, 0.7 * measured);
+  EXPECT_EQ(DirectionErrorOfTheMap(FrameStructureUse::kWithoutPairs, false), refined);
+  EXPECT_EQ(DirectionErrorOfTheMap(FrameStructureUse::kWithoutPairs, true), measured);
+}
+
+TEST(Mapper, RejectsInvalidOptions) {
   MapperOptions options;
   options.culling.redundant_ratio = 2.0;
   EXPECT_THROW(Mapper{options}, std::invalid_argument);

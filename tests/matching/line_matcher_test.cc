@@ -15,11 +15,11 @@ LineSegment2 Segment(double x0, double y0, double x1, double y1) {
   return segment;
 }
 
-// One candidate along y = 100 from x = 100 to 200, and one feature.
-size_t NumMatches(const LineSegment2& seen, int flipped_bytes = 0, double radius = 5.0) {
+// Number of matches of one feature with one candidate along y = 100 from x = 100 to 200.
+size_t NumMatches(const LineSegment2& segment, int flipped_bytes = 0, double radius = 5.0) {
   Frame frame;
   LineFeature feature;
-  feature.segment = seen;
+  feature.segment = segment;
   for (int i = 0; i < flipped_bytes; ++i) feature.descriptor[i] = 0xff;
   frame.lines = {feature};
   LineCandidate candidate;
@@ -27,21 +27,21 @@ size_t NumMatches(const LineSegment2& seen, int flipped_bytes = 0, double radius
   return MatchLines(LineMatcherOptions(), frame, {candidate}, radius, {}).size();
 }
 
-TEST(LineMatcher, AcceptsTheSameLineAndPartsOfIt) {
+TEST(LineMatcher, MatchesTheSameLineAndFragmentsOfIt) {
   EXPECT_EQ(NumMatches(Segment(100, 100, 200, 100)), 1u);
   EXPECT_EQ(NumMatches(Segment(120, 102, 150, 103)), 1u);
   EXPECT_EQ(NumMatches(Segment(50, 100, 400, 100)), 1u);
 }
 
-TEST(LineMatcher, EveryGateSaysNo) {
-  EXPECT_EQ(NumMatches(Segment(100, 106, 200, 106)), 0u);      // too far
-  EXPECT_EQ(NumMatches(Segment(100, 90, 200, 110)), 0u);       // turned by 11 degrees
-  EXPECT_EQ(NumMatches(Segment(200, 100, 100, 100)), 0u);      // the other way round
-  EXPECT_EQ(NumMatches(Segment(180, 100, 280, 100)), 0u);      // shares a fifth only
-  EXPECT_EQ(NumMatches(Segment(100, 100, 200, 100), 11), 0u);  // 88 bits differ
+TEST(LineMatcher, AppliesEveryGate) {
+  EXPECT_EQ(NumMatches(Segment(100, 106, 200, 106)), 0u);      // distance
+  EXPECT_EQ(NumMatches(Segment(100, 90, 200, 110)), 0u);       // angle of 11 degrees
+  EXPECT_EQ(NumMatches(Segment(200, 100, 100, 100)), 0u);      // opposite direction
+  EXPECT_EQ(NumMatches(Segment(180, 100, 280, 100)), 0u);      // overlap of a fifth
+  EXPECT_EQ(NumMatches(Segment(100, 100, 200, 100), 11), 0u);  // descriptor distance of 88 bits
 }
 
-TEST(LineMatcher, TakesTheNearerOfTwoAlike) {
+TEST(LineMatcher, PrefersTheNearerOfEqualDescriptors) {
   Frame frame;
   frame.lines.resize(1);
   frame.lines[0].segment = Segment(100, 100, 200, 100);
@@ -54,15 +54,24 @@ TEST(LineMatcher, TakesTheNearerOfTwoAlike) {
   const auto matches = MatchLines(LineMatcherOptions(), frame, {far, near}, 5.0, {});
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches[0].id, 2);
-  EXPECT_TRUE(MatchLines(LineMatcherOptions(), frame, {far, near}, 5.0, {true}).empty());
+}
+
+TEST(LineMatcher, ExcludesTakenAndDynamicFeatures) {
+  Frame frame;
+  frame.lines.resize(1);
+  frame.lines[0].segment = Segment(100, 100, 200, 100);
+  LineCandidate candidate;
+  candidate.image = Segment(100, 101, 200, 101);
+  EXPECT_EQ(MatchLines(LineMatcherOptions(), frame, {candidate}, 5.0, {false}).size(), 1u);
+  EXPECT_TRUE(MatchLines(LineMatcherOptions(), frame, {candidate}, 5.0, {true}).empty());
   frame.lines[0].dynamic = true;
-  EXPECT_TRUE(MatchLines(LineMatcherOptions(), frame, {far, near}, 5.0, {}).empty());
+  EXPECT_TRUE(MatchLines(LineMatcherOptions(), frame, {candidate}, 5.0, {}).empty());
 }
 
 TEST(LineMatcher, ProjectsTheVisiblePart) {
   const PinholeCamera camera;
   LineCandidate candidate;
-  // From behind the camera to in front of it, leaving the image on the way.
+  // Starts behind the camera and outside the image, ends inside.
   candidate.segment.start = Eigen::Vector3d(0, 0, -1);
   candidate.segment.end = Eigen::Vector3d(0.5, 0, 2);
   ASSERT_TRUE(ProjectCandidate(camera, Rigid3(), &candidate));

@@ -16,7 +16,7 @@ Descriptor Flip(Descriptor descriptor, int bits) {
 
 class PointMatcherTest : public ::testing::Test {
  protected:
-  // Adds a feature, and a grid over all of them.
+  // Adds a feature and rebuilds the grid.
   void AddFeature(double x, double y, const Descriptor& descriptor, int level = 0) {
     PointFeature feature;
     feature.pixel = {x, y};
@@ -40,7 +40,7 @@ class PointMatcherTest : public ::testing::Test {
   Descriptor zero_{};
 };
 
-TEST_F(PointMatcherTest, TakesTheNearestDescriptorWithinTheRadius) {
+TEST_F(PointMatcherTest, SelectsTheNearestDescriptorWithinTheRadius) {
   AddFeature(100, 100, Flip(zero_, 40));
   AddFeature(104, 100, Flip(zero_, 5));
   AddFeature(140, 100, zero_);  // the same descriptor, too far away
@@ -50,7 +50,7 @@ TEST_F(PointMatcherTest, TakesTheNearestDescriptorWithinTheRadius) {
   EXPECT_EQ(matches[0].id, 7);
 }
 
-TEST_F(PointMatcherTest, RefusesUnlikeAmbiguousOrTakenFeatures) {
+TEST_F(PointMatcherTest, RejectsDistantAmbiguousTakenAndDynamicFeatures) {
   AddFeature(100, 100, Flip(zero_, 100));
   EXPECT_TRUE(MatchPoints(options_, frame_, {Candidate(7, 100, 100, zero_)}, 10.0, {}).empty());
   AddFeature(102, 100, Flip(zero_, 30));
@@ -66,13 +66,13 @@ TEST_F(PointMatcherTest, RefusesUnlikeAmbiguousOrTakenFeatures) {
           .empty());
 }
 
-TEST_F(PointMatcherTest, LevelsMustAgree) {
+TEST_F(PointMatcherTest, RequiresASimilarLevel) {
   AddFeature(100, 100, zero_, 4);
   EXPECT_TRUE(MatchPoints(options_, frame_, {Candidate(7, 100, 100, zero_, 1)}, 10, {}).empty());
   EXPECT_EQ(MatchPoints(options_, frame_, {Candidate(7, 100, 100, zero_, 3)}, 10, {}).size(), 1u);
 }
 
-TEST_F(PointMatcherTest, AFeatureGoesToItsBestCandidate) {
+TEST_F(PointMatcherTest, AssignsAFeatureToItsBestCandidate) {
   AddFeature(100, 100, Flip(zero_, 10));
   const auto matches =
       MatchPoints(options_, frame_,
@@ -83,7 +83,7 @@ TEST_F(PointMatcherTest, AFeatureGoesToItsBestCandidate) {
   EXPECT_EQ(matches[0].id, 2);
 }
 
-TEST_F(PointMatcherTest, ProjectsOnlyWhatIsInFrontAndInside) {
+TEST_F(PointMatcherTest, ProjectsPointsInFrontAndInsideTheImage) {
   PointCandidate candidate;
   candidate.position = {0, 0, 2};
   EXPECT_TRUE(ProjectCandidate(frame_.camera, Rigid3(), &candidate));

@@ -14,16 +14,16 @@
 namespace msc_vo {
 namespace {
 
-// A room behind a board one metre away that covers the columns from `left` to `right`. The world is
-// that of the true camera; the board is where it was before it moved.
+// A static room behind a board at one metre, which covers the columns from `left` to `right` and
+// has moved by `board_motion` since it was mapped. The true pose of the camera is the identity.
 struct BoardScene {
   int num_room = 400;
   int num_board = 250;
-  int num_lines = 30;  // of the room, to the right of the board
+  int num_lines = 30;  // in the room, to the right of the board
   double left = 60.0;  // pixels
   double right = 240.0;
   Eigen::Vector3d board_motion = Eigen::Vector3d(0.03, 0.0, 0.0);  // metres
-  bool is_board_proven = true;
+  bool is_board_confirmed = true;
   unsigned seed = 1;
 };
 
@@ -36,7 +36,7 @@ class BoardMaker {
     data.cam_from_world = Rigid3(ExpSO3(Eigen::Vector3d(2e-3, -3e-3, 1e-3)), {4e-3, -2e-3, 3e-3});
     for (int i = 0; i < scene_.num_board; ++i) {
       const Eigen::Vector2d pixel(Uniform(scene_.left, scene_.right), Uniform(50.0, 479.0));
-      AddPoint(pixel, 1.0, -scene_.board_motion, scene_.is_board_proven, &data);
+      AddPoint(pixel, 1.0, -scene_.board_motion, scene_.is_board_confirmed, &data);
     }
     while (static_cast<int>(data.points.size()) < scene_.num_board + scene_.num_room) {
       const Eigen::Vector2d pixel(Uniform(0.0, 639.0), Uniform(0.0, 479.0));
@@ -63,7 +63,7 @@ class BoardMaker {
     point.pixel = pixel + 0.7 * Eigen::Vector2d(normal_(random_), normal_(random_));
     point.inverse_depth_sigma = 2e-3;
     point.inverse_depth = 1.0 / z + point.inverse_depth_sigma * normal_(random_);
-    point.confirmed = proven;
+    point.confirmed = confirmed;
     data->points.push_back(point);
   }
 
@@ -75,7 +75,7 @@ class BoardMaker {
     line.segment.end = {630.0, Uniform(20.0, 460.0)};
     line.map_segment.start = data->camera.BackProject(line.segment.start, z);
     line.map_segment.end = data->camera.BackProject(line.segment.end, z + 0.5);
-    line.sigma = 0.15;  // as learnt from rendered rooms
+    line.sigma = 0.15;  // self-calibrated value of rendered rooms
     line.segment.start.y() += line.sigma * normal_(random_);
     line.segment.end.y() += line.sigma * normal_(random_);
     data->lines.push_back(line);
@@ -86,10 +86,11 @@ class BoardMaker {
   std::normal_distribution<double> normal_;
 };
 
-double ErrorOf(const BoardScene& scene, const PoseOptions& options) {
+// Error of the estimated position, metres.
+double PositionError(const BoardScene& scene, const PoseOptions& options) {
   PoseData data = BoardMaker(scene).Make();
   EXPECT_TRUE(OptimizePose(options, &data).usable);
-  return data.cam_from_world.translation().norm();  // the true one is the identity
+  return data.cam_from_world.translation().norm();
 }
 
 PoseOptions WithoutConsensus() {
@@ -98,61 +99,62 @@ PoseOptions WithoutConsensus() {
   return options;
 }
 
-// Turning and moving along, a camera explains the board and nearly explains the room.
-TEST(CellConsensusTest, ABoardThatMovesDoesNotMoveTheCamera) {
+// A rotating and translating camera explains the motion of the board and nearly explains the room.
+TEST(CellConsensusTest, IgnoresADynamicBoard) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     BoardScene scene;
     scene.seed = seed;
-    // Measured over these: 0.3 to 1.4 mm, and 38 to 39 mm without.
-    EXPECT_LT(ErrorOf(scene, PoseOptions()), 0.004) << seed;
-    EXPECT_GT(ErrorOf(scene, WithoutConsensus()), 0.03) << seed;
+    // Measured: 0.3 to 1.4 mm with and 38 to 39 mm without consensus.
+    EXPECT_LT(PositionError(scene, PoseOptions()), 0.004) << seed;
+    EXPECT_GT(PositionError(scene, WithoutConsensus()), 0.03) << seed;
   }
 }
 
-TEST(CellConsensusTest, WhatMovesIsSaidAndIsNeitherInlierNorFailure) {
+TEST(CellConsensusTest, ReportsDynamicMatchesAndCells) {
   const BoardScene scene;
   const BoardMaker maker(scene);
   PoseData data = BoardMaker(scene).Make();
   const PoseSummary summary = OptimizePose(PoseOptions(), &data);
-  int board_moves = 0, room_moves = 0;
+  int num_dynamic_board = 0, num_dynamic_room = 0;
   for (const PoseData::Point& point : data.points) {
     EXPECT_FALSE(point.dynamic && point.inlier);
-    (maker.IsBoard(point.pixel) ? board_moves : room_moves) += point.dynamic;
+    (maker.IsBoard(point.pixel) ? num_dynamic_board : num_dynamic_room) += point.dynamic;
   }
-  EXPECT_GT(board_moves, 0.9 * scene.num_board);
-  EXPECT_LT(room_moves, 0.2 * scene.num_room);  // parts at the edges hold both
+  EXPECT_GT(num_dynamic_board, 0.9 * scene.num_board);
+  EXPECT_LT(num_dynamic_room, 0.2 * scene.num_room);  // cells at the edges contain both
   EXPECT_EQ(summary.num_dynamic,
-            board_moves + room_moves +
+            num_dynamic_board + num_dynamic_room +
                 std::count_if(data.lines.begin(), data.lines.end(),
                               [](const PoseData::Line& l) { return l.dynamic; }));
-  // Matches move with their part (a line: of its middle), and parts without a match rest.
+  // A match is dynamic if its cell is (lines: the cell of the midpoint). Cells without matches are
+  // static.
   const CellConsensusOptions options;
-  const ImageGrid parts(options.columns, options.rows, data.camera);
-  ASSERT_EQ(summary.dynamic_cells.size(), static_cast<size_t>(parts.size()));
-  std::vector<bool> with_matches(parts.size());
+  const ImageGrid grid(options.columns, options.rows, data.camera);
+  ASSERT_EQ(summary.dynamic_cells.size(), static_cast<size_t>(grid.size()));
+  std::vector<bool> with_matches(grid.size());
   for (const PoseData::Point& point : data.points) {
-    EXPECT_EQ(point.dynamic, summary.dynamic_cells[parts.CellOf(point.pixel)]);
-    with_matches[parts.CellOf(point.pixel)] = true;
+    EXPECT_EQ(point.dynamic, summary.dynamic_cells[grid.CellOf(point.pixel)]);
+    with_matches[grid.CellOf(point.pixel)] = true;
   }
   for (const PoseData::Line& line : data.lines) {
-    EXPECT_EQ(line.dynamic, summary.dynamic_cells[parts.CellOf(line.segment)]);
-    for (const int part : parts.CellsOf(line.segment)) with_matches[part] = true;
+    EXPECT_EQ(line.dynamic, summary.dynamic_cells[grid.CellOf(line.segment)]);
+    for (const int cell : grid.CellsOf(line.segment)) with_matches[cell] = true;
   }
-  for (int part = 0; part < parts.size(); ++part) {
-    EXPECT_TRUE(with_matches[part] || !summary.dynamic_cells[part]) << part;
+  for (int cell = 0; cell < grid.size(); ++cell) {
+    EXPECT_TRUE(with_matches[cell] || !summary.dynamic_cells[cell]) << cell;
   }
 }
 
-TEST(CellConsensusTest, ItDoesNotMatterWhereTheBoardIs) {
+TEST(CellConsensusTest, IsIndependentOfThePositionOfTheBoard) {
   for (const double left : {0.0, 120.0, 230.0, 340.0}) {
     BoardScene scene;
     scene.left = left;
     scene.right = left + 180.0;
-    EXPECT_LT(ErrorOf(scene, PoseOptions()), 0.005) << left;
+    EXPECT_LT(PositionError(scene, PoseOptions()), 0.005) << left;
   }
 }
 
-TEST(CellConsensusTest, ARoomThatStandsStillIsLeftAlone) {
+TEST(CellConsensusTest, DoesNotChangeTheResultOfAStaticScene) {
   for (unsigned seed = 1; seed <= 50; ++seed) {
     BoardScene scene;
     scene.board_motion = Eigen::Vector3d::Zero();
@@ -167,37 +169,37 @@ TEST(CellConsensusTest, ARoomThatStandsStillIsLeftAlone) {
   }
 }
 
-// The room has a tenth of the points, in as many parts as the board. Its lines run through more.
-TEST(CellConsensusTest, LinesVoteWhereverTheyRun) {
-  int num_captured = 0;
+// The room has a tenth of the board's points, in as many cells. Its lines cross more cells.
+TEST(CellConsensusTest, CountsAllCellsOfALine) {
+  int num_failures = 0;
   for (unsigned seed = 1; seed <= 6; ++seed) {
     BoardScene scene;
     scene.seed = seed;
     scene.num_room = 25;
     scene.right = 180.0;
     scene.board_motion = {0.08, 0.0, 0.0};
-    EXPECT_LT(ErrorOf(scene, PoseOptions()), 0.01) << seed;  // measured: 0.6 to 2 mm
+    EXPECT_LT(PositionError(scene, PoseOptions()), 0.01) << seed;  // measured: 0.6 to 2 mm
     scene.num_lines = 3;
-    num_captured += ErrorOf(scene, PoseOptions()) > 0.02 ? 1 : 0;
+    num_failures += PositionError(scene, PoseOptions()) > 0.02 ? 1 : 0;
   }
-  EXPECT_GE(num_captured, 4);  // without them; measured: 5 of 6
+  EXPECT_GE(num_failures, 4);  // without most lines; measured: 5 of 6
 }
 
-// Half of the image each.
-TEST(CellConsensusTest, WhatIsProvenHasMoreToSay) {
+// Board and room cover half of the image each.
+TEST(CellConsensusTest, WeightsConfirmedLandmarksMore) {
   BoardScene scene;
   scene.left = 0.0;
   scene.right = 340.0;
   scene.num_board = 400;
   scene.num_lines = 0;
   scene.board_motion = {0.03, 0.0, 0.0};
-  scene.is_board_proven = false;
-  EXPECT_LT(ErrorOf(scene, PoseOptions()), 0.01);
-  scene.is_board_proven = true;
-  EXPECT_GT(ErrorOf(scene, PoseOptions()), 0.02);
+  scene.is_board_confirmed = false;
+  EXPECT_LT(PositionError(scene, PoseOptions()), 0.01);
+  scene.is_board_confirmed = true;
+  EXPECT_GT(PositionError(scene, PoseOptions()), 0.02);
 }
 
-TEST(CellConsensusTest, RejectsOptionsThatMeanNothing) {
+TEST(CellConsensusTest, RejectsInvalidOptions) {
   const auto is_valid = [](void (*spoil)(CellConsensusOptions*)) {
     CellConsensusOptions options;
     spoil(&options);

@@ -20,18 +20,18 @@ ImageGrid FourByTwo() {
   return {4, 2, camera};
 }
 
-TEST(ImageGrid, AreNumberedRowByRow) {
-  const ImageGrid parts = FourByTwo();
-  EXPECT_EQ(parts.size(), 8);
-  EXPECT_EQ(parts.CellOf({10.0, 10.0}), 0);
-  EXPECT_EQ(parts.CellOf({60.0, 10.0}), 2);
-  EXPECT_EQ(parts.CellOf({60.0, 70.0}), 6);
-  for (int part = 0; part < parts.size(); ++part) {
-    EXPECT_EQ(parts.CellOf(100.0 * parts.CenterOf(part)), part);
+TEST(ImageGrid, NumbersCellsRowByRow) {
+  const ImageGrid grid = FourByTwo();
+  EXPECT_EQ(grid.size(), 8);
+  EXPECT_EQ(grid.CellOf({10.0, 10.0}), 0);
+  EXPECT_EQ(grid.CellOf({60.0, 10.0}), 2);
+  EXPECT_EQ(grid.CellOf({60.0, 70.0}), 6);
+  for (int cell = 0; cell < grid.size(); ++cell) {
+    EXPECT_EQ(grid.CellOf(100.0 * grid.CenterOf(cell)), cell);
   }
 }
 
-TEST(ImageGrid, MapsNonFinitePixelsToSomeCell) {
+TEST(ImageGrid, MapsNonFinitePixelsToAValidCell) {
   const ImageGrid grid = FourByTwo();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(grid.CellOf({nan, nan}), 0);
@@ -42,19 +42,19 @@ TEST(ImageGrid, MapsNonFinitePixelsToSomeCell) {
   }
 }
 
-TEST(ImageGrid, PixelsOutsideBelongToTheNearest) {
-  const ImageGrid parts = FourByTwo();
-  EXPECT_EQ(parts.CellOf({-3.0, 20.0}), 0);
-  EXPECT_EQ(parts.CellOf({102.0, 20.0}), 3);
-  EXPECT_EQ(parts.CellOf({60.0, 104.0}), 6);
+TEST(ImageGrid, AssignsPixelsOutsideToTheNearestCell) {
+  const ImageGrid grid = FourByTwo();
+  EXPECT_EQ(grid.CellOf({-3.0, 20.0}), 0);
+  EXPECT_EQ(grid.CellOf({102.0, 20.0}), 3);
+  EXPECT_EQ(grid.CellOf({60.0, 104.0}), 6);
 }
 
-TEST(ImageGrid, SegmentsRunThroughSeveral) {
-  const ImageGrid parts = FourByTwo();
-  EXPECT_THAT(parts.CellsOf({{90.0, 20.0}, {10.0, 20.0}}), ElementsAre(3, 2, 1, 0));
-  EXPECT_THAT(parts.CellsOf({{10.0, 20.0}, {10.0, 90.0}}), ElementsAre(0, 4));
-  EXPECT_THAT(parts.CellsOf({{10.0, 20.0}, {12.0, 22.0}}), ElementsAre(0));
-  EXPECT_EQ(parts.CellOf(LineSegment2{{90.0, 20.0}, {14.0, 20.0}}), 2);
+TEST(ImageGrid, ListsTheCellsOfASegment) {
+  const ImageGrid grid = FourByTwo();
+  EXPECT_THAT(grid.CellsOf({{90.0, 20.0}, {10.0, 20.0}}), ElementsAre(3, 2, 1, 0));
+  EXPECT_THAT(grid.CellsOf({{10.0, 20.0}, {10.0, 90.0}}), ElementsAre(0, 4));
+  EXPECT_THAT(grid.CellsOf({{10.0, 20.0}, {12.0, 22.0}}), ElementsAre(0));
+  EXPECT_EQ(grid.CellOf(LineSegment2{{90.0, 20.0}, {14.0, 20.0}}), 2);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace msc_vo {
 namespace {
 
-// All matches of one frame, some of them wrong, with robust losses.
+// Factors of all matches of one frame, including outliers, with robust losses.
 PoseFactors MakeFactors(const PoseData& data) {
   PoseFactors factors;
   factors.point_reprojection.huber = factors.line_reprojection.huber = 2.448;
@@ -37,7 +37,7 @@ PoseFactors MakeFactors(const PoseData& data) {
   return factors;
 }
 
-// The same sum of factors as a Ceres problem: the definition.
+// Reference: the same factors as a Ceres problem.
 class CeresForm {
  public:
   CeresForm(const PoseFactors& factors, const Rigid3& pose) : pose_(pose) {
@@ -103,11 +103,11 @@ class PoseFactorsTest : public ::testing::TestWithParam<double> {
 };
 INSTANTIATE_TEST_SUITE_P(FocalLength, PoseFactorsTest, ::testing::Values(525.0, -480.0));
 
-TEST_P(PoseFactorsTest, RowsAreCounted) {
+TEST_P(PoseFactorsTest, CountsResidualRows) {
   EXPECT_EQ(factors_.NumRows(), 60 * (2 + 1) + 20 * (2 + 2));
 }
 
-TEST_P(PoseFactorsTest, NormalEquationsAreThoseOfCeres) {
+TEST_P(PoseFactorsTest, NormalEquationsMatchCeres) {
   NormalEquations ours;
   ASSERT_TRUE(factors_.Linearize(data_.cam_from_world, &ours));
   const NormalEquations ceres = CeresForm(factors_, data_.cam_from_world).Linearize();
@@ -116,20 +116,20 @@ TEST_P(PoseFactorsTest, NormalEquationsAreThoseOfCeres) {
   EXPECT_THAT(ours.hessian, IsNear(ceres.hessian, 1e-10 * ceres.hessian.norm()));
 }
 
-TEST_P(PoseFactorsTest, MinimumIsThatOfCeres) {
+TEST_P(PoseFactorsTest, MinimumMatchesCeres) {
   Rigid3 pose = data_.cam_from_world;
   EXPECT_EQ(MinimizePose(factors_, 50, &pose), LevenbergMarquardtTermination::kConverged);
   const Rigid3 ceres = CeresForm(factors_, data_.cam_from_world).Solve();
-  // A thousandth of the pose's standard deviation (about 1 mm) is the promise.
+  // A thousandth of the standard deviation of the pose, which is about 1 mm.
   EXPECT_LT(Distance(pose, ceres), 1e-6);
 }
 
-TEST_P(PoseFactorsTest, IterationLimitIsReported) {
+TEST_P(PoseFactorsTest, ReportsTheIterationLimit) {
   Rigid3 pose = data_.cam_from_world;
   EXPECT_EQ(MinimizePose(factors_, 1, &pose), LevenbergMarquardtTermination::kIterationLimit);
 }
 
-TEST_P(PoseFactorsTest, FailsUnchangedWhereAFactorIsUndefined) {
+TEST_P(PoseFactorsTest, FailsWithUnchangedPoseWhereAFactorIsUndefined) {
   const Rigid3 behind(Eigen::Quaterniond::Identity(), {0.0, 0.0, -10.0});
   Rigid3 pose = behind;
   EXPECT_EQ(MinimizePose(factors_, 10, &pose), LevenbergMarquardtTermination::kFailed);

@@ -21,7 +21,7 @@ constexpr int kFrame = 4;  // of the synthetic window
 Rigid3 Truth(const TestWindow& window) { return window.truth.keyframes[kFrame].cam_from_world; }
 
 // Normalised estimation error squared: chi-square with six degrees of freedom if the covariance is
-// right.
+// consistent.
 double Nees(const Rigid3& estimate, const PoseSummary& summary, const Rigid3& truth) {
   Eigen::Matrix<double, 6, 1> error;
   Rigid3Manifold().Minus(estimate.params.data(), truth.params.data(), error.data());
@@ -29,7 +29,7 @@ double Nees(const Rigid3& estimate, const PoseSummary& summary, const Rigid3& tr
 }
 
 // The parameter is fy.
-class PoseProblemTest : public ::testing::TestWithParam<double> {
+class PoseOptimizationTest : public ::testing::TestWithParam<double> {
  protected:
   TestWindowOptions Scene() const {
     TestWindowOptions options;
@@ -37,9 +37,9 @@ class PoseProblemTest : public ::testing::TestWithParam<double> {
     return options;
   }
 };
-INSTANTIATE_TEST_SUITE_P(FocalLength, PoseProblemTest, ::testing::Values(525.0, -480.0));
+INSTANTIATE_TEST_SUITE_P(FocalLength, PoseOptimizationTest, ::testing::Values(525.0, -480.0));
 
-TEST_P(PoseProblemTest, ExactMatchesGiveTheExactPose) {
+TEST_P(PoseOptimizationTest, RecoversThePoseFromExactMatches) {
   TestWindowOptions scene = Scene();
   scene.noise = 0.0;
   const TestWindow window = MakeTestWindow(scene);
@@ -52,7 +52,7 @@ TEST_P(PoseProblemTest, ExactMatchesGiveTheExactPose) {
   EXPECT_NEAR(summary.final_cost, 0.0, 1e-8);
 }
 
-TEST_P(PoseProblemTest, PixelsOfPointsOrOfLinesAloneFixThePose) {
+TEST_P(PoseOptimizationTest, RecoversThePoseFromPixelsOfOneKind) {
   TestWindowOptions scene = Scene();
   scene.noise = 0.0;
   const TestWindow window = MakeTestWindow(scene);
@@ -67,8 +67,8 @@ TEST_P(PoseProblemTest, PixelsOfPointsOrOfLinesAloneFixThePose) {
   }
 }
 
-TEST_P(PoseProblemTest, DepthOfPointsAloneIsNotUsable) {
-  // It says nothing of a turn about the optical axis, among others.
+TEST_P(PoseOptimizationTest, IsNotUsableWithDepthsOfPointsOnly) {
+  // Depths do not constrain the rotation about the optical axis, among others.
   PoseOptions options;
   options.point_reprojection.enabled = options.line_reprojection.enabled = false;
   options.line_depth.enabled = false;
@@ -76,17 +76,17 @@ TEST_P(PoseProblemTest, DepthOfPointsAloneIsNotUsable) {
   EXPECT_FALSE(OptimizePose(options, &data).usable);
 }
 
-TEST_P(PoseProblemTest, NoiseAndWrongMatches) {
+TEST_P(PoseOptimizationTest, ToleratesNoiseAndOutliers) {
   TestWindowOptions scene = Scene();
   scene.outlier_ratio = 0.3;
   const TestWindow window = MakeTestWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
   const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   ASSERT_TRUE(summary.usable);
-  // Within the ellipsoid of its own covariance that holds 99.9 % (six degrees of freedom).
+  // Inside the 99.9 % confidence ellipsoid of its covariance (six degrees of freedom).
   EXPECT_LT(Nees(data.cam_from_world, summary, Truth(window)), 22.46);
   EXPECT_LT(std::sqrt(summary.covariance.trace()), 0.005);
-  // The flags, against which matches were made wrong.
+  // Compare the inlier flags with the generated outliers.
   int point = 0, line = 0, good = 0, kept = 0;
   const auto count = [&](bool wrong, bool inlier) {
     EXPECT_FALSE(wrong && inlier);
@@ -101,53 +101,53 @@ TEST_P(PoseProblemTest, NoiseAndWrongMatches) {
     if (window.truth.line_observations[i].keyframe != window.truth.keyframes[kFrame].id) continue;
     count(window.line_outliers[i], data.lines[line++].inlier);
   }
-  // The test lets 1 % of good matches go.
+  // The chi-square test rejects 1 % of the good matches.
   EXPECT_GE(kept, 0.96 * good);
   EXPECT_EQ(kept, summary.num_inlier_points + summary.num_inlier_lines);
 }
 
-TEST_P(PoseProblemTest, AFrameThatIsSeenWorseKeepsItsMatches) {
+TEST_P(PoseOptimizationTest, InflatesTheSigmasOfANoisyFrame) {
   TestWindowOptions scene = Scene();
   scene.noise = 1.8;
   const TestWindow window = MakeTestWindow(scene);
-  const auto share_of_inliers = [&](double max_frame_noise) {
+  const auto inlier_ratio = [&](double max_frame_noise) {
     PoseOptions options;
     options.max_frame_noise = max_frame_noise;
     PoseData data = MakePoseData(window, kFrame);
     const auto num_points = static_cast<double>(data.points.size());
     return OptimizePose(options, &data).num_inlier_points / num_points;
   };
-  // Of normal errors 1 - exp(-9.21 / 2 / 1.8^2) = 0.76 pass a test for sigmas 1.8 times too small.
-  EXPECT_NEAR(share_of_inliers(1.0), 0.76, 0.1);
-  EXPECT_GT(share_of_inliers(2.0), 0.95);
+  // With sigmas 1.8 times too small, 1 - exp(-9.21 / 2 / 1.8^2) = 0.76 of the points pass the test.
+  EXPECT_NEAR(inlier_ratio(1.0), 0.76, 0.1);
+  EXPECT_GT(inlier_ratio(2.0), 0.95);
 }
 
-TEST_P(PoseProblemTest, AMatchThatBecomesGoodComesBack) {
+TEST_P(PoseOptimizationTest, ReclassifiesEarlierOutliers) {
   TestWindowOptions scene = Scene();
   scene.noise = 0.0;
   const TestWindow window = MakeTestWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
-  // A prediction so far off that many matches fail the test after a first round of one step.
+  // The prediction is so wrong that many matches are outliers after a round of one iteration.
   data.cam_from_world = Moved(Truth(window), {0.03, 0.06, 0.03}, {0.1, -0.05, 0.15});
   PoseOptions options;
-  options.max_frame_noise = 1.0;      // else the test would take such a frame for a noisy one
-  options.consensus.enabled = false;  // it would find the pose at once
+  options.max_frame_noise = 1.0;      // would inflate the sigmas
+  options.consensus.enabled = false;  // would find the pose at once
   options.iterations_per_round = 1;
   options.num_rounds = 1;
   options.num_robust_rounds = 1;
   PoseData first = data;
   OptimizePose(options, &first);
-  int inliers_at_first = 0;
-  for (const auto& p : first.points) inliers_at_first += p.inlier;
-  ASSERT_LT(inliers_at_first, 180);
-  ASSERT_GT(inliers_at_first, 10);
+  int num_first_inliers = 0;
+  for (const auto& p : first.points) num_first_inliers += p.inlier;
+  ASSERT_LT(num_first_inliers, 180);
+  ASSERT_GT(num_first_inliers, 10);
   options.num_rounds = 8;
   options.num_robust_rounds = 4;
   EXPECT_EQ(OptimizePose(options, &data).num_inlier_points, 200);
   EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-6);
 }
 
-TEST_P(PoseProblemTest, AWrongDepthCostsItsDepthOnly) {
+TEST_P(PoseOptimizationTest, KeepsObservationsWithAWrongDepth) {
   TestWindowOptions scene = Scene();
   scene.noise = 0.0;
   const TestWindow window = MakeTestWindow(scene);
@@ -161,7 +161,7 @@ TEST_P(PoseProblemTest, AWrongDepthCostsItsDepthOnly) {
   EXPECT_NEAR(summary.final_cost, 0.0, 1e-8);
 }
 
-TEST_P(PoseProblemTest, MatchesBehindTheCameraAreOutliers) {
+TEST_P(PoseOptimizationTest, RejectsMatchesBehindTheCamera) {
   TestWindowOptions scene = Scene();
   scene.noise = 0.0;
   const TestWindow window = MakeTestWindow(scene);
@@ -177,7 +177,7 @@ TEST_P(PoseProblemTest, MatchesBehindTheCameraAreOutliers) {
   EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-7);
 }
 
-// Mean NEES over `runs` windows that differ in noise only.
+// Mean NEES over `runs` windows with different noise.
 double MeanNees(TestWindowOptions scene, int runs) {
   double sum = 0.0;
   for (int run = 0; run < runs; ++run) {
@@ -191,9 +191,9 @@ double MeanNees(TestWindowOptions scene, int runs) {
   return sum / runs;
 }
 
-TEST_P(PoseProblemTest, CovarianceIsConsistent) {
-  // 200 times the mean is chi-square with 1200 degrees of freedom: 6 +- 2.576 sqrt(2 * 6 / 200) is
-  // its 99 % interval.
+TEST_P(PoseOptimizationTest, HasAConsistentCovariance) {
+  // 200 times the mean is chi-square with 1200 degrees of freedom: the 99 % interval of the mean is
+  // 6 +- 2.576 sqrt(2 * 6 / 200).
   TestWindowOptions scene = Scene();
   scene.num_keyframes = 6;
   scene.num_points = 60;
@@ -201,9 +201,9 @@ TEST_P(PoseProblemTest, CovarianceIsConsistent) {
   EXPECT_NEAR(MeanNees(scene, 200), 6.0, 0.631);
 }
 
-TEST_P(PoseProblemTest, CovarianceFromLinesAloneIsNotOptimistic) {
-  // Where map lines reach beyond what is seen of them, the two rows of a line are anti-correlated,
-  // which the factor leaves out: the covariance is then somewhat too large, never too small.
+TEST_P(PoseOptimizationTest, HasAConservativeCovarianceFromLines) {
+  // Where map lines extend beyond the observed segment, the two rows of a line are anti-correlated.
+  // The factor neglects this, so that the covariance is somewhat too large, never too small.
   TestWindowOptions scene = Scene();
   scene.num_keyframes = 6;
   scene.num_points = 0;
@@ -213,7 +213,7 @@ TEST_P(PoseProblemTest, CovarianceFromLinesAloneIsNotOptimistic) {
   EXPECT_GT(nees, 4.5);
 }
 
-TEST_P(PoseProblemTest, SameInputSameBytes) {
+TEST_P(PoseOptimizationTest, IsDeterministic) {
   TestWindowOptions scene = Scene();
   scene.outlier_ratio = 0.2;
   PoseData a = MakePoseData(MakeTestWindow(scene), kFrame);
@@ -223,7 +223,7 @@ TEST_P(PoseProblemTest, SameInputSameBytes) {
   EXPECT_EQ(a.cam_from_world.params, b.cam_from_world.params);
 }
 
-// Not usable: the pose is the prediction, bit for bit, and there is no covariance.
+// Expects the unchanged prediction and a zero covariance.
 void ExpectNotUsable(PoseData data) {
   const Rigid3 prediction = data.cam_from_world;
   const PoseSummary summary = OptimizePose(PoseOptions(), &data);
@@ -232,7 +232,7 @@ void ExpectNotUsable(PoseData data) {
   EXPECT_TRUE(summary.covariance.isZero(0.0));
 }
 
-TEST_P(PoseProblemTest, TooFewRowsAreNotUsable) {
+TEST_P(PoseOptimizationTest, IsNotUsableWithTooFewRows) {
   TestWindowOptions scene = Scene();
   scene.has_depth = false;
   PoseData data = MakePoseData(MakeTestWindow(scene), kFrame);
@@ -243,7 +243,7 @@ TEST_P(PoseProblemTest, TooFewRowsAreNotUsable) {
   ExpectNotUsable(data);
 }
 
-TEST_P(PoseProblemTest, ThreePointsWithDepthAreEnough) {
+TEST_P(PoseOptimizationTest, RecoversThePoseFromThreePointsWithDepth) {
   TestWindowOptions scene = Scene();
   scene.noise = 0.0;
   const TestWindow window = MakeTestWindow(scene);
@@ -254,8 +254,8 @@ TEST_P(PoseProblemTest, ThreePointsWithDepthAreEnough) {
   EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-6);
 }
 
-TEST_P(PoseProblemTest, ParallelLinesAloneAreNotUsable) {
-  // Any number of lines along x leaves the shift along x free.
+TEST_P(PoseOptimizationTest, IsNotUsableWithParallelLinesOnly) {
+  // Lines along x do not constrain the translation along x.
   TestWindowOptions scene = Scene();
   scene.noise = 0.0;
   PoseData data = MakePoseData(MakeTestWindow(scene), kFrame);
@@ -267,7 +267,7 @@ TEST_P(PoseProblemTest, ParallelLinesAloneAreNotUsable) {
   ExpectNotUsable(data);
 }
 
-TEST_P(PoseProblemTest, OnePointSeenOftenIsNotUsable) {
+TEST_P(PoseOptimizationTest, IsNotUsableWithOneRepeatedPoint) {
   TestWindowOptions scene = Scene();
   scene.noise = 0.0;
   PoseData data = MakePoseData(MakeTestWindow(scene), kFrame);
@@ -276,7 +276,7 @@ TEST_P(PoseProblemTest, OnePointSeenOftenIsNotUsable) {
   ExpectNotUsable(data);
 }
 
-TEST(PoseOptions, FrameNoiseBelowOneIsRefused) {
+TEST(PoseOptions, RejectsFrameNoiseBelowOne) {
   PoseOptions options;
   options.max_frame_noise = 0.9;
   std::string error;
@@ -284,7 +284,7 @@ TEST(PoseOptions, FrameNoiseBelowOneIsRefused) {
   EXPECT_THAT(error, HasSubstr("max_frame_noise"));
 }
 
-TEST_P(PoseProblemTest, MisuseNamesTheOffender) {
+TEST_P(PoseOptimizationTest, NamesTheInvalidMatch) {
   const PoseData good = MakePoseData(MakeTestWindow(Scene()), kFrame);
   const auto message = [](PoseData data, const PoseOptions& options = PoseOptions()) {
     try {

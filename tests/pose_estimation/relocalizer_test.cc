@@ -10,7 +10,7 @@
 namespace msc_vo {
 namespace {
 
-TEST(Relocalizer, FindsTheFrameFarFromAnyPrediction) {
+TEST(Relocalizer, EstimatesAPoseWithoutPrediction) {
   SyntheticFrames world{SyntheticFrames::Options()};
   const MapSnapshot snapshot =
       MapOfOneKeyframe(world.MakeFrame(0), SyntheticFrames::CamFromWorld(0));
@@ -19,12 +19,12 @@ TEST(Relocalizer, FindsTheFrameFarFromAnyPrediction) {
   const auto hit = Relocalize(RelocalizerOptions(), *frame, snapshot.map,
                               snapshot.map.keyframes().front().second);
   ASSERT_TRUE(hit.has_value());
-  // From three noisy pairs at 2..6 m only: good enough as a start for the pose problem.
+  // From three noisy matches at 2 to 6 m: good enough to start pose optimisation.
   EXPECT_LT(PositionError(hit->cam_from_world, truth), 0.15);
   EXPECT_GT(hit->matches.points.size(), 50u);
 }
 
-TEST(Relocalizer, SameFrameSameAnswer) {
+TEST(Relocalizer, IsDeterministic) {
   SyntheticFrames world{SyntheticFrames::Options()};
   const MapSnapshot snapshot =
       MapOfOneKeyframe(world.MakeFrame(0), SyntheticFrames::CamFromWorld(0));
@@ -36,7 +36,7 @@ TEST(Relocalizer, SameFrameSameAnswer) {
   EXPECT_EQ(a->cam_from_world.params, b->cam_from_world.params);
 }
 
-TEST(Relocalizer, RefusesAnotherPlaceAndAnEmptyFrame) {
+TEST(Relocalizer, RejectsAnotherSceneAndAnEmptyFrame) {
   SyntheticFrames world{SyntheticFrames::Options()};
   SyntheticFrames::Options other_options;
   other_options.seed = 99;

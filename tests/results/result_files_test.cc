@@ -155,6 +155,20 @@ TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
   EXPECT_EQ(summary["options"]["tracking.wide_radius"], 60.0);
 }
 
+TEST_F(ResultFilesTest, WritesTheOptionsInEffect) {
+  RunContext context;
+  context.configuration.odometry.mode = Mode::kPlVo;
+  context.configuration.odometry.mapping.axes.enabled = true;
+  WriteResultFiles(Path("out"), Result(), context);
+  const nlohmann::json summary = nlohmann::json::parse(ReadFile(Path("out/summary.json")));
+  EXPECT_EQ(summary["options"]["mapping.axes.enabled"], false);
+  EXPECT_EQ(summary["options"]["mapping.frame_structure"], "never");
+  EXPECT_EQ(summary["options"]["features.line_depth"], "end-points");
+  const std::string report = ReadFile(Path("out/report.html"));
+  EXPECT_THAT(report, HasSubstr("line_depth: end-points"));
+  EXPECT_THAT(report, HasSubstr("frame_structure: never"));
+}
+
 TEST_F(ResultFilesTest, AFileInTheWayIsAnError) {
   WriteText("out", "");
   EXPECT_THAT(MessageOf([&] { WriteResultFiles(Path("out"), Result(), {}); }),

@@ -20,20 +20,20 @@ WindowData NoisyWindow(int seed) {
   SyntheticWindowOptions options;
   options.seed = static_cast<uint64_t>(seed);
   options.num_points = 200;
-  options.num_lines = 1;  // few: they say nothing about the noise of points
+  options.num_lines = 1;  // few: the test is about points
   return MakeSyntheticWindow(options).data;
 }
 
-// Those of a run want more windows until they believe.
+// A weak prior, so that few windows suffice.
 NoiseEstimatorOptions QuickOptions() {
   NoiseEstimatorOptions options;
   options.prior = 2.0;
   return options;
 }
 
-// The scale after some windows whose depth errors `disturb` may change.
+// Scale of point depths after kWindows windows, whose observations `disturb` may change.
 template <typename Disturb>
-double LearntScale(const NoiseEstimatorOptions& options, const Disturb& disturb) {
+double EstimateScale(const NoiseEstimatorOptions& options, const Disturb& disturb) {
   NoiseEstimator noise(options);
   for (int seed = 1; seed <= kWindows; ++seed) {
     WindowData window = NoisyWindow(seed);
@@ -50,41 +50,41 @@ void MultiplySigmas(double factor, WindowData* window) {
   for (auto& o : window->line_observations) o.depth.covariance *= factor * factor;
 }
 
-TEST(NoiseEstimator, RightSigmasStay) {
-  // The poses of a small window take up a part of what the quarters of its images have in common.
-  const double scale = LearntScale(QuickOptions(), [](WindowData*) {});
+TEST(NoiseEstimator, KeepsCorrectSigmas) {
+  // The poses of a small window absorb a part of the errors that are common to image quadrants.
+  const double scale = EstimateScale(QuickOptions(), [](WindowData*) {});
   EXPECT_GT(scale, 0.75);
   EXPECT_LT(scale, 1.1);
 }
 
-TEST(NoiseEstimator, FindsSigmasThatAreTooLargeOrTooSmall) {
+TEST(NoiseEstimator, EstimatesWrongSigmasOfPointDepths) {
   const auto scale = [](double factor) {
-    return LearntScale(QuickOptions(), [&](WindowData* w) { MultiplySigmas(factor, w); });
+    return EstimateScale(QuickOptions(), [&](WindowData* w) { MultiplySigmas(factor, w); });
   };
-  // What poses take up is the same in all three.
+  // The part that the poses absorb cancels in the ratio.
   EXPECT_NEAR(scale(2.0) / scale(1.0), 0.5, 0.1);
   EXPECT_NEAR(scale(0.5) / scale(1.0), 2.0, 0.2);
 }
 
-TEST(NoiseEstimator, ErrorsThatAQuarterOfAnImageSharesCountMore) {
+TEST(NoiseEstimator, WeightsErrorsCommonToAnImageQuadrant) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
-  const double scale = LearntScale(QuickOptions(), [&](WindowData* window) {
-    std::map<std::pair<int64_t, int>, double> shared;  // in sigmas
+  const double scale = EstimateScale(QuickOptions(), [&](WindowData* window) {
+    std::map<std::pair<int64_t, int>, double> common;  // in sigmas
     for (auto& o : window->point_observations) {
-      const int quarter = (o.pixel.x() < 0.5 * window->camera.width ? 0 : 1) +
-                          (o.pixel.y() < 0.5 * window->camera.height ? 0 : 2);
-      const auto [error, is_new] = shared.emplace(std::pair(o.keyframe, quarter), 0.0);
+      const int quadrant = (o.pixel.x() < 0.5 * window->camera.width ? 0 : 1) +
+                           (o.pixel.y() < 0.5 * window->camera.height ? 0 : 2);
+      const auto [error, is_new] = common.emplace(std::pair(o.keyframe, quadrant), 0.0);
       if (is_new) error->second = normal(random);
       o.inverse_depth += error->second * o.inverse_depth_sigma;
     }
   });
-  // The spread of single errors has grown by sqrt(2) only.
+  // The spread of single errors has increased by sqrt(2) only.
   EXPECT_GT(scale, 2.0);
 }
 
-TEST(NoiseEstimator, FewGrossErrorsChangeLittle) {
-  const double scale = LearntScale(QuickOptions(), [](WindowData* window) {
+TEST(NoiseEstimator, IsRobustAgainstGrossErrors) {
+  const double scale = EstimateScale(QuickOptions(), [](WindowData* window) {
     for (size_t i = 0; i < window->point_observations.size(); i += 50) {
       window->point_observations[i].inverse_depth *= 2.0;
     }
@@ -92,14 +92,14 @@ TEST(NoiseEstimator, FewGrossErrorsChangeLittle) {
   EXPECT_NEAR(scale, 1.0, 0.2);
 }
 
-TEST(NoiseEstimator, IsBounded) {
+TEST(NoiseEstimator, BoundsTheScale) {
   NoiseEstimatorOptions options = QuickOptions();
   options.max_scale = 1.5;
-  EXPECT_EQ(LearntScale(options, [](WindowData* w) { MultiplySigmas(4.0, w); }), 1.0 / 1.5);
-  EXPECT_EQ(LearntScale(options, [](WindowData* w) { MultiplySigmas(0.25, w); }), 1.5);
+  EXPECT_EQ(EstimateScale(options, [](WindowData* w) { MultiplySigmas(4.0, w); }), 1.0 / 1.5);
+  EXPECT_EQ(EstimateScale(options, [](WindowData* w) { MultiplySigmas(0.25, w); }), 1.5);
 }
 
-TEST(NoiseEstimator, AppliesToAllObservations) {
+TEST(NoiseEstimator, ScalesAllObservations) {
   NoiseEstimator noise(QuickOptions());
   WindowData window = NoisyWindow(1);
   for (auto& o : window.point_observations) o.inverse_depth_sigma *= 0.1;
@@ -117,9 +117,9 @@ TEST(NoiseEstimator, AppliesToAllObservations) {
   EXPECT_DOUBLE_EQ(scaled_line.sigma, noise.scale().line_pixel * line.sigma);
 }
 
-// The scale of lines in the image when their sigmas are `factor` times too large, and every
-// `gross`-th observation is off by 20 px.
-double LearntLinePixelScale(double factor, size_t gross) {
+// Scale of lines in the image if their sigmas are `factor` times too large and every
+// `outlier_period`-th observation has an error of 20 px.
+double EstimateLinePixelScale(double factor, size_t outlier_period) {
   NoiseEstimator noise(QuickOptions());
   SyntheticWindowOptions options;
   options.num_points = 40;
@@ -130,7 +130,7 @@ double LearntLinePixelScale(double factor, size_t gross) {
     for (size_t i = 0; i < window.line_observations.size(); ++i) {
       auto& o = window.line_observations[i];
       o.sigma *= factor;
-      if (i % gross != 0) continue;
+      if (i % outlier_period != 0) continue;
       o.segment.start.y() += 20.0;
       o.segment.end.y() += 20.0;
     }
@@ -141,16 +141,16 @@ double LearntLinePixelScale(double factor, size_t gross) {
   return noise.scale().line_pixel;
 }
 
-TEST(NoiseEstimator, FindsSigmasOfLinesInTheImage) {
+TEST(NoiseEstimator, EstimatesWrongSigmasOfLinesInTheImage) {
   constexpr size_t kNever = 1000000;
-  EXPECT_NEAR(LearntLinePixelScale(1.0, kNever), 1.0, 0.15);
-  EXPECT_NEAR(LearntLinePixelScale(2.0, kNever), 0.5, 0.1);
-  EXPECT_NEAR(LearntLinePixelScale(0.5, kNever), 2.0, 0.3);
-  // One wrong match in ten, most of them rejected: it adds a tenth.
-  EXPECT_NEAR(LearntLinePixelScale(1.0, 10), 1.0, 0.15);
+  EXPECT_NEAR(EstimateLinePixelScale(1.0, kNever), 1.0, 0.15);
+  EXPECT_NEAR(EstimateLinePixelScale(2.0, kNever), 0.5, 0.1);
+  EXPECT_NEAR(EstimateLinePixelScale(0.5, kNever), 2.0, 0.3);
+  // With one outlier in ten, most of which are rejected.
+  EXPECT_NEAR(EstimateLinePixelScale(1.0, 10), 1.0, 0.15);
 }
 
-TEST(NoiseEstimator, LinesHaveAScaleOfTheirOwn) {
+TEST(NoiseEstimator, EstimatesDepthScalesOfPointsAndLinesSeparately) {
   NoiseEstimator noise(QuickOptions());
   SyntheticWindowOptions options;
   options.num_points = 60;
@@ -167,17 +167,17 @@ TEST(NoiseEstimator, LinesHaveAScaleOfTheirOwn) {
   EXPECT_LT(noise.scale().point_depth, 1.2);
 }
 
-TEST(NoiseEstimator, WithoutDepthsOrSwitchedOffItStays) {
-  const auto forget = [](WindowData* window) {
+TEST(NoiseEstimator, KeepsTheScaleWithoutDepthsOrIfDisabled) {
+  const auto remove_depths = [](WindowData* window) {
     for (auto& o : window->point_observations) o.inverse_depth = 0.0;
   };
-  EXPECT_EQ(LearntScale(QuickOptions(), forget), 1.0);
+  EXPECT_EQ(EstimateScale(QuickOptions(), remove_depths), 1.0);
   NoiseEstimatorOptions off = QuickOptions();
   off.enabled = false;
-  EXPECT_EQ(LearntScale(off, [](WindowData* w) { MultiplySigmas(2.0, w); }), 1.0);
+  EXPECT_EQ(EstimateScale(off, [](WindowData* w) { MultiplySigmas(2.0, w); }), 1.0);
 }
 
-TEST(NoiseEstimator, RefusesBadOptions) {
+TEST(NoiseEstimator, RejectsInvalidOptions) {
   NoiseEstimatorOptions options;
   options.prior = 0.0;
   EXPECT_THROW(NoiseEstimator{options}, std::invalid_argument);

@@ -16,9 +16,9 @@
 namespace msc_vo {
 namespace {
 
-constexpr double kReadout = 0.026;
+constexpr double kReadoutTime = 0.026;  // seconds
 
-// Adds the next keyframe; landmark i is feature i of all.
+// Adds a keyframe that observes landmark i with feature i.
 KeyframeId AddKeyframe(RollingFrames* world, int index, Map* map) {
   const KeyframeId id =
       map->AddKeyframe(world->MakeFrame(index), RollingFrames::CamFromWorld(index));
@@ -39,8 +39,8 @@ std::optional<ReadoutTimeEstimate> EstimateFirst(const Map& map, double start = 
   return EstimateReadoutTime(*map.FindKeyframe(0), *map.FindKeyframe(1), start);
 }
 
-TEST(ReadoutTimePair, FindsTheTimeFromTwoKeyframes) {
-  for (const double truth : {kReadout, 0.0, -0.015}) {
+TEST(ReadoutTimePair, EstimatesTheReadoutTimeOfTwoKeyframes) {
+  for (const double truth : {kReadoutTime, 0.0, -0.015}) {
     RollingFrames world(truth, 0.0);
     Map map;
     for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
@@ -49,38 +49,38 @@ TEST(ReadoutTimePair, FindsTheTimeFromTwoKeyframes) {
   }
 }
 
-// Landmarks are what a pose with another time, or none, has left.
-TEST(ReadoutTimePair, DoesNotDependOnLandmarks) {
-  RollingFrames world(kReadout, 0.0);
+// Landmarks were estimated with another readout time and would bias the estimate.
+TEST(ReadoutTimePair, IsIndependentOfLandmarks) {
+  RollingFrames world(kReadoutTime, 0.0);
   Map map;
   for (const int index : {0, 1}) {
     map.AddKeyframe(world.MakeFrame(index), RollingFrames::CamFromWorld(index));
   }
-  EXPECT_NEAR(EstimateFirst(map)->readout_time, kReadout, 2e-4);
+  EXPECT_NEAR(EstimateFirst(map)->readout_time, kReadoutTime, 2e-4);
 }
 
-TEST(ReadoutTimePair, KnowsWhatKeyframesAreUnrolledWith) {
-  RollingFrames world(kReadout, 0.0);
+TEST(ReadoutTimePair, AccountsForTheCompensationOfKeyframes) {
+  RollingFrames world(kReadoutTime, 0.0);
   Map map;
   for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
   CompensateKeyframes(0.02, &map);
   EXPECT_EQ(map.FindKeyframe(1)->frame->readout_time, 0.02);
-  EXPECT_NEAR(EstimateFirst(map)->readout_time, kReadout, 5e-4);
+  EXPECT_NEAR(EstimateFirst(map)->readout_time, kReadoutTime, 5e-4);
 }
 
-TEST(ReadoutTimePair, WrongMatchesDoNotDecide) {
-  RollingFrames world(kReadout, 0.3);
+TEST(ReadoutTimePair, ToleratesOutliers) {
+  RollingFrames world(kReadoutTime, 0.3);
   Map map;
   AddKeyframe(&world, 0, &map);
   auto frame = world.MakeFrame(1);
   for (int i = 0; i < 15; ++i) frame->points[i].pixel.x() += 6.0;
   const KeyframeId id = AddKeyframe(&world, 1, &map);
   map.SetFrame(id, frame);
-  EXPECT_NEAR(EstimateFirst(map)->readout_time, kReadout, 2e-3);
+  EXPECT_NEAR(EstimateFirst(map)->readout_time, kReadoutTime, 2e-3);
 }
 
-TEST(ReadoutTimePair, AStandingCameraTellsNothing) {
-  RollingFrames world(kReadout, 0.3);
+TEST(ReadoutTimePair, HasNoInformationWithoutMotion) {
+  RollingFrames world(kReadoutTime, 0.3);
   Map map;
   for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
   const double information = EstimateFirst(map)->information;
@@ -92,22 +92,23 @@ TEST(ReadoutTimePair, AStandingCameraTellsNothing) {
   EXPECT_LT(EstimateFirst(map)->information, 1e-9 * information);
 }
 
-TEST(ReadoutTimePair, NeedsVelocitiesAndPoints) {
-  RollingFrames world(kReadout, 0.0);
+TEST(ReadoutTimePair, RequiresVelocitiesAndEnoughPoints) {
+  RollingFrames world(kReadoutTime, 0.0);
   Map map;
   for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
-  const auto whole = std::make_shared<Frame>(*map.FindKeyframe(0)->frame);
-  auto frame = std::make_shared<Frame>(*whole);
+  const auto original = std::make_shared<Frame>(*map.FindKeyframe(0)->frame);
+  auto frame = std::make_shared<Frame>(*original);
   frame->velocity.reset();
   map.SetFrame(0, frame);
   EXPECT_FALSE(EstimateFirst(map).has_value());
-  frame = std::make_shared<Frame>(*whole);
+  frame = std::make_shared<Frame>(*original);
   for (size_t i = 29; i < frame->points.size(); ++i) frame->points[i].inverse_depth = 0.0;
   map.SetFrame(0, frame);
   EXPECT_FALSE(EstimateFirst(map).has_value());
 }
 
-double Learnt(double truth, const std::optional<double>& known) {
+// Readout time after twelve keyframes.
+double EstimateOverKeyframes(double truth, const std::optional<double>& known) {
   RollingFrames world(truth, 0.5);
   Map map;
   ReadoutTimeEstimator readout(known);
@@ -119,53 +120,55 @@ double Learnt(double truth, const std::optional<double>& known) {
   return readout.readout_time();
 }
 
-TEST(ReadoutTimeEstimator, LearnsTheTimeOfARollingShutter) {
-  EXPECT_NEAR(Learnt(kReadout, std::nullopt), kReadout, 1e-3);
-  EXPECT_NEAR(Learnt(-kReadout, std::nullopt), -kReadout, 1e-3);
+TEST(ReadoutTimeEstimator, EstimatesTheReadoutTimeOfARollingShutter) {
+  EXPECT_NEAR(EstimateOverKeyframes(kReadoutTime, std::nullopt), kReadoutTime, 1e-3);
+  EXPECT_NEAR(EstimateOverKeyframes(-kReadoutTime, std::nullopt), -kReadoutTime, 1e-3);
 }
 
-TEST(ReadoutTimeEstimator, AGlobalShutterStaysGlobal) { EXPECT_EQ(Learnt(0.0, std::nullopt), 0.0); }
-
-TEST(ReadoutTimeEstimator, WhatIsKnownStays) {
-  EXPECT_EQ(Learnt(kReadout, 0.02), 0.02);
-  EXPECT_EQ(Learnt(kReadout, 0.0), 0.0);
+TEST(ReadoutTimeEstimator, KeepsAGlobalShutter) {
+  EXPECT_EQ(EstimateOverKeyframes(0.0, std::nullopt), 0.0);
 }
 
-TEST(ReadoutTimeEstimator, IsNotLongerThanAnImage) {
-  const double learnt = Learnt(0.045, std::nullopt);
-  EXPECT_LE(learnt, 1.0 / 30.0);
-  EXPECT_GT(learnt, 0.032);
+TEST(ReadoutTimeEstimator, KeepsAKnownReadoutTime) {
+  EXPECT_EQ(EstimateOverKeyframes(kReadoutTime, 0.02), 0.02);
+  EXPECT_EQ(EstimateOverKeyframes(kReadoutTime, 0.0), 0.0);
 }
 
-TEST(KeyframeRollingShutter, LeavesWhatIsNearEnoughOrHasNoVelocity) {
-  RollingFrames world(kReadout, 0.0);
+TEST(ReadoutTimeEstimator, IsBoundedByTheFrameInterval) {
+  const double estimate = EstimateOverKeyframes(0.045, std::nullopt);
+  EXPECT_LE(estimate, 1.0 / 30.0);
+  EXPECT_GT(estimate, 0.032);
+}
+
+TEST(KeyframeRollingShutter, SkipsFramesWithoutVelocityAndSmallChanges) {
+  RollingFrames world(kReadoutTime, 0.0);
   Map map;
   for (const int index : {0, 1}) AddKeyframe(&world, index, &map);
   auto frame = std::make_shared<Frame>(*map.FindKeyframe(0)->frame);
   frame->velocity.reset();
   map.SetFrame(0, frame);
-  CompensateKeyframes(kReadout, &map);
+  CompensateKeyframes(kReadoutTime, &map);
   EXPECT_EQ(map.FindKeyframe(0)->frame, frame);
-  const auto unrolled = map.FindKeyframe(1)->frame;
-  EXPECT_EQ(unrolled->readout_time, kReadout);
-  CompensateKeyframes(kReadout + 0.0005, &map);
-  EXPECT_EQ(map.FindKeyframe(1)->frame, unrolled);
+  const auto compensated = map.FindKeyframe(1)->frame;
+  EXPECT_EQ(compensated->readout_time, kReadoutTime);
+  CompensateKeyframes(kReadoutTime + 0.0005, &map);
+  EXPECT_EQ(map.FindKeyframe(1)->frame, compensated);
 }
 
-TEST(KeyframeRollingShutter, ABetterVelocityUnrollsAnew) {
-  RollingFrames world(kReadout, 0.0);
+TEST(KeyframeRollingShutter, CompensatesAgainWithANewVelocity) {
+  RollingFrames world(kReadoutTime, 0.0);
   Map map;
   AddKeyframe(&world, 0, &map);
-  SetVelocity(0, {1.1 * RollingFrames::Velocity(0).angular, {0.0, 0.0, 0.0}}, &map);
-  CompensateKeyframes(kReadout, &map);
-  SetVelocity(0, RollingFrames::Velocity(0), &map);
+  SetKeyframeVelocity(0, {1.1 * RollingFrames::Velocity(0).angular, {0.0, 0.0, 0.0}}, &map);
+  CompensateKeyframes(kReadoutTime, &map);
+  SetKeyframeVelocity(0, RollingFrames::Velocity(0), &map);
   const Frame& frame = *map.FindKeyframe(0)->frame;
-  EXPECT_EQ(frame.readout_time, kReadout);
+  EXPECT_EQ(frame.readout_time, kReadoutTime);
   for (size_t i = 0; i < frame.points.size(); ++i) {
     const Eigen::Vector3d in_cam = RollingFrames::CamFromWorld(0) * world.points()[i];
     EXPECT_LT((frame.points[i].pixel - frame.camera.Project(in_cam)).norm(), 0.05);
   }
-  SetVelocity(7, RollingFrames::Velocity(0), &map);  // was removed: nothing happens
+  SetKeyframeVelocity(7, RollingFrames::Velocity(0), &map);  // unknown keyframe: no effect
   EXPECT_EQ(map.keyframes().size(), 1u);
 }
 

@@ -19,7 +19,7 @@ WindowData Truth() {
   return MakeSyntheticWindow(options).truth;
 }
 
-TEST(WindowResiduals, OfTheTruthAreZero) {
+TEST(WindowResiduals, AreZeroForTheTruth) {
   const WindowData truth = Truth();
   const WindowResiduals residuals(truth);
   for (size_t i = 0; i < truth.point_observations.size(); ++i) {
@@ -44,7 +44,7 @@ TEST(WindowResiduals, AreInSigmas) {
   EXPECT_NEAR(*residuals.LineDepth(2), 1.5, 1e-6);
 }
 
-TEST(WindowResiduals, AreWithoutOffsetAndNoise) {
+TEST(WindowResiduals, CorrectTheDepthOffsetAndIgnoreTheNoise) {
   WindowData window = Truth();
   WindowData::LineObservation& o = window.line_observations[2];
   for (double* end : {&o.depth.start, &o.depth.end}) *end = 1.0 / (1.0 / *end + 0.01);
@@ -57,11 +57,11 @@ TEST(WindowResiduals, AreWithoutOffsetAndNoise) {
   const double pixels = WindowResiduals(window).LinePixel(2)->norm();
   EXPECT_GT(pixels, 0.05);
   EXPECT_LT(pixels, 1.0);
-  // Where the middle of the segment went along the line, depth changes a little.
+  // The shifted midpoint changes the depth slightly.
   EXPECT_LT(std::abs(*WindowResiduals(window).LineDepth(2)), 0.5);
 }
 
-TEST(WindowResiduals, AreNoneWithoutAMeasurement) {
+TEST(WindowResiduals, AreNulloptWithoutAMeasurement) {
   WindowData window = Truth();
   window.point_observations[0].inverse_depth = 0.0;
   window.line_observations[0].has_depth = false;
@@ -82,7 +82,7 @@ TEST(WindowResiduals, AreNoneWithoutAMeasurement) {
   EXPECT_FALSE(residuals.PointDepth(last));
 }
 
-TEST(WindowResiduals, OfAnUnknownLandmarkAreRefused) {
+TEST(WindowResiduals, RejectUnknownLandmarks) {
   WindowData window = Truth();
   window.point_observations[0].point = 123456;
   EXPECT_THROW(WindowResiduals{window}, std::out_of_range);

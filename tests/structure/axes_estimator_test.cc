@@ -29,7 +29,7 @@ class AxesEstimatorTest : public ::testing::Test {
   void Grow(int num_keyframes, int num_axis_lines) {
     estimator_.Update({num_keyframes, 2 * num_axis_lines, num_axis_lines});
   }
-  // To the first refinement, from 40 lines.
+  // Completes the first refinement, from 40 lines.
   void ReachRefined(double sigma_degrees) {
     estimator_.Propose(Turned(1.0));
     Grow(10, 40);
@@ -44,7 +44,7 @@ TEST_F(AxesEstimatorTest, StartsWithoutAxes) {
   EXPECT_FALSE(estimator_.RefinementDue());
 }
 
-TEST_F(AxesEstimatorTest, TakesTheFirstProposalOnly) {
+TEST_F(AxesEstimatorTest, AcceptsTheFirstProposalOnly) {
   estimator_.Propose(Turned(1.0));
   EXPECT_EQ(estimator_.state(), AxesState::kCoarse);
   EXPECT_DOUBLE_EQ(estimator_.sigma(), AxesEstimatorOptions().coarse_sigma);
@@ -52,7 +52,7 @@ TEST_F(AxesEstimatorTest, TakesTheFirstProposalOnly) {
   EXPECT_LT(estimator_.world_from_axes().angularDistance(Turned(1.0)), 1e-12);
 }
 
-TEST_F(AxesEstimatorTest, RefinementWaitsForKeyframesAndLines) {
+TEST_F(AxesEstimatorTest, WaitsForKeyframesAndLinesBeforeRefinement) {
   estimator_.Propose(Turned(1.0));
   EXPECT_FALSE(estimator_.RefinementDue());
   Grow(4, 100);
@@ -63,13 +63,13 @@ TEST_F(AxesEstimatorTest, RefinementWaitsForKeyframesAndLines) {
   EXPECT_TRUE(estimator_.RefinementDue());
 }
 
-TEST_F(AxesEstimatorTest, RefinedAxesReplaceCoarseOnes) {
+TEST_F(AxesEstimatorTest, ReplacesCoarseAxesByRefinedOnes) {
   ReachRefined(0.2);
   EXPECT_EQ(estimator_.state(), AxesState::kRefined);
   EXPECT_EQ(estimator_.num_refinements(), 1);
   EXPECT_FALSE(estimator_.frozen());
   EXPECT_LT(estimator_.world_from_axes().angularDistance(Turned(0.5)), 1e-12);
-  // Of the least certain direction.
+  // Standard deviation of the least certain direction.
   EXPECT_NEAR(RadiansToDegrees(estimator_.sigma()), 0.2, 1e-12);
 }
 
@@ -82,15 +82,15 @@ TEST_F(AxesEstimatorTest, RefinesAgainWhenTheMapHasGrown) {
   EXPECT_TRUE(estimator_.RefinementDue());
 }
 
-TEST_F(AxesEstimatorTest, FreezesWhenCertainAndAtRest) {
+TEST_F(AxesEstimatorTest, FreezesWhenCertainAndStable) {
   ReachRefined(0.05);
-  EXPECT_FALSE(estimator_.frozen()) << "one refinement alone does not show that it stands still";
+  EXPECT_FALSE(estimator_.frozen()) << "one refinement does not show stability";
   Grow(20, 60);
   ASSERT_TRUE(estimator_.Refine(Turned(1.0), Covariance(0.05)));
-  EXPECT_FALSE(estimator_.frozen()) << "half a degree is no rest";
+  EXPECT_FALSE(estimator_.frozen()) << "changed by half a degree";
   Grow(30, 90);
   ASSERT_TRUE(estimator_.Refine(Turned(1.0), Covariance(0.2)));
-  EXPECT_FALSE(estimator_.frozen()) << "not certain";
+  EXPECT_FALSE(estimator_.frozen()) << "uncertain";
   Grow(40, 135);
   ASSERT_TRUE(estimator_.Refine(Turned(1.1), Covariance(0.05)));
   EXPECT_TRUE(estimator_.frozen());
@@ -99,10 +99,10 @@ TEST_F(AxesEstimatorTest, FreezesWhenCertainAndAtRest) {
   EXPECT_EQ(estimator_.num_refinements(), 4);
 }
 
-TEST_F(AxesEstimatorTest, CoarseAxesThatTheMapDoesNotKeepToAreDropped) {
+TEST_F(AxesEstimatorTest, DropsCoarseAxesWithoutSupportInTheMap) {
   estimator_.Propose(Turned(1.0));
   estimator_.Update({4, 100, 10});
-  EXPECT_EQ(estimator_.state(), AxesState::kCoarse) << "too early to tell";
+  EXPECT_EQ(estimator_.state(), AxesState::kCoarse) << "too few keyframes";
   estimator_.Update({5, 100, 25});
   EXPECT_EQ(estimator_.state(), AxesState::kCoarse);
   estimator_.Update({6, 100, 24});
@@ -111,13 +111,13 @@ TEST_F(AxesEstimatorTest, CoarseAxesThatTheMapDoesNotKeepToAreDropped) {
   EXPECT_EQ(estimator_.state(), AxesState::kCoarse);
 }
 
-TEST_F(AxesEstimatorTest, RefinedAxesStayWhenTheCameraLeavesTheRoom) {
+TEST_F(AxesEstimatorTest, KeepsRefinedAxesWithoutSupport) {
   ReachRefined(0.2);
   estimator_.Update({20, 1000, 50});
   EXPECT_EQ(estimator_.state(), AxesState::kRefined);
 }
 
-TEST_F(AxesEstimatorTest, ARefinementThatContradictsCoarseAxesDropsThem) {
+TEST_F(AxesEstimatorTest, DropsCoarseAxesOnAContradictingRefinement) {
   estimator_.Propose(Turned(0.0));
   Grow(10, 40);
   EXPECT_FALSE(estimator_.Refine(Turned(5.0), Covariance(0.1)));
@@ -125,7 +125,7 @@ TEST_F(AxesEstimatorTest, ARefinementThatContradictsCoarseAxesDropsThem) {
   EXPECT_EQ(estimator_.num_refinements(), 0);
 }
 
-TEST_F(AxesEstimatorTest, ARefinementThatContradictsRefinedAxesIsIgnoredUntilTheMapHasGrown) {
+TEST_F(AxesEstimatorTest, IgnoresAContradictingRefinementUntilTheMapHasGrown) {
   ReachRefined(0.2);
   Grow(20, 60);
   EXPECT_FALSE(estimator_.Refine(Turned(10.0), Covariance(0.1)));
@@ -136,14 +136,14 @@ TEST_F(AxesEstimatorTest, ARefinementThatContradictsRefinedAxesIsIgnoredUntilThe
   EXPECT_TRUE(estimator_.RefinementDue());
 }
 
-TEST_F(AxesEstimatorTest, ASolverThatFailsIsARejection) {
+TEST_F(AxesEstimatorTest, DropsCoarseAxesOnARejectedRefinement) {
   estimator_.Propose(Turned(0.0));
   Grow(10, 40);
   estimator_.RejectRefinement();
   EXPECT_EQ(estimator_.state(), AxesState::kNone);
 }
 
-TEST_F(AxesEstimatorTest, NumbersThatAreNoneAreARejection) {
+TEST_F(AxesEstimatorTest, DropsCoarseAxesOnANonFiniteRefinement) {
   estimator_.Propose(Turned(0.0));
   Grow(10, 40);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -151,7 +151,7 @@ TEST_F(AxesEstimatorTest, NumbersThatAreNoneAreARejection) {
   EXPECT_EQ(estimator_.state(), AxesState::kNone);
 }
 
-TEST_F(AxesEstimatorTest, MisuseThrows) {
+TEST_F(AxesEstimatorTest, RejectsInvalidCallsAndOptions) {
   EXPECT_THROW(estimator_.Refine(Turned(0.0), Covariance(0.1)), std::invalid_argument);
   EXPECT_THROW(estimator_.RejectRefinement(), std::invalid_argument);
   AxesEstimatorOptions options;

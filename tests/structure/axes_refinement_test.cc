@@ -18,7 +18,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Directions along the axes of `truth` with noise of `sigma`, every one as good.
+// Directions along the axes of `truth` with angular noise `noise` and sigmas `sigma`, radians.
 ManhattanAxesData Observe(const Eigen::Quaterniond& truth, int count, double sigma, double noise,
                           RandomGeometry* random) {
   ManhattanAxesData data;
@@ -43,7 +43,7 @@ Eigen::Vector3d Error(const ManhattanAxesData& data, const Eigen::Quaterniond& t
 class ManhattanAxesTest : public ::testing::Test {
  protected:
   ManhattanAxesTest() : truth_(random_.Pose().rotation()) {}
-  // The coarse start: some degrees off.
+  // Rotates the initial estimate by `degrees` about a random axis.
   void Disturb(ManhattanAxesData* data, double degrees) {
     const Eigen::Vector3d axis = random_.Normal3().normalized();
     data->world_from_manhattan =
@@ -54,7 +54,7 @@ class ManhattanAxesTest : public ::testing::Test {
   Eigen::Quaterniond truth_;
 };
 
-TEST_F(ManhattanAxesTest, ExactDirectionsGiveTheExactRotation) {
+TEST_F(ManhattanAxesTest, RecoversTheRotationFromExactDirections) {
   ManhattanAxesData data = Observe(truth_, 30, 0.01, 0.0, &random_);
   Disturb(&data, 5.0);
   const ManhattanAxesSummary summary = RefineManhattanAxes(options_, &data);
@@ -66,7 +66,7 @@ TEST_F(ManhattanAxesTest, ExactDirectionsGiveTheExactRotation) {
   EXPECT_NEAR(data.world_from_manhattan.norm(), 1.0, 1e-12);
 }
 
-TEST_F(ManhattanAxesTest, NoiseAndWrongAssociationsFromACoarseStart) {
+TEST_F(ManhattanAxesTest, ToleratesNoiseAndWrongAssociations) {
   const double sigma = DegreesToRadians(0.7);
   ManhattanAxesData data = Observe(truth_, 300, sigma, sigma, &random_);
   for (int i = 0; i < 300; i += 6) {
@@ -78,17 +78,17 @@ TEST_F(ManhattanAxesTest, NoiseAndWrongAssociationsFromACoarseStart) {
   const ManhattanAxesSummary summary = RefineManhattanAxes(options_, &data);
   ASSERT_TRUE(summary.usable);
   EXPECT_LT(RadiansToDegrees(Error(data, truth_).norm()), 0.2);
-  int inliers = 0, wrong_kept = 0;
+  int inliers = 0, wrong_inliers = 0;
   for (int i = 0; i < 300; ++i) {
     inliers += data.observations[i].inlier;
-    wrong_kept += i % 6 == 0 && data.observations[i].inlier;
+    wrong_inliers += i % 6 == 0 && data.observations[i].inlier;
   }
   EXPECT_EQ(inliers, summary.num_inliers);
   EXPECT_GT(inliers, 240);
-  EXPECT_LT(wrong_kept, 5);  // those that the noise left in place
+  EXPECT_LT(wrong_inliers, 5);  // those that remained close by chance
 }
 
-TEST_F(ManhattanAxesTest, CovarianceIsThatOfTheErrors) {
+TEST_F(ManhattanAxesTest, HasAConsistentCovariance) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   double normalized = 0.0;
   const int count = 300;
@@ -100,13 +100,13 @@ TEST_F(ManhattanAxesTest, CovarianceIsThatOfTheErrors) {
     sum += error * error.transpose() / count;
     normalized += error.dot(summary.covariance.inverse() * error) / count;
   }
-  EXPECT_GT(normalized, 2.2);  // 3 but for the inflation by chance
+  EXPECT_GT(normalized, 2.2);  // 3 up to inflation by chance
   EXPECT_LT(normalized, 3.5);
-  // 20 of 30 directions tell of each component.
+  // 20 of 30 directions constrain each component.
   EXPECT_THAT(1e4 * sum, IsNear((0.05 * 1e4 * 1e-4 * Eigen::Matrix3d::Identity()).eval(), 0.015));
 }
 
-TEST_F(ManhattanAxesTest, CovarianceGrowsWithTheResiduals) {
+TEST_F(ManhattanAxesTest, InflatesTheCovarianceWithTheResiduals) {
   ManhattanAxesData data = Observe(truth_, 300, 0.01, 0.015, &random_);
   options_.reject_chi2_2 = 1e6;
   const ManhattanAxesSummary noisy = RefineManhattanAxes(options_, &data);
@@ -114,10 +114,10 @@ TEST_F(ManhattanAxesTest, CovarianceGrowsWithTheResiduals) {
   const ManhattanAxesSummary quiet = RefineManhattanAxes(options_, &data);
   ASSERT_TRUE(noisy.usable && quiet.usable);
   EXPECT_NEAR(noisy.covariance.trace() / quiet.covariance.trace(), 2.25, 0.4);
-  EXPECT_NEAR(quiet.covariance.trace(), 3.0 * 1e-4 / 200.0, 1e-8);  // what the sigmas promise
+  EXPECT_NEAR(quiet.covariance.trace(), 3.0 * 1e-4 / 200.0, 1e-8);  // from the sigmas alone
 }
 
-TEST_F(ManhattanAxesTest, OneAxisAloneDoesNotFixTheRotation) {
+TEST_F(ManhattanAxesTest, IsNotUsableWithOneAxis) {
   ManhattanAxesData data = Observe(truth_, 90, 0.01, 0.01, &random_);
   for (size_t i = 0; i < data.observations.size(); ++i) {
     data.observations[i] = data.observations[i - i % 3];
@@ -129,7 +129,7 @@ TEST_F(ManhattanAxesTest, OneAxisAloneDoesNotFixTheRotation) {
   EXPECT_EQ(data.world_from_manhattan.coeffs(), before);
 }
 
-TEST_F(ManhattanAxesTest, TwoAxesDo) {
+TEST_F(ManhattanAxesTest, RecoversTheRotationFromTwoAxes) {
   ManhattanAxesData data = Observe(truth_, 90, 0.01, 0.01, &random_);
   for (size_t i = 0; i < data.observations.size(); ++i) {
     if (i % 3 == 2) data.observations[i] = data.observations[i - 1];
@@ -139,7 +139,7 @@ TEST_F(ManhattanAxesTest, TwoAxesDo) {
   EXPECT_LT(RadiansToDegrees(Error(data, truth_).norm()), 0.5);
 }
 
-TEST_F(ManhattanAxesTest, TooFewInliersOrNoObservations) {
+TEST_F(ManhattanAxesTest, IsNotUsableWithTooFewObservations) {
   ManhattanAxesData data = Observe(truth_, 5, 0.01, 0.0, &random_);
   EXPECT_FALSE(RefineManhattanAxes(options_, &data).usable);
   data.observations.clear();
@@ -148,15 +148,15 @@ TEST_F(ManhattanAxesTest, TooFewInliersOrNoObservations) {
   EXPECT_EQ(summary.num_inliers, 0);
 }
 
-TEST_F(ManhattanAxesTest, OutliersOfEarlierRoundsMayReturn) {
+TEST_F(ManhattanAxesTest, ReclassifiesEarlierOutliers) {
   ManhattanAxesData data = Observe(truth_, 60, 0.01, 0.005, &random_);
-  for (auto& o : data.observations) o.inlier = false;  // forgotten at the next solve
+  for (auto& o : data.observations) o.inlier = false;  // must not matter
   Disturb(&data, 8.0);
   ASSERT_TRUE(RefineManhattanAxes(options_, &data).usable);
   for (const auto& o : data.observations) EXPECT_TRUE(o.inlier);
 }
 
-TEST_F(ManhattanAxesTest, SameInputSameBytes) {
+TEST_F(ManhattanAxesTest, IsDeterministic) {
   ManhattanAxesData a = Observe(truth_, 60, 0.01, 0.01, &random_);
   Disturb(&a, 3.0);
   ManhattanAxesData b = a;
@@ -165,7 +165,7 @@ TEST_F(ManhattanAxesTest, SameInputSameBytes) {
   EXPECT_EQ(a.world_from_manhattan.coeffs(), b.world_from_manhattan.coeffs());
 }
 
-TEST_F(ManhattanAxesTest, MisuseNamesTheObservation) {
+TEST_F(ManhattanAxesTest, NamesTheInvalidObservation) {
   const ManhattanAxesData good = Observe(truth_, 30, 0.01, 0.0, &random_);
   const auto message = [&](const auto& spoil) -> std::string {
     ManhattanAxesData data = good;
@@ -192,7 +192,7 @@ TEST_F(ManhattanAxesTest, MisuseNamesTheObservation) {
               HasSubstr("observation 2: direction"));
 }
 
-TEST_F(ManhattanAxesTest, Options) {
+TEST_F(ManhattanAxesTest, ChecksItsOptions) {
   std::string error;
   EXPECT_TRUE(options_.IsValid(&error));
   const auto is_valid = [&](auto ManhattanAxesOptions::*member, auto value) {

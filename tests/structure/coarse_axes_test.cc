@@ -30,27 +30,28 @@ std::optional<ManhattanAxes> Find(const View& view) {
 
 class CoarseAxesInClutter : public ::testing::TestWithParam<double> {};
 
-TEST_P(CoarseAxesInClutter, AreFoundWithinOneDegree) {
+TEST_P(CoarseAxesInClutter, HaveErrorsBelowOneDegree) {
   for (uint64_t seed = 0; seed < 20; ++seed) {
     Random random(seed);
     const Quaterniond truth = RandomRotation(&random);
     const auto axes = Find(RoomView(truth, GetParam(), &random));
     ASSERT_TRUE(axes) << "seed " << seed;
     EXPECT_LT(AxesErrorInDegrees(axes->rotation, truth), 1.0) << "seed " << seed;
-    EXPECT_NEAR(axes->share, 1.0 - GetParam(), 0.08) << "seed " << seed;
+    EXPECT_NEAR(axes->explained_ratio, 1.0 - GetParam(), 0.08) << "seed " << seed;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shares, CoarseAxesInClutter, ::testing::Values(0.0, 0.1, 0.2, 0.3, 0.4));
+INSTANTIATE_TEST_SUITE_P(ClutterRatio, CoarseAxesInClutter,
+                         ::testing::Values(0.0, 0.1, 0.2, 0.3, 0.4));
 
-TEST(CoarseAxes, AreRefusedWhenClutterHasTheMajority) {
+TEST(CoarseAxes, RejectsAMajorityOfClutter) {
   for (uint64_t seed = 0; seed < 20; ++seed) {
     Random random(seed);
     EXPECT_FALSE(Find(RoomView(RandomRotation(&random), 0.6, &random))) << "seed " << seed;
   }
 }
 
-TEST(CoarseAxes, PureClutterGivesNoFalseAlarm) {
+TEST(CoarseAxes, RejectsPureClutter) {
   for (uint64_t seed = 0; seed < 200; ++seed) {
     Random random(seed);
     View view;
@@ -60,8 +61,8 @@ TEST(CoarseAxes, PureClutterGivesNoFalseAlarm) {
   }
 }
 
-// Of few, two that are perpendicular by chance soon are the majority.
-TEST(CoarseAxes, LittleClutterGivesNoFalseAlarm) {
+// Among few directions, two that are perpendicular by chance can be a majority.
+TEST(CoarseAxes, RejectsFewRandomDirections) {
   for (uint64_t seed = 0; seed < 1000; ++seed) {
     Random random(seed);
     View view;
@@ -71,10 +72,10 @@ TEST(CoarseAxes, LittleClutterGivesNoFalseAlarm) {
   }
 }
 
-// Four planes at any angles and lines along their creases: what a scene without Manhattan
-// structure looks like. 1 in 100 may be taken for a room: two planes are square to each other
-// within the misfit in 7 % of all cases, and then what lies on them must still have a majority.
-TEST(CoarseAxes, RandomPlanesGiveFewFalseAlarms) {
+// A scene without Manhattan structure: four planes in random orientations and lines along their
+// intersections. One in 100 may be accepted: two planes are perpendicular within the misfit in 7 %
+// of all cases, and their evidence must have a majority as well.
+TEST(CoarseAxes, RejectsMostScenesOfRandomPlanes) {
   int num_false_alarms = 0;
   for (uint64_t seed = 0; seed < 200; ++seed) {
     Random random(seed);
@@ -92,7 +93,7 @@ TEST(CoarseAxes, RandomPlanesGiveFewFalseAlarms) {
   EXPECT_LE(num_false_alarms, 2);
 }
 
-TEST(CoarseAxes, TwoAxesAreEnough) {
+TEST(CoarseAxes, AcceptsTwoAxesOfLinesAndSurfaces) {
   Random random(3);
   const Quaterniond truth = RandomRotation(&random);
   const Matrix3d axes = truth.toRotationMatrix();
@@ -106,7 +107,7 @@ TEST(CoarseAxes, TwoAxesAreEnough) {
   EXPECT_LT(AxesErrorInDegrees(found->rotation, truth), 1.0);
 }
 
-TEST(CoarseAxes, LinesAlongThreeAxesAreEnough) {
+TEST(CoarseAxes, AcceptsLinesAlongThreeAxes) {
   Random random(4);
   const Quaterniond truth = RandomRotation(&random);
   View view;
@@ -116,7 +117,7 @@ TEST(CoarseAxes, LinesAlongThreeAxesAreEnough) {
   EXPECT_LT(AxesErrorInDegrees(found->rotation, truth), 1.0);
 }
 
-TEST(CoarseAxes, SurfacesAcrossTwoAxesAreEnough) {
+TEST(CoarseAxes, AcceptsSurfacesAcrossTwoAxes) {
   Random random(5);
   const Quaterniond truth = RandomRotation(&random);
   View view;
@@ -127,8 +128,8 @@ TEST(CoarseAxes, SurfacesAcrossTwoAxesAreEnough) {
   EXPECT_LT(AxesErrorInDegrees(found->rotation, truth), 1.0);
 }
 
-// A window in a sloped roof.
-TEST(CoarseAxes, OneRectangleIsRefused) {
+// For example a window in a sloped roof.
+TEST(CoarseAxes, RejectsASingleRectangle) {
   Random random(6);
   const Matrix3d axes = RandomRotation(&random).toRotationMatrix();
   View view;
@@ -136,11 +137,11 @@ TEST(CoarseAxes, OneRectangleIsRefused) {
   AddLines(axes.col(1), 40, &random, &view);
   AddNormals(axes.col(2), 800, &random, &view);
   EXPECT_FALSE(Find(view));
-  AddNormals(axes.col(0), 100, &random, &view);  // its reveal
+  AddNormals(axes.col(0), 100, &random, &view);  // surface across a second axis
   EXPECT_TRUE(Find(view));
 }
 
-TEST(CoarseAxes, OneDirectionIsRefused) {
+TEST(CoarseAxes, RejectsASingleDirection) {
   Random random(7);
   View view;
   AddLines(Vector3d::UnitX(), 50, &random, &view);
@@ -148,7 +149,7 @@ TEST(CoarseAxes, OneDirectionIsRefused) {
   EXPECT_FALSE(Find(view));
 }
 
-TEST(CoarseAxes, WallsThatAreNotSquareAreRefused) {
+TEST(CoarseAxes, RejectsObliqueWalls) {
   for (const double degrees : {70.0, 80.0, 83.0}) {
     Random random(8);
     View view;
@@ -161,8 +162,8 @@ TEST(CoarseAxes, WallsThatAreNotSquareAreRefused) {
   }
 }
 
-// Both halves of such a house explain two thirds of it: the vertical is common.
-TEST(CoarseAxes, TwoEqualFramesWithOneVerticalAreRefused) {
+// Two equal Manhattan frames with a common vertical explain two thirds of the evidence each.
+TEST(CoarseAxes, RejectsTwoEqualFramesWithACommonVertical) {
   const auto house = [](int annexe_percent) {
     Random random(9);
     View view;
@@ -184,7 +185,7 @@ TEST(CoarseAxes, TwoEqualFramesWithOneVerticalAreRefused) {
   EXPECT_LT(AxesErrorInDegrees(axes->rotation, Quaterniond::Identity()), 1.0);
 }
 
-TEST(CoarseAxes, UncertainEvidenceDoesNotCount) {
+TEST(CoarseAxes, IgnoresUncertainEvidence) {
   Random random(10);
   View view = RoomView(RandomRotation(&random), 0.0, &random);
   ASSERT_TRUE(Find(view));
@@ -193,9 +194,9 @@ TEST(CoarseAxes, UncertainEvidenceDoesNotCount) {
   EXPECT_FALSE(Find(view));
 }
 
-TEST(CoarseAxes, NothingIsRefused) { EXPECT_FALSE(Find({})); }
+TEST(CoarseAxes, RejectsEmptyEvidence) { EXPECT_FALSE(Find({})); }
 
-TEST(CoarseAxes, DoNotDependOnOrderAndSigns) {
+TEST(CoarseAxes, IsIndependentOfOrderAndSigns) {
   Random random(11);
   View view = RoomView(RandomRotation(&random), 0.3, &random);
   const auto first = Find(view);
@@ -216,8 +217,7 @@ TEST(CoarseAxes, DoNotDependOnOrderAndSigns) {
   EXPECT_LT(negated->rotation.angularDistance(first->rotation), 1e-9);
 }
 
-// Turning the world turns the axes.
-TEST(CoarseAxes, FollowTheFrameOfTheEvidence) {
+TEST(CoarseAxes, RotatesWithTheEvidence) {
   Random random(12);
   View view = RoomView(RandomRotation(&random), 0.2, &random);
   const auto before = Find(view);
@@ -228,7 +228,7 @@ TEST(CoarseAxes, FollowTheFrameOfTheEvidence) {
   const auto after = Find(view);
   ASSERT_TRUE(after);
   EXPECT_LT(AxesErrorInDegrees(after->rotation, turn * before->rotation), 0.01);
-  // The mirror image of a room, which a negative fy shows, is a room.
+  // The mirror image of a room, as with a negative fy, is a room.
   for (AxisEvidence& line : view.lines) line.direction.y() *= -1.0;
   for (AxisEvidence& normal : view.normals) normal.direction.y() *= -1.0;
   const auto mirrored = Find(view);
@@ -241,9 +241,9 @@ TEST(CoarseAxes, FollowTheFrameOfTheEvidence) {
   EXPECT_GT(cosines.rowwise().maxCoeff().minCoeff(), 1.0 - 1e-6);
 }
 
-TEST(CoarseAxes, AreNearestToTheIdentityAndSayWhatSupportsEach) {
+TEST(CoarseAxes, ReturnsTheOrderNearestToTheIdentityWithItsSupport) {
   Random random(13);
-  // Lines 40:30:10 and normals 150:250:400 on the truth's axes.
+  // 40, 30 and 10 lines, 150, 250 and 400 normals along the true axes.
   const Quaterniond truth(
       Eigen::AngleAxisd(DegreesToRadians(20.0), Vector3d(1, 2, 3).normalized()));
   const auto axes = Find(RoomView(truth, 0.0, &random));
@@ -255,7 +255,7 @@ TEST(CoarseAxes, AreNearestToTheIdentityAndSayWhatSupportsEach) {
   EXPECT_NEAR(axes->normal_ratio.z(), 0.5, 0.02);
 }
 
-TEST(CoarseAxes, BadOptionsAreNamed) {
+TEST(CoarseAxes, RejectsInvalidOptions) {
   CoarseAxesOptions options;
   options.min_explained_ratio = 1.5;
   std::string error;

@@ -20,7 +20,7 @@ std::vector<WeightedDirection> Weighted(const testing::Evidence& evidence, doubl
   return directions;
 }
 
-TEST(DirectionModes, AreFoundHeaviestFirstWhateverTheSigns) {
+TEST(DirectionModes, FindsTheDensestFirstIndependentOfSigns) {
   Random random(1);
   testing::Evidence evidence;
   const Vector3d heavy = Vector3d(1, 2, 3).normalized();
@@ -33,7 +33,7 @@ TEST(DirectionModes, AreFoundHeaviestFirstWhateverTheSigns) {
   EXPECT_LT(RadiansToDegrees(UndirectedAngle(modes[1], light)), 0.5);
 }
 
-TEST(DirectionModes, WeightsCountAsNumbersDo) {
+TEST(DirectionModes, SumsWeights) {
   std::vector<WeightedDirection> directions = {{Vector3d::UnitX(), 3.0}};
   for (int i = 0; i < 2; ++i) directions.push_back({Vector3d::UnitY(), 1.0});
   const auto modes = FindDirectionModes(directions, kBandwidth, kSeparation, 12);
@@ -42,7 +42,7 @@ TEST(DirectionModes, WeightsCountAsNumbersDo) {
   EXPECT_EQ(modes[1], Vector3d::UnitY());
 }
 
-TEST(DirectionModes, AreApartAndNoMoreThanAskedFor) {
+TEST(DirectionModes, AreSeparatedAndLimitedInNumber) {
   Random random(2);
   testing::Evidence evidence;
   testing::AddClutter(500, 0.0, &random, &evidence);
@@ -53,7 +53,7 @@ TEST(DirectionModes, AreApartAndNoMoreThanAskedFor) {
   }
 }
 
-TEST(DirectionModes, OfNothingAreNone) {
+TEST(DirectionModes, FindsNoneWithoutDirections) {
   EXPECT_TRUE(FindDirectionModes({}, kBandwidth, kSeparation, 12).empty());
 }
 

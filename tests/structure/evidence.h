@@ -18,7 +18,7 @@ namespace msc_vo::testing {
 
 using Evidence = std::vector<AxisEvidence>;
 
-// Uniform on the sphere.
+// Uniformly distributed on the sphere.
 inline Eigen::Vector3d RandomDirection(Random* random) { return random->Normal3().normalized(); }
 
 inline Eigen::Quaterniond RandomRotation(Random* random) {
@@ -27,7 +27,8 @@ inline Eigen::Quaterniond RandomRotation(Random* random) {
   return Eigen::Quaterniond(a.x(), a.y(), b.x(), b.y()).normalized();
 }
 
-// Adds `count` noisy copies of a direction (radians, per component), of either sign.
+// Adds `count` copies of a direction with angular noise `sigma` (radians, per component) and random
+// signs.
 inline void AddAlong(const Eigen::Vector3d& direction, int count, double sigma, Random* random,
                      Evidence* evidence) {
   for (int i = 0; i < count; ++i) {
@@ -36,11 +37,12 @@ inline void AddAlong(const Eigen::Vector3d& direction, int count, double sigma, 
   }
 }
 
+// Adds random directions.
 inline void AddClutter(int count, double sigma, Random* random, Evidence* evidence) {
   for (int i = 0; i < count; ++i) evidence->push_back({RandomDirection(random), sigma});
 }
 
-// Lines and normals of one view, with errors as noisy depth has them.
+// Lines and normals of one view, with the sigmas of a noisy depth sensor.
 struct View {
   Evidence lines;
   Evidence normals;
@@ -55,7 +57,8 @@ inline void AddNormals(const Eigen::Vector3d& direction, int count, Random* rand
   AddAlong(direction, count, kNormalSigma, random, &view->normals);
 }
 
-// 80 lines and 800 normals, of which the share `clutter` points anywhere.
+// 80 lines and 800 normals along the axes of a room, with the fraction `clutter` in random
+// directions.
 inline View RoomView(const Eigen::Quaterniond& rotation, double clutter, Random* random) {
   const Eigen::Matrix3d axes = rotation.toRotationMatrix();
   const double kept = 1.0 - clutter;

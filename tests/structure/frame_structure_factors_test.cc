@@ -12,7 +12,7 @@
 namespace msc_vo {
 namespace {
 
-// Five lines of an exact room, noisy depths, one wrong pair that the loss must feel.
+// Twelve lines of a room with noisy depths, and all pairs that are parallel or perpendicular.
 class FrameStructureFactorsTest : public ::testing::Test {
  protected:
   FrameStructureFactorsTest() {
@@ -36,7 +36,7 @@ class FrameStructureFactorsTest : public ::testing::Test {
     }
   }
 
-  // The same factors in Ceres.
+  // Reference: the same factors as a Ceres problem.
   void AddTo(ceres::Problem* problem, std::vector<InverseDepthLineBlock>* blocks) const {
     for (size_t i = 0; i < factors_.lines.size(); ++i) {
       problem->AddResidualBlock(InverseDepthLinePrior::Create(frame_.lines[i].depth), nullptr,
@@ -64,7 +64,7 @@ class FrameStructureFactorsTest : public ::testing::Test {
   std::vector<InverseDepthLineBlock> blocks_;
 };
 
-TEST_F(FrameStructureFactorsTest, CostAndGradientAreThoseOfCeres) {
+TEST_F(FrameStructureFactorsTest, CostAndGradientMatchCeres) {
   ASSERT_GT(factors_.parallel.size(), 5u);
   ASSERT_GT(factors_.perpendicular.size(), 5u);
   RandomGeometry random(3);
@@ -86,24 +86,24 @@ TEST_F(FrameStructureFactorsTest, CostAndGradientAreThoseOfCeres) {
   }
 }
 
-TEST_F(FrameStructureFactorsTest, MinimumIsThatOfCeres) {
-  // A pair that is wrong by far: the loss is at work in both.
+TEST_F(FrameStructureFactorsTest, MinimumMatchesCeres) {
+  // A gross outlier activates the robust loss.
   factors_.perpendicular.push_back(
       {PerpendicularLines(kSigma), factors_.parallel[0].i, factors_.parallel[0].j});
-  std::vector<InverseDepthLineBlock> in_ceres = blocks_, mine = blocks_;
+  std::vector<InverseDepthLineBlock> expected = blocks_, actual = blocks_;
   ceres::Problem problem;
-  AddTo(&problem, &in_ceres);
+  AddTo(&problem, &expected);
   SolveToEnd(&problem);
   StructureEquations equations;
   int num_iterations = 0;
-  ASSERT_TRUE(MinimizeStructure(factors_, 200, &mine, &equations, &num_iterations));
+  ASSERT_TRUE(MinimizeStructure(factors_, 200, &actual, &equations, &num_iterations));
   double cost = 0.0;
   ASSERT_TRUE(problem.Evaluate({}, &cost, nullptr, nullptr, nullptr));
   EXPECT_NEAR(equations.cost, cost, 1e-4);
-  for (size_t i = 0; i < mine.size(); ++i) {
-    // In sigmas of the fit; the minimiser stops at a hundredth.
+  for (size_t i = 0; i < actual.size(); ++i) {
+    // In sigmas of the fit; the minimiser terminates at a hundredth.
     Eigen::Vector4d error;
-    const InverseDepthLineBlock difference = mine[i] - in_ceres[i];
+    const InverseDepthLineBlock difference = actual[i] - expected[i];
     LineDepth at_zero = frame_.lines[i].depth;
     at_zero.start = at_zero.end = 0.0;
     InverseDepthLinePrior prior(at_zero);
@@ -112,7 +112,7 @@ TEST_F(FrameStructureFactorsTest, MinimumIsThatOfCeres) {
   }
 }
 
-TEST_F(FrameStructureFactorsTest, BoundedCovariancesLieBetweenTheExactOnesAndThePriors) {
+TEST_F(FrameStructureFactorsTest, BoundsCovariancesBetweenTheExactOnesAndThePriors) {
   StructureEquations equations;
   ASSERT_TRUE(factors_.Linearize(blocks_, &equations));
   const auto bounds = BoundCovariances(factors_, equations);
@@ -136,7 +136,7 @@ TEST_F(FrameStructureFactorsTest, BoundedCovariancesLieBetweenTheExactOnesAndThe
   }
 }
 
-TEST_F(FrameStructureFactorsTest, CovarianceIsExactForALineAndItsPartnerAlone) {
+TEST_F(FrameStructureFactorsTest, HasExactCovariancesForASinglePair) {
   factors_.parallel.erase(factors_.parallel.begin() + 1, factors_.parallel.end());
   factors_.perpendicular.clear();
   const int i = factors_.parallel[0].i, j = factors_.parallel[0].j;

@@ -15,16 +15,16 @@ namespace {
 
 using ::testing::HasSubstr;
 
-bool SameDepth(const LineDepth& a, const LineDepth& b) {
+bool IsSameDepth(const LineDepth& a, const LineDepth& b) {
   return a.start == b.start && a.end == b.end && a.covariance == b.covariance;
 }
 
-// Errors over many frames, of lines with or without an axis.
+// Errors over many frames, of the lines along axes or of the free lines.
 struct Errors {
   double direction_before = 0.0, direction_after = 0.0;    // degrees, root mean square
   double normalized_before = 0.0, normalized_after = 0.0;  // mean square in sigmas; 2 expected
 };
-Errors Simulate(const FrameStructureOptions& options, StructureFrameOptions scene, bool of_free,
+Errors Simulate(const FrameStructureOptions& options, StructureFrameOptions scene, bool free_lines,
                 int num_frames) {
   Errors errors;
   int count = 0;
@@ -34,7 +34,7 @@ Errors Simulate(const FrameStructureOptions& options, StructureFrameOptions scen
     std::vector<StructureLine> lines = frame.lines;
     RefineFrameStructure(options, frame.camera, &lines);
     for (size_t i = 0; i < lines.size(); ++i) {
-      if (frame.free[i] != of_free) continue;
+      if (frame.free[i] != free_lines) continue;
       ++count;
       errors.direction_before += frame.SquaredDirectionError(i, frame.lines[i]);
       errors.direction_after += frame.SquaredDirectionError(i, lines[i]);
@@ -52,8 +52,8 @@ Errors Simulate(const FrameStructureOptions& options, StructureFrameOptions scen
 // The parameter is fy.
 class FrameStructureTest : public ::testing::TestWithParam<double> {
  protected:
-  // Gates of 5 degrees, as the systems have that the paper stands on: the lines of these frames are
-  // hardly known better than the default.
+  // A wide gate of 5 degrees, because the directions of these lines are hardly more certain than
+  // the default gate.
   FrameStructureTest() {
     scene_.fy = GetParam();
     options_.max_angle = 5.0;
@@ -67,7 +67,7 @@ class FrameStructureTest : public ::testing::TestWithParam<double> {
 };
 INSTANTIATE_TEST_SUITE_P(FocalLength, FrameStructureTest, ::testing::Values(525.0, -480.0));
 
-TEST_P(FrameStructureTest, HalvesTheDirectionErrorsOfARoomAndKnowsThem) {
+TEST_P(FrameStructureTest, HalvesDirectionErrorsConsistently) {
   const Errors room = Simulate(options_, scene_, false, 20);
   RecordProperty("before", std::to_string(room.direction_before));
   RecordProperty("after", std::to_string(room.direction_after));
@@ -77,7 +77,7 @@ TEST_P(FrameStructureTest, HalvesTheDirectionErrorsOfARoomAndKnowsThem) {
   EXPECT_LT(room.normalized_after, 2.3);
 }
 
-TEST_P(FrameStructureTest, TheDefaultGateHelpsBetterFitsMore) {
+TEST_P(FrameStructureTest, DefaultGateImprovesAccurateFitsMore) {
   options_ = FrameStructureOptions();
   const auto gain = [this](double inverse_depth_sigma) {
     scene_.inverse_depth_sigma = inverse_depth_sigma;
@@ -89,8 +89,8 @@ TEST_P(FrameStructureTest, TheDefaultGateHelpsBetterFitsMore) {
   EXPECT_LT(gain(0.5 * scene_.inverse_depth_sigma), noisy);
 }
 
-TEST_P(FrameStructureTest, NoisierDepthIsHelpedMore) {
-  // Lines whose fits say little are left alone; so it is the median that falls.
+TEST_P(FrameStructureTest, ImprovesNoisyDepthInTheMedian) {
+  // Very uncertain lines fail the gates, so that the mean is not improved as much as the median.
   scene_.inverse_depth_sigma = 4e-3;
   const StructureFrame frame = MakeStructureFrame(scene_);
   std::vector<StructureLine> lines;
@@ -106,21 +106,21 @@ TEST_P(FrameStructureTest, NoisierDepthIsHelpedMore) {
   EXPECT_LT(std::sqrt(after[after.size() / 2]), 0.5 * std::sqrt(before[before.size() / 2]));
 }
 
-TEST_P(FrameStructureTest, ASceneWithoutStructureIsHardlyTouched) {
+TEST_P(FrameStructureTest, HardlyChangesASceneWithoutStructure) {
   scene_.free_ratio = 1.0;
   const Errors errors = Simulate(options_, scene_, true, 20);
   EXPECT_LT(errors.direction_after, 1.15 * errors.direction_before);
   EXPECT_LT(errors.normalized_after, 1.5 * errors.normalized_before);
 }
 
-TEST_P(FrameStructureTest, FreeLinesAmongStructureAreNotBentFar) {
+TEST_P(FrameStructureTest, HardlyBiasesFreeLinesAmongStructure) {
   scene_.num_lines = 100;
   const Errors errors = Simulate(options_, scene_, true, 20);
   EXPECT_LT(errors.direction_after, 1.4 * errors.direction_before);
 }
 
-TEST_P(FrameStructureTest, AGoodFitIsNotBentTowardsADoubtfulPartner) {
-  // Line 0 is known to a tenth of a degree, line 1 badly and 3 degrees off.
+TEST_P(FrameStructureTest, CorrectsAnUncertainLineByAnAccuratePartner) {
+  // Line 0 is accurate to a tenth of a degree; line 1 is uncertain, with an error of 3 degrees.
   StructureFrame frame = MakeStructureFrame(scene_);
   const LineSegment3 a{{-0.5, 0.2, 2.0}, {0.3, 0.2, 2.5}};
   const LineSegment3 truth{{-0.4, -0.3, 2.4}, {0.4, -0.3, 2.9}};
@@ -145,12 +145,12 @@ TEST_P(FrameStructureTest, AGoodFitIsNotBentTowardsADoubtfulPartner) {
   EXPECT_LT(error(lines[0], a), 0.02);
   EXPECT_GT(error(before[1], truth), 2.0);
   EXPECT_LT(error(lines[1], truth), 0.4);
-  // What it learned is its slope; a sum of both depths is as uncertain as before.
+  // The slope of line 1 has become certain; the sum of its depths has not.
   EXPECT_LT(lines[1].depth.covariance.determinant(),
             0.2 * before[1].depth.covariance.determinant());
 }
 
-// Two lines that are four degrees from parallel, with this variance of their inverse depths.
+// Two lines at an angle of four degrees, with the given variance of their inverse depths.
 std::vector<StructureLine> FourDegreesOff(const PinholeCamera& camera, double variance) {
   std::vector<StructureLine> lines(2);
   const Eigen::Vector3d d = Eigen::Vector3d(0.8, 0.0, 0.5).normalized();
@@ -168,28 +168,28 @@ std::vector<StructureLine> FourDegreesOff(const PinholeCamera& camera, double va
   return lines;
 }
 
-TEST_P(FrameStructureTest, TwoGoodFitsFourDegreesOffAreLeftAlone) {
+TEST_P(FrameStructureTest, DoesNotPairAccurateLinesFourDegreesApart) {
   const PinholeCamera camera;
   std::vector<StructureLine> lines = FourDegreesOff(camera, 1e-7);
   const std::vector<StructureLine> before = lines;
   EXPECT_FALSE(RefineFrameStructure(options_, camera, &lines).usable);
-  for (int i = 0; i < 2; ++i) EXPECT_TRUE(SameDepth(lines[i].depth, before[i].depth));
-  options_.gate_sigmas = 10.0;  // then the gate of 5 degrees alone decides
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(IsSameDepth(lines[i].depth, before[i].depth));
+  options_.gate_sigmas = 10.0;  // leaves the gate of 5 degrees
   EXPECT_EQ(RefineFrameStructure(options_, camera, &lines).num_parallel, 1);
 }
 
-// Fits that are known to a degree would let them pass.
-TEST_P(FrameStructureTest, WhatLeansByFourDegreesIsNoPairByDefault) {
+// The gate in sigmas would accept directions with a sigma of one degree.
+TEST_P(FrameStructureTest, DoesNotPairLinesFourDegreesApartByDefault) {
   const PinholeCamera camera;
   const std::vector<StructureLine> lines = FourDegreesOff(camera, 1e-5);
   std::vector<StructureLine> refined = lines;
   EXPECT_EQ(RefineFrameStructure(options_, camera, &refined).num_parallel, 1);
   refined = lines;
   EXPECT_EQ(RefineFrameStructure(FrameStructureOptions(), camera, &refined).num_parallel, 0);
-  for (int i = 0; i < 2; ++i) EXPECT_TRUE(SameDepth(refined[i].depth, lines[i].depth));
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(IsSameDepth(refined[i].depth, lines[i].depth));
 }
 
-TEST_P(FrameStructureTest, LinesStayOnTheirSegmentsAndThoseWithoutPartnerUntouched) {
+TEST_P(FrameStructureTest, ChangesDepthsOfPairedLinesOnly) {
   const StructureFrame frame = MakeStructureFrame(scene_);
   std::vector<StructureLine> lines;
   const FrameStructureSummary summary = Refine(frame, &lines);
@@ -200,7 +200,7 @@ TEST_P(FrameStructureTest, LinesStayOnTheirSegmentsAndThoseWithoutPartnerUntouch
     EXPECT_EQ(lines[i].segment.end, frame.lines[i].segment.end);
     EXPECT_GT(lines[i].depth.start, 0.0);
     EXPECT_GT(lines[i].depth.covariance.determinant(), 0.0);
-    changed += !SameDepth(lines[i].depth, frame.lines[i].depth);
+    changed += !IsSameDepth(lines[i].depth, frame.lines[i].depth);
   }
   EXPECT_EQ(changed, summary.num_refined);
   EXPECT_LT(changed, 60);
@@ -209,7 +209,7 @@ TEST_P(FrameStructureTest, LinesStayOnTheirSegmentsAndThoseWithoutPartnerUntouch
   EXPECT_GT(summary.num_iterations, 0);
 }
 
-TEST_P(FrameStructureTest, PartnersAreCappedByInformationNotByOrder) {
+TEST_P(FrameStructureTest, LimitsPartnersIndependentOfOrder) {
   const StructureFrame frame = MakeStructureFrame(scene_);
   std::vector<StructureLine> lines, reversed(frame.lines.rbegin(), frame.lines.rend());
   options_.max_partners = 1000;
@@ -223,13 +223,13 @@ TEST_P(FrameStructureTest, PartnersAreCappedByInformationNotByOrder) {
   const FrameStructureSummary other = RefineFrameStructure(options_, frame.camera, &reversed);
   EXPECT_EQ(other.num_parallel, capped.num_parallel);
   for (size_t i = 0; i < lines.size(); ++i) {
-    const LineDepth& there = reversed[lines.size() - 1 - i].depth;
-    EXPECT_NEAR(there.start, lines[i].depth.start, 1e-4);
-    EXPECT_NEAR(there.end, lines[i].depth.end, 1e-4);
+    const LineDepth& other_depth = reversed[lines.size() - 1 - i].depth;
+    EXPECT_NEAR(other_depth.start, lines[i].depth.start, 1e-4);
+    EXPECT_NEAR(other_depth.end, lines[i].depth.end, 1e-4);
   }
 }
 
-TEST_P(FrameStructureTest, SwappedEndPointsChangeNothing) {
+TEST_P(FrameStructureTest, IsIndependentOfTheOrderOfEndPoints) {
   const StructureFrame frame = MakeStructureFrame(scene_);
   std::vector<StructureLine> lines, swapped = frame.lines;
   for (size_t i = 0; i < swapped.size(); i += 2) {
@@ -240,29 +240,29 @@ TEST_P(FrameStructureTest, SwappedEndPointsChangeNothing) {
   Refine(frame, &lines);
   RefineFrameStructure(options_, frame.camera, &swapped);
   for (size_t i = 0; i < lines.size(); ++i) {
-    const LineDepth& there = swapped[i].depth;
-    EXPECT_NEAR(i % 2 == 0 ? there.end : there.start, lines[i].depth.start, 1e-4);
+    const LineDepth& other_depth = swapped[i].depth;
+    EXPECT_NEAR(i % 2 == 0 ? other_depth.end : other_depth.start, lines[i].depth.start, 1e-4);
   }
 }
 
-TEST_P(FrameStructureTest, SameInputSameBytes) {
+TEST_P(FrameStructureTest, IsDeterministic) {
   const StructureFrame frame = MakeStructureFrame(scene_);
   std::vector<StructureLine> a, b;
   Refine(frame, &a);
   Refine(frame, &b);
-  for (size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(SameDepth(a[i].depth, b[i].depth));
+  for (size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(IsSameDepth(a[i].depth, b[i].depth));
 }
 
-TEST_P(FrameStructureTest, NoLinesOrOneAreNoError) {
+TEST_P(FrameStructureTest, AcceptsNoneOrOneLine) {
   std::vector<StructureLine> none;
   EXPECT_FALSE(RefineFrameStructure(options_, PinholeCamera(), &none).usable);
   std::vector<StructureLine> one(1, MakeStructureFrame(scene_).lines[0]);
   const StructureLine before = one[0];
   EXPECT_FALSE(RefineFrameStructure(options_, PinholeCamera(), &one).usable);
-  EXPECT_TRUE(SameDepth(one[0].depth, before.depth));
+  EXPECT_TRUE(IsSameDepth(one[0].depth, before.depth));
 }
 
-TEST_P(FrameStructureTest, MisuseNamesTheLine) {
+TEST_P(FrameStructureTest, NamesTheInvalidLine) {
   const StructureFrame frame = MakeStructureFrame(scene_);
   const auto message = [&](const auto& spoil) -> std::string {
     std::vector<StructureLine> lines = frame.lines;
@@ -286,7 +286,7 @@ TEST_P(FrameStructureTest, MisuseNamesTheLine) {
       HasSubstr("line 7: depth is not finite"));
 }
 
-TEST_P(FrameStructureTest, Options) {
+TEST_P(FrameStructureTest, ChecksItsOptions) {
   std::string error;
   EXPECT_TRUE(options_.IsValid(&error));
   const auto is_valid = [&](auto FrameStructureOptions::*member, auto value) {

@@ -8,13 +8,10 @@
 #include "tests/support/synthetic_frames.h"
 #include <gtest/gtest.h>
 
-#include "msc_vo/mapping/mapper.h"
-
 namespace msc_vo {
 namespace {
 
-// Root mean square over lines of the sine of their angles from the nearest direction of the box
-// that they are drawn in.
+// Root mean square of the sines of the angles between lines and the nearest axis of the box.
 double DirectionError(const std::vector<LineSegment3>& lines, const Rigid3& world_from_lines) {
   double squares = 0.0;
   for (const LineSegment3& line : lines) {
@@ -24,8 +21,7 @@ double DirectionError(const std::vector<LineSegment3>& lines, const Rigid3& worl
   return std::sqrt(squares / static_cast<double>(lines.size()));
 }
 
-// Gates that lines of single frames pass whose depth is as noisy as theirs; where the mapper has
-// learnt that it is less noisy, narrower ones do.
+// Gates for lines of single frames without self-calibrated sigmas.
 FrameStructureOptions WideGates() {
   FrameStructureOptions options;
   options.max_angle = 5.0;
@@ -40,14 +36,14 @@ std::vector<LineSegment3> LinesInCamera(const Frame& frame) {
   return lines;
 }
 
-TEST(KeyframeStructure, MakesDirectionsAgree) {
+TEST(KeyframeStructure, AlignsDirections) {
   SyntheticFrames world{SyntheticFrames::Options()};
   const std::shared_ptr<const Frame> frame = world.MakeFrame(0);
   const Rigid3 world_from_cam = SyntheticFrames::CamFromWorld(0).Inverse();
   const double before = DirectionError(LinesInCamera(*frame), world_from_cam);
   const auto refined = RefineStructure(WideGates(), NoiseScale(), frame);
   EXPECT_LT(DirectionError(LinesInCamera(*refined), world_from_cam), 0.7 * before);
-  // The frame that tracking holds is as it was, and all but the depths of lines is the same.
+  // The original frame is unchanged; only depths of lines differ from it.
   EXPECT_EQ(DirectionError(LinesInCamera(*frame), world_from_cam), before);
   EXPECT_EQ(refined->id, frame->id);
   EXPECT_EQ(refined->points.size(), frame->points.size());
@@ -58,7 +54,7 @@ TEST(KeyframeStructure, MakesDirectionsAgree) {
   }
 }
 
-TEST(KeyframeStructure, TrustsFitsAsFarAsNoiseIsKnown) {
+TEST(KeyframeStructure, UsesTheNoiseScaleOfTheLines) {
   SyntheticFrames world{SyntheticFrames::Options()};
   const std::shared_ptr<const Frame> frame = world.MakeFrame(0);
   const Rigid3 world_from_cam = SyntheticFrames::CamFromWorld(0).Inverse();
@@ -67,11 +63,11 @@ TEST(KeyframeStructure, TrustsFitsAsFarAsNoiseIsKnown) {
     const auto refined = RefineStructure(FrameStructureOptions(), noise, frame);
     return DirectionError(LinesInCamera(*refined), world_from_cam);
   };
-  // Of lines as noisy as they say most are known worse than the default gate is wide.
+  // With the nominal sigmas, most directions are less certain than the default gate is wide.
   EXPECT_LT(error_with(0.6), error_with(1.0));
   EXPECT_LT(error_with(1.0), error_with(100.0));
   EXPECT_EQ(error_with(100.0), DirectionError(LinesInCamera(*frame), world_from_cam));
-  // Covariances come out in the units they went in with.
+  // The covariances are returned without the scale.
   const auto refined = RefineStructure(FrameStructureOptions(), NoiseScale{1.0, 0.01, 0.01}, frame);
   for (size_t i = 0; i < frame->lines.size(); ++i) {
     EXPECT_NEAR(
@@ -80,33 +76,9 @@ TEST(KeyframeStructure, TrustsFitsAsFarAsNoiseIsKnown) {
   }
 }
 
-TEST(KeyframeStructure, LeavesAFrameWithoutPairsAlone) {
-  const std::shared_ptr<const Frame> nothing = SyntheticFrames::MakeEmptyFrame(0);
-  EXPECT_EQ(RefineStructure(FrameStructureOptions(), NoiseScale(), nothing), nothing);
-}
-
-// The map gets the refined lines if the option says so, or has no pairs.
-TEST(KeyframeStructure, ReachesTheMap) {
-  const auto error = [](FrameStructureUse use, bool pairs) {
-    SyntheticFrames world{SyntheticFrames::Options()};
-    MapperOptions options;
-    options.frame_structure = use;
-    options.pairs.parallel = options.pairs.perpendicular = pairs;
-    options.structure = WideGates();
-    Mapper mapper(options);
-    KeyframePacket packet;
-    packet.frame = world.MakeFrame(0);
-    packet.cam_from_reference = SyntheticFrames::CamFromWorld(0);
-    mapper.Process(packet);
-    std::vector<LineSegment3> lines;
-    for (const auto& [id, line] : mapper.map().lines()) lines.push_back(line.segment);
-    return DirectionError(lines, Rigid3());
-  };
-  const double measured = error(FrameStructureUse::kNever, false);
-  const double refined = error(FrameStructureUse::kAlways, true);
-  EXPECT_LT(refined, 0.7 * measured);
-  EXPECT_EQ(error(FrameStructureUse::kWithoutPairs, false), refined);
-  EXPECT_EQ(error(FrameStructureUse::kWithoutPairs, true), measured);
+TEST(KeyframeStructure, ReturnsTheSameFrameWithoutPairs) {
+  const std::shared_ptr<const Frame> empty = SyntheticFrames::MakeEmptyFrame(0);
+  EXPECT_EQ(RefineStructure(FrameStructureOptions(), NoiseScale(), empty), empty);
 }
 
 }  // namespace

@@ -8,14 +8,13 @@
 #include <gmock/gmock.h>
 
 #include "msc_vo/map/window_selection.h"
-#include "msc_vo/mapping/mapper.h"
 
 namespace msc_vo {
 namespace {
 
-// A map of `count` keyframes, ten frames apart, with the true poses: the first camera is the world.
-// Lines are matched by their descriptors, unique as they are here.
-Map Walk(SyntheticFrames* world, int count) {
+// A map of `count` keyframes, ten frames apart, with the true poses relative to the first camera.
+// Lines are matched by their descriptors, which are unique.
+Map MakeMap(SyntheticFrames* world, int count) {
   Map map;
   for (int k = 0; k < count; ++k) {
     const int index = 10 * k;
@@ -24,13 +23,13 @@ Map Walk(SyntheticFrames* world, int count) {
     const KeyframeId id = map.AddKeyframe(world->MakeFrame(index), cam_from_world);
     const Frame& frame = *map.FindKeyframe(id)->frame;
     for (int i = 0; i < static_cast<int>(frame.lines.size()); ++i) {
-      LandmarkId seen = kNoId;
+      LandmarkId match = kNoId;
       for (const auto& [line_id, line] : map.lines()) {
-        if (HammingDistance(line.descriptor, frame.lines[i].descriptor) < 40) seen = line_id;
+        if (HammingDistance(line.descriptor, frame.lines[i].descriptor) < 40) match = line_id;
       }
-      if (seen != kNoId) {
-        map.ObserveLine(seen, id, i);
-        map.RefreshLine(seen);
+      if (match != kNoId) {
+        map.ObserveLine(match, id, i);
+        map.RefreshLine(match);
       } else if (frame.lines[i].depth) {
         map.AddLine(id, i, cam_from_world.Inverse() * frame.LineInCamera(i));
       }
@@ -39,7 +38,7 @@ Map Walk(SyntheticFrames* world, int count) {
   return map;
 }
 
-// Angle (degrees) of each axis to the nearest edge of the box that the lines run along.
+// Largest angle (degrees) between an axis and the nearest axis of the box.
 double AxesError(const Eigen::Quaterniond& world_from_axes) {
   const Eigen::Matrix3d axes_in_box =
       (SyntheticFrames::CamFromWorld(0).rotation().conjugate() * world_from_axes)
@@ -51,22 +50,22 @@ double AxesError(const Eigen::Quaterniond& world_from_axes) {
   return RadiansToDegrees(worst);
 }
 
-TEST(SceneAxes, AreFoundInOneKeyframeAndRefinedOverMany) {
+TEST(SceneAxes, StartsWithOneKeyframeAndRefinesOverMany) {
   SyntheticFrames world{SyntheticFrames::Options()};
   SceneAxes axes{SceneAxesOptions()};
-  axes.Update(Walk(&world, 1), 0, {});
+  axes.Update(MakeMap(&world, 1), 0, {});
   ASSERT_EQ(axes.estimator().state(), AxesState::kCoarse);
   EXPECT_LT(AxesError(axes.estimator().world_from_axes()), 1.5);
-  axes.Update(Walk(&world, 7), 6, {});
+  axes.Update(MakeMap(&world, 7), 6, {});
   ASSERT_EQ(axes.estimator().state(), AxesState::kRefined);
   EXPECT_LT(AxesError(axes.estimator().world_from_axes()), 0.3);
   EXPECT_LT(axes.estimator().sigma(), DegreesToRadians(0.3));
 }
 
-TEST(SceneAxes, BindTheLinesOfAWindowToTheirAxes) {
+TEST(SceneAxes, AlignsTheLinesOfAWindowWithTheirAxes) {
   SyntheticFrames world{SyntheticFrames::Options()};
   SceneAxes axes{SceneAxesOptions()};
-  const Map map = Walk(&world, 7);
+  const Map map = MakeMap(&world, 7);
   axes.Update(map, 6, {});
   WindowData window = SelectWindow(WindowSelectionOptions(), map, 6);
   axes.AddAlignments(map, &window);
@@ -78,11 +77,11 @@ TEST(SceneAxes, BindTheLinesOfAWindowToTheirAxes) {
   }
 }
 
-TEST(SceneAxes, DoNothingWhereThereAreNone) {
+TEST(SceneAxes, FindsNoAxesInTooFewLines) {
   SyntheticFrames::Options options;
-  options.num_lines = 2;  // too few to speak for axes
+  options.num_lines = 2;
   SyntheticFrames world{options};
-  const Map map = Walk(&world, 3);
+  const Map map = MakeMap(&world, 3);
   SceneAxes axes{SceneAxesOptions()};
   axes.Update(map, 2, {});
   EXPECT_EQ(axes.estimator().state(), AxesState::kNone);
@@ -92,26 +91,16 @@ TEST(SceneAxes, DoNothingWhereThereAreNone) {
   for (const auto& [id, line] : map.lines()) EXPECT_FALSE(axes.AxisOf(line));
 }
 
-TEST(SceneAxes, CanBeSwitchedOff) {
+TEST(SceneAxes, CanBeDisabled) {
   SyntheticFrames world{SyntheticFrames::Options()};
   SceneAxesOptions options;
   options.enabled = false;
   SceneAxes axes(options);
-  axes.Update(Walk(&world, 7), 6, {});
+  axes.Update(MakeMap(&world, 7), 6, {});
   EXPECT_EQ(axes.estimator().state(), AxesState::kNone);
 }
 
-TEST(SceneAxes, AskForNormalsOnlyAsLongAsThereAreNone) {
-  SyntheticFrames world{SyntheticFrames::Options()};
-  Mapper mapper{MapperOptions()};
-  EXPECT_TRUE(mapper.Snapshot()->needs_axes);
-  KeyframePacket packet;
-  packet.frame = world.MakeFrame(0);
-  mapper.Process(packet);
-  EXPECT_FALSE(mapper.Snapshot()->needs_axes);
-}
-
-TEST(SceneAxes, BadOptionsAreNamed) {
+TEST(SceneAxes, RejectsInvalidOptions) {
   SceneAxesOptions options;
   options.deviation = 0.0;
   EXPECT_THROW(SceneAxes{options}, std::invalid_argument);

@@ -15,10 +15,10 @@
 namespace msc_vo {
 namespace {
 
-// One keyframe that sees lines along the three directions of a box.
-class StructuralPairs : public ::testing::Test {
+// One keyframe that observes lines along the three axes of a box.
+class StructuralPairsTest : public ::testing::Test {
  protected:
-  StructuralPairs() {
+  StructuralPairsTest() {
     SyntheticFrames world{SyntheticFrames::Options()};
     map_ = MapOfOneKeyframe(world.MakeFrame(0), Rigid3()).map;
     WindowSelectionOptions selection;
@@ -36,7 +36,7 @@ class StructuralPairs : public ::testing::Test {
   StructuralPairOptions options_;
 };
 
-TEST_F(StructuralPairs, AreNearZeroAndNinetyDegrees) {
+TEST_F(StructuralPairsTest, SelectsParallelAndPerpendicularPairs) {
   AddStructuralPairs(options_, map_, &window_);
   EXPECT_GT(window_.parallel_pairs.size(), window_.lines.size() / 2);
   EXPECT_GT(window_.perpendicular_pairs.size(), window_.lines.size() / 2);
@@ -48,7 +48,7 @@ TEST_F(StructuralPairs, AreNearZeroAndNinetyDegrees) {
   }
 }
 
-TEST_F(StructuralPairs, EachLineChoosesThePartnersWithTheBestKnownAngle) {
+TEST_F(StructuralPairsTest, PrefersPartnersWithTheMostCertainAngle) {
   options_.max_partners = 1;
   AddStructuralPairs(options_, map_, &window_);
   EXPECT_LE(window_.parallel_pairs.size(), window_.lines.size());
@@ -60,7 +60,7 @@ TEST_F(StructuralPairs, EachLineChoosesThePartnersWithTheBestKnownAngle) {
     return std::hypot(map_.FindLine(pair.a)->direction_sigma,
                       map_.FindLine(pair.b)->direction_sigma);
   };
-  std::map<int64_t, double> best;  // sigma of the best angle that a line has with any other
+  std::map<int64_t, double> best;  // smallest sigma of the pairs of each line
   for (const auto& pair : all.parallel_pairs) {
     for (const int64_t line : {pair.a, pair.b}) {
       const auto found = best.emplace(line, sigma(pair)).first;
@@ -72,14 +72,14 @@ TEST_F(StructuralPairs, EachLineChoosesThePartnersWithTheBestKnownAngle) {
   }
 }
 
-TEST_F(StructuralPairs, LeaveOutLinesThatNoKeyframeSeesTogether) {
+TEST_F(StructuralPairsTest, ExcludesLinesWithoutACommonKeyframe) {
   window_.line_observations.resize(1);
   AddStructuralPairs(options_, map_, &window_);
   EXPECT_TRUE(window_.parallel_pairs.empty());
   EXPECT_TRUE(window_.perpendicular_pairs.empty());
 }
 
-TEST_F(StructuralPairs, LeaveOutLinesThatAreBoundToAxes) {
+TEST_F(StructuralPairsTest, ExcludesPairsOfAlignedLines) {
   for (const WindowData::Line& line : window_.lines) {
     window_.axis_alignments.push_back({line.id, line.segment.Direction(), 0.01, false});
   }
@@ -92,14 +92,14 @@ TEST_F(StructuralPairs, LeaveOutLinesThatAreBoundToAxes) {
   }
 }
 
-TEST_F(StructuralPairs, CanBeSwitchedOffEachKindForItself) {
+TEST_F(StructuralPairsTest, CanDisableEachKind) {
   options_.parallel = false;
   AddStructuralPairs(options_, map_, &window_);
   EXPECT_TRUE(window_.parallel_pairs.empty());
   EXPECT_FALSE(window_.perpendicular_pairs.empty());
 }
 
-TEST(StructuralPairOptions, AreChecked) {
+TEST(StructuralPairOptions, ChecksItsOptions) {
   std::string error;
   StructuralPairOptions options;
   EXPECT_TRUE(options.IsValid(&error));

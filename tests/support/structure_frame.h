@@ -30,7 +30,7 @@ struct StructureFrame {
   PinholeCamera camera;
   std::vector<StructureLine> lines;
   std::vector<LineSegment3> truth;  // metres, camera
-  std::vector<bool> free;           // without an axis
+  std::vector<bool> free;           // not along an axis
 
   Eigen::Vector2d TrueDepths(size_t i) const {
     return {1.0 / truth[i].start.z(), 1.0 / truth[i].end.z()};

@@ -44,7 +44,7 @@ class SyntheticFrames {
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
   const std::vector<LineSegment3>& lines() const { return lines_; }
 
-  // A smooth hand-held motion, metres and radians per frame as at 30 Hz.
+  // Smooth trajectory of a hand-held camera at 30 Hz, metres.
   static Rigid3 CamFromWorld(int index) {
     const double t = index / 30.0;
     const Eigen::Vector3d center(0.4 * std::sin(0.9 * t), 0.1 * std::sin(1.3 * t), 0.25 * t);

@@ -8,7 +8,7 @@
 namespace msc_vo {
 namespace {
 
-// Two points and two lines, one each in the left and in the right half of the image.
+// One point and one line in each of the two cells of the image.
 class DynamicFeaturesTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -21,7 +21,7 @@ class DynamicFeaturesTest : public ::testing::Test {
     frame->points[0].pixel = {50.0, 50.0};
     frame->points[1].pixel = {150.0, 50.0};
     frame->lines.resize(2);
-    frame->lines[0].segment = {{20.0, 10.0}, {170.0, 10.0}};  // its middle is on the left
+    frame->lines[0].segment = {{20.0, 10.0}, {170.0, 10.0}};  // midpoint in the left cell
     frame->lines[1].segment = {{120.0, 10.0}, {170.0, 10.0}};
     tracked_.frame = frame;
   }
@@ -30,17 +30,17 @@ class DynamicFeaturesTest : public ::testing::Test {
   TrackedFrame tracked_;
 };
 
-TEST_F(DynamicFeaturesTest, AreThoseInPartsThatMove) {
+TEST_F(DynamicFeaturesTest, MarksFeaturesInDynamicCells) {
   tracked_.dynamic_cells = {true, false};
   const auto marked = MarkDynamicFeatures(options_, tracked_);
   EXPECT_TRUE(marked->points[0].dynamic);
   EXPECT_FALSE(marked->points[1].dynamic);
   EXPECT_TRUE(marked->lines[0].dynamic);
   EXPECT_FALSE(marked->lines[1].dynamic);
-  EXPECT_FALSE(tracked_.frame->points[0].dynamic);  // others may have that frame
+  EXPECT_FALSE(tracked_.frame->points[0].dynamic);  // the original frame is shared
 }
 
-TEST_F(DynamicFeaturesTest, AreNotWhatAgreesWithThePose) {
+TEST_F(DynamicFeaturesTest, KeepsInliersOfThePoseStatic) {
   tracked_.dynamic_cells = {true, true};
   tracked_.matches.points.resize(1);
   tracked_.matches.lines.resize(1);
@@ -52,7 +52,7 @@ TEST_F(DynamicFeaturesTest, AreNotWhatAgreesWithThePose) {
   EXPECT_FALSE(marked->lines[1].dynamic);
 }
 
-TEST_F(DynamicFeaturesTest, AFrameInWhichNothingMovesStaysAsItIs) {
+TEST_F(DynamicFeaturesTest, ReturnsTheSameFrameWithoutDynamicCells) {
   EXPECT_EQ(MarkDynamicFeatures(options_, tracked_), tracked_.frame);
 }
 

@@ -8,8 +8,8 @@
 namespace msc_vo {
 namespace {
 
-// A frame with `num` points at `depth` metres, of which the first `tracked` are matched.
-bool Ask(KeyframePolicy* policy, int num, int tracked, double depth = 2.0) {
+// Tests a frame with `num` points at `depth` metres, of which the first `tracked` are matched.
+bool IsDue(KeyframePolicy* policy, int num, int tracked, double depth = 2.0) {
   Frame frame;
   frame.points.resize(num);
   for (PointFeature& point : frame.points) {
@@ -21,41 +21,61 @@ bool Ask(KeyframePolicy* policy, int num, int tracked, double depth = 2.0) {
   return policy->IsDue(frame, matches);
 }
 
-TEST(KeyframePolicy, DueWhenTheShareHasFallen) {
+TEST(KeyframePolicy, IsDueWhenTheTrackedRatioFalls) {
   KeyframePolicy policy{KeyframePolicyOptions()};
-  EXPECT_FALSE(Ask(&policy, 100, 60));
-  EXPECT_FALSE(Ask(&policy, 100, 60));
-  EXPECT_FALSE(Ask(&policy, 100, 54));
-  EXPECT_TRUE(Ask(&policy, 100, 40));
+  EXPECT_FALSE(IsDue(&policy, 100, 60));
+  EXPECT_FALSE(IsDue(&policy, 100, 60));
+  EXPECT_FALSE(IsDue(&policy, 100, 54));
+  EXPECT_TRUE(IsDue(&policy, 100, 40));
 }
 
-TEST(KeyframePolicy, FewFeaturesAreNoReason) {
+TEST(KeyframePolicy, IsNotDueForFewFeaturesAlone) {
   KeyframePolicy policy{KeyframePolicyOptions()};
-  EXPECT_FALSE(Ask(&policy, 1000, 600));
-  EXPECT_FALSE(Ask(&policy, 25, 15));
-  EXPECT_FALSE(Ask(&policy, 0, 0));
+  EXPECT_FALSE(IsDue(&policy, 1000, 600));
+  EXPECT_FALSE(IsDue(&policy, 25, 15));
+  EXPECT_FALSE(IsDue(&policy, 0, 0));
 }
 
-TEST(KeyframePolicy, DueAfterTheMaximumInterval) {
+TEST(KeyframePolicy, IsDueAfterTheMaximumInterval) {
   KeyframePolicyOptions options;
   options.max_interval = 5;
   KeyframePolicy policy(options);
-  for (int i = 0; i < 4; ++i) EXPECT_FALSE(Ask(&policy, 100, 60));
-  EXPECT_TRUE(Ask(&policy, 100, 60));
+  for (int i = 0; i < 4; ++i) EXPECT_FALSE(IsDue(&policy, 100, 60));
+  EXPECT_TRUE(IsDue(&policy, 100, 60));
   policy.Inserted();
-  EXPECT_FALSE(Ask(&policy, 100, 60));
+  EXPECT_FALSE(IsDue(&policy, 100, 60));
 }
 
-TEST(KeyframePolicy, NotBeforeTheMinimumInterval) {
+TEST(KeyframePolicy, IsNotDueBeforeTheMinimumInterval) {
   KeyframePolicyOptions options;
   options.min_interval = 3;
   KeyframePolicy policy(options);
-  EXPECT_FALSE(Ask(&policy, 100, 90));
-  EXPECT_FALSE(Ask(&policy, 100, 10));
-  EXPECT_TRUE(Ask(&policy, 100, 10));
+  EXPECT_FALSE(IsDue(&policy, 100, 90));
+  EXPECT_FALSE(IsDue(&policy, 100, 10));
+  EXPECT_TRUE(IsDue(&policy, 100, 10));
 }
 
-TEST(KeyframePolicy, OptionsAreChecked) {
+// Of 40 close and 60 distant points, 60 are tracked in every frame, but fewer and fewer close ones.
+TEST(KeyframePolicy, TestsCloseFeaturesSeparately) {
+  Frame frame;
+  frame.points.resize(100);
+  for (int i = 0; i < 100; ++i) {
+    frame.points[i].inverse_depth = i < 40 ? 1.0 : 0.1;
+    frame.points[i].inverse_depth_sigma = 1.425e-3;
+  }
+  const auto matches = [](int close, int distant) {
+    FrameMatches tracked;
+    for (int i = 0; i < close; ++i) tracked.points.push_back({i, i, {0, 0, 0}, true});
+    for (int i = 40; i < 40 + distant; ++i) tracked.points.push_back({i, i, {0, 0, 0}, true});
+    return tracked;
+  };
+  KeyframePolicy policy{KeyframePolicyOptions()};
+  EXPECT_FALSE(policy.IsDue(frame, matches(40, 20)));
+  EXPECT_FALSE(policy.IsDue(frame, matches(36, 24)));
+  EXPECT_TRUE(policy.IsDue(frame, matches(30, 30)));  // close: 0.75 of the best ratio
+}
+
+TEST(KeyframePolicy, ChecksItsOptions) {
   std::string error;
   KeyframePolicyOptions options;
   EXPECT_TRUE(options.IsValid(&error));

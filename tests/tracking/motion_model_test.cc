@@ -10,13 +10,13 @@
 namespace msc_vo {
 namespace {
 
-TEST(MotionModel, AtRestUntilAMotionWasSeen) {
+TEST(MotionModel, PredictsRestBeforeTheFirstMotion) {
   MotionModel model;
   model.Reset(1.0);
   EXPECT_TRUE(model.Predict(2.0).params.isApprox(Rigid3().params));
 }
 
-TEST(MotionModel, VelocityScalesWithTime) {
+TEST(MotionModel, ScalesTheVelocityWithTime) {
   MotionModel model;
   model.Reset(1.0);
   const Eigen::Vector3d turn(0.0, 0.02, 0.01);
@@ -26,7 +26,7 @@ TEST(MotionModel, VelocityScalesWithTime) {
   EXPECT_TRUE(twice.translation().isApprox(Eigen::Vector3d(0.2, 0.0, -0.4), 1e-9));
 }
 
-TEST(MotionModel, GoesBackwardsAsWell) {
+TEST(MotionModel, ExtrapolatesBackwards) {
   MotionModel model;
   model.Reset(1.0);
   EXPECT_FALSE(model.VelocityAt(1.0).has_value());
@@ -35,22 +35,23 @@ TEST(MotionModel, GoesBackwardsAsWell) {
   const Rigid3 back = model.VelocityAt(1.2)->Over(-0.05);
   EXPECT_TRUE(LogSO3(back.rotation()).isApprox(-0.5 * turn, 1e-9));
   EXPECT_TRUE(back.translation().isApprox(Eigen::Vector3d(-0.05, 0.0, 0.1), 1e-9));
-  EXPECT_FALSE(model.VelocityAt(2.0).has_value());  // too long ago
+  EXPECT_FALSE(model.VelocityAt(2.0).has_value());  // too old
 }
 
-TEST(MotionModel, TheVelocityAtAFrameIsBetweenThoseBeforeAndAfter) {
+TEST(MotionModel, InterpolatesTheVelocityAtTheLastFrame) {
   MotionModel model;
   model.Reset(1.0);
   const Rigid3 metre(Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.0});
-  EXPECT_NEAR(model.LastVelocity(1.1, metre)->linear.x(), 1.0, 1e-9);  // nothing before
+  EXPECT_NEAR(model.LastVelocity(1.1, metre)->linear.x(), 1.0, 1e-9);  // no earlier motion
   model.Observe(1.1, metre);
-  // 1 m/s until 1.1 s, 2.5 m/s from there to 1.14 s, linear in between: at 1.05 and 1.12 s.
+  // Mean velocities 1 m/s until 1.1 s and 2.5 m/s until 1.14 s belong to the middles of these
+  // intervals, 1.05 s and 1.12 s.
   EXPECT_NEAR(model.LastVelocity(1.14, metre)->linear.x(), 1.0 + 1.5 * 5.0 / 7.0, 1e-9);
   EXPECT_FALSE(model.LastVelocity(1.7, metre).has_value());
   EXPECT_FALSE(model.VelocitySince(1.7, metre).has_value());
 }
 
-TEST(MotionModel, DoesNotRunAwayOverALongGap) {
+TEST(MotionModel, LimitsThePredictionOverALongGap) {
   MotionModel model;
   model.Reset(1.0);
   model.Observe(1.1, Rigid3(Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.0}));

@@ -10,8 +10,8 @@
 namespace msc_vo {
 namespace {
 
-// A tracker that has seen frame 0, and the map made of it. World is camera 0 here, so that truth is
-// told relative to it.
+// A tracker after frame 0, and the map of that frame. The world is camera 0, so that Truth() is
+// relative to it.
 class TrackerTest : public ::testing::Test {
  protected:
   void Start(const SyntheticFrames::Options& options) {
@@ -32,19 +32,19 @@ class TrackerTest : public ::testing::Test {
   MapSnapshot snapshot_;
 };
 
-TEST_F(TrackerTest, FollowsTheCamera) {
+TEST_F(TrackerTest, EstimatesThePoseOfEveryFrame) {
   Start({});
   for (int i = 1; i < 30; ++i) {
     const TrackedFrame tracked = Track(i);
     ASSERT_EQ(tracked.status, TrackingStatus::kTracked) << i;
-    // One keyframe's landmarks carry its own noise: half a pixel and 1.4e-3 / m.
+    // Landmarks of a single keyframe have the noise of its features: 0.5 px and 1e-3 1/m.
     EXPECT_LT(PositionError(tracked.cam_from_world, Truth(i)), 0.01) << i;
     EXPECT_LT(RotationError(tracked.cam_from_world, Truth(i)), 0.003) << i;
     EXPECT_GT(tracked.pose.num_inlier_points, 100) << i;
   }
 }
 
-TEST_F(TrackerTest, TheSecondFrameTellsHowTheFirstOneMoved) {
+TEST_F(TrackerTest, EstimatesTheVelocityAtTheFirstKeyframe) {
   Start({});
   const TrackedFrame tracked = Track(1);
   ASSERT_TRUE(tracked.keyframe.previous_velocity.has_value());
@@ -53,22 +53,22 @@ TEST_F(TrackerTest, TheSecondFrameTellsHowTheFirstOneMoved) {
   EXPECT_FALSE(Track(2).keyframe.previous_velocity.has_value());
 }
 
-TEST_F(TrackerTest, AMapOfRolledRowsIsUnrolledSoon) {
+TEST_F(TrackerTest, RequestsAKeyframeToCompensateTheFirstOne) {
   Start({});
   snapshot_.readout_time = 0.026;
   const TrackedFrame second = Track(1);
   EXPECT_TRUE(second.keyframe.is_due);
-  EXPECT_EQ(second.frame->readout_time, 0.0);  // as the map is
+  EXPECT_EQ(second.frame->readout_time, 0.0);  // like the map
   EXPECT_TRUE(second.frame->velocity.has_value());
-  EXPECT_FALSE(Track(2).keyframe.is_due);  // the map with the second one is not there yet
-  // When the mapper knows the velocity of the first frame.
+  EXPECT_FALSE(Track(2).keyframe.is_due);  // the new map is not available yet
+  // The mapper compensates the first keyframe as soon as its velocity is known.
   auto first = std::make_shared<Frame>(*snapshot_.map.FindKeyframe(0)->frame);
   first->velocity = CameraVelocity();
   snapshot_.map.SetFrame(0, first);
   EXPECT_EQ(Track(3).frame->readout_time, 0.026);
 }
 
-TEST_F(TrackerTest, FifteenLinesAndTenPointsAreAGoodFrame) {
+TEST_F(TrackerTest, TracksFifteenLinesAndTenPoints) {
   SyntheticFrames::Options options;
   options.num_points = 14;
   options.num_lines = 24;
@@ -80,7 +80,7 @@ TEST_F(TrackerTest, FifteenLinesAndTenPointsAreAGoodFrame) {
   }
 }
 
-TEST_F(TrackerTest, LinesAloneCarryIt) {
+TEST_F(TrackerTest, TracksLinesWithoutPoints) {
   SyntheticFrames::Options options;
   options.num_points = 0;
   options.num_lines = 40;
@@ -93,14 +93,14 @@ TEST_F(TrackerTest, LinesAloneCarryIt) {
   }
 }
 
-TEST_F(TrackerTest, BridgesCoveredFramesAndGoesOn) {
+TEST_F(TrackerTest, PredictsCoveredFramesAndResumes) {
   Start({});
   for (int i = 1; i < 10; ++i) Track(i);
   for (int i = 10; i < 15; ++i) {
     const TrackedFrame tracked = tracker_.Track(SyntheticFrames::MakeEmptyFrame(i), snapshot_);
     EXPECT_EQ(tracked.status, TrackingStatus::kPredicted) << i;
     EXPECT_FALSE(tracked.keyframe.is_due);
-    // Constant velocity over a sixth of a second.
+    // Constant velocity for a sixth of a second.
     EXPECT_LT(PositionError(tracked.cam_from_world, Truth(i)), 0.03) << i;
   }
   const TrackedFrame back = Track(15);
@@ -108,7 +108,7 @@ TEST_F(TrackerTest, BridgesCoveredFramesAndGoesOn) {
   EXPECT_LT(PositionError(back.cam_from_world, Truth(15)), 0.01);
 }
 
-TEST_F(TrackerTest, SaysThatItIsLostAndFindsTheMapAgain) {
+TEST_F(TrackerTest, ReportsLossAndRelocalizes) {
   Start({});
   for (int i = 1; i < 5; ++i) Track(i);
   TrackedFrame tracked;
@@ -116,7 +116,7 @@ TEST_F(TrackerTest, SaysThatItIsLostAndFindsTheMapAgain) {
     tracked = tracker_.Track(SyntheticFrames::MakeEmptyFrame(i), snapshot_);
   EXPECT_EQ(tracked.status, TrackingStatus::kLost);
   EXPECT_TRUE(tracked.cam_from_world.params.allFinite());
-  // The camera comes back elsewhere, where constant velocity never led.
+  // The camera reappears far from the pose that constant velocity predicts.
   tracked = Track(90);
   EXPECT_EQ(tracked.status, TrackingStatus::kTracked);
   EXPECT_LT(PositionError(tracked.cam_from_world, Truth(90)), 0.03);
@@ -124,15 +124,15 @@ TEST_F(TrackerTest, SaysThatItIsLostAndFindsTheMapAgain) {
 
 TEST_F(TrackerTest, WaitsForAFirstFrameWithFeatures) {
   world_ = std::make_unique<SyntheticFrames>(SyntheticFrames::Options());
-  const TrackedFrame nothing = tracker_.Track(SyntheticFrames::MakeEmptyFrame(0), MapSnapshot());
-  EXPECT_EQ(nothing.status, TrackingStatus::kLost);
-  EXPECT_FALSE(nothing.keyframe.is_due);
+  const TrackedFrame empty = tracker_.Track(SyntheticFrames::MakeEmptyFrame(0), MapSnapshot());
+  EXPECT_EQ(empty.status, TrackingStatus::kLost);
+  EXPECT_FALSE(empty.keyframe.is_due);
   const TrackedFrame first = tracker_.Track(world_->MakeFrame(1), MapSnapshot());
   EXPECT_EQ(first.status, TrackingStatus::kTracked);
   EXPECT_TRUE(first.keyframe.is_due);
 }
 
-TEST_F(TrackerTest, RefusesBadOptions) {
+TEST_F(TrackerTest, RejectsInvalidOptions) {
   TrackerOptions options;
   options.min_matches = 1;
   EXPECT_THROW(Tracker{options}, std::invalid_argument);
