@@ -1,7 +1,13 @@
 #!/usr/bin/env bash
 # Names every source file that is not as clang-format 14 leaves it; other versions format
-# differently. Exit status 77 (skipped) where that version is not installed.
+# differently. With --fix, formats all of them. Exit status 77 (skipped) where that version is not
+# installed.
 set -euo pipefail
+mode=${1:-check}
+if [[ $# -gt 1 || ($mode != check && $mode != --fix) ]]; then
+  echo "usage: cmake/check_format.sh [--fix]" >&2
+  exit 2
+fi
 cd "$(dirname "$0")/.."
 
 for clang_format in clang-format-14 clang-format ''; do
@@ -12,11 +18,16 @@ if [[ -z $clang_format ]]; then
   exit 77
 fi
 
+mapfile -t files < <(find msc_vo apps tests -name '*.h' -o -name '*.cc' | sort)
+if [[ $mode == --fix ]]; then
+  exec "$clang_format" -i "${files[@]}"
+fi
+
 status=0
-while read -r file; do
+for file in "${files[@]}"; do
   if ! "$clang_format" "$file" | cmp --quiet - "$file"; then
-    echo "not formatted: $clang_format -i $file"
+    echo "not formatted: $file (cmake/check_format.sh --fix formats all)"
     status=1
   fi
-done < <(find msc_vo apps tests -name '*.h' -o -name '*.cc' | sort)
+done
 exit "$status"

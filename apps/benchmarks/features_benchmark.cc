@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// What becomes of one 640x480 image, step by step. "allocations" are calls of operator new per
-// image once the buffers have grown (OpenCV's own memory is not counted).
+// The stages of feature extraction from one 640x480 image. "allocations" are the calls of operator
+// new per image in steady state (without the memory of OpenCV).
 
 #include <benchmark/benchmark.h>
 
 #include "apps/benchmarks/allocation_counter.h"
 #include "apps/benchmarks/rendered_images.h"
-#include "msc_vo/features/edge_segments.h"
 #include "msc_vo/features/frame_builder.h"
-#include "msc_vo/features/line_descriptor_extractor.h"
+#include "msc_vo/features/internal/edge_segments.h"
+#include "msc_vo/features/internal/line_descriptor_extractor.h"
 #include "msc_vo/features/surface_normals.h"
 
 namespace msc_vo {
@@ -27,7 +27,7 @@ const Input& TheInput() {
   return input;
 }
 
-// Runs `step` on the image again and again, and says how many features it gave.
+// Measures `step`, which returns its number of features.
 template <typename Step>
 void Measure(benchmark::State& state, const Step& step) {
   size_t num_features = step(TheInput().image);  // grows the buffers

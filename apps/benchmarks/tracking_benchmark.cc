@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// From the features of one frame to its pose: against the frame before it, with an empty map.
+// From the features of a frame to its pose, relative to the previous frame and with an empty map.
 
 #include <memory>
 
@@ -21,14 +21,14 @@ struct Input {
     FrameBuilder builder({}, sequence.camera(), LensDistortion());
     last.frame = std::make_shared<Frame>(builder.Build(RenderImage(sequence, 40)));
     frame = builder.Build(RenderImage(sequence, 41));
-    seen = CandidatesFromFrame(Map(), last, Rigid3(), Rigid3());
-    matches = MatchLocalMap(options, frame, seen, options.prediction_radius, {});
+    candidates = CandidatesFromFrame(Map(), last, Rigid3(), Rigid3());
+    matches = MatchLocalMap(options, frame, candidates, options.prediction_radius, {});
   }
 
   TrackerOptions options;
   TrackedFrame last;  // at the origin
   Frame frame;
-  LocalMap seen;  // what `last` saw
+  LocalMap candidates;  // features of `last`
   FrameMatches matches;
 };
 
@@ -43,8 +43,8 @@ void Candidates(benchmark::State& state) {
   for (auto _ : state) {
     benchmark::DoNotOptimize(CandidatesFromFrame(map, input.last, Rigid3(), Rigid3()));
   }
-  state.counters["points"] = static_cast<double>(input.seen.points.size());
-  state.counters["lines"] = static_cast<double>(input.seen.lines.size());
+  state.counters["points"] = static_cast<double>(input.candidates.points.size());
+  state.counters["lines"] = static_cast<double>(input.candidates.lines.size());
 }
 BENCHMARK(Candidates)->Unit(benchmark::kMicrosecond);
 
@@ -53,7 +53,7 @@ void PointMatching(benchmark::State& state) {
   const Input& input = TheInput();
   size_t num_matches = 0;
   for (auto _ : state) {
-    num_matches = MatchPoints(input.options.point_matcher, input.frame, input.seen.points,
+    num_matches = MatchPoints(input.options.point_matcher, input.frame, input.candidates.points,
                               static_cast<double>(state.range(0)), {})
                       .size();
   }
@@ -65,7 +65,7 @@ void LineMatching(benchmark::State& state) {
   const Input& input = TheInput();
   size_t num_matches = 0;
   for (auto _ : state) {
-    num_matches = MatchLines(input.options.line_matcher, input.frame, input.seen.lines,
+    num_matches = MatchLines(input.options.line_matcher, input.frame, input.candidates.lines,
                              static_cast<double>(state.range(0)), {})
                       .size();
   }

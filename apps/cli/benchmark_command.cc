@@ -13,12 +13,15 @@
 
 #include <unistd.h>
 
+#include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/results/benchmark.h"
+#include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -100,14 +103,15 @@ Benchmark Describe(const Arguments& arguments, const std::vector<std::string>& m
 void RunOne(const Arguments& arguments, const RgbdDecoder& decoder,
             const Configuration& configuration, const InterruptGuard& interrupt,
             BenchmarkRun* row) {
-  const SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt);
+  const std::string folder = (fs::path(arguments.output) / row->sequence / row->mode).string();
+  RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, folder);
+  OnlineResults online(folder);
+  const SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt,
+                                      [&](const FrameResult& frame) { online.Add(frame); });
   row->summary = run.summary;
   row->cost = run.context.cost;
   row->error = run.context.error;
-  if (run.HasImages()) {
-    const fs::path folder = fs::path(arguments.output) / row->sequence / row->mode;
-    WriteResultFiles(folder.string(), run.result, run.context);
-  }
+  if (run.HasImages()) WriteResultFiles(folder, run.result, run.context);
   if (run.exit_code != kExitSuccess) throw std::runtime_error(run.context.outcome);
   if (!row->error->usable) throw std::runtime_error("no error known: " + row->error->message);
 }
@@ -130,7 +134,7 @@ RgbdDecoder OpenWithTruth(const SequenceArguments& sequence, const Configuration
 }
 
 void PrintFailure(const std::string& what, const std::string& why) {
-  std::cerr << "msc_vo: " << what << " failed: " << why << std::endl;
+  PrintError(what + " failed: " + why);
 }
 
 // Every mode on one sequence. The tables are written after each run: a benchmark takes hours.
@@ -173,6 +177,7 @@ int RunBenchmark(const Arguments& arguments) {
   const std::vector<std::string> names = UniqueNames(arguments.sequences);
   Benchmark benchmark = Describe(arguments, modes);
   const InterruptGuard interrupt;
+  RefuseToOverwrite(arguments.sequences, arguments.output);
   WriteTables(arguments.output, benchmark);  // a folder that cannot be written shows at once
   for (size_t i = 0; i < names.size() && !interrupt.IsInterrupted(); ++i) {
     RunModes(arguments, arguments.sequences[i], names[i], configurations, interrupt, &benchmark);

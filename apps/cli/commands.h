@@ -13,9 +13,10 @@ namespace msc_vo {
 // Exit codes of the msc_vo command; every sub-command's --help ends with them.
 enum ExitCode {
   kExitSuccess = 0,
-  kExitError = 1,          // the input is wrong or the run failed; the message says which
-  kExitUsage = 2,          // the command line is wrong
-  kExitInterrupted = 130,  // Ctrl-C; what was computed until then has been written
+  kExitError = 1,           // the input is wrong or the run failed; the message says which
+  kExitUsage = 2,           // the command line is wrong
+  kExitTrackingFailed = 3,  // the run ended, but less than kMinTrackedShare of it was tracked
+  kExitInterrupted = 130,   // Ctrl-C, SIGTERM, SIGHUP; the results so far have been written
 };
 
 // Footer of a sub-command's --help: an example, then the exit codes.

@@ -18,7 +18,7 @@ const Option* FindOption(const std::vector<Option>& options, const std::string& 
   return option == options.end() ? nullptr : &*option;
 }
 
-// Whether one of the settings names the option.
+// Whether the command line sets the option.
 bool IsSet(const std::string& path, const ConfigurationArguments& arguments) {
   return std::any_of(arguments.settings.begin(), arguments.settings.end(),
                      [&](const std::string& setting) { return setting.rfind(path + "=", 0) == 0; });
@@ -30,8 +30,9 @@ void Set(const std::string& path, const std::string& value, Configuration* confi
   if (!option) {
     const Option* similar = FindSimilar(options, path);
     throw std::runtime_error("--set: unknown option '" + path + "'" +
-                             (similar ? "; did you mean '" + similar->path + "'?"
-                                      : "; msc_vo replay --print-config lists all"));
+                             (similar
+                                  ? "; did you mean '" + similar->path + "'?"
+                                  : "; msc_vo replay --print-config --all lists the known ones"));
   }
   std::string expected;
   if (!SetOption(*option, value, &expected)) {
@@ -46,11 +47,13 @@ void Set(const std::string& path, const std::string& value, Configuration* confi
 }  // namespace
 
 void AddConfigurationArguments(CLI::App* command, ConfigurationArguments* arguments) {
-  command->add_option("--config", arguments->config,
-                      "Options and camera: our YAML (see replay --print-config) or ORB-SLAM's");
+  command->add_option(
+      "--config", arguments->config,
+      "Options and camera: YAML as written by replay --print-config, or the settings "
+      "of ORB-SLAM2 or ORB-SLAM3 (camera only)");
   command
       ->add_option("--set", arguments->settings,
-                   "NAME=VALUE: any option of replay --print-config; may be repeated")
+                   "NAME=VALUE: any option of replay --print-config --all; may be repeated")
       ->allow_extra_args(false);
 }
 
@@ -69,29 +72,29 @@ Configuration MakeConfiguration(const ConfigurationArguments& arguments,
 
 std::vector<std::string> DescribeIgnoredOptions(const ConfigurationArguments& arguments,
                                                 const Configuration& configuration) {
-  Configuration given = configuration, effective = configuration;
-  effective.odometry = WithModeApplied(effective.odometry);
-  Configuration defaults, effective_defaults;
+  Configuration given = configuration, effective = EffectiveConfiguration(configuration);
+  Configuration defaults;
   defaults.odometry.mode = configuration.odometry.mode;
-  effective_defaults.odometry = WithModeApplied(defaults.odometry);
+  Configuration effective_defaults = EffectiveConfiguration(defaults);
   const std::vector<Option> given_options = ListOptions(&given);
   const std::vector<Option> effective_options = ListOptions(&effective);
   const std::vector<Option> default_options = ListOptions(&defaults);
   const std::vector<Option> effective_default_options = ListOptions(&effective_defaults);
-  std::vector<std::string> sentences;
+  std::vector<std::string> warnings;
   for (size_t i = 0; i < given_options.size(); ++i) {
     const std::string& path = given_options[i].path;
-    const std::string value = FormatOption(given_options[i]);
-    const std::string decided = FormatOption(effective_options[i]);
-    const std::string usual = FormatOption(default_options[i]);
-    const bool mode_decides =
-        decided != value || usual != FormatOption(effective_default_options[i]);
-    if (!mode_decides || (value == usual && !IsSet(path, arguments))) continue;
-    sentences.push_back(
-        path + "=" + value + " " + (value == decided ? "changes nothing" : "is ignored") +
-        ": with mode=" + ToString(configuration.odometry.mode) + " it is always " + decided);
+    const std::string given_value = FormatOption(given_options[i]);
+    const std::string effective_value = FormatOption(effective_options[i]);
+    const std::string default_value = FormatOption(default_options[i]);
+    const bool mode_decides = effective_value != given_value ||
+                              default_value != FormatOption(effective_default_options[i]);
+    if (!mode_decides || (given_value == default_value && !IsSet(path, arguments))) continue;
+    warnings.push_back(path + "=" + given_value + " " +
+                       (given_value == effective_value ? "changes nothing" : "is ignored") +
+                       ": with mode=" + ToString(configuration.odometry.mode) + " it is always " +
+                       effective_value);
   }
-  return sentences;
+  return warnings;
 }
 
 std::vector<std::string> OptionChoices(const std::string& path) {

@@ -12,26 +12,27 @@
 
 namespace msc_vo {
 
-// How the user changes options.
+/// Arguments that change options.
 struct ConfigurationArguments {
-  std::string config;                 // file; may be empty
-  std::vector<std::string> settings;  // "path=value"
+  std::string config;                 ///< file; may be empty
+  std::vector<std::string> settings;  ///< "path=value"
+
+  bool IsEmpty() const { return config.empty() && settings.empty(); }
 };
 
-// Declares --config and --set.
+/// Declares --config and --set.
 void AddConfigurationArguments(CLI::App* command, ConfigurationArguments* arguments);
 
-// `configuration`, then the file, then the settings in their order, each over what was before.
-// Throws std::runtime_error naming the option that is not known or whose value does not fit.
+/// Applies the file, then the settings in their order, to `configuration`. Throws
+/// std::runtime_error on an unknown option or an invalid value.
 Configuration MakeConfiguration(const ConfigurationArguments& arguments,
                                 Configuration configuration = {});
 
-// What the user has set in `arguments`, or changed in their file, although the mode decides it: one
-// sentence each.
+/// Warnings, one sentence each, about options that were set although the mode determines them.
 std::vector<std::string> DescribeIgnoredOptions(const ConfigurationArguments& arguments,
                                                 const Configuration& configuration);
 
-// The names of what an option that is a choice may be, "mode" for instance.
+/// The names of the values of an enumeration, for instance of the option "mode".
 std::vector<std::string> OptionChoices(const std::string& path);
 
 }  // namespace msc_vo

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory.h"
@@ -46,7 +47,7 @@ void PrintTable(const TrajectoryError& error) {
   constexpr double kDegrees = RadiansToDegrees(1.0);
   std::printf("%-20s %9s %9s %9s %9s %9s\n", "", "RMSE", "mean", "median", "95 %", "max");
   PrintRow("APE", error.ape, kMillimetres, "mm");
-  PrintRow("APE rotation", error.ape_rotation, kDegrees, "deg");
+  PrintRow("rotation", error.rotation, kDegrees, "deg");
   PrintRow("RPE", error.rpe_per_second.translation, kMillimetres, "mm/s");
   PrintRow("RPE rotation", error.rpe_per_second.rotation, kDegrees, "deg/s");
   PrintRow("RPE", error.rpe_per_metre.translation, kMillimetres, "mm/m");
@@ -56,6 +57,10 @@ void PrintTable(const TrajectoryError& error) {
       "time range of the estimate), %d estimated, path %.2f m\n",
       100.0 * error.coverage, error.num_matched, error.num_reference,
       100.0 * error.coverage_in_range, error.num_estimate, error.path_length);
+  if (error.num_not_estimated > 0) {
+    std::printf("left out as marked not estimated: %d poses (--all-poses compares them)\n",
+                error.num_not_estimated);
+  }
 }
 
 void PrintLines(const LineError& error) {
@@ -80,8 +85,7 @@ std::vector<double> StampsOf(const std::vector<TimedPose>& poses) {
 // Brings the stamps of the trajectory from `unit` to seconds.
 void ToSeconds(const std::string& path, TimeUnit unit, std::vector<TimedPose>* poses) {
   if (unit == TimeUnit::kSeconds) return;
-  std::cerr << "msc_vo: warning: " << path << ": the stamps are " << ToString(unit)
-            << " and are converted to seconds" << std::endl;
+  PrintWarning(path + ": the stamps are " + ToString(unit) + " and are converted to seconds");
   for (TimedPose& pose : *poses) pose.timestamp /= UnitsPerSecond(unit);
 }
 
@@ -100,9 +104,10 @@ int Run(const Arguments& arguments) {
             &estimate);
   const TrajectoryError error = EvaluateTrajectory(truth, estimate, arguments.options);
   if (!error.usable) {
-    throw std::runtime_error(arguments.estimate + " cannot be compared with " + arguments.truth +
-                             ": " + error.message +
-                             "; do both have stamps in seconds on the same clock?");
+    throw std::runtime_error(
+        arguments.estimate + " cannot be compared with " + arguments.truth + ": " + error.message +
+        (error.num_not_estimated > 0 ? "; --all-poses compares them"
+                                     : "; do both have stamps in seconds on the same clock?"));
   }
   std::optional<LineError> line_error;
   if (!arguments.lines.empty()) {
@@ -134,6 +139,8 @@ Command AddEvaluateCommand(CLI::App* app) {
       "--edges", arguments->edges, "edges.ply beside the ground truth: the scene's true edges");
   lines->needs(edges);
   edges->needs(lines);
+  command->add_flag("--all-poses", arguments->options.all_poses,
+                    "Compare poses that the file marks as not estimated too");
   command->add_flag("--json", arguments->json, "Print JSON: metres, degrees");
   command
       ->add_option("--max-dt", arguments->options.max_time_difference,

@@ -13,20 +13,26 @@ volatile std::sig_atomic_t interrupted = 0;
 
 extern "C" void RaiseFlag(int signal) {
   interrupted = 1;
-  std::signal(signal, SIG_DFL);
+  // A closed terminal sends SIGHUP more than once: from the system and from the shell.
+  if (signal != SIGHUP) std::signal(signal, SIG_DFL);
 }
+
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
   interrupted = 0;
-  std::signal(SIGINT, RaiseFlag);
-  std::signal(SIGTERM, RaiseFlag);
+  for (const int signal : kSignals) {
+    // What the caller has told to be ignored stays so: SIGHUP under nohup.
+    if (std::signal(signal, RaiseFlag) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
 }
 
 InterruptGuard::~InterruptGuard() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int signal : kSignals) {
+    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
 }
 
 bool InterruptGuard::IsInterrupted() const { return interrupted != 0; }

@@ -5,8 +5,8 @@
 
 namespace msc_vo {
 
-// While it lives, Ctrl-C (SIGINT) and SIGTERM raise a flag instead of ending the program; the
-// second one ends it as usual. One at a time.
+// While it lives, Ctrl-C (SIGINT), SIGTERM and a terminal that is closed (SIGHUP) raise a flag
+// instead of ending the program; a second SIGINT or SIGTERM ends it as usual. One at a time.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <exception>
-#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +12,9 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/standard_streams.h"
 #include "msc_vo/text/similar_name.h"
 #include "msc_vo/version.h"
 
@@ -22,7 +23,8 @@ namespace msc_vo {
 std::string HelpFooter(const std::string& example) {
   return "Example:\n  " + example +
          "\n\nExit codes: 0 success, 1 wrong input or failed run, 2 wrong command line,\n"
-         "130 interrupted (what was computed until then has been written).";
+         "3 tracking failed: less than half of the images have an estimated pose (results are\n"
+         "written), 130 interrupted (what was computed until then has been written).";
 }
 
 namespace {
@@ -71,8 +73,13 @@ int Main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("msc_vo ") + kVersion);
   app.footer(HelpFooter("msc_vo replay my_sequence --output out"));
+  LogArguments log;
+  AddLogArguments(&app, &log);
   std::vector<Command> commands;
-  for (const AddCommand add : kCommands) commands.push_back(add(&app));
+  for (const AddCommand add : kCommands) {
+    commands.push_back(add(&app));
+    AddLogArguments(commands.back().arguments, &log);
+  }
 
   try {
     if (argc > 1) CheckSubcommand(commands, argv[1]);
@@ -80,6 +87,7 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kExitSuccess : kExitUsage;
   }
+  StartLog(log);
   for (const Command& command : commands) {
     if (command.arguments->parsed()) return command.run();
   }
@@ -95,10 +103,13 @@ const std::string& CommandLine() { return command_line; }
 int main(int argc, char** argv) {
   msc_vo::KeepFreedMemory();
   msc_vo::KeepOpenCvToOneThread();
+  msc_vo::PrepareStandardStreams();
   try {
-    return msc_vo::Main(argc, argv);
+    const int exit_code = msc_vo::Main(argc, argv);
+    msc_vo::FinishStandardOutput();
+    return exit_code;
   } catch (const std::exception& error) {
-    std::cerr << "msc_vo: error: " << error.what() << std::endl;
+    msc_vo::PrintError(error.what());
     return msc_vo::kExitError;
   }
 }

@@ -8,14 +8,18 @@
 #include <string>
 #include <vector>
 
+#include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/config/options_file.h"
+#include "msc_vo/logging/logger.h"
 #include "msc_vo/recording/window_file.h"
+#include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/results/run_report.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -38,9 +42,11 @@ struct Arguments {
   bool no_manhattan = false;
   bool realtime = false;
   bool print_config = false;
+  bool all = false;       // of --print-config
+  bool markdown = false;  // of --print-config
 };
 
-// The short names of frequent options are settings like any other; a --set has the last word.
+// Converts the short forms of frequent options to settings. --set takes precedence.
 ConfigurationArguments WithShortcuts(const Arguments& arguments) {
   std::vector<std::string> settings;
   if (!arguments.mode.empty()) settings.push_back("mode=" + arguments.mode);
@@ -57,15 +63,32 @@ ConfigurationArguments WithShortcuts(const Arguments& arguments) {
 }
 
 // Writes every window into `folder`, named by its keyframe.
-WindowObserver WindowRecorder(const std::string& folder) {
+WindowObserver WindowRecorder(const std::string& folder, const SequenceIndex& sequence) {
   if (folder.empty()) return {};
+  RefuseToOverwrite(InputFolders(sequence), folder);
   MakeFolder(folder);
   return [folder](KeyframeId keyframe, const BundleAdjustmentOptions& options,
                   const WindowData& data) {
     const std::string name =
         FormatText("window_%06lld.txt", static_cast<long long>(keyframe));  // sorts by name
-    WriteWindow((std::filesystem::path(folder) / name).string(), options, data);
+    const std::string path = (std::filesystem::path(folder) / name).string();
+    WriteWindow(path, options, data);
+    Log().debug("window written to {}", path);
   };
+}
+
+void PrintConfiguration(const Arguments& arguments, const ConfigurationArguments& settings,
+                        const Configuration& configuration) {
+  const OptionSelection selection = arguments.all ? OptionSelection::kAll : OptionSelection::kBasic;
+  if (!arguments.markdown) {
+    std::cout << FormatConfiguration(configuration, selection);
+    return;
+  }
+  if (!settings.IsEmpty()) {
+    throw std::runtime_error(
+        "--markdown describes the defaults; leave out --config, --set and their short forms");
+  }
+  std::cout << FormatOptionsMarkdown(selection);
 }
 
 int Replay(const Arguments& arguments) {
@@ -73,7 +96,7 @@ int Replay(const Arguments& arguments) {
   const Configuration configuration = MakeConfiguration(settings);
   PrintWarnings(DescribeIgnoredOptions(settings, configuration));
   if (arguments.print_config) {
-    std::cout << FormatConfiguration(configuration);
+    PrintConfiguration(arguments, settings, configuration);
     return kExitSuccess;
   }
   const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
@@ -82,10 +105,14 @@ int Replay(const Arguments& arguments) {
       !arguments.output.empty()
           ? arguments.output
           : (std::filesystem::path("out") / SequenceName(arguments.sequence.directory)).string();
+  RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, output);
   MakeFolder(output);  // a wrong name shows before the work, not after it
   const InterruptGuard interrupt;
-  const SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt,
-                                      WindowRecorder(arguments.windows));
+  OnlineResults online(output);
+  const SequenceRun run = RunSequence(
+      decoder, configuration, arguments.run, interrupt,
+      [&](const FrameResult& frame) { online.Add(frame); },
+      WindowRecorder(arguments.windows, decoder.index()));
   if (!run.HasImages()) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
     return run.exit_code;
@@ -98,7 +125,42 @@ int Replay(const Arguments& arguments) {
     throw std::runtime_error(run.context.outcome + "\n(what was computed until then is in " +
                              output + ")");
   }
+  if (run.exit_code == kExitTrackingFailed) {
+    PrintError(run.context.outcome);
+  }
   return run.exit_code;
+}
+
+// Short forms of frequent options.
+void AddShortcuts(CLI::App* command, Arguments* arguments) {
+  command
+      ->add_option("--mode", arguments->mode, "Parts of the method; default: that of the options")
+      ->check(CLI::IsMember(OptionChoices("mode")));
+  command
+      ->add_option("--lines", arguments->lines,
+                   "Line detector: LSD, as in the paper, or edge drawing, which is faster")
+      ->check(CLI::IsMember(OptionChoices("features.lines.detector")));
+  command->add_flag("--no-points", arguments->no_points, "Use lines only");
+  command->add_flag("--no-lines", arguments->no_lines, "Use points only");
+  command->add_flag("--no-parallel", arguments->no_parallel, "No pairs of parallel map lines");
+  command->add_flag("--no-perpendicular", arguments->no_perpendicular,
+                    "No pairs of perpendicular map lines");
+  command->add_flag("--no-manhattan", arguments->no_manhattan, "No Manhattan axes");
+  command->add_flag("--realtime", arguments->realtime,
+                    "Process images at the pace of their time stamps, drop late images, and never "
+                    "wait for a late map");
+}
+
+void AddPrintArguments(CLI::App* command, Arguments* arguments) {
+  CLI::Option* print =
+      command->add_flag("--print-config", arguments->print_config,
+                        "Print the basic options as a file for --config, and exit");
+  command->add_flag("--all", arguments->all, "With --print-config: also the advanced options")
+      ->needs(print);
+  command
+      ->add_flag("--markdown", arguments->markdown,
+                 "With --print-config: a reference of the options in Markdown")
+      ->needs(print);
 }
 
 }  // namespace
@@ -111,26 +173,12 @@ Command AddReplayCommand(CLI::App* app) {
   AddConfigurationArguments(command, &arguments->configuration);
   command->add_option("--output", arguments->output,
                       "Folder for the results; default: out/<name of the sequence>");
-  command
-      ->add_option("--mode", arguments->mode, "What of the method is used; default: the options'")
-      ->check(CLI::IsMember(OptionChoices("mode")));
-  command->add_option("--lines", arguments->lines, "Line detector: the paper's, or a fast one")
-      ->check(CLI::IsMember(OptionChoices("features.lines.detector")));
-  command->add_flag("--no-points", arguments->no_points, "Lines alone");
-  command->add_flag("--no-lines", arguments->no_lines, "Points alone");
-  command->add_flag("--no-parallel", arguments->no_parallel, "No pairs of parallel map lines");
-  command->add_flag("--no-perpendicular", arguments->no_perpendicular,
-                    "No pairs of perpendicular map lines");
-  command->add_flag("--no-manhattan", arguments->no_manhattan, "No Manhattan axes");
-  command->add_flag("--realtime", arguments->realtime,
-                    "Images appear when their time stamps say; no frame waits for a map that is "
-                    "late, and images that come too late are dropped");
+  AddShortcuts(command, arguments.get());
   AddRunArguments(command, &arguments->run);
   command->add_option("--dump-windows", arguments->windows,
                       "Folder for the windows that the mapper solves, one file per keyframe, as "
                       "they are before (see solve-window)");
-  command->add_flag("--print-config", arguments->print_config,
-                    "Print all options with their meanings, as a file for --config, and exit");
+  AddPrintArguments(command, arguments.get());
   command->footer(HelpFooter("msc_vo replay my_sequence --output out/my_sequence"));
   command->callback([arguments, sequence] {
     if (sequence->empty() && !arguments->print_config) {

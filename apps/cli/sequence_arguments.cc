@@ -4,6 +4,7 @@
 #include "apps/cli/sequence_arguments.h"
 
 #include <filesystem>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -41,7 +42,9 @@ RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration&
 
 std::string SequenceName(const std::string& directory) {
   // Also "." and "a/.." have a name then.
-  const std::filesystem::path path = std::filesystem::weakly_canonical(directory);
+  std::error_code error;
+  std::filesystem::path path = std::filesystem::weakly_canonical(directory, error);
+  if (error) path = directory;  // opening it tells what is wrong
   const std::filesystem::path name =
       path.has_filename() ? path.filename() : path.parent_path().filename();
   return name.empty() ? "root" : name.string();

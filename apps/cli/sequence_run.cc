@@ -5,17 +5,18 @@
 
 #include <algorithm>
 #include <exception>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "apps/cli/command_log.h"
 #include "apps/cli/cost_meter.h"
 #include "apps/cli/progress.h"
 #include "msc_vo/datasets/paced_source.h"
 #include "msc_vo/datasets/rgbd_source.h"
+#include "msc_vo/logging/logger.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -124,6 +125,7 @@ class FrameLoop {
  private:
   FrameResult Skip(const UnreadableImage& image) {
     if (num_unreadable_++ == 0) first_unreadable_ = image.what();
+    Log().warn("{}", image.what());
     const FrameResult frame = odometry_->Drop(image.index(), entries_[image.index()].timestamp,
                                               TrackingStatus::kUnreadable);
     CheckNumUnreadable(image.index() + 1);
@@ -157,10 +159,6 @@ class FrameLoop {
   std::string first_unreadable_;
 };
 
-void PrintWarning(const std::string& text) {
-  std::cerr << "msc_vo: warning: " << text << std::endl;
-}
-
 // The readout time that the options give precedes that of the calibration; both get the one that
 // applies, none if it is to be learnt.
 void ResolveReadoutTime(std::optional<double>* option, Calibration* calibration) {
@@ -182,6 +180,56 @@ RunContext MakeContext(const RgbdDecoder& decoder, const Configuration& configur
   context.configuration = configuration;
   ResolveReadoutTime(&context.configuration.odometry.mapping.readout_time, &context.calibration);
   return context;
+}
+
+void LogStart(const RunContext& context, int num_frames) {
+  const Calibration& calibration = context.calibration;
+  Log().info("{}", context.command_line);
+  Log().info("sequence {}: {} images", context.sequence.directory, num_frames);
+  Log().info("camera: {}; depth scale {}; readout time: {}", calibration.origin,
+             calibration.depth_scale, calibration.readout_origin);
+}
+
+void Fail(ExitCode exit_code, const std::string& outcome, SequenceRun* run) {
+  run->context.outcome = outcome;
+  run->exit_code = exit_code;
+}
+
+void WarnOfCutPauses(int num_frames, SequenceIndex* sequence) {
+  const std::string pauses = DescribeCutPauses(sequence->entries, num_frames);
+  if (pauses.empty()) return;
+  PrintWarning(pauses);
+  sequence->warnings.push_back(pauses);
+}
+
+// Processes the images until the end, an error or an interruption. Returns how many were processed.
+int RunLoop(const RunArguments& arguments, int num_frames, const InterruptGuard& interrupt,
+            const FrameObserver& frame_observer, FrameLoop* loop, SequenceRun* run) {
+  Progress progress(num_frames);
+  int done = 0;
+  try {
+    for (FrameResult frame; !interrupt.IsInterrupted() && loop->Step(&frame);) {
+      done = static_cast<int>(frame.id) + 1;
+      frame_observer(frame);
+      if (!arguments.quiet) progress.Update(done, ToString(frame.status));
+    }
+  } catch (const std::exception& error) {
+    Fail(kExitError, error.what(), run);
+  }
+  if (!arguments.quiet) progress.Finish();
+  if (run->exit_code == kExitSuccess && interrupt.IsInterrupted() && done < num_frames) {
+    Fail(kExitInterrupted, "interrupted", run);
+  }
+  return done;
+}
+
+void FinishOdometry(Odometry* odometry, SequenceRun* run) {
+  try {
+    run->result = odometry->Finish();
+  } catch (const std::exception& error) {  // of the last keyframe step
+    Fail(kExitError, error.what(), run);
+    run->result = odometry->Finish();
+  }
 }
 
 void PrintUnreadable(const SequenceRun& run) {
@@ -215,6 +263,7 @@ bool SequenceRun::HasImages() const {
 
 SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configuration,
                         const RunArguments& arguments, const InterruptGuard& interrupt,
+                        const FrameObserver& frame_observer,
                         const WindowObserver& window_observer) {
   SequenceRun run;
   RunContext& context = run.context;
@@ -222,47 +271,25 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   const int num_frames =
       arguments.max_frames > 0 ? std::min(arguments.max_frames, decoder.size()) : decoder.size();
 
+  LogStart(context, num_frames);
+
   const CostMeter cost;
   const OdometryOptions& options = context.configuration.odometry;
   Odometry odometry(options, context.calibration.camera, context.calibration.distortion);
   odometry.SetWindowObserver(window_observer);
+  if (options.snapshots.realtime) WarnOfCutPauses(num_frames, &context.sequence);
   const std::unique_ptr<ImageFeed> feed = MakeFeed(decoder, num_frames, options.snapshots.realtime);
-  if (options.snapshots.realtime) {
-    const std::string pauses = DescribeCutPauses(decoder.index().entries, num_frames);
-    if (!pauses.empty()) {
-      PrintWarning(pauses);
-      context.sequence.warnings.push_back(pauses);
-    }
-  }
   FrameLoop loop(decoder, num_frames, arguments.strict, feed.get(), &odometry);
-  Progress progress(num_frames);
-  int done = 0;
-  try {
-    for (FrameResult frame; !interrupt.IsInterrupted() && loop.Step(&frame);) {
-      done = static_cast<int>(frame.id) + 1;
-      if (!arguments.quiet) progress.Update(done, ToString(frame.status));
-    }
-  } catch (const std::exception& error) {
-    context.outcome = error.what();
-    run.exit_code = kExitError;
-  }
-  if (!arguments.quiet) progress.Finish();
-  if (run.exit_code == kExitSuccess && interrupt.IsInterrupted() && done < num_frames) {
-    context.outcome = "interrupted";
-    run.exit_code = kExitInterrupted;
-  }
-  try {
-    run.result = odometry.Finish();
-  } catch (const std::exception& error) {  // of a keyframe that no image came behind
-    context.outcome = error.what();
-    run.exit_code = kExitError;
-    run.result = odometry.Finish();
-  }
+  const int done = RunLoop(arguments, num_frames, interrupt, frame_observer, &loop, &run);
+  FinishOdometry(&odometry, &run);
   context.cost = cost.Read();
   context.realtime = feed->Realtime();
   if (context.realtime) context.realtime->num_late_maps = run.result.num_late_maps;
   context.first_unreadable = loop.first_unreadable();
   run.summary = Summarize(run.result);
+  if (run.exit_code == kExitSuccess && TrackingFailed(run.summary)) {
+    Fail(kExitTrackingFailed, DescribeFailure(run.summary), &run);
+  }
   if (!context.sequence.ground_truth.empty() && done > 0) {
     context.error = EvaluateTrajectory(context.sequence.ground_truth, TrajectoryOf(run.result));
   }

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,18 +30,24 @@ void AddRunArguments(CLI::App* command, RunArguments* arguments);
 struct SequenceRun {
   OdometryResult result;
   RunSummary summary;
-  RunContext context;                 // compared with the ground truth, if there is one
-  ExitCode exit_code = kExitSuccess;  // kExitError: context.outcome is the message
+  RunContext context;  // compared with the ground truth, if there is one
+  // kExitError, kExitTrackingFailed: context.outcome is the message.
+  ExitCode exit_code = kExitSuccess;
 
   bool HasImages() const;  // at least one image could be read
 };
 
+// Is shown every frame as soon as it has been processed.
+using FrameObserver = std::function<void(const FrameResult&)>;
+
 // Runs the odometry over the images, with the progress and a warning about those that cannot be
 // read on standard error. They get the status unreadable; if more than half are, or all at the
-// beginning, the run has failed. `window_observer` may be empty. Throws std::invalid_argument on
+// beginning, the run has failed. What `frame_observer` throws ends the run as the
+// odometry's own exceptions do. `window_observer` may be empty. Throws std::invalid_argument on
 // options that are not valid.
 SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configuration,
                         const RunArguments& arguments, const InterruptGuard& interrupt,
+                        const FrameObserver& frame_observer,
                         const WindowObserver& window_observer = {});
 
 // The warnings, on standard error.

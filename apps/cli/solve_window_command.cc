@@ -11,6 +11,7 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "msc_vo/recording/window_file.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {
@@ -57,6 +58,7 @@ void PrintSummary(const WindowData& data, const BundleAdjustmentSummary& summary
 }
 
 int Run(const Arguments& arguments) {
+  RefuseToOverwrite({arguments.file, arguments.configuration.config}, arguments.output);
   RecordedWindow window = ReadWindow(arguments.file);
   window.options = Options(window.options, arguments.configuration);
   const Stopwatch stopwatch;

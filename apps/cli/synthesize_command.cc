@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -17,6 +16,7 @@
 #include "apps/cli/progress.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/synthetic/scene/synthetic_sequence.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -43,43 +43,24 @@ struct Arguments {
 };
 
 bool IsOurs(const fs::path& folder) {
-  std::ifstream file(folder / "camera.txt");
-  for (std::string line; std::getline(file, line);) {
-    if (line == kMark) return true;
-  }
-  return false;
+  const std::string camera = (folder / "camera.txt").string();
+  return FileProblem(camera).empty() && ReadFile(camera).find(kMark) != std::string::npos;
 }
 
 // Makes OUT_DIR with empty rgb/ and depth/; of an older run only what this command had written
 // goes.
 void PrepareFolder(const fs::path& folder, bool overwrite) {
-  if (fs::exists(folder) && !fs::is_directory(folder)) {
-    throw std::runtime_error(folder.string() + " is a file: give a folder");
-  }
-  if (fs::exists(folder) && !fs::is_empty(folder) && !IsOurs(folder) && !overwrite) {
-    throw std::runtime_error(folder.string() +
+  const std::string name = folder.string();
+  if (HasEntry(name) && !ListFolder(name).empty() && !IsOurs(folder) && !overwrite) {
+    throw std::runtime_error(name +
                              " is not empty and was not written by msc_vo synthesize: give another "
                              "folder, or --overwrite to write into it");
   }
-  for (const char* name : {"rgb", "depth"}) {
-    fs::remove_all(folder / name);
-    MakeFolder((folder / name).string());
+  for (const char* images : {"rgb", "depth"}) {
+    fs::remove_all(folder / images);
+    MakeFolder((folder / images).string());
   }
 }
-
-class TextFile {
- public:
-  explicit TextFile(const fs::path& path) : path_(path), stream_(path) {}
-  void Write(const std::string& line) {
-    stream_ << line << '\n';
-    if (!stream_)
-      throw std::runtime_error("cannot write " + path_.string() + ": is the disk full?");
-  }
-
- private:
-  fs::path path_;
-  std::ofstream stream_;
-};
 
 template <typename... Values>
 std::string Format(const char* format, Values... values) {
@@ -89,9 +70,9 @@ std::string Format(const char* format, Values... values) {
 }
 
 void WriteImage(const fs::path& path, const cv::Mat& image, const std::vector<int>& parameters) {
-  if (!cv::imwrite(path.string(), image, parameters)) {
-    throw std::runtime_error("cannot write " + path.string());
-  }
+  std::vector<uchar> bytes;
+  cv::imencode(path.extension().string(), image, bytes, parameters);
+  WriteFile(path.string(), std::string(bytes.begin(), bytes.end()));
 }
 
 void WriteColor(const fs::path& path, int jpeg_quality, RenderedImage* image) {
@@ -111,18 +92,18 @@ void WriteDepth(const fs::path& path, RenderedImage* image) {
 }
 
 void WriteCamera(const fs::path& folder, const PinholeCamera& camera) {
-  TextFile file(folder / "camera.txt");
   // Numbers first: simple readers take the first line, whatever it is.
-  file.Write(Format("%.17g %.17g %.17g %.17g %d %d %.17g", camera.fx, camera.fy, camera.cx,
-                    camera.cy, camera.width, camera.height, kDepthFactor));
-  file.Write("# fx fy cx cy width height depth_factor");
-  file.Write(kMark);
+  const std::string numbers =
+      Format("%.17g %.17g %.17g %.17g %d %d %.17g", camera.fx, camera.fy, camera.cx, camera.cy,
+             camera.width, camera.height, kDepthFactor);
+  WriteFile((folder / "camera.txt").string(),
+            numbers + "\n# fx fy cx cy width height depth_factor\n" + kMark + "\n");
 }
 
 std::string PoseLine(const std::string& stamp, const Rigid3& world_from_cam) {
   const Eigen::Vector3d t = world_from_cam.translation();
   const Eigen::Quaterniond q(world_from_cam.rotation());
-  return stamp + Format(" %.7f %.7f %.7f %.8f %.8f %.8f %.8f", t.x(), t.y(), t.z(), q.x(), q.y(),
+  return stamp + Format(" %.7f %.7f %.7f %.8f %.8f %.8f %.8f\n", t.x(), t.y(), t.z(), q.x(), q.y(),
                         q.z(), q.w());
 }
 
@@ -140,10 +121,12 @@ int Run(const Arguments& arguments) {
   const std::vector<LineSegment3> painted = sequence.scene().PaintedEdges();
   edges.insert(edges.end(), painted.begin(), painted.end());
   WriteFile((folder / "edges.ply").string(), FormatEdgesPly(edges));
-  TextFile rgb_list(folder / "rgb.txt"), depth_list(folder / "depth.txt");
-  TextFile associations(folder / "associations.txt"), truth(folder / "groundtruth.txt");
-  for (TextFile* list : {&rgb_list, &depth_list}) list->Write("# timestamp filename");
-  truth.Write("# timestamp tx ty tz qx qy qz qw (camera in world)");
+  GrowingFile rgb_list((folder / "rgb.txt").string());
+  GrowingFile depth_list((folder / "depth.txt").string());
+  GrowingFile associations((folder / "associations.txt").string());
+  GrowingFile truth((folder / "groundtruth.txt").string());
+  for (GrowingFile* list : {&rgb_list, &depth_list}) list->Append("# timestamp filename\n");
+  truth.Append("# timestamp tx ty tz qx qy qz qw (camera in world)\n");
   const InterruptGuard guard;
   Progress progress(arguments.frames);
   for (int i = 0; i < arguments.frames && !guard.IsInterrupted(); ++i) {
@@ -154,10 +137,10 @@ int Run(const Arguments& arguments) {
     const std::string depth = "depth/" + depth_stamp + ".png";
     WriteColor(folder / rgb, arguments.jpeg_quality, &frame.image);
     WriteDepth(folder / depth, &frame.image);
-    rgb_list.Write(stamp + " " + rgb);
-    depth_list.Write(depth_stamp + " " + depth);
-    associations.Write(stamp + " " + rgb + " " + depth_stamp + " " + depth);
-    truth.Write(PoseLine(stamp, frame.pose.world_from_cam));
+    rgb_list.Append(stamp + " " + rgb + "\n");
+    depth_list.Append(depth_stamp + " " + depth + "\n");
+    associations.Append(stamp + " " + rgb + " " + depth_stamp + " " + depth + "\n");
+    truth.Append(PoseLine(stamp, frame.pose.world_from_cam));
     progress.Update(i + 1, "");
   }
   progress.Finish();

@@ -17,7 +17,7 @@ namespace msc_vo {
 
 namespace {
 
-// Calls visit(term, its summary) for every term.
+// Calls visit(term, summary of the term) for every term.
 template <typename Visitor>
 void ForEachTerm(const WindowTerms& terms, BundleAdjustmentSummary* summary, const Visitor& visit) {
   visit(terms.point_reprojection, &summary->point_reprojection);
@@ -31,29 +31,29 @@ void ForEachTerm(const WindowTerms& terms, BundleAdjustmentSummary* summary, con
   visit(terms.pose_prior, &summary->pose_prior);
 }
 
-// Writes the costs of all terms into one member of their summaries; returns their sum.
+// Writes the cost of every term to `member` of its summary. Returns the sum.
 double WriteCosts(const WindowTerms& terms, const WindowState& state, double TermSummary::*member,
                   BundleAdjustmentSummary* summary) {
   double sum = 0.0;
-  ForEachTerm(terms, summary, [&](const auto& term, TermSummary* its_summary) {
-    its_summary->*member = Cost(term, state);
-    sum += its_summary->*member;
+  ForEachTerm(terms, summary, [&](const auto& term, TermSummary* term_summary) {
+    term_summary->*member = Cost(term, state);
+    sum += term_summary->*member;
   });
   return sum;
 }
 
 void WriteCounts(const WindowTerms& terms, BundleAdjustmentSummary* summary) {
-  ForEachTerm(terms, summary, [](const auto& term, TermSummary* its_summary) {
-    its_summary->num_residual_blocks = static_cast<int>(term.blocks.size());
+  ForEachTerm(terms, summary, [](const auto& term, TermSummary* term_summary) {
+    term_summary->num_residual_blocks = static_cast<int>(term.blocks.size());
   });
 }
 
-// Only what took part in the last solve: a landmark or keyframe that lost its last observation
-// keeps the values it came with.
+// Writes the solution and the rejection marks. Keyframes and landmarks without residual blocks in
+// the second solve keep their initial values.
 void WriteBack(const WindowTerms& terms, const WindowInlierMask& inlier_mask,
                const WindowState& state, WindowData* data) {
   for (size_t i = 0; i < data->keyframes.size(); ++i) {
-    if (terms.keyframe_takes_part[i]) data->keyframes[i].cam_from_world = state.Pose(i);
+    if (terms.keyframe_constrained[i]) data->keyframes[i].cam_from_world = state.Pose(i);
   }
   for (size_t i = 0; i < data->points.size(); ++i) {
     if (terms.point_observed[i]) data->points[i].position = state.Point(i);
@@ -82,7 +82,8 @@ MinimizerReport Minimize(const BundleAdjustmentOptions& options, const WindowDat
                          const WindowTerms& terms, int max_iterations,
                          const WindowStageObserver& enter_stage, WindowState* state) {
   if (options.solver == BundleAdjustmentSolver::kBlockSchur) {
-    return MinimizeWindow(WindowStructure(data, terms), terms, max_iterations, enter_stage, state);
+    return MinimizeWithBlockSchur(BlockStructure(data, terms), terms, max_iterations, enter_stage,
+                                  state);
   }
   if (enter_stage) enter_stage(WindowStage::kStep);
   return CeresBackend(options, data, terms, state).Minimize(max_iterations);
@@ -99,7 +100,8 @@ BundleAdjustmentSummary LocalBundleAdjustment(const BundleAdjustmentOptions& opt
   enter(WindowStage::kBuild);
   const WindowIndex index = ValidateWindow(options, *data);
   BundleAdjustmentSummary summary;
-  WindowInlierMask inlier_mask = AllInFront(options, index, *data, &summary.num_behind_camera);
+  WindowInlierMask inlier_mask =
+      InitialInlierMask(options, index, *data, &summary.num_behind_camera);
   WindowState state(*data);
 
   const auto minimize = [&](const WindowTerms& terms, int iterations) {
@@ -114,24 +116,23 @@ BundleAdjustmentSummary LocalBundleAdjustment(const BundleAdjustmentOptions& opt
   const WindowTerms first = MakeWindowTerms(options, *data, index, inlier_mask, state);
   summary.initial_cost = WriteCosts(first, state, &TermSummary::initial_cost, &summary);
   if (!minimize(first, options.first_iterations)) return summary;
-  ClassifyAll(options, first, state, &inlier_mask, &summary);
+  RejectOutliers(options, first, state, &inlier_mask, &summary);
 
-  // Not yet in *data, which stays as it was if the second solve fails.
-  WindowData learnt = *data;
-  LearnLandmarkNoise(options.landmark_noise, index, inlier_mask, state, &learnt);
-  const WindowTerms second = MakeWindowTerms(options, learnt, index, inlier_mask, state);
+  // A copy: *data must stay unchanged if the second solve fails.
+  WindowData with_noise = *data;
+  EstimateLandmarkNoise(options.landmark_noise, index, inlier_mask, state, &with_noise);
+  const WindowTerms second = MakeWindowTerms(options, with_noise, index, inlier_mask, state);
   if (!minimize(second, options.second_iterations)) return summary;
   WriteCounts(second, &summary);
   summary.final_cost = WriteCosts(second, state, &TermSummary::final_cost, &summary);
-  // What overflows is no cost, and its minimum none.
   if (!std::isfinite(summary.initial_cost) || !std::isfinite(summary.final_cost)) {
     summary.message = "the cost is not finite";
     return summary;
   }
   summary.usable = true;
   enter(WindowStage::kWriteBack);
-  LearnLandmarkNoise(options.landmark_noise, index, inlier_mask, state, &learnt);
-  *data = std::move(learnt);
+  EstimateLandmarkNoise(options.landmark_noise, index, inlier_mask, state, &with_noise);
+  *data = std::move(with_noise);
   WriteBack(second, inlier_mask, state, data);
   enter(WindowStage::kDone);
   return summary;
@@ -150,7 +151,7 @@ bool BundleAdjustmentOptions::IsValid(std::string* error) const {
   } else if (first_iterations < 1 || second_iterations < 1) {
     *error = "first_iterations and second_iterations must be at least 1";
   } else if (!IsAvailable(solver)) {
-    *error = "solver: this Ceres was built without the sparse library asked for";
+    *error = "solver: this Ceres was built without its sparse linear algebra library";
   } else {
     return true;
   }
@@ -160,7 +161,7 @@ bool BundleAdjustmentOptions::IsValid(std::string* error) const {
 std::string BundleAdjustmentSummary::BriefReport() const {
   char text[160];
   std::snprintf(
-      text, sizeof(text), "window: %s, %d iterations, cost %.6g -> %.6g, %d behind camera",
+      text, sizeof(text), "local BA: %s, %d iterations, cost %.6g -> %.6g, %d behind camera",
       usable ? "solved" : "failed", num_iterations, initial_cost, final_cost, num_behind_camera);
   std::string report = text;
   const auto add = [&](const char* name, const TermSummary& term) {
@@ -172,7 +173,7 @@ std::string BundleAdjustmentSummary::BriefReport() const {
   add("point depth", point_depth);
   add("line reprojection", line_reprojection);
   add("line depth", line_depth);
-  add("line anchor", line_endpoint_prior);
+  add("line endpoint", line_endpoint_prior);
   add("parallel", parallel);
   add("perpendicular", perpendicular);
   add("manhattan", manhattan);

@@ -48,11 +48,11 @@ Eigen::Vector2d LineResidual(const PinholeCamera& camera, const LineSegment2& se
 
 double InverseDepthAt(const PinholeCamera& camera, const LineSegment2& segment,
                       const LineSegment3& line_in_cam, double s) {
-  // Along the image of a line 1/z is linear.
+  // 1/z is linear along the image of a line.
   const double start = segment.Parameter(camera.Project(line_in_cam.start));
   const double end = segment.Parameter(camera.Project(line_in_cam.end));
-  const double share = (s - start) / (end - start);
-  return (1.0 - share) / line_in_cam.start.z() + share / line_in_cam.end.z();
+  const double ratio = (s - start) / (end - start);
+  return (1.0 - ratio) / line_in_cam.start.z() + ratio / line_in_cam.end.z();
 }
 
 }  // namespace msc_vo

@@ -8,9 +8,9 @@
 
 namespace msc_vo {
 
-// What both problems do with one observation.
+// Operations on one observation that local bundle adjustment and pose optimization share.
 
-// Which factors of an observation take part.
+/// Inlier flags of the two factors of an observation.
 struct InlierMask {
   bool reprojection = false;
   bool depth = false;
@@ -19,38 +19,38 @@ struct InlierMask {
   }
 };
 
-// The chi-square test of an observation: `reprojection` and `depth` are the squared norms of its
-// residuals in sigmas (0 where there is none), the limits are quantiles for the rows of the first
-// and of both. An observation whose depth alone contradicts stays and loses its depth: that is what
-// a mixed pixel of the sensor looks like.
+/// Chi-square test of an observation. `reprojection` and `depth`: squared norms of its residuals, 0
+/// for a missing factor. `limit`, `limit_with_depth`: quantiles for the rows of the reprojection,
+/// and of reprojection and depth together. An observation that fails only the second test loses its
+/// depth and remains an inlier, as at mixed pixels of the depth image.
 InlierMask TestChiSquare(double reprojection, double depth, double limit, double limit_with_depth);
 
-// Nearest depth z (metres) at which an observation is believed: nearer than any RGB-D sensor sees,
-// and ten times the factors' own limit, so that no step of a solver leaves the factors' domain.
+/// Smallest valid depth z of an observed landmark, metres: below the range of RGB-D sensors, and
+/// large enough that solver steps stay within the domain of the factors.
 constexpr double kMinObservedDepth = 10.0 * kMinCameraDepth;
 
+/// Whether a point, or both end points of a line, lie beyond kMinObservedDepth.
 bool IsInFront(const Eigen::Vector3d& x_in_cam);
 bool IsInFront(const LineSegment3& line_in_cam);
 
-// Standard deviation (pixels) of the observed image line's distance where `pixel` projects on it.
-// The end points of the observed segment have independent errors of `sigma` pixels across the line,
-// so at parameter s (0 start, 1 end) the line between them has sigma^2 ((1 - s)^2 + s^2): least in
-// the middle, sigma sqrt(1/2), and growing linearly beyond the ends.
+/// Standard deviation (pixels) of the observed image line's distance at the projection of `pixel`
+/// on it. With independent errors of `sigma` pixels of both end points across the line, the
+/// variance at parameter s (0 at the start, 1 at the end) is sigma^2 ((1 - s)^2 + s^2).
 double ImageLineSigma(const LineSegment2& segment, double sigma, const Eigen::Vector2d& pixel);
 
-// The factors of one line observation with their sigmas at the linearisation point: `line_in_cam`
-// is the map line in camera coordinates, both end points in front of the camera.
+/// Factors of one line observation, with their sigmas at the linearisation point `line_in_cam`: the
+/// map line in camera coordinates, both end points in front of the camera.
 LineReprojection MakeLineReprojection(const PinholeCamera& camera, const LineSegment2& segment,
                                       double sigma, const LineSegment3& line_in_cam);
 LineDepthReprojection MakeLineDepthReprojection(const PinholeCamera& camera,
                                                 const LineSegment2& segment, const LineDepth& depth,
                                                 const LineSegment3& line_in_cam);
 
-// The residual of the first of them, in its sigmas.
+/// Residual of MakeLineReprojection, in standard deviations.
 Eigen::Vector2d LineResidual(const PinholeCamera& camera, const LineSegment2& segment, double sigma,
                              const LineSegment3& line_in_cam);
 
-// Inverse depth (1/metres) of the map line where the observed segment has parameter s.
+/// Inverse depth (1/metres) of the map line at parameter s of the observed segment.
 double InverseDepthAt(const PinholeCamera& camera, const LineSegment2& segment,
                       const LineSegment3& line_in_cam, double s);
 

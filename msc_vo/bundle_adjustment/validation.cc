@@ -13,18 +13,17 @@ namespace {
 
 bool IsPositive(double x) { return std::isfinite(x) && x > 0.0; }
 
-// No camera or map has coordinates beyond this (pixels, metres or their inverse), and what has
-// would overflow where it is squared and squared again: the length of a segment, chi-square, cost.
+// Largest coordinate (pixels, metres or their inverse). Fourth powers of valid coordinates, as in
+// the chi-square of a segment's length, do not overflow.
 constexpr double kMaxCoordinate = 1e9;
 
 template <typename Vector>
 bool AreCoordinates(const Vector& x) {
   return x.allFinite() && x.template lpNorm<Eigen::Infinity>() <= kMaxCoordinate;
 }
-bool AreCoordinates(double x) { return std::abs(x) <= kMaxCoordinate; }  // NaN fails
+bool AreCoordinates(double x) { return std::abs(x) <= kMaxCoordinate; }  // false for NaN
 
-// Of the norm of a unit quaternion or vector: far above the rounding of any product of rotations,
-// far below a wrong one.
+// Tolerance of the norm of a unit quaternion or vector: well above accumulated rounding errors.
 constexpr double kUnitTolerance = 1e-6;
 
 template <int N>
@@ -32,8 +31,7 @@ const char* CovarianceErrorOf(const Eigen::Matrix<double, N, N>& covariance) {
   constexpr const char* kError = "covariance is not positive definite";
   const Eigen::Matrix<double, N, 1> sigma = covariance.diagonal().cwiseSqrt();
   if (!covariance.allFinite() || !(sigma.minCoeff() > 0.0)) return kError;
-  // Units differ, so that only correlations compare. Their rounding is far below the tolerance, a
-  // transposed or half-filled matrix far above.
+  // Correlations are dimensionless, so one tolerance fits all entries.
   const Eigen::Matrix<double, N, N> correlation =
       sigma.cwiseInverse().asDiagonal() * covariance * sigma.cwiseInverse().asDiagonal();
   if (!((correlation - correlation.transpose()).cwiseAbs().maxCoeff() < 1e-6)) return kError;
@@ -43,15 +41,15 @@ const char* CovarianceErrorOf(const Eigen::Matrix<double, N, N>& covariance) {
 }  // namespace
 
 const char* PoseError(const Rigid3& cam_from_world) {
-  if (!AreCoordinates(cam_from_world.params)) return "pose is not finite, or beyond 1e9 m";
+  if (!AreCoordinates(cam_from_world.params)) return "pose is not finite or beyond 1e9 m";
   if (std::abs(cam_from_world.rotation().norm() - 1.0) > kUnitTolerance) {
-    return "rotation is not unit";
+    return "rotation is not a unit quaternion";
   }
   return nullptr;
 }
 
 const char* PositionError(const Eigen::Vector3d& position) {
-  return AreCoordinates(position) ? nullptr : "position is not finite, or beyond 1e9 m";
+  return AreCoordinates(position) ? nullptr : "position is not finite or beyond 1e9 m";
 }
 
 const char* NoiseError(double noise) {
@@ -59,23 +57,23 @@ const char* NoiseError(double noise) {
 }
 
 const char* DepthOffsetError(double offset) {
-  return AreCoordinates(offset) ? nullptr : "depth_offset is not finite, or beyond 1e9 m";
+  return AreCoordinates(offset) ? nullptr : "depth_offset is not finite or beyond 1e9 m";
 }
 
 const char* MapLineError(const LineSegment3& segment) {
   if (!AreCoordinates(segment.start) || !AreCoordinates(segment.end)) {
-    return "segment is not finite, or beyond 1e9 m";
+    return "segment is not finite or beyond 1e9 m";
   }
-  if (segment.start == segment.end) return "segment has no length";
+  if (segment.start == segment.end) return "segment has zero length";
   return nullptr;
 }
 
 const char* PointObservationError(const Eigen::Vector2d& pixel, double sigma, double inverse_depth,
                                   double inverse_depth_sigma) {
-  if (!AreCoordinates(pixel)) return "pixel is not finite, or beyond 1e9";
+  if (!AreCoordinates(pixel)) return "pixel is not finite or beyond 1e9";
   if (!IsPositive(sigma)) return "sigma must be positive";
   if (!AreCoordinates(inverse_depth) || inverse_depth < 0.0) {
-    return "inverse_depth must not be negative, nor beyond 1e9";
+    return "inverse_depth must be in [0, 1e9]";
   }
   if (inverse_depth > 0.0 && !IsPositive(inverse_depth_sigma)) {
     return "inverse_depth_sigma must be positive";
@@ -86,13 +84,13 @@ const char* PointObservationError(const Eigen::Vector2d& pixel, double sigma, do
 const char* LineObservationError(const LineSegment2& segment, double sigma, bool has_depth,
                                  const LineDepth& depth) {
   if (!AreCoordinates(segment.start) || !AreCoordinates(segment.end)) {
-    return "segment is not finite, or beyond 1e9 pixels";
+    return "segment is not finite or beyond 1e9 pixels";
   }
-  if (segment.start == segment.end) return "segment has no length";
+  if (segment.start == segment.end) return "segment has zero length";
   if (!IsPositive(sigma)) return "sigma must be positive";
   if (!has_depth) return nullptr;
   if (!AreCoordinates(depth.start) || !AreCoordinates(depth.end)) {
-    return "depth is not finite, or beyond 1e9";
+    return "depth is not finite or beyond 1e9";
   }
   return CovarianceError(depth.covariance) == nullptr ? nullptr
                                                       : "depth covariance is not positive definite";
@@ -106,7 +104,7 @@ const char* CovarianceError(const Eigen::Matrix<double, 6, 6>& covariance) {
 }
 
 const char* LinePairError(const WindowData::LinePair& pair) {
-  if (pair.a == pair.b) return "a line with itself";
+  if (pair.a == pair.b) return "pairs a line with itself";
   if (!IsPositive(pair.sigma)) return "sigma must be positive";
   if (pair.count < 1) return "count must be at least 1";
   return nullptr;
@@ -119,8 +117,8 @@ const char* AxisAlignmentError(const WindowData::AxisAlignment& alignment) {
 }
 
 const char* UnitVectorError(const Eigen::Vector3d& v) {
-  // As for rotations; NaN fails too.
-  return std::abs(v.norm() - 1.0) <= kUnitTolerance ? nullptr : "vector is not unit";
+  // False for NaN.
+  return std::abs(v.norm() - 1.0) <= kUnitTolerance ? nullptr : "not a unit vector";
 }
 
 }  // namespace msc_vo

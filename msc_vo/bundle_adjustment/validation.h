@@ -13,8 +13,9 @@
 
 namespace msc_vo {
 
-// What both problems ask of their input. Each returns what is wrong, or nullptr; the caller knows
-// whom to name.
+// Input checks that local bundle adjustment and pose optimization share. Each returns a description
+// of the error, or nullptr; the caller adds the name of the item.
+
 const char* PoseError(const Rigid3& cam_from_world);
 const char* PositionError(const Eigen::Vector3d& position);
 const char* MapLineError(const LineSegment3& segment);
@@ -24,14 +25,14 @@ const char* LineObservationError(const LineSegment2& segment, double sigma, bool
                                  const LineDepth& depth);
 const char* NoiseError(double noise);
 const char* DepthOffsetError(double offset);
-// Symmetric to 1e-6 of its correlations, and positive definite.
+/// Requires correlations that are symmetric to 1e-6, and positive definiteness.
 const char* CovarianceError(const Eigen::Matrix2d& covariance);
 const char* CovarianceError(const Eigen::Matrix<double, 6, 6>& covariance);
 const char* LinePairError(const WindowData::LinePair& pair);
 const char* AxisAlignmentError(const WindowData::AxisAlignment& alignment);
 const char* UnitVectorError(const Eigen::Vector3d& v);
 
-// Options that both problems have, of either option type.
+/// Checks the options that BundleAdjustmentOptions and PoseOptions share.
 template <typename Options>
 bool CommonOptionsAreValid(const Options& options, std::string* error) {
   const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };

@@ -7,54 +7,54 @@
 #include <stdexcept>
 #include <string>
 
+#include "msc_vo/bundle_adjustment/internal/covariance_blocks.h"
 #include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
-#include "msc_vo/bundle_adjustment/internal/schur_complement.h"
 #include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
 
 namespace {
 
-// Damping of a millionth of a millionth: far below what the window knows of anything that is of
-// use, far above the rounding of the sums. Of what it does not know at all, it makes something
-// finite.
+// Relative damping of 1e-12 keeps the Hessian invertible where parameters are undetermined, and is
+// negligible for all others.
 constexpr double kRadius = 1e12;
-// A number is not determined if, for all that it is bound to, it is known so many times worse than
-// it would be with all others known: then the damping speaks.
+// A parameter is undetermined if its marginal variance exceeds its variance given all other
+// parameters by this factor: the damping then dominates the result.
 constexpr double kMaxInflation = 1e8;
 
-// What took part in the last solve.
-WindowInlierMask LeftBySolver(const BundleAdjustmentOptions& options, const WindowData& data,
-                              const WindowIndex& index, const WindowState& state) {
+// The inliers of the second solve of LocalBundleAdjustment.
+WindowInlierMask FinalInlierMask(const BundleAdjustmentOptions& options, const WindowData& data,
+                                 const WindowIndex& index, const WindowState& state) {
   int num_behind = 0;
-  WindowInlierMask left = AllInFront(options, index, data, &num_behind);
-  const auto keep = [](const auto& items, std::vector<bool>* active) {
-    for (size_t i = 0; i < items.size(); ++i) (*active)[i] = !items[i].rejected;
+  WindowInlierMask inlier_mask = InitialInlierMask(options, index, data, &num_behind);
+  const auto keep = [](const auto& items, std::vector<bool>* inliers) {
+    for (size_t i = 0; i < items.size(); ++i) (*inliers)[i] = !items[i].rejected;
   };
-  const auto keep_observations = [](const auto& items, std::vector<InlierMask>* active) {
+  const auto keep_observations = [](const auto& items, std::vector<InlierMask>* inliers) {
     for (size_t i = 0; i < items.size(); ++i) {
-      if (items[i].rejected) (*active)[i] = {};
+      if (items[i].rejected) (*inliers)[i] = {};
     }
   };
-  keep_observations(data.point_observations, &left.points);
-  keep_observations(data.line_observations, &left.lines);
-  keep(data.parallel_pairs, &left.parallel);
-  keep(data.perpendicular_pairs, &left.perpendicular);
-  keep(data.axis_alignments, &left.alignments);
+  keep_observations(data.point_observations, &inlier_mask.points);
+  keep_observations(data.line_observations, &inlier_mask.lines);
+  keep(data.parallel_pairs, &inlier_mask.parallel);
+  keep(data.perpendicular_pairs, &inlier_mask.perpendicular);
+  keep(data.axis_alignments, &inlier_mask.alignments);
 
-  // Depths that were lost alone have no mark.
-  WindowInlierMask tested = left;
+  // Observations that lost only their depth have no mark in the data: repeat the test.
+  WindowInlierMask tested = inlier_mask;
   BundleAdjustmentSummary unused;
-  ClassifyAll(options, MakeWindowTerms(options, data, index, left, state), state, &tested, &unused);
+  RejectOutliers(options, MakeWindowTerms(options, data, index, inlier_mask, state), state, &tested,
+                 &unused);
   const auto drop_depths = [](const std::vector<InlierMask>& test,
-                              std::vector<InlierMask>* active) {
+                              std::vector<InlierMask>* inliers) {
     for (size_t i = 0; i < test.size(); ++i) {
-      if (test[i].reprojection && !test[i].depth) (*active)[i].depth = false;
+      if (test[i].reprojection && !test[i].depth) (*inliers)[i].depth = false;
     }
   };
-  drop_depths(tested.points, &left.points);
-  drop_depths(tested.lines, &left.lines);
-  return left;
+  drop_depths(tested.points, &inlier_mask.points);
+  drop_depths(tested.lines, &inlier_mask.lines);
+  return inlier_mask;
 }
 
 template <typename Item>
@@ -63,12 +63,12 @@ int PositionOf(const std::vector<Item>& items, int64_t id, const char* kind) {
       std::find_if(items.begin(), items.end(), [id](const Item& i) { return i.id == id; });
   if (it == items.end()) {
     throw std::invalid_argument(std::string("EstimateCovariance: ") + kind + " " +
-                                std::to_string(id) + " is asked for but not in the window");
+                                std::to_string(id) + " is selected but not in the window");
   }
   return static_cast<int>(it - items.begin());
 }
 
-// Positions of ids in the data.
+// Positions of items in the data by their ids.
 template <typename Item>
 std::vector<int> Positions(const std::vector<Item>& items, const std::vector<int64_t>& ids,
                            const char* kind) {
@@ -77,7 +77,7 @@ std::vector<int> Positions(const std::vector<Item>& items, const std::vector<int
   return positions;
 }
 
-// Those among `positions` that are unknowns, by their numbers.
+// Numbers of the unknowns among `positions`.
 std::vector<int> Unknowns(const std::vector<int>& positions, const std::vector<int>& numbers) {
   std::vector<int> unknowns;
   for (const int position : positions) {
@@ -86,7 +86,7 @@ std::vector<int> Unknowns(const std::vector<int>& positions, const std::vector<i
   return unknowns;
 }
 
-// Brings the blocks of the unknowns back to their places among all that were chosen.
+// Distributes the blocks of the unknowns to the selected items.
 template <typename Item, typename Matrix>
 std::vector<std::optional<Matrix>> Collect(const std::vector<Item>& items,
                                            const std::vector<int>& positions,
@@ -112,29 +112,29 @@ std::vector<std::optional<Matrix>> Collect(const std::vector<Item>& items,
 }  // namespace
 
 WindowCovariance EstimateCovariance(const BundleAdjustmentOptions& options,
-                                    const WindowData& solved, const WindowChoice& chosen) {
+                                    const WindowData& solved, const CovarianceSelection& selected) {
   const WindowIndex index = ValidateWindow(options, solved);
-  const std::vector<int> keyframes = Positions(solved.keyframes, chosen.keyframes, "keyframe");
-  const std::vector<int> points = Positions(solved.points, chosen.points, "point");
-  const std::vector<int> lines = Positions(solved.lines, chosen.lines, "line");
+  const std::vector<int> keyframes = Positions(solved.keyframes, selected.keyframes, "keyframe");
+  const std::vector<int> points = Positions(solved.points, selected.points, "point");
+  const std::vector<int> lines = Positions(solved.lines, selected.lines, "line");
 
   const WindowState state(solved);
-  const WindowTerms terms =
-      MakeWindowTerms(options, solved, index, LeftBySolver(options, solved, index, state), state);
-  const WindowStructure structure(solved, terms);
+  const WindowTerms terms = MakeWindowTerms(options, solved, index,
+                                            FinalInlierMask(options, solved, index, state), state);
+  const BlockStructure structure(solved, terms);
   WindowEquations equations;
-  InverseBlocks inverse;
+  CovarianceBlocks blocks;
   if (Linearize(structure, terms, state, &equations)) {
-    // Where it fails, nothing is determined.
-    InvertBlocks(structure, equations, kRadius,
-                 {Unknowns(keyframes, structure.pose), Unknowns(points, structure.point),
-                  Unknowns(lines, structure.line)},
-                 &inverse);
+    // On failure the blocks stay empty: nothing is determined.
+    ComputeCovarianceBlocks(structure, equations, kRadius,
+                            {Unknowns(keyframes, structure.pose), Unknowns(points, structure.point),
+                             Unknowns(lines, structure.line)},
+                            &blocks);
   }
   return {
-      Collect(solved.keyframes, keyframes, structure.pose, equations.pose_hessian, inverse.poses),
-      Collect(solved.points, points, structure.point, equations.points.hessian, inverse.points),
-      Collect(solved.lines, lines, structure.line, equations.lines.hessian, inverse.lines)};
+      Collect(solved.keyframes, keyframes, structure.pose, equations.pose_hessian, blocks.poses),
+      Collect(solved.points, points, structure.point, equations.points.hessian, blocks.points),
+      Collect(solved.lines, lines, structure.line, equations.lines.hessian, blocks.lines)};
 }
 
 // With c = -R^T t and R' = Exp(w) R, t' = t + u:  c' = c - R^T (u - w x t),  R'^T = Exp(-R^T w)

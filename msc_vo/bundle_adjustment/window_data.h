@@ -15,75 +15,74 @@
 
 namespace msc_vo {
 
-// The sliding window as plain data: what the window problem reads and writes. No pointers into any
-// map; ids are the caller's and need only be unique within their vector. Observations, pairs and
-// alignments may repeat, of the same landmarks in the same keyframe: each is a measurement of its
-// own, with an error of its own.
+/// Input and output of local bundle adjustment as plain data, independent of any map. Ids are
+/// chosen by the caller and must be unique within their vector. Observations, pairs and alignments
+/// may repeat for the same items: each is an independent measurement.
 struct WindowData {
   struct Keyframe {
     int64_t id = 0;
-    Rigid3 cam_from_world;
-    bool fixed = false;  // an observer outside the window, or the gauge
+    Rigid3 cam_from_world;  ///< Metres.
+    bool fixed = false;     ///< Constant: an observer outside the window, or the gauge.
   };
   struct Point {
     int64_t id = 0;
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();  // metres, world
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< World, metres.
     bool fixed = false;
-    // By which the sigmas of its observations are multiplied; positive. The solver learns it.
-    double noise = 1.0;
+    double noise = 1.0;  ///< Factor on the sigmas of its observations, positive; may be estimated.
   };
   struct Line {
     int64_t id = 0;
-    LineSegment3 segment;  // metres, world
+    LineSegment3 segment;  ///< World, metres.
     bool fixed = false;
-    double noise = 1.0;  // as of points
-    // Metres, by which its depths are measured too far in all views alike; much less than they are.
-    // The solver learns it.
+    double noise = 1.0;  ///< As for points.
+    /// Measured minus true depth in all of its observations, metres; small compared with the depth.
+    /// May be estimated.
     double depth_offset = 0.0;
   };
   struct PointObservation {
     int64_t keyframe = 0;
     int64_t point = 0;
-    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // pixels, undistorted
-    double sigma = 1.0;                               // pixels
-    double inverse_depth = 0.0;                       // 1/metres; 0: no depth measured
-    double inverse_depth_sigma = 0.0;                 // 1/metres
-    bool rejected = false;  // set by the solver: contradicts the solution, or behind the camera
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< Undistorted, pixels.
+    double sigma = 1.0;                               ///< Of each coordinate, pixels.
+    double inverse_depth = 0.0;                       ///< 1/metres; 0: not measured.
+    double inverse_depth_sigma = 0.0;                 ///< 1/metres.
+    bool rejected = false;                            ///< Output: an outlier, or behind the camera.
   };
   struct LineObservation {
     int64_t keyframe = 0;
     int64_t line = 0;
-    LineSegment2 segment;  // pixels, undistorted
-    double sigma = 1.0;    // pixels, of an end point's distance to the true line
+    LineSegment2 segment;  ///< Undistorted, pixels.
+    double sigma = 1.0;    ///< Of an end point's distance to the true image line, pixels.
     bool has_depth = false;
-    LineDepth depth;        // used if has_depth
-    bool rejected = false;  // as for points
+    LineDepth depth;        ///< Valid if has_depth.
+    bool rejected = false;  ///< Output, as for points.
   };
 
-  // Two lines that should be parallel or perpendicular (paper: L_par^z, L_perp^z), seen together in
-  // `count` keyframes: the paper's sum has the same term once for each.
+  /// Parallel or perpendicular pair of lines (paper: L_par^z, L_perp^z).
   struct LinePair {
     int64_t a = 0;
     int64_t b = 0;
-    double sigma = 0.03;    // radians, of the angle between them
-    int count = 1;          // at least 1
-    bool rejected = false;  // set by the solver: contradicts the solution
+    double sigma = 0.03;  ///< Of the angle between the lines, radians.
+    /// Number of keyframes that observe both lines, at least 1: multiplicity of the term, as in the
+    /// paper's sum.
+    int count = 1;
+    bool rejected = false;  ///< Output: an outlier.
   };
-  // A line that should be parallel to a Manhattan axis (paper: M).
+  /// Line parallel to a Manhattan axis (paper: M).
   struct AxisAlignment {
     int64_t line = 0;
-    Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // unit vector, world; its sign has no meaning
-    double sigma = 0.03;                              // radians, of the angle between them
-    bool rejected = false;                            // as for pairs
+    Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< Unit vector in the world, of either sign.
+    double sigma = 0.03;                              ///< Of the angle between them, radians.
+    bool rejected = false;                            ///< Output: an outlier.
   };
 
-  // Where a keyframe is believed to be, from elsewhere: a marginalised past, a marker, wheels. On a
-  // fixed keyframe it says nothing.
+  /// Prior on a keyframe pose from another source, such as marginalisation, a marker or wheel
+  /// odometry. Ignored on fixed keyframes.
   struct PosePrior {
     int64_t keyframe = 0;
-    Rigid3 cam_from_world;
-    // Of the six numbers of Rigid3Manifold: rotation vector in the camera frame (radians), then
-    // translation (metres). Symmetric, positive definite.
+    Rigid3 cam_from_world;  ///< Mean.
+    /// In the tangent space of Rigid3Manifold: rotation vector in the camera frame (radians), then
+    /// translation (metres). Symmetric, positive definite.
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Identity();
   };
 

@@ -11,19 +11,48 @@ namespace msc_vo {
 
 namespace {
 
-void ListCamera(CameraSettings* camera, OptionLister* list) {
-  list->Add("preset", &camera->preset, "a built-in camera instead of the numbers below");
-  list->Add("fx", &camera->fx, "pixels");
-  list->Add("fy", &camera->fy, "pixels; negative where y points up (ICL-NUIM)");
-  list->Add("cx", &camera->cx, "pixels");
-  list->Add("cy", &camera->cy, "pixels");
-  list->Add("width", &camera->width, "pixels; the size of the images if not given");
-  list->Add("height", &camera->height, "pixels");
-  list->Add("depth_scale", &camera->depth_scale, "raw depth units per metre");
-  constexpr const char* kDistortion[] = {"k1", "k2", "p1", "p2", "k3"};
+Range AnyNumber(const std::string& unit) {
+  Range range;
+  range.unit = unit;
+  return range;
+}
+
+constexpr char kWhenUnknown[] = "Set it if neither the sequence nor a preset gives it.";
+
+void ListDistortion(CameraSettings* camera, OptionLister* list) {
+  constexpr const char* kNames[] = {"k1", "k2", "p1", "p2", "k3"};
   for (size_t i = 0; i < camera->distortion.size(); ++i) {
-    list->Add(kDistortion[i], &camera->distortion[i], "lens distortion, as in OpenCV");
+    const bool tangential = kNames[i][0] == 'p';
+    list->Add(kNames[i], &camera->distortion[i], AnyNumber(""),
+              std::string(tangential ? "Tangential" : "Radial") +
+                  " distortion coefficient of OpenCV's model.")
+        .MakeBasic("Set it if the images are distorted.");
   }
+}
+
+void ListCamera(CameraSettings* camera, OptionLister* list) {
+  list->Add("preset", &camera->preset,
+            "Name of a built-in camera (msc_vo replay --help lists them), instead of the numbers "
+            "below.")
+      .MakeBasic("Set it for recordings of that camera without calibration.");
+  list->Add("fx", &camera->fx, AnyNumber("pixels"), "Focal length in x.").MakeBasic(kWhenUnknown);
+  list->Add("fy", &camera->fy, AnyNumber("pixels"),
+            "Focal length in y; negative if y points up, as in ICL-NUIM.")
+      .MakeBasic(kWhenUnknown);
+  list->Add("cx", &camera->cx, AnyNumber("pixels"), "Principal point in x.")
+      .MakeBasic(kWhenUnknown);
+  list->Add("cy", &camera->cy, AnyNumber("pixels"), "Principal point in y.")
+      .MakeBasic(kWhenUnknown);
+  list->Add("width", &camera->width, AnyNumber("pixels"),
+            "Image width; if not set, that of the first image.")
+      .MakeBasic("Set it to have the size of the images checked.");
+  list->Add("height", &camera->height, AnyNumber("pixels"),
+            "Image height; if not set, that of the first image.")
+      .MakeBasic("Set it to have the size of the images checked.");
+  list->Add("depth_scale", &camera->depth_scale, AnyNumber("per metre"),
+            "Raw depth units per metre.")
+      .MakeBasic(kWhenUnknown);
+  ListDistortion(camera, list);
 }
 
 }  // namespace
@@ -36,6 +65,11 @@ std::vector<Option> ListOptions(Configuration* configuration) {
     options.push_back(std::move(option));
   }
   return options;
+}
+
+Configuration EffectiveConfiguration(Configuration configuration) {
+  configuration.odometry = EffectiveOptions(configuration.odometry);
+  return configuration;
 }
 
 }  // namespace msc_vo

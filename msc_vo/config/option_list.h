@@ -12,32 +12,40 @@
 
 namespace msc_vo {
 
-// Everything that a configuration file can say.
+/// The contents of a configuration file.
 struct Configuration {
   CameraSettings camera;
   OdometryOptions odometry;
 };
 
-// Pointers into `configuration`, grouped by section.
+/// All options, grouped by section, with pointers into `configuration`.
 std::vector<Option> ListOptions(Configuration* configuration);
 
-// Sets an option from text. Returns false, with what was expected and the option as it was, if the
-// text or its number does not fit.
+/// The configuration with the options in effect, see EffectiveOptions.
+Configuration EffectiveConfiguration(Configuration configuration);
+
+/// Sets an option from text. Returns false, with a description of the valid values in `expected`
+/// and the option unchanged, if the text cannot be parsed or the number is out of range.
 bool SetOption(const Option& option, const std::string& text, std::string* expected);
 
-// The value as text, with as many digits as are needed to read it back; empty: not set.
+/// The value as text, with as many digits as are needed to read it back exactly; empty: not set.
 std::string FormatOption(const Option& option);
 
-// An option that has a value, as text.
+/// The valid values for help texts: "0 to 256 bits", "lsd, edge-drawing", "true, false"; for a
+/// number without limits its unit; empty for a string.
+std::string FormatValidValues(const Option& option);
+
+/// An option and its value as text.
 struct OptionText {
   std::string path;
   std::string value;
 };
 
-// Those whose value is not the default.
+/// The options whose value differs from the default.
 std::vector<OptionText> ChangedOptions(const Configuration& configuration);
 
-// The option whose path is most like `path`, for "did you mean ...?"; null if none is alike.
+/// The option whose path is most similar to `path`, for "did you mean ...?"; null if none is
+/// similar.
 const Option* FindSimilar(const std::vector<Option>& options, const std::string& path);
 
 }  // namespace msc_vo

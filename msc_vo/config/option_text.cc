@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Options as text: setting, formatting, and finding the one that was meant.
+// Options as text: parsing, formatting, and suggestions for unknown names.
 
 #include <algorithm>
 #include <charconv>
@@ -38,14 +38,14 @@ std::optional<int> ParseInt(const std::string& text) {
   return value;
 }
 
-// Writes the parsed value; false if there is none.
+// Assigns the parsed value; returns false if there is none.
 template <typename Target, typename T>
 bool Assign(const std::optional<T>& parsed, Target* target) {
   if (parsed) *target = *parsed;
   return parsed.has_value();
 }
 
-// The same of a number that must be in its range.
+// The same for a number, which must be in its range.
 template <typename Target, typename T>
 bool Assign(const std::optional<T>& parsed, const std::optional<Range>& range, Target* target) {
   if (parsed && range && !range->Contains(*parsed)) return false;
@@ -91,7 +91,9 @@ struct Setter {
   }
 
  private:
-  std::string RangeText() const { return range ? " " + ToString(*range) : ""; }
+  std::string RangeText() const {
+    return range && range->IsBounded() ? " from " + ToString(*range) : "";
+  }
 };
 
 struct Formatter {
@@ -108,6 +110,12 @@ struct Formatter {
   std::string operator()(const Choice& choice) const { return choice.names.at(choice.get()); }
 };
 
+std::string Join(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 std::string LastPart(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
 }  // namespace
@@ -117,6 +125,12 @@ bool SetOption(const Option& option, const std::string& text, std::string* expec
 }
 
 std::string FormatOption(const Option& option) { return std::visit(Formatter{}, option.value); }
+
+std::string FormatValidValues(const Option& option) {
+  if (const Choice* choice = std::get_if<Choice>(&option.value)) return Join(choice->names);
+  if (std::holds_alternative<bool*>(option.value)) return "true, false";
+  return option.range ? ToString(*option.range) : "";
+}
 
 std::vector<OptionText> ChangedOptions(const Configuration& configuration) {
   Configuration given = configuration;
@@ -134,9 +148,9 @@ std::vector<OptionText> ChangedOptions(const Configuration& configuration) {
 const Option* FindSimilar(const std::vector<Option>& options, const std::string& path) {
   const Option* nearest = nullptr;
   int smallest = MaxTypingErrors(LastPart(path)) + 1;
-  int smallest_of_path = 0;  // decides between equals
+  int smallest_of_path = 0;  // decides ties
   for (const Option& option : options) {
-    // The right name in the wrong section counts as one error.
+    // A correct name in a wrong section counts as one error.
     const int of_path = EditDistance(path, option.path);
     const int distance = std::min(of_path, EditDistance(LastPart(path), LastPart(option.path)) + 1);
     if (distance < smallest || (distance == smallest && (!nearest || of_path < smallest_of_path))) {

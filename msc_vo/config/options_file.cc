@@ -10,13 +10,14 @@
 #include <yaml-cpp/yaml.h>
 
 #include "msc_vo/config/orb_slam_config.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
 namespace {
 
-// Walks a YAML tree along the list of options.
+// Assigns the values of a YAML tree to the options of the same names.
 class YamlReader {
  public:
   YamlReader(std::string file, std::vector<Option> options)
@@ -54,7 +55,7 @@ class YamlReader {
       const Option* similar = FindSimilar(options_, path);
       Fail(line, "unknown option '" + path + "'" +
                      (similar ? "; did you mean '" + similar->path + "'?"
-                              : "; msc_vo replay --print-config lists all"));
+                              : "; msc_vo replay --print-config --all lists the known ones"));
     }
     std::string expected = "a value";
     if (!node.IsScalar() || !SetOption(*option, node.Scalar(), &expected)) {
@@ -68,22 +69,10 @@ class YamlReader {
   std::set<std::string> seen_;
 };
 
-std::vector<std::string> Sections(const std::string& path) {
-  std::vector<std::string> parts;
-  size_t begin = 0;
-  for (size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', begin)) {
-    parts.push_back(path.substr(begin, dot - begin));
-    begin = dot + 1;
-  }
-  return parts;
-}
-
-std::string Indent(size_t depth) { return std::string(2 * depth, ' '); }
-
 }  // namespace
 
 void ReadConfiguration(const std::string& path, Configuration* configuration) {
-  const std::string content = ReadFile(path);
+  const std::string content = ReadFile(path, kMaxOptionsBytes);
   if (IsOrbSlamConfig(content)) {
     configuration->camera = ReadOrbSlamConfig(path);
     return;
@@ -93,43 +82,11 @@ void ReadConfiguration(const std::string& path, Configuration* configuration) {
   try {
     root = YAML::Load(content);
   } catch (const YAML::Exception& error) {
-    reader.Fail(error.mark.line + 1, "is no YAML: " + error.msg);
+    reader.Fail(error.mark.line + 1, "malformed YAML: " + error.msg);
   }
   if (!root.IsMap() && !root.IsNull()) reader.Fail(1, "expected 'name: value' lines");
   configuration->camera.origin = path;
   reader.ReadSection(root, "");
-}
-
-std::string FormatConfiguration(const Configuration& configuration) {
-  Configuration copy = configuration;
-  std::string text = "# msc_vo configuration: every option, with its value and meaning.\n";
-  std::vector<std::string> open;
-  for (const Option& option : ListOptions(&copy)) {
-    const std::vector<std::string> sections = Sections(option.path);
-    size_t common = 0;
-    while (common < open.size() && common < sections.size() && open[common] == sections[common]) {
-      ++common;
-    }
-    for (size_t depth = common; depth < sections.size(); ++depth) {
-      text += Indent(depth) + sections[depth] + ":\n";
-    }
-    open = sections;
-    const std::string name = option.path.substr(option.path.rfind('.') + 1);
-    const std::string value = FormatOption(option);
-    std::string line = Indent(sections.size()) + (value.empty() ? "# " : "") + name + ": " + value;
-    constexpr size_t kCommentColumn = 36;  // behind most values
-    line.resize(std::max(line.size() + 2, kCommentColumn), ' ');
-    text += line + "# " + option.help;
-    if (const Choice* choice = std::get_if<Choice>(&option.value)) {
-      text += " (";
-      for (size_t i = 0; i < choice->names.size(); ++i) {
-        text += (i > 0 ? ", " : "") + choice->names[i];
-      }
-      text += ")";
-    }
-    text += "\n";
-  }
-  return text;
 }
 
 }  // namespace msc_vo

@@ -9,15 +9,22 @@
 
 namespace msc_vo {
 
-// Reads a configuration over `configuration`: what the file does not say stays as it is. The file
-// is YAML with the sections and names of ListOptions, or a flat YAML of ORB-SLAM2 or ORB-SLAM3, of
-// which the camera is taken.
-// Throws std::runtime_error naming file and line: a name that is not known (with the nearest one
-// that is), a value of the wrong type, text that is no YAML.
+/// Reads a configuration file over `configuration`; options that the file does not contain keep
+/// their values. The file is YAML with the sections and names of ListOptions, or a flat YAML file
+/// of ORB-SLAM2 or ORB-SLAM3, of which only the camera is read. Throws std::runtime_error naming
+/// file and line: on an unknown name (with the most similar known one), a value of the wrong type
+/// or out of range, or malformed YAML.
 void ReadConfiguration(const std::string& path, Configuration* configuration);
 
-// All options with their values and meanings, as a file that ReadConfiguration reads. What is not
-// set (the camera) stands there as a comment.
-std::string FormatConfiguration(const Configuration& configuration);
+/// Which options are written.
+enum class OptionSelection { kBasic, kAll };
+
+/// The options with their values, meanings and valid values, as a file for ReadConfiguration.
+/// Options that are not set (the camera) are written as comments.
+std::string FormatConfiguration(const Configuration& configuration, OptionSelection selection);
+
+/// The options with their defaults as Markdown tables: first the basic ones, then the advanced ones
+/// by section. docs/options.md is this text.
+std::string FormatOptionsMarkdown(OptionSelection selection);
 
 }  // namespace msc_vo

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -47,17 +48,17 @@ std::map<std::string, Value> ReadValues(const std::string& content) {
   return values;
 }
 
-// Throws unless the file describes a pinhole camera with at most the coefficients k1 k2 p1 p2 k3.
-// Returns whether its images have a lens at all: those of a rectified camera have none.
-bool HasLens(const std::map<std::string, Value>& values, const std::string& path) {
+// Returns whether the images have lens distortion; those of a rectified camera have none. Throws
+// unless the file describes a pinhole camera with no other coefficients than k1 k2 p1 p2 k3.
+bool HasDistortion(const std::map<std::string, Value>& values, const std::string& path) {
   for (const char* prefix : {"Camera.k", "Camera1.k"}) {
     for (const char digit : {'4', '5', '6'}) {
       const auto found = values.find(prefix + std::string(1, digit));
       if (found == values.end() || ParseNumber(found->second.text) == 0.0) continue;
       throw std::runtime_error(path + ":" + std::to_string(found->second.line) + ": " +
                                found->first +
-                               ": msc_vo knows the lens coefficients k1 k2 p1 p2 "
-                               "k3 alone; calibrate with these, or undistort the images");
+                               ": only the distortion coefficients k1 k2 p1 p2 k3 are supported; "
+                               "calibrate with these, or undistort the images");
     }
   }
   const auto found = values.find("Camera.type");
@@ -81,8 +82,8 @@ bool IsOrbSlamConfig(const std::string& content) {
 }
 
 CameraSettings ReadOrbSlamConfig(const std::string& path) {
-  const std::map<std::string, Value> values = ReadValues(ReadFile(path));
-  // The first of the names that the file has.
+  const std::map<std::string, Value> values = ReadValues(ReadFile(path, kMaxOptionsBytes));
+  // The value of the first of the names that the file contains.
   const auto find = [&](std::initializer_list<const char*> names) -> std::optional<double> {
     for (const char* name : names) {
       const auto found = values.find(name);
@@ -109,7 +110,7 @@ CameraSettings ReadOrbSlamConfig(const std::string& path) {
     throw std::runtime_error(path + ": " + *names.begin() + " must be a whole number, not " +
                              FormatNumber(*value));
   };
-  const bool has_lens = HasLens(values, path);
+  const bool has_distortion = HasDistortion(values, path);
 
   CameraSettings camera;
   camera.fx = require({"Camera.fx", "Camera1.fx"});
@@ -119,7 +120,7 @@ CameraSettings ReadOrbSlamConfig(const std::string& path) {
   camera.depth_scale = require({"DepthMapFactor", "RGBD.DepthMapFactor", "depthmap_factor"});
   camera.width = find_int({"Camera.width", "Camera.cols"});
   camera.height = find_int({"Camera.height", "Camera.rows"});
-  if (has_lens) {
+  if (has_distortion) {
     camera.distortion = {find({"Camera.k1", "Camera1.k1"}), find({"Camera.k2", "Camera1.k2"}),
                          find({"Camera.p1", "Camera1.p1"}), find({"Camera.p2", "Camera1.p2"}),
                          find({"Camera.k3", "Camera1.k3"})};

@@ -9,15 +9,15 @@
 
 namespace msc_vo {
 
-// Whether a text is a settings file of ORB-SLAM2, ORB-SLAM3 or a relative: flat 'Camera.fx: 517.3'
-// lines, which are nearly but not quite YAML.
+/// Whether a text is a settings file of ORB-SLAM2, ORB-SLAM3 or a system derived from them: flat
+/// 'Camera.fx: 517.3' lines, which are not always valid YAML.
 bool IsOrbSlamConfig(const std::string& content);
 
-// The camera of such a file: Camera.fx (or Camera1.fx) ... Camera.k3, Camera.width and .height if
-// given, DepthMapFactor (or RGBD.DepthMapFactor). Everything else, and every malformed line, is
-// passed over. Camera.type may be PinHole or Rectified; the images of the latter have no
-// distortion. Throws std::runtime_error naming the file, and the line of a bad value, if the camera
-// is not there, is of another type, or has more coefficients than k1 k2 p1 p2 k3.
+/// Reads the camera of such a file: Camera.fx (or Camera1.fx) to Camera.k3, Camera.width and
+/// Camera.height if given, and DepthMapFactor (or RGBD.DepthMapFactor). Other keys and malformed
+/// lines are ignored. Camera.type is PinHole, or Rectified for images without distortion. Throws
+/// std::runtime_error naming the file, and the line of an invalid value, if the camera is missing,
+/// is of another type, or has other distortion coefficients than k1 k2 p1 p2 k3.
 CameraSettings ReadOrbSlamConfig(const std::string& path);
 
 }  // namespace msc_vo

@@ -13,6 +13,7 @@
 #include "msc_vo/datasets/image_list.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -37,13 +38,13 @@ bool Recognises(const std::string& directory) {
   if (HasIclNuimAssociations(directory)) return true;
   return !FindFreiburgTruth(directory).empty() &&
          (!FindAssociations(directory).empty() ||
-          std::filesystem::is_directory(std::filesystem::path(directory) / "rgb"));
+          IsFolder((std::filesystem::path(directory) / "rgb").string()));
 }
 
 SequenceIndex Read(const std::string& directory) {
   SequenceIndex index;
   const std::filesystem::path folder = directory;
-  if (!FindAssociations(directory).empty() || std::filesystem::exists(folder / "rgb.txt")) {
+  if (!FindAssociations(directory).empty() || HasEntry((folder / "rgb.txt").string())) {
     ReadTumEntries(directory, WholeStamps::kFrameNumbers, &index);
   } else {
     PairByFrameNumber(ListImages((folder / "rgb").string()),

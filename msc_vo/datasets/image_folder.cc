@@ -10,9 +10,11 @@
 #include <map>
 #include <stdexcept>
 
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
+#include "msc_vo/datasets/image_file.h"
 #include "msc_vo/datasets/sequence_format.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -82,12 +84,11 @@ bool NaturalLess(const std::string& a, const std::string& b) {
 std::vector<std::string> ListImages(const std::string& folder, const std::string& prefix,
                                     const std::string& suffix) {
   std::vector<std::string> paths;
-  if (!fs::is_directory(folder)) return paths;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const fs::path& path = entry.path();
-    const std::string stem = path.stem().string();
-    if (stem.empty() || stem[0] == '.' || !IsImage(path) || !entry.is_regular_file()) continue;
-    if (StartsWith(stem, prefix) && EndsWith(stem, suffix)) paths.push_back(path.string());
+  if (!IsFolder(folder)) return paths;
+  for (const std::string& path : ListFolder(folder)) {
+    const std::string stem = fs::path(path).stem().string();
+    if (stem.empty() || stem[0] == '.' || !IsImage(path) || IsFolder(path)) continue;
+    if (StartsWith(stem, prefix) && EndsWith(stem, suffix)) paths.push_back(path);
   }
   std::sort(paths.begin(), paths.end(), NaturalLess);
   return paths;
@@ -141,7 +142,7 @@ void PairByFrameNumber(const std::vector<std::string>& color_paths,
 }
 
 ImageSize ReadImageSize(const std::string& path) {
-  const cv::Mat image = cv::imread(path, cv::IMREAD_UNCHANGED);
+  const cv::Mat image = ReadImageFile(path);
   if (image.empty()) {
     throw std::runtime_error(path + ": cannot be read as an image; restore the file");
   }

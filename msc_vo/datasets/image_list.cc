@@ -9,8 +9,10 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
+#include "msc_vo/datasets/image_file.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -42,7 +44,8 @@ bool NamesDepth(const std::string& path) {
 }
 
 bool HasSixteenBits(const std::string& path) {
-  return cv::imread(path, cv::IMREAD_UNCHANGED).depth() == CV_16U;
+  // What cannot be read is reported with the frame that it belongs to.
+  return FileProblem(path, kMaxImageBytes).empty() && ReadImageFile(path).depth() == CV_16U;
 }
 
 // Whether the second path of the row is the colour image.
@@ -181,8 +184,8 @@ void AddPairs(const Associations& pairs, SequenceIndex* index) {
 std::string FindAssociations(const std::string& directory) {
   for (const char* name :
        {"associations.txt", "association.txt", "associated.txt", "assoc.txt", "associate.txt"}) {
-    const fs::path path = fs::path(directory) / name;
-    if (fs::is_regular_file(path)) return path.string();
+    const std::string path = (fs::path(directory) / name).string();
+    if (HasEntry(path)) return path;
   }
   return "";
 }

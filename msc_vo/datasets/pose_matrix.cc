@@ -4,12 +4,12 @@
 #include "msc_vo/datasets/pose_matrix.h"
 
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -50,7 +50,7 @@ void ReadPoseFiles(const std::function<std::string(const SequenceEntry&)>& pose_
   int lost = 0;
   for (const SequenceEntry& entry : index->entries) {
     const std::string path = pose_path(entry);
-    if (!std::filesystem::exists(path)) continue;
+    if (!HasEntry(path)) continue;
     const std::optional<Rigid3> pose = RigidFromMatrix(ReadMatrix(path, 4, 4));
     if (pose) index->ground_truth.push_back({entry.timestamp, *pose});
     if (!pose) ++lost;

@@ -12,6 +12,7 @@
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -51,8 +52,8 @@ SequenceIndex Read(const std::string& directory) {
   PairByFrameNumber(ListImages(Results(directory), "frame"),
                     ListImages(Results(directory), "depth"), &index);
   index.preset = "replica";
-  const fs::path poses = fs::path(directory) / "traj.txt";
-  if (fs::exists(poses)) ReadPoses(poses.string(), &index);
+  const std::string poses = (fs::path(directory) / "traj.txt").string();
+  if (HasEntry(poses)) ReadPoses(poses, &index);
   ReadFolderCamera(directory, &index);
   return index;
 }

@@ -15,6 +15,7 @@
 #include "msc_vo/datasets/image_list.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
@@ -24,8 +25,8 @@ namespace {
 
 std::string ColorFolder(const std::string& directory) {
   for (const char* name : {"rgb", "color", "colour", "image", "images"}) {
-    const fs::path folder = fs::path(directory) / name;
-    if (fs::is_directory(folder)) return folder.string();
+    const std::string folder = (fs::path(directory) / name).string();
+    if (IsFolder(folder)) return folder;
   }
   return "";
 }
@@ -35,7 +36,7 @@ std::string DepthFolder(const std::string& directory) {
 }
 
 bool Recognises(const std::string& directory) {
-  return !ListImages(ColorFolder(directory)).empty() && fs::is_directory(DepthFolder(directory));
+  return !ListImages(ColorFolder(directory)).empty() && IsFolder(DepthFolder(directory));
 }
 
 // Each image with the time that its name tells; empty if one has none or they do not ascend.

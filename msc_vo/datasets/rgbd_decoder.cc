@@ -3,13 +3,14 @@
 
 #include "msc_vo/datasets/rgbd_decoder.h"
 
-#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "msc_vo/datasets/image_file.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -36,22 +37,15 @@ bool IsTruncatedJpeg(const std::string& bytes) {
 }
 
 cv::Mat ReadImage(const std::string& path, const SequenceEntry& entry) {
-  if (!std::filesystem::exists(path)) {
-    Fail(path, entry, "does not exist; restore the file or remove its line");
-  }
-  const std::string bytes = ReadFile(path);
+  const std::string problem = FileProblem(path, kMaxImageBytes);
+  if (!problem.empty()) Fail(path, entry, problem + "; restore the file or remove its line");
+  const std::string bytes = ReadFile(path, kMaxImageBytes);
   cv::Mat image;
-  if (!bytes.empty() && !IsTruncatedJpeg(bytes)) {
-    const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1,
-                         const_cast<char*>(bytes.data()));
+  if (!IsTruncatedJpeg(bytes)) {
     // A JPEG has its grey values in a channel of their own and never more than 8 bits: to make
     // colours of them first, and grey of these, takes longer and rounds twice.
     const int kind = IsJpeg(bytes) ? cv::IMREAD_GRAYSCALE : cv::IMREAD_UNCHANGED;
-    try {
-      image = cv::imdecode(buffer, kind | cv::IMREAD_IGNORE_ORIENTATION);
-    } catch (const cv::Exception&) {
-      image.release();  // reported below like every damaged file
-    }
+    image = DecodeImage(bytes, kind | cv::IMREAD_IGNORE_ORIENTATION);
   }
   if (image.empty()) {
     Fail(path, entry,

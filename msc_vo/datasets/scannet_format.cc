@@ -12,6 +12,7 @@
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
@@ -20,9 +21,11 @@ namespace fs = std::filesystem;
 namespace {
 
 bool Recognises(const std::string& directory) {
-  const fs::path folder = directory;
-  return fs::is_directory(folder / "color") && fs::is_directory(folder / "depth") &&
-         (fs::is_directory(folder / "pose") || fs::is_directory(folder / "intrinsic"));
+  const auto has_folder = [&](const char* name) {
+    return IsFolder((fs::path(directory) / name).string());
+  };
+  return has_folder("color") && has_folder("depth") &&
+         (has_folder("pose") || has_folder("intrinsic"));
 }
 
 std::string PosePath(const SequenceEntry& entry) {
@@ -44,16 +47,16 @@ void ReadIntrinsics(const fs::path& folder, SequenceIndex* index) {
   if (index->calibration || index->entries.empty()) return;
   const ImageSize color = ReadImageSize(index->entries.front().color_path);
   const ImageSize depth = ReadImageSize(index->entries.front().depth_path);
-  const fs::path of_color = folder / "intrinsic" / "intrinsic_color.txt";
-  const fs::path of_depth = folder / "intrinsic" / "intrinsic_depth.txt";
+  const std::string of_color = (folder / "intrinsic" / "intrinsic_color.txt").string();
+  const std::string of_depth = (folder / "intrinsic" / "intrinsic_depth.txt").string();
   Calibration calibration;
   calibration.depth_scale = 1000.0;  // millimetres
-  if (fs::exists(of_color)) {
-    calibration.camera = Scaled(ReadMatrix(of_color.string(), 4, 4), color, depth);
-    calibration.origin = of_color.string();
-  } else if (fs::exists(of_depth)) {
-    calibration.camera = Scaled(ReadMatrix(of_depth.string(), 4, 4), depth, depth);
-    calibration.origin = of_depth.string();
+  if (HasEntry(of_color)) {
+    calibration.camera = Scaled(ReadMatrix(of_color, 4, 4), color, depth);
+    calibration.origin = of_color;
+  } else if (HasEntry(of_depth)) {
+    calibration.camera = Scaled(ReadMatrix(of_depth, 4, 4), depth, depth);
+    calibration.origin = of_depth;
   } else {
     return;
   }

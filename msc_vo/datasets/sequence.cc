@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
 #include "msc_vo/datasets/sequence_format.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
@@ -33,10 +35,8 @@ const SequenceFormat* Recognise(const std::string& directory) {
   }
   // The parent folder of a sequence is the usual mistake.
   std::vector<std::string> children;
-  for (const auto& child : std::filesystem::directory_iterator(directory)) {
-    if (child.is_directory() && Recognise(child.path().string())) {
-      children.push_back(child.path().string());
-    }
+  for (const std::string& child : ListFolder(directory)) {
+    if (FolderProblem(child).empty() && Recognise(child)) children.push_back(child);
   }
   if (!children.empty()) {
     message += "\nDid you mean " + *std::min_element(children.begin(), children.end()) + "?";
@@ -92,11 +92,9 @@ std::vector<std::string> SequenceFormatNames() {
 SequenceIndex OpenSequence(const std::string& directory, const std::string& format_name) {
   const std::string folder = WithoutTrailingSlash(directory);
   const SequenceFormat* format = format_name == "auto" ? nullptr : &FormatByName(format_name);
-  if (!std::filesystem::is_directory(folder)) {
-    throw std::runtime_error(directory + ": " +
-                             (std::filesystem::exists(folder)
-                                  ? "is a file; give the folder of the sequence"
-                                  : "does not exist; give the folder of the sequence"));
+  const std::string problem = FolderProblem(folder);
+  if (!problem.empty()) {
+    throw std::runtime_error(directory + ": " + problem + "; give the folder of the sequence");
   }
   if (!format) format = Recognise(folder);
   if (!format) FailUnrecognised(folder);
@@ -111,6 +109,16 @@ SequenceIndex OpenSequence(const std::string& directory, const std::string& form
     throw std::runtime_error(message);
   }
   return index;
+}
+
+std::vector<std::string> InputFolders(const SequenceIndex& index) {
+  std::set<std::string> folders = {index.directory};
+  for (const SequenceEntry& entry : index.entries) {
+    for (const std::string& path : {entry.color_path, entry.depth_path}) {
+      folders.insert(std::filesystem::path(path).parent_path().string());
+    }
+  }
+  return {folders.begin(), folders.end()};
 }
 
 }  // namespace msc_vo

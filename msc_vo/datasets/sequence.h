@@ -47,4 +47,7 @@ std::vector<std::string> SequenceFormatNames();
 // ground truth is malformed, or no image is left; std::invalid_argument on an unknown format.
 SequenceIndex OpenSequence(const std::string& directory, const std::string& format = "auto");
 
+// The folder of the sequence and those that its images lie in.
+std::vector<std::string> InputFolders(const SequenceIndex& index);
+
 }  // namespace msc_vo

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 
 #include "msc_vo/evaluation/association.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -56,15 +56,17 @@ class SequenceChecker {
     int missing = 0;
     for (const SequenceEntry& entry : index_.entries) {
       for (const std::string& path : {entry.color_path, entry.depth_path}) {
-        if (std::filesystem::exists(path)) continue;
+        const std::string problem = FileProblem(path, kMaxImageBytes);
+        if (problem.empty()) continue;
         if (++missing > kMaxReportsOfOneKind) continue;
-        Add(Severity::kError, path + " does not exist" +
+        Add(Severity::kError, path + " " + problem +
                                   (entry.origin.empty() ? "" : " (named in " + entry.origin + ")"));
       }
     }
     if (missing == 0) Add(Severity::kGood, "all image files are there");
     if (missing > kMaxReportsOfOneKind) {
-      Add(Severity::kError, std::to_string(missing) + " image files are missing in total");
+      Add(Severity::kError,
+          std::to_string(missing) + " image files are missing or no files in total");
     }
   }
 

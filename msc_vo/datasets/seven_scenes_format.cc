@@ -12,6 +12,7 @@
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
@@ -36,14 +37,14 @@ void ReadIntrinsics(const std::string& directory, SequenceIndex* index) {
   ReadFolderCamera(directory, index);
   if (index->calibration) return;
   for (const fs::path& folder : {fs::path(directory), fs::path(directory).parent_path()}) {
-    const fs::path path = folder / "camera-intrinsics.txt";
-    if (!fs::exists(path) || index->entries.empty()) continue;
-    const Eigen::MatrixXd k = ReadMatrix(path.string(), 3, 3);
+    const std::string path = (folder / "camera-intrinsics.txt").string();
+    if (!HasEntry(path) || index->entries.empty()) continue;
+    const Eigen::MatrixXd k = ReadMatrix(path, 3, 3);
     const ImageSize size = ReadImageSize(index->entries.front().depth_path);
     Calibration calibration;
     calibration.camera = {k(0, 0), k(1, 1), k(0, 2), k(1, 2), size.width, size.height};
     calibration.depth_scale = kMillimetres;
-    calibration.origin = path.string();
+    calibration.origin = path;
     index->calibration = calibration;
     return;
   }

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -19,6 +20,7 @@ namespace {
 constexpr size_t kFieldsPerPose = 8;
 // Two decimals of each component are off by less.
 constexpr double kMaxQuaternionError = 0.05;
+constexpr char kNotEstimated[] = "not estimated";
 
 void SortByTime(std::vector<TimedPose>* poses) {
   std::stable_sort(poses->begin(), poses->end(), [](const TimedPose& a, const TimedPose& b) {
@@ -68,7 +70,8 @@ std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out
                                           "1; correct or remove the line",
                                           rotation.norm()));
     }
-    poses.push_back({v[0], Rigid3(rotation.normalized(), {v[1], v[2], v[3]})});
+    poses.push_back(
+        {v[0], Rigid3(rotation.normalized(), {v[1], v[2], v[3]}), line.comment != kNotEstimated});
   }
   SortByTime(&poses);
   return poses;
@@ -82,6 +85,7 @@ std::string FormatTrajectory(std::vector<TimedPose> poses) {
     const std::string stamp = Fixed(pose.timestamp, 6);
     if (stamp == previous_stamp) continue;
     previous_stamp = stamp;
+    if (!pose.is_estimated) text += "# " + std::string(kNotEstimated) + "\n";
     text += stamp;
     const Eigen::Vector3d t = pose.world_from_cam.translation();
     Eigen::Vector4d q = pose.world_from_cam.rotation().normalized().coeffs();

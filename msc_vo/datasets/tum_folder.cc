@@ -13,6 +13,7 @@
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
@@ -64,14 +65,15 @@ void ToSeconds(const std::string& color_name, const std::string& depth_name, Who
 }
 
 Associations ReadLists(const fs::path& folder) {
-  const fs::path color = folder / "rgb.txt", depth = folder / "depth.txt";
-  for (const fs::path& path : {color, depth}) {
-    if (fs::exists(path)) continue;
-    throw std::runtime_error(path.string() +
+  const std::string color = (folder / "rgb.txt").string();
+  const std::string depth = (folder / "depth.txt").string();
+  for (const std::string& path : {color, depth}) {
+    if (HasEntry(path)) continue;
+    throw std::runtime_error(path +
                              ": does not exist; a TUM folder needs rgb.txt and depth.txt (or "
                              "associations.txt). --format rgb-depth pairs rgb/ and depth/ by name");
   }
-  return {ReadImageList(color.string()), ReadImageList(depth.string())};
+  return {ReadImageList(color), ReadImageList(depth)};
 }
 
 }  // namespace
@@ -91,8 +93,8 @@ void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceInd
 }
 
 void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, SequenceIndex* index) {
-  const fs::path path = fs::path(directory) / "groundtruth.txt";
-  const std::string truth = fs::exists(path) ? path.string() : FindFreiburgTruth(directory);
+  const std::string path = (fs::path(directory) / "groundtruth.txt").string();
+  const std::string truth = HasEntry(path) ? path : FindFreiburgTruth(directory);
   if (truth.empty()) return;
   int num_left_out = 0;
   index->ground_truth = ReadTrajectory(truth, &num_left_out);
@@ -107,15 +109,14 @@ void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, Sequenc
 }
 
 void ReadFolderCamera(const std::string& directory, SequenceIndex* index) {
-  const fs::path path = fs::path(directory) / "camera.txt";
-  if (fs::exists(path)) index->calibration = ReadCameraFile(path.string());
+  const std::string path = (fs::path(directory) / "camera.txt").string();
+  if (HasEntry(path)) index->calibration = ReadCameraFile(path);
 }
 
 std::string FindFreiburgTruth(const std::string& directory) {
   constexpr char kEnding[] = ".gt.freiburg";
   std::string first;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
-    const std::string path = entry.path().string();
+  for (const std::string& path : ListFolder(directory)) {
     const size_t at = path.rfind(kEnding);
     if (at == std::string::npos || at + sizeof(kEnding) - 1 != path.size()) continue;
     if (first.empty() || path < first) first = path;

@@ -10,6 +10,7 @@
 #include "msc_vo/datasets/image_list.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
@@ -18,9 +19,10 @@ namespace fs = std::filesystem;
 namespace {
 
 bool Recognises(const std::string& directory) {
-  const fs::path folder = directory;
-  return fs::exists(folder / "rgb.txt") || fs::exists(folder / "depth.txt") ||
-         !FindAssociations(directory).empty();
+  const auto has = [&](const char* name) {
+    return HasEntry((fs::path(directory) / name).string());
+  };
+  return has("rgb.txt") || has("depth.txt") || !FindAssociations(directory).empty();
 }
 
 SequenceIndex Read(const std::string& directory) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "msc_vo/evaluation/association.h"
 #include "msc_vo/geometry/rigid_alignment.h"
@@ -33,6 +34,16 @@ std::vector<double> Stamps(const std::vector<TimedPose>& poses) {
   stamps.reserve(poses.size());
   for (const TimedPose& pose : poses) stamps.push_back(pose.timestamp);
   return stamps;
+}
+
+// The poses to be compared, in order of time.
+std::vector<TimedPose> Compared(std::vector<TimedPose> estimate, const EvaluationOptions& options) {
+  if (!options.all_poses) {
+    estimate.erase(std::remove_if(estimate.begin(), estimate.end(),
+                                  [](const TimedPose& pose) { return !pose.is_estimated; }),
+                   estimate.end());
+  }
+  return SortedByTime(std::move(estimate));
 }
 
 // The poses that belong together; both trajectories are in order of time.
@@ -72,6 +83,26 @@ void MeasureAbsolute(const std::vector<PosePair>& pairs, TrajectoryError* error)
   }
   error->ape = StatisticsOf(translations);
   error->ape_rotation = StatisticsOf(rotations);
+}
+
+// The alignment of orientations and mean positions.
+Rigid3 AlignByOrientation(const std::vector<PosePair>& pairs) {
+  std::vector<Rigid3> source, target;
+  for (const PosePair& pair : pairs) {
+    source.push_back(pair.estimate.world_from_cam);
+    target.push_back(pair.reference.world_from_cam);
+  }
+  return AlignPoses(source, target);
+}
+
+ErrorStatistics MeasureRotation(const std::vector<PosePair>& pairs) {
+  const Eigen::Quaterniond reference_from_estimate(AlignByOrientation(pairs).rotation());
+  std::vector<double> angles;
+  for (const PosePair& pair : pairs) {
+    angles.push_back(AngleOf(pair.reference.world_from_cam.rotation().conjugate() *
+                             reference_from_estimate * pair.estimate.world_from_cam.rotation()));
+  }
+  return StatisticsOf(angles);
 }
 
 // Over pairs whose reference stamps are `interval` apart, within the time tolerance.
@@ -145,17 +176,22 @@ TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
   std::string problem;
   if (!options.IsValid(&problem)) throw std::invalid_argument(problem);
   const std::vector<TimedPose> truth = SortedByTime(reference);
-  const std::vector<TimedPose> guess = SortedByTime(estimate);
+  const std::vector<TimedPose> guess = Compared(estimate, options);
 
   const std::vector<PosePair> pairs = Pairs(truth, guess, options.max_time_difference);
   TrajectoryError error;
   error.num_reference = static_cast<int>(truth.size());
   error.num_estimate = static_cast<int>(guess.size());
+  error.num_not_estimated = static_cast<int>(estimate.size() - guess.size());
   error.num_matched = static_cast<int>(pairs.size());
   if (pairs.size() < 3) {
     error.message = "only " + std::to_string(pairs.size()) + " of " + std::to_string(guess.size()) +
                     " estimated poses have a reference pose within " +
                     std::to_string(options.max_time_difference) + " s; three are needed";
+    if (error.num_not_estimated > 0) {
+      error.message += "; " + std::to_string(error.num_not_estimated) +
+                       " others are marked as not estimated and left out";
+    }
     return error;
   }
   error.usable = true;
@@ -171,6 +207,7 @@ TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
   const std::vector<double> path_lengths = PathLengths(pairs);
   error.path_length = path_lengths.back();
   MeasureAbsolute(pairs, &error);
+  error.rotation = MeasureRotation(pairs);
   error.rpe_per_second = MeasurePerSecond(pairs, options.rpe_seconds, options.max_time_difference);
   error.rpe_per_metre = MeasurePerMetre(pairs, path_lengths, options.rpe_metres);
   return error;
@@ -181,14 +218,10 @@ std::optional<Rigid3> AlignOrientations(const std::vector<TimedPose>& reference,
                                         const EvaluationOptions& options) {
   std::string problem;
   if (!options.IsValid(&problem)) throw std::invalid_argument(problem);
-  std::vector<Rigid3> source, target;
-  for (const PosePair& pair :
-       Pairs(SortedByTime(reference), SortedByTime(estimate), options.max_time_difference)) {
-    source.push_back(pair.estimate.world_from_cam);
-    target.push_back(pair.reference.world_from_cam);
-  }
-  if (source.empty()) return std::nullopt;
-  return AlignPoses(source, target);
+  const std::vector<PosePair> pairs =
+      Pairs(SortedByTime(reference), Compared(estimate, options), options.max_time_difference);
+  if (pairs.empty()) return std::nullopt;
+  return AlignByOrientation(pairs);
 }
 
 std::vector<TimedPose> Transformed(const Rigid3& reference_from_estimate,

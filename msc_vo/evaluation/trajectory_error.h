@@ -16,6 +16,8 @@ struct EvaluationOptions {
   double max_time_difference = 0.02;  // seconds, between an estimate and its reference pose
   double rpe_seconds = 1.0;           // time over which the first relative error is taken
   double rpe_metres = 1.0;            // length of path over which the second one is taken
+  // Poses that are not estimated (TimedPose) are compared too; by default they do not exist.
+  bool all_poses = false;
 
   bool IsValid(std::string* error) const;
 };
@@ -40,16 +42,21 @@ struct TrajectoryError {
   std::string message;
 
   int num_reference = 0;
-  int num_estimate = 0;
+  int num_estimate = 0;       // poses that are compared
+  int num_not_estimated = 0;  // poses that are left out, see EvaluationOptions::all_poses
   int num_matched = 0;
   int num_reference_in_range = 0;  // between the first and the last stamp of the estimate
   double coverage = 0.0;           // matched / reference, 0..1
   double coverage_in_range = 0.0;  // matched / reference in range
   double path_length = 0.0;        // metres, along the matched reference poses
 
-  Rigid3 reference_from_estimate;   // the alignment, world to world, no scale
-  ErrorStatistics ape;              // metres, positions after alignment
-  ErrorStatistics ape_rotation;     // radians, orientations after alignment
+  Rigid3 reference_from_estimate;  // the alignment, world to world, no scale
+  ErrorStatistics ape;             // metres, positions after alignment
+  // Radians. `rotation` is that of orientations after their own alignment, by the rotation of
+  // AlignOrientations(); `ape_rotation` that after the alignment of positions, which a short or
+  // straight path hardly determines: there it says nothing of the estimate.
+  ErrorStatistics rotation;
+  ErrorStatistics ape_rotation;
   RelativeError rpe_per_second;     // over pairs `rpe_seconds` apart
   RelativeError rpe_per_metre;      // over pairs `rpe_metres` apart, divided by their distance
   std::vector<PoseError> per_pose;  // of the matched poses, in order of time

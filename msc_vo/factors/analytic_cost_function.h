@@ -10,14 +10,15 @@
 
 namespace msc_vo {
 
-// The cost function of a camera factor without automatic derivatives: that with respect to the
-// camera coordinates x = R(q) X + t is the factor's Jacobian, the rest is
-//
-//   dx/dt = I,  dx/dX = R(q),  dx/dq_v = 2 (-q_w [X]x + (q_v . X) I + q_v X^T - 2 X q_v^T),
-//   dx/dq_w = 2 q_v x X,
-//
-// from R(q) X = X + 2 q_w (q_v x X) + 2 q_v x (q_v x X). Equal to the automatic derivative of the
-// whole, in all seven ambient numbers.
+/// Ceres cost function of a CameraFactor with analytic derivatives.
+///
+/// Chain rule over the camera coordinates x = R(q) X + t: the factor gives dr/dx, and
+///
+///   dx/dt = I,  dx/dX = R(q),  dx/dq_v = 2 (-q_w [X]x + (q_v . X) I + q_v X^T - 2 X q_v^T),
+///   dx/dq_w = 2 q_v x X,
+///
+/// from R(q) X = X + 2 q_w (q_v x X) + 2 q_v x (q_v x X). The Jacobian equals that of automatic
+/// differentiation in all seven ambient coordinates of the pose.
 template <typename Factor>
 class AnalyticCostFunction final
     : public ceres::SizedCostFunction<Factor::kNumResiduals, 7, 3 * Factor::kNumPoints> {
@@ -59,7 +60,7 @@ class AnalyticCostFunction final
     return Jacobian<3 * Factor::kNumPoints>(data);
   }
 
-  // d(R(q) X)/dq, columns x y z w.
+  // d(R(q) X)/dq; columns x, y, z, w.
   static Eigen::Matrix<double, 3, 4> RotatedPointJacobian(const Eigen::Quaterniond& q,
                                                           const Eigen::Vector3d& x) {
     const Eigen::Vector3d v = q.vec();

@@ -9,11 +9,12 @@
 
 namespace msc_vo {
 
-// The cost function of a line pair factor without automatic derivatives: with v = E - S,
-//
-//   dr/dE = dr/dd dd/dv,  dr/dS = -dr/dE
-//
-// of either line. Equal to the automatic derivative of the whole.
+/// Ceres cost function of a LinePairFactor with analytic derivatives. For each line, with
+/// v = E - S and unit direction d = v / |v|,
+///
+///   dr/dE = dr/dd dd/dv,  dr/dS = -dr/dE.
+///
+/// The Jacobian equals that of automatic differentiation.
 template <typename Factor>
 class AnalyticLinePairCostFunction final
     : public ceres::SizedCostFunction<Factor::kNumResiduals, 6, 6> {

@@ -11,11 +11,11 @@
 
 namespace msc_vo {
 
-// Nearest depth z (metres) at which a camera factor is defined: 1 cm, inside any lens, so that 1/z
-// and the image coordinates stay bounded. Nearer, or behind the camera, a factor returns false.
+/// Smallest depth z (metres) at which a camera factor is defined. It keeps 1/z and the image
+/// coordinates bounded; for points that are nearer or behind the camera a factor returns false.
 constexpr double kMinCameraDepth = 0.01;
 
-// pi(x): the image of a point in camera coordinates, pixels.
+/// pi(x): projects a point in camera coordinates (metres) to the image (pixels).
 template <typename T>
 Eigen::Matrix<T, 2, 1> Project(const PinholeCamera& camera,
                                const Eigen::Matrix<T, 3, 1>& x_in_cam) {
@@ -23,7 +23,7 @@ Eigen::Matrix<T, 2, 1> Project(const PinholeCamera& camera,
           camera.fy * x_in_cam.y() / x_in_cam.z() + camera.cy};
 }
 
-// d pi(x) / dx, pixels per metre.
+/// d pi(x) / dx, pixels per metre.
 inline Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camera,
                                                       const Eigen::Vector3d& x_in_cam) {
   const double inverse_z = 1.0 / x_in_cam.z();
@@ -33,15 +33,17 @@ inline Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camer
   return j;
 }
 
-// Base of the factors that see a landmark through the camera coordinates x = T X of its points only
-// (one for a point, start and end for a line). Blocks: cam_from_world (7), landmark (3 per point).
-// The factor gives the rows that belong to point k, and their derivative by hand,
-//
-//   template <typename T> void Residual(int k, const Eigen::Matrix<T, 3, 1>& x_in_cam, T* r) const;
-//   Eigen::Matrix<double, RowsPerPoint, 3> Jacobian(int k, const Eigen::Vector3d& x_in_cam) const;
-//
-// From x to pose and landmark it is the same chain rule for all (AnalyticCostFunction, and the
-// problems).
+/// Base of the factors that depend on a landmark only through the camera coordinates x = T X of its
+/// points: one for a point landmark, start and end for a line. Parameter blocks: cam_from_world
+/// (7), landmark (3 per point). The derived factor defines the rows of point k and their analytic
+/// derivative,
+///
+///   template <typename T>
+///   void Residual(int k, const Eigen::Matrix<T, 3, 1>& x_in_cam, T* r) const;
+///   Eigen::Matrix<double, RowsPerPoint, 3> Jacobian(int k, const Vector3d& x_in_cam) const;
+///
+/// The chain rule from x to pose and landmark is shared (AnalyticCostFunction, pose optimization
+/// and local bundle adjustment).
 template <typename Factor, int Points, int RowsPerPoint>
 struct CameraFactor : CostFunctor<Factor, Points * RowsPerPoint, 7, 3 * Points> {
   static constexpr int kNumPoints = Points;
@@ -61,7 +63,7 @@ struct CameraFactor : CostFunctor<Factor, Points * RowsPerPoint, 7, 3 * Points> 
   }
 };
 
-// Rows of point k and their derivative with respect to its camera coordinates.
+/// Evaluates the rows of point k and their derivative with respect to its camera coordinates.
 template <typename Factor>
 void LinearizeInCamera(const Factor& factor, int k, const Eigen::Vector3d& x_in_cam,
                        double* residual,

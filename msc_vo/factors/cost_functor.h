@@ -10,18 +10,19 @@
 
 namespace msc_vo {
 
-// Base of every factor (curiously recurring): a functor with `Rows` residuals over parameter blocks
-// of the sizes `Blocks`. The functor gives
-//
-//   template <typename T> bool operator()(const T* block0, ..., T* residuals) const;
-//
-// and its automatic derivative is the definition of the factor's Jacobian.
+/// Base of every factor (CRTP): a functor with `Rows` residuals over parameter blocks of the sizes
+/// `Blocks`. The derived factor defines
+///
+///   template <typename T> bool operator()(const T* block0, ..., T* residuals) const;
+///
+/// Its automatic derivative is the reference that analytic Jacobians are tested against.
 template <typename Factor, int Rows, int... Blocks>
 struct CostFunctor {
   static constexpr int kNumResiduals = Rows;
   static constexpr std::array<int, sizeof...(Blocks)> kBlockSizes{Blocks...};
 
-  // A cost function of the factor Factor(arguments...); the caller, or the problem, owns it.
+  /// Returns an automatically differentiated cost function of Factor(arguments...). The caller owns
+  /// it; ceres::Problem::AddResidualBlock takes ownership.
   template <typename... Arguments>
   static ceres::CostFunction* Create(Arguments&&... arguments) {
     return new ceres::AutoDiffCostFunction<Factor, Rows, Blocks...>(

@@ -7,15 +7,16 @@
 
 namespace msc_vo {
 
-// Depth of a point, 1 row (not in the paper's text; its code base carries it as a virtual stereo
-// coordinate):
-//
-//   r = (1 / z(T X) - w) / sigma
-//
-// T: cam_from_world (block 0, 7). X: map point in the world, metres (block 1, 3). z: third camera
-// coordinate, metres. w: measured inverse depth, 1/metres. sigma: its standard deviation, 1/metres.
-// Inverse depth, because the noise of a disparity sensor is constant in it: the weight of a metre
-// falls with z^-4 by itself, and far points stay nearly free, as they should.
+/// Inverse depth of a point, 1 row (not in the paper):
+///
+///   r = (1 / z(T X) - w) / sigma
+///
+/// T: cam_from_world (block 0, 7). X: map point in the world, metres (block 1, 3). z: third camera
+/// coordinate, metres. w: measured inverse depth, 1/metres. sigma: its standard deviation,
+/// 1/metres.
+///
+/// The noise of a disparity sensor is constant in inverse depth, so the weight of an error in
+/// metres falls with z^-4 and distant points are hardly constrained.
 class DepthReprojection : public CameraFactor<DepthReprojection, 1, 1> {
  public:
   DepthReprojection(double inverse_depth, double sigma)

@@ -14,33 +14,36 @@
 
 namespace msc_vo {
 
-// A line of one frame whose end points stay on their viewing rays b_S, b_E (z = 1), with the block
-//
-//   (w_S, w_E, a, c)
-//
-// w_S, w_E: inverse depths, 1/metres. a, c: unit normal deviates that say how the line as it was
-// meant to be built lies to the line as it is seen: turned by a in the interpretation plane and by
-// c out of it. The direction of the former, which structure is about, is that of
-//
-//   u = b_E w_S - b_S w_E + |u_0| (sigma_a a p_0 + sigma_c c n_0)
-//
-// as E - S = b_E / w_E - b_S / w_S is parallel to its first part: linear in the block, no division.
-// n_0: normal of the interpretation plane. p_0: across the line in that plane. sigma_a: deviation
-// of a built line from its ideal. sigma_c: the same and the angle by which image noise tilts the
-// interpretation plane. These two errors are common to all pairs of a line; as variables, however
-// many partners agree, they do not average out.
+/// Line of one frame in inverse depth along the viewing rays b_S, b_E (z = 1) of its end points.
+/// Parameter block:
+///
+///   (w_S, w_E, a, c)
+///
+/// w_S, w_E: inverse depths of the end points, 1/metres. a, c: rotation from the observed line to
+/// its ideal direction, in the interpretation plane (a) and out of it (c), in standard deviations.
+/// The ideal direction, which structural factors constrain, is that of
+///
+///   u = b_E w_S - b_S w_E + |u_0| (sigma_a a p_0 + sigma_c c n_0).
+///
+/// E - S = b_E / w_E - b_S / w_S is parallel to the first two terms, so u is linear in the block.
+/// n_0: unit normal of the interpretation plane. p_0: unit vector across the line in that plane.
+/// sigma_a: angular tolerance of construction. sigma_c: root of the sum of squares of sigma_a and
+/// the tilt of the interpretation plane by image noise.
+///
+/// Both errors are shared by all pairs of a line. As variables of the line, they do not average out
+/// over its partners.
 class InverseDepthLine {
  public:
   static constexpr int kBlockSize = 4;
 
-  // image_sigma: pixels, of an end point's distance to the true image line. deviation: sigma_a,
-  // radians.
+  /// `image_sigma`: pixels, standard deviation of an end point's distance to the true image line.
+  /// `deviation`: sigma_a, radians.
   InverseDepthLine(const PinholeCamera& camera, const LineSegment2& segment, const LineDepth& depth,
                    double image_sigma, double deviation)
       : ray_start_(camera.Ray(segment.start)), ray_end_(camera.Ray(segment.end)) {
     const Eigen::Vector3d u = depth.start * ray_end_ - depth.end * ray_start_;
     const Eigen::Vector3d normal = ray_start_.cross(ray_end_).normalized();
-    // A pixel across the segment, as a shift of its viewing ray out of the interpretation plane.
+    // Shift of the viewing ray out of the interpretation plane per pixel across the segment.
     const Eigen::Vector2d d = segment.Direction();
     const double pixel = std::abs(normal.x() * -d.y() / camera.fx + normal.y() * d.x() / camera.fy);
     image_angle_ = image_sigma * pixel * std::hypot(depth.start, depth.end) / u.norm();
@@ -48,10 +51,11 @@ class InverseDepthLine {
     out_of_plane_ = std::hypot(deviation, image_angle_) * u.norm() * normal;
   }
 
-  // Standard deviation of the tilt of the interpretation plane by image noise, radians.
+  /// Standard deviation of the tilt of the interpretation plane by image noise, radians.
   double image_angle() const { return image_angle_; }
 
-  // False if the line points at the camera and has no length across its rays.
+  /// Unit direction u / |u| in camera axes. Returns false where u is zero: the line points at the
+  /// camera.
   template <typename T>
   bool Direction(const T* block, Eigen::Matrix<T, 3, 1>* direction) const {
     using std::sqrt;

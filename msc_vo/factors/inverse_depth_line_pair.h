@@ -8,18 +8,19 @@
 
 namespace msc_vo {
 
-// A pair of lines of one frame that should be parallel or perpendicular (paper Eqs. par_error and
-// perp_error in the frame), rows of Relation:
-//
-//   r = Relation(d(w_i), d(w_j))
-//
-// Relation: ParallelLines or PerpendicularLines. d: direction of a InverseDepthLine from its block
-// (blocks 0 and 1, 4 each: two inverse depths, 1/metres, and two unit normal deviates).
+/// Parallel or perpendicular pair of lines of one frame (paper Eqs. par_error and perp_error within
+/// a frame), Relation::kNumResiduals rows:
+///
+///   r = Relation(d(w_i), d(w_j))
+///
+/// Relation: ParallelLines or PerpendicularLines. d: direction of an InverseDepthLine from its
+/// parameter block w (blocks 0 and 1, 4 each).
 template <typename Relation>
 class InverseDepthLinePair
     : public CostFunctor<InverseDepthLinePair<Relation>, Relation::kNumResiduals,
                          InverseDepthLine::kBlockSize, InverseDepthLine::kBlockSize> {
  public:
+  /// `sigma`: radians, of the angle between the lines.
   InverseDepthLinePair(const InverseDepthLine& line_i, const InverseDepthLine& line_j, double sigma)
       : line_i_(line_i), line_j_(line_j), relation_(sigma) {}
 

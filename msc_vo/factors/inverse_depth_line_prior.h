@@ -10,13 +10,13 @@
 
 namespace msc_vo {
 
-// What the fit of a line's own depth samples says (the end-point anchor of the frame), 4 rows:
-//
-//   r = (L^-1 (w - w_0), a, c),   L L^T = covariance of the fit
-//
-// w = (w_S, w_E): inverse depths, 1/metres; a, c: see InverseDepthLine (block 0, 4). w_0: those of
-// the fit. With the full covariance a well-fitted line gives way to nobody, and a poor one just
-// where it is poor: in its slope, which is what structure knows.
+/// Prior of an InverseDepthLine from the fit to its depth samples, 4 rows:
+///
+///   r = (L^-1 (w - w_0), a, c),   L L^T = covariance of the fit
+///
+/// w = (w_S, w_E): inverse depths, 1/metres; a, c: see InverseDepthLine (block 0, 4). w_0: inverse
+/// depths of the fit. The full covariance lets structure correct the poorly determined combination
+/// of the two inverse depths, usually their difference, and leaves well-fitted lines unchanged.
 class InverseDepthLinePrior
     : public CostFunctor<InverseDepthLinePrior, 4, InverseDepthLine::kBlockSize> {
  public:

@@ -11,17 +11,19 @@
 
 namespace msc_vo {
 
-// Depth of a line, 2 rows, one per end point of the map line:
-//
-//   r_S = (1 / z_S - w(s_S)) / sigma_S,   s_S = (pi(T S) - s) . (e - s) / |e - s|^2
-//
-// and the same for E. T: cam_from_world (block 0, 7). S, E: end points of the map line in the
-// world, metres (block 1, 6). s, e: end points of the observed segment, pixels. w(s): inverse depth
-// of the measured 3-D line at parameter s of that segment, 1/metres, linear in s (LineDepth::At).
-// sigma_S: its standard deviation there, 1/metres (LineDepth::SigmaAt at the linearisation point).
-// The measured line is compared where the map's end point projects, so that a map line and an
-// observation that cover different parts of the same line agree; together with LineReprojection
-// these are the four degrees of freedom of a line, none of them along it.
+/// Inverse depth of a line (not in the paper), 2 rows, one per end point of the map line:
+///
+///   r_S = (1 / z_S - w(s_S)) / sigma_S,   s_S = (pi(T S) - s) . (e - s) / |e - s|^2
+///
+/// and the same for E. T: cam_from_world (block 0, 7). S, E: end points of the map line in the
+/// world, metres (block 1, 6). s, e: end points of the observed segment, pixels. w(s): inverse
+/// depth of the measured 3-D line at parameter s of that segment, 1/metres, linear in s
+/// (LineDepth::At). sigma_S: its standard deviation there, 1/metres (LineDepth::SigmaAt at the
+/// linearisation point).
+///
+/// The measured line is evaluated where the map's end point projects, so a map line and an
+/// observation that cover different parts of the same line agree. Together with LineReprojection
+/// the rows constrain the four degrees of freedom of a line and none along it.
 class LineDepthReprojection : public CameraFactor<LineDepthReprojection, 2, 1> {
  public:
   LineDepthReprojection(const PinholeCamera& camera, const LineSegment2& segment,

@@ -8,8 +8,8 @@
 
 namespace msc_vo {
 
-// Unit direction of a line block (start, end; 6 numbers), from start to end. False if the line has
-// no length: there is no direction then, and no derivative. What the structural factors share.
+/// Unit direction of a line block (start, end; 6 numbers), from start to end. Returns false for a
+/// line of zero length, which has neither direction nor derivative.
 template <typename T>
 bool LineDirection(const T* line, Eigen::Matrix<T, 3, 1>* direction) {
   using std::sqrt;
@@ -20,8 +20,7 @@ bool LineDirection(const T* line, Eigen::Matrix<T, 3, 1>* direction) {
   return true;
 }
 
-// d direction / d(end - start), 1/metres: what turns the line, divided by its length; along the
-// line nothing.
+/// d direction / d(end - start) = (I - d d^T) / |end - start|, 1/metres.
 inline Eigen::Matrix3d LineDirectionJacobian(const double* line) {
   const Eigen::Vector3d v(line[3] - line[0], line[4] - line[1], line[5] - line[2]);
   const double length = v.norm();

@@ -8,14 +8,16 @@
 
 namespace msc_vo {
 
-// Anchor of a line's end points (none in the paper), 2 rows:
-//
-//   r = ((S - S0) . d0 / sigma, (E - E0) . d0 / sigma)
-//
-// S, E: end points in the world, metres (block 0, 6). S0, E0: where they started; d0: unit
-// direction of the line then. sigma: metres. No image of a line says where along it an end point
-// lies, so two of the six numbers are free without this; held, the normal equations are well
-// conditioned and the line's four real degrees of freedom stay untouched.
+/// Prior on the end points of a line along its direction (not in the paper), 2 rows:
+///
+///   r = ((S - S0) . d0 / sigma, (E - E0) . d0 / sigma)
+///
+/// S, E: end points in the world, metres (block 0, 6). S0, E0: their initial values; d0: initial
+/// unit direction. sigma: metres.
+///
+/// Line observations do not constrain the position of an end point along its line, so two of the
+/// six coordinates are free without this prior. It conditions the normal equations and leaves the
+/// line's four degrees of freedom unconstrained.
 class LineEndpointPrior : public CostFunctor<LineEndpointPrior, 2, 6> {
  public:
   LineEndpointPrior(const LineSegment3& initial, double sigma)
@@ -31,7 +33,7 @@ class LineEndpointPrior : public CostFunctor<LineEndpointPrior, 2, 6> {
     }
     return true;
   }
-  // Of its own row, with respect to either end point.
+  /// Derivative of row 0 with respect to S, equal to that of row 1 with respect to E, 1/metres.
   Eigen::Vector3d Jacobian() const { return inverse_sigma_ * direction_; }
 
  private:

@@ -8,14 +8,14 @@
 
 namespace msc_vo {
 
-// Base of the factors about the angle of two lines: rows over the unit directions d = (E - S) /
-// |E - S| of lines i and j. S, E: end points in the world, metres (blocks 0 and 1, 6 each). sigma:
-// radians, of the angle. The factor gives
-//
-//   template <typename T> void Residual(const Eigen::Matrix<T, 3, 1>& d_i,
-//                                       const Eigen::Matrix<T, 3, 1>& d_j, T* r) const;
-//   Jacobian JacobianI(d_i, d_j) const;  // dr/dd_i
-//   Jacobian JacobianJ(d_i, d_j) const;  // dr/dd_j
+/// Base of the factors on the angle between two lines: rows over the unit directions
+/// d = (E - S) / |E - S| of lines i and j. S, E: end points in the world, metres (blocks 0 and 1, 6
+/// each). sigma: radians, of the angle. The derived factor defines
+///
+///   template <typename T> void Residual(const Eigen::Matrix<T, 3, 1>& d_i,
+///                                       const Eigen::Matrix<T, 3, 1>& d_j, T* r) const;
+///   Jacobian JacobianI(d_i, d_j) const;  // dr/dd_i
+///   Jacobian JacobianJ(d_i, d_j) const;  // dr/dd_j
 template <typename Factor, int Rows>
 class LinePairFactor : public CostFunctor<Factor, Rows, 6, 6> {
  public:

@@ -10,16 +10,17 @@
 
 namespace msc_vo {
 
-// Line reprojection (paper Eq. errorreprline), 2 rows, one per end point of the map line:
-//
-//   r = ((n . pi(T S) + c) / sigma_S, (n . pi(T E) + c) / sigma_E)
-//
-// T: cam_from_world (block 0, 7). S, E: end points of the map line in the world, metres (block 1,
-// 6). (n, c): the observed image line with |n| = 1, so that a row is a signed distance in pixels.
-// sigma_S, sigma_E: its standard deviation where the end point projects, pixels (ImageLineSigma): a
-// map line often reaches beyond what one frame sees of it, where the observed line is known less.
-// Distances to the infinite line, because end points along a line are not repeatable between
-// frames.
+/// Line reprojection (paper Eq. errorreprline), 2 rows, one per end point of the map line:
+///
+///   r = ((n . pi(T S) + c) / sigma_S, (n . pi(T E) + c) / sigma_E)
+///
+/// T: cam_from_world (block 0, 7). S, E: end points of the map line in the world, metres (block 1,
+/// 6). (n, c): observed image line with |n| = 1, so that a row is a signed distance in pixels.
+/// sigma_S, sigma_E: standard deviation of the observed line where the end point projects, pixels
+/// (ImageLineSigma); it grows where the map line extends beyond the observed segment.
+///
+/// Distances are to the infinite image line because detected end points are not repeatable along a
+/// line.
 class LineReprojection : public CameraFactor<LineReprojection, 2, 1> {
  public:
   LineReprojection(const PinholeCamera& camera, const LineSegment2& segment, double sigma_start,

@@ -8,18 +8,18 @@
 
 namespace msc_vo {
 
-// A line that should be parallel to a Manhattan axis (paper: E_parallel(j, M_j) in the local map
-// optimisation), 2 rows:
-//
-//   r = (e_1 . d, e_2 . d) / sigma,   d = (E - S) / |E - S|
-//
-// S, E: end points in the world, metres (block 0, 6). e_1, e_2: unit vectors that complete the axis
-// m to an orthonormal basis. sigma: radians, of the angle per direction. |r| sigma is the sine of
-// the angle, as for ParallelLines; here the axis is constant during the window, and with it a basis
-// in which the row that is always zero falls away. Smooth everywhere, blind to the sign of d.
+/// Alignment of a line with a Manhattan axis (paper: E_parallel(j, M_j) in the local map
+/// optimisation), 2 rows:
+///
+///   r = (e_1 . d, e_2 . d) / sigma,   d = (E - S) / |E - S|
+///
+/// S, E: end points in the world, metres (block 0, 6). e_1, e_2: unit vectors that complete the
+/// axis m to an orthonormal basis. sigma: radians, of each component of the angle. |r| sigma is the
+/// sine of the angle, as for ParallelLines; two rows suffice here because the axis is constant. The
+/// residual is smooth everywhere and its norm does not depend on the sign of d.
 class ManhattanAxisAlignment : public CostFunctor<ManhattanAxisAlignment, 2, 6> {
  public:
-  // axis: m, a unit vector in the world.
+  /// `axis`: m, a unit vector in the world.
   ManhattanAxisAlignment(const Eigen::Vector3d& axis, double sigma)
       : e1_(axis.unitOrthogonal()), e2_(axis.cross(e1_)), inverse_sigma_(1.0 / sigma) {}
 
@@ -31,7 +31,7 @@ class ManhattanAxisAlignment : public CostFunctor<ManhattanAxisAlignment, 2, 6> 
     return true;
   }
 
-  // The rows as a function of the unit direction, and their derivative.
+  /// The rows as a function of the unit direction d, and their derivative.
   template <typename T>
   void Residual(const Eigen::Matrix<T, 3, 1>& d, T* r) const {
     r[0] = (d.x() * e1_.x() + d.y() * e1_.y() + d.z() * e1_.z()) * inverse_sigma_;

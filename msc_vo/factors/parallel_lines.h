@@ -8,17 +8,18 @@
 
 namespace msc_vo {
 
-// Two lines that should be parallel (paper Eq. par_error), 3 rows:
-//
-//   r = d_i x d_j / sigma,   d = (E - S) / |E - S|
-//
-// S, E: end points in the world, metres (blocks 0 and 1, 6 each). sigma: radians, of the angle
-// between the two per direction that it can take. |r| sigma is the sine of the angle, the paper's
-// sqrt(1 - d^2), but smooth where that has no derivative: at parallel. Indifferent to the order of
-// end points and of lines (the sign of r changes, its norm does not).
-// Three rows of rank two: at parallel, r has no part along the common direction. A form of two rows
-// needs a basis across one of the lines, which would have to turn with it (no smooth field of such
-// bases exists) or be frozen outside of the equation; the third row costs six products.
+/// Parallel lines (paper Eq. par_error), 3 rows:
+///
+///   r = d_i x d_j / sigma,   d = (E - S) / |E - S|
+///
+/// S, E: end points in the world, metres (blocks 0 and 1, 6 each). sigma: radians, of each of the
+/// two components of the angle between the lines. |r| sigma is the sine of the angle, the paper's
+/// sqrt(1 - d^2), and is smooth at parallel lines, where the paper's form has no derivative. The
+/// order of end points and of lines changes the sign of r and not its norm.
+///
+/// The three rows have rank two at parallel lines: r has no component along the common direction. A
+/// form with two rows would need a basis perpendicular to one of the lines, and no smooth field of
+/// such bases exists.
 class ParallelLines : public LinePairFactor<ParallelLines, 3> {
  public:
   using LinePairFactor::LinePairFactor;

@@ -7,13 +7,13 @@
 
 namespace msc_vo {
 
-// Two lines that should be perpendicular (paper Eq. perp_error), 1 row:
-//
-//   r = d_i . d_j / sigma,   d = (E - S) / |E - S|
-//
-// S, E: end points in the world, metres (blocks 0 and 1, 6 each). sigma: radians, of the angle
-// between the two. Signed, without the paper's absolute value, whose kink lies where the residual
-// is zero; once squared they are the same. Indifferent to the order of end points and of lines.
+/// Perpendicular lines (paper Eq. perp_error), 1 row:
+///
+///   r = d_i . d_j / sigma,   d = (E - S) / |E - S|
+///
+/// S, E: end points in the world, metres (blocks 0 and 1, 6 each). sigma: radians, of the angle
+/// between the lines. The residual is signed: the paper's absolute value has the same square but no
+/// derivative at zero. The order of end points changes at most the sign of r.
 class PerpendicularLines : public LinePairFactor<PerpendicularLines, 1> {
  public:
   using LinePairFactor::LinePairFactor;

@@ -7,14 +7,13 @@
 
 namespace msc_vo {
 
-// Point reprojection (paper Eq. errorreprpoint), 2 rows:
-//
-//   r = (pi(T X) - p) / sigma
-//
-// T: cam_from_world (block 0, 7). X: map point in the world, metres (block 1, 3). p: observed
-// pixel, undistorted. sigma: standard deviation of each of its coordinates, pixels; it grows with
-// the pyramid level, so that the paper's level-dependent covariance is in the residual and a robust
-// threshold reads in sigmas.
+/// Point reprojection (paper Eq. errorreprpoint), 2 rows:
+///
+///   r = (pi(T X) - p) / sigma
+///
+/// T: cam_from_world (block 0, 7). X: map point in the world, metres (block 1, 3). p: observed
+/// pixel, undistorted. sigma: standard deviation of each coordinate of p, pixels; it grows with the
+/// pyramid level, as the paper's covariance does.
 class PointReprojection : public CameraFactor<PointReprojection, 1, 2> {
  public:
   PointReprojection(const PinholeCamera& camera, const Eigen::Vector2d& pixel, double sigma)

@@ -12,19 +12,18 @@
 
 namespace msc_vo {
 
-// Prior on a pose (none in the paper), 6 rows:
-//
-//   r = L^-1 (w, u),   w = Log(q q_0^-1),  u = t - t_0,  L L^T = covariance
-//
-// (q, t): cam_from_world (block 0, 7). (q_0, t_0): where it is believed to be. (w, u): how far it
-// is from there in the tangent of Rigid3Manifold, rotation vector in the camera frame (radians),
-// then translation (metres); the covariance is that of these six numbers. Smooth for rotations
-// below 180 degrees.
+/// Prior on a pose (not in the paper), 6 rows:
+///
+///   r = L^-1 (w, u),   w = Log(q q_0^-1),  u = t - t_0,  L L^T = covariance
+///
+/// (q, t): cam_from_world (block 0, 7). (q_0, t_0): mean of the prior. (w, u): difference to the
+/// mean in the tangent space of Rigid3Manifold, rotation vector in the camera frame (radians), then
+/// translation (metres). The residual is smooth for rotations below 180 degrees.
 class PosePrior : public CostFunctor<PosePrior, 6, 7> {
  public:
   using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-  // covariance: symmetric, positive definite.
+  /// `covariance`: of (w, u); symmetric, positive definite.
   PosePrior(const Rigid3& cam_from_world, const Matrix6d& covariance)
       : mean_(cam_from_world), whitening_(covariance.llt().matrixL().solve(Matrix6d::Identity())) {}
 
@@ -43,7 +42,8 @@ class PosePrior : public CostFunctor<PosePrior, 6, 7> {
     return true;
   }
 
-  // dr in the tangent of Rigid3Manifold at a pose: Log(Exp(d) Exp(w)) = w + J_l^-1(w) d.
+  /// Derivative of r in the tangent space of Rigid3Manifold at `cam_from_world`, from
+  /// Log(Exp(d) Exp(w)) = w + J_l^-1(w) d + O(d^2).
   Matrix6d TangentJacobian(const Rigid3& cam_from_world) const {
     const Eigen::Vector3d w = LogSO3(cam_from_world.rotation() * mean_.rotation().conjugate());
     Matrix6d distance = Matrix6d::Identity();

@@ -7,13 +7,13 @@
 
 namespace msc_vo {
 
-// Manifold of the seven numbers of Rigid3: unit quaternion (x, y, z, w), then translation.
-//
-//   (q, t) + (w, u) = (Exp(w) q, t + u)
-//
-// w: rotation vector in the target frame (the camera's, for cam_from_world), radians; u: metres. So
-// a covariance in this tangent has plain units. ceres::EigenQuaternionManifold is not used because
-// its tangent is half the angle.
+/// Manifold of the parameters of Rigid3: unit quaternion (x, y, z, w), then translation.
+///
+///   (q, t) + (w, u) = (Exp(w) q, t + u)
+///
+/// w: rotation vector in the target frame (the camera frame of cam_from_world), radians. u: metres.
+/// The tangent of ceres::EigenQuaternionManifold is half the rotation angle, which would put
+/// covariances in half radians.
 class Rigid3Manifold final : public ceres::Manifold {
  public:
   int AmbientSize() const override { return 7; }

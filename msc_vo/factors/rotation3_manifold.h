@@ -9,12 +9,11 @@
 
 namespace msc_vo {
 
-// Manifold of a rotation as a unit quaternion (x, y, z, w):
-//
-//   q + w = Exp(w) q
-//
-// w: rotation vector in the target frame, radians, the full angle; ceres::EigenQuaternionManifold
-// has half of it.
+/// Manifold of a rotation as a unit quaternion (x, y, z, w):
+///
+///   q + w = Exp(w) q
+///
+/// w: rotation vector in the target frame, radians (the full angle, as in Rigid3Manifold).
 class Rotation3Manifold final : public ceres::Manifold {
  public:
   int AmbientSize() const override { return 4; }
@@ -24,7 +23,7 @@ class Rotation3Manifold final : public ceres::Manifold {
     const Eigen::Map<const Eigen::Quaterniond> q(x);
     const Eigen::Map<const Eigen::Vector3d> w(delta);
     Eigen::Map<Eigen::Quaterniond> q_plus(x_plus_delta);
-    // Normalised, so that rounding does not add up over many steps.
+    // Normalised so that rounding errors do not accumulate over many steps.
     q_plus = (ExpSO3(w) * q).normalized();
     return true;
   }

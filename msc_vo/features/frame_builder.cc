@@ -7,7 +7,7 @@
 #include <string>
 
 #include "msc_vo/camera/lens_validity.h"
-#include "msc_vo/features/depth_sampler.h"
+#include "msc_vo/features/internal/depth_sampler.h"
 #include "msc_vo/sensor/inverse_depth_image.h"
 #include "msc_vo/sensor/lens_remap.h"
 #include "msc_vo/timing/stopwatch.h"
@@ -19,16 +19,16 @@ namespace {
 void CheckImage(const cv::Mat& image, int type, const PinholeCamera& camera, const char* name,
                 const char* type_name) {
   if (image.type() == type && image.cols == camera.width && image.rows == camera.height) return;
-  throw std::invalid_argument(
-      "FrameBuilder: the " + std::string(name) + " image must be " + type_name + " of " +
-      std::to_string(camera.width) + "x" + std::to_string(camera.height) +
-      " pixels, as the camera says; it is " + std::to_string(image.cols) + "x" +
-      std::to_string(image.rows) + ", OpenCV type " + std::to_string(image.type()));
+  throw std::invalid_argument("FrameBuilder: the " + std::string(name) + " image must be " +
+                              type_name + " of " + std::to_string(camera.width) + "x" +
+                              std::to_string(camera.height) + " pixels, like the camera; it is " +
+                              std::to_string(image.cols) + "x" + std::to_string(image.rows) +
+                              ", OpenCV type " + std::to_string(image.type()));
 }
 
 }  // namespace
 
-void RunInTurn(const Tasks& tasks) {
+void RunSequentially(const Tasks& tasks) {
   for (const auto& task : tasks) task();
 }
 
@@ -48,38 +48,38 @@ struct FrameBuilder::State {
         point_extractor(o.points),
         line_extractor(o.lines) {}
 
-  // Points of a level at their raw pixels.
-  std::vector<PointFeature> Points(int level) {
+  // Points of a level at distorted pixels.
+  std::vector<PointFeature> ExtractPoints(int level) {
     std::vector<PointFeature> points = point_extractor.ExtractLevel(level);
     for (PointFeature& point : points) point.sigma *= options.noise.point_sigma;
     return points;
   }
 
-  std::vector<LineFeature> Lines(const cv::Mat& gray) {
+  std::vector<LineFeature> ExtractLines(const cv::Mat& gray) {
     std::vector<LineFeature> lines = line_extractor.Extract(lens.Undistort(gray), lens.mask());
     for (LineFeature& line : lines) line.sigma = options.noise.line_sigma;
     return lines;
   }
 
-  // Of one level of the pyramid.
+  // The points of one pyramid level, and the time spent on them.
   struct PointLevel {
     std::vector<PointFeature> points;
     double points_ms = 0.0;
     double depth_ms = 0.0;
   };
 
-  PointLevel LocatedPoints(int level) {
-    PointLevel located;
+  PointLevel BuildPointLevel(int level) {
+    PointLevel result;
     Stopwatch stopwatch;
-    located.points = Points(level);
-    located.points_ms = stopwatch.Restart();
-    LocatePoints(&located.points);
-    located.depth_ms = stopwatch.Restart();
-    return located;
+    result.points = ExtractPoints(level);
+    result.points_ms = stopwatch.Restart();
+    AddDepthAndUndistort(&result.points);
+    result.depth_ms = stopwatch.Restart();
+    return result;
   }
 
-  // Depth of points at their raw pixels, which become undistorted.
-  void LocatePoints(std::vector<PointFeature>* points) const {
+  // Samples the depth of points at their distorted pixels and undistorts these.
+  void AddDepthAndUndistort(std::vector<PointFeature>* points) const {
     for (PointFeature& point : *points) {
       const auto sample = SampleDepth(depth, point.pixel, options.noise.inverse_depth_noise);
       if (sample) {
@@ -90,7 +90,7 @@ struct FrameBuilder::State {
     }
   }
 
-  void LocateLines(std::vector<LineFeature>* lines) const {
+  void AddDepth(std::vector<LineFeature>* lines) const {
     const double noise = options.noise.inverse_depth_noise;
     uint32_t seed = 0;
     for (LineFeature& line : *lines) {
@@ -102,8 +102,8 @@ struct FrameBuilder::State {
     }
   }
 
-  // Inside one image the random noise decides what is a surface; the sigma of the result is that of
-  // the whole error.
+  // Ratio of the total depth error to its random part. Surfaces are distinguished within one image
+  // by random noise, but the sigma of a feature's depth includes the systematic part.
   double SigmaPerNoise() const {
     return options.noise.inverse_depth_sigma / options.noise.inverse_depth_noise;
   }
@@ -150,13 +150,13 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
   Tasks tasks;
   tasks.push_back([&] {
     Stopwatch line_stopwatch;
-    frame.lines = state_->Lines(image.gray);
+    frame.lines = state_->ExtractLines(image.gray);
     times.lines = line_stopwatch.Restart();
-    state_->LocateLines(&frame.lines);
+    state_->AddDepth(&frame.lines);
     line_depth_ms = line_stopwatch.Restart();
   });
   for (size_t l = 0; l < levels.size(); ++l) {
-    tasks.push_back([&, l] { levels[l] = state_->LocatedPoints(static_cast<int>(l)); });
+    tasks.push_back([&, l] { levels[l] = state_->BuildPointLevel(static_cast<int>(l)); });
   }
   run(tasks);
   times.depth += line_depth_ms;

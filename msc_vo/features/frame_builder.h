@@ -24,7 +24,7 @@ struct FrameBuilderOptions {
   SensorNoiseOptions noise;
   LineFitOptions line_fit;
   LineDepthMethod line_depth = LineDepthMethod::kRobustFit;
-  double min_depth = 0.2;  // metres; depth outside [min_depth, max_depth] is invalid
+  double min_depth = 0.2;  ///< metres; depth outside [min_depth, max_depth] is invalid
   double max_depth = 10.0;
 
   bool IsValid(std::string* error) const;
@@ -32,33 +32,33 @@ struct FrameBuilderOptions {
 
 using Tasks = std::vector<std::function<void()>>;
 
-// Runs tasks that share nothing, one after the other or side by side, and returns when all are
-// done; what one of them throws reaches the caller.
+/// Runs independent tasks, sequentially or in parallel, and returns when all have finished.
+/// Exceptions of a task are passed on to the caller.
 using TaskRunner = std::function<void(const Tasks& tasks)>;
 
-// The one that uses no other thread.
-void RunInTurn(const Tasks& tasks);
+/// Runs the tasks one after the other in the calling thread.
+void RunSequentially(const Tasks& tasks);
 
-// Milliseconds spent on the last frame; summed over tasks, which may overlap.
+/// Milliseconds spent on the last frame, summed over tasks, which may overlap.
 struct FrameBuilderTimes {
   double points = 0.0;
   double lines = 0.0;
-  double depth = 0.0;  // depth of points and lines
+  double depth = 0.0;  ///< depth of points and lines
 };
 
-// From an RGB-D image to a Frame: points, lines, their descriptors, their depths; undistorted.
-// Keeps its buffers between calls; not for use from several threads at once.
+/// Builds a Frame from an RGB-D image: detects points and lines, computes their descriptors and
+/// depths, and undistorts them. Keeps its buffers between calls; not thread-safe.
 class FrameBuilder {
  public:
-  // Throws std::invalid_argument on options or a camera that are not valid.
+  /// Throws std::invalid_argument on invalid options or an invalid camera.
   FrameBuilder(const FrameBuilderOptions& options, const PinholeCamera& camera,
                const LensDistortion& distortion);
   ~FrameBuilder();
 
-  // `run` gets the lines and each level of the points as tasks, the longest first; the frame does
-  // not depend on how it runs them. Throws std::invalid_argument if the image's type or size is not
-  // the camera's.
-  Frame Build(const RgbdImage& image, const TaskRunner& run = RunInTurn);
+  /// `run` is given one task for the lines and one for each pyramid level of the points, the
+  /// longest first; the result does not depend on their order. Throws std::invalid_argument if type
+  /// or size of the image do not match the camera.
+  Frame Build(const RgbdImage& image, const TaskRunner& run = RunSequentially);
 
   const FrameBuilderTimes& times() const;
 

@@ -17,57 +17,57 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Pixels between samples along a line: dense enough that a line of 24 px has 8.
+// Spacing of the samples along a line, pixels: the shortest line, 24 px, has 8.
 constexpr double kSpacing = 3.0;
-constexpr int kMaxIntervals = 1 << 14;  // longer than any image
-// Length over which the noise of depth pixels is one and the same, pixels: structured light matches
-// windows of 7 to 9 px, of which the middle half dominates.
+constexpr int kMaxIntervals = 1 << 14;  // more than the diagonal of any image needs
+// Length over which the noise of depth pixels is fully correlated, pixels: structured light matches
+// windows of 7 to 9 px, dominated by their middle half.
 constexpr double kCorrelationLength = 5.0;
-// What all samples of a line have in common, in sigmas of a pixel: edges of depth and of colour are
-// not registered better than to half a pixel, and a wall seen at 45 degrees from 1 m changes by 1
-// from pixel to pixel. Errors over all sequences with 0, 0.5, 0.7 and 1: geometric mean of the
-// rendered ones 1.08, 1.07, 1.08 and 1.14 mm, fr1_rpy 12.2, 11.5, 12.0 and 11.6 mm.
+// Error common to all samples of a line, in sigmas of a pixel: the registration of depth to colour
+// edges is accurate to half a pixel, and the depth of a wall at 45 degrees and 1 m changes by 1
+// sigma per pixel. Chosen by measurement, see docs/lab/depth.md.
 constexpr double kCommonNoise = 0.5;
-// The profile across the line reaches so many pixels to both sides.
+// Length of the profile on each side of the line, pixels.
 constexpr int kReach = 5;
-// A surface reaches the line if it comes this close: one pixel for the edge's own place, one for
-// the mixed pixel that sensors put between two surfaces.
+// A surface reaches the line if it comes this close, pixels: one for the position of the edge, one
+// for the mixed pixel that sensors insert between two surfaces.
 constexpr int kMaxDistance = 2;
-// The depth jumps between two pixels of a profile if their difference exceeds those of the
-// neighbours by so many sigmas: three times the deviation of such a difference, sqrt(3) sigma.
-constexpr double kJumpSigmas = 5.2;
-// A surface of one pixel is a mixed pixel.
-constexpr int kMinRun = 2;
-// The depth of a surface at the line comes from its pixels up to so much farther from the line than
-// the nearest. With 3, 4 and 5 the mean error of eight rendered rooms was 1.69, 1.73 and 1.80 mm.
+// There is a depth edge between two pixels of a profile if their difference exceeds those of their
+// neighbours by this many sigmas: three times the standard deviation of such a difference,
+// sqrt(3) sigma.
+constexpr double kEdgeSigmas = 5.2;
+// Smallest number of pixels of a surface; a single one is a mixed pixel.
+constexpr int kMinSurface = 2;
+// The depth of a surface at the line is fitted to its pixel nearest to the line and this many
+// pixels beyond. Chosen by measurement, see docs/lab/depth.md.
 constexpr int kFitReach = 3;
-// Weak prior on the slope of a surface across the line, sigmas per pixel, for runs that are too
-// short to tell: a wall seen at 45 degrees from 1 m has 1.
+// Weak prior on the slope of a surface across the line, sigmas per pixel, for surfaces of few
+// pixels: the slope of a wall at 45 degrees and 1 m is 1.
 constexpr double kSlopeSigma = 3.0;
-// Two surfaces differ in depth if their difference exceeds so many of its sigmas: 99 % quantile of
-// a normal deviate.
+// Two surfaces differ in depth if their difference exceeds this many of its sigmas: 99 % quantile
+// of a normal deviate.
 constexpr double kSameSigmas = 2.576;
-// Beside an edge sensors drop pixels of either surface, so that the one that the line belongs to
-// may seem to end before it. If the line is on the one as likely as on the other, its depth has
-// half their difference as a standard deviation.
-constexpr double kDoubt = 0.5;
+// Sensors drop pixels of either surface beside a depth edge, so the surface that the line belongs
+// to may appear to end before it. If both surfaces are equally likely, the standard deviation of
+// the line's depth is this fraction of their difference.
+constexpr double kEdgeInflation = 0.5;
 constexpr double kEndPointRadius = 2.0;
 
-// Inverse depths at offsets -kReach .. kReach across the line, 0 for none.
+// Inverse depths at offsets -kReach .. kReach across the line; 0 where nothing was measured.
 using Profile = std::array<double, 2 * kReach + 1>;
 
-// Consecutive pixels of a profile that lie on one surface: indices first .. last.
-struct Run {
+// A surface in a profile: its consecutive pixels, indices first .. last.
+struct Surface {
   int first = 0;
   int last = 0;
 
-  // Offset of its pixel nearest to the line.
+  // Offset of the surface's pixel nearest to the line.
   int NearestOffset() const { return std::clamp(0, first - kReach, last - kReach); }
   int Size() const { return last - first + 1; }
 };
 
-// Differences of neighbours in a profile: of pixels i - 1 and i at i; infinite where one of them is
-// missing, also at both ends.
+// Absolute differences between pixels i - 1 and i of a profile; infinite where one of them is
+// missing, and at both ends.
 using Steps = std::array<double, 2 * kReach + 2>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -82,63 +82,66 @@ Steps StepsOf(const Profile& profile) {
   return steps;
 }
 
-// Whether there is a depth edge between pixels i - 1 and i. Steep surfaces have large steps too,
-// but then the neighbouring steps are alike.
-bool Jumps(const Steps& steps, int i, double sigma) {
+// True if there is a depth edge between pixels i - 1 and i. The steps of steep surfaces are large
+// too, but similar to the neighbouring steps.
+bool IsDepthEdge(const Steps& steps, int i, double sigma) {
   const double usual = std::min(steps[i - 1], steps[i + 1]);
-  return steps[i] - (usual < kInfinity ? usual : 0.0) > kJumpSigmas * sigma;
+  return steps[i] - (usual < kInfinity ? usual : 0.0) > kEdgeSigmas * sigma;
 }
 
 // The surfaces of a profile, in order; there are at most as many as pixels.
-struct Runs {
-  std::array<Run, 2 * kReach + 1> data;
+struct Surfaces {
+  std::array<Surface, 2 * kReach + 1> data;
   int count = 0;
 
-  const Run* begin() const { return data.data(); }
-  const Run* end() const { return data.data() + count; }
+  const Surface* begin() const { return data.data(); }
+  const Surface* end() const { return data.data() + count; }
 };
 
-Runs SplitAtJumps(const Profile& profile, double sigma) {
+Surfaces SplitAtDepthEdges(const Profile& profile, double sigma) {
   const Steps steps = StepsOf(profile);
-  Runs runs;
+  Surfaces surfaces;
   for (int i = 0; i < static_cast<int>(profile.size()); ++i) {
     if (profile[i] <= 0.0) continue;
-    // A pixel behind a missing one jumps.
-    if (runs.count > 0 && !Jumps(steps, i, sigma)) {
-      runs.data[runs.count - 1].last = i;
+    // A missing pixel separates surfaces, because the step after it is infinite.
+    if (surfaces.count > 0 && !IsDepthEdge(steps, i, sigma)) {
+      surfaces.data[surfaces.count - 1].last = i;
     } else {
-      runs.data[runs.count++] = {i, i};
+      surfaces.data[surfaces.count++] = {i, i};
     }
   }
-  return runs;
+  return surfaces;
 }
 
-// Inverse depth at offset 0 of the surface that a run shows, and its sigma in units of a pixel's:
-// neighbouring pixels share their noise, so that their mean is no better than one of them, and what
-// the fit must extrapolate comes on top.
-struct Crossing {
-  double w = 0.0;
+// Inverse depth of a surface at the line (offset 0).
+struct DepthAtLine {
+  double w = 0.0;  // 1/metres
+  // Standard deviation in units of a pixel's. The noise of neighbouring pixels is correlated, so
+  // their mean is as uncertain as one pixel; extrapolation is added.
   double sigma = 1.0;
-  double doubt = 0.0;  // 1/metres, common to all places along the line
+  // Standard deviation that is common to all samples of the line: the surface may be the wrong one,
+  // 1/metres.
+  double edge_sigma = 0.0;
 };
 
-// Sums over the pixels of a run on one side of the line: of offsets x and inverse depths w.
+// Sums over the pixels of a surface on one side of the line: offsets x and inverse depths w.
 struct Side {
   double x = 0.0;
   double xx = 1.0 / (kSlopeSigma * kSlopeSigma);
   double xw = 0.0;
 };
 
-// Least squares with a slope of its own on either side of the line, w(x) = w + slope x: most lines
-// indoors are folds, where a mean across the line would be nearer than the fold of two walls and
-// farther than that of a box.
-Crossing AtLine(const Profile& profile, const Run& run) {
-  const int center = kReach + run.NearestOffset();
+// Least-squares fit with separate slopes on the two sides of the line, w(x) = w + slope x. Most
+// lines indoors are folds, where the mean across the line is biased: nearer than the fold of two
+// walls, farther than the edge of a box.
+DepthAtLine FitAtLine(const Profile& profile, const Surface& surface) {
+  const int center = kReach + surface.NearestOffset();
   std::array<Side, 2> sides;
   double information = 0.0;
   double rhs = 0.0;
-  for (int i = std::max(run.first, center - kFitReach); i <= std::min(run.last, center + kFitReach);
-       ++i) {
+  const int begin = std::max(surface.first, center - kFitReach);
+  const int end = std::min(surface.last, center + kFitReach) + 1;
+  for (int i = begin; i < end; ++i) {
     const double x = i - kReach;
     Side& side = sides[x > 0.0];
     side.x += x;
@@ -154,38 +157,39 @@ Crossing AtLine(const Profile& profile, const Run& run) {
   return {rhs / information, std::sqrt(1.0 + 1.0 / information), 0.0};
 }
 
-// Of the surfaces that come to the line the nearest. If noise decides which of two that is, the one
-// that is better known: to take the nearer one would pull all depths towards the camera. One that
-// is nearer still, but ends before the line, leaves a doubt.
-std::optional<Crossing> NearestCrossing(const Profile& profile, double sigma) {
-  std::optional<Crossing> nearest;
-  double nearest_aside = 0.0;
-  for (const Run& run : SplitAtJumps(profile, sigma)) {
-    if (run.Size() < kMinRun) continue;
-    const Crossing crossing = AtLine(profile, run);
-    if (std::abs(run.NearestOffset()) > kMaxDistance) {
-      nearest_aside = std::max(nearest_aside, crossing.w);
+// Returns the depth of the nearest surface that reaches the line. If the depths of two surfaces do
+// not differ significantly, the one with the smaller sigma is returned: always selecting the nearer
+// one would bias depths towards the camera. A nearer surface that ends before the line inflates the
+// variance.
+std::optional<DepthAtLine> NearestSurfaceDepth(const Profile& profile, double sigma) {
+  std::optional<DepthAtLine> nearest;
+  double nearest_beside = 0.0;  // among the surfaces that do not reach the line
+  for (const Surface& surface : SplitAtDepthEdges(profile, sigma)) {
+    if (surface.Size() < kMinSurface) continue;
+    const DepthAtLine depth = FitAtLine(profile, surface);
+    if (std::abs(surface.NearestOffset()) > kMaxDistance) {
+      nearest_beside = std::max(nearest_beside, depth.w);
       continue;
     }
     const double margin =
-        nearest ? kSameSigmas * sigma * std::hypot(crossing.sigma, nearest->sigma) : 0.0;
-    const bool is_same = nearest && std::abs(crossing.w - nearest->w) <= margin;
-    if (!nearest || (is_same ? crossing.sigma < nearest->sigma : crossing.w > nearest->w)) {
-      nearest = crossing;
+        nearest ? kSameSigmas * sigma * std::hypot(depth.sigma, nearest->sigma) : 0.0;
+    const bool is_same = nearest && std::abs(depth.w - nearest->w) <= margin;
+    if (!nearest || (is_same ? depth.sigma < nearest->sigma : depth.w > nearest->w)) {
+      nearest = depth;
     }
   }
-  if (nearest && nearest_aside - nearest->w > kJumpSigmas * sigma) {
-    nearest->doubt = kDoubt * (nearest_aside - nearest->w);
+  if (nearest && nearest_beside - nearest->w > kEdgeSigmas * sigma) {
+    nearest->edge_sigma = kEdgeInflation * (nearest_beside - nearest->w);
   }
   return nearest;
 }
 
 struct DepthSamples {
   std::vector<LineFitSample> along;
-  double doubt = 0.0;  // 1/metres, mean
+  double edge_sigma = 0.0;  // 1/metres, mean of DepthAtLine::edge_sigma
 };
 
-// Samples of the inverse depth along `segment` (pixels without distortion), a few pixels apart.
+// Samples the inverse depth along `segment` (pixels, undistorted) every kSpacing pixels.
 DepthSamples SampleLineDepth(const InverseDepthImage& image, const LensRemap& lens,
                              const LineSegment2& segment, double sigma) {
   const Vector2d direction = segment.Direction();
@@ -200,12 +204,12 @@ DepthSamples SampleLineDepth(const InverseDepthImage& image, const LensRemap& le
     for (int k = -kReach; k <= kReach; ++k) {
       profile[kReach + k] = image.Nearest(raw + k * across);
     }
-    const std::optional<Crossing> crossing = NearestCrossing(profile, sigma);
-    if (!crossing) continue;
-    samples.along.push_back({s, crossing->w, crossing->sigma * sigma});
-    samples.doubt += crossing->doubt;
+    const std::optional<DepthAtLine> depth = NearestSurfaceDepth(profile, sigma);
+    if (!depth) continue;
+    samples.along.push_back({s, depth->w, depth->sigma * sigma});
+    samples.edge_sigma += depth->edge_sigma;
   }
-  if (!samples.along.empty()) samples.doubt /= static_cast<double>(samples.along.size());
+  if (!samples.along.empty()) samples.edge_sigma /= static_cast<double>(samples.along.size());
   return samples;
 }
 
@@ -218,10 +222,9 @@ std::optional<LineDepth> FitDepthAlongLine(const LineFitOptions& options,
   const DepthSamples samples = SampleLineDepth(image, lens, segment, sigma);
   std::optional<LineDepth> depth = FitLineDepth(options, samples.along, seed);
   if (!depth) return std::nullopt;
-  // n samples, kSpacing apart, of a noise that stays the same over kCorrelationLength say as much
-  // as n kSpacing / kCorrelationLength independent ones.
+  // Effective number of independent samples: n kSpacing / kCorrelationLength.
   depth->covariance *= std::max(1.0, kCorrelationLength / kSpacing);
-  const double common = std::hypot(kCommonNoise * sigma, samples.doubt);
+  const double common = std::hypot(kCommonNoise * sigma, samples.edge_sigma);
   depth->covariance += Eigen::Matrix2d::Constant(common * common);
   return depth;
 }

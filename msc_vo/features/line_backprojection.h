@@ -13,28 +13,29 @@
 
 namespace msc_vo {
 
-// How a line gets its depth.
+/// Method of estimating the depth of a line.
 enum class LineDepthMethod {
-  kRobustFit,  // samples along the line, FitLineDepth
-  kEndPoints,  // the depths under the two end points, as they are: the ablation mode pl-vo
+  kRobustFit,  ///< robust fit to samples along the line, FitDepthAlongLine
+  kEndPoints,  ///< measured depths at the two end points, for the ablation mode pl-vo
 };
 
-// Depth of a line (`segment`: pixels without distortion) by a robust fit to samples a few pixels
-// apart; std::nullopt if there is no good fit. `sigma` (1/metres) is the noise of one depth pixel.
-//
-// At each place the depth is read along a short profile across the line, which is cut where the
-// depth jumps; the line belongs to the nearest of the surfaces that reach it, since an edge in the
-// image that is an edge in depth is the edge of the occluding surface. Where surfaces meet at the
-// line each has a slope of its own, so that the sample is the depth of the fold. The covariance
-// allows for the correlation between the noise of neighbouring depth pixels, for an error that all
-// samples have in common, and for a nearer surface beside the line that the line may belong to.
+/// Estimates the depth of a line by a robust fit to samples every few pixels (paper: 3D Feature
+/// Position Estimation). `segment`: pixels, undistorted; `sigma`: noise of one depth pixel,
+/// 1/metres. Returns std::nullopt if no fit has enough inliers.
+///
+/// At each sample, depth is read along a short profile across the line, which is split at depth
+/// edges. The line is assigned to the nearest surface that reaches it, because an image edge at a
+/// depth edge is the edge of the occluding surface. Where two surfaces meet at the line, each has
+/// its own slope, so the sample is the depth of the fold. The covariance includes the correlation
+/// between the noise of neighbouring depth pixels, the error common to all samples, and the
+/// possibility that the line belongs to a nearer surface beside it.
 std::optional<LineDepth> FitDepthAlongLine(const LineFitOptions& options,
                                            const InverseDepthImage& image, const LensRemap& lens,
                                            const LineSegment2& segment, double sigma,
                                            uint32_t seed);
 
-// Depth of a line from its end points alone, each the nearest valid pixel within 2 px;
-// std::nullopt if one of them has none.
+/// Estimates the depth of a line from its end points only, each from the nearest valid pixel within
+/// 2 px. Returns std::nullopt if an end point has no valid pixel.
 std::optional<LineDepth> EndPointDepth(const InverseDepthImage& image, const LensRemap& lens,
                                        const LineSegment2& segment, double sigma);
 

@@ -9,9 +9,10 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "msc_vo/features/edge_segments.h"
-#include "msc_vo/features/line_descriptor_extractor.h"
-#include "msc_vo/features/line_refinement.h"
+#include "msc_vo/features/internal/edge_segments.h"
+#include "msc_vo/features/internal/line_descriptor_extractor.h"
+#include "msc_vo/features/internal/line_merging.h"
+#include "msc_vo/features/internal/line_refinement.h"
 #include "msc_vo/geometry/cell_index.h"
 
 namespace msc_vo {
@@ -20,13 +21,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Pieces shorter than this are not even merged: both detectors validate segments against chance,
-// which nothing below about this many pixels passes.
+// Shortest segment that is considered for merging, pixels: about the shortest one that passes the
+// detectors' validation against chance.
 constexpr double kMinPiece = 8.0;
-// The grey values on both sides of a line are compared at this distance from it: outside the blur
-// of the edge itself.
+// Distance from the line at which grey values of its two sides are compared, pixels: outside the
+// blur of the edge.
 constexpr double kSideDistance = 2.0;
-// At most so many places along a line are compared.
+// Largest number of samples along a line for this comparison.
 constexpr int kMaxSideSamples = 16;
 
 double GrayAt(const cv::Mat& gray, const Vector2d& pixel) {
@@ -35,7 +36,7 @@ double GrayAt(const cv::Mat& gray, const Vector2d& pixel) {
   return gray.at<uint8_t>(y, x);
 }
 
-// Turns the segment so that its brighter side is where ImageLine() is positive.
+// Orients the segment so that its brighter side is where ImageLine() is positive.
 void OrientToBrighterSide(const cv::Mat& gray, LineSegment2* segment) {
   const Vector2d direction = segment->Direction();
   const Vector2d side = kSideDistance * Vector2d(-direction.y(), direction.x());
@@ -45,19 +46,18 @@ void OrientToBrighterSide(const cv::Mat& gray, LineSegment2* segment) {
     const Vector2d x = segment->At((i + 0.5) / samples);
     contrast += GrayAt(gray, x + side) - GrayAt(gray, x - side);
   }
-  // A line without contrast keeps one of its two directions whatever the detector's was.
+  // The direction of a line without contrast must not depend on the detector's.
   const bool backward =
       segment->start.x() > segment->end.x() ||
       (segment->start.x() == segment->end.x() && segment->start.y() > segment->end.y());
   if (contrast < 0.0 || (contrast == 0.0 && backward)) std::swap(segment->start, segment->end);
 }
 
-// Cuts the ends of the segment back to where the mask is not zero. Returns false if nothing is
-// left.
+// Clips the ends of the segment to where the mask is not zero. Returns false if nothing remains.
 bool ClipToMask(const cv::Mat& mask, LineSegment2* segment) {
   if (mask.empty()) return true;
   const int steps = static_cast<int>(std::ceil(segment->Length()));
-  const auto seen = [&](int i) {
+  const auto is_visible = [&](int i) {
     const Vector2d x = segment->At(static_cast<double>(i) / steps);
     const cv::Point pixel(cvRound(x.x()), cvRound(x.y()));
     return pixel.x >= 0 && pixel.y >= 0 && pixel.x < mask.cols && pixel.y < mask.rows &&
@@ -65,8 +65,8 @@ bool ClipToMask(const cv::Mat& mask, LineSegment2* segment) {
   };
   int first = 0;
   int last = steps;
-  while (first <= last && !seen(first)) ++first;
-  while (last > first && !seen(last)) --last;
+  while (first <= last && !is_visible(first)) ++first;
+  while (last > first && !is_visible(last)) --last;
   if (first >= last) return false;
   const LineSegment2 whole = *segment;
   segment->start = whole.At(static_cast<double>(first) / steps);
@@ -101,9 +101,9 @@ bool LineExtractorOptions::IsValid(std::string* error) const {
   if (max_lines < 0) {
     *error = "lines.max_lines must not be negative";
   } else if (!(min_length > 0.0 && min_length <= 1.0)) {
-    *error = "lines.min_length must be in (0, 1]: a fraction of the image's shorter side";
+    *error = "lines.min_length must be in (0, 1] (fraction of the image's shorter side)";
   } else {
-    return merging.IsValid(error);
+    return true;
   }
   return false;
 }
@@ -132,7 +132,7 @@ std::vector<LineFeature> LineExtractor::Extract(const cv::Mat& gray, const cv::M
   }
   const double min_length = options_.min_length * std::min(gray.cols, gray.rows);
   std::vector<LineFeature> features;
-  for (const LineSegment2& segment : MergeCollinear(options_.merging, std::move(pieces))) {
+  for (const LineSegment2& segment : MergeCollinear(std::move(pieces))) {
     if (segment.Length() < min_length) break;  // longest first
     if (static_cast<int>(features.size()) == options_.max_lines) break;
     LineFeature feature;

@@ -9,45 +9,43 @@
 
 #include <opencv2/core.hpp>
 
-#include "msc_vo/features/line_merging.h"
 #include "msc_vo/map/frame.h"
 
 namespace msc_vo {
 
 enum class LineDetector {
-  kLsd,          // line segment detector of von Gioi et al.: the paper's
-  kEdgeDrawing,  // EDLines of Akinlar and Topal: several times faster
+  kLsd,          ///< line segment detector (von Gioi et al.), used in the paper
+  kEdgeDrawing,  ///< EDLines (Akinlar and Topal), several times faster
 };
 
 struct LineExtractorOptions {
   LineDetector detector = LineDetector::kEdgeDrawing;
-  // Lines kept, the longest: description costs more than detection, and the paper's scenes have
-  // fewer.
+  /// Largest number of lines per image; the longest are kept. Limits the time of description, which
+  /// costs more than detection.
   int max_lines = 200;
-  // Shortest line, as a fraction of the image's shorter side: 24 px of 480. The direction of such a
-  // line is known to 3.4 degrees (1 px at each end); a shorter one constrains nothing.
+  /// Shortest line, as a fraction of the image's shorter side: 24 px of 480. The standard deviation
+  /// of the direction of such a line is 3.4 degrees (1 px at each end).
   double min_length = 0.05;
-  LineMergingOptions merging;
 
   bool IsValid(std::string* error) const;
 };
 
-// Line segments with LBD descriptors.
-//
-// Direction convention: the brighter side of a segment is where its ImageLine() is positive (on the
-// right-hand side of someone who walks from start to end in the image as it is seen, y down). The
-// same edge so has the same direction in every image; LBD depends on it.
-//
-// Keeps its buffers between calls; not for use from several threads at once.
+/// Detects line segments and computes their LBD descriptors.
+///
+/// Direction convention: the brighter side of a segment is where its ImageLine() is positive, on
+/// the right-hand side when moving from start to end in the displayed image (y down). An edge thus
+/// has the same direction in every image, as LBD requires.
+///
+/// Keeps its buffers between calls; not thread-safe.
 class LineExtractor {
  public:
-  // Throws std::invalid_argument on options that are not valid.
+  /// Throws std::invalid_argument on invalid options.
   explicit LineExtractor(const LineExtractorOptions& options);
   ~LineExtractor();
 
-  // Lines of an 8-bit grey image without lens distortion, longest first, without depth; sigma is 1.
-  // `mask` (CV_8UC1 of the same size, or empty) is zero where the image shows nothing: segments are
-  // cut there. Throws std::invalid_argument if the image is not CV_8UC1.
+  /// Returns the lines of an undistorted 8-bit grey image, longest first, without depth and with
+  /// sigma 1. `mask` (CV_8UC1 of the same size, or empty) is zero at pixels without image content,
+  /// where segments are clipped. Throws std::invalid_argument if the image is not CV_8UC1.
   std::vector<LineFeature> Extract(const cv::Mat& gray, const cv::Mat& mask = cv::Mat());
 
  private:

@@ -10,9 +10,9 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "msc_vo/features/corner_refinement.h"
-#include "msc_vo/features/fast_corners.h"
-#include "msc_vo/features/point_descriptor_extractor.h"
+#include "msc_vo/features/internal/corner_refinement.h"
+#include "msc_vo/features/internal/fast_corners.h"
+#include "msc_vo/features/internal/point_descriptor_extractor.h"
 
 namespace msc_vo {
 
@@ -26,7 +26,7 @@ bool Stronger(const FastCorner& a, const FastCorner& b) {
          std::make_tuple(-b.response, b.pixel.y, b.pixel.x);
 }
 
-// Corners of one level, in square cells of about the size that gives each corner wanted its own.
+// Corners of one level in a grid of square cells, about as many cells as corners are wanted.
 class CellGrid {
  public:
   CellGrid(const cv::Rect& area, int num_wanted, const std::vector<FastCorner>& corners)
@@ -47,32 +47,32 @@ class CellGrid {
     }
   }
 
-  // Leaves out what does not exceed the threshold where a cell has corners that do.
-  void DropWeakBesideStrong(int threshold) {
+  // Removes corners that do not exceed the threshold from cells with a corner that does.
+  void RemoveWeakBesideStrong(int threshold) {
     for (Cell& cell : cells_) {
       if (cell.count == 0 || corners_[cell.begin].response <= threshold) continue;
       while (corners_[cell.end() - 1].response <= threshold) --cell.count;
     }
   }
 
-  // The strongest corner of every cell, then the second of every cell, and so on, as many as are
-  // wanted; within one round the stronger first.
-  std::vector<FastCorner> Choose() const {
-    std::vector<FastCorner> chosen;
-    for (int round = 0; static_cast<int>(chosen.size()) < num_wanted_; ++round) {
-      const size_t before = chosen.size();
+  // Selects the strongest corner of every cell, then the second of every cell, and so on up to the
+  // wanted number; within one round the stronger ones first.
+  std::vector<FastCorner> Select() const {
+    std::vector<FastCorner> selected;
+    for (int round = 0; static_cast<int>(selected.size()) < num_wanted_; ++round) {
+      const size_t before = selected.size();
       for (const Cell& cell : cells_) {
-        if (round < cell.count) chosen.push_back(corners_[cell.begin + round]);
+        if (round < cell.count) selected.push_back(corners_[cell.begin + round]);
       }
-      if (chosen.size() == before) break;
-      std::sort(chosen.begin() + before, chosen.end(), Stronger);
+      if (selected.size() == before) break;
+      std::sort(selected.begin() + before, selected.end(), Stronger);
     }
-    if (static_cast<int>(chosen.size()) > num_wanted_) chosen.resize(num_wanted_);
-    return chosen;
+    if (static_cast<int>(selected.size()) > num_wanted_) selected.resize(num_wanted_);
+    return selected;
   }
 
  private:
-  // Which of the corners lie in a cell.
+  // Range of the corners in a cell.
   struct Cell {
     int begin = 0;
     int count = 0;
@@ -89,7 +89,7 @@ class CellGrid {
   int num_wanted_;
   int columns_ = 1;
   int rows_ = 1;
-  std::vector<FastCorner> corners_;  // cell by cell, the strongest of each first
+  std::vector<FastCorner> corners_;  // cell by cell, each with the strongest first
   std::vector<Cell> cells_;          // row by row
 };
 
@@ -101,19 +101,20 @@ std::vector<FastCorner> DetectCorners(const cv::Mat& level, int num_wanted,
                                       const PointExtractorOptions& options) {
   const cv::Rect area = DetectionArea(level);
   CellGrid grid(area, num_wanted, DetectFastCorners(level, area, options.min_fast_threshold));
-  grid.DropWeakBesideStrong(options.fast_threshold);
-  return grid.Choose();
+  grid.RemoveWeakBesideStrong(options.fast_threshold);
+  return grid.Select();
 }
 
-// Pixel of the full image from one of a level. Resizing keeps the image's outline, which is half a
-// pixel outside the centre of the first pixel, and sizes are whole numbers.
+// Converts a pixel of a level to the full image. Resizing preserves the outline of the image, half
+// a pixel outside the centres of the border pixels; the sizes are rounded to integers.
 Eigen::Vector2d ToFullImage(const Eigen::Vector2d& pixel, const cv::Size& level,
                             const cv::Size& image) {
   return {(pixel.x() + 0.5) * image.width / level.width - 0.5,
           (pixel.y() + 0.5) * image.height / level.height - 0.5};
 }
 
-// Where the corners of one level are, to sub-pixels; those that end at the same pixel are one.
+// Refines the corners of one level to sub-pixels; of those that converge to the same pixel, the
+// first is kept.
 std::vector<RefinedCorner> RefineCorners(const cv::Mat& level, const cv::Mat& smooth,
                                          const std::vector<FastCorner>& corners) {
   const CornerRefiner refiner(level, smooth, DetectionArea(level));
@@ -149,16 +150,17 @@ PointExtractor::PointExtractor(const PointExtractorOptions& options) : options_(
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument("PointExtractor: " + error);
   levels_.resize(options.num_levels);
-  // Shares fall with the level's side length, as in ORB: q^l (1 - q) / (1 - q^levels).
+  // The number of points is proportional to the level's side length, as in ORB: for level l the
+  // fraction q^l (1 - q) / (1 - q^levels).
   const double q = 1.0 / kPyramidScale;
-  double share = options.num_points * (1.0 - q) / (1.0 - std::pow(q, options.num_levels));
+  double num_on_level = options.num_points * (1.0 - q) / (1.0 - std::pow(q, options.num_levels));
   double scale = 1.0;
-  int left = options.num_points;  // rounded shares may exceed the total
+  int num_left = options.num_points;  // rounded numbers may exceed the total
   for (Level& level : levels_) {
-    level.num_points = std::min(cvRound(share), left);
+    level.num_points = std::min(cvRound(num_on_level), num_left);
     level.scale = scale;
-    left -= level.num_points;
-    share *= q;
+    num_left -= level.num_points;
+    num_on_level *= q;
     scale *= kPyramidScale;
   }
 }
@@ -181,7 +183,7 @@ int PointExtractor::SetImage(const cv::Mat& gray) {
 std::vector<PointFeature> PointExtractor::ExtractLevel(int l) {
   Level& level = levels_[l];
   const std::vector<FastCorner> corners = DetectCorners(level.image, level.num_points, options_);
-  // The binomial filter of five: a Gaussian of one pixel.
+  // Binomial filter of size five: approximately a Gaussian of one pixel.
   cv::GaussianBlur(level.image, level.smooth, cv::Size(5, 5), /*sigmaX=*/0.0);
   const PointDescriptorExtractor descriptor_extractor(level.image, level.smooth);
   std::vector<PointFeature> points;
@@ -201,8 +203,8 @@ std::vector<PointFeature> PointExtractor::Extract(const cv::Mat& gray) {
   std::vector<PointFeature> points;
   const int num_levels = SetImage(gray);
   for (int l = 0; l < num_levels; ++l) {
-    const std::vector<PointFeature> of_level = ExtractLevel(l);
-    points.insert(points.end(), of_level.begin(), of_level.end());
+    const std::vector<PointFeature> level_points = ExtractLevel(l);
+    points.insert(points.end(), level_points.begin(), level_points.end());
   }
   return points;
 }

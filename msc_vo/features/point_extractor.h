@@ -13,38 +13,41 @@
 namespace msc_vo {
 
 struct PointExtractorOptions {
-  int num_points = 1000;  // per image, at most; the levels' shares fall with their scale
-  // Of the pyramid; levels that become too small are left out. 1.2^8 = 4.3: a point is found again
-  // from four times the distance.
+  /// Largest number of points per image; distributed over the levels in inverse proportion to their
+  /// scale.
+  int num_points = 1000;
+  /// Levels of the image pyramid; those that become too small are omitted. With 8, points are
+  /// matched over a ratio of distances of 1.2^8 = 4.3.
   int num_levels = 8;
-  int fast_threshold = 20;     // grey values, of a FAST corner
-  int min_fast_threshold = 7;  // grey values, in cells that have no corner at fast_threshold
+  int fast_threshold = 20;     ///< grey values, of a FAST corner
+  int min_fast_threshold = 7;  ///< grey values, in cells without a corner at fast_threshold
 
   bool IsValid(std::string* error) const;
 };
 
-// FAST corners over an image pyramid, evenly spread, with orientation and descriptor.
-// Keeps its buffers between calls; not for use from several threads at once.
+/// Extracts FAST corners from an image pyramid, evenly distributed over the image, with orientation
+/// and descriptor. Keeps its buffers between calls; not thread-safe except for ExtractLevel().
 class PointExtractor {
  public:
-  // Throws std::invalid_argument on options that are not valid.
+  /// Throws std::invalid_argument on invalid options.
   explicit PointExtractor(const PointExtractorOptions& options);
 
-  // Points of an 8-bit grey image, without depth. Pixels are those of the image given; sigma is the
-  // scale of the point's level (1 on level 0). Ordered by level, then by choice within the level.
-  // Throws std::invalid_argument if the image is not CV_8UC1.
+  /// Returns the points of an 8-bit grey image, without depth, in pixels of that image. Sigma is
+  /// the scale of the point's level (1 on level 0). Ordered by level, within a level by selection.
+  /// Throws std::invalid_argument if the image is not CV_8UC1.
   std::vector<PointFeature> Extract(const cv::Mat& gray);
 
-  // The same in steps: SetImage() makes the pyramid and returns how many levels it has; then the
-  // levels, which share nothing, in any order and from several threads.
+  /// Builds the pyramid and returns its number of levels, for ExtractLevel(). Throws as Extract().
   int SetImage(const cv::Mat& gray);
+  /// Extracts the points of one level. Different levels may be extracted in any order and
+  /// concurrently.
   std::vector<PointFeature> ExtractLevel(int level);
 
  private:
   struct Level {
     cv::Mat image;
     cv::Mat smooth;
-    int num_points = 0;  // at most
+    int num_points = 0;  // upper limit
     double scale = 1.0;
   };
 

@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "msc_vo/camera/lens_validity.h"
-#include "msc_vo/geometry/angles.h"
+#include "msc_vo/features/internal/depth_sums.h"
 
 namespace msc_vo {
 
@@ -18,30 +18,26 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Metres: below the resolution of every depth sensor, and coarse enough that a window's sum fits
-// into 32 bits.
-constexpr double kUnit = 1e-4;
-constexpr uint32_t kDepthPixel = 1;
-constexpr uint32_t kDepthEdge = 1u << 16;
-// A step of depth between neighbours is an edge beyond so many sigmas of a difference: 99.7 %.
+// Pixels over which the errors of depth are correlated: half of a structured-light sensor's
+// matching window of 9 pixels.
+constexpr double kCorrelationLength = 5.0;
+// Radius of a window, pixels: smaller ones average too few pixels, larger ones extend over several
+// objects of a room.
+constexpr int kMinRadius = 5;
+constexpr int kMaxRadius = 32;
+// Largest angle between ray and normal, radians (80 degrees): surfaces at a flatter angle cannot be
+// distinguished from depth edges, and depth on them is poor.
+constexpr double kMaxIncidence = 1.396;
+// Fraction of the window's pixels that must have a depth.
+constexpr double kMinValidRatio = 0.5;
+// A depth step between neighbours is an edge beyond this many sigmas of a difference: 99.7 %.
 constexpr double kEdgeSigmas = 3.0;
 
-int Count(uint32_t pixels_and_edges) { return static_cast<int>(pixels_and_edges & 0xffff); }
-int Edges(uint32_t pixels_and_edges) { return static_cast<int>(pixels_and_edges >> 16); }
-
-Vector3d MeanPoint(const std::array<uint32_t, 4>& sums) {
-  const double scale = kUnit / Count(sums[3]);
-  return scale * Vector3d(static_cast<int32_t>(sums[0]), static_cast<int32_t>(sums[1]),
-                          static_cast<int32_t>(sums[2]));
-}
-
-uint32_t InUnits(float metres) {
-  return static_cast<uint32_t>(cvRound(metres * static_cast<float>(1.0 / kUnit)));
-}
+int InUnits(float metres) { return cvRound(metres * static_cast<float>(1.0 / DepthSums::kUnit)); }
 
 }  // namespace
 
-// A square of pixels around (x, y), clipped by the image.
+// A square of pixels around (x, y), clipped to the image.
 struct SurfaceNormalEstimator::Window {
   int x = 0;
   int y = 0;
@@ -50,28 +46,19 @@ struct SurfaceNormalEstimator::Window {
   int top = 0;
   int right = 0;
   int bottom = 0;
+
+  int Area() const { return (right - left + 1) * (bottom - top + 1); }
 };
 
 bool SurfaceNormalOptions::IsValid(std::string* error) const {
+  constexpr int kMaxArea = (2 * kMaxRadius + 1) * (2 * kMaxRadius + 1);
   if (grid_step < 1) {
-    *error = "grid_step must be at least 1 pixel";
-  } else if (!(target_sigma > 0.0)) {
-    *error = "target_sigma must be positive (radians)";
-  } else if (!(inverse_depth_sigma > 0.0)) {
-    *error = "inverse_depth_sigma must be positive (1/metres)";
-  } else if (!(correlation >= 1.0)) {
-    *error = "correlation must be at least 1 pixel";
-  } else if (!(min_radius >= 1 && max_radius >= min_radius)) {
-    *error = "1 <= min_radius <= max_radius (pixels) must hold";
-  } else if (!(max_incidence > 0.0 && max_incidence < 0.5 * kPi)) {
-    *error = "max_incidence must lie in (0, pi/2) (radians)";
-  } else if (!(min_valid > 0.0 && min_valid <= 1.0)) {
-    *error = "min_valid must lie in (0, 1]";
+    *error = "normals.grid_step must be at least 1 pixel";
   } else if (!(min_depth > 0.0 && max_depth > min_depth)) {
-    *error = "0 < min_depth < max_depth (metres) must hold";
-  } else if (std::pow(2.0 * max_radius + 1.0, 2) * max_depth / kUnit > std::pow(2.0, 30)) {
-    // A factor of 2 is left for rays that go farther sideways than forward.
-    *error = "(2 max_radius + 1)^2 max_depth is too large for 32-bit sums: at most 107374 px^2 m";
+    *error = "normals: 0 < min_depth < max_depth (metres) must hold";
+  } else if (kMaxArea * max_depth > DepthSums::kMaxSum) {
+    *error = "normals.max_depth must not exceed " + std::to_string(DepthSums::kMaxSum / kMaxArea) +
+             " metres: sums over a window would overflow";
   } else {
     return true;
   }
@@ -99,16 +86,16 @@ SurfaceNormalEstimator::SurfaceNormalEstimator(const SurfaceNormalOptions& optio
   integral_.resize(static_cast<size_t>(camera.width + 1) * (camera.height + 1));
 }
 
+SurfaceNormalEstimator::~SurfaceNormalEstimator() = default;
+
 void SurfaceNormalEstimator::Integrate(const cv::Mat& depth) {
   const int width = camera_.width;
   const auto nearest = static_cast<float>(options_.min_depth);
   const auto farthest = static_cast<float>(options_.max_depth);
-  // Relative change of depth from one pixel to the next on the steepest surface; and noise, whose
-  // sigma relative to z is z sigma_w, of two pixels.
-  const auto steepest =
-      static_cast<float>(std::tan(options_.max_incidence) / camera_.FocalLength());
-  const auto noise =
-      static_cast<float>(kEdgeSigmas * std::sqrt(2.0) * options_.inverse_depth_sigma);
+  // Relative change of depth between neighbouring pixels: of the steepest surface, and of noise,
+  // whose sigma relative to z is z sigma_w for each of the two pixels.
+  const auto steepest = static_cast<float>(std::tan(kMaxIncidence) / camera_.FocalLength());
+  const auto noise = static_cast<float>(kEdgeSigmas * std::sqrt(2.0) * kInverseDepthSigma);
   const auto is_edge = [&](float z, float neighbour) {
     return neighbour >= nearest && neighbour <= farthest &&
            std::abs(z - neighbour) > z * (steepest + noise * z);
@@ -117,49 +104,41 @@ void SurfaceNormalEstimator::Integrate(const cv::Mat& depth) {
     const float* z_row = depth.ptr<float>(y);
     const float* z_above = depth.ptr<float>(std::max(y - 1, 0));
     const std::array<float, 2>* ray = &rays_[static_cast<size_t>(y) * width];
-    const Sums* above = &integral_[static_cast<size_t>(y) * (width + 1)];
-    Sums* here = &integral_[static_cast<size_t>(y + 1) * (width + 1)];
-    Sums row{};
+    const DepthSums* above = &integral_[static_cast<size_t>(y) * (width + 1)];
+    DepthSums* here = &integral_[static_cast<size_t>(y + 1) * (width + 1)];
+    DepthSums row;
     for (int x = 0; x < width; ++x) {
       const float z = z_row[x];
-      if (z >= nearest && z <= farthest) {  // false for what is not a number
-        row[0] += InUnits(z * ray[x][0]);
-        row[1] += InUnits(z * ray[x][1]);
-        row[2] += InUnits(z);
-        row[3] += kDepthPixel;
-        if (is_edge(z, z_row[std::max(x - 1, 0)]) || is_edge(z, z_above[x])) row[3] += kDepthEdge;
+      if (z >= nearest && z <= farthest) {  // false for NaN
+        row.AddPoint(InUnits(z * ray[x][0]), InUnits(z * ray[x][1]), InUnits(z));
+        if (is_edge(z, z_row[std::max(x - 1, 0)]) || is_edge(z, z_above[x])) row.AddEdge();
       }
-      for (int i = 0; i < 4; ++i) here[x + 1][i] = above[x + 1][i] + row[i];
+      here[x + 1] = above[x + 1] + row;
     }
   }
 }
 
-SurfaceNormalEstimator::Sums SurfaceNormalEstimator::SumOver(int left, int top, int right,
-                                                             int bottom) const {
+DepthSums SurfaceNormalEstimator::SumOver(int left, int top, int right, int bottom) const {
   const size_t stride = camera_.width + 1;
-  const Sums& a = integral_[top * stride + left];
-  const Sums& b = integral_[top * stride + right + 1];
-  const Sums& c = integral_[(bottom + 1) * stride + left];
-  const Sums& d = integral_[(bottom + 1) * stride + right + 1];
-  Sums sums;
-  for (int i = 0; i < 4; ++i) sums[i] = d[i] - b[i] - c[i] + a[i];
-  return sums;
+  const DepthSums* above = &integral_[top * stride];
+  const DepthSums* below = &integral_[(bottom + 1) * stride];
+  return below[right + 1] - above[right + 1] - below[left] + above[left];
 }
 
-// Of a normal at depth z from a window of that radius. The mean points of two halves lie radius
-// pixels, radius z / f metres, apart; each has noise z^2 sigma_w / sqrt(n) along the ray, with n =
-// 2 radius^2 / correlation^2 independent pixels. The quotient is the angle.
-double SurfaceNormalEstimator::Sigma(double z, double radius) const {
-  return z * camera_.FocalLength() * options_.inverse_depth_sigma * options_.correlation /
-         (radius * radius);
+// Standard deviation of a normal's angle at depth z, radians, for a window of the given radius. The
+// mean points of the two halves of a window are radius pixels, radius z / f metres, apart; the
+// noise of each along the ray is z^2 sigma_w / sqrt(n), with n = 2 radius^2 / correlation^2
+// independent pixels. The angle is the quotient.
+double SurfaceNormalEstimator::NormalSigma(double z, double radius) const {
+  return z * camera_.FocalLength() * kInverseDepthSigma * kCorrelationLength / (radius * radius);
 }
 
-// The largest window, from what depth z asks for downwards, without a depth edge.
-bool SurfaceNormalEstimator::FitWindow(int x, int y, double z, Window* window) const {
-  const double wanted = std::sqrt(Sigma(z, 1.0) / options_.target_sigma);
-  int radius = static_cast<int>(
-      std::clamp<double>(std::ceil(wanted), options_.min_radius, options_.max_radius));
-  for (; radius >= options_.min_radius; radius = radius * 3 / 4) {
+// Selects the largest window without a depth edge, from the one that meets kTargetSigma at depth z
+// downwards. Returns false if there is none with enough depth.
+bool SurfaceNormalEstimator::SelectWindow(int x, int y, double z, Window* window) const {
+  const double wanted = std::sqrt(NormalSigma(z, 1.0) / kTargetSigma);
+  int radius = static_cast<int>(std::clamp<double>(std::ceil(wanted), kMinRadius, kMaxRadius));
+  for (; radius >= kMinRadius; radius = radius * 3 / 4) {
     *window = {x,
                y,
                radius,
@@ -167,33 +146,30 @@ bool SurfaceNormalEstimator::FitWindow(int x, int y, double z, Window* window) c
                std::max(y - radius, 0),
                std::min(x + radius, camera_.width - 1),
                std::min(y + radius, camera_.height - 1)};
-    const uint32_t sums = SumOver(window->left, window->top, window->right, window->bottom)[3];
-    if (Edges(sums) == 0) {
-      const int area = (window->right - window->left + 1) * (window->bottom - window->top + 1);
-      return Count(sums) >= options_.min_valid * area;
-    }
+    const DepthSums sums = SumOver(window->left, window->top, window->right, window->bottom);
+    if (sums.NumEdges() == 0) return sums.NumPoints() >= kMinValidRatio * window->Area();
   }
   return false;
 }
 
-bool SurfaceNormalEstimator::NormalAt(const Window& window, SurfaceNormal* normal) const {
-  const Sums left = SumOver(window.left, window.top, window.x - 1, window.bottom);
-  const Sums right = SumOver(window.x + 1, window.top, window.right, window.bottom);
-  const Sums upper = SumOver(window.left, window.top, window.right, window.y - 1);
-  const Sums lower = SumOver(window.left, window.y + 1, window.right, window.bottom);
-  for (const Sums& half : {left, right, upper, lower}) {
-    if (Count(half[3]) == 0) return false;
+bool SurfaceNormalEstimator::EstimateInWindow(const Window& window, SurfaceNormal* normal) const {
+  const DepthSums left = SumOver(window.left, window.top, window.x - 1, window.bottom);
+  const DepthSums right = SumOver(window.x + 1, window.top, window.right, window.bottom);
+  const DepthSums upper = SumOver(window.left, window.top, window.right, window.y - 1);
+  const DepthSums lower = SumOver(window.left, window.y + 1, window.right, window.bottom);
+  for (const DepthSums* half : {&left, &right, &upper, &lower}) {
+    if (half->NumPoints() == 0) return false;
   }
-  const Vector3d horizontal = MeanPoint(right) - MeanPoint(left);
-  const Vector3d vertical = MeanPoint(lower) - MeanPoint(upper);
+  const Vector3d horizontal = right.MeanPoint() - left.MeanPoint();
+  const Vector3d vertical = lower.MeanPoint() - upper.MeanPoint();
   const Vector3d cross = horizontal.cross(vertical);
-  if (cross.norm() < 1e-12) return false;  // less than a kUnit long
-  normal->position = MeanPoint(SumOver(window.left, window.top, window.right, window.bottom));
+  if (cross.norm() < 1e-12) return false;  // tangents shorter than DepthSums::kUnit
+  normal->position = SumOver(window.left, window.top, window.right, window.bottom).MeanPoint();
   normal->direction = cross.normalized();
   if (normal->direction.dot(normal->position) > 0.0) normal->direction = -normal->direction;
   const double cosine = -normal->direction.dot(normal->position.normalized());
-  if (cosine < std::cos(options_.max_incidence)) return false;
-  normal->sigma = Sigma(normal->position.z(), window.radius);
+  if (cosine < std::cos(kMaxIncidence)) return false;
+  normal->sigma = NormalSigma(normal->position.z(), window.radius);
   return true;
 }
 
@@ -202,7 +178,7 @@ std::vector<SurfaceNormal> SurfaceNormalEstimator::Estimate(const cv::Mat& depth
     throw std::invalid_argument(
         "SurfaceNormalEstimator: the depth image must be float (CV_32FC1, metres) of " +
         std::to_string(camera_.width) + "x" + std::to_string(camera_.height) +
-        " pixels, as the camera says; it is " + std::to_string(depth.cols) + "x" +
+        " pixels, like the camera; it is " + std::to_string(depth.cols) + "x" +
         std::to_string(depth.rows) + ", OpenCV type " + std::to_string(depth.type()));
   }
   Integrate(depth);
@@ -214,7 +190,9 @@ std::vector<SurfaceNormal> SurfaceNormalEstimator::Estimate(const cv::Mat& depth
       Window window;
       SurfaceNormal normal;
       if (!(z >= options_.min_depth && z <= options_.max_depth)) continue;
-      if (FitWindow(x, y, z, &window) && NormalAt(window, &normal)) normals.push_back(normal);
+      if (SelectWindow(x, y, z, &window) && EstimateInWindow(window, &normal)) {
+        normals.push_back(normal);
+      }
     }
   }
   return normals;

@@ -8,79 +8,72 @@ namespace msc_vo {
 namespace {
 
 void ListPoints(PointExtractorOptions* points, OptionLister* list) {
-  list->Add("num_points", &points->num_points, {0, 20000}, "per image, at most");
-  list->Add("num_levels", &points->num_levels, {1, 32}, "of the image pyramid");
-  list->Add("fast_threshold", &points->fast_threshold, {1, 255}, "grey values, of a FAST corner");
-  list->Add("min_fast_threshold", &points->min_fast_threshold, {1, 255},
-            "grey values, where there is no corner at fast_threshold");
-}
-
-void ListLineMerging(LineMergingOptions* merging, OptionLister* list) {
-  list->Add("max_angle", &merging->max_angle, {0, 0.78}, "radians, between pieces of one line");
-  list->Add("max_distance", &merging->max_distance, {0, 100},
-            "pixels, of end points from the common line");
-  list->Add("max_gap", &merging->max_gap, {0, 1000}, "pixels, along the line");
+  list->Add("num_points", &points->num_points, {0, 20000, "points"},
+            "Largest number of points per image.")
+      .MakeBasic("Increase for scenes with little texture, decrease to save time.");
+  list->Add("num_levels", &points->num_levels, {1, 32, "levels"},
+            "Number of levels of the image pyramid.");
+  list->Add("fast_threshold", &points->fast_threshold, {1, 255, "grey values"},
+            "Contrast threshold of FAST corners.");
+  list->Add("min_fast_threshold", &points->min_fast_threshold, {1, 255, "grey values"},
+            "Contrast threshold in image cells without a corner at fast_threshold.");
 }
 
 void ListLines(LineExtractorOptions* lines, OptionLister* list) {
   list->AddChoice("detector", &lines->detector, {"lsd", "edge-drawing"},
-                  "the paper's, or a several times faster one");
-  list->Add("max_lines", &lines->max_lines, {0, 10000}, "per image, the longest are kept");
+                  "Line segment detector: LSD, as in the paper, or edge drawing, which is several "
+                  "times faster.")
+      .MakeBasic("Choose lsd to reproduce the paper.");
+  list->Add("max_lines", &lines->max_lines, {0, 10000, "lines"},
+            "Largest number of lines per image; the longest are kept.")
+      .MakeBasic("Decrease to save time.");
   list->Add("min_length", &lines->min_length, {0.001, 1},
-            "of a line, as part of the image's shorter side");
-  list->Section("merging", &lines->merging, ListLineMerging);
+            "Smallest length of a line, as a fraction of the image's shorter side.");
 }
 
 void ListNoise(SensorNoiseOptions* noise, OptionLister* list) {
-  list->Add("inverse_depth_sigma", &noise->inverse_depth_sigma, {1e-6, 1},
-            "1/metres, of the depth sensor, systematic part included");
-  list->Add("inverse_depth_noise", &noise->inverse_depth_noise, {1e-6, 1},
-            "1/metres, its random part: tells outliers within one image");
-  list->Add("point_sigma", &noise->point_sigma, {0.001, 100}, "pixels, of a point on level 0");
-  list->Add("line_sigma", &noise->line_sigma, {0.001, 100},
-            "pixels, of a segment's end across the line");
+  list->Add("inverse_depth_sigma", &noise->inverse_depth_sigma, {1e-6, 1, "per metre"},
+            "Initial standard deviation of inverse depth, systematic errors included.")
+      .MakeBasic("Set it for a depth sensor that is much better or worse than a Kinect.");
+  list->Add("inverse_depth_noise", &noise->inverse_depth_noise, {1e-6, 1, "per metre"},
+            "Standard deviation of the random part of inverse depth, for the detection of outliers "
+            "and depth edges within one image.");
+  list->Add("point_sigma", &noise->point_sigma, {0.001, 100, "pixels"},
+            "Standard deviation of a point on pyramid level 0.")
+      .MakeBasic("Increase for blurred or strongly compressed images.");
+  list->Add("line_sigma", &noise->line_sigma, {0.001, 100, "pixels"},
+            "Initial standard deviation of a segment's end point across the line.")
+      .MakeBasic("Increase for blurred or strongly compressed images.");
 }
 
 void ListLineFit(LineFitOptions* fit, OptionLister* list) {
-  list->Add("inlier_sigmas", &fit->inlier_sigmas, {0.01, 100},
-            "a depth sample is an inlier below this");
-  list->Add("max_iterations", &fit->max_iterations, {1, 10000}, "pairs of samples tried");
-  list->Add("min_inlier_ratio", &fit->min_inlier_ratio, {0, 1}, "below this the line stays 2-D");
-  list->Add("min_inliers", &fit->min_inliers, {2, 10000}, "below this the line stays 2-D");
+  list->Add("inlier_sigmas", &fit->inlier_sigmas, {0.01, 100, "sigmas"},
+            "Largest residual of a depth sample that is an inlier.");
+  list->Add("max_iterations", &fit->max_iterations, {1, 10000, "iterations"},
+            "Largest number of RANSAC iterations.");
+  list->Add("min_inlier_ratio", &fit->min_inlier_ratio, {0, 1},
+            "Smallest ratio of inliers of a line with depth.");
+  list->Add("min_inliers", &fit->min_inliers, {2, 10000, "samples"},
+            "Smallest number of inliers of a line with depth.");
 }
 
 }  // namespace
 
 void ListFeatures(FrameBuilderOptions* features, OptionLister* list) {
+  // Below the largest depth that surface normals can be estimated at (NormalOptions).
+  constexpr double kLargestMinDepth = 20.0;
+  list->Add("min_depth", &features->min_depth, {0.001, kLargestMinDepth, "metres"},
+            "Smallest valid depth.")
+      .MakeBasic("Set it to the range of the depth sensor.");
+  list->Add("max_depth", &features->max_depth, {0.001, 1000, "metres"}, "Largest valid depth.")
+      .MakeBasic("Set it to the range of the depth sensor.");
+  list->AddChoice("line_depth", &features->line_depth, {"robust-fit", "end-points"},
+                  "Depth of a line: robust fit to all depth samples along it, or the depths of its "
+                  "end points. Mode pl-vo always uses end-points.");
   list->Section("points", &features->points, ListPoints);
   list->Section("lines", &features->lines, ListLines);
   list->Section("noise", &features->noise, ListNoise);
   list->Section("line_fit", &features->line_fit, ListLineFit);
-  list->AddChoice("line_depth", &features->line_depth, {"robust-fit", "end-points"},
-                  "how a line gets its depth; mode pl-vo always takes end-points");
-  list->Add("min_depth", &features->min_depth, {0.001, 1000},
-            "metres; nearer measurements are not valid");
-  list->Add("max_depth", &features->max_depth, {0.001, 1000},
-            "metres; farther measurements are not valid");
-}
-
-void ListNormals(SurfaceNormalOptions* normals, OptionLister* list) {
-  list->Add("grid_step", &normals->grid_step, {8, 1000}, "pixels between normals");
-  list->Add("target_sigma", &normals->target_sigma, {1e-4, 1.57},
-            "radians that noise may tilt a normal");
-  list->Add("inverse_depth_sigma", &normals->inverse_depth_sigma, {1e-6, 1},
-            "1/metres, random part");
-  list->Add("correlation", &normals->correlation, {1, 100}, "pixels within which depth errs alike");
-  list->Add("min_radius", &normals->min_radius, {1, 50}, "pixels, of a normal's window");
-  list->Add("max_radius", &normals->max_radius, {1, 50}, "pixels, of a normal's window");
-  list->Add("max_incidence", &normals->max_incidence, {0.01, 1.57},
-            "radians between ray and normal");
-  list->Add("min_valid", &normals->min_valid, {0.001, 1},
-            "part of the window that must have a depth");
-  list->Add("min_depth", &normals->min_depth, {0.001, 25},
-            "metres; nearer measurements are not valid");
-  list->Add("max_depth", &normals->max_depth, {0.001, 25},
-            "metres; farther measurements are not valid");
 }
 
 }  // namespace msc_vo

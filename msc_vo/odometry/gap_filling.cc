@@ -9,12 +9,8 @@ namespace msc_vo {
 
 namespace {
 
-bool IsEstimated(const FrameResult& frame) {
-  return frame.status == TrackingStatus::kTracked || frame.status == TrackingStatus::kWeak;
-}
-
-// The pose at share `s` of the way from `a` to `b`: the centre on the straight line, the rotation
-// about the fixed axis between the two.
+// Interpolates from `a` (s = 0) to `b` (s = 1): the centre along the straight line, the rotation
+// about a fixed axis.
 Rigid3 Interpolate(const Rigid3& a, const Rigid3& b, double s) {
   const Eigen::Vector3d center = (1.0 - s) * a.OriginInSource() + s * b.OriginInSource();
   const Eigen::Quaterniond rotation =
@@ -25,14 +21,14 @@ Rigid3 Interpolate(const Rigid3& a, const Rigid3& b, double s) {
 }  // namespace
 
 void FillGaps(std::vector<FrameResult>* frames) {
-  size_t before = frames->size();  // the last estimated frame; size(): none yet
+  size_t before = frames->size();  // index of the last estimated frame; size(): none
   for (size_t i = 0; i < frames->size(); ++i) {
-    if (!IsEstimated((*frames)[i])) continue;
+    if (!IsEstimated((*frames)[i].status)) continue;
     for (size_t gap = before + 1; before < frames->size() && gap < i; ++gap) {
       const FrameResult& a = (*frames)[before];
       const FrameResult& b = (*frames)[i];
-      const double share = ((*frames)[gap].timestamp - a.timestamp) / (b.timestamp - a.timestamp);
-      (*frames)[gap].cam_from_world = Interpolate(a.cam_from_world, b.cam_from_world, share);
+      const double s = ((*frames)[gap].timestamp - a.timestamp) / (b.timestamp - a.timestamp);
+      (*frames)[gap].cam_from_world = Interpolate(a.cam_from_world, b.cam_from_world, s);
     }
     before = i;
   }

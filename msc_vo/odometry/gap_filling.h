@@ -9,10 +9,10 @@
 
 namespace msc_vo {
 
-// Gives every frame without an estimated pose (predicted or lost) the pose between its neighbours
-// that have one, at constant velocity: once the camera was found again, that is a better guess than
-// what was predicted before. Frames before the first estimate or after the last keep theirs.
-// Statuses do not change. Frames are in order of time.
+/// Replaces the pose of every frame without an estimate (predicted, lost, dropped, unreadable) by
+/// interpolation between its neighbours with one, at constant velocity: more accurate than the
+/// prediction from the frames before the gap. Frames before the first estimate or after the last
+/// one, and statuses, do not change. Frames are in order of time.
 void FillGaps(std::vector<FrameResult>* frames);
 
 }  // namespace msc_vo

@@ -7,168 +7,220 @@ namespace msc_vo {
 
 namespace {
 
+// Relations of lines in one frame; their thresholds are those of the pairs of the map.
 void ListFrameStructure(FrameStructureOptions* structure, OptionLister* list) {
-  list->Add("max_angle", &structure->max_angle, {0.01, 44},
-            "degrees of a pair's angle from 0 or 90");
-  list->Add("pair_sigma", &structure->pair_sigma, {0.001, 90},
-            "degrees, of the angle of what was built so");
-  list->Add("gate_sigmas", &structure->gate_sigmas, {0.01, 100}, "of the angle of a pair");
-  list->Add("max_partners", &structure->max_partners, {1, 100}, "of each kind that a line chooses");
-  list->Add("huber", &structure->huber, {0.01, 1000},
-            "sigmas; where the loss turns from square to linear");
-  list->Add("max_iterations", &structure->max_iterations, {1, 1000}, "at most");
+  list->Add("huber", &structure->huber, {0.01, 1000, "sigmas"}, "Huber threshold of a pair.");
+  list->Add("max_iterations", &structure->max_iterations, {1, 1000, "iterations"},
+            "Largest number of iterations.");
 }
 
 void ListFusion(FusionOptions* fusion, OptionLister* list) {
-  list->Section("point_matcher", &fusion->point_matcher, ListPointMatcher);
-  list->Section("line_matcher", &fusion->line_matcher, ListLineMatcher);
-  list->Add("max_neighbours", &fusion->max_neighbours, {0, 1000},
-            "keyframes searched for duplicates");
-  list->Add("radius", &fusion->radius, {0.01, 1000}, "pixels between a landmark and its feature");
-  list->Add("max_line_angle", &fusion->max_line_angle, {0.01, 90}, "degrees between duplicates");
+  list->Add("max_neighbours", &fusion->max_neighbours, {0, 1000, "keyframes"},
+            "Number of covisible keyframes that are searched for duplicate landmarks.");
+  list->Add("radius", &fusion->radius, {0.01, 1000, "pixels"},
+            "Search radius around the projection of a landmark.");
+  list->Add("max_line_angle", &fusion->max_line_angle, {0.01, 90, "degrees"},
+            "Largest angle between duplicate lines.");
   list->Add("max_line_offset", &fusion->max_line_offset, {1e-4, 10},
-            "between duplicates, part of the depth");
+            "Largest distance between duplicate lines, as a fraction of the depth.");
 }
 
 void ListSelection(WindowSelectionOptions* selection, OptionLister* list) {
-  list->Add("max_keyframes", &selection->max_keyframes, {1, 100}, "optimised together");
-  list->Add("max_fixed_keyframes", &selection->max_fixed_keyframes, {0, 1000}, "that only observe");
-  list->Add("min_shared", &selection->min_shared, {0, 10000},
-            "landmarks with the current keyframe");
-  list->Add("min_observations", &selection->min_observations, {1, 1000}, "of a landmark");
+  list->Add("max_keyframes", &selection->max_keyframes, {1, 100, "keyframes"},
+            "Largest number of keyframes that local bundle adjustment optimises.");
+  list->Add("max_fixed_keyframes", &selection->max_fixed_keyframes, {0, 1000, "keyframes"},
+            "Largest number of keyframes that observe its landmarks and are held fixed.");
+  list->Add("min_shared", &selection->min_shared, {0, 10000, "landmarks"},
+            "Smallest number of landmarks that a keyframe shares with the current one.");
+  list->Add("min_observations", &selection->min_observations, {1, 1000, "observations"},
+            "Smallest number of observations of a landmark in local bundle adjustment.");
+}
+
+void ListTerm(TermOptions* term, OptionLister* list) {
+  list->Add("enabled", &term->enabled, "Use the term.");
+  list->Add("huber", &term->huber, {0.01, 1000, "sigmas"}, "Huber threshold of the term.");
 }
 
 void ListLandmarkNoise(LandmarkNoiseOptions* noise, OptionLister* list) {
-  list->Add("enabled", &noise->enabled, "whether every landmark has a noise of its own");
-  list->Add("prior", &noise->prior, {0.001, 1e6}, "residuals that a noise of 1 counts as");
-  list->Add("depth_offset_sigma", &noise->depth_offset_sigma, {1e-6, 10},
-            "metres, of what depths of a line are off in all views alike");
+  list->Add("enabled", &noise->enabled, "Estimate a noise scale for each landmark.");
+  list->Add("prior", &noise->prior, {0.001, 1e6, "residuals"},
+            "Weight of the prior noise scale of 1.");
+  list->Add("depth_offset_sigma", &noise->depth_offset_sigma, {1e-6, 10, "metres"},
+            "Standard deviation of the depth error of a line that all views have in common.");
+}
+
+// The terms that pose optimisation has too use the same settings there.
+void ListWindowTerms(BundleAdjustmentOptions* window, OptionLister* list) {
+  list->Section("point_reprojection", &window->point_reprojection, ListTerm);
+  list->Section("point_depth", &window->point_depth, ListTerm);
+  list->Section("line_reprojection", &window->line_reprojection, ListTerm);
+  list->Section("line_depth", &window->line_depth, ListTerm);
+  list->Section("parallel", &window->parallel, ListTerm);
+  list->Section("perpendicular", &window->perpendicular, ListTerm);
+  list->Section("manhattan", &window->manhattan, ListTerm);
 }
 
 void ListWindow(BundleAdjustmentOptions* window, OptionLister* list) {
   list->AddChoice("solver", &window->solver,
                   {"block-schur", "ceres-dense-schur", "ceres-suite-sparse", "ceres-eigen-sparse"},
-                  "what minimises the window's sum; the first is the fastest");
+                  "Solver of local bundle adjustment.")
+      .MakeBasic("Choose a Ceres solver for comparison; block-schur is the fastest.");
   list->Add("analytic_jacobians", &window->analytic_jacobians,
-            "of the Ceres solvers; off: automatic derivatives");
+            "Analytic instead of automatic derivatives in the Ceres solvers.");
   list->Add("explicit_ordering", &window->explicit_ordering,
-            "of the Ceres solvers; off: Ceres chooses what it eliminates first");
-  ListTerms(window, list);
-  list->Section("parallel", &window->parallel, ListTerm);
-  list->Section("perpendicular", &window->perpendicular, ListTerm);
-  list->Section("manhattan", &window->manhattan, ListTerm);
-  list->Add("reject_chi2_1", &window->reject_chi2_1, {0.001, 10000},
-            "chi-square limit of 1 residual");
+            "Set the elimination ordering of the Ceres solvers instead of leaving it to Ceres.");
   list->Add("line_endpoint_prior", &window->line_endpoint_prior,
-            "whether end points are held along their line");
-  list->Add("line_endpoint_prior_sigma", &window->line_endpoint_prior_sigma, {1e-6, 100},
-            "metres, of the prior that keeps end points from sliding along their line");
+            "Prior on the end points of a line along its direction.");
+  list->Add("line_endpoint_prior_sigma", &window->line_endpoint_prior_sigma, {1e-6, 100, "metres"},
+            "Standard deviation of the end-point prior.");
+  constexpr char kRejection[] = " of an outlier, in bundle adjustment and in pose optimisation.";
+  list->Add("reject_chi2_1", &window->reject_chi2_1, {0.001, 10000},
+            "Smallest chi-square with 1 degree of freedom of an outlier.");
+  list->Add("reject_chi2_2", &window->reject_chi2_2, {0.001, 10000},
+            std::string("Smallest chi-square with 2 degrees of freedom") + kRejection);
+  list->Add("reject_chi2_3", &window->reject_chi2_3, {0.001, 10000},
+            std::string("Smallest chi-square with 3 degrees of freedom") + kRejection);
+  list->Add("reject_chi2_4", &window->reject_chi2_4, {0.001, 10000},
+            std::string("Smallest chi-square with 4 degrees of freedom") + kRejection);
+  list->Add("first_iterations", &window->first_iterations, {1, 100, "iterations"},
+            "Iterations of the first solve, with all observations.");
+  list->Add("second_iterations", &window->second_iterations, {1, 100, "iterations"},
+            "Iterations of the second solve, without outliers.");
+  ListWindowTerms(window, list);
   list->Section("landmark_noise", &window->landmark_noise, ListLandmarkNoise);
-  list->Add("first_iterations", &window->first_iterations, {1, 100}, "with all observations");
-  list->Add("second_iterations", &window->second_iterations, {1, 100}, "after rejection");
 }
 
 void ListPairs(StructuralPairOptions* pairs, OptionLister* list) {
-  list->Add("parallel", &pairs->parallel, "whether parallel lines are bound; mode msc-vo only");
-  list->Add("perpendicular", &pairs->perpendicular, "the same for perpendicular ones");
-  list->Add("max_angle", &pairs->max_angle, {0.01, 44}, "degrees of a pair's angle from 0 or 90");
-  list->Add("pair_sigma", &pairs->pair_sigma, {0.001, 90},
-            "degrees, of the angle of what was built so");
-  list->Add("gate_sigmas", &pairs->gate_sigmas, {0.01, 100}, "of the angle of a pair");
-  list->Add("max_partners", &pairs->max_partners, {1, 100}, "of each kind that a line chooses");
+  list->Add("parallel", &pairs->parallel,
+            "Constrain pairs of parallel lines of the map. Mode msc-vo only.")
+      .MakeBasic("Disable for comparison.");
+  list->Add("perpendicular", &pairs->perpendicular,
+            "Constrain pairs of perpendicular lines of the map. Mode msc-vo only.")
+      .MakeBasic("Disable for comparison.");
+  list->Add("max_angle", &pairs->max_angle, {0.01, 44, "degrees"},
+            "Largest deviation of a pair's angle from 0 or 90 degrees, in the map and in a frame.");
+  list->Add("pair_sigma", &pairs->pair_sigma, {0.001, 90, "degrees"},
+            "Standard deviation of the true angle of lines that were built parallel, perpendicular "
+            "or along a Manhattan axis.");
+  list->Add("gate_sigmas", &pairs->gate_sigmas, {0.01, 100, "sigmas"},
+            "Largest deviation of a pair's measured angle.");
+  list->Add("max_partners", &pairs->max_partners, {1, 100, "lines"},
+            "Largest number of partners of each kind per line.");
 }
 
 void ListCoarseAxes(CoarseAxesOptions* coarse, OptionLister* list) {
-  list->Add("max_angle", &coarse->max_angle, {0.01, 44}, "degrees, half angle of an axis' cone");
-  list->Add("max_sigma", &coarse->max_sigma, {0.01, 90},
-            "degrees; evidence known worse does not count");
-  list->Add("first_bandwidth", &coarse->first_bandwidth, {0.01, 14.9},
-            "degrees, of the mean shift's kernel");
-  list->Add("last_bandwidth", &coarse->last_bandwidth, {0.01, 14.9},
-            "degrees, of the mean shift's kernel");
+  list->Add("max_angle", &coarse->max_angle, {0.01, 44, "degrees"},
+            "Half angle of the cone of an axis.");
+  list->Add("max_sigma", &coarse->max_sigma, {0.01, 90, "degrees"},
+            "Largest standard deviation of a direction that is used.");
+  list->Add("first_bandwidth", &coarse->first_bandwidth, {0.01, 14.9, "degrees"},
+            "Initial bandwidth of mean shift.");
+  list->Add("last_bandwidth", &coarse->last_bandwidth, {0.01, 14.9, "degrees"},
+            "Final bandwidth of mean shift.");
   list->Add("min_explained_ratio", &coarse->min_explained_ratio, {0, 1},
-            "of the evidence that axes must explain");
+            "Smallest fraction of the directions that the axes explain.");
   list->Add("max_rival", &coarse->max_rival, {0.001, 1},
-            "what other axes may explain, relative to the best");
+            "Largest support of other axes, as a fraction of that of the best axes.");
   list->Add("min_axis_ratio", &coarse->min_axis_ratio, {0, 1},
-            "of the evidence for one axis to count");
-  list->Add("max_misfit", &coarse->max_misfit, {0.01, 90},
-            "degrees, mean of an axis' evidence off it");
+            "Smallest fraction of the directions in the cone of an axis with support.");
+  list->Add("max_misfit", &coarse->max_misfit, {0.01, 90, "degrees"},
+            "Largest angle between an axis and the mean of its directions.");
   list->Add("max_false_alarms", &coarse->max_false_alarms, {1e-30, 1e6},
-            "axes expected in random evidence");
+            "Largest expected number of axes with as much support in random directions.");
 }
 
 void ListAxisAssociation(AxisAssociationOptions* association, OptionLister* list) {
-  list->Add("max_sigmas", &association->max_sigmas, {0.01, 100}, "between a line and its axis");
-  list->Add("max_angle", &association->max_angle, {0.01, 44},
-            "degrees between a line and its axis");
-  list->Add("max_sigma", &association->max_sigma, {0.01, 90},
-            "degrees; lines known worse have no axis");
+  list->Add("max_sigmas", &association->max_sigmas, {0.01, 100, "sigmas"},
+            "Largest angle between a line and its axis, relative to its standard deviation.");
+  list->Add("max_angle", &association->max_angle, {0.01, 44, "degrees"},
+            "Largest angle between a line and its axis.");
+  list->Add("max_sigma", &association->max_sigma, {0.01, 90, "degrees"},
+            "Largest standard deviation of the direction of a line on an axis.");
 }
 
 void ListAxesRefinement(ManhattanAxesOptions* refinement, OptionLister* list) {
-  list->Add("huber", &refinement->huber, {0.01, 1000},
-            "sigmas; where the loss turns from square to linear");
-  list->Add("reject_chi2_2", &refinement->reject_chi2_2, {0.001, 10000},
-            "chi-square limit of 2 residuals");
-  list->Add("num_rounds", &refinement->num_rounds, {1, 100},
-            "of solving and classifying all views");
-  list->Add("iterations_per_round", &refinement->iterations_per_round, {1, 100}, "at most");
-  list->Add("min_inliers", &refinement->min_inliers, {2, 10000}, "views of lines that must agree");
+  list->Add("num_rounds", &refinement->num_rounds, {1, 100, "rounds"},
+            "Rounds of optimisation and classification of all observations.");
+  list->Add("iterations_per_round", &refinement->iterations_per_round, {1, 100, "iterations"},
+            "Largest number of iterations of a round.");
+  list->Add("min_inliers", &refinement->min_inliers, {2, 10000, "observations"},
+            "Smallest number of inliers of refined axes.");
 }
 
 void ListAxesEstimator(AxesEstimatorOptions* estimator, OptionLister* list) {
-  list->Add("coarse_sigma", &estimator->coarse_sigma, {0.001, 90},
-            "degrees, of axes from one keyframe");
-  list->Add("min_keyframes", &estimator->min_keyframes, {1, 10000}, "in the map, for a refinement");
-  list->Add("min_axis_lines", &estimator->min_axis_lines, {2, 10000},
-            "in the map, for a refinement");
+  list->Add("coarse_sigma", &estimator->coarse_sigma, {0.001, 90, "degrees"},
+            "Standard deviation of axes from one keyframe.");
+  list->Add("min_keyframes", &estimator->min_keyframes, {1, 10000, "keyframes"},
+            "Smallest number of keyframes for a refinement.");
+  list->Add("min_axis_lines", &estimator->min_axis_lines, {2, 10000, "lines"},
+            "Smallest number of lines on axes for a refinement.");
   list->Add("min_growth", &estimator->min_growth, {1.001, 100},
-            "of the lines on axes, for the next refinement");
+            "Factor by which the number of lines on axes grows between refinements.");
   list->Add("min_line_ratio", &estimator->min_line_ratio, {0, 1},
-            "of lines on axes, or they are dropped");
-  list->Add("max_correction", &estimator->max_correction, {0.01, 90},
-            "degrees that a refinement may turn");
-  list->Add("freeze_sigma", &estimator->freeze_sigma, {0, 90}, "degrees; axes known better stay");
+            "Smallest fraction of the lines on axes; coarse axes below it are dropped.");
+  list->Add("max_correction", &estimator->max_correction, {0.01, 90, "degrees"},
+            "Largest rotation by a refinement.");
+  list->Add("freeze_sigma", &estimator->freeze_sigma, {0, 90, "degrees"},
+            "Standard deviation below which axes are frozen.");
 }
 
 void ListNoiseEstimator(NoiseEstimatorOptions* noise, OptionLister* list) {
-  list->Add("enabled", &noise->enabled, "whether the sigmas of features are learnt from residuals");
-  list->Add("prior", &noise->prior, {0.001, 1e9},
-            "quarters of images that the initial sigmas count as");
-  list->Add("memory", &noise->memory, {0.001, 1e9},
-            "quarters of images that the estimate rests on");
-  list->Add("max_scale", &noise->max_scale, {1, 100}, "how far sigmas may grow, and shrink");
+  list->Add("enabled", &noise->enabled, "Self-calibrate the sigmas of lines and depths.");
+  list->Add("prior", &noise->prior, {0.001, 1e9, "image quarters"},
+            "Weight of the initial sigmas, as a number of observed quarters of images.");
+  list->Add("memory", &noise->memory, {0.001, 1e9, "image quarters"},
+            "Number of observed quarters of images that the estimate depends on.");
+  list->Add("max_scale", &noise->max_scale, {1, 100},
+            "Largest factor by which sigmas increase or decrease.");
 }
 
 void ListAxes(SceneAxesOptions* axes, OptionLister* list) {
-  list->Add("enabled", &axes->enabled, "whether Manhattan axes are used; mode msc-vo only");
+  list->Add("enabled", &axes->enabled,
+            "Estimate Manhattan axes and align lines with them. Mode msc-vo only.")
+      .MakeBasic("Disable for comparison.");
   list->Section("coarse", &axes->coarse, ListCoarseAxes);
   list->Section("association", &axes->association, ListAxisAssociation);
   list->Section("refinement", &axes->refinement, ListAxesRefinement);
   list->Section("estimator", &axes->estimator, ListAxesEstimator);
-  list->Add("deviation", &axes->deviation, {0.001, 90},
-            "degrees, of lines from the axes they were built along");
 }
 
 void ListCulling(CullingOptions* culling, OptionLister* list) {
-  list->Add("probation_keyframes", &culling->probation_keyframes, {1, 1000}, "of a new landmark");
-  list->Add("min_observations", &culling->min_observations, {1, 1000},
-            "that a landmark must reach by then");
+  list->Add("probation_keyframes", &culling->probation_keyframes, {1, 1000, "keyframes"},
+            "Keyframes during which a new landmark is on probation.");
+  list->Add("min_observations", &culling->min_observations, {1, 1000, "observations"},
+            "Smallest number of observations of a landmark after its probation.");
   list->Add("min_found_ratio", &culling->min_found_ratio, {0, 1},
-            "frames that find it / should show it");
+            "Smallest ratio of frames that match a landmark on probation to frames in which it is "
+            "predicted to be visible.");
   list->Add("redundant_ratio", &culling->redundant_ratio, {0.001, 1},
-            "of a keyframe's landmarks that others show as well");
-  list->Add("redundant_observers", &culling->redundant_observers, {1, 1000}, "how many others");
+            "Fraction of its landmarks that others observe above which a keyframe is redundant.");
+  list->Add("redundant_observers", &culling->redundant_observers, {1, 1000, "keyframes"},
+            "Number of other keyframes that must observe such a landmark.");
 }
 
 }  // namespace
 
+void ListSnapshots(SnapshotOptions* snapshots, OptionLister* list) {
+  list->Add("latency_frames", &snapshots->latency_frames, {0, 1000, "frames"},
+            "Frames from a keyframe to the first one that is tracked in the map refined with it.")
+      .MakeBasic("Increase if frames wait for the mapper; 0: no parallel mapping.");
+  list->Add("insertion_latency_frames", &snapshots->insertion_latency_frames, {0, 1000, "frames"},
+            "Frames from a keyframe to the first one that is tracked in a map with its new "
+            "landmarks.");
+}
+
 void ListMapping(MapperOptions* mapping, OptionLister* list) {
-  list->AddChoice(
-      "frame_structure", &mapping->frame_structure, {"without-pairs", "always", "never"},
-      "when parallel and perpendicular lines of a keyframe refine each other's depth: where the "
-      "map has no pairs (mode pl-vo-depth), always, or never (mode pl-vo)");
+  list->Add("readout_time", &mapping->readout_time, {-0.99, 0.99, "seconds"},
+            "Readout time of a rolling shutter, from the first image row to the last; 0: global "
+            "shutter. Estimated if not set.")
+      .MakeBasic("Set it if it is known.");
+  list->AddChoice("frame_structure", &mapping->frame_structure,
+                  {"without-pairs", "always", "never"},
+                  "When parallel and perpendicular lines of a keyframe refine the depths of each "
+                  "other: if the map has no pairs (as in mode pl-vo-depth), always, or never (as "
+                  "in mode pl-vo).");
+  list->Add("min_window_interval", &mapping->min_window_interval, {0, 3600, "seconds"},
+            "Smallest time between keyframes with local bundle adjustment.");
   list->Section("structure", &mapping->structure, ListFrameStructure);
   list->Section("fusion", &mapping->fusion, ListFusion);
   list->Section("selection", &mapping->selection, ListSelection);
@@ -176,12 +228,7 @@ void ListMapping(MapperOptions* mapping, OptionLister* list) {
   list->Section("axes", &mapping->axes, ListAxes);
   list->Section("pairs", &mapping->pairs, ListPairs);
   list->Section("window", &mapping->window, ListWindow);
-  list->Add("min_window_interval", &mapping->min_window_interval, {0, 3600},
-            "seconds from a keyframe with a window to the next one, at least");
   list->Section("culling", &mapping->culling, ListCulling);
-  list->Add("readout_time", &mapping->readout_time, {-0.99, 0.99},
-            "seconds from the first row of an image to its last, 0: global shutter; learnt if not "
-            "given");
 }
 
 }  // namespace msc_vo

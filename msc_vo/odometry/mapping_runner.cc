@@ -19,7 +19,7 @@ namespace {
 
 using MappingCall = std::function<void(MappingSummary*)>;
 
-// What a call of the mapper adds to the step before.
+// Runs a call of the mapper and returns `step`, the previous one of the keyframe, updated.
 MappingStep RunStep(const MappingCall& call, Mapper* mapper, MappingStep step) {
   const Stopwatch stopwatch;
   const double milliseconds_before = step.milliseconds;
@@ -36,8 +36,8 @@ MappingStep RunStep(const MappingCall& call, Mapper* mapper, MappingStep step) {
   return step;
 }
 
-// Delivers the two steps of a keyframe as they are done. Where the first one fails there is nothing
-// to refine.
+// Delivers each of the two steps of a keyframe when it is done. If the first one fails, the second
+// one is empty.
 void RunKeyframe(const KeyframePacket& packet, Mapper* mapper,
                  const std::function<void(MappingStep)>& deliver) {
   const MappingStep inserted = RunStep(
@@ -54,8 +54,8 @@ MappingStep PopFront(std::deque<MappingStep>* steps) {
   return step;
 }
 
-[[noreturn]] void ThrowNothingUnderWay() {
-  throw std::logic_error("mapping: a step was asked for, but no keyframe is under way");
+[[noreturn]] void ThrowNothingPending() {
+  throw std::logic_error("mapping: a step was requested, but no keyframe is pending");
 }
 
 class InlineRunner : public MappingRunner {
@@ -66,7 +66,7 @@ class InlineRunner : public MappingRunner {
     RunKeyframe(packet, mapper_, [this](MappingStep step) { done_.push_back(std::move(step)); });
   }
   MappingStep Take() override {
-    if (done_.empty()) ThrowNothingUnderWay();
+    if (done_.empty()) ThrowNothingPending();
     return PopFront(&done_);
   }
   std::optional<MappingStep> TryTake() override {
@@ -97,23 +97,23 @@ class ThreadedRunner : public MappingRunner {
       std::unique_lock<std::mutex> lock(mutex_);
       changed_.wait(lock, [this] { return waiting_.size() < kMaxWaiting; });
       waiting_.push_back(std::move(packet));
-      num_under_way_ += 2;
+      num_pending_ += 2;
     }
     changed_.notify_all();
   }
 
   MappingStep Take() override {
     std::unique_lock<std::mutex> lock(mutex_);
-    if (num_under_way_ == 0) ThrowNothingUnderWay();
+    if (num_pending_ == 0) ThrowNothingPending();
     changed_.wait(lock, [this] { return !done_.empty(); });
-    --num_under_way_;
+    --num_pending_;
     return PopFront(&done_);
   }
 
   std::optional<MappingStep> TryTake() override {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (done_.empty()) return std::nullopt;
-    --num_under_way_;
+    --num_pending_;
     return PopFront(&done_);
   }
 
@@ -126,7 +126,7 @@ class ThreadedRunner : public MappingRunner {
       const KeyframePacket packet = std::move(waiting_.front());
       waiting_.pop_front();
       lock.unlock();
-      changed_.notify_all();  // there is room
+      changed_.notify_all();  // Submit() may be waiting for space in the queue
       RunKeyframe(packet, mapper_, [this](MappingStep step) { Deliver(std::move(step)); });
       lock.lock();
     }
@@ -145,7 +145,7 @@ class ThreadedRunner : public MappingRunner {
   std::condition_variable changed_;
   std::deque<KeyframePacket> waiting_;
   std::deque<MappingStep> done_;
-  int num_under_way_ = 0;  // steps of keyframes that were submitted, not taken
+  int num_pending_ = 0;  // steps of submitted keyframes that have not been taken
   bool stopping_ = false;
   std::thread thread_;  // last: it uses the members above
 };

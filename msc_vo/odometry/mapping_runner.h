@@ -11,41 +11,42 @@
 
 namespace msc_vo {
 
-// What became of one keyframe so far. There are two steps to it, as to the mapper's work on it: the
-// map that it has been inserted into, then the map refined with it.
+/// Result of one of the two steps of a keyframe: the map with the keyframe inserted
+/// (Mapper::Insert), then the map refined with it (Mapper::Refine).
 struct MappingStep {
   MappingSummary summary;
-  MapSnapshotPtr snapshot;    // the map behind the step; null if it or the one before failed
-  double snapshot_ms = 0.0;   // milliseconds that snapshots took
-  double milliseconds = 0.0;  // all since the keyframe's first step began
-  std::exception_ptr error;   // what the step threw, if it failed
+  MapSnapshotPtr snapshot;    ///< the map after the step; null if it or the first step failed
+  double snapshot_ms = 0.0;   ///< total time of the snapshots of the keyframe, milliseconds
+  double milliseconds = 0.0;  ///< total time since the beginning of the keyframe's first step
+  std::exception_ptr error;   ///< exception of the step; null if it succeeded
 };
 
-// Takes keyframes to the mapper, either at once or on a thread of its own; the calls and their
-// results are the same. For one caller at a time.
-//
-// Steps run one after the other in the order of their keyframes. One that throws does not keep the
-// next keyframes from being worked on.
+/// Runs the mapper, either synchronously or on a thread of its own, with identical results. For
+/// use by one thread at a time.
+///
+/// Steps run sequentially in the order of their keyframes. A step that throws does not affect the
+/// next keyframes.
 class MappingRunner {
  public:
-  // Discards the keyframes that wait, and ends behind the step that runs.
+  /// Waits for the running step and discards the queued keyframes.
   virtual ~MappingRunner() = default;
 
-  // Hands a keyframe over. Waits if kMaxWaiting others wait already.
+  /// Queues a keyframe. Blocks while kMaxWaiting keyframes are queued.
   virtual void Submit(KeyframePacket packet) = 0;
 
-  // The oldest step that was not taken yet: two for each keyframe. Waits for it. Throws
-  // std::logic_error if no keyframe is under way.
+  /// Returns the oldest step that has not been returned, two for each keyframe, and waits for it.
+  /// Throws std::logic_error if no keyframe is pending.
   virtual MappingStep Take() = 0;
-  // The same if it is ready.
+  /// The same without waiting; std::nullopt if the step is not ready.
   virtual std::optional<MappingStep> TryTake() = 0;
 
-  // Keyframes that wait behind the one that the mapper works on: more only make the map older.
+  /// Largest number of queued keyframes besides the one that is processed. A longer queue would
+  /// only make maps older.
   static constexpr int kMaxWaiting = 2;
 };
 
-// The mapper must outlive the runner. While a keyframe is under way (submitted, and its steps not
-// taken) nobody else may use it.
+/// The mapper must outlive the runner, and must not be used by others while a keyframe is pending
+/// (submitted, and its steps not yet taken).
 std::unique_ptr<MappingRunner> MakeInlineRunner(Mapper* mapper);
 std::unique_ptr<MappingRunner> MakeThreadedRunner(Mapper* mapper);
 

@@ -3,11 +3,58 @@
 
 #include "msc_vo/odometry/odometry_options.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "msc_vo/odometry/option.h"
 
 namespace msc_vo {
+
+namespace {
+
+void ApplyMode(OdometryOptions* options) {
+  if (options->mode == Mode::kPlVo) {
+    options->features.line_depth = LineDepthMethod::kEndPoints;
+    options->mapping.frame_structure = FrameStructureUse::kNever;
+  }
+  if (options->mode != Mode::kMscVo) {
+    options->mapping.pairs.parallel = false;
+    options->mapping.pairs.perpendicular = false;
+    options->mapping.axes.enabled = false;
+  }
+}
+
+void ShareMatchers(OdometryOptions* options) {
+  options->mapping.fusion.point_matcher = options->tracking.point_matcher;
+  options->mapping.fusion.line_matcher = options->tracking.line_matcher;
+}
+
+void ShareLosses(OdometryOptions* options) {
+  const BundleAdjustmentOptions& window = options->mapping.window;
+  PoseOptions& pose = options->tracking.pose;
+  pose.point_reprojection = window.point_reprojection;
+  pose.point_depth = window.point_depth;
+  pose.line_reprojection = window.line_reprojection;
+  pose.line_depth = window.line_depth;
+  pose.reject_chi2_2 = window.reject_chi2_2;
+  pose.reject_chi2_3 = window.reject_chi2_3;
+  pose.reject_chi2_4 = window.reject_chi2_4;
+  ManhattanAxesOptions& axes = options->mapping.axes.refinement;
+  axes.huber = window.manhattan.huber;
+  axes.reject_chi2_2 = window.reject_chi2_2;
+}
+
+void ShareRelations(OdometryOptions* options) {
+  const StructuralPairOptions& pairs = options->mapping.pairs;
+  FrameStructureOptions& structure = options->mapping.structure;
+  structure.max_angle = pairs.max_angle;
+  structure.pair_sigma = pairs.pair_sigma;
+  structure.gate_sigmas = pairs.gate_sigmas;
+  structure.max_partners = pairs.max_partners;
+  options->mapping.axes.deviation = pairs.pair_sigma;
+}
+
+}  // namespace
 
 const char* ToString(Mode mode) {
   switch (mode) {
@@ -33,23 +80,27 @@ bool OdometryOptions::IsValid(std::string* error) const {
     *error = "options: use_points and use_lines must not both be off";
     return false;
   }
-  OdometryOptions copy = *this;  // the list points to what can be set
-  if (!AreInRange(ListOptions(&copy), error)) return false;
-  return features.IsValid(error) && normals.IsValid(error) && tracking.IsValid(error) &&
-         mapping.IsValid(error) && snapshots.IsValid(error);
+  OdometryOptions effective = EffectiveOptions(*this);
+  if (!AreInRange(ListOptions(&effective), error)) return false;
+  return effective.features.IsValid(error) && effective.tracking.IsValid(error) &&
+         effective.mapping.IsValid(error) && effective.snapshots.IsValid(error);
 }
 
-OdometryOptions WithModeApplied(OdometryOptions options) {
-  if (options.mode == Mode::kPlVo) {
-    options.features.line_depth = LineDepthMethod::kEndPoints;
-    options.mapping.frame_structure = FrameStructureUse::kNever;
-  }
-  if (options.mode != Mode::kMscVo) {
-    options.mapping.pairs.parallel = false;
-    options.mapping.pairs.perpendicular = false;
-    options.mapping.axes.enabled = false;
-  }
+OdometryOptions EffectiveOptions(OdometryOptions options) {
+  ApplyMode(&options);
+  ShareMatchers(&options);
+  ShareLosses(&options);
+  ShareRelations(&options);
   return options;
+}
+
+SurfaceNormalOptions NormalOptions(const OdometryOptions& options) {
+  constexpr double kMaxDepth = 25.0;  // metres; sums of larger depths overflow
+  SurfaceNormalOptions normals;
+  normals.grid_step = options.normal_grid_step;
+  normals.min_depth = options.features.min_depth;
+  normals.max_depth = std::min(options.features.max_depth, kMaxDepth);
+  return normals;
 }
 
 }  // namespace msc_vo

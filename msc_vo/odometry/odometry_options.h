@@ -13,28 +13,31 @@
 
 namespace msc_vo {
 
-// The paper's ablation: each mode adds a contribution.
+/// The variants of the paper's ablation study; each one adds to the previous one.
 enum class Mode {
-  kPlVo,       // points and lines, depth of a line from its end points
-  kPlVoDepth,  // + robust line depth, lines of a frame refined by their relations
-  kMscVo,      // + Manhattan axes, and relations of lines in the map instead of in frames
+  kPlVo,       ///< points and lines; depth of a line from its end points
+  kPlVoDepth,  ///< robust depth of lines, refined by the relations of the lines of a frame
+  kMscVo,      ///< Manhattan axes, and relations of lines in the map instead of in frames
 };
 
 const char* ToString(Mode mode);
-// "pl-vo", "pl-vo-depth", "msc-vo". Throws std::invalid_argument naming the choices otherwise.
+/// Parses "pl-vo", "pl-vo-depth" or "msc-vo". Throws std::invalid_argument, naming the choices, on
+/// any other name.
 Mode ModeFromString(const std::string& name);
 
+/// Options of the odometry, see docs/options.md. EffectiveOptions() derives some fields of the
+/// components from others; these are ignored if set.
 struct OdometryOptions {
   Mode mode = Mode::kMscVo;
   bool use_points = true;
   bool use_lines = true;
-  // Depth images are moved to the time of their colour image, as the camera moved in between.
+  /// Warp each depth image to the time of its colour image, by the motion between the two.
   bool align_depth = true;
-  // Processors to make use of. 1: everything in turn; 2 or more: mapping beside tracking, points
-  // beside lines. The result is the same for any number.
+  /// 1: all stages in sequence. 2 or more: mapping in parallel with tracking, points in parallel
+  /// with lines. The result does not depend on it.
   int threads = 2;
   FrameBuilderOptions features;
-  SurfaceNormalOptions normals;
+  int normal_grid_step = 16;  ///< pixels between surface normals
   TrackerOptions tracking;
   MapperOptions mapping;
   SnapshotOptions snapshots;
@@ -42,7 +45,16 @@ struct OdometryOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The options as they take effect: what the mode decides is as it decides.
-OdometryOptions WithModeApplied(OdometryOptions options);
+/// The options in effect. Sets the fields that the mode determines, and the fields of a component
+/// that must agree with those of another one:
+/// - matchers of landmark fusion: those of tracking;
+/// - loss functions and chi-square thresholds of pose optimisation and of the refinement of
+///   Manhattan axes: those of local bundle adjustment;
+/// - thresholds of the relations of lines in a frame, and the deviation of lines from Manhattan
+///   axes: those of the pairs of the map.
+OdometryOptions EffectiveOptions(OdometryOptions options);
+
+/// Options of the surface normals: their depth range is that of the features, up to 25 metres.
+SurfaceNormalOptions NormalOptions(const OdometryOptions& options);
 
 }  // namespace msc_vo

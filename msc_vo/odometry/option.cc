@@ -4,7 +4,6 @@
 #include "msc_vo/odometry/option.h"
 
 #include <sstream>
-#include <type_traits>
 
 #include "msc_vo/odometry/option_lister.h"
 
@@ -23,7 +22,7 @@ struct NumberReader {
   }
 };
 
-// Ten digits are enough to tell any int and every limit.
+// Ten digits represent every int and every limit of a range exactly.
 std::string FormatValue(double value) {
   std::ostringstream text;
   text.precision(10);
@@ -31,10 +30,34 @@ std::string FormatValue(double value) {
   return text.str();
 }
 
+void ListGeneral(OdometryOptions* options, OptionLister* list) {
+  list->AddChoice("mode", &options->mode, {"pl-vo", "pl-vo-depth", "msc-vo"},
+                  "Parts of the method. pl-vo: points and lines. pl-vo-depth: also robust depth of "
+                  "lines. msc-vo: also structural constraints.")
+      .MakeBasic("Choose a simpler mode for comparison.");
+  list->Add("use_points", &options->use_points, "Use point features.")
+      .MakeBasic("Disable to estimate the motion from lines only.");
+  list->Add("use_lines", &options->use_lines, "Use line features.")
+      .MakeBasic("Disable to estimate the motion from points only.");
+  list->Add("align_depth", &options->align_depth,
+            "Warp each depth image to the time of its colour image if their time stamps differ.")
+      .MakeBasic("Disable if the time stamps of the depth images are wrong.");
+  list->Add("threads", &options->threads, {1, 256, "threads"},
+            "1: all stages in sequence. 2 or more: mapping in parallel with tracking, points in "
+            "parallel with lines. The result does not depend on it.")
+      .MakeBasic("Set to 1 if the process may use one processor only.");
+  list->Add("realtime", &options->snapshots.realtime,
+            "Process images at the pace of their time stamps, drop late images, and never wait for "
+            "a late map. A run is repeatable as long as no map is late.")
+      .MakeBasic("Enable to measure latency as with a live camera.");
+}
+
 }  // namespace
 
 std::string ToString(const Range& range) {
-  return "from " + FormatValue(range.min) + " to " + FormatValue(range.max);
+  if (!range.IsBounded()) return range.unit;
+  return FormatValue(range.min) + " to " + FormatValue(range.max) +
+         (range.unit.empty() ? "" : " " + range.unit);
 }
 
 std::optional<double> NumberOf(const Option& option) {
@@ -45,8 +68,7 @@ bool AreInRange(const std::vector<Option>& options, std::string* error) {
   for (const Option& option : options) {
     const std::optional<double> value = NumberOf(option);
     if (!option.range || !value || option.range->Contains(*value)) continue;
-    *error = option.path + " = " + FormatValue(*value) + " must be " + ToString(*option.range) +
-             " (" + option.help + ")";
+    *error = option.path + " = " + FormatValue(*value) + " must be from " + ToString(*option.range);
     return false;
   }
   return true;
@@ -54,23 +76,12 @@ bool AreInRange(const std::vector<Option>& options, std::string* error) {
 
 std::vector<Option> ListOptions(OdometryOptions* options) {
   OptionLister list;
-  list.AddChoice("mode", &options->mode, {"pl-vo", "pl-vo-depth", "msc-vo"},
-                 "what of the method is used; each adds to the one before");
-  list.Add("use_points", &options->use_points, "off: lines alone");
-  list.Add("use_lines", &options->use_lines, "off: points alone");
-  list.Add("align_depth", &options->align_depth,
-           "move depth images to the time of their colour image where the two stamps differ");
-  list.Add("threads", &options->threads, {1, 256},
-           "processors to make use of; the result is the same for any number");
-  list.Add("realtime", &options->snapshots.realtime,
-           "no frame waits for a map that is late; runs repeat as long as none is");
+  ListGeneral(options, &list);
   list.Section("features", &options->features, ListFeatures);
-  list.Section("normals", &options->normals, ListNormals);
+  list.Add("normals.grid_step", &options->normal_grid_step, {8, 1000, "pixels"},
+           "Distance between surface normals, which Manhattan axes are estimated from.");
   list.Section("tracking", &options->tracking, ListTracking);
-  list.Add("mapping.insertion_latency_frames", &options->snapshots.insertion_latency_frames,
-           {0, 1000}, "frames from a keyframe to the first that sees its new landmarks");
-  list.Add("mapping.latency_frames", &options->snapshots.latency_frames, {0, 1000},
-           "frames from a keyframe to the first that sees the map refined with it");
+  list.Section("mapping", &options->snapshots, ListSnapshots);
   list.Section("mapping", &options->mapping, ListMapping);
   return list.Take();
 }

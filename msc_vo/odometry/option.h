@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -13,43 +15,53 @@
 
 namespace msc_vo {
 
-// An enumeration as its names.
+/// The value of an enumeration, by name.
 struct Choice {
-  std::vector<std::string> names;  // in order of the enumerators
+  std::vector<std::string> names;  ///< in the order of the enumerators, which count from 0
   std::function<int()> get;
   std::function<void(int)> set;
 };
 
-// What a number may be, both ends included. The upper ends keep memory and time of a run sane.
+/// Valid interval of a number, both ends included, and its unit. The upper ends bound the memory
+/// and the time of a run.
 struct Range {
-  double min = 0.0;
-  double max = 0.0;
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  std::string unit = "";  ///< "pixels", "per metre", ...; empty: dimensionless
 
   bool Contains(double value) const { return value >= min && value <= max; }
+  bool IsBounded() const { return std::isfinite(min) && std::isfinite(max); }
 };
 
-// "from 0 to 256"
+/// "0 to 256 bits"; only the unit if the interval is unbounded.
 std::string ToString(const Range& range);
 
-// One option: what it is called in a file, where its value lives, what it may be, what it means.
+/// Description of one option: its name, where its value is stored, its valid values and its help.
 struct Option {
-  std::string path;  // "tracking.pose.num_rounds"
-  std::variant<bool*, int*, double*, std::string*, std::optional<int>*, std::optional<double>*,
-               Choice>
-      value;
-  std::optional<Range> range;  // of a number; none: see what it belongs to
-  std::string help;            // one line, with the unit
+  using Value = std::variant<bool*, int*, double*, std::string*, std::optional<int>*,
+                             std::optional<double>*, Choice>;
+
+  std::string path;  ///< name with its sections: "tracking.pose.num_rounds"
+  Value value;
+  std::optional<Range> range;  ///< every number has one
+  std::string help;            ///< one or two sentences
+  std::string when_to_change;  ///< a sentence; empty: the option is advanced
+
+  /// Basic options are those that a user may want to change for a camera or a scene.
+  bool IsBasic() const { return !when_to_change.empty(); }
+  void MakeBasic(const std::string& when) { when_to_change = when; }
 };
 
-// The value, if the option is a number that is set.
+/// The value if the option is a number and set.
 std::optional<double> NumberOf(const Option& option);
 
-// Pointers into `options`, grouped by section. This list is the only place that knows the options
-// by name and their ranges: OdometryOptions::IsValid() and all reading and writing walk it.
+/// All options, grouped by section, with pointers into `options`. This list is the only place that
+/// defines their names, ranges and help; OdometryOptions::IsValid() and all readers and writers
+/// iterate over it. Fields that EffectiveOptions() derives from others are not listed.
 std::vector<Option> ListOptions(OdometryOptions* options);
 
-// Whether every number is within its range; if not, `error` names the option, its value and the
-// range: "features.points.num_points = -1 must be from 0 to 20000 (per image, at most)".
+/// Returns whether every number is in its range; otherwise `error` names the option, its value and
+/// the range: "features.points.num_points = -1 must be from 0 to 20000 points".
 bool AreInRange(const std::vector<Option>& options, std::string* error);
 
 }  // namespace msc_vo

@@ -11,29 +11,30 @@
 
 namespace msc_vo {
 
-// Collects options, section by section.
+/// Collects options section by section. The functions that add an option return it, valid until the
+/// next one is added, so that it can be made a basic one.
 class OptionLister {
  public:
-  // Of what is no number, or of a number whose range depends on others.
+  /// Adds an option that is not a number.
   template <typename T>
-  void Add(const std::string& name, T* value, const std::string& help) {
-    options_.push_back({prefix_ + name, value, std::nullopt, help});
+  Option& Add(const std::string& name, T* value, const std::string& help) {
+    return Push(name, value, std::nullopt, help);
   }
   template <typename T>
-  void Add(const std::string& name, T* value, const Range& range, const std::string& help) {
-    options_.push_back({prefix_ + name, value, range, help});
+  Option& Add(const std::string& name, T* value, const Range& range, const std::string& help) {
+    return Push(name, value, range, help);
   }
 
-  // `names` in the order of the enumerators, which count from 0.
+  /// Adds an enumeration. `names`: in the order of the enumerators, which count from 0.
   template <typename Enum>
-  void AddChoice(const std::string& name, Enum* value, std::vector<std::string> names,
-                 const std::string& help) {
+  Option& AddChoice(const std::string& name, Enum* value, std::vector<std::string> names,
+                    const std::string& help) {
     Choice choice{std::move(names), [value] { return static_cast<int>(*value); },
                   [value](int index) { *value = static_cast<Enum>(index); }};
-    options_.push_back({prefix_ + name, std::move(choice), std::nullopt, help});
+    return Push(name, std::move(choice), std::nullopt, help);
   }
 
-  // What `list` adds goes into section `name`.
+  /// Puts the options that `list` adds into section `name`.
   template <typename T>
   void Section(const std::string& name, T* value, void (*list)(T*, OptionLister*)) {
     const std::string outer = prefix_;
@@ -45,34 +46,20 @@ class OptionLister {
   std::vector<Option> Take() { return std::move(options_); }
 
  private:
+  Option& Push(const std::string& name, Option::Value value, std::optional<Range> range,
+               const std::string& help) {
+    options_.push_back({prefix_ + name, std::move(value), std::move(range), help, ""});
+    return options_.back();
+  }
+
   std::string prefix_;
   std::vector<Option> options_;
 };
 
-// The sections of OdometryOptions.
+/// The sections of OdometryOptions.
 void ListFeatures(FrameBuilderOptions* features, OptionLister* list);
-void ListNormals(SurfaceNormalOptions* normals, OptionLister* list);
 void ListTracking(TrackerOptions* tracking, OptionLister* list);
+void ListSnapshots(SnapshotOptions* snapshots, OptionLister* list);
 void ListMapping(MapperOptions* mapping, OptionLister* list);
-
-// Sections that both tracking and mapping have.
-void ListPointMatcher(PointMatcherOptions* matcher, OptionLister* list);
-void ListLineMatcher(LineMatcherOptions* matcher, OptionLister* list);
-void ListTerm(TermOptions* term, OptionLister* list);
-
-// The terms and thresholds that the pose and the window problem share.
-template <typename ProblemOptions>
-void ListTerms(ProblemOptions* problem, OptionLister* list) {
-  list->Section("point_reprojection", &problem->point_reprojection, ListTerm);
-  list->Section("point_depth", &problem->point_depth, ListTerm);
-  list->Section("line_reprojection", &problem->line_reprojection, ListTerm);
-  list->Section("line_depth", &problem->line_depth, ListTerm);
-  list->Add("reject_chi2_2", &problem->reject_chi2_2, {0.001, 10000},
-            "chi-square limit of 2 residuals");
-  list->Add("reject_chi2_3", &problem->reject_chi2_3, {0.001, 10000},
-            "chi-square limit of 3 residuals");
-  list->Add("reject_chi2_4", &problem->reject_chi2_4, {0.001, 10000},
-            "chi-square limit of 4 residuals");
-}
 
 }  // namespace msc_vo

@@ -31,7 +31,7 @@ void SideWorker::RunAll(const std::vector<std::function<void()>>& tasks) {
   if (error) std::rethrow_exception(error);
 }
 
-// Takes the next task and runs it with the lock released.
+// Runs the next task with the lock released.
 void SideWorker::RunNext(std::unique_lock<std::mutex>* lock) {
   const size_t index = next_++;
   const std::function<void()>& task = (*tasks_)[index];

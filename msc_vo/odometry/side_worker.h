@@ -12,9 +12,10 @@
 
 namespace msc_vo {
 
-// A thread that helps its caller with tasks that share nothing. Both take the next one whenever
-// they are done with one, so that the caller never waits for a helper that got no processor. Made
-// once, as making a thread for each frame costs more than it may gain. For one caller at a time.
+/// A thread that processes independent tasks together with its caller. Each of the two takes the
+/// next task when it has finished one, so that the caller never waits for a thread that has not
+/// been scheduled. The thread is reused, because starting one per frame costs more than it saves.
+/// For use by one thread at a time.
 class SideWorker {
  public:
   SideWorker();
@@ -22,9 +23,8 @@ class SideWorker {
   SideWorker(const SideWorker&) = delete;
   SideWorker& operator=(const SideWorker&) = delete;
 
-  // Begins the tasks in their order, here and on the worker, and returns when all are done. If some
-  // throw, the exception of the first of them is rethrown, as if they ran in turn, after the end of
-  // all.
+  /// Starts the tasks in order, on the calling thread and on the worker, and returns when all are
+  /// done. If tasks throw, the exception of the first of them in order is rethrown then.
   void RunAll(const std::vector<std::function<void()>>& tasks);
 
  private:
@@ -35,10 +35,9 @@ class SideWorker {
   std::mutex mutex_;
   std::condition_variable changed_;
   const std::vector<std::function<void()>>* tasks_ = nullptr;
-  size_t next_ = 0;         // the first task that nobody has taken
-  size_t num_running_ = 0;  // taken and not done
-  // Of the tasks that threw, the first, and what.
-  size_t first_error_ = 0;
+  size_t next_ = 0;         // index of the next task
+  size_t num_running_ = 0;  // tasks that have been started and not finished
+  size_t first_error_ = 0;  // index of the first task that threw
   std::exception_ptr error_;
   bool stopping_ = false;
   std::thread thread_;  // last: it uses the members above

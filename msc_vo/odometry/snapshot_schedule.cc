@@ -28,13 +28,13 @@ SnapshotSchedule::SnapshotSchedule(const SnapshotOptions& options,
 void SnapshotSchedule::Submit(int frame, KeyframePacket packet) {
   runner_->Submit(std::move(packet));
   const int latency = options_.latency_frames;
-  unseen_.push_back({frame, frame + std::min(options_.insertion_latency_frames, latency)});
-  unseen_.push_back({frame, frame + latency});
+  pending_.push_back({frame, frame + std::min(options_.insertion_latency_frames, latency)});
+  pending_.push_back({frame, frame + latency});
 }
 
 MapSnapshotPtr SnapshotSchedule::SnapshotAt(int frame) {
   while (IsAnyDue(frame)) {
-    Unseen& next = unseen_.front();
+    PendingStep& next = pending_.front();
     if (!next.step) Receive(Waits() ? runner_->Take() : runner_->TryTake(), &next);
     if (!next.step) {
       num_late_ += next.late ? 0 : 1;
@@ -42,7 +42,7 @@ MapSnapshotPtr SnapshotSchedule::SnapshotAt(int frame) {
       break;
     }
     const MappingStep step = std::move(*next.step);
-    unseen_.pop_front();
+    pending_.pop_front();
     if (step.error) std::rethrow_exception(step.error);
     if (step.snapshot) snapshot_ = step.snapshot;
   }
@@ -51,30 +51,30 @@ MapSnapshotPtr SnapshotSchedule::SnapshotAt(int frame) {
 
 void SnapshotSchedule::Drain() {
   std::exception_ptr error;
-  for (Unseen& unseen : unseen_) {
-    if (!unseen.step) Receive(runner_->Take(), &unseen);
-    if (!error) error = unseen.step->error;
-    unseen.step->error = nullptr;
+  for (PendingStep& pending : pending_) {
+    if (!pending.step) Receive(runner_->Take(), &pending);
+    if (!error) error = pending.step->error;
+    pending.step->error = nullptr;
   }
   if (error) std::rethrow_exception(error);
 }
 
-// Whether the frame should see one of the maps. It then sees those before it as well: the map that
-// a keyframe is inserted into has been refined with the one before.
+// Whether one of the pending maps is due at the frame. Earlier ones are then used as well, because
+// a keyframe is inserted into the map that has been refined with the previous one.
 bool SnapshotSchedule::IsAnyDue(int frame) const {
-  if (snapshot_->map.keyframes().empty()) return !unseen_.empty();
-  return std::any_of(unseen_.begin(), unseen_.end(),
-                     [frame](const Unseen& unseen) { return unseen.due <= frame; });
+  if (snapshot_->map.keyframes().empty()) return !pending_.empty();
+  return std::any_of(pending_.begin(), pending_.end(),
+                     [frame](const PendingStep& pending) { return pending.due <= frame; });
 }
 
-// Whether a map that is due is waited for. The first always is.
+// Whether a frame waits for a map that is due; always for the first one.
 bool SnapshotSchedule::Waits() const {
   return !options_.realtime || snapshot_->map.keyframes().empty();
 }
 
-void SnapshotSchedule::Receive(std::optional<MappingStep> step, Unseen* unseen) {
-  if (step && step->snapshot) record_(unseen->keyframe, *step);
-  unseen->step = std::move(step);
+void SnapshotSchedule::Receive(std::optional<MappingStep> step, PendingStep* pending) {
+  if (step && step->snapshot) record_(pending->keyframe, *step);
+  pending->step = std::move(step);
 }
 
 }  // namespace msc_vo

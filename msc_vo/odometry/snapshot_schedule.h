@@ -13,69 +13,69 @@
 
 namespace msc_vo {
 
+/// When frames are tracked in the map of a new keyframe.
 struct SnapshotOptions {
-  // A map is seen from the frame so many behind its keyframe on, and not earlier even if it is
-  // ready. So every frame sees the same map however fast the mapper is, which makes the trajectory
-  // the same at any number of threads. 0: the keyframe itself waits for it; 1: the same poses, but
-  // the features of the next frame are extracted meanwhile; above, frames are tracked beside the
-  // mapper. The first is for the map that the keyframe has been inserted into, which is soon ready
-  // and holds what tracking needs where the camera goes on: with 2 instead of 1, errors were larger
-  // by 4 and 14 %. The second is for the map refined with the keyframe, which takes the mapper
-  // longer than the tracker takes for a frame: between 1 and 4 nothing is to be told apart
-  // (docs/performance.md). The first counts no more than the second.
+  /// Frames from a keyframe to the first frame that is tracked in its map. The map is not used
+  /// earlier even if it is ready, so every frame is tracked in the same map however fast the mapper
+  /// is, and the trajectory does not depend on the number of threads. 0: the keyframe itself waits
+  /// for the map; 1: the same poses, but features of the next frame are extracted meanwhile; above:
+  /// frames are tracked in parallel with the mapper.
+  /// The insertion latency holds for the map with the keyframe's new landmarks, which is soon
+  /// ready; it counts no more than `latency_frames`, which holds for the map refined with the
+  /// keyframe. Chosen by measurement, see docs/lab/snapshot_latency.md.
   int insertion_latency_frames = 1;
   int latency_frames = 3;
-  // Nothing waits, as nothing can with a camera: a map that is not ready for the frame that should
-  // see it is seen by the first one that finds it ready. A run repeats as long as no map is late.
+  /// No frame waits for a map, as with a live camera: a map that is late is used from the first
+  /// frame that finds it ready. A run is repeatable as long as no map is late.
   bool realtime = false;
 
   bool IsValid(std::string* error) const;
 };
 
-// Gives keyframes to the mapper, and decides which map each frame is tracked against. The first map
-// is always waited for, as there is nothing to track against without it.
+/// Passes keyframes to the mapper and determines which map each frame is tracked in. The first map
+/// is always waited for.
 class SnapshotSchedule {
  public:
-  // Is told of every step that left a map, in order, as soon as the schedule knows: `frame` is the
-  // keyframe as Submit() was told.
+  /// Called in order for every step that resulted in a map, as soon as the schedule receives it.
+  /// `frame` is the keyframe as passed to Submit().
   using Recorder = std::function<void(int frame, const MappingStep& step)>;
 
-  // The mapper, which must outlive the schedule, belongs to it until Drain().
+  /// The runner's mapper must outlive the schedule, and must not be used by others until Drain().
   SnapshotSchedule(const SnapshotOptions& options, std::unique_ptr<MappingRunner> runner,
                    MapSnapshotPtr empty, Recorder record);
 
-  // Frame `frame` is a keyframe. Frames are counted from 0.
+  /// Submits frame `frame` as a keyframe. Frames are numbered from 0.
   void Submit(int frame, KeyframePacket packet);
 
-  // The map that frame `frame` sees. Throws what the mapper threw, once, where the map that is
-  // missing for it would have become visible; the one before stays.
+  /// The map in which frame `frame` is tracked. Throws the exception of a failed step, once, when
+  /// its map would have become visible; the previous map remains in use.
   MapSnapshotPtr SnapshotAt(int frame);
 
-  // Waits for all keyframes. What frames see stays as it would have been. Throws what the mapper
-  // threw, unless SnapshotAt() did; what else it did has been recorded by then.
+  /// Waits for all keyframes. The maps of later frames do not change. Throws the exception of a
+  /// failed step unless SnapshotAt() has; all other steps have been recorded by then.
   void Drain();
 
-  // Maps that were not ready for the frame that should have seen them.
+  /// Number of maps that were not ready for the first frame that should have been tracked in them.
   int num_late() const { return num_late_; }
 
  private:
-  // A step that no frame has seen the map of yet.
-  struct Unseen {
-    int keyframe = 0;                                // its frame
-    int due = 0;                                     // the first frame that should see it
-    std::optional<MappingStep> step = std::nullopt;  // once it was taken from the runner
+  // A step whose map has not been used yet.
+  struct PendingStep {
+    int keyframe = 0;                                // number of its frame
+    int due = 0;                                     // first frame to be tracked in its map
+    std::optional<MappingStep> step = std::nullopt;  // set when it was taken from the runner
     bool late = false;
   };
 
   bool IsAnyDue(int frame) const;
   bool Waits() const;
-  void Receive(std::optional<MappingStep> step, Unseen* unseen);
+  void Receive(std::optional<MappingStep> step, PendingStep* pending);
 
   SnapshotOptions options_;
   std::unique_ptr<MappingRunner> runner_;
   MapSnapshotPtr snapshot_;
   Recorder record_;
-  std::deque<Unseen> unseen_;  // in the order of the mapper
+  std::deque<PendingStep> pending_;  // in the order of the mapper
   int num_late_ = 0;
 };
 

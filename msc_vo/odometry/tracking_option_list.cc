@@ -7,99 +7,118 @@ namespace msc_vo {
 
 namespace {
 
+void ListPointMatcher(PointMatcherOptions* matcher, OptionLister* list) {
+  list->Add("max_distance", &matcher->max_distance, {0, 256, "bits"},
+            "Largest descriptor distance of a match, in tracking and in fusion.");
+  list->Add("max_ratio", &matcher->max_ratio, {0.001, 1},
+            "Largest ratio of the best to the second best descriptor distance.");
+  list->Add("max_level_difference", &matcher->max_level_difference, {0, 32, "levels"},
+            "Largest difference from the predicted pyramid level.");
+}
+
+void ListLineMatcher(LineMatcherOptions* matcher, OptionLister* list) {
+  list->Add("max_angle", &matcher->max_angle, {0.01, 90, "degrees"},
+            "Largest difference of direction in the image, in tracking and in fusion.");
+  list->Add("min_overlap", &matcher->min_overlap, {0.001, 1},
+            "Smallest overlap, as a fraction of the shorter segment.");
+  list->Add("max_distance", &matcher->max_distance, {0, 256, "bits"},
+            "Largest descriptor distance of a match.");
+  list->Add("bits_per_pixel", &matcher->bits_per_pixel, {0, 1000, "bits/pixel"},
+            "Weight of the distance in the image relative to the descriptor distance.");
+}
+
 void ListConsensus(CellConsensusOptions* consensus, OptionLister* list) {
-  list->Add("enabled", &consensus->enabled, "leave out what moves by itself");
-  list->Add("columns", &consensus->columns, {1, 64}, "of parts of the image that vote on a pose");
-  list->Add("rows", &consensus->rows, {1, 64}, "of parts of the image that vote on a pose");
+  list->Add("enabled", &consensus->enabled, "Reject dynamic objects by cell consensus.");
+  list->Add("columns", &consensus->columns, {1, 64, "cells"}, "Columns of the image grid.");
+  list->Add("rows", &consensus->rows, {1, 64, "cells"}, "Rows of the image grid.");
   list->Add("reject_chi2_6", &consensus->reject_chi2_6, {0.001, 10000},
-            "chi-square of the common errors of a part, beyond which it votes against a pose");
+            "Chi-square with 6 degrees of freedom above which a cell contradicts a pose.");
   list->Add("unconfirmed_weight", &consensus->unconfirmed_weight, {1e-6, 1},
-            "of a vote of what no two keyframes have seen");
-  list->Add("min_cells", &consensus->min_cells, {0, 4096}, "by which another pose must be better");
+            "Weight of a cell without landmarks that are confirmed static.");
+  list->Add("min_cells", &consensus->min_cells, {0, 4096, "cells"},
+            "Number of cells by which another pose must be better to replace the estimate.");
 }
 
 void ListPose(PoseOptions* pose, OptionLister* list) {
-  ListTerms(pose, list);
-  list->Add("num_rounds", &pose->num_rounds, {1, 100}, "of solving and classifying all matches");
-  list->Add("num_robust_rounds", &pose->num_robust_rounds, {0, 100},
-            "the first ones, with the loss");
-  list->Add("iterations_per_round", &pose->iterations_per_round, {1, 100}, "at most");
-  list->Add(
-      "max_frame_noise", &pose->max_frame_noise, {1, 100},
-      "how far chi-square limits grow, in sigmas, where all points of a frame are seen worse");
+  list->Add("num_rounds", &pose->num_rounds, {1, 100, "rounds"},
+            "Rounds of optimisation and classification of all matches.");
+  list->Add("num_robust_rounds", &pose->num_robust_rounds, {0, 100, "rounds"},
+            "Number of these rounds, from the first one, with a robust loss.");
+  list->Add("iterations_per_round", &pose->iterations_per_round, {1, 100, "iterations"},
+            "Largest number of iterations of a round.");
+  list->Add("max_frame_noise", &pose->max_frame_noise, {1, 100},
+            "Largest factor by which the sigmas of a blurred frame are inflated for the chi-square "
+            "tests.");
   list->Section("consensus", &pose->consensus, ListConsensus);
 }
 
 void ListKeyframePolicy(KeyframePolicyOptions* policy, OptionLister* list) {
   list->Add("min_tracked_ratio", &policy->min_tracked_ratio, {0, 1},
-            "of tracked features, relative to what it was after the last keyframe");
-  list->Add("min_interval", &policy->min_interval, {1, 10000}, "frames between keyframes");
-  list->Add("max_interval", &policy->max_interval, {1, 10000}, "frames between keyframes");
+            "A keyframe is inserted when the ratio of tracked features falls below this fraction "
+            "of its best value since the last keyframe.")
+      .MakeBasic("Increase for more keyframes, decrease to save time.");
+  list->Add("max_interval", &policy->max_interval, {1, 10000, "frames"},
+            "Largest distance between keyframes.")
+      .MakeBasic("Adapt it to the frame rate; the default is 1 second at 30 Hz.");
+  list->Add("min_interval", &policy->min_interval, {1, 10000, "frames"},
+            "Smallest distance between keyframes.");
   list->Add("close_relative_sigma", &policy->close_relative_sigma, {1e-6, 10},
-            "of the depth, below which a point is close");
+            "A point is close if the standard deviation of its depth is below this fraction of the "
+            "depth.");
 }
 
 void ListRelocalizer(RelocalizerOptions* relocalizer, OptionLister* list) {
-  list->Add("max_distance", &relocalizer->max_distance, {0, 256}, "bits between descriptors");
+  list->Add("max_distance", &relocalizer->max_distance, {0, 256, "bits"},
+            "Largest descriptor distance of a match.");
   list->Add("max_ratio", &relocalizer->max_ratio, {0.001, 1},
-            "best over second best descriptor distance");
-  list->Add("max_iterations", &relocalizer->max_iterations, {1, 10000}, "triples of matches tried");
-  list->Add("min_inliers", &relocalizer->min_inliers, {3, 10000}, "matches that must agree");
-  list->Add("inlier_sigmas", &relocalizer->inlier_sigmas, {0.01, 100},
-            "reprojection of a match that agrees");
+            "Largest ratio of the best to the second best descriptor distance.");
+  list->Add("max_iterations", &relocalizer->max_iterations, {1, 10000, "iterations"},
+            "RANSAC iterations per keyframe.");
+  list->Add("min_inliers", &relocalizer->min_inliers, {3, 10000, "matches"},
+            "Smallest number of inliers of a pose.");
+  list->Add("inlier_sigmas", &relocalizer->inlier_sigmas, {0.01, 100, "sigmas"},
+            "Largest reprojection error of an inlier.");
+}
+
+void ListStatus(TrackerOptions* tracking, OptionLister* list) {
+  list->Add("min_matches", &tracking->min_matches, {3, 10000, "matches"},
+            "Smallest number of inliers of a pose, points and lines together.")
+      .MakeBasic("Decrease for scenes with little texture, at the risk of wrong poses.");
+  list->Add("max_prediction", &tracking->max_prediction, {0, 60, "seconds"},
+            "Longest gap that is bridged by constant velocity before a frame is lost.")
+      .MakeBasic("Decrease for irregular motion.");
+  list->Add("weak_translation_sigma", &tracking->weak_translation_sigma, {1e-6, 1000, "metres"},
+            "Standard deviation of the position above which a pose has the status weak.")
+      .MakeBasic("Set it to the accuracy that the application needs.");
+  list->Add("weak_rotation_sigma", &tracking->weak_rotation_sigma, {1e-6, 1000, "degrees"},
+            "Standard deviation of the orientation above which a pose has the status weak.")
+      .MakeBasic("Set it to the accuracy that the application needs.");
+  list->Add("min_inlier_ratio", &tracking->min_inlier_ratio, {0, 1},
+            "Smallest ratio of inliers to all matches of a pose.");
 }
 
 }  // namespace
 
-void ListPointMatcher(PointMatcherOptions* matcher, OptionLister* list) {
-  list->Add("max_distance", &matcher->max_distance, {0, 256}, "bits between descriptors");
-  list->Add("max_ratio", &matcher->max_ratio, {0.001, 1},
-            "best over second best descriptor distance");
-  list->Add("max_level_difference", &matcher->max_level_difference, {0, 32},
-            "pyramid levels from the predicted one");
-}
-
-void ListLineMatcher(LineMatcherOptions* matcher, OptionLister* list) {
-  list->Add("max_angle", &matcher->max_angle, {0.01, 90},
-            "degrees between directions in the image");
-  list->Add("min_overlap", &matcher->min_overlap, {0.001, 1}, "part of the shorter segment");
-  list->Add("max_distance", &matcher->max_distance, {0, 256}, "bits between descriptors");
-  list->Add("bits_per_pixel", &matcher->bits_per_pixel, {0, 1000},
-            "bits of descriptor distance that weigh as much as one pixel");
-}
-
-void ListTerm(TermOptions* term, OptionLister* list) {
-  list->Add("enabled", &term->enabled, "whether the term takes part");
-  list->Add("huber", &term->huber, {0.01, 1000},
-            "sigmas; where the loss turns from square to linear");
-}
-
 void ListTracking(TrackerOptions* tracking, OptionLister* list) {
+  list->Add("prediction_radius", &tracking->prediction_radius, {0.1, 1000, "pixels"},
+            "Search radius around the predicted projection of a landmark.")
+      .MakeBasic("Increase for fast motion, low frame rates or large images.");
+  ListStatus(tracking, list);
+  list->Add("wide_radius", &tracking->wide_radius, {0.1, 1000, "pixels"},
+            "Search radius after a search within prediction_radius has failed.");
+  list->Add("local_map_radius", &tracking->local_map_radius, {0.1, 1000, "pixels"},
+            "Search radius around the projection with an estimated pose.");
+  list->Add("max_local_keyframes", &tracking->max_local_keyframes, {1, 1000, "keyframes"},
+            "Largest number of keyframes of the local map.");
+  list->Add("relocalization_keyframes", &tracking->relocalization_keyframes, {1, 100, "keyframes"},
+            "Keyframes that relocalisation tries per frame.");
+  list->Add("min_initial_features", &tracking->min_initial_features, {3, 10000, "features"},
+            "Smallest number of features with depth of the first frame.");
   list->Section("point_matcher", &tracking->point_matcher, ListPointMatcher);
   list->Section("line_matcher", &tracking->line_matcher, ListLineMatcher);
   list->Section("pose", &tracking->pose, ListPose);
   list->Section("keyframes", &tracking->keyframes, ListKeyframePolicy);
   list->Section("relocalizer", &tracking->relocalizer, ListRelocalizer);
-  list->Add("prediction_radius", &tracking->prediction_radius, {0.1, 1000},
-            "pixels, search around the predicted pose");
-  list->Add("wide_radius", &tracking->wide_radius, {0.1, 1000},
-            "pixels, when that found too little");
-  list->Add("local_map_radius", &tracking->local_map_radius, {0.1, 1000},
-            "pixels, around an estimated pose");
-  list->Add("max_local_keyframes", &tracking->max_local_keyframes, {1, 1000}, "in the local map");
-  list->Add("min_matches", &tracking->min_matches, {3, 10000},
-            "points and lines that a pose stands on");
-  list->Add("min_inlier_ratio", &tracking->min_inlier_ratio, {0, 1}, "of all matches of a pose");
-  list->Add("weak_translation_sigma", &tracking->weak_translation_sigma, {1e-6, 1000},
-            "metres; a pose known worse is weak");
-  list->Add("weak_rotation_sigma", &tracking->weak_rotation_sigma, {1e-6, 1000},
-            "degrees; a pose known worse is weak");
-  list->Add("max_prediction", &tracking->max_prediction, {0, 60},
-            "seconds that constant velocity may bridge");
-  list->Add("relocalization_keyframes", &tracking->relocalization_keyframes, {1, 100},
-            "tried per frame while the map is searched");
-  list->Add("min_initial_features", &tracking->min_initial_features, {3, 10000},
-            "with depth, in the first frame");
 }
 
 }  // namespace msc_vo

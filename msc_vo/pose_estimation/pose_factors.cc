@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include "msc_vo/factors/rigid3_manifold.h"
+#include "msc_vo/factors/robust_loss.h"
 
 namespace msc_vo {
 
@@ -21,21 +22,42 @@ Rigid3 Plus(const Rigid3& pose, const Vector6& delta) {
   return sum;
 }
 
-// A step this short, squared and in units of the estimate's own standard deviation, is the last.
-// Steps shrink at least tenfold here, so that it leaves 0.3 % of a deviation undone: the errors of
-// kitchen and living change by less than 2e-5 mm from those with 1e-6, for a sixth less time.
-constexpr double kSmallStep = 1e-3;
+// The unknown pose and its normal equations, for MinimizeByLevenbergMarquardt.
+class PoseProblem {
+ public:
+  PoseProblem(const PoseFactors& factors, const Rigid3& pose) : factors_(factors), pose_(pose) {}
 
-// Huber's rho(s) of a squared norm s, and rho'(s).
-struct Loss {
-  double rho;
-  double weight;
+  const Rigid3& pose() const { return pose_; }
+
+  bool Linearize() { return factors_.Linearize(pose_, &at_); }
+
+  bool SolveStep(double lambda, double* squared_step) {
+    Eigen::Matrix<double, 6, 6> damped = at_.hessian;
+    damped.diagonal() *= 1.0 + lambda;
+    // A small absolute term determines directions that no factor constrains.
+    damped.diagonal().array() += 1e-12 * at_.hessian.trace();
+    const Vector6 step = -damped.ldlt().solve(at_.gradient);
+    if (!step.allFinite()) return false;
+    candidate_ = Plus(pose_, step);
+    *squared_step = step.dot(at_.hessian * step);
+    return true;
+  }
+
+  bool TakeStep(bool is_last) {
+    NormalEquations next;
+    const bool is_defined =
+        is_last ? factors_.Cost(candidate_, &next.cost) : factors_.Linearize(candidate_, &next);
+    if (!is_defined || !(next.cost <= at_.cost)) return false;
+    pose_ = candidate_;
+    at_ = next;
+    return true;
+  }
+
+ private:
+  const PoseFactors& factors_;
+  Rigid3 pose_, candidate_;
+  NormalEquations at_;
 };
-Loss Huber(double huber, double s) {
-  if (huber == 0.0 || s <= huber * huber) return {s, 1.0};
-  const double norm = std::sqrt(s);
-  return {2.0 * huber * norm - huber * huber, huber / norm};
-}
 
 }  // namespace
 
@@ -44,6 +66,7 @@ bool PoseTerm<Factor>::AddTo(const Rigid3& cam_from_world, NormalEquations* sum)
   constexpr int kRows = Factor::kRowsPerPoint;
   const Eigen::Matrix3d rotation = cam_from_world.rotation().toRotationMatrix();
   const Eigen::Vector3d translation = cam_from_world.translation();
+  const HuberLoss loss{huber};
   Eigen::Matrix<double, Factor::kNumResiduals, 1> r;
   Eigen::Matrix<double, Factor::kNumResiduals, 6> j;
   for (const Block& block : blocks) {
@@ -59,12 +82,13 @@ bool PoseTerm<Factor>::AddTo(const Rigid3& cam_from_world, NormalEquations* sum)
         j.row(k * kRows + i) << rotated.cross(row).transpose(), row.transpose();
       }
     }
-    const Loss loss = Huber(huber, r.squaredNorm());
-    sum->cost += 0.5 * loss.rho;
-    sum->gradient += loss.weight * (j.transpose() * r);
+    const double s = r.squaredNorm();
+    const double weight = loss.Weight(s);
+    sum->cost += 0.5 * loss.Cost(s);
+    sum->gradient += weight * (j.transpose() * r);
     for (int column = 0; column < 6; ++column) {
       for (int row = column; row < 6; ++row) {
-        sum->hessian(row, column) += loss.weight * j.col(row).dot(j.col(column));
+        sum->hessian(row, column) += weight * j.col(row).dot(j.col(column));
       }
     }
   }
@@ -75,6 +99,7 @@ template <typename Factor>
 bool PoseTerm<Factor>::AddCostTo(const Rigid3& cam_from_world, double* sum) const {
   const Eigen::Matrix3d rotation = cam_from_world.rotation().toRotationMatrix();
   const Eigen::Vector3d translation = cam_from_world.translation();
+  const HuberLoss loss{huber};
   Eigen::Matrix<double, Factor::kNumResiduals, 1> r;
   for (const Block& block : blocks) {
     for (int k = 0; k < Factor::kNumPoints; ++k) {
@@ -82,7 +107,7 @@ bool PoseTerm<Factor>::AddCostTo(const Rigid3& cam_from_world, double* sum) cons
       if (!(x_in_cam.z() >= kMinCameraDepth)) return false;
       block.factor.Residual(k, x_in_cam, &r[k * Factor::kRowsPerPoint]);
     }
-    *sum += 0.5 * Huber(huber, r.squaredNorm()).rho;
+    *sum += 0.5 * loss.Cost(r.squaredNorm());
   }
   return true;
 }
@@ -119,36 +144,16 @@ bool PoseFactors::Cost(const Rigid3& cam_from_world, double* cost) const {
          line_depth.AddCostTo(cam_from_world, cost) && std::isfinite(*cost);
 }
 
-PoseTermination MinimizePose(const PoseFactors& factors, int max_iterations,
-                             Rigid3* cam_from_world) {
-  NormalEquations at;
-  if (!factors.Linearize(*cam_from_world, &at)) return PoseTermination::kFailed;
-  // Damping relative to the diagonal, as Marquardt; small, as predictions are good.
-  double lambda = 1e-4;
-  for (int i = 0; i < max_iterations; ++i) {
-    Eigen::Matrix<double, 6, 6> damped = at.hessian;
-    damped.diagonal() *= 1.0 + lambda;
-    // Not every direction needs to be seen: a tiny absolute term holds the others where they are.
-    damped.diagonal().array() += 1e-12 * at.hessian.trace();
-    const Vector6 step = -damped.ldlt().solve(at.gradient);
-    if (!step.allFinite()) return PoseTermination::kFailed;
-    const Rigid3 candidate = Plus(*cam_from_world, step);
-    // No further step needs derivatives. At the minimum, rounding may refuse this one.
-    if (step.dot(at.hessian * step) < kSmallStep) {
-      double cost;
-      if (factors.Cost(candidate, &cost) && cost <= at.cost) *cam_from_world = candidate;
-      return PoseTermination::kConverged;
-    }
-    NormalEquations next;
-    if (factors.Linearize(candidate, &next) && next.cost <= at.cost) {
-      *cam_from_world = candidate;
-      at = next;
-      lambda *= 0.1;
-    } else {
-      lambda *= 100.0;
-    }
-  }
-  return PoseTermination::kIterationLimit;
+LevenbergMarquardtTermination MinimizePose(const PoseFactors& factors, int max_iterations,
+                                           Rigid3* cam_from_world) {
+  // Steps shrink at least tenfold, so a step of this squared length leaves an error of 0.3 % of a
+  // standard deviation. Chosen by measurement, see docs/lab/tracking.md.
+  constexpr double kMinSquaredStep = 1e-3;
+  PoseProblem problem(factors, *cam_from_world);
+  const LevenbergMarquardtTermination termination =
+      MinimizeByLevenbergMarquardt(max_iterations, kMinSquaredStep, &problem).termination;
+  if (termination != LevenbergMarquardtTermination::kFailed) *cam_from_world = problem.pose();
+  return termination;
 }
 
 template struct PoseTerm<PointReprojection>;

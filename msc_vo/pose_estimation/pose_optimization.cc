@@ -49,10 +49,11 @@ bool RunRounds(const PoseOptions& options, const PoseData& data, int num_rounds,
   for (int round = 0; round < num_rounds; ++round) {
     const PoseFactors factors = BuildFactors(options, data, *mask, *pose, robust);
     if (factors.NumRows() < 6) return false;
-    const PoseTermination end = MinimizePose(factors, options.iterations_per_round, pose);
-    if (end == PoseTermination::kFailed) return false;
+    const LevenbergMarquardtTermination end =
+        MinimizePose(factors, options.iterations_per_round, pose);
+    if (end == LevenbergMarquardtTermination::kFailed) return false;
     PoseInlierMask next = ClassifyMatches(options, data, *pose);
-    const bool settled = end == PoseTermination::kConverged && next == *mask;
+    const bool settled = end == LevenbergMarquardtTermination::kConverged && next == *mask;
     *mask = std::move(next);
     if (settled) break;
   }

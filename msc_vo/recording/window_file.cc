@@ -10,6 +10,7 @@
 
 #include "msc_vo/config/option_list.h"
 #include "msc_vo/recording/window_record.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 #include "msc_vo/text/text_record.h"
 

@@ -3,6 +3,7 @@
 
 #include "msc_vo/report/report.h"
 
+#include <algorithm>
 #include <array>
 #include <sstream>
 #include <stdexcept>
@@ -24,17 +25,17 @@ struct LegendEntry {
   std::string label;
 };
 
-const std::array<ReportStatus, 6> kAllStatuses = {
+constexpr std::array<ReportStatus, 6> kAllStatuses = {
     ReportStatus::kTracked,    ReportStatus::kWeak,      ReportStatus::kDropped,
     ReportStatus::kUnreadable, ReportStatus::kPredicted, ReportStatus::kLost};
 
 void CheckStages(const ReportData& data) {
   for (size_t i = 0; i < data.frames.size(); ++i) {
-    if (data.frames[i].stage_ms.size() == data.stage_names.size()) continue;
+    if (data.frames[i].stage_ms.size() == data.stages.size()) continue;
     throw std::invalid_argument("ReportData: frame " + std::to_string(i) + " has " +
                                 std::to_string(data.frames[i].stage_ms.size()) +
                                 " stage times, but there are " +
-                                std::to_string(data.stage_names.size()) + " stage names");
+                                std::to_string(data.stages.size()) + " stages");
   }
 }
 
@@ -82,14 +83,48 @@ void WriteNumbers(const ReportData& data, std::ostream& out) {
   if (!rows.str().empty()) out << "<table class=\"facts\">\n" << rows.str() << "</table>\n";
 }
 
+// Of the statuses that occur.
+std::vector<LegendEntry> StatusLegend(const ReportData& data) {
+  std::vector<LegendEntry> legend;
+  for (const ReportStatus status : kAllStatuses) {
+    const bool occurs =
+        std::any_of(data.frames.begin(), data.frames.end(),
+                    [status](const ReportFrame& frame) { return frame.status == status; });
+    if (!occurs) continue;
+    legend.push_back({Swatch::kFill, std::string("status-") + ToString(status), ToString(status)});
+  }
+  return legend;
+}
+
+// Of the kinds of map lines that there are.
+std::vector<LegendEntry> LineLegend(const ReportData& data) {
+  std::vector<LegendEntry> legend;
+  for (int axis = -1; axis < 3; ++axis) {
+    const auto has_axis = [axis](const ReportLine& line) { return line.axis == axis; };
+    if (std::none_of(data.lines.begin(), data.lines.end(), has_axis)) continue;
+    legend.push_back({Swatch::kCurve, LineClass(axis),
+                      axis < 0 ? "map lines of no axis"
+                               : "map lines along Manhattan axis " + std::to_string(axis + 1)});
+  }
+  return legend;
+}
+
+void Append(const std::vector<LegendEntry>& more, std::vector<LegendEntry>* legend) {
+  legend->insert(legend->end(), more.begin(), more.end());
+}
+
 void WriteTrajectory(const ReportData& data, std::ostream& out) {
   const TrajectoryView view = ChooseTrajectoryView(data);
   std::vector<LegendEntry> legend = {{Swatch::kCurve, "curve estimate", "estimate"}};
   if (!data.truth.empty()) legend.push_back({Swatch::kCurve, "curve truth", "truth"});
-  std::vector<LegendEntry> top_legend = legend;
-  if (!data.lines.empty()) {
-    top_legend.push_back({Swatch::kCurve, "map-line", "map lines"});
+  for (const LegendEntry& status : StatusLegend(data)) {
+    if (status.label == ToString(ReportStatus::kPredicted) ||
+        status.label == ToString(ReportStatus::kLost)) {
+      legend.push_back(status);
+    }
   }
+  std::vector<LegendEntry> top_legend = legend;
+  Append(LineLegend(data), &top_legend);
   out << "<h2>Trajectory</h2>\n<p>Up is "
       << (view.up_from_cameras ? "the mean up direction of the camera"
                                : "the direction in which the trajectory extends least, as the "
@@ -103,21 +138,17 @@ void WriteTrajectory(const ReportData& data, std::ostream& out) {
 }
 
 void WriteSeries(const ReportData& data, std::ostream& out) {
-  std::vector<LegendEntry> statuses;
-  for (const ReportStatus status : kAllStatuses) {
-    statuses.push_back(
-        {Swatch::kFill, std::string("status-") + ToString(status), ToString(status)});
-  }
+  const std::vector<LegendEntry> statuses = StatusLegend(data);
   if (!data.truth.empty()) {
     out << "<h2>Position error over time</h2>\n";
     std::vector<LegendEntry> legend = {{Swatch::kCurve, "curve error", "distance from the truth"}};
-    legend.insert(legend.end(), statuses.begin(), statuses.end());
+    Append(statuses, &legend);
     WriteFigure(PlotError(data), legend, out);
   }
   out << "<h2>Inliers and status over time</h2>\n";
   std::vector<LegendEntry> legend = {{Swatch::kCurve, "curve points", "inlier points"},
                                      {Swatch::kCurve, "curve lines", "inlier lines"}};
-  legend.insert(legend.end(), statuses.begin(), statuses.end());
+  Append(statuses, &legend);
   WriteFigure(PlotInliers(data), legend, out);
 }
 
@@ -143,8 +174,9 @@ void WriteNotTracked(const ReportData& data, std::ostream& out) {
 void WriteTimes(const ReportData& data, std::ostream& out) {
   out << "<h2>Time per frame</h2>\n";
   std::vector<LegendEntry> legend;
-  for (size_t i = 0; i < data.stage_names.size(); ++i) {
-    legend.push_back({Swatch::kFill, "stage-" + std::to_string(i % 6), data.stage_names[i]});
+  for (const ReportStage& stage : data.stages) {
+    if (!stage.is_stacked) continue;
+    legend.push_back({Swatch::kFill, "stage-" + std::to_string(legend.size() % 6), stage.name});
   }
   legend.push_back({Swatch::kCurve, "curve whole", "tracking, whole"});
   WriteFigure(PlotStages(data), legend, out);
@@ -153,7 +185,7 @@ void WriteTimes(const ReportData& data, std::ostream& out) {
               out);
   out << "<h2>Stages</h2>\n<table>\n<tr><th>milliseconds</th><th>mean</th><th>median</th>"
          "<th>95 %</th><th>max</th><th>times</th></tr>\n";
-  for (const StageTimeStatistics& stage : SummarizeStages(data.stage_names, data.frames)) {
+  for (const StageTimeStatistics& stage : SummarizeStages(data.stages, data.frames)) {
     out << "<tr><td>" << EscapeHtml(stage.name) << "</td><td>" << FormatFixed(stage.mean, 2)
         << "</td><td>" << FormatFixed(stage.median, 2) << "</td><td>" << FormatFixed(stage.p95, 2)
         << "</td><td>" << FormatFixed(stage.max, 2) << "</td><td>" << stage.count << "</td></tr>\n";

@@ -99,18 +99,18 @@ Projector MakeProjector(const TrajectoryView& view, TrajectorySide side) {
   return projector;
 }
 
-// Covers [min, max] of the trajectory, and the middle 90 % of the map lines as far as the
-// trajectory, by far the smaller in a large room, keeps a fifth of the width.
+// Covers [min, max] of the trajectory and the middle 90 % of the ends of map lines: a few lines
+// with a wrong depth must not shrink the rest. A camera that only turns sees lines far beyond its
+// own path, which the view from the side shows large.
 PlotRange CoverTrajectoryAndLines(const std::vector<double>& trajectory, double extent,
                                   std::vector<double> line_ends) {
   PlotRange range{trajectory.front(), trajectory.front()};
   for (const double value : trajectory) Include(value, &range);
-  const PlotRange widest{range.min - 2.0 * extent, range.max + 2.0 * extent};
   if (!line_ends.empty()) {
     std::sort(line_ends.begin(), line_ends.end());
     const size_t cut = line_ends.size() / 20;
-    Include(std::max(widest.min, line_ends[cut]), &range);
-    Include(std::min(widest.max, line_ends[line_ends.size() - 1 - cut]), &range);
+    Include(line_ends[cut], &range);
+    Include(line_ends[line_ends.size() - 1 - cut], &range);
   }
   const double margin = 0.05 * std::max(range.Length(), 0.1 * extent);
   return {range.min - margin, range.max + margin};
@@ -189,15 +189,19 @@ const char* ToString(ReportStatus status) {
   return "unknown";
 }
 
+std::string LineClass(int axis) {
+  return axis < 0 ? "map-line" : "map-line axis-" + std::to_string(axis);
+}
+
 std::string PlotTrajectory(const ReportData& data, const TrajectoryView& view,
                            TrajectorySide side) {
   const bool is_top = side == TrajectorySide::kTop;
   const TrajectoryDrawing drawing = Project(data, MakeProjector(view, side), is_top);
   SvgPlot plot = MakeTrajectoryPlot(drawing);
   plot.AddAxes("right, m", is_top ? "forward, m" : "up, m");
-  const char* const line_classes[] = {"map-line", "map-line axis-0", "map-line axis-1",
-                                      "map-line axis-2"};
-  for (int i = 0; i < 4; ++i) plot.AddSegments(drawing.lines[i], line_classes[i]);
+  for (int axis = -1; axis < 3; ++axis) {
+    plot.AddSegments(drawing.lines[axis + 1], LineClass(axis));
+  }
   plot.AddPath(drawing.truth, "curve truth");
   plot.AddPath(drawing.estimate, "curve estimate");
   plot.AddDots(drawing.keyframes, kKeyframeRadius, "keyframe");
@@ -232,13 +236,15 @@ std::string PlotInliers(const ReportData& data) {
 
 std::string PlotStages(const ReportData& data) {
   const auto whole = Series(data, [](const ReportFrame& frame) { return frame.tracking_ms; });
-  const size_t num_stages = data.stage_names.size();
   // The sum of the stages up to each; painted from the highest down, the lower ones stay on top.
   std::vector<std::vector<Eigen::Vector2d>> sums;
-  for (size_t stage = 0; stage < num_stages; ++stage) {
-    sums.push_back(Series(data, [stage](const ReportFrame& frame) {
+  for (size_t stage = 0; stage < data.stages.size(); ++stage) {
+    if (!data.stages[stage].is_stacked) continue;
+    sums.push_back(Series(data, [&data, stage](const ReportFrame& frame) {
       double sum = 0.0;
-      for (size_t i = 0; i <= stage; ++i) sum += frame.stage_ms[i];
+      for (size_t i = 0; i <= stage; ++i) {
+        if (data.stages[i].is_stacked) sum += frame.stage_ms[i];
+      }
       return sum;
     }));
   }
@@ -246,8 +252,8 @@ std::string PlotStages(const ReportData& data) {
   if (!sums.empty()) Include(RangeFromZero(sums.back()).max, &range);
   SvgPlot plot(kSeriesSize, TimeRange(data), range);
   plot.AddAxes("time, s", "tracking, ms");
-  for (size_t stage = num_stages; stage-- > 0;) {
-    plot.AddArea(sums[stage], "stage-" + std::to_string(stage % 6));
+  for (size_t i = sums.size(); i-- > 0;) {
+    plot.AddArea(sums[i], "stage-" + std::to_string(i % 6));
   }
   plot.AddSeries(whole, "curve whole");
   return plot.ToString("Time of the stages of tracking, over time");

@@ -24,7 +24,10 @@ std::string PlotError(const ReportData& data);
 // Inlier points and lines of every frame.
 std::string PlotInliers(const ReportData& data);
 
-// Stages of tracking stacked on each other, and the whole; milliseconds.
+// Style of the map lines of a Manhattan axis; -1: of none.
+std::string LineClass(int axis);
+
+// The stages of tracking that are stacked, on each other, and the whole; milliseconds.
 std::string PlotStages(const ReportData& data);
 
 // Milliseconds of each keyframe step.

@@ -36,7 +36,7 @@ StageTimeStatistics SummarizeStage(const std::string& name, std::vector<double> 
   return statistics;
 }
 
-std::vector<StageTimeStatistics> SummarizeStages(const std::vector<std::string>& stage_names,
+std::vector<StageTimeStatistics> SummarizeStages(const std::vector<ReportStage>& stages,
                                                  const std::vector<ReportFrame>& frames) {
   const auto summarize = [&frames](const std::string& name, const auto& milliseconds_of) {
     std::vector<double> values;
@@ -44,9 +44,9 @@ std::vector<StageTimeStatistics> SummarizeStages(const std::vector<std::string>&
     return SummarizeStage(name, std::move(values));
   };
   std::vector<StageTimeStatistics> all;
-  for (size_t i = 0; i < stage_names.size(); ++i) {
+  for (size_t i = 0; i < stages.size(); ++i) {
     all.push_back(
-        summarize(stage_names[i], [i](const ReportFrame& frame) { return frame.stage_ms[i]; }));
+        summarize(stages[i].name, [i](const ReportFrame& frame) { return frame.stage_ms[i]; }));
   }
   all.push_back(summarize("tracking", [](const ReportFrame& frame) { return frame.tracking_ms; }));
   std::vector<double> mapping;

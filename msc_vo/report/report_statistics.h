@@ -26,7 +26,7 @@ StageTimeStatistics SummarizeStage(const std::string& name, std::vector<double> 
 
 // The stages of tracking that ReportFrame::stage_ms holds, "tracking" as a whole over all frames,
 // and "mapping" over the frames that caused a keyframe step.
-std::vector<StageTimeStatistics> SummarizeStages(const std::vector<std::string>& stage_names,
+std::vector<StageTimeStatistics> SummarizeStages(const std::vector<ReportStage>& stages,
                                                  const std::vector<ReportFrame>& frames);
 
 // Successive frames without an estimated pose (predicted or lost).

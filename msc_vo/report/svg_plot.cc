@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "msc_vo/geometry/cell_index.h"
 #include "msc_vo/report/html_text.h"
@@ -47,6 +48,26 @@ double NiceStep(double length, int max_ticks) {
 int DecimalsOf(const std::vector<double>& ticks) {
   if (ticks.size() < 2) return 1;
   return CellIndex(std::ceil(-std::log10(ticks[1] - ticks[0]) - 1e-9), 10);
+}
+
+// The part of the segment inside the rectangle of `low` and `high`, if there is one (Liang and
+// Barsky 1984).
+std::optional<LineSegment2> Clipped(const LineSegment2& segment, const Eigen::Vector2d& low,
+                                    const Eigen::Vector2d& high) {
+  const Eigen::Vector2d direction = segment.end - segment.start;
+  double from = 0.0, to = 1.0;  // along the segment
+  for (int axis = 0; axis < 2; ++axis) {
+    if (direction[axis] == 0.0) {
+      if (segment.start[axis] < low[axis] || segment.start[axis] > high[axis]) return std::nullopt;
+      continue;
+    }
+    const double a = (low[axis] - segment.start[axis]) / direction[axis];
+    const double b = (high[axis] - segment.start[axis]) / direction[axis];
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+  }
+  if (from > to) return std::nullopt;
+  return LineSegment2{segment.start + from * direction, segment.start + to * direction};
 }
 
 }  // namespace
@@ -181,7 +202,9 @@ void SvgPlot::AddSegments(const std::vector<LineSegment2>& segments, const std::
   std::string path;
   for (const LineSegment2& segment : segments) {
     if (!segment.start.allFinite() || !segment.end.allFinite()) continue;
-    path += 'M' + PointText(ToDrawing(segment.start)) + 'L' + PointText(ToDrawing(segment.end));
+    const auto visible = Clipped(segment, {x_.min, y_.min}, {x_.max, y_.max});
+    if (!visible) continue;
+    path += 'M' + PointText(ToDrawing(visible->start)) + 'L' + PointText(ToDrawing(visible->end));
   }
   if (path.empty()) return;
   inside_ += "<path class=\"" + css_class + "\" d=\"" + path + "\"/>\n";

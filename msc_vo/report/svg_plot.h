@@ -52,6 +52,7 @@ class SvgPlot {
   void AddArea(const std::vector<Eigen::Vector2d>& points, const std::string& css_class);
   // A path through the plane. Points closer than half a drawing unit to the last are left out.
   void AddPath(const std::vector<Eigen::Vector2d>& points, const std::string& css_class);
+  // Segments are cut at the axes; those outside are left out.
   void AddSegments(const std::vector<LineSegment2>& segments, const std::string& css_class);
   void AddDots(const std::vector<Eigen::Vector2d>& points, double radius,
                const std::string& css_class);

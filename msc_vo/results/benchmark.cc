@@ -77,6 +77,18 @@ std::string FormatHeader(const Benchmark& benchmark) {
   return text + (benchmark.changed_options.empty() ? " none\n" : "\n");
 }
 
+// Says which sequences the mean does not hold, since a mode failed on them. Empty if none.
+std::string LeftOutOfMean(const Benchmark& benchmark) {
+  std::string names;
+  for (const std::string& sequence : Sequences(benchmark)) {
+    const bool failed = std::any_of(
+        benchmark.runs.begin(), benchmark.runs.end(),
+        [&](const BenchmarkRun& run) { return run.sequence == sequence && !run.failure.empty(); });
+    if (failed) names += (names.empty() ? "" : ", ") + Cell(sequence);
+  }
+  return names.empty() ? "" : "\nNot in the mean, as a run failed: " + names + ".\n";
+}
+
 std::string FormatErrorTable(const Benchmark& benchmark) {
   std::vector<Row> rows = {{"APE RMSE, mm"}};
   rows[0].insert(rows[0].end(), benchmark.modes.begin(), benchmark.modes.end());
@@ -101,7 +113,7 @@ std::string FormatErrorTable(const Benchmark& benchmark) {
     rows.push_back(means);
     if (benchmark.modes.size() > 1) rows.push_back(ratios);
   }
-  return "## Position error after alignment\n\n" + FormatTable(rows);
+  return "## Position error after alignment\n\n" + FormatTable(rows) + LeftOutOfMean(benchmark);
 }
 
 // "tracked" does not count: the column beside it says how many are.

@@ -42,7 +42,7 @@ std::vector<ReportFrame> ReportFrames(const std::vector<FrameResult>& frames) {
     row.num_inlier_points = frame.num_inlier_points;
     row.num_inlier_lines = frame.num_inlier_lines;
     const StageTimes& times = frame.times;
-    row.stage_ms = {times.points,  times.lines,    times.depth,
+    row.stage_ms = {times.points,  times.lines,    times.depth, times.features,
                     times.waiting, times.matching, times.pose};
     row.tracking_ms = times.tracking;
     row.mapping_ms = times.mapping;
@@ -51,8 +51,9 @@ std::vector<ReportFrame> ReportFrames(const std::vector<FrameResult>& frames) {
   return rows;
 }
 
-std::vector<std::string> ReportStageNames() {
-  return {"points", "lines", "depth", "waiting", "matching", "pose"};
+std::vector<ReportStage> ReportStages() {
+  return {{"points", false}, {"lines", false}, {"depth", false}, {"features"},
+          {"waiting"},       {"matching"},     {"pose"}};
 }
 
 }  // namespace msc_vo

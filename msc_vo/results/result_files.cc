@@ -6,38 +6,74 @@
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/logging/logger.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/results/run_report.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
+
+namespace {
+
+std::string FileIn(const std::string& directory, const char* name) {
+  return (std::filesystem::path(directory) / name).string();
+}
+
+// What every run writes, whatever its sequence. (It writes groundtruth.txt only if there is one.)
+constexpr const char* kFilesOfEveryRun[] = {"trajectory.txt", "keyframes.txt", "frames.csv",
+                                            "map.ply",        "lines.ply",     "summary.json",
+                                            "report.html"};
+
+}  // namespace
+
+std::string FormatFrameRow(const FrameResult& frame) {
+  const StageTimes& ms = frame.times;
+  std::string text = FormatText("%.6f,%s,%d,%d,%d,%d,%d", frame.timestamp, ToString(frame.status),
+                                frame.is_keyframe ? 1 : 0, frame.num_points, frame.num_lines,
+                                frame.num_inlier_points, frame.num_inlier_lines);
+  text += FormatText(",%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f", ms.points, ms.lines, ms.depth,
+                     ms.waiting, ms.matching, ms.pose, ms.tracking, ms.mapping);
+  for (int i = 0; i < 6; ++i) text += FormatText(",%.9g", std::sqrt(frame.covariance(i, i)));
+  return text + FormatText(",%d\n", frame.num_dynamic);
+}
 
 std::string FormatFramesCsv(const std::vector<FrameResult>& frames) {
   std::string text =
       "time,status,keyframe,points,lines,inlier_points,inlier_lines,points_ms,lines_ms,depth_ms,"
       "waiting_ms,matching_ms,pose_ms,tracking_ms,mapping_ms,sigma_rx,sigma_ry,sigma_rz,sigma_tx,"
       "sigma_ty,sigma_tz,moving\n";
-  for (const FrameResult& frame : frames) {
-    const StageTimes& ms = frame.times;
-    text += FormatText("%.6f,%s,%d,%d,%d,%d,%d", frame.timestamp, ToString(frame.status),
-                       frame.is_keyframe ? 1 : 0, frame.num_points, frame.num_lines,
-                       frame.num_inlier_points, frame.num_inlier_lines);
-    text += FormatText(",%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f", ms.points, ms.lines, ms.depth,
-                       ms.waiting, ms.matching, ms.pose, ms.tracking, ms.mapping);
-    for (int i = 0; i < 6; ++i) text += FormatText(",%.9g", std::sqrt(frame.covariance(i, i)));
-    text += FormatText(",%d\n", frame.num_dynamic);
-  }
+  for (const FrameResult& frame : frames) text += FormatFrameRow(frame);
   return text;
+}
+
+void RefuseToOverwriteInputs(const SequenceIndex& sequence, const std::string& config,
+                             const std::string& directory) {
+  RefuseToOverwrite(InputFolders(sequence), directory);
+  for (const char* name : kFilesOfEveryRun) {
+    RefuseToOverwrite({config}, FileIn(directory, name));
+  }
+}
+
+void RemoveResultFiles(const std::string& directory) {
+  for (const char* name : kFilesOfEveryRun) {
+    std::error_code error;
+    std::filesystem::remove(FileIn(directory, name), error);
+    if (error) {
+      throw std::runtime_error(FileIn(directory, name) +
+                               ": cannot be replaced: " + error.message());
+    }
+  }
 }
 
 void WriteResultFiles(const std::string& directory, const OdometryResult& result,
                       const RunContext& context) {
   MakeFolder(directory);
-  const std::filesystem::path folder = directory;
-  const auto path = [&](const char* name) { return (folder / name).string(); };
+  const auto path = [&](const char* name) { return FileIn(directory, name); };
   WriteTrajectory(path("trajectory.txt"), TrajectoryOf(result));
   WriteTrajectory(path("keyframes.txt"), result.keyframes);
   const std::vector<TimedPose>& truth = context.sequence.ground_truth;
@@ -48,6 +84,7 @@ void WriteResultFiles(const std::string& directory, const OdometryResult& result
   const RunSummary summary = Summarize(result);
   WriteFile(path("summary.json"), FormatSummary(summary, context));
   WriteFile(path("report.html"), FormatReport(result, summary, context));
+  Log().info("results written to {}", directory);
 }
 
 }  // namespace msc_vo

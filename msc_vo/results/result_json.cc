@@ -33,6 +33,7 @@ Json ErrorToJson(const TrajectoryError& error) {
   json["ape_mean"] = NumberIf(error.ape.count, error.ape.mean);
   json["ape_median"] = NumberIf(error.ape.count, error.ape.median);
   json["ape_max"] = NumberIf(error.ape.count, error.ape.max);
+  json["rotation_deg"] = NumberIf(error.rotation.count, RadiansToDegrees(error.rotation.rmse));
   json["ape_rot_deg"] = NumberIf(error.ape.count, RadiansToDegrees(error.ape_rotation.rmse));
   json["rpe_1s"] = NumberIf(second.translation.count, second.translation.rmse);
   json["rpe_1s_rot_deg"] = NumberIf(second.rotation.count, RadiansToDegrees(second.rotation.rmse));
@@ -42,6 +43,7 @@ Json ErrorToJson(const TrajectoryError& error) {
   json["rpe_1m_pairs"] = metre.translation.count;
   json["matched"] = error.num_matched;
   json["est"] = error.num_estimate;
+  json["not_estimated"] = error.num_not_estimated;
   json["gt"] = error.num_reference;
   json["gt_in_range"] = error.num_reference_in_range;
   json["coverage"] = error.coverage;
@@ -82,11 +84,11 @@ Json CameraToJson(const Calibration& calibration) {
           {"distortion", calibration.distortion.k}};
 }
 
-// Flat: {"tracking.wide_radius": 60.0}.
-Json OptionsToJson(Configuration configuration) {
+// The options in effect, flat: {"tracking.wide_radius": 60.0}.
+Json OptionsToJson(const Configuration& configuration) {
+  OdometryOptions effective = EffectiveOptions(configuration.odometry);
   Json json = Json::object();
-  for (const Option& option : ListOptions(&configuration)) {
-    if (option.path.rfind("camera.", 0) == 0) continue;  // stands in "camera"
+  for (const Option& option : ListOptions(&effective)) {
     std::visit(
         [&](const auto& value) {
           using Value = std::decay_t<decltype(value)>;
@@ -131,6 +133,10 @@ Json FramesToJson(const RunSummary& summary) {
     json[ToString(static_cast<TrackingStatus>(i))] = summary.status_counts[i];
   }
   json["tracked_share"] = summary.tracked_share;
+  json["loss_causes"] = Json::object();
+  for (size_t i = 0; i < summary.loss_causes.size(); ++i) {
+    json["loss_causes"][ToString(static_cast<LossCause>(i))] = summary.loss_causes[i];
+  }
   json["with_motion"] = summary.num_frames_with_motion;
   json["not_tracked_spans"] = Json::array();
   for (const NotTrackedSpan& span : summary.not_tracked) {

@@ -102,8 +102,9 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
     numbers.push_back({"APE RMSE", FormatText("%.1f mm", 1000.0 * error.ape.rmse),
                        "position, after SE(3) alignment"});
     numbers.push_back({"APE maximum", FormatText("%.1f mm", 1000.0 * error.ape.max), ""});
-    numbers.push_back(
-        {"APE rotation", FormatText("%.3f deg", RadiansToDegrees(error.ape_rotation.rmse)), ""});
+    numbers.push_back({"Rotation RMSE",
+                       FormatText("%.3f deg", RadiansToDegrees(error.rotation.rmse)),
+                       "orientations, aligned by their mean rotation"});
     if (error.rpe_per_second.translation.count > 0) {
       numbers.push_back(
           {"RPE per second",
@@ -112,7 +113,7 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
            FormatText("%d pairs", error.rpe_per_second.translation.count)});
     }
     numbers.push_back({"Coverage", FormatText("%.1f %%", 100.0 * error.coverage),
-                       "ground-truth poses with an estimate"});
+                       "ground-truth poses with an estimated pose"});
   }
   numbers.push_back({"Frames", StatusText(summary), context.outcome});
   if (!context.first_unreadable.empty()) {
@@ -120,6 +121,8 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
                        std::to_string(summary.Count(TrackingStatus::kUnreadable)),
                        "the first: " + context.first_unreadable});
   }
+  const std::string losses = DescribeLosses(summary);
+  if (!losses.empty()) numbers.push_back({"Images without a pose", losses, ""});
   numbers.push_back({"Map", MapText(summary), "at the end"});
   numbers.push_back({"Manhattan axes", AxesText(summary), ""});
   numbers.push_back({"Tracking", TrackingText(summary), ""});
@@ -137,13 +140,21 @@ std::string Row(const char* name, const std::string& text) {
   return FormatText("%-10s ", name) + text + "\n";
 }
 
+// What the row of a stage is, beside its numbers.
+const char* StageNote(const std::string& name) {
+  if (name == "tracking") return "  per frame";
+  if (name == "mapping") return "  per keyframe";
+  for (const ReportStage& stage : ReportStages()) {
+    if (stage.name == name && !stage.is_stacked) return "  side by side, within features";
+  }
+  return "";
+}
+
 std::string StageRows(const std::vector<StageTimeStatistics>& stages) {
   std::string rows = Row("time, ms", "               mean  median    95 %     max");
   for (const StageTimeStatistics& stage : stages) {
-    const bool is_whole = stage.name == "tracking" || stage.name == "mapping";
-    const char* unit = stage.name == "tracking" ? "  per frame" : "  per keyframe";
     rows += Row("", FormatText("%-11s %7.1f %7.1f %7.1f %7.1f%s", stage.name.c_str(), stage.mean,
-                               stage.median, stage.p95, stage.max, is_whole ? unit : ""));
+                               stage.median, stage.p95, stage.max, StageNote(stage.name)));
   }
   return rows;
 }
@@ -153,13 +164,13 @@ std::string ErrorRows(const TrajectoryError& error) {
   std::string rows =
       Row("error", FormatText("APE RMSE %.1f mm (median %.1f, max %.1f), rotation %.2f deg",
                               1000.0 * error.ape.rmse, 1000.0 * error.ape.median,
-                              1000.0 * error.ape.max, RadiansToDegrees(error.ape_rotation.rmse)));
+                              1000.0 * error.ape.max, RadiansToDegrees(error.rotation.rmse)));
   const RelativeError& second = error.rpe_per_second;
   if (second.translation.count > 0) {
     rows += Row("", FormatText("RPE %.1f mm/s, %.2f deg/s", 1000.0 * second.translation.rmse,
                                RadiansToDegrees(second.rotation.rmse)));
   }
-  return rows + Row("", FormatText("%.1f %% of the ground-truth poses have an estimate",
+  return rows + Row("", FormatText("%.1f %% of the ground-truth poses have an estimated pose",
                                    100.0 * error.coverage));
 }
 
@@ -176,6 +187,8 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
   for (const NotTrackedSpan& span : summary.not_tracked) {
     table += Row("", FormatText("no pose in frames %d to %d", span.first_frame, span.last_frame));
   }
+  const std::string losses = DescribeLosses(summary);
+  if (!losses.empty()) table += Row("", "images without a pose: " + losses);
   table += Row("map", MapText(summary));
   table += Row("axes", AxesText(summary));
   table += StageRows(summary.stages);
@@ -187,6 +200,11 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
     const std::filesystem::path output = output_directory;
     table += Row("check with", "evo_ape tum " + (output / "groundtruth.txt").string() + " " +
                                    (output / "trajectory.txt").string() + " -a --t_max_diff 0.02");
+    if (summary.num_estimated < summary.num_frames) {
+      table += Row("",
+                   "(which takes all poses, as msc_vo evaluate --all-poses; the errors above "
+                   "are those of estimated poses)");
+    }
   }
   return table;
 }
@@ -204,9 +222,10 @@ std::string FormatReport(const OdometryResult& result, const RunSummary& summary
   data.title = std::filesystem::path(context.sequence.directory).filename().string();
   data.version = std::string("msc_vo ") + kVersion;
   data.command_line = context.command_line;
-  data.options_text = FormatConfiguration(context.configuration);
+  data.options_text =
+      FormatConfiguration(EffectiveConfiguration(context.configuration), OptionSelection::kAll);
   data.numbers = MakeNumbers(summary, context);
-  data.stage_names = ReportStageNames();
+  data.stages = ReportStages();
   data.frames = AlignedFrames(result, context.error);
   for (const MapLine& line : result.lines) {
     data.lines.push_back(

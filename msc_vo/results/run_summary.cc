@@ -9,14 +9,11 @@
 #include <utility>
 
 #include "msc_vo/results/report_frame.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
 namespace {
-
-bool IsTracked(const FrameResult& frame) {
-  return frame.status == TrackingStatus::kTracked || frame.status == TrackingStatus::kWeak;
-}
 
 // The stages of the mapper over the frames that caused a keyframe step, and have such a stage.
 std::vector<StageTimeStatistics> SummarizeMapping(const std::vector<FrameResult>& frames) {
@@ -39,6 +36,11 @@ std::vector<StageTimeStatistics> SummarizeMapping(const std::vector<FrameResult>
           summarize("snapshot", [](const StageTimes& t) { return t.snapshot; })};
 }
 
+int NumProcessed(const RunSummary& summary) {
+  return summary.num_frames - summary.Count(TrackingStatus::kDropped) -
+         summary.Count(TrackingStatus::kUnreadable);
+}
+
 }  // namespace
 
 RunSummary Summarize(const OdometryResult& result) {
@@ -47,12 +49,16 @@ RunSummary Summarize(const OdometryResult& result) {
   for (const FrameResult& frame : result.frames) {
     ++summary.status_counts.at(static_cast<size_t>(frame.status));
     summary.num_frames_with_motion += frame.num_dynamic > 0 ? 1 : 0;
+    summary.num_estimated += IsEstimated(frame.status) ? 1 : 0;
+    if (HasImage(frame.status) && !IsEstimated(frame.status)) {
+      ++summary.loss_causes.at(static_cast<size_t>(FindLossCause(frame)));
+    }
   }
-  const auto tracked = std::count_if(result.frames.begin(), result.frames.end(), IsTracked);
-  summary.tracked_share = static_cast<double>(tracked) / std::max(summary.num_frames, 1);
+  summary.tracked_share =
+      static_cast<double>(summary.num_estimated) / std::max(summary.num_frames, 1);
   const std::vector<ReportFrame> frames = ReportFrames(result.frames);
   summary.not_tracked = FindNotTrackedSpans(frames);
-  summary.stages = SummarizeStages(ReportStageNames(), frames);
+  summary.stages = SummarizeStages(ReportStages(), frames);
   const std::vector<StageTimeStatistics> mapping = SummarizeMapping(result.frames);
   summary.stages.insert(std::prev(summary.stages.end()), mapping.begin(), mapping.end());
   summary.num_keyframes = static_cast<int>(result.keyframes.size());
@@ -75,10 +81,33 @@ StageTimeStatistics FindStage(const RunSummary& summary, const std::string& name
   return {};
 }
 
+bool TrackingFailed(const RunSummary& summary) {
+  return summary.num_estimated == 0 ||
+         summary.num_estimated < kMinTrackedShare * NumProcessed(summary);
+}
+
+std::string DescribeLosses(const RunSummary& summary) {
+  std::string text;
+  for (size_t i = 0; i < summary.loss_causes.size(); ++i) {
+    if (summary.loss_causes[i] == 0) continue;
+    text += FormatText("%s%d %s", text.empty() ? "" : ", ", summary.loss_causes[i],
+                       Describe(static_cast<LossCause>(i)));
+  }
+  return text;
+}
+
+std::string DescribeFailure(const RunSummary& summary) {
+  std::string text = FormatText(
+      "tracking failed: %d of %d images have an estimated pose, at least %.0f %% are needed",
+      summary.num_estimated, NumProcessed(summary), 100.0 * kMinTrackedShare);
+  const std::string losses = DescribeLosses(summary);
+  return losses.empty() ? text : text + "; the others: " + losses;
+}
+
 std::vector<TimedPose> TrajectoryOf(const OdometryResult& result) {
   std::vector<TimedPose> poses;
   for (const FrameResult& frame : result.frames) {
-    poses.push_back({frame.timestamp, frame.cam_from_world.Inverse()});
+    poses.push_back({frame.timestamp, frame.cam_from_world.Inverse(), IsEstimated(frame.status)});
   }
   return poses;
 }

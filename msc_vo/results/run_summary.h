@@ -13,6 +13,7 @@
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/evaluation/line_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
+#include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/odometry/odometry.h"
 #include "msc_vo/report/report_statistics.h"
 
@@ -21,8 +22,11 @@ namespace msc_vo {
 // A run in numbers.
 struct RunSummary {
   int num_frames = 0;
-  std::array<int, 6> status_counts = {0, 0, 0, 0, 0, 0};  // by TrackingStatus
-  double tracked_share = 0.0;                             // tracked or weak / all, 0..1
+  std::array<int, 6> status_counts = {};  // by TrackingStatus
+  int num_estimated = 0;                  // tracked or weak
+  double tracked_share = 0.0;             // num_estimated / num_frames, 0..1
+  // Why predicted and lost frames have no pose of their own, by LossCause.
+  std::array<int, kNumLossCauses> loss_causes = {};
   std::vector<NotTrackedSpan> not_tracked;
   int num_frames_with_motion = 0;  // in which something moved by itself
   // Stages of tracking, "tracking" as a whole, stages of mapping, "mapping" as a whole.
@@ -41,6 +45,19 @@ struct RunSummary {
 };
 
 RunSummary Summarize(const OdometryResult& result);
+
+// A run with a smaller share of estimated poses (tracked or weak) among the images that were not
+// dropped has failed: what it found is not the trajectory of the camera.
+constexpr double kMinTrackedShare = 0.5;
+
+bool TrackingFailed(const RunSummary& summary);
+
+// Why frames have no estimated pose, most basic cause first: "12 black or uniform images, ...".
+// Empty if all frames have one.
+std::string DescribeLosses(const RunSummary& summary);
+
+// One line for a run that failed: how many poses there are, and why the others are missing.
+std::string DescribeFailure(const RunSummary& summary);
 
 // The statistics of a stage; all zero if it never ran.
 StageTimeStatistics FindStage(const RunSummary& summary, const std::string& name);
@@ -63,7 +80,8 @@ struct RealtimeSummary {
 // What only the one who made the run knows.
 struct RunContext {
   std::string command_line;
-  std::string outcome;  // "complete", "interrupted", or the error that ended the run
+  // "complete", "interrupted", why tracking failed, or the error that ended the run.
+  std::string outcome;
   SequenceIndex sequence;
   Calibration calibration;
   Configuration configuration;
@@ -89,7 +107,8 @@ struct LeftOutRows {
 std::string FormatErrorJson(const TrajectoryError& error, const LeftOutRows& left_out,
                             const std::optional<LineError>& lines = std::nullopt);
 
-// The poses of all frames, camera in world.
+// The poses of all frames, camera in world; those of frames that are neither tracked nor weak are
+// marked as not estimated.
 std::vector<TimedPose> TrajectoryOf(const OdometryResult& result);
 
 }  // namespace msc_vo

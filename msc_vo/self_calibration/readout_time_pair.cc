@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "msc_vo/factors/camera_factor.h"
+#include "msc_vo/factors/robust_loss.h"
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/matching/point_matcher.h"
@@ -33,7 +34,7 @@ constexpr double kSearchRadius = 20.0;
 constexpr int kRobustIterations = 3;
 constexpr int kIterations = 5;
 // Square roots of the 95 %, 99 % and 50 % quantiles of chi-square with two degrees of freedom.
-constexpr double kHuber = 2.448;
+constexpr HuberLoss kLoss{2.448};
 constexpr double kOutlierSigmas = 3.035;
 constexpr double kMedianSigmas = 1.177;
 // Standard deviation, pixels, of the error that all residuals have in common, from errors of the
@@ -125,7 +126,7 @@ class PairProblem {
     for (const Residual& residual : residuals_) {
       const double sigmas = residual.Sigmas() / scale;
       if (rejects_outliers && sigmas > kOutlierSigmas) continue;
-      equations.Add(residual, std::min(1.0, kHuber / std::max(sigmas, kHuber)) / (scale * scale));
+      equations.Add(residual, kLoss.Weight(sigmas * sigmas) / (scale * scale));
     }
     return equations;
   }

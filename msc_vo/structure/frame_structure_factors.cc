@@ -4,9 +4,13 @@
 #include "msc_vo/structure/frame_structure_factors.h"
 
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <ceres/jet.h>
+
+#include "msc_vo/bundle_adjustment/levenberg_marquardt.h"
+#include "msc_vo/factors/robust_loss.h"
 
 namespace msc_vo {
 
@@ -49,19 +53,16 @@ void AddPrior(const InverseDepthLinePrior& prior, int line, const Block& block,
 }
 
 template <typename Relation>
-void AddPair(const FrameStructureFactors::Pair<Relation>& pair, double huber,
+void AddPair(const FrameStructureFactors::Pair<Relation>& pair, const HuberLoss& loss,
              const std::vector<Direction>& directions, StructureEquations* equations) {
   constexpr int kRows = Relation::kNumResiduals;
   const Direction& at_i = directions[pair.i];
   const Direction& at_j = directions[pair.j];
   Eigen::Matrix<double, kRows, 1> r;
   pair.relation.Residual(at_i.value, at_j.value, r.data());
-  // Huber's rho and its derivative.
   const double s = r.squaredNorm();
-  const double norm = std::sqrt(s);
-  const bool is_quadratic = huber == 0.0 || norm <= huber;
-  const double weight = is_quadratic ? 1.0 : huber / norm;
-  equations->cost += is_quadratic ? 0.5 * s : huber * norm - 0.5 * huber * huber;
+  const double weight = loss.Weight(s);
+  equations->cost += 0.5 * loss.Cost(s);
   const auto j_i = (pair.relation.JacobianI(at_i.value, at_j.value) * at_i.jacobian).eval();
   const auto j_j = (pair.relation.JacobianJ(at_i.value, at_j.value) * at_j.jacobian).eval();
   equations->gradient[pair.i] += weight * (j_i.transpose() * r);
@@ -128,6 +129,41 @@ Blocks SolveStep(const StructureEquations& equations, double lambda) {
   return x;
 }
 
+// The unknown blocks and their normal equations, for MinimizeByLevenbergMarquardt.
+class StructureProblem {
+ public:
+  StructureProblem(const FrameStructureFactors& factors, const Blocks& blocks,
+                   StructureEquations* equations)
+      : factors_(factors), blocks_(blocks), equations_(equations) {}
+
+  const Blocks& blocks() const { return blocks_; }
+
+  bool Linearize() { return factors_.Linearize(blocks_, equations_); }
+
+  bool SolveStep(double lambda, double* squared_step) {
+    const Blocks step = msc_vo::SolveStep(*equations_, lambda);
+    Multiply(*equations_, 0.0, step, &product_);
+    *squared_step = Dot(step, product_);
+    candidate_ = blocks_;
+    for (size_t i = 0; i < step.size(); ++i) candidate_[i] += step[i];
+    return std::isfinite(*squared_step);
+  }
+
+  // Derivatives are needed after the last step too: covariances are computed from them.
+  bool TakeStep(bool /*is_last*/) {
+    if (!factors_.Linearize(candidate_, &next_) || !(next_.cost <= equations_->cost)) return false;
+    blocks_.swap(candidate_);
+    std::swap(*equations_, next_);
+    return true;
+  }
+
+ private:
+  const FrameStructureFactors& factors_;
+  Blocks blocks_, candidate_, product_;
+  StructureEquations* equations_;  // at blocks_
+  StructureEquations next_;        // at candidate_
+};
+
 }  // namespace
 
 bool FrameStructureFactors::Linearize(const Blocks& blocks, StructureEquations* equations) const {
@@ -135,42 +171,27 @@ bool FrameStructureFactors::Linearize(const Blocks& blocks, StructureEquations* 
   equations->gradient.assign(lines.size(), Block::Zero());
   equations->diagonal.assign(lines.size(), Matrix::Zero());
   equations->pairs.reserve(parallel.size() + perpendicular.size());
+  const HuberLoss loss{huber};
   std::vector<Direction> directions(lines.size());
   for (size_t i = 0; i < lines.size(); ++i) {
     if (!msc_vo::Linearize(lines[i], blocks[i], &directions[i])) return false;
     AddPrior(priors[i], static_cast<int>(i), blocks[i], equations);
   }
-  for (const auto& pair : parallel) AddPair(pair, huber, directions, equations);
-  for (const auto& pair : perpendicular) AddPair(pair, huber, directions, equations);
+  for (const auto& pair : parallel) AddPair(pair, loss, directions, equations);
+  for (const auto& pair : perpendicular) AddPair(pair, loss, directions, equations);
   return std::isfinite(equations->cost);
 }
 
 bool MinimizeStructure(const FrameStructureFactors& factors, int max_iterations, Blocks* blocks,
                        StructureEquations* equations, int* num_iterations) {
-  *num_iterations = 0;
-  if (!factors.Linearize(*blocks, equations)) return false;
-  // Squared length of the last step in standard deviations of the estimate, all lines together.
-  constexpr double kConverged = 1e-4;
-  double lambda = 1e-4;  // relative to the diagonal; small, because priors keep the problem linear
-  StructureEquations next;
-  Blocks product;
-  for (; *num_iterations < max_iterations; ++*num_iterations) {
-    const Blocks step = SolveStep(*equations, lambda);
-    Multiply(*equations, 0.0, step, &product);
-    const double size = Dot(step, product);
-    if (!std::isfinite(size)) return false;
-    Blocks candidate = *blocks;
-    for (size_t i = 0; i < step.size(); ++i) candidate[i] += step[i];
-    if (factors.Linearize(candidate, &next) && next.cost <= equations->cost) {
-      blocks->swap(candidate);
-      std::swap(*equations, next);
-      lambda *= 0.1;
-    } else {
-      lambda *= 100.0;
-    }
-    // Tested for rejected steps too, because rounding may reject a tiny step at the minimum.
-    if (size < kConverged) break;
-  }
+  // A hundredth of the estimate's own standard deviations, of all lines together.
+  constexpr double kMinSquaredStep = 1e-4;
+  StructureProblem problem(factors, *blocks, equations);
+  const LevenbergMarquardtSummary summary =
+      MinimizeByLevenbergMarquardt(max_iterations, kMinSquaredStep, &problem);
+  *num_iterations = summary.num_iterations;
+  if (summary.termination == LevenbergMarquardtTermination::kFailed) return false;
+  *blocks = problem.blocks();
   return true;
 }
 

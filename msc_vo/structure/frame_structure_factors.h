@@ -57,9 +57,9 @@ struct FrameStructureFactors {
                  StructureEquations* equations) const;
 };
 
-/// Minimises by Levenberg-Marquardt, starting at *blocks. Returns false and leaves them unchanged
-/// on failure. *equations receives the linearisation at the minimum, *num_iterations the number of
-/// attempted steps.
+/// Minimises the cost by Levenberg-Marquardt from *blocks. Returns false, and leaves *blocks
+/// unchanged, if a factor is undefined there or a step is not finite. *equations: normal equations
+/// at the solution. *num_iterations: steps that were evaluated.
 bool MinimizeStructure(const FrameStructureFactors& factors, int max_iterations,
                        std::vector<InverseDepthLineBlock>* blocks, StructureEquations* equations,
                        int* num_iterations);

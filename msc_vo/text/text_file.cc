@@ -11,6 +11,7 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace msc_vo {
 
@@ -28,6 +29,14 @@ std::vector<std::string> SplitFields(const std::string& text) {
   return fields;
 }
 
+// "lost" from "  # lost ".
+std::string CommentText(const std::string& text) {
+  constexpr char kBlanks[] = " \t\r\n";
+  const size_t begin = text.find_first_not_of(kBlanks, text.find('#') + 1);
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+}
+
 }  // namespace
 
 std::string TextLine::Where() const { return file + ":" + std::to_string(number); }
@@ -35,53 +44,19 @@ std::string TextLine::Where() const { return file + ":" + std::to_string(number)
 std::vector<TextLine> ReadTextLines(const std::string& path) {
   std::istringstream content(ReadFile(path));
   std::vector<TextLine> lines;
-  std::string text;
+  std::string text, comment;
   for (int number = 1; std::getline(content, text); ++number) {
     // Some editors on Windows put a byte order mark in front of the first line.
     if (number == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
-    TextLine line{path, number, SplitFields(text)};
-    if (line.fields.empty() || line.fields.front()[0] == '#') continue;
-    lines.push_back(std::move(line));
-  }
-  return lines;
-}
-
-std::string ReadFile(const std::string& path) {
-  if (std::filesystem::is_directory(path)) {
-    throw std::runtime_error(path + ": is a folder, a file is needed");
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw std::runtime_error(path + ": " +
-                             (std::filesystem::exists(path)
-                                  ? "cannot be read (check its permissions)"
-                                  : "does not exist"));
-  }
-  std::ostringstream content;
-  content << file.rdbuf();
-  return content.str();
-}
-
-void WriteFile(const std::string& path, const std::string& content) {
-  const std::string partial = path + ".partial";
-  {
-    std::ofstream file(partial, std::ios::binary | std::ios::trunc);
-    file.write(content.data(), static_cast<std::streamsize>(content.size()));
-    file.close();
-    if (!file) {
-      std::remove(partial.c_str());
-      throw std::runtime_error(path + ": cannot be written (check the folder and the free space)");
+    TextLine line{path, number, SplitFields(text), std::exchange(comment, "")};
+    if (line.fields.empty()) continue;
+    if (line.fields.front()[0] == '#') {
+      comment = CommentText(text);
+    } else {
+      lines.push_back(std::move(line));
     }
   }
-  std::error_code error;
-  std::filesystem::rename(partial, path, error);
-  if (error) throw std::runtime_error(path + ": cannot be written: " + error.message());
-}
-
-void MakeFolder(const std::string& path) {
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (error) throw std::runtime_error(path + ": cannot be made: " + error.message());
+  return lines;
 }
 
 std::optional<double> ParseNumber(const std::string& text) {

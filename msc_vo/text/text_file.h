@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/text/files.h"
+
 namespace msc_vo {
 
 // One line of a text file that carries data, with the place it came from.
@@ -14,6 +16,8 @@ struct TextLine {
   std::string file;
   int number = 0;                   // from 1
   std::vector<std::string> fields;  // separated by blanks, tabs or commas
+  // Of the comment in the line right above, if that is one: without its '#' and blanks around it.
+  std::string comment;
 
   std::string Where() const;  // "file:12"
 };
@@ -21,16 +25,6 @@ struct TextLine {
 // The lines of a file that are neither blank nor a comment (#); CRLF is understood.
 // Throws std::runtime_error, naming the file, if it cannot be read.
 std::vector<TextLine> ReadTextLines(const std::string& path);
-
-// The whole file, byte for byte. Throws std::runtime_error, naming the file, if it cannot be read.
-std::string ReadFile(const std::string& path);
-
-// Writes `content` beside `path` and renames it into place, so that a reader never sees half a file
-// and an interrupted run leaves the previous one. Throws std::runtime_error naming the file.
-void WriteFile(const std::string& path, const std::string& content);
-
-// Makes a folder and those above it, if they do not exist. Throws std::runtime_error naming it.
-void MakeFolder(const std::string& path);
 
 // The number that all of `text` spells, whatever the locale; none if it spells none.
 std::optional<double> ParseNumber(const std::string& text);

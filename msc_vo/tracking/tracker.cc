@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/map/feature_counts.h"
+#include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/timing/stopwatch.h"
 #include "msc_vo/tracking/dynamic_features.h"
@@ -108,14 +110,7 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
 TrackedFrame Tracker::Initialize(std::shared_ptr<const Frame> frame) {
   TrackedFrame tracked;
   tracked.frame = std::move(frame);
-  int num_features = 0;
-  for (const PointFeature& point : tracked.frame->points) {
-    num_features += point.HasDepth() ? 1 : 0;
-  }
-  for (const LineFeature& line : tracked.frame->lines) {
-    num_features += line.depth ? 1 : 0;
-  }
-  if (num_features < options_.min_initial_features) return tracked;
+  if (NumWithDepth(*tracked.frame) < options_.min_initial_features) return tracked;
   tracked.status = TrackingStatus::kTracked;
   tracked.keyframe.is_due = true;
   policy_.Inserted();
@@ -178,6 +173,7 @@ bool Tracker::Relocalize(const Map& map, TrackedFrame* tracked) {
     tracked->matches = hit->matches;
     if (EstimatePose(initial_pose_, map, tracked)) {
       next_candidate_ = kNoId;
+      tracked->relocalized = true;
       return true;
     }
   }

@@ -23,4 +23,12 @@ const char* ToString(TrackingStatus status) {
   return "unknown";
 }
 
+bool IsEstimated(TrackingStatus status) {
+  return status == TrackingStatus::kTracked || status == TrackingStatus::kWeak;
+}
+
+bool HasImage(TrackingStatus status) {
+  return status != TrackingStatus::kDropped && status != TrackingStatus::kUnreadable;
+}
+
 }  // namespace msc_vo

@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -90,6 +91,24 @@ TEST_F(BenchmarkCommandTest, ASequenceThatFailsDoesNotStopTheOthers) {
   EXPECT_EQ(runs[2]["sequence"], "room-2");  // its results do not lie where the first one's would
   EXPECT_EQ(runs[2]["frames"]["count"], 6);
   EXPECT_TRUE(runs[2]["failure"].is_null());
+}
+
+TEST_F(BenchmarkCommandTest, ARunThatLostTheCameraIsNotInTheMean) {
+  Synthesize("room", 8, "good");
+  Synthesize("room", 8, "black");
+  for (const TextLine& image : ReadTextLines(Path("black/rgb.txt"))) {
+    WriteImage("black/" + image.fields.at(1), CV_8UC3, 0, 160, 120);
+  }
+  const CommandOutcome outcome = RunCommand({"benchmark", Path("good"), Path("black"), "--modes",
+                                             "pl-vo-depth", "--output", Path("out"), "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("black, pl-vo-depth failed: tracking failed: 0 of 8"));
+  EXPECT_THAT(Table(), AllOf(HasSubstr("geometric mean of 1 "), HasSubstr("failed |"),
+                             HasSubstr("\nNot in the mean, as a run failed: black.\n"),
+                             HasSubstr("- black, pl-vo-depth: tracking failed: 0 of 8 images")));
+  const nlohmann::json numbers = Numbers();
+  EXPECT_NEAR(numbers["geometric_mean"]["ape_rmse"]["pl-vo-depth"],
+              numbers["runs"][0]["error"]["ape_rmse"].get<double>(), 1e-12);
 }
 
 TEST_F(BenchmarkCommandTest, RunsAllModesThereAreAndRefusesWrongOptionsAtOnce) {

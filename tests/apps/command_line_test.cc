@@ -24,7 +24,7 @@ TEST_F(CommandLineTest, EveryCommandExplainsItself) {
     const CommandOutcome outcome = RunCommand({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_THAT(outcome.output, AllOf(HasSubstr("Example:\n  msc_vo " + std::string(command)),
-                                      HasSubstr("Exit codes:")));
+                                      HasSubstr("Exit codes:"), HasSubstr("3 tracking failed")));
     EXPECT_THAT(RunCommand({"--help"}).output, HasSubstr(command));
   }
   EXPECT_THAT(RunCommand({"--version"}).output, testing::StartsWith("msc_vo "));
@@ -141,18 +141,31 @@ TEST_F(CommandLineTest, EvaluatesATrajectory) {
   EXPECT_THAT(none.output, HasSubstr("only 0 of 1 estimated poses"));
 }
 
-TEST_F(CommandLineTest, ThePrintedConfigurationIsOneThatCanBeRead) {
-  const CommandOutcome defaults = RunCommand({"replay", "--print-config"});
+TEST_F(CommandLineTest, PrintsAConfigurationThatCanBeRead) {
+  const CommandOutcome defaults = RunCommand({"replay", "--print-config", "--all"});
   EXPECT_EQ(defaults.exit_code, 0);
   WriteText("all.yaml", defaults.output);
   const CommandOutcome read =
-      RunCommand({"replay", "--print-config", "--config", Path("all.yaml")});
+      RunCommand({"replay", "--print-config", "--all", "--config", Path("all.yaml")});
   EXPECT_EQ(read.output, defaults.output);
   const CommandOutcome changed =
-      RunCommand({"replay", "--print-config", "--lines", "lsd", "--no-points", "--set",
+      RunCommand({"replay", "--print-config", "--all", "--lines", "lsd", "--no-points", "--set",
                   "tracking.wide_radius=77", "--set", "camera.fx=500"});
   EXPECT_THAT(changed.output, AllOf(HasSubstr("detector: lsd"), HasSubstr("use_points: false"),
                                     HasSubstr("wide_radius: 77"), HasSubstr("  fx: 500")));
+  EXPECT_THAT(RunCommand({"replay", "--print-config"}).output,
+              AllOf(HasSubstr("prediction_radius: 15"), testing::Not(HasSubstr("wide_radius"))));
+}
+
+TEST_F(CommandLineTest, PrintsTheOptionsInMarkdown) {
+  const CommandOutcome table = RunCommand({"replay", "--print-config", "--all", "--markdown"});
+  EXPECT_EQ(table.exit_code, 0);
+  EXPECT_THAT(table.output, HasSubstr("| `tracking.wide_radius` | `60` |"));
+  const CommandOutcome changed =
+      RunCommand({"replay", "--print-config", "--markdown", "--no-points"});
+  EXPECT_EQ(changed.exit_code, 1);
+  EXPECT_THAT(changed.output, HasSubstr("leave out --config, --set"));
+  EXPECT_EQ(RunCommand({"replay", "x", "--all"}).exit_code, 2);
 }
 
 TEST_F(CommandLineTest, ChecksASequence) {

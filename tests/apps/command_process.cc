@@ -6,12 +6,14 @@
 #include <csignal>
 #include <stdexcept>
 
+#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace msc_vo {
 
-CommandProcess::CommandProcess(const std::vector<std::string>& arguments) {
+CommandProcess::CommandProcess(const std::vector<std::string>& arguments,
+                               const std::string& stdout_path) {
   std::vector<char*> argv = {const_cast<char*>(MSC_VO_COMMAND)};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -20,7 +22,8 @@ CommandProcess::CommandProcess(const std::vector<std::string>& arguments) {
   pid_ = fork();
   if (pid_ < 0) throw std::runtime_error("fork failed");
   if (pid_ == 0) {
-    dup2(ends[1], STDOUT_FILENO);
+    const int out = stdout_path.empty() ? ends[1] : open(stdout_path.c_str(), O_WRONLY);
+    dup2(out, STDOUT_FILENO);
     dup2(ends[1], STDERR_FILENO);
     close(ends[0]);
     close(ends[1]);
@@ -33,7 +36,7 @@ CommandProcess::CommandProcess(const std::vector<std::string>& arguments) {
 
 CommandProcess::~CommandProcess() {
   Wait();
-  close(pipe_);
+  if (pipe_ >= 0) CloseOutput();
 }
 
 bool CommandProcess::ReadSome() {
@@ -50,6 +53,11 @@ bool CommandProcess::WaitForOutput(const std::string& text) {
   return true;
 }
 
+void CommandProcess::CloseOutput() {
+  close(pipe_);
+  pipe_ = -1;
+}
+
 void CommandProcess::Signal(int signal) { kill(pid_, signal); }
 
 int CommandProcess::Wait() {
@@ -63,8 +71,9 @@ int CommandProcess::Wait() {
   return exit_code_;
 }
 
-CommandOutcome RunCommand(const std::vector<std::string>& arguments) {
-  CommandProcess process(arguments);
+CommandOutcome RunCommand(const std::vector<std::string>& arguments,
+                          const std::string& stdout_path) {
+  CommandProcess process(arguments, stdout_path);
   const int exit_code = process.Wait();
   return {exit_code, process.output()};
 }

@@ -10,10 +10,12 @@
 
 namespace msc_vo {
 
-// One run of the msc_vo binary, standard output and error together.
+// One run of the msc_vo binary, standard output and error together, or standard error alone if
+// `stdout_path` names a file or a device for standard output.
 class CommandProcess {
  public:
-  explicit CommandProcess(const std::vector<std::string>& arguments);
+  explicit CommandProcess(const std::vector<std::string>& arguments,
+                          const std::string& stdout_path = "");
   // Waits for the program to end.
   ~CommandProcess();
   CommandProcess(const CommandProcess&) = delete;
@@ -22,6 +24,8 @@ class CommandProcess {
   // Reads on until the output contains `text`; false if the program ends without.
   bool WaitForOutput(const std::string& text);
   void Signal(int signal);
+  // Nobody reads the output from now on.
+  void CloseOutput();
   // Reads to the end. Returns the exit code, or minus the signal that ended the program.
   int Wait();
 
@@ -42,6 +46,7 @@ struct CommandOutcome {
   std::string output;
 };
 
-CommandOutcome RunCommand(const std::vector<std::string>& arguments);
+CommandOutcome RunCommand(const std::vector<std::string>& arguments,
+                          const std::string& stdout_path = "");
 
 }  // namespace msc_vo

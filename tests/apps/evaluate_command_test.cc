@@ -69,6 +69,21 @@ TEST_F(EvaluateCommandTest, ComparesLines) {
   EXPECT_NEAR(lines["distance_across"]["max"], 0.0, 1e-9);
 }
 
+TEST_F(EvaluateCommandTest, LeavesOutMarkedPosesUnlessAsked) {
+  WriteText("estimate.txt",
+            ReadFile(Path("estimate.txt")) + "# not estimated\n3.01 9 9 9 0 0 0 1\n");
+  WriteText("truth.txt", ReadFile(Path("truth.txt")) + "3.01 1 -1 0 0 0 0 1\n");
+  const CommandOutcome marked = Evaluate({});
+  EXPECT_EQ(marked.exit_code, 0) << marked.output;
+  EXPECT_THAT(marked.output,
+              AllOf(HasSubstr("coverage 80.00 %"),
+                    HasSubstr("left out as marked not estimated: 1 poses (--all-poses")));
+  EXPECT_NEAR(nlohmann::json::parse(Evaluate({"--json"}).output)["ape_rmse"], 0.0, 1e-9);
+  const nlohmann::json all = nlohmann::json::parse(Evaluate({"--all-poses", "--json"}).output);
+  EXPECT_EQ(all["coverage"], 1.0);
+  EXPECT_GT(all["ape_rmse"], 1.0);
+}
+
 TEST_F(EvaluateCommandTest, NumbersThatDoNotExistAreNull) {
   WriteText("lines.ply", FormatLinesPly({}));
   const CommandOutcome text =

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -31,6 +32,13 @@ class ReplayCommandTest : public TemporaryFolder {
     std::vector<std::string> arguments = {"replay", Path("room"), "--output", Path(output)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return RunCommand(arguments);
+  }
+  // Images [first, end) of the sequence become black.
+  void Blacken(const std::string& sequence, int first, int end) {
+    const std::vector<TextLine> images = ReadTextLines(Path(sequence + "/rgb.txt"));
+    for (int i = first; i < end; ++i) {
+      WriteImage(sequence + "/" + images.at(i).fields.at(1), CV_8UC3, 0, 160, 120);
+    }
   }
   nlohmann::json Summary(const std::string& output) {
     return nlohmann::json::parse(ReadFile(Path(output + "/summary.json")));
@@ -196,6 +204,44 @@ TEST_F(ReplayCommandTest, ADayWithoutImagesIsNamedInRealTime) {
   replay.Signal(SIGTERM);
 }
 
+TEST_F(ReplayCommandTest, ARunWithoutAPoseFailsAndSaysWhy) {
+  Synthesize(8);
+  Blacken("room", 0, 8);
+  const CommandOutcome outcome = Replay("out");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("msc_vo: error: tracking failed: 0 of 8 images have an estimated "
+                              "pose, at least 50 % are needed; the others: 8 black or uniform\n"),
+                    testing::Not(HasSubstr("APE RMSE"))));
+  EXPECT_EQ(NumPoses("out"), 8u);  // every one of them marked
+  for (const TimedPose& pose : ReadTrajectory(Path("out/trajectory.txt"))) {
+    EXPECT_FALSE(pose.is_estimated);
+  }
+  EXPECT_TRUE(ReadTrajectory(Path("out/keyframes.txt")).empty());
+  EXPECT_THAT(Summary("out")["outcome"].get<std::string>(), HasSubstr("tracking failed"));
+  EXPECT_EQ(Summary("out")["frames"]["loss_causes"]["uniform_image"], 8);
+  EXPECT_FALSE(Summary("out")["error"]["usable"]);
+  EXPECT_THAT(ReadFile(Path("out/report.html")), HasSubstr("tracking failed"));
+}
+
+TEST_F(ReplayCommandTest, PosesThatAreNotEstimatedAreNoCoverage) {
+  Synthesize(10);
+  Blacken("room", 7, 10);
+  const CommandOutcome outcome = Replay("out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("images without a pose: 3 black or uniform"),
+                                    HasSubstr("70.0 % of the ground-truth poses")));
+  EXPECT_EQ(Summary("out")["error"]["coverage"], 0.7);
+  EXPECT_EQ(Summary("out")["error"]["not_estimated"], 3);
+
+  const std::vector<std::string> evaluate = {"evaluate", Path("room/groundtruth.txt"),
+                                             Path("out/trajectory.txt"), "--json"};
+  EXPECT_EQ(nlohmann::json::parse(RunCommand(evaluate).output)["matched"], 7);
+  std::vector<std::string> all = evaluate;
+  all.push_back("--all-poses");
+  EXPECT_EQ(nlohmann::json::parse(RunCommand(all).output)["matched"], 10);
+}
+
 TEST_F(ReplayCommandTest, CtrlCWritesWhatWasComputed) {
   Synthesize(60);
   CommandProcess replay({"replay", Path("room"), "--output", Path("out")});
@@ -206,6 +252,30 @@ TEST_F(ReplayCommandTest, CtrlCWritesWhatWasComputed) {
   EXPECT_LT(NumPoses("out"), 60u);
   EXPECT_EQ(Summary("out")["outcome"], "interrupted");
   EXPECT_GT(ReadFile(Path("out/report.html")).size(), 100u);
+}
+
+TEST_F(ReplayCommandTest, AClosedTerminalWritesWhatWasComputed) {
+  Synthesize(60);
+  CommandProcess replay({"replay", Path("room"), "--output", Path("out")});
+  ASSERT_TRUE(replay.WaitForOutput("6/60")) << replay.output();
+  replay.Signal(SIGHUP);
+  replay.Signal(SIGHUP);  // from the system and from the shell
+  EXPECT_EQ(replay.Wait(), 130) << replay.output();
+  EXPECT_EQ(Summary("out")["outcome"], "interrupted");
+}
+
+TEST_F(ReplayCommandTest, AKilledRunLeavesItsFramesAndSaysSo) {
+  Synthesize(60);
+  ASSERT_EQ(Replay("out", {"--max-frames", "4", "--quiet"}).exit_code, 0);
+  CommandProcess replay({"replay", Path("room"), "--output", Path("out")});
+  ASSERT_TRUE(replay.WaitForOutput("6/60")) << replay.output();
+  replay.Signal(SIGKILL);
+  ASSERT_EQ(replay.Wait(), -SIGKILL) << replay.output();
+  EXPECT_THAT(ReadFile(Path("out/trajectory.txt")), testing::StartsWith("# unfinished run"));
+  EXPECT_GE(NumPoses("out"), 6u);
+  const std::string frames = ReadFile(Path("out/frames.csv"));
+  EXPECT_GE(std::count(frames.begin(), frames.end(), '\n'), 7);
+  EXPECT_FALSE(std::filesystem::exists(Path("out/summary.json")));  // that of the run before
 }
 
 TEST_F(ReplayCommandTest, AFolderThatCannotBeMadeIsAnError) {

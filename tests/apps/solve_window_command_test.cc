@@ -13,6 +13,7 @@
 #include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/recording/window_file.h"
 #include "msc_vo/synthetic/window/synthetic_window.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -88,7 +89,7 @@ TEST_F(SolveWindowCommandTest, PrintsATableAndTakesOptions) {
   const CommandOutcome table = RunCommand({"solve-window", Path("window.txt")});
   EXPECT_EQ(table.exit_code, 0);
   EXPECT_THAT(table.output,
-              AllOf(HasSubstr("4 keyframes (1 fixed), "), HasSubstr("window: solved, "),
+              AllOf(HasSubstr("4 keyframes (1 fixed), "), HasSubstr("local BA: solved, "),
                     HasSubstr("point reprojection"), HasSubstr(" blocks, "), HasSubstr(" ms\n")));
 
   WriteText("options.yaml", "mapping:\n  window:\n    line_endpoint_prior_sigma: 0.125\n");

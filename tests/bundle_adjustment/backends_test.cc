@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// All solvers of the window go the same way, to the same minimum.
+// All solvers take the same steps to the same minimum.
 
 #include <regex>
 
 #include "tests/support/factor_checks.h"
-#include "tests/support/synthetic_window.h"
+#include "tests/support/test_window.h"
 
 #include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
@@ -22,10 +22,10 @@ struct Variant {
 };
 void PrintTo(const Variant& variant, std::ostream* stream) { *stream << variant.name; }
 
-class WindowSolversTest : public ::testing::TestWithParam<Variant> {
+class BundleAdjustmentSolverTest : public ::testing::TestWithParam<Variant> {
  protected:
-  WindowSolversTest() {
-    scene_.wrong_ratio = 0.05;
+  BundleAdjustmentSolverTest() {
+    scene_.outlier_ratio = 0.05;
     scene_.max_observations = 5;
     reference_.solver = BundleAdjustmentSolver::kBlockSchur;
     options_.solver = GetParam().solver;
@@ -33,10 +33,10 @@ class WindowSolversTest : public ::testing::TestWithParam<Variant> {
     options_.explicit_ordering = GetParam().explicit_ordering;
   }
   void SetUp() override {
-    if (!IsAvailable(options_.solver)) GTEST_SKIP() << "this Ceres has no such sparse library";
+    if (!IsAvailable(options_.solver))
+      GTEST_SKIP() << "Ceres was built without this sparse library";
   }
 
-  // Line i of the window lies along axis i % 3.
   static void AddPair(int i, int j, WindowData* data) {
     WindowData::LinePair pair;
     pair.a = data->lines[i].id;
@@ -67,39 +67,41 @@ class WindowSolversTest : public ::testing::TestWithParam<Variant> {
       EXPECT_LT(Distance(data.keyframes[i].cam_from_world, expected.keyframes[i].cam_from_world),
                 1e-4);
     }
-    // Without depth the cost is flat along some rays, and convergence stops anywhere there.
+    // Without depth the cost is flat along some rays, where the minimum is not unique.
     for (size_t i = 0; scene_.has_depth && i < data.lines.size(); ++i) {
       EXPECT_THAT(data.lines[i].segment.end, IsNear(expected.lines[i].segment.end, 1e-3));
     }
   }
 
-  SyntheticWindowOptions scene_;
+  TestWindowOptions scene_;
   BundleAdjustmentOptions options_, reference_;
 };
 
-TEST_P(WindowSolversTest, PointsAndLines) { ExpectSameSolution(MakeSyntheticWindow(scene_).data); }
-
-TEST_P(WindowSolversTest, WithoutDepth) {
-  scene_.has_depth = false;
-  ExpectSameSolution(MakeSyntheticWindow(scene_).data);
+TEST_P(BundleAdjustmentSolverTest, SolvesPointsAndLines) {
+  ExpectSameSolution(MakeTestWindow(scene_).data);
 }
 
-TEST_P(WindowSolversTest, OneTermOfEachObservation) {
-  // A wrong line without depth may be taken behind a camera, where block Schur goes its own way
-  // (MinimizeWindow).
-  scene_.wrong_ratio = 0.0;
+TEST_P(BundleAdjustmentSolverTest, SolvesWithoutDepth) {
+  scene_.has_depth = false;
+  ExpectSameSolution(MakeTestWindow(scene_).data);
+}
+
+TEST_P(BundleAdjustmentSolverTest, SolvesWithReprojectionOrDepthOnly) {
+  // A step may move an outlier line without depth behind a camera, where block Schur differs from
+  // Ceres (MinimizeWithBlockSchur).
+  scene_.outlier_ratio = 0.0;
   for (BundleAdjustmentOptions* options : {&options_, &reference_}) {
-    options->point_reprojection.enabled = false;  // depth alone holds nothing across: all but
-    options->line_depth.enabled = false;          // points come from lines
+    options->point_reprojection.enabled = false;
+    options->line_depth.enabled = false;
   }
-  WindowData data = MakeSyntheticWindow(scene_).data;
-  for (auto& point : data.points) point.fixed = true;
+  WindowData data = MakeTestWindow(scene_).data;
+  for (auto& point : data.points) point.fixed = true;  // depth does not constrain them laterally
   ExpectSameSolution(data);
 }
 
-TEST_P(WindowSolversTest, Structure) {
-  WindowData data = MakeSyntheticWindow(scene_).data;
-  // A clique, a star, a chain, lines that are only aligned, and lines alone.
+TEST_P(BundleAdjustmentSolverTest, SolvesStructuralTerms) {
+  WindowData data = MakeTestWindow(scene_).data;
+  // A clique, a star, a chain, lines with an alignment only, and lines without structural terms.
   for (int i = 0; i < 6; ++i) {
     for (int j = i + 1; j < 6; ++j) AddPair(i, j, &data);
   }
@@ -109,8 +111,8 @@ TEST_P(WindowSolversTest, Structure) {
   ExpectSameSolution(data);
 }
 
-TEST_P(WindowSolversTest, FixedPartnersAndFixedLandmarks) {
-  SyntheticWindow window = MakeSyntheticWindow(scene_);
+TEST_P(BundleAdjustmentSolverTest, SolvesWithFixedLandmarksAndFixedPartners) {
+  TestWindow window = MakeTestWindow(scene_);
   WindowData data = window.data;
   for (int i : {0, 1, 5}) {
     data.lines[i] = window.truth.lines[i];
@@ -122,18 +124,18 @@ TEST_P(WindowSolversTest, FixedPartnersAndFixedLandmarks) {
   ExpectSameSolution(data);
 }
 
-TEST_P(WindowSolversTest, AFreeKeyframeMayBeAnywhereInTheOrder) {
-  WindowData data = MakeSyntheticWindow(scene_).data;
+TEST_P(BundleAdjustmentSolverTest, SolvesRegardlessOfTheOrderOfTheData) {
+  WindowData data = MakeTestWindow(scene_).data;
   std::swap(data.keyframes[0], data.keyframes[7]);
   std::reverse(data.point_observations.begin(), data.point_observations.end());
-  // Seen twice in one keyframe.
+  // Observed twice in one keyframe.
   data.point_observations.push_back(data.point_observations[3]);
   data.point_observations.back().pixel.x() += 0.5;
   ExpectSameSolution(data);
 }
 
-TEST_P(WindowSolversTest, Priors) {
-  SyntheticWindow window = MakeSyntheticWindow(scene_);
+TEST_P(BundleAdjustmentSolverTest, SolvesWithPosePriors) {
+  TestWindow window = MakeTestWindow(scene_);
   WindowData data = window.data;
   for (auto& keyframe : data.keyframes) keyframe.fixed = false;
   for (const int i : {0, 1, 1, 6}) {  // one of them twice
@@ -146,8 +148,8 @@ TEST_P(WindowSolversTest, Priors) {
   ExpectSameSolution(data);
 }
 
-TEST_P(WindowSolversTest, PairsMayRepeatEitherWayAround) {
-  WindowData data = MakeSyntheticWindow(scene_).data;
+TEST_P(BundleAdjustmentSolverTest, SolvesRepeatedAndSwappedPairs) {
+  WindowData data = MakeTestWindow(scene_).data;
   for (int i = 1; i < 9; ++i) {
     AddPair(0, i, &data);
     AddPair(i, 0, &data);
@@ -156,9 +158,9 @@ TEST_P(WindowSolversTest, PairsMayRepeatEitherWayAround) {
   ExpectSameSolution(data);
 }
 
-// An error of so many sigmas that its square is not finite.
-TEST_P(WindowSolversTest, ACostThatOverflowsIsNotUsable) {
-  WindowData data = MakeSyntheticWindow(scene_).data;
+// The squared residual overflows.
+TEST_P(BundleAdjustmentSolverTest, ReportsFailureWhenTheCostOverflows) {
+  WindowData data = MakeTestWindow(scene_).data;
   data.point_observations[7].sigma = 1e-200;
   for (const BundleAdjustmentOptions& options : {options_, reference_}) {
     WindowData after = data;
@@ -169,17 +171,18 @@ TEST_P(WindowSolversTest, ACostThatOverflowsIsNotUsable) {
   }
 }
 
-TEST_P(WindowSolversTest, TellsItsStagesInTheirOrder) {
-  const WindowData start = MakeSyntheticWindow(scene_).data;
+TEST_P(BundleAdjustmentSolverTest, ReportsStagesInOrder) {
+  const WindowData start = MakeTestWindow(scene_).data;
   for (const BundleAdjustmentOptions& options : {options_, reference_}) {
     std::string stages;
-    const auto note = [&stages](WindowStage stage) {
+    const auto record = [&stages](WindowStage stage) {
       stages += "blswd"[static_cast<int>(stage)];  // in the order of the enum
     };
     WindowData data = start, unobserved = start;
-    LocalBundleAdjustment(options, &data, note);
-    const bool own = options.solver == BundleAdjustmentSolver::kBlockSchur;
-    EXPECT_TRUE(std::regex_match(stages, std::regex(own ? "b(l(sl?)+b){2}wd" : "b(sb){2}wd")))
+    LocalBundleAdjustment(options, &data, record);
+    const bool is_block_schur = options.solver == BundleAdjustmentSolver::kBlockSchur;
+    EXPECT_TRUE(
+        std::regex_match(stages, std::regex(is_block_schur ? "b(l(sl?)+b){2}wd" : "b(sb){2}wd")))
         << stages;
     LocalBundleAdjustment(options, &unobserved);
     EXPECT_EQ(data.points[5].position, unobserved.points[5].position);
@@ -187,7 +190,7 @@ TEST_P(WindowSolversTest, TellsItsStagesInTheirOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Solvers, WindowSolversTest,
+    Solvers, BundleAdjustmentSolverTest,
     ::testing::Values(
         Variant{"DenseSchur", BundleAdjustmentSolver::kCeresDenseSchur},
         Variant{"AutomaticDerivatives", BundleAdjustmentSolver::kCeresDenseSchur, false},

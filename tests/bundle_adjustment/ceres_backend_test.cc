@@ -6,29 +6,30 @@
 #include <memory>
 
 #include "tests/support/factor_checks.h"
-#include "tests/support/synthetic_window.h"
+#include "tests/support/test_window.h"
 
 namespace msc_vo {
 namespace {
 
-class CeresWindowTest : public ::testing::Test {
+class CeresBackendTest : public ::testing::Test {
  protected:
-  CeresWindowTest() {
-    SyntheticWindowOptions scene;
+  CeresBackendTest() {
+    TestWindowOptions scene;
     scene.num_keyframes = 5;
     scene.num_fixed = 2;
     scene.num_points = 12;
     scene.num_lines = 4;
     scene.max_observations = 3;
-    window_ = MakeSyntheticWindow(scene);
+    window_ = MakeTestWindow(scene);
     data_ = window_.data;
-    activity_.points.assign(data_.point_observations.size(), {true, true});
-    activity_.lines.assign(data_.line_observations.size(), {true, true});
+    inlier_mask_.points.assign(data_.point_observations.size(), {true, true});
+    inlier_mask_.lines.assign(data_.line_observations.size(), {true, true});
   }
 
   std::unique_ptr<CeresBackend> Build() {
     state_ = std::make_unique<WindowState>(data_);
-    terms_ = MakeWindowTerms(options_, data_, ValidateWindow(options_, data_), activity_, *state_);
+    terms_ =
+        MakeWindowTerms(options_, data_, ValidateWindow(options_, data_), inlier_mask_, *state_);
     return std::make_unique<CeresBackend>(options_, data_, terms_, state_.get());
   }
   bool IsConstant(CeresBackend* window, const double* block) {
@@ -36,14 +37,14 @@ class CeresWindowTest : public ::testing::Test {
   }
 
   BundleAdjustmentOptions options_;
-  SyntheticWindow window_;
+  TestWindow window_;
   WindowData data_;
   std::unique_ptr<WindowState> state_;
   WindowTerms terms_;
-  WindowInlierMask activity_;
+  WindowInlierMask inlier_mask_;
 };
 
-TEST_F(CeresWindowTest, CountsOfBlocksAndResiduals) {
+TEST_F(CeresBackendTest, BuildsOneResidualBlockPerFactor) {
   const auto window = Build();
   EXPECT_EQ(terms_.point_reprojection.blocks.size(), 36u);
   EXPECT_EQ(terms_.point_depth.blocks.size(), 36u);
@@ -57,10 +58,10 @@ TEST_F(CeresWindowTest, CountsOfBlocksAndResiduals) {
   EXPECT_EQ(problem.NumParameters(), 5 * 7 + 12 * 3 + 4 * 6);
 }
 
-TEST_F(CeresWindowTest, InactiveObservationsAndDisabledTermsAddNothing) {
-  activity_.points[5] = {false, false};
-  activity_.points[6] = {true, false};
-  activity_.lines[2] = {true, false};
+TEST_F(CeresBackendTest, ExcludesOutliersAndDisabledTerms) {
+  inlier_mask_.points[5] = {false, false};
+  inlier_mask_.points[6] = {true, false};
+  inlier_mask_.lines[2] = {true, false};
   options_.line_reprojection.enabled = false;
   Build();
   EXPECT_EQ(terms_.point_reprojection.blocks.size(), 35u);
@@ -69,7 +70,7 @@ TEST_F(CeresWindowTest, InactiveObservationsAndDisabledTermsAddNothing) {
   EXPECT_EQ(terms_.line_depth.blocks.size(), 11u);
 }
 
-TEST_F(CeresWindowTest, FixedBlocksAreConstantAndPosesMoveOnTheManifold) {
+TEST_F(CeresBackendTest, HoldsFixedBlocksConstantAndPosesOnTheManifold) {
   data_.points[1].fixed = true;
   data_.lines[2].fixed = true;
   const auto window = Build();
@@ -84,10 +85,10 @@ TEST_F(CeresWindowTest, FixedBlocksAreConstantAndPosesMoveOnTheManifold) {
   for (size_t i = 0; i < data_.lines.size(); ++i) {
     EXPECT_EQ(IsConstant(window.get(), state_->LineBlock(i)), i == 2) << i;
   }
-  EXPECT_EQ(terms_.line_endpoint_prior.blocks.size(), 3u);  // a fixed line needs none
+  EXPECT_EQ(terms_.line_endpoint_prior.blocks.size(), 3u);  // none for the fixed line
 }
 
-TEST_F(CeresWindowTest, LandmarksAreEliminatedBeforePoses) {
+TEST_F(CeresBackendTest, EliminatesLandmarksBeforePoses) {
   const auto window = Build();
   const auto ordering = window->EliminationOrdering();
   EXPECT_EQ(ordering->NumElements(), 21);
@@ -96,7 +97,7 @@ TEST_F(CeresWindowTest, LandmarksAreEliminatedBeforePoses) {
   for (size_t i = 0; i < 5; ++i) EXPECT_EQ(ordering->GroupId(state_->PoseBlock(i)), 1);
 }
 
-TEST_F(CeresWindowTest, CostsOfTheTermsAreThoseOfCeres) {
+TEST_F(CeresBackendTest, TermCostsMatchCeres) {
   const auto window = Build();
   const double sum = Cost(terms_.point_reprojection, *state_) + Cost(terms_.point_depth, *state_) +
                      Cost(terms_.line_reprojection, *state_) + Cost(terms_.line_depth, *state_) +
@@ -107,8 +108,8 @@ TEST_F(CeresWindowTest, CostsOfTheTermsAreThoseOfCeres) {
   EXPECT_GT(Cost(terms_.line_depth, *state_), 0.0);
 }
 
-TEST_F(CeresWindowTest, ChiSquareIsBeforeTheLoss) {
-  // One pixel off in each coordinate at the truth, hence 1 + 1, whatever the threshold.
+TEST_F(CeresBackendTest, ChiSquareExcludesTheLoss) {
+  // An error of one pixel in each coordinate: 1 + 1 for any threshold.
   data_ = window_.truth;
   data_.point_observations[0].pixel =
       data_.camera.Project(data_.keyframes[0].cam_from_world * data_.points[0].position) +
@@ -121,11 +122,11 @@ TEST_F(CeresWindowTest, ChiSquareIsBeforeTheLoss) {
               1e-9);
 }
 
-TEST_F(CeresWindowTest, AnchorsHoldTheInitialLinesNotTheCurrentOnes) {
+TEST_F(CeresBackendTest, EndpointPriorsAreCentredAtTheInitialLines) {
   Build();
   const Eigen::Vector3d along = 0.1 * data_.lines[0].segment.Direction();
   for (int i = 0; i < 3; ++i) state_->LineBlock(0)[i] += along[i];
-  // The motion is along the initial direction.
+  // The line moved along its initial direction.
   EXPECT_NEAR(ChiSquare<LineEndpointPrior>(terms_.line_endpoint_prior.blocks[0], *state_),
               std::pow(0.1 / options_.line_endpoint_prior_sigma, 2), 1e-9);
   EXPECT_NEAR(ChiSquare<LineEndpointPrior>(terms_.line_endpoint_prior.blocks[1], *state_), 0.0,

@@ -17,17 +17,17 @@ constexpr int kKeyframes = 12;
 constexpr double kPixelSigma = 0.5;
 constexpr double kInverseDepthSigma = 1e-3;
 
-// Keyframes along a sideways walk that see the same points and lines, which are at their true
-// places. `errors` are multiples of the sigmas, of one landmark each: its observations' errors.
-class LandmarkNoise : public ::testing::Test {
+// Keyframes on a lateral trajectory that observe the same points and lines, which have their true
+// values. Errors are one factor on the sigmas per landmark: the noise of its observations.
+class LandmarkNoiseTest : public ::testing::Test {
  protected:
   const std::vector<Eigen::Vector3d> points_{{0, 0, 2}, {0.3, -0.2, 3}, {-0.4, 0.2, 2.5}};
   const std::vector<LineSegment3> lines_{{{-0.3, -0.5, 2}, {-0.3, 0.5, 2}},
                                          {{0.4, -0.5, 3}, {0.4, 0.5, 2.8}}};
 
-  // depth_offset: metres, by which the depths of lines are measured too far.
-  void See(const std::vector<double>& point_errors, const std::vector<double>& line_errors,
-           const std::vector<double>& depth_offsets) {
+  // `depth_offsets`: measured minus true depth of each line, metres.
+  void Observe(const std::vector<double>& point_errors, const std::vector<double>& line_errors,
+               const std::vector<double>& depth_offsets) {
     window_.camera = {525.0, 525.0, 319.5, 239.5, 640, 480};
     for (size_t i = 0; i < points_.size(); ++i) {
       window_.points.push_back({static_cast<int64_t>(i), points_[i]});
@@ -39,25 +39,25 @@ class LandmarkNoise : public ::testing::Test {
       const Rigid3 cam_from_world(Eigen::Quaterniond::Identity(), {0.05 * k, 0, 0});
       window_.keyframes.push_back({k, cam_from_world, k < 2});
       for (size_t i = 0; i < points_.size(); ++i) {
-        SeePoint(k, i, cam_from_world * points_[i], point_errors[i]);
+        ObservePoint(k, i, cam_from_world * points_[i], point_errors[i]);
       }
       for (size_t i = 0; i < lines_.size(); ++i) {
-        SeeLine(k, i, cam_from_world * lines_[i], line_errors[i], depth_offsets[i]);
+        ObserveLine(k, i, cam_from_world * lines_[i], line_errors[i], depth_offsets[i]);
       }
     }
   }
 
-  // With the window as it is; `active`: whether observations take part.
-  void Learn(bool active = true) {
+  // Estimates noise and offsets at the current state. `inliers`: whether observations are inliers.
+  void Estimate(bool inliers = true) {
     const WindowIndex index = ValidateWindow(BundleAdjustmentOptions(), window_);
     int num_behind = 0;
     WindowInlierMask inlier_mask =
-        AllInFront(BundleAdjustmentOptions(), index, window_, &num_behind);
-    if (!active) {
+        InitialInlierMask(BundleAdjustmentOptions(), index, window_, &num_behind);
+    if (!inliers) {
       inlier_mask.points.assign(inlier_mask.points.size(), {});
       inlier_mask.lines.assign(inlier_mask.lines.size(), {});
     }
-    LearnLandmarkNoise(options_, index, inlier_mask, WindowState(window_), &window_);
+    EstimateLandmarkNoise(options_, index, inlier_mask, WindowState(window_), &window_);
   }
 
   WindowData window_;
@@ -67,7 +67,7 @@ class LandmarkNoise : public ::testing::Test {
   double Error(double factor, double sigma) {
     return factor * sigma * std::normal_distribution<double>()(random_);
   }
-  void SeePoint(int keyframe, size_t i, const Eigen::Vector3d& in_cam, double errors) {
+  void ObservePoint(int keyframe, size_t i, const Eigen::Vector3d& in_cam, double errors) {
     WindowData::PointObservation o;
     o.keyframe = keyframe;
     o.point = static_cast<int64_t>(i);
@@ -78,7 +78,8 @@ class LandmarkNoise : public ::testing::Test {
     o.inverse_depth_sigma = kInverseDepthSigma;
     window_.point_observations.push_back(o);
   }
-  void SeeLine(int keyframe, size_t i, const LineSegment3& in_cam, double errors, double offset) {
+  void ObserveLine(int keyframe, size_t i, const LineSegment3& in_cam, double errors,
+                   double offset) {
     const auto end = [&](const Eigen::Vector3d& x) {
       return Eigen::Vector2d(window_.camera.Project(x) +
                              Eigen::Vector2d(Error(errors, kPixelSigma), 0.0));
@@ -99,59 +100,59 @@ class LandmarkNoise : public ::testing::Test {
   std::mt19937 random_{1};
 };
 
-TEST_F(LandmarkNoise, IsThatOfTheLandmarksOwnErrors) {
-  See({1.0, 0.2, 1.7}, {1.0, 0.2}, {0.0, 0.0});
-  Learn();
-  // With 33 degrees of freedom each is known to 12 %; bounds are twice that. Toward 1 they are
-  // drawn by the prior: sqrt((2 + 33 * 0.04) / 35) = 0.31, and 1.67.
+TEST_F(LandmarkNoiseTest, EstimatesTheNoiseOfEachLandmark) {
+  Observe({1.0, 0.2, 1.7}, {1.0, 0.2}, {0.0, 0.0});
+  Estimate();
+  // With 33 degrees of freedom the standard deviation is 12 %; the bounds are twice that. The prior
+  // draws estimates towards 1: sqrt((2 + 33 * 0.04) / 35) = 0.31, and 1.67.
   EXPECT_NEAR(window_.points[0].noise, 1.0, 0.24);
   EXPECT_NEAR(window_.points[1].noise, 0.31, 0.07);
   EXPECT_NEAR(window_.points[2].noise, 1.67, 0.4);
-  // Lines have no errors of depth here.
+  // The depths of lines are exact here.
   EXPECT_NEAR(window_.lines[0].noise, 0.85, 0.25);
   EXPECT_LT(window_.lines[1].noise, 0.4);
-  // What was learnt does not change what is learnt.
+  // The estimate does not depend on the previous noise factor.
   const double first = window_.points[1].noise;
-  Learn();
+  Estimate();
   EXPECT_DOUBLE_EQ(window_.points[1].noise, first);
 }
 
-TEST_F(LandmarkNoise, StaysWithoutEvidence) {
-  See({0.0, 0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0});
+TEST_F(LandmarkNoiseTest, KeepsValuesWithoutInliers) {
+  Observe({0.0, 0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0});
   window_.points[1].noise = 0.7;
   window_.lines[1].depth_offset = 0.003;
-  Learn(false);
+  Estimate(false);
   EXPECT_EQ(window_.points[0].noise, 1.0);
   EXPECT_EQ(window_.points[1].noise, 0.7);
   EXPECT_EQ(window_.lines[0].noise, 1.0);
   EXPECT_EQ(window_.lines[1].depth_offset, 0.003);
 }
 
-TEST_F(LandmarkNoise, DepthOffsetsOfLinesAreFound) {
-  See({1.0, 1.0, 1.0}, {0.1, 0.1}, {0.008, -0.004});
-  Learn();
-  // The prior holds back a part of what the depths say.
+TEST_F(LandmarkNoiseTest, EstimatesDepthOffsetsOfLines) {
+  Observe({1.0, 1.0, 1.0}, {0.1, 0.1}, {0.008, -0.004});
+  Estimate();
+  // The prior draws the estimate towards zero.
   EXPECT_GT(window_.lines[0].depth_offset, 0.004);
   EXPECT_LT(window_.lines[0].depth_offset, 0.008);
   EXPECT_LT(window_.lines[1].depth_offset, -0.001);
-  // With its offset known a line has little noise; its depths then count for more.
+  // With the offset compensated, the noise is smaller and the depths have more weight.
   const double noise = window_.lines[0].noise;
-  Learn();
+  Estimate();
   EXPECT_LT(window_.lines[0].noise, 0.7 * noise);
-  Learn();
+  Estimate();
   EXPECT_NEAR(window_.lines[0].depth_offset, 0.008, 0.0004);
 }
 
-TEST_F(LandmarkNoise, IsLeftAloneWhenSwitchedOff) {
-  See({0.2, 0.2, 0.2}, {0.2, 0.2}, {0.01, 0.01});
+TEST_F(LandmarkNoiseTest, ChangesNothingWhenDisabled) {
+  Observe({0.2, 0.2, 0.2}, {0.2, 0.2}, {0.01, 0.01});
   options_.enabled = false;
-  Learn();
+  Estimate();
   EXPECT_EQ(window_.points[0].noise, 1.0);
   EXPECT_EQ(window_.lines[0].depth_offset, 0.0);
 }
 
-TEST_F(LandmarkNoise, ScalesSigmasAndOffsetsShiftDepths) {
-  See({1.0, 1.0, 1.0}, {1.0, 1.0}, {0.01, 0.01});
+TEST_F(LandmarkNoiseTest, NoiseScalesSigmasAndOffsetShiftsDepth) {
+  Observe({1.0, 1.0, 1.0}, {1.0, 1.0}, {0.01, 0.01});
   WindowData same = window_;
   for (WindowData::Point& point : window_.points) point.noise = 3.0;
   for (WindowData::Line& line : window_.lines) {
@@ -174,15 +175,15 @@ TEST_F(LandmarkNoise, ScalesSigmasAndOffsetsShiftDepths) {
               1e-9 * cost);
 }
 
-TEST_F(LandmarkNoise, IsLearntByTheSolver) {
-  See({0.2, 2.0, 0.2}, {0.2, 0.2}, {0.0, 0.0});
+TEST_F(LandmarkNoiseTest, IsEstimatedByLocalBundleAdjustment) {
+  Observe({0.2, 2.0, 0.2}, {0.2, 0.2}, {0.0, 0.0});
   WindowData without = window_;
   BundleAdjustmentOptions options;
   options.landmark_noise = options_;
   ASSERT_TRUE(LocalBundleAdjustment(options, &window_).usable);
   EXPECT_LT(window_.points[0].noise, 0.6);
   EXPECT_GT(window_.points[1].noise, 1.2);
-  // Its second solve knows already: the point that is seen badly no longer pulls at the cameras.
+  // The second solve uses the estimate, so the noisy point has less influence on the poses.
   ASSERT_TRUE(LocalBundleAdjustment(BundleAdjustmentOptions(), &without).usable);
   EXPECT_EQ(without.points[1].noise, 1.0);
   const auto error = [](const WindowData& window) {
@@ -195,7 +196,7 @@ TEST_F(LandmarkNoise, IsLearntByTheSolver) {
   EXPECT_LT(error(window_), 0.5 * error(without));
 }
 
-TEST(LandmarkNoiseOptions, BadOnesAreRefused) {
+TEST(LandmarkNoiseOptions, RejectsInvalidValues) {
   std::string error;
   LandmarkNoiseOptions options;
   EXPECT_TRUE(options.IsValid(&error));

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "tests/support/factor_checks.h"
-#include "tests/support/synthetic_window.h"
+#include "tests/support/test_window.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
@@ -28,7 +28,7 @@ double RmsPoint(const WindowData& a, const WindowData& b) {
   return std::sqrt(sum / double(a.points.size()));
 }
 
-// Distance of solved end points to the true infinite lines.
+// RMS distance of the estimated end points to the true infinite lines.
 double RmsLine(const WindowData& truth, const WindowData& solved) {
   double sum = 0.0;
   for (size_t i = 0; i < truth.lines.size(); ++i) {
@@ -54,20 +54,20 @@ bool SameNumbers(const WindowData& a, const WindowData& b) {
 }
 
 // The parameter is fy.
-class WindowProblemTest : public ::testing::TestWithParam<double> {
+class LocalBundleAdjustmentTest : public ::testing::TestWithParam<double> {
  protected:
-  WindowProblemTest() {
+  LocalBundleAdjustmentTest() {
     scene_.fy = GetParam();
     options_.second_iterations = 30;
   }
-  SyntheticWindowOptions scene_;
+  TestWindowOptions scene_;
   BundleAdjustmentOptions options_;
 };
-INSTANTIATE_TEST_SUITE_P(FocalLength, WindowProblemTest, ::testing::Values(525.0, -480.0));
+INSTANTIATE_TEST_SUITE_P(FocalLength, LocalBundleAdjustmentTest, ::testing::Values(525.0, -480.0));
 
-TEST_P(WindowProblemTest, ExactObservationsGiveTheExactWindow) {
+TEST_P(LocalBundleAdjustmentTest, RecoversTheTruthFromExactObservations) {
   scene_.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  const TestWindow window = MakeTestWindow(scene_);
   WindowData data = window.data;
   const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
   ASSERT_TRUE(summary.usable) << summary.BriefReport();
@@ -79,39 +79,39 @@ TEST_P(WindowProblemTest, ExactObservationsGiveTheExactWindow) {
   EXPECT_LT(summary.final_cost, 1e-3);
 }
 
-TEST_P(WindowProblemTest, NoiseAndWrongMatches) {
-  scene_.wrong_ratio = 0.08;
-  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+TEST_P(LocalBundleAdjustmentTest, RejectsOutliersInNoisyObservations) {
+  scene_.outlier_ratio = 0.08;
+  const TestWindow window = MakeTestWindow(scene_);
   WindowData data = window.data;
   const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
   ASSERT_TRUE(summary.usable) << summary.BriefReport();
   EXPECT_LT(WorstPose(window.truth, data), 0.008);
   EXPECT_LT(RmsPoint(window.truth, data), 0.012);
   EXPECT_LT(RmsLine(window.truth, data), 0.012);
-  int wrong_kept = 0, good = 0, good_lost = 0, wrong = 0;
-  const auto count = [&](bool is_wrong, bool rejected) {
-    wrong += is_wrong;
-    good += !is_wrong;
-    wrong_kept += is_wrong && !rejected;
-    good_lost += !is_wrong && rejected;
+  int outliers_kept = 0, inliers = 0, inliers_lost = 0, outliers = 0;
+  const auto count = [&](bool is_outlier, bool rejected) {
+    outliers += is_outlier;
+    inliers += !is_outlier;
+    outliers_kept += is_outlier && !rejected;
+    inliers_lost += !is_outlier && rejected;
   };
-  for (size_t i = 0; i < window.wrong_points.size(); ++i) {
-    count(window.wrong_points[i], data.point_observations[i].rejected);
+  for (size_t i = 0; i < window.point_outliers.size(); ++i) {
+    count(window.point_outliers[i], data.point_observations[i].rejected);
   }
-  for (size_t i = 0; i < window.wrong_lines.size(); ++i) {
-    count(window.wrong_lines[i], data.line_observations[i].rejected);
+  for (size_t i = 0; i < window.line_outliers.size(); ++i) {
+    count(window.line_outliers[i], data.line_observations[i].rejected);
   }
-  EXPECT_GT(wrong, 100);
-  EXPECT_EQ(wrong_kept, 0);
-  EXPECT_LT(good_lost, 0.02 * good);  // the test lets 1 % of good ones go
+  EXPECT_GT(outliers, 100);
+  EXPECT_EQ(outliers_kept, 0);
+  EXPECT_LT(inliers_lost, 0.02 * inliers);  // 1 % at the chi-square quantile
   EXPECT_EQ(summary.point_reprojection.num_rejected + summary.line_reprojection.num_rejected,
-            wrong - wrong_kept + good_lost);
+            outliers - outliers_kept + inliers_lost);
 }
 
-TEST_P(WindowProblemTest, WithoutDepthsTheFixedKeyframesHoldTheScale) {
+TEST_P(LocalBundleAdjustmentTest, FixedKeyframesFixTheScaleWithoutDepth) {
   scene_.noise = 0.0;
   scene_.has_depth = false;
-  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  const TestWindow window = MakeTestWindow(scene_);
   WindowData data = window.data;
   const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
   ASSERT_TRUE(summary.usable) << summary.BriefReport();
@@ -120,13 +120,13 @@ TEST_P(WindowProblemTest, WithoutDepthsTheFixedKeyframesHoldTheScale) {
   EXPECT_LT(WorstPose(window.truth, data), 1e-3);
 }
 
-TEST_P(WindowProblemTest, SummaryCountsBlocksAndCosts) {
-  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+TEST_P(LocalBundleAdjustmentTest, SummaryCountsResidualBlocksAndCosts) {
+  const TestWindow window = MakeTestWindow(scene_);
   WindowData data = window.data;
   const BundleAdjustmentSummary s = LocalBundleAdjustment(options_, &data);
   ASSERT_TRUE(s.usable);
   EXPECT_EQ(s.point_reprojection.num_residual_blocks + s.point_reprojection.num_rejected, 2000);
-  // An observation that is rejected takes its depth along.
+  // A rejected observation also loses its depth.
   EXPECT_EQ(s.point_depth.num_residual_blocks + s.point_depth.num_rejected +
                 s.point_reprojection.num_rejected,
             2000);
@@ -142,15 +142,15 @@ TEST_P(WindowProblemTest, SummaryCountsBlocksAndCosts) {
   EXPECT_DOUBLE_EQ(sum(&TermSummary::initial_cost), s.initial_cost);
   EXPECT_DOUBLE_EQ(sum(&TermSummary::final_cost), s.final_cost);
   EXPECT_LT(s.final_cost, 0.1 * s.initial_cost);
-  // Of the order of half the redundancy: 6000 + 1600 rows less 48 + 600 + 160 unknowns.
+  // About half the redundancy: 6000 + 1600 rows minus 48 + 600 + 160 unknowns.
   EXPECT_NEAR(s.final_cost, 3396.0, 500.0);
   EXPECT_GT(s.num_iterations, 2);
   EXPECT_FALSE(s.schur_structure.empty());
   EXPECT_THAT(s.BriefReport(), ::testing::HasSubstr("line reprojection"));
 }
 
-TEST_P(WindowProblemTest, FixedBlocksStayAndFreeOnesMove) {
-  SyntheticWindow window = MakeSyntheticWindow(scene_);
+TEST_P(LocalBundleAdjustmentTest, MovesFreeBlocksOnly) {
+  TestWindow window = MakeTestWindow(scene_);
   window.data.points[7].fixed = true;
   window.data.lines[9].fixed = true;
   WindowData data = window.data;
@@ -170,19 +170,19 @@ TEST_P(WindowProblemTest, FixedBlocksStayAndFreeOnesMove) {
   }
 }
 
-TEST_P(WindowProblemTest, AllKeyframesFixedRefinesTheLandmarks) {
+TEST_P(LocalBundleAdjustmentTest, RefinesLandmarksWithAllKeyframesFixed) {
   scene_.num_fixed = scene_.num_keyframes;
   scene_.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  const TestWindow window = MakeTestWindow(scene_);
   WindowData data = window.data;
   ASSERT_TRUE(LocalBundleAdjustment(options_, &data).usable);
   EXPECT_LT(RmsPoint(window.truth, data), 1e-5);
   EXPECT_LT(RmsLine(window.truth, data), 1e-5);
 }
 
-TEST_P(WindowProblemTest, AllLandmarksFixedRefinesTheKeyframes) {
+TEST_P(LocalBundleAdjustmentTest, RefinesKeyframesWithAllLandmarksFixed) {
   scene_.noise = 0.0;
-  SyntheticWindow window = MakeSyntheticWindow(scene_);
+  TestWindow window = MakeTestWindow(scene_);
   window.data.points = window.truth.points;
   window.data.lines = window.truth.lines;
   for (auto& p : window.data.points) p.fixed = true;
@@ -192,8 +192,8 @@ TEST_P(WindowProblemTest, AllLandmarksFixedRefinesTheKeyframes) {
   EXPECT_LT(WorstPose(window.truth, data), 1e-6);
 }
 
-TEST_P(WindowProblemTest, EverythingFixedOrNothingObservedChangesNothing) {
-  SyntheticWindow window = MakeSyntheticWindow(scene_);
+TEST_P(LocalBundleAdjustmentTest, ChangesNothingWithoutObservationsOrFreeBlocks) {
+  TestWindow window = MakeTestWindow(scene_);
   WindowData data = window.data;
   data.point_observations.clear();
   data.line_observations.clear();
@@ -207,9 +207,9 @@ TEST_P(WindowProblemTest, EverythingFixedOrNothingObservedChangesNothing) {
   EXPECT_TRUE(SameNumbers(data, window.data));
 }
 
-TEST_P(WindowProblemTest, ObservationsBehindTheCameraAreDroppedAndCounted) {
+TEST_P(LocalBundleAdjustmentTest, RejectsAndCountsObservationsBehindTheCamera) {
   scene_.noise = 0.0;
-  SyntheticWindow window = MakeSyntheticWindow(scene_);
+  TestWindow window = MakeTestWindow(scene_);
   window.data.points[3].position.z() = -3.0;
   window.data.lines[5].segment.end.z() = -3.0;
   WindowData data = window.data;
@@ -226,10 +226,10 @@ TEST_P(WindowProblemTest, ObservationsBehindTheCameraAreDroppedAndCounted) {
   EXPECT_LT(WorstPose(window.truth, data), 1e-5);
 }
 
-TEST_P(WindowProblemTest, ALandmarkThatLosesEveryObservationKeepsItsValue) {
+TEST_P(LocalBundleAdjustmentTest, ALandmarkWithoutInliersKeepsItsValue) {
   scene_.noise = 0.0;
-  SyntheticWindow window = MakeSyntheticWindow(scene_);
-  // Seen at places that no point can be seen at.
+  TestWindow window = MakeTestWindow(scene_);
+  // Observations that no point position explains.
   int i = 0;
   for (auto& o : window.data.point_observations) {
     if (o.point != window.data.points[3].id) continue;
@@ -245,12 +245,12 @@ TEST_P(WindowProblemTest, ALandmarkThatLosesEveryObservationKeepsItsValue) {
   EXPECT_LT(WorstPose(window.truth, data), 1e-4);
 }
 
-// From three times its distance, one step takes a point without depth behind the cameras.
-TEST_P(WindowProblemTest, ALandmarkThatAStepTakesBehindACameraHoldsUpNoOther) {
-  SyntheticWindow window = MakeSyntheticWindow(scene_);
+// From three times its distance, the first step moves a point without depth behind the cameras.
+TEST_P(LocalBundleAdjustmentTest, ALandmarkMovedBehindACameraDoesNotRejectTheStep) {
+  TestWindow window = MakeTestWindow(scene_);
   WindowData::Point& far = window.data.points[3];
-  const Eigen::Vector3d eye = window.truth.keyframes[0].cam_from_world.Inverse().translation();
-  far.position = eye + 3.0 * (far.position - eye);
+  const Eigen::Vector3d center = window.truth.keyframes[0].cam_from_world.Inverse().translation();
+  far.position = center + 3.0 * (far.position - center);
   for (auto& o : window.data.point_observations) {
     if (o.point == far.id) o.inverse_depth = 0.0;
   }
@@ -261,9 +261,9 @@ TEST_P(WindowProblemTest, ALandmarkThatAStepTakesBehindACameraHoldsUpNoOther) {
   EXPECT_LT(WorstPose(window.truth, data), 0.2 * WorstPose(window.truth, window.data));
 }
 
-// No image sees that motion. With an anchor of 5 cm, end points of these lines slide by 16 cm.
-TEST_P(WindowProblemTest, EndPointsDoNotSlideAlongTheirLine) {
-  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+// Observations do not constrain that motion.
+TEST_P(LocalBundleAdjustmentTest, EndpointPriorLimitsMotionAlongTheLine) {
+  const TestWindow window = MakeTestWindow(scene_);
   WindowData data = window.data;
   ASSERT_TRUE(LocalBundleAdjustment(options_, &data).usable);
   for (size_t i = 0; i < data.lines.size(); ++i) {
@@ -273,9 +273,9 @@ TEST_P(WindowProblemTest, EndPointsDoNotSlideAlongTheirLine) {
   }
 }
 
-TEST_P(WindowProblemTest, AContradictingDepthIsLostAlone) {
+TEST_P(LocalBundleAdjustmentTest, RejectsAnInconsistentDepthAlone) {
   scene_.noise = 0.0;
-  SyntheticWindow window = MakeSyntheticWindow(scene_);
+  TestWindow window = MakeTestWindow(scene_);
   window.data.point_observations[11].inverse_depth += 0.1;
   window.data.line_observations[13].depth.end += 0.1;
   WindowData data = window.data;
@@ -290,17 +290,17 @@ TEST_P(WindowProblemTest, AContradictingDepthIsLostAlone) {
   EXPECT_LT(WorstPose(window.truth, data), 1e-5);
 }
 
-TEST_P(WindowProblemTest, RejectionIsForgottenAtTheNextSolve) {
+TEST_P(LocalBundleAdjustmentTest, IgnoresEarlierRejectionMarks) {
   scene_.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+  const TestWindow window = MakeTestWindow(scene_);
   WindowData data = window.data;
   for (auto& o : data.point_observations) o.rejected = true;
   ASSERT_TRUE(LocalBundleAdjustment(options_, &data).usable);
   for (const auto& o : data.point_observations) EXPECT_FALSE(o.rejected);
 }
 
-TEST_P(WindowProblemTest, SwitchedOffTermsTakeNoPart) {
-  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+TEST_P(LocalBundleAdjustmentTest, DisabledTermsAreExcluded) {
+  const TestWindow window = MakeTestWindow(scene_);
   options_.line_reprojection.enabled = options_.line_depth.enabled = false;
   WindowData data = window.data;
   const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
@@ -313,9 +313,9 @@ TEST_P(WindowProblemTest, SwitchedOffTermsTakeNoPart) {
   }
 }
 
-TEST_P(WindowProblemTest, FailureLeavesTheDataUnchanged) {
-  SyntheticWindow window = MakeSyntheticWindow(scene_);
-  window.data.point_observations[5].pixel.x() += 3.0;  // so many sigmas that no square is finite
+TEST_P(LocalBundleAdjustmentTest, FailureLeavesTheDataUnchanged) {
+  TestWindow window = MakeTestWindow(scene_);
+  window.data.point_observations[5].pixel.x() += 3.0;  // its square overflows
   window.data.point_observations[5].sigma = 1e-200;
   WindowData data = window.data;
   const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
@@ -324,9 +324,9 @@ TEST_P(WindowProblemTest, FailureLeavesTheDataUnchanged) {
   EXPECT_TRUE(SameNumbers(data, window.data));
 }
 
-TEST_P(WindowProblemTest, SameInputSameBytes) {
-  scene_.wrong_ratio = 0.05;
-  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+TEST_P(LocalBundleAdjustmentTest, IsDeterministic) {
+  scene_.outlier_ratio = 0.05;
+  const TestWindow window = MakeTestWindow(scene_);
   WindowData a = window.data, b = window.data;
   LocalBundleAdjustment(options_, &a);
   LocalBundleAdjustment(options_, &b);
@@ -334,8 +334,8 @@ TEST_P(WindowProblemTest, SameInputSameBytes) {
   EXPECT_FALSE(SameNumbers(a, window.data));
 }
 
-TEST_P(WindowProblemTest, MisuseThrowsAndLeavesTheDataUnchanged) {
-  const SyntheticWindow window = MakeSyntheticWindow(scene_);
+TEST_P(LocalBundleAdjustmentTest, InvalidInputThrowsAndLeavesTheDataUnchanged) {
+  const TestWindow window = MakeTestWindow(scene_);
   WindowData data = window.data;
   data.point_observations[0].sigma = 0.0;
   EXPECT_THROW(LocalBundleAdjustment(options_, &data), std::invalid_argument);

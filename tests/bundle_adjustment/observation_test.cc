@@ -13,7 +13,7 @@ namespace {
 
 const LineSegment2 kSegment{{100.0, 100.0}, {200.0, 100.0}};
 
-TEST(ImageLineSigma, ByHand) {
+TEST(ImageLineSigma, MatchesValuesByHand) {
   EXPECT_DOUBLE_EQ(ImageLineSigma(kSegment, 2.0, {100.0, 130.0}), 2.0);
   EXPECT_DOUBLE_EQ(ImageLineSigma(kSegment, 2.0, {200.0, 100.0}), 2.0);
   EXPECT_DOUBLE_EQ(ImageLineSigma(kSegment, 2.0, {150.0, 100.0}), 2.0 * std::sqrt(0.5));
@@ -21,26 +21,26 @@ TEST(ImageLineSigma, ByHand) {
   EXPECT_DOUBLE_EQ(ImageLineSigma(kSegment, 2.0, {300.0, 100.0}), 2.0 * std::sqrt(5.0));
 }
 
-TEST(ImageLineSigma, NeverBelowTheMiddleOfTheSegment) {
+TEST(ImageLineSigma, IsLeastAtTheMiddleOfTheSegment) {
   for (double u = -400.0; u < 700.0; u += 7.0) {
     EXPECT_GE(ImageLineSigma(kSegment, 1.0, {u, 50.0}), std::sqrt(0.5) - 1e-12) << u;
   }
 }
 
 TEST(MakeLineReprojection, RowsHaveUnitVarianceOutsideTheSegment) {
-  // The map line reaches beyond the observed segment at both ends; the segment's end points are
-  // noisy across the line. Each row has unit variance where the sigmas are right.
+  // The map line extends beyond the observed segment at both ends. The end points of the segment
+  // have noise across the line.
   const PinholeCamera camera;
   const LineSegment3 line{{-0.6, 0.0, 2.0}, {0.8, 0.0, 2.0}};
   const LineSegment2 exact{camera.Project(line.At(0.3)), camera.Project(line.At(0.8))};
-  Random random(1);
+  RandomGeometry random(1);
   Eigen::Vector2d variance = Eigen::Vector2d::Zero();
   const int count = 4000;
   for (int i = 0; i < count; ++i) {
-    LineSegment2 seen = exact;
-    seen.start.y() += 0.5 * random.Normal();
-    seen.end.y() += 0.5 * random.Normal();
-    const LineReprojection factor = MakeLineReprojection(camera, seen, 0.5, line);
+    LineSegment2 observed = exact;
+    observed.start.y() += 0.5 * random.Normal();
+    observed.end.y() += 0.5 * random.Normal();
+    const LineReprojection factor = MakeLineReprojection(camera, observed, 0.5, line);
     Eigen::Vector2d r;
     factor.Residual(0, Eigen::Vector3d(line.start), &r[0]);
     factor.Residual(1, Eigen::Vector3d(line.end), &r[1]);
@@ -49,14 +49,14 @@ TEST(MakeLineReprojection, RowsHaveUnitVarianceOutsideTheSegment) {
   EXPECT_THAT(variance, IsNear(Eigen::Vector2d(1.0, 1.0), 5.0 * std::sqrt(2.0 / count)));
 }
 
-TEST(MakeLineDepthReprojection, TakesSigmasWhereTheEndPointsProject) {
+TEST(MakeLineDepthReprojection, EvaluatesSigmasAtTheProjectedEndPoints) {
   const PinholeCamera camera;
   const LineSegment3 line{{-0.6, 0.0, 2.0}, {0.8, 0.0, 2.0}};
-  const LineSegment2 seen{camera.Project(line.At(0.5)), camera.Project(line.At(1.0))};
+  const LineSegment2 observed{camera.Project(line.At(0.5)), camera.Project(line.At(1.0))};
   LineDepth depth;
   depth.start = depth.end = 0.49;  // 0.01 per metre off the line's 0.5
   depth.covariance << 1e-6, 0.0, 0.0, 1e-6;
-  const LineDepthReprojection factor = MakeLineDepthReprojection(camera, seen, depth, line);
+  const LineDepthReprojection factor = MakeLineDepthReprojection(camera, observed, depth, line);
   double start, end;
   factor.Residual(0, Eigen::Vector3d(line.start), &start);
   factor.Residual(1, Eigen::Vector3d(line.end), &end);
@@ -65,13 +65,13 @@ TEST(MakeLineDepthReprojection, TakesSigmasWhereTheEndPointsProject) {
   EXPECT_NEAR(end, 10.0, 1e-9);
 }
 
-TEST(TestChiSquare, ADepthThatAloneContradictsIsLostAlone) {
+TEST(TestChiSquare, RejectsAnInconsistentDepthAlone) {
   EXPECT_EQ(TestChiSquare(5.0, 3.0, 9.0, 11.0), (InlierMask{true, true}));
   EXPECT_EQ(TestChiSquare(5.0, 7.0, 9.0, 11.0), (InlierMask{true, false}));
   EXPECT_EQ(TestChiSquare(9.5, 0.0, 9.0, 11.0), (InlierMask{false, false}));
 }
 
-TEST(IsInFront, NeedsBothEndPointsOfALine) {
+TEST(IsInFront, RequiresBothEndPointsOfALine) {
   EXPECT_TRUE(IsInFront(Eigen::Vector3d(0.0, 0.0, 1.0)));
   EXPECT_FALSE(IsInFront(Eigen::Vector3d(0.0, 0.0, 0.05)));
   EXPECT_TRUE(IsInFront(LineSegment3{{0.0, 0.0, 1.0}, {0.0, 1.0, 2.0}}));

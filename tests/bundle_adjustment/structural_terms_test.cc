@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// The structural terms of the window problem.
+// Structural terms of local bundle adjustment.
 
 #include <stdexcept>
 #include <string>
 
 #include "tests/support/factor_checks.h"
-#include "tests/support/synthetic_window.h"
+#include "tests/support/test_window.h"
 #include <gmock/gmock.h>
 
 #include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
@@ -43,15 +43,15 @@ bool SameNumbers(const WindowData& a, const WindowData& b) {
   return true;
 }
 
-// Lines of the synthetic window: line i lies along axis i % 3.
-class WindowStructureTest : public ::testing::Test {
+// Structural terms between lines of the test window, of which line i is parallel to axis i % 3.
+class StructuralTermsTest : public ::testing::Test {
  protected:
-  WindowStructureTest() {
-    scene_.inverse_depth_sigma = 0.02;  // a noisy sensor
+  StructuralTermsTest() {
+    scene_.inverse_depth_sigma = 0.02;  // noisy depth
     options_.second_iterations = 30;
   }
   void Make() {
-    window_ = MakeSyntheticWindow(scene_);
+    window_ = MakeTestWindow(scene_);
     data_ = window_.data;
   }
   WindowData::LinePair Pair(int i, int j, int count = 1) const {
@@ -66,7 +66,7 @@ class WindowStructureTest : public ::testing::Test {
     (i % 3 == j % 3 ? data_.parallel_pairs : data_.perpendicular_pairs)
         .push_back(Pair(i, j, count));
   }
-  // Every line with the next `count` ones.
+  // Pairs every line with the next `count` lines.
   void AddTruePairs(int count) {
     const int n = static_cast<int>(data_.lines.size());
     for (int i = 0; i < n; ++i) {
@@ -83,13 +83,13 @@ class WindowStructureTest : public ::testing::Test {
     }
   }
 
-  SyntheticWindowOptions scene_;
+  TestWindowOptions scene_;
   BundleAdjustmentOptions options_;
-  SyntheticWindow window_;
+  TestWindow window_;
   WindowData data_;
 };
 
-TEST_F(WindowStructureTest, PairsHalveTheDirectionErrors) {
+TEST_F(StructuralTermsTest, PairsHalveDirectionErrors) {
   Make();
   WindowData without = data_;
   ASSERT_TRUE(LocalBundleAdjustment(options_, &without).usable);
@@ -107,7 +107,7 @@ TEST_F(WindowStructureTest, PairsHalveTheDirectionErrors) {
             static_cast<int>(data_.parallel_pairs.size()));
 }
 
-TEST_F(WindowStructureTest, AlignmentsHalveTheDirectionErrors) {
+TEST_F(StructuralTermsTest, AlignmentsHalveDirectionErrors) {
   Make();
   WindowData without = data_;
   ASSERT_TRUE(LocalBundleAdjustment(options_, &without).usable);
@@ -119,7 +119,7 @@ TEST_F(WindowStructureTest, AlignmentsHalveTheDirectionErrors) {
   EXPECT_GT(summary.manhattan.final_cost, 0.0);
 }
 
-TEST_F(WindowStructureTest, ExactStructureLeavesTheExactWindow) {
+TEST_F(StructuralTermsTest, RecoversTheTruthFromExactStructure) {
   scene_.noise = 0.0;
   Make();
   AddTruePairs(4);
@@ -133,14 +133,14 @@ TEST_F(WindowStructureTest, ExactStructureLeavesTheExactWindow) {
   EXPECT_LT(summary.final_cost, 1e-3);
 }
 
-TEST_F(WindowStructureTest, WrongPairsAndAlignmentsAreRejected) {
+TEST_F(StructuralTermsTest, RejectsWrongPairsAndAlignments) {
   scene_.inverse_depth_sigma = 0.002;
   Make();
   AddTruePairs(6);
   AddAlignments();
   const size_t parallel = data_.parallel_pairs.size();
   const size_t perpendicular = data_.perpendicular_pairs.size();
-  data_.parallel_pairs.push_back(Pair(3, 7));       // square
+  data_.parallel_pairs.push_back(Pair(3, 7));       // perpendicular
   data_.perpendicular_pairs.push_back(Pair(3, 9));  // parallel
   data_.axis_alignments.push_back(data_.axis_alignments[5]);
   data_.axis_alignments.back().axis = Eigen::Vector3d(0.0, std::sin(0.1), std::cos(0.1));
@@ -160,7 +160,7 @@ TEST_F(WindowStructureTest, WrongPairsAndAlignmentsAreRejected) {
   EXPECT_LT(RmsDirection(window_.truth, data_), 0.5);
 }
 
-TEST_F(WindowStructureTest, RejectionIsForgottenAtTheNextSolve) {
+TEST_F(StructuralTermsTest, IgnoresEarlierRejectionMarks) {
   scene_.noise = 0.0;
   Make();
   AddTruePairs(2);
@@ -174,7 +174,7 @@ TEST_F(WindowStructureTest, RejectionIsForgottenAtTheNextSolve) {
   for (const auto& a : data_.axis_alignments) EXPECT_FALSE(a.rejected);
 }
 
-TEST_F(WindowStructureTest, TermsThatAreOffLeaveNoTrace) {
+TEST_F(StructuralTermsTest, DisabledTermsChangeNothing) {
   Make();
   WindowData without = data_;
   const BundleAdjustmentSummary plain = LocalBundleAdjustment(options_, &without);
@@ -191,7 +191,7 @@ TEST_F(WindowStructureTest, TermsThatAreOffLeaveNoTrace) {
   EXPECT_EQ(off.parallel.final_cost, 0.0);
 }
 
-TEST_F(WindowStructureTest, EachTermHasItsOwnSwitchAndCost) {
+TEST_F(StructuralTermsTest, EachTermHasItsOwnOptionAndCost) {
   Make();
   AddTruePairs(4);
   AddAlignments();
@@ -216,7 +216,7 @@ TEST_F(WindowStructureTest, EachTermHasItsOwnSwitchAndCost) {
   blocks(true, true, true);
 }
 
-TEST_F(WindowStructureTest, TheAnchorHasASwitch) {
+TEST_F(StructuralTermsTest, EndpointPriorCanBeDisabled) {
   Make();
   options_.line_endpoint_prior = false;
   const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data_);
@@ -225,7 +225,7 @@ TEST_F(WindowStructureTest, TheAnchorHasASwitch) {
   EXPECT_EQ(summary.line_endpoint_prior.final_cost, 0.0);
 }
 
-TEST_F(WindowStructureTest, OneCountedPairIsAsManyEqualOnes) {
+TEST_F(StructuralTermsTest, CountEqualsRepeatedPairs) {
   Make();
   WindowData many = data_;
   for (int i = 0; i + 1 < 40; ++i) {
@@ -246,16 +246,16 @@ TEST_F(WindowStructureTest, OneCountedPairIsAsManyEqualOnes) {
   }
 }
 
-TEST_F(WindowStructureTest, OnlyObservedLinesAreBound) {
+TEST_F(StructuralTermsTest, IgnoresTermsOfUnobservedLines) {
   scene_.noise = 0.0;
   Make();
   AddTruePairs(3);
   AddAlignments();
   auto& observations = data_.line_observations;
-  const int64_t unseen = data_.lines[4].id;
+  const int64_t unobserved = data_.lines[4].id;
   observations.erase(
       std::remove_if(observations.begin(), observations.end(),
-                     [&](const WindowData::LineObservation& o) { return o.line == unseen; }),
+                     [&](const WindowData::LineObservation& o) { return o.line == unobserved; }),
       observations.end());
   const LineSegment3 before = data_.lines[4].segment;
   const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data_);
@@ -267,7 +267,7 @@ TEST_F(WindowStructureTest, OnlyObservedLinesAreBound) {
   EXPECT_FALSE(data_.axis_alignments[4].rejected);
 }
 
-TEST_F(WindowStructureTest, FixedLinesStayAndBindOthers) {
+TEST_F(StructuralTermsTest, FixedLinesConstrainFreeLines) {
   Make();
   for (int i : {0, 1, 2}) data_.lines[i] = window_.truth.lines[i];
   for (int i : {0, 1, 2}) data_.lines[i].fixed = true;
@@ -275,7 +275,7 @@ TEST_F(WindowStructureTest, FixedLinesStayAndBindOthers) {
   for (int i = 3; i < 40; ++i) {
     for (int j : {0, 1, 2}) AddPair(j, i);
   }
-  AddPair(0, 1);  // of fixed lines alone: nothing to say
+  AddPair(0, 1);  // two fixed lines: no residual block
   WindowData without = before;
   ASSERT_TRUE(LocalBundleAdjustment(options_, &without).usable);
   const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data_);
@@ -285,7 +285,7 @@ TEST_F(WindowStructureTest, FixedLinesStayAndBindOthers) {
   EXPECT_LT(RmsDirection(window_.truth, data_), 0.5 * RmsDirection(window_.truth, without));
 }
 
-TEST_F(WindowStructureTest, SameInputSameBytes) {
+TEST_F(StructuralTermsTest, IsDeterministic) {
   Make();
   AddTruePairs(6);
   AddAlignments();
@@ -295,9 +295,9 @@ TEST_F(WindowStructureTest, SameInputSameBytes) {
   EXPECT_TRUE(SameNumbers(data_, other));
 }
 
-TEST_F(WindowStructureTest, OfPairedLinesNoTwoAreEliminatedFirst) {
+TEST_F(StructuralTermsTest, CeresOrderingEliminatesNoTwoPairedLines) {
   Make();
-  // A hub, a chain, and lines without pairs.
+  // A star, a chain, and lines without pairs.
   for (int i = 1; i < 10; ++i) AddPair(0, i);
   for (int i = 10; i < 14; ++i) AddPair(i, i + 1);
   AddAlignments();
@@ -321,7 +321,7 @@ TEST_F(WindowStructureTest, OfPairedLinesNoTwoAreEliminatedFirst) {
   EXPECT_EQ(terms.manhattan.blocks.size(), 40u);
 }
 
-TEST_F(WindowStructureTest, MisuseNamesTheOffender) {
+TEST_F(StructuralTermsTest, InvalidInputThrowsAndNamesTheItem) {
   Make();
   AddTruePairs(3);
   AddAlignments();
@@ -338,11 +338,11 @@ TEST_F(WindowStructureTest, MisuseNamesTheOffender) {
   };
   using Data = WindowData;
   EXPECT_THAT(message([](Data* d) { d->parallel_pairs[0].b = 7777; }),
-              HasSubstr("line 7777 is of a parallel pair but not in the window"));
+              HasSubstr("line 7777 is part of a parallel pair but not in the window"));
   EXPECT_THAT(message([](Data* d) { d->perpendicular_pairs[0].a = -3; }),
-              HasSubstr("line -3 is of a perpendicular pair but not in the window"));
+              HasSubstr("line -3 is part of a perpendicular pair but not in the window"));
   EXPECT_THAT(message([](Data* d) { d->parallel_pairs[0].b = d->parallel_pairs[0].a; }),
-              HasSubstr("parallel pair of line 50 and line 50: a line with itself"));
+              HasSubstr("parallel pair of line 50 and line 50: pairs a line with itself"));
   EXPECT_THAT(message([](Data* d) { d->perpendicular_pairs[0].sigma = 0.0; }),
               HasSubstr("perpendicular pair of line 50 and line 52: sigma must be positive"));
   EXPECT_THAT(message([](Data* d) { d->perpendicular_pairs[0].count = 0; }),
@@ -352,7 +352,7 @@ TEST_F(WindowStructureTest, MisuseNamesTheOffender) {
   EXPECT_THAT(message([](Data* d) { d->axis_alignments[2].sigma = -1.0; }),
               HasSubstr("alignment of line 54: sigma must be positive"));
   EXPECT_THAT(message([](Data* d) { d->axis_alignments[2].line = 5; }),
-              HasSubstr("line 5 is aligned but not in the window"));
+              HasSubstr("line 5 is aligned with an axis but not in the window"));
   EXPECT_TRUE(SameNumbers(data_, good));
   data_ = good;
   options_.manhattan.huber = 0.0;

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "tests/support/factor_checks.h"
-#include "tests/support/synthetic_window.h"
+#include "tests/support/test_window.h"
 #include <ceres/covariance.h>
 #include <gmock/gmock.h>
 
@@ -31,16 +31,17 @@ class WindowCovarianceTest : public ::testing::Test {
     scene_.num_keyframes = 6;
     scene_.num_points = 40;
     scene_.num_lines = 12;
-    scene_.wrong_ratio = 0.03;
+    scene_.outlier_ratio = 0.03;
   }
 
   void Solve() {
-    window_ = MakeSyntheticWindow(scene_);
+    window_ = MakeTestWindow(scene_);
     data_ = window_.data;
     if (with_structure_) AddStructure();
     ASSERT_TRUE(LocalBundleAdjustment(options_, &data_).usable);
   }
-  // A clique, a star, and alignments: lines that are kept, bound to kept ones, and alone.
+  // A clique, a star and alignments: lines in the reduced system, lines coupled with those, and
+  // lines without pairs.
   void AddStructure() {
     const auto add = [this](int i, int j) {
       (i % 3 == j % 3 ? data_.parallel_pairs : data_.perpendicular_pairs)
@@ -54,25 +55,27 @@ class WindowCovarianceTest : public ::testing::Test {
     data_.pose_priors.push_back({data_.keyframes[3].id, data_.keyframes[3].cam_from_world});
     data_.pose_priors[0].covariance *= 1e-4;
   }
-  WindowChoice All() const { return {Ids(data_.keyframes), Ids(data_.points), Ids(data_.lines)}; }
+  CovarianceSelection All() const {
+    return {Ids(data_.keyframes), Ids(data_.points), Ids(data_.lines)};
+  }
 
-  SyntheticWindowOptions scene_;
-  SyntheticWindow window_;
+  TestWindowOptions scene_;
+  TestWindow window_;
   BundleAdjustmentOptions options_;
   WindowData data_;
   bool with_structure_ = false;
 };
 
-// What Ceres makes of the same factors.
+// Covariances of the same factors by Ceres.
 class CeresCovariance {
  public:
   CeresCovariance(const BundleAdjustmentOptions& options, const WindowData& data) : state_(data) {
     const WindowIndex index = ValidateWindow(options, data);
     int num_behind = 0;
-    WindowInlierMask inlier_mask = AllInFront(options, index, data, &num_behind);
-    const auto drop = [](const auto& items, auto* active) {
+    WindowInlierMask inlier_mask = InitialInlierMask(options, index, data, &num_behind);
+    const auto drop = [](const auto& items, auto* inliers) {
       for (size_t i = 0; i < items.size(); ++i) {
-        if (items[i].rejected) (*active)[i] = {};
+        if (items[i].rejected) (*inliers)[i] = {};
       }
     };
     drop(data.point_observations, &inlier_mask.points);
@@ -93,7 +96,7 @@ class CeresCovariance {
   }
   template <int N>
   Eigen::Matrix<double, N, N> Of(const double* block) const {
-    Eigen::Matrix<double, N, N> matrix;  // symmetric: the order of its storage does not matter
+    Eigen::Matrix<double, N, N> matrix;  // symmetric, so the storage order does not matter
     EXPECT_TRUE(covariance_->GetCovarianceBlockInTangentSpace(block, block, matrix.data()));
     return matrix;
   }
@@ -105,7 +108,7 @@ class CeresCovariance {
   std::unique_ptr<ceres::Covariance> covariance_;
 };
 
-// With as many sigmas as there are: a relative error in units of each number's own sigma.
+// Errors relative to the standard deviations of the parameters.
 template <typename Matrix>
 void ExpectSameCovariance(const std::optional<Matrix>& found, const Matrix& expected) {
   ASSERT_TRUE(found.has_value());
@@ -116,11 +119,11 @@ void ExpectSameCovariance(const std::optional<Matrix>& found, const Matrix& expe
       << expected;
 }
 
-TEST_F(WindowCovarianceTest, IsThatOfCeres) {
+TEST_F(WindowCovarianceTest, MatchesCeres) {
   for (const bool with_structure : {false, true}) {
     SCOPED_TRACE(with_structure);
     with_structure_ = with_structure;
-    options_.reject_chi2_3 = options_.reject_chi2_4 = 1e9;  // no depth is lost alone
+    options_.reject_chi2_3 = options_.reject_chi2_4 = 1e9;  // no observation loses only its depth
     Solve();
     const WindowCovariance found = EstimateCovariance(options_, data_, All());
     const CeresCovariance expected(options_, data_);
@@ -140,7 +143,7 @@ TEST_F(WindowCovarianceTest, IsThatOfCeres) {
   }
 }
 
-TEST_F(WindowCovarianceTest, AnyChoiceInAnyOrderGivesTheSame) {
+TEST_F(WindowCovarianceTest, DoesNotDependOnTheSelection) {
   with_structure_ = true;
   Solve();
   const WindowCovariance all = EstimateCovariance(options_, data_, All());
@@ -154,14 +157,14 @@ TEST_F(WindowCovarianceTest, AnyChoiceInAnyOrderGivesTheSame) {
   EXPECT_EQ(*some.lines.at(0), *all.lines[2]);
 }
 
-TEST_F(WindowCovarianceTest, WhatTheWindowDoesNotDetermineHasNone) {
-  scene_.wrong_ratio = 0.0;
+TEST_F(WindowCovarianceTest, IsEmptyForUndeterminedLandmarks) {
+  scene_.outlier_ratio = 0.0;
   Solve();
-  // A point seen once, without depth; one that nobody sees; a lost depth that makes no difference.
-  int num_seen = 0;
+  // Point 3 is observed once without depth, point 5 not at all.
+  int num_observations = 0;
   for (auto& o : data_.point_observations) {
     if (o.point == data_.points[3].id) {
-      o.rejected = num_seen++ > 0;
+      o.rejected = num_observations++ > 0;
       o.inverse_depth = 0.0;
     }
     if (o.point == data_.points[5].id) o.rejected = true;
@@ -173,12 +176,12 @@ TEST_F(WindowCovarianceTest, WhatTheWindowDoesNotDetermineHasNone) {
   for (const auto& pose : found.keyframes) EXPECT_TRUE(pose.has_value());
 }
 
-TEST_F(WindowCovarianceTest, WithoutDepthTheScaleIsNotDetermined) {
-  scene_.wrong_ratio = 0.0;
+TEST_F(WindowCovarianceTest, IsEmptyForUndeterminedScale) {
+  scene_.outlier_ratio = 0.0;
   scene_.has_depth = false;
   options_.line_endpoint_prior_sigma = 1e6;
   Solve();
-  // Two keyframes are fixed: they hold it.
+  // Two fixed keyframes fix the scale.
   for (const auto& pose : EstimateCovariance(options_, data_, All()).keyframes) {
     EXPECT_TRUE(pose.has_value());
   }
@@ -188,7 +191,7 @@ TEST_F(WindowCovarianceTest, WithoutDepthTheScaleIsNotDetermined) {
   for (size_t i = 1; i < found.keyframes.size(); ++i) EXPECT_FALSE(found.keyframes[i].has_value());
 }
 
-TEST_F(WindowCovarianceTest, MoreObservationsMakeItSmaller) {
+TEST_F(WindowCovarianceTest, ShrinksWithMoreObservations) {
   Solve();
   const Matrix6d all = *EstimateCovariance(options_, data_, All()).keyframes[4];
   for (size_t i = 0; i < data_.point_observations.size(); i += 2) {
@@ -198,26 +201,25 @@ TEST_F(WindowCovarianceTest, MoreObservationsMakeItSmaller) {
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(half - all).eigenvalues()[0], 0.0);
 }
 
-TEST_F(WindowCovarianceTest, MisuseThrows) {
+TEST_F(WindowCovarianceTest, ThrowsOnInvalidInput) {
   Solve();
-  const auto message = [this](const WindowChoice& choice) -> std::string {
+  const auto message = [this](const CovarianceSelection& selected) -> std::string {
     try {
-      EstimateCovariance(options_, data_, choice);
+      EstimateCovariance(options_, data_, selected);
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
     return "nothing was thrown";
   };
-  EXPECT_THAT(message({{9999}, {}, {}}),
-              ::testing::HasSubstr("keyframe 9999 is asked for but not"));
-  EXPECT_THAT(message({{}, {-1}, {}}), ::testing::HasSubstr("point -1 is asked for but not"));
-  EXPECT_THAT(message({{}, {}, {8888}}), ::testing::HasSubstr("line 8888 is asked for but not"));
+  EXPECT_THAT(message({{9999}, {}, {}}), ::testing::HasSubstr("keyframe 9999 is selected but not"));
+  EXPECT_THAT(message({{}, {-1}, {}}), ::testing::HasSubstr("point -1 is selected but not"));
+  EXPECT_THAT(message({{}, {}, {8888}}), ::testing::HasSubstr("line 8888 is selected but not"));
   data_.keyframes[0].cam_from_world.params[3] = 7.0;
-  EXPECT_THAT(message({}), ::testing::HasSubstr("rotation is not unit"));
+  EXPECT_THAT(message({}), ::testing::HasSubstr("rotation is not a unit quaternion"));
 }
 
-TEST(CovarianceInWorld, IsThatOfSamples) {
-  Random random(1);
+TEST(CovarianceInWorld, MatchesSamples) {
+  RandomGeometry random(1);
   const Rigid3 pose = random.Pose();
   Matrix6d factor;
   for (int i = 0; i < 36; ++i) factor.data()[i] = 1e-3 * random.Normal();
@@ -240,8 +242,8 @@ TEST(CovarianceInWorld, IsThatOfSamples) {
             5.0 * std::sqrt(2.0 / kSamples));
 }
 
-// Simulation: the squared error in units of the covariance is chi-square. Windows differ by seed in
-// landmarks, noise and start.
+// Monte Carlo test: the squared Mahalanobis error has a chi-square distribution. Windows differ in
+// landmarks, noise and initial state.
 class Consistency {
  public:
   explicit Consistency(double noise) {
@@ -251,11 +253,11 @@ class Consistency {
     scene_.num_lines = 10;
     scene_.noise = noise;
   }
-  // Means over windows of the error squared, per degree of freedom.
+  // Mean squared Mahalanobis errors over the windows, per degree of freedom.
   void Run(const BundleAdjustmentOptions& options, int num_windows) {
     for (int i = 0; i < num_windows; ++i) {
       scene_.seed = 100 + i;
-      Add(options, MakeSyntheticWindow(scene_));
+      Add(options, MakeTestWindow(scene_));
     }
     pose /= 6.0 * num_windows;
     point /= 3.0 * num_windows;
@@ -264,7 +266,7 @@ class Consistency {
   double pose = 0.0, point = 0.0, line = 0.0;
 
  private:
-  void Add(const BundleAdjustmentOptions& options, const SyntheticWindow& window) {
+  void Add(const BundleAdjustmentOptions& options, const TestWindow& window) {
     WindowData data = window.data;
     ASSERT_TRUE(LocalBundleAdjustment(options, &data).usable);
     const WindowCovariance covariance = EstimateCovariance(
@@ -276,7 +278,7 @@ class Consistency {
     const Eigen::Vector3d off = data.points[11].position - window.truth.points[11].position;
     point += off.dot(covariance.points[0]->inverse() * off);
 
-    // A line has four degrees of freedom: its end points across it.
+    // A line has four degrees of freedom: the positions of its end points across it.
     const LineSegment3& truth = window.truth.lines[7].segment;
     const LineSegment3& found = data.lines[7].segment;
     const Eigen::Vector3d d = truth.Direction(), u = d.unitOrthogonal(), v = d.cross(u);
@@ -284,24 +286,25 @@ class Consistency {
     across.block<1, 3>(0, 0) = across.block<1, 3>(2, 3) = u.transpose();
     across.block<1, 3>(1, 0) = across.block<1, 3>(3, 3) = v.transpose();
     Eigen::Matrix<double, 6, 1> ends;
-    ends << Nearest(truth, found.start), Nearest(truth, found.end);
+    ends << Offset(truth, found.start), Offset(truth, found.end);
     const Eigen::Vector4d distance = across * ends;
     line += distance.dot((across * *covariance.lines[0] * across.transpose()).inverse() * distance);
   }
-  // From the infinite line to a point.
-  static Eigen::Vector3d Nearest(const LineSegment3& line, const Eigen::Vector3d& x) {
+  // Vector from the infinite line to a point.
+  static Eigen::Vector3d Offset(const LineSegment3& line, const Eigen::Vector3d& x) {
     const Eigen::Vector3d d = line.Direction(), w = x - line.start;
     return w - d.dot(w) * d;
   }
 
-  SyntheticWindowOptions scene_;
+  TestWindowOptions scene_;
 };
 
-// 99 % of the means of n chi-square variables of k degrees, over k, are this near to one.
+// 99 % bound on |m / k - 1|, where m is the mean of n chi-square variables with k degrees of
+// freedom.
 double Bound(int n, int k) { return 2.576 * std::sqrt(2.0 / (double(n) * k)); }
 
-TEST(WindowCovarianceConsistency, ErrorsAreAsLargeAsItSays) {
-  // Least squares, which is what normal noise asks for.
+TEST(WindowCovarianceConsistency, ErrorsMatchTheCovariance) {
+  // Plain least squares, the estimator for normal noise.
   BundleAdjustmentOptions options;
   options.point_reprojection.huber = options.point_depth.huber = 1e3;
   options.line_reprojection.huber = options.line_depth.huber = 1e3;
@@ -314,17 +317,17 @@ TEST(WindowCovarianceConsistency, ErrorsAreAsLargeAsItSays) {
   EXPECT_NEAR(errors.line, 1.0, Bound(kWindows, 4));
 }
 
-TEST(WindowCovarianceConsistency, RobustLossesAndRejectionCostLittle) {
+TEST(WindowCovarianceConsistency, RobustLossesChangeTheErrorsLittle) {
   constexpr int kWindows = 300;
   Consistency errors(1.0);
   errors.Run(BundleAdjustmentOptions(), kWindows);
-  // Weights below one stand for errors that were good: what is lost stays below a tenth.
+  // Robust weights below one also affect inliers; the effect stays below a tenth.
   EXPECT_NEAR(errors.pose, 1.0, 0.1 + Bound(kWindows, 6));
   EXPECT_NEAR(errors.point, 1.0, 0.1 + Bound(kWindows, 3));
   EXPECT_NEAR(errors.line, 1.0, 0.1 + Bound(kWindows, 4));
 }
 
-TEST(WindowCovarianceConsistency, TwiceTheNoiseIsNoticed) {
+TEST(WindowCovarianceConsistency, DetectsUnderestimatedNoise) {
   BundleAdjustmentOptions options;
   options.point_reprojection.huber = options.point_depth.huber = 1e3;
   options.line_reprojection.huber = options.line_depth.huber = 1e3;

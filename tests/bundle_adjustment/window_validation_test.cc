@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "tests/support/synthetic_window.h"
+#include "tests/support/test_window.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
@@ -18,19 +18,19 @@ using ::testing::HasSubstr;
 class WindowValidationTest : public ::testing::Test {
  protected:
   WindowValidationTest() {
-    SyntheticWindowOptions scene;
+    TestWindowOptions scene;
     scene.num_points = 20;
     scene.num_lines = 5;
-    data_ = MakeSyntheticWindow(scene).data;
+    data_ = MakeTestWindow(scene).data;
   }
-  // What is thrown for the present data.
+  // Message of the exception for the current data.
   std::string Message() const {
     try {
       ValidateWindow(options_, data_);
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
-    return "nothing was thrown";
+    return "no exception";
   }
 
   const double nan_ = std::numeric_limits<double>::quiet_NaN();
@@ -53,7 +53,7 @@ TEST_F(WindowValidationTest, ResolvesIds) {
   }
 }
 
-TEST_F(WindowValidationTest, UnknownIds) {
+TEST_F(WindowValidationTest, RejectsUnknownIds) {
   data_.point_observations[3].keyframe = 9999;
   EXPECT_THAT(Message(), HasSubstr("keyframe 9999 is observed but not in the window"));
   data_.point_observations[3].keyframe = data_.keyframes[0].id;
@@ -64,39 +64,40 @@ TEST_F(WindowValidationTest, UnknownIds) {
   EXPECT_THAT(Message(), HasSubstr("line 77777 is observed but not in the window"));
 }
 
-TEST_F(WindowValidationTest, RepeatedIds) {
+TEST_F(WindowValidationTest, RejectsRepeatedIds) {
   data_.keyframes[4].id = data_.keyframes[2].id;
   EXPECT_THAT(Message(), HasSubstr("keyframe 106: the id is given twice"));
   data_.keyframes[4].id = 555;
   data_.points[7].id = data_.points[2].id;
   EXPECT_THAT(Message(), HasSubstr("point 1014: the id is given twice"));
-  data_.points[7].id = 555;  // ids of keyframes and points have nothing to do with each other
+  data_.points[7].id = 555;  // keyframes and points have separate ids
   data_.lines[4].id = data_.lines[3].id;
   EXPECT_THAT(Message(), HasSubstr("line 56: the id is given twice"));
 }
 
-TEST_F(WindowValidationTest, EmptyWindow) {
+TEST_F(WindowValidationTest, RejectsAnEmptyWindow) {
   data_ = WindowData();
   EXPECT_THAT(Message(), HasSubstr("the window is empty"));
 }
 
-TEST_F(WindowValidationTest, NoGauge) {
+TEST_F(WindowValidationTest, RejectsAFreeGauge) {
   for (auto& k : data_.keyframes) k.fixed = false;
   EXPECT_THAT(Message(), HasSubstr("no keyframe is fixed or has a prior"));
   data_.pose_priors.push_back({data_.keyframes[2].id, data_.keyframes[2].cam_from_world});
-  EXPECT_EQ(Message(), "nothing was thrown");
+  EXPECT_EQ(Message(), "no exception");
 }
 
-TEST_F(WindowValidationTest, Priors) {
+TEST_F(WindowValidationTest, RejectsInvalidPriors) {
   const WindowData::PosePrior good{data_.keyframes[2].id, data_.keyframes[2].cam_from_world};
   data_.pose_priors = {good};
-  EXPECT_EQ(Message(), "nothing was thrown");
+  EXPECT_EQ(Message(), "no exception");
   WindowData::PosePrior& prior = data_.pose_priors[0];
   prior.keyframe = 9999;
-  EXPECT_THAT(Message(), HasSubstr("keyframe 9999 is of a prior but not in the window"));
+  EXPECT_THAT(Message(),
+              HasSubstr("keyframe 9999 is constrained by a prior but not in the window"));
   prior = good;
   prior.cam_from_world.params[3] += 1.0;
-  EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: rotation is not unit"));
+  EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: rotation is not a unit quaternion"));
   prior = good;
   prior.covariance(2, 4) = 0.1;
   EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: covariance is not positive definite"));
@@ -108,13 +109,13 @@ TEST_F(WindowValidationTest, Priors) {
   EXPECT_THAT(Message(), HasSubstr("prior of keyframe 106: covariance is not positive definite"));
 }
 
-TEST_F(WindowValidationTest, KeyframesAndLandmarks) {
+TEST_F(WindowValidationTest, RejectsInvalidKeyframesAndLandmarks) {
   const WindowData good = data_;
   data_.keyframes[1].cam_from_world.params[5] = nan_;
   EXPECT_THAT(Message(), HasSubstr("keyframe 103: pose is not finite"));
   data_ = good;
   data_.keyframes[1].cam_from_world.params.head<4>() *= 2.0;
-  EXPECT_THAT(Message(), HasSubstr("keyframe 103: rotation is not unit"));
+  EXPECT_THAT(Message(), HasSubstr("keyframe 103: rotation is not a unit quaternion"));
   data_ = good;
   data_.points[2].position.y() = nan_;
   EXPECT_THAT(Message(), HasSubstr("point 1014: position is not finite"));
@@ -123,7 +124,7 @@ TEST_F(WindowValidationTest, KeyframesAndLandmarks) {
   EXPECT_THAT(Message(), HasSubstr("line 56: segment is not finite"));
   data_ = good;
   data_.lines[3].segment.end = data_.lines[3].segment.start;
-  EXPECT_THAT(Message(), HasSubstr("line 56: segment has no length"));
+  EXPECT_THAT(Message(), HasSubstr("line 56: segment has zero length"));
   for (const double noise : {0.0, -1.0, nan_, infinity_}) {
     data_ = good;
     data_.points[2].noise = noise;
@@ -137,49 +138,49 @@ TEST_F(WindowValidationTest, KeyframesAndLandmarks) {
   EXPECT_THAT(Message(), HasSubstr("line 56: depth_offset is not finite"));
 }
 
-TEST_F(WindowValidationTest, PointObservations) {
+TEST_F(WindowValidationTest, RejectsInvalidPointObservations) {
   const WindowData good = data_;
   WindowData::PointObservation& o = data_.point_observations[0];
-  const std::string who = "observation of point " + std::to_string(o.point) + " in keyframe " +
-                          std::to_string(o.keyframe) + ": ";
+  const std::string item = "observation of point " + std::to_string(o.point) + " in keyframe " +
+                           std::to_string(o.keyframe) + ": ";
   o.pixel.x() = nan_;
-  EXPECT_THAT(Message(), HasSubstr(who + "pixel is not finite"));
+  EXPECT_THAT(Message(), HasSubstr(item + "pixel is not finite"));
   data_ = good;
   data_.point_observations[0].sigma = 0.0;
-  EXPECT_THAT(Message(), HasSubstr(who + "sigma must be positive"));
+  EXPECT_THAT(Message(), HasSubstr(item + "sigma must be positive"));
   data_ = good;
   data_.point_observations[0].inverse_depth_sigma = -1.0;
-  EXPECT_THAT(Message(), HasSubstr(who + "inverse_depth_sigma must be positive"));
+  EXPECT_THAT(Message(), HasSubstr(item + "inverse_depth_sigma must be positive"));
   data_ = good;
   data_.point_observations[0].inverse_depth = nan_;
-  EXPECT_THAT(Message(), HasSubstr(who + "inverse_depth must not be negative"));
+  EXPECT_THAT(Message(), HasSubstr(item + "inverse_depth must be in [0, 1e9]"));
 }
 
-TEST_F(WindowValidationTest, LineObservations) {
+TEST_F(WindowValidationTest, RejectsInvalidLineObservations) {
   const WindowData good = data_;
   WindowData::LineObservation& o = data_.line_observations[0];
-  const std::string who = "observation of line " + std::to_string(o.line) + " in keyframe " +
-                          std::to_string(o.keyframe) + ": ";
+  const std::string item = "observation of line " + std::to_string(o.line) + " in keyframe " +
+                           std::to_string(o.keyframe) + ": ";
   o.segment.end = o.segment.start;
-  EXPECT_THAT(Message(), HasSubstr(who + "segment has no length"));
+  EXPECT_THAT(Message(), HasSubstr(item + "segment has zero length"));
   data_ = good;
   data_.line_observations[0].sigma = nan_;
-  EXPECT_THAT(Message(), HasSubstr(who + "sigma must be positive"));
+  EXPECT_THAT(Message(), HasSubstr(item + "sigma must be positive"));
   data_ = good;
   data_.line_observations[0].depth.start = nan_;
-  EXPECT_THAT(Message(), HasSubstr(who + "depth is not finite"));
+  EXPECT_THAT(Message(), HasSubstr(item + "depth is not finite"));
   data_ = good;
   data_.line_observations[0].depth.covariance << 1.0, 2.0, 2.0, 1.0;
-  EXPECT_THAT(Message(), HasSubstr(who + "depth covariance is not positive definite"));
+  EXPECT_THAT(Message(), HasSubstr(item + "depth covariance is not positive definite"));
   data_.line_observations[0].depth.covariance << -1.0, 0.0, 0.0, -1.0;
-  EXPECT_THAT(Message(), HasSubstr(who + "depth covariance is not positive definite"));
-  data_.line_observations[0].depth.covariance << 1.0, 0.3, 0.1, 1.0;  // which of the two?
-  EXPECT_THAT(Message(), HasSubstr(who + "depth covariance is not positive definite"));
-  data_.line_observations[0].has_depth = false;  // then nobody reads it
-  EXPECT_EQ(Message(), "nothing was thrown");
+  EXPECT_THAT(Message(), HasSubstr(item + "depth covariance is not positive definite"));
+  data_.line_observations[0].depth.covariance << 1.0, 0.3, 0.1, 1.0;  // not symmetric
+  EXPECT_THAT(Message(), HasSubstr(item + "depth covariance is not positive definite"));
+  data_.line_observations[0].has_depth = false;  // then it is not used
+  EXPECT_EQ(Message(), "no exception");
 }
 
-TEST_F(WindowValidationTest, InfiniteAndHugeNumbers) {
+TEST_F(WindowValidationTest, RejectsInfiniteAndHugeNumbers) {
   const WindowData good = data_;
   const auto expect = [&](const char* message) {
     EXPECT_THAT(Message(), HasSubstr(message));
@@ -188,19 +189,19 @@ TEST_F(WindowValidationTest, InfiniteAndHugeNumbers) {
   for (const double huge : {infinity_, -infinity_, 1e200, -1e10}) {
     SCOPED_TRACE(huge);
     data_.keyframes[1].cam_from_world.translation().z() = huge;
-    expect("keyframe 103: pose is not finite, or beyond 1e9 m");
+    expect("keyframe 103: pose is not finite or beyond 1e9 m");
     data_.points[2].position.x() = huge;
-    expect("point 1014: position is not finite, or beyond 1e9 m");
+    expect("point 1014: position is not finite or beyond 1e9 m");
     data_.lines[3].segment.start.z() = huge;
-    expect("line 56: segment is not finite, or beyond 1e9 m");
+    expect("line 56: segment is not finite or beyond 1e9 m");
     data_.point_observations[5].pixel.y() = huge;
-    expect("pixel is not finite, or beyond 1e9");
+    expect("pixel is not finite or beyond 1e9");
     data_.line_observations[5].segment.start.y() = huge;
-    expect("segment is not finite, or beyond 1e9 pixels");
+    expect("segment is not finite or beyond 1e9 pixels");
     data_.point_observations[5].inverse_depth = huge;
-    expect("inverse_depth must not be negative, nor beyond 1e9");
+    expect("inverse_depth must be in [0, 1e9]");
     data_.line_observations[5].depth.end = huge;
-    expect("depth is not finite, or beyond 1e9");
+    expect("depth is not finite or beyond 1e9");
   }
   data_.point_observations[5].sigma = infinity_;
   expect("sigma must be positive");
@@ -210,7 +211,7 @@ TEST_F(WindowValidationTest, InfiniteAndHugeNumbers) {
   expect("depth covariance is not positive definite");
 }
 
-TEST_F(WindowValidationTest, Options) {
+TEST_F(WindowValidationTest, RejectsInvalidOptions) {
   options_.line_endpoint_prior_sigma = 0.0;
   EXPECT_THAT(Message(), HasSubstr("line_endpoint_prior_sigma"));
   options_ = BundleAdjustmentOptions();

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -54,6 +55,19 @@ TEST_F(TrajectoryTest, ReadsBackWhatItWrote) {
               1e-9);
   }
   EXPECT_EQ(FormatTrajectory(read), ReadFile(Path("t.txt")));
+}
+
+TEST_F(TrajectoryTest, MarksPosesThatAreNotEstimatedInACommentAboveThem) {
+  const std::string text =
+      FormatTrajectory({{1.0, Rigid3()}, {2.0, Rigid3(), false}, {3.0, Rigid3()}});
+  EXPECT_THAT(text, HasSubstr("\n# not estimated\n2.000000 "));
+  WriteText("t.txt", text + "# other\r\n4 0 0 0 0 0 0 1\n#  not estimated \r\n5 0 0 0 0 0 0 1\n" +
+                         "# not estimated\n\n6 0 0 0 0 0 0 1\n");
+  std::vector<bool> is_estimated;
+  for (const TimedPose& pose : ReadTrajectory(Path("t.txt"))) {
+    is_estimated.push_back(pose.is_estimated);
+  }
+  EXPECT_THAT(is_estimated, testing::ElementsAre(true, false, true, true, false, true));
 }
 
 TEST_F(TrajectoryTest, ReadsCommentsCommasTabsBlankLinesAndWindowsLineEnds) {

@@ -70,6 +70,54 @@ TEST(EvaluateTrajectory, HandComputedRotationError) {
   EXPECT_GT(error.rpe_per_second.translation.rmse, 0.1);
 }
 
+TEST(EvaluateTrajectory, RotationDoesNotSufferFromAPathThatFixesNoAlignment) {
+  // A camera that turns without moving: 1 mm of noise decides how positions are aligned.
+  std::vector<TimedPose> truth;
+  for (int i = 0; i < 100; ++i) {
+    truth.push_back({i / 30.0, Rigid3(ExpSO3({0.0, 0.01 * i, 0.0}), {1e-4 * i, 0.0, 0.0})});
+  }
+  std::vector<TimedPose> estimate = Disturbed(truth, 0.001, 0.0, 0.0, 1);
+  estimate = Transformed(Rigid3(ExpSO3({0.5, -1.2, 0.3}), {3.0, -4.0, 5.0}), estimate);
+  const TrajectoryError error = EvaluateTrajectory(truth, estimate);
+  EXPECT_GT(error.ape_rotation.rmse, 0.1);
+  EXPECT_NEAR(error.rotation.max, 0.0, 1e-7);
+  // Half of the orientations 0.02 off to one side, half to the other.
+  for (int i = 0; i < 100; ++i) {
+    Rigid3& pose = estimate[i].world_from_cam;
+    pose.rotation() = pose.rotation() * ExpSO3({i % 2 == 0 ? 0.02 : -0.02, 0.0, 0.0});
+  }
+  EXPECT_NEAR(EvaluateTrajectory(truth, estimate).rotation.rmse, 0.02, 1e-4);
+}
+
+TEST(EvaluateTrajectory, LeavesOutPosesThatAreNotEstimated) {
+  const std::vector<TimedPose> truth = CurvedPath(100, 30.0);
+  std::vector<TimedPose> estimate = truth;
+  for (int i = 60; i < 100; ++i) {
+    estimate[i].is_estimated = false;
+    estimate[i].world_from_cam = estimate[59].world_from_cam;
+  }
+  TrajectoryError error = EvaluateTrajectory(truth, estimate);
+  ASSERT_TRUE(error.usable);
+  EXPECT_EQ(error.num_estimate, 60);
+  EXPECT_EQ(error.num_not_estimated, 40);
+  EXPECT_DOUBLE_EQ(error.coverage, 0.6);
+  EXPECT_NEAR(error.ape.max, 0.0, 1e-9);
+  EXPECT_NEAR(error.rpe_per_second.translation.max, 0.0, 1e-9);
+  EXPECT_NEAR(AlignOrientations(truth, estimate)->translation().norm(), 0.0, 1e-9);
+
+  EvaluationOptions all;
+  all.all_poses = true;
+  error = EvaluateTrajectory(truth, estimate, all);
+  EXPECT_EQ(error.num_not_estimated, 0);
+  EXPECT_EQ(error.coverage, 1.0);
+  EXPECT_GT(error.ape.max, 0.05);
+
+  for (TimedPose& pose : estimate) pose.is_estimated = false;
+  error = EvaluateTrajectory(truth, estimate);
+  EXPECT_FALSE(error.usable);
+  EXPECT_NE(error.message.find("100 others are marked as not estimated"), std::string::npos);
+}
+
 TEST(EvaluateTrajectory, DoesNotDependOnTheWorldOfTheEstimate) {
   const std::vector<TimedPose> truth = CurvedPath(300, 30.0);
   const std::vector<TimedPose> estimate = Disturbed(truth, 0.02, 0.01, 0.0, 1);

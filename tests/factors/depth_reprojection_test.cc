@@ -10,8 +10,8 @@ namespace {
 
 using Vector1 = Eigen::Matrix<double, 1, 1>;
 
-TEST(DepthReprojection, ZeroAtTruth) {
-  Random random(1);
+TEST(DepthReprojection, IsZeroAtTruth) {
+  RandomGeometry random(1);
   for (int i = 0; i < 10; ++i) {
     const Rigid3 pose = random.Pose();
     const Eigen::Vector3d x = random.InView();
@@ -21,26 +21,26 @@ TEST(DepthReprojection, ZeroAtTruth) {
   }
 }
 
-TEST(DepthReprojection, ValueByHand) {
+TEST(DepthReprojection, MatchesValueByHand) {
   // z = 1.5 + 0.5 = 2 m is 0.5 per metre; measured 0.49 with sigma 0.004.
   const CostPtr cost(DepthReprojection::Create(0.49, 0.004));
   const Rigid3 pose(Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.5});
   EXPECT_THAT(Residual(*cost, {Block(pose), {0.2, -0.1, 0.5}}), IsNear(Vector1(2.5), 1e-12));
 }
 
-TEST(DepthReprojection, GradientsAndChainRule) {
-  Random random(2);
+TEST(DepthReprojection, DerivativesMatch) {
+  RandomGeometry random(2);
   for (int i = 0; i < 10; ++i) {
     const Rigid3 pose = random.Pose();
     const Blocks blocks{Block(pose), Block(pose.Inverse() * random.InView())};
     const DepthReprojection factor(0.4, 0.003);
     ExpectGradientsMatch(*CostPtr(DepthReprojection::Create(factor)), blocks);
-    ExpectChainRuleMatches(factor, blocks);
+    ExpectAnalyticMatchesAutomatic(factor, blocks);
   }
 }
 
-TEST(DepthReprojection, UnchangedByShiftsOfTheWorldAndByMotionAcrossTheView) {
-  Random random(3);
+TEST(DepthReprojection, IsInvariantToMotionOfTheWorldAndLateralMotion) {
+  RandomGeometry random(3);
   const Rigid3 pose = random.Pose(), shift = random.Pose();
   const Eigen::Vector3d in_cam = random.InView();
   const Eigen::Vector3d x = pose.Inverse() * in_cam;
@@ -52,17 +52,17 @@ TEST(DepthReprojection, UnchangedByShiftsOfTheWorldAndByMotionAcrossTheView) {
   EXPECT_THAT(Residual(*cost, {Block(pose), Block(across)}), IsNear(residual, 1e-9));
 }
 
-TEST(DepthReprojection, SameErrorInMetresWeighsLessFarAway) {
+TEST(DepthReprojection, WeightOfAnErrorInMetresFallsWithDepth) {
   const auto residual_of_10_cm_at = [](double z) {
     const CostPtr cost(DepthReprojection::Create(1.0 / z, 0.002));
     return std::abs(Residual(*cost, {Block(Rigid3()), {0.0, 0.0, z + 0.1}})[0]);
   };
-  // 1/z^2: sixteen times less at four times the distance, up to the curvature of 1/z over 10 cm.
+  // 1/z^2: a sixteenth at four times the distance, up to the curvature of 1/z over 10 cm.
   EXPECT_NEAR(residual_of_10_cm_at(2.0) / residual_of_10_cm_at(8.0), 16.0, 0.7);
 }
 
-TEST(DepthReprojection, NoiseOfSigmaBecomesUnitVariance) {
-  Random random(4);
+TEST(DepthReprojection, HasUnitVarianceUnderItsNoise) {
+  RandomGeometry random(4);
   std::vector<Eigen::VectorXd> samples;
   for (int i = 0; i < 4000; ++i) {
     const double measured = 0.5 + 0.003 * random.Normal();
@@ -72,7 +72,7 @@ TEST(DepthReprojection, NoiseOfSigmaBecomesUnitVariance) {
   ExpectIdentityCovariance(samples);
 }
 
-TEST(DepthReprojection, UndefinedBehindTheCamera) {
+TEST(DepthReprojection, IsUndefinedBehindTheCamera) {
   const CostPtr cost(DepthReprojection::Create(0.4, 0.003));
   for (const double z : {-1.0, 0.0, 0.009}) {
     EXPECT_FALSE(IsDefined(*cost, {Block(Rigid3()), {0.0, 0.0, z}})) << z;

@@ -16,12 +16,11 @@ namespace {
 using Parallel = InverseDepthLinePair<ParallelLines>;
 using Perpendicular = InverseDepthLinePair<PerpendicularLines>;
 
-// The parameter is fy: the mirrored image must behave like any other.
+// Parameter: fy, which is negative for mirrored images.
 class InverseDepthLineTest : public ::testing::TestWithParam<double> {
  protected:
   InverseDepthLineTest() { camera_.fy = GetParam(); }
-  // Any segment that is long in the image: a short one turns so fast with its depths that numeric
-  // derivatives are poor.
+  // A random segment that is long in the image: numeric derivatives of short ones are inaccurate.
   LineSegment3 InView() {
     for (;;) {
       const Eigen::Vector3d start = random_.InView(), end = random_.InView();
@@ -39,7 +38,7 @@ class InverseDepthLineTest : public ::testing::TestWithParam<double> {
     depth.covariance << 4e-6, -1e-6, -1e-6, 9e-6;
     return depth;
   }
-  InverseDepthLine See(const LineSegment3& line) const {
+  InverseDepthLine Observe(const LineSegment3& line) const {
     return InverseDepthLine(camera_, Project(line), DepthOf(line), 1.0, 0.005);
   }
   static std::vector<double> BlockOf(const LineSegment3& line, double a = 0.0, double c = 0.0) {
@@ -51,88 +50,91 @@ class InverseDepthLineTest : public ::testing::TestWithParam<double> {
     return d;
   }
   PinholeCamera camera_;
-  Random random_{1};
+  RandomGeometry random_{1};
 };
 INSTANTIATE_TEST_SUITE_P(FocalLength, InverseDepthLineTest, ::testing::Values(525.0, -480.0));
 
-TEST_P(InverseDepthLineTest, DirectionIsThatOfTheSegmentInSpaceAtAnyDepths) {
+TEST_P(InverseDepthLineTest, DirectionMatchesTheSegmentAtAnyDepth) {
   for (int i = 0; i < 10; ++i) {
     const LineSegment3 line = InView();
-    const InverseDepthLine sight = See(line);
-    EXPECT_THAT(Direction(sight, BlockOf(line)), IsNear(line.Direction(), 1e-12));
+    const InverseDepthLine inverse_depth_line = Observe(line);
+    EXPECT_THAT(Direction(inverse_depth_line, BlockOf(line)), IsNear(line.Direction(), 1e-12));
     const LineSegment3 other{1.3 * line.start, 0.8 * line.end};  // on the same rays
-    EXPECT_THAT(Direction(sight, BlockOf(other)), IsNear(other.Direction(), 1e-12));
+    EXPECT_THAT(Direction(inverse_depth_line, BlockOf(other)), IsNear(other.Direction(), 1e-12));
   }
 }
 
-TEST_P(InverseDepthLineTest, DeviatesTurnTheLineInAndOutOfTheInterpretationPlane) {
+TEST_P(InverseDepthLineTest, DeviationsRotateTheLineInAndOutOfTheInterpretationPlane) {
   const LineSegment3 line = InView();
-  const InverseDepthLine sight = See(line);
+  const InverseDepthLine inverse_depth_line = Observe(line);
   const Eigen::Vector3d normal = line.start.cross(line.end).normalized();
-  const Eigen::Vector3d in_plane = Direction(sight, BlockOf(line, 1.0, 0.0));
+  const Eigen::Vector3d in_plane = Direction(inverse_depth_line, BlockOf(line, 1.0, 0.0));
   EXPECT_NEAR(in_plane.dot(normal), 0.0, 1e-12);
   EXPECT_NEAR(in_plane.cross(line.Direction()).norm(), std::sin(std::atan(0.005)), 1e-9);
-  const Eigen::Vector3d out = Direction(sight, BlockOf(line, 0.0, 1.0));
-  EXPECT_NEAR(out.dot(normal), std::sin(std::atan(std::hypot(0.005, sight.image_angle()))), 1e-9);
+  const Eigen::Vector3d out = Direction(inverse_depth_line, BlockOf(line, 0.0, 1.0));
+  EXPECT_NEAR(out.dot(normal),
+              std::sin(std::atan(std::hypot(0.005, inverse_depth_line.image_angle()))), 1e-9);
 }
 
-TEST_P(InverseDepthLineTest, ImageAngleIsWhatPixelNoiseDoes) {
+TEST_P(InverseDepthLineTest, ImageAngleMatchesPixelNoise) {
   // Both end points shifted across the image segment by normal deviates of 0.1 px.
   const LineSegment3 line{{-0.4, 0.1, 2.0}, {0.2, 0.3, 3.0}};
-  const LineSegment2 seen = Project(line);
-  const Eigen::Vector2d d = seen.Direction(), across(-d.y(), d.x());
+  const LineSegment2 observed = Project(line);
+  const Eigen::Vector2d d = observed.Direction(), across(-d.y(), d.x());
   const Eigen::Vector3d normal = line.start.cross(line.end).normalized();
   double variance = 0.0;
   const int count = 4000;
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector2d noise = 0.1 * random_.Normal2();
-    const LineSegment2 noisy{seen.start + noise.x() * across, seen.end + noise.y() * across};
+    const LineSegment2 noisy{observed.start + noise.x() * across,
+                             observed.end + noise.y() * across};
     const double out = BackProject(camera_, noisy, DepthOf(line)).Direction().dot(normal);
     variance += out * out / count;
   }
   const double expected =
-      std::pow(InverseDepthLine(camera_, seen, DepthOf(line), 0.1, 0.005).image_angle(), 2);
+      std::pow(InverseDepthLine(camera_, observed, DepthOf(line), 0.1, 0.005).image_angle(), 2);
   EXPECT_NEAR(variance, expected, 5.0 * expected * std::sqrt(2.0 / count));
 }
 
-TEST_P(InverseDepthLineTest, PairsAreTheRelationsOfTheirDirections) {
+TEST_P(InverseDepthLineTest, PairsMatchTheRelationsOfTheirDirections) {
   const LineSegment3 a = InView(), b = InView();
   const Eigen::Vector3d cross = a.Direction().cross(b.Direction());
-  EXPECT_THAT(Residual(*CostPtr(Parallel::Create(See(a), See(b), 0.1)), {BlockOf(a), BlockOf(b)}),
-              IsNear((10.0 * cross).eval(), 1e-9));
-  EXPECT_NEAR(
-      Residual(*CostPtr(Perpendicular::Create(See(a), See(b), 0.1)), {BlockOf(a), BlockOf(b)})[0],
-      10.0 * a.Direction().dot(b.Direction()), 1e-9);
+  EXPECT_THAT(
+      Residual(*CostPtr(Parallel::Create(Observe(a), Observe(b), 0.1)), {BlockOf(a), BlockOf(b)}),
+      IsNear((10.0 * cross).eval(), 1e-9));
+  EXPECT_NEAR(Residual(*CostPtr(Perpendicular::Create(Observe(a), Observe(b), 0.1)),
+                       {BlockOf(a), BlockOf(b)})[0],
+              10.0 * a.Direction().dot(b.Direction()), 1e-9);
 }
 
-TEST_P(InverseDepthLineTest, Gradients) {
+TEST_P(InverseDepthLineTest, DerivativesMatch) {
   for (int i = 0; i < 10; ++i) {
     const LineSegment3 a = InView(), b = InView();
     const Blocks blocks{BlockOf(a, 0.3, -0.8), BlockOf(b, -0.2, 1.1)};
-    ExpectGradientsMatch(*CostPtr(Parallel::Create(See(a), See(b), 0.01)), blocks);
-    ExpectGradientsMatch(*CostPtr(Perpendicular::Create(See(a), See(b), 0.01)), blocks);
+    ExpectGradientsMatch(*CostPtr(Parallel::Create(Observe(a), Observe(b), 0.01)), blocks);
+    ExpectGradientsMatch(*CostPtr(Perpendicular::Create(Observe(a), Observe(b), 0.01)), blocks);
     ExpectGradientsMatch(*CostPtr(InverseDepthLinePrior::Create(DepthOf(a))), {blocks[0]});
   }
 }
 
-TEST_P(InverseDepthLineTest, GradientsAtParallelOppositeAndPerpendicular) {
+TEST_P(InverseDepthLineTest, DerivativesMatchAtParallelOppositeAndPerpendicular) {
   const LineSegment3 a{{-0.5, 0.2, 2.0}, {0.3, 0.2, 2.5}};
   const Eigen::Vector3d d = a.end - a.start, start(0.1, -0.3, 3.0);
   for (const Eigen::Vector3d& other : {d, Eigen::Vector3d(-d), Eigen::Vector3d(0.1, 0.5, -0.16)}) {
     const LineSegment3 b{start, start + other};
     const Blocks blocks{BlockOf(a), BlockOf(b)};
-    ExpectGradientsMatch(*CostPtr(Parallel::Create(See(a), See(b), 0.01)), blocks);
-    ExpectGradientsMatch(*CostPtr(Perpendicular::Create(See(a), See(b), 0.01)), blocks);
+    ExpectGradientsMatch(*CostPtr(Parallel::Create(Observe(a), Observe(b), 0.01)), blocks);
+    ExpectGradientsMatch(*CostPtr(Perpendicular::Create(Observe(a), Observe(b), 0.01)), blocks);
   }
 }
 
-TEST_P(InverseDepthLineTest, UndefinedWithoutADirection) {
+TEST_P(InverseDepthLineTest, IsUndefinedWithoutADirection) {
   const LineSegment3 a = InView();
-  EXPECT_FALSE(IsDefined(*CostPtr(Parallel::Create(See(a), See(a), 0.01)),
+  EXPECT_FALSE(IsDefined(*CostPtr(Parallel::Create(Observe(a), Observe(a), 0.01)),
                          {{0.0, 0.0, 0.0, 0.0}, BlockOf(a)}));
 }
 
-TEST_P(InverseDepthLineTest, PriorIsZeroAtTheFitAndWhitensItsCovariance) {
+TEST_P(InverseDepthLineTest, PriorIsZeroAtTheFitAndHasUnitCovariance) {
   const LineSegment3 line = InView();
   const LineDepth depth = DepthOf(line);
   const CostPtr cost(InverseDepthLinePrior::Create(depth));
@@ -147,8 +149,9 @@ TEST_P(InverseDepthLineTest, PriorIsZeroAtTheFitAndWhitensItsCovariance) {
   ExpectIdentityCovariance(samples);
 }
 
-TEST_P(InverseDepthLineTest, AGoodFitStaysAndAPoorOneTurns) {
-  // Both 4 degrees off or so before; the sum of priors decides which of them gives way.
+TEST_P(InverseDepthLineTest, StructureCorrectsThePoorlyFittedLine) {
+  // The two lines differ by a few degrees; the covariances of their priors decide which one
+  // rotates.
   const LineSegment3 good{{-0.5, 0.2, 2.0}, {0.3, 0.2, 2.5}};
   const LineSegment3 truth{{-0.4, -0.3, 2.4}, {0.4, -0.3, 2.9}};
   const LineSegment3 poor{truth.start, 1.02 * truth.end};  // on the same rays
@@ -156,16 +159,16 @@ TEST_P(InverseDepthLineTest, AGoodFitStaysAndAPoorOneTurns) {
   good_depth.covariance *= 1e-2;
   poor_depth.covariance *= 1e2;
   std::vector<double> a = BlockOf(good), b = BlockOf(poor);
-  const InverseDepthLine sight_a(camera_, Project(good), good_depth, 0.1, 1e-4);
-  const InverseDepthLine sight_b(camera_, Project(poor), poor_depth, 0.1, 1e-4);
+  const InverseDepthLine line_a(camera_, Project(good), good_depth, 0.1, 1e-4);
+  const InverseDepthLine line_b(camera_, Project(poor), poor_depth, 0.1, 1e-4);
   ceres::Problem problem;
-  problem.AddResidualBlock(Parallel::Create(sight_a, sight_b, 1e-3), nullptr, a.data(), b.data());
+  problem.AddResidualBlock(Parallel::Create(line_a, line_b, 1e-3), nullptr, a.data(), b.data());
   problem.AddResidualBlock(InverseDepthLinePrior::Create(good_depth), nullptr, a.data());
   problem.AddResidualBlock(InverseDepthLinePrior::Create(poor_depth), nullptr, b.data());
   SolveToEnd(&problem);
   EXPECT_GT(poor.Direction().cross(good.Direction()).norm(), 0.03);
-  EXPECT_LT(Direction(sight_a, a).cross(good.Direction()).norm(), 1e-3);
-  EXPECT_LT(Direction(sight_b, b).cross(good.Direction()).norm(), 1e-3);
+  EXPECT_LT(Direction(line_a, a).cross(good.Direction()).norm(), 1e-3);
+  EXPECT_LT(Direction(line_b, b).cross(good.Direction()).norm(), 1e-3);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace msc_vo {
 namespace {
 
-// The parameter is fy: the mirrored image must behave like any other.
+// Parameter: fy, which is negative for mirrored images.
 class LineDepthReprojectionTest : public ::testing::TestWithParam<double> {
  protected:
   LineDepthReprojectionTest() {
@@ -36,13 +36,13 @@ class LineDepthReprojectionTest : public ::testing::TestWithParam<double> {
     return depth;
   }
   PinholeCamera camera_;
-  Random random_{1};
+  RandomGeometry random_{1};
   const LineSegment2 somewhere_{{100.0, 150.0}, {300.0, 200.0}};
   LineDepth depth_;
 };
 INSTANTIATE_TEST_SUITE_P(FocalLength, LineDepthReprojectionTest, ::testing::Values(400.0, -400.0));
 
-TEST_P(LineDepthReprojectionTest, ZeroAtTruthWhateverPartOfTheLineIsSeen) {
+TEST_P(LineDepthReprojectionTest, IsZeroAtTruthForAnyObservedPart) {
   for (int i = 0; i < 10; ++i) {
     const Rigid3 pose = random_.Pose();
     const LineSegment3 line = InView();
@@ -56,7 +56,7 @@ TEST_P(LineDepthReprojectionTest, ZeroAtTruthWhateverPartOfTheLineIsSeen) {
   }
 }
 
-TEST_P(LineDepthReprojectionTest, ValueByHand) {
+TEST_P(LineDepthReprojectionTest, MatchesValueByHand) {
   // Along the row v = 240 from u = 320 to u = 420, inverse depth 0.4 to 0.6. S = (0, 0, 2) is at
   // u = 320, s = 0: 0.5 - 0.4. E = (0.4, 0, 4) is at u = 370, s = 0.5: 0.25 - 0.5.
   const LineSegment2 observed{{320.0, 240.0}, {420.0, 240.0}};
@@ -65,17 +65,17 @@ TEST_P(LineDepthReprojectionTest, ValueByHand) {
               IsNear(Eigen::Vector2d(2.0, -2.5), 1e-12));
 }
 
-TEST_P(LineDepthReprojectionTest, GradientsAndChainRule) {
+TEST_P(LineDepthReprojectionTest, DerivativesMatch) {
   for (int i = 0; i < 10; ++i) {
     const Rigid3 pose = random_.Pose();
     const Blocks blocks{Block(pose), Block(pose.Inverse() * InView())};
     const LineDepthReprojection factor(camera_, somewhere_, depth_, 0.003, 0.005);
     ExpectGradientsMatch(*CostPtr(LineDepthReprojection::Create(factor)), blocks);
-    ExpectChainRuleMatches(factor, blocks);
+    ExpectAnalyticMatchesAutomatic(factor, blocks);
   }
 }
 
-TEST_P(LineDepthReprojectionTest, UnchangedByAShiftOfTheWorld) {
+TEST_P(LineDepthReprojectionTest, IsInvariantToMotionOfTheWorld) {
   const Rigid3 pose = random_.Pose(), shift = random_.Pose();
   const LineSegment3 line = pose.Inverse() * InView();
   const CostPtr cost(LineDepthReprojection::Create(camera_, somewhere_, depth_, 0.003, 0.005));
@@ -83,7 +83,7 @@ TEST_P(LineDepthReprojectionTest, UnchangedByAShiftOfTheWorld) {
               IsNear(Residual(*cost, {Block(pose), Block(line)}), 1e-8));
 }
 
-TEST_P(LineDepthReprojectionTest, SwappedEndPointsSwapRowsOrChangeNothing) {
+TEST_P(LineDepthReprojectionTest, SwappedEndPointsSwapRows) {
   const LineSegment3 line = InView();
   const Eigen::VectorXd r =
       Residual(*CostPtr(LineDepthReprojection::Create(camera_, somewhere_, depth_, 0.003, 0.005)),
@@ -93,7 +93,7 @@ TEST_P(LineDepthReprojectionTest, SwappedEndPointsSwapRowsOrChangeNothing) {
       Residual(*CostPtr(LineDepthReprojection::Create(camera_, somewhere_, depth_, 0.005, 0.003)),
                {Block(Rigid3()), Block(swapped)}),
       IsNear(Eigen::Vector2d(r[1], r[0]), 1e-9));
-  // The observed segment walked the other way, its depth with it.
+  // The observed segment with swapped ends, and its depth.
   const LineSegment2 observed{somewhere_.end, somewhere_.start};
   LineDepth backward = depth_;
   std::swap(backward.start, backward.end);
@@ -103,18 +103,18 @@ TEST_P(LineDepthReprojectionTest, SwappedEndPointsSwapRowsOrChangeNothing) {
       IsNear(r, 1e-9));
 }
 
-TEST_P(LineDepthReprojectionTest, BlindToMotionAlongTheLine) {
+TEST_P(LineDepthReprojectionTest, IsInvariantToMotionAlongTheLine) {
   const LineSegment3 line = InView();
   const CostPtr cost(
       LineDepthReprojection::Create(camera_, Project(line), DepthOf(line), 0.002, 0.002));
-  const LineSegment3 slid{line.At(0.2), line.At(1.1)};
-  EXPECT_THAT(Residual(*cost, {Block(Rigid3()), Block(slid)}),
+  const LineSegment3 shifted{line.At(0.2), line.At(1.1)};
+  EXPECT_THAT(Residual(*cost, {Block(Rigid3()), Block(shifted)}),
               IsNear(Eigen::Vector2d::Zero(), 1e-9));
 }
 
-TEST_P(LineDepthReprojectionTest, SigmaAtMakesUnitVarianceFromTheFullCovariance) {
-  // The observation ends at 10 % and 85 % of the map line, its depths are correlated: each row must
-  // have unit variance although the map's ends are extrapolated differently.
+TEST_P(LineDepthReprojectionTest, HasUnitVarianceUnderTheFullCovariance) {
+  // The observation covers 10 % to 85 % of the map line and its depths are correlated, so the two
+  // rows are extrapolated by different amounts.
   const LineSegment3 line{{-0.4, 0.1, 2.0}, {0.6, 0.3, 3.0}};
   const LineSegment3 seen{line.At(0.1), line.At(0.85)};
   const LineSegment2 segment = Project(seen);
@@ -122,7 +122,7 @@ TEST_P(LineDepthReprojectionTest, SigmaAtMakesUnitVarianceFromTheFullCovariance)
   depth.covariance << 9e-6, -4e-6, -4e-6, 4e-6;
   const double sigma_start = depth.SigmaAt(segment.Parameter(camera_.Project(line.start)));
   const double sigma_end = depth.SigmaAt(segment.Parameter(camera_.Project(line.end)));
-  EXPECT_GT(sigma_start, 3e-3);  // beyond the observed start, so worse than there
+  EXPECT_GT(sigma_start, 3e-3);  // extrapolated beyond the observed start
   const Eigen::Matrix2d root = depth.covariance.llt().matrixL();
   Eigen::Vector2d variance = Eigen::Vector2d::Zero();
   const int count = 4000;
@@ -140,13 +140,13 @@ TEST_P(LineDepthReprojectionTest, SigmaAtMakesUnitVarianceFromTheFullCovariance)
   EXPECT_THAT(variance, IsNear(Eigen::Vector2d(1.0, 1.0), 5.0 * std::sqrt(2.0 / count)));
 }
 
-TEST_P(LineDepthReprojectionTest, UndefinedIfAnEndPointIsBehindTheCamera) {
+TEST_P(LineDepthReprojectionTest, IsUndefinedIfAnEndPointIsBehindTheCamera) {
   const CostPtr cost(LineDepthReprojection::Create(camera_, somewhere_, depth_, 0.002, 0.002));
   EXPECT_FALSE(IsDefined(*cost, {Block(Rigid3()), {0.0, 0.0, -1.0, 0.2, 0.1, 2.0}}));
   EXPECT_FALSE(IsDefined(*cost, {Block(Rigid3()), {0.0, 0.0, 1.0, 0.2, 0.1, 0.0}}));
 }
 
-TEST_P(LineDepthReprojectionTest, RecoversALineFromOneViewTogetherWithReprojection) {
+TEST_P(LineDepthReprojectionTest, RecoversALineFromOneViewWithReprojection) {
   const LineSegment3 truth{{-0.4, 0.1, 2.0}, {0.6, 0.3, 3.0}};
   LineSegment3 line{{-0.5, 0.15, 2.3}, {0.6, 0.2, 2.6}};
   Rigid3 pose;
@@ -158,7 +158,7 @@ TEST_P(LineDepthReprojectionTest, RecoversALineFromOneViewTogetherWithReprojecti
       pose.params.data(), line.start.data());
   problem.SetParameterBlockConstant(pose.params.data());
   SolveToEnd(&problem);
-  // As infinite lines: nothing here says where along the line its end points are.
+  // As infinite lines: positions along the line are not constrained.
   EXPECT_LT(truth.DistanceToLine(line.start), 1e-6);
   EXPECT_LT(truth.DistanceToLine(line.end), 1e-6);
 }

@@ -12,20 +12,20 @@ namespace {
 
 const LineSegment3 kInitial{{1.0, 2.0, 3.0}, {1.0, 4.0, 3.0}};  // along y
 
-TEST(LineEndpointPrior, ZeroWhereTheLineStarted) {
+TEST(LineEndpointPrior, IsZeroAtTheInitialLine) {
   EXPECT_EQ(Residual(*CostPtr(LineEndpointPrior::Create(kInitial, 0.05)), {Block(kInitial)}),
             Eigen::VectorXd(Eigen::Vector2d::Zero()));
 }
 
-TEST(LineEndpointPrior, ValueByHand) {
-  // S moved 0.1 m along the line, E 0.2 m back; motion across it does not count.
+TEST(LineEndpointPrior, MatchesValueByHand) {
+  // S moves by 0.1 m along the line and E by -0.2 m; motion across it has no effect.
   const CostPtr cost(LineEndpointPrior::Create(kInitial, 0.05));
   EXPECT_THAT(Residual(*cost, {{1.5, 2.1, 3.0, 1.0, 3.8, 2.0}}),
               IsNear(Eigen::Vector2d(2.0, -4.0), 1e-12));
 }
 
-TEST(LineEndpointPrior, Gradients) {
-  Random random(1);
+TEST(LineEndpointPrior, DerivativesMatch) {
+  RandomGeometry random(1);
   for (int i = 0; i < 5; ++i) {
     const LineSegment3 initial{random.Normal3(), random.Normal3()};
     const LineSegment3 line{random.Normal3(), random.Normal3()};
@@ -33,9 +33,9 @@ TEST(LineEndpointPrior, Gradients) {
   }
 }
 
-TEST(LineEndpointPrior, BlindToTheFourDegreesOfFreedomOfALine) {
-  // Every motion of an end point across the line leaves the residual alone.
-  Random random(2);
+TEST(LineEndpointPrior, LeavesTheFourDegreesOfFreedomOfALineFree) {
+  // Motion of an end point across the line does not change the residual.
+  RandomGeometry random(2);
   const LineSegment3 initial{random.Normal3(), random.Normal3()};
   const Eigen::Vector3d d = initial.Direction();
   const CostPtr cost(LineEndpointPrior::Create(initial, 0.05));
@@ -48,8 +48,8 @@ TEST(LineEndpointPrior, BlindToTheFourDegreesOfFreedomOfALine) {
   EXPECT_NEAR(at.jacobians[0].rightCols(3).row(1).dot(d), 20.0, 1e-12);
 }
 
-TEST(LineEndpointPrior, UnchangedByAShiftOfTheWorldAndSwappedWithTheEndPoints) {
-  Random random(3);
+TEST(LineEndpointPrior, IsInvariantToMotionOfTheWorldAndSwapsWithTheEndPoints) {
+  RandomGeometry random(3);
   const Rigid3 shift = random.Pose();
   const LineSegment3 initial{random.Normal3(), random.Normal3()};
   const LineSegment3 line{random.Normal3(), random.Normal3()};
@@ -63,8 +63,8 @@ TEST(LineEndpointPrior, UnchangedByAShiftOfTheWorldAndSwappedWithTheEndPoints) {
               IsNear(Eigen::Vector2d(-r[1], -r[0]), 1e-10));
 }
 
-TEST(LineEndpointPrior, NoiseOfSigmaAlongTheLineBecomesUnitCovariance) {
-  Random random(4);
+TEST(LineEndpointPrior, HasUnitCovarianceUnderNoiseAlongTheLine) {
+  RandomGeometry random(4);
   const double sigma = 0.05;
   const CostPtr cost(LineEndpointPrior::Create(kInitial, sigma));
   std::vector<Eigen::VectorXd> samples;
@@ -76,8 +76,8 @@ TEST(LineEndpointPrior, NoiseOfSigmaAlongTheLineBecomesUnitCovariance) {
   ExpectIdentityCovariance(samples);
 }
 
-TEST(LineEndpointPrior, MakesALineFromTwoViewsWellPosed) {
-  // Two images fix the line but not its end points; the anchor keeps them where they started.
+TEST(LineEndpointPrior, DeterminesTheEndPointsOfALineFromTwoViews) {
+  // Two views determine the line but not its end points.
   const PinholeCamera camera;
   const LineSegment3 truth{{-0.4, 0.1, 2.0}, {0.6, 0.3, 3.0}};
   const LineSegment3 initial{{-0.45, 0.15, 2.1}, {0.6, 0.25, 2.9}};
@@ -86,8 +86,8 @@ TEST(LineEndpointPrior, MakesALineFromTwoViewsWellPosed) {
   ceres::Problem problem;
   for (Rigid3& pose : poses) {
     const LineSegment3 in_cam = pose * truth;
-    const LineSegment2 seen{camera.Project(in_cam.start), camera.Project(in_cam.end)};
-    problem.AddResidualBlock(LineReprojection::Create(camera, seen, 1.0, 1.0), nullptr,
+    const LineSegment2 observed{camera.Project(in_cam.start), camera.Project(in_cam.end)};
+    problem.AddResidualBlock(LineReprojection::Create(camera, observed, 1.0, 1.0), nullptr,
                              pose.params.data(), line.start.data());
     problem.SetParameterBlockConstant(pose.params.data());
   }

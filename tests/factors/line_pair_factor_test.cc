@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// What the factors of two lines have in common.
+// Tests that all line pair factors share.
 
 #include "msc_vo/factors/line_pair_factor.h"
 
@@ -24,23 +24,23 @@ class LinePairFactorTest : public ::testing::Test {
     ExpectSameCostFunction(AnalyticLinePairCostFunction<Factor>(factor_), *automatic, blocks);
   }
   Factor factor_{0.03};
-  Random random_{3};
+  RandomGeometry random_{3};
 };
 using LinePairFactors = ::testing::Types<ParallelLines, PerpendicularLines>;
 TYPED_TEST_SUITE(LinePairFactorTest, LinePairFactors);
 
-TYPED_TEST(LinePairFactorTest, GradientsEverywhereAndAtTheSingularPlacesOfThePapersForm) {
-  Random& random = this->random_;
+TYPED_TEST(LinePairFactorTest, DerivativesMatchAlsoWhereThePapersFormIsSingular) {
+  RandomGeometry& random = this->random_;
   for (int i = 0; i < 10; ++i) this->ExpectGradients(random.Line(), random.Line());
   const Eigen::Vector3d d = random.Normal3().normalized();
   const LineSegment3 a = random.LineAlong(d);
   this->ExpectGradients(a, random.LineAlong(d));                   // parallel
   this->ExpectGradients(a, random.LineAlong(-d));                  // opposite
-  this->ExpectGradients(a, random.LineAlong(d.unitOrthogonal()));  // square
-  this->ExpectGradients(a, a);                                     // the same
+  this->ExpectGradients(a, random.LineAlong(d.unitOrthogonal()));  // perpendicular
+  this->ExpectGradients(a, a);                                     // identical
 }
 
-TYPED_TEST(LinePairFactorTest, OneJacobianAtATime) {
+TYPED_TEST(LinePairFactorTest, EvaluatesEachJacobianSeparately) {
   const AnalyticLinePairCostFunction<TypeParam> cost(this->factor_);
   const Blocks blocks{Block(this->random_.Line()), Block(this->random_.Line())};
   const Linearization both = Linearize(cost, blocks);
@@ -54,7 +54,7 @@ TYPED_TEST(LinePairFactorTest, OneJacobianAtATime) {
   }
 }
 
-TYPED_TEST(LinePairFactorTest, UndefinedWithoutLength) {
+TYPED_TEST(LinePairFactorTest, IsUndefinedForZeroLength) {
   const CostPtr automatic(TypeParam::Create(this->factor_));
   const AnalyticLinePairCostFunction<TypeParam> analytic(this->factor_);
   const std::vector<double> point{1.0, 2.0, 3.0, 1.0, 2.0, 3.0}, line{0.0, 0.0, 0.0, 1.0, 0.0, 0.0};

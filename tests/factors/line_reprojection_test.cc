@@ -8,7 +8,7 @@
 namespace msc_vo {
 namespace {
 
-// The parameter is fy: the mirrored image must behave like any other.
+// Parameter: fy, which is negative for mirrored images.
 class LineReprojectionTest : public ::testing::TestWithParam<double> {
  protected:
   LineReprojectionTest() {
@@ -26,28 +26,28 @@ class LineReprojectionTest : public ::testing::TestWithParam<double> {
     return {start, end};
   }
   PinholeCamera camera_;
-  Random random_{1};
+  RandomGeometry random_{1};
   const LineSegment2 somewhere_{{100.0, 150.0}, {300.0, 200.0}};
 };
 INSTANTIATE_TEST_SUITE_P(FocalLength, LineReprojectionTest, ::testing::Values(400.0, -400.0));
 
-TEST_P(LineReprojectionTest, ZeroAtTruthWhateverPartOfTheLineIsSeen) {
+TEST_P(LineReprojectionTest, IsZeroAtTruthForAnyObservedPart) {
   for (int i = 0; i < 10; ++i) {
     const Rigid3 pose = random_.Pose();
     const LineSegment3 line = InView();
     const LineSegment2 whole = Project(line);
-    for (const LineSegment2& seen : {whole, LineSegment2{whole.At(0.3), whole.At(0.5)},
-                                     LineSegment2{whole.At(-0.2), whole.At(1.4)}}) {
-      const CostPtr cost(LineReprojection::Create(camera_, seen, 1.0, 1.0));
+    for (const LineSegment2& observed : {whole, LineSegment2{whole.At(0.3), whole.At(0.5)},
+                                         LineSegment2{whole.At(-0.2), whole.At(1.4)}}) {
+      const CostPtr cost(LineReprojection::Create(camera_, observed, 1.0, 1.0));
       EXPECT_THAT(Residual(*cost, {Block(pose), Block(pose.Inverse() * line)}),
                   IsNear(Eigen::Vector2d::Zero(), 1e-8));
     }
   }
 }
 
-TEST_P(LineReprojectionTest, ValueByHand) {
-  // The observed line is the row v = 250, walked to the right: n = (0, 1). S = (0, 0, 2) projects
-  // to v = 240, ten pixels above it; E = (0.2, 0.1, 2) to v = 240 +- 20.
+TEST_P(LineReprojectionTest, MatchesValueByHand) {
+  // The observed line is the row v = 250 from left to right: n = (0, 1). S = (0, 0, 2) projects to
+  // v = 240, ten pixels above it; E = (0.2, 0.1, 2) to v = 240 +- 20.
   const LineSegment2 observed{{100.0, 250.0}, {200.0, 250.0}};
   const CostPtr cost(LineReprojection::Create(camera_, observed, 2.0, 4.0));
   const double end = camera_.fy > 0.0 ? 10.0 / 4.0 : -30.0 / 4.0;
@@ -55,17 +55,17 @@ TEST_P(LineReprojectionTest, ValueByHand) {
               IsNear(Eigen::Vector2d(-5.0, end), 1e-12));
 }
 
-TEST_P(LineReprojectionTest, GradientsAndChainRule) {
+TEST_P(LineReprojectionTest, DerivativesMatch) {
   for (int i = 0; i < 10; ++i) {
     const Rigid3 pose = random_.Pose();
     const Blocks blocks{Block(pose), Block(pose.Inverse() * InView())};
     const LineReprojection factor(camera_, somewhere_, 0.9, 1.7);
     ExpectGradientsMatch(*CostPtr(LineReprojection::Create(factor)), blocks);
-    ExpectChainRuleMatches(factor, blocks);
+    ExpectAnalyticMatchesAutomatic(factor, blocks);
   }
 }
 
-TEST_P(LineReprojectionTest, UnchangedByAShiftOfTheWorld) {
+TEST_P(LineReprojectionTest, IsInvariantToMotionOfTheWorld) {
   const Rigid3 pose = random_.Pose(), shift = random_.Pose();
   const LineSegment3 line = pose.Inverse() * InView();
   const CostPtr cost(LineReprojection::Create(camera_, somewhere_, 0.9, 1.7));
@@ -88,16 +88,16 @@ TEST_P(LineReprojectionTest, SwappedEndPointsSwapRowsOrSigns) {
               IsNear(Eigen::Vector2d(-r), 1e-10));
 }
 
-TEST_P(LineReprojectionTest, BlindToMotionAlongTheLine) {
+TEST_P(LineReprojectionTest, IsInvariantToMotionAlongTheLine) {
   const LineSegment3 line = InView();
   const CostPtr cost(LineReprojection::Create(camera_, Project(line), 1.0, 1.0));
-  const LineSegment3 slid{line.At(0.2), line.At(1.1)};
-  EXPECT_THAT(Residual(*cost, {Block(Rigid3()), Block(slid)}),
+  const LineSegment3 shifted{line.At(0.2), line.At(1.1)};
+  EXPECT_THAT(Residual(*cost, {Block(Rigid3()), Block(shifted)}),
               IsNear(Eigen::Vector2d::Zero(), 1e-9));
 }
 
-TEST_P(LineReprojectionTest, NoiseOfTheEndPointsBecomesUnitCovariance) {
-  // Where the map's end points are the true ends of the segment, the rows are independent.
+TEST_P(LineReprojectionTest, HasUnitCovarianceUnderNoiseOfTheEndPoints) {
+  // The rows are independent because the map line ends at the ends of the segment.
   const LineSegment3 line{{-0.4, 0.1, 2.0}, {0.6, 0.3, 3.0}};
   const LineSegment2 exact = Project(line);
   const Eigen::Vector2d across(-exact.Direction().y(), exact.Direction().x());
@@ -105,14 +105,14 @@ TEST_P(LineReprojectionTest, NoiseOfTheEndPointsBecomesUnitCovariance) {
   std::vector<Eigen::VectorXd> samples;
   for (int i = 0; i < 4000; ++i) {
     const Eigen::Vector2d noise = sigma * random_.Normal2();
-    const LineSegment2 seen{exact.start + noise.x() * across, exact.end + noise.y() * across};
-    samples.push_back(Residual(*CostPtr(LineReprojection::Create(camera_, seen, sigma, sigma)),
+    const LineSegment2 observed{exact.start + noise.x() * across, exact.end + noise.y() * across};
+    samples.push_back(Residual(*CostPtr(LineReprojection::Create(camera_, observed, sigma, sigma)),
                                {Block(Rigid3()), Block(line)}));
   }
   ExpectIdentityCovariance(samples);
 }
 
-TEST_P(LineReprojectionTest, UndefinedIfAnEndPointIsBehindTheCamera) {
+TEST_P(LineReprojectionTest, IsUndefinedIfAnEndPointIsBehindTheCamera) {
   const CostPtr cost(LineReprojection::Create(camera_, somewhere_, 1.0, 1.0));
   EXPECT_FALSE(IsDefined(*cost, {Block(Rigid3()), {0.0, 0.0, -1.0, 0.2, 0.1, 2.0}}));
   EXPECT_FALSE(IsDefined(*cost, {Block(Rigid3()), {0.0, 0.0, 1.0, 0.2, 0.1, 0.0}}));

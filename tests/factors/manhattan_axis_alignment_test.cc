@@ -8,8 +8,8 @@
 namespace msc_vo {
 namespace {
 
-TEST(ManhattanAxisAlignment, ZeroAlongTheAxisInEitherSense) {
-  Random random(1);
+TEST(ManhattanAxisAlignment, IsZeroAlongTheAxisInEitherDirection) {
+  RandomGeometry random(1);
   for (int i = 0; i < 10; ++i) {
     const Eigen::Vector3d axis = random.Normal3().normalized(), start = random.Normal3();
     const CostPtr cost(ManhattanAxisAlignment::Create(axis, 0.03));
@@ -20,15 +20,16 @@ TEST(ManhattanAxisAlignment, ZeroAlongTheAxisInEitherSense) {
   }
 }
 
-TEST(ManhattanAxisAlignment, ValueByHand) {
+TEST(ManhattanAxisAlignment, MatchesValueByHand) {
   // 3-4-5 in the xy plane against x: sine 0.8.
   const CostPtr cost(ManhattanAxisAlignment::Create(Eigen::Vector3d::UnitX(), 0.1));
   EXPECT_NEAR(Residual(*cost, {{0.0, 0.0, 0.0, 3.0, 4.0, 0.0}}).norm(), 8.0, 1e-12);
-  EXPECT_NEAR(Residual(*cost, {{5.0, 1.0, 0.0, 5.0, 1.0, 2.0}}).norm(), 10.0, 1e-12);  // square
+  EXPECT_NEAR(Residual(*cost, {{5.0, 1.0, 0.0, 5.0, 1.0, 2.0}}).norm(), 10.0,
+              1e-12);  // perpendicular
 }
 
-TEST(ManhattanAxisAlignment, NormIsTheSine) {
-  Random random(2);
+TEST(ManhattanAxisAlignment, NormEqualsTheSine) {
+  RandomGeometry random(2);
   for (int i = 0; i < 10; ++i) {
     const Eigen::Vector3d axis = random.Normal3().normalized();
     const LineSegment3 line = random.Line();
@@ -38,8 +39,8 @@ TEST(ManhattanAxisAlignment, NormIsTheSine) {
   }
 }
 
-TEST(ManhattanAxisAlignment, GradientsEverywhereAlongOppositeAndSquareToTheAxis) {
-  Random random(3);
+TEST(ManhattanAxisAlignment, DerivativesMatchAtParallelOppositeAndPerpendicular) {
+  RandomGeometry random(3);
   for (int i = 0; i < 5; ++i) {
     const Eigen::Vector3d axis = random.Normal3().normalized(), start = random.Normal3();
     const CostPtr cost(ManhattanAxisAlignment::Create(axis, 0.03));
@@ -50,17 +51,17 @@ TEST(ManhattanAxisAlignment, GradientsEverywhereAlongOppositeAndSquareToTheAxis)
   }
 }
 
-TEST(ManhattanAxisAlignment, FullRankAtAligned) {
+TEST(ManhattanAxisAlignment, HasFullRankAtTheAxis) {
   const CostPtr cost(ManhattanAxisAlignment::Create(Eigen::Vector3d::UnitZ(), 0.1));
   const Eigen::MatrixXd j =
       Linearize(*cost, {{0.0, 0.0, 0.0, 0.0, 0.0, 2.0}}).jacobians[0].rightCols(3);
-  // 1 / (sigma length) across, nothing along.
+  // 1 / (sigma length) across the line, 0 along it.
   EXPECT_THAT(j * j.transpose(), IsNear((25.0 * Eigen::MatrixXd::Identity(2, 2)).eval(), 1e-9));
   EXPECT_EQ(j.col(2).norm(), 0.0);
 }
 
-TEST(ManhattanAxisAlignment, NormUnchangedByMotionOfTheWorldSwappedEndPointsAndSignOfTheAxis) {
-  Random random(4);
+TEST(ManhattanAxisAlignment, NormIsInvariantToMotionSwappedEndPointsAndSignOfTheAxis) {
+  RandomGeometry random(4);
   const Eigen::Vector3d axis = random.Normal3().normalized();
   const LineSegment3 line = random.Line(), swapped{line.end, line.start};
   const Rigid3 motion = random.Pose();
@@ -73,13 +74,13 @@ TEST(ManhattanAxisAlignment, NormUnchangedByMotionOfTheWorldSwappedEndPointsAndS
   EXPECT_NEAR(norm(-axis, line), r, 1e-12);
 }
 
-TEST(ManhattanAxisAlignment, UndefinedWithoutLength) {
+TEST(ManhattanAxisAlignment, IsUndefinedForZeroLength) {
   const CostPtr cost(ManhattanAxisAlignment::Create(Eigen::Vector3d::UnitX(), 0.03));
   EXPECT_FALSE(IsDefined(*cost, {{1.0, 2.0, 3.0, 1.0, 2.0, 3.0}}));
 }
 
-TEST(ManhattanAxisAlignment, NoiseOfSigmaBecomesUnitCovariance) {
-  Random random(5);
+TEST(ManhattanAxisAlignment, HasUnitCovarianceUnderItsNoise) {
+  RandomGeometry random(5);
   const double sigma = 0.01;
   const CostPtr cost(ManhattanAxisAlignment::Create(Eigen::Vector3d::UnitY(), sigma));
   std::vector<Eigen::VectorXd> samples;
@@ -90,7 +91,7 @@ TEST(ManhattanAxisAlignment, NoiseOfSigmaBecomesUnitCovariance) {
   ExpectIdentityCovariance(samples);
 }
 
-TEST(ManhattanAxisAlignment, TurnsALineToItsAxis) {
+TEST(ManhattanAxisAlignment, AlignsALineWithItsAxis) {
   LineSegment3 line{{0.0, 1.0, 0.0}, {0.2, 1.3, -1.0}};
   ceres::Problem problem;
   problem.AddResidualBlock(ManhattanAxisAlignment::Create(Eigen::Vector3d::UnitZ(), 0.03), nullptr,

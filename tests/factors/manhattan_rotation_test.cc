@@ -11,10 +11,10 @@ namespace msc_vo {
 namespace {
 
 std::vector<double> Block(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
-Eigen::Quaterniond AnyRotation(Random* random) { return random->Pose().rotation(); }
+Eigen::Quaterniond AnyRotation(RandomGeometry* random) { return random->Pose().rotation(); }
 
-TEST(ManhattanRotation, ZeroAlongItsAxisInEitherSense) {
-  Random random(1);
+TEST(ManhattanRotation, IsZeroAlongItsAxisInEitherDirection) {
+  RandomGeometry random(1);
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Quaterniond q = AnyRotation(&random);
     const Eigen::Vector3d d = q * Eigen::Vector3d::Unit(axis);
@@ -25,8 +25,8 @@ TEST(ManhattanRotation, ZeroAlongItsAxisInEitherSense) {
   }
 }
 
-TEST(ManhattanRotation, ValueByHand) {
-  // World and Manhattan coincide.
+TEST(ManhattanRotation, MatchesValueByHand) {
+  // The Manhattan frame coincides with the world.
   const Eigen::Vector3d n(0.8, -0.6, 0.0), d = Eigen::Vector3d(0.36, 0.48, 0.0) / 0.6;
   const Eigen::Vector3d tilted = (d + n.cross(d)).normalized();
   const auto residual = [&](int axis) {
@@ -39,8 +39,8 @@ TEST(ManhattanRotation, ValueByHand) {
   EXPECT_THAT(residual(2), IsNear(Eigen::Vector2d(s, 0.0), 1e-12));
 }
 
-TEST(ManhattanRotation, IsThePapersParallelAndPerpendicularErrors) {
-  Random random(2);
+TEST(ManhattanRotation, MatchesThePapersParallelAndPerpendicularErrors) {
+  RandomGeometry random(2);
   const Eigen::Quaterniond q = AnyRotation(&random);
   const Eigen::Vector3d d = random.Normal3().normalized();
   const Eigen::VectorXd r =
@@ -51,8 +51,8 @@ TEST(ManhattanRotation, IsThePapersParallelAndPerpendicularErrors) {
   EXPECT_NEAR(r.norm(), d.cross(q * Eigen::Vector3d::UnitY()).norm(), 1e-12);
 }
 
-TEST(ManhattanRotation, GradientsEverywhereAndAlongEveryAxis) {
-  Random random(3);
+TEST(ManhattanRotation, DerivativesMatchEverywhereAndAlongEveryAxis) {
+  RandomGeometry random(3);
   const Rotation3Manifold manifold;
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Quaterniond q = AnyRotation(&random);
@@ -68,8 +68,8 @@ TEST(ManhattanRotation, GradientsEverywhereAndAlongEveryAxis) {
   }
 }
 
-TEST(ManhattanRotation, KnowsNothingOfTheTurnAboutItsOwnAxis) {
-  Random random(4);
+TEST(ManhattanRotation, DoesNotConstrainRotationAboutItsOwnAxis) {
+  RandomGeometry random(4);
   const Eigen::Quaterniond q = AnyRotation(&random);
   const Eigen::Vector3d m = q * Eigen::Vector3d::UnitX();
   const Linearization at = Linearize(*CostPtr(ManhattanRotation::Create(m, 0, 0.01)), {Block(q)});
@@ -80,8 +80,8 @@ TEST(ManhattanRotation, KnowsNothingOfTheTurnAboutItsOwnAxis) {
               IsNear(((Eigen::Matrix3d::Identity() - m * m.transpose()) * 1e4).eval(), 1e-6));
 }
 
-TEST(ManhattanRotation, UnchangedByARotationOfTheWorld) {
-  Random random(5);
+TEST(ManhattanRotation, IsInvariantToRotationOfTheWorld) {
+  RandomGeometry random(5);
   const Eigen::Quaterniond q = AnyRotation(&random), turn = AnyRotation(&random);
   const Eigen::Vector3d d = random.Normal3().normalized();
   const Eigen::Vector3d n = d.unitOrthogonal();
@@ -91,8 +91,8 @@ TEST(ManhattanRotation, UnchangedByARotationOfTheWorld) {
       IsNear(Residual(*CostPtr(ManhattanRotation::Create(d, n, 2, 0.1, 0.01)), {Block(q)}), 1e-10));
 }
 
-TEST(ManhattanRotation, NoiseOfSigmaBecomesUnitCovariance) {
-  Random random(6);
+TEST(ManhattanRotation, HasUnitCovarianceUnderItsNoise) {
+  RandomGeometry random(6);
   const double sigma = 0.01;
   const Eigen::Quaterniond q = AnyRotation(&random);
   std::vector<Eigen::VectorXd> samples;
@@ -105,7 +105,7 @@ TEST(ManhattanRotation, NoiseOfSigmaBecomesUnitCovariance) {
 }
 
 TEST(ManhattanRotation, RecoversARotationFromTwoAxes) {
-  Random random(7);
+  RandomGeometry random(7);
   const Eigen::Quaterniond truth = AnyRotation(&random);
   Eigen::Quaterniond q = ExpSO3(Eigen::Vector3d(0.1, -0.2, 0.15)) * truth;
   ceres::Problem problem;

@@ -8,8 +8,8 @@
 namespace msc_vo {
 namespace {
 
-TEST(ParallelLines, ZeroAtParallelWhateverTheOrderOfEndPoints) {
-  Random random(1);
+TEST(ParallelLines, IsZeroAtParallelForAnyOrderOfEndPoints) {
+  RandomGeometry random(1);
   const CostPtr cost(ParallelLines::Create(0.03));
   for (int i = 0; i < 10; ++i) {
     const Eigen::Vector3d d = random.Normal3().normalized();
@@ -20,15 +20,15 @@ TEST(ParallelLines, ZeroAtParallelWhateverTheOrderOfEndPoints) {
   }
 }
 
-TEST(ParallelLines, ValueByHand) {
+TEST(ParallelLines, MatchesValueByHand) {
   // x against 3-4-5 in the xy plane: sine 0.8, axis z.
   const CostPtr cost(ParallelLines::Create(0.1));
   EXPECT_THAT(Residual(*cost, {{1.0, 1.0, 1.0, 3.0, 1.0, 1.0}, {0.0, 0.0, 0.0, 3.0, 4.0, 0.0}}),
               IsNear(Eigen::Vector3d(0.0, 0.0, 8.0), 1e-12));
 }
 
-TEST(ParallelLines, NormIsThePapersError) {
-  Random random(2);
+TEST(ParallelLines, NormEqualsThePapersError) {
+  RandomGeometry random(2);
   const CostPtr cost(ParallelLines::Create(0.1));
   for (int i = 0; i < 10; ++i) {
     const LineSegment3 a = random.Line(), b = random.Line();
@@ -37,9 +37,9 @@ TEST(ParallelLines, NormIsThePapersError) {
   }
 }
 
-TEST(ParallelLines, PullsBothWaysAtParallel) {
-  // Rank two in each line: both components of the angle, nothing else.
-  Random random(4);
+TEST(ParallelLines, HasRankTwoAtParallel) {
+  // In each line, both components of the angle.
+  RandomGeometry random(4);
   const Eigen::Vector3d d = random.Normal3().normalized();
   const Linearization at = Linearize(*CostPtr(ParallelLines::Create(0.03)),
                                      {Block(random.LineAlong(d)), Block(random.LineAlong(-d))});
@@ -52,9 +52,9 @@ TEST(ParallelLines, PullsBothWaysAtParallel) {
   }
 }
 
-TEST(ParallelLines, InvariancesOfTheNorm) {
-  // A motion of the world turns the residual; swapped lines or end points change its sign.
-  Random random(5);
+TEST(ParallelLines, NormIsInvariantToMotionAndOrder) {
+  // Motion of the world rotates the residual; swapped lines or end points change its sign.
+  RandomGeometry random(5);
   const CostPtr cost(ParallelLines::Create(0.03));
   const LineSegment3 a = random.Line(), b = random.Line();
   const Rigid3 motion = random.Pose();
@@ -66,8 +66,8 @@ TEST(ParallelLines, InvariancesOfTheNorm) {
   EXPECT_THAT(Residual(*cost, {Block(Swapped(a)), Block(Swapped(b))}), IsNear(r, 1e-12));
 }
 
-TEST(ParallelLines, NoiseOfSigmaBecomesUnitCovarianceAcrossTheLines) {
-  Random random(6);
+TEST(ParallelLines, HasUnitCovarianceUnderNoiseAcrossTheLines) {
+  RandomGeometry random(6);
   const double sigma = 0.01;
   const CostPtr cost(ParallelLines::Create(sigma));
   const LineSegment3 a{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
@@ -82,8 +82,8 @@ TEST(ParallelLines, NoiseOfSigmaBecomesUnitCovarianceAcrossTheLines) {
   ExpectIdentityCovariance(samples);
 }
 
-TEST(ParallelLines, TurnsALineParallelFromEitherSide) {
-  Random random(7);
+TEST(ParallelLines, AlignsALineFromEitherDirection) {
+  RandomGeometry random(7);
   const LineSegment3 fixed{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
   for (const double sign : {1.0, -1.0}) {
     LineSegment3 a = fixed;

@@ -8,8 +8,8 @@
 namespace msc_vo {
 namespace {
 
-TEST(PerpendicularLines, ZeroAtPerpendicular) {
-  Random random(1);
+TEST(PerpendicularLines, IsZeroAtPerpendicular) {
+  RandomGeometry random(1);
   const CostPtr cost(PerpendicularLines::Create(0.03));
   for (int i = 0; i < 10; ++i) {
     const Eigen::Vector3d d = random.Normal3().normalized();
@@ -19,7 +19,7 @@ TEST(PerpendicularLines, ZeroAtPerpendicular) {
   }
 }
 
-TEST(PerpendicularLines, ValueByHandIsSigned) {
+TEST(PerpendicularLines, MatchesSignedValueByHand) {
   // x against 3-4-5 in the xy plane: cosine 0.6.
   const CostPtr cost(PerpendicularLines::Create(0.1));
   const std::vector<double> x{1.0, 1.0, 1.0, 3.0, 1.0, 1.0};
@@ -27,8 +27,8 @@ TEST(PerpendicularLines, ValueByHandIsSigned) {
   EXPECT_NEAR(Residual(*cost, {x, {0.0, 0.0, 0.0, -3.0, 4.0, 0.0}})[0], -6.0, 1e-12);
 }
 
-TEST(PerpendicularLines, PullsAtPerpendicular) {
-  // Where |d_i . d_j| has its kink, the derivative is that of the signed form: 1 / (sigma length).
+TEST(PerpendicularLines, HasNonzeroDerivativeAtPerpendicular) {
+  // |d_i . d_j| has no derivative here; that of the signed form is 1 / (sigma length).
   const LineSegment3 a{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}, b{{0.0, 0.0, 0.0}, {0.0, 2.0, 0.0}};
   const Linearization at =
       Linearize(*CostPtr(PerpendicularLines::Create(0.1)), {Block(a), Block(b)});
@@ -36,8 +36,8 @@ TEST(PerpendicularLines, PullsAtPerpendicular) {
   EXPECT_NEAR(at.jacobians[1](0, 3), 5.0, 1e-12);
 }
 
-TEST(PerpendicularLines, InvariancesUpToSign) {
-  Random random(3);
+TEST(PerpendicularLines, IsInvariantUpToSign) {
+  RandomGeometry random(3);
   const CostPtr cost(PerpendicularLines::Create(0.03));
   const LineSegment3 a = random.Line(), b = random.Line();
   const Rigid3 motion = random.Pose();
@@ -48,8 +48,8 @@ TEST(PerpendicularLines, InvariancesUpToSign) {
   EXPECT_NEAR(Residual(*cost, {Block(Swapped(a)), Block(Swapped(b))})[0], r, 1e-12);
 }
 
-TEST(PerpendicularLines, NoiseOfSigmaBecomesUnitVariance) {
-  Random random(4);
+TEST(PerpendicularLines, HasUnitVarianceUnderItsNoise) {
+  RandomGeometry random(4);
   const double sigma = 0.01;
   const CostPtr cost(PerpendicularLines::Create(sigma));
   const LineSegment3 a{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
@@ -62,7 +62,7 @@ TEST(PerpendicularLines, NoiseOfSigmaBecomesUnitVariance) {
   ExpectIdentityCovariance(samples);
 }
 
-TEST(PerpendicularLines, TurnsALineSquareFromEitherSide) {
+TEST(PerpendicularLines, MakesLinesPerpendicularFromEitherSide) {
   for (const double sign : {1.0, -1.0}) {
     LineSegment3 a{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
     LineSegment3 b{{0.0, 1.0, 0.0}, {0.3 * sign, 2.0, 0.2}};

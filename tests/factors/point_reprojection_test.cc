@@ -8,7 +8,7 @@
 namespace msc_vo {
 namespace {
 
-// The parameter is fy: the mirrored image must behave like any other.
+// Parameter: fy, which is negative for mirrored images.
 class PointReprojectionTest : public ::testing::TestWithParam<double> {
  protected:
   PointReprojectionTest() {
@@ -18,11 +18,11 @@ class PointReprojectionTest : public ::testing::TestWithParam<double> {
     camera_.cy = 240.0;
   }
   PinholeCamera camera_;
-  Random random_{1};
+  RandomGeometry random_{1};
 };
 INSTANTIATE_TEST_SUITE_P(FocalLength, PointReprojectionTest, ::testing::Values(400.0, -400.0));
 
-TEST_P(PointReprojectionTest, ZeroAtTruth) {
+TEST_P(PointReprojectionTest, IsZeroAtTruth) {
   for (int i = 0; i < 10; ++i) {
     const Rigid3 pose = random_.Pose();
     const Eigen::Vector3d x = random_.InView();
@@ -32,7 +32,7 @@ TEST_P(PointReprojectionTest, ZeroAtTruth) {
   }
 }
 
-TEST_P(PointReprojectionTest, ValueByHand) {
+TEST_P(PointReprojectionTest, MatchesValueByHand) {
   // x = (0.2, -0.1, 2) projects to u = 500 * 0.1 + 320 and v = +-400 * -0.05 + 240.
   const double v = camera_.fy > 0.0 ? 220.0 : 260.0;
   const CostPtr cost(PointReprojection::Create(camera_, Eigen::Vector2d(368.0, v + 3.0), 2.0));
@@ -41,17 +41,17 @@ TEST_P(PointReprojectionTest, ValueByHand) {
               IsNear(Eigen::Vector2d(1.0, -1.5), 1e-12));
 }
 
-TEST_P(PointReprojectionTest, GradientsAndChainRule) {
+TEST_P(PointReprojectionTest, DerivativesMatch) {
   for (int i = 0; i < 10; ++i) {
     const Rigid3 pose = random_.Pose();
     const Blocks blocks{Block(pose), Block(pose.Inverse() * random_.InView())};
     const PointReprojection factor(camera_, {300.0, 200.0}, 1.2);
     ExpectGradientsMatch(*CostPtr(PointReprojection::Create(factor)), blocks);
-    ExpectChainRuleMatches(factor, blocks);
+    ExpectAnalyticMatchesAutomatic(factor, blocks);
   }
 }
 
-TEST_P(PointReprojectionTest, UnchangedByAShiftOfTheWorld) {
+TEST_P(PointReprojectionTest, IsInvariantToMotionOfTheWorld) {
   const Rigid3 pose = random_.Pose(), shift = random_.Pose();
   const Eigen::Vector3d x = pose.Inverse() * random_.InView();
   const CostPtr cost(PointReprojection::Create(camera_, Eigen::Vector2d(300.0, 200.0), 1.2));
@@ -59,7 +59,7 @@ TEST_P(PointReprojectionTest, UnchangedByAShiftOfTheWorld) {
               IsNear(Residual(*cost, {Block(pose), Block(x)}), 1e-9));
 }
 
-TEST_P(PointReprojectionTest, NoiseOfSigmaBecomesUnitCovariance) {
+TEST_P(PointReprojectionTest, HasUnitCovarianceUnderItsNoise) {
   const Eigen::Vector3d x(0.3, -0.2, 2.0);
   const double sigma = 1.7;
   std::vector<Eigen::VectorXd> samples;
@@ -71,13 +71,13 @@ TEST_P(PointReprojectionTest, NoiseOfSigmaBecomesUnitCovariance) {
   ExpectIdentityCovariance(samples);
 }
 
-TEST_P(PointReprojectionTest, UndefinedBehindTheCamera) {
+TEST_P(PointReprojectionTest, IsUndefinedBehindTheCamera) {
   const PointReprojection factor(camera_, {300.0, 200.0}, 1.0);
   const CostPtr cost(PointReprojection::Create(factor));
-  const AnalyticCostFunction<PointReprojection> chain_rule(factor);
+  const AnalyticCostFunction<PointReprojection> analytic(factor);
   for (const double z : {-1.0, 0.0, 0.009}) {
     EXPECT_FALSE(IsDefined(*cost, {Block(Rigid3()), {0.0, 0.0, z}})) << z;
-    EXPECT_FALSE(IsDefined(chain_rule, {Block(Rigid3()), {0.0, 0.0, z}})) << z;
+    EXPECT_FALSE(IsDefined(analytic, {Block(Rigid3()), {0.0, 0.0, z}})) << z;
   }
   EXPECT_TRUE(IsDefined(*cost, {Block(Rigid3()), {0.0, 0.0, 0.011}}));
 }

@@ -10,24 +10,24 @@ namespace {
 
 using Matrix6d = PosePrior::Matrix6d;
 
-// Full, of very unequal sigmas.
-Matrix6d AnyCovariance(Random* random) {
+// Full covariance with very different sigmas.
+Matrix6d AnyCovariance(RandomGeometry* random) {
   Matrix6d factor;
   for (int i = 0; i < 36; ++i) factor.data()[i] = random->Normal();
   for (int i = 0; i < 6; ++i) factor.row(i) *= 0.01 * (1 + i);
   return factor * factor.transpose() + 1e-6 * Matrix6d::Identity();
 }
 
-TEST(PosePrior, ZeroAtThePose) {
-  Random random(1);
+TEST(PosePrior, IsZeroAtTheMean) {
+  RandomGeometry random(1);
   const Rigid3 mean = random.Pose();
   EXPECT_THAT(Residual(*CostPtr(PosePrior::Create(mean, AnyCovariance(&random))), {Block(mean)}),
               IsNear(Eigen::VectorXd(Eigen::VectorXd::Zero(6)), 1e-9));
 }
 
-TEST(PosePrior, ValueByHand) {
+TEST(PosePrior, MatchesValueByHand) {
   // 0.2 rad about the camera's z and 3 m along its x, with sigmas 0.1 rad and 2 m.
-  Random random(2);
+  RandomGeometry random(2);
   const Rigid3 mean = random.Pose();
   Matrix6d covariance = Matrix6d::Identity();
   covariance.diagonal() << 0.01, 0.01, 0.01, 4.0, 4.0, 4.0;
@@ -38,8 +38,8 @@ TEST(PosePrior, ValueByHand) {
               IsNear(expected, 1e-12));
 }
 
-TEST(PosePrior, TheSquareIsMahalanobis) {
-  Random random(3);
+TEST(PosePrior, SquareEqualsTheMahalanobisDistance) {
+  RandomGeometry random(3);
   const Rigid3 mean = random.Pose();
   const Matrix6d covariance = AnyCovariance(&random);
   Eigen::Matrix<double, 6, 1> d;
@@ -50,8 +50,8 @@ TEST(PosePrior, TheSquareIsMahalanobis) {
   EXPECT_NEAR(r.squaredNorm(), expected, 1e-8 * expected);
 }
 
-TEST(PosePrior, Gradients) {
-  Random random(4);
+TEST(PosePrior, DerivativesMatch) {
+  RandomGeometry random(4);
   Matrix6d covariance = AnyCovariance(&random) + 0.01 * Matrix6d::Identity();
   for (const double distance : {0.0, 1e-3, 0.5, 2.0}) {
     const Rigid3 mean = random.Pose();
@@ -60,8 +60,8 @@ TEST(PosePrior, Gradients) {
   }
 }
 
-TEST(PosePrior, TheJacobianByHandIsTheAutomaticOne) {
-  Random random(5);
+TEST(PosePrior, TangentJacobianMatchesAutomaticDerivative) {
+  RandomGeometry random(5);
   const Matrix6d covariance = AnyCovariance(&random);
   for (const double distance : {0.0, 1e-7, 1e-3, 9e-3, 0.5, 3.0}) {
     const Rigid3 mean = random.Pose();
@@ -75,8 +75,8 @@ TEST(PosePrior, TheJacobianByHandIsTheAutomaticOne) {
   }
 }
 
-TEST(PosePrior, UnitCovarianceUnderItsNoise) {
-  Random random(6);
+TEST(PosePrior, HasUnitCovarianceUnderItsNoise) {
+  RandomGeometry random(6);
   const Rigid3 mean = random.Pose();
   const Matrix6d covariance = 0.01 * AnyCovariance(&random);
   const Matrix6d factor = covariance.llt().matrixL();
@@ -91,8 +91,8 @@ TEST(PosePrior, UnitCovarianceUnderItsNoise) {
   ExpectIdentityCovariance(samples);
 }
 
-TEST(PosePrior, TwoEqualPriorsMeetHalfway) {
-  Random random(7);
+TEST(PosePrior, TwoEqualPriorsGiveTheMidpoint) {
+  RandomGeometry random(7);
   const Rigid3 mean = random.Pose();
   const Eigen::Vector3d w(0.1, -0.2, 0.3), u(0.4, 0.5, -0.6);
   const Matrix6d covariance = 0.01 * Matrix6d::Identity();

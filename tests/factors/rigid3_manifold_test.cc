@@ -6,16 +6,17 @@
 #include "tests/support/factor_checks.h"
 #include <ceres/manifold_test_utils.h>
 
-namespace ceres {  // its macro names this type without a namespace
+namespace ceres {  // the macro below uses types without namespace
 namespace {
 
-TEST(Rigid3Manifold, HoldsTheInvariantsOfAManifold) {
+TEST(Rigid3Manifold, SatisfiesManifoldInvariants) {
   const msc_vo::Rigid3Manifold manifold;
-  msc_vo::Random random(1);
+  msc_vo::RandomGeometry random(1);
   for (int i = 0; i < 20; ++i) {
     const Vector x = random.Pose().params;
     Vector y = random.Pose().params;
-    // q and -q are one rotation, but the macro compares numbers: take the one on x's side.
+    // q and -q are the same rotation, but the macro compares coordinates: choose the one closer to
+    // x.
     if (x.head<4>().dot(y.head<4>()) < 0.0) y.head<4>() *= -1.0;
     Vector delta(6);
     delta << 0.8 * random.Normal3(), random.Normal3();
@@ -32,7 +33,7 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 TEST(Rigid3Manifold, TangentIsTheRotationVectorInTheTargetFrameAndTheTranslation) {
-  // A quarter turn about the camera's z axis takes what was ahead on x to y.
+  // A quarter turn about the camera's z axis maps x to y.
   const Rigid3 pose(Eigen::Quaterniond::Identity(), {1.0, 2.0, 3.0});
   const Vector6 delta = (Vector6() << 0, 0, 0.5 * std::acos(-1.0), 0.1, 0.2, 0.3).finished();
   Rigid3 moved;
@@ -41,8 +42,8 @@ TEST(Rigid3Manifold, TangentIsTheRotationVectorInTheTargetFrameAndTheTranslation
   EXPECT_THAT(moved.translation(), IsNear(Eigen::Vector3d(1.1, 2.2, 3.3), 1e-15));
 }
 
-TEST(Rigid3Manifold, MinusIgnoresTheSignOfAQuaternion) {
-  Random random(2);
+TEST(Rigid3Manifold, MinusIgnoresTheSignOfTheQuaternion) {
+  RandomGeometry random(2);
   const Rigid3 x = random.Pose(), y = random.Pose();
   Rigid3 negative = y;
   negative.params.head<4>() *= -1.0;
@@ -52,8 +53,8 @@ TEST(Rigid3Manifold, MinusIgnoresTheSignOfAQuaternion) {
   EXPECT_THAT(a, IsNear(b, 1e-12));
 }
 
-TEST(Rigid3Manifold, QuaternionStaysUnitOverManySteps) {
-  Random random(3);
+TEST(Rigid3Manifold, QuaternionKeepsUnitNormOverManySteps) {
+  RandomGeometry random(3);
   Rigid3 pose = random.Pose();
   for (int i = 0; i < 1000; ++i) {
     Vector6 delta;

@@ -6,16 +6,17 @@
 #include "tests/support/factor_checks.h"
 #include <ceres/manifold_test_utils.h>
 
-namespace ceres {  // its macro names this type without a namespace
+namespace ceres {  // the macro below uses types without namespace
 namespace {
 
-TEST(Rotation3Manifold, HoldsTheInvariantsOfAManifold) {
+TEST(Rotation3Manifold, SatisfiesManifoldInvariants) {
   const msc_vo::Rotation3Manifold manifold;
-  msc_vo::Random random(1);
+  msc_vo::RandomGeometry random(1);
   for (int i = 0; i < 20; ++i) {
     const Vector x = random.Pose().params.head<4>();
     Vector y = random.Pose().params.head<4>();
-    // q and -q are one rotation, but the macro compares numbers: take the one on x's side.
+    // q and -q are the same rotation, but the macro compares coordinates: choose the one closer to
+    // x.
     if (x.dot(y) < 0.0) y *= -1.0;
     const Vector delta = 0.8 * random.Normal3();
     EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-7);
@@ -28,8 +29,8 @@ TEST(Rotation3Manifold, HoldsTheInvariantsOfAManifold) {
 namespace msc_vo {
 namespace {
 
-TEST(Rotation3Manifold, IsTheRotationOfRigid3Manifold) {
-  Random random(2);
+TEST(Rotation3Manifold, MatchesTheRotationOfRigid3Manifold) {
+  RandomGeometry random(2);
   const Rigid3Manifold rigid;
   const Rotation3Manifold rotation;
   for (int i = 0; i < 5; ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/corner_refinement.h"
+#include "msc_vo/features/internal/corner_refinement.h"
 
 #include <cmath>
 
@@ -11,7 +11,7 @@
 namespace msc_vo {
 namespace {
 
-// The upper left corner of a bright square at `corner`, blurred as by a lens (pixels).
+// Draws the upper left corner of a bright square at `corner`; `blur` is that of a lens, pixels.
 cv::Mat DrawCorner(const Eigen::Vector2d& corner, double noise, uint32_t seed, double blur = 0.8) {
   testing::Canvas canvas(60, 60, 70);
   canvas.FillRectangle(corner.x(), corner.y(), 200.0, 200.0, 190);
@@ -31,29 +31,30 @@ RefinedCorner Refine(const cv::Mat& image, const cv::Rect& area, const cv::Point
   return CornerRefiner(image, smooth, area).Refine(corner);
 }
 
-// Largest difference between shifts of a corner and those that are found, pixels.
-double WorstShift(double blur) {
+// Largest error of the measured shift of a corner, pixels.
+double LargestShiftError(double blur) {
   const cv::Rect area(10, 10, 40, 40);
   const Eigen::Vector2d base(30.0, 30.0);
   const RefinedCorner first = Refine(DrawCorner(base, 1.0, 1, blur), area, {31, 31});
-  double worst = 0.0;
+  double largest = 0.0;
   for (int i = 1; i < 16; ++i) {
     const Eigen::Vector2d shift(0.125 * (i % 8), 0.125 * ((3 * i) % 8));
     const RefinedCorner moved = Refine(DrawCorner(base + shift, 1.0, i + 1, blur), area, {31, 31});
-    worst = std::max(worst, (moved.position - first.position - shift).cwiseAbs().maxCoeff());
+    largest = std::max(largest, (moved.position - first.position - shift).cwiseAbs().maxCoeff());
   }
-  return worst;
+  return largest;
 }
 
-// Whole pixels are up to 0.5 px off. The maximum of the response alone: 0.30 and 0.16. In blurred
-// images, where the position is between maximum and apex, it follows worse than the maximum does.
-TEST(CornerRefinement, FollowsSubPixelShifts) {
-  EXPECT_LT(WorstShift(0.5), 0.3);
-  EXPECT_LT(WorstShift(0.8), 0.4);
+// Errors of integer pixels: up to 0.5 px; of the maximum of the response: 0.30 and 0.16 px. In
+// blurred images the position lies between maximum and apex and is less repeatable than the
+// maximum.
+TEST(CornerRefinement, MeasuresSubPixelShifts) {
+  EXPECT_LT(LargestShiftError(0.5), 0.3);
+  EXPECT_LT(LargestShiftError(0.8), 0.4);
 }
 
-TEST(CornerRefinement, EndsNearTheApex) {
-  // In a sharp image; the response is largest 1.15 px from it.
+// In a sharp image the maximum of the response is 1.15 px from the apex.
+TEST(CornerRefinement, ConvergesToApexInSharpImage) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   constexpr int kCorners = 32;
   for (int i = 0; i < kCorners; ++i) {
@@ -66,8 +67,8 @@ TEST(CornerRefinement, EndsNearTheApex) {
   EXPECT_LT(mean.norm(), 0.45);
 }
 
-TEST(CornerRefinement, ADotStaysAtItsCentre) {
-  // Its edges meet nowhere.
+// The edges of a dot do not intersect.
+TEST(CornerRefinement, KeepsCentreOfDot) {
   const Eigen::Vector2d center(30.3, 29.8);
   std::vector<Eigen::Vector2d> circle;
   for (int i = 0; i < 64; ++i) {
@@ -81,7 +82,7 @@ TEST(CornerRefinement, ADotStaysAtItsCentre) {
   EXPECT_LT((dot.position - center).norm(), 0.2);
 }
 
-TEST(CornerRefinement, ClimbsToTheSamePixelFromAround) {
+TEST(CornerRefinement, ConvergesToSamePixelFromNeighbourhood) {
   const cv::Rect area(10, 10, 40, 40);
   const cv::Mat image = DrawCorner({30.2, 29.7}, 1.0, 3);
   const RefinedCorner center = Refine(image, area, cv::Point(31, 31));
@@ -94,14 +95,17 @@ TEST(CornerRefinement, ClimbsToTheSamePixelFromAround) {
   }
 }
 
-TEST(CornerRefinement, StaysInsideItsAreaAndInFlatImages) {
+TEST(CornerRefinement, StaysInsideArea) {
   const cv::Mat image = DrawCorner({30.0, 30.0}, 0.0, 1);
   const cv::Rect area(33, 33, 10, 10);
   EXPECT_TRUE(area.contains(Refine(image, area, cv::Point(33, 33)).pixel));
+}
+
+TEST(CornerRefinement, KeepsPixelInFlatImage) {
   const cv::Mat flat(60, 60, CV_8UC1, cv::Scalar(100));
-  const RefinedCorner still = Refine(flat, cv::Rect(10, 10, 40, 40), cv::Point(20, 25));
-  EXPECT_EQ(still.pixel, cv::Point(20, 25));
-  EXPECT_EQ(still.position, Eigen::Vector2d(20, 25));
+  const RefinedCorner corner = Refine(flat, cv::Rect(10, 10, 40, 40), cv::Point(20, 25));
+  EXPECT_EQ(corner.pixel, cv::Point(20, 25));
+  EXPECT_EQ(corner.position, Eigen::Vector2d(20, 25));
 }
 
 }  // namespace

@@ -14,8 +14,8 @@
 
 namespace msc_vo::testing {
 
-// Depth image (CV_32FC1, metres) of a scene given as function from an ideal pixel to inverse depth
-// (1/metres; 0: nothing), without lens distortion.
+// Renders a depth image (CV_32FC1, metres) without lens distortion from a function of the pixel
+// that returns the inverse depth (1/metres; 0: no depth).
 template <typename Function>
 cv::Mat DrawDepth(const PinholeCamera& camera, const Function& inverse_depth_at) {
   cv::Mat depth(camera.height, camera.width, CV_32FC1);
@@ -28,8 +28,8 @@ cv::Mat DrawDepth(const PinholeCamera& camera, const Function& inverse_depth_at)
   return depth;
 }
 
-// Adds noise of standard deviation `sigma` (1/metres) to the inverse depth; smoothed by a Gaussian
-// of `blur` pixels (0: white), its standard deviation restored.
+// Adds noise of standard deviation `sigma` (1/metres) to the inverse depth: white if `blur` is 0,
+// otherwise correlated by a Gaussian of `blur` pixels.
 inline void AddInverseDepthNoise(double sigma, double blur, uint32_t seed, cv::Mat* depth) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, 1.0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/depth_sampler.h"
+#include "msc_vo/features/internal/depth_sampler.h"
 
 #include <cmath>
 #include <limits>
@@ -22,10 +22,10 @@ InverseDepthImage Image(const cv::Mat& depth) { return InverseDepthImage(depth, 
 
 double SlantedPlane(const Vector2d& x) { return 0.5 + 0.001 * x.x() - 0.0007 * x.y(); }
 
-// Nearer (1 m) left of x = 60, farther (2 m) right of it.
+// A depth edge at x = 60: 1 m on the left, 2 m on the right.
 double StepAt60(const Vector2d& x) { return x.x() < 60.0 ? 1.0 : 0.5; }
 
-TEST(InverseDepthImage, KnowsWhatIsNoDepth) {
+TEST(InverseDepthImage, IsZeroWithoutValidDepth) {
   cv::Mat depth(1, 6, CV_32FC1);
   const float values[] = {2.0f, 0.0f, 0.1f, 20.0f, std::numeric_limits<float>::quiet_NaN(), -1.0f};
   for (int x = 0; x < 6; ++x) depth.at<float>(0, x) = values[x];
@@ -38,9 +38,9 @@ TEST(InverseDepthImage, KnowsWhatIsNoDepth) {
   EXPECT_FLOAT_EQ(image.Nearest({0.4, -0.4}), 0.5);
 }
 
-TEST(DepthSampler, IsExactOnASlantedPlane) {
+TEST(DepthSampler, IsExactOnSlantedPlane) {
   const auto image = Image(testing::DrawDepth(SmallCamera(), SlantedPlane));
-  // The last: at the very corner of the image.
+  // The last pixel is in the corner of the image.
   for (const Vector2d& pixel : {Vector2d(40.3, 70.8), Vector2d(99.5, 20.5), Vector2d(0.2, 0.1)}) {
     const auto sample = SampleDepth(image, pixel, kSigma);
     ASSERT_TRUE(sample);
@@ -50,8 +50,8 @@ TEST(DepthSampler, IsExactOnASlantedPlane) {
   }
 }
 
-TEST(DepthSampler, IsNotPulledByAFold) {
-  // Two walls, farthest (or nearest) where they meet, and the corner of three.
+TEST(DepthSampler, IsUnbiasedAtFold) {
+  // The fold of two walls, concave or convex, and the corner of three.
   constexpr double kSlope = 1e-3;  // 1/metres per pixel
   for (const double sign : {1.0, -1.0}) {
     const auto fold = [&](const Vector2d& x) {
@@ -64,13 +64,13 @@ TEST(DepthSampler, IsNotPulledByAFold) {
          {testing::DrawDepth(SmallCamera(), fold), testing::DrawDepth(SmallCamera(), corner)}) {
       const auto sample = SampleDepth(Image(w), {60.3, 50.2}, kSigma);
       ASSERT_TRUE(sample);
-      // A plane through the pixels is 1.2 slopes away from the fold, 1.4 from the corner.
+      // The error of a plane fit is 1.2 slopes at the fold and 1.4 at the corner.
       EXPECT_NEAR(sample->inverse_depth, 0.4, 0.7 * kSlope) << sign;
     }
   }
 }
 
-TEST(DepthSampler, SigmaCoversTheNoise) {
+TEST(DepthSampler, SigmaIsConservative) {
   for (const double blur : {0.0, 1.5}) {
     cv::Mat depth = testing::DrawDepth(SmallCamera(), SlantedPlane);
     testing::AddInverseDepthNoise(kSigma, blur, 5, &depth);
@@ -92,28 +92,29 @@ TEST(DepthSampler, SigmaCoversTheNoise) {
   }
 }
 
-TEST(DepthSampler, TakesTheNearerSurfaceAtAStep) {
+TEST(DepthSampler, SelectsNearerSurfaceAtDepthEdge) {
   const auto image = Image(testing::DrawDepth(SmallCamera(), StepAt60));
-  // Within 1.5 px of the nearer surface, on either side of the step.
+  // Within 1.5 px of the nearer surface, on either side of the edge.
   for (const double x : {58.6, 59.4, 60.2}) {
     const auto sample = SampleDepth(image, {x, 50.0}, kSigma);
     ASSERT_TRUE(sample) << x;
     EXPECT_NEAR(sample->inverse_depth, 1.0, 1e-6) << x;
     EXPECT_NEAR(sample->sigma, 0.3 * 0.5, 0.01) << x;
   }
-  // Two pixels from it: on the farther one.
+  // Two pixels from the nearer surface, on the farther one.
   const auto beside = SampleDepth(image, {61.2, 50.0}, kSigma);
   ASSERT_TRUE(beside);
   EXPECT_NEAR(beside->inverse_depth, 0.5, 1e-6);
-  // Outside the reach of the step there is no doubt.
+  // Far from the edge, sigma is not inflated.
   EXPECT_LT(SampleDepth(image, {70.0, 50.0}, kSigma)->sigma, 1.3 * kSigma);
 }
 
-TEST(DepthSampler, DoubtsItsChoiceByTheHeightOfTheStep) {
+TEST(DepthSampler, InflatesSigmaByHeightOfDepthEdge) {
   for (const double far : {0.9, 0.7, 0.3}) {
     const auto image = Image(testing::DrawDepth(
         SmallCamera(), [far](const Vector2d& x) { return x.x() < 60.0 ? 1.0 : far; }));
-    // The last is on the farther surface, and would be as wrong if it belonged to the nearer one.
+    // The last position is on the farther surface: it is inflated too, because the point may belong
+    // to the nearer one.
     for (const double x : {58.6, 60.2, 61.2}) {
       const auto sample = SampleDepth(image, {x, 50.0}, kSigma);
       ASSERT_TRUE(sample) << x;
@@ -123,8 +124,8 @@ TEST(DepthSampler, DoubtsItsChoiceByTheHeightOfTheStep) {
   }
 }
 
-TEST(DepthSampler, SeesThroughMixedPixels) {
-  // One column between the surfaces has neither depth.
+TEST(DepthSampler, IgnoresMixedPixels) {
+  // One column between the surfaces has a depth between theirs.
   const auto image = Image(testing::DrawDepth(SmallCamera(), [](const Vector2d& x) {
     if (x.x() == 60.0) return 0.65 + 0.01 * std::fmod(x.y(), 7.0);
     return StepAt60(x);
@@ -134,7 +135,7 @@ TEST(DepthSampler, SeesThroughMixedPixels) {
   EXPECT_NEAR(sample->inverse_depth, 1.0, 1e-6);
 }
 
-TEST(DepthSampler, WorksAroundHoles) {
+TEST(DepthSampler, IgnoresMissingPixels) {
   cv::Mat depth = testing::DrawDepth(SmallCamera(), SlantedPlane);
   depth.at<float>(50, 50) = 0.0f;
   depth.at<float>(50, 51) = std::numeric_limits<float>::quiet_NaN();
@@ -143,7 +144,7 @@ TEST(DepthSampler, WorksAroundHoles) {
   EXPECT_NEAR(sample->inverse_depth, SlantedPlane({50.0, 50.0}), 1e-4);
 }
 
-TEST(DepthSampler, HasNothingWithoutASurface) {
+TEST(DepthSampler, ReturnsNothingWithoutSurface) {
   cv::Mat depth = cv::Mat::zeros(120, 160, CV_32FC1);
   EXPECT_FALSE(SampleDepth(Image(depth), {50.0, 50.0}, kSigma));
   depth.at<float>(50, 50) = 1.0f;  // a single pixel
@@ -154,8 +155,9 @@ TEST(DepthSampler, HasNothingWithoutASurface) {
   EXPECT_FALSE(SampleDepth(Image(depth), {-50.0, 500.0}, kSigma));
   std::mt19937 random(3);
   for (int y = 0; y < depth.rows; ++y) {
-    for (int x = 0; x < depth.cols; ++x)
+    for (int x = 0; x < depth.cols; ++x) {
       depth.at<float>(y, x) = 1.0f / (0.15f + (random() % 1000) / 500.0f);
+    }
   }
   int found = 0;
   const InverseDepthImage noise = Image(depth);

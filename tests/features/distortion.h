@@ -10,7 +10,7 @@
 
 namespace msc_vo::testing {
 
-// The camera of the TUM RGB-D benchmark with the strongest distortion.
+// Camera fr1 of the TUM RGB-D benchmark, which has the strongest distortion.
 inline PinholeCamera Freiburg1Camera() { return {517.3, 516.5, 318.6, 255.3, 640, 480}; }
 inline LensDistortion Freiburg1Distortion() {
   LensDistortion distortion;
@@ -18,7 +18,7 @@ inline LensDistortion Freiburg1Distortion() {
   return distortion;
 }
 
-// What the lens makes of an ideal image (any type cv::remap takes).
+// Applies the lens distortion to an undistorted image (of any type that cv::remap supports).
 inline cv::Mat DistortImage(const PinholeCamera& camera, const LensDistortion& distortion,
                             const cv::Mat& ideal, int interpolation = cv::INTER_CUBIC) {
   cv::Mat ideal_pixels(camera.height, camera.width, CV_32FC2);

@@ -14,9 +14,8 @@
 
 namespace msc_vo::testing {
 
-// Images are drawn at eight times their size and averaged, so that edges between pixels are
-// anti-aliased as a camera sees them. Coordinates are those of the image, the centre of the first
-// pixel at (0, 0).
+// Draws anti-aliased images: at eight times their size, then averaged. Coordinates are pixels of
+// the final image with the centre of the first pixel at (0, 0).
 class Canvas {
  public:
   Canvas(int width, int height, int background)
@@ -35,7 +34,7 @@ class Canvas {
     FillPolygon({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, gray);
   }
 
-  // With Gaussian noise of the given standard deviation (grey values).
+  // Returns the image with Gaussian noise of the given standard deviation (grey values).
   cv::Mat Render(double noise = 0.0, uint32_t seed = 1) const {
     cv::Mat image;
     cv::resize(fine_, image, cv::Size(fine_.cols / kFactor, fine_.rows / kFactor), 0.0, 0.0,
@@ -56,8 +55,8 @@ class Canvas {
   cv::Mat fine_;
 };
 
-// A picture full of corners and edges: quadrilaterals of many sizes, places and greys, all moved by
-// `shift` and turned by `angle` (radians) about the centre of the image.
+// Draws quadrilaterals of many sizes, positions and grey values, all translated by `shift` and
+// rotated by `angle` (radians) about the centre of the image: an image with many corners and edges.
 inline cv::Mat DrawQuadrilaterals(int width, int height, const Eigen::Vector2d& shift,
                                   double angle = 0.0, double noise = 1.0, int count = 160) {
   Canvas canvas(width, height, 120);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/edge_segments.h"
+#include "msc_vo/features/internal/edge_segments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,12 +15,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Largest distance of the end points of `segment` to the infinite line through `side`.
+// Largest distance of the end points of `segment` from the infinite line through `side`.
 double Offset(const LineSegment2& side, const LineSegment2& segment) {
   return std::max(side.DistanceToLine(segment.start), side.DistanceToLine(segment.end));
 }
 
-TEST(ImageGradient, OfARampIsItsSlope) {
+TEST(ImageGradient, EqualsSlopeOfRamp) {
   cv::Mat ramp(20, 30, CV_8UC1);
   for (int y = 0; y < ramp.rows; ++y) {
     for (int x = 0; x < ramp.cols; ++x)
@@ -37,14 +37,14 @@ TEST(ImageGradient, OfARampIsItsSlope) {
   for (int x = 0; x < ramp.cols; ++x) EXPECT_EQ(gradient.Magnitude(x), 0);
 }
 
-TEST(EdgeDrawing, DrawsAClosedEdgeOnce) {
+TEST(EdgeDrawing, DrawsClosedEdgeOnce) {
   testing::Canvas canvas(200, 150, 60);
   canvas.FillRectangle(50, 40, 150, 110, 180);
   ImageGradient gradient;
   gradient.Compute(canvas.Render());
   EdgeDrawing drawing;
   drawing.Draw(gradient);
-  // All around, up to what rounding at the corners takes; no pixel twice.
+  // The whole perimeter except for the rounded corners, and no pixel twice.
   std::vector<int> pixels = drawing.pixels();
   EXPECT_NEAR(static_cast<double>(pixels.size()), 340.0, 12.0);
   std::sort(pixels.begin(), pixels.end());
@@ -59,7 +59,7 @@ TEST(EdgeDrawing, DrawsAClosedEdgeOnce) {
   }
 }
 
-TEST(EdgeSegmentDetector, FindsLinesOfAllDirections) {
+TEST(EdgeSegmentDetector, DetectsLinesOfAllDirections) {
   EdgeSegmentDetector detector;
   for (int degrees = 0; degrees < 180; degrees += 7) {
     const double angle = degrees * M_PI / 180.0;
@@ -81,7 +81,7 @@ TEST(EdgeSegmentDetector, FindsLinesOfAllDirections) {
   }
 }
 
-TEST(EdgeSegmentDetector, CutsAtCornersAndFollowsNoCurve) {
+TEST(EdgeSegmentDetector, SplitsCurves) {
   testing::Canvas canvas(400, 300, 60);
   std::vector<Vector2d> circle;
   for (int i = 0; i < 360; ++i) {
@@ -90,21 +90,21 @@ TEST(EdgeSegmentDetector, CutsAtCornersAndFollowsNoCurve) {
   }
   canvas.FillPolygon(circle, 180);
   EdgeSegmentDetector detector;
-  // A chord whose pixels are within a pixel of it, hence with an arc of at most two pixels height,
-  // is shorter than 2 sqrt(2 r h) = 40.
+  // All pixels of an arc are within one pixel of a line if its height h is at most 2 px; its length
+  // is then at most 2 sqrt(2 r h) = 40 px.
   for (const LineSegment2& segment : detector.Detect(canvas.Render())) {
     EXPECT_LT(segment.Length(), 41.0);
   }
 }
 
-TEST(EdgeSegmentDetector, NothingInNoise) {
+TEST(EdgeSegmentDetector, DetectsNoLongSegmentsInNoise) {
   cv::Mat noise(480, 640, CV_8UC1);
   std::mt19937 random(3);
   for (int y = 0; y < noise.rows; ++y) {
     for (int x = 0; x < noise.cols; ++x) noise.at<uint8_t>(y, x) = random() % 256;
   }
-  // Smoothing makes neighbouring gradients alike, so that the bound for independent ones is
-  // exceeded now and then: by less than one in ten thousand pixels, and not by long pieces.
+  // Smoothing correlates neighbouring gradients, so the bound for independent ones is exceeded
+  // occasionally: by less than one in ten thousand pixels, and only by short segments.
   EdgeSegmentDetector detector;
   const auto& segments = detector.Detect(noise);
   EXPECT_LT(segments.size(), 30u);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/fast_corners.h"
+#include "msc_vo/features/internal/fast_corners.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 namespace msc_vo {
 namespace {
 
-// The definition, pixel by pixel.
+// Response by definition, pixel by pixel.
 int Response(const cv::Mat& image, int x, int y) {
   constexpr std::array<std::array<int, 2>, 16> kCircle = {{{0, -3},
                                                            {1, -3},
@@ -47,7 +47,8 @@ int Response(const cv::Mat& image, int x, int y) {
   return response;
 }
 
-std::vector<FastCorner> DetectSlowly(const cv::Mat& image, const cv::Rect& area, int threshold) {
+std::vector<FastCorner> DetectByDefinition(const cv::Mat& image, const cv::Rect& area,
+                                           int threshold) {
   std::vector<FastCorner> corners;
   for (int y = area.y; y < area.y + area.height; ++y) {
     for (int x = area.x; x < area.x + area.width; ++x) {
@@ -79,36 +80,36 @@ cv::Mat Noise(int width, int height) {
   return image;
 }
 
-TEST(FastCorners, AreThoseOfTheDefinition) {
+TEST(FastCorners, MatchDefinition) {
   const cv::Mat drawn = testing::DrawQuadrilaterals(200, 150, {0.0, 0.0});
   const cv::Rect inside(4, 4, 192, 142);
   for (const int threshold : {1, 7, 20, 60}) {
-    const auto expected = DetectSlowly(drawn, inside, threshold);
+    const auto expected = DetectByDefinition(drawn, inside, threshold);
     EXPECT_GT(expected.size(), 10u);
     ExpectSame(DetectFastCorners(drawn, inside, threshold), expected);
   }
   const cv::Mat noise = Noise(200, 150);
-  EXPECT_GT(DetectSlowly(noise, inside, 7).size(), 100u);
-  ExpectSame(DetectFastCorners(noise, inside, 7), DetectSlowly(noise, inside, 7));
+  EXPECT_GT(DetectByDefinition(noise, inside, 7).size(), 100u);
+  ExpectSame(DetectFastCorners(noise, inside, 7), DetectByDefinition(noise, inside, 7));
 }
 
-TEST(FastCorners, OfAreasOfAllWidths) {
+TEST(FastCorners, MatchDefinitionForAreasOfAllWidths) {
   const cv::Mat image = Noise(70, 40);
   for (const int x : {4, 5, 19, 40}) {
     for (int width = 1; x + width <= 66; ++width) {
       const cv::Rect area(x, 10, width, 5);
-      ExpectSame(DetectFastCorners(image, area, 5), DetectSlowly(image, area, 5));
+      ExpectSame(DetectFastCorners(image, area, 5), DetectByDefinition(image, area, 5));
     }
   }
 }
 
-TEST(FastCorners, OfAViewIntoALargerImage) {
+TEST(FastCorners, MatchDefinitionInViewOfLargerImage) {
   const cv::Mat image = Noise(120, 60)(cv::Rect(10, 5, 90, 50));
   const cv::Rect inside(4, 4, 82, 42);
-  ExpectSame(DetectFastCorners(image, inside, 10), DetectSlowly(image, inside, 10));
+  ExpectSame(DetectFastCorners(image, inside, 10), DetectByDefinition(image, inside, 10));
 }
 
-TEST(FastCorners, MisuseThrows) {
+TEST(FastCorners, ThrowOnInvalidImageOrArea) {
   const cv::Mat image = Noise(70, 40);
   EXPECT_THROW(DetectFastCorners(image, {3, 4, 10, 10}, 7), std::invalid_argument);
   EXPECT_THROW(DetectFastCorners(image, {4, 4, 63, 10}, 7), std::invalid_argument);

@@ -21,9 +21,10 @@ using Eigen::Vector2d;
 
 PinholeCamera Camera() { return {480.0, -480.0, 319.5, 239.5, 640, 480}; }
 
-// A poster of quadrilaterals on a slanted wall, 1.6 to 2.6 m away.
+// Inverse depth of a slanted wall, 1.6 to 2.6 m away.
 double Wall(const Vector2d& x) { return 0.5 + 0.0003 * (x.x() - 320.0) + 0.0001 * (x.y() - 240.0); }
 
+// A poster of quadrilaterals on the wall.
 RgbdImage Poster(const PinholeCamera& camera) {
   RgbdImage image;
   image.id = 17;
@@ -52,7 +53,7 @@ void ExpectSame(const Frame& a, const Frame& b) {
   }
 }
 
-TEST(FrameBuilder, BuildsAFrame) {
+TEST(FrameBuilder, BuildsFrameWithPointsLinesAndDepth) {
   FrameBuilder builder(FrameBuilderOptions(), Camera(), LensDistortion());
   const Frame frame = builder.Build(Poster(Camera()));
   EXPECT_EQ(frame.id, 17);
@@ -71,7 +72,7 @@ TEST(FrameBuilder, BuildsAFrame) {
     EXPECT_NEAR(line.depth->start, Wall(line.segment.start), 1e-3);
     EXPECT_NEAR(line.depth->end, Wall(line.segment.end), 1e-3);
   }
-  // The grid knows the points.
+  // The grid indexes the points.
   const std::vector<int> near = frame.grid.Near(frame.points, frame.points[5].pixel, 1.0);
   EXPECT_NE(std::find(near.begin(), near.end(), 5), near.end());
   EXPECT_GT(builder.times().points, 0.0);
@@ -79,7 +80,7 @@ TEST(FrameBuilder, BuildsAFrame) {
   EXPECT_GT(builder.times().depth, 0.0);
 }
 
-TEST(FrameBuilder, OptionsReachTheFeatures) {
+TEST(FrameBuilder, AppliesOptions) {
   FrameBuilderOptions options;
   options.points.num_points = 100;
   options.lines.max_lines = 10;
@@ -118,7 +119,7 @@ TEST(FrameBuilder, UndistortsPointsLinesAndTheirDepth) {
   raw.depth = testing::DistortImage(camera, distortion, ideal.depth, cv::INTER_LINEAR);
   const Frame expected = FrameBuilder(FrameBuilderOptions(), camera, LensDistortion()).Build(ideal);
   const Frame frame = FrameBuilder(FrameBuilderOptions(), camera, distortion).Build(raw);
-  // Most points and lines are found again where they are in the ideal image.
+  // Most points and lines are also detected in the undistorted image, at the same positions.
   const auto has_point = [&](const PointFeature& point) {
     for (const int i : expected.grid.Near(expected.points, point.pixel, 0.7 * point.sigma)) {
       if (HammingDistance(expected.points[i].descriptor, point.descriptor) < 64) return true;
@@ -148,7 +149,7 @@ TEST(FrameBuilder, UndistortsPointsLinesAndTheirDepth) {
   }
 }
 
-TEST(FrameBuilder, IsRepeatableAtAnyThreadCount) {
+TEST(FrameBuilder, IsDeterministicAtAnyThreadCount) {
   const RgbdImage image = Poster(Camera());
   const int threads = cv::getNumThreads();
   cv::setNumThreads(1);
@@ -162,23 +163,23 @@ TEST(FrameBuilder, IsRepeatableAtAnyThreadCount) {
   ExpectSame(a, c);
 }
 
-TEST(FrameBuilder, DoesNotDependOnHowPointsAndLinesAreRun) {
+TEST(FrameBuilder, IsIndependentOfTaskOrder) {
   FrameBuilder builder({}, Camera(), LensDistortion());
-  const Frame in_turn = builder.Build(Poster(Camera()));
-  ExpectSame(in_turn, builder.Build(Poster(Camera()), [](const Tasks& tasks) {
+  const Frame sequential = builder.Build(Poster(Camera()));
+  ExpectSame(sequential, builder.Build(Poster(Camera()), [](const Tasks& tasks) {
     for (auto task = tasks.rbegin(); task != tasks.rend(); ++task) (*task)();
   }));
-  ExpectSame(in_turn, builder.Build(Poster(Camera()), [](const Tasks& tasks) {
-    std::vector<std::future<void>> beside;
-    for (const auto& task : tasks) beside.push_back(std::async(std::launch::async, task));
+  ExpectSame(sequential, builder.Build(Poster(Camera()), [](const Tasks& tasks) {
+    std::vector<std::future<void>> running;
+    for (const auto& task : tasks) running.push_back(std::async(std::launch::async, task));
   }));
 }
 
-TEST(FrameBuilder, WorksWithoutDepthOrContrast) {
+TEST(FrameBuilder, AcceptsImagesWithoutDepthOrContrast) {
   FrameBuilder builder({}, Camera(), LensDistortion());
   RgbdImage image = Poster(Camera());
-  for (const float nothing : {0.0f, std::numeric_limits<float>::quiet_NaN(), 100.0f}) {
-    image.depth.setTo(nothing);
+  for (const float invalid : {0.0f, std::numeric_limits<float>::quiet_NaN(), 100.0f}) {
+    image.depth.setTo(invalid);
     const Frame frame = builder.Build(image);
     EXPECT_GT(frame.points.size(), 500u);
     for (const PointFeature& point : frame.points) EXPECT_FALSE(point.HasDepth());
@@ -193,7 +194,7 @@ TEST(FrameBuilder, WorksWithoutDepthOrContrast) {
   }
 }
 
-TEST(FrameBuilder, WorksOnSmallImages) {
+TEST(FrameBuilder, ExtractsFeaturesFromSmallImages) {
   const PinholeCamera camera{120.0, 120.0, 79.5, 59.5, 160, 120};
   FrameBuilder builder({}, camera, testing::Freiburg1Distortion());
   const Frame frame = builder.Build(Poster(camera));
@@ -201,7 +202,7 @@ TEST(FrameBuilder, WorksOnSmallImages) {
   EXPECT_GT(frame.lines.size(), 5u);
 }
 
-TEST(FrameBuilder, MisuseThrows) {
+TEST(FrameBuilder, ThrowsOnMismatchedImage) {
   FrameBuilder builder({}, Camera(), LensDistortion());
   RgbdImage image = Poster(Camera());
   image.depth.convertTo(image.depth, CV_16UC1, 1000.0);
@@ -212,7 +213,9 @@ TEST(FrameBuilder, MisuseThrows) {
   image = Poster(Camera());
   image.depth = cv::Mat();
   EXPECT_THROW(builder.Build(image), std::invalid_argument);
+}
 
+TEST(FrameBuilder, ThrowsOnInvalidCameraOrOptions) {
   PinholeCamera camera = Camera();
   camera.fx = 0.0;
   EXPECT_THROW(FrameBuilder({}, camera, LensDistortion()), std::invalid_argument);

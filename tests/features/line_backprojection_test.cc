@@ -21,17 +21,17 @@ constexpr double kSigma = 1.425e-3;
 
 PinholeCamera Camera() { return {480.0, 480.0, 159.5, 119.5, 320, 240}; }
 
-// The segment that all scenes are looked at along; bright and dark do not matter here.
+// The segment used in all scenes; its direction is irrelevant here.
 LineSegment2 Segment() { return {Vector2d(60.0, 90.0), Vector2d(180.0, 140.0)}; }
 
-// Pixels from the segment's line, positive below it.
+// Signed distance from the segment's line, pixels, positive below it.
 double Below(const Vector2d& x) {
   return ImageLine(Segment()).dot(Eigen::Vector3d(x.x(), x.y(), 1));
 }
 
 double SlantedPlane(const Vector2d& x) { return 0.4 + 0.0012 * x.x() + 0.0008 * x.y(); }
 
-// The segment is the upper edge of a slanted plane; the wall behind it is 3.3 m away.
+// The segment is the upper edge of a slanted plane in front of a wall 3.3 m away.
 double OccludingEdge(const Vector2d& x) { return Below(x) > 0.0 ? SlantedPlane(x) : 0.3; }
 
 std::optional<LineDepth> Fit(const cv::Mat& depth, uint32_t seed = 1) {
@@ -39,31 +39,31 @@ std::optional<LineDepth> Fit(const cv::Mat& depth, uint32_t seed = 1) {
   return FitDepthAlongLine({}, InverseDepthImage(depth, 0.2, 10.0), lens, Segment(), kSigma, seed);
 }
 
-std::optional<LineDepth> Naive(const cv::Mat& depth) {
+std::optional<LineDepth> FromEndPoints(const cv::Mat& depth) {
   const LensRemap lens(Camera(), LensDistortion());
   return EndPointDepth(InverseDepthImage(depth, 0.2, 10.0), lens, Segment(), kSigma);
 }
 
-// Deviation from the slanted plane at the worse end, in sigmas of a depth pixel.
+// Largest error at the two end points relative to the slanted plane, in sigmas of a depth pixel.
 double ErrorInSigmas(const LineDepth& depth) {
   return std::max(std::abs(depth.start - SlantedPlane(Segment().start)),
                   std::abs(depth.end - SlantedPlane(Segment().end))) /
          kSigma;
 }
 
-TEST(LineBackprojection, IsExactOnAPlane) {
+TEST(LineBackprojection, IsExactOnPlane) {
   const auto depth = Fit(testing::DrawDepth(Camera(), SlantedPlane));
   ASSERT_TRUE(depth);
   EXPECT_LT(ErrorInSigmas(*depth), 0.5);  // nearest pixels, no interpolation
   EXPECT_EQ(depth->inlier_ratio, 1.0);
-  const auto naive = Naive(testing::DrawDepth(Camera(), SlantedPlane));
-  ASSERT_TRUE(naive);
-  EXPECT_LT(ErrorInSigmas(*naive), 0.5);
-  EXPECT_EQ(naive->covariance, Eigen::Matrix2d(Eigen::Matrix2d::Identity() * kSigma * kSigma));
+  const auto ends = FromEndPoints(testing::DrawDepth(Camera(), SlantedPlane));
+  ASSERT_TRUE(ends);
+  EXPECT_LT(ErrorInSigmas(*ends), 0.5);
+  EXPECT_EQ(ends->covariance, Eigen::Matrix2d(Eigen::Matrix2d::Identity() * kSigma * kSigma));
 }
 
-TEST(LineBackprojection, IsNotPulledByAFold) {
-  // The line where two walls meet (farthest there), and the edge of a box (nearest there).
+TEST(LineBackprojection, IsUnbiasedAtFold) {
+  // The intersection of two walls (concave) and the edge of a box (convex).
   for (const double slope : {2e-3, -2e-3}) {  // 1/metres per pixel
     double sum = 0.0;
     const int trials = 40;
@@ -77,17 +77,17 @@ TEST(LineBackprojection, IsNotPulledByAFold) {
       const Vector2d middle = 0.5 * (Segment().start + Segment().end);
       sum += depth->At(0.5) - SlantedPlane(middle);
     }
-    // The three pixels in the middle are 0.7 slopes away in the mean.
+    // The error of the mean over the three middle pixels would be 0.7 slopes.
     EXPECT_LT(std::abs(sum / trials), 0.25 * std::abs(slope)) << slope;
   }
 }
 
-TEST(LineBackprojection, BelongsToTheSurfaceThatOccludes) {
+TEST(LineBackprojection, AssignsLineToOccludingSurface) {
   const auto depth = Fit(testing::DrawDepth(Camera(), OccludingEdge));
   ASSERT_TRUE(depth);
   EXPECT_LT(ErrorInSigmas(*depth), 1.0);
   EXPECT_GT(depth->inlier_ratio, 0.9);
-  // Also when colour and depth are not aligned to the pixel, either way.
+  // Also if colour and depth are misaligned, in either direction.
   for (const double offset : {-1.5, 1.5}) {
     const auto misaligned = Fit(testing::DrawDepth(
         Camera(), [&](const Vector2d& x) { return Below(x) > offset ? SlantedPlane(x) : 0.3; }));
@@ -96,8 +96,8 @@ TEST(LineBackprojection, BelongsToTheSurfaceThatOccludes) {
   }
 }
 
-TEST(LineBackprojection, DoubtsItsDepthBesideANearerSurface) {
-  // Three rows of pixels are missing at the edge, so that the line has the depth of the wall.
+TEST(LineBackprojection, InflatesCovarianceBesideNearerSurface) {
+  // Three rows of pixels are missing at the edge, so the line is assigned to the wall behind it.
   const auto depth = Fit(testing::DrawDepth(Camera(), [](const Vector2d& x) {
     return Below(x) > 0.0 && Below(x) < 3.0 ? 0.0 : OccludingEdge(x);
   }));
@@ -108,12 +108,12 @@ TEST(LineBackprojection, DoubtsItsDepthBesideANearerSurface) {
   EXPECT_NEAR(std::sqrt(half.dot(depth->covariance * half)), 0.5 * gap, 0.05 * gap);
 }
 
-TEST(LineBackprojection, SurvivesNoiseMixedPixelsAndHoles) {
+TEST(LineBackprojection, IsRobustToNoiseMixedAndMissingPixels) {
   for (uint32_t seed = 0; seed < 10; ++seed) {
     std::mt19937 random(seed);
     cv::Mat scene = testing::DrawDepth(Camera(), [&](const Vector2d& x) {
-      const double share = (random() % 1000) / 1000.0;
-      if (std::abs(Below(x)) < 1.0) return share * SlantedPlane(x) + (1.0 - share) * 0.3;  // mixed
+      const double mix = (random() % 1000) / 1000.0;
+      if (std::abs(Below(x)) < 1.0) return mix * SlantedPlane(x) + (1.0 - mix) * 0.3;
       if (random() % 4 == 0) return 0.0;  // missing
       return OccludingEdge(x);
     });
@@ -124,8 +124,8 @@ TEST(LineBackprojection, SurvivesNoiseMixedPixelsAndHoles) {
   }
 }
 
-TEST(LineBackprojection, SurvivesSomethingInFront) {
-  // A post hides a third of the line; the naive variant breaks where it covers an end point.
+TEST(LineBackprojection, IsRobustToPartialOcclusion) {
+  // A post occludes a third of the line including an end point, which breaks EndPointDepth().
   const auto hidden = [](const Vector2d& x) {
     return x.x() > 145.0 && x.x() < 190.0 ? 1.5 : SlantedPlane(x);
   };
@@ -133,37 +133,37 @@ TEST(LineBackprojection, SurvivesSomethingInFront) {
   ASSERT_TRUE(depth);
   EXPECT_LT(ErrorInSigmas(*depth), 2.0);
   EXPECT_NEAR(depth->inlier_ratio, 0.7, 0.05);
-  const auto naive = Naive(testing::DrawDepth(Camera(), hidden));
-  ASSERT_TRUE(naive);
-  EXPECT_GT(ErrorInSigmas(*naive), 100.0);
+  const auto ends = FromEndPoints(testing::DrawDepth(Camera(), hidden));
+  ASSERT_TRUE(ends);
+  EXPECT_GT(ErrorInSigmas(*ends), 100.0);
 }
 
-TEST(LineBackprojection, UsesTheDepthThatThereIs) {
-  // None in the last two fifths, where the line is extrapolated and its sigma says so.
+TEST(LineBackprojection, FitsDepthWithMissingSamples) {
+  // Depth is missing along the last two fifths, where extrapolation increases sigma.
   const auto scene = testing::DrawDepth(
       Camera(), [](const Vector2d& x) { return x.x() > 132.0 ? 0.0 : SlantedPlane(x); });
   const auto depth = Fit(scene);
   ASSERT_TRUE(depth);
-  // All samples have half a sigma in common besides.
+  // Without the error common to all samples, half a sigma.
   const auto own_sigma = [&](double s) {
     return std::sqrt(std::pow(depth->SigmaAt(s), 2) - std::pow(0.5 * kSigma, 2));
   };
   EXPECT_GT(own_sigma(1.0), 2.0 * own_sigma(0.0));
   EXPECT_LT(std::abs(depth->end - SlantedPlane(Segment().end)), 3.0 * depth->SigmaAt(1.0));
-  EXPECT_FALSE(Naive(scene));
+  EXPECT_FALSE(FromEndPoints(scene));
 }
 
-TEST(LineBackprojection, HasNothingWithoutDepth) {
+TEST(LineBackprojection, ReturnsNothingWithoutSurface) {
   EXPECT_FALSE(Fit(cv::Mat::zeros(240, 320, CV_32FC1)));
-  EXPECT_FALSE(Naive(cv::Mat::zeros(240, 320, CV_32FC1)));
+  EXPECT_FALSE(FromEndPoints(cv::Mat::zeros(240, 320, CV_32FC1)));
   std::mt19937 random(1);
   const auto noise = testing::DrawDepth(
       Camera(), [&](const Vector2d&) { return 0.2 + (random() % 1000) / 500.0; });
   EXPECT_FALSE(Fit(noise));
 }
 
-// Mean normalised squared error of the fit over many noisy images, whose pixels have half a sigma
-// in common besides; 2 if the covariance is right.
+// Mean normalised estimation error squared of the fit over many noisy images with a common error of
+// half a sigma; 2 if the covariance is consistent.
 double MeanSquaredError(double blur) {
   const int trials = 150;
   double sum = 0.0;
@@ -183,33 +183,34 @@ double MeanSquaredError(double blur) {
 }
 
 TEST(LineBackprojection, CovarianceIsConsistent) {
-  // The mean of 150 has a standard deviation of 0.16. Noise as correlated as a depth sensor's:
+  // The standard deviation of the mean of 150 images is 0.16. Noise is correlated as for a depth
+  // sensor.
   const double correlated = MeanSquaredError(1.5);
   EXPECT_GT(correlated, 1.2);
   EXPECT_LT(correlated, 3.0);
-  // White noise is less than what the covariance allows for.
+  // For white noise the covariance is conservative.
   const double white = MeanSquaredError(0.0);
   EXPECT_GT(white, 0.5);
   EXPECT_LT(white, 2.0);
 }
 
-TEST(LineBackprojection, NaiveTakesTheNearestPixelWithinReach) {
+TEST(EndPointDepth, UsesNearestValidPixelWithinRadius) {
   cv::Mat scene = cv::Mat::zeros(240, 320, CV_32FC1);
   scene.at<float>(92, 60) = 2.0f;    // 2 px from the start
   scene.at<float>(140, 181) = 4.0f;  // 1 px from the end
   scene.at<float>(142, 180) = 5.0f;  // 2 px: farther
-  const auto naive = Naive(scene);
-  ASSERT_TRUE(naive);
-  EXPECT_FLOAT_EQ(naive->start, 0.5);
-  EXPECT_FLOAT_EQ(naive->end, 0.25);
+  const auto ends = FromEndPoints(scene);
+  ASSERT_TRUE(ends);
+  EXPECT_FLOAT_EQ(ends->start, 0.5);
+  EXPECT_FLOAT_EQ(ends->end, 0.25);
   scene.at<float>(92, 60) = 0.0f;
   scene.at<float>(92, 61) = 2.0f;  // 2.2 px
-  EXPECT_FALSE(Naive(scene));
+  EXPECT_FALSE(FromEndPoints(scene));
 }
 
-TEST(LineBackprojection, FollowsTheLens) {
-  // The plane is seen through a lens that bends the line by several pixels; it has a step along the
-  // line, so that a straight path through the raw image would sample both sides.
+TEST(LineBackprojection, SamplesAlongDistortedLine) {
+  // Lens distortion bends the line by several pixels. A straight path through the raw image would
+  // sample both sides of the depth edge along the line.
   const PinholeCamera camera = testing::Freiburg1Camera();
   const LensDistortion distortion = testing::Freiburg1Distortion();
   const LineSegment2 segment{Vector2d(30.0, 25.0), Vector2d(610.0, 40.0)};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/line_descriptor_extractor.h"
+#include "msc_vo/features/internal/line_descriptor_extractor.h"
 
 #include "tests/features/drawing.h"
 #include <gtest/gtest.h>
@@ -19,15 +19,15 @@ Descriptor Describe(const cv::Mat& image, const LineSegment2& segment) {
   return descriptor_extractor.Describe(segment);
 }
 
-TEST(LineDescriptorExtractor, KnowsNeitherContrastNorBrightness) {
+TEST(LineDescriptorExtractor, IsInvariantToContrastAndBrightness) {
   const cv::Mat image = testing::DrawQuadrilaterals(640, 480, {0.0, 0.0}, 0.0, 0.0);
   cv::Mat paler;
   image.convertTo(paler, CV_8U, 0.6, 50.0);
-  // Rounding of grey values decides close comparisons anew.
+  // Rounding of grey values changes the result of close comparisons.
   EXPECT_LE(HammingDistance(Describe(image, kSegment), Describe(paler, kSegment)), 8);
 }
 
-TEST(LineDescriptorExtractor, FollowsTheLine) {
+TEST(LineDescriptorExtractor, IsInvariantToTranslationAndRotation) {
   const auto moved = [](const Vector2d& shift, double angle) {
     const Vector2d middle(319.5, 239.5);
     Eigen::Matrix2d turn;
@@ -38,13 +38,13 @@ TEST(LineDescriptorExtractor, FollowsTheLine) {
     return Describe(testing::DrawQuadrilaterals(640, 480, shift, angle, 0.0),
                     {move(kSegment.start), move(kSegment.end)});
   };
-  const Descriptor still = moved({0.0, 0.0}, 0.0);
-  EXPECT_LE(HammingDistance(still, moved({7.3, -4.6}, 0.0)), 30);
-  EXPECT_LE(HammingDistance(still, moved({0.0, 0.0}, 0.6)), 40);
-  EXPECT_LE(HammingDistance(still, moved({0.0, 0.0}, 3.0)), 40);
+  const Descriptor original = moved({0.0, 0.0}, 0.0);
+  EXPECT_LE(HammingDistance(original, moved({7.3, -4.6}, 0.0)), 30);
+  EXPECT_LE(HammingDistance(original, moved({0.0, 0.0}, 0.6)), 40);
+  EXPECT_LE(HammingDistance(original, moved({0.0, 0.0}, 3.0)), 40);
 }
 
-TEST(LineDescriptorExtractor, TellsLinesAndDirectionsApart) {
+TEST(LineDescriptorExtractor, DistinguishesLinesAndDirections) {
   const cv::Mat image = testing::DrawQuadrilaterals(640, 480, {0.0, 0.0});
   const Descriptor here = Describe(image, kSegment);
   EXPECT_GT(HammingDistance(here, Describe(image, {kSegment.end, kSegment.start})), 80);
@@ -52,7 +52,7 @@ TEST(LineDescriptorExtractor, TellsLinesAndDirectionsApart) {
             80);
 }
 
-TEST(LineDescriptorExtractor, ReachesBeyondTheBorder) {
+TEST(LineDescriptorExtractor, DescribesLinesAlongBorder) {
   const cv::Mat image = testing::DrawQuadrilaterals(641, 479, {0.0, 0.0});
   LineDescriptorExtractor descriptor_extractor;
   descriptor_extractor.SetImage(image);

@@ -21,16 +21,15 @@ LineExtractorOptions With(LineDetector detector) {
   return options;
 }
 
-// Whether both end points of the segments agree, in this order.
+// True if both end points of the segments agree, in this order.
 bool Near(const LineSegment2& a, const LineSegment2& b, double pixels) {
   return (a.start - b.start).norm() < pixels && (a.end - b.end).norm() < pixels;
 }
 
 class LineExtractorTest : public ::testing::TestWithParam<LineDetector> {};
 
-TEST_P(LineExtractorTest, FindsTheSidesOfAQuadrilateral) {
-  // A bright one, its corners clockwise as the image is seen: the inside, brighter, is to the right
-  // of every side.
+TEST_P(LineExtractorTest, DetectsSidesOfQuadrilateral) {
+  // Bright, with corners in clockwise order: the brighter side is on the right of every edge.
   const std::vector<Vector2d> corners = {
       {100.3, 80.0}, {260.0, 110.6}, {230.4, 250.0}, {70.0, 200.2}};
   testing::Canvas canvas(400, 300, 60);
@@ -53,7 +52,7 @@ TEST_P(LineExtractorTest, FindsTheSidesOfAQuadrilateral) {
   }
 }
 
-TEST_P(LineExtractorTest, DarkOnBrightRunsTheOtherWay) {
+TEST_P(LineExtractorTest, OrientsSegmentsToBrighterSide) {
   testing::Canvas canvas(400, 300, 200);
   canvas.FillRectangle(100, 100, 300, 200, 60);
   LineExtractor extractor(With(GetParam()));
@@ -64,7 +63,7 @@ TEST_P(LineExtractorTest, DarkOnBrightRunsTheOtherWay) {
   }
 }
 
-TEST_P(LineExtractorTest, JoinsAnEdgeThatABarInterrupts) {
+TEST_P(LineExtractorTest, MergesEdgeInterruptedByBar) {
   testing::Canvas canvas(400, 300, 60);
   canvas.FillRectangle(-10, 150, 410, 310, 180);
   canvas.FillRectangle(197, -10, 203, 310, 110);
@@ -87,7 +86,7 @@ TEST_P(LineExtractorTest, DropsShortLines) {
   EXPECT_EQ(LineExtractor(options).Extract(image).size(), 2u);
 }
 
-TEST_P(LineExtractorTest, KeepsTheLongest) {
+TEST_P(LineExtractorTest, KeepsLongestLines) {
   const cv::Mat image = testing::DrawQuadrilaterals(640, 480, {0.0, 0.0});
   const auto all = LineExtractor(With(GetParam())).Extract(image);
   ASSERT_GT(all.size(), 60u);
@@ -97,7 +96,7 @@ TEST_P(LineExtractorTest, KeepsTheLongest) {
   ASSERT_EQ(few.size(), 40u);
   for (size_t i = 0; i < few.size(); ++i) {
     EXPECT_EQ(few[i].segment.start, all[i].segment.start);
-    // Refinement after the choice may change a length by a trifle.
+    // Refinement after the selection may change lengths slightly.
     if (i > 0) {
       EXPECT_LE(few[i].segment.Length(), few[i - 1].segment.Length() + 0.1);
     }
@@ -107,7 +106,7 @@ TEST_P(LineExtractorTest, KeepsTheLongest) {
   EXPECT_TRUE(LineExtractor(options).Extract(image).empty());
 }
 
-TEST_P(LineExtractorTest, DescriptorsMatchAcrossAShift) {
+TEST_P(LineExtractorTest, MatchesDescriptorsOfShiftedImage) {
   const Vector2d shift(5.25, 3.5);
   LineExtractor extractor(With(GetParam()));
   const auto a = extractor.Extract(testing::DrawQuadrilaterals(640, 480, {0.0, 0.0}));
@@ -130,7 +129,7 @@ TEST_P(LineExtractorTest, DescriptorsMatchAcrossAShift) {
   EXPECT_GT(correct, present * 9 / 10);
 }
 
-TEST_P(LineExtractorTest, CutsAtTheMask) {
+TEST_P(LineExtractorTest, ClipsLinesToMask) {
   testing::Canvas canvas(400, 300, 60);
   canvas.FillRectangle(-10, 150, 410, 310, 180);
   cv::Mat mask = cv::Mat::zeros(300, 400, CV_8UC1);
@@ -144,13 +143,13 @@ TEST_P(LineExtractorTest, CutsAtTheMask) {
                   .empty());
 }
 
-TEST_P(LineExtractorTest, IsRepeatableAtAnyThreadCount) {
+TEST_P(LineExtractorTest, IsDeterministicAtAnyThreadCount) {
   const cv::Mat image = testing::DrawQuadrilaterals(640, 480, {0.0, 0.0}, 0.0, 3.0);
   const int threads = cv::getNumThreads();
   cv::setNumThreads(1);
   LineExtractor extractor(With(GetParam()));
   const auto a = extractor.Extract(image);
-  extractor.Extract(testing::DrawQuadrilaterals(640, 480, {9.0, 9.0}));  // must leave no trace
+  extractor.Extract(testing::DrawQuadrilaterals(640, 480, {9.0, 9.0}));  // must leave no state
   const auto b = extractor.Extract(image);
   cv::setNumThreads(2);
   const auto c = LineExtractor(With(GetParam())).Extract(image);
@@ -166,7 +165,7 @@ TEST_P(LineExtractorTest, IsRepeatableAtAnyThreadCount) {
   }
 }
 
-TEST_P(LineExtractorTest, NothingInEmptyImages) {
+TEST_P(LineExtractorTest, DetectsNothingInUniformImages) {
   LineExtractor extractor(With(GetParam()));
   EXPECT_TRUE(extractor.Extract(cv::Mat::zeros(480, 640, CV_8UC1)).empty());
   EXPECT_TRUE(extractor.Extract(cv::Mat(480, 640, CV_8UC1, cv::Scalar(128))).empty());
@@ -174,7 +173,7 @@ TEST_P(LineExtractorTest, NothingInEmptyImages) {
   EXPECT_GT(extractor.Extract(testing::DrawQuadrilaterals(160, 120, {0.0, 0.0})).size(), 5u);
 }
 
-TEST_P(LineExtractorTest, DescribesLinesAtTheBorder) {
+TEST_P(LineExtractorTest, DescribesLinesAtBorder) {
   testing::Canvas canvas(200, 150, 60);
   canvas.FillRectangle(1.5, 1.5, 197.5, 147.5, 180);
   const auto lines = LineExtractor(With(GetParam())).Extract(canvas.Render());
@@ -190,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(Detectors, LineExtractorTest,
                            return detector.param == LineDetector::kLsd ? "Lsd" : "EdgeDrawing";
                          });
 
-TEST(LineExtractorOptions, MisuseThrows) {
+TEST(LineExtractor, ThrowsOnInvalidImageOrOptions) {
   LineExtractor extractor({});
   EXPECT_THROW(extractor.Extract(cv::Mat::zeros(10, 10, CV_32FC1)), std::invalid_argument);
   EXPECT_THROW(extractor.Extract(cv::Mat()), std::invalid_argument);
@@ -205,7 +204,6 @@ TEST(LineExtractorOptions, MisuseThrows) {
   invalid([](LineExtractorOptions* o) { o->max_lines = -1; });
   invalid([](LineExtractorOptions* o) { o->min_length = 0.0; });
   invalid([](LineExtractorOptions* o) { o->min_length = 1.5; });
-  invalid([](LineExtractorOptions* o) { o->merging.max_gap = -1.0; });
 }
 
 }  // namespace

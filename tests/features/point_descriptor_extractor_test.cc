@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/features/point_descriptor_extractor.h"
+#include "msc_vo/features/internal/point_descriptor_extractor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "tests/features/drawing.h"
 #include <gtest/gtest.h>
 
-#include "msc_vo/features/fast_corners.h"
+#include "msc_vo/features/internal/fast_corners.h"
 #include "msc_vo/geometry/angles.h"
 
 namespace msc_vo {
@@ -29,16 +29,16 @@ struct Picture {
   PointDescriptorExtractor descriptor_extractor() const { return {gray, smooth}; }
 };
 
-// Every seventh pixel that may be described.
-std::vector<cv::Point> Places(const cv::Size& size) {
-  std::vector<cv::Point> places;
+// Every seventh pixel that can be described.
+std::vector<cv::Point> PixelGrid(const cv::Size& size) {
+  std::vector<cv::Point> pixels;
   for (int y = kBorder; y < size.height - kBorder; y += 7) {
-    for (int x = kBorder; x < size.width - kBorder; x += 7) places.emplace_back(x, y);
+    for (int x = kBorder; x < size.width - kBorder; x += 7) pixels.emplace_back(x, y);
   }
-  return places;
+  return pixels;
 }
 
-TEST(PointDescriptorExtractor, AnglePointsToTheBrightSide) {
+TEST(PointDescriptorExtractor, AnglePointsToBrightSide) {
   for (const double degrees : {0.0, 30.0, 90.0, -120.0, 179.0}) {
     const double angle = DegreesToRadians(degrees);
     cv::Mat ramp(60, 60, CV_8UC1);
@@ -53,21 +53,21 @@ TEST(PointDescriptorExtractor, AnglePointsToTheBrightSide) {
   }
 }
 
-TEST(PointDescriptorExtractor, QuarterTurnsTurnAngleAndKeepDescriptor) {
+TEST(PointDescriptorExtractor, IsInvariantToRotationBy90Degrees) {
   const Picture picture(testing::DrawQuadrilaterals(161, 161, {0.0, 0.0}));
-  cv::Mat turned_image;
-  cv::rotate(picture.gray, turned_image, cv::ROTATE_90_CLOCKWISE);
-  const Picture turned(turned_image);
-  for (const cv::Point& place : Places(picture.gray.size())) {
-    const cv::Point there(160 - place.y, place.x);
-    const double angle = picture.descriptor_extractor().Angle(place);
-    EXPECT_NEAR(
-        std::remainder(turned.descriptor_extractor().Angle(there) - angle - kPi / 2.0, 2.0 * kPi),
-        0.0, 1e-9);
-    // Half pixels are rounded to one side: few pairs compare other pixels.
-    EXPECT_LE(HammingDistance(picture.descriptor_extractor().Describe(place, angle),
-                              turned.descriptor_extractor().Describe(there, angle + kPi / 2.0)),
-              16);
+  cv::Mat rotated_image;
+  cv::rotate(picture.gray, rotated_image, cv::ROTATE_90_CLOCKWISE);
+  const Picture rotated(rotated_image);
+  for (const cv::Point& pixel : PixelGrid(picture.gray.size())) {
+    const cv::Point rotated_pixel(160 - pixel.y, pixel.x);
+    const double angle = picture.descriptor_extractor().Angle(pixel);
+    const double rotated_angle = rotated.descriptor_extractor().Angle(rotated_pixel);
+    EXPECT_NEAR(std::remainder(rotated_angle - angle - kPi / 2.0, 2.0 * kPi), 0.0, 1e-9);
+    // Rounding of half pixels is not symmetric: few pairs compare different pixels.
+    EXPECT_LE(
+        HammingDistance(picture.descriptor_extractor().Describe(pixel, angle),
+                        rotated.descriptor_extractor().Describe(rotated_pixel, angle + kPi / 2.0)),
+        16);
   }
 }
 
@@ -81,9 +81,9 @@ cv::Mat WithNoise(const cv::Mat& image, uint32_t seed) {
   return noisy;
 }
 
-// What matching rests on: the same patch with other noise and another contrast is near, another
-// patch is half of the bits away.
-TEST(PointDescriptorExtractor, TellsPatchesApart) {
+// The distance is small between descriptors of one patch with different noise and contrast, and
+// half of the bits between different patches.
+TEST(PointDescriptorExtractor, DistinguishesPatches) {
   const cv::Mat image = testing::DrawQuadrilaterals(320, 240, {0.0, 0.0}, 0.0, /*noise=*/0.0);
   cv::Mat darker;
   image.convertTo(darker, CV_8U, 0.6, 20.0);
@@ -104,8 +104,8 @@ TEST(PointDescriptorExtractor, TellsPatchesApart) {
   EXPECT_NEAR(other[other.size() / 2], 128.0, 20.0);
 }
 
-// What lies around an image, in a larger one that it is a view into, changes nothing.
-TEST(PointDescriptorExtractor, StaysInsideAtTheBorder) {
+// The image is a view of a larger one, whose other pixels must have no effect.
+TEST(PointDescriptorExtractor, ReadsNoPixelsOutsideImage) {
   constexpr int kSize = 2 * kBorder + 1;
   const Picture picture(testing::DrawQuadrilaterals(kSize, kSize, {0.0, 0.0}));
   const cv::Point only(kBorder, kBorder);

@@ -28,8 +28,8 @@ struct Match {
   int b = 0;
 };
 
-// Nearest descriptors among the points of the same level within 3 px (of the level) of where
-// `moved` puts a point of `a`.
+// Matches each point of `a` by descriptor with the points of the same level within 3 px (of the
+// level) of its position after the motion `moved`.
 template <typename Function>
 std::vector<Match> MatchPoints(const std::vector<PointFeature>& a,
                                const std::vector<PointFeature>& b, const Function& moved) {
@@ -55,7 +55,7 @@ double Median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-TEST(PointExtractor, SpreadsThePointsWanted) {
+TEST(PointExtractor, DistributesPointsEvenly) {
   const cv::Mat image = testing::DrawQuadrilaterals(640, 480, {0.0, 0.0}, 0.0, 2.0);
   PointExtractor extractor({});
   const auto points = extractor.Extract(image);
@@ -80,7 +80,7 @@ TEST(PointExtractor, SpreadsThePointsWanted) {
   EXPECT_LE(*std::max_element(per_block.begin(), per_block.end()), 60);
 }
 
-TEST(PointExtractor, KeepsToTheNumberOfPoints) {
+TEST(PointExtractor, RespectsNumberOfPoints) {
   const cv::Mat image = testing::DrawQuadrilaterals(320, 240, {0.0, 0.0});
   for (const int wanted : {0, 1, 50, 300}) {
     PointExtractorOptions options;
@@ -90,7 +90,7 @@ TEST(PointExtractor, KeepsToTheNumberOfPoints) {
   }
 }
 
-TEST(PointExtractor, FallsBackWhereContrastIsLow) {
+TEST(PointExtractor, LowersThresholdWhereContrastIsLow) {
   // Left half: squares of contrast 12, below the threshold of 20; right half: contrast 120.
   testing::Canvas canvas(320, 240, 100);
   for (int y = 30; y < 220; y += 40) {
@@ -111,7 +111,7 @@ TEST(PointExtractor, FallsBackWhereContrastIsLow) {
   EXPECT_GT(fewer.size(), 20u);
 }
 
-TEST(PointExtractor, FindsCornersAgainToSubPixels) {
+TEST(PointExtractor, RepeatsCornersToSubPixels) {
   const Vector2d shift(3.375, -2.625);
   PointExtractor extractor({});
   const auto a = extractor.Extract(testing::DrawQuadrilaterals(640, 480, {0.0, 0.0}));
@@ -129,7 +129,7 @@ TEST(PointExtractor, FindsCornersAgainToSubPixels) {
   EXPECT_LT(mean.norm(), 0.05);     // no bias on any level
 }
 
-TEST(PointExtractor, OrientationAndDescriptorTurnWithTheImage) {
+TEST(PointExtractor, OrientationFollowsRotationOfImage) {
   const double angle = DegreesToRadians(25.0);
   PointExtractor extractor({});
   const auto a = extractor.Extract(testing::DrawQuadrilaterals(640, 480, {0.0, 0.0}, 0.0));
@@ -139,7 +139,7 @@ TEST(PointExtractor, OrientationAndDescriptorTurnWithTheImage) {
   turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
   const auto matches =
       MatchPoints(a, b, [&](const Vector2d& x) { return Vector2d(middle + turn * (x - middle)); });
-  // What was near a border is outside now.
+  // Points near a border have left the image.
   EXPECT_GT(matches.size(), a.size() / 3);
   std::vector<double> errors;
   for (const Match& match : matches) {
@@ -149,7 +149,7 @@ TEST(PointExtractor, OrientationAndDescriptorTurnWithTheImage) {
   EXPECT_LT(Median(errors), DegreesToRadians(3.0));
 }
 
-TEST(PointExtractor, IsRepeatableAtAnyThreadCount) {
+TEST(PointExtractor, IsDeterministicAtAnyThreadCount) {
   const cv::Mat image = testing::DrawQuadrilaterals(640, 480, {0.0, 0.0}, 0.0, 3.0);
   const int threads = cv::getNumThreads();
   PointExtractor extractor({});
@@ -167,16 +167,16 @@ TEST(PointExtractor, IsRepeatableAtAnyThreadCount) {
   }
 }
 
-TEST(PointExtractor, NothingInEmptyImages) {
+TEST(PointExtractor, ExtractsNothingFromUniformImages) {
   PointExtractor extractor({});
   EXPECT_TRUE(extractor.Extract(cv::Mat::zeros(480, 640, CV_8UC1)).empty());
   EXPECT_TRUE(extractor.Extract(cv::Mat(480, 640, CV_8UC1, cv::Scalar(255))).empty());
   EXPECT_TRUE(extractor.Extract(cv::Mat(20, 20, CV_8UC1, cv::Scalar(9))).empty());
-  // A small image has fewer levels and still works.
+  // A small image has fewer levels.
   EXPECT_GT(extractor.Extract(testing::DrawQuadrilaterals(160, 120, {0.0, 0.0})).size(), 20u);
 }
 
-TEST(PointExtractor, MisuseThrows) {
+TEST(PointExtractor, ThrowsOnInvalidImageOrOptions) {
   PointExtractor extractor({});
   EXPECT_THROW(extractor.Extract(cv::Mat::zeros(10, 10, CV_8UC3)), std::invalid_argument);
   EXPECT_THROW(extractor.Extract(cv::Mat()), std::invalid_argument);

@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using testing::AddInverseDepthNoise;
 using testing::DrawDepth;
 
-// The plane normal . x = -distance, seen from its positive side at the origin.
+// The plane normal . x = -distance; the camera at the origin is on its positive side.
 struct Plane {
   Vector3d normal = -Vector3d::UnitZ();  // unit, towards the camera
   double distance = 2.0;                 // metres, to the camera
@@ -47,9 +47,9 @@ double ErrorInDegrees(const SurfaceNormal& normal, const Vector3d& truth) {
 
 const Plane kTilted = {Vector3d(0.5, -0.4, -1.0).normalized(), 1.5};
 
-class SurfaceNormalsOfAPlane : public ::testing::TestWithParam<double> {};
+class PlaneNormalsTest : public ::testing::TestWithParam<double> {};
 
-TEST_P(SurfaceNormalsOfAPlane, AreExact) {
+TEST_P(PlaneNormalsTest, AreExact) {
   PinholeCamera camera;
   camera.fy = GetParam();
   const auto normals = Estimate(camera, Draw(camera, kTilted));
@@ -57,19 +57,19 @@ TEST_P(SurfaceNormalsOfAPlane, AreExact) {
   for (const SurfaceNormal& normal : normals) {
     EXPECT_LT(ErrorInDegrees(normal, kTilted.normal), 0.05);
     EXPECT_NEAR(kTilted.normal.dot(normal.position), -kTilted.distance, 1e-4);
-    EXPECT_LT(normal.direction.dot(normal.position), 0.0) << "away from the camera";
+    EXPECT_LT(normal.direction.dot(normal.position), 0.0) << "points away from the camera";
     EXPECT_NEAR(normal.direction.norm(), 1.0, 1e-12);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Fy, SurfaceNormalsOfAPlane, ::testing::Values(525.0, -525.0));
+INSTANTIATE_TEST_SUITE_P(Fy, PlaneNormalsTest, ::testing::Values(525.0, -525.0));
 
-TEST(SurfaceNormals, KeepToTheirSigmaInNoise) {
+TEST(SurfaceNormals, SigmaIsConsistentWithNoise) {
   const PinholeCamera camera;
   for (const double distance : {1.0, 2.0, 4.0}) {
     const Plane plane = {kTilted.normal, distance};
     cv::Mat depth = Draw(camera, plane);
-    AddInverseDepthNoise(SurfaceNormalOptions().inverse_depth_sigma, 1.5, 7, &depth);
+    AddInverseDepthNoise(SurfaceNormalEstimator::kInverseDepthSigma, 1.5, 7, &depth);
     const auto normals = Estimate(camera, depth);
     ASSERT_GT(normals.size(), 900u) << distance;
     int num_within = 0;
@@ -82,23 +82,23 @@ TEST(SurfaceNormals, KeepToTheirSigmaInNoise) {
   }
 }
 
-TEST(SurfaceNormals, WindowsGrowWithDepthUntilTheTargetIsMet) {
+TEST(SurfaceNormals, WindowsGrowWithDepthToMeetTargetSigma) {
   const PinholeCamera camera;
   for (const double distance : {0.5, 1.0, 3.0, 6.0}) {
     const Plane frontal = {-Vector3d::UnitZ(), distance};
     const auto normals = Estimate(camera, Draw(camera, frontal));
     ASSERT_FALSE(normals.empty());
-    const double target = SurfaceNormalOptions().target_sigma;
+    constexpr double kTarget = SurfaceNormalEstimator::kTargetSigma;
     for (const SurfaceNormal& normal : normals) {
-      EXPECT_LE(normal.sigma, 1.01 * target) << distance;
-      // Rounding up of the radius is all that it stays below by.
-      EXPECT_GT(normal.sigma, 0.7 * target) << distance;
+      EXPECT_LE(normal.sigma, 1.01 * kTarget) << distance;
+      // Below the target only because the radius is rounded up.
+      EXPECT_GT(normal.sigma, 0.7 * kTarget) << distance;
     }
   }
 }
 
 // The mean of any points of a plane lies on it.
-TEST(SurfaceNormals, MissingDepthDoesNotBendThem) {
+TEST(SurfaceNormals, AreUnbiasedWithMissingDepth) {
   const PinholeCamera camera;
   cv::Mat depth = Draw(camera, kTilted);
   for (int y = 0; y < depth.rows; ++y) {
@@ -114,7 +114,7 @@ TEST(SurfaceNormals, MissingDepthDoesNotBendThem) {
   }
 }
 
-TEST(SurfaceNormals, WindowsWithTooLittleDepthGiveNone) {
+TEST(SurfaceNormals, AreOmittedWithTooLittleDepth) {
   const PinholeCamera camera;
   cv::Mat depth = Draw(camera, kTilted);
   for (int y = 0; y < depth.rows; ++y) {
@@ -123,8 +123,8 @@ TEST(SurfaceNormals, WindowsWithTooLittleDepthGiveNone) {
   EXPECT_TRUE(Estimate(camera, depth).empty());
 }
 
-// A box half a metre in front of a wall: no window may reach from one to the other.
-TEST(SurfaceNormals, DepthEdgesDoNotBendThem) {
+// A box half a metre in front of a wall: no window may contain both.
+TEST(SurfaceNormals, WindowsDoNotCrossDepthEdges) {
   const PinholeCamera camera;
   const Plane box = {Vector3d(-0.3, 0.0, -1.0).normalized(), 1.2};
   const cv::Mat depth = DrawDepth(camera, [&](const Vector2d& pixel) {
@@ -140,7 +140,7 @@ TEST(SurfaceNormals, DepthEdgesDoNotBendThem) {
   EXPECT_GT(num_on_box, 60);
 }
 
-TEST(SurfaceNormals, OfASpherePointAwayFromItsCentre) {
+TEST(SurfaceNormals, OfSpherePointAwayFromCentre) {
   const PinholeCamera camera;
   const Vector3d center(0.1, -0.1, 2.0);
   const double radius = 0.5;
@@ -155,14 +155,14 @@ TEST(SurfaceNormals, OfASpherePointAwayFromItsCentre) {
   const auto normals = Estimate(camera, depth);
   EXPECT_GT(normals.size(), 100u);
   for (const SurfaceNormal& normal : normals) {
-    // A window at the rim holds the half of the sphere's cap only that is seen.
+    // A window at the rim contains only the visible half of the spherical cap.
     const Vector3d truth = (normal.position - center).normalized();
     const bool is_rim = -truth.dot(normal.position.normalized()) < std::cos(1.0);
     EXPECT_LT(ErrorInDegrees(normal, truth), is_rim ? 10.0 : 1.5);
   }
 }
 
-TEST(SurfaceNormals, LensDistortionIsUndone) {
+TEST(SurfaceNormals, CompensateLensDistortion) {
   const PinholeCamera camera;
   LensDistortion lens;
   lens.k = {0.262, -0.953, -0.005, 0.003, 1.163};
@@ -176,7 +176,7 @@ TEST(SurfaceNormals, LensDistortionIsUndone) {
   }
 }
 
-TEST(SurfaceNormals, ComeRowByRowAndEveryCallAlike) {
+TEST(SurfaceNormals, AreSortedByRowAndDeterministic) {
   const PinholeCamera camera;
   cv::Mat depth = Draw(camera, kTilted);
   AddInverseDepthNoise(1e-3, 1.0, 3, &depth);
@@ -197,21 +197,21 @@ TEST(SurfaceNormals, ComeRowByRowAndEveryCallAlike) {
       [&](const SurfaceNormal& a, const SurfaceNormal& b) { return row_of(a) < row_of(b); }));
 }
 
-TEST(SurfaceNormals, WithoutDepthThereAreNone) {
+TEST(SurfaceNormals, AreOmittedWithoutDepth) {
   const PinholeCamera camera;
   EXPECT_TRUE(Estimate(camera, cv::Mat::zeros(camera.height, camera.width, CV_32FC1)).empty());
 }
 
-TEST(SurfaceNormals, MisuseIsNamed) {
+TEST(SurfaceNormals, ThrowOnInvalidImageOrOptions) {
   const PinholeCamera camera;
   SurfaceNormalEstimator estimator({}, camera, {});
   EXPECT_THROW(estimator.Estimate(cv::Mat::zeros(480, 640, CV_16UC1)), std::invalid_argument);
   EXPECT_THROW(estimator.Estimate(cv::Mat::zeros(240, 320, CV_32FC1)), std::invalid_argument);
   SurfaceNormalOptions options;
-  options.max_radius = 200;
+  options.max_depth = 30.0;  // sums over a window overflow
   std::string error;
   EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_NE(error.find("max_radius"), std::string::npos);
+  EXPECT_NE(error.find("max_depth"), std::string::npos);
   EXPECT_THROW(SurfaceNormalEstimator(options, camera, {}), std::invalid_argument);
   EXPECT_TRUE(SurfaceNormalOptions().IsValid(&error));
 }

@@ -14,15 +14,11 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Options that are also bound to another one, as a lower end to an upper end.
+// Options that are also bounded by another option, for instance a minimum by a maximum.
 const std::set<std::string> kRelated{"features.points.fast_threshold",
                                      "features.points.min_fast_threshold",
                                      "features.min_depth",
                                      "features.max_depth",
-                                     "normals.min_depth",
-                                     "normals.max_depth",
-                                     "normals.min_radius",
-                                     "normals.max_radius",
                                      "tracking.pose.num_rounds",
                                      "tracking.pose.num_robust_rounds",
                                      "tracking.keyframes.min_interval",
@@ -52,8 +48,8 @@ bool IsWhole(const Option& option) {
          std::holds_alternative<std::optional<int>*>(option.value);
 }
 
-// What the options say about themselves with one of them set to `number`.
-std::string Problem(size_t index, double number) {
+// The error of the options with one of them set to `number`; empty: they are valid.
+std::string ErrorWith(size_t index, double number) {
   OdometryOptions options;
   const std::vector<Option> list = ListOptions(&options);
   std::visit(NumberSetter{number}, list[index].value);
@@ -67,7 +63,7 @@ bool IsNumber(const Option& option) {
          !std::holds_alternative<Choice>(option.value);
 }
 
-TEST(ListOptions, EveryNumberHasARangeThatHoldsItsDefault) {
+TEST(OptionRanges, HaveARangeThatContainsTheDefault) {
   OdometryOptions options;
   int num_numbers = 0;
   for (const Option& option : ListOptions(&options)) {
@@ -81,40 +77,40 @@ TEST(ListOptions, EveryNumberHasARangeThatHoldsItsDefault) {
   EXPECT_GT(num_numbers, 100);
 }
 
-TEST(ListOptions, TheLimitsAreValidAndNothingBeyondIs) {
+TEST(OptionRanges, AreValidExactlyWithinTheirRange) {
   OdometryOptions defaults;
   const std::vector<Option> list = ListOptions(&defaults);
   for (size_t i = 0; i < list.size(); ++i) {
     if (!IsNumber(list[i])) continue;
     const Range& range = *list[i].range;
     if (kRelated.count(list[i].path) == 0) {
-      EXPECT_EQ(Problem(i, range.min), "") << list[i].path;
-      EXPECT_EQ(Problem(i, range.max), "") << list[i].path;
+      EXPECT_EQ(ErrorWith(i, range.min), "") << list[i].path;
+      EXPECT_EQ(ErrorWith(i, range.max), "") << list[i].path;
     }
     const double inf = std::numeric_limits<double>::infinity();
     const bool whole = IsWhole(list[i]);
     for (const double beyond : {whole ? range.min - 1.0 : std::nextafter(range.min, -inf),
                                 whole ? range.max + 1.0 : std::nextafter(range.max, inf)}) {
-      EXPECT_THAT(Problem(i, beyond), HasSubstr(list[i].path + " = ")) << beyond;
-      EXPECT_THAT(Problem(i, beyond), HasSubstr("must be " + ToString(range))) << list[i].path;
+      EXPECT_THAT(ErrorWith(i, beyond), HasSubstr(list[i].path + " = ")) << beyond;
+      EXPECT_THAT(ErrorWith(i, beyond), HasSubstr("must be from " + ToString(range)))
+          << list[i].path;
     }
     if (whole) continue;
-    EXPECT_THAT(Problem(i, std::nan("")), HasSubstr(list[i].path + " = nan"));
-    EXPECT_THAT(Problem(i, inf), HasSubstr(list[i].path + " = inf"));
+    EXPECT_THAT(ErrorWith(i, std::nan("")), HasSubstr(list[i].path + " = nan"));
+    EXPECT_THAT(ErrorWith(i, inf), HasSubstr(list[i].path + " = inf"));
   }
 }
 
-TEST(ListOptions, ErrorsNameOptionValueAndRange) {
+TEST(OptionRanges, NameOptionValueAndRangeInErrors) {
   OdometryOptions options;
   options.features.points.num_points = 2147483647;
   std::string error;
   EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_EQ(error,
-            "features.points.num_points = 2147483647 must be from 0 to 20000 (per image, at most)");
+  EXPECT_EQ(error, "features.points.num_points = 2147483647 must be from 0 to 20000 points");
   options = {};
-  options.normals.grid_step = 1;
+  options.normal_grid_step = 1;
   EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_THAT(error, HasSubstr("normals.grid_step = 1 must be from 8 to 1000"));
+  EXPECT_EQ(error, "normals.grid_step = 1 must be from 8 to 1000 pixels");
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "tests/support/factor_checks.h"
-#include "tests/support/synthetic_window.h"
+#include "tests/support/test_window.h"
 #include <ceres/loss_function.h>
 
 #include "msc_vo/bundle_adjustment/observation.h"
@@ -90,12 +90,12 @@ class CeresForm {
 class PoseFactorsTest : public ::testing::TestWithParam<double> {
  protected:
   PoseFactorsTest() {
-    SyntheticWindowOptions options;
+    TestWindowOptions options;
     options.fy = GetParam();
     options.num_points = 60;
     options.num_lines = 20;
-    options.wrong_ratio = 0.1;
-    data_ = MakePoseData(MakeSyntheticWindow(options), 4);
+    options.outlier_ratio = 0.1;
+    data_ = MakePoseData(MakeTestWindow(options), 4);
     factors_ = MakeFactors(data_);
   }
   PoseData data_;
@@ -118,7 +118,7 @@ TEST_P(PoseFactorsTest, NormalEquationsMatchCeres) {
 
 TEST_P(PoseFactorsTest, MinimumMatchesCeres) {
   Rigid3 pose = data_.cam_from_world;
-  EXPECT_EQ(MinimizePose(factors_, 50, &pose), PoseTermination::kConverged);
+  EXPECT_EQ(MinimizePose(factors_, 50, &pose), LevenbergMarquardtTermination::kConverged);
   const Rigid3 ceres = CeresForm(factors_, data_.cam_from_world).Solve();
   // A thousandth of the standard deviation of the pose, which is about 1 mm.
   EXPECT_LT(Distance(pose, ceres), 1e-6);
@@ -126,13 +126,13 @@ TEST_P(PoseFactorsTest, MinimumMatchesCeres) {
 
 TEST_P(PoseFactorsTest, ReportsTheIterationLimit) {
   Rigid3 pose = data_.cam_from_world;
-  EXPECT_EQ(MinimizePose(factors_, 1, &pose), PoseTermination::kIterationLimit);
+  EXPECT_EQ(MinimizePose(factors_, 1, &pose), LevenbergMarquardtTermination::kIterationLimit);
 }
 
 TEST_P(PoseFactorsTest, FailsWithUnchangedPoseWhereAFactorIsUndefined) {
   const Rigid3 behind(Eigen::Quaterniond::Identity(), {0.0, 0.0, -10.0});
   Rigid3 pose = behind;
-  EXPECT_EQ(MinimizePose(factors_, 10, &pose), PoseTermination::kFailed);
+  EXPECT_EQ(MinimizePose(factors_, 10, &pose), LevenbergMarquardtTermination::kFailed);
   EXPECT_EQ(pose.params, behind.params);
 }
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "tests/support/factor_checks.h"
-#include "tests/support/synthetic_window.h"
+#include "tests/support/test_window.h"
 #include <Eigen/Cholesky>
 #include <gmock/gmock.h>
 
@@ -18,9 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 constexpr int kFrame = 4;  // of the synthetic window
 
-Rigid3 Truth(const SyntheticWindow& window) {
-  return window.truth.keyframes[kFrame].cam_from_world;
-}
+Rigid3 Truth(const TestWindow& window) { return window.truth.keyframes[kFrame].cam_from_world; }
 
 // Normalised estimation error squared: chi-square with six degrees of freedom if the covariance is
 // consistent.
@@ -33,8 +31,8 @@ double Nees(const Rigid3& estimate, const PoseSummary& summary, const Rigid3& tr
 // The parameter is fy.
 class PoseOptimizationTest : public ::testing::TestWithParam<double> {
  protected:
-  SyntheticWindowOptions Scene() const {
-    SyntheticWindowOptions options;
+  TestWindowOptions Scene() const {
+    TestWindowOptions options;
     options.fy = GetParam();
     return options;
   }
@@ -42,9 +40,9 @@ class PoseOptimizationTest : public ::testing::TestWithParam<double> {
 INSTANTIATE_TEST_SUITE_P(FocalLength, PoseOptimizationTest, ::testing::Values(525.0, -480.0));
 
 TEST_P(PoseOptimizationTest, RecoversThePoseFromExactMatches) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const TestWindow window = MakeTestWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
   const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   EXPECT_TRUE(summary.usable);
@@ -55,9 +53,9 @@ TEST_P(PoseOptimizationTest, RecoversThePoseFromExactMatches) {
 }
 
 TEST_P(PoseOptimizationTest, RecoversThePoseFromPixelsOfOneKind) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const TestWindow window = MakeTestWindow(scene);
   for (const bool points : {true, false}) {
     PoseOptions options;
     options.point_reprojection.enabled = points;
@@ -74,14 +72,14 @@ TEST_P(PoseOptimizationTest, IsNotUsableWithDepthsOfPointsOnly) {
   PoseOptions options;
   options.point_reprojection.enabled = options.line_reprojection.enabled = false;
   options.line_depth.enabled = false;
-  PoseData data = MakePoseData(MakeSyntheticWindow(Scene()), kFrame);
+  PoseData data = MakePoseData(MakeTestWindow(Scene()), kFrame);
   EXPECT_FALSE(OptimizePose(options, &data).usable);
 }
 
 TEST_P(PoseOptimizationTest, ToleratesNoiseAndOutliers) {
-  SyntheticWindowOptions scene = Scene();
-  scene.wrong_ratio = 0.3;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  TestWindowOptions scene = Scene();
+  scene.outlier_ratio = 0.3;
+  const TestWindow window = MakeTestWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
   const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   ASSERT_TRUE(summary.usable);
@@ -95,13 +93,13 @@ TEST_P(PoseOptimizationTest, ToleratesNoiseAndOutliers) {
     good += !wrong;
     kept += inlier;
   };
-  for (size_t i = 0; i < window.wrong_points.size(); ++i) {
+  for (size_t i = 0; i < window.point_outliers.size(); ++i) {
     if (window.truth.point_observations[i].keyframe != window.truth.keyframes[kFrame].id) continue;
-    count(window.wrong_points[i], data.points[point++].inlier);
+    count(window.point_outliers[i], data.points[point++].inlier);
   }
-  for (size_t i = 0; i < window.wrong_lines.size(); ++i) {
+  for (size_t i = 0; i < window.line_outliers.size(); ++i) {
     if (window.truth.line_observations[i].keyframe != window.truth.keyframes[kFrame].id) continue;
-    count(window.wrong_lines[i], data.lines[line++].inlier);
+    count(window.line_outliers[i], data.lines[line++].inlier);
   }
   // The chi-square test rejects 1 % of the good matches.
   EXPECT_GE(kept, 0.96 * good);
@@ -109,9 +107,9 @@ TEST_P(PoseOptimizationTest, ToleratesNoiseAndOutliers) {
 }
 
 TEST_P(PoseOptimizationTest, InflatesTheSigmasOfANoisyFrame) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 1.8;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const TestWindow window = MakeTestWindow(scene);
   const auto inlier_ratio = [&](double max_frame_noise) {
     PoseOptions options;
     options.max_frame_noise = max_frame_noise;
@@ -125,9 +123,9 @@ TEST_P(PoseOptimizationTest, InflatesTheSigmasOfANoisyFrame) {
 }
 
 TEST_P(PoseOptimizationTest, ReclassifiesEarlierOutliers) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const TestWindow window = MakeTestWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
   // The prediction is so wrong that many matches are outliers after a round of one iteration.
   data.cam_from_world = Moved(Truth(window), {0.03, 0.06, 0.03}, {0.1, -0.05, 0.15});
@@ -150,9 +148,9 @@ TEST_P(PoseOptimizationTest, ReclassifiesEarlierOutliers) {
 }
 
 TEST_P(PoseOptimizationTest, KeepsObservationsWithAWrongDepth) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const TestWindow window = MakeTestWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
   for (int i = 0; i < 40; ++i) data.points[i].inverse_depth += 0.1;
   for (int i = 0; i < 8; ++i) data.lines[i].depth.start += 0.1;
@@ -164,9 +162,9 @@ TEST_P(PoseOptimizationTest, KeepsObservationsWithAWrongDepth) {
 }
 
 TEST_P(PoseOptimizationTest, RejectsMatchesBehindTheCamera) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const TestWindow window = MakeTestWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
   data.points[3].position.z() = -2.0;
   data.lines[5].map_segment.end.z() = -2.0;
@@ -180,11 +178,11 @@ TEST_P(PoseOptimizationTest, RejectsMatchesBehindTheCamera) {
 }
 
 // Mean NEES over `runs` windows with different noise.
-double MeanNees(SyntheticWindowOptions scene, int runs) {
+double MeanNees(TestWindowOptions scene, int runs) {
   double sum = 0.0;
   for (int run = 0; run < runs; ++run) {
     scene.seed = 1000 + run;
-    const SyntheticWindow window = MakeSyntheticWindow(scene);
+    const TestWindow window = MakeTestWindow(scene);
     PoseData data = MakePoseData(window, kFrame);
     const PoseSummary summary = OptimizePose(PoseOptions(), &data);
     EXPECT_TRUE(summary.usable) << run;
@@ -196,7 +194,7 @@ double MeanNees(SyntheticWindowOptions scene, int runs) {
 TEST_P(PoseOptimizationTest, HasAConsistentCovariance) {
   // 200 times the mean is chi-square with 1200 degrees of freedom: the 99 % interval of the mean is
   // 6 +- 2.576 sqrt(2 * 6 / 200).
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.num_keyframes = 6;
   scene.num_points = 60;
   scene.num_lines = 15;
@@ -206,7 +204,7 @@ TEST_P(PoseOptimizationTest, HasAConsistentCovariance) {
 TEST_P(PoseOptimizationTest, HasAConservativeCovarianceFromLines) {
   // Where map lines extend beyond the observed segment, the two rows of a line are anti-correlated.
   // The factor neglects this, so that the covariance is somewhat too large, never too small.
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.num_keyframes = 6;
   scene.num_points = 0;
   scene.num_lines = 25;
@@ -216,10 +214,10 @@ TEST_P(PoseOptimizationTest, HasAConservativeCovarianceFromLines) {
 }
 
 TEST_P(PoseOptimizationTest, IsDeterministic) {
-  SyntheticWindowOptions scene = Scene();
-  scene.wrong_ratio = 0.2;
-  PoseData a = MakePoseData(MakeSyntheticWindow(scene), kFrame);
-  PoseData b = MakePoseData(MakeSyntheticWindow(scene), kFrame);
+  TestWindowOptions scene = Scene();
+  scene.outlier_ratio = 0.2;
+  PoseData a = MakePoseData(MakeTestWindow(scene), kFrame);
+  PoseData b = MakePoseData(MakeTestWindow(scene), kFrame);
   OptimizePose(PoseOptions(), &a);
   OptimizePose(PoseOptions(), &b);
   EXPECT_EQ(a.cam_from_world.params, b.cam_from_world.params);
@@ -235,9 +233,9 @@ void ExpectNotUsable(PoseData data) {
 }
 
 TEST_P(PoseOptimizationTest, IsNotUsableWithTooFewRows) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.has_depth = false;
-  PoseData data = MakePoseData(MakeSyntheticWindow(scene), kFrame);
+  PoseData data = MakePoseData(MakeTestWindow(scene), kFrame);
   data.lines.clear();
   data.points.resize(2);
   ExpectNotUsable(data);
@@ -246,9 +244,9 @@ TEST_P(PoseOptimizationTest, IsNotUsableWithTooFewRows) {
 }
 
 TEST_P(PoseOptimizationTest, RecoversThePoseFromThreePointsWithDepth) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  const TestWindow window = MakeTestWindow(scene);
   PoseData data = MakePoseData(window, kFrame);
   data.lines.clear();
   data.points.resize(3);
@@ -258,9 +256,9 @@ TEST_P(PoseOptimizationTest, RecoversThePoseFromThreePointsWithDepth) {
 
 TEST_P(PoseOptimizationTest, IsNotUsableWithParallelLinesOnly) {
   // Lines along x do not constrain the translation along x.
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  PoseData data = MakePoseData(MakeSyntheticWindow(scene), kFrame);
+  PoseData data = MakePoseData(MakeTestWindow(scene), kFrame);
   data.points.clear();
   std::vector<PoseData::Line> along_x;
   for (size_t i = 0; i < data.lines.size(); i += 3) along_x.push_back(data.lines[i]);
@@ -270,9 +268,9 @@ TEST_P(PoseOptimizationTest, IsNotUsableWithParallelLinesOnly) {
 }
 
 TEST_P(PoseOptimizationTest, IsNotUsableWithOneRepeatedPoint) {
-  SyntheticWindowOptions scene = Scene();
+  TestWindowOptions scene = Scene();
   scene.noise = 0.0;
-  PoseData data = MakePoseData(MakeSyntheticWindow(scene), kFrame);
+  PoseData data = MakePoseData(MakeTestWindow(scene), kFrame);
   data.lines.clear();
   data.points.assign(20, data.points[0]);
   ExpectNotUsable(data);
@@ -287,7 +285,7 @@ TEST(PoseOptions, RejectsFrameNoiseBelowOne) {
 }
 
 TEST_P(PoseOptimizationTest, NamesTheInvalidMatch) {
-  const PoseData good = MakePoseData(MakeSyntheticWindow(Scene()), kFrame);
+  const PoseData good = MakePoseData(MakeTestWindow(Scene()), kFrame);
   const auto message = [](PoseData data, const PoseOptions& options = PoseOptions()) {
     try {
       OptimizePose(options, &data);
@@ -311,10 +309,10 @@ TEST_P(PoseOptimizationTest, NamesTheInvalidMatch) {
   EXPECT_THAT(message(bad), HasSubstr("point 10: inverse_depth_sigma must be positive"));
   bad = good;
   bad.points[10].inverse_depth = -1.0;
-  EXPECT_THAT(message(bad), HasSubstr("point 10: inverse_depth must not be negative"));
+  EXPECT_THAT(message(bad), HasSubstr("point 10: inverse_depth must be in [0, 1e9]"));
   bad = good;
   bad.lines[3].map_segment.end = bad.lines[3].map_segment.start;
-  EXPECT_THAT(message(bad), HasSubstr("line 3: segment has no length"));
+  EXPECT_THAT(message(bad), HasSubstr("line 3: segment has zero length"));
   bad = good;
   bad.lines[4].sigma = -1.0;
   EXPECT_THAT(message(bad), HasSubstr("line 4: sigma must be positive"));
@@ -323,7 +321,7 @@ TEST_P(PoseOptimizationTest, NamesTheInvalidMatch) {
   EXPECT_THAT(message(bad), HasSubstr("line 5: depth covariance is not positive definite"));
   bad = good;
   bad.cam_from_world.params.setZero();
-  EXPECT_THAT(message(bad), HasSubstr("prediction: rotation is not unit"));
+  EXPECT_THAT(message(bad), HasSubstr("prediction: rotation is not a unit quaternion"));
   bad = good;
   bad.camera.fx = 0.0;
   EXPECT_THAT(message(bad), HasSubstr("fx"));

@@ -12,6 +12,7 @@
 
 #include "msc_vo/config/option_list.h"
 #include "msc_vo/synthetic/window/synthetic_window.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -245,6 +246,9 @@ TEST_F(WindowFileTest, ErrorsNameLineAndFix) {
   expect(" 641 ", " ", "found 5 fields behind 'camera'; complete the line");
   expect(" 641 ", " 641 1 ", "expected 'camera FX FY CX CY WIDTH HEIGHT', found 7 fields");
   expect("parallel.huber", "paralel.huber", "did you mean 'mapping.window.parallel.huber'?");
+  expect(
+      "line_endpoint_prior ", "line_endpoint_prior ",
+      "unknown option 'mapping.window.line_endpoint_prior'; remove the line to take the defaults");
   expect("option mapping", "option x mapping", "expected 'option NAME VALUE'");
   expect("reject_chi2_2 ", "reject_chi2_2 x", "must be a number, not 'x9.21'");
   const std::string end = text.substr(text.rfind("end "));

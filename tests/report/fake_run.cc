@@ -49,7 +49,7 @@ ReportData MakeFakeRun(int num_frames) {
   data.command_line = "msc_vo replay eight --out eight-out";
   data.options_text = "mode: pl-vo-depth\n";
   data.numbers = {{"APE RMSE", "12.3 mm", "after SE(3) alignment"}, {"Coverage", "95 %", ""}};
-  data.stage_names = {"points", "lines", "depth", "matching", "pose"};
+  data.stages = {{"points", false}, {"lines", false}, {"features"}, {"matching"}, {"pose"}};
   std::mt19937 random(1);
   std::normal_distribution<double> noise;
   for (int i = 0; i < num_frames; ++i) {
@@ -69,9 +69,11 @@ ReportData MakeFakeRun(int num_frames) {
     frame.num_inlier_points =
         frame.status == ReportStatus::kTracked ? 300 + static_cast<int>(40 * noise(random)) : 8;
     frame.num_inlier_lines = 60 + static_cast<int>(8 * noise(random));
-    for (const double mean : {5.0, 9.0, 1.5, 3.0, 2.0}) {
+    for (const double mean : {5.0, 9.0, 10.0, 3.0, 2.0}) {
       frame.stage_ms.push_back(mean * (1.0 + 0.1 * std::abs(noise(random))));
-      frame.tracking_ms += frame.stage_ms.back();
+      if (data.stages[frame.stage_ms.size() - 1].is_stacked) {
+        frame.tracking_ms += frame.stage_ms.back();
+      }
     }
     frame.tracking_ms += 0.5;
     frame.mapping_ms = frame.is_keyframe ? 40.0 + 5.0 * std::abs(noise(random)) : 0.0;

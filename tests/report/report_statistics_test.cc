@@ -35,8 +35,8 @@ TEST(SummarizeStage, IgnoresWhatIsNotFiniteAndSurvivesNothing) {
 
 TEST(SummarizeStages, CountsMappingOverKeyframeStepsOnly) {
   const ReportData data = MakeFakeRun(120);
-  const auto stages = SummarizeStages(data.stage_names, data.frames);
-  ASSERT_EQ(stages.size(), data.stage_names.size() + 2);
+  const auto stages = SummarizeStages(data.stages, data.frames);
+  ASSERT_EQ(stages.size(), data.stages.size() + 2);
   EXPECT_EQ(stages.front().name, "points");
   EXPECT_EQ(stages.front().count, 120);
   EXPECT_EQ(stages.back().count, 10);

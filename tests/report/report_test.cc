@@ -14,7 +14,10 @@
 namespace msc_vo {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::Gt;
 using ::testing::HasSubstr;
+using ::testing::Lt;
 using ::testing::Not;
 
 std::string ReportOf(const ReportData& data) {
@@ -63,7 +66,7 @@ TEST(Report, EscapesEveryText) {
   const std::string evil = "<b>&\"";
   data.title = data.version = data.command_line = data.options_text = evil;
   data.numbers = {{evil, evil, evil}};
-  data.stage_names[0] = evil;
+  data.stages[2].name = evil;
   const std::string html = ReportOf(data);
   EXPECT_THAT(html, Not(HasSubstr("<b>")));
   // title, h1, command line, three of the number, options, version; stage: legend and table.
@@ -91,6 +94,63 @@ TEST(Report, SaysNothingOfATruthThatIsNotThere) {
   const std::string html = ReportOf(data);
   EXPECT_THAT(html, Not(HasSubstr("truth</li>")));
   EXPECT_THAT(html, Not(HasSubstr("Position error")));
+}
+
+TEST(Report, LegendsHoldWhatOccursAndNothingElse) {
+  const std::string mixed = ReportOf(MakeFakeRun(100));
+  EXPECT_THAT(mixed, AllOf(HasSubstr("</svg>weak</li>"), HasSubstr("</svg>lost</li>"),
+                           HasSubstr("</svg>map lines along Manhattan axis 1</li>"),
+                           HasSubstr("</svg>map lines along Manhattan axis 3</li>"),
+                           Not(HasSubstr("</svg>dropped</li>")), Not(HasSubstr("of no axis"))));
+  const std::string good = ReportOf(MakeFakeRun(40));
+  EXPECT_THAT(good, AllOf(HasSubstr("</svg>tracked</li>"), Not(HasSubstr("</svg>weak</li>")),
+                          Not(HasSubstr("</svg>lost</li>"))));
+}
+
+// The highest point of the area of that class in the drawing, whose y points down.
+double TopOfArea(const std::string& html, const std::string& css_class) {
+  const std::string opening = "<polygon class=\"" + css_class + "\" points=\"";
+  const size_t begin = html.find(opening) + opening.size();
+  std::istringstream text(html.substr(begin, html.find('"', begin) - begin));
+  double x = 0.0, y = 0.0, top = std::numeric_limits<double>::infinity();
+  char comma = 0;
+  while (text >> x >> comma >> y) top = std::min(top, y);
+  return top;
+}
+
+TEST(Report, StagesThatRunSideBySideAreNotStacked) {
+  ReportData data = MakeFakeRun(10);
+  data.stages = {{"left", false}, {"right", false}, {"both"}, {"rest"}};
+  for (ReportFrame& frame : data.frames) {
+    frame.stage_ms = {9.0, 8.0, 9.5, 0.5};
+    frame.tracking_ms = 10.0;
+  }
+  const std::string html = ReportOf(data);
+  EXPECT_THAT(html, AllOf(HasSubstr("</svg>both</li>"), HasSubstr("</svg>rest</li>"),
+                          Not(HasSubstr("</svg>left</li>")), HasSubstr("<td>left</td>")));
+  const std::regex whole("class=\"curve whole\" points=\"[0-9.]+,([0-9.]+)");
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(html, match, whole));
+  EXPECT_NEAR(TopOfArea(html, "stage-1"), std::stod(match[1]), 0.11);
+  EXPECT_GT(TopOfArea(html, "stage-0"), std::stod(match[1]) + 1.0);
+}
+
+TEST(Report, ShowsTheMapAroundACameraThatHardlyMoves) {
+  ReportData data = MakeFakeRun(40);
+  for (ReportFrame& frame : data.frames) frame.world_from_cam.translation() *= 0.01;
+  for (ReportTruthPose& pose : data.truth) pose.position *= 0.01;
+  const std::string html = ReportOf(data);
+  // All edges of the room and of the cupboard in it, at places inside of the drawing.
+  const std::regex segment("M([0-9.-]+),([0-9.-]+)L([0-9.-]+),([0-9.-]+)");
+  const size_t begin = html.find("class=\"map-line axis-0\" d=\"M", html.find("Top view"));
+  const std::string drawn = html.substr(begin, html.find("<polyline", begin) - begin);
+  int num_segments = 0;
+  for (auto it = std::sregex_iterator(drawn.begin(), drawn.end(), segment);
+       it != std::sregex_iterator(); ++it, ++num_segments) {
+    for (const int x : {1, 3}) EXPECT_THAT(std::stod((*it)[x]), AllOf(Gt(0.0), Lt(600.0)));
+    for (const int y : {2, 4}) EXPECT_THAT(std::stod((*it)[y]), AllOf(Gt(0.0), Lt(460.0)));
+  }
+  EXPECT_EQ(num_segments, 24);
 }
 
 TEST(Report, SaysWhenAllWasTracked) {

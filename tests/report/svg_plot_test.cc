@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -95,6 +96,26 @@ TEST(SvgPlot, EqualAxesHaveOneScaleAndContainBothRanges) {
   EXPECT_GE(plot.x_range().max, 1.0);
   EXPECT_NEAR(plot.y_range().Length(), 10.0, 1e-12);
   EXPECT_NEAR(plot.x_range().min + plot.x_range().max, 0.0, 1e-12);
+}
+
+TEST(SvgPlot, CutsSegmentsAtTheAxes) {
+  SvgPlot plot({600, 460}, {0.0, 1.0}, {0.0, 1.0});
+  using Point = Eigen::Vector2d;
+  plot.AddSegments({{Point(-1.0, 0.5), Point(3.0, 0.5)},    // through
+                    {Point(0.5, 0.5), Point(0.5, 9.0)},     // out of the top
+                    {Point(-1.0, 0.5), Point(0.5, 2.0)},    // past the corner
+                    {Point(-1.0, -1.0), Point(-1.0, 2.0)}}  // beside
+                   ,
+                   "segments");
+  const auto text = [&plot](double x, double y) {
+    std::ostringstream out;
+    const Point p = plot.ToDrawing({x, y});
+    out << std::fixed << std::setprecision(1) << p.x() << ',' << p.y();
+    return out.str();
+  };
+  EXPECT_THAT(plot.ToString("test"),
+              HasSubstr("class=\"segments\" d=\"M" + text(0, 0.5) + 'L' + text(1, 0.5) + 'M' +
+                        text(0.5, 0.5) + 'L' + text(0.5, 1) + "\""));
 }
 
 TEST(SvgPlot, LeavesOutWhatIsNotFinite) {

@@ -79,7 +79,8 @@ TEST(Benchmark, WritesTables) {
                       "| d                   | failed |  500.00 |\n"
                       "| e                   | 700.00 | not run |\n"
                       "| geometric mean of 2 |   2.00 |    1.00 |\n"
-                      "| ratio to old        |  1.000 |   0.500 |\n"),
+                      "| ratio to old        |  1.000 |   0.500 |\n"
+                      "\nNot in the mean, as a run failed: d.\n"),
             HasSubstr("## Mode new\n"), HasSubstr(" 75.0 | 1 lost |"), HasSubstr(" 50.0 |"),
             HasSubstr("- d, old: unreadable / indeed\n\n")));
 }

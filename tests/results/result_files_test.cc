@@ -9,6 +9,7 @@
 
 #include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -70,6 +71,33 @@ TEST_F(ResultFilesTest, SummarizesStatusesSpansAndStages) {
   EXPECT_EQ(mapping.mean, 40.0);
 }
 
+TEST_F(ResultFilesTest, SaysWhyFramesHaveNoPose) {
+  OdometryResult result = Result();
+  result.frames[2].num_lines = 0;
+  result.frames[2].image = {90.0, 40.0, 0.0};
+  const RunSummary summary = Summarize(result);
+  EXPECT_EQ(summary.num_estimated, 3);
+  EXPECT_FALSE(TrackingFailed(summary));
+  EXPECT_EQ(DescribeLosses(summary), "1 black or uniform, 1 without depth");
+  const nlohmann::json json = nlohmann::json::parse(FormatSummary(summary, {}));
+  EXPECT_EQ(json["frames"]["loss_causes"]["uniform_image"], 1);
+  EXPECT_EQ(json["frames"]["loss_causes"]["no_depth"], 1);
+  EXPECT_EQ(json["frames"]["loss_causes"]["no_match"], 0);
+}
+
+TEST_F(ResultFilesTest, ARunThatTrackedLessThanHalfHasFailed) {
+  OdometryResult result = Result();
+  result.frames[4].status = TrackingStatus::kLost;  // two of five are left
+  EXPECT_TRUE(TrackingFailed(Summarize(result)));
+  EXPECT_EQ(DescribeFailure(Summarize(result)),
+            "tracking failed: 2 of 5 images have an estimated pose, at least 50 % are needed; the "
+            "others: 3 black or uniform");
+  result.frames[3].status = TrackingStatus::kDropped;  // not looked at: two of four
+  EXPECT_FALSE(TrackingFailed(Summarize(result)));
+  for (FrameResult& frame : result.frames) frame.status = TrackingStatus::kDropped;
+  EXPECT_TRUE(TrackingFailed(Summarize(result)));
+}
+
 TEST_F(ResultFilesTest, AnEmptyRunHasASummaryToo) {
   const RunSummary summary = Summarize({});
   EXPECT_EQ(summary.num_frames, 0);
@@ -109,6 +137,8 @@ TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
   const std::vector<TimedPose> trajectory = ReadTrajectory(out + "/trajectory.txt");
   ASSERT_EQ(trajectory.size(), 5u);  // a pose for every frame
   EXPECT_EQ(trajectory[4].world_from_cam.translation().x(), 4.0);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(trajectory[i].is_estimated, i < 2 || i > 3) << i;
+  EXPECT_THAT(ReadFile(out + "/keyframes.txt"), testing::Not(HasSubstr("not estimated")));
   const nlohmann::json summary = nlohmann::json::parse(ReadFile(out + "/summary.json"));
   EXPECT_EQ(summary["outcome"], "interrupted");
   EXPECT_EQ(summary["frames"]["lost"], 1);
@@ -123,6 +153,20 @@ TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
   EXPECT_EQ(summary["last_window"]["parallel"]["rejected"], 3);
   EXPECT_EQ(summary["options"]["mode"], "msc-vo");
   EXPECT_EQ(summary["options"]["tracking.wide_radius"], 60.0);
+}
+
+TEST_F(ResultFilesTest, WritesTheOptionsInEffect) {
+  RunContext context;
+  context.configuration.odometry.mode = Mode::kPlVo;
+  context.configuration.odometry.mapping.axes.enabled = true;
+  WriteResultFiles(Path("out"), Result(), context);
+  const nlohmann::json summary = nlohmann::json::parse(ReadFile(Path("out/summary.json")));
+  EXPECT_EQ(summary["options"]["mapping.axes.enabled"], false);
+  EXPECT_EQ(summary["options"]["mapping.frame_structure"], "never");
+  EXPECT_EQ(summary["options"]["features.line_depth"], "end-points");
+  const std::string report = ReadFile(Path("out/report.html"));
+  EXPECT_THAT(report, HasSubstr("line_depth: end-points"));
+  EXPECT_THAT(report, HasSubstr("frame_structure: never"));
 }
 
 TEST_F(ResultFilesTest, AFileInTheWayIsAnError) {

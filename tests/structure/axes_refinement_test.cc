@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 // Directions along the axes of `truth` with angular noise `noise` and sigmas `sigma`, radians.
 ManhattanAxesData Observe(const Eigen::Quaterniond& truth, int count, double sigma, double noise,
-                          Random* random) {
+                          RandomGeometry* random) {
   ManhattanAxesData data;
   data.world_from_manhattan = truth;
   for (int i = 0; i < count; ++i) {
@@ -50,7 +50,7 @@ class ManhattanAxesTest : public ::testing::Test {
         (ExpSO3(DegreesToRadians(degrees) * axis) * data->world_from_manhattan).normalized();
   }
   ManhattanAxesOptions options_;
-  Random random_{1};
+  RandomGeometry random_{1};
   Eigen::Quaterniond truth_;
 };
 

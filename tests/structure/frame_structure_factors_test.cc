@@ -67,7 +67,7 @@ class FrameStructureFactorsTest : public ::testing::Test {
 TEST_F(FrameStructureFactorsTest, CostAndGradientMatchCeres) {
   ASSERT_GT(factors_.parallel.size(), 5u);
   ASSERT_GT(factors_.perpendicular.size(), 5u);
-  Random random(3);
+  RandomGeometry random(3);
   for (InverseDepthLineBlock& b : blocks_) {
     b.head<2>() += 0.004 * random.Normal2();
     b.tail<2>() += random.Normal2();

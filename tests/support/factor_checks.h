@@ -23,7 +23,7 @@
 namespace msc_vo {
 
 using CostPtr = std::unique_ptr<ceres::CostFunction>;
-// Values of the parameter blocks, in the factor's order.
+// Values of the parameter blocks in the factor's order.
 using Blocks = std::vector<std::vector<double>>;
 
 inline std::vector<double> Block(const Rigid3& pose) {
@@ -40,7 +40,7 @@ inline std::vector<const double*> Pointers(const Blocks& blocks) {
   return pointers;
 }
 
-// The residual; the evaluation must succeed.
+// Evaluates the residual and expects success.
 inline Eigen::VectorXd Residual(const ceres::CostFunction& cost, const Blocks& blocks) {
   Eigen::VectorXd residual(cost.num_residuals());
   EXPECT_TRUE(cost.Evaluate(Pointers(blocks).data(), residual.data(), nullptr));
@@ -52,7 +52,7 @@ inline bool IsDefined(const ceres::CostFunction& cost, const Blocks& blocks) {
   return cost.Evaluate(Pointers(blocks).data(), residual.data(), nullptr);
 }
 
-// Residual and Jacobians with respect to all ambient numbers.
+// Residual and Jacobians with respect to all ambient coordinates.
 struct Linearization {
   Eigen::VectorXd residual;
   std::vector<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobians;
@@ -68,8 +68,8 @@ inline Linearization Linearize(const ceres::CostFunction& cost, const Blocks& bl
   return at;
 }
 
-// Analytic against numeric derivatives, in tangent space (blocks of seven are poses; of `manifold`,
-// where one is given, the only block).
+// Compares analytic with numeric derivatives in tangent space. Blocks of size 7 are poses;
+// `manifold` is that of the other blocks.
 inline void ExpectGradientsMatch(const ceres::CostFunction& cost, const Blocks& blocks,
                                  const ceres::Manifold* manifold = nullptr) {
   static const Rigid3Manifold pose_manifold;
@@ -78,11 +78,12 @@ inline void ExpectGradientsMatch(const ceres::CostFunction& cost, const Blocks& 
     manifolds.push_back(block.size() == 7 ? &pose_manifold : manifold);
   }
   ceres::NumericDiffOptions options;
-  // Small enough not to leave the functors' domain from any point in view.
+  // Small enough to stay in the domain of the factors.
   options.ridders_relative_initial_step_size = 1e-3;
   const ceres::GradientChecker checker(&cost, &manifolds, options);
   ceres::GradientChecker::ProbeResults results;
-  // Its own verdict is per entry and relative, which an entry that is zero cannot pass.
+  // Probe() compares entries by relative error, which entries that are zero cannot pass. The check
+  // below is relative to the norm of the Jacobian.
   checker.Probe(Pointers(blocks).data(), 1e-6, &results);
   ASSERT_TRUE(results.return_value) << results.error_log;
   ASSERT_EQ(results.local_numeric_jacobians.size(), blocks.size()) << results.error_log;
@@ -93,12 +94,12 @@ inline void ExpectGradientsMatch(const ceres::CostFunction& cost, const Blocks& 
   }
 }
 
-// A cost function with derivatives by hand is the automatic one, number for number.
+// Compares a cost function with analytic derivatives with the automatically differentiated one.
 inline void ExpectSameCostFunction(const ceres::CostFunction& analytic,
                                    const ceres::CostFunction& automatic, const Blocks& blocks) {
   const Linearization a = Linearize(automatic, blocks);
   const Linearization b = Linearize(analytic, blocks);
-  // Relative to the size of the entries: both round differently.
+  // Relative to the norm: the two round differently.
   EXPECT_THAT(b.residual, IsNear(a.residual, 1e-12 * (1e3 + a.residual.norm())));
   EXPECT_THAT(Residual(analytic, blocks), IsNear(a.residual, 1e-12));
   for (size_t i = 0; i < blocks.size(); ++i) {
@@ -107,12 +108,12 @@ inline void ExpectSameCostFunction(const ceres::CostFunction& analytic,
 }
 
 template <typename Factor>
-void ExpectChainRuleMatches(const Factor& factor, const Blocks& blocks) {
+void ExpectAnalyticMatchesAutomatic(const Factor& factor, const Blocks& blocks) {
   ExpectSameCostFunction(AnalyticCostFunction<Factor>(factor), *CostPtr(Factor::Create(factor)),
                          blocks);
 }
 
-// Covariance of samples against the identity, within five standard errors of the estimate.
+// Compares the covariance of samples with the identity, within five standard errors.
 inline void ExpectIdentityCovariance(const std::vector<Eigen::VectorXd>& samples) {
   const auto dim = samples.front().size();
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(dim, dim);
@@ -121,7 +122,7 @@ inline void ExpectIdentityCovariance(const std::vector<Eigen::VectorXd>& samples
   EXPECT_THAT(covariance, IsNear(Eigen::MatrixXd::Identity(dim, dim), tolerance));
 }
 
-// Solves a toy problem to the last digit.
+// Solves a small problem to machine precision.
 inline void SolveToEnd(ceres::Problem* problem) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
@@ -135,24 +136,24 @@ inline void SolveToEnd(ceres::Problem* problem) {
   EXPECT_TRUE(summary.IsSolutionUsable()) << summary.FullReport();
 }
 
-// The pose moved by a rotation vector (radians) and a translation (metres), as Rigid3Manifold does.
+// Adds a rotation vector (radians) and a translation (metres) as Rigid3Manifold does.
 inline Rigid3 Moved(const Rigid3& pose, const Eigen::Vector3d& w, const Eigen::Vector3d& u) {
   return {ExpSO3(w) * pose.rotation(), pose.translation() + u};
 }
 
 inline LineSegment3 Swapped(const LineSegment3& line) { return {line.end, line.start}; }
 
-// Rotation (radians) and translation (metres) between two poses.
+// Norm of the difference of two poses, rotation vector (radians) and translation (metres).
 inline double Distance(const Rigid3& a, const Rigid3& b) {
   Eigen::Matrix<double, 6, 1> difference;
   Rigid3Manifold().Minus(a.params.data(), b.params.data(), difference.data());
   return difference.norm();
 }
 
-// Seeded normal deviates and the like.
-class Random {
+// Seeded random numbers, poses and lines.
+class RandomGeometry {
  public:
-  explicit Random(unsigned seed) : engine_(seed) {}
+  explicit RandomGeometry(unsigned seed) : engine_(seed) {}
   double Normal() { return normal_(engine_); }
   double Uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine_);
@@ -165,7 +166,7 @@ class Random {
     const double x = Normal(), y = Normal(), z = Normal();
     return {x, y, z};
   }
-  // Any rotation, and a translation of about a metre.
+  // A rotation of any size, and a translation of about one metre.
   Rigid3 Pose() {
     const Eigen::Vector3d w = Normal3(), t = Normal3();
     return {ExpSO3(w), t};
@@ -174,12 +175,12 @@ class Random {
     const Eigen::Vector3d start = Normal3(), end = Normal3();
     return {start, end};
   }
-  // A line along d, anywhere.
+  // A line parallel to d at a random position.
   LineSegment3 LineAlong(const Eigen::Vector3d& d) {
     const Eigen::Vector3d start = Normal3();
     return {start, start + Uniform(0.3, 3.0) * d};
   }
-  // A point that the camera sees, in camera coordinates.
+  // A point inside the image, in camera coordinates.
   Eigen::Vector3d InView() {
     const double z = Uniform(0.8, 6.0);
     const double x = Uniform(-0.5, 0.5), y = Uniform(-0.4, 0.4);

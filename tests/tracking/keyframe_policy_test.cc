@@ -63,16 +63,16 @@ TEST(KeyframePolicy, TestsCloseFeaturesSeparately) {
     frame.points[i].inverse_depth = i < 40 ? 1.0 : 0.1;
     frame.points[i].inverse_depth_sigma = 1.425e-3;
   }
-  const auto match = [](int close, int distant) {
-    FrameMatches matches;
-    for (int i = 0; i < close; ++i) matches.points.push_back({i, i, {0, 0, 0}, true});
-    for (int i = 40; i < 40 + distant; ++i) matches.points.push_back({i, i, {0, 0, 0}, true});
-    return matches;
+  const auto matches = [](int close, int distant) {
+    FrameMatches tracked;
+    for (int i = 0; i < close; ++i) tracked.points.push_back({i, i, {0, 0, 0}, true});
+    for (int i = 40; i < 40 + distant; ++i) tracked.points.push_back({i, i, {0, 0, 0}, true});
+    return tracked;
   };
   KeyframePolicy policy{KeyframePolicyOptions()};
-  EXPECT_FALSE(policy.IsDue(frame, match(40, 20)));
-  EXPECT_FALSE(policy.IsDue(frame, match(36, 24)));
-  EXPECT_TRUE(policy.IsDue(frame, match(30, 30)));  // close: 0.75 of the best ratio
+  EXPECT_FALSE(policy.IsDue(frame, matches(40, 20)));
+  EXPECT_FALSE(policy.IsDue(frame, matches(36, 24)));
+  EXPECT_TRUE(policy.IsDue(frame, matches(30, 30)));  // close: 0.75 of the best ratio
 }
 
 TEST(KeyframePolicy, ChecksItsOptions) {

@@ -8,20 +8,20 @@
 #include <limits>
 #include <utility>
 
-#include "msc_vo/bundle_adjustment/internal/schur_complement.h"
+#include "msc_vo/bundle_adjustment/internal/window_step.h"
 
 namespace msc_vo {
 
 namespace {
 
-// Size of the region in which the quadratic model is trusted: the inverse of the relative damping.
-// Rules and constants are those of Ceres, so that both minimisers go the same way.
+// Radius of the trust region, the inverse of the damping relative to the diagonal of the Hessian.
+// Rules and constants are those of Ceres.
 class TrustRegion {
  public:
   double radius() const { return radius_; }
-  bool IsGone() const { return radius_ < 1e-32; }
+  bool IsEmpty() const { return radius_ < 1e-32; }
 
-  // `gain`: decrease of the cost over the model's.
+  // `gain`: ratio of actual to predicted decrease of the cost.
   void Accept(double gain) {
     radius_ = std::min(1e16, radius_ / std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * gain - 1.0, 3)));
     shrinkage_ = 2.0;
@@ -36,83 +36,82 @@ class TrustRegion {
   double shrinkage_ = 2.0;
 };
 
-constexpr double kMinGain = 1e-3;            // a step that gains less is not taken
-constexpr double kFunctionTolerance = 1e-6;  // relative change of the cost at which it has arrived
+constexpr double kMinGain = 1e-3;            // least gain of an accepted step
+constexpr double kFunctionTolerance = 1e-6;  // relative change of the cost at convergence
 
-// Not finite where a term is not.
-double CostAndEquations(const WindowStructure& structure, const WindowTerms& terms,
+// Infinite where a factor is undefined.
+double CostAndEquations(const BlockStructure& structure, const WindowTerms& terms,
                         const WindowState& state, WindowEquations* equations) {
   return Linearize(structure, terms, state, equations) ? equations->cost
                                                        : std::numeric_limits<double>::infinity();
 }
 
-// Landmarks that a step takes behind a camera that sees them, where no term is defined, stay where
-// they were before it: their depth is hardly known, which is no reason to refuse all other steps.
-template <int Points, typename AnySighting, typename Block>
-void KeepInFront(const std::vector<AnySighting>& sightings, const std::vector<int>& unknown,
-                 const WindowState& before, const Block& block, WindowState* moved) {
-  for (const AnySighting& s : sightings) {
-    if (unknown[s.landmark] < 0) continue;
-    double* const landmark = block(moved, s.landmark);
-    const Rigid3 cam_from_world = moved->Pose(s.keyframe);
+// Resets landmarks that a step moved behind a camera that observes them, where their factors are
+// undefined. Their depth is poorly determined, which should not reject the rest of the step.
+template <int Points, typename Observation, typename Block>
+void KeepInFront(const std::vector<Observation>& observations, const std::vector<int>& unknown,
+                 const WindowState& before, const Block& block, WindowState* after) {
+  for (const Observation& o : observations) {
+    if (unknown[o.landmark] < 0) continue;
+    double* const landmark = block(after, o.landmark);
+    const Rigid3 cam_from_world = after->Pose(o.keyframe);
     for (int k = 0; k < Points; ++k) {
       const Eigen::Vector3d x_in_cam = cam_from_world * Eigen::Vector3d(landmark + 3 * k);
       if (x_in_cam.z() >= kMinCameraDepth) continue;
-      std::copy_n(block(&before, s.landmark), 3 * Points, landmark);
+      std::copy_n(block(&before, o.landmark), 3 * Points, landmark);
       break;
     }
   }
 }
 
-WindowState Step(const WindowStructure& structure, const WindowState& state,
-                 const WindowStep& step) {
-  WindowState moved = Moved(structure, state, step);
+WindowState TakeStep(const BlockStructure& structure, const WindowState& state,
+                     const WindowStep& step) {
+  WindowState after = Plus(structure, state, step);
   KeepInFront<1>(
-      structure.point_sightings, structure.point, state,
-      [](auto* s, size_t i) { return s->PointBlock(i); }, &moved);
+      structure.point_observations, structure.point, state,
+      [](auto* s, size_t i) { return s->PointBlock(i); }, &after);
   KeepInFront<2>(
-      structure.line_sightings, structure.line, state,
-      [](auto* s, size_t i) { return s->LineBlock(i); }, &moved);
-  return moved;
+      structure.line_observations, structure.line, state,
+      [](auto* s, size_t i) { return s->LineBlock(i); }, &after);
+  return after;
 }
 
 }  // namespace
 
-MinimizerReport MinimizeWindow(const WindowStructure& structure, const WindowTerms& terms,
-                               int max_iterations, const WindowStageObserver& enter_stage,
-                               WindowState* state) {
+MinimizerReport MinimizeWithBlockSchur(const BlockStructure& structure, const WindowTerms& terms,
+                                       int max_iterations, const WindowStageObserver& enter_stage,
+                                       WindowState* state) {
   const auto enter = [&enter_stage](WindowStage stage) {
     if (enter_stage) enter_stage(stage);
   };
   MinimizerReport report;
   report.schur_structure = "block Schur, " + std::to_string(structure.num_poses) + " poses, " +
                            std::to_string(structure.num_reduced_lines) + " line directions";
-  // Equations at the present state, and at the one that a step leads to.
-  WindowEquations equations, next;
+  WindowEquations equations, next;  // at the state, and after a step
   enter(WindowStage::kLinearize);
   if (!Linearize(structure, terms, *state, &equations)) {
-    report.message = "a term is not defined, or not finite, at the start";
+    report.message = "a factor is undefined or the cost is not finite at the initial state";
     return report;
   }
   report.usable = true;
-  report.message = "as many iterations as allowed";
+  report.message = "iteration limit reached";
   TrustRegion region;
   WindowStep step;
-  for (; report.num_iterations < max_iterations && !region.IsGone(); ++report.num_iterations) {
+  for (; report.num_iterations < max_iterations && !region.IsEmpty(); ++report.num_iterations) {
     enter(WindowStage::kStep);
     if (!SolveStep(structure, equations, region.radius(), &step) || step.model_decrease < 0.0) {
       region.Reject();
       continue;
     }
-    WindowState candidate = Step(structure, *state, step);
+    WindowState candidate = TakeStep(structure, *state, step);
     enter(WindowStage::kLinearize);
-    // No step follows the last one: its derivatives would be of no use.
+    // Derivatives after the last step are not needed.
     const bool is_last = report.num_iterations + 1 == max_iterations;
     const double cost =
         is_last ? Cost(terms, candidate) : CostAndEquations(structure, terms, candidate, &next);
     const double decrease = equations.cost - cost;
     if (std::abs(decrease) <= kFunctionTolerance * equations.cost) {
-      // As Ceres, not taking this last step: what is rejected next may hang on it.
+      // Like Ceres, do not take the last step: outlier rejection may depend on it.
       report.message = "converged";
       break;
     }

@@ -9,21 +9,23 @@
 
 namespace msc_vo {
 
-// How a minimisation of the window's sum ended.
+/// Result of a minimisation.
 struct MinimizerReport {
-  bool usable = false;  // false: the state is of no use
+  bool usable = false;  ///< False: the state must be discarded.
   int num_iterations = 0;
-  std::string schur_structure;  // and what it made of the window
-  std::string message;
+  std::string schur_structure;  ///< Solver and structure of the normal equations.
+  std::string message;          ///< Reason for termination.
 };
 
-// Minimises the sum of `terms` over `state` by Levenberg-Marquardt, in at most `max_iterations`
-// steps: the same steps that Ceres takes with its defaults, to rounding, with linear algebra made
-// for the window (SolveStep). But where a step takes a landmark behind a camera that sees it, the
-// landmark stays and the others move, while Ceres refuses the step. `structure` is that of the
-// terms.
-MinimizerReport MinimizeWindow(const WindowStructure& structure, const WindowTerms& terms,
-                               int max_iterations, const WindowStageObserver& enter_stage,
-                               WindowState* state);
+/// Minimises the cost of `terms` over `state` by Levenberg-Marquardt in at most `max_iterations`
+/// steps. The steps are those of Ceres with default options, up to rounding, with a linear solver
+/// specialised for windows (SolveStep).
+///
+/// One rule differs: where a step moves a landmark behind a camera that observes it, that landmark
+/// keeps its value and the rest of the step is evaluated; Ceres rejects the whole step. `structure`
+/// must be built from `terms`.
+MinimizerReport MinimizeWithBlockSchur(const BlockStructure& structure, const WindowTerms& terms,
+                                       int max_iterations, const WindowStageObserver& enter_stage,
+                                       WindowState* state);
 
 }  // namespace msc_vo

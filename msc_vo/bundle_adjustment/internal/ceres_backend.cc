@@ -19,15 +19,15 @@ namespace {
 
 ceres::Problem::Options ProblemOptions() {
   ceres::Problem::Options options;
-  // Losses and the manifold are shared between blocks.
+  // Losses and the manifold are shared between residual blocks.
   options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  // ValidateWindow has looked already.
+  // ValidateWindow has checked the data.
   options.disable_all_safety_checks = true;
   return options;
 }
 
-// The cost function of a factor with derivatives by hand, of those factors that are many.
+// Cost function with analytic derivatives, where a factor type has one.
 template <typename Factor, int Points, int RowsPerPoint>
 ceres::CostFunction* Analytic(const CameraFactor<Factor, Points, RowsPerPoint>& factor) {
   return new AnalyticCostFunction<Factor>(static_cast<const Factor&>(factor));
@@ -75,7 +75,7 @@ CeresBackend::CeresBackend(const BundleAdjustmentOptions& options, const WindowD
 template <typename Term>
 void CeresBackend::AddTerm(const Term& term) {
   using Factor = typename Term::Factor;
-  std::map<int, ceres::LossFunction*> losses;  // by count: n identical terms have the loss n times
+  std::map<int, ceres::LossFunction*> losses;  // by multiplicity
   const auto loss = [&](int count) -> ceres::LossFunction* {
     if (term.loss.threshold == 0.0 && count == 1) return nullptr;
     ceres::LossFunction*& it = losses[count];
@@ -95,11 +95,10 @@ void CeresBackend::AddTerm(const Term& term) {
   }
 }
 
-// Shifting or turning the whole window changes no residual of what it sees or of pairs: six numbers
-// are free. They are held by the poses of the fixed keyframes (the observers outside the window,
-// usually) or by priors on poses, and by nothing else: no constant coordinate. Alignments to axes
-// tell of the rotation what a compass would, softly; they do not hold it. A free pose moves on
-// Rigid3Manifold.
+// A rigid motion of the whole window leaves observation and pair residuals unchanged: six degrees
+// of freedom. They are fixed by constant keyframe poses, usually observers outside the window, or
+// by pose priors. Axis alignments constrain the rotation softly and are not counted on. Poses are
+// on Rigid3Manifold.
 void CeresBackend::HoldGauge() {
   const auto hold = [this](bool fixed, double* block) {
     if (fixed && problem_.HasParameterBlock(block)) problem_.SetParameterBlockConstant(block);
@@ -129,8 +128,10 @@ std::shared_ptr<ceres::ParameterBlockOrdering> CeresBackend::EliminationOrdering
   };
   collect(terms_.parallel);
   collect(terms_.perpendicular);
-  const std::vector<bool> keep = LinesInReducedSystem(static_cast<int>(data_.lines.size()), pairs);
-  for (size_t i = 0; i < data_.lines.size(); ++i) add(state_->LineBlock(i), keep[i] ? 1 : 0);
+  const std::vector<bool> in_reduced_system =
+      LinesInReducedSystem(static_cast<int>(data_.lines.size()), pairs);
+  for (size_t i = 0; i < data_.lines.size(); ++i)
+    add(state_->LineBlock(i), in_reduced_system[i] ? 1 : 0);
   for (size_t i = 0; i < data_.keyframes.size(); ++i) add(state_->PoseBlock(i), 1);
   return ordering;
 }
@@ -145,7 +146,7 @@ MinimizerReport CeresBackend::Minimize(int max_iterations) {
     options.sparse_linear_algebra_library_type = SparseLibrary(options_.solver);
   }
   if (options_.explicit_ordering) options.linear_solver_ordering = EliminationOrdering();
-  // One thread: more would add up in another order, and gain nothing at this size.
+  // Several threads would change the order of summation, without gain at this size.
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;

@@ -15,19 +15,19 @@
 
 namespace msc_vo {
 
-// Whether the Ceres that we are linked with can do it.
+/// Whether the linked Ceres supports a solver.
 bool IsAvailable(BundleAdjustmentSolver solver);
 
-// The sum of factors of a window as a Ceres problem over the numbers in `state`. All arguments must
-// outlive it.
+/// Ceres problem with the terms of a window over the parameter blocks in `state`. All arguments
+/// must outlive it.
 class CeresBackend {
  public:
   CeresBackend(const BundleAdjustmentOptions& options, const WindowData& data,
                const WindowTerms& terms, WindowState* state);
 
   ceres::Problem* problem() { return &problem_; }
-  // Landmarks are eliminated first (group 0), then poses (group 1): the Schur complement. Lines of
-  // one pair cannot both be in group 0 (LinesInReducedSystem).
+  /// Elimination groups of the Schur complement: points and most lines in group 0; poses, and lines
+  /// that LinesInReducedSystem keeps, in group 1.
   std::shared_ptr<ceres::ParameterBlockOrdering> EliminationOrdering() const;
 
   MinimizerReport Minimize(int max_iterations);
@@ -43,7 +43,7 @@ class CeresBackend {
   WindowState* state_;
   Rigid3Manifold pose_manifold_;
   std::vector<std::unique_ptr<ceres::LossFunction>> losses_;
-  ceres::Problem problem_;  // last: it goes before what it points to
+  ceres::Problem problem_;  // last, so that it is destroyed before the objects it refers to
 };
 
 }  // namespace msc_vo

@@ -10,7 +10,7 @@
 namespace msc_vo {
 
 std::vector<bool> LinesInReducedSystem(int num_lines, const std::vector<WindowIndex::Pair>& pairs) {
-  // Those of line i are partners[begins[i]] to partners[begins[i + 1] - 1].
+  // The partners of line i are partners[begins[i]] to partners[begins[i + 1] - 1].
   std::vector<int> begins(num_lines + 1, 0);
   for (const auto& [a, b] : pairs) {
     ++begins[a + 1];
@@ -27,12 +27,12 @@ std::vector<bool> LinesInReducedSystem(int num_lines, const std::vector<WindowIn
   by_degree.reserve(num_lines);
   for (int i = 0; i < num_lines; ++i) by_degree.emplace_back(begins[i + 1] - begins[i], i);
   std::sort(by_degree.begin(), by_degree.end());
-  std::vector<bool> keep(num_lines, false);
+  std::vector<bool> in_reduced_system(num_lines, false);
   for (const auto& [degree, line] : by_degree) {
-    if (keep[line]) continue;
-    for (int k = begins[line]; k < begins[line + 1]; ++k) keep[partners[k]] = true;
+    if (in_reduced_system[line]) continue;
+    for (int k = begins[line]; k < begins[line + 1]; ++k) in_reduced_system[partners[k]] = true;
   }
-  return keep;
+  return in_reduced_system;
 }
 
 }  // namespace msc_vo

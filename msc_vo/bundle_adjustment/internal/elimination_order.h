@@ -9,10 +9,14 @@
 
 namespace msc_vo {
 
-// Eliminating a line binds all that share a factor with it, so that of two paired lines one at
-// least must stay in the reduced system, whose cost grows with its cube. Lines with few partners
-// are eliminated first (ties by position), each keeping its partners: where pairs lead to a few
-// well-known lines, only those are left. Returns, for each of `num_lines`, whether it stays.
+/// Chooses the lines that are not eliminated by the Schur complement. Returns a flag for each of
+/// `num_lines` lines: true if the line stays in the reduced system.
+///
+/// Eliminating a line couples all parameter blocks that share a factor with it, so of two paired
+/// lines at least one must stay; the cost of the reduced system grows with the cube of its size.
+/// Lines are eliminated greedily in ascending order of their number of pairs (ties in the order of
+/// the data), each keeping its partners. Pairs with a few well-observed lines, as the mapper
+/// selects them, thus leave only those lines in the reduced system.
 std::vector<bool> LinesInReducedSystem(int num_lines, const std::vector<WindowIndex::Pair>& pairs);
 
 }  // namespace msc_vo

@@ -7,13 +7,15 @@
 
 namespace msc_vo {
 
-// Every observation in front of its camera takes part at first; the others are counted.
-WindowInlierMask AllInFront(const BundleAdjustmentOptions& options, const WindowIndex& index,
-                            const WindowData& data, int* num_behind);
+/// Inlier mask before the first solve: all observations in front of their camera, all pairs and
+/// alignments. Adds the number of the other observations to *num_behind.
+WindowInlierMask InitialInlierMask(const BundleAdjustmentOptions& options, const WindowIndex& index,
+                                   const WindowData& data, int* num_behind);
 
-// Chi-square test, at `state`, of everything that takes part; what fails is counted in *summary.
-void ClassifyAll(const BundleAdjustmentOptions& options, const WindowTerms& terms,
-                 const WindowState& state, WindowInlierMask* inlier_mask,
-                 BundleAdjustmentSummary* summary);
+/// Removes from *inlier_mask what fails the chi-square test at `state`, and adds it to the
+/// num_rejected counts of *summary.
+void RejectOutliers(const BundleAdjustmentOptions& options, const WindowTerms& terms,
+                    const WindowState& state, WindowInlierMask* inlier_mask,
+                    BundleAdjustmentSummary* summary);
 
 }  // namespace msc_vo

@@ -14,11 +14,11 @@ namespace {
 constexpr int kPointParameters = 3;
 constexpr int kLineParameters = 4;
 
-// What the observations of one landmark say.
-struct Evidence {
+// Sums over the observations of one landmark.
+struct ResidualSums {
   double chi2 = 0.0;
   int num_residuals = 0;
-  // Of depths measured too far, metres, with their inverse variances as weights.
+  // Weighted sum and sum of weights of measured minus true depth; weights are inverse variances.
   double offset_sum = 0.0;
   double offset_weight = 0.0;
 
@@ -32,54 +32,57 @@ struct Evidence {
   }
 };
 
-std::vector<Evidence> OfPoints(const WindowIndex& index, const WindowInlierMask& inlier_mask,
-                               const WindowState& state, const WindowData& data) {
-  std::vector<Evidence> evidence(data.points.size());
+std::vector<ResidualSums> SumPointResiduals(const WindowIndex& index,
+                                            const WindowInlierMask& inlier_mask,
+                                            const WindowState& state, const WindowData& data) {
+  std::vector<ResidualSums> sums(data.points.size());
   for (size_t i = 0; i < index.points.size(); ++i) {
     const auto& [keyframe, point] = index.points[i];
     const WindowData::PointObservation& o = data.point_observations[i];
     const Eigen::Vector3d in_cam = state.Pose(keyframe) * state.Point(point);
     if (!inlier_mask.points[i].reprojection || !IsInFront(in_cam)) continue;
     const Eigen::Vector2d pixels = data.camera.Project(in_cam) - o.pixel;
-    evidence[point].AddResiduals(pixels.squaredNorm() / (o.sigma * o.sigma), 2);
+    sums[point].AddResiduals(pixels.squaredNorm() / (o.sigma * o.sigma), 2);
     if (!inlier_mask.points[i].depth) continue;
     const double depth = (1.0 / in_cam.z() - o.inverse_depth) / o.inverse_depth_sigma;
-    evidence[point].AddResiduals(depth * depth, 1);
+    sums[point].AddResiduals(depth * depth, 1);
   }
-  return evidence;
+  return sums;
 }
 
-// Of depth one row, in the middle of the observed segment: the errors of its ends are one error.
-std::vector<Evidence> OfLines(const WindowIndex& index, const WindowInlierMask& inlier_mask,
-                              const WindowState& state, const WindowData& data) {
-  std::vector<Evidence> evidence(data.lines.size());
+// The depth residual of a line is that at the middle of the observed segment, one row, because the
+// depth errors at its ends are correlated.
+std::vector<ResidualSums> SumLineResiduals(const WindowIndex& index,
+                                           const WindowInlierMask& inlier_mask,
+                                           const WindowState& state, const WindowData& data) {
+  std::vector<ResidualSums> sums(data.lines.size());
   for (size_t i = 0; i < index.lines.size(); ++i) {
     const auto& [keyframe, line] = index.lines[i];
     const WindowData::LineObservation& o = data.line_observations[i];
     const LineSegment3 in_cam = state.Pose(keyframe) * state.Line(line);
     if (!inlier_mask.lines[i].reprojection || !IsInFront(in_cam)) continue;
     const Eigen::Vector2d pixels = LineResidual(data.camera, o.segment, o.sigma, in_cam);
-    evidence[line].AddResiduals(pixels.squaredNorm(), 2);
+    sums[line].AddResiduals(pixels.squaredNorm(), 2);
     if (!inlier_mask.lines[i].depth) continue;
-    const WindowData::Line& before = data.lines[line];
+    const WindowData::Line& previous = data.lines[line];
     const double inverse_depth = InverseDepthAt(data.camera, o.segment, in_cam, 0.5);
     const double sigma = o.depth.SigmaAt(0.5);
-    const double depth = (inverse_depth - Nearer(o.depth, before.depth_offset).At(0.5)) / sigma;
-    evidence[line].AddResiduals(depth * depth, 1);
+    const double depth = (inverse_depth - Nearer(o.depth, previous.depth_offset).At(0.5)) / sigma;
+    sums[line].AddResiduals(depth * depth, 1);
     const double z = 1.0 / inverse_depth;
-    evidence[line].AddOffset(1.0 / o.depth.At(0.5) - z, z * z * before.noise * sigma);
+    sums[line].AddOffset(1.0 / o.depth.At(0.5) - z, z * z * previous.noise * sigma);
   }
-  return evidence;
+  return sums;
 }
 
-double Noise(const LandmarkNoiseOptions& options, const Evidence& evidence, int num_parameters) {
-  const double freedom = std::max(0, evidence.num_residuals - num_parameters);
-  return std::sqrt((options.prior + evidence.chi2) / (options.prior + freedom));
+double Noise(const LandmarkNoiseOptions& options, const ResidualSums& sums, int num_parameters) {
+  const double degrees_of_freedom = std::max(0, sums.num_residuals - num_parameters);
+  return std::sqrt((options.prior + sums.chi2) / (options.prior + degrees_of_freedom));
 }
 
-double DepthOffset(const LandmarkNoiseOptions& options, const Evidence& evidence) {
+double DepthOffset(const LandmarkNoiseOptions& options, const ResidualSums& sums) {
   const double sigma = options.depth_offset_sigma;
-  return evidence.offset_sum / (evidence.offset_weight + 1.0 / (sigma * sigma));
+  return sums.offset_sum / (sums.offset_weight + 1.0 / (sigma * sigma));
 }
 
 }  // namespace
@@ -95,12 +98,12 @@ bool LandmarkNoiseOptions::IsValid(std::string* error) const {
   return false;
 }
 
-void LearnLandmarkNoise(const LandmarkNoiseOptions& options, const WindowIndex& index,
-                        const WindowInlierMask& inlier_mask, const WindowState& state,
-                        WindowData* data) {
+void EstimateLandmarkNoise(const LandmarkNoiseOptions& options, const WindowIndex& index,
+                           const WindowInlierMask& inlier_mask, const WindowState& state,
+                           WindowData* data) {
   if (!options.enabled) return;
-  const std::vector<Evidence> points = OfPoints(index, inlier_mask, state, *data);
-  const std::vector<Evidence> lines = OfLines(index, inlier_mask, state, *data);
+  const std::vector<ResidualSums> points = SumPointResiduals(index, inlier_mask, state, *data);
+  const std::vector<ResidualSums> lines = SumLineResiduals(index, inlier_mask, state, *data);
   for (size_t i = 0; i < points.size(); ++i) {
     if (points[i].num_residuals == 0) continue;
     data->points[i].noise = Noise(options, points[i], kPointParameters);

@@ -7,23 +7,24 @@
 
 namespace msc_vo {
 
-// Landmarks are not alike: the printed corner is found to a tenth of the pixel that a leaf is found
-// to, and the outline of something round is another line from every side. So every landmark has a
-// noise of its own, by which the sigmas of all its observations are multiplied. Residuals r_i of a
-// landmark, in the sigmas of its observations, then have Student's distribution, and the noise that
-// makes them most likely is
-//
-//   noise^2 = (prior + sum r_i^2) / (prior + n - p),   n residuals, p parameters of the landmark.
-//
-// A loss on single residuals does not do this: an outline is off by one or two sigmas, but always.
-//
-// Likewise the depths of a line have an offset of its own, WindowData::Line::depth_offset: a mean
-// over many views removes their noise, but not that edges of depth and of colour are different
-// edges.
-//
-// Learns both for all points and lines in *data from the observations that are active, at `state`.
-void LearnLandmarkNoise(const LandmarkNoiseOptions& options, const WindowIndex& index,
-                        const WindowInlierMask& inlier_mask, const WindowState& state,
-                        WindowData* data);
+/// Estimates a noise factor per landmark and a depth offset per line from the residuals of their
+/// inlier observations at `state`, and writes them to *data.
+///
+/// The noise factor multiplies the sigmas of all observations of a landmark: image corners are
+/// localised ten times better than leaves, and the outline of a round object is a different line
+/// from every viewpoint. With whitened residuals r_i, n of them, and p parameters of the landmark,
+///
+///   noise^2 = (prior + sum r_i^2) / (prior + n - p),
+///
+/// the maximum-likelihood scale under a Student distribution of the residuals with `prior` degrees
+/// of freedom. A robust loss on single residuals does not replace it: outlines are off by one or
+/// two sigmas in every view.
+///
+/// The depth offset (WindowData::Line::depth_offset) is the mean depth error of a line over its
+/// observations, with a prior of zero and sigma depth_offset_sigma. It is common to all views
+/// because depth edges and intensity edges are different edges.
+void EstimateLandmarkNoise(const LandmarkNoiseOptions& options, const WindowIndex& index,
+                           const WindowInlierMask& inlier_mask, const WindowState& state,
+                           WindowData* data);
 
 }  // namespace msc_vo

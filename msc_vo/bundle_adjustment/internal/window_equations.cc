@@ -3,82 +3,38 @@
 
 #include "msc_vo/bundle_adjustment/internal/window_equations.h"
 
-#include <algorithm>
+#include <array>
 
-#include "msc_vo/bundle_adjustment/internal/elimination_order.h"
 #include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
 
 namespace {
 
-// Numbers the unknowns among blocks that may be fixed.
-template <typename Item>
-int Number(const std::vector<Item>& items, const std::vector<bool>& takes_part,
-           std::vector<int>* numbers) {
-  int count = 0;
-  for (size_t i = 0; i < items.size(); ++i) {
-    numbers->push_back(takes_part[i] && !items[i].fixed ? count++ : -1);
-  }
-  return count;
-}
-
-// Brings the two factors of each observation together; both terms are in the order of the data.
-template <typename Reprojection, typename Depth>
-std::vector<Sighting<Reprojection, Depth>> Sightings(const WindowTerm<Reprojection>& image,
-                                                     const WindowTerm<Depth>& depth) {
-  std::vector<Sighting<Reprojection, Depth>> sightings;
-  sightings.reserve(std::max(image.blocks.size(), depth.blocks.size()));
-  auto d = depth.blocks.begin();
-  const auto add_depths_before = [&](int source) {
-    for (; d != depth.blocks.end() && d->source < source; ++d) {
-      sightings.push_back({d->first, d->second, -1, nullptr, &d->factor});
-    }
-  };
-  for (const auto& i : image.blocks) {
-    add_depths_before(i.source);
-    const bool has_depth = d != depth.blocks.end() && d->source == i.source;
-    sightings.push_back({i.first, i.second, -1, &i.factor, has_depth ? &d->factor : nullptr});
-    if (has_depth) ++d;
-  }
-  if (d != depth.blocks.end()) add_depths_before(depth.blocks.back().source + 1);
-  return sightings;
-}
-
-// One link for every unknown pose that sees an unknown landmark, however often.
-template <typename AnySighting>
-void Link(const std::vector<int>& pose, const std::vector<int>& landmark, int num_landmarks,
-          std::vector<AnySighting>* sightings, std::vector<LinkRange>* links,
-          std::vector<int>* link_poses) {
-  links->resize(num_landmarks);
-  for (const AnySighting& s : *sightings) {
-    if (landmark[s.landmark] >= 0) ++(*links)[landmark[s.landmark]].size;
-  }
-  int end = 0;
-  for (LinkRange& range : *links) {
-    range.begin = end;
-    end += range.size;
-    range.size = 0;
-  }
-  link_poses->resize(end);
-  for (AnySighting& s : *sightings) {
-    if (landmark[s.landmark] < 0 || pose[s.keyframe] < 0) continue;
-    LinkRange& range = (*links)[landmark[s.landmark]];
-    const auto begin = link_poses->begin() + range.begin, stop = begin + range.size;
-    s.link = static_cast<int>(std::find(begin, stop, pose[s.keyframe]) - link_poses->begin());
-    if (s.link == range.end()) (*link_poses)[range.begin + range.size++] = pose[s.keyframe];
-  }
-}
-
 using Pose = WindowEquations::Pose;
 
-// Cost of one block in camera coordinates x, and its derivatives, of each of `Points` points.
+// Residuals of one observation in camera coordinates: cost, and derivatives with respect to the
+// camera coordinates x = R X + t of each of the landmark's points.
 template <int Points>
-struct InCamera {
+struct CameraLinearization {
+  std::array<Eigen::Vector3d, Points> rotated;  // R X
   std::array<Eigen::Vector3d, Points> x;
   std::array<Eigen::Matrix3d, Points> hessian;
   std::array<Eigen::Vector3d, Points> gradient;
   double cost = 0.0;
+
+  // False if a point is behind the camera.
+  bool SetPoints(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation,
+                 const double* landmark) {
+    for (int k = 0; k < Points; ++k) {
+      rotated[k] = rotation * Eigen::Map<const Eigen::Vector3d>(landmark + 3 * k);
+      x[k] = rotated[k] + translation;
+      if (!(x[k].z() >= kMinCameraDepth)) return false;
+      hessian[k].setZero();
+      gradient[k].setZero();
+    }
+    return true;
+  }
 
   template <typename Factor>
   void Add(const Factor& factor, const HuberLoss& loss) {
@@ -97,9 +53,17 @@ struct InCamera {
   }
 };
 
+// What the observations of one kind of landmark share.
+template <int Points>
+struct ObservationTerms {
+  HuberLoss reprojection_loss, depth_loss;
+  const std::vector<int>& unknown;  // number of each landmark of the data
+  WindowEquations::Landmarks<3 * Points>* equations;
+};
+
 class Linearizer {
  public:
-  Linearizer(const WindowStructure& structure, const WindowTerms& terms, const WindowState& state,
+  Linearizer(const BlockStructure& structure, const WindowTerms& terms, const WindowState& state,
              WindowEquations* equations)
       : structure_(structure), terms_(terms), state_(state), equations_(equations) {}
 
@@ -108,98 +72,90 @@ class Linearizer {
     for (size_t i = 0; i < structure_.pose.size(); ++i) {
       rotations_.push_back(state_.Pose(i).rotation().toRotationMatrix());
     }
-    double cost = 0.0;
-    for (const PointSighting& s : structure_.point_sightings) {
-      if (!AddSighting<1>(s, terms_.point_reprojection.loss, terms_.point_depth.loss,
-                          state_.PointBlock(s.landmark), structure_.point[s.landmark],
-                          &equations_->points, &cost)) {
-        return false;
-      }
+    const ObservationTerms<1> points{terms_.point_reprojection.loss, terms_.point_depth.loss,
+                                     structure_.point, &equations_->points};
+    const ObservationTerms<2> lines{terms_.line_reprojection.loss, terms_.line_depth.loss,
+                                    structure_.line, &equations_->lines};
+    for (const PointObservationFactors& o : structure_.point_observations) {
+      if (!AddObservation(points, o, state_.PointBlock(o.landmark))) return false;
     }
-    for (const LineSighting& s : structure_.line_sightings) {
-      if (!AddSighting<2>(s, terms_.line_reprojection.loss, terms_.line_depth.loss,
-                          state_.LineBlock(s.landmark), structure_.line[s.landmark],
-                          &equations_->lines, &cost)) {
-        return false;
-      }
+    for (const LineObservationFactors& o : structure_.line_observations) {
+      if (!AddObservation(lines, o, state_.LineBlock(o.landmark))) return false;
     }
-    if (!FindDirections()) return false;
-    AddEndpointPriors(&cost);
-    AddAlignments(&cost);
-    AddPairs(terms_.parallel, &cost);
-    AddPairs(terms_.perpendicular, &cost);
-    AddPriors(&cost);
-    equations_->cost = cost;
-    return std::isfinite(cost);
+    if (!ComputeDirections()) return false;
+    AddEndpointPriors();
+    AddAlignments();
+    AddPairs(terms_.parallel);
+    AddPairs(terms_.perpendicular);
+    AddPriors();
+    return std::isfinite(equations_->cost);
   }
 
  private:
   template <int N>
-  static void SetZero(int count, int num_links, WindowEquations::Landmarks<N>* landmarks) {
+  static void SetZero(int count, int num_couplings, WindowEquations::Landmarks<N>* landmarks) {
     using Landmarks = WindowEquations::Landmarks<N>;
     landmarks->hessian.assign(count, Landmarks::Block::Zero());
     landmarks->gradient.assign(count, Landmarks::Vector::Zero());
-    landmarks->poses.assign(num_links, Landmarks::Coupling::Zero());
+    landmarks->pose_couplings.assign(num_couplings, Landmarks::Coupling::Zero());
   }
   void SetZero() {
+    equations_->cost = 0.0;
     equations_->pose_hessian.assign(structure_.num_poses, Pose::Block::Zero());
     equations_->pose_gradient.assign(structure_.num_poses, Pose::Vector::Zero());
-    SetZero(structure_.num_points, static_cast<int>(structure_.point_link_poses.size()),
+    SetZero(structure_.num_points, static_cast<int>(structure_.point_blocks.pose.size()),
             &equations_->points);
-    SetZero(structure_.num_lines, static_cast<int>(structure_.line_link_poses.size()),
+    SetZero(structure_.num_lines, static_cast<int>(structure_.line_blocks.pose.size()),
             &equations_->lines);
-    equations_->couplings.clear();
+    equations_->line_couplings.clear();
     rotations_.clear();
   }
 
-  // x = R X + t, so that dx = [-[R X]x, I] (w, u) + R dX.
-  template <int Points, typename AnySighting>
-  bool AddSighting(const AnySighting& s, const HuberLoss& image_loss, const HuberLoss& depth_loss,
-                   const double* landmark, int unknown,
-                   WindowEquations::Landmarks<3 * Points>* landmarks, double* cost) {
-    const int pose = structure_.pose[s.keyframe];
-    const Eigen::Matrix3d& rotation = rotations_[s.keyframe];
-    const Eigen::Map<const Eigen::Vector3d> translation(state_.PoseBlock(s.keyframe) + 4);
-    std::array<Eigen::Vector3d, Points> rotated;
-    InCamera<Points> at;
+  template <int Points, typename Observation>
+  bool AddObservation(const ObservationTerms<Points>& terms, const Observation& o,
+                      const double* landmark) {
+    const Eigen::Matrix3d& rotation = rotations_[o.keyframe];
+    const Eigen::Map<const Eigen::Vector3d> translation(state_.PoseBlock(o.keyframe) + 4);
+    CameraLinearization<Points> at;
+    if (!at.SetPoints(rotation, translation, landmark)) return false;
+    if (o.reprojection != nullptr) at.Add(*o.reprojection, terms.reprojection_loss);
+    if (o.depth != nullptr) at.Add(*o.depth, terms.depth_loss);
+    equations_->cost += at.cost;
+    const int unknown = terms.unknown[o.landmark], pose = structure_.pose[o.keyframe];
     for (int k = 0; k < Points; ++k) {
-      rotated[k] = rotation * Eigen::Map<const Eigen::Vector3d>(landmark + 3 * k);
-      at.x[k] = rotated[k] + translation;
-      if (!(at.x[k].z() >= kMinCameraDepth)) return false;
-      at.hessian[k].setZero();
-      at.gradient[k].setZero();
-    }
-    if (s.reprojection != nullptr) at.Add(*s.reprojection, image_loss);
-    if (s.depth != nullptr) at.Add(*s.depth, depth_loss);
-    *cost += at.cost;
-    for (int k = 0; k < Points; ++k) {
-      const Eigen::Matrix3d& h = at.hessian[k];
-      const Eigen::Matrix3d h_rotation = h * rotation;
+      const Eigen::Matrix3d h_rotation = at.hessian[k] * rotation;
       if (unknown >= 0) {
-        landmarks->hessian[unknown].template block<3, 3>(3 * k, 3 * k).noalias() +=
+        terms.equations->hessian[unknown].template block<3, 3>(3 * k, 3 * k).noalias() +=
             rotation.transpose() * h_rotation;
-        landmarks->gradient[unknown].template segment<3>(3 * k).noalias() +=
+        terms.equations->gradient[unknown].template segment<3>(3 * k).noalias() +=
             rotation.transpose() * at.gradient[k];
       }
       if (pose < 0) continue;
-      const Eigen::Matrix3d arm = Skew(rotated[k]);
-      const Eigen::Matrix3d arm_h = arm * h;
-      Pose::Block& pose_hessian = equations_->pose_hessian[pose];
-      pose_hessian.topLeftCorner<3, 3>().noalias() -= arm_h * arm;
-      pose_hessian.bottomLeftCorner<3, 3>() += arm_h.transpose();
-      pose_hessian.bottomRightCorner<3, 3>() += h;
-      equations_->pose_gradient[pose].head<3>() += rotated[k].cross(at.gradient[k]);
-      equations_->pose_gradient[pose].tail<3>() += at.gradient[k];
-      if (s.link < 0) continue;
-      auto coupling = landmarks->poses[s.link].template middleCols<3>(3 * k);
+      const Eigen::Matrix3d arm = Skew(at.rotated[k]);
+      AddToPose(pose, arm, at.hessian[k], at.rotated[k], at.gradient[k]);
+      if (o.block < 0) continue;
+      auto coupling = terms.equations->pose_couplings[o.block].template middleCols<3>(3 * k);
       coupling.template topRows<3>().noalias() += arm * h_rotation;
       coupling.template bottomRows<3>() += h_rotation;
     }
     return true;
   }
 
-  // Of all lines that are observed, once: each is part of many pairs. False if one has no length.
-  bool FindDirections() {
+  // Chain rule from x to the pose: dx = [-[R X]x, I] (w, u), with arm = [R X]x.
+  void AddToPose(int pose, const Eigen::Matrix3d& arm, const Eigen::Matrix3d& hessian,
+                 const Eigen::Vector3d& rotated, const Eigen::Vector3d& gradient) {
+    const Eigen::Matrix3d arm_h = arm * hessian;
+    Pose::Block& pose_hessian = equations_->pose_hessian[pose];
+    pose_hessian.topLeftCorner<3, 3>().noalias() -= arm_h * arm;
+    pose_hessian.bottomLeftCorner<3, 3>() += arm_h.transpose();
+    pose_hessian.bottomRightCorner<3, 3>() += hessian;
+    equations_->pose_gradient[pose].head<3>() += rotated.cross(gradient);
+    equations_->pose_gradient[pose].tail<3>() += gradient;
+  }
+
+  // Computes the directions of all observed lines once, as a line is part of many pairs. Returns
+  // false if a line has zero length.
+  bool ComputeDirections() {
     equations_->directions.resize(structure_.num_lines);
     directions_.resize(structure_.line.size());
     for (size_t i = 0; i < structure_.line.size(); ++i) {
@@ -213,12 +169,12 @@ class Linearizer {
     return true;
   }
 
-  void AddEndpointPriors(double* cost) {
+  void AddEndpointPriors() {
     for (const auto& block : terms_.line_endpoint_prior.blocks) {
       const int unknown = structure_.line[block.first];
       Eigen::Vector2d r;
       block.factor(state_.LineBlock(block.first), r.data());
-      *cost += 0.5 * r.squaredNorm();
+      equations_->cost += 0.5 * r.squaredNorm();
       for (int k = 0; k < 2; ++k) {
         const Eigen::Vector3d j = block.factor.Jacobian();
         equations_->lines.hessian[unknown].block<3, 3>(3 * k, 3 * k) += j * j.transpose();
@@ -227,7 +183,7 @@ class Linearizer {
     }
   }
 
-  // Adds derivatives with respect to E - S.
+  // Adds derivatives with respect to E - S to those of a line.
   void AddToLine(int unknown, const Eigen::Matrix3d& hessian, const Eigen::Vector3d& gradient) {
     WindowEquations::Landmarks<6>::Block& h = equations_->lines.hessian[unknown];
     h.topLeftCorner<3, 3>() += hessian;
@@ -238,14 +194,14 @@ class Linearizer {
     equations_->lines.gradient[unknown].tail<3>() += gradient;
   }
 
-  void AddAlignments(double* cost) {
+  void AddAlignments() {
     for (const auto& block : terms_.manhattan.blocks) {
       Eigen::Vector2d r;
       const Direction& d = directions_[block.first];
       block.factor.Residual(d.unit, r.data());
       const double s = r.squaredNorm();
       const double weight = terms_.manhattan.loss.Weight(s);
-      *cost += 0.5 * terms_.manhattan.loss.Cost(s);
+      equations_->cost += 0.5 * terms_.manhattan.loss.Cost(s);
       const Eigen::Matrix<double, 2, 3> j = block.factor.Jacobian() * d.jacobian;
       AddToLine(structure_.line[block.first], weight * j.transpose() * j,
                 weight * j.transpose() * r);
@@ -253,14 +209,14 @@ class Linearizer {
   }
 
   template <typename Factor>
-  void AddPairs(const WindowTerm<Factor>& term, double* cost) {
+  void AddPairs(const WindowTerm<Factor>& term) {
     for (const auto& block : term.blocks) {
       const Direction &d_i = directions_[block.first], &d_j = directions_[block.second];
       Eigen::Matrix<double, Factor::kNumResiduals, 1> r;
       block.factor.Residual(d_i.unit, d_j.unit, r.data());
       const double s = r.squaredNorm();
       const double weight = block.count * term.loss.Weight(s);
-      *cost += 0.5 * (block.count * term.loss.Cost(s));
+      equations_->cost += 0.5 * (block.count * term.loss.Cost(s));
       const typename Factor::Jacobian by_i =
           block.factor.JacobianI(d_i.unit, d_j.unit) * d_i.jacobian;
       const typename Factor::Jacobian by_j =
@@ -268,29 +224,29 @@ class Linearizer {
       const int i = structure_.line[block.first], j = structure_.line[block.second];
       if (i >= 0) AddToLine(i, weight * by_i.transpose() * by_i, weight * by_i.transpose() * r);
       if (j >= 0) AddToLine(j, weight * by_j.transpose() * by_j, weight * by_j.transpose() * r);
-      if (i >= 0 && j >= 0) equations_->couplings.push_back(weight * by_i.transpose() * by_j);
+      if (i >= 0 && j >= 0) equations_->line_couplings.push_back(weight * by_i.transpose() * by_j);
     }
   }
 
-  void AddPriors(double* cost) {
+  void AddPriors() {
     for (const auto& block : terms_.pose_prior.blocks) {
       const int pose = structure_.pose[block.first];
       Pose::Vector r;
       block.factor(state_.PoseBlock(block.first), r.data());
       const Pose::Block j = block.factor.TangentJacobian(state_.Pose(block.first));
-      *cost += 0.5 * r.squaredNorm();
+      equations_->cost += 0.5 * r.squaredNorm();
       equations_->pose_hessian[pose] += j.transpose() * j;
       equations_->pose_gradient[pose] += j.transpose() * r;
     }
   }
 
-  const WindowStructure& structure_;
+  const BlockStructure& structure_;
   const WindowTerms& terms_;
   const WindowState& state_;
   WindowEquations* equations_;
   struct Direction {
     Eigen::Vector3d unit;
-    Eigen::Matrix3d jacobian;  // of it, with respect to E - S
+    Eigen::Matrix3d jacobian;  // d unit / d(E - S)
   };
   std::vector<Eigen::Matrix3d> rotations_;  // of all keyframes
   std::vector<Direction> directions_;       // of all lines
@@ -298,29 +254,7 @@ class Linearizer {
 
 }  // namespace
 
-WindowStructure::WindowStructure(const WindowData& data, const WindowTerms& terms)
-    : point_sightings(Sightings(terms.point_reprojection, terms.point_depth)),
-      line_sightings(Sightings(terms.line_reprojection, terms.line_depth)) {
-  num_poses = Number(data.keyframes, terms.keyframe_takes_part, &pose);
-  num_points = Number(data.points, terms.point_observed, &point);
-  num_lines = Number(data.lines, terms.line_observed, &line);
-  Link(pose, point, num_points, &point_sightings, &point_links, &point_link_poses);
-  Link(pose, line, num_lines, &line_sightings, &line_links, &line_link_poses);
-
-  const auto couple = [this](const auto& term) {
-    for (const auto& block : term.blocks) {
-      const WindowIndex::Pair pair{line[block.first], line[block.second]};
-      if (pair.a >= 0 && pair.b >= 0) couplings.push_back(pair);
-    }
-  };
-  couple(terms.parallel);
-  couple(terms.perpendicular);
-  for (const bool keep : LinesInReducedSystem(num_lines, couplings)) {
-    reduced_line.push_back(keep ? num_reduced_lines++ : -1);
-  }
-}
-
-bool Linearize(const WindowStructure& structure, const WindowTerms& terms, const WindowState& state,
+bool Linearize(const BlockStructure& structure, const WindowTerms& terms, const WindowState& state,
                WindowEquations* equations) {
   return Linearizer(structure, terms, state, equations).Run();
 }

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -16,58 +17,46 @@
 #include "msc_vo/factors/perpendicular_lines.h"
 #include "msc_vo/factors/point_reprojection.h"
 #include "msc_vo/factors/pose_prior.h"
+#include "msc_vo/factors/robust_loss.h"
 
 namespace msc_vo {
 
-// Which factors of every observation take part.
+/// Inliers among the measurements of a window.
 struct WindowInlierMask {
-  std::vector<InlierMask> points;  // one per point observation
-  std::vector<InlierMask> lines;   // one per line observation
-  // Whether they may take part: false once rejected.
-  std::vector<bool> parallel;       // one per parallel pair
-  std::vector<bool> perpendicular;  // one per perpendicular pair
-  std::vector<bool> alignments;     // one per axis alignment
+  std::vector<InlierMask> points;   ///< One per point observation.
+  std::vector<InlierMask> lines;    ///< One per line observation.
+  std::vector<bool> parallel;       ///< One per parallel pair.
+  std::vector<bool> perpendicular;  ///< One per perpendicular pair.
+  std::vector<bool> alignments;     ///< One per axis alignment.
 };
 
-// Huber's loss rho(s) of a squared norm s, and its derivative, as ceres::HuberLoss has them.
-struct HuberLoss {
-  double threshold = 0.0;  // sigmas; 0: squares
-
-  double Cost(double s) const {
-    if (threshold == 0.0 || s <= threshold * threshold) return s;
-    return 2.0 * threshold * std::sqrt(s) - threshold * threshold;
-  }
-  double Weight(double s) const {
-    return threshold == 0.0 || s <= threshold * threshold ? 1.0 : threshold / std::sqrt(s);
-  }
-};
-
-// All factors of one kind that take part in the window's sum, in the order of the data.
+/// All residual blocks of one factor type, in the order of the data.
 template <typename FactorType>
 struct WindowTerm {
   using Factor = FactorType;
   struct Block {
     Factor factor;
-    // Positions in the state of what the factor is about, in its order: keyframe and landmark, two
-    // lines, one line or one keyframe (second: -1).
+    /// Positions in the state of the parameter blocks, in the factor's order: keyframe and
+    /// landmark, two lines, or one line or keyframe (second: -1).
     int first;
     int second;
-    int source;     // position in WindowData of its observation, pair, alignment or prior; of an
-                    // anchor: the line's
-    int count = 1;  // so many identical terms
+    /// Position in WindowData of the observation, pair, alignment or pose prior, or of the line for
+    /// endpoint priors.
+    int source;
+    int count = 1;  ///< Multiplicity.
   };
   HuberLoss loss;
   std::vector<Block> blocks;
 };
 
-// The sum of factors of a window:
-//
-//   sum rho(|PointReprojection|^2) + rho(|DepthReprojection|^2) + rho(|LineReprojection|^2)
-//     + rho(|LineDepthReprojection|^2) + |LineEndpointPrior|^2 + n rho(|ParallelLines|^2)
-//     + n rho(|PerpendicularLines|^2) + rho(|ManhattanAxisAlignment|^2) + |PosePrior|^2
-//
-// (paper: Local Map Optimization; n: keyframes that see both lines). Plain values: what minimises
-// it, CeresBackend or SchurWindow, is told by the options.
+/// Cost function of local bundle adjustment (paper: Local Map Optimization):
+///
+///   1/2 sum rho(|PointReprojection|^2) + rho(|DepthReprojection|^2) + rho(|LineReprojection|^2)
+///     + rho(|LineDepthReprojection|^2) + |LineEndpointPrior|^2 + n rho(|ParallelLines|^2)
+///     + n rho(|PerpendicularLines|^2) + rho(|ManhattanAxisAlignment|^2) + |PosePrior|^2
+///
+/// with n the number of keyframes that observe both lines. It holds values only and is minimised by
+/// CeresBackend or MinimizeWithBlockSchur.
 struct WindowTerms {
   WindowTerm<PointReprojection> point_reprojection;
   WindowTerm<DepthReprojection> point_depth;
@@ -79,24 +68,26 @@ struct WindowTerms {
   WindowTerm<ManhattanAxisAlignment> manhattan;
   WindowTerm<PosePrior> pose_prior;
 
-  // Of every keyframe: whether an observation or a prior takes part. Of every point and line:
-  // whether an observation does.
-  std::vector<bool> keyframe_takes_part, point_observed, line_observed;
+  /// One per keyframe: whether an observation or a pose prior has a residual block.
+  std::vector<bool> keyframe_constrained;
+  /// One per point or line: whether an observation has a residual block.
+  std::vector<bool> point_observed, line_observed;
 };
 
-// The terms of the active observations, pairs and alignments. Sigmas of lines are those at `state`,
-// anchors those of `data`.
+/// Builds the terms of the inliers. The sigmas of line factors are those at `state`; the endpoint
+/// priors are centred at the lines of `data`.
 WindowTerms MakeWindowTerms(const BundleAdjustmentOptions& options, const WindowData& data,
                             const WindowIndex& index, const WindowInlierMask& inlier_mask,
                             const WindowState& state);
 
-// Half the sum of robustified squares over all terms; not finite where one is not defined.
+/// Cost of all terms; NaN where a factor is undefined.
 double Cost(const WindowTerms& terms, const WindowState& state);
 
-// The parameter blocks of a block of a term.
+/// Whether a factor with two parameter blocks depends on a point, not on a line.
 template <typename Factor>
-constexpr bool kSeesPoint = Factor::kBlockSizes.size() == 2 && Factor::kBlockSizes[1] == 3;
+constexpr bool kObservesPoint = Factor::kBlockSizes.size() == 2 && Factor::kBlockSizes[1] == 3;
 
+/// Pointers to the parameter blocks of a residual block, in the factor's order.
 template <typename Factor, typename State, typename Block>
 auto ParametersOf(State* state, const Block& block) {
   using Number = decltype(state->PoseBlock(0));
@@ -107,13 +98,13 @@ auto ParametersOf(State* state, const Block& block) {
   } else if constexpr (Factor::kBlockSizes[0] == 7) {
     return std::array<Number, 2>{
         state->PoseBlock(block.first),
-        kSeesPoint<Factor> ? state->PointBlock(block.second) : state->LineBlock(block.second)};
+        kObservesPoint<Factor> ? state->PointBlock(block.second) : state->LineBlock(block.second)};
   } else {
     return std::array<Number, 2>{state->LineBlock(block.first), state->LineBlock(block.second)};
   }
 }
 
-// Squared norm of a block's residual in sigmas, before the loss; NaN where it is not defined.
+/// Squared norm of a whitened residual before the loss; NaN where the factor is undefined.
 template <typename Factor>
 double ChiSquare(const typename WindowTerm<Factor>::Block& block, const WindowState& state) {
   Eigen::Matrix<double, Factor::kNumResiduals, 1> r;
@@ -127,7 +118,7 @@ double ChiSquare(const typename WindowTerm<Factor>::Block& block, const WindowSt
   return defined ? r.squaredNorm() : std::nan("");
 }
 
-// Half the sum of robustified squares, identical terms as often as they count.
+/// Half the sum of robust squared norms, with multiplicities.
 template <typename Factor>
 double Cost(const WindowTerm<Factor>& term, const WindowState& state) {
   double cost = 0.0;

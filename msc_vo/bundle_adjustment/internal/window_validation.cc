@@ -18,7 +18,7 @@ namespace {
   throw std::invalid_argument("LocalBundleAdjustment: " + what);
 }
 
-// Positions by id, of keyframes, points or lines.
+// Position of each keyframe, point or line by its id.
 class IdMap {
  public:
   template <typename Item>
@@ -35,7 +35,7 @@ class IdMap {
     }
   }
 
-  // `role`: what the id is there, for the message.
+  // `role`: use of the id, for the error message.
   int At(int64_t id, const char* role = "observed") const {
     const auto it = std::lower_bound(positions_.begin(), positions_.end(), std::make_pair(id, 0));
     if (it == positions_.end() || it->first != id) {
@@ -78,7 +78,7 @@ std::vector<WindowIndex::Pair> ResolvePairs(const std::vector<WindowData::LinePa
                                             const char* kind, const IdMap& lines) {
   std::vector<WindowIndex::Pair> resolved;
   resolved.reserve(pairs.size());
-  const std::string role = std::string("of a ") + kind + " pair";
+  const std::string role = std::string("part of a ") + kind + " pair";
   for (const WindowData::LinePair& p : pairs) {
     if (const char* error = LinePairError(p)) {
       Throw(std::string(kind) + " pair of line " + std::to_string(p.a) + " and line " +
@@ -97,7 +97,7 @@ std::vector<int> ResolveAlignments(const std::vector<WindowData::AxisAlignment>&
     if (const char* error = AxisAlignmentError(a)) {
       Throw("alignment of line " + std::to_string(a.line) + ": " + error);
     }
-    resolved.push_back(lines.At(a.line, "aligned"));
+    resolved.push_back(lines.At(a.line, "aligned with an axis"));
   }
   return resolved;
 }
@@ -110,7 +110,7 @@ std::vector<int> ResolvePriors(const std::vector<WindowData::PosePrior>& priors,
     const char* error = PoseError(p.cam_from_world);
     if (error == nullptr) error = CovarianceError(p.covariance);
     if (error != nullptr) Throw("prior of keyframe " + std::to_string(p.keyframe) + ": " + error);
-    resolved.push_back(keyframes.At(p.keyframe, "of a prior"));
+    resolved.push_back(keyframes.At(p.keyframe, "constrained by a prior"));
   }
   return resolved;
 }

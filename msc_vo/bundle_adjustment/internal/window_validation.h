@@ -10,26 +10,26 @@
 
 namespace msc_vo {
 
-// Where the ids of the observations lead: positions in the vectors of WindowData.
+/// The ids of WindowData's measurements, resolved to positions in its vectors.
 struct WindowIndex {
-  struct Link {
+  struct Observation {
     int keyframe = 0;
     int landmark = 0;
   };
-  std::vector<Link> points;  // one per point observation
-  std::vector<Link> lines;   // one per line observation
+  std::vector<Observation> points;  ///< One per point observation.
+  std::vector<Observation> lines;   ///< One per line observation.
   struct Pair {
     int a = 0;
     int b = 0;
   };
-  std::vector<Pair> parallel;       // lines of the parallel pairs
-  std::vector<Pair> perpendicular;  // lines of the perpendicular pairs
-  std::vector<int> alignments;      // lines of the axis alignments
-  std::vector<int> priors;          // keyframes of the pose priors
+  std::vector<Pair> parallel;       ///< Lines of each parallel pair.
+  std::vector<Pair> perpendicular;  ///< Lines of each perpendicular pair.
+  std::vector<int> alignments;      ///< Line of each axis alignment.
+  std::vector<int> priors;          ///< Keyframe of each pose prior.
 };
 
-// Checks everything that LocalBundleAdjustment asks of its input, and resolves the ids on the way.
-// Throws std::invalid_argument naming the offender.
+/// Validates the input of LocalBundleAdjustment and resolves its ids. Throws std::invalid_argument
+/// that names the offending item.
 WindowIndex ValidateWindow(const BundleAdjustmentOptions& options, const WindowData& data);
 
 }  // namespace msc_vo

@@ -19,15 +19,15 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kMinDepth = 0.4, kMaxDepth = 5.0;  // metres, a Kinect's range
-constexpr double kMinLength = 30.0;                 // pixels; what a line detector keeps
-constexpr int kLineSamples = 17;                    // places of a line where visibility is tested
+constexpr double kMinDepth = 0.4, kMaxDepth = 5.0;  // metres, the range of a Kinect
+constexpr double kMinLength = 30.0;                 // pixels; minimum length of a line detector
+constexpr int kLineSamples = 17;                    // of the visibility test along a line
 constexpr int kDepthSamples = 20;                   // of the depth regression along a line
-constexpr double kOnSurface = 2e-3;  // metres: a surface this near to a point does not hide it
-constexpr double kMinOutlier = 20.0, kMaxOutlier = 100.0;  // pixels off
+constexpr double kOnSurface = 2e-3;  // metres; a surface this close to a point does not occlude it
+constexpr double kMinOutlier = 20.0, kMaxOutlier = 100.0;  // error of outliers, pixels
 
-// Independent random numbers for each purpose: the noise does not change what is seen.
-enum Stream : uint64_t { kLandmarks = 1, kMeasurements, kOutliers, kStart };
+// Independent random streams, so that noise does not change visibility.
+enum Stream : uint64_t { kLandmarks = 1, kMeasurements, kOutliers, kInitialState };
 
 // Covariance of the regression w(s) = (1 - s) start + s end on evenly spaced samples.
 Eigen::Matrix2d LineDepthCovariance(double sigma) {
@@ -40,7 +40,7 @@ Eigen::Matrix2d LineDepthCovariance(double sigma) {
   return sigma * sigma * information.inverse();
 }
 
-// Finds what each keyframe sees, without noise.
+// Creates keyframes, landmarks and exact observations.
 class WindowObserver {
  public:
   WindowObserver(const SyntheticWindowOptions& options, const Scene& scene)
@@ -73,7 +73,7 @@ class WindowObserver {
     return !hit || *hit > 1.0 - kOnSurface / x.norm();
   }
 
-  // The longest visible part of a segment, if it is long enough in the image.
+  // Returns the longest visible part of a segment, if it is long enough in the image.
   std::optional<LineSegment3> VisiblePart(const Rigid3& cam_from_world,
                                           const LineSegment3& segment) const {
     int best_first = 0, best_length = 0, length = 0;
@@ -109,7 +109,7 @@ class WindowObserver {
 
 void WindowObserver::ObservePoints() {
   const PinholeCamera& camera = options_.camera;
-  // A bound on the tries: most rays hit something that a second keyframe sees as well.
+  // Limits the attempts; most rays hit a surface that a second keyframe observes.
   for (int tries = 20 * options_.num_points; tries > 0; --tries) {
     if (static_cast<int>(data_.points.size()) == options_.num_points) break;
     const Rigid3 world_from_cam =
@@ -150,7 +150,7 @@ void WindowObserver::ObserveLines() {
       const std::optional<LineSegment3> part = VisiblePart(keyframe.cam_from_world, line.segment);
       if (!part) continue;
       if (observations.empty()) line.segment = *part;
-      // An end point behind the camera has no projection: such a keyframe does not count.
+      // The end points of the landmark must be in front of the camera.
       const LineSegment3 in_cam = keyframe.cam_from_world * line.segment;
       if (std::min(in_cam.start.z(), in_cam.end.z()) < kMinDepth) continue;
       observations.push_back(ObserveLine(keyframe, line.id, *part));
@@ -203,7 +203,7 @@ void AddMeasurementNoise(uint64_t seed, WindowData* data) {
   }
 }
 
-// Moves a share of the observations far off and remembers which.
+// Replaces a fraction of the observations by outliers and marks them.
 void AddOutliers(const SyntheticWindowOptions& options, SyntheticWindow* window) {
   Random random(options.seed, kOutliers);
   for (WindowData::PointObservation& observation : window->data.point_observations) {
@@ -221,8 +221,8 @@ void AddOutliers(const SyntheticWindowOptions& options, SyntheticWindow* window)
   }
 }
 
-void DisturbStart(const SyntheticWindowOptions& options, WindowData* data) {
-  Random random(options.seed, kStart);
+void PerturbState(const SyntheticWindowOptions& options, WindowData* data) {
+  Random random(options.seed, kInitialState);
   for (WindowData::Keyframe& keyframe : data->keyframes) {
     const Rigid3 noise(ExpSO3(options.start_rotation_sigma * random.Normal3()),
                        options.start_translation_sigma * random.Normal3());
@@ -253,7 +253,7 @@ bool SyntheticWindowOptions::IsValid(std::string* error) const {
     *error = "outlier_ratio must be from 0 to 1";
   } else if (!(start_rotation_sigma >= 0.0 && start_translation_sigma >= 0.0 &&
                start_point_sigma >= 0.0 && start_line_sigma >= 0.0)) {
-    *error = "the sigmas of the start must not be negative";
+    *error = "the start_*_sigma must not be negative";
   } else {
     return true;
   }
@@ -269,7 +269,7 @@ SyntheticWindow MakeSyntheticWindow(const SyntheticWindowOptions& options) {
   window.data = window.truth;
   if (options.noise) AddMeasurementNoise(options.seed, &window.data);
   AddOutliers(options, &window);
-  DisturbStart(options, &window.data);
+  PerturbState(options, &window.data);
   return window;
 }
 

@@ -12,48 +12,50 @@
 
 namespace msc_vo {
 
+/// Scene, camera, noise and initial errors of a synthetic window.
 struct SyntheticWindowOptions {
   SceneKind scene = SceneKind::kRoom;
-  uint64_t seed = 1;  // of the scene, the path, the landmarks and the noise
+  uint64_t seed = 1;  ///< Of the scene, the trajectory, the landmarks and the noise.
   PinholeCamera camera;
 
   int num_keyframes = 8;
-  double keyframe_interval = 0.4;  // seconds along a walk of 0.35 m/s
-  int num_fixed = 1;               // the first keyframes are held at the truth: the gauge
-  // Landmarks asked for; fewer if the keyframes do not see so many. Each is seen at least twice.
+  double keyframe_interval = 0.4;  ///< Seconds, at 0.35 m/s.
+  int num_fixed = 1;               ///< The first keyframes, fixed at the truth: the gauge.
+  /// Maximum number of landmarks; fewer if fewer are visible in at least two keyframes.
   int num_points = 300;
   int num_lines = 60;
 
-  // Sigmas that stand in the observations, and the noise that goes with them if `noise` is true.
+  /// Adds noise with the sigmas below, which are those of the observations.
   bool noise = true;
-  double point_sigma = 1.0;               // pixels, of each coordinate
-  double line_sigma = 1.0;                // pixels, of an end point's distance to the true line
-  double inverse_depth_sigma = 1.425e-3;  // 1/metres, of one depth sample; a Kinect's
-  bool depth = true;                      // points and lines have depth
-  double outlier_ratio = 0.0;             // share of observations that are far off
+  double point_sigma = 1.0;               ///< Pixels, of each coordinate.
+  double line_sigma = 1.0;                ///< Pixels, of an end point's distance to the true line.
+  double inverse_depth_sigma = 1.425e-3;  ///< 1/metres, of one depth sample; that of a Kinect.
+  bool depth = true;                      ///< Whether points and lines have depth.
+  double outlier_ratio = 0.0;             ///< Fraction of observations that are outliers.
 
-  // Start: normal deviates from the truth, of what is not fixed.
-  double start_rotation_sigma = 0.01;     // radians, per axis
-  double start_translation_sigma = 0.02;  // metres, per axis
-  double start_point_sigma = 0.03;        // metres, per axis
-  double start_line_sigma = 0.03;         // metres, per axis and end point
+  // Standard deviations of the initial state's error; fixed keyframes have none.
+  double start_rotation_sigma = 0.01;     ///< Radians, per axis.
+  double start_translation_sigma = 0.02;  ///< Metres, per axis.
+  double start_point_sigma = 0.03;        ///< Metres, per axis.
+  double start_line_sigma = 0.03;         ///< Metres, per axis and end point.
 
   bool IsValid(std::string* error) const;
 };
 
 struct SyntheticWindow {
-  WindowData truth;                  // true states, exact observations
-  WindowData data;                   // where a solver starts: disturbed states, noisy observations
-  std::vector<bool> point_outliers;  // per point observation of `data`
-  std::vector<bool> line_outliers;   // per line observation of `data`
+  WindowData truth;                  ///< True state, exact observations.
+  WindowData data;                   ///< Initial state of a solver, noisy observations.
+  std::vector<bool> point_outliers;  ///< One per point observation of `data`.
+  std::vector<bool> line_outliers;   ///< One per line observation of `data`.
 };
 
-// A sliding window at feature level: keyframes along the path through a scene; points where random
-// pixels hit its surfaces; lines along its edges, each landmark the part that its first keyframe
-// sees, observed in others as far as it is inside the image and not occluded. Line depths carry the
-// covariance of a regression on evenly spaced samples, and noise with that covariance.
-// The same options give the same window. Throws std::invalid_argument on options that are not
-// valid.
+/// Creates a window of observations without images. Keyframes are on a trajectory through a scene;
+/// points are where rays of random pixels hit its surfaces; lines are on its edges. A line landmark
+/// is the part visible in its first keyframe, and is observed in others as far as it is inside the
+/// image and not occluded. Line depths have the covariance of a regression on evenly spaced
+/// samples.
+///
+/// Equal options give equal windows. Throws std::invalid_argument on invalid options.
 SyntheticWindow MakeSyntheticWindow(const SyntheticWindowOptions& options);
 
 }  // namespace msc_vo

@@ -68,18 +68,18 @@ TEST_P(SyntheticWindowTest, LandmarksHaveTwoViewsAndIdsAreValid) {
   for (const WindowData::PointObservation& o : data.point_observations) {
     EXPECT_EQ(data.keyframes.at(o.keyframe).id, o.keyframe);
     EXPECT_EQ(data.points.at(o.point).id, o.point);
-    EXPECT_TRUE(point_views[o.point].insert(o.keyframe).second) << "seen twice by one keyframe";
+    EXPECT_TRUE(point_views[o.point].insert(o.keyframe).second) << "observed twice in one keyframe";
   }
   for (const WindowData::LineObservation& o : data.line_observations) {
     EXPECT_EQ(data.keyframes.at(o.keyframe).id, o.keyframe);
     EXPECT_EQ(data.lines.at(o.line).id, o.line);
-    EXPECT_TRUE(line_views[o.line].insert(o.keyframe).second) << "seen twice by one keyframe";
+    EXPECT_TRUE(line_views[o.line].insert(o.keyframe).second) << "observed twice in one keyframe";
   }
   for (const auto& views : point_views) EXPECT_GE(views.size(), 2u);
   for (const auto& views : line_views) EXPECT_GE(views.size(), 2u);
 }
 
-TEST_P(SyntheticWindowTest, PointsLieOnSurfacesAndNothingHidesThem) {
+TEST_P(SyntheticWindowTest, PointsLieOnSurfacesAndAreNotOccluded) {
   SyntheticWindowOptions options = Exact();
   options.scene = GetParam();
   const Scene scene = MakeScene(options.scene, options.seed);
@@ -89,13 +89,13 @@ TEST_P(SyntheticWindowTest, PointsLieOnSurfacesAndNothingHidesThem) {
   }
   for (const WindowData::PointObservation& o : data.point_observations) {
     const Eigen::Vector3d center = PoseOf(data, o.keyframe).OriginInSource();
-    const Eigen::Vector3d way = data.points.at(o.point).position - center;
-    const auto hit = scene.CastRay(center, way);
-    EXPECT_GT(hit.value_or(1.0) * way.norm(), way.norm() - 0.005);
+    const Eigen::Vector3d ray = data.points.at(o.point).position - center;
+    const auto hit = scene.CastRay(center, ray);
+    EXPECT_GT(hit.value_or(1.0) * ray.norm(), ray.norm() - 0.005);
   }
 }
 
-TEST_P(SyntheticWindowTest, SolverRecoversTheTruth) {
+TEST_P(SyntheticWindowTest, BundleAdjustmentRecoversTheTruth) {
   SyntheticWindowOptions options;
   options.scene = GetParam();
   SyntheticWindow window = MakeSyntheticWindow(options);
@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SyntheticWindowTest,
                          ::testing::Values(SceneKind::kRoom, SceneKind::kCorridor, SceneKind::kBare,
                                            SceneKind::kSlanted));
 
-TEST(SyntheticWindowOptionsTest, LinesOfTheRoomAreManhattan) {
+TEST(SyntheticWindow, LinesOfTheRoomAreManhattan) {
   const WindowData data = MakeSyntheticWindow(Exact()).truth;
   std::array<int, 3> per_axis{};
   for (const WindowData::Line& line : data.lines) {
@@ -129,7 +129,7 @@ TEST(SyntheticWindowOptionsTest, LinesOfTheRoomAreManhattan) {
   for (const int count : per_axis) EXPECT_GT(count, 3);
 }
 
-TEST(SyntheticWindowOptionsTest, NoiseHasTheSigmasItClaims) {
+TEST(SyntheticWindow, NoiseMatchesTheSigmas) {
   SyntheticWindowOptions options;
   options.num_points = 600;
   options.num_lines = 150;
@@ -152,14 +152,14 @@ TEST(SyntheticWindowOptionsTest, NoiseHasTheSigmasItClaims) {
     const Eigen::Vector2d e(o.depth.start - t.depth.start, o.depth.end - t.depth.end);
     line_depth += e.dot(o.depth.covariance.inverse() * e);
   }
-  // Mean squares of n normal deviates: 1 +- 4 sqrt(2 / n).
+  // Mean square of n standard normal variables: 1 +- 4 sqrt(2 / n).
   EXPECT_NEAR(pixel / (2.0 * num_points), 1.0, 4.0 / std::sqrt(num_points));
   EXPECT_NEAR(depth / num_points, 1.0, 4.0 * std::sqrt(2.0 / num_points));
   EXPECT_NEAR(line / (2.0 * num_lines), 1.0, 4.0 / std::sqrt(num_lines));
   EXPECT_NEAR(line_depth / (2.0 * num_lines), 1.0, 4.0 / std::sqrt(num_lines));
 }
 
-TEST(SyntheticWindowOptionsTest, OutliersAreMarkedAndFarOff) {
+TEST(SyntheticWindow, OutliersAreMarkedAndLarge) {
   SyntheticWindowOptions options;
   options.outlier_ratio = 0.2;
   const SyntheticWindow window = MakeSyntheticWindow(options);
@@ -178,7 +178,7 @@ TEST(SyntheticWindowOptionsTest, OutliersAreMarkedAndFarOff) {
   }
 }
 
-TEST(SyntheticWindowOptionsTest, StartLeavesTheGaugeAlone) {
+TEST(SyntheticWindow, InitialErrorExcludesFixedKeyframes) {
   SyntheticWindowOptions options;
   options.num_fixed = 2;
   const SyntheticWindow window = MakeSyntheticWindow(options);
@@ -189,7 +189,7 @@ TEST(SyntheticWindowOptionsTest, StartLeavesTheGaugeAlone) {
   }
 }
 
-TEST(SyntheticWindowOptionsTest, NoiseDoesNotChangeWhatIsSeen) {
+TEST(SyntheticWindow, NoiseDoesNotChangeVisibility) {
   SyntheticWindowOptions options;
   const SyntheticWindow noisy = MakeSyntheticWindow(options), again = MakeSyntheticWindow(options);
   options.noise = false;
@@ -203,7 +203,7 @@ TEST(SyntheticWindowOptionsTest, NoiseDoesNotChangeWhatIsSeen) {
   EXPECT_NE(MakeSyntheticWindow(options).truth.points[0].position, exact.truth.points[0].position);
 }
 
-TEST(SyntheticWindowOptionsTest, WithoutDepthThereIsNone) {
+TEST(SyntheticWindow, OmitsDepthIfDisabled) {
   SyntheticWindowOptions options;
   options.depth = false;
   const SyntheticWindow window = MakeSyntheticWindow(options);
@@ -211,7 +211,7 @@ TEST(SyntheticWindowOptionsTest, WithoutDepthThereIsNone) {
   for (const auto& o : window.data.line_observations) EXPECT_FALSE(o.has_depth);
 }
 
-TEST(SyntheticWindowOptionsTest, MirroredCameraIsLegal) {
+TEST(SyntheticWindow, SupportsMirroredCameras) {
   SyntheticWindowOptions options;
   options.camera.fy = -480.0;
   SyntheticWindow window = MakeSyntheticWindow(options);
@@ -222,7 +222,7 @@ TEST(SyntheticWindowOptionsTest, MirroredCameraIsLegal) {
   EXPECT_LT(error.translation().norm(), 0.015);
 }
 
-TEST(SyntheticWindowOptionsTest, RejectsNonsense) {
+TEST(SyntheticWindow, RejectsInvalidOptions) {
   SyntheticWindowOptions options;
   options.num_keyframes = 1;
   EXPECT_THROW(MakeSyntheticWindow(options), std::invalid_argument);

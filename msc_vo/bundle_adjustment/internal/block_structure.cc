@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/bundle_adjustment/internal/block_structure.h"
+
+#include <algorithm>
+
+#include "msc_vo/bundle_adjustment/internal/elimination_order.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Numbers the items that are neither fixed nor unconstrained. Returns their count.
+template <typename Item>
+int NumberUnknowns(const std::vector<Item>& items, const std::vector<bool>& constrained,
+                   std::vector<int>* numbers) {
+  int count = 0;
+  for (size_t i = 0; i < items.size(); ++i) {
+    numbers->push_back(constrained[i] && !items[i].fixed ? count++ : -1);
+  }
+  return count;
+}
+
+// Merges the two terms of the observations, both in the order of the data.
+template <typename Reprojection, typename Depth>
+std::vector<ObservationFactors<Reprojection, Depth>> MergeTerms(
+    const WindowTerm<Reprojection>& reprojection, const WindowTerm<Depth>& depth) {
+  std::vector<ObservationFactors<Reprojection, Depth>> observations;
+  observations.reserve(std::max(reprojection.blocks.size(), depth.blocks.size()));
+  auto d = depth.blocks.begin();
+  const auto add_depths_before = [&](int source) {
+    for (; d != depth.blocks.end() && d->source < source; ++d) {
+      observations.push_back({d->first, d->second, -1, nullptr, &d->factor});
+    }
+  };
+  for (const auto& r : reprojection.blocks) {
+    add_depths_before(r.source);
+    const bool has_depth = d != depth.blocks.end() && d->source == r.source;
+    observations.push_back({r.first, r.second, -1, &r.factor, has_depth ? &d->factor : nullptr});
+    if (has_depth) ++d;
+  }
+  if (d != depth.blocks.end()) add_depths_before(depth.blocks.back().source + 1);
+  return observations;
+}
+
+// Creates the pose-landmark blocks and sets them in the observations.
+template <typename Observation>
+PoseLandmarkBlocks CreateBlocks(const std::vector<int>& pose, const std::vector<int>& landmark,
+                                int num_landmarks, std::vector<Observation>* observations) {
+  PoseLandmarkBlocks blocks;
+  blocks.of_landmark.resize(num_landmarks);
+  for (const Observation& o : *observations) {
+    if (landmark[o.landmark] >= 0) ++blocks.of_landmark[landmark[o.landmark]].size;
+  }
+  int end = 0;
+  for (PoseLandmarkBlocks::Range& range : blocks.of_landmark) {
+    range.begin = end;
+    end += range.size;
+    range.size = 0;
+  }
+  blocks.pose.resize(end);
+  for (Observation& o : *observations) {
+    if (landmark[o.landmark] < 0 || pose[o.keyframe] < 0) continue;
+    PoseLandmarkBlocks::Range& range = blocks.of_landmark[landmark[o.landmark]];
+    const auto begin = blocks.pose.begin() + range.begin, stop = begin + range.size;
+    o.block = static_cast<int>(std::find(begin, stop, pose[o.keyframe]) - blocks.pose.begin());
+    if (o.block == range.end()) blocks.pose[range.begin + range.size++] = pose[o.keyframe];
+  }
+  return blocks;
+}
+
+}  // namespace
+
+BlockStructure::BlockStructure(const WindowData& data, const WindowTerms& terms)
+    : point_observations(MergeTerms(terms.point_reprojection, terms.point_depth)),
+      line_observations(MergeTerms(terms.line_reprojection, terms.line_depth)) {
+  num_poses = NumberUnknowns(data.keyframes, terms.keyframe_constrained, &pose);
+  num_points = NumberUnknowns(data.points, terms.point_observed, &point);
+  num_lines = NumberUnknowns(data.lines, terms.line_observed, &line);
+  point_blocks = CreateBlocks(pose, point, num_points, &point_observations);
+  line_blocks = CreateBlocks(pose, line, num_lines, &line_observations);
+
+  const auto add_pairs = [this](const auto& term) {
+    for (const auto& block : term.blocks) {
+      const WindowIndex::Pair pair{line[block.first], line[block.second]};
+      if (pair.a >= 0 && pair.b >= 0) line_pairs.push_back(pair);
+    }
+  };
+  add_pairs(terms.parallel);
+  add_pairs(terms.perpendicular);
+  for (const bool in_reduced_system : LinesInReducedSystem(num_lines, line_pairs)) {
+    reduced_line.push_back(in_reduced_system ? num_reduced_lines++ : -1);
+  }
+}
+
+}  // namespace msc_vo

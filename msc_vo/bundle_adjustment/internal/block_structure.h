@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <vector>
+
+#include "msc_vo/bundle_adjustment/internal/window_terms.h"
+
+namespace msc_vo {
+
+/// The factors of one observation, null where they are not used.
+template <typename Reprojection, typename Depth>
+struct ObservationFactors {
+  int keyframe = 0;  ///< Positions in the state.
+  int landmark = 0;
+  int block = -1;  ///< Pose-landmark block; -1: the pose or the landmark is constant.
+  const Reprojection* reprojection = nullptr;
+  const Depth* depth = nullptr;
+};
+using PointObservationFactors = ObservationFactors<PointReprojection, DepthReprojection>;
+using LineObservationFactors = ObservationFactors<LineReprojection, LineDepthReprojection>;
+
+/// Pose-landmark blocks of the Hessian: one for every pair of an unknown landmark and an unknown
+/// pose that observes it, sorted by landmark.
+struct PoseLandmarkBlocks {
+  struct Range {
+    int begin = 0;
+    int size = 0;
+    int end() const { return begin + size; }
+  };
+  std::vector<Range> of_landmark;  ///< Blocks of each unknown landmark.
+  std::vector<int> pose;           ///< Unknown pose of each block.
+};
+
+/// Block structure of the Hessian of a window: numbering of the unknowns, and which of them share a
+/// factor. Unknowns are the poses and landmarks that are not fixed and have a residual block,
+/// numbered in the order of the data.
+struct BlockStructure {
+  BlockStructure(const WindowData& data, const WindowTerms& terms);
+
+  /// Number of each keyframe, point and line of the data among the unknowns; -1: constant.
+  std::vector<int> pose, point, line;
+  int num_poses = 0, num_points = 0, num_lines = 0;
+
+  std::vector<PointObservationFactors> point_observations;
+  std::vector<LineObservationFactors> line_observations;
+  PoseLandmarkBlocks point_blocks, line_blocks;
+
+  /// Line-line blocks: pairs of two unknown lines, first parallel, then perpendicular ones.
+  std::vector<WindowIndex::Pair> line_pairs;
+  /// Number of each unknown line among those in the reduced system (LinesInReducedSystem); -1:
+  /// eliminated.
+  std::vector<int> reduced_line;
+  int num_reduced_lines = 0;
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/bundle_adjustment/internal/window_step.h"
+
+#include <cmath>
+#include <type_traits>
+
+#include "msc_vo/bundle_adjustment/internal/schur_complement.h"
+#include "msc_vo/factors/rigid3_manifold.h"
+
+namespace msc_vo {
+
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+// x = -H^-1 (gradient + sum W_i^T y_i), with y the solution of the reduced system.
+template <int N>
+Eigen::Matrix<double, N, 1> Substitute(const EliminatedBlock<N>& block,
+                                       const Eigen::VectorXd& reduced) {
+  Eigen::Matrix<double, N, 1> right = block.gradient;
+  for (int a = 0; a < block.num_poses; ++a) {
+    right.noalias() += block.pose_couplings[a].transpose() * reduced.segment<6>(6 * block.poses[a]);
+  }
+  for (const DirectionCoupling<N>& a : block.direction_couplings) {
+    right.noalias() += a.block.transpose() * reduced.segment<2>(a.row);
+  }
+  return -(block.inverse * right);
+}
+
+void SubstituteBack(const BlockStructure& structure, const SchurComplement& schur,
+                    WindowStep* step) {
+  step->points.resize(structure.num_points);
+  for (int i = 0; i < structure.num_points; ++i) {
+    step->points[i] = Substitute(schur.points()[i], step->reduced);
+  }
+  step->lines.resize(structure.num_lines);
+  for (int i = 0; i < structure.num_lines; ++i) {
+    const int number = structure.reduced_line[i];
+    if (number < 0) {
+      step->lines[i] = Substitute(schur.lines()[i], step->reduced);
+      continue;
+    }
+    const ReducedLine& line = schur.reduced_lines()[number];
+    step->lines[i] = line.basis.leftCols<4>() * Substitute(line.position, step->reduced) +
+                     line.basis.rightCols<2>() * step->reduced.segment<2>(line.row);
+  }
+}
+
+// -g^T x - x^T H x / 2, where H x = -g - D x / radius.
+double ModelDecrease(const BlockStructure& structure, const WindowEquations& equations,
+                     double radius, const WindowStep& step) {
+  double sum = 0.0;
+  const auto add = [&](const auto& hessian, const auto& gradient, const auto& x) {
+    constexpr int kSize = std::decay_t<decltype(hessian)>::RowsAtCompileTime;
+    sum += x.dot(Damping<kSize>(hessian, radius).cwiseProduct(x) - gradient);
+  };
+  for (int i = 0; i < structure.num_poses; ++i) {
+    add(equations.pose_hessian[i], equations.pose_gradient[i],
+        Vector6d(step.reduced.segment<6>(6 * i)));
+  }
+  for (int i = 0; i < structure.num_points; ++i) {
+    add(equations.points.hessian[i], equations.points.gradient[i], step.points[i]);
+  }
+  for (int i = 0; i < structure.num_lines; ++i) {
+    add(equations.lines.hessian[i], equations.lines.gradient[i], step.lines[i]);
+  }
+  return 0.5 * sum;
+}
+
+}  // namespace
+
+bool SolveStep(const BlockStructure& structure, const WindowEquations& equations, double radius,
+               WindowStep* step) {
+  SchurComplement schur(structure, equations, radius);
+  if (!schur.Solve(&step->reduced)) return false;
+  SubstituteBack(structure, schur, step);
+  step->model_decrease = ModelDecrease(structure, equations, radius, *step);
+  return std::isfinite(step->model_decrease);
+}
+
+WindowState Plus(const BlockStructure& structure, const WindowState& state,
+                 const WindowStep& step) {
+  WindowState sum = state;
+  for (size_t i = 0; i < structure.pose.size(); ++i) {
+    if (structure.pose[i] < 0) continue;
+    Rigid3Manifold().Plus(state.PoseBlock(i), &step.reduced[6 * structure.pose[i]],
+                          sum.PoseBlock(i));
+  }
+  for (size_t i = 0; i < structure.point.size(); ++i) {
+    if (structure.point[i] < 0) continue;
+    Eigen::Map<Eigen::Vector3d>(sum.PointBlock(i)) += step.points[structure.point[i]];
+  }
+  for (size_t i = 0; i < structure.line.size(); ++i) {
+    if (structure.line[i] < 0) continue;
+    Eigen::Map<Vector6d>(sum.LineBlock(i)) += step.lines[structure.line[i]];
+  }
+  return sum;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Writes options as a YAML file.
+
+#include <algorithm>
+
+#include "msc_vo/config/options_file.h"
+
+namespace msc_vo {
+
+namespace {
+
+std::vector<std::string> SectionsOf(const std::string& path) {
+  std::vector<std::string> sections;
+  size_t begin = 0;
+  for (size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', begin)) {
+    sections.push_back(path.substr(begin, dot - begin));
+    begin = dot + 1;
+  }
+  return sections;
+}
+
+// Writes options below the keys of their sections, with comments in a column of their own.
+class YamlWriter {
+ public:
+  void Write(const Option& option) {
+    OpenSections(SectionsOf(option.path));
+    const std::string name = option.path.substr(option.path.rfind('.') + 1);
+    const std::string value = FormatOption(option);
+    const std::string line =
+        Indent(open_.size()) + (value.empty() ? "# " : "") + name + ": " + value;
+    const std::string valid = FormatValidValues(option);
+    WriteComment(line, option.help + (valid.empty() ? "" : " [" + valid + "]"));
+    if (option.IsBasic()) WriteComment("", option.when_to_change);
+  }
+
+  std::string Take() { return std::move(text_); }
+
+ private:
+  static std::string Indent(size_t depth) { return std::string(2 * depth, ' '); }
+
+  void OpenSections(const std::vector<std::string>& sections) {
+    const auto [end, ignored] =
+        std::mismatch(sections.begin(), sections.end(), open_.begin(), open_.end());
+    for (auto section = end; section != sections.end(); ++section) {
+      text_ += Indent(section - sections.begin()) + *section + ":\n";
+    }
+    open_ = sections;
+  }
+
+  void WriteComment(std::string line, const std::string& comment) {
+    constexpr size_t kColumn = 36;  // to the right of most values
+    line.resize(std::max(line.size() + 2, kColumn), ' ');
+    text_ += line + "# " + comment + "\n";
+  }
+
+  std::vector<std::string> open_;  // the sections that the next line is in
+  std::string text_;
+};
+
+}  // namespace
+
+std::string FormatConfiguration(const Configuration& configuration, OptionSelection selection) {
+  Configuration copy = configuration;
+  YamlWriter writer;
+  for (const Option& option : ListOptions(&copy)) {
+    if (selection == OptionSelection::kAll || option.IsBasic()) writer.Write(option);
+  }
+  const std::string title =
+      selection == OptionSelection::kAll
+          ? "# All options of msc_vo.\n"
+          : "# The basic options of msc_vo; --print-config --all adds the advanced ones.\n";
+  return title + writer.Take();
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/loss_cause.h"
+
+#include "msc_vo/tracking/tracker_options.h"
+
+namespace msc_vo {
+
+namespace {
+
+constexpr double kMinContrast = 2.0;        // grey values; noise of a sensor in the dark
+constexpr double kMinMeasuredDepth = 0.05;  // fraction of the pixels
+
+}  // namespace
+
+LossCause FindLossCause(const FrameResult& frame) {
+  const int min_features = TrackerOptions().min_initial_features;
+  if (frame.image.contrast < kMinContrast) return LossCause::kUniformImage;
+  if (frame.num_points + frame.num_lines < min_features) return LossCause::kFewFeatures;
+  if (frame.image.measured_depth < kMinMeasuredDepth) return LossCause::kNoDepth;
+  if (frame.num_with_depth < min_features) return LossCause::kDepthOutOfRange;
+  return LossCause::kNoMatch;
+}
+
+const char* Describe(LossCause cause) {
+  switch (cause) {
+    case LossCause::kUniformImage:
+      return "black or uniform";
+    case LossCause::kFewFeatures:
+      return "with too few points and lines";
+    case LossCause::kNoDepth:
+      return "without depth";
+    case LossCause::kDepthOutOfRange:
+      return "with too few depths in range (is depth_scale right?)";
+    case LossCause::kNoMatch:
+      return "that do not fit the map (fast or jerky motion, blur, or a wrong camera?)";
+  }
+  return "unknown";
+}
+
+const char* ToString(LossCause cause) {
+  switch (cause) {
+    case LossCause::kUniformImage:
+      return "uniform_image";
+    case LossCause::kFewFeatures:
+      return "few_features";
+    case LossCause::kNoDepth:
+      return "no_depth";
+    case LossCause::kDepthOutOfRange:
+      return "depth_out_of_range";
+    case LossCause::kNoMatch:
+      return "no_match";
+  }
+  return "unknown";
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/text/files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+namespace msc_vo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr char kNotWritten[] = ": cannot be written (check the folder and the free space)";
+
+// What keeps `path` from leading to anything; empty: nothing. Its type is written to `type`.
+std::string LookUp(const std::string& path, fs::file_type* type) {
+  std::error_code error;
+  *type = fs::status(path, error).type();
+  if (*type == fs::file_type::not_found) {
+    const bool is_link = fs::is_symlink(fs::symlink_status(path, error));
+    return is_link ? "is a symbolic link to a file that does not exist" : "does not exist";
+  }
+  if (error == std::errc::too_many_symbolic_link_levels) {
+    return "is a symbolic link that leads back to itself";
+  }
+  if (error) return "cannot be read: " + error.message() + " (check the permissions)";
+  return "";
+}
+
+// Name of what is neither a regular file nor a folder.
+std::string SpecialTypeName(fs::file_type type) {
+  switch (type) {
+    case fs::file_type::fifo:
+      return "pipe";
+    case fs::file_type::character:
+    case fs::file_type::block:
+      return "device";
+    case fs::file_type::socket:
+      return "socket";
+    default:
+      return "special file";
+  }
+}
+
+std::string Megabytes(std::uintmax_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
+
+// Throws std::runtime_error unless `path` can become a regular file or replace one.
+void CheckReplaceable(const std::string& path) {
+  fs::file_type type;
+  const std::string problem = LookUp(path, &type);
+  if (type == fs::file_type::directory) {
+    throw std::runtime_error(path + ": cannot be written: is a folder, give a file");
+  }
+  if (problem.empty() && type != fs::file_type::regular) {
+    throw std::runtime_error(path + ": cannot be written: is a " + SpecialTypeName(type) +
+                             ", give a regular file");
+  }
+}
+
+// Removes the name from its folder, not what a link leads to: a file opened under it is a new one.
+void RemoveEntry(const std::string& path) {
+  std::error_code ignored;  // what cannot be removed cannot be opened for writing either
+  fs::remove(path, ignored);
+}
+
+}  // namespace
+
+bool HasEntry(const std::string& path) {
+  std::error_code error;
+  const fs::file_type type = fs::symlink_status(path, error).type();
+  return type != fs::file_type::none && type != fs::file_type::not_found;
+}
+
+bool IsFolder(const std::string& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+std::string FileProblem(const std::string& path, std::uintmax_t max_bytes) {
+  fs::file_type type;
+  const std::string problem = LookUp(path, &type);
+  if (!problem.empty()) return problem;
+  if (type == fs::file_type::directory) return "is a folder, a file is needed";
+  if (type != fs::file_type::regular) {
+    return "is a " + SpecialTypeName(type) +
+           ", which may have no end; copy what it gives into a regular file";
+  }
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (error) return "cannot be read: " + error.message();
+  if (size > max_bytes) {
+    return "has " + Megabytes(size) + ", more than the " + Megabytes(max_bytes) +
+           " that such a file may have; is it the right file?";
+  }
+  return "";
+}
+
+std::string FolderProblem(const std::string& path) {
+  fs::file_type type;
+  const std::string problem = LookUp(path, &type);
+  if (!problem.empty()) return problem;
+  if (type == fs::file_type::regular) return "is a file";
+  if (type != fs::file_type::directory) return "is a " + SpecialTypeName(type);
+  std::error_code error;
+  const fs::directory_iterator entries(path, error);
+  return error ? "cannot be listed: " + error.message() + " (check the permissions)" : "";
+}
+
+std::string ReadFile(const std::string& path, std::uintmax_t max_bytes) {
+  const std::string problem = FileProblem(path, max_bytes);
+  if (!problem.empty()) throw std::runtime_error(path + ": " + problem);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + ": cannot be read (check its permissions)");
+  // Not to the end of the file, which may grow.
+  std::string content(static_cast<size_t>(fs::file_size(path)), '\0');
+  file.read(content.data(), static_cast<std::streamsize>(content.size()));
+  if (file.bad()) throw std::runtime_error(path + ": cannot be read: the disk reports an error");
+  content.resize(static_cast<size_t>(file.gcount()));
+  return content;
+}
+
+std::vector<std::string> ListFolder(const std::string& folder) {
+  const std::string problem = FolderProblem(folder);
+  if (!problem.empty()) throw std::runtime_error(folder + ": " + problem + "; a folder is needed");
+  std::vector<std::string> paths;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    paths.push_back(entry.path().string());
+  }
+  return paths;
+}
+
+void WriteFile(const std::string& path, const std::string& content) {
+  CheckReplaceable(path);
+  const std::string partial = path + ".partial";
+  RemoveEntry(partial);
+  {
+    std::ofstream file(partial, std::ios::binary);
+    file.write(content.data(), static_cast<std::streamsize>(content.size()));
+    file.close();
+    if (!file) {
+      RemoveEntry(partial);
+      throw std::runtime_error(path + kNotWritten);
+    }
+  }
+  std::error_code error;
+  fs::rename(partial, path, error);
+  if (error) throw std::runtime_error(path + ": cannot be written: " + error.message());
+}
+
+GrowingFile::GrowingFile(const std::string& path) : path_(path) {
+  CheckReplaceable(path);
+  RemoveEntry(path);
+  stream_.open(path, std::ios::binary);
+  Append("");
+}
+
+void GrowingFile::Append(const std::string& text) {
+  stream_ << text << std::flush;
+  if (!stream_) throw std::runtime_error(path_ + kNotWritten);
+}
+
+void MakeFolder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw std::runtime_error(path + ": cannot be made: " + error.message());
+}
+
+void RefuseToOverwrite(const std::vector<std::string>& inputs, const std::string& output) {
+  const auto is_output = [&](const std::string& input) {
+    std::error_code error;  // set if one of them does not exist
+    return fs::equivalent(input, output, error);
+  };
+  const auto input = std::find_if(inputs.begin(), inputs.end(), is_output);
+  if (input == inputs.end()) return;
+  throw std::runtime_error(output + ": would be written over the input " + *input +
+                           "; give another place for the results");
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// No command writes over what it was given to read.
+
+#include <filesystem>
+#include <map>
+
+#include "tests/apps/command_process.h"
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/recording/window_file.h"
+#include "msc_vo/synthetic/window/synthetic_window.h"
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class OverwritingTest : public TemporaryFolder {
+ protected:
+  void Synthesize(const std::string& name) {
+    const CommandOutcome outcome =
+        RunCommand({"synthesize", Path(name), "--frames", "3", "--width", "160"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
+  void ExpectRefused(const std::vector<std::string>& arguments) {
+    const CommandOutcome outcome = RunCommand(arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << testing::PrintToString(arguments);
+    EXPECT_THAT(outcome.output,
+                AllOf(HasSubstr("msc_vo: error: "), HasSubstr("would be written over the input")));
+  }
+  // The contents of every file below a folder.
+  std::map<std::string, std::string> Contents(const std::string& name) {
+    std::map<std::string, std::string> contents;
+    for (const auto& entry : fs::recursive_directory_iterator(Path(name))) {
+      if (entry.is_regular_file())
+        contents[entry.path().string()] = ReadFile(entry.path().string());
+    }
+    return contents;
+  }
+};
+
+TEST_F(OverwritingTest, ResultsAreNotWrittenAmongTheFilesOfTheSequence) {
+  Synthesize("room");
+  fs::create_directory_symlink(Path("room"), Path("link"));
+  const auto before = Contents("room");
+  for (const char* output : {"room", "room/.", "room/rgb", "link", "link/depth"}) {
+    ExpectRefused({"replay", Path("room"), "--quiet", "--output", Path(output)});
+    ExpectRefused({"replay", Path("room"), "--quiet", "--output", Path("out"), "--dump-windows",
+                   Path(output)});
+  }
+  ExpectRefused({"benchmark", Path("room"), "--modes", "pl-vo", "--output", Path("link")});
+  EXPECT_EQ(Contents("room"), before);
+}
+
+TEST_F(OverwritingTest, ABenchmarkLeavesASequenceAloneThatLiesWhereItsResultsWouldLie) {
+  Synthesize("pl-vo/pl-vo");
+  const auto before = Contents("pl-vo");
+  const CommandOutcome outcome =
+      RunCommand({"benchmark", Path("pl-vo/pl-vo"), "--modes", "pl-vo", "--output", Folder()});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("would be written over the input"));
+  EXPECT_EQ(Contents("pl-vo"), before);
+}
+
+TEST_F(OverwritingTest, AConfigurationIsNotReplacedByAResult) {
+  Synthesize("room");
+  WriteText("out/summary.json", "mode: pl-vo\n");
+  ExpectRefused(
+      {"replay", Path("room"), "--output", Path("out"), "--config", Path("out/summary.json")});
+  EXPECT_EQ(ReadFile(Path("out/summary.json")), "mode: pl-vo\n");
+}
+
+TEST_F(OverwritingTest, ASolutionReplacesNeitherItsWindowNorADevice) {
+  SyntheticWindowOptions options;
+  options.num_keyframes = 4;
+  options.num_points = 50;
+  options.num_lines = 10;
+  WriteWindow(Path("window.txt"), BundleAdjustmentOptions(), MakeSyntheticWindow(options).data);
+  fs::create_symlink(Path("window.txt"), Path("link.txt"));
+  const std::string before = ReadFile(Path("window.txt"));
+  for (const char* output : {"window.txt", "link.txt"}) {
+    ExpectRefused({"solve-window", Path("window.txt"), "--output", Path(output)});
+  }
+  EXPECT_EQ(ReadFile(Path("window.txt")), before);
+
+  fs::create_symlink("/dev/full", Path("device"));  // never the real one: tests may run as root
+  const CommandOutcome device =
+      RunCommand({"solve-window", Path("window.txt"), "--output", Path("device")});
+  EXPECT_EQ(device.exit_code, 1);
+  EXPECT_THAT(device.output, HasSubstr("device: cannot be written: is a device"));
+  EXPECT_TRUE(fs::is_symlink(Path("device")));
+}
+
+TEST_F(OverwritingTest, SynthesizeReplacesLinksAndNotWhatTheyLeadTo) {
+  Synthesize("room");
+  const auto before = Contents("room");
+  fs::create_directory(Path("copy"));
+  for (const auto& entry : fs::directory_iterator(Path("room"))) {
+    fs::create_symlink(entry.path(), fs::path(Path("copy")) / entry.path().filename());
+  }
+  const CommandOutcome outcome =
+      RunCommand({"synthesize", Path("copy"), "--frames", "2", "--width", "160", "--seed", "7"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_EQ(Contents("room"), before);
+}
+
+}  // namespace
+}  // namespace msc_vo

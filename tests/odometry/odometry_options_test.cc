@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/odometry_options.h"
+
+#include <gtest/gtest.h>
+
+namespace msc_vo {
+namespace {
+
+TEST(Mode, HasANameThatIsParsed) {
+  for (const Mode mode : {Mode::kPlVo, Mode::kPlVoDepth, Mode::kMscVo}) {
+    EXPECT_EQ(ModeFromString(ToString(mode)), mode);
+  }
+  EXPECT_THROW(ModeFromString("orb"), std::invalid_argument);
+}
+
+TEST(EffectiveOptions, DisableWhatTheModeDoesNotInclude) {
+  OdometryOptions options;
+  options.mode = Mode::kPlVo;
+  const OdometryOptions pl_vo = EffectiveOptions(options);
+  EXPECT_EQ(pl_vo.features.line_depth, LineDepthMethod::kEndPoints);
+  EXPECT_FALSE(pl_vo.mapping.RefinesFrames());
+  EXPECT_FALSE(pl_vo.mapping.axes.enabled);
+  options.mode = Mode::kPlVoDepth;
+  const OdometryOptions pl_vo_depth = EffectiveOptions(options);
+  EXPECT_EQ(pl_vo_depth.features.line_depth, LineDepthMethod::kRobustFit);
+  EXPECT_TRUE(pl_vo_depth.mapping.RefinesFrames());
+  EXPECT_FALSE(pl_vo_depth.mapping.pairs.parallel);
+  options.mode = Mode::kMscVo;
+  EXPECT_FALSE(EffectiveOptions(options).mapping.RefinesFrames());
+  EXPECT_TRUE(EffectiveOptions(options).mapping.axes.enabled);
+}
+
+TEST(EffectiveOptions, ShareSettingsBetweenComponents) {
+  OdometryOptions options;
+  options.tracking.point_matcher.max_distance = 33;
+  options.tracking.line_matcher.max_angle = 3.0;
+  options.mapping.window.line_depth = {false, 1.5};
+  options.mapping.window.reject_chi2_2 = 7.0;
+  options.mapping.window.manhattan.huber = 1.25;
+  options.mapping.pairs.pair_sigma = 0.25;
+  const OdometryOptions effective = EffectiveOptions(options);
+  EXPECT_EQ(effective.mapping.fusion.point_matcher.max_distance, 33);
+  EXPECT_EQ(effective.mapping.fusion.line_matcher.max_angle, 3.0);
+  EXPECT_FALSE(effective.tracking.pose.line_depth.enabled);
+  EXPECT_EQ(effective.tracking.pose.line_depth.huber, 1.5);
+  EXPECT_EQ(effective.tracking.pose.reject_chi2_2, 7.0);
+  EXPECT_EQ(effective.mapping.axes.refinement.reject_chi2_2, 7.0);
+  EXPECT_EQ(effective.mapping.axes.refinement.huber, 1.25);
+  EXPECT_EQ(effective.mapping.structure.pair_sigma, 0.25);
+  EXPECT_EQ(effective.mapping.axes.deviation, 0.25);
+}
+
+TEST(NormalOptions, HaveTheDepthRangeOfTheFeatures) {
+  OdometryOptions options;
+  options.features.min_depth = 0.5;
+  options.features.max_depth = 4.0;
+  EXPECT_EQ(NormalOptions(options).min_depth, 0.5);
+  EXPECT_EQ(NormalOptions(options).max_depth, 4.0);
+  options.normal_grid_step = 8;
+  EXPECT_EQ(NormalOptions(options).grid_step, 8);
+}
+
+TEST(NormalOptions, AreValidForEveryValidDepthRange) {
+  OdometryOptions options;
+  options.features.min_depth = 20.0;
+  options.features.max_depth = 1000.0;
+  std::string error;
+  ASSERT_TRUE(options.IsValid(&error)) << error;
+  EXPECT_TRUE(NormalOptions(options).IsValid(&error)) << error;
+}
+
+}  // namespace
+}  // namespace msc_vo
