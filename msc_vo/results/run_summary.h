@@ -112,7 +112,4 @@ std::string FormatErrorJson(const TrajectoryError& error, const LeftOutRows& lef
 // marked as not estimated.
 std::vector<TimedPose> TrajectoryOf(const OdometryResult& result);
 
-/// JSON of a solved window (`solve-window --json`). `milliseconds`: duration of the solve.
-std::string FormatWindowJson(const BundleAdjustmentSummary& summary, double milliseconds);
-
 }  // namespace msc_vo

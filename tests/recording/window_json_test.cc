@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include "msc_vo/recording/window_json.h"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-
-#include "msc_vo/results/run_summary.h"
 
 namespace msc_vo {
 namespace {
 
-TEST(FormatWindowJson, WritesSummaryAndTerms) {
+TEST(FormatWindowJson, ContainsCostsOfEachTerm) {
   BundleAdjustmentSummary summary;
   summary.usable = true;
   summary.final_cost = 0.1 + 0.2;
