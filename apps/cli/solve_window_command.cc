@@ -11,6 +11,7 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "msc_vo/recording/window_file.h"
+#include "msc_vo/recording/window_json.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/timing/stopwatch.h"
 

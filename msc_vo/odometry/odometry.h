@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+#include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/map/noise_scale.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// The JSON faces of a comparison, a run, a benchmark and a solved window.
+// JSON of a comparison, a run and a benchmark.
 
 #include <type_traits>
 #include <utility>
@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "msc_vo/geometry/angles.h"
-#include "msc_vo/recording/window_file.h"
 #include "msc_vo/results/benchmark.h"
 #include "msc_vo/results/run_summary.h"
 #include "msc_vo/version.h"
@@ -208,13 +207,6 @@ Json MeasuresToJson(const RunSummary& summary, const std::optional<TrajectoryErr
   return json;
 }
 
-Json TermToJson(const TermSummary& term) {
-  return {{"residual_blocks", term.num_residual_blocks},
-          {"rejected", term.num_rejected},
-          {"initial_cost", term.initial_cost},
-          {"final_cost", term.final_cost}};
-}
-
 // Texts from the outside (paths, messages) need not be UTF-8.
 std::string Dump(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -247,28 +239,6 @@ std::string FormatSummary(const RunSummary& summary, const RunContext& context) 
   json.update(MeasuresToJson(summary, context.error, context.cost));
   json["readout_time_origin"] = context.calibration.readout_origin;
   json["options"] = OptionsToJson(context.configuration);
-  return Dump(json);
-}
-
-std::string FormatWindowJson(const BundleAdjustmentSummary& summary, double milliseconds) {
-  Json json;
-  json["usable"] = summary.usable;
-  json["message"] = summary.message;
-  json["iterations"] = summary.num_iterations;
-  json["initial_cost"] = summary.initial_cost;
-  json["final_cost"] = summary.final_cost;
-  json["behind_camera"] = summary.num_behind_camera;
-  json["schur_structure"] = summary.schur_structure;
-  json["terms"] = {{"point_reprojection", TermToJson(summary.point_reprojection)},
-                   {"point_depth", TermToJson(summary.point_depth)},
-                   {"line_reprojection", TermToJson(summary.line_reprojection)},
-                   {"line_depth", TermToJson(summary.line_depth)},
-                   {"line_endpoint_prior", TermToJson(summary.line_endpoint_prior)},
-                   {"parallel", TermToJson(summary.parallel)},
-                   {"perpendicular", TermToJson(summary.perpendicular)},
-                   {"manhattan", TermToJson(summary.manhattan)},
-                   {"pose_prior", TermToJson(summary.pose_prior)}};
-  json["milliseconds"] = milliseconds;
   return Dump(json);
 }
 

@@ -100,8 +100,8 @@ TEST_F(ReplayCommandTest, FolderNameDoesNotChangeTheTrajectory) {
       RunCommand({"replay", Path("fr1_room"), "--output", Path("named")});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_EQ(ReadFile(Path("plain/trajectory.txt")), ReadFile(Path("named/trajectory.txt")));
-  EXPECT_THAT(outcome.output, HasSubstr("global shutter (learnt from the images)"));
-  EXPECT_EQ(Summary("named")["readout_time_origin"], "learnt from the images");
+  EXPECT_THAT(outcome.output, HasSubstr("global shutter (self-calibrated from the images)"));
+  EXPECT_EQ(Summary("named")["readout_time_origin"], "self-calibrated from the images");
 }
 
 TEST_F(ReplayCommandTest, SaysWhereTheReadoutTimeComesFrom) {
@@ -283,7 +283,7 @@ TEST_F(ReplayCommandTest, AFolderThatCannotBeMadeIsAnError) {
   WriteText("file", "");
   const CommandOutcome outcome = Replay("file/out");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.output, HasSubstr("cannot be made"));
+  EXPECT_THAT(outcome.output, HasSubstr("cannot be created"));
   EXPECT_THAT(outcome.output, testing::Not(HasSubstr("1/2")));  // before the work
 }
 

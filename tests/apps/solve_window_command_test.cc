@@ -117,7 +117,7 @@ TEST_F(SolveWindowCommandTest, ErrorsNameTheFile) {
   ExpectError({"solve-window", Path("unknown.txt")},
               "unknown.txt: LocalBundleAdjustment: point 987 is observed but not in the window");
   WriteText("other.txt", "1 2 3\n");
-  ExpectError({"solve-window", Path("other.txt")}, "other.txt:1: is no window file");
+  ExpectError({"solve-window", Path("other.txt")}, "other.txt:1: is not a window file");
 }
 
 TEST_F(SolveWindowCommandTest, AWindowThatCannotBeSolvedIsAFailure) {

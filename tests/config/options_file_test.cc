@@ -3,8 +3,12 @@
 
 #include "msc_vo/config/options_file.h"
 
+#include <filesystem>
+
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
+
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 namespace {
@@ -126,6 +130,16 @@ TEST_F(OptionsFileTest, RefusesMalformedFiles) {
   EXPECT_THAT(ErrorOf("mode: pl-vo\nmode: pl-vo\n"), HasSubstr("options.yaml:2: 'mode' is given"));
   EXPECT_THAT(ErrorOf("mode: pl-vo\n  x: [1\n"), HasSubstr("malformed YAML"));
   EXPECT_THAT(ErrorOf("- 1\n- 2\n"), HasSubstr("expected 'name: value' lines"));
+}
+
+TEST_F(OptionsFileTest, RefusesTooLargeAndEndlessFiles) {
+  WriteText("large.yaml", "");
+  std::filesystem::resize_file(Path("large.yaml"), kMaxOptionsBytes + 1);
+  Configuration configuration;
+  EXPECT_THAT(MessageOf([&] { ReadConfiguration(Path("large.yaml"), &configuration); }),
+              HasSubstr("large.yaml: has "));
+  EXPECT_THAT(MessageOf([&] { ReadConfiguration("/dev/zero", &configuration); }),
+              HasSubstr("/dev/zero: is a device"));
 }
 
 TEST_F(OptionsFileTest, ReadsTheCameraOfOrbSlamSettings) {

@@ -172,7 +172,7 @@ TEST_F(ResultFilesTest, WritesTheOptionsInEffect) {
 TEST_F(ResultFilesTest, AFileInTheWayIsAnError) {
   WriteText("out", "");
   EXPECT_THAT(MessageOf([&] { WriteResultFiles(Path("out"), Result(), {}); }),
-              HasSubstr("out: cannot be made"));
+              HasSubstr("out: cannot be created"));
 }
 
 }  // namespace
