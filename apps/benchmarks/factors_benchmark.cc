@@ -49,7 +49,7 @@ struct Input {
   Blocks pose_and_line{Block(pose), Block(line)};
 };
 
-const Input& TheInput() {
+const Input& SharedInput() {
   static const Input input;
   return input;
 }
@@ -90,7 +90,7 @@ void RegisterBoth(const std::string& name, const Factor& factor, const Blocks& b
 }
 
 void RegisterAll() {
-  const Input& in = TheInput();
+  const Input& in = SharedInput();
   const PinholeCamera& camera = in.data.camera;
   RegisterBoth<AnalyticCostFunction<PointReprojection>>(
       "PointReprojection",

@@ -32,13 +32,13 @@ struct Input {
   FrameMatches matches;
 };
 
-const Input& TheInput() {
+const Input& SharedInput() {
   static const Input input;
   return input;
 }
 
 void Candidates(benchmark::State& state) {
-  const Input& input = TheInput();
+  const Input& input = SharedInput();
   const Map map;
   for (auto _ : state) {
     benchmark::DoNotOptimize(CandidatesFromFrame(map, input.last, Rigid3(), Rigid3()));
@@ -50,7 +50,7 @@ BENCHMARK(Candidates)->Unit(benchmark::kMicrosecond);
 
 // The argument is the search radius, pixels.
 void PointMatching(benchmark::State& state) {
-  const Input& input = TheInput();
+  const Input& input = SharedInput();
   size_t num_matches = 0;
   for (auto _ : state) {
     num_matches = MatchPoints(input.options.point_matcher, input.frame, input.candidates.points,
@@ -62,7 +62,7 @@ void PointMatching(benchmark::State& state) {
 BENCHMARK(PointMatching)->Arg(4)->Arg(15)->Arg(60)->Unit(benchmark::kMicrosecond);
 
 void LineMatching(benchmark::State& state) {
-  const Input& input = TheInput();
+  const Input& input = SharedInput();
   size_t num_matches = 0;
   for (auto _ : state) {
     num_matches = MatchLines(input.options.line_matcher, input.frame, input.candidates.lines,
@@ -74,7 +74,7 @@ void LineMatching(benchmark::State& state) {
 BENCHMARK(LineMatching)->Arg(4)->Arg(15)->Arg(60)->Unit(benchmark::kMicrosecond);
 
 void EstimatePose(benchmark::State& state) {
-  const Input& input = TheInput();
+  const Input& input = SharedInput();
   PoseSummary summary;
   for (auto _ : state) {
     Rigid3 cam_from_world;

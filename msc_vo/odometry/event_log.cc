@@ -60,13 +60,14 @@ void EventLog::LogMapping(const MappingStep& step) {
   if (summary.axes_state != axes_state_ || summary.num_axes_refinements != num_axes_refinements_) {
     axes_state_ = summary.axes_state;
     num_axes_refinements_ = summary.num_axes_refinements;
-    Log().info("Manhattan axes at keyframe {}: {}, {} refinements", summary.keyframe,
+    Log().info("Manhattan axes at keyframe {}: {}; refinements: {}", summary.keyframe,
                ToString(axes_state_), num_axes_refinements_);
   }
   if (step.snapshot && step.snapshot->readout_time != readout_time_) {
-    readout_time_ = step.snapshot->readout_time;
-    Log().info("readout time accepted at keyframe {}: {:.2f} ms", summary.keyframe,
-               1000.0 * readout_time_);
+    const bool was_known = std::exchange(readout_time_, step.snapshot->readout_time) != 0.0;
+    Log().log(was_known ? spdlog::level::debug : spdlog::level::info,
+              "readout time {} at keyframe {}: {:.2f} ms", was_known ? "updated" : "accepted",
+              summary.keyframe, 1000.0 * readout_time_);
   }
 }
 

@@ -105,7 +105,8 @@ TEST_F(OptionsFileTest, SuggestsASimilarNameForAnUnknownOne) {
 
 TEST_F(OptionsFileTest, RefusesWrongTypes) {
   EXPECT_THAT(ErrorOf("tracking:\n  wide_radius: far\n"),
-              HasSubstr("options.yaml:2: 'tracking.wide_radius' must be a number, not 'far'"));
+              HasSubstr("options.yaml:2: 'tracking.wide_radius' must be a number from 0.1 to 1000 "
+                        "pixels, not 'far'"));
   EXPECT_THAT(ErrorOf("tracking:\n  min_matches: 10.5\n"), HasSubstr("a whole number"));
   EXPECT_THAT(ErrorOf("use_points: 3\n"), HasSubstr("true or false"));
   EXPECT_THAT(ErrorOf("mode: orb\n"), HasSubstr("one of pl-vo pl-vo-depth msc-vo, not 'orb'"));

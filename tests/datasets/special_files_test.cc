@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
-#include "msc_vo/datasets/image_folder.h"
+#include "msc_vo/datasets/image_file.h"
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/datasets/sequence_check.h"

@@ -98,9 +98,11 @@ TEST_F(EventLogTest, WritesAxesAndReadoutTimeWhenTheyChange) {
   log_.LogMapping(Step(AxesState::kCoarse, 0, 0.0));
   log_.LogMapping(Step(AxesState::kRefined, 1, 0.025));
   log_.LogMapping(Step(AxesState::kRefined, 1, 0.025));
-  EXPECT_THAT(Lines(), ElementsAre("info: Manhattan axes at keyframe 4: coarse, 0 refinements",
-                                   "info: Manhattan axes at keyframe 4: refined, 1 refinements",
-                                   "info: readout time accepted at keyframe 4: 25.00 ms"));
+  log_.LogMapping(Step(AxesState::kRefined, 1, 0.026));
+  EXPECT_THAT(Lines(), ElementsAre("info: Manhattan axes at keyframe 4: coarse; refinements: 0",
+                                   "info: Manhattan axes at keyframe 4: refined; refinements: 1",
+                                   "info: readout time accepted at keyframe 4: 25.00 ms",
+                                   "debug: readout time updated at keyframe 4: 26.00 ms"));
 }
 
 TEST_F(EventLogTest, CountsFramesBelowTheLevel) {

@@ -246,9 +246,8 @@ TEST_F(WindowFileTest, ErrorsNameLineAndFix) {
   expect(" 641 ", " ", "found 5 fields after 'camera'; correct the line");
   expect(" 641 ", " 641 1 ", "expected 'camera FX FY CX CY WIDTH HEIGHT', found 7 fields");
   expect("parallel.huber", "paralel.huber", "did you mean 'mapping.window.parallel.huber'?");
-  expect(
-      "line_endpoint_prior ", "line_endpoint_prior ",
-      "unknown option 'mapping.window.line_endpoint_prior'; remove the line to take the defaults");
+  expect("line_endpoint_prior ", "line_anchor ",
+         "unknown option 'mapping.window.line_anchor'; remove the line to take the defaults");
   expect("option mapping", "option x mapping", "expected 'option NAME VALUE'");
   expect("reject_chi2_2 ", "reject_chi2_2 x", "must be a number, not 'x9.21'");
   const std::string end = text.substr(text.rfind("end "));

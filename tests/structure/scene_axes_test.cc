@@ -73,7 +73,7 @@ TEST(SceneAxes, AlignsTheLinesOfAWindowWithTheirAxes) {
   for (const WindowData::AxisAlignment& alignment : window.axis_alignments) {
     const LineLandmark& line = *map.FindLine(alignment.line);
     EXPECT_LT(UndirectedAngle(line.segment.Direction(), alignment.axis), DegreesToRadians(5.0));
-    EXPECT_GE(alignment.sigma, SceneAxesOptions().deviation);
+    EXPECT_GE(alignment.sigma, DegreesToRadians(SceneAxesOptions().deviation));
   }
 }
 
