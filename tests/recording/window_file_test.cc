@@ -249,7 +249,7 @@ TEST_F(WindowFileTest, ErrorsNameLineAndFix) {
   expect("line_endpoint_prior ", "line_anchor ",
          "unknown option 'mapping.window.line_anchor'; remove the line to take the defaults");
   expect("option mapping", "option x mapping", "expected 'option NAME VALUE'");
-  expect("reject_chi2_2 ", "reject_chi2_2 x", "must be a number, not 'x9.21'");
+  expect("reject_chi2_2 ", "reject_chi2_2 x", "must be a number from 0.001 to 10000, not 'x9.21'");
   const std::string end = text.substr(text.rfind("end "));
   expect(end, "end -3\n", "'end' gives -3");
   expect(end, "end 1000\n", "correct the number if you edited the file");
