@@ -16,7 +16,7 @@ namespace msc_vo {
 template <int Dim>
 struct LineSegment {
   using Vector = Eigen::Matrix<double, Dim, 1>;
-  // Not aligned: there must be no padding between the end points.
+  /// Not aligned: there must be no padding between the end points.
   using Point = Eigen::Matrix<double, Dim, 1, Eigen::DontAlign>;
   Point start = Point::Zero();
   Point end = Point::Zero();

@@ -7,11 +7,11 @@
 
 namespace msc_vo {
 
-// `text` with the five characters that mean something in HTML and in quoted attributes replaced.
+/// `text` with the five characters that mean something in HTML and in quoted attributes replaced.
 std::string EscapeHtml(const std::string& text);
 
-// `value` with that many decimals and a point, whatever the locale says; no minus before zero.
-// "-" if it is not finite.
+/// `value` with that many decimals and a point, whatever the locale says; no minus before zero.
+/// "-" if it is not finite.
 std::string FormatFixed(double value, int decimals);
 
 }  // namespace msc_vo

@@ -15,26 +15,26 @@ namespace msc_vo {
 
 enum class TrajectorySide { kTop, kSide };
 
-// Estimate, truth, map lines (top view only), keyframes, frames without a pose, start.
+/// Estimate, truth, map lines (top view only), keyframes, frames without a pose, start.
 std::string PlotTrajectory(const ReportData& data, const TrajectoryView& view, TrajectorySide side);
 
-// Position error of every frame that has a truth, centimetres.
+/// Position error of every frame that has a truth, centimetres.
 std::string PlotError(const ReportData& data);
 
-// Inlier points and lines of every frame.
+/// Inlier points and lines of every frame.
 std::string PlotInliers(const ReportData& data);
 
-// Style of the map lines of a Manhattan axis; -1: of none.
+/// Style of the map lines of a Manhattan axis; -1: of none.
 std::string LineClass(int axis);
 
-// The stages of tracking that are stacked, on each other, and the whole; milliseconds.
+/// The stages of tracking that are stacked, on each other, and the whole; milliseconds.
 std::string PlotStages(const ReportData& data);
 
-// Milliseconds of each keyframe step.
+/// Milliseconds of each keyframe step.
 std::string PlotMapping(const ReportData& data);
 
-// "tracked", "weak", "dropped", "unreadable", "predicted", "lost": for the reader and, prefixed
-// with "status-", the style.
+/// "tracked", "weak", "dropped", "unreadable", "predicted", "lost": for the reader and, prefixed
+/// with "status-", the style.
 const char* ToString(ReportStatus status);
 
 }  // namespace msc_vo

@@ -10,7 +10,7 @@
 
 namespace msc_vo {
 
-// Milliseconds of one stage over the frames in which it ran.
+/// Milliseconds of one stage over the frames in which it ran.
 struct StageTimeStatistics {
   std::string name;
   int count = 0;
@@ -20,21 +20,21 @@ struct StageTimeStatistics {
   double max = 0.0;
 };
 
-// Median and 95 % quantile are values that occurred, as many frames took no longer; values that are
-// not finite do not count. All zero if nothing is left.
+/// Median and 95 % quantile are values that occurred, as many frames took no longer; values that
+/// are not finite do not count. All zero if nothing is left.
 StageTimeStatistics SummarizeStage(const std::string& name, std::vector<double> milliseconds);
 
-// The stages of tracking that ReportFrame::stage_ms holds, "tracking" as a whole over all frames,
-// and "mapping" over the frames that caused a keyframe step.
+/// The stages of tracking that ReportFrame::stage_ms holds, "tracking" as a whole over all frames,
+/// and "mapping" over the frames that caused a keyframe step.
 std::vector<StageTimeStatistics> SummarizeStages(const std::vector<ReportStage>& stages,
                                                  const std::vector<ReportFrame>& frames);
 
-// Successive frames without an estimated pose (predicted or lost).
+/// Successive frames without an estimated pose (predicted or lost).
 struct NotTrackedSpan {
-  int first_frame = 0;  // index into ReportData::frames
-  int last_frame = 0;   // inclusive
-  int num_lost = 0;     // the others were predicted
-  double start = 0.0;   // seconds, stamps of the two
+  int first_frame = 0;  ///< index into ReportData::frames
+  int last_frame = 0;   ///< inclusive
+  int num_lost = 0;     ///< the others were predicted
+  double start = 0.0;   ///< seconds, stamps of the two
   double end = 0.0;
 };
 std::vector<NotTrackedSpan> FindNotTrackedSpans(const std::vector<ReportFrame>& frames);

@@ -5,7 +5,8 @@
 
 namespace msc_vo {
 
-// The style of the report: colours as variables, so that light, dark and paper differ in one place.
+/// The style of the report: colours as variables, so that light, dark and paper differ in one
+/// place.
 inline constexpr char kReportStyle[] = R"css(
 :root {
   color-scheme: light dark;

@@ -19,15 +19,15 @@ struct PlotRange {
   double Length() const { return max - min; }
 };
 
-// Multiples of 1, 2 or 5 times a power of ten inside `range`, at most `max_ticks` of them.
+/// Multiples of 1, 2 or 5 times a power of ten inside `range`, at most `max_ticks` of them.
 std::vector<double> NiceTicks(const PlotRange& range, int max_ticks);
 
-// One plot with axes, as an SVG element for a page that has the style of the report. Data
-// coordinates go in; x grows to the right, y grows upwards. Elements are painted in the order in
-// which they are added. Points that are not finite are left out.
+/// One plot with axes, as an SVG element for a page that has the style of the report. Data
+/// coordinates go in; x grows to the right, y grows upwards. Elements are painted in the order in
+/// which they are added. Points that are not finite are left out.
 class SvgPlot {
  public:
-  // Size in the units of the drawing, which are CSS pixels unless the page scales it.
+  /// Size in the units of the drawing, which are CSS pixels unless the page scales it.
   struct Size {
     int width = 960;
     int height = 240;
@@ -35,34 +35,34 @@ class SvgPlot {
 
   SvgPlot(const Size& size, const PlotRange& x, const PlotRange& y);
 
-  // One unit is as long on both axes: one range grows, about its middle, to fill the drawing.
+  /// One unit is as long on both axes: one range grows, about its middle, to fill the drawing.
   static SvgPlot WithEqualAxes(const Size& size, const PlotRange& x, const PlotRange& y);
 
   const PlotRange& x_range() const { return x_; }
   const PlotRange& y_range() const { return y_; }
-  // Width of one drawing unit in units of x: nothing finer than this can be seen.
+  /// Width of one drawing unit in units of x: nothing finer than this can be seen.
   double XResolution() const;
   Eigen::Vector2d ToDrawing(const Eigen::Vector2d& point) const;
 
-  // Ticks with their values, grid lines, and the names of the axes.
+  /// Ticks with their values, grid lines, and the names of the axes.
   void AddAxes(const std::string& x_name, const std::string& y_name);
-  // A curve y(x): x must not fall. Keeps first, lowest, highest and last point of every column.
+  /// A curve y(x): x must not fall. Keeps first, lowest, highest and last point of every column.
   void AddSeries(const std::vector<Eigen::Vector2d>& points, const std::string& css_class);
-  // The same, filled down to the lower end of y.
+  /// The same, filled down to the lower end of y.
   void AddArea(const std::vector<Eigen::Vector2d>& points, const std::string& css_class);
-  // A path through the plane. Points closer than half a drawing unit to the last are left out.
+  /// A path through the plane. Points closer than half a drawing unit to the last are left out.
   void AddPath(const std::vector<Eigen::Vector2d>& points, const std::string& css_class);
-  // Segments are cut at the axes; those outside are left out.
+  /// Segments are cut at the axes; those outside are left out.
   void AddSegments(const std::vector<LineSegment2>& segments, const std::string& css_class);
   void AddDots(const std::vector<Eigen::Vector2d>& points, double radius,
                const std::string& css_class);
-  // A dot with a tool tip.
+  /// A dot with a tool tip.
   void AddMarker(const Eigen::Vector2d& point, double radius, const std::string& css_class,
                  const std::string& tip);
-  // A stretch of the strip above the plot, from x.min to x.max, with a tool tip.
+  /// A stretch of the strip above the plot, from x.min to x.max, with a tool tip.
   void AddStrip(const PlotRange& x, const std::string& css_class, const std::string& tip);
 
-  // The whole SVG element; `description` is for those who cannot see it.
+  /// The whole SVG element; `description` is for those who cannot see it.
   std::string ToString(const std::string& description) const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace msc_vo {
 
-// Upper bounds of file sizes: a wrong file is refused before it fills the memory.
+/// Upper bounds of file sizes: a wrong file is refused before it fills the memory.
 constexpr std::uintmax_t kMaxTextBytes = std::uintmax_t{256} << 20;  ///< lists, trajectories, maps
 constexpr std::uintmax_t kMaxOptionsBytes = std::uintmax_t{1} << 20;
 constexpr std::uintmax_t kMaxImageBytes = std::uintmax_t{256} << 20;

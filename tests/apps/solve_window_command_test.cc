@@ -109,7 +109,7 @@ TEST_F(SolveWindowCommandTest, ErrorsNameTheFile) {
   ExpectError({"solve-window", Path("none.txt")}, "none.txt: does not exist");
   ExpectError({"solve-window", Path("good.txt"), "--set", "mode=pl-vo"}, "no option of a window");
   ExpectError({"solve-window", Path("good.txt"), "--set", "mapping.window.parallel.huber=-1"},
-              "huber threshold must be a positive");
+              "mapping.window.parallel.huber must be a number from 0.01");
   ExpectError({"solve-window", Path("good.txt"), "--output", Path("no/folder.txt")},
               "folder.txt: cannot be written");
   data.point_observations[3].point = 987;

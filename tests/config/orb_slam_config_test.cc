@@ -51,7 +51,7 @@ TEST_F(OrbSlamConfigTest, RejectsOtherCameraModels) {
               AllOf(HasSubstr("orb3.yaml:2: Camera.type \"KannalaBrandt8\" is not supported"),
                     HasSubstr("PinHole and Rectified")));
   EXPECT_THAT(error_of("Camera1.k4: 0.01\n"),
-              HasSubstr("orb3.yaml:1: Camera1.k4: only the distortion"));
+              HasSubstr("orb3.yaml:1: Camera1.k4: only the distortion coefficients"));
   EXPECT_THAT(error_of("Camera.k6: 0.01\n"), HasSubstr("Camera.k6"));
   EXPECT_THAT(error_of("Camera.width: 640.5\n"), HasSubstr("Camera.width must be a whole number"));
   EXPECT_EQ(error_of("Camera.k4: 0.0\n"), "");

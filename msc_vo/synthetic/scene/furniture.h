@@ -37,7 +37,7 @@ void AddCupboard(const Rigid3& frame, const Size2& size, double depth, int colum
 /// A kitchen counter: cupboards, a stone top with small boxes on it, tiles and wall cupboards.
 void AddCounter(const Rigid3& frame, double width, SceneBuilder* builder);
 void AddSofa(const Rigid3& frame, double width, SceneBuilder* builder);
-// The origin of these is the centre of the piece (of a lamp: on the ceiling).
+/// The origin of these is the centre of the piece (of a lamp: on the ceiling).
 void AddTable(const Rigid3& frame, const Size2& top, double height, SceneBuilder* builder);
 void AddChair(const Rigid3& frame, SceneBuilder* builder);
 void AddRug(const Rigid3& frame, const Size2& size, SceneBuilder* builder);
