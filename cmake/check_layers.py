@@ -26,8 +26,7 @@ FLOORS = [
     ["tracking", "mapping"],
     ["odometry", "datasets"],
     ["config"],
-    ["recording"],
-    ["results"],
+    ["recording", "results"],
     ["apps"],
 ]
 FLOOR_OF = {folder: floor for floor, folders in enumerate(FLOORS) for folder in folders}

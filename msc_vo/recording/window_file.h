@@ -33,7 +33,4 @@ void WriteWindow(const std::string& path, const BundleAdjustmentOptions& options
 // LocalBundleAdjustment.
 RecordedWindow ReadWindow(const std::string& path);
 
-// What a solution says, as JSON; `milliseconds` that it took.
-std::string FormatWindowJson(const BundleAdjustmentSummary& summary, double milliseconds);
-
 }  // namespace msc_vo
