@@ -7,8 +7,8 @@
 
 namespace msc_vo {
 
-// Calls of operator new so far, in all of the program; memory that OpenCV or C libraries get from
-// malloc is not counted.
+/// Number of calls of operator new in the program so far. Memory that OpenCV or C libraries
+/// allocate with malloc is not counted.
 int64_t NumAllocations();
 
 }  // namespace msc_vo

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Manhattan axes: coarse ones from the lines and normals of one image, and their refinement over
+// Manhattan axes: coarse estimation from the lines and normals of one image, and refinement over
 // the lines of many keyframes.
 
 #include <benchmark/benchmark.h>
@@ -41,8 +41,8 @@ void CoarseAxes(benchmark::State& state) {
 }
 BENCHMARK(CoarseAxes)->Unit(benchmark::kMillisecond);
 
-// The argument is the number of observed lines; every twentieth is on none of the axes, which are
-// given one degree off.
+// The argument is the number of observed lines, every twentieth of which is an outlier. The initial
+// axes have an error of one degree.
 void RefineAxes(benchmark::State& state) {
   Random random(1, 1);
   constexpr double kSigma = 0.02, kNormalSigma = 0.002;  // radians
@@ -50,19 +50,19 @@ void RefineAxes(benchmark::State& state) {
   ManhattanAxesData data;
   data.world_from_manhattan = ExpSO3(Eigen::Vector3d(0.01, 0.01, -0.01)) * truth;
   for (int i = 0; i < state.range(0); ++i) {
-    ManhattanAxesData::Observation seen;
-    seen.axis = i % 3;
+    ManhattanAxesData::Observation observation;
+    observation.axis = i % 3;
     const Eigen::Vector3d axis =
         i % 20 == 0 ? random.Normal3().normalized() : truth * Eigen::Vector3d::Unit(i % 3);
-    seen.normal = axis.cross(random.Normal3()).normalized();
-    const Eigen::Vector3d in_plane = seen.normal.cross(axis);
-    seen.direction =
-        (axis + kSigma * random.Normal() * in_plane + kNormalSigma * random.Normal() * seen.normal)
-            .normalized();
-    seen.normal = in_plane.cross(seen.direction).normalized() * -1.0;
-    seen.sigma = kSigma;
-    seen.normal_sigma = kNormalSigma;
-    data.observations.push_back(seen);
+    observation.normal = axis.cross(random.Normal3()).normalized();
+    const Eigen::Vector3d in_plane = observation.normal.cross(axis);
+    observation.direction = (axis + kSigma * random.Normal() * in_plane +
+                             kNormalSigma * random.Normal() * observation.normal)
+                                .normalized();
+    observation.normal = in_plane.cross(observation.direction).normalized() * -1.0;
+    observation.sigma = kSigma;
+    observation.normal_sigma = kNormalSigma;
+    data.observations.push_back(observation);
   }
   ManhattanAxesSummary summary;
   for (auto _ : state) {

@@ -51,7 +51,7 @@ BenchmarkWindow MakeWindow(WindowContent content, int num_keyframes) {
 
 }  // namespace
 
-WindowPtr MadeWindow(WindowContent content, int num_keyframes) {
+WindowPtr SyntheticBenchmarkWindow(WindowContent content, int num_keyframes) {
   constexpr const char* kNames[] = {"points", "lines", "structure"};
   return std::make_shared<NamedWindow>(
       kNames[static_cast<int>(content)] + ("_" + std::to_string(num_keyframes)),
@@ -69,7 +69,7 @@ std::vector<WindowPtr> RecordedWindows() {
           const RecordedWindow window = ReadWindow(file);
           return BenchmarkWindow{window.options, window.data};
         }));
-    windows.back()->Get();  // what is wrong with a file is said at once
+    windows.back()->Get();  // report errors in the file immediately
   }
   return windows;
 }

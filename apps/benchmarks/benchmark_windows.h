@@ -19,7 +19,7 @@ struct BenchmarkWindow {
   WindowData data;
 };
 
-// A window by name, made or read when it is first asked for.
+/// A named window that is created or read at its first use.
 class NamedWindow {
  public:
   NamedWindow(std::string name, std::function<BenchmarkWindow()> make)
@@ -40,15 +40,14 @@ using WindowPtr = std::shared_ptr<const NamedWindow>;
 
 enum class WindowContent { kPoints, kLines, kStructure };
 
-// A made window: so many free keyframes (three fixed ones behind them), per free keyframe 150
-// points and, unless there are only points, 15 lines of a furnished room, fewer if it has no more;
-// with structure, every line is bound to the next four that are parallel and the next four that are
-// perpendicular to it. That is harder than what a map gives, where pairs lead to a few well-known
-// lines.
-WindowPtr MadeWindow(WindowContent content, int num_keyframes);
+/// A synthetic window of a furnished room: `num_keyframes` free keyframes and three fixed ones, and
+/// per free keyframe 150 points and, unless the content is kPoints, up to 15 lines. With
+/// kStructure, every line is paired with the next four parallel and the next four perpendicular
+/// lines, which is harder than the windows of a map, where pairs concentrate on a few lines.
+WindowPtr SyntheticBenchmarkWindow(WindowContent content, int num_keyframes);
 
-// The window files that the environment variable MSC_VO_WINDOWS names, with colons between. Throws
-// std::runtime_error, naming the file, on one that cannot be read.
+/// The window files listed in the environment variable MSC_VO_WINDOWS, separated by colons. Throws
+/// std::runtime_error, naming the file, if one cannot be read.
 std::vector<WindowPtr> RecordedWindows();
 
 }  // namespace msc_vo

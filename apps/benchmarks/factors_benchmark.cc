@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// One evaluation of each factor, residual and all derivatives: automatic, which is the definition,
-// and by hand, which is what the solvers use.
+// One evaluation of each factor with all derivatives: automatic differentiation, which defines the
+// factor, and the analytic derivatives that the solvers use.
 
 #include <memory>
 #include <vector>
@@ -36,12 +36,12 @@ std::vector<double> Block(const LineSegment3& line) {
   return {line.start.data(), line.start.data() + 6};
 }
 
-// The window's first observations of a point and of a line.
+// The first observations of a point and of a line in a synthetic window.
 struct Input {
   SyntheticWindow window = MakeSyntheticWindow({});
   const WindowData& data = window.data;
-  const WindowData::PointObservation& seen_point = data.point_observations.front();
-  const WindowData::LineObservation& seen_line = data.line_observations.front();
+  const WindowData::PointObservation& point_observation = data.point_observations.front();
+  const WindowData::LineObservation& line_observation = data.line_observations.front();
   Rigid3 pose = data.keyframes.front().cam_from_world;
   LineSegment3 line = data.lines.front().segment, other = data.lines.back().segment;
   LineSegment3 in_cam = pose * line;
@@ -49,7 +49,7 @@ struct Input {
   Blocks pose_and_line{Block(pose), Block(line)};
 };
 
-const Input& TheInput() {
+const Input& SharedInput() {
   static const Input input;
   return input;
 }
@@ -74,7 +74,7 @@ void Evaluate(benchmark::State& state, std::unique_ptr<ceres::CostFunction> cost
   }
 }
 
-// Registers the automatic form of a factor, and with `Analytic` the one by hand.
+// Registers the automatic form of a factor; RegisterBoth() also registers the analytic form.
 template <typename Factor>
 void Register(const std::string& name, const Factor& factor, const Blocks& blocks) {
   benchmark::RegisterBenchmark((name + "/automatic").c_str(), [=](benchmark::State& state) {
@@ -84,28 +84,32 @@ void Register(const std::string& name, const Factor& factor, const Blocks& block
 template <typename Analytic, typename Factor>
 void RegisterBoth(const std::string& name, const Factor& factor, const Blocks& blocks) {
   Register(name, factor, blocks);
-  benchmark::RegisterBenchmark((name + "/by_hand").c_str(), [=](benchmark::State& state) {
+  benchmark::RegisterBenchmark((name + "/analytic").c_str(), [=](benchmark::State& state) {
     Evaluate(state, std::make_unique<Analytic>(factor), blocks);
   });
 }
 
 void RegisterAll() {
-  const Input& in = TheInput();
+  const Input& in = SharedInput();
   const PinholeCamera& camera = in.data.camera;
   RegisterBoth<AnalyticCostFunction<PointReprojection>>(
-      "PointReprojection", PointReprojection(camera, in.seen_point.pixel, in.seen_point.sigma),
+      "PointReprojection",
+      PointReprojection(camera, in.point_observation.pixel, in.point_observation.sigma),
       in.pose_and_point);
   RegisterBoth<AnalyticCostFunction<DepthReprojection>>(
       "DepthReprojection",
-      DepthReprojection(in.seen_point.inverse_depth, in.seen_point.inverse_depth_sigma),
+      DepthReprojection(in.point_observation.inverse_depth,
+                        in.point_observation.inverse_depth_sigma),
       in.pose_and_point);
   RegisterBoth<AnalyticCostFunction<LineReprojection>>(
       "LineReprojection",
-      MakeLineReprojection(camera, in.seen_line.segment, in.seen_line.sigma, in.in_cam),
+      MakeLineReprojection(camera, in.line_observation.segment, in.line_observation.sigma,
+                           in.in_cam),
       in.pose_and_line);
   RegisterBoth<AnalyticCostFunction<LineDepthReprojection>>(
       "LineDepthReprojection",
-      MakeLineDepthReprojection(camera, in.seen_line.segment, in.seen_line.depth, in.in_cam),
+      MakeLineDepthReprojection(camera, in.line_observation.segment, in.line_observation.depth,
+                                in.in_cam),
       in.pose_and_line);
   const Blocks two_lines{Block(in.line), Block(in.other)};
   RegisterBoth<AnalyticLinePairCostFunction<ParallelLines>>("ParallelLines", ParallelLines(0.01),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// What becomes of one 640x480 image, step by step. "allocations" are calls of operator new per
-// image once the buffers have grown (OpenCV's own memory is not counted).
+// The stages of feature extraction from one 640x480 image. "allocations" are the calls of operator
+// new per image in steady state (without the memory of OpenCV).
 
 #include <benchmark/benchmark.h>
 
@@ -22,17 +22,17 @@ struct Input {
   RgbdImage image = RenderImage(sequence, 40);
 };
 
-const Input& TheInput() {
+const Input& SharedInput() {
   static const Input input;
   return input;
 }
 
-// Runs `step` on the image again and again, and says how many features it gave.
+// Measures `step`, which returns its number of features.
 template <typename Step>
 void Measure(benchmark::State& state, const Step& step) {
-  size_t num_features = step(TheInput().image);  // grows the buffers
+  size_t num_features = step(SharedInput().image);  // grows the buffers
   const int64_t before = NumAllocations();
-  for (auto _ : state) num_features = step(TheInput().image);
+  for (auto _ : state) num_features = step(SharedInput().image);
   state.counters["allocations"] = benchmark::Counter(static_cast<double>(NumAllocations() - before),
                                                      benchmark::Counter::kAvgIterations);
   state.counters["features"] = static_cast<double>(num_features);
@@ -60,7 +60,7 @@ BENCHMARK_CAPTURE(Lines, edge_drawing, LineDetector::kEdgeDrawing)->Unit(benchma
 BENCHMARK_CAPTURE(Lines, lsd, LineDetector::kLsd)->Unit(benchmark::kMillisecond);
 
 void LineDescriptors(benchmark::State& state) {
-  const auto lines = LineExtractor({}).Extract(TheInput().image.gray);
+  const auto lines = LineExtractor({}).Extract(SharedInput().image.gray);
   LineDescriptorExtractor descriptor_extractor;
   Measure(state, [&](const RgbdImage& image) {
     descriptor_extractor.SetImage(image.gray);
@@ -73,7 +73,7 @@ void LineDescriptors(benchmark::State& state) {
 BENCHMARK(LineDescriptors)->Unit(benchmark::kMillisecond);
 
 void WholeFrame(benchmark::State& state) {
-  FrameBuilder builder({}, TheInput().sequence.camera(), LensDistortion());
+  FrameBuilder builder({}, SharedInput().sequence.camera(), LensDistortion());
   Measure(state, [&](const RgbdImage& image) {
     const Frame frame = builder.Build(image);
     return frame.points.size() + frame.lines.size();
@@ -82,7 +82,7 @@ void WholeFrame(benchmark::State& state) {
 BENCHMARK(WholeFrame)->Unit(benchmark::kMillisecond);
 
 void SurfaceNormals(benchmark::State& state) {
-  SurfaceNormalEstimator estimator({}, TheInput().sequence.camera(), LensDistortion());
+  SurfaceNormalEstimator estimator({}, SharedInput().sequence.camera(), LensDistortion());
   Measure(state, [&](const RgbdImage& image) { return estimator.Estimate(image.depth).size(); });
 }
 BENCHMARK(SurfaceNormals)->Unit(benchmark::kMillisecond);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// What it costs to publish the map, which the mapper does behind every keyframe, and to change what
-// is published.
+// The time to publish a snapshot of the map, as the mapper does after every keyframe, and to modify
+// the map afterwards.
 
 #include <memory>
 #include <vector>
@@ -15,8 +15,7 @@ namespace msc_vo {
 
 namespace {
 
-// As a run leaves them (kitchen of the shared sequences): every keyframe brings new landmarks, and
-// sees those of the keyframes before it.
+// Typical of a run: every keyframe adds new landmarks and observes those of the keyframes before.
 constexpr int kNewPoints = 75;
 constexpr int kNewLines = 13;
 constexpr int kObservingKeyframes = 7;
@@ -47,8 +46,8 @@ Map MakeMap(int num_keyframes) {
   return map;
 }
 
-// Arguments: keyframes in the map, and points that are moved before each snapshot, the newest ones.
-// The snapshot before is given back, as tracking does.
+// Arguments: number of keyframes in the map, and number of points that are modified before each
+// snapshot, the newest ones. The previous snapshot is released, as in tracking.
 void Snapshot(benchmark::State& state) {
   Map map = MakeMap(static_cast<int>(state.range(0)));
   std::vector<LandmarkId> moved;

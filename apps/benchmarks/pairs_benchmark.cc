@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Ways to take pairs of lines through the Schur complement (docs/lab/bundle_adjustment.md), on the
-// first of the two solves of a window. Window files: MSC_VO_WINDOWS=a.txt:b.txt.
+// Alternative treatments of line pairs in the Schur complement (docs/lab/bundle_adjustment.md), for
+// the first of the two solves of a window. Window files: MSC_VO_WINDOWS=a.txt:b.txt.
 
 #include <algorithm>
 #include <cstdio>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kMaxIterations = 50;
 
-// Keeps the directions of all lines that have a partner.
+// Keeps the directions of all paired lines in the reduced system.
 void KeepAllPaired(BlockStructure* structure) {
   std::vector<bool> paired(structure->num_lines, false);
   for (const WindowIndex::Pair& pair : structure->line_pairs)
@@ -33,16 +33,16 @@ void KeepAllPaired(BlockStructure* structure) {
   }
 }
 
-// Every line takes its partners for constant during a step: no pair couples two unknowns.
+// Treats the partners of every line as constant during a step: no pair couples two unknowns.
 void HoldPartners(BlockStructure* structure) {
   structure->line_pairs.clear();
   structure->reduced_line.assign(structure->num_lines, -1);
   structure->num_reduced_lines = 0;
 }
 
-// Parallel lines as a star about one of them: what one shared direction per family would leave.
-// Perpendicular pairs become pairs of the centres. Another sum than that of the window, of which
-// only structure and time compare.
+// Replaces the pairs among parallel lines by a star around one of them, the sparsity of one common
+// direction per family, and perpendicular pairs by pairs of the centres. The cost differs from that
+// of the window; only sparsity and time are comparable.
 WindowData WithStars(const WindowData& data) {
   std::map<int64_t, int64_t> parents;
   const auto centre = [&parents](int64_t line) {
@@ -98,7 +98,7 @@ void Minimize(benchmark::State& state, const BenchmarkWindow& window, Change cha
   state.counters["cost"] = equations.cost;
 }
 
-// What the Cholesky factorisation of a reduced system costs, by its size.
+// Time of the Cholesky factorisation of a reduced system by its size.
 void ReducedCholesky(benchmark::State& state) {
   const int size = static_cast<int>(state.range(0));
   const Eigen::MatrixXd matrix = Eigen::MatrixXd::Constant(size, size, 0.5 / size) +
@@ -119,11 +119,11 @@ BENCHMARK(ReducedCholesky)
     ->Unit(benchmark::kMillisecond);
 
 void Register(const WindowPtr& window) {
-  const auto add = [](const WindowPtr& its, const char* name, Change change) {
-    benchmark::RegisterBenchmark((its->name() + "/" + name).c_str(), [its, change](
-                                                                         benchmark::State& state) {
-      Minimize(state, its->Get(), change);
-    })->Unit(benchmark::kMillisecond);
+  const auto add = [](const WindowPtr& input, const char* name, Change change) {
+    benchmark::RegisterBenchmark(
+        (input->name() + "/" + name).c_str(),
+        [input, change](benchmark::State& state) { Minimize(state, input->Get(), change); })
+        ->Unit(benchmark::kMillisecond);
   };
   add(window, "few_directions_kept", nullptr);
   add(window, "all_directions_kept", KeepAllPaired);
@@ -146,7 +146,8 @@ int main(int argc, char** argv) {
     return 1;
   }
   for (const int num_keyframes : {5, 10, 20}) {
-    msc_vo::Register(msc_vo::MadeWindow(msc_vo::WindowContent::kStructure, num_keyframes));
+    msc_vo::Register(
+        msc_vo::SyntheticBenchmarkWindow(msc_vo::WindowContent::kStructure, num_keyframes));
   }
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

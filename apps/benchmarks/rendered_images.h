@@ -10,14 +10,14 @@
 
 namespace msc_vo {
 
-// Image `index` of a walk through a furnished room at 640x480, with the noise of a Kinect: what the
-// benchmarks work on, so that they need no data and measure the same everywhere.
+/// The sequence used by the benchmarks: a furnished room at 640x480 with the noise of a Kinect.
 inline SyntheticSequence BenchmarkSequence() {
   SyntheticSequenceOptions options;
   options.kinect_depth = true;
   return SyntheticSequence(options);
 }
 
+/// Renders image `index` of a sequence.
 inline RgbdImage RenderImage(const SyntheticSequence& sequence, int index) {
   SyntheticFrame frame = sequence.Render(index);
   std::vector<uint8_t> gray = frame.image.Gray();

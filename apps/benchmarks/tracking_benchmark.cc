@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// From the features of one frame to its pose: against the frame before it, with an empty map.
+// From the features of a frame to its pose, relative to the previous frame and with an empty map.
 
 #include <memory>
 
@@ -21,39 +21,39 @@ struct Input {
     FrameBuilder builder({}, sequence.camera(), LensDistortion());
     last.frame = std::make_shared<Frame>(builder.Build(RenderImage(sequence, 40)));
     frame = builder.Build(RenderImage(sequence, 41));
-    seen = CandidatesFromFrame(Map(), last, Rigid3(), Rigid3());
-    matches = MatchLocalMap(options, frame, seen, options.prediction_radius, {});
+    candidates = CandidatesFromFrame(Map(), last, Rigid3(), Rigid3());
+    matches = MatchLocalMap(options, frame, candidates, options.prediction_radius, {});
   }
 
   TrackerOptions options;
   TrackedFrame last;  // at the origin
   Frame frame;
-  LocalMap seen;  // what `last` saw
+  LocalMap candidates;  // features of `last`
   FrameMatches matches;
 };
 
-const Input& TheInput() {
+const Input& SharedInput() {
   static const Input input;
   return input;
 }
 
 void Candidates(benchmark::State& state) {
-  const Input& input = TheInput();
+  const Input& input = SharedInput();
   const Map map;
   for (auto _ : state) {
     benchmark::DoNotOptimize(CandidatesFromFrame(map, input.last, Rigid3(), Rigid3()));
   }
-  state.counters["points"] = static_cast<double>(input.seen.points.size());
-  state.counters["lines"] = static_cast<double>(input.seen.lines.size());
+  state.counters["points"] = static_cast<double>(input.candidates.points.size());
+  state.counters["lines"] = static_cast<double>(input.candidates.lines.size());
 }
 BENCHMARK(Candidates)->Unit(benchmark::kMicrosecond);
 
 // The argument is the search radius, pixels.
 void PointMatching(benchmark::State& state) {
-  const Input& input = TheInput();
+  const Input& input = SharedInput();
   size_t num_matches = 0;
   for (auto _ : state) {
-    num_matches = MatchPoints(input.options.point_matcher, input.frame, input.seen.points,
+    num_matches = MatchPoints(input.options.point_matcher, input.frame, input.candidates.points,
                               static_cast<double>(state.range(0)), {})
                       .size();
   }
@@ -62,10 +62,10 @@ void PointMatching(benchmark::State& state) {
 BENCHMARK(PointMatching)->Arg(4)->Arg(15)->Arg(60)->Unit(benchmark::kMicrosecond);
 
 void LineMatching(benchmark::State& state) {
-  const Input& input = TheInput();
+  const Input& input = SharedInput();
   size_t num_matches = 0;
   for (auto _ : state) {
-    num_matches = MatchLines(input.options.line_matcher, input.frame, input.seen.lines,
+    num_matches = MatchLines(input.options.line_matcher, input.frame, input.candidates.lines,
                              static_cast<double>(state.range(0)), {})
                       .size();
   }
@@ -74,7 +74,7 @@ void LineMatching(benchmark::State& state) {
 BENCHMARK(LineMatching)->Arg(4)->Arg(15)->Arg(60)->Unit(benchmark::kMicrosecond);
 
 void EstimatePose(benchmark::State& state) {
-  const Input& input = TheInput();
+  const Input& input = SharedInput();
   PoseSummary summary;
   for (auto _ : state) {
     Rigid3 cam_from_world;

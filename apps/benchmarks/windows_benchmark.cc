@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Whole solves of windows by every solver. The baseline is Ceres with automatic derivatives and its
-// own order of elimination; "speedup" is its time over this one's, in the same run, "cost_change"
-// the relative difference of the final costs. Window files: MSC_VO_WINDOWS=a.txt:b.txt.
+// Local bundle adjustment of windows with every solver. The baseline is Ceres with automatic
+// derivatives and its default elimination order. "speedup" is the ratio of the baseline's time to
+// the solver's, "cost_change" the relative difference of the final costs. Window files:
+// MSC_VO_WINDOWS=a.txt:b.txt.
 
 #include <algorithm>
 #include <array>
@@ -42,7 +43,7 @@ BundleAdjustmentOptions OptionsOf(const Variant& variant, const NamedWindow& win
   return options;
 }
 
-// Milliseconds in each stage.
+// Accumulates the milliseconds of each stage.
 class StageClock {
  public:
   void Enter(WindowStage stage) {
@@ -61,11 +62,11 @@ class StageClock {
 };
 
 struct Baseline {
-  double milliseconds = 0.0;  // best of three: what others are compared with must not be unlucky
+  double milliseconds = 0.0;  // best of three
   double cost = 0.0;
 };
 
-// Solved when it is first asked for.
+// Solves the window with the baseline at its first use.
 const Baseline& BaselineOf(const NamedWindow& window) {
   static std::map<std::string, Baseline> baselines;
   const auto [it, is_new] = baselines.emplace(window.name(), Baseline());
@@ -121,7 +122,7 @@ void Register(const WindowPtr& window) {
     BundleAdjustmentOptions options;
     options.solver = variant.solver;
     std::string error;
-    if (!options.IsValid(&error)) continue;  // this Ceres cannot
+    if (!options.IsValid(&error)) continue;  // not supported by this build of Ceres
     benchmark::RegisterBenchmark(
         (window->name() + "/" + variant.name).c_str(),
         [&variant, window](benchmark::State& state) { Solve(state, variant, *window); })
@@ -144,7 +145,7 @@ int main(int argc, char** argv) {
   for (const int num_keyframes : {5, 10, 20, 40}) {
     for (const auto content :
          {WindowContent::kPoints, WindowContent::kLines, WindowContent::kStructure}) {
-      msc_vo::Register(msc_vo::MadeWindow(content, num_keyframes));
+      msc_vo::Register(msc_vo::SyntheticBenchmarkWindow(content, num_keyframes));
     }
   }
   benchmark::Initialize(&argc, argv);

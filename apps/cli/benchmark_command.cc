@@ -13,6 +13,7 @@
 
 #include <unistd.h>
 
+#include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/sequence_arguments.h"
@@ -135,7 +136,7 @@ RgbdDecoder OpenWithGroundTruth(const SequenceArguments& sequence,
 }
 
 void PrintFailure(const std::string& run, const std::string& reason) {
-  std::cerr << "msc_vo: " << run << " failed: " << reason << std::endl;
+  PrintError(run + " failed: " + reason);
 }
 
 // Runs every mode on one sequence. Writes the tables after each run.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory.h"
@@ -84,8 +85,7 @@ std::vector<double> StampsOf(const std::vector<TimedPose>& poses) {
 // Converts the time stamps from `unit` to seconds.
 void ToSeconds(const std::string& path, TimeUnit unit, std::vector<TimedPose>* poses) {
   if (unit == TimeUnit::kSeconds) return;
-  std::cerr << "msc_vo: warning: " << path << ": the time stamps are " << ToString(unit)
-            << " and are converted to seconds" << std::endl;
+  PrintWarning(path + ": the time stamps are " + ToString(unit) + " and are converted to seconds");
   for (TimedPose& pose : *poses) pose.timestamp /= UnitsPerSecond(unit);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "msc_vo/logging/logger.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -39,6 +40,7 @@ bool FrameLoop::Step(FrameResult* frame) {
 
 FrameResult FrameLoop::Skip(const UnreadableImage& image) {
   if (num_unreadable_++ == 0) first_unreadable_ = image.what();
+  Log().warn("{}", image.what());
   const FrameResult frame = odometry_->Drop(image.index(), entries_[image.index()].timestamp,
                                             TrackingStatus::kUnreadable);
   CheckNumUnreadable(image.index() + 1);

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <exception>
-#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/standard_streams.h"
 #include "msc_vo/text/similar_name.h"
@@ -72,8 +72,13 @@ int Main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("msc_vo ") + kVersion);
   app.footer(HelpFooter("msc_vo replay my_sequence --output out"));
+  LogArguments log;
+  AddLogArguments(&app, &log);
   std::vector<Command> commands;
-  for (const AddCommand add : kCommands) commands.push_back(add(&app));
+  for (const AddCommand add : kCommands) {
+    commands.push_back(add(&app));
+    AddLogArguments(commands.back().arguments, &log);
+  }
 
   try {
     if (argc > 1) CheckSubcommand(commands, argv[1]);
@@ -81,6 +86,7 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kExitSuccess : kExitUsage;
   }
+  StartLog(log);
   for (const Command& command : commands) {
     if (command.arguments->parsed()) return command.run();
   }
@@ -102,7 +108,7 @@ int main(int argc, char** argv) {
     msc_vo::FinishStandardOutput();
     return exit_code;
   } catch (const std::exception& error) {
-    std::cerr << "msc_vo: error: " << error.what() << std::endl;
+    msc_vo::PrintError(error.what());
     return msc_vo::kExitError;
   }
 }

@@ -8,11 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/config/options_file.h"
+#include "msc_vo/logging/logger.h"
 #include "msc_vo/recording/window_file.h"
 #include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
@@ -69,7 +71,9 @@ WindowObserver WindowRecorder(const std::string& folder, const SequenceIndex& se
                   const WindowData& data) {
     const std::string name =
         FormatText("window_%06lld.txt", static_cast<long long>(keyframe));  // sorts by name
-    WriteWindow((std::filesystem::path(folder) / name).string(), options, data);
+    const std::string path = (std::filesystem::path(folder) / name).string();
+    WriteWindow(path, options, data);
+    Log().debug("window written to {}", path);
   };
 }
 
@@ -121,7 +125,7 @@ int Replay(const Arguments& arguments) {
     throw std::runtime_error(run.context.outcome + "\n(results so far are in " + output + ")");
   }
   if (run.exit_code == kExitTrackingFailed) {
-    std::cerr << "msc_vo: error: " << run.context.outcome << std::endl;
+    PrintError(run.context.outcome);
   }
   return run.exit_code;
 }

@@ -10,6 +10,7 @@
 
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/sequence.h"
+#include "msc_vo/datasets/sequence_calibration.h"
 
 namespace msc_vo {
 

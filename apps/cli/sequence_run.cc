@@ -5,27 +5,24 @@
 
 #include <algorithm>
 #include <exception>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "apps/cli/command_log.h"
 #include "apps/cli/cost_meter.h"
 #include "apps/cli/frame_loop.h"
 #include "apps/cli/image_feed.h"
 #include "apps/cli/progress.h"
+#include "msc_vo/logging/logger.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
 namespace {
-
-void PrintWarning(const std::string& text) {
-  std::cerr << "msc_vo: warning: " << text << std::endl;
-}
 
 // The readout time of the options takes precedence over that of the calibration. Writes the result
 // to both; nullopt if it is to be self-calibrated.
@@ -48,6 +45,14 @@ RunContext MakeContext(const RgbdDecoder& decoder, const Configuration& configur
   context.configuration = configuration;
   ResolveReadoutTime(&context.configuration.odometry.mapping.readout_time, &context.calibration);
   return context;
+}
+
+void LogStart(const RunContext& context, int num_frames) {
+  const Calibration& calibration = context.calibration;
+  Log().info("{}", context.command_line);
+  Log().info("sequence {}: {} images", context.sequence.directory, num_frames);
+  Log().info("camera: {}; depth scale {}; readout time: {}", calibration.origin,
+             calibration.depth_scale, calibration.readout_origin);
 }
 
 void Fail(ExitCode exit_code, const std::string& outcome, SequenceRun* run) {
@@ -130,6 +135,8 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   context = MakeContext(decoder, configuration);
   const int num_frames =
       arguments.max_frames > 0 ? std::min(arguments.max_frames, decoder.size()) : decoder.size();
+
+  LogStart(context, num_frames);
 
   const CostMeter cost;
   const OdometryOptions& options = context.configuration.odometry;

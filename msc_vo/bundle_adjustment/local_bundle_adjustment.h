@@ -48,13 +48,13 @@ struct BundleAdjustmentOptions {
   bool analytic_jacobians = true;
   bool explicit_ordering = true;
 
-  // The Huber thresholds are square roots of the 95 % chi-square quantile with as many degrees of
-  // freedom as the term has rows (2 rows: 5.991, 1 row: 3.841).
+  /// The Huber thresholds are square roots of the 95 % chi-square quantile with as many degrees of
+  /// freedom as the term has rows (2 rows: 5.991, 1 row: 3.841).
   TermOptions point_reprojection{true, 2.448};
   TermOptions point_depth{true, 1.960};
   TermOptions line_reprojection{true, 2.448};
   TermOptions line_depth{true, 2.448};
-  // Parallel and alignment residuals have two degrees of freedom, perpendicular ones have one.
+  /// Parallel and alignment residuals have two degrees of freedom, perpendicular ones have one.
   TermOptions parallel{true, 2.448};
   TermOptions perpendicular{true, 1.960};
   TermOptions manhattan{true, 2.448};
@@ -66,10 +66,10 @@ struct BundleAdjustmentOptions {
   /// docs/lab/bundle_adjustment.md.
   double line_endpoint_prior_sigma = 0.01;
 
-  // Outlier thresholds: 99 % chi-square quantiles with 1 to 4 degrees of freedom. After the first
-  // solve, observations are tested with 2 rows without depth, with 3 (points) or 4 (lines) rows
-  // with depth; perpendicular pairs with 1; parallel pairs and alignments with 2. The second solve
-  // excludes outliers.
+  /// Outlier thresholds: 99 % chi-square quantiles with 1 to 4 degrees of freedom. After the first
+  /// solve, observations are tested with 2 rows without depth, with 3 (points) or 4 (lines) rows
+  /// with depth; perpendicular pairs with 1; parallel pairs and alignments with 2. The second solve
+  /// excludes outliers.
   double reject_chi2_1 = 6.635;
   double reject_chi2_2 = 9.210;
   double reject_chi2_3 = 11.345;

@@ -13,37 +13,32 @@ namespace msc_vo {
 namespace {
 
 constexpr int kDirections = 64;
-constexpr int kCircles = 1000;  // up to the corner of the image: finer than a pixel
-// The lens must be one to one a little beyond the corners: coefficients are known to so much.
+constexpr int kCircles = 1000;  // up to the corner of the image: less than a pixel apart
+// The lens must be one-to-one slightly beyond the corners, because the coefficients are uncertain.
 constexpr double kMargin = 1.02;
-
-// The plane z = 1 as an image.
-const PinholeCamera& NormalizedCamera() {
-  static const PinholeCamera camera{1.0, 1.0, 0.0, 0.0, 1, 1};
-  return camera;
-}
 
 // Smaller eigenvalue of a symmetric matrix.
 double SmallerEigenvalue(const Eigen::Matrix2d& m) {
   return 0.5 * m.trace() - std::hypot(0.5 * (m(0, 0) - m(1, 1)), m(0, 1));
 }
 
-// What the distortion does to a circle around the optical axis.
-struct Circle {
+// A distorted circle around the optical axis.
+struct DistortedCircle {
+  // Smallest eigenvalue of the Jacobian on the circle.
   double smallest_stretch = std::numeric_limits<double>::infinity();
-  double distorted_radius = std::numeric_limits<double>::infinity();  // smallest distance
+  // Smallest distance of the distorted circle from the optical axis.
+  double radius = std::numeric_limits<double>::infinity();
 };
 
-Circle DistortCircle(const LensDistortion& distortion, double radius) {
-  Circle circle;
+DistortedCircle DistortCircle(const LensDistortion& distortion, double radius) {
+  DistortedCircle circle;
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * M_PI * i / kDirections;
     const Eigen::Vector2d x(radius * std::cos(angle), radius * std::sin(angle));
-    const double stretch = SmallerEigenvalue(DistortionJacobian(distortion, x));
-    // An overflow is no number and counts as a fold.
+    const double stretch = SmallerEigenvalue(distortion.Jacobian(x));
+    // Overflow (NaN) counts as a fold.
     if (!(stretch >= circle.smallest_stretch)) circle.smallest_stretch = stretch;
-    circle.distorted_radius =
-        std::min(circle.distorted_radius, distortion.Distort(NormalizedCamera(), x).norm());
+    circle.radius = std::min(circle.radius, distortion.DistortNormalized(x).norm());
   }
   return circle;
 }
@@ -60,36 +55,24 @@ double CornerRadius(const PinholeCamera& camera) {
 }
 
 std::string FoldMessage(const LensDistortion& distortion, const PinholeCamera& camera,
-                        double ideal_radius, double recorded_radius) {
+                        double undistorted_radius, double recorded_radius) {
   std::ostringstream text;
   const auto length = [&](double radius) {
-    std::ostringstream one;
-    one.precision(3);
-    one << radius << " (" << std::round(radius * camera.FocalLength()) << " pixels)";
-    return one.str();
+    std::ostringstream length_text;
+    length_text.precision(3);
+    length_text << radius << " (" << std::round(radius * camera.FocalLength()) << " pixels)";
+    return length_text.str();
   };
   text << "camera: the lens k1 k2 p1 p2 k3 =";
   for (const double k : distortion.k) text << " " << k;
-  text << " folds over at radius " << length(ideal_radius) << " of the undistorted image, which is "
-       << length(recorded_radius) << " of the recorded one, whose corners are at "
-       << length(CornerRadius(camera))
-       << "; check the values, and that they come in the order k1 k2 p1 p2 k3";
+  text << " folds over at radius " << length(undistorted_radius)
+       << " of the undistorted image, which is " << length(recorded_radius)
+       << " of the recorded one, whose corners are at " << length(CornerRadius(camera))
+       << "; check the values and their order k1 k2 p1 p2 k3";
   return text.str();
 }
 
 }  // namespace
-
-Eigen::Matrix2d DistortionJacobian(const LensDistortion& distortion, const Eigen::Vector2d& x) {
-  const std::array<double, 5>& k = distortion.k;
-  const double r2 = x.squaredNorm();
-  const double radial = 1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-  const double slope = 2.0 * (k[0] + r2 * (2.0 * k[1] + r2 * 3.0 * k[4]));  // of radial, by r2 / 2
-  const double xy = slope * x.x() * x.y() + 2.0 * (k[2] * x.x() + k[3] * x.y());
-  Eigen::Matrix2d jacobian;
-  jacobian << radial + slope * x.x() * x.x() + 2.0 * k[2] * x.y() + 6.0 * k[3] * x.x(), xy,  //
-      xy, radial + slope * x.y() * x.y() + 6.0 * k[2] * x.y() + 2.0 * k[3] * x.x();
-  return jacobian;
-}
 
 bool IsInvertible(const LensDistortion& distortion, const PinholeCamera& camera,
                   std::string* error) {
@@ -99,20 +82,20 @@ bool IsInvertible(const LensDistortion& distortion, const PinholeCamera& camera,
     return false;
   }
   if (distortion.IsZero()) return true;
-  const double corner = CornerRadius(camera);
-  const double needed = kMargin * corner;
-  // Ends: without a fold, the distorted radius grows at least as fast as a fixed part of the
-  // radius.
-  double recorded = 0.0;
+  const double corner_radius = CornerRadius(camera);
+  const double needed = kMargin * corner_radius;
+  // The loop ends: without a fold, the distorted radius grows at least as fast as a fixed fraction
+  // of the radius.
+  double recorded_radius = 0.0;
   for (int i = 1;; ++i) {
-    const double radius = i * corner / kCircles;
-    const Circle circle = DistortCircle(distortion, radius);
+    const double radius = i * corner_radius / kCircles;
+    const DistortedCircle circle = DistortCircle(distortion, radius);
     if (!(circle.smallest_stretch > 0.0)) {
-      *error = FoldMessage(distortion, camera, radius, recorded);
+      *error = FoldMessage(distortion, camera, radius, recorded_radius);
       return false;
     }
-    recorded = circle.distorted_radius;
-    if (radius >= needed && recorded >= needed) return true;
+    recorded_radius = circle.radius;
+    if (radius >= needed && recorded_radius >= needed) return true;
   }
 }
 

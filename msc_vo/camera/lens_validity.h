@@ -5,24 +5,19 @@
 
 #include <string>
 
-#include <Eigen/Core>
-
-#include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/camera/lens_distortion.h"
 
 namespace msc_vo {
 
-// Derivative of the distorted point of the plane z = 1 by the ideal one `x`; symmetric.
-Eigen::Matrix2d DistortionJacobian(const LensDistortion& distortion, const Eigen::Vector2d& x);
-
-// Whether the lens maps the ideal image and everything that the recorded image shows one to one.
-//
-// The distortion x -> x_d of the plane z = 1 is the gradient of a potential, so its Jacobian is
-// symmetric; where it is positive definite on a convex set, the distortion is injective there. The
-// set is a disc around the optical axis, grown until it holds the ideal image and its distorted
-// border holds the recorded one. A lens whose Jacobian loses definiteness before folds over:
-// recorded pixels near the corners have no ideal pixel, or two.
-//
-// The camera must be valid. On false, `error` names the radius and the order of the coefficients.
+/// Tests whether the distortion is one-to-one on the undistorted image and on everything that the
+/// recorded image shows. If not, `error` names the radius where the lens folds over and the order
+/// of the coefficients. The camera must be valid.
+///
+/// The distortion x -> x_d of the plane z = 1 is the gradient of a potential, so its Jacobian is
+/// symmetric; on a convex set where it is positive definite, the distortion is injective. The set
+/// tested is a disc around the optical axis, grown until it contains the undistorted image and its
+/// distorted boundary encloses the recorded image. If the Jacobian is not positive definite on this
+/// disc, recorded pixels near the corners have no undistorted pixel, or two.
 bool IsInvertible(const LensDistortion& distortion, const PinholeCamera& camera,
                   std::string* error);
 

@@ -17,32 +17,31 @@ CameraPreset Preset(const std::string& name, const PinholeCamera& camera, double
                     const LensDistortion& distortion = {},
                     const std::optional<double>& readout_time = {}) {
   const std::string origin = "preset " + name;
-  const std::string readout_origin = readout_time ? origin : Calibration::kReadoutLearnt;
+  const std::string readout_origin = readout_time ? origin : Calibration::kSelfCalibrated;
   return {name, {camera, distortion, depth_scale, readout_time, readout_origin, origin}};
 }
 
-// Of the colour camera of a Kinect, seconds, by the one sequence at hand that turns fast enough:
-// freiburg1_rpy has an RPE over a second of 25, 22, 19, 16.0, 16.5 and 20 mm with 0, 15, 20, 26, 30
-// and 35 ms (four runs each of a first form).
+// Readout time of a Kinect's colour camera, seconds. Chosen by measurement, see
+// docs/lab/rolling_shutter.md.
 constexpr double kKinectReadout = 0.026;
-constexpr double kRendered = 0.0;
+constexpr double kGlobalShutter = 0.0;
 
 }  // namespace
 
 const std::vector<CameraPreset>& CameraPresets() {
   static const std::vector<CameraPreset>* const presets = new std::vector<CameraPreset>{
-      // TUM RGB-D, published calibration. Everyone who reports numbers on freiburg2 uses 5208
-      // units per metre there: with 5000 its scale is 4 % off.
+      // TUM RGB-D, published calibration. The depth scale of freiburg2 is 5208, as in published
+      // evaluations; with 5000 the trajectory would be 4 % too large.
       Preset("tum-fr1", {517.306408, 516.469215, 318.643040, 255.313989, 640, 480}, 5000.0,
              {{0.262383, -0.953104, -0.005358, 0.002628, 1.163314}}, kKinectReadout),
       Preset("tum-fr2", {520.908620, 521.007327, 325.141442, 249.701764, 640, 480}, 5208.0,
              {{0.231222, -0.784899, -0.003257, -0.000105, 0.917205}}, kKinectReadout),
-      // freiburg3 comes undistorted.
+      // The images of freiburg3 are undistorted.
       Preset("tum-fr3", {535.4, 539.2, 320.1, 247.6, 640, 480}, 5000.0),
       // The images are mirrored: y points up.
-      Preset("icl-nuim", {481.20, -480.00, 319.50, 239.50, 640, 480}, 5000.0, {}, kRendered),
+      Preset("icl-nuim", {481.20, -480.00, 319.50, 239.50, 640, 480}, 5000.0, {}, kGlobalShutter),
       Preset("7-scenes", {585.0, 585.0, 320.0, 240.0, 640, 480}, 1000.0, {}, kKinectReadout),
-      Preset("replica", {600.0, 600.0, 599.5, 339.5, 1200, 680}, 6553.5, {}, kRendered),
+      Preset("replica", {600.0, 600.0, 599.5, 339.5, 1200, 680}, 6553.5, {}, kGlobalShutter),
   };
   return *presets;
 }

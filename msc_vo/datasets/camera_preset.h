@@ -10,7 +10,7 @@
 
 namespace msc_vo {
 
-// A camera of a published data set.
+/// The camera of a published data set.
 struct CameraPreset {
   std::string name;
   Calibration calibration;
@@ -18,11 +18,11 @@ struct CameraPreset {
 
 const std::vector<CameraPreset>& CameraPresets();
 
-// Throws std::invalid_argument, listing the names, on an unknown one.
+/// Throws std::invalid_argument, listing the known names, if `name` is unknown.
 const CameraPreset& FindCameraPreset(const std::string& name);
 
-// The preset whose data set a folder seems to belong to by its name ("rgbd_dataset_freiburg2_xyz"
-// -> "tum-fr2"); empty: none.
+/// Guesses the preset from the name of a sequence's folder ("rgbd_dataset_freiburg2_xyz" ->
+/// "tum-fr2"); empty if the name matches none.
 std::string GuessCameraPreset(const std::string& directory);
 
 }  // namespace msc_vo

@@ -11,7 +11,9 @@
 
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/image_list.h"
+#include "msc_vo/datasets/image_pairing.h"
 #include "msc_vo/datasets/sequence_format.h"
+#include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/tum_folder.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
@@ -20,7 +22,8 @@ namespace msc_vo {
 
 namespace {
 
-// Whether the associations name depth first and count frames, which no other data set does.
+// Tests whether the association file names depth first and has frame numbers for stamps, which no
+// other data set does.
 bool HasIclNuimAssociations(const std::string& directory) {
   const std::string path = FindAssociations(directory);
   if (path.empty()) return false;
@@ -33,7 +36,7 @@ bool HasIclNuimAssociations(const std::string& directory) {
   return AreFrameNumbers(stamps);
 }
 
-// Only marks of the data set itself justify the guess of its mirrored camera.
+// Requires properties of this data set only, because its camera is mirrored.
 bool Recognises(const std::string& directory) {
   if (HasIclNuimAssociations(directory)) return true;
   return !FindFreiburgTruth(directory).empty() &&

@@ -3,6 +3,8 @@
 
 #include "msc_vo/datasets/image_file.h"
 
+#include <stdexcept>
+
 #include <opencv2/imgcodecs.hpp>
 
 #include "msc_vo/text/files.h"
@@ -21,6 +23,14 @@ cv::Mat DecodeImage(const std::string& bytes, int mode) {
 
 cv::Mat ReadImageFile(const std::string& path) {
   return DecodeImage(ReadFile(path, kMaxImageBytes), cv::IMREAD_UNCHANGED);
+}
+
+ImageSize ReadImageSize(const std::string& path) {
+  const cv::Mat image = ReadImageFile(path);
+  if (image.empty()) {
+    throw std::runtime_error(path + ": cannot be read as an image; restore the file");
+  }
+  return {image.cols, image.rows};
 }
 
 }  // namespace msc_vo

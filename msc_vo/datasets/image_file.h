@@ -9,12 +9,20 @@
 
 namespace msc_vo {
 
-// The image that the contents of a file are; `mode` is one of OpenCV's cv::ImreadModes. Empty if
-// they are damaged or no image.
+struct ImageSize {
+  int width = 0;  ///< pixels
+  int height = 0;
+};
+
+/// Decodes the contents of an image file; `mode` is one of OpenCV's cv::ImreadModes. Returns an
+/// empty image if the contents are damaged or no image.
 cv::Mat DecodeImage(const std::string& bytes, int mode);
 
-// The image of a file, with its own channels and bits; empty if it is damaged or no image. Throws
-// std::runtime_error, naming the file, if it cannot be read.
+/// Reads an image with its original channels and bit depth. Returns an empty image if the file is
+/// damaged or no image. Throws std::runtime_error, naming the file, if it cannot be read.
 cv::Mat ReadImageFile(const std::string& path);
+
+/// Throws std::runtime_error, naming the file, if it is not an image.
+ImageSize ReadImageSize(const std::string& path);
 
 }  // namespace msc_vo

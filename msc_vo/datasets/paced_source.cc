@@ -22,7 +22,8 @@ PacingClock PacingClock::Steady() {
 
 namespace {
 
-std::vector<double> TimesFrom(const std::vector<SequenceEntry>& entries, int begin, int end) {
+// Times of the images relative to image `begin`, with pauses cut to kMaxPause.
+std::vector<double> RelativeTimes(const std::vector<SequenceEntry>& entries, int begin, int end) {
   std::vector<double> times = {0.0};
   for (int i = begin + 1; i < end; ++i) {
     const double pause = entries[i].timestamp - entries[i - 1].timestamp;
@@ -39,16 +40,16 @@ PacedSource::PacedSource(const RgbdDecoder& decoder, int begin, int end, PacingC
       begin_(begin),
       next_(begin),
       end_(end),
-      times_(TimesFrom(decoder.index().entries, begin, end)) {}
+      times_(RelativeTimes(decoder.index().entries, begin, end)) {}
 
 bool PacedSource::Next(RgbdImage* image, std::vector<int>* dropped) {
   if (next_ == end_) return false;
   if (!start_) {
     const int first = next_++;
     source_.Next(image);
-    // That it had to be decoded first is not the camera's time.
-    appeared_ = clock_.now();
-    start_ = appeared_ - Time(first);
+    // Time starts after decoding, which a camera would not need.
+    due_ = clock_.now();
+    start_ = due_ - Time(first);
     return true;
   }
   const double now = clock_.now();
@@ -59,11 +60,11 @@ bool PacedSource::Next(RgbdImage* image, std::vector<int>* dropped) {
   next_ = oldest + 1;
   source_.SkipTo(oldest);
   source_.Next(image);
-  appeared_ = *start_ + Time(oldest);
-  clock_.sleep_until(appeared_);
+  due_ = *start_ + Time(oldest);
+  clock_.sleep_until(due_);
   return true;
 }
 
-double PacedSource::Age() const { return clock_.now() - appeared_; }
+double PacedSource::Age() const { return clock_.now() - due_; }
 
 }  // namespace msc_vo

@@ -11,36 +11,39 @@
 
 namespace msc_vo {
 
-// A clock to keep pace with. The default is the steady clock of the machine.
+/// The clock of a PacedSource; tests replace it.
 struct PacingClock {
-  std::function<double()> now;                      // seconds
-  std::function<void(double seconds)> sleep_until;  // returns at once if the time has passed
+  std::function<double()> now;                      ///< seconds
+  std::function<void(double seconds)> sleep_until;  ///< returns at once if the time has passed
 
+  /// The steady clock of the machine.
   static PacingClock Steady();
 };
 
-// The images of a sequence as a camera would deliver them: the first at once, each other one when
-// as much time has passed as between their time stamps. Images wait for a reader who is late, as
-// they do in the driver of a camera; where one more would have to wait, the oldest is dropped.
-// Longer pauses than kMaxPause between two stamps are cut to that.
+/// Delivers the images of a sequence in real time, as a camera would: the first one at once, each
+/// other one when the time between their stamps has passed. If the reader is late, images wait in a
+/// queue like that of a camera driver; when the queue is full, the oldest image is dropped. Pauses
+/// between two stamps are cut to kMaxPause.
 class PacedSource {
  public:
-  // Images that wait. A tenth of a second at 30 Hz: who tracks in half the time between two images
-  // has made up for it after as many more, and a pose that is later is of little use.
+  /// Length of the queue: a tenth of a second at 30 Hz. A reader that needs half the time between
+  /// two images catches up within as many images; poses with a longer delay are of little use.
   static constexpr int kMaxWaiting = 3;
-  // Seconds. Far more than a recording pauses, less than a user waits before he thinks that the
-  // program hangs.
+  /// Seconds: longer than pauses of a recording, short enough that the program does not seem to
+  /// hang.
   static constexpr double kMaxPause = 10.0;
 
-  // Images begin..end-1 of the decoder, which must outlive the source. Throws as RgbdSource does.
+  /// Delivers images begin..end-1 of the decoder, which must outlive the source. Throws like
+  /// RgbdSource.
   PacedSource(const RgbdDecoder& decoder, int begin, int end,
               PacingClock clock = PacingClock::Steady());
 
-  // Waits for the next image, or takes the oldest that waits. The indices of the dropped ones
-  // before it are appended to `dropped`. False at the end. Throws as RgbdSource does.
+  /// Returns the oldest image in the queue, or waits for the next image if the queue is empty.
+  /// Appends the indices of the images dropped before it to `dropped`. Returns false at the end.
+  /// Throws like RgbdSource::Next().
   bool Next(RgbdImage* image, std::vector<int>* dropped);
 
-  // Seconds since the last image appeared.
+  /// Seconds since the image that Next() returned last was due.
   double Age() const;
 
  private:
@@ -51,9 +54,9 @@ class PacedSource {
   int begin_;
   int next_;
   int end_;
-  std::vector<double> times_;    // seconds from image begin_, one for each image
-  std::optional<double> start_;  // where time 0 is on the clock; none before the first image
-  double appeared_ = 0.0;        // on the clock, the last image
+  std::vector<double> times_;    // seconds after image begin_, one per image
+  std::optional<double> start_;  // clock time of image begin_; none before the first image
+  double due_ = 0.0;             // clock time of the last image
 };
 
 }  // namespace msc_vo

@@ -20,7 +20,8 @@ Eigen::MatrixXd ReadMatrix(const std::string& path, int rows, int columns) {
     for (const std::string& field : line.fields) {
       const std::optional<double> value = ParseNumber(field);
       if (!value) {
-        throw std::runtime_error(line.Where() + ": '" + field + "' is not a number");
+        throw std::runtime_error(line.Where() + ": '" + field +
+                                 "' is not a number; correct the line");
       }
       values.push_back(*value);
     }
@@ -28,7 +29,7 @@ Eigen::MatrixXd ReadMatrix(const std::string& path, int rows, int columns) {
   if (values.size() != static_cast<size_t>(rows) * columns) {
     throw std::runtime_error(path + ": expected " + std::to_string(rows) + " x " +
                              std::to_string(columns) + " numbers, found " +
-                             std::to_string(values.size()));
+                             std::to_string(values.size()) + "; restore the file");
   }
   return Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
       values.data(), rows, columns);
@@ -37,9 +38,10 @@ Eigen::MatrixXd ReadMatrix(const std::string& path, int rows, int columns) {
 std::optional<Rigid3> RigidFromMatrix(const Eigen::Matrix4d& matrix) {
   if (!matrix.allFinite()) return std::nullopt;
   const Eigen::Matrix3d r = matrix.topLeftCorner<3, 3>();
-  // Files carry 6 digits or so; 1 % is far above rounding and far below any other matrix.
+  // Far above the rounding of numbers with about six digits, far below other matrices.
+  constexpr double kMaxDeviation = 1e-2;
   const double deviation = (r.transpose() * r - Eigen::Matrix3d::Identity()).norm();
-  if (deviation > 1e-2 || r.determinant() < 0.0) return std::nullopt;
+  if (deviation > kMaxDeviation || r.determinant() < 0.0) return std::nullopt;
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Matrix3d nearest = svd.matrixU() * svd.matrixV().transpose();
   return Rigid3(Eigen::Quaterniond(nearest).normalized(), matrix.topRightCorner<3, 1>());
@@ -47,16 +49,19 @@ std::optional<Rigid3> RigidFromMatrix(const Eigen::Matrix4d& matrix) {
 
 void ReadPoseFiles(const std::function<std::string(const SequenceEntry&)>& pose_path,
                    SequenceIndex* index) {
-  int lost = 0;
+  int num_invalid = 0;
   for (const SequenceEntry& entry : index->entries) {
     const std::string path = pose_path(entry);
     if (!HasEntry(path)) continue;
     const std::optional<Rigid3> pose = RigidFromMatrix(ReadMatrix(path, 4, 4));
-    if (pose) index->ground_truth.push_back({entry.timestamp, *pose});
-    if (!pose) ++lost;
+    if (pose) {
+      index->ground_truth.push_back({entry.timestamp, *pose});
+    } else {
+      ++num_invalid;
+    }
   }
-  if (lost > 0) {
-    index->warnings.push_back(std::to_string(lost) +
+  if (num_invalid > 0) {
+    index->warnings.push_back(std::to_string(num_invalid) +
                               " ground-truth poses are not valid and are left out");
   }
 }

@@ -15,17 +15,17 @@
 
 namespace msc_vo {
 
-// Reads the numbers of a text file, row by row, as a matrix. Numbers may be "nan" or "inf".
-// Throws std::runtime_error, naming file and line, if the file does not hold rows x columns
-// numbers.
+/// Reads a text file with rows x columns numbers as a matrix, row by row. Numbers may be "nan" or
+/// "inf". Throws std::runtime_error, naming the file, if the count of numbers differs or a field is
+/// not a number.
 Eigen::MatrixXd ReadMatrix(const std::string& path, int rows, int columns);
 
-// The transform of a 4x4 matrix [R t; 0 1]; R is taken to the nearest rotation. None if a number is
-// not finite or R is no rotation by more than rounding: how data sets mark a lost pose.
+/// Converts a 4x4 matrix [R t; 0 1] to a transform with the rotation nearest to R. None if a number
+/// is not finite or R is not a rotation up to rounding: data sets mark lost poses this way.
 std::optional<Rigid3> RigidFromMatrix(const Eigen::Matrix4d& matrix);
 
-// The ground truth of a layout with one file per image, a 4 x 4 matrix camera in world. Files that
-// do not exist are passed over; poses that are none are counted in a warning.
+/// Reads the ground truth of a layout with one file per image, which contains the 4x4 matrix
+/// world_from_cam. Missing files are ignored. Adds a warning with the number of invalid poses.
 void ReadPoseFiles(const std::function<std::string(const SequenceEntry&)>& pose_path,
                    SequenceIndex* index);
 

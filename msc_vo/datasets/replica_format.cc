@@ -2,13 +2,14 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 // Replica, as rendered for NICE-SLAM: results/frameXXXXXX.jpg, results/depthXXXXXX.png, traj.txt
-// with one 4x4 camera-in-world matrix per row and frame.
+// with one 4x4 matrix world_from_cam per row and frame.
 
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 
 #include "msc_vo/datasets/image_folder.h"
+#include "msc_vo/datasets/image_pairing.h"
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
@@ -21,12 +22,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string Results(const std::string& directory) {
+std::string ImageFolder(const std::string& directory) {
   return (fs::path(directory) / "results").string();
 }
 
 bool Recognises(const std::string& directory) {
-  return !ListImages(Results(directory), "frame").empty();
+  return !ListImages(ImageFolder(directory), "frame").empty();
 }
 
 // Row i is the pose of frame i.
@@ -35,7 +36,7 @@ void ReadPoses(const std::string& path, SequenceIndex* index) {
   for (const TextLine& line : ReadTextLines(path)) {
     if (line.fields.size() != 16) {
       throw std::runtime_error(line.Where() + ": expected the 16 numbers of a 4x4 pose, found " +
-                               std::to_string(line.fields.size()));
+                               std::to_string(line.fields.size()) + "; correct the line");
     }
     const std::vector<double> values = ParseNumbers(line);
     const Eigen::Matrix4d matrix =
@@ -49,8 +50,8 @@ void ReadPoses(const std::string& path, SequenceIndex* index) {
 
 SequenceIndex Read(const std::string& directory) {
   SequenceIndex index;
-  PairByFrameNumber(ListImages(Results(directory), "frame"),
-                    ListImages(Results(directory), "depth"), &index);
+  PairByFrameNumber(ListImages(ImageFolder(directory), "frame"),
+                    ListImages(ImageFolder(directory), "depth"), &index);
   index.preset = "replica";
   const std::string poses = (fs::path(directory) / "traj.txt").string();
   if (HasEntry(poses)) ReadPoses(poses, &index);

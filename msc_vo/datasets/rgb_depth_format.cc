@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Two folders of images and nothing else: rgb/ and depth/ (or color/, colour/, image/, images/).
+// Two folders of images without lists: rgb/ (or color/, colour/, image/, images/) and depth/.
 
 #include <algorithm>
 #include <filesystem>
@@ -13,6 +13,8 @@
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/image_list.h"
+#include "msc_vo/datasets/image_name.h"
+#include "msc_vo/datasets/image_pairing.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
 #include "msc_vo/text/files.h"
@@ -39,7 +41,8 @@ bool Recognises(const std::string& directory) {
   return !ListImages(ColorFolder(directory)).empty() && IsFolder(DepthFolder(directory));
 }
 
-// Each image with the time that its name tells; empty if one has none or they do not ascend.
+// Returns the images with the stamps that their names encode; empty if a name encodes none or the
+// stamps do not ascend.
 std::vector<ListedImage> StampedByName(const std::vector<std::string>& paths) {
   std::vector<ListedImage> images;
   for (const std::string& path : paths) {
@@ -50,14 +53,14 @@ std::vector<ListedImage> StampedByName(const std::vector<std::string>& paths) {
   return images;
 }
 
-// First with first, second with second, at kDefaultFrameRate.
+// Pairs images at the same position of both folders, at kDefaultFrameRate.
 void PairByPosition(const std::vector<std::string>& color, const std::vector<std::string>& depth,
                     SequenceIndex* index) {
   if (color.size() != depth.size()) {
     throw std::runtime_error(
         fs::path(color.front()).parent_path().string() + ": " + std::to_string(color.size()) +
         " colour images, but " + std::to_string(depth.size()) +
-        " depth images, and their names tell no time; remove those without a partner");
+        " depth images, and their names contain no time; remove those without a partner");
   }
   for (size_t i = 0; i < color.size(); ++i) {
     index->entries.push_back({i / kDefaultFrameRate, color[i], depth[i], ""});
@@ -72,13 +75,12 @@ SequenceIndex Read(const std::string& directory) {
     throw std::runtime_error(directory + ": needs images in rgb/ and in depth/; found " +
                              std::to_string(color.size()) + " and " + std::to_string(depth.size()));
   }
-  const std::vector<ListedImage> stamped_color = StampedByName(color);
-  const std::vector<ListedImage> stamped_depth = StampedByName(depth);
-  if (!stamped_color.empty() && !stamped_depth.empty()) {
-    constexpr double kMaxDifference = 0.5 / kDefaultFrameRate;  // half a frame
-    PairByTime(stamped_color, stamped_depth, kMaxDifference, &index);
+  const ImageLists stamped = {StampedByName(color), StampedByName(depth)};
+  if (!stamped.color.empty() && !stamped.depth.empty()) {
+    constexpr double kMaxDifference = 0.5 / kDefaultFrameRate;  // half a frame interval
+    PairByTime(stamped, kMaxDifference, &index);
   }
-  // Names with unrelated numbers: the order is all that can be trusted.
+  // If the numbers in the names are unrelated, images are paired by their order.
   if (index.entries.empty()) {
     index.warnings.clear();
     PairByPosition(color, depth, &index);

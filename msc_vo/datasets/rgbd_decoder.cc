@@ -17,11 +17,11 @@ namespace msc_vo {
 
 namespace {
 
-// "path (named in rgb.txt:12): what"
+// Throws "PATH (named in rgb.txt:12): PROBLEM".
 [[noreturn]] void Fail(const std::string& path, const SequenceEntry& entry,
-                       const std::string& what) {
+                       const std::string& problem) {
   const std::string origin = entry.origin.empty() ? "" : " (named in " + entry.origin + ")";
-  throw std::runtime_error(path + origin + ": " + what);
+  throw std::runtime_error(path + origin + ": " + problem);
 }
 
 std::string SizeText(int width, int height) {
@@ -30,8 +30,8 @@ std::string SizeText(int width, int height) {
 
 bool IsJpeg(const std::string& bytes) { return bytes.compare(0, 2, "\xFF\xD8") == 0; }
 
-// A JPEG ends with the marker FF D9, which its compressed data cannot contain. Decoders fill the
-// missing part of a truncated file with grey and say nothing.
+// A JPEG ends with the marker FF D9, which its compressed data cannot contain. Decoders silently
+// fill the missing part of a truncated file with grey.
 bool IsTruncatedJpeg(const std::string& bytes) {
   return IsJpeg(bytes) && bytes.rfind("\xFF\xD9") == std::string::npos;
 }
@@ -42,14 +42,14 @@ cv::Mat ReadImage(const std::string& path, const SequenceEntry& entry) {
   const std::string bytes = ReadFile(path, kMaxImageBytes);
   cv::Mat image;
   if (!IsTruncatedJpeg(bytes)) {
-    // A JPEG has its grey values in a channel of their own and never more than 8 bits: to make
-    // colours of them first, and grey of these, takes longer and rounds twice.
-    const int kind = IsJpeg(bytes) ? cv::IMREAD_GRAYSCALE : cv::IMREAD_UNCHANGED;
-    image = DecodeImage(bytes, kind | cv::IMREAD_IGNORE_ORIENTATION);
+    // A JPEG stores luminance in a separate channel of 8 bits; decoding colours and converting them
+    // to grey would take longer and round twice.
+    const int mode = IsJpeg(bytes) ? cv::IMREAD_GRAYSCALE : cv::IMREAD_UNCHANGED;
+    image = DecodeImage(bytes, mode | cv::IMREAD_IGNORE_ORIENTATION);
   }
   if (image.empty()) {
     Fail(path, entry,
-         "is damaged, truncated or no image (" + std::to_string(bytes.size()) +
+         "is damaged, truncated or not an image (" + std::to_string(bytes.size()) +
              " bytes); restore the file");
   }
   return image;
@@ -101,7 +101,7 @@ RgbdImage RgbdDecoder::DecodeFiles(int i) const {
   const cv::Mat depth = ReadImage(entry.depth_path, entry);
   if (color.type() == CV_16UC1 && depth.depth() == CV_8U) {
     Fail(entry.color_path, entry,
-         "is a depth image and its partner a colour image; swap the two columns or folders");
+         "is a depth image and its partner is a colour image; swap the two columns or folders");
   }
   if (color.depth() != CV_8U || color.channels() == 2) {
     Fail(entry.color_path, entry,
@@ -110,8 +110,9 @@ RgbdImage RgbdDecoder::DecodeFiles(int i) const {
   if (depth.type() != CV_16UC1) {
     Fail(entry.depth_path, entry,
          "has " + TypeText(depth) +
-             "; depth images need 1 channel of 16 bits (a picture of the "
-             "depth for the eye does not carry the measurements)");
+             "; depth images need 1 channel of 16 bits (a visualisation of the depth does not "
+             "contain "
+             "the measurements)");
   }
   const PinholeCamera& camera = calibration_.camera;
   if (depth.cols != camera.width || depth.rows != camera.height) {

@@ -12,21 +12,20 @@
 
 namespace msc_vo {
 
-// An image of a sequence that cannot be used. The message names the file, the line that named it
-// and the fix.
+/// Thrown for an image of a sequence that cannot be used. The message names the file, the line of
+/// the list and the fix.
 class UnreadableImage : public std::runtime_error {
  public:
   UnreadableImage(int index, const std::string& message)
       : std::runtime_error(message), index_(index) {}
 
-  int index() const { return index_; }  // of the entry in the sequence
+  int index() const { return index_; }  ///< of the entry in the sequence
 
  private:
   int index_;
 };
 
-// Turns entry i of a sequence into an RgbdImage. Holds no state that changes: may be used from
-// several threads.
+/// Decodes the images of a sequence. Thread-safe: has no mutable state.
 class RgbdDecoder {
  public:
   RgbdDecoder(SequenceIndex index, Calibration calibration);
@@ -35,10 +34,11 @@ class RgbdDecoder {
   const SequenceIndex& index() const { return index_; }
   const Calibration& calibration() const { return calibration_; }
 
-  // Decodes entry i, 0 <= i < size(): colour to grey, depth to metres (0: no measurement), colour
-  // scaled down if the index says so. The id is i.
-  // Throws UnreadableImage if a file is missing, damaged, of another size than the camera, or of
-  // the wrong bit depth.
+  /// Decodes entry i, 0 <= i < size(): converts colour to grey and depth to metres (0: no
+  /// measurement), and scales colour down to the size of depth if the index requires it. The id of
+  /// the image is i.
+  /// Throws UnreadableImage if a file is missing, damaged, of another size than the camera, or of
+  /// the wrong bit depth.
   RgbdImage Decode(int i) const;
 
  private:

@@ -12,7 +12,7 @@ RgbdSource::RgbdSource(const RgbdDecoder& decoder, int begin, int end)
     : decoder_(decoder), next_(begin), end_(end) {
   if (begin < 0 || begin > end || end > decoder.size()) {
     throw std::invalid_argument("images " + std::to_string(begin) + " to " + std::to_string(end) +
-                                " wanted from a sequence of " + std::to_string(decoder.size()));
+                                " requested from a sequence of " + std::to_string(decoder.size()));
   }
   DecodeAhead();
 }
@@ -34,7 +34,7 @@ bool RgbdSource::Next(RgbdImage* image) {
 
 void RgbdSource::SkipTo(int i) {
   if (i < next_ || i > end_) {
-    throw std::invalid_argument("image " + std::to_string(i) + " wanted, but the next one is " +
+    throw std::invalid_argument("image " + std::to_string(i) + " requested, but the next one is " +
                                 std::to_string(next_) + " of " + std::to_string(end_));
   }
   if (i == next_) return;

@@ -10,21 +10,20 @@
 
 namespace msc_vo {
 
-// The images of a sequence in order, decoded lazily, one frame ahead of the reader on another
-// thread. No more than one decoded image waits, so that memory stays bounded however slow the
-// reader is.
+/// Reads the images of a sequence in order and decodes one image ahead of the reader on another
+/// thread. At most one decoded image is buffered, so memory stays bounded.
 class RgbdSource {
  public:
-  // Images begin..end-1 of the decoder, which must outlive the source.
-  // Throws std::invalid_argument unless 0 <= begin <= end <= decoder.size().
+  /// Reads images begin..end-1 of the decoder, which must outlive the source.
+  /// Throws std::invalid_argument unless 0 <= begin <= end <= decoder.size().
   RgbdSource(const RgbdDecoder& decoder, int begin, int end);
 
-  // Moves the next image into `image`; false at the end. Throws what RgbdDecoder::Decode throws, at
-  // the image that caused it, and goes on with the one behind it when called again.
+  /// Moves the next image into `image`; returns false at the end. Rethrows the exception of
+  /// RgbdDecoder::Decode() for this image; the next call continues with the following image.
   bool Next(RgbdImage* image);
 
-  // Goes on with image `i`, which must not lie before the next one. What is wrong with an image in
-  // between nobody gets to know.
+  /// Continues with image `i`. Errors in skipped images are not reported.
+  /// Throws std::invalid_argument unless next <= i <= end.
   void SkipTo(int i);
 
  private:

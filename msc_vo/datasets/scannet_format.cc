@@ -2,13 +2,15 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 // ScanNet, exported from its .sens files: color/N.jpg, depth/N.png (millimetres), pose/N.txt
-// (camera in world, 4x4; -inf where it was lost), intrinsic/intrinsic_color.txt and
+// (4x4 matrix world_from_cam; -inf if tracking was lost), intrinsic/intrinsic_color.txt and
 // intrinsic_depth.txt (4x4).
 
 #include <filesystem>
 #include <string>
 
+#include "msc_vo/datasets/image_file.h"
 #include "msc_vo/datasets/image_folder.h"
+#include "msc_vo/datasets/image_pairing.h"
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
@@ -33,9 +35,9 @@ std::string PosePath(const SequenceEntry& entry) {
   return (color.parent_path().parent_path() / "pose" / (color.stem().string() + ".txt")).string();
 }
 
-// The camera of the colour image after it has been scaled to the depth's size. Pixel centres are at
-// whole numbers, so it is the coordinate plus one half that scales.
-PinholeCamera Scaled(const Eigen::MatrixXd& k, const ImageSize& from, const ImageSize& to) {
+// Returns the camera of an image that is scaled to another size. Pixel centres are at integer
+// coordinates, so the coordinate plus one half is scaled.
+PinholeCamera ScaledCamera(const Eigen::MatrixXd& k, const ImageSize& from, const ImageSize& to) {
   const double sx = static_cast<double>(to.width) / from.width;
   const double sy = static_cast<double>(to.height) / from.height;
   return {sx * k(0, 0), sy * k(1, 1), sx * (k(0, 2) + 0.5) - 0.5, sy * (k(1, 2) + 0.5) - 0.5,
@@ -47,16 +49,16 @@ void ReadIntrinsics(const fs::path& folder, SequenceIndex* index) {
   if (index->calibration || index->entries.empty()) return;
   const ImageSize color = ReadImageSize(index->entries.front().color_path);
   const ImageSize depth = ReadImageSize(index->entries.front().depth_path);
-  const std::string of_color = (folder / "intrinsic" / "intrinsic_color.txt").string();
-  const std::string of_depth = (folder / "intrinsic" / "intrinsic_depth.txt").string();
+  const std::string color_file = (folder / "intrinsic" / "intrinsic_color.txt").string();
+  const std::string depth_file = (folder / "intrinsic" / "intrinsic_depth.txt").string();
   Calibration calibration;
   calibration.depth_scale = 1000.0;  // millimetres
-  if (HasEntry(of_color)) {
-    calibration.camera = Scaled(ReadMatrix(of_color, 4, 4), color, depth);
-    calibration.origin = of_color;
-  } else if (HasEntry(of_depth)) {
-    calibration.camera = Scaled(ReadMatrix(of_depth, 4, 4), depth, depth);
-    calibration.origin = of_depth;
+  if (HasEntry(color_file)) {
+    calibration.camera = ScaledCamera(ReadMatrix(color_file, 4, 4), color, depth);
+    calibration.origin = color_file;
+  } else if (HasEntry(depth_file)) {
+    calibration.camera = ScaledCamera(ReadMatrix(depth_file, 4, 4), depth, depth);
+    calibration.origin = depth_file;
   } else {
     return;
   }

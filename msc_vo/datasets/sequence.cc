@@ -15,8 +15,8 @@ namespace msc_vo {
 
 namespace {
 
-// From the most particular layout to the most general one: the first that recognises a folder
-// gets it.
+// Ordered from the most specific layout to the most general one: the first layout that recognises a
+// folder reads it.
 constexpr const SequenceFormat* kFormats[] = {&kSevenScenesFormat, &kReplicaFormat,
                                               &kScanNetFormat,     &kIclNuimFormat,
                                               &kTumFormat,         &kRgbDepthFormat};
@@ -33,7 +33,7 @@ const SequenceFormat* Recognise(const std::string& directory) {
   for (const SequenceFormat* format : kFormats) {
     message += std::string("\n  ") + format->name + ": " + format->description;
   }
-  // The parent folder of a sequence is the usual mistake.
+  // Giving the parent folder of a sequence is the most frequent mistake.
   std::vector<std::string> children;
   for (const std::string& child : ListFolder(directory)) {
     if (FolderProblem(child).empty() && Recognise(child)) children.push_back(child);
@@ -53,7 +53,7 @@ const SequenceFormat& FormatByName(const std::string& name) {
   throw std::invalid_argument("unknown sequence format '" + name + "'; known: auto" + names);
 }
 
-// Puts the entries in order of time; of several with one stamp the first stays.
+// Sorts the entries by time and removes repeated stamps, keeping the first.
 void OrderEntries(SequenceIndex* index) {
   const auto earlier = [](const SequenceEntry& a, const SequenceEntry& b) {
     return a.timestamp < b.timestamp;

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 
+#include "msc_vo/datasets/image_pairing.h"
 #include "msc_vo/evaluation/association.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
@@ -18,13 +18,7 @@ namespace {
 
 constexpr int kMaxReportsOfOneKind = 5;
 
-std::string Rounded(double value, int decimals) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof(buffer), "%.*f", decimals, value);
-  return buffer;
-}
-
-// Value below which the share p of the samples lies; reorders them.
+// Returns the p-quantile of the samples, 0 <= p <= 1; reorders them.
 template <typename T>
 T Quantile(double p, std::vector<T>* samples) {
   const auto nth =
@@ -53,20 +47,20 @@ class SequenceChecker {
   void Add(Severity severity, const std::string& text) { findings_.push_back({severity, text}); }
 
   void CheckFiles() {
-    int missing = 0;
+    int num_unreadable = 0;
     for (const SequenceEntry& entry : index_.entries) {
       for (const std::string& path : {entry.color_path, entry.depth_path}) {
         const std::string problem = FileProblem(path, kMaxImageBytes);
         if (problem.empty()) continue;
-        if (++missing > kMaxReportsOfOneKind) continue;
+        if (++num_unreadable > kMaxReportsOfOneKind) continue;
         Add(Severity::kError, path + " " + problem +
                                   (entry.origin.empty() ? "" : " (named in " + entry.origin + ")"));
       }
     }
-    if (missing == 0) Add(Severity::kGood, "all image files are there");
-    if (missing > kMaxReportsOfOneKind) {
+    if (num_unreadable == 0) Add(Severity::kGood, "all image files exist");
+    if (num_unreadable > kMaxReportsOfOneKind) {
       Add(Severity::kError,
-          std::to_string(missing) + " image files are missing or no files in total");
+          FormatText("%d image files in total are missing or unreadable", num_unreadable));
     }
   }
 
@@ -82,23 +76,22 @@ class SequenceChecker {
       return;
     }
     const double median = Quantile(0.5, &intervals);
-    Add(Severity::kGood, std::to_string(entries.size()) + " image pairs in " +
-                             Rounded(duration, 1) + " s, " + Rounded(1.0 / median, 1) +
-                             " per second");
-    constexpr double kMinInterval = 0.001, kMaxInterval = 5.0;  // seconds; no RGB-D camera's
+    Add(Severity::kGood, FormatText("%zu image pairs in %.1f s, %.1f per second", entries.size(),
+                                    duration, 1.0 / median));
+    constexpr double kMinInterval = 0.001, kMaxInterval = 5.0;  // seconds, of RGB-D cameras
     if (median < kMinInterval || median > kMaxInterval) {
-      Add(Severity::kWarning, FormatText("%g s from image to image are unusual: are the stamps in "
-                                         "seconds?",
-                                         median));
+      Add(Severity::kWarning,
+          FormatText("the median interval between images is %g s: are the stamps in seconds?",
+                     median));
     }
-    // Constant velocity survives one or two dropped frames, not more.
+    // The constant velocity model bridges one or two dropped frames, not more.
     constexpr double kMaxGap = 3.5;  // in median intervals
     const auto gaps = std::count_if(intervals.begin(), intervals.end(),
                                     [&](double interval) { return interval > kMaxGap * median; });
     if (gaps > 0) {
       const double longest = *std::max_element(intervals.begin(), intervals.end());
-      Add(Severity::kWarning, std::to_string(gaps) + " gaps of three frames or more, the longest " +
-                                  Rounded(longest, 3) + " s");
+      Add(Severity::kWarning, FormatText("%d gaps of three frames or more, the longest %.3f s",
+                                         static_cast<int>(gaps), longest));
     }
   }
 
@@ -107,40 +100,38 @@ class SequenceChecker {
         index_.entries.begin(), index_.entries.end(),
         [](const auto& a, const auto& b) { return a.depth_delay < b.depth_delay; });
     if (first->depth_delay == 0.0 && last->depth_delay == 0.0) return;
-    Add(Severity::kGood, "depth images are " + Rounded(1e3 * first->depth_delay, 1) + " to " +
-                             Rounded(1e3 * last->depth_delay, 1) +
-                             " ms later than their colour images; replay makes up for how the "
-                             "camera moves in that time");
+    Add(Severity::kGood,
+        FormatText("depth images are %.1f to %.1f ms later than their colour images; replay "
+                   "compensates for the motion of the camera in that time",
+                   1e3 * first->depth_delay, 1e3 * last->depth_delay));
   }
 
   void CheckCamera() {
     const Calibration& calibration = decoder_.calibration();
     const PinholeCamera& camera = calibration.camera;
-    Add(Severity::kGood, "camera from " + calibration.origin + ": fx " + Rounded(camera.fx, 3) +
-                             ", fy " + Rounded(camera.fy, 3) + ", cx " + Rounded(camera.cx, 3) +
-                             ", cy " + Rounded(camera.cy, 3) + ", " + std::to_string(camera.width) +
-                             "x" + std::to_string(camera.height) + ", " +
-                             Rounded(calibration.depth_scale, 1) + " depth units per metre" +
-                             (calibration.distortion.IsZero() ? "" : ", with lens distortion"));
+    Add(Severity::kGood,
+        "camera from " + calibration.origin +
+            FormatText(": fx %.3f, fy %.3f, cx %.3f, cy %.3f, %dx%d, %.1f depth units per metre",
+                       camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height,
+                       calibration.depth_scale) +
+            (calibration.distortion.IsZero() ? "" : ", with lens distortion"));
     if (camera.fy < 0.0 && index_.format != "icl-nuim") {
-      Add(Severity::kWarning, "fy is negative: right only if the images are mirrored (ICL-NUIM)");
+      Add(Severity::kWarning, "fy is negative: correct only for mirrored images (ICL-NUIM)");
     }
     if (camera.fy > 0.0 && index_.format == "icl-nuim") {
       Add(Severity::kWarning,
-          "fy is positive, but original ICL-NUIM images are mirrored: with "
-          "fy = -480 the trajectory agrees with its ground truth");
+          "fy is positive, but original ICL-NUIM images are mirrored: their ground truth requires "
+          "fy = -480");
     }
     if (std::abs(std::abs(camera.fx / camera.fy) - 1.0) > 0.1) {
       Add(Severity::kWarning,
-          "fx and fy differ by more than 10 %: pixels are hardly ever that "
-          "far from square");
+          "fx and fy differ by more than 10 %, but pixels are nearly always square: check both");
     }
     const bool centred = std::abs(camera.cx / camera.width - 0.5) < 0.2 &&
                          std::abs(camera.cy / camera.height - 0.5) < 0.2;
     if (!centred) {
       Add(Severity::kWarning,
-          "cx, cy lie far from the middle of the image: is the calibration "
-          "that of another image size?");
+          "cx and cy are far from the image centre: is the calibration for another image size?");
     }
   }
 
@@ -156,7 +147,7 @@ class SequenceChecker {
               : static_cast<int>(static_cast<int64_t>(k) * (decoder_.size() - 1) / (count - 1));
       try {
         const RgbdImage image = decoder_.Decode(i);
-        // Every 16th pixel is plenty for a distribution.
+        // Every 16th pixel suffices for the distribution.
         for (int p = 0; p < static_cast<int>(image.depth.total()); p += 16, ++num_pixels) {
           const float depth = image.depth.at<float>(p / image.depth.cols, p % image.depth.cols);
           if (depth > 0.0f) depths.push_back(depth);
@@ -169,7 +160,7 @@ class SequenceChecker {
       Add(Severity::kError,
           std::to_string(failed) + " of " + std::to_string(count) + " images cannot be used");
     }
-    if (failed == 0) Add(Severity::kGood, std::to_string(count) + " images decoded, all sound");
+    if (failed == 0) Add(Severity::kGood, std::to_string(count) + " images decoded without errors");
     if (num_pixels > 0) CheckDepth(num_pixels, &depths);
   }
 
@@ -182,26 +173,30 @@ class SequenceChecker {
     const double near = Quantile(0.05, depths);
     const double far = Quantile(0.95, depths);
     const double valid = 100.0 * static_cast<double>(depths->size()) / num_pixels;
-    Add(Severity::kGood, "depth: median " + Rounded(median, 2) + " m, 90 % within " +
-                             Rounded(near, 2) + " to " + Rounded(far, 2) + " m, " +
-                             Rounded(valid, 0) + " % of the pixels measured");
-    if (median < 0.3 || median > 8.0) SuggestDepthScale(median);
+    Add(Severity::kGood,
+        FormatText("depth: median %.2f m, 90 %% within %.2f to %.2f m, %.0f %% of the pixels valid",
+                   median, near, far, valid));
+    if (!IsUsualDepth(median)) SuggestDepthScale(median);
     if (valid < 20.0) Add(Severity::kWarning, "most of the image has no depth");
   }
 
-  // Rooms are a few metres deep: a median outside 0.3..8 m speaks of a wrong unit.
+  // Rooms are a few metres deep: another median indicates a wrong unit. Metres.
+  static bool IsUsualDepth(double median) { return median >= 0.3 && median <= 8.0; }
+
   void SuggestDepthScale(double median) {
     const double scale = decoder_.calibration().depth_scale;
-    std::string text = "a median depth of " + Rounded(median, 3) + " m is unusual; depth_scale (" +
-                       Rounded(scale, 1) + " raw units per metre) is probably wrong";
-    std::string candidates;
-    for (const double other : {1000.0, 5000.0, 6553.5}) {
-      const double with_other = median * scale / other;
-      if (with_other < 0.3 || with_other > 8.0) continue;
-      candidates += (candidates.empty() ? "; " : ", ") + Rounded(other, 1) + " would give " +
-                    Rounded(with_other, 2) + " m";
+    std::string text = FormatText(
+        "a median depth of %.3f m is unusual; depth_scale (%.1f raw units per metre) is probably "
+        "wrong",
+        median, scale);
+    const char* separator = "; ";
+    for (const double other_scale : {1000.0, 5000.0, 6553.5}) {
+      const double other_median = median * scale / other_scale;
+      if (!IsUsualDepth(other_median)) continue;
+      text += separator + FormatText("%.1f would give %.2f m", other_scale, other_median);
+      separator = ", ";
     }
-    Add(Severity::kWarning, text + candidates);
+    Add(Severity::kWarning, text);
   }
 
   void CheckGroundTruth() {
@@ -213,18 +208,19 @@ class SequenceChecker {
     std::vector<double> truth_stamps, image_stamps;
     for (const TimedPose& pose : truth) truth_stamps.push_back(pose.timestamp);
     for (const SequenceEntry& entry : index_.entries) image_stamps.push_back(entry.timestamp);
-    const size_t matched = MatchNearest(truth_stamps, image_stamps, 0.02).size();
-    const std::string text = "ground truth: " + std::to_string(truth.size()) + " poses, " +
-                             std::to_string(matched) + " of " +
-                             std::to_string(image_stamps.size()) + " images have one within 20 ms";
-    if (2 * matched >= image_stamps.size()) {
+    const size_t num_matched =
+        AssociateStamps(truth_stamps, image_stamps, kMaxPairDifference).size();
+    const std::string text =
+        FormatText("ground truth: %zu poses, %zu of %zu images have one within %.0f ms",
+                   truth.size(), num_matched, image_stamps.size(), 1e3 * kMaxPairDifference);
+    if (2 * num_matched >= image_stamps.size()) {
       Add(Severity::kGood, text);
       return;
     }
-    Add(Severity::kWarning, text + "; its stamps begin " +
-                                Rounded(truth_stamps.front() - image_stamps.front(), 3) +
-                                " s after those of the images: other clock, other unit, or the "
-                                "truth of another sequence?");
+    Add(Severity::kWarning,
+        text + FormatText("; its stamps begin %.3f s after those of the images: is it on another "
+                          "clock, in another unit, or of another sequence?",
+                          truth_stamps.front() - image_stamps.front()));
   }
 
   const RgbdDecoder& decoder_;

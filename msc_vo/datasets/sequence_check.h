@@ -11,24 +11,26 @@
 namespace msc_vo {
 
 enum class Severity {
-  kGood,     // as it should be
-  kWarning,  // legal, but a usual sign of a mistake
-  kError,    // replay would fail, or go on without the image
+  kGood,     ///< no problem
+  kWarning,  ///< valid, but a frequent sign of a mistake
+  kError,    ///< replay would fail or skip the image
 };
 
-// One thing that was looked at, in a sentence for the user.
+/// Result of one check, in a sentence for the user.
 struct Finding {
   Severity severity = Severity::kGood;
   std::string text;
 };
 
 struct SequenceCheckOptions {
-  int max_images = 30;  // decoded, evenly spread over the sequence; files are looked for all
+  /// Number of images to decode, evenly spread over the sequence; all files are tested for
+  /// existence.
+  int max_images = 30;
 };
 
-// Examines a sequence before a run: files, stamps and gaps, sizes and bit depths, depth in metres,
-// the sign of fy, and whether the ground truth belongs to the images. Never throws because of what
-// it finds.
+/// Checks a sequence before a run: files, stamps and gaps, image sizes and bit depths, range of
+/// depth, sign of fy, and whether the stamps of the ground truth match those of the images.
+/// Problems of the sequence are reported as findings, not thrown.
 std::vector<Finding> CheckSequence(const RgbdDecoder& decoder,
                                    const SequenceCheckOptions& options = {});
 

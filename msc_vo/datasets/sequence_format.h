@@ -9,13 +9,13 @@
 
 namespace msc_vo {
 
-// One folder layout. Each lives in its own file; OpenSequence asks them in turn.
+/// A folder layout of RGB-D sequences. Each layout is implemented in a file of its own.
 struct SequenceFormat {
-  const char* name;         // for --format
-  const char* description;  // what the folder holds, for messages
+  const char* name;         ///< for --format
+  const char* description;  ///< expected files, for messages
   bool (*recognises)(const std::string& directory);
-  // Fills everything but `format` and `directory`; order and uniqueness of the stamps are
-  // OpenSequence's business.
+  /// Fills all fields except `format` and `directory`. OpenSequence() sorts the entries and removes
+  /// repeated stamps.
   SequenceIndex (*read)(const std::string& directory);
 };
 
@@ -26,7 +26,7 @@ extern const SequenceFormat kIclNuimFormat;
 extern const SequenceFormat kTumFormat;
 extern const SequenceFormat kRgbDepthFormat;
 
-// Images without stamps of their own are taken at the rate of the sensors these layouts come from.
+/// Frame rate of images without stamps: that of the sensors that these layouts were recorded with.
 constexpr double kDefaultFrameRate = 30.0;  // 1/seconds
 
 }  // namespace msc_vo

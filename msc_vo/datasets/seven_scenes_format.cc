@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// 7-Scenes and 3DMatch: frame-XXXXXX.color.png, .depth.png (millimetres, 65535 invalid) and
-// .pose.txt (camera in world, 4x4); 3DMatch adds camera-intrinsics.txt.
+// 7-Scenes and 3DMatch: frame-XXXXXX.color.png, .depth.png (millimetres, 65535: invalid) and
+// .pose.txt (4x4 matrix world_from_cam); 3DMatch adds camera-intrinsics.txt.
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "msc_vo/datasets/image_file.h"
 #include "msc_vo/datasets/image_folder.h"
+#include "msc_vo/datasets/image_pairing.h"
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
@@ -32,7 +34,7 @@ std::string PosePath(const SequenceEntry& entry) {
   return (color.parent_path() / (frame + ".pose.txt")).string();
 }
 
-// camera-intrinsics.txt of 3DMatch lies in the folder or, shared by several sequences, above it.
+// camera-intrinsics.txt of 3DMatch is in the folder or, shared by several sequences, in its parent.
 void ReadIntrinsics(const std::string& directory, SequenceIndex* index) {
   ReadFolderCamera(directory, index);
   if (index->calibration) return;

@@ -4,6 +4,7 @@
 #include "msc_vo/datasets/time_unit.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace msc_vo {
 
@@ -12,7 +13,7 @@ namespace {
 constexpr TimeUnit kUnits[] = {TimeUnit::kSeconds, TimeUnit::kMilliseconds, TimeUnit::kMicroseconds,
                                TimeUnit::kNanoseconds};
 
-// In the unit of the stamps; 0 for fewer than two.
+// Median interval in the unit of the stamps; 0 for fewer than two stamps.
 double MedianInterval(std::vector<double> stamps) {
   if (stamps.size() < 2) return 0.0;
   std::sort(stamps.begin(), stamps.end());
@@ -23,7 +24,7 @@ double MedianInterval(std::vector<double> stamps) {
   return *middle;
 }
 
-// The part of the time of either list that both cover, 0..1.
+// Intersection over union of two time ranges, 0..1.
 double Overlap(const TimeRange& a, const TimeRange& b) {
   const double common = std::min(a.end, b.end) - std::max(a.begin, b.begin);
   const double all = std::max(a.end, b.end) - std::min(a.begin, b.begin);
@@ -79,8 +80,8 @@ std::optional<TimeUnit> UnitOfDate(double stamp) {
 TimeUnit GuessTimeUnit(const std::vector<double>& stamps) {
   if (stamps.empty()) return TimeUnit::kSeconds;
   const double interval = MedianInterval(stamps);
-  // Nanoseconds since a machine started look like a date in milliseconds for an hour; the time
-  // between two images tells them apart.
+  // Nanoseconds since boot are a date in milliseconds during part of the first hours of uptime; the
+  // interval between images distinguishes the two.
   constexpr double kMaxIntervalOfDates = 3600.0;  // seconds
   const std::optional<TimeUnit> date = UnitOfDate(stamps.front());
   if (date && interval / UnitsPerSecond(*date) < kMaxIntervalOfDates) return *date;
@@ -99,6 +100,16 @@ TimeUnit GuessTimeUnit(const std::vector<double>& stamps, const TimeRange& refer
     return Overlap({counted.begin / rate, counted.end / rate, unit}, reference);
   };
   return overlap_in(reference.unit) > overlap_in(own) ? reference.unit : own;
+}
+
+bool AreFrameNumbers(const std::vector<double>& stamps) {
+  constexpr double kMaxStep = 60.0;
+  constexpr double kMaxFrameNumber = 1e8;
+  for (size_t i = 0; i < stamps.size(); ++i) {
+    if (stamps[i] != std::floor(stamps[i]) || std::abs(stamps[i]) > kMaxFrameNumber) return false;
+    if (i > 0 && std::abs(stamps[i] - stamps[i - 1]) > kMaxStep) return false;
+  }
+  return stamps.size() > 1;
 }
 
 }  // namespace msc_vo

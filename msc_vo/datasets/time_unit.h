@@ -8,30 +8,36 @@
 
 namespace msc_vo {
 
-// Units in which recorders count time.
+/// Units of the time stamps of recordings.
 enum class TimeUnit { kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
 
-const char* ToString(TimeUnit unit);  // "seconds"
+const char* ToString(TimeUnit unit);  ///< "seconds"
 double UnitsPerSecond(TimeUnit unit);
 
-// The time that a list of stamps covers, and the unit in which the list counts it.
+/// The time range that a list of stamps covers, and the original unit of the list.
 struct TimeRange {
-  double begin = 0.0;  // seconds
-  double end = 0.0;    // seconds
+  double begin = 0.0;  ///< seconds
+  double end = 0.0;    ///< seconds
   TimeUnit unit = TimeUnit::kSeconds;
 };
-// Of stamps that have been brought from `unit` to seconds; all zero if there are none.
+
+/// Returns the range of stamps that have been converted from `unit` to seconds; zero if there are
+/// none.
 TimeRange RangeOf(const std::vector<double>& seconds, TimeUnit unit);
 
-// The unit in which the stamp is a date of this century; none: it is none in any unit.
+/// Returns the unit in which the stamp is a date of this century, in time since 1970; none if there
+/// is no such unit.
 std::optional<TimeUnit> UnitOfDate(double stamp);
 
-// The unit of the stamps of a recording, in any order: the one in which they are dates of this
-// century, or else the one in which images or poses are less than 5 s apart (median).
+/// Guesses the unit of the stamps of a recording, which may be in any order: the unit in which they
+/// are dates of this century, or else the first one in which their median interval is below 5 s.
 TimeUnit GuessTimeUnit(const std::vector<double>& stamps);
 
-// As above for stamps that should cover the time of `reference`: its unit, if that brings the two
-// closer together.
+/// As above for stamps of the same recording as `reference`: the unit of `reference` if the two
+/// overlap more in that unit.
 TimeUnit GuessTimeUnit(const std::vector<double>& stamps, const TimeRange& reference);
+
+/// Tests whether the stamps may be frame numbers: whole numbers with steps of at most 60.
+bool AreFrameNumbers(const std::vector<double>& stamps);
 
 }  // namespace msc_vo

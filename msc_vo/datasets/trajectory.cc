@@ -18,7 +18,7 @@ namespace msc_vo {
 namespace {
 
 constexpr size_t kFieldsPerPose = 8;
-// Two decimals of each component are off by less.
+// Deviation of the norm from 1; larger than the rounding of components with two decimals.
 constexpr double kMaxQuaternionError = 0.05;
 constexpr char kNotEstimated[] = "not estimated";
 
@@ -28,7 +28,7 @@ void SortByTime(std::vector<TimedPose>* poses) {
   });
 }
 
-// "0.1000000000", and no "-0.0000000000".
+// Formats with a fixed number of decimals: "0.1000000000"; never "-0.0000000000".
 std::string Fixed(double value, int decimals) {
   std::array<char, 400> buffer;  // 309 digits of the largest double, sign, point, decimals
   std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, value);
@@ -46,7 +46,7 @@ std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out
     if (line.fields.size() != kFieldsPerPose) {
       throw std::runtime_error(line.Where() +
                                ": expected 8 numbers 'time tx ty tz qx qy qz qw', found " +
-                               std::to_string(line.fields.size()) + " fields");
+                               std::to_string(line.fields.size()) + " fields; correct the line");
     }
     std::array<double, kFieldsPerPose> v;
     bool finite = true;

@@ -9,7 +9,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/datasets/image_list.h"
+#include "msc_vo/datasets/image_pairing.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory.h"
@@ -28,8 +30,8 @@ std::vector<double> StampsOf(const std::vector<Item>& items, double Item::*stamp
   return stamps;
 }
 
-// How many of the units that the stamps of the list `name` count make a second. `images`: the time
-// of the images, if that is known.
+// Units per second of the stamps of the list `name`. `images` is the time range of the images, if
+// it is known.
 double StampsPerSecond(const std::string& name, const std::vector<double>& stamps,
                        WholeStamps whole, const std::optional<TimeRange>& images,
                        SequenceIndex* index) {
@@ -38,8 +40,8 @@ double StampsPerSecond(const std::string& name, const std::vector<double>& stamp
   if (!images) index->stamp_unit = unit;
   if (!images && unit == TimeUnit::kSeconds && AreFrameNumbers(stamps)) {
     index->warnings.push_back(name +
-                              ": the stamps are whole numbers and taken as seconds; if they count "
-                              "frames, --format icl-nuim takes them at 30 per second");
+                              ": the stamps are whole numbers and interpreted as seconds; if they "
+                              "are frame numbers, use --format icl-nuim (30 frames per second)");
   }
   if (unit != TimeUnit::kSeconds) {
     index->warnings.push_back(name + ": the stamps are " + ToString(unit) +
@@ -48,7 +50,7 @@ double StampsPerSecond(const std::string& name, const std::vector<double>& stamp
   return UnitsPerSecond(unit);
 }
 
-// Brings the stamps of the items to seconds.
+// Converts the stamps of the items to seconds.
 template <typename Item>
 void ToSeconds(const std::string& name, double Item::*stamp, WholeStamps whole,
                const std::optional<TimeRange>& images, std::vector<Item>* items,
@@ -58,13 +60,13 @@ void ToSeconds(const std::string& name, double Item::*stamp, WholeStamps whole,
 }
 
 void ToSeconds(const std::string& color_name, const std::string& depth_name, WholeStamps whole,
-               Associations* images, SequenceIndex* index) {
+               ImageLists* images, SequenceIndex* index) {
   ToSeconds(color_name, &ListedImage::stamp, whole, std::nullopt, &images->color, index);
   const TimeRange range = RangeOf(StampsOf(images->color, &ListedImage::stamp), index->stamp_unit);
   ToSeconds(depth_name, &ListedImage::stamp, whole, range, &images->depth, index);
 }
 
-Associations ReadLists(const fs::path& folder) {
+ImageLists ReadLists(const fs::path& folder) {
   const std::string color = (folder / "rgb.txt").string();
   const std::string depth = (folder / "depth.txt").string();
   for (const std::string& path : {color, depth}) {
@@ -81,15 +83,15 @@ Associations ReadLists(const fs::path& folder) {
 void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceIndex* index) {
   const std::string associations = FindAssociations(directory);
   if (!associations.empty()) {
-    Associations pairs = ReadAssociations(associations);
+    ImageLists images = ReadAssociations(associations);
     const std::string name = fs::path(associations).filename().string();
-    ToSeconds(name + ", colour", name + ", depth", whole, &pairs, index);
-    AddPairs(pairs, index);
+    ToSeconds(name + ", colour", name + ", depth", whole, &images, index);
+    PairByRow(images, index);
     return;
   }
-  Associations lists = ReadLists(directory);
-  ToSeconds("rgb.txt", "depth.txt", whole, &lists, index);
-  PairByTime(lists.color, lists.depth, kMaxPairDifference, index);
+  ImageLists images = ReadLists(directory);
+  ToSeconds("rgb.txt", "depth.txt", whole, &images, index);
+  PairByTime(images, kMaxPairDifference, index);
 }
 
 void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, SequenceIndex* index) {

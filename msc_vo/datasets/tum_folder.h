@@ -9,26 +9,28 @@
 
 namespace msc_vo {
 
-// Parts of a TUM-style folder, which several layouts share. All throw std::runtime_error naming
-// file, line and fix.
+// Readers for the files of a TUM-style folder, which several layouts share. All throw
+// std::runtime_error naming file, line and fix.
 
-// What stamps that are all whole numbers mean in a layout.
+/// Meaning of stamps that are all whole numbers.
 enum class WholeStamps {
   kTimes,
-  kFrameNumbers,  // time = number / kDefaultFrameRate
+  kFrameNumbers,  ///< time = number / kDefaultFrameRate
 };
 
-// Pairs from an association file if there is one, else from rgb.txt and depth.txt by nearest time
-// within 0.02 s. Times in milliseconds, microseconds or nanoseconds become seconds, with a warning.
+/// Reads the image pairs from an association file if there is one, and otherwise pairs rgb.txt and
+/// depth.txt by time, see PairByTime(). Converts stamps in milliseconds, microseconds or
+/// nanoseconds to seconds, with a warning.
 void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceIndex* index);
 
-// groundtruth.txt, or *.gt.freiburg, after the images; none is no error. Stamps as above.
+/// Reads groundtruth.txt or *.gt.freiburg if one exists; converts stamps like ReadTumEntries(),
+/// which must be called first.
 void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, SequenceIndex* index);
 
-// camera.txt; none is no error.
+/// Reads camera.txt if it exists.
 void ReadFolderCamera(const std::string& directory, SequenceIndex* index);
 
-// The first *.gt.freiburg file of the folder; empty: there is none.
+/// Returns the path of the first *.gt.freiburg file of the folder; empty if there is none.
 std::string FindFreiburgTruth(const std::string& directory);
 
 }  // namespace msc_vo

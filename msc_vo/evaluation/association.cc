@@ -4,45 +4,92 @@
 #include "msc_vo/evaluation/association.h"
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
+#include <queue>
+#include <tuple>
 
 namespace msc_vo {
 
 namespace {
 
-// Index of the stamp nearest to `stamp`, the earlier one of two at the same distance.
-int NearestIndex(const std::vector<double>& stamps, double stamp) {
-  const auto after = std::lower_bound(stamps.begin(), stamps.end(), stamp);
-  if (after == stamps.begin()) return 0;
-  const int index = static_cast<int>(after - stamps.begin());
-  if (after == stamps.end()) return index - 1;
-  return std::abs(stamps[index - 1] - stamp) <= std::abs(stamps[index] - stamp) ? index - 1 : index;
-}
+// Matches the closest pair repeatedly. Of the unmatched stamps of both lists, in ascending order,
+// the closest reference and query are always neighbours; so only neighbours are candidates, and the
+// stamps on both sides of a match become neighbours.
+class StampAssociator {
+ public:
+  StampAssociator(const std::vector<double>& references, const std::vector<double>& queries,
+                  double max_difference)
+      : max_difference_(max_difference) {
+    for (size_t i = 0; i < references.size(); ++i) {
+      stamps_.push_back({references[i], static_cast<int>(i), true});
+    }
+    for (size_t i = 0; i < queries.size(); ++i) {
+      stamps_.push_back({queries[i], static_cast<int>(i), false});
+    }
+    std::stable_sort(stamps_.begin(), stamps_.end(),
+                     [](const Stamp& a, const Stamp& b) { return a.time < b.time; });
+    for (int i = 0; i < static_cast<int>(stamps_.size()); ++i) {
+      stamps_[i].previous = i - 1;
+      stamps_[i].next = i + 1;
+      AddCandidate(i - 1, i);
+    }
+  }
+
+  std::vector<StampMatch> Associate() {
+    std::vector<StampMatch> matches;
+    while (!candidates_.empty()) {
+      const auto [difference, reference, query, left, right] = candidates_.top();
+      candidates_.pop();
+      if (stamps_[left].matched || stamps_[right].matched) continue;
+      matches.push_back({reference, query});
+      Remove(left, right);
+    }
+    std::sort(matches.begin(), matches.end(),
+              [](const StampMatch& a, const StampMatch& b) { return a.reference < b.reference; });
+    return matches;
+  }
+
+ private:
+  struct Stamp {
+    double time;  // seconds
+    int index;    // in its list
+    bool is_reference;
+    bool matched = false;
+    int previous = 0;  // neighbours among the unmatched stamps
+    int next = 0;
+  };
+  // Difference, reference, query, positions of the two in stamps_; the order resolves ties.
+  using Candidate = std::tuple<double, int, int, int, int>;
+
+  void AddCandidate(int left, int right) {
+    if (left < 0 || right >= static_cast<int>(stamps_.size())) return;
+    const Stamp &a = stamps_[left], &b = stamps_[right];
+    if (a.is_reference == b.is_reference) return;
+    const double difference = b.time - a.time;
+    if (!(difference <= max_difference_)) return;
+    candidates_.emplace(difference, a.is_reference ? a.index : b.index,
+                        a.is_reference ? b.index : a.index, left, right);
+  }
+
+  void Remove(int left, int right) {
+    stamps_[left].matched = stamps_[right].matched = true;
+    const int before = stamps_[left].previous, after = stamps_[right].next;
+    if (before >= 0) stamps_[before].next = after;
+    if (after < static_cast<int>(stamps_.size())) stamps_[after].previous = before;
+    AddCandidate(before, after);
+  }
+
+  double max_difference_;
+  std::vector<Stamp> stamps_;  // of both lists, in ascending order
+  std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates_;
+};
 
 }  // namespace
 
-std::vector<StampMatch> MatchNearest(const std::vector<double>& reference_stamps,
-                                     const std::vector<double>& query_stamps,
-                                     double max_difference) {
-  if (reference_stamps.empty()) return {};
-  constexpr int kNone = -1;
-  std::vector<int> query_of_reference(reference_stamps.size(), kNone);
-  for (int query = 0; query < static_cast<int>(query_stamps.size()); ++query) {
-    const int reference = NearestIndex(reference_stamps, query_stamps[query]);
-    const double difference = std::abs(reference_stamps[reference] - query_stamps[query]);
-    if (!(difference <= max_difference)) continue;
-    int& best = query_of_reference[reference];
-    if (best == kNone || difference < std::abs(reference_stamps[reference] - query_stamps[best])) {
-      best = query;
-    }
-  }
-  std::vector<StampMatch> matches;
-  for (int reference = 0; reference < static_cast<int>(query_of_reference.size()); ++reference) {
-    if (query_of_reference[reference] != kNone) {
-      matches.push_back({reference, query_of_reference[reference]});
-    }
-  }
-  return matches;
+std::vector<StampMatch> AssociateStamps(const std::vector<double>& reference_stamps,
+                                        const std::vector<double>& query_stamps,
+                                        double max_difference) {
+  return StampAssociator(reference_stamps, query_stamps, max_difference).Associate();
 }
 
 }  // namespace msc_vo

@@ -7,17 +7,20 @@
 
 namespace msc_vo {
 
-// Indices of two stamps that belong together.
+/// Indices of two associated stamps.
 struct StampMatch {
   int reference = 0;
   int query = 0;
 };
 
-// The nearest reference stamp of every query stamp, if it is at most `max_difference` seconds away.
-// One to one: of several queries with the same nearest reference the closest wins (the first, of
-// equals) and the others stay without a match. Both inputs ascend; the answer ascends too.
-std::vector<StampMatch> MatchNearest(const std::vector<double>& reference_stamps,
-                                     const std::vector<double>& query_stamps,
-                                     double max_difference);
+/// Associates two lists of stamps one-to-one, closest pair first (as associate.py of the TUM RGB-D
+/// benchmark): of all pairs that differ by at most `max_difference` seconds, the closest is
+/// matched, then the closest of the remaining stamps, and so on. A stamp whose nearest partner is
+/// taken gets the next one within `max_difference`. On ties the earlier reference is matched first,
+/// then the earlier query. Both lists must be in ascending order; of repeated stamps any may be
+/// matched. The matches are in ascending order of the reference.
+std::vector<StampMatch> AssociateStamps(const std::vector<double>& reference_stamps,
+                                        const std::vector<double>& query_stamps,
+                                        double max_difference);
 
 }  // namespace msc_vo

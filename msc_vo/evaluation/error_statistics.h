@@ -7,13 +7,13 @@
 
 namespace msc_vo {
 
-// Of the absolute values of one kind of error. All zero if there are no samples.
+/// Statistics of errors, which are not negative. All zero if there are no samples.
 struct ErrorStatistics {
   int count = 0;
   double rmse = 0.0;
   double mean = 0.0;
-  double median = 0.0;  // the mean of the two in the middle if the count is even
-  double p95 = 0.0;     // the least value that 95 % of all do not exceed
+  double median = 0.0;  ///< mean of the two middle values if the count is even
+  double p95 = 0.0;     ///< 95th percentile: the smallest sample that 95 % of all do not exceed
   double max = 0.0;
 };
 

@@ -12,23 +12,23 @@ namespace msc_vo {
 
 namespace {
 
-// How a line lies with respect to an edge.
+// Offset of a line from an edge.
 struct Offset {
   double angle = 0.0;         // radians
-  double angle_across = 0.0;  // radians, out of the plane of edge and sight
-  double across = 0.0;        // metres, out of that plane
-  double along = 0.0;         // metres, in it
-  double beyond = 0.0;        // metres, of the middle beyond the nearer end; 0 beside the edge
+  double angle_across = 0.0;  // radians, across the plane of edge and viewing direction
+  double across = 0.0;        // metres, across that plane
+  double along = 0.0;         // metres, in that plane
+  double beyond = 0.0;        // metres, of the midpoint beyond the nearer end of the edge, or 0
 
   double Distance() const { return std::hypot(across, along); }
 };
 
-Offset OffsetOf(const EstimatedLine& line, const LineSegment3& edge) {
-  const Eigen::Vector3d middle = line.segment.Midpoint();
+Offset ComputeOffset(const EstimatedLine& line, const LineSegment3& edge) {
+  const Eigen::Vector3d midpoint = line.segment.Midpoint();
   const Eigen::Vector3d line_direction = line.segment.Direction(), direction = edge.Direction();
-  const double s = edge.Parameter(middle);
-  const Eigen::Vector3d away = middle - edge.At(s);
-  // Of an edge seen end-on the cross product vanishes, and with it the parts across.
+  const double s = edge.Parameter(midpoint);
+  const Eigen::Vector3d away = midpoint - edge.At(s);
+  // If the edge is viewed end-on, the cross product and both offsets across vanish.
   const Eigen::Vector3d sideways = direction.cross(line.viewing_direction).normalized();
   Offset offset;
   offset.angle = UndirectedAngle(line_direction, direction);
@@ -39,13 +39,13 @@ Offset OffsetOf(const EstimatedLine& line, const LineSegment3& edge) {
   return offset;
 }
 
-bool IsPossible(const Offset& offset, const LineEvaluationOptions& options) {
+bool IsWithinBounds(const Offset& offset, const LineEvaluationOptions& options) {
   return offset.angle <= options.max_angle && offset.angle_across <= options.max_angle_across &&
          offset.across <= options.max_across && offset.along <= options.max_along &&
          offset.beyond <= options.max_beyond;
 }
 
-// Sum of squares of the offsets in units of their bounds.
+// Sum of the squared offsets, each relative to its bound.
 double Cost(const Offset& offset, const LineEvaluationOptions& options) {
   return Eigen::Vector4d(offset.angle / options.max_angle,
                          offset.angle_across / options.max_angle_across,
@@ -53,14 +53,14 @@ double Cost(const Offset& offset, const LineEvaluationOptions& options) {
       .squaredNorm();
 }
 
-// Index of the partner; -1 if there is none.
+// Returns the index of the edge that matches the line; -1 if there is none.
 int FindEdge(const EstimatedLine& line, const std::vector<LineSegment3>& edges,
              const LineEvaluationOptions& options) {
   int best = -1;
   double least = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < edges.size(); ++i) {
-    const Offset offset = OffsetOf(line, edges[i]);
-    if (!IsPossible(offset, options) || Cost(offset, options) >= least) continue;
+    const Offset offset = ComputeOffset(line, edges[i]);
+    if (!IsWithinBounds(offset, options) || Cost(offset, options) >= least) continue;
     best = static_cast<int>(i);
     least = Cost(offset, options);
   }
@@ -95,7 +95,9 @@ LineError EvaluateLines(const std::vector<LineSegment3>& edges,
   std::string problem;
   if (!options.IsValid(&problem)) throw std::invalid_argument(problem);
   for (const LineSegment3& edge : edges) {
-    if (!(edge.Length() > 0.0)) throw std::invalid_argument("EvaluateLines: edge without length");
+    if (!(edge.Length() > 0.0)) {
+      throw std::invalid_argument("line evaluation: an edge has no length; remove it");
+    }
   }
 
   LineError error;
@@ -112,7 +114,7 @@ LineError EvaluateLines(const std::vector<LineSegment3>& edges,
     if (edge < 0) continue;
     ++error.num_matched;
     is_found[edge] = true;
-    const Offset offset = OffsetOf(line, edges[edge]);
+    const Offset offset = ComputeOffset(line, edges[edge]);
     directions.push_back(offset.angle);
     distances.push_back(offset.Distance());
     across.push_back(offset.across);

@@ -13,57 +13,62 @@
 
 namespace msc_vo {
 
+/// Which map lines are evaluated, and how far a line may be from its edge. Offsets are split into a
+/// part across the plane through the edge and the viewing direction, which the image measures, and
+/// a part in that plane, which depth measures.
 struct LineEvaluationOptions {
-  // Lines that say little of the method are left out: of fewer views no third one has confirmed the
-  // match of the first two; shorter ones are 35 pixels at 3 m, a degree of direction per half pixel
-  // at an end.
+  /// Lines with fewer observations are skipped: no third view has confirmed the match of the first
+  /// two.
   int min_observations = 3;
-  double min_length = 0.20;  // metres
-  // How far a line may be from the edge that it shows. In the image an edge is known to a pixel or
-  // two, which are 10 mm at 3 m with a focal length of 525 px and, at both ends of 20 cm in
-  // opposite directions, 3 degrees. What is farther beside is another edge.
-  double max_across = 0.01;                         // metres
-  double max_angle_across = DegreesToRadians(3.0);  // radians
-  // Depth is another matter: it may be that of the surface behind, at one end or at both. A
-  // decimetre is ten standard deviations of a Kinect at 2.5 m, and from one end of 20 cm to the
-  // other a slope of 27 degrees: of such a line nothing but its image is known.
-  double max_along = 0.10;                    // metres
-  double max_angle = DegreesToRadians(27.0);  // radians, in all directions together
-  // Metres, of the line's middle beyond the edge's end: lines grow while they are observed.
+  /// Shorter lines are skipped, metres: 20 cm are 35 pixels at 3 m, where half a pixel at an end
+  /// turns the line by a degree.
+  double min_length = 0.20;
+  /// Bounds across: the image measures an edge to a pixel or two, which is 10 mm at 3 m for a focal
+  /// length of 525 px and, in opposite directions at both ends of 20 cm, 3 degrees. A line with a
+  /// larger offset belongs to another edge.
+  double max_across = 0.01;                         ///< metres
+  double max_angle_across = DegreesToRadians(3.0);  ///< radians
+  /// Bounds along the viewing direction: the depth at one or both ends may be that of the surface
+  /// behind the edge. 0.1 m are ten standard deviations of a Kinect at 2.5 m; over 20 cm they are a
+  /// slope of 27 degrees.
+  double max_along = 0.10;                    ///< metres
+  double max_angle = DegreesToRadians(27.0);  ///< radians, total angle
+  /// Distance of the line's midpoint beyond the end of the edge, metres: lines grow while they are
+  /// observed.
   double max_beyond = 0.10;
 
   bool IsValid(std::string* error) const;
 };
 
-// A line of a map.
+/// A line of the estimated map.
 struct EstimatedLine {
-  LineSegment3 segment;  // metres
+  LineSegment3 segment;  ///< metres, world of the estimate
   int num_observations = 0;
-  // Unit vector, mean of the directions from the cameras that saw it to the line.
+  /// Unit vector: mean direction from the observing cameras to the line.
   Eigen::Vector3d viewing_direction = Eigen::Vector3d::Zero();
 };
 
-// How well the lines of a map agree with the edges of the scene. Never read the errors without the
-// counts: a map that lost its bad lines has an easy life.
+/// Errors of map lines with respect to the edges of the scene. Read the errors together with the
+/// counts: a map that dropped its bad lines has small errors.
 struct LineError {
-  int num_lines = 0;        // of the map
-  int num_counted = 0;      // seen often enough and long enough
-  int num_matched = 0;      // of these, with an edge
-  int num_edges = 0;        // of the scene, seen or not
-  int num_edges_found = 0;  // edges that are matched with at least one line
+  int num_lines = 0;        ///< lines of the map
+  int num_counted = 0;      ///< lines with enough observations and length
+  int num_matched = 0;      ///< counted lines that are matched with an edge
+  int num_edges = 0;        ///< edges of the scene, visible or not
+  int num_edges_found = 0;  ///< edges that are matched with at least one line
 
-  ErrorStatistics direction;  // radians, between a line and its edge
-  ErrorStatistics distance;   // metres, of the line's middle from the edge's infinite line
-  ErrorStatistics across;     // metres, the part of the distance that the cameras see
+  ErrorStatistics direction;  ///< radians, angle between a line and its edge
+  ErrorStatistics distance;   ///< metres, from the line's midpoint to the edge's infinite line
+  ErrorStatistics across;     ///< metres, the part of `distance` that the image measures
 };
 
-// Compares map lines with the true edges of a scene. A line's partner is the edge within the bounds
-// of the options that has the least sum of squared offsets, each in units of its bound; the first
-// of equals, whatever other lines have it too (a map may hold an edge in parts). Distance and angle
-// are bounded more tightly across the sight, perpendicular to the edge and to the viewing
-// direction: neighbouring edges are told apart by what the image says, which is known well, and not
-// by depth, whose error is to be measured. Throws std::invalid_argument on options that are not
-// valid and on edges without a length.
+/// Compares map lines with the true edges of a scene. Each line is matched with the edge that has
+/// the smallest sum of squared offsets, each relative to its bound in the options; edges outside of
+/// the bounds are excluded. On ties the first edge is taken. Several lines may be matched with one
+/// edge, because a map may hold an edge in parts. The bounds are tighter across the viewing
+/// direction, so neighbouring edges are distinguished by the image, which is accurate, and not by
+/// depth, whose error is to be measured.
+/// Throws std::invalid_argument on invalid options and on edges without length.
 LineError EvaluateLines(const std::vector<LineSegment3>& edges,
                         const std::vector<EstimatedLine>& lines,
                         const Rigid3& reference_from_estimate,

@@ -16,7 +16,7 @@ namespace msc_vo {
 
 namespace {
 
-// Reference and estimate of the same moment, both camera in world.
+// Matched poses of reference and estimate, both camera in world.
 struct PosePair {
   TimedPose reference;
   TimedPose estimate;
@@ -36,8 +36,9 @@ std::vector<double> Stamps(const std::vector<TimedPose>& poses) {
   return stamps;
 }
 
-// The poses to be compared, in order of time.
-std::vector<TimedPose> Compared(std::vector<TimedPose> estimate, const EvaluationOptions& options) {
+// Selects the poses to be compared, in order of time.
+std::vector<TimedPose> SelectCompared(std::vector<TimedPose> estimate,
+                                      const EvaluationOptions& options) {
   if (!options.all_poses) {
     estimate.erase(std::remove_if(estimate.begin(), estimate.end(),
                                   [](const TimedPose& pose) { return !pose.is_estimated; }),
@@ -46,12 +47,14 @@ std::vector<TimedPose> Compared(std::vector<TimedPose> estimate, const Evaluatio
   return SortedByTime(std::move(estimate));
 }
 
-// The poses that belong together; both trajectories are in order of time.
-std::vector<PosePair> Pairs(const std::vector<TimedPose>& truth,
-                            const std::vector<TimedPose>& guess, double max_time_difference) {
+// Matches poses by time; both trajectories must be in order of time.
+std::vector<PosePair> MatchPoses(const std::vector<TimedPose>& reference,
+                                 const std::vector<TimedPose>& estimate,
+                                 double max_time_difference) {
   std::vector<PosePair> pairs;
-  for (const StampMatch& match : MatchNearest(Stamps(truth), Stamps(guess), max_time_difference)) {
-    pairs.push_back({truth[match.reference], guess[match.query]});
+  for (const StampMatch& match :
+       AssociateStamps(Stamps(reference), Stamps(estimate), max_time_difference)) {
+    pairs.push_back({reference[match.reference], estimate[match.query]});
   }
   return pairs;
 }
@@ -65,7 +68,7 @@ Rigid3 RelativeMotionError(const PosePair& from, const PosePair& to) {
   return reference.Inverse() * estimate;
 }
 
-// Absolute errors after the alignment, and the alignment itself.
+// Computes the alignment of positions and the absolute errors after it.
 void MeasureAbsolute(const std::vector<PosePair>& pairs, TrajectoryError* error) {
   std::vector<Eigen::Vector3d> source, target;
   for (const PosePair& pair : pairs) {
@@ -85,7 +88,7 @@ void MeasureAbsolute(const std::vector<PosePair>& pairs, TrajectoryError* error)
   error->ape_rotation = StatisticsOf(rotations);
 }
 
-// The alignment of orientations and mean positions.
+// Aligns orientations and mean positions.
 Rigid3 AlignByOrientation(const std::vector<PosePair>& pairs) {
   std::vector<Rigid3> source, target;
   for (const PosePair& pair : pairs) {
@@ -105,20 +108,21 @@ ErrorStatistics MeasureRotation(const std::vector<PosePair>& pairs) {
   return StatisticsOf(angles);
 }
 
-// Over pairs whose reference stamps are `interval` apart, within the time tolerance.
+// Relative error over pairs whose reference stamps are `interval` seconds apart, within the
+// tolerance.
 RelativeError MeasurePerSecond(const std::vector<PosePair>& pairs, double interval,
                                double tolerance) {
   std::vector<double> translations, rotations;
   for (size_t i = 0; i < pairs.size(); ++i) {
-    const double goal = pairs[i].reference.timestamp + interval;
+    const double target = pairs[i].reference.timestamp + interval;
     const auto after = std::lower_bound(
-        pairs.begin(), pairs.end(), goal,
+        pairs.begin(), pairs.end(), target,
         [](const PosePair& pair, double stamp) { return pair.reference.timestamp < stamp; });
     const size_t next = after - pairs.begin();
     const auto distance = [&](size_t k) {
       return std::abs(pairs[k].reference.timestamp - pairs[i].reference.timestamp - interval);
     };
-    // The stamps on both sides of the goal, as far as they exist and lie behind i.
+    // Selects the closer of the stamps on both sides of the target, if it is later than i.
     size_t j = 0;
     if (next > i + 1) j = next - 1;
     if (next > i && next < pairs.size() && (j == 0 || distance(next) < distance(j))) j = next;
@@ -141,7 +145,8 @@ std::vector<double> PathLengths(const std::vector<PosePair>& pairs) {
   return lengths;
 }
 
-// From each pair to the first one that is `distance` further along the path.
+// Relative error from each pair to the first one that is `distance` metres further along the path,
+// divided by the distance travelled.
 RelativeError MeasurePerMetre(const std::vector<PosePair>& pairs,
                               const std::vector<double>& path_lengths, double distance) {
   std::vector<double> translations, rotations;
@@ -176,16 +181,17 @@ TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
   std::string problem;
   if (!options.IsValid(&problem)) throw std::invalid_argument(problem);
   const std::vector<TimedPose> truth = SortedByTime(reference);
-  const std::vector<TimedPose> guess = Compared(estimate, options);
+  const std::vector<TimedPose> compared = SelectCompared(estimate, options);
 
-  const std::vector<PosePair> pairs = Pairs(truth, guess, options.max_time_difference);
+  const std::vector<PosePair> pairs = MatchPoses(truth, compared, options.max_time_difference);
   TrajectoryError error;
   error.num_reference = static_cast<int>(truth.size());
-  error.num_estimate = static_cast<int>(guess.size());
-  error.num_not_estimated = static_cast<int>(estimate.size() - guess.size());
+  error.num_estimate = static_cast<int>(compared.size());
+  error.num_not_estimated = static_cast<int>(estimate.size() - compared.size());
   error.num_matched = static_cast<int>(pairs.size());
   if (pairs.size() < 3) {
-    error.message = "only " + std::to_string(pairs.size()) + " of " + std::to_string(guess.size()) +
+    error.message = "only " + std::to_string(pairs.size()) + " of " +
+                    std::to_string(compared.size()) +
                     " estimated poses have a reference pose within " +
                     std::to_string(options.max_time_difference) + " s; three are needed";
     if (error.num_not_estimated > 0) {
@@ -197,8 +203,8 @@ TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
   error.usable = true;
   for (const TimedPose& pose : truth) {
     error.num_reference_in_range +=
-        pose.timestamp >= guess.front().timestamp - options.max_time_difference &&
-        pose.timestamp <= guess.back().timestamp + options.max_time_difference;
+        pose.timestamp >= compared.front().timestamp - options.max_time_difference &&
+        pose.timestamp <= compared.back().timestamp + options.max_time_difference;
   }
   error.coverage = static_cast<double>(error.num_matched) / error.num_reference;
   error.coverage_in_range =
@@ -218,8 +224,8 @@ std::optional<Rigid3> AlignOrientations(const std::vector<TimedPose>& reference,
                                         const EvaluationOptions& options) {
   std::string problem;
   if (!options.IsValid(&problem)) throw std::invalid_argument(problem);
-  const std::vector<PosePair> pairs =
-      Pairs(SortedByTime(reference), Compared(estimate, options), options.max_time_difference);
+  const std::vector<PosePair> pairs = MatchPoses(
+      SortedByTime(reference), SelectCompared(estimate, options), options.max_time_difference);
   if (pairs.empty()) return std::nullopt;
   return AlignByOrientation(pairs);
 }

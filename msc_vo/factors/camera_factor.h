@@ -38,9 +38,11 @@ inline Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camer
 /// (7), landmark (3 per point). The derived factor defines the rows of point k and their analytic
 /// derivative,
 ///
+/// \code
 ///   template <typename T>
 ///   void Residual(int k, const Eigen::Matrix<T, 3, 1>& x_in_cam, T* r) const;
 ///   Eigen::Matrix<double, RowsPerPoint, 3> Jacobian(int k, const Vector3d& x_in_cam) const;
+/// \endcode
 ///
 /// The chain rule from x to pose and landmark is shared (AnalyticCostFunction, pose optimization
 /// and local bundle adjustment).

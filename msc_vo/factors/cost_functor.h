@@ -13,7 +13,9 @@ namespace msc_vo {
 /// Base of every factor (CRTP): a functor with `Rows` residuals over parameter blocks of the sizes
 /// `Blocks`. The derived factor defines
 ///
+/// \code
 ///   template <typename T> bool operator()(const T* block0, ..., T* residuals) const;
+/// \endcode
 ///
 /// Its automatic derivative is the reference that analytic Jacobians are tested against.
 template <typename Factor, int Rows, int... Blocks>

@@ -12,10 +12,12 @@ namespace msc_vo {
 /// d = (E - S) / |E - S| of lines i and j. S, E: end points in the world, metres (blocks 0 and 1, 6
 /// each). sigma: radians, of the angle. The derived factor defines
 ///
+/// \code
 ///   template <typename T> void Residual(const Eigen::Matrix<T, 3, 1>& d_i,
 ///                                       const Eigen::Matrix<T, 3, 1>& d_j, T* r) const;
 ///   Jacobian JacobianI(d_i, d_j) const;  // dr/dd_i
 ///   Jacobian JacobianJ(d_i, d_j) const;  // dr/dd_j
+/// \endcode
 template <typename Factor, int Rows>
 class LinePairFactor : public CostFunctor<Factor, Rows, 6, 6> {
  public:
@@ -32,7 +34,7 @@ class LinePairFactor : public CostFunctor<Factor, Rows, 6, 6> {
   }
 
  protected:
-  double inverse_sigma_;  // 1/radians
+  double inverse_sigma_;  ///< 1/radians
 };
 
 }  // namespace msc_vo

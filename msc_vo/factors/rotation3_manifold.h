@@ -28,7 +28,7 @@ class Rotation3Manifold final : public ceres::Manifold {
     return true;
   }
 
-  // d(Exp(w) q)/dw = 1/2 [q_w I - [q_v]x; -q_v^T] at w = 0, as Exp(w) = (w/2, 1) + O(|w|^2).
+  /// d(Exp(w) q)/dw = 1/2 [q_w I - [q_v]x; -q_v^T] at w = 0, as Exp(w) = (w/2, 1) + O(|w|^2).
   bool PlusJacobian(const double* x, double* jacobian) const override {
     const Eigen::Map<const Eigen::Vector3d> v(x);
     Eigen::Map<Eigen::Matrix<double, 4, 3, Eigen::RowMajor>> j(jacobian);
@@ -44,7 +44,7 @@ class Rotation3Manifold final : public ceres::Manifold {
     return true;
   }
 
-  // dLog(q q_x^-1)/dq = 2 [q_w I + [q_v]x, -q_v] at q = q_x.
+  /// dLog(q q_x^-1)/dq = 2 [q_w I + [q_v]x, -q_v] at q = q_x.
   bool MinusJacobian(const double* x, double* jacobian) const override {
     const Eigen::Map<const Eigen::Vector3d> v(x);
     Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> j(jacobian);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/features/line_backprojection.h"
 #include "msc_vo/features/line_extractor.h"
 #include "msc_vo/features/point_extractor.h"

@@ -25,7 +25,7 @@ constexpr int kMaxIntervals = 1 << 14;  // more than the diagonal of any image n
 constexpr double kCorrelationLength = 5.0;
 // Error common to all samples of a line, in sigmas of a pixel: the registration of depth to colour
 // edges is accurate to half a pixel, and the depth of a wall at 45 degrees and 1 m changes by 1
-// sigma per pixel. Chosen by measurement, see docs/lab/features.md.
+// sigma per pixel. Chosen by measurement, see docs/lab/depth.md.
 constexpr double kCommonNoise = 0.5;
 // Length of the profile on each side of the line, pixels.
 constexpr int kReach = 5;
@@ -39,7 +39,7 @@ constexpr double kEdgeSigmas = 5.2;
 // Smallest number of pixels of a surface; a single one is a mixed pixel.
 constexpr int kMinSurface = 2;
 // The depth of a surface at the line is fitted to its pixel nearest to the line and this many
-// pixels beyond. Chosen by measurement, see docs/lab/features.md.
+// pixels beyond. Chosen by measurement, see docs/lab/depth.md.
 constexpr int kFitReach = 3;
 // Weak prior on the slope of a surface across the line, sigmas per pixel, for surfaces of few
 // pixels: the slope of a wall at 45 degrees and 1 m is 1.

@@ -110,8 +110,8 @@ void SurfaceNormalEstimator::Integrate(const cv::Mat& depth) {
     for (int x = 0; x < width; ++x) {
       const float z = z_row[x];
       if (z >= nearest && z <= farthest) {  // false for NaN
-        row.AddPoint(InUnits(z * ray[x][0]), InUnits(z * ray[x][1]), InUnits(z));
-        if (is_edge(z, z_row[std::max(x - 1, 0)]) || is_edge(z, z_above[x])) row.AddEdge();
+        row.AddPoint(InUnits(z * ray[x][0]), InUnits(z * ray[x][1]), InUnits(z),
+                     is_edge(z, z_row[std::max(x - 1, 0)]) || is_edge(z, z_above[x]));
       }
       here[x + 1] = above[x + 1] + row;
     }

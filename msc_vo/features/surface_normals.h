@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
-#include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/camera/lens_distortion.h"
 
 namespace msc_vo {
 

@@ -15,13 +15,13 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double DegreesToRadians(double degrees) { return degrees * (kPi / 180.0); }
 constexpr double RadiansToDegrees(double radians) { return radians * (180.0 / kPi); }
 
-// Angle in [0, pi/2] between two undirected lines in space. Any non-zero lengths; accurate near
-// both ends, where the arc cosine of a dot product is not.
+/// Angle in [0, pi/2] between two undirected directions in space, which may have any non-zero
+/// length. Accurate near 0 and pi/2, unlike the arc cosine of a dot product.
 inline double UndirectedAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
 }
 
-// The same in the image.
+/// Angle in [0, pi/2] between two undirected directions in the image.
 inline double UndirectedAngle(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return std::atan2(std::abs(a.x() * b.y() - a.y() * b.x()), std::abs(a.dot(b)));
 }

@@ -10,12 +10,12 @@
 
 namespace msc_vo {
 
-// How what stands still moves as seen by a camera, in its own frame.
+/// Apparent motion of the static scene in the camera frame.
 struct CameraVelocity {
-  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  // radians/second
-  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   // metres/second
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< radians/second
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< metres/second
 
-  // From the camera's frame now to that in so many seconds, or before, if negative.
+  /// Transform from the present camera frame to that after `seconds`, which may be negative.
   Rigid3 Over(double seconds) const { return {ExpSO3(seconds * angular), seconds * linear}; }
 };
 

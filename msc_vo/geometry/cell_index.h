@@ -5,8 +5,8 @@
 
 namespace msc_vo {
 
-// Index of the cell of a row of `count` cells that contains `position`, which counts cells. Safe
-// for any position: those outside get the nearest cell, what is not a number the first.
+/// Returns the index of the cell that contains `position`, in units of cells, in a row of `count`
+/// cells. Positions outside the row belong to the nearest cell, NaN to the first.
 inline int CellIndex(double position, int count) {
   if (!(position > 0.0)) return 0;
   return position < count ? static_cast<int>(position) : count - 1;

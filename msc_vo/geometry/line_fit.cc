@@ -17,11 +17,11 @@ namespace {
 // Inverse depth at both end points of the segment, (w_start, w_end).
 using Line = Eigen::Vector2d;
 
-// The inlier set of a least-squares line settles in two or three rounds; this only ends a cycle.
+// The inlier set of a least-squares line converges in two or three rounds; this limit ends cycles.
 constexpr int kMaxRefits = 10;
-// Two samples closer than this on the segment do not determine a line.
+// Smallest distance of two samples on the segment that determine a line.
 constexpr double kMinSampleGap = 1e-6;
-// Of having drawn a pair without outliers.
+// Probability of having drawn a pair without outliers.
 constexpr double kConfidence = 0.99;
 constexpr int kMaxPairs = 1000000;
 
@@ -31,8 +31,8 @@ double NormalizedResidual(const Line& line, const LineFitSample& sample) {
 }
 
 struct Score {
-  // Sum of squared residuals (in sigmas), each cut off at the inlier threshold: unlike the number
-  // of inliers it also tells a good line from one that barely catches its samples.
+  // Sum of squared residuals (in sigmas), each truncated at the inlier threshold. Unlike the number
+  // of inliers, it distinguishes an accurate line from one whose samples are just below it.
   double truncated_cost = 0.0;
   int num_inliers = 0;
 };
@@ -48,7 +48,7 @@ Score ScoreOf(const Line& line, const std::vector<LineFitSample>& samples, doubl
   return score;
 }
 
-// Pairs to draw until one without outliers is among them with the probability kConfidence.
+// Number of pairs that contain one without outliers with probability kConfidence.
 int PairsNeeded(int num_inliers, size_t num_samples) {
   const double ratio = static_cast<double>(num_inliers) / static_cast<double>(num_samples);
   if (ratio >= 1.0) return 1;
@@ -68,7 +68,7 @@ struct LeastSquares {
   int num_inliers = 0;
 };
 
-// Weighted least squares over the samples that are inliers of `line`.
+// Weighted least-squares fit to the inliers of `line`.
 std::optional<LeastSquares> Refit(const Line& line, const std::vector<LineFitSample>& samples,
                                   double threshold) {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
@@ -91,10 +91,11 @@ std::optional<LeastSquares> Refit(const Line& line, const std::vector<LineFitSam
   return fit;
 }
 
-// The best line through two samples, each candidate that leads improved by one least-squares step.
-class PairSearch {
+// RANSAC for the best line through two samples; every new best line is refined by one least-squares
+// fit to its inliers.
+class LineRansac {
  public:
-  PairSearch(const std::vector<LineFitSample>& samples, double threshold)
+  LineRansac(const std::vector<LineFitSample>& samples, double threshold)
       : samples_(samples), threshold_(threshold) {}
 
   std::optional<Line> Run(int max_iterations, uint32_t seed) {
@@ -105,7 +106,7 @@ class PairSearch {
       }
       return best_;
     }
-    std::minstd_rand random(seed % 2147483646u + 1u);  // its state must not be 0
+    std::minstd_rand random(seed % 2147483646u + 1u);  // the state must not be 0
     for (int iteration = 0; iteration < std::min(max_iterations, pairs_needed_); ++iteration) {
       const size_t i = random() % n;
       const size_t j = (i + 1 + random() % (n - 1)) % n;
@@ -117,12 +118,13 @@ class PairSearch {
  private:
   void Try(size_t i, size_t j) {
     const std::optional<Line> line = LineThrough(samples_[i], samples_[j]);
-    if (!line || !Keep(*line)) return;
+    if (!line || !UpdateBest(*line)) return;
     const auto fit = Refit(*line, samples_, threshold_);
-    if (fit) Keep(fit->line);
+    if (fit) UpdateBest(fit->line);
   }
 
-  bool Keep(const Line& line) {
+  // Returns true if `line` is better than the best one so far.
+  bool UpdateBest(const Line& line) {
     const Score score = ScoreOf(line, samples_, threshold_);
     if (best_ && score.truncated_cost >= best_cost_) return false;
     best_ = line;
@@ -155,15 +157,15 @@ LineSegment3 BackProject(const PinholeCamera& camera, const LineSegment2& segmen
 
 double DirectionSigma(const PinholeCamera& camera, const LineSegment2& segment,
                       const LineDepth& depth) {
-  // Scaling both end points by w_s w_e leaves D = w_s r_e - w_e r_s, parallel to the 3-D segment;
-  // its derivatives are r_e and -r_s, and only what is across D turns it.
+  // The difference of the end points, scaled by w_s w_e, is D = w_s r_e - w_e r_s, parallel to the
+  // 3-D segment. Its derivatives are r_e and -r_s; their components across D rotate it.
   const Eigen::Vector3d ray_start = camera.Ray(segment.start);
   const Eigen::Vector3d ray_end = camera.Ray(segment.end);
   const Eigen::Vector3d d = depth.start * ray_end - depth.end * ray_start;
   const Eigen::Vector3d direction = d.normalized();
   const Eigen::Vector3d across_start = ray_end - direction * direction.dot(ray_end);
   const Eigen::Vector3d across_end = ray_start - direction * direction.dot(ray_start);
-  // Both lie in the interpretation plane, across D: along one and the same axis.
+  // Both components lie in the interpretation plane across D, thus along the same axis.
   const Eigen::Vector3d axis = direction.cross(ray_start.cross(ray_end).normalized());
   const Eigen::Vector2d jacobian(across_start.dot(axis), -across_end.dot(axis));
   return std::sqrt(jacobian.dot(depth.covariance * jacobian)) / d.norm();
@@ -191,7 +193,7 @@ std::optional<LineDepth> FitLineDepth(const LineFitOptions& options,
   if (samples.size() < static_cast<size_t>(options.min_inliers)) return std::nullopt;
 
   std::optional<Line> line =
-      PairSearch(samples, options.inlier_sigmas).Run(options.max_iterations, seed);
+      LineRansac(samples, options.inlier_sigmas).Run(options.max_iterations, seed);
   std::optional<LeastSquares> fit;
   for (int round = 0; round < kMaxRefits && line; ++round) {
     fit = Refit(*line, samples, options.inlier_sigmas);

@@ -19,8 +19,7 @@ bool ClipToNear(double near, LineSegment3* segment_in_cam) {
 }
 
 bool ClipToImage(const PinholeCamera& camera, LineSegment2* segment) {
-  // Liang-Barsky: the interval [first, last] of the segment's parameter that is inside all four
-  // borders.
+  // Liang-Barsky: [first, last] is the interval of the segment's parameter inside all four borders.
   double first = 0.0;
   double last = 1.0;
   const Eigen::Vector2d d = segment->end - segment->start;

@@ -11,26 +11,26 @@
 
 namespace msc_vo {
 
-// A line segment with end points start, end (pixels in 2-D, metres in 3-D). Paper: {s, e}, {S, E}.
-// The numbers are contiguous (start first), so that `start.data()` is a parameter block.
+/// A directed line segment (pixels in 2-D, metres in 3-D); paper: {s, e}, {S, E}. The coordinates
+/// are contiguous, start first, so `start.data()` is a parameter block.
 template <int Dim>
 struct LineSegment {
   using Vector = Eigen::Matrix<double, Dim, 1>;
-  // Not aligned: the two end points must follow each other without a gap.
+  /// Not aligned: there must be no padding between the end points.
   using Point = Eigen::Matrix<double, Dim, 1, Eigen::DontAlign>;
   Point start = Point::Zero();
   Point end = Point::Zero();
 
   double Length() const { return (end - start).norm(); }
-  // Unit vector from start to end, paper Eq. line-coef; the segment must have a length.
+  /// Unit vector from start to end (paper Eq. line-coef); the length must be positive.
   Vector Direction() const { return (end - start).normalized(); }
   Vector Midpoint() const { return 0.5 * (start + end); }
   Vector At(double s) const { return start + s * (end - start); }
-  // Parameter s of the foot of x on the infinite line: 0 at start, 1 at end.
+  /// Parameter s of the orthogonal projection of x onto the infinite line; 0: start, 1: end.
   double Parameter(const Vector& x) const {
     return (x - start).dot(end - start) / (end - start).squaredNorm();
   }
-  // Distance of x to the infinite line.
+  /// Distance of x from the infinite line.
   double DistanceToLine(const Vector& x) const { return (x - At(Parameter(x))).norm(); }
 };
 using LineSegment2 = LineSegment<2>;
@@ -42,19 +42,19 @@ inline LineSegment3 operator*(const Rigid3& b_from_a, const LineSegment3& segmen
           b_from_a * Eigen::Vector3d(segment_in_a.end)};
 }
 
-// The infinite image line through a segment as (n, c), |n| = 1, so that n . p + c is the signed
-// distance of pixel p in pixels. Paper: n_j of Eq. errorreprline.
+/// Infinite image line through a segment as (n, c) with |n| = 1: n . p + c is the signed distance
+/// of pixel p, pixels. Paper: n_j of Eq. errorreprline.
 inline Eigen::Vector3d ImageLine(const LineSegment2& segment) {
   const Eigen::Vector2d d = segment.Direction();
   const Eigen::Vector2d n(-d.y(), d.x());
   return {n.x(), n.y(), -n.dot(segment.start)};
 }
 
-// Part of `segment` in front of the plane z = near (metres, camera coordinates).
-// Returns false if nothing of it is.
+/// Clips the segment to the half-space z >= near (metres, camera frame). Returns false if nothing
+/// remains.
 bool ClipToNear(double near, LineSegment3* segment_in_cam);
 
-// Part of `segment` inside the rectangle of `camera`'s image. Returns false if nothing of it is.
+/// Clips the segment to the image of `camera`. Returns false if nothing remains.
 bool ClipToImage(const PinholeCamera& camera, LineSegment2* segment);
 
 }  // namespace msc_vo

@@ -8,10 +8,10 @@
 
 namespace msc_vo {
 
-// A rigid transform. Name it b_from_a: x_in_b = b_from_a * x_in_a.
-//
-// The seven numbers are contiguous, quaternion (x, y, z, w) first, translation (metres) second, so
-// that `params.data()` is a parameter block for Rigid3Manifold without any copy.
+/// A rigid transform. Naming convention: x_in_b = b_from_a * x_in_a.
+///
+/// The seven parameters are contiguous, quaternion (x, y, z, w) first, then translation (metres):
+/// `params.data()` is a parameter block for Rigid3Manifold.
 struct Rigid3 {
   Eigen::Matrix<double, 7, 1> params =
       (Eigen::Matrix<double, 7, 1>() << 0, 0, 0, 1, 0, 0, 0).finished();
@@ -37,7 +37,7 @@ struct Rigid3 {
     return {inverse, -(inverse * translation())};
   }
 
-  // Where the origin of frame a's *target* lies: for cam_from_world, the camera centre in world.
+  /// Origin of the target frame in the source frame: of cam_from_world, the camera centre in world.
   Eigen::Vector3d OriginInSource() const { return -(rotation().conjugate() * translation()); }
 
   Eigen::Vector3d operator*(const Eigen::Vector3d& x) const {

@@ -11,10 +11,10 @@ namespace msc_vo {
 
 namespace {
 
-// The rotation nearest to a matrix in the sense of the Frobenius norm.
+// Rotation closest to a matrix in the Frobenius norm.
 Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  // The last singular vector is flipped where the best orthogonal matrix would be a mirror image.
+  // The last singular vector is negated if the closest orthogonal matrix is a reflection.
   Eigen::Vector3d sign(1.0, 1.0, 1.0);
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) sign.z() = -1.0;
   return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();

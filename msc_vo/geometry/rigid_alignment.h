@@ -9,15 +9,15 @@
 
 namespace msc_vo {
 
-// The rigid transform (rotation and translation, no scale) that minimises
-// sum |target_i - target_from_source * source_i|^2 (Umeyama 1991).
-// Throws std::invalid_argument if the sizes differ or there are fewer than three pairs.
+/// Returns the rigid transform target_from_source (no scale) that minimises
+/// sum |target_i - target_from_source * source_i|^2 (Umeyama 1991). Points in metres.
+/// Throws std::invalid_argument if the sizes differ or there are fewer than three pairs.
 Rigid3 AlignRigid(const std::vector<Eigen::Vector3d>& source,
                   const std::vector<Eigen::Vector3d>& target);
 
-// The transform of a pair of worlds from poses that are given in both: its rotation R minimises
-// sum |target_i.R - R source_i.R|^2 over the rotation matrices, its translation brings the mean
-// positions together. Throws std::invalid_argument if the sizes differ or there is no pair.
+/// Returns the transform target_from_source between two world frames from poses given in both: its
+/// rotation R minimises sum |R_target,i - R R_source,i|^2 (Frobenius norm), its translation aligns
+/// the mean positions. Throws std::invalid_argument if the sizes differ or there is no pair.
 Rigid3 AlignPoses(const std::vector<Rigid3>& source, const std::vector<Rigid3>& target);
 
 }  // namespace msc_vo

@@ -10,23 +10,23 @@
 
 namespace msc_vo {
 
-// The matrix [v]x with Skew(v) * w = v x w.
+/// Cross-product matrix [v]x: Skew(v) * w = v x w.
 inline Eigen::Matrix3d Skew(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
   return m;
 }
 
-// Rotation by |w| radians about w / |w|.
+/// Rotation by |w| radians about w / |w|.
 inline Eigen::Quaterniond ExpSO3(const Eigen::Vector3d& w) {
   const double half = 0.5 * w.norm();
-  // sin(h)/h near zero: two Taylor terms are exact to double precision below 1e-4.
+  // sin(h)/h near zero: two Taylor terms are accurate to double precision below 1e-4.
   const double sinc = half < 1e-4 ? 1.0 - half * half / 6.0 : std::sin(half) / half;
   const Eigen::Vector3d v = 0.5 * sinc * w;
   return Eigen::Quaterniond(std::cos(half), v.x(), v.y(), v.z()).normalized();
 }
 
-// The rotation vector w (radians, |w| <= pi) with ExpSO3(w) == q up to sign.
+/// Rotation vector w (radians, |w| <= pi) with ExpSO3(w) == q up to sign.
 inline Eigen::Vector3d LogSO3(const Eigen::Quaterniond& q) {
   const double sign = q.w() < 0.0 ? -1.0 : 1.0;
   const Eigen::Vector3d v = sign * q.vec();
@@ -35,11 +35,12 @@ inline Eigen::Vector3d LogSO3(const Eigen::Quaterniond& q) {
   return (sin_half < 1e-8 ? 2.0 : 2.0 * half / sin_half) * v;
 }
 
-// J_l^-1(w): LogSO3(ExpSO3(d) ExpSO3(w)) = w + J_l^-1(w) d to first order, for |w| < 2 pi.
+/// Inverse left Jacobian: LogSO3(ExpSO3(d) ExpSO3(w)) = w + J_l^-1(w) d to first order in d, for
+/// |w| < 2 pi.
 inline Eigen::Matrix3d InverseLeftJacobianSO3(const Eigen::Vector3d& w) {
   const double angle = w.norm();
-  // (1 - (a / 2) cot(a / 2)) / a^2: near zero two Taylor terms are exact to double precision below
-  // 1e-2, where the difference would lose digits.
+  // (1 - (a / 2) cot(a / 2)) / a^2: two Taylor terms are accurate to double precision below 1e-2,
+  // where the difference suffers from cancellation.
   const double square_factor = angle < 1e-2
                                    ? 1.0 / 12.0 + angle * angle / 720.0
                                    : (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / (angle * angle);

@@ -7,11 +7,11 @@
 
 namespace msc_vo {
 
-// One pose of a trajectory, as it stands in a trajectory file: camera in world.
+/// One pose of a trajectory: camera in world, as in a trajectory file.
 struct TimedPose {
-  double timestamp = 0.0;  // seconds
+  double timestamp = 0.0;  ///< seconds
   Rigid3 world_from_cam;
-  // False: predicted or interpolated in time, not measured from the image of this time.
+  /// False if the pose is predicted or interpolated in time, not estimated from an image.
   bool is_estimated = true;
 };
 

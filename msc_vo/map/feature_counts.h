@@ -7,7 +7,7 @@
 
 namespace msc_vo {
 
-// Points and lines of the frame whose depth was measured.
+/// Points and lines of the frame whose depth was measured.
 int NumWithDepth(const Frame& frame);
 
 }  // namespace msc_vo

@@ -15,6 +15,15 @@
 
 namespace msc_vo {
 
+namespace {
+
+void DescribeAxes(const AxesEstimator& axes, MappingSummary* summary) {
+  summary->axes_state = axes.state();
+  summary->num_axes_refinements = axes.num_refinements();
+}
+
+}  // namespace
+
 Mapper::Mapper(const MapperOptions& options)
     : options_(options),
       axes_(options.axes),
@@ -44,12 +53,14 @@ MappingSummary Mapper::Insert(const KeyframePacket& packet) {
   FusePoints(options_.fusion, summary.keyframe, &map_);
   FuseLines(options_.fusion, summary.keyframe, &map_);
   summary.times.fusion = stopwatch.Restart();
+  DescribeAxes(axes_.estimator(), &summary);
   return summary;
 }
 
 void Mapper::Refine(const KeyframePacket& packet, MappingSummary* summary) {
   Stopwatch stopwatch;
   axes_.Update(map_, summary->keyframe, packet.normals);
+  DescribeAxes(axes_.estimator(), summary);
   summary->times.axes = stopwatch.Restart();
   // The absolute value lets an interval of 0 mean every keyframe even if time stamps do not ascend.
   const double since_window = std::abs(packet.frame->timestamp - last_window_time_);

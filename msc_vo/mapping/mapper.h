@@ -32,6 +32,8 @@ struct MappingSummary {
   KeyframeId keyframe = kNoId;
   int num_culled_keyframes = 0;
   std::optional<BundleAdjustmentSummary> window;  ///< none if no bundle adjustment was due
+  AxesState axes_state = AxesState::kNone;        ///< after the step
+  int num_axes_refinements = 0;                   ///< in the run so far
   MappingTimes times;
 };
 

@@ -17,14 +17,14 @@ namespace msc_vo {
 struct PointMatch {
   int feature = 0;
   LandmarkId id = kNoId;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // metres, world
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, world
   bool inlier = true;
 };
 
 struct LineMatch {
   int feature = 0;
   LandmarkId id = kNoId;
-  LineSegment3 segment;  // metres, world
+  LineSegment3 segment;  ///< metres, world
   bool inlier = true;
 };
 

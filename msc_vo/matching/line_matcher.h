@@ -30,7 +30,7 @@ struct LineMatcherOptions {
 /// A map line that is expected to be visible in a frame.
 struct LineCandidate {
   LandmarkId id = kNoId;
-  LineSegment3 segment;  // metres, world
+  LineSegment3 segment;  ///< metres, world
   Descriptor descriptor{};
   LineSegment2 image;  ///< projection of the visible part, pixels
 };

@@ -29,7 +29,7 @@ struct PointMatcherOptions {
 /// has a measured depth.
 struct PointCandidate {
   LandmarkId id = kNoId;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // metres, world
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, world
   Descriptor descriptor{};
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< predicted projection, pixels
   int level = 0;                                    ///< predicted pyramid level

@@ -16,8 +16,8 @@ namespace msc_vo {
 
 /// Time of each stage of one frame, milliseconds.
 struct StageTimes {
-  // Points, lines and their depths: wall time. The next three are summed over threads that work
-  // side by side, and may together be more.
+  /// Wall time of points, lines and their depths. The next three are summed over parallel threads,
+  /// so that their sum may be larger.
   double features = 0.0;
   double points = 0.0;
   double lines = 0.0;
@@ -49,7 +49,7 @@ struct FrameResult {
   /// Covariance of the pose in the tangent of Rigid3Manifold: rotation vector in the camera frame
   /// (radians), then translation (metres). Zero if the pose was not estimated.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  ImageStatistics image;  // zero if the image was dropped
+  ImageStatistics image;  ///< zero if the image was not processed
   StageTimes times;
 };
 

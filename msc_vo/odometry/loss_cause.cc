@@ -9,8 +9,8 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kMinContrast = 2.0;        // grey levels; the noise of a sensor in the dark
-constexpr double kMinMeasuredDepth = 0.05;  // share of the pixels
+constexpr double kMinContrast = 2.0;        // grey values; noise of a sensor in the dark
+constexpr double kMinMeasuredDepth = 0.05;  // fraction of the pixels
 
 }  // namespace
 

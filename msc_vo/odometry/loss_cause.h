@@ -7,23 +7,23 @@
 
 namespace msc_vo {
 
-// Why a frame that was looked at has no estimated pose, from the image towards the map: the first
-// that applies.
+/// Probable cause why a processed frame has no estimated pose: the first one that applies, in the
+/// order of processing.
 enum class LossCause {
-  kUniformImage,     // black, white, or grey without contrast
-  kFewFeatures,      // an image with contrast, but hardly points or lines
-  kNoDepth,          // features, but next to no pixel with a depth
-  kDepthOutOfRange,  // depth is measured, but not, or not in range, at the features
-  kNoMatch,          // features with depth that do not agree with the map
+  kUniformImage,     ///< image without contrast: black, white or grey
+  kFewFeatures,      ///< image with contrast, but too few points and lines
+  kNoDepth,          ///< features, but almost no pixel with a depth
+  kDepthOutOfRange,  ///< depth image, but too few features with a depth in the valid range
+  kNoMatch,          ///< features with depth that are not consistent with the map
 };
 constexpr int kNumLossCauses = 5;
 
-// For predicted and lost frames.
+/// The cause for a predicted or lost frame.
 LossCause FindLossCause(const FrameResult& frame);
 
-// A noun phrase that follows a number of images, for people.
+/// An attribute of "images" for messages: "with too few points and lines".
 const char* Describe(LossCause cause);
-// "uniform_image", for files.
+/// A name for files: "uniform_image".
 const char* ToString(LossCause cause);
 
 }  // namespace msc_vo

@@ -11,6 +11,7 @@
 #include "msc_vo/features/image_statistics.h"
 #include "msc_vo/map/feature_counts.h"
 #include "msc_vo/mapping/mapper.h"
+#include "msc_vo/odometry/event_log.h"
 #include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/odometry/mapping_runner.h"
 #include "msc_vo/odometry/side_worker.h"
@@ -23,8 +24,8 @@ namespace msc_vo {
 
 namespace {
 
-// Seconds between a depth image and its colour image, at most: the motion of the last two frames
-// says nothing about more.
+// Largest time between a depth image and its colour image, seconds: the motion of the last two
+// frames cannot be extrapolated further.
 constexpr double kMaxDepthDelay = 1.0;
 
 OdometryOptions Checked(const OdometryOptions& options) {
@@ -60,7 +61,7 @@ FrameResult MakeResult(const TrackedFrame& tracked) {
   return result;
 }
 
-// The ids ascend, so that each has its place near to that of the one before.
+// The ids are sorted, so that each insertion point is close to the previous one.
 void CountVisible(const std::vector<LandmarkId>& ids, std::map<LandmarkId, TrackingCount>* counts) {
   auto place = counts->begin();
   for (const LandmarkId id : ids) {
@@ -77,8 +78,8 @@ MapAxes MakeAxes(const AxesEstimator& axes) {
 }  // namespace
 
 struct Odometry::State {
-  // Where a frame stands relative to a keyframe, which may still move.
-  struct Place {
+  // Pose of a frame relative to a keyframe, whose own pose may still change.
+  struct RelativePose {
     KeyframeId reference = kNoId;
     Rigid3 cam_from_reference;
   };
@@ -96,6 +97,7 @@ struct Odometry::State {
                  mapper.Snapshot(),
                  [this](int frame, const MappingStep& step) { Record(frame, step); }) {
     if (options.threads > 1) side_worker = std::make_unique<SideWorker>();
+    log.LogStart(options, camera);
   }
 
   void CheckTime(int64_t id, double timestamp) const;
@@ -113,12 +115,13 @@ struct Odometry::State {
   std::unique_ptr<SideWorker> side_worker;  // none with one thread
   Tracker tracker;
   Mapper mapper;
-  MapSnapshotPtr snapshot;  // what the last frame saw
+  MapSnapshotPtr snapshot;  // of the last frame
   BundleAdjustmentSummary last_window;
-  KeyframePacket packet;  // its counts grow until the next keyframe
+  KeyframePacket packet;  // accumulates counts until the next keyframe
   std::vector<FrameResult> results;
-  std::vector<Place> places;  // one per result
-  SnapshotSchedule schedule;  // last: it works with the members above
+  std::vector<RelativePose> relative_poses;  // one per result
+  EventLog log;
+  SnapshotSchedule schedule;  // last: it uses the members above
 };
 
 void Odometry::State::CheckTime(int64_t id, double timestamp) const {
@@ -128,7 +131,7 @@ void Odometry::State::CheckTime(int64_t id, double timestamp) const {
   }
   if (results.empty() || timestamp > results.back().timestamp) return;
   throw std::invalid_argument(image +
-                              ": its time stamp is not later than that of the image before");
+                              ": its time stamp is not later than that of the previous image");
 }
 
 void Odometry::State::CheckDepthDelay(int64_t id, double delay) {
@@ -139,7 +142,7 @@ void Odometry::State::CheckDepthDelay(int64_t id, double delay) {
                               std::to_string(kMaxDepthDelay) + " seconds");
 }
 
-// With the depth of the time of its colour image.
+// Returns the image with its depth warped to the time of its colour image.
 RgbdImage Odometry::State::Align(const RgbdImage& image) const {
   RgbdImage aligned = image;
   if (options.align_depth && image.depth_delay != 0.0) {
@@ -184,7 +187,8 @@ void Odometry::State::Record(int frame, const MappingStep& step) {
   times.mapping_stages = step.summary.times;
   times.snapshot = step.snapshot_ms;
   results[frame].cam_from_world = step.snapshot->map.CamFromWorld(step.summary.keyframe);
-  places[frame] = {step.summary.keyframe, Rigid3()};
+  relative_poses[frame] = {step.summary.keyframe, Rigid3()};
+  log.LogMapping(step);
   if (step.summary.window) last_window = *step.summary.window;
 }
 
@@ -230,10 +234,11 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
     state_->packet.last_velocity = tracked.keyframe.previous_velocity;
   }
   state_->results.push_back(result);
-  state_->places.push_back({tracked.reference, tracked.cam_from_reference});
+  state_->relative_poses.push_back({tracked.reference, tracked.cam_from_reference});
+  state_->log.LogFrame(result, tracked.relocalized);
   if (tracked.keyframe.is_due) {
     state_->SubmitKeyframe(tracked, image.depth);
-    state_->snapshot = state_->schedule.SnapshotAt(index);  // of this keyframe, without latency
+    state_->snapshot = state_->schedule.SnapshotAt(index);  // with this keyframe if latency is 0
   }
   return state_->results.back();
 }
@@ -245,16 +250,17 @@ FrameResult Odometry::Drop(int64_t id, double timestamp, TrackingStatus status) 
   }
   state_->CheckTime(id, timestamp);
   FrameResult result;
-  State::Place place;
+  State::RelativePose relative_pose;
   if (!state_->results.empty()) {
     result.cam_from_world = state_->results.back().cam_from_world;
-    place = state_->places.back();
+    relative_pose = state_->relative_poses.back();
   }
   result.id = id;
   result.timestamp = timestamp;
   result.status = status;
   state_->results.push_back(result);
-  state_->places.push_back(place);
+  state_->relative_poses.push_back(relative_pose);
+  state_->log.LogFrame(result, false);
   return result;
 }
 
@@ -264,9 +270,9 @@ OdometryResult Odometry::Finish() {
   OdometryResult result;
   result.frames = state_->results;
   for (size_t i = 0; i < result.frames.size(); ++i) {
-    const State::Place& place = state_->places[i];
-    if (place.reference == kNoId) continue;
-    result.frames[i].cam_from_world = place.cam_from_reference * map.CamFromWorld(place.reference);
+    const State::RelativePose& pose = state_->relative_poses[i];
+    if (pose.reference == kNoId) continue;
+    result.frames[i].cam_from_world = pose.cam_from_reference * map.CamFromWorld(pose.reference);
   }
   FillGaps(&result.frames);
   for (const auto& [id, keyframe] : map.keyframes()) {
@@ -285,6 +291,8 @@ OdometryResult Odometry::Finish() {
   result.num_late_maps = state_->schedule.num_late();
   result.axes = MakeAxes(state_->mapper.axes().estimator());
   result.last_window = state_->last_window;
+  state_->log.LogFinish(result.noise_scale, result.readout_time,
+                        static_cast<int>(result.frames.size()));
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+#include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/map/noise_scale.h"
@@ -21,75 +22,81 @@
 
 namespace msc_vo {
 
-// A landmark as the result tells it.
+/// A point landmark of the final map.
 struct MapPoint {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // metres, world
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, world
   int num_observations = 0;
 };
 
+/// A line landmark of the final map.
 struct MapLine {
-  LineSegment3 segment;  // metres, world
+  LineSegment3 segment;  ///< metres, world
   int num_observations = 0;
-  bool in_last_window = false;
-  std::optional<int> axis;  // Manhattan axis 0, 1, 2 that it is parallel to
-  // Unit vector, mean of the directions from the cameras that saw it to the line, world.
+  bool in_last_window = false;  ///< part of the last local bundle adjustment
+  std::optional<int> axis;      ///< index 0..2 of the Manhattan axis that it is parallel to
+  /// Mean direction from the cameras that observe the line to the line: unit vector, world.
   Eigen::Vector3d viewing_direction = Eigen::Vector3d::Zero();
 };
 
-// The Manhattan axes of the scene.
+/// The Manhattan axes of the scene.
 struct MapAxes {
   AxesState state = AxesState::kNone;
-  bool frozen = false;  // known well enough to stay
+  bool frozen = false;  ///< certain enough not to be refined further
   int num_refinements = 0;
-  Eigen::Quaterniond world_from_axes = Eigen::Quaterniond::Identity();  // unless kNone
-  double sigma = 0.0;                                                   // radians
+  Eigen::Quaterniond world_from_axes = Eigen::Quaterniond::Identity();  ///< unless kNone
+  double sigma = 0.0;  ///< standard deviation of the least certain direction, radians
 };
 
-// Everything that a run leaves behind.
+/// Result of a run.
 struct OdometryResult {
-  std::vector<FrameResult> frames;   // one per image, in order, with the final poses
-  std::vector<TimedPose> keyframes;  // in order of time
+  std::vector<FrameResult> frames;   ///< one per image, in order, with the final poses
+  std::vector<TimedPose> keyframes;  ///< in order of time
   std::vector<MapPoint> points;
   std::vector<MapLine> lines;
   MapAxes axes;
-  NoiseScale noise_scale;     // of the sigmas of features, as learnt
-  double readout_time = 0.0;  // of a rolling shutter, seconds, as known or learnt; 0: global
+  NoiseScale noise_scale;  ///< of the sigmas of the features, self-calibrated
+  /// Readout time of the rolling shutter, seconds, given or self-calibrated; 0: global shutter.
+  double readout_time = 0.0;
   BundleAdjustmentSummary last_window;
-  int num_late_maps = 0;  // in real time: maps that came later than they should be seen
+  /// Maps that were not ready for the first frame that should have been tracked in them; 0 unless
+  /// SnapshotOptions::realtime.
+  int num_late_maps = 0;
 };
 
-// RGB-D visual odometry from points and lines (paper: PL-VO and MSC-VO).
-//
-//   Odometry odometry(options, camera, distortion);
-//   while (source.Next(&image)) odometry.Process(image);
-//   OdometryResult result = odometry.Finish();
-//
-// World is the camera of the first tracked frame. The same images give the same bytes at every run.
+/// RGB-D visual odometry from points and lines (paper: PL-VO and MSC-VO).
+///
+///   Odometry odometry(options, camera, distortion);
+///   while (source.Next(&image)) odometry.Process(image);
+///   OdometryResult result = odometry.Finish();
+///
+/// The world frame is the camera frame of the first tracked image. The result is deterministic: the
+/// same images give the same poses, bit by bit. Events are logged to Log() (logging/logger.h).
 class Odometry {
  public:
-  // Throws std::invalid_argument on options or a camera that are not valid.
+  /// Throws std::invalid_argument on invalid options or an invalid camera.
   Odometry(const OdometryOptions& options, const PinholeCamera& camera,
            const LensDistortion& distortion);
   ~Odometry();
 
-  // Is shown every window before it is solved, on the mapper's thread if it has one; to be set
-  // before the first image.
+  /// Sets a function that is called with every window before it is solved, on the mapper's thread
+  /// if there is one. Call before the first image.
   void SetWindowObserver(WindowObserver observer);
 
-  // Tracks one image and returns what is known of it now. Poses get better until Finish().
-  // Throws std::invalid_argument if the image does not fit the camera or time runs backwards, and
-  // what a keyframe step of an earlier frame threw; the next call goes on without that step.
+  /// Tracks one image and returns its result, which may still improve until Finish().
+  /// Throws std::invalid_argument if the image does not match the camera or time stamps do not
+  /// ascend, and the exception of a keyframe step of an earlier frame; the next call continues
+  /// without that step.
   FrameResult Process(const RgbdImage& image);
 
-  // Records a frame without an image: one that came too late to be looked at (kDropped), or that
-  // could not be read (kUnreadable). It gets the pose of the frame before, and in the result of
-  // Finish() the one on the way between its neighbours. Throws std::invalid_argument if time runs
-  // backwards or on another status.
+  /// Records a frame that is not processed, because its image came too late (kDropped) or could not
+  /// be read (kUnreadable). It gets the pose of the previous frame, and in the result of Finish()
+  /// the pose interpolated between its neighbours. Throws std::invalid_argument if time stamps do
+  /// not ascend or on another status.
   FrameResult Drop(int64_t id, double timestamp, TrackingStatus status = TrackingStatus::kDropped);
 
-  // Waits for the mapper and returns the trajectory re-expressed in the final keyframe poses. May
-  // be called at any time, also after an interruption. Throws what a keyframe step threw if
-  // Process() did not yet; then it may be called again.
+  /// Waits for the mapper and returns the trajectory relative to the final keyframe poses. May be
+  /// called at any time. Throws the exception of a keyframe step if Process() has not; the next
+  /// call returns the result.
   OdometryResult Finish();
 
  private:

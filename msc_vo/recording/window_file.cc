@@ -18,18 +18,18 @@ namespace msc_vo {
 
 namespace {
 
-// Counts up with every change that an older reader would misunderstand.
+// Increases with every change that an older reader would misinterpret.
 constexpr int kFormatVersion = 1;
 constexpr char kFormatKeyword[] = "msc_vo_window";
 constexpr char kOptionKeyword[] = "option";
 constexpr char kEndKeyword[] = "end";
 
 constexpr char kPreamble[] =
-    "# A window of msc_vo: keyframes, landmarks and what the keyframes saw of them, as the window\n"
-    "# solver takes or leaves it. One record per line, its fields named in the comment above its\n"
-    "# kind. Numbers read back exactly. Solve it: msc_vo solve-window THIS_FILE\n";
+    "# A window of msc_vo: keyframes, landmarks and their observations, as input or result of a\n"
+    "# local bundle adjustment. One record per line; the comment above the records of each kind\n"
+    "# names their fields. Numbers are exact. Solve it: msc_vo solve-window THIS_FILE\n";
 
-// The options of a window, under the names that they have in a configuration.
+// Returns the options of a window with their names in a configuration.
 std::vector<Option> ListWindowOptions(Configuration* configuration) {
   std::vector<Option> options = ListOptions(configuration);
   const auto is_other = [](const Option& option) {
@@ -39,7 +39,7 @@ std::vector<Option> ListWindowOptions(Configuration* configuration) {
   return options;
 }
 
-// The fields of a kind of record, by name.
+// Returns the names of the fields of a kind of record.
 template <typename Record, typename Item>
 std::string NamesOf(Record, const Item& item) {
   FieldNames names;
@@ -47,7 +47,7 @@ std::string NamesOf(Record, const Item& item) {
   return names.text();
 }
 
-// The type of the items of a vector of WindowData.
+// Type of the items of a kind of record in WindowData.
 template <typename Record>
 using ItemOf = typename std::decay_t<decltype(WindowData().*Record::kItems)>::value_type;
 
@@ -64,7 +64,8 @@ class WindowWriter {
       WriteComment(record, ItemOf<Record>());
       for (const auto& item : data.*Record::kItems) Write(record, item);
     });
-    text_ += "# end NUMBER: of records from here up to the version, so that a cut file shows\n";
+    text_ +=
+        "# end NUMBER: of records between the version and this line, to detect a truncated file\n";
     text_ += std::string(kEndKeyword) + " " + std::to_string(num_records_) + "\n";
     return std::move(text_);
   }
@@ -98,8 +99,8 @@ class WindowWriter {
   int64_t num_records_ = 0;
 };
 
-[[noreturn]] void Fail(const TextLine& line, const std::string& what) {
-  throw std::runtime_error(line.Where() + ": " + what);
+[[noreturn]] void Fail(const TextLine& line, const std::string& message) {
+  throw std::runtime_error(line.Where() + ": " + message);
 }
 
 class WindowReader {
@@ -111,11 +112,12 @@ class WindowReader {
     if (lines.empty()) throw std::runtime_error(path + ": is empty; a window file is needed");
     CheckVersion(lines.front());
     for (size_t i = 1; i < lines.size(); ++i) {
-      if (ended_) Fail(lines[i], "stands behind the 'end'; remove what follows the window");
+      if (ended_) Fail(lines[i], "is after the 'end' record; remove it");
       ReadLine(lines[i], static_cast<int64_t>(i) - 1);
     }
     if (!ended_) {
-      Fail(lines.back(), "the file stops here without an 'end': it was cut short; record it again");
+      Fail(lines.back(),
+           "the file ends here without an 'end' record: it is truncated; record it again");
     }
     window_.options = configuration_.odometry.mapping.window;
     return std::move(window_);
@@ -124,7 +126,7 @@ class WindowReader {
  private:
   static void CheckVersion(const TextLine& line) {
     if (line.fields.front() != kFormatKeyword) {
-      Fail(line, "is no window file: its first record must be '" + std::string(kFormatKeyword) +
+      Fail(line, "is not a window file: its first record must be '" + std::string(kFormatKeyword) +
                      " " + std::to_string(kFormatVersion) + "'");
     }
     FieldReader fields(line, "VERSION");
@@ -132,7 +134,8 @@ class WindowReader {
     fields.Integer("VERSION", version);
     fields.EndRecord();
     if (version < 1 || version > kFormatVersion) {
-      Fail(line, "version " + std::to_string(version) + " of the window file is not known, only 1" +
+      Fail(line, "version " + std::to_string(version) +
+                     " of the window file is not supported, only 1" +
                      (kFormatVersion > 1 ? " to " + std::to_string(kFormatVersion) : "") +
                      "; read it with the msc_vo that wrote it, or a newer one");
     }
@@ -143,7 +146,7 @@ class WindowReader {
     if (keyword == kOptionKeyword) {
       ReadOption(line);
     } else if (keyword == CameraRecord::kKeyword) {
-      if (!seen_.insert(keyword).second) Fail(line, "a second camera; remove one of them");
+      if (!keys_.insert(keyword).second) Fail(line, "a second camera; remove one of them");
       ReadFields(CameraRecord(), line, &window_.data.camera);
     } else if (keyword == kEndKeyword) {
       ReadEnd(line, num_records_before);
@@ -163,7 +166,7 @@ class WindowReader {
                      (similar ? "; did you mean '" + similar->path + "'?"
                               : "; remove the line to take the defaults"));
     }
-    if (!seen_.insert(path).second) Fail(line, "'" + path + "' is given twice; remove one of them");
+    if (!keys_.insert(path).second) Fail(line, "'" + path + "' is given twice; remove one of them");
     std::string expected;
     if (!SetOption(*option, line.fields[2], &expected)) {
       Fail(line, "'" + path + "' must be " + expected + ", not '" + line.fields[2] + "'");
@@ -201,12 +204,11 @@ class WindowReader {
     fields.Integer("NUMBER_OF_RECORDS", num_records);
     fields.EndRecord();
     if (num_records != num_records_before) {
-      Fail(line, "'end' says " + std::to_string(num_records) + " records, the file has " +
+      Fail(line, "'end' gives " + std::to_string(num_records) + " records, but the file has " +
                      std::to_string(num_records_before) +
-                     "; correct the number if you changed the file on purpose, else record it "
-                     "again");
+                     "; correct the number if you edited the file, otherwise record it again");
     }
-    if (seen_.count(CameraRecord::kKeyword) == 0) {
+    if (keys_.count(CameraRecord::kKeyword) == 0) {
       Fail(line, "the window has no camera; add 'camera " +
                      NamesOf(CameraRecord(), window_.data.camera) + "' above");
     }
@@ -215,7 +217,7 @@ class WindowReader {
 
   Configuration configuration_;
   std::vector<Option> options_;  // into configuration_
-  std::set<std::string> seen_;   // what may stand in the file once only
+  std::set<std::string> keys_;   // records and options read so far that may occur only once
   RecordedWindow window_;
   bool ended_ = false;
 };

@@ -10,27 +10,27 @@
 
 namespace msc_vo {
 
-// A window with the options that it is solved with.
+/// The input or result of a local bundle adjustment, with its options.
 struct RecordedWindow {
   BundleAdjustmentOptions options;
   WindowData data;
 };
 
-// The window as text, one record per line (docs/window_file.md). Every number reads back to the
-// same bits, so that solving what was read gives the same bytes as solving what was written.
-// Writes what it is given, numbers that are not finite included: a window may be recorded because
-// it is wrong.
+/// Formats a window as text, one record per line (docs/window_file.md). Numbers are exact: solving
+/// a window that was read gives the same bytes as solving the window that was written. Numbers that
+/// are not finite are written as well, because a window may be recorded to find their cause.
 std::string FormatWindow(const BundleAdjustmentOptions& options, const WindowData& data);
 
-// Throws std::runtime_error naming the file if it cannot be written.
+/// Writes the result of FormatWindow() to a file. Throws std::runtime_error, naming the file, if it
+/// cannot be written.
 void WriteWindow(const std::string& path, const BundleAdjustmentOptions& options,
                  const WindowData& data);
 
-// Throws std::runtime_error naming file, line and fix: no window file or one of a newer version, a
-// record that is not known, has a wrong number of fields or a field that does not fit, a number
-// that is not finite, an option or the camera twice, a file cut short. Options that the file does
-// not name keep their defaults. What the records mean together (ids, sigmas) is checked by
-// LocalBundleAdjustment.
+/// Reads a window file. Options that the file does not name keep their defaults. Ids and sigmas are
+/// validated by LocalBundleAdjustment().
+/// Throws std::runtime_error naming file, line and fix if the file is not a window file, is of a
+/// newer version or truncated, or contains an unknown record, a wrong number of fields, an invalid
+/// field, a number that is not finite, or an option or the camera twice.
 RecordedWindow ReadWindow(const std::string& path);
 
 }  // namespace msc_vo

@@ -9,9 +9,9 @@
 
 namespace msc_vo {
 
-// The kinds of record in a window file. Each has a keyword, a line of comment, the items of the
-// window that it stands for, and the fields of one item, for the visitors of text_record.h. To
-// record more of WindowData, write another kind and name it in ForEachWindowRecord.
+// The kinds of record in a window file. Each has a keyword, a comment, the vector of WindowData
+// that it records, and a function that passes the fields of one item to a visitor of text_record.h.
+// To record more of WindowData, add a kind to ForEachWindowRecord().
 
 struct CameraRecord {
   static constexpr const char* kKeyword = "camera";
@@ -43,7 +43,7 @@ struct KeyframeRecord {
 struct PointRecord {
   static constexpr const char* kKeyword = "point";
   static constexpr const char* kComment =
-      "position in the world, metres; factor of its observations' sigmas";
+      "position in the world, metres; noise factor of its observations' sigmas";
   static constexpr auto kItems = &WindowData::points;
   template <typename Point, typename Fields>
   static void Visit(Point& point, Fields& fields) {
@@ -59,8 +59,8 @@ struct PointRecord {
 struct LineRecord {
   static constexpr const char* kKeyword = "line";
   static constexpr const char* kComment =
-      "end points in the world, metres; factor of its observations' sigmas; metres that its depths "
-      "are measured too far";
+      "end points in the world, metres; noise factor of its observations' sigmas; metres by which "
+      "its depths are measured too far";
   static constexpr auto kItems = &WindowData::lines;
   template <typename Line, typename Fields>
   static void Visit(Line& line, Fields& fields) {
@@ -95,8 +95,8 @@ struct PointObservationRecord {
 struct LineObservationRecord {
   static constexpr const char* kKeyword = "line_observation";
   static constexpr const char* kComment =
-      "end points in undistorted pixels, sigma across; inverse depths there (1/metres), their "
-      "covariance by rows, its fit";
+      "end points in undistorted pixels, sigma across the line; inverse depths there (1/metres), "
+      "their covariance by rows, inliers of the fit";
   static constexpr auto kItems = &WindowData::line_observations;
   template <typename Observation, typename Fields>
   static void Visit(Observation& observation, Fields& fields) {
@@ -122,7 +122,7 @@ struct LineObservationRecord {
   }
 };
 
-// Fields of pairs of either kind.
+/// Fields of ParallelRecord and PerpendicularRecord.
 struct LinePairFields {
   template <typename Pair, typename Fields>
   static void Visit(Pair& pair, Fields& fields) {
@@ -136,7 +136,8 @@ struct LinePairFields {
 
 struct ParallelRecord : LinePairFields {
   static constexpr const char* kKeyword = "parallel";
-  static constexpr const char* kComment = "pair of lines; sigma in radians, keyframes seeing both";
+  static constexpr const char* kComment =
+      "pair of lines; sigma in radians, number of keyframes observing both";
   static constexpr auto kItems = &WindowData::parallel_pairs;
 };
 
@@ -164,8 +165,8 @@ struct AxisAlignmentRecord {
 struct PosePriorRecord {
   static constexpr const char* kKeyword = "pose_prior";
   static constexpr const char* kComment =
-      "where a keyframe is believed to be, as its cam_from_world; covariance by rows of rotation "
-      "vector (radians, camera frame), then translation (metres)";
+      "mean of a keyframe's cam_from_world; covariance by rows of rotation vector (radians, camera "
+      "frame), then translation (metres)";
   static constexpr auto kItems = &WindowData::pose_priors;
   template <typename Prior, typename Fields>
   static void Visit(Prior& prior, Fields& fields) {
@@ -181,8 +182,7 @@ struct PosePriorRecord {
   }
 };
 
-// Calls `action` with a value of every kind that stands for a vector of the window, in the order of
-// the file.
+/// Calls `action` with a value of every kind of record except the camera, in the order of the file.
 template <typename Action>
 void ForEachWindowRecord(const Action& action) {
   action(KeyframeRecord());

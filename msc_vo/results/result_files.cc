@@ -10,6 +10,7 @@
 
 #include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/logging/logger.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/results/run_report.h"
 #include "msc_vo/results/summary_json.h"
@@ -88,6 +89,7 @@ void WriteResultFiles(const std::string& directory, const OdometryResult& result
   const RunSummary summary = Summarize(result);
   WriteFile(path("summary.json"), FormatSummaryJson(summary, context));
   WriteFile(path("report.html"), FormatReport(result, summary, context));
+  Log().info("results written to {}", directory);
 }
 
 }  // namespace msc_vo

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/config/option_list.h"
 #include "msc_vo/datasets/calibration.h"
 #include "msc_vo/datasets/sequence.h"

@@ -12,39 +12,42 @@ namespace msc_vo {
 
 namespace {
 
-// Half a pixel does not change which one is the nearest.
+// Smallest shift that changes the nearest pixel, pixels.
 constexpr double kMinShift = 0.5;
 
-// How far an angle (radians), or a way (metres) at one metre, moves the image, pixels.
+// Shift in the image that an angle (radians), or a translation (metres) at one metre, causes,
+// pixels.
 double Shift(const PinholeCamera& camera, double angle) {
   return std::max(std::abs(camera.fx), std::abs(camera.fy)) * angle;
 }
 
-// Depth of what a pixel of the colour image shows, by where the depth image has it.
-class Lookup {
+// Looks up the depth of pixels of the colour image in the depth image.
+class DepthLookup {
  public:
-  Lookup(const PinholeCamera& camera, const cv::Mat& depth, const Rigid3& motion) : depth_(depth) {
+  DepthLookup(const PinholeCamera& camera, const cv::Mat& depth, const Rigid3& motion)
+      : depth_(depth) {
     Eigen::Matrix3d intrinsics;
     intrinsics << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0;
-    turn_ =
+    homography_ =
         (intrinsics * motion.rotation().toRotationMatrix() * intrinsics.inverse()).cast<float>();
     shift_ = (intrinsics * motion.translation()).cast<float>();
     has_parallax_ = Shift(camera, motion.translation().norm()) >= kMinShift;
   }
 
-  // Homogeneous pixel of the depth image of what (x, y) shows at infinity, and its change with x.
-  // What it shows at depth z is at z times that plus the shift, whose third coordinate is the depth
-  // there.
+  // Homogeneous pixel of the depth image that corresponds to (x, y) at infinity, and its change
+  // with x. The pixel that corresponds to (x, y) at depth z is z times this vector plus shift_,
+  // whose third coordinate is the depth in the depth image.
   Eigen::Vector3f Direction(int x, int y) const {
-    return turn_ * Eigen::Vector3f(static_cast<float>(x), static_cast<float>(y), 1.0f);
+    return homography_ * Eigen::Vector3f(static_cast<float>(x), static_cast<float>(y), 1.0f);
   }
-  Eigen::Vector3f DirectionStep() const { return turn_.col(0); }
+  Eigen::Vector3f DirectionStep() const { return homography_.col(0); }
 
-  // Zero where there is none. First as if all were far away, then where that depth says.
+  // Returns the depth along a direction, 0 if there is none: looked up at infinity first, then at
+  // the depth found there.
   float At(const Eigen::Vector3f& direction) const {
-    float there = Nearest(direction);
-    if (has_parallax_ && there > 0.0f) there = Nearest(there / direction.z() * direction + shift_);
-    return there > shift_.z() && there > 0.0f ? (there - shift_.z()) / direction.z() : 0.0f;
+    float depth = Nearest(direction);
+    if (has_parallax_ && depth > 0.0f) depth = Nearest(depth / direction.z() * direction + shift_);
+    return depth > shift_.z() && depth > 0.0f ? (depth - shift_.z()) / direction.z() : 0.0f;
   }
 
  private:
@@ -57,7 +60,7 @@ class Lookup {
   }
 
   const cv::Mat& depth_;
-  Eigen::Matrix3f turn_;
+  Eigen::Matrix3f homography_;  // at infinity
   Eigen::Vector3f shift_;
   bool has_parallax_;
 };
@@ -67,7 +70,7 @@ class Lookup {
 cv::Mat AlignDepth(const PinholeCamera& camera, const cv::Mat& depth, const Rigid3& motion) {
   const double angle = motion.rotation().angularDistance(Eigen::Quaterniond::Identity());
   if (Shift(camera, angle + motion.translation().norm()) < kMinShift) return depth;
-  const Lookup lookup(camera, depth, motion);
+  const DepthLookup lookup(camera, depth, motion);
   cv::Mat aligned(depth.size(), CV_32FC1);
   for (int y = 0; y < depth.rows; ++y) {
     Eigen::Vector3f direction = lookup.Direction(0, y);

@@ -13,8 +13,7 @@ void InverseDepthImage::Assign(const cv::Mat& depth, double min_depth, double ma
     const float* z = depth.ptr<float>(y);
     float* inverse = image_.ptr<float>(y);
     for (int x = 0; x < depth.cols; ++x) {
-      // False for what is not a number. Dividing always, and by one if in doubt, lets the compiler
-      // do several pixels at once.
+      // False for NaN. Unconditional division lets the compiler process several pixels at once.
       const bool valid = (z[x] >= nearest) & (z[x] <= farthest);
       const float quotient = 1.0f / (valid ? z[x] : 1.0f);
       inverse[x] = valid ? quotient : 0.0f;

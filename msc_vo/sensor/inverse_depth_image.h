@@ -8,10 +8,10 @@
 
 namespace msc_vo {
 
-// A depth image as inverse depths (1/metres), 0 where there is none: outside the image, outside
-// [min_depth, max_depth], not measured, not a number.
-//
-// Why inverse: it is affine in the image over every plane, and its noise is the same everywhere.
+/// A depth image as inverse depths, 1/metres; 0 where there is no valid depth: outside the image,
+/// outside [min_depth, max_depth], not measured or NaN.
+///
+/// Inverse depth is affine in the image on every plane, and its noise is uniform.
 class InverseDepthImage {
  public:
   InverseDepthImage() = default;
@@ -19,19 +19,19 @@ class InverseDepthImage {
     Assign(depth, min_depth, max_depth);
   }
 
-  // `depth` is CV_32FC1, metres. Keeps its memory if the size stays.
+  /// `depth` is CV_32FC1, metres. Reuses the memory if the size is unchanged.
   void Assign(const cv::Mat& depth, double min_depth, double max_depth);
 
   double At(int x, int y) const {
     const bool inside = x >= 0 && y >= 0 && x < image_.cols && y < image_.rows;
     return inside ? image_.at<float>(y, x) : 0.0;
   }
-  // Whether the pixel nearest to `pixel` is one of the image.
+  /// True if the pixel nearest to `pixel` lies inside the image.
   bool Contains(const Eigen::Vector2d& pixel) const {
     return pixel.x() > -0.5 && pixel.y() > -0.5 && pixel.x() < image_.cols - 0.5 &&
            pixel.y() < image_.rows - 0.5;
   }
-  // At the pixel nearest to `pixel`.
+  /// Inverse depth at the pixel nearest to `pixel`, 1/metres.
   double Nearest(const Eigen::Vector2d& pixel) const {
     return At(cvRound(pixel.x()), cvRound(pixel.y()));
   }

@@ -24,7 +24,7 @@ LensRemap::LensRemap(const PinholeCamera& camera, const LensDistortion& distorti
 
 cv::Mat LensRemap::Undistort(const cv::Mat& raw) const {
   if (distortion_.IsZero()) return raw;
-  // The border is continued, or its end would be an edge; what lies there is not in the mask.
+  // Replication avoids an artificial edge at the border; the mask excludes the replicated pixels.
   cv::Mat ideal;
   cv::remap(raw, ideal, map_, fraction_, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   return ideal;

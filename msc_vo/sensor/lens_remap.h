@@ -6,25 +6,27 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
-#include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/camera/lens_distortion.h"
 
 namespace msc_vo {
 
-// Between the raw image of a lens and the ideal image of its pinhole camera (same size and
-// intrinsics). Without distortion both are the same and nothing is computed.
-//
-// Why lines are detected in the ideal image while points are detected in the raw one and moved: a
-// straight 3-D line is a curve in a distorted image, so that a line detector there finds pieces of
-// it, or chords of it with a bias of the curve's height, and no undistortion of end points repairs
-// that. A point is moved exactly, and keeps the contrast that interpolation would take.
+/// Maps between the raw (distorted) image and the ideal image of the pinhole camera, which has the
+/// same size and intrinsics. Without distortion the two are identical and nothing is computed.
+///
+/// Lines are detected in the ideal image, because a straight 3-D line is a curve in a distorted
+/// image: a detector would find chords with a bias that undistortion of their end points does not
+/// remove. Points are detected in the raw image, where they keep the contrast that interpolation
+/// would reduce, and are undistorted exactly.
 class LensRemap {
  public:
   LensRemap(const PinholeCamera& camera, const LensDistortion& distortion);
 
-  // The ideal image of a raw one, bilinear. Returns the raw one itself if there is no distortion.
+  /// Undistorts a raw image with bilinear interpolation. Returns the raw image itself without
+  /// distortion.
   cv::Mat Undistort(const cv::Mat& raw) const;
 
-  // CV_8UC1, 255 where the ideal image shows something that the raw one saw; empty: everywhere.
+  /// CV_8UC1, 255 at pixels of the ideal image that lie inside the raw image; empty without
+  /// distortion.
   const cv::Mat& mask() const { return mask_; }
 
   Eigen::Vector2d IdealFromRaw(const Eigen::Vector2d& pixel) const {
@@ -37,8 +39,8 @@ class LensRemap {
  private:
   PinholeCamera camera_;
   LensDistortion distortion_;
-  cv::Mat map_;       // CV_16SC2, whole pixels; and
-  cv::Mat fraction_;  // CV_16UC1, their fractions: the pair cv::remap is fastest with
+  cv::Mat map_;       // CV_16SC2, integer part of the raw pixels
+  cv::Mat fraction_;  // CV_16UC1, fractional part; the representation cv::remap is fastest with
   cv::Mat mask_;
 };
 

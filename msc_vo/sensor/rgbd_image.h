@@ -9,13 +9,13 @@
 
 namespace msc_vo {
 
-// One decoded RGB-D image, registered: the depth of colour pixel (x, y) is depth(y, x).
+/// A decoded, registered RGB-D image: the depth of colour pixel (x, y) is depth(y, x).
 struct RgbdImage {
-  int64_t id = 0;          // position in the sequence, from 0
-  double timestamp = 0.0;  // seconds, of the colour image
-  cv::Mat gray;            // CV_8UC1
-  cv::Mat depth;           // CV_32FC1, metres along the optical axis; 0: no measurement
-  // Seconds after the colour image that the depth image was taken; negative: before.
+  int64_t id = 0;          ///< position in the sequence, from 0
+  double timestamp = 0.0;  ///< seconds, of the colour image
+  cv::Mat gray;            ///< CV_8UC1
+  cv::Mat depth;           ///< CV_32FC1, metres along the optical axis; 0: no measurement
+  /// Time of the depth image relative to that of the colour image, seconds.
   double depth_delay = 0.0;
 };
 

@@ -28,7 +28,7 @@ bool AxesEstimatorOptions::IsValid(std::string* error) const {
   } else if (min_keyframes < 1) {
     *error = "min_keyframes must be at least 1";
   } else if (min_axis_lines < 2) {
-    *error = "min_axis_lines must be at least 2: one direction is no frame";
+    *error = "min_axis_lines must be at least 2: one direction does not determine a rotation";
   } else if (!(min_growth > 1.0)) {
     *error = "min_growth must be larger than 1";
   } else if (!(min_line_ratio >= 0.0 && min_line_ratio <= 1.0)) {

@@ -16,8 +16,8 @@ namespace {
 
 constexpr char kNotWritten[] = ": cannot be written (check the folder and the free space)";
 
-// What keeps `path` from leading to anything; empty: nothing. Its type is written to `type`.
-std::string LookUp(const std::string& path, fs::file_type* type) {
+// Describes why `path` cannot be resolved; empty if it can. Writes its type to `type`.
+std::string ResolveType(const std::string& path, fs::file_type* type) {
   std::error_code error;
   *type = fs::status(path, error).type();
   if (*type == fs::file_type::not_found) {
@@ -31,7 +31,7 @@ std::string LookUp(const std::string& path, fs::file_type* type) {
   return "";
 }
 
-// Name of what is neither a regular file nor a folder.
+// Names the type of an entry that is neither a regular file nor a folder.
 std::string SpecialTypeName(fs::file_type type) {
   switch (type) {
     case fs::file_type::fifo:
@@ -51,19 +51,20 @@ std::string Megabytes(std::uintmax_t bytes) { return std::to_string(bytes >> 20)
 // Throws std::runtime_error unless `path` can become a regular file or replace one.
 void CheckReplaceable(const std::string& path) {
   fs::file_type type;
-  const std::string problem = LookUp(path, &type);
+  const std::string problem = ResolveType(path, &type);
   if (type == fs::file_type::directory) {
-    throw std::runtime_error(path + ": cannot be written: is a folder, give a file");
+    throw std::runtime_error(path + ": cannot be written: is a folder; give a file");
   }
   if (problem.empty() && type != fs::file_type::regular) {
     throw std::runtime_error(path + ": cannot be written: is a " + SpecialTypeName(type) +
-                             ", give a regular file");
+                             "; give a regular file");
   }
 }
 
-// Removes the name from its folder, not what a link leads to: a file opened under it is a new one.
+// Removes the entry from its folder, not the target of a link, so that a file opened under this
+// name is a new one.
 void RemoveEntry(const std::string& path) {
-  std::error_code ignored;  // what cannot be removed cannot be opened for writing either
+  std::error_code ignored;  // opening the file for writing reports the error
   fs::remove(path, ignored);
 }
 
@@ -82,26 +83,26 @@ bool IsFolder(const std::string& path) {
 
 std::string FileProblem(const std::string& path, std::uintmax_t max_bytes) {
   fs::file_type type;
-  const std::string problem = LookUp(path, &type);
+  const std::string problem = ResolveType(path, &type);
   if (!problem.empty()) return problem;
-  if (type == fs::file_type::directory) return "is a folder, a file is needed";
+  if (type == fs::file_type::directory) return "is a folder; a file is needed";
   if (type != fs::file_type::regular) {
     return "is a " + SpecialTypeName(type) +
-           ", which may have no end; copy what it gives into a regular file";
+           ", which may be endless; copy its contents to a regular file";
   }
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) return "cannot be read: " + error.message();
   if (size > max_bytes) {
     return "has " + Megabytes(size) + ", more than the " + Megabytes(max_bytes) +
-           " that such a file may have; is it the right file?";
+           " allowed for such a file; check that it is the right file";
   }
   return "";
 }
 
 std::string FolderProblem(const std::string& path) {
   fs::file_type type;
-  const std::string problem = LookUp(path, &type);
+  const std::string problem = ResolveType(path, &type);
   if (!problem.empty()) return problem;
   if (type == fs::file_type::regular) return "is a file";
   if (type != fs::file_type::directory) return "is a " + SpecialTypeName(type);
@@ -115,7 +116,7 @@ std::string ReadFile(const std::string& path, std::uintmax_t max_bytes) {
   if (!problem.empty()) throw std::runtime_error(path + ": " + problem);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path + ": cannot be read (check its permissions)");
-  // Not to the end of the file, which may grow.
+  // Reads the size found now, because the file may grow.
   std::string content(static_cast<size_t>(fs::file_size(path)), '\0');
   file.read(content.data(), static_cast<std::streamsize>(content.size()));
   if (file.bad()) throw std::runtime_error(path + ": cannot be read: the disk reports an error");
@@ -166,7 +167,7 @@ void GrowingFile::Append(const std::string& text) {
 void MakeFolder(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) throw std::runtime_error(path + ": cannot be made: " + error.message());
+  if (error) throw std::runtime_error(path + ": cannot be created: " + error.message());
 }
 
 void RefuseToOverwrite(const std::vector<std::string>& inputs, const std::string& output) {
@@ -177,7 +178,7 @@ void RefuseToOverwrite(const std::vector<std::string>& inputs, const std::string
   const auto input = std::find_if(inputs.begin(), inputs.end(), is_output);
   if (input == inputs.end()) return;
   throw std::runtime_error(output + ": would be written over the input " + *input +
-                           "; give another place for the results");
+                           "; give another path for the results");
 }
 
 }  // namespace msc_vo

@@ -10,41 +10,45 @@
 
 namespace msc_vo {
 
-// Sizes that no file of its kind has: a wrong file is refused before it fills the memory.
-constexpr std::uintmax_t kMaxTextBytes = std::uintmax_t{256} << 20;  // lists, trajectories, maps
+/// Upper bounds of file sizes: a wrong file is refused before it fills the memory.
+constexpr std::uintmax_t kMaxTextBytes = std::uintmax_t{256} << 20;  ///< lists, trajectories, maps
 constexpr std::uintmax_t kMaxOptionsBytes = std::uintmax_t{1} << 20;
 constexpr std::uintmax_t kMaxImageBytes = std::uintmax_t{256} << 20;
 
-// Whether a folder has an entry of that name, be it a file, a folder or a link that leads nowhere.
-// What is wrong with an entry, reading it tells.
+/// Tests whether a folder has an entry of this name: a file, a folder, or a symbolic link even if
+/// it is broken. Whether the entry can be read is not tested.
 bool HasEntry(const std::string& path);
 
-// Whether `path` is a folder or a link to one. Never throws.
+/// Tests whether `path` is a folder or a link to one. Never throws.
 bool IsFolder(const std::string& path);
 
-// What keeps `path` from being read as a regular file of at most `max_bytes` ("does not exist", "is
-// a pipe; ..."), or from being listed as a folder; empty: nothing.
+/// Describes why `path` cannot be read as a regular file of at most `max_bytes`: "does not exist",
+/// "is a pipe; ...". Empty if it can.
 std::string FileProblem(const std::string& path, std::uintmax_t max_bytes = kMaxTextBytes);
+
+/// Describes why `path` cannot be listed as a folder. Empty if it can.
 std::string FolderProblem(const std::string& path);
 
-// The whole file, byte for byte. Only regular files are read: pipes and devices may have no end.
-// Throws std::runtime_error, naming the file, if it cannot be read or is larger than `max_bytes`.
+/// Returns the contents of a file, byte for byte. Only regular files are read, because pipes and
+/// devices may be endless.
+/// Throws std::runtime_error, naming the file, if it cannot be read or is larger than `max_bytes`.
 std::string ReadFile(const std::string& path, std::uintmax_t max_bytes = kMaxTextBytes);
 
-// Full paths of what is in a folder. Throws std::runtime_error, naming it, if it cannot be listed.
+/// Returns the full paths of the entries of a folder, in no particular order.
+/// Throws std::runtime_error, naming the folder, if it cannot be listed.
 std::vector<std::string> ListFolder(const std::string& folder);
 
-// Writes `content` beside `path` and renames it into place, so that a reader never sees half a file
-// and an interrupted run leaves the previous one. A symbolic link is replaced and its target left
-// alone. Throws std::runtime_error, naming the file, if that fails or if `path` is a device, a pipe
-// or a folder.
+/// Writes `content` to a temporary file and renames it to `path`: readers never see a partial file,
+/// and an interrupted run leaves the previous one. A symbolic link is replaced, its target is kept.
+/// Throws std::runtime_error, naming the file, if that fails or if `path` is a device, a pipe or a
+/// folder.
 void WriteFile(const std::string& path, const std::string& content);
 
-// A new file that grows while a program runs: what was appended is on disk even if the program is
-// killed. Replaces an existing file as WriteFile does.
+/// A file that is written in steps. Appended text is on disk even if the program is killed. An
+/// existing file is replaced as by WriteFile().
 class GrowingFile {
  public:
-  // Both throw std::runtime_error naming the file.
+  /// Both throw std::runtime_error naming the file.
   explicit GrowingFile(const std::string& path);
   void Append(const std::string& text);
 
@@ -53,12 +57,11 @@ class GrowingFile {
   std::ofstream stream_;
 };
 
-// Makes a folder and those above it, if they do not exist. Throws std::runtime_error naming it.
+/// Creates a folder and its parents if they do not exist. Throws std::runtime_error naming it.
 void MakeFolder(const std::string& path);
 
-// Throws std::runtime_error if `output` is one of `inputs`, files or folders, perhaps under another
-// name (a link, "a/../b"): writing it would destroy what was given to be read. What does not exist
-// is nothing's other name.
+/// Throws std::runtime_error if `output` is the same file or folder as one of `inputs`, possibly
+/// under another name (a link, "a/../b"), because writing it would destroy an input.
 void RefuseToOverwrite(const std::vector<std::string>& inputs, const std::string& output);
 
 }  // namespace msc_vo

@@ -9,13 +9,15 @@
 
 namespace msc_vo {
 
-// Number of letters to insert, delete or replace to turn one text into the other (Levenshtein).
+/// Levenshtein distance: the least number of characters to insert, delete or replace to turn one
+/// text into the other.
 int EditDistance(const std::string& a, const std::string& b);
 
-// More differences than this make `name` another word, not a typing error.
+/// Largest edit distance that still counts as a typing error in `name`.
 int MaxTypingErrors(const std::string& name);
 
-// The one of `names` that was probably meant by `name`; none if it is like none of them.
+/// Returns the element of `names` with the smallest edit distance to the misspelt `name`; none if
+/// all are further than MaxTypingErrors().
 std::optional<std::string> FindSimilarName(const std::vector<std::string>& names,
                                            const std::string& name);
 

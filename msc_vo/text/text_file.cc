@@ -29,7 +29,7 @@ std::vector<std::string> SplitFields(const std::string& text) {
   return fields;
 }
 
-// "lost" from "  # lost ".
+// Extracts the text of a comment: "lost" from "  # lost ".
 std::string CommentText(const std::string& text) {
   constexpr char kBlanks[] = " \t\r\n";
   const size_t begin = text.find_first_not_of(kBlanks, text.find('#') + 1);
@@ -46,7 +46,7 @@ std::vector<TextLine> ReadTextLines(const std::string& path) {
   std::vector<TextLine> lines;
   std::string text, comment;
   for (int number = 1; std::getline(content, text); ++number) {
-    // Some editors on Windows put a byte order mark in front of the first line.
+    // Some editors on Windows write a byte order mark before the first line.
     if (number == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
     TextLine line{path, number, SplitFields(text), std::exchange(comment, "")};
     if (line.fields.empty()) continue;
@@ -62,7 +62,7 @@ std::vector<TextLine> ReadTextLines(const std::string& path) {
 std::optional<double> ParseNumber(const std::string& text) {
   const char* begin = text.data();
   const char* const end = begin + text.size();
-  if (begin != end && *begin == '+') ++begin;  // from_chars knows no plus sign
+  if (begin != end && *begin == '+') ++begin;  // from_chars rejects a plus sign
   double value = 0.0;
   const std::from_chars_result result = std::from_chars(begin, end, value);
   if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
@@ -76,7 +76,7 @@ std::optional<int> WholeNumber(double value) {
 }
 
 std::string FormatNumber(double value) {
-  char buffer[40];  // the longest double needs 24
+  char buffer[40];  // the longest double has 24 characters
   return {buffer, std::to_chars(buffer, buffer + sizeof(buffer), value).ptr};
 }
 

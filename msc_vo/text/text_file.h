@@ -11,28 +11,33 @@
 
 namespace msc_vo {
 
-// One line of a text file that carries data, with the place it came from.
+/// A line of a text file that is neither blank nor a comment.
 struct TextLine {
   std::string file;
-  int number = 0;                   // from 1
-  std::vector<std::string> fields;  // separated by blanks, tabs or commas
-  // Of the comment in the line right above, if that is one: without its '#' and blanks around it.
+  int number = 0;                   ///< line number, from 1
+  std::vector<std::string> fields;  ///< separated by blanks, tabs or commas
+  /// Text of the comment on the line directly above, trimmed and without '#'; empty if there is
+  /// none.
   std::string comment;
 
-  std::string Where() const;  // "file:12"
+  /// Returns the position for error messages, "file:12".
+  std::string Where() const;
 };
 
-// The lines of a file that are neither blank nor a comment (#); CRLF is understood.
-// Throws std::runtime_error, naming the file, if it cannot be read.
+/// Reads the lines of a file that are neither blank nor a comment (#). Accepts CRLF line ends and a
+/// byte order mark. Throws std::runtime_error, naming the file, if it cannot be read.
 std::vector<TextLine> ReadTextLines(const std::string& path);
 
-// The number that all of `text` spells, whatever the locale; none if it spells none.
+/// Parses `text` as a number, independent of the locale; none unless all of it is one number.
+/// Accepts "nan" and "inf".
 std::optional<double> ParseNumber(const std::string& text);
-// The value as an int, if it is a whole number that fits.
+/// Returns the value as an int; none if it is not a whole number or does not fit.
 std::optional<int> WholeNumber(double value);
-// The shortest text that ParseNumber reads back to the very same number; "nan" and "inf" too.
+/// Returns the shortest text that ParseNumber() converts to exactly the same number, including
+/// "nan" and "inf".
 std::string FormatNumber(double value);
-// All fields of the line as finite numbers. Throws std::runtime_error naming file, line and field.
+/// Returns all fields of the line as finite numbers. Throws std::runtime_error naming file, line
+/// and field.
 std::vector<double> ParseNumbers(const TextLine& line);
 
 }  // namespace msc_vo

@@ -78,7 +78,7 @@ int64_t FieldReader::ReadInteger(const char* name, int64_t min, int64_t max) {
 void FieldReader::FailFieldCount() const {
   throw std::runtime_error(line_.Where() + ": expected '" + line_.fields.front() + " " + names_ +
                            "', found " + std::to_string(line_.fields.size() - 1) +
-                           " fields behind '" + line_.fields.front() + "'; complete the line");
+                           " fields after '" + line_.fields.front() + "'; correct the line");
 }
 
 void FieldReader::Fail(const std::string& field, const std::string& expected) const {

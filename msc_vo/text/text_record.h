@@ -5,13 +5,14 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
-// A record is a line of text: a keyword, then fields in a fixed order. Its fields are described
-// once, by a function that shows each to a visitor; the visitor writes, reads or names them:
+// A record is a line of text: a keyword, then fields in a fixed order. One function describes the
+// fields of a record by passing each to a visitor, which writes, reads or names them:
 //
 //   template <typename Point, typename Fields>
 //   void Visit(Point& point, Fields& fields) {
@@ -20,7 +21,7 @@ namespace msc_vo {
 //     fields.Flag("free", "fixed", point.fixed);
 //   }
 
-// Writes the fields behind the keyword.
+/// Writes the keyword and the fields of a record.
 class FieldWriter {
  public:
   FieldWriter(const char* keyword, std::string* text) : text_(text) { *text_ += keyword; }
@@ -35,7 +36,7 @@ class FieldWriter {
   std::string* text_;
 };
 
-// Lists the names of the fields: "ID X free|fixed", those that may be left out in brackets.
+/// Lists the names of the fields: "ID X free|fixed"; optional fields are in brackets.
 class FieldNames {
  public:
   void Number(const char* name, double) { Add(name); }
@@ -51,19 +52,20 @@ class FieldNames {
   std::string text_;
 };
 
-// Reads the fields behind the keyword. Every member throws std::runtime_error naming file, line,
-// field and fix; `names` (of FieldNames) is what the message says was expected.
+/// Reads the fields after the keyword. Every member throws std::runtime_error naming file, line,
+/// field and fix.
 class FieldReader {
  public:
+  /// `names` is the text of FieldNames, for error messages. `line` must outlive the reader.
   FieldReader(const TextLine& line, std::string names) : line_(line), names_(std::move(names)) {}
 
   void Number(const char* name, double& value);
-  // Only at the end of a record. Where it is left out, the value stays.
+  /// Allowed only at the end of a record. If the field is missing, `value` is not changed.
   void OptionalNumber(const char* name, double& value);
   void Integer(const char* name, int64_t& value);
   void Integer(const char* name, int& value);
   void Flag(const char* if_false, const char* if_true, bool& value);
-  // To be called behind the last field.
+  /// Checks that no field is left; to be called after the last field.
   void EndRecord() const;
 
  private:
@@ -74,7 +76,7 @@ class FieldReader {
 
   const TextLine& line_;
   std::string names_;
-  size_t next_ = 1;  // behind the keyword
+  size_t next_ = 1;  // the field after the keyword
 };
 
 }  // namespace msc_vo

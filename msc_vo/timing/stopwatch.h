@@ -7,13 +7,13 @@
 
 namespace msc_vo {
 
-// Milliseconds since its construction or the last Restart().
+/// Milliseconds since its construction or the last Restart().
 class Stopwatch {
  public:
   double Milliseconds() const {
     return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
   }
-  // Returns the time so far and starts again.
+  /// Returns the time so far and starts again.
   double Restart() {
     const double milliseconds = Milliseconds();
     start_ = Clock::now();

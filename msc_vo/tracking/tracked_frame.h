@@ -39,6 +39,7 @@ struct KeyframeProposal {
 struct TrackedFrame {
   std::shared_ptr<const Frame> frame;  ///< with rolling-shutter compensation
   TrackingStatus status = TrackingStatus::kLost;
+  bool relocalized = false;      ///< the pose was found without a prediction
   KeyframeId reference = kNoId;  ///< kNoId: no map yet, and cam_from_reference is cam_from_world
   Rigid3 cam_from_reference;
   Rigid3 cam_from_world;   ///< with the reference as in the snapshot

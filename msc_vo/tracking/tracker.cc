@@ -173,6 +173,7 @@ bool Tracker::Relocalize(const Map& map, TrackedFrame* tracked) {
     tracked->matches = hit->matches;
     if (EstimatePose(initial_pose_, map, tracked)) {
       next_candidate_ = kNoId;
+      tracked->relocalized = true;
       return true;
     }
   }

@@ -16,11 +16,11 @@ enum class TrackingStatus {
 
 const char* ToString(TrackingStatus status);
 
-// Whether the pose comes from the image of the frame itself: tracked or weak. Any other pose is
-// predicted, repeated, or interpolated between the neighbours.
+/// Whether the pose comes from the image of the frame itself: tracked or weak. Any other pose is
+/// predicted, repeated, or interpolated between the neighbours.
 bool IsEstimated(TrackingStatus status);
 
-// Whether there was an image to look at: not dropped, not unreadable.
+/// Whether there was an image to look at: not dropped, not unreadable.
 bool HasImage(TrackingStatus status);
 
 }  // namespace msc_vo

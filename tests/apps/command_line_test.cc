@@ -91,7 +91,8 @@ TEST_F(CommandLineTest, ReturnsOneForInvalidInput) {
   expect_error({"replay", "x", "--config", Path("bad.yaml")},
                "bad.yaml:2: unknown option 'tracking.wide_raduis'; did you mean");
   expect_error({"replay", "x", "--set", "tracking.wide_raduis=3"}, "'tracking.wide_radius'?");
-  expect_error({"replay", "x", "--set", "tracking.wide_radius=a"}, "must be a number, not 'a'");
+  expect_error({"replay", "x", "--set", "tracking.wide_radius=a"},
+               "must be a number from 0.1 to 1000 pixels, not 'a'");
   expect_error({"replay", "x", "--set", "mode"}, "expected NAME=VALUE");
 }
 

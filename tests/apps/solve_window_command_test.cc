@@ -110,7 +110,7 @@ TEST_F(SolveWindowCommandTest, ReportsErrorsWithTheFile) {
   ExpectError({"solve-window", Path("good.txt"), "--set", "mode=pl-vo"},
               "is not an option of local bundle adjustment");
   ExpectError({"solve-window", Path("good.txt"), "--set", "mapping.window.parallel.huber=-1"},
-              "huber threshold must be a positive");
+              "mapping.window.parallel.huber must be a number from 0.01");
   ExpectError({"solve-window", Path("good.txt"), "--output", Path("no/folder.txt")},
               "folder.txt: cannot be written");
   data.point_observations[3].point = 987;
@@ -118,7 +118,7 @@ TEST_F(SolveWindowCommandTest, ReportsErrorsWithTheFile) {
   ExpectError({"solve-window", Path("unknown.txt")},
               "unknown.txt: LocalBundleAdjustment: point 987 is observed but not in the window");
   WriteText("other.txt", "1 2 3\n");
-  ExpectError({"solve-window", Path("other.txt")}, "other.txt:1: is no window file");
+  ExpectError({"solve-window", Path("other.txt")}, "other.txt:1: is not a window file");
 }
 
 TEST_F(SolveWindowCommandTest, FailsOnUnsolvableWindows) {

@@ -86,7 +86,9 @@ TEST(ListOptions, DescribesEveryOption) {
   for (const Option& option : ListOptions(&configuration)) {
     EXPECT_TRUE(paths.insert(option.path).second) << option.path;
     EXPECT_EQ(option.help.back(), '.') << option.path;
-    if (option.IsBasic()) EXPECT_EQ(option.when_to_change.back(), '.') << option.path;
+    if (option.IsBasic()) {
+      EXPECT_EQ(option.when_to_change.back(), '.') << option.path;
+    }
     EXPECT_THAT(option.help + FormatValidValues(option), testing::Not(HasSubstr("radian")))
         << option.path;
   }

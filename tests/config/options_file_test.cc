@@ -3,8 +3,12 @@
 
 #include "msc_vo/config/options_file.h"
 
+#include <filesystem>
+
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
+
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 namespace {
@@ -101,7 +105,8 @@ TEST_F(OptionsFileTest, SuggestsASimilarNameForAnUnknownOne) {
 
 TEST_F(OptionsFileTest, RefusesWrongTypes) {
   EXPECT_THAT(ErrorOf("tracking:\n  wide_radius: far\n"),
-              HasSubstr("options.yaml:2: 'tracking.wide_radius' must be a number, not 'far'"));
+              HasSubstr("options.yaml:2: 'tracking.wide_radius' must be a number from 0.1 to 1000 "
+                        "pixels, not 'far'"));
   EXPECT_THAT(ErrorOf("tracking:\n  min_matches: 10.5\n"), HasSubstr("a whole number"));
   EXPECT_THAT(ErrorOf("use_points: 3\n"), HasSubstr("true or false"));
   EXPECT_THAT(ErrorOf("mode: orb\n"), HasSubstr("one of pl-vo pl-vo-depth msc-vo, not 'orb'"));
@@ -125,6 +130,16 @@ TEST_F(OptionsFileTest, RefusesMalformedFiles) {
   EXPECT_THAT(ErrorOf("mode: pl-vo\nmode: pl-vo\n"), HasSubstr("options.yaml:2: 'mode' is given"));
   EXPECT_THAT(ErrorOf("mode: pl-vo\n  x: [1\n"), HasSubstr("malformed YAML"));
   EXPECT_THAT(ErrorOf("- 1\n- 2\n"), HasSubstr("expected 'name: value' lines"));
+}
+
+TEST_F(OptionsFileTest, RefusesTooLargeAndEndlessFiles) {
+  WriteText("large.yaml", "");
+  std::filesystem::resize_file(Path("large.yaml"), kMaxOptionsBytes + 1);
+  Configuration configuration;
+  EXPECT_THAT(MessageOf([&] { ReadConfiguration(Path("large.yaml"), &configuration); }),
+              HasSubstr("large.yaml: has "));
+  EXPECT_THAT(MessageOf([&] { ReadConfiguration("/dev/zero", &configuration); }),
+              HasSubstr("/dev/zero: is a device"));
 }
 
 TEST_F(OptionsFileTest, ReadsTheCameraOfOrbSlamSettings) {

@@ -3,6 +3,8 @@
 
 #include "msc_vo/datasets/image_folder.h"
 
+#include <filesystem>
+
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -11,18 +13,7 @@ namespace {
 
 class ImageFolderTest : public TemporaryFolder {};
 
-TEST_F(ImageFolderTest, NaturalOrderReadsNumbersAsNumbers) {
-  EXPECT_TRUE(NaturalLess("2.png", "10.png"));
-  EXPECT_FALSE(NaturalLess("10.png", "2.png"));
-  EXPECT_TRUE(NaturalLess("a9b", "a10a"));
-  EXPECT_TRUE(NaturalLess("a", "b"));
-  EXPECT_TRUE(NaturalLess("a", "aa"));
-  EXPECT_TRUE(NaturalLess("99999999999999999999", "100000000000000000000"));
-  EXPECT_FALSE(NaturalLess("7", "7"));
-  EXPECT_NE(NaturalLess("07", "7"), NaturalLess("7", "07"));  // some order, always the same
-}
-
-TEST_F(ImageFolderTest, ListsImagesOnly) {
+TEST_F(ImageFolderTest, ListsOnlyImagesInNaturalOrder) {
   WriteColor("10.png");
   WriteColor("2.JPG");
   WriteText("notes.txt", "");
@@ -30,22 +21,6 @@ TEST_F(ImageFolderTest, ListsImagesOnly) {
   std::filesystem::create_directories(Path("3.png"));
   EXPECT_THAT(ListImages(Folder()), testing::ElementsAre(Path("2.JPG"), Path("10.png")));
   EXPECT_TRUE(ListImages(Path("nowhere")).empty());
-}
-
-TEST_F(ImageFolderTest, TellsTheTimeFromAName) {
-  EXPECT_DOUBLE_EQ(*StampFromName("rgb/1305031102.175304.png"), 1305031102.175304);
-  EXPECT_DOUBLE_EQ(*StampFromName("rgb/15.png"), 0.5);
-  EXPECT_DOUBLE_EQ(*StampFromName("rgb/frame000030.jpg"), 1.0);
-  EXPECT_NEAR(*StampFromName("1403636579763555584.png"), 1403636579.763555584, 1e-6);
-  EXPECT_NEAR(*StampFromName("1403636579763.png"), 1403636579.763, 1e-6);
-  EXPECT_NEAR(*StampFromName("1403636579763555.png"), 1403636579.763555, 1e-6);
-  EXPECT_FALSE(StampFromName("rgb/left.png").has_value());
-}
-
-TEST_F(ImageFolderTest, FindsTheFrameNumber) {
-  EXPECT_EQ(FrameNumber("seq-01/frame-000012.color.png"), 12);
-  EXPECT_EQ(FrameNumber("a/b7c.png"), 7);
-  EXPECT_FALSE(FrameNumber("a7/b.png").has_value());
 }
 
 }  // namespace

@@ -14,11 +14,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// Ten images, one per second from 100 s on, and a clock that stands still unless a test or a sleep
-// moves it.
+// Ten images, one per second from 100 s on, and a clock that advances only by tests and sleeps.
 class PacedSourceTest : public TemporaryFolder {
  protected:
-  // `pause` seconds more before image 5.
+  // `pause` is added to the interval before image 5, seconds.
   RgbdDecoder Decoder(double pause = 0.0) {
     SequenceIndex index;
     for (int i = 0; i < 10; ++i) {
@@ -36,7 +35,7 @@ class PacedSourceTest : public TemporaryFolder {
   PacingClock Clock() {
     return {[this] { return now_; }, [this](double time) { now_ = std::max(now_, time); }};
   }
-  // The id of the next image; -1: the end.
+  // Returns the id of the next image; -1 at the end.
   int64_t Next(PacedSource* source) {
     dropped_.clear();
     RgbdImage image;
@@ -47,7 +46,7 @@ class PacedSourceTest : public TemporaryFolder {
   std::vector<int> dropped_;
 };
 
-TEST_F(PacedSourceTest, AReaderInTimeWaitsForEveryImage) {
+TEST_F(PacedSourceTest, FastReaderWaitsForEachImage) {
   const RgbdDecoder decoder = Decoder();
   PacedSource source(decoder, 0, 10, Clock());
   for (int i = 0; i < 10; ++i) {
@@ -55,14 +54,14 @@ TEST_F(PacedSourceTest, AReaderInTimeWaitsForEveryImage) {
     EXPECT_THAT(dropped_, IsEmpty());
     EXPECT_DOUBLE_EQ(now_, 5.0 + i);
     EXPECT_DOUBLE_EQ(source.Age(), 0.0);
-    now_ += 0.4;  // the work on it
+    now_ += 0.4;  // processing time
     EXPECT_NEAR(source.Age(), 0.4, 1e-9);
     now_ -= i % 2 == 0 ? 0.0 : 0.2;
   }
   EXPECT_EQ(Next(&source), -1);
 }
 
-TEST_F(PacedSourceTest, ThreeImagesWaitForAReaderWhoIsLate) {
+TEST_F(PacedSourceTest, QueuesThreeImagesForSlowReader) {
   const RgbdDecoder decoder = Decoder();
   PacedSource source(decoder, 2, 10, Clock());
   EXPECT_EQ(Next(&source), 2);
@@ -70,7 +69,7 @@ TEST_F(PacedSourceTest, ThreeImagesWaitForAReaderWhoIsLate) {
   EXPECT_EQ(Next(&source), 3);
   EXPECT_THAT(dropped_, IsEmpty());
   EXPECT_DOUBLE_EQ(source.Age(), 0.5);
-  now_ += 2.6;  // images 4 to 6 are there
+  now_ += 2.6;  // images 4 to 6 are queued
   EXPECT_EQ(Next(&source), 4);
   EXPECT_THAT(dropped_, IsEmpty());
   EXPECT_NEAR(source.Age(), 2.1, 1e-9);
@@ -78,14 +77,14 @@ TEST_F(PacedSourceTest, ThreeImagesWaitForAReaderWhoIsLate) {
   EXPECT_EQ(Next(&source), 6);
   EXPECT_THAT(dropped_, ElementsAre(5));
   EXPECT_NEAR(source.Age(), 2.1, 1e-9);
-  for (int i = 7; i < 10; ++i) {  // as fast as can be
+  for (int i = 7; i < 10; ++i) {  // without processing time
     EXPECT_EQ(Next(&source), i);
     EXPECT_THAT(dropped_, IsEmpty());
   }
   EXPECT_EQ(Next(&source), -1);
 }
 
-TEST_F(PacedSourceTest, WhatIsMuchTooLateIsDropped) {
+TEST_F(PacedSourceTest, DropsOldestImagesWhenQueueIsFull) {
   const RgbdDecoder decoder = Decoder();
   PacedSource source(decoder, 0, 10, Clock());
   EXPECT_EQ(Next(&source), 0);
@@ -94,7 +93,7 @@ TEST_F(PacedSourceTest, WhatIsMuchTooLateIsDropped) {
   EXPECT_THAT(dropped_, ElementsAre(1, 2, 3, 4, 5, 6));
 }
 
-TEST_F(PacedSourceTest, ADayWithoutImagesIsCutShort) {
+TEST_F(PacedSourceTest, CutsLongPauses) {
   for (const double pause : {86400.0, 1e300}) {
     const RgbdDecoder decoder = Decoder(pause);
     PacedSource source(decoder, 0, 10, Clock());
@@ -104,7 +103,7 @@ TEST_F(PacedSourceTest, ADayWithoutImagesIsCutShort) {
   }
 }
 
-TEST_F(PacedSourceTest, ABadImageIsNamedAndTheOthersKeepTheirTimes) {
+TEST_F(PacedSourceTest, NamesBadImageAndKeepsOtherTimes) {
   const RgbdDecoder decoder = Decoder();
   for (const int bad : {0, 4}) std::filesystem::remove(Path(std::to_string(bad) + "d.png"));
   PacedSource source(decoder, 0, 10, Clock());
@@ -118,7 +117,7 @@ TEST_F(PacedSourceTest, ABadImageIsNamedAndTheOthersKeepTheirTimes) {
   EXPECT_DOUBLE_EQ(now_, 9.0);
 }
 
-TEST_F(PacedSourceTest, ADroppedImageMayBeBad) {
+TEST_F(PacedSourceTest, IgnoresErrorsInDroppedImages) {
   const RgbdDecoder decoder = Decoder();
   for (const int bad : {1, 2}) std::filesystem::remove(Path(std::to_string(bad) + "d.png"));
   PacedSource source(decoder, 0, 10, Clock());
@@ -128,24 +127,11 @@ TEST_F(PacedSourceTest, ADroppedImageMayBeBad) {
   EXPECT_THAT(dropped_, ElementsAre(1, 2));
 }
 
-TEST_F(PacedSourceTest, TheSteadyClockSleeps) {
+TEST(PacingClock, SteadyClockSleeps) {
   const PacingClock clock = PacingClock::Steady();
   const double start = clock.now();
   clock.sleep_until(start + 0.02);
   EXPECT_GE(clock.now(), start + 0.02);
-}
-
-TEST_F(PacedSourceTest, ASourceDoesNotGoBack) {
-  const RgbdDecoder decoder = Decoder();
-  RgbdSource source(decoder, 0, 10);
-  RgbdImage image;
-  source.SkipTo(4);
-  EXPECT_TRUE(source.Next(&image));
-  EXPECT_EQ(image.id, 4);
-  EXPECT_THROW(source.SkipTo(4), std::invalid_argument);
-  EXPECT_THROW(source.SkipTo(11), std::invalid_argument);
-  source.SkipTo(10);
-  EXPECT_FALSE(source.Next(&image));
 }
 
 }  // namespace

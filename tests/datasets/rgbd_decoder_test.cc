@@ -6,8 +6,6 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
-#include "msc_vo/datasets/rgbd_source.h"
-
 namespace msc_vo {
 namespace {
 
@@ -35,14 +33,14 @@ class RgbdDecoderTest : public TemporaryFolder {
   std::string ErrorOf(const RgbdDecoder& decoder) {
     return MessageOf([&] { decoder.Decode(0); });
   }
-  // Keeps the first part of a file.
-  void Truncate(const std::string& name, double share) {
+  // Truncates a file to a fraction of its size.
+  void Truncate(const std::string& name, double fraction) {
     const auto size = std::filesystem::file_size(Path(name));
-    std::filesystem::resize_file(Path(name), static_cast<std::uintmax_t>(share * size));
+    std::filesystem::resize_file(Path(name), static_cast<std::uintmax_t>(fraction * size));
   }
 };
 
-TEST_F(RgbdDecoderTest, GivesGreyAndMetres) {
+TEST_F(RgbdDecoderTest, ConvertsToGreyAndMetres) {
   cv::Mat color(6, 8, CV_8UC3, cv::Scalar(255, 0, 0));  // blue
   cv::imwrite(Path("0.png"), color);
   cv::Mat depth(6, 8, CV_16UC1, cv::Scalar(2500));
@@ -59,7 +57,7 @@ TEST_F(RgbdDecoderTest, GivesGreyAndMetres) {
   EXPECT_EQ(image.depth.at<float>(0, 2), 0.0f);
 }
 
-TEST_F(RgbdDecoderTest, TakesGreyAndTransparentImages) {
+TEST_F(RgbdDecoderTest, AcceptsGreyAndTransparentImages) {
   WriteDepth("0d.png");
   WriteImage("0.png", CV_8UC1, 77);
   EXPECT_EQ(Decoder(1).Decode(0).gray.at<uint8_t>(2, 2), 77);
@@ -67,7 +65,7 @@ TEST_F(RgbdDecoderTest, TakesGreyAndTransparentImages) {
   EXPECT_EQ(Decoder(1).Decode(0).gray.at<uint8_t>(2, 2), 77);
 }
 
-TEST_F(RgbdDecoderTest, TheGreyOfAColourJpegIsThatOfItsColours) {
+TEST_F(RgbdDecoderTest, ConvertsColourJpegToGrey) {
   WriteDepth("0d.png");
   const cv::Mat color(6, 8, CV_8UC3, cv::Scalar(30, 200, 120));
   cv::imwrite(Path("0.jpg"), color);
@@ -77,7 +75,7 @@ TEST_F(RgbdDecoderTest, TheGreyOfAColourJpegIsThatOfItsColours) {
   EXPECT_NEAR(gray.at<uint8_t>(3, 4), 0.114 * 30 + 0.587 * 200 + 0.299 * 120, 2.0);
 }
 
-TEST_F(RgbdDecoderTest, ScalesLargerColourDownIfTheLayoutSaysSo) {
+TEST_F(RgbdDecoderTest, ScalesColourDownIfLayoutRequiresIt) {
   WriteColor("0.png", 16, 12);
   WriteDepth("0d.png");
   EXPECT_EQ(Decoder(1, true).Decode(0).gray.size(), cv::Size(8, 6));
@@ -102,71 +100,25 @@ TEST_F(RgbdDecoderTest, ErrorsNameFileLineAndFix) {
   EXPECT_THAT(ErrorOf(Decoder(1)), HasSubstr("colour images need 8 bits"));
 }
 
-TEST_F(RgbdDecoderTest, DamagedFilesAreErrors) {
+TEST_F(RgbdDecoderTest, RejectsDamagedFiles) {
   WriteDepth("0d.png");
   WriteText("0.png", "");
-  EXPECT_THAT(ErrorOf(Decoder(1)), HasSubstr("is damaged, truncated or no image (0 bytes)"));
+  EXPECT_THAT(ErrorOf(Decoder(1)), HasSubstr("is damaged, truncated or not an image (0 bytes)"));
   WriteText("0.png", "hello");
-  EXPECT_THAT(ErrorOf(Decoder(1)), HasSubstr("no image (5 bytes)"));
+  EXPECT_THAT(ErrorOf(Decoder(1)), HasSubstr("not an image (5 bytes)"));
   WriteColor("0.png", 200, 200);
   Truncate("0.png", 0.5);
   EXPECT_THAT(ErrorOf(Decoder(1)), HasSubstr("truncated"));
 }
 
-TEST_F(RgbdDecoderTest, ATruncatedJpegIsNotTakenForAGreyOne) {
+TEST_F(RgbdDecoderTest, RejectsTruncatedJpeg) {
   WriteDepth("0d.png");
   WriteColor("0.jpg");
-  std::filesystem::copy_file(Path("0.jpg"), Path("0.png"));  // the content counts, not the name
+  std::filesystem::copy_file(Path("0.jpg"),
+                             Path("0.png"));  // the format is determined by the contents
   EXPECT_EQ(ErrorOf(Decoder(1)), "");
   Truncate("0.png", 0.95);
   EXPECT_THAT(ErrorOf(Decoder(1)), HasSubstr("truncated"));
-}
-
-TEST_F(RgbdDecoderTest, TheSourceGivesAllImagesInOrder) {
-  for (int i = 0; i < 5; ++i) {
-    WriteImage(std::to_string(i) + ".png", CV_8UC1, 10 * i);
-    WriteDepth(std::to_string(i) + "d.png");
-  }
-  const RgbdDecoder decoder = Decoder(5);
-  RgbdSource source(decoder, 1, 4);
-  RgbdImage image;
-  for (int i = 1; i < 4; ++i) {
-    ASSERT_TRUE(source.Next(&image));
-    EXPECT_EQ(image.id, i);
-    EXPECT_EQ(image.timestamp, i);
-    EXPECT_EQ(image.gray.at<uint8_t>(0, 0), 10 * i);
-  }
-  EXPECT_FALSE(source.Next(&image));
-  EXPECT_FALSE(source.Next(&image));
-  EXPECT_THROW(RgbdSource(decoder, 2, 6), std::invalid_argument);
-}
-
-TEST_F(RgbdDecoderTest, TheSourceThrowsAtTheImageThatIsBadAndGoesOn) {
-  for (int i = 0; i < 4; ++i) {
-    WriteColor(std::to_string(i) + ".png");
-    if (i != 2) WriteDepth(std::to_string(i) + "d.png");
-  }
-  const RgbdDecoder decoder = Decoder(4);
-  RgbdSource source(decoder, 0, 4);
-  RgbdImage image;
-  EXPECT_TRUE(source.Next(&image));
-  EXPECT_TRUE(source.Next(&image));
-  EXPECT_THAT(MessageOf([&] { source.Next(&image); }), HasSubstr("2d.png"));
-  EXPECT_TRUE(source.Next(&image));
-  EXPECT_EQ(image.id, 3);
-  EXPECT_FALSE(source.Next(&image));
-}
-
-TEST_F(RgbdDecoderTest, ASourceMayBeLeftEarly) {
-  WriteColor("0.png");
-  WriteDepth("0d.png");
-  const RgbdDecoder decoder = Decoder(2);
-  RgbdImage image;
-  {
-    RgbdSource source(decoder, 0, 2);  // image 1 does not exist; nobody asks for it
-    EXPECT_TRUE(source.Next(&image));
-  }
-  EXPECT_EQ(image.id, 0);
 }
 
 }  // namespace

@@ -41,28 +41,28 @@ class SequenceCheckTest : public TemporaryFolder {
   Calibration calibration_;
 };
 
-TEST_F(SequenceCheckTest, ASoundSequenceRaisesNothing) {
+TEST_F(SequenceCheckTest, ReportsNoProblemOfValidSequence) {
   const std::vector<Finding> findings = Check();
   EXPECT_THAT(findings, Each(Field(&Finding::severity, Severity::kGood)));
   EXPECT_THAT(findings, Contains(Is(Severity::kGood, "median 2.00 m")));
   EXPECT_THAT(findings, Contains(Is(Severity::kGood, "6 of 6 images have one")));
 }
 
-TEST_F(SequenceCheckTest, TellsDelaysOfDepth) {
+TEST_F(SequenceCheckTest, ReportsDepthDelays) {
   EXPECT_THAT(Check(), Not(Contains(Is(Severity::kGood, "later than"))));
   index_.entries[1].depth_delay = 0.004;
   index_.entries[2].depth_delay = -0.001;
   EXPECT_THAT(Check(), Contains(Is(Severity::kGood, "-1.0 to 4.0 ms later than")));
 }
 
-TEST_F(SequenceCheckTest, SuspectsTheDepthScale) {
+TEST_F(SequenceCheckTest, SuggestsDepthScale) {
   calibration_.depth_scale = 1000.0;
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "5000.0 would give 2.00 m")));
   calibration_.depth_scale = 100000.0;
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "0.100 m is unusual")));
 }
 
-TEST_F(SequenceCheckTest, FindsMissingAndUnusableImages) {
+TEST_F(SequenceCheckTest, ReportsMissingAndUnusableImages) {
   std::filesystem::remove(Path("3.png"));
   WriteImage("4d.png", CV_8UC1, 9);
   const std::vector<Finding> findings = Check();
@@ -70,17 +70,17 @@ TEST_F(SequenceCheckTest, FindsMissingAndUnusableImages) {
   EXPECT_THAT(findings, Contains(Is(Severity::kError, "4d.png")));
 }
 
-TEST_F(SequenceCheckTest, FindsGapsInTime) {
+TEST_F(SequenceCheckTest, ReportsGaps) {
   index_.entries.erase(index_.entries.begin() + 1, index_.entries.begin() + 4);
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "1 gaps of three frames or more")));
 }
 
-TEST_F(SequenceCheckTest, SuspectsStampsThatAreNoSeconds) {
+TEST_F(SequenceCheckTest, WarnsOfStampsInOtherUnits) {
   for (SequenceEntry& entry : index_.entries) entry.timestamp *= 333333333.0;
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "are the stamps in seconds?")));
 }
 
-TEST_F(SequenceCheckTest, SuspectsTheCamera) {
+TEST_F(SequenceCheckTest, WarnsOfUnusualCamera) {
   calibration_.camera.fy = -10.0;
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "fy is negative")));
   calibration_.camera.fy = 14.0;
@@ -91,12 +91,12 @@ TEST_F(SequenceCheckTest, SuspectsTheCamera) {
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "fy is positive")));
 }
 
-TEST_F(SequenceCheckTest, SuspectsGroundTruthOfAnotherTime) {
+TEST_F(SequenceCheckTest, WarnsOfGroundTruthAtOtherTimes) {
   for (TimedPose& pose : index_.ground_truth) pose.timestamp += 1000.0;
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "its stamps begin 1000.000 s after")));
 }
 
-TEST_F(SequenceCheckTest, EmptyDepthIsAnError) {
+TEST_F(SequenceCheckTest, ReportsEmptyDepth) {
   for (int i = 0; i < 6; ++i) WriteDepth(std::to_string(i) + "d.png", 0);
   EXPECT_THAT(Check(), Contains(Is(Severity::kError, "no measurement at all")));
 }

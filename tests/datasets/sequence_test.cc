@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// The layouts that are not TUM's, and how a folder is recognised.
+// Layouts other than TUM, and their recognition.
 
 #include "msc_vo/datasets/sequence.h"
 
@@ -25,7 +25,7 @@ class SequenceTest : public TemporaryFolder {
   }
 };
 
-TEST_F(SequenceTest, SevenScenes) {
+TEST_F(SequenceTest, ReadsSevenScenes) {
   for (const std::string number : {"000000", "000001", "000003"}) {
     WriteColor("frame-" + number + ".color.png");
     WriteDepth("frame-" + number + ".depth.png", 1500);
@@ -40,10 +40,10 @@ TEST_F(SequenceTest, SevenScenes) {
   EXPECT_EQ(index.preset, "7-scenes");
   ASSERT_EQ(index.ground_truth.size(), 2u);
   EXPECT_EQ(index.ground_truth[1].world_from_cam.translation(), Eigen::Vector3d(0.5, -1, 2));
-  EXPECT_EQ(index.warnings.size(), 2u);  // one image alone, one pose lost
+  EXPECT_EQ(index.warnings.size(), 2u);  // one unpaired image, one lost pose
 }
 
-TEST_F(SequenceTest, ThreeDMatchBringsItsIntrinsics) {
+TEST_F(SequenceTest, ReadsIntrinsicsOf3DMatch) {
   WriteColor("seq/frame-000000.color.png");
   WriteDepth("seq/frame-000000.depth.png");
   WriteText("camera-intrinsics.txt", "572 0 320\n0 573 240\n0 0 1\n");
@@ -54,7 +54,7 @@ TEST_F(SequenceTest, ThreeDMatchBringsItsIntrinsics) {
   EXPECT_EQ(index.calibration->depth_scale, 1000.0);
 }
 
-TEST_F(SequenceTest, Replica) {
+TEST_F(SequenceTest, ReadsReplica) {
   for (const std::string number : {"000000", "000001"}) {
     WriteColor("results/frame" + number + ".jpg");
     WriteDepth("results/depth" + number + ".png");
@@ -72,7 +72,7 @@ TEST_F(SequenceTest, Replica) {
   EXPECT_THAT(ErrorOf(), HasSubstr("traj.txt:1: expected the 16 numbers"));
 }
 
-TEST_F(SequenceTest, ScanNetScalesTheCameraToTheDepth) {
+TEST_F(SequenceTest, ReadsScanNetAndScalesItsCameraToDepth) {
   for (const std::string number : {"0", "2", "10"}) {
     WriteColor("color/" + number + ".jpg", 16, 12);
     WriteDepth("depth/" + number + ".png");
@@ -89,13 +89,13 @@ TEST_F(SequenceTest, ScanNetScalesTheCameraToTheDepth) {
   const PinholeCamera& camera = index.calibration->camera;
   EXPECT_DOUBLE_EQ(camera.fx, 10.0);
   EXPECT_DOUBLE_EQ(camera.fy, 11.0);
-  // The middle of 16 x 12 pixels stays the middle of 8 x 6.
+  // The centre of 16 x 12 pixels is mapped to the centre of 8 x 6.
   EXPECT_DOUBLE_EQ(camera.cx, 3.5);
   EXPECT_DOUBLE_EQ(camera.cy, 2.5);
   EXPECT_EQ(camera.width, 8);
 }
 
-TEST_F(SequenceTest, PlainFoldersArePairedByName) {
+TEST_F(SequenceTest, PairsPlainFoldersByName) {
   for (const std::string name : {"1.000000", "1.033333", "1.066667"}) {
     WriteColor("rgb/" + name + ".png");
   }
@@ -107,7 +107,7 @@ TEST_F(SequenceTest, PlainFoldersArePairedByName) {
   EXPECT_EQ(index.entries[1].depth_path, Path("depth/1.065000.png"));
 }
 
-TEST_F(SequenceTest, PlainFoldersWithoutNumbersArePairedByOrder) {
+TEST_F(SequenceTest, PairsPlainFoldersWithoutNumbersByOrder) {
   for (const std::string name : {"a", "b"}) {
     WriteColor("color/" + name + ".png");
     WriteDepth("depth/" + name + "_depth.png");
@@ -120,7 +120,7 @@ TEST_F(SequenceTest, PlainFoldersWithoutNumbersArePairedByOrder) {
   EXPECT_THAT(ErrorOf(), HasSubstr("2 colour images, but 3 depth images"));
 }
 
-TEST_F(SequenceTest, TheFormatCanBeForced) {
+TEST_F(SequenceTest, UsesGivenFormat) {
   WriteColor("rgb/0.png");
   WriteDepth("depth/0.png");
   WriteText("rgb.txt", "garbage\n");
@@ -130,7 +130,7 @@ TEST_F(SequenceTest, TheFormatCanBeForced) {
   EXPECT_THAT(ErrorOf("kitti"), HasSubstr("unknown sequence format 'kitti'; known: auto, "));
 }
 
-TEST_F(SequenceTest, WhatIsNoSequenceGetsHelp) {
+TEST_F(SequenceTest, ErrorListsLayoutsAndSuggestsSubfolder) {
   EXPECT_THAT(ErrorOf(), testing::AllOf(HasSubstr("no RGB-D sequence found"), HasSubstr("tum:")));
   WriteText("inner/rgb.txt", "1.5 a\n");
   EXPECT_THAT(ErrorOf(), HasSubstr("Did you mean " + Path("inner") + "?"));

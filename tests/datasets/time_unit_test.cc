@@ -8,14 +8,14 @@
 namespace msc_vo {
 namespace {
 
-// Ten stamps.
+// Ten stamps with equal intervals.
 std::vector<double> Stamps(double first, double interval) {
   std::vector<double> stamps;
   for (int i = 0; i < 10; ++i) stamps.push_back(first + i * interval);
   return stamps;
 }
 
-TEST(TimeUnitTest, IsKnownByTheDate) {
+TEST(GuessTimeUnit, RecognisesDates) {
   EXPECT_EQ(GuessTimeUnit(Stamps(1305031102.1753, 0.033)), TimeUnit::kSeconds);
   EXPECT_EQ(GuessTimeUnit(Stamps(1305031102175.3, 33)), TimeUnit::kMilliseconds);
   EXPECT_EQ(GuessTimeUnit(Stamps(1305031102175304, 33333)), TimeUnit::kMicroseconds);
@@ -24,18 +24,18 @@ TEST(TimeUnitTest, IsKnownByTheDate) {
   EXPECT_EQ(GuessTimeUnit({1305031102175304000.0}), TimeUnit::kNanoseconds);
 }
 
-TEST(TimeUnitTest, OrElseByTheTimeBetweenImages) {
+TEST(GuessTimeUnit, RecognisesIntervalsBetweenImages) {
   EXPECT_EQ(GuessTimeUnit(Stamps(0, 1)), TimeUnit::kSeconds);
   EXPECT_EQ(GuessTimeUnit(Stamps(0, 33)), TimeUnit::kMilliseconds);
   EXPECT_EQ(GuessTimeUnit(Stamps(0, 33333)), TimeUnit::kMicroseconds);
   EXPECT_EQ(GuessTimeUnit(Stamps(0, 33333333)), TimeUnit::kNanoseconds);
-  // Half an hour after the start of the machine: a date in milliseconds, a day between two images.
+  // Half an hour after boot: a date in milliseconds with a day between two images.
   EXPECT_EQ(GuessTimeUnit(Stamps(1.8e12, 33333333)), TimeUnit::kNanoseconds);
   EXPECT_EQ(GuessTimeUnit({12.0}), TimeUnit::kSeconds);
   EXPECT_EQ(GuessTimeUnit({}), TimeUnit::kSeconds);
 }
 
-TEST(TimeUnitTest, FollowsTheImages) {
+TEST(GuessTimeUnit, PrefersUnitOfReference) {
   const TimeRange images = {0.0, 9.0, TimeUnit::kMilliseconds};
   EXPECT_EQ(GuessTimeUnit(Stamps(0, 1)), TimeUnit::kSeconds);
   EXPECT_EQ(GuessTimeUnit(Stamps(0, 1000), images), TimeUnit::kMilliseconds);

@@ -23,7 +23,7 @@ class TrajectoryTest : public TemporaryFolder {
   }
 };
 
-TEST_F(TrajectoryTest, WritesWhatEveryToolReads) {
+TEST_F(TrajectoryTest, WritesTumFormat) {
   const Eigen::Quaterniond rotation(-0.5, 0.5, 0.5, 0.5);  // w < 0
   EXPECT_EQ(FormatTrajectory({{1.5, Rigid3(rotation, {1.0, -2.0, -1e-15})}}),
             "1.500000 1.0000000000 -2.0000000000 0.0000000000 "
@@ -40,7 +40,7 @@ TEST_F(TrajectoryTest, WritesSortedUniqueStamps) {
   EXPECT_EQ(text.find('9'), std::string::npos);
 }
 
-TEST_F(TrajectoryTest, ReadsBackWhatItWrote) {
+TEST_F(TrajectoryTest, RestoresWrittenPoses) {
   const std::vector<TimedPose> poses = {
       {1305031102.175304, Rigid3(ExpSO3({0.3, -2.0, 0.7}), {0.123456789, -4.0, 7.5})},
       {1305031102.211214, Rigid3()}};
@@ -57,7 +57,7 @@ TEST_F(TrajectoryTest, ReadsBackWhatItWrote) {
   EXPECT_EQ(FormatTrajectory(read), ReadFile(Path("t.txt")));
 }
 
-TEST_F(TrajectoryTest, MarksPosesThatAreNotEstimatedInACommentAboveThem) {
+TEST_F(TrajectoryTest, MarksPosesThatAreNotEstimatedByComment) {
   const std::string text =
       FormatTrajectory({{1.0, Rigid3()}, {2.0, Rigid3(), false}, {3.0, Rigid3()}});
   EXPECT_THAT(text, HasSubstr("\n# not estimated\n2.000000 "));
@@ -70,13 +70,13 @@ TEST_F(TrajectoryTest, MarksPosesThatAreNotEstimatedInACommentAboveThem) {
   EXPECT_THAT(is_estimated, testing::ElementsAre(true, false, true, true, false, true));
 }
 
-TEST_F(TrajectoryTest, ReadsCommentsCommasTabsBlankLinesAndWindowsLineEnds) {
+TEST_F(TrajectoryTest, AcceptsCommentsCommasTabsBlankLinesAndCrlf) {
   WriteText("t.txt",
             "\xEF\xBB\xBF# time x y z\r\n\r\n2,1,2,3,0,0,0,0.99\r\n1\t4 5\t6 0 0 0 1  \r\n"
             "3 nan 0 0 0 0 0 1\n");
   int num_left_out = -1;
   const std::vector<TimedPose> poses = ReadTrajectory(Path("t.txt"), &num_left_out);
-  ASSERT_EQ(poses.size(), 2u);  // a lost frame (nan) is no pose
+  ASSERT_EQ(poses.size(), 2u);  // the lost frame (nan) is left out
   EXPECT_EQ(num_left_out, 1);
   EXPECT_EQ(poses[0].timestamp, 1.0);
   EXPECT_EQ(poses[0].world_from_cam.translation(), Eigen::Vector3d(4, 5, 6));
@@ -95,7 +95,7 @@ TEST_F(TrajectoryTest, ErrorsNameFileAndLine) {
   EXPECT_THAT(MessageOf([&] { ReadTrajectory(Folder()); }), HasSubstr("is a folder"));
 }
 
-TEST_F(TrajectoryTest, AFileThatCannotBeWrittenIsAnErrorAndLeavesNothing) {
+TEST_F(TrajectoryTest, FailedWriteThrowsAndLeavesNoFile) {
   EXPECT_THAT(MessageOf([&] { WriteTrajectory(Path("no/such/t.txt"), {}); }),
               HasSubstr("t.txt: cannot be written"));
   EXPECT_TRUE(std::filesystem::is_empty(Folder()));

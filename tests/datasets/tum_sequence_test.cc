@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// TUM-style folders: lists, associations, frame numbers.
+// TUM-style folders: image lists, association files, frame numbers.
 
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
@@ -45,7 +45,7 @@ TEST_F(TumSequenceTest, PairsByNearestTime) {
   EXPECT_THAT(index.warnings, ElementsAre(HasSubstr("1 of 3 colour images")));
 }
 
-TEST_F(TumSequenceTest, PairsOneToOneTheClosestFirst) {
+TEST_F(TumSequenceTest, PairsOneToOneClosestFirst) {
   WriteText("rgb.txt", "1.00 a\n1.01 b\n");
   WriteText("depth.txt", "1.012 x\n");
   const SequenceIndex index = OpenSequence(Folder());
@@ -53,7 +53,7 @@ TEST_F(TumSequenceTest, PairsOneToOneTheClosestFirst) {
   EXPECT_EQ(index.entries[0].color_path, Path("b"));
 }
 
-TEST_F(TumSequenceTest, WhoLosesItsNearestTakesTheNextOne) {
+TEST_F(TumSequenceTest, PairsWithNextNearestIfNearestIsTaken) {
   WriteText("rgb.txt", "1.00 a\n1.01 b\n");
   WriteText("depth.txt", "0.99 w\n1.009 x\n");
   const SequenceIndex index = OpenSequence(Folder());
@@ -77,21 +77,21 @@ TEST_F(TumSequenceTest, ReadsAssociationsInEitherOrder) {
   EXPECT_EQ(index.entries[1].origin, Path("associations.txt") + ":2");
 }
 
-TEST_F(TumSequenceTest, StampsOfTwoClocksTellNoDelay) {
+TEST_F(TumSequenceTest, StampsOfDifferentClocksGiveNoDelay) {
   WriteText("associations.txt", "1.5 rgb/1.png 9.01 depth/1.png\n2.5 rgb/2.png 2.5 depth/2.png\n");
   for (const SequenceEntry& entry : OpenSequence(Folder()).entries) {
     EXPECT_EQ(entry.depth_delay, 0.0);
   }
 }
 
-TEST_F(TumSequenceTest, TellsTheColumnsByBitDepthWhereNamesDoNot) {
+TEST_F(TumSequenceTest, DistinguishesColumnsByBitDepth) {
   WriteColor("a/1.png");
   WriteDepth("b/1.png");
   WriteText("associations.txt", "1.5 b/1.png 1.5 a/1.png\n");
   EXPECT_EQ(OpenSequence(Folder()).entries[0].depth_path, Path("b/1.png"));
 }
 
-TEST_F(TumSequenceTest, AnIclNuimFolderCountsFrames) {
+TEST_F(TumSequenceTest, IclNuimStampsAreFrameNumbers) {
   WriteText(
       "associations.txt",
       "0 depth/0.png 0 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n30 depth/30.png 30 rgb/30.png\n");
@@ -105,7 +105,7 @@ TEST_F(TumSequenceTest, AnIclNuimFolderCountsFrames) {
   EXPECT_EQ(index.preset, "icl-nuim");
 }
 
-TEST_F(TumSequenceTest, AnIclNuimFolderIsKnownWithoutItsGroundTruth) {
+TEST_F(TumSequenceTest, RecognisesIclNuimWithoutGroundTruth) {
   WriteText("associations.txt", "0 depth/0.png 0 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n");
   EXPECT_EQ(OpenSequence(Folder()).format, "icl-nuim");
   WriteText("associations.txt", "0 rgb/0.png 0 depth/0.png\n1 rgb/1.png 1 depth/1.png\n");
@@ -114,7 +114,7 @@ TEST_F(TumSequenceTest, AnIclNuimFolderIsKnownWithoutItsGroundTruth) {
   EXPECT_EQ(OpenSequence(Folder()).format, "tum");
 }
 
-TEST_F(TumSequenceTest, AnIclNuimFolderNeedsNoList) {
+TEST_F(TumSequenceTest, ReadsIclNuimWithoutLists) {
   for (const char* name : {"0", "1", "2", "10"}) {
     WriteColor(std::string("rgb/") + name + ".png");
     WriteDepth(std::string("depth/") + name + ".png");
@@ -125,7 +125,7 @@ TEST_F(TumSequenceTest, AnIclNuimFolderNeedsNoList) {
   EXPECT_THAT(Stamps(index), ElementsAre(0.0, 1.0 / 30.0, 2.0 / 30.0, 10.0 / 30.0));
 }
 
-TEST_F(TumSequenceTest, StampsInOtherUnitsBecomeSeconds) {
+TEST_F(TumSequenceTest, ConvertsStampsToSeconds) {
   WriteText("rgb.txt", "1305031102175304000 a\n1305031102208637000 b\n1305031102241970000 c\n");
   WriteText("depth.txt", "1305031102.180304 x\n1305031102.213637 y\n1305031102.246970 z\n");
   WriteText("groundtruth.txt", "1305031102175.3 0 0 0 0 0 0 1\n1305031102241.97 0 0 0 0 0 0 1\n");
@@ -140,7 +140,7 @@ TEST_F(TumSequenceTest, StampsInOtherUnitsBecomeSeconds) {
                                           HasSubstr("groundtruth.txt: the stamps are milli")));
 }
 
-TEST_F(TumSequenceTest, AssociationsMayCountMilliseconds) {
+TEST_F(TumSequenceTest, ConvertsAssociationsInMilliseconds) {
   WriteText("associations.txt", "0 rgb/a 4 depth/a\n33 rgb/b 37 depth/b\n67 rgb/c 71 depth/c\n");
   WriteText("groundtruth.txt", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n67 0 0 0 0 0 0 1\n");  // 1 kHz
   const SequenceIndex index = OpenSequence(Folder());
@@ -149,17 +149,17 @@ TEST_F(TumSequenceTest, AssociationsMayCountMilliseconds) {
   EXPECT_EQ(index.ground_truth.back().timestamp, 0.067);
 }
 
-TEST_F(TumSequenceTest, WholeStampsAreSecondsUnlessTheLayoutCountsFrames) {
+TEST_F(TumSequenceTest, WholeStampsAreSecondsUnlessLayoutUsesFrameNumbers) {
   WriteText("associations.txt", "1.0 rgb/1 1.0 depth/1\n2.0 rgb/2 2.0 depth/2\n");
   WriteText("groundtruth.txt", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
   const SequenceIndex index = OpenSequence(Folder());
   EXPECT_THAT(Stamps(index), ElementsAre(1.0, 2.0));
   EXPECT_EQ(index.ground_truth.back().timestamp, 2.0);
-  EXPECT_THAT(index.warnings, ElementsAre(HasSubstr("taken as seconds")));
+  EXPECT_THAT(index.warnings, ElementsAre(HasSubstr("interpreted as seconds")));
   EXPECT_THAT(Stamps(OpenSequence(Folder(), "icl-nuim")), ElementsAre(1.0 / 30.0, 2.0 / 30.0));
 }
 
-TEST_F(TumSequenceTest, DepthOfAnotherClockIsNamedWithItsOffset) {
+TEST_F(TumSequenceTest, WarnsOfClockOffsetOfDepth) {
   std::string color, depth;
   for (int i = 0; i < 30; ++i) {
     color += std::to_string(1.0 + i / 30.0) + " rgb/" + std::to_string(i) + "\n";
@@ -175,14 +175,14 @@ TEST_F(TumSequenceTest, DepthOfAnotherClockIsNamedWithItsOffset) {
   EXPECT_THAT(ErrorOf(), testing::AllOf(HasSubstr("no pair"), HasSubstr("5.002 s later")));
 }
 
-TEST_F(TumSequenceTest, PosesThatAreNoneAreCounted) {
+TEST_F(TumSequenceTest, CountsInvalidPoses) {
   WriteText("associations.txt", "1.5 rgb/1 1.5 depth/1\n");
   WriteText("groundtruth.txt", "1.5 0 0 0 0 0 0 1\n1.6 nan 0 0 0 0 0 1\n");
   EXPECT_THAT(OpenSequence(Folder()).warnings,
               ElementsAre(HasSubstr("groundtruth.txt: 1 poses with nan or inf")));
 }
 
-TEST_F(TumSequenceTest, SortsAndDropsRepeatedStamps) {
+TEST_F(TumSequenceTest, SortsAndRemovesRepeatedStamps) {
   WriteText("associations.txt",
             "2.5 rgb/2 2.5 depth/2\n1.5 rgb/1 1.5 depth/1\n1.5 rgb/1b 1.5 depth/1b\n");
   const SequenceIndex index = OpenSequence(Folder());

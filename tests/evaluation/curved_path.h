@@ -12,7 +12,7 @@
 
 namespace msc_vo {
 
-// A hand-held-like path: `count` poses at `rate` 1/seconds, from time 10.
+// A smooth trajectory similar to a hand-held camera's: `count` poses at `rate` Hz, from time 10 s.
 inline std::vector<TimedPose> CurvedPath(int count, double rate) {
   std::vector<TimedPose> poses;
   for (int i = 0; i < count; ++i) {
@@ -25,7 +25,7 @@ inline std::vector<TimedPose> CurvedPath(int count, double rate) {
   return poses;
 }
 
-// The poses with seeded noise: metres, radians, seconds.
+// Adds seeded Gaussian noise to the poses: metres, radians, seconds.
 inline std::vector<TimedPose> Disturbed(std::vector<TimedPose> poses, double translation_sigma,
                                         double rotation_sigma, double time_sigma, int seed) {
   std::mt19937 random(seed);

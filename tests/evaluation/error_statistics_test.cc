@@ -10,7 +10,7 @@
 namespace msc_vo {
 namespace {
 
-TEST(StatisticsOf, HandComputed) {
+TEST(StatisticsOf, MatchesHandComputedValues) {
   const ErrorStatistics odd = StatisticsOf({4.0, 1.0, 1.0});
   EXPECT_EQ(odd.count, 3);
   EXPECT_DOUBLE_EQ(odd.rmse, std::sqrt(6.0));
@@ -23,7 +23,7 @@ TEST(StatisticsOf, HandComputed) {
   EXPECT_EQ(StatisticsOf({}).max, 0.0);
 }
 
-TEST(StatisticsOf, NineteenOfTwentyDoNotExceedP95) {
+TEST(StatisticsOf, P95IsNineteenthOfTwentySamples) {
   std::vector<double> values;
   for (int i = 1; i <= 20; ++i) values.push_back(i);
   EXPECT_EQ(StatisticsOf(values).p95, 19.0);

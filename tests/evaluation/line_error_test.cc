@@ -14,26 +14,26 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-// Three edges of a box, seen along +y: two verticals 4 cm apart across the sight, and a level one.
+// Three edges of a box, viewed along +y: two vertical edges 4 cm apart and a horizontal one.
 const std::vector<LineSegment3> kEdges = {{{0.0, 2.0, 0.0}, {0.0, 2.0, 2.0}},
                                           {{0.04, 2.0, 0.0}, {0.04, 2.0, 2.0}},
                                           {{0.0, 2.0, 2.0}, {1.0, 2.0, 2.0}}};
 
-// Sees `segment` often enough, along +y.
-EstimatedLine Seen(const LineSegment3& segment) { return {segment, 5, Vec::UnitY()}; }
+// A line with enough observations, viewed along +y.
+EstimatedLine Observed(const LineSegment3& segment) { return {segment, 5, Vec::UnitY()}; }
 
-// The first edge's part from 0.5 to 1.5 m, moved.
-EstimatedLine Moved(const Vec& by) { return Seen({Vec(0, 2, 0.5) + by, Vec(0, 2, 1.5) + by}); }
+// The part of the first edge from 0.5 to 1.5 m, translated.
+EstimatedLine Moved(const Vec& by) { return Observed({Vec(0, 2, 0.5) + by, Vec(0, 2, 1.5) + by}); }
 
 LineError Evaluate(const std::vector<EstimatedLine>& lines) {
   return EvaluateLines(kEdges, lines, Rigid3());
 }
 
-TEST(EvaluateLines, ExactLinesHaveNoError) {
+TEST(EvaluateLines, ExactLinesHaveZeroError) {
   std::vector<EstimatedLine> lines;
   for (const LineSegment3& edge : kEdges) {
-    lines.push_back(Seen(edge));
-    lines.push_back(Seen({edge.end, edge.At(0.3)}));  // a part, the other way round
+    lines.push_back(Observed(edge));
+    lines.push_back(Observed({edge.end, edge.At(0.3)}));  // a part of the edge, reversed
   }
   const LineError error = Evaluate(lines);
   EXPECT_EQ(error.num_lines, 6);
@@ -45,16 +45,16 @@ TEST(EvaluateLines, ExactLinesHaveNoError) {
   EXPECT_NEAR(error.distance.max, 0.0, 1e-12);
 }
 
-TEST(EvaluateLines, TurnAndShiftAreMeasuredAsTheyAre) {
-  const double turn = DegreesToRadians(12.0);  // in depth, where much may be wrong
+TEST(EvaluateLines, MeasuresRotationAndTranslation) {
+  const double turn = DegreesToRadians(12.0);  // in depth, where the bounds are wide
   const LineSegment3 turned = {Vec(0, 2, 1) - 0.5 * Vec(0, std::sin(turn), std::cos(turn)),
                                Vec(0, 2, 1) + 0.5 * Vec(0, std::sin(turn), std::cos(turn))};
-  const LineError direction = Evaluate({Seen(turned)});
+  const LineError direction = Evaluate({Observed(turned)});
   ASSERT_EQ(direction.num_matched, 1);
   EXPECT_NEAR(direction.direction.max, turn, 1e-12);
   EXPECT_NEAR(direction.distance.max, 0.0, 1e-12);
 
-  // 3 mm beside, 4 mm behind; a shift along the edge is none.
+  // 3 mm beside and 4 mm behind the edge; translation along the edge is no error.
   const LineError shifted = Evaluate({Moved({0.003, 0.004, 0.1}), Moved({0.0, 0.02, 0.0})});
   ASSERT_EQ(shifted.num_matched, 2);
   EXPECT_EQ(shifted.num_edges_found, 1);
@@ -64,7 +64,7 @@ TEST(EvaluateLines, TurnAndShiftAreMeasuredAsTheyAre) {
   EXPECT_NEAR(shifted.direction.max, 0.0, 1e-12);
 }
 
-TEST(EvaluateLines, AlignsTheMapBeforehand) {
+TEST(EvaluateLines, AppliesAlignment) {
   const Rigid3 reference_from_estimate(ExpSO3({0.3, -0.8, 1.1}), {4.0, -1.0, 0.5});
   const Rigid3 inverse = reference_from_estimate.Inverse();
   const EstimatedLine line = Moved({0.0, 0.05, 0.0});
@@ -76,30 +76,30 @@ TEST(EvaluateLines, AlignsTheMapBeforehand) {
   EXPECT_NEAR(error.across.max, 0.0, 1e-12);
 }
 
-TEST(EvaluateLines, PartnersAreFoundByWhatTheCamerasSee) {
-  // 6 cm in front of the second edge: the first one is not its partner, nor would it be if it were
-  // nearer in space.
+TEST(EvaluateLines, MatchesEdgesByImagePosition) {
+  // 6 cm in front of the second edge: it is matched with that edge, even if another edge is closer
+  // in space.
   const LineError error = Evaluate({Moved({0.041, -0.06, 0.0})});
   ASSERT_EQ(error.num_matched, 1);
   EXPECT_NEAR(error.across.max, 0.001, 1e-12);
   EXPECT_NEAR(error.distance.max, std::hypot(0.001, 0.06), 1e-12);
   std::vector<LineSegment3> edges = kEdges;
-  edges.push_back({{0.055, 1.94, 0.0}, {0.055, 1.94, 2.0}});  // 14 mm beside, at the line's depth
+  edges.push_back({{0.055, 1.94, 0.0}, {0.055, 1.94, 2.0}});  // 14 mm beside the line, at its depth
   EXPECT_NEAR(EvaluateLines(edges, {Moved({0.041, -0.06, 0.0})}, Rigid3()).across.max, 0.001,
               1e-12);
 }
 
-TEST(EvaluateLines, WrongPartnersAreNone) {
+TEST(EvaluateLines, LeavesLinesBeyondBoundsUnmatched) {
   const double turn = DegreesToRadians(30.0), swing = DegreesToRadians(4.0);
   const EstimatedLine others[] = {
       Moved({-0.012, 0.0, 0.0}),  // beside the first edge
       Moved({0.0, 0.12, 0.0}),    // far behind it
       Moved({0.0, 0.0, 1.2}),     // above its end
-      // Around its middle: another direction in depth, and in the image.
-      Seen({Vec(0, 2, 1) - 0.2 * Vec(0, std::sin(turn), std::cos(turn)),
-            Vec(0, 2, 1) + 0.2 * Vec(0, std::sin(turn), std::cos(turn))}),
-      Seen({Vec(0, 2, 1) - 0.2 * Vec(std::sin(swing), 0, std::cos(swing)),
-            Vec(0, 2, 1) + 0.2 * Vec(std::sin(swing), 0, std::cos(swing))}),
+      // Rotated about the midpoint, in depth and in the image.
+      Observed({Vec(0, 2, 1) - 0.2 * Vec(0, std::sin(turn), std::cos(turn)),
+                Vec(0, 2, 1) + 0.2 * Vec(0, std::sin(turn), std::cos(turn))}),
+      Observed({Vec(0, 2, 1) - 0.2 * Vec(std::sin(swing), 0, std::cos(swing)),
+                Vec(0, 2, 1) + 0.2 * Vec(std::sin(swing), 0, std::cos(swing))}),
   };
   for (const EstimatedLine& line : others) {
     const LineError error = Evaluate({line});
@@ -109,18 +109,18 @@ TEST(EvaluateLines, WrongPartnersAreNone) {
   }
 }
 
-TEST(EvaluateLines, ShortLinesAndThoseOfTwoViewsAreLeftOut) {
-  EstimatedLine seen_twice = Moved(Vec::Zero());
-  seen_twice.num_observations = 2;
-  const EstimatedLine is_short = Seen({{0, 2, 1.0}, {0, 2, 1.19}});
-  const EstimatedLine has_no_length = Seen({{0, 2, 1.0}, {0, 2, 1.0}});
-  const LineError error = Evaluate({seen_twice, is_short, has_no_length});
+TEST(EvaluateLines, SkipsShortLinesAndLinesWithTwoObservations) {
+  EstimatedLine observed_twice = Moved(Vec::Zero());
+  observed_twice.num_observations = 2;
+  const EstimatedLine is_short = Observed({{0, 2, 1.0}, {0, 2, 1.19}});
+  const EstimatedLine has_no_length = Observed({{0, 2, 1.0}, {0, 2, 1.0}});
+  const LineError error = Evaluate({observed_twice, is_short, has_no_length});
   EXPECT_EQ(error.num_lines, 3);
   EXPECT_EQ(error.num_counted, 0);
   EXPECT_EQ(error.num_matched, 0);
 }
 
-TEST(EvaluateLines, ALineSeenEndOnHasNoPartAcross) {
+TEST(EvaluateLines, LineViewedEndOnHasNoErrorAcross) {
   EstimatedLine line = Moved({0.02, 0.02, 0.0});
   line.viewing_direction = Vec::UnitZ();
   const LineError error = Evaluate({line});
@@ -129,7 +129,7 @@ TEST(EvaluateLines, ALineSeenEndOnHasNoPartAcross) {
   EXPECT_NEAR(error.distance.max, 0.02 * std::sqrt(2.0), 1e-12);
 }
 
-TEST(EvaluateLines, MisuseThrows) {
+TEST(EvaluateLines, ThrowsOnInvalidEdgesAndOptions) {
   EXPECT_THROW(EvaluateLines({{{1, 1, 1}, {1, 1, 1}}}, {}, Rigid3()), std::invalid_argument);
   LineEvaluationOptions options;
   options.max_across = 0.0;

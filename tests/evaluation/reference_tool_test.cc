@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// The same pair of trajectories through our evaluation and through ../shared/tools/ape.py, which
-// defines the numbers that this project reports.
+// Compares EvaluateTrajectory with the reference tool ../shared/tools/ape.py on the same
+// trajectories.
 
 #include <array>
 #include <cstdio>
@@ -48,8 +48,8 @@ void Write(const fs::path& path, const std::vector<TimedPose>& poses) {
 class ReferenceToolTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (!fs::exists(MSC_VO_REFERENCE_TOOL)) GTEST_SKIP() << "../shared/tools/ape.py is not here";
-    // The first python3 on the path may be one without numpy, beside the system's own.
+    if (!fs::exists(MSC_VO_REFERENCE_TOOL)) GTEST_SKIP() << "../shared/tools/ape.py does not exist";
+    // The first python3 on the path may lack numpy.
     for (const char* python : {"python3", "/usr/bin/python3"}) {
       const std::string probe = std::string(python) + " -c 'import numpy; print(1)' 2>/dev/null";
       if (python_.empty() && !OutputOf(probe).empty()) python_ = python;
@@ -62,8 +62,8 @@ class ReferenceToolTest : public testing::Test {
     if (!folder_.empty()) fs::remove_all(folder_);
   }
 
-  void ExpectSameNumbers(const std::vector<TimedPose>& truth,
-                         const std::vector<TimedPose>& estimate) {
+  void ExpectSameErrors(const std::vector<TimedPose>& truth,
+                        const std::vector<TimedPose>& estimate) {
     Write(folder_ / "truth.txt", truth);
     Write(folder_ / "estimate.txt", estimate);
     const std::string output = OutputOf(python_ + " '" MSC_VO_REFERENCE_TOOL "' --json '" +
@@ -93,27 +93,27 @@ class ReferenceToolTest : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(ReferenceToolTest, AgreesOnTheSameStamps) {
+TEST_F(ReferenceToolTest, AgreesForIdenticalStamps) {
   const std::vector<TimedPose> truth = CurvedPath(150, 30.0);
-  ExpectSameNumbers(truth, Disturbed(truth, 0.03, 0.02, 0.0, 3));
+  ExpectSameErrors(truth, Disturbed(truth, 0.03, 0.02, 0.0, 3));
 }
 
-TEST_F(ReferenceToolTest, AgreesOnJitteredStampsAgainstAFasterReference) {
+TEST_F(ReferenceToolTest, AgreesForJitteredStampsAndFasterReference) {
   const std::vector<TimedPose> truth = CurvedPath(500, 100.0);
-  ExpectSameNumbers(truth, Disturbed(CurvedPath(150, 30.0), 0.03, 0.02, 0.003, 4));
+  ExpectSameErrors(truth, Disturbed(CurvedPath(150, 30.0), 0.03, 0.02, 0.003, 4));
 }
 
-TEST_F(ReferenceToolTest, AgreesWhenTheEstimateIsFasterAndStopsEarly) {
+TEST_F(ReferenceToolTest, AgreesForFasterEstimateThatStopsEarly) {
   const std::vector<TimedPose> truth = CurvedPath(120, 15.0);
-  ExpectSameNumbers(truth, Disturbed(CurvedPath(300, 60.0), 0.03, 0.02, 0.004, 5));
+  ExpectSameErrors(truth, Disturbed(CurvedPath(300, 60.0), 0.03, 0.02, 0.004, 5));
 }
 
-TEST_F(ReferenceToolTest, AgreesWithGapsOnBothSides) {
+TEST_F(ReferenceToolTest, AgreesForGapsInBothTrajectories) {
   std::vector<TimedPose> truth = CurvedPath(300, 30.0);
   std::vector<TimedPose> estimate = Disturbed(truth, 0.05, 0.05, 0.001, 6);
   truth.erase(truth.begin() + 40, truth.begin() + 75);
   estimate.erase(estimate.begin() + 150, estimate.begin() + 160);
-  ExpectSameNumbers(truth, estimate);
+  ExpectSameErrors(truth, estimate);
 }
 
 }  // namespace

@@ -15,13 +15,13 @@ TimedPose At(double time, double x, double y, double z) {
   return {time, Rigid3(Eigen::Quaterniond::Identity(), {x, y, z})};
 }
 
-// Corners of a square with side 2: the alignment is the identity by symmetry, as the offsets below
-// sum to zero and have no moment.
+// Corners of a square with side 2. The alignment is the identity by symmetry, because the offsets
+// below sum to zero and have no moment.
 std::vector<TimedPose> Square() {
   return {At(0.0, 1, 1, 0), At(1.0, -1, 1, 0), At(2.0, -1, -1, 0), At(3.0, 1, -1, 0)};
 }
 
-TEST(EvaluateTrajectory, FindsNoErrorInTheReferenceItself) {
+TEST(EvaluateTrajectory, ReferenceHasZeroError) {
   const std::vector<TimedPose> path = CurvedPath(200, 30.0);
   const TrajectoryError error = EvaluateTrajectory(path, path);
   ASSERT_TRUE(error.usable);
@@ -33,7 +33,7 @@ TEST(EvaluateTrajectory, FindsNoErrorInTheReferenceItself) {
   EXPECT_EQ(error.coverage, 1.0);
 }
 
-TEST(EvaluateTrajectory, HandComputedAbsoluteError) {
+TEST(EvaluateTrajectory, AbsoluteErrorMatchesHandComputedValues) {
   std::vector<TimedPose> estimate = Square();
   // +h and -h along z at opposite corners: mean zero, and the best rotation stays the identity
   // because the moments about both diagonals cancel.
@@ -47,15 +47,15 @@ TEST(EvaluateTrajectory, HandComputedAbsoluteError) {
   EXPECT_NEAR(error.ape.median, h, 1e-12);
   EXPECT_NEAR(error.ape.max, h, 1e-12);
   EXPECT_NEAR(error.path_length, 6.0, 1e-12);
-  // Each step of one second is off by 2 h, whichever way.
+  // Each motion over one second has an error of 2 h.
   EXPECT_EQ(error.rpe_per_second.translation.count, 3);
   EXPECT_NEAR(error.rpe_per_second.translation.rmse, 2 * h, 1e-12);
-  // The first pose that is at least 1 m away is 2 m away.
+  // The first pose at least 1 m further along the path is 2 m away.
   EXPECT_EQ(error.rpe_per_metre.translation.count, 3);
   EXPECT_NEAR(error.rpe_per_metre.translation.mean, h, 1e-12);
 }
 
-TEST(EvaluateTrajectory, HandComputedRotationError) {
+TEST(EvaluateTrajectory, RotationErrorMatchesHandComputedValues) {
   std::vector<TimedPose> estimate = Square();
   const double angle = 0.2;
   for (TimedPose& pose : estimate) {
@@ -66,12 +66,12 @@ TEST(EvaluateTrajectory, HandComputedRotationError) {
   EXPECT_NEAR(error.ape.rmse, 0.0, 1e-12);
   EXPECT_NEAR(error.ape_rotation.rmse, angle, 1e-12);
   EXPECT_NEAR(error.rpe_per_second.rotation.rmse, 0.0, 1e-12);
-  // A motion of 2 m seen from a camera turned by `angle`.
+  // A motion of 2 m expressed in a camera frame rotated by `angle`.
   EXPECT_GT(error.rpe_per_second.translation.rmse, 0.1);
 }
 
-TEST(EvaluateTrajectory, RotationDoesNotSufferFromAPathThatFixesNoAlignment) {
-  // A camera that turns without moving: 1 mm of noise decides how positions are aligned.
+TEST(EvaluateTrajectory, RotationErrorDoesNotDependOnPositionAlignment) {
+  // The camera rotates in place: 1 mm of noise determines the alignment of positions.
   std::vector<TimedPose> truth;
   for (int i = 0; i < 100; ++i) {
     truth.push_back({i / 30.0, Rigid3(ExpSO3({0.0, 0.01 * i, 0.0}), {1e-4 * i, 0.0, 0.0})});
@@ -81,7 +81,7 @@ TEST(EvaluateTrajectory, RotationDoesNotSufferFromAPathThatFixesNoAlignment) {
   const TrajectoryError error = EvaluateTrajectory(truth, estimate);
   EXPECT_GT(error.ape_rotation.rmse, 0.1);
   EXPECT_NEAR(error.rotation.max, 0.0, 1e-7);
-  // Half of the orientations 0.02 off to one side, half to the other.
+  // Alternating orientation errors of +0.02 and -0.02 rad.
   for (int i = 0; i < 100; ++i) {
     Rigid3& pose = estimate[i].world_from_cam;
     pose.rotation() = pose.rotation() * ExpSO3({i % 2 == 0 ? 0.02 : -0.02, 0.0, 0.0});
@@ -89,7 +89,7 @@ TEST(EvaluateTrajectory, RotationDoesNotSufferFromAPathThatFixesNoAlignment) {
   EXPECT_NEAR(EvaluateTrajectory(truth, estimate).rotation.rmse, 0.02, 1e-4);
 }
 
-TEST(EvaluateTrajectory, LeavesOutPosesThatAreNotEstimated) {
+TEST(EvaluateTrajectory, IgnoresPosesThatAreNotEstimated) {
   const std::vector<TimedPose> truth = CurvedPath(100, 30.0);
   std::vector<TimedPose> estimate = truth;
   for (int i = 60; i < 100; ++i) {
@@ -118,7 +118,7 @@ TEST(EvaluateTrajectory, LeavesOutPosesThatAreNotEstimated) {
   EXPECT_NE(error.message.find("100 others are marked as not estimated"), std::string::npos);
 }
 
-TEST(EvaluateTrajectory, DoesNotDependOnTheWorldOfTheEstimate) {
+TEST(EvaluateTrajectory, DoesNotDependOnWorldFrame) {
   const std::vector<TimedPose> truth = CurvedPath(300, 30.0);
   const std::vector<TimedPose> estimate = Disturbed(truth, 0.02, 0.01, 0.0, 1);
   const Rigid3 shift(ExpSO3({0.5, -1.2, 0.3}), {3.0, -4.0, 5.0});
@@ -131,7 +131,7 @@ TEST(EvaluateTrajectory, DoesNotDependOnTheWorldOfTheEstimate) {
   EXPECT_NEAR(a.ape.rmse, 0.02 * std::sqrt(3.0), 0.003);
 }
 
-TEST(EvaluateTrajectory, DoesNotDependOnTheOrderOfTheLines) {
+TEST(EvaluateTrajectory, DoesNotDependOnOrderOfPoses) {
   const std::vector<TimedPose> truth = CurvedPath(100, 30.0);
   std::vector<TimedPose> estimate = Disturbed(truth, 0.02, 0.01, 0.0, 2);
   const double expected = EvaluateTrajectory(truth, estimate).ape.rmse;
@@ -139,14 +139,14 @@ TEST(EvaluateTrajectory, DoesNotDependOnTheOrderOfTheLines) {
   EXPECT_EQ(EvaluateTrajectory(truth, estimate).ape.rmse, expected);
 }
 
-TEST(EvaluateTrajectory, DoesNotForgiveAWrongScale) {
+TEST(EvaluateTrajectory, ReportsWrongScale) {
   const std::vector<TimedPose> truth = CurvedPath(100, 30.0);
   std::vector<TimedPose> estimate = truth;
   for (TimedPose& pose : estimate) pose.world_from_cam.translation() *= 1.1;
   EXPECT_GT(EvaluateTrajectory(truth, estimate).ape.rmse, 0.01);
 }
 
-TEST(EvaluateTrajectory, CountsWhatIsMissing) {
+TEST(EvaluateTrajectory, CountsMissingPoses) {
   const std::vector<TimedPose> truth = CurvedPath(100, 30.0);
   const std::vector<TimedPose> estimate(truth.begin() + 20, truth.begin() + 60);
   const TrajectoryError error = EvaluateTrajectory(truth, estimate);
@@ -158,7 +158,7 @@ TEST(EvaluateTrajectory, CountsWhatIsMissing) {
   EXPECT_DOUBLE_EQ(error.coverage_in_range, 1.0);
 }
 
-TEST(EvaluateTrajectory, TooFewMatchesAreAnAnswer) {
+TEST(EvaluateTrajectory, IsNotUsableWithTooFewMatches) {
   const std::vector<TimedPose> truth = CurvedPath(100, 30.0);
   std::vector<TimedPose> estimate = truth;
   for (TimedPose& pose : estimate) pose.timestamp += 1000.0;
@@ -168,7 +168,7 @@ TEST(EvaluateTrajectory, TooFewMatchesAreAnAnswer) {
   EXPECT_FALSE(EvaluateTrajectory({}, {}).usable);
 }
 
-TEST(EvaluateTrajectory, RejectsOptionsThatAreNotValid) {
+TEST(EvaluateTrajectory, ThrowsOnInvalidOptions) {
   EvaluationOptions options;
   options.rpe_metres = 0.0;
   EXPECT_THROW(EvaluateTrajectory({}, {}, options), std::invalid_argument);
@@ -177,13 +177,13 @@ TEST(EvaluateTrajectory, RejectsOptionsThatAreNotValid) {
   EXPECT_THROW(EvaluateTrajectory({}, {}, options), std::invalid_argument);
 }
 
-TEST(AlignOrientations, AStraightWayIsNotTurnedAboutItself) {
+TEST(AlignOrientations, DeterminesRotationAboutStraightPath) {
   const Rigid3 truth(ExpSO3({0.3, -0.2, 0.5}), {1.0, 2.0, 3.0});
   std::vector<TimedPose> reference, estimate;
   for (int i = 0; i < 10; ++i) {
     reference.push_back(At(i, i, 0.0, 0.0));
     estimate.push_back({0.001 + i, truth.Inverse() * reference.back().world_from_cam});
-    // A millimetre up, then down: to positions alone this is a way on which anything may turn.
+    // Alternating by 1 mm: positions alone do not determine the rotation about the path.
     estimate.back().world_from_cam.translation().z() += i % 2 == 0 ? 1e-3 : -1e-3;
   }
   const std::optional<Rigid3> alignment = AlignOrientations(reference, estimate);

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/camera/lens_distortion.h"
 
 namespace msc_vo::testing {
 

@@ -8,7 +8,7 @@
 namespace msc_vo {
 namespace {
 
-TEST(UndirectedAngle, KnownAngles) {
+TEST(UndirectedAngle, MatchesKnownAngles) {
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
   EXPECT_DOUBLE_EQ(UndirectedAngle(x, Eigen::Vector3d(3.0, 0.0, 0.0)), 0.0);
   EXPECT_DOUBLE_EQ(UndirectedAngle(x, Eigen::Vector3d(-3.0, 0.0, 0.0)), 0.0);
@@ -19,15 +19,15 @@ TEST(UndirectedAngle, KnownAngles) {
   EXPECT_DOUBLE_EQ(UndirectedAngle(Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(-2.0, 0.0)), 0.0);
 }
 
-TEST(UndirectedAngle, AccurateForTinyAngles) {
-  // The arc cosine of a dot product gives 0 here.
+TEST(UndirectedAngle, IsAccurateForTinyAngles) {
+  // The arc cosine of a dot product is 0 here.
   const double tiny = 1e-9;
   const Eigen::Vector3d a = Eigen::Vector3d::UnitX(), b(std::cos(tiny), std::sin(tiny), 0.0);
   EXPECT_NEAR(UndirectedAngle(a, b), tiny, 1e-15);
   EXPECT_NEAR(UndirectedAngle(a, Eigen::Vector3d(-b)), tiny, 1e-15);
 }
 
-TEST(Degrees, RoundTrip) {
+TEST(DegreesToRadians, InvertsRadiansToDegrees) {
   EXPECT_DOUBLE_EQ(DegreesToRadians(180.0), kPi);
   EXPECT_DOUBLE_EQ(RadiansToDegrees(DegreesToRadians(37.0)), 37.0);
 }

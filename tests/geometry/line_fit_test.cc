@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kSigma = 1.4e-3;
 
-// n samples of the line from `start` to `end` (1/metres) with noise of `noise` sigmas.
+// n samples of the line with inverse depths `start` and `end` (1/metres) and noise of `noise`
+// sigmas.
 std::vector<LineFitSample> Samples(int n, double start, double end, double noise,
                                    std::mt19937* random) {
   std::normal_distribution<double> normal(0.0, 1.0);
@@ -39,8 +40,8 @@ TEST(LineFit, IsExactWithoutNoise) {
   EXPECT_EQ(depth->inlier_ratio, 1.0);
 }
 
-TEST(LineFit, CovarianceIsThatOfLeastSquares) {
-  // Two samples at each end, of sigma q: each end is known to q / sqrt(2), independently.
+TEST(LineFit, CovarianceMatchesLeastSquares) {
+  // Two samples of sigma q at each end: standard deviation q / sqrt(2) at each end, independent.
   const double q = 2e-3;
   std::vector<LineFitSample> samples;
   for (const double s : {0.0, 0.0, 1.0, 1.0}) samples.push_back({s, 0.4, q});
@@ -53,7 +54,7 @@ TEST(LineFit, CovarianceIsThatOfLeastSquares) {
   EXPECT_NEAR(depth->covariance(0, 1), 0.0, 1e-15);
 }
 
-TEST(LineFit, SurvivesOutliers) {
+TEST(LineFit, IsRobustToOutliers) {
   std::mt19937 random(2);
   for (uint32_t seed = 0; seed < 50; ++seed) {
     std::vector<LineFitSample> samples = Samples(30, 0.5, 0.8, 1.0, &random);
@@ -68,9 +69,9 @@ TEST(LineFit, SurvivesOutliers) {
 }
 
 TEST(LineFit, CovarianceIsConsistent) {
-  // Normalised squared errors of the two inverse depths: chi-square with two degrees of freedom,
-  // mean 2; the mean of 1000 of them has a standard deviation of 2 / sqrt(1000) = 0.063. The
-  // inlier test at 99 % leaves out a little noise, hence the wider upper bound.
+  // The normalised squared error of the two inverse depths is chi-square distributed with two
+  // degrees of freedom: mean 2, standard deviation of the mean of 1000 trials 2 / sqrt(1000) =
+  // 0.063. The 99 % inlier test removes a little noise, hence the wider upper bound.
   std::mt19937 random(3);
   const int trials = 1000;
   double sum = 0.0;
@@ -84,7 +85,7 @@ TEST(LineFit, CovarianceIsConsistent) {
   EXPECT_LT(sum / trials, 2.5);
 }
 
-TEST(LineFit, RefusesWhatIsNoLine) {
+TEST(LineFit, RejectsSamplesWithoutLine) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> uniform(0.2, 2.0);
   std::vector<LineFitSample> noise;
@@ -92,17 +93,17 @@ TEST(LineFit, RefusesWhatIsNoLine) {
   EXPECT_FALSE(FitLineDepth({}, noise, 1));
   EXPECT_FALSE(FitLineDepth({}, {}, 1));
   EXPECT_FALSE(FitLineDepth({}, Samples(4, 0.5, 0.5, 0.0, &random), 1));  // min_inliers is 5
-  // All at one place.
+  // All samples at one position.
   EXPECT_FALSE(FitLineDepth({}, std::vector<LineFitSample>(9, {0.5, 0.5, kSigma}), 1));
 }
 
-TEST(LineFit, RefusesALineThatReachesBehindTheCamera) {
+TEST(LineFit, RejectsLineBehindCamera) {
   std::vector<LineFitSample> samples;
   for (int i = 0; i < 10; ++i) samples.push_back({0.05 * i, 0.5 - 0.06 * i, kSigma});
   EXPECT_FALSE(FitLineDepth({}, samples, 1));  // w(1) = -0.7
 }
 
-TEST(LineFit, IsRepeatable) {
+TEST(LineFit, IsDeterministic) {
   std::mt19937 random(5);
   std::vector<LineFitSample> samples = Samples(60, 0.5, 0.8, 3.0, &random);
   const auto a = FitLineDepth({}, samples, 11);
@@ -113,7 +114,7 @@ TEST(LineFit, IsRepeatable) {
   EXPECT_EQ(a->covariance, b->covariance);
 }
 
-TEST(LineFit, OptionsAreChecked) {
+TEST(LineFit, ThrowsOnInvalidOptions) {
   LineFitOptions options;
   options.min_inliers = 1;
   EXPECT_THROW(FitLineDepth(options, {}, 0), std::invalid_argument);
@@ -147,7 +148,7 @@ TEST(LineFit, BackProjectInvertsProjection) {
   EXPECT_LT(truth.DistanceToLine(middle), 1e-12);
 }
 
-TEST(LineFit, DirectionSigmaAgreesWithSimulation) {
+TEST(LineFit, DirectionSigmaMatchesSimulation) {
   const PinholeCamera camera;
   const LineSegment2 image{Eigen::Vector2d(200, 150), Eigen::Vector2d(300, 260)};
   LineDepth depth;
@@ -174,7 +175,7 @@ TEST(LineFit, DirectionSigmaAgreesWithSimulation) {
   EXPECT_NEAR(std::sqrt(sum / trials) / sigma, 1.0, 0.05);
 }
 
-TEST(LineDepth, NearerMovesBothEndsByTheSameDistance) {
+TEST(LineDepth, NearerShiftsBothEndsByOffset) {
   LineDepth depth;
   depth.start = 1.0 / 2.0;
   depth.end = 1.0 / 3.0;

@@ -11,7 +11,7 @@
 namespace msc_vo {
 namespace {
 
-TEST(LineSegment, Measures) {
+TEST(LineSegment, MeasuresLengthDirectionAndDistance) {
   const LineSegment3 segment{{1.0, 2.0, 3.0}, {1.0, 2.0, 7.0}};
   EXPECT_DOUBLE_EQ(segment.Length(), 4.0);
   EXPECT_EQ(segment.Direction(), Eigen::Vector3d(0.0, 0.0, 1.0));
@@ -22,7 +22,7 @@ TEST(LineSegment, Measures) {
   EXPECT_DOUBLE_EQ(segment.DistanceToLine({4.0, 6.0, -9.0}), 5.0);
 }
 
-TEST(LineSegment, TransformMovesBothEndPoints) {
+TEST(LineSegment, TransformAppliesToBothEndPoints) {
   const Rigid3 pose(ExpSO3({0.1, 0.2, 0.3}), {1.0, 2.0, 3.0});
   const LineSegment3 segment{{1.0, 2.0, 3.0}, {1.0, 2.0, 7.0}};
   const LineSegment3 moved = pose * segment;
@@ -30,7 +30,7 @@ TEST(LineSegment, TransformMovesBothEndPoints) {
   EXPECT_THAT(moved.end, IsNear(pose * Eigen::Vector3d(1.0, 2.0, 7.0), 1e-15));
 }
 
-TEST(ImageLine, IsTheSignedDistanceInPixels) {
+TEST(ImageLine, GivesSignedDistanceInPixels) {
   const LineSegment2 segment{{10.0, 10.0}, {40.0, 50.0}};
   const Eigen::Vector3d line = ImageLine(segment);
   EXPECT_NEAR(line.head<2>().norm(), 1.0, 1e-15);
@@ -42,7 +42,7 @@ TEST(ImageLine, IsTheSignedDistanceInPixels) {
   EXPECT_NEAR(distance(segment.At(0.5) - Eigen::Vector2d(-4.0, 3.0)), -5.0, 1e-12);
 }
 
-TEST(ClipToNear, CutsWhatIsBehindThePlane) {
+TEST(ClipToNear, ClipsPartBehindPlane) {
   LineSegment3 segment{{0.0, 0.0, -1.0}, {4.0, 0.0, 3.0}};
   ASSERT_TRUE(ClipToNear(1.0, &segment));
   EXPECT_THAT(segment.start, IsNear(Eigen::Vector3d(2.0, 0.0, 1.0), 1e-15));
@@ -53,7 +53,7 @@ TEST(ClipToNear, CutsWhatIsBehindThePlane) {
   EXPECT_THAT(segment.end, IsNear(Eigen::Vector3d(2.0, 0.0, 1.0), 1e-15));
 }
 
-TEST(ClipToNear, LeavesWhatIsInFrontAndRefusesWhatIsNot) {
+TEST(ClipToNear, KeepsSegmentInFrontAndRejectsSegmentBehind) {
   LineSegment3 segment{{0.0, 0.0, 1.0}, {4.0, 0.0, 3.0}};
   ASSERT_TRUE(ClipToNear(1.0, &segment));
   EXPECT_EQ(segment.start, Eigen::Vector3d(0.0, 0.0, 1.0));
@@ -67,14 +67,14 @@ class ClipToImageTest : public ::testing::Test {
   const PinholeCamera camera_;  // 640 x 480: the rectangle [0, 639] x [0, 479]
 };
 
-TEST_F(ClipToImageTest, InsideStays) {
+TEST_F(ClipToImageTest, KeepsSegmentInside) {
   LineSegment2 segment{{10.0, 20.0}, {600.0, 400.0}};
   ASSERT_TRUE(ClipToImage(camera_, &segment));
   EXPECT_EQ(segment.start, Eigen::Vector2d(10.0, 20.0));
   EXPECT_EQ(segment.end, Eigen::Vector2d(600.0, 400.0));
 }
 
-TEST_F(ClipToImageTest, CutsAtOneBorderAndAtTwo) {
+TEST_F(ClipToImageTest, ClipsAtOneAndTwoBorders) {
   LineSegment2 segment{{-100.0, 100.0}, {100.0, 200.0}};
   ASSERT_TRUE(ClipToImage(camera_, &segment));
   EXPECT_THAT(segment.start, IsNear(Eigen::Vector2d(0.0, 150.0), 1e-12));
@@ -85,7 +85,7 @@ TEST_F(ClipToImageTest, CutsAtOneBorderAndAtTwo) {
   EXPECT_THAT(segment.end, IsNear(Eigen::Vector2d(300.0, 0.0), 1e-12));
 }
 
-TEST_F(ClipToImageTest, OutsideIsRefused) {
+TEST_F(ClipToImageTest, RejectsSegmentOutside) {
   LineSegment2 segment{{-10.0, 20.0}, {-10.0, 400.0}};  // left of the image, upright
   EXPECT_FALSE(ClipToImage(camera_, &segment));
   segment = {{-100.0, 50.0}, {50.0, -100.0}};  // passes by the corner

@@ -40,14 +40,14 @@ double SumOfSquares(const Rigid3& pose, const std::vector<Eigen::Vector3d>& sour
   return sum;
 }
 
-TEST(AlignRigid, RecoversATransform) {
+TEST(AlignRigid, RecoversTransform) {
   const auto source = Cloud(20, {1.0, 2.0, 0.5}, 1);
   const Rigid3 pose = AlignRigid(source, Transformed(kTruth, source));
   EXPECT_NEAR(SumOfSquares(pose, source, Transformed(kTruth, source)), 0.0, 1e-24);
 }
 
-TEST(AlignRigid, RecoversATransformFromPointsOfAPlane) {
-  // The correlation has rank two: a mirror image fits as well, and must not be chosen.
+TEST(AlignRigid, RecoversTransformFromCoplanarPoints) {
+  // The correlation has rank two: a reflection fits equally well and must not be returned.
   for (unsigned seed = 1; seed < 10; ++seed) {
     const auto source = Cloud(10, {1.0, 2.0, 0.0}, seed);
     const Rigid3 pose = AlignRigid(source, Transformed(kTruth, source));
@@ -57,20 +57,20 @@ TEST(AlignRigid, RecoversATransformFromPointsOfAPlane) {
   }
 }
 
-TEST(AlignRigid, AMirrorImageStillGetsARotation) {
+TEST(AlignRigid, ReturnsRotationForReflectedPoints) {
   const auto source = Cloud(20, {1.0, 2.0, 0.5}, 2);
   auto mirrored = source;
   for (Eigen::Vector3d& x : mirrored) x.z() = -x.z();
   const Rigid3 pose = AlignRigid(source, mirrored);
   EXPECT_NEAR(pose.rotation().toRotationMatrix().determinant(), 1.0, 1e-12);
-  // No rotation does it, but the best one gives up the thinnest direction only.
+  // No rotation fits; the best one has errors along the direction of smallest extent only.
   double thinnest = 0.0;
   for (const Eigen::Vector3d& x : source) thinnest += 4.0 * x.z() * x.z();
   EXPECT_LE(SumOfSquares(pose, source, mirrored), thinnest);
   EXPECT_GT(SumOfSquares(pose, source, mirrored), 0.1);
 }
 
-TEST(AlignRigid, IsTheLeastSquaresSolution) {
+TEST(AlignRigid, MinimisesSquaredDistances) {
   const auto source = Cloud(20, {1.0, 2.0, 0.5}, 3);
   auto target = Transformed(kTruth, source);
   const auto noise = Cloud(20, {0.1, 0.1, 0.1}, 4);
@@ -88,15 +88,15 @@ TEST(AlignRigid, IsTheLeastSquaresSolution) {
   }
 }
 
-TEST(AlignPoses, RecoversATransformFromOnePose) {
+TEST(AlignPoses, RecoversTransformFromOnePose) {
   const Rigid3 pose(ExpSO3({-0.4, 0.2, 2.0}), {0.5, 0.1, -3.0});
   const Rigid3 found = AlignPoses({pose}, {kTruth * pose});
   EXPECT_LT(found.rotation().angularDistance(kTruth.rotation()), 1e-9);
   EXPECT_THAT(found.translation(), IsNear(Eigen::Vector3d(kTruth.translation()), 1e-12));
 }
 
-TEST(AlignPoses, TakesTheMeanOfTheOrientations) {
-  // Turns of the estimate by plus and minus 0.1 about each axis have the identity as their mean.
+TEST(AlignPoses, AveragesOrientations) {
+  // The mean of rotations by plus and minus 0.1 about each axis is the identity.
   std::vector<Rigid3> source, target;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double turn : {-0.1, 0.1}) {
@@ -111,12 +111,12 @@ TEST(AlignPoses, TakesTheMeanOfTheOrientations) {
   EXPECT_THAT(found.translation(), IsNear(Eigen::Vector3d(kTruth.translation()), 1e-12));
 }
 
-TEST(AlignPoses, MisuseThrows) {
+TEST(AlignPoses, ThrowsOnInvalidPairs) {
   EXPECT_THROW(AlignPoses({}, {}), std::invalid_argument);
   EXPECT_THROW(AlignPoses({kTruth}, {}), std::invalid_argument);
 }
 
-TEST(AlignRigid, MisuseThrows) {
+TEST(AlignRigid, ThrowsOnInvalidPairs) {
   const auto cloud = Cloud(5, {1.0, 1.0, 1.0}, 5);
   EXPECT_THROW(AlignRigid(cloud, Cloud(4, {1.0, 1.0, 1.0}, 5)), std::invalid_argument);
   EXPECT_THROW(AlignRigid({cloud[0], cloud[1]}, {cloud[0], cloud[1]}), std::invalid_argument);

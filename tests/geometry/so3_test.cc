@@ -11,12 +11,12 @@
 namespace msc_vo {
 namespace {
 
-TEST(SO3, SkewIsTheCrossProduct) {
+TEST(SO3, SkewIsCrossProduct) {
   const Eigen::Vector3d a(1.0, 2.0, 3.0), b(-2.0, 0.5, 4.0);
   EXPECT_THAT(Skew(a) * b, IsNear(a.cross(b), 1e-15));
 }
 
-TEST(SO3, ExpTurnsByTheNormAboutTheDirection) {
+TEST(SO3, ExpRotatesByNormAboutDirection) {
   const Eigen::Quaterniond quarter = ExpSO3({0.0, 0.0, 0.5 * kPi});
   EXPECT_THAT(quarter * Eigen::Vector3d::UnitX(), IsNear(Eigen::Vector3d::UnitY(), 1e-15));
   const Eigen::Vector3d w(0.3, -0.7, 0.2);
@@ -24,7 +24,7 @@ TEST(SO3, ExpTurnsByTheNormAboutTheDirection) {
               IsNear(Eigen::AngleAxisd(w.norm(), w.normalized()).toRotationMatrix(), 1e-15));
 }
 
-TEST(SO3, LogUndoesExpAtEverySize) {
+TEST(SO3, LogInvertsExpForAnyAngle) {
   const Eigen::Vector3d axis = Eigen::Vector3d(0.2, -0.5, 0.8).normalized();
   for (const double angle : {0.0, 1e-12, 1e-8, 1.9e-4, 2.1e-4, 0.1, 1.0, 3.0, kPi - 1e-7}) {
     const Eigen::Vector3d w = angle * axis;
@@ -33,7 +33,7 @@ TEST(SO3, LogUndoesExpAtEverySize) {
   }
 }
 
-TEST(SO3, LogIsTheShortWayRound) {
+TEST(SO3, LogReturnsAngleBelowPi) {
   const Eigen::Quaterniond q = ExpSO3({0.3, 0.1, -0.2});
   EXPECT_THAT(LogSO3(Eigen::Quaterniond(-q.coeffs())),
               IsNear(Eigen::Vector3d(0.3, 0.1, -0.2), 1e-14));
@@ -41,7 +41,7 @@ TEST(SO3, LogIsTheShortWayRound) {
               IsNear(Eigen::Vector3d(0.0, 0.0, -0.5 * kPi), 1e-14));
 }
 
-TEST(SO3, LeftJacobianIsTheDerivativeOfALeftTurn) {
+TEST(SO3, InverseLeftJacobianIsDerivativeOfLeftPerturbation) {
   const Eigen::Vector3d axis = Eigen::Vector3d(0.2, -0.5, 0.8).normalized();
   for (const double angle : {0.0, 1e-6, 9e-3, 1.1e-2, 1.0, 3.0}) {
     const Eigen::Quaterniond q = ExpSO3(angle * axis);

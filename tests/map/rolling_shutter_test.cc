@@ -29,7 +29,7 @@ std::vector<Eigen::Vector3d> Points() {
 Frame RollingShutterFrame(double readout_time) {
   Frame frame;
   for (const Eigen::Vector3d& point : Points()) {
-    frame.points.push_back(ObserveWithRollingShutter(frame.camera, point, kVelocity, readout_time));
+    frame.points.push_back(ProjectRolling(frame.camera, point, kVelocity, readout_time));
   }
   LineFeature line;
   line.segment = {frame.points.front().pixel, frame.points.back().pixel};

@@ -19,7 +19,7 @@ class WindowSelectionTest : public ::testing::Test {
     options.flipped_bits = 0;
     SyntheticFrames world(options);
     for (int i = 0; i < 6; ++i)
-      Insert(world.Observe(10 * i), SyntheticFrames::CamFromWorld(10 * i));
+      Insert(world.MakeFrame(10 * i), SyntheticFrames::CamFromWorld(10 * i));
   }
 
   // Matches features with landmarks by their descriptors, which are unique.

@@ -19,7 +19,7 @@ class FusionTest : public ::testing::Test {
     SyntheticFrames world{SyntheticFrames::Options()};
     for (const int index : {0, 15}) {
       const KeyframeId id =
-          map_.AddKeyframe(world.Observe(index), SyntheticFrames::CamFromWorld(index));
+          map_.AddKeyframe(world.MakeFrame(index), SyntheticFrames::CamFromWorld(index));
       CreatePoints(id, &probation_, &map_);
       CreateLines(id, &probation_, &map_);
     }
@@ -62,9 +62,9 @@ TEST_F(FusionTest, MergesDuplicates) {
 TEST_F(FusionTest, IgnoresDynamicFeatures) {
   Map map;
   SyntheticFrames world{SyntheticFrames::Options()};
-  const KeyframeId first = map.AddKeyframe(world.Observe(0), SyntheticFrames::CamFromWorld(0));
+  const KeyframeId first = map.AddKeyframe(world.MakeFrame(0), SyntheticFrames::CamFromWorld(0));
   CreatePoints(first, &probation_, &map);
-  auto marked = std::make_shared<Frame>(*world.Observe(15));
+  auto marked = std::make_shared<Frame>(*world.MakeFrame(15));
   for (size_t i = 1; i < marked->points.size(); ++i) marked->points[i].dynamic = i % 2 == 0;
   const KeyframeId second = map.AddKeyframe(marked, SyntheticFrames::CamFromWorld(15));
   // One shared landmark makes the keyframes covisible.

@@ -16,7 +16,7 @@ namespace {
 KeyframePacket Packet(SyntheticFrames* world, int index, std::mt19937* random) {
   const auto normal = [&] { return std::normal_distribution<double>(0.0, 1.0)(*random); };
   KeyframePacket packet;
-  packet.frame = world->Observe(index);
+  packet.frame = world->MakeFrame(index);
   const Rigid3 truth =
       SyntheticFrames::CamFromWorld(index) * SyntheticFrames::CamFromWorld(0).Inverse();
   packet.cam_from_reference = truth;
@@ -230,7 +230,7 @@ TEST(Mapper, RequestsNormalsUntilTheAxesAreKnown) {
   Mapper mapper{MapperOptions()};
   EXPECT_TRUE(mapper.Snapshot()->needs_axes);
   KeyframePacket packet;
-  packet.frame = world.Observe(0);
+  packet.frame = world.MakeFrame(0);
   mapper.Process(packet);
   EXPECT_FALSE(mapper.Snapshot()->needs_axes);
 }
@@ -245,7 +245,7 @@ double DirectionErrorOfTheMap(FrameStructureUse use, bool pairs) {
   options.structure.max_angle = 5.0;
   Mapper mapper(options);
   KeyframePacket packet;
-  packet.frame = world.Observe(0);
+  packet.frame = world.MakeFrame(0);
   packet.cam_from_reference = SyntheticFrames::CamFromWorld(0);
   mapper.Process(packet);
   double squares = 0.0;

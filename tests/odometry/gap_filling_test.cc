@@ -19,7 +19,7 @@ FrameResult Frame(double timestamp, TrackingStatus status, double x, double turn
   return frame;
 }
 
-TEST(FillGaps, InterpolatesInTime) {
+TEST(FillGaps, InterpolatesAtConstantVelocity) {
   std::vector<FrameResult> frames = {
       Frame(0.0, TrackingStatus::kTracked, 0.0, 0.0), Frame(0.1, TrackingStatus::kPredicted, 7.0),
       Frame(0.3, TrackingStatus::kLost, 7.0), Frame(0.4, TrackingStatus::kWeak, 4.0, 0.8)};
@@ -32,7 +32,7 @@ TEST(FillGaps, InterpolatesInTime) {
   EXPECT_EQ(frames[2].status, TrackingStatus::kLost);
 }
 
-TEST(FillGaps, LeavesTheEndsAndEstimatedFramesAlone) {
+TEST(FillGaps, KeepsTheEndsAndEstimatedFrames) {
   const std::vector<FrameResult> before = {
       Frame(0.0, TrackingStatus::kLost, 1.0), Frame(0.1, TrackingStatus::kTracked, 2.0),
       Frame(0.2, TrackingStatus::kTracked, 5.0), Frame(0.3, TrackingStatus::kPredicted, 9.0)};

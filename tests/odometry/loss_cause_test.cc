@@ -18,7 +18,7 @@ FrameResult Unmatched() {
   return frame;
 }
 
-TEST(FindLossCause, TellsTheFirstThatIsMissing) {
+TEST(FindLossCause, ReturnsTheFirstCauseThatApplies) {
   FrameResult frame = Unmatched();
   EXPECT_EQ(FindLossCause(frame), LossCause::kNoMatch);
   frame.num_with_depth = 3;

@@ -16,8 +16,8 @@
 namespace msc_vo {
 namespace {
 
-// Keyframes of a synthetic world in front of one runner or the other. A window is solved from the
-// second keyframe on, and its observer is where these tests look into a step.
+// Keyframes of a synthetic world for both kinds of runner. Local bundle adjustment runs from the
+// second keyframe on; the tests use the window observer to intervene in a step.
 class MappingRunnerTest : public testing::TestWithParam<bool> {
  protected:
   static bool IsThreaded() { return GetParam(); }
@@ -25,11 +25,11 @@ class MappingRunnerTest : public testing::TestWithParam<bool> {
   std::unique_ptr<MappingRunner> MakeRunner() {
     return IsThreaded() ? MakeThreadedRunner(&mapper_) : MakeInlineRunner(&mapper_);
   }
-  // Matched with the points that keyframe 0 makes landmarks of, in their order, so that there is a
-  // window to solve from keyframe 1 on.
+  // Matched with the points of keyframe 0, which become landmarks in their order, so that there is
+  // a window from keyframe 1 on.
   KeyframePacket Packet(int index) {
     KeyframePacket packet;
-    packet.frame = world_.Observe(10 * index);
+    packet.frame = world_.MakeFrame(10 * index);
     packet.cam_from_reference =
         SyntheticFrames::CamFromWorld(10 * index) * SyntheticFrames::CamFromWorld(0).Inverse();
     if (index == 0) first_frame_ = packet.frame;
@@ -56,7 +56,7 @@ std::string RunnerName(const testing::TestParamInfo<bool>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Both, MappingRunnerTest, testing::Bool(), RunnerName);
 
-TEST_P(MappingRunnerTest, GivesTwoStepsForEachKeyframeInOrder) {
+TEST_P(MappingRunnerTest, ReturnsTwoStepsPerKeyframeInOrder) {
   const std::thread::id caller = std::this_thread::get_id();
   std::thread::id worker;
   mapper_.SetWindowObserver([&](KeyframeId, const BundleAdjustmentOptions&, const WindowData&) {
@@ -85,7 +85,7 @@ TEST_P(MappingRunnerTest, GivesTwoStepsForEachKeyframeInOrder) {
   EXPECT_EQ(worker != caller, IsThreaded());
 }
 
-TEST_P(MappingRunnerTest, AStepThatThrowsIsToldAndTheNextOnesRun) {
+TEST_P(MappingRunnerTest, ReturnsTheExceptionOfAStepAndContinues) {
   mapper_.SetWindowObserver(
       [](KeyframeId keyframe, const BundleAdjustmentOptions&, const WindowData&) {
         if (keyframe == 1) throw std::runtime_error("disk full");
@@ -106,7 +106,7 @@ TEST_P(MappingRunnerTest, AStepThatThrowsIsToldAndTheNextOnesRun) {
   EXPECT_EQ(next.summary.keyframe, 2);
 }
 
-TEST_P(MappingRunnerTest, AStepThatNobodyMakesIsRefused) {
+TEST_P(MappingRunnerTest, RefusesToWaitWithoutPendingKeyframes) {
   const std::unique_ptr<MappingRunner> runner = MakeRunner();
   EXPECT_THROW(runner->Take(), std::logic_error);
   runner->Submit(Packet(0));
@@ -114,12 +114,12 @@ TEST_P(MappingRunnerTest, AStepThatNobodyMakesIsRefused) {
   EXPECT_THROW(runner->Take(), std::logic_error);
 }
 
-TEST_P(MappingRunnerTest, EndsWithStepsThatNobodyTook) {
+TEST_P(MappingRunnerTest, IsDestroyedWithStepsNotTaken) {
   const std::unique_ptr<MappingRunner> runner = MakeRunner();
   for (int i = 0; i < 2; ++i) runner->Submit(Packet(i));
 }
 
-// A mapper that stands still in the window of its second keyframe until it is let go.
+// A mapper that blocks in the window of its second keyframe until the gate opens.
 class BusyRunnerTest : public MappingRunnerTest {
  protected:
   BusyRunnerTest() {
@@ -138,7 +138,7 @@ class BusyRunnerTest : public MappingRunnerTest {
 };
 INSTANTIATE_TEST_SUITE_P(Threads, BusyRunnerTest, testing::Values(true), RunnerName);
 
-TEST_P(BusyRunnerTest, TheQueueIsBounded) {
+TEST_P(BusyRunnerTest, BlocksWhenTheQueueIsFull) {
   const std::unique_ptr<MappingRunner> runner = MakeRunner();
   runner->Submit(Packet(0));
   runner->Submit(Packet(1));
@@ -146,7 +146,7 @@ TEST_P(BusyRunnerTest, TheQueueIsBounded) {
   for (int i = 0; i < MappingRunner::kMaxWaiting; ++i) runner->Submit(Packet(2 + i));
   std::future<void> one_more = std::async(
       std::launch::async, [&] { runner->Submit(Packet(2 + MappingRunner::kMaxWaiting)); });
-  // There is no room before the mapper goes on. This is how long it is given to be wrong.
+  // The queue stays full until the mapper continues.
   EXPECT_EQ(one_more.wait_for(std::chrono::milliseconds(20)), std::future_status::timeout);
   gate_.set_value();
   one_more.get();
@@ -155,14 +155,14 @@ TEST_P(BusyRunnerTest, TheQueueIsBounded) {
   }
 }
 
-TEST_P(BusyRunnerTest, DestructionDiscardsWhatWaits) {
+TEST_P(BusyRunnerTest, DiscardsTheQueueOnDestruction) {
   std::unique_ptr<MappingRunner> runner = MakeRunner();
   runner->Submit(Packet(0));
   runner->Submit(Packet(1));
   reached_.get_future().wait();
   runner->Submit(Packet(2));
   std::future<void> end = std::async(std::launch::async, [&] { runner.reset(); });
-  // It ends behind the step that runs and not earlier.
+  // The destructor waits for the running step.
   EXPECT_EQ(end.wait_for(std::chrono::milliseconds(20)), std::future_status::timeout);
   gate_.set_value();
   end.get();

@@ -17,8 +17,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Two seconds of a rendered walk through the room, small enough for a test, with the noise of a
-// Kinect on depth and image.
+// Two seconds of a rendered trajectory through a room, with the depth noise of a Kinect and image
+// noise.
 class OdometryTest : public ::testing::Test {
  protected:
   static constexpr int kNumFrames = 60;
@@ -88,19 +88,19 @@ PinholeCamera OdometryTest::camera_;
 std::vector<RgbdImage>* OdometryTest::images_ = nullptr;
 std::vector<TimedPose>* OdometryTest::truth_ = nullptr;
 
-TEST_F(OdometryTest, FollowsAWholeSequence) {
+TEST_F(OdometryTest, TracksEveryFrameOfASequence) {
   const OdometryResult result = Run(OdometryOptions(), *images_);
   ASSERT_EQ(result.frames.size(), images_->size());
   EXPECT_EQ(Count(result, TrackingStatus::kTracked), kNumFrames);
   EXPECT_GE(result.keyframes.size(), 2u);
   EXPECT_GT(result.points.size(), 200u);
   EXPECT_GT(result.lines.size(), 20u);
-  // The walk is about half a metre long; a build whose pose, depth or signs are wrong is off by
-  // decimetres. Measured: 1.6 mm.
+  // The trajectory is half a metre long; wrong signs result in errors of decimetres.
+  // Measured: 1.6 mm.
   EXPECT_LT(ApeRmse(result), 0.006);
 }
 
-TEST_F(OdometryTest, EveryModeAndKindOfFeatureWorksAlone) {
+TEST_F(OdometryTest, TracksInEveryModeAndWithEachKindOfFeatureAlone) {
   OdometryOptions naive;
   naive.mode = Mode::kPlVo;
   // Measured: 2.7 mm, 3.7 mm without lines, 1.6 mm without points.
@@ -126,7 +126,7 @@ void ExpectSameBytes(const OdometryResult& a, const OdometryResult& b) {
   }
 }
 
-TEST_F(OdometryTest, TheSameImagesGiveTheSameBytesAtAnyThreadCount) {
+TEST_F(OdometryTest, IsDeterministicAtAnyThreadCount) {
   OdometryOptions one_thread;
   one_thread.threads = 1;
   OdometryOptions two_threads;
@@ -138,9 +138,9 @@ TEST_F(OdometryTest, TheSameImagesGiveTheSameBytesAtAnyThreadCount) {
   }
 }
 
-TEST_F(OdometryTest, StagesOfAFrameTakeNoLongerThanTheFrame) {
+TEST_F(OdometryTest, TimesStagesNotLongerThanTheFrame) {
   OdometryOptions options;
-  options.threads = 2;  // points and lines side by side
+  options.threads = 2;  // points and lines in parallel
   for (const FrameResult& frame : Run(options, *images_).frames) {
     const StageTimes& ms = frame.times;
     EXPECT_GT(ms.features, 0.0);
@@ -148,7 +148,7 @@ TEST_F(OdometryTest, StagesOfAFrameTakeNoLongerThanTheFrame) {
   }
 }
 
-TEST_F(OdometryTest, LatencyOfOneFrameChangesNoPose) {
+TEST_F(OdometryTest, HasTheSamePosesWithALatencyOfOneFrame) {
   OdometryOptions none;
   none.snapshots.latency_frames = 0;
   OdometryOptions one;
@@ -156,7 +156,7 @@ TEST_F(OdometryTest, LatencyOfOneFrameChangesNoPose) {
   ExpectSameBytes(Run(none, *images_), Run(one, *images_));
 }
 
-TEST_F(OdometryTest, InRealTimeTheSameIfNoMapIsLate) {
+TEST_F(OdometryTest, HasTheSamePosesInRealTimeIfNoMapIsLate) {
   OdometryOptions options;
   options.threads = 1;  // the mapper is ready at once
   const OdometryResult expected = Run(options, *images_);
@@ -166,16 +166,16 @@ TEST_F(OdometryTest, InRealTimeTheSameIfNoMapIsLate) {
   ExpectSameBytes(expected, result);
 }
 
-TEST_F(OdometryTest, FollowsWithMapsThatMayBeLate) {
+TEST_F(OdometryTest, TracksEveryFrameInRealTime) {
   OdometryOptions options;
   options.snapshots.realtime = true;
   options.snapshots.latency_frames = 0;
   const OdometryResult result = Run(options, *images_);
   EXPECT_EQ(Count(result, TrackingStatus::kTracked), kNumFrames);
-  EXPECT_LT(ApeRmse(result), 0.006);  // as it does frame by frame
+  EXPECT_LT(ApeRmse(result), 0.006);  // as without real time
 }
 
-TEST_F(OdometryTest, AnErrorOfTheMapperIsThrownAndTheRunGoesOn) {
+TEST_F(OdometryTest, ThrowsAnErrorOfTheMapperAndContinues) {
   for (const int threads : {1, 2}) {
     OdometryOptions options;
     options.threads = threads;
@@ -200,7 +200,7 @@ TEST_F(OdometryTest, AnErrorOfTheMapperIsThrownAndTheRunGoesOn) {
   }
 }
 
-TEST_F(OdometryTest, FinishThrowsAnErrorThatNoFrameHeardOfAndThenGivesTheResult) {
+TEST_F(OdometryTest, ThrowsAPendingErrorOnFinishOnce) {
   OdometryOptions options;
   options.snapshots.insertion_latency_frames = options.snapshots.latency_frames = 1000;
   Odometry odometry(options, camera_, LensDistortion());
@@ -213,7 +213,7 @@ TEST_F(OdometryTest, FinishThrowsAnErrorThatNoFrameHeardOfAndThenGivesTheResult)
 }
 
 // Depth 12 ms late, at 2 radians per second: 6 px.
-TEST_F(OdometryTest, DepthOfAnotherTimeIsMovedToTheColourImages) {
+TEST_F(OdometryTest, AlignsDepthToTheTimeOfTheColourImage) {
   SyntheticSequenceOptions scene = SceneOptions();
   scene.kinect_depth = false;
   scene.path.speed = 1.0;
@@ -225,15 +225,15 @@ TEST_F(OdometryTest, DepthOfAnotherTimeIsMovedToTheColourImages) {
   options.threads = 1;
   const double ignored = ApeRmse(Run(options, images), truth);
   for (RgbdImage& image : images) image.depth_delay = scene.depth_delay;
-  const OdometryResult told = Run(options, images);
-  EXPECT_EQ(Count(told, TrackingStatus::kTracked), kNumFrames);
-  EXPECT_LT(ApeRmse(told, truth), 0.85 * ignored);  // measured: 0.69
+  const OdometryResult aligned = Run(options, images);
+  EXPECT_EQ(Count(aligned, TrackingStatus::kTracked), kNumFrames);
+  EXPECT_LT(ApeRmse(aligned, truth), 0.85 * ignored);  // measured: 0.69
   options.align_depth = false;
   EXPECT_EQ(ApeRmse(Run(options, images), truth), ignored);
 }
 
 // Rows over 30 ms, at 2 radians per second: 16 px from the first to the last.
-TEST_F(OdometryTest, ARollingShutterThatIsKnownIsAsGoodAsAGlobalOne) {
+TEST_F(OdometryTest, CompensatesForAKnownRollingShutter) {
   SyntheticSequenceOptions scene = SceneOptions();
   scene.path.speed = 1.0;
   scene.path.turn_rate = 2.5;
@@ -251,9 +251,9 @@ TEST_F(OdometryTest, ARollingShutterThatIsKnownIsAsGoodAsAGlobalOne) {
   EXPECT_LT(ApeRmse(known, truth), 1.2 * global);  // measured: 0.87
 }
 
-TEST_F(OdometryTest, BlackFramesAreSaidAndBridged) {
+TEST_F(OdometryTest, BridgesBlackFramesByPrediction) {
   std::vector<RgbdImage> images = *images_;
-  // No zeros(): these would be written into the pixels that all tests share.
+  // New images, because the pixels of the old ones are shared by all tests.
   for (const int i : {0, 1, 25, 26, 27, 28}) {
     images[i].gray = cv::Mat(240, 320, CV_8UC1, cv::Scalar(0));
   }
@@ -267,7 +267,7 @@ TEST_F(OdometryTest, BlackFramesAreSaidAndBridged) {
   EXPECT_LT(ApeRmse(result), 0.012);  // measured: 3.6 mm
 }
 
-TEST_F(OdometryTest, DroppedFramesGetThePoseBetweenTheirNeighbours) {
+TEST_F(OdometryTest, InterpolatesThePosesOfDroppedFrames) {
   Odometry odometry(OdometryOptions(), camera_, LensDistortion());
   for (const RgbdImage& image : *images_) {
     if (image.id % 10 == 5) {
@@ -286,7 +286,7 @@ TEST_F(OdometryTest, DroppedFramesGetThePoseBetweenTheirNeighbours) {
   EXPECT_THROW(odometry.Drop(3, (*images_)[3].timestamp), std::invalid_argument);
 }
 
-TEST_F(OdometryTest, AFrameWithoutAnImageSaysWhy) {
+TEST_F(OdometryTest, AcceptsOnlyStatusesOfFramesWithoutImageInDrop) {
   Odometry odometry(OdometryOptions(), camera_, LensDistortion());
   EXPECT_EQ(odometry.Drop(0, 0.0, TrackingStatus::kUnreadable).status, TrackingStatus::kUnreadable);
   EXPECT_EQ(odometry.Drop(1, 1.0).status, TrackingStatus::kDropped);
@@ -294,8 +294,8 @@ TEST_F(OdometryTest, AFrameWithoutAnImageSaysWhy) {
   EXPECT_EQ(odometry.Finish().frames.size(), 2u);
 }
 
-// A board with a coarse random pattern, 28 % of the image, 1 m away, that goes from left to right
-// in front of the room; at its left edge it first stands still in the image.
+// Paints a board with a coarse random pattern over 28 % of the image, 1 m away, that moves from
+// left to right in front of the room.
 void PaintBoard(int step, int num_steps, RgbdImage* image) {
   const int width = image->gray.cols, height = image->gray.rows;
   const int half = static_cast<int>(0.14 * width);
@@ -321,14 +321,14 @@ std::vector<RgbdImage> WithBoard(std::vector<RgbdImage> images, int first, int n
   return images;
 }
 
-TEST_F(OdometryTest, SomethingThatMovesThroughTheImageDoesNotTakeTheCameraAlong) {
+TEST_F(OdometryTest, RejectsADynamicObject) {
   constexpr int kNumSteps = 30;
   OdometryOptions options;
   for (const int first : {9, 15}) {
     SCOPED_TRACE(first);
     const OdometryResult result = Run(options, WithBoard(*images_, first, kNumSteps));
     EXPECT_EQ(Count(result, TrackingStatus::kTracked), kNumFrames);
-    EXPECT_LT(ApeRmse(result), 0.006);  // as without a board
+    EXPECT_LT(ApeRmse(result), 0.006);  // as without the board
     EXPECT_EQ(result.frames[first - 5].num_dynamic, 0);
     EXPECT_GT(result.frames[first + kNumSteps / 2].num_dynamic, 50);
   }
@@ -336,7 +336,7 @@ TEST_F(OdometryTest, SomethingThatMovesThroughTheImageDoesNotTakeTheCameraAlong)
   EXPECT_GT(ApeRmse(Run(options, WithBoard(*images_, 15, kNumSteps))), 0.03);
 }
 
-TEST_F(OdometryTest, FinishMayBeCalledEarly) {
+TEST_F(OdometryTest, ReturnsAResultAtAnyTime) {
   Odometry odometry(OdometryOptions(), camera_, LensDistortion());
   EXPECT_TRUE(odometry.Finish().frames.empty());
   odometry.Process((*images_)[0]);
@@ -345,8 +345,8 @@ TEST_F(OdometryTest, FinishMayBeCalledEarly) {
   EXPECT_EQ(odometry.Finish().frames.size(), 2u);
 }
 
-// A lens that folds over used to end in features whose pixels are no numbers.
-TEST_F(OdometryTest, RefusesALensThatDoesNotInvert) {
+// The undistortion of such a lens results in features with NaN pixels.
+TEST_F(OdometryTest, RefusesADistortionThatIsNotInvertible) {
   const LensDistortion swapped{{0.262383, -0.953104, 1.163314, -0.005358, 0.002628}};
   EXPECT_THROW(Odometry(OdometryOptions(), camera_, swapped), std::invalid_argument);
   PinholeCamera mirrored = camera_;
@@ -354,7 +354,7 @@ TEST_F(OdometryTest, RefusesALensThatDoesNotInvert) {
   EXPECT_THROW(Odometry(OdometryOptions(), mirrored, LensDistortion()), std::invalid_argument);
 }
 
-TEST_F(OdometryTest, RefusesTimesThatAreNoTimes) {
+TEST_F(OdometryTest, RefusesInvalidTimeStamps) {
   Odometry odometry(OdometryOptions(), camera_, LensDistortion());
   const auto error_of = [&](double timestamp, double depth_delay) {
     RgbdImage image = (*images_)[0];
@@ -379,7 +379,7 @@ TEST_F(OdometryTest, RefusesTimesThatAreNoTimes) {
   EXPECT_EQ(error_of(0.0, 0.02), "");
 }
 
-TEST_F(OdometryTest, MisuseThrows) {
+TEST_F(OdometryTest, RefusesInvalidOptionsAndDescendingTimeStamps) {
   OdometryOptions bad;
   bad.use_points = false;
   bad.use_lines = false;
@@ -388,7 +388,7 @@ TEST_F(OdometryTest, MisuseThrows) {
   odometry.Process((*images_)[3]);
   try {
     odometry.Process((*images_)[2]);
-    FAIL() << "time ran backwards";
+    FAIL() << "a descending time stamp was accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), HasSubstr("time stamp"));
   }

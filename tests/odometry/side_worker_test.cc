@@ -15,12 +15,12 @@
 namespace msc_vo {
 namespace {
 
-TEST(SideWorker, RunsTasksSideBySideAgainAndAgain) {
+TEST(SideWorker, RunsTasksInParallelRepeatedly) {
   SideWorker worker;
   std::thread::id ran_first;
   std::thread::id ran_second;
   for (int i = 0; i < 1000; ++i) {
-    // Each waits for the other: this only ends if they run at the same time.
+    // Each task waits for the other one, so they must run at the same time.
     std::promise<int> to_second;
     std::promise<int> to_first;
     int got_by_first = 0;
@@ -43,10 +43,10 @@ TEST(SideWorker, RunsTasksSideBySideAgainAndAgain) {
   EXPECT_TRUE(ran_first == std::this_thread::get_id() || ran_second == std::this_thread::get_id());
 }
 
-TEST(SideWorker, TheCallerTakesWhatTheWorkerHasNotBegun) {
+TEST(SideWorker, RunsTasksOnTheCallerWhileTheWorkerIsBusy) {
   SideWorker worker;
   for (int i = 0; i < 100; ++i) {
-    // The one who gets this task only ends when all others are done.
+    // The first task ends only after all others, which the other thread must run.
     std::promise<void> others_done;
     std::atomic<int> num_done{0};
     std::vector<std::function<void()>> tasks;
@@ -61,25 +61,25 @@ TEST(SideWorker, TheCallerTakesWhatTheWorkerHasNotBegun) {
   }
 }
 
-TEST(SideWorker, CarriesExceptionsOver) {
+TEST(SideWorker, RethrowsTheFirstException) {
   SideWorker worker;
   bool done = false;
   const auto fine = [&done] { done = true; };
   const auto bad = [] { throw std::runtime_error("bad"); };
   const auto worse = [] { throw std::invalid_argument("worse"); };
   EXPECT_THROW(worker.RunAll({fine, bad}), std::runtime_error);
-  EXPECT_TRUE(done);  // the other task ran to its end
+  EXPECT_TRUE(done);  // the other task was completed
   done = false;
   EXPECT_THROW(worker.RunAll({bad, fine}), std::runtime_error);
   EXPECT_TRUE(done);
   EXPECT_THROW(worker.RunAll({worse, bad}), std::invalid_argument);
-  // Nothing of it is left.
+  // The next call is not affected.
   done = false;
   EXPECT_NO_THROW(worker.RunAll({fine, [] {}}));
   EXPECT_TRUE(done);
 }
 
-TEST(SideWorker, EndsWithoutWork) { SideWorker worker; }
+TEST(SideWorker, IsDestroyedWithoutTasks) { SideWorker worker; }
 
 }  // namespace
 }  // namespace msc_vo

@@ -14,9 +14,9 @@ namespace {
 
 using testing::ElementsAre;
 
-// A mapper that is as fast as the test says: TryTake() finds `num_ready` steps, Take() any. Step 2
-// k leaves the map that keyframe k was inserted into, step 2 k + 1 the refined one; the newest
-// keyframe of a map here is the number of its step.
+// A runner with controlled speed: TryTake() returns the first `num_ready` steps, Take() any. Step
+// 2 k results in the map with keyframe k inserted, step 2 k + 1 in the refined map. The newest
+// keyframe of a map is set to the number of its step.
 class FakeRunner : public MappingRunner {
  public:
   void Submit(KeyframePacket) override { num_submitted_ += 2; }
@@ -61,42 +61,42 @@ class SnapshotScheduleTest : public testing::Test {
             std::make_shared<MapSnapshot>(),
             [this](int frame, const MappingStep&) { recorded_.push_back(frame); }};
   }
-  // The step whose map each frame from `begin` to `end - 1` sees.
-  static std::vector<int> Seen(SnapshotSchedule* schedule, int begin, int end) {
-    std::vector<int> seen;
-    for (int i = begin; i < end; ++i) seen.push_back(schedule->SnapshotAt(i)->newest_keyframe);
-    return seen;
+  // The steps whose maps the frames from `begin` to `end - 1` are tracked in.
+  static std::vector<int> StepsUsed(SnapshotSchedule* schedule, int begin, int end) {
+    std::vector<int> steps;
+    for (int i = begin; i < end; ++i) steps.push_back(schedule->SnapshotAt(i)->newest_keyframe);
+    return steps;
   }
 
   FakeRunner* runner_ = nullptr;
   std::vector<int> recorded_;
 };
 
-TEST_F(SnapshotScheduleTest, AMapIsSeenSoManyFramesBehindItsKeyframeHoweverFastTheMapperIs) {
+TEST_F(SnapshotScheduleTest, UsesMapsAtAFixedLatencyHoweverFastTheMapperIs) {
   for (const int num_ready : {0, 6}) {
     recorded_.clear();
     SnapshotSchedule schedule = MakeSchedule(1, 3);
     runner_->num_ready = num_ready;
     EXPECT_EQ(schedule.SnapshotAt(0)->newest_keyframe, kNoId);
     schedule.Submit(0, {});
-    EXPECT_THAT(Seen(&schedule, 0, 5), ElementsAre(0, 0, 0, 1, 1));  // the first is waited for
+    EXPECT_THAT(StepsUsed(&schedule, 0, 5), ElementsAre(0, 0, 0, 1, 1));  // frame 0 waits for it
     schedule.Submit(4, {});
-    EXPECT_THAT(Seen(&schedule, 4, 9), ElementsAre(1, 2, 2, 3, 3));
+    EXPECT_THAT(StepsUsed(&schedule, 4, 9), ElementsAre(1, 2, 2, 3, 3));
     schedule.Submit(8, {});
-    EXPECT_THAT(Seen(&schedule, 8, 12), ElementsAre(3, 4, 4, 5));
+    EXPECT_THAT(StepsUsed(&schedule, 8, 12), ElementsAre(3, 4, 4, 5));
     EXPECT_THAT(recorded_, ElementsAre(0, 0, 4, 4, 8, 8));
   }
 }
 
-TEST_F(SnapshotScheduleTest, AKeyframeIsInsertedIntoAMapThatHasBeenRefined) {
+TEST_F(SnapshotScheduleTest, UsesTheRefinedMapNotLaterThanTheNextInsertion) {
   SnapshotSchedule schedule = MakeSchedule(1, 9);
   schedule.Submit(0, {});
-  EXPECT_THAT(Seen(&schedule, 0, 3), ElementsAre(0, 0, 0));
+  EXPECT_THAT(StepsUsed(&schedule, 0, 3), ElementsAre(0, 0, 0));
   schedule.Submit(2, {});
-  EXPECT_THAT(Seen(&schedule, 2, 5), ElementsAre(0, 2, 2));
+  EXPECT_THAT(StepsUsed(&schedule, 2, 5), ElementsAre(0, 2, 2));
 }
 
-TEST_F(SnapshotScheduleTest, WithoutLatencyAKeyframeSeesItsOwnMap) {
+TEST_F(SnapshotScheduleTest, UsesTheMapOfAKeyframeForItselfWithoutLatency) {
   SnapshotSchedule schedule = MakeSchedule(1, 0);
   schedule.Submit(0, {});
   schedule.SnapshotAt(0);
@@ -104,20 +104,20 @@ TEST_F(SnapshotScheduleTest, WithoutLatencyAKeyframeSeesItsOwnMap) {
   EXPECT_EQ(schedule.SnapshotAt(1)->newest_keyframe, 3);
 }
 
-TEST_F(SnapshotScheduleTest, InsertionIsNotLaterThanRefinement) {
+TEST_F(SnapshotScheduleTest, LimitsTheLatencyOfInsertionToThatOfRefinement) {
   SnapshotSchedule schedule = MakeSchedule(5, 2);
   schedule.Submit(0, {});
   schedule.SnapshotAt(0);
   schedule.Submit(4, {});
-  EXPECT_THAT(Seen(&schedule, 4, 7), ElementsAre(1, 1, 3));
+  EXPECT_THAT(StepsUsed(&schedule, 4, 7), ElementsAre(1, 1, 3));
 }
 
-TEST_F(SnapshotScheduleTest, InRealTimeNoFrameWaitsForAMapThatIsLate) {
+TEST_F(SnapshotScheduleTest, DoesNotWaitForLateMapsInRealTime) {
   SnapshotSchedule schedule = MakeSchedule(1, 3, true);
   schedule.Submit(0, {});
-  EXPECT_EQ(schedule.SnapshotAt(1)->newest_keyframe, 0);  // waited for
+  EXPECT_EQ(schedule.SnapshotAt(1)->newest_keyframe, 0);  // the first map is waited for
   schedule.Submit(1, {});
-  EXPECT_THAT(Seen(&schedule, 2, 20), testing::Each(0));  // nothing else is
+  EXPECT_THAT(StepsUsed(&schedule, 2, 20), testing::Each(0));  // others are not
   EXPECT_EQ(schedule.num_late(), 1);
   runner_->num_ready = 3;
   EXPECT_EQ(schedule.SnapshotAt(20)->newest_keyframe, 2);
@@ -127,55 +127,55 @@ TEST_F(SnapshotScheduleTest, InRealTimeNoFrameWaitsForAMapThatIsLate) {
   EXPECT_EQ(schedule.num_late(), 2);
 }
 
-TEST_F(SnapshotScheduleTest, InRealTimeFramesSeeWhatTheyAlwaysSeeIfNoMapIsLate) {
+TEST_F(SnapshotScheduleTest, UsesTheSameMapsInRealTimeIfNoneIsLate) {
   SnapshotSchedule schedule = MakeSchedule(1, 3, true);
   runner_->num_ready = 6;
   schedule.Submit(0, {});
-  EXPECT_THAT(Seen(&schedule, 0, 5), ElementsAre(0, 0, 0, 1, 1));
+  EXPECT_THAT(StepsUsed(&schedule, 0, 5), ElementsAre(0, 0, 0, 1, 1));
   schedule.Submit(4, {});
-  EXPECT_THAT(Seen(&schedule, 4, 7), ElementsAre(1, 2, 2));
+  EXPECT_THAT(StepsUsed(&schedule, 4, 7), ElementsAre(1, 2, 2));
   schedule.Submit(6, {});
-  EXPECT_THAT(Seen(&schedule, 6, 10), ElementsAre(2, 4, 4, 5));
+  EXPECT_THAT(StepsUsed(&schedule, 6, 10), ElementsAre(2, 4, 4, 5));
   EXPECT_EQ(schedule.num_late(), 0);
 }
 
-TEST_F(SnapshotScheduleTest, DrainingRecordsAllAndChangesNothingForTheFrames) {
+TEST_F(SnapshotScheduleTest, RecordsAllStepsOnDrainWithoutChangingLaterFrames) {
   SnapshotSchedule schedule = MakeSchedule(1, 3);
   schedule.Submit(0, {});
   schedule.SnapshotAt(1);
   schedule.Submit(3, {});
   schedule.Drain();
   EXPECT_THAT(recorded_, ElementsAre(0, 0, 3, 3));
-  EXPECT_THAT(Seen(&schedule, 3, 7), ElementsAre(1, 2, 2, 3));
+  EXPECT_THAT(StepsUsed(&schedule, 3, 7), ElementsAre(1, 2, 2, 3));
   schedule.Drain();
   EXPECT_THAT(recorded_, ElementsAre(0, 0, 3, 3));
 }
 
-TEST_F(SnapshotScheduleTest, AnErrorIsThrownOnceWhereItsMapIsMissing) {
+TEST_F(SnapshotScheduleTest, ThrowsAnErrorOnceWhenItsMapIsDue) {
   SnapshotSchedule schedule = MakeSchedule(1, 3);
   runner_->failing = 3;
   schedule.Submit(0, {});
   schedule.SnapshotAt(1);
   schedule.Submit(1, {});
-  EXPECT_THAT(Seen(&schedule, 2, 4), ElementsAre(2, 2));
+  EXPECT_THAT(StepsUsed(&schedule, 2, 4), ElementsAre(2, 2));
   EXPECT_THROW(schedule.SnapshotAt(4), std::runtime_error);
   schedule.Submit(4, {});
-  EXPECT_THAT(Seen(&schedule, 4, 8), ElementsAre(2, 4, 4, 5));
+  EXPECT_THAT(StepsUsed(&schedule, 4, 8), ElementsAre(2, 4, 4, 5));
   EXPECT_THAT(recorded_, ElementsAre(0, 0, 1, 4, 4));
 }
 
-TEST_F(SnapshotScheduleTest, WhatCouldNotBeInsertedLeavesNoMap) {
+TEST_F(SnapshotScheduleTest, KeepsTheMapAfterAFailedInsertion) {
   SnapshotSchedule schedule = MakeSchedule(1, 3);
   runner_->failing = 2;
   schedule.Submit(0, {});
   schedule.SnapshotAt(1);
   schedule.Submit(3, {});
   EXPECT_THROW(schedule.SnapshotAt(4), std::runtime_error);
-  EXPECT_THAT(Seen(&schedule, 4, 8), ElementsAre(1, 1, 1, 1));
+  EXPECT_THAT(StepsUsed(&schedule, 4, 8), ElementsAre(1, 1, 1, 1));
   EXPECT_THAT(recorded_, ElementsAre(0, 0));
 }
 
-TEST_F(SnapshotScheduleTest, DrainingThrowsAnErrorThatNobodyHeardOf) {
+TEST_F(SnapshotScheduleTest, ThrowsAnErrorOnDrainIfItHasNotBeenThrown) {
   SnapshotSchedule schedule = MakeSchedule(1, 5);
   runner_->failing = 3;
   schedule.Submit(0, {});
@@ -184,10 +184,10 @@ TEST_F(SnapshotScheduleTest, DrainingThrowsAnErrorThatNobodyHeardOf) {
   EXPECT_THROW(schedule.Drain(), std::runtime_error);
   EXPECT_THAT(recorded_, ElementsAre(0, 0, 1));
   EXPECT_NO_THROW(schedule.Drain());
-  EXPECT_THAT(Seen(&schedule, 1, 9), ElementsAre(0, 2, 2, 2, 2, 2, 2, 2));
+  EXPECT_THAT(StepsUsed(&schedule, 1, 9), ElementsAre(0, 2, 2, 2, 2, 2, 2, 2));
 }
 
-TEST_F(SnapshotScheduleTest, NegativeLatencyIsRefused) {
+TEST_F(SnapshotScheduleTest, RefusesNegativeLatency) {
   std::string error;
   EXPECT_FALSE((SnapshotOptions{1, -1, false}).IsValid(&error));
   EXPECT_THAT(error, testing::HasSubstr("mapping.latency_frames"));

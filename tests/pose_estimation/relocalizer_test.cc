@@ -12,9 +12,10 @@ namespace {
 
 TEST(Relocalizer, EstimatesAPoseWithoutPrediction) {
   SyntheticFrames world{SyntheticFrames::Options()};
-  const MapSnapshot snapshot = MapOfOneKeyframe(world.Observe(0), SyntheticFrames::CamFromWorld(0));
+  const MapSnapshot snapshot =
+      MapOfOneKeyframe(world.MakeFrame(0), SyntheticFrames::CamFromWorld(0));
   const Rigid3 truth = SyntheticFrames::CamFromWorld(60);
-  const std::shared_ptr<const Frame> frame = world.Observe(60);
+  const std::shared_ptr<const Frame> frame = world.MakeFrame(60);
   const auto hit = Relocalize(RelocalizerOptions(), *frame, snapshot.map,
                               snapshot.map.keyframes().front().second);
   ASSERT_TRUE(hit.has_value());
@@ -25,8 +26,9 @@ TEST(Relocalizer, EstimatesAPoseWithoutPrediction) {
 
 TEST(Relocalizer, IsDeterministic) {
   SyntheticFrames world{SyntheticFrames::Options()};
-  const MapSnapshot snapshot = MapOfOneKeyframe(world.Observe(0), SyntheticFrames::CamFromWorld(0));
-  const std::shared_ptr<const Frame> frame = world.Observe(30);
+  const MapSnapshot snapshot =
+      MapOfOneKeyframe(world.MakeFrame(0), SyntheticFrames::CamFromWorld(0));
+  const std::shared_ptr<const Frame> frame = world.MakeFrame(30);
   const Keyframe& keyframe = snapshot.map.keyframes().front().second;
   const auto a = Relocalize(RelocalizerOptions(), *frame, snapshot.map, keyframe);
   const auto b = Relocalize(RelocalizerOptions(), *frame, snapshot.map, keyframe);
@@ -39,11 +41,12 @@ TEST(Relocalizer, RejectsAnotherSceneAndAnEmptyFrame) {
   SyntheticFrames::Options other_options;
   other_options.seed = 99;
   SyntheticFrames other(other_options);
-  const MapSnapshot snapshot = MapOfOneKeyframe(world.Observe(0), SyntheticFrames::CamFromWorld(0));
+  const MapSnapshot snapshot =
+      MapOfOneKeyframe(world.MakeFrame(0), SyntheticFrames::CamFromWorld(0));
   const Keyframe& keyframe = snapshot.map.keyframes().front().second;
-  EXPECT_FALSE(Relocalize(RelocalizerOptions(), *other.Observe(0), snapshot.map, keyframe));
-  EXPECT_FALSE(
-      Relocalize(RelocalizerOptions(), *SyntheticFrames::EmptyFrame(3), snapshot.map, keyframe));
+  EXPECT_FALSE(Relocalize(RelocalizerOptions(), *other.MakeFrame(0), snapshot.map, keyframe));
+  EXPECT_FALSE(Relocalize(RelocalizerOptions(), *SyntheticFrames::MakeEmptyFrame(3), snapshot.map,
+                          keyframe));
 }
 
 }  // namespace

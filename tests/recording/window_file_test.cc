@@ -8,7 +8,6 @@
 
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 #include "msc_vo/config/option_list.h"
 #include "msc_vo/synthetic/window/synthetic_window.h"
@@ -21,8 +20,8 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// One item of every kind, no two numbers alike, those among them that text loses easily. It makes
-// no sense as a window.
+// One item of every kind. All numbers differ; some are hard to represent as text. Not a valid
+// window.
 WindowData AwkwardWindow() {
   using Limits = std::numeric_limits<double>;
   WindowData data;
@@ -135,14 +134,14 @@ void ExpectSameObservations(const WindowData& a, const WindowData& b) {
 
 class WindowFileTest : public TemporaryFolder {
  protected:
-  // What reading `text` complains about, without the folder.
+  // Returns the error message of reading `text`, without the folder.
   std::string ErrorOf(const std::string& text) {
     WriteText("window.txt", text);
     const std::string message = MessageOf([&] { ReadWindow(Path("window.txt")); });
     const std::string folder = Path("");
     return message.rfind(folder, 0) == 0 ? message.substr(folder.size()) : message;
   }
-  // `text` with the first `from` replaced.
+  // Replaces the first occurrence of `from` in `text`.
   static std::string Replaced(std::string text, const std::string& from, const std::string& to) {
     const size_t begin = text.find(from);
     EXPECT_NE(begin, std::string::npos) << from;
@@ -153,7 +152,7 @@ class WindowFileTest : public TemporaryFolder {
   }
 };
 
-TEST_F(WindowFileTest, EveryNumberComesBack) {
+TEST_F(WindowFileTest, RestoresEveryNumber) {
   const WindowData data = AwkwardWindow();
   WriteWindow(Path("window.txt"), BundleAdjustmentOptions(), data);
   const RecordedWindow read = ReadWindow(Path("window.txt"));
@@ -163,7 +162,7 @@ TEST_F(WindowFileTest, EveryNumberComesBack) {
   EXPECT_EQ(FormatWindow(read.options, read.data), ReadFile(Path("window.txt")));
 }
 
-TEST_F(WindowFileTest, EveryOptionComesBack) {
+TEST_F(WindowFileTest, RestoresEveryOption) {
   Configuration configuration;
   int num_changed = 0;
   for (const Option& option : ListOptions(&configuration)) {
@@ -187,7 +186,7 @@ TEST_F(WindowFileTest, EveryOptionComesBack) {
   }
 }
 
-TEST_F(WindowFileTest, AWindowThatWasReadIsSolvedToTheSameBytes) {
+TEST_F(WindowFileTest, RestoredWindowHasIdenticalSolution) {
   SyntheticWindowOptions options;
   options.num_points = 60;
   options.num_lines = 15;
@@ -204,7 +203,7 @@ TEST_F(WindowFileTest, AWindowThatWasReadIsSolvedToTheSameBytes) {
   ExpectSameObservations(read.data, data);
 }
 
-TEST_F(WindowFileTest, CanBeEditedByHand) {
+TEST_F(WindowFileTest, AcceptsHandEditedFile) {
   WriteText("window.txt",
             "# mine\r\n\r\nmsc_vo_window 1\r\n"
             "camera 500, 500, 320, 240, 640, 480\n"
@@ -227,10 +226,11 @@ TEST_F(WindowFileTest, ErrorsNameLineAndFix) {
     EXPECT_THAT(error, HasSubstr(what)) << to;
   };
   expect("msc_vo_window 1", "msc_vo_window 2",
-         "version 2 of the window file is not known, only 1;");
+         "version 2 of the window file is not supported, only 1;");
   expect("msc_vo_window 1", "msc_vo_window 0", "version 0");
   expect("msc_vo_window 1", "msc_vo_window x", "'x' should be VERSION, a whole number");
-  expect("msc_vo_window 1", "map 1", "is no window file: its first record must be 'msc_vo_window");
+  expect("msc_vo_window 1", "map 1",
+         "is not a window file: its first record must be 'msc_vo_window");
   expect("point 3 ", "pint 3 ", "unknown record 'pint'; known are option camera keyframe point");
   expect("point 3 fixed", "point 3 held",
          "'held' should be 'free' or 'fixed'; correct the line to "
@@ -243,20 +243,19 @@ TEST_F(WindowFileTest, ErrorsNameLineAndFix) {
   expect("481.2", "48l.2", "'48l.2' should be FX");
   expect(" 641 ", " 99999999999 ",
          "should be WIDTH, a whole number from -2147483648 to 2147483647");
-  expect(" 641 ", " ", "found 5 fields behind 'camera'; complete the line");
+  expect(" 641 ", " ", "found 5 fields after 'camera'; correct the line");
   expect(" 641 ", " 641 1 ", "expected 'camera FX FY CX CY WIDTH HEIGHT', found 7 fields");
   expect("parallel.huber", "paralel.huber", "did you mean 'mapping.window.parallel.huber'?");
-  expect(
-      "line_endpoint_prior ", "line_endpoint_prior ",
-      "unknown option 'mapping.window.line_endpoint_prior'; remove the line to take the defaults");
+  expect("line_endpoint_prior ", "line_anchor ",
+         "unknown option 'mapping.window.line_anchor'; remove the line to take the defaults");
   expect("option mapping", "option x mapping", "expected 'option NAME VALUE'");
-  expect("reject_chi2_2 ", "reject_chi2_2 x", "must be a number, not 'x9.21'");
+  expect("reject_chi2_2 ", "reject_chi2_2 x", "must be a number from 0.001 to 10000, not 'x9.21'");
   const std::string end = text.substr(text.rfind("end "));
-  expect(end, "end -3\n", "'end' says -3");
-  expect(end, "end 1000\n", "correct the number if you changed the file on purpose");
+  expect(end, "end -3\n", "'end' gives -3");
+  expect(end, "end 1000\n", "correct the number if you edited the file");
 }
 
-TEST_F(WindowFileTest, ErrorsOfTheWholeFile) {
+TEST_F(WindowFileTest, ReportsErrorsOfWholeFile) {
   const std::string text = FormatWindow(BundleAdjustmentOptions(), AwkwardWindow());
   const std::string camera = "camera 1 1 1 1 1 1\n";
   EXPECT_EQ(ErrorOf(""), "window.txt: is empty; a window file is needed");
@@ -268,12 +267,12 @@ TEST_F(WindowFileTest, ErrorsOfTheWholeFile) {
                       "option mapping.window.line_endpoint_prior true\n" +
                       camera + "end 3\n"),
               StartsWith("window.txt:3: 'mapping.window.line_endpoint_prior' is given twice"));
-  EXPECT_THAT(ErrorOf(text + camera), HasSubstr("stands behind the 'end'"));
+  EXPECT_THAT(ErrorOf(text + camera), HasSubstr("is after the 'end' record"));
   EXPECT_THAT(MessageOf([&] { ReadWindow(Path("none.txt")); }), HasSubstr("none.txt: does not"));
   EXPECT_THAT(MessageOf([&] { ReadWindow(Folder()); }), HasSubstr("is a folder"));
 }
 
-TEST_F(WindowFileTest, NoiseMayBeLeftOut) {
+TEST_F(WindowFileTest, OptionalFieldsHaveDefaults) {
   const std::string start = "msc_vo_window 1\ncamera 1 1 1 1 1 1\n";
   WriteText("window.txt", start +
                               "point 3 free 1 2 3\npoint 4 free 1 2 3 0.5\n"
@@ -291,7 +290,7 @@ TEST_F(WindowFileTest, NoiseMayBeLeftOut) {
   EXPECT_THAT(ErrorOf(start + "point 3 free 1 2 3 x\nend 2\n"), HasSubstr("'x' should be NOISE"));
 }
 
-TEST_F(WindowFileTest, NumbersThatAreNotFiniteAreWrittenAndRefused) {
+TEST_F(WindowFileTest, WritesButRejectsNonFiniteNumbers) {
   WindowData data;
   data.points = {{7, {0.0, std::nan(""), 1.0}}};
   const std::string text = FormatWindow(BundleAdjustmentOptions(), data);
@@ -299,16 +298,16 @@ TEST_F(WindowFileTest, NumbersThatAreNotFiniteAreWrittenAndRefused) {
   EXPECT_THAT(ErrorOf(text), HasSubstr("'nan' should be Y, a finite number"));
 }
 
-TEST_F(WindowFileTest, AFileThatIsCutAnywhereIsRefused) {
+TEST_F(WindowFileTest, RejectsFileTruncatedAnywhere) {
   const std::string text = FormatWindow(BundleAdjustmentOptions(), AwkwardWindow());
-  const size_t whole = text.size() - 1;  // the last line break is not missed
+  const size_t whole = text.size() - 1;  // the last line break is optional
   for (size_t size = 0; size < whole; ++size) {
     EXPECT_THAT(ErrorOf(text.substr(0, size)), StartsWith("window.txt:")) << size;
   }
   EXPECT_EQ(ErrorOf(text.substr(0, whole)), "");
 }
 
-TEST_F(WindowFileTest, WrongBytesAreReadOrRefused) {
+TEST_F(WindowFileTest, ReadsOrRejectsCorruptedBytes) {
   const std::string text = FormatWindow(BundleAdjustmentOptions(), AwkwardWindow());
   std::mt19937 random(1);
   int num_refused = 0;
@@ -321,23 +320,6 @@ TEST_F(WindowFileTest, WrongBytesAreReadOrRefused) {
     EXPECT_THAT(error, StartsWith("window.txt:"));
   }
   EXPECT_GT(num_refused, 1000);
-}
-
-TEST_F(WindowFileTest, JsonOfASolution) {
-  BundleAdjustmentSummary summary;
-  summary.usable = true;
-  summary.final_cost = 0.1 + 0.2;
-  summary.perpendicular = {3, 1, 2.5, 1.5};
-  const nlohmann::json json = nlohmann::json::parse(FormatWindowJson(summary, 12.5));
-  EXPECT_EQ(json["usable"], true);
-  EXPECT_EQ(json["final_cost"], 0.1 + 0.2);
-  EXPECT_EQ(json["milliseconds"], 12.5);
-  EXPECT_EQ(json["terms"].size(), 9u);
-  const nlohmann::json term = json["terms"]["perpendicular"];
-  EXPECT_EQ(term["residual_blocks"], 3);
-  EXPECT_EQ(term["rejected"], 1);
-  EXPECT_EQ(term["initial_cost"], 2.5);
-  EXPECT_EQ(term["final_cost"], 1.5);
 }
 
 }  // namespace

@@ -180,7 +180,7 @@ TEST_F(ResultFilesTest, WritesTheOptionsInEffect) {
 TEST_F(ResultFilesTest, ReportsAFileInPlaceOfTheFolder) {
   WriteText("out", "");
   EXPECT_THAT(MessageOf([&] { WriteResultFiles(Path("out"), Result(), {}); }),
-              HasSubstr("out: cannot be made"));
+              HasSubstr("out: cannot be created"));
 }
 
 }  // namespace

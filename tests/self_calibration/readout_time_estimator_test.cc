@@ -20,7 +20,8 @@ constexpr double kReadoutTime = 0.026;  // seconds
 
 // Adds a keyframe that observes landmark i with feature i.
 KeyframeId AddKeyframe(RollingFrames* world, int index, Map* map) {
-  const KeyframeId id = map->AddKeyframe(world->Observe(index), RollingFrames::CamFromWorld(index));
+  const KeyframeId id =
+      map->AddKeyframe(world->MakeFrame(index), RollingFrames::CamFromWorld(index));
   const bool is_first = map->points().size() == 0;
   std::vector<LandmarkId> landmarks;
   for (const auto& [landmark, point] : map->points()) landmarks.push_back(landmark);
@@ -53,7 +54,7 @@ TEST(ReadoutTimePair, IsIndependentOfLandmarks) {
   RollingFrames world(kReadoutTime, 0.0);
   Map map;
   for (const int index : {0, 1}) {
-    map.AddKeyframe(world.Observe(index), RollingFrames::CamFromWorld(index));
+    map.AddKeyframe(world.MakeFrame(index), RollingFrames::CamFromWorld(index));
   }
   EXPECT_NEAR(EstimateFirst(map)->readout_time, kReadoutTime, 2e-4);
 }
@@ -71,7 +72,7 @@ TEST(ReadoutTimePair, ToleratesOutliers) {
   RollingFrames world(kReadoutTime, 0.3);
   Map map;
   AddKeyframe(&world, 0, &map);
-  auto frame = world.Observe(1);
+  auto frame = world.MakeFrame(1);
   for (int i = 0; i < 15; ++i) frame->points[i].pixel.x() += 6.0;
   const KeyframeId id = AddKeyframe(&world, 1, &map);
   map.SetFrame(id, frame);

@@ -26,7 +26,7 @@ PinholeCamera Camera() {
   return camera;
 }
 
-// Of the plane normal . x = 1 in the frame of the camera.
+// Depth image of the plane normal . x = 1 in the camera frame.
 cv::Mat DepthOf(const PinholeCamera& camera, const Vector3d& normal) {
   cv::Mat depth(camera.height, camera.width, CV_32FC1);
   for (int y = 0; y < depth.rows; ++y) {
@@ -38,9 +38,9 @@ cv::Mat DepthOf(const PinholeCamera& camera, const Vector3d& normal) {
   return depth;
 }
 
-// Largest difference of inverse depths, where `aligned` has one.
-double WorstDifference(const cv::Mat& aligned, const cv::Mat& expected, int* num_missing) {
-  double worst = 0.0;
+// Largest difference of inverse depths over the pixels where `aligned` has a depth.
+double LargestDifference(const cv::Mat& aligned, const cv::Mat& expected, int* num_missing) {
+  double largest = 0.0;
   *num_missing = 0;
   for (int y = 0; y < expected.rows; ++y) {
     for (int x = 0; x < expected.cols; ++x) {
@@ -48,14 +48,14 @@ double WorstDifference(const cv::Mat& aligned, const cv::Mat& expected, int* num
       if (depth == 0.0) {
         ++*num_missing;
       } else {
-        worst = std::max(worst, std::abs(1.0 / depth - 1.0 / expected.at<float>(y, x)));
+        largest = std::max(largest, std::abs(1.0 / depth - 1.0 / expected.at<float>(y, x)));
       }
     }
   }
-  return worst;
+  return largest;
 }
 
-TEST(DepthAlignment, GivesTheDepthOfTheColourImagesTime) {
+TEST(DepthAlignment, WarpsPlaneToTimeOfColourImage) {
   const PinholeCamera camera = Camera();
   const Vector3d normal(0.1, -0.08, 0.4);
   const cv::Mat expected = DepthOf(camera, normal);
@@ -67,44 +67,44 @@ TEST(DepthAlignment, GivesTheDepthOfTheColourImagesTime) {
     const Vector3d turned = motion.rotation() * normal;
     const Vector3d there = turned / (1.0 + turned.dot(motion.translation()));
     int num_missing = 0;
-    const double worst =
-        WorstDifference(AlignDepth(camera, DepthOf(camera, there), motion), expected, &num_missing);
-    // Half a pixel of rounding in x and in y, in an image where inverse depth is there . ray; 10 %
-    // for the ratio of both depths, squared, and for the first guess of the parallax.
+    const double largest = LargestDifference(AlignDepth(camera, DepthOf(camera, there), motion),
+                                             expected, &num_missing);
+    // Half a pixel of rounding in x and in y, where inverse depth is there . ray; 10 % for the
+    // squared ratio of both depths and for the initial value of the parallax.
     const double rounding = std::abs(there.x()) / camera.fx + std::abs(there.y()) / camera.fy;
-    EXPECT_LT(worst, 1.1 * 0.5 * rounding);
-    EXPECT_LT(num_missing, 320 * 240 / 8);  // what the depth camera did not see
+    EXPECT_LT(largest, 1.1 * 0.5 * rounding);
+    EXPECT_LT(num_missing, 320 * 240 / 8);  // outside the depth image
   }
 }
 
-TEST(DepthAlignment, FollowsEdges) {
+TEST(DepthAlignment, ShiftsDepthEdges) {
   const PinholeCamera camera = Camera();
   cv::Mat depth(240, 320, CV_32FC1, cv::Scalar(2.0f));
   depth.colRange(165, 320).setTo(1.0f);
-  // The camera turns to the right by 5 px after the colour image: all moves to the left.
+  // The camera rotates to the right by 5 px after the colour image: the image moves to the left.
   const Rigid3 turn(ExpSO3({0.0, -5.0 / camera.fx, 0.0}), {0.0, 0.0, 0.0});
   const cv::Mat aligned = AlignDepth(camera, depth, turn);
   EXPECT_NEAR(aligned.at<float>(118, 168), 2.0, 0.05);
   EXPECT_NEAR(aligned.at<float>(118, 172), 1.0, 0.05);
-  // It steps to the right by what moves the near half by 6 px, and the far one by 3.
+  // The camera moves to the right, which shifts the near half by 6 px and the far half by 3 px.
   const Rigid3 step(Eigen::Quaterniond::Identity(), {-6.0 / camera.fx, 0.0, 0.0});
   const cv::Mat stepped = AlignDepth(camera, depth, step);
   EXPECT_EQ(stepped.at<float>(118, 166), 2.0f);
   EXPECT_EQ(stepped.at<float>(118, 173), 1.0f);
 }
 
-TEST(DepthAlignment, LeavesWhatIsAtRest) {
+TEST(DepthAlignment, ReturnsInputForSmallMotion) {
   const cv::Mat depth(240, 320, CV_32FC1, cv::Scalar(2.0f));
-  const auto is_left = [&](const Vector3d& turn, const Vector3d& translation) {
+  const auto is_unchanged = [&](const Vector3d& turn, const Vector3d& translation) {
     return AlignDepth(Camera(), depth, Rigid3(ExpSO3(turn), translation)).data == depth.data;
   };
-  EXPECT_TRUE(is_left({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}));
-  EXPECT_TRUE(is_left({0.0, 0.3 / 262.0, 0.0}, {0.0, 0.1 / 262.0, 0.0}));
-  EXPECT_FALSE(is_left({0.0, 1.0 / 262.0, 0.0}, {0.0, 0.0, 0.0}));
-  EXPECT_FALSE(is_left({0.0, 0.0, 0.0}, {0.0, 1.0 / 262.0, 0.0}));
+  EXPECT_TRUE(is_unchanged({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}));
+  EXPECT_TRUE(is_unchanged({0.0, 0.3 / 262.0, 0.0}, {0.0, 0.1 / 262.0, 0.0}));
+  EXPECT_FALSE(is_unchanged({0.0, 1.0 / 262.0, 0.0}, {0.0, 0.0, 0.0}));
+  EXPECT_FALSE(is_unchanged({0.0, 0.0, 0.0}, {0.0, 1.0 / 262.0, 0.0}));
 }
 
-TEST(DepthAlignment, KeepsHoles) {
+TEST(DepthAlignment, PreservesMissingDepth) {
   cv::Mat depth(240, 320, CV_32FC1, cv::Scalar(2.0f));
   depth(cv::Rect(100, 100, 20, 20)).setTo(0.0f);
   const Rigid3 roll(ExpSO3({0.0, 0.0, 0.02}), {0.0, 0.0, 0.0});

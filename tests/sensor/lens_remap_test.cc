@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-TEST(LensRemap, IsNothingWithoutDistortion) {
+TEST(LensRemap, IsIdentityWithoutDistortion) {
   const LensRemap lens(testing::Freiburg1Camera(), LensDistortion());
   const cv::Mat image(480, 640, CV_8UC1, cv::Scalar(3));
   EXPECT_EQ(lens.Undistort(image).data, image.data);
@@ -26,7 +26,7 @@ TEST(LensRemap, IsNothingWithoutDistortion) {
   EXPECT_EQ(lens.IdealFromRaw({12.5, 300.25}), Vector2d(12.5, 300.25));
 }
 
-TEST(LensRemap, GoesThereAndBack) {
+TEST(LensRemap, UndistortionInvertsDistortion) {
   const LensRemap lens(testing::Freiburg1Camera(), testing::Freiburg1Distortion());
   double largest = 0.0;
   for (int y = 0; y < 480; y += 60) {
@@ -37,11 +37,11 @@ TEST(LensRemap, GoesThereAndBack) {
       largest = std::max(largest, (raw - ideal).norm());
     }
   }
-  EXPECT_GT(largest, 5.0);  // the lens does something
+  EXPECT_GT(largest, 5.0);  // the distortion is significant
 }
 
-TEST(LensRemap, MaskIsWhereTheRawImageReaches) {
-  LensDistortion barrel;  // the ideal image has the raw one's borders inside
+TEST(LensRemap, MaskCoversRawImage) {
+  LensDistortion barrel;  // the borders of the raw image lie inside the ideal image
   barrel.k[0] = 0.3;
   const LensRemap lens(testing::Freiburg1Camera(), barrel);
   ASSERT_EQ(lens.mask().size(), cv::Size(640, 480));
@@ -49,7 +49,7 @@ TEST(LensRemap, MaskIsWhereTheRawImageReaches) {
   EXPECT_EQ(lens.mask().at<uint8_t>(0, 0), 0);
 }
 
-TEST(LensRemap, StraightLinesBecomeStraight) {
+TEST(LensRemap, UndistortsStraightLines) {
   const PinholeCamera camera = testing::Freiburg1Camera();
   // A long edge near the upper border, where the lens bends it by pixels.
   const LineSegment2 truth{Vector2d(30.0, 25.3), Vector2d(610.0, 40.7)};
@@ -67,7 +67,7 @@ TEST(LensRemap, StraightLinesBecomeStraight) {
   EXPECT_GT(line.Length(), 500.0);
   EXPECT_LT(truth.DistanceToLine(line.start), 0.4);
   EXPECT_LT(truth.DistanceToLine(line.end), 0.4);
-  // In the raw image the edge is bent: the line found there leaves it.
+  // In the raw image the edge is curved and deviates from the detected line.
   const auto distorted = extractor.Extract(raw);
   ASSERT_FALSE(distorted.empty());
   double farthest = 0.0;

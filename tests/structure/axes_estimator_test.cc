@@ -47,7 +47,7 @@ TEST_F(AxesEstimatorTest, StartsWithoutAxes) {
 TEST_F(AxesEstimatorTest, AcceptsTheFirstProposalOnly) {
   estimator_.Propose(Turned(1.0));
   EXPECT_EQ(estimator_.state(), AxesState::kCoarse);
-  EXPECT_DOUBLE_EQ(estimator_.sigma(), AxesEstimatorOptions().coarse_sigma);
+  EXPECT_DOUBLE_EQ(RadiansToDegrees(estimator_.sigma()), AxesEstimatorOptions().coarse_sigma);
   estimator_.Propose(Turned(30.0));
   EXPECT_LT(estimator_.world_from_axes().angularDistance(Turned(1.0)), 1e-12);
 }

@@ -89,7 +89,7 @@ TEST_F(AxisAssociationTest, AssociatesNinetyNineInAHundredLinesOfAnAxis) {
 }
 
 TEST_F(AxisAssociationTest, RejectsInvalidOptions) {
-  options_.max_angle = 1.0;
+  options_.max_angle = 45.0;
   std::string error;
   EXPECT_FALSE(options_.IsValid(&error));
   EXPECT_NE(error.find("max_angle"), std::string::npos);

@@ -278,7 +278,7 @@ TEST_P(FrameStructureTest, NamesTheInvalidLine) {
               HasSubstr("line 7: inverse depth must be positive"));
   EXPECT_THAT(message([](StructureLine* l) { l->sigma = 0.0; }), HasSubstr("line 7: sigma"));
   EXPECT_THAT(message([](StructureLine* l) { l->segment.end = l->segment.start; }),
-              HasSubstr("line 7: segment has no length"));
+              HasSubstr("line 7: segment has zero length"));
   EXPECT_THAT(message([](StructureLine* l) { l->depth.covariance.setZero(); }),
               HasSubstr("line 7: depth covariance"));
   EXPECT_THAT(

@@ -38,7 +38,7 @@ std::vector<LineSegment3> LinesInCamera(const Frame& frame) {
 
 TEST(KeyframeStructure, AlignsDirections) {
   SyntheticFrames world{SyntheticFrames::Options()};
-  const std::shared_ptr<const Frame> frame = world.Observe(0);
+  const std::shared_ptr<const Frame> frame = world.MakeFrame(0);
   const Rigid3 world_from_cam = SyntheticFrames::CamFromWorld(0).Inverse();
   const double before = DirectionError(LinesInCamera(*frame), world_from_cam);
   const auto refined = RefineStructure(WideGates(), NoiseScale(), frame);
@@ -56,7 +56,7 @@ TEST(KeyframeStructure, AlignsDirections) {
 
 TEST(KeyframeStructure, UsesTheNoiseScaleOfTheLines) {
   SyntheticFrames world{SyntheticFrames::Options()};
-  const std::shared_ptr<const Frame> frame = world.Observe(0);
+  const std::shared_ptr<const Frame> frame = world.MakeFrame(0);
   const Rigid3 world_from_cam = SyntheticFrames::CamFromWorld(0).Inverse();
   const auto error_with = [&](double scale) {
     const NoiseScale noise{1.0, scale, scale};
@@ -77,7 +77,7 @@ TEST(KeyframeStructure, UsesTheNoiseScaleOfTheLines) {
 }
 
 TEST(KeyframeStructure, ReturnsTheSameFrameWithoutPairs) {
-  const std::shared_ptr<const Frame> empty = SyntheticFrames::EmptyFrame(0);
+  const std::shared_ptr<const Frame> empty = SyntheticFrames::MakeEmptyFrame(0);
   EXPECT_EQ(RefineStructure(FrameStructureOptions(), NoiseScale(), empty), empty);
 }
 

@@ -20,7 +20,7 @@ Map MakeMap(SyntheticFrames* world, int count) {
     const int index = 10 * k;
     const Rigid3 cam_from_world =
         SyntheticFrames::CamFromWorld(index) * SyntheticFrames::CamFromWorld(0).Inverse();
-    const KeyframeId id = map.AddKeyframe(world->Observe(index), cam_from_world);
+    const KeyframeId id = map.AddKeyframe(world->MakeFrame(index), cam_from_world);
     const Frame& frame = *map.FindKeyframe(id)->frame;
     for (int i = 0; i < static_cast<int>(frame.lines.size()); ++i) {
       LandmarkId match = kNoId;
@@ -73,7 +73,7 @@ TEST(SceneAxes, AlignsTheLinesOfAWindowWithTheirAxes) {
   for (const WindowData::AxisAlignment& alignment : window.axis_alignments) {
     const LineLandmark& line = *map.FindLine(alignment.line);
     EXPECT_LT(UndirectedAngle(line.segment.Direction(), alignment.axis), DegreesToRadians(5.0));
-    EXPECT_GE(alignment.sigma, SceneAxesOptions().deviation);
+    EXPECT_GE(alignment.sigma, DegreesToRadians(SceneAxesOptions().deviation));
   }
 }
 

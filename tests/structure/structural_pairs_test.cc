@@ -20,7 +20,7 @@ class StructuralPairsTest : public ::testing::Test {
  protected:
   StructuralPairsTest() {
     SyntheticFrames world{SyntheticFrames::Options()};
-    map_ = MapOfOneKeyframe(world.Observe(0), Rigid3()).map;
+    map_ = MapOfOneKeyframe(world.MakeFrame(0), Rigid3()).map;
     WindowSelectionOptions selection;
     selection.min_observations = 1;
     window_ = SelectWindow(selection, map_, 0);

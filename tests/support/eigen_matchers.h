@@ -8,14 +8,15 @@
 
 namespace msc_vo {
 
-// Every entry of a vector or matrix within `tolerance` of `expected`; sizes must agree.
+// Matches a vector or matrix of the same size as `expected` whose entries differ by at most
+// `tolerance`.
 MATCHER_P2(IsNear, expected, tolerance, "") {
   if (arg.rows() != expected.rows() || arg.cols() != expected.cols()) {
     *result_listener << "sizes differ";
     return false;
   }
   const double error = (arg - expected).cwiseAbs().maxCoeff();
-  *result_listener << "\n" << arg << "\nagainst\n" << expected << "\nlargest difference " << error;
+  *result_listener << "\n" << arg << "\nexpected\n" << expected << "\nlargest difference " << error;
   return error <= tolerance;  // false for NaN
 }
 

@@ -12,12 +12,11 @@
 
 namespace msc_vo {
 
-// Observation by a rolling shutter of a point at `in_cam` (metres, camera at the time stamp). The
-// row of the pixel determines its time of exposure, which determines the row: fixed-point
-// iteration.
-inline PointFeature ObserveWithRollingShutter(const PinholeCamera& camera,
-                                              const Eigen::Vector3d& in_cam,
-                                              const CameraVelocity& velocity, double readout_time) {
+// Projects a point with a rolling shutter: pixel and inverse depth of the point that is at `in_cam`
+// (metres, camera frame) at the time stamp. The exposure time of the point depends on its row and
+// vice versa, hence the iteration.
+inline PointFeature ProjectRolling(const PinholeCamera& camera, const Eigen::Vector3d& in_cam,
+                                   const CameraVelocity& velocity, double readout_time) {
   PointFeature point;
   point.pixel = camera.Project(in_cam);
   for (int i = 0; i < 20; ++i) {
@@ -29,7 +28,8 @@ inline PointFeature ObserveWithRollingShutter(const PinholeCamera& camera,
   return point;
 }
 
-// A rotating camera that observes a world of points; feature i of every frame is point i.
+// Frames of a rotating camera with a rolling shutter in a world of points; every point is the
+// feature with the same index.
 class RollingFrames {
  public:
   RollingFrames(double readout_time, double pixel_noise)
@@ -43,7 +43,7 @@ class RollingFrames {
 
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
 
-  // About one radian per second in varying directions.
+  // Rotates at about one radian per second in changing directions.
   static CameraVelocity Velocity(int index) {
     return {Eigen::Vector3d(std::cos(1.3 * index), std::sin(0.9 * index), 0.5 * std::sin(index)),
             Eigen::Vector3d(0.1, 0.0, 0.2 * std::cos(index))};
@@ -53,15 +53,15 @@ class RollingFrames {
                   {0.05 * std::sin(2.0 * index), 0.0, 0.02 * index});
   }
 
-  // Frame `index` with its velocity, without compensation.
-  std::shared_ptr<Frame> Observe(int index) {
+  // The frame with its velocity, but not compensated for the rolling shutter.
+  std::shared_ptr<Frame> MakeFrame(int index) {
     auto frame = std::make_shared<Frame>();
     frame->id = index;
     frame->timestamp = 0.3 * index;
     frame->velocity = Velocity(index);
     for (size_t i = 0; i < points_.size(); ++i) {
-      PointFeature feature = ObserveWithRollingShutter(
-          frame->camera, CamFromWorld(index) * points_[i], Velocity(index), readout_time_);
+      PointFeature feature = ProjectRolling(frame->camera, CamFromWorld(index) * points_[i],
+                                            Velocity(index), readout_time_);
       feature.descriptor = descriptors_[i];
       feature.pixel.x() += Normal();
       feature.pixel.y() += Normal();

@@ -14,13 +14,13 @@
 
 namespace msc_vo {
 
-// One frame of a room: lines along three axes in a random orientation and lines in random
-// directions (free lines), with inverse depths fitted to noisy samples.
+// One frame of a room for the tests of structure: lines along three orthogonal axes with a random
+// orientation, other lines in random directions, and line depths with the noise of a sensor.
 struct StructureFrameOptions {
   int num_lines = 60;
   double free_ratio = 0.2;              // fraction of lines in random directions
-  double deviation = 0.35;              // degrees, sigma of a line's angle to its axis
-  double inverse_depth_sigma = 1.4e-3;  // 1/metres, of one sample; a sample every four pixels
+  double deviation = 0.35;              // degrees, of a line from its axis, per component
+  double inverse_depth_sigma = 1.4e-3;  // 1/metres, of a sample; one every four pixels
   double image_sigma = 1.0;             // pixels, of an end point across its segment
   double fy = 525.0;                    // may be negative
   unsigned seed = 1;
@@ -35,14 +35,14 @@ struct StructureFrame {
   Eigen::Vector2d TrueDepths(size_t i) const {
     return {1.0 / truth[i].start.z(), 1.0 / truth[i].end.z()};
   }
-  // Squared error (radians) of the direction that the depths of `line` (line i) give to the true
-  // image segment, because depths cannot correct the noise of the observed segment.
+  // Squared error (radians^2) of the direction of line i with the depths of `line`. Uses the true
+  // image segment, whose noise depth cannot reduce.
   double SquaredDirectionError(size_t i, const StructureLine& line) const {
     const LineSegment2 image{camera.Project(truth[i].start), camera.Project(truth[i].end)};
     const Eigen::Vector3d d = BackProject(camera, image, line.depth).Direction();
     return d.cross(truth[i].Direction()).squaredNorm();
   }
-  // Squared error of the depths in sigmas: chi-square with two degrees of freedom.
+  // Normalised squared error of the depths of line i: chi-square with two degrees of freedom.
   double SquaredNormalizedError(size_t i, const StructureLine& line) const {
     const Eigen::Vector2d error = Eigen::Vector2d(line.depth.start, line.depth.end) - TrueDepths(i);
     return error.dot(line.depth.covariance.inverse() * error);

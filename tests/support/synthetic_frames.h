@@ -11,8 +11,8 @@
 
 namespace msc_vo {
 
-// A world of points and line segments with unique descriptors, and frames that observe it: the
-// output of a FrameBuilder, without images.
+// A world of points and line segments with distinct descriptors, and frames that observe it as a
+// FrameBuilder would extract them, without images.
 class SyntheticFrames {
  public:
   struct Options {
@@ -20,7 +20,7 @@ class SyntheticFrames {
     int num_lines = 40;
     double pixel_noise = 0.5;           // standard deviation of every coordinate, pixels
     double inverse_depth_noise = 1e-3;  // standard deviation, 1/metres
-    int flipped_bits = 12;              // per observed descriptor
+    int flipped_bits = 12;              // of every descriptor, per observation
     unsigned seed = 1;
   };
 
@@ -56,8 +56,10 @@ class SyntheticFrames {
   }
 
   // Frame `index`, observed from CamFromWorld(index) or any other pose.
-  std::shared_ptr<const Frame> Observe(int index) { return Observe(index, CamFromWorld(index)); }
-  std::shared_ptr<const Frame> Observe(int index, const Rigid3& cam_from_world) {
+  std::shared_ptr<const Frame> MakeFrame(int index) {
+    return MakeFrame(index, CamFromWorld(index));
+  }
+  std::shared_ptr<const Frame> MakeFrame(int index, const Rigid3& cam_from_world) {
     auto frame = std::make_shared<Frame>();
     frame->id = index;
     frame->timestamp = index / 30.0;
@@ -66,8 +68,8 @@ class SyntheticFrames {
     frame->grid = FeatureGrid(frame->camera, frame->points);
     return frame;
   }
-  // A frame without features, as with the lens covered.
-  static std::shared_ptr<const Frame> EmptyFrame(int index) {
+  // A frame without features, as with a covered lens.
+  static std::shared_ptr<const Frame> MakeEmptyFrame(int index) {
     auto frame = std::make_shared<Frame>();
     frame->id = index;
     frame->timestamp = index / 30.0;

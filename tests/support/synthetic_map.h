@@ -10,7 +10,7 @@
 
 namespace msc_vo {
 
-// A map with one keyframe, in which every feature of `frame` with a depth is a landmark.
+// Builds a map with one keyframe, in which every feature of `frame` with a depth is a landmark.
 inline MapSnapshot MapOfOneKeyframe(const std::shared_ptr<const Frame>& frame,
                                     const Rigid3& cam_from_world) {
   MapSnapshot snapshot;

@@ -247,7 +247,7 @@ class EstimateFramePoseTest : public ::testing::Test {
     SyntheticFrames::Options options;
     options.pixel_noise = 0.0;
     options.inverse_depth_noise = 0.0;
-    frame_ = SyntheticFrames(options).Observe(0);
+    frame_ = SyntheticFrames(options).MakeFrame(0);
     map_ = MapOfOneKeyframe(frame_, Rigid3()).map;
     const Keyframe& keyframe = map_.keyframes().front().second;
     for (size_t i = 0; i < keyframe.points.size(); ++i) {

@@ -64,10 +64,10 @@ TEST(KeyframePolicy, TestsCloseFeaturesSeparately) {
     frame.points[i].inverse_depth_sigma = 1.425e-3;
   }
   const auto matches = [](int close, int distant) {
-    FrameMatches matches;
-    for (int i = 0; i < close; ++i) matches.points.push_back({i, i, {0, 0, 0}, true});
-    for (int i = 40; i < 40 + distant; ++i) matches.points.push_back({i, i, {0, 0, 0}, true});
-    return matches;
+    FrameMatches tracked;
+    for (int i = 0; i < close; ++i) tracked.points.push_back({i, i, {0, 0, 0}, true});
+    for (int i = 40; i < 40 + distant; ++i) tracked.points.push_back({i, i, {0, 0, 0}, true});
+    return tracked;
   };
   KeyframePolicy policy{KeyframePolicyOptions()};
   EXPECT_FALSE(policy.IsDue(frame, matches(40, 20)));

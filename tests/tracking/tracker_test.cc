@@ -16,7 +16,7 @@ class TrackerTest : public ::testing::Test {
  protected:
   void Start(const SyntheticFrames::Options& options) {
     world_ = std::make_unique<SyntheticFrames>(options);
-    const std::shared_ptr<const Frame> first = world_->Observe(0);
+    const std::shared_ptr<const Frame> first = world_->MakeFrame(0);
     const TrackedFrame tracked = tracker_.Track(first, MapSnapshot());
     ASSERT_EQ(tracked.status, TrackingStatus::kTracked);
     ASSERT_TRUE(tracked.keyframe.is_due);
@@ -25,7 +25,7 @@ class TrackerTest : public ::testing::Test {
   static Rigid3 Truth(int index) {
     return SyntheticFrames::CamFromWorld(index) * SyntheticFrames::CamFromWorld(0).Inverse();
   }
-  TrackedFrame Track(int index) { return tracker_.Track(world_->Observe(index), snapshot_); }
+  TrackedFrame Track(int index) { return tracker_.Track(world_->MakeFrame(index), snapshot_); }
 
   Tracker tracker_{TrackerOptions()};
   std::unique_ptr<SyntheticFrames> world_;
@@ -97,7 +97,7 @@ TEST_F(TrackerTest, PredictsCoveredFramesAndResumes) {
   Start({});
   for (int i = 1; i < 10; ++i) Track(i);
   for (int i = 10; i < 15; ++i) {
-    const TrackedFrame tracked = tracker_.Track(SyntheticFrames::EmptyFrame(i), snapshot_);
+    const TrackedFrame tracked = tracker_.Track(SyntheticFrames::MakeEmptyFrame(i), snapshot_);
     EXPECT_EQ(tracked.status, TrackingStatus::kPredicted) << i;
     EXPECT_FALSE(tracked.keyframe.is_due);
     // Constant velocity for a sixth of a second.
@@ -112,7 +112,8 @@ TEST_F(TrackerTest, ReportsLossAndRelocalizes) {
   Start({});
   for (int i = 1; i < 5; ++i) Track(i);
   TrackedFrame tracked;
-  for (int i = 5; i < 40; ++i) tracked = tracker_.Track(SyntheticFrames::EmptyFrame(i), snapshot_);
+  for (int i = 5; i < 40; ++i)
+    tracked = tracker_.Track(SyntheticFrames::MakeEmptyFrame(i), snapshot_);
   EXPECT_EQ(tracked.status, TrackingStatus::kLost);
   EXPECT_TRUE(tracked.cam_from_world.params.allFinite());
   // The camera reappears far from the pose that constant velocity predicts.
@@ -123,10 +124,10 @@ TEST_F(TrackerTest, ReportsLossAndRelocalizes) {
 
 TEST_F(TrackerTest, WaitsForAFirstFrameWithFeatures) {
   world_ = std::make_unique<SyntheticFrames>(SyntheticFrames::Options());
-  const TrackedFrame empty = tracker_.Track(SyntheticFrames::EmptyFrame(0), MapSnapshot());
+  const TrackedFrame empty = tracker_.Track(SyntheticFrames::MakeEmptyFrame(0), MapSnapshot());
   EXPECT_EQ(empty.status, TrackingStatus::kLost);
   EXPECT_FALSE(empty.keyframe.is_due);
-  const TrackedFrame first = tracker_.Track(world_->Observe(1), MapSnapshot());
+  const TrackedFrame first = tracker_.Track(world_->MakeFrame(1), MapSnapshot());
   EXPECT_EQ(first.status, TrackingStatus::kTracked);
   EXPECT_TRUE(first.keyframe.is_due);
 }

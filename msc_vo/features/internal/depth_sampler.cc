@@ -37,7 +37,7 @@ constexpr double kCurvatureSigma = 1.0;
 // The assignment of a point beside a depth edge to a surface may be wrong, and the pixel of the
 // window farthest from that surface shows by how much. The r.m.s. error is about this fraction of
 // the difference if one assignment in ten is wrong, sqrt(0.1).
-// Chosen by measurement, see docs/lab/features.md.
+// Chosen by measurement, see docs/lab/depth.md.
 constexpr double kEdgeInflation = 0.3;
 
 // A pixel of the window that has a depth.

@@ -12,8 +12,8 @@
 namespace msc_vo {
 
 struct DepthSample {
-  double inverse_depth = 0.0;  // 1/metres, positive
-  double sigma = 0.0;          // 1/metres
+  double inverse_depth = 0.0;  ///< 1/metres, positive
+  double sigma = 0.0;          ///< 1/metres
 };
 
 /// Estimates the inverse depth of the surface that a point feature at `pixel` (in the depth image)

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -23,45 +22,43 @@ class DepthSums {
   /// component exceeds the depth.
   static constexpr double kMaxSum = (1 << 30) * kUnit;
 
-  /// Adds a pixel whose point has the given coordinates, in units of kUnit.
-  void AddPoint(int32_t x, int32_t y, int32_t z) {
-    sums_[kX] += static_cast<uint32_t>(x);
-    sums_[kY] += static_cast<uint32_t>(y);
-    sums_[kZ] += static_cast<uint32_t>(z);
-    sums_[kCounts] += kOnePoint;
+  DepthSums() = default;
+
+  /// Adds a pixel by the coordinates of its point, in units of kUnit.
+  void AddPoint(int32_t x, int32_t y, int32_t z, bool is_edge) {
+    x_ += static_cast<uint32_t>(x);
+    y_ += static_cast<uint32_t>(y);
+    z_ += static_cast<uint32_t>(z);
+    counts_ += is_edge ? kOnePoint + kOneEdge : kOnePoint;
   }
-  /// Marks the pixel added last as a depth edge.
-  void AddEdge() { sums_[kCounts] += kOneEdge; }
 
   /// Numbers of pixels, each below 2^16 for a window.
-  int NumPoints() const { return static_cast<int>(sums_[kCounts] & (kOneEdge - 1)); }
-  int NumEdges() const { return static_cast<int>(sums_[kCounts] / kOneEdge); }
+  int NumPoints() const { return static_cast<int>(counts_ & (kOneEdge - 1)); }
+  int NumEdges() const { return static_cast<int>(counts_ / kOneEdge); }
 
   /// Mean of the points, metres; NumPoints() must not be 0.
   Eigen::Vector3d MeanPoint() const {
     const double scale = kUnit / NumPoints();
-    return scale * Eigen::Vector3d(static_cast<int32_t>(sums_[kX]), static_cast<int32_t>(sums_[kY]),
-                                   static_cast<int32_t>(sums_[kZ]));
+    return scale * Eigen::Vector3d(static_cast<int32_t>(x_), static_cast<int32_t>(y_),
+                                   static_cast<int32_t>(z_));
   }
 
-  DepthSums& operator+=(const DepthSums& other) {
-    for (int i = 0; i < kSize; ++i) sums_[i] += other.sums_[i];
-    return *this;
+  friend DepthSums operator+(const DepthSums& a, const DepthSums& b) {
+    return {a.x_ + b.x_, a.y_ + b.y_, a.z_ + b.z_, a.counts_ + b.counts_};
   }
-  DepthSums& operator-=(const DepthSums& other) {
-    for (int i = 0; i < kSize; ++i) sums_[i] -= other.sums_[i];
-    return *this;
+  friend DepthSums operator-(const DepthSums& a, const DepthSums& b) {
+    return {a.x_ - b.x_, a.y_ - b.y_, a.z_ - b.z_, a.counts_ - b.counts_};
   }
-  friend DepthSums operator+(DepthSums a, const DepthSums& b) { return a += b; }
-  friend DepthSums operator-(DepthSums a, const DepthSums& b) { return a -= b; }
 
  private:
-  enum { kX, kY, kZ, kCounts, kSize };
   // Two counters in one entry: points in the lower half, edges in the upper half.
   static constexpr uint32_t kOnePoint = 1;
   static constexpr uint32_t kOneEdge = 1u << 16;
 
-  std::array<uint32_t, kSize> sums_{};
+  DepthSums(uint32_t x, uint32_t y, uint32_t z, uint32_t counts)
+      : x_(x), y_(y), z_(z), counts_(counts) {}
+
+  uint32_t x_ = 0, y_ = 0, z_ = 0, counts_ = 0;
 };
 
 }  // namespace msc_vo

@@ -93,8 +93,8 @@ Descriptor CompareBands(const std::array<Band, kBands>& bands) {
   return descriptor;
 }
 
-// Whether the rows around a segment with this end stay inside the padded image: they reach
-// (kRows - 1) / 2 half-size pixels to both sides of the end, and the padding kMargin.
+// True if the region of a segment with this end point stays inside the padded image: its rows
+// extend (kRows - 1) / 2 pixels at half size to both sides, the padding kMargin.
 bool IsNearImage(const Vector2d& end, const cv::Mat& half) {
   constexpr double kBefore = 2.0 * (kMargin - (kRows - 1) / 2);  // full-size pixels
   constexpr double kBehind = kBefore - 1.0;                      // rounding may add a pixel

@@ -10,8 +10,8 @@ namespace {
 
 const Eigen::Vector3f kWhite(0.86f, 0.86f, 0.86f);
 
-// Upright panels that zig-zag at +-45 degrees from `from` on along `along`, `count` of them, folded
-// so that their visible sides look to the left of `along`.
+// Adds `count` upright panels that zigzag at +-45 degrees from `from` in direction `along`. Their
+// visible sides face to the left of `along`.
 void AddZigZag(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double panel,
                double height, int count, const Texture& texture, SceneBuilder* builder) {
   const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(along);
@@ -19,7 +19,7 @@ void AddZigZag(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d step =
         panel * std::sqrt(0.5) * (along + (i % 2 == 0 ? 1.0 : -1.0) * left);
-    // step x up points to the right of the step: start at the far end to look left.
+    // step x up points to the right of the step: start at the far end to face left.
     builder->AddQuad({at + step, -step, height * Eigen::Vector3d::UnitZ(), texture});
     at += step;
   }
@@ -38,13 +38,13 @@ Scene MakeBare(uint64_t seed) {
   builder.scene().ambient = 0.36;
   builder.scene().lights = {{{0.9, -0.5, 2.2}, 0.85, 2.4}, {{-1.4, 0.3, 2.2}, 0.30, 2.4}};
 
-  // Folds along the two long walls, seen from the middle.
+  // Folds along the two long walls, facing the middle.
   const double panel = 0.62, fold = panel * std::sqrt(0.5);
   const int folds = 2 * static_cast<int>((2.0 * x - 0.4) / (2.0 * fold));
   const double start = 0.5 * folds * fold;
   AddZigZag({-start, -y + 0.05, 0}, Eigen::Vector3d::UnitX(), panel, 1.8, folds, white, &builder);
   AddZigZag({start, y - 0.05, 0}, -Eigen::Vector3d::UnitX(), panel, 1.8, folds, white, &builder);
-  // Boxes at the two other walls, square to the room.
+  // Boxes along the two other walls, parallel to them.
   for (const double sign : {-1.0, 1.0}) {
     double at = -y + 0.65;
     while (at < y - 1.0) {
@@ -55,7 +55,7 @@ Scene MakeBare(uint64_t seed) {
       at += width + random.Uniform(0.1, 0.3);
     }
   }
-  // Low boxes in the middle, under the camera's way.
+  // Low boxes in the middle, below the trajectory.
   builder.AddBox(UprightFrame({0, 0, 0}, 0.0), {-0.55, -0.3, 0}, {0.05, 0.3, 0.55}, white);
   builder.AddBox(UprightFrame({0, 0, 0}, 0.0), {0.05, -0.3, 0}, {0.5, 0.15, 0.3}, white);
 

@@ -17,20 +17,20 @@ namespace msc_vo {
 
 namespace {
 
-// Time is tabulated at this many steps per waypoint: 2-3 mm of way each, a fraction of a frame.
+// Entries of the timetable per waypoint: steps of 2 to 3 mm, a fraction of the motion per frame.
 constexpr int kStepsPerWaypoint = 400;
 
-// The hand's tremor: two sines per axis. Frequencies of slow sway and of steps, and ratios that are
-// no fractions, so that the sum does not repeat; amplitudes as measured on hand-held recordings to
-// within a factor of two.
+// Shake of the hand: two sines per axis, with the frequencies of slow sway and of steps. Their
+// ratios are irrational in effect, so the sum does not repeat. The amplitudes agree with those of
+// hand-held recordings within a factor of two.
 constexpr double kSlow = 0.61, kFast = 1.37;  // hertz, times the axis factors below
 constexpr double kAxisFactor[6] = {1.0, 0.87, 1.23, 1.07, 0.79, 1.31};
 constexpr double kShiftSlow = 0.006, kShiftFast = 0.002;                      // metres
 constexpr double kTurnSlow = 0.35 * kPi / 180, kTurnFast = 0.15 * kPi / 180;  // radians
 
-// Pace: the path's own time runs up to a third faster or slower than the clock.
+// Pace: the path is followed up to a third faster or slower than nominal.
 constexpr double kPaceFrequency[2] = {0.11, 0.173};  // hertz
-constexpr double kPaceDepth = 0.15;                  // of each of the two sines
+constexpr double kPaceAmplitude = 0.15;              // of each of the two sines
 
 // Uniform cubic B-spline at fraction f between the two middle ones of four control points.
 Eigen::Vector3d CubicBSpline(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
@@ -41,7 +41,7 @@ Eigen::Vector3d CubicBSpline(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
          6.0;
 }
 
-// Two sines of unit weight with the axis' own frequencies.
+// Sum of the two sines of an axis with amplitudes `slow` and `fast`.
 double Shake(double slow, double fast, int axis, double seconds, const double* phases) {
   const double cycle = 2.0 * kPi * kAxisFactor[axis] * seconds;
   return slow * std::sin(kSlow * cycle + phases[0]) + fast * std::sin(kFast * cycle + phases[1]);
@@ -51,7 +51,7 @@ double Shake(double slow, double fast, int axis, double seconds, const double* p
 
 bool PathOptions::IsValid(std::string* error) const {
   if (!(speed > 0.0) || !(turn_rate > 0.0)) {
-    *error = "path: speed and turn_rate must be positive";
+    *error = "path: speed (metres/second) and turn_rate (radians/second) must be positive";
   } else if (!(shake >= 0.0)) {
     *error = "path: shake must not be negative";
   } else {
@@ -76,19 +76,19 @@ CameraPath::CameraPath(const Scene& scene, const PathOptions& options)
 void CameraPath::BuildTimetable() {
   const int steps = kStepsPerWaypoint * static_cast<int>(tour_.size());
   seconds_at_.assign(1, 0.0);
-  Gaze last = GazeAt(0.0);
+  Waypoint last = WaypointAt(0.0);
   for (int i = 1; i <= steps; ++i) {
-    const Gaze gaze = GazeAt(static_cast<double>(i) / kStepsPerWaypoint);
-    const double way = (gaze.position - last.position).norm() / options_.speed;
-    const Eigen::Vector3d from = last.target - last.position, to = gaze.target - gaze.position;
+    const Waypoint next = WaypointAt(static_cast<double>(i) / kStepsPerWaypoint);
+    const double move = (next.position - last.position).norm() / options_.speed;
+    const Eigen::Vector3d from = last.target - last.position, to = next.target - next.position;
     const double turn = std::atan2(from.cross(to).norm(), from.dot(to)) / options_.turn_rate;
-    // The norm of both keeps each below its bound, without a corner where one takes over.
-    seconds_at_.push_back(seconds_at_.back() + std::hypot(way, turn));
-    last = gaze;
+    // The norm of both times respects both bounds and is smooth, unlike their maximum.
+    seconds_at_.push_back(seconds_at_.back() + std::hypot(move, turn));
+    last = next;
   }
 }
 
-CameraPath::Gaze CameraPath::GazeAt(double parameter) const {
+Waypoint CameraPath::WaypointAt(double parameter) const {
   const size_t count = tour_.size();
   const size_t knot = static_cast<size_t>(parameter);
   const double f = parameter - static_cast<double>(knot);
@@ -108,19 +108,19 @@ double CameraPath::ParameterAt(double seconds) const {
 }
 
 Rigid3 CameraPath::CamFromWorld(double seconds) const {
-  double walked = start_seconds_ + seconds;
+  double path_seconds = start_seconds_ + seconds;
   for (int k = 0; k < 2; ++k) {
     const double rate = 2.0 * kPi * kPaceFrequency[k], phase = phases_[12 + k];
-    walked += kPaceDepth / rate * (std::sin(rate * seconds + phase) - std::sin(phase));
+    path_seconds += kPaceAmplitude / rate * (std::sin(rate * seconds + phase) - std::sin(phase));
   }
-  const Gaze gaze = GazeAt(ParameterAt(walked));
+  const Waypoint nominal = WaypointAt(ParameterAt(path_seconds));
   Eigen::Vector3d shift, turn;
   for (int axis = 0; axis < 3; ++axis) {
     shift[axis] = Shake(kShiftSlow, kShiftFast, axis, seconds, &phases_[2 * axis]);
     turn[axis] = Shake(kTurnSlow, kTurnFast, axis + 3, seconds, &phases_[2 * axis + 6]);
   }
   const Rigid3 shaken_from_cam(ExpSO3(options_.shake * turn), options_.shake * shift);
-  return shaken_from_cam * LookAt(gaze.position, gaze.target);
+  return shaken_from_cam * LookAt(nominal.position, nominal.target);
 }
 
 Rigid3 LookAt(const Eigen::Vector3d& position, const Eigen::Vector3d& target) {

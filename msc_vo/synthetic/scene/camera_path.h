@@ -13,46 +13,45 @@
 namespace msc_vo {
 
 struct PathOptions {
-  // Bounds along the planned way, as somebody walks who looks around with a camera. The pace varies
-  // about them by 30 %, and the hand's shake comes on top: some cm/s and some degrees/s.
-  double speed = 0.35;      // metres/second
-  double turn_rate = 0.45;  // radians/second, 26 degrees
-  double shake = 1.0;       // size of the hand's shake, 0: a rail
-  uint64_t seed = 1;        // of the start on the loop, the shake and the changes of pace
+  /// Mean bounds along the nominal path, those of a walking person. The actual pace varies by 30 %;
+  /// the shake adds some cm/s and some degrees/s.
+  double speed = 0.35;      ///< metres/second
+  double turn_rate = 0.45;  ///< radians/second (26 degrees/second)
+  double shake = 1.0;       ///< amplitude of the shake relative to a hand's; 0: none
+  uint64_t seed = 1;        ///< of the start on the loop, the shake and the variation of the pace
 
   bool IsValid(std::string* error) const;
 };
 
-// A hand-held camera's way along the tour of a scene, round and round: cubic B-splines through
-// positions and targets (smooth to the acceleration, never outside the hull of four waypoints), a
-// pace that slows down in turns, and a shake of incommensurate sines, so that no round repeats.
+/// Trajectory of a hand-held camera along the tour of a scene, an endless loop: uniform cubic
+/// B-splines through positions and targets (continuous acceleration, within the convex hull of four
+/// waypoints), a pace that slows down in turns, and a shake of incommensurate sines, so rounds do
+/// not repeat.
 class CameraPath {
  public:
-  // Throws std::invalid_argument on options that are not valid or a tour of fewer than 4 waypoints.
+  /// Throws std::invalid_argument on invalid options or a tour of fewer than 4 waypoints.
   CameraPath(const Scene& scene, const PathOptions& options);
 
-  // Pose after `seconds`; before the start, where they are negative, the same way goes on.
+  /// Pose (camera frame from world frame) at `seconds` after the start; may be negative.
   Rigid3 CamFromWorld(double seconds) const;
 
-  // Time of one round.
+  /// Duration of one round, seconds.
   double LoopSeconds() const { return seconds_at_.back(); }
 
  private:
-  struct Gaze {
-    Eigen::Vector3d position, target;
-  };
-  Gaze GazeAt(double parameter) const;
+  Waypoint WaypointAt(double parameter) const;
   double ParameterAt(double seconds) const;
   void BuildTimetable();
 
   std::vector<Waypoint> tour_;
   PathOptions options_;
-  std::vector<double> seconds_at_;  // when the planned way passes equally spaced parameters
+  std::vector<double> seconds_at_;  // at equally spaced spline parameters, without pace and shake
   double start_seconds_ = 0.0;
-  std::array<double, 14> phases_{};  // radians: 6 axes with two sines each, and 2 of the pace
+  std::array<double, 14> phases_{};  // radians: 6 axes with two sines each, then 2 of the pace
 };
 
-// The pose at `position` that looks at `target` with the image's y axis downwards (world z is up).
+/// Pose (camera frame from world frame) of a camera at `position` that points at `target`, with the
+/// image's y axis downwards (world z is up).
 Rigid3 LookAt(const Eigen::Vector3d& position, const Eigen::Vector3d& target);
 
 }  // namespace msc_vo

@@ -11,8 +11,8 @@ namespace {
 constexpr double kLength = 16.0, kWidth = 1.9, kHeight = 2.5;  // metres
 const Eigen::Vector3f kDoorColor(0.66f, 0.55f, 0.42f);
 
-// Doors along the wall of `side_frame`, whose x runs the corridor's length from its middle, and the
-// skirting boards between them.
+// Adds doors along a wall and the skirting boards between them. The origin of `side_frame` is the
+// middle of the wall, its x axis is along the corridor.
 void AddSide(const Rigid3& side_frame, const Texture& skirting, SceneBuilder* builder) {
   Random& random = builder->random();
   const int count = 5;
@@ -54,13 +54,13 @@ Scene MakeCorridor(uint64_t seed) {
     const double at = -x + (i + 0.5) * kLength / 4.0;
     AddCeilingLamp(UprightFrame({at, 0, kHeight}, 0.0), {1.2, 0.25}, &builder);
     builder.scene().lights.push_back({{at, 0, kHeight - 0.25}, 0.75, 1.7});
-    // A switch box on one side and a notice on the other: a few points.
+    // A switch box on one side and a notice on the other, for a few points.
     const double beside = at + random.Uniform(-0.3, 0.3);
     builder.AddBox(UprightFrame({beside, -y, 1.1}, 0.0), {-0.04, 0, 0}, {0.04, 0.012, 0.12},
                    handrail);
     AddPicture(UprightFrame({beside, y, 0}, kPi), {0.21, 0.3}, 1.5, &builder);
   }
-  // Down the corridor and back; at its ends the camera turns on the spot's arc.
+  // Along the corridor and back, with a narrow turn at each end.
   const double turn = x - 1.6;
   for (int leg = 0; leg < 2; ++leg) {
     const double way = leg == 0 ? 1.0 : -1.0;
@@ -70,7 +70,7 @@ Scene MakeCorridor(uint64_t seed) {
       builder.AddWaypoint({at, side, 1.45 + random.Uniform(-0.08, 0.08)},
                           {at + 2.6 * way, way * random.Uniform(-0.2, 0.9), 1.2});
     }
-    // The view swings round through the side wall.
+    // During the turn, the camera faces the side wall.
     builder.AddWaypoint({way * (turn + 0.35), 0.0, 1.45}, {way * turn, 2.5 * way, 1.2});
   }
   return builder.scene();

@@ -34,7 +34,7 @@ Color RandomFabric(SceneBuilder* builder) {
                static_cast<float>(random.Uniform(0.25, 0.6)));
 }
 
-// Moves a frame along its own axes.
+// Translates a frame along its own axes.
 Rigid3 Shifted(const Rigid3& frame, const Vec& by) { return frame * Rigid3({1, 0, 0, 0}, by); }
 
 }  // namespace
@@ -99,7 +99,7 @@ void AddBookcase(const Rigid3& frame, const Size2& size, SceneBuilder* builder) 
     const double z = row * pitch;
     builder->AddBox(frame, {-half + board, 0, z}, {half - board, depth, z + board}, wood);
     const Texture books = builder->NewTexture(TextureKind::kBooks, kWhite, kDark);
-    const double back = builder->random().Uniform(0.18, 0.25);  // the spines stand back a little
+    const double back = builder->random().Uniform(0.18, 0.25);  // depth of the books
     builder->AddBox(frame, {-half + board, 0, z + board}, {half - board, back, z + pitch}, wood,
                     &books);
   }
@@ -114,7 +114,7 @@ void AddCupboard(const Rigid3& frame, const Size2& size, double depth, int colum
     const double x = -half + i * column;
     Texture door = body;
     door.seed += static_cast<uint32_t>(i + 1);
-    // A drawer over a door, 2 cm in front of the body, with a gap that shows as a line.
+    // A drawer above a door, 2 cm in front of the body, with a visible gap between them.
     const double split = size.height - 0.22;
     builder->AddBox(frame, {x + 0.01, depth, 0.08}, {x + column - 0.01, depth + 0.02, split - 0.01},
                     door);
@@ -195,7 +195,7 @@ void AddRug(const Rigid3& frame, const Size2& size, SceneBuilder* builder) {
 
 void AddCeilingLamp(const Rigid3& frame, const Size2& size, SceneBuilder* builder) {
   const double x = 0.5 * size.width, y = 0.5 * size.height;
-  // Brighter than white: a lamp shines, whatever light falls on it.
+  // Brighter than white, because the lamp emits light.
   const Texture glow = builder->NewTexture(TextureKind::kPlain, {2.2f, 2.2f, 2.0f});
   builder->AddBox(frame, {-x, -y, -0.08}, {x, y, 0}, glow);
 }
@@ -204,7 +204,7 @@ void AddClutter(const Rigid3& frame, const Size2& area, double height, int count
                 SceneBuilder* builder) {
   Random& random = builder->random();
   for (int i = 0; i < count; ++i) {
-    // One strip of the area each, so that nothing stands inside its neighbour.
+    // Each box has its own strip of the area, so boxes do not intersect.
     const double strip = area.width / count;
     const double x = -0.5 * area.width + (i + 0.5) * strip;
     const double y = random.Uniform(-0.3, 0.3) * area.height;

@@ -10,15 +10,15 @@
 
 namespace msc_vo {
 
-// Furniture made of boxes. Each piece stands in its own frame: x to its side, y away from the wall
-// behind it (or from its middle, where so noted), z up from the floor; metres.
+// Furniture made of boxes. The frame of a piece has x to the side, y away from the wall behind it
+// and z up; its origin is on the floor at the wall, centred in x, unless noted otherwise. Metres.
 
 struct Size2 {
   double width = 1.0;
   double height = 1.0;
 };
 
-// A wall's stretch along x, from low to high.
+/// An interval along the x axis of a wall.
 struct Span {
   double low = 0.0;
   double high = 0.0;
@@ -26,26 +26,26 @@ struct Span {
 
 void AddDoor(const Rigid3& frame, const Size2& size, const Eigen::Vector3f& color,
              SceneBuilder* builder);
-// `sill` is the height of its lower border.
+/// `sill` is the height of the lower border.
 void AddWindow(const Rigid3& frame, const Size2& size, double sill, SceneBuilder* builder);
-// `middle` is the height of its centre.
+/// `middle` is the height of the centre.
 void AddPicture(const Rigid3& frame, const Size2& size, double middle, SceneBuilder* builder);
 void AddBookcase(const Rigid3& frame, const Size2& size, SceneBuilder* builder);
-// `columns` doors side by side, of wood or painted in `color`.
+/// A cupboard with `columns` drawers above as many doors.
 void AddCupboard(const Rigid3& frame, const Size2& size, double depth, int columns,
                  const Texture& body, SceneBuilder* builder);
-// Kitchen counter: cupboards under a stone top with things on it, tiles on the wall above.
+/// A kitchen counter: cupboards, a stone top with small boxes on it, tiles and wall cupboards.
 void AddCounter(const Rigid3& frame, double width, SceneBuilder* builder);
 void AddSofa(const Rigid3& frame, double width, SceneBuilder* builder);
-// Origin in the middle of the piece.
+/// The origin of these is the centre of the piece (of a lamp: on the ceiling).
 void AddTable(const Rigid3& frame, const Size2& top, double height, SceneBuilder* builder);
 void AddChair(const Rigid3& frame, SceneBuilder* builder);
 void AddRug(const Rigid3& frame, const Size2& size, SceneBuilder* builder);
 void AddCeilingLamp(const Rigid3& frame, const Size2& size, SceneBuilder* builder);
-// `count` small boxes that stand on z = height within |x|, |y| of half the area.
+/// `count` small boxes on the plane z = height, distributed over `area` around the origin.
 void AddClutter(const Rigid3& frame, const Size2& area, double height, int count,
                 SceneBuilder* builder);
-// Along the spans of a wall, which leave out its doors.
+/// Skirting boards along the given spans of a wall, between its doors.
 void AddSkirting(const Rigid3& frame, const std::vector<Span>& spans, const Texture& texture,
                  SceneBuilder* builder);
 

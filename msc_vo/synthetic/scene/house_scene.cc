@@ -8,11 +8,11 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kHalfX = 5.0, kHalfY = 4.4, kHeight = 2.6;  // metres, of the house
-constexpr double kWall = 0.06;                               // half a partition's thickness
+constexpr double kHalfX = 5.0, kHalfY = 4.4, kHeight = 2.6;  // half size of the house, metres
+constexpr double kWall = 0.06;                               // half thickness of a partition
 constexpr double kDoorway = 0.55, kLintel = 2.1;             // half width and height, metres
 
-// A partition along x from low to high with a doorway around `door`, in the frame's plane y = 0.
+// Adds a partition in the plane y = 0 of `frame`, along `span`, with a doorway centred at `door`.
 void AddPartition(const Rigid3& frame, const Span& span, double door, const Texture& paint,
                   SceneBuilder* builder) {
   builder->AddBox(frame, {span.low, -kWall, 0}, {door - kDoorway, kWall, kHeight}, paint);
@@ -21,7 +21,8 @@ void AddPartition(const Rigid3& frame, const Span& span, double door, const Text
                   paint);
 }
 
-// One of the four rooms, around `center`; its outer walls lie at the signs of the centre.
+// Furnishes one of the four rooms. The signs of the coordinates of `center` tell on which sides its
+// outer walls are.
 void FurnishQuarter(const Eigen::Vector2d& center, int index, SceneBuilder* builder) {
   const double side_x = center.x() > 0.0 ? 1.0 : -1.0, side_y = center.y() > 0.0 ? 1.0 : -1.0;
   const Rigid3 outer_x =
@@ -56,7 +57,7 @@ void FurnishQuarter(const Eigen::Vector2d& center, int index, SceneBuilder* buil
   builder->scene().lights.push_back({{center.x(), center.y(), kHeight - 0.3}, 0.85, 2.4});
 }
 
-// Pictures on both sides of the partitions, away from the doorways.
+// Adds pictures on both sides of the partitions, away from the doorways.
 void HangPictures(SceneBuilder* builder) {
   for (const double sign : {-1.0, 1.0}) {
     for (const double way : {-1.0, 1.0}) {
@@ -69,7 +70,7 @@ void HangPictures(SceneBuilder* builder) {
   }
 }
 
-// Through the four doorways, counterclockwise, past each room's table.
+// Adds a tour through the four doorways, counterclockwise, around the table of each room.
 void AddRoundTrip(SceneBuilder* builder) {
   Random& random = builder->random();
   const double x = 0.5 * kHalfX, y = 0.5 * kHalfY;

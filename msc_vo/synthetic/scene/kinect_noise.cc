@@ -13,8 +13,8 @@ namespace msc_vo {
 
 namespace {
 
-// Convolves the rows of a width x height field with a kernel. The field is closed to a ring, so
-// that the noise has the same variance up to the border.
+// Convolves the rows of a width x height field with a kernel, with periodic boundaries: the
+// variance of the noise is the same up to the border.
 std::vector<float> ConvolveRows(const std::vector<float>& field, int width, int height,
                                 const std::vector<float>& kernel) {
   const int radius = static_cast<int>(kernel.size()) / 2;
@@ -32,7 +32,7 @@ std::vector<float> ConvolveRows(const std::vector<float>& field, int width, int 
   return out;
 }
 
-// The same along the columns.
+// Convolves the columns of a field with a kernel, with periodic boundaries.
 std::vector<float> ConvolveColumns(const std::vector<float>& field, int width, int height,
                                    const std::vector<float>& kernel) {
   const int radius = static_cast<int>(kernel.size()) / 2;
@@ -47,11 +47,11 @@ std::vector<float> ConvolveColumns(const std::vector<float>& field, int width, i
   return out;
 }
 
-// Normal noise of unit variance, smoothed by a Gaussian of `sigma` pixels.
+// Normal noise of unit variance, correlated by a Gaussian of `sigma` pixels.
 std::vector<float> SmoothNoise(int width, int height, double sigma, Random* random) {
   std::vector<float> field(static_cast<size_t>(width) * height);
   for (float& value : field) value = static_cast<float>(random->Normal());
-  // Three sigmas of the kernel, but no more than the image has.
+  // Three sigmas of the kernel, limited by the size of the image.
   const int radius =
       std::min(static_cast<int>(std::ceil(3.0 * sigma)), (std::min(width, height) - 1) / 2);
   std::vector<float> kernel;
@@ -60,12 +60,12 @@ std::vector<float> SmoothNoise(int width, int height, double sigma, Random* rand
     kernel.push_back(static_cast<float>(std::exp(-0.5 * k * k / (sigma * sigma))));
     squares += kernel.back() * kernel.back();
   }
-  for (float& weight : kernel) weight /= std::sqrt(squares);  // keeps the variance
+  for (float& weight : kernel) weight /= std::sqrt(squares);  // preserves the variance
   return ConvolveColumns(ConvolveRows(field, width, height, kernel), width, height, kernel);
 }
 
-// Tangent of the angle between ray and normal at (x, y), about: the change of depth across a pixel
-// (a quarter of the Sobel sums) over the pixel's size on a surface that faces the camera.
+// Approximate tangent of the angle between ray and normal at (x, y): the change of depth per pixel
+// (Sobel sums / 8) divided by the size of the pixel on a surface that faces the camera.
 double Slope(const PinholeCamera& camera, const std::vector<float>& depth, int x, int y) {
   const auto at = [&](int i, int j) {
     i = std::clamp(i, 0, camera.width - 1);
@@ -80,9 +80,9 @@ double Slope(const PinholeCamera& camera, const std::vector<float>& depth, int x
   return change / std::max<double>(at(x, y), 0.1) * camera.FocalLength();
 }
 
-// Depth at a place disturbed by `shift` pixels.
-float LookUp(const PinholeCamera& camera, const std::vector<float>& depth, int x, int y,
-             const Eigen::Vector2d& shift) {
+// Depth at the pixel nearest to (x, y) + shift.
+float ShiftedDepth(const PinholeCamera& camera, const std::vector<float>& depth, int x, int y,
+                   const Eigen::Vector2d& shift) {
   const int i = std::clamp(static_cast<int>(std::lround(x + shift.x())), 0, camera.width - 1);
   const int j = std::clamp(static_cast<int>(std::lround(y + shift.y())), 0, camera.height - 1);
   return depth[static_cast<size_t>(j) * camera.width + i];
@@ -122,13 +122,13 @@ void AddKinectNoise(const KinectNoiseOptions& options, const PinholeCamera& came
   const std::vector<float> exact = *depth;
   for (size_t i = 0; i < exact.size(); ++i) {
     const int x = static_cast<int>(i % camera.width), y = static_cast<int>(i / camera.width);
-    // Drawn whether needed or not: a pixel's noise does not depend on what others see.
-    const double z = LookUp(camera, exact, x, y, lateral * random.Normal2());
-    const double luck = random.Uniform();
+    // Always drawn, so the noise of a pixel does not depend on other pixels.
+    const double z = ShiftedDepth(camera, exact, x, y, lateral * random.Normal2());
+    const double draw = random.Uniform();
     const double loss = (Slope(camera, exact, x, y) - options.keep_slope) /
                         (options.lose_slope - options.keep_slope);
     (*depth)[i] = 0.0f;
-    if (z < options.min_depth || z > options.max_depth || luck < std::min(loss, 0.95)) continue;
+    if (z < options.min_depth || z > options.max_depth || draw < std::min(loss, 0.95)) continue;
     const double disparity = depth_times_disparity / z + options.disparity_sigma * noise[i];
     const double rounded = options.disparity_step * std::round(disparity / options.disparity_step);
     if (rounded > 0.0) (*depth)[i] = static_cast<float>(depth_times_disparity / rounded);

@@ -11,31 +11,33 @@
 
 namespace msc_vo {
 
-// A structured-light depth sensor as in ICL-NUIM (Handa et al. 2014), after Khoshelham and Elberink
-// (2012): depth is looked up at a disturbed place, turned into disparity, disturbed by smooth
-// noise, rounded, and turned back. Errors are constant in disparity, so they grow with z^2.
+/// Noise model of a structured-light depth sensor as in ICL-NUIM (Handa et al. 2014), after
+/// Khoshelham and Elberink (2012): depth is looked up at a perturbed pixel and converted to
+/// disparity, which is disturbed by correlated noise, rounded and converted back. The noise is
+/// uniform in disparity and therefore grows with z^2.
 struct KinectNoiseOptions {
-  // The sensor's own image, whatever the size that is rendered: pixels below are the sensor's.
-  double focal_length = 525.0;    // pixels
-  double baseline = 0.075;        // metres, projector to camera
-  double lateral_sigma = 0.5;     // pixels, of the place where depth is looked up
-  double disparity_sigma = 0.05;  // pixels
-  double correlation = 1.5;       // pixels, of the disparity noise: its window matching smooths it
-  double disparity_step = 0.125;  // pixels, the Kinect's resolution
-  double min_depth = 0.4;         // metres
-  double max_depth = 5.0;         // metres
-  // Depth is lost at steep places (surfaces seen at grazing angles, depth edges): the probability
-  // rises linearly from 0 at the first to 0.95 towards the second slope, the tangent of the angle
-  // between the ray and the surface's normal; 3 is 72 degrees, 9 is 84 degrees.
+  /// Focal length of the sensor, pixels. Pixels below are those of the sensor, regardless of the
+  /// size of the rendered image.
+  double focal_length = 525.0;
+  double baseline = 0.075;        ///< metres, projector to camera
+  double lateral_sigma = 0.5;     ///< pixels, perturbation of the position
+  double disparity_sigma = 0.05;  ///< pixels
+  double correlation = 1.5;       ///< pixels, sigma of the Gaussian that smooths disparity noise
+  double disparity_step = 0.125;  ///< pixels, resolution of the Kinect
+  double min_depth = 0.4;         ///< metres
+  double max_depth = 5.0;         ///< metres
+  /// Depth is lost on steep surfaces and at depth edges. The probability increases linearly from 0
+  /// at keep_slope to 0.95 near lose_slope. A slope is the tangent of the angle between the ray and
+  /// the surface normal: 3 is 72 degrees, 9 is 84 degrees.
   double keep_slope = 3.0;
   double lose_slope = 9.0;
 
   bool IsValid(std::string* error) const;
 };
 
-// Replaces exact depth (metres along z, row by row, 0: none; camera.width * camera.height values)
-// by what the sensor would deliver. The same seed and frame give the same noise. Throws
-// std::invalid_argument on options that are not valid or a buffer of another size.
+/// Applies the noise model to exact depth (metres along z, row by row, 0: none; camera.width *
+/// camera.height values). Deterministic for a given seed and frame. Throws std::invalid_argument on
+/// invalid options or a buffer of the wrong size.
 void AddKinectNoise(const KinectNoiseOptions& options, const PinholeCamera& camera, uint64_t seed,
                     uint64_t frame, std::vector<float>* depth);
 

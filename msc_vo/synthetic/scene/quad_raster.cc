@@ -11,26 +11,26 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kNear = 0.01;  // metres: nothing nearer is drawn; a path keeps farther off
-// Slack of a rectangle's border, pixels: neighbours share their edge without a gap, and rounding
-// errors are many orders smaller.
+constexpr double kNear = 0.01;  // near clipping plane, metres; paths keep a larger distance
+// Tolerance at the border of a rectangle, pixels: closes gaps between rectangles with a common
+// edge. Rounding errors are many orders of magnitude smaller.
 constexpr double kBorder = 1e-6;
 
-// Coefficients on (x, y, 1) of the number c . ray(x, y).
+// Coefficients of c . ray(x, y) as a linear form in (x, y, 1).
 Eigen::Vector3d LinearForm(const PinholeCamera& camera, const Eigen::Vector3d& c) {
   const double x = c.x() / camera.fx, y = c.y() / camera.fy;
   return {x, y, c.z() - x * camera.cx - y * camera.cy};
 }
 
-// The rows of `band` that the rectangle origin, a, b (camera coordinates) may touch; none of them
-// if first > last.
+// Rows of `band` that the rectangle with the given origin and edges a, b (camera frame) may touch;
+// none if first > last.
 RowBand BoundRows(const PinholeCamera& camera, const RowBand& band, const Eigen::Vector3d& origin,
                   const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   double low = camera.height, high = -1.0;
   for (const Eigen::Vector3d& corner :
        {origin, Eigen::Vector3d(origin + a), Eigen::Vector3d(origin + b),
         Eigen::Vector3d(origin + a + b)}) {
-    // A rectangle that reaches behind the camera has no bound that its corners know of.
+    // The projection of a rectangle that extends behind the camera is not bounded by its corners.
     const bool in_front = corner.z() > kNear;
     low = std::min(low, in_front ? camera.Project(corner).y() : 0.0);
     high = std::max(high, in_front ? camera.Project(corner).y() : camera.height);
@@ -39,8 +39,7 @@ RowBand BoundRows(const PinholeCamera& camera, const RowBand& band, const Eigen:
           static_cast<int>(std::clamp(high + 1.0, band.first - 1.0, band.last + 0.0))};
 }
 
-// The x of row `y` where every form is >= 0 for a place within `reach` pixels of (x, y) along both
-// axes: of centres for a reach of 0, of touched pixels for 0.5. Empty if first > last.
+// Range of x in a row; empty if first > last.
 struct RowSpan {
   int first = 0;
   int last = -1;
@@ -48,6 +47,9 @@ struct RowSpan {
 
 using Outline = std::array<Eigen::Vector3d, 5>;
 
+// Returns the pixels of row `y` at which every form is >= 0 at some position within `reach` pixels
+// along both axes: with a reach of 0 the pixels whose centres are inside the outline, with 0.5
+// those whose squares the outline touches.
 RowSpan SpanOfRow(const Outline& inside, int width, int y, double reach) {
   double low = 0.0, high = width - 1.0;
   for (const Eigen::Vector3d& form : inside) {
@@ -76,7 +78,7 @@ Outline InsideForms(const QuadView& view) {
 
 bool QuadView::Contains(const Eigen::Vector3d& pixel, double w) const {
   const double u = u_over_z.dot(pixel), v = v_over_z.dot(pixel);
-  const double slack = 1e-9 * w;  // as kBorder, at some hundred pixels per rectangle
+  const double slack = 1e-9 * w;  // corresponds to kBorder for rectangles of some hundred pixels
   return w > 0.0 && w < 1.0 / kNear && u >= -slack && v >= -slack && u <= w + slack &&
          v <= w + slack;
 }
@@ -91,7 +93,7 @@ std::vector<QuadView> ViewQuads(const Scene& scene, const PinholeCamera& camera,
     const Eigen::Vector3d b = cam_from_world.rotation() * quad.edge_v;
     const Eigen::Vector3d normal = a.cross(b);
     const double offset = normal.dot(origin);
-    if (offset >= 0.0) continue;  // seen from behind
+    if (offset >= 0.0) continue;  // faces away from the camera
     QuadView view;
     view.rows = BoundRows(camera, band, origin, a, b);
     if (view.rows.first > view.rows.last) continue;
@@ -150,7 +152,7 @@ void BorderBuffer::AddIfInFront(const std::vector<QuadView>& views, const HitBuf
   const size_t pixel = hits.Index(x, y);
   const int hit = hits.view[pixel];
   if (hit >= 0) {
-    // The nearest that one can be within the pixel, against the farthest that the other can.
+    // Compares the smallest depth of the view within the pixel with the largest of the hit.
     const Eigen::Vector3d& w = views[view].inverse_depth;
     const Eigen::Vector3d& hit_w = views[hit].inverse_depth;
     const double reach = 0.5 * (w.head<2>().lpNorm<1>() + hit_w.head<2>().lpNorm<1>());
@@ -160,7 +162,7 @@ void BorderBuffer::AddIfInFront(const std::vector<QuadView>& views, const HitBuf
   ++first_[pixel + 1];
 }
 
-// Counting sort, stable: within a pixel the views stay in their order.
+// Stable counting sort: preserves the order of the views of a pixel.
 void BorderBuffer::SortByPixel() {
   for (size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   std::vector<size_t> next(first_.begin(), first_.end() - 1);

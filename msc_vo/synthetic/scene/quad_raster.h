@@ -13,50 +13,51 @@
 
 namespace msc_vo {
 
-// The rows of an image from `first` to `last`, both of them included.
+/// The rows of an image from `first` to `last`, inclusive.
 struct RowBand {
   int first = 0;
   int last = -1;
 };
 
-// A rectangle as the image sees it. 1/z, u/z and v/z are linear in the pixel (x, y, 1): that is the
-// plane's homography, and the reason why no ray needs a division to find whether it hits.
+/// The projection of a rectangle. 1/z, u/z and v/z are linear forms in the pixel (x, y, 1), the
+/// homography of the plane, so intersection tests need no division.
 struct QuadView {
-  int quad = 0;
+  int quad = 0;  ///< index into Scene::quads
   Eigen::Vector3d inverse_depth, u_over_z, v_over_z;
-  RowBand rows;  // of the band asked for, all that it touches
+  RowBand rows;  ///< rows of the requested band that the rectangle touches
 
-  // Whether it covers the place `pixel` (x, y, 1), where its 1/z is `w`.
+  /// True if the rectangle covers `pixel` (x, y, 1), where its 1/z is `w`.
   bool Contains(const Eigen::Vector3d& pixel, double w) const;
 };
 
-// The rectangles of a scene that show their visible side to the camera and may touch a band of its
-// image, in the scene's order. Views do not depend on the band, apart from their rows.
+/// Projects the rectangles of a scene whose visible side faces the camera and that may touch the
+/// given band of the image, in the order of the scene. Apart from their rows, views do not depend
+/// on the band.
 std::vector<QuadView> ViewQuads(const Scene& scene, const PinholeCamera& camera,
                                 const Rigid3& cam_from_world, const RowBand& band);
 
-// What the pixel centres of a band see, row by row: index into the views (-1: nothing) and inverse
-// depth.
+/// The surfaces visible at the pixel centres of a band, row by row: index into the views (-1: none)
+/// and inverse depth.
 struct HitBuffer {
   RowBand rows;
   int width = 0;
   std::vector<int> view;
   std::vector<double> inverse_depth;
 
-  // Where pixel (x, y) of the whole image is in the buffers; y must be in the band.
+  /// Index of pixel (x, y) of the whole image in the buffers; y must lie in the band.
   size_t Index(int x, int y) const { return static_cast<size_t>(y - rows.first) * width + x; }
 };
 
-// The band must be the one that the views were made for.
+/// Rasterises the views with a depth buffer. `band` must be the one passed to ViewQuads().
 HitBuffer Rasterize(const std::vector<QuadView>& views, const RowBand& band, int width);
 
-// For every pixel of a band the views that touch its square but not its centre, unless they are
-// hidden behind what the centre sees: borders, and whatever is thinner than a pixel.
+/// For every pixel of a band, the views that touch the pixel's square but not its centre and are
+/// not occluded by the surface at the centre: borders, and objects thinner than a pixel.
 class BorderBuffer {
  public:
   BorderBuffer(const std::vector<QuadView>& views, const HitBuffer& hits);
 
-  // Of a pixel, by its index in the hits.
+  /// The views of a pixel, given its index in the HitBuffer.
   const int* begin(size_t pixel) const { return views_.data() + first_[pixel]; }
   const int* end(size_t pixel) const { return views_.data() + first_[pixel + 1]; }
 
@@ -70,7 +71,7 @@ class BorderBuffer {
                     int y);
   void SortByPixel();
 
-  std::vector<size_t> first_;  // of each pixel in views_
+  std::vector<size_t> first_;  // index into views_ for each pixel
   std::vector<int> views_;
   std::vector<Entry> entries_;
 };

@@ -12,7 +12,7 @@
 
 namespace msc_vo {
 
-// Mixes the bits of a word (finalizer of SplitMix64).
+/// Mixes the bits of a word (finaliser of SplitMix64).
 inline uint64_t MixBits(uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -20,19 +20,19 @@ inline uint64_t MixBits(uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// A small seeded generator whose numbers are the same with every standard library.
+/// A seeded random number generator (SplitMix64) with the same sequence on every platform.
 class Random {
  public:
-  // Streams of one seed are independent of each other: one per frame, per keyframe, per purpose.
+  /// The streams of one seed are independent, e.g. one per frame.
   explicit Random(uint64_t seed, uint64_t stream = 0) : state_(MixBits(seed) ^ MixBits(~stream)) {}
 
   uint64_t Next() { return MixBits(state_ += 0x9e3779b97f4a7c15ULL); }
-  // In [0, 1).
+  /// Uniform in [0, 1).
   double Uniform() { return static_cast<double>(Next() >> 11) * 0x1p-53; }
   double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
-  // In 0 .. count - 1; count must be positive.
+  /// Uniform in 0 .. count - 1; count must be positive.
   int Index(int count) { return static_cast<int>(Uniform() * count); }
-  // Standard normal (Box-Muller, which makes two at a time).
+  /// Standard normal (Box-Muller, which generates two deviates at a time).
   double Normal() {
     if (has_spare_) {
       has_spare_ = false;

@@ -19,9 +19,9 @@ namespace {
 
 using Color = Eigen::Vector3f;
 
-// Contrast between neighbouring pixels, of 1. Below the first the pixel's centre speaks for all of
-// it: two grey levels, the noise of a camera. Above the second the mean of four samples, which errs
-// by an eighth of the contrast or so, would err by more than the noise.
+// Contrast between neighbouring pixels (range 0..1). Below kFlatContrast, two grey values and thus
+// the noise of a camera, one sample at the pixel's centre suffices. Above kSharpContrast, the error
+// of the mean of four samples, about an eighth of the contrast, would exceed the noise.
 constexpr float kFlatContrast = 2.0f / 255.0f;
 constexpr float kSharpContrast = 20.0f / 255.0f;
 
@@ -32,7 +32,7 @@ struct Surface {
   float width = 0.0f, height = 0.0f;
 };
 
-// Colours the points of a scene as one view sees them.
+// Computes the colours of surface points.
 class Shader {
  public:
   Shader(const Scene& scene, const std::vector<QuadView>& views) : scene_(scene), views_(views) {
@@ -55,7 +55,7 @@ class Shader {
     return EvaluateTexture(*surface.texture, point) * Brightness(x, surface.normal);
   }
 
-  // Colour of the nearest of `candidates` at a pixel; `background` where none is hit.
+  // Colour of the nearest of `candidates` at a pixel; `background` if none is hit.
   template <typename Indices>
   Color ShadeNearest(const Indices& candidates, const Eigen::Vector3d& pixel,
                      const Color& background) const {
@@ -71,9 +71,9 @@ class Shader {
   }
 
  private:
-  // Ambient light and Lambert's law under every lamp, without cast shadows.
+  // Ambient light and Lambertian reflection of every lamp, without cast shadows.
   float Brightness(const Eigen::Vector3f& x, const Eigen::Vector3f& normal) const {
-    // Daylight from one side, so that no two faces of a white box are equally bright.
+    // Directional daylight, so the faces of a white box differ in brightness.
     const Eigen::Vector3f daylight(0.30f, 0.16f, 0.22f);
     float brightness = static_cast<float>(scene_.ambient) * (1.0f + normal.dot(daylight));
     for (const PointLight& light : scene_.lights) {
@@ -93,7 +93,7 @@ class Shader {
   std::vector<Surface> surfaces_;
 };
 
-// The distinct views that a pixel's square may show.
+// The distinct views that may be visible in a pixel's square.
 class Candidates {
  public:
   void Add(int view) {
@@ -104,7 +104,7 @@ class Candidates {
   const int* end() const { return views_.data() + count_; }
 
  private:
-  // A pixel with more is a heap of slivers; the rest of them would not change its mean visibly.
+  // More views would not change the mean colour of a pixel visibly.
   std::array<int, 32> views_{};
   size_t count_ = 0;
 };
@@ -134,7 +134,7 @@ std::vector<Color> ShadeCenters(const Shader& shader, const HitBuffer& hits) {
   return colors;
 }
 
-// Colour of a pixel from as many samples as its neighbourhood asks for.
+// Colour of a pixel; the number of samples depends on the contrast of its neighbourhood.
 Color FilterPixel(const Shader& shader, const HitBuffer& hits, const BorderBuffer& borders,
                   const std::vector<Color>& centers, int x, int y) {
   const size_t here = hits.Index(x, y);
@@ -197,10 +197,10 @@ RenderedImage Renderer::BlankImage() const {
 
 void Renderer::DrawBand(const Rigid3& cam_from_world, const RowBand& band,
                         RenderedImage* image) const {
-  // The filter looks at the neighbours of a pixel, as this pose sees them.
-  const RowBand looked_at{std::max(band.first - 1, 0), std::min(band.last + 1, camera_.height - 1)};
-  const std::vector<QuadView> views = ViewQuads(scene_, camera_, cam_from_world, looked_at);
-  const HitBuffer hits = Rasterize(views, looked_at, camera_.width);
+  // The filter needs the neighbours of a pixel from the same pose.
+  const RowBand padded{std::max(band.first - 1, 0), std::min(band.last + 1, camera_.height - 1)};
+  const std::vector<QuadView> views = ViewQuads(scene_, camera_, cam_from_world, padded);
+  const HitBuffer hits = Rasterize(views, padded, camera_.width);
   const BorderBuffer borders(views, hits);
   const Shader shader(scene_, views);
   const std::vector<Color> centers = ShadeCenters(shader, hits);

@@ -14,28 +14,28 @@ namespace msc_vo {
 
 struct RowBand;
 
-// A rendered RGB-D image in plain buffers, row by row from the upper left pixel.
+/// A rendered RGB-D image in plain buffers, row by row from the upper left pixel.
 struct RenderedImage {
   int width = 0;
   int height = 0;
-  std::vector<uint8_t> rgb;  // 3 * width * height: red, green, blue
-  std::vector<float>
-      depth;  // width * height, metres along z, exact at the pixel's centre; 0: nothing
+  std::vector<uint8_t> rgb;  ///< 3 * width * height: red, green, blue
+  /// width * height, metres along z, exact at the pixel's centre; 0: nothing
+  std::vector<float> depth;
 
-  // ITU-R 601 luma, the usual grey image, width * height.
+  /// Grey image (ITU-R 601 luma), width * height.
   std::vector<uint8_t> Gray() const;
 };
 
-// Draws a scene: rectangles through a depth buffer, one exact hit per pixel centre; then colour by
-// box-filtered samples, more of them where neighbouring pixels differ.
+/// Renders a scene: rectangles with a depth buffer, one exact hit per pixel centre, then colour by
+/// box-filtered samples, with more samples where neighbouring pixels differ.
 class Renderer {
  public:
-  // Throws std::invalid_argument if the camera is not valid.
+  /// Throws std::invalid_argument if the camera is invalid.
   Renderer(Scene scene, const PinholeCamera& camera);
 
   RenderedImage Render(const Rigid3& cam_from_world) const;
 
-  // A rolling shutter: row y is that of Render(cam_from_world_of(y)), to the last bit.
+  /// Renders with a rolling shutter: row y equals that of Render(cam_from_world_of(y)), bit by bit.
   RenderedImage RenderRows(const std::function<Rigid3(int y)>& cam_from_world_of) const;
 
   const Scene& scene() const { return scene_; }
@@ -49,10 +49,11 @@ class Renderer {
   PinholeCamera camera_;
 };
 
-// 525 px at 640 pixels of width, as a Kinect, and in proportion at other sizes; centred.
+/// Camera with the focal length of a Kinect, 525 px at a width of 640 px, scaled with the width;
+/// the principal point is the centre of the image.
 PinholeCamera KinectCamera(int width, int height);
 
-// Adds normal noise of `sigma` grey levels, the same deviate to the three colours of a pixel.
+/// Adds normal noise of `sigma` grey values, the same deviate to the three colours of a pixel.
 void AddImageNoise(double sigma, uint64_t seed, uint64_t frame, RenderedImage* image);
 
 }  // namespace msc_vo

@@ -11,11 +11,11 @@ namespace {
 constexpr double kQuarter = 0.5 * kPi;
 const Eigen::Vector3f kPaint(0.86f, 0.84f, 0.78f);
 
-// Four walls, floor and ceiling of a room whose floor's centre is the origin.
 struct RoomSize {
-  double x = 6.0, y = 5.0, z = 2.6;
+  double x = 6.0, y = 5.0, z = 2.6;  // metres
 };
 
+// Adds the walls, floor and ceiling of a room; the origin is the centre of the floor.
 void AddShell(const RoomSize& size, SceneBuilder* builder) {
   const Texture floor =
       builder->NewTexture(TextureKind::kPlanks, {0.62f, 0.45f, 0.28f}, {0.22f, 0.15f, 0.10f});
@@ -28,7 +28,7 @@ void AddShell(const RoomSize& size, SceneBuilder* builder) {
   builder->scene().ambient = 0.36;
 }
 
-// Pieces along the four walls; each side's frame looks into the room.
+// Adds furniture along the four walls; the frame of each side faces into the room.
 void FurnishWalls(const RoomSize& size, SceneBuilder* builder) {
   const double x = 0.5 * size.x, y = 0.5 * size.y;
   const Texture skirting = builder->NewTexture(TextureKind::kPlain, {0.92f, 0.92f, 0.9f});
@@ -85,7 +85,7 @@ Scene MakeRoom(uint64_t seed) {
   AddShell(size, &builder);
   FurnishWalls(size, &builder);
   FurnishMiddle(size, &builder);
-  // Around the table, looking ahead and out to the walls. The camera is above chairs and table.
+  // Around the table, above the chairs, with the camera pointing ahead and at the walls.
   const int count = 10;
   for (int i = 0; i < count; ++i) {
     const double at = 2.0 * kPi * i / count, ahead = at + DegreesToRadians(70.0);

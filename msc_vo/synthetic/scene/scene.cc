@@ -46,7 +46,7 @@ std::optional<double> Scene::CastRay(const Eigen::Vector3d& origin,
   for (const Quad& quad : quads) {
     const Eigen::Vector3d normal = quad.edge_u.cross(quad.edge_v);
     const double approach = normal.dot(direction);
-    if (approach >= 0.0) continue;  // seen from behind
+    if (approach >= 0.0) continue;  // faces away from the origin
     const double s = normal.dot(quad.origin - origin) / approach;
     if (s <= 0.0 || (nearest && s >= *nearest)) continue;
     const Eigen::Vector3d d = origin + s * direction - quad.origin;

@@ -9,8 +9,8 @@ namespace msc_vo {
 
 namespace {
 
-// The face of the box [low, high] with outward normal sign * axis; with `inward` the opposite face,
-// which has that normal on its inner side. Side faces have u horizontal and v up.
+// The face of the box [low, high] with outward normal sign * axis; if `inward`, the opposite face,
+// whose inward normal that is. Side faces have u horizontal and v up.
 Quad BoxFace(const Eigen::Vector3d& low, const Eigen::Vector3d& high, int axis, double sign,
              bool inward) {
   const Eigen::Vector3d normal = sign * Eigen::Vector3d::Unit(axis);

@@ -11,7 +11,7 @@
 
 namespace msc_vo {
 
-// Puts walls and boxes into a scene.
+/// Adds walls and boxes to a scene, and their edges.
 class SceneBuilder {
  public:
   explicit SceneBuilder(uint64_t seed) : random_(seed) {}
@@ -19,19 +19,19 @@ class SceneBuilder {
   Scene& scene() { return scene_; }
   Random& random() { return random_; }
 
-  // A texture with a seed of its own.
+  /// Returns a texture with a new seed.
   Texture NewTexture(TextureKind kind, const Eigen::Vector3f& color,
                      const Eigen::Vector3f& accent = {0.3f, 0.3f, 0.3f}, float scale = 1.0f);
 
-  // A rectangle, its visible side where edge_u x edge_v points; its border joins the edges.
+  /// Adds a rectangle and its border to the edges.
   void AddQuad(const Quad& quad);
 
-  // The box [low, high] of a frame, seen from outside. `front`, if given, covers the face that
-  // looks along the frame's +y.
+  /// Adds the box [low, high] in a frame, visible from outside. `front`, if given, is the texture
+  /// of the face with normal +y in the frame.
   void AddBox(const Rigid3& world_from_frame, const Eigen::Vector3d& low,
               const Eigen::Vector3d& high, const Texture& texture, const Texture* front = nullptr);
 
-  // The inside of the box [low, high] in the world: floor, ceiling and four walls alike.
+  /// Adds the inside of the box [low, high] in the world frame: floor, ceiling and four walls.
   void AddHall(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const Texture& floor,
                const Texture& ceiling, const Texture& walls);
 
@@ -47,7 +47,8 @@ class SceneBuilder {
   Random random_;
 };
 
-// The frame at `origin` whose +y looks along `facing` (radians about z; 0: along world +y).
+/// World-from-frame transform with the given origin and z up, whose +y axis is the world's +y axis
+/// rotated by `facing` about z, radians.
 Rigid3 UprightFrame(const Eigen::Vector3d& origin, double facing);
 
 }  // namespace msc_vo

@@ -9,7 +9,7 @@
 
 namespace msc_vo {
 
-// One function per SceneKind; MakeScene chooses among them.
+/// One function per SceneKind, called by MakeScene().
 Scene MakeRoom(uint64_t seed);
 Scene MakeCorridor(uint64_t seed);
 Scene MakeBare(uint64_t seed);

@@ -12,8 +12,8 @@ namespace msc_vo {
 
 namespace {
 
-// The wall of a convex room: a rectangle much wider than the room through `point`, looking along
-// `normal`. What lies outside of the room is hidden behind the other walls.
+// A wall of a convex room: a rectangle through `point` with the given normal, much larger than the
+// room. The parts outside the room are occluded by the other walls.
 Quad WideWall(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, const Texture& texture) {
   const double half = 8.0;  // metres
   const Eigen::Vector3d n = normal.normalized();
@@ -24,8 +24,8 @@ Quad WideWall(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, const
   return {point - half * (right + up), 2.0 * half * right, 2.0 * half * up, texture};
 }
 
-// The edges of the convex room that `walls` enclose: where two of their planes meet, as far as that
-// is in front of all others.
+// Edges of the convex room enclosed by `walls`: the intersections of two planes, clipped by all the
+// others.
 std::vector<LineSegment3> ShellEdges(const std::vector<Quad>& walls) {
   std::vector<LineSegment3> edges;
   for (size_t i = 0; i < walls.size(); ++i) {
@@ -53,7 +53,7 @@ Eigen::Vector3d Heading(double degrees) {
   return {std::cos(DegreesToRadians(degrees)), std::sin(DegreesToRadians(degrees)), 0.0};
 }
 
-// Walls no two of which are square to each other, and two roof planes of different slope.
+// Adds walls, no two of which are perpendicular, and two roof planes of different slopes.
 void AddAtticShell(SceneBuilder* builder) {
   const Texture floor =
       builder->NewTexture(TextureKind::kPlanks, {0.55f, 0.40f, 0.26f}, {0.18f, 0.12f, 0.08f});
@@ -71,14 +71,14 @@ void AddAtticShell(SceneBuilder* builder) {
   builder->scene().edges = ShellEdges(quads);
 }
 
-// A beam of square section from `from` to `to`.
+// Adds a beam with a square cross-section.
 void AddBeam(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double half,
              const Texture& texture, SceneBuilder* builder) {
   const Rigid3 frame(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), to - from), from);
   builder->AddBox(frame, {0, -half, -half}, {(to - from).norm(), half, half}, texture);
 }
 
-// Furniture at odd angles, and boards and beams that lean.
+// Adds furniture at arbitrary angles, sloping beams and tilted boxes.
 void FurnishAttic(SceneBuilder* builder) {
   Random& random = builder->random();
   const auto turned = [&](double x, double y, double degrees) {
@@ -100,7 +100,7 @@ void FurnishAttic(SceneBuilder* builder) {
     AddBeam({x, -2.45, 1.0}, {x + 0.3, -0.45, 2.7}, 0.06, wood, builder);
     AddBeam({x + 0.1, 2.35, 0.5}, {x - 0.25, 0.65, 2.35}, 0.06, wood, builder);
   }
-  for (int i = 0; i < 3; ++i) {  // boxes that were put down carelessly
+  for (int i = 0; i < 3; ++i) {  // tilted boxes
     const Texture print =
         builder->NewTexture(TextureKind::kPoster, {0.70f, 0.58f, 0.42f}, {0.3f, 0.2f, 0.1f}, 0.7f);
     const Rigid3 upright = turned(-1.2 + 1.4 * i, i % 2 == 0 ? -1.35 : 1.3, 40.0 * i);

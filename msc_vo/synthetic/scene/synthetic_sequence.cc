@@ -10,7 +10,7 @@ namespace msc_vo {
 
 namespace {
 
-// Time of the first frame, seconds: some tools take a time of 0 for a missing one.
+// Time stamp of the first frame, seconds. Not 0, which some tools interpret as missing.
 constexpr double kFirstTime = 1.0;
 
 const SyntheticSequenceOptions& Checked(const SyntheticSequenceOptions& options) {
@@ -74,7 +74,7 @@ SyntheticFrame SyntheticSequence::Render(int index) const {
     frame.image.depth =
         (rolling ? RenderRolling(later) : renderer_.Render(path_.CamFromWorld(later))).depth;
   }
-  // Even streams for colour, odd ones for depth: independent of each other in every frame.
+  // Even streams for colour, odd streams for depth, so that their noise is independent.
   const uint64_t stream = 2 * static_cast<uint64_t>(index);
   if (options_.image_sigma > 0.0) {
     AddImageNoise(options_.image_sigma, options_.seed, stream, &frame.image);

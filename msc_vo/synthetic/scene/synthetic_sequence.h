@@ -17,37 +17,37 @@ namespace msc_vo {
 
 struct SyntheticSequenceOptions {
   SceneKind scene = SceneKind::kRoom;
-  uint64_t seed = 1;  // of the scene, the path and the noise
-  int width = 640;    // pixels
+  uint64_t seed = 1;  ///< of the scene, the path and the noise
+  int width = 640;    ///< pixels
   int height = 480;
   double fps = 30.0;
-  // Seconds after its colour image that each depth image is taken; negative: before.
+  /// Time of a depth image relative to its colour image, seconds.
   double depth_delay = 0.0;
-  // Seconds that the rows of an image, colour or depth, take one after the other: a rolling
-  // shutter, for a Kinect about 0.026. Row v of `height` is of readout_time * ((v + 0.5) / height -
-  // 0.5) after the image's time. Negative: the last row is first; 0: all at once.
+  /// Readout time of the rolling shutter of both images, seconds; about 0.026 for a Kinect. Row v
+  /// of `height` is exposed readout_time * ((v + 0.5) / height - 0.5) after the image's time stamp.
+  /// Negative: from the last row to the first; 0: global shutter.
   double readout_time = 0.0;
-  // Grey levels: a Kinect's colour camera indoors has about 2. 0: none.
+  /// Standard deviation of the image noise, grey values; about 2 for a Kinect indoors.
   double image_sigma = 2.0;
-  bool kinect_depth = false;  // otherwise depth is exact
+  bool kinect_depth = false;  ///< apply `kinect` noise to depth, which is exact otherwise
   KinectNoiseOptions kinect;
-  PathOptions path;  // its seed is replaced by the one above
+  PathOptions path;  ///< its seed is ignored
 
   bool IsValid(std::string* error) const;
 };
 
 struct SyntheticFrame {
-  TimedPose pose;       // the truth; its time stamp is the images', the middle of their readout
-  RenderedImage image;  // its depth is of depth_delay later
+  TimedPose pose;       ///< ground truth at the time stamp, the middle of the colour readout
+  RenderedImage image;  ///< the depth is taken depth_delay later
 };
 
-// An endless RGB-D recording: a walk through a scene, frame by frame in any order.
+/// An endless rendered RGB-D sequence along a trajectory through a scene, with random access.
 class SyntheticSequence {
  public:
-  // Throws std::invalid_argument on options that are not valid.
+  /// Throws std::invalid_argument on invalid options.
   explicit SyntheticSequence(const SyntheticSequenceOptions& options);
 
-  // Frame `index` >= 0; the same index gives the same bytes.
+  /// Renders frame `index` >= 0. Deterministic for a given index.
   SyntheticFrame Render(int index) const;
   TimedPose PoseAt(int index) const;
 
@@ -55,7 +55,7 @@ class SyntheticSequence {
   const Scene& scene() const { return renderer_.scene(); }
 
  private:
-  // The image whose readout has its middle `seconds` after the start.
+  // The image whose readout is centred `seconds` after the start.
   RenderedImage RenderRolling(double seconds) const;
 
   SyntheticSequenceOptions options_;

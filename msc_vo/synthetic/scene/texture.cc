@@ -22,7 +22,7 @@ uint32_t HashCell(int x, int y, uint32_t seed) {
   return h ^ (h >> 16);
 }
 
-// The k-th of four independent bytes of a hash, as a number in [0, 1].
+// The k-th of the four independent bytes of a hash, scaled to [0, 1].
 float Byte(uint32_t hash, int k) { return static_cast<float>((hash >> (8 * k)) & 255u) / 255.0f; }
 
 int Floor(float x) {
@@ -52,7 +52,7 @@ Color Palette(uint32_t hash) {
 }
 
 Color Plaster(const Texture& texture, const SurfacePoint& p) {
-  // Stains of a metre, 4 % deep: under the threshold of every corner detector.
+  // Stains of one metre with a contrast of 4 %, below the threshold of any corner detector.
   return texture.color * (0.98f + 0.04f * (ValueNoise(p.s, p.t, texture.seed) - 0.5f));
 }
 
@@ -64,12 +64,12 @@ Color Wood(const Texture& texture, const SurfacePoint& p) {
   return texture.color * (0.72f + 0.30f * coarse + 0.14f * fine);
 }
 
-// Boards of one width in rows along s, metres.
+// Geometry of floor boards in rows along s, metres.
 struct PlankLayout {
   explicit PlankLayout(const Texture& texture)
       : width(0.14f * texture.scale), length(1.3f * texture.scale), seed(texture.seed) {}
 
-  // By how much the joints of a row are shifted towards -s.
+  // Shift of the joints of a row towards -s.
   float Stagger(int row) const { return length * Byte(HashCell(row, 77, seed), 1); }
 
   float width, length;
@@ -106,7 +106,7 @@ Color Tiles(const Texture& texture, const SurfacePoint& p) {
   return base * (0.90f + 0.12f * Byte(hash, 0) + 0.06f * (stain - 0.5f));
 }
 
-// A rectangle or disc of a poster, in parts of the side of its lattice cell.
+// A rectangle or disc of a poster; lengths relative to the side of its lattice cell.
 struct Figure {
   bool is_disc = false;
   float center_s = 0.0f, center_t = 0.0f;
@@ -114,7 +114,7 @@ struct Figure {
   Color color = Color::Zero();
 };
 
-// The figure of a lattice cell; a quarter of the cells stays empty.
+// The figure in a lattice cell; a quarter of the cells is empty.
 std::optional<Figure> FigureOfCell(const Texture& texture, int column, int row, uint32_t seed) {
   const uint32_t hash = HashCell(column, row, texture.seed ^ seed);
   if ((hash & 7u) < 2u) return std::nullopt;
@@ -123,14 +123,15 @@ std::optional<Figure> FigureOfCell(const Texture& texture, int column, int row, 
   figure.is_disc = (hash & 64u) != 0;
   figure.half_s = 0.14f + 0.30f * Byte(shape, 0);
   figure.half_t = 0.14f + 0.30f * Byte(shape, 1);
-  // The figure stays inside its cell, so that one look-up per layer is enough.
+  // The figure lies inside its cell, so one look-up per layer is sufficient.
   figure.center_s = figure.half_s + (1.0f - 2.0f * figure.half_s) * Byte(shape, 2);
   figure.center_t = figure.half_t + (1.0f - 2.0f * figure.half_t) * Byte(shape, 3);
   figure.color = Palette(hash >> 8);
   return figure;
 }
 
-// A poster's layers of figures, each over the one before: seeds from 1 on, cells half as large.
+// A poster has several layers of figures, each on top of the previous one and with cells of half
+// the size; their seeds are 1, 2, ...
 constexpr uint32_t kPosterLayers = 3;
 float PosterCell(const Texture& texture, uint32_t layer) {
   return 0.32f * texture.scale / static_cast<float>(1u << (layer - 1));  // metres
@@ -213,7 +214,7 @@ Color Outdoors(const Texture& texture, const SurfacePoint& p) {
   return Color(0.22f, 0.34f, 0.16f) * (0.6f + 0.9f * leaves);
 }
 
-// Collects the straight edges of a pattern, as far as they are inside of the rectangle.
+// Collects the straight edges of a pattern, clipped to the rectangle.
 class EdgeCollector {
  public:
   EdgeCollector(float width, float height) : width_(width), height_(height) {}
@@ -240,7 +241,7 @@ class EdgeCollector {
   std::vector<LineSegment2> edges_;
 };
 
-// Both borders of every joint.
+// Collects both borders of every joint.
 void CollectPlanks(const Texture& texture, EdgeCollector* edges) {
   const PlankLayout layout(texture);
   for (int row = 0; static_cast<float>(row) * layout.width < edges->height(); ++row) {
@@ -266,7 +267,7 @@ void CollectTiles(const Texture& texture, EdgeCollector* edges) {
   }
 }
 
-// The sides of the rectangles; a later layer may hide a part.
+// Collects the sides of the rectangles; later layers may hide parts of them.
 void CollectPoster(const Texture& texture, EdgeCollector* edges) {
   for (uint32_t layer = 1; layer <= kPosterLayers; ++layer) {
     const float size = PosterCell(texture, layer);

@@ -33,7 +33,7 @@ struct SyntheticWindowOptions {
   bool depth = true;                      ///< Whether points and lines have depth.
   double outlier_ratio = 0.0;             ///< Fraction of observations that are outliers.
 
-  // Standard deviations of the initial state's error; fixed keyframes have none.
+  /// Standard deviations of the initial state's error; fixed keyframes have none.
   double start_rotation_sigma = 0.01;     ///< Radians, per axis.
   double start_translation_sigma = 0.02;  ///< Metres, per axis.
   double start_point_sigma = 0.03;        ///< Metres, per axis.

@@ -39,15 +39,15 @@ class CameraPathTest : public ::testing::TestWithParam<Case> {
   CameraPath path_;
 };
 
-TEST_P(CameraPathTest, StaysInFreeSpaceAllTheWayRound) {
+TEST_P(CameraPathTest, StaysInFreeSpace) {
   for (int i = 0; i < NumFrames(); i += 3) {
     const Vec center = path_.CamFromWorld(i * kFrame).OriginInSource();
     ASSERT_GT(scene_.Clearance(center), 0.3) << "frame " << i;
   }
 }
 
-TEST_P(CameraPathTest, NothingCrossesTheWay) {
-  // No face stands between one place and the next, seen from either of them.
+TEST_P(CameraPathTest, DoesNotCrossSurfaces) {
+  // There is no surface between successive positions, visible from either of them.
   Vec last = path_.CamFromWorld(0.0).OriginInSource();
   for (int i = 10; i < NumFrames(); i += 10) {
     const Vec here = path_.CamFromWorld(i * kFrame).OriginInSource();
@@ -58,28 +58,28 @@ TEST_P(CameraPathTest, NothingCrossesTheWay) {
   }
 }
 
-TEST_P(CameraPathTest, MovesAsAHandDoes) {
+TEST_P(CameraPathTest, MovesLikeHandHeldCamera) {
   Rigid3 last = path_.CamFromWorld(0.0);
-  double way = 0.0, turn = 0.0, fastest = 0.0, fastest_turn = 0.0;
+  double distance = 0.0, turn = 0.0, fastest = 0.0, fastest_turn = 0.0;
   for (int i = 1; i < NumFrames(); ++i) {
     const Rigid3 here = path_.CamFromWorld(i * kFrame);
     const double speed = (here.OriginInSource() - last.OriginInSource()).norm() / kFrame;
     const double rate = LogSO3((here * last.Inverse()).rotation()).norm() / kFrame;
-    way += speed * kFrame;
+    distance += speed * kFrame;
     turn += rate * kFrame;
     fastest = std::max(fastest, speed);
     fastest_turn = std::max(fastest_turn, rate);
     last = here;
   }
   const double seconds = NumFrames() * kFrame;
-  EXPECT_GT(way / seconds, 0.15);
-  EXPECT_LT(way / seconds, 0.5);
+  EXPECT_GT(distance / seconds, 0.15);
+  EXPECT_LT(distance / seconds, 0.5);
   EXPECT_LT(fastest, 0.6);
   EXPECT_GT(turn / seconds, DegreesToRadians(5.0));
   EXPECT_LT(fastest_turn, DegreesToRadians(40.0));
 }
 
-TEST_P(CameraPathTest, VelocityHasNoJumps) {
+TEST_P(CameraPathTest, VelocityIsContinuous) {
   const double step = 0.01;  // seconds
   Vec last = path_.CamFromWorld(0.0).OriginInSource();
   Vec last_velocity = (path_.CamFromWorld(step).OriginInSource() - last) / step;
@@ -87,14 +87,14 @@ TEST_P(CameraPathTest, VelocityHasNoJumps) {
   for (int i = 2; i < 2000; ++i) {
     const Vec here = path_.CamFromWorld(i * step).OriginInSource();
     const Vec velocity = (here - last) / step;
-    // 2 m/s^2: a hand's, not a collision's.
+    // 2 m/s^2, a typical acceleration of a hand.
     ASSERT_LT((velocity - last_velocity).norm() / step, 2.0) << "second " << i * step;
     last = here;
     last_velocity = velocity;
   }
 }
 
-TEST_P(CameraPathTest, KeepsStructureInViewAndTheHorizonAboutLevel) {
+TEST_P(CameraPathTest, KeepsStructureInViewAndHorizonLevel) {
   for (int i = 0; i < NumFrames(); i += 15) {
     const Rigid3 world_from_cam = path_.CamFromWorld(i * kFrame).Inverse();
     const Vec forward = world_from_cam.rotation() * Vec::UnitZ();
@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, CameraPathTest,
                                            Case{SceneKind::kSlanted, 5},
                                            Case{SceneKind::kHouse, 1}));
 
-TEST(CameraPathOptionsTest, SeedsChangeStartAndShakeAndRepeat) {
+TEST(CameraPathOptionsTest, IsDeterminedBySeed) {
   const Scene scene = MakeScene(SceneKind::kRoom, 1);
   PathOptions options;
   const CameraPath a(scene, options), b(scene, options);
@@ -132,7 +132,7 @@ TEST(CameraPathOptionsTest, RoundsDoNotRepeat) {
   EXPECT_GT((path.CamFromWorld(2.0).params - path.CamFromWorld(2.0 + round).params).norm(), 1e-3);
 }
 
-TEST(CameraPathOptionsTest, RejectsNonsense) {
+TEST(CameraPathOptionsTest, ThrowsOnInvalidOptionsOrTour) {
   const Scene scene = MakeScene(SceneKind::kRoom, 1);
   PathOptions options;
   options.speed = 0.0;
@@ -140,7 +140,7 @@ TEST(CameraPathOptionsTest, RejectsNonsense) {
   EXPECT_THROW(CameraPath(Scene(), PathOptions()), std::invalid_argument);
 }
 
-TEST(LookAtTest, TargetIsInTheMiddleAndUpIsUp) {
+TEST(LookAtTest, CentresTargetAndKeepsCameraUpright) {
   const Rigid3 cam_from_world = LookAt({1, 2, 1.5}, {4, -2, 0.5});
   const Vec target = cam_from_world * Vec(4, -2, 0.5);
   EXPECT_NEAR(target.x(), 0.0, 1e-12);

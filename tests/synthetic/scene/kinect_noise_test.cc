@@ -20,7 +20,7 @@ std::vector<float> Flat(float depth) {
   return std::vector<float>(static_cast<size_t>(kCamera.width) * kCamera.height, depth);
 }
 
-// Root mean square error over the pixels that have depth.
+// Root mean square error over the pixels with depth.
 double Rms(const std::vector<float>& depth, double truth) {
   double squares = 0.0;
   int count = 0;
@@ -32,12 +32,11 @@ double Rms(const std::vector<float>& depth, double truth) {
   return std::sqrt(squares / count);
 }
 
-double MissingShare(const std::vector<float>& depth) {
+double MissingRatio(const std::vector<float>& depth) {
   return static_cast<double>(std::count(depth.begin(), depth.end(), 0.0f)) / depth.size();
 }
 
-// Mean over depths around `depth`, so that the place between two quantisation steps does not
-// matter.
+// Mean over depths around `depth`, to average over positions between two quantisation steps.
 double MeanRms(double depth) {
   double sum = 0.0;
   for (int i = 0; i < 10; ++i) {
@@ -49,7 +48,7 @@ double MeanRms(double depth) {
   return sum / 10.0;
 }
 
-TEST(KinectNoiseTest, GrowsWithTheSquareOfDepth) {
+TEST(KinectNoiseTest, GrowsWithSquareOfDepth) {
   // sqrt(0.05^2 + 0.125^2 / 12) px of disparity over f b = 39.375 px m.
   const double sigma = std::sqrt(0.05 * 0.05 + 0.125 * 0.125 / 12.0) / (525.0 * 0.075);  // 1/metres
   for (const double depth : {1.0, 2.0, 4.0}) {
@@ -57,7 +56,7 @@ TEST(KinectNoiseTest, GrowsWithTheSquareOfDepth) {
   }
 }
 
-TEST(KinectNoiseTest, DisparityComesInSteps) {
+TEST(KinectNoiseTest, QuantisesDisparity) {
   std::vector<float> depth = Flat(2.3f);
   AddKinectNoise({}, kCamera, 1, 0, &depth);
   for (const float z : depth) {
@@ -67,9 +66,9 @@ TEST(KinectNoiseTest, DisparityComesInSteps) {
   }
 }
 
-TEST(KinectNoiseTest, NeighborsErrAlikeAndFarPixelsDoNot) {
+TEST(KinectNoiseTest, IsCorrelatedBetweenNeighboursOnly) {
   KinectNoiseOptions options;
-  options.disparity_step = 1e-4;  // noise alone
+  options.disparity_step = 1e-4;  // without quantisation
   std::vector<float> depth = Flat(2.0f);
   AddKinectNoise(options, kCamera, 1, 0, &depth);
   const auto correlation = [&](int distance) {
@@ -83,27 +82,29 @@ TEST(KinectNoiseTest, NeighborsErrAlikeAndFarPixelsDoNot) {
     }
     return product / squares;
   };
-  // The kernel's own correlation at one pixel: exp(-1 / (4 sigma^2)), sigma = 0.75 px at this size.
+  // Autocorrelation of the kernel at one pixel: exp(-1 / (4 sigma^2)) with sigma = 0.75 px at this
+  // image size.
   EXPECT_NEAR(correlation(1), std::exp(-1.0 / (4.0 * 0.75 * 0.75)), 0.05);
   EXPECT_NEAR(correlation(10), 0.0, 0.05);
 }
 
-TEST(KinectNoiseTest, KeepsItsRange) {
+TEST(KinectNoiseTest, RemovesDepthOutsideRange) {
   for (const float z : {0.3f, 5.5f}) {
     std::vector<float> depth = Flat(z);
     AddKinectNoise({}, kCamera, 1, 0, &depth);
-    EXPECT_EQ(MissingShare(depth), 1.0) << z;
+    EXPECT_EQ(MissingRatio(depth), 1.0) << z;
   }
   std::vector<float> depth = Flat(2.0f);
   AddKinectNoise({}, kCamera, 1, 0, &depth);
-  EXPECT_EQ(MissingShare(depth), 0.0);
-  std::vector<float> nothing = Flat(0.0f);
-  AddKinectNoise({}, kCamera, 1, 0, &nothing);
-  EXPECT_EQ(MissingShare(nothing), 1.0);
+  EXPECT_EQ(MissingRatio(depth), 0.0);
+  std::vector<float> missing = Flat(0.0f);
+  AddKinectNoise({}, kCamera, 1, 0, &missing);
+  EXPECT_EQ(MissingRatio(missing), 1.0);
 }
 
-// Depth of a plane through (0, 0, 2) whose normal leans by `tangent` out of the view.
-std::vector<float> Leaning(double tangent) {
+// Depth of a plane through (0, 0, 2); `tangent` is that of the angle between its normal and the
+// optical axis.
+std::vector<float> Slanted(double tangent) {
   std::vector<float> depth = Flat(0.0f);
   for (int y = 0; y < kCamera.height; ++y) {
     for (int x = 0; x < kCamera.width; ++x) {
@@ -114,8 +115,8 @@ std::vector<float> Leaning(double tangent) {
   return depth;
 }
 
-double MissingAtTheMiddle(double tangent) {
-  std::vector<float> depth = Leaning(tangent);
+double MissingRatioInMiddle(double tangent) {
+  std::vector<float> depth = Slanted(tangent);
   AddKinectNoise({}, kCamera, 1, 0, &depth);
   int missing = 0;
   for (int y = 0; y < kCamera.height; ++y) {
@@ -124,13 +125,13 @@ double MissingAtTheMiddle(double tangent) {
   return missing / (4.0 * kCamera.height);
 }
 
-TEST(KinectNoiseTest, LosesDepthAtGrazingAngles) {
-  EXPECT_EQ(MissingAtTheMiddle(1.0), 0.0);
-  EXPECT_NEAR(MissingAtTheMiddle(6.0), 0.5, 0.07);
-  EXPECT_NEAR(MissingAtTheMiddle(20.0), 0.95, 0.03);
+TEST(KinectNoiseTest, RemovesDepthAtGrazingAngles) {
+  EXPECT_EQ(MissingRatioInMiddle(1.0), 0.0);
+  EXPECT_NEAR(MissingRatioInMiddle(6.0), 0.5, 0.07);
+  EXPECT_NEAR(MissingRatioInMiddle(20.0), 0.95, 0.03);
 }
 
-TEST(KinectNoiseTest, LosesAndMixesDepthAtEdges) {
+TEST(KinectNoiseTest, RemovesDepthAtEdges) {
   std::vector<float> depth = Flat(1.5f);
   for (int y = 0; y < kCamera.height; ++y) {
     for (int x = 160; x < kCamera.width; ++x) depth[y * kCamera.width + x] = 3.0f;
@@ -147,7 +148,7 @@ TEST(KinectNoiseTest, LosesAndMixesDepthAtEdges) {
   EXPECT_EQ(elsewhere, 0);
 }
 
-TEST(KinectNoiseTest, IsTheSameAtEveryImageSize) {
+TEST(KinectNoiseTest, IsIndependentOfImageSize) {
   const PinholeCamera large = KinectCamera(640, 480);
   std::vector<float> a = Flat(2.0f), b(640 * 480, 2.0f);
   AddKinectNoise({}, kCamera, 1, 0, &a);
@@ -155,7 +156,7 @@ TEST(KinectNoiseTest, IsTheSameAtEveryImageSize) {
   EXPECT_NEAR(Rms(a, 2.0) / Rms(b, 2.0), 1.0, 0.1);
 }
 
-TEST(KinectNoiseTest, RepeatsBySeedAndFrame) {
+TEST(KinectNoiseTest, IsDeterminedBySeedAndFrame) {
   std::vector<float> a = Flat(2.0f), b = a, frame = a, seed = a;
   AddKinectNoise({}, kCamera, 1, 4, &a);
   AddKinectNoise({}, kCamera, 1, 4, &b);
@@ -166,7 +167,7 @@ TEST(KinectNoiseTest, RepeatsBySeedAndFrame) {
   EXPECT_NE(a, seed);
 }
 
-TEST(KinectNoiseTest, RejectsNonsense) {
+TEST(KinectNoiseTest, ThrowsOnInvalidOptionsOrSize) {
   std::vector<float> depth(7, 1.0f);
   EXPECT_THROW(AddKinectNoise({}, kCamera, 1, 0, &depth), std::invalid_argument);
   KinectNoiseOptions options;

@@ -8,7 +8,7 @@
 namespace msc_vo {
 namespace {
 
-TEST(RandomTest, SameSeedAndStreamRepeatOthersDiffer) {
+TEST(RandomTest, IsDeterminedBySeedAndStream) {
   Random a(7, 3), b(7, 3), other_stream(7, 4), other_seed(8, 3);
   const uint64_t first = a.Next();
   EXPECT_EQ(first, b.Next());
@@ -16,7 +16,7 @@ TEST(RandomTest, SameSeedAndStreamRepeatOthersDiffer) {
   EXPECT_NE(first, other_seed.Next());
 }
 
-TEST(RandomTest, UniformHasItsRangeAndMoments) {
+TEST(RandomTest, UniformHasExpectedRangeAndMoments) {
   Random random(1);
   double sum = 0.0, squares = 0.0;
   const int count = 100000;
@@ -60,7 +60,7 @@ TEST(RandomTest, SuccessiveNormalsAreIndependent) {
   EXPECT_NEAR(squares_product / count, 0.0, 0.032);
 }
 
-TEST(RandomTest, IndexReachesAllAndNothingElse) {
+TEST(RandomTest, IndexIsUniformOverRange) {
   Random random(3);
   int counts[5] = {};
   for (int i = 0; i < 5000; ++i) {

@@ -17,8 +17,8 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-// A wall of 8 m x 8 m through (0, 0, 3) that looks at the origin, turned by `tilt`, in a world
-// whose z is the camera's at the identity.
+// A wall of 8 m x 8 m through (0, 0, 3) that faces the origin, rotated by `tilt`; the z axis of the
+// world is the optical axis of a camera at the identity.
 Quad Wall(const Vec& tilt, const Texture& texture) {
   const Eigen::Quaterniond turn = ExpSO3(tilt);
   const Vec u = turn * Vec(8, 0, 0), v = turn * Vec(0, -8, 0);
@@ -48,7 +48,7 @@ TEST(RendererTest, DepthOfTiltedPlanesIsExact) {
   }
 }
 
-TEST(RendererTest, DepthAgreesWithRaysInAFurnishedRoom) {
+TEST(RendererTest, DepthAgreesWithRaysInFurnishedRoom) {
   const Scene scene = MakeScene(SceneKind::kRoom, 1);
   const Rigid3 cam_from_world = CameraPath(scene, PathOptions()).CamFromWorld(2.0);
   const Rigid3 world_from_cam = cam_from_world.Inverse();
@@ -67,7 +67,7 @@ TEST(RendererTest, DepthAgreesWithRaysInAFurnishedRoom) {
   }
 }
 
-TEST(RendererTest, NegativeFyMirrorsTheImage) {
+TEST(RendererTest, NegativeFyMirrorsImage) {
   const Scene scene = MakeScene(SceneKind::kRoom, 1);
   const Rigid3 cam_from_world = CameraPath(scene, PathOptions()).CamFromWorld(0.0);
   PinholeCamera mirrored = kCamera;
@@ -84,13 +84,13 @@ TEST(RendererTest, NegativeFyMirrorsTheImage) {
   EXPECT_LT(different, 5);  // pixel centres on an edge, where rounding decides
 }
 
-TEST(RendererTest, EveryRowIsThatOfItsPose) {
+TEST(RendererTest, RendersEveryRowFromItsPose) {
   const Scene scene = MakeScene(SceneKind::kRoom, 1);
   const CameraPath path(scene, PathOptions());
   const Renderer renderer(scene, KinectCamera(64, 48));
   const RenderedImage first = renderer.Render(path.CamFromWorld(1.0));
   const RenderedImage second = renderer.Render(path.CamFromWorld(1.5));
-  // Poses that alternate: no row may take anything from the one above or below.
+  // With alternating poses, no row may depend on the rows above or below.
   const RenderedImage mixed =
       renderer.RenderRows([&](int y) { return path.CamFromWorld(y % 2 == 0 ? 1.0 : 1.5); });
   ASSERT_EQ(mixed.rgb.size(), first.rgb.size());
@@ -103,7 +103,7 @@ TEST(RendererTest, EveryRowIsThatOfItsPose) {
   EXPECT_NE(first.depth, second.depth);
 }
 
-TEST(RendererTest, TexturedWallLooksTheSameFromTwoPlaces) {
+TEST(RendererTest, TextureIsConsistentBetweenViews) {
   const Texture poster{TextureKind::kPoster, {0.85f, 0.82f, 0.74f}, {0.1f, 0.1f, 0.1f}, 3.0f, 5};
   const Renderer renderer(OneWall({0.1, 0.2, 0}, poster), kCamera);
   const Rigid3 second_from_first(ExpSO3({0.03, -0.05, 0.1}), {0.2, -0.1, 0.1});
@@ -120,7 +120,7 @@ TEST(RendererTest, TexturedWallLooksTheSameFromTwoPlaces) {
       if (!kCamera.IsInside(pixel, 4.0)) continue;
       const int u = static_cast<int>(std::lround(pixel.x()));
       const int v = static_cast<int>(std::lround(pixel.y())), j = v * kCamera.width + u;
-      // Depth at the nearest pixel: off by the wall's slope over half a pixel at most.
+      // Depth at the nearest pixel: the error is at most the slope of the wall over half a pixel.
       ASSERT_NEAR(second.depth[j], there.z(), 0.02);
       sum += std::abs(gray_first[i] - gray_second[j]);
       shifted_sum += std::abs(gray_first[i] - gray_second[j + 4]);
@@ -128,12 +128,12 @@ TEST(RendererTest, TexturedWallLooksTheSameFromTwoPlaces) {
     }
   }
   ASSERT_GT(count, 10000);
-  EXPECT_LT(sum / count, 8.0);  // half a pixel off at edges
+  EXPECT_LT(sum / count, 8.0);  // errors of half a pixel at edges
   EXPECT_GT(shifted_sum / count, 2.0 * sum / count);
 }
 
-TEST(RendererTest, EdgesAreSmoothAndStraightToAFractionOfAPixel) {
-  // White half in front of a black wall; its border is a slanted line in the image.
+TEST(RendererTest, EdgesAreAntiAliasedAndAccurateToSubPixels) {
+  // A white half-plane in front of a black wall; its border is a slanted line in the image.
   Scene scene = OneWall(Vec::Zero(), {TextureKind::kPlain, {0, 0, 0}});
   const Eigen::Quaterniond turn = ExpSO3({0, 0, 0.2});
   scene.quads.push_back({turn * Vec(0.0, 4.0, 0) + Vec(0.02, 0, 2.5),
@@ -159,8 +159,8 @@ TEST(RendererTest, EdgesAreSmoothAndStraightToAFractionOfAPixel) {
   EXPECT_GT(between, 50);
 }
 
-TEST(RendererTest, ThingsThinnerThanAPixelStayWhole) {
-  // A bar a third of a pixel wide that leans by a few pixels: no row may lose it.
+TEST(RendererTest, ObjectsThinnerThanPixelAreContinuous) {
+  // A slanted bar, a third of a pixel wide, must be visible in every row.
   Scene scene = OneWall(Vec::Zero(), {TextureKind::kPlain, {0, 0, 0}});
   const double width = 2.0 / kCamera.fx / 3.0;
   const Eigen::Quaterniond turn = ExpSO3({0, 0, 0.02});
@@ -177,7 +177,7 @@ TEST(RendererTest, ThingsThinnerThanAPixelStayWhole) {
   }
 }
 
-TEST(RendererTest, FacesOfAWhiteBoxDifferInBrightness) {
+TEST(RendererTest, FacesOfWhiteBoxDifferInBrightness) {
   const Scene scene = MakeScene(SceneKind::kBare, 1);
   const CameraPath path(scene, PathOptions());
   for (int i = 0; i < 5; ++i) {
@@ -190,21 +190,21 @@ TEST(RendererTest, FacesOfAWhiteBoxDifferInBrightness) {
   }
 }
 
-TEST(RendererTest, NothingIsSeenFromBehindOrOutside) {
+TEST(RendererTest, BackSidesAreInvisible) {
   Scene scene = OneWall(Vec::Zero());
-  std::swap(scene.quads[0].edge_u, scene.quads[0].edge_v);  // now it looks away
+  std::swap(scene.quads[0].edge_u, scene.quads[0].edge_v);  // now it faces away
   const RenderedImage image = Renderer(scene, kCamera).Render(Rigid3());
   EXPECT_EQ(*std::max_element(image.depth.begin(), image.depth.end()), 0.0f);
   EXPECT_EQ(*std::max_element(image.rgb.begin(), image.rgb.end()), 0);
 }
 
-TEST(RendererTest, RejectsABadCamera) {
+TEST(RendererTest, ThrowsOnInvalidCamera) {
   PinholeCamera camera;
   camera.fx = 0.0;
   EXPECT_THROW(Renderer(Scene(), camera), std::invalid_argument);
 }
 
-TEST(KinectCameraTest, ScalesWithTheWidth) {
+TEST(KinectCameraTest, ScalesWithWidth) {
   const PinholeCamera camera = KinectCamera(320, 240);
   EXPECT_DOUBLE_EQ(camera.fx, 262.5);
   EXPECT_DOUBLE_EQ(camera.fy, 262.5);
@@ -212,7 +212,7 @@ TEST(KinectCameraTest, ScalesWithTheWidth) {
   EXPECT_DOUBLE_EQ(camera.cy, 119.5);
 }
 
-TEST(ImageNoiseTest, HasItsSigmaAndRepeats) {
+TEST(ImageNoiseTest, HasGivenSigmaAndIsDeterminedByFrame) {
   RenderedImage flat;
   flat.width = 200;
   flat.height = 100;

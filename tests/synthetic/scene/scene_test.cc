@@ -23,7 +23,7 @@ constexpr std::array<SceneKind, 5> kKinds = {SceneKind::kRoom, SceneKind::kCorri
                                              SceneKind::kBare, SceneKind::kSlanted,
                                              SceneKind::kHouse};
 
-// Whether a direction is one of the world's axes to 1e-6 radians.
+// True if a direction is one of the world's axes, to 1e-6 radians.
 bool IsAxis(const Vec& direction) {
   for (int axis = 0; axis < 3; ++axis) {
     if (UndirectedAngle(direction, Vec(Vec::Unit(axis))) < 1e-6) return true;
@@ -31,13 +31,14 @@ bool IsAxis(const Vec& direction) {
   return false;
 }
 
-double AxisShare(const Scene& scene) {
+// Fraction of the edges that are parallel to an axis.
+double AxisRatio(const Scene& scene) {
   const auto count = std::count_if(scene.edges.begin(), scene.edges.end(),
                                    [](const LineSegment3& e) { return IsAxis(e.Direction()); });
   return static_cast<double>(count) / scene.edges.size();
 }
 
-TEST(QuadTest, DistanceToFaceEdgeAndCorner) {
+TEST(QuadTest, MeasuresDistanceToFaceEdgeAndCorner) {
   const Quad quad{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {}};
   EXPECT_DOUBLE_EQ(quad.Distance({1.0, 0.5, 0.3}), 0.3);
   EXPECT_DOUBLE_EQ(quad.Distance({2.4, 0.5, 0.3}), 0.5);
@@ -46,7 +47,7 @@ TEST(QuadTest, DistanceToFaceEdgeAndCorner) {
   EXPECT_DOUBLE_EQ(quad.Area(), 2.0);
 }
 
-TEST(SceneTest, RayMeetsTheNearestFaceThatLooksAtIt) {
+TEST(SceneTest, RayHitsNearestSurfaceFacingOrigin) {
   Scene scene;
   scene.quads.push_back({{-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, {}});  // normal -y, at y = 2
   scene.quads.push_back({{1, 1, -1}, {-2, 0, 0}, {0, 0, 2}, {}});  // normal +y, at y = 1
@@ -57,7 +58,7 @@ TEST(SceneTest, RayMeetsTheNearestFaceThatLooksAtIt) {
   EXPECT_FALSE(scene.CastRay(Vec::Zero(), {0.0, -1.0, 0.0}).has_value());  // behind it
 }
 
-TEST(SceneBuilderTest, BoxesLookOutwardsAndHallsInwards) {
+TEST(SceneBuilderTest, BoxesFaceOutwardsAndHallsInwards) {
   SceneBuilder builder(1);
   builder.AddBox(Rigid3(), {1, 2, 3}, {2, 4, 6}, Texture());
   const Vec middle(1.5, 3.0, 4.5);
@@ -78,7 +79,7 @@ TEST(SceneBuilderTest, BoxesLookOutwardsAndHallsInwards) {
   }
 }
 
-TEST(SceneTest, NamesAreKnown) {
+TEST(SceneTest, ParsesNamesOfScenes) {
   EXPECT_EQ(SceneKindFromName("room"), SceneKind::kRoom);
   EXPECT_EQ(SceneKindFromName("corridor"), SceneKind::kCorridor);
   EXPECT_EQ(SceneKindFromName("bare"), SceneKind::kBare);
@@ -87,7 +88,7 @@ TEST(SceneTest, NamesAreKnown) {
   EXPECT_FALSE(SceneKindFromName("garden").has_value());
 }
 
-TEST(SceneTest, AllQuadsAreRectanglesAndAllScenesAreClosed) {
+TEST(SceneTest, ConsistsOfRectanglesAndIsClosed) {
   for (const SceneKind kind : kKinds) {
     const Scene scene = MakeScene(kind, 3);
     for (const Quad& quad : scene.quads) {
@@ -101,7 +102,7 @@ TEST(SceneTest, AllQuadsAreRectanglesAndAllScenesAreClosed) {
   }
 }
 
-TEST(SceneTest, SeedsVaryAndRepeat) {
+TEST(SceneTest, IsDeterminedBySeed) {
   for (const SceneKind kind : kKinds) {
     const Scene a = MakeScene(kind, 1), b = MakeScene(kind, 1), c = MakeScene(kind, 2);
     ASSERT_EQ(a.edges.size(), b.edges.size());
@@ -114,22 +115,22 @@ TEST(SceneTest, SeedsVaryAndRepeat) {
   }
 }
 
-TEST(SceneTest, EdgesFollowTheAxesInManhattanScenesOnly) {
-  EXPECT_EQ(AxisShare(MakeScene(SceneKind::kRoom, 1)), 1.0);
-  EXPECT_EQ(AxisShare(MakeScene(SceneKind::kCorridor, 1)), 1.0);
-  EXPECT_EQ(AxisShare(MakeScene(SceneKind::kHouse, 1)), 1.0);
-  // Folds at 45 degrees between boxes that are square.
-  const double bare = AxisShare(MakeScene(SceneKind::kBare, 1));
+TEST(SceneTest, EdgesFollowAxesInManhattanScenesOnly) {
+  EXPECT_EQ(AxisRatio(MakeScene(SceneKind::kRoom, 1)), 1.0);
+  EXPECT_EQ(AxisRatio(MakeScene(SceneKind::kCorridor, 1)), 1.0);
+  EXPECT_EQ(AxisRatio(MakeScene(SceneKind::kHouse, 1)), 1.0);
+  // Folds at 45 degrees between boxes aligned with the axes.
+  const double bare = AxisRatio(MakeScene(SceneKind::kBare, 1));
   EXPECT_GT(bare, 0.5);
   EXPECT_LT(bare, 0.95);
-  // Furniture that stands upright shares the vertical and nothing else.
+  // Upright furniture in the attic has vertical edges, but none along the horizontal axes.
   for (const LineSegment3& edge : MakeScene(SceneKind::kSlanted, 1).edges) {
     EXPECT_FALSE(UndirectedAngle(edge.Direction(), Vec(1, 0, 0)) < 1e-6);
     EXPECT_FALSE(UndirectedAngle(edge.Direction(), Vec(0, 1, 0)) < 1e-6);
   }
 }
 
-TEST(SceneTest, RoomsAreFullOfTextureAndBareScenesHaveNone) {
+TEST(SceneTest, RoomsAreTexturedAndBareScenesAreNot) {
   const auto textured = [](SceneKind kind) {
     const Scene scene = MakeScene(kind, 1);
     return std::count_if(scene.quads.begin(), scene.quads.end(), [](const Quad& quad) {
@@ -152,7 +153,7 @@ TEST(SceneTest, EdgesAndPaintedEdgesLieOnSurfaces) {
   }
 }
 
-TEST(SceneTest, PlanksAndPostersHavePaintedEdgesAndBareScenesNone) {
+TEST(SceneTest, PlanksAndPostersHavePaintedEdges) {
   EXPECT_TRUE(MakeScene(SceneKind::kBare, 1).PaintedEdges().empty());
   int num_joints = 0, num_figures = 0;
   for (const LineSegment3& edge : MakeScene(SceneKind::kRoom, 1).PaintedEdges()) {
@@ -164,9 +165,9 @@ TEST(SceneTest, PlanksAndPostersHavePaintedEdgesAndBareScenesNone) {
   EXPECT_GT(num_figures, 5);  // of the pictures
 }
 
-TEST(SceneTest, TheShellOfTheAtticIsAllOfItsEdges) {
-  // Seven planes, three of which meet in each corner: Euler gives 3 * (7 - 2) edges. They end where
-  // walls meet, so that each end is shared by three edges.
+TEST(SceneTest, ListsAllEdgesOfAtticShell) {
+  // Seven planes, three of which meet at each corner: 3 * (7 - 2) edges by Euler's formula. Each
+  // end point belongs to three edges.
   const std::vector<LineSegment3> edges = MakeScene(SceneKind::kSlanted, 1).edges;
   ASSERT_GT(edges.size(), 15u);
   for (int i = 0; i < 15; ++i) {

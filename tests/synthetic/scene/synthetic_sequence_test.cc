@@ -24,7 +24,7 @@ SyntheticSequenceOptions Small() {
   return options;
 }
 
-TEST(SyntheticSequenceTest, SameSeedSameBytesInAnyOrder) {
+TEST(SyntheticSequenceTest, IsDeterministicInAnyOrder) {
   SyntheticSequenceOptions options = Small();
   options.kinect_depth = true;
   const SyntheticSequence a(options), b(options);
@@ -37,7 +37,7 @@ TEST(SyntheticSequenceTest, SameSeedSameBytesInAnyOrder) {
   EXPECT_NE(early.image.rgb, late.image.rgb);
 }
 
-TEST(SyntheticSequenceTest, OtherSeedOtherBytes) {
+TEST(SyntheticSequenceTest, ChangesWithSeed) {
   SyntheticSequenceOptions options = Small();
   const SyntheticFrame a = SyntheticSequence(options).Render(0);
   options.seed = 2;
@@ -46,7 +46,7 @@ TEST(SyntheticSequenceTest, OtherSeedOtherBytes) {
   EXPECT_NE(a.image.depth, b.image.depth);
 }
 
-TEST(SyntheticSequenceTest, StampsFollowTheFrameRate) {
+TEST(SyntheticSequenceTest, TimeStampsFollowFrameRate) {
   SyntheticSequenceOptions options = Small();
   options.fps = 15.0;
   const SyntheticSequence sequence(options);
@@ -54,7 +54,7 @@ TEST(SyntheticSequenceTest, StampsFollowTheFrameRate) {
   EXPECT_DOUBLE_EQ(sequence.PoseAt(30).timestamp, 3.0);
 }
 
-TEST(SyntheticSequenceTest, DelayedDepthIsThatOfLater) {
+TEST(SyntheticSequenceTest, DepthDelayRendersDepthLater) {
   SyntheticSequenceOptions options = Small();
   const SyntheticSequence at_once(options);
   options.depth_delay = 0.25 / options.fps;
@@ -68,7 +68,7 @@ TEST(SyntheticSequenceTest, DelayedDepthIsThatOfLater) {
   EXPECT_DOUBLE_EQ(delayed.PoseAt(3).timestamp, at_once.PoseAt(3).timestamp);
 }
 
-TEST(SyntheticSequenceTest, WithoutReadoutTheImageIsThatOfThePose) {
+TEST(SyntheticSequenceTest, GlobalShutterRendersPose) {
   SyntheticSequenceOptions options = Small();
   options.image_sigma = 0.0;
   const SyntheticSequence sequence(options);
@@ -79,11 +79,11 @@ TEST(SyntheticSequenceTest, WithoutReadoutTheImageIsThatOfThePose) {
   EXPECT_EQ(frame.image.depth, image.depth);
 }
 
-TEST(SyntheticSequenceTest, RollingShutterTakesEveryRowAtItsOwnTime) {
+TEST(SyntheticSequenceTest, RollingShutterRendersEveryRowAtItsTime) {
   SyntheticSequenceOptions options = Small();
   options.width = 64;
   options.height = 48;
-  options.fps = 4.0;  // slow, so that half a row, 2.6 ms, is a motion to be seen
+  options.fps = 4.0;  // slow, so the motion within half a row (2.6 ms) is visible
   options.image_sigma = 0.0;
   options.depth_delay = 0.1;
   const SyntheticSequence global(options);
@@ -109,7 +109,7 @@ TEST(SyntheticSequenceTest, RollingShutterTakesEveryRowAtItsOwnTime) {
   }
 }
 
-TEST(SyntheticSequenceTest, DepthOfOneFrameIsWhereTheNextOneSeesIt) {
+TEST(SyntheticSequenceTest, DepthIsConsistentBetweenFrames) {
   SyntheticSequenceOptions options = Small();
   options.image_sigma = 0.0;
   for (const SceneKind kind : {SceneKind::kRoom, SceneKind::kSlanted}) {
@@ -118,7 +118,7 @@ TEST(SyntheticSequenceTest, DepthOfOneFrameIsWhereTheNextOneSeesIt) {
     const SyntheticFrame a = sequence.Render(0), b = sequence.Render(10);
     const Rigid3 b_from_a = b.pose.world_from_cam.Inverse() * a.pose.world_from_cam;
     const PinholeCamera& camera = sequence.camera();
-    int seen = 0, agree = 0;
+    int visible = 0, agree = 0;
     for (int i = 0; i < camera.width * camera.height; ++i) {
       const Eigen::Vector2d pixel(i % camera.width, i / camera.width);
       const Eigen::Vector3d x = b_from_a * camera.BackProject(pixel, a.image.depth[i]);
@@ -126,15 +126,15 @@ TEST(SyntheticSequenceTest, DepthOfOneFrameIsWhereTheNextOneSeesIt) {
       const Eigen::Vector2d there = camera.Project(x);
       const int j = static_cast<int>(std::lround(there.y())) * camera.width +
                     static_cast<int>(std::lround(there.x()));
-      ++seen;
+      ++visible;
       agree += std::abs(b.image.depth[j] - x.z()) < 0.02 * x.z() ? 1 : 0;
     }
-    EXPECT_GT(seen, camera.width * camera.height / 2);
-    EXPECT_GT(agree, 0.93 * seen);  // the rest is occluded, or half a pixel beside an edge
+    EXPECT_GT(visible, camera.width * camera.height / 2);
+    EXPECT_GT(agree, 0.93 * visible);  // the others are occluded or beside an edge
   }
 }
 
-TEST(SyntheticSequenceTest, KinectDepthMissesAPlausibleShare) {
+TEST(SyntheticSequenceTest, KinectDepthHasPlausibleRatioOfMissingPixels) {
   SyntheticSequenceOptions options = Small();
   options.kinect_depth = true;
   const SyntheticSequence sequence(options);
@@ -146,7 +146,7 @@ TEST(SyntheticSequenceTest, KinectDepthMissesAPlausibleShare) {
   }
 }
 
-TEST(SyntheticSequenceTest, ImagesAreExposedWell) {
+TEST(SyntheticSequenceTest, ImagesAreWellExposed) {
   for (const SceneKind kind : {SceneKind::kRoom, SceneKind::kCorridor, SceneKind::kBare,
                                SceneKind::kSlanted, SceneKind::kHouse}) {
     SyntheticSequenceOptions options = Small();
@@ -162,7 +162,7 @@ TEST(SyntheticSequenceTest, ImagesAreExposedWell) {
   }
 }
 
-TEST(SyntheticSequenceTest, RejectsNonsense) {
+TEST(SyntheticSequenceTest, ThrowsOnInvalidOptions) {
   SyntheticSequenceOptions options = Small();
   options.width = 3;
   EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
@@ -174,7 +174,7 @@ TEST(SyntheticSequenceTest, RejectsNonsense) {
   EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
 }
 
-TEST(SyntheticSequenceTest, ReadoutIsNotLongerThanAFrame) {
+TEST(SyntheticSequenceTest, RejectsReadoutTimeAboveFrameInterval) {
   SyntheticSequenceOptions options = Small();
   options.fps = 20.0;
   for (const double readout_time : {0.05, -0.05}) {

@@ -17,7 +17,7 @@ constexpr TextureKind kKinds[] = {
     TextureKind::kTiles,   TextureKind::kPoster,  TextureKind::kBooks, TextureKind::kRug,
     TextureKind::kSpeckle, TextureKind::kOutdoors};
 
-// Colours of a 1 m x 1 m sample in steps of 1 cm.
+// Colours of a square of 1 m x 1 m in steps of 1 cm.
 std::vector<Eigen::Vector3f> Sample(const Texture& texture) {
   std::vector<Eigen::Vector3f> colors;
   for (int j = 0; j < 100; ++j) {
@@ -38,7 +38,7 @@ TEST(TextureTest, ColorsAreFiniteAndInRange) {
   }
 }
 
-TEST(TextureTest, SeedsChangeEveryPatternAndRepeat) {
+TEST(TextureTest, IsDeterminedBySeed) {
   for (const TextureKind kind : kKinds) {
     if (kind == TextureKind::kPlain) continue;
     const Texture a{kind, {0.7f, 0.6f, 0.5f}, {0.2f, 0.1f, 0.1f}, 1.0f, 1};
@@ -49,10 +49,10 @@ TEST(TextureTest, SeedsChangeEveryPatternAndRepeat) {
   }
 }
 
-TEST(TextureTest, PlainIsOneColorAndPlasterHasNoCorners) {
+TEST(TextureTest, PlainIsUniformAndPlasterIsSmooth) {
   const Eigen::Vector3f color(0.8f, 0.7f, 0.6f);
   for (const Eigen::Vector3f& c : Sample({TextureKind::kPlain, color})) EXPECT_EQ(c, color);
-  // Under two grey levels of 255 from one centimetre to the next.
+  // Changes by less than two grey values (of 255) per centimetre.
   const std::vector<Eigen::Vector3f> plaster = Sample({TextureKind::kPlaster, color});
   for (size_t i = 1; i < plaster.size(); ++i) {
     if (i % 100 == 0) continue;
@@ -70,9 +70,9 @@ TEST(TextureTest, PostersHaveManySharpSteps) {
   EXPECT_GT(steps, 500);
 }
 
-TEST(TextureTest, TilesHaveGroutAtTheirPitch) {
+TEST(TextureTest, TilesHaveGroutAtRegularSpacing) {
   const Texture tiles{TextureKind::kTiles, {0.9f, 0.9f, 0.9f}, {0.2f, 0.2f, 0.2f}};
-  // Tiles are 20 cm wide; the joint lies at the start of each.
+  // Tiles are 20 cm wide; each begins with a joint.
   for (int tile = 0; tile < 5; ++tile) {
     EXPECT_EQ(EvaluateTexture(tiles, {0.2f * tile + 0.003f, 0.1f, 1, 1}), tiles.accent);
     EXPECT_NE(EvaluateTexture(tiles, {0.2f * tile + 0.1f, 0.1f, 1, 1}), tiles.accent);
@@ -81,14 +81,14 @@ TEST(TextureTest, TilesHaveGroutAtTheirPitch) {
 
 struct EdgeCount {
   int edges = 0;
-  int places = 0;   // along the edges
-  int visible = 0;  // places where the colour changes by more than grain and stains do
+  int samples = 0;  // along the edges
+  int visible = 0;  // samples where the colour changes by more than grain and stains do
 
-  double Share() const { return static_cast<double>(visible) / places; }
+  double VisibleRatio() const { return static_cast<double>(visible) / samples; }
 };
 
-// Adds the edges of a texture, 15 cm at least, that are looked for `shift` metres beside
-// themselves.
+// Counts the edges of a texture that are at least 15 cm long, and the samples at which the colour
+// changes `shift` metres beside them.
 void CountEdges(const Texture& texture, double shift, EdgeCount* count) {
   const float width = 1.3f, height = 0.9f;
   const auto color = [&](const Eigen::Vector2d& x) {
@@ -103,7 +103,7 @@ void CountEdges(const Texture& texture, double shift, EdgeCount* count) {
     ++count->edges;
     const Eigen::Vector2d along = edge.Direction(), side(-along.y(), along.x());
     for (double s = 0.025; s < 1.0; s += 0.05) {
-      ++count->places;
+      ++count->samples;
       const Eigen::Vector3f step =
           color(edge.At(s) + (shift + 0.001) * side) - color(edge.At(s) + (shift - 0.001) * side);
       if (step.cwiseAbs().maxCoeff() > 0.05f) ++count->visible;
@@ -111,13 +111,12 @@ void CountEdges(const Texture& texture, double shift, EdgeCount* count) {
   }
 }
 
-TEST(TextureTest, EdgesAreWhereTheColorChanges) {
+TEST(TextureTest, EdgesCoincideWithColorChanges) {
   struct Case {
     TextureKind kind;
-    double min_explained_ratio;
+    double min_visible_ratio;
   };
-  // Figures may have the colour of their ground and lie upon each other; joints of tiles cross
-  // other joints.
+  // Figures may have the colour of the background and overlap; joints of tiles cross other joints.
   for (const Case& c : {Case{TextureKind::kPlanks, 0.98}, Case{TextureKind::kTiles, 0.9},
                         Case{TextureKind::kPoster, 0.6}, Case{TextureKind::kRug, 0.95}}) {
     EdgeCount in_place, beside;
@@ -127,12 +126,12 @@ TEST(TextureTest, EdgesAreWhereTheColorChanges) {
       CountEdges(texture, 0.015, &beside);
     }
     EXPECT_GE(in_place.edges, 30) << static_cast<int>(c.kind);
-    EXPECT_GE(in_place.Share(), c.min_explained_ratio) << static_cast<int>(c.kind);
-    EXPECT_LE(beside.Share(), 0.4 * c.min_explained_ratio) << static_cast<int>(c.kind);
+    EXPECT_GE(in_place.VisibleRatio(), c.min_visible_ratio) << static_cast<int>(c.kind);
+    EXPECT_LE(beside.VisibleRatio(), 0.4 * c.min_visible_ratio) << static_cast<int>(c.kind);
   }
 }
 
-TEST(TextureTest, JointsAreAllListed) {
+TEST(TextureTest, ListsAllJoints) {
   for (const TextureKind kind : {TextureKind::kPlanks, TextureKind::kTiles}) {
     const Texture texture{kind, {0.7f, 0.6f, 0.5f}, {0.2f, 0.1f, 0.1f}, 1.0f, 5};
     const std::vector<LineSegment2> edges = TextureEdges(texture, 1.0f, 1.0f);
@@ -140,7 +139,7 @@ TEST(TextureTest, JointsAreAllListed) {
       return EvaluateTexture(texture, {static_cast<float>(s), static_cast<float>(t), 1.0f, 1.0f});
     };
     int num_steps = 0;
-    for (double t = 0.0005; t < 0.998; t += 0.001) {  // up a column of the rectangle
+    for (double t = 0.0005; t < 0.998; t += 0.001) {  // along a column of the rectangle
       const Eigen::Vector2d x(0.37, t + 0.0005);
       if ((color(0.37, t + 0.001) - color(0.37, t)).cwiseAbs().maxCoeff() < 0.15f) continue;
       ++num_steps;
@@ -152,7 +151,7 @@ TEST(TextureTest, JointsAreAllListed) {
   }
 }
 
-TEST(TextureTest, GrainSpinesAndStainsHaveNoEdges) {
+TEST(TextureTest, OtherPatternsHaveNoEdges) {
   for (const TextureKind kind :
        {TextureKind::kPlain, TextureKind::kPlaster, TextureKind::kWood, TextureKind::kBooks,
         TextureKind::kSpeckle, TextureKind::kOutdoors}) {

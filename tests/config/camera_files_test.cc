@@ -13,7 +13,7 @@
 
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/datasets/camera_preset.h"
-#include "msc_vo/datasets/sequence.h"
+#include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -37,7 +37,7 @@ std::set<std::string> CameraFileNames() {
 
 std::string PathOf(const std::string& name) { return (kDataFolder / "cameras" / name).string(); }
 
-// What a run with --config FILE makes of the file.
+// Returns the calibration of a run with --config FILE.
 Calibration Load(const std::string& name) {
   Configuration configuration;
   ReadConfiguration(PathOf(name), &configuration);
@@ -47,7 +47,7 @@ Calibration Load(const std::string& name) {
   return calibration;
 }
 
-TEST(CameraFilesTest, EachIsAWholeCalibration) {
+TEST(CameraFilesTest, AreCompleteCalibrations) {
   const std::set<std::string> names = CameraFileNames();
   EXPECT_GE(names.size(), 11u);
   for (const std::string& name : names) {
@@ -56,7 +56,7 @@ TEST(CameraFilesTest, EachIsAWholeCalibration) {
     ASSERT_EQ(MessageOf([&] { calibration = Load(name); }), "");
     std::string error;
     EXPECT_TRUE(calibration.IsValid(&error)) << error;
-    // The principal point is about the middle of the image, to a tenth of its size.
+    // The principal point is near the image centre, within a tenth of the image size.
     const PinholeCamera& camera = calibration.camera;
     EXPECT_NEAR(camera.cx / camera.width, 0.5, 0.1);
     EXPECT_NEAR(camera.cy / camera.height, 0.5, 0.1);
@@ -64,7 +64,7 @@ TEST(CameraFilesTest, EachIsAWholeCalibration) {
   }
 }
 
-TEST(CameraFilesTest, ThoseOfBuiltInCamerasSayTheSame) {
+TEST(CameraFilesTest, AgreeWithPresets) {
   std::set<std::string> expected;
   for (const CameraPreset& preset : CameraPresets()) expected.insert(preset.name + ".yaml");
   ASSERT_THAT(CameraFileNames(), IsSupersetOf(expected));
@@ -84,7 +84,7 @@ TEST(CameraFilesTest, ThoseOfBuiltInCamerasSayTheSame) {
   }
 }
 
-TEST(CameraFilesTest, EachIsListedAndThoseOfNoDataSetSayThatTheyAreNominal) {
+TEST(CameraFilesTest, AreListedAndMarkedNominalIfGeneric) {
   const std::string readme = ReadFile((kDataFolder / "README.md").string());
   for (const std::string& name : CameraFileNames()) {
     EXPECT_THAT(readme, HasSubstr("(cameras/" + name + ")"));

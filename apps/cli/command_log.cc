@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/cli/command_log.h"
+
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+
+#include "msc_vo/logging/logger.h"
+
+namespace msc_vo {
+
+namespace {
+
+bool logs_to_file = false;  // set once, before any command runs
+
+spdlog::sink_ptr MakeSink(const std::string& file) {
+  if (file.empty()) return std::make_shared<spdlog::sinks::stderr_sink_mt>();
+  try {
+    return std::make_shared<spdlog::sinks::basic_file_sink_mt>(file);
+  } catch (const spdlog::spdlog_ex& error) {
+    throw std::runtime_error("--log-file " + file + ": " + error.what());
+  }
+}
+
+void Print(spdlog::level::level_enum level, const std::string& text) {
+  std::cerr << "msc_vo: " << (level == spdlog::level::warn ? "warning" : "error") << ": " << text
+            << std::endl;
+  if (logs_to_file) Log().log(level, text);
+}
+
+}  // namespace
+
+void AddLogArguments(CLI::App* command, LogArguments* arguments) {
+  command
+      ->add_option("--log-level", arguments->level,
+                   "Log events of this level and above; default: off, with --log-file info")
+      ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}))
+      ->group("Log");
+  command
+      ->add_option("--log-file", arguments->file,
+                   "Append the log to this file instead of writing it to standard error")
+      ->group("Log");
+}
+
+void StartLog(const LogArguments& arguments) {
+  const std::string default_level = arguments.file.empty() ? "off" : "info";
+  const spdlog::level::level_enum level =
+      spdlog::level::from_str(arguments.level.empty() ? default_level : arguments.level);
+  if (level == spdlog::level::off) return;
+  Log().sinks() = {MakeSink(arguments.file)};
+  Log().set_level(level);
+  logs_to_file = !arguments.file.empty();
+}
+
+void PrintWarning(const std::string& text) { Print(spdlog::level::warn, text); }
+
+void PrintError(const std::string& text) { Print(spdlog::level::err, text); }
+
+}  // namespace msc_vo

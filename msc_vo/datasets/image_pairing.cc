@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/image_pairing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "msc_vo/datasets/image_name.h"
+#include "msc_vo/datasets/sequence_format.h"
+#include "msc_vo/evaluation/association.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace {
+
+std::vector<double> StampsOf(const std::vector<ListedImage>& images) {
+  std::vector<double> stamps;
+  for (const ListedImage& image : images) stamps.push_back(image.stamp);
+  return stamps;
+}
+
+void AddPair(const ListedImage& color, const ListedImage& depth, SequenceIndex* index) {
+  const bool same_row = color.origin == depth.origin;
+  const double delay = depth.stamp - color.stamp;
+  // Stamps of different clocks give no delay.
+  const bool same_clock = std::abs(delay) <= kMaxPairDifference;
+  index->entries.push_back({color.stamp, color.path, depth.path,
+                            same_row ? color.origin : color.origin + " and " + depth.origin,
+                            same_clock ? delay : 0.0});
+}
+
+// Warns if one list begins and ends later than the other by the same time. Recordings may differ at
+// either end, but hardly by the same time at both ends.
+void CheckOffset(const ImageLists& images, double max_difference, SequenceIndex* index) {
+  const std::vector<ListedImage>&color = images.color, &depth = images.depth;
+  if (color.size() < 2 || depth.size() < 2) return;
+  const double at_begin = depth.front().stamp - color.front().stamp;
+  const double at_end = depth.back().stamp - color.back().stamp;
+  if (std::min(std::abs(at_begin), std::abs(at_end)) <= max_difference) return;
+  if (std::abs(at_begin - at_end) > max_difference) return;
+  const double offset = 0.5 * (at_begin + at_end);
+  index->warnings.push_back(FormatText(
+      "the stamps of the depth images begin and end %.3f s %s than those of the colour images; if "
+      "the clock of the depth camera is off by that, %s it in the list of depth images",
+      std::abs(offset), offset > 0.0 ? "later" : "earlier", offset > 0.0 ? "subtract" : "add"));
+}
+
+}  // namespace
+
+void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* index) {
+  const std::vector<StampMatch> matches =
+      AssociateStamps(StampsOf(images.color), StampsOf(images.depth), max_difference);
+  for (const StampMatch& match : matches) {
+    AddPair(images.color[match.reference], images.depth[match.query], index);
+  }
+  const size_t num_unpaired = images.color.size() - matches.size();
+  if (num_unpaired > 0) {
+    index->warnings.push_back(
+        FormatText("%zu of %zu colour images have no depth image within %d ms and are left out",
+                   num_unpaired, images.color.size(), static_cast<int>(1000.0 * max_difference)));
+  }
+  CheckOffset(images, max_difference, index);
+}
+
+void PairByRow(const ImageLists& images, SequenceIndex* index) {
+  for (size_t i = 0; i < images.color.size(); ++i) {
+    AddPair(images.color[i], images.depth[i], index);
+  }
+  CheckOffset(images, kMaxPairDifference, index);
+}
+
+void PairByFrameNumber(const std::vector<std::string>& color_paths,
+                       const std::vector<std::string>& depth_paths, SequenceIndex* index) {
+  std::map<int64_t, std::string> depth_of_number;
+  for (const std::string& path : depth_paths) {
+    if (const auto number = FrameNumber(path)) depth_of_number.emplace(*number, path);
+  }
+  size_t num_pairs = 0;
+  for (const std::string& path : color_paths) {
+    const auto number = FrameNumber(path);
+    const auto depth = number ? depth_of_number.find(*number) : depth_of_number.end();
+    if (depth == depth_of_number.end()) continue;
+    ++num_pairs;
+    index->entries.push_back(
+        {static_cast<double>(*number) / kDefaultFrameRate, path, depth->second, ""});
+  }
+  const size_t num_unpaired = color_paths.size() - num_pairs + depth_paths.size() - num_pairs;
+  if (num_unpaired > 0) {
+    index->warnings.push_back(
+        std::to_string(num_unpaired) +
+        " images have no partner with the same frame number and are left out");
+  }
+}
+
+}  // namespace msc_vo

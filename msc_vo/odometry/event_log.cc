@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/event_log.h"
+
+#include <string>
+#include <utility>
+
+#include "msc_vo/logging/logger.h"
+#include "msc_vo/odometry/loss_cause.h"
+
+namespace msc_vo {
+
+namespace {
+
+spdlog::level::level_enum LevelOf(TrackingStatus status) {
+  return status == TrackingStatus::kTracked ? spdlog::level::info : spdlog::level::warn;
+}
+
+bool HasLossCause(TrackingStatus status) {
+  return status == TrackingStatus::kPredicted || status == TrackingStatus::kLost;
+}
+
+}  // namespace
+
+void EventLog::LogStart(const OdometryOptions& options, const PinholeCamera& camera) {
+  readout_time_ = options.mapping.readout_time.value_or(0.0);
+  Log().info("odometry: mode {}, {} threads; camera {}x{}, fx {:.3f} fy {:.3f} cx {:.3f} cy {:.3f}",
+             ToString(options.mode), options.threads, camera.width, camera.height, camera.fx,
+             camera.fy, camera.cx, camera.cy);
+}
+
+void EventLog::LogFrame(const FrameResult& frame, bool relocalized) {
+  LogStatus(frame, relocalized);
+  if (frame.is_keyframe) {
+    Log().debug("frame {} is a keyframe: {} points, {} lines; inliers: {} points, {} lines",
+                frame.id, frame.num_points, frame.num_lines, frame.num_inlier_points,
+                frame.num_inlier_lines);
+  }
+}
+
+void EventLog::LogStatus(const FrameResult& frame, bool relocalized) {
+  if (relocalized) Log().info("frame {} is relocalised in the map", frame.id);
+  if (frame.status == status_) return;
+  const std::optional<TrackingStatus> last_status = std::exchange(status_, frame.status);
+  const int64_t num_before = frame.id - std::exchange(status_since_, frame.id);
+  if (!Log().should_log(LevelOf(frame.status))) return;
+  std::string event = "is " + std::string(ToString(frame.status));
+  if (HasLossCause(frame.status)) {
+    event += std::string(", image ") + Describe(FindLossCause(frame));
+  }
+  if (last_status) {
+    event += "; the " + std::to_string(num_before) + " before it: " + ToString(*last_status);
+  }
+  Log().log(LevelOf(frame.status), "frame {} ({:.6f} s) {}", frame.id, frame.timestamp, event);
+}
+
+void EventLog::LogMapping(const MappingStep& step) {
+  const MappingSummary& summary = step.summary;
+  if (summary.axes_state != axes_state_ || summary.num_axes_refinements != num_axes_refinements_) {
+    axes_state_ = summary.axes_state;
+    num_axes_refinements_ = summary.num_axes_refinements;
+    Log().info("Manhattan axes at keyframe {}: {}; refinements: {}", summary.keyframe,
+               ToString(axes_state_), num_axes_refinements_);
+  }
+  if (step.snapshot && step.snapshot->readout_time != readout_time_) {
+    const bool was_known = std::exchange(readout_time_, step.snapshot->readout_time) != 0.0;
+    Log().log(was_known ? spdlog::level::debug : spdlog::level::info,
+              "readout time {} at keyframe {}: {:.2f} ms", was_known ? "updated" : "accepted",
+              summary.keyframe, 1000.0 * readout_time_);
+  }
+}
+
+void EventLog::LogFinish(const NoiseScale& noise_scale, double readout_time, int num_frames) const {
+  Log().info(
+      "{} frames; noise scales: point depth {:.2f}, line pixels {:.2f}, line depth {:.2f}; readout "
+      "time {:.2f} ms",
+      num_frames, noise_scale.point_depth, noise_scale.line_pixel, noise_scale.line_depth,
+      1000.0 * readout_time);
+}
+
+}  // namespace msc_vo

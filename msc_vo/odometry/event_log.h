@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "msc_vo/map/noise_scale.h"
+#include "msc_vo/odometry/frame_result.h"
+#include "msc_vo/odometry/mapping_runner.h"
+#include "msc_vo/odometry/odometry_options.h"
+#include "msc_vo/structure/axes_estimator.h"
+
+namespace msc_vo {
+
+/// Writes the events of a run to the logger of the library. Events are changes, so a long run of
+/// lost frames is one line. Lines come in the same order in every run.
+class EventLog {
+ public:
+  void LogStart(const OdometryOptions& options, const PinholeCamera& camera);
+  /// `relocalized`: the pose was found without a prediction.
+  void LogFrame(const FrameResult& frame, bool relocalized);
+  void LogMapping(const MappingStep& step);
+  void LogFinish(const NoiseScale& noise_scale, double readout_time, int num_frames) const;
+
+ private:
+  void LogStatus(const FrameResult& frame, bool relocalized);
+
+  std::optional<TrackingStatus> status_;  // of the last frame
+  int64_t status_since_ = 0;              // id of the first frame with that status
+  AxesState axes_state_ = AxesState::kNone;
+  int num_axes_refinements_ = 0;
+  double readout_time_ = 0.0;  // seconds
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/config/orb_slam_config.h"
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class OrbSlamConfigTest : public TemporaryFolder {};
+
+TEST_F(OrbSlamConfigTest, ReadsOrbSlam2SettingsWithMalformedLines) {
+  WriteText("orb.yaml",
+            "%YAML:1.0\n\n# Camera\nCamera.fx: 517.3  # pixels\nCamera.fy: 516.4\n"
+            "Camera.cx: 318.6\nCamera.cy: 255.3\nCamera.k1: 0.26\nCamera.p2: 0.002\n"
+            "Camera.bf: 40.0\nDepthMapFactor: 5208.0\nViewer.PointSize:2\n: :\n\"x\n");
+  const CameraSettings camera = ReadOrbSlamConfig(Path("orb.yaml"));
+  EXPECT_EQ(*camera.fx, 517.3);
+  EXPECT_EQ(*camera.depth_scale, 5208.0);
+  EXPECT_EQ(*camera.distortion[0], 0.26);
+  EXPECT_EQ(*camera.distortion[3], 0.002);
+  EXPECT_FALSE(camera.distortion[4].has_value());
+  EXPECT_FALSE(camera.width.has_value());
+}
+
+TEST_F(OrbSlamConfigTest, ReadsOrbSlam3Settings) {
+  WriteText("orb3.yaml",
+            "%YAML:1.0\nCamera.type: \"PinHole\"\nCamera1.fx: 600\nCamera1.fy: 601\n"
+            "Camera1.cx: 320\nCamera1.cy: 240\nCamera.width: 640\nCamera.height: 480\n"
+            "RGBD.DepthMapFactor: 1000.0\n");
+  const CameraSettings camera = ReadOrbSlamConfig(Path("orb3.yaml"));
+  EXPECT_EQ(*camera.fy, 601.0);
+  EXPECT_EQ(*camera.width, 640);
+  EXPECT_EQ(*camera.depth_scale, 1000.0);
+}
+
+TEST_F(OrbSlamConfigTest, RejectsOtherCameraModels) {
+  const std::string camera =
+      "Camera1.fx: 600\nCamera1.fy: 601\nCamera1.cx: 320\nCamera1.cy: 240\n"
+      "RGBD.DepthMapFactor: 1000.0\nCamera1.k1: -0.03\n";
+  const auto error_of = [&](const std::string& text) {
+    WriteText("orb3.yaml", text + camera);
+    return MessageOf([&] { ReadOrbSlamConfig(Path("orb3.yaml")); });
+  };
+  EXPECT_THAT(error_of("%YAML:1.0\nCamera.type: \"KannalaBrandt8\"\n"),
+              AllOf(HasSubstr("orb3.yaml:2: Camera.type \"KannalaBrandt8\" is not supported"),
+                    HasSubstr("PinHole and Rectified")));
+  EXPECT_THAT(error_of("Camera1.k4: 0.01\n"),
+              HasSubstr("orb3.yaml:1: Camera1.k4: only the distortion coefficients"));
+  EXPECT_THAT(error_of("Camera.k6: 0.01\n"), HasSubstr("Camera.k6"));
+  EXPECT_THAT(error_of("Camera.width: 640.5\n"), HasSubstr("Camera.width must be a whole number"));
+  EXPECT_EQ(error_of("Camera.k4: 0.0\n"), "");
+  EXPECT_EQ(error_of("Camera.type: Pinhole\n"), "");
+  EXPECT_EQ(*ReadOrbSlamConfig(Path("orb3.yaml")).distortion[0], -0.03);
+  EXPECT_EQ(error_of("Camera.type: \"Rectified\"\n"), "");  // its images have no distortion
+  EXPECT_FALSE(ReadOrbSlamConfig(Path("orb3.yaml")).distortion[0].has_value());
+}
+
+TEST_F(OrbSlamConfigTest, ErrorsNameMissingAndInvalidValues) {
+  WriteText("orb.yaml", "Camera.fx: 500\nCamera.fy: 500\nCamera.cx: 320\nCamera.cy: 240\n");
+  EXPECT_THAT(MessageOf([&] { ReadOrbSlamConfig(Path("orb.yaml")); }),
+              HasSubstr("orb.yaml: DepthMapFactor is missing"));
+  WriteText("orb.yaml", "\nCamera.fx: wide\n");
+  EXPECT_THAT(MessageOf([&] { ReadOrbSlamConfig(Path("orb.yaml")); }),
+              HasSubstr("orb.yaml:2: Camera.fx must be a number, not 'wide'"));
+}
+
+}  // namespace
+}  // namespace msc_vo

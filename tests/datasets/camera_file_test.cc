@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/camera_file.h"
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CameraFileTest : public TemporaryFolder {
+ protected:
+  std::string ErrorOf(const std::string& text) {
+    WriteText("camera.txt", text);
+    return MessageOf([&] { ReadCameraFile(Path("camera.txt")); });
+  }
+};
+
+TEST_F(CameraFileTest, ReadsIntrinsicsAndDistortion) {
+  WriteText("camera.txt", "# fx ...\r\n481.2 -480 319.5 239.5 640 480 5000\r\n");
+  Calibration calibration = ReadCameraFile(Path("camera.txt"));
+  EXPECT_EQ(calibration.camera.fy, -480.0);
+  EXPECT_EQ(calibration.camera.height, 480);
+  EXPECT_EQ(calibration.depth_scale, 5000.0);
+  EXPECT_TRUE(calibration.distortion.IsZero());
+  WriteText("camera.txt", "517 516 318 255 640 480 5000 0.26 -0.95 -0.005 0.002 1.16\n");
+  calibration = ReadCameraFile(Path("camera.txt"));
+  EXPECT_EQ(calibration.distortion.k[2], -0.005);
+  EXPECT_EQ(calibration.distortion.k[4], 1.16);
+}
+
+TEST_F(CameraFileTest, ErrorsNameLine) {
+  EXPECT_THAT(ErrorOf(""), HasSubstr("camera.txt: is empty"));
+  EXPECT_THAT(ErrorOf("#\n1 2 3\n"), HasSubstr("camera.txt:2: expected 7 or 12 numbers"));
+  EXPECT_THAT(ErrorOf("a 500 320 240 640 480 5000"), HasSubstr("'a' is not a finite"));
+  EXPECT_THAT(ErrorOf("0 500 320 240 640 480 5000"),
+              HasSubstr("camera.txt:1: camera: fx = 0 must be"));
+  EXPECT_THAT(ErrorOf("500 500 320 240 640 480 0"), HasSubstr("depth_scale"));
+}
+
+TEST_F(CameraFileTest, RejectsImpossibleCameras) {
+  const std::string fr1 = "517.306408 516.469215 318.643040 255.313989 640 480 5000 ";
+  EXPECT_EQ(ErrorOf(fr1 + "0.262383 -0.953104 -0.005358 0.002628 1.163314"), "");
+  EXPECT_THAT(ErrorOf(fr1 + "0.262383 -0.953104 1.163314 -0.005358 0.002628"),
+              AllOf(HasSubstr("camera.txt:1: camera: the lens"), HasSubstr("folds over"),
+                    HasSubstr("k1 k2 p1 p2 k3")));
+  EXPECT_THAT(ErrorOf("-535 535 320 240 640 480 5000"), HasSubstr("camera: fx = -535"));
+  EXPECT_THAT(ErrorOf("535 535 3200 240 640 480 5000"), HasSubstr("camera: cx = 3200"));
+  EXPECT_THAT(ErrorOf("535 535 320 240 1e20 480 5000"), HasSubstr("whole numbers"));
+  EXPECT_THAT(ErrorOf("535 535 320 240 640.5 480 5000"), HasSubstr("whole numbers"));
+  for (const char* scale : {"-5000", "5", "1e9"}) {
+    EXPECT_THAT(ErrorOf(std::string("535 535 320 240 640 480 ") + scale),
+                HasSubstr("camera.txt:1: camera: depth_scale = "));
+  }
+}
+
+TEST_F(CameraFileTest, ReadsReadoutTime) {
+  const std::string camera = "500 500 320 240 640 480 5000\n";
+  WriteText("camera.txt", camera + "# rolling shutter\nreadout_time 0.026\n");
+  const Calibration calibration = ReadCameraFile(Path("camera.txt"));
+  EXPECT_EQ(calibration.readout_time, 0.026);
+  EXPECT_EQ(calibration.readout_origin, Path("camera.txt"));
+  WriteText("camera.txt", camera);
+  EXPECT_FALSE(ReadCameraFile(Path("camera.txt")).readout_time.has_value());
+
+  EXPECT_THAT(ErrorOf(camera + "readout 0.026\n"),
+              AllOf(HasSubstr("camera.txt:2: "), HasSubstr("'readout_time SECONDS'")));
+  EXPECT_THAT(ErrorOf(camera + "readout_time fast\n"), HasSubstr("camera.txt:2: "));
+  EXPECT_THAT(ErrorOf(camera + "readout_time 26\n"),
+              AllOf(HasSubstr("camera.txt:2: "), HasSubstr("less than 1")));
+  EXPECT_THAT(ErrorOf(camera + "readout_time 0\n\nreadout_time 1\n"), HasSubstr("camera.txt:4: "));
+}
+
+}  // namespace
+}  // namespace msc_vo

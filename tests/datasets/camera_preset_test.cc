@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/camera_preset.h"
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+TEST(CameraPresets, AreValidPublishedCalibrations) {
+  EXPECT_EQ(FindCameraPreset("tum-fr2").calibration.depth_scale, 5208.0);
+  EXPECT_EQ(FindCameraPreset("icl-nuim").calibration.camera.fy, -480.0);
+  EXPECT_TRUE(FindCameraPreset("tum-fr3").calibration.distortion.IsZero());
+  for (const CameraPreset& preset : CameraPresets()) {
+    std::string error;
+    EXPECT_TRUE(preset.calibration.IsValid(&error)) << preset.name << ": " << error;
+  }
+}
+
+TEST(FindCameraPreset, ErrorListsKnownNames) {
+  EXPECT_THAT(MessageOf([] { FindCameraPreset("tum-fr9"); }),
+              AllOf(HasSubstr("'tum-fr9'"), HasSubstr("tum-fr1, tum-fr2")));
+}
+
+TEST(GuessCameraPreset, RecognisesTumFolders) {
+  EXPECT_EQ(GuessCameraPreset("/data/rgbd_dataset_freiburg2_xyz"), "tum-fr2");
+  EXPECT_EQ(GuessCameraPreset("/data/fr1_desk"), "tum-fr1");
+  EXPECT_EQ(GuessCameraPreset("/data/freiburg1/mine"), "");
+  EXPECT_EQ(GuessCameraPreset("/data/fr10_lab"), "");
+}
+
+}  // namespace
+}  // namespace msc_vo

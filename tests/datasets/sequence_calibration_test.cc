@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/sequence_calibration.h"
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/datasets/camera_preset.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class SequenceCalibrationTest : public TemporaryFolder {
+ protected:
+  // A sequence of one image pair, 8 x 6 pixels.
+  SequenceIndex Index() {
+    WriteDepth("depth.png");
+    SequenceIndex index;
+    index.directory = Folder();
+    index.entries = {{0.0, Path("color.png"), Path("depth.png"), ""}};
+    return index;
+  }
+};
+
+TEST_F(SequenceCalibrationTest, RejectsInvalidSettings) {
+  SequenceIndex index = Index();
+  index.calibration = FindCameraPreset("tum-fr1").calibration;
+  CameraSettings settings;
+  settings.origin = "mine.yaml";
+  settings.fx = -535.0;
+  EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
+              AllOf(HasSubstr("mine.yaml"), HasSubstr("fx = -535")));
+  settings.fx.reset();
+  settings.distortion[4] = 0.0;
+  EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
+              AllOf(HasSubstr("mine.yaml"), HasSubstr("folds over")));
+}
+
+TEST_F(SequenceCalibrationTest, PrefersSettingsThenFolderThenPresets) {
+  SequenceIndex index = Index();
+  index.preset = "tum-fr1";
+  EXPECT_EQ(ResolveCalibration({}, "", &index).camera.fx, 517.306408);
+  EXPECT_THAT(ResolveCalibration({}, "", &index).origin, HasSubstr("guessed"));
+  EXPECT_EQ(ResolveCalibration({}, "tum-fr3", &index).camera.fx, 535.4);
+
+  index.calibration = FindCameraPreset("replica").calibration;
+  EXPECT_EQ(ResolveCalibration({}, "tum-fr3", &index).camera.fx, 600.0);
+  EXPECT_THAT(index.warnings, testing::ElementsAre(HasSubstr("tum-fr3 is not used")));
+
+  CameraSettings settings;
+  settings.origin = "mine.yaml";
+  settings.depth_scale = 1234.0;  // overrides one value
+  const Calibration calibration = ResolveCalibration(settings, "", &index);
+  EXPECT_EQ(calibration.depth_scale, 1234.0);
+  EXPECT_EQ(calibration.camera.fx, 600.0);
+  EXPECT_THAT(calibration.origin, HasSubstr("mine.yaml"));
+  settings.preset = "tum-fr2";
+  EXPECT_EQ(ResolveCalibration(settings, "", &index).camera.fx, 520.908620);
+}
+
+TEST_F(SequenceCalibrationTest, GuessedPresetHasNoReadoutTime) {
+  SequenceIndex index = Index();
+  index.directory = "/data/fr2_desk";
+  index.calibration = FindCameraPreset("tum-fr3").calibration;
+  EXPECT_FALSE(ResolveCalibration({}, "", &index).readout_time.has_value());
+
+  index.calibration.reset();
+  index.preset = "tum-fr2";  // guessed from the name of the folder
+  const Calibration guess = ResolveCalibration({}, "", &index);
+  EXPECT_EQ(guess.camera.fx, 520.908620);
+  EXPECT_FALSE(guess.readout_time.has_value());
+  EXPECT_EQ(guess.readout_origin, Calibration::kSelfCalibrated);
+}
+
+TEST_F(SequenceCalibrationTest, NamedPresetHasReadoutTime) {
+  SequenceIndex index = Index();
+  Calibration named = ResolveCalibration({}, "tum-fr1", &index);
+  EXPECT_EQ(named.readout_time, 0.026);
+  EXPECT_EQ(named.readout_origin, "preset tum-fr1");
+  CameraSettings settings;
+  settings.preset = "tum-fr2";
+  EXPECT_EQ(ResolveCalibration(settings, "", &index).readout_time, 0.026);
+  settings.preset = "tum-fr3";
+  named = ResolveCalibration(settings, "", &index);
+  EXPECT_FALSE(named.readout_time.has_value());
+  EXPECT_EQ(named.readout_origin, Calibration::kSelfCalibrated);
+}
+
+TEST_F(SequenceCalibrationTest, CompleteSettingsAreTheOnlySource) {
+  SequenceIndex index = Index();
+  index.calibration = FindCameraPreset("tum-fr1").calibration;
+  CameraSettings settings;
+  settings.fx = settings.fy = 10.0;
+  settings.cx = settings.cy = 3.0;
+  settings.depth_scale = 1000.0;
+  const Calibration calibration = ResolveCalibration(settings, "", &index);
+  EXPECT_TRUE(calibration.distortion.IsZero());
+  EXPECT_EQ(calibration.camera.width, 8);  // from the depth image
+  EXPECT_EQ(calibration.camera.height, 6);
+}
+
+TEST_F(SequenceCalibrationTest, ErrorListsAlternatives) {
+  SequenceIndex index = Index();
+  EXPECT_THAT(MessageOf([&] { ResolveCalibration({}, "", &index); }),
+              AllOf(HasSubstr("camera.txt"), HasSubstr("--config"), HasSubstr("--camera"),
+                    HasSubstr("tum-fr1")));
+}
+
+TEST_F(SequenceCalibrationTest, KeepsReadoutTimeOfFolder) {
+  SequenceIndex index = Index();
+  index.directory = "/data/fr1_desk";
+  index.calibration = FindCameraPreset("tum-fr3").calibration;
+  index.calibration->readout_time = 0.02;
+  EXPECT_EQ(ResolveCalibration({}, "", &index).readout_time, 0.02);
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Files of a sequence that are not regular files or too large.
+
+#include <filesystem>
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include "msc_vo/datasets/image_file.h"
+#include "msc_vo/datasets/sequence.h"
+#include "msc_vo/datasets/sequence_calibration.h"
+#include "msc_vo/datasets/sequence_check.h"
+#include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class SpecialFilesTest : public TemporaryFolder {
+ protected:
+  std::string MakePipe(const std::string& name) {
+    EXPECT_EQ(mkfifo(Path(name).c_str(), 0600), 0);
+    return Path(name);
+  }
+  std::string MakeLoop(const std::string& name) {
+    fs::create_symlink(Path(name), Path(name));
+    return Path(name);
+  }
+  void MakeSequence() {
+    WriteText("rgb.txt", "1.0 rgb/1.png\n1.1 rgb/2.png\n");
+    WriteText("depth.txt", "1.0 depth/1.png\n1.1 depth/2.png\n");
+    WriteText("camera.txt", "10 10 3.5 2.5 8 6 5000\n");
+    for (const char* name : {"1.png", "2.png"}) {
+      WriteColor(std::string("rgb/") + name);
+      WriteDepth(std::string("depth/") + name);
+    }
+  }
+  RgbdDecoder Open() {
+    SequenceIndex index = OpenSequence(Folder());
+    Calibration calibration = ResolveCalibration({}, "", &index);
+    return {std::move(index), std::move(calibration)};
+  }
+};
+
+TEST_F(SpecialFilesTest, ReadersRefuseThem) {
+  const std::string pipe = MakePipe("pipe");
+  EXPECT_THAT(MessageOf([&] { ReadTrajectory(pipe); }), HasSubstr(pipe + ": is a pipe"));
+  EXPECT_THAT(MessageOf([&] { ReadImageSize(pipe); }), HasSubstr(pipe + ": is a pipe"));
+  WriteText("i.png", "");
+  fs::resize_file(Path("i.png"), kMaxImageBytes + 1);
+  EXPECT_THAT(MessageOf([&] { ReadImageSize(Path("i.png")); }), HasSubstr("i.png: has "));
+  EXPECT_THAT(MessageOf([&] { OpenSequence(MakeLoop("loop")); }),
+              HasSubstr("loop: is a symbolic link that leads back to itself; "));
+}
+
+TEST_F(SpecialFilesTest, SequenceWithSpecialListNamesFile) {
+  for (const char* name : {"rgb.txt", "camera.txt", "groundtruth.txt", "associations.txt"}) {
+    MakeSequence();
+    fs::remove(Path(name));
+    const std::string path = MakeLoop(name);
+    EXPECT_THAT(MessageOf([&] { Open(); }), HasSubstr(path + ": is a symbolic link that"));
+    fs::remove(path);
+    MakePipe(name);
+    EXPECT_THAT(MessageOf([&] { Open(); }), HasSubstr(path + ": is a pipe"));
+    fs::remove(path);
+    fs::create_directory(path);
+    EXPECT_THAT(MessageOf([&] { Open(); }), HasSubstr(path + ": is a folder"));
+    fs::remove(path);
+  }
+}
+
+TEST_F(SpecialFilesTest, SpecialImageNamesFileAndLine) {
+  MakeSequence();
+  fs::remove(Path("depth/2.png"));
+  MakePipe("depth/2.png");
+  const RgbdDecoder decoder = Open();
+  EXPECT_THAT(MessageOf([&] { decoder.Decode(1); }),
+              AllOf(HasSubstr("2.png (named in " + Path("rgb.txt") + ":2 and "),
+                    HasSubstr("depth.txt:2): is a pipe")));
+  const std::vector<Finding> findings = CheckSequence(decoder, SequenceCheckOptions());
+  EXPECT_THAT(findings,
+              testing::Contains(testing::Field(&Finding::text, HasSubstr("2.png is a pipe"))));
+}
+
+}  // namespace
+}  // namespace msc_vo
