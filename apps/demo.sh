@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# From a clean clone to a camera trajectory in a browser: installs what is missing, builds, renders a
-# room with a depth camera's noise, tracks the camera through it, compares with the truth. Leaves
-# out/demo/report.html. Takes no arguments. JOBS: how many processes at once (default: one per
-# processor).
+# From a clean clone to a report in the browser: installs missing packages, builds, renders a room
+# with the noise of a depth camera, estimates the camera's trajectory, and compares it with the
+# ground truth. Writes out/demo/report.html. Takes no arguments. Environment: JOBS, the number of
+# parallel build processes (default: one per processor).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
@@ -21,7 +21,7 @@ msc_vo=build/apps/msc_vo
 
 if [[ ! -d $room ]]; then
   say "Render a room: 150 images with the noise of a Kinect"
-  # Under another name until it is whole, so that an interrupted run leaves no half sequence.
+  # Renamed when complete, so that an interrupted run leaves no incomplete sequence.
   rm -rf "$room.part"
   "$msc_vo" synthesize "$room.part" --scene room --frames 150 --noise kinect
   mv "$room.part" "$room"

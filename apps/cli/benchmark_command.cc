@@ -19,6 +19,7 @@
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/results/benchmark.h"
+#include "msc_vo/results/benchmark_json.h"
 #include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/text/files.h"
@@ -32,14 +33,14 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::vector<std::string> sequences;
-  SequenceArguments layout;  // the directory is none of them
+  SequenceArguments layout;  // without the directory
   ConfigurationArguments configuration;
   RunArguments run;
   std::vector<std::string> modes;
   std::string output = "out/benchmark";
 };
 
-// The modes that this version implements: those whose default options are accepted.
+// The implemented modes: those that are valid with the default options.
 std::vector<std::string> ImplementedModes() {
   std::vector<std::string> modes;
   for (const std::string& mode : OptionChoices("mode")) {
@@ -57,7 +58,7 @@ std::vector<std::string> WithoutRepeats(const std::vector<std::string>& names) {
   return unique;
 }
 
-// One for each mode. Throws std::runtime_error if a mode or another option is refused.
+// One for each mode. Throws std::runtime_error on invalid options.
 std::vector<Configuration> MakeConfigurations(const Arguments& arguments,
                                               const std::vector<std::string>& modes) {
   std::vector<Configuration> configurations;
@@ -72,7 +73,7 @@ std::vector<Configuration> MakeConfigurations(const Arguments& arguments,
   return configurations;
 }
 
-// Folders of one name are told apart by a number, as their results must not overwrite each other.
+// Unique names of the results: folders with the same name get a number.
 std::vector<std::string> UniqueNames(const std::vector<std::string>& directories) {
   std::vector<std::string> names;
   for (const std::string& directory : directories) {
@@ -92,17 +93,17 @@ Benchmark Describe(const Arguments& arguments, const std::vector<std::string>& m
   benchmark.build = MSC_VO_BUILD;
   benchmark.num_processors = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
   Configuration configuration = MakeConfiguration(arguments.configuration);
-  configuration.odometry.mode = OdometryOptions().mode;  // every run sets its own
+  configuration.odometry.mode = OdometryOptions().mode;  // set by every run
   benchmark.changed_options = ChangedOptions(configuration);
   benchmark.modes = modes;
   return benchmark;
 }
 
-// Runs one sequence in one mode and writes its files. `row` gets what there is to tell, also if
-// this throws.
-void RunOne(const Arguments& arguments, const RgbdDecoder& decoder,
-            const Configuration& configuration, const InterruptGuard& interrupt,
-            BenchmarkRun* row) {
+// Runs one sequence in one mode and writes its files. `row` gets the measurements, also if the run
+// fails, which is an exception.
+void RunMode(const Arguments& arguments, const RgbdDecoder& decoder,
+             const Configuration& configuration, const InterruptGuard& interrupt,
+             BenchmarkRun* row) {
   const std::string folder = (fs::path(arguments.output) / row->sequence / row->mode).string();
   RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, folder);
   OnlineResults online(folder);
@@ -113,7 +114,7 @@ void RunOne(const Arguments& arguments, const RgbdDecoder& decoder,
   row->error = run.context.error;
   if (run.HasImages()) WriteResultFiles(folder, run.result, run.context);
   if (run.exit_code != kExitSuccess) throw std::runtime_error(run.context.outcome);
-  if (!row->error->usable) throw std::runtime_error("no error known: " + row->error->message);
+  if (!row->error->usable) throw std::runtime_error("no errors: " + row->error->message);
 }
 
 void WriteTables(const std::string& directory, const Benchmark& benchmark) {
@@ -123,21 +124,22 @@ void WriteTables(const std::string& directory, const Benchmark& benchmark) {
   WriteFile((folder / "benchmark.json").string(), FormatBenchmarkJson(benchmark));
 }
 
-// Nothing can be compared without a ground truth: throws std::runtime_error.
-RgbdDecoder OpenWithTruth(const SequenceArguments& sequence, const Configuration& configuration) {
+// Throws std::runtime_error if the sequence has no ground truth.
+RgbdDecoder OpenWithGroundTruth(const SequenceArguments& sequence,
+                                const Configuration& configuration) {
   RgbdDecoder decoder = OpenDecoder(sequence, configuration);
   PrintWarnings(decoder.index().warnings);
   if (!decoder.index().ground_truth.empty()) return decoder;
   throw std::runtime_error(decoder.index().directory +
-                           ": no ground truth (groundtruth.txt or the layout's own); add it, or "
-                           "use msc_vo replay");
+                           ": no ground truth (groundtruth.txt or the file of the layout); add it, "
+                           "or use msc_vo replay");
 }
 
-void PrintFailure(const std::string& what, const std::string& why) {
-  PrintError(what + " failed: " + why);
+void PrintFailure(const std::string& run, const std::string& reason) {
+  PrintError(run + " failed: " + reason);
 }
 
-// Every mode on one sequence. The tables are written after each run: a benchmark takes hours.
+// Runs every mode on one sequence. Writes the tables after each run.
 void RunModes(const Arguments& arguments, const std::string& directory, const std::string& name,
               const std::vector<Configuration>& configurations, const InterruptGuard& interrupt,
               Benchmark* benchmark) {
@@ -146,7 +148,8 @@ void RunModes(const Arguments& arguments, const std::string& directory, const st
   try {
     SequenceArguments sequence = arguments.layout;
     sequence.directory = directory;
-    decoder.emplace(OpenWithTruth(sequence, configurations.front()));  // one camera for all modes
+    decoder.emplace(
+        OpenWithGroundTruth(sequence, configurations.front()));  // modes share the camera
   } catch (const std::exception& error) {
     failure = error.what();
     PrintFailure(name, failure);
@@ -159,7 +162,7 @@ void RunModes(const Arguments& arguments, const std::string& directory, const st
     if (decoder) {
       if (!arguments.run.quiet) std::cerr << name << ", " << row.mode << ":" << std::endl;
       try {
-        RunOne(arguments, *decoder, configurations[i], interrupt, &row);
+        RunMode(arguments, *decoder, configurations[i], interrupt, &row);
       } catch (const std::exception& error) {
         row.failure = error.what();
         PrintFailure(name + ", " + row.mode, row.failure);
@@ -178,7 +181,7 @@ int RunBenchmark(const Arguments& arguments) {
   Benchmark benchmark = Describe(arguments, modes);
   const InterruptGuard interrupt;
   RefuseToOverwrite(arguments.sequences, arguments.output);
-  WriteTables(arguments.output, benchmark);  // a folder that cannot be written shows at once
+  WriteTables(arguments.output, benchmark);  // fails early if the folder is not writable
   for (size_t i = 0; i < names.size() && !interrupt.IsInterrupted(); ++i) {
     RunModes(arguments, arguments.sequences[i], names[i], configurations, interrupt, &benchmark);
   }
@@ -201,17 +204,17 @@ Command AddBenchmarkCommand(CLI::App* app) {
       "benchmark", "Replay sequences in several modes and compare them with the ground truth");
   command
       ->add_option("sequences", arguments->sequences,
-                   "Folders with RGB-D sequences that have a ground truth, see --format")
+                   "Folders with RGB-D sequences with ground truth")
       ->required();
   AddLayoutArguments(command, &arguments->layout);
   AddConfigurationArguments(command, &arguments->configuration);
-  command->add_option("--modes", arguments->modes, "With commas between; default: all there are")
+  command->add_option("--modes", arguments->modes, "Comma-separated list; default: all modes")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(OptionChoices("mode")));
   command
       ->add_option("--output", arguments->output,
-                   "Folder for benchmark.md, benchmark.json and <sequence>/<mode>/ as of replay")
+                   "Folder for benchmark.md, benchmark.json and the results in <sequence>/<mode>/")
       ->capture_default_str();
   AddRunArguments(command, &arguments->run);
   command->footer(

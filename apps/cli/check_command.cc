@@ -55,10 +55,12 @@ int Run(const Arguments& arguments) {
 Command AddCheckCommand(CLI::App* app) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app->add_subcommand(
-      "check", "Examine a sequence: files, sizes, stamps, depth in metres, camera, ground truth");
+      "check", "Check a sequence: files, image sizes, time stamps, depth, camera, ground truth");
   AddSequenceArguments(command, &arguments->sequence)->required();
   AddConfigurationArguments(command, &arguments->configuration);
-  command->add_option("--images", arguments->options.max_images, "Images to decode, evenly spread")
+  command
+      ->add_option("--images", arguments->options.max_images,
+                   "Number of images to decode, evenly spaced")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_flag("--all", arguments->all, "Decode every image");

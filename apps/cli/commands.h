@@ -10,31 +10,31 @@
 
 namespace msc_vo {
 
-// Exit codes of the msc_vo command; every sub-command's --help ends with them.
+/// Exit codes of the msc_vo command, documented in the --help of every sub-command.
 enum ExitCode {
   kExitSuccess = 0,
-  kExitError = 1,           // the input is wrong or the run failed; the message says which
-  kExitUsage = 2,           // the command line is wrong
-  kExitTrackingFailed = 3,  // the run ended, but less than kMinTrackedShare of it was tracked
-  kExitInterrupted = 130,   // Ctrl-C, SIGTERM, SIGHUP; the results so far have been written
+  kExitError = 1,           ///< invalid input or failed run
+  kExitUsage = 2,           ///< invalid command line
+  kExitTrackingFailed = 3,  ///< fewer images than kMinTrackedRatio have an estimated pose
+  kExitInterrupted = 130,   ///< by SIGINT, SIGTERM or SIGHUP; results so far are written
 };
 
-// Footer of a sub-command's --help: an example, then the exit codes.
+/// Footer of a sub-command's --help: an example and the exit codes.
 std::string HelpFooter(const std::string& example);
 
-// The command line as it was typed, for the records of a run.
+/// The command line as typed.
 const std::string& CommandLine();
 
-// One sub-command: where its arguments are declared, and what runs if the user chose it.
-//
-// `run` returns an ExitCode and reports failure by throwing std::exception: main prints
-// "msc_vo: error: ..." and exits with kExitError. Nothing but main calls exit().
+/// A sub-command: the declaration of its arguments and the function that executes it.
+///
+/// `run` returns an ExitCode. It reports an error by an exception, which main prints as
+/// "msc_vo: error: ..." before it exits with kExitError.
 struct Command {
   CLI::App* arguments = nullptr;
   std::function<int()> run;
 };
 
-// Each adds its sub-command to `app`; one file per sub-command.
+// One function and one file per sub-command.
 Command AddReplayCommand(CLI::App* app);
 Command AddEvaluateCommand(CLI::App* app);
 Command AddBenchmarkCommand(CLI::App* app);

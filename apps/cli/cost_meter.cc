@@ -25,9 +25,9 @@ double ProcessorSeconds() {
   return Seconds(usage.ru_utime) + Seconds(usage.ru_stime);
 }
 
-// Linux forgets the peak when 5 is written here (man 5 proc). Where that is not allowed the peak
-// remains the one of the whole process.
-void ForgetPeakMemory() {
+// Writing 5 to clear_refs resets the peak on Linux (man 5 proc). If that is not permitted, the peak
+// since the start of the process is reported.
+void ResetPeakMemory() {
 #ifdef __GLIBC__
   malloc_trim(0);
 #endif
@@ -43,13 +43,13 @@ double PeakMemory() {
   }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts kibibytes
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // kibibytes on Linux
 }
 
 }  // namespace
 
 CostMeter::CostMeter() {
-  ForgetPeakMemory();
+  ResetPeakMemory();
   start_processor_seconds_ = ProcessorSeconds();
   start_ = std::chrono::steady_clock::now();
 }

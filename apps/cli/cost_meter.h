@@ -9,8 +9,8 @@
 
 namespace msc_vo {
 
-// What the process takes from the machine, from construction on. Memory that earlier work has freed
-// is given back to the system first, so that it does not count as the peak of this one.
+/// Measures wall time, processor time and peak memory of the process since construction. The
+/// constructor first returns freed memory to the system, so that the peak excludes earlier work.
 class CostMeter {
  public:
   CostMeter();

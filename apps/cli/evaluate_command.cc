@@ -16,8 +16,8 @@
 #include "msc_vo/evaluation/line_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/results/error_json.h"
 #include "msc_vo/results/ply_file.h"
-#include "msc_vo/results/run_summary.h"
 
 namespace msc_vo {
 
@@ -34,7 +34,7 @@ struct Arguments {
 void PrintRow(const char* name, const ErrorStatistics& statistics, double factor,
               const char* unit) {
   if (statistics.count == 0) {
-    std::printf("%-20s  no pairs that far apart\n", name);
+    std::printf("%-20s  no pairs at this distance\n", name);
     return;
   }
   std::printf("%-20s %9.3f %9.3f %9.3f %9.3f %9.3f  %s\n", name, factor * statistics.rmse,
@@ -58,7 +58,7 @@ void PrintTable(const TrajectoryError& error) {
       100.0 * error.coverage, error.num_matched, error.num_reference,
       100.0 * error.coverage_in_range, error.num_estimate, error.path_length);
   if (error.num_not_estimated > 0) {
-    std::printf("left out as marked not estimated: %d poses (--all-poses compares them)\n",
+    std::printf("skipped: %d poses marked as not estimated (--all-poses compares them)\n",
                 error.num_not_estimated);
   }
 }
@@ -67,10 +67,10 @@ void PrintLines(const LineError& error) {
   if (error.num_matched > 0) {
     PrintRow("line direction", error.direction, RadiansToDegrees(1.0), "deg");
     PrintRow("line distance", error.distance, 1000.0, "mm");
-    PrintRow("  across the sight", error.across, 1000.0, "mm");
+    PrintRow("  across the view", error.across, 1000.0, "mm");
   }
   std::printf(
-      "lines: %d in the map, %d of them long and seen often enough, %d of these matched with an "
+      "lines: %d in the map, %d with enough observations and length, %d of these matched with an "
       "edge; %d of %d edges found\n",
       error.num_lines, error.num_counted, error.num_matched, error.num_edges_found,
       error.num_edges);
@@ -82,32 +82,33 @@ std::vector<double> StampsOf(const std::vector<TimedPose>& poses) {
   return stamps;
 }
 
-// Brings the stamps of the trajectory from `unit` to seconds.
+// Converts the time stamps from `unit` to seconds.
 void ToSeconds(const std::string& path, TimeUnit unit, std::vector<TimedPose>* poses) {
   if (unit == TimeUnit::kSeconds) return;
-  PrintWarning(path + ": the stamps are " + ToString(unit) + " and are converted to seconds");
+  PrintWarning(path + ": the time stamps are " + ToString(unit) + " and are converted to seconds");
   for (TimedPose& pose : *poses) pose.timestamp /= UnitsPerSecond(unit);
 }
 
-void PrintLeftOut(const std::string& path, int num_left_out) {
-  if (num_left_out == 0) return;
-  std::printf("left out: %d rows of %s with nan or inf\n", num_left_out, path.c_str());
+void PrintSkippedRows(const std::string& path, int num_skipped) {
+  if (num_skipped == 0) return;
+  std::printf("skipped: %d rows of %s with nan or inf\n", num_skipped, path.c_str());
 }
 
 int Run(const Arguments& arguments) {
-  LeftOutRows left_out;
-  std::vector<TimedPose> truth = ReadTrajectory(arguments.truth, &left_out.reference);
-  std::vector<TimedPose> estimate = ReadTrajectory(arguments.estimate, &left_out.estimate);
+  SkippedRows skipped;
+  std::vector<TimedPose> truth = ReadTrajectory(arguments.truth, &skipped.reference);
+  std::vector<TimedPose> estimate = ReadTrajectory(arguments.estimate, &skipped.estimate);
   const TimeUnit unit = GuessTimeUnit(StampsOf(truth));
   ToSeconds(arguments.truth, unit, &truth);
   ToSeconds(arguments.estimate, GuessTimeUnit(StampsOf(estimate), RangeOf(StampsOf(truth), unit)),
             &estimate);
   const TrajectoryError error = EvaluateTrajectory(truth, estimate, arguments.options);
   if (!error.usable) {
-    throw std::runtime_error(
-        arguments.estimate + " cannot be compared with " + arguments.truth + ": " + error.message +
-        (error.num_not_estimated > 0 ? "; --all-poses compares them"
-                                     : "; do both have stamps in seconds on the same clock?"));
+    throw std::runtime_error(arguments.estimate + " cannot be compared with " + arguments.truth +
+                             ": " + error.message +
+                             (error.num_not_estimated > 0
+                                  ? "; --all-poses compares them"
+                                  : "; are the time stamps of both in seconds of the same clock?"));
   }
   std::optional<LineError> line_error;
   if (!arguments.lines.empty()) {
@@ -115,11 +116,11 @@ int Run(const Arguments& arguments) {
                                *AlignOrientations(truth, estimate, arguments.options));
   }
   if (arguments.json) {
-    std::cout << FormatErrorJson(error, left_out, line_error);
+    std::cout << FormatErrorJson(error, skipped, line_error);
   } else {
     PrintTable(error);
-    PrintLeftOut(arguments.truth, left_out.reference);
-    PrintLeftOut(arguments.estimate, left_out.estimate);
+    PrintSkippedRows(arguments.truth, skipped.reference);
+    PrintSkippedRows(arguments.estimate, skipped.estimate);
     if (line_error) PrintLines(*line_error);
   }
   return kExitSuccess;
@@ -134,17 +135,17 @@ Command AddEvaluateCommand(CLI::App* app) {
   command->add_option("ground_truth", arguments->truth, "Reference trajectory")->required();
   command->add_option("estimate", arguments->estimate, "Estimated trajectory")->required();
   CLI::Option* lines = command->add_option(
-      "--lines", arguments->lines, "lines.ply of the same run as the estimate, to be compared too");
+      "--lines", arguments->lines, "lines.ply of the same run, to be compared with --edges");
   CLI::Option* edges = command->add_option(
-      "--edges", arguments->edges, "edges.ply beside the ground truth: the scene's true edges");
+      "--edges", arguments->edges, "edges.ply of the sequence: the true edges of the scene");
   lines->needs(edges);
   edges->needs(lines);
   command->add_flag("--all-poses", arguments->options.all_poses,
-                    "Compare poses that the file marks as not estimated too");
-  command->add_flag("--json", arguments->json, "Print JSON: metres, degrees");
+                    "Also compare poses that are marked as not estimated");
+  command->add_flag("--json", arguments->json, "Print JSON; metres and degrees");
   command
       ->add_option("--max-dt", arguments->options.max_time_difference,
-                   "Seconds between matched poses, at most")
+                   "Maximum time between matched poses, seconds")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->footer(HelpFooter("msc_vo evaluate my_sequence/groundtruth.txt out/trajectory.txt"));

@@ -11,9 +11,9 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-extern "C" void RaiseFlag(int signal) {
+extern "C" void SetFlag(int signal) {
   interrupted = 1;
-  // A closed terminal sends SIGHUP more than once: from the system and from the shell.
+  // A closed terminal sends SIGHUP twice: from the system and from the shell.
   if (signal != SIGHUP) std::signal(signal, SIG_DFL);
 }
 
@@ -24,8 +24,8 @@ constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 InterruptGuard::InterruptGuard() {
   interrupted = 0;
   for (const int signal : kSignals) {
-    // What the caller has told to be ignored stays so: SIGHUP under nohup.
-    if (std::signal(signal, RaiseFlag) == SIG_IGN) std::signal(signal, SIG_IGN);
+    // Signals that were ignored stay ignored, such as SIGHUP under nohup.
+    if (std::signal(signal, SetFlag) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
 }
 

@@ -5,8 +5,9 @@
 
 namespace msc_vo {
 
-// While it lives, Ctrl-C (SIGINT), SIGTERM and a terminal that is closed (SIGHUP) raise a flag
-// instead of ending the program; a second SIGINT or SIGTERM ends it as usual. One at a time.
+/// During its lifetime SIGINT (Ctrl-C), SIGTERM and SIGHUP (closed terminal) set a flag instead of
+/// ending the program. A second SIGINT or SIGTERM ends the program. There must be only one guard at
+/// a time.
 class InterruptGuard {
  public:
   InterruptGuard();

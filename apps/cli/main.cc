@@ -22,9 +22,9 @@ namespace msc_vo {
 
 std::string HelpFooter(const std::string& example) {
   return "Example:\n  " + example +
-         "\n\nExit codes: 0 success, 1 wrong input or failed run, 2 wrong command line,\n"
+         "\n\nExit codes: 0 success, 1 invalid input or failed run, 2 invalid command line,\n"
          "3 tracking failed: less than half of the images have an estimated pose (results are\n"
-         "written), 130 interrupted (what was computed until then has been written).";
+         "written), 130 interrupted (results so far are written).";
 }
 
 namespace {
@@ -35,22 +35,21 @@ using AddCommand = Command (*)(CLI::App*);
 constexpr AddCommand kCommands[] = {AddReplayCommand, AddEvaluateCommand,   AddBenchmarkCommand,
                                     AddCheckCommand,  AddSynthesizeCommand, AddSolveWindowCommand};
 
-// Images and the linear algebra of windows, megabytes each, come and go with every frame. By
-// default the C library hands such blocks back to the system at once, which clears them page by
-// page when they are asked for again: 400 pages per frame, 1 ms.
+// Images and matrices of several megabytes are allocated and freed in every frame. By default the C
+// library returns such blocks to the system at once, and page faults on the next allocation cost
+// 1 ms per frame.
 void KeepFreedMemory() {
 #ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest it takes
-  mallopt(M_TRIM_THRESHOLD, 64 << 20);  // more than a frame and a window need together
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the maximum
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);  // more than a frame and a local BA need
 #endif
 }
 
-// OpenCV's own threads would only get in the way of ours: a frame is cut into tasks already, and
-// between the small pieces that OpenCV hands out its threads spin. 2 to 3 ms of processor time per
-// frame, with any number of ours.
-void KeepOpenCvToOneThread() { cv::setNumThreads(1); }
+// The odometry divides a frame into tasks itself. The threads of OpenCV spin between its small work
+// items, which costs 2 to 3 ms of processor time per frame.
+void DisableOpenCvThreads() { cv::setNumThreads(1); }
 
-// An error if the first argument looks like a sub-command and is none.
+// Throws if the first argument is neither an option nor a sub-command.
 void CheckSubcommand(const std::vector<Command>& commands, const std::string& name) {
   if (name.rfind('-', 0) == 0) return;
   std::vector<std::string> names;
@@ -102,7 +101,7 @@ const std::string& CommandLine() { return command_line; }
 
 int main(int argc, char** argv) {
   msc_vo::KeepFreedMemory();
-  msc_vo::KeepOpenCvToOneThread();
+  msc_vo::DisableOpenCvThreads();
   msc_vo::PrepareStandardStreams();
   try {
     const int exit_code = msc_vo::Main(argc, argv);

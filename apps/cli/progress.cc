@@ -12,7 +12,7 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kTerminalInterval = 0.1;  // seconds; faster than the eye is work for nothing
+constexpr double kTerminalInterval = 0.1;  // seconds
 constexpr double kPlainInterval = 2.0;     // seconds
 constexpr int kBarWidth = 24;              // characters
 
@@ -45,7 +45,7 @@ void Progress::Update(int done, const std::string& note) {
     if (since < kTerminalInterval && !last) return;
     const int filled = kBarWidth * done / total_;
     const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
-    // The code clears what is left of a longer text before.
+    // The escape sequence erases the rest of a longer previous text.
     std::fprintf(stderr, "\r[%s] %s\x1b[K", bar.c_str(), Text(done, note).c_str());
   } else {
     const bool tenth = 10 * done / total_ > 10 * last_done_ / total_;

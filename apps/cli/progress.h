@@ -8,15 +8,15 @@
 
 namespace msc_vo {
 
-// How far a run is, on standard error: a bar that is redrawn in place on a terminal; elsewhere a
-// plain line every two seconds or ten per cent.
+/// Progress on standard error: on a terminal a bar that is redrawn in place, otherwise a line every
+/// two seconds or ten per cent.
 class Progress {
  public:
   explicit Progress(int total);
 
-  // `done` of the total are done; `note` is shown behind them.
+  /// `done`: number of finished steps. `note`: text shown after the numbers.
   void Update(int done, const std::string& note);
-  // Ends the line of the bar.
+  /// Ends the line of the bar.
   void Finish();
 
   double Seconds() const;  // since construction

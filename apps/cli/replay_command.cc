@@ -62,7 +62,7 @@ ConfigurationArguments WithShortcuts(const Arguments& arguments) {
   return all;
 }
 
-// Writes every window into `folder`, named by its keyframe.
+// Writes every window of local bundle adjustment to `folder`, named by its keyframe.
 WindowObserver WindowRecorder(const std::string& folder, const SequenceIndex& sequence) {
   if (folder.empty()) return {};
   RefuseToOverwrite(InputFolders(sequence), folder);
@@ -106,7 +106,7 @@ int Replay(const Arguments& arguments) {
           ? arguments.output
           : (std::filesystem::path("out") / SequenceName(arguments.sequence.directory)).string();
   RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, output);
-  MakeFolder(output);  // a wrong name shows before the work, not after it
+  MakeFolder(output);  // fails before the run if it cannot be created
   const InterruptGuard interrupt;
   OnlineResults online(output);
   const SequenceRun run = RunSequence(
@@ -122,8 +122,7 @@ int Replay(const Arguments& arguments) {
     std::cout << FormatRunTable(run.summary, run.context, output) << std::flush;
   }
   if (run.exit_code == kExitError) {
-    throw std::runtime_error(run.context.outcome + "\n(what was computed until then is in " +
-                             output + ")");
+    throw std::runtime_error(run.context.outcome + "\n(results so far are in " + output + ")");
   }
   if (run.exit_code == kExitTrackingFailed) {
     PrintError(run.context.outcome);
@@ -176,8 +175,8 @@ Command AddReplayCommand(CLI::App* app) {
   AddShortcuts(command, arguments.get());
   AddRunArguments(command, &arguments->run);
   command->add_option("--dump-windows", arguments->windows,
-                      "Folder for the windows that the mapper solves, one file per keyframe, as "
-                      "they are before (see solve-window)");
+                      "Folder for the windows of local bundle adjustment, one file per "
+                      "keyframe with its input (see solve-window)");
   AddPrintArguments(command, arguments.get());
   command->footer(HelpFooter("msc_vo replay my_sequence --output out/my_sequence"));
   command->callback([arguments, sequence] {

@@ -15,8 +15,8 @@
 namespace msc_vo {
 
 CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* arguments) {
-  CLI::Option* sequence = command->add_option("sequence", arguments->directory,
-                                              "Folder with an RGB-D sequence, see --format");
+  CLI::Option* sequence =
+      command->add_option("sequence", arguments->directory, "Folder with an RGB-D sequence");
   AddLayoutArguments(command, arguments);
   return sequence;
 }
@@ -31,7 +31,7 @@ void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments) {
   for (const CameraPreset& preset : CameraPresets()) cameras.push_back(preset.name);
   command
       ->add_option("--camera", arguments->camera,
-                   "Built-in camera, if neither --config nor the folder knows it")
+                   "Built-in calibration, used if neither --config nor the folder has one")
       ->check(CLI::IsMember(cameras));
 }
 
@@ -42,10 +42,10 @@ RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration&
 }
 
 std::string SequenceName(const std::string& directory) {
-  // Also "." and "a/.." have a name then.
+  // Resolves paths such as "." and "a/..".
   std::error_code error;
   std::filesystem::path path = std::filesystem::weakly_canonical(directory, error);
-  if (error) path = directory;  // opening it tells what is wrong
+  if (error) path = directory;  // opening the sequence reports the error
   const std::filesystem::path name =
       path.has_filename() ? path.filename() : path.parent_path().filename();
   return name.empty() ? "root" : name.string();

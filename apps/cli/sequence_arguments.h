@@ -12,23 +12,24 @@
 
 namespace msc_vo {
 
-// How the user says which sequence is meant: the arguments that every command on one shares.
+/// Arguments of all commands that read a sequence.
 struct SequenceArguments {
   std::string directory;
   std::string format = "auto";
-  std::string camera;  // preset; may be empty
+  std::string camera;  ///< preset; may be empty
 };
 
-// Declares SEQUENCE, --format and --camera. The caller makes SEQUENCE required, if it is.
+/// Declares SEQUENCE, --format and --camera. SEQUENCE, which is returned, is optional unless the
+/// caller requires it.
 CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* arguments);
 
-// The same without SEQUENCE, for a command that takes several.
+/// Declares --format and --camera only, for commands with several sequences.
 void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments);
 
-// The sequence, ready to be decoded. Throws std::runtime_error naming file, line and fix.
+/// Opens the sequence. Throws std::runtime_error naming file, line and fix.
 RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration& configuration);
 
-// What the results of the sequence are called: the last part of its path.
+/// Name of a sequence in the results: the last component of its path.
 std::string SequenceName(const std::string& directory);
 
 }  // namespace msc_vo

@@ -15,42 +15,41 @@
 
 namespace msc_vo {
 
-// How the user limits a run.
+/// Arguments of all commands that run the odometry.
 struct RunArguments {
-  int max_frames = 0;   // 0: all
-  bool strict = false;  // the first image that cannot be read ends the run
-  bool quiet = false;   // neither progress nor table
+  int max_frames = 0;   ///< 0: all
+  bool strict = false;  ///< stop at the first unreadable image
+  bool quiet = false;   ///< print neither progress nor results
 };
 
-// Declares --max-frames, --strict and --quiet.
+/// Declares --max-frames, --strict and --quiet.
 void AddRunArguments(CLI::App* command, RunArguments* arguments);
 
-// How the odometry went over a sequence. It may have ended early (too many images that cannot be
-// read, Ctrl-C): what was found until then is here.
+/// Result of the odometry on a sequence. After an error or an interruption it contains the frames
+/// up to that point.
 struct SequenceRun {
   OdometryResult result;
   RunSummary summary;
-  RunContext context;  // compared with the ground truth, if there is one
-  // kExitError, kExitTrackingFailed: context.outcome is the message.
+  RunContext context;  ///< contains the errors, if the sequence has ground truth
+  /// With kExitError and kExitTrackingFailed, context.outcome is the error message.
   ExitCode exit_code = kExitSuccess;
 
-  bool HasImages() const;  // at least one image could be read
+  bool HasImages() const;  ///< whether any image was readable
 };
 
-// Is shown every frame as soon as it has been processed.
+/// Called with every frame as soon as it has been processed.
 using FrameObserver = std::function<void(const FrameResult&)>;
 
-// Runs the odometry over the images, with the progress and a warning about those that cannot be
-// read on standard error. They get the status unreadable; if more than half are, or all at the
-// beginning, the run has failed. What `frame_observer` throws ends the run as the
-// odometry's own exceptions do. `window_observer` may be empty. Throws std::invalid_argument on
-// options that are not valid.
+/// Runs the odometry on a sequence. Prints progress and a warning about unreadable images to
+/// standard error. The run fails if more than half of the images, or all at the beginning, are
+/// unreadable. Exceptions of the odometry and of `frame_observer` end the run and become its
+/// outcome. `window_observer` may be empty. Throws std::invalid_argument on invalid options.
 SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configuration,
                         const RunArguments& arguments, const InterruptGuard& interrupt,
                         const FrameObserver& frame_observer,
                         const WindowObserver& window_observer = {});
 
-// The warnings, on standard error.
+/// Prints warnings to standard error.
 void PrintWarnings(const std::vector<std::string>& warnings);
 
 }  // namespace msc_vo

@@ -26,14 +26,15 @@ struct Arguments {
   bool json = false;
 };
 
-// The options in the file, changed by the arguments. A setting that no window has would do nothing,
-// so it is refused.
+// The options in the file, changed by the arguments. Throws on a setting that is not an option of
+// local bundle adjustment, because it would have no effect.
 BundleAdjustmentOptions Options(const BundleAdjustmentOptions& recorded,
                                 const ConfigurationArguments& arguments) {
   for (const std::string& setting : arguments.settings) {
     if (setting.rfind("mapping.window.", 0) != 0) {
-      throw std::runtime_error("--set: '" + setting +
-                               "' is no option of a window; those are mapping.window.*");
+      throw std::runtime_error(
+          "--set: '" + setting +
+          "' is not an option of local bundle adjustment; those are mapping.window.*");
     }
   }
   Configuration configuration;
@@ -87,15 +88,14 @@ int Run(const Arguments& arguments) {
 Command AddSolveWindowCommand(CLI::App* app) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app->add_subcommand(
-      "solve-window", "Solve a window that replay --dump-windows recorded, outside of its run");
+      "solve-window", "Run local bundle adjustment on a window recorded by replay --dump-windows");
   command->add_option("file", arguments->file, "Window file (docs/window_file.md)")->required();
   command->add_option("--output", arguments->output,
-                      "Window file for the solution: refined states, rejected observations marked");
+                      "Window file for the result: refined poses and landmarks, rejection marks");
   command->add_flag("--json", arguments->json, "Print JSON");
   AddConfigurationArguments(command, &arguments->configuration);
   command->footer(
-      "The options are those in the file; mapping.window.* of --config and --set replace "
-      "them.\n\n" +
+      "Options are those in the file, unless --config or --set change mapping.window.*.\n\n" +
       HelpFooter("msc_vo solve-window windows/window_000012.txt "
                  "--set mapping.window.parallel.enabled=false"));
   return {command, [arguments] { return Run(*arguments); }};

@@ -16,7 +16,7 @@ namespace msc_vo {
 
 namespace {
 
-bool HasLostItsReader(int descriptor) {
+bool IsClosedPipe(int descriptor) {
   pollfd state = {descriptor, POLLOUT, 0};
   return poll(&state, 1, 0) == 1 && (state.revents & POLLERR) != 0;
 }
@@ -26,8 +26,8 @@ bool HasLostItsReader(int descriptor) {
 void PrepareStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) != -1) continue;
-    // Opens under the lowest free number, which is `stream`. What is printed to standard output is
-    // missed there, so that writing to it has to fail.
+    // open() returns the lowest free descriptor, which is `stream`. A closed standard output is
+    // opened read-only, so that writing to it is an error.
     open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
   }
   std::signal(SIGPIPE, SIG_IGN);
@@ -37,7 +37,7 @@ void FinishStandardOutput() {
   std::cout.flush();
   const bool flushed = std::fflush(stdout) == 0;
   if (std::cout && flushed && std::ferror(stdout) == 0) return;
-  if (HasLostItsReader(STDOUT_FILENO)) {
+  if (IsClosedPipe(STDOUT_FILENO)) {
     std::signal(SIGPIPE, SIG_DFL);
     std::raise(SIGPIPE);
   }

@@ -5,14 +5,13 @@
 
 namespace msc_vo {
 
-// To be called before any file is opened. Standard streams that the caller has closed are occupied,
-// so that no file of ours gets their numbers and with them what is printed. A reader that goes away
-// (`| head -1`) does not end the program before its files are written.
+/// Call before any file is opened. Opens standard streams that the caller has closed, so that no
+/// file gets their descriptors and with them the printed text. Ignores SIGPIPE, so that a closed
+/// pipe (`| head -1`) does not end the program before its files are written.
 void PrepareStandardStreams();
 
-// To be called when all is printed. Throws std::runtime_error if part of it could not be written to
-// standard output. If the reader of a pipe has gone away, ends the program as the system ends
-// programs that write to such a pipe: without a message, by SIGPIPE.
+/// Call after all output. Throws std::runtime_error if standard output could not be written. If the
+/// reader of a pipe has closed it, ends the program by SIGPIPE, as is the default.
 void FinishStandardOutput();
 
 }  // namespace msc_vo

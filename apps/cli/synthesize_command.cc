@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 // Raw units per metre of TUM's depth images: 0.2 mm steps, 13 m at most.
 constexpr double kDepthFactor = 5000.0;
-// A line of camera.txt that tells our own folders from anybody else's.
+// A line of camera.txt that identifies folders written by this command.
 constexpr char kMark[] = "# written by msc_vo synthesize";
 
 struct Arguments {
@@ -47,14 +47,13 @@ bool IsOurs(const fs::path& folder) {
   return FileProblem(camera).empty() && ReadFile(camera).find(kMark) != std::string::npos;
 }
 
-// Makes OUT_DIR with empty rgb/ and depth/; of an older run only what this command had written
-// goes.
+// Creates OUT_DIR with empty rgb/ and depth/. Other files in an existing folder are kept.
 void PrepareFolder(const fs::path& folder, bool overwrite) {
   const std::string name = folder.string();
   if (HasEntry(name) && !ListFolder(name).empty() && !IsOurs(folder) && !overwrite) {
     throw std::runtime_error(name +
                              " is not empty and was not written by msc_vo synthesize: give another "
-                             "folder, or --overwrite to write into it");
+                             "folder, or use --overwrite");
   }
   for (const char* images : {"rgb", "depth"}) {
     fs::remove_all(folder / images);
@@ -79,7 +78,7 @@ void WriteColor(const fs::path& path, int jpeg_quality, RenderedImage* image) {
   const cv::Mat rgb(image->height, image->width, CV_8UC3, image->rgb.data());
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  // PNG level 1: the noise of a colour image does not compress, more effort only takes time.
+  // PNG level 1, because image noise does not compress.
   WriteImage(path, bgr, {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
 }
 
@@ -87,12 +86,12 @@ void WriteDepth(const fs::path& path, RenderedImage* image) {
   const cv::Mat depth(image->height, image->width, CV_32FC1, image->depth.data());
   cv::Mat raw;
   depth.convertTo(raw, CV_16U, kDepthFactor);  // rounds, and saturates at 13.1 m
-  // The steps of a disparity do compress: a fifth less than with level 1.
+  // Quantised depth compresses: level 6 saves a fifth of level 1.
   WriteImage(path, raw, {cv::IMWRITE_PNG_COMPRESSION, 6});
 }
 
 void WriteCamera(const fs::path& folder, const PinholeCamera& camera) {
-  // Numbers first: simple readers take the first line, whatever it is.
+  // Numbers first, for readers that do not skip comments.
   const std::string numbers =
       Format("%.17g %.17g %.17g %.17g %d %d %.17g", camera.fx, camera.fy, camera.cx, camera.cy,
              camera.width, camera.height, kDepthFactor);
@@ -152,51 +151,53 @@ int Run(const Arguments& arguments) {
 Command AddSynthesizeCommand(CLI::App* app) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app->add_subcommand("synthesize",
-                                          "Render an RGB-D sequence in TUM layout, with "
-                                          "groundtruth.txt and edges.ply, the lines of the "
-                                          "scene");
+                                          "Render an RGB-D sequence in TUM layout with "
+                                          "groundtruth.txt and edges.ply, the true edges");
   command->add_option("out_dir", arguments->folder, "Folder to write")->required();
-  command->add_option("--scene", arguments->scene, "What to walk through")
+  command->add_option("--scene", arguments->scene, "Scene")
       ->check(CLI::IsMember({"room", "corridor", "bare", "slanted", "house"}))
       ->capture_default_str();
   command->add_option("--frames", arguments->frames, "Number of frames")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  command->add_option("--seed", arguments->options.seed, "Of the scene, the path and the noise")
+  command
+      ->add_option("--seed", arguments->options.seed,
+                   "Seed of the scene, the trajectory and the noise")
       ->capture_default_str();
-  command->add_option("--noise", arguments->noise, "Depth: exact, or as a Kinect measures it")
+  command->add_option("--noise", arguments->noise, "Depth noise: none or that of a Kinect")
       ->check(CLI::IsMember({"none", "kinect"}))
       ->capture_default_str();
-  command->add_option("--width", arguments->options.width, "Pixels; the focal length follows")
+  command
+      ->add_option("--width", arguments->options.width,
+                   "Image width, pixels; the focal length is proportional")
       ->capture_default_str();
   command->add_option("--height", arguments->height,
-                      "Pixels; default: three quarters of the width");
-  command->add_option("--fps", arguments->options.fps, "Frames per second of the recording")
-      ->capture_default_str();
+                      "Image height, pixels; default: 3/4 of the width");
+  command->add_option("--fps", arguments->options.fps, "Frames per second")->capture_default_str();
   command
       ->add_option("--depth-delay", arguments->options.depth_delay,
-                   "Seconds after its colour image that a depth image is taken, as most cameras do")
+                   "Delay of depth images relative to colour images, seconds")
       ->capture_default_str();
   command
-      ->add_option("--readout-time", arguments->options.readout_time,
-                   "Seconds that the rows of an image take one after the other, a rolling shutter "
-                   "(Kinect: 0.026); time stamps are of the middle")
+      ->add_option(
+          "--readout-time", arguments->options.readout_time,
+          "Readout time of a rolling shutter, seconds (Kinect: 0.026); time stamps refer to "
+          "the middle row")
       ->capture_default_str();
-  command->add_option("--speed", arguments->options.path.speed, "Of the walk, metres/second")
+  command
+      ->add_option("--speed", arguments->options.path.speed, "Speed of the camera, metres/second")
       ->capture_default_str();
   command
       ->add_option("--image-sigma", arguments->options.image_sigma,
-                   "Noise of the colour image, grey levels")
+                   "Noise of colour images, standard deviation in grey levels")
       ->capture_default_str();
-  CLI::Option* jpeg =
-      command->add_flag("--jpeg", arguments->jpeg, "Colour as JPEG: small, as recorded");
-  command->add_option("--jpeg-quality", arguments->jpeg_quality, "Of --jpeg, percent")
+  CLI::Option* jpeg = command->add_flag("--jpeg", arguments->jpeg, "Write colour images as JPEG");
+  command->add_option("--jpeg-quality", arguments->jpeg_quality, "JPEG quality, 1 to 100")
       ->check(CLI::Range(1, 100))
       ->needs(jpeg)
       ->capture_default_str();
-  command->add_flag(
-      "--overwrite", arguments->overwrite,
-      "Write into a folder that this command has not made; replaces its rgb/ and depth/");
+  command->add_flag("--overwrite", arguments->overwrite,
+                    "Write into a folder of other origin; replaces its rgb/ and depth/");
   command->footer(HelpFooter("msc_vo synthesize room --scene room --frames 260 --noise kinect"));
   return {command, [arguments] { return Run(*arguments); }};
 }

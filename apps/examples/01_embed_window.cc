@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// How to embed the window solver: fill a WindowData, call LocalBundleAdjustment, read the
-// BundleAdjustmentSummary. Needs the component `solver` alone (Eigen and Ceres). Your front end
-// takes the place of See(): it knows which pixels show which landmark.
+// Embedding local bundle adjustment: fill a WindowData, call LocalBundleAdjustment, read the
+// BundleAdjustmentSummary. Requires only the component `solver` (Eigen and Ceres). In an
+// application, the front end takes the place of Observe(): it associates pixels with landmarks.
 //
-// The scene: a camera slides past a wall with a door frame. What it sees is exact, where the poses
-// and the landmarks are believed to be is off by some centimetres.
+// The scene is a wall with a door frame, which a camera passes. Observations are exact; the initial
+// poses and landmarks have errors of some centimetres.
 
 #include <cmath>
 #include <cstdio>
@@ -15,9 +15,9 @@
 
 namespace {
 
-// An observation is an undistorted pixel with its sigma (one pixel unless set) and, where depth was
-// measured, its inverse.
-void See(const msc_vo::WindowData::Keyframe& keyframe, msc_vo::WindowData* window) {
+// Adds the observations of all landmarks in a keyframe: undistorted pixels with their sigma
+// (default: one pixel), and the inverse depth where it is measured.
+void Observe(const msc_vo::WindowData::Keyframe& keyframe, msc_vo::WindowData* window) {
   for (const auto& point : window->points) {
     const Eigen::Vector3d x_in_cam = keyframe.cam_from_world * point.position;
     msc_vo::WindowData::PointObservation observation;
@@ -43,27 +43,28 @@ msc_vo::WindowData MakeWindow() {
   msc_vo::WindowData window;
   window.camera = {525.0, 525.0, 319.5, 239.5, 640, 480};  // fx, fy, cx, cy, width, height
 
-  // Landmarks, metres: points on a wall that is no plane, the two posts and the lintel of a door.
+  // Landmarks, metres: points on a wall that is not planar; the two posts and the lintel of a door.
   for (int i = 0; i < 40; ++i) {
     window.points.push_back({i, {0.25 * (i % 8) - 0.7, 0.3 * (i / 8) - 0.6, 3.0 + 0.1 * (i % 3)}});
   }
   const Eigen::Vector3d left(-0.2, -0.7, 2.8), right(0.7, -0.7, 2.8), post(0.0, 1.4, 0.0);
   window.lines = {{0, {left, left + post}}, {1, {right, right + post}}, {2, {left, right}}};
 
-  // What is known of the structure: the angle between two lines, in radians, with its sigma.
+  // Structural constraints: pairs of lines with the sigma of the angle between them, radians.
   window.parallel_pairs = {{0, 1, 0.02}};
   window.perpendicular_pairs = {{0, 2, 0.02}, {1, 2, 0.02}};
 
-  // Poses are cam_from_world; ids are yours. The first keyframe is fixed: it holds the gauge.
+  // Poses are cam_from_world; ids are arbitrary. The first keyframe is fixed, which fixes the
+  // gauge.
   for (int i = 0; i < 5; ++i) {
     const msc_vo::Rigid3 pose(Eigen::Quaterniond::Identity(), {-0.1 * i, 0.0, 0.0});
     window.keyframes.push_back({100 + i, pose, i == 0});
-    See(window.keyframes.back(), &window);
+    Observe(window.keyframes.back(), &window);
   }
   return window;
 }
 
-// Moves everything that is free away from where it is, by up to 3 cm.
+// Adds errors of up to 3 cm to everything that is not fixed.
 void Disturb(msc_vo::WindowData* window) {
   double phase = 0.0;
   const auto offset = [&phase]() -> Eigen::Vector3d {

@@ -3,6 +3,7 @@
 
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -158,26 +159,32 @@ bool BundleAdjustmentOptions::IsValid(std::string* error) const {
   return false;
 }
 
+std::vector<std::pair<std::string, const TermSummary*>> BundleAdjustmentSummary::Terms() const {
+  return {{"point_reprojection", &point_reprojection},
+          {"point_depth", &point_depth},
+          {"line_reprojection", &line_reprojection},
+          {"line_depth", &line_depth},
+          {"line_endpoint_prior", &line_endpoint_prior},
+          {"parallel", &parallel},
+          {"perpendicular", &perpendicular},
+          {"manhattan", &manhattan},
+          {"pose_prior", &pose_prior}};
+}
+
 std::string BundleAdjustmentSummary::BriefReport() const {
   char text[160];
   std::snprintf(
       text, sizeof(text), "local BA: %s, %d iterations, cost %.6g -> %.6g, %d behind camera",
       usable ? "solved" : "failed", num_iterations, initial_cost, final_cost, num_behind_camera);
   std::string report = text;
-  const auto add = [&](const char* name, const TermSummary& term) {
-    std::snprintf(text, sizeof(text), "\n  %-18s %6d blocks, %4d rejected, cost %.6g -> %.6g", name,
-                  term.num_residual_blocks, term.num_rejected, term.initial_cost, term.final_cost);
+  for (const auto& [name, term] : Terms()) {
+    std::string label = name;
+    std::replace(label.begin(), label.end(), '_', ' ');
+    std::snprintf(text, sizeof(text), "\n  %-19s %6d blocks, %4d rejected, cost %.6g -> %.6g",
+                  label.c_str(), term->num_residual_blocks, term->num_rejected, term->initial_cost,
+                  term->final_cost);
     report += text;
-  };
-  add("point reprojection", point_reprojection);
-  add("point depth", point_depth);
-  add("line reprojection", line_reprojection);
-  add("line depth", line_depth);
-  add("line endpoint", line_endpoint_prior);
-  add("parallel", parallel);
-  add("perpendicular", perpendicular);
-  add("manhattan", manhattan);
-  add("pose prior", pose_prior);
+  }
   return report + "\n  " + schur_structure + (message.empty() ? "" : ": ") + message;
 }
 

@@ -5,6 +5,8 @@
 
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "msc_vo/bundle_adjustment/window_data.h"
 
@@ -104,6 +106,9 @@ struct BundleAdjustmentSummary {
   /// Structure of the normal equations; for Ceres solvers, its schur_structure_used.
   std::string schur_structure;
   std::string message;  ///< Reason for termination.
+
+  /// All terms with their names, such as "point_reprojection", in the order of the report.
+  std::vector<std::pair<std::string, const TermSummary*>> Terms() const;
 
   /// Human-readable report of several lines.
   std::string BriefReport() const;

@@ -9,7 +9,8 @@
 
 namespace msc_vo {
 
-/// Formats the summary of a local bundle adjustment, which took `milliseconds`, as JSON.
+/// The output of `msc_vo solve-window --json`: costs, residual blocks and rejected observations of
+/// every term. `milliseconds`: wall time of the solve.
 std::string FormatWindowJson(const BundleAdjustmentSummary& summary, double milliseconds);
 
 }  // namespace msc_vo

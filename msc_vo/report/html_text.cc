@@ -38,7 +38,7 @@ std::string EscapeHtml(const std::string& text) {
 
 std::string FormatFixed(double value, int decimals) {
   if (!std::isfinite(value)) return "-";
-  // The longest finite double has 309 digits before the point.
+  // The longest finite double has 309 digits before the decimal point.
   std::array<char, 400> buffer;
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
                                  std::chars_format::fixed, decimals);

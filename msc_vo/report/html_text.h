@@ -7,11 +7,11 @@
 
 namespace msc_vo {
 
-/// `text` with the five characters that mean something in HTML and in quoted attributes replaced.
+/// Escapes & < > " ' for HTML text and quoted attributes.
 std::string EscapeHtml(const std::string& text);
 
-/// `value` with that many decimals and a point, whatever the locale says; no minus before zero.
-/// "-" if it is not finite.
+/// The value with the given number of decimals and a decimal point, independent of the locale;
+/// negative zero has no sign. "-" if the value is not finite.
 std::string FormatFixed(double value, int decimals);
 
 }  // namespace msc_vo

@@ -12,6 +12,7 @@
 #include "msc_vo/report/report_plots.h"
 #include "msc_vo/report/report_statistics.h"
 #include "msc_vo/report/report_style.h"
+#include "msc_vo/report/scene_view.h"
 #include "msc_vo/report/trajectory_view.h"
 
 namespace msc_vo {
@@ -62,7 +63,7 @@ void WriteHeader(const ReportData& data, std::ostream& out) {
       << EscapeHtml(data.command_line) << "</code></p>\n";
 }
 
-// Short values as tiles, which catch the eye; long ones as rows of a table below them.
+// Short values as tiles, long ones as rows of a table below them.
 void WriteNumbers(const ReportData& data, std::ostream& out) {
   constexpr size_t kMaxTileLength = 16;  // characters that fit a tile on one line
   std::ostringstream tiles;
@@ -83,7 +84,7 @@ void WriteNumbers(const ReportData& data, std::ostream& out) {
   if (!rows.str().empty()) out << "<table class=\"facts\">\n" << rows.str() << "</table>\n";
 }
 
-// Of the statuses that occur.
+// Entries for the statuses that occur.
 std::vector<LegendEntry> StatusLegend(const ReportData& data) {
   std::vector<LegendEntry> legend;
   for (const ReportStatus status : kAllStatuses) {
@@ -96,14 +97,14 @@ std::vector<LegendEntry> StatusLegend(const ReportData& data) {
   return legend;
 }
 
-// Of the kinds of map lines that there are.
+// Entries for the Manhattan axes that map lines have.
 std::vector<LegendEntry> LineLegend(const ReportData& data) {
   std::vector<LegendEntry> legend;
   for (int axis = -1; axis < 3; ++axis) {
     const auto has_axis = [axis](const ReportLine& line) { return line.axis == axis; };
     if (std::none_of(data.lines.begin(), data.lines.end(), has_axis)) continue;
     legend.push_back({Swatch::kCurve, LineClass(axis),
-                      axis < 0 ? "map lines of no axis"
+                      axis < 0 ? "map lines without axis"
                                : "map lines along Manhattan axis " + std::to_string(axis + 1)});
   }
   return legend;
@@ -116,7 +117,9 @@ void Append(const std::vector<LegendEntry>& more, std::vector<LegendEntry>* lege
 void WriteTrajectory(const ReportData& data, std::ostream& out) {
   const TrajectoryView view = ChooseTrajectoryView(data);
   std::vector<LegendEntry> legend = {{Swatch::kCurve, "curve estimate", "estimate"}};
-  if (!data.truth.empty()) legend.push_back({Swatch::kCurve, "curve truth", "truth"});
+  if (!data.ground_truth.empty()) {
+    legend.push_back({Swatch::kCurve, "curve ground-truth", "ground truth"});
+  }
   for (const LegendEntry& status : StatusLegend(data)) {
     if (status.label == ToString(ReportStatus::kPredicted) ||
         status.label == ToString(ReportStatus::kLost)) {
@@ -129,19 +132,24 @@ void WriteTrajectory(const ReportData& data, std::ostream& out) {
       << (view.up_from_cameras ? "the mean up direction of the camera"
                                : "the direction in which the trajectory extends least, as the "
                                  "camera has no common up direction")
-      << "; right is the dominant direction of the trajectory across it. The circle is the start, "
-         "small dots are keyframes; frames without an estimated pose have the colour of their "
+      << "; right is the dominant horizontal direction of the trajectory. The circle marks the "
+         "start, dots mark keyframes; frames without an estimated pose have the colour of their "
          "status.</p>\n<div class=\"views\">\n";
-  WriteFigure(PlotTrajectory(data, view, TrajectorySide::kTop), top_legend, out, "Seen from above");
-  WriteFigure(PlotTrajectory(data, view, TrajectorySide::kSide), legend, out, "Seen from the side");
+  WriteFigure(PlotTrajectory(data, view, TrajectorySide::kTop), top_legend, out, "Top view");
+  WriteFigure(PlotTrajectory(data, view, TrajectorySide::kSide), legend, out, "Side view");
   out << "</div>\n";
+}
+
+void WriteScene(const ReportData& data, std::ostream& out) {
+  if (data.lines.empty()) return;
+  out << "<h2>Map lines</h2>\n<figure>\n" << DrawScene(data) << "</figure>\n";
 }
 
 void WriteSeries(const ReportData& data, std::ostream& out) {
   const std::vector<LegendEntry> statuses = StatusLegend(data);
-  if (!data.truth.empty()) {
+  if (!data.ground_truth.empty()) {
     out << "<h2>Position error over time</h2>\n";
-    std::vector<LegendEntry> legend = {{Swatch::kCurve, "curve error", "distance from the truth"}};
+    std::vector<LegendEntry> legend = {{Swatch::kCurve, "curve error", "position error"}};
     Append(statuses, &legend);
     WriteFigure(PlotError(data), legend, out);
   }
@@ -156,7 +164,7 @@ void WriteNotTracked(const ReportData& data, std::ostream& out) {
   const std::vector<NotTrackedSpan> spans = FindNotTrackedSpans(data.frames);
   out << "<h2>Frames without an estimated pose</h2>\n";
   if (spans.empty()) {
-    out << "<p>None: all " << data.frames.size() << " frames were tracked.</p>\n";
+    out << "<p>None.</p>\n";
     return;
   }
   out << "<table>\n<tr><th>frames</th><th>from, s</th><th>to, s</th><th>predicted</th>"
@@ -178,7 +186,7 @@ void WriteTimes(const ReportData& data, std::ostream& out) {
     if (!stage.is_stacked) continue;
     legend.push_back({Swatch::kFill, "stage-" + std::to_string(legend.size() % 6), stage.name});
   }
-  legend.push_back({Swatch::kCurve, "curve whole", "tracking, whole"});
+  legend.push_back({Swatch::kCurve, "curve whole", "tracking, total"});
   WriteFigure(PlotStages(data), legend, out);
   out << "<h2>Time per keyframe</h2>\n";
   WriteFigure(PlotMapping(data), {{Swatch::kFill, "fill-mapping", "keyframe step of the mapper"}},
@@ -208,6 +216,7 @@ void WriteReport(const ReportData& data, std::ostream& out) {
   if (data.frames.empty()) {
     out << "<p>No frame was processed.</p>\n";
   } else {
+    WriteScene(data, out);
     WriteTrajectory(data, out);
     WriteSeries(data, out);
     WriteNotTracked(data, out);

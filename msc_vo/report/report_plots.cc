@@ -4,7 +4,7 @@
 #include "msc_vo/report/report_plots.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "msc_vo/report/html_text.h"
@@ -23,17 +23,11 @@ double TimeOf(const ReportData& data, size_t frame) {
   return data.frames[frame].timestamp - data.frames.front().timestamp;
 }
 
-// A frame lasts until the next one; the last as long as the frames do on average.
+// A frame lasts until the next one, the last frame as long as the average.
 PlotRange TimeRange(const ReportData& data) {
   const double last = TimeOf(data, data.frames.size() - 1);
   const double mean = data.frames.size() > 1 ? last / (data.frames.size() - 1.0) : 1.0;
   return {0.0, last + mean};
-}
-
-void Include(double value, PlotRange* range) {
-  if (!std::isfinite(value)) return;
-  range->min = std::min(range->min, value);
-  range->max = std::max(range->max, value);
 }
 
 // From zero to a little above the largest value.
@@ -52,8 +46,8 @@ std::vector<Eigen::Vector2d> Series(const ReportData& data, const ValueOf& value
   return points;
 }
 
-// The status of each frame as a strip above the plot. Runs shorter than the eye can tell apart
-// become one, with the worst status in it.
+// The status of each frame as a strip above the plot. Stretches shorter than one drawing unit are
+// merged and get the worst status among them.
 void AddStatusStrip(const ReportData& data, SvgPlot* plot) {
   const double resolution = plot->XResolution();
   const size_t count = data.frames.size();
@@ -83,7 +77,7 @@ std::string PlotCurve(const ReportData& data, const std::vector<Eigen::Vector2d>
   return plot.ToString(description);
 }
 
-// Projects world coordinates onto the page.
+// Orthographic projection from the world onto the page.
 struct Projector {
   Eigen::Matrix<double, 2, 3> page_from_world;
 
@@ -99,26 +93,9 @@ Projector MakeProjector(const TrajectoryView& view, TrajectorySide side) {
   return projector;
 }
 
-// Covers [min, max] of the trajectory and the middle 90 % of the ends of map lines: a few lines
-// with a wrong depth must not shrink the rest. A camera that only turns sees lines far beyond its
-// own path, which the view from the side shows large.
-PlotRange CoverTrajectoryAndLines(const std::vector<double>& trajectory, double extent,
-                                  std::vector<double> line_ends) {
-  PlotRange range{trajectory.front(), trajectory.front()};
-  for (const double value : trajectory) Include(value, &range);
-  if (!line_ends.empty()) {
-    std::sort(line_ends.begin(), line_ends.end());
-    const size_t cut = line_ends.size() / 20;
-    Include(line_ends[cut], &range);
-    Include(line_ends[line_ends.size() - 1 - cut], &range);
-  }
-  const double margin = 0.05 * std::max(range.Length(), 0.1 * extent);
-  return {range.min - margin, range.max + margin};
-}
-
 struct TrajectoryDrawing {
-  std::vector<Eigen::Vector2d> estimate, truth, keyframes, predicted, lost;
-  std::vector<LineSegment2> lines[4];  // of no axis, of axis 0, 1, 2
+  std::vector<Eigen::Vector2d> estimate, ground_truth, keyframes, predicted, lost;
+  std::vector<LineSegment2> lines[4];  // without axis, along axis 0, 1, 2
 };
 
 TrajectoryDrawing Project(const ReportData& data, const Projector& project, bool with_lines) {
@@ -130,7 +107,9 @@ TrajectoryDrawing Project(const ReportData& data, const Projector& project, bool
     if (frame.status == ReportStatus::kPredicted) drawing.predicted.push_back(p);
     if (frame.status == ReportStatus::kLost) drawing.lost.push_back(p);
   }
-  for (const ReportTruthPose& pose : data.truth) drawing.truth.push_back(project(pose.position));
+  for (const ReportGroundTruthPose& pose : data.ground_truth) {
+    drawing.ground_truth.push_back(project(pose.position));
+  }
   if (!with_lines) return drawing;
   for (const ReportLine& line : data.lines) {
     drawing.lines[std::clamp(line.axis, -1, 2) + 1].push_back(
@@ -139,34 +118,31 @@ TrajectoryDrawing Project(const ReportData& data, const Projector& project, bool
   return drawing;
 }
 
+// Covers the trajectory and 90 % of the ends of map lines.
+PlotRange CoordinateRange(const TrajectoryDrawing& drawing, int axis) {
+  std::vector<double> trajectory, line_ends;
+  for (const auto* points : {&drawing.estimate, &drawing.ground_truth}) {
+    for (const Eigen::Vector2d& p : *points) trajectory.push_back(p[axis]);
+  }
+  for (const auto& lines : drawing.lines) {
+    for (const LineSegment2& line : lines) {
+      line_ends.insert(line_ends.end(), {line.start[axis], line.end[axis]});
+    }
+  }
+  return Cover(trajectory, std::move(line_ends), 0.05);
+}
+
 SvgPlot MakeTrajectoryPlot(const TrajectoryDrawing& drawing) {
-  std::vector<Eigen::Vector2d> trajectory;
-  for (const auto* points : {&drawing.estimate, &drawing.truth}) {
-    for (const Eigen::Vector2d& p : *points) {
-      if (p.allFinite()) trajectory.push_back(p);
-    }
+  PlotRange x = CoordinateRange(drawing, 0);
+  PlotRange y = CoordinateRange(drawing, 1);
+  // A flat trajectory gets a margin too, so that its curve is not at the edge of the drawing.
+  const double shortest = 0.1 * std::max(x.Length(), y.Length());
+  for (PlotRange* range : {&x, &y}) {
+    const double margin = 0.05 * std::max(range->Length(), shortest);
+    range->min -= margin;
+    range->max += margin;
   }
-  if (trajectory.empty()) trajectory.emplace_back(0.0, 0.0);
-  std::vector<double> coordinates[2], line_ends[2];
-  double extent = 0.0;
-  for (int axis = 0; axis < 2; ++axis) {
-    PlotRange range{trajectory.front()[axis], trajectory.front()[axis]};
-    for (const Eigen::Vector2d& p : trajectory) {
-      coordinates[axis].push_back(p[axis]);
-      Include(p[axis], &range);
-    }
-    extent = std::max(extent, range.Length());
-    for (const auto& lines : drawing.lines) {
-      for (const LineSegment2& line : lines) {
-        for (const double end : {line.start[axis], line.end[axis]}) {
-          if (std::isfinite(end)) line_ends[axis].push_back(end);
-        }
-      }
-    }
-  }
-  return SvgPlot::WithEqualAxes(kTrajectorySize,
-                                CoverTrajectoryAndLines(coordinates[0], extent, line_ends[0]),
-                                CoverTrajectoryAndLines(coordinates[1], extent, line_ends[1]));
+  return SvgPlot::WithEqualAxes(kTrajectorySize, x, y);
 }
 
 }  // namespace
@@ -190,7 +166,7 @@ const char* ToString(ReportStatus status) {
 }
 
 std::string LineClass(int axis) {
-  return axis < 0 ? "map-line" : "map-line axis-" + std::to_string(axis);
+  return axis < 0 ? "map-line axis-none" : "map-line axis-" + std::to_string(axis);
 }
 
 std::string PlotTrajectory(const ReportData& data, const TrajectoryView& view,
@@ -202,7 +178,7 @@ std::string PlotTrajectory(const ReportData& data, const TrajectoryView& view,
   for (int axis = -1; axis < 3; ++axis) {
     plot.AddSegments(drawing.lines[axis + 1], LineClass(axis));
   }
-  plot.AddPath(drawing.truth, "curve truth");
+  plot.AddPath(drawing.ground_truth, "curve ground-truth");
   plot.AddPath(drawing.estimate, "curve estimate");
   plot.AddDots(drawing.keyframes, kKeyframeRadius, "keyframe");
   plot.AddDots(drawing.predicted, kGapRadius, "status-predicted");
@@ -236,7 +212,8 @@ std::string PlotInliers(const ReportData& data) {
 
 std::string PlotStages(const ReportData& data) {
   const auto whole = Series(data, [](const ReportFrame& frame) { return frame.tracking_ms; });
-  // The sum of the stages up to each; painted from the highest down, the lower ones stay on top.
+  // Sums of the stages up to each. Drawn from the highest sum down, so that lower ones stay
+  // visible.
   std::vector<std::vector<Eigen::Vector2d>> sums;
   for (size_t stage = 0; stage < data.stages.size(); ++stage) {
     if (!data.stages[stage].is_stacked) continue;

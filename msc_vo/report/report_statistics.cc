@@ -10,8 +10,8 @@
 namespace msc_vo {
 namespace {
 
-// The smallest value that at least the share q of all values do not exceed. `sorted` must not be
-// empty.
+// The smallest value that at least the fraction q of all values do not exceed. `sorted` must not
+// be empty.
 double Quantile(const std::vector<double>& sorted, double q) {
   const double rank = std::ceil(q * static_cast<double>(sorted.size()));
   return sorted[static_cast<size_t>(std::max(rank, 1.0)) - 1];

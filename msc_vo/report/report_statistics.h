@@ -10,32 +10,32 @@
 
 namespace msc_vo {
 
-/// Milliseconds of one stage over the frames in which it ran.
+/// Milliseconds of one stage, over the frames in which it ran.
 struct StageTimeStatistics {
   std::string name;
   int count = 0;
   double mean = 0.0;
   double median = 0.0;
-  double p95 = 0.0;
+  double p95 = 0.0;  ///< 95 % quantile
   double max = 0.0;
 };
 
-/// Median and 95 % quantile are values that occurred, as many frames took no longer; values that
-/// are not finite do not count. All zero if nothing is left.
+/// Median and 95 % quantile are measured values: the smallest that at least 50 % or 95 % of the
+/// values do not exceed. Values that are not finite are skipped; without values all is zero.
 StageTimeStatistics SummarizeStage(const std::string& name, std::vector<double> milliseconds);
 
-/// The stages of tracking that ReportFrame::stage_ms holds, "tracking" as a whole over all frames,
-/// and "mapping" over the frames that caused a keyframe step.
+/// Statistics of the stages in ReportFrame::stage_ms, of "tracking" as a whole over all frames, and
+/// of "mapping" over the frames that caused a keyframe step.
 std::vector<StageTimeStatistics> SummarizeStages(const std::vector<ReportStage>& stages,
                                                  const std::vector<ReportFrame>& frames);
 
-/// Successive frames without an estimated pose (predicted or lost).
+/// Consecutive frames without an estimated pose (predicted or lost).
 struct NotTrackedSpan {
   int first_frame = 0;  ///< index into ReportData::frames
   int last_frame = 0;   ///< inclusive
-  int num_lost = 0;     ///< the others were predicted
-  double start = 0.0;   ///< seconds, stamps of the two
-  double end = 0.0;
+  int num_lost = 0;     ///< the others are predicted
+  double start = 0.0;   ///< seconds, time stamp of the first frame
+  double end = 0.0;     ///< seconds, time stamp of the last frame
 };
 std::vector<NotTrackedSpan> FindNotTrackedSpans(const std::vector<ReportFrame>& frames);
 

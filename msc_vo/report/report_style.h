@@ -5,23 +5,22 @@
 
 namespace msc_vo {
 
-/// The style of the report: colours as variables, so that light, dark and paper differ in one
-/// place.
+/// CSS of the report. Colours are variables, so that light, dark and print differ in one place.
 inline constexpr char kReportStyle[] = R"css(
 :root {
   color-scheme: light dark;
   --paper: #ffffff; --panel: #f6f7f9; --ink: #1b1f24; --faint: #66707c; --rule: #dfe3e8;
-  --estimate: #1f6feb; --truth: #8a929c; --error: #b4372f; --points: #1f6feb; --lines: #c2571a;
+  --estimate: #1f6feb; --ground-truth: #8a929c; --error: #b4372f; --points: #1f6feb; --lines: #c2571a;
   --tracked: #3fa66b; --weak: #d8ab22; --dropped: #7a86a8; --unreadable: #8d5fb0; --predicted: #e07b28; --lost: #d03a3a;
-  --map: #98a2ae; --axis-0: #d9534f; --axis-1: #3c9d5d; --axis-2: #3d7fd6;
+  --axis-none: #c9991a; --axis-0: #d9534f; --axis-1: #3c9d5d; --axis-2: #3d7fd6;
   --stage-0: #6aa5e8; --stage-1: #f0a35e; --stage-2: #7cc396; --stage-3: #c49ae0;
   --stage-4: #e58a97; --stage-5: #9aa7b5; --mapping: #7b55c7;
 }
 @media screen and (prefers-color-scheme: dark) {
   :root {
     --paper: #14171b; --panel: #1c2026; --ink: #e6e9ed; --faint: #99a3af; --rule: #30363e;
-    --estimate: #6fa8ff; --truth: #9aa3ae; --error: #ff8b80; --points: #6fa8ff; --lines: #ff9d5c;
-    --map: #65707c; --axis-0: #e5736f; --axis-1: #5cbf7e; --axis-2: #6ba4ee;
+    --estimate: #6fa8ff; --ground-truth: #9aa3ae; --error: #ff8b80; --points: #6fa8ff; --lines: #ff9d5c;
+    --axis-none: #d3a93f; --axis-0: #e5736f; --axis-1: #5cbf7e; --axis-2: #6ba4ee;
     --stage-0: #3f78b8; --stage-1: #b9722f; --stage-2: #45915f; --stage-3: #8c61ab;
     --stage-4: #b05562; --stage-5: #66727f; --mapping: #a98bea;
   }
@@ -65,13 +64,16 @@ svg text { fill: var(--faint); font-size: 11px; }
 .tick-x { text-anchor: middle; } .tick-y { text-anchor: end; } svg .name { font-size: 12px; }
 .grid { stroke: var(--rule); stroke-width: 1; }
 .curve { fill: none; stroke-width: 1.6; stroke-linejoin: round; }
-.estimate { stroke: var(--estimate); } .truth { stroke: var(--truth); stroke-width: 2.6; }
+.estimate { stroke: var(--estimate); } .ground-truth { stroke: var(--ground-truth); stroke-width: 2.6; }
 .error { stroke: var(--error); } .points { stroke: var(--points); } .lines { stroke: var(--lines); }
 .whole { stroke: var(--ink); stroke-width: 1; }
 .stem { stroke: var(--mapping); stroke-width: 1; opacity: 0.5; }
 .fill-mapping { fill: var(--mapping); }
 .keyframe { fill: var(--paper); stroke: var(--estimate); stroke-width: 1.2; }
-.map-line { stroke: var(--map); stroke-width: 0.8; fill: none; }
+.map-line { stroke-width: 0.8; fill: none; } .axis-none { stroke: var(--axis-none); }
+.scene-line { stroke-width: 1.2; stroke-linecap: round; fill: none; }
+.scene-path { stroke: var(--ink); stroke-width: 2; fill: none; stroke-linejoin: round; }
+.scene-keyframe { fill: var(--paper); stroke: var(--ink); stroke-width: 1.3; }
 .axis-0 { stroke: var(--axis-0); } .axis-1 { stroke: var(--axis-1); }
 .axis-2 { stroke: var(--axis-2); }
 .start { fill: var(--paper); stroke: var(--ink); stroke-width: 2; }

@@ -13,21 +13,20 @@
 namespace msc_vo {
 namespace {
 
-// Room around the axes for labels, in drawing units.
-constexpr double kLeft = 56.0;
-constexpr double kRight = 14.0;
-constexpr double kTop = 18.0;
-constexpr double kBottom = 40.0;
 constexpr double kStripHeight = 8.0;
-// Room that one tick label needs along x and along y.
+// Spacing that one tick label needs along x and along y.
 constexpr double kTickSpacingX = 80.0;
 constexpr double kTickSpacingY = 28.0;
+// Legend: length of a line, gaps, and average width of a character at the font size of the style.
+constexpr double kSwatchLength = 20.0;
+constexpr double kLegendGap = 6.0;
+constexpr double kCharacterWidth = 6.4;
 
 std::string Unit(double value) { return FormatFixed(value, 1); }
 
 std::string PointText(const Eigen::Vector2d& p) { return Unit(p.x()) + ',' + Unit(p.y()); }
 
-// A range of some length, whatever comes in.
+// The range, extended to a positive length.
 PlotRange Widened(const PlotRange& range) {
   const double magnitude = std::max(std::abs(range.min), std::abs(range.max));
   if (range.Length() > 1e-9 * magnitude) return range;
@@ -44,14 +43,14 @@ double NiceStep(double length, int max_ticks) {
   return 10.0 * power;
 }
 
-// As many decimals as the step between ticks needs.
+// Number of decimals that distinguishes the ticks.
 int DecimalsOf(const std::vector<double>& ticks) {
   if (ticks.size() < 2) return 1;
   return CellIndex(std::ceil(-std::log10(ticks[1] - ticks[0]) - 1e-9), 10);
 }
 
-// The part of the segment inside the rectangle of `low` and `high`, if there is one (Liang and
-// Barsky 1984).
+// The part of the segment inside the rectangle of `low` and `high` (Liang and Barsky 1984), or
+// nullopt.
 std::optional<LineSegment2> Clipped(const LineSegment2& segment, const Eigen::Vector2d& low,
                                     const Eigen::Vector2d& high) {
   const Eigen::Vector2d direction = segment.end - segment.start;
@@ -75,17 +74,19 @@ std::optional<LineSegment2> Clipped(const LineSegment2& segment, const Eigen::Ve
 std::vector<double> NiceTicks(const PlotRange& range, int max_ticks) {
   const double step = NiceStep(range.Length(), max_ticks);
   std::vector<double> ticks;
-  // Counted, not summed up, so that no rounding error grows. The slack keeps ticks at the ends.
+  // Multiples instead of sums, so that rounding errors do not accumulate. The slack keeps ticks at
+  // the ends.
   const double first = std::ceil(range.min / step - 1e-9);
   for (double i = first; i * step <= range.max + 1e-9 * step; i += 1.0) ticks.push_back(i * step);
   return ticks;
 }
 
-SvgPlot::SvgPlot(const Size& size, const PlotRange& x, const PlotRange& y)
-    : size_(size), x_(Widened(x)), y_(Widened(y)) {}
+SvgPlot::SvgPlot(const Size& size, const PlotRange& x, const PlotRange& y, const Margins& margins)
+    : size_(size), margins_(margins), x_(Widened(x)), y_(Widened(y)) {}
 
-SvgPlot SvgPlot::WithEqualAxes(const Size& size, const PlotRange& x, const PlotRange& y) {
-  SvgPlot plot(size, x, y);
+SvgPlot SvgPlot::WithEqualAxes(const Size& size, const PlotRange& x, const PlotRange& y,
+                               const Margins& margins) {
+  SvgPlot plot(size, x, y, margins);
   const double width = plot.Right() - plot.Left();
   const double height = plot.Bottom() - plot.Top();
   const double unit = std::max(plot.x_.Length() / width, plot.y_.Length() / height);
@@ -99,10 +100,10 @@ SvgPlot SvgPlot::WithEqualAxes(const Size& size, const PlotRange& x, const PlotR
   return plot;
 }
 
-double SvgPlot::Left() const { return kLeft; }
-double SvgPlot::Right() const { return size_.width - kRight; }
-double SvgPlot::Top() const { return kTop; }
-double SvgPlot::Bottom() const { return size_.height - kBottom; }
+double SvgPlot::Left() const { return margins_.left; }
+double SvgPlot::Right() const { return size_.width - margins_.right; }
+double SvgPlot::Top() const { return margins_.top; }
+double SvgPlot::Bottom() const { return size_.height - margins_.bottom; }
 
 double SvgPlot::XResolution() const { return x_.Length() / (Right() - Left()); }
 
@@ -240,8 +241,20 @@ void SvgPlot::AddStrip(const PlotRange& x, const std::string& css_class, const s
               Unit(kStripHeight) + "\"><title>" + EscapeHtml(tip) + "</title></rect>\n";
 }
 
+void SvgPlot::AddLegend(const std::vector<PlotLegendEntry>& entries) {
+  double x = Left();
+  const double y = size_.height - 10.0;
+  for (const PlotLegendEntry& entry : entries) {
+    outside_ += "<path class=\"" + entry.css_class + "\" d=\"M" + PointText({x, y - 4.0}) + 'L' +
+                PointText({x + kSwatchLength, y - 4.0}) + "\"/>\n";
+    x += kSwatchLength + kLegendGap;
+    AppendText({x, y}, "name", entry.label);
+    x += kCharacterWidth * static_cast<double>(entry.label.size()) + 3.0 * kLegendGap;
+  }
+}
+
 std::string SvgPlot::ToString(const std::string& description) const {
-  // A nested <svg> clips what leaves the axes, and needs no id that would have to be unique.
+  // A nested <svg> clips at the axes and, unlike a clip path, needs no unique id.
   const std::string width = Unit(Right() - Left());
   const std::string height = Unit(Bottom() - Top());
   const std::string box = Unit(Left()) + ' ' + Unit(Top()) + ' ' + width + ' ' + height;

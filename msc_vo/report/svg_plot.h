@@ -9,50 +9,64 @@
 #include <Eigen/Core>
 
 #include "msc_vo/geometry/line_segment.h"
+#include "msc_vo/report/plot_range.h"
 
 namespace msc_vo {
-
-struct PlotRange {
-  double min = 0.0;
-  double max = 1.0;
-
-  double Length() const { return max - min; }
-};
 
 /// Multiples of 1, 2 or 5 times a power of ten inside `range`, at most `max_ticks` of them.
 std::vector<double> NiceTicks(const PlotRange& range, int max_ticks);
 
-/// One plot with axes, as an SVG element for a page that has the style of the report. Data
-/// coordinates go in; x grows to the right, y grows upwards. Elements are painted in the order in
-/// which they are added. Points that are not finite are left out.
+/// One entry of a legend: a short line of the CSS class, followed by the label.
+struct PlotLegendEntry {
+  std::string css_class;
+  std::string label;
+};
+
+/// A plot as an SVG element for a page with the style of the report. Arguments are in data
+/// coordinates: x to the right, y upwards. Elements are drawn in the order in which they are added.
+/// Points that are not finite are skipped.
 class SvgPlot {
  public:
-  /// Size in the units of the drawing, which are CSS pixels unless the page scales it.
+  /// Size in drawing units, which are CSS pixels unless the page scales the plot.
   struct Size {
     int width = 960;
     int height = 240;
   };
+  /// Space around the data in drawing units. The default has room for ticks and names of axes.
+  struct Margins {
+    double left = 56.0;
+    double right = 14.0;
+    double top = 18.0;
+    double bottom = 40.0;
+  };
 
-  SvgPlot(const Size& size, const PlotRange& x, const PlotRange& y);
+  SvgPlot(const Size& size, const PlotRange& x, const PlotRange& y, const Margins& margins);
+  SvgPlot(const Size& size, const PlotRange& x, const PlotRange& y)
+      : SvgPlot(size, x, y, Margins()) {}
 
-  /// One unit is as long on both axes: one range grows, about its middle, to fill the drawing.
-  static SvgPlot WithEqualAxes(const Size& size, const PlotRange& x, const PlotRange& y);
+  /// Both axes have the same scale: one range is extended on both sides to fill the drawing.
+  static SvgPlot WithEqualAxes(const Size& size, const PlotRange& x, const PlotRange& y,
+                               const Margins& margins);
+  static SvgPlot WithEqualAxes(const Size& size, const PlotRange& x, const PlotRange& y) {
+    return WithEqualAxes(size, x, y, Margins());
+  }
 
   const PlotRange& x_range() const { return x_; }
   const PlotRange& y_range() const { return y_; }
-  /// Width of one drawing unit in units of x: nothing finer than this can be seen.
+  /// Width of one drawing unit in units of x, the finest visible detail.
   double XResolution() const;
   Eigen::Vector2d ToDrawing(const Eigen::Vector2d& point) const;
 
-  /// Ticks with their values, grid lines, and the names of the axes.
+  /// Grid lines, ticks with their values, and the names of the axes.
   void AddAxes(const std::string& x_name, const std::string& y_name);
-  /// A curve y(x): x must not fall. Keeps first, lowest, highest and last point of every column.
+  /// A curve y(x) with increasing x. Of the points in one column of pixels, the first, lowest,
+  /// highest and last are drawn.
   void AddSeries(const std::vector<Eigen::Vector2d>& points, const std::string& css_class);
-  /// The same, filled down to the lower end of y.
+  /// The same, filled down to the lower end of the y range.
   void AddArea(const std::vector<Eigen::Vector2d>& points, const std::string& css_class);
-  /// A path through the plane. Points closer than half a drawing unit to the last are left out.
+  /// A path. Points closer than half a drawing unit to the previous one are skipped.
   void AddPath(const std::vector<Eigen::Vector2d>& points, const std::string& css_class);
-  /// Segments are cut at the axes; those outside are left out.
+  /// Segments, clipped at the axes.
   void AddSegments(const std::vector<LineSegment2>& segments, const std::string& css_class);
   void AddDots(const std::vector<Eigen::Vector2d>& points, double radius,
                const std::string& css_class);
@@ -62,7 +76,10 @@ class SvgPlot {
   /// A stretch of the strip above the plot, from x.min to x.max, with a tool tip.
   void AddStrip(const PlotRange& x, const std::string& css_class, const std::string& tip);
 
-  /// The whole SVG element; `description` is for those who cannot see it.
+  /// A row below the plot, in the bottom margin.
+  void AddLegend(const std::vector<PlotLegendEntry>& entries);
+
+  /// The SVG element. `description`: alternative text for screen readers.
   std::string ToString(const std::string& description) const;
 
  private:
@@ -76,6 +93,7 @@ class SvgPlot {
   std::vector<Eigen::Vector2d> ThinColumns(const std::vector<Eigen::Vector2d>& points) const;
 
   Size size_;
+  Margins margins_;
   PlotRange x_;
   PlotRange y_;
   std::string inside_;   // clipped to the axes

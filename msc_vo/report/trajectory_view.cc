@@ -12,7 +12,7 @@ namespace {
 
 std::vector<Eigen::Vector3d> Positions(const ReportData& data) {
   std::vector<Eigen::Vector3d> positions;
-  for (const ReportTruthPose& pose : data.truth) {
+  for (const ReportGroundTruthPose& pose : data.ground_truth) {
     if (pose.position.allFinite()) positions.push_back(pose.position);
   }
   if (!positions.empty()) return positions;
@@ -32,8 +32,8 @@ Eigen::Matrix3d Covariance(const std::vector<Eigen::Vector3d>& positions) {
   return covariance;
 }
 
-// Mean over the frames of a direction that is given in the camera, in world; its length tells how
-// well they agree (1: all the same).
+}  // namespace
+
 Eigen::Vector3d MeanDirection(const ReportData& data, const Eigen::Vector3d& direction_in_cam) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0.0;
@@ -45,13 +45,11 @@ Eigen::Vector3d MeanDirection(const ReportData& data, const Eigen::Vector3d& dir
   return count > 0.0 ? Eigen::Vector3d(sum / count) : sum;
 }
 
-}  // namespace
-
 TrajectoryView ChooseTrajectoryView(const ReportData& data) {
   TrajectoryView view;
   const Eigen::Matrix3d covariance = Covariance(Positions(data));
   const Eigen::Vector3d mean_up = MeanDirection(data, data.up_in_cam.normalized());
-  // Half the length is what directions within 60 degrees of their mean keep at least.
+  // The mean of directions within 60 degrees of a common one has at least half the length.
   view.up_from_cameras = mean_up.norm() >= 0.5;
   Eigen::Vector3d up = mean_up.normalized();
   if (!view.up_from_cameras) {
@@ -59,7 +57,7 @@ TrajectoryView ChooseTrajectoryView(const ReportData& data) {
     if (up.dot(mean_up) < 0.0) up = -up;
   }
 
-  // The dominant direction within the plane across up.
+  // The dominant horizontal direction.
   Eigen::Matrix<double, 3, 2> plane;
   plane.col(0) = up.unitOrthogonal();
   plane.col(1) = up.cross(plane.col(0));

@@ -16,7 +16,7 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-// A Markdown table with columns of even width: the first to the left, numbers to the right.
+// A Markdown table with aligned columns: the first one to the left, numbers to the right.
 std::string FormatTable(const std::vector<Row>& rows) {
   std::vector<size_t> widths(rows.front().size(), 4);  // "---:" must fit
   for (const Row& row : rows) {
@@ -38,7 +38,7 @@ std::string FormatTable(const std::vector<Row>& rows) {
   return table;
 }
 
-// A cell must not end early, nor the row.
+// Text that does not break the table: without '|', and only the first line.
 std::string Cell(std::string text) {
   std::replace(text.begin(), text.end(), '|', '/');
   return text.substr(0, text.find('\n'));
@@ -46,7 +46,7 @@ std::string Cell(std::string text) {
 
 std::string Millimetres(double metres) { return FormatText("%.2f", 1000.0 * metres); }
 
-// Names in the order in which they were run.
+// Names of the sequences in the order of the runs.
 std::vector<std::string> Sequences(const Benchmark& benchmark) {
   std::vector<std::string> names;
   for (const BenchmarkRun& run : benchmark.runs) {
@@ -55,7 +55,7 @@ std::vector<std::string> Sequences(const Benchmark& benchmark) {
   return names;
 }
 
-// Null if it has not been run.
+// Returns null if the sequence was not run in this mode.
 const BenchmarkRun* FindRun(const Benchmark& benchmark, const std::string& sequence,
                             const std::string& mode) {
   for (const BenchmarkRun& run : benchmark.runs) {
@@ -77,8 +77,8 @@ std::string FormatHeader(const Benchmark& benchmark) {
   return text + (benchmark.changed_options.empty() ? " none\n" : "\n");
 }
 
-// Says which sequences the mean does not hold, since a mode failed on them. Empty if none.
-std::string LeftOutOfMean(const Benchmark& benchmark) {
+// Names the sequences on which a mode failed, which are excluded from the mean. Empty if none.
+std::string DescribeExcluded(const Benchmark& benchmark) {
   std::string names;
   for (const std::string& sequence : Sequences(benchmark)) {
     const bool failed = std::any_of(
@@ -86,7 +86,7 @@ std::string LeftOutOfMean(const Benchmark& benchmark) {
         [&](const BenchmarkRun& run) { return run.sequence == sequence && !run.failure.empty(); });
     if (failed) names += (names.empty() ? "" : ", ") + Cell(sequence);
   }
-  return names.empty() ? "" : "\nNot in the mean, as a run failed: " + names + ".\n";
+  return names.empty() ? "" : "\nExcluded from the mean because a run failed: " + names + ".\n";
 }
 
 std::string FormatErrorTable(const Benchmark& benchmark) {
@@ -113,10 +113,10 @@ std::string FormatErrorTable(const Benchmark& benchmark) {
     rows.push_back(means);
     if (benchmark.modes.size() > 1) rows.push_back(ratios);
   }
-  return "## Position error after alignment\n\n" + FormatTable(rows) + LeftOutOfMean(benchmark);
+  return "## Position error after alignment\n\n" + FormatTable(rows) + DescribeExcluded(benchmark);
 }
 
-// "tracked" does not count: the column beside it says how many are.
+// Counts of all statuses but "tracked", which has its own column.
 std::string OtherStatuses(const RunSummary& summary) {
   std::string text;
   for (size_t i = 1; i < summary.status_counts.size(); ++i) {
@@ -163,7 +163,7 @@ std::string FormatModeTable(const Benchmark& benchmark, const std::string& mode)
   for (const BenchmarkRun& run : benchmark.runs) {
     if (run.mode == mode) rows.push_back(RunRow(run));
   }
-  if (rows.size() == 1) return "";  // the end came before this mode's turn
+  if (rows.size() == 1) return "";  // interrupted before the first run in this mode
   return "\n## Mode " + mode + "\n\n" + FormatTable(rows);
 }
 

@@ -14,37 +14,35 @@ namespace msc_vo {
 
 /// One sequence in one mode.
 struct BenchmarkRun {
-  std::string sequence;  ///< name, no two sequences share one
+  std::string sequence;  ///< unique name
   std::string mode;
-  /// Why there is no error to compare; empty: there is one. What ran until then is in the summary.
+  /// Reason why the run has no errors; empty if it succeeded. A failed run may have a summary of
+  /// the frames before the failure.
   std::string failure;
   RunSummary summary;
   RunCost cost;
-  std::optional<TrajectoryError> error;  ///< usable, if there is no failure
+  std::optional<TrajectoryError> error;  ///< usable unless the run failed
 };
 
-/// Sequences times modes, with what is needed to do it again.
+/// Runs of several sequences in several modes, with the settings needed to reproduce them.
 struct Benchmark {
   std::string command_line;
-  std::string build;  ///< compiler and kind of build
+  std::string build;  ///< compiler and build type
   int num_processors = 0;
-  std::vector<OptionText> changed_options;  ///< from the defaults; the mode is none of them
+  std::vector<OptionText> changed_options;  ///< differences from the defaults, without the mode
   std::vector<std::string> modes;
-  std::vector<BenchmarkRun> runs;  ///< for each sequence the modes in their order
+  std::vector<BenchmarkRun> runs;  ///< by sequence, then in the order of `modes`
 };
 
-/// Geometric mean of the APE RMSE over the sequences on which every mode has one.
+/// Geometric mean of the APE RMSE over the sequences on which no mode failed.
 struct MeanError {
   int num_sequences = 0;
-  std::vector<double> ape;  ///< metres, by mode; not a number without a sequence
+  std::vector<double> ape;  ///< metres, by mode; NaN without such a sequence
 };
 MeanError GeometricMean(const Benchmark& benchmark);
 
-/// The contents of benchmark.md: what was run, the APE of all modes side by side, a table per mode.
-/// Also readable as it is on a terminal.
+/// The contents of benchmark.md: settings, a table of the APE of all modes, a table per mode.
+/// Columns are aligned, so that the text is readable on a terminal.
 std::string FormatBenchmarkMarkdown(const Benchmark& benchmark);
-
-/// The contents of benchmark.json: the same and all that summary.json says of each run.
-std::string FormatBenchmarkJson(const Benchmark& benchmark);
 
 }  // namespace msc_vo

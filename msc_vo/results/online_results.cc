@@ -11,7 +11,7 @@
 namespace msc_vo {
 
 const char kUnfinishedTrajectoryComment[] =
-    "# unfinished run of msc_vo: poses as first estimated, without the corrections at its end\n";
+    "# unfinished run of msc_vo: poses as first estimated, without later corrections\n";
 
 void OnlineResults::Begin() {
   MakeFolder(directory_);

@@ -17,8 +17,7 @@ std::string FormatVertex(const Eigen::Vector3d& x) {
   return FormatText("%.6f %.6f %.6f", x.x(), x.y(), x.z());
 }
 
-// The paper's colours (its Fig. 1): red, green, blue along an axis; purple along none; black
-// outside the last window.
+// Colours of Fig. 1 of the paper, see FormatLinesPly.
 const char* LineColor(const MapLine& line) {
   if (!line.in_last_window) return "0 0 0";
   if (!line.axis) return "128 0 128";
@@ -26,13 +25,13 @@ const char* LineColor(const MapLine& line) {
   return kAxisColors[*line.axis];
 }
 
-// What a PLY file calls an element: a table with named columns.
+// An element of a PLY file: a table with named columns.
 struct PlyElement {
   std::string name;
   TextLine declaration;
   size_t num_rows = 0;
   std::vector<std::string> columns;
-  std::vector<TextLine> lines;  // where the rows come from
+  std::vector<TextLine> lines;  // lines of the file that contain the rows
   std::vector<std::vector<double>> rows;
 
   size_t Column(const std::string& column) const {
@@ -40,7 +39,7 @@ struct PlyElement {
       if (columns[i] == column) return i;
     }
     throw std::runtime_error(declaration.Where() + ": element '" + name + "' has no property '" +
-                             column + "'; is this a file that msc_vo has written for it?");
+                             column + "'; was the file written by msc_vo?");
   }
 };
 
@@ -50,10 +49,10 @@ struct PlyElement {
   throw std::runtime_error(line.Where() + ": expected " + expected + ", found '" + text + "'");
 }
 
-// Whether it is a whole number from 0 to a billion, which fits all integers.
+// Whether the value is a whole number that fits an int.
 bool IsCount(double value) { return value >= 0.0 && value <= 1e9 && value == std::floor(value); }
 
-// The header's elements, without rows. `*next` is the first line behind it.
+// Returns the elements that the header declares, without rows. `*next`: first line after it.
 std::vector<PlyElement> ReadHeader(const std::vector<TextLine>& lines, size_t* next) {
   using Fields = std::vector<std::string>;
   if (lines[0].fields != Fields{"ply"}) Fail(lines[0], "'ply', with which a PLY file begins");
@@ -112,10 +111,10 @@ const PlyElement& FindElement(const std::vector<PlyElement>& elements, const std
     if (element.name == name) return element;
   }
   throw std::runtime_error(path + ": has no element '" + name +
-                           "'; is this a file of lines that msc_vo has written?");
+                           "'; was the file written by msc_vo?");
 }
 
-// The vertices in three columns.
+// The vectors in three columns of the vertices.
 std::vector<Eigen::Vector3d> ReadVectors(const PlyElement& vertices, const std::string& x,
                                          const std::string& y, const std::string& z) {
   const size_t columns[] = {vertices.Column(x), vertices.Column(y), vertices.Column(z)};
@@ -126,7 +125,7 @@ std::vector<Eigen::Vector3d> ReadVectors(const PlyElement& vertices, const std::
   return vectors;
 }
 
-// Vertices at the two ends of an edge.
+// Indices of the two vertices of an edge.
 struct EdgeEnds {
   size_t start = 0;
   size_t end = 0;
@@ -148,7 +147,7 @@ std::vector<EdgeEnds> ReadEdgeEnds(const PlyElement& edges,
     ends.push_back({static_cast<size_t>(edges.rows[i][columns[0]]),
                     static_cast<size_t>(edges.rows[i][columns[1]])});
     if (positions[ends[i].start] == positions[ends[i].end]) {
-      Fail(edges.lines[i], "an edge between two places (its vertices are one place)");
+      Fail(edges.lines[i], "an edge between two different positions");
     }
   }
   return ends;

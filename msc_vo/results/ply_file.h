@@ -11,21 +11,23 @@
 
 namespace msc_vo {
 
-// PLY files as text, which every viewer of point clouds opens; metres.
+// ASCII PLY files, which common viewers of point clouds open. Lengths are in metres.
 
-/// The points of a map: x y z, number of observations.
+/// Map points: vertices with x y z and the number of observations.
 std::string FormatPointsPly(const std::vector<MapPoint>& points);
 
-/// The lines of a map as edges between pairs of vertices: x y z, the normal nx ny nz (unit vector
-/// towards the cameras that saw the line), colour, number of observations.
+/// Map lines: edges between pairs of vertices. A vertex has x y z, the normal nx ny nz (unit vector
+/// towards the observing cameras), a colour and the number of observations. Colours as in Fig. 1 of
+/// the paper: red, green, blue by Manhattan axis, purple without axis, black outside of the last
+/// local bundle adjustment.
 std::string FormatLinesPly(const std::vector<MapLine>& lines);
 
-/// Line segments as edges between pairs of vertices: x y z.
+/// Line segments: edges between pairs of vertices with x y z.
 std::string FormatEdgesPly(const std::vector<LineSegment3>& edges);
 
-/// What the two above have written; elements and properties may come in any order, and others
-/// besides. Throw std::runtime_error naming file and line if a file is anything else, has a number
-/// that is not finite, or a segment without length.
+/// Read the files of FormatLinesPly and FormatEdgesPly. Elements and properties may be in any
+/// order; unknown ones are ignored. Throw std::runtime_error naming file and line on any other
+/// content, on a number that is not finite, and on a segment of zero length.
 std::vector<EstimatedLine> ReadLinesPly(const std::string& path);
 std::vector<LineSegment3> ReadEdgesPly(const std::string& path);
 

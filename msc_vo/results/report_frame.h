@@ -10,11 +10,11 @@
 
 namespace msc_vo {
 
-/// Frames of the odometry as the viewer takes them: poses in the world of the odometry, stage times
-/// in the order of ReportStages(), no errors.
+/// Converts frames for the report: poses in the world of the odometry, stage times in the order of
+/// ReportStages(), no position errors.
 std::vector<ReportFrame> ReportFrames(const std::vector<FrameResult>& frames);
 
-/// Stages of tracking, in order of time; points, lines and depth are the parts of "features".
+/// Stages of tracking in order of time. Points, lines and depth are parts of "features".
 std::vector<ReportStage> ReportStages();
 
 }  // namespace msc_vo

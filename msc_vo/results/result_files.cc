@@ -9,9 +9,11 @@
 #include <system_error>
 
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/results/run_report.h"
+#include "msc_vo/results/summary_json.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
@@ -24,7 +26,7 @@ std::string FileIn(const std::string& directory, const char* name) {
   return (std::filesystem::path(directory) / name).string();
 }
 
-// What every run writes, whatever its sequence. (It writes groundtruth.txt only if there is one.)
+// Files that every run writes. groundtruth.txt is written only for sequences with ground truth.
 constexpr const char* kFilesOfEveryRun[] = {"trajectory.txt", "keyframes.txt", "frames.csv",
                                             "map.ply",        "lines.ply",     "summary.json",
                                             "report.html"};
@@ -38,15 +40,18 @@ std::string FormatFrameRow(const FrameResult& frame) {
                                 frame.num_inlier_points, frame.num_inlier_lines);
   text += FormatText(",%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f", ms.points, ms.lines, ms.depth,
                      ms.waiting, ms.matching, ms.pose, ms.tracking, ms.mapping);
-  for (int i = 0; i < 6; ++i) text += FormatText(",%.9g", std::sqrt(frame.covariance(i, i)));
+  for (int i = 0; i < 6; ++i) {
+    const double sigma = std::sqrt(frame.covariance(i, i));
+    text += FormatText(",%.9g", i < 3 ? RadiansToDegrees(sigma) : sigma);
+  }
   return text + FormatText(",%d\n", frame.num_dynamic);
 }
 
 std::string FormatFramesCsv(const std::vector<FrameResult>& frames) {
   std::string text =
       "time,status,keyframe,points,lines,inlier_points,inlier_lines,points_ms,lines_ms,depth_ms,"
-      "waiting_ms,matching_ms,pose_ms,tracking_ms,mapping_ms,sigma_rx,sigma_ry,sigma_rz,sigma_tx,"
-      "sigma_ty,sigma_tz,moving\n";
+      "waiting_ms,matching_ms,pose_ms,tracking_ms,mapping_ms,sigma_rx_deg,sigma_ry_deg,"
+      "sigma_rz_deg,sigma_tx,sigma_ty,sigma_tz,dynamic\n";
   for (const FrameResult& frame : frames) text += FormatFrameRow(frame);
   return text;
 }
@@ -82,7 +87,7 @@ void WriteResultFiles(const std::string& directory, const OdometryResult& result
   WriteFile(path("map.ply"), FormatPointsPly(result.points));
   WriteFile(path("lines.ply"), FormatLinesPly(result.lines));
   const RunSummary summary = Summarize(result);
-  WriteFile(path("summary.json"), FormatSummary(summary, context));
+  WriteFile(path("summary.json"), FormatSummaryJson(summary, context));
   WriteFile(path("report.html"), FormatReport(result, summary, context));
   Log().info("results written to {}", directory);
 }

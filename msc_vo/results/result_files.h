@@ -11,26 +11,26 @@
 
 namespace msc_vo {
 
-/// One row per frame: time, status, features, inliers, keyframe flag, milliseconds per stage, and
-/// the six sigmas of the pose (rotation vector in the camera frame, radians; translation, metres; 0
-/// where the pose was not estimated).
+/// The contents of frames.csv, one row per frame: time, status, keyframe flag, features, inliers,
+/// milliseconds per stage, standard deviations of the pose (rotation vector in the camera frame in
+/// degrees, translation in metres; 0 if the pose was not estimated), matches on dynamic objects.
 std::string FormatFramesCsv(const std::vector<FrameResult>& frames);
-/// One of its rows.
+/// A single row of it.
 std::string FormatFrameRow(const FrameResult& frame);
 
-/// Throws std::runtime_error if results in `directory` would lie among the files of the sequence or
-/// overwrite the file `config` (may be empty). For the beginning of a run: not after hours of work.
+/// Throws std::runtime_error if results in `directory` would be written into a folder of the
+/// sequence or over the file `config` (may be empty). Call before the run, so that no work is lost.
 void RefuseToOverwriteInputs(const SequenceIndex& sequence, const std::string& config,
                              const std::string& directory);
 
-/// Removes the files that WriteResultFiles writes for every sequence, if they exist. Throws
+/// Removes existing result files, except groundtruth.txt, which not every run writes. Throws
 /// std::runtime_error naming the file that cannot be removed.
 void RemoveResultFiles(const std::string& directory);
 
 /// Writes trajectory.txt, keyframes.txt, frames.csv, map.ply, lines.ply, summary.json, report.html
-/// and, if there is one, groundtruth.txt into `directory`, which is made if it does not exist. Each
-/// file is complete or as it was before. Throws std::runtime_error naming the file that cannot be
-/// written.
+/// and, with ground truth, groundtruth.txt. Creates `directory` if necessary. A file is replaced
+/// only once its new contents are complete. Throws std::runtime_error naming the file that cannot
+/// be written.
 void WriteResultFiles(const std::string& directory, const OdometryResult& result,
                       const RunContext& context);
 

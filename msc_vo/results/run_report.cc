@@ -36,14 +36,15 @@ std::string MapText(const RunSummary& summary) {
 std::string AxesText(const RunSummary& summary) {
   if (summary.axes.state == AxesState::kNone) return "none";
   const std::array<int, 3>& lines = summary.num_axis_lines;
-  return FormatText("%s, known to %.2f deg; %d + %d + %d lines", ToString(summary.axes.state),
-                    RadiansToDegrees(summary.axes.sigma), lines[0], lines[1], lines[2]);
+  return FormatText("%s, standard deviation %.2f deg; %d + %d + %d lines",
+                    ToString(summary.axes.state), RadiansToDegrees(summary.axes.sigma), lines[0],
+                    lines[1], lines[2]);
 }
 
-// `what` says what the milliseconds are.
-std::string TimeText(const StageTimeStatistics& stage, const char* what) {
+// `unit`: what the times are counted per, such as "per frame".
+std::string TimeText(const StageTimeStatistics& stage, const char* unit) {
   if (stage.count == 0) return "none";
-  return FormatText("%.1f ms %s (median %.1f, 95 %% %.1f, max %.1f)", stage.mean, what,
+  return FormatText("%.1f ms %s (median %.1f, 95 %% %.1f, max %.1f)", stage.mean, unit,
                     stage.median, stage.p95, stage.max);
 }
 
@@ -56,7 +57,7 @@ std::string MappingText(const RunSummary& summary) {
 }
 
 std::string RealtimeText(const RunSummary& summary, const RealtimeSummary& realtime) {
-  return FormatText("paced by the time stamps; %d of %d images dropped as too late, %d maps late; ",
+  return FormatText("paced by the time stamps; %d of %d images dropped, %d maps late; ",
                     summary.Count(TrackingStatus::kDropped), summary.num_frames,
                     realtime.num_late_maps) +
          TimeText(realtime.pose_age, "from image to pose");
@@ -65,13 +66,13 @@ std::string RealtimeText(const RunSummary& summary, const RealtimeSummary& realt
 std::string SpeedText(const RunSummary& summary, const RunCost& cost) {
   const int frames = std::max(summary.num_frames, 1);
   return FormatText(
-      "%.1f frames/s, reading the images included; %.1f s; processor %.1f ms per frame; "
-      "%.0f MiB at most",
+      "%.1f frames/s including decoding; %.1f s; processor time %.1f ms per frame; "
+      "peak memory %.0f MiB",
       summary.num_frames / std::max(cost.seconds, 1e-9), cost.seconds,
       1000.0 * cost.processor_seconds / frames, cost.peak_memory);
 }
 
-// The frames in the world of the ground truth, as far as there is one.
+// The frames with their position errors, in the world of the ground truth if there is one.
 std::vector<ReportFrame> AlignedFrames(const OdometryResult& result,
                                        const std::optional<TrajectoryError>& error) {
   std::vector<ReportFrame> frames = ReportFrames(result.frames);
@@ -90,8 +91,7 @@ std::string ShutterText(const RunSummary& summary, const RunContext& context) {
   const std::string shutter =
       summary.readout_time == 0.0
           ? "global shutter"
-          : FormatText("rolling shutter, %.1f ms from the first row to the last",
-                       1000.0 * summary.readout_time);
+          : FormatText("rolling shutter, readout time %.1f ms", 1000.0 * summary.readout_time);
   return shutter + " (" + context.calibration.readout_origin + ")";
 }
 
@@ -100,11 +100,11 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
   if (context.error && context.error->usable) {
     const TrajectoryError& error = *context.error;
     numbers.push_back({"APE RMSE", FormatText("%.1f mm", 1000.0 * error.ape.rmse),
-                       "position, after SE(3) alignment"});
+                       "position after SE(3) alignment"});
     numbers.push_back({"APE maximum", FormatText("%.1f mm", 1000.0 * error.ape.max), ""});
     numbers.push_back({"Rotation RMSE",
                        FormatText("%.3f deg", RadiansToDegrees(error.rotation.rmse)),
-                       "orientations, aligned by their mean rotation"});
+                       "after alignment of the orientations"});
     if (error.rpe_per_second.translation.count > 0) {
       numbers.push_back(
           {"RPE per second",
@@ -113,17 +113,17 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
            FormatText("%d pairs", error.rpe_per_second.translation.count)});
     }
     numbers.push_back({"Coverage", FormatText("%.1f %%", 100.0 * error.coverage),
-                       "ground-truth poses with an estimated pose"});
+                       "of the ground-truth poses have an estimated pose"});
   }
   numbers.push_back({"Frames", StatusText(summary), context.outcome});
   if (!context.first_unreadable.empty()) {
     numbers.push_back({"Unreadable images",
                        std::to_string(summary.Count(TrackingStatus::kUnreadable)),
-                       "the first: " + context.first_unreadable});
+                       "first: " + context.first_unreadable});
   }
   const std::string losses = DescribeLosses(summary);
   if (!losses.empty()) numbers.push_back({"Images without a pose", losses, ""});
-  numbers.push_back({"Map", MapText(summary), "at the end"});
+  numbers.push_back({"Map", MapText(summary), "at the end of the run"});
   numbers.push_back({"Manhattan axes", AxesText(summary), ""});
   numbers.push_back({"Tracking", TrackingText(summary), ""});
   numbers.push_back({"Mapping", MappingText(summary), ""});
@@ -140,12 +140,12 @@ std::string Row(const char* name, const std::string& text) {
   return FormatText("%-10s ", name) + text + "\n";
 }
 
-// What the row of a stage is, beside its numbers.
+// Explanation after the numbers of a stage.
 const char* StageNote(const std::string& name) {
   if (name == "tracking") return "  per frame";
   if (name == "mapping") return "  per keyframe";
   for (const ReportStage& stage : ReportStages()) {
-    if (stage.name == name && !stage.is_stacked) return "  side by side, within features";
+    if (stage.name == name && !stage.is_stacked) return "  part of features, in parallel";
   }
   return "";
 }
@@ -160,7 +160,7 @@ std::string StageRows(const std::vector<StageTimeStatistics>& stages) {
 }
 
 std::string ErrorRows(const TrajectoryError& error) {
-  if (!error.usable) return Row("error", "unknown: " + error.message);
+  if (!error.usable) return Row("error", "not available: " + error.message);
   std::string rows =
       Row("error", FormatText("APE RMSE %.1f mm (median %.1f, max %.1f), rotation %.2f deg",
                               1000.0 * error.ape.rmse, 1000.0 * error.ape.median,
@@ -202,8 +202,8 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
                                    (output / "trajectory.txt").string() + " -a --t_max_diff 0.02");
     if (summary.num_estimated < summary.num_frames) {
       table += Row("",
-                   "(which takes all poses, as msc_vo evaluate --all-poses; the errors above "
-                   "are those of estimated poses)");
+                   "(evo_ape compares all poses, like msc_vo evaluate --all-poses; the errors "
+                   "above are those of the estimated poses)");
     }
   }
   return table;
@@ -212,11 +212,11 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
 std::string FormatReport(const OdometryResult& result, const RunSummary& summary,
                          const RunContext& context) {
   ReportData data;
-  Rigid3 truth_from_world;
+  Rigid3 ground_truth_from_world;
   if (context.error && context.error->usable) {
-    truth_from_world = context.error->reference_from_estimate;
+    ground_truth_from_world = context.error->reference_from_estimate;
     for (const TimedPose& pose : context.sequence.ground_truth) {
-      data.truth.push_back({pose.timestamp, pose.world_from_cam.translation()});
+      data.ground_truth.push_back({pose.timestamp, pose.world_from_cam.translation()});
     }
   }
   data.title = std::filesystem::path(context.sequence.directory).filename().string();
@@ -229,7 +229,7 @@ std::string FormatReport(const OdometryResult& result, const RunSummary& summary
   data.frames = AlignedFrames(result, context.error);
   for (const MapLine& line : result.lines) {
     data.lines.push_back(
-        {{truth_from_world * line.segment.start, truth_from_world * line.segment.end},
+        {{ground_truth_from_world * line.segment.start, ground_truth_from_world * line.segment.end},
          line.axis.value_or(-1)});
   }
   data.up_in_cam.y() = context.calibration.camera.fy < 0.0 ? 1.0 : -1.0;

@@ -10,9 +10,8 @@
 
 namespace msc_vo {
 
-// What a finished run shows to its user.
-
-/// A short table for the terminal. `output_directory`: where the results lie.
+/// Summary of a finished run as a table for the terminal. `output_directory`: folder of the result
+/// files.
 std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
                            const std::string& output_directory);
 

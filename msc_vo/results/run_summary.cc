@@ -15,7 +15,7 @@ namespace msc_vo {
 
 namespace {
 
-// The stages of the mapper over the frames that caused a keyframe step, and have such a stage.
+// Times of the stages of mapping, over the frames that caused a keyframe step with that stage.
 std::vector<StageTimeStatistics> SummarizeMapping(const std::vector<FrameResult>& frames) {
   const auto summarize = [&frames](const std::string& name, const auto& milliseconds_of) {
     std::vector<double> values;
@@ -30,7 +30,7 @@ std::vector<StageTimeStatistics> SummarizeMapping(const std::vector<FrameResult>
           summarize("creation", [](const StageTimes& t) { return t.mapping_stages.creation; }),
           summarize("fusion", [](const StageTimes& t) { return t.mapping_stages.fusion; }),
           summarize("axes", [](const StageTimes& t) { return t.mapping_stages.axes; }),
-          summarize("window", [](const StageTimes& t) { return t.mapping_stages.window; }),
+          summarize("local_ba", [](const StageTimes& t) { return t.mapping_stages.window; }),
           summarize("readout", [](const StageTimes& t) { return t.mapping_stages.readout; }),
           summarize("culling", [](const StageTimes& t) { return t.mapping_stages.culling; }),
           summarize("snapshot", [](const StageTimes& t) { return t.snapshot; })};
@@ -48,13 +48,13 @@ RunSummary Summarize(const OdometryResult& result) {
   summary.num_frames = static_cast<int>(result.frames.size());
   for (const FrameResult& frame : result.frames) {
     ++summary.status_counts.at(static_cast<size_t>(frame.status));
-    summary.num_frames_with_motion += frame.num_dynamic > 0 ? 1 : 0;
+    summary.num_frames_with_dynamic_objects += frame.num_dynamic > 0 ? 1 : 0;
     summary.num_estimated += IsEstimated(frame.status) ? 1 : 0;
     if (HasImage(frame.status) && !IsEstimated(frame.status)) {
       ++summary.loss_causes.at(static_cast<size_t>(FindLossCause(frame)));
     }
   }
-  summary.tracked_share =
+  summary.tracked_ratio =
       static_cast<double>(summary.num_estimated) / std::max(summary.num_frames, 1);
   const std::vector<ReportFrame> frames = ReportFrames(result.frames);
   summary.not_tracked = FindNotTrackedSpans(frames);
@@ -70,7 +70,7 @@ RunSummary Summarize(const OdometryResult& result) {
   summary.axes = result.axes;
   summary.noise_scale = result.noise_scale;
   summary.readout_time = result.readout_time;
-  summary.last_window = result.last_window;
+  summary.last_local_ba = result.last_window;
   return summary;
 }
 
@@ -83,7 +83,7 @@ StageTimeStatistics FindStage(const RunSummary& summary, const std::string& name
 
 bool TrackingFailed(const RunSummary& summary) {
   return summary.num_estimated == 0 ||
-         summary.num_estimated < kMinTrackedShare * NumProcessed(summary);
+         summary.num_estimated < kMinTrackedRatio * NumProcessed(summary);
 }
 
 std::string DescribeLosses(const RunSummary& summary) {
@@ -99,7 +99,7 @@ std::string DescribeLosses(const RunSummary& summary) {
 std::string DescribeFailure(const RunSummary& summary) {
   std::string text = FormatText(
       "tracking failed: %d of %d images have an estimated pose, at least %.0f %% are needed",
-      summary.num_estimated, NumProcessed(summary), 100.0 * kMinTrackedShare);
+      summary.num_estimated, NumProcessed(summary), 100.0 * kMinTrackedRatio);
   const std::string losses = DescribeLosses(summary);
   return losses.empty() ? text : text + "; the others: " + losses;
 }

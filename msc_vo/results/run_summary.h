@@ -12,7 +12,6 @@
 #include "msc_vo/config/option_list.h"
 #include "msc_vo/datasets/calibration.h"
 #include "msc_vo/datasets/sequence.h"
-#include "msc_vo/evaluation/line_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/odometry/odometry.h"
@@ -20,26 +19,26 @@
 
 namespace msc_vo {
 
-/// A run in numbers.
+/// Statistics of a run.
 struct RunSummary {
   int num_frames = 0;
   std::array<int, 6> status_counts = {};  ///< by TrackingStatus
-  int num_estimated = 0;                  ///< tracked or weak
-  double tracked_share = 0.0;             ///< num_estimated / num_frames, 0..1
-  /// Why predicted and lost frames have no pose of their own, by LossCause.
+  int num_estimated = 0;                  ///< frames with an estimated pose: tracked or weak
+  double tracked_ratio = 0.0;             ///< num_estimated / num_frames, 0..1
+  /// Number of predicted and lost frames by LossCause.
   std::array<int, kNumLossCauses> loss_causes = {};
   std::vector<NotTrackedSpan> not_tracked;
-  int num_frames_with_motion = 0;  ///< in which something moved by itself
+  int num_frames_with_dynamic_objects = 0;
   /// Stages of tracking, "tracking" as a whole, stages of mapping, "mapping" as a whole.
   std::vector<StageTimeStatistics> stages;
   int num_keyframes = 0;
   int num_points = 0;
   int num_lines = 0;
-  std::array<int, 3> num_axis_lines = {0, 0, 0};  ///< lines parallel to each Manhattan axis
+  std::array<int, 3> num_axis_lines = {0, 0, 0};  ///< map lines parallel to each Manhattan axis
   MapAxes axes;
-  NoiseScale noise_scale;     ///< of the sigmas of features, as learnt
-  double readout_time = 0.0;  ///< of a rolling shutter, seconds, as known or learnt
-  BundleAdjustmentSummary last_window;
+  NoiseScale noise_scale;     ///< estimated scale of the sigmas of features
+  double readout_time = 0.0;  ///< of the rolling shutter, seconds, given or self-calibrated
+  BundleAdjustmentSummary last_local_ba;
 
   /// Number of frames with the status.
   int Count(TrackingStatus status) const { return status_counts[static_cast<size_t>(status)]; }
@@ -47,69 +46,57 @@ struct RunSummary {
 
 RunSummary Summarize(const OdometryResult& result);
 
-/// A run with a smaller share of estimated poses (tracked or weak) among the images that were not
-/// dropped has failed: what it found is not the trajectory of the camera.
-constexpr double kMinTrackedShare = 0.5;
+/// A run has failed if the ratio of estimated poses (tracked or weak) to processed images is
+/// smaller.
+constexpr double kMinTrackedRatio = 0.5;
 
+/// Whether the run has failed by kMinTrackedRatio, or has no estimated pose at all.
 bool TrackingFailed(const RunSummary& summary);
 
-/// Why frames have no estimated pose, most basic cause first: "12 black or uniform images, ...".
-/// Empty if all frames have one.
+/// Causes of frames without an estimated pose and their numbers, in the order of LossCause: "12
+/// black or uniform images, ...". Empty if all frames have an estimated pose.
 std::string DescribeLosses(const RunSummary& summary);
 
-/// One line for a run that failed: how many poses there are, and why the others are missing.
+/// Message of a run that failed, one line: number of estimated poses, causes of the missing ones.
 std::string DescribeFailure(const RunSummary& summary);
 
-/// The statistics of a stage; all zero if it never ran.
+/// The statistics of a stage; zero if it never ran.
 StageTimeStatistics FindStage(const RunSummary& summary, const std::string& name);
 
-/// What a run took from the machine.
+/// Computing resources that a run used.
 struct RunCost {
   double seconds = 0.0;            ///< wall time from the first image to the last pose
-  double processor_seconds = 0.0;  ///< of all threads, in user and in system mode
+  double processor_seconds = 0.0;  ///< user and system time, summed over all threads
   double peak_memory = 0.0;        ///< resident, MiB
 };
 
-/// How a replay in real time kept pace with the time stamps.
+/// Latency of a replay in real time.
 struct RealtimeSummary {
-  /// Milliseconds from the moment that an image appears to its pose, over the images that were not
+  /// Milliseconds from the time at which an image is due to its pose, over all images that were not
   /// dropped.
   StageTimeStatistics pose_age;
-  int num_late_maps = 0;  ///< 0, and no image dropped: the run as it is without real time
+  /// Maps that were not ready when they were due. If it is 0 and no image was dropped, the results
+  /// equal those of a replay without real time.
+  int num_late_maps = 0;
 };
 
-/// What only the one who made the run knows.
+/// Inputs and circumstances of a run, which its result does not contain.
 struct RunContext {
   std::string command_line;
-  /// "complete", "interrupted", why tracking failed, or the error that ended the run.
+  /// "complete", "interrupted", the reason of failed tracking, or the error that ended the run.
   std::string outcome;
   SequenceIndex sequence;
   Calibration calibration;
   Configuration configuration;
-  /// Why the first image with status unreadable could not be read, with the name of its file;
-  /// empty: there is none.
+  /// Error message of the first unreadable image, which names the file; empty without one.
   std::string first_unreadable;
-  std::optional<TrajectoryError> error;  ///< against the ground truth, if there is one
+  std::optional<TrajectoryError> error;  ///< nullopt without ground truth
   RunCost cost;
-  std::optional<RealtimeSummary> realtime;  ///< none: as fast as possible
+  std::optional<RealtimeSummary> realtime;  ///< nullopt unless the run was in real time
 };
 
-/// The contents of summary.json.
-std::string FormatSummary(const RunSummary& summary, const RunContext& context);
-
-/// Rows of two trajectory files that are no poses (nan, inf).
-struct LeftOutRows {
-  int reference = 0;
-  int estimate = 0;
-};
-
-/// The numbers of a comparison as JSON: metres, degrees, seconds. Those of the lines are the object
-/// "lines", which is missing if they were not compared.
-std::string FormatErrorJson(const TrajectoryError& error, const LeftOutRows& left_out,
-                            const std::optional<LineError>& lines = std::nullopt);
-
-/// The poses of all frames, camera in world; those of frames that are neither tracked nor weak are
-/// marked as not estimated.
+/// Camera poses of all frames. Frames that are neither tracked nor weak are marked as not
+/// estimated.
 std::vector<TimedPose> TrajectoryOf(const OdometryResult& result);
 
 }  // namespace msc_vo

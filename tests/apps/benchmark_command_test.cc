@@ -72,7 +72,7 @@ TEST_F(BenchmarkCommandTest, ComparesModesOnSequences) {
   EXPECT_NEAR(numbers["geometric_mean"]["ape_rmse"]["pl-vo"], std::exp(log_sum / 2.0), 1e-12);
 }
 
-TEST_F(BenchmarkCommandTest, ASequenceThatFailsDoesNotStopTheOthers) {
+TEST_F(BenchmarkCommandTest, ContinuesAfterFailedSequences) {
   Synthesize("room", 8, "room");
   Synthesize("room", 4, "b/room");
   std::filesystem::remove(Path("b/room/groundtruth.txt"));
@@ -88,12 +88,12 @@ TEST_F(BenchmarkCommandTest, ASequenceThatFailsDoesNotStopTheOthers) {
   ASSERT_EQ(runs.size(), 3u);
   EXPECT_THAT(runs[0]["failure"].get<std::string>(), HasSubstr("does not exist"));
   EXPECT_TRUE(runs[1]["error"].is_null());
-  EXPECT_EQ(runs[2]["sequence"], "room-2");  // its results do not lie where the first one's would
+  EXPECT_EQ(runs[2]["sequence"], "room-2");  // unique folder
   EXPECT_EQ(runs[2]["frames"]["count"], 6);
   EXPECT_TRUE(runs[2]["failure"].is_null());
 }
 
-TEST_F(BenchmarkCommandTest, ARunThatLostTheCameraIsNotInTheMean) {
+TEST_F(BenchmarkCommandTest, ExcludesRunsWithFailedTrackingFromTheMean) {
   Synthesize("room", 8, "good");
   Synthesize("room", 8, "black");
   for (const TextLine& image : ReadTextLines(Path("black/rgb.txt"))) {
@@ -104,14 +104,14 @@ TEST_F(BenchmarkCommandTest, ARunThatLostTheCameraIsNotInTheMean) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.output, HasSubstr("black, pl-vo-depth failed: tracking failed: 0 of 8"));
   EXPECT_THAT(Table(), AllOf(HasSubstr("geometric mean of 1 "), HasSubstr("failed |"),
-                             HasSubstr("\nNot in the mean, as a run failed: black.\n"),
+                             HasSubstr("\nExcluded from the mean because a run failed: black.\n"),
                              HasSubstr("- black, pl-vo-depth: tracking failed: 0 of 8 images")));
   const nlohmann::json numbers = Numbers();
   EXPECT_NEAR(numbers["geometric_mean"]["ape_rmse"]["pl-vo-depth"],
               numbers["runs"][0]["error"]["ape_rmse"].get<double>(), 1e-12);
 }
 
-TEST_F(BenchmarkCommandTest, RunsAllModesThereAreAndRefusesWrongOptionsAtOnce) {
+TEST_F(BenchmarkCommandTest, RunsAllModesByDefaultAndRejectsInvalidOptions) {
   Synthesize("room", 4, "room");
   EXPECT_EQ(RunCommand({"benchmark", Path("room"), "--output", Path("out")}).exit_code, 0);
   EXPECT_THAT(Numbers()["modes"], ElementsAre("pl-vo", "pl-vo-depth", "msc-vo"));
@@ -127,11 +127,11 @@ TEST_F(BenchmarkCommandTest, RunsAllModesThereAreAndRefusesWrongOptionsAtOnce) {
   EXPECT_FALSE(std::filesystem::exists(Path("no")));
 }
 
-TEST_F(BenchmarkCommandTest, CtrlCWritesTheRowsSoFar) {
+TEST_F(BenchmarkCommandTest, WritesFinishedRunsOnInterrupt) {
   Synthesize("room", 40, "room");
   CommandProcess benchmark(
       {"benchmark", Path("room"), Path("room"), "--modes", "pl-vo-depth", "--output", Path("out")});
-  // The first run is over when the second one's heading comes.
+  // The heading of the second run follows the end of the first.
   ASSERT_TRUE(benchmark.WaitForOutput("room-2, pl-vo-depth:")) << benchmark.output();
   benchmark.Signal(SIGINT);
   EXPECT_EQ(benchmark.Wait(), 130) << benchmark.output();

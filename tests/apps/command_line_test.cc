@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// What every sub-command owes its user: help, exit codes, messages.
+// Help, exit codes and error messages of all sub-commands.
 
 #include "tests/apps/command_process.h"
 #include "tests/support/temporary_folder.h"
@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 class CommandLineTest : public TemporaryFolder {};
 
-TEST_F(CommandLineTest, EveryCommandExplainsItself) {
+TEST_F(CommandLineTest, PrintsHelpForEveryCommand) {
   for (const char* command :
        {"replay", "evaluate", "benchmark", "check", "synthesize", "solve-window"}) {
     const CommandOutcome outcome = RunCommand({command, "--help"});
@@ -30,7 +30,7 @@ TEST_F(CommandLineTest, EveryCommandExplainsItself) {
   EXPECT_THAT(RunCommand({"--version"}).output, testing::StartsWith("msc_vo "));
 }
 
-TEST_F(CommandLineTest, WrongUseEndsWithTwo) {
+TEST_F(CommandLineTest, ReturnsTwoForInvalidArguments) {
   const std::vector<std::vector<std::string>> wrong = {{},
                                                        {"fly"},
                                                        {"replay"},
@@ -48,7 +48,7 @@ TEST_F(CommandLineTest, WrongUseEndsWithTwo) {
   }
 }
 
-TEST_F(CommandLineTest, AnUnknownCommandIsAnsweredWithTheNearest) {
+TEST_F(CommandLineTest, SuggestsSimilarCommands) {
   EXPECT_THAT(RunCommand({"repaly", "x"}).output,
               AllOf(HasSubstr("unknown command 'repaly'; did you mean 'replay'?"),
                     HasSubstr("Commands: replay, evaluate")));
@@ -56,13 +56,13 @@ TEST_F(CommandLineTest, AnUnknownCommandIsAnsweredWithTheNearest) {
               AllOf(HasSubstr("unknown command 'fly'"), testing::Not(HasSubstr("did you mean"))));
 }
 
-TEST_F(CommandLineTest, NoImagesAtAllIsAnsweredWithWhatToDo) {
+TEST_F(CommandLineTest, ExplainsInvalidMaxFrames) {
   const CommandOutcome outcome = RunCommand({"replay", "x", "--max-frames", "0"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output, HasSubstr("must be at least 1, not 0; leave it out"));
+  EXPECT_THAT(outcome.output, HasSubstr("must be at least 1, not 0; omit it"));
 }
 
-TEST_F(CommandLineTest, OptionsThatTheModeDecidesAreSaid) {
+TEST_F(CommandLineTest, WarnsAboutOptionsDeterminedByTheMode) {
   const auto output = [](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"replay", "--print-config"});
     return RunCommand(arguments).output;
@@ -76,7 +76,7 @@ TEST_F(CommandLineTest, OptionsThatTheModeDecidesAreSaid) {
   EXPECT_THAT(output({"--mode", "pl-vo"}), testing::Not(HasSubstr("warning")));
 }
 
-TEST_F(CommandLineTest, WrongInputEndsWithOneAndAMessage) {
+TEST_F(CommandLineTest, ReturnsOneForInvalidInput) {
   WriteText("bad.txt", "1 2 3\n");
   WriteText("bad.yaml", "tracking:\n  wide_raduis: 3\n");
   const auto expect_error = [](const std::vector<std::string>& arguments,
@@ -118,11 +118,11 @@ TEST_F(CommandLineTest, EvaluatesATrajectory) {
 
   WriteText("holes.txt", "10 nan 0 0 0 0 0 1\n11 0 0 inf 0 0 0 1\n" + estimate);
   EXPECT_THAT(RunCommand({"evaluate", Path("truth.txt"), Path("holes.txt")}).output,
-              AllOf(HasSubstr("left out: 2 rows of"), HasSubstr("holes.txt with nan")));
+              AllOf(HasSubstr("skipped: 2 rows of"), HasSubstr("holes.txt with nan")));
   const nlohmann::json holes = nlohmann::json::parse(
       RunCommand({"evaluate", Path("truth.txt"), Path("holes.txt"), "--json"}).output);
-  EXPECT_EQ(holes["est_left_out"], 2);
-  EXPECT_EQ(holes["gt_left_out"], 0);
+  EXPECT_EQ(holes["est_skipped"], 2);
+  EXPECT_EQ(holes["gt_skipped"], 0);
 
   std::string nanoseconds, seconds;
   for (int i = 0; i < 4; ++i) {
@@ -133,7 +133,7 @@ TEST_F(CommandLineTest, EvaluatesATrajectory) {
   WriteText("nanoseconds.txt", nanoseconds);
   WriteText("seconds.txt", seconds);
   EXPECT_THAT(RunCommand({"evaluate", Path("nanoseconds.txt"), Path("seconds.txt")}).output,
-              AllOf(HasSubstr("nanoseconds.txt: the stamps are nanoseconds"),
+              AllOf(HasSubstr("nanoseconds.txt: the time stamps are nanoseconds"),
                     HasSubstr("4 of 4 ground-truth poses matched")));
 
   WriteText("later.txt", "100 0 0 0 0 0 0 1\n");

@@ -10,8 +10,8 @@
 
 namespace msc_vo {
 
-// One run of the msc_vo binary, standard output and error together, or standard error alone if
-// `stdout_path` names a file or a device for standard output.
+// A process of the msc_vo binary. Captures standard output and standard error together, or only
+// standard error if `stdout_path` names a file or a device for standard output.
 class CommandProcess {
  public:
   explicit CommandProcess(const std::vector<std::string>& arguments,
@@ -21,12 +21,12 @@ class CommandProcess {
   CommandProcess(const CommandProcess&) = delete;
   CommandProcess& operator=(const CommandProcess&) = delete;
 
-  // Reads on until the output contains `text`; false if the program ends without.
+  // Reads until the output contains `text`. Returns false if the program ends without it.
   bool WaitForOutput(const std::string& text);
   void Signal(int signal);
-  // Nobody reads the output from now on.
+  // Closes the reading end of the pipe.
   void CloseOutput();
-  // Reads to the end. Returns the exit code, or minus the signal that ended the program.
+  // Reads until the program ends. Returns its exit code, or minus the signal that ended it.
   int Wait();
 
   const std::string& output() const { return output_; }

@@ -17,7 +17,8 @@ using testing::HasSubstr;
 
 class EvaluateCommandTest : public TemporaryFolder {
  protected:
-  // A square around the origin and, in the estimate, the same 1 m to the right; one edge 2 m ahead.
+  // Ground truth: a square around the origin. Estimate: the same, shifted by 1 m. An edge 2 m
+  // ahead.
   void SetUp() override {
     TemporaryFolder::SetUp();
     std::string truth, estimate;
@@ -49,10 +50,11 @@ TEST_F(EvaluateCommandTest, ComparesLines) {
                                           Path("edges.ply")};
   const CommandOutcome table = Evaluate(files);
   EXPECT_EQ(table.exit_code, 0) << table.output;
-  EXPECT_THAT(table.output,
-              AllOf(HasSubstr("line distance           30.000"),
-                    HasSubstr("lines: 3 in the map, 2 of them long and seen often enough, 1 of "
-                              "these matched with an edge; 1 of 2 edges found")));
+  EXPECT_THAT(
+      table.output,
+      AllOf(HasSubstr("line distance           30.000"),
+            HasSubstr("lines: 3 in the map, 2 of them with enough observations and length, 1 of "
+                      "these matched with an edge; 1 of 2 edges found")));
   const CommandOutcome text = Evaluate({files[0], files[1], files[2], files[3], "--json"});
   EXPECT_EQ(text.exit_code, 0) << text.output;
   const nlohmann::json json = nlohmann::json::parse(text.output);
@@ -69,7 +71,7 @@ TEST_F(EvaluateCommandTest, ComparesLines) {
   EXPECT_NEAR(lines["distance_across"]["max"], 0.0, 1e-9);
 }
 
-TEST_F(EvaluateCommandTest, LeavesOutMarkedPosesUnlessAsked) {
+TEST_F(EvaluateCommandTest, SkipsUnestimatedPosesByDefault) {
   WriteText("estimate.txt",
             ReadFile(Path("estimate.txt")) + "# not estimated\n3.01 9 9 9 0 0 0 1\n");
   WriteText("truth.txt", ReadFile(Path("truth.txt")) + "3.01 1 -1 0 0 0 0 1\n");
@@ -77,14 +79,14 @@ TEST_F(EvaluateCommandTest, LeavesOutMarkedPosesUnlessAsked) {
   EXPECT_EQ(marked.exit_code, 0) << marked.output;
   EXPECT_THAT(marked.output,
               AllOf(HasSubstr("coverage 80.00 %"),
-                    HasSubstr("left out as marked not estimated: 1 poses (--all-poses")));
+                    HasSubstr("skipped: 1 poses marked as not estimated (--all-poses")));
   EXPECT_NEAR(nlohmann::json::parse(Evaluate({"--json"}).output)["ape_rmse"], 0.0, 1e-9);
   const nlohmann::json all = nlohmann::json::parse(Evaluate({"--all-poses", "--json"}).output);
   EXPECT_EQ(all["coverage"], 1.0);
   EXPECT_GT(all["ape_rmse"], 1.0);
 }
 
-TEST_F(EvaluateCommandTest, NumbersThatDoNotExistAreNull) {
+TEST_F(EvaluateCommandTest, PrintsNullForMissingNumbers) {
   WriteText("lines.ply", FormatLinesPly({}));
   const CommandOutcome text =
       Evaluate({"--lines", Path("lines.ply"), "--edges", Path("edges.ply"), "--json"});
@@ -95,14 +97,14 @@ TEST_F(EvaluateCommandTest, NumbersThatDoNotExistAreNull) {
               HasSubstr("lines: 0 in the map"));
 }
 
-TEST_F(EvaluateCommandTest, LinesAreOnlyComparedIfAsked) {
+TEST_F(EvaluateCommandTest, ComparesLinesOnlyOnRequest) {
   const CommandOutcome text = Evaluate({"--json"});
   EXPECT_FALSE(nlohmann::json::parse(text.output).contains("lines"));
   EXPECT_EQ(Evaluate({"--lines", Path("lines.ply")}).exit_code, 2);
   EXPECT_EQ(Evaluate({"--edges", Path("edges.ply")}).exit_code, 2);
 }
 
-TEST_F(EvaluateCommandTest, BadFilesAreNamed) {
+TEST_F(EvaluateCommandTest, ReportsInvalidFiles) {
   const CommandOutcome outcome =
       Evaluate({"--lines", Path("edges.ply"), "--edges", Path("edges.ply")});
   EXPECT_EQ(outcome.exit_code, 1);
@@ -110,7 +112,7 @@ TEST_F(EvaluateCommandTest, BadFilesAreNamed) {
                                                                             "'vertex' has no")));
 }
 
-TEST_F(EvaluateCommandTest, ARenderedSequenceBringsItsEdges) {
+TEST_F(EvaluateCommandTest, ReadsEdgesOfASyntheticSequence) {
   const CommandOutcome outcome =
       RunCommand({"synthesize", Path("bare"), "--scene", "bare", "--frames", "1", "--width", "64"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;

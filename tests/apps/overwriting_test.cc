@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// No command writes over what it was given to read.
+// No command overwrites its input.
 
 #include <filesystem>
 #include <map>
@@ -45,7 +45,7 @@ class OverwritingTest : public TemporaryFolder {
   }
 };
 
-TEST_F(OverwritingTest, ResultsAreNotWrittenAmongTheFilesOfTheSequence) {
+TEST_F(OverwritingTest, RefusesResultsInTheFolderOfTheSequence) {
   Synthesize("room");
   fs::create_directory_symlink(Path("room"), Path("link"));
   const auto before = Contents("room");
@@ -58,7 +58,7 @@ TEST_F(OverwritingTest, ResultsAreNotWrittenAmongTheFilesOfTheSequence) {
   EXPECT_EQ(Contents("room"), before);
 }
 
-TEST_F(OverwritingTest, ABenchmarkLeavesASequenceAloneThatLiesWhereItsResultsWouldLie) {
+TEST_F(OverwritingTest, RefusesBenchmarkResultsInTheFolderOfTheSequence) {
   Synthesize("pl-vo/pl-vo");
   const auto before = Contents("pl-vo");
   const CommandOutcome outcome =
@@ -68,7 +68,7 @@ TEST_F(OverwritingTest, ABenchmarkLeavesASequenceAloneThatLiesWhereItsResultsWou
   EXPECT_EQ(Contents("pl-vo"), before);
 }
 
-TEST_F(OverwritingTest, AConfigurationIsNotReplacedByAResult) {
+TEST_F(OverwritingTest, RefusesToOverwriteTheConfiguration) {
   Synthesize("room");
   WriteText("out/summary.json", "mode: pl-vo\n");
   ExpectRefused(
@@ -76,7 +76,7 @@ TEST_F(OverwritingTest, AConfigurationIsNotReplacedByAResult) {
   EXPECT_EQ(ReadFile(Path("out/summary.json")), "mode: pl-vo\n");
 }
 
-TEST_F(OverwritingTest, ASolutionReplacesNeitherItsWindowNorADevice) {
+TEST_F(OverwritingTest, RefusesToOverwriteWindowsAndDevices) {
   SyntheticWindowOptions options;
   options.num_keyframes = 4;
   options.num_points = 50;
@@ -97,7 +97,7 @@ TEST_F(OverwritingTest, ASolutionReplacesNeitherItsWindowNorADevice) {
   EXPECT_TRUE(fs::is_symlink(Path("device")));
 }
 
-TEST_F(OverwritingTest, SynthesizeReplacesLinksAndNotWhatTheyLeadTo) {
+TEST_F(OverwritingTest, SynthesizeReplacesLinksInsteadOfTheirTargets) {
   Synthesize("room");
   const auto before = Contents("room");
   fs::create_directory(Path("copy"));

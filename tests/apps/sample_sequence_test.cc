@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// data/room, the sequence that the repository comes with.
+// data/room, the sample sequence of the repository.
 
 #include "tests/apps/command_process.h"
 #include "tests/support/temporary_folder.h"
@@ -25,7 +25,7 @@ TEST_F(SampleSequenceTest, PassesTheCheck) {
   EXPECT_THAT(outcome.output, HasSubstr("0 errors, 0 warnings"));
 }
 
-TEST_F(SampleSequenceTest, IsTrackedFromTheFirstFrameToTheLast) {
+TEST_F(SampleSequenceTest, IsTrackedInAllFrames) {
   const CommandOutcome outcome = RunCommand({"replay", kRoom, "--output", Path("out")});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const nlohmann::json summary = nlohmann::json::parse(ReadFile(Path("out/summary.json")));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// From the run of a rendered sequence to its windows, solved again outside of it.
+// Local bundle adjustment on recorded windows.
 
 #include <algorithm>
 
@@ -24,7 +24,7 @@ using testing::HasSubstr;
 
 class SolveWindowCommandTest : public TemporaryFolder {
  protected:
-  // A small window that can be solved.
+  // A small solvable window.
   static WindowData SmallWindow() {
     SyntheticWindowOptions options;
     options.num_keyframes = 4;
@@ -53,7 +53,7 @@ std::string PoseText(const Rigid3& cam_from_world) {
   return line.substr(line.find(' '));
 }
 
-TEST_F(SolveWindowCommandTest, RecordedWindowsLeadWhereTheMapperWent) {
+TEST_F(SolveWindowCommandTest, ReproducesTheMapper) {
   ASSERT_EQ(RunCommand(
                 {"synthesize", Path("room"), "--scene", "room", "--frames", "40", "--width", "160"})
                 .exit_code,
@@ -72,7 +72,7 @@ TEST_F(SolveWindowCommandTest, RecordedWindowsLeadWhereTheMapperWent) {
     EXPECT_EQ(json["usable"], true);
     EXPECT_LT(json["final_cost"], json["initial_cost"]);
   }
-  // Nothing moves the newest keyframe after the last window.
+  // The newest keyframe does not change after the last local bundle adjustment.
   const RecordedWindow before = ReadWindow(files.back());
   const RecordedWindow after = ReadWindow(Path("solved.txt"));
   const auto newest = std::max_element(after.data.keyframes.begin(), after.data.keyframes.end(),
@@ -84,7 +84,7 @@ TEST_F(SolveWindowCommandTest, RecordedWindowsLeadWhereTheMapperWent) {
   EXPECT_THAT(keyframes, testing::Not(HasSubstr(PoseText(pose_before))));
 }
 
-TEST_F(SolveWindowCommandTest, PrintsATableAndTakesOptions) {
+TEST_F(SolveWindowCommandTest, PrintsATableAndAppliesOptions) {
   WriteWindow(Path("window.txt"), BundleAdjustmentOptions(), SmallWindow());
   const CommandOutcome table = RunCommand({"solve-window", Path("window.txt")});
   EXPECT_EQ(table.exit_code, 0);
@@ -103,11 +103,12 @@ TEST_F(SolveWindowCommandTest, PrintsATableAndTakesOptions) {
   EXPECT_FALSE(options.line_depth.enabled);
 }
 
-TEST_F(SolveWindowCommandTest, ErrorsNameTheFile) {
+TEST_F(SolveWindowCommandTest, ReportsErrorsWithTheFile) {
   WindowData data = SmallWindow();
   WriteWindow(Path("good.txt"), BundleAdjustmentOptions(), data);
   ExpectError({"solve-window", Path("none.txt")}, "none.txt: does not exist");
-  ExpectError({"solve-window", Path("good.txt"), "--set", "mode=pl-vo"}, "no option of a window");
+  ExpectError({"solve-window", Path("good.txt"), "--set", "mode=pl-vo"},
+              "is not an option of local bundle adjustment");
   ExpectError({"solve-window", Path("good.txt"), "--set", "mapping.window.parallel.huber=-1"},
               "mapping.window.parallel.huber must be a number from 0.01");
   ExpectError({"solve-window", Path("good.txt"), "--output", Path("no/folder.txt")},
@@ -120,10 +121,9 @@ TEST_F(SolveWindowCommandTest, ErrorsNameTheFile) {
   ExpectError({"solve-window", Path("other.txt")}, "other.txt:1: is not a window file");
 }
 
-TEST_F(SolveWindowCommandTest, AWindowThatCannotBeSolvedIsAFailure) {
+TEST_F(SolveWindowCommandTest, FailsOnUnsolvableWindows) {
   WindowData data = SmallWindow();
-  data.point_observations[0].sigma = 1e-200;  // a chi-square that is not finite
-  data.point_observations[0].sigma = 1e-200;
+  data.point_observations[0].sigma = 1e-200;  // chi-square is not finite
   WriteWindow(Path("window.txt"), BundleAdjustmentOptions(), data);
   ExpectError({"solve-window", Path("window.txt"), "--output", Path("solved.txt")},
               "window.txt: the solver failed");

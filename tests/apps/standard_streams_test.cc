@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// What is printed and cannot be written is an error; what nobody wants to read is none.
+// Standard output that cannot be written is an error, a closed pipe is not.
 
 #include <csignal>
 #include <filesystem>
@@ -25,7 +25,7 @@ class StandardStreamsTest : public TemporaryFolder {
   }
 };
 
-TEST_F(StandardStreamsTest, AFullDiskBehindStandardOutputIsAnError) {
+TEST_F(StandardStreamsTest, FailsIfStandardOutputCannotBeWritten) {
   const std::string truth = Path("room/groundtruth.txt");
   const std::vector<std::vector<std::string>> commands = {
       {"--help"},
@@ -44,7 +44,7 @@ TEST_F(StandardStreamsTest, AFullDiskBehindStandardOutputIsAnError) {
   EXPECT_TRUE(std::filesystem::exists(Path("out/summary.json")));
 }
 
-TEST_F(StandardStreamsTest, AReaderThatGoesAwayEndsNoRun) {
+TEST_F(StandardStreamsTest, FinishesTheRunAfterAClosedPipe) {
   CommandProcess replay({"replay", Path("room"), "--output", Path("out")});
   replay.CloseOutput();
   EXPECT_EQ(replay.Wait(), -SIGPIPE);

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 class SynthesizeCommandTest : public TemporaryFolder {
  protected:
-  // One small image; the command's outcome.
+  // Renders one small image.
   CommandOutcome Synthesize(const std::string& name, const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {"synthesize", Path(name), "--frames",
                                           "1",          "--width",  "160"};
@@ -26,7 +26,7 @@ class SynthesizeCommandTest : public TemporaryFolder {
   }
 };
 
-TEST_F(SynthesizeCommandTest, JpegQualitySetsTheSizeOfTheColorImages) {
+TEST_F(SynthesizeCommandTest, AppliesTheJpegQuality) {
   ASSERT_EQ(Synthesize("default", {"--jpeg"}).exit_code, 0);
   ASSERT_EQ(Synthesize("same", {"--jpeg", "--jpeg-quality", "95"}).exit_code, 0);
   ASSERT_EQ(Synthesize("small", {"--jpeg", "--jpeg-quality", "50"}).exit_code, 0);
@@ -34,7 +34,7 @@ TEST_F(SynthesizeCommandTest, JpegQualitySetsTheSizeOfTheColorImages) {
   EXPECT_LT(ColorBytes("small"), ColorBytes("default") / 2);
 }
 
-TEST_F(SynthesizeCommandTest, RefusesAJpegQualityWithoutJpeg) {
+TEST_F(SynthesizeCommandTest, RejectsJpegQualityWithoutJpeg) {
   const CommandOutcome outcome = Synthesize("png", {"--jpeg-quality", "90"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.output, HasSubstr("--jpeg"));

@@ -12,7 +12,7 @@
 namespace msc_vo {
 namespace {
 
-// A level camera (y down is -z of the world) that looks along `yaw` in the plane of x and y.
+// A level camera (its y axis is -z of the world) with heading `yaw` in the x-y plane.
 Rigid3 LevelCamera(double yaw, const Eigen::Vector3d& position) {
   Eigen::Matrix3d world_from_cam;
   world_from_cam.col(2) = Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0.0);
@@ -78,7 +78,7 @@ ReportData MakeFakeRun(int num_frames) {
     frame.tracking_ms += 0.5;
     frame.mapping_ms = frame.is_keyframe ? 40.0 + 5.0 * std::abs(noise(random)) : 0.0;
     data.frames.push_back(frame);
-    data.truth.push_back({frame.timestamp, truth});
+    data.ground_truth.push_back({frame.timestamp, truth});
   }
   AddBox({-3.0, -2.0, 0.0}, {3.0, 2.0, 2.6}, &data);
   AddBox({-2.8, 1.2, 0.0}, {-1.2, 1.9, 0.8}, &data);

@@ -10,12 +10,12 @@
 namespace msc_vo {
 namespace {
 
-TEST(EscapeHtml, ReplacesEveryCharacterWithAMeaning) {
+TEST(EscapeHtml, EscapesSpecialCharacters) {
   EXPECT_EQ(EscapeHtml("<a href=\"x\">R&D's</a>"),
             "&lt;a href=&quot;x&quot;&gt;R&amp;D&#39;s&lt;/a&gt;");
 }
 
-TEST(EscapeHtml, LeavesOtherTextAlone) {
+TEST(EscapeHtml, KeepsOtherCharacters) {
   EXPECT_EQ(EscapeHtml("Stra\xc3\x9f"
                        "e 1"),
             "Stra\xc3\x9f"
@@ -30,12 +30,12 @@ TEST(FormatFixed, RoundsToTheGivenDecimals) {
 
 TEST(FormatFixed, HasNoNegativeZero) { EXPECT_EQ(FormatFixed(-0.001, 1), "0.0"); }
 
-TEST(FormatFixed, ShowsADashForWhatIsNotFinite) {
+TEST(FormatFixed, ShowsADashForNonFiniteValues) {
   EXPECT_EQ(FormatFixed(std::numeric_limits<double>::quiet_NaN(), 2), "-");
   EXPECT_EQ(FormatFixed(std::numeric_limits<double>::infinity(), 2), "-");
 }
 
-TEST(FormatFixed, HoldsTheLongestDouble) {
+TEST(FormatFixed, FormatsTheLongestDouble) {
   EXPECT_EQ(FormatFixed(-std::numeric_limits<double>::max(), 0).size(), 310u);
 }
 

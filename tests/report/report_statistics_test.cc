@@ -11,7 +11,7 @@
 namespace msc_vo {
 namespace {
 
-TEST(SummarizeStage, HandComputed) {
+TEST(SummarizeStage, MatchesHandComputedValues) {
   const StageTimeStatistics stage = SummarizeStage("lines", {4.0, 1.0, 3.0, 2.0, 10.0});
   EXPECT_EQ(stage.name, "lines");
   EXPECT_EQ(stage.count, 5);
@@ -21,14 +21,14 @@ TEST(SummarizeStage, HandComputed) {
   EXPECT_DOUBLE_EQ(stage.max, 10.0);
 }
 
-TEST(SummarizeStage, NinetyFivePercentTookNoLonger) {
+TEST(SummarizeStage, ComputesQuantiles) {
   std::vector<double> values;
   for (int i = 100; i >= 1; --i) values.push_back(i);
   EXPECT_DOUBLE_EQ(SummarizeStage("x", values).p95, 95.0);
   EXPECT_DOUBLE_EQ(SummarizeStage("x", values).median, 50.0);
 }
 
-TEST(SummarizeStage, IgnoresWhatIsNotFiniteAndSurvivesNothing) {
+TEST(SummarizeStage, SkipsNonFiniteValues) {
   EXPECT_EQ(SummarizeStage("x", {std::numeric_limits<double>::quiet_NaN(), 2.0}).count, 1);
   EXPECT_EQ(SummarizeStage("x", {}).max, 0.0);
 }
@@ -39,11 +39,12 @@ TEST(SummarizeStages, CountsMappingOverKeyframeStepsOnly) {
   ASSERT_EQ(stages.size(), data.stages.size() + 2);
   EXPECT_EQ(stages.front().name, "points");
   EXPECT_EQ(stages.front().count, 120);
+  EXPECT_EQ(stages.back().name, "mapping");
   EXPECT_EQ(stages.back().count, 10);
   EXPECT_GE(stages.back().median, 40.0);
 }
 
-TEST(FindNotTrackedSpans, OneSpanPerGap) {
+TEST(FindNotTrackedSpans, GroupsConsecutiveFrames) {
   std::vector<ReportFrame> frames(8);
   for (int i = 0; i < 8; ++i) frames[i].timestamp = 10.0 + i;
   frames[1].status = ReportStatus::kWeak;

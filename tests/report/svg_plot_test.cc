@@ -15,6 +15,7 @@
 namespace msc_vo {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::DoubleEq;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -41,7 +42,7 @@ TEST(NiceTicks, AreRoundAndInside) {
   EXPECT_THAT(NiceTicks({0.0, 100.0}, 2), ElementsAre(0.0, 50.0, 100.0));
 }
 
-TEST(SvgPlot, MapsTheCornersOfTheDataToTheCornersOfTheAxes) {
+TEST(SvgPlot, MapsDataToTheAxes) {
   const SvgPlot plot({960, 240}, {0.0, 10.0}, {-1.0, 1.0});
   const Eigen::Vector2d low = plot.ToDrawing({0.0, -1.0});
   const Eigen::Vector2d high = plot.ToDrawing({10.0, 1.0});
@@ -50,7 +51,7 @@ TEST(SvgPlot, MapsTheCornersOfTheDataToTheCornersOfTheAxes) {
   EXPECT_TRUE(plot.ToDrawing({5.0, 0.0}).isApprox(0.5 * (low + high)));
 }
 
-TEST(SvgPlot, DrawsASeriesWhereTheDataAre) {
+TEST(SvgPlot, DrawsSeriesAtDataCoordinates) {
   SvgPlot plot({960, 240}, {0.0, 3.0}, {0.0, 5.0});
   const std::vector<Eigen::Vector2d> data = {{0.0, 1.0}, {1.0, 4.0}, {2.0, 2.5}, {3.0, 0.0}};
   plot.AddSeries(data, "curve");
@@ -61,7 +62,7 @@ TEST(SvgPlot, DrawsASeriesWhereTheDataAre) {
   }
 }
 
-TEST(SvgPlot, ThinsALongSeriesButKeepsItsPeaks) {
+TEST(SvgPlot, KeepsPeaksOfThinnedSeries) {
   SvgPlot plot({960, 240}, {0.0, 99999.0}, {-1.0, 10.0});
   std::vector<Eigen::Vector2d> data;
   for (int i = 0; i < 100000; ++i) data.emplace_back(i, std::sin(0.37 * i));
@@ -77,7 +78,7 @@ TEST(SvgPlot, ThinsALongSeriesButKeepsItsPeaks) {
       std::is_sorted(drawn.begin(), drawn.end(), [](auto& a, auto& b) { return a.x() < b.x(); }));
 }
 
-TEST(SvgPlot, ThinsAPathButKeepsItsEnd) {
+TEST(SvgPlot, KeepsTheEndOfThinnedPaths) {
   SvgPlot plot({600, 460}, {0.0, 1.0}, {0.0, 1.0});
   std::vector<Eigen::Vector2d> data;
   for (int i = 0; i <= 100000; ++i) data.emplace_back(i * 1e-5, i * 1e-5);
@@ -98,7 +99,7 @@ TEST(SvgPlot, EqualAxesHaveOneScaleAndContainBothRanges) {
   EXPECT_NEAR(plot.x_range().min + plot.x_range().max, 0.0, 1e-12);
 }
 
-TEST(SvgPlot, CutsSegmentsAtTheAxes) {
+TEST(SvgPlot, ClipsSegmentsAtTheAxes) {
   SvgPlot plot({600, 460}, {0.0, 1.0}, {0.0, 1.0});
   using Point = Eigen::Vector2d;
   plot.AddSegments({{Point(-1.0, 0.5), Point(3.0, 0.5)},    // through
@@ -118,7 +119,7 @@ TEST(SvgPlot, CutsSegmentsAtTheAxes) {
                         text(0.5, 0.5) + 'L' + text(0.5, 1) + "\""));
 }
 
-TEST(SvgPlot, LeavesOutWhatIsNotFinite) {
+TEST(SvgPlot, SkipsNonFiniteValues) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   SvgPlot plot({960, 240}, {0.0, 1.0}, {0.0, 1.0});
   plot.AddSeries({{0.0, 0.0}, {0.5, nan}, {1.0, 1.0}}, "series");
@@ -132,11 +133,20 @@ TEST(SvgPlot, LeavesOutWhatIsNotFinite) {
   EXPECT_THAT(svg, Not(HasSubstr("segments")));
 }
 
-TEST(SvgPlot, ARangeWithoutLengthIsWidened) {
+TEST(SvgPlot, WidensEmptyRanges) {
   const SvgPlot plot({960, 240}, {2.0, 2.0}, {0.0, 0.0});
   EXPECT_TRUE(plot.ToDrawing({2.0, 0.0}).allFinite());
   EXPECT_LT(plot.x_range().min, 2.0);
   EXPECT_GT(plot.x_range().max, 2.0);
+}
+
+TEST(SvgPlot, PlacesLegendEntriesInARow) {
+  SvgPlot plot({600, 400}, {0.0, 1.0}, {0.0, 1.0}, {10.0, 10.0, 10.0, 30.0});
+  plot.AddLegend({{"first", "one"}, {"second", "<two>"}});
+  EXPECT_THAT(plot.ToString("test"),
+              AllOf(HasSubstr("<path class=\"first\" d=\"M10.0,386.0L30.0,386.0\"/>\n"
+                              "<text class=\"name\" x=\"36.0\" y=\"390.0\">one</text>"),
+                    HasSubstr("&lt;two&gt;</text>")));
 }
 
 TEST(SvgPlot, EscapesNamesAndTips) {

@@ -11,31 +11,31 @@
 namespace msc_vo {
 namespace {
 
-TEST(TrajectoryView, TakesUpFromLevelCamerasAndRightFromTheMotion) {
+TEST(TrajectoryView, UsesMeanUpDirectionAndDominantMotion) {
   const TrajectoryView view = ChooseTrajectoryView(MakeFakeRun(600));
   EXPECT_TRUE(view.up_from_cameras);
   EXPECT_TRUE(view.view_from_world.row(2).isApprox(Eigen::RowVector3d::UnitZ(), 1e-9));
-  // The eight is 3.2 m long in x and 1.4 m in y, and the first camera looks along x: its right,
-  // and so the right of the view, is towards -y or, where x dominates, decided by the sign alone.
+  // The trajectory extends 3.2 m in x and 1.4 m in y.
   EXPECT_GT(std::abs(view.view_from_world(0, 0)), 0.99);
   EXPECT_NEAR(view.view_from_world.determinant(), 1.0, 1e-9);
 }
 
-TEST(TrajectoryView, FollowsARotationOfTheWorld) {
+TEST(TrajectoryView, IsIndependentOfTheWorldFrame) {
   ReportData data = MakeFakeRun(600);
   const Rigid3 other_from_world(ExpSO3({0.3, -1.0, 0.7}), {1.0, 2.0, 3.0});
   const TrajectoryView before = ChooseTrajectoryView(data);
   for (ReportFrame& frame : data.frames) {
     frame.world_from_cam = other_from_world * frame.world_from_cam;
   }
-  for (ReportTruthPose& pose : data.truth) pose.position = other_from_world * pose.position;
+  for (ReportGroundTruthPose& pose : data.ground_truth)
+    pose.position = other_from_world * pose.position;
   const TrajectoryView after = ChooseTrajectoryView(data);
   const Eigen::Matrix3d expected =
       before.view_from_world * other_from_world.rotation().conjugate().toRotationMatrix();
   EXPECT_TRUE(after.view_from_world.isApprox(expected, 1e-6));
 }
 
-TEST(TrajectoryView, FallsBackToTheFlatDirectionWhenCamerasDisagree) {
+TEST(TrajectoryView, UsesTheFlatDirectionWithoutCommonUp) {
   ReportData data;
   for (int i = 0; i < 40; ++i) {  // a flat ellipse in x and y; every second camera upside down
     ReportFrame frame;
@@ -50,7 +50,7 @@ TEST(TrajectoryView, FallsBackToTheFlatDirectionWhenCamerasDisagree) {
   EXPECT_GT(std::abs(view.view_from_world(0, 0)), 0.99);
 }
 
-TEST(TrajectoryView, IsARotationEvenWithoutMotion) {
+TEST(TrajectoryView, IsARotationWithoutMotion) {
   ReportData data;
   data.frames.resize(3);
   const Eigen::Matrix3d view = ChooseTrajectoryView(data).view_from_world;

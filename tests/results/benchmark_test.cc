@@ -8,6 +8,9 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "msc_vo/results/benchmark_json.h"
+#include "msc_vo/version.h"
+
 namespace msc_vo {
 namespace {
 
@@ -21,11 +24,16 @@ BenchmarkRun GoodRun(const std::string& sequence, const std::string& mode, doubl
   run.mode = mode;
   run.summary.num_frames = 4;
   run.summary.status_counts = {3, 0, 0, 1, 0};
-  run.cost.processor_seconds = 0.2;
+  run.summary.num_keyframes = 2;
+  run.summary.stages = {{"tracking", 4, 12.5, 11.0, 20.0, 21.0},
+                        {"mapping", 2, 30.0, 30.0, 40.0, 40.0}};
+  run.cost = {1.0, 0.2, 123.4};
   run.error.emplace();
   run.error->usable = true;
   run.error->ape.count = 4;
   run.error->ape.rmse = ape;
+  run.error->rpe_per_second.translation.count = 3;
+  run.error->rpe_per_second.translation.rmse = 0.002;
   return run;
 }
 
@@ -37,9 +45,11 @@ BenchmarkRun FailedRun(const std::string& sequence, const std::string& mode) {
   return run;
 }
 
-// The third sequence has failed in one mode, the fourth was interrupted after the first mode.
+// The third sequence failed in one mode; the fourth was interrupted after the first mode.
 Benchmark FourSequences() {
   Benchmark benchmark;
+  benchmark.command_line = "msc_vo benchmark a b";
+  benchmark.num_processors = 8;
   benchmark.build = "GNU 12, Release";
   benchmark.modes = {"old", "new"};
   benchmark.changed_options = {{"use_lines", "false"}};
@@ -50,7 +60,7 @@ Benchmark FourSequences() {
   return benchmark;
 }
 
-TEST(Benchmark, ComparesOnlySequencesThatEveryModeCompleted) {
+TEST(Benchmark, AveragesSequencesThatEveryModeCompleted) {
   const MeanError mean = GeometricMean(FourSequences());
   EXPECT_EQ(mean.num_sequences, 2);
   ASSERT_EQ(mean.ape.size(), 2u);
@@ -58,7 +68,7 @@ TEST(Benchmark, ComparesOnlySequencesThatEveryModeCompleted) {
   EXPECT_NEAR(mean.ape[1], 0.001, 1e-12);
 }
 
-TEST(Benchmark, WithoutASequenceThereIsNoMean) {
+TEST(Benchmark, HasNoMeanWithoutSequences) {
   Benchmark benchmark;
   benchmark.modes = {"old"};
   EXPECT_EQ(GeometricMean(benchmark).num_sequences, 0);
@@ -68,24 +78,55 @@ TEST(Benchmark, WithoutASequenceThereIsNoMean) {
   EXPECT_TRUE(json["geometric_mean"]["ape_rmse"]["old"].is_null());
 }
 
+// The whole file, except for the legend after the tables.
 TEST(Benchmark, WritesTables) {
-  EXPECT_THAT(
-      FormatBenchmarkMarkdown(FourSequences()),
-      AllOf(HasSubstr("- build: GNU 12, Release\n"), HasSubstr("defaults: `use_lines=false`\n"),
-            HasSubstr("| APE RMSE, mm        |    old |     new |\n"
-                      "| ------------------- | -----: | ------: |\n"
-                      "| a                   |   4.00 |    1.00 |\n"
-                      "| b/c                 |   1.00 |    1.00 |\n"
-                      "| d                   | failed |  500.00 |\n"
-                      "| e                   | 700.00 | not run |\n"
-                      "| geometric mean of 2 |   2.00 |    1.00 |\n"
-                      "| ratio to old        |  1.000 |   0.500 |\n"
-                      "\nNot in the mean, as a run failed: d.\n"),
-            HasSubstr("## Mode new\n"), HasSubstr(" 75.0 | 1 lost |"), HasSubstr(" 50.0 |"),
-            HasSubstr("- d, old: unreadable / indeed\n\n")));
+  const std::string expected = std::string("# msc_vo benchmark\n\n- version: msc_vo ") + kVersion +
+                               R"(
+- command: `msc_vo benchmark a b`
+- build: GNU 12, Release
+- processors: 8
+- options other than the defaults: `use_lines=false`
+
+## Position error after alignment
+
+| APE RMSE, mm        |    old |     new |
+| ------------------- | -----: | ------: |
+| a                   |   4.00 |    1.00 |
+| b/c                 |   1.00 |    1.00 |
+| d                   | failed |  500.00 |
+| e                   | 700.00 | not run |
+| geometric mean of 2 |   2.00 |    1.00 |
+| ratio to old        |  1.000 |   0.500 |
+
+Excluded from the mean because a run failed: d.
+
+## Mode old
+
+| old  | APE, mm | RPE, mm/s | frames | tracked, % | others | tracking, ms | 95 %, ms | processor, ms | mapping, ms | keyframes | memory, MiB |
+| ---- | ------: | --------: | -----: | ---------: | -----: | -----------: | -------: | ------------: | ----------: | --------: | ----------: |
+| a    |    4.00 |      2.00 |      4 |       75.0 | 1 lost |         12.5 |     20.0 |          50.0 |        30.0 |         2 |         123 |
+| b/c  |    1.00 |      2.00 |      4 |       75.0 | 1 lost |         12.5 |     20.0 |          50.0 |        30.0 |         2 |         123 |
+| d    |  failed |         - |      - |          - |      - |            - |        - |             - |           - |         - |           - |
+| e    |  700.00 |      2.00 |      4 |       75.0 | 1 lost |         12.5 |     20.0 |          50.0 |        30.0 |         2 |         123 |
+
+## Mode new
+
+| new  | APE, mm | RPE, mm/s | frames | tracked, % | others | tracking, ms | 95 %, ms | processor, ms | mapping, ms | keyframes | memory, MiB |
+| ---- | ------: | --------: | -----: | ---------: | -----: | -----------: | -------: | ------------: | ----------: | --------: | ----------: |
+| a    |    1.00 |      2.00 |      4 |       75.0 | 1 lost |         12.5 |     20.0 |          50.0 |        30.0 |         2 |         123 |
+| b/c  |    1.00 |      2.00 |      4 |       75.0 | 1 lost |         12.5 |     20.0 |          50.0 |        30.0 |         2 |         123 |
+| d    |  500.00 |      2.00 |      4 |       75.0 | 1 lost |         12.5 |     20.0 |          50.0 |        30.0 |         2 |         123 |
+
+## Failed runs
+
+- d, old: unreadable / indeed
+
+APE: )";
+  const std::string text = FormatBenchmarkMarkdown(FourSequences());
+  EXPECT_EQ(text.substr(0, expected.size()), expected);
 }
 
-TEST(Benchmark, LeavesOutWhatThereIsNothingToSayOf) {
+TEST(Benchmark, OmitsEmptyTables) {
   Benchmark benchmark;
   benchmark.modes = {"only"};
   benchmark.runs = {GoodRun("a", "only", 0.004)};
@@ -97,14 +138,21 @@ TEST(Benchmark, LeavesOutWhatThereIsNothingToSayOf) {
       AllOf(HasSubstr("not run"), HasSubstr("## Mode only"), Not(HasSubstr("## Mode later"))));
 }
 
-TEST(Benchmark, WritesTheSameAsJson) {
+TEST(Benchmark, WritesTheNumbersOfTheTablesAsJson) {
   const nlohmann::json json = nlohmann::json::parse(FormatBenchmarkJson(FourSequences()));
   EXPECT_EQ(json["changed_options"]["use_lines"], "false");
   EXPECT_EQ(json["runs"].size(), 7u);
   EXPECT_EQ(json["runs"][1]["error"]["ape_rmse"], 0.001);
+  EXPECT_EQ(json["runs"][1]["error"]["rpe_1s"], 0.002);
+  EXPECT_TRUE(json["runs"][1]["error"]["rpe_1m"].is_null());  // no pairs
   EXPECT_EQ(json["runs"][1]["frames"]["lost"], 1);
+  EXPECT_EQ(json["runs"][1]["stages_ms"]["tracking"]["p95"], 20.0);
+  EXPECT_EQ(json["runs"][1]["processor_seconds"], 0.2);
+  EXPECT_TRUE(json["runs"][1]["failure"].is_null());
+  EXPECT_TRUE(json["runs"][4]["error"].is_null());
   EXPECT_EQ(json["runs"][4]["failure"], "unreadable | indeed\nsecond line");
   EXPECT_EQ(json["geometric_mean"]["sequences"], 2);
+  EXPECT_NEAR(json["geometric_mean"]["ape_rmse"]["old"], 0.002, 1e-12);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ class OnlineResultsTest : public TemporaryFolder {
   }
 };
 
-TEST_F(OnlineResultsTest, EveryFrameIsOnDiskAsSoonAsItIsKnown) {
+TEST_F(OnlineResultsTest, WritesEveryFrameImmediately) {
   OnlineResults online(Path("out"));
   std::vector<FrameResult> frames;
   size_t num_poses = 0;
@@ -41,7 +41,7 @@ TEST_F(OnlineResultsTest, EveryFrameIsOnDiskAsSoonAsItIsKnown) {
               testing::StartsWith(kUnfinishedTrajectoryComment));
 }
 
-TEST_F(OnlineResultsTest, ResultsOfAnEarlierRunGoWithTheFirstImage) {
+TEST_F(OnlineResultsTest, RemovesEarlierResultsAtTheFirstReadableImage) {
   for (const char* name : {"trajectory.txt", "summary.json", "groundtruth.txt", "mine.txt"}) {
     WriteText(std::string("out/") + name, "earlier");
   }

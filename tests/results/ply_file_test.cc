@@ -12,7 +12,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// Lines along the first axis, along none, and outside of the last window.
+// Lines along the first axis, without axis, and outside of the last window.
 const std::vector<MapLine> kLines = {
     {{{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}}, 5, true, 0, {0.0, 0.6, 0.8}},
     {{{0.0, 2.0, 1.0}, {1.0, 2.0, 1.0}}, 7, true, std::nullopt, {0.0, 1.0, 0.0}},
@@ -25,7 +25,7 @@ constexpr char kEdges[] =
 
 class PlyFileTest : public TemporaryFolder {
  protected:
-  // What is said of kEdges with `from` replaced by `to`.
+  // Error message for kEdges with `from` replaced by `to`.
   std::string ErrorOf(const std::string& from, const std::string& to) {
     std::string text = kEdges;
     const size_t at = text.find(from);
@@ -42,7 +42,7 @@ TEST_F(PlyFileTest, WritesPoints) {
                     testing::EndsWith("end_header\n1.000000 2.000000 3.000000 4\n")));
 }
 
-TEST_F(PlyFileTest, WritesLinesInTheColoursOfTheirAxes) {
+TEST_F(PlyFileTest, ColoursLinesByAxis) {
   EXPECT_THAT(FormatLinesPly(kLines),
               AllOf(HasSubstr("element vertex 6\n"), HasSubstr("element edge 3\n"),
                     HasSubstr("\n0.000000 0.000000 1.000000 0.000000 -0.600000 -0.800000 "
@@ -52,7 +52,7 @@ TEST_F(PlyFileTest, WritesLinesInTheColoursOfTheirAxes) {
                     testing::EndsWith("0 0 0 6\n0 1 255 0 0\n2 3 128 0 128\n4 5 0 0 0\n")));
 }
 
-TEST_F(PlyFileTest, ReadsTheLinesThatItWrote) {
+TEST_F(PlyFileTest, ReadsWrittenLines) {
   WriteText("lines.ply", FormatLinesPly(kLines));
   const std::vector<EstimatedLine> lines = ReadLinesPly(Path("lines.ply"));
   ASSERT_EQ(lines.size(), kLines.size());
@@ -66,7 +66,7 @@ TEST_F(PlyFileTest, ReadsTheLinesThatItWrote) {
   EXPECT_TRUE(ReadLinesPly(Path("none.ply")).empty());
 }
 
-TEST_F(PlyFileTest, ReadsTheEdgesThatItWrote) {
+TEST_F(PlyFileTest, ReadsWrittenEdges) {
   const std::vector<LineSegment3> edges = {{{0.5, -2.0, 1.0}, {0.5, -2.0, 1e-6}},
                                            {{0.0, 0.0, 0.0}, {123.456789, 0.0, 0.0}}};
   WriteText("edges.ply", FormatEdgesPly(edges));
@@ -78,7 +78,7 @@ TEST_F(PlyFileTest, ReadsTheEdgesThatItWrote) {
   }
 }
 
-TEST_F(PlyFileTest, VerticesMayBeShared) {
+TEST_F(PlyFileTest, ReadsEdgesThatShareVertices) {
   WriteText("edges.ply", kEdges);
   const std::vector<LineSegment3> edges = ReadEdgesPly(Path("edges.ply"));
   ASSERT_EQ(edges.size(), 2u);
@@ -86,7 +86,7 @@ TEST_F(PlyFileTest, VerticesMayBeShared) {
   EXPECT_EQ(edges[1].end, Eigen::Vector3d(1, 0, 0));
 }
 
-TEST_F(PlyFileTest, BadFilesAreNamedWithTheirLine) {
+TEST_F(PlyFileTest, ReportsFileAndLineOfErrors) {
   EXPECT_THAT(ErrorOf("ply", "plain"), HasSubstr("edges.ply:1: expected 'ply'"));
   EXPECT_THAT(ErrorOf("ascii", "binary_little_endian"),
               AllOf(HasSubstr("edges.ply:2: expected 'format ascii 1.0'"),

@@ -9,6 +9,7 @@
 
 #include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/results/summary_json.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
@@ -36,6 +37,7 @@ class ResultFilesTest : public TemporaryFolder {
     }
     result.frames[0].is_keyframe = true;
     result.frames[0].times.mapping = 40.0;
+    result.frames[1].covariance(1, 1) = std::pow(DegreesToRadians(0.5), 2);
     result.frames[1].covariance(3, 3) = 0.04;
     result.frames[4].num_dynamic = 80;
     result.frames[2].status = TrackingStatus::kPredicted;
@@ -56,8 +58,8 @@ class ResultFilesTest : public TemporaryFolder {
 TEST_F(ResultFilesTest, SummarizesStatusesSpansAndStages) {
   const RunSummary summary = Summarize(Result());
   EXPECT_THAT(summary.status_counts, testing::ElementsAre(2, 1, 1, 1, 0, 0));
-  EXPECT_DOUBLE_EQ(summary.tracked_share, 0.6);
-  EXPECT_EQ(summary.num_frames_with_motion, 1);
+  EXPECT_DOUBLE_EQ(summary.tracked_ratio, 0.6);
+  EXPECT_EQ(summary.num_frames_with_dynamic_objects, 1);
   ASSERT_EQ(summary.not_tracked.size(), 1u);
   EXPECT_EQ(summary.not_tracked[0].first_frame, 2);
   EXPECT_EQ(summary.not_tracked[0].last_frame, 3);
@@ -67,11 +69,11 @@ TEST_F(ResultFilesTest, SummarizesStatusesSpansAndStages) {
   EXPECT_EQ(tracking.median, 30.0);
   EXPECT_EQ(tracking.p95, 50.0);
   const StageTimeStatistics mapping = FindStage(summary, "mapping");
-  EXPECT_EQ(mapping.count, 1);  // frames without a keyframe step do not dilute it
+  EXPECT_EQ(mapping.count, 1);  // only frames with a keyframe step
   EXPECT_EQ(mapping.mean, 40.0);
 }
 
-TEST_F(ResultFilesTest, SaysWhyFramesHaveNoPose) {
+TEST_F(ResultFilesTest, CountsCausesOfMissingPoses) {
   OdometryResult result = Result();
   result.frames[2].num_lines = 0;
   result.frames[2].image = {90.0, 40.0, 0.0};
@@ -79,38 +81,42 @@ TEST_F(ResultFilesTest, SaysWhyFramesHaveNoPose) {
   EXPECT_EQ(summary.num_estimated, 3);
   EXPECT_FALSE(TrackingFailed(summary));
   EXPECT_EQ(DescribeLosses(summary), "1 black or uniform, 1 without depth");
-  const nlohmann::json json = nlohmann::json::parse(FormatSummary(summary, {}));
+  const nlohmann::json json = nlohmann::json::parse(FormatSummaryJson(summary, {}));
   EXPECT_EQ(json["frames"]["loss_causes"]["uniform_image"], 1);
   EXPECT_EQ(json["frames"]["loss_causes"]["no_depth"], 1);
   EXPECT_EQ(json["frames"]["loss_causes"]["no_match"], 0);
 }
 
-TEST_F(ResultFilesTest, ARunThatTrackedLessThanHalfHasFailed) {
+TEST_F(ResultFilesTest, FailsARunWithLessThanHalfOfItsImagesTracked) {
   OdometryResult result = Result();
   result.frames[4].status = TrackingStatus::kLost;  // two of five are left
   EXPECT_TRUE(TrackingFailed(Summarize(result)));
   EXPECT_EQ(DescribeFailure(Summarize(result)),
             "tracking failed: 2 of 5 images have an estimated pose, at least 50 % are needed; the "
             "others: 3 black or uniform");
-  result.frames[3].status = TrackingStatus::kDropped;  // not looked at: two of four
+  result.frames[3].status = TrackingStatus::kDropped;  // not processed: two of four
   EXPECT_FALSE(TrackingFailed(Summarize(result)));
   for (FrameResult& frame : result.frames) frame.status = TrackingStatus::kDropped;
   EXPECT_TRUE(TrackingFailed(Summarize(result)));
 }
 
-TEST_F(ResultFilesTest, AnEmptyRunHasASummaryToo) {
+TEST_F(ResultFilesTest, SummarizesAnEmptyRun) {
   const RunSummary summary = Summarize({});
   EXPECT_EQ(summary.num_frames, 0);
-  EXPECT_EQ(summary.tracked_share, 0.0);
-  EXPECT_TRUE(nlohmann::json::accept(FormatSummary(summary, {})));
+  EXPECT_EQ(summary.tracked_ratio, 0.0);
+  EXPECT_TRUE(nlohmann::json::accept(FormatSummaryJson(summary, {})));
 }
 
 TEST_F(ResultFilesTest, WritesOneRowPerFrame) {
   const std::string csv = FormatFramesCsv(Result().frames);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6);
-  EXPECT_THAT(csv, testing::StartsWith("time,status,keyframe,"));
+  EXPECT_THAT(csv, testing::StartsWith(
+                       "time,status,keyframe,points,lines,inlier_points,inlier_lines,points_ms,"
+                       "lines_ms,depth_ms,waiting_ms,matching_ms,pose_ms,tracking_ms,mapping_ms,"
+                       "sigma_rx_deg,sigma_ry_deg,sigma_rz_deg,sigma_tx,sigma_ty,sigma_tz,"
+                       "dynamic\n"));
   EXPECT_THAT(csv, HasSubstr("\n10.000000,tracked,1,100,0,50,7,0.000,"));
-  EXPECT_THAT(csv, HasSubstr(",0,0,0,0.2,0,0,0\n"));
+  EXPECT_THAT(csv, HasSubstr(",0,0.5,0,0.2,0,0,0\n"));  // degrees, metres
   EXPECT_THAT(csv, testing::EndsWith(",80\n"));
   const auto commas = [](const std::string& row) {
     return std::count(row.begin(), row.end(), ',');
@@ -120,7 +126,7 @@ TEST_F(ResultFilesTest, WritesOneRowPerFrame) {
 
 TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
   RunContext context;
-  context.command_line = "msc_vo replay \xff";  // not UTF-8: JSON must survive it
+  context.command_line = "msc_vo replay \xff";  // not UTF-8
   context.outcome = "interrupted";
   context.cost.seconds = 2.0;
   context.cost.processor_seconds = 3.0;
@@ -142,6 +148,8 @@ TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
   const nlohmann::json summary = nlohmann::json::parse(ReadFile(out + "/summary.json"));
   EXPECT_EQ(summary["outcome"], "interrupted");
   EXPECT_EQ(summary["frames"]["lost"], 1);
+  EXPECT_EQ(summary["frames"]["tracked_ratio"], 0.6);
+  EXPECT_EQ(summary["frames"]["with_dynamic_objects"], 1);
   EXPECT_EQ(summary["frames_per_second"], 2.5);
   EXPECT_EQ(summary["processor_seconds"], 3.0);
   EXPECT_EQ(summary["frames"]["not_tracked_spans"][0]["last_frame"], 3);
@@ -149,8 +157,8 @@ TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
   EXPECT_EQ(summary["manhattan_axes"]["state"], "refined");
   EXPECT_NEAR(summary["manhattan_axes"]["sigma_deg"], 0.1, 1e-9);
   EXPECT_EQ(summary["manhattan_axes"]["lines"], nlohmann::json({1, 1, 0}));
-  EXPECT_EQ(summary["last_window"]["parallel"]["blocks"], 12);
-  EXPECT_EQ(summary["last_window"]["parallel"]["rejected"], 3);
+  EXPECT_EQ(summary["last_local_ba"]["parallel"]["residual_blocks"], 12);
+  EXPECT_EQ(summary["last_local_ba"]["parallel"]["rejected"], 3);
   EXPECT_EQ(summary["options"]["mode"], "msc-vo");
   EXPECT_EQ(summary["options"]["tracking.wide_radius"], 60.0);
 }
@@ -169,7 +177,7 @@ TEST_F(ResultFilesTest, WritesTheOptionsInEffect) {
   EXPECT_THAT(report, HasSubstr("frame_structure: never"));
 }
 
-TEST_F(ResultFilesTest, AFileInTheWayIsAnError) {
+TEST_F(ResultFilesTest, ReportsAFileInPlaceOfTheFolder) {
   WriteText("out", "");
   EXPECT_THAT(MessageOf([&] { WriteResultFiles(Path("out"), Result(), {}); }),
               HasSubstr("out: cannot be created"));

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/cli/image_feed.h"
+
+#include "msc_vo/datasets/paced_source.h"
+#include "msc_vo/datasets/rgbd_source.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace {
+
+class FastFeed : public ImageFeed {
+ public:
+  FastFeed(const RgbdDecoder& decoder, int num_frames) : source_(decoder, 0, num_frames) {}
+
+  bool Next(RgbdImage* image, std::vector<int>* /*dropped*/) override {
+    return source_.Next(image);
+  }
+
+ private:
+  RgbdSource source_;
+};
+
+class PacedFeed : public ImageFeed {
+ public:
+  PacedFeed(const RgbdDecoder& decoder, int num_frames) : source_(decoder, 0, num_frames) {}
+
+  bool Next(RgbdImage* image, std::vector<int>* dropped) override {
+    return source_.Next(image, dropped);
+  }
+  void RecordPose() override { ages_.push_back(1000.0 * source_.Age()); }
+  std::optional<RealtimeSummary> Realtime() const override {
+    return RealtimeSummary{SummarizeStage("pose_age", ages_), 0};
+  }
+
+ private:
+  PacedSource source_;
+  std::vector<double> ages_;  // milliseconds
+};
+
+}  // namespace
+
+std::unique_ptr<ImageFeed> MakeImageFeed(const RgbdDecoder& decoder, int num_frames,
+                                         bool realtime) {
+  if (realtime) return std::make_unique<PacedFeed>(decoder, num_frames);
+  return std::make_unique<FastFeed>(decoder, num_frames);
+}
+
+std::string DescribeShortenedPauses(const std::vector<SequenceEntry>& entries, int num_frames) {
+  int count = 0;
+  int longest = 0;  // index of the image after it
+  const auto pause = [&entries](int i) { return entries[i].timestamp - entries[i - 1].timestamp; };
+  for (int i = 1; i < num_frames; ++i) {
+    if (pause(i) <= PacedSource::kMaxPause) continue;
+    if (count++ == 0 || pause(i) > pause(longest)) longest = i;
+  }
+  if (count == 0) return "";
+  return FormatText(
+             "%d pauses longer than %g s between two images are shortened to that in real time; "
+             "the longest, %.3f s, is before ",
+             count, PacedSource::kMaxPause, pause(longest)) +
+         entries[longest].color_path;
+}
+
+}  // namespace msc_vo

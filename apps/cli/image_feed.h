@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "msc_vo/datasets/rgbd_decoder.h"
+#include "msc_vo/results/run_summary.h"
+
+namespace msc_vo {
+
+/// The images of a sequence in order, either as fast as they are requested or at the pace of their
+/// time stamps.
+class ImageFeed {
+ public:
+  virtual ~ImageFeed() = default;
+
+  /// Returns false at the end. Appends the indices of images that were dropped before this one to
+  /// `dropped`. Throws UnreadableImage; the next call continues with the image after it.
+  virtual bool Next(RgbdImage* image, std::vector<int>* dropped) = 0;
+
+  /// Call as soon as the pose of the last image is available.
+  virtual void RecordPose() {}
+
+  /// Latency so far, without the number of late maps; nullopt unless the feed is in real time.
+  virtual std::optional<RealtimeSummary> Realtime() const { return std::nullopt; }
+};
+
+/// A feed of the first `num_frames` images. The decoder must outlive it.
+std::unique_ptr<ImageFeed> MakeImageFeed(const RgbdDecoder& decoder, int num_frames, bool realtime);
+
+/// Warning about pauses between images that a feed in real time shortens; empty if there are none.
+std::string DescribeShortenedPauses(const std::vector<SequenceEntry>& entries, int num_frames);
+
+}  // namespace msc_vo

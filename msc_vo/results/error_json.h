@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "msc_vo/evaluation/line_error.h"
+#include "msc_vo/evaluation/trajectory_error.h"
+
+namespace msc_vo {
+
+/// Rows of two trajectory files that were skipped because a number is not finite.
+struct SkippedRows {
+  int reference = 0;
+  int estimate = 0;
+};
+
+/// The output of `msc_vo evaluate --json`: errors in metres, degrees and seconds. Errors of lines
+/// are in the object "lines", which is absent without `lines`.
+std::string FormatErrorJson(const TrajectoryError& error, const SkippedRows& skipped,
+                            const std::optional<LineError>& lines = std::nullopt);
+
+}  // namespace msc_vo

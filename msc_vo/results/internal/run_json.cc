@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/results/internal/run_json.h"
+
+#include "msc_vo/geometry/angles.h"
+
+namespace msc_vo {
+
+namespace {
+
+Json StagesToJson(const std::vector<StageTimeStatistics>& stages) {
+  Json json = Json::object();
+  for (const StageTimeStatistics& stage : stages) {
+    json[stage.name] = ToJson(stage);
+  }
+  return json;
+}
+
+Json FramesToJson(const RunSummary& summary) {
+  Json json = {{"count", summary.num_frames}};
+  for (size_t i = 0; i < summary.status_counts.size(); ++i) {
+    json[ToString(static_cast<TrackingStatus>(i))] = summary.status_counts[i];
+  }
+  json["tracked_ratio"] = summary.tracked_ratio;
+  json["loss_causes"] = Json::object();
+  for (size_t i = 0; i < summary.loss_causes.size(); ++i) {
+    json["loss_causes"][ToString(static_cast<LossCause>(i))] = summary.loss_causes[i];
+  }
+  json["with_dynamic_objects"] = summary.num_frames_with_dynamic_objects;
+  json["not_tracked_spans"] = Json::array();
+  for (const NotTrackedSpan& span : summary.not_tracked) {
+    json["not_tracked_spans"].push_back({{"first_frame", span.first_frame},
+                                         {"last_frame", span.last_frame},
+                                         {"start", span.start},
+                                         {"end", span.end}});
+  }
+  return json;
+}
+
+Json AxesToJson(const RunSummary& summary) {
+  const MapAxes& axes = summary.axes;
+  Json json = {{"state", ToString(axes.state)}};
+  if (axes.state == AxesState::kNone) return json;
+  const Eigen::Vector4d q = axes.world_from_axes.coeffs();
+  json["frozen"] = axes.frozen;
+  json["refinements"] = axes.num_refinements;
+  json["sigma_deg"] = RadiansToDegrees(axes.sigma);
+  json["world_from_axes"] = {q.x(), q.y(), q.z(), q.w()};
+  json["lines"] = summary.num_axis_lines;
+  return json;
+}
+
+Json NoiseToJson(const NoiseScale& scale) {
+  return {{"point_depth", scale.point_depth},
+          {"line_pixel", scale.line_pixel},
+          {"line_depth", scale.line_depth}};
+}
+
+Json ToJson(const BundleAdjustmentSummary& summary) {
+  Json json = {{"usable", summary.usable}, {"iterations", summary.num_iterations}};
+  for (const auto& [name, term] : summary.Terms()) {
+    json[name] = {{"residual_blocks", term->num_residual_blocks},
+                  {"rejected", term->num_rejected},
+                  {"initial_cost", term->initial_cost},
+                  {"final_cost", term->final_cost}};
+  }
+  return json;
+}
+
+}  // namespace
+
+Json MeasurementsToJson(const RunSummary& summary, const std::optional<TrajectoryError>& error,
+                        const RunCost& cost) {
+  Json json;
+  json["frames"] = FramesToJson(summary);
+  json["map"] = {{"keyframes", summary.num_keyframes},
+                 {"points", summary.num_points},
+                 {"lines", summary.num_lines}};
+  json["manhattan_axes"] = AxesToJson(summary);
+  json["noise_scale"] = NoiseToJson(summary.noise_scale);
+  json["readout_time"] = summary.readout_time;
+  json["last_local_ba"] = ToJson(summary.last_local_ba);
+  json["error"] = error ? ToJson(*error) : Json();
+  json["stages_ms"] = StagesToJson(summary.stages);
+  json["wall_seconds"] = cost.seconds;
+  json["frames_per_second"] = ValueOrNull(cost.seconds, summary.num_frames / cost.seconds);
+  json["processor_seconds"] = cost.processor_seconds;
+  json["peak_memory_mib"] = cost.peak_memory;
+  return json;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/results/summary_json.h"
+
+#include <type_traits>
+
+#include "msc_vo/results/internal/run_json.h"
+#include "msc_vo/version.h"
+
+namespace msc_vo {
+
+namespace {
+
+Json CameraToJson(const Calibration& calibration) {
+  const PinholeCamera& camera = calibration.camera;
+  return {{"origin", calibration.origin},
+          {"fx", camera.fx},
+          {"fy", camera.fy},
+          {"cx", camera.cx},
+          {"cy", camera.cy},
+          {"width", camera.width},
+          {"height", camera.height},
+          {"depth_scale", calibration.depth_scale},
+          {"distortion", calibration.distortion.k}};
+}
+
+// The options in effect, flat: {"tracking.wide_radius": 60.0}.
+Json OptionsToJson(const Configuration& configuration) {
+  OdometryOptions effective = EffectiveOptions(configuration.odometry);
+  Json json = Json::object();
+  for (const Option& option : ListOptions(&effective)) {
+    std::visit(
+        [&](const auto& value) {
+          using Value = std::decay_t<decltype(value)>;
+          if constexpr (std::is_same_v<Value, bool*> || std::is_same_v<Value, int*> ||
+                        std::is_same_v<Value, double*>) {
+            json[option.path] = *value;
+          } else {
+            json[option.path] = FormatOption(option);
+          }
+        },
+        option.value);
+  }
+  return json;
+}
+
+// Null if the images were not processed at the pace of their time stamps.
+Json RealtimeToJson(const std::optional<RealtimeSummary>& realtime) {
+  if (!realtime) return {};
+  return {{"late_maps", realtime->num_late_maps}, {"pose_age_ms", ToJson(realtime->pose_age)}};
+}
+
+}  // namespace
+
+std::string FormatSummaryJson(const RunSummary& summary, const RunContext& context) {
+  Json json;
+  json["version"] = kVersion;
+  json["command_line"] = context.command_line;
+  json["outcome"] = context.outcome;
+  json["sequence"] = {{"directory", context.sequence.directory},
+                      {"format", context.sequence.format},
+                      {"images", context.sequence.entries.size()},
+                      {"warnings", context.sequence.warnings}};
+  json["camera"] = CameraToJson(context.calibration);
+  json["first_unreadable_image"] =
+      context.first_unreadable.empty() ? Json() : Json(context.first_unreadable);
+  json["realtime"] = RealtimeToJson(context.realtime);
+  json.update(MeasurementsToJson(summary, context.error, context.cost));
+  json["readout_time_origin"] = context.calibration.readout_origin;
+  json["options"] = OptionsToJson(context.configuration);
+  return FormatJson(json);
+}
+
+}  // namespace msc_vo
