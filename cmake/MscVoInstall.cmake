@@ -1,6 +1,6 @@
 # Installation for find_package(msc_vo COMPONENTS ...). Every library is a component with an export
-# set of its own, so that a component asks for the packages that it links and for no others: whoever
-# wants the solver needs no OpenCV.
+# set of its own, so that a component requires only the packages that it links: the
+# solver does not need OpenCV.
 include(CMakePackageConfigHelpers)
 set(MSC_VO_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/msc_vo)
 

@@ -12,7 +12,7 @@ function(msc_vo_compile_options target)
   if(MSC_VO_NATIVE)
     # PUBLIC: Eigen's memory layout depends on it, so a consumer must be compiled alike.
     target_compile_options(${target} PUBLIC -march=native)
-    # GCC 12 has doubts about its own AVX headers: variables for AVX-512, arrays for AVX2.
+    # GCC 12 warns about its own AVX headers: variables for AVX-512, arrays for AVX2.
     target_compile_options(${target} PRIVATE -Wno-error=maybe-uninitialized
                            -Wno-error=array-bounds)
   endif()
