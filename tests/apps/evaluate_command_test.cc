@@ -50,11 +50,10 @@ TEST_F(EvaluateCommandTest, ComparesLines) {
                                           Path("edges.ply")};
   const CommandOutcome table = Evaluate(files);
   EXPECT_EQ(table.exit_code, 0) << table.output;
-  EXPECT_THAT(
-      table.output,
-      AllOf(HasSubstr("line distance           30.000"),
-            HasSubstr("lines: 3 in the map, 2 of them with enough observations and length, 1 of "
-                      "these matched with an edge; 1 of 2 edges found")));
+  EXPECT_THAT(table.output,
+              AllOf(HasSubstr("line distance           30.000"),
+                    HasSubstr("lines: 3 in the map, 2 with enough observations and length, 1 of "
+                              "these matched with an edge; 1 of 2 edges found")));
   const CommandOutcome text = Evaluate({files[0], files[1], files[2], files[3], "--json"});
   EXPECT_EQ(text.exit_code, 0) << text.output;
   const nlohmann::json json = nlohmann::json::parse(text.output);

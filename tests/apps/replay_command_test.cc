@@ -70,7 +70,7 @@ class ReplayCommandTest : public TemporaryFolder {
     ASSERT_EQ(rows.size(), num_frames + 1);
     const auto num_keyframe_rows = std::count_if(
         rows.begin() + 1, rows.end(),
-        [](const TextLine& row) { return row.fields[0].find(",tracked,1,") != std::string::npos; });
+        [](const TextLine& row) { return row.fields[1] == "tracked" && row.fields[2] == "1"; });
     EXPECT_EQ(num_keyframe_rows, keyframes.size());
     EXPECT_EQ(ReadLinesPly(Path(output + "/lines.ply")).size(), summary["map"]["lines"]);
     EXPECT_THAT(ReadFile(Path(output + "/map.ply")),

@@ -183,8 +183,15 @@ TEST(Report, ShowsTheMapAroundANearlyStaticCamera) {
   const std::string html = ReportOf(data);
   // All edges of the room and of the box are inside of the drawing.
   const std::regex segment("M([0-9.-]+),([0-9.-]+)L([0-9.-]+),([0-9.-]+)");
-  const size_t begin = html.find("class=\"map-line axis-0\" d=\"M", html.find("Top view"));
-  const std::string drawn = html.substr(begin, html.find("<polyline", begin) - begin);
+  const size_t begin = html.find("Top view of the trajectory");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string plot = html.substr(begin, html.find("</svg>", begin) - begin);
+  const std::regex map_line("class=\"map-line axis-[^\"]*\" d=\"([^\"]*)\"");
+  std::string drawn;
+  for (auto it = std::sregex_iterator(plot.begin(), plot.end(), map_line);
+       it != std::sregex_iterator(); ++it) {
+    drawn += (*it)[1];
+  }
   int num_segments = 0;
   for (auto it = std::sregex_iterator(drawn.begin(), drawn.end(), segment);
        it != std::sregex_iterator(); ++it, ++num_segments) {
