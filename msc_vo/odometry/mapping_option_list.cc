@@ -37,7 +37,7 @@ void ListSelection(WindowSelectionOptions* selection, OptionLister* list) {
 }
 
 void ListTerm(TermOptions* term, OptionLister* list) {
-  list->Add("enabled", &term->enabled, "Use the term.");
+  list->Add("enabled", &term->enabled, "Use the factor in local bundle adjustment.");
   list->Add("huber", &term->huber, {0.01, 1000, "sigmas"}, "Huber threshold of the term.");
 }
 
@@ -166,10 +166,10 @@ void ListAxesEstimator(AxesEstimatorOptions* estimator, OptionLister* list) {
 
 void ListNoiseEstimator(NoiseEstimatorOptions* noise, OptionLister* list) {
   list->Add("enabled", &noise->enabled, "Self-calibrate the sigmas of lines and depths.");
-  list->Add("prior", &noise->prior, {0.001, 1e9, "image quarters"},
-            "Weight of the initial sigmas, as a number of observed quarters of images.");
-  list->Add("memory", &noise->memory, {0.001, 1e9, "image quarters"},
-            "Number of observed quarters of images that the estimate depends on.");
+  list->Add("prior", &noise->prior, {0.001, 1e9, "image quadrants"},
+            "Weight of the initial sigmas, as a number of observed image quadrants.");
+  list->Add("memory", &noise->memory, {0.001, 1e9, "image quadrants"},
+            "Number of observed image quadrants that the estimate depends on.");
   list->Add("max_scale", &noise->max_scale, {1, 100},
             "Largest factor by which sigmas increase or decrease.");
 }
