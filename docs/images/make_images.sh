@@ -48,5 +48,5 @@ PYTHON
 
 for theme in light dark; do
   extract_scene "$theme" >"$work/$theme.svg"
-  rsvg-convert --zoom 1.5 "$work/$theme.svg" --output "docs/images/room_lines_$theme.png"
+  rsvg-convert --zoom 1.2 "$work/$theme.svg" --output "docs/images/room_lines_$theme.png"
 done

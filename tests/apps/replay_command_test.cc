@@ -68,9 +68,13 @@ class ReplayCommandTest : public TemporaryFolder {
 
     const std::vector<TextLine> rows = ReadTextLines(Path(output + "/frames.csv"));
     ASSERT_EQ(rows.size(), num_frames + 1);
-    const auto num_keyframe_rows = std::count_if(
-        rows.begin() + 1, rows.end(),
-        [](const TextLine& row) { return row.fields[1] == "tracked" && row.fields[2] == "1"; });
+    size_t num_keyframe_rows = 0;
+    for (size_t i = 0; i < num_frames; ++i) {
+      const std::vector<std::string>& fields = rows[i + 1].fields;
+      EXPECT_EQ(fields.at(0), FormatText("%.6f", truth[i].timestamp));
+      EXPECT_EQ(fields.at(1), "tracked");
+      num_keyframe_rows += fields.at(2) == "1" ? 1 : 0;
+    }
     EXPECT_EQ(num_keyframe_rows, keyframes.size());
     EXPECT_EQ(ReadLinesPly(Path(output + "/lines.ply")).size(), summary["map"]["lines"]);
     EXPECT_THAT(ReadFile(Path(output + "/map.ply")),
