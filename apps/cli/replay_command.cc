@@ -133,7 +133,8 @@ int Replay(const Arguments& arguments) {
 // Short forms of frequent options.
 void AddShortcuts(CLI::App* command, Arguments* arguments) {
   command
-      ->add_option("--mode", arguments->mode, "Parts of the method; default: that of the options")
+      ->add_option("--mode", arguments->mode,
+                   "Ablation mode of the paper; default: the option mode (msc-vo)")
       ->check(CLI::IsMember(OptionChoices("mode")));
   command
       ->add_option("--lines", arguments->lines,

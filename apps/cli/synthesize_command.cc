@@ -154,7 +154,7 @@ Command AddSynthesizeCommand(CLI::App* app) {
                                           "Render an RGB-D sequence in TUM layout with "
                                           "groundtruth.txt and edges.ply, the true edges");
   command->add_option("out_dir", arguments->folder, "Folder to write")->required();
-  command->add_option("--scene", arguments->scene, "Scene")
+  command->add_option("--scene", arguments->scene, "Scene to render")
       ->check(CLI::IsMember({"room", "corridor", "bare", "slanted", "house"}))
       ->capture_default_str();
   command->add_option("--frames", arguments->frames, "Number of frames")
@@ -196,8 +196,9 @@ Command AddSynthesizeCommand(CLI::App* app) {
       ->check(CLI::Range(1, 100))
       ->needs(jpeg)
       ->capture_default_str();
-  command->add_flag("--overwrite", arguments->overwrite,
-                    "Write into a folder of other origin; replaces its rgb/ and depth/");
+  command->add_flag(
+      "--overwrite", arguments->overwrite,
+      "Write into a folder that synthesize did not create; replaces its rgb/ and depth/");
   command->footer(HelpFooter("msc_vo synthesize room --scene room --frames 260 --noise kinect"));
   return {command, [arguments] { return Run(*arguments); }};
 }

@@ -27,7 +27,7 @@ struct WindowSelectionOptions {
 
 /// Selects the window around `keyframe` (paper: K_c, K_f, P, L of Local Map Optimization) as plain
 /// data. The first keyframe of the map, which defines the world, is fixed if it is in the window.
-/// If no other keyframe is fixed, the oldest keyframe of the window holds the gauge.
+/// If no other keyframe is fixed, the oldest keyframe of the window fixes the gauge.
 WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, KeyframeId keyframe);
 
 /// Writes the optimised window back into the map and removes rejected observations. End points of

@@ -13,8 +13,8 @@
 namespace msc_vo {
 
 struct LineMatcherOptions {
-  /// Largest difference of direction in the image, degrees. Segments are directed: the brighter
-  /// side is always on the same hand, which distinguishes the two edges of a thin bar.
+  /// Largest difference of direction in the image, degrees. Segments are directed, with the
+  /// brighter region always on the same side, which distinguishes the two edges of a thin bar.
   double max_angle = 8.0;
   /// Fraction of the shorter segment that must overlap with the other one.
   double min_overlap = 0.5;
