@@ -4,7 +4,7 @@
 include(CMakePackageConfigHelpers)
 set(MSC_VO_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/msc_vo)
 
-# The package of a target that is not ours, as arguments of find_package(); empty: needs none.
+# Sets `out` to the arguments of find_package() for the package of an external target.
 function(msc_vo_package_of target out)
   if(target MATCHES "^opencv_(.*)$")
     set(package "OpenCV 4.5 COMPONENTS ${CMAKE_MATCH_1}")
@@ -50,7 +50,7 @@ function(msc_vo_export component)
   set_property(GLOBAL PROPERTY MSC_VO_PACKAGES_OF_${component} ${packages})
 endfunction()
 
-# Installs the headers and the package files. Called once, after all libraries are there.
+# Installs the headers and the package files. Call once, after all libraries are declared.
 function(msc_vo_install)
   msc_vo_include_closure(headers "${MSC_VO_PUBLIC_HEADERS}")
   foreach(header ${headers})

@@ -1,5 +1,5 @@
-# Sanitizers and coverage, for everything that is built here; CMakePresets.json uses both. Libraries
-# built so link only into programs built so.
+# Sanitizers and coverage, for everything that is built here; CMakePresets.json uses both.
+# Instrumented libraries link only into instrumented programs.
 set(MSC_VO_SANITIZE "" CACHE STRING
     "Sanitizers to build with, as for -fsanitize: address,undefined or thread; empty: none")
 option(MSC_VO_COVERAGE "Count the lines that the tests execute, for gcov" OFF)

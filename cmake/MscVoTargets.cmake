@@ -1,7 +1,7 @@
-# How every target of msc_vo is made: one folder is one static library, and links only what stands
-# below it, so that an include that points upward does not even find its symbols.
+# Functions that declare the targets of msc_vo. Each folder is one library that links only libraries
+# of lower layers, so that calls into a higher layer fail to link.
 
-# Compiler options for our own code only; nothing leaks to those who link us.
+# Compiler options of msc_vo's own code: PRIVATE, so that they do not reach projects that link it.
 function(msc_vo_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Names every source file that is not as clang-format 14 leaves it; other versions format
-# differently. With --fix, formats all of them. Exit status 77 (skipped) where that version is not
-# installed.
+# Lists every source file that clang-format 14 would change; other versions format differently. With
+# --fix, formats all files. Exit status 77 (skipped) if that version is not installed.
 set -euo pipefail
 mode=${1:-check}
 if [[ $# -gt 1 || ($mode != check && $mode != --fix) ]]; then

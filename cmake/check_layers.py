@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Checks that the source tree keeps to the floors of docs/architecture.md.
+"""Checks that the source tree keeps to the layers of docs/architecture.md.
 
-    check_layers.py ROOT         reports every offence as file:line: message; exit status 1 if any
-    check_layers.py --self-test  proves on small bad trees that each rule bites
+    check_layers.py ROOT         reports every violation as file:line: message; exit status 1 if any
+    check_layers.py --self-test  tests every rule on small trees
 
-Rules: a folder includes only folders of lower floors; third-party and system headers stay in the
+Rules: a folder includes only folders of lower layers; third-party and system headers stay in the
 folders that may use them; x.cc includes its own x.h first, which proves that x.h compiles alone;
 files and functions stay short.
 """
@@ -14,8 +14,8 @@ import re
 import sys
 import tempfile
 
-# Lowest first. Folders of one floor do not know each other.
-FLOORS = [
+# Lowest first. Folders of one layer do not include each other.
+LAYERS = [
     ["camera", "text", "timing"],
     ["geometry"],
     ["factors", "evaluation", "sensor", "synthetic/scene", "report"],
@@ -29,10 +29,9 @@ FLOORS = [
     ["recording", "results"],
     ["apps"],
 ]
-FLOOR_OF = {folder: floor for floor, folders in enumerate(FLOORS) for folder in folders}
+LAYER_OF = {folder: layer for layer, folders in enumerate(LAYERS) for folder in folders}
 
-
-# Header pattern -> folders that may include it. What no pattern matches is free.
+# Header pattern -> folders that may include it. Headers that no pattern matches are allowed everywhere.
 OUTSIDE_HEADERS = [
     (r"opencv2/", {"sensor", "features", "datasets", "odometry", "results", "apps"}),
     (r"spdlog/", {"logging", "apps"}),
@@ -53,7 +52,7 @@ MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
-# What a line that opens a body starts with when the body is none of a function.
+# Start of a statement whose body is not that of a function.
 NO_FUNCTION = re.compile(r"^\s*(namespace|(template\s*<.*>\s*)?(class|struct|enum|union)|extern)\b")
 STRINGS_AND_COMMENTS = re.compile(
     r'R"(?P<delimiter>[^(\s]*)\(.*?\)(?P=delimiter)"|"(?:\\.|[^"\\\n])*"'
@@ -71,9 +70,9 @@ def check_includes(folder, path, lines):
         parts = header.split("/")
         if parts[0] in ("msc_vo", "apps"):
             other = folder_of(parts)
-            if other not in FLOOR_OF:
-                yield number, f"includes {header}, whose folder has no floor in check_layers.py"
-            elif other != folder and FLOOR_OF[other] >= FLOOR_OF[folder]:
+            if other not in LAYER_OF:
+                yield number, f"includes {header}, whose folder has no layer in check_layers.py"
+            elif other != folder and LAYER_OF[other] >= LAYER_OF[folder]:
                 yield number, f"{folder} must not include {header}: {other} is not below it"
             elif other != folder and "internal" in parts and "benchmarks" not in path.parts:
                 yield number, f"{folder} must not include {header}: it is internal to {other}"
@@ -103,7 +102,7 @@ def blank_out(match):
 def function_bodies(text):
     """Yields (first line, last line) of every outermost body that is not of a namespace or type.
 
-    Goes by braces and, as the project is formatted by clang-format, needs no real parser.
+    Counts braces, which suffices for code formatted by clang-format.
     """
     code = STRINGS_AND_COMMENTS.sub(blank_out, text)
     open_bodies = []  # (line where the statement starts, is it a function)
@@ -138,31 +137,31 @@ def check_lengths(text, lines):
 
 
 def folder_of(parts):
-    """The folder with a floor that a file with these path components belongs to, or None."""
+    """The folder with a layer that a file with these path components belongs to, or None."""
     if parts[0] == "apps":
         return "apps"
     if parts[0] != "msc_vo" or len(parts) < 3:
         return None
     nested = "/".join(parts[1:3])
-    return nested if nested in FLOOR_OF else parts[1]
+    return nested if nested in LAYER_OF else parts[1]
 
 
 def check_tree(root):
-    """All offences in the tree as (path, line, message)."""
+    """All violations in the tree as (path, line, message)."""
     for top in ("msc_vo", "apps", "tests"):
         for path in sorted((root / top).rglob("*")):
             if path.suffix not in (".h", ".cc"):
                 continue
             text = path.read_text(encoding="utf-8")
             lines = text.splitlines()
-            offences = list(check_lengths(text, lines))
+            violations = list(check_lengths(text, lines))
             folder = folder_of(path.relative_to(root).parts)
-            if folder in FLOOR_OF:
-                offences += check_includes(folder, path, lines)
-                offences += check_own_header_first(path, root, lines)
+            if folder in LAYER_OF:
+                violations += check_includes(folder, path, lines)
+                violations += check_own_header_first(path, root, lines)
             elif top == "msc_vo":
-                offences.append((1, f"folder {folder} has no floor in check_layers.py"))
-            for number, message in sorted(offences):
+                violations.append((1, f"folder {folder} has no layer in check_layers.py"))
+            for number, message in sorted(violations):
                 yield path.relative_to(root), number, message
 
 
@@ -177,8 +176,8 @@ def self_test():
          "internal to bundle_adjustment"),
         ("msc_vo/tracking/a.h", '#include "msc_vo/mapping/b.h"\n', "mapping is not below it"),
         ("msc_vo/results/a.cc", '#include "apps/cli/commands.h"\n', "apps is not below it"),
-        ("msc_vo/tracking/a.h", '#include "msc_vo/attic/b.h"\n', "has no floor"),
-        ("msc_vo/attic/a.h", "", "attic has no floor"),
+        ("msc_vo/tracking/a.h", '#include "msc_vo/attic/b.h"\n', "has no layer"),
+        ("msc_vo/attic/a.h", "", "attic has no layer"),
         ("msc_vo/tracking/a.h", "#include <opencv2/core.hpp>\n", "tracking must not include"),
         ("msc_vo/mapping/a.h", "#include <ceres/ceres.h>\n", "only bundle_adjustment, factors"),
         ("msc_vo/mapping/a.h", '#  include "spdlog/spdlog.h"\n', "must not include <spdlog/"),
@@ -192,7 +191,7 @@ def self_test():
         ("msc_vo/map/a.cc", "class A {\n" + long_body + "};\n", "function has 62 lines"),
         ("tests/map/a.cc", long_body, "function has 62 lines"),
         ("msc_vo/geometry/so3.cc", "#include <cmath>\n", "must include its own header so3.h"),
-        # Nothing to object to:
+        # Allowed:
         ("msc_vo/odometry/a.h", '#include "msc_vo/features/b.h"\n#include <thread>\n', None),
         ("msc_vo/map/a.h", '#include "msc_vo/map/b.h"\n#include "msc_vo/version.h"\n', None),
         ("msc_vo/map/a.cc", "// #include <mutex>\n", None),
@@ -227,10 +226,10 @@ def main():
         return self_test()
     if arguments.root is None or not (arguments.root / "msc_vo").is_dir():
         parser.error("ROOT must be the folder that holds msc_vo/")
-    offences = list(check_tree(arguments.root))
-    for path, number, message in offences:
+    violations = list(check_tree(arguments.root))
+    for path, number, message in violations:
         print(f"{path}:{number}: {message}", file=sys.stderr)
-    return 1 if offences else 0
+    return 1 if violations else 0
 
 
 if __name__ == "__main__":

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Installs those of cmake/debian_packages.txt that are missing; asks nothing. If all are there, it does
-# nothing and needs neither root nor a network.
+# Installs the missing packages of cmake/debian_packages.txt without asking. If none is missing, it
+# needs neither root nor a network.
 set -euo pipefail
 cd "$(dirname "$0")"
 
 if ! command -v dpkg-query >/dev/null; then
-  echo "Not a Debian system: taking for granted what cmake/debian_packages.txt lists."
+  echo "Not a Debian system: assuming that the packages of cmake/debian_packages.txt are installed."
   exit 0
 fi
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds everything into ./build and runs every test. On a bare Debian 12 it first installs what is
-# missing. JOBS: how many processes at once (default: one per processor).
+# Builds everything into ./build and runs every test. On Debian 12 it first installs missing packages.
+# Environment: JOBS, the number of parallel processes (default: one per processor).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}

@@ -23,7 +23,6 @@
 #include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/text/files.h"
-#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 

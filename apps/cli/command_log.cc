@@ -61,4 +61,8 @@ void PrintWarning(const std::string& text) { Print(spdlog::level::warn, text); }
 
 void PrintError(const std::string& text) { Print(spdlog::level::err, text); }
 
+void PrintWarnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) PrintWarning(warning);
+}
+
 }  // namespace msc_vo

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -26,5 +27,6 @@ void StartLog(const LogArguments& arguments);
 /// log file, if there is one.
 void PrintWarning(const std::string& text);
 void PrintError(const std::string& text);
+void PrintWarnings(const std::vector<std::string>& warnings);
 
 }  // namespace msc_vo

@@ -51,12 +51,12 @@ double PeakMemory() {
 CostMeter::CostMeter() {
   ResetPeakMemory();
   start_processor_seconds_ = ProcessorSeconds();
-  start_ = std::chrono::steady_clock::now();
+  stopwatch_.Restart();
 }
 
 RunCost CostMeter::Read() const {
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-  return {elapsed.count(), ProcessorSeconds() - start_processor_seconds_, PeakMemory()};
+  const double seconds = 1e-3 * stopwatch_.Milliseconds();
+  return {seconds, ProcessorSeconds() - start_processor_seconds_, PeakMemory()};
 }
 
 }  // namespace msc_vo

@@ -3,9 +3,8 @@
 
 #pragma once
 
-#include <chrono>
-
 #include "msc_vo/results/run_summary.h"
+#include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {
 
@@ -18,7 +17,7 @@ class CostMeter {
   RunCost Read() const;
 
  private:
-  std::chrono::steady_clock::time_point start_;
+  Stopwatch stopwatch_;
   double start_processor_seconds_;
 };
 

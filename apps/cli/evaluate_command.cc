@@ -23,6 +23,9 @@ namespace msc_vo {
 
 namespace {
 
+constexpr double kMillimetres = 1000.0;             // per metre
+constexpr double kDegrees = RadiansToDegrees(1.0);  // per radian
+
 struct Arguments {
   std::string truth;
   std::string estimate;
@@ -43,8 +46,6 @@ void PrintRow(const char* name, const ErrorStatistics& statistics, double factor
 }
 
 void PrintTable(const TrajectoryError& error) {
-  constexpr double kMillimetres = 1000.0;
-  constexpr double kDegrees = RadiansToDegrees(1.0);
   std::printf("%-20s %9s %9s %9s %9s %9s\n", "", "RMSE", "mean", "median", "95 %", "max");
   PrintRow("APE", error.ape, kMillimetres, "mm");
   PrintRow("rotation", error.rotation, kDegrees, "deg");
@@ -65,9 +66,9 @@ void PrintTable(const TrajectoryError& error) {
 
 void PrintLines(const LineError& error) {
   if (error.num_matched > 0) {
-    PrintRow("line direction", error.direction, RadiansToDegrees(1.0), "deg");
-    PrintRow("line distance", error.distance, 1000.0, "mm");
-    PrintRow("  across the view", error.across, 1000.0, "mm");
+    PrintRow("line direction", error.direction, kDegrees, "deg");
+    PrintRow("line distance", error.distance, kMillimetres, "mm");
+    PrintRow("  across the view", error.across, kMillimetres, "mm");
   }
   std::printf(
       "lines: %d in the map, %d with enough observations and length, %d of these matched with an "

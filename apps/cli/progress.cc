@@ -19,17 +19,10 @@ constexpr int kBarWidth = 24;              // characters
 }  // namespace
 
 Progress::Progress(int total)
-    : total_(std::max(total, 1)),
-      is_terminal_(isatty(STDERR_FILENO) == 1),
-      start_(Clock::now()),
-      last_shown_(start_) {}
-
-double Progress::Seconds() const {
-  return std::chrono::duration<double>(Clock::now() - start_).count();
-}
+    : total_(std::max(total, 1)), is_terminal_(isatty(STDERR_FILENO) == 1) {}
 
 std::string Progress::Text(int done, const std::string& note) const {
-  const double rate = done / std::max(Seconds(), 1e-6);
+  const double rate = done / std::max(1e-3 * since_start_.Milliseconds(), 1e-6);
   const int left = static_cast<int>((total_ - done) / std::max(rate, 1e-6) + 0.5);
   char text[160];
   std::snprintf(text, sizeof(text), "%d/%d  %.1f frames/s  %d:%02d left", done, total_, rate,
@@ -38,8 +31,7 @@ std::string Progress::Text(int done, const std::string& note) const {
 }
 
 void Progress::Update(int done, const std::string& note) {
-  const Clock::time_point now = Clock::now();
-  const double since = std::chrono::duration<double>(now - last_shown_).count();
+  const double since = 1e-3 * since_shown_.Milliseconds();
   const bool last = done == total_;
   if (is_terminal_) {
     if (since < kTerminalInterval && !last) return;
@@ -53,7 +45,7 @@ void Progress::Update(int done, const std::string& note) {
     std::fprintf(stderr, "%s\n", Text(done, note).c_str());
   }
   std::fflush(stderr);
-  last_shown_ = now;
+  since_shown_.Restart();
   last_done_ = done;
 }
 

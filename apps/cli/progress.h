@@ -3,8 +3,9 @@
 
 #pragma once
 
-#include <chrono>
 #include <string>
+
+#include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {
 
@@ -19,16 +20,13 @@ class Progress {
   /// Ends the line of the bar.
   void Finish();
 
-  double Seconds() const;  // since construction
-
  private:
   std::string Text(int done, const std::string& note) const;
 
-  using Clock = std::chrono::steady_clock;
   int total_;
   bool is_terminal_;
-  Clock::time_point start_;
-  Clock::time_point last_shown_;
+  Stopwatch since_start_;
+  Stopwatch since_shown_;
   int last_done_ = 0;
 };
 

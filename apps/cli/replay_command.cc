@@ -21,7 +21,6 @@
 #include "msc_vo/results/run_report.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
-#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 

@@ -7,9 +7,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "apps/cli/command_log.h"
 #include "apps/cli/cost_meter.h"
@@ -161,10 +159,6 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   }
   WarnAboutUnreadableImages(run);
   return run;
-}
-
-void PrintWarnings(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) PrintWarning(warning);
 }
 
 }  // namespace msc_vo

@@ -4,8 +4,6 @@
 #pragma once
 
 #include <functional>
-#include <string>
-#include <vector>
 
 #include "apps/cli/commands.h"
 #include "apps/cli/interrupt_guard.h"
@@ -48,8 +46,5 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
                         const RunArguments& arguments, const InterruptGuard& interrupt,
                         const FrameObserver& frame_observer,
                         const WindowObserver& window_observer = {});
-
-/// Prints warnings to standard error.
-void PrintWarnings(const std::vector<std::string>& warnings);
 
 }  // namespace msc_vo

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -17,7 +16,7 @@
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/synthetic/scene/synthetic_sequence.h"
 #include "msc_vo/text/files.h"
-#include "msc_vo/text/text_file.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -61,13 +60,6 @@ void PrepareFolder(const fs::path& folder, bool overwrite) {
   }
 }
 
-template <typename... Values>
-std::string Format(const char* format, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof(text), format, values...);
-  return text;
-}
-
 void WriteImage(const fs::path& path, const cv::Mat& image, const std::vector<int>& parameters) {
   std::vector<uchar> bytes;
   cv::imencode(path.extension().string(), image, bytes, parameters);
@@ -93,8 +85,8 @@ void WriteDepth(const fs::path& path, RenderedImage* image) {
 void WriteCamera(const fs::path& folder, const PinholeCamera& camera) {
   // Numbers first, for readers that do not skip comments.
   const std::string numbers =
-      Format("%.17g %.17g %.17g %.17g %d %d %.17g", camera.fx, camera.fy, camera.cx, camera.cy,
-             camera.width, camera.height, kDepthFactor);
+      FormatText("%.17g %.17g %.17g %.17g %d %d %.17g", camera.fx, camera.fy, camera.cx, camera.cy,
+                 camera.width, camera.height, kDepthFactor);
   WriteFile((folder / "camera.txt").string(),
             numbers + "\n# fx fy cx cy width height depth_factor\n" + kMark + "\n");
 }
@@ -102,8 +94,8 @@ void WriteCamera(const fs::path& folder, const PinholeCamera& camera) {
 std::string PoseLine(const std::string& stamp, const Rigid3& world_from_cam) {
   const Eigen::Vector3d t = world_from_cam.translation();
   const Eigen::Quaterniond q(world_from_cam.rotation());
-  return stamp + Format(" %.7f %.7f %.7f %.8f %.8f %.8f %.8f\n", t.x(), t.y(), t.z(), q.x(), q.y(),
-                        q.z(), q.w());
+  return stamp + FormatText(" %.7f %.7f %.7f %.8f %.8f %.8f %.8f\n", t.x(), t.y(), t.z(), q.x(),
+                            q.y(), q.z(), q.w());
 }
 
 int Run(const Arguments& arguments) {
@@ -130,9 +122,9 @@ int Run(const Arguments& arguments) {
   Progress progress(arguments.frames);
   for (int i = 0; i < arguments.frames && !guard.IsInterrupted(); ++i) {
     SyntheticFrame frame = sequence.Render(i);
-    const std::string stamp = Format("%.6f", frame.pose.timestamp);
+    const std::string stamp = FormatText("%.6f", frame.pose.timestamp);
     const std::string rgb = "rgb/" + stamp + (arguments.jpeg ? ".jpg" : ".png");
-    const std::string depth_stamp = Format("%.6f", frame.pose.timestamp + options.depth_delay);
+    const std::string depth_stamp = FormatText("%.6f", frame.pose.timestamp + options.depth_delay);
     const std::string depth = "depth/" + depth_stamp + ".png";
     WriteColor(folder / rgb, arguments.jpeg_quality, &frame.image);
     WriteDepth(folder / depth, &frame.image);

@@ -15,6 +15,7 @@ namespace msc_vo {
 struct LensDistortion {
   std::array<double, 5> k = {0.0, 0.0, 0.0, 0.0, 0.0};
 
+  /// Tests whether there is no distortion.
   bool IsZero() const { return k == std::array<double, 5>{}; }
 
   /// Distorts a point of the plane z = 1.

@@ -12,8 +12,8 @@ namespace msc_vo {
 
 namespace {
 
-constexpr int kDirections = 64;
-constexpr int kCircles = 1000;  // up to the corner of the image: less than a pixel apart
+constexpr int kDirections = 64;  // per circle; the distortion varies slowly with the direction
+constexpr int kCircles = 1000;   // up to the corner of the image: less than a pixel apart
 // The lens must be one-to-one slightly beyond the corners, because the coefficients are uncertain.
 constexpr double kMargin = 1.02;
 

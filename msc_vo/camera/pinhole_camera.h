@@ -16,7 +16,8 @@ namespace msc_vo {
 /// Features are undistorted when a frame is built, so everything after that uses this model alone.
 /// LensDistortion describes the lens.
 struct PinholeCamera {
-  double fx = 525.0;  ///< pixels
+  // All in pixels.
+  double fx = 525.0;
   double fy = 525.0;
   double cx = 319.5;
   double cy = 239.5;

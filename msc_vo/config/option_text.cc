@@ -61,25 +61,13 @@ struct Setter {
     *expected = "true or false";
     return Assign(ParseBool(text), value);
   }
-  bool operator()(int* value) const {
-    *expected = "a whole number" + RangeText();
-    return Assign(ParseInt(text), range, value);
-  }
-  bool operator()(double* value) const {
-    *expected = "a number" + RangeText();
-    return Assign(ParseFinite(text), range, value);
-  }
+  bool operator()(int* value) const { return SetInt(value); }
+  bool operator()(std::optional<int>* value) const { return SetInt(value); }
+  bool operator()(double* value) const { return SetDouble(value); }
+  bool operator()(std::optional<double>* value) const { return SetDouble(value); }
   bool operator()(std::string* value) const {
     *value = text;
     return true;
-  }
-  bool operator()(std::optional<int>* value) const {
-    *expected = "a whole number" + RangeText();
-    return Assign(ParseInt(text), range, value);
-  }
-  bool operator()(std::optional<double>* value) const {
-    *expected = "a number" + RangeText();
-    return Assign(ParseFinite(text), range, value);
   }
   bool operator()(const Choice& choice) const {
     *expected = "one of";
@@ -91,6 +79,16 @@ struct Setter {
   }
 
  private:
+  template <typename Target>
+  bool SetInt(Target* value) const {
+    *expected = "a whole number" + RangeText();
+    return Assign(ParseInt(text), range, value);
+  }
+  template <typename Target>
+  bool SetDouble(Target* value) const {
+    *expected = "a number" + RangeText();
+    return Assign(ParseFinite(text), range, value);
+  }
   std::string RangeText() const {
     return range && range->IsBounded() ? " from " + ToString(*range) : "";
   }
@@ -145,6 +143,12 @@ std::vector<OptionText> ChangedOptions(const Configuration& configuration) {
   return changed;
 }
 
+const Option* FindByPath(const std::vector<Option>& options, const std::string& path) {
+  const auto option = std::find_if(options.begin(), options.end(),
+                                   [&](const Option& known) { return known.path == path; });
+  return option == options.end() ? nullptr : &*option;
+}
+
 const Option* FindSimilar(const std::vector<Option>& options, const std::string& path) {
   const Option* nearest = nullptr;
   int smallest = MaxTypingErrors(LastPart(path)) + 1;
@@ -160,6 +164,13 @@ const Option* FindSimilar(const std::vector<Option>& options, const std::string&
     }
   }
   return nearest;
+}
+
+std::string UnknownOptionMessage(const std::vector<Option>& options, const std::string& path,
+                                 const std::string& advice) {
+  const Option* similar = FindSimilar(options, path);
+  return "unknown option '" + path + "'; " +
+         (similar ? "did you mean '" + similar->path + "'?" : advice);
 }
 
 }  // namespace msc_vo

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include <yaml-cpp/yaml.h>
 
 #include "msc_vo/config/orb_slam_config.h"
 #include "msc_vo/text/files.h"
-#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -49,13 +49,10 @@ class YamlReader {
   }
 
   void ReadValue(const YAML::Node& node, const std::string& path, int line) const {
-    const auto option = std::find_if(options_.begin(), options_.end(),
-                                     [&](const Option& known) { return known.path == path; });
-    if (option == options_.end()) {
-      const Option* similar = FindSimilar(options_, path);
-      Fail(line, "unknown option '" + path + "'" +
-                     (similar ? "; did you mean '" + similar->path + "'?"
-                              : "; msc_vo replay --print-config --all lists the known ones"));
+    const Option* option = FindByPath(options_, path);
+    if (!option) {
+      Fail(line, UnknownOptionMessage(options_, path,
+                                      "msc_vo replay --print-config --all lists the known ones"));
     }
     std::string expected = "a value";
     if (!node.IsScalar() || !SetOption(*option, node.Scalar(), &expected)) {

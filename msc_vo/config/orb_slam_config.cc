@@ -4,7 +4,6 @@
 #include "msc_vo/config/orb_slam_config.h"
 
 #include <algorithm>
-#include <cctype>
 #include <initializer_list>
 #include <map>
 #include <sstream>
@@ -22,21 +21,10 @@ struct Value {
   int line = 0;
 };
 
-std::string Trimmed(const std::string& text) {
-  constexpr char kBlanks[] = " \t\r";
-  const size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
+using Values = std::map<std::string, Value>;
 
-std::string Lowercase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-std::map<std::string, Value> ReadValues(const std::string& content) {
-  std::map<std::string, Value> values;
+Values ReadValues(const std::string& content) {
+  Values values;
   std::istringstream lines(content);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
@@ -48,17 +36,23 @@ std::map<std::string, Value> ReadValues(const std::string& content) {
   return values;
 }
 
+// Throws std::runtime_error "FILE:LINE: NAME PROBLEM".
+[[noreturn]] void Fail(const std::string& path, const Values::value_type& entry,
+                       const std::string& problem) {
+  throw std::runtime_error(path + ":" + std::to_string(entry.second.line) + ": " + entry.first +
+                           problem);
+}
+
 // Returns whether the images have lens distortion; those of a rectified camera have none. Throws
 // unless the file describes a pinhole camera with no other coefficients than k1 k2 p1 p2 k3.
-bool HasDistortion(const std::map<std::string, Value>& values, const std::string& path) {
+bool HasDistortion(const Values& values, const std::string& path) {
   for (const char* prefix : {"Camera.k", "Camera1.k"}) {
     for (const char digit : {'4', '5', '6'}) {
       const auto found = values.find(prefix + std::string(1, digit));
       if (found == values.end() || ParseNumber(found->second.text) == 0.0) continue;
-      throw std::runtime_error(path + ":" + std::to_string(found->second.line) + ": " +
-                               found->first +
-                               ": only the distortion coefficients k1 k2 p1 p2 k3 are supported; "
-                               "calibrate with these, or undistort the images");
+      Fail(path, *found,
+           ": only the distortion coefficients k1 k2 p1 p2 k3 are supported; calibrate with these, "
+           "or undistort the images");
     }
   }
   const auto found = values.find("Camera.type");
@@ -66,10 +60,10 @@ bool HasDistortion(const std::map<std::string, Value>& values, const std::string
   const std::string type = Lowercase(found->second.text);
   if (type == "pinhole" || type == "\"pinhole\"") return true;
   if (type == "rectified" || type == "\"rectified\"") return false;
-  throw std::runtime_error(path + ":" + std::to_string(found->second.line) + ": Camera.type " +
-                           found->second.text +
-                           " is not supported, only PinHole and Rectified; undistort the images "
-                           "to a pinhole camera");
+  Fail(path, *found,
+       " " + found->second.text +
+           " is not supported, only PinHole and Rectified; undistort the images to a pinhole "
+           "camera");
 }
 
 }  // namespace
@@ -82,18 +76,22 @@ bool IsOrbSlamConfig(const std::string& content) {
 }
 
 CameraSettings ReadOrbSlamConfig(const std::string& path) {
-  const std::map<std::string, Value> values = ReadValues(ReadFile(path, kMaxOptionsBytes));
-  // The value of the first of the names that the file contains.
-  const auto find = [&](std::initializer_list<const char*> names) -> std::optional<double> {
+  const Values values = ReadValues(ReadFile(path, kMaxOptionsBytes));
+  // The first of the names that the file contains, with its value; null if it contains none.
+  const auto find_entry =
+      [&](std::initializer_list<const char*> names) -> const Values::value_type* {
     for (const char* name : names) {
       const auto found = values.find(name);
-      if (found == values.end()) continue;
-      const std::optional<double> number = ParseNumber(found->second.text);
-      if (number) return number;
-      throw std::runtime_error(path + ":" + std::to_string(found->second.line) + ": " + name +
-                               " must be a number, not '" + found->second.text + "'");
+      if (found != values.end()) return &*found;
     }
-    return std::nullopt;
+    return nullptr;
+  };
+  const auto find = [&](std::initializer_list<const char*> names) -> std::optional<double> {
+    const Values::value_type* entry = find_entry(names);
+    if (!entry) return std::nullopt;
+    const std::optional<double> number = ParseNumber(entry->second.text);
+    if (!number) Fail(path, *entry, " must be a number, not '" + entry->second.text + "'");
+    return number;
   };
   const auto require = [&](std::initializer_list<const char*> names) {
     const std::optional<double> value = find(names);
@@ -106,9 +104,11 @@ CameraSettings ReadOrbSlamConfig(const std::string& path) {
   const auto find_int = [&](std::initializer_list<const char*> names) -> std::optional<int> {
     const std::optional<double> value = find(names);
     if (!value) return std::nullopt;
-    if (const std::optional<int> whole = WholeNumber(*value)) return whole;
-    throw std::runtime_error(path + ": " + *names.begin() + " must be a whole number, not " +
-                             FormatNumber(*value));
+    const std::optional<int> whole = WholeNumber(*value);
+    if (!whole) {
+      Fail(path, *find_entry(names), " must be a whole number, not " + FormatNumber(*value));
+    }
+    return whole;
   };
   const bool has_distortion = HasDistortion(values, path);
 

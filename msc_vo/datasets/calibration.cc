@@ -31,7 +31,9 @@ bool Calibration::IsValid(std::string* error) const {
     return false;
   }
   if (readout_time && !(std::abs(*readout_time) < kMaxReadoutTime)) {
-    *error = "camera: readout_time (seconds from the first row to the last) must be less than 1";
+    *error = "camera: readout_time = " + FormatNumber(*readout_time) + " must be between -" +
+             FormatNumber(kMaxReadoutTime) + " and " + FormatNumber(kMaxReadoutTime) +
+             " seconds from the first image row to the last";
     return false;
   }
   return true;

@@ -38,6 +38,7 @@ struct CameraSettings {
   std::array<std::optional<double>, 5> distortion;  ///< k1 k2 p1 p2 k3
   std::string origin;                               ///< the file, for messages
 
+  /// Tests whether no value is set.
   bool IsEmpty() const;
 };
 

@@ -13,22 +13,17 @@ namespace msc_vo {
 
 namespace {
 
-[[noreturn]] void Fail(const TextLine& line, const std::string& message) {
-  throw std::runtime_error(line.Where() + ": " + message);
-}
-
 // Reads the line of the intrinsics.
 Calibration ParseIntrinsicsLine(const TextLine& line) {
   const std::vector<double> v = ParseNumbers(line);
   if (v.size() != 7 && v.size() != 12) {
-    Fail(line, std::string("expected 7 or 12 numbers ") + kCameraFileFormat + ", found " +
-                   std::to_string(v.size()));
+    line.Fail(std::string("expected 7 or 12 numbers ") + kCameraFileFormat + ", found " +
+              std::to_string(v.size()));
   }
   const std::optional<int> width = WholeNumber(v[4]);
   const std::optional<int> height = WholeNumber(v[5]);
   if (!width || !height) {
-    Fail(line,
-         std::string("width and height must be whole numbers; expected ") + kCameraFileFormat);
+    line.Fail(std::string("width and height must be whole numbers; expected ") + kCameraFileFormat);
   }
   Calibration calibration;
   calibration.camera = {v[0], v[1], v[2], v[3], *width, *height};
@@ -36,7 +31,7 @@ Calibration ParseIntrinsicsLine(const TextLine& line) {
   for (size_t i = 7; i < v.size(); ++i) calibration.distortion.k[i - 7] = v[i];
   calibration.origin = line.file;
   std::string error;
-  if (!calibration.IsValid(&error)) Fail(line, error + "; expected " + kCameraFileFormat);
+  if (!calibration.IsValid(&error)) line.Fail(error + "; expected " + kCameraFileFormat);
   return calibration;
 }
 
@@ -47,13 +42,13 @@ void ParseReadoutLine(const TextLine& line, Calibration* calibration) {
     seconds = ParseNumber(line.fields[1]);
   }
   if (!seconds) {
-    Fail(line, std::string("expected 'readout_time SECONDS' or nothing after the line ") +
-                   kCameraFileFormat);
+    line.Fail(std::string("expected 'readout_time SECONDS' or nothing after the line ") +
+              kCameraFileFormat);
   }
   calibration->readout_time = seconds;
   calibration->readout_origin = line.file;
   std::string error;
-  if (!calibration->IsValid(&error)) Fail(line, error);
+  if (!calibration->IsValid(&error)) line.Fail(error);
 }
 
 }  // namespace
@@ -65,7 +60,7 @@ Calibration ReadCameraFile(const std::string& path) {
   }
   Calibration calibration = ParseIntrinsicsLine(lines[0]);
   if (lines.size() > 1) ParseReadoutLine(lines[1], &calibration);
-  if (lines.size() > 2) Fail(lines[2], "one line too many; remove it");
+  if (lines.size() > 2) lines[2].Fail("one line too many; remove it");
   return calibration;
 }
 

@@ -3,11 +3,12 @@
 
 #include "msc_vo/datasets/camera_preset.h"
 
-#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -56,9 +57,7 @@ const CameraPreset& FindCameraPreset(const std::string& name) {
 }
 
 std::string GuessCameraPreset(const std::string& directory) {
-  std::string name = std::filesystem::path(directory).filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string name = Lowercase(std::filesystem::path(directory).filename().string());
   for (const char digit : {'1', '2', '3'}) {
     if (name.find(std::string("freiburg") + digit) != std::string::npos ||
         (name.rfind(std::string("fr") + digit, 0) == 0 &&

@@ -16,9 +16,11 @@ struct CameraPreset {
   Calibration calibration;
 };
 
+/// Returns all presets, in the order in which messages list them.
 const std::vector<CameraPreset>& CameraPresets();
 
-/// Throws std::invalid_argument, listing the known names, if `name` is unknown.
+/// Returns the preset of this name. Throws std::invalid_argument, listing the known names, if it is
+/// unknown.
 const CameraPreset& FindCameraPreset(const std::string& name);
 
 /// Guesses the preset from the name of a sequence's folder ("rgbd_dataset_freiburg2_xyz" ->

@@ -9,8 +9,9 @@
 
 namespace msc_vo {
 
+/// Size of an image, pixels.
 struct ImageSize {
-  int width = 0;  ///< pixels
+  int width = 0;
   int height = 0;
 };
 
@@ -22,7 +23,8 @@ cv::Mat DecodeImage(const std::string& bytes, int mode);
 /// damaged or no image. Throws std::runtime_error, naming the file, if it cannot be read.
 cv::Mat ReadImageFile(const std::string& path);
 
-/// Throws std::runtime_error, naming the file, if it is not an image.
+/// Returns the size of an image. Throws std::runtime_error, naming the file, if it cannot be read
+/// or is not an image.
 ImageSize ReadImageSize(const std::string& path);
 
 }  // namespace msc_vo

@@ -4,12 +4,12 @@
 #include "msc_vo/datasets/image_folder.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <iterator>
 
 #include "msc_vo/datasets/image_name.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -18,9 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 bool HasImageExtension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = Lowercase(path.extension().string());
   constexpr const char* kExtensions[] = {".png", ".jpg", ".jpeg", ".pgm",
                                          ".ppm", ".bmp", ".tiff", ".tif"};
   return std::find(std::begin(kExtensions), std::end(kExtensions), extension) !=

@@ -4,7 +4,6 @@
 #include "msc_vo/datasets/image_list.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
@@ -26,8 +25,7 @@ namespace {
 double ParseStamp(const TextLine& line, size_t field) {
   const std::optional<double> stamp = ParseNumber(line.fields[field]);
   if (!stamp || !std::isfinite(*stamp)) {
-    throw std::runtime_error(line.Where() + ": '" + line.fields[field] +
-                             "' is not a time stamp; correct or remove the line");
+    line.Fail("'" + line.fields[field] + "' is not a time stamp; correct or remove the line");
   }
   return *stamp;
 }
@@ -37,10 +35,7 @@ std::string ResolvePath(const TextLine& line, size_t field) {
 }
 
 bool NamesDepth(const std::string& path) {
-  std::string lower = path;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower.find("depth") != std::string::npos;
+  return Lowercase(path).find("depth") != std::string::npos;
 }
 
 bool HasSixteenBits(const std::string& path) {
@@ -58,18 +53,18 @@ bool IsDepthFirst(const TextLine& line) {
 void CheckAssociation(const TextLine& line) {
   const size_t count = line.fields.size();
   if (count != 4) {
-    std::string message = line.Where() + ": expected 4 fields 'time colour time depth', found " +
-                          std::to_string(count);
-    if (count >= 8) message += " (is this a list with ground-truth poses?)";
-    throw std::runtime_error(message + "; correct the line, or remove the file to pair " +
-                             "rgb.txt and depth.txt by time");
+    std::string problem =
+        "expected 4 fields 'time colour time depth', found " + std::to_string(count);
+    if (count >= 8) problem += " (is this a list with ground-truth poses?)";
+    line.Fail(problem +
+              "; correct the line, or remove the file to pair rgb.txt and depth.txt by time");
   }
   ParseStamp(line, 0);
   ParseStamp(line, 2);
   for (const size_t field : {1, 3}) {
     if (!ParseNumber(line.fields[field])) continue;
-    throw std::runtime_error(line.Where() + ": '" + line.fields[field] +
-                             "' should be the path of an image; expected 'time colour time depth'");
+    line.Fail("'" + line.fields[field] +
+              "' should be the path of an image; expected 'time colour time depth'");
   }
 }
 
@@ -79,13 +74,14 @@ std::vector<ListedImage> ReadImageList(const std::string& path) {
   std::vector<ListedImage> images;
   for (const TextLine& line : ReadTextLines(path)) {
     if (line.fields.size() != 2) {
-      throw std::runtime_error(line.Where() + ": expected 2 fields 'time path', found " +
-                               std::to_string(line.fields.size()) + "; correct the line");
+      line.Fail("expected 2 fields 'time path', found " + std::to_string(line.fields.size()) +
+                "; correct the line");
     }
     images.push_back({ParseStamp(line, 0), ResolvePath(line, 1), line.Where()});
   }
-  if (images.empty())
+  if (images.empty()) {
     throw std::runtime_error(path + ": lists no image; expected 'time path' rows");
+  }
   std::stable_sort(images.begin(), images.end(),
                    [](const ListedImage& a, const ListedImage& b) { return a.stamp < b.stamp; });
   return images;

@@ -19,10 +19,7 @@ Eigen::MatrixXd ReadMatrix(const std::string& path, int rows, int columns) {
   for (const TextLine& line : ReadTextLines(path)) {
     for (const std::string& field : line.fields) {
       const std::optional<double> value = ParseNumber(field);
-      if (!value) {
-        throw std::runtime_error(line.Where() + ": '" + field +
-                                 "' is not a number; correct the line");
-      }
+      if (!value) line.Fail("'" + field + "' is not a number; correct the line");
       values.push_back(*value);
     }
   }

@@ -5,8 +5,8 @@
 // with one 4x4 matrix world_from_cam per row and frame.
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/image_pairing.h"
@@ -35,8 +35,8 @@ void ReadPoses(const std::string& path, SequenceIndex* index) {
   int row = 0;
   for (const TextLine& line : ReadTextLines(path)) {
     if (line.fields.size() != 16) {
-      throw std::runtime_error(line.Where() + ": expected the 16 numbers of a 4x4 pose, found " +
-                               std::to_string(line.fields.size()) + "; correct the line");
+      line.Fail("expected the 16 numbers of a 4x4 pose, found " +
+                std::to_string(line.fields.size()) + "; correct the line");
     }
     const std::vector<double> values = ParseNumbers(line);
     const Eigen::Matrix4d matrix =

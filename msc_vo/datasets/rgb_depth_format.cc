@@ -3,7 +3,6 @@
 
 // Two folders of images without lists: rgb/ (or color/, colour/, image/, images/) and depth/.
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>

@@ -4,6 +4,7 @@
 #include "msc_vo/datasets/rgbd_decoder.h"
 
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <opencv2/imgcodecs.hpp>
@@ -11,7 +12,6 @@
 
 #include "msc_vo/datasets/image_file.h"
 #include "msc_vo/text/files.h"
-#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -111,8 +111,7 @@ RgbdImage RgbdDecoder::DecodeFiles(int i) const {
     Fail(entry.depth_path, entry,
          "has " + TypeText(depth) +
              "; depth images need 1 channel of 16 bits (a visualisation of the depth does not "
-             "contain "
-             "the measurements)");
+             "contain the measurements)");
   }
   const PinholeCamera& camera = calibration_.camera;
   if (depth.cols != camera.width || depth.rows != camera.height) {

@@ -28,6 +28,7 @@ class UnreadableImage : public std::runtime_error {
 /// Decodes the images of a sequence. Thread-safe: has no mutable state.
 class RgbdDecoder {
  public:
+  /// `calibration` must be valid; its image size is that of the depth images.
   RgbdDecoder(SequenceIndex index, Calibration calibration);
 
   int size() const { return static_cast<int>(index_.entries.size()); }

@@ -6,7 +6,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "msc_vo/datasets/image_file.h"
 #include "msc_vo/datasets/image_folder.h"

@@ -85,7 +85,7 @@ TimeUnit GuessTimeUnit(const std::vector<double>& stamps) {
   constexpr double kMaxIntervalOfDates = 3600.0;  // seconds
   const std::optional<TimeUnit> date = UnitOfDate(stamps.front());
   if (date && interval / UnitsPerSecond(*date) < kMaxIntervalOfDates) return *date;
-  constexpr double kMaxInterval = 5.0;  // seconds
+  constexpr double kMaxInterval = 5.0;  // seconds, far above the interval of any camera
   for (const TimeUnit unit : kUnits) {
     if (interval / UnitsPerSecond(unit) < kMaxInterval) return unit;
   }
@@ -103,8 +103,8 @@ TimeUnit GuessTimeUnit(const std::vector<double>& stamps, const TimeRange& refer
 }
 
 bool AreFrameNumbers(const std::vector<double>& stamps) {
-  constexpr double kMaxStep = 60.0;
-  constexpr double kMaxFrameNumber = 1e8;
+  constexpr double kMaxStep = 60.0;        // two seconds without an image at 30 Hz
+  constexpr double kMaxFrameNumber = 1e8;  // a month at 30 Hz; below any date of UnitOfDate()
   for (size_t i = 0; i < stamps.size(); ++i) {
     if (stamps[i] != std::floor(stamps[i]) || std::abs(stamps[i]) > kMaxFrameNumber) return false;
     if (i > 0 && std::abs(stamps[i] - stamps[i - 1]) > kMaxStep) return false;

@@ -11,7 +11,9 @@ namespace msc_vo {
 /// Units of the time stamps of recordings.
 enum class TimeUnit { kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
 
-const char* ToString(TimeUnit unit);  ///< "seconds"
+/// Returns the name of the unit in the plural, "seconds".
+const char* ToString(TimeUnit unit);
+/// Returns the number of units in one second, 1e3 for milliseconds.
 double UnitsPerSecond(TimeUnit unit);
 
 /// The time range that a list of stamps covers, and the original unit of the list.
@@ -33,8 +35,8 @@ std::optional<TimeUnit> UnitOfDate(double stamp);
 /// are dates of this century, or else the first one in which their median interval is below 5 s.
 TimeUnit GuessTimeUnit(const std::vector<double>& stamps);
 
-/// As above for stamps of the same recording as `reference`: the unit of `reference` if the two
-/// overlap more in that unit.
+/// Guesses the unit of stamps of the same recording as `reference`: the unit of `reference` if the
+/// two time ranges overlap more in that unit, or else that of GuessTimeUnit(stamps).
 TimeUnit GuessTimeUnit(const std::vector<double>& stamps, const TimeRange& reference);
 
 /// Tests whether the stamps may be frame numbers: whole numbers with steps of at most 60.

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <stdexcept>
 
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
@@ -44,17 +43,15 @@ std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out
   if (num_left_out) *num_left_out = 0;
   for (const TextLine& line : ReadTextLines(path)) {
     if (line.fields.size() != kFieldsPerPose) {
-      throw std::runtime_error(line.Where() +
-                               ": expected 8 numbers 'time tx ty tz qx qy qz qw', found " +
-                               std::to_string(line.fields.size()) + " fields; correct the line");
+      line.Fail("expected 8 numbers 'time tx ty tz qx qy qz qw', found " +
+                std::to_string(line.fields.size()) + " fields; correct the line");
     }
     std::array<double, kFieldsPerPose> v;
     bool finite = true;
     for (size_t i = 0; i < kFieldsPerPose; ++i) {
       const std::optional<double> value = ParseNumber(line.fields[i]);
       if (!value) {
-        throw std::runtime_error(line.Where() + ": '" + line.fields[i] +
-                                 "' is not a number; correct or remove the line");
+        line.Fail("'" + line.fields[i] + "' is not a number; correct or remove the line");
       }
       v[i] = *value;
       finite = finite && std::isfinite(v[i]);
@@ -65,10 +62,9 @@ std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out
     }
     const Eigen::Quaterniond rotation(v[7], v[4], v[5], v[6]);
     if (!(std::abs(rotation.norm() - 1.0) <= kMaxQuaternionError)) {
-      throw std::runtime_error(line.Where() +
-                               FormatText(": the quaternion qx qy qz qw has length %.3f instead of "
-                                          "1; correct or remove the line",
-                                          rotation.norm()));
+      line.Fail(FormatText(
+          "the quaternion qx qy qz qw has length %.3f instead of 1; correct or remove the line",
+          rotation.norm()));
     }
     poses.push_back(
         {v[0], Rigid3(rotation.normalized(), {v[1], v[2], v[3]}), line.comment != kNotEstimated});

@@ -3,7 +3,6 @@
 
 #include "msc_vo/datasets/tum_folder.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>

@@ -4,7 +4,6 @@
 // TUM RGB-D: rgb.txt and depth.txt, or an association file; groundtruth.txt; camera.txt.
 
 #include <filesystem>
-#include <stdexcept>
 
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/image_list.h"

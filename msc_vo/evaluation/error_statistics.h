@@ -7,7 +7,8 @@
 
 namespace msc_vo {
 
-/// Statistics of errors, which are not negative. All zero if there are no samples.
+/// Statistics of errors, which are not negative, in the unit of the samples. All zero if there are
+/// no samples.
 struct ErrorStatistics {
   int count = 0;
   double rmse = 0.0;
@@ -17,6 +18,7 @@ struct ErrorStatistics {
   double max = 0.0;
 };
 
+/// Computes the statistics of the samples, which may be in any order.
 ErrorStatistics StatisticsOf(std::vector<double> values);
 
 }  // namespace msc_vo

@@ -37,6 +37,7 @@ struct LineEvaluationOptions {
   /// observed.
   double max_beyond = 0.10;
 
+  /// If an option is invalid, `error` names it and its valid range.
   bool IsValid(std::string* error) const;
 };
 

@@ -13,12 +13,15 @@
 namespace msc_vo {
 
 struct EvaluationOptions {
-  double max_time_difference = 0.02;  ///< seconds, between an estimate and its reference pose
-  double rpe_seconds = 1.0;           ///< interval of the relative error per second
-  double rpe_metres = 1.0;            ///< path length of the relative error per metre
+  /// Largest difference of the stamps of an estimate and its reference pose, seconds: the default
+  /// of the TUM RGB-D tools.
+  double max_time_difference = 0.02;
+  double rpe_seconds = 1.0;  ///< seconds, interval of the relative error per second
+  double rpe_metres = 1.0;   ///< metres, path length of the relative error per metre
   /// Also compares poses that are marked as not estimated (TimedPose); by default they are ignored.
   bool all_poses = false;
 
+  /// If an option is invalid, `error` names it and its valid range.
   bool IsValid(std::string* error) const;
 };
 

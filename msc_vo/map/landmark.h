@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -42,9 +43,13 @@ struct Landmark {
 /// P_i of the paper.
 struct PointLandmark : Landmark {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, world
-  /// Distance (metres) at which the point's patch has the size of pyramid level 0. The level
-  /// predicted at distance d is log(reference_distance / d) / log(kPyramidScale).
+  /// Distance (metres) at which the point's patch has the size of pyramid level 0.
   double reference_distance = 0.0;
+
+  /// Pyramid level, not rounded, at which the point is expected from `distance` metres.
+  double PredictLevel(double distance) const {
+    return std::log(reference_distance / distance) / std::log(kPyramidScale);
+  }
 };
 
 /// L_j = {S_j, E_j} of the paper.

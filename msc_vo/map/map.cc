@@ -25,12 +25,6 @@ auto LowerBound(Observations* observations, KeyframeId keyframe) {
       [](const Observation& observation, KeyframeId id) { return observation.keyframe < id; });
 }
 
-// Returns nullptr if the keyframe does not observe the landmark.
-const Observation* FindObservation(const Landmark& landmark, KeyframeId keyframe) {
-  const auto place = LowerBound(&landmark.observations, keyframe);
-  return place != landmark.observations.end() && place->keyframe == keyframe ? &*place : nullptr;
-}
-
 template <typename Table>
 bool Observe(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, LandmarkId id,
              const Observation& observation) {
@@ -124,6 +118,11 @@ void RefreshDescriptor(const Map::KeyframeTable& keyframes, std::vector<Feature>
 }
 
 }  // namespace
+
+const Observation* FindObservation(const Landmark& landmark, KeyframeId keyframe) {
+  const auto place = LowerBound(&landmark.observations, keyframe);
+  return place != landmark.observations.end() && place->keyframe == keyframe ? &*place : nullptr;
+}
 
 Map Map::Share() {
   Map map;

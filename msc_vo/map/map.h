@@ -12,6 +12,9 @@
 
 namespace msc_vo {
 
+/// Returns the observation of `landmark` by `keyframe`; nullptr if there is none.
+const Observation* FindObservation(const Landmark& landmark, KeyframeId keyframe);
+
 /// Keyframes, landmarks and their observations. Share() returns immutable snapshots.
 ///
 /// Pointers and references into the map are valid until its next change.
@@ -47,7 +50,7 @@ class Map {
 
   /// Adds a keyframe without associations and returns its id.
   KeyframeId AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& cam_from_world);
-  /// Adds a landmark and its observation by feature `feature` of `keyframe`.
+  /// Adds a landmark (metres, world) and its observation by feature `feature` of `keyframe`.
   LandmarkId AddPoint(KeyframeId keyframe, int feature, const Eigen::Vector3d& position);
   LandmarkId AddLine(KeyframeId keyframe, int feature, const LineSegment3& segment);
 
@@ -61,7 +64,8 @@ class Map {
 
   void RemovePoint(LandmarkId point);
   void RemoveLine(LandmarkId line);
-  /// Moves the observations of `from` to `into` where they do not collide, and removes `from`.
+  /// Moves the observations of `from` to `into` where they do not collide, and removes `from`. Both
+  /// must be in the map.
   void MergePoints(LandmarkId from, LandmarkId into);
   void MergeLines(LandmarkId from, LandmarkId into);
 
@@ -71,7 +75,8 @@ class Map {
   /// Pose of a keyframe that is in the map or was removed from it.
   Rigid3 CamFromWorld(KeyframeId id) const;
 
-  /// Replaces the frame by one with the same features in the same order.
+  /// The keyframes and landmarks of these setters must be in the map. Positions are in metres,
+  /// world. SetFrame() replaces the frame by one with the same features in the same order.
   void SetFrame(KeyframeId keyframe, std::shared_ptr<const Frame> frame);
   void SetPose(KeyframeId keyframe, const Rigid3& cam_from_world);
   void SetPoint(LandmarkId point, const Eigen::Vector3d& position);
@@ -87,7 +92,8 @@ class Map {
   void RefreshPoint(LandmarkId point);
   void RefreshLine(LandmarkId line);
 
-  /// Keyframes that share landmarks with `keyframe`, most shared first, then newest first.
+  /// Keyframes that share landmarks with `keyframe`, which must be in the map: most shared first,
+  /// then newest first.
   std::vector<Covisible> FindCovisible(KeyframeId keyframe) const;
 
  private:

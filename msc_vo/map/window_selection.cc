@@ -101,6 +101,17 @@ WindowData::LineObservation MakeObservation(const Keyframe& keyframe, const Line
   return observation;
 }
 
+// Adds the observations of the landmark by the given keyframes.
+template <typename L, typename O>
+void AddObservations(const KeyframeIndex& keyframes, const L& landmark,
+                     std::vector<O>* observations) {
+  for (const Observation& observation : landmark.observations) {
+    const Keyframe* keyframe = keyframes.Find(observation.keyframe);
+    if (keyframe == nullptr) continue;
+    observations->push_back(MakeObservation(*keyframe, landmark, observation.feature));
+  }
+}
+
 // Computes the parameter s of the point of the line a + s (b - a) that is nearest to the ray
 // origin + t ray. Returns false if the ray is nearly parallel to the line.
 bool IntersectRay(const LineSegment3& line, const Eigen::Vector3d& origin,
@@ -145,25 +156,17 @@ WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map,
   WindowData data;
   data.camera = map.FindKeyframe(keyframe)->frame->camera;
   AddKeyframes(map, window, SelectFixed(options, window, observers), &data);
-  KeyframeIndex observers_by_id(map);
-  for (const WindowData::Keyframe& keyframe_data : data.keyframes) {
-    observers_by_id.Add(*map.FindKeyframe(keyframe_data.id));
+  KeyframeIndex keyframes(map);
+  for (const WindowData::Keyframe& selected : data.keyframes) {
+    keyframes.Add(*map.FindKeyframe(selected.id));
   }
   for (const PointLandmark* point : points) {
     data.points.push_back({point->id, point->position, false, point->noise});
-    for (const Observation& observation : point->observations) {
-      const Keyframe* observer = observers_by_id.Find(observation.keyframe);
-      if (observer == nullptr) continue;
-      data.point_observations.push_back(MakeObservation(*observer, *point, observation.feature));
-    }
+    AddObservations(keyframes, *point, &data.point_observations);
   }
   for (const LineLandmark* line : lines) {
     data.lines.push_back({line->id, line->segment, false, line->noise, line->depth_offset});
-    for (const Observation& observation : line->observations) {
-      const Keyframe* observer = observers_by_id.Find(observation.keyframe);
-      if (observer == nullptr) continue;
-      data.line_observations.push_back(MakeObservation(*observer, *line, observation.feature));
-    }
+    AddObservations(keyframes, *line, &data.line_observations);
   }
   return data;
 }

@@ -30,9 +30,9 @@ struct WindowSelectionOptions {
 /// If no other keyframe is fixed, the oldest keyframe of the window fixes the gauge.
 WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, KeyframeId keyframe);
 
-/// Writes the optimised window back into the map and removes rejected observations. End points of
-/// lines are recomputed from the observations, because bundle adjustment leaves them free along the
-/// line.
+/// Writes the optimised window back into the map. Removes rejected observations and lines shorter
+/// than 1 cm. End points of lines are recomputed from the observations, because bundle adjustment
+/// leaves them free along the line.
 void WriteBack(const WindowData& window, Map* map);
 
 /// Returns the part of the infinite line of `segment` (world) that the keyframes observe: the union

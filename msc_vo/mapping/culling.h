@@ -18,8 +18,8 @@ struct CullingOptions {
   /// Smallest ratio of the frames that matched a landmark on probation to those in which it was
   /// predicted to be visible.
   double min_found_ratio = 0.25;
-  /// A keyframe is redundant if this fraction of its landmarks is observed by at least
-  /// redundant_observers other keyframes at the same or a finer scale.
+  /// A keyframe is redundant if more than this fraction of its landmarks is observed by at least
+  /// redundant_observers other keyframes, points at most one pyramid level coarser.
   double redundant_ratio = 0.9;
   int redundant_observers = 3;
 

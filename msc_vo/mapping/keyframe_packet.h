@@ -26,8 +26,8 @@ struct TrackingCount {
 /// Plain data that tracking passes to the mapper for each keyframe; shared parts are immutable.
 struct KeyframePacket {
   std::shared_ptr<const Frame> frame;
-  KeyframeId reference =
-      kNoId;  ///< kNoId: the first keyframe, cam_from_reference is cam_from_world
+  /// kNoId: the first keyframe, for which cam_from_reference is cam_from_world.
+  KeyframeId reference = kNoId;
   Rigid3 cam_from_reference;
   FrameMatches matches;  ///< with landmarks of the map
   /// Velocity at the previous keyframe, from the frames before and after it; none if unknown.

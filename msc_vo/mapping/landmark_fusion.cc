@@ -34,26 +34,18 @@ std::pair<LandmarkId, LandmarkId> SelectSurvivor(const L& a, const L& b) {
   return a_stays ? std::make_pair(a.id, b.id) : std::make_pair(b.id, a.id);
 }
 
-bool IsObservedBy(const Landmark& landmark, KeyframeId keyframe) {
-  const auto place = std::lower_bound(
-      landmark.observations.begin(), landmark.observations.end(), keyframe,
-      [](const Observation& observation, KeyframeId id) { return observation.keyframe < id; });
-  return place != landmark.observations.end() && place->keyframe == keyframe;
-}
-
 std::vector<PointCandidate> PointsOf(const Map& map, const Keyframe& source,
                                      const Keyframe& target) {
   std::vector<PointCandidate> candidates;
   const Eigen::Vector3d center = target.cam_from_world.OriginInSource();
   for (const LandmarkId id : source.points) {
     const PointLandmark* point = map.FindPoint(id);
-    if (point == nullptr || IsObservedBy(*point, target.id)) continue;
+    if (point == nullptr || FindObservation(*point, target.id) != nullptr) continue;
     PointCandidate candidate;
     candidate.id = id;
     candidate.position = point->position;
     candidate.descriptor = point->descriptor;
-    const double distance = (point->position - center).norm();
-    const double level = std::log(point->reference_distance / distance) / std::log(kPyramidScale);
+    const double level = point->PredictLevel((point->position - center).norm());
     candidate.level = CellIndex(std::round(level), std::numeric_limits<int>::max());
     if (ProjectCandidate(target.frame->camera, target.cam_from_world, &candidate)) {
       candidates.push_back(candidate);
@@ -66,7 +58,7 @@ std::vector<LineCandidate> LinesOf(const Map& map, const Keyframe& source, const
   std::vector<LineCandidate> candidates;
   for (const LandmarkId id : source.lines) {
     const LineLandmark* line = map.FindLine(id);
-    if (line == nullptr || IsObservedBy(*line, target.id)) continue;
+    if (line == nullptr || FindObservation(*line, target.id) != nullptr) continue;
     LineCandidate candidate;
     candidate.id = id;
     candidate.segment = line->segment;

@@ -69,7 +69,7 @@ void AddPoint(const PointLandmark& point, const Frame& frame, const Rigid3& cam_
               const Eigen::Vector3d& center, std::vector<PointCandidate>* candidates) {
   const Eigen::Vector3d ray = point.position - center;
   if (!IsViewedAlike(point, ray)) return;
-  const double level = std::log(point.reference_distance / ray.norm()) / std::log(kPyramidScale);
+  const double level = point.PredictLevel(ray.norm());
   // One level of tolerance on both sides, as in the matcher.
   if (!(level > -1.5 && level < kMaxLevel + 1.5)) return;
   PointCandidate candidate;

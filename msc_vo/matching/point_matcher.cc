@@ -7,8 +7,6 @@
 #include <cstdlib>
 #include <tuple>
 
-#include "msc_vo/map/map.h"
-
 namespace msc_vo {
 
 namespace {

@@ -18,10 +18,14 @@ namespace msc_vo {
 /// lost frames is one line. Lines come in the same order in every run.
 class EventLog {
  public:
+  /// Configuration of the run. Call first.
   void LogStart(const OdometryOptions& options, const PinholeCamera& camera);
-  /// `relocalized`: the pose was found without a prediction.
+  /// Changes of the tracking status, and keyframes. `relocalized`: the pose was found without a
+  /// prediction.
   void LogFrame(const FrameResult& frame, bool relocalized);
+  /// Changes of the Manhattan axes and of the readout time.
   void LogMapping(const MappingStep& step);
+  /// Self-calibration at the end of the run; `readout_time` in seconds.
   void LogFinish(const NoiseScale& noise_scale, double readout_time, int num_frames) const;
 
  private:

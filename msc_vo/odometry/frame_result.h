@@ -30,7 +30,7 @@ struct StageTimes {
   /// Process(), because mapping runs in parallel.
   double mapping = 0.0;
   MappingTimes mapping_stages;
-  double snapshot = 0.0;
+  double snapshot = 0.0;  ///< snapshots of the map; part of `mapping`
 };
 
 /// Result of one frame.

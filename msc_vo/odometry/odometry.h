@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
@@ -88,10 +87,10 @@ class Odometry {
   /// without that step.
   FrameResult Process(const RgbdImage& image);
 
-  /// Records a frame that is not processed, because its image came too late (kDropped) or could not
-  /// be read (kUnreadable). It gets the pose of the previous frame, and in the result of Finish()
-  /// the pose interpolated between its neighbours. Throws std::invalid_argument if time stamps do
-  /// not ascend or on another status.
+  /// Records a frame at `timestamp` (seconds) that is not processed, because its image came too
+  /// late (kDropped) or could not be read (kUnreadable). It gets the pose of the previous frame,
+  /// and in the result of Finish() the pose interpolated between its neighbours. Throws
+  /// std::invalid_argument if time stamps do not ascend or on another status.
   FrameResult Drop(int64_t id, double timestamp, TrackingStatus status = TrackingStatus::kDropped);
 
   /// Waits for the mapper and returns the trajectory relative to the final keyframe poses. May be

@@ -31,7 +31,8 @@ std::string FormatValue(double value) {
 }
 
 void ListGeneral(OdometryOptions* options, OptionLister* list) {
-  list->AddChoice("mode", &options->mode, {"pl-vo", "pl-vo-depth", "msc-vo"},
+  list->AddChoice("mode", &options->mode,
+                  {ToString(Mode::kPlVo), ToString(Mode::kPlVoDepth), ToString(Mode::kMscVo)},
                   "Parts of the method. pl-vo: points and lines. pl-vo-depth: also robust depth of "
                   "lines. msc-vo: also structural constraints.")
       .MakeBasic("Choose a simpler mode for comparison.");

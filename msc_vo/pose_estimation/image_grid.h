@@ -15,6 +15,7 @@ namespace msc_vo {
 /// A regular grid of cells over an image, numbered row by row from the upper left.
 class ImageGrid {
  public:
+  /// Divides the image of `camera` into `columns` x `rows` cells, both at least 1.
   ImageGrid(int columns, int rows, const PinholeCamera& camera)
       : columns_(columns),
         rows_(rows),

@@ -45,8 +45,8 @@ struct PoseTerm {
 /// poseest).
 ///
 /// The normal equations have six unknowns and are accumulated here rather than in Ceres, whose
-/// overhead per residual block exceeds the cost of the factors (docs/lab/tracking.md). A
-/// test compares them with Ceres.
+/// overhead per residual block exceeds the cost of the factors (docs/lab/tracking.md). A test
+/// compares them with Ceres.
 struct PoseFactors {
   PoseTerm<PointReprojection> point_reprojection;
   PoseTerm<DepthReprojection> point_depth;
@@ -56,7 +56,8 @@ struct PoseFactors {
   int NumRows() const;
   /// Removes the factors; losses and allocated memory remain.
   void Clear();
-  /// Returns false if a point is behind the camera or the cost is not finite.
+  /// Evaluate the normal equations or the cost alone, with the same rounding. Return false if a
+  /// point is behind the camera or the cost is not finite.
   bool Linearize(const Rigid3& cam_from_world, NormalEquations* equations) const;
   bool Cost(const Rigid3& cam_from_world, double* cost) const;
 };

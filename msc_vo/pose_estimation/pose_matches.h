@@ -33,6 +33,7 @@ void AddFactors(const PoseOptions& options, const PinholeCamera& camera,
                 const PoseData::Point& point, const InlierMask& mask, PoseFactors* factors);
 void AddFactors(const PoseOptions& options, const PinholeCamera& camera, const PoseData::Line& line,
                 const InlierMask& mask, const Rigid3& pose, PoseFactors* factors);
+/// Sets the Huber thresholds of all terms.
 void SetLosses(const PoseOptions& options, PoseFactors* factors);
 
 /// The factors of all active matches, with the robust losses or without.

@@ -25,6 +25,7 @@ std::vector<PointMatch> MatchDescriptors(const RelocalizerOptions& options, cons
   for (size_t feature = 0; feature < frame.points.size(); ++feature) {
     if (!frame.points[feature].HasDepth()) continue;
     const PointLandmark* best = nullptr;
+    // Larger than any distance between descriptors of 256 bits.
     int best_distance = 257;
     int second_distance = 257;
     for (const PointLandmark* landmark : landmarks) {

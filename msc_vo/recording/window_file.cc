@@ -99,10 +99,6 @@ class WindowWriter {
   int64_t num_records_ = 0;
 };
 
-[[noreturn]] void Fail(const TextLine& line, const std::string& message) {
-  throw std::runtime_error(line.Where() + ": " + message);
-}
-
 class WindowReader {
  public:
   WindowReader() : options_(ListWindowOptions(&configuration_)) {}
@@ -112,12 +108,12 @@ class WindowReader {
     if (lines.empty()) throw std::runtime_error(path + ": is empty; a window file is needed");
     CheckVersion(lines.front());
     for (size_t i = 1; i < lines.size(); ++i) {
-      if (ended_) Fail(lines[i], "is after the 'end' record; remove it");
+      if (ended_) lines[i].Fail("is after the 'end' record; remove it");
       ReadLine(lines[i], static_cast<int64_t>(i) - 1);
     }
     if (!ended_) {
-      Fail(lines.back(),
-           "the file ends here without an 'end' record: it is truncated; record it again");
+      lines.back().Fail(
+          "the file ends here without an 'end' record: it is truncated; record it again");
     }
     window_.options = configuration_.odometry.mapping.window;
     return std::move(window_);
@@ -126,18 +122,18 @@ class WindowReader {
  private:
   static void CheckVersion(const TextLine& line) {
     if (line.fields.front() != kFormatKeyword) {
-      Fail(line, "is not a window file: its first record must be '" + std::string(kFormatKeyword) +
-                     " " + std::to_string(kFormatVersion) + "'");
+      line.Fail("is not a window file: its first record must be '" + std::string(kFormatKeyword) +
+                " " + std::to_string(kFormatVersion) + "'");
     }
     FieldReader fields(line, "VERSION");
     int version = 0;
     fields.Integer("VERSION", version);
     fields.EndRecord();
     if (version < 1 || version > kFormatVersion) {
-      Fail(line, "version " + std::to_string(version) +
-                     " of the window file is not supported, only 1" +
-                     (kFormatVersion > 1 ? " to " + std::to_string(kFormatVersion) : "") +
-                     "; read it with the msc_vo that wrote it, or a newer one");
+      line.Fail("version " + std::to_string(version) +
+                " of the window file is not supported, only 1" +
+                (kFormatVersion > 1 ? " to " + std::to_string(kFormatVersion) : "") +
+                "; read it with the msc_vo that wrote it, or a newer one");
     }
   }
 
@@ -146,7 +142,7 @@ class WindowReader {
     if (keyword == kOptionKeyword) {
       ReadOption(line);
     } else if (keyword == CameraRecord::kKeyword) {
-      if (!keys_.insert(keyword).second) Fail(line, "a second camera; remove one of them");
+      if (!keys_.insert(keyword).second) line.Fail("a second camera; remove one of them");
       ReadFields(CameraRecord(), line, &window_.data.camera);
     } else if (keyword == kEndKeyword) {
       ReadEnd(line, num_records_before);
@@ -156,20 +152,16 @@ class WindowReader {
   }
 
   void ReadOption(const TextLine& line) {
-    if (line.fields.size() != 3) Fail(line, "expected 'option NAME VALUE'");
+    if (line.fields.size() != 3) line.Fail("expected 'option NAME VALUE'");
     const std::string& path = line.fields[1];
-    const auto option = std::find_if(options_.begin(), options_.end(),
-                                     [&](const Option& known) { return known.path == path; });
-    if (option == options_.end()) {
-      const Option* similar = FindSimilar(options_, path);
-      Fail(line, "unknown option '" + path + "'" +
-                     (similar ? "; did you mean '" + similar->path + "'?"
-                              : "; remove the line to take the defaults"));
+    const Option* option = FindByPath(options_, path);
+    if (!option) {
+      line.Fail(UnknownOptionMessage(options_, path, "remove the line to take the defaults"));
     }
-    if (!keys_.insert(path).second) Fail(line, "'" + path + "' is given twice; remove one of them");
+    if (!keys_.insert(path).second) line.Fail("'" + path + "' is given twice; remove one of them");
     std::string expected;
     if (!SetOption(*option, line.fields[2], &expected)) {
-      Fail(line, "'" + path + "' must be " + expected + ", not '" + line.fields[2] + "'");
+      line.Fail("'" + path + "' must be " + expected + ", not '" + line.fields[2] + "'");
     }
   }
 
@@ -186,8 +178,8 @@ class WindowReader {
       ReadFields(record, line, &items.back());
     });
     if (!known) {
-      Fail(line, "unknown record '" + line.fields.front() + "'; known are " + keywords + " " +
-                     kEndKeyword);
+      line.Fail("unknown record '" + line.fields.front() + "'; known are " + keywords + " " +
+                kEndKeyword);
     }
   }
 
@@ -204,13 +196,13 @@ class WindowReader {
     fields.Integer("NUMBER_OF_RECORDS", num_records);
     fields.EndRecord();
     if (num_records != num_records_before) {
-      Fail(line, "'end' gives " + std::to_string(num_records) + " records, but the file has " +
-                     std::to_string(num_records_before) +
-                     "; correct the number if you edited the file, otherwise record it again");
+      line.Fail("'end' gives " + std::to_string(num_records) + " records, but the file has " +
+                std::to_string(num_records_before) +
+                "; correct the number if you edited the file, otherwise record it again");
     }
     if (keys_.count(CameraRecord::kKeyword) == 0) {
-      Fail(line, "the window has no camera; add 'camera " +
-                     NamesOf(CameraRecord(), window_.data.camera) + "' above");
+      line.Fail("the window has no camera; add 'camera " +
+                NamesOf(CameraRecord(), window_.data.camera) + "' above");
     }
     ended_ = true;
   }

@@ -27,6 +27,13 @@ struct CameraRecord {
   }
 };
 
+/// Passes the seven parameters of a Rigid3 to a visitor: unit quaternion, translation.
+template <typename Pose, typename Fields>
+void VisitPose(Pose& pose, Fields& fields) {
+  constexpr const char* kNames[] = {"QX", "QY", "QZ", "QW", "TX", "TY", "TZ"};
+  for (int i = 0; i < 7; ++i) fields.Number(kNames[i], pose.params[i]);
+}
+
 struct KeyframeRecord {
   static constexpr const char* kKeyword = "keyframe";
   static constexpr const char* kComment = "cam_from_world: unit quaternion, translation in metres";
@@ -35,8 +42,7 @@ struct KeyframeRecord {
   static void Visit(Keyframe& keyframe, Fields& fields) {
     fields.Integer("ID", keyframe.id);
     fields.Flag("free", "fixed", keyframe.fixed);
-    constexpr const char* kNames[] = {"QX", "QY", "QZ", "QW", "TX", "TY", "TZ"};
-    for (int i = 0; i < 7; ++i) fields.Number(kNames[i], keyframe.cam_from_world.params[i]);
+    VisitPose(keyframe.cam_from_world, fields);
   }
 };
 
@@ -171,8 +177,7 @@ struct PosePriorRecord {
   template <typename Prior, typename Fields>
   static void Visit(Prior& prior, Fields& fields) {
     fields.Integer("KEYFRAME", prior.keyframe);
-    constexpr const char* kNames[] = {"QX", "QY", "QZ", "QW", "TX", "TY", "TZ"};
-    for (int i = 0; i < 7; ++i) fields.Number(kNames[i], prior.cam_from_world.params[i]);
+    VisitPose(prior.cam_from_world, fields);
     for (int row = 0; row < 6; ++row) {
       for (int col = 0; col < 6; ++col) {
         const char name[] = {'C', static_cast<char>('0' + row), static_cast<char>('0' + col), 0};

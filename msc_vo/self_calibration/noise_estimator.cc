@@ -4,12 +4,13 @@
 #include "msc_vo/self_calibration/noise_estimator.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace msc_vo {

@@ -5,7 +5,6 @@
 
 #include <string>
 
-#include "msc_vo/map/map.h"
 #include "msc_vo/map/noise_scale.h"
 #include "msc_vo/self_calibration/window_residuals.h"
 

@@ -14,14 +14,18 @@ namespace msc_vo {
 /// Inverse depth is affine in the image on every plane, and its noise is uniform.
 class InverseDepthImage {
  public:
+  /// An empty image, which has no depth anywhere.
   InverseDepthImage() = default;
+  /// See Assign().
   InverseDepthImage(const cv::Mat& depth, double min_depth, double max_depth) {
     Assign(depth, min_depth, max_depth);
   }
 
-  /// `depth` is CV_32FC1, metres. Reuses the memory if the size is unchanged.
+  /// Inverts `depth` (CV_32FC1, metres); depths outside [min_depth, max_depth] (metres) are
+  /// invalid. Reuses the memory if the size is unchanged.
   void Assign(const cv::Mat& depth, double min_depth, double max_depth);
 
+  /// Inverse depth of pixel (x, y), 1/metres.
   double At(int x, int y) const {
     const bool inside = x >= 0 && y >= 0 && x < image_.cols && y < image_.rows;
     return inside ? image_.at<float>(y, x) : 0.0;

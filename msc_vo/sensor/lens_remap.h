@@ -19,6 +19,7 @@ namespace msc_vo {
 /// would reduce, and are undistorted exactly.
 class LensRemap {
  public:
+  /// Precomputes the remap tables and the mask for images of `camera`, both of which must be valid.
   LensRemap(const PinholeCamera& camera, const LensDistortion& distortion);
 
   /// Undistorts a raw image with bilinear interpolation. Returns the raw image itself without
@@ -29,9 +30,11 @@ class LensRemap {
   /// distortion.
   const cv::Mat& mask() const { return mask_; }
 
+  /// Undistorts a pixel of the raw image, see LensDistortion::Undistort().
   Eigen::Vector2d IdealFromRaw(const Eigen::Vector2d& pixel) const {
     return distortion_.Undistort(camera_, pixel);
   }
+  /// Distorts a pixel of the ideal image, see LensDistortion::Distort().
   Eigen::Vector2d RawFromIdeal(const Eigen::Vector2d& pixel) const {
     return distortion_.IsZero() ? pixel : distortion_.Distort(camera_, pixel);
   }

@@ -24,6 +24,7 @@ struct SensorNoiseOptions {
   /// Standard deviation of the distance of a segment's end point from the true line, pixels.
   double line_sigma = 0.25;
 
+  /// If an option is invalid, `error` names it and its valid range.
   bool IsValid(std::string* error) const;
 };
 

@@ -68,7 +68,10 @@ class AxesEstimator {
 
   /// Sets coarse axes; no effect unless the state is kNone.
   void Propose(const Eigen::Quaterniond& world_from_axes);
+  /// Sets the support of the axes in the map. Drops coarse axes with too few lines on them.
   void Update(const AxesSupport& support);
+  /// Whether the map holds enough keyframes and lines, and enough more lines than at the last
+  /// refinement. False once the axes are frozen.
   bool RefinementDue() const;
   /// Sets refined axes with the covariance (radians^2) of their rotation vector, of which the
   /// largest eigenvalue is used. Returns false, with the effect of RejectRefinement(), if they

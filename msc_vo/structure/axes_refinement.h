@@ -46,9 +46,9 @@ struct ManhattanAxesSummary {
   /// it undetermined. The axes are then unchanged.
   bool usable = false;
   int num_inliers = 0;
-  double initial_cost =
-      0.0;  ///< 0.5 * sum of robustified squares over all observations, at the start
-  double final_cost = 0.0;  ///< at the end, over the inliers
+  /// Half the sum of robust squared norms over all observations, at the start.
+  double initial_cost = 0.0;
+  double final_cost = 0.0;  ///< the same over the inliers, at the end
   /// Covariance of the rotation vector w of Exp(w) q in the world, radians^2: the inverse of J^T J,
   /// scaled by the mean squared residual of the inliers where that exceeds one. Zero if not usable.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();

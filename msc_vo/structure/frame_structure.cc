@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <tuple>
 
 #include "msc_vo/bundle_adjustment/validation.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/structure/frame_structure_factors.h"
+#include "msc_vo/structure/internal/partner_selection.h"
 
 namespace msc_vo {
 
@@ -20,7 +20,6 @@ namespace {
 struct Candidate {
   double sigma = 0.0;  // radians, of the angle between them
   int i = 0, j = 0;    // i < j
-  bool selected = false;
 };
 
 // Direction of a line and its uncertainty.
@@ -125,8 +124,8 @@ void EvaluatePair(const Gates& gates, const std::vector<LineDirection>& lines, i
     n->parallel_by_chance += versed_sine;
     n->perpendicular_by_chance += sine;
   }
-  if (is_parallel) parallel->push_back({sigma, i, j, false});
-  if (is_perpendicular) perpendicular->push_back({sigma, i, j, false});
+  if (is_parallel) parallel->push_back({sigma, i, j});
+  if (is_perpendicular) perpendicular->push_back({sigma, i, j});
 }
 
 // Finds all pairs with angles near 0 and near 90 degrees. In a scene without structure, every
@@ -161,22 +160,6 @@ void FindPairs(const FrameStructureOptions& options, const std::vector<LineDirec
     const RelationCounts& n = counts[line];
     return n.num_perpendicular < 2.0 * random_ratio(n) * n.perpendicular_by_chance;
   });
-}
-
-// Keeps the pairs that are among the `max_partners` most certain ones of either line.
-void SelectMostCertain(int max_partners, size_t num_lines, std::vector<Candidate>* pairs) {
-  std::sort(pairs->begin(), pairs->end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(a.sigma, a.i, a.j) < std::tie(b.sigma, b.i, b.j);
-  });
-  std::vector<int> num_selected(num_lines, 0);
-  const auto select = [&](int line) { return num_selected[line]++ < max_partners; };
-  for (Candidate& pair : *pairs) {
-    const bool by_i = select(pair.i), by_j = select(pair.j);
-    pair.selected = by_i || by_j;
-  }
-  pairs->erase(std::remove_if(pairs->begin(), pairs->end(),
-                              [](const Candidate& pair) { return !pair.selected; }),
-               pairs->end());
 }
 
 // Builds the factors of the lines that have a partner, and returns the indices of these lines.

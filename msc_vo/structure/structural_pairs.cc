@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/structure/internal/partner_selection.h"
 
 namespace msc_vo {
 
@@ -95,19 +95,13 @@ Candidates FindCandidates(const StructuralPairOptions& options,
   return candidates;
 }
 
-// Selects the pairs that are among the most certain ones of either line.
-std::vector<WindowData::LinePair> ChooseBest(const StructuralPairOptions& options,
-                                             const std::vector<Direction>& lines,
-                                             std::vector<Candidate> candidates) {
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(a.sigma, a.i, a.j) < std::tie(b.sigma, b.i, b.j);
-  });
-  std::vector<int> num_chosen(lines.size(), 0);
+// Selects the most certain pairs of each line.
+std::vector<WindowData::LinePair> SelectPairs(const StructuralPairOptions& options,
+                                              const std::vector<Direction>& lines,
+                                              std::vector<Candidate> candidates) {
+  SelectMostCertain(options.max_partners, lines.size(), &candidates);
   std::vector<WindowData::LinePair> pairs;
   for (const Candidate& candidate : candidates) {
-    const bool by_i = num_chosen[candidate.i]++ < options.max_partners;
-    const bool by_j = num_chosen[candidate.j]++ < options.max_partners;
-    if (!by_i && !by_j) continue;
     pairs.push_back({lines[candidate.i].line, lines[candidate.j].line,
                      DegreesToRadians(options.pair_sigma), candidate.count, false});
   }
@@ -133,8 +127,8 @@ void AddStructuralPairs(const StructuralPairOptions& options, const Map& map, Wi
   if (!options.parallel && !options.perpendicular) return;
   const std::vector<Direction> lines = Directions(map, *window);
   Candidates candidates = FindCandidates(options, lines);
-  window->parallel_pairs = ChooseBest(options, lines, std::move(candidates.parallel));
-  window->perpendicular_pairs = ChooseBest(options, lines, std::move(candidates.perpendicular));
+  window->parallel_pairs = SelectPairs(options, lines, std::move(candidates.parallel));
+  window->perpendicular_pairs = SelectPairs(options, lines, std::move(candidates.perpendicular));
 }
 
 }  // namespace msc_vo

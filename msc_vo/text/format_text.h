@@ -8,7 +8,7 @@
 
 namespace msc_vo {
 
-/// Formats like printf and returns the result as a string.
+/// Formats like printf and returns the result as a string. `Values` are types that printf accepts.
 template <typename... Values>
 std::string FormatText(const char* format, Values... values) {
   std::string text(static_cast<size_t>(std::snprintf(nullptr, 0, format, values...)), '\0');

@@ -3,11 +3,10 @@
 
 #include "msc_vo/text/text_file.h"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -29,17 +28,13 @@ std::vector<std::string> SplitFields(const std::string& text) {
   return fields;
 }
 
-// Extracts the text of a comment: "lost" from "  # lost ".
-std::string CommentText(const std::string& text) {
-  constexpr char kBlanks[] = " \t\r\n";
-  const size_t begin = text.find_first_not_of(kBlanks, text.find('#') + 1);
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
-}
-
 }  // namespace
 
 std::string TextLine::Where() const { return file + ":" + std::to_string(number); }
+
+void TextLine::Fail(const std::string& problem) const {
+  throw std::runtime_error(Where() + ": " + problem);
+}
 
 std::vector<TextLine> ReadTextLines(const std::string& path) {
   std::istringstream content(ReadFile(path));
@@ -51,12 +46,25 @@ std::vector<TextLine> ReadTextLines(const std::string& path) {
     TextLine line{path, number, SplitFields(text), std::exchange(comment, "")};
     if (line.fields.empty()) continue;
     if (line.fields.front()[0] == '#') {
-      comment = CommentText(text);
+      comment = Trimmed(text.substr(text.find('#') + 1));
     } else {
       lines.push_back(std::move(line));
     }
   }
   return lines;
+}
+
+std::string Lowercase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string Trimmed(const std::string& text) {
+  constexpr char kBlanks[] = " \t\r\n";
+  const size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
 }
 
 std::optional<double> ParseNumber(const std::string& text) {
@@ -85,8 +93,7 @@ std::vector<double> ParseNumbers(const TextLine& line) {
   for (const std::string& field : line.fields) {
     const std::optional<double> value = ParseNumber(field);
     if (!value || !std::isfinite(*value)) {
-      throw std::runtime_error(line.Where() + ": '" + field +
-                               "' is not a finite number; correct or remove the line");
+      line.Fail("'" + field + "' is not a finite number; correct or remove the line");
     }
     values.push_back(*value);
   }

@@ -22,12 +22,18 @@ struct TextLine {
 
   /// Returns the position for error messages, "file:12".
   std::string Where() const;
+  /// Throws std::runtime_error "file:12: problem".
+  [[noreturn]] void Fail(const std::string& problem) const;
 };
 
 /// Reads the lines of a file that are neither blank nor a comment (#). Accepts CRLF line ends and a
 /// byte order mark. Throws std::runtime_error, naming the file, if it cannot be read.
 std::vector<TextLine> ReadTextLines(const std::string& path);
 
+/// Returns `text` in lower case; only ASCII letters are changed in the "C" locale.
+std::string Lowercase(std::string text);
+/// Returns `text` without leading and trailing blanks, tabs and line ends.
+std::string Trimmed(const std::string& text);
 /// Parses `text` as a number, independent of the locale; none unless all of it is one number.
 /// Accepts "nan" and "inf".
 std::optional<double> ParseNumber(const std::string& text);

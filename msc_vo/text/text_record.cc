@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace msc_vo {
 
@@ -76,14 +75,14 @@ int64_t FieldReader::ReadInteger(const char* name, int64_t min, int64_t max) {
 }
 
 void FieldReader::FailFieldCount() const {
-  throw std::runtime_error(line_.Where() + ": expected '" + line_.fields.front() + " " + names_ +
-                           "', found " + std::to_string(line_.fields.size() - 1) +
-                           " fields after '" + line_.fields.front() + "'; correct the line");
+  line_.Fail("expected '" + line_.fields.front() + " " + names_ + "', found " +
+             std::to_string(line_.fields.size() - 1) + " fields after '" + line_.fields.front() +
+             "'; correct the line");
 }
 
 void FieldReader::Fail(const std::string& field, const std::string& expected) const {
-  throw std::runtime_error(line_.Where() + ": '" + field + "' should be " + expected +
-                           "; correct the line to '" + line_.fields.front() + " " + names_ + "'");
+  line_.Fail("'" + field + "' should be " + expected + "; correct the line to '" +
+             line_.fields.front() + " " + names_ + "'");
 }
 
 }  // namespace msc_vo

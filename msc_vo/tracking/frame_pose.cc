@@ -111,8 +111,9 @@ LocalMap CandidatesFromFrame(const Map& map, const TrackedFrame& last,
                             ? landmark->segment
                             : world_from_last * frame.LineInCamera(static_cast<int>(i));
     candidate.descriptor = frame.lines[i].descriptor;
-    if (ProjectCandidate(frame.camera, cam_from_world, &candidate))
+    if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) {
       candidates.lines.push_back(candidate);
+    }
   }
   return candidates;
 }

@@ -11,7 +11,7 @@
 namespace msc_vo {
 
 /// Constant-velocity motion model from the last two estimated poses, scaled with time, so that it
-/// tolerates dropped frames.
+/// tolerates dropped frames. Time stamps are in seconds.
 class MotionModel {
  public:
   /// Adds an estimated pose. `cam_from_last` is the motion since the previous one.
@@ -24,10 +24,11 @@ class MotionModel {
   /// Predicted velocity at `timestamp`; std::nullopt if the motion is unknown or too old.
   std::optional<CameraVelocity> VelocityAt(double timestamp) const;
 
-  /// Velocities for a frame at `timestamp` before it is added by Observe(); std::nullopt if the
-  /// last frame is too old. Mean velocity since the last observed frame:
+  /// Mean velocity from the last observed frame to a frame at `timestamp` that Observe() has not
+  /// added yet; std::nullopt if the last observed frame is too old.
   std::optional<CameraVelocity> VelocitySince(double timestamp, const Rigid3& cam_from_last) const;
-  /// Velocity at the last observed frame, from the means before and after it.
+  /// Velocity at the last observed frame, interpolated between the mean velocities before and after
+  /// it. Arguments and std::nullopt as for VelocitySince().
   std::optional<CameraVelocity> LastVelocity(double timestamp, const Rigid3& cam_from_last) const;
 
  private:

@@ -46,9 +46,10 @@ struct TrackedFrame {
   FrameMatches matches;    ///< inliers among the landmarks
   NoiseScale noise_scale;  ///< of the sigmas of its features
   PoseSummary pose;
-  /// Matches on dynamic objects, and the cells of these in the ImageGrid (empty if there are none),
-  /// of the pose optimisation that found most of them.
+  /// Matches on dynamic objects, in the pose optimisation that found most of them.
   int num_dynamic = 0;
+  /// One per cell of the ImageGrid: whether it contains a dynamic object, in the same optimisation.
+  /// Empty if there is no such object.
   std::vector<bool> dynamic_cells;
   KeyframeProposal keyframe;
   TrackingTimes times;

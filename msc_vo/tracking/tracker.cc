@@ -182,7 +182,8 @@ bool Tracker::Relocalize(const Map& map, TrackedFrame* tracked) {
 
 bool Tracker::TrackLocalMap(const Map& map, TrackedFrame* tracked) const {
   Stopwatch stopwatch;
-  const TrackedFrame before = *tracked;
+  const PoseSummary initial_pose = tracked->pose;
+  const FrameMatches initial_matches = tracked->matches;
   const LocalMap local =
       SelectLocalMap(map, *tracked->frame, tracked->cam_from_world, tracked->matches,
                      LivingReference(map, last_.reference), options_.max_local_keyframes);
@@ -195,8 +196,8 @@ bool Tracker::TrackLocalMap(const Map& map, TrackedFrame* tracked) const {
   const bool found = EstimatePose(options_.pose, map, tracked);
   if (!found) {
     // The local map has too few landmarks here: the initial pose holds.
-    tracked->pose = before.pose;
-    tracked->matches = before.matches;
+    tracked->pose = initial_pose;
+    tracked->matches = initial_matches;
   }
   tracked->matches = LandmarkInliers(tracked->matches);
   SetReference(map, local.reference, tracked);

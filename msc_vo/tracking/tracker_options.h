@@ -27,6 +27,7 @@ struct TrackerOptions {
   double wide_radius = 60.0;
   double local_map_radius = 4.0;
 
+  /// Largest number of keyframes whose landmarks form the local map.
   int max_local_keyframes = 30;
 
   /// Smallest number of inlier matches of a pose, points and lines together. Six rows determine a

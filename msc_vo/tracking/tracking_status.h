@@ -20,7 +20,7 @@ const char* ToString(TrackingStatus status);
 /// predicted, repeated, or interpolated between the neighbours.
 bool IsEstimated(TrackingStatus status);
 
-/// Whether there was an image to look at: not dropped, not unreadable.
+/// Whether the image of the frame was processed: neither dropped nor unreadable.
 bool HasImage(TrackingStatus status);
 
 }  // namespace msc_vo

@@ -8,8 +8,6 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "msc_vo/text/text_file.h"
-
 namespace msc_vo {
 namespace {
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "msc_vo/results/ply_file.h"
-#include "msc_vo/text/text_file.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 namespace {

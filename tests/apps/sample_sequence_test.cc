@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "msc_vo/text/text_file.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 namespace {

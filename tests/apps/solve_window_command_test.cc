@@ -14,7 +14,6 @@
 #include "msc_vo/recording/window_file.h"
 #include "msc_vo/synthetic/window/synthetic_window.h"
 #include "msc_vo/text/files.h"
-#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 namespace {

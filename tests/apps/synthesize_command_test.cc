@@ -5,7 +5,7 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
-#include "msc_vo/text/text_file.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 namespace {

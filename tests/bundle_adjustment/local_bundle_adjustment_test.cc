@@ -39,20 +39,6 @@ double RmsLine(const WindowData& truth, const WindowData& solved) {
   return std::sqrt(sum / double(2 * truth.lines.size()));
 }
 
-bool SameNumbers(const WindowData& a, const WindowData& b) {
-  for (size_t i = 0; i < a.keyframes.size(); ++i) {
-    if (a.keyframes[i].cam_from_world.params != b.keyframes[i].cam_from_world.params) return false;
-  }
-  for (size_t i = 0; i < a.points.size(); ++i) {
-    if (a.points[i].position != b.points[i].position) return false;
-  }
-  for (size_t i = 0; i < a.lines.size(); ++i) {
-    if (a.lines[i].segment.start != b.lines[i].segment.start) return false;
-    if (a.lines[i].segment.end != b.lines[i].segment.end) return false;
-  }
-  return true;
-}
-
 // The parameter is fy.
 class LocalBundleAdjustmentTest : public ::testing::TestWithParam<double> {
  protected:
@@ -198,13 +184,13 @@ TEST_P(LocalBundleAdjustmentTest, ChangesNothingWithoutObservationsOrFreeBlocks)
   data.point_observations.clear();
   data.line_observations.clear();
   EXPECT_TRUE(LocalBundleAdjustment(options_, &data).usable);
-  EXPECT_TRUE(SameNumbers(data, window.data));
+  EXPECT_TRUE(SameState(data, window.data));
   data = window.data;
   for (auto& k : data.keyframes) k.fixed = true;
   for (auto& p : data.points) p.fixed = true;
   for (auto& l : data.lines) l.fixed = true;
   EXPECT_TRUE(LocalBundleAdjustment(options_, &data).usable);
-  EXPECT_TRUE(SameNumbers(data, window.data));
+  EXPECT_TRUE(SameState(data, window.data));
 }
 
 TEST_P(LocalBundleAdjustmentTest, RejectsAndCountsObservationsBehindTheCamera) {
@@ -321,7 +307,7 @@ TEST_P(LocalBundleAdjustmentTest, FailureLeavesTheDataUnchanged) {
   const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
   EXPECT_FALSE(summary.usable);
   EXPECT_FALSE(summary.message.empty());
-  EXPECT_TRUE(SameNumbers(data, window.data));
+  EXPECT_TRUE(SameState(data, window.data));
 }
 
 TEST_P(LocalBundleAdjustmentTest, IsDeterministic) {
@@ -330,8 +316,8 @@ TEST_P(LocalBundleAdjustmentTest, IsDeterministic) {
   WindowData a = window.data, b = window.data;
   LocalBundleAdjustment(options_, &a);
   LocalBundleAdjustment(options_, &b);
-  EXPECT_TRUE(SameNumbers(a, b));
-  EXPECT_FALSE(SameNumbers(a, window.data));
+  EXPECT_TRUE(SameState(a, b));
+  EXPECT_FALSE(SameState(a, window.data));
 }
 
 TEST_P(LocalBundleAdjustmentTest, InvalidInputThrowsAndLeavesTheDataUnchanged) {
@@ -339,7 +325,7 @@ TEST_P(LocalBundleAdjustmentTest, InvalidInputThrowsAndLeavesTheDataUnchanged) {
   WindowData data = window.data;
   data.point_observations[0].sigma = 0.0;
   EXPECT_THROW(LocalBundleAdjustment(options_, &data), std::invalid_argument);
-  EXPECT_TRUE(SameNumbers(data, window.data));
+  EXPECT_TRUE(SameState(data, window.data));
 }
 
 }  // namespace

@@ -303,15 +303,19 @@ class Consistency {
 // freedom.
 double Bound(int n, int k) { return 2.576 * std::sqrt(2.0 / (double(n) * k)); }
 
-TEST(WindowCovarianceConsistency, ErrorsMatchTheCovariance) {
-  // Plain least squares, the estimator for normal noise.
+// Plain least squares, the estimator for normal noise.
+BundleAdjustmentOptions PlainLeastSquares() {
   BundleAdjustmentOptions options;
   options.point_reprojection.huber = options.point_depth.huber = 1e3;
   options.line_reprojection.huber = options.line_depth.huber = 1e3;
   options.reject_chi2_2 = options.reject_chi2_3 = options.reject_chi2_4 = 1e9;
+  return options;
+}
+
+TEST(WindowCovarianceConsistency, ErrorsMatchTheCovariance) {
   constexpr int kWindows = 300;
   Consistency errors(1.0);
-  errors.Run(options, kWindows);
+  errors.Run(PlainLeastSquares(), kWindows);
   EXPECT_NEAR(errors.pose, 1.0, Bound(kWindows, 6));
   EXPECT_NEAR(errors.point, 1.0, Bound(kWindows, 3));
   EXPECT_NEAR(errors.line, 1.0, Bound(kWindows, 4));
@@ -328,12 +332,8 @@ TEST(WindowCovarianceConsistency, RobustLossesChangeTheErrorsLittle) {
 }
 
 TEST(WindowCovarianceConsistency, DetectsUnderestimatedNoise) {
-  BundleAdjustmentOptions options;
-  options.point_reprojection.huber = options.point_depth.huber = 1e3;
-  options.line_reprojection.huber = options.line_depth.huber = 1e3;
-  options.reject_chi2_2 = options.reject_chi2_3 = options.reject_chi2_4 = 1e9;
   Consistency errors(2.0);
-  errors.Run(options, 100);
+  errors.Run(PlainLeastSquares(), 100);
   EXPECT_GT(errors.pose, 3.0);
   EXPECT_GT(errors.point, 3.0);
   EXPECT_GT(errors.line, 3.0);

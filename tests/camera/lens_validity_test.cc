@@ -3,7 +3,6 @@
 
 #include "msc_vo/camera/lens_validity.h"
 
-#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>

@@ -3,6 +3,7 @@
 
 #include "msc_vo/camera/pinhole_camera.h"
 
+#include <cmath>
 #include <limits>
 #include <string>
 

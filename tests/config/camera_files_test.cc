@@ -14,7 +14,7 @@
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/sequence_calibration.h"
-#include "msc_vo/text/text_file.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 namespace {

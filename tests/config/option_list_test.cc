@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// Gives a value another one; it need not be valid.
+// Changes a value to a different one, which need not be valid.
 struct Change {
   void operator()(bool* value) const { *value = !*value; }
   void operator()(int* value) const { *value += 1; }
@@ -96,6 +96,7 @@ TEST(ListOptions, DescribesEveryOption) {
 
 TEST(ListOptions, GivesUnitsToAnglesAndSigmas) {
   OdometryOptions options;
+  int num_checked = 0;
   for (const Option& option : ListOptions(&options)) {
     const std::string name = option.path.substr(option.path.rfind('.') + 1);
     if (name.find("angle") == std::string::npos && name.find("_sigma") == std::string::npos &&
@@ -104,7 +105,9 @@ TEST(ListOptions, GivesUnitsToAnglesAndSigmas) {
     }
     if (name == "close_relative_sigma" || !option.range) continue;  // a ratio; a switch
     EXPECT_NE(option.range->unit, "") << option.path;
+    ++num_checked;
   }
+  EXPECT_GT(num_checked, 20);
 }
 
 TEST(ListOptions, HasAtMostFortyBasicOptions) {

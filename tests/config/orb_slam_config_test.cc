@@ -54,6 +54,8 @@ TEST_F(OrbSlamConfigTest, RejectsOtherCameraModels) {
               HasSubstr("orb3.yaml:1: Camera1.k4: only the distortion coefficients"));
   EXPECT_THAT(error_of("Camera.k6: 0.01\n"), HasSubstr("Camera.k6"));
   EXPECT_THAT(error_of("Camera.width: 640.5\n"), HasSubstr("Camera.width must be a whole number"));
+  EXPECT_THAT(error_of("Camera.cols: 640.5\n"),
+              HasSubstr("orb3.yaml:1: Camera.cols must be a whole number, not 640.5"));
   EXPECT_EQ(error_of("Camera.k4: 0.0\n"), "");
   EXPECT_EQ(error_of("Camera.type: Pinhole\n"), "");
   EXPECT_EQ(*ReadOrbSlamConfig(Path("orb3.yaml")).distortion[0], -0.03);

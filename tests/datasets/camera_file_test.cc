@@ -70,8 +70,9 @@ TEST_F(CameraFileTest, ReadsReadoutTime) {
   EXPECT_THAT(ErrorOf(camera + "readout 0.026\n"),
               AllOf(HasSubstr("camera.txt:2: "), HasSubstr("'readout_time SECONDS'")));
   EXPECT_THAT(ErrorOf(camera + "readout_time fast\n"), HasSubstr("camera.txt:2: "));
-  EXPECT_THAT(ErrorOf(camera + "readout_time 26\n"),
-              AllOf(HasSubstr("camera.txt:2: "), HasSubstr("less than 1")));
+  EXPECT_THAT(
+      ErrorOf(camera + "readout_time 26\n"),
+      AllOf(HasSubstr("camera.txt:2: "), HasSubstr("readout_time = 26 must be between -1 and 1")));
   EXPECT_THAT(ErrorOf(camera + "readout_time 0\n\nreadout_time 1\n"), HasSubstr("camera.txt:4: "));
 }
 

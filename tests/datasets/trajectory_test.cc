@@ -8,7 +8,6 @@
 
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/text/files.h"
-#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 namespace {

@@ -14,10 +14,8 @@ import sys
 import tempfile
 import urllib.parse
 
-from markdown import read_blocks
+from markdown import NOT_IN_REPOSITORY, read_blocks
 
-# Folders of the root that hold no documents of ours: results and builds.
-NOT_OURS = re.compile(r"^(build.*|out|\.git|\.cache)$")
 INLINE_CODE = re.compile(r"(`+)(.+?)\1")
 # [text](target), ![text](target "title"), [name]: target
 LINKS = [re.compile(r"\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)"),
@@ -30,7 +28,7 @@ ID = re.compile(r"<[a-z]+\b[^>]*\b(?:id|name)=\"([^\"]+)\"")
 
 def documents(root):
     for path in sorted(root.rglob("*.md")):
-        if not NOT_OURS.match(path.relative_to(root).parts[0]):
+        if not NOT_IN_REPOSITORY.match(path.relative_to(root).parts[0]):
             yield path
 
 

@@ -2,6 +2,9 @@
 import dataclasses
 import re
 
+# Entries of the root that are not part of the repository: builds, results, caches.
+NOT_IN_REPOSITORY = re.compile(r"^(build.*|out|\.git|\.cache)$")
+
 FENCE = re.compile(r"^\s*(`{3,}|~{3,})\s*([\w+-]*)")
 
 

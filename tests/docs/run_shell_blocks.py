@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Runs the ```sh blocks of Markdown files, so that what the documentation tells to type works.
+"""Runs the ```sh blocks of Markdown files, so that the commands of the documentation work.
 
     run_shell_blocks.py --root ROOT --command MSC_VO FILE.md ...
     run_shell_blocks.py --self-test
 
 The blocks of a file run in order in a scratch folder that looks like ROOT with a build in it: links to
-all that ROOT holds except what builds and runs leave behind, and MSC_VO as build/apps/msc_vo and on the
+every entry of ROOT except builds, results and caches, and MSC_VO as build/apps/msc_vo and on the
 PATH. Each block starts there anew, with HOME in the scratch folder, and must end with exit status 0.
 
 Not run are lines that build, install or download (SKIPPED below), and blocks below a line
@@ -20,7 +20,7 @@ import subprocess
 import sys
 import tempfile
 
-from markdown import read_blocks
+from markdown import NOT_IN_REPOSITORY, read_blocks
 
 # The first word of a line -> why it is not run.
 SKIPPED = {
@@ -33,8 +33,6 @@ SKIPPED = {
     **dict.fromkeys(["docker", "podman"], "needs a container"),
     **dict.fromkeys(["xdg-open", "firefox"], "opens a window"),
 }
-# Entries of the root that are left out of the scratch folder.
-LEFT_BEHIND = re.compile(r"^(build.*|out|\.git|\.cache)$")
 MARK = re.compile(r"<!--\s*not run:\s*(.*?)\s*-->\s*$")
 BLOCK_SECONDS = 300
 
@@ -87,7 +85,7 @@ def shell_blocks(text):
 
 def make_scratch(scratch, root, command):
     for entry in sorted(root.iterdir()):
-        if not LEFT_BEHIND.match(entry.name):
+        if not NOT_IN_REPOSITORY.match(entry.name):
             (scratch / entry.name).symlink_to(entry)
     (scratch / "build" / "apps").mkdir(parents=True)
     (scratch / "build" / "apps" / "msc_vo").symlink_to(command)

@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "msc_vo/evaluation/trajectory_error.h"
+#include "msc_vo/geometry/angles.h"
 
 namespace msc_vo {
 namespace {
@@ -73,14 +74,14 @@ class ReferenceToolTest : public testing::Test {
     const nlohmann::json tool = nlohmann::json::parse(output);
     const TrajectoryError ours = EvaluateTrajectory(truth, estimate);
     ASSERT_TRUE(ours.usable);
-    const double degrees = 180.0 / std::acos(-1.0);
     EXPECT_NEAR(ours.ape.rmse, tool["ape_rmse"], kTolerance);
     EXPECT_NEAR(ours.ape.mean, tool["ape_mean"], kTolerance);
     EXPECT_NEAR(ours.ape.median, tool["ape_median"], kTolerance);
     EXPECT_NEAR(ours.ape.max, tool["ape_max"], kTolerance);
-    EXPECT_NEAR(degrees * ours.ape_rotation.rmse, tool["ape_rot_deg"], kTolerance);
+    EXPECT_NEAR(RadiansToDegrees(ours.ape_rotation.rmse), tool["ape_rot_deg"], kTolerance);
     EXPECT_NEAR(ours.rpe_per_second.translation.rmse, tool["rpe_1s"], kTolerance);
-    EXPECT_NEAR(degrees * ours.rpe_per_second.rotation.rmse, tool["rpe_1s_rot_deg"], kTolerance);
+    EXPECT_NEAR(RadiansToDegrees(ours.rpe_per_second.rotation.rmse), tool["rpe_1s_rot_deg"],
+                kTolerance);
     EXPECT_EQ(ours.rpe_per_second.translation.count, tool["rpe_pairs"]);
     EXPECT_EQ(ours.num_matched, tool["matched"]);
     EXPECT_EQ(ours.num_reference_in_range, tool["gt_in_range"]);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Preloaded, this ends a program where Ceres enters SuiteSparse or CXSparse. Nothing of CHOLMOD,
-// nor of SuiteSparseQR on top of it, can be used before one of the first two was called; nothing of
-// CXSparse is of use to Ceres without the others.
+// Preloaded, this ends a program as soon as Ceres calls SuiteSparse or CXSparse. CHOLMOD, and
+// SuiteSparseQR on top of it, cannot be used before one of the first two functions is called; Ceres
+// does not use CXSparse without the others.
 
 #include <cstdio>
 #include <cstdlib>

@@ -3,6 +3,10 @@
 
 #include "msc_vo/map/window_selection.h"
 
+#include <map>
+#include <memory>
+#include <set>
+
 #include "tests/support/synthetic_frames.h"
 #include <gmock/gmock.h>
 
@@ -75,14 +79,21 @@ TEST_F(WindowSelectionTest, ObservationsReferToKeyframesOfTheWindow) {
   options.max_keyframes = 2;
   options.max_fixed_keyframes = 1;
   const WindowData window = SelectWindow(options, map_, 3);
-  std::map<int64_t, int> num_observations;
-  std::map<int64_t, int> keyframes;
-  for (const auto& keyframe : window.keyframes) keyframes[keyframe.id] = 1;
+  ASSERT_FALSE(window.points.empty());
+  ASSERT_FALSE(window.lines.empty());
+  std::set<int64_t> keyframes;
+  for (const auto& keyframe : window.keyframes) keyframes.insert(keyframe.id);
+  std::set<int64_t> observed;
   for (const auto& o : window.point_observations) {
     EXPECT_EQ(keyframes.count(o.keyframe), 1u);
-    ++num_observations[o.point];
+    observed.insert(o.point);
   }
-  for (const auto& point : window.points) EXPECT_GE(num_observations[point.id], 1) << point.id;
+  for (const auto& o : window.line_observations) {
+    EXPECT_EQ(keyframes.count(o.keyframe), 1u);
+    observed.insert(o.line);
+  }
+  for (const auto& point : window.points) EXPECT_EQ(observed.count(point.id), 1u) << point.id;
+  for (const auto& line : window.lines) EXPECT_EQ(observed.count(line.id), 1u) << line.id;
 }
 
 TEST_F(WindowSelectionTest, WriteBackUpdatesTheMapAndRemovesRejectedObservations) {

@@ -200,18 +200,18 @@ TEST(CellConsensusTest, WeightsConfirmedLandmarksMore) {
 }
 
 TEST(CellConsensusTest, RejectsInvalidOptions) {
-  const auto is_valid = [](void (*spoil)(CellConsensusOptions*)) {
+  const auto is_rejected = [](void (*spoil)(CellConsensusOptions*)) {
     CellConsensusOptions options;
     spoil(&options);
     std::string error;
-    return options.IsValid(&error) || error.find("consensus: ") != 0;
+    return !options.IsValid(&error) && error.find("consensus: ") == 0;
   };
-  EXPECT_FALSE(is_valid([](CellConsensusOptions* o) { o->columns = 0; }));
-  EXPECT_FALSE(is_valid([](CellConsensusOptions* o) { o->rows = 0; }));
-  EXPECT_FALSE(is_valid([](CellConsensusOptions* o) { o->reject_chi2_6 = 0.0; }));
-  EXPECT_FALSE(is_valid([](CellConsensusOptions* o) { o->min_cells = -1.0; }));
-  EXPECT_FALSE(is_valid([](CellConsensusOptions* o) { o->unconfirmed_weight = 0.0; }));
-  EXPECT_FALSE(is_valid([](CellConsensusOptions* o) { o->unconfirmed_weight = 1.5; }));
+  EXPECT_TRUE(is_rejected([](CellConsensusOptions* o) { o->columns = 0; }));
+  EXPECT_TRUE(is_rejected([](CellConsensusOptions* o) { o->rows = 0; }));
+  EXPECT_TRUE(is_rejected([](CellConsensusOptions* o) { o->reject_chi2_6 = 0.0; }));
+  EXPECT_TRUE(is_rejected([](CellConsensusOptions* o) { o->min_cells = -1.0; }));
+  EXPECT_TRUE(is_rejected([](CellConsensusOptions* o) { o->unconfirmed_weight = 0.0; }));
+  EXPECT_TRUE(is_rejected([](CellConsensusOptions* o) { o->unconfirmed_weight = 1.5; }));
 }
 
 }  // namespace

@@ -31,18 +31,19 @@ double Nees(const Rigid3& estimate, const PoseSummary& summary, const Rigid3& tr
 // The parameter is fy.
 class PoseOptimizationTest : public ::testing::TestWithParam<double> {
  protected:
-  TestWindowOptions Scene() const {
-    TestWindowOptions options;
-    options.fy = GetParam();
-    return options;
+  PoseOptimizationTest() { scene_.fy = GetParam(); }
+  // The window of the scene without measurement noise.
+  TestWindow ExactWindow() const {
+    TestWindowOptions exact = scene_;
+    exact.noise = 0.0;
+    return MakeTestWindow(exact);
   }
+  TestWindowOptions scene_;
 };
 INSTANTIATE_TEST_SUITE_P(FocalLength, PoseOptimizationTest, ::testing::Values(525.0, -480.0));
 
 TEST_P(PoseOptimizationTest, RecoversThePoseFromExactMatches) {
-  TestWindowOptions scene = Scene();
-  scene.noise = 0.0;
-  const TestWindow window = MakeTestWindow(scene);
+  const TestWindow window = ExactWindow();
   PoseData data = MakePoseData(window, kFrame);
   const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   EXPECT_TRUE(summary.usable);
@@ -53,9 +54,7 @@ TEST_P(PoseOptimizationTest, RecoversThePoseFromExactMatches) {
 }
 
 TEST_P(PoseOptimizationTest, RecoversThePoseFromPixelsOfOneKind) {
-  TestWindowOptions scene = Scene();
-  scene.noise = 0.0;
-  const TestWindow window = MakeTestWindow(scene);
+  const TestWindow window = ExactWindow();
   for (const bool points : {true, false}) {
     PoseOptions options;
     options.point_reprojection.enabled = points;
@@ -72,14 +71,13 @@ TEST_P(PoseOptimizationTest, IsNotUsableWithDepthsOfPointsOnly) {
   PoseOptions options;
   options.point_reprojection.enabled = options.line_reprojection.enabled = false;
   options.line_depth.enabled = false;
-  PoseData data = MakePoseData(MakeTestWindow(Scene()), kFrame);
+  PoseData data = MakePoseData(MakeTestWindow(scene_), kFrame);
   EXPECT_FALSE(OptimizePose(options, &data).usable);
 }
 
 TEST_P(PoseOptimizationTest, ToleratesNoiseAndOutliers) {
-  TestWindowOptions scene = Scene();
-  scene.outlier_ratio = 0.3;
-  const TestWindow window = MakeTestWindow(scene);
+  scene_.outlier_ratio = 0.3;
+  const TestWindow window = MakeTestWindow(scene_);
   PoseData data = MakePoseData(window, kFrame);
   const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   ASSERT_TRUE(summary.usable);
@@ -107,9 +105,8 @@ TEST_P(PoseOptimizationTest, ToleratesNoiseAndOutliers) {
 }
 
 TEST_P(PoseOptimizationTest, InflatesTheSigmasOfANoisyFrame) {
-  TestWindowOptions scene = Scene();
-  scene.noise = 1.8;
-  const TestWindow window = MakeTestWindow(scene);
+  scene_.noise = 1.8;
+  const TestWindow window = MakeTestWindow(scene_);
   const auto inlier_ratio = [&](double max_frame_noise) {
     PoseOptions options;
     options.max_frame_noise = max_frame_noise;
@@ -123,9 +120,7 @@ TEST_P(PoseOptimizationTest, InflatesTheSigmasOfANoisyFrame) {
 }
 
 TEST_P(PoseOptimizationTest, ReclassifiesEarlierOutliers) {
-  TestWindowOptions scene = Scene();
-  scene.noise = 0.0;
-  const TestWindow window = MakeTestWindow(scene);
+  const TestWindow window = ExactWindow();
   PoseData data = MakePoseData(window, kFrame);
   // The prediction is so wrong that many matches are outliers after a round of one iteration.
   data.cam_from_world = Moved(Truth(window), {0.03, 0.06, 0.03}, {0.1, -0.05, 0.15});
@@ -148,9 +143,7 @@ TEST_P(PoseOptimizationTest, ReclassifiesEarlierOutliers) {
 }
 
 TEST_P(PoseOptimizationTest, KeepsObservationsWithAWrongDepth) {
-  TestWindowOptions scene = Scene();
-  scene.noise = 0.0;
-  const TestWindow window = MakeTestWindow(scene);
+  const TestWindow window = ExactWindow();
   PoseData data = MakePoseData(window, kFrame);
   for (int i = 0; i < 40; ++i) data.points[i].inverse_depth += 0.1;
   for (int i = 0; i < 8; ++i) data.lines[i].depth.start += 0.1;
@@ -162,9 +155,7 @@ TEST_P(PoseOptimizationTest, KeepsObservationsWithAWrongDepth) {
 }
 
 TEST_P(PoseOptimizationTest, RejectsMatchesBehindTheCamera) {
-  TestWindowOptions scene = Scene();
-  scene.noise = 0.0;
-  const TestWindow window = MakeTestWindow(scene);
+  const TestWindow window = ExactWindow();
   PoseData data = MakePoseData(window, kFrame);
   data.points[3].position.z() = -2.0;
   data.lines[5].map_segment.end.z() = -2.0;
@@ -194,32 +185,29 @@ double MeanNees(TestWindowOptions scene, int runs) {
 TEST_P(PoseOptimizationTest, HasAConsistentCovariance) {
   // 200 times the mean is chi-square with 1200 degrees of freedom: the 99 % interval of the mean is
   // 6 +- 2.576 sqrt(2 * 6 / 200).
-  TestWindowOptions scene = Scene();
-  scene.num_keyframes = 6;
-  scene.num_points = 60;
-  scene.num_lines = 15;
-  EXPECT_NEAR(MeanNees(scene, 200), 6.0, 0.631);
+  scene_.num_keyframes = 6;
+  scene_.num_points = 60;
+  scene_.num_lines = 15;
+  EXPECT_NEAR(MeanNees(scene_, 200), 6.0, 0.631);
 }
 
 TEST_P(PoseOptimizationTest, HasAConservativeCovarianceFromLines) {
   // Where map lines extend beyond the observed segment, the two rows of a line are anti-correlated.
   // The factor neglects this, so that the covariance is somewhat too large, never too small.
-  TestWindowOptions scene = Scene();
-  scene.num_keyframes = 6;
-  scene.num_points = 0;
-  scene.num_lines = 25;
-  const double nees = MeanNees(scene, 200);
+  scene_.num_keyframes = 6;
+  scene_.num_points = 0;
+  scene_.num_lines = 25;
+  const double nees = MeanNees(scene_, 200);
   EXPECT_LT(nees, 6.0 + 0.631);
   EXPECT_GT(nees, 4.5);
 }
 
 TEST_P(PoseOptimizationTest, IsDeterministic) {
-  TestWindowOptions scene = Scene();
-  scene.outlier_ratio = 0.2;
-  PoseData a = MakePoseData(MakeTestWindow(scene), kFrame);
-  PoseData b = MakePoseData(MakeTestWindow(scene), kFrame);
-  OptimizePose(PoseOptions(), &a);
-  OptimizePose(PoseOptions(), &b);
+  scene_.outlier_ratio = 0.2;
+  PoseData a = MakePoseData(MakeTestWindow(scene_), kFrame);
+  PoseData b = MakePoseData(MakeTestWindow(scene_), kFrame);
+  ASSERT_TRUE(OptimizePose(PoseOptions(), &a).usable);
+  ASSERT_TRUE(OptimizePose(PoseOptions(), &b).usable);
   EXPECT_EQ(a.cam_from_world.params, b.cam_from_world.params);
 }
 
@@ -233,9 +221,8 @@ void ExpectNotUsable(PoseData data) {
 }
 
 TEST_P(PoseOptimizationTest, IsNotUsableWithTooFewRows) {
-  TestWindowOptions scene = Scene();
-  scene.has_depth = false;
-  PoseData data = MakePoseData(MakeTestWindow(scene), kFrame);
+  scene_.has_depth = false;
+  PoseData data = MakePoseData(MakeTestWindow(scene_), kFrame);
   data.lines.clear();
   data.points.resize(2);
   ExpectNotUsable(data);
@@ -244,9 +231,7 @@ TEST_P(PoseOptimizationTest, IsNotUsableWithTooFewRows) {
 }
 
 TEST_P(PoseOptimizationTest, RecoversThePoseFromThreePointsWithDepth) {
-  TestWindowOptions scene = Scene();
-  scene.noise = 0.0;
-  const TestWindow window = MakeTestWindow(scene);
+  const TestWindow window = ExactWindow();
   PoseData data = MakePoseData(window, kFrame);
   data.lines.clear();
   data.points.resize(3);
@@ -256,9 +241,7 @@ TEST_P(PoseOptimizationTest, RecoversThePoseFromThreePointsWithDepth) {
 
 TEST_P(PoseOptimizationTest, IsNotUsableWithParallelLinesOnly) {
   // Lines along x do not constrain the translation along x.
-  TestWindowOptions scene = Scene();
-  scene.noise = 0.0;
-  PoseData data = MakePoseData(MakeTestWindow(scene), kFrame);
+  PoseData data = MakePoseData(ExactWindow(), kFrame);
   data.points.clear();
   std::vector<PoseData::Line> along_x;
   for (size_t i = 0; i < data.lines.size(); i += 3) along_x.push_back(data.lines[i]);
@@ -268,9 +251,7 @@ TEST_P(PoseOptimizationTest, IsNotUsableWithParallelLinesOnly) {
 }
 
 TEST_P(PoseOptimizationTest, IsNotUsableWithOneRepeatedPoint) {
-  TestWindowOptions scene = Scene();
-  scene.noise = 0.0;
-  PoseData data = MakePoseData(MakeTestWindow(scene), kFrame);
+  PoseData data = MakePoseData(ExactWindow(), kFrame);
   data.lines.clear();
   data.points.assign(20, data.points[0]);
   ExpectNotUsable(data);
@@ -285,7 +266,7 @@ TEST(PoseOptions, RejectsFrameNoiseBelowOne) {
 }
 
 TEST_P(PoseOptimizationTest, NamesTheInvalidMatch) {
-  const PoseData good = MakePoseData(MakeTestWindow(Scene()), kFrame);
+  const PoseData good = MakePoseData(MakeTestWindow(scene_), kFrame);
   const auto message = [](PoseData data, const PoseOptions& options = PoseOptions()) {
     try {
       OptimizePose(options, &data);

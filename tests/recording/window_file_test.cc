@@ -3,8 +3,11 @@
 
 #include "msc_vo/recording/window_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
+#include <tuple>
 
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
@@ -12,7 +15,6 @@
 #include "msc_vo/config/option_list.h"
 #include "msc_vo/synthetic/window/synthetic_window.h"
 #include "msc_vo/text/files.h"
-#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 namespace {

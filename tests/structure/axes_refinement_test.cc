@@ -160,8 +160,8 @@ TEST_F(ManhattanAxesTest, IsDeterministic) {
   ManhattanAxesData a = Observe(truth_, 60, 0.01, 0.01, &random_);
   Disturb(&a, 3.0);
   ManhattanAxesData b = a;
-  RefineManhattanAxes(options_, &a);
-  RefineManhattanAxes(options_, &b);
+  ASSERT_TRUE(RefineManhattanAxes(options_, &a).usable);
+  ASSERT_TRUE(RefineManhattanAxes(options_, &b).usable);
   EXPECT_EQ(a.world_from_manhattan.coeffs(), b.world_from_manhattan.coeffs());
 }
 

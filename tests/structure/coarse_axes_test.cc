@@ -28,6 +28,13 @@ std::optional<ManhattanAxes> Find(const View& view) {
   return FindCoarseAxes({}, view.lines, view.normals);
 }
 
+// Expects axes within one degree of `truth`.
+void ExpectAxes(const View& view, const Quaterniond& truth) {
+  const auto axes = Find(view);
+  ASSERT_TRUE(axes);
+  EXPECT_LT(AxesErrorInDegrees(axes->rotation, truth), 1.0);
+}
+
 class CoarseAxesInClutter : public ::testing::TestWithParam<double> {};
 
 TEST_P(CoarseAxesInClutter, HaveErrorsBelowOneDegree) {
@@ -102,9 +109,7 @@ TEST(CoarseAxes, AcceptsTwoAxesOfLinesAndSurfaces) {
   AddLines(axes.col(1), 20, &random, &view);
   AddNormals(axes.col(0), 300, &random, &view);
   AddNormals(axes.col(1), 300, &random, &view);
-  const auto found = Find(view);
-  ASSERT_TRUE(found);
-  EXPECT_LT(AxesErrorInDegrees(found->rotation, truth), 1.0);
+  ExpectAxes(view, truth);
 }
 
 TEST(CoarseAxes, AcceptsLinesAlongThreeAxes) {
@@ -112,9 +117,7 @@ TEST(CoarseAxes, AcceptsLinesAlongThreeAxes) {
   const Quaterniond truth = RandomRotation(&random);
   View view;
   for (int i = 0; i < 3; ++i) AddLines(truth.toRotationMatrix().col(i), 10, &random, &view);
-  const auto found = Find(view);
-  ASSERT_TRUE(found);
-  EXPECT_LT(AxesErrorInDegrees(found->rotation, truth), 1.0);
+  ExpectAxes(view, truth);
 }
 
 TEST(CoarseAxes, AcceptsSurfacesAcrossTwoAxes) {
@@ -123,9 +126,7 @@ TEST(CoarseAxes, AcceptsSurfacesAcrossTwoAxes) {
   View view;
   AddNormals(truth.toRotationMatrix().col(0), 400, &random, &view);
   AddNormals(truth.toRotationMatrix().col(2), 300, &random, &view);
-  const auto found = Find(view);
-  ASSERT_TRUE(found);
-  EXPECT_LT(AxesErrorInDegrees(found->rotation, truth), 1.0);
+  ExpectAxes(view, truth);
 }
 
 // For example a window in a sloped roof.
@@ -180,9 +181,7 @@ TEST(CoarseAxes, RejectsTwoEqualFramesWithACommonVertical) {
   };
   EXPECT_FALSE(Find(house(100)));
   EXPECT_FALSE(Find(house(70)));
-  const auto axes = Find(house(25));
-  ASSERT_TRUE(axes);
-  EXPECT_LT(AxesErrorInDegrees(axes->rotation, Quaterniond::Identity()), 1.0);
+  ExpectAxes(house(25), Quaterniond::Identity());
 }
 
 TEST(CoarseAxes, IgnoresUncertainEvidence) {

@@ -237,8 +237,8 @@ TEST_P(FrameStructureTest, IsIndependentOfTheOrderOfEndPoints) {
     std::swap(swapped[i].depth.start, swapped[i].depth.end);
     swapped[i].depth.covariance.reverseInPlace();
   }
-  Refine(frame, &lines);
-  RefineFrameStructure(options_, frame.camera, &swapped);
+  ASSERT_TRUE(Refine(frame, &lines).usable);
+  ASSERT_TRUE(RefineFrameStructure(options_, frame.camera, &swapped).usable);
   for (size_t i = 0; i < lines.size(); ++i) {
     const LineDepth& other_depth = swapped[i].depth;
     EXPECT_NEAR(i % 2 == 0 ? other_depth.end : other_depth.start, lines[i].depth.start, 1e-4);
@@ -248,8 +248,8 @@ TEST_P(FrameStructureTest, IsIndependentOfTheOrderOfEndPoints) {
 TEST_P(FrameStructureTest, IsDeterministic) {
   const StructureFrame frame = MakeStructureFrame(scene_);
   std::vector<StructureLine> a, b;
-  Refine(frame, &a);
-  Refine(frame, &b);
+  ASSERT_TRUE(Refine(frame, &a).usable);
+  ASSERT_TRUE(Refine(frame, &b).usable);
   for (size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(IsSameDepth(a[i].depth, b[i].depth));
 }
 

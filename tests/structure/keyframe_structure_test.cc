@@ -69,6 +69,7 @@ TEST(KeyframeStructure, UsesTheNoiseScaleOfTheLines) {
   EXPECT_EQ(error_with(100.0), DirectionError(LinesInCamera(*frame), world_from_cam));
   // The covariances are returned without the scale.
   const auto refined = RefineStructure(FrameStructureOptions(), NoiseScale{1.0, 0.01, 0.01}, frame);
+  ASSERT_NE(refined, frame);
   for (size_t i = 0; i < frame->lines.size(); ++i) {
     EXPECT_NEAR(
         refined->lines[i].depth->covariance.trace() / frame->lines[i].depth->covariance.trace(),

@@ -3,6 +3,7 @@
 
 #include "msc_vo/structure/scene_axes.h"
 
+#include "tests/structure/evidence.h"
 #include "tests/support/synthetic_frames.h"
 #include "tests/support/synthetic_map.h"
 #include <gmock/gmock.h>
@@ -40,14 +41,8 @@ Map MakeMap(SyntheticFrames* world, int count) {
 
 // Largest angle (degrees) between an axis and the nearest axis of the box.
 double AxesError(const Eigen::Quaterniond& world_from_axes) {
-  const Eigen::Matrix3d axes_in_box =
-      (SyntheticFrames::CamFromWorld(0).rotation().conjugate() * world_from_axes)
-          .toRotationMatrix();
-  double worst = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    worst = std::max(worst, std::acos(std::min(1.0, axes_in_box.col(k).cwiseAbs().maxCoeff())));
-  }
-  return RadiansToDegrees(worst);
+  const Rigid3 cam_from_box = SyntheticFrames::CamFromWorld(0);
+  return testing::AxesErrorInDegrees(Eigen::Quaterniond(cam_from_box.rotation()), world_from_axes);
 }
 
 TEST(SceneAxes, StartsWithOneKeyframeAndRefinesOverMany) {

@@ -51,6 +51,7 @@ TEST_F(StructuralPairsTest, SelectsParallelAndPerpendicularPairs) {
 TEST_F(StructuralPairsTest, PrefersPartnersWithTheMostCertainAngle) {
   options_.max_partners = 1;
   AddStructuralPairs(options_, map_, &window_);
+  EXPECT_FALSE(window_.parallel_pairs.empty());
   EXPECT_LE(window_.parallel_pairs.size(), window_.lines.size());
   WindowData all = window_;
   options_.max_partners = 1000;

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <cmath>
 #include <vector>
 
 #include "tests/support/factor_checks.h"

@@ -4,10 +4,10 @@
 #pragma once
 
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 
 namespace msc_vo {
 
-// A folder of its own for each test, gone when the test is over.
+// A folder of its own for each test, deleted when the test ends.
 class TemporaryFolder : public testing::Test {
  protected:
   void SetUp() override {
@@ -53,7 +53,7 @@ class TemporaryFolder : public testing::Test {
   std::filesystem::path folder_;
 };
 
-// The message of what `action` throws; empty if it throws nothing.
+// The message of the exception that `action` throws; empty if it throws none.
 inline std::string MessageOf(const std::function<void()>& action) {
   try {
     action();

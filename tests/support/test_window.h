@@ -197,6 +197,22 @@ inline TestWindow MakeTestWindow(const TestWindowOptions& options) {
   return TestWindowMaker(options).Make();
 }
 
+// Whether both windows have the same poses, points and lines, to the last bit.
+inline bool SameState(const WindowData& a, const WindowData& b) {
+  const auto same = [](const auto& x, const auto& y, const auto& is_equal) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(), is_equal);
+  };
+  return same(a.keyframes, b.keyframes,
+              [](const auto& x, const auto& y) {
+                return x.cam_from_world.params == y.cam_from_world.params;
+              }) &&
+         same(a.points, b.points,
+              [](const auto& x, const auto& y) { return x.position == y.position; }) &&
+         same(a.lines, b.lines, [](const auto& x, const auto& y) {
+           return x.segment.start == y.segment.start && x.segment.end == y.segment.end;
+         });
+}
+
 // Observations of the true landmarks in keyframe `k` of the window. The predicted pose has an error
 // of 1 degree and 3 cm.
 inline PoseData MakePoseData(const TestWindow& window, int k) {

@@ -146,7 +146,7 @@ MinimizerReport CeresBackend::Minimize(int max_iterations) {
     options.sparse_linear_algebra_library_type = SparseLibrary(options_.solver);
   }
   if (options_.explicit_ordering) options.linear_solver_ordering = EliminationOrdering();
-  // Several threads would change the order of summation, without gain at this size.
+  // One thread keeps the order of summation, and so the result, deterministic.
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;

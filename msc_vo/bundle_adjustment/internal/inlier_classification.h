@@ -12,8 +12,8 @@ namespace msc_vo {
 WindowInlierMask InitialInlierMask(const BundleAdjustmentOptions& options, const WindowIndex& index,
                                    const WindowData& data, int* num_behind);
 
-/// Removes from *inlier_mask what fails the chi-square test at `state`, and adds it to the
-/// num_rejected counts of *summary.
+/// Removes the measurements that fail the chi-square test at `state` from *inlier_mask, and adds
+/// their numbers to the num_rejected counts of *summary.
 void RejectOutliers(const BundleAdjustmentOptions& options, const WindowTerms& terms,
                     const WindowState& state, WindowInlierMask* inlier_mask,
                     BundleAdjustmentSummary* summary);

@@ -4,6 +4,7 @@
 #include "msc_vo/bundle_adjustment/internal/window_equations.h"
 
 #include <array>
+#include <cmath>
 
 #include "msc_vo/geometry/so3.h"
 
@@ -53,7 +54,7 @@ struct CameraLinearization {
   }
 };
 
-// What the observations of one kind of landmark share.
+// Data that all observations of one kind of landmark share.
 template <int Points>
 struct ObservationTerms {
   HuberLoss reprojection_loss, depth_loss;

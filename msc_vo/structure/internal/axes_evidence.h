@@ -20,8 +20,8 @@ struct DirectionEvidence {
   bool IsLine(size_t i) const { return i < num_lines; }
 };
 
-/// Number of lines (of normals) from which on the kind has its full weight: the ratio of 20
-/// directions in a cone is known to 0.1.
+/// Number of lines and of normals from which a kind has its full weight: the fraction of 20
+/// directions in a cone has a standard deviation of about 0.1.
 constexpr double kFullWeightLines = 20.0;
 constexpr double kFullWeightNormals = 200.0;
 
