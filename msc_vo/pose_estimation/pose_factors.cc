@@ -4,8 +4,11 @@
 #include "msc_vo/pose_estimation/pose_factors.h"
 
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Cholesky>
+#include <ceres/cost_function.h>
+#include <ceres/loss_function.h>
 
 #include "msc_vo/factors/rigid3_manifold.h"
 #include "msc_vo/factors/robust_loss.h"
@@ -20,6 +23,39 @@ Rigid3 Plus(const Rigid3& pose, const Vector6& delta) {
   Rigid3 sum;
   Rigid3Manifold().Plus(pose.params.data(), delta.data(), sum.params.data());
   return sum;
+}
+
+// Residual of a custom factor and its Jacobian in the tangent space of Rigid3Manifold.
+struct CustomResidual {
+  Eigen::VectorXd r;
+  Eigen::Matrix<double, Eigen::Dynamic, 6> j;
+
+  // Returns false if the cost function fails.
+  bool Evaluate(const ceres::CostFunction& cost, const Rigid3& pose) {
+    Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor> ambient(cost.num_residuals(), 7);
+    Eigen::Matrix<double, 7, 6, Eigen::RowMajor> plus;
+    const double* parameters = pose.params.data();
+    double* jacobian = ambient.data();
+    r.resize(cost.num_residuals());
+    if (!cost.Evaluate(&parameters, r.data(), &jacobian)) return false;
+    Rigid3Manifold().PlusJacobian(parameters, plus.data());
+    j = ambient * plus;
+    return true;
+  }
+  bool IsFinite() const { return r.allFinite() && j.allFinite(); }
+};
+
+// Adds to the whole Hessian. Returns false if the factor fails or is not finite.
+bool AddTo(const PoseFactor& factor, const Rigid3& pose, NormalEquations* sum) {
+  CustomResidual at;
+  if (!at.Evaluate(*factor.cost, pose) || !at.IsFinite()) return false;
+  const double s = at.r.squaredNorm();
+  double rho[3] = {s, 1.0, 0.0};
+  if (factor.loss) factor.loss->Evaluate(s, rho);
+  sum->cost += 0.5 * rho[0];
+  sum->gradient += rho[1] * (at.j.transpose() * at.r);
+  sum->hessian += rho[1] * (at.j.transpose() * at.j);
+  return true;
 }
 
 // The unknown pose and its normal equations, for MinimizeByLevenbergMarquardt.
@@ -113,8 +149,10 @@ bool PoseTerm<Factor>::AddCostTo(const Rigid3& cam_from_world, double* sum) cons
 }
 
 int PoseFactors::NumRows() const {
-  return point_reprojection.NumRows() + point_depth.NumRows() + line_reprojection.NumRows() +
-         line_depth.NumRows();
+  int num_rows = point_reprojection.NumRows() + point_depth.NumRows() +
+                 line_reprojection.NumRows() + line_depth.NumRows();
+  for (const PoseFactor& factor : custom) num_rows += factor.cost->num_residuals();
+  return num_rows;
 }
 
 void PoseFactors::Clear() {
@@ -122,6 +160,7 @@ void PoseFactors::Clear() {
   point_depth.blocks.clear();
   line_reprojection.blocks.clear();
   line_depth.blocks.clear();
+  custom.clear();
 }
 
 bool PoseFactors::Linearize(const Rigid3& cam_from_world, NormalEquations* equations) const {
@@ -133,15 +172,41 @@ bool PoseFactors::Linearize(const Rigid3& cam_from_world, NormalEquations* equat
     return false;
   }
   equations->hessian.triangularView<Eigen::StrictlyUpper>() = equations->hessian.transpose();
+  for (const PoseFactor& factor : custom) {
+    if (!AddTo(factor, cam_from_world, equations)) return false;
+  }
   return std::isfinite(equations->cost);
 }
 
 bool PoseFactors::Cost(const Rigid3& cam_from_world, double* cost) const {
   *cost = 0.0;
-  return point_reprojection.AddCostTo(cam_from_world, cost) &&
-         point_depth.AddCostTo(cam_from_world, cost) &&
-         line_reprojection.AddCostTo(cam_from_world, cost) &&
-         line_depth.AddCostTo(cam_from_world, cost) && std::isfinite(*cost);
+  if (!(point_reprojection.AddCostTo(cam_from_world, cost) &&
+        point_depth.AddCostTo(cam_from_world, cost) &&
+        line_reprojection.AddCostTo(cam_from_world, cost) &&
+        line_depth.AddCostTo(cam_from_world, cost))) {
+    return false;
+  }
+  // Derivatives included: a cost function may round its residual differently without them.
+  NormalEquations of_custom;
+  of_custom.cost = *cost;
+  for (const PoseFactor& factor : custom) {
+    if (!AddTo(factor, cam_from_world, &of_custom)) return false;
+  }
+  *cost = of_custom.cost;
+  return std::isfinite(*cost);
+}
+
+const char* PoseFactorError(const PoseFactor& factor, const Rigid3& cam_from_world) {
+  if (factor.cost == nullptr) return "its cost function is null";
+  if (factor.cost->parameter_block_sizes() != std::vector<int32_t>{7}) {
+    return "its cost function must have one parameter block, of size 7";
+  }
+  if (factor.cost->num_residuals() < 1) return "its cost function has no residuals";
+  CustomResidual at;
+  if (!at.Evaluate(*factor.cost, cam_from_world)) {
+    return "its cost function fails at the initial pose";
+  }
+  return at.IsFinite() ? nullptr : "its residual or Jacobian is not finite at the initial pose";
 }
 
 LevenbergMarquardtTermination MinimizePose(const PoseFactors& factors, int max_iterations,

@@ -13,6 +13,7 @@
 #include "msc_vo/factors/line_reprojection.h"
 #include "msc_vo/factors/point_reprojection.h"
 #include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/pose_estimation/pose_factor.h"
 
 namespace msc_vo {
 
@@ -52,15 +53,19 @@ struct PoseFactors {
   PoseTerm<DepthReprojection> point_depth;
   PoseTerm<LineReprojection> line_reprojection;
   PoseTerm<LineDepthReprojection> line_depth;
+  std::vector<PoseFactor> custom;
 
   int NumRows() const;
   /// Removes the factors; losses and allocated memory remain.
   void Clear();
   /// Evaluate the normal equations or the cost alone, with the same rounding. Return false if a
-  /// point is behind the camera or the cost is not finite.
+  /// point is behind the camera, or if a custom factor fails or is not finite.
   bool Linearize(const Rigid3& cam_from_world, NormalEquations* equations) const;
   bool Cost(const Rigid3& cam_from_world, double* cost) const;
 };
+
+/// Describes what is wrong with `factor` at the initial pose; nullptr if nothing is.
+const char* PoseFactorError(const PoseFactor& factor, const Rigid3& cam_from_world);
 
 /// Minimises the cost by Levenberg-Marquardt from *cam_from_world. Returns kFailed, and leaves the
 /// pose unchanged, if a factor is undefined at the initial pose or a step is not finite.

@@ -146,6 +146,7 @@ PoseFactors BuildFactors(const PoseOptions& options, const PoseData& data,
   for (size_t i = 0; i < data.lines.size(); ++i) {
     AddFactors(options, data.camera, data.lines[i], mask.lines[i], pose, &factors);
   }
+  factors.custom = data.custom_factors;
   return factors;
 }
 

@@ -36,7 +36,7 @@ void AddFactors(const PoseOptions& options, const PinholeCamera& camera, const P
 /// Sets the Huber thresholds of all terms.
 void SetLosses(const PoseOptions& options, PoseFactors* factors);
 
-/// The factors of all active matches, with the robust losses or without.
+/// The factors of all active matches, with the robust losses or without, and the custom factors.
 PoseFactors BuildFactors(const PoseOptions& options, const PoseData& data,
                          const PoseInlierMask& mask, const Rigid3& pose, bool robust);
 

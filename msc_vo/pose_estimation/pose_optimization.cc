@@ -40,6 +40,10 @@ void Validate(const PoseOptions& options, const PoseData& data) {
     if (what == nullptr) what = LineObservationError(l.segment, l.sigma, l.has_depth, l.depth);
     if (what != nullptr) fail("line " + std::to_string(i), what);
   }
+  for (const PoseFactor& factor : data.custom_factors) {
+    const char* what = PoseFactorError(factor, data.cam_from_world);
+    if (what != nullptr) fail("factor \"" + factor.name + "\"", what);
+  }
 }
 
 // Optimises the pose and reclassifies all matches, up to `num_rounds` times, until the inlier mask

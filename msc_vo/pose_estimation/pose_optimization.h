@@ -13,11 +13,12 @@
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/pose_estimation/pose_factor.h"
 
 namespace msc_vo {
 
 /// Input and output of motion-only bundle adjustment: the matches of one frame with a map that is
-/// held fixed (paper Eq. poseest).
+/// held fixed (paper Eq. poseest), and factors of the caller's own.
 struct PoseData {
   struct Point {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, world
@@ -45,6 +46,9 @@ struct PoseData {
   Rigid3 cam_from_world;  ///< in: prediction, out: estimate
   std::vector<Point> points;
   std::vector<Line> lines;
+  /// Added to the cost in every round, with their losses. They are neither classified as inliers or
+  /// outliers nor part of the search for dynamic objects.
+  std::vector<PoseFactor> custom_factors;
 };
 
 /// Dynamic-object rejection by cell consensus (CellConsensus).
@@ -99,19 +103,23 @@ struct PoseSummary {
   int num_inlier_lines = 0;
   int num_dynamic = 0;  ///< matches in cells of dynamic objects: neither inliers nor outliers
   std::vector<bool> dynamic_cells;  ///< one per cell of the ImageGrid; empty if there are none
-  double final_cost = 0.0;          ///< half the sum of squares over the inliers
-  /// Inverse of J^T J over the inliers: covariance of the estimate in the tangent of Rigid3Manifold
-  /// (rotation vector in the camera frame, radians; then translation, metres). Zero if not usable.
+  /// Half the sum of squares over the inliers, and the robust cost of the custom factors.
+  double final_cost = 0.0;
+  /// Inverse of J^T J over the inliers and custom factors: covariance of the estimate in the
+  /// tangent of Rigid3Manifold (rotation vector in the camera frame, radians; then translation,
+  /// metres). Zero if not usable.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 /// Motion-only bundle adjustment: estimates the pose of one frame from its matches with map points
 /// and lines, whose positions are held fixed (paper Eq. poseest). Matches behind the camera become
 /// outliers. An observation whose depth alone contradicts stays an inlier and loses its depth.
-/// The result is usable if at least six residual rows constrain all six degrees of freedom, so that
-/// the covariance exists.
+/// The result is usable if at least six residual rows, those of custom factors included, constrain
+/// all six degrees of freedom, so that the covariance exists.
 /// Throws std::invalid_argument, naming the match, on numbers that are not finite, sigmas <= 0,
-/// segments without length or invalid options.
+/// segments without length or invalid options; naming the custom factor, if its cost function is
+/// null, has other blocks than one of size 7 or no residuals, or if it fails or is not finite at
+/// the initial pose.
 PoseSummary OptimizePose(const PoseOptions& options, PoseData* data);
 
 }  // namespace msc_vo
