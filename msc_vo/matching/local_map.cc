@@ -114,4 +114,16 @@ LocalMap SelectLocalMap(const Map& map, const Frame& frame, const Rigid3& cam_fr
   return local;
 }
 
+LocalMap SelectVisibleLandmarks(const Map& map, const Frame& frame, const Rigid3& cam_from_world) {
+  LocalMap local;
+  const Eigen::Vector3d center = cam_from_world.OriginInSource();
+  for (const auto& [id, point] : map.points()) {
+    AddPoint(point, frame, cam_from_world, center, &local.points);
+  }
+  for (const auto& [id, line] : map.lines()) {
+    AddLine(line, frame, cam_from_world, center, &local.lines);
+  }
+  return local;
+}
+
 }  // namespace msc_vo

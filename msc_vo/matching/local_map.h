@@ -28,4 +28,9 @@ struct LocalMap {
 LocalMap SelectLocalMap(const Map& map, const Frame& frame, const Rigid3& cam_from_world,
                         const FrameMatches& matches, KeyframeId fallback, int max_keyframes);
 
+/// Selects the landmarks of the whole map that are expected to be visible in `frame` from
+/// `cam_from_world`, by the criteria of SelectLocalMap(): for a search around a pose that may be
+/// far from the last keyframes. The reference is kNoId.
+LocalMap SelectVisibleLandmarks(const Map& map, const Frame& frame, const Rigid3& cam_from_world);
+
 }  // namespace msc_vo

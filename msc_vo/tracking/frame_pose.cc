@@ -137,11 +137,12 @@ FrameMatches LandmarkInliers(const FrameMatches& matches) {
 }
 
 PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, const Map& map,
-                              const NoiseScale& scale, Rigid3* cam_from_world,
-                              FrameMatches* matches) {
+                              const NoiseScale& scale, const std::vector<PoseFactor>& factors,
+                              Rigid3* cam_from_world, FrameMatches* matches) {
   PoseData data;
   data.camera = frame.camera;
   data.cam_from_world = *cam_from_world;
+  data.custom_factors = factors;
   for (const PointMatch& match : matches->points) {
     data.points.push_back(
         Observe(match, frame.points[match.feature], map.FindPoint(match.id), scale));

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <vector>
+
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/pose_estimation/pose_optimization.h"
 #include "msc_vo/tracking/tracked_frame.h"
@@ -24,11 +26,11 @@ FrameMatches MatchLocalMap(const TrackerOptions& options, const Frame& frame, co
 /// The inliers among the matches with landmarks.
 FrameMatches LandmarkInliers(const FrameMatches& matches);
 
-/// Motion-only bundle adjustment of `frame` with `matches`, starting from *cam_from_world; marks
-/// the inliers. The sigmas of the features are multiplied by `scale` and by the noise of their
-/// landmark in `map`.
+/// Motion-only bundle adjustment of `frame` with `matches` and custom `factors`, starting from
+/// *cam_from_world; marks the inliers. The sigmas of the features are multiplied by `scale` and by
+/// the noise of their landmark in `map`.
 PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, const Map& map,
-                              const NoiseScale& scale, Rigid3* cam_from_world,
-                              FrameMatches* matches);
+                              const NoiseScale& scale, const std::vector<PoseFactor>& factors,
+                              Rigid3* cam_from_world, FrameMatches* matches);
 
 }  // namespace msc_vo

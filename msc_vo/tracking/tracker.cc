@@ -86,14 +86,19 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
   const double timestamp = raw->timestamp;
   const double readout_time = CompensationReadoutTime(snapshot);
   const Rigid3 last_from_world = CamFromWorld(map, last_);
-  const Rigid3 prediction = motion_.Predict(timestamp) * last_from_world;
 
   TrackedFrame tracked;
   tracked.noise_scale = snapshot.noise_scale;
   tracked.frame =
       readout_time == 0.0 ? raw : CompensateFrame(raw, motion_.VelocityAt(timestamp), readout_time);
+  const Prediction prediction = Predict(map, last_from_world, tracked);
   if (!TrackInitialPose(map, prediction, &tracked)) {
     BridgeWithPrediction(map, prediction, &tracked);
+    if (!HasLeftMap(map, tracked)) return tracked;
+    tracked.keyframe.is_due = true;
+    policy_.Inserted();
+    UpdateMotion(last_from_world, &tracked);
+    last_ = tracked;
     return tracked;
   }
   // The initial pose yields the velocity since the last frame: compensate again.
@@ -119,21 +124,46 @@ TrackedFrame Tracker::Initialize(std::shared_ptr<const Frame> frame) {
   return tracked;
 }
 
-bool Tracker::TrackInitialPose(const Map& map, const Rigid3& prediction, TrackedFrame* tracked) {
-  return TrackLastFrame(map, prediction, options_.prediction_radius, tracked) ||
-         TrackLastFrame(map, prediction, options_.wide_radius, tracked) ||
-         TrackReference(map, prediction, tracked) || Relocalize(map, tracked);
+Tracker::Prediction Tracker::Predict(const Map& map, const Rigid3& last_from_world,
+                                     const TrackedFrame& tracked) {
+  const double timestamp = tracked.frame->timestamp;
+  Prediction prediction{motion_.Predict(timestamp) * last_from_world, {}};
+  if (!pose_factor_callback_) return prediction;
+  pose_factors_ = pose_factor_callback_(
+      {timestamp, last_.frame->timestamp, last_from_world, prediction.cam_from_world});
+  if (pose_factors_.empty()) return prediction;
+  FrameMatches none;
+  prediction.by_factors = EstimateFramePose(options_.pose, *tracked.frame, map, tracked.noise_scale,
+                                            pose_factors_, &prediction.cam_from_world, &none);
+  return prediction;
 }
 
-void Tracker::BridgeWithPrediction(const Map& map, const Rigid3& prediction,
+bool Tracker::TrackInitialPose(const Map& map, const Prediction& prediction,
+                               TrackedFrame* tracked) {
+  const Rigid3& pose = prediction.cam_from_world;
+  return TrackLastFrame(map, pose, options_.prediction_radius, tracked) ||
+         TrackLastFrame(map, pose, options_.wide_radius, tracked) ||
+         TrackMapAround(map, prediction, tracked) || Relocalize(map, tracked);
+}
+
+void Tracker::BridgeWithPrediction(const Map& map, const Prediction& prediction,
                                    TrackedFrame* tracked) const {
   const double gap = tracked->frame->timestamp - last_.frame->timestamp;
-  tracked->status =
-      gap <= options_.max_prediction ? TrackingStatus::kPredicted : TrackingStatus::kLost;
+  const bool is_known = prediction.by_factors.usable || gap <= options_.max_prediction;
+  tracked->status = is_known ? TrackingStatus::kPredicted : TrackingStatus::kLost;
   tracked->matches = {};
-  tracked->pose = {};
-  tracked->cam_from_world = prediction;
+  tracked->pose = prediction.by_factors;
+  tracked->cam_from_world = prediction.cam_from_world;
   SetReference(map, LivingReference(map, last_.reference), tracked);
+}
+
+bool Tracker::HasLeftMap(const Map& map, const TrackedFrame& tracked) const {
+  if (!tracked.pose.usable || NumWithDepth(*tracked.frame) < options_.min_initial_features) {
+    return false;
+  }
+  const LocalMap visible = SelectVisibleLandmarks(map, *tracked.frame, tracked.cam_from_world);
+  const size_t num_visible = visible.points.size() + visible.lines.size();
+  return num_visible < static_cast<size_t>(options_.min_matches);
 }
 
 bool Tracker::TrackLastFrame(const Map& map, const Rigid3& prediction, double radius,
@@ -146,13 +176,17 @@ bool Tracker::TrackLastFrame(const Map& map, const Rigid3& prediction, double ra
   return EstimatePose(initial_pose_, map, tracked);
 }
 
-bool Tracker::TrackReference(const Map& map, const Rigid3& prediction,
+// The map around the pose of the pose factors, or else the neighbourhood of the reference keyframe.
+bool Tracker::TrackMapAround(const Map& map, const Prediction& prediction,
                              TrackedFrame* tracked) const {
   Stopwatch stopwatch;
+  const Rigid3& pose = prediction.cam_from_world;
   const LocalMap local =
-      SelectLocalMap(map, *tracked->frame, prediction, {}, LivingReference(map, last_.reference),
-                     options_.max_local_keyframes);
-  tracked->cam_from_world = prediction;
+      prediction.by_factors.usable
+          ? SelectVisibleLandmarks(map, *tracked->frame, pose)
+          : SelectLocalMap(map, *tracked->frame, pose, {}, LivingReference(map, last_.reference),
+                           options_.max_local_keyframes);
+  tracked->cam_from_world = pose;
   tracked->matches = MatchLocalMap(options_, *tracked->frame, local, options_.wide_radius, {});
   tracked->times.matching += stopwatch.Milliseconds();
   return EstimatePose(initial_pose_, map, tracked);
@@ -210,7 +244,7 @@ bool Tracker::EstimatePose(const PoseOptions& options, const Map& map,
   Stopwatch stopwatch;
   const Rigid3 start = tracked->cam_from_world;
   tracked->pose = EstimateFramePose(options, *tracked->frame, map, tracked->noise_scale,
-                                    &tracked->cam_from_world, &tracked->matches);
+                                    pose_factors_, &tracked->cam_from_world, &tracked->matches);
   tracked->times.pose += stopwatch.Milliseconds();
   const int num_inliers = tracked->pose.num_inlier_points + tracked->pose.num_inlier_lines;
   const int num_static = NumMatches(tracked->matches) - tracked->pose.num_dynamic;

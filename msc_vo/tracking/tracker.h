@@ -4,9 +4,12 @@
 #pragma once
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/tracking/motion_model.h"
+#include "msc_vo/tracking/pose_factor_callback.h"
 #include "msc_vo/tracking/tracked_frame.h"
 #include "msc_vo/tracking/tracker_options.h"
 
@@ -19,9 +22,16 @@ class Tracker {
   /// Throws std::invalid_argument on invalid options.
   explicit Tracker(const TrackerOptions& options);
 
+  /// Sets the source of custom factors over the pose of every frame. They take part in every
+  /// estimate of that pose. If they determine it alone, they replace constant velocity: the search
+  /// for matches starts from their pose, and a frame whose image yields none keeps it.
+  void SetPoseFactors(PoseFactorCallback callback) { pose_factor_callback_ = std::move(callback); }
+
   /// Tracks the next frame. The returned frame is compensated for the rolling shutter like the map,
   /// unless the camera's velocity is unknown, as after a gap. Frames must be in order of time, and
-  /// snapshots never older than those before.
+  /// snapshots never older than those before. Throws what the callback of the pose factors throws,
+  /// and std::invalid_argument, naming the factor, on invalid ones (OptimizePose); the frame is
+  /// then as if it had not been passed.
   TrackedFrame Track(std::shared_ptr<const Frame> raw, const MapSnapshot& snapshot);
 
   /// Motion of the camera over the last tracked frames.
@@ -31,16 +41,29 @@ class Tracker {
   // Makes the first frame a keyframe if it has enough features with depth.
   TrackedFrame Initialize(std::shared_ptr<const Frame> frame);
 
+  // The pose that the matches are searched around: that of the pose factors if they determine it
+  // alone (`by_factors` is usable), otherwise that of constant velocity.
+  struct Prediction {
+    Rigid3 cam_from_world;
+    PoseSummary by_factors;
+  };
+  // Asks for the pose factors of the frame and predicts its pose.
+  Prediction Predict(const Map& map, const Rigid3& last_from_world, const TrackedFrame& tracked);
+
   // Stage 1, the initial pose: by matching with the last frame around the predicted pose, then with
-  // a wide search radius, then with the reference keyframe, then by relocalisation. Each returns
-  // false if it did not find a pose.
-  bool TrackInitialPose(const Map& map, const Rigid3& prediction, TrackedFrame* tracked);
+  // a wide search radius, then with the map there, then by relocalisation. Each returns false if it
+  // did not find a pose.
+  bool TrackInitialPose(const Map& map, const Prediction& prediction, TrackedFrame* tracked);
   bool TrackLastFrame(const Map& map, const Rigid3& prediction, double radius,
                       TrackedFrame* tracked) const;
-  bool TrackReference(const Map& map, const Rigid3& prediction, TrackedFrame* tracked) const;
+  bool TrackMapAround(const Map& map, const Prediction& prediction, TrackedFrame* tracked) const;
   bool Relocalize(const Map& map, TrackedFrame* tracked);
-  // Without an initial pose: constant velocity, predicted or lost.
-  void BridgeWithPrediction(const Map& map, const Rigid3& prediction, TrackedFrame* tracked) const;
+  // Without an initial pose: predicted or lost.
+  void BridgeWithPrediction(const Map& map, const Prediction& prediction,
+                            TrackedFrame* tracked) const;
+  // Whether the pose factors have moved the camera to where the map has too few landmarks, and the
+  // image has enough features to begin another part of it.
+  bool HasLeftMap(const Map& map, const TrackedFrame& tracked) const;
 
   // Stage 2: matching with the local map. Returns false and keeps the initial pose if the local map
   // has too few landmarks.
@@ -61,7 +84,10 @@ class Tracker {
   PoseOptions initial_pose_;  // of stage 1
   KeyframePolicy policy_;
   MotionModel motion_;
-  TrackedFrame last_;                  // the last frame whose pose was estimated
+  PoseFactorCallback pose_factor_callback_;  // may be empty
+  std::vector<PoseFactor> pose_factors_;     // of the frame that is being tracked
+  // The last frame whose pose was estimated, or that began a new part of the map.
+  TrackedFrame last_;
   KeyframeId next_candidate_ = kNoId;  // the next keyframe to relocalise against
 };
 

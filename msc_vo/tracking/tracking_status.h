@@ -8,8 +8,8 @@ namespace msc_vo {
 enum class TrackingStatus {
   kTracked,     ///< pose from enough matches with the local map
   kWeak,        ///< pose from few or badly distributed matches: large covariance
-  kPredicted,   ///< no pose could be estimated; constant velocity bridges a short gap
-  kLost,        ///< no pose for longer than that; the last pose is repeated
+  kPredicted,   ///< no pose from the image, but from pose factors or a short extrapolation
+  kLost,        ///< no pose for longer than that
   kDropped,     ///< real time: the image came too late and was not processed
   kUnreadable,  ///< the image file is missing or damaged
 };

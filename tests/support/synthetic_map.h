@@ -10,21 +10,26 @@
 
 namespace msc_vo {
 
-// Builds a map with one keyframe, in which every feature of `frame` with a depth is a landmark.
-inline MapSnapshot MapOfOneKeyframe(const std::shared_ptr<const Frame>& frame,
-                                    const Rigid3& cam_from_world) {
-  MapSnapshot snapshot;
-  const KeyframeId id = snapshot.map.AddKeyframe(frame, cam_from_world);
+// Adds a keyframe in which every feature of `frame` with a depth is a new landmark.
+inline void AddKeyframe(const std::shared_ptr<const Frame>& frame, const Rigid3& cam_from_world,
+                        MapSnapshot* snapshot) {
+  const KeyframeId id = snapshot->map.AddKeyframe(frame, cam_from_world);
   const Rigid3 world_from_cam = cam_from_world.Inverse();
   for (int i = 0; i < static_cast<int>(frame->points.size()); ++i) {
     if (!frame->points[i].HasDepth()) continue;
-    snapshot.map.AddPoint(id, i, world_from_cam * frame->PointInCamera(i));
+    snapshot->map.AddPoint(id, i, world_from_cam * frame->PointInCamera(i));
   }
   for (int i = 0; i < static_cast<int>(frame->lines.size()); ++i) {
     if (!frame->lines[i].depth) continue;
-    snapshot.map.AddLine(id, i, world_from_cam * frame->LineInCamera(i));
+    snapshot->map.AddLine(id, i, world_from_cam * frame->LineInCamera(i));
   }
-  snapshot.newest_keyframe = id;
+  snapshot->newest_keyframe = id;
+}
+
+inline MapSnapshot MapOfOneKeyframe(const std::shared_ptr<const Frame>& frame,
+                                    const Rigid3& cam_from_world) {
+  MapSnapshot snapshot;
+  AddKeyframe(frame, cam_from_world, &snapshot);
   return snapshot;
 }
 

@@ -264,7 +264,7 @@ class EstimateFramePoseTest : public ::testing::Test {
   PoseSummary Estimate(const NoiseScale& scale = {}) {
     pose_ = Rigid3(Eigen::Quaterniond::Identity(), {0.01, -0.005, 0.01});
     const PoseSummary summary =
-        EstimateFramePose(PoseOptions(), *frame_, map_, scale, &pose_, &matches_);
+        EstimateFramePose(PoseOptions(), *frame_, map_, scale, {}, &pose_, &matches_);
     EXPECT_TRUE(summary.usable);
     return summary;
   }
@@ -372,7 +372,7 @@ class ConfirmedLandmarksTest : public ::testing::Test {
       matches.points.push_back({i, id, landmarks[i], true});
     }
     Rigid3 pose(Eigen::Quaterniond::Identity(), {4e-3, -2e-3, 3e-3});
-    EstimateFramePose(PoseOptions(), frame, map, NoiseScale(), &pose, &matches);
+    EstimateFramePose(PoseOptions(), frame, map, NoiseScale(), {}, &pose, &matches);
     return PositionError(pose, Rigid3());
   }
 };
