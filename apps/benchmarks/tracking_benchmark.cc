@@ -79,8 +79,8 @@ void EstimatePose(benchmark::State& state) {
   for (auto _ : state) {
     Rigid3 cam_from_world;
     FrameMatches matches = input.matches;
-    summary =
-        EstimateFramePose(input.options.pose, input.frame, Map(), {}, &cam_from_world, &matches);
+    summary = EstimateFramePose(input.options.pose, input.frame, Map(), {}, {}, &cam_from_world,
+                                &matches);
   }
   state.counters["inlier_points"] = summary.num_inlier_points;
   state.counters["inlier_lines"] = summary.num_inlier_lines;
