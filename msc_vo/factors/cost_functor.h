@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <utility>
 
 #include <ceres/autodiff_cost_function.h>
@@ -29,6 +30,12 @@ struct CostFunctor {
   static ceres::CostFunction* Create(Arguments&&... arguments) {
     return new ceres::AutoDiffCostFunction<Factor, Rows, Blocks...>(
         new Factor(std::forward<Arguments>(arguments)...));
+  }
+  /// The same with shared ownership, for CustomFactor and PoseFactor.
+  template <typename... Arguments>
+  static std::shared_ptr<const ceres::CostFunction> CreateShared(Arguments&&... arguments) {
+    return std::shared_ptr<const ceres::CostFunction>(
+        Create(std::forward<Arguments>(arguments)...));
   }
 };
 

@@ -10,12 +10,12 @@
 
 #include "tests/support/eigen_matchers.h"
 #include <ceres/cost_function.h>
-#include <ceres/gradient_checker.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <gtest/gtest.h>
 
 #include "msc_vo/factors/analytic_cost_function.h"
+#include "msc_vo/factors/jacobian_check.h"
 #include "msc_vo/factors/rigid3_manifold.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/rigid3.h"
@@ -77,21 +77,8 @@ inline void ExpectGradientsMatch(const ceres::CostFunction& cost, const Blocks& 
   for (const auto& block : blocks) {
     manifolds.push_back(block.size() == 7 ? &pose_manifold : manifold);
   }
-  ceres::NumericDiffOptions options;
-  // Small enough to stay in the domain of the factors.
-  options.ridders_relative_initial_step_size = 1e-3;
-  const ceres::GradientChecker checker(&cost, &manifolds, options);
-  ceres::GradientChecker::ProbeResults results;
-  // Probe() compares entries by relative error, which entries that are zero cannot pass. The check
-  // below is relative to the norm of the Jacobian.
-  checker.Probe(Pointers(blocks).data(), 1e-6, &results);
-  ASSERT_TRUE(results.return_value) << results.error_log;
-  ASSERT_EQ(results.local_numeric_jacobians.size(), blocks.size()) << results.error_log;
-  for (size_t i = 0; i < blocks.size(); ++i) {
-    const double size = 1.0 + results.local_jacobians[i].norm();
-    EXPECT_THAT(results.local_jacobians[i],
-                IsNear(results.local_numeric_jacobians[i], 1e-7 * size));
-  }
+  const JacobianCheck check = CheckJacobians(cost, blocks, manifolds);
+  EXPECT_LT(check.deviation, 1e-7) << check.report;
 }
 
 // Compares a cost function with analytic derivatives with the automatically differentiated one.
