@@ -6,6 +6,7 @@ set(MSC_VO_PUBLIC_HEADERS
   msc_vo/logging/logger.h
   msc_vo/config/options_file.h
   # Sequences and results
+  msc_vo/datasets/accelerometer.h
   msc_vo/datasets/paced_source.h
   msc_vo/datasets/rgbd_source.h
   msc_vo/datasets/sequence_check.h

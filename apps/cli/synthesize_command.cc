@@ -98,6 +98,15 @@ std::string PoseLine(const std::string& stamp, const Rigid3& world_from_cam) {
                             q.y(), q.z(), q.w());
 }
 
+void WriteAccelerometer(const fs::path& folder, const std::vector<TimedAcceleration>& readings) {
+  std::string text = "# accelerometer data, axes of the camera\n# timestamp ax ay az\n";
+  for (const TimedAcceleration& reading : readings) {
+    const Eigen::Vector3d& a = reading.acceleration;
+    text += FormatText("%.6f %.6f %.6f %.6f\n", reading.timestamp, a.x(), a.y(), a.z());
+  }
+  WriteFile((folder / "accelerometer.txt").string(), text);
+}
+
 int Run(const Arguments& arguments) {
   SyntheticSequenceOptions options = arguments.options;
   options.scene = *SceneKindFromName(arguments.scene);
@@ -111,6 +120,7 @@ int Run(const Arguments& arguments) {
   std::vector<LineSegment3> edges = sequence.scene().edges;
   const std::vector<LineSegment3> painted = sequence.scene().PaintedEdges();
   edges.insert(edges.end(), painted.begin(), painted.end());
+  WriteAccelerometer(folder, sequence.AccelerometerReadings(arguments.frames));
   WriteFile((folder / "edges.ply").string(), FormatEdgesPly(edges));
   GrowingFile rgb_list((folder / "rgb.txt").string());
   GrowingFile depth_list((folder / "depth.txt").string());
@@ -144,7 +154,8 @@ Command AddSynthesizeCommand(CLI::App* app) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app->add_subcommand("synthesize",
                                           "Render an RGB-D sequence in TUM layout with "
-                                          "groundtruth.txt and edges.ply, the true edges");
+                                          "groundtruth.txt, accelerometer.txt and edges.ply, the "
+                                          "true edges");
   command->add_option("out_dir", arguments->folder, "Folder to write")->required();
   command->add_option("--scene", arguments->scene, "Scene to render")
       ->check(CLI::IsMember({"room", "corridor", "bare", "slanted", "house"}))

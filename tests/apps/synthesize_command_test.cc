@@ -5,6 +5,7 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
+#include "msc_vo/datasets/accelerometer.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -38,6 +39,14 @@ TEST_F(SynthesizeCommandTest, RejectsJpegQualityWithoutJpeg) {
   const CommandOutcome outcome = Synthesize("png", {"--jpeg-quality", "90"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.output, HasSubstr("--jpeg"));
+}
+
+TEST_F(SynthesizeCommandTest, WritesAnAccelerometer) {
+  ASSERT_EQ(Synthesize("room", {"--fps", "2"}).exit_code, 0);
+  const std::vector<TimedAcceleration> readings = ReadAccelerometer(OpenSequence(Path("room")));
+  ASSERT_FALSE(readings.empty());
+  // The camera is held upright: up is against its y axis.
+  EXPECT_LT(readings.front().acceleration.y(), -8.0);
 }
 
 }  // namespace

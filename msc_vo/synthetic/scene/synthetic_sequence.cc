@@ -6,12 +6,16 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "msc_vo/synthetic/scene/random.h"
+
 namespace msc_vo {
 
 namespace {
 
 // Time stamp of the first frame, seconds. Not 0, which some tools interpret as missing.
 constexpr double kFirstTime = 1.0;
+
+const Eigen::Vector3d kGravity(0.0, 0.0, -9.81);  // metres/second^2, world
 
 const SyntheticSequenceOptions& Checked(const SyntheticSequenceOptions& options) {
   std::string error;
@@ -38,6 +42,10 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
     *error = "readout_time must be at most the time between two images";
   } else if (!(image_sigma >= 0.0)) {
     *error = "image_sigma must not be negative";
+  } else if (!(accelerometer_sigma >= 0.0)) {
+    *error = "accelerometer_sigma must not be negative";
+  } else if (!(accelerometer_rate > 0.0)) {
+    *error = "accelerometer_rate must be positive";
   } else {
     return kinect.IsValid(error) && path.IsValid(error);
   }
@@ -53,6 +61,29 @@ SyntheticSequence::SyntheticSequence(const SyntheticSequenceOptions& options)
 TimedPose SyntheticSequence::PoseAt(int index) const {
   const double seconds = index / options_.fps;
   return {kFirstTime + seconds, path_.CamFromWorld(seconds).Inverse()};
+}
+
+Eigen::Vector3d SyntheticSequence::AccelerationAt(double seconds) const {
+  // The speed along the path changes in steps, which this interval smooths.
+  constexpr double kStep = 0.05;  // seconds
+  const Eigen::Vector3d before = path_.CamFromWorld(seconds - kStep).OriginInSource();
+  const Eigen::Vector3d at = path_.CamFromWorld(seconds).OriginInSource();
+  const Eigen::Vector3d after = path_.CamFromWorld(seconds + kStep).OriginInSource();
+  return (before - 2.0 * at + after) / (kStep * kStep);
+}
+
+std::vector<TimedAcceleration> SyntheticSequence::AccelerometerReadings(int num_frames) const {
+  const double duration = (num_frames - 1) / options_.fps;
+  Random random(options_.seed, 0x616363656c);
+  std::vector<TimedAcceleration> readings;
+  for (int i = 0; i / options_.accelerometer_rate <= duration; ++i) {
+    const double seconds = i / options_.accelerometer_rate;
+    const Eigen::Vector3d in_world = AccelerationAt(seconds) - kGravity;
+    const Eigen::Vector3d noise = options_.accelerometer_sigma * random.Normal3();
+    readings.push_back(
+        {kFirstTime + seconds, path_.CamFromWorld(seconds).rotation() * in_world + noise});
+  }
+  return readings;
 }
 
 RenderedImage SyntheticSequence::RenderRolling(double seconds) const {

@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/geometry/timed_acceleration.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/synthetic/scene/camera_path.h"
 #include "msc_vo/synthetic/scene/kinect_noise.h"
@@ -31,7 +33,10 @@ struct SyntheticSequenceOptions {
   double image_sigma = 2.0;
   bool kinect_depth = false;  ///< apply `kinect` noise to depth, which is exact otherwise
   KinectNoiseOptions kinect;
-  PathOptions path;  ///< its seed is ignored
+  /// Standard deviation of the noise of the accelerometer, of each axis, metres/second^2.
+  double accelerometer_sigma = 0.05;
+  double accelerometer_rate = 100.0;  ///< readings per second
+  PathOptions path;                   ///< its seed is ignored
 
   bool IsValid(std::string* error) const;
 };
@@ -50,11 +55,16 @@ class SyntheticSequence {
   /// Renders frame `index` >= 0. Deterministic for a given index.
   SyntheticFrame Render(int index) const;
   TimedPose PoseAt(int index) const;
+  /// Readings of an accelerometer in the optical centre, with the axes of the camera, from the
+  /// first to the last of `num_frames` >= 1 images. The acceleration is a mean over 0.1 seconds.
+  std::vector<TimedAcceleration> AccelerometerReadings(int num_frames) const;
 
   const PinholeCamera& camera() const { return renderer_.camera(); }
   const Scene& scene() const { return renderer_.scene(); }
 
  private:
+  // Acceleration of the optical centre in the world, metres/second^2.
+  Eigen::Vector3d AccelerationAt(double seconds) const;
   // The image whose readout is centred `seconds` after the start.
   RenderedImage RenderRolling(double seconds) const;
 

@@ -190,5 +190,50 @@ TEST(SyntheticSequenceTest, RejectsReadoutTimeAboveFrameInterval) {
   }
 }
 
+// Specific force, rotated to the world and integrated over time, is the change of velocity plus the
+// upward reaction to gravity.
+TEST(SyntheticSequenceTest, AccelerometerAgreesWithTheTrajectory) {
+  SyntheticSequenceOptions options = Small();
+  options.fps = 100.0;  // a pose for each reading
+  options.accelerometer_sigma = 0.0;
+  const SyntheticSequence sequence(options);
+  constexpr int kFrames = 301;
+  const std::vector<TimedAcceleration> readings = sequence.AccelerometerReadings(kFrames);
+  ASSERT_EQ(readings.size(), size_t{kFrames});
+  const auto velocity = [&](int i) -> Eigen::Vector3d {
+    const Rigid3 before = sequence.PoseAt(i - 5).world_from_cam;
+    const Rigid3 after = sequence.PoseAt(i + 5).world_from_cam;
+    return (after.translation() - before.translation()) / 0.1;
+  };
+  constexpr int kFirst = 10, kLast = 290;
+  Eigen::Vector3d integral = Eigen::Vector3d::Zero();
+  for (int i = kFirst; i < kLast; ++i) {
+    const TimedPose pose = sequence.PoseAt(i);
+    EXPECT_NEAR(readings[i].timestamp, pose.timestamp, 1e-9);
+    integral += 0.01 * (pose.world_from_cam.rotation() * readings[i].acceleration);
+  }
+  const Eigen::Vector3d gravity =
+      (integral - velocity(kLast) + velocity(kFirst)) / (0.01 * (kLast - kFirst));
+  EXPECT_NEAR(gravity.x(), 0.0, 0.02);
+  EXPECT_NEAR(gravity.y(), 0.0, 0.02);
+  EXPECT_NEAR(gravity.z(), 9.81, 0.02);
+}
+
+TEST(SyntheticSequenceTest, AccelerometerHasTheGivenNoise) {
+  SyntheticSequenceOptions options = Small();
+  options.accelerometer_sigma = 0.0;
+  const std::vector<TimedAcceleration> exact =
+      SyntheticSequence(options).AccelerometerReadings(600);
+  options.accelerometer_sigma = 0.2;
+  const std::vector<TimedAcceleration> noisy =
+      SyntheticSequence(options).AccelerometerReadings(600);
+  ASSERT_EQ(noisy.size(), exact.size());
+  double squares = 0.0;
+  for (size_t i = 0; i < exact.size(); ++i) {
+    squares += (noisy[i].acceleration - exact[i].acceleration).squaredNorm();
+  }
+  EXPECT_NEAR(std::sqrt(squares / (3.0 * static_cast<double>(exact.size()))), 0.2, 0.01);
+}
+
 }  // namespace
 }  // namespace msc_vo
