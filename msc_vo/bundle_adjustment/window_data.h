@@ -4,10 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
+#include "msc_vo/bundle_adjustment/custom_factor.h"
 #include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
@@ -86,6 +89,12 @@ struct WindowData {
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Identity();
   };
 
+  /// Manhattan axes as a parameter block of custom factors; alignments do not use them.
+  struct Axes {
+    Eigen::Quaterniond world_from_axes = Eigen::Quaterniond::Identity();
+    bool fixed = true;
+  };
+
   PinholeCamera camera;
   std::vector<Keyframe> keyframes;
   std::vector<Point> points;
@@ -96,6 +105,9 @@ struct WindowData {
   std::vector<LinePair> perpendicular_pairs;
   std::vector<AxisAlignment> axis_alignments;
   std::vector<PosePrior> pose_priors;
+  std::optional<Axes> axes;
+  std::vector<ExtraBlock> extra_blocks;
+  std::vector<CustomFactor> custom_factors;
 };
 
 }  // namespace msc_vo
