@@ -15,6 +15,7 @@ set(MSC_VO_PUBLIC_HEADERS
   msc_vo/results/run_report.h
   msc_vo/report/report.h
   # The solvers, and windows as files
+  msc_vo/bundle_adjustment/custom_factor.h
   msc_vo/bundle_adjustment/local_bundle_adjustment.h
   msc_vo/bundle_adjustment/window_covariance.h
   msc_vo/pose_estimation/pose_optimization.h

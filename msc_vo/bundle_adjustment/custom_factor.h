@@ -43,8 +43,8 @@ struct BlockId {
 /// A parameter block of the caller's own, such as the scale of a wheel odometry, the bias of a
 /// gyroscope or a lever arm. CustomFactors give it a meaning.
 struct ExtraBlock {
-  int64_t id = 0;         ///< unique among the extra blocks
-  Eigen::VectorXd value;  ///< in: initial value, out: estimate
+  int64_t id = 0;                                   ///< unique among the extra blocks
+  Eigen::VectorXd value;                            ///< in: initial value, out: estimate
   std::shared_ptr<const ceres::Manifold> manifold;  ///< null: Euclidean
   bool fixed = false;
 };

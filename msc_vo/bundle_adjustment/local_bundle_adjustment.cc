@@ -30,6 +30,7 @@ void ForEachTerm(const WindowTerms& terms, BundleAdjustmentSummary* summary, con
   visit(terms.perpendicular, &summary->perpendicular);
   visit(terms.manhattan, &summary->manhattan);
   visit(terms.pose_prior, &summary->pose_prior);
+  visit(terms.custom, &summary->custom);
 }
 
 // Writes the cost of every term to `member` of its summary. Returns the sum.
@@ -57,10 +58,16 @@ void WriteBack(const WindowTerms& terms, const WindowInlierMask& inlier_mask,
     if (terms.keyframe_constrained[i]) data->keyframes[i].cam_from_world = state.Pose(i);
   }
   for (size_t i = 0; i < data->points.size(); ++i) {
-    if (terms.point_observed[i]) data->points[i].position = state.Point(i);
+    if (terms.point_constrained[i]) data->points[i].position = state.Point(i);
   }
   for (size_t i = 0; i < data->lines.size(); ++i) {
-    if (terms.line_observed[i]) data->lines[i].segment = state.Line(i);
+    if (terms.line_constrained[i]) data->lines[i].segment = state.Line(i);
+  }
+  for (size_t i = 0; i < data->extra_blocks.size(); ++i) {
+    if (terms.extra_constrained[i]) data->extra_blocks[i].value = state.Extra(i);
+  }
+  if (data->axes && terms.extra_constrained.back()) {
+    data->axes->world_from_axes = Eigen::Quaterniond(state.ExtraBlock(data->extra_blocks.size()));
   }
   for (size_t i = 0; i < inlier_mask.points.size(); ++i) {
     data->point_observations[i].rejected = !inlier_mask.points[i].reprojection;
@@ -83,8 +90,8 @@ MinimizerReport Minimize(const BundleAdjustmentOptions& options, const WindowDat
                          const WindowTerms& terms, int max_iterations,
                          const WindowStageObserver& enter_stage, WindowState* state) {
   if (options.solver == BundleAdjustmentSolver::kBlockSchur) {
-    return MinimizeWithBlockSchur(BlockStructure(data, terms), terms, max_iterations, enter_stage,
-                                  state);
+    return MinimizeWithBlockSchur(BlockStructure(data, terms, *state), terms, max_iterations,
+                                  enter_stage, state);
   }
   if (enter_stage) enter_stage(WindowStage::kStep);
   return CeresBackend(options, data, terms, state).Minimize(max_iterations);
@@ -168,7 +175,8 @@ std::vector<std::pair<std::string, const TermSummary*>> BundleAdjustmentSummary:
           {"parallel", &parallel},
           {"perpendicular", &perpendicular},
           {"manhattan", &manhattan},
-          {"pose_prior", &pose_prior}};
+          {"pose_prior", &pose_prior},
+          {"custom", &custom}};
 }
 
 std::string BundleAdjustmentSummary::BriefReport() const {

@@ -101,7 +101,7 @@ struct BundleAdjustmentSummary {
   double initial_cost = 0.0;
   double final_cost = 0.0;
   TermSummary point_reprojection, point_depth, line_reprojection, line_depth, line_endpoint_prior;
-  TermSummary parallel, perpendicular, manhattan, pose_prior;
+  TermSummary parallel, perpendicular, manhattan, pose_prior, custom;
   int num_behind_camera = 0;  ///< Observations of landmarks behind the camera, marked as rejected.
   /// Structure of the normal equations; for Ceres solvers, its schur_structure_used.
   std::string schur_structure;
@@ -137,13 +137,18 @@ using WindowStageObserver = std::function<void(WindowStage)>;
 ///   observations or prior.
 /// - Pairs and alignments are used only between observed lines of which at least one is free;
 ///   others are neither counted nor rejected.
-/// - The gauge must be fixed by at least one keyframe that is fixed or has a prior. Without depth,
-///   the scale requires two of them.
+/// - The gauge must be fixed by at least one keyframe that is fixed or has a prior, or by custom
+///   factors. Without depth, the scale requires two of them.
+/// - Custom factors are not tested for outliers; a robust loss guards against these. A step to
+/// where
+///   a factor is undefined is rejected.
 ///
 /// Throws std::invalid_argument that names the offending item for: a window without keyframes, an
 /// unknown or repeated id, a number that is not finite or beyond 1e9, a sigma <= 0, a covariance
 /// that is not symmetric positive definite, a segment of zero length, a pair of a line with itself,
-/// a count below 1, an axis that is not a unit vector, a free gauge, or invalid options.
+/// a count below 1, an axis that is not a unit vector, a free gauge, or invalid options; and for a
+/// custom factor without cost function, with parameter blocks of the wrong number or size, with a
+/// block twice, or that cannot be evaluated at the initial values.
 BundleAdjustmentSummary LocalBundleAdjustment(const BundleAdjustmentOptions& options,
                                               WindowData* data,
                                               const WindowStageObserver& enter_stage = {});

@@ -86,19 +86,23 @@ std::vector<int> Unknowns(const std::vector<int>& positions, const std::vector<i
   return unknowns;
 }
 
-// Distributes the blocks of the unknowns to the selected items.
-template <typename Item, typename Matrix>
+// Distributes the blocks of the unknowns to the selected items. size(position): degrees of freedom
+// of an item.
+template <typename Item, typename Matrix, typename Size>
 std::vector<std::optional<Matrix>> Collect(const std::vector<Item>& items,
                                            const std::vector<int>& positions,
                                            const std::vector<int>& numbers,
                                            const std::vector<Matrix>& hessian,
-                                           const std::vector<Matrix>& inverse) {
+                                           const std::vector<Matrix>& inverse, const Size& size) {
   std::vector<std::optional<Matrix>> covariances;
   auto next = inverse.begin();
   for (const int position : positions) {
     covariances.emplace_back();
     const int number = numbers[position];
-    if (items[position].fixed) covariances.back() = Matrix::Zero();
+    if (items[position].fixed) {
+      const int n = size(position);
+      covariances.back() = Matrix::Zero(n, n);
+    }
     if (number < 0 || next == inverse.end()) continue;
     const Matrix& covariance = *next++;
     const auto inflation = covariance.diagonal().cwiseProduct(hessian[number].diagonal());
@@ -117,24 +121,32 @@ WindowCovariance EstimateCovariance(const BundleAdjustmentOptions& options,
   const std::vector<int> keyframes = Positions(solved.keyframes, selected.keyframes, "keyframe");
   const std::vector<int> points = Positions(solved.points, selected.points, "point");
   const std::vector<int> lines = Positions(solved.lines, selected.lines, "line");
+  const std::vector<int> extra =
+      Positions(solved.extra_blocks, selected.extra_blocks, "extra block");
 
   const WindowState state(solved);
   const WindowTerms terms = MakeWindowTerms(options, solved, index,
                                             FinalInlierMask(options, solved, index, state), state);
-  const BlockStructure structure(solved, terms);
+  const BlockStructure structure(solved, terms, state);
   WindowEquations equations;
   CovarianceBlocks blocks;
   if (Linearize(structure, terms, state, &equations)) {
     // On failure the blocks stay empty: nothing is determined.
     ComputeCovarianceBlocks(structure, equations, kRadius,
                             {Unknowns(keyframes, structure.pose), Unknowns(points, structure.point),
-                             Unknowns(lines, structure.line)},
+                             Unknowns(lines, structure.line), Unknowns(extra, structure.extra)},
                             &blocks);
   }
-  return {
-      Collect(solved.keyframes, keyframes, structure.pose, equations.pose_hessian, blocks.poses),
-      Collect(solved.points, points, structure.point, equations.points.hessian, blocks.points),
-      Collect(solved.lines, lines, structure.line, equations.lines.hessian, blocks.lines)};
+  return {Collect(solved.keyframes, keyframes, structure.pose, equations.pose_hessian, blocks.poses,
+                  [](int) { return 6; }),
+          Collect(solved.points, points, structure.point, equations.points.hessian, blocks.points,
+                  [](int) { return 3; }),
+          Collect(solved.lines, lines, structure.line, equations.lines.hessian, blocks.lines,
+                  [](int) { return 6; }),
+          Collect(solved.extra_blocks, extra, structure.extra, equations.extra_hessian,
+                  blocks.extra, [&state](int i) {
+                    return state.TangentSize({StateBlock::Kind::kExtra, i});
+                  })};
 }
 
 // With c = -R^T t and R' = Exp(w) R, t' = t + u:  c' = c - R^T (u - w x t),  R'^T = Exp(-R^T w)

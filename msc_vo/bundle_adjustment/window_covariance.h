@@ -11,9 +11,10 @@
 
 namespace msc_vo {
 
-/// Ids of the keyframes and landmarks whose covariances are requested.
+/// Ids of the keyframes, landmarks and extra blocks whose covariances are requested.
 struct CovarianceSelection {
   std::vector<int64_t> keyframes, points, lines;
+  std::vector<int64_t> extra_blocks = {};
 };
 
 /// Marginal covariances in the order of a CovarianceSelection. Zero for fixed items; empty where
@@ -26,6 +27,8 @@ struct WindowCovariance {
   /// Of start, then end; world, metres^2. Along the line it is that of the endpoint prior,
   /// line_endpoint_prior_sigma^2, unless other terms constrain it further.
   std::vector<std::optional<Eigen::Matrix<double, 6, 6>>> lines;
+  /// In the tangent spaces of the manifolds, or of the values without a manifold.
+  std::vector<std::optional<Eigen::MatrixXd>> extra_blocks;
 };
 
 /// Computes marginal covariances: blocks of the inverse Gauss-Newton Hessian (J^T J)^-1 at

@@ -5,13 +5,10 @@
 
 #include <stdexcept>
 
+#include "tests/bundle_adjustment/ceres_covariance.h"
 #include "tests/support/factor_checks.h"
 #include "tests/support/test_window.h"
-#include <ceres/covariance.h>
 #include <gmock/gmock.h>
-
-#include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
-#include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
 
 namespace msc_vo {
 namespace {
@@ -65,59 +62,6 @@ class WindowCovarianceTest : public ::testing::Test {
   WindowData data_;
   bool with_structure_ = false;
 };
-
-// Covariances of the same factors by Ceres.
-class CeresCovariance {
- public:
-  CeresCovariance(const BundleAdjustmentOptions& options, const WindowData& data) : state_(data) {
-    const WindowIndex index = ValidateWindow(options, data);
-    int num_behind = 0;
-    WindowInlierMask inlier_mask = InitialInlierMask(options, index, data, &num_behind);
-    const auto drop = [](const auto& items, auto* inliers) {
-      for (size_t i = 0; i < items.size(); ++i) {
-        if (items[i].rejected) (*inliers)[i] = {};
-      }
-    };
-    drop(data.point_observations, &inlier_mask.points);
-    drop(data.line_observations, &inlier_mask.lines);
-    drop(data.parallel_pairs, &inlier_mask.parallel);
-    drop(data.perpendicular_pairs, &inlier_mask.perpendicular);
-    terms_ = MakeWindowTerms(options, data, index, inlier_mask, state_);
-    window_ = std::make_unique<CeresBackend>(options, data, terms_, &state_);
-    ceres::Covariance::Options covariance_options;
-    covariance_options.algorithm_type = ceres::DENSE_SVD;
-    covariance_ = std::make_unique<ceres::Covariance>(covariance_options);
-    std::vector<std::pair<const double*, const double*>> blocks;
-    const auto add = [&blocks](const double* block) { blocks.push_back({block, block}); };
-    for (size_t i = 0; i < data.keyframes.size(); ++i) add(state_.PoseBlock(i));
-    for (size_t i = 0; i < data.points.size(); ++i) add(state_.PointBlock(i));
-    for (size_t i = 0; i < data.lines.size(); ++i) add(state_.LineBlock(i));
-    EXPECT_TRUE(covariance_->Compute(blocks, window_->problem()));
-  }
-  template <int N>
-  Eigen::Matrix<double, N, N> Of(const double* block) const {
-    Eigen::Matrix<double, N, N> matrix;  // symmetric, so the storage order does not matter
-    EXPECT_TRUE(covariance_->GetCovarianceBlockInTangentSpace(block, block, matrix.data()));
-    return matrix;
-  }
-  WindowState state_;
-
- private:
-  WindowTerms terms_;
-  std::unique_ptr<CeresBackend> window_;
-  std::unique_ptr<ceres::Covariance> covariance_;
-};
-
-// Errors relative to the standard deviations of the parameters.
-template <typename Matrix>
-void ExpectSameCovariance(const std::optional<Matrix>& found, const Matrix& expected) {
-  ASSERT_TRUE(found.has_value());
-  const auto sigma = expected.diagonal().cwiseSqrt().eval();
-  const Matrix scale = sigma * sigma.transpose();
-  EXPECT_LT((*found - expected).cwiseQuotient(scale).cwiseAbs().maxCoeff(), 1e-5)
-      << *found << "\n\n"
-      << expected;
-}
 
 TEST_F(WindowCovarianceTest, MatchesCeres) {
   for (const bool with_structure : {false, true}) {

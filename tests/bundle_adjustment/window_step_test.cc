@@ -90,7 +90,7 @@ class WindowStepTest : public ::testing::TestWithParam<double> {
     const WindowState state(data_);
     terms_ = MakeWindowTerms(options_, data_, index,
                              InitialInlierMask(options_, index, data_, &num_behind), state);
-    structure_ = std::make_unique<BlockStructure>(data_, terms_);
+    structure_ = std::make_unique<BlockStructure>(data_, terms_, state);
     EXPECT_TRUE(Linearize(*structure_, terms_, state, &equations_));
     dense_ = std::make_unique<DenseEquations>(*structure_, equations_);
   }

@@ -197,7 +197,7 @@ inline TestWindow MakeTestWindow(const TestWindowOptions& options) {
   return TestWindowMaker(options).Make();
 }
 
-// Whether both windows have the same poses, points and lines, to the last bit.
+// Whether both windows have the same poses, points, lines and extra blocks, to the last bit.
 inline bool SameState(const WindowData& a, const WindowData& b) {
   const auto same = [](const auto& x, const auto& y, const auto& is_equal) {
     return std::equal(x.begin(), x.end(), y.begin(), y.end(), is_equal);
@@ -206,6 +206,8 @@ inline bool SameState(const WindowData& a, const WindowData& b) {
               [](const auto& x, const auto& y) {
                 return x.cam_from_world.params == y.cam_from_world.params;
               }) &&
+         same(a.extra_blocks, b.extra_blocks,
+              [](const auto& x, const auto& y) { return x.value == y.value; }) &&
          same(a.points, b.points,
               [](const auto& x, const auto& y) { return x.position == y.position; }) &&
          same(a.lines, b.lines, [](const auto& x, const auto& y) {

@@ -72,12 +72,22 @@ PoseLandmarkBlocks CreateBlocks(const std::vector<int>& pose, const std::vector<
 
 }  // namespace
 
-BlockStructure::BlockStructure(const WindowData& data, const WindowTerms& terms)
+template <typename Action>
+void BlockStructure::ForEachCustomUnknown(StateBlock::Kind kind, const Action& action) const {
+  for (const std::vector<StateBlock>& blocks : custom_factors) {
+    for (const StateBlock& block : blocks) {
+      if (block.kind == kind && block.position >= 0) action(block.position);
+    }
+  }
+}
+
+BlockStructure::BlockStructure(const WindowData& data, const WindowTerms& terms,
+                               const WindowState& state)
     : point_observations(MergeTerms(terms.point_reprojection, terms.point_depth)),
       line_observations(MergeTerms(terms.line_reprojection, terms.line_depth)) {
   num_poses = NumberUnknowns(data.keyframes, terms.keyframe_constrained, &pose);
-  num_points = NumberUnknowns(data.points, terms.point_observed, &point);
-  num_lines = NumberUnknowns(data.lines, terms.line_observed, &line);
+  num_points = NumberUnknowns(data.points, terms.point_constrained, &point);
+  num_lines = NumberUnknowns(data.lines, terms.line_constrained, &line);
   point_blocks = CreateBlocks(pose, point, num_points, &point_observations);
   line_blocks = CreateBlocks(pose, line, num_lines, &line_observations);
 
@@ -89,9 +99,63 @@ BlockStructure::BlockStructure(const WindowData& data, const WindowTerms& terms)
   };
   add_pairs(terms.parallel);
   add_pairs(terms.perpendicular);
-  for (const bool in_reduced_system : LinesInReducedSystem(num_lines, line_pairs)) {
-    reduced_line.push_back(in_reduced_system ? num_reduced_lines++ : -1);
+  NumberExtraBlocks(data, terms, state);
+  NumberCustomFactors(terms);
+  std::vector<bool> in_reduced_system = LinesInReducedSystem(num_lines, line_pairs);
+  ForEachCustomUnknown(StateBlock::Kind::kLine, [&](int i) { in_reduced_system[i] = true; });
+  for (const bool is_reduced : in_reduced_system) {
+    reduced_line.push_back(is_reduced ? num_reduced_lines++ : -1);
   }
+  AssignRows();
+}
+
+void BlockStructure::NumberExtraBlocks(const WindowData& data, const WindowTerms& terms,
+                                       const WindowState& state) {
+  for (size_t i = 0; i < state.NumExtra(); ++i) {
+    const StateBlock block{StateBlock::Kind::kExtra, static_cast<int>(i)};
+    const bool is_unknown = terms.extra_constrained[i] && !IsFixed(data, block);
+    extra.push_back(is_unknown ? static_cast<int>(extra_size.size()) : -1);
+    if (is_unknown) extra_size.push_back(state.TangentSize(block));
+  }
+}
+
+int BlockStructure::Number(const StateBlock& block) const {
+  switch (block.kind) {
+    case StateBlock::Kind::kPose:
+      return pose[block.position];
+    case StateBlock::Kind::kPoint:
+      return point[block.position];
+    case StateBlock::Kind::kLine:
+      return line[block.position];
+    case StateBlock::Kind::kExtra:
+      break;
+  }
+  return extra[block.position];
+}
+
+void BlockStructure::NumberCustomFactors(const WindowTerms& terms) {
+  for (const CustomTerm::Block& block : terms.custom.blocks) {
+    custom_factors.emplace_back();
+    for (const StateBlock& b : block.parameters) {
+      custom_factors.back().push_back({b.kind, Number(b)});
+    }
+  }
+}
+
+void BlockStructure::AssignRows() {
+  reduced_size = DirectionRow(num_reduced_lines);
+  const auto assign = [this](int size, int* row) {
+    if (*row >= 0) return;
+    *row = reduced_size;
+    reduced_size += size;
+  };
+  point_row.assign(num_points, -1);
+  position_row.assign(num_reduced_lines, -1);
+  extra_row.assign(extra_size.size(), -1);
+  ForEachCustomUnknown(StateBlock::Kind::kPoint, [&](int i) { assign(3, &point_row[i]); });
+  ForEachCustomUnknown(StateBlock::Kind::kLine,
+                       [&](int i) { assign(4, &position_row[reduced_line[i]]); });
+  for (size_t i = 0; i < extra_size.size(); ++i) assign(extra_size[i], &extra_row[i]);
 }
 
 }  // namespace msc_vo

@@ -34,10 +34,10 @@ struct PoseLandmarkBlocks {
 };
 
 /// Block structure of the Hessian of a window: numbering of the unknowns, and which of them share a
-/// factor. Unknowns are the poses and landmarks that are not fixed and have a residual block,
-/// numbered in the order of the data.
+/// factor. Unknowns are the poses, landmarks and extra blocks that are not fixed and have a
+/// residual block, numbered in the order of the data.
 struct BlockStructure {
-  BlockStructure(const WindowData& data, const WindowTerms& terms);
+  BlockStructure(const WindowData& data, const WindowTerms& terms, const WindowState& state);
 
   /// Number of each keyframe, point and line of the data among the unknowns; -1: constant.
   std::vector<int> pose, point, line;
@@ -53,6 +53,32 @@ struct BlockStructure {
   /// eliminated.
   std::vector<int> reduced_line;
   int num_reduced_lines = 0;
+
+  /// Number of each extra block of the state among the unknowns; -1: constant.
+  std::vector<int> extra;
+  std::vector<int> extra_size;  ///< Size of the tangent space of each unknown extra block.
+  /// Parameter blocks of each custom factor: their kinds and their numbers among the unknowns.
+  std::vector<std::vector<StateBlock>> custom_factors;
+
+  /// First rows in the reduced system of unknowns that custom factors keep there; -1: eliminated.
+  /// Of points, of the coordinates of reduced lines other than the direction (ReducedLine), and of
+  /// the tangent spaces of extra blocks.
+  std::vector<int> point_row, position_row, extra_row;
+  /// First rows of poses and of the directions of reduced lines.
+  int PoseRow(int i) const { return 6 * i; }
+  int DirectionRow(int i) const { return 6 * num_poses + 2 * i; }
+  int reduced_size = 0;
+  /// Computes the rows from the numbers above, which must not be changed without it.
+  void AssignRows();
+
+ private:
+  int Number(const StateBlock& block) const;
+  void NumberExtraBlocks(const WindowData& data, const WindowTerms& terms,
+                         const WindowState& state);
+  void NumberCustomFactors(const WindowTerms& terms);
+  // Calls action(number) for every unknown of a kind in every custom factor.
+  template <typename Action>
+  void ForEachCustomUnknown(StateBlock::Kind kind, const Action& action) const;
 };
 
 }  // namespace msc_vo

@@ -44,6 +44,22 @@ ceres::CostFunction* Analytic(const ManhattanAxisAlignment& factor) {
   return ManhattanAxisAlignment::Create(factor);
 }
 
+// Cost function of a custom factor, which the problem must not delete.
+class SharedCostFunction final : public ceres::CostFunction {
+ public:
+  explicit SharedCostFunction(const ceres::CostFunction& cost) : cost_(cost) {
+    set_num_residuals(cost.num_residuals());
+    *mutable_parameter_block_sizes() = cost.parameter_block_sizes();
+  }
+  bool Evaluate(const double* const* parameters, double* residuals,
+                double** jacobians) const override {
+    return cost_.Evaluate(parameters, residuals, jacobians);
+  }
+
+ private:
+  const ceres::CostFunction& cost_;
+};
+
 ceres::SparseLinearAlgebraLibraryType SparseLibrary(BundleAdjustmentSolver solver) {
   return solver == BundleAdjustmentSolver::kCeresSuiteSparse ? ceres::SUITE_SPARSE
                                                              : ceres::EIGEN_SPARSE;
@@ -69,6 +85,7 @@ CeresBackend::CeresBackend(const BundleAdjustmentOptions& options, const WindowD
   AddTerm(terms.perpendicular);
   AddTerm(terms.manhattan);
   AddTerm(terms.pose_prior);
+  AddCustomFactors();
   HoldGauge();
 }
 
@@ -92,6 +109,24 @@ void CeresBackend::AddTerm(const Term& term) {
         options_.analytic_jacobians ? Analytic(block.factor) : Factor::Create(block.factor);
     problem_.AddResidualBlock(cost, loss(block.count), blocks.data(),
                               static_cast<int>(blocks.size()));
+  }
+}
+
+// Ceres takes pointers to non-const losses and manifolds, but calls their const functions only.
+void CeresBackend::AddCustomFactors() {
+  for (const CustomTerm::Block& block : terms_.custom.blocks) {
+    std::vector<double*> parameters;
+    for (const StateBlock& b : block.parameters) parameters.push_back(state_->Block(b));
+    problem_.AddResidualBlock(new SharedCostFunction(*block.factor->cost),
+                              const_cast<ceres::LossFunction*>(block.factor->loss.get()),
+                              parameters.data(), static_cast<int>(parameters.size()));
+  }
+  for (size_t i = 0; i < state_->NumExtra(); ++i) {
+    const StateBlock extra{StateBlock::Kind::kExtra, static_cast<int>(i)};
+    double* block = state_->Block(extra);
+    if (!problem_.HasParameterBlock(block)) continue;
+    problem_.SetManifold(block, const_cast<ceres::Manifold*>(state_->ManifoldOf(extra)));
+    if (IsFixed(data_, extra)) problem_.SetParameterBlockConstant(block);
   }
 }
 
@@ -133,6 +168,9 @@ std::shared_ptr<ceres::ParameterBlockOrdering> CeresBackend::EliminationOrdering
   for (size_t i = 0; i < data_.lines.size(); ++i)
     add(state_->LineBlock(i), in_reduced_system[i] ? 1 : 0);
   for (size_t i = 0; i < data_.keyframes.size(); ++i) add(state_->PoseBlock(i), 1);
+  for (const CustomTerm::Block& block : terms_.custom.blocks) {
+    for (const StateBlock& b : block.parameters) add(state_->Block(b), 1);  // moves landmarks
+  }
   return ordering;
 }
 

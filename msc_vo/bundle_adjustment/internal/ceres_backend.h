@@ -26,8 +26,8 @@ class CeresBackend {
                const WindowTerms& terms, WindowState* state);
 
   ceres::Problem* problem() { return &problem_; }
-  /// Elimination groups of the Schur complement: points and most lines in group 0; poses, and lines
-  /// that LinesInReducedSystem keeps, in group 1.
+  /// Elimination groups of the Schur complement: points and most lines in group 0; poses, lines
+  /// that LinesInReducedSystem keeps, and all blocks of custom factors in group 1.
   std::shared_ptr<ceres::ParameterBlockOrdering> EliminationOrdering() const;
 
   MinimizerReport Minimize(int max_iterations);
@@ -35,6 +35,7 @@ class CeresBackend {
  private:
   template <typename Term>
   void AddTerm(const Term& term);
+  void AddCustomFactors();
   void HoldGauge();
 
   const BundleAdjustmentOptions& options_;

@@ -35,9 +35,14 @@ Eigen::Matrix<double, N, N> Covariance(const EliminatedBlock<N>& block,
 
 Eigen::Matrix<double, 6, 6> Covariance(const ReducedLine& line, const Eigen::MatrixXd& reduced) {
   Eigen::Matrix<double, 6, 6> covariance;  // of position, then direction
-  covariance.topLeftCorner<4, 4>() = Covariance(line.position, reduced);
-  covariance.topRightCorner<4, 2>() =
-      -Influence(line.position, reduced.rows()) * reduced.middleCols<2>(line.row);
+  if (line.position_row < 0) {
+    covariance.topLeftCorner<4, 4>() = Covariance(line.position, reduced);
+    covariance.topRightCorner<4, 2>() =
+        -Influence(line.position, reduced.rows()) * reduced.middleCols<2>(line.row);
+  } else {
+    covariance.topLeftCorner<4, 4>() = reduced.block<4, 4>(line.position_row, line.position_row);
+    covariance.topRightCorner<4, 2>() = reduced.block<4, 2>(line.position_row, line.row);
+  }
   covariance.bottomLeftCorner<2, 4>() = covariance.topRightCorner<4, 2>().transpose();
   covariance.bottomRightCorner<2, 2>() = reduced.block<2, 2>(line.row, line.row);
   return line.basis * covariance * line.basis.transpose();
@@ -55,12 +60,19 @@ bool ComputeCovarianceBlocks(const BlockStructure& structure, const WindowEquati
     covariances->poses.push_back(reduced.block<6, 6>(6 * i, 6 * i));
   }
   for (const int i : selected.points) {
-    covariances->points.push_back(Covariance(schur.points()[i], reduced));
+    const int row = structure.point_row[i];
+    covariances->points.push_back(row < 0 ? Covariance(schur.points()[i], reduced)
+                                          : Eigen::Matrix3d(reduced.block<3, 3>(row, row)));
   }
   for (const int i : selected.lines) {
     const int number = structure.reduced_line[i];
     covariances->lines.push_back(number < 0 ? Covariance(schur.lines()[i], reduced)
                                             : Covariance(schur.reduced_lines()[number], reduced));
+  }
+  for (const int i : selected.extra) {
+    const int row = structure.extra_row[i];
+    const int size = structure.extra_size[i];
+    covariances->extra.push_back(reduced.block(row, row, size, size));
   }
   return true;
 }

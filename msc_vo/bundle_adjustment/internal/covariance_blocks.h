@@ -12,6 +12,7 @@ namespace msc_vo {
 /// Numbers of unknowns whose covariances are requested.
 struct UnknownSelection {
   std::vector<int> poses, points, lines;
+  std::vector<int> extra = {};
 };
 
 /// Diagonal blocks of (H + D / radius)^-1, in the order of an UnknownSelection.
@@ -19,6 +20,7 @@ struct CovarianceBlocks {
   std::vector<Eigen::Matrix<double, 6, 6>> poses;
   std::vector<Eigen::Matrix3d> points;
   std::vector<Eigen::Matrix<double, 6, 6>> lines;
+  std::vector<Eigen::MatrixXd> extra;
 };
 
 /// Computes the selected blocks by Schur complement. Returns false if the equations are not

@@ -41,6 +41,31 @@ void SetPoses(const PoseLandmarkBlocks& blocks, const WindowEquations::Landmarks
   block->num_poses = range.size;
 }
 
+// Coordinates C^T x of the step x of an unknown, and their first row in the reduced system.
+struct ReducedCoordinates {
+  int row;
+  Eigen::MatrixXd columns;  // C, orthonormal
+};
+
+// All coordinates of an unknown that is in the reduced system.
+std::vector<ReducedCoordinates> CoordinatesOf(const BlockStructure& structure,
+                                              const std::vector<ReducedLine>& reduced_lines,
+                                              const StateBlock& unknown, Eigen::Index size) {
+  const int i = unknown.position;
+  switch (unknown.kind) {
+    case StateBlock::Kind::kPose:
+      return {{structure.PoseRow(i), Eigen::MatrixXd::Identity(size, size)}};
+    case StateBlock::Kind::kPoint:
+      return {{structure.point_row[i], Eigen::MatrixXd::Identity(size, size)}};
+    case StateBlock::Kind::kExtra:
+      return {{structure.extra_row[i], Eigen::MatrixXd::Identity(size, size)}};
+    case StateBlock::Kind::kLine:
+      break;
+  }
+  const ReducedLine& line = reduced_lines[structure.reduced_line[i]];
+  return {{line.position_row, line.basis.leftCols<4>()}, {line.row, line.basis.rightCols<2>()}};
+}
+
 // Solves matrix x = right by an in-place Cholesky factorisation.
 template <typename Right>
 bool SolveInPlace(const Right& right, Eigen::MatrixXd* matrix, Right* x) {
@@ -59,13 +84,14 @@ bool SolveInPlace(const Right& right, Eigen::MatrixXd* matrix, Right* x) {
 SchurComplement::SchurComplement(const BlockStructure& structure, const WindowEquations& equations,
                                  double radius)
     : structure_(structure), equations_(equations), radius_(radius) {
-  const int size = 6 * structure_.num_poses + 2 * structure_.num_reduced_lines;
-  matrix_.setZero(size, size);
-  right_.setZero(size);
+  matrix_.setZero(structure_.reduced_size, structure_.reduced_size);
+  right_.setZero(structure_.reduced_size);
   AddPoses();
   EliminatePoints();
   AddLineCouplings();
   EliminateLines();
+  AddExtraBlocks();
+  AddCustomCouplings();
 }
 
 bool SchurComplement::Solve(Eigen::VectorXd* solution) {
@@ -121,8 +147,51 @@ void SchurComplement::EliminatePoints() {
     Eigen::Matrix3d h = equations_.points.hessian[i];
     h.diagonal() += Damping<3>(h, radius_);
     SetPoses(structure_.point_blocks, equations_.points, i, &points_[i]);
+    if (structure_.point_row[i] >= 0) {
+      KeepPoint(points_[i], h, structure_.point_row[i]);
+      continue;
+    }
     points_[i].inverse = h.llt().solve(Eigen::Matrix3d::Identity());
     Eliminate(points_[i]);
+  }
+}
+
+void SchurComplement::KeepPoint(const EliminatedBlock<3>& point, const Eigen::Matrix3d& hessian,
+                                int row) {
+  matrix_.block<3, 3>(row, row) += hessian;
+  right_.segment<3>(row) -= point.gradient;
+  for (int k = 0; k < point.num_poses; ++k) {
+    matrix_.block<3, 6>(row, structure_.PoseRow(point.poses[k])) +=
+        point.pose_couplings[k].transpose();
+  }
+}
+
+void SchurComplement::AddExtraBlocks() {
+  for (size_t i = 0; i < structure_.extra_size.size(); ++i) {
+    const Eigen::MatrixXd& h = equations_.extra_hessian[i];
+    const int row = structure_.extra_row[i];
+    matrix_.block(row, row, h.rows(), h.cols()) += h;
+    matrix_.diagonal().segment(row, h.rows()) += Damping(h, radius_);
+    right_.segment(row, h.rows()) -= equations_.extra_gradient[i];
+  }
+}
+
+void SchurComplement::AddCustomCouplings() {
+  for (const WindowEquations::CustomCoupling& coupling : equations_.custom_couplings) {
+    const auto rows =
+        CoordinatesOf(structure_, reduced_lines_, coupling.row, coupling.block.rows());
+    const auto cols =
+        CoordinatesOf(structure_, reduced_lines_, coupling.col, coupling.block.cols());
+    for (const ReducedCoordinates& a : rows) {
+      for (const ReducedCoordinates& b : cols) {
+        const Eigen::MatrixXd h = a.columns.transpose() * coupling.block * b.columns;
+        if (a.row > b.row) {
+          matrix_.block(a.row, b.row, h.rows(), h.cols()) += h;
+        } else {
+          matrix_.block(b.row, a.row, h.cols(), h.rows()) += h.transpose();
+        }
+      }
+    }
   }
 }
 
@@ -134,7 +203,8 @@ void SchurComplement::AddLineCouplings() {
     const int number = structure_.reduced_line[i];
     if (number < 0) continue;
     reduced_lines_[number].basis = LineBasis(equations_.directions[i]);
-    reduced_lines_[number].row = 6 * structure_.num_poses + 2 * number;
+    reduced_lines_[number].row = structure_.DirectionRow(number);
+    reduced_lines_[number].position_row = structure_.position_row[number];
   }
   lines_.resize(structure_.num_lines);
   for (size_t k = 0; k < structure_.line_pairs.size(); ++k) {
@@ -163,7 +233,7 @@ void SchurComplement::EliminateLines() {
     h.diagonal() += Damping<6>(h, radius_);
     SetPoses(structure_.line_blocks, equations_.lines, i, &lines_[i]);
     if (structure_.reduced_line[i] >= 0) {
-      EliminatePosition(lines_[i], h, &reduced_lines_[structure_.reduced_line[i]]);
+      ReduceLine(lines_[i], h, &reduced_lines_[structure_.reduced_line[i]]);
     } else {
       lines_[i].inverse = h.llt().solve(Matrix6d::Identity());
       Eliminate(lines_[i]);
@@ -171,8 +241,8 @@ void SchurComplement::EliminateLines() {
   }
 }
 
-void SchurComplement::EliminatePosition(const EliminatedBlock<6>& line, const Matrix6d& hessian,
-                                        ReducedLine* reduced) {
+void SchurComplement::ReduceLine(const EliminatedBlock<6>& line, const Matrix6d& hessian,
+                                 ReducedLine* reduced) {
   const Matrix6d h = reduced->basis.transpose() * hessian * reduced->basis;
   const Vector6d g = reduced->basis.transpose() * line.gradient;
   const int row = reduced->row;
@@ -184,6 +254,10 @@ void SchurComplement::EliminatePosition(const EliminatedBlock<6>& line, const Ma
     reduced->pose_couplings[k] = w.leftCols<4>();
     matrix_.block<2, 6>(row, 6 * line.poses[k]) += w.rightCols<2>().transpose();
   }
+  if (reduced->position_row >= 0) {
+    KeepPosition(h, g, line, *reduced);
+    return;
+  }
   reduced->position = {h.topLeftCorner<4, 4>().llt().solve(Eigen::Matrix4d::Identity()),
                        g.head<4>(),
                        reduced->pose_couplings.data(),
@@ -191,6 +265,18 @@ void SchurComplement::EliminatePosition(const EliminatedBlock<6>& line, const Ma
                        line.num_poses,
                        {{row, h.bottomLeftCorner<2, 4>()}}};
   Eliminate(reduced->position);
+}
+
+void SchurComplement::KeepPosition(const Matrix6d& hessian, const Vector6d& gradient,
+                                   const EliminatedBlock<6>& line, const ReducedLine& reduced) {
+  const int row = reduced.position_row;
+  matrix_.block<4, 4>(row, row) += hessian.topLeftCorner<4, 4>();
+  matrix_.block<4, 2>(row, reduced.row) += hessian.topRightCorner<4, 2>();
+  right_.segment<4>(row) -= gradient.head<4>();
+  for (int k = 0; k < line.num_poses; ++k) {
+    matrix_.block<4, 6>(row, structure_.PoseRow(line.poses[k])) +=
+        reduced.pose_couplings[k].transpose();
+  }
 }
 
 }  // namespace msc_vo

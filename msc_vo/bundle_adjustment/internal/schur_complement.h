@@ -38,11 +38,13 @@ struct EliminatedBlock {
   std::vector<DirectionCoupling<N>> direction_couplings;
 };
 
-/// A line with its direction in the reduced system. In the coordinates basis^T (S, E), the first
-/// four (position and length) are eliminated and the last two (direction) stay.
+/// A line with its direction in the reduced system. In the coordinates basis^T (S, E), the last two
+/// (direction) stay; the first four (position and length) are eliminated, unless a custom factor
+/// keeps them in the reduced system too.
 struct ReducedLine {
   Eigen::Matrix<double, 6, 6> basis;  ///< Orthonormal columns.
   int row = 0;                        ///< First row of the direction in the reduced system.
+  int position_row = -1;              ///< First row of the position; -1: eliminated.
   EliminatedBlock<4> position;
   std::vector<Eigen::Matrix<double, 6, 4>> pose_couplings;  ///< Those of `position`.
 
@@ -55,7 +57,8 @@ struct ReducedLine {
 /// Schur complement of the damped normal equations (H + D / radius) step = -gradient after
 /// elimination of the landmarks. The reduced system has six unknowns per pose, then two per line in
 /// the reduced system: structural pairs couple lines only by their directions, so the other four
-/// parameters of every line are eliminated.
+/// parameters of every line are eliminated. Last come the extra blocks, and the points and
+/// positions of lines that custom factors depend on.
 ///
 /// Refers to `structure` and `equations`, which must outlive it.
 class SchurComplement {
@@ -77,10 +80,16 @@ class SchurComplement {
  private:
   void AddPoses();
   void EliminatePoints();
+  void KeepPoint(const EliminatedBlock<3>& point, const Eigen::Matrix3d& hessian, int row);
+  void AddExtraBlocks();
+  void AddCustomCouplings();
   void AddLineCouplings();
   void EliminateLines();
-  void EliminatePosition(const EliminatedBlock<6>& line, const Eigen::Matrix<double, 6, 6>& hessian,
-                         ReducedLine* reduced);
+  void ReduceLine(const EliminatedBlock<6>& line, const Eigen::Matrix<double, 6, 6>& hessian,
+                  ReducedLine* reduced);
+  void KeepPosition(const Eigen::Matrix<double, 6, 6>& hessian,
+                    const Eigen::Matrix<double, 6, 1>& gradient, const EliminatedBlock<6>& line,
+                    const ReducedLine& reduced);
   template <int N>
   void Eliminate(const EliminatedBlock<N>& block);
 

@@ -89,6 +89,7 @@ class Linearizer {
     AddPairs(terms_.parallel);
     AddPairs(terms_.perpendicular);
     AddPriors();
+    if (!AddCustomFactors()) return false;
     return std::isfinite(equations_->cost);
   }
 
@@ -109,7 +110,18 @@ class Linearizer {
     SetZero(structure_.num_lines, static_cast<int>(structure_.line_blocks.pose.size()),
             &equations_->lines);
     equations_->line_couplings.clear();
+    equations_->custom_couplings.clear();
+    SetExtraZero();
     rotations_.clear();
+  }
+
+  void SetExtraZero() {
+    equations_->extra_hessian.clear();
+    equations_->extra_gradient.clear();
+    for (const int size : structure_.extra_size) {
+      equations_->extra_hessian.push_back(Eigen::MatrixXd::Zero(size, size));
+      equations_->extra_gradient.push_back(Eigen::VectorXd::Zero(size));
+    }
   }
 
   template <int Points, typename Observation>
@@ -160,7 +172,7 @@ class Linearizer {
     equations_->directions.resize(structure_.num_lines);
     directions_.resize(structure_.line.size());
     for (size_t i = 0; i < structure_.line.size(); ++i) {
-      if (!terms_.line_observed[i]) continue;
+      if (!terms_.line_constrained[i]) continue;
       if (!LineDirection(state_.LineBlock(i), &directions_[i].unit)) return false;
       directions_[i].jacobian = LineDirectionJacobian(state_.LineBlock(i));
       if (structure_.line[i] >= 0) {
@@ -238,6 +250,47 @@ class Linearizer {
       equations_->cost += 0.5 * r.squaredNorm();
       equations_->pose_hessian[pose] += j.transpose() * j;
       equations_->pose_gradient[pose] += j.transpose() * r;
+    }
+  }
+
+  bool AddCustomFactors() {
+    CustomLinearization at;
+    for (size_t i = 0; i < terms_.custom.blocks.size(); ++i) {
+      const std::vector<StateBlock>& unknowns = structure_.custom_factors[i];
+      std::vector<bool> variable;
+      for (const StateBlock& unknown : unknowns) variable.push_back(unknown.position >= 0);
+      if (!Linearize(terms_.custom.blocks[i], state_, variable, &at)) return false;
+      equations_->cost += at.cost;
+      for (size_t a = 0; a < unknowns.size(); ++a) {
+        if (!variable[a]) continue;
+        const Eigen::MatrixXd& j = at.jacobians[a];
+        AddToUnknown(unknowns[a], j.transpose() * j, j.transpose() * at.residual);
+        for (size_t b = 0; b < a; ++b) {
+          if (!variable[b]) continue;
+          equations_->custom_couplings.push_back(
+              {unknowns[a], unknowns[b], j.transpose() * at.jacobians[b]});
+        }
+      }
+    }
+    return true;
+  }
+
+  void AddToUnknown(const StateBlock& unknown, const Eigen::MatrixXd& hessian,
+                    const Eigen::VectorXd& gradient) {
+    const int i = unknown.position;
+    const auto add = [&](auto& sum_hessian, auto& sum_gradient) {
+      sum_hessian[i] += hessian;
+      sum_gradient[i] += gradient;
+    };
+    switch (unknown.kind) {
+      case StateBlock::Kind::kPose:
+        return add(equations_->pose_hessian, equations_->pose_gradient);
+      case StateBlock::Kind::kPoint:
+        return add(equations_->points.hessian, equations_->points.gradient);
+      case StateBlock::Kind::kLine:
+        return add(equations_->lines.hessian, equations_->lines.gradient);
+      case StateBlock::Kind::kExtra:
+        return add(equations_->extra_hessian, equations_->extra_gradient);
     }
   }
 

@@ -32,6 +32,16 @@ struct WindowEquations {
   /// One per line-line block, with respect to the vectors E - S of both lines.
   std::vector<Eigen::Matrix3d> line_couplings;
   std::vector<Eigen::Vector3d> directions;  ///< Unit directions of the unknown lines.
+
+  /// Extra blocks, in their tangent spaces.
+  std::vector<Eigen::MatrixXd> extra_hessian;
+  std::vector<Eigen::VectorXd> extra_gradient;
+  /// Block of H between two unknowns of a custom factor. Positions are numbers of unknowns.
+  struct CustomCoupling {
+    StateBlock row, col;
+    Eigen::MatrixXd block;
+  };
+  std::vector<CustomCoupling> custom_couplings;
   double cost = 0.0;
 };
 

@@ -10,33 +10,45 @@
 
 namespace msc_vo {
 
-/// Parameter blocks of a window during minimisation: points (3 numbers each), lines (6) and poses
-/// (7), in one buffer.
+/// Parameter block of a WindowState: a keyframe, point, line or extra block by its position in the
+/// data. The Manhattan axes follow the extra blocks of the data.
+struct StateBlock {
+  enum class Kind { kPose, kPoint, kLine, kExtra };
+  Kind kind = Kind::kPose;
+  int position = 0;
+
+  bool operator==(const StateBlock& other) const {
+    return kind == other.kind && position == other.position;
+  }
+};
+
+/// Whether a block of the data is held constant.
+bool IsFixed(const WindowData& data, const StateBlock& block);
+
+/// Parameter blocks of a window during minimisation: points (3 numbers each), lines (6), poses (7),
+/// and extra blocks, in one buffer.
 ///
 /// Ceres eliminates the blocks of a group in the order of their addresses. One buffer makes that
 /// order, and with it the rounding of sums, the same in every run.
 class WindowState {
  public:
-  explicit WindowState(const WindowData& data)
-      : lines_(3 * data.points.size()), poses_(lines_ + 6 * data.lines.size()) {
-    parameters_.reserve(poses_ + 7 * data.keyframes.size());
-    const auto append = [this](const double* block, int size) {
-      parameters_.insert(parameters_.end(), block, block + size);
-    };
-    for (const WindowData::Point& p : data.points) append(p.position.data(), 3);
-    for (const WindowData::Line& l : data.lines) append(l.segment.start.data(), 6);
-    for (const WindowData::Keyframe& k : data.keyframes) append(k.cam_from_world.params.data(), 7);
-  }
+  explicit WindowState(const WindowData& data);
 
-  /// Parameter block of point, line or keyframe i of the data.
+  /// Parameter block of point, line, keyframe or extra block i.
   double* PointBlock(size_t i) { return &parameters_[3 * i]; }
   double* LineBlock(size_t i) { return &parameters_[lines_ + 6 * i]; }
   double* PoseBlock(size_t i) { return &parameters_[poses_ + 7 * i]; }
+  double* ExtraBlock(size_t i) { return &parameters_[extra_[i].offset]; }
   const double* PointBlock(size_t i) const { return &parameters_[3 * i]; }
   const double* LineBlock(size_t i) const { return &parameters_[lines_ + 6 * i]; }
   const double* PoseBlock(size_t i) const { return &parameters_[poses_ + 7 * i]; }
+  const double* ExtraBlock(size_t i) const { return &parameters_[extra_[i].offset]; }
+  double* Block(const StateBlock& block) {
+    return const_cast<double*>(static_cast<const WindowState*>(this)->Block(block));
+  }
+  const double* Block(const StateBlock& block) const;
 
-  /// Current value of point, line or keyframe pose i.
+  /// Current value of point, line, keyframe pose or extra block i.
   Eigen::Vector3d Point(size_t i) const { return Eigen::Vector3d(PointBlock(i)); }
   LineSegment3 Line(size_t i) const {
     const double* block = LineBlock(i);
@@ -47,6 +59,17 @@ class WindowState {
     pose.params = Eigen::Matrix<double, 7, 1>(PoseBlock(i));
     return pose;
   }
+  Eigen::Map<const Eigen::VectorXd> Extra(size_t i) const {
+    return {ExtraBlock(i), extra_[i].size};
+  }
+
+  /// Number of extra blocks, including the Manhattan axes if the window has any.
+  size_t NumExtra() const { return extra_.size(); }
+  /// Number of parameters and of degrees of freedom of a block.
+  int Size(const StateBlock& block) const;
+  int TangentSize(const StateBlock& block) const;
+  /// Manifold of a block; nullptr: Euclidean.
+  const ceres::Manifold* ManifoldOf(const StateBlock& block) const;
 
   bool AllFinite() const {
     for (const double x : parameters_) {
@@ -56,8 +79,16 @@ class WindowState {
   }
 
  private:
+  struct ExtraEntry {
+    size_t offset;
+    int size;
+    const ceres::Manifold* manifold;
+  };
+  void AppendExtra(const double* value, int size, const ceres::Manifold* manifold);
+
   size_t lines_;  // offset of the first line
   size_t poses_;  // offset of the first pose
+  std::vector<ExtraEntry> extra_;
   std::vector<double> parameters_;
 };
 

@@ -4,7 +4,6 @@
 #include "msc_vo/bundle_adjustment/internal/window_step.h"
 
 #include <cmath>
-#include <type_traits>
 
 #include "msc_vo/bundle_adjustment/internal/schur_complement.h"
 #include "msc_vo/factors/rigid3_manifold.h"
@@ -33,7 +32,9 @@ void SubstituteBack(const BlockStructure& structure, const SchurComplement& schu
                     WindowStep* step) {
   step->points.resize(structure.num_points);
   for (int i = 0; i < structure.num_points; ++i) {
-    step->points[i] = Substitute(schur.points()[i], step->reduced);
+    const int row = structure.point_row[i];
+    step->points[i] = row < 0 ? Substitute(schur.points()[i], step->reduced)
+                              : Eigen::Vector3d(step->reduced.segment<3>(row));
   }
   step->lines.resize(structure.num_lines);
   for (int i = 0; i < structure.num_lines; ++i) {
@@ -43,8 +44,15 @@ void SubstituteBack(const BlockStructure& structure, const SchurComplement& schu
       continue;
     }
     const ReducedLine& line = schur.reduced_lines()[number];
-    step->lines[i] = line.basis.leftCols<4>() * Substitute(line.position, step->reduced) +
+    const Eigen::Vector4d position =
+        line.position_row < 0 ? Substitute(line.position, step->reduced)
+                              : Eigen::Vector4d(step->reduced.segment<4>(line.position_row));
+    step->lines[i] = line.basis.leftCols<4>() * position +
                      line.basis.rightCols<2>() * step->reduced.segment<2>(line.row);
+  }
+  step->extra.clear();
+  for (size_t i = 0; i < structure.extra_size.size(); ++i) {
+    step->extra.push_back(step->reduced.segment(structure.extra_row[i], structure.extra_size[i]));
   }
 }
 
@@ -53,8 +61,7 @@ double ModelDecrease(const BlockStructure& structure, const WindowEquations& equ
                      double radius, const WindowStep& step) {
   double sum = 0.0;
   const auto add = [&](const auto& hessian, const auto& gradient, const auto& x) {
-    constexpr int kSize = std::decay_t<decltype(hessian)>::RowsAtCompileTime;
-    sum += x.dot(Damping<kSize>(hessian, radius).cwiseProduct(x) - gradient);
+    sum += x.dot(Damping(hessian, radius).cwiseProduct(x) - gradient);
   };
   for (int i = 0; i < structure.num_poses; ++i) {
     add(equations.pose_hessian[i], equations.pose_gradient[i],
@@ -66,7 +73,20 @@ double ModelDecrease(const BlockStructure& structure, const WindowEquations& equ
   for (int i = 0; i < structure.num_lines; ++i) {
     add(equations.lines.hessian[i], equations.lines.gradient[i], step.lines[i]);
   }
+  for (size_t i = 0; i < structure.extra_size.size(); ++i) {
+    add(equations.extra_hessian[i], equations.extra_gradient[i], step.extra[i]);
+  }
   return 0.5 * sum;
+}
+
+// Without a manifold, *sum = value on entry.
+void AddInTangentSpace(const Eigen::VectorXd& step, const ceres::Manifold* manifold,
+                       const double* value, double* sum) {
+  if (manifold != nullptr) {
+    manifold->Plus(value, step.data(), sum);
+  } else {
+    Eigen::Map<Eigen::VectorXd>(sum, step.size()) += step;
+  }
 }
 
 }  // namespace
@@ -95,6 +115,12 @@ WindowState Plus(const BlockStructure& structure, const WindowState& state,
   for (size_t i = 0; i < structure.line.size(); ++i) {
     if (structure.line[i] < 0) continue;
     Eigen::Map<Vector6d>(sum.LineBlock(i)) += step.lines[structure.line[i]];
+  }
+  for (size_t i = 0; i < structure.extra.size(); ++i) {
+    if (structure.extra[i] < 0) continue;
+    const StateBlock block{StateBlock::Kind::kExtra, static_cast<int>(i)};
+    AddInTangentSpace(step.extra[structure.extra[i]], state.ManifoldOf(block), state.ExtraBlock(i),
+                      sum.ExtraBlock(i));
   }
   return sum;
 }

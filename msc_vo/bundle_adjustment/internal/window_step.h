@@ -12,10 +12,11 @@ namespace msc_vo {
 /// Solution of the damped normal equations (H + D / radius) step = -gradient, D = diag H.
 struct WindowStep {
   /// Solution of the reduced system: six numbers per unknown pose (tangent space of
-  /// Rigid3Manifold), then two per line direction.
+  /// Rigid3Manifold), then two per line direction, then those of custom factors.
   Eigen::VectorXd reduced;
   std::vector<Eigen::Vector3d> points;             ///< Metres.
   std::vector<Eigen::Matrix<double, 6, 1>> lines;  ///< Start, end; metres.
+  std::vector<Eigen::VectorXd> extra;              ///< In the tangent spaces of the extra blocks.
   double model_decrease = 0.0;                     ///< Decrease of the quadratic model of the cost.
 };
 

@@ -16,14 +16,16 @@ class WindowTermsBuilder {
                      const WindowState& state)
       : options_(options), data_(data), index_(index), inlier_mask_(inlier_mask), state_(state) {
     terms_.keyframe_constrained.assign(data.keyframes.size(), false);
-    terms_.point_observed.assign(data.points.size(), false);
-    terms_.line_observed.assign(data.lines.size(), false);
+    terms_.point_constrained.assign(data.points.size(), false);
+    terms_.line_constrained.assign(data.lines.size(), false);
+    terms_.extra_constrained.assign(state.NumExtra(), false);
   }
 
   WindowTerms Build() {
     AddPoints();
     AddLines();
-    // The terms below depend on line_observed.
+    AddCustomFactors();
+    // The terms below depend on line_constrained.
     AddEndpointPriors();
     AddPairs(options_.parallel, data_.parallel_pairs, index_.parallel, inlier_mask_.parallel,
              &terms_.parallel);
@@ -57,7 +59,7 @@ class WindowTermsBuilder {
              Source(i)});
       }
       if (used.reprojection || used.depth) {
-        terms_.keyframe_constrained[keyframe] = terms_.point_observed[point] = true;
+        terms_.keyframe_constrained[keyframe] = terms_.point_constrained[point] = true;
       }
     }
   }
@@ -72,7 +74,7 @@ class WindowTermsBuilder {
       const InlierMask used = Enabled(inlier_mask_.lines[i], options_.line_reprojection.enabled,
                                       options_.line_depth.enabled);
       if (!used.reprojection && !used.depth) continue;
-      terms_.keyframe_constrained[keyframe] = terms_.line_observed[line] = true;
+      terms_.keyframe_constrained[keyframe] = terms_.line_constrained[line] = true;
       const LineSegment3 in_cam = state_.Pose(keyframe) * state_.Line(line);
       if (used.reprojection) {
         terms_.line_reprojection.blocks.push_back(
@@ -87,6 +89,20 @@ class WindowTermsBuilder {
              Source(i)});
       }
     }
+  }
+
+  void AddCustomFactors() {
+    for (size_t i = 0; i < index_.custom_factors.size(); ++i) {
+      terms_.custom.blocks.push_back({&data_.custom_factors[i], index_.custom_factors[i]});
+      for (const StateBlock& block : index_.custom_factors[i]) {
+        Constrained(block.kind)[block.position] = true;
+      }
+    }
+  }
+  std::vector<bool>& Constrained(StateBlock::Kind kind) {
+    if (kind == StateBlock::Kind::kPose) return terms_.keyframe_constrained;
+    if (kind == StateBlock::Kind::kPoint) return terms_.point_constrained;
+    return kind == StateBlock::Kind::kLine ? terms_.line_constrained : terms_.extra_constrained;
   }
 
   void AddEndpointPriors() {
@@ -107,7 +123,7 @@ class WindowTermsBuilder {
     if (!options.enabled) return;
     for (size_t i = 0; i < pairs.size(); ++i) {
       const auto& [a, b] = lines[i];
-      if (!inliers[i] || !terms_.line_observed[a] || !terms_.line_observed[b]) continue;
+      if (!inliers[i] || !terms_.line_constrained[a] || !terms_.line_constrained[b]) continue;
       if (!IsFree(a) && !IsFree(b)) continue;
       term->blocks.push_back({Factor(pairs[i].sigma), a, b, Source(i), pairs[i].count});
     }
@@ -140,7 +156,7 @@ class WindowTermsBuilder {
   static InlierMask Enabled(const InlierMask& inlier, bool reprojection, bool depth) {
     return {inlier.reprojection && reprojection, inlier.depth && depth};
   }
-  bool IsFree(int line) const { return !data_.lines[line].fixed && terms_.line_observed[line]; }
+  bool IsFree(int line) const { return !data_.lines[line].fixed && terms_.line_constrained[line]; }
 
   const BundleAdjustmentOptions& options_;
   const WindowData& data_;
@@ -163,7 +179,7 @@ double Cost(const WindowTerms& terms, const WindowState& state) {
          Cost(terms.line_reprojection, state) + Cost(terms.line_depth, state) +
          Cost(terms.line_endpoint_prior, state) + Cost(terms.parallel, state) +
          Cost(terms.perpendicular, state) + Cost(terms.manhattan, state) +
-         Cost(terms.pose_prior, state);
+         Cost(terms.pose_prior, state) + Cost(terms.custom, state);
 }
 
 }  // namespace msc_vo

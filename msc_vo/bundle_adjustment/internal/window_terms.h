@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "msc_vo/bundle_adjustment/internal/custom_term.h"
 #include "msc_vo/bundle_adjustment/internal/window_state.h"
 #include "msc_vo/bundle_adjustment/internal/window_validation.h"
 #include "msc_vo/bundle_adjustment/observation.h"
@@ -54,9 +55,10 @@ struct WindowTerm {
 ///   1/2 sum rho(|PointReprojection|^2) + rho(|DepthReprojection|^2) + rho(|LineReprojection|^2)
 ///     + rho(|LineDepthReprojection|^2) + |LineEndpointPrior|^2 + n rho(|ParallelLines|^2)
 ///     + n rho(|PerpendicularLines|^2) + rho(|ManhattanAxisAlignment|^2) + |PosePrior|^2
+///     + rho(|CustomFactor|^2)
 ///
-/// with n the number of keyframes that observe both lines. It holds values only and is minimised by
-/// CeresBackend or MinimizeWithBlockSchur.
+/// with n the number of keyframes that observe both lines. It holds values, except that custom
+/// factors are those of the data, and is minimised by CeresBackend or MinimizeWithBlockSchur.
 struct WindowTerms {
   WindowTerm<PointReprojection> point_reprojection;
   WindowTerm<DepthReprojection> point_depth;
@@ -67,11 +69,15 @@ struct WindowTerms {
   WindowTerm<PerpendicularLines> perpendicular;
   WindowTerm<ManhattanAxisAlignment> manhattan;
   WindowTerm<PosePrior> pose_prior;
+  CustomTerm custom;
 
-  /// One per keyframe: whether an observation or a pose prior has a residual block.
+  /// One per keyframe: whether an observation, a pose prior or a custom factor has a residual
+  /// block.
   std::vector<bool> keyframe_constrained;
-  /// One per point or line: whether an observation has a residual block.
-  std::vector<bool> point_observed, line_observed;
+  /// One per point or line: whether an observation or a custom factor has a residual block.
+  std::vector<bool> point_constrained, line_constrained;
+  /// One per extra block: whether a custom factor has it.
+  std::vector<bool> extra_constrained;
 };
 
 /// Builds the terms of the inliers. The sigmas of line factors are those at `state`; the endpoint

@@ -3,65 +3,37 @@
 
 #include "msc_vo/bundle_adjustment/internal/window_validation.h"
 
-#include <algorithm>
-#include <stdexcept>
 #include <string>
-#include <utility>
 
+#include "msc_vo/bundle_adjustment/internal/custom_validation.h"
 #include "msc_vo/bundle_adjustment/validation.h"
 
 namespace msc_vo {
 
 namespace {
 
-[[noreturn]] void Throw(const std::string& what) {
-  throw std::invalid_argument("LocalBundleAdjustment: " + what);
+// Whether a custom factor may fix the gauge.
+bool HasCustomPose(const WindowData& data) {
+  for (const CustomFactor& factor : data.custom_factors) {
+    for (const BlockId& block : factor.blocks) {
+      if (block.kind == BlockId::Kind::kPose) return true;
+    }
+  }
+  return false;
 }
-
-// Position of each keyframe, point or line by its id.
-class IdMap {
- public:
-  template <typename Item>
-  IdMap(const char* kind, const std::vector<Item>& items) : kind_(kind) {
-    positions_.reserve(items.size());
-    for (size_t i = 0; i < items.size(); ++i) {
-      positions_.emplace_back(items[i].id, static_cast<int>(i));
-    }
-    std::sort(positions_.begin(), positions_.end());
-    for (size_t i = 1; i < positions_.size(); ++i) {
-      if (positions_[i].first == positions_[i - 1].first) {
-        Throw(Name(positions_[i].first) + ": the id is given twice");
-      }
-    }
-  }
-
-  // `role`: use of the id, for the error message.
-  int At(int64_t id, const char* role = "observed") const {
-    const auto it = std::lower_bound(positions_.begin(), positions_.end(), std::make_pair(id, 0));
-    if (it == positions_.end() || it->first != id) {
-      Throw(Name(id) + " is " + role + " but not in the window");
-    }
-    return it->second;
-  }
-
- private:
-  std::string Name(int64_t id) const { return std::string(kind_) + " " + std::to_string(id); }
-
-  const char* kind_;
-  std::vector<std::pair<int64_t, int>> positions_;
-};
 
 void CheckKeyframesAndLandmarks(const WindowData& data) {
   const auto check = [](const char* error, const char* kind, int64_t id) {
-    if (error != nullptr) Throw(std::string(kind) + " " + std::to_string(id) + ": " + error);
+    if (error != nullptr)
+      ThrowInvalidWindow(std::string(kind) + " " + std::to_string(id) + ": " + error);
   };
   bool any_fixed = false;
   for (const WindowData::Keyframe& k : data.keyframes) {
     check(PoseError(k.cam_from_world), "keyframe", k.id);
     any_fixed = any_fixed || k.fixed;
   }
-  if (!any_fixed && data.pose_priors.empty()) {
-    Throw("no keyframe is fixed or has a prior: the gauge is free");
+  if (!any_fixed && data.pose_priors.empty() && !HasCustomPose(data)) {
+    ThrowInvalidWindow("no keyframe is fixed or has a prior or custom factor: the gauge is free");
   }
   for (const WindowData::Point& p : data.points) {
     check(PositionError(p.position), "point", p.id);
@@ -81,10 +53,10 @@ std::vector<WindowIndex::Pair> ResolvePairs(const std::vector<WindowData::LinePa
   const std::string role = std::string("part of a ") + kind + " pair";
   for (const WindowData::LinePair& p : pairs) {
     if (const char* error = LinePairError(p)) {
-      Throw(std::string(kind) + " pair of line " + std::to_string(p.a) + " and line " +
-            std::to_string(p.b) + ": " + error);
+      ThrowInvalidWindow(std::string(kind) + " pair of line " + std::to_string(p.a) + " and line " +
+                         std::to_string(p.b) + ": " + error);
     }
-    resolved.push_back({lines.At(p.a, role.c_str()), lines.At(p.b, role.c_str())});
+    resolved.push_back({lines.At(p.a, role), lines.At(p.b, role)});
   }
   return resolved;
 }
@@ -95,7 +67,7 @@ std::vector<int> ResolveAlignments(const std::vector<WindowData::AxisAlignment>&
   resolved.reserve(alignments.size());
   for (const WindowData::AxisAlignment& a : alignments) {
     if (const char* error = AxisAlignmentError(a)) {
-      Throw("alignment of line " + std::to_string(a.line) + ": " + error);
+      ThrowInvalidWindow("alignment of line " + std::to_string(a.line) + ": " + error);
     }
     resolved.push_back(lines.At(a.line, "aligned with an axis"));
   }
@@ -109,7 +81,8 @@ std::vector<int> ResolvePriors(const std::vector<WindowData::PosePrior>& priors,
   for (const WindowData::PosePrior& p : priors) {
     const char* error = PoseError(p.cam_from_world);
     if (error == nullptr) error = CovarianceError(p.covariance);
-    if (error != nullptr) Throw("prior of keyframe " + std::to_string(p.keyframe) + ": " + error);
+    if (error != nullptr)
+      ThrowInvalidWindow("prior of keyframe " + std::to_string(p.keyframe) + ": " + error);
     resolved.push_back(keyframes.At(p.keyframe, "constrained by a prior"));
   }
   return resolved;
@@ -118,9 +91,9 @@ std::vector<int> ResolvePriors(const std::vector<WindowData::PosePrior>& priors,
 }  // namespace
 
 WindowIndex ValidateWindow(const BundleAdjustmentOptions& options, const WindowData& data) {
-  if (data.keyframes.empty()) Throw("the window is empty: it has no keyframe");
+  if (data.keyframes.empty()) ThrowInvalidWindow("the window is empty: it has no keyframe");
   std::string error;
-  if (!options.IsValid(&error) || !data.camera.IsValid(&error)) Throw(error);
+  if (!options.IsValid(&error) || !data.camera.IsValid(&error)) ThrowInvalidWindow(error);
   CheckKeyframesAndLandmarks(data);
 
   const IdMap keyframes("keyframe", data.keyframes);
@@ -128,8 +101,8 @@ WindowIndex ValidateWindow(const BundleAdjustmentOptions& options, const WindowD
   const IdMap lines("line", data.lines);
   const auto check = [](const char* what, const char* kind, int64_t landmark, int64_t keyframe) {
     if (what == nullptr) return;
-    Throw(std::string("observation of ") + kind + " " + std::to_string(landmark) + " in keyframe " +
-          std::to_string(keyframe) + ": " + what);
+    ThrowInvalidWindow(std::string("observation of ") + kind + " " + std::to_string(landmark) +
+                       " in keyframe " + std::to_string(keyframe) + ": " + what);
   };
   WindowIndex index;
   index.points.reserve(data.point_observations.size());
@@ -148,6 +121,7 @@ WindowIndex ValidateWindow(const BundleAdjustmentOptions& options, const WindowD
   index.perpendicular = ResolvePairs(data.perpendicular_pairs, "perpendicular", lines);
   index.alignments = ResolveAlignments(data.axis_alignments, lines);
   index.priors = ResolvePriors(data.pose_priors, keyframes);
+  index.custom_factors = ResolveCustomFactors(data, keyframes, points, lines);
   return index;
 }
 

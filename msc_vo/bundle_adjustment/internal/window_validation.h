@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "msc_vo/bundle_adjustment/internal/window_state.h"
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/bundle_adjustment/window_data.h"
 
@@ -26,6 +27,8 @@ struct WindowIndex {
   std::vector<Pair> perpendicular;  ///< Lines of each perpendicular pair.
   std::vector<int> alignments;      ///< Line of each axis alignment.
   std::vector<int> priors;          ///< Keyframe of each pose prior.
+  /// Parameter blocks of each custom factor.
+  std::vector<std::vector<StateBlock>> custom_factors;
 };
 
 /// Validates the input of LocalBundleAdjustment and resolves its ids. Throws std::invalid_argument

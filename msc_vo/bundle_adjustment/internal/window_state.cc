@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/bundle_adjustment/internal/window_state.h"
+
+#include "msc_vo/factors/rigid3_manifold.h"
+
+namespace msc_vo {
+
+namespace {
+
+const Rigid3Manifold kPoseManifold;
+const Rotation3Manifold kRotationManifold;
+
+}  // namespace
+
+bool IsFixed(const WindowData& data, const StateBlock& block) {
+  const size_t i = static_cast<size_t>(block.position);
+  switch (block.kind) {
+    case StateBlock::Kind::kPose:
+      return data.keyframes[i].fixed;
+    case StateBlock::Kind::kPoint:
+      return data.points[i].fixed;
+    case StateBlock::Kind::kLine:
+      return data.lines[i].fixed;
+    case StateBlock::Kind::kExtra:
+      break;
+  }
+  return i < data.extra_blocks.size() ? data.extra_blocks[i].fixed : data.axes->fixed;
+}
+
+WindowState::WindowState(const WindowData& data)
+    : lines_(3 * data.points.size()), poses_(lines_ + 6 * data.lines.size()) {
+  parameters_.reserve(poses_ + 7 * data.keyframes.size());
+  const auto append = [this](const double* block, int size) {
+    parameters_.insert(parameters_.end(), block, block + size);
+  };
+  for (const WindowData::Point& p : data.points) append(p.position.data(), 3);
+  for (const WindowData::Line& l : data.lines) append(l.segment.start.data(), 6);
+  for (const WindowData::Keyframe& k : data.keyframes) append(k.cam_from_world.params.data(), 7);
+  for (const msc_vo::ExtraBlock& e : data.extra_blocks) {
+    AppendExtra(e.value.data(), static_cast<int>(e.value.size()), e.manifold.get());
+  }
+  if (data.axes) AppendExtra(data.axes->world_from_axes.coeffs().data(), 4, &kRotationManifold);
+}
+
+void WindowState::AppendExtra(const double* value, int size, const ceres::Manifold* manifold) {
+  extra_.push_back({parameters_.size(), size, manifold});
+  parameters_.insert(parameters_.end(), value, value + size);
+}
+
+const double* WindowState::Block(const StateBlock& block) const {
+  switch (block.kind) {
+    case StateBlock::Kind::kPose:
+      return PoseBlock(block.position);
+    case StateBlock::Kind::kPoint:
+      return PointBlock(block.position);
+    case StateBlock::Kind::kLine:
+      return LineBlock(block.position);
+    case StateBlock::Kind::kExtra:
+      break;
+  }
+  return ExtraBlock(block.position);
+}
+
+int WindowState::Size(const StateBlock& block) const {
+  switch (block.kind) {
+    case StateBlock::Kind::kPose:
+      return 7;
+    case StateBlock::Kind::kPoint:
+      return 3;
+    case StateBlock::Kind::kLine:
+      return 6;
+    case StateBlock::Kind::kExtra:
+      break;
+  }
+  return extra_[block.position].size;
+}
+
+int WindowState::TangentSize(const StateBlock& block) const {
+  const ceres::Manifold* manifold = ManifoldOf(block);
+  return manifold != nullptr ? manifold->TangentSize() : Size(block);
+}
+
+const ceres::Manifold* WindowState::ManifoldOf(const StateBlock& block) const {
+  if (block.kind == StateBlock::Kind::kPose) return &kPoseManifold;
+  return block.kind == StateBlock::Kind::kExtra ? extra_[block.position].manifold : nullptr;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Errors in custom factors and extra blocks.
+
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/support/custom_factors.h"
+#include "tests/support/test_window.h"
+#include <ceres/sphere_manifold.h>
+#include <gmock/gmock.h>
+
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::HasSubstr;
+
+struct Undefined {
+  template <typename T>
+  bool operator()(const T*, T*) const {
+    return false;
+  }
+};
+
+struct NotFinite {
+  template <typename T>
+  bool operator()(const T* x, T* residual) const {
+    residual[0] = x[0] * std::numeric_limits<double>::quiet_NaN();
+    return true;
+  }
+};
+
+// Its derivative at x = 0 is infinite.
+struct SquareRoot {
+  template <typename T>
+  bool operator()(const T* x, T* residual) const {
+    using std::sqrt;
+    residual[0] = sqrt(x[0]);
+    return true;
+  }
+};
+
+class CustomValidationTest : public ::testing::Test {
+ protected:
+  CustomValidationTest() {
+    scene_.num_keyframes = 4;
+    good_ = MakeTestWindow(scene_).data;
+    good_.extra_blocks.push_back({5, Eigen::VectorXd::Zero(3), {}, false});
+    good_.custom_factors.push_back(
+        MakeCustomFactor<3, 3, 3>("mine", PointDifference{Eigen::Vector3d::Zero(), 1.0},
+                                  {BlockId::Point(good_.points[0].id), BlockId::Extra(5)}));
+  }
+
+  // The message of LocalBundleAdjustment, which must leave the data unchanged.
+  std::string ErrorOf(const std::function<void(WindowData*)>& change) {
+    WindowData data = good_;
+    change(&data);
+    const WindowData before = data;
+    try {
+      LocalBundleAdjustment({}, &data);
+    } catch (const std::invalid_argument& error) {
+      EXPECT_TRUE(SameState(data, before));
+      return error.what();
+    }
+    return "";
+  }
+  std::string ErrorOfFactor(const CustomFactor& factor) {
+    return ErrorOf([&factor](WindowData* data) { data->custom_factors = {factor}; });
+  }
+
+  TestWindowOptions scene_;
+  WindowData good_;
+};
+
+TEST_F(CustomValidationTest, AcceptsAValidFactor) {
+  EXPECT_EQ(ErrorOf([](WindowData*) {}), "");
+}
+
+TEST_F(CustomValidationTest, NamesTheFactor) {
+  CustomFactor factor = good_.custom_factors[0];
+  factor.cost = nullptr;
+  EXPECT_THAT(ErrorOfFactor(factor), HasSubstr("custom factor 'mine': it has no cost function"));
+  factor = good_.custom_factors[0];
+  factor.blocks.pop_back();
+  EXPECT_THAT(ErrorOfFactor(factor), HasSubstr("custom factor 'mine': its cost function has 2 "
+                                               "parameter blocks, but 1 blocks are given"));
+  factor.blocks.push_back(BlockId::Pose(good_.keyframes[0].id));
+  EXPECT_THAT(ErrorOfFactor(factor),
+              HasSubstr("custom factor 'mine': its cost function has size 3 for parameter block 1, "
+                        "but the pose of keyframe 100 has size 7"));
+  factor.blocks[1] = factor.blocks[0];
+  EXPECT_THAT(ErrorOfFactor(factor), HasSubstr("custom factor 'mine': point 1000 is given twice"));
+  factor.blocks[1] = BlockId::Axes();
+  EXPECT_THAT(ErrorOfFactor(factor),
+              HasSubstr("custom factor 'mine': the window has no Manhattan axes"));
+  factor.blocks[1] = BlockId::Extra(6);
+  EXPECT_THAT(ErrorOfFactor(factor), HasSubstr("extra block 6 is a parameter block of custom "
+                                               "factor 'mine' but not in the window"));
+  factor.blocks[1] = BlockId::Line(1);
+  EXPECT_THAT(ErrorOfFactor(factor), HasSubstr("line 1 is a parameter block of custom factor"));
+}
+
+TEST_F(CustomValidationTest, NamesAFactorThatCannotBeEvaluated) {
+  EXPECT_THAT(ErrorOfFactor(MakeCustomFactor<1, 3>("u", Undefined(), {BlockId::Extra(5)})),
+              HasSubstr("custom factor 'u': it cannot be evaluated at the initial values"));
+  EXPECT_THAT(ErrorOfFactor(MakeCustomFactor<1, 3>("n", NotFinite(), {BlockId::Extra(5)})),
+              HasSubstr("custom factor 'n': it cannot be evaluated at the initial values"));
+  EXPECT_THAT(ErrorOfFactor(MakeCustomFactor<1, 3>("s", SquareRoot(), {BlockId::Extra(5)})),
+              HasSubstr("custom factor 's': its derivatives are not finite"));
+}
+
+TEST_F(CustomValidationTest, IgnoresDerivativesOfFixedBlocks) {
+  EXPECT_EQ(
+      ErrorOf([](WindowData* data) {
+        data->extra_blocks[0].fixed = true;
+        data->custom_factors = {MakeCustomFactor<1, 3>("s", SquareRoot(), {BlockId::Extra(5)})};
+      }),
+      "");
+}
+
+TEST_F(CustomValidationTest, NamesTheExtraBlock) {
+  const auto error_of = [this](const ExtraBlock& extra) {
+    return ErrorOf([&extra](WindowData* data) { data->extra_blocks.push_back(extra); });
+  };
+  EXPECT_THAT(error_of({5, Eigen::VectorXd::Zero(1), {}, false}),
+              HasSubstr("extra block 5: the id is given twice"));
+  EXPECT_THAT(error_of({6, Eigen::VectorXd(), {}, false}),
+              HasSubstr("extra block 6: it has no value"));
+  EXPECT_THAT(error_of({6, Eigen::VectorXd::Constant(1, INFINITY), {}, false}),
+              HasSubstr("extra block 6: the value is not finite"));
+  EXPECT_THAT(
+      error_of({6, Eigen::VectorXd::Zero(2), std::make_shared<ceres::SphereManifold<3>>(), false}),
+      HasSubstr("extra block 6: the value has size 2, but its manifold has 3"));
+}
+
+TEST_F(CustomValidationTest, RejectsAxesThatAreNoRotation) {
+  EXPECT_THAT(ErrorOf([](WindowData* data) {
+                data->axes.emplace();
+                data->axes->world_from_axes.coeffs() *= 1.1;
+              }),
+              HasSubstr("the Manhattan axes: rotation is not a unit quaternion"));
+}
+
+TEST_F(CustomValidationTest, RequiresAGauge) {
+  EXPECT_THAT(ErrorOf([](WindowData* data) {
+                for (auto& keyframe : data->keyframes) keyframe.fixed = false;
+              }),
+              HasSubstr("the gauge is free"));
+}
+
+}  // namespace
+}  // namespace msc_vo
