@@ -50,6 +50,23 @@ std::set<KeyframeId> SelectKeyframes(const WindowSelectionOptions& options, cons
   return window;
 }
 
+int NumShared(const Map& map, KeyframeId a, KeyframeId b) {
+  for (const Map::Covisible& covisible : map.FindCovisible(a)) {
+    if (covisible.keyframe == b) return covisible.num_shared;
+  }
+  return 0;
+}
+
+// Adds the keyframe before each keyframe of the window in time, if landmarks hardly link the two.
+void AddPredecessors(const WindowSelectionOptions& options, const Map& map,
+                     std::set<KeyframeId>* window) {
+  for (const KeyframeId id : std::set<KeyframeId>(*window)) {
+    const auto* before = map.keyframes().FindUpTo(id - 1);
+    if (before == nullptr || window->count(before->first) > 0) continue;
+    if (NumShared(map, id, before->first) < options.min_shared) window->insert(before->first);
+  }
+}
+
 // The keyframes outside the window that observe most of its landmarks.
 std::set<KeyframeId> SelectFixed(const WindowSelectionOptions& options,
                                  const std::set<KeyframeId>& window,
@@ -144,9 +161,10 @@ bool WindowSelectionOptions::IsValid(std::string* error) const {
   return false;
 }
 
-WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map,
-                        KeyframeId keyframe) {
-  const std::set<KeyframeId> window = SelectKeyframes(options, map, keyframe);
+WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, KeyframeId keyframe,
+                        WindowLinks links) {
+  std::set<KeyframeId> window = SelectKeyframes(options, map, keyframe);
+  if (links == WindowLinks::kLandmarksAndTime) AddPredecessors(options, map, &window);
   ObserverCount observers(map);
   const auto points = ObservedLandmarks<PointLandmark>(map, window, &Keyframe::points, map.points(),
                                                        options.min_observations, &observers);

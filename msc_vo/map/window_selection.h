@@ -25,10 +25,20 @@ struct WindowSelectionOptions {
   bool IsValid(std::string* error) const;
 };
 
+/// What makes a keyframe part of a window.
+enum class WindowLinks {
+  kLandmarks,
+  /// Also the keyframe before each keyframe of the window, if they share fewer than `min_shared`
+  /// landmarks: measurements of the motion link them where the map does not. The window may then
+  /// exceed `max_keyframes`.
+  kLandmarksAndTime,
+};
+
 /// Selects the window around `keyframe` (paper: K_c, K_f, P, L of Local Map Optimization) as plain
 /// data. The first keyframe of the map, which defines the world, is fixed if it is in the window.
 /// If no other keyframe is fixed, the oldest keyframe of the window fixes the gauge.
-WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, KeyframeId keyframe);
+WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, KeyframeId keyframe,
+                        WindowLinks links = WindowLinks::kLandmarks);
 
 /// Writes the optimised window back into the map. Removes rejected observations and lines shorter
 /// than 1 cm. End points of lines are recomputed from the observations, because bundle adjustment

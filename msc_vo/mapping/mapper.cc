@@ -115,19 +115,49 @@ KeyframeId Mapper::InsertKeyframe(const KeyframePacket& packet,
   return newest_keyframe_;
 }
 
+std::vector<ExtraBlock> Mapper::extra_blocks() const {
+  std::vector<ExtraBlock> blocks;
+  for (const auto& [id, block] : extra_blocks_) blocks.push_back(block);
+  return blocks;
+}
+
+void Mapper::AddCustomFactors(WindowData* window) const {
+  if (!window_factor_callback_) return;
+  const AxesEstimator& axes = axes_.estimator();
+  if (axes.state() != AxesState::kNone) window->axes = {axes.world_from_axes(), true};
+  WindowFactors custom = window_factor_callback_(MakeWindowContext(map_, *window, extra_blocks()));
+  for (ExtraBlock& block : custom.extra_blocks) {
+    const auto known = extra_blocks_.find(block.id);
+    if (known == extra_blocks_.end()) continue;
+    if (block.value.size() != known->second.value.size()) {
+      throw std::invalid_argument("extra block " + std::to_string(block.id) + ": its size is " +
+                                  std::to_string(block.value.size()) + ", that of its estimate " +
+                                  std::to_string(known->second.value.size()));
+    }
+    block.value = known->second.value;
+  }
+  window->extra_blocks = std::move(custom.extra_blocks);
+  window->custom_factors = std::move(custom.factors);
+  FixUnlinkedKeyframes(window);
+}
+
 std::optional<BundleAdjustmentSummary> Mapper::OptimizeWindow(KeyframeId keyframe) {
-  WindowData window = SelectWindow(options_.selection, map_, keyframe);
+  const WindowLinks links =
+      window_factor_callback_ ? WindowLinks::kLandmarksAndTime : WindowLinks::kLandmarks;
+  WindowData window = SelectWindow(options_.selection, map_, keyframe, links);
   last_window_lines_.clear();
   for (const WindowData::Line& line : window.lines) last_window_lines_.insert(line.id);
   if (window.keyframes.size() < 2) return std::nullopt;
   noise_.Apply(&window);
   axes_.AddAlignments(map_, &window);
   AddStructuralPairs(options_.pairs, map_, &window);
+  AddCustomFactors(&window);
   if (window_observer_) window_observer_(keyframe, options_.window, window);
   const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_.window, &window);
   if (summary.usable) {
     noise_.Update(WindowResiduals(window));
     WriteBack(window, &map_);
+    for (const ExtraBlock& block : window.extra_blocks) extra_blocks_[block.id] = block;
   }
   return summary;
 }

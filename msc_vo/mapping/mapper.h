@@ -3,14 +3,18 @@
 
 #pragma once
 
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/mapping/keyframe_packet.h"
 #include "msc_vo/mapping/mapper_options.h"
+#include "msc_vo/mapping/window_factors.h"
 #include "msc_vo/mapping/window_observer.h"
 #include "msc_vo/self_calibration/readout_time_estimator.h"
 
@@ -44,6 +48,13 @@ class Mapper {
   explicit Mapper(const MapperOptions& options);
 
   void SetWindowObserver(WindowObserver observer) { window_observer_ = std::move(observer); }
+  /// Sets the source of custom factors. Windows then also contain the keyframe before each of their
+  /// keyframes, if landmarks hardly link the two: a factor may be the only link between them.
+  /// A factor that LocalBundleAdjustment rejects, and an extra block whose size differs from that
+  /// of its estimate, throw std::invalid_argument that names it.
+  void SetWindowFactors(WindowFactorCallback callback) {
+    window_factor_callback_ = std::move(callback);
+  }
 
   /// A keyframe is processed in two steps. Insert() adds it to the map with its observations and
   /// new landmarks and fuses duplicates; frames can be tracked against them from then on. Refine(),
@@ -62,16 +73,22 @@ class Mapper {
   const SceneAxes& axes() const { return axes_; }
   const NoiseEstimator& noise() const { return noise_; }
   const ReadoutTimeEstimator& readout() const { return readout_; }
+  /// Values of all extra blocks that usable windows have estimated, in order of their ids.
+  std::vector<ExtraBlock> extra_blocks() const;
   /// Lines of the last local bundle adjustment.
   const std::set<LandmarkId>& last_window_lines() const { return last_window_lines_; }
 
  private:
   KeyframeId InsertKeyframe(const KeyframePacket& packet, std::shared_ptr<const Frame> frame);
+  // Adds the factors of the callback, the extra blocks and the axes that they may use.
+  void AddCustomFactors(WindowData* window) const;
   // Returns std::nullopt if the window has a single keyframe.
   std::optional<BundleAdjustmentSummary> OptimizeWindow(KeyframeId keyframe);
 
   MapperOptions options_;
-  WindowObserver window_observer_;  // may be empty
+  WindowObserver window_observer_;               // may be empty
+  WindowFactorCallback window_factor_callback_;  // may be empty
+  std::map<int64_t, ExtraBlock> extra_blocks_;   // by id; as estimated by the last window
   Map map_;
   Probation probation_;
   SceneAxes axes_;

@@ -5,46 +5,12 @@
 
 #include <cmath>
 
-#include "tests/support/synthetic_frames.h"
+#include "tests/support/synthetic_keyframes.h"
 #include "tests/support/synthetic_map.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
 namespace {
-
-// A keyframe without matches, whose pose has errors of 4 mm and 0.2 degrees (one sigma).
-KeyframePacket Packet(SyntheticFrames* world, int index, std::mt19937* random) {
-  const auto normal = [&] { return std::normal_distribution<double>(0.0, 1.0)(*random); };
-  KeyframePacket packet;
-  packet.frame = world->MakeFrame(index);
-  const Rigid3 truth =
-      SyntheticFrames::CamFromWorld(index) * SyntheticFrames::CamFromWorld(0).Inverse();
-  packet.cam_from_reference = truth;
-  if (index > 0) {
-    const Eigen::AngleAxisd turn(0.003 * normal(), Eigen::Vector3d::UnitY());
-    packet.cam_from_reference =
-        Rigid3(Eigen::Quaterniond(turn), 0.004 * Eigen::Vector3d(normal(), normal(), normal())) *
-        truth;
-  }
-  return packet;
-}
-
-// Matches by descriptor alone; the descriptors are unique.
-void MatchWithMap(const Map& map, KeyframePacket* packet) {
-  for (size_t i = 0; i < packet->frame->points.size(); ++i) {
-    for (const auto& [id, point] : map.points()) {
-      if (HammingDistance(point.descriptor, packet->frame->points[i].descriptor) > 40) continue;
-      packet->matches.points.push_back({static_cast<int>(i), id, point.position, true});
-      break;
-    }
-  }
-}
-
-MappingSummary Process(SyntheticFrames* world, int index, std::mt19937* random, Mapper* mapper) {
-  KeyframePacket packet = Packet(world, index, random);
-  MatchWithMap(mapper->map(), &packet);
-  return mapper->Process(packet);
-}
 
 TEST(Mapper, CreatesLandmarksFromAllFeaturesOfTheFirstKeyframe) {
   SyntheticFrames world{SyntheticFrames::Options()};
@@ -175,7 +141,7 @@ TEST(Mapper, PassesTheExactWindowToItsObserver) {
   });
   MappingSummary summary;
   for (int index = 0; index <= 30; index += 10) {
-    summary = Process(&world, index, &random, &mapper);
+    summary = ProcessKeyframe(&world, index, &random, &mapper);
   }
   ASSERT_TRUE(summary.window && summary.window->usable);
   EXPECT_THAT(keyframes, testing::ElementsAre(1, 2, 3));  // one keyframe makes no window
@@ -203,7 +169,7 @@ TEST(Mapper, WaitsForTheIntervalBetweenWindows) {
   Mapper mapper{options};
   std::vector<KeyframeId> with_window;
   for (int index = 0; index <= 10; index += 2) {
-    const MappingSummary summary = Process(&world, index, &random, &mapper);
+    const MappingSummary summary = ProcessKeyframe(&world, index, &random, &mapper);
     if (summary.window) with_window.push_back(summary.keyframe);
   }
   EXPECT_THAT(with_window, testing::ElementsAre(1, 4));
@@ -219,7 +185,7 @@ TEST(Mapper, BoundsTheMapOfOnePlace) {
   Mapper mapper{MapperOptions()};
   // Forty keyframes along the same short trajectory, again and again.
   for (int i = 0; i < 40; ++i) {
-    Process(&world, 3 * (i % 10), &random, &mapper);
+    ProcessKeyframe(&world, 3 * (i % 10), &random, &mapper);
   }
   EXPECT_LT(mapper.map().keyframes().size(), 20u);
   EXPECT_LT(mapper.map().points().size(), 500u);

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "msc_vo/bundle_adjustment/custom_factor.h"
+#include "msc_vo/bundle_adjustment/window_data.h"
+#include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/map/map.h"
+
+namespace msc_vo {
+
+/// A window before its local bundle adjustment.
+struct WindowContext {
+  struct Keyframe {
+    KeyframeId id = kNoId;
+    double timestamp = 0.0;  ///< seconds
+    Rigid3 cam_from_world;
+    bool fixed = false;  ///< constant: an observer outside the window, or the gauge
+  };
+  /// In order of time. Keyframes are culled in the course of a run, so that those of one window may
+  /// be missing in the next: factors refer to these ids only, and a factor of the motion covers the
+  /// time between two keyframes of this list.
+  std::vector<Keyframe> keyframes;
+  /// The present values of all blocks that windows have used so far, in order of their ids.
+  std::vector<ExtraBlock> extra_blocks;
+  std::optional<Eigen::Quaterniond> world_from_axes;  ///< the Manhattan axes, if found
+};
+
+/// The custom factors of a window and the extra blocks that they use. An extra block whose id was
+/// used before keeps its estimated value; `manifold` and `fixed` may change.
+struct WindowFactors {
+  std::vector<ExtraBlock> extra_blocks;
+  std::vector<CustomFactor> factors;
+};
+
+/// Called for every window before its local bundle adjustment, on the mapper's thread. The same
+/// images give the same windows at any number of threads. An exception, also of an invalid factor,
+/// ends the keyframe step.
+using WindowFactorCallback = std::function<WindowFactors(const WindowContext&)>;
+
+/// Describes `window`, whose keyframes are in `map`.
+WindowContext MakeWindowContext(const Map& map, const WindowData& window,
+                                const std::vector<ExtraBlock>& extra_blocks);
+
+/// Fixes the oldest keyframe of every group of keyframes that neither landmarks nor custom factors
+/// link to a fixed one: nothing else holds their gauge.
+void FixUnlinkedKeyframes(WindowData* window);
+
+}  // namespace msc_vo
