@@ -39,6 +39,7 @@ struct FrameResult {
   double timestamp = 0.0;  ///< seconds
   TrackingStatus status = TrackingStatus::kLost;
   Rigid3 cam_from_world;
+  bool by_pose_factors = false;  ///< predicted by pose factors, not by constant velocity
   bool is_keyframe = false;
   int num_points = 0;  ///< features in the image
   int num_lines = 0;
@@ -47,7 +48,8 @@ struct FrameResult {
   int num_inlier_lines = 0;
   int num_dynamic = 0;  ///< matches on dynamic objects
   /// Covariance of the pose in the tangent of Rigid3Manifold: rotation vector in the camera frame
-  /// (radians), then translation (metres). Zero if the pose was not estimated.
+  /// (radians), then translation (metres). Zero if neither the image nor pose factors determined
+  /// the pose.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   ImageStatistics image;  ///< zero if the image was not processed
   StageTimes times;

@@ -21,9 +21,9 @@ Rigid3 Interpolate(const Rigid3& a, const Rigid3& b, double s) {
 }  // namespace
 
 void FillGaps(std::vector<FrameResult>* frames) {
-  size_t before = frames->size();  // index of the last estimated frame; size(): none
+  size_t before = frames->size();  // index of the last frame with an estimate; size(): none
   for (size_t i = 0; i < frames->size(); ++i) {
-    if (!IsEstimated((*frames)[i].status)) continue;
+    if (!IsEstimated((*frames)[i].status) && !(*frames)[i].by_pose_factors) continue;
     for (size_t gap = before + 1; before < frames->size() && gap < i; ++gap) {
       const FrameResult& a = (*frames)[before];
       const FrameResult& b = (*frames)[i];

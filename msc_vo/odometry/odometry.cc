@@ -49,6 +49,7 @@ FrameResult MakeResult(const TrackedFrame& tracked) {
   result.timestamp = tracked.frame->timestamp;
   result.status = tracked.status;
   result.cam_from_world = tracked.cam_from_world;
+  result.by_pose_factors = !IsEstimated(tracked.status) && tracked.pose.usable;
   result.is_keyframe = tracked.keyframe.is_due;
   result.num_points = static_cast<int>(tracked.frame->points.size());
   result.num_lines = static_cast<int>(tracked.frame->lines.size());
@@ -203,6 +204,14 @@ void Odometry::SetWindowObserver(WindowObserver observer) {
   state_->mapper.SetWindowObserver(std::move(observer));
 }
 
+void Odometry::SetWindowFactors(WindowFactorCallback callback) {
+  state_->mapper.SetWindowFactors(std::move(callback));
+}
+
+void Odometry::SetPoseFactors(PoseFactorCallback callback) {
+  state_->tracker.SetPoseFactors(std::move(callback));
+}
+
 FrameResult Odometry::Process(const RgbdImage& recorded) {
   state_->CheckTime(recorded.id, recorded.timestamp);
   State::CheckDepthDelay(recorded.id, recorded.depth_delay);
@@ -291,6 +300,7 @@ OdometryResult Odometry::Finish() {
   result.readout_time = state_->mapper.readout().readout_time();
   result.num_late_maps = state_->schedule.num_late();
   result.axes = MakeAxes(state_->mapper.axes().estimator());
+  result.extra_blocks = state_->mapper.extra_blocks();
   result.last_window = state_->last_window;
   state_->log.LogFinish(result.noise_scale, result.readout_time,
                         static_cast<int>(result.frames.size()));

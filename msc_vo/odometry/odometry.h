@@ -8,16 +8,19 @@
 #include <optional>
 #include <vector>
 
+#include "msc_vo/bundle_adjustment/custom_factor.h"
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/map/noise_scale.h"
+#include "msc_vo/mapping/window_factors.h"
 #include "msc_vo/mapping/window_observer.h"
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/odometry/odometry_options.h"
 #include "msc_vo/sensor/rgbd_image.h"
 #include "msc_vo/structure/axes_estimator.h"
+#include "msc_vo/tracking/pose_factor_callback.h"
 
 namespace msc_vo {
 
@@ -56,6 +59,7 @@ struct OdometryResult {
   NoiseScale noise_scale;  ///< of the sigmas of the features, self-calibrated
   /// Readout time of the rolling shutter, seconds, given or self-calibrated; 0: global shutter.
   double readout_time = 0.0;
+  std::vector<ExtraBlock> extra_blocks;  ///< of the window factors, in order of their ids
   BundleAdjustmentSummary last_window;
   /// Maps that were not ready for the first frame that should have been tracked in them; 0 unless
   /// SnapshotOptions::realtime.
@@ -81,10 +85,19 @@ class Odometry {
   /// if there is one. Call before the first image.
   void SetWindowObserver(WindowObserver observer);
 
+  /// Sets a function that returns custom factors for every window of local bundle adjustment. Runs
+  /// on the mapper's thread if there is one. Call before the first image.
+  void SetWindowFactors(WindowFactorCallback callback);
+
+  /// Sets a function that returns custom factors over the pose of every frame (see
+  /// Tracker::SetPoseFactors). Runs in Process(). Call before the first image.
+  void SetPoseFactors(PoseFactorCallback callback);
+
   /// Tracks one image and returns its result, which may still improve until Finish().
   /// Throws std::invalid_argument if the image does not match the camera or time stamps do not
   /// ascend, and the exception of a keyframe step of an earlier frame; the next call continues
-  /// without that step.
+  /// without that step. Exceptions of the callback of the pose factors, and std::invalid_argument
+  /// that names an invalid factor, leave the frame out of the result.
   FrameResult Process(const RgbdImage& image);
 
   /// Records a frame at `timestamp` (seconds) that is not processed, because its image came too

@@ -32,6 +32,18 @@ TEST(FillGaps, InterpolatesAtConstantVelocity) {
   EXPECT_EQ(frames[2].status, TrackingStatus::kLost);
 }
 
+TEST(FillGaps, KeepsPosesOfPoseFactorsAndInterpolatesBetweenThem) {
+  std::vector<FrameResult> frames = {
+      Frame(0.0, TrackingStatus::kTracked, 0.0), Frame(0.1, TrackingStatus::kPredicted, 5.0),
+      Frame(0.2, TrackingStatus::kDropped, 5.0), Frame(0.3, TrackingStatus::kPredicted, 9.0),
+      Frame(0.4, TrackingStatus::kTracked, 2.0)};
+  frames[1].by_pose_factors = frames[3].by_pose_factors = true;
+  FillGaps(&frames);
+  std::vector<double> x;
+  for (const FrameResult& frame : frames) x.push_back(frame.cam_from_world.OriginInSource().x());
+  EXPECT_THAT(x, testing::Pointwise(testing::DoubleNear(1e-12), {0.0, 5.0, 7.0, 9.0, 2.0}));
+}
+
 TEST(FillGaps, KeepsTheEndsAndEstimatedFrames) {
   const std::vector<FrameResult> before = {
       Frame(0.0, TrackingStatus::kLost, 1.0), Frame(0.1, TrackingStatus::kTracked, 2.0),

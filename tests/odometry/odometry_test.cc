@@ -6,55 +6,34 @@
 #include <algorithm>
 #include <limits>
 
+#include "tests/support/rendered_images.h"
 #include <gmock/gmock.h>
 #include <opencv2/imgproc.hpp>
 
 #include "msc_vo/evaluation/trajectory_error.h"
-#include "msc_vo/synthetic/scene/synthetic_sequence.h"
 
 namespace msc_vo {
 namespace {
 
 using ::testing::HasSubstr;
 
-// Two seconds of a rendered trajectory through a room, with the depth noise of a Kinect and image
-// noise.
+// Two seconds of a rendered trajectory through a room.
 class OdometryTest : public ::testing::Test {
  protected:
   static constexpr int kNumFrames = 60;
 
-  static SyntheticSequenceOptions SceneOptions() {
-    SyntheticSequenceOptions options;
-    options.width = 320;
-    options.height = 240;
-    options.kinect_depth = true;
-    return options;
-  }
+  static SyntheticSequenceOptions SceneOptions() { return RoomOptions(); }
   static std::vector<RgbdImage> Render(const SyntheticSequenceOptions& options) {
-    const SyntheticSequence sequence(options);
-    std::vector<RgbdImage> images(kNumFrames);
-    for (int i = 0; i < kNumFrames; ++i) {
-      SyntheticFrame frame = sequence.Render(i);
-      std::vector<uint8_t> gray = frame.image.Gray();
-      images[i].id = i;
-      images[i].timestamp = frame.pose.timestamp;
-      images[i].gray = cv::Mat(options.height, options.width, CV_8UC1, gray.data()).clone();
-      images[i].depth =
-          cv::Mat(options.height, options.width, CV_32FC1, frame.image.depth.data()).clone();
-    }
-    return images;
+    return RenderImages(options, kNumFrames);
   }
-  static std::vector<TimedPose> TruthOf(const SyntheticSequence& sequence) {
-    std::vector<TimedPose> truth;
-    for (int i = 0; i < kNumFrames; ++i) truth.push_back(sequence.PoseAt(i));
-    return truth;
+  static std::vector<TimedPose> TruthOf(const SyntheticSequenceOptions& options) {
+    return TruePoses(options, kNumFrames);
   }
 
   static void SetUpTestSuite() {
-    const SyntheticSequence sequence(SceneOptions());
-    camera_ = sequence.camera();
+    camera_ = SyntheticSequence(SceneOptions()).camera();
     images_ = new std::vector<RgbdImage>(Render(SceneOptions()));
-    truth_ = new std::vector<TimedPose>(TruthOf(sequence));
+    truth_ = new std::vector<TimedPose>(TruthOf(SceneOptions()));
   }
   static void TearDownTestSuite() {
     delete images_;
@@ -113,17 +92,6 @@ TEST_F(OdometryTest, TracksInEveryModeAndWithEachKindOfFeatureAlone) {
   const OdometryResult result = Run(lines, *images_);
   EXPECT_LT(ApeRmse(result), 0.01);
   EXPECT_TRUE(result.points.empty());
-}
-
-void ExpectSameBytes(const OdometryResult& a, const OdometryResult& b) {
-  ASSERT_EQ(a.frames.size(), b.frames.size());
-  for (size_t i = 0; i < a.frames.size(); ++i) {
-    EXPECT_EQ(a.frames[i].cam_from_world.params, b.frames[i].cam_from_world.params) << i;
-  }
-  ASSERT_EQ(a.points.size(), b.points.size());
-  for (size_t i = 0; i < a.points.size(); ++i) {
-    EXPECT_EQ(a.points[i].position, b.points[i].position) << i;
-  }
 }
 
 TEST_F(OdometryTest, IsDeterministicAtAnyThreadCount) {
@@ -220,7 +188,7 @@ TEST_F(OdometryTest, AlignsDepthToTheTimeOfTheColourImage) {
   scene.path.turn_rate = 2.0;
   scene.depth_delay = 0.012;
   std::vector<RgbdImage> images = Render(scene);
-  const std::vector<TimedPose> truth = TruthOf(SyntheticSequence(scene));
+  const std::vector<TimedPose> truth = TruthOf(scene);
   OdometryOptions options;
   options.threads = 1;
   const double ignored = ApeRmse(Run(options, images), truth);
@@ -237,7 +205,7 @@ TEST_F(OdometryTest, CompensatesForAKnownRollingShutter) {
   SyntheticSequenceOptions scene = SceneOptions();
   scene.path.speed = 1.0;
   scene.path.turn_rate = 2.5;
-  const std::vector<TimedPose> truth = TruthOf(SyntheticSequence(scene));
+  const std::vector<TimedPose> truth = TruthOf(scene);
   const double global = ApeRmse(Run(OdometryOptions(), Render(scene)), truth);
   scene.readout_time = 0.03;
   const std::vector<RgbdImage> images = Render(scene);
@@ -253,10 +221,7 @@ TEST_F(OdometryTest, CompensatesForAKnownRollingShutter) {
 
 TEST_F(OdometryTest, BridgesBlackFramesByPrediction) {
   std::vector<RgbdImage> images = *images_;
-  // New images, because the pixels of the old ones are shared by all tests.
-  for (const int i : {0, 1, 25, 26, 27, 28}) {
-    images[i].gray = cv::Mat(240, 320, CV_8UC1, cv::Scalar(0));
-  }
+  for (const int i : {0, 1, 25, 26, 27, 28}) Cover(&images[i]);
   const OdometryResult result = Run(OdometryOptions(), images);
   EXPECT_EQ(result.frames[0].status, TrackingStatus::kLost);
   EXPECT_EQ(result.frames[1].status, TrackingStatus::kLost);

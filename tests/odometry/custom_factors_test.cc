@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <cmath>
+#include <stdexcept>
+
+#include "tests/support/custom_pose_factors.h"
+#include "tests/support/custom_window_factors.h"
+#include "tests/support/rendered_images.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/evaluation/trajectory_error.h"
+
+namespace msc_vo {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Two seconds of a rendered trajectory through a room, with simulated wheels.
+class CustomFactorsTest : public ::testing::Test {
+ protected:
+  static constexpr int kNumFrames = 60;
+  static constexpr double kScale = 1.07;  // metres per metre that the wheels measure
+
+  static void SetUpTestSuite() {
+    camera_ = SyntheticSequence(RoomOptions()).camera();
+    images_ = new std::vector<RgbdImage>(RenderImages(RoomOptions(), kNumFrames));
+    truth_ = new std::vector<TimedPose>(TruePoses(RoomOptions(), kNumFrames));
+  }
+  static void TearDownTestSuite() {
+    delete images_;
+    delete truth_;
+  }
+
+  // The true motion between two frames.
+  static Rigid3 Step(double from, double to) {
+    const auto pose_at = [](double timestamp) {
+      for (const TimedPose& pose : *truth_) {
+        if (std::abs(pose.timestamp - timestamp) < 1e-6) return pose.world_from_cam;
+      }
+      throw std::runtime_error("no image at this time");
+    };
+    return pose_at(to).Inverse() * pose_at(from);
+  }
+  // Wheels that measure `ratio` of the true path.
+  static PoseFactorCallback Wheels(double ratio) {
+    return [ratio](const FrameContext& context) {
+      Rigid3 step = Step(context.last_timestamp, context.timestamp);
+      step = Rigid3(step.rotation(), ratio * step.translation());
+      const double path = step.translation().norm();
+      return std::vector<PoseFactor>{
+          PriorFactor("wheel", step * context.last_cam_from_world, 0.01, 0.002 + 0.05 * path)};
+    };
+  }
+  static WindowFactors WindowWheels(const WindowContext& context) {
+    WindowFactors custom;
+    custom.extra_blocks = {Scalar(0, 1.0)};
+    for (size_t i = 1; i < context.keyframes.size(); ++i) {
+      const WindowContext::Keyframe& a = context.keyframes[i - 1];
+      const WindowContext::Keyframe& b = context.keyframes[i];
+      const Rigid3 step = Step(a.timestamp, b.timestamp);
+      custom.factors.push_back(
+          WheelStep(a.id, b.id, {step.rotation(), step.translation() / kScale}, 0.002, 0.001));
+    }
+    return custom;
+  }
+
+  static OdometryResult Run(const std::vector<RgbdImage>& images,
+                            const PoseFactorCallback& pose_factors,
+                            const WindowFactorCallback& window_factors, int threads = 2) {
+    OdometryOptions options;
+    options.threads = threads;
+    Odometry odometry(options, camera_, LensDistortion());
+    if (pose_factors) odometry.SetPoseFactors(pose_factors);
+    if (window_factors) odometry.SetWindowFactors(window_factors);
+    for (const RgbdImage& image : images) odometry.Process(image);
+    return odometry.Finish();
+  }
+  static double ApeRmse(const OdometryResult& result) {
+    std::vector<TimedPose> estimate;
+    for (const FrameResult& frame : result.frames) {
+      estimate.push_back({frame.timestamp, frame.cam_from_world.Inverse()});
+    }
+    return EvaluateTrajectory(*truth_, estimate).ape.rmse;
+  }
+  static std::vector<RgbdImage> CoveredSecond() {
+    std::vector<RgbdImage> images = *images_;
+    for (int i = 20; i < 50; ++i) Cover(&images[i]);
+    return images;
+  }
+
+  static PinholeCamera camera_;
+  static std::vector<RgbdImage>* images_;
+  static std::vector<TimedPose>* truth_;
+};
+PinholeCamera CustomFactorsTest::camera_;
+std::vector<RgbdImage>* CustomFactorsTest::images_ = nullptr;
+std::vector<TimedPose>* CustomFactorsTest::truth_ = nullptr;
+
+TEST_F(CustomFactorsTest, WheelsBridgeACoveredSecond) {
+  const std::vector<RgbdImage> images = CoveredSecond();
+  const OdometryResult without = Run(images, nullptr, nullptr);
+  const OdometryResult with = Run(images, Wheels(0.98), nullptr);
+  for (int i = 20; i < 50; ++i) {
+    EXPECT_EQ(with.frames[i].status, TrackingStatus::kPredicted) << i;
+    EXPECT_TRUE(with.frames[i].by_pose_factors) << i;
+    EXPECT_GT(with.frames[i].covariance(5, 5), 0.0) << i;
+    EXPECT_FALSE(without.frames[i].by_pose_factors) << i;
+  }
+  EXPECT_TRUE(IsEstimated(with.frames[50].status));
+  EXPECT_FALSE(with.frames[50].by_pose_factors);
+  EXPECT_LT(ApeRmse(with), 0.5 * ApeRmse(without));
+  EXPECT_LT(ApeRmse(with), 0.012);
+}
+
+TEST_F(CustomFactorsTest, WindowFactorsRecoverTheScaleOfTheWheels) {
+  const OdometryResult result = Run(*images_, nullptr, WindowWheels);
+  ASSERT_EQ(result.extra_blocks.size(), 1u);
+  EXPECT_EQ(result.extra_blocks[0].id, 0);
+  EXPECT_NEAR(result.extra_blocks[0].value[0], kScale, 0.02);
+  EXPECT_LT(ApeRmse(result), 0.006);
+  EXPECT_TRUE(Run(*images_, nullptr, nullptr).extra_blocks.empty());
+}
+
+TEST_F(CustomFactorsTest, AreDeterministicAtAnyThreadCount) {
+  const std::vector<RgbdImage> images = CoveredSecond();
+  const OdometryResult one = Run(images, Wheels(0.98), WindowWheels, 1);
+  const OdometryResult two = Run(images, Wheels(0.98), WindowWheels, 2);
+  ExpectSameBytes(one, two);
+  ASSERT_EQ(one.extra_blocks.size(), 1u);
+  EXPECT_EQ(one.extra_blocks[0].value, two.extra_blocks.at(0).value);
+}
+
+TEST_F(CustomFactorsTest, WithoutFactorsChangeNothing) {
+  const OdometryResult plain = Run(*images_, nullptr, nullptr);
+  ExpectSameBytes(plain,
+                  Run(
+                      *images_, [](const FrameContext&) { return std::vector<PoseFactor>(); },
+                      [](const WindowContext&) { return WindowFactors(); }));
+}
+
+TEST_F(CustomFactorsTest, ErrorsOfWindowFactorsReachTheCaller) {
+  for (const int threads : {1, 2}) {
+    OdometryOptions options;
+    options.threads = threads;
+    Odometry odometry(options, camera_, LensDistortion());
+    int window = 0;
+    odometry.SetWindowFactors([&](const WindowContext& context) {
+      WindowFactors custom;
+      ++window;
+      if (window == 1) throw std::runtime_error("no wheel data");
+      if (window == 2) {
+        custom.factors = {{"marker", nullptr, nullptr, {BlockId::Pose(context.keyframes[0].id)}}};
+      }
+      return custom;
+    });
+    std::vector<std::string> errors;
+    for (const RgbdImage& image : *images_) {
+      try {
+        odometry.Process(image);
+      } catch (const std::exception& error) {
+        errors.emplace_back(error.what());
+      }
+    }
+    ASSERT_EQ(errors.size(), 2u);
+    EXPECT_EQ(errors[0], "no wheel data");
+    EXPECT_THAT(errors[1], HasSubstr("marker"));
+    EXPECT_EQ(odometry.Finish().frames.size(), images_->size() - 2);
+  }
+}
+
+TEST_F(CustomFactorsTest, ErrorsOfPoseFactorsLeaveTheFrameOut) {
+  Odometry odometry(OdometryOptions(), camera_, LensDistortion());
+  int num_calls = 0;
+  odometry.SetPoseFactors([&](const FrameContext&) {
+    ++num_calls;
+    if (num_calls == 2) throw std::runtime_error("no wheel data");
+    return std::vector<PoseFactor>();
+  });
+  for (int i = 0; i < 2; ++i) odometry.Process((*images_)[i]);
+  EXPECT_THROW(odometry.Process((*images_)[2]), std::runtime_error);
+  // The same image may be passed again.
+  EXPECT_EQ(odometry.Process((*images_)[2]).status, TrackingStatus::kTracked);
+  EXPECT_EQ(odometry.Finish().frames.size(), 3u);
+}
+
+}  // namespace
+}  // namespace msc_vo
