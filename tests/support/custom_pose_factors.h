@@ -46,10 +46,10 @@ inline Eigen::Matrix<double, 6, 6> PoseCovariance(double rotation_sigma, double 
 // A measured pose, such as the last one moved by a wheel step. Sigmas in radians and metres.
 inline PoseFactor PriorFactor(const std::string& name, const Rigid3& cam_from_world,
                               double rotation_sigma, double translation_sigma) {
-  return {name,
-          std::shared_ptr<const ceres::CostFunction>(
-              PosePrior::Create(cam_from_world, PoseCovariance(rotation_sigma, translation_sigma))),
-          nullptr};
+  return {
+      name,
+      PosePrior::CreateShared(cam_from_world, PoseCovariance(rotation_sigma, translation_sigma)),
+      nullptr};
 }
 
 }  // namespace msc_vo
