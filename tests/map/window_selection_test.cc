@@ -74,6 +74,36 @@ TEST_F(WindowSelectionTest, FixesTheFirstKeyframeIfAllAreSelected) {
   }
 }
 
+std::vector<KeyframeId> IdsOf(const WindowData& window) {
+  std::vector<KeyframeId> ids;
+  for (const WindowData::Keyframe& keyframe : window.keyframes) ids.push_back(keyframe.id);
+  return ids;
+}
+
+// A keyframe of another world follows keyframe 5, and two more follow that one.
+TEST_F(WindowSelectionTest, LinksInTimeAddTheKeyframeBeforeAGap) {
+  SyntheticFrames::Options options;
+  options.seed = 5;
+  SyntheticFrames other(options);
+  for (int i = 6; i < 9; ++i) {
+    Insert(other.MakeFrame(10 * i), SyntheticFrames::CamFromWorld(10 * i));
+  }
+  // Descriptors are disturbed, so that keyframes of that world share no landmarks either.
+  WindowSelectionOptions limited;
+  limited.max_fixed_keyframes = 0;
+  EXPECT_THAT(IdsOf(SelectWindow(limited, map_, 6)), testing::ElementsAre(6));
+  EXPECT_THAT(IdsOf(SelectWindow(limited, map_, 6, WindowLinks::kLandmarksAndTime)),
+              testing::ElementsAre(5, 6));
+  EXPECT_THAT(IdsOf(SelectWindow(limited, map_, 8, WindowLinks::kLandmarksAndTime)),
+              testing::ElementsAre(7, 8));
+  // The keyframe before keyframe 3 shares landmarks with it, and is not added for its time.
+  limited.max_keyframes = 1;
+  EXPECT_THAT(IdsOf(SelectWindow(limited, map_, 3, WindowLinks::kLandmarksAndTime)),
+              testing::ElementsAre(3));
+  EXPECT_THAT(IdsOf(SelectWindow(limited, map_, 0, WindowLinks::kLandmarksAndTime)),
+              testing::ElementsAre(0));
+}
+
 TEST_F(WindowSelectionTest, ObservationsReferToKeyframesOfTheWindow) {
   WindowSelectionOptions options;
   options.max_keyframes = 2;

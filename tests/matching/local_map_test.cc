@@ -193,5 +193,20 @@ TEST_F(LocalMapTest, CandidatesHaveTheDataOfTheirLandmarks) {
   EXPECT_TRUE(local.lines[0].image.end.isApprox(frame_->camera.Project(kSegment.end)));
 }
 
+TEST_F(LocalMapTest, VisibleLandmarksAreThoseOfAllKeyframes) {
+  const LocalMap visible = SelectVisibleLandmarks(map_, *frame_, Rigid3());
+  EXPECT_THAT(PointIds(visible), ElementsAre(shared_, only_0_, only_1_, only_2_));
+  EXPECT_THAT(LineIds(visible), ElementsAre(line_2_));
+  EXPECT_EQ(visible.reference, kNoId);
+}
+
+TEST_F(LocalMapTest, LandmarksBehindOrSeenFromElsewhereAreNotVisible) {
+  const Rigid3 away(Eigen::Quaterniond(0.0, 0.0, 1.0, 0.0), Eigen::Vector3d::Zero());
+  EXPECT_THAT(PointIds(SelectVisibleLandmarks(map_, *frame_, away)), IsEmpty());
+  const LocalMap from_behind = SelectVisibleLandmarks(map_, *frame_, LookFrom(180.0, 2.0));
+  EXPECT_THAT(PointIds(from_behind), IsEmpty());
+  EXPECT_THAT(LineIds(from_behind), IsEmpty());
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -109,15 +109,15 @@ TEST_F(CustomFactorsTest, WheelsBridgeACoveredSecond) {
   }
   EXPECT_TRUE(IsEstimated(with.frames[50].status));
   EXPECT_FALSE(with.frames[50].by_pose_factors);
-  EXPECT_LT(ApeRmse(with), 0.5 * ApeRmse(without));
-  EXPECT_LT(ApeRmse(with), 0.012);
+  EXPECT_LT(ApeRmse(with), 0.5 * ApeRmse(without));  // measured: 1.8 mm and 4.8 mm
+  EXPECT_LT(ApeRmse(with), 0.005);
 }
 
 TEST_F(CustomFactorsTest, WindowFactorsRecoverTheScaleOfTheWheels) {
   const OdometryResult result = Run(*images_, nullptr, WindowWheels);
   ASSERT_EQ(result.extra_blocks.size(), 1u);
   EXPECT_EQ(result.extra_blocks[0].id, 0);
-  EXPECT_NEAR(result.extra_blocks[0].value[0], kScale, 0.02);
+  EXPECT_NEAR(result.extra_blocks[0].value[0], kScale, 0.02);  // measured: 1.072
   EXPECT_LT(ApeRmse(result), 0.006);
   EXPECT_TRUE(Run(*images_, nullptr, nullptr).extra_blocks.empty());
 }
