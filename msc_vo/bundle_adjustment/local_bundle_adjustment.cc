@@ -116,6 +116,7 @@ BundleAdjustmentSummary LocalBundleAdjustment(const BundleAdjustmentOptions& opt
     const MinimizerReport report = Minimize(options, *data, terms, iterations, enter_stage, &state);
     enter(WindowStage::kBuild);
     summary.num_iterations += report.num_iterations;
+    summary.num_accepted += report.num_accepted;
     summary.schur_structure = report.schur_structure;
     summary.message = report.message;
     return report.usable && state.AllFinite();

@@ -34,7 +34,10 @@ struct LandmarkNoiseOptions {
   bool IsValid(std::string* error) const;
 };
 
-/// Solver of the nonlinear least-squares problem. All solvers converge to the same minimum.
+/// Solver of the nonlinear least-squares problem. All solvers take the same steps, up to rounding,
+/// as long as no step moves a landmark behind a camera that observes it: kBlockSchur then keeps
+/// that landmark and takes the rest of the step, Ceres rejects the step. Both go on to the same
+/// minimum.
 enum class BundleAdjustmentSolver {
   kBlockSchur,        ///< Specialised block-sparse Schur complement; the fastest.
   kCeresDenseSchur,   ///< Ceres, the reference.
@@ -98,6 +101,7 @@ struct TermSummary {
 struct BundleAdjustmentSummary {
   bool usable = false;     ///< False: the solver failed and the data are unchanged.
   int num_iterations = 0;  ///< Steps of both solves.
+  int num_accepted = 0;    ///< Those that decreased the cost enough to be taken.
   double initial_cost = 0.0;
   double final_cost = 0.0;
   TermSummary point_reprojection, point_depth, line_reprojection, line_depth, line_endpoint_prior;

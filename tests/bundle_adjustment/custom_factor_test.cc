@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "tests/bundle_adjustment/ceres_covariance.h"
+#include "tests/support/ceres_covariance.h"
 #include "tests/support/custom_factors.h"
 #include "tests/support/factor_checks.h"
 #include "tests/support/test_window.h"

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "tests/bundle_adjustment/ceres_covariance.h"
+#include "tests/support/ceres_covariance.h"
 #include "tests/support/factor_checks.h"
 #include "tests/support/test_window.h"
 #include <gmock/gmock.h>
@@ -14,13 +14,6 @@ namespace msc_vo {
 namespace {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
-template <typename Items>
-std::vector<int64_t> Ids(const Items& items) {
-  std::vector<int64_t> ids;
-  for (const auto& item : items) ids.push_back(item.id);
-  return ids;
-}
 
 class WindowCovarianceTest : public ::testing::Test {
  protected:
@@ -52,9 +45,7 @@ class WindowCovarianceTest : public ::testing::Test {
     data_.pose_priors.push_back({data_.keyframes[3].id, data_.keyframes[3].cam_from_world});
     data_.pose_priors[0].covariance *= 1e-4;
   }
-  CovarianceSelection All() const {
-    return {Ids(data_.keyframes), Ids(data_.points), Ids(data_.lines)};
-  }
+  CovarianceSelection All() const { return AllItems(data_); }
 
   TestWindowOptions scene_;
   TestWindow window_;

@@ -117,6 +117,7 @@ MinimizerReport MinimizeWithBlockSchur(const BlockStructure& structure, const Wi
     }
     if (decrease >= kMinGain * step.model_decrease) {
       region.Accept(decrease / step.model_decrease);
+      ++report.num_accepted;
       *state = std::move(candidate);
       std::swap(equations, next);
     } else {

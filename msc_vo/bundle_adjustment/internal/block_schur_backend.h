@@ -13,17 +13,18 @@ namespace msc_vo {
 struct MinimizerReport {
   bool usable = false;  ///< False: the state must be discarded.
   int num_iterations = 0;
+  int num_accepted = 0;         ///< Steps that decreased the cost enough to be taken.
   std::string schur_structure;  ///< Solver and structure of the normal equations.
   std::string message;          ///< Reason for termination.
 };
 
 /// Minimises the cost of `terms` over `state` by Levenberg-Marquardt in at most `max_iterations`
-/// steps. The steps are those of Ceres with default options, up to rounding, with a linear solver
-/// specialised for windows (SolveStep).
+/// steps, with a linear solver specialised for windows (SolveStep). `structure` must be built from
+/// `terms`.
 ///
-/// One rule differs: where a step moves a landmark behind a camera that observes it, that landmark
-/// keeps its value and the rest of the step is evaluated; Ceres rejects the whole step. `structure`
-/// must be built from `terms`.
+/// The steps are those of Ceres with default options, up to rounding, as long as no step moves a
+/// landmark behind a camera that observes it. There, Ceres rejects the whole step; here the
+/// landmark keeps its value and the rest of the step is evaluated.
 MinimizerReport MinimizeWithBlockSchur(const BlockStructure& structure, const WindowTerms& terms,
                                        int max_iterations, const WindowStageObserver& enter_stage,
                                        WindowState* state);

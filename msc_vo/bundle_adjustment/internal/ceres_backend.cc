@@ -191,7 +191,11 @@ MinimizerReport CeresBackend::Minimize(int max_iterations) {
   ceres::Solve(options, &problem_, &summary);
   MinimizerReport report;
   report.usable = summary.IsSolutionUsable();
+  // The first entry is the evaluation before the first step.
   report.num_iterations = static_cast<int>(summary.iterations.size()) - 1;
+  for (const ceres::IterationSummary& iteration : summary.iterations) {
+    report.num_accepted += iteration.iteration > 0 && iteration.step_is_successful;
+  }
   report.schur_structure = "Ceres, " + summary.schur_structure_used;
   report.message = summary.message;
   return report;

@@ -13,10 +13,23 @@
 
 #include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
 #include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
+#include "msc_vo/bundle_adjustment/window_covariance.h"
 
 namespace msc_vo {
 
-// Covariances of the same factors by Ceres.
+template <typename Items>
+std::vector<int64_t> Ids(const Items& items) {
+  std::vector<int64_t> ids;
+  for (const auto& item : items) ids.push_back(item.id);
+  return ids;
+}
+
+inline CovarianceSelection AllItems(const WindowData& data) {
+  return {Ids(data.keyframes), Ids(data.points), Ids(data.lines)};
+}
+
+// Covariances of the same factors by Ceres. Depths that fail the chi-square test are included,
+// unlike in EstimateCovariance: disable that test (reject_chi2_3, reject_chi2_4).
 class CeresCovariance {
  public:
   CeresCovariance(const BundleAdjustmentOptions& options, const WindowData& data) : state_(data) {
@@ -32,19 +45,25 @@ class CeresCovariance {
     drop(data.line_observations, &inlier_mask.lines);
     drop(data.parallel_pairs, &inlier_mask.parallel);
     drop(data.perpendicular_pairs, &inlier_mask.perpendicular);
+    drop(data.axis_alignments, &inlier_mask.alignments);
     terms_ = MakeWindowTerms(options, data, index, inlier_mask, state_);
     window_ = std::make_unique<CeresBackend>(options, data, terms_, &state_);
     ceres::Covariance::Options covariance_options;
-    covariance_options.algorithm_type = ceres::DENSE_SVD;
+    covariance_options.algorithm_type = ceres::SPARSE_QR;
+    covariance_options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     covariance_ = std::make_unique<ceres::Covariance>(covariance_options);
     std::vector<std::pair<const double*, const double*>> blocks;
-    const auto add = [&blocks](const double* block) { blocks.push_back({block, block}); };
+    const auto add = [&](const double* block) {
+      if (Contains(block)) blocks.push_back({block, block});
+    };
     for (size_t i = 0; i < data.keyframes.size(); ++i) add(state_.PoseBlock(i));
     for (size_t i = 0; i < data.points.size(); ++i) add(state_.PointBlock(i));
     for (size_t i = 0; i < data.lines.size(); ++i) add(state_.LineBlock(i));
     for (size_t i = 0; i < state_.NumExtra(); ++i) add(state_.ExtraBlock(i));
     EXPECT_TRUE(covariance_->Compute(blocks, window_->problem()));
   }
+  // Whether a factor depends on the block.
+  bool Contains(const double* block) const { return window_->problem()->HasParameterBlock(block); }
   // N: degrees of freedom of the block.
   template <int N>
   Eigen::Matrix<double, N, N> Of(const double* block) const {
