@@ -44,7 +44,7 @@ class CeresBackendTest : public ::testing::Test {
   WindowInlierMask inlier_mask_;
 };
 
-TEST_F(CeresBackendTest, BuildsOneResidualBlockPerFactor) {
+TEST_F(CeresBackendTest, BuildsOneResidualBlockPerObservation) {
   const auto window = Build();
   EXPECT_EQ(terms_.point_reprojection.blocks.size(), 36u);
   EXPECT_EQ(terms_.point_depth.blocks.size(), 36u);
@@ -52,10 +52,30 @@ TEST_F(CeresBackendTest, BuildsOneResidualBlockPerFactor) {
   EXPECT_EQ(terms_.line_depth.blocks.size(), 12u);
   EXPECT_EQ(terms_.line_endpoint_prior.blocks.size(), 4u);
   const ceres::Problem& problem = *window->problem();
-  EXPECT_EQ(problem.NumResidualBlocks(), 36 + 36 + 12 + 12 + 4);
-  EXPECT_EQ(problem.NumResiduals(), 36 * (2 + 1) + 12 * (2 + 2) + 4 * 2);
+  EXPECT_EQ(problem.NumResidualBlocks(), 36 + 12 + 4);
+  EXPECT_EQ(problem.NumResiduals(), 36 * (2 + 1 + 1) + 12 * (2 + 2 + 1) + 4 * 2);
   EXPECT_EQ(problem.NumParameterBlocks(), 5 + 12 + 4);
   EXPECT_EQ(problem.NumParameters(), 5 * 7 + 12 * 3 + 4 * 6);
+}
+
+TEST_F(CeresBackendTest, BuildsOneResidualBlockPerFactorWithAutomaticDerivatives) {
+  options_.analytic_jacobians = false;
+  const auto window = Build();
+  EXPECT_EQ(window->problem()->NumResidualBlocks(), 36 + 36 + 12 + 12 + 4);
+  EXPECT_EQ(window->problem()->NumResiduals(), 36 * (2 + 1) + 12 * (2 + 2) + 4 * 2);
+}
+
+TEST_F(CeresBackendTest, BuildsBlocksOfObservationsWithOneFactor) {
+  inlier_mask_.points[0] = {true, false};
+  inlier_mask_.points[7] = {false, true};
+  inlier_mask_.points[35] = {false, true};
+  inlier_mask_.lines[11] = {true, false};
+  const auto window = Build();
+  EXPECT_EQ(window->problem()->NumResidualBlocks(), 36 + 12 + 4);
+  EXPECT_EQ(window->problem()->NumResiduals(), 33 * 4 + 2 + 1 + 1 + 11 * 5 + 2 + 4 * 2);
+  double cost = 0.0;
+  ASSERT_TRUE(window->problem()->Evaluate({}, &cost, nullptr, nullptr, nullptr));
+  EXPECT_NEAR(cost, Cost(terms_, *state_), 1e-9 * cost);
 }
 
 TEST_F(CeresBackendTest, ExcludesOutliersAndDisabledTerms) {

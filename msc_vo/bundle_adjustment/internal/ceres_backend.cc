@@ -4,14 +4,13 @@
 #include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
 
 #include <algorithm>
-#include <map>
-#include <utility>
 
 #include <ceres/solver.h>
 
 #include "msc_vo/bundle_adjustment/internal/elimination_order.h"
 #include "msc_vo/factors/analytic_cost_function.h"
 #include "msc_vo/factors/analytic_line_pair_cost_function.h"
+#include "msc_vo/factors/observation_cost_function.h"
 
 namespace msc_vo {
 
@@ -19,7 +18,9 @@ namespace {
 
 ceres::Problem::Options ProblemOptions() {
   ceres::Problem::Options options;
-  // Losses and the manifold are shared between residual blocks.
+  // CeresBackend keeps everything: the problem would count references in tables, which takes longer
+  // than adding the residual blocks.
+  options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   // ValidateWindow has checked the data.
@@ -44,22 +45,6 @@ ceres::CostFunction* Analytic(const ManhattanAxisAlignment& factor) {
   return ManhattanAxisAlignment::Create(factor);
 }
 
-// Cost function of a custom factor, which the problem must not delete.
-class SharedCostFunction final : public ceres::CostFunction {
- public:
-  explicit SharedCostFunction(const ceres::CostFunction& cost) : cost_(cost) {
-    set_num_residuals(cost.num_residuals());
-    *mutable_parameter_block_sizes() = cost.parameter_block_sizes();
-  }
-  bool Evaluate(const double* const* parameters, double* residuals,
-                double** jacobians) const override {
-    return cost_.Evaluate(parameters, residuals, jacobians);
-  }
-
- private:
-  const ceres::CostFunction& cost_;
-};
-
 ceres::SparseLinearAlgebraLibraryType SparseLibrary(BundleAdjustmentSolver solver) {
   return solver == BundleAdjustmentSolver::kCeresSuiteSparse ? ceres::SUITE_SPARSE
                                                              : ceres::EIGEN_SPARSE;
@@ -76,10 +61,8 @@ bool IsAvailable(BundleAdjustmentSolver solver) {
 CeresBackend::CeresBackend(const BundleAdjustmentOptions& options, const WindowData& data,
                            const WindowTerms& terms, WindowState* state)
     : options_(options), data_(data), terms_(terms), state_(state), problem_(ProblemOptions()) {
-  AddTerm(terms.point_reprojection);
-  AddTerm(terms.point_depth);
-  AddTerm(terms.line_reprojection);
-  AddTerm(terms.line_depth);
+  AddObservations(terms.point_reprojection, terms.point_depth);
+  AddObservations(terms.line_reprojection, terms.line_depth);
   AddTerm(terms.line_endpoint_prior);
   AddTerm(terms.parallel);
   AddTerm(terms.perpendicular);
@@ -89,35 +72,70 @@ CeresBackend::CeresBackend(const BundleAdjustmentOptions& options, const WindowD
   HoldGauge();
 }
 
-template <typename Term>
-void CeresBackend::AddTerm(const Term& term) {
-  using Factor = typename Term::Factor;
-  std::map<int, ceres::LossFunction*> losses;  // by multiplicity
-  const auto loss = [&](int count) -> ceres::LossFunction* {
-    if (term.loss.threshold == 0.0 && count == 1) return nullptr;
-    ceres::LossFunction*& it = losses[count];
-    if (it == nullptr) {
-      losses_.push_back(std::make_unique<ceres::ScaledLoss>(
-          new ceres::HuberLoss(term.loss.threshold), count, ceres::TAKE_OWNERSHIP));
-      it = losses_.back().get();
-    }
-    return it;
-  };
-  for (const auto& block : term.blocks) {
-    const auto blocks = ParametersOf<Factor>(state_, block);
-    ceres::CostFunction* cost =
-        options_.analytic_jacobians ? Analytic(block.factor) : Factor::Create(block.factor);
-    problem_.AddResidualBlock(cost, loss(block.count), blocks.data(),
-                              static_cast<int>(blocks.size()));
+ceres::LossFunction* CeresBackend::LossOf(const HuberLoss& loss, int count) {
+  if (loss.threshold == 0.0 && count == 1) return nullptr;
+  std::unique_ptr<ceres::LossFunction>& kept = losses_[{loss.threshold, count}];
+  if (kept == nullptr) {
+    kept = std::make_unique<ceres::ScaledLoss>(new ceres::HuberLoss(loss.threshold), count,
+                                               ceres::TAKE_OWNERSHIP);
   }
+  return kept.get();
 }
 
-// Ceres takes pointers to non-const losses and manifolds, but calls their const functions only.
+template <typename Parameters>
+void CeresBackend::AddResidualBlock(ceres::CostFunction* cost, ceres::LossFunction* loss,
+                                    const Parameters& parameters) {
+  cost_functions_.emplace_back(cost);
+  problem_.AddResidualBlock(cost, loss, parameters.data(), static_cast<int>(parameters.size()));
+}
+
+template <typename Factor>
+void CeresBackend::AddBlock(const WindowTerm<Factor>& term,
+                            const typename WindowTerm<Factor>::Block& block) {
+  AddResidualBlock(
+      options_.analytic_jacobians ? Analytic(block.factor) : Factor::Create(block.factor),
+      LossOf(term.loss, block.count), ParametersOf<Factor>(state_, block));
+}
+
+template <typename Factor>
+void CeresBackend::AddTerm(const WindowTerm<Factor>& term) {
+  for (const auto& block : term.blocks) AddBlock(term, block);
+}
+
+// Both terms are in the order of the observations.
+template <typename Reprojection, typename Depth>
+void CeresBackend::AddObservations(const WindowTerm<Reprojection>& reprojection,
+                                   const WindowTerm<Depth>& depth) {
+  if (!options_.analytic_jacobians) {
+    AddTerm(reprojection);
+    AddTerm(depth);
+    return;
+  }
+  auto next_depth = depth.blocks.begin();
+  const auto end = depth.blocks.end();
+  for (const auto& block : reprojection.blocks) {
+    for (; next_depth != end && next_depth->source < block.source; ++next_depth) {
+      AddBlock(depth, *next_depth);
+    }
+    if (next_depth == end || next_depth->source > block.source) {
+      AddBlock(reprojection, block);
+      continue;
+    }
+    AddResidualBlock(new ObservationCostFunction<Reprojection, Depth>(
+                         block.factor, reprojection.loss, next_depth->factor, depth.loss),
+                     nullptr, ParametersOf<Reprojection>(state_, block));
+    ++next_depth;
+  }
+  for (; next_depth != end; ++next_depth) AddBlock(depth, *next_depth);
+}
+
+// Ceres takes pointers to non-const cost functions, losses and manifolds, but calls their const
+// functions only.
 void CeresBackend::AddCustomFactors() {
   for (const CustomTerm::Block& block : terms_.custom.blocks) {
     std::vector<double*> parameters;
     for (const StateBlock& b : block.parameters) parameters.push_back(state_->Block(b));
-    problem_.AddResidualBlock(new SharedCostFunction(*block.factor->cost),
+    problem_.AddResidualBlock(const_cast<ceres::CostFunction*>(block.factor->cost.get()),
                               const_cast<ceres::LossFunction*>(block.factor->loss.get()),
                               parameters.data(), static_cast<int>(parameters.size()));
   }
@@ -177,6 +195,8 @@ std::shared_ptr<ceres::ParameterBlockOrdering> CeresBackend::EliminationOrdering
 MinimizerReport CeresBackend::Minimize(int max_iterations) {
   ceres::Solver::Options options;
   options.max_num_iterations = max_iterations;
+  // The damping is relative to the diagonal of the Hessian, so that scaling changes no step.
+  options.jacobi_scaling = false;
   if (options_.solver == BundleAdjustmentSolver::kCeresDenseSchur) {
     options.linear_solver_type = ceres::DENSE_SCHUR;
   } else {

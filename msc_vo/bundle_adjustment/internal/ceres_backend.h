@@ -3,9 +3,12 @@
 
 #pragma once
 
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include <ceres/cost_function.h>
 #include <ceres/loss_function.h>
 #include <ceres/ordered_groups.h>
 #include <ceres/problem.h>
@@ -33,8 +36,20 @@ class CeresBackend {
   MinimizerReport Minimize(int max_iterations);
 
  private:
-  template <typename Term>
-  void AddTerm(const Term& term);
+  // One residual block per observation with analytic derivatives, one per factor otherwise.
+  template <typename Reprojection, typename Depth>
+  void AddObservations(const WindowTerm<Reprojection>& reprojection,
+                       const WindowTerm<Depth>& depth);
+  template <typename Factor>
+  void AddTerm(const WindowTerm<Factor>& term);
+  template <typename Factor>
+  void AddBlock(const WindowTerm<Factor>& term, const typename WindowTerm<Factor>::Block& block);
+  // Keeps `cost`.
+  template <typename Parameters>
+  void AddResidualBlock(ceres::CostFunction* cost, ceres::LossFunction* loss,
+                        const Parameters& parameters);
+  // Null where no loss is needed.
+  ceres::LossFunction* LossOf(const HuberLoss& loss, int count);
   void AddCustomFactors();
   void HoldGauge();
 
@@ -43,7 +58,9 @@ class CeresBackend {
   const WindowTerms& terms_;
   WindowState* state_;
   Rigid3Manifold pose_manifold_;
-  std::vector<std::unique_ptr<ceres::LossFunction>> losses_;
+  std::vector<std::unique_ptr<ceres::CostFunction>> cost_functions_;
+  // By threshold and multiplicity.
+  std::map<std::pair<double, int>, std::unique_ptr<ceres::LossFunction>> losses_;
   ceres::Problem problem_;  // last, so that it is destroyed before the objects it refers to
 };
 
