@@ -20,6 +20,9 @@ set(MSC_VO_PUBLIC_HEADERS
   msc_vo/bundle_adjustment/window_covariance.h
   msc_vo/pose_estimation/pose_optimization.h
   msc_vo/recording/window_file.h
+  # Other sensors
+  msc_vo/inertial/gravity_factors.h
+  msc_vo/inertial/vertical_measurement.h
   # Structure of the scene
   msc_vo/structure/axes_refinement.h
   msc_vo/structure/axis_association.h

@@ -106,8 +106,9 @@ void RunMode(const Arguments& arguments, const RgbdDecoder& decoder,
   const std::string folder = (fs::path(arguments.output) / row->sequence / row->mode).string();
   RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, folder);
   OnlineResults online(folder);
-  const SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt,
-                                      [&](const FrameResult& frame) { online.Add(frame); });
+  const SequenceRun run =
+      RunSequence(decoder, configuration, arguments.run, interrupt,
+                  {[&](const FrameResult& frame) { online.Add(frame); }, {}, {}});
   row->summary = run.summary;
   row->cost = run.context.cost;
   row->error = run.context.error;

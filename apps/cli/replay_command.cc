@@ -11,6 +11,7 @@
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
+#include "apps/cli/gravity_arguments.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/config/options_file.h"
@@ -32,6 +33,7 @@ struct Arguments {
   RunArguments run;
   std::string output;
   std::string windows;  // folder; empty: windows are not recorded
+  GravityArguments gravity;
   std::string mode;
   std::string lines;
   bool no_points = false;
@@ -106,12 +108,13 @@ int Replay(const Arguments& arguments) {
           : (std::filesystem::path("out") / SequenceName(arguments.sequence.directory)).string();
   RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, output);
   MakeFolder(output);  // fails before the run if it cannot be created
+  const WindowFactorCallback gravity = MakeGravityCallback(arguments.gravity, decoder.index());
   const InterruptGuard interrupt;
   OnlineResults online(output);
-  const SequenceRun run = RunSequence(
-      decoder, configuration, arguments.run, interrupt,
-      [&](const FrameResult& frame) { online.Add(frame); },
-      WindowRecorder(arguments.windows, decoder.index()));
+  const SequenceRun run =
+      RunSequence(decoder, configuration, arguments.run, interrupt,
+                  {[&](const FrameResult& frame) { online.Add(frame); },
+                   WindowRecorder(arguments.windows, decoder.index()), gravity});
   if (!run.HasImages()) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
     return run.exit_code;
@@ -173,6 +176,7 @@ Command AddReplayCommand(CLI::App* app) {
   command->add_option("--output", arguments->output,
                       "Folder for the results; default: out/<name of the sequence>");
   AddShortcuts(command, arguments.get());
+  AddGravityArguments(command, &arguments->gravity);
   AddRunArguments(command, &arguments->run);
   command->add_option("--dump-windows", arguments->windows,
                       "Folder for the windows of local bundle adjustment, one file per "

@@ -126,8 +126,7 @@ bool SequenceRun::HasImages() const {
 
 SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configuration,
                         const RunArguments& arguments, const InterruptGuard& interrupt,
-                        const FrameObserver& frame_observer,
-                        const WindowObserver& window_observer) {
+                        const RunCallbacks& callbacks) {
   SequenceRun run;
   RunContext& context = run.context;
   context = MakeContext(decoder, configuration);
@@ -139,12 +138,13 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   const CostMeter cost;
   const OdometryOptions& options = context.configuration.odometry;
   Odometry odometry(options, context.calibration.camera, context.calibration.distortion);
-  odometry.SetWindowObserver(window_observer);
+  odometry.SetWindowObserver(callbacks.window);
+  odometry.SetWindowFactors(callbacks.window_factors);
   if (options.snapshots.realtime) WarnAboutShortenedPauses(num_frames, &context.sequence);
   const std::unique_ptr<ImageFeed> feed =
       MakeImageFeed(decoder, num_frames, options.snapshots.realtime);
   FrameLoop loop(decoder, num_frames, arguments.strict, feed.get(), &odometry);
-  const int done = RunLoop(arguments, num_frames, interrupt, frame_observer, &loop, &run);
+  const int done = RunLoop(arguments, num_frames, interrupt, callbacks.frame, &loop, &run);
   FinishOdometry(&odometry, &run);
   context.cost = cost.Read();
   context.realtime = feed->Realtime();

@@ -38,13 +38,19 @@ struct SequenceRun {
 /// Called with every frame as soon as it has been processed.
 using FrameObserver = std::function<void(const FrameResult&)>;
 
+/// Functions that a run calls.
+struct RunCallbacks {
+  FrameObserver frame;
+  WindowObserver window;                ///< may be empty
+  WindowFactorCallback window_factors;  ///< may be empty
+};
+
 /// Runs the odometry on a sequence. Prints progress and a warning about unreadable images to
 /// standard error. The run fails if more than half of the images, or all at the beginning, are
-/// unreadable. Exceptions of the odometry and of `frame_observer` end the run and become its
-/// outcome. `window_observer` may be empty. Throws std::invalid_argument on invalid options.
+/// unreadable. Exceptions of the odometry and of the callbacks end the run and become its outcome.
+/// Throws std::invalid_argument on invalid options.
 SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configuration,
                         const RunArguments& arguments, const InterruptGuard& interrupt,
-                        const FrameObserver& frame_observer,
-                        const WindowObserver& window_observer = {});
+                        const RunCallbacks& callbacks);
 
 }  // namespace msc_vo

@@ -110,6 +110,27 @@ TEST_F(ReplayCommandTest, WritesConsistentAndRepeatableResults) {
   }
 }
 
+TEST_F(ReplayCommandTest, UsesTheAccelerometer) {
+  Synthesize(90);
+  ASSERT_EQ(Replay("plain", {"--quiet"}).exit_code, 0);
+  const CommandOutcome outcome = Replay("gravity", {"--quiet", "--gravity"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_NE(ReadFile(Path("gravity/trajectory.txt")), ReadFile(Path("plain/trajectory.txt")));
+  EXPECT_LT(Summary("gravity")["error"]["ape_rmse"], 0.02);
+
+  std::filesystem::remove(Path("room/accelerometer.txt"));
+  const CommandOutcome missing = Replay("missing", {"--gravity"});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_THAT(missing.output, HasSubstr(Path("room/accelerometer.txt") + ": does not exist"));
+}
+
+TEST_F(ReplayCommandTest, RejectsInvalidAccelerometerAxes) {
+  const CommandOutcome outcome = Replay("out", {"--gravity", "--accelerometer-axes=x,y,y"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("'x,y,y' is not a right-handed set of axes"));
+  EXPECT_EQ(Replay("out", {"--accelerometer-axes=x,y,z"}).exit_code, 2);  // without --gravity
+}
+
 TEST_F(ReplayCommandTest, FollowsTheTimeStampsInRealTime) {
   Synthesize(12);
   const CommandOutcome outcome = Replay("out", {"--realtime"});

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/inertial/gravity_factors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <ceres/loss_function.h>
+#include <ceres/sphere_manifold.h>
+
+#include "msc_vo/factors/direction_prior.h"
+#include "msc_vo/factors/gravity_direction.h"
+#include "msc_vo/inertial/vertical_measurement.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Weight of `min_sigma` in the estimated sigma, as a number of measurements.
+constexpr double kPriorMeasurements = 3.0;
+
+std::vector<TimedPose> PosesOf(const WindowContext& window) {
+  std::vector<TimedPose> poses;
+  for (const WindowContext::Keyframe& keyframe : window.keyframes) {
+    poses.push_back({keyframe.timestamp, keyframe.cam_from_world.Inverse()});
+  }
+  return poses;
+}
+
+// Standard deviation of one component of the measured directions, radians: the root mean square of
+// the relative deviations of the lengths from their mean, and `min_sigma`.
+double SigmaOf(const std::vector<VerticalMeasurement>& measurements, double min_sigma) {
+  double mean = 0.0, squares = 0.0;
+  for (const VerticalMeasurement& m : measurements) mean += m.up_in_cam.norm();
+  mean /= static_cast<double>(measurements.size());
+  for (const VerticalMeasurement& m : measurements) {
+    squares += std::pow(m.up_in_cam.norm() / mean - 1.0, 2);
+  }
+  const double count = static_cast<double>(measurements.size()) + kPriorMeasurements;
+  return std::hypot(min_sigma, std::sqrt(squares / count));
+}
+
+}  // namespace
+
+bool GravityOptions::IsValid(std::string* error) const {
+  if (!(min_interval > 0.0)) {
+    *error = "gravity: min_interval must be positive";
+  } else if (!(min_sigma > 0.0)) {
+    *error = "gravity: min_sigma must be positive";
+  } else if (!(huber > 0.0)) {
+    *error = "gravity: huber must be positive";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+GravityFactors::GravityFactors(std::vector<TimedAcceleration> readings,
+                               const GravityOptions& options)
+    : readings_(std::move(readings)), options_(options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw std::invalid_argument(error);
+}
+
+WindowFactors GravityFactors::operator()(const WindowContext& window) {
+  const std::vector<VerticalMeasurement> measurements =
+      MeasureVertical(readings_, PosesOf(window), options_.min_interval);
+  if (measurements.empty() && information_ == 0.0) return {};
+  const double sigma =
+      measurements.empty() ? options_.min_sigma : SigmaOf(measurements, options_.min_sigma);
+  const BlockId vertical = BlockId::Extra(options_.block);
+  const auto loss = std::make_shared<ceres::HuberLoss>(options_.huber);
+  WindowFactors result;
+  for (const VerticalMeasurement& m : measurements) {
+    const WindowContext::Keyframe& keyframe = window.keyframes[m.pose];
+    const double sigma_m = sigma / std::sqrt(m.independence);
+    const auto position = std::lower_bound(measured_.begin(), measured_.end(), keyframe.id);
+    if (position == measured_.end() || *position != keyframe.id) {
+      measured_.insert(position, keyframe.id);
+      const double information = 1.0 / (sigma_m * sigma_m);
+      sum_of_verticals_ +=
+          information * (keyframe.cam_from_world.rotation().conjugate() * m.up_in_cam.normalized());
+      information_ += information;
+    }
+    if (keyframe.fixed) continue;
+    result.factors.push_back(
+        {"gravity direction",
+         std::shared_ptr<const ceres::CostFunction>(GravityDirection::Create(m.up_in_cam, sigma_m)),
+         loss,
+         {BlockId::Pose(keyframe.id), vertical}});
+  }
+  result.factors.push_back({"prior of the vertical",
+                            std::shared_ptr<const ceres::CostFunction>(DirectionPrior::Create(
+                                sum_of_verticals_, 1.0 / std::sqrt(information_))),
+                            nullptr,
+                            {vertical}});
+  result.extra_blocks.push_back({options_.block, sum_of_verticals_.normalized(),
+                                 std::make_shared<ceres::SphereManifold<3>>()});
+  return result;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "msc_vo/geometry/timed_acceleration.h"
+#include "msc_vo/mapping/window_factors.h"
+
+namespace msc_vo {
+
+struct GravityOptions {
+  /// Least time between the keyframes from which the acceleration of the camera is computed,
+  /// seconds. The error of the acceleration decreases with its square.
+  double min_interval = 1.0;
+  /// Standard deviation of each component of a measured vertical, radians, apart from the scatter
+  /// of the lengths: the rotation between keyframes is interpolated. A sensor with a bias needs
+  /// more. Chosen by measurement, see docs/lab/gravity.md.
+  double min_sigma = 0.0005;
+  double huber = 2.448;  ///< threshold of the loss, in standard deviations
+  int64_t block = 0;     ///< id of the extra block with the vertical
+
+  bool IsValid(std::string* error) const;
+};
+
+/// Ties roll and pitch of the keyframes of every window to an accelerometer. The vertical, a unit
+/// vector in the world that points up, is an extra block, which all windows estimate together: its
+/// prior is the mean of the verticals measured so far. The standard deviation of a measurement is
+/// estimated from the scatter of the lengths in its window: an error of the acceleration of the
+/// camera changes length and direction alike.
+///
+///   GravityFactors gravity(readings, GravityOptions());
+///   odometry.SetWindowFactors(std::ref(gravity));
+class GravityFactors {
+ public:
+  /// `readings`: in the axes of the camera, in order of time.
+  /// Throws std::invalid_argument on invalid options.
+  GravityFactors(std::vector<TimedAcceleration> readings, const GravityOptions& options);
+
+  /// Returns the factors of a window; none before the vertical has been measured.
+  WindowFactors operator()(const WindowContext& window);
+
+ private:
+  std::vector<TimedAcceleration> readings_;
+  GravityOptions options_;
+  std::vector<KeyframeId> measured_;                            // ascending
+  Eigen::Vector3d sum_of_verticals_ = Eigen::Vector3d::Zero();  // weighted by information, world
+  double information_ = 0.0;                                    // of the mean vertical, 1/radians^2
+};
+
+}  // namespace msc_vo
