@@ -35,9 +35,9 @@ struct LandmarkNoiseOptions {
 };
 
 /// Solver of the nonlinear least-squares problem. All solvers take the same steps, up to rounding,
-/// as long as no step moves a landmark behind a camera that observes it: kBlockSchur then keeps
-/// that landmark and takes the rest of the step, Ceres rejects the step. Both go on to the same
-/// minimum.
+/// as long as no step moves a landmark behind a camera that observes it or leaves a line without
+/// length: kBlockSchur then keeps that landmark and takes the rest of the step, Ceres rejects the
+/// step. Both go on to the same minimum.
 enum class BundleAdjustmentSolver {
   kBlockSchur,        ///< Specialised block-sparse Schur complement; the fastest.
   kCeresDenseSchur,   ///< Ceres, the reference.

@@ -29,6 +29,10 @@ InlierMask TestChiSquare(double reprojection, double depth, double limit, double
 /// large enough that solver steps stay within the domain of the factors.
 constexpr double kMinObservedDepth = 10.0 * kMinCameraDepth;
 
+/// Shortest map line whose direction is usable, metres: its derivative is the inverse of the
+/// length.
+constexpr double kMinLineLength = 1e-6;
+
 /// Whether a point, or both end points of a line, lie beyond kMinObservedDepth.
 bool IsInFront(const Eigen::Vector3d& x_in_cam);
 bool IsInFront(const LineSegment3& line_in_cam);

@@ -7,6 +7,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "msc_vo/bundle_adjustment/observation.h"
+
 namespace msc_vo {
 
 namespace {
@@ -64,7 +66,7 @@ const char* MapLineError(const LineSegment3& segment) {
   if (!AreCoordinates(segment.start) || !AreCoordinates(segment.end)) {
     return "segment is not finite or beyond 1e9 m";
   }
-  if (segment.start == segment.end) return "segment has zero length";
+  if (!(segment.Length() >= kMinLineLength)) return "segment has zero length";
   return nullptr;
 }
 

@@ -136,6 +136,27 @@ TEST_P(WindowStepTest, GradientMatchesNumericDerivative) {
   }
 }
 
+TEST_P(WindowStepTest, ResetsOnlyALineOfZeroLength) {
+  // Line 0 is part of pairs, line 9 of an alignment, line 10 of neither.
+  for (const int collapsed : {0, 9, 10}) {
+    SCOPED_TRACE(collapsed);
+    const WindowState state(data_);
+    WindowStep step;
+    step.reduced.setConstant(6 * structure_->num_poses, 1e-4);
+    step.points.assign(structure_->num_points, Eigen::Vector3d::Constant(1e-3));
+    step.lines.assign(structure_->num_lines, Eigen::Matrix<double, 6, 1>::Constant(1e-3));
+    const LineSegment3 line = state.Line(collapsed);
+    step.lines[structure_->line[collapsed]] << Eigen::Vector3d::Zero(), line.start - line.end;
+    const WindowState after = TakeStep(*structure_, state, step);
+    EXPECT_EQ(after.Line(collapsed).start, line.start);
+    EXPECT_EQ(after.Line(collapsed).end, line.end);
+    EXPECT_GT((after.Point(4) - state.Point(4)).norm(), 1e-4);
+    EXPECT_GT((after.Line(1).start - state.Line(1).start).norm(), 1e-4);
+    WindowEquations equations;
+    EXPECT_TRUE(Linearize(*structure_, terms_, after, &equations));
+  }
+}
+
 TEST_P(WindowStepTest, StepMatchesDenseSolution) {
   WindowStep step;
   ASSERT_TRUE(SolveStep(*structure_, equations_, GetParam(), &step));

@@ -46,36 +46,6 @@ double CostAndEquations(const BlockStructure& structure, const WindowTerms& term
                                                        : std::numeric_limits<double>::infinity();
 }
 
-// Resets landmarks that a step moved behind a camera that observes them, where their factors are
-// undefined. Their depth is poorly determined, which should not reject the rest of the step.
-template <int Points, typename Observation, typename Block>
-void KeepInFront(const std::vector<Observation>& observations, const std::vector<int>& unknown,
-                 const WindowState& before, const Block& block, WindowState* after) {
-  for (const Observation& o : observations) {
-    if (unknown[o.landmark] < 0) continue;
-    double* const landmark = block(after, o.landmark);
-    const Rigid3 cam_from_world = after->Pose(o.keyframe);
-    for (int k = 0; k < Points; ++k) {
-      const Eigen::Vector3d x_in_cam = cam_from_world * Eigen::Vector3d(landmark + 3 * k);
-      if (x_in_cam.z() >= kMinCameraDepth) continue;
-      std::copy_n(block(&before, o.landmark), 3 * Points, landmark);
-      break;
-    }
-  }
-}
-
-WindowState TakeStep(const BlockStructure& structure, const WindowState& state,
-                     const WindowStep& step) {
-  WindowState after = Plus(structure, state, step);
-  KeepInFront<1>(
-      structure.point_observations, structure.point, state,
-      [](auto* s, size_t i) { return s->PointBlock(i); }, &after);
-  KeepInFront<2>(
-      structure.line_observations, structure.line, state,
-      [](auto* s, size_t i) { return s->LineBlock(i); }, &after);
-  return after;
-}
-
 }  // namespace
 
 MinimizerReport MinimizeWithBlockSchur(const BlockStructure& structure, const WindowTerms& terms,

@@ -23,8 +23,8 @@ struct MinimizerReport {
 /// `terms`.
 ///
 /// The steps are those of Ceres with default options, up to rounding, as long as no step moves a
-/// landmark behind a camera that observes it. There, Ceres rejects the whole step; here the
-/// landmark keeps its value and the rest of the step is evaluated.
+/// landmark behind a camera that observes it or leaves a line without length. There, Ceres rejects
+/// the whole step; here the landmark keeps its value and the rest of the step is evaluated.
 MinimizerReport MinimizeWithBlockSchur(const BlockStructure& structure, const WindowTerms& terms,
                                        int max_iterations, const WindowStageObserver& enter_stage,
                                        WindowState* state);

@@ -46,7 +46,7 @@ struct WindowEquations {
 };
 
 /// Evaluates all factors and their derivatives at `state`. Returns false if a factor is undefined
-/// there or the cost is not finite. A single observed line of zero length is such a factor.
+/// there or the cost is not finite, as behind a camera or for a line of zero length (see TakeStep).
 bool Linearize(const BlockStructure& structure, const WindowTerms& terms, const WindowState& state,
                WindowEquations* equations);
 

@@ -3,6 +3,7 @@
 
 #include "msc_vo/bundle_adjustment/internal/window_step.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "msc_vo/bundle_adjustment/internal/schur_complement.h"
@@ -89,6 +90,32 @@ void AddInTangentSpace(const Eigen::VectorXd& step, const ceres::Manifold* manif
   }
 }
 
+// Resets landmarks that a step moved behind a camera that observes them.
+template <int Points, typename Observation, typename Block>
+void KeepInFront(const std::vector<Observation>& observations, const std::vector<int>& unknown,
+                 const WindowState& before, const Block& block, WindowState* after) {
+  for (const Observation& o : observations) {
+    if (unknown[o.landmark] < 0) continue;
+    double* const landmark = block(after, o.landmark);
+    const Rigid3 cam_from_world = after->Pose(o.keyframe);
+    for (int k = 0; k < Points; ++k) {
+      const Eigen::Vector3d x_in_cam = cam_from_world * Eigen::Vector3d(landmark + 3 * k);
+      if (x_in_cam.z() >= kMinCameraDepth) continue;
+      std::copy_n(block(&before, o.landmark), 3 * Points, landmark);
+      break;
+    }
+  }
+}
+
+// Resets lines that a step left without a direction.
+void KeepDirections(const BlockStructure& structure, const WindowState& before,
+                    WindowState* after) {
+  for (size_t i = 0; i < structure.line.size(); ++i) {
+    if (structure.line[i] < 0 || after->Line(i).Length() >= kMinLineLength) continue;
+    std::copy_n(before.LineBlock(i), 6, after->LineBlock(i));
+  }
+}
+
 }  // namespace
 
 bool SolveStep(const BlockStructure& structure, const WindowEquations& equations, double radius,
@@ -123,6 +150,19 @@ WindowState Plus(const BlockStructure& structure, const WindowState& state,
                       sum.ExtraBlock(i));
   }
   return sum;
+}
+
+WindowState TakeStep(const BlockStructure& structure, const WindowState& state,
+                     const WindowStep& step) {
+  WindowState after = Plus(structure, state, step);
+  KeepInFront<1>(
+      structure.point_observations, structure.point, state,
+      [](auto* s, size_t i) { return s->PointBlock(i); }, &after);
+  KeepInFront<2>(
+      structure.line_observations, structure.line, state,
+      [](auto* s, size_t i) { return s->LineBlock(i); }, &after);
+  KeepDirections(structure, state, &after);
+  return after;
 }
 
 }  // namespace msc_vo

@@ -28,4 +28,10 @@ bool SolveStep(const BlockStructure& structure, const WindowEquations& equations
 /// Applies a step to the unknowns of `state`.
 WindowState Plus(const BlockStructure& structure, const WindowState& state, const WindowStep& step);
 
+/// Adds a step and resets the landmarks at which it made a factor undefined: those behind a camera
+/// that observes them, and lines shorter than kMinLineLength. Such a landmark is poorly determined,
+/// which should not reject the rest of the step.
+WindowState TakeStep(const BlockStructure& structure, const WindowState& state,
+                     const WindowStep& step);
+
 }  // namespace msc_vo
