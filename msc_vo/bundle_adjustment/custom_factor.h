@@ -43,9 +43,9 @@ struct BlockId {
 /// A parameter block of the caller's own, such as the scale of a wheel odometry, the bias of a
 /// gyroscope or a lever arm. CustomFactors give it a meaning.
 struct ExtraBlock {
-  int64_t id = 0;                                   ///< unique among the extra blocks
-  Eigen::VectorXd value;                            ///< in: initial value, out: estimate
-  std::shared_ptr<const ceres::Manifold> manifold;  ///< null: Euclidean
+  int64_t id = 0;                                             ///< unique among the extra blocks
+  Eigen::VectorXd value;                                      ///< in: initial value, out: estimate
+  std::shared_ptr<const ceres::Manifold> manifold = nullptr;  ///< null: Euclidean
   bool fixed = false;
 };
 

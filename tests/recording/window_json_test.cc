@@ -18,7 +18,7 @@ TEST(FormatWindowJson, ContainsCostsOfEachTerm) {
   EXPECT_EQ(json["usable"], true);
   EXPECT_EQ(json["final_cost"], 0.1 + 0.2);
   EXPECT_EQ(json["milliseconds"], 12.5);
-  EXPECT_EQ(json["terms"].size(), 9u);
+  EXPECT_EQ(json["terms"].size(), 10u);
   const nlohmann::json term = json["terms"]["perpendicular"];
   EXPECT_EQ(term["residual_blocks"], 3);
   EXPECT_EQ(term["rejected"], 1);
