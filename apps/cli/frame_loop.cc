@@ -41,8 +41,8 @@ bool FrameLoop::Step(FrameResult* frame) {
 FrameResult FrameLoop::Skip(const UnreadableImage& image) {
   if (num_unreadable_++ == 0) first_unreadable_ = image.what();
   Log().warn("{}", image.what());
-  const FrameResult frame = odometry_->Drop(image.index(), entries_[image.index()].timestamp,
-                                            TrackingStatus::kUnreadable);
+  FrameResult frame = odometry_->Drop(image.index(), entries_[image.index()].timestamp,
+                                      TrackingStatus::kUnreadable);
   CheckNumUnreadable(image.index() + 1);
   return frame;
 }

@@ -4,6 +4,7 @@
 #include "apps/cli/progress.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <unistd.h>
@@ -23,7 +24,7 @@ Progress::Progress(int total)
 
 std::string Progress::Text(int done, const std::string& note) const {
   const double rate = done / std::max(1e-3 * since_start_.Milliseconds(), 1e-6);
-  const int left = static_cast<int>((total_ - done) / std::max(rate, 1e-6) + 0.5);
+  const int left = static_cast<int>(std::lround((total_ - done) / std::max(rate, 1e-6)));
   char text[160];
   std::snprintf(text, sizeof(text), "%d/%d  %.1f frames/s  %d:%02d left", done, total_, rate,
                 left / 60, left % 60);

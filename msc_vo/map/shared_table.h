@@ -57,8 +57,8 @@ class SharedTable {
   };
 
   SharedTable() = default;
-  SharedTable(SharedTable&&) = default;
-  SharedTable& operator=(SharedTable&&) = default;
+  SharedTable(SharedTable&&) noexcept = default;
+  SharedTable& operator=(SharedTable&&) noexcept = default;
   /// Copies are made by Share(), which marks the shared blocks.
   SharedTable(const SharedTable&) = delete;
   SharedTable& operator=(const SharedTable&) = delete;
