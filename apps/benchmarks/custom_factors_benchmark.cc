@@ -6,9 +6,7 @@
 // alternately; "ratio" is that of their median times. Window files: MSC_VO_WINDOWS=a.txt:b.txt.
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
-#include <stdexcept>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -30,8 +28,8 @@ void AddRelativePoses(WindowData* data) {
     const WindowData::Keyframe& b = *(&a + 1);
     CustomFactor factor;
     factor.name = "relative pose";
-    factor.cost.reset(RelativePose::Create(
-        RelativePose(b.cam_from_world * a.cam_from_world.Inverse(), covariance)));
+    factor.cost =
+        RelativePose::CreateShared(b.cam_from_world * a.cam_from_world.Inverse(), covariance);
     factor.blocks = {BlockId::Pose(a.id), BlockId::Pose(b.id)};
     data->custom_factors.push_back(factor);
   }
@@ -76,18 +74,6 @@ void Register(const WindowPtr& window) {
 }  // namespace msc_vo
 
 int main(int argc, char** argv) {
-  try {
-    for (const msc_vo::WindowPtr& window : msc_vo::RecordedWindows()) msc_vo::Register(window);
-  } catch (const std::runtime_error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-  for (const int num_keyframes : {5, 10, 20}) {
-    msc_vo::Register(
-        msc_vo::SyntheticBenchmarkWindow(msc_vo::WindowContent::kStructure, num_keyframes));
-  }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return msc_vo::RunWindowBenchmarks(argc, argv, {5, 10, 20}, {msc_vo::WindowContent::kStructure},
+                                     msc_vo::Register);
 }

@@ -5,9 +5,7 @@
 // the first of the two solves of a window. Window files: MSC_VO_WINDOWS=a.txt:b.txt.
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
-#include <stdexcept>
 
 #include <Eigen/Cholesky>
 #include <benchmark/benchmark.h>
@@ -142,18 +140,6 @@ void Register(const WindowPtr& window) {
 }  // namespace msc_vo
 
 int main(int argc, char** argv) {
-  try {
-    for (const msc_vo::WindowPtr& window : msc_vo::RecordedWindows()) msc_vo::Register(window);
-  } catch (const std::runtime_error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-  for (const int num_keyframes : {5, 10, 20}) {
-    msc_vo::Register(
-        msc_vo::SyntheticBenchmarkWindow(msc_vo::WindowContent::kStructure, num_keyframes));
-  }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return msc_vo::RunWindowBenchmarks(argc, argv, {5, 10, 20}, {msc_vo::WindowContent::kStructure},
+                                     msc_vo::Register);
 }

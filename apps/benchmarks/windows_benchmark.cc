@@ -8,9 +8,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <map>
-#include <stdexcept>
 
 #include <benchmark/benchmark.h>
 
@@ -136,20 +134,7 @@ void Register(const WindowPtr& window) {
 
 int main(int argc, char** argv) {
   using msc_vo::WindowContent;
-  try {
-    for (const msc_vo::WindowPtr& window : msc_vo::RecordedWindows()) msc_vo::Register(window);
-  } catch (const std::runtime_error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-  for (const int num_keyframes : {5, 10, 20, 40}) {
-    for (const auto content :
-         {WindowContent::kPoints, WindowContent::kLines, WindowContent::kStructure}) {
-      msc_vo::Register(msc_vo::SyntheticBenchmarkWindow(content, num_keyframes));
-    }
-  }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return msc_vo::RunWindowBenchmarks(
+      argc, argv, {5, 10, 20, 40},
+      {WindowContent::kPoints, WindowContent::kLines, WindowContent::kStructure}, msc_vo::Register);
 }

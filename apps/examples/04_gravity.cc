@@ -12,6 +12,8 @@
 
 namespace {
 
+constexpr double kDegreesPerRadian = 57.29577951308232;
+
 // Root mean square of the angle between the vertical in the camera as estimated and as it is,
 // degrees. `up`: vertical in the world of the odometry.
 double TiltError(const msc_vo::SimulatedCamera& camera, const msc_vo::OdometryResult& result,
@@ -21,7 +23,7 @@ double TiltError(const msc_vo::SimulatedCamera& camera, const msc_vo::OdometryRe
     const Eigen::Vector3d truth = camera.UpInCamera(static_cast<int>(frame.id));
     squares += std::pow((frame.cam_from_world.rotation() * up).cross(truth).norm(), 2);
   }
-  return 57.2958 * std::sqrt(squares / static_cast<double>(result.frames.size()));
+  return kDegreesPerRadian * std::sqrt(squares / static_cast<double>(result.frames.size()));
 }
 
 }  // namespace

@@ -143,9 +143,9 @@ using WindowStageObserver = std::function<void(WindowStage)>;
 ///   others are neither counted nor rejected.
 /// - The gauge must be fixed by at least one keyframe that is fixed or has a prior, or by custom
 ///   factors. Without depth, the scale requires two of them.
-/// - Custom factors are not tested for outliers; a robust loss guards against these. A step to
-/// where
-///   a factor is undefined is rejected.
+/// - Custom factors are not tested for outliers; a robust loss guards against these. A step is
+///   rejected if it leads to where the cost function of a factor fails, or where its cost or a
+///   derivative is not finite.
 ///
 /// Throws std::invalid_argument that names the offending item for: a window without keyframes, an
 /// unknown or repeated id, a number that is not finite or beyond 1e9, a sigma <= 0, a covariance

@@ -46,11 +46,14 @@ Eigen::Vector2d LineResidual(const PinholeCamera& camera, const LineSegment2& se
   return residual;
 }
 
-double InverseDepthAt(const PinholeCamera& camera, const LineSegment2& segment,
-                      const LineSegment3& line_in_cam, double s) {
+std::optional<double> InverseDepthAt(const PinholeCamera& camera, const LineSegment2& segment,
+                                     const LineSegment3& line_in_cam, double s) {
   // 1/z is linear along the image of a line.
   const double start = segment.Parameter(camera.Project(line_in_cam.start));
   const double end = segment.Parameter(camera.Project(line_in_cam.end));
+  // The rounding of pixel coordinates changes parameters by up to 1e-12: the difference of
+  // parameters that are closer than this has no accurate digit.
+  if (std::abs(end - start) < 1e-11) return std::nullopt;
   const double ratio = (s - start) / (end - start);
   return (1.0 - ratio) / line_in_cam.start.z() + ratio / line_in_cam.end.z();
 }

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <optional>
+
 #include "msc_vo/factors/line_depth_reprojection.h"
 #include "msc_vo/factors/line_reprojection.h"
 
@@ -54,8 +56,9 @@ LineDepthReprojection MakeLineDepthReprojection(const PinholeCamera& camera,
 Eigen::Vector2d LineResidual(const PinholeCamera& camera, const LineSegment2& segment, double sigma,
                              const LineSegment3& line_in_cam);
 
-/// Inverse depth (1/metres) of the map line at parameter s of the observed segment.
-double InverseDepthAt(const PinholeCamera& camera, const LineSegment2& segment,
-                      const LineSegment3& line_in_cam, double s);
+/// Inverse depth (1/metres) of the map line at parameter s of the observed segment; std::nullopt if
+/// both end points project to the same parameter, as those of a line along a viewing ray.
+std::optional<double> InverseDepthAt(const PinholeCamera& camera, const LineSegment2& segment,
+                                     const LineSegment3& line_in_cam, double s);
 
 }  // namespace msc_vo

@@ -22,8 +22,7 @@ std::vector<TimedAcceleration> ReadAccelerometer(const SequenceIndex& index);
 
 /// Rotation of the axes of an accelerometer to those of the camera (x to the right, y downwards, z
 /// forwards). `axes` names the camera axes of the sensor's x, y and z axis: "x,y,z" is the
-/// identity,
-/// "-x,-y,z" a sensor whose x axis points to the left and whose y axis points upwards.
+/// identity, "-x,-y,z" a sensor whose x axis points to the left and whose y axis points upwards.
 /// Throws std::invalid_argument that names the fix if it is not a right-handed set of axes.
 Eigen::Matrix3d RotationFromAxes(const std::string& axes);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -19,7 +20,9 @@ namespace msc_vo {
 
 namespace {
 
-// Weight of `min_sigma` in the estimated sigma, as a number of measurements.
+// Measurements without scatter that are added to those of a window. A plain choice: they limit what
+// the scatter of two or three measurements, a matter of chance, adds to sigma; in return the
+// scatter counts for 0.45 of its value with 2 measurements, and for 0.83 with 10.
 constexpr double kPriorMeasurements = 3.0;
 
 std::vector<TimedPose> PosesOf(const WindowContext& window) {
@@ -86,17 +89,16 @@ WindowFactors GravityFactors::operator()(const WindowContext& window) {
       information_ += information;
     }
     if (keyframe.fixed) continue;
-    result.factors.push_back(
-        {"gravity direction",
-         std::shared_ptr<const ceres::CostFunction>(GravityDirection::Create(m.up_in_cam, sigma_m)),
-         loss,
-         {BlockId::Pose(keyframe.id), vertical}});
+    result.factors.push_back({"gravity direction",
+                              GravityDirection::CreateShared(m.up_in_cam, sigma_m),
+                              loss,
+                              {BlockId::Pose(keyframe.id), vertical}});
   }
-  result.factors.push_back({"prior of the vertical",
-                            std::shared_ptr<const ceres::CostFunction>(DirectionPrior::Create(
-                                sum_of_verticals_, 1.0 / std::sqrt(information_))),
-                            nullptr,
-                            {vertical}});
+  result.factors.push_back(
+      {"prior of the vertical",
+       DirectionPrior::CreateShared(sum_of_verticals_, 1.0 / std::sqrt(information_)),
+       nullptr,
+       {vertical}});
   result.extra_blocks.push_back({options_.block, sum_of_verticals_.normalized(),
                                  std::make_shared<ceres::SphereManifold<3>>()});
   return result;

@@ -11,8 +11,20 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kMaxIntervals = 3.0;  // between two poses of a triple, in units of min_interval
-constexpr double kMinCoverage = 0.9;   // of the time between the outer poses, by readings
+// The following three are plain choices, each between poses without a measurement and measurements
+// with larger errors.
+
+// Longest time between two poses of a triple, in units of min_interval. The nearest pose at
+// min_interval is as far away only if the trajectory has no pose for two intervals, over which the
+// rotation of the readings would be interpolated.
+constexpr double kMaxIntervals = 3.0;
+// Least part of the integral of the weight that readings must cover. Their mean stands for the
+// missing part too: if the acceleration of the camera differs there by 0.2 m/s^2, as that of a
+// hand, the measured vertical is off by 0.1 * 0.2 m/s^2, which is 0.12 degrees.
+constexpr double kMinCoverage = 0.9;
+// Longest time between two readings that counts as covered, in units of the span of the triple.
+// Ten readings per span resolve the weight; with kMinCoverage, a sensor needs nine.
+constexpr double kMaxStep = 0.1;
 
 // Three poses of a trajectory and the weight of the readings between them.
 struct Triple {
@@ -77,7 +89,7 @@ std::optional<Eigen::Vector3d> MeanReading(const std::vector<TimedAcceleration>&
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double sum_of_weights = 0.0;
   // Trapezoidal rule, for readings at irregular times. Over a gap in the readings nothing is added.
-  const double max_step = 0.1 * triple.Span();
+  const double max_step = kMaxStep * triple.Span();
   for (auto reading = begin; reading < end; ++reading) {
     const double last = reading == begin ? triple.before->timestamp : (reading - 1)->timestamp;
     const double next = reading + 1 == end ? triple.after->timestamp : (reading + 1)->timestamp;

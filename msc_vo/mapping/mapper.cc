@@ -132,7 +132,8 @@ void Mapper::AddCustomFactors(WindowData* window) const {
     if (block.value.size() != known->second.value.size()) {
       throw std::invalid_argument("extra block " + std::to_string(block.id) + ": its size is " +
                                   std::to_string(block.value.size()) + ", that of its estimate " +
-                                  std::to_string(known->second.value.size()));
+                                  std::to_string(known->second.value.size()) +
+                                  "; give a block of another size another id");
     }
     block.value = known->second.value;
   }

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include <Eigen/Cholesky>
-#include <ceres/cost_function.h>
-#include <ceres/loss_function.h>
 
+#include "msc_vo/bundle_adjustment/custom_linearization.h"
 #include "msc_vo/factors/rigid3_manifold.h"
 #include "msc_vo/factors/robust_loss.h"
 
@@ -25,36 +24,21 @@ Rigid3 Plus(const Rigid3& pose, const Vector6& delta) {
   return sum;
 }
 
-// Residual of a custom factor and its Jacobian in the tangent space of Rigid3Manifold.
-struct CustomResidual {
-  Eigen::VectorXd r;
-  Eigen::Matrix<double, Eigen::Dynamic, 6> j;
-
-  // Returns false if the cost function fails.
-  bool Evaluate(const ceres::CostFunction& cost, const Rigid3& pose) {
-    Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor> ambient(cost.num_residuals(), 7);
-    Eigen::Matrix<double, 7, 6, Eigen::RowMajor> plus;
-    const double* parameters = pose.params.data();
-    double* jacobian = ambient.data();
-    r.resize(cost.num_residuals());
-    if (!cost.Evaluate(&parameters, r.data(), &jacobian)) return false;
-    Rigid3Manifold().PlusJacobian(parameters, plus.data());
-    j = ambient * plus;
-    return true;
-  }
-  bool IsFinite() const { return r.allFinite() && j.allFinite(); }
-};
+std::vector<CustomParameter> ParametersOf(const Rigid3& pose) {
+  static const Rigid3Manifold manifold;
+  return {{pose.params.data(), 7, &manifold, true}};
+}
 
 // Adds to the whole Hessian. Returns false if the factor fails or is not finite.
 bool AddTo(const PoseFactor& factor, const Rigid3& pose, NormalEquations* sum) {
-  CustomResidual at;
-  if (!at.Evaluate(*factor.cost, pose) || !at.IsFinite()) return false;
-  const double s = at.r.squaredNorm();
-  double rho[3] = {s, 1.0, 0.0};
-  if (factor.loss) factor.loss->Evaluate(s, rho);
-  sum->cost += 0.5 * rho[0];
-  sum->gradient += rho[1] * (at.j.transpose() * at.r);
-  sum->hessian += rho[1] * (at.j.transpose() * at.j);
+  CustomLinearization at;
+  if (!LinearizeCustomFactor(*factor.cost, factor.loss.get(), ParametersOf(pose), &at)) {
+    return false;
+  }
+  const Eigen::MatrixXd& j = at.jacobians[0];
+  sum->cost += at.cost;
+  sum->gradient += j.transpose() * at.residual;
+  sum->hessian += j.transpose() * j;
   return true;
 }
 
@@ -196,17 +180,9 @@ bool PoseFactors::Cost(const Rigid3& cam_from_world, double* cost) const {
   return std::isfinite(*cost);
 }
 
-const char* PoseFactorError(const PoseFactor& factor, const Rigid3& cam_from_world) {
-  if (factor.cost == nullptr) return "its cost function is null";
-  if (factor.cost->parameter_block_sizes() != std::vector<int32_t>{7}) {
-    return "its cost function must have one parameter block, of size 7";
-  }
-  if (factor.cost->num_residuals() < 1) return "its cost function has no residuals";
-  CustomResidual at;
-  if (!at.Evaluate(*factor.cost, cam_from_world)) {
-    return "its cost function fails at the initial pose";
-  }
-  return at.IsFinite() ? nullptr : "its residual or Jacobian is not finite at the initial pose";
+std::string PoseFactorError(const PoseFactor& factor, const Rigid3& cam_from_world) {
+  return CustomFactorError(factor.cost.get(), factor.loss.get(), ParametersOf(cam_from_world),
+                           {"the pose of the frame"});
 }
 
 LevenbergMarquardtTermination MinimizePose(const PoseFactors& factors, int max_iterations,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/levenberg_marquardt.h"
@@ -64,8 +65,8 @@ struct PoseFactors {
   bool Cost(const Rigid3& cam_from_world, double* cost) const;
 };
 
-/// Describes what is wrong with `factor` at the initial pose; nullptr if nothing is.
-const char* PoseFactorError(const PoseFactor& factor, const Rigid3& cam_from_world);
+/// Describes what is wrong with `factor` at the initial pose; empty if nothing is.
+std::string PoseFactorError(const PoseFactor& factor, const Rigid3& cam_from_world);
 
 /// Minimises the cost by Levenberg-Marquardt from *cam_from_world. Returns kFailed, and leaves the
 /// pose unchanged, if a factor is undefined at the initial pose or a step is not finite.

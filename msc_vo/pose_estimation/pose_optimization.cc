@@ -41,8 +41,8 @@ void Validate(const PoseOptions& options, const PoseData& data) {
     if (what != nullptr) fail("line " + std::to_string(i), what);
   }
   for (const PoseFactor& factor : data.custom_factors) {
-    const char* what = PoseFactorError(factor, data.cam_from_world);
-    if (what != nullptr) fail("factor \"" + factor.name + "\"", what);
+    const std::string what = PoseFactorError(factor, data.cam_from_world);
+    if (!what.empty()) fail("custom factor '" + factor.name + "'", what);
   }
 }
 

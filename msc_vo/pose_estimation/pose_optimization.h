@@ -118,8 +118,8 @@ struct PoseSummary {
 /// all six degrees of freedom, so that the covariance exists.
 /// Throws std::invalid_argument, naming the match, on numbers that are not finite, sigmas <= 0,
 /// segments without length or invalid options; naming the custom factor, if its cost function is
-/// null, has other blocks than one of size 7 or no residuals, or if it fails or is not finite at
-/// the initial pose.
+/// null, has other blocks than one of size 7 or no residuals, or cannot be evaluated at the initial
+/// pose.
 PoseSummary OptimizePose(const PoseOptions& options, PoseData* data);
 
 }  // namespace msc_vo

@@ -58,8 +58,10 @@ std::optional<Eigen::Vector2d> WindowResiduals::LinePixel(size_t i) const {
 std::optional<double> WindowResiduals::LineDepth(size_t i) const {
   const WindowData::LineObservation& o = window_.line_observations[i];
   if (!o.has_depth || !IsInFront(lines_in_cam_[i])) return std::nullopt;
-  const double inverse_depth = InverseDepthAt(window_.camera, o.segment, lines_in_cam_[i], 0.5);
-  return (inverse_depth - Nearer(o.depth, window_.lines[lines_[i]].depth_offset).At(0.5)) /
+  const std::optional<double> inverse_depth =
+      InverseDepthAt(window_.camera, o.segment, lines_in_cam_[i], 0.5);
+  if (!inverse_depth) return std::nullopt;
+  return (*inverse_depth - Nearer(o.depth, window_.lines[lines_[i]].depth_offset).At(0.5)) /
          o.depth.SigmaAt(0.5);
 }
 

@@ -35,8 +35,8 @@ class WindowResiduals {
   /// Reprojection residuals of a line at both end points of the map line; std::nullopt if the line
   /// lies behind the camera.
   std::optional<Eigen::Vector2d> LinePixel(size_t i) const;
-  /// Residual of the inverse depth of a line at the midpoint of the observed segment, corrected for
-  /// the depth offset of the line; std::nullopt if no depth was measured.
+  /// Inverse-depth residual of a line at the midpoint of the observed segment, corrected for its
+  /// depth offset; std::nullopt without a measured depth, behind the camera or along a viewing ray.
   std::optional<double> LineDepth(size_t i) const;
 
  private:

@@ -83,11 +83,11 @@ TEST_F(CustomValidationTest, AcceptsAValidFactor) {
 TEST_F(CustomValidationTest, NamesTheFactor) {
   CustomFactor factor = good_.custom_factors[0];
   factor.cost = nullptr;
-  EXPECT_THAT(ErrorOfFactor(factor), HasSubstr("custom factor 'mine': it has no cost function"));
+  EXPECT_THAT(ErrorOfFactor(factor), HasSubstr("custom factor 'mine': its cost function is null"));
   factor = good_.custom_factors[0];
   factor.blocks.pop_back();
-  EXPECT_THAT(ErrorOfFactor(factor), HasSubstr("custom factor 'mine': its cost function has 2 "
-                                               "parameter blocks, but 1 blocks are given"));
+  EXPECT_THAT(ErrorOfFactor(factor), HasSubstr("custom factor 'mine': the number of parameter "
+                                               "blocks of its cost function is 2 instead of 1"));
   factor.blocks.push_back(BlockId::Pose(good_.keyframes[0].id));
   EXPECT_THAT(ErrorOfFactor(factor),
               HasSubstr("custom factor 'mine': its cost function has size 3 for parameter block 1, "

@@ -3,6 +3,7 @@
 
 #include "msc_vo/bundle_adjustment/internal/landmark_noise.h"
 
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -115,6 +116,15 @@ TEST_F(LandmarkNoiseTest, EstimatesTheNoiseOfEachLandmark) {
   const double first = window_.points[1].noise;
   Estimate();
   EXPECT_DOUBLE_EQ(window_.points[1].noise, first);
+}
+
+// The end points of such a line project to one pixel, which does not tell its depth.
+TEST_F(LandmarkNoiseTest, LeavesOutTheDepthOfALineAlongAViewingRay) {
+  Observe({1.0, 1.0, 1.0}, {1.0, 1.0}, {0.0, 0.0});
+  window_.lines[1].segment = {{0.25, -0.125, 2.0}, {0.5, -0.25, 4.0}};  // from the first keyframe
+  Estimate();
+  EXPECT_TRUE(std::isfinite(window_.lines[1].noise)) << window_.lines[1].noise;
+  EXPECT_TRUE(std::isfinite(window_.lines[1].depth_offset)) << window_.lines[1].depth_offset;
 }
 
 TEST_F(LandmarkNoiseTest, KeepsValuesWithoutInliers) {

@@ -65,6 +65,21 @@ TEST(MakeLineDepthReprojection, EvaluatesSigmasAtTheProjectedEndPoints) {
   EXPECT_NEAR(end, 10.0, 1e-9);
 }
 
+TEST(InverseDepthAt, IsThatOfThePointOnTheMapLine) {
+  const PinholeCamera camera;
+  const LineSegment3 line{{-0.6, 0.1, 2.0}, {0.8, 0.2, 4.0}};
+  const LineSegment2 observed{camera.Project(line.At(0.3)), camera.Project(line.At(0.8))};
+  EXPECT_NEAR(*InverseDepthAt(camera, observed, line, 0.0), 1.0 / line.At(0.3).z(), 1e-9);
+  EXPECT_NEAR(*InverseDepthAt(camera, observed, line, 1.0), 1.0 / line.At(0.8).z(), 1e-9);
+}
+
+TEST(InverseDepthAt, IsNulloptAlongAViewingRay) {
+  const LineSegment3 ray{{0.3, -0.1, 1.7}, {0.6, -0.2, 3.4}};
+  EXPECT_FALSE(InverseDepthAt(PinholeCamera(), kSegment, ray, 0.5));
+  const LineSegment3 rounded{{0.3, -0.1, 1.7}, {0.9, -0.3, 5.1}};
+  EXPECT_FALSE(InverseDepthAt(PinholeCamera(), kSegment, rounded, 0.5));
+}
+
 TEST(TestChiSquare, RejectsAnInconsistentDepthAlone) {
   EXPECT_EQ(TestChiSquare(5.0, 3.0, 9.0, 11.0), (InlierMask{true, true}));
   EXPECT_EQ(TestChiSquare(5.0, 7.0, 9.0, 11.0), (InlierMask{true, false}));

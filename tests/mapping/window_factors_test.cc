@@ -150,7 +150,9 @@ TEST_F(WindowFactorsTest, ErrorsNameTheFactorAndKeepTheEstimates) {
   const double scale = mapper_.extra_blocks().at(0).value[0];
   EXPECT_EQ(message(20), "no wheel data");
   EXPECT_THAT(message(30), HasSubstr("marker"));
-  EXPECT_THAT(message(40), HasSubstr("extra block 0: its size is 2"));
+  EXPECT_THAT(message(40),
+              HasSubstr("extra block 0: its size is 2, that of its estimate 1; give a block "
+                        "of another size another id"));
   EXPECT_EQ(mapper_.extra_blocks().at(0).value[0], scale);
   EXPECT_EQ(message(50), "nothing was thrown");
 }

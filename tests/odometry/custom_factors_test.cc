@@ -9,28 +9,15 @@
 #include "tests/support/rendered_images.h"
 #include <gmock/gmock.h>
 
-#include "msc_vo/evaluation/trajectory_error.h"
-
 namespace msc_vo {
 namespace {
 
 using ::testing::HasSubstr;
 
-// Two seconds of a rendered trajectory through a room, with simulated wheels.
-class CustomFactorsTest : public ::testing::Test {
+// Images with simulated wheels.
+class CustomFactorsTest : public RoomTest {
  protected:
-  static constexpr int kNumFrames = 60;
   static constexpr double kScale = 1.07;  // metres per metre that the wheels measure
-
-  static void SetUpTestSuite() {
-    camera_ = SyntheticSequence(RoomOptions()).camera();
-    images_ = new std::vector<RgbdImage>(RenderImages(RoomOptions(), kNumFrames));
-    truth_ = new std::vector<TimedPose>(TruePoses(RoomOptions(), kNumFrames));
-  }
-  static void TearDownTestSuite() {
-    delete images_;
-    delete truth_;
-  }
 
   // The true motion between two frames.
   static Rigid3 Step(double from, double to) {
@@ -76,26 +63,12 @@ class CustomFactorsTest : public ::testing::Test {
     for (const RgbdImage& image : images) odometry.Process(image);
     return odometry.Finish();
   }
-  static double ApeRmse(const OdometryResult& result) {
-    std::vector<TimedPose> estimate;
-    for (const FrameResult& frame : result.frames) {
-      estimate.push_back({frame.timestamp, frame.cam_from_world.Inverse()});
-    }
-    return EvaluateTrajectory(*truth_, estimate).ape.rmse;
-  }
   static std::vector<RgbdImage> CoveredSecond() {
     std::vector<RgbdImage> images = *images_;
     for (int i = 20; i < 50; ++i) Cover(&images[i]);
     return images;
   }
-
-  static PinholeCamera camera_;
-  static std::vector<RgbdImage>* images_;
-  static std::vector<TimedPose>* truth_;
 };
-PinholeCamera CustomFactorsTest::camera_;
-std::vector<RgbdImage>* CustomFactorsTest::images_ = nullptr;
-std::vector<TimedPose>* CustomFactorsTest::truth_ = nullptr;
 
 TEST_F(CustomFactorsTest, WheelsBridgeACoveredSecond) {
   const std::vector<RgbdImage> images = CoveredSecond();

@@ -10,19 +10,13 @@
 #include <gmock/gmock.h>
 #include <opencv2/imgproc.hpp>
 
-#include "msc_vo/evaluation/trajectory_error.h"
-
 namespace msc_vo {
 namespace {
 
 using ::testing::HasSubstr;
 
-// Two seconds of a rendered trajectory through a room.
-class OdometryTest : public ::testing::Test {
+class OdometryTest : public RoomTest {
  protected:
-  static constexpr int kNumFrames = 60;
-
-  static SyntheticSequenceOptions SceneOptions() { return RoomOptions(); }
   static std::vector<RgbdImage> Render(const SyntheticSequenceOptions& options) {
     return RenderImages(options, kNumFrames);
   }
@@ -30,42 +24,17 @@ class OdometryTest : public ::testing::Test {
     return TruePoses(options, kNumFrames);
   }
 
-  static void SetUpTestSuite() {
-    camera_ = SyntheticSequence(SceneOptions()).camera();
-    images_ = new std::vector<RgbdImage>(Render(SceneOptions()));
-    truth_ = new std::vector<TimedPose>(TruthOf(SceneOptions()));
-  }
-  static void TearDownTestSuite() {
-    delete images_;
-    delete truth_;
-  }
-
   static OdometryResult Run(const OdometryOptions& options, const std::vector<RgbdImage>& images) {
     Odometry odometry(options, camera_, LensDistortion());
     for (const RgbdImage& image : images) odometry.Process(image);
     return odometry.Finish();
-  }
-  static double ApeRmse(const OdometryResult& result,
-                        const std::vector<TimedPose>& truth = *truth_) {
-    std::vector<TimedPose> estimate;
-    for (const FrameResult& frame : result.frames) {
-      estimate.push_back({frame.timestamp, frame.cam_from_world.Inverse()});
-    }
-    return EvaluateTrajectory(truth, estimate).ape.rmse;
   }
   static int Count(const OdometryResult& result, TrackingStatus status) {
     return static_cast<int>(
         std::count_if(result.frames.begin(), result.frames.end(),
                       [&](const FrameResult& f) { return f.status == status; }));
   }
-
-  static PinholeCamera camera_;
-  static std::vector<RgbdImage>* images_;
-  static std::vector<TimedPose>* truth_;
 };
-PinholeCamera OdometryTest::camera_;
-std::vector<RgbdImage>* OdometryTest::images_ = nullptr;
-std::vector<TimedPose>* OdometryTest::truth_ = nullptr;
 
 TEST_F(OdometryTest, TracksEveryFrameOfASequence) {
   const OdometryResult result = Run(OdometryOptions(), *images_);
@@ -182,7 +151,7 @@ TEST_F(OdometryTest, ThrowsAPendingErrorOnFinishOnce) {
 
 // Depth 12 ms late, at 2 radians per second: 6 px.
 TEST_F(OdometryTest, AlignsDepthToTheTimeOfTheColourImage) {
-  SyntheticSequenceOptions scene = SceneOptions();
+  SyntheticSequenceOptions scene = RoomOptions();
   scene.kinect_depth = false;
   scene.path.speed = 1.0;
   scene.path.turn_rate = 2.0;
@@ -202,7 +171,7 @@ TEST_F(OdometryTest, AlignsDepthToTheTimeOfTheColourImage) {
 
 // Rows over 30 ms, at 2 radians per second: 16 px from the first to the last.
 TEST_F(OdometryTest, CompensatesForAKnownRollingShutter) {
-  SyntheticSequenceOptions scene = SceneOptions();
+  SyntheticSequenceOptions scene = RoomOptions();
   scene.path.speed = 1.0;
   scene.path.turn_rate = 2.5;
   const std::vector<TimedPose> truth = TruthOf(scene);

@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "tests/support/factor_checks.h"
 #include "tests/support/test_window.h"
@@ -49,14 +50,21 @@ std::vector<PoseFactor> ContradictingFactors(const Rigid3& pose) {
   return factors;
 }
 
+// Contradicting factors around a random pose, and a pose in their neighbourhood.
+std::pair<PoseFactors, Rigid3> RandomFactors(RandomGeometry* random) {
+  const Rigid3 mean = random->Pose();
+  PoseFactors factors;
+  factors.custom = ContradictingFactors(mean);
+  const Eigen::Vector3d w = 0.1 * random->Normal3(), u = 0.3 * random->Normal3();
+  return {factors, Moved(mean, w, u)};
+}
+
 TEST(CustomPoseFactors, EquationsMatchCeres) {
   RandomGeometry random(1);
   for (int i = 0; i < 10; ++i) {
-    const Rigid3 mean = random.Pose();
-    PoseFactors factors;
-    factors.custom = ContradictingFactors(mean);
+    const auto [factors, start] = RandomFactors(&random);
+    Rigid3 pose = start;
     EXPECT_EQ(factors.NumRows(), 15);
-    Rigid3 pose = Moved(mean, 0.1 * random.Normal3(), 0.3 * random.Normal3());
     NormalEquations ours;
     ASSERT_TRUE(factors.Linearize(pose, &ours));
     double cost_alone = 0.0;
@@ -77,10 +85,7 @@ TEST(CustomPoseFactors, EquationsMatchCeres) {
 TEST(CustomPoseFactors, GradientMatchesTheDifferencesOfTheCost) {
   RandomGeometry random(2);
   for (int i = 0; i < 10; ++i) {
-    const Rigid3 mean = random.Pose();
-    PoseFactors factors;
-    factors.custom = ContradictingFactors(mean);
-    const Rigid3 pose = Moved(mean, 0.1 * random.Normal3(), 0.3 * random.Normal3());
+    const auto [factors, pose] = RandomFactors(&random);
     NormalEquations equations;
     ASSERT_TRUE(factors.Linearize(pose, &equations));
     constexpr double kStep = 1e-5;
@@ -210,14 +215,17 @@ TEST(CustomPoseFactors, NameTheInvalidFactor) {
     return std::string("nothing was thrown");
   };
   const double below = good.cam_from_world.translation().x() - 1.0;
-  EXPECT_THAT(message(nullptr), HasSubstr("factor \"wheel\": its cost function is null"));
-  EXPECT_THAT(message(std::make_shared<TwoBlocks>()), HasSubstr("factor \"wheel\": its cost "));
-  EXPECT_THAT(message(std::make_shared<Landmark>()), HasSubstr("one parameter block, of size 7"));
-  EXPECT_THAT(message(std::make_shared<NoRows>()), HasSubstr("no residuals"));
-  EXPECT_THAT(message(std::make_shared<LimitedCost>(below, true)),
-              HasSubstr("\"wheel\": its cost function fails at the initial pose"));
-  EXPECT_THAT(message(std::make_shared<LimitedCost>(below, false)),
-              HasSubstr("not finite at the initial pose"));
+  EXPECT_THAT(message(nullptr), HasSubstr("custom factor 'wheel': its cost function is null"));
+  EXPECT_THAT(message(std::make_shared<TwoBlocks>()),
+              HasSubstr("'wheel': the number of parameter blocks of its cost function is 2"));
+  EXPECT_THAT(message(std::make_shared<Landmark>()),
+              HasSubstr("'wheel': its cost function has size 3 for parameter block 0, but the pose "
+                        "of the frame has size 7"));
+  EXPECT_THAT(message(std::make_shared<NoRows>()), HasSubstr("'wheel': its cost function has no "));
+  for (const bool fails : {false, true}) {
+    EXPECT_THAT(message(std::make_shared<LimitedCost>(below, fails)),
+                HasSubstr("'wheel': it cannot be evaluated at the initial values"));
+  }
   EXPECT_EQ(message(std::make_shared<LimitedCost>(1e9, true)), "nothing was thrown");
 }
 

@@ -75,9 +75,22 @@ TEST(WindowResiduals, AreNulloptWithoutAMeasurement) {
       if (point.id == hidden) point.position = behind;
     }
   }
+  // A line along a viewing ray, from an observation of another line.
+  const WindowData::LineObservation& along_ray = window.line_observations.back();
+  ASSERT_NE(along_ray.line, window.line_observations[0].line);
+  for (const WindowData::Keyframe& keyframe : window.keyframes) {
+    if (keyframe.id != along_ray.keyframe) continue;
+    const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
+    for (WindowData::Line& line : window.lines) {
+      if (line.id != along_ray.line) continue;
+      line.segment = world_from_cam * LineSegment3{{0.25, -0.125, 2.0}, {0.5, -0.25, 4.0}};
+    }
+  }
   const WindowResiduals residuals(window);
   EXPECT_FALSE(residuals.PointDepth(0));
   EXPECT_FALSE(residuals.LineDepth(0));
+  EXPECT_FALSE(residuals.LineDepth(window.line_observations.size() - 1));
+  EXPECT_TRUE(residuals.LinePixel(window.line_observations.size() - 1));
   EXPECT_TRUE(residuals.LinePixel(0));
   EXPECT_FALSE(residuals.PointDepth(last));
 }

@@ -68,6 +68,19 @@ inline Linearization Linearize(const ceres::CostFunction& cost, const Blocks& bl
   return at;
 }
 
+// Asks for the Jacobian of one block at a time, as Ceres does if the others are constant.
+inline void ExpectEachJacobianSeparately(const ceres::CostFunction& cost, const Blocks& blocks) {
+  const Linearization all = Linearize(cost, blocks);
+  for (size_t k = 0; k < blocks.size(); ++k) {
+    Linearization one = all;
+    one.jacobians[k].setZero();
+    std::vector<double*> jacobians(blocks.size(), nullptr);
+    jacobians[k] = one.jacobians[k].data();
+    EXPECT_TRUE(cost.Evaluate(Pointers(blocks).data(), one.residual.data(), jacobians.data()));
+    EXPECT_EQ(one.jacobians[k], all.jacobians[k]);
+  }
+}
+
 // Compares analytic with numeric derivatives in tangent space. Blocks of size 7 are poses;
 // `manifold` is that of the other blocks.
 inline void ExpectGradientsMatch(const ceres::CostFunction& cost, const Blocks& blocks,

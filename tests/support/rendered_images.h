@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/odometry/odometry.h"
 #include "msc_vo/synthetic/scene/synthetic_sequence.h"
 
@@ -49,6 +50,36 @@ inline std::vector<TimedPose> TruePoses(const SyntheticSequenceOptions& options,
   for (int i = 0; i < count; ++i) truth.push_back(sequence.PoseAt(i));
   return truth;
 }
+
+// Two seconds of the trajectory through the room, rendered once for all tests of a suite.
+class RoomTest : public ::testing::Test {
+ protected:
+  static constexpr int kNumFrames = 60;
+
+  static void SetUpTestSuite() {
+    camera_ = SyntheticSequence(RoomOptions()).camera();
+    images_ = new std::vector<RgbdImage>(RenderImages(RoomOptions(), kNumFrames));
+    truth_ = new std::vector<TimedPose>(TruePoses(RoomOptions(), kNumFrames));
+  }
+  static void TearDownTestSuite() {
+    delete images_;
+    delete truth_;
+  }
+
+  // Root mean square of the absolute pose error, metres.
+  static double ApeRmse(const OdometryResult& result,
+                        const std::vector<TimedPose>& truth = *truth_) {
+    std::vector<TimedPose> estimate;
+    for (const FrameResult& frame : result.frames) {
+      estimate.push_back({frame.timestamp, frame.cam_from_world.Inverse()});
+    }
+    return EvaluateTrajectory(truth, estimate).ape.rmse;
+  }
+
+  static inline PinholeCamera camera_;
+  static inline std::vector<RgbdImage>* images_ = nullptr;
+  static inline std::vector<TimedPose>* truth_ = nullptr;
+};
 
 // Expects the same poses and points, bit by bit.
 inline void ExpectSameBytes(const OdometryResult& a, const OdometryResult& b) {

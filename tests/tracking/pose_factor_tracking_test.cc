@@ -223,7 +223,7 @@ TEST_F(PoseFactorTrackingTest, ThrowsErrorsOfTheCallbackAndContinues) {
         disturbed.Track(frame, snapshot_);
         FAIL() << "nothing was thrown";
       } catch (const std::invalid_argument& error) {
-        EXPECT_THAT(error.what(), HasSubstr("factor \"wheel\""));
+        EXPECT_THAT(error.what(), HasSubstr("custom factor 'wheel': its cost function is null"));
       }
     }
     const TrackedFrame a = disturbed.Track(frame, snapshot_), b = other.Track(frame, snapshot_);

@@ -3,12 +3,9 @@
 
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include <ceres/cost_function.h>
-#include <ceres/loss_function.h>
-
+#include "msc_vo/bundle_adjustment/custom_linearization.h"
 #include "msc_vo/bundle_adjustment/internal/window_state.h"
 
 namespace msc_vo {
@@ -22,25 +19,10 @@ struct CustomTerm {
   std::vector<Block> blocks;
 };
 
+/// The parameter blocks of a factor at `state`, all of them variable. They point into `state`.
+std::vector<CustomParameter> ParametersOf(const CustomTerm::Block& block, const WindowState& state);
+
 /// Half the sum of robust squared norms; NaN where a factor is undefined.
 double Cost(const CustomTerm& term, const WindowState& state);
-
-/// Residual and derivatives of a custom factor, multiplied by the square root of the weight that
-/// its loss gives to the residual.
-struct CustomLinearization {
-  double cost = 0.0;  ///< Half the robust squared norm.
-  Eigen::VectorXd residual;
-  /// Derivatives in the tangent space of each parameter block; empty for constant blocks.
-  std::vector<Eigen::MatrixXd> jacobians;
-};
-
-/// Evaluates a factor. `variable`: for each parameter block, whether its derivative is needed.
-/// Returns false if the factor is undefined or not finite at `state`.
-bool Linearize(const CustomTerm::Block& block, const WindowState& state,
-               const std::vector<bool>& variable, CustomLinearization* linearization);
-
-/// Describes why Linearize() fails; empty if it succeeds.
-std::string EvaluationError(const CustomTerm::Block& block, const WindowState& state,
-                            const std::vector<bool>& variable);
 
 }  // namespace msc_vo

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <string>
 
-#include <ceres/cost_function.h>
 #include <ceres/manifold.h>
 
 #include "msc_vo/bundle_adjustment/internal/custom_term.h"
@@ -63,25 +62,18 @@ class FactorResolver {
         state_(data) {}
 
   std::vector<StateBlock> Resolve(const CustomFactor& factor) const {
-    if (!factor.cost) Fail(factor, "it has no cost function");
-    if (factor.cost->num_residuals() < 1) Fail(factor, "its cost function has no residuals");
-    const std::vector<int32_t>& sizes = factor.cost->parameter_block_sizes();
-    if (factor.blocks.empty() || factor.blocks.size() != sizes.size()) {
-      Fail(factor, "its cost function has " + std::to_string(sizes.size()) +
-                       " parameter blocks, but " + std::to_string(factor.blocks.size()) +
-                       " blocks are given");
-    }
     CustomTerm::Block block{&factor, {}};
-    for (size_t i = 0; i < sizes.size(); ++i) {
+    std::vector<std::string> names;
+    for (size_t i = 0; i < factor.blocks.size(); ++i) {
       block.parameters.push_back(ResolveBlock(factor, i));
-      const int size = state_.Size(block.parameters.back());
-      if (size != sizes[i]) {
-        Fail(factor, "its cost function has size " + std::to_string(sizes[i]) +
-                         " for parameter block " + std::to_string(i) + ", but " +
-                         NameOf(factor.blocks[i]) + " has size " + std::to_string(size));
-      }
+      names.push_back(NameOf(factor.blocks[i]));
     }
-    const std::string error = EvaluationError(block, state_, Variable(block));
+    std::vector<CustomParameter> parameters = ParametersOf(block, state_);
+    for (size_t i = 0; i < parameters.size(); ++i) {
+      parameters[i].variable = !IsFixed(data_, block.parameters[i]);
+    }
+    const std::string error =
+        CustomFactorError(factor.cost.get(), factor.loss.get(), parameters, names);
     if (!error.empty()) Fail(factor, error);
     return block.parameters;
   }
@@ -112,12 +104,6 @@ class FactorResolver {
     }
     if (!data_.axes) Fail(factor, "the window has no Manhattan axes");
     return {StateBlock::Kind::kExtra, static_cast<int>(data_.extra_blocks.size())};
-  }
-
-  std::vector<bool> Variable(const CustomTerm::Block& block) const {
-    std::vector<bool> variable;
-    for (const StateBlock& b : block.parameters) variable.push_back(!IsFixed(data_, b));
-    return variable;
   }
 
   const WindowData& data_;

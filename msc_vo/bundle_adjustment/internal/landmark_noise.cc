@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace msc_vo {
@@ -65,11 +66,12 @@ std::vector<ResidualSums> SumLineResiduals(const WindowIndex& index,
     sums[line].AddResiduals(pixels.squaredNorm(), 2);
     if (!inlier_mask.lines[i].depth) continue;
     const WindowData::Line& previous = data.lines[line];
-    const double inverse_depth = InverseDepthAt(data.camera, o.segment, in_cam, 0.5);
+    const std::optional<double> inverse_depth = InverseDepthAt(data.camera, o.segment, in_cam, 0.5);
+    if (!inverse_depth) continue;
     const double sigma = o.depth.SigmaAt(0.5);
-    const double depth = (inverse_depth - Nearer(o.depth, previous.depth_offset).At(0.5)) / sigma;
+    const double depth = (*inverse_depth - Nearer(o.depth, previous.depth_offset).At(0.5)) / sigma;
     sums[line].AddResiduals(depth * depth, 1);
-    const double z = 1.0 / inverse_depth;
+    const double z = 1.0 / *inverse_depth;
     sums[line].AddOffset(1.0 / o.depth.At(0.5) - z, z * z * previous.noise * sigma);
   }
   return sums;

@@ -257,16 +257,19 @@ class Linearizer {
     CustomLinearization at;
     for (size_t i = 0; i < terms_.custom.blocks.size(); ++i) {
       const std::vector<StateBlock>& unknowns = structure_.custom_factors[i];
-      std::vector<bool> variable;
-      for (const StateBlock& unknown : unknowns) variable.push_back(unknown.position >= 0);
-      if (!Linearize(terms_.custom.blocks[i], state_, variable, &at)) return false;
+      const CustomFactor& factor = *terms_.custom.blocks[i].factor;
+      std::vector<CustomParameter> parameters = ParametersOf(terms_.custom.blocks[i], state_);
+      for (size_t a = 0; a < unknowns.size(); ++a) {
+        parameters[a].variable = unknowns[a].position >= 0;
+      }
+      if (!LinearizeCustomFactor(*factor.cost, factor.loss.get(), parameters, &at)) return false;
       equations_->cost += at.cost;
       for (size_t a = 0; a < unknowns.size(); ++a) {
-        if (!variable[a]) continue;
+        if (!parameters[a].variable) continue;
         const Eigen::MatrixXd& j = at.jacobians[a];
         AddToUnknown(unknowns[a], j.transpose() * j, j.transpose() * at.residual);
         for (size_t b = 0; b < a; ++b) {
-          if (!variable[b]) continue;
+          if (!parameters[b].variable) continue;
           equations_->custom_couplings.push_back(
               {unknowns[a], unknowns[b], j.transpose() * at.jacobians[b]});
         }
