@@ -108,7 +108,7 @@ ImageLists ReadAssociations(const std::string& path) {
 std::string FindAssociations(const std::string& directory) {
   for (const char* name :
        {"associations.txt", "association.txt", "associated.txt", "assoc.txt", "associate.txt"}) {
-    const std::string path = (fs::path(directory) / name).string();
+    std::string path = (fs::path(directory) / name).string();
     if (HasEntry(path)) return path;
   }
   return "";

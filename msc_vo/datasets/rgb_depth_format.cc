@@ -26,7 +26,7 @@ namespace {
 
 std::string ColorFolder(const std::string& directory) {
   for (const char* name : {"rgb", "color", "colour", "image", "images"}) {
-    const std::string folder = (fs::path(directory) / name).string();
+    std::string folder = (fs::path(directory) / name).string();
     if (IsFolder(folder)) return folder;
   }
   return "";

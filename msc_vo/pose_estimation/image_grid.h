@@ -38,7 +38,8 @@ class ImageGrid {
 
   /// Centre of a cell, as a fraction of the image's width and height.
   Eigen::Vector2d CenterOf(int cell) const {
-    return {(cell % columns_ + 0.5) / columns_, (cell / columns_ + 0.5) / rows_};
+    const int column = cell % columns_, row = cell / columns_;
+    return {(column + 0.5) / columns_, (row + 0.5) / rows_};
   }
 
  private:

@@ -38,7 +38,7 @@ std::vector<PointMatch> MatchDescriptors(const RelocalizerOptions& options, cons
         second_distance = distance;
       }
     }
-    if (best_distance > options.max_distance) continue;
+    if (best == nullptr || best_distance > options.max_distance) continue;
     if (best_distance > options.max_ratio * second_distance) continue;
     matches.push_back({static_cast<int>(feature), best->id, best->position, true});
   }

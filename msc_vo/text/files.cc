@@ -83,7 +83,7 @@ bool IsFolder(const std::string& path) {
 
 std::string FileProblem(const std::string& path, std::uintmax_t max_bytes) {
   fs::file_type type;
-  const std::string problem = ResolveType(path, &type);
+  std::string problem = ResolveType(path, &type);
   if (!problem.empty()) return problem;
   if (type == fs::file_type::directory) return "is a folder; a file is needed";
   if (type != fs::file_type::regular) {
@@ -102,7 +102,7 @@ std::string FileProblem(const std::string& path, std::uintmax_t max_bytes) {
 
 std::string FolderProblem(const std::string& path) {
   fs::file_type type;
-  const std::string problem = ResolveType(path, &type);
+  std::string problem = ResolveType(path, &type);
   if (!problem.empty()) return problem;
   if (type == fs::file_type::regular) return "is a file";
   if (type != fs::file_type::directory) return "is a " + SpecialTypeName(type);

@@ -150,7 +150,7 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
   for (const LineMatch& match : matches->lines) {
     data.lines.push_back(Observe(match, frame.lines[match.feature], map.FindLine(match.id), scale));
   }
-  const PoseSummary summary = OptimizePose(options, &data);
+  PoseSummary summary = OptimizePose(options, &data);
   *cam_from_world = data.cam_from_world;
   for (size_t i = 0; i < data.points.size(); ++i) matches->points[i].inlier = data.points[i].inlier;
   for (size_t i = 0; i < data.lines.size(); ++i) matches->lines[i].inlier = data.lines[i].inlier;

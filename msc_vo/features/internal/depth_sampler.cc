@@ -72,7 +72,8 @@ struct WindowTables {
                 .asDiagonal();
     Information information = prior;
     for (int i = 0; i < kMaxPixels; ++i) {
-      basis[i] = Basis(i % kSide - kRadius, i / kSide - kRadius);
+      const int column = i % kSide, row = i / kSide;
+      basis[i] = Basis(column - kRadius, row - kRadius);
       information += basis[i] * basis[i].transpose();
     }
     full_covariance = information.llt().solve(Information::Identity());

@@ -96,8 +96,9 @@ Descriptor CompareBands(const std::array<Band, kBands>& bands) {
 // True if the region of a segment with this end point stays inside the padded image: its rows
 // extend (kRows - 1) / 2 pixels at half size to both sides, the padding kMargin.
 bool IsNearImage(const Vector2d& end, const cv::Mat& half) {
-  constexpr double kBefore = 2.0 * (kMargin - (kRows - 1) / 2);  // full-size pixels
-  constexpr double kBehind = kBefore - 1.0;                      // rounding may add a pixel
+  constexpr int kHalfRows = (kRows - 1) / 2;
+  constexpr double kBefore = 2.0 * (kMargin - kHalfRows);  // full-size pixels
+  constexpr double kBehind = kBefore - 1.0;                // rounding may add a pixel
   return end.x() >= -kBefore && end.y() >= -kBefore && end.x() <= 2.0 * half.cols + kBehind &&
          end.y() <= 2.0 * half.rows + kBehind;
 }

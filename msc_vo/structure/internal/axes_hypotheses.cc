@@ -70,9 +70,10 @@ Matrix3d ShiftAxes(const DirectionEvidence& evidence, const Matrix3d& axes, doub
 Matrix3d RefineByMeanShift(const CoarseAxesOptions& options, const DirectionEvidence& evidence,
                            Matrix3d axes) {
   const double last_bandwidth = DegreesToRadians(options.last_bandwidth);
-  for (double h = DegreesToRadians(options.first_bandwidth); h > last_bandwidth;
-       h *= kBandwidthDecay) {
-    axes = ShiftAxes(evidence, axes, h);
+  double bandwidth = DegreesToRadians(options.first_bandwidth);
+  while (bandwidth > last_bandwidth) {
+    axes = ShiftAxes(evidence, axes, bandwidth);
+    bandwidth *= kBandwidthDecay;
   }
   for (int i = 0; i < kMaxShifts; ++i) {
     const Matrix3d before = axes;

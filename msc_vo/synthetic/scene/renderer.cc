@@ -155,7 +155,9 @@ Color FilterPixel(const Shader& shader, const HitBuffer& hits, const BorderBuffe
   return SampleSquare(shader, views, x, y, side, centers[here]);
 }
 
-uint8_t ToByte(float value) { return static_cast<uint8_t>(std::clamp(value, 0.0f, 255.0f) + 0.5f); }
+uint8_t ToByte(float value) {
+  return static_cast<uint8_t>(std::lround(std::clamp(value, 0.0f, 255.0f)));
+}
 
 }  // namespace
 

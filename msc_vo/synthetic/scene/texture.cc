@@ -44,11 +44,11 @@ float ValueNoise(float x, float y, uint32_t seed) {
 
 // Muted colours of printed paper and cloth.
 Color Palette(uint32_t hash) {
-  static const Color kColors[] = {
+  static const Color colors[] = {
       {0.72f, 0.16f, 0.13f}, {0.15f, 0.28f, 0.52f}, {0.91f, 0.85f, 0.68f}, {0.13f, 0.38f, 0.24f},
       {0.87f, 0.60f, 0.15f}, {0.12f, 0.12f, 0.14f}, {0.94f, 0.94f, 0.92f}, {0.43f, 0.22f, 0.42f},
       {0.45f, 0.62f, 0.70f}, {0.50f, 0.33f, 0.20f}};
-  return kColors[(hash >> 4) % 10u];
+  return colors[(hash >> 4) % 10u];
 }
 
 Color Plaster(const Texture& texture, const SurfacePoint& p) {
