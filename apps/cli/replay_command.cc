@@ -12,6 +12,7 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/gravity_arguments.h"
+#include "apps/cli/replay_views.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/config/options_file.h"
@@ -34,6 +35,7 @@ struct Arguments {
   std::string output;
   std::string windows;  // folder; empty: windows are not recorded
   GravityArguments gravity;
+  ViewArguments view;
   std::string mode;
   std::string lines;
   bool no_points = false;
@@ -111,15 +113,23 @@ int Replay(const Arguments& arguments) {
   const WindowFactorCallback gravity = MakeGravityCallback(arguments.gravity, decoder.index());
   const InterruptGuard interrupt;
   OnlineResults online(output);
-  const SequenceRun run =
-      RunSequence(decoder, configuration, arguments.run, interrupt,
-                  {[&](const FrameResult& frame) { online.Add(frame); },
-                   WindowRecorder(arguments.windows, decoder.index()), gravity});
+  ReplayViews views(arguments.view, decoder, configuration, arguments.run.max_frames);
+  RunCallbacks callbacks;
+  callbacks.frame = [&](const FrameResult& frame) {
+    online.Add(frame);
+    views.Add(frame, [&] { return interrupt.IsInterrupted(); });
+  };
+  callbacks.window = WindowRecorder(arguments.windows, decoder.index());
+  callbacks.window_factors = gravity;
+  callbacks.tracking = [&](const TrackedImage& tracked) { views.Show(tracked); };
+  SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt, callbacks);
+  run.context.views = views.TakeViews();
   if (!run.HasImages()) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
     return run.exit_code;
   }
   WriteResultFiles(output, run.result, run.context);
+  views.Complete((std::filesystem::path(output) / "report.html").string());
   if (!arguments.run.quiet) {
     std::cout << FormatRunTable(run.summary, run.context, output) << std::flush;
   }
@@ -177,6 +187,7 @@ Command AddReplayCommand(CLI::App* app) {
                       "Folder for the results; default: out/<name of the sequence>");
   AddShortcuts(command, arguments.get());
   AddGravityArguments(command, &arguments->gravity);
+  AddViewArguments(command, &arguments->view);
   AddRunArguments(command, &arguments->run);
   command->add_option("--dump-windows", arguments->windows,
                       "Folder for the windows of local bundle adjustment, one file per "

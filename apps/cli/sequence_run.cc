@@ -140,6 +140,7 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   Odometry odometry(options, context.calibration.camera, context.calibration.distortion);
   odometry.SetWindowObserver(callbacks.window);
   odometry.SetWindowFactors(callbacks.window_factors);
+  odometry.SetTrackingObserver(callbacks.tracking);
   if (options.snapshots.realtime) WarnAboutShortenedPauses(num_frames, &context.sequence);
   const std::unique_ptr<ImageFeed> feed =
       MakeImageFeed(decoder, num_frames, options.snapshots.realtime);
