@@ -43,7 +43,7 @@ struct RunCallbacks {
   FrameObserver frame;
   WindowObserver window;                ///< may be empty
   WindowFactorCallback window_factors;  ///< may be empty
-  TrackingObserver tracking;            ///< may be empty
+  TrackingObserver tracking = {};       ///< may be empty
 };
 
 /// Runs the odometry on a sequence. Prints progress and a warning about unreadable images to

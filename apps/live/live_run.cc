@@ -134,6 +134,10 @@ std::shared_ptr<const std::string> LiveRun::Report() {
 }
 
 bool LiveRun::Control(const std::string& action, const std::string& value) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    last_request_ = Clock::now();
+  }
   if (!options_.can_pause) return false;
   if (action == "pause") {
     pacing_.Pause();

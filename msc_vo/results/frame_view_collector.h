@@ -23,7 +23,7 @@ std::string EncodeThumbnail(const cv::Mat& gray);
 /// Bounds on the views of a report.
 struct FrameViewLimits {
   int max_spaced = 400;        ///< evenly spaced frames
-  size_t max_bytes = 6 << 20;  ///< of all views; base64 makes a third more of them
+  size_t max_bytes = 5 << 20;  ///< of all views; base64 makes a third more of them
 };
 
 /// Collects views of a run for the report: of every keyframe, and of every 2^k-th frame with the

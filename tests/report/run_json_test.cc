@@ -12,9 +12,9 @@
 namespace msc_vo {
 namespace {
 
+using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using nlohmann::json;
 
 FrameView MakeView(int frame) {
   FrameView view;
@@ -66,8 +66,7 @@ TEST(RunJson, StoresViewsInEighthsOfAPixel) {
   EXPECT_EQ(view["jpeg"], EncodeBase64("\xff\xd8 picture", 10));
   EXPECT_EQ(view["points"], EncodeBase64(std::vector<uint16_t>{8, 20, 0, 65535}));
   EXPECT_EQ(view["point_depth"], EncodeBase64(std::vector<uint8_t>{1, 0}));
-  EXPECT_EQ(view["lines"],
-            EncodeBase64(std::vector<uint16_t>{80, 160, 240, 320, 0, 0, 8, 8}));
+  EXPECT_EQ(view["lines"], EncodeBase64(std::vector<uint16_t>{80, 160, 240, 320, 0, 0, 8, 8}));
   EXPECT_EQ(view["line_colors"], EncodeBase64(std::vector<uint8_t>{2, 4}));
 }
 

@@ -28,9 +28,9 @@ TEST(ViewerPage, EmbedsItsFiles) {
   EXPECT_THAT(std::string(kReportStyle), HasSubstr("@media print"));
   EXPECT_THAT(std::string(kViewerStyle), HasSubstr("prefers-color-scheme: dark"));
   EXPECT_THAT(std::string(kViewerHtml), HasSubstr("id=\"time-slider\""));
-  EXPECT_THAT(std::string(kViewerScript), AllOf(HasSubstr("class SceneView"),
-                                                HasSubstr("startPage();"),
-                                                Not(HasSubstr("</script"))));
+  EXPECT_THAT(
+      std::string(kViewerScript),
+      AllOf(HasSubstr("class SceneView"), HasSubstr("startPage();"), Not(HasSubstr("</script"))));
 }
 
 // An element that the script asks for must exist.
@@ -63,9 +63,9 @@ TEST(ViewerPage, LivePageAsksOnlyItsServer) {
   data.title = "<room>";
   std::ostringstream out;
   WriteLivePage("0123abcd", data, out);
-  EXPECT_THAT(out.str(), AllOf(HasSubstr("connect-src 'self'"), HasSubstr("&lt;room&gt; (live)"),
-                               HasSubstr("data-chart=\"inliers\""),
-                               testing::EndsWith("</html>\n")));
+  EXPECT_THAT(out.str(),
+              AllOf(HasSubstr("connect-src 'self'"), HasSubstr("&lt;room&gt; (live)"),
+                    HasSubstr("data-chart=\"inliers\""), testing::EndsWith("</html>\n")));
   if (HasViewer()) {
     EXPECT_THAT(out.str(), HasSubstr("\"run\":\"0123abcd\""));
   }

@@ -10,7 +10,8 @@
 namespace msc_vo {
 namespace {
 
-// The frames whose views are kept of a run in which every `keyframe_interval`-th frame is a keyframe.
+// The frames whose views are kept of a run in which every `keyframe_interval`-th frame is a
+// keyframe.
 std::vector<int> Kept(int num_frames, int keyframe_interval, const FrameViewLimits& limits) {
   TrackedScene scene;
   FrameViewCollector collector(num_frames, {}, {}, limits);
@@ -39,8 +40,8 @@ size_t BytesOfOne() {
 
 TEST(EncodeThumbnail, ReducesTheImage) {
   const std::string jpeg = EncodeThumbnail(cv::Mat(480, 640, CV_8UC1, cv::Scalar(90)));
-  const cv::Mat image = cv::imdecode(std::vector<char>(jpeg.begin(), jpeg.end()),
-                                     cv::IMREAD_UNCHANGED);
+  const cv::Mat image =
+      cv::imdecode(std::vector<char>(jpeg.begin(), jpeg.end()), cv::IMREAD_UNCHANGED);
   EXPECT_EQ(image.size(), cv::Size(320, 240));
   EXPECT_EQ(image.type(), CV_8UC1);
   EXPECT_NEAR(image.at<uchar>(100, 100), 90, 2);

@@ -17,9 +17,9 @@ std::vector<LineColor> Colors(const ViewedFeatures& features) {
 
 TEST(TrackedFeatures, HaveTheColorsOfTheManhattanAxes) {
   TrackedScene scene;
-  EXPECT_THAT(Colors(TrackedFeatures(scene.View(), {}, {})),
-              testing::ElementsAre(LineColor::kAxis0, LineColor::kWithoutAxis,
-                                   LineColor::kWithoutDepth));
+  EXPECT_THAT(
+      Colors(TrackedFeatures(scene.View(), {}, {})),
+      testing::ElementsAre(LineColor::kAxis0, LineColor::kWithoutAxis, LineColor::kWithoutDepth));
   scene.map.axes.reset();
   EXPECT_THAT(Colors(TrackedFeatures(scene.View(), {}, {})),
               testing::ElementsAre(LineColor::kWithoutAxis, LineColor::kWithoutAxis,

@@ -20,11 +20,13 @@ function niceTicks(low, high, count) {
   return ticks;
 }
 
-const CHART_MARGIN = {left: 56, right: 14, top: 16, bottom: 38};
+const CHART_MARGIN = {left: 56, right: 14, top: 26, bottom: 38};
+const CHART_STRIP = {y: 15, height: 7};
 const CHART_HEIGHT = 240;
 
 // `spec`: name and unit of y; curves: {css, label, values (one per frame)}; is_stacked: the curves
-// but for the last are areas on top of each other; has_stems: a stem for each positive value.
+// but for the last are areas on top of each other; has_stems: a stem for each positive value;
+// has_status: a strip with the status of the frames.
 class Chart {
   constructor(model, figure, spec) {
     this.model = model;
@@ -68,6 +70,7 @@ class Chart {
                                      viewBox: `${CHART_MARGIN.left} 0 ${this.width - CHART_MARGIN.left - CHART_MARGIN.right} ${CHART_HEIGHT}`,
                                      style: `height:${CHART_HEIGHT}px;overflow:hidden`});
     this.svg.append(this.inside);
+    if (this.spec.has_status) this.drawStatus();
     if (this.spec.has_stems) this.drawStems(); else this.drawCurves();
     this.selection = svgElement("rect", {class: "selection", y: CHART_MARGIN.top, height: this.bottom() - CHART_MARGIN.top,
                                          width: 0});
@@ -116,6 +119,22 @@ class Chart {
     this.text({class: "tick-x name", x: this.width / 2, y: CHART_HEIGHT - 6}, "time, s");
     this.text({class: "tick-x name", transform: `translate(13,${(CHART_MARGIN.top + this.bottom()) / 2}) rotate(-90)`},
               `${this.spec.name}, ${this.spec.unit}`.replace(/, $/, ""));
+  }
+
+  // Frames of the same status are one rectangle; of those in one pixel the worst status counts.
+  drawStatus() {
+    const {status, time} = this.model.columns;
+    for (let i = this.first; i <= this.last;) {
+      const x = this.x(time[i]);
+      let end = i + 1, worst = status[i];
+      while (end <= this.last && (status[end] === worst || this.x(time[end]) - x < 1)) {
+        worst = Math.max(worst, status[end++]);
+      }
+      const right = end < this.model.count ? this.x(time[end]) : this.x(this.to);
+      this.inside.append(svgElement("rect", {class: `status-${STATUS_NAMES[worst]}`, x, y: CHART_STRIP.y,
+                                             width: Math.max(1, right - x), height: CHART_STRIP.height}));
+      i = end;
+    }
   }
 
   // Points of a curve; of each pixel column the lowest and the highest value are kept.

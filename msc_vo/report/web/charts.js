@@ -23,11 +23,11 @@ function stackedStages(model) {
 
 const CHARTS = {
   error: {
-    name: "position error", unit: "mm", decimals: 1,
+    name: "position error", unit: "mm", decimals: 1, has_status: true,
     curves: (model) => [{css: "error", label: "", values: column(model, "error", 0, 1000)}],
   },
   inliers: {
-    name: "inliers", unit: "", decimals: 0,
+    name: "inliers", unit: "", decimals: 0, has_status: true,
     curves: (model) => [{css: "points", label: "points", values: column(model, "counts", 2)},
                         {css: "lines", label: "lines", values: column(model, "counts", 3)}],
   },

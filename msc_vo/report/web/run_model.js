@@ -34,8 +34,9 @@ class RunModel extends EventTarget {
     this.addFrames(data.frames);
     this.setMap(data.map);
     this.addViews(data.views);
-    // The first frame without its picture says little.
-    this.current = this.count > 0 && !data.live ? Math.floor(this.count / 2) : 0;
+    // A frame in the middle shows more than the first one.
+    const middle = this.viewOf(Math.floor(this.count / 2));
+    this.current = middle ? middle.frame : Math.floor(this.count / 2);
   }
 
   widthOf(column) {

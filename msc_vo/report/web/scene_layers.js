@@ -61,13 +61,14 @@ class SceneLayers {
 
   toggle(label) {
     if (this.hidden.has(label)) this.hidden.delete(label); else this.hidden.add(label);
-    this.show();
   }
 
-  show() {
+  // `from_camera`: frusta close to the eye would hide the rest.
+  show(from_camera) {
     for (const [label, object] of this.all) {
       object.visible = !this.hidden.has(label) && !this.isEmpty(label);
     }
+    if (from_camera) this.camera.visible = this.keyframes.visible = false;
   }
 
   // `scale`: size of the scene in metres.
@@ -90,7 +91,6 @@ class SceneLayers {
     this.fillAxes(0.12 * scale, colors);
     const frustum = frustumSegments(model.info.camera, 0.07 * scale);
     this.camera.setSegments(frustum, uniformColors(frustum.length / 6, themeColor("ink")));
-    this.show();
   }
 
   fillPath(object, points, color) {

@@ -49,9 +49,21 @@ function boundingSphere(model, rotation) {
   return {center, radius: Math.max(radius, 0.3)};
 }
 
-// Names and keys of the views, and their viewpoints.
+// Azimuth of the mean viewing direction of the cameras, in coordinates of the view; 0 without one.
+function meanAzimuth(model, rotation) {
+  const sum = new THREE.Vector3(), pose = new THREE.Quaternion();
+  for (let i = 0; i < model.count; ++i) {
+    pose.fromArray(model.columns.pose, 7 * i + 3);
+    if (Number.isFinite(pose.x)) sum.add(new THREE.Vector3(0, 0, 1).applyQuaternion(pose));
+  }
+  sum.applyMatrix4(rotation);
+  return Math.hypot(sum.x, sum.y) > 0.2 * model.count ? Math.atan2(sum.x, sum.y) : 0;
+}
+
+// Names and keys of the views, and their viewpoints. The orbit is turned away from the viewing
+// direction of the cameras, so that walls are not parallel to the picture.
 const SCENE_VIEWS = {
-  orbit: {key: "o", fov: 40, azimuth: -0.35, elevation: 0.58},
+  orbit: {key: "o", fov: 40, azimuth: -0.35, elevation: 0.55},
   top: {key: "t", fov: 6, azimuth: 0, elevation: Math.PI / 2},
   side: {key: "s", fov: 6, azimuth: 0, elevation: 0},
   camera: {key: "c"},
@@ -101,8 +113,10 @@ class SceneView {
     this.control.enabled = view !== "camera";
     if (this.control.enabled) {
       const distance = 1.12 * this.sphere.radius / Math.sin(place.fov * Math.PI / 360);
-      const close = view === "orbit" ? 0.72 : 0.86;
-      this.control.setHome(Object.assign({target: this.sphere.center, distance: close * distance}, place));
+      const close = view === "orbit" ? 0.62 : 0.8;
+      const turned = view === "orbit" ? meanAzimuth(this.model, this.world.matrix) : 0;
+      this.control.setHome({target: this.sphere.center, distance: close * distance, fov: place.fov,
+                            azimuth: place.azimuth + turned, elevation: place.elevation});
     }
     this.image.hidden = view !== "camera";
     this.onFrame();
@@ -158,7 +172,7 @@ class SceneView {
     requestAnimationFrame(() => {
       this.isDrawing = false;
       const isCamera = this.view === "camera";
-      this.layers.camera.visible = !isCamera && !this.layers.hidden.has("camera");
+      this.layers.show(isCamera);
       this.renderer.render(this.scene, isCamera ? this.recorded : this.perspective);
     });
   }

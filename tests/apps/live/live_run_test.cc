@@ -89,6 +89,16 @@ TEST_F(LiveRunTest, GoesOnIfItsViewersVanish) {
   EXPECT_EQ(Update(0)["state"], "running");
 }
 
+TEST_F(LiveRunTest, IsWatchedByThoseWhoControlIt) {
+  LiveRunOptions patient = Options();
+  patient.vanished = milliseconds(60'000);
+  LiveRun run(patient);
+  ASSERT_TRUE(run.Control("pause", ""));  // before any other request
+  int num_questions = 0;
+  run.Add(scene_.result, [&] { return ++num_questions == 2; });
+  EXPECT_EQ(num_questions, 2);  // still paused
+}
+
 TEST_F(LiveRunTest, UnderstandsItsControls) {
   EXPECT_TRUE(run_.Control("speed", "0.5"));
   EXPECT_EQ(Update(0)["speed"], 0.5);
