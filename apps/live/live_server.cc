@@ -36,7 +36,9 @@ std::string HostName(const std::string& host) {
 }
 
 bool IsLoopback(const std::string& name) {
-  return name == "localhost" || name == "::1" || name == "[::1]" || name.rfind("127.", 0) == 0;
+  const bool is_number = name.find_first_not_of("0123456789.") == std::string::npos;
+  return name == "localhost" || name == "::1" || name == "[::1]" ||
+         (is_number && name.rfind("127.", 0) == 0);
 }
 
 // An integer parameter of a request, `otherwise` if it is missing or none.

@@ -3,6 +3,7 @@
 
 #include "msc_vo/results/frame_view_collector.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <opencv2/imgcodecs.hpp>
@@ -42,19 +43,27 @@ void FrameViewCollector::Add(const TrackedImage& tracked) {
                     TrackedFeatures(tracked, distortion_, axes_)};
   num_bytes_ += NumBytes(view);
   entries_[frame] = {std::move(view), keyframe};
-  while (num_bytes_ > limits_.max_bytes && entries_.size() > 1) Thin();
+  while (num_bytes_ > limits_.max_bytes && Thin()) {
+  }
 }
 
 bool FrameViewCollector::IsKept(int frame, int keyframe) const {
-  return frame % stride_ == 0 || (keyframe >= 0 && keyframe % keyframe_stride_ == 0);
+  return keyframe >= 0 ? keyframe % keyframe_stride_ == 0 : frame % stride_ == 0;
 }
 
-void FrameViewCollector::Thin() {
-  bool has_spaced = false;
-  for (const auto& [frame, entry] : entries_) {
-    has_spaced = has_spaced || (frame > 0 && entry.keyframe < 0);
+bool FrameViewCollector::Thin() {
+  // Frame 0 and keyframe 0 are multiples of every stride.
+  const auto is_spaced = [](const auto& item) {
+    return item.first > 0 && item.second.keyframe < 0;
+  };
+  const auto is_keyframe = [](const auto& item) { return item.second.keyframe > 0; };
+  if (std::any_of(entries_.begin(), entries_.end(), is_spaced)) {
+    stride_ *= 2;
+  } else if (std::any_of(entries_.begin(), entries_.end(), is_keyframe)) {
+    keyframe_stride_ *= 2;
+  } else {
+    return false;
   }
-  (has_spaced ? stride_ : keyframe_stride_) *= 2;
   for (auto it = entries_.begin(); it != entries_.end();) {
     if (IsKept(it->first, it->second.keyframe)) {
       ++it;
@@ -63,6 +72,7 @@ void FrameViewCollector::Thin() {
       it = entries_.erase(it);
     }
   }
+  return true;
 }
 
 std::vector<FrameView> FrameViewCollector::Take() {

@@ -48,7 +48,8 @@ class FrameViewCollector {
 
   // Whether a frame is kept with the present strides.
   bool IsKept(int frame, int keyframe) const;
-  void Thin();
+  // Doubles a stride; false if nothing is left to thin.
+  bool Thin();
 
   LensDistortion distortion_;
   SceneAxesOptions axes_;
