@@ -87,11 +87,15 @@ class FramePanel {
       ["Sigma of rotation", `${formatNumber(value("sigma", 0), 3)} deg`],
       ["Sigma of translation", `${formatNumber(1000 * value("sigma", 1), 2)} mm`],
     ];
-    if (Number.isFinite(value("error"))) {
+    // All frames of a run have the same rows, so that the page does not move.
+    if (model.groundTruth.length > 0) {
       rows.push(["Position error", `${formatNumber(1000 * value("error"), 1)} mm`]);
     }
     rows.push(["Tracking", `${formatNumber(value("tracking_ms"), 1)} ms`]);
-    if (value("mapping_ms") > 0) rows.push(["Mapping", `${formatNumber(value("mapping_ms"), 1)} ms`]);
+    if (!model.info.live) {
+      const mapping = value("mapping_ms");
+      rows.push(["Mapping", mapping > 0 ? `${formatNumber(mapping, 1)} ms` : "–"]);
+    }
     this.facts.replaceChildren(...rows.flatMap(([name, text]) => {
       const term = document.createElement("dt"), detail = document.createElement("dd");
       term.textContent = name;
