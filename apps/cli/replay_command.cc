@@ -196,6 +196,8 @@ Command AddReplayCommand(CLI::App* app) {
   command->footer(HelpFooter("msc_vo replay my_sequence --output out/my_sequence"));
   command->callback([arguments, sequence] {
     if (sequence->empty() && !arguments->print_config) {
+      // --view takes the argument behind it.
+      if (!arguments->view.port.empty()) ViewPort(arguments->view);
       throw CLI::RequiredError("sequence");
     }
   });

@@ -22,7 +22,7 @@ std::string EncodeThumbnail(const cv::Mat& gray);
 
 /// Bounds on the views of a report.
 struct FrameViewLimits {
-  int max_spaced = 400;        ///< evenly spaced frames
+  int max_spaced = 200;        ///< evenly spaced frames
   size_t max_bytes = 5 << 20;  ///< of all views; base64 makes a third more of them
 };
 
