@@ -9,13 +9,20 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/diagnosis/calibration_findings.h"
 #include "msc_vo/diagnosis/camera_findings.h"
 #include "msc_vo/diagnosis/depth_quality.h"
 #include "msc_vo/diagnosis/edge_alignment.h"
 #include "msc_vo/diagnosis/file_findings.h"
+#include "msc_vo/diagnosis/ground_truth_findings.h"
 #include "msc_vo/diagnosis/image_exposure.h"
+#include "msc_vo/diagnosis/motion_findings.h"
+#include "msc_vo/diagnosis/motion_track.h"
+#include "msc_vo/diagnosis/pair_calibration.h"
 #include "msc_vo/diagnosis/registration_findings.h"
 #include "msc_vo/diagnosis/stamp_findings.h"
+#include "msc_vo/diagnosis/texture.h"
+#include "msc_vo/features/frame_builder.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -24,12 +31,14 @@ namespace {
 
 constexpr int kMaxReports = 5;
 constexpr int kQuickImages = 4;
+constexpr int kDeepImages = 240;
 
 // What the images of a sample say.
 struct SampleMeasurements {
   std::vector<ImageExposure> exposures;
   std::vector<DepthQuality> depths;
   std::vector<EdgeAlignment> alignments;
+  std::vector<Texture> textures;
   std::vector<std::string> failures;
 };
 
@@ -39,14 +48,19 @@ int SampleIndex(int k, int count, int size) {
   return static_cast<int>(static_cast<int64_t>(k) * (size - 1) / (count - 1));
 }
 
-SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count, bool with_edges) {
+// Edges and features take longer than the rest and are optional.
+SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count, bool with_features) {
   SampleMeasurements sample;
+  const Calibration& calibration = decoder.calibration();
+  FrameBuilder builder(FrameBuilderOptions(), calibration.camera, calibration.distortion);
   for (int k = 0; k < count; ++k) {
     try {
       const RgbdImage image = decoder.Decode(SampleIndex(k, count, decoder.size()));
       sample.exposures.push_back(MeasureExposure(image.gray));
-      sample.depths.push_back(MeasureDepth(image.depth, decoder.calibration().depth_scale));
-      if (with_edges) sample.alignments.push_back(AlignEdges(image.gray, image.depth, true));
+      sample.depths.push_back(MeasureDepth(image.depth, calibration.depth_scale));
+      if (!with_features) continue;
+      sample.alignments.push_back(AlignEdges(image.gray, image.depth, true));
+      sample.textures.push_back(MeasureTexture(builder.Build(image)));
     } catch (const std::exception& error) {
       sample.failures.emplace_back(error.what());
     }
@@ -76,6 +90,28 @@ void AddSampleFindings(const SampleMeasurements& sample, const Calibration& cali
   AddDepthFindings(sample.depths, calibration.depth_scale, findings);
 }
 
+void AddMotionFindings(const RgbdDecoder& decoder, Findings* findings) {
+  const Calibration& calibration = decoder.calibration();
+  const MotionTrack track = TrackMotion(decoder, kDeepImages);
+  AddFrameMotionFindings(track, calibration.camera.width, findings);
+  AddLatencyFindings(track, findings);
+  const auto estimate = EstimatePairCalibration(calibration.camera, track);
+  if (estimate) {
+    AddCalibrationFindings(*estimate, calibration.camera.width, findings);
+  } else {
+    findings->push_back(Good("calibration.focal_length",
+                             "calibration against motion: not tested, too few images match"));
+  }
+  AddGroundTruthMotionFindings(track, decoder.index().ground_truth, calibration.depth_scale,
+                               findings);
+}
+
+// Whether no run can succeed in spite of an error.
+bool StopsRun(const Finding& finding) {
+  return finding.severity == Severity::kError &&
+         (finding.check == "depth.byte_order" || finding.check == "depth.scale");
+}
+
 }  // namespace
 
 Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& options) {
@@ -93,7 +129,9 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
   AddDecodingFindings(sample, count, &findings);
   AddSampleFindings(sample, calibration, &findings);
   AddRegistrationFindings(sample.alignments, calibration.camera.width, &findings);
+  AddTextureFindings(sample.textures, &findings);
   AddGroundTruthStampFindings(index, &findings);
+  if (options.deep) AddMotionFindings(decoder, &findings);
   return findings;
 }
 
@@ -111,6 +149,9 @@ Findings CheckSequenceQuickly(const RgbdDecoder& decoder) {
                                   return finding.severity == Severity::kGood;
                                 }),
                  findings.end());
+  for (Finding& finding : findings) {
+    if (!StopsRun(finding)) finding.severity = Severity::kWarning;
+  }
   return findings;
 }
 
