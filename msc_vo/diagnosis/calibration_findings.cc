@@ -17,7 +17,7 @@ constexpr double kFocalLength = 0.02;     // relative
 constexpr double kPrincipalPoint = 12.0;  // pixels at an image width of 640
 constexpr double kDistortion = 0.05;      // k1
 // Standard deviations with which an estimate decides nothing.
-constexpr double kMaxFocalSigma = 0.03, kMaxPointSigma = 25.0, kMaxDistortionSigma = 0.05;
+constexpr double kMaxFocalSigma = 0.015, kMaxPointSigma = 10.0, kMaxDistortionSigma = 0.015;
 
 bool Differs(double difference, double sigma, double usual) {
   return std::abs(difference) > kSigmas * sigma && std::abs(difference) > usual;

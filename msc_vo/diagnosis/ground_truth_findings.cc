@@ -28,6 +28,7 @@ constexpr double kMaxBodyAngle = 5.0;  // degrees
 constexpr double kReach = 1.0;         // seconds, of the search for a time offset
 constexpr double kMaxOffset = 0.02;    // seconds
 constexpr double kMaxScaleError = 0.025;
+constexpr double kMaxScaleSigma = 0.05;  // relative, with which an estimate decides nothing
 constexpr double kMaxLever = 0.04;       // metres
 constexpr double kMinCorrelation = 0.6;  // of translations
 constexpr double kMinTranslation = 0.03;  // metres, median of the pairs
@@ -238,6 +239,13 @@ class GroundTruthComparison {
   void AddScale(const HandEye& hand_eye) {
     const double ratio = 1.0 / hand_eye.scale;  // of the lengths from depth to the true ones
     const double sigma = hand_eye.scale_sigma / (hand_eye.scale * hand_eye.scale);
+    if (sigma > kMaxScaleSigma * ratio) {
+      findings_->push_back(Good("ground_truth.scale",
+                                FormatText("scale: not tested, the camera moves too little (%.2f "
+                                           "+- %.2f)",
+                                           ratio, sigma)));
+      return;
+    }
     const std::string text = FormatText("lengths from depth are %.3f +- %.3f times those of the "
                                         "ground truth",
                                         ratio, sigma);

@@ -23,9 +23,9 @@ constexpr double kMinContrast = 4.0;
 constexpr double kMaxSaturated = 0.2;
 constexpr double kMinBrightLevel = 60.0;
 // Edge width at an image width of 640 pixels, from the distributions in docs/usage.md.
-constexpr double kMaxEdgeWidth = 5.5;
+constexpr double kMaxEdgeWidth = 9.0;
 // Ratio of images with a defect that is worth a warning, and that makes a run useless.
-constexpr double kWarningRatio = 0.05, kBlurRatio = 0.4, kErrorRatio = 0.5;
+constexpr double kWarningRatio = 0.2, kBlurRatio = 0.4, kErrorRatio = 0.5;
 
 Histogram HistogramOf(const cv::Mat& gray) {
   Histogram histogram = {};

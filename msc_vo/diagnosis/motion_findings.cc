@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
 #include "msc_vo/diagnosis/quantile.h"
 #include "msc_vo/text/format_text.h"
@@ -18,57 +18,143 @@ namespace msc_vo {
 namespace {
 
 // Displacement from image to image, as a fraction of the width, that tracking bridges easily.
-constexpr double kMaxDisplacement = 0.06;
+constexpr double kMaxDisplacement = 0.08;
 constexpr double kMinLinkedRatio = 0.8;
 
 // Latency that warrants a warning, seconds, and the standard deviations that it must exceed.
-constexpr double kMaxLatency = 0.02;
+constexpr double kMaxLatency = 0.03;
 constexpr double kMaxLatencySigma = 0.02;
 constexpr double kSigmas = 4.0;
 constexpr int kMinEdges = 100;
 constexpr double kMinAgreement = 0.2;
 constexpr size_t kMinImages = 15;
-
-// One component of the shift of an image, and the velocity of the image along it.
-struct ShiftSample {
-  double velocity;  // pixels/second
-  double shift;     // pixels
-  int axis;         // 0: x, 1: y
-};
+// Ratio by which the agreement of the edges must grow.
+constexpr double kMinGain = 1.1;
 
 struct Latency {
   double seconds = 0.0;
   double sigma = 0.0;
+  double gain = 0.0;  // agreement of the edges at this latency over that at none
 };
 
-// Fits shift = offset of the axis + latency * velocity with Cauchy weights.
-Latency FitLatency(const std::vector<ShiftSample>& samples) {
-  Eigen::Vector3d solution = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d matrix;
-  double scale = 1.0;
-  for (int iteration = 0; iteration < 20; ++iteration) {
-    std::vector<double> errors;
-    for (const ShiftSample& s : samples) {
-      errors.push_back(std::abs(s.shift - solution(s.axis) - solution(2) * s.velocity));
-    }
-    scale = std::max(0.3, 1.48 * Median(errors));
-    matrix = 1e-9 * Eigen::Matrix3d::Identity();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    for (size_t i = 0; i < samples.size(); ++i) {
-      const double relative = errors[i] / (2.0 * scale);
-      const double weight = 1.0 / (1.0 + relative * relative);
-      Eigen::Vector3d row = Eigen::Vector3d::Zero();
-      row(samples[i].axis) = 1.0;
-      row(2) = samples[i].velocity;
-      matrix += weight * row * row.transpose();
-      right += weight * samples[i].shift * row;
-    }
-    solution = matrix.ldlt().solve(right);
-  }
-  const Eigen::Vector3d column = matrix.ldlt().solve(Eigen::Vector3d::UnitZ());
-  // Consecutive images see the same edges: count about three of them as one.
-  return {solution(2), 1.7 * scale * std::sqrt(std::max(0.0, column(2)))};
+// Score of an image for a shift in pixels, bilinear; the border value outside.
+double ScoreAt(const EdgeAlignment& edges, const Eigen::Vector2d& shift) {
+  const double limit = 2.0 * edges.reach - 1e-3;
+  const double x = std::clamp(shift.x() / edges.step + edges.reach, 0.0, limit);
+  const double y = std::clamp(shift.y() / edges.step + edges.reach, 0.0, limit);
+  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  const double a = x - column, b = y - row;
+  const auto at = [&](int dx, int dy) {
+    return static_cast<double>(edges.score.at<float>(row + dy, column + dx));
+  };
+  return (1.0 - b) * ((1.0 - a) * at(0, 0) + a * at(1, 0)) +
+         b * ((1.0 - a) * at(0, 1) + a * at(1, 1));
 }
+
+class LatencyEstimator {
+ public:
+  explicit LatencyEstimator(const MotionTrack& track) {
+    for (size_t i = 0; i + 1 < track.images.size(); ++i) {
+      const TrackedImage& image = track.images[i];
+      const TrackedImage& next = track.images[i + 1];
+      if (!image.linked || !next.linked || image.edges.num_edges < kMinEdges) continue;
+      samples_.push_back({&image.edges, 0.5 * (image.velocity + next.velocity), image.depth_delay});
+      num_edges_ += image.edges.num_edges;
+    }
+  }
+
+  size_t size() const { return samples_.size(); }
+
+  // Of the peak at the best shift and latency.
+  double Agreement() const { return agreement_; }
+
+  Latency Estimate() {
+    Latency latency;
+    latency.seconds = Best(-1, &latency.gain);
+    // Jackknife over groups of consecutive images, which see the same edges.
+    double squares = 0.0;
+    for (int group = 0; group < kGroups; ++group) {
+      double unused = 0.0;
+      const double difference = Best(group, &unused) - latency.seconds;
+      squares += difference * difference;
+    }
+    latency.sigma = std::hypot(std::sqrt(squares * (kGroups - 1.0) / kGroups), 0.5 * kStep);
+    return latency;
+  }
+
+ private:
+  struct Sample {
+    const EdgeAlignment* edges;
+    Eigen::Vector2d velocity;  // pixels/second
+    double delay;              // seconds, as the stamps say
+  };
+
+  static constexpr int kGroups = 8;
+  static constexpr double kStep = 0.005, kReach = 0.25;  // seconds
+
+  double Total(int left_out, double latency, const Eigen::Vector2d& shift) const {
+    double sum = 0.0;
+    for (size_t i = 0; i < samples_.size(); ++i) {
+      if (static_cast<int>(i * kGroups / samples_.size()) == left_out) continue;
+      const Sample& sample = samples_[i];
+      // Depth that is taken later shows the scene further along: its edges must be moved back.
+      sum += ScoreAt(*sample.edges, shift - (latency + sample.delay) * sample.velocity);
+    }
+    return sum / num_edges_;
+  }
+
+  // Shift that is common to all images, given the latency.
+  Eigen::Vector2d CommonShift(double latency) const {
+    EdgeAlignment sum;
+    for (const Sample& sample : samples_) Add(*sample.edges, &sum);
+    Eigen::Vector2d best = FindPeak(sum).shift;
+    for (const double step : {4.0, 2.0, 1.0}) {
+      for (bool improves = true; improves;) {
+        improves = false;
+        for (const Eigen::Vector2d& move :
+             {Eigen::Vector2d(step, 0.0), Eigen::Vector2d(-step, 0.0), Eigen::Vector2d(0.0, step),
+              Eigen::Vector2d(0.0, -step)}) {
+          if (Total(-1, latency, best + move) <= Total(-1, latency, best) + 1e-9) continue;
+          best += move;
+          improves = true;
+        }
+      }
+    }
+    return best;
+  }
+
+  // Latency with the best score; first with the common shift at none, then with that at the best.
+  double Best(int left_out, double* gain) {
+    if (left_out < 0) shift_ = CommonShift(0.0);
+    const double none = Total(left_out, 0.0, shift_);
+    double latency = Scan(left_out);
+    if (left_out < 0) {
+      shift_ = CommonShift(latency);
+      latency = Scan(left_out);
+      agreement_ = Total(left_out, latency, shift_);
+      *gain = agreement_ / std::max(1e-3, none);
+    }
+    return latency;
+  }
+
+  double Scan(int left_out) const {
+    const int steps = static_cast<int>(std::lround(kReach / kStep));
+    double best = -1e9, best_latency = 0.0;
+    for (int i = -steps; i <= steps; ++i) {
+      const double score = Total(left_out, i * kStep, shift_);
+      if (score > best) {
+        best = score;
+        best_latency = i * kStep;
+      }
+    }
+    return best_latency;
+  }
+
+  std::vector<Sample> samples_;
+  double num_edges_ = 0.0;
+  Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();
+  double agreement_ = 0.0;
+};
 
 }  // namespace
 
@@ -107,39 +193,26 @@ void AddFrameMotionFindings(const MotionTrack& track, int width, Findings* findi
 }
 
 void AddLatencyFindings(const MotionTrack& track, Findings* findings) {
-  std::vector<ShiftSample> samples;
-  for (size_t i = 0; i + 1 < track.images.size(); ++i) {
-    const TrackedImage& image = track.images[i];
-    const TrackedImage& next = track.images[i + 1];
-    if (!image.linked || !next.linked || image.num_edges < kMinEdges ||
-        image.shift.peak - image.shift.background < kMinAgreement) {
-      continue;
-    }
-    const Eigen::Vector2d velocity = 0.5 * (image.velocity + next.velocity);
-    for (int axis = 0; axis < 2; ++axis) {
-      samples.push_back({velocity(axis), image.shift.shift(axis), axis});
-    }
-  }
+  LatencyEstimator estimator(track);
   const std::string check = "stamps.depth_latency";
-  if (samples.size() < 2 * kMinImages) {
+  if (estimator.size() < kMinImages) {
     findings->push_back(Good(check, "latency of depth: not tested, too few common edges"));
     return;
   }
-  const Latency latency = FitLatency(samples);
-  // Depth that is taken later shows the scene further along: its edges must be moved back.
-  const double seconds = -latency.seconds;
-  if (latency.sigma > kMaxLatencySigma) {
+  const Latency latency = estimator.Estimate();
+  const double seconds = latency.seconds;
+  if (latency.sigma > kMaxLatencySigma || estimator.Agreement() < kMinAgreement) {
     findings->push_back(Good(check,
-                             FormatText("latency of depth: not tested, the camera moves too little "
+                             FormatText("latency of depth: not tested, little motion or few common edges "
                                         "(+- %.0f ms)",
                                         1e3 * latency.sigma)));
     return;
   }
   const std::string text =
-      FormatText("depth is taken %.0f +- %.0f ms %s than the colour image of its pair",
-                 1e3 * std::abs(seconds), 1e3 * latency.sigma, seconds > 0.0 ? "later" : "earlier");
+      FormatText("depth is taken %.0f +- %.0f ms %s than its time stamps say (agreement of the edges %.2f times that without latency)",
+                 1e3 * std::abs(seconds), 1e3 * latency.sigma, seconds > 0.0 ? "later" : "earlier", latency.gain);
   const Measurement measurement{seconds, "s"};
-  if (std::abs(seconds) <= kMaxLatency || std::abs(seconds) <= kSigmas * latency.sigma) {
+  if (std::abs(seconds) <= kMaxLatency || std::abs(seconds) <= kSigmas * latency.sigma || latency.gain < kMinGain) {
     findings->push_back(Good(check, text, measurement));
     return;
   }

@@ -11,6 +11,7 @@
 #include "msc_vo/diagnosis/quantile.h"
 #include "msc_vo/features/frame_builder.h"
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/sensor/depth_alignment.h"
 
 namespace msc_vo {
 
@@ -62,6 +63,7 @@ class MotionTracker {
     if (!image.linked) {
       image.segment = track_.images.empty() ? 0 : track_.images.back().segment + 1;
       velocity_ = Rigid3();
+      interval_ = 0.0;
     }
     last_index_ = index;
     track_.images.push_back(std::move(image));
@@ -75,14 +77,23 @@ class MotionTracker {
  private:
   std::optional<Frame> Build(int index, TrackedImage* image) {
     try {
-      const RgbdImage rgbd = decoder_.Decode(index);
-      const EdgeAlignment alignment = AlignEdges(rgbd.gray, rgbd.depth, false);
-      image->num_edges = alignment.num_edges;
-      image->shift = FindPeak(alignment);
+      RgbdImage rgbd = decoder_.Decode(index);
+      image->edges = AlignEdges(rgbd.gray, rgbd.depth, false);
+      image->depth_delay = rgbd.depth_delay;
+      if (rgbd.depth_delay != 0.0 && interval_ > 0.0) {
+        rgbd.depth = AlignDepth(decoder_.calibration().camera, rgbd.depth,
+                                Fraction(rgbd.depth_delay / interval_));
+      }
       return builder_.Build(rgbd);
     } catch (const std::exception&) {
       return std::nullopt;  // reported by the check of the images
     }
+  }
+
+  // A fraction of the last motion.
+  Rigid3 Fraction(double fraction) const {
+    const Eigen::Vector3d rotation = LogSO3(Eigen::Quaterniond(velocity_.rotation()));
+    return {ExpSO3(fraction * rotation), fraction * velocity_.translation()};
   }
 
   void Link(const TrackedImage& before, TrackedImage* image) {
@@ -93,6 +104,7 @@ class MotionTracker {
                                 fraction * decoder_.calibration().camera.width);
         if (!motion) continue;
         velocity_ = motion->to_from_from;
+        interval_ = image->timestamp - before.timestamp;
         image->linked = true;
         image->segment = before.segment;
         image->cam_from_origin = motion->to_from_from * before.cam_from_origin;
@@ -153,6 +165,7 @@ class MotionTracker {
   FrameBuilder builder_;
   MotionTrack track_;
   Rigid3 velocity_;  // motion from the image before the last one to the last one
+  double interval_ = 0.0;  // seconds between these; 0: unknown
   int last_index_ = -2;
 };
 

@@ -22,8 +22,8 @@ struct TrackedImage {
   bool linked = false;     ///< to the image before; the fields below are meaningful only then
   double displacement = 0.0;                           ///< median of the points, pixels
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< median of the points, pixels/second
-  EdgeShift shift;                                     ///< of depth against colour edges
-  int num_edges = 0;
+  EdgeAlignment edges;                                 ///< of depth and colour
+  double depth_delay = 0.0;                            ///< seconds, as the stamps say
 };
 
 /// Two images up to 1.5 s apart with their relative pose.

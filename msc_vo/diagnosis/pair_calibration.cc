@@ -21,6 +21,8 @@ namespace {
 constexpr size_t kMinPairs = 8;
 constexpr int kIterations = 12;
 constexpr int kGroups = 8;
+// Rolling shutters and delays are not known: the time of a pixel is uncertain by this, seconds.
+constexpr double kTimeSigma = 0.008;
 constexpr double kMinScale = 0.7;  // of the errors, in sigmas of the features
 
 // Corrections of the calibration: logarithm of the focal length, shift of the principal point in
@@ -41,9 +43,10 @@ Eigen::Vector3d CorrectedRay(const PinholeCamera& camera, const Eigen::Vector2d&
   return {radial * x, radial * y, 1.0};
 }
 
-// Errors in sigmas: reprojection along x and y, and inverse depth in the second image.
+// Errors in sigmas: reprojection along x and y, and inverse depth in the second image. `time_sigma`,
+// pixels, is the error by rolling shutter and delays.
 Eigen::Vector3d Errors(const PinholeCamera& camera, const PointPair& pair, const Rigid3& motion,
-                       const Vector4& correction) {
+                       const Vector4& correction, double time_sigma) {
   const Eigen::Vector3d from = CorrectedRay(camera, pair.from.pixel, correction);
   const Eigen::Vector3d to = CorrectedRay(camera, pair.to.pixel, correction);
   const double inverse_depth = pair.from.inverse_depth;
@@ -51,7 +54,7 @@ Eigen::Vector3d Errors(const PinholeCamera& camera, const PointPair& pair, const
   const double focal_length = camera.FocalLength() * std::exp(correction(0));
   const double parallax = focal_length * motion.translation().norm();
   const double sigma = std::sqrt(pair.from.sigma * pair.from.sigma +
-                                 pair.to.sigma * pair.to.sigma +
+                                 pair.to.sigma * pair.to.sigma + time_sigma * time_sigma +
                                  std::pow(parallax * pair.from.inverse_depth_sigma, 2));
   Eigen::Vector3d errors;
   errors.head<2>() = focal_length / sigma * (moved.head<2>() / moved.z() - to.head<2>());
@@ -78,15 +81,19 @@ struct ReducedPair {
 
 class PairProblem {
  public:
-  PairProblem(const PinholeCamera& camera, const MotionPair& pair)
-      : camera_(camera), pair_(pair), motion_(pair.motion.to_from_from) {}
+  PairProblem(const PinholeCamera& camera, const MotionTrack& track, const MotionPair& pair)
+      : camera_(camera),
+        pair_(pair),
+        motion_(pair.motion.to_from_from),
+        time_sigma_(kTimeSigma * std::hypot(track.images[pair.from].velocity.norm(),
+                                            track.images[pair.to].velocity.norm())) {}
 
   ReducedPair Linearize(const Vector4& correction) const {
     const double scale = std::max(kMinScale, MedianError(correction));
     Eigen::Matrix<double, 10, 10> matrix = 1e-6 * Eigen::Matrix<double, 10, 10>::Identity();
     Eigen::Matrix<double, 10, 1> gradient = Eigen::Matrix<double, 10, 1>::Zero();
     for (const PointPair& point : pair_.motion.points) {
-      const Eigen::Vector3d errors = Errors(camera_, point, motion_, correction);
+      const Eigen::Vector3d errors = ErrorsOf(point, motion_, correction);
       const Eigen::Matrix<double, 3, 10> jacobian = Jacobian(point, correction);
       // Cauchy weights, one for the pixel and one for the depth.
       const double limit = 4.0 * scale * scale;
@@ -112,10 +119,15 @@ class PairProblem {
   }
 
  private:
+  Eigen::Vector3d ErrorsOf(const PointPair& point, const Rigid3& motion,
+                           const Vector4& correction) const {
+    return Errors(camera_, point, motion, correction, time_sigma_);
+  }
+
   double MedianError(const Vector4& correction) const {
     std::vector<double> norms;
     for (const PointPair& point : pair_.motion.points) {
-      norms.push_back(Errors(camera_, point, motion_, correction).norm());
+      norms.push_back(ErrorsOf(point, motion_, correction).norm());
     }
     return Median(std::move(norms)) / 1.54;  // median of the norm of three standard normal deviates
   }
@@ -126,14 +138,14 @@ class PairProblem {
     Eigen::Matrix<double, 3, 10> jacobian;
     for (int i = 0; i < 6; ++i) {
       const Vector6 step = kStep * Vector6::Unit(i);
-      jacobian.col(i) = (Errors(camera_, point, Perturbed(motion_, step), correction) -
-                         Errors(camera_, point, Perturbed(motion_, -step), correction)) /
+      jacobian.col(i) = (ErrorsOf(point, Perturbed(motion_, step), correction) -
+                         ErrorsOf(point, Perturbed(motion_, -step), correction)) /
                         (2.0 * kStep);
     }
     for (int i = 0; i < 4; ++i) {
       const Vector4 step = kStep * Vector4::Unit(i);
-      jacobian.col(6 + i) = (Errors(camera_, point, motion_, correction + step) -
-                             Errors(camera_, point, motion_, correction - step)) /
+      jacobian.col(6 + i) = (ErrorsOf(point, motion_, correction + step) -
+                             ErrorsOf(point, motion_, correction - step)) /
                             (2.0 * kStep);
     }
     return jacobian;
@@ -142,6 +154,7 @@ class PairProblem {
   const PinholeCamera& camera_;
   const MotionPair& pair_;
   Rigid3 motion_;
+  double time_sigma_;  // pixels
 };
 
 // Sums of the reduced normal equations over groups of consecutive pairs.
@@ -179,7 +192,7 @@ std::optional<CalibrationEstimate> EstimatePairCalibration(const PinholeCamera& 
   const std::vector<MotionPair>& pairs = track.pairs;
   if (pairs.size() < kMinPairs) return std::nullopt;
   std::vector<PairProblem> problems;
-  for (const MotionPair& pair : pairs) problems.emplace_back(camera, pair);
+  for (const MotionPair& pair : pairs) problems.emplace_back(camera, track, pair);
   Vector4 correction = Vector4::Zero();
   GroupedEquations equations;
   for (int iteration = 0; iteration < kIterations; ++iteration) {

@@ -21,6 +21,9 @@ constexpr int kMinEdges = 2000;
 constexpr double kMinPeak = 0.25;
 // Largest usual shift, pixels at an image width of 640.
 constexpr double kMaxShift = 5.0;
+// Ratio of the agreement without a shift to that at the peak up to which the shift is certain: along
+// parallel edges the peak is broad.
+constexpr double kMaxZeroRatio = 0.75;
 // Ratio of the peaks of mirrored and unmirrored images from which on the images are mirrored.
 constexpr double kMirroredGain = 1.5;
 
@@ -88,7 +91,9 @@ void AddRegistrationFindings(const std::vector<EdgeAlignment>& images, int width
                  "%.1f) px (agreement %.2f there, %.2f without a shift; scatter %.1f px)",
                  peak.shift.x(), peak.shift.y(), peak.peak, peak.at_zero, scatter);
   const Measurement measurement{distance, "px"};
-  if (distance <= kMaxShift * width / 640.0) {
+  const bool is_certain =
+      peak.at_zero - peak.background < kMaxZeroRatio * (peak.peak - peak.background);
+  if (distance <= kMaxShift * width / 640.0 || !is_certain) {
     findings->push_back(Good("registration.shift", text, measurement));
     return;
   }

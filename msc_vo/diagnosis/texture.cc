@@ -14,7 +14,7 @@ namespace msc_vo {
 namespace {
 
 // Features with which tracking rests on both kinds; below, on the other kind alone.
-constexpr int kFewPoints = 150, kFewLines = 15;
+constexpr int kFewPoints = 100, kFewLines = 15;
 
 int MedianOf(const std::vector<Texture>& images, int Texture::*member) {
   std::vector<int> values;
