@@ -32,7 +32,7 @@ void AddFocalLength(const CalibrationEstimate& estimate, Findings* findings) {
     findings->push_back(
         Good("calibration.focal_length",
              FormatText("focal length: not tested, the motion does not determine it (%.0f +- %.0f "
-                        "px); turn the camera more to test it",
+                        "px); to test it, turn the camera slowly in all directions",
                         focal.value, focal.sigma)));
     return;
   }

@@ -70,6 +70,7 @@ class MotionTracker {
   }
 
   MotionTrack Finish() {
+    AddVelocities();
     AddPairs();
     return std::move(track_);
   }
@@ -125,6 +126,21 @@ class MotionTracker {
     image->displacement = Median(std::move(lengths));
     if (seconds <= 0.0) return;
     image->velocity = Eigen::Vector2d(Median(std::move(x)), Median(std::move(y))) / seconds;
+  }
+
+  // Central differences; the ends of a segment take the one side that there is.
+  void AddVelocities() {
+    const int size = static_cast<int>(track_.images.size());
+    for (int i = 0; i < size; ++i) {
+      const int segment = track_.images[i].segment;
+      const int from = i > 0 && track_.images[i - 1].segment == segment ? i - 1 : i;
+      const int to = i + 1 < size && track_.images[i + 1].segment == segment ? i + 1 : i;
+      const double seconds = track_.images[to].timestamp - track_.images[from].timestamp;
+      if (seconds <= 0.0) continue;
+      const Rigid3 motion = Between(from, to);
+      track_.images[i].camera_velocity = {
+          LogSO3(Eigen::Quaterniond(motion.rotation())) / seconds, motion.translation() / seconds};
+    }
   }
 
   Rigid3 Between(int from, int to) const {

@@ -9,6 +9,7 @@
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/diagnosis/edge_alignment.h"
 #include "msc_vo/diagnosis/frame_motion.h"
+#include "msc_vo/geometry/camera_velocity.h"
 
 namespace msc_vo {
 
@@ -22,6 +23,7 @@ struct TrackedImage {
   bool linked = false;     ///< to the image before; the fields below are meaningful only then
   double displacement = 0.0;                           ///< median of the points, pixels
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< median of the points, pixels/second
+  CameraVelocity camera_velocity;                      ///< zero if unknown
   EdgeAlignment edges;                                 ///< of depth and colour
   double depth_delay = 0.0;                            ///< seconds, as the stamps say
 };

@@ -12,7 +12,9 @@
 #include <Eigen/LU>
 
 #include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/map/rolling_shutter.h"
 
 namespace msc_vo {
 
@@ -21,19 +23,23 @@ namespace {
 constexpr size_t kMinPairs = 8;
 constexpr int kIterations = 12;
 constexpr int kGroups = 8;
-// Rolling shutters and delays are not known: the time of a pixel is uncertain by this, seconds.
-constexpr double kTimeSigma = 0.008;
+// Uncertainty of the time of a pixel, and of the delay between colour and depth, seconds.
+constexpr double kTimeSigma = 0.002, kDelaySigma = 0.008;
 constexpr double kMinScale = 0.7;  // of the errors, in sigmas of the features
 
 // Corrections of the calibration: logarithm of the focal length, shift of the principal point in
-// focal lengths, and k1.
-using Vector4 = Eigen::Vector4d;
+// focal lengths, k1, and the readout time of a rolling shutter in seconds, which would otherwise
+// appear as a wrong calibration.
+constexpr int kCorrections = 5;
+using Correction = Eigen::Matrix<double, kCorrections, 1>;
+constexpr int kUnknowns = 6 + kCorrections;  // with the pose of a pair
+using CorrectionMatrix = Eigen::Matrix<double, kCorrections, kCorrections>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 // Standard deviations of the corrections before any image is seen.
-const Vector4 kPrior(0.3, 0.2, 0.2, 0.3);
+const Correction kPrior = (Correction() << 0.3, 0.2, 0.2, 0.3, 0.03).finished();
 
 Eigen::Vector3d CorrectedRay(const PinholeCamera& camera, const Eigen::Vector2d& pixel,
-                             const Vector4& correction) {
+                             const Correction& correction) {
   const Eigen::Vector3d ray = camera.Ray(pixel);
   const double scale = std::exp(-correction(0));
   const double x = scale * (ray.x() - correction(1));
@@ -43,26 +49,46 @@ Eigen::Vector3d CorrectedRay(const PinholeCamera& camera, const Eigen::Vector2d&
   return {radial * x, radial * y, 1.0};
 }
 
-// Errors in sigmas: reprojection along x and y, and inverse depth in the second image. `time_sigma`,
-// pixels, is the error by rolling shutter and delays.
+// Velocities of the two images of a pair, and the error by the uncertainty of time, pixels.
+struct PairMotion {
+  CameraVelocity from;
+  CameraVelocity to;
+  double time_sigma = 0.0;
+};
+
+// Derivative of a ray with respect to the readout time, see RayChange().
+Eigen::Vector3d RowChange(const PinholeCamera& camera, const CameraVelocity& velocity,
+                          const Eigen::Vector2d& pixel, double inverse_depth) {
+  return -RowPhase(camera, pixel) *
+         (velocity.angular.cross(camera.Ray(pixel)) + inverse_depth * velocity.linear);
+}
+
+// Errors in sigmas: reprojection along x and y, and inverse depth in the second image.
 Eigen::Vector3d Errors(const PinholeCamera& camera, const PointPair& pair, const Rigid3& motion,
-                       const Vector4& correction, double time_sigma) {
-  const Eigen::Vector3d from = CorrectedRay(camera, pair.from.pixel, correction);
-  const Eigen::Vector3d to = CorrectedRay(camera, pair.to.pixel, correction);
+                       const Correction& correction, const PairMotion& context) {
   const double inverse_depth = pair.from.inverse_depth;
+  const double to_inverse_depth =
+      pair.to.HasDepth() ? pair.to.inverse_depth : pair.from.inverse_depth;
+  const Eigen::Vector3d from =
+      CorrectedRay(camera, pair.from.pixel, correction) +
+      correction(4) * RowChange(camera, context.from, pair.from.pixel, inverse_depth);
+  const Eigen::Vector3d to =
+      CorrectedRay(camera, pair.to.pixel, correction) +
+      correction(4) * RowChange(camera, context.to, pair.to.pixel, to_inverse_depth);
   const Eigen::Vector3d moved = motion.rotation() * from + inverse_depth * motion.translation();
   const double focal_length = camera.FocalLength() * std::exp(correction(0));
   const double parallax = focal_length * motion.translation().norm();
   const double sigma = std::sqrt(pair.from.sigma * pair.from.sigma +
-                                 pair.to.sigma * pair.to.sigma + time_sigma * time_sigma +
+                                 pair.to.sigma * pair.to.sigma +
+                                 context.time_sigma * context.time_sigma +
                                  std::pow(parallax * pair.from.inverse_depth_sigma, 2));
   Eigen::Vector3d errors;
-  errors.head<2>() = focal_length / sigma * (moved.head<2>() / moved.z() - to.head<2>());
+  errors.head<2>() = focal_length / sigma * (moved.head<2>() / moved.z() - to.head<2>() / to.z());
   errors.z() = 0.0;
   if (pair.to.HasDepth()) {
     const double depth_sigma = std::hypot(pair.from.inverse_depth_sigma,
                                           pair.to.inverse_depth_sigma);
-    errors.z() = (inverse_depth / moved.z() - pair.to.inverse_depth) / depth_sigma;
+    errors.z() = (inverse_depth / moved.z() - pair.to.inverse_depth / to.z()) / depth_sigma;
   }
   return errors;
 }
@@ -73,9 +99,9 @@ Rigid3 Perturbed(const Rigid3& motion, const Vector6& step) {
 
 // Normal equations of one pair after its pose has been eliminated, and what recovers its pose step.
 struct ReducedPair {
-  Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
-  Vector4 gradient = Vector4::Zero();
-  Eigen::Matrix<double, 6, 4> pose_from_correction;
+  CorrectionMatrix matrix = CorrectionMatrix::Zero();
+  Correction gradient = Correction::Zero();
+  Eigen::Matrix<double, 6, kCorrections> pose_from_correction;
   Vector6 pose_step;
 };
 
@@ -85,16 +111,17 @@ class PairProblem {
       : camera_(camera),
         pair_(pair),
         motion_(pair.motion.to_from_from),
-        time_sigma_(kTimeSigma * std::hypot(track.images[pair.from].velocity.norm(),
-                                            track.images[pair.to].velocity.norm())) {}
+        context_{track.images[pair.from].camera_velocity, track.images[pair.to].camera_velocity,
+                 kTimeSigma * std::hypot(track.images[pair.from].velocity.norm(),
+                                         track.images[pair.to].velocity.norm())} {}
 
-  ReducedPair Linearize(const Vector4& correction) const {
+  ReducedPair Linearize(const Correction& correction) const {
     const double scale = std::max(kMinScale, MedianError(correction));
-    Eigen::Matrix<double, 10, 10> matrix = 1e-6 * Eigen::Matrix<double, 10, 10>::Identity();
-    Eigen::Matrix<double, 10, 1> gradient = Eigen::Matrix<double, 10, 1>::Zero();
+    Eigen::Matrix<double, kUnknowns, kUnknowns> matrix = 1e-6 * Eigen::Matrix<double, kUnknowns, kUnknowns>::Identity();
+    Eigen::Matrix<double, kUnknowns, 1> gradient = Eigen::Matrix<double, kUnknowns, 1>::Zero();
     for (const PointPair& point : pair_.motion.points) {
       const Eigen::Vector3d errors = ErrorsOf(point, motion_, correction);
-      const Eigen::Matrix<double, 3, 10> jacobian = Jacobian(point, correction);
+      const Eigen::Matrix<double, 3, kUnknowns> jacobian = Jacobian(point, correction);
       // Cauchy weights, one for the pixel and one for the depth.
       const double limit = 4.0 * scale * scale;
       const double pixel = 1.0 / (1.0 + errors.head<2>().squaredNorm() / limit);
@@ -105,26 +132,26 @@ class PairProblem {
     }
     ReducedPair reduced;
     const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> pose(matrix.topLeftCorner<6, 6>());
-    reduced.pose_from_correction = -pose.solve(matrix.topRightCorner<6, 4>());
+    reduced.pose_from_correction = -pose.solve(matrix.topRightCorner<6, kCorrections>());
     reduced.pose_step = -pose.solve(gradient.head<6>());
-    reduced.matrix = matrix.bottomRightCorner<4, 4>() +
-                     matrix.bottomLeftCorner<4, 6>() * reduced.pose_from_correction;
+    reduced.matrix = matrix.bottomRightCorner<kCorrections, kCorrections>() +
+                     matrix.bottomLeftCorner<kCorrections, 6>() * reduced.pose_from_correction;
     reduced.gradient =
-        gradient.tail<4>() + matrix.bottomLeftCorner<4, 6>() * reduced.pose_step;
+        gradient.tail<kCorrections>() + matrix.bottomLeftCorner<kCorrections, 6>() * reduced.pose_step;
     return reduced;
   }
 
-  void Move(const ReducedPair& reduced, const Vector4& step) {
+  void Move(const ReducedPair& reduced, const Correction& step) {
     motion_ = Perturbed(motion_, reduced.pose_step + reduced.pose_from_correction * step);
   }
 
  private:
   Eigen::Vector3d ErrorsOf(const PointPair& point, const Rigid3& motion,
-                           const Vector4& correction) const {
-    return Errors(camera_, point, motion, correction, time_sigma_);
+                           const Correction& correction) const {
+    return Errors(camera_, point, motion, correction, context_);
   }
 
-  double MedianError(const Vector4& correction) const {
+  double MedianError(const Correction& correction) const {
     std::vector<double> norms;
     for (const PointPair& point : pair_.motion.points) {
       norms.push_back(ErrorsOf(point, motion_, correction).norm());
@@ -133,17 +160,17 @@ class PairProblem {
   }
 
   // Columns: rotation and translation of the pose (left perturbation), correction.
-  Eigen::Matrix<double, 3, 10> Jacobian(const PointPair& point, const Vector4& correction) const {
+  Eigen::Matrix<double, 3, kUnknowns> Jacobian(const PointPair& point, const Correction& correction) const {
     constexpr double kStep = 1e-5;
-    Eigen::Matrix<double, 3, 10> jacobian;
+    Eigen::Matrix<double, 3, kUnknowns> jacobian;
     for (int i = 0; i < 6; ++i) {
       const Vector6 step = kStep * Vector6::Unit(i);
       jacobian.col(i) = (ErrorsOf(point, Perturbed(motion_, step), correction) -
                          ErrorsOf(point, Perturbed(motion_, -step), correction)) /
                         (2.0 * kStep);
     }
-    for (int i = 0; i < 4; ++i) {
-      const Vector4 step = kStep * Vector4::Unit(i);
+    for (int i = 0; i < kCorrections; ++i) {
+      const Correction step = kStep * Correction::Unit(i);
       jacobian.col(6 + i) = (ErrorsOf(point, motion_, correction + step) -
                              ErrorsOf(point, motion_, correction - step)) /
                             (2.0 * kStep);
@@ -154,36 +181,45 @@ class PairProblem {
   const PinholeCamera& camera_;
   const MotionPair& pair_;
   Rigid3 motion_;
-  double time_sigma_;  // pixels
+  PairMotion context_;
 };
 
 // Sums of the reduced normal equations over groups of consecutive pairs.
 struct GroupedEquations {
-  std::array<Eigen::Matrix4d, kGroups> matrices;
-  std::array<Vector4, kGroups> gradients;
+  std::array<CorrectionMatrix, kGroups> matrices;
+  std::array<Correction, kGroups> gradients;
 
   GroupedEquations() {
-    matrices.fill(Eigen::Matrix4d::Zero());
-    gradients.fill(Vector4::Zero());
+    matrices.fill(CorrectionMatrix::Zero());
+    gradients.fill(Correction::Zero());
   }
-  Eigen::Matrix4d Matrix() const {
-    Eigen::Matrix4d sum = kPrior.cwiseAbs2().cwiseInverse().asDiagonal();
-    for (const Eigen::Matrix4d& matrix : matrices) sum += matrix;
+  CorrectionMatrix Matrix() const {
+    CorrectionMatrix sum = kPrior.cwiseAbs2().cwiseInverse().asDiagonal();
+    for (const CorrectionMatrix& matrix : matrices) sum += matrix;
     return sum;
   }
-  Vector4 Gradient(const Vector4& correction) const {
-    Vector4 sum = kPrior.cwiseAbs2().cwiseInverse().cwiseProduct(correction);
-    for (const Vector4& gradient : gradients) sum += gradient;
+  Correction Gradient(const Correction& correction) const {
+    Correction sum = kPrior.cwiseAbs2().cwiseInverse().cwiseProduct(correction);
+    for (const Correction& gradient : gradients) sum += gradient;
     return sum;
   }
   // Covariance that allows for any correlation within a group.
-  Eigen::Matrix4d Covariance() const {
-    Eigen::Matrix4d scatter = Eigen::Matrix4d::Zero();
-    for (const Vector4& gradient : gradients) scatter += gradient * gradient.transpose();
-    const Eigen::Matrix4d inverse = Matrix().inverse();
+  CorrectionMatrix Covariance() const {
+    CorrectionMatrix scatter = CorrectionMatrix::Zero();
+    for (const Correction& gradient : gradients) scatter += gradient * gradient.transpose();
+    const CorrectionMatrix inverse = Matrix().inverse();
     return inverse + kGroups / (kGroups - 1.0) * inverse * scatter * inverse;
   }
 };
+
+// Pixels per second.
+double MedianSpeed(const MotionTrack& track) {
+  std::vector<double> speeds;
+  for (const TrackedImage& image : track.images) {
+    if (image.linked) speeds.push_back(image.velocity.norm());
+  }
+  return Median(std::move(speeds));
+}
 
 }  // namespace
 
@@ -193,7 +229,7 @@ std::optional<CalibrationEstimate> EstimatePairCalibration(const PinholeCamera& 
   if (pairs.size() < kMinPairs) return std::nullopt;
   std::vector<PairProblem> problems;
   for (const MotionPair& pair : pairs) problems.emplace_back(camera, track, pair);
-  Vector4 correction = Vector4::Zero();
+  Correction correction = Correction::Zero();
   GroupedEquations equations;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     equations = GroupedEquations();
@@ -204,12 +240,18 @@ std::optional<CalibrationEstimate> EstimatePairCalibration(const PinholeCamera& 
       equations.matrices[group] += reduced.back().matrix;
       equations.gradients[group] += reduced.back().gradient;
     }
-    const Vector4 step = -equations.Matrix().ldlt().solve(equations.Gradient(correction));
+    const Correction step = -equations.Matrix().ldlt().solve(equations.Gradient(correction));
     if (!step.allFinite()) return std::nullopt;
     correction += step;
     for (size_t i = 0; i < problems.size(); ++i) problems[i].Move(reduced[i], step);
   }
-  const Vector4 sigmas = equations.Covariance().diagonal().cwiseSqrt();
+  Correction sigmas = equations.Covariance().diagonal().cwiseSqrt();
+  // Delays are common to all pairs: at a given speed they shift the image, or stretch it if the
+  // shift varies over it.
+  const double shift = kDelaySigma * MedianSpeed(track);
+  sigmas(0) = std::hypot(sigmas(0), shift / (0.5 * camera.width));
+  sigmas(1) = std::hypot(sigmas(1), shift / camera.FocalLength());
+  sigmas(2) = std::hypot(sigmas(2), shift / camera.FocalLength());
   const double focal_length = camera.FocalLength() * std::exp(correction(0));
   CalibrationEstimate estimate;
   estimate.given_focal_length = camera.FocalLength();

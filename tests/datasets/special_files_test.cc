@@ -83,3 +83,7 @@ TEST_F(SpecialFilesTest, SpecialImageNamesFileAndLine) {
   EXPECT_THAT(MessageOf([&] { decoder.Decode(1); }),
               AllOf(HasSubstr("2.png (named in " + Path("rgb.txt") + ":2 and "),
                     HasSubstr("depth.txt:2): is a pipe")));
+}
+
+}  // namespace
+}  // namespace msc_vo

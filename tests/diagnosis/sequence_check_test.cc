@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/datasets/sequence_check.h"
+#include "msc_vo/diagnosis/sequence_check.h"
+
+#include <sys/stat.h>
 
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
@@ -30,10 +32,17 @@ class SequenceCheckTest : public TemporaryFolder {
     for (int i = 0; i < 6; ++i) {
       const std::string name = std::to_string(i);
       WriteColor(name + ".png");
+      WriteStripes(name + ".png", i);
       WriteDepth(name + "d.png", 10000);
       index_.entries.push_back({0.1 * i, Path(name + ".png"), Path(name + "d.png"), ""});
       index_.ground_truth.push_back({0.1 * i, Rigid3()});
     }
+  }
+  // Bright and dark columns, different for each image.
+  void WriteStripes(const std::string& name, int i) {
+    cv::Mat image(6, 8, CV_8UC1, cv::Scalar(50));
+    image.colRange(2, 4).setTo(150 + i);
+    ASSERT_TRUE(cv::imwrite(Path(name), image));
   }
   std::vector<Finding> Check() { return CheckSequence(RgbdDecoder(index_, calibration_)); }
 
@@ -70,9 +79,23 @@ TEST_F(SequenceCheckTest, ReportsMissingAndUnusableImages) {
   EXPECT_THAT(findings, Contains(Is(Severity::kError, "4d.png")));
 }
 
+TEST_F(SequenceCheckTest, ReportsPipesInsteadOfWaitingForThem) {
+  std::filesystem::remove(Path("2d.png"));
+  ASSERT_EQ(mkfifo(Path("2d.png").c_str(), 0600), 0);
+  EXPECT_THAT(Check(), Contains(Is(Severity::kError, "2d.png is a pipe")));
+}
+
+TEST_F(SequenceCheckTest, QuickCheckReportsProblemsOnly) {
+  EXPECT_THAT(CheckSequenceQuickly(RgbdDecoder(index_, calibration_)), testing::IsEmpty());
+  calibration_.depth_scale = 90000.0;
+  for (int i = 0; i < 6; ++i) WriteDepth(std::to_string(i) + "d.png", 400);
+  EXPECT_THAT(CheckSequenceQuickly(RgbdDecoder(index_, calibration_)),
+              Contains(Is(Severity::kError, "0.004 m is unusual")));
+}
+
 TEST_F(SequenceCheckTest, ReportsGaps) {
   index_.entries.erase(index_.entries.begin() + 1, index_.entries.begin() + 4);
-  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "1 gaps of three frames or more")));
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "1 gap of three frames or more")));
 }
 
 TEST_F(SequenceCheckTest, WarnsOfStampsInOtherUnits) {
