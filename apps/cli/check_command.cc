@@ -37,9 +37,8 @@ const char* Label(Severity severity) {
 }
 
 std::ptrdiff_t Count(const Findings& findings, Severity severity) {
-  return std::count_if(findings.begin(), findings.end(), [severity](const Finding& finding) {
-    return finding.severity == severity;
-  });
+  return std::count_if(findings.begin(), findings.end(),
+                       [severity](const Finding& finding) { return finding.severity == severity; });
 }
 
 int Run(const Arguments& arguments) {

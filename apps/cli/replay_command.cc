@@ -80,8 +80,8 @@ WindowObserver WindowRecorder(const std::string& folder, const SequenceIndex& se
   };
 }
 
-// Checks the sequence before the run. Returns the warnings. Throws std::runtime_error with the first
-// error, with which no run can succeed.
+// Checks the sequence before the run. Returns the warnings. Throws std::runtime_error with the
+// first error, with which no run can succeed.
 std::vector<std::string> CheckBeforeRun(const RgbdDecoder& decoder) {
   std::vector<std::string> warnings;
   for (const Finding& finding : CheckSequenceQuickly(decoder)) {

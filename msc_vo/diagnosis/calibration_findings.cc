@@ -37,11 +37,10 @@ void AddFocalLength(const CalibrationEstimate& estimate, Findings* findings) {
     return;
   }
   const Measurement measurement{focal.value, "px"};
-  const std::string numbers = FormatText("estimated %.1f +- %.1f, given %.1f px", focal.value,
-                                         focal.sigma, given);
+  const std::string numbers =
+      FormatText("estimated %.1f +- %.1f, given %.1f px", focal.value, focal.sigma, given);
   if (!Differs(ratio, sigma, kFocalLength)) {
-    findings->push_back(
-        Good("calibration.focal_length", "focal length: " + numbers, measurement));
+    findings->push_back(Good("calibration.focal_length", "focal length: " + numbers, measurement));
     return;
   }
   findings->push_back(Warning("calibration.focal_length",
@@ -64,10 +63,10 @@ void AddPrincipalPoint(const CalibrationEstimate& estimate, int width, Findings*
                         estimate.cx.sigma, estimate.cy.sigma)));
     return;
   }
-  const std::string text = FormatText(
-      "principal point: estimated (%.1f +- %.1f, %.1f +- %.1f), given (%.1f, %.1f) px",
-      estimate.cx.value, estimate.cx.sigma, estimate.cy.value, estimate.cy.sigma,
-      estimate.given_cx, estimate.given_cy);
+  const std::string text =
+      FormatText("principal point: estimated (%.1f +- %.1f, %.1f +- %.1f), given (%.1f, %.1f) px",
+                 estimate.cx.value, estimate.cx.sigma, estimate.cy.value, estimate.cy.sigma,
+                 estimate.given_cx, estimate.given_cy);
   const Measurement measurement{std::hypot(x, y), "px"};
   if (!Differs(x, estimate.cx.sigma, kPrincipalPoint * scale) &&
       !Differs(y, estimate.cy.sigma, kPrincipalPoint * scale)) {

@@ -56,13 +56,12 @@ void AddFocalLength(const PinholeCamera& camera, Findings* findings) {
   const double degrees =
       2.0 * std::atan(0.5 * camera.width / std::abs(camera.fx)) * 180.0 / std::acos(-1.0);
   if (degrees >= kMinFieldOfView && degrees <= kMaxFieldOfView) return;
-  findings->push_back(
-      Warning("camera.field_of_view",
-              FormatText("the horizontal field of view is %.0f degrees (fx %.1f at a width of %d "
-                         "px), unusual for an RGB-D camera",
-                         degrees, camera.fx, camera.width),
-              "check that the calibration is for this image size",
-              Measurement{degrees, "degrees"}));
+  findings->push_back(Warning(
+      "camera.field_of_view",
+      FormatText("the horizontal field of view is %.0f degrees (fx %.1f at a width of %d "
+                 "px), unusual for an RGB-D camera",
+                 degrees, camera.fx, camera.width),
+      "check that the calibration is for this image size", Measurement{degrees, "degrees"}));
 }
 
 }  // namespace

@@ -62,12 +62,16 @@ std::vector<EdgePixel> DepthEdges(const cv::Mat& depth) {
   for (int y = 0; y < depth.rows; ++y) {
     ScanLine(
         depth.cols, [&](int x) { return inverse.at<float>(y, x); },
-        [&](int x) { edges.push_back({x, y, true}); });
+        [&](int x) {
+          edges.push_back({x, y, true});
+        });
   }
   for (int x = 0; x < depth.cols; ++x) {
     ScanLine(
         depth.rows, [&](int y) { return inverse.at<float>(y, x); },
-        [&](int y) { edges.push_back({x, y, false}); });
+        [&](int y) {
+          edges.push_back({x, y, false});
+        });
   }
   return edges;
 }
@@ -114,7 +118,9 @@ cv::Mat Mirror(const cv::Mat& image, Mirroring mirroring) {
   if (mirroring == Mirroring::kNone) return image;
   cv::Mat mirrored;
   cv::flip(image, mirrored,
-           mirroring == Mirroring::kHorizontal ? 1 : mirroring == Mirroring::kVertical ? 0 : -1);
+           mirroring == Mirroring::kHorizontal ? 1
+           : mirroring == Mirroring::kVertical ? 0
+                                               : -1);
   return mirrored;
 }
 

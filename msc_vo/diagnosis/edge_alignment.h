@@ -35,9 +35,9 @@ struct EdgeAlignment {
 /// Peak of a score.
 struct EdgeShift {
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();  ///< pixels of the full image
-  double peak = 0.0;         ///< mean score at the peak
-  double at_zero = 0.0;      ///< mean score without a shift
-  double background = 0.0;   ///< median mean score over all shifts
+  double peak = 0.0;                                ///< mean score at the peak
+  double at_zero = 0.0;                             ///< mean score without a shift
+  double background = 0.0;                          ///< median mean score over all shifts
 };
 
 /// Compares the edges of a depth image (metres, 0: none) with those of a grey image of the same

@@ -26,11 +26,10 @@ void AddUnreadableFiles(const SequenceIndex& index, Findings* findings) {
       const std::string problem = FileProblem(path, kMaxImageBytes);
       if (problem.empty()) continue;
       if (++num_unreadable > kMaxReports) continue;
-      findings->push_back(
-          Error("files.readable",
-                path + " " + problem +
-                    (entry.origin.empty() ? "" : " (named in " + entry.origin + ")"),
-                "restore the file or remove its line"));
+      findings->push_back(Error(
+          "files.readable",
+          path + " " + problem + (entry.origin.empty() ? "" : " (named in " + entry.origin + ")"),
+          "restore the file or remove its line"));
     }
   }
   if (num_unreadable == 0) {

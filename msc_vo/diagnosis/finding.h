@@ -18,9 +18,9 @@ enum class Severity {
 /// Result of one check, in a sentence for the user.
 struct Finding {
   Severity severity = Severity::kGood;
-  std::string text;   ///< what was measured, with its numbers
-  std::string check;  ///< name of the check for programs: "depth.scale"
-  std::string fix;    ///< what to do about it; empty if there is nothing to do
+  std::string text;             ///< what was measured, with its numbers
+  std::string check;            ///< name of the check for programs: "depth.scale"
+  std::string fix;              ///< what to do about it; empty if there is nothing to do
   std::optional<double> value;  ///< the number that decided, in `unit`
   std::string unit;             ///< "m", "px", "s", "ratio"; empty without a value
 };

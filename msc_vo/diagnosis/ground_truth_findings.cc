@@ -25,12 +25,14 @@ constexpr double kMinRotation = 0.03;  // radians, median of the pairs
 // another convention must be better.
 constexpr double kAgrees = 0.35, kBetter = 0.5;
 constexpr double kMaxBodyAngle = 5.0;  // degrees
-constexpr double kReach = 1.0;         // seconds, of the search for a time offset
+constexpr double kReach = 0.5;         // seconds, of the search for a time offset
 constexpr double kMaxOffset = 0.02;    // seconds
 constexpr double kMaxScaleError = 0.025;
 constexpr double kMaxScaleSigma = 0.05;  // relative, with which an estimate decides nothing
 constexpr double kMaxLever = 0.04;       // metres
-constexpr double kMinCorrelation = 0.6;  // of translations
+// Standard deviations of the hand-eye offset beforehand, metres: unknown, and none.
+constexpr double kOffsetPrior = 0.5, kNoOffset = 1e-3;
+constexpr double kMinCorrelation = 0.6;   // of translations
 constexpr double kMinTranslation = 0.03;  // metres, median of the pairs
 constexpr double kSigmas = 4.0;
 
@@ -125,14 +127,13 @@ class GroundTruthComparison {
                   measurement));
       return std::nullopt;
     }
-    const std::string difference =
-        FormatText(" (rotations differ by %.0f %% from those of the images as they are, by %.0f %% "
-                   "if read so)",
-                   100.0 * given.disagreement, 100.0 * best.disagreement);
+    const std::string difference = FormatText(
+        " (rotations differ by %.0f %% from those of the images as they are, by %.0f %% "
+        "if read so)",
+        100.0 * given.disagreement, 100.0 * best.disagreement);
     if (best.convention != PoseConvention::kCameraInWorld) {
       findings_->push_back(Warning(
-          check,
-          "the ground truth holds " + std::string(Describe(best.convention)) + difference,
+          check, "the ground truth holds " + std::string(Describe(best.convention)) + difference,
           best.convention == PoseConvention::kMirrored
               ? "mirror the images or the poses; a negative fy tells of images that are mirrored "
                 "top to bottom"
@@ -141,11 +142,12 @@ class GroundTruthComparison {
       return best;
     }
     if (!best.camera_from_body.isIdentity()) {
-      findings_->push_back(Warning(
-          check, "the axes of the ground truth are not those of the camera: " +
-                     AxesText(best.camera_from_body) + difference,
-          "rotate the poses, so that x points right, y down and z forward in the image",
-          measurement));
+      findings_->push_back(
+          Warning(check,
+                  "the axes of the ground truth are not those of the camera: " +
+                      AxesText(best.camera_from_body) + difference,
+                  "rotate the poses, so that x points right, y down and z forward in the image",
+                  measurement));
       return best;
     }
     findings_->push_back(Good(check,
@@ -178,40 +180,40 @@ class GroundTruthComparison {
 
   double OffsetOf(const Reading& reading) const {
     const std::optional<TimeOffset> offset = Offset(reading);
-    const bool significant = offset && offset->disagreement < kAgrees &&
-                             std::abs(offset->seconds) > std::max(kMaxOffset, kSigmas * offset->sigma);
+    const bool significant =
+        offset && offset->disagreement < kAgrees &&
+        std::abs(offset->seconds) > std::max(kMaxOffset, kSigmas * offset->sigma);
     return significant ? offset->seconds : 0.0;
   }
 
   std::optional<TimeOffset> Offset(const Reading& reading) const {
     if (reading.convention == PoseConvention::kMirrored) return std::nullopt;
-    return EstimateTimeOffset(track_, ReadAs(reading.convention, truth_),
-                              reading.camera_from_body, kReach);
+    return EstimateTimeOffset(track_, ReadAs(reading.convention, truth_), reading.camera_from_body,
+                              kReach);
   }
 
   void AddTimeOffset(const Reading& reading) {
     const std::optional<TimeOffset> offset = Offset(reading);
     const std::string check = "ground_truth.time_offset";
     if (!offset) {
-      findings_->push_back(Good(check, "time offset of the ground truth: not tested, the camera "
-                                       "turns too little"));
+      findings_->push_back(Good(check,
+                                "time offset of the ground truth: not tested, the camera "
+                                "turns too little"));
       return;
     }
     const Measurement measurement{offset->seconds, "s"};
-    const std::string text =
-        FormatText("the ground truth is %.0f +- %.0f ms %s than the images",
-                   1e3 * std::abs(offset->seconds), 1e3 * offset->sigma,
-                   offset->seconds > 0.0 ? "later" : "earlier");
+    const std::string text = FormatText("the ground truth is %.0f +- %.0f ms %s than the images",
+                                        1e3 * std::abs(offset->seconds), 1e3 * offset->sigma,
+                                        offset->seconds > 0.0 ? "later" : "earlier");
     if (std::abs(offset->seconds) <= std::max(kMaxOffset, kSigmas * offset->sigma)) {
       findings_->push_back(Good(check, text, measurement));
       return;
     }
-    findings_->push_back(Warning(check, text,
-                                 FormatText("%s %.3f s %s its stamps",
-                                            offset->seconds > 0.0 ? "subtract" : "add",
-                                            std::abs(offset->seconds),
-                                            offset->seconds > 0.0 ? "from" : "to"),
-                                 measurement));
+    findings_->push_back(
+        Warning(check, text,
+                FormatText("%s %.3f s %s its stamps", offset->seconds > 0.0 ? "subtract" : "add",
+                           std::abs(offset->seconds), offset->seconds > 0.0 ? "from" : "to"),
+                measurement));
   }
 
   void AddTranslations(const Reading& reading) {
@@ -221,7 +223,7 @@ class GroundTruthComparison {
     for (const MotionComparison& c : comparisons) lengths.push_back(c.true_translation.norm());
     std::nth_element(lengths.begin(), lengths.begin() + lengths.size() / 2, lengths.end());
     if (lengths[lengths.size() / 2] < kMinTranslation) return;
-    const HandEye hand_eye = FitHandEye(comparisons, reading.camera_from_body);
+    const HandEye hand_eye = FitHandEye(comparisons, reading.camera_from_body, kOffsetPrior);
     if (hand_eye.correlation < kMinCorrelation) {
       findings_->push_back(
           Warning("ground_truth.positions",
@@ -232,8 +234,15 @@ class GroundTruthComparison {
                   Measurement{hand_eye.correlation, "correlation"}));
       return;
     }
-    AddScale(hand_eye);
+    // Turning about a near point resembles a translation: an offset that is not significant must
+    // not blur the scale.
+    AddScale(HasOffset(hand_eye) ? hand_eye
+                                 : FitHandEye(comparisons, reading.camera_from_body, kNoOffset));
     AddOffset(hand_eye);
+  }
+
+  static bool HasOffset(const HandEye& hand_eye) {
+    return hand_eye.offset.norm() > std::max(kMaxLever, kSigmas * hand_eye.offset_sigma);
   }
 
   void AddScale(const HandEye& hand_eye) {
@@ -246,9 +255,10 @@ class GroundTruthComparison {
                                            ratio, sigma)));
       return;
     }
-    const std::string text = FormatText("lengths from depth are %.3f +- %.3f times those of the "
-                                        "ground truth",
-                                        ratio, sigma);
+    const std::string text = FormatText(
+        "lengths from depth are %.3f +- %.3f times those of the "
+        "ground truth",
+        ratio, sigma);
     const Measurement measurement{ratio, "ratio"};
     if (std::abs(ratio - 1.0) <= std::max(kMaxScaleError, kSigmas * sigma)) {
       findings_->push_back(Good("ground_truth.scale", text, measurement));
@@ -276,7 +286,7 @@ class GroundTruthComparison {
         "the body of the ground truth is at (%.3f, %.3f, %.3f) +- %.3f m in the camera's frame",
         hand_eye.offset.x(), hand_eye.offset.y(), hand_eye.offset.z(), hand_eye.offset_sigma);
     const Measurement measurement{length, "m"};
-    if (length <= std::max(kMaxLever, kSigmas * hand_eye.offset_sigma)) {
+    if (!HasOffset(hand_eye)) {
       findings_->push_back(Good("ground_truth.hand_eye", text, measurement));
       return;
     }

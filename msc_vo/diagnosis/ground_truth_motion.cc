@@ -40,9 +40,9 @@ const char* Describe(PoseConvention convention) {
 }
 
 std::optional<Rigid3> InterpolatePose(const std::vector<TimedPose>& poses, double timestamp) {
-  const auto next = std::lower_bound(
-      poses.begin(), poses.end(), timestamp,
-      [](const TimedPose& pose, double time) { return pose.timestamp < time; });
+  const auto next =
+      std::lower_bound(poses.begin(), poses.end(), timestamp,
+                       [](const TimedPose& pose, double time) { return pose.timestamp < time; });
   if (next == poses.end()) return std::nullopt;
   if (next->timestamp == timestamp) return next->world_from_cam;
   if (next == poses.begin()) return std::nullopt;
@@ -64,8 +64,8 @@ std::vector<TimedPose> ReadAs(PoseConvention convention, std::vector<TimedPose> 
         world_from_cam = world_from_cam.Inverse();
         break;
       case PoseConvention::kInverseRotation:
-        world_from_cam = Rigid3(world_from_cam.rotation().conjugate(),
-                                world_from_cam.translation());
+        world_from_cam =
+            Rigid3(world_from_cam.rotation().conjugate(), world_from_cam.translation());
         break;
       case PoseConvention::kScalarFirst: {
         const Eigen::Vector4d c = world_from_cam.params.head<4>();  // in the order of the file
@@ -91,8 +91,7 @@ std::vector<MotionComparison> CompareMotions(const MotionTrack& track,
     if (!from || !to) continue;
     const Rigid3 motion = to->Inverse() * *from;
     MotionComparison comparison;
-    comparison.image_rotation =
-        LogSO3(Eigen::Quaterniond(pair.motion.to_from_from.rotation()));
+    comparison.image_rotation = LogSO3(Eigen::Quaterniond(pair.motion.to_from_from.rotation()));
     comparison.image_translation = pair.motion.to_from_from.translation();
     comparison.true_rotation = LogSO3(Eigen::Quaterniond(motion.rotation()));
     comparison.true_translation = motion.translation();
@@ -140,9 +139,9 @@ Eigen::Matrix3d FitBodyRotation(const std::vector<MotionComparison>& comparisons
 }
 
 HandEye FitHandEye(const std::vector<MotionComparison>& comparisons,
-                   const Eigen::Matrix3d& camera_from_body) {
-  // (R - I) offset + scale * t_image = t_true, in the camera frame. The offset is of the body in
-  // the camera frame: the body at rest in the camera moves by (I - R) offset in its own frame.
+                   const Eigen::Matrix3d& camera_from_body, double offset_prior) {
+  // (R - I) offset + scale * t_image = t_true, in the camera frame, from M_camera X = X M_body
+  // with X = (camera_from_body, offset).
   Eigen::Vector4d solution(0.0, 0.0, 0.0, 1.0);
   Eigen::Matrix4d matrix;
   double scale = 1.0;
@@ -152,17 +151,16 @@ HandEye FitHandEye(const std::vector<MotionComparison>& comparisons,
     std::vector<Eigen::Matrix<double, 3, 4>> rows;
     for (const MotionComparison& c : comparisons) {
       Eigen::Matrix<double, 3, 4> row;
-      row.leftCols<3>() =
-          ExpSO3(c.image_rotation).toRotationMatrix() - Eigen::Matrix3d::Identity();
+      row.leftCols<3>() = ExpSO3(c.image_rotation).toRotationMatrix() - Eigen::Matrix3d::Identity();
       row.col(3) = c.image_translation;
       rows.push_back(row);
       residuals.emplace_back(camera_from_body * c.true_translation - row * solution);
       errors.push_back(residuals.back().norm());
     }
     scale = std::max(1e-4, iteration == 0 ? 1e3 : Median(errors));
-    // Rotations of a few degrees hardly determine the offset: it is 0 +- 0.3 m beforehand.
+    // Rotations of a few degrees hardly determine the offset.
     matrix = Eigen::Matrix4d::Zero();
-    matrix.diagonal().head<3>().setConstant(scale * scale / 0.09);
+    matrix.diagonal().head<3>().setConstant(scale * scale / (offset_prior * offset_prior));
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     for (size_t i = 0; i < rows.size(); ++i) {
       const double weight = 1.0 / (1.0 + errors[i] * errors[i] / (4.0 * scale * scale));
@@ -178,12 +176,10 @@ HandEye FitHandEye(const std::vector<MotionComparison>& comparisons,
   result.scale = solution(3);
   // Pairs overlap in time: count three of them as one.
   result.scale_sigma = 1.7 * std::sqrt(std::max(0.0, covariance(3, 3)));
-  result.offset_sigma =
-      1.7 * std::sqrt(std::max(0.0, covariance.diagonal().head<3>().maxCoeff()));
+  result.offset_sigma = 1.7 * std::sqrt(std::max(0.0, covariance.diagonal().head<3>().maxCoeff()));
   double product = 0.0, image = 0.0, truth = 0.0;
   for (const MotionComparison& c : comparisons) {
-    const Eigen::Vector3d lever =
-        ExpSO3(c.image_rotation) * result.offset - result.offset;
+    const Eigen::Vector3d lever = ExpSO3(c.image_rotation) * result.offset - result.offset;
     const Eigen::Vector3d translation = camera_from_body * c.true_translation - lever;
     product += translation.dot(c.image_translation);
     image += c.image_translation.squaredNorm();

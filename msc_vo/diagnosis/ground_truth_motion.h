@@ -66,8 +66,9 @@ struct HandEye {
   double correlation = 0.0;  ///< of the translations after the fit, -1..1
 };
 
-/// Fits scale and offset, given the rotation. `comparisons` must not be empty.
+/// Fits scale and offset, given the rotation. `comparisons` must not be empty. The offset is zero
+/// with standard deviation `offset_prior` (metres) beforehand.
 HandEye FitHandEye(const std::vector<MotionComparison>& comparisons,
-                   const Eigen::Matrix3d& camera_from_body);
+                   const Eigen::Matrix3d& camera_from_body, double offset_prior);
 
 }  // namespace msc_vo

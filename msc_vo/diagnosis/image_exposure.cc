@@ -38,7 +38,7 @@ Histogram HistogramOf(const cv::Mat& gray) {
 
 // Widths of the edges in the rows of the image at local maxima of the horizontal gradient.
 double MedianEdgeWidth(const cv::Mat& gray) {
-  constexpr int kReach = 8;         // pixels, on either side of the edge
+  constexpr int kReach = 8;          // pixels, on either side of the edge
   constexpr double kMinSlope = 4.0;  // grey levels per pixel
   constexpr size_t kMinEdges = 50;
   struct Edge {
@@ -117,13 +117,12 @@ void AddExposure(const std::vector<ImageExposure>& images, Findings* findings) {
     return image.bright_level < kMinBrightLevel && image.contrast >= kMinContrast;
   });
   if (dim > kWarningRatio) {
-    findings->push_back(
-        Warning("images.dim",
-                FormatText("%.0f %% of the images are dim: 95 %% of their pixels are below grey "
-                           "level %.0f",
-                           100.0 * dim, kMinBrightLevel),
-                "more light or gain; or lower features.points.fast_threshold",
-                Measurement{dim, "ratio"}));
+    findings->push_back(Warning(
+        "images.dim",
+        FormatText("%.0f %% of the images are dim: 95 %% of their pixels are below grey "
+                   "level %.0f",
+                   100.0 * dim, kMinBrightLevel),
+        "more light or gain; or lower features.points.fast_threshold", Measurement{dim, "ratio"}));
   }
   if (findings->size() > before) return;
   std::vector<double> means, contrasts;
@@ -146,14 +145,14 @@ void AddBlur(const std::vector<ImageExposure>& images, int width, Findings* find
   if (widths.empty()) return;
   // The optics limit sharpness relative to the image; a pixel is the least width that is visible.
   const double limit = std::max(4.5, kMaxEdgeWidth * width / 640.0);
-  const auto num_blurred = std::count_if(widths.begin(), widths.end(),
-                                         [limit](double value) { return value > limit; });
+  const auto num_blurred =
+      std::count_if(widths.begin(), widths.end(), [limit](double value) { return value > limit; });
   const double ratio = static_cast<double>(num_blurred) / static_cast<double>(widths.size());
   const double median = Median(std::move(widths));
-  const std::string text =
-      FormatText("sharpness: edges are %.1f px wide in the median image, wider than %.1f px in "
-                 "%.0f %% of the images",
-                 median, limit, 100.0 * ratio);
+  const std::string text = FormatText(
+      "sharpness: edges are %.1f px wide in the median image, wider than %.1f px in "
+      "%.0f %% of the images",
+      median, limit, 100.0 * ratio);
   if (ratio <= kBlurRatio) {
     findings->push_back(Good("images.blur", text, Measurement{median, "px"}));
     return;

@@ -177,10 +177,10 @@ void AddFrameMotionFindings(const MotionTrack& track, int width, Findings* findi
   if (displacements.empty()) return;
   const double median = Median(displacements);
   const double high = Quantile(0.9, displacements);
-  const std::string text =
-      FormatText("motion: features move by %.1f px from image to image (median; %.1f px in one of "
-                 "ten)",
-                 median, high);
+  const std::string text = FormatText(
+      "motion: features move by %.1f px from image to image (median; %.1f px in one of "
+      "ten)",
+      median, high);
   const Measurement measurement{high, "px"};
   if (high <= kMaxDisplacement * width) {
     findings->push_back(Good("motion.frame_rate", text, measurement));
@@ -202,27 +202,30 @@ void AddLatencyFindings(const MotionTrack& track, Findings* findings) {
   const Latency latency = estimator.Estimate();
   const double seconds = latency.seconds;
   if (latency.sigma > kMaxLatencySigma || estimator.Agreement() < kMinAgreement) {
-    findings->push_back(Good(check,
-                             FormatText("latency of depth: not tested, little motion or few common edges "
-                                        "(+- %.0f ms)",
-                                        1e3 * latency.sigma)));
+    findings->push_back(
+        Good(check, FormatText("latency of depth: not tested, little motion or few common edges "
+                               "(+- %.0f ms)",
+                               1e3 * latency.sigma)));
     return;
   }
-  const std::string text =
-      FormatText("depth is taken %.0f +- %.0f ms %s than its time stamps say (agreement of the edges %.2f times that without latency)",
-                 1e3 * std::abs(seconds), 1e3 * latency.sigma, seconds > 0.0 ? "later" : "earlier", latency.gain);
+  const std::string text = FormatText(
+      "depth is taken %.0f +- %.0f ms %s than its time stamps say (agreement of the edges %.2f "
+      "times that without latency)",
+      1e3 * std::abs(seconds), 1e3 * latency.sigma, seconds > 0.0 ? "later" : "earlier",
+      latency.gain);
   const Measurement measurement{seconds, "s"};
-  if (std::abs(seconds) <= kMaxLatency || std::abs(seconds) <= kSigmas * latency.sigma || latency.gain < kMinGain) {
+  if (std::abs(seconds) <= kMaxLatency || std::abs(seconds) <= kSigmas * latency.sigma ||
+      latency.gain < kMinGain) {
     findings->push_back(Good(check, text, measurement));
     return;
   }
-  findings->push_back(
-      Warning(check, text,
-              FormatText("%s %.3f s %s the stamps in the list of depth images and pair anew (remove "
-                         "associations.txt)",
-                         seconds > 0.0 ? "add" : "subtract", std::abs(seconds),
-                         seconds > 0.0 ? "to" : "from"),
-              measurement));
+  findings->push_back(Warning(
+      check, text,
+      FormatText("%s %.3f s %s the stamps in the list of depth images and pair anew (remove "
+                 "associations.txt)",
+                 seconds > 0.0 ? "add" : "subtract", std::abs(seconds),
+                 seconds > 0.0 ? "to" : "from"),
+      measurement));
 }
 
 }  // namespace msc_vo

@@ -34,7 +34,8 @@ std::vector<int> Stretches(int size, int max_images) {
   }
   const int length = max_images / kStretches;
   for (int s = 0; s < kStretches; ++s) {
-    const auto begin = static_cast<int>(static_cast<int64_t>(s) * (size - length) / (kStretches - 1));
+    const auto begin =
+        static_cast<int>(static_cast<int64_t>(s) * (size - length) / (kStretches - 1));
     for (int i = 0; i < length; ++i) {
       if (indices.empty() || begin + i > indices.back()) indices.push_back(begin + i);
     }
@@ -100,9 +101,8 @@ class MotionTracker {
   void Link(const TrackedImage& before, TrackedImage* image) {
     for (const double fraction : kSearchRadii) {
       for (const Rigid3& guess : {velocity_, Rigid3()}) {
-        const std::optional<FrameMotion> motion =
-            EstimateFrameMotion(*before.frame, *image->frame, guess,
-                                fraction * decoder_.calibration().camera.width);
+        const std::optional<FrameMotion> motion = EstimateFrameMotion(
+            *before.frame, *image->frame, guess, fraction * decoder_.calibration().camera.width);
         if (!motion) continue;
         velocity_ = motion->to_from_from;
         interval_ = image->timestamp - before.timestamp;
@@ -138,8 +138,8 @@ class MotionTracker {
       const double seconds = track_.images[to].timestamp - track_.images[from].timestamp;
       if (seconds <= 0.0) continue;
       const Rigid3 motion = Between(from, to);
-      track_.images[i].camera_velocity = {
-          LogSO3(Eigen::Quaterniond(motion.rotation())) / seconds, motion.translation() / seconds};
+      track_.images[i].camera_velocity = {LogSO3(Eigen::Quaterniond(motion.rotation())) / seconds,
+                                          motion.translation() / seconds};
     }
   }
 
@@ -170,9 +170,8 @@ class MotionTracker {
     for (int from = 0; from < size; from += step) {
       const std::optional<int> to = Partner(from);
       if (!to) continue;
-      std::optional<FrameMotion> motion =
-          EstimateFrameMotion(*track_.images[from].frame, *track_.images[*to].frame,
-                              Between(from, *to), radius);
+      std::optional<FrameMotion> motion = EstimateFrameMotion(
+          *track_.images[from].frame, *track_.images[*to].frame, Between(from, *to), radius);
       if (motion) track_.pairs.push_back({from, *to, *std::move(motion)});
     }
   }
@@ -180,7 +179,7 @@ class MotionTracker {
   const RgbdDecoder& decoder_;
   FrameBuilder builder_;
   MotionTrack track_;
-  Rigid3 velocity_;  // motion from the image before the last one to the last one
+  Rigid3 velocity_;        // motion from the image before the last one to the last one
   double interval_ = 0.0;  // seconds between these; 0: unknown
   int last_index_ = -2;
 };

@@ -19,9 +19,9 @@ struct TrackedImage {
   std::shared_ptr<const Frame> frame;
   /// Images of one segment are linked by motions; a segment ends where an image does not match.
   int segment = 0;
-  Rigid3 cam_from_origin;  ///< origin: the camera at the begin of the segment
-  bool linked = false;     ///< to the image before; the fields below are meaningful only then
-  double displacement = 0.0;                           ///< median of the points, pixels
+  Rigid3 cam_from_origin;     ///< origin: the camera at the begin of the segment
+  bool linked = false;        ///< to the image before; the fields below are meaningful only then
+  double displacement = 0.0;  ///< median of the points, pixels
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< median of the points, pixels/second
   CameraVelocity camera_velocity;                      ///< zero if unknown
   EdgeAlignment edges;                                 ///< of depth and colour

@@ -78,16 +78,15 @@ Eigen::Vector3d Errors(const PinholeCamera& camera, const PointPair& pair, const
   const Eigen::Vector3d moved = motion.rotation() * from + inverse_depth * motion.translation();
   const double focal_length = camera.FocalLength() * std::exp(correction(0));
   const double parallax = focal_length * motion.translation().norm();
-  const double sigma = std::sqrt(pair.from.sigma * pair.from.sigma +
-                                 pair.to.sigma * pair.to.sigma +
+  const double sigma = std::sqrt(pair.from.sigma * pair.from.sigma + pair.to.sigma * pair.to.sigma +
                                  context.time_sigma * context.time_sigma +
                                  std::pow(parallax * pair.from.inverse_depth_sigma, 2));
   Eigen::Vector3d errors;
   errors.head<2>() = focal_length / sigma * (moved.head<2>() / moved.z() - to.head<2>() / to.z());
   errors.z() = 0.0;
   if (pair.to.HasDepth()) {
-    const double depth_sigma = std::hypot(pair.from.inverse_depth_sigma,
-                                          pair.to.inverse_depth_sigma);
+    const double depth_sigma =
+        std::hypot(pair.from.inverse_depth_sigma, pair.to.inverse_depth_sigma);
     errors.z() = (inverse_depth / moved.z() - pair.to.inverse_depth / to.z()) / depth_sigma;
   }
   return errors;
@@ -117,7 +116,8 @@ class PairProblem {
 
   ReducedPair Linearize(const Correction& correction) const {
     const double scale = std::max(kMinScale, MedianError(correction));
-    Eigen::Matrix<double, kUnknowns, kUnknowns> matrix = 1e-6 * Eigen::Matrix<double, kUnknowns, kUnknowns>::Identity();
+    Eigen::Matrix<double, kUnknowns, kUnknowns> matrix =
+        1e-6 * Eigen::Matrix<double, kUnknowns, kUnknowns>::Identity();
     Eigen::Matrix<double, kUnknowns, 1> gradient = Eigen::Matrix<double, kUnknowns, 1>::Zero();
     for (const PointPair& point : pair_.motion.points) {
       const Eigen::Vector3d errors = ErrorsOf(point, motion_, correction);
@@ -136,8 +136,8 @@ class PairProblem {
     reduced.pose_step = -pose.solve(gradient.head<6>());
     reduced.matrix = matrix.bottomRightCorner<kCorrections, kCorrections>() +
                      matrix.bottomLeftCorner<kCorrections, 6>() * reduced.pose_from_correction;
-    reduced.gradient =
-        gradient.tail<kCorrections>() + matrix.bottomLeftCorner<kCorrections, 6>() * reduced.pose_step;
+    reduced.gradient = gradient.tail<kCorrections>() +
+                       matrix.bottomLeftCorner<kCorrections, 6>() * reduced.pose_step;
     return reduced;
   }
 
@@ -160,7 +160,8 @@ class PairProblem {
   }
 
   // Columns: rotation and translation of the pose (left perturbation), correction.
-  Eigen::Matrix<double, 3, kUnknowns> Jacobian(const PointPair& point, const Correction& correction) const {
+  Eigen::Matrix<double, 3, kUnknowns> Jacobian(const PointPair& point,
+                                               const Correction& correction) const {
     constexpr double kStep = 1e-5;
     Eigen::Matrix<double, 3, kUnknowns> jacobian;
     for (int i = 0; i < 6; ++i) {

@@ -21,8 +21,8 @@ constexpr int kMinEdges = 2000;
 constexpr double kMinPeak = 0.25;
 // Largest usual shift, pixels at an image width of 640.
 constexpr double kMaxShift = 5.0;
-// Ratio of the agreement without a shift to that at the peak up to which the shift is certain: along
-// parallel edges the peak is broad.
+// Ratio of the agreement without a shift to that at the peak up to which the shift is certain:
+// along parallel edges the peak is broad.
 constexpr double kMaxZeroRatio = 0.75;
 // Ratio of the peaks of mirrored and unmirrored images from which on the images are mirrored.
 constexpr double kMirroredGain = 1.5;
@@ -53,8 +53,7 @@ bool AddMirroring(const EdgeAlignment& sum, const EdgeShift& peak, Findings* fin
       Error("registration.mirrored",
             FormatText("the colour images are %s with respect to the depth images: depth edges "
                        "agree with the edges of the mirrored image %.1f times as well",
-                       Name(static_cast<Mirroring>(best)),
-                       mirrored / std::max(0.05, peak.peak)),
+                       Name(static_cast<Mirroring>(best)), mirrored / std::max(0.05, peak.peak)),
             "mirror the colour or the depth images (and the principal point with them)",
             Measurement{mirrored / std::max(0.05, peak.peak), "ratio"}));
   return true;
@@ -86,10 +85,10 @@ void AddRegistrationFindings(const std::vector<EdgeAlignment>& images, int width
   }
   const double distance = peak.shift.norm();
   const double scatter = Scatter(images, peak.shift);
-  const std::string text =
-      FormatText("depth edges agree best with the edges of the colour image if shifted by (%.1f, "
-                 "%.1f) px (agreement %.2f there, %.2f without a shift; scatter %.1f px)",
-                 peak.shift.x(), peak.shift.y(), peak.peak, peak.at_zero, scatter);
+  const std::string text = FormatText(
+      "depth edges agree best with the edges of the colour image if shifted by (%.1f, "
+      "%.1f) px (agreement %.2f there, %.2f without a shift; scatter %.1f px)",
+      peak.shift.x(), peak.shift.y(), peak.peak, peak.at_zero, scatter);
   const Measurement measurement{distance, "px"};
   const bool is_certain =
       peak.at_zero - peak.background < kMaxZeroRatio * (peak.peak - peak.background);
@@ -97,11 +96,12 @@ void AddRegistrationFindings(const std::vector<EdgeAlignment>& images, int width
     findings->push_back(Good("registration.shift", text, measurement));
     return;
   }
-  findings->push_back(Warning("registration.shift", text,
-                              "the depth is not registered to the colour image: switch registration "
-                              "on in the driver, or warp the depth with the calibration of both "
-                              "cameras",
-                              measurement));
+  findings->push_back(
+      Warning("registration.shift", text,
+              "the depth is not registered to the colour image: switch registration "
+              "on in the driver, or warp the depth with the calibration of both "
+              "cameras",
+              measurement));
 }
 
 }  // namespace msc_vo

@@ -77,10 +77,9 @@ void AddDecodingFindings(const SampleMeasurements& sample, int count, Findings* 
     findings->push_back(
         Good("images.decoding", std::to_string(count) + " images decoded without errors"));
   } else if (failed > kMaxReports) {
-    findings->push_back(Error("images.decoding",
-                              FormatText("%d of %d images cannot be used", failed, count),
-                              "see the messages above",
-                              Measurement{static_cast<double>(failed) / count, "ratio"}));
+    findings->push_back(
+        Error("images.decoding", FormatText("%d of %d images cannot be used", failed, count),
+              "see the messages above", Measurement{static_cast<double>(failed) / count, "ratio"}));
   }
 }
 
@@ -144,11 +143,10 @@ Findings CheckSequenceQuickly(const RgbdDecoder& decoder) {
       MeasureSample(decoder, std::min(kQuickImages, decoder.size()), false);
   AddSampleFindings(sample, decoder.calibration(), &findings);
   AddGroundTruthStampFindings(index, &findings);
-  findings.erase(std::remove_if(findings.begin(), findings.end(),
-                                [](const Finding& finding) {
-                                  return finding.severity == Severity::kGood;
-                                }),
-                 findings.end());
+  findings.erase(
+      std::remove_if(findings.begin(), findings.end(),
+                     [](const Finding& finding) { return finding.severity == Severity::kGood; }),
+      findings.end());
   for (Finding& finding : findings) {
     if (!StopsRun(finding)) finding.severity = Severity::kWarning;
   }

@@ -56,11 +56,11 @@ void AddRate(const SequenceIndex& index, Findings* findings) {
   const std::string text = FormatText("%zu image pairs in %.1f s, %.1f per second", entries.size(),
                                       duration, rate.value);
   if (median < kMinInterval || median > kMaxInterval) {
-    findings->push_back(Warning(
-        "stamps.rate",
-        FormatText("the median interval between images is %g s: are the stamps in seconds?",
-                   median),
-        "write the stamps of the lists in seconds", Measurement{median, "s"}));
+    findings->push_back(
+        Warning("stamps.rate",
+                FormatText("the median interval between images is %g s: are the stamps in seconds?",
+                           median),
+                "write the stamps of the lists in seconds", Measurement{median, "s"}));
   } else if (rate.value < kMinRate) {
     findings->push_back(Warning("stamps.rate", text,
                                 "tracking needs slow motion at this rate; record at 15 to 30 "
@@ -105,8 +105,8 @@ void AddGroundTruthStampFindings(const SequenceIndex& index, Findings* findings)
   const size_t num_matched = AssociateStamps(truth_stamps, image_stamps, kMaxPairDifference).size();
   const double ratio = static_cast<double>(num_matched) / static_cast<double>(image_stamps.size());
   const std::string text =
-      FormatText("ground truth: %zu poses, %zu of %zu images have one within %.0f ms",
-                 truth.size(), num_matched, image_stamps.size(), 1e3 * kMaxPairDifference);
+      FormatText("ground truth: %zu poses, %zu of %zu images have one within %.0f ms", truth.size(),
+                 num_matched, image_stamps.size(), 1e3 * kMaxPairDifference);
   if (ratio >= 0.5) {
     findings->push_back(Good("ground_truth.overlap", text, Measurement{ratio, "ratio"}));
     return;

@@ -15,8 +15,8 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kStep = 0.01;          // seconds
-constexpr double kInterval = 0.1;       // seconds, of the rotations that are compared
+constexpr double kStep = 0.01;     // seconds
+constexpr double kInterval = 0.1;  // seconds, of the rotations that are compared
 constexpr size_t kMinRotations = 20;
 constexpr double kMinRotation = 0.004;  // radians, median over kInterval
 constexpr double kMinScale = 1e-3;      // radians, of the rotation errors
@@ -98,8 +98,8 @@ std::optional<TimeOffset> EstimateTimeOffset(const MotionTrack& track,
   // A parabola over +-3 steps: the cost is smooth, and interpolated poses make it wavy at the
   // interval of the images.
   const std::ptrdiff_t wing = 3;
-  const bool is_inside = best >= wing && best + wing < count && costs[best - wing] < 1e8 &&
-                         costs[best + wing] < 1e8;
+  const bool is_inside =
+      best >= wing && best + wing < count && costs[best - wing] < 1e8 && costs[best + wing] < 1e8;
   double curvature = 0.0;
   if (is_inside) {
     curvature = costs[best - wing] - 2.0 * costs[best] + costs[best + wing];
@@ -111,8 +111,8 @@ std::optional<TimeOffset> EstimateTimeOffset(const MotionTrack& track,
   errors.erase(std::remove(errors.begin(), errors.end(), -1.0), errors.end());
   result.disagreement = Median(std::move(errors)) / median_rotation;
   // Second derivative of the sum of the costs; consecutive rotations overlap threefold.
-  const double second = curvature / (wing * kStep * wing * kStep) *
-                        static_cast<double>(rotations.size()) / 3.0;
+  const double second =
+      curvature / (wing * kStep * wing * kStep) * static_cast<double>(rotations.size()) / 3.0;
   result.sigma = second > 0.0 ? 1.0 / std::sqrt(second) : reach;
   return result;
 }

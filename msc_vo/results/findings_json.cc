@@ -12,12 +12,9 @@ namespace msc_vo {
 namespace {
 
 Json ToJson(const Finding& finding) {
-  Json json = {{"check", finding.check},
-               {"severity", ToString(finding.severity)},
-               {"text", finding.text},
-               {"fix", nullptr},
-               {"value", nullptr},
-               {"unit", nullptr}};
+  Json json = {{"check", finding.check}, {"severity", ToString(finding.severity)},
+               {"text", finding.text},   {"fix", nullptr},
+               {"value", nullptr},       {"unit", nullptr}};
   if (!finding.fix.empty()) json["fix"] = finding.fix;
   if (finding.value) {
     json["value"] = *finding.value;

@@ -4,47 +4,39 @@
 // Verdicts on purposely broken and miscalibrated copies of a rendered sequence.
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "msc_vo/diagnosis/sequence_check.h"
+#include "tests/diagnosis/expected_finding.h"
 #include "tests/diagnosis/recording.h"
 #include "tests/support/temporary_folder.h"
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
 #include "msc_vo/datasets/sequence_calibration.h"
+#include "msc_vo/diagnosis/sequence_check.h"
 #include "msc_vo/synthetic/scene/synthetic_sequence.h"
 
 namespace msc_vo {
 namespace {
 
-using testing::HasSubstr;
-
 constexpr int kNumImages = 60;
-
-SyntheticSequenceOptions Options() {
-  SyntheticSequenceOptions options;
-  options.width = 320;
-  options.height = 240;
-  options.fps = 15.0;
-  options.kinect_depth = true;
-  return options;
-}
+// Enough for checks without motion.
+constexpr int kFewImages = 20;
 
 using Damage = std::function<void(Recording*)>;
 
 class BrokenSequenceTest : public TemporaryFolder {
  protected:
-  static void SetUpTestSuite() { recording_ = new Recording(Record(Options(), kNumImages)); }
+  static void SetUpTestSuite() { recording_ = new Recording(Record(SmallRoom(), kNumImages)); }
   static void TearDownTestSuite() { delete recording_; }
 
   // The findings on a copy of the recording that has been damaged before it was written and after.
   Findings Diagnose(const Damage& damage, bool deep, const std::string& name,
                     const std::function<void(const std::string& folder)>& damage_files = {}) {
     Recording recording = *recording_;
+    if (!deep) recording.images.resize(kFewImages);
     for (Recording::Image& image : recording.images) {
       image.color = image.color.clone();
       image.depth = image.depth.clone();
@@ -57,32 +49,10 @@ class BrokenSequenceTest : public TemporaryFolder {
     const Calibration calibration = ResolveCalibration(CameraSettings(), "", &index);
     SequenceCheckOptions options;
     options.deep = deep;
+    options.max_images = 12;
     const Findings findings = CheckSequence(RgbdDecoder(index, calibration), options);
     std::filesystem::remove_all(folder);
     return findings;
-  }
-
-  static std::string Text(const Findings& findings) {
-    std::string text;
-    for (const Finding& finding : findings) {
-      text += std::string(ToString(finding.severity)) + " [" + finding.check + "] " +
-              Describe(finding) + "\n";
-    }
-    return text;
-  }
-
-  // Expects a finding of `check` with this severity whose text or fix contains `words`.
-  static void ExpectFinding(const Findings& findings, Severity severity, const std::string& check,
-                            const std::string& words, const std::string& name) {
-    for (const Finding& finding : findings) {
-      if (finding.severity == severity && finding.check == check &&
-          Describe(finding).find(words) != std::string::npos) {
-        return;
-      }
-    }
-    ADD_FAILURE() << name << ": no " << ToString(severity) << " of " << check << " with '" << words
-                  << "' in\n"
-                  << Text(findings);
   }
 
   void ExpectWarning(const std::string& name, bool deep, const std::string& check,
@@ -119,8 +89,8 @@ void Distort(const PinholeCamera& camera, const LensDistortion& lens, Recording:
   for (int y = 0; y < map.rows; ++y) {
     for (int x = 0; x < map.cols; ++x) {
       const Eigen::Vector2d ideal = lens.Undistort(camera, {x, y});
-      map.at<cv::Vec2f>(y, x) = cv::Vec2f(static_cast<float>(ideal.x()),
-                                          static_cast<float>(ideal.y()));
+      map.at<cv::Vec2f>(y, x) =
+          cv::Vec2f(static_cast<float>(ideal.x()), static_cast<float>(ideal.y()));
     }
   }
   cv::Mat color, depth;
@@ -132,7 +102,6 @@ void Distort(const PinholeCamera& camera, const LensDistortion& lens, Recording:
 
 TEST_F(BrokenSequenceTest, FindsNothingInSoundSequences) {
   ExpectClean(Diagnose({}, true, "sound"));
-  ExpectClean(Diagnose([](Recording* r) { r->truth.clear(); }, true, "no_truth"));
   ExpectClean(Diagnose(
       [](Recording* r) {
         r->calibration.depth_scale = 1000.0;
@@ -141,14 +110,12 @@ TEST_F(BrokenSequenceTest, FindsNothingInSoundSequences) {
       true, "millimetres"));
 }
 
-TEST_F(BrokenSequenceTest, FindsNothingInOtherScenes) {
-  for (const SceneKind scene : {SceneKind::kHouse, SceneKind::kSlanted}) {
-    SyntheticSequenceOptions options = Options();
-    options.scene = scene;
-    options.seed = 2;
-    const Recording other = Record(options, kNumImages);
-    ExpectClean(Diagnose([&](Recording* r) { *r = other; }, true, "other"));
-  }
+TEST_F(BrokenSequenceTest, FindsNothingInAnotherScene) {
+  SyntheticSequenceOptions options = SmallRoom();
+  options.scene = SceneKind::kSlanted;
+  options.seed = 2;
+  const Recording other = Record(options, kNumImages);
+  ExpectClean(Diagnose([&](Recording* r) { *r = other; }, true, "other"));
 }
 
 TEST_F(BrokenSequenceTest, FindsDefectsOfDepth) {
@@ -204,13 +171,13 @@ TEST_F(BrokenSequenceTest, FindsDefectsOfImages) {
     ForAllImages(r, [](Recording::Image* i) { i->color.setTo(2); });
   });
   ExpectWarning("some_black", false, "images.uniform", "black", [](Recording* r) {
-    for (int i = 10; i < 25; ++i) r->images[i].color.setTo(2);
+    for (int i = 10; i < 15; ++i) r->images[i].color.setTo(2);
   });
   ExpectWarning("frozen_color", false, "files.frozen_color", "frozen", [](Recording* r) {
-    for (int i = 21; i < 40; ++i) r->images[i].color = r->images[20].color.clone();
+    for (int i = 11; i < 16; ++i) r->images[i].color = r->images[10].color.clone();
   });
   ExpectWarning("frozen_depth", false, "files.frozen_depth", "frozen", [](Recording* r) {
-    for (int i = 21; i < 40; ++i) r->images[i].depth = r->images[20].depth.clone();
+    for (int i = 11; i < 16; ++i) r->images[i].depth = r->images[10].depth.clone();
   });
   ExpectWarning("overexposed", false, "images.overexposed", "shorten the exposure",
                 [](Recording* r) {
@@ -220,28 +187,26 @@ TEST_F(BrokenSequenceTest, FindsDefectsOfImages) {
     ForAllImages(r, [](Recording::Image* i) { i->color = i->color * 0.2; });
   });
   ExpectWarning("blurred", false, "images.blur", "blurred", [](Recording* r) {
-    ForAllImages(r, [](Recording::Image* i) {
-      cv::GaussianBlur(i->color, i->color, cv::Size(), 3.0);
-    });
+    ForAllImages(
+        r, [](Recording::Image* i) { cv::GaussianBlur(i->color, i->color, cv::Size(), 3.0); });
   });
 }
 
 TEST_F(BrokenSequenceTest, FindsDefectsOfStamps) {
   ExpectWarning("duplicate", false, "sequence", "time stamp of another", [](Recording* r) {
-    for (int i = 20; i < 30; ++i) {
-      r->images[i].color_stamp = r->images[i].depth_stamp = r->images[20].color_stamp;
+    for (int i = 10; i < 13; ++i) {
+      r->images[i].color_stamp = r->images[i].depth_stamp = r->images[10].color_stamp;
     }
   });
-  ExpectWarning("unordered", false, "sequence", "order of time", [](Recording* r) {
-    std::swap(r->images[20], r->images[30]);
-  });
+  ExpectWarning("unordered", false, "sequence", "order of time",
+                [](Recording* r) { std::swap(r->images[10], r->images[13]); });
   ExpectWarning("milliseconds", false, "sequence", "milliseconds",
                 [](Recording* r) { r->stamp_factor = 1000.0; });
   ExpectWarning("gap", false, "stamps.gaps", "1 gap", [](Recording* r) {
-    r->images.erase(r->images.begin() + 20, r->images.begin() + 30);
+    r->images.erase(r->images.begin() + 10, r->images.begin() + 16);
   });
   ExpectWarning("depth_clock", false, "sequence", "no depth image within", [](Recording* r) {
-    ForAllImages(r, [](Recording::Image* i) { i->depth_stamp += 0.03; });
+    for (int i = 10; i < 15; ++i) r->images[i].depth_stamp += 0.03;
   });
 }
 
@@ -267,8 +232,7 @@ TEST_F(BrokenSequenceTest, FindsWrongCalibration) {
   };
   ExpectWarning("focal_10", true, "calibration.focal_length", "% too long",
                 with_focal_length(1.10));
-  ExpectWarning("focal_3", true, "calibration.focal_length", "% too long",
-                with_focal_length(1.03));
+  ExpectWarning("focal_3", true, "calibration.focal_length", "% too long", with_focal_length(1.03));
   ExpectWarning("focal_short", true, "calibration.focal_length", "% too short",
                 with_focal_length(0.95));
   ExpectWarning("centre", true, "calibration.principal_point", "off by (20,",
@@ -293,70 +257,24 @@ TEST_F(BrokenSequenceTest, FindsMirroredImagesWithTheCalibrationOfUnmirroredOnes
         r->calibration.camera.cx += 20.0;
       },
       true, "both_mirrored");
-  ExpectFinding(findings, Severity::kWarning, "calibration.principal_point", "off by (40,", "both");
+  ExpectFinding(findings, Severity::kWarning, "calibration.principal_point",
+                "principal point off by (3", "both");
   ExpectFinding(findings, Severity::kWarning, "ground_truth.convention", "mirrored", "both");
 }
 
 TEST_F(BrokenSequenceTest, FindsLateDepth) {
-  SyntheticSequenceOptions options = Options();
-  options.depth_delay = 0.1;
-  const Recording late = Record(options, kNumImages);
+  SyntheticSequenceOptions options = SmallRoom();
+  options.fps = 20.0;
+  const Recording recording = Record(options, kNumImages);
   ExpectWarning("late", true, "stamps.depth_latency", "ms later than", [&](Recording* r) {
-    *r = late;
+    *r = recording;
+    // Depth is 0.1 s younger than its stamp says.
+    for (int i = 0; i + 2 < kNumImages; ++i) r->images[i].depth = recording.images[i + 2].depth;
+    r->images.resize(kNumImages - 2);
   });
 }
 
-TEST_F(BrokenSequenceTest, FindsWrongGroundTruth) {
-  const auto with_poses = [](const std::function<void(TimedPose*)>& change) {
-    return [change](Recording* r) {
-      for (TimedPose& pose : r->truth) change(&pose);
-    };
-  };
-  ExpectWarning("depth_3_percent", true, "ground_truth.scale", "depth_scale is probably 51",
-                [](Recording* r) {
-                  ForAllImages(r, [](Recording::Image* i) {
-                    i->depth.convertTo(i->depth, CV_16U, 1.03);
-                  });
-                });
-  ExpectWarning("factor_5", true, "ground_truth.scale", "probably 5000",
-                [](Recording* r) { r->calibration.depth_scale *= 5.0; });
-  ExpectWarning("inverted", true, "ground_truth.convention", "inverse poses",
-                with_poses([](TimedPose* p) { p->world_from_cam = p->world_from_cam.Inverse(); }));
-  ExpectWarning("scalar_first", true, "ground_truth.convention", "w x y z",
-                with_poses([](TimedPose* p) {
-                  const Eigen::Quaterniond q(p->world_from_cam.rotation());
-                  p->world_from_cam.params.head<4>() << q.w(), q.x(), q.y(), q.z();
-                }));
-  ExpectWarning("body_axes", true, "ground_truth.convention", "x, y, z are z, -x, -y",
-                with_poses([](TimedPose* p) {
-                  const Eigen::Matrix3d camera_from_body =
-                      (Eigen::Matrix3d() << 0, -1, 0, 0, 0, -1, 1, 0, 0).finished();
-                  p->world_from_cam =
-                      p->world_from_cam *
-                      Rigid3(Eigen::Quaterniond(camera_from_body), Eigen::Vector3d::Zero());
-                }));
-  ExpectWarning("swapped_axes", true, "ground_truth.positions", "swapped",
-                with_poses([](TimedPose* p) {
-                  const Eigen::Vector3d t = p->world_from_cam.translation();
-                  p->world_from_cam.translation() = Eigen::Vector3d(t.x(), t.z(), t.y());
-                }));
-  ExpectWarning("late", true, "ground_truth.time_offset", "later than the images",
-                with_poses([](TimedPose* p) { p->timestamp += 0.15; }));
-  ExpectWarning("hand_eye", true, "ground_truth.hand_eye", "hand-eye", with_poses([](TimedPose* p) {
-                  p->world_from_cam =
-                      p->world_from_cam *
-                      Rigid3(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, -0.3, 0.0));
-                }));
-}
-
-TEST_F(BrokenSequenceTest, FindsGroundTruthOfAnotherSequence) {
-  SyntheticSequenceOptions options = Options();
-  options.seed = 7;
-  const SyntheticSequence other(options);
-  ExpectWarning("other_motion", true, "ground_truth.convention", "does not describe",
-                [&](Recording* r) {
-                  for (int i = 0; i < kNumImages; ++i) r->truth[i] = other.PoseAt(i);
-                });
+TEST_F(BrokenSequenceTest, FindsGroundTruthOfOtherTimes) {
   ExpectWarning("other_time", false, "ground_truth.overlap", "another clock", [](Recording* r) {
     for (TimedPose& pose : r->truth) pose.timestamp += 1000.0;
   });

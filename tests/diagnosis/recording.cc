@@ -13,7 +13,8 @@
 namespace msc_vo {
 
 void Recording::Write(const std::string& folder) const {
-  for (const char* name : {"rgb", "depth"}) std::filesystem::create_directories(folder + "/" + name);
+  for (const char* name : {"rgb", "depth"})
+    std::filesystem::create_directories(folder + "/" + name);
   std::string colors, depths, poses;
   for (size_t i = 0; i < images.size(); ++i) {
     const Image& image = images[i];
@@ -37,6 +38,15 @@ void Recording::Write(const std::string& folder) const {
   WriteFile(folder + "/camera.txt",
             FormatText("%.9f %.9f %.9f %.9f %d %d %.9f\n", camera.fx, camera.fy, camera.cx,
                        camera.cy, camera.width, camera.height, calibration.depth_scale));
+}
+
+SyntheticSequenceOptions SmallRoom() {
+  SyntheticSequenceOptions options;
+  options.width = 320;
+  options.height = 240;
+  options.fps = 15.0;
+  options.kinect_depth = true;
+  return options;
 }
 
 Recording Record(const SyntheticSequenceOptions& options, int count) {

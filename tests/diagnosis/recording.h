@@ -32,7 +32,10 @@ struct Recording {
   void Write(const std::string& folder) const;
 };
 
-// Renders `count` images with 5000 depth units per metre. `depth_delay` is not in the stamps.
+// A slow sequence of small images with the depth noise of a Kinect.
+SyntheticSequenceOptions SmallRoom();
+
+// Renders `count` images with 5000 depth units per metre.
 Recording Record(const SyntheticSequenceOptions& options, int count);
 
 }  // namespace msc_vo

@@ -3,10 +3,9 @@
 
 #include "msc_vo/diagnosis/sequence_check.h"
 
-#include <sys/stat.h>
-
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 namespace msc_vo {
 namespace {
