@@ -223,7 +223,11 @@ class GroundTruthComparison {
     for (const MotionComparison& c : comparisons) lengths.push_back(c.true_translation.norm());
     std::nth_element(lengths.begin(), lengths.begin() + lengths.size() / 2, lengths.end());
     if (lengths[lengths.size() / 2] < kMinTranslation) return;
-    const HandEye hand_eye = FitHandEye(comparisons, reading.camera_from_body, kOffsetPrior);
+    const HandEye free = FitHandEye(comparisons, reading.camera_from_body, kOffsetPrior);
+    // Turning about a near point resembles a translation: an offset that is not significant must
+    // neither blur the scale nor explain wrong positions.
+    const HandEye hand_eye =
+        HasOffset(free) ? free : FitHandEye(comparisons, reading.camera_from_body, kNoOffset);
     if (hand_eye.correlation < kMinCorrelation) {
       findings_->push_back(
           Warning("ground_truth.positions",
@@ -234,11 +238,8 @@ class GroundTruthComparison {
                   Measurement{hand_eye.correlation, "correlation"}));
       return;
     }
-    // Turning about a near point resembles a translation: an offset that is not significant must
-    // not blur the scale.
-    AddScale(HasOffset(hand_eye) ? hand_eye
-                                 : FitHandEye(comparisons, reading.camera_from_body, kNoOffset));
-    AddOffset(hand_eye);
+    AddScale(hand_eye);
+    AddOffset(free);
   }
 
   static bool HasOffset(const HandEye& hand_eye) {
@@ -275,7 +276,7 @@ class GroundTruthComparison {
   // The common scale that an estimate with a relative standard deviation means, or the estimate.
   static double NearestScale(double scale, double sigma) {
     for (const double common : {1000.0, 5000.0, 5208.0, 6553.5, 256.0, 10000.0, 4000.0}) {
-      if (std::abs(scale / common - 1.0) < std::max(0.015, 2.0 * sigma)) return common;
+      if (std::abs(scale / common - 1.0) < std::max(0.005, 2.0 * sigma)) return common;
     }
     return scale;
   }

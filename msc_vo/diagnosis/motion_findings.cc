@@ -103,38 +103,51 @@ class LatencyEstimator {
     return sum / num_edges_;
   }
 
-  // Shift that is common to all images, given the latency.
-  Eigen::Vector2d CommonShift(double latency) const {
+  // The peak of the sum of all scores without latency.
+  Eigen::Vector2d CommonShift() const {
     EdgeAlignment sum;
     for (const Sample& sample : samples_) Add(*sample.edges, &sum);
-    Eigen::Vector2d best = FindPeak(sum).shift;
+    return FindPeak(sum).shift;
+  }
+
+  // Climbs from `shift` to the best shift, given the latency.
+  Eigen::Vector2d Climb(double latency, Eigen::Vector2d shift) const {
     for (const double step : {4.0, 2.0, 1.0}) {
       for (bool improves = true; improves;) {
         improves = false;
         for (const Eigen::Vector2d& move :
              {Eigen::Vector2d(step, 0.0), Eigen::Vector2d(-step, 0.0), Eigen::Vector2d(0.0, step),
               Eigen::Vector2d(0.0, -step)}) {
-          if (Total(-1, latency, best + move) <= Total(-1, latency, best) + 1e-9) continue;
-          best += move;
+          if (Total(-1, latency, shift + move) <= Total(-1, latency, shift) + 1e-9) continue;
+          shift += move;
           improves = true;
         }
       }
     }
-    return best;
+    return shift;
   }
 
-  // Latency with the best score; first with the common shift at none, then with that at the best.
+  // The best latency. Of all images, both explanations are tried first: a shift of its own, and a
+  // latency alone. In uniform motion the two are alike.
   double Best(int left_out, double* gain) {
-    if (left_out < 0) shift_ = CommonShift(0.0);
-    const double none = Total(left_out, 0.0, shift_);
-    double latency = Scan(left_out);
-    if (left_out < 0) {
-      shift_ = CommonShift(latency);
-      latency = Scan(left_out);
-      agreement_ = Total(left_out, latency, shift_);
-      *gain = agreement_ / std::max(1e-3, none);
+    if (left_out >= 0) return Scan(left_out);
+    const Eigen::Vector2d common = CommonShift();
+    const double none = Total(-1, 0.0, common);
+    double best = 0.0;
+    agreement_ = -1e9;
+    for (const Eigen::Vector2d& start : {common, Eigen::Vector2d(0.0, 0.0)}) {
+      shift_ = start;
+      shift_ = Climb(Scan(-1), start);
+      const double latency = Scan(-1);
+      const double agreement = Total(-1, latency, shift_);
+      if (agreement <= agreement_) continue;
+      agreement_ = agreement;
+      best = latency;
+      best_shift_ = shift_;
     }
-    return latency;
+    shift_ = best_shift_;
+    *gain = agreement_ / std::max(1e-3, none);
+    return best;
   }
 
   double Scan(int left_out) const {
@@ -152,7 +165,8 @@ class LatencyEstimator {
 
   std::vector<Sample> samples_;
   double num_edges_ = 0.0;
-  Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();       // pixels
+  Eigen::Vector2d best_shift_ = Eigen::Vector2d::Zero();  // pixels
   double agreement_ = 0.0;
 };
 

@@ -15,7 +15,7 @@ template <typename T>
 T Quantile(double p, std::vector<T> samples) {
   if (samples.empty()) return T();
   const auto nth = samples.begin() +
-                   static_cast<std::ptrdiff_t>(p * static_cast<double>(samples.size() - 1) + 0.5);
+                   static_cast<std::ptrdiff_t>(p * static_cast<double>(samples.size() - 1));
   std::nth_element(samples.begin(), nth, samples.end());
   return *nth;
 }

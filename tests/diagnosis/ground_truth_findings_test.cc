@@ -55,7 +55,7 @@ class GroundTruthTest : public TemporaryFolder {
   std::vector<TimedPose> truth_;
 };
 
-TEST_F(GroundTruthTest, FindsWrongConventions) {
+TEST_F(GroundTruthTest, FindsWrongPoses) {
   Track(SmallRoom());
   for (const Finding& finding : Diagnose(truth_)) {
     EXPECT_EQ(finding.severity, Severity::kGood) << finding.check << ": " << Describe(finding);
@@ -75,10 +75,7 @@ TEST_F(GroundTruthTest, FindsWrongConventions) {
     const Eigen::Vector3d t = p->world_from_cam.translation();
     p->world_from_cam.translation() = Eigen::Vector3d(t.x(), t.z(), t.y());
   });
-}
-
-TEST_F(GroundTruthTest, FindsWrongTimesAndScales) {
-  Track(SmallRoom());
+  // Times and scales.
   ExpectWarning("ground_truth.time_offset", "later than the images",
                 [](TimedPose* p) { p->timestamp += 0.15; });
   ExpectWarning("ground_truth.time_offset", "earlier than the images",
@@ -92,6 +89,15 @@ TEST_F(GroundTruthTest, FindsWrongTimesAndScales) {
   ExpectWarning(
       "ground_truth.scale", "probably 5000",
       [](TimedPose* p) { p->world_from_cam.translation() /= 5.0; }, 1000.0);
+  // Another sequence.
+  SyntheticSequenceOptions other_options = SmallRoom();
+  other_options.scene = SceneKind::kSlanted;
+  other_options.seed = 7;
+  const SyntheticSequence other(other_options);
+  std::vector<TimedPose> truth;
+  for (int i = 0; i < kNumImages; ++i) truth.push_back(other.PoseAt(i));
+  ExpectFinding(Diagnose(truth), Severity::kWarning, "ground_truth.convention", "does not describe",
+                "other sequence");
 }
 
 TEST_F(GroundTruthTest, FindsAnotherBody) {
@@ -102,18 +108,6 @@ TEST_F(GroundTruthTest, FindsAnotherBody) {
     p->world_from_cam = WithBody(p->world_from_cam,
                                  {Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, -0.3, 0.0)});
   });
-}
-
-TEST_F(GroundTruthTest, FindsAnotherSequence) {
-  Track(SmallRoom());
-  SyntheticSequenceOptions options = SmallRoom();
-  options.scene = SceneKind::kSlanted;
-  options.seed = 7;
-  const SyntheticSequence other(options);
-  std::vector<TimedPose> truth;
-  for (int i = 0; i < kNumImages; ++i) truth.push_back(other.PoseAt(i));
-  ExpectFinding(Diagnose(truth), Severity::kWarning, "ground_truth.convention", "does not describe",
-                "other sequence");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using testing::Field;
 using testing::HasSubstr;
 
 testing::Matcher<const Finding&> Is(Severity severity, const std::string& text) {
-  return AllOf(Field(&Finding::severity, severity), Field(&Finding::text, HasSubstr(text)));
+  return AllOf(Field(&Finding::severity, severity), testing::ResultOf(&Describe, HasSubstr(text)));
 }
 
 class SequenceCheckTest : public TemporaryFolder {
@@ -32,7 +32,7 @@ class SequenceCheckTest : public TemporaryFolder {
       const std::string name = std::to_string(i);
       WriteColor(name + ".png");
       WriteStripes(name + ".png", i);
-      WriteDepth(name + "d.png", 10000);
+      WriteDepth(name + "d.png", 10000 + i);
       index_.entries.push_back({0.1 * i, Path(name + ".png"), Path(name + "d.png"), ""});
       index_.ground_truth.push_back({0.1 * i, Rigid3()});
     }
@@ -51,7 +51,9 @@ class SequenceCheckTest : public TemporaryFolder {
 
 TEST_F(SequenceCheckTest, ReportsNoProblemOfValidSequence) {
   const std::vector<Finding> findings = Check();
-  EXPECT_THAT(findings, Each(Field(&Finding::severity, Severity::kGood)));
+  // Images of this size have no features.
+  EXPECT_THAT(findings, Each(testing::AnyOf(Field(&Finding::severity, Severity::kGood),
+                                            Field(&Finding::check, "images.texture"))));
   EXPECT_THAT(findings, Contains(Is(Severity::kGood, "median 2.00 m")));
   EXPECT_THAT(findings, Contains(Is(Severity::kGood, "6 of 6 images have one")));
 }
@@ -107,7 +109,7 @@ TEST_F(SequenceCheckTest, WarnsOfUnusualCamera) {
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "fy is negative")));
   calibration_.camera.fy = 14.0;
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "fx and fy differ")));
-  calibration_.camera.cx = 320.0;
+  calibration_.camera.cx = 7.5;
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "another image size")));
   index_.format = "icl-nuim";
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "fy is positive")));
