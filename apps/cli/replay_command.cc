@@ -118,7 +118,9 @@ int Replay(const Arguments& arguments) {
   }
   const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
   PrintWarnings(decoder.index().warnings);
-  if (!arguments.no_check) PrintWarnings(CheckBeforeRun(decoder));
+  const std::vector<std::string> check_warnings =
+      arguments.no_check ? std::vector<std::string>() : CheckBeforeRun(decoder);
+  PrintWarnings(check_warnings);
   const std::string output =
       !arguments.output.empty()
           ? arguments.output
@@ -128,7 +130,7 @@ int Replay(const Arguments& arguments) {
   const WindowFactorCallback gravity = MakeGravityCallback(arguments.gravity, decoder.index());
   const InterruptGuard interrupt;
   OnlineResults online(output);
-  const SequenceRun run =
+  SequenceRun run =
       RunSequence(decoder, configuration, arguments.run, interrupt,
                   {[&](const FrameResult& frame) { online.Add(frame); },
                    WindowRecorder(arguments.windows, decoder.index()), gravity});
@@ -136,6 +138,8 @@ int Replay(const Arguments& arguments) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
     return run.exit_code;
   }
+  std::vector<std::string>& warnings = run.context.sequence.warnings;
+  warnings.insert(warnings.end(), check_warnings.begin(), check_warnings.end());
   WriteResultFiles(output, run.result, run.context);
   if (!arguments.run.quiet) {
     std::cout << FormatRunTable(run.summary, run.context, output) << std::flush;

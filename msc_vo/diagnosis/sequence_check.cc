@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,15 +53,18 @@ int SampleIndex(int k, int count, int size) {
 SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count, bool with_features) {
   SampleMeasurements sample;
   const Calibration& calibration = decoder.calibration();
-  FrameBuilder builder(FrameBuilderOptions(), calibration.camera, calibration.distortion);
+  std::optional<FrameBuilder> builder;
+  if (with_features) {
+    builder.emplace(FrameBuilderOptions(), calibration.camera, calibration.distortion);
+  }
   for (int k = 0; k < count; ++k) {
     try {
       const RgbdImage image = decoder.Decode(SampleIndex(k, count, decoder.size()));
       sample.exposures.push_back(MeasureExposure(image.gray));
       sample.depths.push_back(MeasureDepth(image.depth, calibration.depth_scale));
-      if (!with_features) continue;
+      if (!builder) continue;
       sample.alignments.push_back(AlignEdges(image.gray, image.depth, true));
-      sample.textures.push_back(MeasureTexture(builder.Build(image)));
+      sample.textures.push_back(MeasureTexture(builder->Build(image)));
     } catch (const std::exception& error) {
       sample.failures.emplace_back(error.what());
     }

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "msc_vo/datasets/rgbd_decoder.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <sys/stat.h>
