@@ -25,7 +25,7 @@ LAYERS = [
     ["pose_estimation", "self_calibration"],
     ["tracking", "mapping", "logging"],  # the solver below needs no spdlog
     ["odometry", "datasets", "inertial"],
-    ["config"],
+    ["config", "diagnosis"],
     ["recording", "results"],
     ["apps"],
 ]
@@ -33,7 +33,7 @@ LAYER_OF = {folder: layer for layer, folders in enumerate(LAYERS) for folder in 
 
 # Header pattern -> folders that may include it. Headers that no pattern matches are allowed everywhere.
 OUTSIDE_HEADERS = [
-    (r"opencv2/", {"sensor", "features", "datasets", "odometry", "results", "apps"}),
+    (r"opencv2/", {"sensor", "features", "datasets", "odometry", "diagnosis", "results", "apps"}),
     (r"spdlog/", {"logging", "apps"}),
     (r"yaml-cpp/", {"config"}),
     (r"nlohmann/", {"report", "recording", "results", "apps"}),
@@ -42,7 +42,8 @@ OUTSIDE_HEADERS = [
     (r"(thread|mutex|shared_mutex|future|condition_variable)$", {"odometry", "datasets", "apps"}),
     (r"atomic$", {"odometry", "datasets", "apps"}),
     (r"chrono$", {"timing", "odometry", "datasets", "results", "apps"}),
-    (r"(fstream|filesystem)$", {"text", "datasets", "config", "recording", "results", "apps"}),
+    (r"(fstream|filesystem)$", {"text", "datasets", "diagnosis", "config", "recording", "results",
+                                "apps"}),
     (r"httplib", {"apps"}),
     (r"benchmark/", {"apps"}),
     (r"gtest/|gmock/", set()),

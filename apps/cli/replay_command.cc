@@ -16,6 +16,7 @@
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/config/options_file.h"
+#include "msc_vo/diagnosis/sequence_check.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/recording/window_file.h"
 #include "msc_vo/results/online_results.h"
@@ -44,6 +45,7 @@ struct Arguments {
   bool no_perpendicular = false;
   bool no_manhattan = false;
   bool realtime = false;
+  bool no_check = false;
   bool print_config = false;
   bool all = false;       // of --print-config
   bool markdown = false;  // of --print-config
@@ -80,6 +82,20 @@ WindowObserver WindowRecorder(const std::string& folder, const SequenceIndex& se
   };
 }
 
+// Checks the sequence before the run. Returns the warnings. Throws std::runtime_error with the
+// first error, with which no run can succeed.
+std::vector<std::string> CheckBeforeRun(const RgbdDecoder& decoder) {
+  std::vector<std::string> warnings;
+  for (const Finding& finding : CheckSequenceQuickly(decoder)) {
+    if (finding.severity == Severity::kError) {
+      throw std::runtime_error(decoder.index().directory + ": " + Describe(finding) +
+                               " (msc_vo check tells more; --no-check runs all the same)");
+    }
+    warnings.push_back(Describe(finding));
+  }
+  return warnings;
+}
+
 void PrintConfiguration(const Arguments& arguments, const ConfigurationArguments& settings,
                         const Configuration& configuration) {
   const OptionSelection selection = arguments.all ? OptionSelection::kAll : OptionSelection::kBasic;
@@ -104,6 +120,9 @@ int Replay(const Arguments& arguments) {
   }
   const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
   PrintWarnings(decoder.index().warnings);
+  const std::vector<std::string> check_warnings =
+      arguments.no_check ? std::vector<std::string>() : CheckBeforeRun(decoder);
+  PrintWarnings(check_warnings);
   const std::string output =
       !arguments.output.empty()
           ? arguments.output
@@ -128,6 +147,8 @@ int Replay(const Arguments& arguments) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
     return run.exit_code;
   }
+  std::vector<std::string>& warnings = run.context.sequence.warnings;
+  warnings.insert(warnings.end(), check_warnings.begin(), check_warnings.end());
   WriteResultFiles(output, run.result, run.context);
   views.Complete((std::filesystem::path(output) / "report.html").string());
   if (!arguments.run.quiet) {
@@ -189,6 +210,8 @@ Command AddReplayCommand(CLI::App* app) {
   AddGravityArguments(command, &arguments->gravity);
   AddViewArguments(command, &arguments->view);
   AddRunArguments(command, &arguments->run);
+  command->add_flag("--no-check", arguments->no_check,
+                    "Omit the quick check of the sequence before the run (see check)");
   command->add_option("--dump-windows", arguments->windows,
                       "Folder for the windows of local bundle adjustment, one file per "
                       "keyframe with its input (see solve-window)");

@@ -22,8 +22,9 @@ struct ImageLists {
 };
 
 /// Reads "time path" rows, whose paths are relative to the folder of the list, in order of time.
+/// Adds a warning if the rows are in another order.
 /// Throws std::runtime_error naming file and line if a row does not fit.
-std::vector<ListedImage> ReadImageList(const std::string& path);
+std::vector<ListedImage> ReadImageList(const std::string& path, std::vector<std::string>* warnings);
 
 /// Reads an association file with "time path time path" rows, colour and depth in either order. The
 /// images of a row are at the same position of both lists. Which column is depth follows from the
