@@ -41,5 +41,6 @@ Command AddBenchmarkCommand(CLI::App* app);
 Command AddSynthesizeCommand(CLI::App* app);
 Command AddCheckCommand(CLI::App* app);
 Command AddSolveWindowCommand(CLI::App* app);
+Command AddFuseCommand(CLI::App* app);
 
 }  // namespace msc_vo
