@@ -4,6 +4,10 @@
 # none is missing, it needs neither root nor a network.
 set -euo pipefail
 cd "$(dirname "$0")"
+case ${1:-} in
+  '' | --optional) ;;
+  *) echo "usage: cmake/install_packages.sh [--optional]" >&2; exit 2 ;;
+esac
 
 if ! command -v dpkg-query >/dev/null; then
   echo "Not a Debian system: assuming that the packages of cmake/debian_packages.txt are installed."

@@ -30,6 +30,7 @@ struct Arguments {
   std::string truth;
   std::string estimate;
   EvaluationOptions options;
+  std::string alignment = "positions";
   std::string lines, edges;  // empty: lines are not compared
   bool json = false;
 };
@@ -143,6 +144,12 @@ Command AddEvaluateCommand(CLI::App* app) {
   edges->needs(lines);
   command->add_flag("--all-poses", arguments->options.all_poses,
                     "Also compare poses that are marked as not estimated");
+  command
+      ->add_option("--align", arguments->alignment,
+                   "Alignment of the estimate before its errors are measured; none: both "
+                   "trajectories are in the same world")
+      ->check(CLI::IsMember({"positions", "orientations", "none"}))
+      ->capture_default_str();
   command->add_flag("--json", arguments->json, "Print JSON; metres and degrees");
   command
       ->add_option("--max-dt", arguments->options.max_time_difference,
@@ -150,7 +157,10 @@ Command AddEvaluateCommand(CLI::App* app) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->footer(HelpFooter("msc_vo evaluate my_sequence/groundtruth.txt out/trajectory.txt"));
-  return {command, [arguments] { return Run(*arguments); }};
+  return {command, [arguments] {
+            arguments->options.alignment = AlignmentFromString(arguments->alignment);
+            return Run(*arguments);
+          }};
 }
 
 }  // namespace msc_vo

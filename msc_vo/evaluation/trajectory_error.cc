@@ -68,14 +68,34 @@ Rigid3 RelativeMotionError(const PosePair& from, const PosePair& to) {
   return reference.Inverse() * estimate;
 }
 
-// Computes the alignment of positions and the absolute errors after it.
-void MeasureAbsolute(const std::vector<PosePair>& pairs, TrajectoryError* error) {
+// Aligns orientations and mean positions.
+Rigid3 AlignByOrientation(const std::vector<PosePair>& pairs) {
+  std::vector<Rigid3> source, target;
+  for (const PosePair& pair : pairs) {
+    source.push_back(pair.estimate.world_from_cam);
+    target.push_back(pair.reference.world_from_cam);
+  }
+  return AlignPoses(source, target);
+}
+
+Rigid3 AlignByPosition(const std::vector<PosePair>& pairs) {
   std::vector<Eigen::Vector3d> source, target;
   for (const PosePair& pair : pairs) {
     source.push_back(pair.estimate.world_from_cam.translation());
     target.push_back(pair.reference.world_from_cam.translation());
   }
-  error->reference_from_estimate = AlignRigid(source, target);
+  return AlignRigid(source, target);
+}
+
+Rigid3 Align(const std::vector<PosePair>& pairs, Alignment alignment) {
+  if (alignment == Alignment::kNone) return {};
+  return alignment == Alignment::kOrientations ? AlignByOrientation(pairs) : AlignByPosition(pairs);
+}
+
+// Computes the alignment and the absolute errors after it.
+void MeasureAbsolute(const std::vector<PosePair>& pairs, Alignment alignment,
+                     TrajectoryError* error) {
+  error->reference_from_estimate = Align(pairs, alignment);
   std::vector<double> translations, rotations;
   for (const PosePair& pair : pairs) {
     const Rigid3 aligned = error->reference_from_estimate * pair.estimate.world_from_cam;
@@ -88,18 +108,10 @@ void MeasureAbsolute(const std::vector<PosePair>& pairs, TrajectoryError* error)
   error->ape_rotation = StatisticsOf(rotations);
 }
 
-// Aligns orientations and mean positions.
-Rigid3 AlignByOrientation(const std::vector<PosePair>& pairs) {
-  std::vector<Rigid3> source, target;
-  for (const PosePair& pair : pairs) {
-    source.push_back(pair.estimate.world_from_cam);
-    target.push_back(pair.reference.world_from_cam);
-  }
-  return AlignPoses(source, target);
-}
-
-ErrorStatistics MeasureRotation(const std::vector<PosePair>& pairs) {
-  const Eigen::Quaterniond reference_from_estimate(AlignByOrientation(pairs).rotation());
+ErrorStatistics MeasureRotation(const std::vector<PosePair>& pairs, Alignment alignment) {
+  const Rigid3 aligned =
+      Align(pairs, alignment == Alignment::kNone ? alignment : Alignment::kOrientations);
+  const Eigen::Quaterniond reference_from_estimate(aligned.rotation());
   std::vector<double> angles;
   for (const PosePair& pair : pairs) {
     angles.push_back(AngleOf(pair.reference.world_from_cam.rotation().conjugate() *
@@ -164,6 +176,14 @@ RelativeError MeasurePerMetre(const std::vector<PosePair>& pairs,
 
 }  // namespace
 
+Alignment AlignmentFromString(const std::string& name) {
+  if (name == "positions") return Alignment::kPositions;
+  if (name == "orientations") return Alignment::kOrientations;
+  if (name == "none") return Alignment::kNone;
+  throw std::invalid_argument("the alignment must be positions, orientations or none, not '" +
+                              name + "'");
+}
+
 bool EvaluationOptions::IsValid(std::string* error) const {
   if (!(max_time_difference >= 0.0)) {
     *error = "evaluation: max_time_difference must not be negative";
@@ -212,8 +232,8 @@ TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
 
   const std::vector<double> path_lengths = PathLengths(pairs);
   error.path_length = path_lengths.back();
-  MeasureAbsolute(pairs, &error);
-  error.rotation = MeasureRotation(pairs);
+  MeasureAbsolute(pairs, options.alignment, &error);
+  error.rotation = MeasureRotation(pairs, options.alignment);
   error.rpe_per_second = MeasurePerSecond(pairs, options.rpe_seconds, options.max_time_difference);
   error.rpe_per_metre = MeasurePerMetre(pairs, path_lengths, options.rpe_metres);
   return error;

@@ -12,12 +12,24 @@
 
 namespace msc_vo {
 
+/// Alignment of the world of the estimate with that of the reference.
+enum class Alignment {
+  kPositions,     ///< the rigid transform that minimises the position errors (Umeyama)
+  kOrientations,  ///< see AlignOrientations()
+  kNone,          ///< both are in the same world already
+};
+
+/// Parses "positions", "orientations" or "none". Throws std::invalid_argument, naming the choices,
+/// on any other name.
+Alignment AlignmentFromString(const std::string& name);
+
 struct EvaluationOptions {
   /// Largest difference of the stamps of an estimate and its reference pose, seconds: the default
   /// of the TUM RGB-D tools.
   double max_time_difference = 0.02;
   double rpe_seconds = 1.0;  ///< seconds, interval of the relative error per second
   double rpe_metres = 1.0;   ///< metres, path length of the relative error per metre
+  Alignment alignment = Alignment::kPositions;
   /// Also compares poses that are marked as not estimated (TimedPose); by default they are ignored.
   bool all_poses = false;
 
@@ -55,10 +67,11 @@ struct TrajectoryError {
 
   Rigid3 reference_from_estimate;  ///< the alignment, world to world, without scale
   ErrorStatistics ape;             ///< metres, absolute pose error: positions after alignment
-  /// Radians, orientations after their own alignment by AlignOrientations().
+  /// Radians, orientations after their own alignment by AlignOrientations(), unless the alignment
+  /// is kNone.
   ErrorStatistics rotation;
-  /// Radians, orientations after the alignment of positions. Not meaningful for short or straight
-  /// paths, which hardly determine the rotation of that alignment.
+  /// Radians, orientations after the alignment. With that of positions, not meaningful for short or
+  /// straight paths, which hardly determine the rotation of that alignment.
   ErrorStatistics ape_rotation;
   RelativeError rpe_per_second;     ///< over pairs `rpe_seconds` apart
   RelativeError rpe_per_metre;      ///< over pairs `rpe_metres` apart, divided by their distance
@@ -66,10 +79,10 @@ struct TrajectoryError {
 };
 
 /// Compares an estimate with a reference: association by time (AssociateStamps), rigid alignment
-/// (Umeyama), then APE |q_i - (R p_i + t)| and RPE |(Q_i^-1 Q_j)^-1 (P_i^-1 P_j)|, where (P, p) is
-/// the estimate and (Q, q) the reference, both camera in world. The poses may be in any order. With
-/// fewer than three matches the result is not `usable`. Throws std::invalid_argument on invalid
-/// options.
+/// (EvaluationOptions::alignment), then APE |q_i - (R p_i + t)| and RPE |(Q_i^-1 Q_j)^-1 (P_i^-1
+/// P_j)|, where (P, p) is the estimate and (Q, q) the reference, both camera in world. The poses
+/// may be in any order. With fewer than three matches the result is not `usable`. Throws
+/// std::invalid_argument on invalid options.
 TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
                                    const std::vector<TimedPose>& estimate,
                                    const EvaluationOptions& options = {});
