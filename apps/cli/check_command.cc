@@ -4,6 +4,8 @@
 #include <iostream>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/sequence_arguments.h"
@@ -18,7 +20,31 @@ struct Arguments {
   ConfigurationArguments configuration;
   SequenceCheckOptions options;
   bool all = false;
+  bool json = false;
 };
+
+const char* Name(Severity severity) {
+  switch (severity) {
+    case Severity::kGood:
+      return "ok";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kError:
+      return "error";
+  }
+  return "";
+}
+
+void PrintJson(const SequenceIndex& index, const std::vector<Finding>& findings) {
+  nlohmann::ordered_json json = {{"directory", index.directory},
+                                 {"format", index.format},
+                                 {"images", index.entries.size()},
+                                 {"findings", nlohmann::ordered_json::array()}};
+  for (const Finding& finding : findings) {
+    json["findings"].push_back({{"severity", Name(finding.severity)}, {"text", finding.text}});
+  }
+  std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
+}
 
 const char* Label(Severity severity) {
   switch (severity) {
@@ -37,13 +63,20 @@ int Run(const Arguments& arguments) {
       OpenDecoder(arguments.sequence, MakeConfiguration(arguments.configuration));
   SequenceCheckOptions options = arguments.options;
   if (arguments.all) options.max_images = decoder.size();
-  std::cout << decoder.index().directory << " (" << decoder.index().format << ")\n";
+  const std::vector<Finding> findings = CheckSequence(decoder, options);
+  if (!arguments.json) {
+    std::cout << decoder.index().directory << " (" << decoder.index().format << ")\n";
+  }
   int warnings = 0;
   int errors = 0;
-  for (const Finding& finding : CheckSequence(decoder, options)) {
-    std::cout << Label(finding.severity) << finding.text << "\n";
+  for (const Finding& finding : findings) {
+    if (!arguments.json) std::cout << Label(finding.severity) << finding.text << "\n";
     warnings += finding.severity == Severity::kWarning;
     errors += finding.severity == Severity::kError;
+  }
+  if (arguments.json) {
+    PrintJson(decoder.index(), findings);
+    return errors > 0 ? kExitError : kExitSuccess;
   }
   std::cout << errors << (errors == 1 ? " error, " : " errors, ") << warnings
             << (warnings == 1 ? " warning" : " warnings") << std::endl;
@@ -64,6 +97,7 @@ Command AddCheckCommand(CLI::App* app) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_flag("--all", arguments->all, "Decode every image");
+  command->add_flag("--json", arguments->json, "Print the findings as JSON");
   command->footer(HelpFooter("msc_vo check my_sequence"));
   return {command, [arguments] { return Run(*arguments); }};
 }

@@ -40,6 +40,7 @@ Command AddEvaluateCommand(CLI::App* app);
 Command AddBenchmarkCommand(CLI::App* app);
 Command AddSynthesizeCommand(CLI::App* app);
 Command AddCheckCommand(CLI::App* app);
+Command AddRecordCommand(CLI::App* app);
 Command AddSolveWindowCommand(CLI::App* app);
 
 }  // namespace msc_vo

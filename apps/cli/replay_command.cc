@@ -20,6 +20,7 @@
 #include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/results/run_report.h"
+#include "msc_vo/results/summary_json.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 
@@ -57,7 +58,10 @@ ConfigurationArguments WithShortcuts(const Arguments& arguments) {
   if (arguments.no_parallel) settings.push_back("mapping.pairs.parallel=false");
   if (arguments.no_perpendicular) settings.push_back("mapping.pairs.perpendicular=false");
   if (arguments.no_manhattan) settings.push_back("mapping.axes.enabled=false");
-  if (arguments.realtime) settings.push_back("realtime=true");
+  // A live camera does not wait.
+  if (arguments.realtime || IsLiveCamera(arguments.sequence.directory)) {
+    settings.push_back("realtime=true");
+  }
   ConfigurationArguments all = arguments.configuration;
   all.settings.insert(all.settings.begin(), settings.begin(), settings.end());
   return all;
@@ -100,7 +104,7 @@ int Replay(const Arguments& arguments) {
     PrintConfiguration(arguments, settings, configuration);
     return kExitSuccess;
   }
-  const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
+  const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration, LiveCameras::kAllowed);
   PrintWarnings(decoder.index().warnings);
   const std::string output =
       !arguments.output.empty()
@@ -120,7 +124,9 @@ int Replay(const Arguments& arguments) {
     return run.exit_code;
   }
   WriteResultFiles(output, run.result, run.context);
-  if (!arguments.run.quiet) {
+  if (arguments.run.json) {
+    std::cout << FormatSummaryJson(run.summary, run.context) << std::flush;
+  } else if (!arguments.run.quiet) {
     std::cout << FormatRunTable(run.summary, run.context, output) << std::flush;
   }
   if (run.exit_code == kExitError) {
