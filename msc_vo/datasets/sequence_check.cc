@@ -48,6 +48,7 @@ class SequenceChecker {
   void Add(Severity severity, const std::string& text) { findings_.push_back({severity, text}); }
 
   void CheckFiles() {
+    if (index_.container) return;  // the images are in one file, which has been opened
     int num_unreadable = 0;
     for (const SequenceEntry& entry : index_.entries) {
       for (const std::string& path : {entry.color_path, entry.depth_path}) {

@@ -19,6 +19,7 @@ constexpr SvgPlot::Size kPlaneSize{600, 460};
 constexpr SvgPlot::Size kSeriesSize{1200, 200};
 constexpr SvgPlot::Size kLastSeriesSize{1200, 230};  // has the legend
 constexpr double kStartRadius = 5.0;
+constexpr double kMillimetres = 1000.0;  // per metre
 constexpr char kReferenceClass[] = "curve ground-truth";
 constexpr char kEstimateClass[] = "curve estimate";
 
@@ -127,19 +128,21 @@ Figure PlotApe(const TrajectoryComparison& comparison, double start) {
   Points points;
   PlotRange range{0.0, 0.0};
   for (size_t i = 0; i < comparison.ape.size(); ++i) {
-    points.emplace_back(comparison.estimate[i].timestamp - start, comparison.ape[i]);
-    Include(1.05 * comparison.ape[i], &range);
+    points.emplace_back(comparison.estimate[i].timestamp - start,
+                        kMillimetres * comparison.ape[i]);
+    Include(1.05 * points.back().y(), &range);
   }
   SvgPlot::Margins margins;
   margins.bottom = 60.0;  // has the legend
   SvgPlot plot(kLastSeriesSize, RangeOf(points, points, 0, 0.0), range, margins);
-  plot.AddAxes(comparison.has_stamps ? "time, s" : "pose", "APE, m");
+  plot.AddAxes(comparison.has_stamps ? "time, s" : "pose", "APE, mm");
   const double from = points.front().x(), to = points.back().x();
   const std::pair<double, const char*> levels[] = {{comparison.ape_rmse, "curve lines"},
                                                    {comparison.ape_mean, "curve points"},
                                                    {comparison.ape_median, "curve whole"}};
   for (const auto& [level, css_class] : levels) {
-    plot.AddSegments({{Eigen::Vector2d(from, level), Eigen::Vector2d(to, level)}}, css_class);
+    const double y = kMillimetres * level;
+    plot.AddSegments({{Eigen::Vector2d(from, y), Eigen::Vector2d(to, y)}}, css_class);
   }
   plot.AddSeries(points, "curve error");
   plot.AddLegend({{"curve error", "APE"},

@@ -32,9 +32,9 @@ class OpenNiCommandTest : public TemporaryFolder {
     TemporaryFolder::SetUp();
     fs::create_directories(Path("lib/OpenNI2/Drivers"));
     fs::copy_file(MSC_VO_OPENNI2_LIBRARY, Path("lib/libOpenNI2.so.0"));
-    fs::copy_file(MSC_VO_FAKE_CAMERA_DRIVER, Path("lib/OpenNI2/Drivers/libFakeCamera.so"));
+    fs::copy_file(MSC_VO_FAKE_CAMERA_DRIVER, Path("lib/OpenNI2/Drivers/libFakeCamera.so.0"));
     if (!fs::exists(MSC_VO_OPENNI2_FILE_DRIVER)) GTEST_SKIP() << "OpenNI2 cannot read recordings";
-    fs::copy_file(MSC_VO_OPENNI2_FILE_DRIVER, Path("lib/OpenNI2/Drivers/libOniFile.so"));
+    fs::copy_file(MSC_VO_OPENNI2_FILE_DRIVER, Path("lib/OpenNI2/Drivers/libOniFile.so.0"));
     Run(MSC_VO_COMMAND " synthesize " + Path("room") + " --frames " + std::to_string(kNumImages) +
         " --width 160 --speed 0.2");
     WriteCameraFile();
@@ -123,7 +123,7 @@ TEST_F(OpenNiCommandTest, ReadsARecording) {
 }
 
 TEST_F(OpenNiCommandTest, SaysThatThereIsNoCamera) {
-  fs::remove(Path("lib/OpenNI2/Drivers/libFakeCamera.so"));
+  fs::remove(Path("lib/OpenNI2/Drivers/libFakeCamera.so.0"));
   EXPECT_EQ(Run(MSC_VO_COMMAND " replay openni2: --output " + Path("out")), 1);
   EXPECT_THAT(Log(), HasSubstr("openni2:: opening the camera failed"));
   WriteText("bad.oni", "this is no recording");

@@ -51,7 +51,7 @@ TEST(TrajectoryComparison, PlotsEverythingOnOnePage) {
   const std::string html = FormatComparisonHtml(Turning());
   EXPECT_THAT(html, AllOf(HasSubstr("<title>turn &lt;1&gt;</title>"), HasSubstr("1.000 mm"),
                           HasSubstr("msc_vo evaluate a b"), HasSubstr(">roll, degrees<"),
-                          HasSubstr(">APE, m<"), HasSubstr(">time, s<"), Not(HasSubstr("<script")),
+                          HasSubstr(">APE, mm<"), HasSubstr(">time, s<"), Not(HasSubstr("<script")),
                           Not(HasSubstr("http"))));
   EXPECT_EQ(Count(html, "<figure>"), 10);  // three planes, APE, position, rotation
   EXPECT_EQ(Count(html, "<figure>"), Count(html, "</figure>"));

@@ -28,6 +28,8 @@ class BagSequenceTest : public TemporaryFolder {
     CameraInfoFields info;
     info.width = 32;
     info.height = 24;
+    info.cx = 15.5;
+    info.cy = 11.5;
     bag.Write("/camera/rgb/camera_info", "CameraInfo", 1.0, CameraInfoMessage(info));
     for (const int i : {1, 0, 2, 4, 3}) {
       const auto nanoseconds = static_cast<uint32_t>(100000000 * i);
