@@ -4,6 +4,8 @@
 // Recordings of OpenNI2.
 
 #include <algorithm>
+#include <cstdint>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
 
@@ -18,51 +20,60 @@ namespace msc_vo {
 
 namespace {
 
-// Random access to the frames of one stream. Each reader has a device handle of its own, because
-// the streams of one handle share the position in the file.
+// The frames of one stream in any order, efficient in ascending order. Each reader has a device
+// handle of its own, because the streams of one handle share the position in the file. It goes back
+// by opening the file again: seeking in OpenNI2 waits forever if it fails.
 class OniReader {
  public:
   OniReader(const std::string& path, openni::SensorType sensor, const std::string& what)
-      : path_(path), what_(what) {
-    CheckStatus(source_.device.open(path.c_str()), path, "opening the recording");
-    if (!source_.device.hasSensor(sensor)) {
-      throw std::runtime_error(path + ": the recording has no " + what + " stream");
-    }
-    CheckStatus(source_.stream.create(source_.device, sensor), path,
-                "opening the " + what + " stream");
-    is_mirrored_ = source_.stream.getMirroringEnabled();
-    openni::PlaybackControl& playback = *source_.device.getPlaybackControl();
-    playback.setRepeatEnabled(false);
-    playback.setSpeed(-1.0f);  // as fast as frames are read
-    num_frames_ = playback.getNumberOfFrames(source_.stream);
-    CheckStatus(source_.stream.start(), path, "reading the " + what + " stream");
+      : path_(path), sensor_(sensor), what_(what) {
+    Open();
+    is_mirrored_ = source_->stream.getMirroringEnabled();
+    num_frames_ = source_->device.getPlaybackControl()->getNumberOfFrames(source_->stream);
   }
 
   int num_frames() const { return num_frames_; }
-  const openni::VideoStream& stream() const { return source_.stream; }
-  openni::Device& device() { return source_.device; }
+  const openni::VideoStream& stream() const { return source_->stream; }
+  openni::Device& device() { return source_->device; }
   bool is_mirrored() const { return is_mirrored_; }
 
   // Frame i, from 0.
   openni::VideoFrameRef Read(int i) {
+    if (i < next_) Open();
     openni::VideoFrameRef frame;
-    if (i != next_) {
-      openni::PlaybackControl& playback = *source_.device.getPlaybackControl();
-      CheckStatus(playback.seek(source_.stream, i + kFirstIndex), path_, "seeking " + NameOf(i));
+    for (; next_ <= i; ++next_) {
+      openni::VideoStream* stream = &source_->stream;
+      int ready = 0;
+      constexpr int kTimeout = 10000;  // milliseconds
+      const std::string action = "reading " + what_ + " frame " + std::to_string(next_);
+      CheckStatus(openni::OpenNI::waitForAnyStream(&stream, 1, &ready, kTimeout), path_, action);
+      CheckStatus(source_->stream.readFrame(&frame), path_, action);
     }
-    CheckStatus(source_.stream.readFrame(&frame), path_, "reading " + NameOf(i));
-    next_ = i + 1;
     return frame;
   }
 
  private:
-  static constexpr int kFirstIndex = 1;  // of the frames in a file
-
-  std::string NameOf(int i) const { return what_ + " frame " + std::to_string(i); }
+  // Opens the file before its first frame.
+  void Open() {
+    source_.reset();  // closes the file
+    source_ = std::make_unique<OpenNiStream>();
+    next_ = 0;
+    CheckStatus(source_->device.open(path_.c_str()), path_, "opening the recording");
+    if (!source_->device.hasSensor(sensor_)) {
+      throw std::runtime_error(path_ + ": the recording has no " + what_ + " stream");
+    }
+    CheckStatus(source_->stream.create(source_->device, sensor_), path_,
+                "opening the " + what_ + " stream");
+    openni::PlaybackControl& playback = *source_->device.getPlaybackControl();
+    playback.setRepeatEnabled(true);  // the player waits at the first frame again, not at the end
+    playback.setSpeed(-1.0f);         // as fast as frames are read
+    CheckStatus(source_->stream.start(), path_, "reading the " + what_ + " stream");
+  }
 
   std::string path_;
+  openni::SensorType sensor_;
   std::string what_;
-  OpenNiStream source_;
+  std::unique_ptr<OpenNiStream> source_;
   bool is_mirrored_ = false;
   int num_frames_ = 0;
   int next_ = 0;
@@ -127,6 +138,7 @@ SequenceIndex OpenOniFile(const std::string& path) {
   }
   index.depth_scale = DepthScaleOf(container->depth().stream());
   index.calibration = NominalCalibration(container->color().stream(), *index.depth_scale, path);
+  if (!index.calibration) index.warnings.push_back("the recording has no field of view");
   if (container->color().device().getImageRegistrationMode() !=
       openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR) {
     index.warnings.push_back(

@@ -80,9 +80,12 @@ double DepthScaleOf(const openni::VideoStream& depth) {
   return depth.getVideoMode().getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_100_UM ? 1e4 : 1e3;
 }
 
-Calibration NominalCalibration(const openni::VideoStream& stream, double depth_scale,
-                               const std::string& name) {
+std::optional<Calibration> NominalCalibration(const openni::VideoStream& stream, double depth_scale,
+                                              const std::string& name) {
   const openni::VideoMode mode = stream.getVideoMode();
+  if (!(stream.getHorizontalFieldOfView() > 0.0f) || !(stream.getVerticalFieldOfView() > 0.0f)) {
+    return std::nullopt;
+  }
   Calibration calibration;
   PinholeCamera& camera = calibration.camera;
   camera.width = mode.getResolutionX();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <OpenNI.h>
@@ -44,8 +45,9 @@ cv::Mat DepthOf(const openni::VideoFrameRef& frame, bool is_mirrored, const std:
 /// Raw depth units per metre of a depth stream.
 double DepthScaleOf(const openni::VideoStream& depth);
 
-/// Nominal calibration from the field of view of the stream that the other one is registered to.
-Calibration NominalCalibration(const openni::VideoStream& stream, double depth_scale,
-                               const std::string& name);
+/// Nominal calibration from the field of view of the stream that the other one is registered to;
+/// none if the stream does not name it.
+std::optional<Calibration> NominalCalibration(const openni::VideoStream& stream, double depth_scale,
+                                              const std::string& name);
 
 }  // namespace msc_vo

@@ -214,12 +214,12 @@ TEST_F(BenchmarkSharesTest, ResumesAfterAKilledRun) {
 }
 
 TEST_F(BenchmarkSharesTest, RefusesOtherSettingsAndWrongArguments) {
-  ASSERT_EQ(Benchmark("out", {"--max-frames", "2"}).exit_code, 0);
+  ASSERT_EQ(Benchmark("out", {"--max-frames", "4"}).exit_code, 0);
   const CommandOutcome resumed = Benchmark("out", {"--resume"});
   EXPECT_EQ(resumed.exit_code, 1);
   EXPECT_THAT(resumed.output, HasSubstr("cannot be resumed, because its settings differ: "
-                                        "--max-frames 2 and 0"));
-  ASSERT_EQ(Benchmark("other", {"--max-frames", "3"}).exit_code, 0);
+                                        "--max-frames 4 and 0"));
+  ASSERT_EQ(Benchmark("other", {"--max-frames", "5"}).exit_code, 0);
   EXPECT_THAT(Merge({Path("out"), Path("other")}).output, HasSubstr("cannot be merged with"));
   EXPECT_THAT(Merge({Path("a")}).output, HasSubstr("no results of msc_vo benchmark"));
   EXPECT_THAT(Benchmark("out", {"--shard", "3/2"}).output, HasSubstr("expected K/N"));

@@ -26,7 +26,7 @@ class TerminalTest : public TemporaryFolder {
       GTEST_SKIP() << "script is not installed";
   }
   std::string OnTerminal(const std::string& environment, const std::string& arguments) {
-    const std::string command = "env TERM=xterm -u NO_COLOR " + environment +
+    const std::string command = "env -u NO_COLOR TERM=xterm " + environment +
                                 " script -qec '" MSC_VO_COMMAND " " + arguments +
                                 "' /dev/null < /dev/null 2>&1";
     FILE* const pipe = popen(command.c_str(), "r");

@@ -43,7 +43,8 @@ class FakeStream : public oni::driver::StreamBase {
 
   OniBool isPropertySupported(int id) override {
     return id == ONI_STREAM_PROPERTY_VIDEO_MODE || id == ONI_STREAM_PROPERTY_HORIZONTAL_FOV ||
-           id == ONI_STREAM_PROPERTY_VERTICAL_FOV || id == ONI_STREAM_PROPERTY_MIRRORING;
+           id == ONI_STREAM_PROPERTY_VERTICAL_FOV || id == ONI_STREAM_PROPERTY_MIRRORING ||
+           id == ONI_STREAM_PROPERTY_STRIDE || id == ONI_STREAM_PROPERTY_CROPPING;
   }
   OniStatus getProperty(int id, void* data, int* size) override {
     switch (id) {
@@ -55,6 +56,11 @@ class FakeStream : public oni::driver::StreamBase {
         return Return(header_.vertical_fov, data, size);
       case ONI_STREAM_PROPERTY_MIRRORING:
         return Return(OniBool{FALSE}, data, size);
+      // The player of recordings needs both of these.
+      case ONI_STREAM_PROPERTY_STRIDE:
+        return Return(header_.width * (is_color_ ? 3 : 2), data, size);
+      case ONI_STREAM_PROPERTY_CROPPING:
+        return Return(OniCropping{FALSE, 0, 0, 0, 0}, data, size);
       default:
         return ONI_STATUS_NOT_IMPLEMENTED;
     }
