@@ -128,8 +128,7 @@ Figure PlotApe(const TrajectoryComparison& comparison, double start) {
   Points points;
   PlotRange range{0.0, 0.0};
   for (size_t i = 0; i < comparison.ape.size(); ++i) {
-    points.emplace_back(comparison.estimate[i].timestamp - start,
-                        kMillimetres * comparison.ape[i]);
+    points.emplace_back(comparison.estimate[i].timestamp - start, kMillimetres * comparison.ape[i]);
     Include(1.05 * points.back().y(), &range);
   }
   SvgPlot::Margins margins;
