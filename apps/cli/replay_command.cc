@@ -22,6 +22,7 @@
 #include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/results/run_report.h"
+#include "msc_vo/results/summary_json.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 
@@ -61,7 +62,10 @@ ConfigurationArguments WithShortcuts(const Arguments& arguments) {
   if (arguments.no_parallel) settings.push_back("mapping.pairs.parallel=false");
   if (arguments.no_perpendicular) settings.push_back("mapping.pairs.perpendicular=false");
   if (arguments.no_manhattan) settings.push_back("mapping.axes.enabled=false");
-  if (arguments.realtime) settings.push_back("realtime=true");
+  // A live camera does not wait.
+  if (arguments.realtime || IsLiveCamera(arguments.sequence.directory)) {
+    settings.push_back("realtime=true");
+  }
   ConfigurationArguments all = arguments.configuration;
   all.settings.insert(all.settings.begin(), settings.begin(), settings.end());
   return all;
@@ -118,10 +122,11 @@ int Replay(const Arguments& arguments) {
     PrintConfiguration(arguments, settings, configuration);
     return kExitSuccess;
   }
-  const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
+  const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration, LiveCameras::kAllowed);
   PrintWarnings(decoder.index().warnings);
-  const std::vector<std::string> check_warnings =
-      arguments.no_check ? std::vector<std::string>() : CheckBeforeRun(decoder);
+  const std::vector<std::string> check_warnings = arguments.no_check || decoder.index().camera
+                                                      ? std::vector<std::string>()
+                                                      : CheckBeforeRun(decoder);
   PrintWarnings(check_warnings);
   const std::string output =
       !arguments.output.empty()
@@ -151,7 +156,9 @@ int Replay(const Arguments& arguments) {
   warnings.insert(warnings.end(), check_warnings.begin(), check_warnings.end());
   WriteResultFiles(output, run.result, run.context);
   views.Complete((std::filesystem::path(output) / "report.html").string());
-  if (!arguments.run.quiet) {
+  if (arguments.run.json) {
+    std::cout << FormatSummaryJson(run.summary, run.context) << std::flush;
+  } else if (!arguments.run.quiet) {
     std::cout << FormatRunTable(run.summary, run.context, output) << std::flush;
   }
   if (run.exit_code == kExitError) {

@@ -18,9 +18,10 @@ struct RunArguments {
   int max_frames = 0;   ///< 0: all
   bool strict = false;  ///< stop at the first unreadable image
   bool quiet = false;   ///< print neither progress nor results
+  bool json = false;    ///< print results as JSON
 };
 
-/// Declares --max-frames, --strict and --quiet.
+/// Declares --max-frames, --strict, --quiet and --json.
 void AddRunArguments(CLI::App* command, RunArguments* arguments);
 
 /// Result of the odometry on a sequence. After an error or an interruption it contains the frames

@@ -96,8 +96,9 @@ void BindEvaluation(py::module_* module) {
   py::class_<TrajectoryError>(*module, "TrajectoryError",
                               "Errors of a trajectory; read them together with the coverage.")
       .def_readonly("ape", &TrajectoryError::ape, "Absolute position error, metres.")
-      .def_readonly("rotation", &TrajectoryError::rotation,
-                    "Radians, after alignment of the orientations, unless align is 'none'.")
+      .def_readonly(
+          "rotation", &TrajectoryError::rotation,
+          "Radians, after alignment of the orientations; with 'origin' and 'none' as ape_rotation.")
       .def_readonly("ape_rotation", &TrajectoryError::ape_rotation, "Radians, after `align`.")
       .def_readonly("rpe_per_second", &TrajectoryError::rpe_per_second)
       .def_readonly("rpe_per_metre", &TrajectoryError::rpe_per_metre)
@@ -120,10 +121,11 @@ void BindEvaluation(py::module_* module) {
                           self.ape.rmse, self.num_matched, self.coverage);
       });
   module->def(
-      "evaluate", &Evaluate, py::arg("gt"), py::arg("est"), py::kw_only(),
-      py::arg("align") = "positions", py::arg("max_dt") = 0.02, py::arg("all_poses") = false,
+      "evaluate", &Evaluate, py::arg("gt"), py::arg("est"), py::kw_only(), py::arg("align") = "se3",
+      py::arg("max_dt") = 0.02, py::arg("all_poses") = false,
       "Compares trajectories: a file, an (N, 8) array of rows t tx ty tz qx qy qz qw, or a Result. "
-      "align: 'positions' (Umeyama, without scale), 'orientations' or 'none'. max_dt: seconds. "
+      "align: 'se3' (Umeyama), 'sim3' (with scale), 'origin' (first poses) or 'none'. max_dt: "
+      "seconds. "
       "Raises ValueError if fewer than three poses match.");
 }
 

@@ -13,6 +13,7 @@ struct ListedImage {
   double stamp = 0.0;  ///< in the unit of the list
   std::string path;
   std::string origin;  ///< for messages, "rgb.txt:12"
+  int index = -1;      ///< position in SequenceIndex::container, if there is one
 };
 
 /// The colour and depth images of a folder.

@@ -87,6 +87,7 @@ void AddRepetitions(const SequenceIndex& index, const std::string& kind,
 }  // namespace
 
 void AddFileFindings(const SequenceIndex& index, Findings* findings) {
+  if (index.container) return;  // the images are in one file, which has been opened
   AddUnreadableFiles(index, findings);
   AddRepetitions(index, "colour", &SequenceEntry::color_path, findings);
   AddRepetitions(index, "depth", &SequenceEntry::depth_path, findings);

@@ -55,8 +55,8 @@ class LatencyEstimator {
  public:
   explicit LatencyEstimator(const MotionTrack& track) {
     for (size_t i = 0; i + 1 < track.images.size(); ++i) {
-      const TrackedImage& image = track.images[i];
-      const TrackedImage& next = track.images[i + 1];
+      const MotionImage& image = track.images[i];
+      const MotionImage& next = track.images[i + 1];
       if (!image.linked || !next.linked || image.edges.num_edges < kMinEdges) continue;
       samples_.push_back({&image.edges, 0.5 * (image.velocity + next.velocity), image.depth_delay});
       num_edges_ += image.edges.num_edges;
@@ -175,7 +175,7 @@ class LatencyEstimator {
 void AddFrameMotionFindings(const MotionTrack& track, int width, Findings* findings) {
   if (track.num_pairs == 0) return;
   std::vector<double> displacements;
-  for (const TrackedImage& image : track.images) {
+  for (const MotionImage& image : track.images) {
     if (image.linked) displacements.push_back(image.displacement);
   }
   const double linked = static_cast<double>(track.num_linked) / track.num_pairs;

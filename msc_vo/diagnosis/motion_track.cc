@@ -51,7 +51,7 @@ class MotionTracker {
                  decoder.calibration().distortion) {}
 
   void Add(int index) {
-    TrackedImage image;
+    MotionImage image;
     std::optional<Frame> frame = Build(index, &image);
     if (!frame) return;
     image.timestamp = frame->timestamp;
@@ -77,7 +77,7 @@ class MotionTracker {
   }
 
  private:
-  std::optional<Frame> Build(int index, TrackedImage* image) {
+  std::optional<Frame> Build(int index, MotionImage* image) {
     try {
       RgbdImage rgbd = decoder_.Decode(index);
       image->edges = AlignEdges(rgbd.gray, rgbd.depth, false);
@@ -98,7 +98,7 @@ class MotionTracker {
     return {ExpSO3(fraction * rotation), fraction * velocity_.translation()};
   }
 
-  void Link(const TrackedImage& before, TrackedImage* image) {
+  void Link(const MotionImage& before, MotionImage* image) {
     for (const double fraction : kSearchRadii) {
       for (const Rigid3& guess : {velocity_, Rigid3()}) {
         const std::optional<FrameMotion> motion = EstimateFrameMotion(
@@ -115,7 +115,7 @@ class MotionTracker {
     }
   }
 
-  static void MeasureFlow(const FrameMotion& motion, double seconds, TrackedImage* image) {
+  static void MeasureFlow(const FrameMotion& motion, double seconds, MotionImage* image) {
     std::vector<double> x, y, lengths;
     for (const PointPair& pair : motion.points) {
       const Eigen::Vector2d flow = pair.to.pixel - pair.from.pixel;
@@ -149,7 +149,7 @@ class MotionTracker {
 
   // The later image of the pair that begins with `from`: the one with the largest rotation.
   std::optional<int> Partner(int from) const {
-    const std::vector<TrackedImage>& images = track_.images;
+    const std::vector<MotionImage>& images = track_.images;
     std::optional<int> best;
     double best_angle = -1.0;
     for (int to = from + 1; to < static_cast<int>(images.size()); ++to) {

@@ -14,7 +14,7 @@
 namespace msc_vo {
 
 /// An image whose motion from its predecessor is known.
-struct TrackedImage {
+struct MotionImage {
   double timestamp = 0.0;  ///< seconds
   std::shared_ptr<const Frame> frame;
   /// Images of one segment are linked by motions; a segment ends where an image does not match.
@@ -38,7 +38,7 @@ struct MotionPair {
 /// Motion of the camera over stretches of a sequence, from one image to the next: no map, no
 /// optimisation, and no assumption about the calibration beyond that points are found again.
 struct MotionTrack {
-  std::vector<TrackedImage> images;
+  std::vector<MotionImage> images;
   int num_pairs = 0;   ///< pairs of consecutive images
   int num_linked = 0;  ///< pairs of consecutive images that match
   /// Pairs with as much rotation as their common view permits, in order of time.

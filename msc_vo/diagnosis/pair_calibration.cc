@@ -216,7 +216,7 @@ struct GroupedEquations {
 // Pixels per second.
 double MedianSpeed(const MotionTrack& track) {
   std::vector<double> speeds;
-  for (const TrackedImage& image : track.images) {
+  for (const MotionImage& image : track.images) {
     if (image.linked) speeds.push_back(image.velocity.norm());
   }
   return Median(std::move(speeds));

@@ -29,7 +29,7 @@ struct Rotation {
 
 std::vector<Rotation> Rotations(const MotionTrack& track) {
   std::vector<Rotation> rotations;
-  const std::vector<TrackedImage>& images = track.images;
+  const std::vector<MotionImage>& images = track.images;
   for (size_t i = 0; i < images.size(); ++i) {
     for (size_t j = i + 1; j < images.size() && images[j].segment == images[i].segment; ++j) {
       if (images[j].timestamp - images[i].timestamp < kInterval - 1e-3) continue;

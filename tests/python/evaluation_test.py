@@ -23,11 +23,11 @@ class Evaluate(unittest.TestCase):
         moved[:, 1] += 0.5
         self.assertLess(msc_vo.evaluate(path(), moved).ape.max, 1e-9)
         self.assertAlmostEqual(msc_vo.evaluate(path(), moved, align="none").ape.rmse, 0.5)
-        error = msc_vo.evaluate(path(), moved, align="orientations")
+        error = msc_vo.evaluate(path(), moved, align="origin")
         np.testing.assert_allclose(error.reference_from_estimate[:3, 3], [-0.5, 0, 0], atol=1e-9)
         self.assertEqual(error.per_pose.shape, (101, 3))
         self.assertEqual(error.coverage, 1.0)
-        with self.assertRaisesRegex(ValueError, "positions, orientations or none"):
+        with self.assertRaisesRegex(ValueError, "se3, sim3, origin or none"):
             msc_vo.evaluate(path(), moved, align="scale")
 
     def test_agrees_with_the_command(self):

@@ -300,7 +300,7 @@ class TrajectoryError:
     def per_pose(self) -> _Floats: ...
 
 def evaluate(gt: _Trajectory, est: _Trajectory, *,
-             align: Literal["positions", "orientations", "none"] = "positions",
+             align: Literal["se3", "sim3", "origin", "none"] = "se3",
              max_dt: float = 0.02, all_poses: bool = False) -> TrajectoryError: ...
 
 class WindowData:
