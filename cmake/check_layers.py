@@ -33,7 +33,7 @@ LAYER_OF = {folder: layer for layer, folders in enumerate(LAYERS) for folder in 
 
 # Header pattern -> folders that may include it. Headers that no pattern matches are allowed everywhere.
 OUTSIDE_HEADERS = [
-    (r"opencv2/", {"sensor", "features", "datasets", "ros_bag", "openni", "odometry", "results",
+    (r"opencv2/", {"sensor", "features", "datasets", "ros_bag", "openni", "odometry", "diagnosis", "results",
                    "apps"}),
     (r"(rosbag|ros)/", {"ros_bag"}),
     (r"(OpenNI\.h|openni2/)", {"openni"}),

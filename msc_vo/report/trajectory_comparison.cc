@@ -9,8 +9,8 @@
 
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/report/html_text.h"
-#include "msc_vo/report/report_style.h"
 #include "msc_vo/report/svg_plot.h"
+#include "msc_vo/report/web_assets.h"
 
 namespace msc_vo {
 namespace {
@@ -182,8 +182,8 @@ std::string FormatComparisonHtml(const TrajectoryComparison& comparison) {
   std::string html =
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      title + "</title>\n<style>" + kReportStyle + "</style>\n</head>\n<body>\n<h1>" + title +
-      "</h1>\n<p><code>" + EscapeHtml(comparison.command_line) +
+      title + "</title>\n<style>" + std::string(kReportStyle) + "</style>\n</head>\n<body>\n<h1>" +
+      title + "</h1>\n<p><code>" + EscapeHtml(comparison.command_line) +
       "</code></p>\n<dl class=\"numbers\">\n";
   for (const ReportNumber& number : comparison.numbers) {
     html += "<div><dt>" + EscapeHtml(number.name) + "</dt><dd class=\"value\">" +
@@ -225,7 +225,7 @@ std::string FormatComparisonSvg(const TrajectoryComparison& comparison) {
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + std::to_string(kWidth) +
          "\" height=\"" + height + "\" viewBox=\"0 0 " + std::to_string(kWidth) + " " + height +
          "\" font-family=\"sans-serif\">\n<title>" + EscapeHtml(comparison.title) +
-         "</title>\n<style>" + kReportStyle +
+         "</title>\n<style>" + std::string(kReportStyle) +
          "\n.paper { fill: var(--paper); }\n</style>\n<rect class=\"paper\" width=\"100%\" "
          "height=\"100%\"/>\n" +
          plots + "</svg>\n";

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "msc_vo/report/html_text.h"
-#include "msc_vo/report/report_style.h"
+#include "msc_vo/report/web_assets.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/version.h"
