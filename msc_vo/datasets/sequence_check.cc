@@ -10,6 +10,7 @@
 
 #include "msc_vo/datasets/image_pairing.h"
 #include "msc_vo/evaluation/association.h"
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 
@@ -116,6 +117,7 @@ class SequenceChecker {
                        camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height,
                        calibration.depth_scale) +
             (calibration.distortion.IsZero() ? "" : ", with lens distortion"));
+    if (calibration.depth_camera) CheckDepthCamera(*calibration.depth_camera);
     if (camera.fy < 0.0 && index_.format != "icl-nuim") {
       Add(Severity::kWarning, "fy is negative: correct only for mirrored images (ICL-NUIM)");
     }
@@ -134,6 +136,19 @@ class SequenceChecker {
       Add(Severity::kWarning,
           "cx and cy are far from the image centre: is the calibration for another image size?");
     }
+  }
+
+  void CheckDepthCamera(const DepthCamera& depth_camera) {
+    const PinholeCamera& camera = depth_camera.camera;
+    const Eigen::Vector3d t = depth_camera.depth_from_color.translation();
+    const double angle =
+        depth_camera.depth_from_color.rotation().angularDistance(Eigen::Quaterniond::Identity());
+    Add(Severity::kGood,
+        FormatText("depth camera: fx %.3f, fy %.3f, cx %.3f, cy %.3f, %dx%d, depth_from_color "
+                   "translation %.4f %.4f %.4f m, rotation %.2f degrees; depth is registered to "
+                   "colour on reading",
+                   camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height, t.x(),
+                   t.y(), t.z(), RadiansToDegrees(angle)));
   }
 
   void CheckImages() {
