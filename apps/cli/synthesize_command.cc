@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/interrupt_guard.h"
 #include "apps/cli/progress.h"
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/synthetic/scene/synthetic_sequence.h"
 #include "msc_vo/text/files.h"
@@ -38,6 +40,8 @@ struct Arguments {
   bool jpeg = false;
   int jpeg_quality = 95;
   bool overwrite = false;
+  std::vector<double> rig;  // focal length, x, y, roll; empty: registered depth
+  bool untold = false;      // the rig is not in camera.txt
   SyntheticSequenceOptions options;
 };
 
@@ -82,13 +86,33 @@ void WriteDepth(const fs::path& path, RenderedImage* image) {
   WriteImage(path, raw, {cv::IMWRITE_PNG_COMPRESSION, 6});
 }
 
-void WriteCamera(const fs::path& folder, const PinholeCamera& camera) {
+// The rig that --rig describes; none without.
+std::optional<DepthRig> MakeRig(const std::vector<double>& numbers) {
+  if (numbers.empty()) return std::nullopt;
+  const Eigen::AngleAxisd roll(DegreesToRadians(numbers[3]), Eigen::Vector3d::UnitZ());
+  return DepthRig{numbers[0],
+                  {Eigen::Quaterniond(roll), Eigen::Vector3d(numbers[1], numbers[2], 0.0)}};
+}
+
+std::string DepthCameraLine(const PinholeCamera& camera, const Rigid3& depth_from_color) {
+  const Eigen::Vector3d t = depth_from_color.translation();
+  const Eigen::Quaterniond q(depth_from_color.rotation());
+  return FormatText("depth_camera %.17g %.17g %.17g %.17g %d %d %.17g %.17g %.17g ", camera.fx,
+                    camera.fy, camera.cx, camera.cy, camera.width, camera.height, t.x(), t.y(),
+                    t.z()) +
+         FormatText("%.17g %.17g %.17g %.17g\n", q.x(), q.y(), q.z(), q.w());
+}
+
+// `depth_camera`: a line that describes it, or nothing.
+void WriteCamera(const fs::path& folder, const PinholeCamera& camera,
+                 const std::string& depth_camera) {
   // Numbers first, for readers that do not skip comments.
   const std::string numbers =
       FormatText("%.17g %.17g %.17g %.17g %d %d %.17g", camera.fx, camera.fy, camera.cx, camera.cy,
                  camera.width, camera.height, kDepthFactor);
   WriteFile((folder / "camera.txt").string(),
-            numbers + "\n# fx fy cx cy width height depth_factor\n" + kMark + "\n");
+            numbers + "\n" + depth_camera + "# fx fy cx cy width height depth_factor\n" + kMark +
+                "\n");
 }
 
 std::string PoseLine(const std::string& stamp, const Rigid3& world_from_cam) {
@@ -112,11 +136,15 @@ int Run(const Arguments& arguments) {
   options.scene = *SceneKindFromName(arguments.scene);
   options.height = arguments.height > 0 ? arguments.height : options.width * 3 / 4;
   options.kinect_depth = arguments.noise == "kinect";
+  options.depth_rig = MakeRig(arguments.rig);
   const SyntheticSequence sequence(options);
 
   const fs::path folder = arguments.folder;
   PrepareFolder(folder, arguments.overwrite);
-  WriteCamera(folder, sequence.camera());
+  WriteCamera(folder, sequence.camera(),
+              options.depth_rig && !arguments.untold
+                  ? DepthCameraLine(sequence.depth_camera(), options.depth_rig->depth_from_color)
+                  : "");
   std::vector<LineSegment3> edges = sequence.scene().edges;
   const std::vector<LineSegment3> painted = sequence.scene().PaintedEdges();
   edges.insert(edges.end(), painted.begin(), painted.end());
@@ -146,6 +174,19 @@ int Run(const Arguments& arguments) {
   }
   progress.Finish();
   return guard.IsInterrupted() ? kExitInterrupted : kExitSuccess;
+}
+
+void AddRigArguments(CLI::App* command, Arguments* arguments) {
+  CLI::Option* rig =
+      command
+          ->add_option("--rig", arguments->rig,
+                       "FX,TX,TY,ROLL: a second camera records depth, which is not registered: "
+                       "focal length in pixels, translation of depth_from_color in metres, roll in "
+                       "degrees")
+          ->delimiter(',')
+          ->expected(4);
+  command->add_flag("--untold", arguments->untold, "Leave the depth camera out of camera.txt")
+      ->needs(rig);
 }
 
 }  // namespace
@@ -194,6 +235,7 @@ Command AddSynthesizeCommand(CLI::App* app) {
       ->add_option("--image-sigma", arguments->options.image_sigma,
                    "Noise of colour images, standard deviation in grey levels")
       ->capture_default_str();
+  AddRigArguments(command, arguments.get());
   CLI::Option* jpeg = command->add_flag("--jpeg", arguments->jpeg, "Write colour images as JPEG");
   command->add_option("--jpeg-quality", arguments->jpeg_quality, "JPEG quality, 1 to 100")
       ->check(CLI::Range(1, 100))
