@@ -130,10 +130,9 @@ int Replay(const Arguments& arguments) {
   const WindowFactorCallback gravity = MakeGravityCallback(arguments.gravity, decoder.index());
   const InterruptGuard interrupt;
   OnlineResults online(output);
-  SequenceRun run =
-      RunSequence(decoder, configuration, arguments.run, interrupt,
-                  {[&](const FrameResult& frame) { online.Add(frame); },
-                   WindowRecorder(arguments.windows, decoder.index()), gravity});
+  SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt,
+                                {[&](const FrameResult& frame) { online.Add(frame); },
+                                 WindowRecorder(arguments.windows, decoder.index()), gravity});
   if (!run.HasImages()) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
     return run.exit_code;
