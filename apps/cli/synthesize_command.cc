@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 // Raw units per metre of TUM's depth images: 0.2 mm steps, 13 m at most.
 constexpr double kDepthFactor = 5000.0;
 // A line of camera.txt that identifies folders written by this command.
-constexpr char kMark[] = "# written by msc_vo synthesize";
+constexpr char kMark[] = "written by msc_vo synthesize";
 
 struct Arguments {
   std::string folder;
