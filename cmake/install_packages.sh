@@ -1,7 +1,10 @@
 #!/usr/bin/env bash
-# Installs the missing packages of cmake/debian_packages.txt without asking. With --optional, also
-# those of cmake/debian_packages_optional.txt, and goes on without one that cannot be installed. If
-# none is missing, it needs neither root nor a network.
+# Installs the missing packages of cmake/debian_packages.txt without asking.
+#
+#   install_packages.sh [optional] [browser_tests]
+#
+# The arguments name further lists, cmake/debian_packages_NAME.txt. It goes on without a package of
+# these that cannot be installed. If no package is missing, it needs neither root nor a network.
 set -euo pipefail
 cd "$(dirname "$0")"
 case ${1:-} in
@@ -25,9 +28,9 @@ missing_of() {
 
 mapfile -t missing < <(missing_of debian_packages.txt)
 optional=()
-if [[ ${1:-} == --optional ]]; then
-  mapfile -t optional < <(missing_of debian_packages_optional.txt)
-fi
+for list in "$@"; do
+  mapfile -t -O "${#optional[@]}" optional < <(missing_of "debian_packages_$list.txt")
+done
 if [[ $((${#missing[@]} + ${#optional[@]})) -eq 0 ]]; then
   exit 0
 fi
