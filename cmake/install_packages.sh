@@ -1,16 +1,18 @@
 #!/usr/bin/env bash
 # Installs the missing packages of cmake/debian_packages.txt without asking.
 #
-#   install_packages.sh [optional] [browser_tests]
+#   install_packages.sh [report] [optional] [tests]
 #
 # The arguments name further lists, cmake/debian_packages_NAME.txt. It goes on without a package of
 # these that cannot be installed. If no package is missing, it needs neither root nor a network.
 set -euo pipefail
 cd "$(dirname "$0")"
-case ${1:-} in
-  '' | --optional) ;;
-  *) echo "usage: cmake/install_packages.sh [--optional]" >&2; exit 2 ;;
-esac
+for list in "$@"; do
+  if [[ ! -f debian_packages_$list.txt ]]; then
+    echo "usage: cmake/install_packages.sh [report] [optional] [tests]" >&2
+    exit 2
+  fi
+done
 
 if ! command -v dpkg-query >/dev/null; then
   echo "Not a Debian system: assuming that the packages of cmake/debian_packages.txt are installed."

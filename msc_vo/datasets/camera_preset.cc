@@ -53,7 +53,7 @@ const std::vector<CameraPreset>& CameraPresets() {
       // the depth camera; nominal.
       WithDepthCamera(Preset("7-scenes-unregistered", {525.0, 525.0, 320.0, 240.0, 640, 480},
                              1000.0, {}, kKinectReadout),
-                      {585.0, 585.0, 320.0, 240.0, 640, 480}, {-0.025, 0.0, 0.0}),
+                      {585.0, 585.0, 320.0, 240.0, 640, 480}, {0.025, 0.0, 0.0}),
       Preset("replica", {600.0, 600.0, 599.5, 339.5, 1200, 680}, 6553.5, {}, kGlobalShutter),
   };
   return *presets;
