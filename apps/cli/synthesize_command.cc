@@ -110,9 +110,9 @@ void WriteCamera(const fs::path& folder, const PinholeCamera& camera,
   const std::string numbers =
       FormatText("%.17g %.17g %.17g %.17g %d %d %.17g", camera.fx, camera.fy, camera.cx, camera.cy,
                  camera.width, camera.height, kDepthFactor);
-  WriteFile((folder / "camera.txt").string(),
-            numbers + "\n" + depth_camera + "# fx fy cx cy width height depth_factor\n" + kMark +
-                "\n");
+  WriteFile(
+      (folder / "camera.txt").string(),
+      numbers + "\n" + depth_camera + "# fx fy cx cy width height depth_factor\n" + kMark + "\n");
 }
 
 std::string PoseLine(const std::string& stamp, const Rigid3& world_from_cam) {

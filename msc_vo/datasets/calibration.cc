@@ -48,8 +48,8 @@ std::optional<Eigen::Quaterniond> NormalizedQuaternion(const std::vector<double>
 }
 
 bool DepthCameraSettings::IsEmpty() const {
-  return !fx && !fy && !cx && !cy && !width && !height && translation.empty() &&
-         rotation.empty() && !inverse_depth_offset;
+  return !fx && !fy && !cx && !cy && !width && !height && translation.empty() && rotation.empty() &&
+         !inverse_depth_offset;
 }
 
 bool CameraSettings::IsEmpty() const {

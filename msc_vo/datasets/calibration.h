@@ -38,8 +38,8 @@ struct Calibration {
 struct DepthCameraSettings {
   std::optional<double> fx, fy, cx, cy;
   std::optional<int> width, height;
-  std::vector<double> translation;  ///< x y z, metres; empty: not set
-  std::vector<double> rotation;     ///< quaternion x y z w; empty: not set
+  std::vector<double> translation;             ///< x y z, metres; empty: not set
+  std::vector<double> rotation;                ///< quaternion x y z w; empty: not set
   std::optional<double> inverse_depth_offset;  ///< 1/metres
 
   /// Tests whether no value is set.
@@ -55,7 +55,7 @@ struct CameraSettings {
   std::optional<double> depth_scale;                ///< raw depth units per metre
   std::array<std::optional<double>, 5> distortion;  ///< k1 k2 p1 p2 k3
   DepthCameraSettings depth_camera;
-  std::string origin;                               ///< the file, for messages
+  std::string origin;  ///< the file, for messages
 
   /// Tests whether no value is set.
   bool IsEmpty() const;

@@ -62,7 +62,8 @@ void ParseDepthCameraLine(TextLine line, Calibration* calibration) {
   depth_camera.camera = {v[0], v[1], v[2], v[3], *width, *height};
   depth_camera.depth_from_color.translation() = Eigen::Vector3d(v[6], v[7], v[8]);
   if (v.size() == 13) {
-    const std::optional<Eigen::Quaterniond> rotation = NormalizedQuaternion({v.begin() + 9, v.end()});
+    const std::optional<Eigen::Quaterniond> rotation =
+        NormalizedQuaternion({v.begin() + 9, v.end()});
     if (!rotation) line.Fail("the quaternion qx qy qz qw must have length 1");
     depth_camera.depth_from_color.rotation() = *rotation;
   }

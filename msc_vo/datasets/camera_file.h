@@ -21,7 +21,8 @@ inline constexpr char kDepthCameraFormat[] =
 /// distortion in OpenCV's order, and two optional lines after it, in any order: 'readout_time
 /// SECONDS' and 'depth_camera fx fy cx cy width height tx ty tz [qx qy qz qw]', the camera of depth
 /// images that are not registered and its transform depth_from_color (metres; without a quaternion,
-/// the axes are parallel). Comments start with #. Throws std::runtime_error naming file, line and fix.
+/// the axes are parallel). Comments start with #. Throws std::runtime_error naming file, line and
+/// fix.
 Calibration ReadCameraFile(const std::string& path);
 
 }  // namespace msc_vo

@@ -51,10 +51,9 @@ const std::vector<CameraPreset>& CameraPresets() {
       Preset("7-scenes", {585.0, 585.0, 320.0, 240.0, 640, 480}, 1000.0, {}, kKinectReadout),
       // The same with the colour camera of a first-generation structured-light camera 25 mm beside
       // the depth camera; nominal.
-      WithDepthCamera(
-          Preset("7-scenes-unregistered", {525.0, 525.0, 320.0, 240.0, 640, 480}, 1000.0, {},
-                 kKinectReadout),
-          {585.0, 585.0, 320.0, 240.0, 640, 480}, {0.025, 0.0, 0.0}),
+      WithDepthCamera(Preset("7-scenes-unregistered", {525.0, 525.0, 320.0, 240.0, 640, 480},
+                             1000.0, {}, kKinectReadout),
+                      {585.0, 585.0, 320.0, 240.0, 640, 480}, {0.025, 0.0, 0.0}),
       Preset("replica", {600.0, 600.0, 599.5, 339.5, 1200, 680}, 6553.5, {}, kGlobalShutter),
   };
   return *presets;

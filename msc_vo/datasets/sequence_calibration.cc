@@ -37,8 +37,9 @@ void Apply(const DepthCameraSettings& settings, const std::string& origin,
   if (settings.IsEmpty()) return;
   if (!*depth_camera) {
     if (!settings.fx || !settings.fy || !settings.cx || !settings.cy) {
-      throw std::runtime_error(origin + ": camera.depth_camera must give fx, fy, cx and cy, because "
-                                        "no other source describes a depth camera");
+      throw std::runtime_error(origin +
+                               ": camera.depth_camera must give fx, fy, cx and cy, because "
+                               "no other source describes a depth camera");
     }
     *depth_camera = DepthCamera();
     (*depth_camera)->camera.width = 0;  // unknown
@@ -58,8 +59,9 @@ void Apply(const DepthCameraSettings& settings, const std::string& origin,
   if (!settings.rotation.empty()) {
     const std::optional<Eigen::Quaterniond> rotation = NormalizedQuaternion(settings.rotation);
     if (!rotation) {
-      throw std::runtime_error(origin + ": camera.depth_camera.rotation must be a quaternion "
-                                        "[x, y, z, w] of length 1");
+      throw std::runtime_error(origin +
+                               ": camera.depth_camera.rotation must be a quaternion "
+                               "[x, y, z, w] of length 1");
     }
     depth_from_color.rotation() = *rotation;
   }
