@@ -30,14 +30,14 @@ Json DepthCameraToJson(const DepthCamera& depth_camera) {
 Json CameraToJson(const Calibration& calibration) {
   const PinholeCamera& camera = calibration.camera;
   Json json = {{"origin", calibration.origin},
-          {"fx", camera.fx},
-          {"fy", camera.fy},
-          {"cx", camera.cx},
-          {"cy", camera.cy},
-          {"width", camera.width},
-          {"height", camera.height},
-          {"depth_scale", calibration.depth_scale},
-          {"distortion", calibration.distortion.k}};
+               {"fx", camera.fx},
+               {"fy", camera.fy},
+               {"cx", camera.cx},
+               {"cy", camera.cy},
+               {"width", camera.width},
+               {"height", camera.height},
+               {"depth_scale", calibration.depth_scale},
+               {"distortion", calibration.distortion.k}};
   if (calibration.depth_camera) {
     json["depth_camera"] = DepthCameraToJson(*calibration.depth_camera);
   }

@@ -20,8 +20,8 @@ class DepthCameraTest : public TemporaryFolder {
  protected:
   // Renders a small sequence and returns the position error of its replay, metres.
   double ErrorOf(const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"synthesize", Path(name), "--frames", "60",
-                                          "--width",    "320"};
+    std::vector<std::string> arguments = {"synthesize", Path(name), "--frames",
+                                          "60",         "--width",  "320"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     CommandOutcome outcome = RunCommand(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
@@ -48,7 +48,8 @@ TEST_F(DepthCameraTest, IsAsAccurateAsRegisteredDepth) {
   const CommandOutcome check = RunCommand({"check", Path("told")});
   EXPECT_EQ(check.exit_code, 0);
   EXPECT_THAT(check.output, HasSubstr("depth camera: fx 290.000"));
-  EXPECT_THAT(check.output, HasSubstr("translation 0.0500 -0.0100 0.0000 m, rotation 3.00 degrees"));
+  EXPECT_THAT(check.output,
+              HasSubstr("translation 0.0500 -0.0100 0.0000 m, rotation 3.00 degrees"));
 }
 
 TEST_F(DepthCameraTest, RejectsImpossibleRigs) {

@@ -74,9 +74,9 @@ TEST_F(OptionsFileTest, ReadsBackEveryOption) {
   for (const Option& option : ListOptions(&configuration)) {
     const std::string before = FormatOption(option);
     bool changed = false;
-    for (const char* text : {"true", "false", "17", "0.12345678901234567", "pl-vo", "end-points",
-                             "lsd", "edge-drawing", "ceres-dense-schur", "never", "[1, 2.5, 3]",
-                             "[0, 0, 1, 0]"}) {
+    for (const char* text :
+         {"true", "false", "17", "0.12345678901234567", "pl-vo", "end-points", "lsd",
+          "edge-drawing", "ceres-dense-schur", "never", "[1, 2.5, 3]", "[0, 0, 1, 0]"}) {
       std::string expected;
       changed = changed || (text != before && SetOption(option, text, &expected));
     }

@@ -98,8 +98,7 @@ TEST_F(RgbdDecoderTest, RegistersImagesOfDepthCamera) {
   ASSERT_EQ(depth.size(), cv::Size(8, 6));
   EXPECT_NEAR(depth.at<float>(3, 4), 2.5, 1e-5);
   WriteDepth("0d.png", 2500, 8, 6);
-  EXPECT_THAT(ErrorOf(decoder),
-              HasSubstr("is 8x6, but the depth camera is 16x12 (camera.txt)"));
+  EXPECT_THAT(ErrorOf(decoder), HasSubstr("is 8x6, but the depth camera is 16x12 (camera.txt)"));
   WriteDepth("0d.png", 2500, 16, 12);
   WriteColor("0.png", 16, 12);
   EXPECT_THAT(ErrorOf(decoder), HasSubstr("0.png (named in rgb.txt:1): is 16x12, but the camera"));

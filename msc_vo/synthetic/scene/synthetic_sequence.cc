@@ -46,8 +46,8 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
     *error = "depth_delay must be less than half the time between two images";
   } else if (!(std::abs(readout_time) <= 1.0 / fps)) {
     *error = "readout_time must be at most the time between two images";
-  } else if (depth_rig && !(depth_rig->focal_length >= 0.1 * width &&
-                            depth_rig->focal_length <= 10.0 * width)) {
+  } else if (depth_rig &&
+             !(depth_rig->focal_length >= 0.1 * width && depth_rig->focal_length <= 10.0 * width)) {
     *error = "the focal length of the depth rig must be from 0.1 to 10 image widths";
   } else if (depth_rig && !(depth_rig->depth_from_color.translation().norm() <= 1.0)) {
     *error = "the offset of the depth rig must be at most 1 metre";
@@ -136,8 +136,7 @@ SyntheticFrame SyntheticSequence::Render(int index) const {
     AddImageNoise(options_.image_sigma, options_.seed, stream, &frame.image);
   }
   if (options_.kinect_depth) {
-    AddKinectNoise(options_.kinect, depth_camera(), options_.seed, stream + 1,
-                   &frame.image.depth);
+    AddKinectNoise(options_.kinect, depth_camera(), options_.seed, stream + 1, &frame.image.depth);
   }
   return frame;
 }
