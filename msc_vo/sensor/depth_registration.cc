@@ -23,6 +23,10 @@ constexpr float kMaxNoise = 0.006f;
 // Half the side of the square that a depth pixel covers, pixels. The part above 0.5 closes the gaps
 // that noise opens between neighbours on a surface.
 constexpr float kHalfSide = 0.6f;
+// Smallest area of a depth pixel in the colour image, square pixels.
+constexpr float kMinDeterminant = 1e-6f;
+// Smallest z of a viewing ray of the depth camera in the colour camera frame.
+constexpr float kMinRayZ = 0.01f;
 // Half the width of the holes through which the background is removed, depth pixels.
 constexpr double kHoleRadius = 2.0;
 
@@ -88,15 +92,20 @@ struct DepthRegistration::Footprints {
         const float x_before = px.before[i], x_here = px.here[i], x_after = px.after[i];
         const float y_before = py.before[i], y_here = py.here[i], y_after = py.after[i];
         const float threshold = EdgeThreshold(here);
-        const bool has_before = (before > 0.0f) & (std::abs(here - before) <= threshold);
-        const bool has_after = (after > 0.0f) & (std::abs(after - here) <= threshold);
-        const float scale = has_before & has_after ? 0.5f : 1.0f;
-        const bool has_any = has_before | has_after;
-        const float step_x = (has_after ? x_after : x_here) - (has_before ? x_before : x_here);
-        const float step_y = (has_after ? y_after : y_here) - (has_before ? y_before : y_here);
-        to_x[i] = has_any ? scale * step_x : nominal_x;
-        to_y[i] = has_any ? scale * step_y : nominal_y;
-        to_w[i] = scale * ((has_after ? after : here) - (has_before ? before : here));
+        constexpr float kNone = 1e9f;  // more than any threshold
+        const float gap_before = std::abs(here - before) + (before > 0.0f ? 0.0f : kNone);
+        const float gap_after = std::abs(after - here) + (after > 0.0f ? 0.0f : kNone);
+        // Factors instead of branches, so that the compiler can process several pixels at once.
+        const float with_before = gap_before <= threshold ? 1.0f : 0.0f;
+        const float with_after = gap_after <= threshold ? 1.0f : 0.0f;
+        const float without = (1.0f - with_before) * (1.0f - with_after);
+        const float scale = 1.0f - 0.5f * with_before * with_after;
+        const float step_x = with_after * (x_after - x_here) + with_before * (x_here - x_before);
+        const float step_y = with_after * (y_after - y_here) + with_before * (y_here - y_before);
+        const float step_w = with_after * (after - here) + with_before * (here - before);
+        to_x[i] = scale * step_x + without * nominal_x;
+        to_y[i] = scale * step_y + without * nominal_y;
+        to_w[i] = scale * step_w;
       }
     }
 
@@ -139,20 +148,22 @@ void DepthRegistration::Footprints::ComputeBoxes(const Row& row, int width, int 
     const float size_y = kHalfSide * (std::abs(ay[i]) + std::abs(by[i]));
     const float from_x = px[i] - size_x, to_x = px[i] + size_x;
     const float from_y = py[i] - size_y, to_y = py[i] + size_y;
-    // A surface that the colour camera sees from behind is hidden. All tests are false for NaN.
-    const bool is_drawn =
-        (w[i] > 0.0f) & (determinant * orientation > std::numeric_limits<float>::epsilon()) &
-        (to_x >= 0.0f) & (from_x <= border_x) & (to_y >= 0.0f) & (from_y <= border_y);
-    const float low_x = is_drawn & (from_x > 0.0f) ? from_x : 0.0f;
-    const float low_y = is_drawn & (from_y > 0.0f) ? from_y : 0.0f;
-    const float high_x = is_drawn ? std::min(to_x, border_x) : 0.0f;
-    const float high_y = is_drawn ? std::min(to_y, border_y) : 0.0f;
+    // Positive if the pixel has a depth, its surface is not seen from behind, and the box overlaps
+    // the image.
+    const float front = std::min(w[i], determinant * orientation - kMinDeterminant);
+    const float inside_x = std::min(to_x, border_x - from_x);
+    const float inside_y = std::min(to_y, border_y - from_y);
+    const float margin = std::min(front, std::min(inside_x, inside_y));
+    const float low_x = margin > 0.0f ? std::max(from_x, 0.0f) : 0.0f;
+    const float low_y = margin > 0.0f ? std::max(from_y, 0.0f) : 0.0f;
+    const float high_x = margin > 0.0f ? std::min(to_x, border_x) : -1.0f;
+    const float high_y = margin > 0.0f ? std::min(to_y, border_y) : -1.0f;
     const int floor_x = static_cast<int>(low_x), floor_y = static_cast<int>(low_y);
     to_first_x[i] = floor_x + (static_cast<float>(floor_x) < low_x ? 1 : 0);
     to_first_y[i] = floor_y + (static_cast<float>(floor_y) < low_y ? 1 : 0);
-    to_last_x[i] = is_drawn ? static_cast<int>(high_x) : -1;
-    to_last_y[i] = is_drawn ? static_cast<int>(high_y) : -1;
-    to_scale[i] = 1.0f / (is_drawn ? determinant : 1.0f);
+    to_last_x[i] = static_cast<int>(high_x);
+    to_last_y[i] = static_cast<int>(high_y);
+    to_scale[i] = 1.0f / (margin > 0.0f ? determinant : 1.0f);
   }
 }
 
@@ -272,15 +283,16 @@ void DepthRegistration::ProjectRow(const cv::Mat& depth, int v, Row* row) const 
   float* const to_w = row->inverse_depth.data() + 1;
 #pragma GCC ivdep
   for (int u = 0; u < width; ++u) {
-    const bool is_measured = z[u] > 0.0f;  // false for NaN
-    const float w = 1.0f / (is_measured ? z[u] : 1.0f) + offset;
     const float column = static_cast<float>(u);
+    const float measured = z[u];
+    const float w = 1.0f / (measured > 0.0f ? measured : 1.0f) + offset;
     const float denominator = first_z + column * step_z + shift_z * w;
-    const bool is_valid = is_measured & (w > 0.0f) & (denominator > 0.0f);
-    const float scale = 1.0f / (is_valid ? denominator : 1.0f);
+    // Positive if there is a depth, which the comparison denies for NaN.
+    const float margin = measured > 0.0f ? std::min(w, denominator - kMinRayZ) : 0.0f;
+    const float scale = 1.0f / (margin > 0.0f ? denominator : 1.0f);
     to_x[u] = (first_x + column * step_x + shift_x * w) * scale;
     to_y[u] = (first_y + column * step_y + shift_y * w) * scale;
-    to_w[u] = is_valid ? w * scale : 0.0f;
+    to_w[u] = margin > 0.0f ? w * scale : 0.0f;
   }
   DistortRow(row);
 }

@@ -35,19 +35,19 @@ class DepthCameraTest : public TemporaryFolder {
 };
 
 TEST_F(DepthCameraTest, IsAsAccurateAsRegisteredDepth) {
-  const std::string rig = "--rig=290,0.05,-0.01,3";
+  const std::string rig = "--rig=218,0.05,-0.01,3";
   const double registered = ErrorOf("registered", {});
   const double told = ErrorOf("told", {rig});
   EXPECT_LT(told, 1.5 * registered);
   EXPECT_GT(ErrorOf("untold", {rig, "--untold"}), 2.0 * told);
 
-  EXPECT_THAT(ReadFile(Path("told/camera.txt")), HasSubstr("depth_camera 290 290 "));
+  EXPECT_THAT(ReadFile(Path("told/camera.txt")), HasSubstr("depth_camera 218 218 "));
   EXPECT_THAT(ReadFile(Path("untold/camera.txt")), Not(HasSubstr("depth_camera")));
   EXPECT_EQ(Summary("told")["camera"]["depth_camera"]["translation"][0], 0.05);
   EXPECT_FALSE(Summary("untold")["camera"].contains("depth_camera"));
   const CommandOutcome check = RunCommand({"check", Path("told")});
   EXPECT_EQ(check.exit_code, 0);
-  EXPECT_THAT(check.output, HasSubstr("depth camera: fx 290.000"));
+  EXPECT_THAT(check.output, HasSubstr("depth camera: fx 218.000"));
   EXPECT_THAT(check.output,
               HasSubstr("translation 0.0500 -0.0100 0.0000 m, rotation 3.00 degrees"));
 }
@@ -58,7 +58,7 @@ TEST_F(DepthCameraTest, RejectsImpossibleRigs) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return RunCommand(arguments);
   };
-  EXPECT_EQ(synthesize({"--rig=290,0.05"}).exit_code, 2);
+  EXPECT_EQ(synthesize({"--rig=218,0.05"}).exit_code, 2);
   EXPECT_EQ(synthesize({"--untold"}).exit_code, 2);
   const CommandOutcome far = synthesize({"--rig=585,25,0,0"});
   EXPECT_EQ(far.exit_code, 1);
