@@ -32,6 +32,7 @@ class OrbitControl {
   reset() {
     const home = this.home;
     Object.assign(this, home, {target: home.target.clone()});
+    this.isTouched = false;
     this.update();
   }
 
@@ -57,12 +58,14 @@ class OrbitControl {
   }
 
   turn(dx, dy) {
+    this.isTouched = true;
     this.azimuth += 0.006 * dx;
     this.elevation += 0.006 * dy;
     this.update();
   }
 
   move(dx, dy) {
+    this.isTouched = true;
     const metersPerPixel =
         2 * this.distance * Math.tan(this.fov * Math.PI / 360) / this.element.clientHeight;
     const axes = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
@@ -74,6 +77,7 @@ class OrbitControl {
   }
 
   zoom(factor) {
+    this.isTouched = true;
     this.distance =
         clamp(this.distance * factor, this.home.distance / 100, this.home.distance * 20);
     this.update();

@@ -108,10 +108,13 @@ class SceneView {
     this.world.matrix.copy(rotation);
     this.world.matrixWorldNeedsUpdate = true;
     const sphere = boundingSphere(this.model, rotation);
-    const grown = !this.sphere || sphere.radius > 1.3 * this.sphere.radius;
-    if (grown || !this.model.info.live) this.sphere = sphere;
+    const last = this.sphere;
+    const has_changed = !last || sphere.radius > 1.15 * last.radius ||
+        sphere.center.distanceTo(last.center) > 0.15 * last.radius;
+    if (has_changed || !this.model.info.live) this.sphere = sphere;
     this.layers.fill(this.sphere.radius);
-    if (grown && this.view !== "camera") this.setView(this.view);
+    // The view follows a growing map until it is moved by hand.
+    if (has_changed && this.view !== "camera" && !this.control.isTouched) this.setView(this.view);
   }
 
   setView(view) {
