@@ -32,8 +32,9 @@ namespace {
 std::string command_line;  // set once, before any command runs
 
 using AddCommand = Command (*)(CLI::App*);
-constexpr AddCommand kCommands[] = {AddReplayCommand, AddEvaluateCommand,   AddBenchmarkCommand,
-                                    AddCheckCommand,  AddSynthesizeCommand, AddSolveWindowCommand};
+constexpr AddCommand kCommands[] = {AddReplayCommand,     AddEvaluateCommand,  AddBenchmarkCommand,
+                                    AddCheckCommand,      AddCalibrateCommand, AddSynthesizeCommand,
+                                    AddSolveWindowCommand};
 
 // Images and matrices of several megabytes are allocated and freed in every frame. By default the C
 // library returns such blocks to the system at once, and page faults on the next allocation cost
