@@ -26,8 +26,9 @@ function(msc_vo_export component)
   set(target msc_vo_${component})
   add_library(msc_vo::${component} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
-  install(TARGETS ${target} EXPORT ${target})
-  install(EXPORT ${target} NAMESPACE msc_vo:: DESTINATION ${MSC_VO_CMAKE_DIR})
+  install(TARGETS ${target} EXPORT ${target} COMPONENT development)
+  install(EXPORT ${target} NAMESPACE msc_vo:: DESTINATION ${MSC_VO_CMAKE_DIR}
+          COMPONENT development)
 
   set(components)
   set(packages)
@@ -56,12 +57,13 @@ function(msc_vo_install)
   foreach(header ${headers})
     cmake_path(GET header PARENT_PATH folder)
     install(FILES ${PROJECT_SOURCE_DIR}/${header}
-            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder} COMPONENT development)
   endforeach()
   install(FILES ${PROJECT_BINARY_DIR}/include/msc_vo/version.h
-          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/msc_vo)
-  install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-  install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/msc_vo COMPONENT development)
+  install(FILES README.md CHANGELOG.md CITATION.cff LICENSE
+          DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command)
+  install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command
           PATTERN lab EXCLUDE PATTERN Doxyfile.in EXCLUDE)
 
   get_property(all GLOBAL PROPERTY MSC_VO_COMPONENTS)
@@ -80,7 +82,7 @@ function(msc_vo_install)
     ${PROJECT_BINARY_DIR}/msc_voConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${PROJECT_BINARY_DIR}/msc_voConfig.cmake
                 ${PROJECT_BINARY_DIR}/msc_voConfigVersion.cmake
-          DESTINATION ${MSC_VO_CMAKE_DIR})
+          DESTINATION ${MSC_VO_CMAKE_DIR} COMPONENT development)
   msc_vo_pkg_config(solver "Local bundle adjustment with points, lines and structure")
   msc_vo_pkg_config(odometry "RGB-D visual odometry from points, lines and structure")
 endfunction()
@@ -123,5 +125,5 @@ function(msc_vo_pkg_config component description)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/msc_vo.pc.in
                  ${PROJECT_BINARY_DIR}/msc_vo-${component}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/msc_vo-${component}.pc
-          DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 endfunction()

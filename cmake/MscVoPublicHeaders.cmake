@@ -9,7 +9,7 @@ set(MSC_VO_PUBLIC_HEADERS
   msc_vo/datasets/accelerometer.h
   msc_vo/datasets/paced_source.h
   msc_vo/datasets/rgbd_source.h
-  msc_vo/datasets/sequence_check.h
+  msc_vo/diagnosis/sequence_check.h
   msc_vo/datasets/trajectory.h
   msc_vo/results/result_files.h
   msc_vo/results/run_report.h

@@ -45,6 +45,19 @@ function(msc_vo_library folder)
   msc_vo_export(${component} ${ARG_DEPENDS} ${ARG_PRIVATE_DEPENDS})
 endfunction()
 
+# msc_vo_private_library(<folder> SOURCES ... [DEPENDS ...] [PRIVATE_DEPENDS ...]): a library of the
+# msc_vo command that is not installed, because it needs packages that programs embedding msc_vo rarely
+# have.
+function(msc_vo_private_library folder)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  set(target msc_vo_${folder})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(msc_vo::${folder} ALIAS ${target})
+  msc_vo_compile_options(${target})
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${target} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE_DEPENDS})
+endfunction()
+
 # msc_vo_umbrella(<name> <folder> ...): several folders under one name.
 function(msc_vo_umbrella name)
   list(TRANSFORM ARGN PREPEND msc_vo:: OUTPUT_VARIABLE depends)

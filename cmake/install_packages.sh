@@ -1,32 +1,59 @@
 #!/usr/bin/env bash
-# Installs the missing packages of cmake/debian_packages.txt without asking. If none is missing, it
-# needs neither root nor a network.
+# Installs the missing packages of cmake/debian_packages.txt without asking. With --optional, also
+# those of cmake/debian_packages_optional.txt, and goes on without one that cannot be installed. If
+# none is missing, it needs neither root nor a network.
 set -euo pipefail
 cd "$(dirname "$0")"
+case ${1:-} in
+  '' | --optional) ;;
+  *) echo "usage: cmake/install_packages.sh [--optional]" >&2; exit 2 ;;
+esac
 
 if ! command -v dpkg-query >/dev/null; then
   echo "Not a Debian system: assuming that the packages of cmake/debian_packages.txt are installed."
   exit 0
 fi
 
-missing=()
-while read -r package; do
-  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
-  [[ $status == installed ]] || missing+=("$package")
-done < <(grep --invert-match --extended-regexp '^(#|$)' debian_packages.txt)
-if [[ ${#missing[@]} -eq 0 ]]; then
+# Prints the packages of a list that are not installed.
+missing_of() {
+  local package status
+  while read -r package; do
+    status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+    [[ $status == installed ]] || echo "$package"
+  done < <(grep --invert-match --extended-regexp '^(#|$)' "$1")
+}
+
+mapfile -t missing < <(missing_of debian_packages.txt)
+optional=()
+if [[ ${1:-} == --optional ]]; then
+  mapfile -t optional < <(missing_of debian_packages_optional.txt)
+fi
+if [[ $((${#missing[@]} + ${#optional[@]})) -eq 0 ]]; then
   exit 0
 fi
 
-echo "Installing ${missing[*]}"
 as_root=()
 if [[ $EUID -ne 0 ]]; then
   if ! command -v sudo >/dev/null; then
-    echo "Neither root nor sudo: install these packages and run again." >&2
+    if [[ ${#missing[@]} -eq 0 ]]; then
+      echo "Neither root nor sudo: going on without the optional packages ${optional[*]}"
+      exit 0
+    fi
+    echo "Neither root nor sudo: install ${missing[*]} and run again." >&2
     exit 1
   fi
   as_root=(sudo)
 fi
 apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get --yes --quiet)
-"${apt[@]}" update
-"${apt[@]}" install --no-install-recommends "${missing[@]}"
+install=("${apt[@]}" install --no-install-recommends)
+if [[ ${#missing[@]} -gt 0 ]]; then
+  echo "Installing ${missing[*]}"
+  "${apt[@]}" update
+  "${install[@]}" "${missing[@]}"
+else
+  "${apt[@]}" update || true
+fi
+for package in "${optional[@]}"; do
+  echo "Installing $package"
+  "${install[@]}" "$package" || echo "Going on without $package, which is optional."
+done

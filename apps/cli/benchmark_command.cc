@@ -2,17 +2,18 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <unistd.h>
 
+#include "apps/cli/benchmark_runner.h"
+#include "apps/cli/benchmark_sequences.h"
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
@@ -20,8 +21,7 @@
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/results/benchmark.h"
 #include "msc_vo/results/benchmark_json.h"
-#include "msc_vo/results/online_results.h"
-#include "msc_vo/results/result_files.h"
+#include "msc_vo/results/benchmark_merge.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -37,6 +37,9 @@ struct Arguments {
   RunArguments run;
   std::vector<std::string> modes;
   std::string output = "out/benchmark";
+  std::string shard;               // "K/N"; empty: all
+  std::vector<std::string> merge;  // folders; empty: run
+  bool resume = false;
 };
 
 // The implemented modes: those that are valid with the default options.
@@ -72,20 +75,6 @@ std::vector<Configuration> MakeConfigurations(const Arguments& arguments,
   return configurations;
 }
 
-// Unique names of the results: folders with the same name get a number.
-std::vector<std::string> UniqueNames(const std::vector<std::string>& directories) {
-  std::vector<std::string> names;
-  for (const std::string& directory : directories) {
-    const std::string name = SequenceName(directory);
-    std::string unique = name;
-    for (int i = 2; std::find(names.begin(), names.end(), unique) != names.end(); ++i) {
-      unique = name + "-" + std::to_string(i);
-    }
-    names.push_back(unique);
-  }
-  return names;
-}
-
 Benchmark Describe(const Arguments& arguments, const std::vector<std::string>& modes) {
   Benchmark benchmark;
   benchmark.command_line = CommandLine();
@@ -95,105 +84,90 @@ Benchmark Describe(const Arguments& arguments, const std::vector<std::string>& m
   configuration.odometry.mode = OdometryOptions().mode;  // set by every run
   benchmark.changed_options = ChangedOptions(configuration);
   benchmark.modes = modes;
+  benchmark.max_frames = arguments.run.max_frames;
   return benchmark;
 }
 
-// Runs one sequence in one mode and writes its files. `row` gets the measurements, also if the run
-// fails, which is an exception.
-void RunMode(const Arguments& arguments, const RgbdDecoder& decoder,
-             const Configuration& configuration, const InterruptGuard& interrupt,
-             BenchmarkRun* row) {
-  const std::string folder = (fs::path(arguments.output) / row->sequence / row->mode).string();
-  RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, folder);
-  OnlineResults online(folder);
-  const SequenceRun run =
-      RunSequence(decoder, configuration, arguments.run, interrupt,
-                  {[&](const FrameResult& frame) { online.Add(frame); }, {}, {}});
-  row->summary = run.summary;
-  row->cost = run.context.cost;
-  row->error = run.context.error;
-  if (run.HasImages()) WriteResultFiles(folder, run.result, run.context);
-  if (run.exit_code != kExitSuccess) throw std::runtime_error(run.context.outcome);
-  if (!row->error->usable) throw std::runtime_error("no errors: " + row->error->message);
-}
-
-void WriteTables(const std::string& directory, const Benchmark& benchmark) {
-  MakeFolder(directory);
-  const fs::path folder = directory;
-  WriteFile((folder / "benchmark.md").string(), FormatBenchmarkMarkdown(benchmark));
-  WriteFile((folder / "benchmark.json").string(), FormatBenchmarkJson(benchmark));
-}
-
-// Throws std::runtime_error if the sequence has no ground truth.
-RgbdDecoder OpenWithGroundTruth(const SequenceArguments& sequence,
-                                const Configuration& configuration) {
-  RgbdDecoder decoder = OpenDecoder(sequence, configuration);
-  PrintWarnings(decoder.index().warnings);
-  if (!decoder.index().ground_truth.empty()) return decoder;
-  throw std::runtime_error(decoder.index().directory +
-                           ": no ground truth (groundtruth.txt or the file of the layout); add it, "
-                           "or use msc_vo replay");
-}
-
-void PrintFailure(const std::string& run, const std::string& reason) {
-  PrintError(run + " failed: " + reason);
-}
-
-// Runs every mode on one sequence. Writes the tables after each run.
-void RunModes(const Arguments& arguments, const std::string& directory, const std::string& name,
-              const std::vector<Configuration>& configurations, const InterruptGuard& interrupt,
-              Benchmark* benchmark) {
-  std::optional<RgbdDecoder> decoder;
-  std::string failure;
-  try {
-    SequenceArguments sequence = arguments.layout;
-    sequence.directory = directory;
-    decoder.emplace(
-        OpenWithGroundTruth(sequence, configurations.front()));  // modes share the camera
-  } catch (const std::exception& error) {
-    failure = error.what();
-    PrintFailure(name, failure);
+// Prints the tables. Returns the exit code; throws std::runtime_error if a run failed.
+int Report(const Arguments& arguments, const Shard& shard, const Benchmark& benchmark,
+           bool is_interrupted) {
+  if (arguments.run.json) {
+    std::cout << FormatBenchmarkJson(benchmark) << std::flush;
+  } else if (!arguments.run.quiet) {
+    std::cout << FormatBenchmarkMarkdown(benchmark) << std::flush;
   }
-  for (size_t i = 0; i < configurations.size() && !interrupt.IsInterrupted(); ++i) {
-    BenchmarkRun row;
-    row.sequence = name;
-    row.mode = benchmark->modes[i];
-    row.failure = failure;
-    if (decoder) {
-      if (!arguments.run.quiet) std::cerr << name << ", " << row.mode << ":" << std::endl;
-      try {
-        RunMode(arguments, *decoder, configurations[i], interrupt, &row);
-      } catch (const std::exception& error) {
-        row.failure = error.what();
-        PrintFailure(name + ", " + row.mode, row.failure);
-      }
-    }
-    benchmark->runs.push_back(std::move(row));
-    WriteTables(arguments.output, *benchmark);
-  }
+  if (is_interrupted) return kExitInterrupted;
+  const auto num_failed =
+      std::count_if(benchmark.runs.begin(), benchmark.runs.end(),
+                    [](const BenchmarkRun& run) { return !run.failure.empty(); });
+  if (num_failed == 0) return kExitSuccess;
+  const std::string table = ShardFileName("benchmark", shard, ".md");
+  throw std::runtime_error(std::to_string(num_failed) + " of " +
+                           std::to_string(benchmark.runs.size()) + " runs failed, see " +
+                           (fs::path(arguments.output) / table).string());
 }
 
 int RunBenchmark(const Arguments& arguments) {
   const std::vector<std::string> modes =
       arguments.modes.empty() ? ImplementedModes() : WithoutRepeats(arguments.modes);
-  const std::vector<Configuration> configurations = MakeConfigurations(arguments, modes);
-  const std::vector<std::string> names = UniqueNames(arguments.sequences);
+  BenchmarkPlan plan;
+  plan.configurations = MakeConfigurations(arguments, modes);
+  if (!arguments.shard.empty()) plan.shard = ParseShardArgument(arguments.shard);
+  plan.sequences = ShareOf(ListBenchmarkSequences(arguments.sequences), plan.shard);
+  plan.layout = arguments.layout;
+  plan.run = arguments.run;
+  plan.config = arguments.configuration.config;
+  plan.output = arguments.output;
+  std::vector<std::string> inputs = arguments.sequences;
+  for (const BenchmarkSequence& sequence : plan.sequences) inputs.push_back(sequence.directory);
+  RefuseToOverwrite(inputs, arguments.output);
+
   Benchmark benchmark = Describe(arguments, modes);
   const InterruptGuard interrupt;
-  RefuseToOverwrite(arguments.sequences, arguments.output);
-  WriteTables(arguments.output, benchmark);  // fails early if the folder is not writable
-  for (size_t i = 0; i < names.size() && !interrupt.IsInterrupted(); ++i) {
-    RunModes(arguments, arguments.sequences[i], names[i], configurations, interrupt, &benchmark);
+  BenchmarkRunner runner(plan, interrupt, &benchmark);
+  if (arguments.resume) runner.Resume();
+  runner.Run();
+  return Report(arguments, plan.shard, benchmark, interrupt.IsInterrupted());
+}
+
+// Joins the tables of several shares.
+int Merge(const Arguments& arguments) {
+  std::vector<std::string> files;
+  for (const std::string& folder : arguments.merge) {
+    const std::vector<std::string> found = FindBenchmarkFiles(folder);
+    if (found.empty()) {
+      throw std::runtime_error(folder + ": no results of msc_vo benchmark (benchmark*.json)");
+    }
+    files.insert(files.end(), found.begin(), found.end());
   }
-  if (!arguments.run.quiet) std::cout << FormatBenchmarkMarkdown(benchmark) << std::flush;
-  if (interrupt.IsInterrupted()) return kExitInterrupted;
-  const auto num_failed =
-      std::count_if(benchmark.runs.begin(), benchmark.runs.end(),
-                    [](const BenchmarkRun& run) { return !run.failure.empty(); });
-  if (num_failed == 0) return kExitSuccess;
-  throw std::runtime_error(std::to_string(num_failed) + " of " +
-                           std::to_string(benchmark.runs.size()) + " runs failed, see " +
-                           (fs::path(arguments.output) / "benchmark.md").string());
+  // The result of an earlier merge is not its own input.
+  const auto is_output = [&](const std::string& file) {
+    std::error_code error;
+    return fs::path(file).filename() == "benchmark.json" && files.size() > 1 &&
+           fs::equivalent(fs::path(file).parent_path(), arguments.output, error);
+  };
+  files.erase(std::remove_if(files.begin(), files.end(), is_output), files.end());
+
+  Benchmark benchmark = ReadBenchmarkJson(files.front());
+  for (size_t i = 1; i < files.size(); ++i) {
+    const Benchmark more = ReadBenchmarkJson(files[i]);
+    const std::string difference = DescribeDifference(benchmark, more);
+    if (!difference.empty()) {
+      throw std::runtime_error(files[i] + ": cannot be merged with " + files.front() +
+                               ", because the settings differ: " + difference);
+    }
+    AddRuns(more.runs, &benchmark);
+  }
+  SortRuns(&benchmark);
+  benchmark.command_line = CommandLine();
+  WriteBenchmarkTables(arguments.output, Shard(), benchmark);
+  const std::vector<std::string> missing = MissingShards(files);
+  for (const std::string& shard : missing) PrintWarning("shard " + shard + " is missing");
+  const int exit_code = Report(arguments, Shard(), benchmark, false);
+  if (missing.empty()) return exit_code;
+  throw std::runtime_error(std::to_string(missing.size()) +
+                           " shards are missing; the tables hold the "
+                           "others");
 }
 
 }  // namespace
@@ -202,10 +176,21 @@ Command AddBenchmarkCommand(CLI::App* app) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app->add_subcommand(
       "benchmark", "Replay sequences in several modes and compare them with the ground truth");
+  CLI::Option* sequences =
+      command->add_option("sequences", arguments->sequences,
+                          "Sequences with ground truth, or text files that list one per line");
   command
-      ->add_option("sequences", arguments->sequences,
-                   "Folders with RGB-D sequences with ground truth")
-      ->required();
+      ->add_option("--merge", arguments->merge,
+                   "Join the results in these folders instead of running anything")
+      ->excludes(sequences);
+  command
+      ->add_option("--shard", arguments->shard,
+                   "K/N: run only the K-th of N shares of the sequences")
+      ->excludes("--merge");
+  command
+      ->add_flag("--resume", arguments->resume,
+                 "Keep the finished runs in the output folder and run the others")
+      ->excludes("--merge");
   AddLayoutArguments(command, &arguments->layout);
   AddConfigurationArguments(command, &arguments->configuration);
   command->add_option("--modes", arguments->modes, "Comma-separated list; default: all modes")
@@ -214,12 +199,20 @@ Command AddBenchmarkCommand(CLI::App* app) {
       ->check(CLI::IsMember(OptionChoices("mode")));
   command
       ->add_option("--output", arguments->output,
-                   "Folder for benchmark.md, benchmark.json and the results in <sequence>/<mode>/")
+                   "Folder for benchmark.md, benchmark.json, index.html and the results in "
+                   "<sequence>/<mode>/")
       ->capture_default_str();
   AddRunArguments(command, &arguments->run);
   command->footer(
       HelpFooter("msc_vo benchmark data/living data/corridor --modes pl-vo,pl-vo-depth"));
-  return {command, [arguments] { return RunBenchmark(*arguments); }};
+  command->callback([arguments] {
+    if (arguments->sequences.empty() && arguments->merge.empty()) {
+      throw CLI::RequiredError("sequences");
+    }
+  });
+  return {command, [arguments] {
+            return arguments->merge.empty() ? RunBenchmark(*arguments) : Merge(*arguments);
+          }};
 }
 
 }  // namespace msc_vo

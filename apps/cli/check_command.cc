@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <algorithm>
+#include <cstddef>
 #include <iostream>
 #include <memory>
+
+#include <nlohmann/json.hpp>
 
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/sequence_arguments.h"
-#include "msc_vo/datasets/sequence_check.h"
+#include "msc_vo/diagnosis/sequence_check.h"
+#include "msc_vo/results/findings_json.h"
 
 namespace msc_vo {
 
@@ -18,7 +23,31 @@ struct Arguments {
   ConfigurationArguments configuration;
   SequenceCheckOptions options;
   bool all = false;
+  bool json = false;
 };
+
+const char* Name(Severity severity) {
+  switch (severity) {
+    case Severity::kGood:
+      return "ok";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kError:
+      return "error";
+  }
+  return "";
+}
+
+void PrintJson(const SequenceIndex& index, const std::vector<Finding>& findings) {
+  nlohmann::ordered_json json = {{"directory", index.directory},
+                                 {"format", index.format},
+                                 {"images", index.entries.size()},
+                                 {"findings", nlohmann::ordered_json::array()}};
+  for (const Finding& finding : findings) {
+    json["findings"].push_back({{"severity", Name(finding.severity)}, {"text", finding.text}});
+  }
+  std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
+}
 
 const char* Label(Severity severity) {
   switch (severity) {
@@ -32,19 +61,27 @@ const char* Label(Severity severity) {
   return "";
 }
 
+std::ptrdiff_t Count(const Findings& findings, Severity severity) {
+  return std::count_if(findings.begin(), findings.end(),
+                       [severity](const Finding& finding) { return finding.severity == severity; });
+}
+
 int Run(const Arguments& arguments) {
   const RgbdDecoder decoder =
       OpenDecoder(arguments.sequence, MakeConfiguration(arguments.configuration));
   SequenceCheckOptions options = arguments.options;
   if (arguments.all) options.max_images = decoder.size();
-  std::cout << decoder.index().directory << " (" << decoder.index().format << ")\n";
-  int warnings = 0;
-  int errors = 0;
-  for (const Finding& finding : CheckSequence(decoder, options)) {
-    std::cout << Label(finding.severity) << finding.text << "\n";
-    warnings += finding.severity == Severity::kWarning;
-    errors += finding.severity == Severity::kError;
+  const Findings findings = CheckSequence(decoder, options);
+  const auto errors = Count(findings, Severity::kError);
+  if (arguments.json) {
+    std::cout << FormatFindingsJson(decoder.index(), findings) << std::flush;
+    return errors > 0 ? kExitError : kExitSuccess;
   }
+  std::cout << decoder.index().directory << " (" << decoder.index().format << ")\n";
+  for (const Finding& finding : findings) {
+    std::cout << Label(finding.severity) << Describe(finding) << "\n";
+  }
+  const auto warnings = Count(findings, Severity::kWarning);
   std::cout << errors << (errors == 1 ? " error, " : " errors, ") << warnings
             << (warnings == 1 ? " warning" : " warnings") << std::endl;
   return errors > 0 ? kExitError : kExitSuccess;
@@ -55,7 +92,7 @@ int Run(const Arguments& arguments) {
 Command AddCheckCommand(CLI::App* app) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app->add_subcommand(
-      "check", "Check a sequence: files, image sizes, time stamps, depth, camera, ground truth");
+      "check", "Diagnose a sequence: files, time stamps, images, depth, calibration, ground truth");
   AddSequenceArguments(command, &arguments->sequence)->required();
   AddConfigurationArguments(command, &arguments->configuration);
   command
@@ -64,6 +101,10 @@ Command AddCheckCommand(CLI::App* app) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_flag("--all", arguments->all, "Decode every image");
+  command->add_flag("--deep", arguments->options.deep,
+                    "Also track features over frames: calibration, time offsets and ground truth "
+                    "against motion; takes up to a minute");
+  command->add_flag("--json", arguments->json, "Print JSON");
   command->footer(HelpFooter("msc_vo check my_sequence"));
   return {command, [arguments] { return Run(*arguments); }};
 }

@@ -9,7 +9,9 @@
 
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
+#include <unistd.h>
 
+#include "apps/cli/terminal.h"
 #include "msc_vo/logging/logger.h"
 
 namespace msc_vo {
@@ -28,8 +30,10 @@ spdlog::sink_ptr MakeSink(const std::string& file) {
 }
 
 void Print(spdlog::level::level_enum level, const std::string& text) {
-  std::cerr << "msc_vo: " << (level == spdlog::level::warn ? "warning" : "error") << ": " << text
-            << std::endl;
+  const std::string label = level == spdlog::level::warn
+                                ? Colored("warning:", Color::kYellow, STDERR_FILENO)
+                                : Colored("error:", Color::kRed, STDERR_FILENO);
+  std::cerr << "msc_vo: " << label << " " << text << std::endl;
   if (logs_to_file) Log().log(level, text);
 }
 

@@ -41,6 +41,9 @@ Command AddBenchmarkCommand(CLI::App* app);
 Command AddSynthesizeCommand(CLI::App* app);
 Command AddCalibrateCommand(CLI::App* app);
 Command AddCheckCommand(CLI::App* app);
+Command AddRecordCommand(CLI::App* app);
 Command AddSolveWindowCommand(CLI::App* app);
+Command AddFuseCommand(CLI::App* app);
+Command AddGenerateCommand(CLI::App* app);  ///< hidden: manual pages and completion
 
 }  // namespace msc_vo

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -11,71 +12,44 @@
 
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/evaluation_output.h"
 #include "msc_vo/datasets/time_unit.h"
-#include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/evaluation/line_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
-#include "msc_vo/geometry/angles.h"
 #include "msc_vo/results/error_json.h"
 #include "msc_vo/results/ply_file.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
 namespace {
 
-constexpr double kMillimetres = 1000.0;             // per metre
-constexpr double kDegrees = RadiansToDegrees(1.0);  // per radian
+const std::map<std::string, DeltaUnit>& DeltaUnits() {
+  static const std::map<std::string, DeltaUnit> units = {
+      {"frames", DeltaUnit::kFrames},   {"metres", DeltaUnit::kMetres},
+      {"seconds", DeltaUnit::kSeconds}, {"f", DeltaUnit::kFrames},
+      {"m", DeltaUnit::kMetres},        {"s", DeltaUnit::kSeconds}};
+  return units;
+}
 
 struct Arguments {
   std::string truth;
   std::string estimate;
+  std::vector<std::string> formats;  // none, one for both, or one each
   EvaluationOptions options;
+  std::string alignment = "se3";
+  std::string delta_unit = "frames";
   std::string lines, edges;  // empty: lines are not compared
+  std::string plot;          // empty: none
   bool json = false;
 };
 
-void PrintRow(const char* name, const ErrorStatistics& statistics, double factor,
-              const char* unit) {
-  if (statistics.count == 0) {
-    std::printf("%-20s  no pairs at this distance\n", name);
-    return;
-  }
-  std::printf("%-20s %9.3f %9.3f %9.3f %9.3f %9.3f  %s\n", name, factor * statistics.rmse,
-              factor * statistics.mean, factor * statistics.median, factor * statistics.p95,
-              factor * statistics.max, unit);
-}
-
-void PrintTable(const TrajectoryError& error) {
-  std::printf("%-20s %9s %9s %9s %9s %9s\n", "", "RMSE", "mean", "median", "95 %", "max");
-  PrintRow("APE", error.ape, kMillimetres, "mm");
-  PrintRow("rotation", error.rotation, kDegrees, "deg");
-  PrintRow("RPE", error.rpe_per_second.translation, kMillimetres, "mm/s");
-  PrintRow("RPE rotation", error.rpe_per_second.rotation, kDegrees, "deg/s");
-  PrintRow("RPE", error.rpe_per_metre.translation, kMillimetres, "mm/m");
-  PrintRow("RPE rotation", error.rpe_per_metre.rotation, kDegrees, "deg/m");
-  std::printf(
-      "coverage %.2f %%: %d of %d ground-truth poses matched (%.2f %% of those in the "
-      "time range of the estimate), %d estimated, path %.2f m\n",
-      100.0 * error.coverage, error.num_matched, error.num_reference,
-      100.0 * error.coverage_in_range, error.num_estimate, error.path_length);
-  if (error.num_not_estimated > 0) {
-    std::printf("skipped: %d poses marked as not estimated (--all-poses compares them)\n",
-                error.num_not_estimated);
-  }
-}
-
-void PrintLines(const LineError& error) {
-  if (error.num_matched > 0) {
-    PrintRow("line direction", error.direction, kDegrees, "deg");
-    PrintRow("line distance", error.distance, kMillimetres, "mm");
-    PrintRow("  across the view", error.across, kMillimetres, "mm");
-  }
-  std::printf(
-      "lines: %d in the map, %d with enough observations and length, %d of these matched with an "
-      "edge; %d of %d edges found\n",
-      error.num_lines, error.num_counted, error.num_matched, error.num_edges_found,
-      error.num_edges);
-}
+// Two trajectories on the same clock.
+struct Trajectories {
+  TrajectoryFile truth;
+  TrajectoryFile estimate;
+};
 
 std::vector<double> StampsOf(const std::vector<TimedPose>& poses) {
   std::vector<double> stamps;
@@ -90,20 +64,46 @@ void ToSeconds(const std::string& path, TimeUnit unit, std::vector<TimedPose>* p
   for (TimedPose& pose : *poses) pose.timestamp /= UnitsPerSecond(unit);
 }
 
-void PrintSkippedRows(const std::string& path, int num_skipped) {
-  if (num_skipped == 0) return;
-  std::printf("skipped: %d rows of %s with nan or inf\n", num_skipped, path.c_str());
+// Stamps in other units than seconds are converted, with a warning, unless the format defines the
+// unit.
+void ConvertStamps(const Arguments& arguments, Trajectories* trajectories) {
+  TrajectoryFile& truth = trajectories->truth;
+  TrajectoryFile& estimate = trajectories->estimate;
+  TimeUnit unit = TimeUnit::kSeconds;
+  if (truth.format == TrajectoryFormat::kTum) {
+    unit = GuessTimeUnit(StampsOf(truth.poses));
+    ToSeconds(arguments.truth, unit, &truth.poses);
+  }
+  if (estimate.format != TrajectoryFormat::kTum) return;
+  const std::vector<double> stamps = StampsOf(estimate.poses);
+  ToSeconds(arguments.estimate,
+            truth.has_stamps ? GuessTimeUnit(stamps, RangeOf(StampsOf(truth.poses), unit))
+                             : GuessTimeUnit(stamps),
+            &estimate.poses);
 }
 
-int Run(const Arguments& arguments) {
-  SkippedRows skipped;
-  std::vector<TimedPose> truth = ReadTrajectory(arguments.truth, &skipped.reference);
-  std::vector<TimedPose> estimate = ReadTrajectory(arguments.estimate, &skipped.estimate);
-  const TimeUnit unit = GuessTimeUnit(StampsOf(truth));
-  ToSeconds(arguments.truth, unit, &truth);
-  ToSeconds(arguments.estimate, GuessTimeUnit(StampsOf(estimate), RangeOf(StampsOf(truth), unit)),
-            &estimate);
-  const TrajectoryError error = EvaluateTrajectory(truth, estimate, arguments.options);
+Trajectories ReadTrajectories(const Arguments& arguments) {
+  std::optional<TrajectoryFormat> truth_format, estimate_format;
+  if (!arguments.formats.empty()) {
+    truth_format = TrajectoryFormatFromName(arguments.formats.front());
+    estimate_format = TrajectoryFormatFromName(arguments.formats.back());
+  }
+  Trajectories trajectories{ReadTrajectoryFile(arguments.truth, truth_format),
+                            ReadTrajectoryFile(arguments.estimate, estimate_format)};
+  ConvertStamps(arguments, &trajectories);
+  ShareStamps(arguments.truth, arguments.estimate, &trajectories.truth, &trajectories.estimate);
+  return trajectories;
+}
+
+std::string SkippedRowsText(const std::string& path, int num_skipped) {
+  if (num_skipped == 0) return "";
+  return "skipped: " + std::to_string(num_skipped) + " rows of " + path + " with nan or inf\n";
+}
+
+TrajectoryError Evaluate(const Arguments& arguments, const Trajectories& trajectories,
+                         const EvaluationContext& context) {
+  TrajectoryError error =
+      EvaluateTrajectory(trajectories.truth.poses, trajectories.estimate.poses, arguments.options);
   if (!error.usable) {
     throw std::runtime_error(arguments.estimate + " cannot be compared with " + arguments.truth +
                              ": " + error.message +
@@ -111,20 +111,91 @@ int Run(const Arguments& arguments) {
                                   ? "; --all-poses compares them"
                                   : "; are the time stamps of both in seconds of the same clock?"));
   }
+  if (!context.has_stamps) error.rpe_per_second = {};
+  return error;
+}
+
+int Run(Arguments arguments) {
+  arguments.options.alignment = AlignmentFromString(arguments.alignment);
+  arguments.options.rpe_delta.unit = DeltaUnits().at(arguments.delta_unit);
+  std::string problem;
+  if (!arguments.options.IsValid(&problem)) throw std::runtime_error("--delta: " + problem);
+  if (!arguments.lines.empty() && arguments.options.alignment != Alignment::kSe3) {
+    throw std::runtime_error("--lines compares lines after a rigid alignment; leave out --align");
+  }
+  RefuseToOverwrite({arguments.truth, arguments.estimate, arguments.lines, arguments.edges},
+                    arguments.plot);
+  const Trajectories trajectories = ReadTrajectories(arguments);
+  const TrajectoryFile &truth = trajectories.truth, &estimate = trajectories.estimate;
+  const EvaluationContext context{ToString(truth.format), ToString(estimate.format),
+                                  truth.has_stamps || estimate.has_stamps,
+                                  arguments.options.rpe_delta};
+  const TrajectoryError error = Evaluate(arguments, trajectories, context);
   std::optional<LineError> line_error;
   if (!arguments.lines.empty()) {
     line_error = EvaluateLines(ReadEdgesPly(arguments.edges), ReadLinesPly(arguments.lines),
-                               *AlignOrientations(truth, estimate, arguments.options));
+                               *AlignOrientations(truth.poses, estimate.poses, arguments.options));
+  }
+  if (!arguments.plot.empty()) {
+    const std::string name = std::filesystem::path(arguments.estimate).filename().string();
+    WriteComparison(arguments.plot, name, error, context);
   }
   if (arguments.json) {
-    std::cout << FormatErrorJson(error, skipped, line_error);
+    const SkippedRows skipped{truth.num_left_out, estimate.num_left_out};
+    std::cout << FormatErrorJson(error, skipped, context, line_error);
   } else {
-    PrintTable(error);
-    PrintSkippedRows(arguments.truth, skipped.reference);
-    PrintSkippedRows(arguments.estimate, skipped.estimate);
-    if (line_error) PrintLines(*line_error);
+    std::cout << FormatErrorTable(error, context)
+              << SkippedRowsText(arguments.truth, truth.num_left_out)
+              << SkippedRowsText(arguments.estimate, estimate.num_left_out);
+    if (line_error) std::cout << FormatLineTable(*line_error);
+    if (!arguments.plot.empty()) std::cout << "plots: " << arguments.plot << "\n";
   }
   return kExitSuccess;
+}
+
+template <typename Value>
+std::vector<std::string> NamesOf(const std::map<std::string, Value>& values) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : values) names.push_back(name);
+  return names;
+}
+
+std::string CheckPlotName(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".html" || extension == ".svg") return "";
+  return "must end in .html or .svg, not " + path;
+}
+
+void AddOptionsOfTheField(CLI::App* command, Arguments* arguments) {
+  command
+      ->add_option("--align", arguments->alignment,
+                   "Alignment of the estimate: rigid (se3), with scale (sim3), the first pose "
+                   "(origin), none")
+      ->check(CLI::IsMember({"se3", "sim3", "origin", "none"}))
+      ->capture_default_str();
+  command
+      ->add_option("--delta", arguments->options.rpe_delta.value,
+                   "Distance between the poses of the relative error (RPE)")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--delta-unit", arguments->delta_unit,
+                   "Unit of --delta: frames, metres of path or seconds (f, m, s)")
+      ->check(CLI::IsMember(NamesOf(DeltaUnits())))
+      ->capture_default_str();
+  command->add_flag("--all-pairs", arguments->options.rpe_delta.all_pairs,
+                    "RPE over a pair from every pose, not only over consecutive pairs");
+  command
+      ->add_option("--format", arguments->formats,
+                   "Format of both files, or REFERENCE,ESTIMATE; default: detected")
+      ->delimiter(',')
+      ->expected(1, 2)
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(TrajectoryFormatNames()));
+  command
+      ->add_option("--plot", arguments->plot,
+                   "Write plots of the trajectories and their errors: .html or .svg")
+      ->check(CheckPlotName);
 }
 
 }  // namespace
@@ -132,7 +203,7 @@ int Run(const Arguments& arguments) {
 Command AddEvaluateCommand(CLI::App* app) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app->add_subcommand(
-      "evaluate", "Compare a trajectory with the ground truth (both TUM: t tx ty tz qx qy qz qw)");
+      "evaluate", "Compare a trajectory with the ground truth (TUM, KITTI or EuRoC)");
   command->add_option("ground_truth", arguments->truth, "Reference trajectory")->required();
   command->add_option("estimate", arguments->estimate, "Estimated trajectory")->required();
   CLI::Option* lines = command->add_option(
@@ -141,6 +212,7 @@ Command AddEvaluateCommand(CLI::App* app) {
       "--edges", arguments->edges, "edges.ply of the sequence: the true edges of the scene");
   lines->needs(edges);
   edges->needs(lines);
+  AddOptionsOfTheField(command, arguments.get());
   command->add_flag("--all-poses", arguments->options.all_poses,
                     "Also compare poses that are marked as not estimated");
   command->add_flag("--json", arguments->json, "Print JSON; metres and degrees");

@@ -3,6 +3,7 @@
 
 #include "apps/cli/image_feed.h"
 
+#include "msc_vo/datasets/camera_source.h"
 #include "msc_vo/datasets/paced_source.h"
 #include "msc_vo/datasets/rgbd_source.h"
 #include "msc_vo/text/format_text.h"
@@ -40,10 +41,40 @@ class PacedFeed : public ImageFeed {
   std::vector<double> ages_;  // milliseconds
 };
 
+class CameraFeed : public ImageFeed {
+ public:
+  CameraFeed(const RgbdDecoder& decoder, int num_frames)
+      : decoder_(decoder),
+        num_frames_(num_frames),
+        source_(decoder.index().camera.get(), PacedSource::kMaxWaiting) {}
+
+  bool Next(RgbdImage* image, std::vector<int>* /*dropped*/) override {
+    CameraImage taken;
+    if (num_frames_ > 0 && next_ == num_frames_) return false;
+    if (!source_.Next(&taken, &num_dropped_)) return false;
+    *image = decoder_.Convert(taken, next_++);
+    return true;
+  }
+  void RecordPose() override { ages_.push_back(source_.AgeMilliseconds()); }
+  std::optional<RealtimeSummary> Realtime() const override {
+    return RealtimeSummary{SummarizeStage("pose_age", ages_), 0};
+  }
+  int num_dropped_by_camera() const override { return num_dropped_; }
+
+ private:
+  const RgbdDecoder& decoder_;
+  int num_frames_;
+  int next_ = 0;
+  int num_dropped_ = 0;
+  CameraSource source_;
+  std::vector<double> ages_;  // milliseconds
+};
+
 }  // namespace
 
 std::unique_ptr<ImageFeed> MakeImageFeed(const RgbdDecoder& decoder, int num_frames,
                                          bool realtime) {
+  if (decoder.index().camera) return std::make_unique<CameraFeed>(decoder, num_frames);
   if (realtime) return std::make_unique<PacedFeed>(decoder, num_frames);
   return std::make_unique<FastFeed>(decoder, num_frames);
 }

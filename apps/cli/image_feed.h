@@ -14,7 +14,7 @@
 namespace msc_vo {
 
 /// The images of a sequence in order, either as fast as they are requested or at the pace of their
-/// time stamps.
+/// time stamps, or those of a live camera.
 class ImageFeed {
  public:
   virtual ~ImageFeed() = default;
@@ -28,9 +28,13 @@ class ImageFeed {
 
   /// Latency so far, without the number of late maps; nullopt unless the feed is in real time.
   virtual std::optional<RealtimeSummary> Realtime() const { return std::nullopt; }
+
+  /// Images of a live camera that were dropped because the reader was late. They are no frames.
+  virtual int num_dropped_by_camera() const { return 0; }
 };
 
-/// A feed of the first `num_frames` images. The decoder must outlive it.
+/// A feed of the first `num_frames` images; of a live camera, 0 means without end. The decoder must
+/// outlive it.
 std::unique_ptr<ImageFeed> MakeImageFeed(const RgbdDecoder& decoder, int num_frames, bool realtime);
 
 /// Warning about pauses between images that a feed in real time shortens; empty if there are none.

@@ -32,9 +32,10 @@ namespace {
 std::string command_line;  // set once, before any command runs
 
 using AddCommand = Command (*)(CLI::App*);
-constexpr AddCommand kCommands[] = {AddReplayCommand,     AddEvaluateCommand,  AddBenchmarkCommand,
-                                    AddCheckCommand,      AddCalibrateCommand, AddSynthesizeCommand,
-                                    AddSolveWindowCommand};
+constexpr AddCommand kCommands[] = {
+    AddReplayCommand,    AddEvaluateCommand, AddBenchmarkCommand,  AddCheckCommand,
+    AddCalibrateCommand, AddRecordCommand,   AddSynthesizeCommand, AddSolveWindowCommand,
+    AddFuseCommand,      AddGenerateCommand};
 
 // Images and matrices of several megabytes are allocated and freed in every frame. By default the C
 // library returns such blocks to the system at once, and page faults on the next allocation cost
@@ -56,8 +57,9 @@ void CheckSubcommand(const std::vector<Command>& commands, const std::string& na
   std::vector<std::string> names;
   std::string list;
   for (const Command& command : commands) {
+    if (command.arguments->get_name() == name) return;
+    if (command.arguments->get_group().empty()) continue;  // hidden
     names.push_back(command.arguments->get_name());
-    if (names.back() == name) return;
     list += (list.empty() ? "" : ", ") + names.back();
   }
   const std::optional<std::string> similar = FindSimilarName(names, name);

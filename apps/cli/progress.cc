@@ -14,15 +14,20 @@ namespace msc_vo {
 namespace {
 
 constexpr double kTerminalInterval = 0.1;  // seconds
-constexpr double kPlainInterval = 2.0;     // seconds
+constexpr double kPlainInterval = 1.0;     // seconds
 constexpr int kBarWidth = 24;              // characters
 
 }  // namespace
 
-Progress::Progress(int total)
-    : total_(std::max(total, 1)), is_terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(int total) : total_(total), is_terminal_(isatty(STDERR_FILENO) == 1) {}
 
 std::string Progress::Text(int done, const std::string& note) const {
+  if (total_ <= 0) {
+    const double seconds = std::max(1e-3 * since_start_.Milliseconds(), 1e-6);
+    char unbounded[80];
+    std::snprintf(unbounded, sizeof(unbounded), "%d  %.1f frames/s", done, done / seconds);
+    return unbounded + (note.empty() ? "" : "  " + note);
+  }
   const double rate = done / std::max(1e-3 * since_start_.Milliseconds(), 1e-6);
   const int left = static_cast<int>(std::lround((total_ - done) / std::max(rate, 1e-6)));
   char text[160];
@@ -36,18 +41,19 @@ void Progress::Update(int done, const std::string& note) {
   const bool last = done == total_;
   if (is_terminal_) {
     if (since < kTerminalInterval && !last) return;
-    const int filled = kBarWidth * done / total_;
-    const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
+    std::string bar;
+    if (total_ > 0) {
+      const int filled = kBarWidth * done / total_;
+      bar = "[" + std::string(filled, '#') + std::string(kBarWidth - filled, '.') + "] ";
+    }
     // The escape sequence erases the rest of a longer previous text.
-    std::fprintf(stderr, "\r[%s] %s\x1b[K", bar.c_str(), Text(done, note).c_str());
+    std::fprintf(stderr, "\r%s%s\x1b[K", bar.c_str(), Text(done, note).c_str());
   } else {
-    const bool tenth = 10 * done / total_ > 10 * last_done_ / total_;
-    if (since < kPlainInterval && !tenth) return;
+    if (since < kPlainInterval && !last) return;
     std::fprintf(stderr, "%s\n", Text(done, note).c_str());
   }
   std::fflush(stderr);
   since_shown_.Restart();
-  last_done_ = done;
 }
 
 void Progress::Finish() {

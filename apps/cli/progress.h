@@ -9,10 +9,11 @@
 
 namespace msc_vo {
 
-/// Progress on standard error: on a terminal a bar that is redrawn in place, otherwise a line every
-/// two seconds or ten per cent.
+/// Progress on standard error: on a terminal a bar that is redrawn in place, otherwise a line
+/// per second and one at the end.
 class Progress {
  public:
+  /// `total`: number of steps; 0: unknown.
   explicit Progress(int total);
 
   /// `done`: number of finished steps. `note`: text shown after the numbers.
@@ -27,7 +28,6 @@ class Progress {
   bool is_terminal_;
   Stopwatch since_start_;
   Stopwatch since_shown_;
-  int last_done_ = 0;
 };
 
 }  // namespace msc_vo

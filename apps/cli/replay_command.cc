@@ -12,14 +12,17 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/gravity_arguments.h"
+#include "apps/cli/replay_views.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/config/options_file.h"
+#include "msc_vo/diagnosis/sequence_check.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/recording/window_file.h"
 #include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/results/run_report.h"
+#include "msc_vo/results/summary_json.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 
@@ -34,6 +37,7 @@ struct Arguments {
   std::string output;
   std::string windows;  // folder; empty: windows are not recorded
   GravityArguments gravity;
+  ViewArguments view;
   std::string mode;
   std::string lines;
   bool no_points = false;
@@ -42,6 +46,7 @@ struct Arguments {
   bool no_perpendicular = false;
   bool no_manhattan = false;
   bool realtime = false;
+  bool no_check = false;
   bool print_config = false;
   bool all = false;       // of --print-config
   bool markdown = false;  // of --print-config
@@ -57,7 +62,10 @@ ConfigurationArguments WithShortcuts(const Arguments& arguments) {
   if (arguments.no_parallel) settings.push_back("mapping.pairs.parallel=false");
   if (arguments.no_perpendicular) settings.push_back("mapping.pairs.perpendicular=false");
   if (arguments.no_manhattan) settings.push_back("mapping.axes.enabled=false");
-  if (arguments.realtime) settings.push_back("realtime=true");
+  // A live camera does not wait.
+  if (arguments.realtime || IsLiveCamera(arguments.sequence.directory)) {
+    settings.push_back("realtime=true");
+  }
   ConfigurationArguments all = arguments.configuration;
   all.settings.insert(all.settings.begin(), settings.begin(), settings.end());
   return all;
@@ -76,6 +84,20 @@ WindowObserver WindowRecorder(const std::string& folder, const SequenceIndex& se
     WriteWindow(path, options, data);
     Log().debug("window written to {}", path);
   };
+}
+
+// Checks the sequence before the run. Returns the warnings. Throws std::runtime_error with the
+// first error, with which no run can succeed.
+std::vector<std::string> CheckBeforeRun(const RgbdDecoder& decoder) {
+  std::vector<std::string> warnings;
+  for (const Finding& finding : CheckSequenceQuickly(decoder)) {
+    if (finding.severity == Severity::kError) {
+      throw std::runtime_error(decoder.index().directory + ": " + Describe(finding) +
+                               " (msc_vo check tells more; --no-check runs all the same)");
+    }
+    warnings.push_back(Describe(finding));
+  }
+  return warnings;
 }
 
 void PrintConfiguration(const Arguments& arguments, const ConfigurationArguments& settings,
@@ -100,8 +122,12 @@ int Replay(const Arguments& arguments) {
     PrintConfiguration(arguments, settings, configuration);
     return kExitSuccess;
   }
-  const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
+  const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration, LiveCameras::kAllowed);
   PrintWarnings(decoder.index().warnings);
+  const std::vector<std::string> check_warnings = arguments.no_check || decoder.index().camera
+                                                      ? std::vector<std::string>()
+                                                      : CheckBeforeRun(decoder);
+  PrintWarnings(check_warnings);
   const std::string output =
       !arguments.output.empty()
           ? arguments.output
@@ -111,16 +137,28 @@ int Replay(const Arguments& arguments) {
   const WindowFactorCallback gravity = MakeGravityCallback(arguments.gravity, decoder.index());
   const InterruptGuard interrupt;
   OnlineResults online(output);
-  const SequenceRun run =
-      RunSequence(decoder, configuration, arguments.run, interrupt,
-                  {[&](const FrameResult& frame) { online.Add(frame); },
-                   WindowRecorder(arguments.windows, decoder.index()), gravity});
+  ReplayViews views(arguments.view, decoder, configuration, arguments.run.max_frames);
+  RunCallbacks callbacks;
+  callbacks.frame = [&](const FrameResult& frame) {
+    online.Add(frame);
+    views.Add(frame, [&] { return interrupt.IsInterrupted(); });
+  };
+  callbacks.window = WindowRecorder(arguments.windows, decoder.index());
+  callbacks.window_factors = gravity;
+  callbacks.tracking = [&](const TrackedImage& tracked) { views.Show(tracked); };
+  SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt, callbacks);
+  run.context.views = views.TakeViews();
   if (!run.HasImages()) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
     return run.exit_code;
   }
+  std::vector<std::string>& warnings = run.context.sequence.warnings;
+  warnings.insert(warnings.end(), check_warnings.begin(), check_warnings.end());
   WriteResultFiles(output, run.result, run.context);
-  if (!arguments.run.quiet) {
+  views.Complete((std::filesystem::path(output) / "report.html").string());
+  if (arguments.run.json) {
+    std::cout << FormatSummaryJson(run.summary, run.context) << std::flush;
+  } else if (!arguments.run.quiet) {
     std::cout << FormatRunTable(run.summary, run.context, output) << std::flush;
   }
   if (run.exit_code == kExitError) {
@@ -177,7 +215,10 @@ Command AddReplayCommand(CLI::App* app) {
                       "Folder for the results; default: out/<name of the sequence>");
   AddShortcuts(command, arguments.get());
   AddGravityArguments(command, &arguments->gravity);
+  AddViewArguments(command, &arguments->view);
   AddRunArguments(command, &arguments->run);
+  command->add_flag("--no-check", arguments->no_check,
+                    "Omit the quick check of the sequence before the run (see check)");
   command->add_option("--dump-windows", arguments->windows,
                       "Folder for the windows of local bundle adjustment, one file per "
                       "keyframe with its input (see solve-window)");
@@ -185,6 +226,8 @@ Command AddReplayCommand(CLI::App* app) {
   command->footer(HelpFooter("msc_vo replay my_sequence --output out/my_sequence"));
   command->callback([arguments, sequence] {
     if (sequence->empty() && !arguments->print_config) {
+      // --view takes the argument behind it.
+      if (!arguments->view.port.empty()) ViewPort(arguments->view);
       throw CLI::RequiredError("sequence");
     }
   });

@@ -4,6 +4,7 @@
 #include "apps/cli/sequence_arguments.h"
 
 #include <filesystem>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -11,12 +12,44 @@
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/datasets/sequence_calibration.h"
+#include "msc_vo/openni/openni_source.h"
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
+namespace {
+
+constexpr char kCameraPrefix[] = "openni2:";
+
+bool EndsWith(const std::string& text, const std::string& ending) {
+  return text.size() > ending.size() &&
+         Lowercase(text.substr(text.size() - ending.size())) == ending;
+}
+
+bool IsBag(const std::string& path) { return EndsWith(path, ".bag") && !IsFolder(path); }
+bool IsOni(const std::string& path) { return EndsWith(path, ".oni") && !IsFolder(path); }
+
+SequenceIndex OpenSource(const SequenceArguments& arguments) {
+  const std::string& source = arguments.directory;
+  const bool is_bag = IsBag(source);
+  if (!is_bag && (!arguments.topics.color.empty() || !arguments.topics.depth.empty())) {
+    throw std::runtime_error(source + ": --color-topic and --depth-topic are for ROS bags (.bag)");
+  }
+  if (IsLiveCamera(source)) return OpenOpenNiCamera(source.substr(sizeof(kCameraPrefix) - 1));
+  if (is_bag) return OpenBag(source, arguments.topics);
+  if (IsOni(source)) return OpenOniFile(source);
+  return OpenSequence(source, arguments.format);
+}
+
+}  // namespace
+
+bool IsLiveCamera(const std::string& directory) { return directory.rfind(kCameraPrefix, 0) == 0; }
+
 CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* arguments) {
-  CLI::Option* sequence =
-      command->add_option("sequence", arguments->directory, "Folder with an RGB-D sequence");
+  CLI::Option* sequence = command->add_option("sequence", arguments->directory,
+                                              "Folder with an RGB-D sequence, ROS bag (.bag), "
+                                              "OpenNI2 recording (.oni) or camera (openni2:)");
   AddLayoutArguments(command, arguments);
   return sequence;
 }
@@ -33,21 +66,32 @@ void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments) {
       ->add_option("--camera", arguments->camera,
                    "Built-in calibration, used if neither --config nor the folder has one")
       ->check(CLI::IsMember(cameras));
+  command->add_option("--color-topic", arguments->topics.color,
+                      "Topic of the colour images of a ROS bag; default: found by its type");
+  command->add_option("--depth-topic", arguments->topics.depth,
+                      "Topic of the depth images of a ROS bag; default: found by its type");
 }
 
-RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration& configuration) {
-  SequenceIndex index = OpenSequence(arguments.directory, arguments.format);
+RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration& configuration,
+                        LiveCameras live_cameras) {
+  if (live_cameras == LiveCameras::kRefused && IsLiveCamera(arguments.directory)) {
+    throw std::runtime_error(arguments.directory +
+                             ": this command needs a recording; make one with msc_vo record");
+  }
+  SequenceIndex index = OpenSource(arguments);
   Calibration calibration = ResolveCalibration(configuration.camera, arguments.camera, &index);
   return {std::move(index), std::move(calibration)};
 }
 
 std::string SequenceName(const std::string& directory) {
+  if (IsLiveCamera(directory)) return "openni2";
   // Resolves paths such as "." and "a/..".
   std::error_code error;
   std::filesystem::path path = std::filesystem::weakly_canonical(directory, error);
   if (error) path = directory;  // opening the sequence reports the error
   const std::filesystem::path name =
       path.has_filename() ? path.filename() : path.parent_path().filename();
+  if (IsBag(directory) || IsOni(directory)) return name.stem().string();
   return name.empty() ? "root" : name.string();
 }
 

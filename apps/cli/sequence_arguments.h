@@ -9,27 +9,38 @@
 
 #include "msc_vo/config/option_list.h"
 #include "msc_vo/datasets/rgbd_decoder.h"
+#include "msc_vo/ros_bag/bag_sequence.h"
 
 namespace msc_vo {
 
 /// Arguments of all commands that read a sequence.
 struct SequenceArguments {
-  std::string directory;
+  std::string directory;  ///< or a bag of ROS 1, a recording of OpenNI2, "openni2:" and a device
   std::string format = "auto";
+  BagTopics topics;
   std::string camera;  ///< preset; may be empty
 };
 
-/// Declares SEQUENCE, --format and --camera. SEQUENCE, which is returned, is optional unless the
-/// caller requires it.
+/// Declares SEQUENCE and the arguments of AddLayoutArguments(). SEQUENCE, which is returned, is
+/// optional unless the caller requires it.
 CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* arguments);
 
-/// Declares --format and --camera only, for commands with several sequences.
+/// Declares --format, --camera, --color-topic and --depth-topic only, for commands with several
+/// sequences.
 void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments);
 
-/// Opens the sequence. Throws std::runtime_error naming file, line and fix.
-RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration& configuration);
+enum class LiveCameras { kAllowed, kRefused };
 
-/// Name of a sequence in the results: the last component of its path.
+/// Opens the sequence. Throws std::runtime_error naming file, line and fix, also if it is a live
+/// camera and these are refused.
+RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration& configuration,
+                        LiveCameras live_cameras = LiveCameras::kRefused);
+
+/// Whether the sequence is a live camera.
+bool IsLiveCamera(const std::string& directory);
+
+/// Name of a sequence in the results: the last component of its path, without the ending of a
+/// recording.
 std::string SequenceName(const std::string& directory);
 
 }  // namespace msc_vo

@@ -66,6 +66,12 @@ void WarnAboutShortenedPauses(int num_frames, SequenceIndex* sequence) {
   sequence->warnings.push_back(pauses);
 }
 
+// Number of images to process; 0: a live camera without end.
+int NumFrames(const RgbdDecoder& decoder, int max_frames) {
+  if (decoder.index().camera) return max_frames;
+  return max_frames > 0 ? std::min(max_frames, decoder.size()) : decoder.size();
+}
+
 // Processes images until the end, an error or an interruption. Returns the number of processed
 // images.
 int RunLoop(const RunArguments& arguments, int num_frames, const InterruptGuard& interrupt,
@@ -117,7 +123,9 @@ void AddRunArguments(CLI::App* command, RunArguments* arguments) {
   command->add_option("--max-frames", arguments->max_frames, "Process only the first N images")
       ->check(at_least_one);
   command->add_flag("--strict", arguments->strict, "Stop at the first image that cannot be read");
-  command->add_flag("--quiet", arguments->quiet, "Print neither progress nor results");
+  CLI::Option* quiet =
+      command->add_flag("--quiet", arguments->quiet, "Print neither progress nor results");
+  command->add_flag("--json", arguments->json, "Print the results as JSON")->excludes(quiet);
 }
 
 bool SequenceRun::HasImages() const {
@@ -130,8 +138,7 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   SequenceRun run;
   RunContext& context = run.context;
   context = MakeContext(decoder, configuration);
-  const int num_frames =
-      arguments.max_frames > 0 ? std::min(arguments.max_frames, decoder.size()) : decoder.size();
+  const int num_frames = NumFrames(decoder, arguments.max_frames);
 
   LogStart(context, num_frames);
 
@@ -140,7 +147,10 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   Odometry odometry(options, context.calibration.camera, context.calibration.distortion);
   odometry.SetWindowObserver(callbacks.window);
   odometry.SetWindowFactors(callbacks.window_factors);
-  if (options.snapshots.realtime) WarnAboutShortenedPauses(num_frames, &context.sequence);
+  odometry.SetTrackingObserver(callbacks.tracking);
+  if (options.snapshots.realtime && !decoder.index().camera) {
+    WarnAboutShortenedPauses(num_frames, &context.sequence);
+  }
   const std::unique_ptr<ImageFeed> feed =
       MakeImageFeed(decoder, num_frames, options.snapshots.realtime);
   FrameLoop loop(decoder, num_frames, arguments.strict, feed.get(), &odometry);
@@ -149,6 +159,10 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   context.cost = cost.Read();
   context.realtime = feed->Realtime();
   if (context.realtime) context.realtime->num_late_maps = run.result.num_late_maps;
+  if (feed->num_dropped_by_camera() > 0) {
+    PrintWarning(FormatText("%d images of the camera were dropped, because tracking was late",
+                            feed->num_dropped_by_camera()));
+  }
   context.first_unreadable = loop.first_unreadable();
   run.summary = Summarize(run.result);
   if (run.exit_code == kExitSuccess && TrackingFailed(run.summary)) {

@@ -18,9 +18,10 @@ struct RunArguments {
   int max_frames = 0;   ///< 0: all
   bool strict = false;  ///< stop at the first unreadable image
   bool quiet = false;   ///< print neither progress nor results
+  bool json = false;    ///< print results as JSON
 };
 
-/// Declares --max-frames, --strict and --quiet.
+/// Declares --max-frames, --strict, --quiet and --json.
 void AddRunArguments(CLI::App* command, RunArguments* arguments);
 
 /// Result of the odometry on a sequence. After an error or an interruption it contains the frames
@@ -43,6 +44,7 @@ struct RunCallbacks {
   FrameObserver frame;
   WindowObserver window;                ///< may be empty
   WindowFactorCallback window_factors;  ///< may be empty
+  TrackingObserver tracking = {};       ///< may be empty
 };
 
 /// Runs the odometry on a sequence. Prints progress and a warning about unreadable images to

@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -38,6 +40,7 @@ struct Arguments {
   bool jpeg = false;
   int jpeg_quality = 95;
   bool overwrite = false;
+  bool json = false;
   SyntheticSequenceOptions options;
 };
 
@@ -107,6 +110,23 @@ void WriteAccelerometer(const fs::path& folder, const std::vector<TimedAccelerat
   WriteFile((folder / "accelerometer.txt").string(), text);
 }
 
+void PrintJson(const Arguments& arguments, const PinholeCamera& camera, int num_frames) {
+  const nlohmann::ordered_json json = {{"directory", arguments.folder},
+                                       {"scene", arguments.scene},
+                                       {"seed", arguments.options.seed},
+                                       {"frames", num_frames},
+                                       {"complete", num_frames == arguments.frames},
+                                       {"camera",
+                                        {{"fx", camera.fx},
+                                         {"fy", camera.fy},
+                                         {"cx", camera.cx},
+                                         {"cy", camera.cy},
+                                         {"width", camera.width},
+                                         {"height", camera.height},
+                                         {"depth_scale", kDepthFactor}}}};
+  std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
+}
+
 int Run(const Arguments& arguments) {
   SyntheticSequenceOptions options = arguments.options;
   options.scene = *SceneKindFromName(arguments.scene);
@@ -130,6 +150,7 @@ int Run(const Arguments& arguments) {
   truth.Append("# timestamp tx ty tz qx qy qz qw (camera in world)\n");
   const InterruptGuard guard;
   Progress progress(arguments.frames);
+  int num_done = 0;
   for (int i = 0; i < arguments.frames && !guard.IsInterrupted(); ++i) {
     SyntheticFrame frame = sequence.Render(i);
     const std::string stamp = FormatText("%.6f", frame.pose.timestamp);
@@ -142,9 +163,10 @@ int Run(const Arguments& arguments) {
     depth_list.Append(depth_stamp + " " + depth + "\n");
     associations.Append(stamp + " " + rgb + " " + depth_stamp + " " + depth + "\n");
     truth.Append(PoseLine(stamp, frame.pose.world_from_cam));
-    progress.Update(i + 1, "");
+    progress.Update(++num_done, "");
   }
   progress.Finish();
+  if (arguments.json) PrintJson(arguments, sequence.camera(), num_done);
   return guard.IsInterrupted() ? kExitInterrupted : kExitSuccess;
 }
 
@@ -199,6 +221,7 @@ Command AddSynthesizeCommand(CLI::App* app) {
       ->check(CLI::Range(1, 100))
       ->needs(jpeg)
       ->capture_default_str();
+  command->add_flag("--json", arguments->json, "Print what was written as JSON");
   command->add_flag(
       "--overwrite", arguments->overwrite,
       "Write into a folder that synthesize did not create; replaces its rgb/ and depth/");

@@ -70,7 +70,8 @@ void CheckAssociation(const TextLine& line) {
 
 }  // namespace
 
-std::vector<ListedImage> ReadImageList(const std::string& path) {
+std::vector<ListedImage> ReadImageList(const std::string& path,
+                                       std::vector<std::string>* warnings) {
   std::vector<ListedImage> images;
   for (const TextLine& line : ReadTextLines(path)) {
     if (line.fields.size() != 2) {
@@ -82,8 +83,13 @@ std::vector<ListedImage> ReadImageList(const std::string& path) {
   if (images.empty()) {
     throw std::runtime_error(path + ": lists no image; expected 'time path' rows");
   }
-  std::stable_sort(images.begin(), images.end(),
-                   [](const ListedImage& a, const ListedImage& b) { return a.stamp < b.stamp; });
+  const auto earlier = [](const ListedImage& a, const ListedImage& b) { return a.stamp < b.stamp; };
+  const auto unordered = std::is_sorted_until(images.begin(), images.end(), earlier);
+  if (unordered != images.end()) {
+    warnings->push_back(unordered->origin +
+                        ": the images are not listed in order of time; they were sorted");
+  }
+  std::stable_sort(images.begin(), images.end(), earlier);
   return images;
 }
 

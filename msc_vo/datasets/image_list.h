@@ -13,6 +13,7 @@ struct ListedImage {
   double stamp = 0.0;  ///< in the unit of the list
   std::string path;
   std::string origin;  ///< for messages, "rgb.txt:12"
+  int index = -1;      ///< position in SequenceIndex::container, if there is one
 };
 
 /// The colour and depth images of a folder.
@@ -22,8 +23,9 @@ struct ImageLists {
 };
 
 /// Reads "time path" rows, whose paths are relative to the folder of the list, in order of time.
+/// Adds a warning if the rows are in another order.
 /// Throws std::runtime_error naming file and line if a row does not fit.
-std::vector<ListedImage> ReadImageList(const std::string& path);
+std::vector<ListedImage> ReadImageList(const std::string& path, std::vector<std::string>* warnings);
 
 /// Reads an association file with "time path time path" rows, colour and depth in either order. The
 /// images of a row are at the same position of both lists. Which column is depth follows from the

@@ -31,7 +31,7 @@ void AddPair(const ListedImage& color, const ListedImage& depth, SequenceIndex* 
   const bool same_clock = std::abs(delay) <= kMaxPairDifference;
   index->entries.push_back({color.stamp, color.path, depth.path,
                             same_row ? color.origin : color.origin + " and " + depth.origin,
-                            same_clock ? delay : 0.0});
+                            same_clock ? delay : 0.0, color.index, depth.index});
 }
 
 // Warns if one list begins and ends later than the other by the same time. Recordings may differ at

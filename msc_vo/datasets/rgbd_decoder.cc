@@ -3,6 +3,7 @@
 
 #include "msc_vo/datasets/rgbd_decoder.h"
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -36,20 +37,25 @@ bool IsTruncatedJpeg(const std::string& bytes) {
   return IsJpeg(bytes) && bytes.rfind("\xFF\xD9") == std::string::npos;
 }
 
-cv::Mat ReadImage(const std::string& path, const SequenceEntry& entry) {
+std::string ReadImageBytes(const std::string& path, const SequenceEntry& entry) {
   const std::string problem = FileProblem(path, kMaxImageBytes);
   if (!problem.empty()) Fail(path, entry, problem + "; restore the file or remove its line");
-  const std::string bytes = ReadFile(path, kMaxImageBytes);
+  return ReadFile(path, kMaxImageBytes);
+}
+
+cv::Mat DecodeStored(const StoredImage& stored, const std::string& path,
+                     const SequenceEntry& entry) {
+  if (stored.bytes.empty() && !stored.pixels.empty()) return stored.pixels;
   cv::Mat image;
-  if (!IsTruncatedJpeg(bytes)) {
+  if (!IsTruncatedJpeg(stored.bytes)) {
     // A JPEG stores luminance in a separate channel of 8 bits; decoding colours and converting them
     // to grey would take longer and round twice.
-    const int mode = IsJpeg(bytes) ? cv::IMREAD_GRAYSCALE : cv::IMREAD_UNCHANGED;
-    image = DecodeImage(bytes, mode | cv::IMREAD_IGNORE_ORIENTATION);
+    const int mode = IsJpeg(stored.bytes) ? cv::IMREAD_GRAYSCALE : cv::IMREAD_UNCHANGED;
+    image = DecodeImage(stored.bytes, mode | cv::IMREAD_IGNORE_ORIENTATION);
   }
   if (image.empty()) {
     Fail(path, entry,
-         "is damaged, truncated or not an image (" + std::to_string(bytes.size()) +
+         "is damaged, truncated or not an image (" + std::to_string(stored.bytes.size()) +
              " bytes); restore the file");
   }
   return image;
@@ -77,6 +83,11 @@ cv::Mat ToGray(const cv::Mat& image) {
 
 cv::Mat ToMetres(const cv::Mat& raw, double depth_scale, int invalid_depth) {
   cv::Mat metres;
+  if (raw.type() == CV_32FC1) {
+    metres = raw.clone();
+    metres.setTo(0.0f, ~((raw > 0.0f) & (raw <= std::numeric_limits<float>::max())));
+    return metres;
+  }
   raw.convertTo(metres, CV_32F, 1.0 / depth_scale);
   if (invalid_depth != 0) metres.setTo(0.0f, raw == invalid_depth);
   return metres;
@@ -89,16 +100,71 @@ RgbdDecoder::RgbdDecoder(SequenceIndex index, Calibration calibration)
 
 RgbdImage RgbdDecoder::Decode(int i) const {
   try {
-    return DecodeFiles(i);
+    return DecodePair(i, ReadStored(i));
+  } catch (const UnreadableImage&) {
+    throw;
   } catch (const std::runtime_error& error) {
     throw UnreadableImage(i, error.what());
   }
 }
 
-RgbdImage RgbdDecoder::DecodeFiles(int i) const {
+StoredRgbd RgbdDecoder::ReadStored(int i) const {
   const SequenceEntry& entry = index_.entries.at(i);
-  cv::Mat color = ReadImage(entry.color_path, entry);
-  const cv::Mat depth = ReadImage(entry.depth_path, entry);
+  try {
+    if (index_.container) {
+      return {index_.container->ReadColor(entry.color_index),
+              index_.container->ReadDepth(entry.depth_index)};
+    }
+    return {{ReadImageBytes(entry.color_path, entry), {}},
+            {ReadImageBytes(entry.depth_path, entry), {}}};
+  } catch (const std::runtime_error& error) {
+    throw UnreadableImage(i, error.what());
+  }
+}
+
+StoredRgbd RgbdDecoder::ReadForExport(int i) const {
+  const SequenceEntry& entry = index_.entries.at(i);
+  StoredRgbd stored = ReadStored(i);
+  try {
+    DecodePair(i, stored);  // an image that cannot be decoded is not copied
+    if (index_.scale_color) {
+      cv::Mat color = stored.color.bytes.empty()
+                          ? stored.color.pixels
+                          : DecodeImage(stored.color.bytes, cv::IMREAD_COLOR);
+      const cv::Size size(calibration_.camera.width, calibration_.camera.height);
+      cv::resize(color, color, size, 0.0, 0.0, cv::INTER_AREA);
+      stored.color = {"", color};
+    }
+    if (index_.invalid_depth != 0) {
+      cv::Mat depth = DecodeStored(stored.depth, entry.depth_path, entry).clone();
+      depth.setTo(0, depth == index_.invalid_depth);
+      stored.depth = {"", depth};
+    }
+  } catch (const UnreadableImage&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw UnreadableImage(i, error.what());
+  }
+  return stored;
+}
+
+RgbdImage RgbdDecoder::Convert(const CameraImage& image, int id) const {
+  SequenceEntry entry;
+  entry.timestamp = image.timestamp;
+  entry.depth_delay = image.depth_delay;
+  entry.color_path = index_.directory + " colour";
+  entry.depth_path = index_.directory + " depth";
+  return MakeImage(id, entry, image.color, image.depth);
+}
+
+RgbdImage RgbdDecoder::DecodePair(int i, const StoredRgbd& stored) const {
+  const SequenceEntry& entry = index_.entries.at(i);
+  const cv::Mat color = DecodeStored(stored.color, entry.color_path, entry);
+  return MakeImage(i, entry, color, DecodeStored(stored.depth, entry.depth_path, entry));
+}
+
+RgbdImage RgbdDecoder::MakeImage(int i, const SequenceEntry& entry, cv::Mat color,
+                                 const cv::Mat& depth) const {
   if (color.type() == CV_16UC1 && depth.depth() == CV_8U) {
     Fail(entry.color_path, entry,
          "is a depth image and its partner is a colour image; swap the two columns or folders");
@@ -107,7 +173,8 @@ RgbdImage RgbdDecoder::DecodeFiles(int i) const {
     Fail(entry.color_path, entry,
          "has " + TypeText(color) + "; colour images need 8 bits and 1, 3 or 4 channels");
   }
-  if (depth.type() != CV_16UC1) {
+  const bool is_metres = index_.container && depth.type() == CV_32FC1;
+  if (depth.type() != CV_16UC1 && !is_metres) {
     Fail(entry.depth_path, entry,
          "has " + TypeText(depth) +
              "; depth images need 1 channel of 16 bits (a visualisation of the depth does not "

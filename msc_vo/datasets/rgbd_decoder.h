@@ -7,6 +7,8 @@
 #include <string>
 
 #include "msc_vo/datasets/calibration.h"
+#include "msc_vo/datasets/image_container.h"
+#include "msc_vo/datasets/rgbd_camera.h"
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/sensor/rgbd_image.h"
 
@@ -23,6 +25,12 @@ class UnreadableImage : public std::runtime_error {
 
  private:
   int index_;
+};
+
+/// A pair of images as its source stores it.
+struct StoredRgbd {
+  StoredImage color;
+  StoredImage depth;
 };
 
 /// Decodes the images of a sequence. Thread-safe: has no mutable state.
@@ -42,8 +50,19 @@ class RgbdDecoder {
   /// the wrong bit depth.
   RgbdImage Decode(int i) const;
 
+  /// Returns entry i for a copy of the sequence: as it is stored, unless the index says that colour
+  /// has to be scaled or that depth has another value than 0 for no measurement. Throws
+  /// UnreadableImage as Decode() does.
+  StoredRgbd ReadForExport(int i) const;
+
+  /// Converts a pair of images of SequenceIndex::camera. Throws std::runtime_error if its size is
+  /// not that of the camera.
+  RgbdImage Convert(const CameraImage& image, int id) const;
+
  private:
-  RgbdImage DecodeFiles(int i) const;
+  StoredRgbd ReadStored(int i) const;
+  RgbdImage DecodePair(int i, const StoredRgbd& stored) const;
+  RgbdImage MakeImage(int i, const SequenceEntry& entry, cv::Mat color, const cv::Mat& depth) const;
 
   SequenceIndex index_;
   Calibration calibration_;

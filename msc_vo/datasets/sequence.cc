@@ -53,28 +53,6 @@ const SequenceFormat& FormatByName(const std::string& name) {
   throw std::invalid_argument("unknown sequence format '" + name + "'; known: auto" + names);
 }
 
-// Sorts the entries by time and removes repeated stamps, keeping the first.
-void OrderEntries(SequenceIndex* index) {
-  const auto earlier = [](const SequenceEntry& a, const SequenceEntry& b) {
-    return a.timestamp < b.timestamp;
-  };
-  std::vector<SequenceEntry>& entries = index->entries;
-  if (!std::is_sorted(entries.begin(), entries.end(), earlier)) {
-    index->warnings.push_back("the images are not listed in order of time; they were sorted");
-    std::stable_sort(entries.begin(), entries.end(), earlier);
-  }
-  const size_t before = entries.size();
-  entries.erase(std::unique(entries.begin(), entries.end(),
-                            [](const SequenceEntry& a, const SequenceEntry& b) {
-                              return a.timestamp == b.timestamp;
-                            }),
-                entries.end());
-  if (entries.size() < before) {
-    index->warnings.push_back(std::to_string(before - entries.size()) +
-                              " images have the time stamp of another one and are left out");
-  }
-}
-
 std::string WithoutTrailingSlash(const std::string& directory) {
   std::filesystem::path path = std::filesystem::path(directory).lexically_normal();
   if (!path.has_filename() && path.has_relative_path()) path = path.parent_path();
@@ -111,8 +89,30 @@ SequenceIndex OpenSequence(const std::string& directory, const std::string& form
   return index;
 }
 
+void OrderEntries(SequenceIndex* index) {
+  const auto earlier = [](const SequenceEntry& a, const SequenceEntry& b) {
+    return a.timestamp < b.timestamp;
+  };
+  std::vector<SequenceEntry>& entries = index->entries;
+  if (!std::is_sorted(entries.begin(), entries.end(), earlier)) {
+    index->warnings.push_back("the images are not listed in order of time; they were sorted");
+    std::stable_sort(entries.begin(), entries.end(), earlier);
+  }
+  const size_t before = entries.size();
+  entries.erase(std::unique(entries.begin(), entries.end(),
+                            [](const SequenceEntry& a, const SequenceEntry& b) {
+                              return a.timestamp == b.timestamp;
+                            }),
+                entries.end());
+  if (entries.size() < before) {
+    index->warnings.push_back(std::to_string(before - entries.size()) +
+                              " images have the time stamp of another one and are left out");
+  }
+}
+
 std::vector<std::string> InputFolders(const SequenceIndex& index) {
   std::set<std::string> folders = {index.directory};
+  if (index.container) return {folders.begin(), folders.end()};
   for (const SequenceEntry& entry : index.entries) {
     for (const std::string& path : {entry.color_path, entry.depth_path}) {
       folders.insert(std::filesystem::path(path).parent_path().string());

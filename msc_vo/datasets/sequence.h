@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@
 
 namespace msc_vo {
 
+class ImageContainer;
+class RgbdCamera;
+
 /// The files of one RGB-D image of a sequence.
 struct SequenceEntry {
   double timestamp = 0.0;  ///< seconds
@@ -21,12 +25,15 @@ struct SequenceEntry {
   std::string origin;  ///< list that names the pair, "rgb.txt:12"; empty: found in a folder
   /// Seconds from the colour image to the depth image; 0 if their stamps are on different clocks.
   double depth_delay = 0.0;
+  /// Positions in SequenceIndex::container, if there is one; the paths then only name the images.
+  int color_index = -1;
+  int depth_index = -1;
 };
 
-/// The contents of a sequence folder; images are not decoded.
+/// The contents of a sequence folder or of another source of images; images are not decoded.
 struct SequenceIndex {
   std::string format;                        ///< name of the layout, "tum"
-  std::string directory;                     ///< without trailing slash
+  std::string directory;                     ///< without trailing slash; or the file of a recording
   std::vector<SequenceEntry> entries;        ///< in order of time, stamps unique
   TimeUnit stamp_unit = TimeUnit::kSeconds;  ///< original unit of the image stamps
   /// Calibration file of the folder; for images of the size of depth.
@@ -34,6 +41,12 @@ struct SequenceIndex {
   std::string preset;        ///< camera preset guessed from the layout or the name; may be empty
   int invalid_depth = 0;     ///< raw depth value for "no measurement", in addition to 0
   bool scale_color = false;  ///< colour is larger than depth and is scaled down to its size
+  /// The images, if they are in one file; null: every image is a file.
+  std::shared_ptr<const ImageContainer> container;
+  /// A live camera. There are no entries then.
+  std::shared_ptr<RgbdCamera> camera;
+  /// Raw depth units per metre that the source defines. They replace those of a camera preset.
+  std::optional<double> depth_scale;
   std::vector<TimedPose> ground_truth;  ///< in order of time; empty: there is none
   std::vector<std::string> warnings;    ///< for the user, one sentence each
 };
@@ -48,7 +61,10 @@ std::vector<std::string> SequenceFormatNames();
 /// unknown format.
 SequenceIndex OpenSequence(const std::string& directory, const std::string& format = "auto");
 
-/// Returns the folder of the sequence and the folders of its images.
+/// Sorts the entries by time and removes those with the stamp of another one, with warnings.
+void OrderEntries(SequenceIndex* index);
+
+/// Returns the folder of the sequence and the folders of its images, or the file that holds them.
 std::vector<std::string> InputFolders(const SequenceIndex& index);
 
 }  // namespace msc_vo

@@ -5,8 +5,11 @@
 
 #include <stdexcept>
 
+#include <opencv2/imgcodecs.hpp>
+
 #include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/datasets/camera_preset.h"
+#include "msc_vo/datasets/image_container.h"
 #include "msc_vo/datasets/image_file.h"
 
 namespace msc_vo {
@@ -36,9 +39,12 @@ bool IsComplete(const CameraSettings& settings) {
 [[noreturn]] void FailWithoutCalibration(const SequenceIndex& index) {
   std::string names;
   for (const CameraPreset& preset : CameraPresets()) names += " " + preset.name;
-  throw std::runtime_error(index.directory + ": the camera is not known. Do one of:\n" + "  add " +
-                           index.directory + "/camera.txt with one line " + kCameraFileFormat +
-                           "\n  give --config FILE with the camera's calibration\n" +
+  const std::string file =
+      index.container || index.camera
+          ? ""
+          : "  add " + index.directory + "/camera.txt with one line " + kCameraFileFormat + "\n";
+  throw std::runtime_error(index.directory + ": the camera is not known. Do one of:\n" + file +
+                           "  give --config FILE with the camera's calibration\n" +
                            "  give --camera with one of:" + names);
 }
 
@@ -73,11 +79,26 @@ Calibration BaseCalibration(const CameraSettings& settings, const std::string& p
   return GuessedPreset(index->preset);
 }
 
+// Size of the first depth image.
+ImageSize DepthSize(const SequenceIndex& index) {
+  if (index.entries.empty()) {
+    throw std::runtime_error(index.directory +
+                             ": give the size of the images, camera.width and camera.height");
+  }
+  const SequenceEntry& first = index.entries.front();
+  if (!index.container) return ReadImageSize(first.depth_path);
+  const StoredImage stored = index.container->ReadDepth(first.depth_index);
+  const cv::Mat image =
+      stored.bytes.empty() ? stored.pixels : DecodeImage(stored.bytes, cv::IMREAD_UNCHANGED);
+  return {image.cols, image.rows};
+}
+
 }  // namespace
 
 Calibration ResolveCalibration(const CameraSettings& settings, const std::string& preset,
                                SequenceIndex* index) {
   Calibration calibration = BaseCalibration(settings, preset, index);
+  if (index->depth_scale) calibration.depth_scale = *index->depth_scale;
   Apply(settings, &calibration);
   if (calibration.origin.empty()) {
     calibration.origin = settings.origin;
@@ -86,7 +107,7 @@ Calibration ResolveCalibration(const CameraSettings& settings, const std::string
   }
   PinholeCamera& camera = calibration.camera;
   if (camera.width == 0 || camera.height == 0) {
-    const ImageSize size = ReadImageSize(index->entries.front().depth_path);
+    const ImageSize size = DepthSize(*index);
     camera.width = size.width;
     camera.height = size.height;
   }

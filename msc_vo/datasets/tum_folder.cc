@@ -65,7 +65,7 @@ void ToSeconds(const std::string& color_name, const std::string& depth_name, Who
   ToSeconds(depth_name, &ListedImage::stamp, whole, range, &images->depth, index);
 }
 
-ImageLists ReadLists(const fs::path& folder) {
+ImageLists ReadLists(const fs::path& folder, std::vector<std::string>* warnings) {
   const std::string color = (folder / "rgb.txt").string();
   const std::string depth = (folder / "depth.txt").string();
   for (const std::string& path : {color, depth}) {
@@ -74,7 +74,7 @@ ImageLists ReadLists(const fs::path& folder) {
                              ": does not exist; a TUM folder needs rgb.txt and depth.txt (or "
                              "associations.txt). --format rgb-depth pairs rgb/ and depth/ by name");
   }
-  return {ReadImageList(color), ReadImageList(depth)};
+  return {ReadImageList(color, warnings), ReadImageList(depth, warnings)};
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceInd
     PairByRow(images, index);
     return;
   }
-  ImageLists images = ReadLists(directory);
+  ImageLists images = ReadLists(directory, &index->warnings);
   ToSeconds("rgb.txt", "depth.txt", whole, &images, index);
   PairByTime(images, kMaxPairDifference, index);
 }

@@ -26,6 +26,13 @@ ErrorStatistics StatisticsOf(std::vector<double> values) {
       values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
   statistics.p95 = values[(95 * values.size() + 99) / 100 - 1];
   statistics.max = values.back();
+  statistics.min = values.front();
+  statistics.sse = sum_of_squares;
+  double sum_of_deviations = 0.0;
+  for (const double value : values) {
+    sum_of_deviations += (value - statistics.mean) * (value - statistics.mean);
+  }
+  statistics.std = std::sqrt(sum_of_deviations / statistics.count);
   return statistics;
 }
 

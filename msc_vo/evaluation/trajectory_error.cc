@@ -68,14 +68,42 @@ Rigid3 RelativeMotionError(const PosePair& from, const PosePair& to) {
   return reference.Inverse() * estimate;
 }
 
-// Computes the alignment of positions and the absolute errors after it.
-void MeasureAbsolute(const std::vector<PosePair>& pairs, TrajectoryError* error) {
-  std::vector<Eigen::Vector3d> source, target;
+std::vector<Eigen::Vector3d> Positions(const std::vector<PosePair>& pairs,
+                                       TimedPose PosePair::*which) {
+  std::vector<Eigen::Vector3d> positions;
+  positions.reserve(pairs.size());
   for (const PosePair& pair : pairs) {
-    source.push_back(pair.estimate.world_from_cam.translation());
-    target.push_back(pair.reference.world_from_cam.translation());
+    positions.emplace_back((pair.*which).world_from_cam.translation());
   }
-  error->reference_from_estimate = AlignRigid(source, target);
+  return positions;
+}
+
+// The scale of the estimate; 1 unless it is to be aligned.
+double ScaleOf(const std::vector<PosePair>& pairs, Alignment alignment) {
+  if (alignment != Alignment::kSim3) return 1.0;
+  return AlignmentScale(Positions(pairs, &PosePair::estimate),
+                        Positions(pairs, &PosePair::reference));
+}
+
+// The rigid part of the alignment; the estimate of the pairs is already scaled.
+Rigid3 AlignPairs(const std::vector<PosePair>& pairs, Alignment alignment) {
+  switch (alignment) {
+    case Alignment::kSe3:
+    case Alignment::kSim3:
+      return AlignRigid(Positions(pairs, &PosePair::estimate),
+                        Positions(pairs, &PosePair::reference));
+    case Alignment::kOrigin:
+      return pairs.front().reference.world_from_cam *
+             pairs.front().estimate.world_from_cam.Inverse();
+    case Alignment::kNone:
+      break;
+  }
+  return {};
+}
+
+// Computes the alignment and the absolute errors after it.
+void MeasureAbsolute(const std::vector<PosePair>& pairs, TrajectoryError* error) {
+  error->reference_from_estimate = AlignPairs(pairs, error->alignment);
   std::vector<double> translations, rotations;
   for (const PosePair& pair : pairs) {
     const Rigid3 aligned = error->reference_from_estimate * pair.estimate.world_from_cam;
@@ -83,6 +111,8 @@ void MeasureAbsolute(const std::vector<PosePair>& pairs, TrajectoryError* error)
     translations.push_back((aligned.translation() - truth.translation()).norm());
     rotations.push_back(AngleOf(truth.rotation().conjugate() * aligned.rotation()));
     error->per_pose.push_back({pair.estimate.timestamp, translations.back(), rotations.back()});
+    error->matched_reference.push_back(pair.reference);
+    error->matched_estimate.push_back({pair.estimate.timestamp, aligned});
   }
   error->ape = StatisticsOf(translations);
   error->ape_rotation = StatisticsOf(rotations);
@@ -108,25 +138,11 @@ ErrorStatistics MeasureRotation(const std::vector<PosePair>& pairs) {
   return StatisticsOf(angles);
 }
 
-// Relative error over pairs whose reference stamps are `interval` seconds apart, within the
-// tolerance.
-RelativeError MeasurePerSecond(const std::vector<PosePair>& pairs, double interval,
-                               double tolerance) {
+// Relative error over pairs of poses.
+RelativeError MeasureRelative(const std::vector<PosePair>& pairs,
+                              const std::vector<std::pair<int, int>>& ends) {
   std::vector<double> translations, rotations;
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    const double target = pairs[i].reference.timestamp + interval;
-    const auto after = std::lower_bound(
-        pairs.begin(), pairs.end(), target,
-        [](const PosePair& pair, double stamp) { return pair.reference.timestamp < stamp; });
-    const size_t next = after - pairs.begin();
-    const auto distance = [&](size_t k) {
-      return std::abs(pairs[k].reference.timestamp - pairs[i].reference.timestamp - interval);
-    };
-    // Selects the closer of the stamps on both sides of the target, if it is later than i.
-    size_t j = 0;
-    if (next > i + 1) j = next - 1;
-    if (next > i && next < pairs.size() && (j == 0 || distance(next) < distance(j))) j = next;
-    if (j == 0 || distance(j) > tolerance) continue;
+  for (const auto& [i, j] : ends) {
     const Rigid3 motion_error = RelativeMotionError(pairs[i], pairs[j]);
     translations.push_back(motion_error.translation().norm());
     rotations.push_back(AngleOf(motion_error.rotation()));
@@ -134,15 +150,14 @@ RelativeError MeasurePerSecond(const std::vector<PosePair>& pairs, double interv
   return {StatisticsOf(translations), StatisticsOf(rotations)};
 }
 
-// Path length of the reference up to each pair, metres.
-std::vector<double> PathLengths(const std::vector<PosePair>& pairs) {
-  std::vector<double> lengths = {0.0};
-  for (size_t i = 1; i < pairs.size(); ++i) {
-    const Eigen::Vector3d step = pairs[i].reference.world_from_cam.translation() -
-                                 pairs[i - 1].reference.world_from_cam.translation();
-    lengths.push_back(lengths.back() + step.norm());
-  }
-  return lengths;
+// Relative error over pairs that are `delta` apart. Stamps are those of the reference, paths in
+// metres those of the estimate, as in evo.
+RelativeError MeasureRelative(const std::vector<PosePair>& pairs, const RelativeDelta& delta,
+                              double tolerance) {
+  std::vector<double> stamps;
+  for (const PosePair& pair : pairs) stamps.push_back(pair.reference.timestamp);
+  return MeasureRelative(
+      pairs, FindRelativePairs(stamps, Positions(pairs, &PosePair::estimate), delta, tolerance));
 }
 
 // Relative error from each pair to the first one that is `distance` metres further along the path,
@@ -162,13 +177,76 @@ RelativeError MeasurePerMetre(const std::vector<PosePair>& pairs,
   return {StatisticsOf(translations), StatisticsOf(rotations)};
 }
 
+// Why the pairs cannot be compared; empty if they can.
+std::string DescribeProblem(const std::vector<PosePair>& pairs, const TrajectoryError& error,
+                            const EvaluationOptions& options) {
+  if (pairs.size() >= 3) {
+    if (options.alignment != Alignment::kSim3) return "";
+    const Eigen::Vector3d first = pairs.front().estimate.world_from_cam.translation();
+    for (const PosePair& pair : pairs) {
+      if (pair.estimate.world_from_cam.translation() != first) return "";
+    }
+    return "all positions of the estimate are the same, which determines no scale";
+  }
+  std::string problem = "only " + std::to_string(pairs.size()) + " of " +
+                        std::to_string(error.num_estimate) +
+                        " estimated poses have a reference pose within " +
+                        std::to_string(options.max_time_difference) + " s; three are needed";
+  if (error.num_not_estimated > 0) {
+    problem += "; " + std::to_string(error.num_not_estimated) +
+               " others are marked as not estimated and left out";
+  }
+  return problem;
+}
+
+void MeasureCoverage(const std::vector<TimedPose>& reference,
+                     const std::vector<TimedPose>& estimate, double max_time_difference,
+                     TrajectoryError* error) {
+  for (const TimedPose& pose : reference) {
+    error->num_reference_in_range +=
+        pose.timestamp >= estimate.front().timestamp - max_time_difference &&
+        pose.timestamp <= estimate.back().timestamp + max_time_difference;
+  }
+  error->coverage = static_cast<double>(error->num_matched) / error->num_reference;
+  error->coverage_in_range =
+      static_cast<double>(error->num_matched) / std::max(error->num_reference_in_range, 1);
+}
+
 }  // namespace
 
+const char* ToString(Alignment alignment) {
+  switch (alignment) {
+    case Alignment::kSe3:
+      return "se3";
+    case Alignment::kSim3:
+      return "sim3";
+    case Alignment::kOrigin:
+      return "origin";
+    case Alignment::kNone:
+      return "none";
+  }
+  return "unknown";
+}
+
+Alignment AlignmentFromString(const std::string& name) {
+  for (const Alignment alignment :
+       {Alignment::kSe3, Alignment::kSim3, Alignment::kOrigin, Alignment::kNone}) {
+    if (name == ToString(alignment)) return alignment;
+  }
+  throw std::invalid_argument("the alignment must be se3, sim3, origin or none, not '" + name +
+                              "'");
+}
+
 bool EvaluationOptions::IsValid(std::string* error) const {
+  const bool whole =
+      rpe_delta.unit != DeltaUnit::kFrames || (rpe_delta.value >= 1.0 && rpe_delta.value <= 1e9 &&
+                                               rpe_delta.value == std::floor(rpe_delta.value));
   if (!(max_time_difference >= 0.0)) {
     *error = "evaluation: max_time_difference must not be negative";
   } else if (!(rpe_seconds > 0.0) || !(rpe_metres > 0.0)) {
     *error = "evaluation: rpe_seconds and rpe_metres must be positive";
+  } else if (!(rpe_delta.value > 0.0) || !whole) {
+    *error = "evaluation: rpe_delta must be positive, and a whole number of frames";
   } else {
     return true;
   }
@@ -183,38 +261,29 @@ TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
   const std::vector<TimedPose> truth = SortedByTime(reference);
   const std::vector<TimedPose> compared = SelectCompared(estimate, options);
 
-  const std::vector<PosePair> pairs = MatchPoses(truth, compared, options.max_time_difference);
+  std::vector<PosePair> pairs = MatchPoses(truth, compared, options.max_time_difference);
   TrajectoryError error;
+  error.alignment = options.alignment;
   error.num_reference = static_cast<int>(truth.size());
   error.num_estimate = static_cast<int>(compared.size());
   error.num_not_estimated = static_cast<int>(estimate.size() - compared.size());
   error.num_matched = static_cast<int>(pairs.size());
-  if (pairs.size() < 3) {
-    error.message = "only " + std::to_string(pairs.size()) + " of " +
-                    std::to_string(compared.size()) +
-                    " estimated poses have a reference pose within " +
-                    std::to_string(options.max_time_difference) + " s; three are needed";
-    if (error.num_not_estimated > 0) {
-      error.message += "; " + std::to_string(error.num_not_estimated) +
-                       " others are marked as not estimated and left out";
-    }
-    return error;
-  }
-  error.usable = true;
-  for (const TimedPose& pose : truth) {
-    error.num_reference_in_range +=
-        pose.timestamp >= compared.front().timestamp - options.max_time_difference &&
-        pose.timestamp <= compared.back().timestamp + options.max_time_difference;
-  }
-  error.coverage = static_cast<double>(error.num_matched) / error.num_reference;
-  error.coverage_in_range =
-      static_cast<double>(error.num_matched) / std::max(error.num_reference_in_range, 1);
+  error.message = DescribeProblem(pairs, error, options);
+  error.usable = error.message.empty();
+  if (!error.usable) return error;
+  MeasureCoverage(truth, compared, options.max_time_difference, &error);
 
-  const std::vector<double> path_lengths = PathLengths(pairs);
+  error.scale = ScaleOf(pairs, options.alignment);
+  for (PosePair& pair : pairs) pair.estimate.world_from_cam.translation() *= error.scale;
+  const std::vector<double> path_lengths = PathLengths(Positions(pairs, &PosePair::reference));
   error.path_length = path_lengths.back();
   MeasureAbsolute(pairs, &error);
-  error.rotation = MeasureRotation(pairs);
-  error.rpe_per_second = MeasurePerSecond(pairs, options.rpe_seconds, options.max_time_difference);
+  const bool aligned =
+      options.alignment == Alignment::kSe3 || options.alignment == Alignment::kSim3;
+  error.rotation = aligned ? MeasureRotation(pairs) : error.ape_rotation;
+  error.rpe = MeasureRelative(pairs, options.rpe_delta, options.max_time_difference);
+  error.rpe_per_second = MeasureRelative(pairs, {options.rpe_seconds, DeltaUnit::kSeconds, true},
+                                         options.max_time_difference);
   error.rpe_per_metre = MeasurePerMetre(pairs, path_lengths, options.rpe_metres);
   return error;
 }
@@ -231,8 +300,9 @@ std::optional<Rigid3> AlignOrientations(const std::vector<TimedPose>& reference,
 }
 
 std::vector<TimedPose> Transformed(const Rigid3& reference_from_estimate,
-                                   std::vector<TimedPose> estimate) {
+                                   std::vector<TimedPose> estimate, double scale) {
   for (TimedPose& pose : estimate) {
+    pose.world_from_cam.translation() *= scale;
     pose.world_from_cam = reference_from_estimate * pose.world_from_cam;
   }
   return estimate;

@@ -8,9 +8,23 @@
 #include <vector>
 
 #include "msc_vo/evaluation/error_statistics.h"
+#include "msc_vo/evaluation/relative_pairs.h"
 #include "msc_vo/geometry/timed_pose.h"
 
 namespace msc_vo {
+
+/// Alignment of an estimate with its reference before absolute errors are measured.
+enum class Alignment {
+  kSe3,     ///< rigid: rotation and translation (Umeyama)
+  kSim3,    ///< similarity: also a scale, for estimates without metric scale
+  kOrigin,  ///< the first matched pose of both
+  kNone,
+};
+
+/// "se3", "sim3", "origin", "none".
+const char* ToString(Alignment alignment);
+/// Parses these names. Throws std::invalid_argument, naming the choices, on any other name.
+Alignment AlignmentFromString(const std::string& name);
 
 struct EvaluationOptions {
   /// Largest difference of the stamps of an estimate and its reference pose, seconds: the default
@@ -18,6 +32,8 @@ struct EvaluationOptions {
   double max_time_difference = 0.02;
   double rpe_seconds = 1.0;  ///< seconds, interval of the relative error per second
   double rpe_metres = 1.0;   ///< metres, path length of the relative error per metre
+  Alignment alignment = Alignment::kSe3;
+  RelativeDelta rpe_delta;  ///< of TrajectoryError::rpe
   /// Also compares poses that are marked as not estimated (TimedPose); by default they are ignored.
   bool all_poses = false;
 
@@ -53,23 +69,30 @@ struct TrajectoryError {
   double coverage_in_range = 0.0;  ///< matched / reference in range
   double path_length = 0.0;        ///< metres, along the matched reference poses
 
-  Rigid3 reference_from_estimate;  ///< the alignment, world to world, without scale
-  ErrorStatistics ape;             ///< metres, absolute pose error: positions after alignment
-  /// Radians, orientations after their own alignment by AlignOrientations().
+  Alignment alignment = Alignment::kSe3;
+  /// The alignment, world to world: reference_from_estimate * (scale * position).
+  Rigid3 reference_from_estimate;
+  double scale = 1.0;   ///< of the estimate's positions; 1 unless the alignment is kSim3
+  ErrorStatistics ape;  ///< metres, absolute pose error: positions after alignment
+  /// Radians, orientations after their own alignment by AlignOrientations(); with kOrigin and kNone
+  /// the same as `ape_rotation`.
   ErrorStatistics rotation;
   /// Radians, orientations after the alignment of positions. Not meaningful for short or straight
   /// paths, which hardly determine the rotation of that alignment.
   ErrorStatistics ape_rotation;
+  RelativeError rpe;                ///< over the pairs of EvaluationOptions::rpe_delta
   RelativeError rpe_per_second;     ///< over pairs `rpe_seconds` apart
   RelativeError rpe_per_metre;      ///< over pairs `rpe_metres` apart, divided by their distance
   std::vector<PoseError> per_pose;  ///< of the matched poses, in order of time
+  std::vector<TimedPose> matched_reference;  ///< the matched poses, in the same order
+  std::vector<TimedPose> matched_estimate;   ///< the same, aligned
 };
 
-/// Compares an estimate with a reference: association by time (AssociateStamps), rigid alignment
-/// (Umeyama), then APE |q_i - (R p_i + t)| and RPE |(Q_i^-1 Q_j)^-1 (P_i^-1 P_j)|, where (P, p) is
-/// the estimate and (Q, q) the reference, both camera in world. The poses may be in any order. With
-/// fewer than three matches the result is not `usable`. Throws std::invalid_argument on invalid
-/// options.
+/// Compares an estimate with a reference: association by time (AssociateStamps), alignment, by
+/// default rigid (Umeyama), then APE |q_i - (s R p_i + t)| and RPE |(Q_i^-1 Q_j)^-1 (P_i^-1 P_j)|,
+/// where (P, p) is the estimate and (Q, q) the reference, both camera in world. The poses may be in
+/// any order. With fewer than three matches the result is not `usable`. Throws
+/// std::invalid_argument on invalid options.
 TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
                                    const std::vector<TimedPose>& estimate,
                                    const EvaluationOptions& options = {});
@@ -82,8 +105,9 @@ std::optional<Rigid3> AlignOrientations(const std::vector<TimedPose>& reference,
                                         const std::vector<TimedPose>& estimate,
                                         const EvaluationOptions& options = {});
 
-/// Transforms the poses of the estimate into the world of the reference.
+/// Transforms the poses of the estimate into the world of the reference; positions are scaled
+/// first.
 std::vector<TimedPose> Transformed(const Rigid3& reference_from_estimate,
-                                   std::vector<TimedPose> estimate);
+                                   std::vector<TimedPose> estimate, double scale = 1.0);
 
 }  // namespace msc_vo

@@ -20,28 +20,52 @@ Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
   return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
 }
 
-}  // namespace
+// Means of both point sets and sum of (target - mean) (source - mean)^T.
+struct PointMoments {
+  Eigen::Vector3d source_mean = Eigen::Vector3d::Zero();
+  Eigen::Vector3d target_mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
+};
 
-Rigid3 AlignRigid(const std::vector<Eigen::Vector3d>& source,
-                  const std::vector<Eigen::Vector3d>& target) {
+PointMoments ComputeMoments(const std::vector<Eigen::Vector3d>& source,
+                            const std::vector<Eigen::Vector3d>& target) {
   if (source.size() != target.size()) {
     throw std::invalid_argument("AlignRigid: source and target differ in size");
   }
   if (source.size() < 3) throw std::invalid_argument("AlignRigid: fewer than three pairs");
 
+  PointMoments moments;
   const double count = static_cast<double>(source.size());
-  Eigen::Vector3d source_mean = Eigen::Vector3d::Zero();
-  Eigen::Vector3d target_mean = Eigen::Vector3d::Zero();
   for (size_t i = 0; i < source.size(); ++i) {
-    source_mean += source[i] / count;
-    target_mean += target[i] / count;
+    moments.source_mean += source[i] / count;
+    moments.target_mean += target[i] / count;
   }
-  Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
   for (size_t i = 0; i < source.size(); ++i) {
-    correlation += (target[i] - target_mean) * (source[i] - source_mean).transpose();
+    moments.correlation +=
+        (target[i] - moments.target_mean) * (source[i] - moments.source_mean).transpose();
   }
-  const Eigen::Matrix3d rotation = NearestRotation(correlation);
-  return {Eigen::Quaterniond(rotation), target_mean - rotation * source_mean};
+  return moments;
+}
+
+}  // namespace
+
+Rigid3 AlignRigid(const std::vector<Eigen::Vector3d>& source,
+                  const std::vector<Eigen::Vector3d>& target) {
+  const PointMoments moments = ComputeMoments(source, target);
+  const Eigen::Matrix3d rotation = NearestRotation(moments.correlation);
+  return {Eigen::Quaterniond(rotation), moments.target_mean - rotation * moments.source_mean};
+}
+
+double AlignmentScale(const std::vector<Eigen::Vector3d>& source,
+                      const std::vector<Eigen::Vector3d>& target) {
+  const PointMoments moments = ComputeMoments(source, target);
+  double source_squares = 0.0;
+  for (const Eigen::Vector3d& x : source) source_squares += (x - moments.source_mean).squaredNorm();
+  if (!(source_squares > 0.0)) {
+    throw std::invalid_argument("AlignmentScale: the source points coincide");
+  }
+  const Eigen::Matrix3d rotation = NearestRotation(moments.correlation);
+  return (rotation.transpose() * moments.correlation).trace() / source_squares;
 }
 
 Rigid3 AlignPoses(const std::vector<Rigid3>& source, const std::vector<Rigid3>& target) {

@@ -15,6 +15,12 @@ namespace msc_vo {
 Rigid3 AlignRigid(const std::vector<Eigen::Vector3d>& source,
                   const std::vector<Eigen::Vector3d>& target);
 
+/// Returns the scale s > 0 of the similarity s R p + t that minimises the same sum (Umeyama 1991),
+/// whose R and t are AlignRigid() of the scaled source points. Throws std::invalid_argument as
+/// AlignRigid() does, and if the source points coincide.
+double AlignmentScale(const std::vector<Eigen::Vector3d>& source,
+                      const std::vector<Eigen::Vector3d>& target);
+
 /// Returns the transform target_from_source between two world frames from poses given in both: its
 /// rotation R minimises sum |R_target,i - R R_source,i|^2 (Frobenius norm), its translation aligns
 /// the mean positions. Throws std::invalid_argument if the sizes differ or there is no pair.

@@ -4,11 +4,20 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+
+#include <Eigen/Geometry>
 
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/noise_scale.h"
 
 namespace msc_vo {
+
+/// An estimate of the Manhattan axes of the scene.
+struct AxesEstimate {
+  Eigen::Quaterniond world_from_axes = Eigen::Quaterniond::Identity();
+  double sigma = 0.0;  ///< standard deviation of the least certain direction, radians
+};
 
 /// The immutable map after one keyframe step. Any thread may read it.
 struct MapSnapshot {
@@ -16,7 +25,8 @@ struct MapSnapshot {
   KeyframeId newest_keyframe = kNoId;
   NoiseScale noise_scale;     ///< self-calibrated
   double readout_time = 0.0;  ///< seconds, of the rolling-shutter compensation of its keyframes
-  bool needs_axes = false;    ///< the next keyframe packet shall contain surface normals
+  std::optional<AxesEstimate> axes;  ///< std::nullopt until they are found
+  bool needs_axes = false;           ///< the next keyframe packet shall contain surface normals
 };
 using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;
 

@@ -89,7 +89,9 @@ MapSnapshotPtr Mapper::Snapshot() {
   snapshot->newest_keyframe = newest_keyframe_;
   snapshot->noise_scale = noise_.scale();
   snapshot->readout_time = readout_time_;
-  snapshot->needs_axes = options_.axes.enabled && axes_.estimator().state() == AxesState::kNone;
+  const AxesEstimator& axes = axes_.estimator();
+  if (axes.state() != AxesState::kNone) snapshot->axes = {axes.world_from_axes(), axes.sigma()};
+  snapshot->needs_axes = options_.axes.enabled && axes.state() == AxesState::kNone;
   return snapshot;
 }
 

@@ -116,6 +116,7 @@ struct Odometry::State {
   SurfaceNormalEstimator normal_estimator;
   std::unique_ptr<SideWorker> side_worker;  // none with one thread
   Tracker tracker;
+  TrackingObserver tracking_observer;  // may be empty
   Mapper mapper;
   MapSnapshotPtr snapshot;  // of the last frame
   BundleAdjustmentSummary last_window;
@@ -212,6 +213,10 @@ void Odometry::SetPoseFactors(PoseFactorCallback callback) {
   state_->tracker.SetPoseFactors(std::move(callback));
 }
 
+void Odometry::SetTrackingObserver(TrackingObserver observer) {
+  state_->tracking_observer = std::move(observer);
+}
+
 FrameResult Odometry::Process(const RgbdImage& recorded) {
   state_->CheckTime(recorded.id, recorded.timestamp);
   State::CheckDepthDelay(recorded.id, recorded.depth_delay);
@@ -229,7 +234,7 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   Stopwatch waiting;
   state_->snapshot = state_->schedule.SnapshotAt(index);
   const double waiting_ms = waiting.Milliseconds();
-  const TrackedFrame tracked = state_->tracker.Track(std::move(frame), *state_->snapshot);
+  const TrackedFrame tracked = state_->tracker.Track(frame, *state_->snapshot);
   FrameResult result = MakeResult(tracked);
   result.image = MeasureImage(image);
   result.times.features = features_ms;
@@ -246,11 +251,16 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   state_->results.push_back(result);
   state_->relative_poses.push_back({tracked.reference, tracked.cam_from_reference});
   state_->log.LogFrame(result, tracked.relocalized);
+  const MapSnapshotPtr snapshot = state_->snapshot;
   if (tracked.keyframe.is_due) {
     state_->SubmitKeyframe(tracked, image.depth);
     state_->snapshot = state_->schedule.SnapshotAt(index);  // with this keyframe if latency is 0
   }
-  return state_->results.back();
+  result = state_->results.back();
+  if (state_->tracking_observer) {
+    state_->tracking_observer({recorded, *frame, tracked, *snapshot, result});
+  }
+  return result;
 }
 
 FrameResult Odometry::Drop(int64_t id, double timestamp, TrackingStatus status) {

@@ -18,6 +18,7 @@
 #include "msc_vo/mapping/window_observer.h"
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/odometry/odometry_options.h"
+#include "msc_vo/odometry/tracking_observer.h"
 #include "msc_vo/sensor/rgbd_image.h"
 #include "msc_vo/structure/axes_estimator.h"
 #include "msc_vo/tracking/pose_factor_callback.h"
@@ -93,11 +94,16 @@ class Odometry {
   /// Tracker::SetPoseFactors). Runs in Process(). Call before the first image.
   void SetPoseFactors(PoseFactorCallback callback);
 
+  /// Sets a function that is called with the features, the matches and the map of every tracked
+  /// frame, for display. Its time is not part of StageTimes. Call before the first image.
+  void SetTrackingObserver(TrackingObserver observer);
+
   /// Tracks one image and returns its result, which may still improve until Finish().
   /// Throws std::invalid_argument if the image does not match the camera or time stamps do not
   /// ascend, and the exception of a keyframe step of an earlier frame; the next call continues
-  /// without that step. Exceptions of the callback of the pose factors, and std::invalid_argument
-  /// that names an invalid factor, leave the frame out of the result.
+  /// without that step; and what the tracking observer throws. Exceptions of the callback of the
+  /// pose factors, and std::invalid_argument that names an invalid factor, leave the frame out of
+  /// the result.
   FrameResult Process(const RgbdImage& image);
 
   /// Records a frame at `timestamp` (seconds) that is not processed, because its image came too

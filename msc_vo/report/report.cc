@@ -11,9 +11,10 @@
 #include "msc_vo/report/html_text.h"
 #include "msc_vo/report/report_plots.h"
 #include "msc_vo/report/report_statistics.h"
-#include "msc_vo/report/report_style.h"
+#include "msc_vo/report/run_json.h"
 #include "msc_vo/report/scene_view.h"
 #include "msc_vo/report/trajectory_view.h"
+#include "msc_vo/report/viewer_page.h"
 
 namespace msc_vo {
 namespace {
@@ -40,9 +41,11 @@ void CheckStages(const ReportData& data) {
   }
 }
 
+// `attribute`: how the script upgrades the figure, such as data-chart="error" (web/charts.js).
 void WriteFigure(const std::string& svg, const std::vector<LegendEntry>& legend, std::ostream& out,
-                 const std::string& caption = "") {
-  out << "<figure>\n<figcaption>" << EscapeHtml(caption) << "<ul class=\"legend\">";
+                 const std::string& attribute, const std::string& caption = "") {
+  out << "<figure " << attribute << ">\n<figcaption>" << EscapeHtml(caption)
+      << "<ul class=\"legend\">";
   for (const LegendEntry& entry : legend) {
     out << "<li><svg viewBox=\"0 0 18 10\" aria-hidden=\"true\">";
     if (entry.swatch == Swatch::kCurve) {
@@ -56,32 +59,51 @@ void WriteFigure(const std::string& svg, const std::vector<LegendEntry>& legend,
 }
 
 void WriteHeader(const ReportData& data, std::ostream& out) {
-  out << "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      << "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>"
-      << EscapeHtml(data.title) << "</title>\n<style>" << kReportStyle << "</style>\n</head>\n"
-      << "<body>\n<h1>" << EscapeHtml(data.title) << "</h1>\n<p><code>"
+  WritePageHead(data.title, PageConnections::kNone, out);
+  out << "<body>\n<h1>" << EscapeHtml(data.title) << "</h1>\n<p><code>"
       << EscapeHtml(data.command_line) << "</code></p>\n";
 }
 
-// Short values as tiles, long ones as rows of a table below them.
-void WriteNumbers(const ReportData& data, std::ostream& out) {
-  constexpr size_t kMaxTileLength = 16;  // characters that fit a tile on one line
-  std::ostringstream tiles;
-  std::ostringstream rows;
+// Short values are shown as tiles, long ones as rows of a table below the viewer.
+bool IsTile(const ReportNumber& number) {
+  constexpr size_t kMaxLength = 16;  // characters that fit a tile on one line
+  return number.value.size() <= kMaxLength;
+}
+
+void WriteTiles(const ReportData& data, std::ostream& out) {
+  out << "<dl class=\"numbers\">\n";
   for (const ReportNumber& number : data.numbers) {
-    const std::string name = EscapeHtml(number.name);
-    const std::string value = EscapeHtml(number.value);
-    const std::string note = EscapeHtml(number.note);
-    if (number.value.size() <= kMaxTileLength) {
-      tiles << "<div><dt>" << name << "</dt><dd class=\"value\">" << value
-            << "</dd><dd class=\"note\">" << note << "</dd></div>\n";
-    } else {
-      rows << "<tr><th>" << name << "</th><td>" << value << "</td><td class=\"note\">" << note
-           << "</td></tr>\n";
-    }
+    if (!IsTile(number)) continue;
+    out << "<div><dt>" << EscapeHtml(number.name) << "</dt><dd class=\"value\">"
+        << EscapeHtml(number.value) << "</dd><dd class=\"note\">" << EscapeHtml(number.note)
+        << "</dd></div>\n";
   }
-  out << "<dl class=\"numbers\">\n" << tiles.str() << "</dl>\n";
-  if (!rows.str().empty()) out << "<table class=\"facts\">\n" << rows.str() << "</table>\n";
+  out << "</dl>\n";
+}
+
+void WriteFacts(const std::vector<ReportNumber>& numbers, std::ostream& out) {
+  if (numbers.empty()) return;
+  out << "<table class=\"facts\">\n";
+  for (const ReportNumber& number : numbers) {
+    out << "<tr><th>" << EscapeHtml(number.name) << "</th><td>" << EscapeHtml(number.value)
+        << "</td><td class=\"note\">" << EscapeHtml(number.note) << "</td></tr>\n";
+  }
+  out << "</table>\n";
+}
+
+// The numbers that are no tiles.
+void WriteLongNumbers(const ReportData& data, std::ostream& out) {
+  std::vector<ReportNumber> numbers;
+  for (const ReportNumber& number : data.numbers) {
+    if (!IsTile(number)) numbers.push_back(number);
+  }
+  WriteFacts(numbers, out);
+}
+
+void WriteSelfCalibration(const ReportData& data, std::ostream& out) {
+  if (data.self_calibration.empty()) return;
+  out << "<h2>Self-calibration</h2>\n";
+  WriteFacts(data.self_calibration, out);
 }
 
 // Entries for the statuses that occur.
@@ -102,7 +124,7 @@ std::vector<LegendEntry> LineLegend(const ReportData& data) {
   std::vector<LegendEntry> legend;
   for (int axis = -1; axis < 3; ++axis) {
     const auto has_axis = [axis](const ReportLine& line) { return line.axis == axis; };
-    if (std::none_of(data.lines.begin(), data.lines.end(), has_axis)) continue;
+    if (std::none_of(data.map.lines.begin(), data.map.lines.end(), has_axis)) continue;
     legend.push_back({Swatch::kCurve, LineClass(axis),
                       axis < 0 ? "map lines without axis"
                                : "map lines along Manhattan axis " + std::to_string(axis + 1)});
@@ -135,14 +157,17 @@ void WriteTrajectory(const ReportData& data, std::ostream& out) {
       << "; right is the dominant horizontal direction of the trajectory. The circle marks the "
          "start, dots mark keyframes; frames without an estimated pose have the colour of their "
          "status.</p>\n<div class=\"views\">\n";
-  WriteFigure(PlotTrajectory(data, view, TrajectorySide::kTop), top_legend, out, "Top view");
-  WriteFigure(PlotTrajectory(data, view, TrajectorySide::kSide), legend, out, "Side view");
+  WriteFigure(PlotTrajectory(data, view, TrajectorySide::kTop), top_legend, out, "data-zoom",
+              "Top view");
+  WriteFigure(PlotTrajectory(data, view, TrajectorySide::kSide), legend, out, "data-zoom",
+              "Side view");
   out << "</div>\n";
 }
 
 void WriteScene(const ReportData& data, std::ostream& out) {
-  if (data.lines.empty()) return;
-  out << "<h2>Map lines</h2>\n<figure>\n" << DrawScene(data) << "</figure>\n";
+  if (data.map.lines.empty()) return;
+  out << "<div class=\"replaced\"><h2>Map lines</h2>\n<figure>\n"
+      << DrawScene(data) << "</figure>\n</div>\n";
 }
 
 void WriteSeries(const ReportData& data, std::ostream& out) {
@@ -151,13 +176,13 @@ void WriteSeries(const ReportData& data, std::ostream& out) {
     out << "<h2>Position error over time</h2>\n";
     std::vector<LegendEntry> legend = {{Swatch::kCurve, "curve error", "position error"}};
     Append(statuses, &legend);
-    WriteFigure(PlotError(data), legend, out);
+    WriteFigure(PlotError(data), legend, out, "data-chart=\"error\"");
   }
   out << "<h2>Inliers and status over time</h2>\n";
   std::vector<LegendEntry> legend = {{Swatch::kCurve, "curve points", "inlier points"},
                                      {Swatch::kCurve, "curve lines", "inlier lines"}};
   Append(statuses, &legend);
-  WriteFigure(PlotInliers(data), legend, out);
+  WriteFigure(PlotInliers(data), legend, out, "data-chart=\"inliers\"");
 }
 
 void WriteNotTracked(const ReportData& data, std::ostream& out) {
@@ -187,10 +212,10 @@ void WriteTimes(const ReportData& data, std::ostream& out) {
     legend.push_back({Swatch::kFill, "stage-" + std::to_string(legend.size() % 6), stage.name});
   }
   legend.push_back({Swatch::kCurve, "curve whole", "tracking, total"});
-  WriteFigure(PlotStages(data), legend, out);
+  WriteFigure(PlotStages(data), legend, out, "data-chart=\"stages\"");
   out << "<h2>Time per keyframe</h2>\n";
   WriteFigure(PlotMapping(data), {{Swatch::kFill, "fill-mapping", "keyframe step of the mapper"}},
-              out);
+              out, "data-chart=\"mapping\"");
   out << "<h2>Stages</h2>\n<table>\n<tr><th>milliseconds</th><th>mean</th><th>median</th>"
          "<th>95 %</th><th>max</th><th>times</th></tr>\n";
   for (const StageTimeStatistics& stage : SummarizeStages(data.stages, data.frames)) {
@@ -204,7 +229,7 @@ void WriteTimes(const ReportData& data, std::ostream& out) {
 void WriteFooter(const ReportData& data, std::ostream& out) {
   out << "<h2>Options</h2>\n<details><summary>All options in effect (YAML)</summary>\n<pre>"
       << EscapeHtml(data.options_text) << "</pre></details>\n<footer>" << EscapeHtml(data.version)
-      << "</footer>\n</body>\n</html>\n";
+      << "</footer>\n";
 }
 
 }  // namespace
@@ -212,7 +237,9 @@ void WriteFooter(const ReportData& data, std::ostream& out) {
 void WriteReport(const ReportData& data, std::ostream& out) {
   CheckStages(data);
   WriteHeader(data, out);
-  WriteNumbers(data, out);
+  WriteTiles(data, out);
+  WriteViewerElements(out);
+  WriteLongNumbers(data, out);
   if (data.frames.empty()) {
     out << "<p>No frame was processed.</p>\n";
   } else {
@@ -222,7 +249,10 @@ void WriteReport(const ReportData& data, std::ostream& out) {
     WriteNotTracked(data, out);
     WriteTimes(data, out);
   }
+  WriteSelfCalibration(data, out);
   WriteFooter(data, out);
+  WriteViewerScripts(FormatRunJson(data), out);
+  out << "</body>\n</html>\n";
 }
 
 }  // namespace msc_vo

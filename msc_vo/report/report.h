@@ -9,9 +9,12 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
+#include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/report/frame_view.h"
 
 namespace msc_vo {
 
@@ -25,7 +28,10 @@ struct ReportFrame {
   bool is_keyframe = false;
   Rigid3 world_from_cam;                 ///< metres; aligned to the ground truth, if there is one
   std::optional<double> position_error;  ///< metres; nullopt without ground truth at this time
-  int num_points = 0;                    ///< features in the image
+  /// Largest standard deviation of the pose, degrees and metres; nullopt without an estimate.
+  std::optional<double> rotation_sigma_deg;
+  std::optional<double> translation_sigma;
+  int num_points = 0;  ///< features in the image
   int num_lines = 0;
   int num_inlier_points = 0;  ///< matches with map points that agree with the pose
   int num_inlier_lines = 0;
@@ -43,6 +49,13 @@ struct ReportGroundTruthPose {
 struct ReportLine {
   LineSegment3 segment;  ///< metres, world
   int axis = -1;         ///< Manhattan axis 0, 1, 2 that it is parallel to; -1: none
+};
+
+/// The map as it is drawn, in the same frame as the poses.
+struct ReportMap {
+  std::vector<ReportLine> lines;
+  std::vector<Eigen::Vector3d> points;                ///< metres, world
+  std::optional<Eigen::Quaterniond> world_from_axes;  ///< Manhattan axes, if there are any
 };
 
 /// A stage of tracking.
@@ -67,20 +80,28 @@ struct ReportData {
   std::string command_line;  ///< as typed
   std::string options_text;  ///< all options in effect, as YAML
   std::vector<ReportNumber> numbers;
+  std::vector<ReportNumber> self_calibration;       ///< what was estimated beside poses and map
   std::vector<ReportStage> stages;                  ///< of tracking, in order of time
   std::vector<ReportFrame> frames;                  ///< in order of time
   std::vector<ReportGroundTruthPose> ground_truth;  ///< in order of time; may be empty
-  std::vector<ReportLine> lines;
+  ReportMap map;                                    ///< at the end of the run
+  std::vector<FrameView> views;                     ///< by ascending frame; may be empty
+  PinholeCamera camera;
   /// Up direction of an upright camera: -y, because y points down, or y if fy is negative. The mean
   /// over all frames is the up direction of the views.
   Eigen::Vector3d up_in_cam{0.0, -1.0, 0.0};
 };
 
-/// Writes a self-contained HTML page with inline style and SVG plots, for light and dark screens
-/// and for print. It has no scripts and loads nothing. Long series are thinned to the resolution of
-/// the plots: 5000 frames give less than 2 MB. Values that are not finite are skipped. Throws
-/// std::invalid_argument, naming the frame, if the size of a `stage_ms` differs from that of
-/// `stages`.
+/// Whether reports are interactive: three.js was found when msc_vo was built.
+bool HasViewer();
+
+/// Writes a self-contained HTML page that loads nothing, for light and dark screens and for print.
+/// Its plots are inline SVG, thinned to their resolution: those of 5000 frames take less than 2 MB.
+/// With HasViewer(), a script shows the run in three dimensions and replaces the plots over time by
+/// interactive ones; without scripts, and in print, the static page remains. The script, its data
+/// and the views add about 1 MB, 0.2 kB per frame and 4/3 of the bytes of the views. Values that
+/// are not finite are skipped. Throws std::invalid_argument, naming the frame, if the size of a
+/// `stage_ms` differs from that of `stages`.
 void WriteReport(const ReportData& data, std::ostream& out);
 
 }  // namespace msc_vo

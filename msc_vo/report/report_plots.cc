@@ -111,7 +111,7 @@ TrajectoryDrawing Project(const ReportData& data, const Projector& project, bool
     drawing.ground_truth.push_back(project(pose.position));
   }
   if (!with_lines) return drawing;
-  for (const ReportLine& line : data.lines) {
+  for (const ReportLine& line : data.map.lines) {
     drawing.lines[std::clamp(line.axis, -1, 2) + 1].push_back(
         {project(line.segment.start), project(line.segment.end)});
   }

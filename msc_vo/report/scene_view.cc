@@ -76,7 +76,7 @@ std::pair<Eigen::Vector3d, double> BoundingSphere(const ReportData& data,
     for (const Eigen::Vector3d& x : Trajectory(data)) {
       trajectory.push_back(view_from_world.row(axis).dot(x));
     }
-    for (const ReportLine& line : data.lines) {
+    for (const ReportLine& line : data.map.lines) {
       line_ends.push_back(view_from_world.row(axis).dot(line.segment.start));
       line_ends.push_back(view_from_world.row(axis).dot(line.segment.end));
     }
@@ -119,7 +119,7 @@ struct SceneDrawing {
 
 SceneDrawing Project(const ReportData& data, const SceneCamera& camera) {
   SceneDrawing drawing;
-  for (const ReportLine& line : data.lines) {
+  for (const ReportLine& line : data.map.lines) {
     const std::optional<LineSegment2> segment = camera.Project(line.segment);
     if (segment) drawing.lines[std::clamp(line.axis, -1, 2) + 1].push_back(*segment);
   }

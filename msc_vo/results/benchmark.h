@@ -14,7 +14,9 @@ namespace msc_vo {
 
 /// One sequence in one mode.
 struct BenchmarkRun {
-  std::string sequence;  ///< unique name
+  std::string sequence;    ///< unique name
+  int sequence_index = 0;  ///< position of the sequence in the list of all, from 0
+  std::string directory;   ///< of the sequence
   std::string mode;
   /// Reason why the run has no errors; empty if it succeeded. A failed run may have a summary of
   /// the frames before the failure.
@@ -22,6 +24,10 @@ struct BenchmarkRun {
   RunSummary summary;
   RunCost cost;
   std::optional<TrajectoryError> error;  ///< usable unless the run failed
+  /// JSON object with the measurements, if they were read from a file. The members above then hold
+  /// only what the tables show.
+  std::string recorded;
+  std::string folder;  ///< of the files of the run; empty: unknown
 };
 
 /// Runs of several sequences in several modes, with the settings needed to reproduce them.
@@ -29,6 +35,7 @@ struct Benchmark {
   std::string command_line;
   std::string build;  ///< compiler and build type
   int num_processors = 0;
+  int max_frames = 0;                       ///< of every sequence; 0: all
   std::vector<OptionText> changed_options;  ///< differences from the defaults, without the mode
   std::vector<std::string> modes;
   std::vector<BenchmarkRun> runs;  ///< by sequence, then in the order of `modes`

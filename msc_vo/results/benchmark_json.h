@@ -13,4 +13,9 @@ namespace msc_vo {
 /// of its summary.json.
 std::string FormatBenchmarkJson(const Benchmark& benchmark);
 
+/// Reads a file with the contents of FormatBenchmarkJson(), which gives the same measurements
+/// again. The folders of the runs are those beside the file. Throws std::runtime_error naming the
+/// file if it is no such file, or of another version of msc_vo.
+Benchmark ReadBenchmarkJson(const std::string& path);
+
 }  // namespace msc_vo

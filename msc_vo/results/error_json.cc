@@ -15,7 +15,10 @@ Json ToJson(const ErrorStatistics& statistics, double factor = 1.0) {
           {"mean", ValueOrNull(statistics.count, factor * statistics.mean)},
           {"median", ValueOrNull(statistics.count, factor * statistics.median)},
           {"p95", ValueOrNull(statistics.count, factor * statistics.p95)},
-          {"max", ValueOrNull(statistics.count, factor * statistics.max)}};
+          {"max", ValueOrNull(statistics.count, factor * statistics.max)},
+          {"min", ValueOrNull(statistics.count, factor * statistics.min)},
+          {"std", ValueOrNull(statistics.count, factor * statistics.std)},
+          {"sse", ValueOrNull(statistics.count, factor * factor * statistics.sse)}};
 }
 
 Json ToJson(const LineError& error) {
@@ -29,11 +32,36 @@ Json ToJson(const LineError& error) {
           {"distance_across", ToJson(error.across)}};
 }
 
+Json ToJson(const RelativeError& error, const RelativeDelta& delta) {
+  return {{"delta", delta.value},
+          {"unit", ToString(delta.unit)},
+          {"all_pairs", delta.all_pairs},
+          {"pairs", error.translation.count},
+          {"translation", ToJson(error.translation)},
+          {"rotation_deg", ToJson(error.rotation, RadiansToDegrees(1.0))}};
+}
+
 }  // namespace
 
+const char* ToString(DeltaUnit unit) {
+  switch (unit) {
+    case DeltaUnit::kFrames:
+      return "frames";
+    case DeltaUnit::kMetres:
+      return "metres";
+    case DeltaUnit::kSeconds:
+      return "seconds";
+  }
+  return "unknown";
+}
+
 std::string FormatErrorJson(const TrajectoryError& error, const SkippedRows& skipped,
+                            const EvaluationContext& context,
                             const std::optional<LineError>& lines) {
   Json json = ToJson(error);
+  json["rpe"] = ToJson(error.rpe, context.delta);
+  json["gt_format"] = context.reference_format;
+  json["est_format"] = context.estimate_format;
   json["est_skipped"] = skipped.estimate;
   json["gt_skipped"] = skipped.reference;
   if (lines) json["lines"] = ToJson(*lines);

@@ -17,9 +17,21 @@ struct SkippedRows {
   int estimate = 0;
 };
 
+/// The arguments of an evaluation that its output repeats.
+struct EvaluationContext {
+  std::string reference_format;  ///< "tum"
+  std::string estimate_format;
+  bool has_stamps = true;
+  RelativeDelta delta;  ///< of TrajectoryError::rpe
+};
+
+/// "frames", "metres", "seconds".
+const char* ToString(DeltaUnit unit);
+
 /// The output of `msc_vo evaluate --json`: errors in metres, degrees and seconds. Errors of lines
 /// are in the object "lines", which is absent without `lines`.
 std::string FormatErrorJson(const TrajectoryError& error, const SkippedRows& skipped,
+                            const EvaluationContext& context = {},
                             const std::optional<LineError>& lines = std::nullopt);
 
 }  // namespace msc_vo

@@ -3,7 +3,9 @@
 
 #include "msc_vo/results/report_frame.h"
 
-#include <utility>
+#include <cmath>
+
+#include "msc_vo/geometry/angles.h"
 
 namespace msc_vo {
 
@@ -29,25 +31,33 @@ ReportStatus ToReportStatus(TrackingStatus status) {
 
 }  // namespace
 
+ReportFrame MakeReportFrame(const FrameResult& frame) {
+  ReportFrame row;
+  row.timestamp = frame.timestamp;
+  row.status = ToReportStatus(frame.status);
+  row.is_keyframe = frame.is_keyframe;
+  row.world_from_cam = frame.cam_from_world.Inverse();
+  const Eigen::Matrix<double, 6, 1> variance = frame.covariance.diagonal();
+  if (variance.maxCoeff() > 0.0) {
+    row.rotation_sigma_deg = RadiansToDegrees(std::sqrt(variance.head<3>().maxCoeff()));
+    row.translation_sigma = std::sqrt(variance.tail<3>().maxCoeff());
+  }
+  row.num_points = frame.num_points;
+  row.num_lines = frame.num_lines;
+  row.num_inlier_points = frame.num_inlier_points;
+  row.num_inlier_lines = frame.num_inlier_lines;
+  const StageTimes& times = frame.times;
+  row.stage_ms = {times.points,  times.lines,    times.depth, times.features,
+                  times.waiting, times.matching, times.pose};
+  row.tracking_ms = times.tracking;
+  row.mapping_ms = times.mapping;
+  return row;
+}
+
 std::vector<ReportFrame> ReportFrames(const std::vector<FrameResult>& frames) {
   std::vector<ReportFrame> rows;
-  for (const FrameResult& frame : frames) {
-    ReportFrame row;
-    row.timestamp = frame.timestamp;
-    row.status = ToReportStatus(frame.status);
-    row.is_keyframe = frame.is_keyframe;
-    row.world_from_cam = frame.cam_from_world.Inverse();
-    row.num_points = frame.num_points;
-    row.num_lines = frame.num_lines;
-    row.num_inlier_points = frame.num_inlier_points;
-    row.num_inlier_lines = frame.num_inlier_lines;
-    const StageTimes& times = frame.times;
-    row.stage_ms = {times.points,  times.lines,    times.depth, times.features,
-                    times.waiting, times.matching, times.pose};
-    row.tracking_ms = times.tracking;
-    row.mapping_ms = times.mapping;
-    rows.push_back(std::move(row));
-  }
+  rows.reserve(frames.size());
+  for (const FrameResult& frame : frames) rows.push_back(MakeReportFrame(frame));
   return rows;
 }
 

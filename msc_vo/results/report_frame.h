@@ -10,8 +10,9 @@
 
 namespace msc_vo {
 
-/// Converts frames for the report: poses in the world of the odometry, stage times in the order of
-/// ReportStages(), no position errors.
+/// Converts a frame for the report: its pose in the world of the odometry, stage times in the order
+/// of ReportStages(), no position error.
+ReportFrame MakeReportFrame(const FrameResult& frame);
 std::vector<ReportFrame> ReportFrames(const std::vector<FrameResult>& frames);
 
 /// Stages of tracking in order of time. Points, lines and depth are parts of "features".

@@ -136,6 +136,46 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
   return numbers;
 }
 
+std::vector<ReportNumber> SelfCalibration(const RunSummary& summary, const RunContext& context) {
+  const NoiseScale& scale = summary.noise_scale;
+  const auto factor = [](double value) { return FormatText("x %.2f", value); };
+  std::vector<ReportNumber> numbers = {
+      {"Noise of point depth", factor(scale.point_depth), "factor of the sigmas of the features"},
+      {"Noise of line pixels", factor(scale.line_pixel), ""},
+      {"Noise of line depth", factor(scale.line_depth), ""},
+      {"Readout time", FormatText("%.1f ms", 1000.0 * summary.readout_time),
+       context.calibration.readout_origin}};
+  if (summary.axes.state != AxesState::kNone) {
+    numbers.push_back({"Manhattan axes",
+                       FormatText("sigma %.2f deg", RadiansToDegrees(summary.axes.sigma)),
+                       FormatText("%d refinements", summary.axes.num_refinements)});
+  }
+  return numbers;
+}
+
+// The final map, moved by `to_from_world`.
+ReportMap FinalMap(const OdometryResult& result, const Rigid3& to_from_world) {
+  ReportMap map;
+  for (const MapLine& line : result.lines) {
+    map.lines.push_back({{to_from_world * line.segment.start, to_from_world * line.segment.end},
+                         line.axis.value_or(-1)});
+  }
+  for (const MapPoint& point : result.points) map.points.push_back(to_from_world * point.position);
+  if (result.axes.state != AxesState::kNone) {
+    map.world_from_axes = to_from_world.rotation() * result.axes.world_from_axes;
+  }
+  return map;
+}
+
+// The views with indices of frames in place of their ids.
+std::vector<FrameView> IndexedViews(const std::vector<FrameResult>& frames,
+                                    std::vector<FrameView> views) {
+  std::map<int64_t, int> indices;
+  for (size_t i = 0; i < frames.size(); ++i) indices[frames[i].id] = static_cast<int>(i);
+  for (FrameView& view : views) view.frame = indices.at(view.frame);
+  return views;
+}
+
 std::string Row(const char* name, const std::string& text) {
   return FormatText("%-10s ", name) + text + "\n";
 }
@@ -227,11 +267,10 @@ std::string FormatReport(const OdometryResult& result, const RunSummary& summary
   data.numbers = MakeNumbers(summary, context);
   data.stages = ReportStages();
   data.frames = AlignedFrames(result, context.error);
-  for (const MapLine& line : result.lines) {
-    data.lines.push_back(
-        {{ground_truth_from_world * line.segment.start, ground_truth_from_world * line.segment.end},
-         line.axis.value_or(-1)});
-  }
+  data.self_calibration = SelfCalibration(summary, context);
+  data.map = FinalMap(result, ground_truth_from_world);
+  data.views = IndexedViews(result.frames, context.views);
+  data.camera = context.calibration.camera;
   data.up_in_cam.y() = context.calibration.camera.fy < 0.0 ? 1.0 : -1.0;
   std::ostringstream page;
   WriteReport(data, page);

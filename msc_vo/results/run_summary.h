@@ -15,6 +15,7 @@
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/odometry/odometry.h"
+#include "msc_vo/report/frame_view.h"
 #include "msc_vo/report/report_statistics.h"
 
 namespace msc_vo {
@@ -93,6 +94,7 @@ struct RunContext {
   std::optional<TrajectoryError> error;  ///< nullopt without ground truth
   RunCost cost;
   std::optional<RealtimeSummary> realtime;  ///< nullopt unless the run was in real time
+  std::vector<FrameView> views;  ///< for the report, with the ids of frames; may be empty
 };
 
 /// Camera poses of all frames. Frames that are neither tracked nor weak are marked as not

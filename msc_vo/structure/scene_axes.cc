@@ -53,6 +53,13 @@ bool SceneAxesOptions::IsValid(std::string* error) const {
          estimator.IsValid(error);
 }
 
+std::optional<int> AxisOfLine(const SceneAxesOptions& options, const AxesEstimate& axes,
+                              const LineLandmark& line) {
+  return AssociateAxis(options.association, axes.world_from_axes,
+                       std::hypot(axes.sigma, DegreesToRadians(options.deviation)),
+                       {line.segment.Direction(), line.direction_sigma});
+}
+
 SceneAxes::SceneAxes(const SceneAxesOptions& options)
     : options_(options), estimator_(options.estimator) {
   std::string error;
@@ -76,9 +83,7 @@ void SceneAxes::Search(const Map& map, KeyframeId id, const std::vector<AxisEvid
 
 std::optional<int> SceneAxes::AxisOf(const LineLandmark& line) const {
   if (estimator_.state() == AxesState::kNone) return std::nullopt;
-  return AssociateAxis(options_.association, estimator_.world_from_axes(),
-                       std::hypot(estimator_.sigma(), DegreesToRadians(options_.deviation)),
-                       {line.segment.Direction(), line.direction_sigma});
+  return AxisOfLine(options_, {estimator_.world_from_axes(), estimator_.sigma()}, line);
 }
 
 AxesSupport SceneAxes::CountSupport(const Map& map) const {

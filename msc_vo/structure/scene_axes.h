@@ -10,6 +10,7 @@
 #include "msc_vo/bundle_adjustment/window_data.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/map/map.h"
+#include "msc_vo/map/snapshot.h"
 #include "msc_vo/structure/axes_estimator.h"
 #include "msc_vo/structure/axes_refinement.h"
 #include "msc_vo/structure/axis_association.h"
@@ -30,6 +31,10 @@ struct SceneAxesOptions {
 
   bool IsValid(std::string* error) const;
 };
+
+/// Index 0..2 of the axis that a map line is parallel to; std::nullopt if there is none.
+std::optional<int> AxisOfLine(const SceneAxesOptions& options, const AxesEstimate& axes,
+                              const LineLandmark& line);
 
 /// The Manhattan axes of the map (paper: Manhattan Axes Estimation and Association): found in one
 /// keyframe, refined over the lines of all keyframes, and associated with the lines of a window.

@@ -142,5 +142,90 @@ TEST_F(BenchmarkCommandTest, WritesFinishedRunsOnInterrupt) {
   EXPECT_THAT(Table(), HasSubstr("room-2, pl-vo-depth: interrupted"));
 }
 
+class BenchmarkSharesTest : public BenchmarkCommandTest {
+ protected:
+  void SetUp() override {
+    TemporaryFolder::SetUp();
+    for (const char* name : {"a", "b", "c"}) Synthesize("room", 6, name);
+    WriteText("list.txt", "# three sequences\na\n\nb\nc\n");
+  }
+  CommandOutcome Benchmark(const std::string& output, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"benchmark", Path("list.txt"), "--modes",   "pl-vo",
+                                          "--quiet",   "--output",       Path(output)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunCommand(arguments);
+  }
+  CommandOutcome Merge(std::vector<std::string> folders) {
+    folders.insert(folders.begin(), {"benchmark", "--output", Path("merged"), "--merge"});
+    return RunCommand(folders);
+  }
+  // The runs without what depends on the machine.
+  nlohmann::json Runs(const std::string& folder, const std::string& name = "benchmark.json") {
+    nlohmann::json runs = nlohmann::json::parse(ReadFile(Path(folder + "/" + name)))["runs"];
+    for (nlohmann::json& run : runs) {
+      for (const char* key : {"stages_ms", "wall_seconds", "frames_per_second", "processor_seconds",
+                              "peak_memory_mib"}) {
+        run.erase(key);
+      }
+    }
+    return runs;
+  }
+};
+
+TEST_F(BenchmarkSharesTest, MergesToTheResultsOfOneProgram) {
+  ASSERT_EQ(Benchmark("whole", {}).exit_code, 0);
+  EXPECT_THAT(ReadFile(Path("whole/index.html")), HasSubstr("href=\"b/pl-vo/report.html\""));
+  ASSERT_EQ(Benchmark("shares", {"--shard", "1/2"}).exit_code, 0);
+  EXPECT_EQ(Runs("shares", "benchmark-1-of-2.json").size(), 2u);  // a and c
+
+  const CommandOutcome half = Merge({Path("shares")});
+  EXPECT_EQ(half.exit_code, 1);
+  EXPECT_THAT(half.output, HasSubstr("shard 2 of 2 is missing"));
+  ASSERT_EQ(Benchmark("elsewhere", {"--shard", "2/2"}).exit_code, 0);
+  const CommandOutcome merged = Merge({Path("shares"), Path("elsewhere")});
+  EXPECT_EQ(merged.exit_code, 0) << merged.output;
+  EXPECT_EQ(Runs("merged"), Runs("whole"));
+  EXPECT_THAT(ReadFile(Path("merged/index.html")),
+              AllOf(HasSubstr("href=\"../shares/a/pl-vo/report.html\""),
+                    HasSubstr("href=\"../elsewhere/b/pl-vo/report.html\"")));
+}
+
+TEST_F(BenchmarkSharesTest, ResumesAfterAKilledRun) {
+  Synthesize("room", 300, "b");  // long enough to be killed in it
+  CommandProcess benchmark(
+      {"benchmark", Path("list.txt"), "--modes", "pl-vo", "--output", Path("out")});
+  ASSERT_TRUE(benchmark.WaitForOutput("b, pl-vo:")) << benchmark.output();
+  benchmark.Signal(SIGKILL);
+  EXPECT_EQ(benchmark.Wait(), -SIGKILL);
+  nlohmann::json runs = Runs("out");
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[1]["failure"], "the program was ended during this run");
+
+  const CommandOutcome rest = RunCommand(
+      {"benchmark", Path("list.txt"), "--modes", "pl-vo", "--output", Path("out"), "--resume"});
+  EXPECT_EQ(rest.exit_code, 0) << rest.output;
+  EXPECT_THAT(rest.output, Not(HasSubstr("a, pl-vo:\n")));
+  // The run that was cut off comes last.
+  EXPECT_LT(rest.output.find("c, pl-vo:\n"), rest.output.find("b, pl-vo:\n"));
+  runs = Runs("out");
+  ASSERT_EQ(runs.size(), 3u);
+  for (const nlohmann::json& run : runs) EXPECT_TRUE(run["failure"].is_null());
+  EXPECT_EQ(runs[1]["sequence"], "b");
+}
+
+TEST_F(BenchmarkSharesTest, RefusesOtherSettingsAndWrongArguments) {
+  ASSERT_EQ(Benchmark("out", {"--max-frames", "4"}).exit_code, 0);
+  const CommandOutcome resumed = Benchmark("out", {"--resume"});
+  EXPECT_EQ(resumed.exit_code, 1);
+  EXPECT_THAT(resumed.output, HasSubstr("cannot be resumed, because its settings differ: "
+                                        "--max-frames 4 and 0"));
+  ASSERT_EQ(Benchmark("other", {"--max-frames", "5"}).exit_code, 0);
+  EXPECT_THAT(Merge({Path("out"), Path("other")}).output, HasSubstr("cannot be merged with"));
+  EXPECT_THAT(Merge({Path("a")}).output, HasSubstr("no results of msc_vo benchmark"));
+  EXPECT_THAT(Benchmark("out", {"--shard", "3/2"}).output, HasSubstr("expected K/N"));
+  EXPECT_EQ(RunCommand({"benchmark"}).exit_code, 2);
+  EXPECT_EQ(RunCommand({"benchmark", Path("a"), "--merge", Path("out")}).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <cmath>
+#include <filesystem>
+
 #include "tests/apps/command_process.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
@@ -101,6 +104,96 @@ TEST_F(EvaluateCommandTest, ComparesLinesOnlyOnRequest) {
   EXPECT_FALSE(nlohmann::json::parse(text.output).contains("lines"));
   EXPECT_EQ(Evaluate({"--lines", Path("lines.ply")}).exit_code, 2);
   EXPECT_EQ(Evaluate({"--edges", Path("edges.ply")}).exit_code, 2);
+}
+
+TEST_F(EvaluateCommandTest, AlignsAsRequested) {
+  const auto rmse = [&](const std::string& alignment) {
+    return nlohmann::json::parse(Evaluate({"--align", alignment, "--json"}).output)["ape_rmse"]
+        .get<double>();
+  };
+  // The estimate is 1 m beside the truth.
+  EXPECT_NEAR(rmse("se3"), 0.0, 1e-9);
+  EXPECT_NEAR(rmse("sim3"), 0.0, 1e-9);
+  EXPECT_NEAR(rmse("origin"), 0.0, 1e-9);
+  EXPECT_NEAR(rmse("none"), 1.0, 1e-9);
+  WriteText("estimate.txt",
+            "0 0.5 0.5 0 0 0 0 1\n1 -0.5 0.5 0 0 0 0 1\n2 -0.5 -0.5 0 0 0 0 1\n"
+            "3 0.5 -0.5 0 0 0 0 1\n");
+  EXPECT_NEAR(rmse("se3"), std::sqrt(0.5), 1e-9);
+  const nlohmann::json json = nlohmann::json::parse(Evaluate({"--align", "sim3", "--json"}).output);
+  EXPECT_NEAR(json["scale"], 2.0, 1e-9);
+  EXPECT_NEAR(json["ape_sse"], 0.0, 1e-9);
+  EXPECT_EQ(json["alignment"], "sim3");
+  EXPECT_THAT(Evaluate({"--align", "sim3"}).output, HasSubstr("scale 2.000000"));
+  EXPECT_EQ(Evaluate({"--align", "magic"}).exit_code, 2);
+}
+
+TEST_F(EvaluateCommandTest, MeasuresRelativeErrorsOverADelta) {
+  // Every step of the estimate is 2 m, as that of the truth, but the last one is 0.5 m longer.
+  WriteText("estimate.txt",
+            "0 1 1 0 0 0 0 1\n1 -1 1 0 0 0 0 1\n2 -1 -1 0 0 0 0 1\n3 1.5 -1 0 0 0 0 1\n");
+  const nlohmann::json frames = nlohmann::json::parse(Evaluate({"--json"}).output)["rpe"];
+  EXPECT_EQ(frames["pairs"], 3);
+  EXPECT_EQ(frames["unit"], "frames");
+  EXPECT_NEAR(frames["translation"]["max"], 0.5, 1e-9);
+  EXPECT_NEAR(frames["translation"]["min"], 0.0, 1e-9);
+  EXPECT_NEAR(frames["translation"]["mean"], 0.5 / 3.0, 1e-9);
+  EXPECT_NEAR(frames["translation"]["sse"], 0.25, 1e-9);
+  const nlohmann::json seconds = nlohmann::json::parse(
+      Evaluate({"--delta", "2", "--delta-unit", "s", "--all-pairs", "--json"}).output)["rpe"];
+  EXPECT_EQ(seconds["pairs"], 2);
+  EXPECT_NEAR(seconds["translation"]["rmse"], 0.5 / std::sqrt(2.0), 1e-9);
+  EXPECT_THAT(Evaluate({"--delta", "4", "--delta-unit", "metres"}).output,
+              HasSubstr("RPE 4 metres          no pairs at this distance"));
+  EXPECT_THAT(Evaluate({"--delta", "1.5"}).output, HasSubstr("--delta: "));
+  EXPECT_EQ(Evaluate({"--delta", "0"}).exit_code, 2);
+}
+
+TEST_F(EvaluateCommandTest, ReadsKittiAndEuroc) {
+  WriteText("kitti.txt",
+            "1 0 0 1 0 1 0 1 0 0 1 0\n1 0 0 -1 0 1 0 1 0 0 1 0\n1 0 0 -1 0 1 0 -1 0 0 1 0\n"
+            "1 0 0 1 0 1 0 -1 0 0 1 0\n");
+  std::string euroc = "#timestamp [ns], p_RS_R_x [m], y, z, q_RS_w [], q_RS_x [], y, z\n";
+  const char* const positions[] = {"1,1", "-1,1", "-1,-1", "1,-1"};
+  for (int i = 0; i < 4; ++i) {
+    euroc += std::to_string(i) + "000000000," + positions[i] + ",0,1,0,0,0\n";
+  }
+  WriteText("euroc.csv", euroc);
+  for (const auto& [truth, estimate] : {std::pair("kitti.txt", "truth.txt"),
+                                        {"truth.txt", "kitti.txt"},
+                                        {"euroc.csv", "truth.txt"},
+                                        {"kitti.txt", "kitti.txt"},
+                                        {"euroc.csv", "kitti.txt"}}) {
+    const CommandOutcome outcome =
+        RunCommand({"evaluate", Path(truth), Path(estimate), "--align", "none", "--json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    const nlohmann::json json = nlohmann::json::parse(outcome.output);
+    EXPECT_EQ(json["matched"], 4) << truth << " " << estimate;
+    EXPECT_NEAR(json["ape_max"], 0.0, 1e-12);
+  }
+  const CommandOutcome table = RunCommand({"evaluate", Path("kitti.txt"), Path("kitti.txt")});
+  EXPECT_THAT(table.output, HasSubstr("formats: ground truth kitti, estimate kitti"));
+  EXPECT_THAT(table.output, testing::Not(HasSubstr("mm/s")));
+  EXPECT_THAT(
+      RunCommand({"evaluate", Path("kitti.txt"), Path("truth.txt"), "--format", "tum"}).output,
+      HasSubstr("kitti.txt:1: expected 8 numbers"));
+  EXPECT_EQ(RunCommand({"evaluate", Path("kitti.txt"), Path("truth.txt"), "--format", "kitti,tum"})
+                .exit_code,
+            0);
+  EXPECT_EQ(RunCommand({"evaluate", "a", "b", "--format", "xml"}).exit_code, 2);
+}
+
+TEST_F(EvaluateCommandTest, WritesPlots) {
+  EXPECT_THAT(Evaluate({"--plot", Path("plot.html")}).output,
+              HasSubstr("plots: " + Path("plot.html")));
+  EXPECT_THAT(ReadFile(Path("plot.html")),
+              AllOf(HasSubstr("<!doctype html>"), HasSubstr("APE RMSE")));
+  EXPECT_EQ(Evaluate({"--plot", Path("plot.svg")}).exit_code, 0);
+  EXPECT_THAT(ReadFile(Path("plot.svg")), testing::StartsWith("<svg"));
+  EXPECT_EQ(Evaluate({"--plot", Path("plot.png")}).exit_code, 2);
+  EXPECT_EQ(Evaluate({"--plot", Path("no/plot.svg")}).exit_code, 1);
+  std::filesystem::create_symlink(Path("truth.txt"), Path("truth.svg"));
+  EXPECT_THAT(Evaluate({"--plot", Path("truth.svg")}).output, HasSubstr("msc_vo: error: "));
 }
 
 TEST_F(EvaluateCommandTest, ReportsInvalidFiles) {

@@ -4,14 +4,13 @@
 // Compares EvaluateTrajectory with the reference tool ../shared/tools/ape.py on the same
 // trajectories.
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <string>
 
 #include "tests/evaluation/curved_path.h"
+#include "tests/evaluation/python_process.h"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -25,16 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kTolerance = 1e-6;
-
-std::string OutputOf(const std::string& command) {
-  FILE* const pipe = popen(command.c_str(), "r");
-  std::string output;
-  std::array<char, 4096> buffer;
-  while (size_t count = fread(buffer.data(), 1, buffer.size(), pipe)) {
-    output.append(buffer.data(), count);
-  }
-  return pclose(pipe) == 0 ? output : "";
-}
 
 void Write(const fs::path& path, const std::vector<TimedPose>& poses) {
   std::ofstream file(path);
@@ -50,11 +39,7 @@ class ReferenceToolTest : public testing::Test {
  protected:
   void SetUp() override {
     if (!fs::exists(MSC_VO_REFERENCE_TOOL)) GTEST_SKIP() << "../shared/tools/ape.py does not exist";
-    // The first python3 on the path may lack numpy.
-    for (const char* python : {"python3", "/usr/bin/python3"}) {
-      const std::string probe = std::string(python) + " -c 'import numpy; print(1)' 2>/dev/null";
-      if (python_.empty() && !OutputOf(probe).empty()) python_ = python;
-    }
+    python_ = PythonWithNumpy();
     if (python_.empty()) GTEST_SKIP() << "python3 with numpy is not installed";
     folder_ = fs::path(testing::TempDir()) / ("reference_tool_" + std::to_string(getpid()));
     fs::create_directories(folder_);

@@ -55,6 +55,32 @@ TEST(EvaluateTrajectory, AbsoluteErrorMatchesHandComputedValues) {
   EXPECT_NEAR(error.rpe_per_metre.translation.mean, h, 1e-12);
 }
 
+// Moved by 0.5 along x and turned by 0.1 about the vertical.
+std::vector<TimedPose> Moved(const std::vector<TimedPose>& path) {
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()));
+  return Transformed(Rigid3(turn, {0.5, 0.0, 0.0}), path);
+}
+
+TEST(EvaluateTrajectory, AlignsAsTheOptionsSay) {
+  const std::vector<TimedPose> path = CurvedPath(200, 30.0);
+  EvaluationOptions options;
+  for (const Alignment alignment : {Alignment::kPositions, Alignment::kOrientations}) {
+    options.alignment = alignment;
+    const TrajectoryError error = EvaluateTrajectory(path, Moved(path), options);
+    EXPECT_NEAR(error.ape.max, 0.0, 1e-9);
+    EXPECT_NEAR(error.rotation.max, 0.0, 1e-6);
+  }
+  options.alignment = Alignment::kNone;
+  const TrajectoryError error = EvaluateTrajectory(path, Moved(path), options);
+  EXPECT_TRUE(error.reference_from_estimate.params == Rigid3().params);
+  EXPECT_NEAR(error.rotation.rmse, 0.1, 1e-9);
+  EXPECT_NEAR(error.ape_rotation.rmse, 0.1, 1e-9);
+  const std::vector<TimedPose> shifted =
+      Transformed(Rigid3(Eigen::Quaterniond::Identity(), {0.5, 0.0, 0.0}), path);
+  EXPECT_NEAR(EvaluateTrajectory(path, shifted, options).ape.rmse, 0.5, 1e-9);
+  EXPECT_THROW(AlignmentFromString("scale"), std::invalid_argument);
+}
+
 TEST(EvaluateTrajectory, RotationErrorMatchesHandComputedValues) {
   std::vector<TimedPose> estimate = Square();
   const double angle = 0.2;

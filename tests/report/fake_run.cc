@@ -35,7 +35,7 @@ void AddBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, ReportData*
       if (corner & 2) start[(axis + 2) % 3] = high[(axis + 2) % 3];
       Eigen::Vector3d end = start;
       end[axis] = high[axis];
-      data->lines.push_back({{start, end}, axis});
+      data->map.lines.push_back({{start, end}, axis});
     }
   }
 }

@@ -74,7 +74,7 @@ TEST(SceneView, IsIndependentOfTheWorldFrame) {
   for (ReportFrame& frame : data.frames) {
     frame.world_from_cam = other_from_world * frame.world_from_cam;
   }
-  for (ReportLine& line : data.lines) line.segment = other_from_world * line.segment;
+  for (ReportLine& line : data.map.lines) line.segment = other_from_world * line.segment;
   for (ReportGroundTruthPose& pose : data.ground_truth) {
     pose.position = other_from_world * pose.position;
   }
@@ -88,17 +88,18 @@ TEST(SceneView, IsIndependentOfTheWorldFrame) {
 
 TEST(SceneView, IgnoresOutliersInTheChoiceOfTheViewpoint) {
   ReportData data = MakeFakeRun(300);
-  const std::vector<ReportLine> lines = data.lines;
-  for (int i = 0; i < 8; ++i) data.lines.insert(data.lines.end(), lines.begin(), lines.end());
+  const std::vector<ReportLine> lines = data.map.lines;
+  for (int i = 0; i < 8; ++i)
+    data.map.lines.insert(data.map.lines.end(), lines.begin(), lines.end());
   const std::vector<LineSegment2> before = SegmentsIn(DrawScene(data), 0);
-  data.lines.push_back({{Eigen::Vector3d(500, 0, 0), Eigen::Vector3d(501, 0, 0)}, -1});
+  data.map.lines.push_back({{Eigen::Vector3d(500, 0, 0), Eigen::Vector3d(501, 0, 0)}, -1});
   const std::vector<LineSegment2> after = SegmentsIn(DrawScene(data), 0);
   EXPECT_LT((after[0].start - before[0].start).norm(), 5.0);
 }
 
 TEST(SceneView, DrawsRunsWithoutLinesOrMotion) {
   ReportData data = MakeFakeRun(1);
-  data.lines.clear();
+  data.map.lines.clear();
   EXPECT_THAT(DrawScene(data), AllOf(HasSubstr("</svg>"), Not(HasSubstr("nan"))));
 }
 

@@ -19,6 +19,11 @@ Json ToJson(const TrajectoryError& error) {
   json["ape_mean"] = ValueOrNull(error.ape.count, error.ape.mean);
   json["ape_median"] = ValueOrNull(error.ape.count, error.ape.median);
   json["ape_max"] = ValueOrNull(error.ape.count, error.ape.max);
+  json["ape_min"] = ValueOrNull(error.ape.count, error.ape.min);
+  json["ape_std"] = ValueOrNull(error.ape.count, error.ape.std);
+  json["ape_sse"] = ValueOrNull(error.ape.count, error.ape.sse);
+  json["alignment"] = ToString(error.alignment);
+  json["scale"] = ValueOrNull(error.ape.count, error.scale);
   json["rotation_deg"] = ValueOrNull(error.rotation.count, RadiansToDegrees(error.rotation.rmse));
   json["ape_rot_deg"] = ValueOrNull(error.ape.count, RadiansToDegrees(error.ape_rotation.rmse));
   json["rpe_1s"] = ValueOrNull(second.translation.count, second.translation.rmse);

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/cli/benchmark_sequences.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "apps/cli/sequence_arguments.h"
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
+
+namespace msc_vo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Whether the argument is a file that is no recording.
+bool IsList(const std::string& path) {
+  const std::string extension = Lowercase(fs::path(path).extension().string());
+  return extension != ".bag" && extension != ".oni" && FileProblem(path).empty();
+}
+
+std::vector<std::string> ReadList(const std::string& path) {
+  std::vector<std::string> sequences;
+  std::istringstream content(ReadFile(path));
+  for (std::string line; std::getline(content, line);) {
+    line = Trimmed(line);
+    if (line.empty() || line[0] == '#') continue;
+    sequences.push_back((fs::path(path).parent_path() / line).string());
+  }
+  if (sequences.empty()) {
+    throw std::runtime_error(path +
+                             ": names no sequence; give one folder, bag or recording per "
+                             "line");
+  }
+  return sequences;
+}
+
+// "room", or "room-2" if there is a room already.
+std::string UniqueName(const std::string& name, const std::vector<BenchmarkSequence>& others) {
+  std::string unique = name;
+  const auto is_taken = [&] {
+    return std::any_of(others.begin(), others.end(),
+                       [&](const BenchmarkSequence& other) { return other.name == unique; });
+  };
+  for (int i = 2; is_taken(); ++i) unique = name + "-" + std::to_string(i);
+  return unique;
+}
+
+}  // namespace
+
+std::vector<BenchmarkSequence> ListBenchmarkSequences(const std::vector<std::string>& arguments) {
+  std::vector<BenchmarkSequence> sequences;
+  for (const std::string& argument : arguments) {
+    for (const std::string& directory :
+         IsList(argument) ? ReadList(argument) : std::vector<std::string>{argument}) {
+      sequences.push_back({directory, UniqueName(SequenceName(directory), sequences),
+                           static_cast<int>(sequences.size())});
+    }
+  }
+  return sequences;
+}
+
+Shard ParseShardArgument(const std::string& text) {
+  const size_t slash = text.find('/');
+  if (slash != std::string::npos) {
+    const auto number = ParseNumber(text.substr(0, slash));
+    const auto count = ParseNumber(text.substr(slash + 1));
+    const std::optional<int> k = number ? WholeNumber(*number) : std::nullopt;
+    const std::optional<int> n = count ? WholeNumber(*count) : std::nullopt;
+    if (k && n && *k >= 1 && *k <= *n) return {*k, *n};
+  }
+  throw std::runtime_error("--shard " + text + ": expected K/N with 1 <= K <= N, for instance 2/4");
+}
+
+std::vector<BenchmarkSequence> ShareOf(const std::vector<BenchmarkSequence>& sequences,
+                                       const Shard& shard) {
+  std::vector<BenchmarkSequence> share;
+  for (const BenchmarkSequence& sequence : sequences) {
+    if (sequence.index % shard.count == shard.number - 1) share.push_back(sequence);
+  }
+  return share;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+
+#include "msc_vo/evaluation/line_error.h"
+#include "msc_vo/evaluation/trajectory_error.h"
+#include "msc_vo/results/error_json.h"
+
+namespace msc_vo {
+
+/// The tables of `msc_vo evaluate` in millimetres and degrees.
+std::string FormatErrorTable(const TrajectoryError& error, const EvaluationContext& context);
+std::string FormatLineTable(const LineError& error);
+
+/// Writes the plots of the two trajectories to a file: a page (.html) or an image (.svg). Throws
+/// std::runtime_error, naming the file, if it cannot be written.
+void WriteComparison(const std::string& path, const std::string& title,
+                     const TrajectoryError& error, const EvaluationContext& context);
+
+}  // namespace msc_vo

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+
+#include "apps/cli/command_log.h"
+#include "apps/cli/commands.h"
+#include "apps/cli/configuration_arguments.h"
+#include "apps/cli/fusion_module.h"
+#include "apps/cli/interrupt_guard.h"
+#include "apps/cli/progress.h"
+#include "apps/cli/sequence_arguments.h"
+#include "msc_vo/datasets/image_file.h"
+#include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/evaluation/association.h"
+#include "msc_vo/sensor/lens_remap.h"
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Largest difference of the stamps of an image and its pose, seconds: both come from the same list.
+constexpr double kMaxTimeDifference = 0.005;
+
+struct Arguments {
+  SequenceArguments sequence;
+  ConfigurationArguments configuration;
+  std::string trajectory;
+  std::string output;
+  SurfaceFusionOptions fusion;
+  int every = 1;
+  bool points = false;
+  bool all_poses = false;
+  bool quiet = false;
+};
+
+// An image of the sequence and its pose.
+struct PosedImage {
+  int index = 0;
+  Rigid3 cam_from_world;
+};
+
+std::vector<PosedImage> SelectImages(const Arguments& arguments, const RgbdDecoder& decoder) {
+  std::vector<double> stamps, pose_stamps;
+  std::vector<TimedPose> poses;
+  for (const SequenceEntry& entry : decoder.index().entries) stamps.push_back(entry.timestamp);
+  for (const TimedPose& pose : ReadTrajectory(arguments.trajectory)) {
+    if (!pose.is_estimated && !arguments.all_poses) continue;
+    poses.push_back(pose);
+    pose_stamps.push_back(pose.timestamp);
+  }
+  std::vector<PosedImage> images;
+  int matched = 0;
+  for (const StampMatch& match : AssociateStamps(stamps, pose_stamps, kMaxTimeDifference)) {
+    if (matched++ % arguments.every != 0) continue;
+    images.push_back({match.reference, poses[match.query].world_from_cam.Inverse()});
+  }
+  if (images.empty()) {
+    throw std::runtime_error(arguments.trajectory + ": none of its " +
+                             std::to_string(poses.size()) + " poses belongs to an image of " +
+                             arguments.sequence.directory +
+                             "; are the time stamps those of the sequence?");
+  }
+  return images;
+}
+
+// The colour image as RGB in the size of the depth image.
+cv::Mat ReadColor(const SequenceEntry& entry, cv::Size size) {
+  cv::Mat color = ReadImageFile(entry.color_path);
+  if (color.empty()) throw std::runtime_error(entry.color_path + ": cannot be read as an image");
+  if (color.channels() == 1) {
+    cv::cvtColor(color, color, cv::COLOR_GRAY2RGB);
+  } else {
+    cv::cvtColor(color, color, color.channels() == 4 ? cv::COLOR_BGRA2RGB : cv::COLOR_BGR2RGB);
+  }
+  if (color.size() != size) cv::resize(color, color, size, 0.0, 0.0, cv::INTER_AREA);
+  return color;
+}
+
+// Moves every measurement to the pixel of the ideal image that it belongs to. Interpolation would
+// invent surfaces between foreground and background.
+class DepthUndistorter {
+ public:
+  DepthUndistorter(const PinholeCamera& camera, const LensDistortion& distortion) {
+    if (distortion.IsZero()) return;
+    raw_pixel_.create(camera.height, camera.width);
+    for (int y = 0; y < camera.height; ++y) {
+      for (int x = 0; x < camera.width; ++x) {
+        const Eigen::Vector2d raw = distortion.Distort(camera, Eigen::Vector2d(x, y));
+        raw_pixel_(y, x) = {static_cast<float>(raw.x()), static_cast<float>(raw.y())};
+      }
+    }
+  }
+
+  cv::Mat Undistort(const cv::Mat& raw) const {
+    if (raw_pixel_.empty()) return raw;
+    cv::Mat ideal;
+    cv::remap(raw, ideal, raw_pixel_, cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT);
+    return ideal;
+  }
+
+ private:
+  cv::Mat_<cv::Vec2f> raw_pixel_;  // of every ideal pixel; empty without distortion
+};
+
+struct Progressed {
+  int num_images = 0;  // in the surface
+  bool interrupted = false;
+};
+
+// Adds the images. Those that cannot be read are left out with a warning.
+Progressed AddImages(const RgbdDecoder& decoder, const std::vector<PosedImage>& images, bool quiet,
+                     SurfaceFusion* fusion) {
+  const Calibration& calibration = decoder.calibration();
+  const LensRemap remap(calibration.camera, calibration.distortion);
+  const DepthUndistorter depth_remap(calibration.camera, calibration.distortion);
+  const InterruptGuard interrupt;
+  Progress progress(static_cast<int>(images.size()));
+  Progressed progressed;
+  int done = 0;
+  for (const PosedImage& image : images) {
+    progressed.interrupted = interrupt.IsInterrupted();
+    if (progressed.interrupted) break;
+    ++done;
+    try {
+      const cv::Mat depth = decoder.Decode(image.index).depth;
+      const cv::Mat color = ReadColor(decoder.index().entries[image.index], depth.size());
+      fusion->Add(depth_remap.Undistort(depth), remap.Undistort(color), image.cam_from_world);
+      ++progressed.num_images;
+    } catch (const UnreadableImage& error) {
+      PrintWarning(error.what());
+    }
+    if (!quiet) progress.Update(done, "fused");
+  }
+  if (!quiet) progress.Finish();
+  return progressed;
+}
+
+int Run(const Arguments& arguments) {
+  const Configuration configuration = MakeConfiguration(arguments.configuration);
+  const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
+  PrintWarnings(decoder.index().warnings);
+  RefuseToOverwrite({arguments.trajectory, arguments.configuration.config}, arguments.output);
+  const std::vector<PosedImage> images = SelectImages(arguments, decoder);
+  SurfaceFusionOptions options = arguments.fusion;
+  options.camera = decoder.calibration().camera;
+  const std::unique_ptr<SurfaceFusion> fusion = LoadSurfaceFusion(options);
+  const Progressed progressed = AddImages(decoder, images, arguments.quiet, fusion.get());
+  ColoredMesh mesh = fusion->Extract(!arguments.points);
+  if (mesh.positions.empty()) {
+    throw std::runtime_error(
+        "no surface: no part of the scene was measured often enough within --max-depth (" +
+        FormatText("%g m) at --voxel %g m", options.max_depth, options.voxel_size));
+  }
+  SortMesh(&mesh);
+  WriteFile(arguments.output, FormatMeshPly(mesh));
+  if (!arguments.quiet) {
+    std::cout << FormatText("%s: %zu vertices, %zu triangles from %d images\n",
+                            arguments.output.c_str(), mesh.positions.size(), mesh.triangles.size(),
+                            progressed.num_images);
+  }
+  return progressed.interrupted ? kExitInterrupted : kExitSuccess;
+}
+
+void AddFusionArguments(CLI::App* command, Arguments* arguments) {
+  command->add_option("--voxel", arguments->fusion.voxel_size, "Size of a voxel, metres")
+      ->check(CLI::Range(0.001, 1.0))
+      ->capture_default_str();
+  command
+      ->add_option("--max-depth", arguments->fusion.max_depth,
+                   "Measurements beyond this depth are ignored, metres")
+      ->check(CLI::Range(0.1, 100.0))
+      ->capture_default_str();
+  command
+      ->add_option("--min-observations", arguments->fusion.min_observations,
+                   "Images that must have seen a part of the surface")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--max-memory", arguments->fusion.max_memory_mib,
+                   "Stop with an error if the voxels need more, MiB")
+      ->check(CLI::Range(16.0, 1e6))
+      ->capture_default_str();
+  command->add_option("--every", arguments->every, "Use every Nth image with a pose")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+Command AddFuseCommand(CLI::App* app) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app->add_subcommand(
+      "fuse", "Fuse the depth images along a trajectory into a coloured surface");
+  AddSequenceArguments(command, &arguments->sequence)->required();
+  command
+      ->add_option(
+          "trajectory", arguments->trajectory,
+          "Poses of the images: trajectory.txt of a run, or a ground truth on their stamps")
+      ->required();
+  command->add_option("--output", arguments->output, "PLY file for the surface")->required();
+  command->add_flag("--points", arguments->points, "Write points instead of triangles");
+  command->add_flag("--all-poses", arguments->all_poses,
+                    "Also use poses that are marked as not estimated");
+  command->add_flag("--quiet", arguments->quiet, "Print neither progress nor results");
+  AddFusionArguments(command, arguments.get());
+  AddConfigurationArguments(command, &arguments->configuration);
+  command->footer(
+      HelpFooter("msc_vo fuse my_sequence out/trajectory.txt --output out/surface.ply"));
+  return {command, [arguments] { return Run(*arguments); }};
+}
+
+}  // namespace msc_vo

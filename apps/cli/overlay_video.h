@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+
+#include <opencv2/videoio.hpp>
+
+#include "msc_vo/camera/lens_distortion.h"
+#include "msc_vo/odometry/tracking_observer.h"
+#include "msc_vo/report/frame_view.h"
+#include "msc_vo/structure/scene_axes.h"
+
+namespace msc_vo {
+
+/// Draws features onto the grey image; the result is CV_8UC3 of the same size.
+cv::Mat DrawFeatures(const cv::Mat& gray, const ViewedFeatures& features);
+
+/// A video of the images of a run with their tracked features.
+class OverlayVideo {
+ public:
+  /// Creates the file, and its folder if necessary. `frame_rate`: frames per second; `distortion`:
+  /// of the images of `width` x `height` pixels. Throws std::runtime_error naming the file if it
+  /// cannot be written or OpenCV has no encoder for it.
+  OverlayVideo(const std::string& path, double frame_rate, int width, int height,
+               const LensDistortion& distortion, const SceneAxesOptions& axes);
+
+  void Add(const TrackedImage& tracked);
+
+  /// Completes the file. Throws std::runtime_error if it is empty, as after a full disk.
+  void Finish();
+
+ private:
+  std::string path_;
+  cv::Rect covered_;  // encoders need even sizes
+  LensDistortion distortion_;
+  SceneAxesOptions axes_;
+  cv::VideoWriter writer_;
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/live/pacing.h"
+#include "msc_vo/camera/lens_distortion.h"
+#include "msc_vo/odometry/tracking_observer.h"
+#include "msc_vo/report/frame_view.h"
+#include "msc_vo/report/report.h"
+#include "msc_vo/structure/scene_axes.h"
+
+namespace msc_vo {
+
+/// Properties of a run that is viewed while it goes on.
+struct LiveRunOptions {
+  int num_frames = 0;         ///< of the sequence
+  bool can_pause = true;      ///< false in real time
+  LensDistortion distortion;  ///< of the images
+  SceneAxesOptions axes;
+  /// A paused run goes on if nobody has asked for data for so long.
+  std::chrono::milliseconds vanished{90'000};
+};
+
+/// A run in progress as its viewers see it. The thread of the run adds frames; the threads of a
+/// server read updates and control the pace. No reader ever waits for a viewer, and the run waits
+/// only where a viewer has paused or slowed it down.
+class LiveRun {
+ public:
+  explicit LiveRun(const LiveRunOptions& options);
+
+  // Thread of the run:
+
+  /// Takes features, image and map of a frame. Does next to nothing while nobody watches.
+  void Show(const TrackedImage& tracked);
+  /// Adds a frame, then waits for its turn. Returns early if `is_interrupted` returns true.
+  void Add(const FrameResult& frame, const std::function<bool()>& is_interrupted);
+  /// Ends the run: viewers get the page of the finished report.
+  void Finish(std::string report);
+  /// After Finish(): waits until the viewers have the report, at most for `longest`. Returns at
+  /// once if nobody watches.
+  void WaitForViewers(std::chrono::milliseconds longest) const;
+
+  // Any thread:
+
+  /// What has changed since a viewer had `num_frames` frames, a map and a view, as JSON.
+  std::string Update(int num_frames, int map_version, int view);
+  /// The finished report, or null before Finish().
+  std::shared_ptr<const std::string> Report();
+  /// Carries out "pause", "resume", "step" or "speed" (value: a number). Returns false on anything
+  /// else and in real time.
+  bool Control(const std::string& action, const std::string& value);
+
+  /// Identifies this run among others.
+  const std::string& id() const { return id_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool IsWatched(Clock::duration within) const;
+
+  LiveRunOptions options_;
+  std::string id_;
+  Pacing pacing_;
+
+  mutable std::mutex mutex_;  // of everything below
+  std::vector<ReportFrame> frames_;
+  std::shared_ptr<const ReportMap> map_;
+  int map_version_ = -1;
+  std::shared_ptr<const FrameView> view_;
+  std::shared_ptr<const std::string> report_;
+  std::optional<Clock::time_point> last_request_;
+  bool report_was_sent_ = false;
+
+  // Thread of the run only:
+  const MapSnapshot* shown_map_ = nullptr;  // only compared, never read
+  KeyframeId shown_keyframe_ = kNoId;
+  Clock::time_point map_time_, view_time_;
+};
+
+}  // namespace msc_vo

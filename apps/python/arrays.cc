@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/python/arrays.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <opencv2/imgproc.hpp>
+
+namespace msc_vo {
+
+namespace py = pybind11;
+
+namespace {
+
+[[noreturn]] void Fail(const std::string& name, const std::string& problem) {
+  throw std::invalid_argument(name + ": " + problem);
+}
+
+std::string ShapeText(const py::array& array) {
+  std::string text = "(";
+  for (py::ssize_t i = 0; i < array.ndim(); ++i) {
+    text += (i > 0 ? ", " : "") + std::to_string(array.shape(i));
+  }
+  return text + (array.ndim() == 1 ? ",)" : ")");
+}
+
+std::string SizeText(int size, const char* any) { return size < 0 ? any : std::to_string(size); }
+
+py::array AnyArray(py::handle value, const std::string& name) {
+  py::array array = py::array::ensure(value);
+  if (!array) {
+    PyErr_Clear();
+    Fail(name, "expected an array, not " + std::string(py::str(py::type::of(value))));
+  }
+  return array;
+}
+
+// Numbers as doubles in C order. Copies only if they are not.
+py::array_t<double, py::array::c_style> Doubles(py::handle value, const std::string& name) {
+  const py::array array = AnyArray(value, name);
+  if (std::string("fiu").find(array.dtype().kind()) == std::string::npos) {
+    Fail(name, "expected numbers, not " + DescribeArray(array));
+  }
+  const auto doubles =
+      py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
+  const double* begin = doubles.data();
+  for (py::ssize_t i = 0; i < doubles.size(); ++i) {
+    if (!std::isfinite(begin[i])) Fail(name, "contains a number that is not finite");
+  }
+  return doubles;
+}
+
+// Images share memory with OpenCV, so that their rows must be contiguous.
+void CheckImage(const py::array& array, const std::string& name) {
+  if ((array.flags() & py::array::c_style) == 0) {
+    Fail(name, "the array is not C-contiguous; pass numpy.ascontiguousarray(" + name + ")");
+  }
+  if (array.size() == 0) Fail(name, "the image is empty: " + DescribeArray(array));
+}
+
+bool HasType(const py::array& array, char kind, int bytes) {
+  return array.dtype().kind() == kind && array.itemsize() == bytes;
+}
+
+cv::Mat SharedMat(const py::array& array, int type) {
+  // OpenCV has no read-only images; msc_vo does not write to its input.
+  return {static_cast<int>(array.shape(0)), static_cast<int>(array.shape(1)), type,
+          const_cast<void*>(array.data())};
+}
+
+}  // namespace
+
+std::string DescribeArray(const py::array& array) {
+  return ShapeText(array) + " of " + std::string(py::str(array.dtype()));
+}
+
+RowMajorMatrix MatrixArgument(py::handle value, const std::string& name, int num_rows,
+                              int num_cols) {
+  const auto array = Doubles(value, name);
+  const bool is_vector = array.ndim() == 1 && num_cols == 1;
+  if (!(is_vector || array.ndim() == 2) || (!is_vector && array.shape(1) != num_cols) ||
+      (num_rows >= 0 && array.shape(0) != num_rows)) {
+    Fail(name, "expected shape (" + SizeText(num_rows, "N") + ", " + std::to_string(num_cols) +
+                   "), not " + ShapeText(array));
+  }
+  return Eigen::Map<const RowMajorMatrix>(array.data(), array.shape(0), num_cols);
+}
+
+Eigen::VectorXd VectorArgument(py::handle value, const std::string& name, int size) {
+  const auto array = Doubles(value, name);
+  if (array.ndim() != 1 || (size >= 0 && array.shape(0) != size)) {
+    Fail(name, "expected shape (" + SizeText(size, "N") + ",), not " + ShapeText(array));
+  }
+  return Eigen::Map<const Eigen::VectorXd>(array.data(), array.shape(0));
+}
+
+Eigen::VectorXd PerRowArgument(py::handle value, const std::string& name, int size) {
+  const auto array = Doubles(value, name);
+  if (array.ndim() == 0) return Eigen::VectorXd::Constant(size, *array.data());
+  return VectorArgument(value, name, size);
+}
+
+std::vector<int64_t> IdsArgument(py::handle value, const std::string& name, int size) {
+  const py::array array = AnyArray(value, name);
+  const bool is_empty = array.size() == 0;  // of which NumPy does not know that it holds integers
+  if (!is_empty && array.dtype().kind() != 'i' && array.dtype().kind() != 'u') {
+    Fail(name, "expected whole numbers, not " + DescribeArray(array));
+  }
+  if (array.ndim() != 1 || (size >= 0 && array.shape(0) != size)) {
+    Fail(name, "expected shape (" + SizeText(size, "N") + ",), not " + ShapeText(array));
+  }
+  const auto ids = py::array_t<int64_t, py::array::c_style | py::array::forcecast>::ensure(array);
+  return {ids.data(), ids.data() + ids.size()};
+}
+
+std::vector<bool> FlagsArgument(py::handle value, const std::string& name, int size) {
+  if (value.is_none()) return std::vector<bool>(size, false);
+  const py::array array = AnyArray(value, name);
+  if (array.ndim() != 1 || array.shape(0) != size || array.dtype().kind() != 'b') {
+    Fail(name, "expected " + std::to_string(size) + " truth values, not " + DescribeArray(array));
+  }
+  const auto flags = py::array_t<bool, py::array::c_style | py::array::forcecast>::ensure(array);
+  return std::vector<bool>(flags.data(), flags.data() + flags.size());
+}
+
+Rigid3 PoseArgument(py::handle value, const std::string& name) {
+  constexpr double kTolerance = 1e-6;
+  const RowMajorMatrix matrix = MatrixArgument(value, name, 4, 4);
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  if ((matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > kTolerance) {
+    Fail(name, "the last row of a pose must be 0 0 0 1");
+  }
+  if ((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() > kTolerance ||
+      rotation.determinant() < 0.0) {
+    Fail(name, "the upper left 3x3 block must be a rotation, orthonormal to 1e-6");
+  }
+  return {Eigen::Quaterniond(rotation).normalized(), matrix.topRightCorner<3, 1>()};
+}
+
+std::vector<Rigid3> PosesArgument(py::handle value, const std::string& name) {
+  const py::array array = AnyArray(value, name);
+  if (array.ndim() != 3 || array.shape(1) != 4 || array.shape(2) != 4) {
+    Fail(name, "expected shape (N, 4, 4), not " + ShapeText(array));
+  }
+  std::vector<Rigid3> poses;
+  for (py::ssize_t i = 0; i < array.shape(0); ++i) {
+    poses.push_back(PoseArgument(array[py::int_(i)], name + "[" + std::to_string(i) + "]"));
+  }
+  return poses;
+}
+
+cv::Mat GrayArgument(py::handle value, const std::string& name) {
+  const py::array array = AnyArray(value, name);
+  const bool is_gray = array.ndim() == 2;
+  const bool is_rgb = array.ndim() == 3 && array.shape(2) == 3;
+  if (!HasType(array, 'u', 1) || !(is_gray || is_rgb)) {
+    Fail(name, "expected uint8 of shape (height, width) or, RGB, (height, width, 3), not " +
+                   DescribeArray(array));
+  }
+  CheckImage(array, name);
+  if (is_gray) return SharedMat(array, CV_8UC1);
+  cv::Mat gray;
+  cv::cvtColor(SharedMat(array, CV_8UC3), gray, cv::COLOR_RGB2GRAY);
+  return gray;
+}
+
+cv::Mat DepthArgument(py::handle value, py::handle depth_scale, const std::string& name) {
+  const py::array array = AnyArray(value, name);
+  const bool is_metric = HasType(array, 'f', 4);
+  const bool is_raw = HasType(array, 'u', 2);
+  if (array.ndim() != 2 || !(is_metric || is_raw)) {
+    Fail(name,
+         "expected shape (height, width) of float32, metres, or of uint16 with depth_scale, "
+         "not " +
+             DescribeArray(array));
+  }
+  CheckImage(array, name);
+  if (is_metric) {
+    if (!depth_scale.is_none()) Fail(name, "depth_scale is for uint16; float32 is in metres");
+    return SharedMat(array, CV_32FC1);
+  }
+  if (depth_scale.is_none()) {
+    Fail(name, "uint16 needs depth_scale, the units per metre (such as 1000 or 5000)");
+  }
+  const double scale = py::float_(py::reinterpret_borrow<py::object>(depth_scale));
+  if (!(scale > 0.0) || !std::isfinite(scale)) Fail("depth_scale", "must be a positive number");
+  cv::Mat metres;
+  SharedMat(array, CV_16UC1).convertTo(metres, CV_32F, 1.0 / scale);
+  return metres;
+}
+
+Eigen::Matrix<double, 4, 4, Eigen::RowMajor> PoseMatrix(const Rigid3& pose) {
+  Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix;
+  matrix << pose.rotation().toRotationMatrix(), pose.translation(), 0.0, 0.0, 0.0, 1.0;
+  return matrix;
+}
+
+RowMajorMatrix TrajectoryRows(const std::vector<TimedPose>& poses) {
+  RowMajorMatrix rows(poses.size(), 8);
+  for (size_t i = 0; i < poses.size(); ++i) {
+    Eigen::Vector4d q = poses[i].world_from_cam.rotation().normalized().coeffs();
+    if (q.w() < 0.0) q = -q;
+    rows.row(i) << poses[i].timestamp, poses[i].world_from_cam.translation().transpose(),
+        q.transpose();
+  }
+  return rows;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <pybind11/numpy.h>
+
+#include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/geometry/timed_pose.h"
+
+namespace msc_vo {
+
+// NumPy arrays as arguments and results. All functions throw std::invalid_argument, in Python
+// ValueError, that names the argument, its shape and the expected one.
+
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// "(480, 640, 3) of uint8", for messages.
+std::string DescribeArray(const pybind11::array& array);
+
+/// A matrix with `num_cols` columns, and `num_rows` rows unless that is negative. A vector counts
+/// as a matrix with one column. Its numbers are finite.
+RowMajorMatrix MatrixArgument(pybind11::handle value, const std::string& name, int num_rows,
+                              int num_cols);
+/// A vector; any length if `size` is negative.
+Eigen::VectorXd VectorArgument(pybind11::handle value, const std::string& name, int size);
+/// A vector of `size` numbers, or one number for all.
+Eigen::VectorXd PerRowArgument(pybind11::handle value, const std::string& name, int size);
+/// A vector of whole numbers; any length if `size` is negative.
+std::vector<int64_t> IdsArgument(pybind11::handle value, const std::string& name, int size);
+/// A vector of truth values; all false if `value` is None.
+std::vector<bool> FlagsArgument(pybind11::handle value, const std::string& name, int size);
+/// A 4x4 matrix with an orthonormal rotation.
+Rigid3 PoseArgument(pybind11::handle value, const std::string& name);
+/// Poses as 4x4 matrices, shape (N, 4, 4).
+std::vector<Rigid3> PosesArgument(pybind11::handle value, const std::string& name);
+
+/// An 8-bit grey image from (height, width) or RGB (height, width, 3). Grey images share the memory
+/// of the array.
+cv::Mat GrayArgument(pybind11::handle value, const std::string& name);
+/// A depth image in metres: float32 in metres, which shares the memory of the array, or uint16 with
+/// `depth_scale` units per metre (None with float32).
+cv::Mat DepthArgument(pybind11::handle value, pybind11::handle depth_scale,
+                      const std::string& name);
+
+/// The 4x4 matrix of a transform.
+Eigen::Matrix<double, 4, 4, Eigen::RowMajor> PoseMatrix(const Rigid3& pose);
+/// Rows "t tx ty tz qx qy qz qw", camera in world, as in trajectory files: w >= 0.
+RowMajorMatrix TrajectoryRows(const std::vector<TimedPose>& poses);
+
+/// A read-only array of shape `shape` over memory that `owner` keeps alive.
+template <typename T>
+pybind11::array ArrayView(const T* data, const std::vector<pybind11::ssize_t>& shape,
+                          const std::vector<pybind11::ssize_t>& strides, pybind11::handle owner) {
+  pybind11::array_t<T> array(shape, strides, data, owner);
+  array.attr("flags").attr("writeable") = false;
+  return array;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "apps/python/arrays.h"
+#include "apps/python/bindings.h"
+#include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/evaluation/trajectory_error.h"
+#include "msc_vo/results/run_summary.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace py = pybind11;
+
+namespace {
+
+std::vector<TimedPose> PosesOfRows(const RowMajorMatrix& rows, const std::string& name) {
+  std::vector<TimedPose> poses;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const Eigen::Quaterniond q(rows(i, 7), rows(i, 4), rows(i, 5), rows(i, 6));
+    if (std::abs(q.norm() - 1.0) > 0.05) {
+      throw std::invalid_argument(name + ": the quaternion of row " + std::to_string(i) +
+                                  " is not of unit length");
+    }
+    poses.push_back({rows(i, 0), Rigid3(q.normalized(), rows.row(i).segment<3>(1).transpose())});
+  }
+  return poses;
+}
+
+// A Result, a file, or an (N, 8) array.
+std::vector<TimedPose> TrajectoryArgument(const py::object& value, const std::string& name) {
+  if (py::isinstance<OdometryResult>(value)) {
+    return TrajectoryOf(value.cast<const OdometryResult&>());
+  }
+  if (py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__")) {
+    return ReadTrajectory(py::module_::import("os").attr("fspath")(value).cast<std::string>());
+  }
+  return PosesOfRows(MatrixArgument(value, name, -1, 8), name);
+}
+
+TrajectoryError Evaluate(const py::object& gt, const py::object& est, const std::string& align,
+                         double max_dt, bool all_poses) {
+  EvaluationOptions options;
+  options.max_time_difference = max_dt;
+  options.alignment = AlignmentFromString(align);
+  options.all_poses = all_poses;
+  TrajectoryError error =
+      EvaluateTrajectory(TrajectoryArgument(gt, "gt"), TrajectoryArgument(est, "est"), options);
+  if (!error.usable) throw std::invalid_argument(error.message);
+  return error;
+}
+
+py::array PerPoseOf(const TrajectoryError& error) {
+  RowMajorMatrix rows(error.per_pose.size(), 3);
+  for (size_t i = 0; i < error.per_pose.size(); ++i) {
+    const PoseError& pose = error.per_pose[i];
+    rows.row(i) << pose.timestamp, pose.translation, pose.rotation;
+  }
+  return py::cast(rows);
+}
+
+std::string Describe(const ErrorStatistics& statistics) {
+  return FormatText(
+      "ErrorStatistics(count=%d, rmse=%.6g, mean=%.6g, median=%.6g, p95=%.6g, "
+      "max=%.6g)",
+      statistics.count, statistics.rmse, statistics.mean, statistics.median, statistics.p95,
+      statistics.max);
+}
+
+void BindStatistics(py::module_* module) {
+  py::class_<ErrorStatistics>(*module, "ErrorStatistics", "Statistics of errors.")
+      .def_readonly("count", &ErrorStatistics::count)
+      .def_readonly("rmse", &ErrorStatistics::rmse)
+      .def_readonly("mean", &ErrorStatistics::mean)
+      .def_readonly("median", &ErrorStatistics::median)
+      .def_readonly("p95", &ErrorStatistics::p95, "95th percentile.")
+      .def_readonly("max", &ErrorStatistics::max)
+      .def("__repr__", &Describe);
+  py::class_<RelativeError>(*module, "RelativeError",
+                            "Relative pose error (RPE) over a fixed interval or path length.")
+      .def_readonly("translation", &RelativeError::translation, "Metres per second or metre.")
+      .def_readonly("rotation", &RelativeError::rotation, "Radians per second or metre.");
+}
+
+}  // namespace
+
+void BindEvaluation(py::module_* module) {
+  BindStatistics(module);
+  py::class_<TrajectoryError>(*module, "TrajectoryError",
+                              "Errors of a trajectory; read them together with the coverage.")
+      .def_readonly("ape", &TrajectoryError::ape, "Absolute position error, metres.")
+      .def_readonly(
+          "rotation", &TrajectoryError::rotation,
+          "Radians, after alignment of the orientations; with 'origin' and 'none' as ape_rotation.")
+      .def_readonly("ape_rotation", &TrajectoryError::ape_rotation, "Radians, after `align`.")
+      .def_readonly("rpe_per_second", &TrajectoryError::rpe_per_second)
+      .def_readonly("rpe_per_metre", &TrajectoryError::rpe_per_metre)
+      .def_readonly("num_reference", &TrajectoryError::num_reference)
+      .def_readonly("num_estimate", &TrajectoryError::num_estimate)
+      .def_readonly("num_not_estimated", &TrajectoryError::num_not_estimated,
+                    "Poses that are left out because they are marked as not estimated.")
+      .def_readonly("num_matched", &TrajectoryError::num_matched)
+      .def_readonly("coverage", &TrajectoryError::coverage, "Matched / reference poses, 0..1.")
+      .def_readonly("coverage_in_range", &TrajectoryError::coverage_in_range)
+      .def_readonly("path_length", &TrajectoryError::path_length, "Metres.")
+      .def_property_readonly(
+          "reference_from_estimate",
+          [](const TrajectoryError& self) { return PoseMatrix(self.reference_from_estimate); },
+          "4x4, world to world.")
+      .def_property_readonly("per_pose", &PerPoseOf,
+                             "(M, 3) rows time, position error (metres), rotation error (radians).")
+      .def("__repr__", [](const TrajectoryError& self) {
+        return FormatText("<TrajectoryError: APE RMSE %.6g m over %d poses, coverage %.4g>",
+                          self.ape.rmse, self.num_matched, self.coverage);
+      });
+  module->def(
+      "evaluate", &Evaluate, py::arg("gt"), py::arg("est"), py::kw_only(), py::arg("align") = "se3",
+      py::arg("max_dt") = 0.02, py::arg("all_poses") = false,
+      "Compares trajectories: a file, an (N, 8) array of rows t tx ty tz qx qy qz qw, or a Result. "
+      "align: 'se3' (Umeyama), 'sim3' (with scale), 'origin' (first poses) or 'none'. max_dt: "
+      "seconds. "
+      "Raises ValueError if fewer than three poses match.");
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pybind11/pybind11.h>
+
+#include "msc_vo/bundle_adjustment/custom_factor.h"
+#include "msc_vo/pose_estimation/pose_factor.h"
+
+namespace msc_vo {
+
+/// A cost function in Python: the built-in ones and CostFunction.
+struct PyCost {
+  std::shared_ptr<const ceres::CostFunction> cost;
+};
+
+/// The CustomFactor and ExtraBlock objects of an iterable. Throws std::invalid_argument on any
+/// other item.
+struct FactorLists {
+  std::vector<CustomFactor> factors;
+  std::vector<ExtraBlock> extra_blocks;
+};
+FactorLists FactorsArgument(pybind11::handle items, const std::string& name);
+
+}  // namespace msc_vo

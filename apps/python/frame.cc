@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <string>
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "apps/python/arrays.h"
+#include "apps/python/bindings.h"
+#include "msc_vo/odometry/frame_result.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace py = pybind11;
+
+namespace {
+
+py::dict TimesOf(const FrameResult& frame) {
+  py::dict times;
+  times["features"] = frame.times.features;
+  times["points"] = frame.times.points;
+  times["lines"] = frame.times.lines;
+  times["depth"] = frame.times.depth;
+  times["matching"] = frame.times.matching;
+  times["pose"] = frame.times.pose;
+  times["waiting"] = frame.times.waiting;
+  times["tracking"] = frame.times.tracking;
+  times["mapping"] = frame.times.mapping;
+  return times;
+}
+
+std::string Describe(const FrameResult& frame) {
+  return FormatText("<FrameResult %lld at %.6f s: %s, %d points, %d lines>",
+                    static_cast<long long>(frame.id), frame.timestamp, ToString(frame.status),
+                    frame.num_inlier_points, frame.num_inlier_lines);
+}
+
+}  // namespace
+
+void BindFrame(py::module_* module) {
+  py::class_<FrameResult>(*module, "FrameResult", "The result of one frame.")
+      .def_readonly("id", &FrameResult::id, "Position in the sequence of images, from 0.")
+      .def_readonly("timestamp", &FrameResult::timestamp, "Seconds.")
+      .def_property_readonly(
+          "status", [](const FrameResult& self) { return ToString(self.status); },
+          "'tracked', 'weak', 'predicted', 'lost', 'dropped' or 'unreadable', see docs/usage.md.")
+      .def_property_readonly(
+          "is_estimated", [](const FrameResult& self) { return IsEstimated(self.status); },
+          "Whether the pose comes from the image of this frame: tracked or weak.")
+      .def_readonly("by_pose_factors", &FrameResult::by_pose_factors,
+                    "Whether pose factors, not constant velocity, predict the pose.")
+      .def_readonly("is_keyframe", &FrameResult::is_keyframe)
+      .def_property_readonly(
+          "cam_from_world", [](const FrameResult& self) { return PoseMatrix(self.cam_from_world); },
+          "4x4; the world is the camera of the first tracked frame.")
+      .def_property_readonly(
+          "world_from_cam",
+          [](const FrameResult& self) { return PoseMatrix(self.cam_from_world.Inverse()); }, "4x4.")
+      .def_property_readonly(
+          "covariance",
+          [](const FrameResult& self) {
+            return Eigen::Matrix<double, 6, 6, Eigen::RowMajor>(self.covariance);
+          },
+          "6x6 of cam_from_world: rotation vector in the camera frame (radians), then translation "
+          "(metres); zero if nothing determines the pose.")
+      .def_readonly("num_points", &FrameResult::num_points, "Points in the image.")
+      .def_readonly("num_lines", &FrameResult::num_lines, "Lines in the image.")
+      .def_readonly("num_with_depth", &FrameResult::num_with_depth,
+                    "Points and lines with a measured depth.")
+      .def_readonly("num_inlier_points", &FrameResult::num_inlier_points,
+                    "Points matched with the map and consistent with the pose.")
+      .def_readonly("num_inlier_lines", &FrameResult::num_inlier_lines, "The same for lines.")
+      .def_readonly("num_dynamic", &FrameResult::num_dynamic, "Matches on dynamic objects.")
+      .def_property_readonly("times", &TimesOf, "Milliseconds by stage, as in frames.csv.")
+      .def("__repr__", &Describe);
+}
+
+}  // namespace msc_vo

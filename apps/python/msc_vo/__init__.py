@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: 2026 the msc_vo authors
+"""RGB-D visual odometry from points, lines and the structure of the scene.
+
+    odometry = msc_vo.Odometry(msc_vo.Options(mode="msc-vo"), camera, distortion)
+    for timestamp, gray, depth in my_camera:
+        frame = odometry.process(timestamp, gray, depth)
+    result = odometry.finish()
+
+docs/python.md describes the package.
+"""
+from ._msc_vo import *  # noqa: F401,F403
+from ._msc_vo import __version__  # noqa: F401
+
+
+def replay(sequence, options=None, on_frame=None):
+    """Runs the odometry over a Sequence as `msc_vo replay` does and returns its Result.
+
+    Images that cannot be read are bridged (status 'unreadable'). on_frame(FrameResult) is called
+    after every image.
+    """
+    values = Options(**dict(options or {}))  # noqa: F405
+    if values["mapping.readout_time"] is None:
+        values["mapping.readout_time"] = sequence.readout_time
+    odometry = Odometry(values, sequence.camera, sequence.distortion)  # noqa: F405
+    for i, timestamp in enumerate(sequence.timestamps):
+        try:
+            image = sequence[i]
+        except UnreadableImage:  # noqa: F405
+            frame = odometry.drop(timestamp, "unreadable")
+        else:
+            frame = odometry.process(timestamp, image.gray, image.depth,
+                                     depth_delay=image.depth_delay)
+        if on_frame is not None:
+            on_frame(frame)
+    return odometry.finish()

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/odometry.h"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "apps/python/arrays.h"
+#include "apps/python/bindings.h"
+#include "apps/python/factors.h"
+#include "apps/python/option_table.h"
+#include "apps/python/shared_object.h"
+
+namespace msc_vo {
+
+namespace py = pybind11;
+
+namespace {
+
+LensDistortion DistortionArgument(const py::object& value) {
+  LensDistortion distortion;
+  if (value.is_none()) return distortion;
+  const Eigen::VectorXd k = VectorArgument(value, "distortion", -1);
+  if (k.size() != 0 && k.size() != 4 && k.size() != 5) {
+    throw std::invalid_argument("distortion: expected k1 k2 p1 p2 [k3], not " +
+                                std::to_string(k.size()) + " numbers");
+  }
+  std::copy(k.begin(), k.end(), distortion.k.begin());
+  return distortion;
+}
+
+// The odometry without the GIL, and the numbering of its images.
+class PyOdometry {
+ public:
+  PyOdometry(const OptionsTable* options, const PinholeCamera& camera, const py::object& distortion)
+      : odometry_(std::make_unique<Odometry>(options ? options->values() : OdometryOptions(),
+                                             camera, DistortionArgument(distortion))) {}
+  // The mapper's thread, which is joined, may wait for the GIL.
+  ~PyOdometry() {
+    const py::gil_scoped_release release;
+    odometry_.reset();
+  }
+  PyOdometry(const PyOdometry&) = delete;
+  PyOdometry& operator=(const PyOdometry&) = delete;
+
+  FrameResult Process(double timestamp, const py::object& gray, const py::object& depth,
+                      const py::object& depth_scale, double depth_delay) {
+    RgbdImage image;
+    image.id = next_id_;
+    image.timestamp = timestamp;
+    image.depth_delay = depth_delay;
+    image.gray = GrayArgument(gray, "gray");
+    image.depth = DepthArgument(depth, depth_scale, "depth");
+    const FrameResult result = Alone([&] { return odometry_->Process(image); });
+    ++next_id_;
+    return result;
+  }
+
+  FrameResult Drop(double timestamp, const std::string& status) {
+    if (status != "dropped" && status != "unreadable") {
+      throw std::invalid_argument("status: must be 'dropped' or 'unreadable', not '" + status +
+                                  "'");
+    }
+    const TrackingStatus value =
+        status == "dropped" ? TrackingStatus::kDropped : TrackingStatus::kUnreadable;
+    const FrameResult result = Alone([&] { return odometry_->Drop(next_id_, timestamp, value); });
+    ++next_id_;
+    return result;
+  }
+
+  std::shared_ptr<OdometryResult> Finish() {
+    return Alone([&] { return std::make_shared<OdometryResult>(odometry_->Finish()); });
+  }
+
+  void SetWindowFactors(const py::object& callback) {
+    CheckNotStarted();
+    if (callback.is_none()) return odometry_->SetWindowFactors({});
+    odometry_->SetWindowFactors(
+        [shared = SharedObject(callback)](const WindowContext& window) -> WindowFactors {
+          const py::gil_scoped_acquire gil;
+          FactorLists lists = FactorsArgument(shared.get()(window), "window factors");
+          return {std::move(lists.extra_blocks), std::move(lists.factors)};
+        });
+  }
+
+  void SetPoseFactors(const py::object& callback) {
+    CheckNotStarted();
+    if (callback.is_none()) return odometry_->SetPoseFactors({});
+    odometry_->SetPoseFactors(
+        [shared = SharedObject(callback)](const FrameContext& frame) -> std::vector<PoseFactor> {
+          const py::gil_scoped_acquire gil;
+          const py::object factors = shared.get()(frame);
+          if (factors.is_none()) return {};
+          return factors.cast<std::vector<PoseFactor>>();
+        });
+  }
+
+  void SetWindowObserver(const py::object& callback) {
+    CheckNotStarted();
+    if (callback.is_none()) return odometry_->SetWindowObserver({});
+    odometry_->SetWindowObserver(
+        [shared = SharedObject(callback)](
+            KeyframeId keyframe, const BundleAdjustmentOptions& options, const WindowData& window) {
+          const py::gil_scoped_acquire gil;
+          shared.get()(keyframe, std::make_shared<WindowData>(window), WindowOptionsTable(options));
+        });
+  }
+
+ private:
+  // Calls `action` without the GIL and while nobody else uses the odometry.
+  template <typename Action>
+  auto Alone(const Action& action) -> decltype(action()) {
+    if (busy_.exchange(true)) {
+      throw std::runtime_error(
+          "the odometry is in use: neither a second thread nor a callback may call it");
+    }
+    const py::gil_scoped_release release;
+    struct Guard {
+      std::atomic<bool>* busy;
+      ~Guard() { *busy = false; }
+    } const guard{&busy_};
+    return action();
+  }
+
+  void CheckNotStarted() const {
+    if (next_id_ > 0) throw std::runtime_error("callbacks must be set before the first image");
+  }
+
+  std::unique_ptr<Odometry> odometry_;
+  int64_t next_id_ = 0;
+  std::atomic<bool> busy_ = false;
+};
+
+void BindContexts(py::module_* module) {
+  py::class_<WindowContext::Keyframe>(*module, "WindowKeyframe", "A keyframe of a WindowContext.")
+      .def_readonly("id", &WindowContext::Keyframe::id)
+      .def_readonly("timestamp", &WindowContext::Keyframe::timestamp)
+      .def_readonly("fixed", &WindowContext::Keyframe::fixed)
+      .def_property_readonly("cam_from_world", [](const WindowContext::Keyframe& self) {
+        return PoseMatrix(self.cam_from_world);
+      });
+  py::class_<WindowContext>(*module, "WindowContext",
+                            "A window before its local bundle adjustment.")
+      .def_readonly("keyframes", &WindowContext::keyframes, "In order of time.")
+      .def_property_readonly(
+          "extra_blocks",
+          [](const WindowContext& self) {
+            py::dict blocks;
+            for (const ExtraBlock& block : self.extra_blocks) {
+              blocks[py::int_(block.id)] = block.value;
+            }
+            return blocks;
+          },
+          "Present values of the extra blocks by id.");
+  py::class_<FrameContext>(*module, "FrameContext", "A frame before its pose is estimated.")
+      .def_readonly("timestamp", &FrameContext::timestamp)
+      .def_readonly("last_timestamp", &FrameContext::last_timestamp,
+                    "Of the last frame whose pose was estimated from its image.")
+      .def_property_readonly(
+          "last_cam_from_world",
+          [](const FrameContext& self) { return PoseMatrix(self.last_cam_from_world); })
+      .def_property_readonly(
+          "predicted_cam_from_world",
+          [](const FrameContext& self) { return PoseMatrix(self.predicted_cam_from_world); },
+          "By constant velocity.");
+}
+
+}  // namespace
+
+void BindOdometry(py::module_* module) {
+  BindContexts(module);
+  py::class_<PyOdometry>(*module, "Odometry",
+                         "RGB-D visual odometry. process() every image, then finish(). The same "
+                         "images give the same poses, bit by bit. The GIL is released meanwhile.")
+      .def(py::init<const OptionsTable*, const PinholeCamera&, const py::object&>(),
+           py::arg("options"), py::arg("camera"), py::arg("distortion") = py::none(),
+           "options: None for the defaults. distortion: k1 k2 p1 p2 [k3] in OpenCV's order. Raises "
+           "ValueError on options or a camera that are not valid.")
+      .def("process", &PyOdometry::Process, py::arg("timestamp"), py::arg("gray"), py::arg("depth"),
+           py::kw_only(), py::arg("depth_scale") = py::none(), py::arg("depth_delay") = 0.0,
+           "Tracks one image. timestamp: seconds, ascending. gray: uint8 (height, width), or RGB "
+           "(height, width, 3). depth: float32 in metres, or uint16 with depth_scale units per "
+           "metre; 0: not measured. Arrays must be C-contiguous; they are not copied. "
+           "depth_delay: seconds from the colour image to the depth image. Raises ValueError on "
+           "arrays that do not fit; the next call may continue.")
+      .def("drop", &PyOdometry::Drop, py::arg("timestamp"), py::arg("status") = "dropped",
+           "Records a frame without an image: 'dropped' or 'unreadable'.")
+      .def("finish", &PyOdometry::Finish,
+           "Waits for local mapping and returns the Result. May be called at any time.")
+      .def("set_window_factors", &PyOdometry::SetWindowFactors, py::arg("callback"),
+           "callback(WindowContext) returns CustomFactor and ExtraBlock objects for every window "
+           "of local bundle adjustment. Runs on the mapper's thread if there is one.")
+      .def("set_pose_factors", &PyOdometry::SetPoseFactors, py::arg("callback"),
+           "callback(FrameContext) returns PoseFactor objects for every frame.")
+      .def("set_window_observer", &PyOdometry::SetWindowObserver, py::arg("callback"),
+           "callback(keyframe, WindowData, WindowOptions) is called with a copy of every window "
+           "before it is solved.");
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <memory>
+#include <string>
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "apps/python/arrays.h"
+#include "apps/python/bindings.h"
+#include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/results/run_summary.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace py = pybind11;
+
+namespace {
+
+// Views of the vectors of a result, which does not change after Finish().
+
+py::array PointsOf(const py::object& self) {
+  const auto& points = self.cast<const OdometryResult&>().points;
+  if (points.empty()) return py::cast(RowMajorMatrix(0, 3));
+  return ArrayView(points[0].position.data(), {static_cast<py::ssize_t>(points.size()), 3},
+                   {sizeof(MapPoint), sizeof(double)}, self);
+}
+
+py::array PointObservationsOf(const py::object& self) {
+  const auto& points = self.cast<const OdometryResult&>().points;
+  if (points.empty()) return py::array_t<int>(0);
+  return ArrayView(&points[0].num_observations, {static_cast<py::ssize_t>(points.size())},
+                   {sizeof(MapPoint)}, self);
+}
+
+py::array LinesOf(const py::object& self) {
+  static_assert(sizeof(LineSegment3) == 6 * sizeof(double), "start and end are adjacent");
+  const auto& lines = self.cast<const OdometryResult&>().lines;
+  if (lines.empty()) return py::cast(RowMajorMatrix(0, 6));
+  return ArrayView(lines[0].segment.start.data(), {static_cast<py::ssize_t>(lines.size()), 6},
+                   {sizeof(MapLine), sizeof(double)}, self);
+}
+
+py::array LineObservationsOf(const py::object& self) {
+  const auto& lines = self.cast<const OdometryResult&>().lines;
+  if (lines.empty()) return py::array_t<int>(0);
+  return ArrayView(&lines[0].num_observations, {static_cast<py::ssize_t>(lines.size())},
+                   {sizeof(MapLine)}, self);
+}
+
+py::array LineAxesOf(const OdometryResult& result) {
+  py::array_t<int> axes(static_cast<py::ssize_t>(result.lines.size()));
+  for (size_t i = 0; i < result.lines.size(); ++i) {
+    axes.mutable_at(i) = result.lines[i].axis.value_or(-1);
+  }
+  return axes;
+}
+
+py::array EstimatedOf(const OdometryResult& result) {
+  py::array_t<bool> estimated(static_cast<py::ssize_t>(result.frames.size()));
+  for (size_t i = 0; i < result.frames.size(); ++i) {
+    estimated.mutable_at(i) = IsEstimated(result.frames[i].status);
+  }
+  return estimated;
+}
+
+py::object WorldFromAxes(const OdometryResult& result) {
+  if (result.axes.state == AxesState::kNone) return py::none();
+  return py::cast(Eigen::Matrix3d(result.axes.world_from_axes.toRotationMatrix()));
+}
+
+py::dict ExtraBlocksOf(const OdometryResult& result) {
+  py::dict blocks;
+  for (const ExtraBlock& block : result.extra_blocks) blocks[py::int_(block.id)] = block.value;
+  return blocks;
+}
+
+std::string DescribeResult(const OdometryResult& result) {
+  return FormatText("<Result: %zu frames, %zu keyframes, %zu points, %zu lines>",
+                    result.frames.size(), result.keyframes.size(), result.points.size(),
+                    result.lines.size());
+}
+
+void Write(const OdometryResult& result, const py::object& path) {
+  WriteTrajectory(py::module_::import("os").attr("fspath")(path).cast<std::string>(),
+                  TrajectoryOf(result));
+}
+
+}  // namespace
+
+void BindResult(py::module_* module) {
+  py::class_<OdometryResult, std::shared_ptr<OdometryResult>>(
+      *module, "Result", "The result of a run. Lengths in metres, in the world.")
+      .def_property_readonly(
+          "trajectory",
+          [](const OdometryResult& self) { return TrajectoryRows(TrajectoryOf(self)); },
+          "(N, 8) rows t tx ty tz qx qy qz qw, one per frame, camera in world.")
+      .def_property_readonly("estimated", &EstimatedOf,
+                             "(N,) bool: whether the pose is estimated from the image of its time.")
+      .def_property_readonly(
+          "keyframes", [](const OdometryResult& self) { return TrajectoryRows(self.keyframes); },
+          "(K, 8), as trajectory, of the keyframes.")
+      .def_readonly("frames", &OdometryResult::frames, "FrameResult objects with final poses.")
+      .def_property_readonly("points", &PointsOf, "(P, 3) map points; read-only, not a copy.")
+      .def_property_readonly("point_observations", &PointObservationsOf,
+                             "(P,) number of keyframes that observe each point.")
+      .def_property_readonly("lines", &LinesOf,
+                             "(L, 6) start and end of map lines; read-only, not a copy.")
+      .def_property_readonly("line_observations", &LineObservationsOf, "(L,)")
+      .def_property_readonly(
+          "line_axes", &LineAxesOf,
+          "(L,) the Manhattan axis (0, 1, 2) that a line is parallel to; -1: none.")
+      .def_property_readonly(
+          "axes_state", [](const OdometryResult& self) { return ToString(self.axes.state); },
+          "'none', 'coarse' or 'refined' Manhattan axes.")
+      .def_property_readonly("world_from_axes", &WorldFromAxes,
+                             "3x3 rotation; None without Manhattan axes.")
+      .def_readonly("readout_time", &OdometryResult::readout_time,
+                    "Seconds, of the rolling shutter, given or estimated; 0: global shutter.")
+      .def_readonly("num_late_maps", &OdometryResult::num_late_maps,
+                    "Maps that were late in real time.")
+      .def_property_readonly("extra_blocks", &ExtraBlocksOf, "Estimates of the extra blocks by id.")
+      .def("write_trajectory", &Write, py::arg("path"),
+           "Writes trajectory.txt as `msc_vo replay` does.")
+      .def("__repr__", &DescribeResult);
+}
+
+}  // namespace msc_vo

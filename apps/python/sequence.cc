@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "apps/python/arrays.h"
+#include "apps/python/bindings.h"
+#include "msc_vo/config/options_file.h"
+#include "msc_vo/datasets/rgbd_decoder.h"
+#include "msc_vo/datasets/sequence_calibration.h"
+
+namespace msc_vo {
+
+namespace py = pybind11;
+
+namespace {
+
+std::string PathArgument(const py::object& path) {
+  return py::module_::import("os").attr("fspath")(path).cast<std::string>();
+}
+
+RgbdDecoder Open(const py::object& directory, const std::string& format, const std::string& camera,
+                 const py::object& config) {
+  Configuration configuration;
+  if (!config.is_none()) ReadConfiguration(PathArgument(config), &configuration);
+  SequenceIndex index = OpenSequence(PathArgument(directory), format);
+  Calibration calibration = ResolveCalibration(configuration.camera, camera, &index);
+  return {std::move(index), std::move(calibration)};
+}
+
+RgbdImage ImageAt(const RgbdDecoder& sequence, int index) {
+  if (index < 0) index += sequence.size();
+  if (index < 0 || index >= sequence.size()) throw py::index_error("image index out of range");
+  const py::gil_scoped_release release;
+  return sequence.Decode(index);
+}
+
+py::array GrayOf(const py::object& self) {
+  const cv::Mat& gray = self.cast<const RgbdImage&>().gray;
+  return ArrayView(gray.ptr<uint8_t>(), {gray.rows, gray.cols},
+                   {static_cast<py::ssize_t>(gray.step[0]), 1}, self);
+}
+
+py::array DepthOf(const py::object& self) {
+  const cv::Mat& depth = self.cast<const RgbdImage&>().depth;
+  return ArrayView(depth.ptr<float>(), {depth.rows, depth.cols},
+                   {static_cast<py::ssize_t>(depth.step[0]), sizeof(float)}, self);
+}
+
+void BindImage(py::module_* module) {
+  py::class_<RgbdImage, std::shared_ptr<RgbdImage>>(*module, "RgbdImage",
+                                                    "A decoded image of a sequence.")
+      .def_readonly("id", &RgbdImage::id, "Position in the sequence, from 0.")
+      .def_readonly("timestamp", &RgbdImage::timestamp, "Seconds, of the colour image.")
+      .def_readonly("depth_delay", &RgbdImage::depth_delay,
+                    "Seconds from the colour image to the depth image.")
+      .def_property_readonly("gray", &GrayOf, "(height, width) uint8, read-only, not a copy.")
+      .def_property_readonly("depth", &DepthOf,
+                             "(height, width) float32, metres, 0: not measured; read-only, not a "
+                             "copy.");
+}
+
+}  // namespace
+
+void BindSequence(py::module_* module) {
+  py::register_exception<UnreadableImage>(*module, "UnreadableImage", PyExc_RuntimeError)
+      .attr("__doc__") =
+      "An image of a sequence is missing or damaged; the message names the file.";
+  BindImage(module);
+  py::class_<RgbdDecoder>(*module, "Sequence",
+                          "A folder with RGB-D images in one of the layouts of docs/usage.md. "
+                          "sequence[i] decodes image i and raises UnreadableImage if it is missing "
+                          "or damaged.")
+      .def(py::init(&Open), py::arg("directory"), py::arg("format") = "auto",
+           py::arg("camera") = "", py::arg("config") = py::none(),
+           "format, camera, config: as --format, --camera and --config of `msc_vo replay`. Raises "
+           "RuntimeError naming file, line and fix.")
+      .def("__len__", &RgbdDecoder::size)
+      .def("__getitem__", &ImageAt, py::arg("index"))
+      .def_property_readonly("camera",
+                             [](const RgbdDecoder& self) { return self.calibration().camera; })
+      .def_property_readonly(
+          "distortion", [](const RgbdDecoder& self) { return self.calibration().distortion.k; },
+          "k1, k2, p1, p2, k3")
+      .def_property_readonly(
+          "depth_scale", [](const RgbdDecoder& self) { return self.calibration().depth_scale; },
+          "Raw depth units per metre.")
+      .def_property_readonly(
+          "readout_time", [](const RgbdDecoder& self) { return self.calibration().readout_time; },
+          "Seconds from the first row to the last, 0: global shutter, None: unknown.")
+      .def_property_readonly("timestamps",
+                             [](const RgbdDecoder& self) {
+                               py::array_t<double> stamps(self.size());
+                               for (int i = 0; i < self.size(); ++i) {
+                                 stamps.mutable_at(i) = self.index().entries[i].timestamp;
+                               }
+                               return stamps;
+                             })
+      .def_property_readonly(
+          "groundtruth",
+          [](const RgbdDecoder& self) { return TrajectoryRows(self.index().ground_truth); },
+          "(N, 8) rows t tx ty tz qx qy qz qw; no rows without ground truth.")
+      .def_property_readonly("directory",
+                             [](const RgbdDecoder& self) { return self.index().directory; })
+      .def_property_readonly("format", [](const RgbdDecoder& self) { return self.index().format; })
+      .def_property_readonly("warnings",
+                             [](const RgbdDecoder& self) { return self.index().warnings; });
+}
+
+}  // namespace msc_vo

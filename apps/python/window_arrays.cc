@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/python/window_arrays.h"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <pybind11/eigen.h>
+
+#include "apps/python/arrays.h"
+
+namespace msc_vo {
+
+namespace py = pybind11;
+
+namespace {
+
+// Row i of an (N, 6) array as a line from start to end.
+LineSegment3 SegmentOf(const RowMajorMatrix& rows, size_t i) {
+  return {rows.row(i).head<3>().transpose(), rows.row(i).tail<3>().transpose()};
+}
+
+// (N, 2, 2) covariances as rows of four.
+RowMajorMatrix CovarianceRows(py::handle value, const std::string& name, int size) {
+  const py::array array = py::array::ensure(value);
+  if (!array || array.ndim() != 3 || array.shape(0) != size || array.shape(1) != 2 ||
+      array.shape(2) != 2) {
+    PyErr_Clear();
+    throw std::invalid_argument(name + ": expected shape (" + std::to_string(size) + ", 2, 2)" +
+                                (array ? ", not " + DescribeArray(array) : ""));
+  }
+  return MatrixArgument(array.attr("reshape")(size, 4), name, size, 4);
+}
+
+}  // namespace
+
+void AddKeyframes(WindowData* window, py::handle ids, py::handle cam_from_world, py::handle fixed) {
+  const std::vector<Rigid3> poses = PosesArgument(cam_from_world, "cam_from_world");
+  const int size = static_cast<int>(poses.size());
+  const std::vector<int64_t> names = IdsArgument(ids, "ids", size);
+  const std::vector<bool> is_fixed = FlagsArgument(fixed, "fixed", size);
+  for (int i = 0; i < size; ++i) window->keyframes.push_back({names[i], poses[i], is_fixed[i]});
+}
+
+void AddPoints(WindowData* window, py::handle ids, py::handle positions, py::handle fixed) {
+  const RowMajorMatrix rows = MatrixArgument(positions, "positions", -1, 3);
+  const int size = static_cast<int>(rows.rows());
+  const std::vector<int64_t> names = IdsArgument(ids, "ids", size);
+  const std::vector<bool> is_fixed = FlagsArgument(fixed, "fixed", size);
+  for (int i = 0; i < size; ++i) {
+    window->points.push_back({names[i], rows.row(i).transpose(), is_fixed[i]});
+  }
+}
+
+void AddLines(WindowData* window, py::handle ids, py::handle segments, py::handle fixed) {
+  const RowMajorMatrix rows = MatrixArgument(segments, "segments", -1, 6);
+  const int size = static_cast<int>(rows.rows());
+  const std::vector<int64_t> names = IdsArgument(ids, "ids", size);
+  const std::vector<bool> is_fixed = FlagsArgument(fixed, "fixed", size);
+  for (int i = 0; i < size; ++i) {
+    window->lines.push_back({names[i], SegmentOf(rows, i), is_fixed[i]});
+  }
+}
+
+void AddPointObservations(WindowData* window, py::handle keyframes, py::handle points,
+                          py::handle pixels, py::handle sigmas, py::handle inverse_depths,
+                          py::handle inverse_depth_sigmas) {
+  const RowMajorMatrix rows = MatrixArgument(pixels, "pixels", -1, 2);
+  const int size = static_cast<int>(rows.rows());
+  const std::vector<int64_t> keyframe = IdsArgument(keyframes, "keyframes", size);
+  const std::vector<int64_t> point = IdsArgument(points, "points", size);
+  const Eigen::VectorXd sigma = PerRowArgument(sigmas, "sigmas", size);
+  const Eigen::VectorXd depth = PerRowArgument(inverse_depths, "inverse_depths", size);
+  const Eigen::VectorXd depth_sigma =
+      PerRowArgument(inverse_depth_sigmas, "inverse_depth_sigmas", size);
+  for (int i = 0; i < size; ++i) {
+    window->point_observations.push_back({keyframe[i], point[i], rows.row(i).transpose(), sigma[i],
+                                          depth[i], depth_sigma[i], false});
+  }
+}
+
+void AddLineObservations(WindowData* window, py::handle keyframes, py::handle lines,
+                         py::handle segments, py::handle sigmas, py::handle inverse_depths,
+                         py::handle depth_covariances) {
+  const RowMajorMatrix rows = MatrixArgument(segments, "segments", -1, 4);
+  const int size = static_cast<int>(rows.rows());
+  const std::vector<int64_t> keyframe = IdsArgument(keyframes, "keyframes", size);
+  const std::vector<int64_t> line = IdsArgument(lines, "lines", size);
+  const Eigen::VectorXd sigma = PerRowArgument(sigmas, "sigmas", size);
+  const bool has_depth = !inverse_depths.is_none();
+  if (has_depth == depth_covariances.is_none()) {
+    throw std::invalid_argument("inverse_depths and depth_covariances: give both or neither");
+  }
+  RowMajorMatrix depth, covariance;
+  if (has_depth) {
+    depth = MatrixArgument(inverse_depths, "inverse_depths", size, 2);
+    covariance = CovarianceRows(depth_covariances, "depth_covariances", size);
+  }
+  for (int i = 0; i < size; ++i) {
+    WindowData::LineObservation observation;
+    observation.keyframe = keyframe[i];
+    observation.line = line[i];
+    observation.segment = {rows.row(i).head<2>().transpose(), rows.row(i).tail<2>().transpose()};
+    observation.sigma = sigma[i];
+    observation.has_depth = has_depth;
+    if (has_depth) {
+      observation.depth.start = depth(i, 0);
+      observation.depth.end = depth(i, 1);
+      observation.depth.covariance << covariance(i, 0), covariance(i, 1), covariance(i, 2),
+          covariance(i, 3);
+    }
+    window->line_observations.push_back(observation);
+  }
+}
+
+void AddLinePairs(std::vector<WindowData::LinePair>* pairs, py::handle a, py::handle b,
+                  py::handle sigmas, py::handle counts) {
+  const std::vector<int64_t> first = IdsArgument(a, "a", -1);
+  const int size = static_cast<int>(first.size());
+  const std::vector<int64_t> second = IdsArgument(b, "b", size);
+  const Eigen::VectorXd sigma = PerRowArgument(sigmas, "sigmas", size);
+  std::vector<int64_t> count(size, 1);
+  if (!counts.is_none()) count = IdsArgument(counts, "counts", size);
+  for (int i = 0; i < size; ++i) {
+    pairs->push_back({first[i], second[i], sigma[i], static_cast<int>(count[i]), false});
+  }
+}
+
+void AddAxisAlignments(WindowData* window, py::handle lines, py::handle axes, py::handle sigmas) {
+  const RowMajorMatrix rows = MatrixArgument(axes, "axes", -1, 3);
+  const int size = static_cast<int>(rows.rows());
+  const std::vector<int64_t> line = IdsArgument(lines, "lines", size);
+  const Eigen::VectorXd sigma = PerRowArgument(sigmas, "sigmas", size);
+  for (int i = 0; i < size; ++i) {
+    window->axis_alignments.push_back({line[i], rows.row(i).transpose(), sigma[i], false});
+  }
+}
+
+void AddPosePrior(WindowData* window, int64_t keyframe, py::handle cam_from_world,
+                  py::handle covariance) {
+  window->pose_priors.push_back({keyframe, PoseArgument(cam_from_world, "cam_from_world"),
+                                 MatrixArgument(covariance, "covariance", 6, 6)});
+}
+
+py::array PosesOf(const WindowData& window) {
+  py::array_t<double> poses(
+      {static_cast<py::ssize_t>(window.keyframes.size()), py::ssize_t{4}, py::ssize_t{4}});
+  double* to = poses.mutable_data();
+  for (const WindowData::Keyframe& keyframe : window.keyframes) {
+    Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(to);
+    matrix = PoseMatrix(keyframe.cam_from_world);
+    to += 16;
+  }
+  return std::move(poses);
+}
+
+py::array PointsOf(const WindowData& window) {
+  RowMajorMatrix rows(window.points.size(), 3);
+  for (size_t i = 0; i < window.points.size(); ++i) {
+    rows.row(i) = window.points[i].position.transpose();
+  }
+  return py::cast(std::move(rows));
+}
+
+py::array LinesOf(const WindowData& window) {
+  RowMajorMatrix rows(window.lines.size(), 6);
+  for (size_t i = 0; i < window.lines.size(); ++i) {
+    const LineSegment3& segment = window.lines[i].segment;
+    rows.row(i) << segment.start.transpose(), segment.end.transpose();
+  }
+  return py::cast(std::move(rows));
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/diagnosis/camera_findings.h"
+
+#include <cmath>
+
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Degrees; RGB-D cameras have 54 to 90 degrees.
+constexpr double kMinFieldOfView = 35.0, kMaxFieldOfView = 110.0;
+// Offset of the principal point from the centre, as a fraction of the image size. Calibrations of
+// RGB-D cameras have up to 0.04 (tum-fr1).
+constexpr double kMaxOffset = 0.08;
+
+void AddSigns(const PinholeCamera& camera, const std::string& format, Findings* findings) {
+  if (camera.fy < 0.0 && format != "icl-nuim") {
+    findings->push_back(Warning("camera.sign",
+                                "fy is negative: correct only for mirrored images (ICL-NUIM)",
+                                "make fy positive unless the images are mirrored"));
+  }
+  if (camera.fy > 0.0 && format == "icl-nuim") {
+    findings->push_back(Warning("camera.sign",
+                                "fy is positive, but original ICL-NUIM images are mirrored: their "
+                                "ground truth requires fy = -480",
+                                "make fy negative, or mirror the images"));
+  }
+}
+
+void AddPrincipalPoint(const PinholeCamera& camera, Findings* findings) {
+  const double x = camera.cx - 0.5 * (camera.width - 1);
+  const double y = camera.cy - 0.5 * (camera.height - 1);
+  if (std::abs(x) <= kMaxOffset * camera.width && std::abs(y) <= kMaxOffset * camera.height) return;
+  findings->push_back(Warning(
+      "camera.principal_point",
+      FormatText("cx and cy are far from the image centre, by %.0f and %.0f px: is the calibration "
+                 "for another image size?",
+                 x, y),
+      "give the calibration of these images; cropped or scaled images need cropped or scaled "
+      "values",
+      Measurement{std::hypot(x, y), "px"}));
+}
+
+void AddFocalLength(const PinholeCamera& camera, Findings* findings) {
+  const double ratio = std::abs(camera.fx / camera.fy);
+  if (std::abs(ratio - 1.0) > 0.1) {
+    findings->push_back(Warning("camera.aspect",
+                                "fx and fy differ by more than 10 %, but pixels are nearly always "
+                                "square",
+                                "check both", Measurement{ratio, "ratio"}));
+  }
+  const double degrees =
+      2.0 * std::atan(0.5 * camera.width / std::abs(camera.fx)) * 180.0 / std::acos(-1.0);
+  if (degrees >= kMinFieldOfView && degrees <= kMaxFieldOfView) return;
+  findings->push_back(Warning(
+      "camera.field_of_view",
+      FormatText("the horizontal field of view is %.0f degrees (fx %.1f at a width of %d "
+                 "px), unusual for an RGB-D camera",
+                 degrees, camera.fx, camera.width),
+      "check that the calibration is for this image size", Measurement{degrees, "degrees"}));
+}
+
+}  // namespace
+
+void AddCameraFindings(const Calibration& calibration, const std::string& format,
+                       Findings* findings) {
+  const PinholeCamera& camera = calibration.camera;
+  findings->push_back(
+      Good("camera.source",
+           "camera from " + calibration.origin +
+               FormatText(": fx %.3f, fy %.3f, cx %.3f, cy %.3f, %dx%d, %.1f depth units per metre",
+                          camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height,
+                          calibration.depth_scale) +
+               (calibration.distortion.IsZero() ? "" : ", with lens distortion")));
+  AddSigns(camera, format, findings);
+  AddFocalLength(camera, findings);
+  AddPrincipalPoint(camera, findings);
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+namespace msc_vo {
+
+/// Ways in which a colour image may be mirrored with respect to its depth image.
+enum class Mirroring { kNone, kHorizontal, kVertical, kBoth };
+constexpr int kNumMirrorings = 4;
+
+/// Agreement of depth edges with image gradients as a function of the shift between the two: the
+/// mean gradient at the depth edges of the shifted image, in standard deviations of the gradients
+/// above their mean. Scores of several images add up.
+struct EdgeAlignment {
+  /// Pixels of the full image per step of the score.
+  double step = 1.0;
+  /// Largest shift in steps; the score is square with 2 * reach + 1 values on each side.
+  int reach = 0;
+  /// CV_32FC1, sum over edge pixels; row: dy + reach, column: dx + reach. A peak at (dx, dy) says
+  /// that the depth edge at pixel p belongs to the image edge at p + (dx, dy).
+  cv::Mat score;
+  int num_edges = 0;  ///< pixels with a depth edge
+  /// Best score within two steps of no shift for each Mirroring of the colour image; sum over edge
+  /// pixels.
+  std::array<double, kNumMirrorings> mirrored_score = {};
+};
+
+/// Peak of a score.
+struct EdgeShift {
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();  ///< pixels of the full image
+  double peak = 0.0;                                ///< mean score at the peak
+  double at_zero = 0.0;                             ///< mean score without a shift
+  double background = 0.0;                          ///< median mean score over all shifts
+};
+
+/// Compares the edges of a depth image (metres, 0: none) with those of a grey image of the same
+/// size. Computes mirrored_score only if `tests_mirroring`.
+EdgeAlignment AlignEdges(const cv::Mat& gray, const cv::Mat& depth, bool tests_mirroring);
+
+/// Adds scores of the same size; an empty sum takes the size of the first.
+void Add(const EdgeAlignment& image, EdgeAlignment* sum);
+
+/// Peak of the score, to a fraction of a step. Zero if there are no edges.
+EdgeShift FindPeak(const EdgeAlignment& alignment);
+
+}  // namespace msc_vo

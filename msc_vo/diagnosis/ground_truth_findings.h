@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <vector>
+
+#include "msc_vo/diagnosis/finding.h"
+#include "msc_vo/diagnosis/motion_track.h"
+#include "msc_vo/geometry/timed_pose.h"
+
+namespace msc_vo {
+
+/// Compares the motion of the images with the ground truth: frame convention, time offset, scale
+/// (that of depth, with `depth_scale` raw units per metre) and hand-eye offset. Adds nothing if
+/// there is no ground truth.
+void AddGroundTruthMotionFindings(const MotionTrack& track, const std::vector<TimedPose>& truth,
+                                  double depth_scale, Findings* findings);
+
+}  // namespace msc_vo

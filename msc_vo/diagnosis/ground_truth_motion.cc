@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/diagnosis/ground_truth_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/geometry/so3.h"
+
+namespace msc_vo {
+
+namespace {
+
+constexpr double kMaxGap = 0.3;  // seconds between poses that are interpolated
+
+const Eigen::Vector3d kMirror(-1.0, 1.0, 1.0);
+
+}  // namespace
+
+const char* Describe(PoseConvention convention) {
+  switch (convention) {
+    case PoseConvention::kCameraInWorld:
+      return "poses of the camera in the world";
+    case PoseConvention::kWorldInCamera:
+      return "inverse poses, world in camera";
+    case PoseConvention::kInverseRotation:
+      return "positions of the camera with rotations from world to camera";
+    case PoseConvention::kScalarFirst:
+      return "poses with quaternions in the order w x y z";
+    case PoseConvention::kMirrored:
+      return "poses of a mirrored camera (images mirrored left to right, or a left-handed world)";
+  }
+  return "";
+}
+
+std::optional<Rigid3> InterpolatePose(const std::vector<TimedPose>& poses, double timestamp) {
+  const auto next =
+      std::lower_bound(poses.begin(), poses.end(), timestamp,
+                       [](const TimedPose& pose, double time) { return pose.timestamp < time; });
+  if (next == poses.end()) return std::nullopt;
+  if (next->timestamp == timestamp) return next->world_from_cam;
+  if (next == poses.begin()) return std::nullopt;
+  const TimedPose& before = *(next - 1);
+  const double interval = next->timestamp - before.timestamp;
+  if (interval > kMaxGap) return std::nullopt;
+  const double ratio = (timestamp - before.timestamp) / interval;
+  const Eigen::Quaterniond a(before.world_from_cam.rotation());
+  const Eigen::Quaterniond b(next->world_from_cam.rotation());
+  return Rigid3(a.slerp(ratio, b), (1.0 - ratio) * before.world_from_cam.translation() +
+                                       ratio * next->world_from_cam.translation());
+}
+
+std::vector<TimedPose> ReadAs(PoseConvention convention, std::vector<TimedPose> poses) {
+  for (TimedPose& pose : poses) {
+    Rigid3& world_from_cam = pose.world_from_cam;
+    switch (convention) {
+      case PoseConvention::kWorldInCamera:
+        world_from_cam = world_from_cam.Inverse();
+        break;
+      case PoseConvention::kInverseRotation:
+        world_from_cam =
+            Rigid3(world_from_cam.rotation().conjugate(), world_from_cam.translation());
+        break;
+      case PoseConvention::kScalarFirst: {
+        const Eigen::Vector4d c = world_from_cam.params.head<4>();  // in the order of the file
+        world_from_cam =
+            Rigid3(Eigen::Quaterniond(c(0), c(1), c(2), c(3)), world_from_cam.translation());
+        break;
+      }
+      default:
+        break;
+    }
+  }
+  return poses;
+}
+
+std::vector<MotionComparison> CompareMotions(const MotionTrack& track,
+                                             const std::vector<MotionPair>& pairs,
+                                             const std::vector<TimedPose>& truth,
+                                             PoseConvention convention, double offset) {
+  std::vector<MotionComparison> comparisons;
+  for (const MotionPair& pair : pairs) {
+    const auto from = InterpolatePose(truth, track.images[pair.from].timestamp + offset);
+    const auto to = InterpolatePose(truth, track.images[pair.to].timestamp + offset);
+    if (!from || !to) continue;
+    const Rigid3 motion = to->Inverse() * *from;
+    MotionComparison comparison;
+    comparison.image_rotation = LogSO3(Eigen::Quaterniond(pair.motion.to_from_from.rotation()));
+    comparison.image_translation = pair.motion.to_from_from.translation();
+    comparison.true_rotation = LogSO3(Eigen::Quaterniond(motion.rotation()));
+    comparison.true_translation = motion.translation();
+    if (convention == PoseConvention::kMirrored) {
+      // A mirror reverses rotations about the axes in its plane.
+      comparison.true_rotation = -kMirror.cwiseProduct(comparison.true_rotation);
+      comparison.true_translation = kMirror.cwiseProduct(comparison.true_translation);
+    }
+    comparisons.push_back(comparison);
+  }
+  return comparisons;
+}
+
+double RotationDisagreement(const std::vector<MotionComparison>& comparisons,
+                            const Eigen::Matrix3d& camera_from_body) {
+  std::vector<double> differences, rotations;
+  for (const MotionComparison& c : comparisons) {
+    differences.push_back((c.image_rotation - camera_from_body * c.true_rotation).norm());
+    rotations.push_back(c.image_rotation.norm());
+  }
+  return Median(std::move(differences)) / std::max(1e-6, Median(std::move(rotations)));
+}
+
+Eigen::Matrix3d FitBodyRotation(const std::vector<MotionComparison>& comparisons) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  for (int iteration = 0; iteration < 5; ++iteration) {
+    Eigen::Matrix3d covariance = 1e-9 * Eigen::Matrix3d::Identity();
+    std::vector<double> errors;
+    for (const MotionComparison& c : comparisons) {
+      errors.push_back((c.image_rotation - rotation * c.true_rotation).norm());
+    }
+    const double scale = std::max(1e-4, iteration == 0 ? 1e3 : Median(errors));
+    for (size_t i = 0; i < comparisons.size(); ++i) {
+      const double weight = 1.0 / (1.0 + errors[i] * errors[i] / (scale * scale));
+      covariance +=
+          weight * comparisons[i].image_rotation * comparisons[i].true_rotation.transpose();
+    }
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
+                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Vector3d signs = Eigen::Vector3d::Ones();
+    signs.z() = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+    rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  }
+  return rotation;
+}
+
+HandEye FitHandEye(const std::vector<MotionComparison>& comparisons,
+                   const Eigen::Matrix3d& camera_from_body, double offset_prior) {
+  // (R - I) offset + scale * t_image = t_true, in the camera frame, from M_camera X = X M_body
+  // with X = (camera_from_body, offset).
+  Eigen::Vector4d solution(0.0, 0.0, 0.0, 1.0);
+  Eigen::Matrix4d matrix;
+  double scale = 1.0;
+  for (int iteration = 0; iteration < 15; ++iteration) {
+    std::vector<Eigen::Vector3d> residuals;
+    std::vector<double> errors;
+    std::vector<Eigen::Matrix<double, 3, 4>> rows;
+    for (const MotionComparison& c : comparisons) {
+      Eigen::Matrix<double, 3, 4> row;
+      row.leftCols<3>() = ExpSO3(c.image_rotation).toRotationMatrix() - Eigen::Matrix3d::Identity();
+      row.col(3) = c.image_translation;
+      rows.push_back(row);
+      residuals.emplace_back(camera_from_body * c.true_translation - row * solution);
+      errors.push_back(residuals.back().norm());
+    }
+    scale = std::max(1e-4, iteration == 0 ? 1e3 : Median(errors));
+    // Rotations of a few degrees hardly determine the offset.
+    matrix = Eigen::Matrix4d::Zero();
+    matrix.diagonal().head<3>().setConstant(scale * scale / (offset_prior * offset_prior));
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const double weight = 1.0 / (1.0 + errors[i] * errors[i] / (4.0 * scale * scale));
+      matrix += weight * rows[i].transpose() * rows[i];
+      right += weight * rows[i].transpose() * (camera_from_body * comparisons[i].true_translation);
+    }
+    matrix += 1e-9 * Eigen::Matrix4d::Identity();
+    solution = matrix.ldlt().solve(right);
+  }
+  const Eigen::Matrix4d covariance = scale * scale * matrix.inverse();
+  HandEye result;
+  result.offset = solution.head<3>();
+  result.scale = solution(3);
+  // Pairs overlap in time: count three of them as one.
+  result.scale_sigma = 1.7 * std::sqrt(std::max(0.0, covariance(3, 3)));
+  result.offset_sigma = 1.7 * std::sqrt(std::max(0.0, covariance.diagonal().head<3>().maxCoeff()));
+  double product = 0.0, image = 0.0, truth = 0.0;
+  for (const MotionComparison& c : comparisons) {
+    const Eigen::Vector3d lever = ExpSO3(c.image_rotation) * result.offset - result.offset;
+    const Eigen::Vector3d translation = camera_from_body * c.true_translation - lever;
+    product += translation.dot(c.image_translation);
+    image += c.image_translation.squaredNorm();
+    truth += translation.squaredNorm();
+  }
+  result.correlation = product / std::sqrt(std::max(1e-12, image * truth));
+  return result;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/diagnosis/registration_findings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Edge pixels in all images that a verdict needs.
+constexpr int kMinEdges = 2000;
+// Height of the peak over the background, standard deviations of the gradient; below this the scene
+// has depth edges that the colour does not show.
+constexpr double kMinPeak = 0.25;
+// Largest usual shift, pixels at an image width of 640.
+constexpr double kMaxShift = 5.0;
+// Ratio of the agreement without a shift to that at the peak up to which the shift is certain:
+// along parallel edges the peak is broad.
+constexpr double kMaxZeroRatio = 0.75;
+// Ratio of the peaks of mirrored and unmirrored images from which on the images are mirrored.
+constexpr double kMirroredGain = 1.5;
+
+const char* Name(Mirroring mirroring) {
+  switch (mirroring) {
+    case Mirroring::kHorizontal:
+      return "mirrored left to right";
+    case Mirroring::kVertical:
+      return "mirrored top to bottom";
+    case Mirroring::kBoth:
+      return "rotated by 180 degrees";
+    case Mirroring::kNone:
+      break;
+  }
+  return "not mirrored";
+}
+
+// Returns true if the images are mirrored.
+bool AddMirroring(const EdgeAlignment& sum, const EdgeShift& peak, Findings* findings) {
+  int best = 0;
+  for (int m = 1; m < kNumMirrorings; ++m) {
+    if (sum.mirrored_score[m] > sum.mirrored_score[best]) best = m;
+  }
+  const double mirrored = sum.mirrored_score[best] / sum.num_edges;
+  if (best == 0 || mirrored < kMinPeak || mirrored < kMirroredGain * peak.peak) return false;
+  findings->push_back(
+      Error("registration.mirrored",
+            FormatText("the colour images are %s with respect to the depth images: depth edges "
+                       "agree with the edges of the mirrored image %.1f times as well",
+                       Name(static_cast<Mirroring>(best)), mirrored / std::max(0.05, peak.peak)),
+            "mirror the colour or the depth images (and the principal point with them)",
+            Measurement{mirrored / std::max(0.05, peak.peak), "ratio"}));
+  return true;
+}
+
+// Median distance of the peaks of single images from the common one, pixels.
+double Scatter(const std::vector<EdgeAlignment>& images, const Eigen::Vector2d& shift) {
+  std::vector<double> distances;
+  for (const EdgeAlignment& image : images) {
+    if (image.num_edges > 200) distances.push_back((FindPeak(image).shift - shift).norm());
+  }
+  return Median(std::move(distances));
+}
+
+}  // namespace
+
+void AddRegistrationFindings(const std::vector<EdgeAlignment>& images, int width,
+                             Findings* findings) {
+  EdgeAlignment sum;
+  for (const EdgeAlignment& image : images) Add(image, &sum);
+  const EdgeShift peak = FindPeak(sum);
+  if (sum.num_edges >= kMinEdges && AddMirroring(sum, peak, findings)) return;
+  if (sum.num_edges < kMinEdges || peak.peak - peak.background < kMinPeak) {
+    findings->push_back(Good("registration.shift",
+                             FormatText("registration of depth to colour is not tested: too few "
+                                        "common edges (%d depth edge pixels, agreement %.2f)",
+                                        sum.num_edges, peak.peak - peak.background)));
+    return;
+  }
+  const double distance = peak.shift.norm();
+  const double scatter = Scatter(images, peak.shift);
+  const std::string text = FormatText(
+      "depth edges agree best with the edges of the colour image if shifted by (%.1f, "
+      "%.1f) px (agreement %.2f there, %.2f without a shift; scatter %.1f px)",
+      peak.shift.x(), peak.shift.y(), peak.peak, peak.at_zero, scatter);
+  const Measurement measurement{distance, "px"};
+  const bool is_certain =
+      peak.at_zero - peak.background < kMaxZeroRatio * (peak.peak - peak.background);
+  if (distance <= kMaxShift * width / 640.0 || !is_certain) {
+    findings->push_back(Good("registration.shift", text, measurement));
+    return;
+  }
+  findings->push_back(
+      Warning("registration.shift", text,
+              "the depth is not registered to the colour image: switch registration "
+              "on in the driver, or warp the depth with the calibration of both "
+              "cameras",
+              measurement));
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/diagnosis/sequence_check.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "msc_vo/diagnosis/calibration_findings.h"
+#include "msc_vo/diagnosis/camera_findings.h"
+#include "msc_vo/diagnosis/depth_quality.h"
+#include "msc_vo/diagnosis/edge_alignment.h"
+#include "msc_vo/diagnosis/file_findings.h"
+#include "msc_vo/diagnosis/ground_truth_findings.h"
+#include "msc_vo/diagnosis/image_exposure.h"
+#include "msc_vo/diagnosis/motion_findings.h"
+#include "msc_vo/diagnosis/motion_track.h"
+#include "msc_vo/diagnosis/pair_calibration.h"
+#include "msc_vo/diagnosis/registration_findings.h"
+#include "msc_vo/diagnosis/stamp_findings.h"
+#include "msc_vo/diagnosis/texture.h"
+#include "msc_vo/features/frame_builder.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace {
+
+constexpr int kMaxReports = 5;
+constexpr int kQuickImages = 4;
+constexpr int kDeepImages = 240;
+
+// What the images of a sample say.
+struct SampleMeasurements {
+  std::vector<ImageExposure> exposures;
+  std::vector<DepthQuality> depths;
+  std::vector<EdgeAlignment> alignments;
+  std::vector<Texture> textures;
+  std::vector<std::string> failures;
+};
+
+// Position of image k of `count` evenly spread ones.
+int SampleIndex(int k, int count, int size) {
+  if (count == 1) return 0;
+  return static_cast<int>(static_cast<int64_t>(k) * (size - 1) / (count - 1));
+}
+
+// Edges and features take longer than the rest and are optional.
+SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count, bool with_features) {
+  SampleMeasurements sample;
+  const Calibration& calibration = decoder.calibration();
+  std::optional<FrameBuilder> builder;
+  if (with_features) {
+    builder.emplace(FrameBuilderOptions(), calibration.camera, calibration.distortion);
+  }
+  for (int k = 0; k < count; ++k) {
+    try {
+      const RgbdImage image = decoder.Decode(SampleIndex(k, count, decoder.size()));
+      sample.exposures.push_back(MeasureExposure(image.gray));
+      sample.depths.push_back(MeasureDepth(image.depth, calibration.depth_scale));
+      if (!builder) continue;
+      sample.alignments.push_back(AlignEdges(image.gray, image.depth, true));
+      sample.textures.push_back(MeasureTexture(builder->Build(image)));
+    } catch (const std::exception& error) {
+      sample.failures.emplace_back(error.what());
+    }
+  }
+  return sample;
+}
+
+void AddDecodingFindings(const SampleMeasurements& sample, int count, Findings* findings) {
+  const int failed = static_cast<int>(sample.failures.size());
+  for (int i = 0; i < std::min(failed, kMaxReports); ++i) {
+    findings->push_back(Error("images.decoding", sample.failures[i], ""));
+  }
+  if (failed == 0) {
+    findings->push_back(
+        Good("images.decoding", std::to_string(count) + " images decoded without errors"));
+  } else if (failed > kMaxReports) {
+    findings->push_back(
+        Error("images.decoding", FormatText("%d of %d images cannot be used", failed, count),
+              "see the messages above", Measurement{static_cast<double>(failed) / count, "ratio"}));
+  }
+}
+
+void AddSampleFindings(const SampleMeasurements& sample, const Calibration& calibration,
+                       Findings* findings) {
+  AddExposureFindings(sample.exposures, calibration.camera.width, findings);
+  AddDepthFindings(sample.depths, calibration.depth_scale, findings);
+}
+
+void AddMotionFindings(const RgbdDecoder& decoder, Findings* findings) {
+  const Calibration& calibration = decoder.calibration();
+  const MotionTrack track = TrackMotion(decoder, kDeepImages);
+  AddFrameMotionFindings(track, calibration.camera.width, findings);
+  AddLatencyFindings(track, findings);
+  const auto estimate = EstimatePairCalibration(calibration.camera, track);
+  if (estimate) {
+    AddCalibrationFindings(*estimate, calibration.camera.width, findings);
+  } else {
+    findings->push_back(Good("calibration.focal_length",
+                             "calibration against motion: not tested, too few images match"));
+  }
+  AddGroundTruthMotionFindings(track, decoder.index().ground_truth, calibration.depth_scale,
+                               findings);
+}
+
+// Whether no run can succeed in spite of an error.
+bool StopsRun(const Finding& finding) {
+  return finding.severity == Severity::kError &&
+         (finding.check == "depth.byte_order" || finding.check == "depth.scale");
+}
+
+}  // namespace
+
+Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& options) {
+  const SequenceIndex& index = decoder.index();
+  const Calibration& calibration = decoder.calibration();
+  Findings findings;
+  for (const std::string& warning : index.warnings) {
+    findings.push_back(Warning("sequence", warning, ""));
+  }
+  AddFileFindings(index, &findings);
+  AddStampFindings(index, &findings);
+  AddCameraFindings(calibration, index.format, &findings);
+  const int count = std::min(std::max(options.max_images, 1), decoder.size());
+  const SampleMeasurements sample = MeasureSample(decoder, count, true);
+  AddDecodingFindings(sample, count, &findings);
+  AddSampleFindings(sample, calibration, &findings);
+  AddRegistrationFindings(sample.alignments, calibration.camera.width, &findings);
+  AddTextureFindings(sample.textures, &findings);
+  AddGroundTruthStampFindings(index, &findings);
+  if (options.deep) AddMotionFindings(decoder, &findings);
+  return findings;
+}
+
+Findings CheckSequenceQuickly(const RgbdDecoder& decoder) {
+  const SequenceIndex& index = decoder.index();
+  Findings findings;
+  AddStampFindings(index, &findings);
+  AddCameraFindings(decoder.calibration(), index.format, &findings);
+  const SampleMeasurements sample =
+      MeasureSample(decoder, std::min(kQuickImages, decoder.size()), false);
+  AddSampleFindings(sample, decoder.calibration(), &findings);
+  AddGroundTruthStampFindings(index, &findings);
+  findings.erase(
+      std::remove_if(findings.begin(), findings.end(),
+                     [](const Finding& finding) { return finding.severity == Severity::kGood; }),
+      findings.end());
+  for (Finding& finding : findings) {
+    if (!StopsRun(finding)) finding.severity = Severity::kWarning;
+  }
+  return findings;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/report/viewer_page.h"
+
+#include "msc_vo/report/html_text.h"
+#include "msc_vo/report/report.h"
+#include "msc_vo/report/web_assets.h"
+
+namespace msc_vo {
+
+bool HasViewer() { return !kThreeScript.empty(); }
+
+void WritePageHead(const std::string& title, PageConnections connections, std::ostream& out) {
+  out << "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      << "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      << "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+         "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; connect-src "
+      << (connections == PageConnections::kItsServer ? "'self'" : "'none'") << "\">\n<title>"
+      << EscapeHtml(title) << "</title>\n<style>" << kReportStyle;
+  if (HasViewer()) out << kViewerStyle;
+  out << "</style>\n</head>\n";
+}
+
+void WriteViewerElements(std::ostream& out) {
+  if (HasViewer()) out << kViewerHtml;
+}
+
+void WriteViewerScripts(const std::string& run_json, std::ostream& out) {
+  if (!HasViewer()) return;
+  out << "<script type=\"application/json\" id=\"run-data\">" << run_json << "</script>\n"
+      << "<script>\n/*\n"
+      << kThreeLicense << "*/\n"
+      << kThreeScript << "\n</script>\n"
+      << "<script>\n(() => {\n\"use strict\";\n"
+      << kViewerScript << "})();\n</script>\n";
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <ostream>
+#include <string>
+
+namespace msc_vo {
+
+/// Other addresses that a page may talk to.
+enum class PageConnections { kNone, kItsServer };
+
+/// Writes the beginning of a page up to <body>: title, style, and a policy that keeps the browser
+/// from loading anything else.
+void WritePageHead(const std::string& title, PageConnections connections, std::ostream& out);
+
+/// Writes the elements of the interactive part, hidden until its script runs. Nothing without
+/// HasViewer().
+void WriteViewerElements(std::ostream& out);
+
+/// Writes the data block and the scripts, at the end of <body>. Nothing without HasViewer().
+void WriteViewerScripts(const std::string& run_json, std::ostream& out);
+
+}  // namespace msc_vo

@@ -1,0 +1,145 @@
+// The data of the run and the current frame. The parts of the page listen for changes:
+// "data" (frames, map or views were added), "frame" (another current frame), "span" (another span of
+// time in the plots).
+
+const STATUS_NAMES = ["tracked", "weak", "dropped", "unreadable", "predicted", "lost"];
+
+// Columns of frames: name, type, numbers per frame (0: one per stage).
+const FRAME_COLUMNS = [
+  ["time", Float32Array, 1],         // seconds since the first frame
+  ["pose", Float32Array, 7],         // world_from_cam: position in metres, quaternion x y z w
+  ["status", Uint8Array, 1],         // index into STATUS_NAMES
+  ["keyframe", Uint8Array, 1],
+  ["counts", Uint16Array, 4],        // points, lines, inlier points, inlier lines
+  ["sigma", Float32Array, 2],        // rotation in degrees, translation in metres; NaN: no estimate
+  ["error", Float32Array, 1],        // metres; NaN: no ground truth
+  ["stage_ms", Float32Array, 0],
+  ["tracking_ms", Float32Array, 1],
+  ["mapping_ms", Float32Array, 1],
+];
+
+class RunModel extends EventTarget {
+  constructor(data) {
+    super();
+    this.info = data;
+    this.count = 0;
+    this.current = 0;
+    this.span = null;  // [from, to] seconds of the plots; null: the whole run
+    this.columns = {};
+    for (const [name, Type] of FRAME_COLUMNS) this.columns[name] = new Type(0);
+    this.views = [];  // by ascending frame
+    this.map = {lines: new Float32Array(0), axes: new Uint8Array(0), points: new Float32Array(0)};
+    this.axes = data.axes || null;
+    this.groundTruth = decodeArray(Float32Array, data.ground_truth);
+    this.addFrames(data.frames);
+    this.setMap(data.map);
+    this.addViews(data.views);
+    // A frame in the middle shows more than the first one.
+    const middle = this.viewOf(Math.floor(this.count / 2));
+    this.current = middle ? middle.frame : Math.floor(this.count / 2);
+  }
+
+  widthOf(column) {
+    return column[2] || this.info.stages.length;
+  }
+
+  // Adds frames, or replaces those from frames.first on.
+  addFrames(frames) {
+    if (!frames || frames.first > this.count) return;
+    for (const column of FRAME_COLUMNS) {
+      const [name, Type] = column;
+      this.columns[name] = spliceArray(this.columns[name], frames.first * this.widthOf(column),
+                                       decodeArray(Type, frames[name]));
+    }
+    this.count = this.columns.status.length;
+  }
+
+  setMap(map) {
+    if (!map) return;
+    this.map = {
+      lines: decodeArray(Float32Array, map.lines),    // start and end, metres
+      axes: decodeArray(Uint8Array, map.line_axes),   // 0, 1, 2; 3: no axis
+      points: decodeArray(Float32Array, map.points),
+    };
+    if (map.axes) this.axes = map.axes;
+  }
+
+  addViews(views) {
+    for (const view of views || []) {
+      const decoded = {
+        frame: view.frame,
+        url: "data:image/jpeg;base64," + view.jpeg,
+        points: decodeArray(Uint16Array, view.points),
+        pointDepth: decodeArray(Uint8Array, view.point_depth),
+        lines: decodeArray(Uint16Array, view.lines),
+        lineColors: decodeArray(Uint8Array, view.line_colors),
+      };
+      const at = this.views.findIndex((other) => other.frame >= view.frame);
+      if (at < 0) this.views.push(decoded);
+      else this.views.splice(at, this.views[at].frame === view.frame ? 1 : 0, decoded);
+    }
+  }
+
+  notifyData() {
+    this.dispatchEvent(new Event("data"));
+  }
+
+  // Duration of the run: a frame lasts until the next one, the last as long as the average.
+  duration() {
+    if (this.count === 0) return 1;
+    const last = this.columns.time[this.count - 1];
+    return last + (this.count > 1 ? last / (this.count - 1) : 1);
+  }
+
+  setFrame(index) {
+    const frame = clamp(Math.round(index), 0, Math.max(0, this.count - 1));
+    if (frame === this.current) return;
+    this.current = frame;
+    this.dispatchEvent(new Event("frame"));
+  }
+
+  setTime(seconds) {
+    this.setFrame(lastNotAbove(this.columns.time, seconds));
+  }
+
+  setSpan(span) {
+    if (span) {
+      const shortest = Math.min(this.duration(), 0.1);
+      const length = Math.max(span[1] - span[0], shortest);
+      const from = clamp(span[0], 0, Math.max(0, this.duration() - length));
+      span = length >= this.duration() ? null : [from, from + length];
+    }
+    this.span = span;
+    this.dispatchEvent(new Event("span"));
+  }
+
+  // The view of a frame, or else the nearest one before it; null if there is none.
+  viewOf(frame) {
+    let found = null;
+    for (const view of this.views) {
+      if (view.frame > frame) break;
+      found = view;
+    }
+    return found || this.views[0] || null;
+  }
+
+  // A value of a column with several numbers per frame.
+  value(name, frame, component = 0) {
+    const column = FRAME_COLUMNS.find((candidate) => candidate[0] === name);
+    return this.columns[name][frame * this.widthOf(column) + component];
+  }
+
+  status(frame) {
+    return STATUS_NAMES[this.columns.status[frame]] || "lost";
+  }
+}
+
+// A color of the style sheet, such as "axis-0".
+function themeColor(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
+}
+
+// Calls `redraw` whenever light and dark change.
+function onThemeChange(redraw) {
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+}

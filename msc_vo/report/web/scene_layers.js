@@ -1,0 +1,141 @@
+// The contents of the 3-D view: one object per layer, filled from the model.
+
+const AXIS_COLORS = ["axis-0", "axis-1", "axis-2", "axis-none"];
+
+// The eight segments of a camera frustum of the given depth (metres), in camera coordinates.
+function frustumSegments(camera, depth) {
+  const corner = (u, v) => [(u - camera.cx) / camera.fx * depth, (v - camera.cy) / camera.fy * depth,
+                            depth];
+  const corners = [corner(0, 0), corner(camera.width, 0), corner(camera.width, camera.height),
+                   corner(0, camera.height)];
+  const ends = [];
+  corners.forEach((point, i) => ends.push(0, 0, 0, ...point, ...point, ...corners[(i + 1) % 4]));
+  return new Float32Array(ends);
+}
+
+// The pose of a frame as a matrix from camera to world.
+function poseMatrix(model, frame) {
+  const p = model.columns.pose.subarray(7 * frame, 7 * frame + 7);
+  return new THREE.Matrix4().compose(new THREE.Vector3(p[0], p[1], p[2]),
+                                     new THREE.Quaternion(p[3], p[4], p[5], p[6]),
+                                     new THREE.Vector3(1, 1, 1));
+}
+
+// The positions of all frames, without gaps.
+function trajectoryOf(model) {
+  const points = [];
+  for (let i = 0; i < model.count; ++i) {
+    const p = model.columns.pose.subarray(7 * i, 7 * i + 3);
+    if (Number.isFinite(p[0] + p[1] + p[2])) points.push(p[0], p[1], p[2]);
+  }
+  return new Float32Array(points);
+}
+
+class SceneLayers {
+  constructor(model, group) {
+    this.model = model;
+    this.lines = new ThickLines(1.6);
+    this.keyframes = new ThickLines(1, 0.5);
+    this.trajectory = new ThickLines(2.4);
+    this.truth = new ThickLines(4, 0.5);
+    this.axes = new ThickLines(4);
+    this.camera = new ThickLines(2);
+    this.points = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial(
+        {size: 2, sizeAttenuation: false, transparent: true, opacity: 0.55}));
+    this.points.frustumCulled = false;
+    this.camera.matrixAutoUpdate = false;
+    // In order of the keys 1 to 7: label, object.
+    this.all = [["lines", this.lines], ["points", this.points], ["keyframes", this.keyframes],
+                ["trajectory", this.trajectory], ["ground truth", this.truth], ["axes", this.axes],
+                ["camera", this.camera]];
+    this.hidden = new Set();
+    for (const [, object] of this.all) group.add(object);
+  }
+
+  // Whether the layer has anything to show.
+  isEmpty(label) {
+    if (label === "ground truth") return this.model.groundTruth.length === 0;
+    if (label === "axes") return !this.model.axes;
+    return false;
+  }
+
+  toggle(label) {
+    if (this.hidden.has(label)) this.hidden.delete(label); else this.hidden.add(label);
+  }
+
+  // `from_camera`: frusta close to the eye would hide the rest.
+  show(from_camera) {
+    for (const [label, object] of this.all) {
+      object.visible = !this.hidden.has(label) && !this.isEmpty(label);
+    }
+    if (from_camera) this.camera.visible = this.keyframes.visible = false;
+  }
+
+  // `scale`: size of the scene in metres.
+  fill(scale) {
+    const model = this.model;
+    const colors = AXIS_COLORS.map((name) => new THREE.Color(themeColor(name)));
+    const lineColors = new Float32Array(3 * model.map.axes.length);
+    model.map.axes.forEach((axis, i) => {
+      const color = colors[Math.min(axis, 3)];
+      lineColors.set([color.r, color.g, color.b], 3 * i);
+    });
+    this.lines.setSegments(model.map.lines, lineColors);
+    this.points.geometry.dispose();
+    this.points.geometry = new THREE.BufferGeometry();
+    this.points.geometry.setAttribute("position", new THREE.BufferAttribute(model.map.points, 3));
+    this.points.material.color.set(themeColor("faint"));
+    this.fillPath(this.trajectory, trajectoryOf(model), "estimate");
+    this.fillPath(this.truth, model.groundTruth, "ground-truth");
+    this.fillKeyframes(0.035 * scale);
+    this.fillAxes(0.12 * scale, colors);
+    const frustum = frustumSegments(model.info.camera, 0.07 * scale);
+    this.camera.setSegments(frustum, uniformColors(frustum.length / 6, themeColor("ink")));
+  }
+
+  fillPath(object, points, color) {
+    const ends = pathSegments(points);
+    object.setSegments(ends, uniformColors(ends.length / 6, themeColor(color)));
+  }
+
+  fillKeyframes(depth) {
+    const frustum = frustumSegments(this.model.info.camera, depth);
+    const ends = [];
+    const point = new THREE.Vector3();
+    for (let i = 0; i < this.model.count; ++i) {
+      if (!this.model.columns.keyframe[i]) continue;
+      const pose = poseMatrix(this.model, i);
+      for (let k = 0; k < frustum.length; k += 3) {
+        point.fromArray(frustum, k).applyMatrix4(pose);
+        ends.push(point.x, point.y, point.z);
+      }
+    }
+    this.keyframes.setSegments(new Float32Array(ends),
+                               uniformColors(ends.length / 6, themeColor("estimate")));
+  }
+
+  // The Manhattan axes, at the first camera.
+  fillAxes(length, colors) {
+    const {axes, columns, count} = this.model;
+    if (!axes || count === 0) return;
+    const ends = [], rgb = [];
+    const origin = columns.pose.subarray(0, 3);
+    for (let i = 0; i < 3; ++i) {
+      const tip = [0, 1, 2].map((row) => origin[row] + length * axes[3 * row + i]);
+      ends.push(...origin, ...tip);
+      rgb.push(colors[i].r, colors[i].g, colors[i].b);
+    }
+    this.axes.setSegments(new Float32Array(ends), new Float32Array(rgb));
+  }
+
+  moveCamera(frame) {
+    if (frame < this.model.count) this.camera.matrix.copy(poseMatrix(this.model, frame));
+    this.camera.matrixWorldNeedsUpdate = true;
+  }
+
+  setResolution(width, height) {
+    for (const [, object] of this.all) {
+      if (object.setResolution) object.setResolution(width, height);
+    }
+  }
+}

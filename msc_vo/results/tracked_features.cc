@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/results/tracked_features.h"
+
+#include <optional>
+
+namespace msc_vo {
+
+namespace {
+
+std::optional<int> AxisIn(const MapSnapshot& snapshot, const SceneAxesOptions& options,
+                          const LineLandmark& line) {
+  if (!snapshot.axes) return std::nullopt;
+  return AxisOfLine(options, *snapshot.axes, line);
+}
+
+LineColor ColorOf(const LineFeature& feature, const LineLandmark* landmark,
+                  const MapSnapshot& snapshot, const SceneAxesOptions& options) {
+  if (!feature.depth) return LineColor::kWithoutDepth;
+  const std::optional<int> axis =
+      landmark == nullptr ? std::nullopt : AxisIn(snapshot, options, *landmark);
+  return axis ? static_cast<LineColor>(*axis) : LineColor::kWithoutAxis;
+}
+
+}  // namespace
+
+ViewedFeatures TrackedFeatures(const TrackedImage& tracked, const LensDistortion& distortion,
+                               const SceneAxesOptions& axes) {
+  const Frame& frame = tracked.features;
+  const auto recorded = [&](const Eigen::Vector2d& pixel) -> Eigen::Vector2f {
+    if (distortion.IsZero()) return pixel.cast<float>();
+    return distortion.Distort(frame.camera, pixel).cast<float>();
+  };
+  ViewedFeatures features;
+  for (const PointMatch& match : tracked.tracked.matches.points) {
+    const PointFeature& point = frame.points[match.feature];
+    features.points.push_back({recorded(point.pixel), point.HasDepth()});
+  }
+  for (const LineMatch& match : tracked.tracked.matches.lines) {
+    const LineFeature& line = frame.lines[match.feature];
+    features.lines.push_back(
+        {recorded(line.segment.start), recorded(line.segment.end),
+         ColorOf(line, tracked.map.map.FindLine(match.id), tracked.map, axes)});
+  }
+  return features;
+}
+
+ReportMap ViewedMap(const MapSnapshot& snapshot, const SceneAxesOptions& axes) {
+  ReportMap map;
+  for (const auto& [id, line] : snapshot.map.lines()) {
+    map.lines.push_back({line.segment, AxisIn(snapshot, axes, line).value_or(-1)});
+  }
+  for (const auto& [id, point] : snapshot.map.points()) map.points.push_back(point.position);
+  if (snapshot.axes) map.world_from_axes = snapshot.axes->world_from_axes;
+  return map;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include "msc_vo/camera/lens_distortion.h"
+#include "msc_vo/odometry/tracking_observer.h"
+#include "msc_vo/report/frame_view.h"
+#include "msc_vo/report/report.h"
+#include "msc_vo/structure/scene_axes.h"
+
+namespace msc_vo {
+
+/// The features of a tracked image that were matched with the map, at the pixels of the recorded
+/// image. Lines have the color of the Manhattan axes as known when the frame was tracked.
+ViewedFeatures TrackedFeatures(const TrackedImage& tracked, const LensDistortion& distortion,
+                               const SceneAxesOptions& axes);
+
+/// The map that a frame was tracked in.
+ReportMap ViewedMap(const MapSnapshot& snapshot, const SceneAxesOptions& axes);
+
+}  // namespace msc_vo

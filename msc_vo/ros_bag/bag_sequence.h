@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+
+#include "msc_vo/datasets/sequence.h"
+
+namespace msc_vo {
+
+/// Topics of the images in a bag; empty: found by their types.
+struct BagTopics {
+  std::string color;
+  std::string depth;
+};
+
+/// Whether msc_vo was built with the library rosbag_storage.
+bool HasRosBag();
+
+/// Opens a bag of ROS 1. The time stamps of all images are read, which decompresses the bag once;
+/// images are read on demand. Topics that are not given are chosen by their types: colour in
+/// sensor_msgs/Image or CompressedImage with 8 bits per channel, depth with 16UC1 (millimetres),
+/// 32FC1 (metres) or compressedDepth. The calibration is that of the CameraInfo beside the colour
+/// topic, unless the name of the file suggests a camera preset. A file NAME-groundtruth.txt beside
+/// NAME.bag is the ground truth. Colour and depth are paired as PairByTime() does.
+/// Throws std::runtime_error naming the file and the fix, also if there is no rosbag_storage.
+SequenceIndex OpenBag(const std::string& path, const BagTopics& topics = {});
+
+}  // namespace msc_vo

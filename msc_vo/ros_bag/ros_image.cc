@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/ros_bag/ros_image.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <stdexcept>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "msc_vo/datasets/image_file.h"
+
+namespace msc_vo {
+
+namespace {
+
+constexpr int kNoConversion = -1;
+
+struct Encoding {
+  RosImageKind kind;
+  int type;        // of OpenCV
+  int conversion;  // to BGR
+};
+
+const std::map<std::string, Encoding>& Encodings() {
+  static const std::map<std::string, Encoding> encodings = {
+      {"mono8", {RosImageKind::kGray, CV_8UC1, kNoConversion}},
+      {"8UC1", {RosImageKind::kGray, CV_8UC1, kNoConversion}},
+      {"bgr8", {RosImageKind::kColor, CV_8UC3, kNoConversion}},
+      {"8UC3", {RosImageKind::kColor, CV_8UC3, kNoConversion}},
+      {"bgra8", {RosImageKind::kColor, CV_8UC4, cv::COLOR_BGRA2BGR}},
+      {"rgb8", {RosImageKind::kColor, CV_8UC3, cv::COLOR_RGB2BGR}},
+      {"rgba8", {RosImageKind::kColor, CV_8UC4, cv::COLOR_RGBA2BGR}},
+      // OpenCV names a pattern by its second row.
+      {"bayer_rggb8", {RosImageKind::kColor, CV_8UC1, cv::COLOR_BayerBG2BGR}},
+      {"bayer_bggr8", {RosImageKind::kColor, CV_8UC1, cv::COLOR_BayerRG2BGR}},
+      {"bayer_gbrg8", {RosImageKind::kColor, CV_8UC1, cv::COLOR_BayerGR2BGR}},
+      {"bayer_grbg8", {RosImageKind::kColor, CV_8UC1, cv::COLOR_BayerGB2BGR}},
+      {"16UC1", {RosImageKind::kDepth, CV_16UC1, kNoConversion}},
+      {"mono16", {RosImageKind::kDepth, CV_16UC1, kNoConversion}},
+      {"32FC1", {RosImageKind::kDepth, CV_32FC1, kNoConversion}}};
+  return encodings;
+}
+
+bool IsCompressedDepth(const std::string& format) {
+  return format.find("compressedDepth") != std::string::npos;
+}
+
+// The header in front of the PNG of compressedDepth: an enumeration and the parameters of the
+// quantisation of depths in metres.
+struct DepthHeader {
+  int32_t format;
+  float a;
+  float b;
+};
+static_assert(sizeof(DepthHeader) == 12);
+
+// Depth in metres from the quantised inverse depth: a / (value - b).
+cv::Mat Dequantise(const cv::Mat& raw, const DepthHeader& header) {
+  cv::Mat metres(raw.size(), CV_32FC1);
+  for (int y = 0; y < raw.rows; ++y) {
+    for (int x = 0; x < raw.cols; ++x) {
+      const uint16_t value = raw.at<uint16_t>(y, x);
+      metres.at<float>(y, x) =
+          value == 0 ? 0.0f : header.a / (static_cast<float>(value) - header.b);
+    }
+  }
+  return metres;
+}
+
+StoredImage DecodeCompressedDepth(const RosCompressedImage& image) {
+  DepthHeader header;
+  if (image.data.size() <= sizeof(header)) {
+    throw std::runtime_error("compressed depth image without data");
+  }
+  std::memcpy(&header, image.data.data(), sizeof(header));
+  if (image.format.find("rvl") != std::string::npos) {
+    throw std::runtime_error("compressed depth with the codec RVL; convert the topic to 16UC1");
+  }
+  const std::string png(image.data.substr(sizeof(header)));
+  const cv::Mat raw = DecodeImage(png, cv::IMREAD_UNCHANGED);
+  if (raw.type() != CV_16UC1) throw std::runtime_error("damaged compressed depth image");
+  const bool is_metres = image.format.compare(0, 5, "32FC1") == 0;
+  return is_metres ? StoredImage{"", Dequantise(raw, header)} : StoredImage{png, {}};
+}
+
+}  // namespace
+
+RosImageKind KindOfEncoding(const std::string& encoding) {
+  const auto found = Encodings().find(encoding);
+  return found == Encodings().end() ? RosImageKind::kOther : found->second.kind;
+}
+
+RosImageKind KindOfFormat(const std::string& format) {
+  if (IsCompressedDepth(format)) return RosImageKind::kDepth;
+  // "ENCODING; jpeg compressed ENCODING", or only "jpeg".
+  const RosImageKind kind = KindOfEncoding(format.substr(0, format.find(';')));
+  return kind == RosImageKind::kGray ? kind : RosImageKind::kColor;
+}
+
+StoredImage ConvertRosImage(const RosImage& image) {
+  const auto found = Encodings().find(image.encoding);
+  if (found == Encodings().end()) {
+    throw std::runtime_error("images of the encoding " + image.encoding + " cannot be read");
+  }
+  const Encoding& encoding = found->second;
+  const size_t row_bytes = static_cast<size_t>(image.width) * CV_ELEM_SIZE(encoding.type);
+  if (image.width == 0 || image.height == 0 || image.step < row_bytes ||
+      image.data.size() / image.step < image.height) {
+    throw std::runtime_error("damaged image: its size does not fit its data");
+  }
+  if (image.is_big_endian && CV_ELEM_SIZE1(encoding.type) > 1) {
+    throw std::runtime_error("images of big-endian machines cannot be read");
+  }
+  const cv::Mat view(static_cast<int>(image.height), static_cast<int>(image.width), encoding.type,
+                     const_cast<char*>(image.data.data()), image.step);
+  cv::Mat pixels;
+  if (encoding.conversion == kNoConversion) {
+    pixels = view.clone();
+  } else {
+    cv::cvtColor(view, pixels, encoding.conversion);
+  }
+  return {"", pixels};
+}
+
+StoredImage ConvertRosImage(const RosCompressedImage& image) {
+  if (IsCompressedDepth(image.format)) return DecodeCompressedDepth(image);
+  return {std::string(image.data), {}};
+}
+
+std::optional<Calibration> CalibrationFrom(const RosCameraInfo& info, bool is_rectified,
+                                           std::string* problem) {
+  Calibration calibration;
+  PinholeCamera& camera = calibration.camera;
+  camera = {info.k[0],
+            info.k[4],
+            info.k[2],
+            info.k[5],
+            static_cast<int>(info.width),
+            static_cast<int>(info.height)};
+  if (is_rectified) {
+    camera.fx = info.p[0];
+    camera.fy = info.p[5];
+    camera.cx = info.p[2];
+    camera.cy = info.p[6];
+  }
+  if (camera.fx == 0.0 || camera.fy == 0.0) {
+    *problem = "the camera is not calibrated";
+    return std::nullopt;
+  }
+  const bool is_zero = std::all_of(info.d.begin(), info.d.end(), [](double k) { return k == 0.0; });
+  if (is_rectified || is_zero) return calibration;
+  // The further coefficients of rational_polynomial are those of its denominator.
+  const bool has_further = std::any_of(info.d.begin() + std::min<size_t>(5, info.d.size()),
+                                       info.d.end(), [](double k) { return k != 0.0; });
+  if ((info.distortion_model != "plumb_bob" && info.distortion_model != "rational_polynomial") ||
+      has_further) {
+    *problem = "the lens model " + info.distortion_model + " is not plumb_bob";
+    return std::nullopt;
+  }
+  for (size_t i = 0; i < std::min<size_t>(5, info.d.size()); ++i) {
+    calibration.distortion.k[i] = info.d[i];
+  }
+  return calibration;
+}
+
+}  // namespace msc_vo

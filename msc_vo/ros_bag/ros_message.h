@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace msc_vo {
+
+// Messages of ROS 1 that RGB-D cameras publish, deserialised from their bytes. The parsers throw
+// std::runtime_error if the bytes end too early. Views point into the bytes.
+
+/// std_msgs/Header.
+struct RosHeader {
+  double stamp = 0.0;  ///< seconds; the double nearest to the decimal number of the stamp
+};
+
+/// sensor_msgs/Image.
+struct RosImage {
+  RosHeader header;
+  uint32_t height = 0;
+  uint32_t width = 0;
+  std::string encoding;
+  bool is_big_endian = false;
+  uint32_t step = 0;  ///< bytes per row
+  std::string_view data;
+};
+
+/// sensor_msgs/CompressedImage.
+struct RosCompressedImage {
+  RosHeader header;
+  std::string format;  ///< "bgr8; jpeg compressed bgr8", "16UC1; compressedDepth"
+  std::string_view data;
+};
+
+/// sensor_msgs/CameraInfo, up to the projection matrix.
+struct RosCameraInfo {
+  RosHeader header;
+  uint32_t height = 0;
+  uint32_t width = 0;
+  std::string distortion_model;
+  std::vector<double> d;
+  double k[9] = {};
+  double r[9] = {};
+  double p[12] = {};
+};
+
+/// All messages with images begin with a header.
+RosHeader ParseRosHeader(std::string_view bytes);
+RosImage ParseRosImage(std::string_view bytes);
+RosCompressedImage ParseRosCompressedImage(std::string_view bytes);
+RosCameraInfo ParseRosCameraInfo(std::string_view bytes);
+
+}  // namespace msc_vo

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/sensor/depth_registration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include <Eigen/LU>
+
+namespace msc_vo {
+
+namespace {
+
+// Two pixels lie on one surface if their inverse depths differ by less than this ratio of their
+// value (a plane seen at 87 degrees changes by as much from pixel to pixel), or by less than the
+// noise of a sensor, 1/metres.
+constexpr float kMaxRatio = 0.04f;
+constexpr float kMaxNoise = 0.006f;
+// Half the side of the square that a depth pixel covers, pixels. The part above 0.5 closes the gaps
+// that noise opens between neighbours on a surface.
+constexpr float kHalfSide = 0.6f;
+// Half the width of the holes through which the background is removed, depth pixels.
+constexpr double kHoleRadius = 2.0;
+
+// Largest difference of inverse depths on one surface, 1/metres.
+inline float EdgeThreshold(float inverse_depth) {
+  return std::max(kMaxRatio * inverse_depth, kMaxNoise);
+}
+
+Eigen::Matrix3d Intrinsics(const PinholeCamera& camera) {
+  Eigen::Matrix3d k;
+  k << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0;
+  return k;
+}
+
+// Undistorted positions of all pixels.
+cv::Mat IdealPixels(const PinholeCamera& camera, const LensDistortion& distortion) {
+  cv::Mat ideal(camera.height, camera.width, CV_32FC2);
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) {
+      const Eigen::Vector2d pixel = distortion.Undistort(camera, {x, y});
+      ideal.at<cv::Vec2f>(y, x) = {static_cast<float>(pixel.x()), static_cast<float>(pixel.y())};
+    }
+  }
+  return ideal;
+}
+
+// Values of three neighbours in a row or in a column, by element.
+struct Neighbours {
+  const float *before, *here, *after;
+};
+
+}  // namespace
+
+// A row of the depth image as seen by the colour camera. Element u + 1 belongs to pixel u; the first
+// and the last element have no depth.
+struct DepthRegistration::Row {
+  explicit Row(int width)
+      : x(width + 2), y(width + 2), raw_x(width + 2), raw_y(width + 2), inverse_depth(width + 2) {}
+
+  std::vector<float> x, y;           // undistorted colour pixel
+  std::vector<float> raw_x, raw_y;   // distorted colour pixel
+  std::vector<float> inverse_depth;  // in the colour camera, 1/metres; 0: none
+};
+
+// Changes from a depth pixel to its neighbours on the same surface, elements as in Row.
+struct DepthRegistration::Footprints {
+  // Changes by one pixel in one direction.
+  struct Steps {
+    explicit Steps(int size) : x(size), y(size), inverse_depth(size) {}
+
+    // Central differences; one-sided ones if only one neighbour is on the surface; `nominal` if none
+    // is.
+    void Compute(const Neighbours& px, const Neighbours& py, const Neighbours& w,
+                 const Eigen::Vector2f& nominal) {
+      const int size = static_cast<int>(x.size()) - 1;
+      const float nominal_x = nominal.x(), nominal_y = nominal.y();
+      float* const to_x = x.data();
+      float* const to_y = y.data();
+      float* const to_w = inverse_depth.data();
+#pragma GCC ivdep
+      for (int i = 1; i < size; ++i) {
+        const float here = w.here[i], before = w.before[i], after = w.after[i];
+        const float x_before = px.before[i], x_here = px.here[i], x_after = px.after[i];
+        const float y_before = py.before[i], y_here = py.here[i], y_after = py.after[i];
+        const float threshold = EdgeThreshold(here);
+        const bool has_before = (before > 0.0f) & (std::abs(here - before) <= threshold);
+        const bool has_after = (after > 0.0f) & (std::abs(after - here) <= threshold);
+        const float scale = has_before & has_after ? 0.5f : 1.0f;
+        const bool has_any = has_before | has_after;
+        const float step_x = (has_after ? x_after : x_here) - (has_before ? x_before : x_here);
+        const float step_y = (has_after ? y_after : y_here) - (has_before ? y_before : y_here);
+        to_x[i] = has_any ? scale * step_x : nominal_x;
+        to_y[i] = has_any ? scale * step_y : nominal_y;
+        to_w[i] = scale * ((has_after ? after : here) - (has_before ? before : here));
+      }
+    }
+
+    std::vector<float> x, y, inverse_depth;
+  };
+
+  explicit Footprints(int width)
+      : right(width + 2),
+        down(width + 2),
+        scale(width + 2),
+        first_x(width + 2),
+        first_y(width + 2),
+        last_x(width + 2),
+        last_y(width + 2) {}
+
+  // Computes everything below `down` for a colour image of width x height pixels. `orientation`:
+  // sign of the determinant of a surface that the colour camera sees from the front.
+  void ComputeBoxes(const Row& row, int width, int height, float orientation);
+
+  Steps right, down;
+  std::vector<float> scale;  // reciprocal of the determinant of the two steps
+  // Colour pixels around the footprint; the first is larger than the last if there is none.
+  std::vector<int> first_x, first_y, last_x, last_y;
+};
+
+void DepthRegistration::Footprints::ComputeBoxes(const Row& row, int width, int height,
+                                                 float orientation) {
+  // Data of the vectors, so that the compiler can process several elements at once.
+  const float *ax = right.x.data(), *ay = right.y.data(), *bx = down.x.data(), *by = down.y.data();
+  const float *px = row.raw_x.data(), *py = row.raw_y.data(), *w = row.inverse_depth.data();
+  int *to_first_x = first_x.data(), *to_first_y = first_y.data();
+  int *to_last_x = last_x.data(), *to_last_y = last_y.data();
+  float* const to_scale = scale.data();
+  const float border_x = static_cast<float>(width - 1), border_y = static_cast<float>(height - 1);
+  const int size = static_cast<int>(scale.size()) - 1;
+#pragma GCC ivdep
+  for (int i = 1; i < size; ++i) {
+    const float determinant = ax[i] * by[i] - ay[i] * bx[i];
+    const float size_x = kHalfSide * (std::abs(ax[i]) + std::abs(bx[i]));
+    const float size_y = kHalfSide * (std::abs(ay[i]) + std::abs(by[i]));
+    const float from_x = px[i] - size_x, to_x = px[i] + size_x;
+    const float from_y = py[i] - size_y, to_y = py[i] + size_y;
+    // A surface that the colour camera sees from behind is hidden. All tests are false for NaN.
+    const bool is_drawn = (w[i] > 0.0f) &
+                          (determinant * orientation > std::numeric_limits<float>::epsilon()) &
+                          (to_x >= 0.0f) & (from_x <= border_x) & (to_y >= 0.0f) &
+                          (from_y <= border_y);
+    const float low_x = is_drawn & (from_x > 0.0f) ? from_x : 0.0f;
+    const float low_y = is_drawn & (from_y > 0.0f) ? from_y : 0.0f;
+    const float high_x = is_drawn ? std::min(to_x, border_x) : 0.0f;
+    const float high_y = is_drawn ? std::min(to_y, border_y) : 0.0f;
+    const int floor_x = static_cast<int>(low_x), floor_y = static_cast<int>(low_y);
+    to_first_x[i] = floor_x + (static_cast<float>(floor_x) < low_x ? 1 : 0);
+    to_first_y[i] = floor_y + (static_cast<float>(floor_y) < low_y ? 1 : 0);
+    to_last_x[i] = is_drawn ? static_cast<int>(high_x) : -1;
+    to_last_y[i] = is_drawn ? static_cast<int>(high_y) : -1;
+    to_scale[i] = 1.0f / (is_drawn ? determinant : 1.0f);
+  }
+}
+
+// The colour image that is drawn into: inverse depths with a border, so that no pixel needs a test.
+class DepthRegistration::Target {
+ public:
+  Target(const PinholeCamera& color, int radius)
+      : radius_(radius),
+        inverse_depth_(
+            cv::Mat::zeros(color.height + 2 * radius, color.width + 2 * radius, CV_32FC1)),
+        distance_(color.height, color.width, CV_32FC1) {}
+
+  int width() const { return distance_.cols; }
+  int height() const { return distance_.rows; }
+
+  // Offers an inverse depth to pixel (x, y). The nearest surface wins; on one surface, the depth
+  // pixel whose centre is nearest, at `distance` in depth pixels.
+  void Offer(int x, int y, float inverse_depth, float distance) {
+    float& best = inverse_depth_.ptr<float>(y + radius_)[x + radius_];
+    float& best_distance = distance_.ptr<float>(y)[x];
+    const float threshold = EdgeThreshold(best);
+    if (best > 0.0f && inverse_depth <= best + threshold &&
+        (inverse_depth < best - threshold || distance >= best_distance)) {
+      return;
+    }
+    best = inverse_depth;
+    best_distance = distance;
+  }
+
+  // Depths, without those of pixels between nearer pixels of one surface.
+  cv::Mat Depth() const {
+    cv::Mat depth(height(), width(), CV_32FC1);
+    std::vector<float> sides[4];
+    for (std::vector<float>& side : sides) side.resize(width());
+    for (int y = 0; y < height(); ++y) {
+      FindNearest(y, 0, -1, &sides[0]);
+      FindNearest(y, 0, 1, &sides[1]);
+      FindNearest(y, -1, 0, &sides[2]);
+      FindNearest(y, 1, 0, &sides[3]);
+      WriteRow(sides, inverse_depth_.ptr<float>(y + radius_) + radius_, depth.ptr<float>(y));
+    }
+    return depth;
+  }
+
+ private:
+  // Largest inverse depth on one side of every pixel of a row, within the radius.
+  void FindNearest(int y, int step_y, int step_x, std::vector<float>* nearest) const {
+    const int size = width();
+    float* const to = nearest->data();
+    std::fill(nearest->begin(), nearest->end(), 0.0f);
+    for (int k = 1; k <= radius_; ++k) {
+      const float* const from =
+          inverse_depth_.ptr<float>(y + radius_ + k * step_y) + radius_ + k * step_x;
+#pragma GCC ivdep
+      for (int x = 0; x < size; ++x) to[x] = std::max(to[x], from[x]);
+    }
+  }
+
+  // Whether a surface on both sides is in front of a pixel.
+  static bool IsBehind(float side, float other, float inverse_depth) {
+    const float near = std::max(side, other);
+    const float far = std::min(side, other);
+    return (near - far <= EdgeThreshold(near)) &
+           (far > inverse_depth + EdgeThreshold(inverse_depth));
+  }
+
+  void WriteRow(const std::vector<float> (&sides)[4], const float* inverse_depth,
+                float* depth) const {
+    const int size = width();
+    const float *left = sides[0].data(), *right = sides[1].data();
+    const float *above = sides[2].data(), *below = sides[3].data();
+#pragma GCC ivdep
+    for (int x = 0; x < size; ++x) {
+      const float w = inverse_depth[x];
+      const bool is_visible =
+          (w > 0.0f) & !(IsBehind(left[x], right[x], w) | IsBehind(above[x], below[x], w));
+      depth[x] = is_visible ? 1.0f / (is_visible ? w : 1.0f) : 0.0f;
+    }
+  }
+
+  int radius_;
+  cv::Mat inverse_depth_;  // 1/metres, 0: none
+  cv::Mat distance_;       // valid where there is an inverse depth
+};
+
+DepthRegistration::DepthRegistration(const DepthCamera& depth_camera, const PinholeCamera& color,
+                                     const LensDistortion& color_distortion)
+    : depth_camera_(depth_camera), color_(color), distortion_(color_distortion) {
+  const Rigid3 color_from_depth = depth_camera.depth_from_color.Inverse();
+  const Eigen::Matrix3d k = Intrinsics(color);
+  const Eigen::Matrix3d matrix = k * color_from_depth.rotation().toRotationMatrix() *
+                                 Intrinsics(depth_camera.camera).inverse();
+  matrix_ = matrix.cast<float>();
+  shift_ = (k * color_from_depth.translation()).cast<float>();
+  const Eigen::Vector2d center(0.5 * (depth_camera.camera.width - 1),
+                               0.5 * (depth_camera.camera.height - 1));
+  const auto project = [&](double u, double v) -> Eigen::Vector2d {
+    return (matrix * Eigen::Vector3d(u, v, 1.0)).hnormalized();
+  };
+  const Eigen::Vector2d here = project(center.x(), center.y());
+  right_ = (project(center.x() + 1.0, center.y()) - here).cast<float>();
+  down_ = (project(center.x(), center.y() + 1.0) - here).cast<float>();
+  if (!color_distortion.IsZero()) ideal_ = IdealPixels(color, color_distortion);
+}
+
+void DepthRegistration::ProjectRow(const cv::Mat& depth, int v, Row* row) const {
+  const int width = depth.cols;
+  const float* const z = depth.ptr<float>(v);
+  const Eigen::Vector3f first = matrix_.col(1) * static_cast<float>(v) + matrix_.col(2);
+  const Eigen::Vector3f step = matrix_.col(0);
+  const float first_x = first.x(), first_y = first.y(), first_z = first.z();
+  const float step_x = step.x(), step_y = step.y(), step_z = step.z();
+  const float shift_x = shift_.x(), shift_y = shift_.y(), shift_z = shift_.z();
+  const float offset = static_cast<float>(depth_camera_.inverse_depth_offset);
+  float* const to_x = row->x.data() + 1;
+  float* const to_y = row->y.data() + 1;
+  float* const to_w = row->inverse_depth.data() + 1;
+#pragma GCC ivdep
+  for (int u = 0; u < width; ++u) {
+    const bool is_measured = z[u] > 0.0f;  // false for NaN
+    const float w = 1.0f / (is_measured ? z[u] : 1.0f) + offset;
+    const float column = static_cast<float>(u);
+    const float denominator = first_z + column * step_z + shift_z * w;
+    const bool is_valid = is_measured & (w > 0.0f) & (denominator > 0.0f);
+    const float scale = 1.0f / (is_valid ? denominator : 1.0f);
+    to_x[u] = (first_x + column * step_x + shift_x * w) * scale;
+    to_y[u] = (first_y + column * step_y + shift_y * w) * scale;
+    to_w[u] = is_valid ? w * scale : 0.0f;
+  }
+  DistortRow(row);
+}
+
+void DepthRegistration::DistortRow(Row* row) const {
+  if (distortion_.IsZero()) {
+    row->raw_x = row->x;
+    row->raw_y = row->y;
+    return;
+  }
+  // As LensDistortion::Distort(), for several pixels at once.
+  float k[5];
+  std::transform(distortion_.k.begin(), distortion_.k.end(), k,
+                 [](double value) { return static_cast<float>(value); });
+  const float fx = static_cast<float>(color_.fx), fy = static_cast<float>(color_.fy);
+  const float cx = static_cast<float>(color_.cx), cy = static_cast<float>(color_.cy);
+  const float *from_x = row->x.data(), *from_y = row->y.data();
+  float *to_x = row->raw_x.data(), *to_y = row->raw_y.data();
+  const int size = static_cast<int>(row->x.size());
+#pragma GCC ivdep
+  for (int i = 0; i < size; ++i) {
+    const float x = (from_x[i] - cx) / fx, y = (from_y[i] - cy) / fy;
+    const float r2 = x * x + y * y, xy2 = 2.0f * x * y;
+    const float radial = 1.0f + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+    to_x[i] = fx * (radial * x + k[2] * xy2 + k[3] * (r2 + 2.0f * x * x)) + cx;
+    to_y[i] = fy * (radial * y + k[3] * xy2 + k[2] * (r2 + 2.0f * y * y)) + cy;
+  }
+}
+
+void DepthRegistration::ComputeFootprints(const Row& above, const Row& here, const Row& below,
+                                          Footprints* footprints) const {
+  const auto along = [](const std::vector<float>& row) -> Neighbours {
+    return {row.data() - 1, row.data(), row.data() + 1};
+  };
+  footprints->right.Compute(along(here.x), along(here.y), along(here.inverse_depth), right_);
+  footprints->down.Compute({above.x.data(), here.x.data(), below.x.data()},
+                           {above.y.data(), here.y.data(), below.y.data()},
+                           {above.inverse_depth.data(), here.inverse_depth.data(),
+                            below.inverse_depth.data()},
+                           down_);
+  const float determinant = right_.x() * down_.y() - right_.y() * down_.x();
+  footprints->ComputeBoxes(here, color_.width, color_.height, determinant > 0.0f ? 1.0f : -1.0f);
+}
+
+void DepthRegistration::Draw(const Row& row, const Footprints& footprints, Target* target) const {
+  const bool is_distorted = !ideal_.empty();
+  for (size_t i = 1; i + 1 < row.x.size(); ++i) {
+    const int last_x = footprints.last_x[i], last_y = footprints.last_y[i];
+    for (int v = footprints.first_y[i]; v <= last_y; ++v) {
+      const cv::Vec2f* const ideal = is_distorted ? ideal_.ptr<cv::Vec2f>(v) : nullptr;
+      for (int u = footprints.first_x[i]; u <= last_x; ++u) {
+        const float dx = (is_distorted ? ideal[u][0] : static_cast<float>(u)) - row.x[i];
+        const float dy = (is_distorted ? ideal[u][1] : static_cast<float>(v)) - row.y[i];
+        // Position in the depth image relative to the centre of the depth pixel.
+        const float a =
+            (footprints.down.y[i] * dx - footprints.down.x[i] * dy) * footprints.scale[i];
+        const float b =
+            (footprints.right.x[i] * dy - footprints.right.y[i] * dx) * footprints.scale[i];
+        const float distance = std::max(std::abs(a), std::abs(b));
+        if (distance > kHalfSide) continue;
+        target->Offer(u, v,
+                      row.inverse_depth[i] + a * footprints.right.inverse_depth[i] +
+                          b * footprints.down.inverse_depth[i],
+                      distance);
+      }
+    }
+  }
+}
+
+cv::Mat DepthRegistration::Register(const cv::Mat& depth) const {
+  const PinholeCamera& camera = depth_camera_.camera;
+  if (depth.type() != CV_32FC1 || depth.cols != camera.width || depth.rows != camera.height) {
+    throw std::invalid_argument("DepthRegistration: the depth image must be CV_32FC1 and of the "
+                                "size of the depth camera");
+  }
+  const float pixels = std::sqrt(std::abs(right_.x() * down_.y() - right_.y() * down_.x()));
+  Target target(color_, std::max(1, cvRound(kHoleRadius * pixels)));
+  // Rows v - 1, v and v + 1 are elements v, v + 1 and v + 2, modulo 3.
+  std::vector<Row> rows(3, Row(camera.width));
+  Footprints footprints(camera.width);
+  ProjectRow(depth, 0, &rows[1]);
+  for (int v = 0; v < camera.height; ++v) {
+    Row& below = rows[(v + 2) % 3];
+    if (v + 1 < camera.height) {
+      ProjectRow(depth, v + 1, &below);
+    } else {
+      std::fill(below.inverse_depth.begin(), below.inverse_depth.end(), 0.0f);
+    }
+    const Row& here = rows[(v + 1) % 3];
+    ComputeFootprints(rows[v % 3], here, below, &footprints);
+    Draw(here, footprints, &target);
+  }
+  return target.Depth();
+}
+
+cv::Mat RegisterDepth(const DepthCamera& depth_camera, const PinholeCamera& color,
+                      const LensDistortion& color_distortion, const cv::Mat& depth) {
+  return DepthRegistration(depth_camera, color, color_distortion).Register(depth);
+}
+
+}  // namespace msc_vo

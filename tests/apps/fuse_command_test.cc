@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <algorithm>
+#include <cstring>
+#include <sstream>
+
+#include "tests/apps/command_process.h"
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/results/mesh_ply.h"
+#include "msc_vo/synthetic/scene/synthetic_sequence.h"
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kFrames = 8;
+constexpr double kVoxel = 0.04;
+
+// Reads what FormatMeshPly() writes. The tests run on little-endian machines.
+ColoredMesh ReadMesh(const std::string& path) {
+  const std::string ply = ReadFile(path, 1 << 28);
+  const size_t body = ply.find("end_header\n") + 11;
+  std::istringstream header(ply.substr(0, body));
+  size_t num_vertices = 0, num_faces = 0;
+  for (std::string word; header >> word;) {
+    if (word == "vertex") header >> num_vertices;
+    if (word == "face") header >> num_faces;
+  }
+  ColoredMesh mesh;
+  mesh.positions.resize(num_vertices);
+  mesh.colors.resize(num_vertices);
+  mesh.triangles.resize(num_faces);
+  const char* at = ply.data() + body;
+  for (size_t i = 0; i < num_vertices; ++i, at += 15) {
+    std::memcpy(mesh.positions[i].data(), at, 12);
+    std::memcpy(mesh.colors[i].data(), at + 12, 3);
+  }
+  for (size_t i = 0; i < num_faces; ++i, at += 13) std::memcpy(&mesh.triangles[i], at + 1, 12);
+  EXPECT_EQ(at, ply.data() + ply.size());
+  return mesh;
+}
+
+// Distance to the nearest true surface, metres.
+double SurfaceDistance(const Scene& scene, const Eigen::Vector3d& x) {
+  double distance = 1e9;
+  for (const Quad& quad : scene.quads) distance = std::min(distance, quad.Distance(x));
+  return distance;
+}
+
+double Median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+class FuseCommandTest : public TemporaryFolder {
+ protected:
+  void SetUp() override {
+    const CommandOutcome outcome =
+        RunCommand({"synthesize", Path("room"), "--frames", std::to_string(kFrames), "--width",
+                    "160", "--fps", "4", "--image-sigma", "0"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
+  CommandOutcome Fuse(const std::string& output, const std::vector<std::string>& more = {},
+                      double voxel = kVoxel) {
+    std::vector<std::string> arguments = {
+        "fuse",       Path("room"), Path("room/groundtruth.txt"), "--output",
+        Path(output), "--voxel",    std::to_string(voxel)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunCommand(arguments);
+  }
+  static SyntheticSequence Truth() {
+    SyntheticSequenceOptions options;
+    options.width = 160;
+    options.height = 120;
+    options.fps = 4.0;
+    options.image_sigma = 0.0;
+    return SyntheticSequence(options);
+  }
+};
+
+#ifdef MSC_VO_HAS_FUSION
+
+TEST_F(FuseCommandTest, TheSurfaceLiesOnTheWalls) {
+  ASSERT_EQ(Fuse("room.ply").exit_code, 0);
+  const ColoredMesh mesh = ReadMesh(Path("room.ply"));
+  ASSERT_GT(mesh.positions.size(), 2000U);
+  ASSERT_GT(mesh.triangles.size(), 2000U);
+  const SyntheticSequence truth = Truth();
+  size_t num_close = 0;
+  for (const Eigen::Vector3f& x : mesh.positions) {
+    num_close += SurfaceDistance(truth.scene(), x.cast<double>()) <= kVoxel ? 1 : 0;
+  }
+  // Where a surface is seen past an edge of another one, the volume may connect the two.
+  EXPECT_GT(num_close, 0.99 * mesh.positions.size());
+  for (const std::array<int32_t, 3>& triangle : mesh.triangles) {
+    for (const int32_t vertex : triangle) {
+      ASSERT_GE(vertex, 0);
+      ASSERT_LT(vertex, static_cast<int32_t>(mesh.positions.size()));
+    }
+  }
+}
+
+TEST_F(FuseCommandTest, TheSurfaceIsCompleteAndHasTheColorsOfTheImages) {
+  ASSERT_EQ(Fuse("room.ply").exit_code, 0);
+  const ColoredMesh mesh = ReadMesh(Path("room.ply"));
+  const SyntheticSequence truth = Truth();
+  const SyntheticFrame frame = truth.Render(kFrames / 2);
+  int num_seen = 0, num_found = 0;
+  std::vector<double> differences;
+  for (int y = 5; y < 115; y += 10) {
+    for (int x = 5; x < 155; x += 10) {
+      const size_t pixel = 160 * y + x;
+      const double depth = frame.image.depth[pixel];
+      if (depth <= 0.0 || depth > 3.5) continue;
+      const Eigen::Vector3d point =
+          frame.pose.world_from_cam * truth.camera().BackProject(Eigen::Vector2d(x, y), depth);
+      size_t nearest = 0;
+      double distance = 1e9;
+      for (size_t i = 0; i < mesh.positions.size(); ++i) {
+        const double d = (mesh.positions[i].cast<double>() - point).norm();
+        if (d < distance) nearest = i;
+        distance = std::min(distance, d);
+      }
+      ++num_seen;
+      num_found += distance < 1.5 * kVoxel ? 1 : 0;
+      for (int k = 0; k < 3; ++k) {
+        differences.push_back(std::abs(static_cast<double>(mesh.colors[nearest][k]) -
+                                       frame.image.rgb[3 * pixel + k]));
+      }
+    }
+  }
+  ASSERT_GT(num_seen, 50);
+  EXPECT_GT(num_found, 0.9 * num_seen);
+  EXPECT_LT(Median(differences), 15.0);  // grey values; a voxel covers several texels
+}
+
+TEST_F(FuseCommandTest, WritesPointsAndTheSameBytesTwice) {
+  ASSERT_EQ(Fuse("a.ply", {"--points"}).exit_code, 0);
+  ASSERT_EQ(Fuse("b.ply", {"--points", "--quiet"}).exit_code, 0);
+  const ColoredMesh points = ReadMesh(Path("a.ply"));
+  EXPECT_GT(points.positions.size(), 2000U);
+  EXPECT_TRUE(points.triangles.empty());
+  EXPECT_TRUE(ReadFile(Path("a.ply"), 1 << 28) == ReadFile(Path("b.ply"), 1 << 28));
+}
+
+TEST_F(FuseCommandTest, StopsAtTheMemoryLimit) {
+  const CommandOutcome outcome = Fuse("room.ply", {"--max-memory", "32"}, 0.002);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("larger voxels"));
+}
+
+TEST_F(FuseCommandTest, ReportsThatNothingWasMeasured) {
+  const CommandOutcome outcome = Fuse("room.ply", {"--max-depth", "0.1"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("no surface"));
+}
+
+#else
+
+TEST_F(FuseCommandTest, NamesTheMissingModule) {
+  const CommandOutcome outcome = Fuse("room.ply");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("msc-vo-fusion"));
+}
+
+#endif  // MSC_VO_HAS_FUSION
+
+TEST_F(FuseCommandTest, NamesATrajectoryOfOtherImages) {
+  WriteFile(Path("other.txt"), "1e9 0 0 0 0 0 0 1\n");
+  const CommandOutcome outcome =
+      RunCommand({"fuse", Path("room"), Path("other.txt"), "--output", Path("room.ply")});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("other.txt: none of its 1 poses"));
+}
+
+TEST_F(FuseCommandTest, DoesNotOverwriteTheTrajectory) {
+  const CommandOutcome outcome = RunCommand({"fuse", Path("room"), Path("room/groundtruth.txt"),
+                                             "--output", Path("room/groundtruth.txt")});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("groundtruth.txt"));
+}
+
+}  // namespace
+}  // namespace msc_vo

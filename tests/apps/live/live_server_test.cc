@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/live/live_server.h"
+
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <httplib.h>
+#include <nlohmann/json.hpp>
+
+namespace msc_vo {
+namespace {
+
+using testing::HasSubstr;
+
+class LiveServerTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!HasLiveServer()) GTEST_SKIP() << "built without three.js";
+    server_.emplace("127.0.0.1", 0, "<html>page</html>", &run_);
+    client_.emplace("127.0.0.1", server_->port());
+  }
+  int StatusOf(const std::string& path) {
+    const httplib::Result result = client_->Get(path);
+    return result ? result->status : -1;
+  }
+
+  LiveRun run_{LiveRunOptions()};
+  std::optional<LiveServer> server_;
+  std::optional<httplib::Client> client_;
+};
+
+TEST_F(LiveServerTest, ServesThePageAndData) {
+  const httplib::Result page = client_->Get("/");
+  ASSERT_TRUE(page);
+  EXPECT_EQ(page->status, 200);
+  EXPECT_EQ(page->body, "<html>page</html>");
+  const httplib::Result data = client_->Get("/data?frames=0&map=-1&view=-1");
+  ASSERT_TRUE(data);
+  EXPECT_EQ(nlohmann::json::parse(data->body)["run"], run_.id());
+  EXPECT_EQ(data->get_header_value("Cache-Control"), "no-store");
+  for (const char* nonsense : {"/data", "/data?frames=x", "/data?frames=-7&map=1e99&view=nan"}) {
+    EXPECT_EQ(StatusOf(nonsense), 200) << nonsense;
+  }
+}
+
+TEST_F(LiveServerTest, ServesTheReportOnceItIsThere) {
+  EXPECT_EQ(StatusOf("/report"), 404);
+  run_.Finish("<html>report</html>");
+  const httplib::Result report = client_->Get("/report");
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->body, "<html>report</html>");
+}
+
+TEST_F(LiveServerTest, ServesNothingElse) {
+  for (const char* path : {"/etc/passwd", "/../etc/passwd", "/%2e%2e/etc/passwd", "/report.html",
+                           "/control", "/favicon.ico"}) {
+    EXPECT_EQ(StatusOf(path), 404) << path;
+  }
+}
+
+TEST_F(LiveServerTest, IsControlledOnlyByItsOwnPage) {
+  const httplib::Headers own = {{"X-Msc-Vo", "control"}};
+  const auto post = [&](const std::string& path, const httplib::Headers& headers) {
+    const httplib::Result result = client_->Post(path, headers, "", "text/plain");
+    return result ? result->status : -1;
+  };
+  // A form on another site can send no such header.
+  EXPECT_EQ(post("/control?action=pause", {}), 400);
+  EXPECT_EQ(post("/control?action=pause", own), 204);
+  EXPECT_THAT(client_->Get("/data")->body, HasSubstr("\"paused\""));
+  EXPECT_EQ(post("/control?action=explode", own), 400);
+}
+
+TEST_F(LiveServerTest, RefusesOtherHostNames) {
+  const auto status_for = [&](const std::string& host) {
+    const httplib::Result result = client_->Get("/data", {{"Host", host}});
+    return result ? result->status : -1;
+  };
+  EXPECT_EQ(status_for("evil.example:80"), 403);
+  EXPECT_EQ(status_for("127.evil.example"), 403);
+  EXPECT_EQ(status_for("localhost:1234"), 200);  // forwarded by SSH
+  EXPECT_EQ(status_for("[::1]:1234"), 200);
+}
+
+TEST_F(LiveServerTest, RefusesLongRequests) {
+  const httplib::Result result =
+      client_->Post("/control?action=pause", std::string(100'000, 'x'), "text/plain");
+  EXPECT_TRUE(!result || result->status >= 400);
+  EXPECT_EQ(StatusOf("/data"), 200);
+}
+
+TEST_F(LiveServerTest, NamesAPortThatIsInUse) {
+  try {
+    const LiveServer second("127.0.0.1", server_->port(), "", &run_);
+    FAIL() << "two servers share a port";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("port " + std::to_string(server_->port())));
+    EXPECT_THAT(error.what(), HasSubstr("--view PORT"));
+  }
+}
+
+TEST_F(LiveServerTest, NamesAnAddressThatIsNotOfThisMachine) {
+  EXPECT_THROW(LiveServer("192.0.2.1", 0, "", &run_), std::runtime_error);
+}
+
+TEST_F(LiveServerTest, SurvivesSilentClients) {
+  std::vector<std::unique_ptr<httplib::Client>> silent;
+  for (int i = 0; i < 3; ++i) {
+    silent.push_back(std::make_unique<httplib::Client>("127.0.0.1", server_->port()));
+    silent.back()->set_keep_alive(true);
+    ASSERT_TRUE(silent.back()->Get("/data"));  // the connection stays open
+  }
+  EXPECT_EQ(StatusOf("/data"), 200);
+  const auto start = std::chrono::steady_clock::now();
+  server_.reset();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(8));
+}
+
+}  // namespace
+}  // namespace msc_vo

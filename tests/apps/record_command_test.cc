@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <csignal>
+#include <cstdlib>
+
+#include "tests/apps/command_process.h"
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class RecordCommandTest : public TemporaryFolder {
+ protected:
+  void Synthesize(int num_frames, const std::string& width = "160") {
+    const CommandOutcome outcome = RunCommand(
+        {"synthesize", Path("room"), "--frames", std::to_string(num_frames), "--width", width});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
+  // Every list names the same number of pairs, whose files exist.
+  size_t NumConsistentPairs(const std::string& folder) {
+    const std::vector<TextLine> pairs = ReadTextLines(folder + "/associations.txt");
+    for (const TextLine& pair : pairs) {
+      EXPECT_EQ(pair.fields.size(), 4u);
+      EXPECT_TRUE(HasEntry(folder + "/" + pair.fields.at(1)));
+      EXPECT_TRUE(HasEntry(folder + "/" + pair.fields.at(3)));
+    }
+    EXPECT_EQ(ReadTextLines(folder + "/rgb.txt").size(), pairs.size());
+    EXPECT_EQ(ReadTextLines(folder + "/depth.txt").size(), pairs.size());
+    return pairs.size();
+  }
+};
+
+TEST_F(RecordCommandTest, CopiesASequence) {
+  Synthesize(6);
+  const CommandOutcome outcome = RunCommand({"record", Path("room"), Path("copy")});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("6 image pairs in " + Path("copy")));
+  EXPECT_EQ(NumConsistentPairs(Path("copy")), 6u);
+  EXPECT_EQ(ReadFile(Path("copy/rgb/1.000000.png")), ReadFile(Path("room/rgb/1.000000.png")));
+  for (const char* folder : {"room", "copy"}) {
+    const CommandOutcome replay = RunCommand(
+        {"replay", Path(folder), "--output", Path(std::string("out_") + folder), "--quiet"});
+    ASSERT_EQ(replay.exit_code, 0) << replay.output;
+  }
+  EXPECT_EQ(ReadFile(Path("out_room/trajectory.txt")), ReadFile(Path("out_copy/trajectory.txt")));
+}
+
+TEST_F(RecordCommandTest, RefusesFoldersWithFiles) {
+  Synthesize(2);
+  WriteText("full/file", "");
+  EXPECT_THAT(RunCommand({"record", Path("room"), Path("full")}).output,
+              HasSubstr("full: is not empty; give another folder"));
+  EXPECT_THAT(RunCommand({"record", Path("room"), Path("room")}).output,
+              HasSubstr("would be written over the input"));
+}
+
+TEST_F(RecordCommandTest, LeavesOutDamagedImages) {
+  Synthesize(4);
+  WriteText("room/depth/1.033333.png", "damaged");
+  const CommandOutcome outcome =
+      RunCommand({"record", Path("room"), Path("copy"), "--max-frames", "2"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("2 image pairs"), HasSubstr("1 images cannot be read"),
+                    HasSubstr("1.033333.png")));
+  EXPECT_EQ(NumConsistentPairs(Path("copy")), 2u);
+}
+
+TEST_F(RecordCommandTest, KeepsACompleteFolderOnInterrupt) {
+  Synthesize(60, "320");
+  CommandProcess record({"record", Path("room"), Path("copy")});
+  for (int i = 0; i < 30000 && !HasEntry(Path("copy/depth/1.066667.png")); ++i) usleep(1000);
+  record.Signal(SIGINT);
+  EXPECT_EQ(record.Wait(), 130) << record.output();
+  const size_t count = NumConsistentPairs(Path("copy"));
+  EXPECT_GE(count, 2u);
+  EXPECT_LT(count, 60u);
+}
+
+// A file system of two mebibytes in a namespace of its own.
+TEST_F(RecordCommandTest, KeepsACompleteFolderOnAFullDisk) {
+  const std::string enter = "unshare --mount --map-root-user sh -c ";
+  if (std::system((enter + "'mount -t tmpfs none /mnt' > /dev/null 2>&1").c_str()) != 0) {
+    GTEST_SKIP() << "this system lets no test mount a file system";
+  }
+  Synthesize(40);
+  const std::string script = "mount -t tmpfs -o size=1m none /mnt && " MSC_VO_COMMAND " record " +
+                             Path("room") + " /mnt/copy > " + Path("log") + " 2>&1; echo $? > " +
+                             Path("code") + "; cp -r /mnt/copy " + Path("copy");
+  ASSERT_EQ(std::system((enter + "'" + script + "'").c_str()), 0);
+  EXPECT_EQ(Trimmed(ReadFile(Path("code"))), "1");
+  EXPECT_THAT(ReadFile(Path("log")),
+              AllOf(HasSubstr("msc_vo: error: /mnt/copy/"), HasSubstr("image pairs before")));
+  const size_t count = NumConsistentPairs(Path("copy"));
+  EXPECT_GE(count, 2u);
+  EXPECT_LT(count, 40u);
+}
+
+TEST_F(RecordCommandTest, SaysWhatABuildLacks) {
+  // With or without the libraries, the message names the file.
+  WriteText("x.bag", "");
+  WriteText("x.oni", "");
+  for (const char* name : {"x.bag", "x.oni"}) {
+    const CommandOutcome outcome = RunCommand({"record", Path(name), Path("copy")});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.output, HasSubstr(Path(name) + ": "));
+  }
+  EXPECT_THAT(RunCommand({"check", "openni2:"}).output, HasSubstr("make one with msc_vo record"));
+  EXPECT_THAT(RunCommand({"check", Path(""), "--color-topic", "/c"}).output,
+              HasSubstr("are for ROS bags (.bag)"));
+}
+
+}  // namespace
+}  // namespace msc_vo

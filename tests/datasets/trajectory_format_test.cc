@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/trajectory_format.h"
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr char kEurocHeader[] =
+    "#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], "
+    "q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1], v_RS_R_z [m s^-1]\n";
+// A quarter turn about z at (1, 2, 3), in all formats.
+constexpr char kTum[] = "1403636580.838 1 2 3 0 0 0.70710678 0.70710678\n";
+constexpr char kKitti[] = "0 -1 0 1 1 0 0 2 0 0 1 3\n";
+constexpr char kEuroc[] = "1403636580838000000,1,2,3,0.70710678,0,0,0.70710678";
+
+class TrajectoryFormatTest : public TemporaryFolder {
+ protected:
+  TrajectoryFormat Detect(const std::string& text) {
+    WriteText("file", text);
+    return DetectTrajectoryFormat(Path("file"));
+  }
+  TrajectoryFile Read(const std::string& text,
+                      std::optional<TrajectoryFormat> format = std::nullopt) {
+    WriteText("file", text);
+    return ReadTrajectoryFile(Path("file"), format);
+  }
+};
+
+TEST_F(TrajectoryFormatTest, DetectsFormats) {
+  EXPECT_EQ(Detect(kTum), TrajectoryFormat::kTum);
+  EXPECT_EQ(Detect("# time tx ty tz qx qy qz qw\n\n" + std::string(kTum)), TrajectoryFormat::kTum);
+  EXPECT_EQ(Detect("1.5,1,2,3,0,0,0,1\n"), TrajectoryFormat::kTum);
+  EXPECT_EQ(Detect("# t,x,y,z,qx,qy,qz,qw\n1.5,1,2,3,0,0,0,1\n"), TrajectoryFormat::kTum);
+  EXPECT_EQ(Detect(""), TrajectoryFormat::kTum);
+  EXPECT_EQ(Detect(kKitti), TrajectoryFormat::kKitti);
+  EXPECT_EQ(Detect("0,-1,0,1,1,0,0,2,0,0,1,3\n"), TrajectoryFormat::kKitti);
+  EXPECT_EQ(Detect(std::string(kEurocHeader) + kEuroc + ",0,0,0\n"), TrajectoryFormat::kEuroc);
+  EXPECT_EQ(Detect(std::string(kEuroc) + "\n"), TrajectoryFormat::kEuroc);  // a date in nanoseconds
+  EXPECT_EQ(Detect("timestamp,x,y,z,qw,qx,qy,qz\n5000000,1,2,3,1,0,0,0\n"),
+            TrajectoryFormat::kEuroc);
+}
+
+TEST_F(TrajectoryFormatTest, ReadsTheSamePoseFromAllFormats) {
+  for (const std::string& text :
+       {std::string(kTum), std::string(kKitti), kEurocHeader + std::string(kEuroc) + ",0,0,0\n"}) {
+    const TrajectoryFile file = Read(text);
+    ASSERT_EQ(file.poses.size(), 1u) << text;
+    EXPECT_EQ(file.has_stamps, file.format != TrajectoryFormat::kKitti);
+    EXPECT_NEAR(file.poses[0].timestamp, file.has_stamps ? 1403636580.838 : 0.0, 1e-6);
+    const Rigid3& pose = file.poses[0].world_from_cam;
+    EXPECT_NEAR((pose.translation() - Eigen::Vector3d(1, 2, 3)).norm(), 0.0, 1e-12);
+    EXPECT_NEAR((pose.rotation() * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), 0.0,
+                1e-8);
+  }
+}
+
+TEST_F(TrajectoryFormatTest, SkipsRowsThatAreNotFinite) {
+  const TrajectoryFile kitti =
+      Read("nan -1 0 1 1 0 0 2 0 0 1 3\n" + std::string(kKitti), TrajectoryFormat::kKitti);
+  EXPECT_EQ(kitti.num_left_out, 1);
+  ASSERT_EQ(kitti.poses.size(), 1u);
+  EXPECT_EQ(kitti.poses[0].timestamp, 1.0);  // the row in the file
+  EXPECT_EQ(Read("5000000,nan,2,3,1,0,0,0\n", TrajectoryFormat::kEuroc).num_left_out, 1);
+}
+
+TEST_F(TrajectoryFormatTest, NamesFileAndLineOfErrors) {
+  EXPECT_THAT(MessageOf([&] { Read(std::string(kKitti) + "1 2 3\n"); }),
+              HasSubstr("file:2: expected 12 numbers, the rows of [R t], found 3"));
+  EXPECT_THAT(MessageOf([&] { Read("2 -1 0 1 1 0 0 2 0 0 1 3\n"); }),
+              HasSubstr("file:1: columns 1-3, 5-7 and 9-11 are not a rotation"));
+  EXPECT_THAT(MessageOf([&] { Read("0 -1 0 x 1 0 0 2 0 0 1 3\n"); }),
+              HasSubstr("file:1: 'x' is not a number"));
+  const std::string header = kEurocHeader;
+  EXPECT_THAT(MessageOf([&] { Read(header + "1,2,3\n"); }),
+              HasSubstr("file:2: expected at least 8 numbers 'nanoseconds, x, y, z, qw"));
+  EXPECT_THAT(MessageOf([&] { Read(header + "1,2,3,4,5,0,0,0\n"); }),
+              HasSubstr("file:2: the quaternion qw qx qy qz has length 5.000"));
+  // The override of the format decides how a row is read.
+  EXPECT_THAT(MessageOf([&] { Read(kTum, TrajectoryFormat::kKitti); }), HasSubstr("found 8"));
+}
+
+TEST_F(TrajectoryFormatTest, SharesStampsRowByRow) {
+  TrajectoryFile kitti = Read(std::string(kKitti) + kKitti);
+  TrajectoryFile tum = Read("5 0 0 0 0 0 0 1\n6 1 0 0 0 0 0 1\n");
+  ShareStamps("a", "b", &tum, &kitti);
+  EXPECT_EQ(kitti.poses[0].timestamp, 5.0);
+  EXPECT_EQ(kitti.poses[1].timestamp, 6.0);
+  TrajectoryFile first = Read(kKitti), second = Read(kKitti);
+  ShareStamps("a", "b", &first, &second);
+  EXPECT_FALSE(first.has_stamps);
+
+  TrajectoryFile longer = Read(std::string(kKitti) + kKitti + kKitti);
+  EXPECT_THAT(MessageOf([&] { ShareStamps("a.txt", "b.txt", &tum, &longer); }),
+              HasSubstr("a.txt has 2 poses and b.txt has 3, but b.txt has no time stamps (KITTI)"));
+  TrajectoryFile holes = Read("5 0 0 0 0 0 0 1\n6 nan 0 0 0 0 0 1\n");
+  TrajectoryFile two = Read(std::string(kKitti) + kKitti);
+  EXPECT_THAT(MessageOf([&] { ShareStamps("a.txt", "b.txt", &holes, &two); }),
+              HasSubstr("a.txt: has rows with nan or inf"));
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Verdicts on purposely broken and miscalibrated copies of a rendered sequence.
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/diagnosis/expected_finding.h"
+#include "tests/diagnosis/recording.h"
+#include "tests/support/temporary_folder.h"
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "msc_vo/datasets/sequence_calibration.h"
+#include "msc_vo/diagnosis/sequence_check.h"
+#include "msc_vo/synthetic/scene/synthetic_sequence.h"
+
+namespace msc_vo {
+namespace {
+
+constexpr int kNumImages = 60;
+// Enough for checks without motion.
+constexpr int kFewImages = 20;
+
+using Damage = std::function<void(Recording*)>;
+
+class BrokenSequenceTest : public TemporaryFolder {
+ protected:
+  static void SetUpTestSuite() { recording_ = new Recording(Record(SmallRoom(), kNumImages)); }
+  static void TearDownTestSuite() { delete recording_; }
+
+  // The findings on a copy of the recording that has been damaged before it was written and after.
+  Findings Diagnose(const Damage& damage, bool deep, const std::string& name,
+                    const std::function<void(const std::string& folder)>& damage_files = {}) {
+    Recording recording = *recording_;
+    if (!deep) recording.images.resize(kFewImages);
+    for (Recording::Image& image : recording.images) {
+      image.color = image.color.clone();
+      image.depth = image.depth.clone();
+    }
+    if (damage) damage(&recording);
+    const std::string folder = Path(name);
+    recording.Write(folder);
+    if (damage_files) damage_files(folder);
+    SequenceIndex index = OpenSequence(folder);
+    const Calibration calibration = ResolveCalibration(CameraSettings(), "", &index);
+    SequenceCheckOptions options;
+    options.deep = deep;
+    options.max_images = 12;
+    const Findings findings = CheckSequence(RgbdDecoder(index, calibration), options);
+    std::filesystem::remove_all(folder);
+    return findings;
+  }
+
+  void ExpectWarning(const std::string& name, bool deep, const std::string& check,
+                     const std::string& words, const Damage& damage) {
+    ExpectFinding(Diagnose(damage, deep, name), Severity::kWarning, check, words, name);
+  }
+  void ExpectError(const std::string& name, const std::string& check, const std::string& words,
+                   const Damage& damage) {
+    ExpectFinding(Diagnose(damage, false, name), Severity::kError, check, words, name);
+  }
+  static void ExpectClean(const Findings& findings) {
+    for (const Finding& finding : findings) {
+      EXPECT_EQ(finding.severity, Severity::kGood) << finding.check << ": " << Describe(finding);
+    }
+  }
+
+  static inline Recording* recording_ = nullptr;
+};
+
+void ForAllImages(Recording* recording, const std::function<void(Recording::Image*)>& change) {
+  for (Recording::Image& image : recording->images) change(&image);
+}
+
+void Shift(double x, double y, cv::Mat* image) {
+  const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, x, 0, 1, y);
+  cv::Mat moved;
+  cv::warpAffine(*image, moved, shift, image->size(), cv::INTER_NEAREST);
+  *image = moved;
+}
+
+// The image that a lens with this distortion takes.
+void Distort(const PinholeCamera& camera, const LensDistortion& lens, Recording::Image* image) {
+  cv::Mat map(image->color.size(), CV_32FC2);
+  for (int y = 0; y < map.rows; ++y) {
+    for (int x = 0; x < map.cols; ++x) {
+      const Eigen::Vector2d ideal = lens.Undistort(camera, {x, y});
+      map.at<cv::Vec2f>(y, x) =
+          cv::Vec2f(static_cast<float>(ideal.x()), static_cast<float>(ideal.y()));
+    }
+  }
+  cv::Mat color, depth;
+  cv::remap(image->color, color, map, cv::noArray(), cv::INTER_LINEAR);
+  cv::remap(image->depth, depth, map, cv::noArray(), cv::INTER_NEAREST);
+  image->color = color;
+  image->depth = depth;
+}
+
+TEST_F(BrokenSequenceTest, FindsNothingInSoundSequences) {
+  ExpectClean(Diagnose({}, true, "sound"));
+  ExpectClean(Diagnose(
+      [](Recording* r) {
+        r->calibration.depth_scale = 1000.0;
+        ForAllImages(r, [](Recording::Image* i) { i->depth.convertTo(i->depth, CV_16U, 0.2); });
+      },
+      true, "millimetres"));
+}
+
+TEST_F(BrokenSequenceTest, FindsNothingInAnotherScene) {
+  SyntheticSequenceOptions options = SmallRoom();
+  options.scene = SceneKind::kSlanted;
+  options.seed = 2;
+  const Recording other = Record(options, kNumImages);
+  ExpectClean(Diagnose([&](Recording* r) { *r = other; }, true, "other"));
+}
+
+TEST_F(BrokenSequenceTest, FindsDefectsOfDepth) {
+  ExpectWarning("factor_5", false, "depth.scale", "5000.0 would give",
+                [](Recording* r) { r->calibration.depth_scale /= 5.0; });
+  ExpectWarning("factor_1_5", false, "depth.scale", "5000.0 would give",
+                [](Recording* r) { r->calibration.depth_scale *= 5.0; });
+  ExpectError("factor_absurd", "depth.scale", "1000.0 would give", [](Recording* r) {
+    ForAllImages(r, [](Recording::Image* i) { i->depth.convertTo(i->depth, CV_16U, 0.2); });
+    r->calibration.depth_scale = 100000.0;
+  });
+  ExpectError("byte_swapped", "depth.byte_order", "two bytes", [](Recording* r) {
+    ForAllImages(r, [](Recording::Image* i) {
+      for (auto p = i->depth.begin<uint16_t>(); p != i->depth.end<uint16_t>(); ++p) {
+        *p = static_cast<uint16_t>(*p << 8 | *p >> 8);
+      }
+    });
+  });
+  ExpectError("no_depth", "depth.valid", "no measurement", [](Recording* r) {
+    ForAllImages(r, [](Recording::Image* i) { i->depth.setTo(0); });
+  });
+  ExpectWarning("little_depth", false, "depth.valid", "most of the image has no depth",
+                [](Recording* r) {
+                  ForAllImages(r, [](Recording::Image* i) { i->depth.rowRange(40, 240).setTo(0); });
+                });
+  ExpectWarning("saturated", false, "depth.saturated", "65535", [](Recording* r) {
+    ForAllImages(r, [](Recording::Image* i) { i->depth.rowRange(0, 20).setTo(65535); });
+  });
+  ExpectError("eight_bits", "images.decoding", "1 channel of 8 bits", [](Recording* r) {
+    ForAllImages(r, [](Recording::Image* i) { i->depth.convertTo(i->depth, CV_8U, 0.01); });
+  });
+  ExpectError("size", "images.decoding", "is 160x120", [](Recording* r) {
+    ForAllImages(r, [](Recording::Image* i) {
+      cv::resize(i->depth, i->depth, cv::Size(160, 120), 0, 0, cv::INTER_NEAREST);
+    });
+  });
+}
+
+TEST_F(BrokenSequenceTest, FindsDefectsOfRegistration) {
+  ExpectWarning("shifted", false, "registration.shift", "not registered", [](Recording* r) {
+    ForAllImages(r, [](Recording::Image* i) { Shift(15, 0, &i->depth); });
+  });
+  ExpectError("mirrored_color", "registration.mirrored", "left to right", [](Recording* r) {
+    ForAllImages(r, [](Recording::Image* i) { cv::flip(i->color, i->color, 1); });
+  });
+  ExpectError("mirrored_depth", "registration.mirrored", "top to bottom", [](Recording* r) {
+    ForAllImages(r, [](Recording::Image* i) { cv::flip(i->depth, i->depth, 0); });
+  });
+}
+
+TEST_F(BrokenSequenceTest, FindsDefectsOfImages) {
+  ExpectError("black", "images.uniform", "black", [](Recording* r) {
+    ForAllImages(r, [](Recording::Image* i) { i->color.setTo(2); });
+  });
+  ExpectWarning("some_black", false, "images.uniform", "black", [](Recording* r) {
+    for (int i = 10; i < 15; ++i) r->images[i].color.setTo(2);
+  });
+  ExpectWarning("frozen_color", false, "files.frozen_color", "frozen", [](Recording* r) {
+    for (int i = 11; i < 16; ++i) r->images[i].color = r->images[10].color.clone();
+  });
+  ExpectWarning("frozen_depth", false, "files.frozen_depth", "frozen", [](Recording* r) {
+    for (int i = 11; i < 16; ++i) r->images[i].depth = r->images[10].depth.clone();
+  });
+  ExpectWarning("overexposed", false, "images.overexposed", "shorten the exposure",
+                [](Recording* r) {
+                  ForAllImages(r, [](Recording::Image* i) { i->color = i->color * 2.5; });
+                });
+  ExpectWarning("dim", false, "images.dim", "light", [](Recording* r) {
+    ForAllImages(r, [](Recording::Image* i) { i->color = i->color * 0.2; });
+  });
+  ExpectWarning("blurred", false, "images.blur", "blurred", [](Recording* r) {
+    ForAllImages(
+        r, [](Recording::Image* i) { cv::GaussianBlur(i->color, i->color, cv::Size(), 3.0); });
+  });
+}
+
+TEST_F(BrokenSequenceTest, FindsDefectsOfStamps) {
+  ExpectWarning("duplicate", false, "sequence", "time stamp of another", [](Recording* r) {
+    for (int i = 10; i < 13; ++i) {
+      r->images[i].color_stamp = r->images[i].depth_stamp = r->images[10].color_stamp;
+    }
+  });
+  ExpectWarning("unordered", false, "sequence", "order of time",
+                [](Recording* r) { std::swap(r->images[10], r->images[13]); });
+  ExpectWarning("milliseconds", false, "sequence", "milliseconds",
+                [](Recording* r) { r->stamp_factor = 1000.0; });
+  ExpectWarning("gap", false, "stamps.gaps", "1 gap", [](Recording* r) {
+    r->images.erase(r->images.begin() + 10, r->images.begin() + 16);
+  });
+  ExpectWarning("depth_clock", false, "sequence", "no depth image within", [](Recording* r) {
+    for (int i = 10; i < 15; ++i) r->images[i].depth_stamp += 0.03;
+  });
+}
+
+TEST_F(BrokenSequenceTest, FindsDefectsOfFiles) {
+  ExpectFinding(Diagnose({}, false, "missing",
+                         [](const std::string& folder) {
+                           std::filesystem::remove(folder + "/depth/0007.png");
+                         }),
+                Severity::kError, "files.readable", "0007.png does not exist", "missing");
+  ExpectFinding(Diagnose({}, false, "truncated",
+                         [](const std::string& folder) {
+                           std::filesystem::resize_file(folder + "/rgb/0000.png", 9000);
+                         }),
+                Severity::kError, "images.decoding", "0000.png", "truncated");
+}
+
+TEST_F(BrokenSequenceTest, FindsWrongCalibration) {
+  const auto with_focal_length = [](double factor) {
+    return [factor](Recording* r) {
+      r->calibration.camera.fx *= factor;
+      r->calibration.camera.fy *= factor;
+    };
+  };
+  ExpectWarning("focal_10", true, "calibration.focal_length", "% too long",
+                with_focal_length(1.10));
+  ExpectWarning("focal_3", true, "calibration.focal_length", "% too long", with_focal_length(1.03));
+  ExpectWarning("focal_short", true, "calibration.focal_length", "% too short",
+                with_focal_length(0.95));
+  ExpectWarning("centre", true, "calibration.principal_point", "off by (20,",
+                [](Recording* r) { r->calibration.camera.cx += 20.0; });
+  ExpectWarning("lens", true, "calibration.lens", "k1 = -0.1", [](Recording* r) {
+    LensDistortion lens;
+    lens.k[0] = -0.12;
+    ForAllImages(r, [&](Recording::Image* i) { Distort(r->calibration.camera, lens, i); });
+  });
+}
+
+TEST_F(BrokenSequenceTest, FindsMirroredImagesWithTheCalibrationOfUnmirroredOnes) {
+  // A camera whose principal point is 20 px off the centre: mirroring moves it by 40 px.
+  const Findings findings = Diagnose(
+      [](Recording* r) {
+        ForAllImages(r, [](Recording::Image* i) {
+          Shift(20, 0, &i->color);
+          Shift(20, 0, &i->depth);
+          cv::flip(i->color, i->color, 1);
+          cv::flip(i->depth, i->depth, 1);
+        });
+        r->calibration.camera.cx += 20.0;
+      },
+      true, "both_mirrored");
+  ExpectFinding(findings, Severity::kWarning, "calibration.principal_point",
+                "principal point off by (3", "both");
+  ExpectFinding(findings, Severity::kWarning, "ground_truth.convention", "mirrored", "both");
+}
+
+TEST_F(BrokenSequenceTest, FindsLateDepth) {
+  SyntheticSequenceOptions options = SmallRoom();
+  options.fps = 20.0;
+  options.path.shake = 3.0;  // uniform motion does not tell a latency from a shift
+  const Recording recording = Record(options, kNumImages);
+  ExpectWarning("late", true, "stamps.depth_latency", "ms later than", [&](Recording* r) {
+    *r = recording;
+    // Depth is 0.1 s younger than its stamp says.
+    for (int i = 0; i + 2 < kNumImages; ++i) r->images[i].depth = recording.images[i + 2].depth;
+    r->images.resize(kNumImages - 2);
+  });
+}
+
+TEST_F(BrokenSequenceTest, FindsGroundTruthOfOtherTimes) {
+  ExpectWarning("other_time", false, "ground_truth.overlap", "another clock", [](Recording* r) {
+    for (TimedPose& pose : r->truth) pose.timestamp += 1000.0;
+  });
+}
+
+class RoomSequenceTest : public testing::Test {
+ protected:
+  static Findings Diagnose(const std::function<void(Calibration*)>& damage) {
+    SequenceIndex index = OpenSequence(std::string(MSC_VO_DATA_FOLDER) + "/room");
+    Calibration calibration = ResolveCalibration(CameraSettings(), "", &index);
+    damage(&calibration);
+    SequenceCheckOptions options;
+    options.deep = true;
+    return CheckSequence(RgbdDecoder(index, calibration), options);
+  }
+  static Severity SeverityOf(const Findings& findings, const std::string& check) {
+    for (const Finding& finding : findings) {
+      if (finding.check == check) return finding.severity;
+    }
+    ADD_FAILURE() << "no finding of " << check;
+    return Severity::kGood;
+  }
+};
+
+TEST_F(RoomSequenceTest, SampleIsSound) {
+  for (const Finding& finding : Diagnose([](Calibration*) {})) {
+    EXPECT_EQ(finding.severity, Severity::kGood) << finding.check << ": " << Describe(finding);
+  }
+}
+
+TEST_F(RoomSequenceTest, FindsWrongCalibrationOfTheSample) {
+  EXPECT_EQ(SeverityOf(Diagnose([](Calibration* c) { c->camera.fx *= 1.03, c->camera.fy *= 1.03; }),
+                       "calibration.focal_length"),
+            Severity::kWarning);
+  EXPECT_EQ(SeverityOf(Diagnose([](Calibration* c) { c->camera.cx -= 40.0; }),
+                       "calibration.principal_point"),
+            Severity::kWarning);
+}
+
+}  // namespace
+}  // namespace msc_vo

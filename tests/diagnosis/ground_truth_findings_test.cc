@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/diagnosis/ground_truth_findings.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/diagnosis/expected_finding.h"
+#include "tests/diagnosis/recording.h"
+#include "tests/support/temporary_folder.h"
+#include <gtest/gtest.h>
+
+#include "msc_vo/datasets/sequence_calibration.h"
+#include "msc_vo/diagnosis/motion_track.h"
+
+namespace msc_vo {
+namespace {
+
+constexpr int kNumImages = 60;
+
+// Wrong ground truth of one recording, whose images are tracked once.
+class GroundTruthTest : public TemporaryFolder {
+ protected:
+  void Track(const SyntheticSequenceOptions& options) {
+    const Recording recording = Record(options, kNumImages);
+    recording.Write(Folder());
+    SequenceIndex index = OpenSequence(Folder());
+    const Calibration calibration = ResolveCalibration(CameraSettings(), "", &index);
+    truth_ = index.ground_truth;
+    track_ = TrackMotion(RgbdDecoder(index, calibration), kNumImages);
+  }
+
+  Findings Diagnose(const std::vector<TimedPose>& truth, double depth_scale = 5000.0) const {
+    Findings findings;
+    AddGroundTruthMotionFindings(track_, truth, depth_scale, &findings);
+    return findings;
+  }
+
+  void ExpectWarning(const std::string& check, const std::string& words,
+                     const std::function<void(TimedPose*)>& change,
+                     double depth_scale = 5000.0) const {
+    std::vector<TimedPose> truth = truth_;
+    for (TimedPose& pose : truth) change(&pose);
+    ExpectFinding(Diagnose(truth, depth_scale), Severity::kWarning, check, words, words);
+  }
+
+  // Poses of a body whose origin and axes in the camera frame are given.
+  static Rigid3 WithBody(const Rigid3& world_from_cam, const Rigid3& camera_from_body) {
+    return world_from_cam * camera_from_body;
+  }
+
+  MotionTrack track_;
+  std::vector<TimedPose> truth_;
+};
+
+TEST_F(GroundTruthTest, FindsWrongPoses) {
+  Track(SmallRoom());
+  for (const Finding& finding : Diagnose(truth_)) {
+    EXPECT_EQ(finding.severity, Severity::kGood) << finding.check << ": " << Describe(finding);
+  }
+  ExpectWarning("ground_truth.convention", "inverse poses",
+                [](TimedPose* p) { p->world_from_cam = p->world_from_cam.Inverse(); });
+  ExpectWarning("ground_truth.convention", "w x y z", [](TimedPose* p) {
+    const Eigen::Quaterniond q(p->world_from_cam.rotation());
+    p->world_from_cam.params.head<4>() << q.w(), q.x(), q.y(), q.z();
+  });
+  ExpectWarning("ground_truth.convention", "x, y, z are z, -x, -y", [](TimedPose* p) {
+    const Eigen::Matrix3d axes = (Eigen::Matrix3d() << 0, -1, 0, 0, 0, -1, 1, 0, 0).finished();
+    p->world_from_cam =
+        WithBody(p->world_from_cam, {Eigen::Quaterniond(axes), Eigen::Vector3d::Zero()});
+  });
+  ExpectWarning("ground_truth.positions", "swapped", [](TimedPose* p) {
+    const Eigen::Vector3d t = p->world_from_cam.translation();
+    p->world_from_cam.translation() = Eigen::Vector3d(t.x(), t.z(), t.y());
+  });
+  // Times and scales.
+  ExpectWarning("ground_truth.time_offset", "later than the images",
+                [](TimedPose* p) { p->timestamp += 0.15; });
+  ExpectWarning("ground_truth.time_offset", "earlier than the images",
+                [](TimedPose* p) { p->timestamp -= 0.15; });
+  // Depth that is 3 % too long has the same effect as a world that is 3 % too small.
+  ExpectWarning("ground_truth.scale", "depth_scale is probably 51",
+                [](TimedPose* p) { p->world_from_cam.translation() /= 1.03; });
+  ExpectWarning(
+      "ground_truth.scale", "probably 5000",
+      [](TimedPose* p) { p->world_from_cam.translation() *= 5.0; }, 25000.0);
+  ExpectWarning(
+      "ground_truth.scale", "probably 5000",
+      [](TimedPose* p) { p->world_from_cam.translation() /= 5.0; }, 1000.0);
+  // Another sequence.
+  SyntheticSequenceOptions other_options = SmallRoom();
+  other_options.scene = SceneKind::kSlanted;
+  other_options.seed = 7;
+  const SyntheticSequence other(other_options);
+  std::vector<TimedPose> truth;
+  for (int i = 0; i < kNumImages; ++i) truth.push_back(other.PoseAt(i));
+  ExpectFinding(Diagnose(truth), Severity::kWarning, "ground_truth.convention", "does not describe",
+                "other sequence");
+}
+
+TEST_F(GroundTruthTest, FindsAnotherBody) {
+  SyntheticSequenceOptions options = SmallRoom();
+  options.path.shake = 3.0;
+  Track(options);
+  ExpectWarning("ground_truth.hand_eye", "hand-eye", [](TimedPose* p) {
+    p->world_from_cam = WithBody(p->world_from_cam,
+                                 {Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, -0.3, 0.0)});
+  });
+}
+
+}  // namespace
+}  // namespace msc_vo

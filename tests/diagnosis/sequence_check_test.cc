@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/diagnosis/sequence_check.h"
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::Field;
+using testing::HasSubstr;
+
+testing::Matcher<const Finding&> Is(Severity severity, const std::string& text) {
+  return AllOf(Field(&Finding::severity, severity), testing::ResultOf(&Describe, HasSubstr(text)));
+}
+
+class SequenceCheckTest : public TemporaryFolder {
+ protected:
+  void SetUp() override {
+    TemporaryFolder::SetUp();
+    calibration_.camera = {10.0, 10.0, 3.5, 2.5, 8, 6};
+    calibration_.depth_scale = 5000.0;
+    calibration_.origin = "camera.txt";
+    index_.format = "tum";
+    for (int i = 0; i < 6; ++i) {
+      const std::string name = std::to_string(i);
+      WriteColor(name + ".png");
+      WriteStripes(name + ".png", i);
+      WriteDepth(name + "d.png", 10000 + i);
+      index_.entries.push_back({0.1 * i, Path(name + ".png"), Path(name + "d.png"), ""});
+      index_.ground_truth.push_back({0.1 * i, Rigid3()});
+    }
+  }
+  // Bright and dark columns, different for each image.
+  void WriteStripes(const std::string& name, int i) {
+    cv::Mat image(6, 8, CV_8UC1, cv::Scalar(50));
+    image.colRange(2, 4).setTo(150 + i);
+    ASSERT_TRUE(cv::imwrite(Path(name), image));
+  }
+  std::vector<Finding> Check() { return CheckSequence(RgbdDecoder(index_, calibration_)); }
+
+  SequenceIndex index_;
+  Calibration calibration_;
+};
+
+TEST_F(SequenceCheckTest, ReportsNoProblemOfValidSequence) {
+  const std::vector<Finding> findings = Check();
+  // Images of this size have no features.
+  EXPECT_THAT(findings, Each(testing::AnyOf(Field(&Finding::severity, Severity::kGood),
+                                            Field(&Finding::check, "images.texture"))));
+  EXPECT_THAT(findings, Contains(Is(Severity::kGood, "median 2.00 m")));
+  EXPECT_THAT(findings, Contains(Is(Severity::kGood, "6 of 6 images have one")));
+}
+
+TEST_F(SequenceCheckTest, ReportsDepthDelays) {
+  EXPECT_THAT(Check(), Not(Contains(Is(Severity::kGood, "later than"))));
+  index_.entries[1].depth_delay = 0.004;
+  index_.entries[2].depth_delay = -0.001;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kGood, "-1.0 to 4.0 ms later than")));
+}
+
+TEST_F(SequenceCheckTest, SuggestsDepthScale) {
+  calibration_.depth_scale = 1000.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "5000.0 would give 2.00 m")));
+  calibration_.depth_scale = 100000.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "0.100 m is unusual")));
+}
+
+TEST_F(SequenceCheckTest, ReportsMissingAndUnusableImages) {
+  std::filesystem::remove(Path("3.png"));
+  WriteImage("4d.png", CV_8UC1, 9);
+  const std::vector<Finding> findings = Check();
+  EXPECT_THAT(findings, Contains(Is(Severity::kError, "3.png does not exist")));
+  EXPECT_THAT(findings, Contains(Is(Severity::kError, "4d.png")));
+}
+
+TEST_F(SequenceCheckTest, ReportsPipesInsteadOfWaitingForThem) {
+  std::filesystem::remove(Path("2d.png"));
+  ASSERT_EQ(mkfifo(Path("2d.png").c_str(), 0600), 0);
+  EXPECT_THAT(Check(), Contains(Is(Severity::kError, "2d.png is a pipe")));
+}
+
+TEST_F(SequenceCheckTest, QuickCheckReportsProblemsOnly) {
+  EXPECT_THAT(CheckSequenceQuickly(RgbdDecoder(index_, calibration_)), testing::IsEmpty());
+  calibration_.depth_scale = 90000.0;
+  for (int i = 0; i < 6; ++i) WriteDepth(std::to_string(i) + "d.png", 400);
+  EXPECT_THAT(CheckSequenceQuickly(RgbdDecoder(index_, calibration_)),
+              Contains(Is(Severity::kError, "0.004 m is unusual")));
+}
+
+TEST_F(SequenceCheckTest, ReportsGaps) {
+  index_.entries.erase(index_.entries.begin() + 1, index_.entries.begin() + 4);
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "1 gap of three frames or more")));
+}
+
+TEST_F(SequenceCheckTest, WarnsOfStampsInOtherUnits) {
+  for (SequenceEntry& entry : index_.entries) entry.timestamp *= 333333333.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "are the stamps in seconds?")));
+}
+
+TEST_F(SequenceCheckTest, WarnsOfUnusualCamera) {
+  calibration_.camera.fy = -10.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "fy is negative")));
+  calibration_.camera.fy = 14.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "fx and fy differ")));
+  calibration_.camera.cx = 7.5;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "another image size")));
+  index_.format = "icl-nuim";
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "fy is positive")));
+}
+
+TEST_F(SequenceCheckTest, WarnsOfGroundTruthAtOtherTimes) {
+  for (TimedPose& pose : index_.ground_truth) pose.timestamp += 1000.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "its stamps begin 1000.000 s after")));
+}
+
+TEST_F(SequenceCheckTest, ReportsEmptyDepth) {
+  for (int i = 0; i < 6; ++i) WriteDepth(std::to_string(i) + "d.png", 0);
+  EXPECT_THAT(Check(), Contains(Is(Severity::kError, "no measurement at all")));
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/report/run_json.h"
+
+#include "fake_run.h"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/report/base64.h"
+
+namespace msc_vo {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+FrameView MakeView(int frame) {
+  FrameView view;
+  view.frame = frame;
+  view.jpeg = "\xff\xd8 picture";
+  view.features.points = {{{1.0F, 2.5F}, true}, {{-3.0F, 1e9F}, false}};
+  view.features.lines = {{{10.0F, 20.0F}, {30.0F, 40.0F}, LineColor::kAxis2},
+                         {{0.0F, 0.0F}, {1.0F, 1.0F}, LineColor::kWithoutDepth}};
+  return view;
+}
+
+TEST(RunJson, HasOneColumnPerQuantity) {
+  ReportData data = MakeFakeRun(3);
+  data.frames[1].rotation_sigma_deg = 0.5;
+  data.frames[1].translation_sigma = 0.25;
+  const json run = json::parse(FormatRunJson(data));
+  const json& frames = run["frames"];
+  EXPECT_EQ(frames["first"], 0);
+  EXPECT_EQ(frames["time"], EncodeBase64(std::vector<float>{0.0F, 1 / 30.0F, 2 / 30.0F}));
+  EXPECT_EQ(frames["keyframe"], EncodeBase64(std::vector<uint8_t>{1, 0, 0}));
+  // Base64 has four characters for three bytes: 3 frames of 7, 2, 5 floats and 4 shorts.
+  EXPECT_EQ(frames["pose"].get<std::string>().size(), 3u * 7 * 4 * 4 / 3);
+  EXPECT_EQ(frames["sigma"].get<std::string>().size(), 3u * 2 * 4 * 4 / 3);
+  EXPECT_EQ(frames["stage_ms"].get<std::string>().size(), 3u * 5 * 4 * 4 / 3);
+  EXPECT_EQ(frames["counts"].get<std::string>().size(), 3u * 4 * 2 * 4 / 3);
+  EXPECT_EQ(run["stages"][0], (json{{"name", "points"}, {"stacked", false}}));
+  EXPECT_EQ(run["camera"]["width"], 640);
+}
+
+TEST(RunJson, StoresTheMapWithoutInvalidLandmarks) {
+  ReportData data = MakeFakeRun(3);
+  data.map.lines = {{{Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)}, 2},
+                    {{Eigen::Vector3d::Constant(NAN), Eigen::Vector3d::Zero()}, 0},
+                    {{Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}, -1}};
+  data.map.points = {{7, 8, 9}, {INFINITY, 0, 0}};
+  data.map.world_from_axes = Eigen::Quaterniond::Identity();
+  const json map = json::parse(FormatRunJson(data))["map"];
+  EXPECT_EQ(map["lines"], EncodeBase64(std::vector<float>{1, 2, 3, 4, 5, 6, 0, 0, 0, 1, 1, 1}));
+  EXPECT_EQ(map["line_axes"], EncodeBase64(std::vector<uint8_t>{2, 3}));
+  EXPECT_EQ(map["points"], EncodeBase64(std::vector<float>{7, 8, 9}));
+  EXPECT_EQ(map["axes"], json({1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}));
+}
+
+TEST(RunJson, StoresViewsInEighthsOfAPixel) {
+  ReportData data = MakeFakeRun(3);
+  data.views = {MakeView(1)};
+  const json view = json::parse(FormatRunJson(data))["views"][0];
+  EXPECT_EQ(view["frame"], 1);
+  EXPECT_EQ(view["jpeg"], EncodeBase64("\xff\xd8 picture", 10));
+  EXPECT_EQ(view["points"], EncodeBase64(std::vector<uint16_t>{8, 20, 0, 65535}));
+  EXPECT_EQ(view["point_depth"], EncodeBase64(std::vector<uint8_t>{1, 0}));
+  EXPECT_EQ(view["lines"], EncodeBase64(std::vector<uint16_t>{80, 160, 240, 320, 0, 0, 8, 8}));
+  EXPECT_EQ(view["line_colors"], EncodeBase64(std::vector<uint8_t>{2, 4}));
+}
+
+TEST(RunJson, IsSafeInsideOfAScriptElement) {
+  ReportData data = MakeFakeRun(2);
+  data.stages[0].name = "</script><!--\xff";
+  const std::string text = FormatRunJson(data);
+  EXPECT_THAT(text, Not(HasSubstr("<")));
+  EXPECT_THAT(json::parse(text)["stages"][0]["name"].get<std::string>(),
+              HasSubstr("</script><!--"));
+}
+
+TEST(RunJson, HasNoFramesWithoutFrames) {
+  EXPECT_FALSE(json::parse(FormatRunJson({})).contains("frames"));
+  const json live = json::parse(FormatLiveRunJson("abc", MakeFakeRun(2)));
+  EXPECT_FALSE(live.contains("frames"));
+  EXPECT_EQ(live["live"], true);
+  EXPECT_EQ(live["run"], "abc");
+}
+
+TEST(RunJson, UpdatesHoldOnlyWhatIsNew) {
+  RunUpdate update;
+  update.run = "abc";
+  update.state = "running";
+  update.map_version = 4;
+  const json nothing = json::parse(FormatRunUpdate(update));
+  EXPECT_EQ(nothing["state"], "running");
+  EXPECT_EQ(nothing["map_version"], 4);
+  for (const char* key : {"frames", "map", "views"}) EXPECT_FALSE(nothing.contains(key)) << key;
+
+  const ReportData data = MakeFakeRun(5);
+  const FrameView view = MakeView(4);
+  update.frames = {data.frames[3], data.frames[4]};
+  update.first_frame = 3;
+  update.start = data.frames[0].timestamp;
+  update.map = &data.map;
+  update.view = &view;
+  const json all = json::parse(FormatRunUpdate(update));
+  EXPECT_EQ(all["frames"]["first"], 3);
+  EXPECT_EQ(all["frames"]["time"], EncodeBase64(std::vector<float>{3 / 30.0F, 4 / 30.0F}));
+  EXPECT_EQ(all["map"]["line_axes"].get<std::string>().size(), 32u);  // 24 bytes
+  EXPECT_EQ(all["views"][0]["frame"], 4);
+}
+
+}  // namespace
+}  // namespace msc_vo

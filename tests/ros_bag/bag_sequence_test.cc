@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/ros_bag/bag_sequence.h"
+
+#include "tests/ros_bag/bag_writer.h"
+#include "tests/ros_bag/message_bytes.h"
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/datasets/rgbd_decoder.h"
+#include "msc_vo/datasets/sequence_calibration.h"
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class BagSequenceTest : public TemporaryFolder {
+ protected:
+  // Five pairs; the images of pair i have the grey value 10 (i + 1) and i + 1 metres. Messages are
+  // recorded in another order than their stamps.
+  void WriteBag(const std::string& name, BagCompression compression,
+                const std::string& depth_encoding) {
+    BagWriter bag(Path(name), compression);
+    CameraInfoFields info;
+    info.width = 32;
+    info.height = 24;
+    info.cx = 15.5;
+    info.cy = 11.5;
+    bag.Write("/camera/rgb/camera_info", "CameraInfo", 1.0, CameraInfoMessage(info));
+    for (const int i : {1, 0, 2, 4, 3}) {
+      const auto nanoseconds = static_cast<uint32_t>(100000000 * i);
+      const cv::Mat color(24, 32, CV_8UC3, cv::Scalar::all(10 * (i + 1)));
+      const bool is_metres = depth_encoding == "32FC1";
+      const cv::Mat depth(24, 32, is_metres ? CV_32FC1 : CV_16UC1,
+                          cv::Scalar::all(is_metres ? i + 1 : 1000 * (i + 1)));
+      const double recorded = 1.0 + 0.1 * recordings_++;
+      bag.Write("/camera/rgb/image_color", "Image", recorded,
+                ImageMessage(100, nanoseconds, color, "bgr8"));
+      bag.Write("/camera/depth/image", "Image", recorded + 0.01,
+                ImageMessage(100, nanoseconds + 5000000, depth, depth_encoding));
+    }
+    bag.Write("/camera/ir/image", "Image", 9.0,
+              ImageMessage(100, 0, cv::Mat::zeros(24, 32, CV_8UC1), "mono8"));
+  }
+  int recordings_ = 0;
+
+  static RgbdDecoder Decoder(SequenceIndex index) {
+    Calibration calibration = ResolveCalibration({}, "", &index);
+    return {std::move(index), std::move(calibration)};
+  }
+};
+
+TEST_F(BagSequenceTest, ReadsAllCompressionsAndEncodings) {
+  int number = 0;
+  for (const BagCompression compression :
+       {BagCompression::kNone, BagCompression::kBz2, BagCompression::kLz4}) {
+    for (const char* encoding : {"32FC1", "16UC1"}) {
+      const std::string name = std::to_string(number++) + ".bag";
+      WriteBag(name, compression, encoding);
+      const RgbdDecoder decoder = Decoder(OpenBag(Path(name)));
+      ASSERT_EQ(decoder.size(), 5);
+      EXPECT_EQ(decoder.index().format, "ros-bag");
+      EXPECT_EQ(decoder.calibration().camera.fx, 525.0);
+      for (const int i : {0, 4, 2, 1, 3}) {  // in any order
+        const RgbdImage image = decoder.Decode(i);
+        EXPECT_NEAR(image.timestamp, 100.0 + 0.1 * i, 1e-9);
+        EXPECT_NEAR(image.depth_delay, 0.005, 1e-9);
+        EXPECT_EQ(image.gray.at<uint8_t>(3, 3), 10 * (i + 1));
+        EXPECT_NEAR(image.depth.at<float>(3, 3), i + 1.0, 1e-6);
+      }
+    }
+  }
+}
+
+TEST_F(BagSequenceTest, TreatsNoMeasurementInMetresAsZero) {
+  {
+    BagWriter bag(Path("x.bag"), BagCompression::kNone);
+    cv::Mat depth(2, 2, CV_32FC1, cv::Scalar::all(1.5));
+    depth.at<float>(0, 0) = std::nanf("");
+    depth.at<float>(0, 1) = HUGE_VALF;
+    depth.at<float>(1, 0) = -1.0f;
+    bag.Write("/d", "Image", 1.0, ImageMessage(1, 0, depth, "32FC1"));
+    bag.Write("/c", "Image", 1.0, ImageMessage(1, 0, cv::Mat::zeros(2, 2, CV_8UC1), "mono8"));
+  }
+  SequenceIndex index = OpenBag(Path("x.bag"));
+  Calibration calibration;
+  calibration.camera = {10.0, 10.0, 0.5, 0.5, 2, 2};
+  const RgbdImage image = RgbdDecoder(index, calibration).Decode(0);
+  EXPECT_EQ(image.depth.at<float>(0, 0), 0.0f);
+  EXPECT_EQ(image.depth.at<float>(0, 1), 0.0f);
+  EXPECT_EQ(image.depth.at<float>(1, 0), 0.0f);
+  EXPECT_EQ(image.depth.at<float>(1, 1), 1.5f);
+}
+
+TEST_F(BagSequenceTest, TakesTheTopicsThatAreNamed) {
+  WriteBag("x.bag", BagCompression::kNone, "16UC1");
+  EXPECT_THAT(MessageOf([&] {
+                OpenBag(Path("x.bag"), {"/no", ""});
+              }),
+              AllOf(HasSubstr("x.bag: no images in the topic /no (--color-topic)"),
+                    HasSubstr("/camera/rgb/image_color")));
+  const SequenceIndex infrared = OpenBag(Path("x.bag"), {"/camera/ir/image", ""});
+  ASSERT_EQ(infrared.entries.size(), 1u);
+  EXPECT_THAT(infrared.entries[0].color_path, HasSubstr("x.bag:/camera/ir/image, message 0"));
+}
+
+TEST_F(BagSequenceTest, PrefersThePresetThatTheNameSuggests) {
+  WriteBag("rgbd_dataset_freiburg1_xyz.bag", BagCompression::kNone, "32FC1");
+  WriteText("rgbd_dataset_freiburg1_xyz-groundtruth.txt", "100.0 0 0 0 0 0 0 1\n");
+  const SequenceIndex index = OpenBag(Path("rgbd_dataset_freiburg1_xyz.bag"));
+  EXPECT_EQ(index.preset, "tum-fr1");
+  EXPECT_FALSE(index.calibration);
+  EXPECT_EQ(index.ground_truth.size(), 1u);
+}
+
+TEST_F(BagSequenceTest, NamesWhatIsWrong) {
+  WriteText("text.bag", "this is no bag");
+  EXPECT_THAT(MessageOf([&] { OpenBag(Path("text.bag")); }),
+              HasSubstr("text.bag: cannot be read as a bag of ROS 1"));
+  EXPECT_THAT(MessageOf([&] { OpenBag(Path("no.bag")); }), HasSubstr("no.bag: does not exist"));
+  { const BagWriter empty(Path("empty.bag"), BagCompression::kNone); }
+  EXPECT_THAT(MessageOf([&] { OpenBag(Path("empty.bag")); }),
+              HasSubstr("no topic with colour images found; topics with images: none"));
+  WriteBag("cut.bag", BagCompression::kNone, "16UC1");
+  const std::string bytes = ReadFile(Path("cut.bag"));
+  WriteText("cut.bag", bytes.substr(0, bytes.size() / 2));
+  EXPECT_THAT(MessageOf([&] { OpenBag(Path("cut.bag")); }), HasSubstr("cut.bag: "));
+}
+
+}  // namespace
+}  // namespace msc_vo

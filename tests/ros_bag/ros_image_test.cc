@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/ros_bag/ros_image.h"
+
+#include "tests/ros_bag/message_bytes.h"
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+using testing::HasSubstr;
+
+std::string Png(const cv::Mat& image) {
+  std::vector<uchar> bytes;
+  cv::imencode(".png", image, bytes);
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST(RosMessage, ReadsStampsAsInTextFiles) {
+  const std::string bytes = MessageBytes().AddHeader(1305031102, 175304000).bytes();
+  EXPECT_EQ(ParseRosHeader(bytes).stamp, 1305031102.175304);
+}
+
+TEST(RosMessage, RefusesShortMessages) {
+  const std::string bytes = ImageMessage(1, 2, cv::Mat::zeros(3, 4, CV_8UC3), "bgr8");
+  for (size_t size = 0; size < bytes.size(); size += 5) {
+    EXPECT_THROW(ParseRosImage(std::string_view(bytes).substr(0, size)), std::runtime_error);
+  }
+  EXPECT_NO_THROW(ParseRosImage(bytes));
+  EXPECT_THROW(ParseRosCameraInfo(bytes), std::runtime_error);
+}
+
+TEST(RosImage, ConvertsColours) {
+  const cv::Mat bgr(2, 3, CV_8UC3, cv::Scalar(10, 20, 30));
+  const cv::Mat rgb(2, 3, CV_8UC3, cv::Scalar(30, 20, 10));
+  const auto convert = [](const cv::Mat& image, const std::string& encoding) {
+    const std::string bytes = ImageMessage(1, 0, image, encoding);
+    return ConvertRosImage(ParseRosImage(bytes)).pixels;
+  };
+  EXPECT_EQ(cv::norm(convert(bgr, "bgr8"), bgr), 0.0);
+  EXPECT_EQ(cv::norm(convert(rgb, "rgb8"), bgr), 0.0);
+  EXPECT_EQ(convert(cv::Mat(2, 3, CV_8UC4), "rgba8").type(), CV_8UC3);
+  EXPECT_EQ(convert(cv::Mat(2, 3, CV_8UC1), "mono8").type(), CV_8UC1);
+  EXPECT_EQ(convert(cv::Mat(4, 4, CV_8UC1), "bayer_grbg8").type(), CV_8UC3);
+  EXPECT_EQ(convert(cv::Mat(2, 3, CV_16UC1), "16UC1").type(), CV_16UC1);
+  EXPECT_EQ(convert(cv::Mat(2, 3, CV_32FC1), "32FC1").type(), CV_32FC1);
+  EXPECT_THAT(MessageOf([&] { convert(bgr, "yuv422"); }), HasSubstr("encoding yuv422"));
+  EXPECT_THAT(MessageOf([&] { convert(cv::Mat(2, 3, CV_8UC1), "bgr8"); }),
+              HasSubstr("does not fit its data"));
+}
+
+TEST(RosImage, FindsRedInABayerPattern) {
+  // Rows R G / G B: only the red pixels are bright.
+  cv::Mat pattern = cv::Mat::zeros(8, 8, CV_8UC1);
+  for (int y = 0; y < 8; y += 2) {
+    for (int x = 0; x < 8; x += 2) pattern.at<uint8_t>(y, x) = 200;
+  }
+  const std::string bytes = ImageMessage(1, 0, pattern, "bayer_rggb8");
+  const cv::Mat bgr = ConvertRosImage(ParseRosImage(bytes)).pixels;
+  EXPECT_EQ(bgr.at<cv::Vec3b>(4, 4), cv::Vec3b(0, 0, 200));
+}
+
+TEST(RosImage, DecodesCompressedDepth) {
+  const std::string header(12, '\0');
+  const cv::Mat raw(2, 3, CV_16UC1, cv::Scalar(1234));
+  const std::string bytes = CompressedMessage(1, 0, "16UC1; compressedDepth", header + Png(raw));
+  EXPECT_EQ(ConvertRosImage(ParseRosCompressedImage(bytes)).bytes, Png(raw));
+
+  // Metres are quantised: value = a / depth + b.
+  float parameters[3] = {0.0f, 1000.0f, 5.0f};
+  const std::string quantised(reinterpret_cast<const char*>(parameters), 12);
+  cv::Mat values(1, 2, CV_16UC1);
+  values.at<uint16_t>(0, 0) = 505;  // 1000 / 2 m + 5
+  values.at<uint16_t>(0, 1) = 0;
+  const std::string metres =
+      CompressedMessage(1, 0, "32FC1; compressedDepth", quantised + Png(values));
+  const cv::Mat depth = ConvertRosImage(ParseRosCompressedImage(metres)).pixels;
+  EXPECT_FLOAT_EQ(depth.at<float>(0, 0), 2.0f);
+  EXPECT_EQ(depth.at<float>(0, 1), 0.0f);
+
+  const std::string damaged = CompressedMessage(1, 0, "16UC1; compressedDepth", header + "no PNG");
+  EXPECT_THAT(MessageOf([&] { ConvertRosImage(ParseRosCompressedImage(damaged)); }),
+              HasSubstr("damaged"));
+  const std::string rvl = CompressedMessage(1, 0, "16UC1; compressedDepth rvl", header + "data");
+  EXPECT_THAT(MessageOf([&] { ConvertRosImage(ParseRosCompressedImage(rvl)); }), HasSubstr("RVL"));
+}
+
+TEST(RosImage, KnowsKindsOfImages) {
+  EXPECT_EQ(KindOfEncoding("rgb8"), RosImageKind::kColor);
+  EXPECT_EQ(KindOfEncoding("mono8"), RosImageKind::kGray);
+  EXPECT_EQ(KindOfEncoding("32FC1"), RosImageKind::kDepth);
+  EXPECT_EQ(KindOfEncoding("32FC4"), RosImageKind::kOther);
+  EXPECT_EQ(KindOfFormat("rgb8; jpeg compressed bgr8"), RosImageKind::kColor);
+  EXPECT_EQ(KindOfFormat("mono8; jpeg compressed "), RosImageKind::kGray);
+  EXPECT_EQ(KindOfFormat("jpeg"), RosImageKind::kColor);
+  EXPECT_EQ(KindOfFormat("16UC1; compressedDepth"), RosImageKind::kDepth);
+}
+
+TEST(RosCamera, TakesTheMatrixThatFitsTheImages) {
+  CameraInfoFields fields;
+  fields.d = {0.1, -0.2, 0.001, 0.002, 0.05};
+  std::string problem;
+  const auto calibrate = [&](bool is_rectified) {
+    const std::string bytes = CameraInfoMessage(fields);
+    return CalibrationFrom(ParseRosCameraInfo(bytes), is_rectified, &problem);
+  };
+  EXPECT_EQ(calibrate(false)->camera.fx, 525.0);
+  EXPECT_EQ(calibrate(false)->camera.width, 640);
+  EXPECT_EQ(calibrate(false)->distortion.k[4], 0.05);
+  EXPECT_EQ(calibrate(true)->camera.fy, 501.0);
+  EXPECT_TRUE(calibrate(true)->distortion.IsZero());
+  fields.model = "equidistant";
+  EXPECT_FALSE(calibrate(false));
+  EXPECT_THAT(problem, HasSubstr("equidistant"));
+  fields.fx = 0.0;
+  EXPECT_FALSE(calibrate(false));
+  EXPECT_THAT(problem, HasSubstr("not calibrated"));
+}
+
+}  // namespace
+}  // namespace msc_vo

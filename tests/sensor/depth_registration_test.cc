@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/sensor/depth_registration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "msc_vo/geometry/so3.h"
+
+namespace msc_vo {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using testing::HasSubstr;
+
+// A colour camera with another focal length, another size and a lens.
+PinholeCamera Color() { return {260.0, 262.0, 161.0, 118.0, 320, 240}; }
+
+LensDistortion Lens() { return {{0.26, -0.95, -0.005, 0.003, 1.16}}; }
+
+DepthCamera Rig() {
+  DepthCamera rig;
+  rig.camera = {292.0, 290.0, 158.0, 121.0, 320, 240};
+  rig.depth_from_color = {ExpSO3({0.01, -0.015, 0.02}), {-0.025, 0.004, 0.003}};
+  return rig;
+}
+
+// Inverse depth of plane normal . x = 1 (colour frame) at a raw colour pixel.
+double InverseDepthAt(const Vector3d& normal, const LensDistortion& lens, int x, int y) {
+  return normal.dot(Color().Ray(lens.Undistort(Color(), {x, y})));
+}
+
+// Depth image of the nearest of some planes normal . x = 1 of the colour frame; each ends at the
+// column of the depth image where its mask says so.
+struct Plane {
+  Vector3d normal;
+  std::function<bool(const Vector3d& x_in_color)> contains = [](const Vector3d&) { return true; };
+};
+
+cv::Mat Measure(const DepthCamera& rig, const std::vector<Plane>& planes) {
+  cv::Mat depth(rig.camera.height, rig.camera.width, CV_32FC1, cv::Scalar(0.0f));
+  const Rigid3 color_from_depth = rig.depth_from_color.Inverse();
+  for (int y = 0; y < depth.rows; ++y) {
+    for (int x = 0; x < depth.cols; ++x) {
+      const Vector3d ray = rig.camera.Ray(Vector2d(x, y));
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Plane& plane : planes) {
+        // normal . (R z ray + t) = 1.
+        const double z = (1.0 - plane.normal.dot(color_from_depth.translation())) /
+                         plane.normal.dot(color_from_depth.rotation() * ray);
+        if (z > 0.0 && z < nearest && plane.contains(color_from_depth * (z * ray))) nearest = z;
+      }
+      if (std::isfinite(nearest)) depth.at<float>(y, x) = static_cast<float>(nearest);
+    }
+  }
+  return depth;
+}
+
+// Largest error of the inverse depth of a plane, and the ratio of the pixels that have depth.
+double LargestError(const cv::Mat& registered, const Vector3d& normal, const LensDistortion& lens,
+                    double* coverage) {
+  double largest = 0.0;
+  int count = 0;
+  for (int y = 0; y < registered.rows; ++y) {
+    for (int x = 0; x < registered.cols; ++x) {
+      const double depth = registered.at<float>(y, x);
+      if (depth == 0.0) continue;
+      ++count;
+      largest = std::max(largest, std::abs(1.0 / depth - InverseDepthAt(normal, lens, x, y)));
+    }
+  }
+  *coverage = static_cast<double>(count) / registered.total();
+  return largest;
+}
+
+const Vector3d kPlanes[] = {{0.0, 0.0, 0.5}, {0.1, -0.08, 0.4}, {-0.6, 0.2, 0.9}};
+
+constexpr double kRounding = 2e-6;  // 1/metres, of single precision
+
+TEST(DepthRegistration, IsExactOnPlanes) {
+  for (const Vector3d& normal : kPlanes) {
+    for (const LensDistortion& lens : {LensDistortion(), Lens()}) {
+      const cv::Mat registered =
+          RegisterDepth(Rig(), Color(), lens, Measure(Rig(), {{normal}}));
+      double coverage = 0.0;
+      EXPECT_LT(LargestError(registered, normal, lens, &coverage), kRounding);
+      EXPECT_GT(coverage, 0.75);  // the depth camera sees less
+      // The plane has no hole.
+      EXPECT_EQ(cv::countNonZero(registered(cv::Rect(60, 45, 200, 150)) == 0.0f), 0);
+    }
+  }
+}
+
+TEST(DepthRegistration, IsExactForOtherSizes) {
+  for (const int factor : {1, 2, 3}) {
+    DepthCamera rig = Rig();
+    PinholeCamera& camera = rig.camera;
+    const double scale = factor == 1 ? 2.0 : 1.0 / factor;
+    camera = {scale * camera.fx, scale * camera.fy, scale * (camera.cx + 0.5) - 0.5,
+              scale * (camera.cy + 0.5) - 0.5, static_cast<int>(scale * camera.width),
+              static_cast<int>(scale * camera.height)};
+    const cv::Mat registered =
+        RegisterDepth(rig, Color(), Lens(), Measure(rig, {{kPlanes[1]}}));
+    ASSERT_EQ(registered.size(), cv::Size(320, 240));
+    double coverage = 0.0;
+    EXPECT_LT(LargestError(registered, kPlanes[1], Lens(), &coverage), kRounding);
+    EXPECT_GT(coverage, 0.7);
+    EXPECT_EQ(cv::countNonZero(registered(cv::Rect(60, 45, 200, 150)) == 0.0f), 0);
+  }
+}
+
+TEST(DepthRegistration, IsExactForTurnedAndMirroredCameras) {
+  DepthCamera rig = Rig();
+  rig.depth_from_color = {ExpSO3({0.0, 0.0, 0.7}), {0.05, -0.02, -0.01}};
+  double coverage = 0.0;
+  cv::Mat registered = RegisterDepth(rig, Color(), {}, Measure(rig, {{kPlanes[1]}}));
+  EXPECT_LT(LargestError(registered, kPlanes[1], {}, &coverage), kRounding);
+  EXPECT_EQ(cv::countNonZero(registered(cv::Rect(110, 70, 100, 100)) == 0.0f), 0);
+  rig = Rig();
+  rig.camera.fy = -rig.camera.fy;
+  registered = RegisterDepth(rig, Color(), {}, Measure(rig, {{kPlanes[1]}}));
+  EXPECT_LT(LargestError(registered, kPlanes[1], {}, &coverage), kRounding);
+  EXPECT_GT(coverage, 0.8);
+}
+
+TEST(DepthRegistration, AddsInverseDepthOffset) {
+  DepthCamera rig = Rig();
+  cv::Mat depth = Measure(rig, {{kPlanes[1]}});
+  rig.inverse_depth_offset = 0.02;
+  depth.forEach<float>([](float& z, const int*) { z = 1.0f / (1.0f / z - 0.02f); });
+  double coverage = 0.0;
+  EXPECT_LT(LargestError(RegisterDepth(rig, Color(), {}, depth), kPlanes[1], {}, &coverage),
+            kRounding);
+}
+
+// A post at one metre in front of a wall at three metres.
+std::vector<Plane> PostAndWall() {
+  return {{{0.0, 0.0, 1.0}, [](const Vector3d& x) { return std::abs(x.x()) < 0.1; }},
+          {{0.0, 0.0, 1.0 / 3.0}}};
+}
+
+TEST(DepthRegistration, OccludesAndDoesNotBridge) {
+  DepthCamera rig;
+  rig.camera = {292.0, 292.0, 160.0, 120.0, 320, 240};
+  rig.depth_from_color.translation() = Vector3d(-0.025, 0.0, 0.0);  // to the right of colour
+  const PinholeCamera color = {260.0, 260.0, 160.0, 120.0, 320, 240};
+  const cv::Mat registered = RegisterDepth(rig, color, {}, Measure(rig, PostAndWall()));
+  for (int y = 20; y < 220; ++y) {
+    for (int x = 40; x < 280; ++x) {
+      const double depth = registered.at<float>(y, x);
+      // The post is 26 px to both sides of column 160. What is beside it on the left is hidden from
+      // the depth camera: 0.025 m * 260 px * (1 - 1/3) / m = 4.3 px.
+      const double from_post = std::abs(x - 160.0) - 26.0;
+      if (std::abs(from_post) < 1.0) {
+        EXPECT_TRUE(depth == 0.0 || std::abs(depth - 1.0) < 1e-5 || std::abs(depth - 3.0) < 1e-5)
+            << x << " " << depth;
+      } else if (from_post < 0.0) {
+        EXPECT_NEAR(depth, 1.0, 1e-5) << x;
+      } else if (x < 160 && from_post < 3.4) {
+        EXPECT_EQ(depth, 0.0) << x;
+      } else if (x > 160 || from_post > 5.4) {
+        EXPECT_NEAR(depth, 3.0, 1e-5) << x;
+      }
+    }
+  }
+}
+
+TEST(DepthRegistration, DoesNotShowBackgroundThroughHoles) {
+  DepthCamera rig;
+  rig.camera = {292.0, 292.0, 160.0, 120.0, 320, 240};
+  // The depth camera sees the wall beside the right border of the post, which colour does not.
+  rig.depth_from_color.translation() = Vector3d(-0.05, 0.0, 0.0);
+  const PinholeCamera color = {260.0, 260.0, 160.0, 120.0, 320, 240};
+  cv::Mat depth = Measure(rig, PostAndWall());
+  const cv::Mat complete = RegisterDepth(rig, color, {}, depth);
+  // Points of the wall land on columns 177.3 to 186 of the colour image. A hole of the post there:
+  // colour column 180 is x = 0.0769, and depth column 160 + 292 * (0.0769 - 0.05) = 167.9.
+  ASSERT_NEAR(complete.at<float>(120, 180), 1.0, 1e-5);
+  depth(cv::Rect(167, 119, 2, 3)).setTo(0.0f);
+  const cv::Mat registered = RegisterDepth(rig, color, {}, depth);
+  int num_missing = 0;
+  for (int y = 100; y < 140; ++y) {
+    for (int x = 140; x < 185; ++x) {
+      if (registered.at<float>(y, x) == 0.0f) ++num_missing;
+      EXPECT_TRUE(registered.at<float>(y, x) < 1.1f) << x << " " << y;
+    }
+  }
+  EXPECT_GE(num_missing, 2);
+  EXPECT_LE(num_missing, 12);
+}
+
+TEST(DepthRegistration, KeepsMissingDepthAndIgnoresInvalid) {
+  cv::Mat depth = Measure(Rig(), {{kPlanes[0]}});
+  depth(cv::Rect(150, 100, 20, 20)).setTo(0.0f);
+  depth(cv::Rect(100, 100, 20, 20)).setTo(std::numeric_limits<float>::quiet_NaN());
+  depth(cv::Rect(100, 140, 20, 20)).setTo(-1.0f);
+  const cv::Mat registered = RegisterDepth(Rig(), Color(), {}, depth);
+  // 20 pixels of the depth image are 17.9 of the colour image.
+  EXPECT_NEAR(cv::countNonZero(registered(cv::Rect(60, 45, 200, 150)) == 0.0f), 3 * 17.9 * 17.9,
+              3 * 2 * 17.9);
+  double coverage = 0.0;
+  EXPECT_LT(LargestError(registered, kPlanes[0], {}, &coverage), kRounding);
+}
+
+TEST(DepthRegistration, DoesNotAddNoise) {
+  cv::Mat depth = Measure(Rig(), {{kPlanes[1]}});
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise(0.0f, 2e-3f);
+  for (int i = 0; i < static_cast<int>(depth.total()); ++i) {
+    float& z = depth.ptr<float>()[i];
+    z = 1.0f / (1.0f / z + noise(random));
+  }
+  const cv::Mat registered = RegisterDepth(Rig(), Color(), {}, depth);
+  EXPECT_EQ(cv::countNonZero(registered(cv::Rect(60, 45, 200, 150)) == 0.0f), 0);
+  double sum = 0.0, squares = 0.0;
+  for (int y = 45; y < 195; ++y) {
+    for (int x = 60; x < 260; ++x) {
+      const double error =
+          1.0 / registered.at<float>(y, x) - InverseDepthAt(kPlanes[1], {}, x, y);
+      sum += error;
+      squares += error * error;
+    }
+  }
+  const int count = 150 * 200;
+  EXPECT_LT(std::sqrt(squares / count), 1.05 * 2e-3);
+  EXPECT_LT(std::abs(sum / count), 0.05 * 2e-3);  // no preference for near measurements
+}
+
+TEST(DepthRegistration, RejectsWrongSizes) {
+  const DepthRegistration registration(Rig(), Color(), {});
+  EXPECT_THROW(registration.Register(cv::Mat(239, 320, CV_32FC1)), std::invalid_argument);
+  EXPECT_THROW(registration.Register(cv::Mat(240, 320, CV_16UC1)), std::invalid_argument);
+}
+
+TEST(DepthCamera, ErrorsNameValue) {
+  const auto error_of = [](const std::function<void(DepthCamera*)>& change) {
+    DepthCamera rig = Rig();
+    change(&rig);
+    std::string error;
+    EXPECT_FALSE(rig.IsValid(&error));
+    return error;
+  };
+  std::string error;
+  EXPECT_TRUE(Rig().IsValid(&error)) << error;
+  EXPECT_THAT(error_of([](DepthCamera* rig) { rig->camera.fx = -1.0; }),
+              HasSubstr("depth camera: fx = -1"));
+  EXPECT_THAT(error_of([](DepthCamera* rig) { rig->depth_from_color.translation().x() = 25.0; }),
+              HasSubstr("translation"));
+  EXPECT_THAT(error_of([](DepthCamera* rig) { rig->depth_from_color.rotation().w() = 2.0; }),
+              HasSubstr("rotation"));
+  EXPECT_THAT(error_of([](DepthCamera* rig) {
+                rig->depth_from_color.rotation() = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+              }),
+              HasSubstr("90 degrees"));
+  EXPECT_THAT(error_of([](DepthCamera* rig) { rig->inverse_depth_offset = 1.0; }),
+              HasSubstr("inverse_depth_offset = 1"));
+}
+
+}  // namespace
+}  // namespace msc_vo
