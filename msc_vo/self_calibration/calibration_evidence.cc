@@ -127,13 +127,15 @@ CalibrationEstimate EstimateCorrections(const CalibrationInformation& informatio
 }
 
 CalibrationEstimate SelectCorrections(const CalibrationInformation& information,
-                                      const WrongGroups& known_wrong) {
+                                      const WrongGroups& known_wrong,
+                                      const WrongGroups& known_right) {
   std::array<double, kNumModels> evidence;
   for (unsigned m = 0; m < kNumModels; ++m) evidence[m] = Solve(information, m).log_evidence;
   const unsigned known = MaskOf(known_wrong);
   unsigned best = known;
   for (unsigned m = 0; m < kNumModels; ++m) {
-    if ((m & known) == known && evidence[m] > evidence[best]) best = m;
+    if ((m & known) != known || (m & MaskOf(known_right)) != 0) continue;
+    if (evidence[m] > evidence[best]) best = m;
   }
   if (evidence[best] - evidence[known] < std::log(kAcceptedOdds)) best = known;
 

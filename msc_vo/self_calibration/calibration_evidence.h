@@ -45,8 +45,9 @@ CalibrationEstimate EstimateCorrections(const CalibrationInformation& informatio
 /// Compares the 16 models in which each group is either right, up to the errors of a good
 /// calibration, or wrong, by their evidence. A group is wrong with a prior probability of 1/11; the
 /// model is accepted if it is a hundred times more likely than a calibration that is right. Only
-/// models in which the `known_wrong` groups are wrong take part.
+/// models in which the `known_wrong` groups are wrong, and the `known_right` ones right, take part.
 CalibrationEstimate SelectCorrections(const CalibrationInformation& information,
-                                      const WrongGroups& known_wrong = {});
+                                      const WrongGroups& known_wrong = {},
+                                      const WrongGroups& known_right = {});
 
 }  // namespace msc_vo
