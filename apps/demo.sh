@@ -12,7 +12,7 @@ result=out/demo
 say() { printf '\n== %s\n' "$*"; }
 
 say "Packages"
-cmake/install_packages.sh
+cmake/install_packages.sh report
 
 say "Build"
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release

@@ -1,13 +1,18 @@
 #!/usr/bin/env bash
-# Installs the missing packages of cmake/debian_packages.txt without asking. With --optional, also
-# those of cmake/debian_packages_optional.txt, and goes on without one that cannot be installed. If
-# none is missing, it needs neither root nor a network.
+# Installs the missing packages of cmake/debian_packages.txt without asking.
+#
+#   install_packages.sh [report] [optional] [tests]
+#
+# The arguments name further lists, cmake/debian_packages_NAME.txt. It goes on without a package of
+# these that cannot be installed. If no package is missing, it needs neither root nor a network.
 set -euo pipefail
 cd "$(dirname "$0")"
-case ${1:-} in
-  '' | --optional) ;;
-  *) echo "usage: cmake/install_packages.sh [--optional]" >&2; exit 2 ;;
-esac
+for list in "$@"; do
+  if [[ ! -f debian_packages_$list.txt ]]; then
+    echo "usage: cmake/install_packages.sh [report] [optional] [tests]" >&2
+    exit 2
+  fi
+done
 
 if ! command -v dpkg-query >/dev/null; then
   echo "Not a Debian system: assuming that the packages of cmake/debian_packages.txt are installed."
@@ -25,9 +30,9 @@ missing_of() {
 
 mapfile -t missing < <(missing_of debian_packages.txt)
 optional=()
-if [[ ${1:-} == --optional ]]; then
-  mapfile -t optional < <(missing_of debian_packages_optional.txt)
-fi
+for list in "$@"; do
+  mapfile -t -O "${#optional[@]}" optional < <(missing_of "debian_packages_$list.txt")
+done
 if [[ $((${#missing[@]} + ${#optional[@]})) -eq 0 ]]; then
   exit 0
 fi

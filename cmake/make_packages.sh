@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the Debian packages of docs/packages.md into a folder (default: out/packages). Needs what
 # cmake/debian_packages.txt lists, fakeroot and dpkg-dev, and for all packages what
-# cmake/debian_packages_optional.txt lists. Environment: JOBS, the number of parallel processes
+# cmake/debian_packages_report.txt and cmake/debian_packages_optional.txt list. Environment: JOBS, the number of parallel processes
 # (default: one per processor); BUILD, the build folder (default: build-packages); DEBFULLNAME and DEBEMAIL,
 # name and mail address of the maintainer, for packages that others get.
 set -euo pipefail

@@ -21,7 +21,7 @@ summary() {
 trap summary EXIT
 
 begin "packages"
-cmake/install_packages.sh --optional
+cmake/install_packages.sh report optional tests
 begin "configure"
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release \
       -DMSC_VO_BUILD_APPS=ON -DMSC_VO_BUILD_TESTS=ON

@@ -26,29 +26,6 @@ struct Arguments {
   bool json = false;
 };
 
-const char* Name(Severity severity) {
-  switch (severity) {
-    case Severity::kGood:
-      return "ok";
-    case Severity::kWarning:
-      return "warning";
-    case Severity::kError:
-      return "error";
-  }
-  return "";
-}
-
-void PrintJson(const SequenceIndex& index, const std::vector<Finding>& findings) {
-  nlohmann::ordered_json json = {{"directory", index.directory},
-                                 {"format", index.format},
-                                 {"images", index.entries.size()},
-                                 {"findings", nlohmann::ordered_json::array()}};
-  for (const Finding& finding : findings) {
-    json["findings"].push_back({{"severity", Name(finding.severity)}, {"text", finding.text}});
-  }
-  std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
-}
-
 const char* Label(Severity severity) {
   switch (severity) {
     case Severity::kGood:

@@ -114,6 +114,11 @@ void PrintConfiguration(const Arguments& arguments, const ConfigurationArguments
   std::cout << FormatOptionsMarkdown(selection);
 }
 
+std::string OutputFolder(const Arguments& arguments) {
+  if (!arguments.output.empty()) return arguments.output;
+  return (std::filesystem::path("out") / SequenceName(arguments.sequence.directory)).string();
+}
+
 int Replay(const Arguments& arguments) {
   const ConfigurationArguments settings = WithShortcuts(arguments);
   const Configuration configuration = MakeConfiguration(settings);
@@ -124,14 +129,10 @@ int Replay(const Arguments& arguments) {
   }
   const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration, LiveCameras::kAllowed);
   PrintWarnings(decoder.index().warnings);
-  const std::vector<std::string> check_warnings = arguments.no_check || decoder.index().camera
-                                                      ? std::vector<std::string>()
-                                                      : CheckBeforeRun(decoder);
+  std::vector<std::string> check_warnings;
+  if (!arguments.no_check && !decoder.index().camera) check_warnings = CheckBeforeRun(decoder);
   PrintWarnings(check_warnings);
-  const std::string output =
-      !arguments.output.empty()
-          ? arguments.output
-          : (std::filesystem::path("out") / SequenceName(arguments.sequence.directory)).string();
+  const std::string output = OutputFolder(arguments);
   RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, output);
   MakeFolder(output);  // fails before the run if it cannot be created
   const WindowFactorCallback gravity = MakeGravityCallback(arguments.gravity, decoder.index());

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/interrupt_guard.h"
 #include "apps/cli/progress.h"
+#include "msc_vo/datasets/camera_file.h"
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/synthetic/scene/synthetic_sequence.h"
 #include "msc_vo/text/files.h"
@@ -29,7 +32,7 @@ namespace fs = std::filesystem;
 // Raw units per metre of TUM's depth images: 0.2 mm steps, 13 m at most.
 constexpr double kDepthFactor = 5000.0;
 // A line of camera.txt that identifies folders written by this command.
-constexpr char kMark[] = "# written by msc_vo synthesize";
+constexpr char kMark[] = "written by msc_vo synthesize";
 
 struct Arguments {
   std::string folder;
@@ -41,6 +44,8 @@ struct Arguments {
   int jpeg_quality = 95;
   bool overwrite = false;
   bool json = false;
+  std::vector<double> rig;  // focal length, x, y, roll; empty: registered depth
+  bool untold = false;      // the rig is not in camera.txt
   SyntheticSequenceOptions options;
 };
 
@@ -85,13 +90,24 @@ void WriteDepth(const fs::path& path, RenderedImage* image) {
   WriteImage(path, raw, {cv::IMWRITE_PNG_COMPRESSION, 6});
 }
 
-void WriteCamera(const fs::path& folder, const PinholeCamera& camera) {
-  // Numbers first, for readers that do not skip comments.
-  const std::string numbers =
-      FormatText("%.17g %.17g %.17g %.17g %d %d %.17g", camera.fx, camera.fy, camera.cx, camera.cy,
-                 camera.width, camera.height, kDepthFactor);
-  WriteFile((folder / "camera.txt").string(),
-            numbers + "\n# fx fy cx cy width height depth_factor\n" + kMark + "\n");
+// The rig that --rig describes; none without.
+std::optional<DepthRig> MakeRig(const std::vector<double>& numbers) {
+  if (numbers.empty()) return std::nullopt;
+  const Eigen::AngleAxisd roll(DegreesToRadians(numbers[3]), Eigen::Vector3d::UnitZ());
+  return DepthRig{numbers[0],
+                  {Eigen::Quaterniond(roll), Eigen::Vector3d(numbers[1], numbers[2], 0.0)}};
+}
+
+// What camera.txt tells of the cameras.
+Calibration ToldCalibration(const Arguments& arguments, const SyntheticSequence& sequence,
+                            const std::optional<DepthRig>& rig) {
+  Calibration calibration;
+  calibration.camera = sequence.camera();
+  calibration.depth_scale = kDepthFactor;
+  if (rig && !arguments.untold) {
+    calibration.depth_camera = DepthCamera{sequence.depth_camera(), rig->depth_from_color};
+  }
+  return calibration;
 }
 
 std::string PoseLine(const std::string& stamp, const Rigid3& world_from_cam) {
@@ -132,11 +148,13 @@ int Run(const Arguments& arguments) {
   options.scene = *SceneKindFromName(arguments.scene);
   options.height = arguments.height > 0 ? arguments.height : options.width * 3 / 4;
   options.kinect_depth = arguments.noise == "kinect";
+  options.depth_rig = MakeRig(arguments.rig);
   const SyntheticSequence sequence(options);
 
   const fs::path folder = arguments.folder;
   PrepareFolder(folder, arguments.overwrite);
-  WriteCamera(folder, sequence.camera());
+  WriteFile((folder / "camera.txt").string(),
+            FormatCameraFile(ToldCalibration(arguments, sequence, options.depth_rig), kMark));
   std::vector<LineSegment3> edges = sequence.scene().edges;
   const std::vector<LineSegment3> painted = sequence.scene().PaintedEdges();
   edges.insert(edges.end(), painted.begin(), painted.end());
@@ -168,6 +186,19 @@ int Run(const Arguments& arguments) {
   progress.Finish();
   if (arguments.json) PrintJson(arguments, sequence.camera(), num_done);
   return guard.IsInterrupted() ? kExitInterrupted : kExitSuccess;
+}
+
+void AddRigArguments(CLI::App* command, Arguments* arguments) {
+  CLI::Option* rig =
+      command
+          ->add_option("--rig", arguments->rig,
+                       "FX,TX,TY,ROLL: a second camera records depth, which is not registered: "
+                       "focal length in pixels, translation of depth_from_color in metres, roll in "
+                       "degrees")
+          ->delimiter(',')
+          ->expected(4);
+  command->add_flag("--untold", arguments->untold, "Leave the depth camera out of camera.txt")
+      ->needs(rig);
 }
 
 }  // namespace
@@ -216,6 +247,7 @@ Command AddSynthesizeCommand(CLI::App* app) {
       ->add_option("--image-sigma", arguments->options.image_sigma,
                    "Noise of colour images, standard deviation in grey levels")
       ->capture_default_str();
+  AddRigArguments(command, arguments.get());
   CLI::Option* jpeg = command->add_flag("--jpeg", arguments->jpeg, "Write colour images as JPEG");
   command->add_option("--jpeg-quality", arguments->jpeg_quality, "JPEG quality, 1 to 100")
       ->check(CLI::Range(1, 100))

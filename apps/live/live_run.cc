@@ -40,11 +40,16 @@ bool LiveRun::IsWatched(Clock::duration within) const {
   return last_request_ && Clock::now() - *last_request_ <= within;
 }
 
+bool LiveRun::WantsView() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return view_is_wanted_;
+}
+
 void LiveRun::Show(const TrackedImage& tracked) {
   if (!IsWatched(kWatchedWithin)) return;
   const Clock::time_point now = Clock::now();
   const bool is_paused = pacing_.is_paused();  // then every step is shown
-  if (is_paused || now - view_time_ >= kViewInterval) {
+  if (is_paused || (WantsView() && now - view_time_ >= kViewInterval)) {
     auto view = std::make_shared<FrameView>();
     view->frame = static_cast<int>(tracked.result.id);
     view->jpeg = EncodeThumbnail(tracked.image.gray);
@@ -52,6 +57,7 @@ void LiveRun::Show(const TrackedImage& tracked) {
     view_time_ = now;
     const std::lock_guard<std::mutex> lock(mutex_);
     view_ = std::move(view);
+    view_is_wanted_ = false;
   }
   const bool is_new = &tracked.map != shown_map_ || tracked.map.newest_keyframe != shown_keyframe_;
   if (is_new && (is_paused || now - map_time_ >= kMapInterval)) {
@@ -118,7 +124,10 @@ std::string LiveRun::Update(int num_frames, int map_version, int view) {
     update.map_version = map_version_;
     if (map_version != map_version_) map = map_;
     // A viewer does not get the image of a frame before the frame itself.
-    if (view_ && view_->frame != view && view_->frame < end) frame_view = view_;
+    if (view_ && view_->frame != view && view_->frame < end) {
+      frame_view = view_;
+      view_is_wanted_ = true;
+    }
     if (report_) update.state = "finished";
   }
   update.map = map.get();

@@ -66,6 +66,7 @@ class LiveRun {
   using Clock = std::chrono::steady_clock;
 
   bool IsWatched(Clock::duration within) const;
+  bool WantsView() const;
 
   LiveRunOptions options_;
   std::string id_;
@@ -76,6 +77,7 @@ class LiveRun {
   std::shared_ptr<const ReportMap> map_;
   int map_version_ = -1;
   std::shared_ptr<const FrameView> view_;
+  bool view_is_wanted_ = true;  // nobody waits for another one before the last was taken
   std::shared_ptr<const std::string> report_;
   std::optional<Clock::time_point> last_request_;
   bool report_was_sent_ = false;

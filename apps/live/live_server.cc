@@ -5,7 +5,9 @@
 
 #include <cerrno>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -41,6 +43,16 @@ bool IsLoopback(const std::string& name) {
          (is_number && name.rfind("127.", 0) == 0);
 }
 
+// Answers with a text. A content provider keeps httplib from compressing it, which would take a
+// processor away from the run.
+void Send(std::shared_ptr<const std::string> text, const char* type, httplib::Response* response) {
+  const size_t size = text->size();
+  response->set_content_provider(
+      size, type, [text = std::move(text)](size_t offset, size_t length, httplib::DataSink& sink) {
+        return sink.write(text->data() + offset, length);
+      });
+}
+
 // An integer parameter of a request, `otherwise` if it is missing or none.
 int IntParameter(const httplib::Request& request, const char* name, int otherwise) {
   const std::optional<double> number = ParseNumber(request.get_param_value(name));
@@ -55,7 +67,7 @@ bool HasLiveServer() { return HasViewer(); }
 
 struct LiveServer::State {
   httplib::Server server;
-  std::string page;
+  std::shared_ptr<const std::string> page;
   LiveRun* run = nullptr;
   int port = 0;
   std::thread thread;
@@ -89,18 +101,18 @@ void LiveServer::State::Route(bool only_loopback) {
     return httplib::Server::HandlerResponse::Handled;
   });
   server.Get("/", [this](const Request&, Response& response) {
-    response.set_content(page, "text/html; charset=utf-8");
+    Send(page, "text/html; charset=utf-8", &response);
   });
   server.Get("/data", [this](const Request& request, Response& response) {
-    response.set_content(
+    const std::string update =
         run->Update(IntParameter(request, "frames", 0), IntParameter(request, "map", -1),
-                    IntParameter(request, "view", -1)),
-        "application/json");
+                    IntParameter(request, "view", -1));
+    Send(std::make_shared<const std::string>(update), "application/json", &response);
   });
   server.Get("/report", [this](const Request&, Response& response) {
     const std::shared_ptr<const std::string> report = run->Report();
     if (report) {
-      response.set_content(*report, "text/html; charset=utf-8");
+      Send(report, "text/html; charset=utf-8", &response);
     } else {
       response.status = 404;
     }
@@ -115,7 +127,7 @@ void LiveServer::State::Route(bool only_loopback) {
 
 LiveServer::LiveServer(const std::string& address, int port, std::string page, LiveRun* run)
     : state_(std::make_unique<State>()) {
-  state_->page = std::move(page);
+  state_->page = std::make_shared<const std::string>(std::move(page));
   state_->run = run;
   state_->SetLimits();
   state_->Route(IsLoopback(address));

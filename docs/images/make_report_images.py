@@ -20,8 +20,8 @@ import browser  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
 WIDTH = 1180
-REPORT_HEIGHT = 820  # title, numbers, view, slider
-LIVE_HEIGHT = 745
+REPORT_HEIGHT = 890  # title, numbers, view, slider
+LIVE_HEIGHT = 800
 
 
 def save(page, name, theme, height):
@@ -36,18 +36,23 @@ def save(page, name, theme, height):
     print(f"{path.relative_to(ROOT)}: {path.stat().st_size // 1024} kB")
 
 
-def capture_report(page, command, sequence, output):
-    subprocess.run([command, "replay", sequence, "--output", output, "--quiet"], check=True)
-    page.driver.get((pathlib.Path(output) / "report.html").as_uri())
+def replay(command, work, *more, **options):
+    """Starts a replay of `work`/room whose command line in the pictures is short."""
+    return subprocess.Popen(["msc_vo", "replay", "room", *more], executable=command, cwd=work,
+                            stdout=subprocess.DEVNULL, text=True, **options)
+
+
+def capture_report(page, command, work):
+    if replay(command, work, stderr=subprocess.DEVNULL).wait() != 0:
+        sys.exit("the replay failed")
+    page.driver.get((work / "out" / "room" / "report.html").as_uri())
     for theme in ("light", "dark"):
         save(page, "report", theme, REPORT_HEIGHT)
 
 
-def capture_live(page, command, sequence, output):
-    run = subprocess.Popen([command, "replay", sequence, "--output", output, "--quiet", "--view", "0"],
-                           stderr=subprocess.PIPE, text=True)
-    url = re.search(r"http://\S+", run.stderr.readline()).group()
-    page.driver.get(url)
+def capture_live(page, command, work):
+    run = replay(command, work, "--view", stderr=subprocess.PIPE)
+    page.driver.get(re.search(r"http://\S+", run.stderr.readline()).group())
     page.wait_for(lambda: int((re.findall(r"(\d+) of", page.text("#live-state")) or [0])[0]) > 150,
                   seconds=60, what="150 frames")
     page.click("#live-pause")
@@ -57,7 +62,7 @@ def capture_live(page, command, sequence, output):
     for theme in ("light", "dark"):
         save(page, "live", theme, LIVE_HEIGHT)
     run.terminate()
-    run.wait()
+    run.communicate()
 
 
 def main():
@@ -65,14 +70,15 @@ def main():
     command = str(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/apps/msc_vo").resolve())
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
-        sequence = sys.argv[2] if len(sys.argv) > 2 else str(work / "room")
-        if len(sys.argv) <= 2:
-            subprocess.run([command, "synthesize", sequence, "--scene", "room", "--frames", "260",
-                            "--noise", "kinect"], check=True)
+        if len(sys.argv) > 2:
+            (work / "room").symlink_to(pathlib.Path(sys.argv[2]).resolve())
+        else:
+            subprocess.run([command, "synthesize", str(work / "room"), "--scene", "room", "--frames",
+                            "260", "--noise", "kinect"], check=True)
         page = browser.Browser()
         try:
-            capture_report(page, command, sequence, str(work / "report"))
-            capture_live(page, command, sequence, str(work / "live"))
+            capture_report(page, command, work)
+            capture_live(page, command, work)
         finally:
             page.close()
 

@@ -30,6 +30,24 @@ void ListDistortion(CameraSettings* camera, OptionLister* list) {
   }
 }
 
+void ListDepthCamera(DepthCameraSettings* camera, OptionLister* list) {
+  list->Add("fx", &camera->fx, AnyNumber("pixels"),
+            "Focal length in x of a depth camera whose images are not registered to colour.");
+  list->Add("fy", &camera->fy, AnyNumber("pixels"), "Its focal length in y.");
+  list->Add("cx", &camera->cx, AnyNumber("pixels"), "Its principal point in x.");
+  list->Add("cy", &camera->cy, AnyNumber("pixels"), "Its principal point in y.");
+  list->Add("width", &camera->width, AnyNumber("pixels"),
+            "Width of the depth images; if not set, that of the first one.");
+  list->Add("height", &camera->height, AnyNumber("pixels"),
+            "Height of the depth images; if not set, that of the first one.");
+  list->AddList("translation", &camera->translation, 3,
+                "Translation of depth_from_color, metres; if not set, zero.");
+  list->AddList("rotation", &camera->rotation, 4,
+                "Rotation of depth_from_color, quaternion x y z w; if not set, none.");
+  list->Add("inverse_depth_offset", &camera->inverse_depth_offset, AnyNumber("1/metres"),
+            "Added to every measured inverse depth; if not set, 0.");
+}
+
 void ListCamera(CameraSettings* camera, OptionLister* list) {
   list->Add("preset", &camera->preset,
             "Name of a built-in camera (msc_vo replay --help lists them), instead of the numbers "
@@ -53,6 +71,7 @@ void ListCamera(CameraSettings* camera, OptionLister* list) {
             "Raw depth units per metre.")
       .MakeBasic(kWhenUnknown);
   ListDistortion(camera, list);
+  list->Section("depth_camera", &camera->depth_camera, ListDepthCamera);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include "msc_vo/config/option_list.h"
 #include "msc_vo/text/similar_name.h"
@@ -38,6 +39,23 @@ std::optional<int> ParseInt(const std::string& text) {
   return value;
 }
 
+// Parses "[1, 2, 3]" or "1,2,3"; none unless it has `size` finite numbers.
+std::optional<std::vector<double>> ParseList(std::string text, size_t size) {
+  text = Trimmed(text);
+  if (text.size() >= 2 && text.front() == '[' && text.back() == ']') {
+    text = text.substr(1, text.size() - 2);
+  }
+  std::vector<double> values;
+  std::istringstream items(text);
+  for (std::string item; std::getline(items, item, ',');) {
+    const std::optional<double> value = ParseFinite(Trimmed(item));
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  if (values.size() != size) return std::nullopt;
+  return values;
+}
+
 // Assigns the parsed value; returns false if there is none.
 template <typename Target, typename T>
 bool Assign(const std::optional<T>& parsed, Target* target) {
@@ -50,6 +68,12 @@ template <typename Target, typename T>
 bool Assign(const std::optional<T>& parsed, const std::optional<Range>& range, Target* target) {
   if (parsed && range && !range->Contains(*parsed)) return false;
   return Assign(parsed, target);
+}
+
+std::string FormatList(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "[" : ", ") + FormatNumber(value);
+  return text + "]";
 }
 
 struct Setter {
@@ -69,6 +93,10 @@ struct Setter {
     *value = text;
     return true;
   }
+  bool operator()(const NumberList& list) const {
+    *expected = "a list of " + std::to_string(list.size) + " numbers, like " + Example(list.size);
+    return Assign(ParseList(text, list.size), list.values);
+  }
   bool operator()(const Choice& choice) const {
     *expected = "one of";
     for (const std::string& name : choice.names) *expected += " " + name;
@@ -79,6 +107,10 @@ struct Setter {
   }
 
  private:
+  static std::string Example(size_t size) {
+    const std::vector<double> zeros(size, 0.0);
+    return FormatList(zeros);
+  }
   template <typename Target>
   bool SetInt(Target* value) const {
     *expected = "a whole number" + RangeText();
@@ -105,6 +137,9 @@ struct Formatter {
   std::string operator()(const std::optional<double>* value) const {
     return *value ? FormatNumber(**value) : "";
   }
+  std::string operator()(const NumberList& list) const {
+    return list.values->empty() ? "" : FormatList(*list.values);
+  }
   std::string operator()(const Choice& choice) const { return choice.names.at(choice.get()); }
 };
 
@@ -126,6 +161,9 @@ std::string FormatOption(const Option& option) { return std::visit(Formatter{}, 
 
 std::string FormatValidValues(const Option& option) {
   if (const Choice* choice = std::get_if<Choice>(&option.value)) return Join(choice->names);
+  if (const NumberList* list = std::get_if<NumberList>(&option.value)) {
+    return std::to_string(list->size) + " numbers";
+  }
   if (std::holds_alternative<bool*>(option.value)) return "true, false";
   return option.range ? ToString(*option.range) : "";
 }

@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include <yaml-cpp/yaml.h>
 
@@ -55,10 +56,24 @@ class YamlReader {
                                       "msc_vo replay --print-config --all lists the known ones"));
     }
     std::string expected = "a value";
-    if (!node.IsScalar() || !SetOption(*option, node.Scalar(), &expected)) {
+    const bool is_list = std::holds_alternative<NumberList>(option->value);
+    const bool is_text = is_list ? node.IsSequence() : node.IsScalar();
+    const std::string text = is_list ? ListText(node) : node.IsScalar() ? node.Scalar() : "";
+    if (!is_text || !SetOption(*option, text, &expected)) {
+      if (is_list) SetOption(*option, "", &expected);
       Fail(line, "'" + path + "' must be " + expected +
-                     (node.IsScalar() ? ", not '" + node.Scalar() + "'" : ""));
+                     (is_text && !text.empty() ? ", not '" + text + "'" : ""));
     }
+  }
+
+  // The scalars of a sequence as text; empty if the node is none.
+  static std::string ListText(const YAML::Node& node) {
+    std::string text;
+    if (!node.IsSequence()) return text;
+    for (const YAML::Node& item : node) {
+      text += (text.empty() ? "[" : ", ") + (item.IsScalar() ? item.Scalar() : std::string("?"));
+    }
+    return text + "]";
   }
 
   std::string file_;

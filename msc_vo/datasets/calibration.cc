@@ -24,6 +24,7 @@ constexpr double kMaxDepthScale = 1e5;
 bool Calibration::IsValid(std::string* error) const {
   if (!camera.IsValid(error)) return false;
   if (!IsInvertible(distortion, camera, error)) return false;
+  if (depth_camera && !depth_camera->IsValid(error)) return false;
   if (!(depth_scale >= kMinDepthScale && depth_scale <= kMaxDepthScale)) {
     *error = "camera: depth_scale = " + FormatNumber(depth_scale) + " must be from " +
              FormatNumber(kMinDepthScale) + " to " + FormatNumber(kMaxDepthScale) +
@@ -39,8 +40,21 @@ bool Calibration::IsValid(std::string* error) const {
   return true;
 }
 
+std::optional<Eigen::Quaterniond> NormalizedQuaternion(const std::vector<double>& xyzw) {
+  constexpr double kMaxLengthError = 0.05;
+  const Eigen::Quaterniond rotation(xyzw.at(3), xyzw.at(0), xyzw.at(1), xyzw.at(2));
+  if (!(std::abs(rotation.norm() - 1.0) <= kMaxLengthError)) return std::nullopt;
+  return rotation.normalized();
+}
+
+bool DepthCameraSettings::IsEmpty() const {
+  return !fx && !fy && !cx && !cy && !width && !height && translation.empty() && rotation.empty() &&
+         !inverse_depth_offset;
+}
+
 bool CameraSettings::IsEmpty() const {
   return preset.empty() && !fx && !fy && !cx && !cy && !width && !height && !depth_scale &&
+         depth_camera.IsEmpty() &&
          std::none_of(distortion.begin(), distortion.end(),
                       [](const std::optional<double>& k) { return k.has_value(); });
 }

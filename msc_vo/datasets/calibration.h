@@ -6,12 +6,16 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "msc_vo/camera/lens_distortion.h"
+#include "msc_vo/sensor/depth_camera.h"
 
 namespace msc_vo {
 
 /// Calibration of an RGB-D camera: intrinsics, lens distortion, depth scale and readout time.
+/// `camera` and `distortion` are those of the colour images, and of the depth images too unless
+/// there is a depth camera.
 struct Calibration {
   static constexpr char kSelfCalibrated[] = "self-calibrated from the images";
 
@@ -23,9 +27,23 @@ struct Calibration {
   std::optional<double> readout_time;
   std::string readout_origin = kSelfCalibrated;  ///< source of the readout time, for messages
   std::string origin;  ///< source of the other values, for messages: "camera.txt"
+  /// Camera of depth images that are not registered to the colour images; none: they are.
+  std::optional<DepthCamera> depth_camera = {};
 
   /// If the calibration is invalid, `error` names the value and its valid range.
   bool IsValid(std::string* error) const;
+};
+
+/// The section camera.depth_camera of a configuration, see DepthCamera.
+struct DepthCameraSettings {
+  std::optional<double> fx, fy, cx, cy;
+  std::optional<int> width, height;
+  std::vector<double> translation;             ///< x y z, metres; empty: not set
+  std::vector<double> rotation;                ///< quaternion x y z w; empty: not set
+  std::optional<double> inverse_depth_offset;  ///< 1/metres
+
+  /// Tests whether no value is set.
+  bool IsEmpty() const;
 };
 
 /// The camera section of a configuration. Values that are not set come from other sources, see
@@ -36,10 +54,15 @@ struct CameraSettings {
   std::optional<int> width, height;
   std::optional<double> depth_scale;                ///< raw depth units per metre
   std::array<std::optional<double>, 5> distortion;  ///< k1 k2 p1 p2 k3
-  std::string origin;                               ///< the file, for messages
+  DepthCameraSettings depth_camera;
+  std::string origin;  ///< the file, for messages
 
   /// Tests whether no value is set.
   bool IsEmpty() const;
 };
+
+/// Returns the unit quaternion of four numbers x y z w as a file gives them; none if their length
+/// differs from 1 by more than 5 %.
+std::optional<Eigen::Quaterniond> NormalizedQuaternion(const std::vector<double>& xyzw);
 
 }  // namespace msc_vo

@@ -13,9 +13,19 @@ namespace msc_vo {
 inline constexpr char kCameraFileFormat[] =
     "'fx fy cx cy width height depth_scale [k1 k2 p1 p2 k3]'";
 
+/// Line of a camera file that describes a depth camera, for messages.
+inline constexpr char kDepthCameraFormat[] =
+    "'depth_camera fx fy cx cy width height tx ty tz [qx qy qz qw]'";
+
 /// Reads camera.txt: one line 'fx fy cx cy width height depth_scale [k1 k2 p1 p2 k3]' with the
-/// distortion in OpenCV's order, and an optional second line 'readout_time SECONDS'. Comments start
-/// with #. Throws std::runtime_error naming file, line and fix.
+/// distortion in OpenCV's order, and two optional lines after it, in any order: 'readout_time
+/// SECONDS' and 'depth_camera fx fy cx cy width height tx ty tz [qx qy qz qw]', the camera of depth
+/// images that are not registered and its transform depth_from_color (metres; without a quaternion,
+/// the axes are parallel). Comments start with #. Throws std::runtime_error naming file, line and
+/// fix.
 Calibration ReadCameraFile(const std::string& path);
+
+/// The text of camera.txt, with a comment line.
+std::string FormatCameraFile(const Calibration& calibration, const std::string& comment);
 
 }  // namespace msc_vo

@@ -22,6 +22,13 @@ CameraPreset Preset(const std::string& name, const PinholeCamera& camera, double
   return {name, {camera, distortion, depth_scale, readout_time, readout_origin, origin}};
 }
 
+// Adds a depth camera with axes parallel to those of the colour camera.
+CameraPreset WithDepthCamera(CameraPreset preset, const PinholeCamera& camera,
+                             const Eigen::Vector3d& translation) {
+  preset.calibration.depth_camera = {camera, {Eigen::Quaterniond::Identity(), translation}};
+  return preset;
+}
+
 // Readout time of a Kinect's colour camera, seconds. Chosen by measurement, see
 // docs/lab/rolling_shutter.md.
 constexpr double kKinectReadout = 0.026;
@@ -42,6 +49,11 @@ const std::vector<CameraPreset>& CameraPresets() {
       // The images are mirrored: y points up.
       Preset("icl-nuim", {481.20, -480.00, 319.50, 239.50, 640, 480}, 5000.0, {}, kGlobalShutter),
       Preset("7-scenes", {585.0, 585.0, 320.0, 240.0, 640, 480}, 1000.0, {}, kKinectReadout),
+      // The same with the colour camera of a first-generation structured-light camera 25 mm beside
+      // the depth camera; nominal.
+      WithDepthCamera(Preset("7-scenes-unregistered", {525.0, 525.0, 320.0, 240.0, 640, 480},
+                             1000.0, {}, kKinectReadout),
+                      {585.0, 585.0, 320.0, 240.0, 640, 480}, {0.025, 0.0, 0.0}),
       Preset("replica", {600.0, 600.0, 599.5, 339.5, 1200, 680}, 6553.5, {}, kGlobalShutter),
   };
   return *presets;

@@ -96,7 +96,11 @@ cv::Mat ToMetres(const cv::Mat& raw, double depth_scale, int invalid_depth) {
 }  // namespace
 
 RgbdDecoder::RgbdDecoder(SequenceIndex index, Calibration calibration)
-    : index_(std::move(index)), calibration_(std::move(calibration)) {}
+    : index_(std::move(index)), calibration_(std::move(calibration)) {
+  if (!calibration_.depth_camera) return;
+  registration_ = std::make_shared<DepthRegistration>(*calibration_.depth_camera,
+                                                      calibration_.camera, calibration_.distortion);
+}
 
 RgbdImage RgbdDecoder::Decode(int i) const {
   try {
@@ -180,29 +184,49 @@ RgbdImage RgbdDecoder::MakeImage(int i, const SequenceEntry& entry, cv::Mat colo
              "; depth images need 1 channel of 16 bits (a visualisation of the depth does not "
              "contain the measurements)");
   }
-  const PinholeCamera& camera = calibration_.camera;
-  if (depth.cols != camera.width || depth.rows != camera.height) {
-    Fail(entry.depth_path, entry,
-         "is " + SizeText(depth.cols, depth.rows) + ", but the camera is " +
-             SizeText(camera.width, camera.height) + " (" + calibration_.origin +
-             "); give the calibration of these images");
+  CheckDepthSize(depth, entry);
+  const cv::Size size(calibration_.camera.width, calibration_.camera.height);
+  if (index_.scale_color && color.cols > size.width && color.rows > size.height) {
+    cv::resize(color, color, size, 0.0, 0.0, cv::INTER_AREA);
   }
-  if (index_.scale_color && color.cols > depth.cols && color.rows > depth.rows) {
-    cv::resize(color, color, depth.size(), 0.0, 0.0, cv::INTER_AREA);
-  }
-  if (color.size() != depth.size()) {
-    Fail(entry.color_path, entry,
-         "is " + SizeText(color.cols, color.rows) + ", but its depth image " + entry.depth_path +
-             " is " + SizeText(depth.cols, depth.rows) +
-             "; register the depth to the colour image first");
-  }
+  CheckColorSize(color, depth, entry);
   RgbdImage image;
   image.id = i;
   image.timestamp = entry.timestamp;
   image.depth_delay = entry.depth_delay;
   image.gray = ToGray(color);
   image.depth = ToMetres(depth, calibration_.depth_scale, index_.invalid_depth);
+  if (registration_) image.depth = registration_->Register(image.depth);
   return image;
+}
+
+void RgbdDecoder::CheckDepthSize(const cv::Mat& depth, const SequenceEntry& entry) const {
+  const bool has_depth_camera = calibration_.depth_camera.has_value();
+  const PinholeCamera& camera =
+      has_depth_camera ? calibration_.depth_camera->camera : calibration_.camera;
+  if (depth.cols == camera.width && depth.rows == camera.height) return;
+  Fail(entry.depth_path, entry,
+       "is " + SizeText(depth.cols, depth.rows) + ", but the " +
+           (has_depth_camera ? "depth camera" : "camera") + " is " +
+           SizeText(camera.width, camera.height) + " (" + calibration_.origin +
+           "); give the calibration of these images");
+}
+
+void RgbdDecoder::CheckColorSize(const cv::Mat& color, const cv::Mat& depth,
+                                 const SequenceEntry& entry) const {
+  const PinholeCamera& camera = calibration_.camera;
+  if (color.cols == camera.width && color.rows == camera.height) return;
+  const std::string size = "is " + SizeText(color.cols, color.rows);
+  if (calibration_.depth_camera) {
+    Fail(entry.color_path, entry,
+         size + ", but the camera is " + SizeText(camera.width, camera.height) + " (" +
+             calibration_.origin + "); give the calibration of these images");
+  }
+  Fail(entry.color_path, entry,
+       size + ", but its depth image " + entry.depth_path + " is " +
+           SizeText(depth.cols, depth.rows) +
+           "; register the depth to the colour image first, or describe the depth camera in "
+           "camera.txt");
 }
 
 }  // namespace msc_vo

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "msc_vo/datasets/image_container.h"
 #include "msc_vo/datasets/rgbd_camera.h"
 #include "msc_vo/datasets/sequence.h"
+#include "msc_vo/sensor/depth_registration.h"
 #include "msc_vo/sensor/rgbd_image.h"
 
 namespace msc_vo {
@@ -36,7 +38,8 @@ struct StoredRgbd {
 /// Decodes the images of a sequence. Thread-safe: has no mutable state.
 class RgbdDecoder {
  public:
-  /// `calibration` must be valid; its image size is that of the depth images.
+  /// `calibration` must be valid; without a depth camera, its image size is also that of the depth
+  /// images.
   RgbdDecoder(SequenceIndex index, Calibration calibration);
 
   int size() const { return static_cast<int>(index_.entries.size()); }
@@ -44,8 +47,8 @@ class RgbdDecoder {
   const Calibration& calibration() const { return calibration_; }
 
   /// Decodes entry i, 0 <= i < size(): converts colour to grey and depth to metres (0: no
-  /// measurement), and scales colour down to the size of depth if the index requires it. The id of
-  /// the image is i.
+  /// measurement), scales colour down to the size of the camera if the index requires it, and
+  /// registers depth to colour if the calibration has a depth camera. The id of the image is i.
   /// Throws UnreadableImage if a file is missing, damaged, of another size than the camera, or of
   /// the wrong bit depth.
   RgbdImage Decode(int i) const;
@@ -63,9 +66,12 @@ class RgbdDecoder {
   StoredRgbd ReadStored(int i) const;
   RgbdImage DecodePair(int i, const StoredRgbd& stored) const;
   RgbdImage MakeImage(int i, const SequenceEntry& entry, cv::Mat color, const cv::Mat& depth) const;
+  void CheckDepthSize(const cv::Mat& depth, const SequenceEntry& entry) const;
+  void CheckColorSize(const cv::Mat& color, const cv::Mat& depth, const SequenceEntry& entry) const;
 
   SequenceIndex index_;
   Calibration calibration_;
+  std::shared_ptr<const DepthRegistration> registration_;  // null: depth is registered
 };
 
 }  // namespace msc_vo

@@ -3,6 +3,7 @@
 
 #include "msc_vo/datasets/sequence_calibration.h"
 
+#include <optional>
 #include <stdexcept>
 
 #include <opencv2/imgcodecs.hpp>
@@ -30,6 +31,45 @@ void Apply(const CameraSettings& settings, Calibration* calibration) {
     double& k = calibration->distortion.k[i];
     k = settings.distortion[i].value_or(k);
   }
+}
+
+// Overwrites the values that are set; the image size is 0 if nothing gives it. Throws
+// std::runtime_error if there is no complete depth camera.
+void Apply(const DepthCameraSettings& settings, const std::string& origin,
+           std::optional<DepthCamera>* depth_camera) {
+  if (settings.IsEmpty()) return;
+  if (!*depth_camera) {
+    if (!settings.fx || !settings.fy || !settings.cx || !settings.cy) {
+      throw std::runtime_error(origin +
+                               ": camera.depth_camera must give fx, fy, cx and cy, because "
+                               "no other source describes a depth camera");
+    }
+    *depth_camera = DepthCamera();
+    (*depth_camera)->camera.width = 0;  // unknown
+    (*depth_camera)->camera.height = 0;
+  }
+  PinholeCamera& camera = (*depth_camera)->camera;
+  camera.fx = settings.fx.value_or(camera.fx);
+  camera.fy = settings.fy.value_or(camera.fy);
+  camera.cx = settings.cx.value_or(camera.cx);
+  camera.cy = settings.cy.value_or(camera.cy);
+  camera.width = settings.width.value_or(camera.width);
+  camera.height = settings.height.value_or(camera.height);
+  Rigid3& depth_from_color = (*depth_camera)->depth_from_color;
+  if (!settings.translation.empty()) {
+    depth_from_color.translation() = Eigen::Vector3d::Map(settings.translation.data());
+  }
+  if (!settings.rotation.empty()) {
+    const std::optional<Eigen::Quaterniond> rotation = NormalizedQuaternion(settings.rotation);
+    if (!rotation) {
+      throw std::runtime_error(origin +
+                               ": camera.depth_camera.rotation must be a quaternion "
+                               "[x, y, z, w] of length 1");
+    }
+    depth_from_color.rotation() = *rotation;
+  }
+  double& offset = (*depth_camera)->inverse_depth_offset;
+  offset = settings.inverse_depth_offset.value_or(offset);
 }
 
 bool IsComplete(const CameraSettings& settings) {
@@ -79,18 +119,29 @@ Calibration BaseCalibration(const CameraSettings& settings, const std::string& p
   return GuessedPreset(index->preset);
 }
 
-// Size of the first depth image.
-ImageSize DepthSize(const SequenceIndex& index) {
+enum class ImageKind { kColor, kDepth };
+
+ImageSize FirstImageSize(const SequenceIndex& index, ImageKind kind) {
   if (index.entries.empty()) {
     throw std::runtime_error(index.directory +
                              ": give the size of the images, camera.width and camera.height");
   }
   const SequenceEntry& first = index.entries.front();
-  if (!index.container) return ReadImageSize(first.depth_path);
-  const StoredImage stored = index.container->ReadDepth(first.depth_index);
+  const bool is_depth = kind == ImageKind::kDepth;
+  if (!index.container) return ReadImageSize(is_depth ? first.depth_path : first.color_path);
+  const StoredImage stored = is_depth ? index.container->ReadDepth(first.depth_index)
+                                      : index.container->ReadColor(first.color_index);
   const cv::Mat image =
       stored.bytes.empty() ? stored.pixels : DecodeImage(stored.bytes, cv::IMREAD_UNCHANGED);
   return {image.cols, image.rows};
+}
+
+// Takes the size of the first image of a kind if the camera has none.
+void SetMissingSize(const SequenceIndex& index, ImageKind kind, PinholeCamera* camera) {
+  if (camera->width != 0 && camera->height != 0) return;
+  const ImageSize size = FirstImageSize(index, kind);
+  camera->width = size.width;
+  camera->height = size.height;
 }
 
 }  // namespace
@@ -100,16 +151,17 @@ Calibration ResolveCalibration(const CameraSettings& settings, const std::string
   Calibration calibration = BaseCalibration(settings, preset, index);
   if (index->depth_scale) calibration.depth_scale = *index->depth_scale;
   Apply(settings, &calibration);
+  Apply(settings.depth_camera, settings.origin, &calibration.depth_camera);
   if (calibration.origin.empty()) {
     calibration.origin = settings.origin;
   } else if (!settings.IsEmpty()) {
     calibration.origin += ", " + settings.origin;
   }
-  PinholeCamera& camera = calibration.camera;
-  if (camera.width == 0 || camera.height == 0) {
-    const ImageSize size = DepthSize(*index);
-    camera.width = size.width;
-    camera.height = size.height;
+  if (calibration.depth_camera) {
+    SetMissingSize(*index, ImageKind::kColor, &calibration.camera);
+    SetMissingSize(*index, ImageKind::kDepth, &calibration.depth_camera->camera);
+  } else {
+    SetMissingSize(*index, ImageKind::kDepth, &calibration.camera);
   }
   std::string error;
   if (!calibration.IsValid(&error)) {

@@ -10,6 +10,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -26,21 +27,6 @@ std::string PrepareFolder(const std::string& folder) {
   }
   for (const char* images : {"rgb", "depth"}) MakeFolder((fs::path(folder) / images).string());
   return folder;
-}
-
-std::string CameraText(const Calibration& calibration, const std::string& comment) {
-  const PinholeCamera& camera = calibration.camera;
-  std::string text =
-      FormatText("%.17g %.17g %.17g %.17g %d %d %.17g", camera.fx, camera.fy, camera.cx, camera.cy,
-                 camera.width, camera.height, calibration.depth_scale);
-  if (!calibration.distortion.IsZero()) {
-    for (const double k : calibration.distortion.k) text += FormatText(" %.17g", k);
-  }
-  text += "\n";
-  if (calibration.readout_time) {
-    text += FormatText("readout_time %.17g\n", *calibration.readout_time);
-  }
-  return text + "# fx fy cx cy width height depth_scale [k1 k2 p1 p2 k3]\n# " + comment + "\n";
 }
 
 // Raw depth; what is not finite, not positive or too far becomes 0.
@@ -96,7 +82,7 @@ TumWriter::TumWriter(const std::string& folder, const Calibration& calibration,
       depth_list_((fs::path(folder) / "depth.txt").string(), "# timestamp filename\n"),
       associations_((fs::path(folder) / "associations.txt").string(),
                     "# timestamp filename timestamp filename\n") {
-  WriteFile((fs::path(folder) / "camera.txt").string(), CameraText(calibration, comment));
+  WriteFile((fs::path(folder) / "camera.txt").string(), FormatCameraFile(calibration, comment));
 }
 
 void TumWriter::Add(double color_time, double depth_time, const StoredImage& color,

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -64,6 +65,20 @@ void AddFocalLength(const PinholeCamera& camera, Findings* findings) {
       "check that the calibration is for this image size", Measurement{degrees, "degrees"}));
 }
 
+void AddDepthCamera(const DepthCamera& depth_camera, Findings* findings) {
+  const PinholeCamera& camera = depth_camera.camera;
+  const Eigen::Vector3d t = depth_camera.depth_from_color.translation();
+  const double angle =
+      depth_camera.depth_from_color.rotation().angularDistance(Eigen::Quaterniond::Identity());
+  findings->push_back(
+      Good("camera.depth_camera",
+           FormatText("depth camera: fx %.3f, fy %.3f, cx %.3f, cy %.3f, %dx%d, depth_from_color "
+                      "translation %.4f %.4f %.4f m, rotation %.2f degrees; depth is registered to "
+                      "colour on reading",
+                      camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height,
+                      t.x(), t.y(), t.z(), RadiansToDegrees(angle))));
+}
+
 }  // namespace
 
 void AddCameraFindings(const Calibration& calibration, const std::string& format,
@@ -76,6 +91,7 @@ void AddCameraFindings(const Calibration& calibration, const std::string& format
                           camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height,
                           calibration.depth_scale) +
                (calibration.distortion.IsZero() ? "" : ", with lens distortion")));
+  if (calibration.depth_camera) AddDepthCamera(*calibration.depth_camera, findings);
   AddSigns(camera, format, findings);
   AddFocalLength(camera, findings);
   AddPrincipalPoint(camera, findings);

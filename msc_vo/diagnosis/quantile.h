@@ -14,8 +14,8 @@ namespace msc_vo {
 template <typename T>
 T Quantile(double p, std::vector<T> samples) {
   if (samples.empty()) return T();
-  const auto nth = samples.begin() +
-                   static_cast<std::ptrdiff_t>(p * static_cast<double>(samples.size() - 1));
+  const auto nth =
+      samples.begin() + static_cast<std::ptrdiff_t>(p * static_cast<double>(samples.size() - 1));
   std::nth_element(samples.begin(), nth, samples.end());
   return *nth;
 }

@@ -3,6 +3,12 @@
 
 #pragma once
 
+#include <ceres/version.h>
+
+#if CERES_VERSION_MAJOR < 2 || (CERES_VERSION_MAJOR == 2 && CERES_VERSION_MINOR < 1)
+#error "msc_vo needs Ceres 2.1 or later, which has ceres::Manifold"
+#endif
+
 #include <ceres/manifold.h>
 
 #include "msc_vo/geometry/so3.h"

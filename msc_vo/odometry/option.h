@@ -22,6 +22,12 @@ struct Choice {
   std::function<void(int)> set;
 };
 
+/// A list of numbers that is either empty (not set) or of a fixed length.
+struct NumberList {
+  std::vector<double>* values = nullptr;
+  size_t size = 0;
+};
+
 /// Valid interval of a number, both ends included, and its unit. The upper ends bound the memory
 /// and the time of a run.
 struct Range {
@@ -39,7 +45,7 @@ std::string ToString(const Range& range);
 /// Description of one option: its name, where its value is stored, its valid values and its help.
 struct Option {
   using Value = std::variant<bool*, int*, double*, std::string*, std::optional<int>*,
-                             std::optional<double>*, Choice>;
+                             std::optional<double>*, NumberList, Choice>;
 
   std::string path;  ///< name with its sections: "tracking.pose.num_rounds"
   Value value;

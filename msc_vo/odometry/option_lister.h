@@ -34,6 +34,12 @@ class OptionLister {
     return Push(name, std::move(choice), std::nullopt, help);
   }
 
+  /// Adds a list of `size` numbers, which is empty if it is not set.
+  Option& AddList(const std::string& name, std::vector<double>* values, size_t size,
+                  const std::string& help) {
+    return Push(name, NumberList{values, size}, std::nullopt, help);
+  }
+
   /// Puts the options that `list` adds into section `name`.
   template <typename T>
   void Section(const std::string& name, T* value, void (*list)(T*, OptionLister*)) {

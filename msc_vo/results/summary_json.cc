@@ -12,17 +12,36 @@ namespace msc_vo {
 
 namespace {
 
-Json CameraToJson(const Calibration& calibration) {
-  const PinholeCamera& camera = calibration.camera;
-  return {{"origin", calibration.origin},
-          {"fx", camera.fx},
+Json DepthCameraToJson(const DepthCamera& depth_camera) {
+  const PinholeCamera& camera = depth_camera.camera;
+  const Eigen::Vector3d t = depth_camera.depth_from_color.translation();
+  const Eigen::Quaterniond q(depth_camera.depth_from_color.rotation());
+  return {{"fx", camera.fx},
           {"fy", camera.fy},
           {"cx", camera.cx},
           {"cy", camera.cy},
           {"width", camera.width},
           {"height", camera.height},
-          {"depth_scale", calibration.depth_scale},
-          {"distortion", calibration.distortion.k}};
+          {"translation", {t.x(), t.y(), t.z()}},
+          {"rotation", {q.x(), q.y(), q.z(), q.w()}},
+          {"inverse_depth_offset", depth_camera.inverse_depth_offset}};
+}
+
+Json CameraToJson(const Calibration& calibration) {
+  const PinholeCamera& camera = calibration.camera;
+  Json json = {{"origin", calibration.origin},
+               {"fx", camera.fx},
+               {"fy", camera.fy},
+               {"cx", camera.cx},
+               {"cy", camera.cy},
+               {"width", camera.width},
+               {"height", camera.height},
+               {"depth_scale", calibration.depth_scale},
+               {"distortion", calibration.distortion.k}};
+  if (calibration.depth_camera) {
+    json["depth_camera"] = DepthCameraToJson(*calibration.depth_camera);
+  }
+  return json;
 }
 
 // The options in effect, flat: {"tracking.wide_radius": 60.0}.

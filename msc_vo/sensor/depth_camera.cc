@@ -38,14 +38,15 @@ bool DepthCamera::IsValid(std::string* error) const {
   }
   const double length = depth_from_color.rotation().norm();
   if (!(std::abs(length - 1.0) <= kMaxLengthError)) {
-    *error = "depth camera: rotation must be a quaternion x y z w of length 1, not " +
-             Number(length);
+    *error =
+        "depth camera: rotation must be a quaternion x y z w of length 1, not " + Number(length);
     return false;
   }
   // Otherwise the colour camera would see nothing of the depth image.
   if (!((depth_from_color.rotation() * Eigen::Vector3d::UnitZ()).z() > 0.0)) {
-    *error = "depth camera: rotation must leave the optical axes within 90 degrees of each other; "
-             "is the order of the quaternion x y z w?";
+    *error =
+        "depth camera: rotation must leave the optical axes within 90 degrees of each other; "
+        "is the order of the quaternion x y z w?";
     return false;
   }
   if (!(std::abs(inverse_depth_offset) <= kMaxInverseDepthOffset)) {

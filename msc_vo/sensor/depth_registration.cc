@@ -56,8 +56,8 @@ struct Neighbours {
 
 }  // namespace
 
-// A row of the depth image as seen by the colour camera. Element u + 1 belongs to pixel u; the first
-// and the last element have no depth.
+// A row of the depth image as seen by the colour camera. Element u + 1 belongs to pixel u; the
+// first and the last element have no depth.
 struct DepthRegistration::Row {
   explicit Row(int width)
       : x(width + 2), y(width + 2), raw_x(width + 2), raw_y(width + 2), inverse_depth(width + 2) {}
@@ -73,8 +73,8 @@ struct DepthRegistration::Footprints {
   struct Steps {
     explicit Steps(int size) : x(size), y(size), inverse_depth(size) {}
 
-    // Central differences; one-sided ones if only one neighbour is on the surface; `nominal` if none
-    // is.
+    // Central differences; one-sided ones if only one neighbour is on the surface; `nominal` if
+    // none is.
     void Compute(const Neighbours& px, const Neighbours& py, const Neighbours& w,
                  const Eigen::Vector2f& nominal) {
       const int size = static_cast<int>(x.size()) - 1;
@@ -140,10 +140,9 @@ void DepthRegistration::Footprints::ComputeBoxes(const Row& row, int width, int 
     const float from_x = px[i] - size_x, to_x = px[i] + size_x;
     const float from_y = py[i] - size_y, to_y = py[i] + size_y;
     // A surface that the colour camera sees from behind is hidden. All tests are false for NaN.
-    const bool is_drawn = (w[i] > 0.0f) &
-                          (determinant * orientation > std::numeric_limits<float>::epsilon()) &
-                          (to_x >= 0.0f) & (from_x <= border_x) & (to_y >= 0.0f) &
-                          (from_y <= border_y);
+    const bool is_drawn =
+        (w[i] > 0.0f) & (determinant * orientation > std::numeric_limits<float>::epsilon()) &
+        (to_x >= 0.0f) & (from_x <= border_x) & (to_y >= 0.0f) & (from_y <= border_y);
     const float low_x = is_drawn & (from_x > 0.0f) ? from_x : 0.0f;
     const float low_y = is_drawn & (from_y > 0.0f) ? from_y : 0.0f;
     const float high_x = is_drawn ? std::min(to_x, border_x) : 0.0f;
@@ -317,11 +316,10 @@ void DepthRegistration::ComputeFootprints(const Row& above, const Row& here, con
     return {row.data() - 1, row.data(), row.data() + 1};
   };
   footprints->right.Compute(along(here.x), along(here.y), along(here.inverse_depth), right_);
-  footprints->down.Compute({above.x.data(), here.x.data(), below.x.data()},
-                           {above.y.data(), here.y.data(), below.y.data()},
-                           {above.inverse_depth.data(), here.inverse_depth.data(),
-                            below.inverse_depth.data()},
-                           down_);
+  footprints->down.Compute(
+      {above.x.data(), here.x.data(), below.x.data()},
+      {above.y.data(), here.y.data(), below.y.data()},
+      {above.inverse_depth.data(), here.inverse_depth.data(), below.inverse_depth.data()}, down_);
   const float determinant = right_.x() * down_.y() - right_.y() * down_.x();
   footprints->ComputeBoxes(here, color_.width, color_.height, determinant > 0.0f ? 1.0f : -1.0f);
 }
@@ -354,8 +352,9 @@ void DepthRegistration::Draw(const Row& row, const Footprints& footprints, Targe
 cv::Mat DepthRegistration::Register(const cv::Mat& depth) const {
   const PinholeCamera& camera = depth_camera_.camera;
   if (depth.type() != CV_32FC1 || depth.cols != camera.width || depth.rows != camera.height) {
-    throw std::invalid_argument("DepthRegistration: the depth image must be CV_32FC1 and of the "
-                                "size of the depth camera");
+    throw std::invalid_argument(
+        "DepthRegistration: the depth image must be CV_32FC1 and of the "
+        "size of the depth camera");
   }
   const float pixels = std::sqrt(std::abs(right_.x() * down_.y() - right_.y() * down_.x()));
   Target target(color_, std::max(1, cvRound(kHoleRadius * pixels)));

@@ -58,10 +58,10 @@ def skip_without_browser():
 class Browser:
     """A browser with a profile of its own."""
 
-    def __init__(self):
+    def __init__(self, *more_flags):
         self.profile = tempfile.mkdtemp(prefix="msc_vo_browser_")
         options = Options()
-        for flag in FLAGS + [f"--user-data-dir={self.profile}"]:
+        for flag in [*FLAGS, *more_flags, f"--user-data-dir={self.profile}"]:
             options.add_argument(flag)
         options.binary_location = shutil.which("chromium")
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})

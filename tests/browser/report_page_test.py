@@ -137,6 +137,18 @@ class ReportPageTest(unittest.TestCase):
         element.send_keys(Keys.ESCAPE)
         self.assertEqual(self.browser.find(curve).get_attribute("points"), whole)
 
+    def test_keeps_the_static_scene_without_webgl(self):
+        plain = browser.Browser("--disable-3d-apis")
+        try:
+            plain.driver.get(self.report.as_uri())
+            plain.settle()
+            self.assertFalse(plain.find("#scene-canvas").is_displayed())
+            self.assertTrue(plain.find("div.replaced").is_displayed())
+            plain.press(Keys.END)
+            self.assertIn(f"frame {self.last_frame()}", plain.text("#time-label"))
+        finally:
+            plain.close()
+
     def test_is_static_in_print(self):
         self.browser.set_media(type="print")
         self.assertFalse(self.browser.find("#viewer").is_displayed())

@@ -81,6 +81,13 @@ TEST(CameraFilesTest, AgreeWithPresets) {
     EXPECT_THAT(file.distortion.k, ElementsAreArray(preset.calibration.distortion.k));
     EXPECT_EQ(file.depth_scale, preset.calibration.depth_scale);
     EXPECT_EQ(file.readout_time, preset.calibration.readout_time);
+    ASSERT_EQ(file.depth_camera.has_value(), preset.calibration.depth_camera.has_value());
+    if (!file.depth_camera) continue;
+    EXPECT_EQ(file.depth_camera->camera.fx, preset.calibration.depth_camera->camera.fx);
+    EXPECT_EQ(file.depth_camera->camera.cx, preset.calibration.depth_camera->camera.cx);
+    EXPECT_EQ(file.depth_camera->camera.width, preset.calibration.depth_camera->camera.width);
+    EXPECT_EQ(file.depth_camera->depth_from_color.params,
+              preset.calibration.depth_camera->depth_from_color.params);
   }
 }
 

@@ -77,7 +77,8 @@ TEST(ListOptions, ListsEveryFieldOfTheCamera) {
   const auto num_camera = std::count_if(options.begin(), options.end(), [](const Option& option) {
     return option.path.rfind("camera.", 0) == 0;
   });
-  EXPECT_EQ(num_camera, static_cast<int>(NumFields<CameraSettings>()) - 1 + 4);
+  EXPECT_EQ(num_camera, static_cast<int>(NumFields<CameraSettings>()) - 1 + 4 +
+                            static_cast<int>(NumFields<DepthCameraSettings>()) - 1);
 }
 
 TEST(ListOptions, DescribesEveryOption) {

@@ -47,6 +47,22 @@ TEST_F(OptionsFileTest, KeepsOptionsThatTheFileDoesNotContain) {
   EXPECT_EQ(configuration.odometry.tracking.prediction_radius, TrackerOptions().prediction_radius);
 }
 
+TEST_F(OptionsFileTest, ReadsLists) {
+  const Configuration configuration =
+      Read("camera:\n  depth_camera: {fx: 585, translation: [-0.025, 0, 1e-3]}\n");
+  EXPECT_EQ(*configuration.camera.depth_camera.fx, 585.0);
+  EXPECT_EQ(configuration.camera.depth_camera.translation,
+            std::vector<double>({-0.025, 0.0, 0.001}));
+  EXPECT_TRUE(configuration.camera.depth_camera.rotation.empty());
+  for (const char* value : {"1", "[1, 2]", "[1, 2, x]", "[1, [2], 3]"}) {
+    EXPECT_THAT(MessageOf([&] {
+                  Read("camera:\n  depth_camera:\n    translation: " + std::string(value) + "\n");
+                }),
+                HasSubstr(":3: 'camera.depth_camera.translation' must be a list of 3 numbers"))
+        << value;
+  }
+}
+
 TEST_F(OptionsFileTest, AcceptsAnEmptyFile) {
   EXPECT_TRUE(ChangedOptions(Read("")).empty());
   EXPECT_TRUE(ChangedOptions(Read("# comment\n")).empty());
@@ -58,8 +74,9 @@ TEST_F(OptionsFileTest, ReadsBackEveryOption) {
   for (const Option& option : ListOptions(&configuration)) {
     const std::string before = FormatOption(option);
     bool changed = false;
-    for (const char* text : {"true", "false", "17", "0.12345678901234567", "pl-vo", "end-points",
-                             "lsd", "edge-drawing", "ceres-dense-schur", "never"}) {
+    for (const char* text :
+         {"true", "false", "17", "0.12345678901234567", "pl-vo", "end-points", "lsd",
+          "edge-drawing", "ceres-dense-schur", "never", "[1, 2.5, 3]", "[0, 0, 1, 0]"}) {
       std::string expected;
       changed = changed || (text != before && SetOption(option, text, &expected));
     }

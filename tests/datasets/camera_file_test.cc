@@ -76,5 +76,35 @@ TEST_F(CameraFileTest, ReadsReadoutTime) {
   EXPECT_THAT(ErrorOf(camera + "readout_time 0\n\nreadout_time 1\n"), HasSubstr("camera.txt:4: "));
 }
 
+TEST_F(CameraFileTest, ReadsDepthCamera) {
+  const std::string camera = "525 525 320 240 640 480 1000\n";
+  WriteText("camera.txt", camera + "depth_camera 585 586 321 241 512 424 -0.025 0.001 0.002\n" +
+                              "readout_time 0.026\n");
+  Calibration calibration = ReadCameraFile(Path("camera.txt"));
+  ASSERT_TRUE(calibration.depth_camera.has_value());
+  EXPECT_EQ(calibration.readout_time, 0.026);
+  EXPECT_EQ(calibration.depth_camera->camera.fy, 586.0);
+  EXPECT_EQ(calibration.depth_camera->camera.height, 424);
+  EXPECT_EQ(calibration.depth_camera->depth_from_color.translation(),
+            Eigen::Vector3d(-0.025, 0.001, 0.002));
+  EXPECT_EQ(calibration.depth_camera->depth_from_color.rotation().w(), 1.0);
+  const std::string line = "depth_camera 585 586 321 241 512 424 -0.025 0 0";
+  WriteText("camera.txt", camera + line + " 0 0 0.6 0.8\n");
+  calibration = ReadCameraFile(Path("camera.txt"));
+  EXPECT_NEAR(calibration.depth_camera->depth_from_color.rotation().z(), 0.6, 1e-12);
+
+  EXPECT_THAT(ErrorOf(camera + "depth_camera 585 585 320 240 640 480\n"),
+              AllOf(HasSubstr("camera.txt:2: expected 9 or 13 numbers"), HasSubstr("[qx qy qz qw]"),
+                    HasSubstr("found 6")));
+  EXPECT_THAT(ErrorOf(camera + "depth_camera 585 585 320 240 640 480 -25 0 0\n"),
+              HasSubstr("camera.txt:2: depth camera: translation is 25 long"));
+  EXPECT_THAT(ErrorOf(camera + "depth_camera 0 585 320 240 640 480 0 0 0\n"),
+              HasSubstr("camera.txt:2: depth camera: fx = 0"));
+  EXPECT_THAT(ErrorOf(camera + line + " 0 0 0 2\n"), HasSubstr("must have length 1"));
+  EXPECT_THAT(ErrorOf(camera + line + " a 0 0 1\n"), HasSubstr("'a' is not a finite"));
+  EXPECT_THAT(ErrorOf(camera + line + "\n" + line + "\n"), HasSubstr("camera.txt:3: a second"));
+  EXPECT_THAT(ErrorOf(camera + "deph_camera 1\n"), HasSubstr("'depth_camera fx fy"));
+}
+
 }  // namespace
 }  // namespace msc_vo

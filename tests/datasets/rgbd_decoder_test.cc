@@ -82,6 +82,28 @@ TEST_F(RgbdDecoderTest, ScalesColourDownIfLayoutRequiresIt) {
   EXPECT_THAT(ErrorOf(Decoder(1, false)), HasSubstr("is 16x12, but its depth image"));
 }
 
+TEST_F(RgbdDecoderTest, RegistersImagesOfDepthCamera) {
+  SequenceIndex index;
+  index.entries.push_back({0.0, Path("0.png"), Path("0d.png"), "rgb.txt:1"});
+  Calibration calibration;
+  calibration.camera = {10.0, 10.0, 3.5, 2.5, 8, 6};
+  calibration.depth_scale = 1000.0;
+  calibration.origin = "camera.txt";
+  calibration.depth_camera.emplace();
+  calibration.depth_camera->camera = {20.0, 20.0, 7.5, 5.5, 16, 12};
+  const RgbdDecoder decoder(index, calibration);
+  WriteColor("0.png");
+  WriteDepth("0d.png", 2500, 16, 12);
+  const cv::Mat depth = decoder.Decode(0).depth;
+  ASSERT_EQ(depth.size(), cv::Size(8, 6));
+  EXPECT_NEAR(depth.at<float>(3, 4), 2.5, 1e-5);
+  WriteDepth("0d.png", 2500, 8, 6);
+  EXPECT_THAT(ErrorOf(decoder), HasSubstr("is 8x6, but the depth camera is 16x12 (camera.txt)"));
+  WriteDepth("0d.png", 2500, 16, 12);
+  WriteColor("0.png", 16, 12);
+  EXPECT_THAT(ErrorOf(decoder), HasSubstr("0.png (named in rgb.txt:1): is 16x12, but the camera"));
+}
+
 TEST_F(RgbdDecoderTest, ErrorsNameFileLineAndFix) {
   EXPECT_THAT(ErrorOf(Decoder(1)),
               HasSubstr(Path("0.png") + " (named in rgb.txt:1): does not exist"));

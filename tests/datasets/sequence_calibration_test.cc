@@ -118,5 +118,24 @@ TEST_F(SequenceCalibrationTest, KeepsReadoutTimeOfFolder) {
   EXPECT_EQ(ResolveCalibration({}, "", &index).readout_time, 0.02);
 }
 
+TEST(DepthCameraSettings, CompleteOrChangeOtherSources) {
+  SequenceIndex index;
+  CameraSettings settings;
+  settings.preset = "7-scenes-unregistered";
+  settings.origin = "--set";
+  settings.depth_camera.translation = {0.02, 0.0, 0.0};
+  const Calibration calibration = ResolveCalibration(settings, "", &index);
+  ASSERT_TRUE(calibration.depth_camera.has_value());
+  EXPECT_EQ(calibration.depth_camera->camera.fx, 585.0);
+  EXPECT_EQ(calibration.depth_camera->depth_from_color.translation().x(), 0.02);
+  settings.depth_camera.rotation = {0.0, 0.0, 0.0, 2.0};
+  EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
+              HasSubstr("--set: camera.depth_camera.rotation must be a quaternion"));
+  settings.depth_camera.rotation.clear();
+  settings.preset = "tum-fr3";
+  EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
+              HasSubstr("--set: camera.depth_camera must give fx, fy, cx and cy"));
+}
+
 }  // namespace
 }  // namespace msc_vo

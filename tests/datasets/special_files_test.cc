@@ -5,12 +5,12 @@
 
 #include <filesystem>
 
-#include "msc_vo/datasets/rgbd_decoder.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
 #include "msc_vo/datasets/image_file.h"
+#include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/datasets/trajectory.h"

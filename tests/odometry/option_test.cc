@@ -60,6 +60,7 @@ std::string ErrorWith(size_t index, double number) {
 bool IsNumber(const Option& option) {
   return !std::holds_alternative<bool*>(option.value) &&
          !std::holds_alternative<std::string*>(option.value) &&
+         !std::holds_alternative<NumberList>(option.value) &&
          !std::holds_alternative<Choice>(option.value);
 }
 

@@ -27,7 +27,8 @@ class Dockerfile(unittest.TestCase):
         self.assertIn("RUN cmake/make_packages.sh /packages\n", self.build)
         self.assertLess(self.build.index("debian_packages"), self.build.index("COPY . ."))
         self.assertIn("fakeroot dpkg-dev", self.build)
-        for name in ("debian_packages.txt", "debian_packages_optional.txt"):
+        for name in ("debian_packages.txt", "debian_packages_report.txt",
+                     "debian_packages_optional.txt"):
             self.assertIn(f"cmake/{name}", self.build)
             self.assertTrue((ROOT / "cmake" / name).exists())
         # As cmake/install_packages.sh reads the lists.

@@ -68,13 +68,14 @@ for name in http_proxy https_proxy no_proxy; do
 done
 
 say "Install"
+inside sh -c 'dpkg-query -W -f "\${Package}\n" "*msc-vo*" 2>/dev/null | xargs --no-run-if-empty dpkg --purge' >/dev/null
 inside apt-get update --quiet --quiet
 before=$(inside dpkg-query -W -f '${Package}\n' | wc -l)
 inside sh -c 'apt-get install --yes --quiet --quiet --no-install-recommends /packages/msc-vo_*.deb' >/dev/null
 echo "msc-vo: $(($(inside dpkg-query -W -f '${Package}\n' | wc -l) - before)) packages"
 
 say "Command"
-inside msc_vo --version | tee /dev/stderr | grep --quiet "msc_vo $version"
+[[ $(inside msc_vo --version) == "msc_vo $version" ]] || fail "msc_vo --version is not $version"
 inside msc_vo replay /data/room --output /tmp/room --quiet
 inside msc_vo evaluate /data/room/groundtruth.txt /tmp/room/trajectory.txt
 inside test -s /usr/share/man/man1/msc_vo-replay.1.gz

@@ -89,8 +89,7 @@ constexpr double kRounding = 2e-6;  // 1/metres, of single precision
 TEST(DepthRegistration, IsExactOnPlanes) {
   for (const Vector3d& normal : kPlanes) {
     for (const LensDistortion& lens : {LensDistortion(), Lens()}) {
-      const cv::Mat registered =
-          RegisterDepth(Rig(), Color(), lens, Measure(Rig(), {{normal}}));
+      const cv::Mat registered = RegisterDepth(Rig(), Color(), lens, Measure(Rig(), {{normal}}));
       double coverage = 0.0;
       EXPECT_LT(LargestError(registered, normal, lens, &coverage), kRounding);
       EXPECT_GT(coverage, 0.75);  // the depth camera sees less
@@ -105,11 +104,13 @@ TEST(DepthRegistration, IsExactForOtherSizes) {
     DepthCamera rig = Rig();
     PinholeCamera& camera = rig.camera;
     const double scale = factor == 1 ? 2.0 : 1.0 / factor;
-    camera = {scale * camera.fx, scale * camera.fy, scale * (camera.cx + 0.5) - 0.5,
-              scale * (camera.cy + 0.5) - 0.5, static_cast<int>(scale * camera.width),
+    camera = {scale * camera.fx,
+              scale * camera.fy,
+              scale * (camera.cx + 0.5) - 0.5,
+              scale * (camera.cy + 0.5) - 0.5,
+              static_cast<int>(scale * camera.width),
               static_cast<int>(scale * camera.height)};
-    const cv::Mat registered =
-        RegisterDepth(rig, Color(), Lens(), Measure(rig, {{kPlanes[1]}}));
+    const cv::Mat registered = RegisterDepth(rig, Color(), Lens(), Measure(rig, {{kPlanes[1]}}));
     ASSERT_EQ(registered.size(), cv::Size(320, 240));
     double coverage = 0.0;
     EXPECT_LT(LargestError(registered, kPlanes[1], Lens(), &coverage), kRounding);
@@ -224,8 +225,7 @@ TEST(DepthRegistration, DoesNotAddNoise) {
   double sum = 0.0, squares = 0.0;
   for (int y = 45; y < 195; ++y) {
     for (int x = 60; x < 260; ++x) {
-      const double error =
-          1.0 / registered.at<float>(y, x) - InverseDepthAt(kPlanes[1], {}, x, y);
+      const double error = 1.0 / registered.at<float>(y, x) - InverseDepthAt(kPlanes[1], {}, x, y);
       sum += error;
       squares += error * error;
     }

@@ -7,7 +7,8 @@ function decodeBytes(text) {
   return bytes;
 }
 
-// Typed array of `Type` (Float32Array, Uint16Array, ...). All platforms with WebGL are little-endian.
+// Typed array of `Type` (Float32Array, Uint16Array, ...). All platforms with WebGL are
+// little-endian.
 function decodeArray(Type, text) {
   return new Type(decodeBytes(text).buffer);
 }
@@ -34,7 +35,8 @@ function lastNotAbove(array, value) {
   let low = 0, high = array.length;
   while (high - low > 1) {
     const middle = (low + high) >> 1;
-    if (array[middle] <= value) low = middle; else high = middle;
+    if (array[middle] <= value) low = middle;
+    else high = middle;
   }
   return low;
 }

@@ -20,8 +20,16 @@ function niceTicks(low, high, count) {
   return ticks;
 }
 
-const CHART_MARGIN = {left: 56, right: 14, top: 26, bottom: 38};
-const CHART_STRIP = {y: 15, height: 7};
+const CHART_MARGIN = {
+  left: 56,
+  right: 14,
+  top: 26,
+  bottom: 38
+};
+const CHART_STRIP = {
+  y: 15,
+  height: 7
+};
 const CHART_HEIGHT = 240;
 
 // `spec`: name and unit of y; curves: {css, label, values (one per frame)}; is_stacked: the curves
@@ -35,15 +43,17 @@ class Chart {
     this.element.className = "chart";
     this.element.tabIndex = 0;
     this.element.setAttribute("role", "img");
-    this.element.setAttribute("aria-label", `${spec.name} over time. Plus and minus zoom, Escape resets.`);
+    this.element.setAttribute(
+        "aria-label", `${spec.name} over time. Plus and minus zoom, Escape resets.`);
     this.svg = svgElement("svg");
     this.element.append(this.svg);
     figure.append(this.element);
     figure.classList.add("upgraded");
     this.drag = null;
-    for (const [name, listener] of [["pointerdown", "onDown"], ["pointermove", "onMove"],
-                                    ["pointerup", "onUp"], ["pointercancel", "onCancel"],
-                                    ["wheel", "onWheel"], ["dblclick", "onReset"], ["keydown", "onKey"]]) {
+    for (const [name, listener] of [
+             ["pointerdown", "onDown"], ["pointermove", "onMove"], ["pointerup", "onUp"],
+             ["pointercancel", "onCancel"], ["wheel", "onWheel"], ["dblclick", "onReset"],
+             ["keydown", "onKey"]]) {
       this.element.addEventListener(name, (event) => this[listener](event), {passive: false});
     }
     model.addEventListener("frame", () => this.drawCursor());
@@ -65,36 +75,55 @@ class Chart {
     this.svg.setAttribute("viewBox", `0 0 ${this.width} ${CHART_HEIGHT}`);
     this.svg.replaceChildren();
     this.drawGrid();
-    this.inside = svgElement("svg", {x: CHART_MARGIN.left, y: 0, height: CHART_HEIGHT,
-                                     width: this.width - CHART_MARGIN.left - CHART_MARGIN.right,
-                                     viewBox: `${CHART_MARGIN.left} 0 ${this.width - CHART_MARGIN.left - CHART_MARGIN.right} ${CHART_HEIGHT}`,
-                                     style: `height:${CHART_HEIGHT}px;overflow:hidden`});
+    this.inside = svgElement("svg", {
+      x: CHART_MARGIN.left,
+      y: 0,
+      height: CHART_HEIGHT,
+      width: this.width - CHART_MARGIN.left - CHART_MARGIN.right,
+      viewBox: `${CHART_MARGIN.left} 0 ${this.width - CHART_MARGIN.left - CHART_MARGIN.right} ${
+          CHART_HEIGHT}`,
+      style: `height:${CHART_HEIGHT}px;overflow:hidden`
+    });
     this.svg.append(this.inside);
     if (this.spec.has_status) this.drawStatus();
-    if (this.spec.has_stems) this.drawStems(); else this.drawCurves();
-    this.selection = svgElement("rect", {class: "selection", y: CHART_MARGIN.top, height: this.bottom() - CHART_MARGIN.top,
-                                         width: 0});
+    if (this.spec.has_stems) this.drawStems();
+    else this.drawCurves();
+    this.selection = svgElement("rect", {
+      class: "selection",
+      y: CHART_MARGIN.top,
+      height: this.bottom() - CHART_MARGIN.top,
+      width: 0
+    });
     this.cursor = svgElement("path", {class: "cursor", fill: "none"});
-    this.valueText = svgElement("text", {class: "value", x: this.width - CHART_MARGIN.right - 4, y: 11});
+    this.valueText =
+        svgElement("text", {class: "value", x: this.width - CHART_MARGIN.right - 4, y: 11});
     this.svg.append(this.selection, this.cursor, this.valueText);
     this.drawCursor();
   }
 
-  bottom() { return CHART_HEIGHT - CHART_MARGIN.bottom; }
-  x(seconds) {
-    return CHART_MARGIN.left + (seconds - this.from) / (this.to - this.from) *
-           (this.width - CHART_MARGIN.left - CHART_MARGIN.right);
+  bottom() {
+    return CHART_HEIGHT - CHART_MARGIN.bottom;
   }
-  y(value) { return this.bottom() - value / this.high * (this.bottom() - CHART_MARGIN.top); }
+  x(seconds) {
+    return CHART_MARGIN.left +
+        (seconds - this.from) / (this.to - this.from) *
+        (this.width - CHART_MARGIN.left - CHART_MARGIN.right);
+  }
+  y(value) {
+    return this.bottom() - value / this.high * (this.bottom() - CHART_MARGIN.top);
+  }
   secondsAt(event) {
     const inner = event.clientX - this.svg.getBoundingClientRect().left - CHART_MARGIN.left;
-    return this.from + clamp(inner / (this.width - CHART_MARGIN.left - CHART_MARGIN.right), 0, 1) * (this.to - this.from);
+    return this.from +
+        clamp(inner / (this.width - CHART_MARGIN.left - CHART_MARGIN.right), 0, 1) *
+        (this.to - this.from);
   }
 
   highest() {
     let high = 0;
     for (const {values} of this.series) {
-      for (let i = this.first; i <= this.last; ++i) if (values[i] > high) high = values[i];
+      for (let i = this.first; i <= this.last; ++i)
+        if (values[i] > high) high = values[i];
     }
     return high > 0 && Number.isFinite(high) ? 1.06 * high : 1;
   }
@@ -108,17 +137,24 @@ class Chart {
   drawGrid() {
     for (const {value, text} of niceTicks(this.from, this.to, this.width / 90)) {
       const x = this.x(value);
-      this.svg.append(svgElement("path", {class: "grid", d: `M${x} ${CHART_MARGIN.top}V${this.bottom()}`}));
+      this.svg.append(
+          svgElement("path", {class: "grid", d: `M${x} ${CHART_MARGIN.top}V${this.bottom()}`}));
       this.text({class: "tick-x", x, y: this.bottom() + 15}, text);
     }
     for (const {value, text} of niceTicks(0, this.high, 6)) {
       const y = this.y(value);
-      this.svg.append(svgElement("path", {class: "grid", d: `M${CHART_MARGIN.left} ${y}H${this.width - CHART_MARGIN.right}`}));
+      this.svg.append(svgElement(
+          "path",
+          {class: "grid", d: `M${CHART_MARGIN.left} ${y}H${this.width - CHART_MARGIN.right}`}));
       this.text({class: "tick-y", x: CHART_MARGIN.left - 6, y: y + 4}, text);
     }
     this.text({class: "tick-x name", x: this.width / 2, y: CHART_HEIGHT - 6}, "time, s");
-    this.text({class: "tick-x name", transform: `translate(13,${(CHART_MARGIN.top + this.bottom()) / 2}) rotate(-90)`},
-              `${this.spec.name}, ${this.spec.unit}`.replace(/, $/, ""));
+    this.text(
+        {
+          class: "tick-x name",
+          transform: `translate(13,${(CHART_MARGIN.top + this.bottom()) / 2}) rotate(-90)`
+        },
+        `${this.spec.name}, ${this.spec.unit}`.replace(/, $/, ""));
   }
 
   // Frames of the same status are one rectangle; of those in one pixel the worst status counts.
@@ -131,8 +167,13 @@ class Chart {
         worst = Math.max(worst, status[end++]);
       }
       const right = end < this.model.count ? this.x(time[end]) : this.x(this.to);
-      this.inside.append(svgElement("rect", {class: `status-${STATUS_NAMES[worst]}`, x, y: CHART_STRIP.y,
-                                             width: Math.max(1, right - x), height: CHART_STRIP.height}));
+      this.inside.append(svgElement("rect", {
+        class: `status-${STATUS_NAMES[worst]}`,
+        x,
+        y: CHART_STRIP.y,
+        width: Math.max(1, right - x),
+        height: CHART_STRIP.height
+      }));
       i = end;
     }
   }
@@ -163,8 +204,9 @@ class Chart {
   }
 
   drawCurves() {
-    const order = this.spec.is_stacked ? [...this.series.slice(0, -1)].reverse().concat(this.series.slice(-1))
-                                       : this.series;
+    const order = this.spec.is_stacked ?
+        [...this.series.slice(0, -1)].reverse().concat(this.series.slice(-1)) :
+        this.series;
     order.forEach((series, i) => {
       const points = this.points(series.values);
       if (points.length === 0) return;
@@ -173,7 +215,8 @@ class Chart {
         points.push(`${ends[1]},${this.bottom()}`, `${ends[0]},${this.bottom()}`);
         this.inside.append(svgElement("polygon", {class: series.css, points: points.join(" ")}));
       } else {
-        this.inside.append(svgElement("polyline", {class: `curve ${series.css}`, points: points.join(" ")}));
+        this.inside.append(
+            svgElement("polyline", {class: `curve ${series.css}`, points: points.join(" ")}));
       }
     });
   }
@@ -183,8 +226,9 @@ class Chart {
     for (let i = this.first; i <= this.last; ++i) {
       if (!(values[i] > 0)) continue;
       const x = this.x(this.model.columns.time[i]), y = this.y(values[i]);
-      this.inside.append(svgElement("path", {class: "stem", d: `M${x} ${this.bottom()}V${y}`}),
-                         svgElement("circle", {class: css, cx: x, cy: y, r: 2.2}));
+      this.inside.append(
+          svgElement("path", {class: "stem", d: `M${x} ${this.bottom()}V${y}`}),
+          svgElement("circle", {class: css, cx: x, cy: y, r: 2.2}));
     }
   }
 
@@ -193,10 +237,16 @@ class Chart {
     const frame = this.model.current;
     const seconds = this.model.columns.time[frame];
     const isInside = seconds >= this.from && seconds <= this.to;
-    this.cursor.setAttribute("d", isInside ? `M${this.x(seconds)} ${CHART_MARGIN.top}V${this.bottom()}` : "");
+    this.cursor.setAttribute(
+        "d", isInside ? `M${this.x(seconds)} ${CHART_MARGIN.top}V${this.bottom()}` : "");
     const shown = this.spec.is_stacked ? this.series.slice(-1) : this.series;
-    this.valueText.textContent = shown.map(({label, values}) =>
-        `${label} ${formatNumber(values[frame], this.spec.decimals)} ${this.spec.unit}`.trim()).join("   ");
+    this.valueText.textContent =
+        shown
+            .map(
+                ({label, values}) =>
+                    `${label} ${formatNumber(values[frame], this.spec.decimals)} ${this.spec.unit}`
+                        .trim())
+            .join("   ");
   }
 
   onDown(event) {
@@ -230,10 +280,13 @@ class Chart {
     if (this.selection) this.selection.setAttribute("width", 0);
   }
 
-  onReset() { this.model.setSpan(null); }
+  onReset() {
+    this.model.setSpan(null);
+  }
 
   zoomAround(seconds, factor) {
-    this.model.setSpan([seconds - factor * (seconds - this.from), seconds + factor * (this.to - seconds)]);
+    this.model.setSpan(
+        [seconds - factor * (seconds - this.from), seconds + factor * (this.to - seconds)]);
   }
 
   // The wheel scrolls the page until the plot was clicked.

@@ -3,7 +3,8 @@
 function column(model, name, component, factor = 1) {
   const width = model.widthOf(FRAME_COLUMNS.find((candidate) => candidate[0] === name));
   const values = new Float32Array(model.count);
-  for (let i = 0; i < model.count; ++i) values[i] = factor * model.columns[name][i * width + component];
+  for (let i = 0; i < model.count; ++i)
+    values[i] = factor * model.columns[name][i * width + component];
   return values;
 }
 
@@ -23,23 +24,40 @@ function stackedStages(model) {
 
 const CHARTS = {
   error: {
-    name: "position error", unit: "mm", decimals: 1, has_status: true,
+    name: "position error",
+    unit: "mm",
+    decimals: 1,
+    has_status: true,
     curves: (model) => [{css: "error", label: "", values: column(model, "error", 0, 1000)}],
   },
   inliers: {
-    name: "inliers", unit: "", decimals: 0, has_status: true,
-    curves: (model) => [{css: "points", label: "points", values: column(model, "counts", 2)},
-                        {css: "lines", label: "lines", values: column(model, "counts", 3)}],
+    name: "inliers",
+    unit: "",
+    decimals: 0,
+    has_status: true,
+    curves: (model) =>
+        [{css: "points", label: "points", values: column(model, "counts", 2)},
+         {css: "lines", label: "lines", values: column(model, "counts", 3)}],
   },
   sigma: {
-    name: "standard deviation", unit: "mm", decimals: 2,
-    curves: (model) => [{css: "estimate", label: "translation", values: column(model, "sigma", 1, 1000)}],
+    name: "standard deviation",
+    unit: "mm",
+    decimals: 2,
+    curves: (model) =>
+        [{css: "estimate", label: "translation", values: column(model, "sigma", 1, 1000)}],
   },
   stages: {
-    name: "tracking", unit: "ms", decimals: 1, is_stacked: true, curves: stackedStages,
+    name: "tracking",
+    unit: "ms",
+    decimals: 1,
+    is_stacked: true,
+    curves: stackedStages,
   },
   mapping: {
-    name: "mapping", unit: "ms", decimals: 1, has_stems: true,
+    name: "mapping",
+    unit: "ms",
+    decimals: 1,
+    has_stems: true,
     curves: (model) => [{css: "fill-mapping", label: "", values: column(model, "mapping_ms", 0)}],
   },
 };
@@ -59,8 +77,10 @@ function makeZoomable(svg) {
   const show = () => svg.setAttribute("viewBox", box.join(" "));
   const toDrawing = (event) => {
     const bounds = svg.getBoundingClientRect();
-    return [box[0] + (event.clientX - bounds.left) / bounds.width * box[2],
-            box[1] + (event.clientY - bounds.top) / bounds.height * box[3]];
+    return [
+      box[0] + (event.clientX - bounds.left) / bounds.width * box[2],
+      box[1] + (event.clientY - bounds.top) / bounds.height * box[3]
+    ];
   };
   const zoom = ([x, y], factor) => {
     factor = clamp(factor, home[2] / 40 / box[2], home[2] / box[2]);
@@ -85,12 +105,21 @@ function makeZoomable(svg) {
     box = [box[0] + drag[0] - at[0], box[1] + drag[1] - at[1], box[2], box[3]];
     show();
   });
-  for (const name of ["pointerup", "pointercancel"]) svg.addEventListener(name, () => { drag = null; });
-  svg.addEventListener("dblclick", () => { box = [...home]; show(); });
+  for (const name of ["pointerup", "pointercancel"])
+    svg.addEventListener(name, () => {
+      drag = null;
+    });
+  svg.addEventListener("dblclick", () => {
+    box = [...home];
+    show();
+  });
   svg.addEventListener("keydown", (event) => {
     const center = [box[0] + box[2] / 2, box[1] + box[3] / 2];
     if (event.key === "+" || event.key === "=") zoom(center, 0.8);
     else if (event.key === "-") zoom(center, 1.25);
-    else if (event.key === "Escape") { box = [...home]; show(); }
+    else if (event.key === "Escape") {
+      box = [...home];
+      show();
+    }
   });
 }

@@ -3,8 +3,8 @@
 const LINE_COLORS = ["axis-0", "axis-1", "axis-2", "axis-none", "no-depth"];
 const PIXEL_SCALE = 8;  // positions of features are stored in eighths of a pixel
 
-// Draws points and lines of a view onto `context`, whose unit is a pixel of the camera; `unit`: pixels
-// of the camera per pixel of the page.
+// Draws points and lines of a view onto `context`, whose unit is a pixel of the camera; `unit`:
+// pixels of the camera per pixel of the page.
 function drawFeatures(context, view, unit) {
   const radius = 1.7 * unit;
   for (let i = 0; i < view.pointDepth.length; ++i) {
@@ -56,7 +56,8 @@ class FramePanel {
     this.missing.hidden = !view || view.frame === this.model.current;
     if (!view) return;
     this.missing.textContent = `image of frame ${view.frame}`;
-    if (this.picture.src === view.url) this.drawPicture(); else this.picture.src = view.url;
+    if (this.picture.src === view.url) this.drawPicture();
+    else this.picture.src = view.url;
   }
 
   drawPicture() {
@@ -116,13 +117,17 @@ class FramePanel {
     const stages = [];
     model.info.stages.forEach((stage, i) => {
       if (!stage.stacked) return;
-      stages.push({name: stage.name, ms: model.value("stage_ms", model.current, i),
-                   css: `stage-${stages.length % 6}`});
+      stages.push({
+        name: stage.name,
+        ms: model.value("stage_ms", model.current, i),
+        css: `stage-${stages.length % 6}`
+      });
     });
-    const total = Math.max(model.value("tracking_ms", model.current),
-                           stages.reduce((sum, stage) => sum + stage.ms, 0), 1e-6);
-    const bar = svgElement("svg", {viewBox: "0 0 1000 10", preserveAspectRatio: "none",
-                                   "aria-hidden": "true"});
+    const total = Math.max(
+        model.value("tracking_ms", model.current), stages.reduce((sum, stage) => sum + stage.ms, 0),
+        1e-6);
+    const bar = svgElement(
+        "svg", {viewBox: "0 0 1000 10", preserveAspectRatio: "none", "aria-hidden": "true"});
     let at = 0;
     for (const stage of stages) {
       const width = 1000 * stage.ms / total;

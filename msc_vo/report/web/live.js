@@ -19,16 +19,20 @@ class LiveClient {
 
   // The header keeps pages of other origins from controlling the run.
   send(action, value = "") {
-    return fetch(`control?action=${action}&value=${encodeURIComponent(value)}`,
-                 {method: "POST", headers: {"X-Msc-Vo": "control"}}).catch(() => {});
+    return fetch(
+               `control?action=${action}&value=${encodeURIComponent(value)}`,
+               {method: "POST", headers: {"X-Msc-Vo": "control"}})
+        .catch(() => {});
   }
 
   async poll() {
     let delay = POLL_INTERVAL_MS;
     try {
-      const lastView = this.model.views.length ? this.model.views[this.model.views.length - 1].frame : -1;
-      const response = await fetch(`data?frames=${this.model.count}&map=${this.mapVersion}&view=${lastView}`,
-                                   {cache: "no-store"});
+      const lastView =
+          this.model.views.length ? this.model.views[this.model.views.length - 1].frame : -1;
+      const response = await fetch(
+          `data?frames=${this.model.count}&map=${this.mapVersion}&view=${lastView}`,
+          {cache: "no-store"});
       if (!response.ok) throw new Error(`status ${response.status}`);
       const update = await response.json();
       if (update.run !== this.model.info.run) {
@@ -62,7 +66,8 @@ class LiveClient {
     this.state.textContent = `${update.state}, ${update.count} of ${update.total} frames`;
     model.addFrames(update.frames);
     model.addViews(update.views);
-    if (model.views.length > MAX_KEPT_VIEWS) model.views.splice(0, model.views.length - MAX_KEPT_VIEWS);
+    if (model.views.length > MAX_KEPT_VIEWS)
+      model.views.splice(0, model.views.length - MAX_KEPT_VIEWS);
     model.setMap(update.map);
     this.mapVersion = update.map_version;
     if (this.follow.checked) model.setFrame(this.newestShown());

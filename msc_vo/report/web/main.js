@@ -27,12 +27,18 @@ function startSceneBar(model, scene) {
     }
   };
   for (const [name, {key}] of Object.entries(SCENE_VIEWS)) {
-    actions[key] = () => { scene.setView(name); showPressed(); };
+    actions[key] = () => {
+      scene.setView(name);
+      showPressed();
+    };
     views[name] = toggleButton(name, `${name} view (${key.toUpperCase()})`, actions[key]);
     byId("scene-views").append(views[name]);
   }
   scene.layers.all.forEach(([label], i) => {
-    actions[i + 1] = () => { scene.toggleLayer(label); showPressed(); };
+    actions[i + 1] = () => {
+      scene.toggleLayer(label);
+      showPressed();
+    };
     layers[label] = toggleButton(label, `Show or hide ${label} (${i + 1})`, actions[i + 1]);
     layers[label].dataset.layer = label;
     byId("scene-layers").append(layers[label]);
@@ -54,18 +60,22 @@ function startScene(model) {
 }
 
 function startKeys(model, timeline, sceneActions) {
-  const actions = Object.assign({
-    " ": () => timeline.togglePlay(),
-    "ArrowLeft": (event) => model.setFrame(model.current - (event.shiftKey ? 10 : 1)),
-    "ArrowRight": (event) => model.setFrame(model.current + (event.shiftKey ? 10 : 1)),
-    "Home": () => model.setFrame(0),
-    "End": () => model.setFrame(model.count - 1),
-  }, sceneActions);
+  const actions = Object.assign(
+      {
+        " ": () => timeline.togglePlay(),
+        "ArrowLeft": (event) => model.setFrame(model.current - (event.shiftKey ? 10 : 1)),
+        "ArrowRight": (event) => model.setFrame(model.current + (event.shiftKey ? 10 : 1)),
+        "Home": () => model.setFrame(0),
+        "End": () => model.setFrame(model.count - 1),
+      },
+      sceneActions);
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     const tag = event.target.tagName;
     if (tag === "SELECT" || tag === "TEXTAREA") return;
-    if (event.key === " " && (tag === "BUTTON" || tag === "SUMMARY" || event.target.type === "checkbox")) return;
+    if (event.key === " " &&
+        (tag === "BUTTON" || tag === "SUMMARY" || event.target.type === "checkbox"))
+      return;
     const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!action) return;
     event.preventDefault();
@@ -78,20 +88,33 @@ function startPage() {
   if (model.count === 0 && !model.info.live) return;
   byId("viewer").hidden = false;
   const scene = startScene(model);
-  new FramePanel(model, {canvas: byId("frame-canvas"), missing: byId("frame-missing"),
-                         facts: byId("frame-facts"), stages: byId("frame-stages")});
-  const timeline = new Timeline(model, {slider: byId("time-slider"), strip: byId("status-strip"),
-                                        label: byId("time-label"), play: byId("play")});
+  new FramePanel(model, {
+    canvas: byId("frame-canvas"),
+    missing: byId("frame-missing"),
+    facts: byId("frame-facts"),
+    stages: byId("frame-stages")
+  });
+  const timeline = new Timeline(model, {
+    slider: byId("time-slider"),
+    strip: byId("status-strip"),
+    label: byId("time-label"),
+    play: byId("play")
+  });
   startCharts(model);
   document.querySelectorAll("figure[data-zoom] > svg").forEach(makeZoomable);
   startKeys(model, timeline, scene ? startSceneBar(model, scene) : {});
   if (scene) document.documentElement.classList.add("interactive");
   else document.documentElement.classList.add("interactive", "without-scene");
   if (model.info.live) {
-    new LiveClient(model, {bar: byId("live-bar"), state: byId("live-state"),
-                           controls: byId("live-controls"), pause: byId("live-pause"),
-                           step: byId("live-step"), speed: byId("live-speed"),
-                           follow: byId("live-follow")});
+    new LiveClient(model, {
+      bar: byId("live-bar"),
+      state: byId("live-state"),
+      controls: byId("live-controls"),
+      pause: byId("live-pause"),
+      step: byId("live-step"),
+      speed: byId("live-speed"),
+      follow: byId("live-follow")
+    });
   }
 }
 

@@ -1,4 +1,5 @@
-// Turns, moves and zooms a camera around a target, with mouse, touch and keys. The z axis points up.
+// Turns, moves and zooms a camera around a target, with mouse, touch and keys. The z axis points
+// up.
 
 class OrbitControl {
   // `onChange` is called after every change.
@@ -7,7 +8,8 @@ class OrbitControl {
     this.camera = camera;
     this.onChange = onChange;
     this.enabled = true;
-    this.home = {target: new THREE.Vector3(), distance: 5, azimuth: -0.35, elevation: 0.58, fov: 40};
+    this.home =
+        {target: new THREE.Vector3(), distance: 5, azimuth: -0.35, elevation: 0.58, fov: 40};
     this.pointers = new Map();
     this.reset();
     element.addEventListener("pointerdown", (event) => this.onDown(event));
@@ -38,8 +40,9 @@ class OrbitControl {
     if (!this.enabled) return;
     this.elevation = clamp(this.elevation, -1.5707, 1.5707);
     const horizontal = Math.cos(this.elevation);
-    const back = new THREE.Vector3(-Math.sin(this.azimuth) * horizontal,
-                                   -Math.cos(this.azimuth) * horizontal, Math.sin(this.elevation));
+    const back = new THREE.Vector3(
+        -Math.sin(this.azimuth) * horizontal, -Math.cos(this.azimuth) * horizontal,
+        Math.sin(this.elevation));
     const camera = this.camera;
     camera.fov = this.fov;
     // Seen straight from above, the upper edge of the picture is the forward direction.
@@ -60,8 +63,8 @@ class OrbitControl {
   }
 
   move(dx, dy) {
-    const metersPerPixel = 2 * this.distance * Math.tan(this.fov * Math.PI / 360) /
-                           this.element.clientHeight;
+    const metersPerPixel =
+        2 * this.distance * Math.tan(this.fov * Math.PI / 360) / this.element.clientHeight;
     const axes = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
     this.camera.updateMatrixWorld();
     this.camera.matrixWorld.extractBasis(...axes);
@@ -71,7 +74,8 @@ class OrbitControl {
   }
 
   zoom(factor) {
-    this.distance = clamp(this.distance * factor, this.home.distance / 100, this.home.distance * 20);
+    this.distance =
+        clamp(this.distance * factor, this.home.distance / 100, this.home.distance * 20);
     this.update();
   }
 
@@ -114,7 +118,8 @@ class OrbitControl {
     if (!this.enabled || event.ctrlKey || event.metaKey || event.altKey) return;
     const steps = {ArrowLeft: [20, 0], ArrowRight: [-20, 0], ArrowUp: [0, 20], ArrowDown: [0, -20]};
     if (steps[event.key]) {
-      if (event.shiftKey) this.move(...steps[event.key]); else this.turn(...steps[event.key]);
+      if (event.shiftKey) this.move(...steps[event.key]);
+      else this.turn(...steps[event.key]);
     } else if (event.key === "+" || event.key === "=") {
       this.zoom(0.85);
     } else if (event.key === "-") {

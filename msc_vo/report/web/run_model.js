@@ -1,18 +1,18 @@
 // The data of the run and the current frame. The parts of the page listen for changes:
-// "data" (frames, map or views were added), "frame" (another current frame), "span" (another span of
-// time in the plots).
+// "data" (frames, map or views were added), "frame" (another current frame), "span" (another span
+// of time in the plots).
 
 const STATUS_NAMES = ["tracked", "weak", "dropped", "unreadable", "predicted", "lost"];
 
 // Columns of frames: name, type, numbers per frame (0: one per stage).
 const FRAME_COLUMNS = [
-  ["time", Float32Array, 1],         // seconds since the first frame
-  ["pose", Float32Array, 7],         // world_from_cam: position in metres, quaternion x y z w
-  ["status", Uint8Array, 1],         // index into STATUS_NAMES
+  ["time", Float32Array, 1],  // seconds since the first frame
+  ["pose", Float32Array, 7],  // world_from_cam: position in metres, quaternion x y z w
+  ["status", Uint8Array, 1],  // index into STATUS_NAMES
   ["keyframe", Uint8Array, 1],
-  ["counts", Uint16Array, 4],        // points, lines, inlier points, inlier lines
-  ["sigma", Float32Array, 2],        // rotation in degrees, translation in metres; NaN: no estimate
-  ["error", Float32Array, 1],        // metres; NaN: no ground truth
+  ["counts", Uint16Array, 4],  // points, lines, inlier points, inlier lines
+  ["sigma", Float32Array, 2],  // rotation in degrees, translation in metres; NaN: no estimate
+  ["error", Float32Array, 1],  // metres; NaN: no ground truth
   ["stage_ms", Float32Array, 0],
   ["tracking_ms", Float32Array, 1],
   ["mapping_ms", Float32Array, 1],
@@ -48,8 +48,8 @@ class RunModel extends EventTarget {
     if (!frames || frames.first > this.count) return;
     for (const column of FRAME_COLUMNS) {
       const [name, Type] = column;
-      this.columns[name] = spliceArray(this.columns[name], frames.first * this.widthOf(column),
-                                       decodeArray(Type, frames[name]));
+      this.columns[name] = spliceArray(
+          this.columns[name], frames.first * this.widthOf(column), decodeArray(Type, frames[name]));
     }
     this.count = this.columns.status.length;
   }
@@ -57,8 +57,8 @@ class RunModel extends EventTarget {
   setMap(map) {
     if (!map) return;
     this.map = {
-      lines: decodeArray(Float32Array, map.lines),    // start and end, metres
-      axes: decodeArray(Uint8Array, map.line_axes),   // 0, 1, 2; 3: no axis
+      lines: decodeArray(Float32Array, map.lines),   // start and end, metres
+      axes: decodeArray(Uint8Array, map.line_axes),  // 0, 1, 2; 3: no axis
       points: decodeArray(Float32Array, map.points),
     };
     if (map.axes) this.axes = map.axes;

@@ -4,10 +4,12 @@ const AXIS_COLORS = ["axis-0", "axis-1", "axis-2", "axis-none"];
 
 // The eight segments of a camera frustum of the given depth (metres), in camera coordinates.
 function frustumSegments(camera, depth) {
-  const corner = (u, v) => [(u - camera.cx) / camera.fx * depth, (v - camera.cy) / camera.fy * depth,
-                            depth];
-  const corners = [corner(0, 0), corner(camera.width, 0), corner(camera.width, camera.height),
-                   corner(0, camera.height)];
+  const corner =
+      (u, v) => [(u - camera.cx) / camera.fx * depth, (v - camera.cy) / camera.fy * depth, depth];
+  const corners = [
+    corner(0, 0), corner(camera.width, 0), corner(camera.width, camera.height),
+    corner(0, camera.height)
+  ];
   const ends = [];
   corners.forEach((point, i) => ends.push(0, 0, 0, ...point, ...point, ...corners[(i + 1) % 4]));
   return new Float32Array(ends);
@@ -16,9 +18,9 @@ function frustumSegments(camera, depth) {
 // The pose of a frame as a matrix from camera to world.
 function poseMatrix(model, frame) {
   const p = model.columns.pose.subarray(7 * frame, 7 * frame + 7);
-  return new THREE.Matrix4().compose(new THREE.Vector3(p[0], p[1], p[2]),
-                                     new THREE.Quaternion(p[3], p[4], p[5], p[6]),
-                                     new THREE.Vector3(1, 1, 1));
+  return new THREE.Matrix4().compose(
+      new THREE.Vector3(p[0], p[1], p[2]), new THREE.Quaternion(p[3], p[4], p[5], p[6]),
+      new THREE.Vector3(1, 1, 1));
 }
 
 // The positions of all frames, without gaps.
@@ -40,14 +42,18 @@ class SceneLayers {
     this.truth = new ThickLines(4, 0.5);
     this.axes = new ThickLines(4);
     this.camera = new ThickLines(2);
-    this.points = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial(
-        {size: 2, sizeAttenuation: false, transparent: true, opacity: 0.55}));
+    this.points = new THREE.Points(
+        new THREE.BufferGeometry(),
+        new THREE.PointsMaterial(
+            {size: 2, sizeAttenuation: false, transparent: true, opacity: 0.55}));
     this.points.frustumCulled = false;
     this.camera.matrixAutoUpdate = false;
     // In order of the keys 1 to 7: label, object.
-    this.all = [["lines", this.lines], ["points", this.points], ["keyframes", this.keyframes],
-                ["trajectory", this.trajectory], ["ground truth", this.truth], ["axes", this.axes],
-                ["camera", this.camera]];
+    this.all = [
+      ["lines", this.lines], ["points", this.points], ["keyframes", this.keyframes],
+      ["trajectory", this.trajectory], ["ground truth", this.truth], ["axes", this.axes],
+      ["camera", this.camera]
+    ];
     this.hidden = new Set();
     for (const [, object] of this.all) group.add(object);
   }
@@ -60,7 +66,8 @@ class SceneLayers {
   }
 
   toggle(label) {
-    if (this.hidden.has(label)) this.hidden.delete(label); else this.hidden.add(label);
+    if (this.hidden.has(label)) this.hidden.delete(label);
+    else this.hidden.add(label);
   }
 
   // `from_camera`: frusta close to the eye would hide the rest.
@@ -110,8 +117,8 @@ class SceneLayers {
         ends.push(point.x, point.y, point.z);
       }
     }
-    this.keyframes.setSegments(new Float32Array(ends),
-                               uniformColors(ends.length / 6, themeColor("estimate")));
+    this.keyframes.setSegments(
+        new Float32Array(ends), uniformColors(ends.length / 6, themeColor("estimate")));
   }
 
   // The Manhattan axes, at the first camera.

@@ -1,7 +1,7 @@
 // The 3-D view: viewpoints, layers, and the camera that moves with the current frame.
 
-// Rows right, forward, up of the view. With Manhattan axes, the one next to the mean up direction of
-// the cameras is up, so that walls are upright and straight in the top view.
+// Rows right, forward, up of the view. With Manhattan axes, the one next to the mean up direction
+// of the cameras is up, so that walls are upright and straight in the top view.
 function viewRotation(model) {
   const rows = [0, 1, 2].map((i) => new THREE.Vector3().fromArray(model.info.view, 3 * i));
   let [right, , up] = rows;
@@ -15,7 +15,8 @@ function viewRotation(model) {
   if (directions.length > 0 && nearest(up).dot(up) > 0.8) {
     up = nearest(up);
     const flat = right.clone().addScaledVector(up, -right.dot(up)).normalize();
-    right = nearest(flat).dot(flat) > 0.7 && Math.abs(nearest(flat).dot(up)) < 0.5 ? nearest(flat) : flat;
+    right = nearest(flat).dot(flat) > 0.7 && Math.abs(nearest(flat).dot(up)) < 0.5 ? nearest(flat) :
+                                                                                     flat;
   }
   const forward = new THREE.Vector3().crossVectors(up, right);
   return new THREE.Matrix4().makeBasis(right, forward, up).transpose();
@@ -74,8 +75,8 @@ class SceneView {
     this.model = model;
     this.canvas = canvas;
     this.image = image;
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: true,
-                                             preserveDrawingBuffer: true});
+    this.renderer = new THREE.WebGLRenderer(
+        {canvas, antialias: true, alpha: true, preserveDrawingBuffer: true});
     this.scene = new THREE.Scene();
     this.world = new THREE.Group();
     this.world.matrixAutoUpdate = false;
@@ -89,9 +90,15 @@ class SceneView {
     this.isDrawing = false;
     this.fill();
     this.setView("orbit");
-    model.addEventListener("data", () => { this.fill(); this.onFrame(); });
+    model.addEventListener("data", () => {
+      this.fill();
+      this.onFrame();
+    });
     model.addEventListener("frame", () => this.onFrame());
-    onThemeChange(() => { this.fill(); this.draw(); });
+    onThemeChange(() => {
+      this.fill();
+      this.draw();
+    });
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.onFrame();
   }
@@ -113,10 +120,15 @@ class SceneView {
     this.control.enabled = view !== "camera";
     if (this.control.enabled) {
       const distance = 1.12 * this.sphere.radius / Math.sin(place.fov * Math.PI / 360);
-      const close = view === "orbit" ? 0.62 : 0.8;
+      const close = view === "orbit" ? 0.7 : 0.8;
       const turned = view === "orbit" ? meanAzimuth(this.model, this.world.matrix) : 0;
-      this.control.setHome({target: this.sphere.center, distance: close * distance, fov: place.fov,
-                            azimuth: place.azimuth + turned, elevation: place.elevation});
+      this.control.setHome({
+        target: this.sphere.center,
+        distance: close * distance,
+        fov: place.fov,
+        azimuth: place.azimuth + turned,
+        elevation: place.elevation
+      });
     }
     this.image.hidden = view !== "camera";
     this.onFrame();
@@ -143,11 +155,12 @@ class SceneView {
     const marginY = (this.canvas.clientHeight / scale - height) / 2;
     const near = 0.02;
     recorded.projectionMatrix.makePerspective(
-        near * (-marginX - cx) / fx, near * (width + marginX - cx) / fx,
-        near * (cy + marginY) / fy, near * (cy - height - marginY) / fy, near, 1000);
+        near * (-marginX - cx) / fx, near * (width + marginX - cx) / fx, near * (cy + marginY) / fy,
+        near * (cy - height - marginY) / fy, near, 1000);
     recorded.projectionMatrixInverse.getInverse(recorded.projectionMatrix);
     const flip = new THREE.Matrix4().makeRotationX(Math.PI);  // y up, looking along -z
-    recorded.matrix.multiplyMatrices(this.world.matrix, poseMatrix(model, model.current)).multiply(flip);
+    recorded.matrix.multiplyMatrices(this.world.matrix, poseMatrix(model, model.current))
+        .multiply(flip);
     recorded.matrixWorldNeedsUpdate = true;
     const view = model.viewOf(model.current);
     if (view && this.image.src !== view.url) this.image.src = view.url;

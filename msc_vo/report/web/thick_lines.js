@@ -33,8 +33,11 @@ class ThickLines extends THREE.Mesh {
   // `width`: pixels of the page.
   constructor(width, opacity = 1) {
     const material = new THREE.ShaderMaterial({
-      uniforms: {resolution: {value: new THREE.Vector2(1, 1)}, width: {value: width},
-                 opacity: {value: opacity}},
+      uniforms: {
+        resolution: {value: new THREE.Vector2(1, 1)},
+        width: {value: width},
+        opacity: {value: opacity}
+      },
       vertexShader: THICK_LINE_VERTEX_SHADER,
       fragmentShader: THICK_LINE_FRAGMENT_SHADER,
       side: THREE.DoubleSide,
@@ -49,8 +52,9 @@ class ThickLines extends THREE.Mesh {
   setSegments(ends, colors) {
     this.geometry.dispose();
     const geometry = new THREE.InstancedBufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(
-        [0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0]), 3));
+    geometry.setAttribute(
+        "position",
+        new THREE.BufferAttribute(new Float32Array([0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0]), 3));
     geometry.setIndex([0, 1, 2, 0, 2, 3]);
     const pairs = new THREE.InstancedInterleavedBuffer(ends, 6, 1);
     geometry.setAttribute("start", new THREE.InterleavedBufferAttribute(pairs, 3, 0));

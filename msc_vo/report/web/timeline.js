@@ -8,7 +8,10 @@ class Timeline {
     this.slider.addEventListener("input", () => model.setFrame(Number(this.slider.value)));
     this.play.addEventListener("click", () => this.togglePlay());
     model.addEventListener("frame", () => this.update());
-    model.addEventListener("data", () => { this.drawStrip(); this.update(); });
+    model.addEventListener("data", () => {
+      this.drawStrip();
+      this.update();
+    });
     onThemeChange(() => this.drawStrip());
     new ResizeObserver(() => this.drawStrip()).observe(this.strip);
     this.drawStrip();
@@ -20,9 +23,11 @@ class Timeline {
     slider.max = Math.max(0, model.count - 1);
     slider.value = model.current;
     const seconds = model.count > 0 ? model.columns.time[model.current] : 0;
-    this.label.textContent = `frame ${model.current} / ${Math.max(0, model.count - 1)}, ${seconds.toFixed(2)} s`;
-    slider.setAttribute("aria-valuetext",
-                        `frame ${model.current}, ${seconds.toFixed(2)} seconds, ${model.status(model.current)}`);
+    this.label.textContent =
+        `frame ${model.current} / ${Math.max(0, model.count - 1)}, ${seconds.toFixed(2)} s`;
+    slider.setAttribute(
+        "aria-valuetext",
+        `frame ${model.current}, ${seconds.toFixed(2)} seconds, ${model.status(model.current)}`);
   }
 
   drawStrip() {

@@ -23,6 +23,12 @@ const SyntheticSequenceOptions& Checked(const SyntheticSequenceOptions& options)
   return options;
 }
 
+PinholeCamera DepthCameraOf(const SyntheticSequenceOptions& options) {
+  PinholeCamera camera = KinectCamera(options.width, options.height);
+  camera.fx = camera.fy = options.depth_rig->focal_length;
+  return camera;
+}
+
 PathOptions SeededPath(const SyntheticSequenceOptions& options) {
   PathOptions path = options.path;
   path.seed = options.seed;
@@ -40,6 +46,11 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
     *error = "depth_delay must be less than half the time between two images";
   } else if (!(std::abs(readout_time) <= 1.0 / fps)) {
     *error = "readout_time must be at most the time between two images";
+  } else if (depth_rig &&
+             !(depth_rig->focal_length >= 0.1 * width && depth_rig->focal_length <= 10.0 * width)) {
+    *error = "the focal length of the depth rig must be from 0.1 to 10 image widths";
+  } else if (depth_rig && !(depth_rig->depth_from_color.translation().norm() <= 1.0)) {
+    *error = "the offset of the depth rig must be at most 1 metre";
   } else if (!(image_sigma >= 0.0)) {
     *error = "image_sigma must not be negative";
   } else if (!(accelerometer_sigma >= 0.0)) {
@@ -56,7 +67,9 @@ SyntheticSequence::SyntheticSequence(const SyntheticSequenceOptions& options)
     : options_(Checked(options)),
       renderer_(MakeScene(options.scene, options.seed),
                 KinectCamera(options.width, options.height)),
-      path_(renderer_.scene(), SeededPath(options)) {}
+      path_(renderer_.scene(), SeededPath(options)) {
+  if (options.depth_rig) depth_renderer_.emplace(renderer_.scene(), DepthCameraOf(options));
+}
 
 TimedPose SyntheticSequence::PoseAt(int index) const {
   const double seconds = index / options_.fps;
@@ -86,24 +99,36 @@ std::vector<TimedAcceleration> SyntheticSequence::AccelerometerReadings(int num_
   return readings;
 }
 
-RenderedImage SyntheticSequence::RenderRolling(double seconds) const {
-  return renderer_.RenderRows([&](int y) {
+Rigid3 SyntheticSequence::DepthCameraFromWorld(double seconds) const {
+  const Rigid3 color_from_world = path_.CamFromWorld(seconds);
+  return options_.depth_rig ? options_.depth_rig->depth_from_color * color_from_world
+                            : color_from_world;
+}
+
+RenderedImage SyntheticSequence::RenderRolling(
+    const Renderer& renderer, const std::function<Rigid3(double)>& camera_from_world,
+    double seconds) const {
+  return renderer.RenderRows([&](int y) {
     const double after_middle = (y + 0.5) / options_.height - 0.5;  // of the readout, -0.5 to 0.5
-    return path_.CamFromWorld(seconds + options_.readout_time * after_middle);
+    return camera_from_world(seconds + options_.readout_time * after_middle);
   });
 }
 
 SyntheticFrame SyntheticSequence::Render(int index) const {
   const bool rolling = options_.readout_time != 0.0;
   const double seconds = index / options_.fps;
+  const auto color_from_world = [&](double time) { return path_.CamFromWorld(time); };
+  const auto depth_from_world = [&](double time) { return DepthCameraFromWorld(time); };
   SyntheticFrame frame;
   frame.pose = PoseAt(index);
-  frame.image =
-      rolling ? RenderRolling(seconds) : renderer_.Render(frame.pose.world_from_cam.Inverse());
-  if (options_.depth_delay != 0.0) {
+  frame.image = rolling ? RenderRolling(renderer_, color_from_world, seconds)
+                        : renderer_.Render(frame.pose.world_from_cam.Inverse());
+  if (options_.depth_delay != 0.0 || options_.depth_rig) {
     const double later = seconds + options_.depth_delay;
-    frame.image.depth =
-        (rolling ? RenderRolling(later) : renderer_.Render(path_.CamFromWorld(later))).depth;
+    const Renderer& renderer = depth_renderer();
+    frame.image.depth = (rolling ? RenderRolling(renderer, depth_from_world, later)
+                                 : renderer.Render(depth_from_world(later)))
+                            .depth;
   }
   // Even streams for colour, odd streams for depth, so that their noise is independent.
   const uint64_t stream = 2 * static_cast<uint64_t>(index);
@@ -111,8 +136,7 @@ SyntheticFrame SyntheticSequence::Render(int index) const {
     AddImageNoise(options_.image_sigma, options_.seed, stream, &frame.image);
   }
   if (options_.kinect_depth) {
-    AddKinectNoise(options_.kinect, renderer_.camera(), options_.seed, stream + 1,
-                   &frame.image.depth);
+    AddKinectNoise(options_.kinect, depth_camera(), options_.seed, stream + 1, &frame.image.depth);
   }
   return frame;
 }

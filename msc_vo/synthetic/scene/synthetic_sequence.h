@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,13 @@
 #include "msc_vo/synthetic/scene/scene.h"
 
 namespace msc_vo {
+
+/// A depth camera beside the colour camera. Its images have the size of the colour images, and the
+/// principal point is the centre of the image.
+struct DepthRig {
+  double focal_length = 585.0;  ///< pixels
+  Rigid3 depth_from_color;
+};
 
 struct SyntheticSequenceOptions {
   SceneKind scene = SceneKind::kRoom;
@@ -33,6 +42,8 @@ struct SyntheticSequenceOptions {
   double image_sigma = 2.0;
   bool kinect_depth = false;  ///< apply `kinect` noise to depth, which is exact otherwise
   KinectNoiseOptions kinect;
+  /// Camera that records depth, which is not registered to colour then; none: the colour camera.
+  std::optional<DepthRig> depth_rig;
   /// Standard deviation of the noise of the accelerometer, of each axis, metres/second^2.
   double accelerometer_sigma = 0.05;
   double accelerometer_rate = 100.0;  ///< readings per second
@@ -43,7 +54,7 @@ struct SyntheticSequenceOptions {
 
 struct SyntheticFrame {
   TimedPose pose;       ///< ground truth at the time stamp, the middle of the colour readout
-  RenderedImage image;  ///< the depth is taken depth_delay later
+  RenderedImage image;  ///< the depth is taken depth_delay later, by the depth rig if there is one
 };
 
 /// An endless rendered RGB-D sequence along a trajectory through a scene, with random access.
@@ -60,16 +71,23 @@ class SyntheticSequence {
   std::vector<TimedAcceleration> AccelerometerReadings(int num_frames) const;
 
   const PinholeCamera& camera() const { return renderer_.camera(); }
+  /// The camera that records depth: that of the rig, or the colour camera.
+  const PinholeCamera& depth_camera() const { return depth_renderer().camera(); }
   const Scene& scene() const { return renderer_.scene(); }
 
  private:
   // Acceleration of the optical centre in the world, metres/second^2.
   Eigen::Vector3d AccelerationAt(double seconds) const;
+  const Renderer& depth_renderer() const { return depth_renderer_ ? *depth_renderer_ : renderer_; }
+  Rigid3 DepthCameraFromWorld(double seconds) const;
   // The image whose readout is centred `seconds` after the start.
-  RenderedImage RenderRolling(double seconds) const;
+  RenderedImage RenderRolling(const Renderer& renderer,
+                              const std::function<Rigid3(double seconds)>& camera_from_world,
+                              double seconds) const;
 
   SyntheticSequenceOptions options_;
   Renderer renderer_;
+  std::optional<Renderer> depth_renderer_;  // of the rig
   CameraPath path_;
 };
 

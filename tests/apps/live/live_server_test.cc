@@ -45,6 +45,15 @@ TEST_F(LiveServerTest, ServesThePageAndData) {
   }
 }
 
+TEST_F(LiveServerTest, DoesNotCompress) {
+  for (const char* path : {"/", "/data"}) {
+    const httplib::Result result = client_->Get(path, {{"Accept-Encoding", "gzip, deflate, br"}});
+    ASSERT_TRUE(result);
+    EXPECT_FALSE(result->has_header("Content-Encoding")) << path;
+    EXPECT_EQ(result->get_header_value("Content-Length"), std::to_string(result->body.size()));
+  }
+}
+
 TEST_F(LiveServerTest, ServesTheReportOnceItIsThere) {
   EXPECT_EQ(StatusOf("/report"), 404);
   run_.Finish("<html>report</html>");

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Sequences with a depth camera beside the colour camera.
+
+#include "tests/apps/command_process.h"
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class DepthCameraTest : public TemporaryFolder {
+ protected:
+  // Renders a small sequence and returns the position error of its replay, metres.
+  double ErrorOf(const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"synthesize", Path(name), "--frames",
+                                          "60",         "--width",  "320"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    CommandOutcome outcome = RunCommand(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    outcome = RunCommand({"replay", Path(name), "--output", Path(name + "/out"), "--quiet"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    return Summary(name)["error"]["ape_rmse"];
+  }
+  nlohmann::json Summary(const std::string& name) {
+    return nlohmann::json::parse(ReadFile(Path(name + "/out/summary.json")));
+  }
+};
+
+TEST_F(DepthCameraTest, IsAsAccurateAsRegisteredDepth) {
+  const std::string rig = "--rig=290,0.05,-0.01,3";
+  const double registered = ErrorOf("registered", {});
+  const double told = ErrorOf("told", {rig});
+  EXPECT_LT(told, 1.5 * registered);
+  EXPECT_GT(ErrorOf("untold", {rig, "--untold"}), 2.0 * told);
+
+  EXPECT_THAT(ReadFile(Path("told/camera.txt")), HasSubstr("depth_camera 290 290 "));
+  EXPECT_THAT(ReadFile(Path("untold/camera.txt")), Not(HasSubstr("depth_camera")));
+  EXPECT_EQ(Summary("told")["camera"]["depth_camera"]["translation"][0], 0.05);
+  EXPECT_FALSE(Summary("untold")["camera"].contains("depth_camera"));
+  const CommandOutcome check = RunCommand({"check", Path("told")});
+  EXPECT_EQ(check.exit_code, 0);
+  EXPECT_THAT(check.output, HasSubstr("depth camera: fx 290.000"));
+  EXPECT_THAT(check.output,
+              HasSubstr("translation 0.0500 -0.0100 0.0000 m, rotation 3.00 degrees"));
+}
+
+TEST_F(DepthCameraTest, RejectsImpossibleRigs) {
+  const auto synthesize = [this](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"synthesize", Path("rig"), "--frames", "1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunCommand(arguments);
+  };
+  EXPECT_EQ(synthesize({"--rig=290,0.05"}).exit_code, 2);
+  EXPECT_EQ(synthesize({"--untold"}).exit_code, 2);
+  const CommandOutcome far = synthesize({"--rig=585,25,0,0"});
+  EXPECT_EQ(far.exit_code, 1);
+  EXPECT_THAT(far.output, HasSubstr("at most 1 metre"));
+}
+
+}  // namespace
+}  // namespace msc_vo
