@@ -14,8 +14,8 @@ namespace {
 using S = SensorCorrection;
 
 bool CorrectsRegistration(const S::Vector& correction) {
-  return (correction.segment<S::kDepthOffset - S::kDepthFocalLength>(S::kDepthFocalLength).array() !=
-          0.0)
+  return (correction.segment<S::kDepthOffset - S::kDepthFocalLength>(S::kDepthFocalLength)
+              .array() != 0.0)
       .any();
 }
 

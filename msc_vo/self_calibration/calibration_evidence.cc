@@ -100,7 +100,7 @@ const std::vector<int>& IndicesOf(CorrectionGroup group) {
   return kIndices[static_cast<size_t>(group)];
 }
 
-bool CalibrationEstimate::IsCorrected() const {
+bool CorrectionEstimate::IsCorrected() const {
   return std::any_of(is_corrected.begin(), is_corrected.end(), [](bool wrong) { return wrong; });
 }
 
@@ -108,11 +108,11 @@ SensorCorrection::Vector WrongCalibrationSigma() {
   return MakeVector(0.03, 10.0, 0.1, 0.03, 0.06, 10.0, 1.0 * kDegree, 0.03);
 }
 
-CalibrationEstimate EstimateCorrections(const CalibrationInformation& information,
-                                        const WrongGroups& wrong) {
+CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,
+                                       const WrongGroups& wrong) {
   const Model model = Solve(information, MaskOf(wrong));
   const Model free = Solve(information, kNumModels - 1);
-  CalibrationEstimate estimate;
+  CorrectionEstimate estimate;
   estimate.free_correction = free.mean;
   estimate.sigma = free.sigma;
   estimate.is_corrected = wrong;
@@ -126,9 +126,9 @@ CalibrationEstimate EstimateCorrections(const CalibrationInformation& informatio
   return estimate;
 }
 
-CalibrationEstimate SelectCorrections(const CalibrationInformation& information,
-                                      const WrongGroups& known_wrong,
-                                      const WrongGroups& known_right) {
+CorrectionEstimate SelectCorrections(const CalibrationInformation& information,
+                                     const WrongGroups& known_wrong,
+                                     const WrongGroups& known_right) {
   std::array<double, kNumModels> evidence;
   for (unsigned m = 0; m < kNumModels; ++m) evidence[m] = Solve(information, m).log_evidence;
   const unsigned known = MaskOf(known_wrong);
@@ -141,7 +141,7 @@ CalibrationEstimate SelectCorrections(const CalibrationInformation& information,
 
   WrongGroups wrong;
   for (int g = 0; g < kNumCorrectionGroups; ++g) wrong[g] = (best >> g & 1U) != 0;
-  CalibrationEstimate estimate = EstimateCorrections(information, wrong);
+  CorrectionEstimate estimate = EstimateCorrections(information, wrong);
   for (int g = 0; g < kNumCorrectionGroups; ++g) {
     double with = -std::numeric_limits<double>::infinity();
     double without = with;

@@ -21,7 +21,7 @@ using WrongGroups = std::array<bool, kNumCorrectionGroups>;
 const std::vector<int>& IndicesOf(CorrectionGroup group);
 
 /// Which groups of a calibration are wrong, and by how much.
-struct CalibrationEstimate {
+struct CorrectionEstimate {
   /// Zero in groups that are not corrected.
   SensorCorrection::Vector correction = SensorCorrection::Vector::Zero();
   /// The estimate if every group were wrong, and its standard deviation.
@@ -39,15 +39,15 @@ struct CalibrationEstimate {
 SensorCorrection::Vector WrongCalibrationSigma();
 
 /// Estimates the corrections of the model in which exactly the groups `wrong` are wrong.
-CalibrationEstimate EstimateCorrections(const CalibrationInformation& information,
-                                        const WrongGroups& wrong);
+CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,
+                                       const WrongGroups& wrong);
 
 /// Compares the 16 models in which each group is either right, up to the errors of a good
 /// calibration, or wrong, by their evidence. A group is wrong with a prior probability of 1/11; the
 /// model is accepted if it is a hundred times more likely than a calibration that is right. Only
 /// models in which the `known_wrong` groups are wrong, and the `known_right` ones right, take part.
-CalibrationEstimate SelectCorrections(const CalibrationInformation& information,
-                                      const WrongGroups& known_wrong = {},
-                                      const WrongGroups& known_right = {});
+CorrectionEstimate SelectCorrections(const CalibrationInformation& information,
+                                     const WrongGroups& known_wrong = {},
+                                     const WrongGroups& known_right = {});
 
 }  // namespace msc_vo

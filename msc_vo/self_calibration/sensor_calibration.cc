@@ -83,9 +83,9 @@ CalibrationInformation SumOf(const Pairs& pairs, const SensorCorrection::Vector&
 }
 
 // Gauss-Newton for the model in which exactly the groups `wrong` are corrected.
-CalibrationEstimate Iterate(const Pairs& pairs, const WrongGroups& wrong,
-                            SensorCorrection::Vector at) {
-  CalibrationEstimate estimate;
+CorrectionEstimate Iterate(const Pairs& pairs, const WrongGroups& wrong,
+                           SensorCorrection::Vector at) {
+  CorrectionEstimate estimate;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     estimate = EstimateCorrections(SumOf(pairs, at), wrong);
     const SensorCorrection::Vector change =
@@ -101,7 +101,8 @@ CalibrationEstimate Iterate(const Pairs& pairs, const WrongGroups& wrong,
 SensorCalibrationResult CalibrateSensor(const PinholeCamera& camera,
                                         const LensDistortion& distortion,
                                         const std::vector<CalibrationSequence>& sequences,
-                                        const WrongGroups& known_wrong) {
+                                        const WrongGroups& known_wrong,
+                                        const WrongGroups& known_right) {
   Pairs pairs;
   for (const CalibrationSequence& views : sequences) {
     MatchViews(CorrectedCamera(camera, distortion), views, &pairs);
@@ -111,10 +112,11 @@ SensorCalibrationResult CalibrateSensor(const PinholeCamera& camera,
   result.num_pairs = static_cast<int>(pairs.pairs.size());
   // The models are compared by a quadratic approximation at the optimum of the one without
   // restrictions, which is near to the optimum of each model that can win.
-  constexpr WrongGroups kAll = {true, true, true, true};
-  const CalibrationEstimate free = Iterate(pairs, kAll, SensorCorrection::Vector::Zero());
-  const CalibrationEstimate selected =
-      SelectCorrections(SumOf(pairs, free.correction), known_wrong);
+  WrongGroups unrestricted;
+  for (int g = 0; g < kNumCorrectionGroups; ++g) unrestricted[g] = !known_right[g];
+  const CorrectionEstimate free = Iterate(pairs, unrestricted, SensorCorrection::Vector::Zero());
+  const CorrectionEstimate selected =
+      SelectCorrections(SumOf(pairs, free.correction), known_wrong, known_right);
   result.estimate = Iterate(pairs, selected.is_corrected, selected.correction);
   result.estimate.log_odds = selected.log_odds;
   result.estimate.free_correction = free.correction;

@@ -14,7 +14,7 @@ using CalibrationSequence = std::vector<CalibrationView>;
 
 /// Result of CalibrateSensor().
 struct SensorCalibrationResult {
-  CalibrationEstimate estimate;
+  CorrectionEstimate estimate;
   int num_views = 0;  ///< that have points in common with others
   int num_pairs = 0;
 };
@@ -24,13 +24,14 @@ struct SensorCalibrationResult {
 /// relative pose of each pair marginalised, and decides which parts of the calibration are wrong.
 /// `camera`, `distortion`: the calibration that the frames were built with. Poses are first
 /// guesses; pairs are formed within each sequence. Groups that are `known_wrong` are corrected
-/// anyway: to refine an earlier correction.
+/// anyway, to refine an earlier correction; those that are `known_right` are not.
 ///
 /// The error of an image is common to all its pairs; the information of all pairs is therefore
 /// scaled to that of one pair per image.
 SensorCalibrationResult CalibrateSensor(const PinholeCamera& camera,
                                         const LensDistortion& distortion,
                                         const std::vector<CalibrationSequence>& sequences,
-                                        const WrongGroups& known_wrong);
+                                        const WrongGroups& known_wrong = {},
+                                        const WrongGroups& known_right = {});
 
 }  // namespace msc_vo
