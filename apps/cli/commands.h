@@ -39,6 +39,7 @@ Command AddReplayCommand(CLI::App* app);
 Command AddEvaluateCommand(CLI::App* app);
 Command AddBenchmarkCommand(CLI::App* app);
 Command AddSynthesizeCommand(CLI::App* app);
+Command AddCalibrateCommand(CLI::App* app);
 Command AddCheckCommand(CLI::App* app);
 Command AddRecordCommand(CLI::App* app);
 Command AddSolveWindowCommand(CLI::App* app);

@@ -32,9 +32,10 @@ namespace {
 std::string command_line;  // set once, before any command runs
 
 using AddCommand = Command (*)(CLI::App*);
-constexpr AddCommand kCommands[] = {AddReplayCommand,      AddEvaluateCommand, AddBenchmarkCommand,
-                                    AddCheckCommand,       AddRecordCommand,   AddSynthesizeCommand,
-                                    AddSolveWindowCommand, AddFuseCommand,     AddGenerateCommand};
+constexpr AddCommand kCommands[] = {
+    AddReplayCommand,    AddEvaluateCommand, AddBenchmarkCommand,  AddCheckCommand,
+    AddCalibrateCommand, AddRecordCommand,   AddSynthesizeCommand, AddSolveWindowCommand,
+    AddFuseCommand,      AddGenerateCommand};
 
 // Images and matrices of several megabytes are allocated and freed in every frame. By default the C
 // library returns such blocks to the system at once, and page faults on the next allocation cost

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/cli/calibration_report.h"
+#include "apps/cli/calibration_views.h"
+#include "apps/cli/command_log.h"
+#include "apps/cli/commands.h"
+#include "apps/cli/configuration_arguments.h"
+#include "apps/cli/sequence_arguments.h"
+#include "apps/cli/sequence_run.h"
+#include "msc_vo/datasets/calibration_correction.h"
+#include "msc_vo/diagnosis/edge_alignment.h"
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Every round runs the odometry with the calibration of the round before.
+constexpr int kMaxRounds = 3;
+// A correction that is smaller, in standard deviations, needs no further round.
+constexpr double kMinCorrection = 0.5;
+// Images in which the depth edges are compared with a corrected registration, and the ratio of them
+// that must agree better: with no effect, each ratio of the 20 images has a chance of one half, and
+// three quarters have 2 %.
+constexpr int kNumEdgeImages = 20;
+constexpr double kMinBetterRatio = 0.75;
+
+constexpr auto kRegistration = static_cast<size_t>(CorrectionGroup::kDepthRegistration);
+
+struct Arguments {
+  SequenceArguments layout;
+  std::vector<std::string> sequences;
+  ConfigurationArguments configuration;
+  RunArguments run;
+  std::string output;
+};
+
+bool SameCamera(const Calibration& a, const Calibration& b) {
+  return a.camera.fx == b.camera.fx && a.camera.fy == b.camera.fy && a.camera.cx == b.camera.cx &&
+         a.camera.cy == b.camera.cy && a.camera.width == b.camera.width &&
+         a.camera.height == b.camera.height && a.distortion.k == b.distortion.k;
+}
+
+std::vector<RgbdDecoder> OpenSequences(const Arguments& arguments,
+                                       const Configuration& configuration) {
+  std::vector<RgbdDecoder> decoders;
+  for (const std::string& directory : arguments.sequences) {
+    SequenceArguments sequence = arguments.layout;
+    sequence.directory = directory;
+    decoders.push_back(OpenDecoder(sequence, configuration));
+    if (!SameCamera(decoders.front().calibration(), decoders.back().calibration())) {
+      throw std::runtime_error(directory + ": its calibration differs from that of " +
+                               arguments.sequences.front() +
+                               "; calibrate the sequences of each camera together");
+    }
+  }
+  return decoders;
+}
+
+// The same sequences with another calibration.
+std::vector<RgbdDecoder> WithCalibration(const std::vector<RgbdDecoder>& decoders,
+                                         const Calibration& calibration) {
+  std::vector<RgbdDecoder> result;
+  for (const RgbdDecoder& decoder : decoders) result.emplace_back(decoder.index(), calibration);
+  return result;
+}
+
+// Runs the odometry on every sequence and selects images for the calibration.
+std::vector<CalibrationSequence> TrackSequences(const std::vector<RgbdDecoder>& decoders,
+                                                const Configuration& configuration,
+                                                const RunArguments& run_arguments,
+                                                const InterruptGuard& interrupt) {
+  std::vector<CalibrationSequence> sequences;
+  for (const RgbdDecoder& decoder : decoders) {
+    RunCallbacks callbacks;
+    callbacks.frame = [](const FrameResult&) {};
+    const SequenceRun run =
+        RunSequence(decoder, configuration, run_arguments, interrupt, callbacks);
+    if (run.exit_code != kExitSuccess) {
+      throw std::runtime_error(decoder.index().directory + ": " + run.context.outcome);
+    }
+    sequences.push_back(MakeCalibrationViews(decoder, configuration.odometry.features, run.result));
+  }
+  return sequences;
+}
+
+double EdgeAgreement(const RgbdDecoder& decoder, int image_index) {
+  const RgbdImage image = decoder.Decode(image_index);
+  return FindPeak(AlignEdges(image.gray, image.depth, false)).at_zero;
+}
+
+// Whether depth edges lie on image edges better with `after` than with `before`: an error of the
+// depth sensor may look like a wrong registration to the motion of points, but not to the edges.
+bool EdgesAgree(const RgbdDecoder& before, const RgbdDecoder& after) {
+  const int count = std::min(kNumEdgeImages, before.size());
+  int num_better = 0;
+  for (int i = 0; i < count; ++i) {
+    const int index = i * before.size() / count;
+    num_better += EdgeAgreement(after, index) > EdgeAgreement(before, index);
+  }
+  return num_better >= kMinBetterRatio * count;
+}
+
+bool NeedsAnotherRound(const CorrectionEstimate& estimate) {
+  return (estimate.correction.cwiseQuotient(estimate.sigma).array().abs() > kMinCorrection).any();
+}
+
+CalibrationReport Calibrate(std::vector<RgbdDecoder> decoders, const Configuration& configuration,
+                            const RunArguments& run, const InterruptGuard& interrupt) {
+  CalibrationReport report;
+  report.given = decoders.front().calibration();
+  report.estimated = report.given;
+  WrongGroups wrong = {}, right = {};
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const auto sequences = TrackSequences(decoders, configuration, run, interrupt);
+    const Calibration& present = report.estimated;
+    const auto calibrate = [&] {
+      return CalibrateSensor(present.camera, present.distortion, sequences, wrong, right);
+    };
+    SensorCalibrationResult result = calibrate();
+    const bool is_new = result.estimate.is_corrected[kRegistration] && !wrong[kRegistration];
+    if (is_new && !EdgesAgree(decoders.front(), {decoders.front().index(),
+                                                 Corrected(present, result.estimate.correction)})) {
+      right[kRegistration] = report.edges_contradict = true;
+      result = calibrate();
+    }
+    if (round == 0) {
+      report.evidence = result.estimate;
+      report.num_views = result.num_views;
+      report.num_pairs = result.num_pairs;
+    }
+    report.refinement = result.estimate;
+    wrong = result.estimate.is_corrected;
+    if (!result.estimate.IsCorrected()) break;
+    report.estimated = Corrected(present, result.estimate.correction);
+    if (!NeedsAnotherRound(result.estimate)) break;
+    decoders = WithCalibration(decoders, report.estimated);
+  }
+  return report;
+}
+
+int Run(const Arguments& arguments) {
+  const Configuration configuration = MakeConfiguration(arguments.configuration);
+  std::vector<RgbdDecoder> decoders = OpenSequences(arguments, configuration);
+  if (!arguments.output.empty()) {
+    for (const RgbdDecoder& decoder : decoders) {
+      RefuseToOverwrite(InputFolders(decoder.index()), arguments.output);
+    }
+    RefuseToOverwrite({arguments.configuration.config}, arguments.output);
+  }
+  RunArguments run = arguments.run;
+  run.quiet = run.quiet || run.json;
+  const InterruptGuard interrupt;
+  const CalibrationReport report = Calibrate(std::move(decoders), configuration, run, interrupt);
+  std::cout << (arguments.run.json ? FormatCalibrationJson(report) : FormatCalibrationTable(report))
+            << std::flush;
+  if (!arguments.output.empty()) {
+    WriteFile(arguments.output, FormatCameraYaml(report.estimated, "written by msc_vo calibrate"));
+  }
+  return kExitSuccess;
+}
+
+}  // namespace
+
+Command AddCalibrateCommand(CLI::App* app) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app->add_subcommand(
+      "calibrate", "Estimate the calibration of an RGB-D camera from recorded sequences");
+  command->add_option("sequences", arguments->sequences, "Folders with sequences of one camera")
+      ->required();
+  AddLayoutArguments(command, &arguments->layout);
+  AddConfigurationArguments(command, &arguments->configuration);
+  AddRunArguments(command, &arguments->run);
+  command->add_option("--output", arguments->output,
+                      "File for the estimated camera, YAML, to be used with --config");
+  command->footer(HelpFooter("msc_vo calibrate my_sequence --output camera.yaml"));
+  return {command, [arguments] { return Run(*arguments); }};
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/cli/calibration_report.h"
+
+#include <cmath>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace {
+
+using S = SensorCorrection;
+
+// Fraction of the prior's standard deviation above which a parameter counts as not observable.
+constexpr double kUnobservable = 0.7;
+
+struct Row {
+  const char* name;
+  const char* key;
+  const char* unit;
+  double given;
+  double estimated;
+  double sigma;
+  S::Index index;
+  CorrectionGroup group;
+};
+
+// The depth camera of registered images is the colour camera.
+DepthCamera DepthCameraOf(const Calibration& calibration) {
+  DepthCamera registered;
+  registered.camera = calibration.camera;
+  return calibration.depth_camera.value_or(registered);
+}
+
+double Roll(const DepthCamera& depth_camera) {
+  const Eigen::Matrix3d rotation = depth_camera.depth_from_color.rotation().toRotationMatrix();
+  return RadiansToDegrees(std::atan2(rotation(1, 0), rotation(0, 0)));
+}
+
+std::vector<Row> RowsOf(const CalibrationReport& report) {
+  using G = CorrectionGroup;
+  const Calibration& given = report.given;
+  const Calibration& estimated = report.estimated;
+  const DepthCamera a = DepthCameraOf(given);
+  const DepthCamera b = DepthCameraOf(estimated);
+  const Eigen::Vector3d t_a = 1000.0 * a.depth_from_color.translation();
+  const Eigen::Vector3d t_b = 1000.0 * b.depth_from_color.translation();
+  const S::Vector& sigma = report.refinement.sigma;
+  const auto depth_group = G::kDepthRegistration;
+  return {
+      {"fx", "fx", "px", given.camera.fx, estimated.camera.fx,
+       estimated.camera.fx * sigma(S::kFocalLength), S::kFocalLength, G::kFocalLength},
+      {"fy", "fy", "px", given.camera.fy, estimated.camera.fy,
+       std::abs(estimated.camera.fy) * sigma(S::kFocalLength), S::kFocalLength, G::kFocalLength},
+      {"cx", "cx", "px", given.camera.cx, estimated.camera.cx, sigma(S::kCenterX), S::kCenterX,
+       G::kPrincipalPoint},
+      {"cy", "cy", "px", given.camera.cy, estimated.camera.cy, sigma(S::kCenterY), S::kCenterY,
+       G::kPrincipalPoint},
+      {"k1", "k1", "", given.distortion.k[0], estimated.distortion.k[0], sigma(S::kK1), S::kK1,
+       G::kLens},
+      {"k2", "k2", "", given.distortion.k[1], estimated.distortion.k[1], sigma(S::kK2), S::kK2,
+       G::kLens},
+      {"depth camera fx", "depth_fx", "px", a.camera.fx, b.camera.fx,
+       b.camera.fx * sigma(S::kDepthFocalLength), S::kDepthFocalLength, depth_group},
+      {"depth camera cx", "depth_cx", "px", a.camera.cx, b.camera.cx, sigma(S::kDepthX), S::kDepthX,
+       depth_group},
+      {"depth camera cy", "depth_cy", "px", a.camera.cy, b.camera.cy, sigma(S::kDepthY), S::kDepthY,
+       depth_group},
+      {"depth camera roll", "depth_roll", "degrees", Roll(a), Roll(b),
+       RadiansToDegrees(sigma(S::kDepthRoll)), S::kDepthRoll, depth_group},
+      {"depth_from_color x", "depth_x", "mm", t_a.x(), t_b.x(), 1000.0 * sigma(S::kDepthParallaxX),
+       S::kDepthParallaxX, depth_group},
+      {"depth_from_color y", "depth_y", "mm", t_a.y(), t_b.y(), 1000.0 * sigma(S::kDepthParallaxY),
+       S::kDepthParallaxY, depth_group},
+  };
+}
+
+const char* VerdictOf(const Row& row, const CalibrationReport& report) {
+  const auto g = static_cast<size_t>(row.group);
+  if (report.refinement.is_corrected[g]) return "corrected";
+  if (row.group == CorrectionGroup::kDepthRegistration && report.edges_contradict) {
+    return "kept: the edges contradict";
+  }
+  const bool is_observable =
+      report.refinement.sigma(row.index) < kUnobservable * WrongCalibrationSigma()(row.index);
+  return is_observable ? "kept" : "kept: not observable";
+}
+
+}  // namespace
+
+std::string FormatCalibrationTable(const CalibrationReport& report) {
+  std::string text = FormatText("%d images, %d pairs of images with points in common\n",
+                                report.num_views, report.num_pairs);
+  text += FormatText("%-20s %12s %12s %10s  %s\n", "", "given", "estimated", "+-", "verdict");
+  for (const Row& row : RowsOf(report)) {
+    const std::string name = row.name + (*row.unit ? std::string(", ") + row.unit : std::string());
+    text += FormatText("%-20s %12.4f %12.4f %10.4f  %s\n", name.c_str(), row.given, row.estimated,
+                       row.sigma, VerdictOf(row, report));
+  }
+  return text;
+}
+
+std::string FormatCalibrationJson(const CalibrationReport& report) {
+  nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
+  for (const Row& row : RowsOf(report)) {
+    parameters[row.key] = {{"unit", row.unit},
+                           {"given", row.given},
+                           {"estimated", row.estimated},
+                           {"sigma", row.sigma},
+                           {"verdict", VerdictOf(row, report)},
+                           {"log_odds", report.evidence.log_odds[static_cast<size_t>(row.group)]}};
+  }
+  const nlohmann::ordered_json json = {
+      {"images", report.num_views}, {"pairs", report.num_pairs}, {"parameters", parameters}};
+  return json.dump(2) + "\n";
+}
+
+std::string FormatCameraYaml(const Calibration& calibration, const std::string& comment) {
+  const auto intrinsics = [](const PinholeCamera& c, const std::string& indent) {
+    return indent + FormatText("fx: %.6f\n", c.fx) + indent + FormatText("fy: %.6f\n", c.fy) +
+           indent + FormatText("cx: %.6f\n", c.cx) + indent + FormatText("cy: %.6f\n", c.cy) +
+           indent + FormatText("width: %d\n", c.width) + indent +
+           FormatText("height: %d\n", c.height);
+  };
+  std::string text = "# " + comment + "\ncamera:\n" + intrinsics(calibration.camera, "  ") +
+                     FormatText("  depth_scale: %.17g\n", calibration.depth_scale);
+  constexpr const char* kNames[] = {"k1", "k2", "p1", "p2", "k3"};
+  for (int i = 0; i < 5; ++i) {
+    text += FormatText("  %s: %.8g\n", kNames[i], calibration.distortion.k[i]);
+  }
+  if (calibration.depth_camera) {
+    const Rigid3& transform = calibration.depth_camera->depth_from_color;
+    const Eigen::Vector3d t = transform.translation();
+    const Eigen::Quaterniond q(transform.rotation());
+    text += "  depth_camera:\n" + intrinsics(calibration.depth_camera->camera, "    ") +
+            FormatText("    translation: [%.6f, %.6f, %.6f]\n", t.x(), t.y(), t.z()) +
+            FormatText("    rotation: [%.8f, %.8f, %.8f, %.8f]\n", q.x(), q.y(), q.z(), q.w());
+  }
+  return text;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+
+#include "msc_vo/datasets/calibration.h"
+#include "msc_vo/self_calibration/sensor_calibration.h"
+
+namespace msc_vo {
+
+/// A calibration before and after self-calibration.
+struct CalibrationReport {
+  Calibration given;
+  Calibration estimated;
+  CorrectionEstimate evidence;    ///< of the first round, relative to `given`
+  CorrectionEstimate refinement;  ///< of the last round; its sigmas are those of `estimated`
+  int num_views = 0;
+  int num_pairs = 0;
+  bool edges_contradict = false;  ///< depth edges refuse a correction of the registration
+};
+
+/// Table of the values, their standard deviations, and the verdict on each part.
+std::string FormatCalibrationTable(const CalibrationReport& report);
+
+/// The same as JSON.
+std::string FormatCalibrationJson(const CalibrationReport& report);
+
+/// The section `camera` of a configuration, as YAML.
+std::string FormatCameraYaml(const Calibration& calibration, const std::string& comment);
+
+}  // namespace msc_vo

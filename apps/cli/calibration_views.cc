@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/cli/calibration_views.h"
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "msc_vo/geometry/so3.h"
+#include "msc_vo/map/rolling_shutter.h"
+#include "msc_vo/sensor/depth_alignment.h"
+
+namespace msc_vo {
+
+namespace {
+
+constexpr size_t kMaxViews = 80;
+
+// Velocity between two frames; std::nullopt unless both poses are estimated.
+std::optional<CameraVelocity> VelocityBetween(const FrameResult& before, const FrameResult& after) {
+  if (!IsEstimated(before.status) || !IsEstimated(after.status)) return std::nullopt;
+  const double seconds = after.timestamp - before.timestamp;
+  const Rigid3 motion = after.cam_from_world * before.cam_from_world.Inverse();
+  return CameraVelocity{LogSO3(motion.rotation()) / seconds, motion.translation() / seconds};
+}
+
+std::vector<size_t> SelectFrames(const std::vector<FrameResult>& frames) {
+  std::vector<size_t> estimated;
+  for (size_t i = 1; i + 1 < frames.size(); ++i) {
+    if (frames[i].status == TrackingStatus::kTracked) estimated.push_back(i);
+  }
+  if (estimated.size() <= kMaxViews) return estimated;
+  std::vector<size_t> selected;
+  for (size_t i = 0; i < kMaxViews; ++i) {
+    selected.push_back(estimated[i * estimated.size() / kMaxViews]);
+  }
+  return selected;
+}
+
+}  // namespace
+
+CalibrationSequence MakeCalibrationViews(const RgbdDecoder& decoder,
+                                         const FrameBuilderOptions& features,
+                                         const OdometryResult& result) {
+  const Calibration& calibration = decoder.calibration();
+  FrameBuilder builder(features, calibration.camera, calibration.distortion);
+  CalibrationSequence views;
+  for (const size_t i : SelectFrames(result.frames)) {
+    const auto velocity = VelocityBetween(result.frames[i - 1], result.frames[i + 1]);
+    RgbdImage image = decoder.Decode(static_cast<int>(result.frames[i].id));
+    if (velocity && image.depth_delay != 0.0) {
+      image.depth = AlignDepth(calibration.camera, image.depth, velocity->Over(image.depth_delay));
+    }
+    Frame frame = builder.Build(image);
+    if (velocity && result.readout_time != 0.0) {
+      frame = CompensateRollingShutter(frame, *velocity, result.readout_time);
+    }
+    views.push_back({std::make_shared<Frame>(std::move(frame)),
+                     InverseDepthImage(image.depth, features.min_depth, features.max_depth),
+                     result.frames[i].cam_from_world});
+  }
+  return views;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include "msc_vo/datasets/rgbd_decoder.h"
+#include "msc_vo/features/frame_builder.h"
+#include "msc_vo/odometry/odometry.h"
+#include "msc_vo/self_calibration/sensor_calibration.h"
+
+namespace msc_vo {
+
+/// Decodes up to 80 evenly spaced images of a sequence whose pose was estimated, and extracts their
+/// points: with the depth at the time of the colour image, and without the rolling shutter if
+/// `result` knows its readout time.
+CalibrationSequence MakeCalibrationViews(const RgbdDecoder& decoder,
+                                         const FrameBuilderOptions& features,
+                                         const OdometryResult& result);
+
+}  // namespace msc_vo

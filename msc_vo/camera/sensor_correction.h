@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include "msc_vo/camera/lens_distortion.h"
+#include "msc_vo/camera/pinhole_camera.h"
+
+namespace msc_vo {
+
+/// Corrections of the calibration of an RGB-D camera, as one parameter block. All zeros: the
+/// calibration is right, and the depth of colour pixel (x, y) is depth(y, x).
+struct SensorCorrection {
+  /// Positions in the block.
+  enum Index {
+    kFocalLength,  ///< logarithm of the true over the given focal length, both axes
+    kCenterX,      ///< pixels, true minus given principal point
+    kCenterY,
+    kK1,  ///< true minus given radial distortion
+    kK2,
+    kDepthFocalLength,  ///< logarithm of the magnification of the depth image
+    kDepthX,            ///< pixels, shift of the depth image at infinity
+    kDepthY,
+    kDepthRoll,       ///< radians, rotation of the depth image
+    kDepthParallaxX,  ///< metres, parallax of the depth image: pixels / focal length / 1/z
+    kDepthParallaxY,
+    kDepthOffset,  ///< 1/metres, measured minus true inverse depth
+    kDepthBowl,    ///< inverse depths are too large by this times the squared radius (z = 1)
+    kSize
+  };
+
+  using Vector = Eigen::Matrix<double, kSize, 1>;
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+};
+
+/// An RGB-D camera with a correction of its calibration. Pixels are those of the recorded image,
+/// with lens distortion. T: double or ceres::Jet.
+class CorrectedCamera {
+ public:
+  template <typename T>
+  using Vector2 = Eigen::Matrix<T, 2, 1>;
+
+  CorrectedCamera(const PinholeCamera& camera, const LensDistortion& distortion)
+      : camera_(camera), distortion_(distortion) {}
+
+  /// Returns the recorded pixel of the point `x` of the plane z = 1.
+  template <typename T>
+  Vector2<T> Pixel(const Vector2<T>& x, const T* correction) const {
+    using std::exp;
+    const T scale = exp(correction[SensorCorrection::kFocalLength]);
+    const Vector2<T> distorted = Distort<T>(x, correction);
+    return {
+        camera_.fx * scale * distorted.x() + camera_.cx + correction[SensorCorrection::kCenterX],
+        camera_.fy * scale * distorted.y() + camera_.cy + correction[SensorCorrection::kCenterY]};
+  }
+
+  /// Returns the point of the plane z = 1 whose Pixel() is `pixel`, by fixed-point iteration.
+  template <typename T>
+  Vector2<T> Ray(const Eigen::Vector2d& pixel, const T* correction) const {
+    using std::exp;
+    constexpr int kIterations = 10;
+    const T scale = exp(-correction[SensorCorrection::kFocalLength]);
+    const Vector2<T> distorted(
+        (pixel.x() - camera_.cx - correction[SensorCorrection::kCenterX]) * scale / camera_.fx,
+        (pixel.y() - camera_.cy - correction[SensorCorrection::kCenterY]) * scale / camera_.fy);
+    Vector2<T> x = distorted;
+    for (int i = 0; i < kIterations; ++i) x = x + (distorted - Distort<T>(x, correction));
+    return x;
+  }
+
+  /// Returns the pixel of the depth image that shows what colour pixel `pixel` shows, at inverse
+  /// depth 0, and its change with the inverse depth (pixels times metres).
+  template <typename T>
+  void DepthPixel(const Eigen::Vector2d& pixel, const T* correction, Vector2<T>* at_infinity,
+                  Vector2<T>* parallax) const {
+    using std::cos;
+    using std::exp;
+    using std::sin;
+    const T scale = exp(correction[SensorCorrection::kDepthFocalLength]);
+    const T c = cos(correction[SensorCorrection::kDepthRoll]);
+    const T s = sin(correction[SensorCorrection::kDepthRoll]);
+    const T x = (pixel.x() - camera_.cx) * scale;
+    const T y = (pixel.y() - camera_.cy) * scale;
+    *at_infinity = {c * x - s * y + camera_.cx + correction[SensorCorrection::kDepthX],
+                    s * x + c * y + camera_.cy + correction[SensorCorrection::kDepthY]};
+    *parallax = {camera_.FocalLength() * correction[SensorCorrection::kDepthParallaxX],
+                 camera_.FocalLength() * correction[SensorCorrection::kDepthParallaxY]};
+  }
+
+  /// Returns the true inverse depth (1/metres) of a measured one at recorded pixel `pixel`.
+  template <typename T>
+  T InverseDepth(const Eigen::Vector2d& pixel, const T& measured, const T* correction) const {
+    const double squared_radius = camera_.Ray(pixel).head<2>().squaredNorm();
+    return measured * (1.0 - squared_radius * correction[SensorCorrection::kDepthBowl]) -
+           correction[SensorCorrection::kDepthOffset];
+  }
+
+  const PinholeCamera& camera() const { return camera_; }
+  const LensDistortion& distortion() const { return distortion_; }
+
+ private:
+  template <typename T>
+  Vector2<T> Distort(const Vector2<T>& x, const T* correction) const {
+    const T k1 = distortion_.k[0] + correction[SensorCorrection::kK1];
+    const T k2 = distortion_.k[1] + correction[SensorCorrection::kK2];
+    const T r2 = x.squaredNorm();
+    const T radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * distortion_.k[4]));
+    const T xy2 = 2.0 * x.x() * x.y();
+    return {
+        radial * x.x() + distortion_.k[2] * xy2 + distortion_.k[3] * (r2 + 2.0 * x.x() * x.x()),
+        radial * x.y() + distortion_.k[3] * xy2 + distortion_.k[2] * (r2 + 2.0 * x.y() * x.y())};
+  }
+
+  PinholeCamera camera_;
+  LensDistortion distortion_;
+};
+
+}  // namespace msc_vo

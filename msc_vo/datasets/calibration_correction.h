@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include "msc_vo/camera/sensor_correction.h"
+#include "msc_vo/datasets/calibration.h"
+
+namespace msc_vo {
+
+/// Returns the calibration with a correction applied. Corrections of the depth registration become
+/// a depth camera, or change the one that there is; those of the depth sensor (kDepthOffset,
+/// kDepthBowl) are left out.
+Calibration Corrected(const Calibration& calibration, const SensorCorrection::Vector& correction);
+
+}  // namespace msc_vo

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/self_calibration/calibration_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+
+namespace msc_vo {
+
+namespace {
+
+using Vector = SensorCorrection::Vector;
+using Matrix = SensorCorrection::Matrix;
+
+// Prior odds of a group to be wrong.
+constexpr double kPriorOdds = 0.1;
+// Posterior odds of the best model to that without any wrong group above which it is accepted.
+constexpr double kAcceptedOdds = 100.0;
+
+constexpr unsigned kNumModels = 1U << kNumCorrectionGroups;
+constexpr double kDegree = 0.017453292519943295;
+
+Vector MakeVector(double focal, double center, double k1, double k2, double depth_focal,
+                  double depth_shift, double roll, double parallax) {
+  Vector sigma;
+  // The last two are errors of depth sensors that every model contains: see field studies of
+  // structured light (offset of the disparity, depth that bends towards the corners).
+  constexpr double kOffset = 0.003;
+  constexpr double kBowl = 0.05;
+  sigma << focal, center, center, k1, k2, depth_focal, depth_shift, depth_shift, roll, parallax,
+      parallax, kOffset, kBowl;
+  return sigma;
+}
+
+// Errors that remain in a good calibration.
+Vector GoodCalibrationSigma() {
+  return MakeVector(0.005, 2.0, 0.01, 0.01, 0.005, 2.0, 0.2 * kDegree, 0.005);
+}
+
+struct Model {
+  Vector mean = Vector::Zero();
+  Vector sigma = Vector::Zero();
+  double log_evidence = -std::numeric_limits<double>::infinity();
+};
+
+unsigned MaskOf(const WrongGroups& wrong) {
+  unsigned mask = 0;
+  for (int g = 0; g < kNumCorrectionGroups; ++g) mask |= (wrong[g] ? 1U : 0U) << g;
+  return mask;
+}
+
+Vector PriorSigma(unsigned wrong_groups) {
+  Vector sigma = GoodCalibrationSigma();
+  const Vector wrong = WrongCalibrationSigma();
+  for (int g = 0; g < kNumCorrectionGroups; ++g) {
+    if ((wrong_groups >> g & 1U) == 0) continue;
+    for (const int i : IndicesOf(static_cast<CorrectionGroup>(g))) sigma(i) = wrong(i);
+  }
+  return sigma;
+}
+
+Model Solve(const CalibrationInformation& information, unsigned wrong_groups) {
+  const Vector prior = PriorSigma(wrong_groups);
+  // In units of the prior: I + S H S.
+  const Matrix scaled =
+      Matrix::Identity() + prior.asDiagonal() * information.matrix * prior.asDiagonal();
+  const Eigen::LDLT<Matrix> ldlt(scaled);
+  const Vector rhs = prior.asDiagonal() * information.vector;
+  const Vector solution = ldlt.solve(rhs);
+  Model model;
+  model.mean = prior.asDiagonal() * solution;
+  model.sigma = prior.cwiseProduct(
+      ldlt.solve(Matrix::Identity()).diagonal().cwiseMax(0.0).cwiseSqrt().eval());
+  double log_determinant = 0.0;
+  for (int i = 0; i < Vector::RowsAtCompileTime; ++i) {
+    log_determinant += std::log(std::max(ldlt.vectorD()(i), 1e-12));
+  }
+  model.log_evidence = 0.5 * rhs.dot(solution) - 0.5 * log_determinant;
+  for (int g = 0; g < kNumCorrectionGroups; ++g) {
+    if ((wrong_groups >> g & 1U) != 0) model.log_evidence += std::log(kPriorOdds);
+  }
+  return model;
+}
+
+}  // namespace
+
+const std::vector<int>& IndicesOf(CorrectionGroup group) {
+  using S = SensorCorrection;
+  static const std::array<std::vector<int>, kNumCorrectionGroups> kIndices = {{
+      {S::kFocalLength},
+      {S::kCenterX, S::kCenterY},
+      {S::kK1, S::kK2},
+      {S::kDepthFocalLength, S::kDepthX, S::kDepthY, S::kDepthRoll, S::kDepthParallaxX,
+       S::kDepthParallaxY},
+  }};
+  return kIndices[static_cast<size_t>(group)];
+}
+
+bool CorrectionEstimate::IsCorrected() const {
+  return std::any_of(is_corrected.begin(), is_corrected.end(), [](bool wrong) { return wrong; });
+}
+
+SensorCorrection::Vector WrongCalibrationSigma() {
+  return MakeVector(0.03, 10.0, 0.1, 0.03, 0.06, 10.0, 1.0 * kDegree, 0.03);
+}
+
+CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,
+                                       const WrongGroups& wrong) {
+  const Model model = Solve(information, MaskOf(wrong));
+  const Model free = Solve(information, kNumModels - 1);
+  CorrectionEstimate estimate;
+  estimate.free_correction = free.mean;
+  estimate.sigma = free.sigma;
+  estimate.is_corrected = wrong;
+  for (int g = 0; g < kNumCorrectionGroups; ++g) {
+    if (!wrong[g]) continue;
+    for (const int i : IndicesOf(static_cast<CorrectionGroup>(g))) {
+      estimate.correction(i) = model.mean(i);
+      estimate.sigma(i) = model.sigma(i);
+    }
+  }
+  return estimate;
+}
+
+CorrectionEstimate SelectCorrections(const CalibrationInformation& information,
+                                     const WrongGroups& known_wrong,
+                                     const WrongGroups& known_right) {
+  std::array<double, kNumModels> evidence;
+  for (unsigned m = 0; m < kNumModels; ++m) evidence[m] = Solve(information, m).log_evidence;
+  const unsigned known = MaskOf(known_wrong);
+  unsigned best = known;
+  for (unsigned m = 0; m < kNumModels; ++m) {
+    if ((m & known) != known || (m & MaskOf(known_right)) != 0) continue;
+    if (evidence[m] > evidence[best]) best = m;
+  }
+  if (evidence[best] - evidence[known] < std::log(kAcceptedOdds)) best = known;
+
+  WrongGroups wrong;
+  for (int g = 0; g < kNumCorrectionGroups; ++g) wrong[g] = (best >> g & 1U) != 0;
+  CorrectionEstimate estimate = EstimateCorrections(information, wrong);
+  for (int g = 0; g < kNumCorrectionGroups; ++g) {
+    double with = -std::numeric_limits<double>::infinity();
+    double without = with;
+    for (unsigned m = 0; m < kNumModels; ++m) {
+      double& side = (m >> g & 1U) != 0 ? with : without;
+      side = std::max(side, evidence[m]);
+    }
+    estimate.log_odds[g] = with - without;
+  }
+  return estimate;
+}
+
+}  // namespace msc_vo

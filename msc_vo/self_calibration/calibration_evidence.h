@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "msc_vo/self_calibration/calibration_pair.h"
+
+namespace msc_vo {
+
+/// Parts of a calibration that are right or wrong together.
+enum class CorrectionGroup { kFocalLength, kPrincipalPoint, kLens, kDepthRegistration };
+constexpr int kNumCorrectionGroups = 4;
+
+/// One value per CorrectionGroup.
+using WrongGroups = std::array<bool, kNumCorrectionGroups>;
+
+/// Indices of the group in SensorCorrection.
+const std::vector<int>& IndicesOf(CorrectionGroup group);
+
+/// Which groups of a calibration are wrong, and by how much.
+struct CorrectionEstimate {
+  /// Zero in groups that are not corrected.
+  SensorCorrection::Vector correction = SensorCorrection::Vector::Zero();
+  /// The estimate if every group were wrong, and its standard deviation.
+  SensorCorrection::Vector free_correction = SensorCorrection::Vector::Zero();
+  SensorCorrection::Vector sigma = SensorCorrection::Vector::Zero();
+  WrongGroups is_corrected = {};
+  /// Logarithm of the odds that the group is wrong: best model with it over best model without it.
+  std::array<double, kNumCorrectionGroups> log_odds = {};
+
+  bool IsCorrected() const;
+};
+
+/// Standard deviation of the parameters before a measurement if their group is wrong. A parameter
+/// that is estimated hardly better than this is not observable.
+SensorCorrection::Vector WrongCalibrationSigma();
+
+/// Estimates the corrections of the model in which exactly the groups `wrong` are wrong.
+CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,
+                                       const WrongGroups& wrong);
+
+/// Compares the 16 models in which each group is either right, up to the errors of a good
+/// calibration, or wrong, by their evidence. A group is wrong with a prior probability of 1/11; the
+/// model is accepted if it is a hundred times more likely than a calibration that is right. Only
+/// models in which the `known_wrong` groups are wrong, and the `known_right` ones right, take part.
+CorrectionEstimate SelectCorrections(const CalibrationInformation& information,
+                                     const WrongGroups& known_wrong = {},
+                                     const WrongGroups& known_right = {});
+
+}  // namespace msc_vo

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <vector>
+
+#include "msc_vo/self_calibration/calibration_evidence.h"
+
+namespace msc_vo {
+
+/// Images of one sequence. Their poses have a common world frame.
+using CalibrationSequence = std::vector<CalibrationView>;
+
+/// Result of CalibrateSensor().
+struct SensorCalibrationResult {
+  CorrectionEstimate estimate;
+  int num_views = 0;  ///< that have points in common with others
+  int num_pairs = 0;
+};
+
+/// Self-calibration of an RGB-D camera from images of a rigid scene (not in the paper): estimates a
+/// SensorCorrection from the points that pairs of images have in common, by Gauss-Newton with the
+/// relative pose of each pair marginalised, and decides which parts of the calibration are wrong.
+/// `camera`, `distortion`: the calibration that the frames were built with. Poses are first
+/// guesses; pairs are formed within each sequence. Groups that are `known_wrong` are corrected
+/// anyway, to refine an earlier correction; those that are `known_right` are not.
+///
+/// The error of an image is common to all its pairs; the information of all pairs is therefore
+/// scaled to that of one pair per image.
+SensorCalibrationResult CalibrateSensor(const PinholeCamera& camera,
+                                        const LensDistortion& distortion,
+                                        const std::vector<CalibrationSequence>& sequences,
+                                        const WrongGroups& known_wrong = {},
+                                        const WrongGroups& known_right = {});
+
+}  // namespace msc_vo

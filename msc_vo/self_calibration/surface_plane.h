@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "msc_vo/camera/sensor_correction.h"
+#include "msc_vo/factors/rgbd_pair_reprojection.h"
+#include "msc_vo/sensor/inverse_depth_image.h"
+
+namespace msc_vo {
+
+/// Fits a plane to the 7x7 pixels of the depth image around the point that belongs to the recorded
+/// colour pixel `pixel` according to `correction`. Returns std::nullopt if pixels are missing or do
+/// not form a plane: beside a depth edge, the surface that a point belongs to depends on the
+/// correction.
+std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
+                                             const InverseDepthImage& depth,
+                                             const Eigen::Vector2d& pixel,
+                                             const SensorCorrection::Vector& correction);
+
+}  // namespace msc_vo
