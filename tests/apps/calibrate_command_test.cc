@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "tests/apps/command_process.h"
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kRoom = std::string(MSC_VO_DATA_FOLDER) + "/room";
+
+class CalibrateCommandTest : public TemporaryFolder {};
+
+TEST_F(CalibrateCommandTest, KeepsTheCalibrationOfTheSample) {
+  const std::string camera = Path("camera.yaml");
+  const CommandOutcome outcome = RunCommand({"calibrate", kRoom, "--json", "--output", camera});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const nlohmann::json json = nlohmann::json::parse(outcome.output);
+  for (const auto& parameter : json["parameters"]) {
+    EXPECT_THAT(parameter["verdict"].get<std::string>(), HasSubstr("kept"));
+    EXPECT_EQ(parameter["given"], parameter["estimated"]);
+  }
+  const CommandOutcome again = RunCommand({"check", kRoom, "--config", camera});
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+}
+
+TEST_F(CalibrateCommandTest, RefusesSequencesOfDifferentCameras) {
+  const std::string other = Path("other");
+  MakeFolder(other);
+  const CommandOutcome outcome =
+      RunCommand({"synthesize", other, "--frames", "2", "--width", "160"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const CommandOutcome refused = RunCommand({"calibrate", kRoom, other});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.output, HasSubstr("calibrate the sequences of each camera together"));
+}
+
+TEST_F(CalibrateCommandTest, DoesNotOverwriteItsInput) {
+  const CommandOutcome outcome =
+      RunCommand({"calibrate", kRoom, "--output", kRoom + "/camera.txt"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+}
+
+}  // namespace
+}  // namespace msc_vo
