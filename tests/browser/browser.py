@@ -12,6 +12,7 @@ SKIPPED = 77
 
 try:
     from selenium import webdriver
+    from selenium.common.exceptions import NoSuchElementException, StaleElementReferenceException
     from selenium.webdriver.chrome.options import Options
     from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.by import By
@@ -100,9 +101,13 @@ class Browser:
             "requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 30)));")
 
     def wait_for(self, condition, seconds=20, what="a condition"):
+        """Waits until a condition holds. While a page replaces another, elements may be missing."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
-            value = condition()
+            try:
+                value = condition()
+            except (NoSuchElementException, StaleElementReferenceException):
+                value = None
             if value:
                 return value
             time.sleep(0.05)

@@ -91,7 +91,7 @@ class LivePageTest(unittest.TestCase):
         self.browser.click("#live-pause")
         self.browser.wait_for(lambda: "APE RMSE" in self.browser.text("body"), what="the report")
         self.assertEqual(self.run.wait(timeout=20), 0)
-        self.assertTrue(self.browser.find("#viewer").is_displayed())
+        self.browser.wait_for(lambda: self.browser.find("#viewer").is_displayed(), what="the viewer")
         self.assertFalse(self.browser.find("#live-bar").is_displayed())
         self.browser.changed_pixels("scene-canvas")
         self.browser.press("t")
@@ -108,7 +108,9 @@ class LivePageTest(unittest.TestCase):
 
     def test_a_vanished_viewer_does_not_stop_the_run(self):
         url = self.start()
+        self.control(url, "speed&value=1")  # four seconds, enough to open the page
         self.browser.driver.get(url)
+        self.browser.wait_for(lambda: self.count() > 0, what="a frame")
         self.browser.driver.get("about:blank")
         self.assertEqual(self.run.wait(timeout=60), 0)
         self.assertTrue((pathlib.Path(self.folder.name) / "report.html").exists())
