@@ -25,6 +25,8 @@ constexpr float kMaxNoise = 0.006f;
 constexpr float kHalfSide = 0.6f;
 // Smallest area of a depth pixel in the colour image, square pixels.
 constexpr float kMinDeterminant = 1e-6f;
+// Smaller depths are no measurement, metres.
+constexpr float kMinDepth = 1e-3f;
 // Smallest z of a viewing ray of the depth camera in the colour camera frame.
 constexpr float kMinRayZ = 0.01f;
 // Half the width of the holes through which the background is removed, depth pixels.
@@ -154,10 +156,11 @@ void DepthRegistration::Footprints::ComputeBoxes(const Row& row, int width, int 
     const float inside_x = std::min(to_x, border_x - from_x);
     const float inside_y = std::min(to_y, border_y - from_y);
     const float margin = std::min(front, std::min(inside_x, inside_y));
-    const float low_x = margin > 0.0f ? std::max(from_x, 0.0f) : 0.0f;
-    const float low_y = margin > 0.0f ? std::max(from_y, 0.0f) : 0.0f;
-    const float high_x = margin > 0.0f ? std::min(to_x, border_x) : -1.0f;
-    const float high_y = margin > 0.0f ? std::min(to_y, border_y) : -1.0f;
+    // The order of the arguments turns NaN, from a lens far outside the image, into a bound.
+    const float low_x = std::min(border_x, std::max(0.0f, from_x));
+    const float low_y = std::min(border_y, std::max(0.0f, from_y));
+    const float high_x = margin > 0.0f ? std::min(border_x, to_x) : -1.0f;
+    const float high_y = margin > 0.0f ? std::min(border_y, to_y) : -1.0f;
     const int floor_x = static_cast<int>(low_x), floor_y = static_cast<int>(low_y);
     to_first_x[i] = floor_x + (static_cast<float>(floor_x) < low_x ? 1 : 0);
     to_first_y[i] = floor_y + (static_cast<float>(floor_y) < low_y ? 1 : 0);
@@ -285,10 +288,10 @@ void DepthRegistration::ProjectRow(const cv::Mat& depth, int v, Row* row) const 
   for (int u = 0; u < width; ++u) {
     const float column = static_cast<float>(u);
     const float measured = z[u];
-    const float w = 1.0f / (measured > 0.0f ? measured : 1.0f) + offset;
+    const float w = 1.0f / (measured > kMinDepth ? measured : 1.0f) + offset;
     const float denominator = first_z + column * step_z + shift_z * w;
     // Positive if there is a depth, which the comparison denies for NaN.
-    const float margin = measured > 0.0f ? std::min(w, denominator - kMinRayZ) : 0.0f;
+    const float margin = measured > kMinDepth ? std::min(w, denominator - kMinRayZ) : 0.0f;
     const float scale = 1.0f / (margin > 0.0f ? denominator : 1.0f);
     to_x[u] = (first_x + column * step_x + shift_x * w) * scale;
     to_y[u] = (first_y + column * step_y + shift_y * w) * scale;
@@ -351,7 +354,7 @@ void DepthRegistration::Draw(const Row& row, const Footprints& footprints, Targe
         const float b =
             (footprints.right.x[i] * dy - footprints.right.y[i] * dx) * footprints.scale[i];
         const float distance = std::max(std::abs(a), std::abs(b));
-        if (distance > kHalfSide) continue;
+        if (!(distance <= kHalfSide)) continue;
         target->Offer(u, v,
                       row.inverse_depth[i] + a * footprints.right.inverse_depth[i] +
                           b * footprints.down.inverse_depth[i],

@@ -21,7 +21,7 @@ class DepthCameraTest : public TemporaryFolder {
   // Renders a small sequence and returns the position error of its replay, metres.
   double ErrorOf(const std::string& name, const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {"synthesize", Path(name), "--frames",
-                                          "60",         "--width",  "320"};
+                                          "30",         "--width",  "240"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     CommandOutcome outcome = RunCommand(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;

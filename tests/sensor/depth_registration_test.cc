@@ -204,6 +204,8 @@ TEST(DepthRegistration, KeepsMissingDepthAndIgnoresInvalid) {
   depth(cv::Rect(150, 100, 20, 20)).setTo(0.0f);
   depth(cv::Rect(100, 100, 20, 20)).setTo(std::numeric_limits<float>::quiet_NaN());
   depth(cv::Rect(100, 140, 20, 20)).setTo(-1.0f);
+  depth.at<float>(60, 200) = 1e-30f;
+  depth.at<float>(60, 210) = std::numeric_limits<float>::infinity();
   const cv::Mat registered = RegisterDepth(Rig(), Color(), {}, depth);
   // 20 pixels of the depth image are 17.9 of the colour image.
   EXPECT_NEAR(cv::countNonZero(registered(cv::Rect(60, 45, 200, 150)) == 0.0f), 3 * 17.9 * 17.9,
