@@ -35,7 +35,7 @@ std::string ToText(py::object value) {
   return py::str(value);
 }
 
-// Makes an optional number unset; returns false for any other option.
+// Makes an optional number or a list unset; returns false for any other option.
 bool Unset(const Option& option) {
   if (const auto* number = std::get_if<std::optional<int>*>(&option.value)) {
     (*number)->reset();
@@ -43,6 +43,10 @@ bool Unset(const Option& option) {
   }
   if (const auto* number = std::get_if<std::optional<double>*>(&option.value)) {
     (*number)->reset();
+    return true;
+  }
+  if (const auto* list = std::get_if<NumberList>(&option.value)) {
+    list->values->clear();
     return true;
   }
   return false;
@@ -57,6 +61,7 @@ struct ToPython {
   py::object operator()(const std::optional<T>* value) const {
     return *value ? py::cast(**value) : py::object(py::none());
   }
+  py::object operator()(const NumberList& list) const { return py::cast(*list.values); }
   py::object operator()(const Choice& choice) const {
     return py::cast(choice.names.at(choice.get()));
   }

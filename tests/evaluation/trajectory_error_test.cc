@@ -64,7 +64,7 @@ std::vector<TimedPose> Moved(const std::vector<TimedPose>& path) {
 TEST(EvaluateTrajectory, AlignsAsTheOptionsSay) {
   const std::vector<TimedPose> path = CurvedPath(200, 30.0);
   EvaluationOptions options;
-  for (const Alignment alignment : {Alignment::kPositions, Alignment::kOrientations}) {
+  for (const Alignment alignment : {Alignment::kSe3, Alignment::kSim3, Alignment::kOrigin}) {
     options.alignment = alignment;
     const TrajectoryError error = EvaluateTrajectory(path, Moved(path), options);
     EXPECT_NEAR(error.ape.max, 0.0, 1e-9);
