@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -148,15 +149,18 @@ CalibrationReport Calibrate(std::vector<RgbdDecoder> decoders, const Configurati
   return report;
 }
 
+// Refuses to write over the configuration, or into a folder of the sequence.
+void RefuseOutput(const Arguments& arguments, const SequenceIndex& sequence) {
+  if (arguments.output.empty()) return;
+  RefuseToOverwrite({arguments.configuration.config}, arguments.output);
+  const std::filesystem::path folder = std::filesystem::absolute(arguments.output).parent_path();
+  RefuseToOverwrite(InputFolders(sequence), folder.string());
+}
+
 int Run(const Arguments& arguments) {
   const Configuration configuration = MakeConfiguration(arguments.configuration);
   std::vector<RgbdDecoder> decoders = OpenSequences(arguments, configuration);
-  if (!arguments.output.empty()) {
-    for (const RgbdDecoder& decoder : decoders) {
-      RefuseToOverwrite(InputFolders(decoder.index()), arguments.output);
-    }
-    RefuseToOverwrite({arguments.configuration.config}, arguments.output);
-  }
+  for (const RgbdDecoder& decoder : decoders) RefuseOutput(arguments, decoder.index());
   RunArguments run = arguments.run;
   run.quiet = run.quiet || run.json;
   const InterruptGuard interrupt;

@@ -26,8 +26,8 @@ constexpr int kMinPoints = 30;
 // image.
 constexpr double kSearchRadius = 30.0;
 // The robust iterations find the inliers; the last ones use the inliers alone.
-constexpr int kRobustIterations = 3;
-constexpr int kIterations = 6;
+constexpr int kRobustIterations = 2;
+constexpr int kIterations = 4;
 // Square roots of the 95 %, 99 % and 50 % quantiles of chi-square with two, three and three degrees
 // of freedom.
 constexpr HuberLoss kLoss{2.448};

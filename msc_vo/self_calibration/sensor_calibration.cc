@@ -15,8 +15,8 @@ namespace {
 // common.
 constexpr double kMaxAngle = 0.8;
 // Bounds of the computing time.
-constexpr size_t kMaxCandidates = 1500;
-constexpr size_t kMaxPairs = 200;
+constexpr size_t kMaxCandidates = 800;
+constexpr size_t kMaxPairs = 150;
 // Fewest points that make a pair worth its time.
 constexpr int kMinPoints = 40;
 constexpr int kMaxIterations = 12;

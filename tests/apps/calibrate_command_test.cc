@@ -42,9 +42,13 @@ TEST_F(CalibrateCommandTest, RefusesSequencesOfDifferentCameras) {
 }
 
 TEST_F(CalibrateCommandTest, DoesNotOverwriteItsInput) {
-  const CommandOutcome outcome =
-      RunCommand({"calibrate", kRoom, "--output", kRoom + "/camera.txt"});
+  const std::string sequence = Path("sequence");
+  ASSERT_EQ(RunCommand({"synthesize", sequence, "--frames", "2", "--width", "160"}).exit_code, 0);
+  const std::string camera = sequence + "/camera.txt";
+  const std::string before = ReadFile(camera);
+  const CommandOutcome outcome = RunCommand({"calibrate", sequence, "--output", camera});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+  EXPECT_EQ(ReadFile(camera), before);
 }
 
 }  // namespace
