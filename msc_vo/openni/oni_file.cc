@@ -42,17 +42,33 @@ class OniReader {
     if (i < next_) Open();
     openni::VideoFrameRef frame;
     for (; next_ <= i; ++next_) {
-      openni::VideoStream* stream = &source_->stream;
-      int ready = 0;
-      constexpr int kTimeout = 10000;  // milliseconds
-      const std::string action = "reading " + what_ + " frame " + std::to_string(next_);
-      CheckStatus(openni::OpenNI::waitForAnyStream(&stream, 1, &ready, kTimeout), path_, action);
-      CheckStatus(source_->stream.readFrame(&frame), path_, action);
+      frame = ReadNext();
+      for (int skipped = 0; !IsNext(frame) && skipped < num_frames_; ++skipped) frame = ReadNext();
+      if (next_ == static_cast<int>(indices_.size())) indices_.push_back(frame.getFrameIndex());
     }
     return frame;
   }
 
  private:
+  // Whether the player delivered frame next_: after it was opened, a recording that repeats may
+  // start with one of its last frames.
+  bool IsNext(const openni::VideoFrameRef& frame) const {
+    const int index = frame.getFrameIndex();
+    if (next_ < static_cast<int>(indices_.size())) return index == indices_[next_];
+    return next_ == 0 ? index <= num_frames_ / 2 : index > indices_.back();
+  }
+
+  openni::VideoFrameRef ReadNext() {
+    openni::VideoStream* stream = &source_->stream;
+    int ready = 0;
+    constexpr int kTimeout = 10000;  // milliseconds
+    const std::string action = "reading " + what_ + " frame " + std::to_string(next_);
+    CheckStatus(openni::OpenNI::waitForAnyStream(&stream, 1, &ready, kTimeout), path_, action);
+    openni::VideoFrameRef frame;
+    CheckStatus(source_->stream.readFrame(&frame), path_, action);
+    return frame;
+  }
+
   // Opens the file before its first frame.
   void Open() {
     source_.reset();  // closes the file
@@ -77,6 +93,7 @@ class OniReader {
   bool is_mirrored_ = false;
   int num_frames_ = 0;
   int next_ = 0;
+  std::vector<int> indices_;  // of the frames read so far, as recorded
 };
 
 class OniContainer : public ImageContainer {

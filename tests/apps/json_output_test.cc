@@ -41,8 +41,9 @@ TEST_F(JsonOutputTest, Synthesize) {
 TEST_F(JsonOutputTest, Check) {
   Synthesize();
   const nlohmann::json json = Run({"check", Path("room")});
-  EXPECT_EQ(json["images"], 8);
+  EXPECT_EQ(json["sequence"], Path("room"));
   EXPECT_EQ(json["format"], "tum");
+  EXPECT_EQ(json["errors"], 0);
   EXPECT_EQ(json["findings"][0]["severity"], "ok");
   std::filesystem::remove_all(Path("room/depth"));
   EXPECT_EQ(Run({"check", Path("room")}, 1)["findings"][0]["severity"], "error");
