@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <vector>
 
 #include "msc_vo/datasets/image_container.h"
 #include "msc_vo/datasets/image_pairing.h"
