@@ -29,9 +29,9 @@ namespace {
 constexpr int kMaxRounds = 3;
 // A correction that is smaller, in standard deviations, needs no further round.
 constexpr double kMinCorrection = 0.5;
-// Images in which the depth edges are compared with a corrected registration, and the ratio of them
-// that must agree better: with no effect, each ratio of the 20 images has a chance of one half, and
-// three quarters have 2 %.
+// Images of the first sequence in which depth edges are compared before and after a correction of
+// the registration, and the ratio of them that must agree better after it. If the correction had no
+// effect, three quarters of 20 images would agree better with a probability of 2 %.
 constexpr int kNumEdgeImages = 20;
 constexpr double kMinBetterRatio = 0.75;
 
@@ -46,9 +46,7 @@ struct Arguments {
 };
 
 bool SameCamera(const Calibration& a, const Calibration& b) {
-  return a.camera.fx == b.camera.fx && a.camera.fy == b.camera.fy && a.camera.cx == b.camera.cx &&
-         a.camera.cy == b.camera.cy && a.camera.width == b.camera.width &&
-         a.camera.height == b.camera.height && a.distortion.k == b.distortion.k;
+  return FormatCameraYaml(a, "") == FormatCameraYaml(b, "");
 }
 
 std::vector<RgbdDecoder> OpenSequences(const Arguments& arguments,
@@ -135,7 +133,7 @@ CalibrationReport Calibrate(std::vector<RgbdDecoder> decoders, const Configurati
       result = calibrate();
     }
     if (round == 0) {
-      report.evidence = result.estimate;
+      report.log_odds = result.estimate.log_odds;
       report.num_views = result.num_views;
       report.num_pairs = result.num_pairs;
     }

@@ -103,6 +103,9 @@ std::string FormatCalibrationTable(const CalibrationReport& report) {
     text += FormatText("%-20s %12.4f %12.4f %10.4f  %s\n", name.c_str(), row.given, row.estimated,
                        row.sigma, VerdictOf(row, report));
   }
+  if (!report.estimated.depth_camera) {
+    text += "The depth images count as registered: their camera is the colour camera.\n";
+  }
   return text;
 }
 
@@ -114,7 +117,7 @@ std::string FormatCalibrationJson(const CalibrationReport& report) {
                            {"estimated", row.estimated},
                            {"sigma", row.sigma},
                            {"verdict", VerdictOf(row, report)},
-                           {"log_odds", report.evidence.log_odds[static_cast<size_t>(row.group)]}};
+                           {"log_odds", report.log_odds[static_cast<size_t>(row.group)]}};
   }
   const nlohmann::ordered_json json = {
       {"images", report.num_views}, {"pairs", report.num_pairs}, {"parameters", parameters}};
@@ -140,7 +143,9 @@ std::string FormatCameraYaml(const Calibration& calibration, const std::string& 
     const Eigen::Quaterniond q(transform.rotation());
     text += "  depth_camera:\n" + intrinsics(calibration.depth_camera->camera, "    ") +
             FormatText("    translation: [%.6f, %.6f, %.6f]\n", t.x(), t.y(), t.z()) +
-            FormatText("    rotation: [%.8f, %.8f, %.8f, %.8f]\n", q.x(), q.y(), q.z(), q.w());
+            FormatText("    rotation: [%.8f, %.8f, %.8f, %.8f]\n", q.x(), q.y(), q.z(), q.w()) +
+            FormatText("    inverse_depth_offset: %.8g\n",
+                       calibration.depth_camera->inverse_depth_offset);
   }
   return text;
 }

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "msc_vo/datasets/calibration.h"
@@ -14,7 +15,8 @@ namespace msc_vo {
 struct CalibrationReport {
   Calibration given;
   Calibration estimated;
-  CorrectionEstimate evidence;    ///< of the first round, relative to `given`
+  /// Of each CorrectionGroup to be wrong in `given`, see CorrectionEstimate.
+  std::array<double, kNumCorrectionGroups> log_odds = {};
   CorrectionEstimate refinement;  ///< of the last round; its sigmas are those of `estimated`
   int num_views = 0;
   int num_pairs = 0;

@@ -17,15 +17,20 @@ namespace msc_vo {
 
 namespace {
 
+// Overwrites the intrinsics and the size that the settings of a camera or of a depth camera give.
+template <typename Settings>
+void ApplyIntrinsics(const Settings& settings, PinholeCamera* camera) {
+  camera->fx = settings.fx.value_or(camera->fx);
+  camera->fy = settings.fy.value_or(camera->fy);
+  camera->cx = settings.cx.value_or(camera->cx);
+  camera->cy = settings.cy.value_or(camera->cy);
+  camera->width = settings.width.value_or(camera->width);
+  camera->height = settings.height.value_or(camera->height);
+}
+
 // Overwrites the values that are set.
 void Apply(const CameraSettings& settings, Calibration* calibration) {
-  PinholeCamera& camera = calibration->camera;
-  camera.fx = settings.fx.value_or(camera.fx);
-  camera.fy = settings.fy.value_or(camera.fy);
-  camera.cx = settings.cx.value_or(camera.cx);
-  camera.cy = settings.cy.value_or(camera.cy);
-  camera.width = settings.width.value_or(camera.width);
-  camera.height = settings.height.value_or(camera.height);
+  ApplyIntrinsics(settings, &calibration->camera);
   calibration->depth_scale = settings.depth_scale.value_or(calibration->depth_scale);
   for (size_t i = 0; i < settings.distortion.size(); ++i) {
     double& k = calibration->distortion.k[i];
@@ -48,13 +53,7 @@ void Apply(const DepthCameraSettings& settings, const std::string& origin,
     (*depth_camera)->camera.width = 0;  // unknown
     (*depth_camera)->camera.height = 0;
   }
-  PinholeCamera& camera = (*depth_camera)->camera;
-  camera.fx = settings.fx.value_or(camera.fx);
-  camera.fy = settings.fy.value_or(camera.fy);
-  camera.cx = settings.cx.value_or(camera.cx);
-  camera.cy = settings.cy.value_or(camera.cy);
-  camera.width = settings.width.value_or(camera.width);
-  camera.height = settings.height.value_or(camera.height);
+  ApplyIntrinsics(settings, &(*depth_camera)->camera);
   Rigid3& depth_from_color = (*depth_camera)->depth_from_color;
   if (!settings.translation.empty()) {
     depth_from_color.translation() = Eigen::Vector3d::Map(settings.translation.data());

@@ -24,25 +24,6 @@ constexpr double kMinScale = 0.5;
 constexpr double kMaxScales = 3.0;
 constexpr double kMinInlierRatio = 0.35;
 
-std::vector<PointPair> MatchFrames(const Frame& from, const Frame& to, const Rigid3& guess,
-                                   double radius) {
-  std::vector<PointCandidate> candidates;
-  for (size_t i = 0; i < from.points.size(); ++i) {
-    if (!from.points[i].HasDepth()) continue;
-    PointCandidate candidate;
-    candidate.id = static_cast<LandmarkId>(i);
-    candidate.position = from.PointInCamera(static_cast<int>(i));
-    candidate.descriptor = from.points[i].descriptor;
-    candidate.level = from.points[i].level;
-    if (ProjectCandidate(to.camera, guess, &candidate)) candidates.push_back(candidate);
-  }
-  std::vector<PointPair> pairs;
-  for (const PointMatch& match : MatchPoints({}, to, candidates, radius, {})) {
-    pairs.push_back({from.points[match.id], to.points[match.feature]});
-  }
-  return pairs;
-}
-
 // Reprojection error of a pair, pixels; infinite behind the camera.
 struct Reprojection {
   Eigen::Vector2d error = Eigen::Vector2d::Constant(1e6);
@@ -94,7 +75,10 @@ double MedianError(const PinholeCamera& camera, const std::vector<PointPair>& pa
 
 std::optional<FrameMotion> EstimateFrameMotion(const Frame& from, const Frame& to,
                                                const Rigid3& guess, double radius) {
-  const std::vector<PointPair> pairs = MatchFrames(from, to, guess, radius);
+  std::vector<PointPair> pairs;
+  for (const PointMatch& match : MatchFrames(from, Rigid3(), to, guess, radius)) {
+    pairs.push_back({from.points[match.id], to.points[match.feature]});
+  }
   if (pairs.size() < kMinPoints) return std::nullopt;
   FrameMotion motion;
   motion.to_from_from = guess;

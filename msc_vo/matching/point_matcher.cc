@@ -95,4 +95,22 @@ std::vector<PointMatch> MatchPoints(const PointMatcherOptions& options, const Fr
   return matches;
 }
 
+std::vector<PointMatch> MatchFrames(const Frame& from, const Rigid3& from_cam_from_world,
+                                    const Frame& to, const Rigid3& to_cam_from_world,
+                                    double radius) {
+  const Rigid3 world_from_cam = from_cam_from_world.Inverse();
+  std::vector<PointCandidate> candidates;
+  for (size_t i = 0; i < from.points.size(); ++i) {
+    const PointFeature& point = from.points[i];
+    if (!point.HasDepth()) continue;
+    PointCandidate candidate;
+    candidate.id = static_cast<LandmarkId>(i);
+    candidate.position = world_from_cam * from.PointInCamera(static_cast<int>(i));
+    candidate.descriptor = point.descriptor;
+    candidate.level = point.level;
+    if (ProjectCandidate(to.camera, to_cam_from_world, &candidate)) candidates.push_back(candidate);
+  }
+  return MatchPoints({}, to, candidates, radius, {});
+}
+
 }  // namespace msc_vo

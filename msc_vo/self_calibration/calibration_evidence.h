@@ -24,8 +24,8 @@ const std::vector<int>& IndicesOf(CorrectionGroup group);
 struct CorrectionEstimate {
   /// Zero in groups that are not corrected.
   SensorCorrection::Vector correction = SensorCorrection::Vector::Zero();
-  /// The estimate if every group were wrong, and its standard deviation.
-  SensorCorrection::Vector free_correction = SensorCorrection::Vector::Zero();
+  /// Standard deviation of the correction; in groups that are not corrected, that of their
+  /// correction if every group were wrong.
   SensorCorrection::Vector sigma = SensorCorrection::Vector::Zero();
   WrongGroups is_corrected = {};
   /// Logarithm of the odds that the group is wrong: best model with it over best model without it.

@@ -13,6 +13,7 @@
 #include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/matching/point_matcher.h"
 #include "msc_vo/self_calibration/surface_plane.h"
+#include "msc_vo/sensor/sensor_noise.h"
 
 namespace msc_vo {
 
@@ -33,9 +34,6 @@ constexpr int kIterations = 4;
 constexpr HuberLoss kLoss{2.448};
 constexpr double kOutlierSigmas = 3.368;
 constexpr double kMedianSigmas = 1.538;
-// Standard deviation of an inverse depth from a plane of 49 pixels, 1/metres: the random error of
-// pixels hardly counts, that of the sensor over a region does (SensorNoiseOptions).
-constexpr double kInverseDepthSigma = 4e-3;
 // Standard deviation, pixels, of the error that the points of a pair have in common; as for the
 // readout time (docs/lab/self_calibration.md).
 constexpr double kCommonError = 0.2;
@@ -96,7 +94,8 @@ Rows Linearize(const RgbdPairReprojection& factor, const Rigid3& b_from_a,
 }
 
 // Square root of the information of the rows of a point: the errors of its pixels, and of its depth
-// in both images. `x_in_b` is its ray in camera b times the ratio of the depths.
+// in both images. The random error of the pixels of a plane hardly counts, that of the sensor over
+// a region does. `x_in_b` is its ray in camera b times the ratio of the depths.
 Eigen::Matrix3d SqrtInformation(const PinholeCamera& camera, const Eigen::Vector3d& x_in_b,
                                 const Eigen::Vector3d& translation, double inverse_depth,
                                 double pixel_variance) {
@@ -104,9 +103,10 @@ Eigen::Matrix3d SqrtInformation(const PinholeCamera& camera, const Eigen::Vector
   Eigen::Vector3d by_inverse_depth;
   by_inverse_depth << ProjectionJacobian(camera, x_in_b) * translation,
       (1.0 - inverse_depth * translation.z() / z) / z;
-  constexpr double kVariance = kInverseDepthSigma * kInverseDepthSigma;
-  Eigen::Matrix3d covariance = kVariance * by_inverse_depth * by_inverse_depth.transpose();
-  covariance.diagonal() += Eigen::Vector3d(pixel_variance, pixel_variance, kVariance);
+  const double sigma = SensorNoiseOptions().inverse_depth_sigma;
+  const double variance = sigma * sigma;
+  Eigen::Matrix3d covariance = variance * by_inverse_depth * by_inverse_depth.transpose();
+  covariance.diagonal() += Eigen::Vector3d(pixel_variance, pixel_variance, variance);
   const Eigen::LLT<Eigen::Matrix3d> root(covariance);
   return root.matrixL().solve(Eigen::Matrix3d::Identity());
 }
@@ -140,7 +140,10 @@ double Median(std::vector<double> values) {
 // down-weighted, or rejected if `rejects_outliers`.
 NormalEquations SumUp(const std::vector<Rows>& all, bool rejects_outliers) {
   std::vector<double> sigmas;
-  for (const Rows& rows : all) sigmas.push_back(rows.Sigmas());
+  for (const Rows& rows : all) {
+    if (rows.is_defined) sigmas.push_back(rows.Sigmas());
+  }
+  if (sigmas.empty()) return {};
   const double scale = std::max(1.0, Median(sigmas) / kMedianSigmas);
   NormalEquations equations;
   for (const Rows& rows : all) {
@@ -183,19 +186,8 @@ CalibrationPair::CalibrationPair(const CorrectedCamera& camera, const Calibratio
     : camera_(camera), a_(a), b_(b) {
   const Frame& from = *a->frame;
   const Frame& to = *b->frame;
-  const Rigid3 world_from_a = a->cam_from_world.Inverse();
-  std::vector<PointCandidate> candidates;
-  for (size_t i = 0; i < from.points.size(); ++i) {
-    const PointFeature& point = from.points[i];
-    if (!point.HasDepth()) continue;
-    PointCandidate candidate;
-    candidate.id = static_cast<LandmarkId>(i);
-    candidate.position = world_from_a * from.PointInCamera(static_cast<int>(i));
-    candidate.descriptor = point.descriptor;
-    candidate.level = point.level;
-    if (ProjectCandidate(to.camera, b->cam_from_world, &candidate)) candidates.push_back(candidate);
-  }
-  for (const PointMatch& match : MatchPoints({}, to, candidates, kSearchRadius, {})) {
+  for (const PointMatch& match :
+       MatchFrames(from, a->cam_from_world, to, b->cam_from_world, kSearchRadius)) {
     const PointFeature& in_a = from.points[match.id];
     const PointFeature& in_b = to.points[match.feature];
     points_.push_back({MakeView(camera.distortion(), from, in_a),

@@ -49,24 +49,10 @@ struct PointPair {
   const PointFeature* to;
 };
 
-// Matches the points of `from` that have a depth with the points of `to` by descriptor.
-std::vector<PointPair> MatchFrames(const Keyframe& from, const Keyframe& to) {
-  const Rigid3 world_from_cam = from.cam_from_world.Inverse();
-  std::vector<PointCandidate> candidates;
-  for (size_t i = 0; i < from.frame->points.size(); ++i) {
-    const PointFeature& point = from.frame->points[i];
-    if (!point.HasDepth()) continue;
-    PointCandidate candidate;
-    candidate.id = static_cast<LandmarkId>(i);
-    candidate.position = world_from_cam * from.frame->PointInCamera(static_cast<int>(i));
-    candidate.descriptor = point.descriptor;
-    candidate.level = point.level;
-    if (ProjectCandidate(to.frame->camera, to.cam_from_world, &candidate)) {
-      candidates.push_back(candidate);
-    }
-  }
+std::vector<PointPair> MatchKeyframes(const Keyframe& from, const Keyframe& to) {
   std::vector<PointPair> pairs;
-  for (const PointMatch& match : MatchPoints({}, *to.frame, candidates, kSearchRadius, {})) {
+  for (const PointMatch& match :
+       MatchFrames(*from.frame, from.cam_from_world, *to.frame, to.cam_from_world, kSearchRadius)) {
     pairs.push_back({&from.frame->points[match.id], &to.frame->points[match.feature]});
   }
   return pairs;
@@ -182,7 +168,7 @@ class PairProblem {
 std::optional<ReadoutTimeEstimate> EstimateReadoutTime(const Keyframe& from, const Keyframe& to,
                                                        double readout_time) {
   if (!from.frame->velocity || !to.frame->velocity) return std::nullopt;
-  const std::vector<PointPair> pairs = MatchFrames(from, to);
+  const std::vector<PointPair> pairs = MatchKeyframes(from, to);
   if (pairs.size() < kMinPoints) return std::nullopt;
   PairProblem problem(*from.frame, *to.frame, pairs);
   State state{to.cam_from_world * from.cam_from_world.Inverse(), readout_time};

@@ -119,7 +119,6 @@ SensorCalibrationResult CalibrateSensor(const PinholeCamera& camera,
       SelectCorrections(SumOf(pairs, free.correction), known_wrong, known_right);
   result.estimate = Iterate(pairs, selected.is_corrected, selected.correction);
   result.estimate.log_odds = selected.log_odds;
-  result.estimate.free_correction = free.correction;
   return result;
 }
 

@@ -8,6 +8,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "msc_vo/sensor/sensor_noise.h"
+
 namespace msc_vo {
 
 namespace {
@@ -15,9 +17,9 @@ namespace {
 constexpr int kRadius = 3;
 // Of the 49 pixels of the window.
 constexpr int kMinPixels = 35;
-// Largest r.m.s. of the residuals, 1/metres: 1.5 times the noise of a pixel
-// (SensorNoiseOptions::inverse_depth_noise).
-constexpr double kMaxRms = 3e-3;
+// Largest r.m.s. of the residuals, in units of the noise of a pixel: chi-square with 46 degrees of
+// freedom would allow 1.25 (99 %); the margin covers sensors somewhat worse than their model.
+constexpr double kMaxRms = 1.5;
 // Steps to the intersection of a viewing ray with the surface of an unregistered depth image.
 constexpr int kSteps = 2;
 
@@ -43,7 +45,8 @@ std::optional<InverseDepthPlane> FitPlane(const InverseDepthImage& depth,
   if (count < kMinPixels) return std::nullopt;
   const Eigen::Vector3d plane = matrix.ldlt().solve(rhs);
   const double variance = std::max(0.0, squares - plane.dot(rhs)) / (count - 3);
-  if (variance > kMaxRms * kMaxRms) return std::nullopt;
+  const double limit = kMaxRms * SensorNoiseOptions().inverse_depth_noise;
+  if (variance > limit * limit) return std::nullopt;
   return InverseDepthPlane{{center_x, center_y}, plane.x(), plane.tail<2>()};
 }
 

@@ -32,7 +32,8 @@ class BrokenSequenceTest : public TemporaryFolder {
   static void SetUpTestSuite() { recording_ = new Recording(Record(SmallRoom(), kNumImages)); }
   static void TearDownTestSuite() { delete recording_; }
 
-  // The findings on a copy of the recording that has been damaged before it was written and after.
+  // Writes a copy of the recording and returns the findings on it. `damage` changes the images and
+  // poses that are written, `damage_files` the files.
   Findings Diagnose(const Damage& damage, bool deep, const std::string& name,
                     const std::function<void(const std::string& folder)>& damage_files = {}) {
     Recording recording = *recording_;

@@ -4,6 +4,9 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
 #include <random>
 #include <vector>
 
@@ -43,6 +46,16 @@ inline std::vector<TimedPose> Disturbed(std::vector<TimedPose> poses, double tra
     pose = {pose.timestamp + time_sigma * normal(random), Rigid3(rotation, translation)};
   }
   return poses;
+}
+
+// Writes the poses as a TUM file with all their digits.
+inline void WriteExactly(const std::filesystem::path& path, const std::vector<TimedPose>& poses) {
+  std::ofstream file(path);
+  file << std::setprecision(17);
+  for (const TimedPose& pose : poses) {
+    file << pose.timestamp << ' ' << pose.world_from_cam.translation().transpose() << ' '
+         << pose.world_from_cam.rotation().coeffs().transpose() << '\n';
+  }
 }
 
 }  // namespace msc_vo

@@ -25,15 +25,6 @@ namespace fs = std::filesystem;
 
 constexpr double kTolerance = 1e-7;
 
-void Write(const fs::path& path, const std::vector<TimedPose>& poses) {
-  std::ofstream file(path);
-  file << std::setprecision(17);
-  for (const TimedPose& pose : poses) {
-    file << pose.timestamp << ' ' << pose.world_from_cam.translation().transpose() << ' '
-         << pose.world_from_cam.rotation().coeffs().transpose() << '\n';
-  }
-}
-
 void ExpectEqual(const ErrorStatistics& ours, const nlohmann::json& theirs, double factor = 1.0) {
   EXPECT_NEAR(factor * ours.rmse, theirs["rmse"], kTolerance);
   EXPECT_NEAR(factor * ours.mean, theirs["mean"], kTolerance);
@@ -69,8 +60,8 @@ TEST_P(FieldDefinitionsTest, AgreeWithNumpy) {
   const std::vector<TimedPose> estimate =
       Transformed(Rigid3(ExpSO3({0.2, -0.3, 0.1}), {0.4, -0.2, 0.1}),
                   Disturbed(truth, 0.02, 0.01, 0.0, 7), 1.3);
-  Write(folder / "truth.txt", truth);
-  Write(folder / "estimate.txt", estimate);
+  WriteExactly(folder / "truth.txt", truth);
+  WriteExactly(folder / "estimate.txt", estimate);
   const std::string output =
       OutputOf(python + " '" MSC_VO_REFERENCE_ERRORS "' '" + (folder / "truth.txt").string() +
                "' '" + (folder / "estimate.txt").string() + "' " + ToText(GetParam()));

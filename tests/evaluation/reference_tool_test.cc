@@ -25,16 +25,6 @@ namespace fs = std::filesystem;
 
 constexpr double kTolerance = 1e-6;
 
-void Write(const fs::path& path, const std::vector<TimedPose>& poses) {
-  std::ofstream file(path);
-  file << std::setprecision(17);
-  for (const TimedPose& pose : poses) {
-    const Eigen::Vector3d t = pose.world_from_cam.translation();
-    const Eigen::Vector4d q = pose.world_from_cam.rotation().coeffs();
-    file << pose.timestamp << ' ' << t.transpose() << ' ' << q.transpose() << '\n';
-  }
-}
-
 class ReferenceToolTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -50,8 +40,8 @@ class ReferenceToolTest : public testing::Test {
 
   void ExpectSameErrors(const std::vector<TimedPose>& truth,
                         const std::vector<TimedPose>& estimate) {
-    Write(folder_ / "truth.txt", truth);
-    Write(folder_ / "estimate.txt", estimate);
+    WriteExactly(folder_ / "truth.txt", truth);
+    WriteExactly(folder_ / "estimate.txt", estimate);
     const std::string output = OutputOf(python_ + " '" MSC_VO_REFERENCE_TOOL "' --json '" +
                                         (folder_ / "truth.txt").string() + "' '" +
                                         (folder_ / "estimate.txt").string() + "'");

@@ -3,6 +3,7 @@
 
 #include "msc_vo/results/benchmark_merge.h"
 
+#include "tests/results/benchmark_runs.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -21,24 +22,10 @@ using testing::IsEmpty;
 using testing::Not;
 
 BenchmarkRun MakeRun(const std::string& sequence, int index, const std::string& mode, double ape) {
-  BenchmarkRun run;
-  run.sequence = sequence;
+  BenchmarkRun run = GoodRun(sequence, mode, ape, 0.1 / 3.0);
   run.sequence_index = index;
   run.directory = "data/" + sequence;
-  run.mode = mode;
-  run.summary.num_frames = 4;
-  run.summary.status_counts = {3, 0, 0, 1, 0};
-  run.summary.num_keyframes = 2;
-  run.summary.stages = {{"tracking", 4, 12.5, 11.0, 20.0, 21.0},
-                        {"mapping", 2, 30.0, 30.0, 40.0, 40.0}};
-  run.cost = {1.0, 0.2, 123.4};
-  run.error.emplace();
-  run.error->usable = true;
   run.error->num_matched = 4;
-  run.error->ape.count = 4;
-  run.error->ape.rmse = ape;
-  run.error->rpe_per_second.translation.count = 3;
-  run.error->rpe_per_second.translation.rmse = 0.1 / 3.0;
   return run;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/results/benchmark_runs.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -17,25 +18,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-
-BenchmarkRun GoodRun(const std::string& sequence, const std::string& mode, double ape) {
-  BenchmarkRun run;
-  run.sequence = sequence;
-  run.mode = mode;
-  run.summary.num_frames = 4;
-  run.summary.status_counts = {3, 0, 0, 1, 0};
-  run.summary.num_keyframes = 2;
-  run.summary.stages = {{"tracking", 4, 12.5, 11.0, 20.0, 21.0},
-                        {"mapping", 2, 30.0, 30.0, 40.0, 40.0}};
-  run.cost = {1.0, 0.2, 123.4};
-  run.error.emplace();
-  run.error->usable = true;
-  run.error->ape.count = 4;
-  run.error->ape.rmse = ape;
-  run.error->rpe_per_second.translation.count = 3;
-  run.error->rpe_per_second.translation.rmse = 0.002;
-  return run;
-}
 
 BenchmarkRun FailedRun(const std::string& sequence, const std::string& mode) {
   BenchmarkRun run;
