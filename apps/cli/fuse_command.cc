@@ -19,6 +19,8 @@
 #include "msc_vo/datasets/image_file.h"
 #include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/evaluation/association.h"
+#include "msc_vo/report/surface_layer.h"
+#include "msc_vo/results/mesh_ply.h"
 #include "msc_vo/sensor/lens_remap.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
@@ -29,12 +31,14 @@ namespace {
 
 // Largest difference of the stamps of an image and its pose, seconds: both come from the same list.
 constexpr double kMaxTimeDifference = 0.005;
+constexpr size_t kMaxReportBytes = size_t{256} << 20;
 
 struct Arguments {
   SequenceArguments sequence;
   ConfigurationArguments configuration;
   std::string trajectory;
   std::string output;
+  std::string report;  // empty: none
   SurfaceFusionOptions fusion;
   int every = 1;
   bool points = false;
@@ -45,7 +49,7 @@ struct Arguments {
 // An image of the sequence and its pose.
 struct PosedImage {
   int index = 0;
-  Rigid3 cam_from_world;
+  TimedPose pose;
 };
 
 std::vector<PosedImage> SelectImages(const Arguments& arguments, const RgbdDecoder& decoder) {
@@ -61,7 +65,7 @@ std::vector<PosedImage> SelectImages(const Arguments& arguments, const RgbdDecod
   int matched = 0;
   for (const StampMatch& match : AssociateStamps(stamps, pose_stamps, kMaxTimeDifference)) {
     if (matched++ % arguments.every != 0) continue;
-    images.push_back({match.reference, poses[match.query].world_from_cam.Inverse()});
+    images.push_back({match.reference, poses[match.query]});
   }
   if (images.empty()) {
     throw std::runtime_error(arguments.trajectory + ": none of its " +
@@ -133,7 +137,8 @@ Progressed AddImages(const RgbdDecoder& decoder, const std::vector<PosedImage>& 
     try {
       const cv::Mat depth = decoder.Decode(image.index).depth;
       const cv::Mat color = ReadColor(decoder.index().entries[image.index], depth.size());
-      fusion->Add(depth_remap.Undistort(depth), remap.Undistort(color), image.cam_from_world);
+      fusion->Add(depth_remap.Undistort(depth), remap.Undistort(color),
+                  image.pose.world_from_cam.Inverse());
       ++progressed.num_images;
     } catch (const UnreadableImage& error) {
       PrintWarning(error.what());
@@ -144,11 +149,40 @@ Progressed AddImages(const RgbdDecoder& decoder, const std::vector<PosedImage>& 
   return progressed;
 }
 
+// The report that the surface is added to; empty without one.
+std::string ReadReport(const std::string& path) {
+  if (path.empty()) return "";
+  std::string page = ReadFile(path, kMaxReportBytes);
+  if (!IsInteractiveReport(page)) {
+    throw std::runtime_error(path +
+                             ": is no interactive report of msc_vo; give the report.html of a "
+                             "run, written by an msc_vo that was built with three.js");
+  }
+  return page;
+}
+
+// Adds the surface as a layer to the report of a run. `pose`: of one of the images.
+void UpdateReport(const std::string& path, const std::string& page, const SurfaceFusion& fusion,
+                  const ColoredMesh& mesh, const TimedPose& pose) {
+  ColoredMesh layer = fusion.Simplify(mesh, kMaxSurfaceTriangles);
+  SortMesh(&layer);
+  WriteFile(path, AddSurfaceLayer(page, layer, pose));
+}
+
+void PrintResult(const Arguments& arguments, const ColoredMesh& mesh, int num_images) {
+  std::cout << FormatText("%s: %zu vertices, %zu triangles from %d images\n",
+                          arguments.output.c_str(), mesh.positions.size(), mesh.triangles.size(),
+                          num_images);
+  if (!arguments.report.empty()) std::cout << arguments.report << ": shows the surface\n";
+}
+
 int Run(const Arguments& arguments) {
   const Configuration configuration = MakeConfiguration(arguments.configuration);
   const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
   PrintWarnings(decoder.index().warnings);
-  RefuseToOverwrite({arguments.trajectory, arguments.configuration.config}, arguments.output);
+  RefuseToOverwrite({arguments.trajectory, arguments.configuration.config, arguments.report},
+                    arguments.output);
+  const std::string page = ReadReport(arguments.report);
   const std::vector<PosedImage> images = SelectImages(arguments, decoder);
   SurfaceFusionOptions options = arguments.fusion;
   options.camera = decoder.calibration().camera;
@@ -162,11 +196,10 @@ int Run(const Arguments& arguments) {
   }
   SortMesh(&mesh);
   WriteFile(arguments.output, FormatMeshPly(mesh));
-  if (!arguments.quiet) {
-    std::cout << FormatText("%s: %zu vertices, %zu triangles from %d images\n",
-                            arguments.output.c_str(), mesh.positions.size(), mesh.triangles.size(),
-                            progressed.num_images);
+  if (!arguments.report.empty()) {
+    UpdateReport(arguments.report, page, *fusion, mesh, images[images.size() / 2].pose);
   }
+  if (!arguments.quiet) PrintResult(arguments, mesh, progressed.num_images);
   return progressed.interrupted ? kExitInterrupted : kExitSuccess;
 }
 
@@ -207,14 +240,20 @@ Command AddFuseCommand(CLI::App* app) {
           "Poses of the images: trajectory.txt of a run, or a ground truth on their stamps")
       ->required();
   command->add_option("--output", arguments->output, "PLY file for the surface")->required();
-  command->add_flag("--points", arguments->points, "Write points instead of triangles");
+  CLI::Option* const points =
+      command->add_flag("--points", arguments->points, "Write points instead of triangles");
+  command
+      ->add_option("--report", arguments->report,
+                   "Add the surface as a layer to this report.html of a run")
+      ->excludes(points);
   command->add_flag("--all-poses", arguments->all_poses,
                     "Also use poses that are marked as not estimated");
   command->add_flag("--quiet", arguments->quiet, "Print neither progress nor results");
   AddFusionArguments(command, arguments.get());
   AddConfigurationArguments(command, &arguments->configuration);
   command->footer(
-      HelpFooter("msc_vo fuse my_sequence out/trajectory.txt --output out/surface.ply"));
+      HelpFooter("msc_vo fuse my_sequence out/trajectory.txt --output out/surface.ply "
+                 "--report out/report.html"));
   return {command, [arguments] { return Run(*arguments); }};
 }
 

@@ -10,12 +10,11 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "apps/cli/commands.h"
 #include "apps/cli/interrupt_guard.h"
 #include "apps/cli/progress.h"
+#include "apps/cli/rendered_frames.h"
 #include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/results/ply_file.h"
@@ -29,8 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Raw units per metre of TUM's depth images: 0.2 mm steps, 13 m at most.
-constexpr double kDepthFactor = 5000.0;
 // A line of camera.txt that identifies folders written by this command.
 constexpr char kMark[] = "written by msc_vo synthesize";
 
@@ -40,8 +37,7 @@ struct Arguments {
   std::string noise = "none";
   int frames = 260;
   int height = 0;  // pixels; 0: three quarters of the width
-  bool jpeg = false;
-  int jpeg_quality = 95;
+  ColorEncoding encoding;
   bool overwrite = false;
   bool json = false;
   std::vector<double> rig;  // focal length, x, y, roll; empty: registered depth
@@ -68,28 +64,6 @@ void PrepareFolder(const fs::path& folder, bool overwrite) {
   }
 }
 
-void WriteImage(const fs::path& path, const cv::Mat& image, const std::vector<int>& parameters) {
-  std::vector<uchar> bytes;
-  cv::imencode(path.extension().string(), image, bytes, parameters);
-  WriteFile(path.string(), std::string(bytes.begin(), bytes.end()));
-}
-
-void WriteColor(const fs::path& path, int jpeg_quality, RenderedImage* image) {
-  const cv::Mat rgb(image->height, image->width, CV_8UC3, image->rgb.data());
-  cv::Mat bgr;
-  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  // PNG level 1, because image noise does not compress.
-  WriteImage(path, bgr, {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
-}
-
-void WriteDepth(const fs::path& path, RenderedImage* image) {
-  const cv::Mat depth(image->height, image->width, CV_32FC1, image->depth.data());
-  cv::Mat raw;
-  depth.convertTo(raw, CV_16U, kDepthFactor);  // rounds, and saturates at 13.1 m
-  // Quantised depth compresses: level 6 saves a fifth of level 1.
-  WriteImage(path, raw, {cv::IMWRITE_PNG_COMPRESSION, 6});
-}
-
 // The rig that --rig describes; none without.
 std::optional<DepthRig> MakeRig(const std::vector<double>& numbers) {
   if (numbers.empty()) return std::nullopt;
@@ -103,7 +77,7 @@ Calibration ToldCalibration(const Arguments& arguments, const SyntheticSequence&
                             const std::optional<DepthRig>& rig) {
   Calibration calibration;
   calibration.camera = sequence.camera();
-  calibration.depth_scale = kDepthFactor;
+  calibration.depth_scale = kRenderedDepthScale;
   if (rig && !arguments.untold) {
     calibration.depth_camera = DepthCamera{sequence.depth_camera(), rig->depth_from_color};
   }
@@ -139,7 +113,7 @@ void PrintJson(const Arguments& arguments, const PinholeCamera& camera, int num_
                                          {"cy", camera.cy},
                                          {"width", camera.width},
                                          {"height", camera.height},
-                                         {"depth_scale", kDepthFactor}}}};
+                                         {"depth_scale", kRenderedDepthScale}}}};
   std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
 }
 
@@ -168,15 +142,16 @@ int Run(const Arguments& arguments) {
   truth.Append("# timestamp tx ty tz qx qy qz qw (camera in world)\n");
   const InterruptGuard guard;
   Progress progress(arguments.frames);
+  RenderedFrames frames(sequence, arguments.encoding, arguments.frames);
   int num_done = 0;
   for (int i = 0; i < arguments.frames && !guard.IsInterrupted(); ++i) {
-    SyntheticFrame frame = sequence.Render(i);
+    const EncodedFrame frame = frames.Next();
     const std::string stamp = FormatText("%.6f", frame.pose.timestamp);
-    const std::string rgb = "rgb/" + stamp + (arguments.jpeg ? ".jpg" : ".png");
+    const std::string rgb = "rgb/" + stamp + (arguments.encoding.jpeg ? ".jpg" : ".png");
     const std::string depth_stamp = FormatText("%.6f", frame.pose.timestamp + options.depth_delay);
     const std::string depth = "depth/" + depth_stamp + ".png";
-    WriteColor(folder / rgb, arguments.jpeg_quality, &frame.image);
-    WriteDepth(folder / depth, &frame.image);
+    WriteFile((folder / rgb).string(), frame.color);
+    WriteFile((folder / depth).string(), frame.depth);
     rgb_list.Append(stamp + " " + rgb + "\n");
     depth_list.Append(depth_stamp + " " + depth + "\n");
     associations.Append(stamp + " " + rgb + " " + depth_stamp + " " + depth + "\n");
@@ -248,8 +223,9 @@ Command AddSynthesizeCommand(CLI::App* app) {
                    "Noise of colour images, standard deviation in grey levels")
       ->capture_default_str();
   AddRigArguments(command, arguments.get());
-  CLI::Option* jpeg = command->add_flag("--jpeg", arguments->jpeg, "Write colour images as JPEG");
-  command->add_option("--jpeg-quality", arguments->jpeg_quality, "JPEG quality, 1 to 100")
+  CLI::Option* jpeg =
+      command->add_flag("--jpeg", arguments->encoding.jpeg, "Write colour images as JPEG");
+  command->add_option("--jpeg-quality", arguments->encoding.jpeg_quality, "JPEG quality, 1 to 100")
       ->check(CLI::Range(1, 100))
       ->needs(jpeg)
       ->capture_default_str();

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include <open3d/core/EigenConverter.h>
+#include <open3d/geometry/TriangleMesh.h>
 #include <open3d/t/geometry/Image.h>
 #include <open3d/t/geometry/VoxelBlockGrid.h>
 #include <open3d/utility/Logging.h>
@@ -25,6 +26,7 @@ constexpr int kBlockResolution = 8;      // voxels per edge of a block
 constexpr float kTruncation = 4.0f;      // voxels
 constexpr double kBytesPerVoxel = 12.0;  // distance, weight, three colours
 constexpr int64_t kInitialBlocks = 4096;
+constexpr double kCellGrowth = 1.25;  // from one try of Simplify() to the next
 
 const o3c::Device kCpu("CPU:0");
 
@@ -77,6 +79,32 @@ void CopyTriangles(const o3c::Tensor& indices, ColoredMesh* mesh) {
   }
 }
 
+open3d::geometry::TriangleMesh ToOpen3d(const ColoredMesh& mesh) {
+  open3d::geometry::TriangleMesh result;
+  for (const Eigen::Vector3f& x : mesh.positions) result.vertices_.push_back(x.cast<double>());
+  for (const std::array<uint8_t, 3>& rgb : mesh.colors) {
+    result.vertex_colors_.emplace_back(rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+  }
+  for (const std::array<int32_t, 3>& corners : mesh.triangles) {
+    result.triangles_.emplace_back(corners[0], corners[1], corners[2]);
+  }
+  return result;
+}
+
+ColoredMesh FromOpen3d(const open3d::geometry::TriangleMesh& mesh) {
+  ColoredMesh result;
+  for (const Eigen::Vector3d& x : mesh.vertices_) result.positions.push_back(x.cast<float>());
+  for (const Eigen::Vector3d& rgb : mesh.vertex_colors_) {
+    std::array<uint8_t, 3> color;
+    for (int k = 0; k < 3; ++k) color[k] = cv::saturate_cast<uint8_t>(255.0 * rgb[k]);
+    result.colors.push_back(color);
+  }
+  for (const Eigen::Vector3i& corners : mesh.triangles_) {
+    result.triangles.push_back({corners[0], corners[1], corners[2]});
+  }
+  return result;
+}
+
 class Open3dFusion : public SurfaceFusion {
  public:
   explicit Open3dFusion(const SurfaceFusionOptions& options)
@@ -116,6 +144,19 @@ class Open3dFusion : public SurfaceFusion {
       CopyVertices(points.GetPointPositions(), points.GetPointColors(), &mesh);
     }
     return mesh;
+  }
+
+  ColoredMesh Simplify(const ColoredMesh& mesh, size_t max_triangles) const override {
+    if (mesh.triangles.size() <= max_triangles) return mesh;
+    const open3d::geometry::TriangleMesh fine = ToOpen3d(mesh);
+    // Marching cubes makes about two triangles per square of a voxel.
+    double cell =
+        options_.voxel_size * std::sqrt(static_cast<double>(mesh.triangles.size()) / max_triangles);
+    while (true) {
+      const auto coarse = fine.SimplifyVertexClustering(cell);
+      if (coarse->triangles_.size() <= max_triangles) return FromOpen3d(*coarse);
+      cell *= kCellGrowth;
+    }
   }
 
  private:

@@ -3,13 +3,14 @@
 
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include <opencv2/core.hpp>
 
 #include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/geometry/colored_mesh.h"
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/results/mesh_ply.h"
 
 namespace msc_vo {
 
@@ -35,6 +36,9 @@ class SurfaceFusion {
 
   /// The surface by marching cubes, or points on it without triangles. Empty if nothing was added.
   virtual ColoredMesh Extract(bool with_triangles) const = 0;
+
+  /// Joins the vertices of each cell of a grid, which grows until at most `max_triangles` remain.
+  virtual ColoredMesh Simplify(const ColoredMesh& mesh, size_t max_triangles) const = 0;
 };
 
 /// The function of the module that makes a fusion; the caller owns the result.

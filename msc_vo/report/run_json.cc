@@ -172,6 +172,7 @@ std::string FormatRunJson(const ReportData& data) {
   Json json = HeadToJson(data, ChooseTrajectoryView(data).view_from_world);
   if (data.frames.empty()) return Dump(json);
   const double start = data.frames.front().timestamp;
+  json["start"] = start;
   json["frames"] = FramesToJson(data.frames, 0, start);
   std::vector<float> truth;
   for (const ReportGroundTruthPose& pose : data.ground_truth) {

@@ -28,7 +28,7 @@ void WriteViewerElements(std::ostream& out) {
 
 void WriteViewerScripts(const std::string& run_json, std::ostream& out) {
   if (!HasViewer()) return;
-  out << "<script type=\"application/json\" id=\"run-data\">" << run_json << "</script>\n"
+  out << kRunDataElement << run_json << "</script>\n"
       << "<script>\n/*\n"
       << kThreeLicense << "*/\n"
       << kThreeScript << "\n</script>\n"

@@ -8,6 +8,11 @@
 
 namespace msc_vo {
 
+/// The opening tags of the data of a run, and of the surface that may stand before it.
+inline constexpr char kRunDataElement[] = "<script type=\"application/json\" id=\"run-data\">";
+inline constexpr char kSurfaceDataElement[] =
+    "<script type=\"application/json\" id=\"surface-data\">";
+
 /// Other addresses that a page may talk to.
 enum class PageConnections { kNone, kItsServer };
 

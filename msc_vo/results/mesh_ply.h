@@ -3,25 +3,11 @@
 
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
-#include <vector>
 
-#include <Eigen/Core>
+#include "msc_vo/geometry/colored_mesh.h"
 
 namespace msc_vo {
-
-/// A surface of triangles with coloured vertices; without triangles a cloud of points.
-struct ColoredMesh {
-  std::vector<Eigen::Vector3f> positions;         ///< metres, world
-  std::vector<std::array<uint8_t, 3>> colors;     ///< red, green, blue; one per vertex
-  std::vector<std::array<int32_t, 3>> triangles;  ///< indices of vertices
-};
-
-/// Sorts the vertices by position and the triangles by their vertices, so that equal surfaces have
-/// equal files in whatever order they were found.
-void SortMesh(ColoredMesh* mesh);
 
 /// Formats a mesh as binary little-endian PLY: x y z (float), red green blue (uchar), and faces as
 /// lists of vertex_indices, unless there are no triangles. Throws std::invalid_argument unless

@@ -9,7 +9,8 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
-#include "msc_vo/results/mesh_ply.h"
+#include "msc_vo/geometry/colored_mesh.h"
+#include "msc_vo/report/surface_layer.h"
 #include "msc_vo/synthetic/scene/synthetic_sequence.h"
 #include "msc_vo/text/files.h"
 
@@ -60,6 +61,7 @@ double Median(std::vector<double> values) {
 class FuseCommandTest : public TemporaryFolder {
  protected:
   void SetUp() override {
+    TemporaryFolder::SetUp();
     const CommandOutcome outcome =
         RunCommand({"synthesize", Path("room"), "--frames", std::to_string(kFrames), "--width",
                     "160", "--fps", "4", "--image-sigma", "0"});
@@ -146,6 +148,32 @@ TEST_F(FuseCommandTest, WritesPointsAndTheSameBytesTwice) {
   EXPECT_GT(points.positions.size(), 2000U);
   EXPECT_TRUE(points.triangles.empty());
   EXPECT_TRUE(ReadFile(Path("a.ply"), 1 << 28) == ReadFile(Path("b.ply"), 1 << 28));
+}
+
+TEST_F(FuseCommandTest, AddsTheSurfaceToAReport) {
+  ASSERT_EQ(RunCommand({"replay", Path("room"), "--output", Path("out"), "--quiet"}).exit_code, 0);
+  const std::string report = Path("out/report.html");
+  const std::string before = ReadFile(report, 1 << 28);
+  const CommandOutcome outcome = Fuse("a.ply", {"--report", report});
+  if (!IsInteractiveReport(before)) {  // built without three.js
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.output, HasSubstr("report.html: is no interactive report"));
+    return;
+  }
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("report.html: shows the surface"));
+  const std::string once = ReadFile(report, 1 << 28);
+  EXPECT_GT(once.size(), before.size() + 20'000);
+  ASSERT_EQ(Fuse("a.ply", {"--report", report}).exit_code, 0);
+  EXPECT_TRUE(ReadFile(report, 1 << 28) == once);
+}
+
+TEST_F(FuseCommandTest, RefusesWhatIsNoReport) {
+  WriteFile(Path("page.html"), "<html></html>");
+  const CommandOutcome outcome = Fuse("a.ply", {"--report", Path("page.html")});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("page.html: is no interactive report"));
+  EXPECT_EQ(ReadFile(Path("page.html")), "<html></html>");
 }
 
 TEST_F(FuseCommandTest, StopsAtTheMemoryLimit) {

@@ -4,6 +4,7 @@
     report_page_test.py MSC_VO
 """
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -66,6 +67,26 @@ class ReportPageTest(unittest.TestCase):
         for layer in ["points", "keyframes", "trajectory", "ground truth", "axes", "camera"]:
             self.browser.click(f"button[data-layer='{layer}']")
             self.assertGreater(self.browser.changed_pixels("scene-canvas"), 5, layer)
+
+    def test_a_fused_surface_is_a_layer(self):
+        page = self.report.with_name("with_surface.html")
+        shutil.copy(self.report, page)
+        fuse = subprocess.run([self.command, "fuse", SEQUENCE, self.report.with_name("trajectory.txt"),
+                               "--output", page.with_suffix(".ply"), "--voxel", "0.04", "--quiet",
+                               "--report", page], stderr=subprocess.PIPE, text=True)
+        if "msc_vo_fusion.so is not installed" in fuse.stderr:
+            self.skipTest("built without Open3D")
+        self.assertEqual(fuse.returncode, 0, fuse.stderr)
+        self.assertFalse(self.browser.find("button[data-layer=surface]").is_displayed())
+        self.browser.driver.get(page.as_uri())
+        self.assertTrue(self.browser.find("button[data-layer=surface]").is_displayed())
+        self.browser.changed_pixels("scene-canvas")
+        self.browser.press("8")
+        self.assertGreater(self.browser.changed_pixels("scene-canvas"), 20_000)
+        self.browser.press("c")  # the image is not hidden by the surface
+        self.browser.changed_pixels("scene-canvas")
+        self.browser.press("8")
+        self.assertEqual(self.browser.changed_pixels("scene-canvas"), 0)
 
     def test_views_differ(self):
         self.browser.changed_pixels("scene-canvas")

@@ -41,24 +41,6 @@ TEST(FormatMeshPly, PointsHaveNoFaces) {
   EXPECT_THAT(FormatMeshPly(points), Not(HasSubstr("element face")));
 }
 
-TEST(SortMesh, EqualSurfacesHaveEqualFiles) {
-  ColoredMesh mesh = Triangle();
-  mesh.triangles = {{{0, 1, 2}}};
-  ColoredMesh other;  // the same vertices and triangle, from another vertex on
-  for (const int i : {1, 2, 0}) {
-    other.positions.push_back(mesh.positions[i]);
-    other.colors.push_back(mesh.colors[i]);
-  }
-  other.triangles = {{{0, 1, 2}}};
-  EXPECT_NE(FormatMeshPly(mesh), FormatMeshPly(other));
-  SortMesh(&mesh);
-  SortMesh(&other);
-  EXPECT_EQ(FormatMeshPly(mesh), FormatMeshPly(other));
-  std::swap(other.triangles[0][1], other.triangles[0][2]);  // the other side
-  SortMesh(&other);
-  EXPECT_NE(FormatMeshPly(mesh), FormatMeshPly(other));
-}
-
 TEST(FormatMeshPly, RefusesMissingColors) {
   ColoredMesh mesh = Triangle();
   mesh.colors.pop_back();

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -25,7 +26,11 @@ class TemporaryFolder : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  std::string Path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string Path(const std::string& name) const {
+    // Tests that run at the same time would share the working directory.
+    if (folder_.empty()) throw std::logic_error("TemporaryFolder::SetUp() was not called");
+    return (folder_ / name).string();
+  }
   std::string Folder() const { return folder_.string(); }
 
   void WriteText(const std::string& name, const std::string& text) const {

@@ -84,7 +84,9 @@ function startKeys(model, timeline, sceneActions) {
 }
 
 function startPage() {
-  const model = new RunModel(JSON.parse(byId("run-data").textContent));
+  const surface = byId("surface-data");
+  const model = new RunModel(
+      JSON.parse(byId("run-data").textContent), surface && JSON.parse(surface.textContent));
   if (model.count === 0 && !model.info.live) return;
   byId("viewer").hidden = false;
   const scene = startScene(model);

@@ -18,8 +18,21 @@ const FRAME_COLUMNS = [
   ["mapping_ms", Float32Array, 1],
 ];
 
+// Positions are stored in steps from the corner of their bounding box.
+function decodeSurface(surface) {
+  const steps = decodeArray(Uint16Array, surface.positions);
+  return {
+    time: surface.time,  // time stamp of the image whose pose in the world of the surface is `pose`
+    pose: surface.pose,
+    positions: Float32Array.from(steps, (step, i) => surface.corner[i % 3] + surface.step * step),
+    colors: decodeArray(Uint8Array, surface.colors),
+    triangles: decodeArray(Uint32Array, surface.triangles),
+  };
+}
+
 class RunModel extends EventTarget {
-  constructor(data) {
+  // `surface`: data of the fused surface; null if there is none.
+  constructor(data, surface) {
     super();
     this.info = data;
     this.count = 0;
@@ -31,6 +44,7 @@ class RunModel extends EventTarget {
     this.map = {lines: new Float32Array(0), axes: new Uint8Array(0), points: new Float32Array(0)};
     this.axes = data.axes || null;
     this.groundTruth = decodeArray(Float32Array, data.ground_truth);
+    this.surface = surface && decodeSurface(surface);
     this.addFrames(data.frames);
     this.setMap(data.map);
     this.addViews(data.views);
@@ -96,6 +110,12 @@ class RunModel extends EventTarget {
     if (frame === this.current) return;
     this.current = frame;
     this.dispatchEvent(new Event("frame"));
+  }
+
+  // Index of the frame with a time stamp, to 5 ms as in msc_vo fuse; -1 if there is none.
+  frameAt(timestamp) {
+    const seconds = timestamp - this.info.start;
+    return this.columns.time.findIndex((time) => Math.abs(time - seconds) < 5e-3);
   }
 
   setTime(seconds) {

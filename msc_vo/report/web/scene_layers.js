@@ -15,12 +15,16 @@ function frustumSegments(camera, depth) {
   return new Float32Array(ends);
 }
 
-// The pose of a frame as a matrix from camera to world.
-function poseMatrix(model, frame) {
-  const p = model.columns.pose.subarray(7 * frame, 7 * frame + 7);
+// Position and quaternion as a matrix.
+function matrixOf(p) {
   return new THREE.Matrix4().compose(
       new THREE.Vector3(p[0], p[1], p[2]), new THREE.Quaternion(p[3], p[4], p[5], p[6]),
       new THREE.Vector3(1, 1, 1));
+}
+
+// The pose of a frame as a matrix from camera to world.
+function poseMatrix(model, frame) {
+  return matrixOf(model.columns.pose.subarray(7 * frame, 7 * frame + 7));
 }
 
 // The positions of all frames, without gaps.
@@ -31,6 +35,28 @@ function trajectoryOf(model) {
     if (Number.isFinite(p[0] + p[1] + p[2])) points.push(p[0], p[1], p[2]);
   }
   return new Float32Array(points);
+}
+
+// The fused surface. It is drawn from its front only, so that one looks into rooms from outside, and
+// a little behind its place, so that lines on it are seen.
+function makeSurface(model) {
+  const {surface} = model;
+  const geometry = new THREE.BufferGeometry();
+  const material = new THREE.MeshBasicMaterial(
+      {vertexColors: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 50});
+  if (surface) {
+    geometry.setAttribute("position", new THREE.BufferAttribute(surface.positions, 3));
+    geometry.setAttribute("color", new THREE.BufferAttribute(surface.colors, 3, true));
+    geometry.setIndex(new THREE.BufferAttribute(surface.triangles, 1));
+  }
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.matrixAutoUpdate = false;
+  const frame = surface ? model.frameAt(surface.time) : -1;
+  if (frame >= 0 && Number.isFinite(model.value("pose", frame))) {
+    const inverse = new THREE.Matrix4().getInverse(matrixOf(surface.pose));
+    mesh.matrix.multiplyMatrices(poseMatrix(model, frame), inverse);
+  }
+  return mesh;
 }
 
 class SceneLayers {
@@ -47,12 +73,13 @@ class SceneLayers {
         new THREE.PointsMaterial(
             {size: 2, sizeAttenuation: false, transparent: true, opacity: 0.55}));
     this.points.frustumCulled = false;
+    this.surface = makeSurface(model);
     this.camera.matrixAutoUpdate = false;
-    // In order of the keys 1 to 7: label, object.
+    // In order of the keys 1 to 8: label, object.
     this.all = [
       ["lines", this.lines], ["points", this.points], ["keyframes", this.keyframes],
       ["trajectory", this.trajectory], ["ground truth", this.truth], ["axes", this.axes],
-      ["camera", this.camera]
+      ["camera", this.camera], ["surface", this.surface]
     ];
     this.hidden = new Set();
     for (const [, object] of this.all) group.add(object);
@@ -62,6 +89,7 @@ class SceneLayers {
   isEmpty(label) {
     if (label === "ground truth") return this.model.groundTruth.length === 0;
     if (label === "axes") return !this.model.axes;
+    if (label === "surface") return !this.model.surface;
     return false;
   }
 
@@ -70,12 +98,14 @@ class SceneLayers {
     else this.hidden.add(label);
   }
 
-  // `from_camera`: frusta close to the eye would hide the rest.
+  // `from_camera`: frusta close to the eye would hide the rest, and the surface the image.
   show(from_camera) {
     for (const [label, object] of this.all) {
       object.visible = !this.hidden.has(label) && !this.isEmpty(label);
     }
-    if (from_camera) this.camera.visible = this.keyframes.visible = false;
+    if (from_camera) {
+      for (const object of [this.camera, this.keyframes, this.surface]) object.visible = false;
+    }
   }
 
   // `scale`: size of the scene in metres.
