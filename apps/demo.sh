@@ -28,7 +28,7 @@ if [[ ! -d $house ]]; then
   say "Render a house: a round through its four rooms, 300 images with the noise of a Kinect"
   # Renamed when complete, so that an interrupted run leaves no incomplete sequence.
   rm -rf "$house.part"
-  "$msc_vo" synthesize "$house.part" --scene house --frames 300 --fps 10 --speed 0.6 \
+  "$msc_vo" synthesize "$house.part" --scene house --frames 300 --fps 10 --speed 0.7 \
             --noise kinect --jpeg
   mv "$house.part" "$house"
 fi

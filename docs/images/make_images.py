@@ -15,6 +15,7 @@ import base64
 import io
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -133,7 +134,7 @@ def main():
         sys.exit(f"{HOUSE.relative_to(ROOT)} does not exist: run apps/demo.sh first")
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
-        (work / "house").symlink_to(HOUSE)
+        shutil.copytree(HOUSE, work / "house")
         report = make_report(command, work)
         page = browser.Browser()
         try:
