@@ -35,7 +35,7 @@ TEST_F(SequenceCalibrationTest, RejectsInvalidSettings) {
   EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
               AllOf(HasSubstr("mine.yaml"), HasSubstr("fx = -535")));
   settings.fx.reset();
-  settings.distortion[4] = 0.0;
+  settings.lens.coefficients[4] = 0.0;
   EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
               AllOf(HasSubstr("mine.yaml"), HasSubstr("folds over")));
 }
