@@ -64,10 +64,10 @@ TEST(LensModels, FisheyeIsEquidistantWithoutCoefficients) {
   bent.k = {0.1, 0.2, 0.3, 0.4};
   // theta = pi / 4.
   const double t = M_PI / 4.0;
-  EXPECT_NEAR(bent.DistortNormalized({1.0, 0.0}).x(),
-              t + 0.1 * std::pow(t, 3) + 0.2 * std::pow(t, 5) + 0.3 * std::pow(t, 7) +
-                  0.4 * std::pow(t, 9),
-              1e-15);
+  EXPECT_NEAR(
+      bent.DistortNormalized({1.0, 0.0}).x(),
+      t + 0.1 * std::pow(t, 3) + 0.2 * std::pow(t, 5) + 0.3 * std::pow(t, 7) + 0.4 * std::pow(t, 9),
+      1e-15);
 }
 
 // The whole recorded image, for each lens.

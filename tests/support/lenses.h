@@ -16,8 +16,6 @@ inline LensDistortion AzureKinectLens() {
 
 // A wide fisheye camera: 120 degrees from the left to the right border.
 inline PinholeCamera WideCamera() { return {300.0, 301.0, 322.0, 238.0, 640, 480}; }
-inline LensDistortion WideLens() {
-  return {{0.02, -0.012, 0.006, -0.0015}, LensModel::kFisheye};
-}
+inline LensDistortion WideLens() { return {{0.02, -0.012, 0.006, -0.0015}, LensModel::kFisheye}; }
 
 }  // namespace msc_vo::testing
