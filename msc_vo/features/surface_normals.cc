@@ -25,6 +25,7 @@ constexpr double kCorrelationLength = 5.0;
 // objects of a room.
 constexpr int kMinRadius = 5;
 constexpr int kMaxRadius = 32;
+constexpr int kMaxArea = (2 * kMaxRadius + 1) * (2 * kMaxRadius + 1);
 // Largest angle between ray and normal, radians (80 degrees): surfaces at a flatter angle cannot be
 // distinguished from depth edges, and depth on them is poor.
 constexpr double kMaxIncidence = 1.396;
@@ -54,7 +55,6 @@ struct SurfaceNormalEstimator::Window {
 };
 
 bool SurfaceNormalOptions::IsValid(std::string* error) const {
-  constexpr int kMaxArea = (2 * kMaxRadius + 1) * (2 * kMaxRadius + 1);
   if (grid_step < 1) {
     *error = "normals.grid_step must be at least 1 pixel";
   } else if (!(min_depth > 0.0 && max_depth > min_depth)) {
@@ -77,14 +77,17 @@ SurfaceNormalEstimator::SurfaceNormalEstimator(const SurfaceNormalOptions& optio
       !IsInvertible(distortion, camera, &error)) {
     throw std::invalid_argument("SurfaceNormalEstimator: " + error);
   }
+  const double widest = DepthSums::kMaxSum / (kMaxArea * options.max_depth);
   rays_.reserve(static_cast<size_t>(camera.width) * camera.height);
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
       Eigen::Vector2d pixel(x, y);
       if (!distortion.IsZero()) pixel = distortion.Undistort(camera, pixel);
       const Vector3d ray = camera.Ray(pixel);
-      // What a cropped image does not show may lie so far to the side that sums would overflow.
-      const bool is_shown = !distortion.IsCropped() || camera.IsInside(pixel);
+      // Points far to the side, most of which a cropped image does not show, would overflow sums.
+      const bool is_shown =
+          !distortion.IsCropped() ||
+          (camera.IsInside(pixel) && ray.maxCoeff() < widest && ray.minCoeff() > -widest);
       rays_.push_back({static_cast<float>(is_shown ? ray.x() : kNotShown),
                        static_cast<float>(is_shown ? ray.y() : kNotShown)});
     }
