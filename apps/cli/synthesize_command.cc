@@ -109,7 +109,7 @@ LensDistortion ParseLens(const std::string& text) {
   const size_t colon = std::min(text.find(':'), text.size());
   const std::optional<LensModel> model = LensModelFromName(text.substr(0, colon));
   if (!model) {
-    throw std::invalid_argument("--lens: unknown model '" + text.substr(0, colon) +
+    throw std::invalid_argument("unknown model '" + text.substr(0, colon) +
                                 "'; known: " + LensModelNames());
   }
   lens.model = *model;
@@ -119,11 +119,11 @@ LensDistortion ParseLens(const std::string& text) {
   size_t count = 0;
   for (; std::getline(numbers, number, ','); ++count) {
     const std::optional<double> k = ParseNumber(number);
-    if (!k) throw std::invalid_argument("--lens: '" + number + "' is not a number");
+    if (!k) throw std::invalid_argument("'" + number + "' is not a number");
     if (count < expected) lens.k[count] = *k;
   }
   if (count != expected) {
-    throw std::invalid_argument("--lens: expected the coefficients " + LensCoefficientList(*model) +
+    throw std::invalid_argument("expected the coefficients " + LensCoefficientList(*model) +
                                 " of the model " + LensModelName(*model) + ", found " +
                                 std::to_string(count) + " numbers");
   }
@@ -257,7 +257,7 @@ void AddCameraArguments(CLI::App* command, Arguments* arguments) {
                  "Leave the lens and the depth camera out of camera.txt")
       ->check([lens, rig](const std::string&) {
         return lens->count() + rig->count() > 0 ? std::string()
-                                                : std::string("--untold needs --lens or --rig");
+                                                : std::string("needs --lens or --rig");
       });
 }
 

@@ -32,16 +32,19 @@ SyntheticSequenceOptions WideOptions() {
 // Depth and colour of a recorded pixel are those of the first surface on its ray.
 TEST(LensWarpTest, RecordsWhatTheRaysHit) {
   SyntheticSequenceOptions options = WideOptions();
+  options.width = 320;
+  options.height = 240;
+  options.focal_length = 150.0;
   for (const LensDistortion& lens : {testing::WideLens(), testing::AzureKinectLens()}) {
     options.lens = lens;
     const SyntheticSequence sequence(options);
     const SyntheticFrame frame = sequence.Render(2);
     const Rigid3& world_from_cam = frame.pose.world_from_cam;
-    ASSERT_EQ(frame.image.width, 160);
+    ASSERT_EQ(frame.image.width, 320);
     int exact = 0, seen = 0;
-    for (int y = 0; y < 120; y += 3) {
-      for (int x = 0; x < 160; x += 3) {
-        const float depth = frame.image.depth[y * 160 + x];
+    for (int y = 0; y < 240; y += 6) {
+      for (int x = 0; x < 320; x += 6) {
+        const float depth = frame.image.depth[y * 320 + x];
         if (depth == 0.0f) continue;
         ++seen;
         const Vector3d ray = sequence.camera().Ray(lens.Undistort(sequence.camera(), {x, y}));
