@@ -34,7 +34,7 @@ struct Row {
 // The depth camera of registered images is the colour camera.
 DepthCamera DepthCameraOf(const Calibration& calibration) {
   DepthCamera registered;
-  registered.camera = calibration.camera;
+  registered.camera = calibration.Recorded();
   return calibration.depth_camera.value_or(registered);
 }
 
@@ -47,6 +47,8 @@ std::vector<Row> RowsOf(const CalibrationReport& report) {
   using G = CorrectionGroup;
   const Calibration& given = report.given;
   const Calibration& estimated = report.estimated;
+  const PinholeCamera& given_camera = given.Recorded();
+  const PinholeCamera& camera = estimated.Recorded();
   const DepthCamera a = DepthCameraOf(given);
   const DepthCamera b = DepthCameraOf(estimated);
   const Eigen::Vector3d t_a = 1000.0 * a.depth_from_color.translation();
@@ -54,13 +56,13 @@ std::vector<Row> RowsOf(const CalibrationReport& report) {
   const S::Vector& sigma = report.refinement.sigma;
   const auto depth_group = G::kDepthRegistration;
   return {
-      {"fx", "fx", "px", given.camera.fx, estimated.camera.fx,
-       estimated.camera.fx * sigma(S::kFocalLength), S::kFocalLength, G::kFocalLength},
-      {"fy", "fy", "px", given.camera.fy, estimated.camera.fy,
-       std::abs(estimated.camera.fy) * sigma(S::kFocalLength), S::kFocalLength, G::kFocalLength},
-      {"cx", "cx", "px", given.camera.cx, estimated.camera.cx, sigma(S::kCenterX), S::kCenterX,
+      {"fx", "fx", "px", given_camera.fx, camera.fx, camera.fx * sigma(S::kFocalLength),
+       S::kFocalLength, G::kFocalLength},
+      {"fy", "fy", "px", given_camera.fy, camera.fy, std::abs(camera.fy) * sigma(S::kFocalLength),
+       S::kFocalLength, G::kFocalLength},
+      {"cx", "cx", "px", given_camera.cx, camera.cx, sigma(S::kCenterX), S::kCenterX,
        G::kPrincipalPoint},
-      {"cy", "cy", "px", given.camera.cy, estimated.camera.cy, sigma(S::kCenterY), S::kCenterY,
+      {"cy", "cy", "px", given_camera.cy, camera.cy, sigma(S::kCenterY), S::kCenterY,
        G::kPrincipalPoint},
       {"k1", "k1", "", given.distortion.k[0], estimated.distortion.k[0], sigma(S::kK1), S::kK1,
        G::kLens},
@@ -90,6 +92,18 @@ const char* VerdictOf(const Row& row, const CalibrationReport& report) {
   const bool is_observable =
       report.refinement.sigma(row.index) < kUnobservable * WrongCalibrationSigma()(row.index);
   return is_observable ? "kept" : "kept: not observable";
+}
+
+std::string LensYaml(const LensDistortion& lens, const std::string& indent) {
+  std::string text;
+  if (lens.model != LensModel::kRadialTangential) {
+    text += indent + "lens: " + LensModelName(lens.model) + "\n";
+  }
+  const std::vector<std::string>& names = LensCoefficientNames(lens.model);
+  for (size_t i = 0; i < names.size(); ++i) {
+    text += indent + names[i] + FormatText(": %.8g\n", lens.k[i]);
+  }
+  return text;
 }
 
 }  // namespace
@@ -131,11 +145,11 @@ std::string FormatCameraYaml(const Calibration& calibration, const std::string& 
            indent + FormatText("width: %d\n", c.width) + indent +
            FormatText("height: %d\n", c.height);
   };
-  std::string text = "# " + comment + "\ncamera:\n" + intrinsics(calibration.camera, "  ") +
+  std::string text = "# " + comment + "\ncamera:\n" + intrinsics(calibration.Recorded(), "  ") +
                      FormatText("  depth_scale: %.17g\n", calibration.depth_scale);
-  constexpr const char* kNames[] = {"k1", "k2", "p1", "p2", "k3"};
-  for (int i = 0; i < 5; ++i) {
-    text += FormatText("  %s: %.8g\n", kNames[i], calibration.distortion.k[i]);
+  text += LensYaml(calibration.distortion, "  ");
+  if (calibration.field_of_view) {
+    text += FormatText("  field_of_view: %.17g\n", *calibration.field_of_view);
   }
   if (calibration.depth_camera) {
     const Rigid3& transform = calibration.depth_camera->depth_from_color;
@@ -146,6 +160,8 @@ std::string FormatCameraYaml(const Calibration& calibration, const std::string& 
             FormatText("    rotation: [%.8f, %.8f, %.8f, %.8f]\n", q.x(), q.y(), q.z(), q.w()) +
             FormatText("    inverse_depth_offset: %.8g\n",
                        calibration.depth_camera->inverse_depth_offset);
+    const LensDistortion& lens = calibration.depth_camera->distortion;
+    if (!lens.IsZero()) text += LensYaml(lens, "    ");
   }
   return text;
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -21,6 +23,7 @@
 #include "msc_vo/synthetic/scene/synthetic_sequence.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -41,7 +44,8 @@ struct Arguments {
   bool overwrite = false;
   bool json = false;
   std::vector<double> rig;  // focal length, x, y, roll; empty: registered depth
-  bool untold = false;      // the rig is not in camera.txt
+  std::string lens;         // MODEL:COEFFICIENTS; empty: none
+  bool untold = false;      // rig and lens are not in camera.txt
   SyntheticSequenceOptions options;
 };
 
@@ -72,13 +76,44 @@ std::optional<DepthRig> MakeRig(const std::vector<double>& numbers) {
                   {Eigen::Quaterniond(roll), Eigen::Vector3d(numbers[1], numbers[2], 0.0)}};
 }
 
+// The lens that --lens describes; none without. Throws std::invalid_argument.
+LensDistortion ParseLens(const std::string& text) {
+  LensDistortion lens;
+  if (text.empty()) return lens;
+  const size_t colon = std::min(text.find(':'), text.size());
+  const std::optional<LensModel> model = LensModelFromName(text.substr(0, colon));
+  if (!model) {
+    throw std::invalid_argument("unknown model '" + text.substr(0, colon) +
+                                "'; known: " + LensModelNames());
+  }
+  lens.model = *model;
+  const size_t expected = LensCoefficientNames(*model).size();
+  std::istringstream numbers(text.substr(std::min(colon + 1, text.size())));
+  std::string number;
+  size_t count = 0;
+  for (; std::getline(numbers, number, ','); ++count) {
+    const std::optional<double> k = ParseNumber(number);
+    if (!k) throw std::invalid_argument("'" + number + "' is not a number");
+    if (count < expected) lens.k[count] = *k;
+  }
+  if (count != expected) {
+    throw std::invalid_argument("expected the coefficients " + LensCoefficientList(*model) +
+                                " of the model " + LensModelName(*model) + ", found " +
+                                std::to_string(count) + " numbers");
+  }
+  return lens;
+}
+
 // What camera.txt tells of the cameras.
 Calibration ToldCalibration(const Arguments& arguments, const SyntheticSequence& sequence,
-                            const std::optional<DepthRig>& rig) {
+                            const LensDistortion& lens, const std::optional<DepthRig>& rig) {
   Calibration calibration;
   calibration.camera = sequence.camera();
   calibration.depth_scale = kRenderedDepthScale;
-  if (rig && !arguments.untold) {
+  if (arguments.untold) return calibration;
+  calibration.distortion = lens;
+  calibration.SetUndistorted();
+  if (rig) {
     calibration.depth_camera = DepthCamera{sequence.depth_camera(), rig->depth_from_color};
   }
   return calibration;
@@ -123,12 +158,14 @@ int Run(const Arguments& arguments) {
   options.height = arguments.height > 0 ? arguments.height : options.width * 3 / 4;
   options.kinect_depth = arguments.noise == "kinect";
   options.depth_rig = MakeRig(arguments.rig);
+  options.lens = ParseLens(arguments.lens);
   const SyntheticSequence sequence(options);
 
   const fs::path folder = arguments.folder;
   PrepareFolder(folder, arguments.overwrite);
   WriteFile((folder / "camera.txt").string(),
-            FormatCameraFile(ToldCalibration(arguments, sequence, options.depth_rig), kMark));
+            FormatCameraFile(ToldCalibration(arguments, sequence, options.lens, options.depth_rig),
+                             kMark));
   std::vector<LineSegment3> edges = sequence.scene().edges;
   const std::vector<LineSegment3> painted = sequence.scene().PaintedEdges();
   edges.insert(edges.end(), painted.begin(), painted.end());
@@ -163,7 +200,25 @@ int Run(const Arguments& arguments) {
   return guard.IsInterrupted() ? kExitInterrupted : kExitSuccess;
 }
 
-void AddRigArguments(CLI::App* command, Arguments* arguments) {
+void AddCameraArguments(CLI::App* command, Arguments* arguments) {
+  command
+      ->add_option("--focal-length", arguments->options.focal_length,
+                   "Focal length of the colour camera, pixels; default: 525/640 of the width")
+      ->check(CLI::PositiveNumber);
+  CLI::Option* lens =
+      command
+          ->add_option("--lens", arguments->lens,
+                       "MODEL:K1,K2,...: lens of the colour camera, and of depth without --rig: "
+                       "radial-tangential, rational or fisheye, with its coefficients in OpenCV's "
+                       "order")
+          ->check([](const std::string& text) {
+            try {
+              ParseLens(text);
+            } catch (const std::invalid_argument& error) {
+              return std::string(error.what());
+            }
+            return std::string();
+          });
   CLI::Option* rig =
       command
           ->add_option("--rig", arguments->rig,
@@ -172,8 +227,13 @@ void AddRigArguments(CLI::App* command, Arguments* arguments) {
                        "degrees")
           ->delimiter(',')
           ->expected(4);
-  command->add_flag("--untold", arguments->untold, "Leave the depth camera out of camera.txt")
-      ->needs(rig);
+  command
+      ->add_flag("--untold", arguments->untold,
+                 "Leave the lens and the depth camera out of camera.txt")
+      ->check([lens, rig](const std::string&) {
+        return lens->count() + rig->count() > 0 ? std::string()
+                                                : std::string("needs --lens or --rig");
+      });
 }
 
 }  // namespace
@@ -222,7 +282,7 @@ Command AddSynthesizeCommand(CLI::App* app) {
       ->add_option("--image-sigma", arguments->options.image_sigma,
                    "Noise of colour images, standard deviation in grey levels")
       ->capture_default_str();
-  AddRigArguments(command, arguments.get());
+  AddCameraArguments(command, arguments.get());
   CLI::Option* jpeg =
       command->add_flag("--jpeg", arguments->encoding.jpeg, "Write colour images as JPEG");
   command->add_option("--jpeg-quality", arguments->encoding.jpeg_quality, "JPEG quality, 1 to 100")

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <pybind11/eigen.h>
+#include <pybind11/stl.h>
 
+#include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
-#include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/camera/undistorted_camera.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -34,6 +39,51 @@ std::string Describe(const PinholeCamera& camera) {
                     camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height);
 }
 
+LensDistortion MakeLens(const std::string& model, const py::object& coefficients) {
+  const std::optional<LensModel> found = LensModelFromName(model);
+  if (!found) {
+    throw std::invalid_argument("Lens: unknown model '" + model + "'; known: " + LensModelNames());
+  }
+  const Eigen::VectorXd k = VectorArgument(coefficients, "coefficients", -1);
+  const size_t expected = LensCoefficientNames(*found).size();
+  if (static_cast<size_t>(k.size()) != expected) {
+    throw std::invalid_argument("Lens: expected " + LensCoefficientList(*found) + " of the model " +
+                                model + ", not " + std::to_string(k.size()) + " numbers");
+  }
+  LensDistortion lens;
+  lens.model = *found;
+  std::copy(k.begin(), k.end(), lens.k.begin());
+  return lens;
+}
+
+std::pair<PinholeCamera, LensDistortion> CroppedCamera(PinholeCamera camera, LensDistortion lens,
+                                                       const std::optional<double>& field_of_view) {
+  std::string error;
+  if (field_of_view && !IsValidFieldOfView(*field_of_view, &error)) {
+    throw std::invalid_argument(error);
+  }
+  camera = lens.Recorded(camera);
+  CropToFieldOfView(field_of_view, &lens, &camera);
+  return {camera, lens};
+}
+
+void BindLens(py::module_* module) {
+  py::class_<LensDistortion>(*module, "Lens", "Lens distortion by one of OpenCV's models.")
+      .def(py::init(&MakeLens), py::arg("model"), py::arg("coefficients"),
+           "model: radial-tangential (k1 k2 p1 p2 k3), rational (k1 k2 p1 p2 k3 k4 k5 k6) or "
+           "fisheye (k1 k2 k3 k4). Raises ValueError on another model or number of coefficients.")
+      .def_property_readonly("model",
+                             [](const LensDistortion& lens) { return LensModelName(lens.model); })
+      .def_property_readonly("coefficients", &LensDistortion::Coefficients)
+      .def_readonly("recorded", &LensDistortion::recorded,
+                    "Camera of the recorded images, None if it is that of the undistorted ones.");
+  module->def("undistorted_camera", &CroppedCamera, py::arg("camera"), py::arg("lens"),
+              py::arg("field_of_view") = py::none(),
+              "Returns (camera, lens) for Odometry from those of the recorded images: a fisheye "
+              "lens, or one with a horizontal field_of_view (degrees), gets undistorted images of "
+              "other intrinsics.");
+}
+
 }  // namespace
 
 void BindCamera(py::module_* module) {
@@ -50,6 +100,7 @@ void BindCamera(py::module_* module) {
       .def_readonly("height", &PinholeCamera::height)
       .def_property_readonly("matrix", &MatrixOf, "The 3x3 intrinsic matrix.")
       .def("__repr__", &Describe);
+  BindLens(module);
 }
 
 }  // namespace msc_vo

@@ -27,6 +27,7 @@ namespace {
 LensDistortion DistortionArgument(const py::object& value) {
   LensDistortion distortion;
   if (value.is_none()) return distortion;
+  if (py::isinstance<LensDistortion>(value)) return value.cast<LensDistortion>();
   const Eigen::VectorXd k = VectorArgument(value, "distortion", -1);
   if (k.size() != 0 && k.size() != 4 && k.size() != 5) {
     throw std::invalid_argument("distortion: expected k1 k2 p1 p2 [k3], not " +
@@ -181,7 +182,8 @@ void BindOdometry(py::module_* module) {
                          "images give the same poses, bit by bit. The GIL is released meanwhile.")
       .def(py::init<const OptionsTable*, const PinholeCamera&, const py::object&>(),
            py::arg("options"), py::arg("camera"), py::arg("distortion") = py::none(),
-           "options: None for the defaults. distortion: k1 k2 p1 p2 [k3] in OpenCV's order. Raises "
+           "options: None for the defaults. distortion: k1 k2 p1 p2 [k3] in OpenCV's order, or a "
+           "Lens. Raises "
            "ValueError on options or a camera that are not valid.")
       .def("process", &PyOdometry::Process, py::arg("timestamp"), py::arg("gray"), py::arg("depth"),
            py::kw_only(), py::arg("depth_scale") = py::none(), py::arg("depth_delay") = 0.0,

@@ -86,8 +86,12 @@ void BindSequence(py::module_* module) {
       .def_property_readonly("camera",
                              [](const RgbdDecoder& self) { return self.calibration().camera; })
       .def_property_readonly(
-          "distortion", [](const RgbdDecoder& self) { return self.calibration().distortion.k; },
-          "k1, k2, p1, p2, k3")
+          "distortion",
+          [](const RgbdDecoder& self) { return self.calibration().distortion.Coefficients(); },
+          "Coefficients of the lens: k1, k2, p1, p2, k3, unless the lens is of another model.")
+      .def_property_readonly(
+          "lens", [](const RgbdDecoder& self) { return self.calibration().distortion; },
+          "Lens of the images.")
       .def_property_readonly(
           "depth_scale", [](const RgbdDecoder& self) { return self.calibration().depth_scale; },
           "Raw depth units per metre.")

@@ -14,6 +14,9 @@ namespace {
 
 constexpr int kDirections = 64;  // per circle; the distortion varies slowly with the direction
 constexpr int kCircles = 1000;   // up to the corner of the image: less than a pixel apart
+// A rational lens may approach a largest recorded radius without a fold: 50 image corners away, a
+// recorded pixel has no undistorted one of any use.
+constexpr int kMaxCircles = 50 * kCircles;
 // The lens must be one-to-one slightly beyond the corners, because the coefficients are uncertain.
 constexpr double kMargin = 1.02;
 
@@ -57,19 +60,37 @@ double CornerRadius(const PinholeCamera& camera) {
 std::string FoldMessage(const LensDistortion& distortion, const PinholeCamera& camera,
                         double undistorted_radius, double recorded_radius) {
   std::ostringstream text;
-  const auto length = [&](double radius) {
+  const PinholeCamera& recorded = distortion.Recorded(camera);
+  const auto length = [](double radius, const PinholeCamera& in) {
     std::ostringstream length_text;
     length_text.precision(3);
-    length_text << radius << " (" << std::round(radius * camera.FocalLength()) << " pixels)";
+    length_text << radius << " (" << std::round(radius * in.FocalLength()) << " pixels)";
     return length_text.str();
   };
-  text << "camera: the lens k1 k2 p1 p2 k3 =";
-  for (const double k : distortion.k) text << " " << k;
-  text << " folds over at radius " << length(undistorted_radius)
-       << " of the undistorted image, which is " << length(recorded_radius)
-       << " of the recorded one, whose corners are at " << length(CornerRadius(camera))
-       << "; check the values and their order k1 k2 p1 p2 k3";
+  const std::string names = LensCoefficientList(distortion.model);
+  text << "camera: the lens " << names << " =";
+  for (const double k : distortion.Coefficients()) text << " " << k;
+  text << " folds over at radius " << length(undistorted_radius, camera)
+       << " of the undistorted image, which is " << length(recorded_radius, recorded)
+       << " of the recorded one, whose corners are at " << length(CornerRadius(recorded), recorded)
+       << "; check the values and their order " << names;
+  if (distortion.IsCropped()) {
+    text << ", or give a smaller field_of_view: the corners of the undistorted image are at "
+         << length(CornerRadius(camera), camera);
+  }
   return text.str();
+}
+
+// Largest radius that a circle around the optical axis must have, and its distortion.
+struct NeededRadius {
+  double undistorted = 0.0;
+  double recorded = 0.0;
+};
+
+NeededRadius Needed(const LensDistortion& distortion, const PinholeCamera& camera) {
+  const double undistorted = kMargin * CornerRadius(camera);
+  // Recorded pixels that a cropped image does not show need no undistorted one.
+  return {undistorted, distortion.IsCropped() ? 0.0 : undistorted};
 }
 
 }  // namespace
@@ -78,16 +99,17 @@ bool IsInvertible(const LensDistortion& distortion, const PinholeCamera& camera,
                   std::string* error) {
   for (const double k : distortion.k) {
     if (std::isfinite(k)) continue;
-    *error = "camera: the distortion coefficients k1 k2 p1 p2 k3 must be finite numbers";
+    *error = "camera: the distortion coefficients " + LensCoefficientList(distortion.model) +
+             " must be finite numbers";
     return false;
   }
   if (distortion.IsZero()) return true;
   const double corner_radius = CornerRadius(camera);
-  const double needed = kMargin * corner_radius;
-  // The loop ends: without a fold, the distorted radius grows at least as fast as a fixed fraction
-  // of the radius.
+  const NeededRadius needed = Needed(distortion, camera);
+  // The loop ends: the distorted radius of a polynomial without a fold grows at least as fast as a
+  // fixed fraction of the radius, and the last circle lies far outside any image.
   double recorded_radius = 0.0;
-  for (int i = 1;; ++i) {
+  for (int i = 1; i <= kMaxCircles; ++i) {
     const double radius = i * corner_radius / kCircles;
     const DistortedCircle circle = DistortCircle(distortion, radius);
     if (!(circle.smallest_stretch > 0.0)) {
@@ -95,8 +117,12 @@ bool IsInvertible(const LensDistortion& distortion, const PinholeCamera& camera,
       return false;
     }
     recorded_radius = circle.radius;
-    if (radius >= needed && recorded_radius >= needed) return true;
+    if (radius >= needed.undistorted && recorded_radius >= needed.recorded) return true;
   }
+  *error = "camera: the lens " + LensCoefficientList(distortion.model) +
+           " maps everything that it sees into a part of the recorded image; check the values and "
+           "their order";
+  return false;
 }
 
 }  // namespace msc_vo

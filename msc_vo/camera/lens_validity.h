@@ -17,7 +17,8 @@ namespace msc_vo {
 /// symmetric; on a convex set where it is positive definite, the distortion is injective. The set
 /// tested is a disc around the optical axis, grown until it contains the undistorted image and its
 /// distorted boundary encloses the recorded image. If the Jacobian is not positive definite on this
-/// disc, recorded pixels near the corners have no undistorted pixel, or two.
+/// disc, recorded pixels near the corners have no undistorted pixel, or two. If the lens is cropped
+/// (LensDistortion::IsCropped), the disc only needs to contain the undistorted image.
 bool IsInvertible(const LensDistortion& distortion, const PinholeCamera& camera,
                   std::string* error);
 

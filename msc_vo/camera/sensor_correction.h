@@ -3,12 +3,15 @@
 
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/camera/radial_profile.h"
 
 namespace msc_vo {
 
@@ -44,8 +47,9 @@ class CorrectedCamera {
   template <typename T>
   using Vector2 = Eigen::Matrix<T, 2, 1>;
 
+  /// `camera`: intrinsics of the undistorted image.
   CorrectedCamera(const PinholeCamera& camera, const LensDistortion& distortion)
-      : camera_(camera), distortion_(distortion) {}
+      : camera_(distortion.Recorded(camera)), distortion_(distortion) {}
 
   /// Returns the recorded pixel of the point `x` of the plane z = 1.
   template <typename T>
@@ -58,7 +62,9 @@ class CorrectedCamera {
         camera_.fy * scale * distorted.y() + camera_.cy + correction[SensorCorrection::kCenterY]};
   }
 
-  /// Returns the point of the plane z = 1 whose Pixel() is `pixel`, by fixed-point iteration.
+  /// Returns the point of the plane z = 1 whose Pixel() is `pixel`, by fixed-point iteration; of
+  /// lenses other than the radial-tangential one, by LensDistortion and a Newton step, which gives
+  /// the derivatives.
   template <typename T>
   Vector2<T> Ray(const Eigen::Vector2d& pixel, const T* correction) const {
     using std::exp;
@@ -67,6 +73,8 @@ class CorrectedCamera {
     const Vector2<T> distorted(
         (pixel.x() - camera_.cx - correction[SensorCorrection::kCenterX]) * scale / camera_.fx,
         (pixel.y() - camera_.cy - correction[SensorCorrection::kCenterY]) * scale / camera_.fy);
+    if (distortion_.model != LensModel::kRadialTangential)
+      return NewtonRay<T>(distorted, correction);
     Vector2<T> x = distorted;
     for (int i = 0; i < kIterations; ++i) x = x + (distorted - Distort<T>(x, correction));
     return x;
@@ -99,12 +107,35 @@ class CorrectedCamera {
            correction[SensorCorrection::kDepthOffset];
   }
 
+  /// Intrinsics of the recorded image.
   const PinholeCamera& camera() const { return camera_; }
   const LensDistortion& distortion() const { return distortion_; }
 
  private:
   template <typename T>
+  Vector2<T> NewtonRay(const Vector2<T>& distorted, const T* correction) const {
+    constexpr double kTolerance = 1e-13;
+    LensDistortion lens = distortion_;
+    lens.k[0] += Scalar(correction[SensorCorrection::kK1]);
+    lens.k[1] += Scalar(correction[SensorCorrection::kK2]);
+    const Eigen::Vector2d x =
+        lens.UndistortNormalized({Scalar(distorted.x()), Scalar(distorted.y())}, kTolerance);
+    const Eigen::Matrix2d inverse = lens.Jacobian(x).inverse();
+    const Vector2<T> at = x.cast<T>();
+    return at + inverse.cast<T>() * (distorted - Distort<T>(at, correction));
+  }
+
+  static double Scalar(double value) { return value; }
+  template <typename Jet>
+  static double Scalar(const Jet& value) {
+    return value.a;
+  }
+
+  template <typename T>
   Vector2<T> Distort(const Vector2<T>& x, const T* correction) const {
+    if (distortion_.model != LensModel::kRadialTangential) {
+      return DistortByScale<T>(x, correction);
+    }
     const T k1 = distortion_.k[0] + correction[SensorCorrection::kK1];
     const T k2 = distortion_.k[1] + correction[SensorCorrection::kK2];
     const T r2 = x.squaredNorm();
@@ -115,7 +146,21 @@ class CorrectedCamera {
         radial * x.y() + distortion_.k[3] * xy2 + distortion_.k[2] * (r2 + 2.0 * x.y() * x.y())};
   }
 
-  PinholeCamera camera_;
+  template <typename T>
+  Vector2<T> DistortByScale(const Vector2<T>& x, const T* correction) const {
+    std::array<T, 8> k;
+    for (size_t i = 0; i < k.size(); ++i) k[i] = T(distortion_.k[i]);
+    k[0] += correction[SensorCorrection::kK1];
+    k[1] += correction[SensorCorrection::kK2];
+    const T r2 = x.squaredNorm();
+    if (distortion_.model == LensModel::kFisheye) return FisheyeScale(k.data(), r2) * x;
+    const T radial = RationalScale(k.data(), r2);
+    const T xy2 = 2.0 * x.x() * x.y();
+    return {radial * x.x() + k[2] * xy2 + k[3] * (r2 + 2.0 * x.x() * x.x()),
+            radial * x.y() + k[3] * xy2 + k[2] * (r2 + 2.0 * x.y() * x.y())};
+  }
+
+  PinholeCamera camera_;  // of the recorded image
   LensDistortion distortion_;
 };
 

@@ -3,6 +3,7 @@
 
 #include "msc_vo/config/option_list.h"
 
+#include <iterator>
 #include <utility>
 
 #include "msc_vo/odometry/option_lister.h"
@@ -19,15 +20,27 @@ Range AnyNumber(const std::string& unit) {
 
 constexpr char kWhenUnknown[] = "Set it if neither the sequence nor a preset gives it.";
 
-void ListDistortion(CameraSettings* camera, OptionLister* list) {
+void ListDistortion(LensSettings* lens, bool is_basic, OptionLister* list) {
   constexpr const char* kNames[] = {"k1", "k2", "p1", "p2", "k3"};
-  for (size_t i = 0; i < camera->distortion.size(); ++i) {
+  for (size_t i = 0; i < std::size(kNames); ++i) {
     const bool tangential = kNames[i][0] == 'p';
-    list->Add(kNames[i], &camera->distortion[i], AnyNumber(""),
-              std::string(tangential ? "Tangential" : "Radial") +
-                  " distortion coefficient of OpenCV's model.")
-        .MakeBasic("Set it if the images are distorted.");
+    Option& option = list->Add(kNames[i], &lens->coefficients[i], AnyNumber(""),
+                               std::string(tangential ? "Tangential" : "Radial") +
+                                   " distortion coefficient of OpenCV's model.");
+    if (is_basic) option.MakeBasic("Set it if the images are distorted.");
   }
+}
+
+void ListLens(LensSettings* lens, OptionLister* list) {
+  list->Add("lens", &lens->model,
+            "Model of the lens: radial-tangential (k1 k2 p1 p2 k3), rational (k1 k2 p1 p2 k3 k4 k5 "
+            "k6) or fisheye (k1 k2 k3 k4), as OpenCV's; if not set, radial-tangential.");
+  list->Add("k4", &lens->coefficients[5], AnyNumber(""),
+            "Radial distortion coefficient of the rational and the fisheye model.");
+  list->Add("k5", &lens->coefficients[6], AnyNumber(""),
+            "Radial distortion coefficient of the rational model.");
+  list->Add("k6", &lens->coefficients[7], AnyNumber(""),
+            "Radial distortion coefficient of the rational model.");
 }
 
 void ListDepthCamera(DepthCameraSettings* camera, OptionLister* list) {
@@ -46,6 +59,8 @@ void ListDepthCamera(DepthCameraSettings* camera, OptionLister* list) {
                 "Rotation of depth_from_color, quaternion x y z w; if not set, none.");
   list->Add("inverse_depth_offset", &camera->inverse_depth_offset, AnyNumber("1/metres"),
             "Added to every measured inverse depth; if not set, 0.");
+  ListDistortion(&camera->lens, false, list);
+  ListLens(&camera->lens, list);
 }
 
 void ListCamera(CameraSettings* camera, OptionLister* list) {
@@ -70,7 +85,11 @@ void ListCamera(CameraSettings* camera, OptionLister* list) {
   list->Add("depth_scale", &camera->depth_scale, AnyNumber("per metre"),
             "Raw depth units per metre.")
       .MakeBasic(kWhenUnknown);
-  ListDistortion(camera, list);
+  ListDistortion(&camera->lens, true, list);
+  ListLens(&camera->lens, list);
+  list->Add("field_of_view", &camera->field_of_view, AnyNumber("degrees"),
+            "Horizontal field of view of the undistorted images; if not set, that of the recorded "
+            "images, for a fisheye lens at most 100.");
   list->Section("depth_camera", &camera->depth_camera, ListDepthCamera);
 }
 

@@ -43,27 +43,32 @@ Values ReadValues(const std::string& content) {
                            problem);
 }
 
-// Returns whether the images have lens distortion; those of a rectified camera have none. Throws
-// unless the file describes a pinhole camera with no other coefficients than k1 k2 p1 p2 k3.
-bool HasDistortion(const Values& values, const std::string& path) {
+enum class CameraType { kPinhole, kRectified, kFisheye };
+
+// Throws unless the file describes a fisheye camera or a pinhole camera with no other coefficients
+// than k1 k2 p1 p2 k3.
+CameraType TypeOf(const Values& values, const std::string& path) {
+  const auto found = values.find("Camera.type");
+  std::string type = found == values.end() ? "pinhole" : Lowercase(found->second.text);
+  type.erase(std::remove(type.begin(), type.end(), '"'), type.end());
+  if (type == "kannalabrandt8") return CameraType::kFisheye;
+  if (type == "rectified") return CameraType::kRectified;
+  if (type != "pinhole") {
+    Fail(path, *found,
+         " " + found->second.text +
+             " is not supported, only PinHole, Rectified and KannalaBrandt8; undistort the images "
+             "to a pinhole camera");
+  }
   for (const char* prefix : {"Camera.k", "Camera1.k"}) {
     for (const char digit : {'4', '5', '6'}) {
-      const auto found = values.find(prefix + std::string(1, digit));
-      if (found == values.end() || ParseNumber(found->second.text) == 0.0) continue;
-      Fail(path, *found,
+      const auto further = values.find(prefix + std::string(1, digit));
+      if (further == values.end() || ParseNumber(further->second.text) == 0.0) continue;
+      Fail(path, *further,
            ": only the distortion coefficients k1 k2 p1 p2 k3 are supported; calibrate with these, "
            "or undistort the images");
     }
   }
-  const auto found = values.find("Camera.type");
-  if (found == values.end()) return true;
-  const std::string type = Lowercase(found->second.text);
-  if (type == "pinhole" || type == "\"pinhole\"") return true;
-  if (type == "rectified" || type == "\"rectified\"") return false;
-  Fail(path, *found,
-       " " + found->second.text +
-           " is not supported, only PinHole and Rectified; undistort the images to a pinhole "
-           "camera");
+  return CameraType::kPinhole;
 }
 
 }  // namespace
@@ -110,7 +115,7 @@ CameraSettings ReadOrbSlamConfig(const std::string& path) {
     }
     return whole;
   };
-  const bool has_distortion = HasDistortion(values, path);
+  const CameraType type = TypeOf(values, path);
 
   CameraSettings camera;
   camera.fx = require({"Camera.fx", "Camera1.fx"});
@@ -120,10 +125,17 @@ CameraSettings ReadOrbSlamConfig(const std::string& path) {
   camera.depth_scale = require({"DepthMapFactor", "RGBD.DepthMapFactor", "depthmap_factor"});
   camera.width = find_int({"Camera.width", "Camera.cols"});
   camera.height = find_int({"Camera.height", "Camera.rows"});
-  if (has_distortion) {
-    camera.distortion = {find({"Camera.k1", "Camera1.k1"}), find({"Camera.k2", "Camera1.k2"}),
-                         find({"Camera.p1", "Camera1.p1"}), find({"Camera.p2", "Camera1.p2"}),
-                         find({"Camera.k3", "Camera1.k3"})};
+  if (type == CameraType::kFisheye) {
+    camera.lens.model = LensModelName(LensModel::kFisheye);
+    camera.lens.coefficients[0] = require({"Camera.k1", "Camera1.k1"});
+    camera.lens.coefficients[1] = require({"Camera.k2", "Camera1.k2"});
+    camera.lens.coefficients[4] = require({"Camera.k3", "Camera1.k3"});
+    camera.lens.coefficients[5] = require({"Camera.k4", "Camera1.k4"});
+  } else if (type == CameraType::kPinhole) {
+    camera.lens.coefficients = {
+        find({"Camera.k1", "Camera1.k1"}), find({"Camera.k2", "Camera1.k2"}),
+        find({"Camera.p1", "Camera1.p1"}), find({"Camera.p2", "Camera1.p2"}),
+        find({"Camera.k3", "Camera1.k3"})};
   }
   camera.origin = path;
   return camera;

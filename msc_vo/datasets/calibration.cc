@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "msc_vo/camera/lens_validity.h"
+#include "msc_vo/camera/undistorted_camera.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -21,7 +22,20 @@ constexpr double kMaxDepthScale = 1e5;
 
 }  // namespace
 
+void Calibration::SetRecorded(const PinholeCamera& recorded) {
+  distortion.recorded.reset();
+  camera = recorded;
+}
+
+void Calibration::SetUndistorted() {
+  const PinholeCamera recorded = Recorded();
+  camera = recorded;
+  CropToFieldOfView(field_of_view, &distortion, &camera);
+}
+
 bool Calibration::IsValid(std::string* error) const {
+  if (!Recorded().IsValid(error)) return false;
+  if (field_of_view && !IsValidFieldOfView(*field_of_view, error)) return false;
   if (!camera.IsValid(error)) return false;
   if (!IsInvertible(distortion, camera, error)) return false;
   if (depth_camera && !depth_camera->IsValid(error)) return false;
@@ -47,16 +61,20 @@ std::optional<Eigen::Quaterniond> NormalizedQuaternion(const std::vector<double>
   return rotation.normalized();
 }
 
+bool LensSettings::IsEmpty() const {
+  return model.empty() &&
+         std::none_of(coefficients.begin(), coefficients.end(),
+                      [](const std::optional<double>& k) { return k.has_value(); });
+}
+
 bool DepthCameraSettings::IsEmpty() const {
   return !fx && !fy && !cx && !cy && !width && !height && translation.empty() && rotation.empty() &&
-         !inverse_depth_offset;
+         !inverse_depth_offset && lens.IsEmpty();
 }
 
 bool CameraSettings::IsEmpty() const {
   return preset.empty() && !fx && !fy && !cx && !cy && !width && !height && !depth_scale &&
-         depth_camera.IsEmpty() &&
-         std::none_of(distortion.begin(), distortion.end(),
-                      [](const std::optional<double>& k) { return k.has_value(); });
+         depth_camera.IsEmpty() && lens.IsEmpty() && !field_of_view;
 }
 
 }  // namespace msc_vo

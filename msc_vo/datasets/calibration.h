@@ -14,8 +14,8 @@
 namespace msc_vo {
 
 /// Calibration of an RGB-D camera: intrinsics, lens distortion, depth scale and readout time.
-/// `camera` and `distortion` are those of the colour images, and of the depth images too unless
-/// there is a depth camera.
+/// `camera` (of the undistorted images) and `distortion` are those of the colour images, and of the
+/// depth images too unless there is a depth camera.
 struct Calibration {
   static constexpr char kSelfCalibrated[] = "self-calibrated from the images";
 
@@ -29,9 +29,29 @@ struct Calibration {
   std::string origin;  ///< source of the other values, for messages: "camera.txt"
   /// Camera of depth images that are not registered to the colour images; none: they are.
   std::optional<DepthCamera> depth_camera = {};
+  /// Horizontal field of view of the undistorted images, degrees, as given; none: the default of
+  /// UndistortedCamera().
+  std::optional<double> field_of_view = {};
+
+  /// Intrinsics and size of the recorded colour images.
+  const PinholeCamera& Recorded() const { return distortion.Recorded(camera); }
+  /// Sets the intrinsics of the recorded images; SetUndistorted() must follow.
+  void SetRecorded(const PinholeCamera& recorded);
+  /// Determines the camera of the undistorted images from the recorded one, the lens, and the field
+  /// of view, see CropToFieldOfView().
+  void SetUndistorted();
 
   /// If the calibration is invalid, `error` names the value and its valid range.
   bool IsValid(std::string* error) const;
+};
+
+/// The lens of a camera in a configuration.
+struct LensSettings {
+  std::string model;                                  ///< LensModelName(); may be empty
+  std::array<std::optional<double>, 8> coefficients;  ///< k1 k2 p1 p2 k3 k4 k5 k6
+
+  /// Tests whether no value is set.
+  bool IsEmpty() const;
 };
 
 /// The section camera.depth_camera of a configuration, see DepthCamera.
@@ -41,6 +61,7 @@ struct DepthCameraSettings {
   std::vector<double> translation;             ///< x y z, metres; empty: not set
   std::vector<double> rotation;                ///< quaternion x y z w; empty: not set
   std::optional<double> inverse_depth_offset;  ///< 1/metres
+  LensSettings lens;
 
   /// Tests whether no value is set.
   bool IsEmpty() const;
@@ -52,8 +73,9 @@ struct CameraSettings {
   std::string preset;  ///< name of a CameraPreset; may be empty
   std::optional<double> fx, fy, cx, cy;
   std::optional<int> width, height;
-  std::optional<double> depth_scale;                ///< raw depth units per metre
-  std::array<std::optional<double>, 5> distortion;  ///< k1 k2 p1 p2 k3
+  std::optional<double> depth_scale;  ///< raw depth units per metre
+  LensSettings lens;
+  std::optional<double> field_of_view;  ///< degrees, of the undistorted images
   DepthCameraSettings depth_camera;
   std::string origin;  ///< the file, for messages
 

@@ -23,7 +23,12 @@ bool CorrectsRegistration(const S::Vector& correction) {
 DepthCamera DepthCameraOf(const Calibration& calibration) {
   if (calibration.depth_camera) return *calibration.depth_camera;
   DepthCamera depth_camera;
-  depth_camera.camera = calibration.camera;
+  depth_camera.camera = calibration.Recorded();
+  // The correction of a radial-tangential lens is small, and neglects it.
+  if (calibration.distortion.model != LensModel::kRadialTangential) {
+    depth_camera.distortion = calibration.distortion;
+    depth_camera.distortion.recorded.reset();
+  }
   return depth_camera;
 }
 
@@ -31,14 +36,16 @@ DepthCamera DepthCameraOf(const Calibration& calibration) {
 
 Calibration Corrected(const Calibration& calibration, const S::Vector& correction) {
   Calibration corrected = calibration;
-  PinholeCamera& camera = corrected.camera;
-  const PinholeCamera& given = calibration.camera;
+  PinholeCamera camera = calibration.Recorded();
+  const PinholeCamera& given = calibration.Recorded();
   camera.fx *= std::exp(correction(S::kFocalLength));
   camera.fy *= std::exp(correction(S::kFocalLength));
   camera.cx += correction(S::kCenterX);
   camera.cy += correction(S::kCenterY);
   corrected.distortion.k[0] += correction(S::kK1);
   corrected.distortion.k[1] += correction(S::kK2);
+  corrected.SetRecorded(camera);
+  corrected.SetUndistorted();
   if (!CorrectsRegistration(correction)) return corrected;
 
   // A point with the normalised coordinates x and inverse depth w has colour pixel p = F x + c. Its

@@ -3,10 +3,12 @@
 
 #include "msc_vo/datasets/camera_file.h"
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
+#include "msc_vo/camera/undistorted_camera.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -34,6 +36,60 @@ Calibration ParseIntrinsicsLine(const TextLine& line) {
   std::string error;
   if (!calibration.IsValid(&error)) line.Fail(error + "; expected " + kCameraFileFormat);
   return calibration;
+}
+
+// Reads a lens line 'NAME MODEL COEFFICIENTS', with the coefficients in OpenCV's order.
+LensDistortion ParseLensLine(TextLine line) {
+  const std::string name = line.fields[0];
+  const std::string example = "'" + name + " fisheye k1 k2 k3 k4'";
+  if (line.fields.size() < 2) line.Fail("expected a lens, such as " + example);
+  const std::optional<LensModel> model = LensModelFromName(line.fields[1]);
+  if (!model) {
+    line.Fail("unknown lens model '" + line.fields[1] + "'; known: " + LensModelNames());
+  }
+  line.fields.erase(line.fields.begin(), line.fields.begin() + 2);
+  const std::vector<double> k = ParseNumbers(line);
+  const size_t expected = LensCoefficientNames(*model).size();
+  if (k.size() != expected) {
+    line.Fail("expected the " + std::to_string(expected) + " coefficients " +
+              LensCoefficientList(*model) + " of the lens model " + LensModelName(*model) +
+              ", found " + std::to_string(k.size()));
+  }
+  LensDistortion lens;
+  lens.model = *model;
+  std::copy(k.begin(), k.end(), lens.k.begin());
+  return lens;
+}
+
+// Reads the lines of the lens and of the field of view, which may come in any order.
+void ParseLens(const std::vector<TextLine>& lines, Calibration* calibration) {
+  const TextLine *lens_line = nullptr, *view_line = nullptr;
+  for (size_t i = 1; i < lines.size(); ++i) {
+    const std::string& name = lines[i].fields[0];
+    if (name != "lens" && name != "field_of_view") continue;
+    const TextLine*& line = name == "lens" ? lens_line : view_line;
+    if (line != nullptr) lines[i].Fail("a second line " + name + "; remove it");
+    line = &lines[i];
+  }
+  if (lens_line != nullptr) {
+    if (lines[0].fields.size() > 7) {
+      lens_line->Fail("the first line gives a lens, too; remove its coefficients k1 k2 p1 p2 k3");
+    }
+    calibration->distortion = ParseLensLine(*lens_line);
+  }
+  if (view_line != nullptr) {
+    if (view_line->fields.size() == 2) {
+      calibration->field_of_view = ParseNumber(view_line->fields[1]);
+    }
+    if (!calibration->field_of_view) view_line->Fail("expected 'field_of_view DEGREES'");
+  }
+  if (lens_line == nullptr && view_line == nullptr) return;
+  std::string error;
+  if (calibration->field_of_view && !IsValidFieldOfView(*calibration->field_of_view, &error)) {
+    view_line->Fail(error);
+  }
+  calibration->SetUndistorted();
+  if (!calibration->IsValid(&error)) (lens_line != nullptr ? lens_line : view_line)->Fail(error);
 }
 
 // Reads the line of the readout time.
@@ -71,6 +127,22 @@ void ParseDepthCameraLine(TextLine line, Calibration* calibration) {
   calibration->depth_camera = depth_camera;
 }
 
+// Reads the line of the lens of the depth camera.
+void ParseDepthLens(const std::vector<TextLine>& lines, Calibration* calibration) {
+  bool is_given = false;
+  for (size_t i = 1; i < lines.size(); ++i) {
+    if (lines[i].fields[0] != "depth_lens") continue;
+    if (is_given) lines[i].Fail("a second line depth_lens; remove it");
+    is_given = true;
+    if (!calibration->depth_camera) {
+      lines[i].Fail(std::string("the lens of a depth camera needs the line ") + kDepthCameraFormat);
+    }
+    calibration->depth_camera->distortion = ParseLensLine(lines[i]);
+    std::string error;
+    if (!calibration->IsValid(&error)) lines[i].Fail(error);
+  }
+}
+
 // Reads a line after that of the intrinsics.
 void ParseOptionalLine(const TextLine& line, Calibration* calibration) {
   const std::string& name = line.fields[0];
@@ -80,9 +152,11 @@ void ParseOptionalLine(const TextLine& line, Calibration* calibration) {
   } else if (name == "depth_camera") {
     if (calibration->depth_camera) line.Fail("a second line depth_camera; remove it");
     ParseDepthCameraLine(line, calibration);
-  } else {
+  } else if (name != "lens" && name != "field_of_view" && name != "depth_lens") {
     line.Fail(std::string("expected 'readout_time SECONDS', ") + kDepthCameraFormat +
-              " or nothing after the line " + kCameraFileFormat);
+              ", 'lens MODEL COEFFICIENTS', 'field_of_view DEGREES', 'depth_lens MODEL "
+              "COEFFICIENTS' or nothing after the line " +
+              kCameraFileFormat);
   }
   std::string error;
   if (!calibration->IsValid(&error)) line.Fail(error);
@@ -96,7 +170,9 @@ Calibration ReadCameraFile(const std::string& path) {
     throw std::runtime_error(path + ": is empty; expected one line " + kCameraFileFormat);
   }
   Calibration calibration = ParseIntrinsicsLine(lines[0]);
+  ParseLens(lines, &calibration);
   for (size_t i = 1; i < lines.size(); ++i) ParseOptionalLine(lines[i], &calibration);
+  ParseDepthLens(lines, &calibration);
   return calibration;
 }
 
@@ -105,11 +181,21 @@ std::string FormatCameraFile(const Calibration& calibration, const std::string& 
     return FormatText("%.17g %.17g %.17g %.17g %d %d", camera.fx, camera.fy, camera.cx, camera.cy,
                       camera.width, camera.height);
   };
-  std::string text = intrinsics(calibration.camera) + FormatText(" %.17g", calibration.depth_scale);
-  if (!calibration.distortion.IsZero()) {
-    for (const double k : calibration.distortion.k) text += FormatText(" %.17g", k);
-  }
+  const auto coefficients = [](const LensDistortion& lens) {
+    std::string text;
+    for (const double k : lens.Coefficients()) text += FormatText(" %.17g", k);
+    return text;
+  };
+  const LensDistortion& lens = calibration.distortion;
+  const bool has_lens_line = lens.model != LensModel::kRadialTangential;
+  std::string text =
+      intrinsics(calibration.Recorded()) + FormatText(" %.17g", calibration.depth_scale);
+  if (!lens.IsZero() && !has_lens_line) text += coefficients(lens);
   text += "\n";
+  if (has_lens_line) text += "lens " + (LensModelName(lens.model) + coefficients(lens)) + "\n";
+  if (calibration.field_of_view) {
+    text += FormatText("field_of_view %.17g\n", *calibration.field_of_view);
+  }
   if (calibration.readout_time) {
     text += FormatText("readout_time %.17g\n", *calibration.readout_time);
   }
@@ -120,6 +206,10 @@ std::string FormatCameraFile(const Calibration& calibration, const std::string& 
     text += "depth_camera " + intrinsics(calibration.depth_camera->camera) +
             FormatText(" %.17g %.17g %.17g", t.x(), t.y(), t.z()) +
             FormatText(" %.17g %.17g %.17g %.17g\n", q.x(), q.y(), q.z(), q.w());
+    const LensDistortion& depth_lens = calibration.depth_camera->distortion;
+    if (!depth_lens.IsZero()) {
+      text += "depth_lens " + (LensModelName(depth_lens.model) + coefficients(depth_lens)) + "\n";
+    }
   }
   // Numbers come first, for readers that do not skip comments.
   return text + "# fx fy cx cy width height depth_scale [k1 k2 p1 p2 k3]\n# " + comment + "\n";

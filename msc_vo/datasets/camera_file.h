@@ -18,11 +18,13 @@ inline constexpr char kDepthCameraFormat[] =
     "'depth_camera fx fy cx cy width height tx ty tz [qx qy qz qw]'";
 
 /// Reads camera.txt: one line 'fx fy cx cy width height depth_scale [k1 k2 p1 p2 k3]' with the
-/// distortion in OpenCV's order, and two optional lines after it, in any order: 'readout_time
+/// distortion in OpenCV's order, and optional lines after it, in any order: 'readout_time
 /// SECONDS' and 'depth_camera fx fy cx cy width height tx ty tz [qx qy qz qw]', the camera of depth
 /// images that are not registered and its transform depth_from_color (metres; without a quaternion,
-/// the axes are parallel). Comments start with #. Throws std::runtime_error naming file, line and
-/// fix.
+/// the axes are parallel). Further optional lines are 'lens MODEL COEFFICIENTS' instead of the
+/// distortion of the first line, 'field_of_view DEGREES' of the undistorted images, and 'depth_lens
+/// MODEL COEFFICIENTS' for the depth camera; see LensModelName() and LensCoefficientNames().
+/// Comments start with #. Throws std::runtime_error naming file, line and fix.
 Calibration ReadCameraFile(const std::string& path);
 
 /// The text of camera.txt, with a comment line.

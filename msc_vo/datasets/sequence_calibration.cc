@@ -3,6 +3,7 @@
 
 #include "msc_vo/datasets/sequence_calibration.h"
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 
@@ -17,6 +18,41 @@ namespace msc_vo {
 
 namespace {
 
+// Overwrites the model and the coefficients that `settings` gives. `key`: the section of the
+// configuration. Throws std::runtime_error if the model is unknown, or if a coefficient is missing
+// or none of the model's.
+void ApplyLens(const LensSettings& settings, const std::string& origin, const std::string& key,
+               LensDistortion* lens) {
+  const auto fail = [&](const std::string& name, const std::string& problem) {
+    throw std::runtime_error(origin + ": " + key + "." + name + " " + problem);
+  };
+  bool needs_all = false;
+  if (!settings.model.empty()) {
+    const std::optional<LensModel> model = LensModelFromName(settings.model);
+    if (!model) fail("lens", "'" + settings.model + "' is unknown; known: " + LensModelNames());
+    needs_all = *model != lens->model;
+    if (needs_all) *lens = LensDistortion{{}, *model};
+  }
+  const std::vector<std::string>& all_names = LensCoefficientNames(LensModel::kRational);
+  const std::vector<std::string>& names = LensCoefficientNames(lens->model);
+  const std::string lens_text = std::string("the lens ") + LensModelName(lens->model) + " (" +
+                                LensCoefficientList(lens->model) + ")";
+  for (size_t i = 0; i < all_names.size(); ++i) {
+    const auto found = std::find(names.begin(), names.end(), all_names[i]);
+    const std::optional<double>& value = settings.coefficients[i];
+    if (found == names.end()) {
+      if (value.value_or(0.0) == 0.0) continue;
+      fail(all_names[i], "is not a coefficient of " + lens_text + "; remove it, or set " + key +
+                             ".lens to another model");
+    }
+    if (needs_all && !value) {
+      fail(all_names[i], "is missing; set all coefficients of " + lens_text);
+    }
+    double& k = lens->k[static_cast<size_t>(found - names.begin())];
+    k = value.value_or(k);
+  }
+}
+
 // Overwrites the intrinsics and the size that the settings of a camera or of a depth camera give.
 template <typename Settings>
 void ApplyIntrinsics(const Settings& settings, PinholeCamera* camera) {
@@ -28,14 +64,14 @@ void ApplyIntrinsics(const Settings& settings, PinholeCamera* camera) {
   camera->height = settings.height.value_or(camera->height);
 }
 
-// Overwrites the values that are set.
+// Overwrites the values that are set; the camera is that of the recorded images afterwards.
 void Apply(const CameraSettings& settings, Calibration* calibration) {
-  ApplyIntrinsics(settings, &calibration->camera);
+  PinholeCamera recorded = calibration->Recorded();
+  ApplyIntrinsics(settings, &recorded);
+  calibration->SetRecorded(recorded);
   calibration->depth_scale = settings.depth_scale.value_or(calibration->depth_scale);
-  for (size_t i = 0; i < settings.distortion.size(); ++i) {
-    double& k = calibration->distortion.k[i];
-    k = settings.distortion[i].value_or(k);
-  }
+  ApplyLens(settings.lens, settings.origin, "camera", &calibration->distortion);
+  if (settings.field_of_view) calibration->field_of_view = settings.field_of_view;
 }
 
 // Overwrites the values that are set; the image size is 0 if nothing gives it. Throws
@@ -67,6 +103,7 @@ void Apply(const DepthCameraSettings& settings, const std::string& origin,
     }
     depth_from_color.rotation() = *rotation;
   }
+  ApplyLens(settings.lens, origin, "camera.depth_camera", &(*depth_camera)->distortion);
   double& offset = (*depth_camera)->inverse_depth_offset;
   offset = settings.inverse_depth_offset.value_or(offset);
 }
@@ -162,6 +199,7 @@ Calibration ResolveCalibration(const CameraSettings& settings, const std::string
   } else {
     SetMissingSize(*index, ImageKind::kDepth, &calibration.camera);
   }
+  calibration.SetUndistorted();
   std::string error;
   if (!calibration.IsValid(&error)) {
     throw std::runtime_error(calibration.origin + ": " + error);

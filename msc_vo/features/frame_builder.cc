@@ -3,6 +3,8 @@
 
 #include "msc_vo/features/frame_builder.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -36,15 +38,17 @@ struct FrameBuilder::State {
   FrameBuilderOptions options;
   PinholeCamera camera;
   LensRemap lens;
+  LensDistortion distortion;
   PointExtractor point_extractor;
   LineExtractor line_extractor;
   InverseDepthImage depth;
   FrameBuilderTimes times;
 
-  State(const FrameBuilderOptions& o, const PinholeCamera& c, const LensDistortion& distortion)
+  State(const FrameBuilderOptions& o, const PinholeCamera& c, const LensDistortion& distortion_in)
       : options(o),
         camera(c),
-        lens(camera, distortion),
+        lens(camera, distortion_in),
+        distortion(distortion_in),
         point_extractor(o.points),
         line_extractor(o.lines) {}
 
@@ -74,6 +78,7 @@ struct FrameBuilder::State {
     result.points = ExtractPoints(level);
     result.points_ms = stopwatch.Restart();
     AddDepthAndUndistort(&result.points);
+    if (distortion.IsCropped()) CropPoints(&result.points);
     result.depth_ms = stopwatch.Restart();
     return result;
   }
@@ -88,6 +93,15 @@ struct FrameBuilder::State {
       }
       point.pixel = lens.IdealFromRaw(point.pixel);
     }
+  }
+
+  // Removes the points outside the undistorted image, and scales the sigma of the others with it.
+  void CropPoints(std::vector<PointFeature>* points) const {
+    const auto is_outside = [this](const PointFeature& point) {
+      return !camera.IsInside(point.pixel);
+    };
+    points->erase(std::remove_if(points->begin(), points->end(), is_outside), points->end());
+    for (PointFeature& point : *points) point.sigma *= std::sqrt(lens.Magnification(point.pixel));
   }
 
   void AddDepth(std::vector<LineFeature>* lines) const {
@@ -140,6 +154,9 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
   frame.id = image.id;
   frame.timestamp = image.timestamp;
   frame.camera = state_->camera;
+  if (state_->distortion.model != LensModel::kRadialTangential || state_->distortion.recorded) {
+    frame.lens = state_->distortion;
+  }
   FrameBuilderTimes& times = state_->times;
   Stopwatch stopwatch;
   state_->depth.Assign(image.depth, state_->options.min_depth, state_->options.max_depth);

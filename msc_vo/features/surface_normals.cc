@@ -25,6 +25,7 @@ constexpr double kCorrelationLength = 5.0;
 // objects of a room.
 constexpr int kMinRadius = 5;
 constexpr int kMaxRadius = 32;
+constexpr int kMaxArea = (2 * kMaxRadius + 1) * (2 * kMaxRadius + 1);
 // Largest angle between ray and normal, radians (80 degrees): surfaces at a flatter angle cannot be
 // distinguished from depth edges, and depth on them is poor.
 constexpr double kMaxIncidence = 1.396;
@@ -32,6 +33,9 @@ constexpr double kMaxIncidence = 1.396;
 constexpr double kMinValidRatio = 0.5;
 // A depth step between neighbours is an edge beyond this many sigmas of a difference: 99.7 %.
 constexpr double kEdgeSigmas = 3.0;
+
+// Marks the ray of a pixel that does not belong to the undistorted image.
+constexpr float kNotShown = 1e9f;
 
 int InUnits(float metres) { return cvRound(metres * static_cast<float>(1.0 / DepthSums::kUnit)); }
 
@@ -51,7 +55,6 @@ struct SurfaceNormalEstimator::Window {
 };
 
 bool SurfaceNormalOptions::IsValid(std::string* error) const {
-  constexpr int kMaxArea = (2 * kMaxRadius + 1) * (2 * kMaxRadius + 1);
   if (grid_step < 1) {
     *error = "normals.grid_step must be at least 1 pixel";
   } else if (!(min_depth > 0.0 && max_depth > min_depth)) {
@@ -68,19 +71,25 @@ bool SurfaceNormalOptions::IsValid(std::string* error) const {
 SurfaceNormalEstimator::SurfaceNormalEstimator(const SurfaceNormalOptions& options,
                                                const PinholeCamera& camera,
                                                const LensDistortion& distortion)
-    : options_(options), camera_(camera) {
+    : options_(options), camera_(camera), recorded_(distortion.Recorded(camera)) {
   std::string error;
   if (!options.IsValid(&error) || !camera.IsValid(&error) ||
       !IsInvertible(distortion, camera, &error)) {
     throw std::invalid_argument("SurfaceNormalEstimator: " + error);
   }
+  const double widest = DepthSums::kMaxSum / (kMaxArea * options.max_depth);
   rays_.reserve(static_cast<size_t>(camera.width) * camera.height);
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
       Eigen::Vector2d pixel(x, y);
       if (!distortion.IsZero()) pixel = distortion.Undistort(camera, pixel);
       const Vector3d ray = camera.Ray(pixel);
-      rays_.push_back({static_cast<float>(ray.x()), static_cast<float>(ray.y())});
+      // Points far to the side, most of which a cropped image does not show, would overflow sums.
+      const bool is_shown =
+          !distortion.IsCropped() ||
+          (camera.IsInside(pixel) && ray.maxCoeff() < widest && ray.minCoeff() > -widest);
+      rays_.push_back({static_cast<float>(is_shown ? ray.x() : kNotShown),
+                       static_cast<float>(is_shown ? ray.y() : kNotShown)});
     }
   }
   integral_.resize(static_cast<size_t>(camera.width + 1) * (camera.height + 1));
@@ -94,7 +103,7 @@ void SurfaceNormalEstimator::Integrate(const cv::Mat& depth) {
   const auto farthest = static_cast<float>(options_.max_depth);
   // Relative change of depth between neighbouring pixels: of the steepest surface, and of noise,
   // whose sigma relative to z is z sigma_w for each of the two pixels.
-  const auto steepest = static_cast<float>(std::tan(kMaxIncidence) / camera_.FocalLength());
+  const auto steepest = static_cast<float>(std::tan(kMaxIncidence) / recorded_.FocalLength());
   const auto noise = static_cast<float>(kEdgeSigmas * std::sqrt(2.0) * kInverseDepthSigma);
   const auto is_edge = [&](float z, float neighbour) {
     return neighbour >= nearest && neighbour <= farthest &&
@@ -109,7 +118,7 @@ void SurfaceNormalEstimator::Integrate(const cv::Mat& depth) {
     DepthSums row;
     for (int x = 0; x < width; ++x) {
       const float z = z_row[x];
-      if (z >= nearest && z <= farthest) {  // false for NaN
+      if (z >= nearest && z <= farthest && ray[x][0] < kNotShown) {  // false for NaN
         row.AddPoint(InUnits(z * ray[x][0]), InUnits(z * ray[x][1]), InUnits(z),
                      is_edge(z, z_row[std::max(x - 1, 0)]) || is_edge(z, z_above[x]));
       }
@@ -130,7 +139,7 @@ DepthSums SurfaceNormalEstimator::SumOver(int left, int top, int right, int bott
 // noise of each along the ray is z^2 sigma_w / sqrt(n), with n = 2 radius^2 / correlation^2
 // independent pixels. The angle is the quotient.
 double SurfaceNormalEstimator::NormalSigma(double z, double radius) const {
-  return z * camera_.FocalLength() * kInverseDepthSigma * kCorrelationLength / (radius * radius);
+  return z * recorded_.FocalLength() * kInverseDepthSigma * kCorrelationLength / (radius * radius);
 }
 
 // Selects the largest window without a depth edge, from the one that meets kTargetSigma at depth z

@@ -69,6 +69,7 @@ class SurfaceNormalEstimator {
 
   SurfaceNormalOptions options_;
   PinholeCamera camera_;
+  PinholeCamera recorded_;                  // intrinsics of the raw image
   std::vector<std::array<float, 2>> rays_;  // x / z and y / z of each pixel
   std::vector<DepthSums> integral_;         // (height + 1) x (width + 1)
 };

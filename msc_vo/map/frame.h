@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/line_fit.h"
@@ -97,6 +98,8 @@ struct Frame {
   int64_t id = 0;          ///< position in the sequence, from 0
   double timestamp = 0.0;  ///< seconds
   PinholeCamera camera;    ///< without distortion: features are undistorted already
+  /// Lens that the features were recorded through, if undistortion moves them to quite other rows.
+  std::optional<LensDistortion> lens = {};
   std::vector<PointFeature> points;
   std::vector<LineFeature> lines;
   FeatureGrid grid;  ///< over `points`

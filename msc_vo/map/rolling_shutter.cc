@@ -15,7 +15,8 @@ constexpr double kMinDepthRatio = 0.5;
 class RowMotion {
  public:
   RowMotion(const Frame& frame, const CameraVelocity& velocity, double readout_time)
-      : camera_(frame.camera),
+      : frame_(frame),
+        camera_(frame.camera),
         old_velocity_(frame.velocity.value_or(CameraVelocity())),
         old_readout_time_(frame.readout_time),
         velocity_(velocity),
@@ -23,7 +24,7 @@ class RowMotion {
 
   // *inverse_depth (1/metres); zero stays zero, because only the rotation moves points at infinity.
   Eigen::Vector2d Moved(const Eigen::Vector2d& pixel, double* inverse_depth) const {
-    const double phase = RowPhase(camera_, pixel);
+    const double phase = RowPhase(frame_, pixel);
     const Rigid3 motion = velocity_.Over(phase * readout_time_).Inverse() *
                           old_velocity_.Over(phase * old_readout_time_);
     const Eigen::Vector3d ray =
@@ -34,6 +35,7 @@ class RowMotion {
   }
 
  private:
+  const Frame& frame_;
   PinholeCamera camera_;
   CameraVelocity old_velocity_;
   double old_readout_time_;
@@ -47,10 +49,15 @@ double RowPhase(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
   return (pixel.y() + 0.5) / camera.height - 0.5;
 }
 
+double RowPhase(const Frame& frame, const Eigen::Vector2d& pixel) {
+  if (!frame.lens) return RowPhase(frame.camera, pixel);
+  return RowPhase(frame.lens->Recorded(frame.camera), frame.lens->Distort(frame.camera, pixel));
+}
+
 Eigen::Vector3d RayChange(const Frame& frame, const Eigen::Vector2d& pixel, double inverse_depth) {
   if (!frame.velocity) return Eigen::Vector3d::Zero();
-  return -RowPhase(frame.camera, pixel) * (frame.velocity->angular.cross(frame.camera.Ray(pixel)) +
-                                           inverse_depth * frame.velocity->linear);
+  return -RowPhase(frame, pixel) * (frame.velocity->angular.cross(frame.camera.Ray(pixel)) +
+                                    inverse_depth * frame.velocity->linear);
 }
 
 Frame CompensateRollingShutter(const Frame& frame, const CameraVelocity& velocity,

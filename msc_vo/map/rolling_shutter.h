@@ -21,6 +21,10 @@ namespace msc_vo {
 /// distortion is neglected: a displacement of 10 rows is an error of 2 % of the readout time.
 double RowPhase(const PinholeCamera& camera, const Eigen::Vector2d& pixel);
 
+/// Phase of the row that a feature of the frame was recorded in; the same, unless the frame has a
+/// lens.
+double RowPhase(const Frame& frame, const Eigen::Vector2d& pixel);
+
 /// Derivative (1/seconds) of the ray of a feature (z = 1) with the given inverse depth (1/metres)
 /// with respect to the readout time of the compensation. Zero if the velocity is unknown.
 Eigen::Vector3d RayChange(const Frame& frame, const Eigen::Vector2d& pixel, double inverse_depth);

@@ -90,6 +90,7 @@ struct Odometry::State {
         const LensDistortion& distortion)
       : options(Checked(options_in)),
         camera(Checked(camera_in, distortion)),
+        aligner(camera, distortion),
         builder(options.features, camera, distortion),
         normal_estimator(NormalOptions(options), camera, distortion),
         tracker(options.tracking),
@@ -112,6 +113,7 @@ struct Odometry::State {
 
   OdometryOptions options;
   PinholeCamera camera;
+  DepthAligner aligner;
   FrameBuilder builder;
   SurfaceNormalEstimator normal_estimator;
   std::unique_ptr<SideWorker> side_worker;  // none with one thread
@@ -151,7 +153,7 @@ RgbdImage Odometry::State::Align(const RgbdImage& image) const {
   if (options.align_depth && image.depth_delay != 0.0) {
     const auto velocity = tracker.motion().VelocityAt(image.timestamp);
     if (velocity) {
-      aligned.depth = AlignDepth(camera, image.depth, velocity->Over(image.depth_delay));
+      aligned.depth = aligner.Align(image.depth, velocity->Over(image.depth_delay));
     }
     aligned.depth_delay = 0.0;
   }

@@ -37,7 +37,14 @@ Json CameraToJson(const Calibration& calibration) {
                {"width", camera.width},
                {"height", camera.height},
                {"depth_scale", calibration.depth_scale},
-               {"distortion", calibration.distortion.k}};
+               {"distortion", calibration.distortion.Coefficients()}};
+  const LensDistortion& lens = calibration.distortion;
+  if (lens.model != LensModel::kRadialTangential || lens.recorded) {
+    const PinholeCamera& recorded = calibration.Recorded();
+    json["lens"] = LensModelName(lens.model);
+    json["recorded"] = {
+        {"fx", recorded.fx}, {"fy", recorded.fy}, {"cx", recorded.cx}, {"cy", recorded.cy}};
+  }
   if (calibration.depth_camera) {
     json["depth_camera"] = DepthCameraToJson(*calibration.depth_camera);
   }

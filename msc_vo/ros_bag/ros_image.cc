@@ -18,6 +18,7 @@ namespace msc_vo {
 namespace {
 
 constexpr int kNoConversion = -1;
+constexpr char kEquidistant[] = "equidistant";  // the fisheye model in a CameraInfo
 
 struct Encoding {
   RosImageKind kind;
@@ -87,6 +88,30 @@ StoredImage DecodeCompressedDepth(const RosCompressedImage& image) {
   return is_metres ? StoredImage{"", Dequantise(raw, header)} : StoredImage{png, {}};
 }
 
+// Lens of a CameraInfo; none if its model is unknown or has other coefficients.
+std::optional<LensDistortion> RosLens(const RosCameraInfo& info) {
+  LensDistortion lens;
+  size_t size = 5;
+  const auto has_beyond = [&info](size_t count) {
+    return std::any_of(info.d.begin() + static_cast<long>(std::min(count, info.d.size())),
+                       info.d.end(), [](double k) { return k != 0.0; });
+  };
+  if (info.distortion_model == kEquidistant) {
+    lens.model = LensModel::kFisheye;
+    size = 4;
+    if (info.d.size() != size) return std::nullopt;
+  } else if (info.distortion_model == "rational_polynomial" && has_beyond(size)) {
+    lens.model = LensModel::kRational;
+    size = 8;
+  } else if (info.distortion_model != "plumb_bob" &&
+             info.distortion_model != "rational_polynomial") {
+    return std::nullopt;
+  }
+  if (has_beyond(size)) return std::nullopt;
+  for (size_t i = 0; i < std::min(size, info.d.size()); ++i) lens.k[i] = info.d[i];
+  return lens;
+}
+
 }  // namespace
 
 RosImageKind KindOfEncoding(const std::string& encoding) {
@@ -152,18 +177,16 @@ std::optional<Calibration> CalibrationFrom(const RosCameraInfo& info, bool is_re
     return std::nullopt;
   }
   const bool is_zero = std::all_of(info.d.begin(), info.d.end(), [](double k) { return k == 0.0; });
-  if (is_rectified || is_zero) return calibration;
-  // The further coefficients of rational_polynomial are those of its denominator.
-  const bool has_further = std::any_of(info.d.begin() + std::min<size_t>(5, info.d.size()),
-                                       info.d.end(), [](double k) { return k != 0.0; });
-  if ((info.distortion_model != "plumb_bob" && info.distortion_model != "rational_polynomial") ||
-      has_further) {
-    *problem = "the lens model " + info.distortion_model + " is not plumb_bob";
+  if (is_rectified || (is_zero && info.distortion_model != kEquidistant)) return calibration;
+  const std::optional<LensDistortion> lens = RosLens(info);
+  if (!lens) {
+    *problem = "the lens model " + info.distortion_model + " with " +
+               std::to_string(info.d.size()) +
+               " coefficients is none of plumb_bob, rational_polynomial and equidistant";
     return std::nullopt;
   }
-  for (size_t i = 0; i < std::min<size_t>(5, info.d.size()); ++i) {
-    calibration.distortion.k[i] = info.d[i];
-  }
+  calibration.distortion = *lens;
+  calibration.SetUndistorted();
   return calibration;
 }
 

@@ -31,7 +31,7 @@ StoredImage ConvertRosImage(const RosCompressedImage& image);
 
 /// Returns the calibration of a CameraInfo for images as they come from the camera, or, if
 /// `is_rectified`, for images without distortion. Nothing if it is not calibrated or its lens model
-/// is not plumb_bob; `problem` then says why.
+/// is none of plumb_bob, rational_polynomial and equidistant; `problem` then says why.
 std::optional<Calibration> CalibrationFrom(const RosCameraInfo& info, bool is_rectified,
                                            std::string* problem);
 

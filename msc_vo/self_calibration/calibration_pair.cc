@@ -130,6 +130,13 @@ RgbdPairReprojection::View MakeView(const LensDistortion& distortion, const Fram
   return view;
 }
 
+// Ray of a recorded pixel, for the weights, which a radial-tangential lens hardly changes.
+Eigen::Vector3d RayForWeights(const CorrectedCamera& camera, const Eigen::Vector2d& pixel) {
+  if (!camera.distortion().IsCropped()) return camera.camera().Ray(pixel);
+  const SensorCorrection::Vector none = SensorCorrection::Vector::Zero();
+  return camera.Ray<double>(pixel, none.data()).homogeneous();
+}
+
 double Median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -215,7 +222,7 @@ std::optional<CalibrationInformation> CalibrationPair::Linearize(
   for (int iteration = 0;; ++iteration) {
     for (size_t i = 0; i < points.size(); ++i) {
       const Point& point = points[i];
-      const Eigen::Vector3d ray = camera_.camera().Ray(point.a.pixel);
+      const Eigen::Vector3d ray = RayForWeights(camera_, point.a.pixel);
       const Eigen::Vector3d x_in_b =
           b_from_a.rotation() * ray + point.inverse_depth * b_from_a.translation();
       if (x_in_b.z() < kMinCameraDepth) {

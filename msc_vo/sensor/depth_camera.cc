@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "msc_vo/camera/lens_validity.h"
+
 namespace msc_vo {
 
 namespace {
@@ -26,7 +28,7 @@ std::string Number(double value) {
 }  // namespace
 
 bool DepthCamera::IsValid(std::string* error) const {
-  if (!camera.IsValid(error)) {
+  if (!camera.IsValid(error) || !IsInvertible(distortion, camera, error)) {
     *error = "depth " + *error;
     return false;
   }

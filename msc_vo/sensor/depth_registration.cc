@@ -11,15 +11,13 @@
 
 #include <Eigen/LU>
 
+#include "msc_vo/sensor/lens_remap.h"
+#include "msc_vo/sensor/registration_target.h"
+
 namespace msc_vo {
 
 namespace {
 
-// Two pixels lie on one surface if their inverse depths differ by less than this ratio of their
-// value (a plane seen at 87 degrees changes by as much from pixel to pixel), or by less than the
-// noise of a sensor, 1/metres.
-constexpr float kMaxRatio = 0.04f;
-constexpr float kMaxNoise = 0.006f;
 // Half the side of the square that a depth pixel covers, pixels. The part above 0.5 closes the gaps
 // that noise opens between neighbours on a surface.
 constexpr float kHalfSide = 0.6f;
@@ -32,27 +30,10 @@ constexpr float kMinRayZ = 0.01f;
 // Half the width of the holes through which the background is removed, depth pixels.
 constexpr double kHoleRadius = 2.0;
 
-// Largest difference of inverse depths on one surface, 1/metres.
-inline float EdgeThreshold(float inverse_depth) {
-  return std::max(kMaxRatio * inverse_depth, kMaxNoise);
-}
-
 Eigen::Matrix3d Intrinsics(const PinholeCamera& camera) {
   Eigen::Matrix3d k;
   k << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0;
   return k;
-}
-
-// Undistorted positions of all pixels.
-cv::Mat IdealPixels(const PinholeCamera& camera, const LensDistortion& distortion) {
-  cv::Mat ideal(camera.height, camera.width, CV_32FC2);
-  for (int y = 0; y < camera.height; ++y) {
-    for (int x = 0; x < camera.width; ++x) {
-      const Eigen::Vector2d pixel = distortion.Undistort(camera, {x, y});
-      ideal.at<cv::Vec2f>(y, x) = {static_cast<float>(pixel.x()), static_cast<float>(pixel.y())};
-    }
-  }
-  return ideal;
 }
 
 // Values of three neighbours in a row or in a column, by element.
@@ -124,8 +105,9 @@ struct DepthRegistration::Footprints {
         last_y(width + 2) {}
 
   // Computes everything below `down` for a colour image of width x height pixels. `orientation`:
-  // sign of the determinant of a surface that the colour camera sees from the front.
-  void ComputeBoxes(const Row& row, int width, int height, float orientation);
+  // sign of the determinant of a surface that the colour camera sees from the front. `stretch`:
+  // largest size of an undistorted pixel in the distorted image.
+  void ComputeBoxes(const Row& row, int width, int height, float orientation, float stretch);
 
   Steps right, down;
   std::vector<float> scale;  // reciprocal of the determinant of the two steps
@@ -134,7 +116,7 @@ struct DepthRegistration::Footprints {
 };
 
 void DepthRegistration::Footprints::ComputeBoxes(const Row& row, int width, int height,
-                                                 float orientation) {
+                                                 float orientation, float stretch) {
   // Data of the vectors, so that the compiler can process several elements at once.
   const float *ax = right.x.data(), *ay = right.y.data(), *bx = down.x.data(), *by = down.y.data();
   const float *px = row.raw_x.data(), *py = row.raw_y.data(), *w = row.inverse_depth.data();
@@ -142,12 +124,13 @@ void DepthRegistration::Footprints::ComputeBoxes(const Row& row, int width, int 
   int *to_last_x = last_x.data(), *to_last_y = last_y.data();
   float* const to_scale = scale.data();
   const float border_x = static_cast<float>(width - 1), border_y = static_cast<float>(height - 1);
+  const float half = kHalfSide * stretch;
   const int size = static_cast<int>(scale.size()) - 1;
 #pragma GCC ivdep
   for (int i = 1; i < size; ++i) {
     const float determinant = ax[i] * by[i] - ay[i] * bx[i];
-    const float size_x = kHalfSide * (std::abs(ax[i]) + std::abs(bx[i]));
-    const float size_y = kHalfSide * (std::abs(ay[i]) + std::abs(by[i]));
+    const float size_x = half * (std::abs(ax[i]) + std::abs(bx[i]));
+    const float size_y = half * (std::abs(ay[i]) + std::abs(by[i]));
     const float from_x = px[i] - size_x, to_x = px[i] + size_x;
     const float from_y = py[i] - size_y, to_y = py[i] + size_y;
     // Positive if the pixel has a depth, its surface is not seen from behind, and the box overlaps
@@ -170,88 +153,6 @@ void DepthRegistration::Footprints::ComputeBoxes(const Row& row, int width, int 
   }
 }
 
-// The colour image that is drawn into: inverse depths with a border, so that no pixel needs a test.
-class DepthRegistration::Target {
- public:
-  Target(const PinholeCamera& color, int radius)
-      : radius_(radius),
-        inverse_depth_(
-            cv::Mat::zeros(color.height + 2 * radius, color.width + 2 * radius, CV_32FC1)),
-        distance_(color.height, color.width, CV_32FC1) {}
-
-  int width() const { return distance_.cols; }
-  int height() const { return distance_.rows; }
-
-  // Offers an inverse depth to pixel (x, y). The nearest surface wins; on one surface, the depth
-  // pixel whose centre is nearest, at `distance` in depth pixels.
-  void Offer(int x, int y, float inverse_depth, float distance) {
-    float& best = inverse_depth_.ptr<float>(y + radius_)[x + radius_];
-    float& best_distance = distance_.ptr<float>(y)[x];
-    const float threshold = EdgeThreshold(best);
-    if (best > 0.0f && inverse_depth <= best + threshold &&
-        (inverse_depth < best - threshold || distance >= best_distance)) {
-      return;
-    }
-    best = inverse_depth;
-    best_distance = distance;
-  }
-
-  // Depths, without those of pixels between nearer pixels of one surface.
-  cv::Mat Depth() const {
-    cv::Mat depth(height(), width(), CV_32FC1);
-    std::vector<float> sides[4];
-    for (std::vector<float>& side : sides) side.resize(width());
-    for (int y = 0; y < height(); ++y) {
-      FindNearest(y, 0, -1, &sides[0]);
-      FindNearest(y, 0, 1, &sides[1]);
-      FindNearest(y, -1, 0, &sides[2]);
-      FindNearest(y, 1, 0, &sides[3]);
-      WriteRow(sides, inverse_depth_.ptr<float>(y + radius_) + radius_, depth.ptr<float>(y));
-    }
-    return depth;
-  }
-
- private:
-  // Largest inverse depth on one side of every pixel of a row, within the radius.
-  void FindNearest(int y, int step_y, int step_x, std::vector<float>* nearest) const {
-    const int size = width();
-    float* const to = nearest->data();
-    std::fill(nearest->begin(), nearest->end(), 0.0f);
-    for (int k = 1; k <= radius_; ++k) {
-      const float* const from =
-          inverse_depth_.ptr<float>(y + radius_ + k * step_y) + radius_ + k * step_x;
-#pragma GCC ivdep
-      for (int x = 0; x < size; ++x) to[x] = std::max(to[x], from[x]);
-    }
-  }
-
-  // Whether a surface on both sides is in front of a pixel.
-  static bool IsBehind(float side, float other, float inverse_depth) {
-    const float near = std::max(side, other);
-    const float far = std::min(side, other);
-    return (near - far <= EdgeThreshold(near)) &
-           (far > inverse_depth + EdgeThreshold(inverse_depth));
-  }
-
-  void WriteRow(const std::vector<float> (&sides)[4], const float* inverse_depth,
-                float* depth) const {
-    const int size = width();
-    const float *left = sides[0].data(), *right = sides[1].data();
-    const float *above = sides[2].data(), *below = sides[3].data();
-#pragma GCC ivdep
-    for (int x = 0; x < size; ++x) {
-      const float w = inverse_depth[x];
-      const bool is_visible =
-          (w > 0.0f) & !(IsBehind(left[x], right[x], w) | IsBehind(above[x], below[x], w));
-      depth[x] = is_visible ? 1.0f / (is_visible ? w : 1.0f) : 0.0f;
-    }
-  }
-
-  int radius_;
-  cv::Mat inverse_depth_;  // 1/metres, 0: none
-  cv::Mat distance_;       // valid where there is an inverse depth
-};
-
 DepthRegistration::DepthRegistration(const DepthCamera& depth_camera, const PinholeCamera& color,
                                      const LensDistortion& color_distortion)
     : depth_camera_(depth_camera), color_(color), distortion_(color_distortion) {
@@ -269,10 +170,15 @@ DepthRegistration::DepthRegistration(const DepthCamera& depth_camera, const Pinh
   const Eigen::Vector2d here = project(center.x(), center.y());
   right_ = (project(center.x() + 1.0, center.y()) - here).cast<float>();
   down_ = (project(center.x(), center.y() + 1.0) - here).cast<float>();
-  if (!color_distortion.IsZero()) ideal_ = IdealPixels(color, color_distortion);
+  const LensDistortion& depth_lens = depth_camera.distortion;
+  if (!depth_lens.IsZero()) depth_pixels_ = UndistortedPixels(depth_camera.camera, depth_lens);
+  if (color_distortion.IsZero()) return;
+  ideal_ = UndistortedPixels(color, color_distortion);
+  stretch_ = static_cast<float>(LargestStretch(color, color_distortion));
 }
 
 void DepthRegistration::ProjectRow(const cv::Mat& depth, int v, Row* row) const {
+  if (!depth_pixels_.empty()) return ProjectDistortedRow(depth, v, row);
   const int width = depth.cols;
   const float* const z = depth.ptr<float>(v);
   const Eigen::Vector3f first = matrix_.col(1) * static_cast<float>(v) + matrix_.col(2);
@@ -300,10 +206,34 @@ void DepthRegistration::ProjectRow(const cv::Mat& depth, int v, Row* row) const 
   DistortRow(row);
 }
 
+void DepthRegistration::ProjectDistortedRow(const cv::Mat& depth, int v, Row* row) const {
+  const float* const z = depth.ptr<float>(v);
+  const cv::Vec2f* const pixel = depth_pixels_.ptr<cv::Vec2f>(v);
+  const float offset = static_cast<float>(depth_camera_.inverse_depth_offset);
+  for (int u = 0; u < depth.cols; ++u) {
+    const float w = z[u] > kMinDepth ? 1.0f / z[u] + offset : 0.0f;
+    const Eigen::Vector3f color =
+        matrix_ * Eigen::Vector3f(pixel[u][0], pixel[u][1], 1.0f) + shift_ * w;
+    const bool is_seen = w > 0.0f && color.z() > kMinRayZ;
+    row->x[u + 1] = is_seen ? color.x() / color.z() : 0.0f;
+    row->y[u + 1] = is_seen ? color.y() / color.z() : 0.0f;
+    row->inverse_depth[u + 1] = is_seen ? w / color.z() : 0.0f;
+  }
+  DistortRow(row);
+}
+
 void DepthRegistration::DistortRow(Row* row) const {
   if (distortion_.IsZero()) {
     row->raw_x = row->x;
     row->raw_y = row->y;
+    return;
+  }
+  if (distortion_.model != LensModel::kRadialTangential || distortion_.recorded) {
+    for (size_t i = 0; i < row->x.size(); ++i) {
+      const Eigen::Vector2d raw = distortion_.Distort(color_, {row->x[i], row->y[i]});
+      row->raw_x[i] = static_cast<float>(raw.x());
+      row->raw_y[i] = static_cast<float>(raw.y());
+    }
     return;
   }
   // As LensDistortion::Distort(), for several pixels at once.
@@ -336,10 +266,12 @@ void DepthRegistration::ComputeFootprints(const Row& above, const Row& here, con
       {above.y.data(), here.y.data(), below.y.data()},
       {above.inverse_depth.data(), here.inverse_depth.data(), below.inverse_depth.data()}, down_);
   const float determinant = right_.x() * down_.y() - right_.y() * down_.x();
-  footprints->ComputeBoxes(here, color_.width, color_.height, determinant > 0.0f ? 1.0f : -1.0f);
+  footprints->ComputeBoxes(here, color_.width, color_.height, determinant > 0.0f ? 1.0f : -1.0f,
+                           stretch_);
 }
 
-void DepthRegistration::Draw(const Row& row, const Footprints& footprints, Target* target) const {
+void DepthRegistration::Draw(const Row& row, const Footprints& footprints,
+                             RegistrationTarget* target) const {
   const bool is_distorted = !ideal_.empty();
   for (size_t i = 1; i + 1 < row.x.size(); ++i) {
     const int last_x = footprints.last_x[i], last_y = footprints.last_y[i];
@@ -372,7 +304,7 @@ cv::Mat DepthRegistration::Register(const cv::Mat& depth) const {
         "size of the depth camera");
   }
   const float pixels = std::sqrt(std::abs(right_.x() * down_.y() - right_.y() * down_.x()));
-  Target target(color_, std::max(1, cvRound(kHoleRadius * pixels)));
+  RegistrationTarget target(color_, std::max(1, cvRound(kHoleRadius * pixels)));
   // Rows v - 1, v and v + 1 are elements v, v + 1 and v + 2, modulo 3.
   std::vector<Row> rows(3, Row(camera.width));
   Footprints footprints(camera.width);

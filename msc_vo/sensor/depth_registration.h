@@ -11,6 +11,8 @@
 
 namespace msc_vo {
 
+class RegistrationTarget;
+
 /// Registers the images of a depth camera to the raw (distorted) images of a colour camera.
 ///
 /// A depth pixel covers its square of the depth image, and thus a small parallelogram of the colour
@@ -34,13 +36,13 @@ class DepthRegistration {
  private:
   struct Row;
   struct Footprints;
-  class Target;
 
   void ProjectRow(const cv::Mat& depth, int v, Row* row) const;
+  void ProjectDistortedRow(const cv::Mat& depth, int v, Row* row) const;
   void DistortRow(Row* row) const;
   void ComputeFootprints(const Row& above, const Row& here, const Row& below,
                          Footprints* footprints) const;
-  void Draw(const Row& row, const Footprints& footprints, Target* target) const;
+  void Draw(const Row& row, const Footprints& footprints, RegistrationTarget* target) const;
 
   DepthCamera depth_camera_;
   PinholeCamera color_;
@@ -51,6 +53,8 @@ class DepthRegistration {
   // Displacement in the colour image by one depth pixel to the right, and downwards, at infinity.
   Eigen::Vector2f right_;
   Eigen::Vector2f down_;
+  float stretch_ = 1.0f;  // largest size of an undistorted colour pixel in the distorted image
+  cv::Mat depth_pixels_;  // CV_32FC2, undistorted depth pixels; empty: no distortion
   cv::Mat ideal_;  // CV_32FC2, undistorted position of every colour pixel; empty: no distortion
 };
 

@@ -10,8 +10,17 @@
 
 namespace msc_vo {
 
+/// Undistorted position of every pixel of the raw image (CV_32FC2), see
+/// LensDistortion::Undistort().
+cv::Mat UndistortedPixels(const PinholeCamera& camera, const LensDistortion& distortion);
+
+/// Largest size of a pixel of the undistorted image in the raw image, at least 1; 1 for a
+/// radial-tangential lens, whose pixels differ by less than a few percent.
+double LargestStretch(const PinholeCamera& camera, const LensDistortion& distortion);
+
 /// Maps between the raw (distorted) image and the ideal image of the pinhole camera, which has the
-/// same size and intrinsics. Without distortion the two are identical and nothing is computed.
+/// same size, and the same intrinsics unless LensDistortion::recorded says others. Without
+/// distortion the two are identical and nothing is computed.
 ///
 /// Lines are detected in the ideal image, because a straight 3-D line is a curve in a distorted
 /// image: a detector would find chords with a bias that undistortion of their end points does not
@@ -34,6 +43,10 @@ class LensRemap {
   Eigen::Vector2d IdealFromRaw(const Eigen::Vector2d& pixel) const {
     return distortion_.Undistort(camera_, pixel);
   }
+  /// Area of the ideal image that a unit of area of the raw image covers at a pixel of the ideal
+  /// image.
+  double Magnification(const Eigen::Vector2d& ideal_pixel) const;
+
   /// Distorts a pixel of the ideal image, see LensDistortion::Distort().
   Eigen::Vector2d RawFromIdeal(const Eigen::Vector2d& pixel) const {
     return distortion_.IsZero() ? pixel : distortion_.Distort(camera_, pixel);

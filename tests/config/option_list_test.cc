@@ -71,14 +71,14 @@ TEST(ListOptions, ListsEveryFieldThatIsNotDerived) {
 }
 
 TEST(ListOptions, ListsEveryFieldOfTheCamera) {
-  // All but `origin`; the five coefficients of the distortion are a single field.
+  // All but `origin`. The model and the eight coefficients of a lens are a single field.
   Configuration configuration;
   const std::vector<Option> options = ListOptions(&configuration);
   const auto num_camera = std::count_if(options.begin(), options.end(), [](const Option& option) {
     return option.path.rfind("camera.", 0) == 0;
   });
-  EXPECT_EQ(num_camera, static_cast<int>(NumFields<CameraSettings>()) - 1 + 4 +
-                            static_cast<int>(NumFields<DepthCameraSettings>()) - 1);
+  EXPECT_EQ(num_camera, static_cast<int>(NumFields<CameraSettings>()) - 1 + 8 +
+                            static_cast<int>(NumFields<DepthCameraSettings>()) - 1 + 8);
 }
 
 TEST(ListOptions, DescribesEveryOption) {

@@ -22,9 +22,9 @@ TEST_F(OrbSlamConfigTest, ReadsOrbSlam2SettingsWithMalformedLines) {
   const CameraSettings camera = ReadOrbSlamConfig(Path("orb.yaml"));
   EXPECT_EQ(*camera.fx, 517.3);
   EXPECT_EQ(*camera.depth_scale, 5208.0);
-  EXPECT_EQ(*camera.distortion[0], 0.26);
-  EXPECT_EQ(*camera.distortion[3], 0.002);
-  EXPECT_FALSE(camera.distortion[4].has_value());
+  EXPECT_EQ(*camera.lens.coefficients[0], 0.26);
+  EXPECT_EQ(*camera.lens.coefficients[3], 0.002);
+  EXPECT_FALSE(camera.lens.coefficients[4].has_value());
   EXPECT_FALSE(camera.width.has_value());
 }
 
@@ -47,9 +47,17 @@ TEST_F(OrbSlamConfigTest, RejectsOtherCameraModels) {
     WriteText("orb3.yaml", text + camera);
     return MessageOf([&] { ReadOrbSlamConfig(Path("orb3.yaml")); });
   };
-  EXPECT_THAT(error_of("%YAML:1.0\nCamera.type: \"KannalaBrandt8\"\n"),
-              AllOf(HasSubstr("orb3.yaml:2: Camera.type \"KannalaBrandt8\" is not supported"),
-                    HasSubstr("PinHole and Rectified")));
+  EXPECT_THAT(error_of("%YAML:1.0\nCamera.type: \"Omnidirectional\"\n"),
+              AllOf(HasSubstr("orb3.yaml:2: Camera.type \"Omnidirectional\" is not supported"),
+                    HasSubstr("PinHole, Rectified and KannalaBrandt8")));
+  EXPECT_THAT(error_of("Camera.type: \"KannalaBrandt8\"\n"), HasSubstr("Camera.k2 is missing"));
+  EXPECT_EQ(error_of("Camera.type: \"KannalaBrandt8\"\nCamera1.k2: 0.01\nCamera1.k3: 0.02\n"
+                     "Camera1.k4: 0.03\n"),
+            "");
+  const LensSettings fisheye = ReadOrbSlamConfig(Path("orb3.yaml")).lens;
+  EXPECT_EQ(fisheye.model, "fisheye");
+  EXPECT_EQ(*fisheye.coefficients[4], 0.02);  // k3
+  EXPECT_EQ(*fisheye.coefficients[5], 0.03);  // k4
   EXPECT_THAT(error_of("Camera1.k4: 0.01\n"),
               HasSubstr("orb3.yaml:1: Camera1.k4: only the distortion coefficients"));
   EXPECT_THAT(error_of("Camera.k6: 0.01\n"), HasSubstr("Camera.k6"));
@@ -58,9 +66,9 @@ TEST_F(OrbSlamConfigTest, RejectsOtherCameraModels) {
               HasSubstr("orb3.yaml:1: Camera.cols must be a whole number, not 640.5"));
   EXPECT_EQ(error_of("Camera.k4: 0.0\n"), "");
   EXPECT_EQ(error_of("Camera.type: Pinhole\n"), "");
-  EXPECT_EQ(*ReadOrbSlamConfig(Path("orb3.yaml")).distortion[0], -0.03);
+  EXPECT_EQ(*ReadOrbSlamConfig(Path("orb3.yaml")).lens.coefficients[0], -0.03);
   EXPECT_EQ(error_of("Camera.type: \"Rectified\"\n"), "");  // its images have no distortion
-  EXPECT_FALSE(ReadOrbSlamConfig(Path("orb3.yaml")).distortion[0].has_value());
+  EXPECT_FALSE(ReadOrbSlamConfig(Path("orb3.yaml")).lens.coefficients[0].has_value());
 }
 
 TEST_F(OrbSlamConfigTest, ErrorsNameMissingAndInvalidValues) {

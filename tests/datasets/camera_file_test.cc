@@ -106,5 +106,61 @@ TEST_F(CameraFileTest, ReadsDepthCamera) {
   EXPECT_THAT(ErrorOf(camera + "deph_camera 1\n"), HasSubstr("'depth_camera fx fy"));
 }
 
+TEST_F(CameraFileTest, ReadsLens) {
+  const std::string camera = "300 301 322 238 640 480 1000\n";
+  WriteText("camera.txt", camera + "field_of_view 90\nlens fisheye 0.02 -0.012 0.006 -0.0015\n");
+  Calibration calibration = ReadCameraFile(Path("camera.txt"));
+  EXPECT_EQ(calibration.distortion.model, LensModel::kFisheye);
+  EXPECT_EQ(calibration.distortion.k[3], -0.0015);
+  EXPECT_EQ(calibration.Recorded().fy, 301.0);
+  EXPECT_NEAR(calibration.camera.fx, 319.5, 1e-9);  // 45 degrees to each side
+  // What is written is read as the same.
+  WriteText("copy.txt", FormatCameraFile(calibration, "copy"));
+  const Calibration copy = ReadCameraFile(Path("copy.txt"));
+  EXPECT_EQ(copy.camera.fx, calibration.camera.fx);
+  EXPECT_EQ(copy.Recorded().cx, 322.0);
+  EXPECT_EQ(copy.distortion.k, calibration.distortion.k);
+
+  WriteText("camera.txt", camera + "lens rational 0.1 0.2 0.001 0.002 0.3 0.4 0.5 0.6\n");
+  calibration = ReadCameraFile(Path("camera.txt"));
+  EXPECT_EQ(calibration.distortion.model, LensModel::kRational);
+  EXPECT_EQ(calibration.distortion.k[7], 0.6);
+  EXPECT_EQ(calibration.camera.fx, 300.0);  // the undistorted image has the same intrinsics
+
+  WriteText("camera.txt", camera + "depth_lens rational 0.1 0.2 0 0 0.3 0.1 0.2 0.3\n" +
+                              "depth_camera 585 585 320 240 640 480 0.03 0 0\n");
+  calibration = ReadCameraFile(Path("camera.txt"));
+  EXPECT_EQ(calibration.depth_camera->distortion.k[4], 0.3);
+  WriteText("copy.txt", FormatCameraFile(calibration, "copy"));
+  EXPECT_EQ(ReadCameraFile(Path("copy.txt")).depth_camera->distortion.k,
+            calibration.depth_camera->distortion.k);
+}
+
+TEST_F(CameraFileTest, RejectsImpossibleLenses) {
+  const std::string camera = "300 301 322 238 640 480 1000\n";
+  EXPECT_THAT(ErrorOf(camera + "lens fish 0 0 0 0\n"),
+              HasSubstr("camera.txt:2: unknown lens model 'fish'; known: radial-tangential, "
+                        "rational, fisheye"));
+  EXPECT_THAT(ErrorOf(camera + "lens fisheye 0 0 0\n"),
+              HasSubstr("camera.txt:2: expected the 4 coefficients k1 k2 k3 k4 of the lens model "
+                        "fisheye, found 3"));
+  EXPECT_THAT(ErrorOf(camera + "lens rational 0 0 0 0 0\n"), HasSubstr("expected the 8"));
+  EXPECT_THAT(ErrorOf(camera + "lens fisheye a 0 0 0\n"), HasSubstr("'a' is not a finite"));
+  EXPECT_THAT(ErrorOf(camera + "lens\n"), HasSubstr("camera.txt:2: expected a lens"));
+  EXPECT_THAT(ErrorOf(camera + "# wide\nlens fisheye -0.4 0 0 0\n"),
+              AllOf(HasSubstr("camera.txt:3: camera: the lens k1 k2 k3 k4"),
+                    HasSubstr("folds over"), HasSubstr("smaller field_of_view")));
+  EXPECT_EQ(ErrorOf(camera + "lens fisheye -0.4 0 0 0\nfield_of_view 60\n"), "");
+  EXPECT_THAT(ErrorOf(camera + "field_of_view 170\n"),
+              HasSubstr("camera.txt:2: camera: field_of_view = 170 must be from 10 to 150"));
+  EXPECT_THAT(ErrorOf(camera + "field_of_view wide\n"), HasSubstr("'field_of_view DEGREES'"));
+  const std::string lens = "lens fisheye 0 0 0 0\n";
+  EXPECT_THAT(ErrorOf(camera + lens + lens), HasSubstr("camera.txt:3: a second line lens"));
+  EXPECT_THAT(ErrorOf("300 301 322 238 640 480 1000 0.1 0 0 0 0\n" + lens),
+              HasSubstr("camera.txt:2: the first line gives a lens, too"));
+  EXPECT_THAT(ErrorOf(camera + "depth_lens fisheye 0 0 0 0\n"),
+              HasSubstr("camera.txt:2: the lens of a depth camera needs the line 'depth_camera"));
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -3,6 +3,8 @@
 
 #include "msc_vo/datasets/sequence_calibration.h"
 
+#include <cmath>
+
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -35,9 +37,50 @@ TEST_F(SequenceCalibrationTest, RejectsInvalidSettings) {
   EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
               AllOf(HasSubstr("mine.yaml"), HasSubstr("fx = -535")));
   settings.fx.reset();
-  settings.distortion[4] = 0.0;
+  settings.lens.coefficients[4] = 0.0;
   EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
               AllOf(HasSubstr("mine.yaml"), HasSubstr("folds over")));
+}
+
+TEST_F(SequenceCalibrationTest, AppliesLens) {
+  SequenceIndex index = Index();
+  index.calibration = FindCameraPreset("tum-fr3").calibration;
+  CameraSettings settings;
+  settings.origin = "mine.yaml";
+  settings.lens.model = "fisheye";
+  const auto error = [&] { return MessageOf([&] { ResolveCalibration(settings, "", &index); }); };
+  settings.lens.coefficients = {0.02, -0.01, {}, {}, 0.003, {}, {}, {}};  // k1 k2 k3
+  EXPECT_EQ(error(),
+            "mine.yaml: camera.k4 is missing; set all coefficients of the lens fisheye (k1 "
+            "k2 k3 k4)");
+  settings.lens.coefficients[5] = -0.001;
+  settings.lens.coefficients[2] = 0.1;  // p1
+  EXPECT_THAT(error(), HasSubstr("mine.yaml: camera.p1 is not a coefficient of the lens fisheye"));
+  settings.lens.coefficients[2].reset();
+  Calibration calibration = ResolveCalibration(settings, "", &index);
+  EXPECT_EQ(calibration.distortion.model, LensModel::kFisheye);
+  EXPECT_EQ(calibration.distortion.k[3], -0.001);
+  EXPECT_EQ(calibration.Recorded().fx, 535.4);
+  EXPECT_NE(calibration.camera.fx, 535.4);
+
+  // Single values over a file with a lens.
+  index.calibration = calibration;
+  CameraSettings more;
+  more.origin = "more.yaml";
+  more.fx = 500.0;
+  more.field_of_view = 60.0;
+  more.lens.coefficients[4] = 0.004;
+  calibration = ResolveCalibration(more, "", &index);
+  EXPECT_EQ(calibration.Recorded().fx, 500.0);
+  EXPECT_EQ(calibration.distortion.k[2], 0.004);
+  EXPECT_NEAR(calibration.camera.fx, 319.5 / std::tan(M_PI / 6.0), 1e-9);
+
+  settings.lens.model = "wide";
+  EXPECT_THAT(error(), HasSubstr("mine.yaml: camera.lens 'wide' is unknown; known: radial-"));
+  settings.lens = {};
+  settings.lens.coefficients[5] = 0.1;  // k4 without a model that has it
+  index.calibration = FindCameraPreset("tum-fr3").calibration;
+  EXPECT_THAT(error(), HasSubstr("set camera.lens to another model"));
 }
 
 TEST_F(SequenceCalibrationTest, PrefersSettingsThenFolderThenPresets) {

@@ -12,7 +12,10 @@
 #include "tests/features/depth_images.h"
 #include "tests/features/distortion.h"
 #include "tests/features/drawing.h"
+#include "tests/support/lenses.h"
 #include <gtest/gtest.h>
+
+#include "msc_vo/camera/undistorted_camera.h"
 
 namespace msc_vo {
 namespace {
@@ -108,6 +111,47 @@ TEST(FrameBuilder, AppliesOptions) {
       EXPECT_EQ(line.depth->num_inliers, 2);
     }
   }
+}
+
+TEST(FrameBuilder, CropsWideImages) {
+  PinholeCamera camera = testing::WideCamera();
+  LensDistortion lens = testing::WideLens();
+  CropToFieldOfView(90.0, &lens, &camera);
+  const RgbdImage ideal = Poster(camera);
+  RgbdImage raw = ideal;
+  raw.gray = testing::DistortImage(camera, lens, ideal.gray);
+  raw.depth = testing::DrawDepth(
+      *lens.recorded, [&](const Vector2d& pixel) { return Wall(lens.Undistort(camera, pixel)); });
+  const Frame frame = FrameBuilder(FrameBuilderOptions(), camera, lens).Build(raw);
+  EXPECT_EQ(frame.camera.fx, camera.fx);
+  ASSERT_TRUE(frame.lens.has_value());
+  EXPECT_GT(frame.points.size(), 400u);
+  EXPECT_GT(frame.lines.size(), 40u);
+  double smallest = 1e9, largest = 0.0;
+  for (const PointFeature& point : frame.points) {
+    EXPECT_TRUE(camera.IsInside(point.pixel));
+    if (point.HasDepth()) {
+      EXPECT_NEAR(point.inverse_depth, Wall(point.pixel), 1e-3);
+    }
+    const double sigma = point.sigma / std::pow(1.2, point.level);
+    smallest = std::min(smallest, sigma);
+    largest = std::max(largest, sigma);
+  }
+  // A recorded pixel covers more of the undistorted image at its borders than in the middle.
+  const double middle = SensorNoiseOptions().point_sigma * camera.fx / lens.recorded->fx;
+  EXPECT_NEAR(smallest, middle, 0.05 * middle);
+  EXPECT_GT(largest, 1.5 * smallest);
+  // The edges of the poster are straight.
+  const Frame expected = FrameBuilder(FrameBuilderOptions(), camera, LensDistortion()).Build(ideal);
+  const auto has_line = [&](const LineFeature& line) {
+    return std::any_of(expected.lines.begin(), expected.lines.end(), [&](const LineFeature& other) {
+      return other.segment.DistanceToLine(line.segment.start) < 0.5 &&
+             other.segment.DistanceToLine(line.segment.end) < 0.5 &&
+             (line.segment.Midpoint() - other.segment.Midpoint()).norm() < 20.0;
+    });
+  };
+  EXPECT_GT(std::count_if(frame.lines.begin(), frame.lines.end(), has_line),
+            static_cast<int>(frame.lines.size()) * 6 / 10);
 }
 
 TEST(FrameBuilder, UndistortsPointsLinesAndTheirDepth) {

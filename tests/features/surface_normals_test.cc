@@ -9,8 +9,10 @@
 #include <stdexcept>
 
 #include "tests/features/depth_images.h"
+#include "tests/support/lenses.h"
 #include <gtest/gtest.h>
 
+#include "msc_vo/camera/undistorted_camera.h"
 #include "msc_vo/geometry/angles.h"
 
 namespace msc_vo {
@@ -46,6 +48,21 @@ double ErrorInDegrees(const SurfaceNormal& normal, const Vector3d& truth) {
 }
 
 const Plane kTilted = {Vector3d(0.5, -0.4, -1.0).normalized(), 1.5};
+
+TEST(SurfaceNormals, AreExactThroughAWideLens) {
+  PinholeCamera camera = testing::WideCamera();
+  LensDistortion lens = testing::WideLens();
+  CropToFieldOfView(100.0, &lens, &camera);
+  const cv::Mat depth = DrawDepth(*lens.recorded, [&](const Vector2d& pixel) {
+    return InverseDepth(camera, kTilted, lens.Undistort(camera, pixel));
+  });
+  const auto normals = SurfaceNormalEstimator({}, camera, lens).Estimate(depth);
+  EXPECT_GT(normals.size(), 700u);
+  for (const SurfaceNormal& normal : normals) {
+    EXPECT_LT(ErrorInDegrees(normal, kTilted.normal), 0.1);
+    EXPECT_TRUE(camera.IsInside(camera.Project(normal.position), -8.0));
+  }
+}
 
 class PlaneNormalsTest : public ::testing::TestWithParam<double> {};
 

@@ -4,10 +4,14 @@
 #include "msc_vo/map/rolling_shutter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
+#include "tests/support/lenses.h"
 #include "tests/support/rolling_frames.h"
 #include <gmock/gmock.h>
+
+#include "msc_vo/camera/undistorted_camera.h"
 
 namespace msc_vo {
 namespace {
@@ -54,6 +58,17 @@ TEST(RollingShutter, PhaseIncreasesFromTheFirstRowToTheLast) {
   const PinholeCamera camera;
   EXPECT_DOUBLE_EQ(RowPhase(camera, {7.0, -0.5}), -0.5);
   EXPECT_DOUBLE_EQ(RowPhase(camera, {600.0, 479.5}), 0.5);
+}
+
+TEST(RollingShutter, PhaseIsThatOfTheRecordedRow) {
+  Frame frame;
+  frame.camera = testing::WideCamera();
+  LensDistortion lens = testing::WideLens();
+  CropToFieldOfView(100.0, &lens, &frame.camera);
+  const Eigen::Vector2d undistorted = lens.Undistort(frame.camera, {100.0, 359.5});
+  EXPECT_GT(std::abs(RowPhase(frame, undistorted) - 0.25), 0.03);
+  frame.lens = lens;
+  EXPECT_NEAR(RowPhase(frame, undistorted), 0.25, 1e-12);
 }
 
 TEST(RollingShutter, CompensatesToTheViewOfAGlobalShutter) {

@@ -31,6 +31,34 @@ class SequenceTest(unittest.TestCase):
             support.room()[len(support.room())]
 
 
+class LensTest(unittest.TestCase):
+    def test_describes_the_lens_of_a_sequence(self):
+        lens = support.room().lens
+        self.assertEqual(lens.model, "radial-tangential")
+        self.assertEqual(lens.coefficients, support.room().distortion)
+        self.assertIsNone(lens.recorded)
+
+    def test_a_wide_lens_has_an_undistorted_camera(self):
+        camera = msc_vo.Camera(300.0, 300.0, 319.5, 239.5, 640, 480)
+        lens = msc_vo.Lens("fisheye", [0.02, -0.012, 0.006, -0.0015])
+        undistorted, cropped = msc_vo.undistorted_camera(camera, lens, field_of_view=90.0)
+        self.assertAlmostEqual(undistorted.fx, 319.5)
+        self.assertEqual(cropped.recorded.fx, 300.0)
+        self.assertEqual(cropped.coefficients, lens.coefficients)
+        image = support.room()[0]
+        odometry = msc_vo.Odometry(None, undistorted, cropped)
+        self.assertTrue(odometry.process(image.timestamp, image.gray, image.depth).is_estimated)
+
+    def test_impossible_lenses_are_named(self):
+        with self.assertRaisesRegex(ValueError, "unknown model 'wide'; known: radial-tangential"):
+            msc_vo.Lens("wide", [0.0])
+        with self.assertRaisesRegex(ValueError, "expected k1 k2 k3 k4 of the model fisheye"):
+            msc_vo.Lens("fisheye", [0.0])
+        camera = msc_vo.Camera(300.0, 300.0, 319.5, 239.5, 640, 480)
+        with self.assertRaisesRegex(ValueError, "field_of_view = 180"):
+            msc_vo.undistorted_camera(camera, msc_vo.Lens("fisheye", [0.0] * 4), 180.0)
+
+
 class Replay(unittest.TestCase):
     def test_writes_the_bytes_of_the_command(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -114,6 +114,18 @@ TEST(RosCamera, TakesTheMatrixThatFitsTheImages) {
   fields.model = "equidistant";
   EXPECT_FALSE(calibrate(false));
   EXPECT_THAT(problem, HasSubstr("equidistant"));
+  fields.d = {0.02, -0.01, 0.003, -0.001};
+  EXPECT_EQ(calibrate(false)->distortion.model, LensModel::kFisheye);
+  EXPECT_EQ(calibrate(false)->distortion.k[3], -0.001);
+  EXPECT_EQ(calibrate(false)->Recorded().fx, 525.0);
+  fields.model = "rational_polynomial";
+  fields.d = {0.1, 0.2, 0.001, 0.002, 0.3, 0.0, 0.0, 0.6};
+  EXPECT_EQ(calibrate(false)->distortion.model, LensModel::kRational);
+  EXPECT_EQ(calibrate(false)->distortion.k[7], 0.6);
+  fields.d.back() = 0.0;
+  EXPECT_EQ(calibrate(false)->distortion.model, LensModel::kRadialTangential);
+  fields.d.push_back(0.1);  // thin prism
+  EXPECT_FALSE(calibrate(false));
   fields.fx = 0.0;
   EXPECT_FALSE(calibrate(false));
   EXPECT_THAT(problem, HasSubstr("not calibrated"));

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/lenses.h"
 #include <gtest/gtest.h>
 
+#include "msc_vo/camera/undistorted_camera.h"
 #include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
@@ -111,6 +113,41 @@ TEST(DepthAlignment, PreservesMissingDepth) {
   const cv::Mat aligned = AlignDepth(Camera(), depth, roll);
   EXPECT_EQ(aligned.at<float>(110, 110), 0.0f);
   EXPECT_GT(aligned.at<float>(150, 150), 0.0f);
+}
+
+TEST(DepthAlignment, WarpsPlaneThroughAWideLens) {
+  PinholeCamera camera{150.0, 151.0, 161.0, 118.0, 320, 240};
+  LensDistortion lens = testing::WideLens();
+  CropToFieldOfView(90.0, &lens, &camera);
+  const Vector3d normal(0.1, -0.08, 0.4);
+  const auto depth_of = [&](const Vector3d& plane) {
+    cv::Mat depth(camera.height, camera.width, CV_32FC1);
+    for (int y = 0; y < depth.rows; ++y) {
+      for (int x = 0; x < depth.cols; ++x) {
+        const double w = plane.dot(camera.Ray(lens.Undistort(camera, Eigen::Vector2d(x, y))));
+        depth.at<float>(y, x) = w > 0.0 ? static_cast<float>(1.0 / w) : 0.0f;
+      }
+    }
+    return depth;
+  };
+  const Rigid3 motion(ExpSO3({0.02, 0.04, -0.03}), {-0.01, 0.02, -0.03});
+  const Vector3d turned = motion.rotation() * normal;
+  const cv::Mat there = depth_of(turned / (1.0 + turned.dot(motion.translation())));
+  const cv::Mat expected = depth_of(normal);
+  const cv::Mat aligned = DepthAligner(camera, lens).Align(there, motion);
+  double largest = 0.0;
+  int count = 0;
+  for (int y = 0; y < aligned.rows; ++y) {
+    for (int x = 0; x < aligned.cols; ++x) {
+      const double depth = aligned.at<float>(y, x);
+      if (depth == 0.0) continue;
+      ++count;
+      largest = std::max(largest, std::abs(1.0 / depth - 1.0 / expected.at<float>(y, x)));
+    }
+  }
+  // Half a pixel of the steepest slope at the border of the image.
+  EXPECT_LT(largest, 2.5e-3);
+  EXPECT_GT(count, static_cast<int>(aligned.total() / 2));
 }
 
 }  // namespace

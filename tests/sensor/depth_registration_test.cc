@@ -10,9 +10,11 @@
 #include <random>
 #include <stdexcept>
 
+#include "tests/support/lenses.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "msc_vo/camera/undistorted_camera.h"
 #include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
@@ -96,6 +98,41 @@ TEST(DepthRegistration, IsExactOnPlanes) {
       // The plane has no hole.
       EXPECT_EQ(cv::countNonZero(registered(cv::Rect(60, 45, 200, 150)) == 0.0f), 0);
     }
+  }
+}
+
+TEST(DepthRegistration, IsExactForOtherLenses) {
+  // Colour by a fisheye lens, depth by a rational one.
+  PinholeCamera color{150.0, 151.0, 161.0, 118.0, 320, 240};
+  LensDistortion lens = testing::WideLens();
+  CropToFieldOfView(80.0, &lens, &color);
+  DepthCamera rig = Rig();
+  rig.distortion = testing::AzureKinectLens();
+  for (const Vector3d& normal : kPlanes) {
+    cv::Mat depth(240, 320, CV_32FC1);
+    for (int y = 0; y < depth.rows; ++y) {
+      for (int x = 0; x < depth.cols; ++x) {
+        const Vector3d ray = rig.camera.Ray(rig.distortion.Undistort(rig.camera, {x, y}));
+        const Rigid3 color_from_depth = rig.depth_from_color.Inverse();
+        const double z = (1.0 - normal.dot(color_from_depth.translation())) /
+                         normal.dot(color_from_depth.rotation() * ray);
+        depth.at<float>(y, x) = z > 0.0 ? static_cast<float>(z) : 0.0f;
+      }
+    }
+    const cv::Mat registered = RegisterDepth(rig, color, lens, depth);
+    double largest = 0.0;
+    int holes = 0;
+    for (int y = 0; y < registered.rows; ++y) {
+      for (int x = 0; x < registered.cols; ++x) {
+        const Vector2d ideal = lens.Undistort(color, {x, y});
+        const double z = registered.at<float>(y, x);
+        if (z > 0.0) largest = std::max(largest, std::abs(1.0 / z - normal.dot(color.Ray(ideal))));
+        holes += z == 0.0 && std::abs(x - 160) < 60 && std::abs(y - 120) < 45;
+      }
+    }
+    // Steps to neighbours are differences in a distorted image, not derivatives.
+    EXPECT_LT(largest, 1e-4);
+    EXPECT_EQ(holes, 0);
   }
 }
 

@@ -22,7 +22,7 @@ def replay(sequence, options=None, on_frame=None):
     values = Options(**dict(options or {}))  # noqa: F405
     if values["mapping.readout_time"] is None:
         values["mapping.readout_time"] = sequence.readout_time
-    odometry = Odometry(values, sequence.camera, sequence.distortion)  # noqa: F405
+    odometry = Odometry(values, sequence.camera, sequence.lens)  # noqa: F405
     for i, timestamp in enumerate(sequence.timestamps):
         try:
             image = sequence[i]

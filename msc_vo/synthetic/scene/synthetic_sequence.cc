@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "msc_vo/camera/lens_validity.h"
+#include "msc_vo/camera/undistorted_camera.h"
 #include "msc_vo/synthetic/scene/random.h"
 
 namespace msc_vo {
@@ -21,6 +23,25 @@ const SyntheticSequenceOptions& Checked(const SyntheticSequenceOptions& options)
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument("SyntheticSequence: " + error);
   return options;
+}
+
+PinholeCamera ColorCameraOf(const SyntheticSequenceOptions& options) {
+  PinholeCamera camera = KinectCamera(options.width, options.height);
+  if (options.focal_length > 0.0) camera.fx = camera.fy = options.focal_length;
+  return camera;
+}
+
+std::optional<LensWarp> WarpOf(const SyntheticSequenceOptions& options,
+                               const PinholeCamera& camera) {
+  if (options.lens.IsZero()) return std::nullopt;
+  return LensWarp(camera, options.lens);
+}
+
+bool IsValidLens(const SyntheticSequenceOptions& options, std::string* error) {
+  LensDistortion lens = options.lens;
+  PinholeCamera camera = ColorCameraOf(options);
+  CropToFieldOfView({}, &lens, &camera);
+  return IsInvertible(lens, camera, error);
 }
 
 PinholeCamera DepthCameraOf(const SyntheticSequenceOptions& options) {
@@ -51,6 +72,13 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
     *error = "the focal length of the depth rig must be from 0.1 to 10 image widths";
   } else if (depth_rig && !(depth_rig->depth_from_color.translation().norm() <= 1.0)) {
     *error = "the offset of the depth rig must be at most 1 metre";
+  } else if (focal_length != 0.0 &&
+             !(focal_length >= 0.1 * width && focal_length <= 10.0 * width)) {
+    *error = "the focal length must be from 0.1 to 10 image widths";
+  } else if (!lens.IsZero() && readout_time != 0.0) {
+    *error = "a lens needs a global shutter: give no readout_time";
+  } else if (!IsValidLens(*this, error)) {
+    return false;
   } else if (!(image_sigma >= 0.0)) {
     *error = "image_sigma must not be negative";
   } else if (!(accelerometer_sigma >= 0.0)) {
@@ -65,8 +93,9 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
 
 SyntheticSequence::SyntheticSequence(const SyntheticSequenceOptions& options)
     : options_(Checked(options)),
-      renderer_(MakeScene(options.scene, options.seed),
-                KinectCamera(options.width, options.height)),
+      camera_(ColorCameraOf(options)),
+      warp_(WarpOf(options, camera_)),
+      renderer_(MakeScene(options.scene, options.seed), warp_ ? warp_->source() : camera_),
       path_(renderer_.scene(), SeededPath(options)) {
   if (options.depth_rig) depth_renderer_.emplace(renderer_.scene(), DepthCameraOf(options));
 }
@@ -114,21 +143,29 @@ RenderedImage SyntheticSequence::RenderRolling(
   });
 }
 
-SyntheticFrame SyntheticSequence::Render(int index) const {
-  const bool rolling = options_.readout_time != 0.0;
-  const double seconds = index / options_.fps;
+RenderedImage SyntheticSequence::RenderColor(double seconds, const Rigid3& cam_from_world) const {
   const auto color_from_world = [&](double time) { return path_.CamFromWorld(time); };
+  if (options_.readout_time != 0.0) return RenderRolling(renderer_, color_from_world, seconds);
+  const RenderedImage image = renderer_.Render(cam_from_world);
+  return warp_ ? warp_->Warp(image) : image;
+}
+
+RenderedImage SyntheticSequence::RenderDepth(double seconds) const {
+  if (!options_.depth_rig) return RenderColor(seconds, path_.CamFromWorld(seconds));
   const auto depth_from_world = [&](double time) { return DepthCameraFromWorld(time); };
+  if (options_.readout_time != 0.0) {
+    return RenderRolling(*depth_renderer_, depth_from_world, seconds);
+  }
+  return depth_renderer_->Render(depth_from_world(seconds));
+}
+
+SyntheticFrame SyntheticSequence::Render(int index) const {
+  const double seconds = index / options_.fps;
   SyntheticFrame frame;
   frame.pose = PoseAt(index);
-  frame.image = rolling ? RenderRolling(renderer_, color_from_world, seconds)
-                        : renderer_.Render(frame.pose.world_from_cam.Inverse());
+  frame.image = RenderColor(seconds, frame.pose.world_from_cam.Inverse());
   if (options_.depth_delay != 0.0 || options_.depth_rig) {
-    const double later = seconds + options_.depth_delay;
-    const Renderer& renderer = depth_renderer();
-    frame.image.depth = (rolling ? RenderRolling(renderer, depth_from_world, later)
-                                 : renderer.Render(depth_from_world(later)))
-                            .depth;
+    frame.image.depth = RenderDepth(seconds + options_.depth_delay).depth;
   }
   // Even streams for colour, odd streams for depth, so that their noise is independent.
   const uint64_t stream = 2 * static_cast<uint64_t>(index);

@@ -9,11 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/timed_acceleration.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/synthetic/scene/camera_path.h"
 #include "msc_vo/synthetic/scene/kinect_noise.h"
+#include "msc_vo/synthetic/scene/lens_warp.h"
 #include "msc_vo/synthetic/scene/renderer.h"
 #include "msc_vo/synthetic/scene/scene.h"
 
@@ -31,6 +33,10 @@ struct SyntheticSequenceOptions {
   uint64_t seed = 1;  ///< of the scene, the path and the noise
   int width = 640;    ///< pixels
   int height = 480;
+  /// Focal length, pixels; 0: that of KinectCamera().
+  double focal_length = 0.0;
+  /// Lens of the colour camera, and of depth without a rig; needs a global shutter.
+  LensDistortion lens;
   double fps = 30.0;
   /// Time of a depth image relative to its colour image, seconds.
   double depth_delay = 0.0;
@@ -70,22 +76,32 @@ class SyntheticSequence {
   /// first to the last of `num_frames` >= 1 images. The acceleration is a mean over 0.1 seconds.
   std::vector<TimedAcceleration> AccelerometerReadings(int num_frames) const;
 
-  const PinholeCamera& camera() const { return renderer_.camera(); }
+  /// Intrinsics and size of the recorded colour images.
+  const PinholeCamera& camera() const { return camera_; }
   /// The camera that records depth: that of the rig, or the colour camera.
-  const PinholeCamera& depth_camera() const { return depth_renderer().camera(); }
+  const PinholeCamera& depth_camera() const {
+    return depth_renderer_ ? depth_renderer_->camera() : camera_;
+  }
   const Scene& scene() const { return renderer_.scene(); }
 
  private:
   // Acceleration of the optical centre in the world, metres/second^2.
   Eigen::Vector3d AccelerationAt(double seconds) const;
-  const Renderer& depth_renderer() const { return depth_renderer_ ? *depth_renderer_ : renderer_; }
   Rigid3 DepthCameraFromWorld(double seconds) const;
   // The image whose readout is centred `seconds` after the start.
   RenderedImage RenderRolling(const Renderer& renderer,
                               const std::function<Rigid3(double seconds)>& camera_from_world,
                               double seconds) const;
 
+  // The image of the colour camera at `seconds`; `cam_from_world`: its pose without a rolling
+  // shutter.
+  RenderedImage RenderColor(double seconds, const Rigid3& cam_from_world) const;
+  // The image of the camera that records depth.
+  RenderedImage RenderDepth(double seconds) const;
+
   SyntheticSequenceOptions options_;
+  PinholeCamera camera_;
+  std::optional<LensWarp> warp_;  // none: no lens distortion
   Renderer renderer_;
   std::optional<Renderer> depth_renderer_;  // of the rig
   CameraPath path_;
