@@ -38,6 +38,7 @@ struct Arguments {
   std::string folder;
   std::string scene = "room";
   std::string noise = "none";
+  std::string sensor;  // empty: that of `noise`
   int frames = 260;
   int height = 0;  // pixels; 0: three quarters of the width
   ColorEncoding encoding;
@@ -152,11 +153,19 @@ void PrintJson(const Arguments& arguments, const PinholeCamera& camera, int num_
   std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
 }
 
+SyntheticDepth DepthOf(const Arguments& arguments) {
+  const std::string& name = arguments.sensor.empty() ? arguments.noise : arguments.sensor;
+  if (name == "kinect") return SyntheticDepth::kKinect;
+  if (name == "tof") return SyntheticDepth::kTimeOfFlight;
+  if (name == "stereo") return SyntheticDepth::kStereo;
+  return name == "lidar" ? SyntheticDepth::kLidar : SyntheticDepth::kExact;
+}
+
 int Run(const Arguments& arguments) {
   SyntheticSequenceOptions options = arguments.options;
   options.scene = *SceneKindFromName(arguments.scene);
   options.height = arguments.height > 0 ? arguments.height : options.width * 3 / 4;
-  options.kinect_depth = arguments.noise == "kinect";
+  options.depth = DepthOf(arguments);
   options.depth_rig = MakeRig(arguments.rig);
   options.lens = ParseLens(arguments.lens);
   const SyntheticSequence sequence(options);
@@ -255,9 +264,15 @@ Command AddSynthesizeCommand(CLI::App* app) {
       ->add_option("--seed", arguments->options.seed,
                    "Seed of the scene, the trajectory and the noise")
       ->capture_default_str();
-  command->add_option("--noise", arguments->noise, "Depth noise: none or that of a Kinect")
-      ->check(CLI::IsMember({"none", "kinect"}))
-      ->capture_default_str();
+  CLI::Option* noise =
+      command->add_option("--noise", arguments->noise, "Depth noise: none or that of a Kinect")
+          ->check(CLI::IsMember({"none", "kinect"}))
+          ->capture_default_str();
+  command
+      ->add_option("--sensor", arguments->sensor,
+                   "Depth sensor with its noise and artefacts; default: exact depth")
+      ->check(CLI::IsMember({"kinect", "tof", "stereo", "lidar"}))
+      ->excludes(noise);
   command
       ->add_option("--width", arguments->options.width,
                    "Image width, pixels; the focal length is proportional")

@@ -119,6 +119,9 @@ void BindResult(py::module_* module) {
                              "3x3 rotation; None without Manhattan axes.")
       .def_readonly("readout_time", &OdometryResult::readout_time,
                     "Seconds, of the rolling shutter, given or estimated; 0: global shutter.")
+      .def_property_readonly(
+          "depth_sensor", [](const OdometryResult& self) { return ToString(self.depth_sensor); },
+          "'structured-light', 'tof', 'stereo' or 'lidar'; 'auto': too little depth to tell.")
       .def_readonly("num_late_maps", &OdometryResult::num_late_maps,
                     "Maps that were late in real time.")
       .def_property_readonly("extra_blocks", &ExtraBlocksOf, "Estimates of the extra blocks by id.")

@@ -10,7 +10,7 @@
 
 #include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/features/internal/depth_sampler.h"
-#include "msc_vo/sensor/inverse_depth_image.h"
+#include "msc_vo/features/internal/depth_source.h"
 #include "msc_vo/sensor/lens_remap.h"
 #include "msc_vo/timing/stopwatch.h"
 
@@ -41,7 +41,7 @@ struct FrameBuilder::State {
   LensDistortion distortion;
   PointExtractor point_extractor;
   LineExtractor line_extractor;
-  InverseDepthImage depth;
+  DepthSource depth;
   FrameBuilderTimes times;
 
   State(const FrameBuilderOptions& o, const PinholeCamera& c, const LensDistortion& distortion_in)
@@ -50,7 +50,8 @@ struct FrameBuilder::State {
         lens(camera, distortion_in),
         distortion(distortion_in),
         point_extractor(o.points),
-        line_extractor(o.lines) {}
+        line_extractor(o.lines),
+        depth(o.depth_sensor, o.noise, o.min_depth, o.max_depth, c.width) {}
 
   // Points of a level at distorted pixels.
   std::vector<PointFeature> ExtractPoints(int level) {
@@ -86,10 +87,11 @@ struct FrameBuilder::State {
   // Samples the depth of points at their distorted pixels and undistorts these.
   void AddDepthAndUndistort(std::vector<PointFeature>* points) const {
     for (PointFeature& point : *points) {
-      const auto sample = SampleDepth(depth, point.pixel, options.noise.inverse_depth_noise);
+      const auto sample = SampleDepth(depth.image(), point.pixel, depth.model().noise);
       if (sample) {
         point.inverse_depth = sample->inverse_depth;
-        point.inverse_depth_sigma = SigmaPerNoise() * sample->sigma;
+        point.inverse_depth_sigma =
+            depth.model().SigmaPerNoise(sample->inverse_depth) * sample->sigma;
       }
       point.pixel = lens.IdealFromRaw(point.pixel);
     }
@@ -105,21 +107,19 @@ struct FrameBuilder::State {
   }
 
   void AddDepth(std::vector<LineFeature>* lines) const {
-    const double noise = options.noise.inverse_depth_noise;
+    const DepthNoise& noise = depth.model().noise;
     uint32_t seed = 0;
     for (LineFeature& line : *lines) {
-      line.depth = options.line_depth == LineDepthMethod::kRobustFit
-                       ? FitDepthAlongLine(options.line_fit, depth, lens, line.segment, noise, seed)
-                       : EndPointDepth(depth, lens, line.segment, noise);
-      if (line.depth) line.depth->covariance *= SigmaPerNoise() * SigmaPerNoise();
+      line.depth =
+          options.line_depth == LineDepthMethod::kRobustFit
+              ? FitDepthAlongLine(options.line_fit, depth.image(), lens, line.segment, noise, seed)
+              : EndPointDepth(depth.image(), lens, line.segment, noise);
+      if (line.depth) {
+        const double ratio = depth.model().SigmaPerNoise(line.depth->At(0.5));
+        line.depth->covariance *= ratio * ratio;
+      }
       ++seed;
     }
-  }
-
-  // Ratio of the total depth error to its random part. Surfaces are distinguished within one image
-  // by random noise, but the sigma of a feature's depth includes the systematic part.
-  double SigmaPerNoise() const {
-    return options.noise.inverse_depth_sigma / options.noise.inverse_depth_noise;
   }
 };
 
@@ -159,7 +159,7 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
   }
   FrameBuilderTimes& times = state_->times;
   Stopwatch stopwatch;
-  state_->depth.Assign(image.depth, state_->options.min_depth, state_->options.max_depth);
+  state_->depth.Assign(image.gray, image.depth);
   times.depth = stopwatch.Restart();
   std::vector<State::PointLevel> levels(state_->point_extractor.SetImage(image.gray));
   times.points = stopwatch.Restart();
@@ -183,9 +183,12 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
     times.depth += level.depth_ms;
   }
   frame.grid = FeatureGrid(frame.camera, frame.points);
+  ShareDepthErrors(state_->depth.model().shared_radius, &frame);
   return frame;
 }
 
 const FrameBuilderTimes& FrameBuilder::times() const { return state_->times; }
+
+DepthSensor FrameBuilder::depth_sensor() const { return state_->depth.sensor(); }
 
 }  // namespace msc_vo

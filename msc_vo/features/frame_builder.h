@@ -14,6 +14,7 @@
 #include "msc_vo/features/point_extractor.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/map/frame.h"
+#include "msc_vo/sensor/depth_sensor.h"
 #include "msc_vo/sensor/rgbd_image.h"
 #include "msc_vo/sensor/sensor_noise.h"
 
@@ -22,6 +23,7 @@ namespace msc_vo {
 struct FrameBuilderOptions {
   PointExtractorOptions points;
   LineExtractorOptions lines;
+  DepthSensor depth_sensor = DepthSensor::kAuto;
   SensorNoiseOptions noise;
   LineFitOptions line_fit;
   LineDepthMethod line_depth = LineDepthMethod::kRobustFit;
@@ -62,6 +64,9 @@ class FrameBuilder {
   Frame Build(const RgbdImage& image, const TaskRunner& run = RunSequentially);
 
   const FrameBuilderTimes& times() const;
+  /// The depth sensor of the options, or the one that the first images speak for; kAuto as long as
+  /// no image had enough depth to tell.
+  DepthSensor depth_sensor() const;
 
  private:
   struct State;

@@ -20,9 +20,6 @@ using Eigen::Vector2d;
 // Spacing of the samples along a line, pixels: the shortest line, 24 px, has 8.
 constexpr double kSpacing = 3.0;
 constexpr int kMaxIntervals = 1 << 14;  // more than the diagonal of any image needs
-// Length over which the noise of depth pixels is fully correlated, pixels: structured light matches
-// windows of 7 to 9 px, dominated by their middle half.
-constexpr double kCorrelationLength = 5.0;
 // Error common to all samples of a line, in sigmas of a pixel: the registration of depth to colour
 // edges is accurate to half a pixel, and the depth of a wall at 45 degrees and 1 m changes by 1
 // sigma per pixel. Chosen by measurement, see docs/lab/depth.md.
@@ -30,7 +27,7 @@ constexpr double kCommonNoise = 0.5;
 // Length of the profile on each side of the line, pixels.
 constexpr int kReach = 5;
 // A surface reaches the line if it comes this close, pixels: one for the position of the edge, one
-// for the mixed pixel that sensors insert between two surfaces.
+// for the mixed pixel that sensors insert between two surfaces. The sensor's edge gap is added.
 constexpr int kMaxDistance = 2;
 // There is a depth edge between two pixels of a profile if their difference exceeds those of their
 // neighbours by this many sigmas: three times the standard deviation of such a difference,
@@ -161,13 +158,14 @@ DepthAtLine FitAtLine(const Profile& profile, const Surface& surface) {
 // not differ significantly, the one with the smaller sigma is returned: always selecting the nearer
 // one would bias depths towards the camera. A nearer surface that ends before the line inflates the
 // variance.
-std::optional<DepthAtLine> NearestSurfaceDepth(const Profile& profile, double sigma) {
+std::optional<DepthAtLine> NearestSurfaceDepth(const Profile& profile, double sigma,
+                                               int max_distance) {
   std::optional<DepthAtLine> nearest;
   double nearest_beside = 0.0;  // among the surfaces that do not reach the line
   for (const Surface& surface : SplitAtDepthEdges(profile, sigma)) {
     if (surface.Size() < kMinSurface) continue;
     const DepthAtLine depth = FitAtLine(profile, surface);
-    if (std::abs(surface.NearestOffset()) > kMaxDistance) {
+    if (std::abs(surface.NearestOffset()) > max_distance) {
       nearest_beside = std::max(nearest_beside, depth.w);
       continue;
     }
@@ -186,12 +184,13 @@ std::optional<DepthAtLine> NearestSurfaceDepth(const Profile& profile, double si
 
 struct DepthSamples {
   std::vector<LineFitSample> along;
+  double sigma = 0.0;       // 1/metres, largest noise of a pixel
   double edge_sigma = 0.0;  // 1/metres, mean of DepthAtLine::edge_sigma
 };
 
 // Samples the inverse depth along `segment` (pixels, undistorted) every kSpacing pixels.
 DepthSamples SampleLineDepth(const InverseDepthImage& image, const LensRemap& lens,
-                             const LineSegment2& segment, double sigma) {
+                             const LineSegment2& segment, const DepthNoise& noise) {
   const Vector2d direction = segment.Direction();
   const Vector2d across(-direction.y(), direction.x());
   const int intervals = std::max(1, CellIndex(segment.Length() / kSpacing, kMaxIntervals));
@@ -204,8 +203,11 @@ DepthSamples SampleLineDepth(const InverseDepthImage& image, const LensRemap& le
     for (int k = -kReach; k <= kReach; ++k) {
       profile[kReach + k] = image.Nearest(raw + k * across);
     }
-    const std::optional<DepthAtLine> depth = NearestSurfaceDepth(profile, sigma);
+    const double sigma = noise.At(*std::max_element(profile.begin(), profile.end()));
+    const std::optional<DepthAtLine> depth =
+        NearestSurfaceDepth(profile, sigma, kMaxDistance + noise.edge_gap);
     if (!depth) continue;
+    samples.sigma = std::max(samples.sigma, sigma);
     samples.along.push_back({s, depth->w, depth->sigma * sigma});
     samples.edge_sigma += depth->edge_sigma;
   }
@@ -217,20 +219,20 @@ DepthSamples SampleLineDepth(const InverseDepthImage& image, const LensRemap& le
 
 std::optional<LineDepth> FitDepthAlongLine(const LineFitOptions& options,
                                            const InverseDepthImage& image, const LensRemap& lens,
-                                           const LineSegment2& segment, double sigma,
+                                           const LineSegment2& segment, const DepthNoise& noise,
                                            uint32_t seed) {
-  const DepthSamples samples = SampleLineDepth(image, lens, segment, sigma);
+  const DepthSamples samples = SampleLineDepth(image, lens, segment, noise);
   std::optional<LineDepth> depth = FitLineDepth(options, samples.along, seed);
   if (!depth) return std::nullopt;
-  // Effective number of independent samples: n kSpacing / kCorrelationLength.
-  depth->covariance *= std::max(1.0, kCorrelationLength / kSpacing);
-  const double common = std::hypot(kCommonNoise * sigma, samples.edge_sigma);
+  // Effective number of independent samples: n kSpacing / correlation length.
+  depth->covariance *= std::max(1.0, noise.correlation_length / kSpacing);
+  const double common = std::hypot(kCommonNoise * samples.sigma, samples.edge_sigma);
   depth->covariance += Eigen::Matrix2d::Constant(common * common);
   return depth;
 }
 
 std::optional<LineDepth> EndPointDepth(const InverseDepthImage& image, const LensRemap& lens,
-                                       const LineSegment2& segment, double sigma) {
+                                       const LineSegment2& segment, const DepthNoise& noise) {
   const auto nearest_valid = [&](const Vector2d& ideal) {
     const Vector2d raw = lens.RawFromIdeal(ideal);
     const Vector2d center(cvRound(raw.x()), cvRound(raw.y()));
@@ -251,7 +253,8 @@ std::optional<LineDepth> EndPointDepth(const InverseDepthImage& image, const Len
   depth.start = nearest_valid(segment.start);
   depth.end = nearest_valid(segment.end);
   if (depth.start <= 0.0 || depth.end <= 0.0) return std::nullopt;
-  depth.covariance = Eigen::Matrix2d::Identity() * (sigma * sigma);
+  const double start_sigma = noise.At(depth.start), end_sigma = noise.At(depth.end);
+  depth.covariance.diagonal() << start_sigma * start_sigma, end_sigma * end_sigma;
   depth.num_inliers = 2;
   depth.inlier_ratio = 1.0;
   return depth;

@@ -8,6 +8,7 @@
 
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
+#include "msc_vo/sensor/depth_noise.h"
 #include "msc_vo/sensor/inverse_depth_image.h"
 #include "msc_vo/sensor/lens_remap.h"
 
@@ -20,8 +21,8 @@ enum class LineDepthMethod {
 };
 
 /// Estimates the depth of a line by a robust fit to samples every few pixels (paper: 3D Feature
-/// Position Estimation). `segment`: pixels, undistorted; `sigma`: noise of one depth pixel,
-/// 1/metres. Returns std::nullopt if no fit has enough inliers.
+/// Position Estimation). `segment`: pixels, undistorted; `noise`: of the depth
+/// pixels. Returns std::nullopt if no fit has enough inliers.
 ///
 /// At each sample, depth is read along a short profile across the line, which is split at depth
 /// edges. The line is assigned to the nearest surface that reaches it, because an image edge at a
@@ -31,12 +32,12 @@ enum class LineDepthMethod {
 /// possibility that the line belongs to a nearer surface beside it.
 std::optional<LineDepth> FitDepthAlongLine(const LineFitOptions& options,
                                            const InverseDepthImage& image, const LensRemap& lens,
-                                           const LineSegment2& segment, double sigma,
+                                           const LineSegment2& segment, const DepthNoise& noise,
                                            uint32_t seed);
 
 /// Estimates the depth of a line from its end points only, each from the nearest valid pixel within
 /// 2 px. Returns std::nullopt if an end point has no valid pixel.
 std::optional<LineDepth> EndPointDepth(const InverseDepthImage& image, const LensRemap& lens,
-                                       const LineSegment2& segment, double sigma);
+                                       const LineSegment2& segment, const DepthNoise& noise);
 
 }  // namespace msc_vo

@@ -25,9 +25,17 @@ bool HasLossCause(TrackingStatus status) {
 
 void EventLog::LogStart(const OdometryOptions& options, const PinholeCamera& camera) {
   readout_time_ = options.mapping.readout_time.value_or(0.0);
+  chooses_depth_sensor_ = options.features.depth_sensor == DepthSensor::kAuto;
   Log().info("odometry: mode {}, {} threads; camera {}x{}, fx {:.3f} fy {:.3f} cx {:.3f} cy {:.3f}",
              ToString(options.mode), options.threads, camera.width, camera.height, camera.fx,
              camera.fy, camera.cx, camera.cy);
+}
+
+void EventLog::LogDepthSensor(DepthSensor sensor) {
+  if (sensor == depth_sensor_) return;
+  depth_sensor_ = sensor;
+  Log().info("depth sensor: {} ({})", ToString(sensor),
+             chooses_depth_sensor_ ? "chosen from the depth images" : "given");
 }
 
 void EventLog::LogFrame(const FrameResult& frame, bool relocalized) {

@@ -20,6 +20,8 @@ class EventLog {
  public:
   /// Configuration of the run. Call first.
   void LogStart(const OdometryOptions& options, const PinholeCamera& camera);
+  /// The depth sensor, once it is known.
+  void LogDepthSensor(DepthSensor sensor);
   /// Changes of the tracking status, and keyframes. `relocalized`: the pose was found without a
   /// prediction.
   void LogFrame(const FrameResult& frame, bool relocalized);
@@ -36,6 +38,8 @@ class EventLog {
   AxesState axes_state_ = AxesState::kNone;
   int num_axes_refinements_ = 0;
   double readout_time_ = 0.0;  // seconds
+  DepthSensor depth_sensor_ = DepthSensor::kAuto;
+  bool chooses_depth_sensor_ = true;
 };
 
 }  // namespace msc_vo

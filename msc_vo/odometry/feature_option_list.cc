@@ -67,6 +67,11 @@ void ListFeatures(FrameBuilderOptions* features, OptionLister* list) {
       .MakeBasic("Set it to the range of the depth sensor.");
   list->Add("max_depth", &features->max_depth, {0.001, 1000, "metres"}, "Largest valid depth.")
       .MakeBasic("Set it to the range of the depth sensor.");
+  list->AddChoice("depth_sensor", &features->depth_sensor,
+                  {"auto", "structured-light", "tof", "stereo", "lidar"},
+                  "Depth sensor, whose noise and artefacts are modelled. auto: chosen from the "
+                  "first depth images.")
+      .MakeBasic("Set it if the log names another sensor than yours.");
   list->AddChoice("line_depth", &features->line_depth, {"robust-fit", "end-points"},
                   "Depth of a line: robust fit to all depth samples along it, or the depths of its "
                   "end points. Mode pl-vo always uses end-points.");

@@ -232,6 +232,7 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   }
   if (!state_->options.use_lines) frame->lines.clear();
   const double features_ms = stopwatch.Milliseconds();
+  state_->log.LogDepthSensor(state_->builder.depth_sensor());
   const int index = static_cast<int>(state_->results.size());
   Stopwatch waiting;
   state_->snapshot = state_->schedule.SnapshotAt(index);
@@ -309,6 +310,7 @@ OdometryResult Odometry::Finish() {
                             state_->mapper.axes().AxisOf(line), line.viewing_direction});
   }
   result.noise_scale = state_->mapper.noise().scale();
+  result.depth_sensor = state_->builder.depth_sensor();
   result.readout_time = state_->mapper.readout().readout_time();
   result.num_late_maps = state_->schedule.num_late();
   result.axes = MakeAxes(state_->mapper.axes().estimator());

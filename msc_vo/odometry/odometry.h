@@ -58,6 +58,9 @@ struct OdometryResult {
   std::vector<MapLine> lines;
   MapAxes axes;
   NoiseScale noise_scale;  ///< of the sigmas of the features, self-calibrated
+  /// The depth sensor of the options, or the one that the images speak for; kAuto: too little
+  /// depth.
+  DepthSensor depth_sensor = DepthSensor::kAuto;
   /// Readout time of the rolling shutter, seconds, given or self-calibrated; 0: global shutter.
   double readout_time = 0.0;
   std::vector<ExtraBlock> extra_blocks;  ///< of the window factors, in order of their ids

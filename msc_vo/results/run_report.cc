@@ -95,6 +95,13 @@ std::string ShutterText(const RunSummary& summary, const RunContext& context) {
   return shutter + " (" + context.calibration.readout_origin + ")";
 }
 
+std::string DepthSensorText(const RunSummary& summary, const RunContext& context) {
+  const DepthSensor given = context.configuration.odometry.features.depth_sensor;
+  if (given != DepthSensor::kAuto) return std::string(ToString(given)) + " (given)";
+  if (summary.depth_sensor == DepthSensor::kAuto) return "too little depth to tell";
+  return std::string(ToString(summary.depth_sensor)) + " (chosen from the depth images)";
+}
+
 std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContext& context) {
   std::vector<ReportNumber> numbers;
   if (context.error && context.error->usable) {
@@ -133,6 +140,7 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
   numbers.push_back({"Speed", SpeedText(summary, context.cost), ""});
   numbers.push_back({"Camera", context.calibration.origin, ""});
   numbers.push_back({"Shutter", ShutterText(summary, context), ""});
+  numbers.push_back({"Depth sensor", DepthSensorText(summary, context), ""});
   return numbers;
 }
 

@@ -70,6 +70,7 @@ RunSummary Summarize(const OdometryResult& result) {
   summary.axes = result.axes;
   summary.noise_scale = result.noise_scale;
   summary.readout_time = result.readout_time;
+  summary.depth_sensor = result.depth_sensor;
   summary.last_local_ba = result.last_window;
   return summary;
 }

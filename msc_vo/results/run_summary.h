@@ -39,6 +39,7 @@ struct RunSummary {
   MapAxes axes;
   NoiseScale noise_scale;     ///< estimated scale of the sigmas of features
   double readout_time = 0.0;  ///< of the rolling shutter, seconds, given or self-calibrated
+  DepthSensor depth_sensor = DepthSensor::kAuto;  ///< given or chosen; kAuto: too little depth
   BundleAdjustmentSummary last_local_ba;
 
   /// Number of frames with the status.

@@ -133,42 +133,47 @@ Pixel* AfterLargestGap(Pixel* begin, Pixel* end) {
   return best;
 }
 
-bool ReachesPoint(const Pixel* begin, const Pixel* end) {
-  return std::any_of(begin, end, [](const Pixel& pixel) { return pixel.distance <= kMaxDistance; });
+bool ReachesPoint(const Pixel* begin, const Pixel* end, double max_distance) {
+  return std::any_of(begin, end,
+                     [&](const Pixel& pixel) { return pixel.distance <= max_distance; });
 }
 
 // Returns the nearest surface that reaches the point among pixels sorted by inverse depth: splits
 // at the largest gap and searches the nearer part first.
 std::optional<Surface> NearestSurface(Pixel* begin, Pixel* end, const Parameters& at_point,
-                                      double sigma) {
-  if (end - begin < kMinPixels || !ReachesPoint(begin, end)) return std::nullopt;
+                                      double sigma, double max_distance) {
+  if (end - begin < kMinPixels || !ReachesPoint(begin, end, max_distance)) return std::nullopt;
   const Surface surface = FitSurface(begin, end, at_point, sigma);
   if (surface.rms <= kMaxRms) return surface;
   Pixel* const gap = AfterLargestGap(begin, end);
-  const std::optional<Surface> nearer = NearestSurface(gap, end, at_point, sigma);
-  return nearer ? nearer : NearestSurface(begin, gap, at_point, sigma);
+  const std::optional<Surface> nearer = NearestSurface(gap, end, at_point, sigma, max_distance);
+  return nearer ? nearer : NearestSurface(begin, gap, at_point, sigma, max_distance);
 }
 
 }  // namespace
 
 std::optional<DepthSample> SampleDepth(const InverseDepthImage& image, const Eigen::Vector2d& pixel,
-                                       double sigma) {
+                                       const DepthNoise& noise) {
   if (!image.Contains(pixel)) return std::nullopt;
   const int center_x = cvRound(pixel.x());
   const int center_y = cvRound(pixel.y());
   std::array<Pixel, kMaxPixels> pixels;
   int count = 0;
+  double nearest = 0.0;  // 1/metres
   const Eigen::Vector2d point = pixel - Eigen::Vector2d(center_x, center_y);
   for (int i = 0; i < kMaxPixels; ++i) {
     const int x = i % kSide - kRadius;
     const int y = i / kSide - kRadius;
     const double w = image.At(center_x + x, center_y + y);
     if (w > 0.0) pixels[count++] = {i, (Eigen::Vector2d(x, y) - point).norm(), w};
+    nearest = std::max(nearest, w);
   }
   const Parameters at_point = Basis(point.x(), point.y());
   Pixel* const begin = pixels.data();
   Pixel* const end = begin + count;
-  if (count < kMinPixels || !ReachesPoint(begin, end)) return std::nullopt;
+  const double max_distance = kMaxDistance + noise.edge_gap;
+  if (count < kMinPixels || !ReachesPoint(begin, end, max_distance)) return std::nullopt;
+  const double sigma = noise.At(nearest);
   const Surface only = FitSurface(begin, end, at_point, sigma);
   // The noise of neighbouring pixels is correlated, so their mean is as uncertain as one pixel:
   // hence the 1. The variance of the fit, which grows with extrapolation, is added.
@@ -179,7 +184,7 @@ std::optional<DepthSample> SampleDepth(const InverseDepthImage& image, const Eig
   };
   if (only.rms <= kMaxRms) return sample(only, 0.0);
   std::stable_sort(begin, end, [](const Pixel& a, const Pixel& b) { return a.w < b.w; });
-  const std::optional<Surface> surface = NearestSurface(begin, end, at_point, sigma);
+  const std::optional<Surface> surface = NearestSurface(begin, end, at_point, sigma, max_distance);
   if (!surface) return std::nullopt;
   return sample(*surface, std::max(surface->w - begin->w, std::prev(end)->w - surface->w));
 }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "msc_vo/sensor/depth_noise.h"
 #include "msc_vo/sensor/inverse_depth_image.h"
 
 namespace msc_vo {
@@ -20,12 +21,12 @@ struct DepthSample {
 /// lies on.
 ///
 /// A quadratic in the image is fitted to the inverse depths of the 5x5 pixels around the point. If
-/// it does not explain them given noise of standard deviation `sigma` (1/metres), the window
-/// contains a depth edge: the point is then assigned to the nearest surface within 1.5 px, because
-/// a corner at an occlusion moves with the occluding surface. As the assignment may be wrong, the
-/// variance is inflated by the square of 0.3 times the difference to the farthest pixel.
-/// Returns std::nullopt if there is too little depth or no surface fits.
+/// it does not explain them given `noise`, that of its nearest pixel, the window contains a depth
+/// edge: the point is then assigned to the nearest surface within 1.5 px (and the sensor's edge
+/// gap), because a corner at an occlusion moves with the occluding surface. As the assignment may
+/// be wrong, the variance is inflated by the square of 0.3 times the difference to the farthest
+/// pixel. Returns std::nullopt if there is too little depth or no surface fits.
 std::optional<DepthSample> SampleDepth(const InverseDepthImage& image, const Eigen::Vector2d& pixel,
-                                       double sigma);
+                                       const DepthNoise& noise);
 
 }  // namespace msc_vo

@@ -80,6 +80,7 @@ Json MeasurementsToJson(const RunSummary& summary, const std::optional<Trajector
   json["manhattan_axes"] = AxesToJson(summary);
   json["noise_scale"] = NoiseToJson(summary.noise_scale);
   json["readout_time"] = summary.readout_time;
+  json["depth_sensor"] = ToString(summary.depth_sensor);
   json["last_local_ba"] = ToJson(summary.last_local_ba);
   json["error"] = error ? ToJson(*error) : Json();
   json["stages_ms"] = StagesToJson(summary.stages);

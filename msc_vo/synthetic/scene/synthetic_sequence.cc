@@ -172,10 +172,24 @@ SyntheticFrame SyntheticSequence::Render(int index) const {
   if (options_.image_sigma > 0.0) {
     AddImageNoise(options_.image_sigma, options_.seed, stream, &frame.image);
   }
-  if (options_.kinect_depth) {
-    AddKinectNoise(options_.kinect, depth_camera(), options_.seed, stream + 1, &frame.image.depth);
-  }
+  Disturb(stream + 1, &frame.image.depth);
   return frame;
+}
+
+void SyntheticSequence::Disturb(uint64_t stream, std::vector<float>* depth) const {
+  const uint64_t seed = options_.seed;
+  switch (options_.kinect_depth ? SyntheticDepth::kKinect : options_.depth) {
+    case SyntheticDepth::kExact:
+      return;
+    case SyntheticDepth::kKinect:
+      return AddKinectNoise(options_.kinect, depth_camera(), seed, stream, depth);
+    case SyntheticDepth::kTimeOfFlight:
+      return AddTimeOfFlightNoise(options_.time_of_flight, depth_camera(), seed, stream, depth);
+    case SyntheticDepth::kStereo:
+      return AddStereoNoise(options_.stereo, depth_camera(), seed, stream, depth);
+    case SyntheticDepth::kLidar:
+      return AddLidarNoise(options_.lidar, depth_camera(), seed, stream, depth);
+  }
 }
 
 }  // namespace msc_vo

@@ -14,6 +14,7 @@
 #include "msc_vo/geometry/timed_acceleration.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/synthetic/scene/camera_path.h"
+#include "msc_vo/synthetic/scene/depth_artifacts.h"
 #include "msc_vo/synthetic/scene/kinect_noise.h"
 #include "msc_vo/synthetic/scene/lens_warp.h"
 #include "msc_vo/synthetic/scene/renderer.h"
@@ -27,6 +28,9 @@ struct DepthRig {
   double focal_length = 585.0;  ///< pixels
   Rigid3 depth_from_color;
 };
+
+/// What measures depth.
+enum class SyntheticDepth { kExact, kKinect, kTimeOfFlight, kStereo, kLidar };
 
 struct SyntheticSequenceOptions {
   SceneKind scene = SceneKind::kRoom;
@@ -46,8 +50,12 @@ struct SyntheticSequenceOptions {
   double readout_time = 0.0;
   /// Standard deviation of the image noise, grey values; about 2 for a Kinect indoors.
   double image_sigma = 2.0;
-  bool kinect_depth = false;  ///< apply `kinect` noise to depth, which is exact otherwise
+  SyntheticDepth depth = SyntheticDepth::kExact;
+  bool kinect_depth = false;  ///< short for depth = SyntheticDepth::kKinect
   KinectNoiseOptions kinect;
+  TimeOfFlightOptions time_of_flight;
+  StereoOptions stereo;
+  LidarOptions lidar;
   /// Camera that records depth, which is not registered to colour then; none: the colour camera.
   std::optional<DepthRig> depth_rig;
   /// Standard deviation of the noise of the accelerometer, of each axis, metres/second^2.
@@ -88,6 +96,8 @@ class SyntheticSequence {
   // Acceleration of the optical centre in the world, metres/second^2.
   Eigen::Vector3d AccelerationAt(double seconds) const;
   Rigid3 DepthCameraFromWorld(double seconds) const;
+  // Applies the errors of the depth sensor; `stream` of the random numbers.
+  void Disturb(uint64_t stream, std::vector<float>* depth) const;
   // The image whose readout is centred `seconds` after the start.
   RenderedImage RenderRolling(const Renderer& renderer,
                               const std::function<Rigid3(double seconds)>& camera_from_world,

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/features/internal/depth_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "msc_vo/sensor/depth_statistics.h"
+#include "msc_vo/sensor/flying_pixels.h"
+
+namespace msc_vo {
+
+DepthSource::DepthSource(DepthSensor sensor, const SensorNoiseOptions& noise, double min_depth,
+                         double max_depth, int width)
+    : sensor_(sensor),
+      noise_(noise),
+      min_depth_(min_depth),
+      max_depth_(max_depth),
+      width_(width),
+      model_(MakeDepthSensorModel(sensor, noise, width)),
+      bleeding_(width) {}
+
+void DepthSource::Assign(const cv::Mat& gray, const cv::Mat& depth) {
+  if (sensor_ == DepthSensor::kAuto) {
+    sensor_ = ClassifyDepthSensor(MeasureDepthStatistics(depth));
+    model_ = MakeDepthSensorModel(sensor_, noise_, width_);
+  }
+  image_.Assign(Clean(gray, depth), min_depth_, max_depth_);
+}
+
+cv::Mat DepthSource::Clean(const cv::Mat& gray, const cv::Mat& depth) {
+  if (model_.has_flying_pixels) return RemoveFlyingPixels(depth, model_.noise);
+  if (!model_.bleeds) return depth;
+  if (!bleeding_.IsDone()) bleeding_.Add(gray, depth);
+  const char* e = std::getenv("X_REACH");                         // XXX
+  const char* e2 = std::getenv("X_BS");                           // XXX
+  const double bs = e2 ? std::atof(e2) : model_.noise.disparity;  // XXX
+  if (e) return RemoveBleeding(depth, std::atoi(e), bs);          // XXX
+  return RemoveBleeding(depth, bleeding_.reach(), bs);
+}
+
+void ShareDepthErrors(double radius, Frame* frame) {
+  if (radius <= 0.0) return;
+  std::vector<double> factors(frame->points.size(), 1.0);
+  for (size_t i = 0; i < frame->points.size(); ++i) {
+    int count = 0;
+    frame->grid.VisitNear(frame->points, frame->points[i].pixel, radius,
+                          [&](int other) { count += frame->points[other].HasDepth(); });
+    factors[i] = std::sqrt(std::max(1, count));
+  }
+  for (size_t i = 0; i < frame->points.size(); ++i) {
+    frame->points[i].inverse_depth_sigma *= factors[i];
+  }
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/sensor/depth_statistics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace msc_vo {
+
+namespace {
+
+constexpr int kMinSamples = 2000;
+constexpr int kRowStep = 2;  // every second row is measured
+// Largest number of samples of the resolution, which are sorted.
+constexpr size_t kMaxLevels = 20000;
+constexpr double kMaxDepth = 8.0;  // metres; farther away, noise is that of failing measurements
+// First quartile of the absolute value of a standard normal variable. Quartiles measure the noise
+// of the smoother surfaces where the others are no planes.
+constexpr double kNormalQuartile = 0.3186;
+// Standard deviation of a second difference of independent values: sqrt(1 + 4 + 1).
+constexpr double kSecondDifference = 2.4495;
+// Bins of depth in which the exponent is measured, and the part of the samples in them, nearest
+// first: beyond, flying pixels cover whole surfaces at a flat angle.
+constexpr int kNumBins = 6;
+constexpr double kBinnedRatio = 0.6;
+// Smallest ratio of the depths of two bins whose noise is compared.
+constexpr double kMinDepthRatio = 1.15;
+// An edge is a relative change of inverse depth by this much, between surfaces on both sides that
+// change by less than a quarter of it. It is soft if no two neighbouring pixels differ by more than
+// half of the change.
+constexpr double kEdgeChange = 0.15;
+constexpr double kFlatRatio = 0.25;
+constexpr double kSoftRatio = 0.5;
+constexpr int kMinEdges = 20;
+
+// Limits of the classes, between values measured on real and on simulated sensors, see
+// docs/lab/depth.md. Noise below 4e-4 1/m is that of rounding: 4 mm at 3 m.
+constexpr double kExactNoise = 4e-4;
+constexpr double kSoftEdgeRatio = 0.5;
+constexpr double kQuantizedNoise = 1.0;  // noise in steps; a Kinect has 0.6
+constexpr double kCorrelatedRatio = 3.0;
+constexpr double kTimeOfFlightExponent = 1.4;
+
+struct Difference {
+  float z = 0.0f;      // metres
+  float value = 0.0f;  // absolute second difference of inverse depth, 1/metres
+};
+
+bool IsMeasured(float z) { return z > 0.0f && z < kMaxDepth; }
+
+std::vector<Difference> SecondDifferences(const cv::Mat& depth, int lag) {
+  std::vector<Difference> differences;
+  for (int y = 0; y < depth.rows; y += kRowStep) {
+    const float* z = depth.ptr<float>(y);
+    for (int x = lag; x + lag < depth.cols; ++x) {
+      if (!IsMeasured(z[x - lag]) || !IsMeasured(z[x]) || !IsMeasured(z[x + lag])) continue;
+      const double value = 1.0 / z[x - lag] - 2.0 / z[x] + 1.0 / z[x + lag];
+      differences.push_back({z[x], static_cast<float>(std::abs(value))});
+    }
+  }
+  return differences;
+}
+
+// Quantile of the values of [begin, end), which is reordered.
+double Quantile(std::vector<float>* values, double ratio) {
+  if (values->empty()) return 0.0;
+  const auto place = values->begin() +
+                     static_cast<std::ptrdiff_t>(ratio * static_cast<double>(values->size() - 1));
+  std::nth_element(values->begin(), place, values->end());
+  return *place;
+}
+
+double NoiseOf(const std::vector<Difference>& differences) {
+  std::vector<float> values;
+  values.reserve(differences.size());
+  for (const Difference& difference : differences) values.push_back(difference.value);
+  return Quantile(&values, 0.25) / (kNormalQuartile * kSecondDifference);
+}
+
+// Median over the samples of the farther half of the distance from their value to the next larger
+// one.
+double StepOf(const std::vector<Difference>& differences) {
+  std::vector<float> depths;
+  depths.reserve(differences.size());
+  for (const Difference& difference : differences) depths.push_back(difference.z);
+  std::vector<float> sorted = depths;
+  const double middle = Quantile(&sorted, 0.5);
+  sorted.clear();
+  const size_t stride = std::max<size_t>(1, depths.size() / kMaxLevels);
+  for (size_t i = 0; i < depths.size(); i += stride) {
+    if (depths[i] >= middle) sorted.push_back(1.0f / depths[i]);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<float> steps;
+  float next = 0.0f;  // the next larger value than the current one
+  for (size_t i = sorted.size(); i-- > 0;) {
+    if (i + 1 < sorted.size() && sorted[i + 1] > sorted[i]) next = sorted[i + 1];
+    if (next > 0.0f) steps.push_back(next - sorted[i]);
+  }
+  return Quantile(&steps, 0.5);
+}
+
+// Median of the slopes, in logarithms, between the bins of depth.
+double ExponentOf(std::vector<Difference> differences) {
+  std::sort(differences.begin(), differences.end(),
+            [](const Difference& a, const Difference& b) { return a.z < b.z; });
+  const auto used = static_cast<size_t>(kBinnedRatio * static_cast<double>(differences.size()));
+  std::array<double, kNumBins> depths{}, sigmas{};
+  for (int bin = 0; bin < kNumBins; ++bin) {
+    std::vector<float> values;
+    const size_t begin = used * bin / kNumBins, end = used * (bin + 1) / kNumBins;
+    for (size_t i = begin; i < end; ++i) values.push_back(differences[i].value);
+    depths[bin] = differences[(begin + end) / 2].z;
+    const double sigma = Quantile(&values, 0.25) / (kNormalQuartile * kSecondDifference);
+    sigmas[bin] = sigma * depths[bin] * depths[bin];
+  }
+  std::vector<float> slopes;
+  for (int a = 0; a < kNumBins; ++a) {
+    for (int b = a + 1; b < kNumBins; ++b) {
+      if (depths[b] < kMinDepthRatio * depths[a] || sigmas[a] <= 0.0 || sigmas[b] <= 0.0) continue;
+      slopes.push_back(
+          static_cast<float>(std::log(sigmas[b] / sigmas[a]) / std::log(depths[b] / depths[a])));
+    }
+  }
+  return slopes.empty() ? 2.0 : Quantile(&slopes, 0.5);
+}
+
+double SoftEdgeRatioOf(const cv::Mat& depth) {
+  const int reach = std::max(3, depth.cols / 80);
+  int num_edges = 0, num_soft = 0;
+  for (int y = 0; y < depth.rows; y += kRowStep) {
+    const float* z = depth.ptr<float>(y);
+    for (int x = reach; x + 2 * reach < depth.cols; ++x) {
+      double largest = 0.0;
+      bool measured = IsMeasured(z[x - reach]) && IsMeasured(z[x + 2 * reach]);
+      for (int i = 0; i <= reach && measured; ++i) {
+        measured = IsMeasured(z[x + i]);
+        if (i == 0 || !measured) continue;
+        largest = std::max(largest, std::abs(1.0 / z[x + i] - 1.0 / z[x + i - 1]));
+      }
+      if (!measured) continue;
+      const double left = 1.0 / z[x], right = 1.0 / z[x + reach];
+      const double change = std::abs(right - left);
+      if (change < kEdgeChange * std::max(left, right)) continue;
+      if (std::abs(left - 1.0 / z[x - reach]) > kFlatRatio * change) continue;
+      if (std::abs(right - 1.0 / z[x + 2 * reach]) > kFlatRatio * change) continue;
+      ++num_edges;
+      num_soft += largest < kSoftRatio * change;
+      x += reach;  // each edge once
+    }
+  }
+  return num_edges < kMinEdges ? 0.0 : static_cast<double>(num_soft) / num_edges;
+}
+
+}  // namespace
+
+DepthStatistics MeasureDepthStatistics(const cv::Mat& depth) {
+  DepthStatistics statistics;
+  const std::vector<Difference> near = SecondDifferences(depth, 1);
+  const std::vector<Difference> far = SecondDifferences(depth, std::max(2, depth.cols / 80));
+  statistics.num_samples = static_cast<int>(std::min(near.size(), far.size()));
+  if (statistics.num_samples < kMinSamples) return statistics;
+  statistics.near_noise = NoiseOf(near);
+  statistics.far_noise = NoiseOf(far);
+  statistics.step = StepOf(near);
+  statistics.exponent = ExponentOf(near);
+  statistics.soft_edge_ratio = SoftEdgeRatioOf(depth);
+  return statistics;
+}
+
+DepthSensor ClassifyDepthSensor(const DepthStatistics& statistics) {
+  if (statistics.num_samples < kMinSamples) return DepthSensor::kAuto;
+  const bool is_fine = statistics.step < kExactNoise;
+  if (is_fine && statistics.far_noise < kExactNoise &&
+      statistics.soft_edge_ratio > kSoftEdgeRatio) {
+    return DepthSensor::kLidar;
+  }
+  if (statistics.far_noise < std::max(kExactNoise, kQuantizedNoise * statistics.step)) {
+    return DepthSensor::kStructuredLight;
+  }
+  if (statistics.far_noise > kCorrelatedRatio * statistics.near_noise) return DepthSensor::kStereo;
+  return statistics.exponent < kTimeOfFlightExponent ? DepthSensor::kTimeOfFlight
+                                                     : DepthSensor::kStructuredLight;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/features/internal/depth_source.h"
+
+#include <cmath>
+
+#include "tests/features/depth_images.h"
+#include <gtest/gtest.h>
+
+#include "msc_vo/features/line_backprojection.h"
+
+namespace msc_vo {
+namespace {
+
+const PinholeCamera kCamera{480.0, 480.0, 319.5, 239.5, 640, 480};
+
+PointFeature PointAt(double x, double y, bool has_depth = true) {
+  PointFeature point;
+  point.pixel = {x, y};
+  point.inverse_depth = has_depth ? 0.5 : 0.0;
+  point.inverse_depth_sigma = has_depth ? 0.01 : 0.0;
+  return point;
+}
+
+TEST(ShareDepthErrors, CountsTheErrorOfCloseFeaturesOnce) {
+  Frame frame;
+  frame.camera = kCamera;
+  frame.points = {PointAt(100, 100), PointAt(103, 100), PointAt(100, 104), PointAt(300, 200),
+                  PointAt(304, 200, false)};
+  frame.grid = FeatureGrid(frame.camera, frame.points);
+  Frame unchanged = frame;
+  ShareDepthErrors(0.0, &unchanged);
+  EXPECT_EQ(unchanged.points[0].inverse_depth_sigma, 0.01);
+  ShareDepthErrors(8.0, &frame);
+  // Three observations with three times the variance have the information of one.
+  for (const int i : {0, 1, 2}) {
+    EXPECT_NEAR(frame.points[i].inverse_depth_sigma, 0.01 * std::sqrt(3.0), 1e-12);
+  }
+  EXPECT_EQ(frame.points[3].inverse_depth_sigma, 0.01);
+  EXPECT_EQ(frame.points[4].inverse_depth_sigma, 0.0);
+}
+
+// A wall at 2 m with the noise of the sensor along a line of 300 px.
+TEST(DepthSource, LinesCountCorrelatedNoiseOnce) {
+  const cv::Mat depth = testing::DrawDepth(kCamera, [](const Eigen::Vector2d&) { return 0.5; });
+  const InverseDepthImage image(depth, 0.2, 10.0);
+  const LensRemap lens(kCamera, LensDistortion());
+  const LineSegment2 segment{{100.0, 200.0}, {400.0, 200.0}};
+  DepthNoise noise = 0.003;
+  const auto independent = [&](double length) {
+    noise.correlation_length = length;
+    Eigen::Matrix2d covariance = FitDepthAlongLine({}, image, lens, segment, noise, 1)->covariance;
+    covariance.array() -= std::pow(0.5 * 0.003, 2);  // the error that all samples have in common
+    return covariance;
+  };
+  // Samples are 3 px apart: with a correlation over 9 px, three of them are one.
+  EXPECT_TRUE(independent(9.0).isApprox(3.0 * independent(3.0), 1e-9));
+  EXPECT_TRUE(independent(1.0).isApprox(independent(3.0), 1e-9));
+}
+
+TEST(DepthSource, RemovesTheBleedingOfStereo) {
+  // A post 1 m away in front of a wall at 2 m, dark on bright. It extends by 4 px in the depth.
+  cv::Mat gray(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(200));
+  gray.colRange(300, 340).setTo(50);
+  const auto post = [](const Eigen::Vector2d& pixel) {
+    return pixel.x() > 295.5 && pixel.x() < 343.5 ? 1.0 : 0.5;
+  };
+  DepthSource source(DepthSensor::kStereo, SensorNoiseOptions(), 0.2, 10.0, kCamera.width);
+  source.Assign(gray, testing::DrawDepth(kCamera, post));
+  for (const int x : {290, 299, 340, 350}) EXPECT_NEAR(source.image().At(x, 200), 0.5, 0.002) << x;
+  for (const int x : {300, 320, 339}) EXPECT_NEAR(source.image().At(x, 200), 1.0, 0.002) << x;
+}
+
+}  // namespace
+}  // namespace msc_vo
