@@ -19,11 +19,11 @@ namespace {
 
 WindowData MakeWindow() {
   TestWindowOptions options;
-  options.num_keyframes = 4;
+  options.num_keyframes = 3;
   options.num_fixed = 1;
-  options.num_points = 8;
+  options.num_points = 5;
   options.num_lines = 6;
-  options.max_observations = 3;
+  options.max_observations = 2;
   WindowData data = MakeTestWindow(options).data;
   const auto id = [&data](size_t i) { return data.lines[i].id; };
   data.parallel_pairs = {{id(0), id(3)}, {id(1), id(4), 0.02, 3}};

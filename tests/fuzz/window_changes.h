@@ -3,13 +3,13 @@
 
 #pragma once
 
-#include <algorithm>
-#include <string>
+#include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "tests/fuzz/byte_reader.h"
 
-#include "msc_vo/config/option_list.h"
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/recording/window_record.h"
 
 namespace msc_vo {
@@ -106,31 +106,43 @@ class WindowChanges {
   }
 
   void ChangeOption(BundleAdjustmentOptions* options) {
-    Configuration configuration;
-    configuration.odometry.mapping.window = *options;
-    std::vector<Option> all = ListOptions(&configuration);
-    all.erase(std::remove_if(all.begin(), all.end(),
-                             [](const Option& option) {
-                               return option.path.rfind("mapping.window.", 0) != 0;
-                             }),
-              all.end());
-    Change(all[bytes_.Below(all.size())]);
-    *options = configuration.odometry.mapping.window;
-  }
-
-  void Change(const Option& option) {
-    if (bool* const* flag = std::get_if<bool*>(&option.value)) {
-      **flag = !**flag;
-    } else if (double* const* number = std::get_if<double*>(&option.value)) {
-      const size_t choice = bytes_.Below(4);
-      **number = choice == 0   ? option.range->min
-                 : choice == 1 ? option.range->max
-                               : bytes_.NumberFor(**number);
-    } else if (int* const* count = std::get_if<int*>(&option.value)) {
-      constexpr int kMaxIterations = 20;  // more would only take longer
-      **count = static_cast<int>(bytes_.Below(kMaxIterations + 2)) - 1;
-    } else if (const Choice* choice = std::get_if<Choice>(&option.value)) {
-      choice->set(static_cast<int>(bytes_.Below(choice->names.size())));
+    TermOptions* const terms[] = {&options->point_reprojection, &options->point_depth,
+                                  &options->line_reprojection,  &options->line_depth,
+                                  &options->parallel,           &options->perpendicular,
+                                  &options->manhattan};
+    std::vector<double*> numbers = {&options->line_endpoint_prior_sigma,
+                                    &options->reject_chi2_1,
+                                    &options->reject_chi2_2,
+                                    &options->reject_chi2_3,
+                                    &options->reject_chi2_4,
+                                    &options->landmark_noise.prior,
+                                    &options->landmark_noise.depth_offset_sigma};
+    std::vector<bool*> flags = {&options->landmark_noise.enabled, &options->line_endpoint_prior,
+                                &options->analytic_jacobians, &options->explicit_ordering};
+    for (TermOptions* term : terms) {
+      numbers.push_back(&term->huber);
+      flags.push_back(&term->enabled);
+    }
+    switch (bytes_.Below(4)) {
+      case 0: {
+        bool* const flag = Choose(flags);
+        *flag = !*flag;
+        break;
+      }
+      case 1: {
+        int* const count =
+            bytes_.Below(2) == 0 ? &options->first_iterations : &options->second_iterations;
+        constexpr size_t kMaxIterations = 20;  // more would only take longer
+        *count = static_cast<int>(bytes_.Below(kMaxIterations + 2)) - 1;
+        break;
+      }
+      case 2:
+        options->solver = static_cast<BundleAdjustmentSolver>(bytes_.Below(4));
+        break;
+      default: {
+        double* const number = Choose(numbers);
+        *number = bytes_.NumberFor(*number);
+      }
     }
   }
 
