@@ -1,9 +1,31 @@
 #!/usr/bin/env bash
 # Builds everything into ./build and runs every test. On Debian 12 it first installs missing packages.
-# Environment: JOBS, the number of parallel processes (default: one per processor).
+#
+#   tests/run.sh                       everything, and the readers of files under AddressSanitizer
+#   tests/run.sh --sanitize address    the tests under AddressSanitizer and UndefinedBehaviorSanitizer,
+#                                      in ./build-address
+#   tests/run.sh --sanitize thread     the tests that start threads under ThreadSanitizer, in
+#                                      ./build-thread
+#
+# Environment: JOBS, the number of parallel processes (default: one per processor); TESTS, a regular
+# expression of test programs for --sanitize ("odometry|text"; default: all that it covers).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
+
+# Test programs with threads: mapping beside tracking, reading ahead, the live view, shared recordings.
+threaded='odometry|datasets|live|ros_bag|apps'
+# Tests that link or preload libraries that are not instrumented.
+not_instrumented='^(consumer|free_ceres|python)\.'
+
+sanitize=
+if [[ $# -gt 0 ]]; then
+  if [[ $# -ne 2 || $1 != --sanitize || ($2 != address && $2 != thread) ]]; then
+    echo "usage: tests/run.sh [--sanitize address|thread]" >&2
+    exit 2
+  fi
+  sanitize=$2
+fi
 
 step=none
 begin() {
@@ -20,12 +42,48 @@ summary() {
 }
 trap summary EXIT
 
+# test_sanitized SANITIZER PRESET EXPRESSION TARGET...: builds the targets with the flags of a preset
+# (CMakePresets.json) and runs the tests whose names fit the expression.
+test_sanitized() {
+  local folder=build-$1 preset=$2 expression=$3
+  shift 3
+  begin "configure $folder"
+  cmake --preset "$preset" -B "$folder"
+  begin "build $folder"
+  cmake --build "$folder" --parallel "$jobs" --target "$@"
+  begin "test $folder"
+  ASAN_OPTIONS=abort_on_error=1 UBSAN_OPTIONS=print_stacktrace=1 \
+    TSAN_OPTIONS="suppressions=$PWD/cmake/tsan_suppressions.txt" \
+    ctest --test-dir "$folder" --parallel "$jobs" --output-on-failure --no-tests=error \
+          --tests-regex "$expression" --exclude-regex "$not_instrumented"
+}
+
+# Names of the build targets of test programs.
+targets_of() { echo "$1" | tr '|' '\n' | sed 's/$/_test/'; }
+
 begin "packages"
 cmake/install_packages.sh report optional tests
-begin "configure"
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release \
-      -DMSC_VO_BUILD_APPS=ON -DMSC_VO_BUILD_TESTS=ON
-begin "build"
-cmake --build build --parallel "$jobs"
-begin "test"
-ctest --test-dir build --parallel "$jobs" --output-on-failure
+case $sanitize in
+  address)
+    if [[ -n ${TESTS:-} ]]; then
+      test_sanitized address asan-ubsan "^($TESTS)\." $(targets_of "$TESTS")
+    else
+      test_sanitized address asan-ubsan '.*' all
+    fi
+    ;;
+  thread)
+    test_sanitized thread tsan "^(${TESTS:-$threaded})\." $(targets_of "${TESTS:-$threaded}")
+    ;;
+  *)
+    begin "configure"
+    cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release \
+          -DMSC_VO_BUILD_APPS=ON -DMSC_VO_BUILD_TESTS=ON
+    begin "build"
+    cmake --build build --parallel "$jobs"
+    begin "test"
+    ctest --test-dir build --parallel "$jobs" --output-on-failure
+    readers='image_lists|associations|trajectory|camera_file|accelerometer|image_names|images'
+    test_sanitized address asan-ubsan "^fuzz\.($readers)$|^text\." \
+                   $(echo "$readers" | tr '|' '\n' | sed 's/^/fuzz_/') text_test
+    ;;
+esac

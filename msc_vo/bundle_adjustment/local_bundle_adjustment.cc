@@ -138,11 +138,12 @@ BundleAdjustmentSummary LocalBundleAdjustment(const BundleAdjustmentOptions& opt
     summary.message = "the cost is not finite";
     return summary;
   }
-  summary.usable = true;
   enter(WindowStage::kWriteBack);
   EstimateLandmarkNoise(options.landmark_noise, index, inlier_mask, state, &with_noise);
-  *data = std::move(with_noise);
-  WriteBack(second, inlier_mask, state, data);
+  WriteBack(second, inlier_mask, state, &with_noise);
+  // A result that a later bundle adjustment would refuse is none.
+  summary.usable = HasValidState(with_noise, &summary.message);
+  if (summary.usable) *data = std::move(with_noise);
   enter(WindowStage::kDone);
   return summary;
 }

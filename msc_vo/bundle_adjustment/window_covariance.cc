@@ -106,8 +106,10 @@ std::vector<std::optional<Matrix>> Collect(const std::vector<Item>& items,
     if (number < 0 || next == inverse.end()) continue;
     const Matrix& covariance = *next++;
     const auto inflation = covariance.diagonal().cwiseProduct(hessian[number].diagonal());
+    // Rounding may even make a variance negative where the system is close to singular.
     const bool determined = hessian[number].diagonal().minCoeff() > 0.0 &&
-                            inflation.maxCoeff() < kMaxInflation && covariance.allFinite();
+                            inflation.minCoeff() > 0.0 && inflation.maxCoeff() < kMaxInflation &&
+                            covariance.allFinite();
     if (determined) covariances.back() = 0.5 * (covariance + covariance.transpose());
   }
   return covariances;

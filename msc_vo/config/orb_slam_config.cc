@@ -4,6 +4,7 @@
 #include "msc_vo/config/orb_slam_config.h"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <map>
 #include <sstream>
@@ -95,7 +96,9 @@ CameraSettings ReadOrbSlamConfig(const std::string& path) {
     const Values::value_type* entry = find_entry(names);
     if (!entry) return std::nullopt;
     const std::optional<double> number = ParseNumber(entry->second.text);
-    if (!number) Fail(path, *entry, " must be a number, not '" + entry->second.text + "'");
+    if (!number || !std::isfinite(*number)) {
+      Fail(path, *entry, " must be a finite number, not '" + entry->second.text + "'");
+    }
     return number;
   };
   const auto require = [&](std::initializer_list<const char*> names) {

@@ -3,16 +3,19 @@
 
 #include "msc_vo/datasets/image_file.h"
 
+#include <optional>
 #include <stdexcept>
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "msc_vo/datasets/image_header.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
 cv::Mat DecodeImage(const std::string& bytes, int mode) {
-  if (bytes.empty()) return {};
+  const std::optional<ImageSize> size = SizeInHeader(bytes);
+  if (!size || !IsPlausibleSize(*size, bytes.size())) return {};
   const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
   try {
     return cv::imdecode(buffer, mode);

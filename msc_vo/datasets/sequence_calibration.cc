@@ -53,9 +53,21 @@ void ApplyLens(const LensSettings& settings, const std::string& origin, const st
   }
 }
 
+// Throws std::runtime_error if a side of the images is given as 0 or less: an image size of 0 means
+// below that nothing gives it.
+void CheckSide(const std::optional<int>& side, const std::string& name, const std::string& origin) {
+  if (!side || *side > 0) return;
+  throw std::runtime_error(origin + ": " + name + " = " + std::to_string(*side) +
+                           " must be a positive number of pixels; leave it out to take that of the "
+                           "first image");
+}
+
 // Overwrites the intrinsics and the size that the settings of a camera or of a depth camera give.
 template <typename Settings>
-void ApplyIntrinsics(const Settings& settings, PinholeCamera* camera) {
+void ApplyIntrinsics(const Settings& settings, const std::string& section,
+                     const std::string& origin, PinholeCamera* camera) {
+  CheckSide(settings.width, section + ".width", origin);
+  CheckSide(settings.height, section + ".height", origin);
   camera->fx = settings.fx.value_or(camera->fx);
   camera->fy = settings.fy.value_or(camera->fy);
   camera->cx = settings.cx.value_or(camera->cx);
@@ -64,10 +76,11 @@ void ApplyIntrinsics(const Settings& settings, PinholeCamera* camera) {
   camera->height = settings.height.value_or(camera->height);
 }
 
-// Overwrites the values that are set; the camera is that of the recorded images afterwards.
+// Overwrites the values that are set; the camera is that of the recorded images afterwards. Throws
+// std::runtime_error on an invalid image size or lens.
 void Apply(const CameraSettings& settings, Calibration* calibration) {
   PinholeCamera recorded = calibration->Recorded();
-  ApplyIntrinsics(settings, &recorded);
+  ApplyIntrinsics(settings, "camera", settings.origin, &recorded);
   calibration->SetRecorded(recorded);
   calibration->depth_scale = settings.depth_scale.value_or(calibration->depth_scale);
   ApplyLens(settings.lens, settings.origin, "camera", &calibration->distortion);
@@ -75,7 +88,7 @@ void Apply(const CameraSettings& settings, Calibration* calibration) {
 }
 
 // Overwrites the values that are set; the image size is 0 if nothing gives it. Throws
-// std::runtime_error if there is no complete depth camera.
+// std::runtime_error on an invalid image size or if there is no complete depth camera.
 void Apply(const DepthCameraSettings& settings, const std::string& origin,
            std::optional<DepthCamera>* depth_camera) {
   if (settings.IsEmpty()) return;
@@ -89,7 +102,7 @@ void Apply(const DepthCameraSettings& settings, const std::string& origin,
     (*depth_camera)->camera.width = 0;  // unknown
     (*depth_camera)->camera.height = 0;
   }
-  ApplyIntrinsics(settings, &(*depth_camera)->camera);
+  ApplyIntrinsics(settings, "camera.depth_camera", origin, &(*depth_camera)->camera);
   Rigid3& depth_from_color = (*depth_camera)->depth_from_color;
   if (!settings.translation.empty()) {
     depth_from_color.translation() = Eigen::Vector3d::Map(settings.translation.data());

@@ -3,6 +3,7 @@
 
 #include "msc_vo/pose_estimation/pose_optimization.h"
 
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -175,7 +176,10 @@ PoseSummary OptimizePose(const PoseOptions& options, PoseData* data) {
   NormalEquations equations;
   if (!solved || inliers.NumRows() < 6 || !inliers.Linearize(pose, &equations)) return summary;
   const auto covariance = Covariance(equations.hessian);
-  if (!covariance) return summary;
+  if (!covariance || !covariance->allFinite() || !std::isfinite(equations.cost) ||
+      PoseError(pose) != nullptr) {
+    return summary;
+  }
   summary.usable = true;
   summary.final_cost = equations.cost;
   summary.covariance = *covariance;

@@ -134,6 +134,7 @@ StoredImage ConvertRosImage(const RosImage& image) {
   const Encoding& encoding = found->second;
   const size_t row_bytes = static_cast<size_t>(image.width) * CV_ELEM_SIZE(encoding.type);
   if (image.width == 0 || image.height == 0 || image.step < row_bytes ||
+      image.step % CV_ELEM_SIZE1(encoding.type) != 0 ||
       image.data.size() / image.step < image.height) {
     throw std::runtime_error("damaged image: its size does not fit its data");
   }

@@ -82,13 +82,13 @@ struct DepthRegistration::Footprints {
         const float with_before = gap_before <= threshold ? 1.0f : 0.0f;
         const float with_after = gap_after <= threshold ? 1.0f : 0.0f;
         const float without = (1.0f - with_before) * (1.0f - with_after);
-        const float scale = 1.0f - 0.5f * with_before * with_after;
+        const float weight = 1.0f - 0.5f * with_before * with_after;
         const float step_x = with_after * (x_after - x_here) + with_before * (x_here - x_before);
         const float step_y = with_after * (y_after - y_here) + with_before * (y_here - y_before);
         const float step_w = with_after * (after - here) + with_before * (here - before);
-        to_x[i] = scale * step_x + without * nominal_x;
-        to_y[i] = scale * step_y + without * nominal_y;
-        to_w[i] = scale * step_w;
+        to_x[i] = weight * step_x + without * nominal_x;
+        to_y[i] = weight * step_y + without * nominal_y;
+        to_w[i] = weight * step_w;
       }
     }
 

@@ -75,9 +75,11 @@ TEST_F(OrbSlamConfigTest, ErrorsNameMissingAndInvalidValues) {
   WriteText("orb.yaml", "Camera.fx: 500\nCamera.fy: 500\nCamera.cx: 320\nCamera.cy: 240\n");
   EXPECT_THAT(MessageOf([&] { ReadOrbSlamConfig(Path("orb.yaml")); }),
               HasSubstr("orb.yaml: DepthMapFactor is missing"));
-  WriteText("orb.yaml", "\nCamera.fx: wide\n");
-  EXPECT_THAT(MessageOf([&] { ReadOrbSlamConfig(Path("orb.yaml")); }),
-              HasSubstr("orb.yaml:2: Camera.fx must be a number, not 'wide'"));
+  for (const std::string value : {"wide", "inf", "nan"}) {
+    WriteText("orb.yaml", "\nCamera.fx: " + value + "\n");
+    EXPECT_THAT(MessageOf([&] { ReadOrbSlamConfig(Path("orb.yaml")); }),
+                HasSubstr("orb.yaml:2: Camera.fx must be a finite number, not '" + value + "'"));
+  }
 }
 
 }  // namespace

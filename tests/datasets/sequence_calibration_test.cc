@@ -144,6 +144,10 @@ TEST_F(SequenceCalibrationTest, CompleteSettingsAreTheOnlySource) {
   EXPECT_TRUE(calibration.distortion.IsZero());
   EXPECT_EQ(calibration.camera.width, 8);  // from the depth image
   EXPECT_EQ(calibration.camera.height, 6);
+  settings.width = 0;  // not the same as not given
+  settings.origin = "--set";
+  EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
+              HasSubstr("--set: camera.width = 0 must be a positive number of pixels"));
 }
 
 TEST_F(SequenceCalibrationTest, ErrorListsAlternatives) {

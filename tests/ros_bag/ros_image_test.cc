@@ -49,6 +49,11 @@ TEST(RosImage, ConvertsColours) {
   EXPECT_THAT(MessageOf([&] { convert(bgr, "yuv422"); }), HasSubstr("encoding yuv422"));
   EXPECT_THAT(MessageOf([&] { convert(cv::Mat(2, 3, CV_8UC1), "bgr8"); }),
               HasSubstr("does not fit its data"));
+  const std::string bytes = ImageMessage(1, 0, cv::Mat(2, 3, CV_32FC1), "32FC1");
+  RosImage image = ParseRosImage(bytes);
+  image.height = 1;
+  ++image.step;  // no whole number of values
+  EXPECT_THAT(MessageOf([&] { ConvertRosImage(image); }), HasSubstr("does not fit its data"));
 }
 
 TEST(RosImage, FindsRedInABayerPattern) {

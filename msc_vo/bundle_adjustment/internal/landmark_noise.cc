@@ -90,9 +90,10 @@ double DepthOffset(const LandmarkNoiseOptions& options, const ResidualSums& sums
 }  // namespace
 
 bool LandmarkNoiseOptions::IsValid(std::string* error) const {
-  if (!(prior > 0.0)) {
+  const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
+  if (!is_positive(prior)) {
     *error = "landmark_noise.prior must be positive";
-  } else if (!(depth_offset_sigma > 0.0)) {
+  } else if (!is_positive(depth_offset_sigma)) {
     *error = "landmark_noise.depth_offset_sigma must be positive";
   } else {
     return true;

@@ -3,6 +3,7 @@
 
 #include "msc_vo/bundle_adjustment/internal/window_validation.h"
 
+#include <algorithm>
 #include <string>
 
 #include "msc_vo/bundle_adjustment/internal/custom_validation.h"
@@ -22,27 +23,32 @@ bool HasCustomPose(const WindowData& data) {
   return false;
 }
 
-void CheckKeyframesAndLandmarks(const WindowData& data) {
-  const auto check = [](const char* error, const char* kind, int64_t id) {
-    if (error != nullptr)
-      ThrowInvalidWindow(std::string(kind) + " " + std::to_string(id) + ": " + error);
-  };
-  bool any_fixed = false;
+// Calls report(error, kind, id) for every keyframe and landmark; `error` is null for valid ones.
+template <typename Report>
+void CheckState(const WindowData& data, const Report& report) {
   for (const WindowData::Keyframe& k : data.keyframes) {
-    check(PoseError(k.cam_from_world), "keyframe", k.id);
-    any_fixed = any_fixed || k.fixed;
-  }
-  if (!any_fixed && data.pose_priors.empty() && !HasCustomPose(data)) {
-    ThrowInvalidWindow("no keyframe is fixed or has a prior or custom factor: the gauge is free");
+    report(PoseError(k.cam_from_world), "keyframe", k.id);
   }
   for (const WindowData::Point& p : data.points) {
-    check(PositionError(p.position), "point", p.id);
-    check(NoiseError(p.noise), "point", p.id);
+    report(PositionError(p.position), "point", p.id);
+    report(NoiseError(p.noise), "point", p.id);
   }
   for (const WindowData::Line& l : data.lines) {
-    check(MapLineError(l.segment), "line", l.id);
-    check(NoiseError(l.noise), "line", l.id);
-    check(DepthOffsetError(l.depth_offset), "line", l.id);
+    report(MapLineError(l.segment), "line", l.id);
+    report(NoiseError(l.noise), "line", l.id);
+    report(DepthOffsetError(l.depth_offset), "line", l.id);
+  }
+}
+
+std::string DescribeItem(const char* error, const char* kind, int64_t id) {
+  return std::string(kind) + " " + std::to_string(id) + ": " + error;
+}
+
+void CheckGauge(const WindowData& data) {
+  const bool any_fixed = std::any_of(data.keyframes.begin(), data.keyframes.end(),
+                                     [](const WindowData::Keyframe& k) { return k.fixed; });
+  if (!any_fixed && data.pose_priors.empty() && !HasCustomPose(data)) {
+    ThrowInvalidWindow("no keyframe is fixed or has a prior or custom factor: the gauge is free");
   }
 }
 
@@ -90,11 +96,24 @@ std::vector<int> ResolvePriors(const std::vector<WindowData::PosePrior>& priors,
 
 }  // namespace
 
+bool HasValidState(const WindowData& data, std::string* error) {
+  bool is_valid = true;
+  CheckState(data, [&](const char* what, const char* kind, int64_t id) {
+    if (what == nullptr || !is_valid) return;
+    is_valid = false;
+    *error = "the result is not valid: " + DescribeItem(what, kind, id);
+  });
+  return is_valid;
+}
+
 WindowIndex ValidateWindow(const BundleAdjustmentOptions& options, const WindowData& data) {
   if (data.keyframes.empty()) ThrowInvalidWindow("the window is empty: it has no keyframe");
   std::string error;
   if (!options.IsValid(&error) || !data.camera.IsValid(&error)) ThrowInvalidWindow(error);
-  CheckKeyframesAndLandmarks(data);
+  CheckState(data, [](const char* what, const char* kind, int64_t id) {
+    if (what != nullptr) ThrowInvalidWindow(DescribeItem(what, kind, id));
+  });
+  CheckGauge(data);
 
   const IdMap keyframes("keyframe", data.keyframes);
   const IdMap points("point", data.points);

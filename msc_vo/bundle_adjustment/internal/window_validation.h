@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/internal/window_state.h"
@@ -34,5 +35,9 @@ struct WindowIndex {
 /// Validates the input of LocalBundleAdjustment and resolves its ids. Throws std::invalid_argument
 /// that names the offending item.
 WindowIndex ValidateWindow(const BundleAdjustmentOptions& options, const WindowData& data);
+
+/// Tests whether ValidateWindow() would accept the keyframes and landmarks. Otherwise `error` names
+/// the first one that is not valid.
+bool HasValidState(const WindowData& data, std::string* error);
 
 }  // namespace msc_vo
