@@ -149,8 +149,10 @@ void Tracker::StartSegment(SegmentStart start, TrackedFrame* tracked) {
 
 bool Tracker::IsNewSegmentDue(const Map& map, const TrackedFrame& tracked) {
   const double timestamp = tracked.frame->timestamp;
-  // A pose that pose factors determine keeps the camera in the map.
-  if (tracked.pose.usable) return false;
+  if (tracked.pose.usable) {
+    segment_start_.Tracked(timestamp);  // by pose factors, which keep the camera in the map
+    return false;
+  }
   const bool could_begin = NumWithDepth(*tracked.frame) >= options_.min_initial_features;
   segment_start_.NotFound(timestamp, could_begin, options_.relocalization_keyframes);
   if (!could_begin || tracked.status != TrackingStatus::kLost) return false;
@@ -295,7 +297,9 @@ void Tracker::ProposeKeyframe(const MapSnapshot& snapshot, TrackedFrame* tracked
   const bool is_second = last_.frame->timestamp == newest.frame->timestamp;
   const bool enables_compensation =
       snapshot.readout_time != 0.0 && AwaitsCompensation(snapshot) && is_second;
+  Stopwatch stopwatch;
   tracked->in_inactive_map = inactive_map_search_.Search(*tracked, snapshot);
+  tracked->times.matching += stopwatch.Milliseconds();
   tracked->keyframe.is_due = policy_.IsDue(*tracked->frame, tracked->matches) ||
                              enables_compensation || tracked->in_inactive_map.has_value();
   if (!tracked->keyframe.is_due) return;
