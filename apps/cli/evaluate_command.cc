@@ -16,6 +16,7 @@
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/evaluation/line_error.h"
+#include "msc_vo/evaluation/segment_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/results/error_json.h"
 #include "msc_vo/results/ply_file.h"
@@ -131,6 +132,8 @@ int Run(Arguments arguments) {
                                   truth.has_stamps || estimate.has_stamps,
                                   arguments.options.rpe_delta};
   const TrajectoryError error = Evaluate(arguments, trajectories, context);
+  const std::vector<SegmentError> segments =
+      EvaluateSegments(truth.poses, estimate.poses, arguments.options);
   std::optional<LineError> line_error;
   if (!arguments.lines.empty()) {
     line_error = EvaluateLines(ReadEdgesPly(arguments.edges), ReadLinesPly(arguments.lines),
@@ -142,9 +145,10 @@ int Run(Arguments arguments) {
   }
   if (arguments.json) {
     const SkippedRows skipped{truth.num_left_out, estimate.num_left_out};
-    std::cout << FormatErrorJson(error, skipped, context, line_error);
+    std::cout << FormatErrorJson(error, skipped, context, line_error, segments);
   } else {
     std::cout << FormatErrorTable(error, context)
+              << FormatSegmentTable(segments, HasSeveralWorlds(estimate.poses))
               << SkippedRowsText(arguments.truth, truth.num_left_out)
               << SkippedRowsText(arguments.estimate, estimate.num_left_out);
     if (line_error) std::cout << FormatLineTable(*line_error);

@@ -96,6 +96,21 @@ std::string FormatLineTable(const LineError& error) {
                      error.num_edges);
 }
 
+std::string FormatSegmentTable(const std::vector<SegmentError>& segments, bool has_several_worlds) {
+  std::string table;
+  if (!segments.empty()) table += "APE of each segment, aligned by itself:\n";
+  for (const SegmentError& segment : segments) {
+    const std::string name = FormatText("  %d (world %d)", segment.segment, segment.world);
+    table += segment.error.usable
+                 ? Row(name, segment.error.ape, kMillimetres, "mm")
+                 : FormatText("%-20s  ", name.c_str()) + segment.error.message + "\n";
+  }
+  if (has_several_worlds) {
+    table += "the transform between worlds is unknown, and part of the errors of the whole above\n";
+  }
+  return table;
+}
+
 void WriteComparison(const std::string& path, const std::string& title,
                      const TrajectoryError& error, const EvaluationContext& context) {
   TrajectoryComparison comparison;

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "msc_vo/evaluation/line_error.h"
+#include "msc_vo/evaluation/segment_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/results/error_json.h"
 
@@ -14,6 +16,8 @@ namespace msc_vo {
 /// The tables of `msc_vo evaluate` in millimetres and degrees.
 std::string FormatErrorTable(const TrajectoryError& error, const EvaluationContext& context);
 std::string FormatLineTable(const LineError& error);
+/// A row for each segment; empty without segments.
+std::string FormatSegmentTable(const std::vector<SegmentError>& segments, bool has_several_worlds);
 
 /// Writes the plots of the two trajectories to a file: a page (.html) or an image (.svg). Throws
 /// std::runtime_error, naming the file, if it cannot be written.

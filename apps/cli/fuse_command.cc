@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <algorithm>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -52,15 +54,33 @@ struct PosedImage {
   TimedPose pose;
 };
 
+// Leaves only the poses of the world with most poses: the transform to other worlds is unknown.
+void KeepLargestWorld(const std::string& path, std::vector<TimedPose>* poses) {
+  std::map<int, int> num_poses;
+  for (const TimedPose& pose : *poses) ++num_poses[pose.world];
+  if (num_poses.size() < 2) return;
+  const auto largest =
+      std::max_element(num_poses.begin(), num_poses.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  const size_t num_all = poses->size();
+  poses->erase(std::remove_if(poses->begin(), poses->end(),
+                              [&](const TimedPose& pose) { return pose.world != largest->first; }),
+               poses->end());
+  PrintWarning(path + ": the segments of the run are not all joined; " +
+               std::to_string(poses->size()) + " of " + std::to_string(num_all) +
+               " poses are in the world of segment " + std::to_string(largest->first) +
+               " and are fused");
+}
+
 std::vector<PosedImage> SelectImages(const Arguments& arguments, const RgbdDecoder& decoder) {
   std::vector<double> stamps, pose_stamps;
   std::vector<TimedPose> poses;
   for (const SequenceEntry& entry : decoder.index().entries) stamps.push_back(entry.timestamp);
   for (const TimedPose& pose : ReadTrajectory(arguments.trajectory)) {
-    if (!pose.is_estimated && !arguments.all_poses) continue;
-    poses.push_back(pose);
-    pose_stamps.push_back(pose.timestamp);
+    if (pose.is_estimated || arguments.all_poses) poses.push_back(pose);
   }
+  KeepLargestWorld(arguments.trajectory, &poses);
+  for (const TimedPose& pose : poses) pose_stamps.push_back(pose.timestamp);
   std::vector<PosedImage> images;
   int matched = 0;
   for (const StampMatch& match : AssociateStamps(stamps, pose_stamps, kMaxTimeDifference)) {

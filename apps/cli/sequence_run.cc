@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/cli/command_log.h"
 #include "apps/cli/cost_meter.h"
@@ -169,7 +170,9 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
     Fail(kExitTrackingFailed, DescribeFailure(run.summary), &run);
   }
   if (!context.sequence.ground_truth.empty() && done > 0) {
-    context.error = EvaluateTrajectory(context.sequence.ground_truth, TrajectoryOf(run.result));
+    const std::vector<TimedPose> poses = TrajectoryOf(run.result);
+    context.error = EvaluateTrajectory(context.sequence.ground_truth, poses);
+    context.segment_errors = EvaluateSegments(context.sequence.ground_truth, poses);
   }
   WarnAboutUnreadableImages(run);
   return run;

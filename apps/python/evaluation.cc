@@ -24,6 +24,7 @@ namespace {
 std::vector<TimedPose> PosesOfRows(const RowMajorMatrix& rows, const std::string& name) {
   std::vector<TimedPose> poses;
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    if (!rows.row(i).allFinite()) continue;  // a frame without a pose
     const Eigen::Quaterniond q(rows(i, 7), rows(i, 4), rows(i, 5), rows(i, 6));
     if (std::abs(q.norm() - 1.0) > 0.05) {
       throw std::invalid_argument(name + ": the quaternion of row " + std::to_string(i) +

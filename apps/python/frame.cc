@@ -49,6 +49,8 @@ void BindFrame(py::module_* module) {
       .def_property_readonly(
           "is_estimated", [](const FrameResult& self) { return IsEstimated(self.status); },
           "Whether the pose comes from the image of this frame: tracked or weak.")
+      .def_readonly("segment", &FrameResult::segment,
+                    "Number of its segment; -1: it precedes the first one and has no pose.")
       .def_readonly("by_pose_factors", &FrameResult::by_pose_factors,
                     "Whether pose factors, not constant velocity, predict the pose.")
       .def_readonly("is_keyframe", &FrameResult::is_keyframe)

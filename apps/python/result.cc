@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
@@ -66,6 +68,41 @@ py::array EstimatedOf(const OdometryResult& result) {
   return estimated;
 }
 
+// One row per frame, also for those that have no pose.
+RowMajorMatrix AllRows(const OdometryResult& result) {
+  std::vector<TimedPose> poses;
+  for (const FrameResult& frame : result.frames) {
+    poses.push_back({frame.timestamp, frame.cam_from_world.Inverse()});
+  }
+  RowMajorMatrix rows = TrajectoryRows(poses);
+  for (size_t i = 0; i < result.frames.size(); ++i) {
+    if (result.frames[i].segment != kNoSegment) continue;
+    rows.row(i).tail(7).setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return rows;
+}
+
+py::array SegmentOf(const OdometryResult& result) {
+  py::array_t<int> segments(static_cast<py::ssize_t>(result.frames.size()));
+  for (size_t i = 0; i < result.frames.size(); ++i) {
+    segments.mutable_at(i) = result.frames[i].segment;
+  }
+  return segments;
+}
+
+py::list SegmentsOf(const OdometryResult& result) {
+  py::list segments;
+  for (const Segment& segment : result.segments) {
+    py::dict entry;
+    entry["first_frame"] = segment.first_frame;
+    entry["last_frame"] = segment.last_frame;
+    entry["num_estimated"] = segment.num_estimated;
+    entry["world"] = segment.world;
+    segments.append(entry);
+  }
+  return segments;
+}
+
 py::object WorldFromAxes(const OdometryResult& result) {
   if (result.axes.state == AxesState::kNone) return py::none();
   return py::cast(Eigen::Matrix3d(result.axes.world_from_axes.toRotationMatrix()));
@@ -93,10 +130,14 @@ void Write(const OdometryResult& result, const py::object& path) {
 void BindResult(py::module_* module) {
   py::class_<OdometryResult, std::shared_ptr<OdometryResult>>(
       *module, "Result", "The result of a run. Lengths in metres, in the world.")
-      .def_property_readonly(
-          "trajectory",
-          [](const OdometryResult& self) { return TrajectoryRows(TrajectoryOf(self)); },
-          "(N, 8) rows t tx ty tz qx qy qz qw, one per frame, camera in world.")
+      .def_property_readonly("trajectory", &AllRows,
+                             "(N, 8) rows t tx ty tz qx qy qz qw, one per frame, camera in world; "
+                             "nan in frames before "
+                             "the first segment, which have no pose.")
+      .def_property_readonly("segment", &SegmentOf,
+                             "(N,) number of the segment that each frame belongs to; -1: none.")
+      .def_property_readonly("segments", &SegmentsOf,
+                             "One dict per segment: first_frame, last_frame, num_estimated, world.")
       .def_property_readonly("estimated", &EstimatedOf,
                              "(N,) bool: whether the pose is estimated from the image of its time.")
       .def_property_readonly(

@@ -20,6 +20,29 @@ constexpr size_t kFieldsPerPose = 8;
 // Deviation of the norm from 1; larger than the rounding of components with two decimals.
 constexpr double kMaxQuaternionError = 0.05;
 constexpr char kNotEstimated[] = "not estimated";
+constexpr char kSegmentFormat[] = "segment %d, world %d";
+
+// Reads segment and world from a comment; other comments have no effect.
+void ReadSegment(const std::string& comment, int* segment, int* world) {
+  int numbers[2] = {0, 0};
+  if (std::sscanf(comment.c_str(), kSegmentFormat, &numbers[0], &numbers[1]) != 2) return;
+  *segment = numbers[0];
+  *world = numbers[1];
+}
+
+// The comment above a pose, empty if it needs none. `segment` and `world`: of the pose before it.
+std::string CommentOf(const TimedPose& pose, int segment, int world) {
+  std::string comment;
+  if (pose.segment != segment || pose.world != world) {
+    comment = FormatText(kSegmentFormat, pose.segment, pose.world);
+  }
+  if (!pose.is_estimated) comment += (comment.empty() ? "" : ", ") + std::string(kNotEstimated);
+  return comment;
+}
+
+bool EndsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
 
 void SortByTime(std::vector<TimedPose>* poses) {
   std::stable_sort(poses->begin(), poses->end(), [](const TimedPose& a, const TimedPose& b) {
@@ -41,7 +64,9 @@ std::string Fixed(double value, int decimals) {
 std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out) {
   std::vector<TimedPose> poses;
   if (num_left_out) *num_left_out = 0;
+  int segment = 0, world = 0;
   for (const TextLine& line : ReadTextLines(path)) {
+    ReadSegment(line.comment, &segment, &world);
     if (line.fields.size() != kFieldsPerPose) {
       line.Fail("expected 8 numbers 'time tx ty tz qx qy qz qw', found " +
                 std::to_string(line.fields.size()) + " fields; correct the line");
@@ -66,8 +91,8 @@ std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out
           "the quaternion qx qy qz qw has length %.3f instead of 1; correct or remove the line",
           rotation.norm()));
     }
-    poses.push_back(
-        {v[0], Rigid3(rotation.normalized(), {v[1], v[2], v[3]}), line.comment != kNotEstimated});
+    poses.push_back({v[0], Rigid3(rotation.normalized(), {v[1], v[2], v[3]}),
+                     !EndsWith(line.comment, kNotEstimated), segment, world});
   }
   SortByTime(&poses);
   return poses;
@@ -77,11 +102,15 @@ std::string FormatTrajectory(std::vector<TimedPose> poses) {
   SortByTime(&poses);
   std::string text;
   std::string previous_stamp;
+  int segment = 0, world = 0;
   for (const TimedPose& pose : poses) {
     const std::string stamp = Fixed(pose.timestamp, 6);
     if (stamp == previous_stamp) continue;
     previous_stamp = stamp;
-    if (!pose.is_estimated) text += "# " + std::string(kNotEstimated) + "\n";
+    const std::string comment = CommentOf(pose, segment, world);
+    if (!comment.empty()) text += "# " + comment + "\n";
+    segment = pose.segment;
+    world = pose.world;
     text += stamp;
     const Eigen::Vector3d t = pose.world_from_cam.translation();
     Eigen::Vector4d q = pose.world_from_cam.rotation().normalized().coeffs();

@@ -11,17 +11,19 @@
 namespace msc_vo {
 
 /// Reads a TUM trajectory: one pose world_from_cam per line, "time tx ty tz qx qy qz qw", in
-/// seconds and metres. Accepts comments (#), blank lines, commas, tabs and CRLF; normalises
-/// quaternions. A pose below a comment "# not estimated" is marked as such. Poses with nan or inf,
-/// which some programs write for lost frames, are left out and counted in `num_left_out` unless
-/// that is null. The result is in order of time. Throws std::runtime_error naming file and line if
-/// a line does not fit or its quaternion is far from unit length.
+/// seconds and metres. A comment "# segment 2, world 0" is the beginning of another segment.
+/// Accepts comments (#), blank lines, commas, tabs and CRLF; normalises quaternions. A pose below a
+/// comment "# not estimated" is marked as such. Poses with nan or inf, which some programs write
+/// for lost frames, are left out and counted in `num_left_out` unless that is null. The result is
+/// in order of time. Throws std::runtime_error naming file and line if a line does not fit or its
+/// quaternion is far from unit length.
 std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out = nullptr);
 
 /// Formats poses as a TUM trajectory that other tools can read: fields separated by single spaces,
 /// times with six decimals, ascending and unique (the first pose of a stamp is kept), unit
 /// quaternions with w >= 0. The comment "# not estimated", which other tools skip, precedes each
-/// pose that is not estimated.
+/// pose that is not estimated, and "# segment 2, world 0" the first pose of a segment unless both
+/// are 0.
 std::string FormatTrajectory(std::vector<TimedPose> poses);
 
 /// Writes the result of FormatTrajectory() to a file. Throws std::runtime_error, naming the file,

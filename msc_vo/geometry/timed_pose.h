@@ -13,6 +13,9 @@ struct TimedPose {
   Rigid3 world_from_cam;
   /// False if the pose is predicted or interpolated in time, not estimated from an image.
   bool is_estimated = true;
+  int segment = 0;  ///< part of the run that was tracked in a map of its own
+  /// The segment whose world the pose is in. The transform between two worlds is unknown.
+  int world = 0;
 };
 
 }  // namespace msc_vo

@@ -69,8 +69,8 @@ void Remove(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, Landma
 }
 
 template <typename Table>
-void Merge(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, LandmarkId from,
-           LandmarkId into) {
+void MergeLandmarks(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, LandmarkId from,
+                    LandmarkId into) {
   const auto source = *landmarks->Find(from);
   Remove(landmarks, keyframes, slots, from);
   for (const Observation& observation : source.observations) {
@@ -87,6 +87,13 @@ void CountTracking(LandmarkId id, int num_visible, int num_found, Table* landmar
   if (landmark == nullptr) return;
   landmark->num_visible += num_visible;
   landmark->num_found += num_found;
+}
+
+template <typename Table>
+std::vector<int64_t> Ids(const Table& table) {
+  std::vector<int64_t> ids;
+  for (const auto& [id, value] : table) ids.push_back(id);
+  return ids;
 }
 
 // Returns the descriptor with the smallest total distance to all others; the first one on ties.
@@ -133,6 +140,40 @@ Map Map::Share() {
   map.next_keyframe_ = next_keyframe_;
   map.next_landmark_ = next_landmark_;
   return map;
+}
+
+Map Map::Next() const {
+  Map map;
+  map.next_keyframe_ = next_keyframe_;
+  map.next_landmark_ = next_landmark_;
+  return map;
+}
+
+void Map::Merge(const Map& other) {
+  keyframes_.Merge(other.keyframes_);
+  points_.Merge(other.points_);
+  lines_.Merge(other.lines_);
+  relative_poses_.Merge(other.relative_poses_);
+  next_keyframe_ = std::max(next_keyframe_, other.next_keyframe_);
+  next_landmark_ = std::max(next_landmark_, other.next_landmark_);
+}
+
+void Map::Transform(const Rigid3& new_from_old_world) {
+  const Rigid3 old_from_new_world = new_from_old_world.Inverse();
+  for (const int64_t id : Ids(keyframes_)) {
+    Keyframe& keyframe = *keyframes_.FindToChange(id);
+    keyframe.cam_from_world = keyframe.cam_from_world * old_from_new_world;
+  }
+  for (const int64_t id : Ids(points_)) {
+    PointLandmark& point = *points_.FindToChange(id);
+    point.position = new_from_old_world * point.position;
+    point.viewing_direction = new_from_old_world.rotation() * point.viewing_direction;
+  }
+  for (const int64_t id : Ids(lines_)) {
+    LineLandmark& line = *lines_.FindToChange(id);
+    line.segment = new_from_old_world * line.segment;
+    line.viewing_direction = new_from_old_world.rotation() * line.viewing_direction;
+  }
 }
 
 const Keyframe* Map::FindKeyframe(KeyframeId id) const { return keyframes_.Find(id); }
@@ -191,10 +232,10 @@ void Map::RemoveLineObservation(LandmarkId line, KeyframeId keyframe) {
 void Map::RemovePoint(LandmarkId point) { Remove(&points_, &keyframes_, &Keyframe::points, point); }
 void Map::RemoveLine(LandmarkId line) { Remove(&lines_, &keyframes_, &Keyframe::lines, line); }
 void Map::MergePoints(LandmarkId from, LandmarkId into) {
-  Merge(&points_, &keyframes_, &Keyframe::points, from, into);
+  MergeLandmarks(&points_, &keyframes_, &Keyframe::points, from, into);
 }
 void Map::MergeLines(LandmarkId from, LandmarkId into) {
-  Merge(&lines_, &keyframes_, &Keyframe::lines, from, into);
+  MergeLandmarks(&lines_, &keyframes_, &Keyframe::lines, from, into);
 }
 
 void Map::RemoveKeyframe(KeyframeId id, KeyframeId successor) {
@@ -209,6 +250,8 @@ void Map::RemoveKeyframe(KeyframeId id, KeyframeId successor) {
   }
   keyframes_.Erase(id);
 }
+
+bool Map::KnowsKeyframe(KeyframeId id) const { return relative_poses_.Find(id) != nullptr; }
 
 Rigid3 Map::CamFromWorld(KeyframeId id) const {
   // The stored pose to the last bit: a product would normalise its rotation again.

@@ -38,6 +38,13 @@ class Map {
 
   /// Returns a snapshot of the map. It shares memory with this map until either changes.
   Map Share();
+  /// Returns an empty map whose ids continue those of this map, so that the ids of both differ.
+  Map Next() const;
+  /// Adds the keyframes and landmarks of `other`, which must be in the same world and have ids that
+  /// differ from those of this map.
+  void Merge(const Map& other);
+  /// Expresses keyframes and landmarks in another world. Removed keyframes follow their successors.
+  void Transform(const Rigid3& new_from_old_world);
 
   const KeyframeTable& keyframes() const { return keyframes_; }
   const PointTable& points() const { return points_; }
@@ -72,6 +79,8 @@ class Map {
   /// Removes a keyframe and its observations. Its pose relative to `successor`, which must be in
   /// the map, is kept, so that frames that were tracked relative to it keep their pose.
   void RemoveKeyframe(KeyframeId id, KeyframeId successor);
+  /// Whether the keyframe is in the map or was removed from it.
+  bool KnowsKeyframe(KeyframeId id) const;
   /// Pose of a keyframe that is in the map or was removed from it.
   Rigid3 CamFromWorld(KeyframeId id) const;
 

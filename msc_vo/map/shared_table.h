@@ -119,6 +119,20 @@ class SharedTable {
     if (!JoinWithNext(block) && block > 0) JoinWithNext(block - 1);
   }
 
+  /// Adds copies of the entries of `other`, whose ids must differ from those of this table.
+  void Merge(const SharedTable& other) {
+    SharedTable merged;
+    Iterator own = begin();
+    for (const Entry& entry : other) {
+      for (; own != end() && own->first < entry.first; ++own) {
+        merged.Append(own->first, own->second);
+      }
+      merged.Append(entry.first, entry.second);
+    }
+    for (; own != end(); ++own) merged.Append(own->first, own->second);
+    *this = std::move(merged);
+  }
+
   /// Returns a table with the same values. Either may change afterwards without affecting the
   /// other; each table may be used by one thread at a time.
   SharedTable Share() {

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "msc_vo/map/atlas.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/noise_scale.h"
 
@@ -27,6 +28,7 @@ struct MapSnapshot {
   double readout_time = 0.0;  ///< seconds, of the rolling-shutter compensation of its keyframes
   std::optional<AxesEstimate> axes;  ///< std::nullopt until they are found
   bool needs_axes = false;           ///< the next keyframe packet shall contain surface normals
+  InactiveMaps inactive_maps;        ///< of older segments that are not joined with this map
 };
 using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;
 

@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "msc_vo/geometry/camera_velocity.h"
+#include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/frame.h"
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/matching/frame_matches.h"
+#include "msc_vo/matching/map_relocalization.h"
 #include "msc_vo/structure/axis_evidence.h"
 
 namespace msc_vo {
@@ -26,10 +28,17 @@ struct TrackingCount {
 /// Plain data that tracking passes to the mapper for each keyframe; shared parts are immutable.
 struct KeyframePacket {
   std::shared_ptr<const Frame> frame;
-  /// kNoId: the first keyframe, for which cam_from_reference is cam_from_world.
+  /// kNoId: the first keyframe of a map, for which cam_from_reference is cam_from_world.
   KeyframeId reference = kNoId;
   Rigid3 cam_from_reference;
+  /// The keyframe begins a new map. The map before it becomes inactive if `keeps_last_map`, and is
+  /// discarded otherwise.
+  bool begins_map = false;
+  bool keeps_last_map = true;
   FrameMatches matches;  ///< with landmarks of the map
+  /// Of the pose in the map, in the tangent of Rigid3Manifold.
+  PoseCovariance covariance = PoseCovariance::Zero();
+  std::optional<MapRelocalization> in_inactive_map;  ///< if it was found in one
   /// Velocity at the previous keyframe, from the frames before and after it; none if unknown.
   std::optional<CameraVelocity> last_velocity;
   /// Normals of visible surfaces, camera frame; empty if the map already has Manhattan axes.

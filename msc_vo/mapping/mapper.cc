@@ -26,6 +26,7 @@ void DescribeAxes(const AxesEstimator& axes, MappingSummary* summary) {
 
 Mapper::Mapper(const MapperOptions& options)
     : options_(options),
+      joiner_(options.joining),
       axes_(options.axes),
       noise_(options.noise),
       readout_(options.readout_time) {
@@ -37,21 +38,26 @@ MappingSummary Mapper::Insert(const KeyframePacket& packet) {
   MappingSummary summary;
   Stopwatch stopwatch;
   if (packet.last_velocity) {
-    SetKeyframeVelocity(newest_keyframe_, *packet.last_velocity, &map_);
+    SetKeyframeVelocity(newest_keyframe_, *packet.last_velocity, &atlas_.current());
   }
+  if (packet.begins_map) BeginMap(packet.keeps_last_map);
   readout_time_ = readout_.readout_time();
-  CompensateKeyframes(readout_time_, &map_);
+  CompensateKeyframes(readout_time_, &atlas_.current());
   std::shared_ptr<const Frame> frame = UpdateCompensation(packet.frame, readout_time_);
   summary.times.creation = stopwatch.Restart();
   if (options_.RefinesFrames()) frame = RefineStructure(options_.structure, noise_.scale(), frame);
   summary.times.structure = stopwatch.Restart();
   summary.keyframe = InsertKeyframe(packet, std::move(frame));
-  CullLandmarks(options_.culling, summary.keyframe, &probation_, &map_);
-  CreatePoints(summary.keyframe, &probation_, &map_);
-  CreateLines(summary.keyframe, &probation_, &map_);
+  if (packet.in_inactive_map) {
+    joiner_.Add(summary.keyframe, packet.covariance, *packet.in_inactive_map);
+    summary.join = JoinMaps();
+  }
+  CullLandmarks(options_.culling, summary.keyframe, &probation_, &atlas_.current());
+  CreatePoints(summary.keyframe, &probation_, &atlas_.current());
+  CreateLines(summary.keyframe, &probation_, &atlas_.current());
   summary.times.creation += stopwatch.Restart();
-  FusePoints(options_.fusion, summary.keyframe, &map_);
-  FuseLines(options_.fusion, summary.keyframe, &map_);
+  FusePoints(options_.fusion, summary.keyframe, &atlas_.current());
+  FuseLines(options_.fusion, summary.keyframe, &atlas_.current());
   summary.times.fusion = stopwatch.Restart();
   DescribeAxes(axes_.estimator(), &summary);
   return summary;
@@ -59,7 +65,7 @@ MappingSummary Mapper::Insert(const KeyframePacket& packet) {
 
 void Mapper::Refine(const KeyframePacket& packet, MappingSummary* summary) {
   Stopwatch stopwatch;
-  axes_.Update(map_, summary->keyframe, packet.normals);
+  axes_.Update(map(), summary->keyframe, packet.normals);
   DescribeAxes(axes_.estimator(), summary);
   summary->times.axes = stopwatch.Restart();
   // The absolute value lets an interval of 0 mean every keyframe even if time stamps do not ascend.
@@ -71,9 +77,10 @@ void Mapper::Refine(const KeyframePacket& packet, MappingSummary* summary) {
     last_window_time_ = packet.frame->timestamp;
     summary->times.window = stopwatch.Restart();
   }
-  readout_.Update(map_, summary->keyframe);
+  readout_.Update(map(), summary->keyframe);
   summary->times.readout = stopwatch.Restart();
-  summary->num_culled_keyframes = CullKeyframes(options_.culling, summary->keyframe, &map_);
+  summary->num_culled_keyframes =
+      CullKeyframes(options_.culling, summary->keyframe, &atlas_.current());
   summary->times.culling = stopwatch.Restart();
 }
 
@@ -83,9 +90,40 @@ MappingSummary Mapper::Process(const KeyframePacket& packet) {
   return summary;
 }
 
+void Mapper::BeginMap(bool keep_last) {
+  if (keep_last && !map().keyframes().empty()) {
+    inactive_axes_.emplace(map().keyframes().front().first, axes_);
+  }
+  atlas_.Begin(keep_last);
+  joiner_.Clear();
+  probation_ = {};
+  axes_ = SceneAxes(options_.axes);
+  newest_keyframe_ = kNoId;
+  last_window_time_ = -std::numeric_limits<double>::infinity();
+  last_window_lines_.clear();
+}
+
+std::optional<MapJoin> Mapper::JoinMaps() {
+  const KeyframeId current = map().keyframes().front().first;
+  const std::optional<MapJoin> join = joiner_.TryJoin(&atlas_);
+  if (!join) return join;
+  // Axes of the other world are searched again rather than turned: the joined map has more lines.
+  const auto inactive = inactive_axes_.find(join->kept == current ? join->moved : join->kept);
+  if (join->kept != current) axes_ = inactive->second;
+  inactive_axes_.erase(inactive);
+  return join;
+}
+
+const SceneAxes& Mapper::AxesOf(const Map& map) const {
+  if (map.keyframes().empty()) return axes_;
+  const auto inactive = inactive_axes_.find(map.keyframes().front().first);
+  return inactive == inactive_axes_.end() ? axes_ : inactive->second;
+}
+
 MapSnapshotPtr Mapper::Snapshot() {
   auto snapshot = std::make_shared<MapSnapshot>();
-  snapshot->map = map_.Share();
+  snapshot->map = atlas_.current().Share();
+  snapshot->inactive_maps = atlas_.inactive();
   snapshot->newest_keyframe = newest_keyframe_;
   snapshot->noise_scale = noise_.scale();
   snapshot->readout_time = readout_time_;
@@ -99,20 +137,20 @@ KeyframeId Mapper::InsertKeyframe(const KeyframePacket& packet,
                                   std::shared_ptr<const Frame> frame) {
   Rigid3 cam_from_world = packet.cam_from_reference;
   if (packet.reference != kNoId) {
-    cam_from_world = cam_from_world * map_.CamFromWorld(packet.reference);
+    cam_from_world = cam_from_world * map().CamFromWorld(packet.reference);
   }
-  newest_keyframe_ = map_.AddKeyframe(std::move(frame), cam_from_world);
+  newest_keyframe_ = atlas_.current().AddKeyframe(std::move(frame), cam_from_world);
   for (const PointMatch& match : packet.matches.points) {
-    map_.ObservePoint(match.id, newest_keyframe_, match.feature);
+    atlas_.current().ObservePoint(match.id, newest_keyframe_, match.feature);
   }
   for (const LineMatch& match : packet.matches.lines) {
-    map_.ObserveLine(match.id, newest_keyframe_, match.feature);
+    atlas_.current().ObserveLine(match.id, newest_keyframe_, match.feature);
   }
   for (const auto& [id, count] : packet.point_counts) {
-    map_.CountPointTracking(id, count.num_visible, count.num_found);
+    atlas_.current().CountPointTracking(id, count.num_visible, count.num_found);
   }
   for (const auto& [id, count] : packet.line_counts) {
-    map_.CountLineTracking(id, count.num_visible, count.num_found);
+    atlas_.current().CountLineTracking(id, count.num_visible, count.num_found);
   }
   return newest_keyframe_;
 }
@@ -127,7 +165,7 @@ void Mapper::AddCustomFactors(WindowData* window) const {
   if (!window_factor_callback_) return;
   const AxesEstimator& axes = axes_.estimator();
   if (axes.state() != AxesState::kNone) window->axes = {axes.world_from_axes(), true};
-  WindowFactors custom = window_factor_callback_(MakeWindowContext(map_, *window, extra_blocks()));
+  WindowFactors custom = window_factor_callback_(MakeWindowContext(map(), *window, extra_blocks()));
   for (ExtraBlock& block : custom.extra_blocks) {
     const auto known = extra_blocks_.find(block.id);
     if (known == extra_blocks_.end()) continue;
@@ -147,19 +185,19 @@ void Mapper::AddCustomFactors(WindowData* window) const {
 std::optional<BundleAdjustmentSummary> Mapper::OptimizeWindow(KeyframeId keyframe) {
   const WindowLinks links =
       window_factor_callback_ ? WindowLinks::kLandmarksAndTime : WindowLinks::kLandmarks;
-  WindowData window = SelectWindow(options_.selection, map_, keyframe, links);
+  WindowData window = SelectWindow(options_.selection, map(), keyframe, links);
   last_window_lines_.clear();
   for (const WindowData::Line& line : window.lines) last_window_lines_.insert(line.id);
   if (window.keyframes.size() < 2) return std::nullopt;
   noise_.Apply(&window);
-  axes_.AddAlignments(map_, &window);
-  AddStructuralPairs(options_.pairs, map_, &window);
+  axes_.AddAlignments(map(), &window);
+  AddStructuralPairs(options_.pairs, map(), &window);
   AddCustomFactors(&window);
   if (window_observer_) window_observer_(keyframe, options_.window, window);
   const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_.window, &window);
   if (summary.usable) {
     noise_.Update(WindowResiduals(window));
-    WriteBack(window, &map_);
+    WriteBack(window, &atlas_.current());
     for (const ExtraBlock& block : window.extra_blocks) extra_blocks_[block.id] = block;
   }
   return summary;

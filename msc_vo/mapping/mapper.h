@@ -11,8 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "msc_vo/map/atlas.h"
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/mapping/keyframe_packet.h"
+#include "msc_vo/mapping/map_joiner.h"
 #include "msc_vo/mapping/mapper_options.h"
 #include "msc_vo/mapping/window_factors.h"
 #include "msc_vo/mapping/window_observer.h"
@@ -38,10 +40,12 @@ struct MappingSummary {
   std::optional<BundleAdjustmentSummary> window;  ///< none if no bundle adjustment was due
   AxesState axes_state = AxesState::kNone;        ///< after the step
   int num_axes_refinements = 0;                   ///< in the run so far
+  std::optional<MapJoin> join;  ///< the map was joined with that of an older segment
   MappingTimes times;
 };
 
-/// Local mapping (paper): owns the map and is the only one to change it.
+/// Local mapping (paper): owns the maps of all segments and is the only one to change them. Works
+/// on the current one.
 class Mapper {
  public:
   /// Throws std::invalid_argument on options that are not valid.
@@ -69,8 +73,11 @@ class Mapper {
   /// The map after the last step.
   MapSnapshotPtr Snapshot();
 
-  const Map& map() const { return map_; }
+  const Atlas& atlas() const { return atlas_; }
+  const Map& map() const { return atlas_.current(); }
   const SceneAxes& axes() const { return axes_; }
+  /// The axes of a map of the atlas.
+  const SceneAxes& AxesOf(const Map& map) const;
   const NoiseEstimator& noise() const { return noise_; }
   const ReadoutTimeEstimator& readout() const { return readout_; }
   /// Values of all extra blocks that usable windows have estimated, in order of their ids.
@@ -79,6 +86,10 @@ class Mapper {
   const std::set<LandmarkId>& last_window_lines() const { return last_window_lines_; }
 
  private:
+  // Begins a map for a new segment.
+  void BeginMap(bool keep_last);
+  // Joins the current map with an inactive one if enough keyframes have been found in both.
+  std::optional<MapJoin> JoinMaps();
   KeyframeId InsertKeyframe(const KeyframePacket& packet, std::shared_ptr<const Frame> frame);
   // Adds the factors of the callback, the extra blocks and the axes that they may use.
   void AddCustomFactors(WindowData* window) const;
@@ -89,9 +100,11 @@ class Mapper {
   WindowObserver window_observer_;               // may be empty
   WindowFactorCallback window_factor_callback_;  // may be empty
   std::map<int64_t, ExtraBlock> extra_blocks_;   // by id; as estimated by the last window
-  Map map_;
+  Atlas atlas_;
+  MapJoiner joiner_;
   Probation probation_;
-  SceneAxes axes_;
+  SceneAxes axes_;                                 // of the current map
+  std::map<KeyframeId, SceneAxes> inactive_axes_;  // of inactive maps, by first keyframe
   NoiseEstimator noise_;
   ReadoutTimeEstimator readout_;
   double readout_time_ = 0.0;  // seconds, of the compensation of the map's keyframes

@@ -18,7 +18,7 @@ bool MapperOptions::IsValid(std::string* error) const {
   }
   return structure.IsValid(error) && fusion.IsValid(error) && selection.IsValid(error) &&
          noise.IsValid(error) && axes.IsValid(error) && pairs.IsValid(error) &&
-         window.IsValid(error) && culling.IsValid(error);
+         window.IsValid(error) && culling.IsValid(error) && joining.IsValid(error);
 }
 
 }  // namespace msc_vo

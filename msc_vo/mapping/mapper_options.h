@@ -7,6 +7,7 @@
 #include <string>
 
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+#include "msc_vo/map/map_alignment.h"
 #include "msc_vo/map/window_selection.h"
 #include "msc_vo/mapping/culling.h"
 #include "msc_vo/mapping/landmark_fusion.h"
@@ -52,6 +53,7 @@ struct MapperOptions {
   /// the last window. Chosen by measurement, see docs/lab/bundle_adjustment.md.
   double min_window_interval = 0.12;
   CullingOptions culling;
+  MapAlignmentOptions joining;  ///< of the maps of two segments
   /// Readout time of the rolling shutter, seconds (see rolling_shutter.h); 0: global shutter. None:
   /// it is estimated.
   std::optional<double> readout_time;

@@ -63,8 +63,21 @@ void EventLog::LogStatus(const FrameResult& frame, bool relocalized) {
   Log().log(LevelOf(frame.status), "frame {} ({:.6f} s) {}", frame.id, frame.timestamp, event);
 }
 
+void EventLog::LogSegment(int segment, SegmentStart start) {
+  if (start == SegmentStart::kAfterLoss) {
+    Log().warn("segment {} begins: the map of the one before cannot be found again", segment);
+  } else if (start == SegmentStart::kReplacing) {
+    Log().warn("segment {} begins again: no frame could be tracked after its first one", segment);
+  }
+}
+
 void EventLog::LogMapping(const MappingStep& step) {
   const MappingSummary& summary = step.summary;
+  // Both steps of a keyframe report its join.
+  if (summary.join && std::exchange(last_moved_map_, summary.join->moved) != summary.join->moved) {
+    Log().info("maps joined at keyframe {}: {} keyframes were found in both", summary.keyframe,
+               summary.join->num_keyframes);
+  }
   if (summary.axes_state != axes_state_ || summary.num_axes_refinements != num_axes_refinements_) {
     axes_state_ = summary.axes_state;
     num_axes_refinements_ = summary.num_axes_refinements;

@@ -11,6 +11,7 @@
 #include "msc_vo/odometry/mapping_runner.h"
 #include "msc_vo/odometry/odometry_options.h"
 #include "msc_vo/structure/axes_estimator.h"
+#include "msc_vo/tracking/tracked_frame.h"
 
 namespace msc_vo {
 
@@ -25,7 +26,9 @@ class EventLog {
   /// Changes of the tracking status, and keyframes. `relocalized`: the pose was found without a
   /// prediction.
   void LogFrame(const FrameResult& frame, bool relocalized);
-  /// Changes of the Manhattan axes and of the readout time.
+  /// The next frame begins a segment. The first one is not logged.
+  void LogSegment(int segment, SegmentStart start);
+  /// Changes of the Manhattan axes and of the readout time, and joins of maps.
   void LogMapping(const MappingStep& step);
   /// Self-calibration at the end of the run; `readout_time` in seconds.
   void LogFinish(const NoiseScale& noise_scale, double readout_time, int num_frames) const;
@@ -37,7 +40,8 @@ class EventLog {
   int64_t status_since_ = 0;              // id of the first frame with that status
   AxesState axes_state_ = AxesState::kNone;
   int num_axes_refinements_ = 0;
-  double readout_time_ = 0.0;  // seconds
+  double readout_time_ = 0.0;          // seconds
+  KeyframeId last_moved_map_ = kNoId;  // of the last join
   DepthSensor depth_sensor_ = DepthSensor::kAuto;
   bool chooses_depth_sensor_ = true;
 };

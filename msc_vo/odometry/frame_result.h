@@ -33,11 +33,17 @@ struct StageTimes {
   double snapshot = 0.0;  ///< snapshots of the map; part of `mapping`
 };
 
+/// FrameResult::segment of a frame without one.
+constexpr int kNoSegment = -1;
+
 /// Result of one frame.
 struct FrameResult {
   int64_t id = 0;
   double timestamp = 0.0;  ///< seconds
   TrackingStatus status = TrackingStatus::kLost;
+  /// Number of the segment of the run (OdometryResult::segments). kNoSegment: the frame precedes
+  /// the first one and has no pose.
+  int segment = 0;
   Rigid3 cam_from_world;
   bool by_pose_factors = false;  ///< predicted by pose factors, not by constant velocity
   bool is_keyframe = false;

@@ -18,13 +18,20 @@ Rigid3 Interpolate(const Rigid3& a, const Rigid3& b, double s) {
   return {rotation, -(rotation * center)};
 }
 
+bool AreInOneWorld(const std::vector<Segment>& segments, const FrameResult& a,
+                   const FrameResult& b) {
+  return a.segment == b.segment || segments[a.segment].world == segments[b.segment].world;
+}
+
 }  // namespace
 
-void FillGaps(std::vector<FrameResult>* frames) {
+void FillGaps(const std::vector<Segment>& segments, std::vector<FrameResult>* frames) {
   size_t before = frames->size();  // index of the last frame with an estimate; size(): none
   for (size_t i = 0; i < frames->size(); ++i) {
     if (!IsEstimated((*frames)[i].status) && !(*frames)[i].by_pose_factors) continue;
-    for (size_t gap = before + 1; before < frames->size() && gap < i; ++gap) {
+    const bool is_gap =
+        before < frames->size() && AreInOneWorld(segments, (*frames)[before], (*frames)[i]);
+    for (size_t gap = before + 1; is_gap && gap < i; ++gap) {
       const FrameResult& a = (*frames)[before];
       const FrameResult& b = (*frames)[i];
       const double s = ((*frames)[gap].timestamp - a.timestamp) / (b.timestamp - a.timestamp);

@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "msc_vo/odometry/frame_result.h"
+#include "msc_vo/odometry/segment_log.h"
 
 namespace msc_vo {
 
 /// Replaces the pose of every frame without an estimate (predicted, lost, dropped, unreadable) by
 /// interpolation between its neighbours with one, at constant velocity: more accurate than the
 /// prediction from the frames before the gap. A pose that pose factors determined counts as an
-/// estimate. Frames before the first estimate or after the last one, and statuses, do not change.
-/// Frames are in order of time.
-void FillGaps(std::vector<FrameResult>* frames);
+/// estimate. Frames before the first estimate or after the last one, between segments whose worlds
+/// are not joined, and statuses, do not change. Frames are in order of time.
+void FillGaps(const std::vector<Segment>& segments, std::vector<FrameResult>* frames);
 
 }  // namespace msc_vo

@@ -198,6 +198,15 @@ void ListCulling(CullingOptions* culling, OptionLister* list) {
             "Number of other keyframes that must observe such a landmark.");
 }
 
+void ListJoining(MapAlignmentOptions* joining, OptionLister* list) {
+  list->Add("min_frames", &joining->min_frames, {1, 10, "keyframes"},
+            "Keyframes that must be found in both maps and agree on their alignment.");
+  list->Add("map_sigma", &joining->map_sigma, {1e-6, 10, "metres"},
+            "Standard deviation of a position due to the errors of a map within one view.");
+  list->Add("map_rotation_sigma", &joining->map_rotation_sigma, {1e-6, 90, "degrees"},
+            "Standard deviation of an orientation due to the same errors.");
+}
+
 }  // namespace
 
 void ListSnapshots(SnapshotOptions* snapshots, OptionLister* list) {
@@ -229,6 +238,7 @@ void ListMapping(MapperOptions* mapping, OptionLister* list) {
   list->Section("pairs", &mapping->pairs, ListPairs);
   list->Section("window", &mapping->window, ListWindow);
   list->Section("culling", &mapping->culling, ListCulling);
+  list->Section("joining", &mapping->joining, ListJoining);
 }
 
 }  // namespace msc_vo

@@ -15,6 +15,7 @@
 #include "msc_vo/odometry/event_log.h"
 #include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/odometry/mapping_runner.h"
+#include "msc_vo/odometry/segment_log.h"
 #include "msc_vo/odometry/side_worker.h"
 #include "msc_vo/odometry/snapshot_schedule.h"
 #include "msc_vo/sensor/depth_alignment.h"
@@ -43,11 +44,12 @@ const PinholeCamera& Checked(const PinholeCamera& camera, const LensDistortion& 
   return camera;
 }
 
-FrameResult MakeResult(const TrackedFrame& tracked) {
+FrameResult MakeResult(const TrackedFrame& tracked, int segment) {
   FrameResult result;
   result.id = tracked.frame->id;
   result.timestamp = tracked.frame->timestamp;
   result.status = tracked.status;
+  result.segment = segment;
   result.cam_from_world = tracked.cam_from_world;
   result.by_pose_factors = !IsEstimated(tracked.status) && tracked.pose.usable;
   result.is_keyframe = tracked.keyframe.is_due;
@@ -108,8 +110,11 @@ struct Odometry::State {
   RgbdImage Align(const RgbdImage& image) const;
   Frame Build(const RgbdImage& image);
   void Count(const TrackedFrame& tracked);
+  void BeginSegment(SegmentStart start);
+  void DiscardSegment();
   void SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat& depth);
   void Record(int frame, const MappingStep& step);
+  void AddMap(OdometryResult* result) const;
 
   OdometryOptions options;
   PinholeCamera camera;
@@ -125,6 +130,7 @@ struct Odometry::State {
   KeyframePacket packet;  // accumulates counts until the next keyframe
   std::vector<FrameResult> results;
   std::vector<RelativePose> relative_poses;  // one per result
+  SegmentLog segments;
   EventLog log;
   SnapshotSchedule schedule;  // last: it uses the members above
 };
@@ -172,12 +178,45 @@ void Odometry::State::Count(const TrackedFrame& tracked) {
   for (const LineMatch& match : tracked.matches.lines) ++packet.line_counts[match.id].num_found;
 }
 
+// The next result is the first one of a segment.
+void Odometry::State::BeginSegment(SegmentStart start) {
+  const bool replaces_last = start == SegmentStart::kReplacing;
+  if (replaces_last) DiscardSegment();
+  segments.Begin(static_cast<int>(results.size()), replaces_last);
+  log.LogSegment(segments.current(), start);
+}
+
+// No frame but the first one of the segment was tracked: what its map shows is unknown. Its frames
+// are lost since the segment before it, or have no pose if there is none.
+void Odometry::State::DiscardSegment() {
+  const size_t first = segments.first_frame();
+  FrameResult before;
+  before.segment = kNoSegment;
+  if (first > 0) before = results[first - 1];
+  const RelativePose pose_before = first > 0 ? relative_poses[first - 1] : RelativePose();
+  for (size_t i = first; i < results.size(); ++i) {
+    FrameResult& result = results[i];
+    if (HasImage(result.status)) result.status = TrackingStatus::kLost;
+    result.segment = before.segment;
+    result.cam_from_world = before.cam_from_world;
+    result.by_pose_factors = false;
+    result.is_keyframe = false;
+    result.covariance.setZero();
+    relative_poses[i] = pose_before;
+  }
+}
+
 void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat& depth) {
+  const SegmentStart start = tracked.segment_start;
+  packet.begins_map = start == SegmentStart::kAfterLoss || start == SegmentStart::kReplacing;
+  packet.keeps_last_map = start != SegmentStart::kReplacing;
+  packet.covariance = tracked.pose.covariance;
+  packet.in_inactive_map = tracked.in_inactive_map;
   packet.frame = tracked.frame;
   packet.reference = tracked.reference;
   packet.cam_from_reference = tracked.cam_from_reference;
   packet.matches = tracked.matches;
-  if (snapshot->needs_axes) {
+  if (snapshot->needs_axes || packet.begins_map) {
     for (const SurfaceNormal& normal : normal_estimator.Estimate(depth)) {
       packet.normals.push_back({normal.direction, normal.sigma});
     }
@@ -193,8 +232,29 @@ void Odometry::State::Record(int frame, const MappingStep& step) {
   times.snapshot = step.snapshot_ms;
   results[frame].cam_from_world = step.snapshot->map.CamFromWorld(step.summary.keyframe);
   relative_poses[frame] = {step.summary.keyframe, Rigid3()};
+  segments.RecordKeyframe(frame, step.summary.keyframe);
+  if (step.summary.join) segments.RecordJoin(frame, *step.summary.join);
   log.LogMapping(step);
   if (step.summary.window) last_window = *step.summary.window;
+}
+
+// Adds the map of the segments of `result->map_world`.
+void Odometry::State::AddMap(OdometryResult* result) const {
+  const Map* map = mapper.atlas().FindMapOf(segments.FirstKeyframe(result->map_world));
+  if (map == nullptr) return;
+  const SceneAxes& scene_axes = mapper.AxesOf(*map);
+  for (const auto& [id, keyframe] : map->keyframes()) {
+    result->keyframes.push_back({keyframe.frame->timestamp, keyframe.cam_from_world.Inverse()});
+  }
+  for (const auto& [id, point] : map->points()) {
+    result->points.push_back({point.position, static_cast<int>(point.observations.size())});
+  }
+  for (const auto& [id, line] : map->lines()) {
+    result->lines.push_back({line.segment, static_cast<int>(line.observations.size()),
+                             mapper.last_window_lines().count(id) > 0, scene_axes.AxisOf(line),
+                             line.viewing_direction});
+  }
+  result->axes = MakeAxes(scene_axes.estimator());
 }
 
 Odometry::Odometry(const OdometryOptions& options, const PinholeCamera& camera,
@@ -238,7 +298,8 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   state_->snapshot = state_->schedule.SnapshotAt(index);
   const double waiting_ms = waiting.Milliseconds();
   const TrackedFrame tracked = state_->tracker.Track(frame, *state_->snapshot);
-  FrameResult result = MakeResult(tracked);
+  if (tracked.segment_start != SegmentStart::kNone) state_->BeginSegment(tracked.segment_start);
+  FrameResult result = MakeResult(tracked, state_->segments.current());
   result.image = MeasureImage(image);
   result.times.features = features_ms;
   result.times.points = state_->builder.times().points;
@@ -281,6 +342,7 @@ FrameResult Odometry::Drop(int64_t id, double timestamp, TrackingStatus status) 
   result.id = id;
   result.timestamp = timestamp;
   result.status = status;
+  result.segment = state_->segments.current();
   state_->results.push_back(result);
   state_->relative_poses.push_back(relative_pose);
   state_->log.LogFrame(result, false);
@@ -289,31 +351,24 @@ FrameResult Odometry::Drop(int64_t id, double timestamp, TrackingStatus status) 
 
 OdometryResult Odometry::Finish() {
   state_->schedule.Drain();
-  const Map& map = state_->mapper.map();
+  const Atlas& atlas = state_->mapper.atlas();
   OdometryResult result;
   result.frames = state_->results;
   for (size_t i = 0; i < result.frames.size(); ++i) {
     const State::RelativePose& pose = state_->relative_poses[i];
-    if (pose.reference == kNoId) continue;
-    result.frames[i].cam_from_world = pose.cam_from_reference * map.CamFromWorld(pose.reference);
+    const Map* map = pose.reference != kNoId ? atlas.FindMapOf(pose.reference) : nullptr;
+    if (map == nullptr) continue;
+    result.frames[i].cam_from_world = pose.cam_from_reference * map->CamFromWorld(pose.reference);
   }
-  FillGaps(&result.frames);
-  for (const auto& [id, keyframe] : map.keyframes()) {
-    result.keyframes.push_back({keyframe.frame->timestamp, keyframe.cam_from_world.Inverse()});
-  }
-  for (const auto& [id, point] : map.points()) {
-    result.points.push_back({point.position, static_cast<int>(point.observations.size())});
-  }
-  for (const auto& [id, line] : map.lines()) {
-    result.lines.push_back({line.segment, static_cast<int>(line.observations.size()),
-                            state_->mapper.last_window_lines().count(id) > 0,
-                            state_->mapper.axes().AxisOf(line), line.viewing_direction});
-  }
+  result.segments = state_->segments.Segments(result.frames);
+  FillGaps(result.segments, &result.frames);
+  state_->segments.PropagateCovariances(&result.frames);
+  result.map_world = LargestWorld(result.segments);
+  state_->AddMap(&result);
   result.noise_scale = state_->mapper.noise().scale();
   result.depth_sensor = state_->builder.depth_sensor();
   result.readout_time = state_->mapper.readout().readout_time();
   result.num_late_maps = state_->schedule.num_late();
-  result.axes = MakeAxes(state_->mapper.axes().estimator());
   result.extra_blocks = state_->mapper.extra_blocks();
   result.last_window = state_->last_window;
   state_->log.LogFinish(result.noise_scale, result.readout_time,

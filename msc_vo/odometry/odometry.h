@@ -18,6 +18,7 @@
 #include "msc_vo/mapping/window_observer.h"
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/odometry/odometry_options.h"
+#include "msc_vo/odometry/segment_log.h"
 #include "msc_vo/odometry/tracking_observer.h"
 #include "msc_vo/sensor/rgbd_image.h"
 #include "msc_vo/structure/axes_estimator.h"
@@ -52,7 +53,11 @@ struct MapAxes {
 
 /// Result of a run.
 struct OdometryResult {
-  std::vector<FrameResult> frames;   ///< one per image, in order, with the final poses
+  std::vector<FrameResult> frames;  ///< one per image, in order, with the final poses
+  std::vector<Segment> segments;    ///< in order of time; one unless the map was left behind
+  /// The world (Segment::world) of keyframes, points, lines and axes: the one with most estimated
+  /// poses.
+  int map_world = 0;
   std::vector<TimedPose> keyframes;  ///< in order of time
   std::vector<MapPoint> points;
   std::vector<MapLine> lines;
@@ -76,7 +81,10 @@ struct OdometryResult {
 ///   while (source.Next(&image)) odometry.Process(image);
 ///   OdometryResult result = odometry.Finish();
 ///
-/// The world frame is the camera frame of the first tracked image. The result is deterministic: the
+/// The world frame is the camera frame of the first tracked image. When the map cannot be found
+/// again, a new segment begins with a map of its own, placed where the camera was seen last; when
+/// it meets an older map, the two are joined, and poses are in the world of the older one from then
+/// on (OdometryResult::segments). The result is deterministic: the
 /// same images give the same poses, bit by bit. Events are logged to Log() (logging/logger.h).
 class Odometry {
  public:

@@ -26,9 +26,12 @@ SnapshotSchedule::SnapshotSchedule(const SnapshotOptions& options,
       record_(std::move(record)) {}
 
 void SnapshotSchedule::Submit(int frame, KeyframePacket packet) {
+  const bool begins_map = packet.begins_map;
   runner_->Submit(std::move(packet));
   const int latency = options_.latency_frames;
-  pending_.push_back({frame, frame + std::min(options_.insertion_latency_frames, latency)});
+  const int insertion_latency = begins_map ? 0 : options_.insertion_latency_frames;
+  pending_.push_back({frame, frame + std::min(insertion_latency, latency)});
+  pending_.back().begins_map = begins_map;
   pending_.push_back({frame, frame + latency});
 }
 
@@ -67,9 +70,11 @@ bool SnapshotSchedule::IsAnyDue(int frame) const {
                      [frame](const PendingStep& pending) { return pending.due <= frame; });
 }
 
-// Whether a frame waits for a map that is due; always for the first one.
+// Whether a frame waits for a map that is due; always for the first one of a segment.
 bool SnapshotSchedule::Waits() const {
-  return !options_.realtime || snapshot_->map.keyframes().empty();
+  return !options_.realtime || snapshot_->map.keyframes().empty() ||
+         std::any_of(pending_.begin(), pending_.end(),
+                     [](const PendingStep& pending) { return pending.begins_map; });
 }
 
 void SnapshotSchedule::Receive(std::optional<MappingStep> step, PendingStep* pending) {

@@ -33,7 +33,7 @@ struct SnapshotOptions {
 };
 
 /// Passes keyframes to the mapper and determines which map each frame is tracked in. The first map
-/// is always waited for.
+/// of a segment is always waited for.
 class SnapshotSchedule {
  public:
   /// Called in order for every step that resulted in a map, as soon as the schedule receives it.
@@ -65,6 +65,7 @@ class SnapshotSchedule {
     int due = 0;                                     // first frame to be tracked in its map
     std::optional<MappingStep> step = std::nullopt;  // set when it was taken from the runner
     bool late = false;
+    bool begins_map = false;  // the first map of a segment: no later frame is tracked without it
   };
 
   bool IsAnyDue(int frame) const;

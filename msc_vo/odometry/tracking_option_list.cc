@@ -80,6 +80,21 @@ void ListRelocalizer(RelocalizerOptions* relocalizer, OptionLister* list) {
             "Largest reprojection error of an inlier.");
 }
 
+void ListSegments(SegmentOptions* segments, OptionLister* list) {
+  list->Add("enabled", &segments->enabled,
+            "Begin a new segment, with a map of its own, when the map cannot be found again.");
+  list->Add("min_search", &segments->min_search, {0, 3600, "seconds"},
+            "Shortest time for which the map is searched before a new segment begins.");
+  list->Add(
+      "max_search", &segments->max_search, {0, 3600, "seconds"},
+      "Longest time for which the map is searched, even if not all of its keyframes have been "
+      "tried.");
+  list->Add("search_keyframes", &segments->search_keyframes, {1, 100, "keyframes"},
+            "Keyframes of older segments that are tried per tracked frame, to join the maps.");
+  list->Add("search_interval", &segments->search_interval, {0, 3600, "seconds"},
+            "Shortest time between two frames that are found in the map of an older segment.");
+}
+
 void ListStatus(TrackerOptions* tracking, OptionLister* list) {
   list->Add("min_matches", &tracking->min_matches, {3, 10000, "matches"},
             "Smallest number of inliers of a pose, points and lines together.")
@@ -119,6 +134,7 @@ void ListTracking(TrackerOptions* tracking, OptionLister* list) {
   list->Section("pose", &tracking->pose, ListPose);
   list->Section("keyframes", &tracking->keyframes, ListKeyframePolicy);
   list->Section("relocalizer", &tracking->relocalizer, ListRelocalizer);
+  list->Section("segments", &tracking->segments, ListSegments);
 }
 
 }  // namespace msc_vo

@@ -56,8 +56,8 @@ const char* ToString(DeltaUnit unit) {
 }
 
 std::string FormatErrorJson(const TrajectoryError& error, const SkippedRows& skipped,
-                            const EvaluationContext& context,
-                            const std::optional<LineError>& lines) {
+                            const EvaluationContext& context, const std::optional<LineError>& lines,
+                            const std::vector<SegmentError>& segments) {
   Json json = ToJson(error);
   json["rpe"] = ToJson(error.rpe, context.delta);
   json["gt_format"] = context.reference_format;
@@ -65,6 +65,11 @@ std::string FormatErrorJson(const TrajectoryError& error, const SkippedRows& ski
   json["est_skipped"] = skipped.estimate;
   json["gt_skipped"] = skipped.reference;
   if (lines) json["lines"] = ToJson(*lines);
+  for (const SegmentError& segment : segments) {
+    Json entry = {{"segment", segment.segment}, {"world", segment.world}};
+    entry.update(ToJson(segment.error));
+    json["segments"].push_back(entry);
+  }
   return FormatJson(json);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "msc_vo/evaluation/line_error.h"
+#include "msc_vo/evaluation/segment_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 
 namespace msc_vo {
@@ -29,9 +30,11 @@ struct EvaluationContext {
 const char* ToString(DeltaUnit unit);
 
 /// The output of `msc_vo evaluate --json`: errors in metres, degrees and seconds. Errors of lines
-/// are in the object "lines", which is absent without `lines`.
+/// are in the object "lines", which is absent without `lines`, those of segments in the list
+/// "segments", which is absent without `segments`.
 std::string FormatErrorJson(const TrajectoryError& error, const SkippedRows& skipped,
                             const EvaluationContext& context = {},
-                            const std::optional<LineError>& lines = std::nullopt);
+                            const std::optional<LineError>& lines = std::nullopt,
+                            const std::vector<SegmentError>& segments = {});
 
 }  // namespace msc_vo

@@ -44,14 +44,14 @@ std::string FormatFrameRow(const FrameResult& frame) {
     const double sigma = std::sqrt(frame.covariance(i, i));
     text += FormatText(",%.9g", i < 3 ? RadiansToDegrees(sigma) : sigma);
   }
-  return text + FormatText(",%d\n", frame.num_dynamic);
+  return text + FormatText(",%d,%d\n", frame.num_dynamic, frame.segment);
 }
 
 std::string FormatFramesCsv(const std::vector<FrameResult>& frames) {
   std::string text =
       "time,status,keyframe,points,lines,inlier_points,inlier_lines,points_ms,lines_ms,depth_ms,"
       "waiting_ms,matching_ms,pose_ms,tracking_ms,mapping_ms,sigma_rx_deg,sigma_ry_deg,"
-      "sigma_rz_deg,sigma_tx,sigma_ty,sigma_tz,dynamic\n";
+      "sigma_rz_deg,sigma_tx,sigma_ty,sigma_tz,dynamic,segment\n";
   for (const FrameResult& frame : frames) text += FormatFrameRow(frame);
   return text;
 }

@@ -13,7 +13,8 @@ namespace msc_vo {
 
 /// The contents of frames.csv, one row per frame: time, status, keyframe flag, features, inliers,
 /// milliseconds per stage, standard deviations of the pose (rotation vector in the camera frame in
-/// degrees, translation in metres; 0 if the pose was not estimated), matches on dynamic objects.
+/// degrees, translation in metres; 0 if the pose was not estimated), matches on dynamic objects,
+/// number of the segment (-1: the frame precedes the first one and has no pose).
 std::string FormatFramesCsv(const std::vector<FrameResult>& frames);
 /// A single row of it.
 std::string FormatFrameRow(const FrameResult& frame);

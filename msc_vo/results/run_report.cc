@@ -28,6 +28,17 @@ std::string StatusText(const RunSummary& summary) {
   return text;
 }
 
+// The errors of each segment, aligned by itself.
+std::string SegmentErrorText(const std::vector<SegmentError>& errors) {
+  std::string text;
+  for (const SegmentError& segment : errors) {
+    text += FormatText("%ssegment %d: ", text.empty() ? "" : ", ", segment.segment);
+    text += segment.error.usable ? FormatText("%.1f mm", 1000.0 * segment.error.ape.rmse)
+                                 : "too few poses";
+  }
+  return text;
+}
+
 std::string MapText(const RunSummary& summary) {
   return FormatText("%d keyframes, %d points, %d lines", summary.num_keyframes, summary.num_points,
                     summary.num_lines);
@@ -130,6 +141,14 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
   }
   const std::string losses = DescribeLosses(summary);
   if (!losses.empty()) numbers.push_back({"Images without a pose", losses, ""});
+  if (summary.segments.size() > 1) {
+    numbers.push_back({"Segments", DescribeSegments(summary),
+                       "a new one begins when the map cannot be found again"});
+  }
+  if (!context.segment_errors.empty()) {
+    numbers.push_back({"APE RMSE of segments", SegmentErrorText(context.segment_errors),
+                       "each aligned by itself"});
+  }
   numbers.push_back({"Map", MapText(summary), "at the end of the run"});
   numbers.push_back({"Manhattan axes", AxesText(summary), ""});
   numbers.push_back({"Tracking", TrackingText(summary), ""});
@@ -237,12 +256,16 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
   }
   const std::string losses = DescribeLosses(summary);
   if (!losses.empty()) table += Row("", "images without a pose: " + losses);
+  if (summary.segments.size() > 1) table += Row("segments", DescribeSegments(summary));
   table += Row("map", MapText(summary));
   table += Row("axes", AxesText(summary));
   table += StageRows(summary.stages);
   if (context.realtime) table += Row("real time", RealtimeText(summary, *context.realtime));
   table += Row("speed", SpeedText(summary, context.cost));
   if (context.error) table += ErrorRows(*context.error);
+  if (!context.segment_errors.empty()) {
+    table += Row("", "APE RMSE of each segment: " + SegmentErrorText(context.segment_errors));
+  }
   table += Row("output", output_directory + " (report.html, trajectory.txt, summary.json, ...)");
   if (context.error && context.error->usable) {
     const std::filesystem::path output = output_directory;

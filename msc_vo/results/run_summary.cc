@@ -36,6 +36,11 @@ std::vector<StageTimeStatistics> SummarizeMapping(const std::vector<FrameResult>
           summarize("snapshot", [](const StageTimes& t) { return t.snapshot; })};
 }
 
+int WorldOf(const OdometryResult& result, int segment) {
+  return segment < static_cast<int>(result.segments.size()) ? result.segments[segment].world
+                                                            : segment;
+}
+
 int NumProcessed(const RunSummary& summary) {
   return summary.num_frames - summary.Count(TrackingStatus::kDropped) -
          summary.Count(TrackingStatus::kUnreadable);
@@ -61,6 +66,8 @@ RunSummary Summarize(const OdometryResult& result) {
   summary.stages = SummarizeStages(ReportStages(), frames);
   const std::vector<StageTimeStatistics> mapping = SummarizeMapping(result.frames);
   summary.stages.insert(std::prev(summary.stages.end()), mapping.begin(), mapping.end());
+  summary.segments = result.segments;
+  summary.map_world = result.map_world;
   summary.num_keyframes = static_cast<int>(result.keyframes.size());
   summary.num_points = static_cast<int>(result.points.size());
   summary.num_lines = static_cast<int>(result.lines.size());
@@ -105,10 +112,30 @@ std::string DescribeFailure(const RunSummary& summary) {
   return losses.empty() ? text : text + "; the others: " + losses;
 }
 
+std::string DescribeSegments(const RunSummary& summary) {
+  const std::vector<Segment>& segments = summary.segments;
+  int num_joined = 0;
+  int num_in_map = 0;
+  for (const Segment& segment : segments) {
+    num_joined += segment.join ? 1 : 0;
+    num_in_map += segment.world == summary.map_world ? 1 : 0;
+  }
+  const int num_segments = static_cast<int>(segments.size());
+  std::string text =
+      FormatText("%d, %d of them joined with an older one", num_segments, num_joined);
+  if (num_in_map < num_segments) {
+    text += FormatText("; %d not in the map, the transform to them is unknown",
+                       num_segments - num_in_map);
+  }
+  return text;
+}
+
 std::vector<TimedPose> TrajectoryOf(const OdometryResult& result) {
   std::vector<TimedPose> poses;
   for (const FrameResult& frame : result.frames) {
-    poses.push_back({frame.timestamp, frame.cam_from_world.Inverse(), IsEstimated(frame.status)});
+    if (frame.segment == kNoSegment) continue;
+    poses.push_back({frame.timestamp, frame.cam_from_world.Inverse(), IsEstimated(frame.status),
+                     frame.segment, WorldOf(result, frame.segment)});
   }
   return poses;
 }

@@ -12,6 +12,7 @@
 #include "msc_vo/config/option_list.h"
 #include "msc_vo/datasets/calibration.h"
 #include "msc_vo/datasets/sequence.h"
+#include "msc_vo/evaluation/segment_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/odometry/odometry.h"
@@ -32,6 +33,8 @@ struct RunSummary {
   int num_frames_with_dynamic_objects = 0;
   /// Stages of tracking, "tracking" as a whole, stages of mapping, "mapping" as a whole.
   std::vector<StageTimeStatistics> stages;
+  std::vector<Segment> segments;  ///< in order of time
+  int map_world = 0;              ///< the world (Segment::world) of the map
   int num_keyframes = 0;
   int num_points = 0;
   int num_lines = 0;
@@ -58,6 +61,9 @@ bool TrackingFailed(const RunSummary& summary);
 /// Causes of frames without an estimated pose and their numbers, in the order of LossCause: "12
 /// black or uniform images, ...". Empty if all frames have an estimated pose.
 std::string DescribeLosses(const RunSummary& summary);
+
+/// The number of segments, how many are joined, and how many are not in the map, one line.
+std::string DescribeSegments(const RunSummary& summary);
 
 /// Message of a run that failed, one line: number of estimated poses, causes of the missing ones.
 std::string DescribeFailure(const RunSummary& summary);
@@ -92,14 +98,15 @@ struct RunContext {
   Configuration configuration;
   /// Error message of the first unreadable image, which names the file; empty without one.
   std::string first_unreadable;
-  std::optional<TrajectoryError> error;  ///< nullopt without ground truth
+  std::optional<TrajectoryError> error;      ///< nullopt without ground truth
+  std::vector<SegmentError> segment_errors;  ///< empty without ground truth or with one segment
   RunCost cost;
   std::optional<RealtimeSummary> realtime;  ///< nullopt unless the run was in real time
   std::vector<FrameView> views;  ///< for the report, with the ids of frames; may be empty
 };
 
-/// Camera poses of all frames. Frames that are neither tracked nor weak are marked as not
-/// estimated.
+/// Camera poses of all frames that have one: those before the first segment do not. Frames that are
+/// neither tracked nor weak are marked as not estimated.
 std::vector<TimedPose> TrajectoryOf(const OdometryResult& result);
 
 }  // namespace msc_vo

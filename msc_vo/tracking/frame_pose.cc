@@ -4,6 +4,9 @@
 #include "msc_vo/tracking/frame_pose.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "msc_vo/geometry/angles.h"
 
 namespace msc_vo {
 
@@ -155,6 +158,24 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
   for (size_t i = 0; i < data.points.size(); ++i) matches->points[i].inlier = data.points[i].inlier;
   for (size_t i = 0; i < data.lines.size(); ++i) matches->lines[i].inlier = data.lines[i].inlier;
   return summary;
+}
+
+bool HasEnoughInliers(const TrackerOptions& options, const TrackedFrame& tracked) {
+  const int num_inliers = tracked.pose.num_inlier_points + tracked.pose.num_inlier_lines;
+  const int num_matches =
+      static_cast<int>(tracked.matches.points.size() + tracked.matches.lines.size());
+  const int num_static = num_matches - tracked.pose.num_dynamic;
+  return tracked.pose.usable && num_inliers >= options.min_matches &&
+         num_inliers >= options.min_inlier_ratio * num_static;
+}
+
+TrackingStatus ClassifyStatus(const TrackerOptions& options, const PoseSummary& pose) {
+  const Eigen::Matrix<double, 6, 1> variance = pose.covariance.diagonal();
+  const double rotation_sigma = std::sqrt(variance.head<3>().maxCoeff());
+  const double translation_sigma = std::sqrt(variance.tail<3>().maxCoeff());
+  const bool is_certain = translation_sigma <= options.weak_translation_sigma &&
+                          rotation_sigma <= DegreesToRadians(options.weak_rotation_sigma);
+  return is_certain ? TrackingStatus::kTracked : TrackingStatus::kWeak;
 }
 
 }  // namespace msc_vo

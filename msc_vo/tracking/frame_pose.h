@@ -33,4 +33,10 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
                               const NoiseScale& scale, const std::vector<PoseFactor>& factors,
                               Rigid3* cam_from_world, FrameMatches* matches);
 
+/// Whether enough of the matches of `tracked` are inliers of its pose.
+bool HasEnoughInliers(const TrackerOptions& options, const TrackedFrame& tracked);
+
+/// kTracked or kWeak, by the covariance of an estimated pose.
+TrackingStatus ClassifyStatus(const TrackerOptions& options, const PoseSummary& pose);
+
 }  // namespace msc_vo

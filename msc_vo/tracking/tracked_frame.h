@@ -13,6 +13,7 @@
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/map/noise_scale.h"
 #include "msc_vo/matching/frame_matches.h"
+#include "msc_vo/matching/map_relocalization.h"
 #include "msc_vo/pose_estimation/pose_optimization.h"
 #include "msc_vo/tracking/tracking_status.h"
 
@@ -34,13 +35,22 @@ struct KeyframeProposal {
   std::vector<LandmarkId> visible_lines;
 };
 
+/// Whether a frame begins a segment of the run, with a map of its own.
+enum class SegmentStart {
+  kNone,
+  kFirst,      ///< the first frame with enough features
+  kAfterLoss,  ///< the map of the segment before could not be found again
+  kReplacing,  ///< the same, and no frame but the first was tracked in that map: it is discarded
+};
+
 /// Result of tracking one frame. The pose is stored relative to a keyframe, because the mapper may
 /// move that keyframe later and the frame moves with it.
 struct TrackedFrame {
   std::shared_ptr<const Frame> frame;  ///< with rolling-shutter compensation
   TrackingStatus status = TrackingStatus::kLost;
-  bool relocalized = false;      ///< the pose was found without a prediction
-  KeyframeId reference = kNoId;  ///< kNoId: no map yet, and cam_from_reference is cam_from_world
+  bool relocalized = false;  ///< the pose was found without a prediction
+  /// kNoId: the frame begins a map, or there is none, and cam_from_reference is cam_from_world.
+  KeyframeId reference = kNoId;
   Rigid3 cam_from_reference;
   Rigid3 cam_from_world;   ///< with the reference as in the snapshot
   FrameMatches matches;    ///< inliers among the landmarks
@@ -51,6 +61,9 @@ struct TrackedFrame {
   /// One per cell of the ImageGrid: whether it contains a dynamic object, in the same optimisation.
   /// Empty if there is no such object.
   std::vector<bool> dynamic_cells;
+  SegmentStart segment_start = SegmentStart::kNone;
+  /// The same frame in the map of an older segment, if it was found there.
+  std::optional<MapRelocalization> in_inactive_map;
   KeyframeProposal keyframe;
   TrackingTimes times;
 };

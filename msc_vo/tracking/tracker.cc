@@ -4,12 +4,10 @@
 #include "msc_vo/tracking/tracker.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
-#include "msc_vo/geometry/angles.h"
 #include "msc_vo/map/feature_counts.h"
 #include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/matching/local_map.h"
@@ -73,7 +71,9 @@ PoseOptions InitialPoseOptions(PoseOptions options) {
 Tracker::Tracker(const TrackerOptions& options)
     : options_(options),
       initial_pose_(InitialPoseOptions(options.pose)),
-      policy_(options.keyframes) {
+      policy_(options.keyframes),
+      segment_start_(options.segments),
+      inactive_map_search_(options) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
 }
@@ -94,6 +94,7 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
   const Prediction prediction = Predict(map, last_from_world, tracked);
   if (!TrackInitialPose(map, prediction, &tracked)) {
     BridgeWithPrediction(map, prediction, &tracked);
+    if (IsNewSegmentDue(map, tracked)) return BeginSegment(std::move(raw), last_from_world);
     if (!HasLeftMap(map, tracked)) return tracked;
     tracked.keyframe.is_due = true;
     policy_.Inserted();
@@ -105,7 +106,9 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
   const Rigid3 cam_from_last = tracked.cam_from_world * last_from_world.Inverse();
   tracked.frame =
       CompensateFrame(raw, motion_.VelocitySince(timestamp, cam_from_last), readout_time);
-  tracked.status = TrackLocalMap(map, &tracked) ? ClassifyStatus(tracked) : TrackingStatus::kWeak;
+  tracked.status =
+      TrackLocalMap(map, &tracked) ? ClassifyStatus(options_, tracked.pose) : TrackingStatus::kWeak;
+  segment_start_.Tracked(timestamp);
   ProposeKeyframe(snapshot, &tracked);
   UpdateMotion(last_from_world, &tracked);
   last_ = tracked;
@@ -116,12 +119,44 @@ TrackedFrame Tracker::Initialize(std::shared_ptr<const Frame> frame) {
   TrackedFrame tracked;
   tracked.frame = std::move(frame);
   if (NumWithDepth(*tracked.frame) < options_.min_initial_features) return tracked;
-  tracked.status = TrackingStatus::kTracked;
-  tracked.keyframe.is_due = true;
-  policy_.Inserted();
-  motion_.Reset(tracked.frame->timestamp);
-  last_ = tracked;
+  StartSegment(SegmentStart::kFirst, &tracked);
   return tracked;
+}
+
+// The map of the segment begins where the camera was seen last. That is no measurement, but keeps
+// the trajectory continuous.
+TrackedFrame Tracker::BeginSegment(std::shared_ptr<const Frame> frame,
+                                   const Rigid3& last_from_world) {
+  TrackedFrame tracked;
+  tracked.frame = std::move(frame);
+  tracked.cam_from_world = last_from_world;
+  tracked.cam_from_reference = last_from_world;
+  StartSegment(segment_start_.is_confirmed() ? SegmentStart::kAfterLoss : SegmentStart::kReplacing,
+               &tracked);
+  return tracked;
+}
+
+void Tracker::StartSegment(SegmentStart start, TrackedFrame* tracked) {
+  tracked->status = TrackingStatus::kTracked;
+  tracked->segment_start = start;
+  tracked->keyframe.is_due = true;
+  policy_.Inserted();
+  motion_.Reset(tracked->frame->timestamp);
+  segment_start_.Started(tracked->frame->timestamp);
+  next_candidate_ = kNoId;
+  last_ = *tracked;
+}
+
+bool Tracker::IsNewSegmentDue(const Map& map, const TrackedFrame& tracked) {
+  const double timestamp = tracked.frame->timestamp;
+  if (tracked.pose.usable) {
+    segment_start_.Tracked(timestamp);  // by pose factors, which keep the camera in the map
+    return false;
+  }
+  const bool could_begin = NumWithDepth(*tracked.frame) >= options_.min_initial_features;
+  segment_start_.NotFound(timestamp, could_begin, options_.relocalization_keyframes);
+  if (!could_begin || tracked.status != TrackingStatus::kLost) return false;
+  return segment_start_.IsDue(static_cast<int>(map.keyframes().size()));
 }
 
 Tracker::Prediction Tracker::Predict(const Map& map, const Rigid3& last_from_world,
@@ -246,10 +281,7 @@ bool Tracker::EstimatePose(const PoseOptions& options, const Map& map,
   tracked->pose = EstimateFramePose(options, *tracked->frame, map, tracked->noise_scale,
                                     pose_factors_, &tracked->cam_from_world, &tracked->matches);
   tracked->times.pose += stopwatch.Milliseconds();
-  const int num_inliers = tracked->pose.num_inlier_points + tracked->pose.num_inlier_lines;
-  const int num_static = NumMatches(tracked->matches) - tracked->pose.num_dynamic;
-  const bool good = tracked->pose.usable && num_inliers >= options_.min_matches &&
-                    num_inliers >= options_.min_inlier_ratio * num_static;
+  const bool good = HasEnoughInliers(options_, *tracked);
   if (!good) {
     tracked->cam_from_world = start;
   } else if (tracked->pose.num_dynamic > tracked->num_dynamic) {
@@ -265,8 +297,11 @@ void Tracker::ProposeKeyframe(const MapSnapshot& snapshot, TrackedFrame* tracked
   const bool is_second = last_.frame->timestamp == newest.frame->timestamp;
   const bool enables_compensation =
       snapshot.readout_time != 0.0 && AwaitsCompensation(snapshot) && is_second;
-  tracked->keyframe.is_due =
-      enables_compensation || policy_.IsDue(*tracked->frame, tracked->matches);
+  Stopwatch stopwatch;
+  tracked->in_inactive_map = inactive_map_search_.Search(*tracked, snapshot);
+  tracked->times.matching += stopwatch.Milliseconds();
+  tracked->keyframe.is_due = policy_.IsDue(*tracked->frame, tracked->matches) ||
+                             enables_compensation || tracked->in_inactive_map.has_value();
   if (!tracked->keyframe.is_due) return;
   policy_.Inserted();
   tracked->frame = MarkDynamicFeatures(options_.pose.consensus, *tracked);
@@ -283,15 +318,6 @@ void Tracker::UpdateMotion(const Rigid3& last_from_world, TrackedFrame* tracked)
     tracked->keyframe.previous_velocity = motion_.LastVelocity(timestamp, cam_from_last);
   }
   motion_.Observe(timestamp, cam_from_last);
-}
-
-TrackingStatus Tracker::ClassifyStatus(const TrackedFrame& tracked) const {
-  const Eigen::Matrix<double, 6, 1> variance = tracked.pose.covariance.diagonal();
-  const double rotation_sigma = std::sqrt(variance.head<3>().maxCoeff());
-  const double translation_sigma = std::sqrt(variance.tail<3>().maxCoeff());
-  const bool is_certain = translation_sigma <= options_.weak_translation_sigma &&
-                          rotation_sigma <= DegreesToRadians(options_.weak_rotation_sigma);
-  return is_certain ? TrackingStatus::kTracked : TrackingStatus::kWeak;
 }
 
 }  // namespace msc_vo

@@ -8,15 +8,17 @@
 #include <vector>
 
 #include "msc_vo/map/snapshot.h"
+#include "msc_vo/tracking/inactive_map_search.h"
 #include "msc_vo/tracking/motion_model.h"
 #include "msc_vo/tracking/pose_factor_callback.h"
+#include "msc_vo/tracking/segment_start.h"
 #include "msc_vo/tracking/tracked_frame.h"
 #include "msc_vo/tracking/tracker_options.h"
 
 namespace msc_vo {
 
 /// Estimates the pose of every frame against a snapshot of the map (paper: Tracking), and proposes
-/// keyframes. Never changes the map.
+/// keyframes and new segments. Never changes the map.
 class Tracker {
  public:
   /// Throws std::invalid_argument on invalid options.
@@ -40,6 +42,11 @@ class Tracker {
  private:
   // Makes the first frame a keyframe if it has enough features with depth.
   TrackedFrame Initialize(std::shared_ptr<const Frame> frame);
+  // Makes the frame the first one of a new segment, whose map the mapper begins.
+  TrackedFrame BeginSegment(std::shared_ptr<const Frame> frame, const Rigid3& last_from_world);
+  void StartSegment(SegmentStart start, TrackedFrame* tracked);
+  // Whether the map is given up, because it could not be found for too long.
+  bool IsNewSegmentDue(const Map& map, const TrackedFrame& tracked);
 
   // The pose that the matches are searched around: that of the pose factors if they determine it
   // alone (`by_factors` is usable), otherwise that of constant velocity.
@@ -68,7 +75,6 @@ class Tracker {
   // Stage 2: matching with the local map. Returns false and keeps the initial pose if the local map
   // has too few landmarks.
   bool TrackLocalMap(const Map& map, TrackedFrame* tracked) const;
-  TrackingStatus ClassifyStatus(const TrackedFrame& tracked) const;
 
   // Stage 3: decides whether the frame becomes a keyframe.
   void ProposeKeyframe(const MapSnapshot& snapshot, TrackedFrame* tracked);
@@ -89,6 +95,8 @@ class Tracker {
   // The last frame whose pose was estimated, or that began a new part of the map.
   TrackedFrame last_;
   KeyframeId next_candidate_ = kNoId;  // the next keyframe to relocalise against
+  SegmentStartPolicy segment_start_;
+  InactiveMapSearch inactive_map_search_;
 };
 
 }  // namespace msc_vo

@@ -5,9 +5,22 @@
 
 namespace msc_vo {
 
+bool SegmentOptions::IsValid(std::string* error) const {
+  if (!(min_search >= 0.0 && max_search >= min_search)) {
+    *error = "segments: 0 <= min_search <= max_search must hold";
+  } else if (search_keyframes < 1) {
+    *error = "segments: search_keyframes must be at least 1";
+  } else if (!(search_interval >= 0.0)) {
+    *error = "segments: search_interval must not be negative";
+  } else {
+    return true;
+  }
+  return false;
+}
+
 bool TrackerOptions::IsValid(std::string* error) const {
   if (!point_matcher.IsValid(error) || !line_matcher.IsValid(error) || !pose.IsValid(error) ||
-      !keyframes.IsValid(error) || !relocalizer.IsValid(error)) {
+      !keyframes.IsValid(error) || !relocalizer.IsValid(error) || !segments.IsValid(error)) {
     return false;
   }
   if (!(prediction_radius > 0.0 && wide_radius > 0.0 && local_map_radius > 0.0)) {

@@ -13,12 +13,32 @@
 
 namespace msc_vo {
 
+/// When a run gives up a map that it cannot find again and begins a new segment, and how it
+/// searches the maps of older segments meanwhile. See docs/lab/segments.md.
+struct SegmentOptions {
+  /// Begin new segments. Otherwise a run without its map stays lost until it finds it.
+  bool enabled = true;
+  /// Time for which the map is searched in images with enough features, seconds: longer than blur
+  /// or a hand in front of the lens usually last. The search goes on until each keyframe has been
+  /// tried once, but not longer than the maximum.
+  double min_search = 1.0;
+  double max_search = 5.0;
+  /// Keyframes of inactive maps that are tried per tracked frame, which bounds the cost.
+  int search_keyframes = 1;
+  /// Shortest time between two frames that are found in an inactive map, seconds: a hand-held
+  /// camera then has a view of its own.
+  double search_interval = 0.2;
+
+  bool IsValid(std::string* error) const;
+};
+
 struct TrackerOptions {
   PointMatcherOptions point_matcher;
   LineMatcherOptions line_matcher;
   PoseOptions pose;
   KeyframePolicyOptions keyframes;
   RelocalizerOptions relocalizer;
+  SegmentOptions segments;
 
   /// Search radii, pixels. The error of the constant-velocity prediction of a hand-held camera at
   /// 30 Hz is up to about 15 pixels; the wide search allows four times that. Around an estimated

@@ -29,6 +29,27 @@ TEST_F(TrajectoryTest, WritesTumFormat) {
             "-0.5000000000 -0.5000000000 -0.5000000000 0.5000000000\n");
 }
 
+TEST_F(TrajectoryTest, MarksSegments) {
+  std::vector<TimedPose> poses(6);
+  for (int i = 0; i < 6; ++i) poses[i].timestamp = i;
+  poses[1].is_estimated = false;
+  for (const int i : {2, 3}) poses[i].segment = poses[i].world = 1;
+  for (const int i : {4, 5}) poses[i].segment = 2;  // joined with segment 0
+  poses[4].is_estimated = false;
+  const std::string text = FormatTrajectory(poses);
+  EXPECT_THAT(text, testing::StartsWith("0.000000 "));
+  EXPECT_THAT(text, HasSubstr("\n# segment 1, world 1\n2.000000 "));
+  EXPECT_THAT(text, HasSubstr("\n# segment 2, world 0, not estimated\n4.000000 "));
+  WriteText("trajectory.txt", text);
+  const std::vector<TimedPose> read = ReadTrajectory(Path("trajectory.txt"));
+  ASSERT_EQ(read.size(), 6u);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(read[i].segment, poses[i].segment) << i;
+    EXPECT_EQ(read[i].world, poses[i].world) << i;
+    EXPECT_EQ(read[i].is_estimated, poses[i].is_estimated) << i;
+  }
+}
+
 TEST_F(TrajectoryTest, WritesSortedUniqueStamps) {
   const TimedPose a{2.0, Rigid3()};
   const TimedPose b{1.0, Rigid3()};

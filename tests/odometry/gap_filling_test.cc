@@ -23,7 +23,7 @@ TEST(FillGaps, InterpolatesAtConstantVelocity) {
   std::vector<FrameResult> frames = {
       Frame(0.0, TrackingStatus::kTracked, 0.0, 0.0), Frame(0.1, TrackingStatus::kPredicted, 7.0),
       Frame(0.3, TrackingStatus::kLost, 7.0), Frame(0.4, TrackingStatus::kWeak, 4.0, 0.8)};
-  FillGaps(&frames);
+  FillGaps({}, &frames);
   for (const FrameResult& frame : frames) {
     EXPECT_NEAR(frame.cam_from_world.OriginInSource().x(), 10.0 * frame.timestamp, 1e-12);
     const Eigen::Vector3d turn = LogSO3(frame.cam_from_world.Inverse().rotation());
@@ -38,7 +38,7 @@ TEST(FillGaps, KeepsPosesOfPoseFactorsAndInterpolatesBetweenThem) {
       Frame(0.2, TrackingStatus::kDropped, 5.0), Frame(0.3, TrackingStatus::kPredicted, 9.0),
       Frame(0.4, TrackingStatus::kTracked, 2.0)};
   frames[1].by_pose_factors = frames[3].by_pose_factors = true;
-  FillGaps(&frames);
+  FillGaps({}, &frames);
   std::vector<double> x;
   for (const FrameResult& frame : frames) x.push_back(frame.cam_from_world.OriginInSource().x());
   EXPECT_THAT(x, testing::Pointwise(testing::DoubleNear(1e-12), {0.0, 5.0, 7.0, 9.0, 2.0}));
@@ -49,12 +49,27 @@ TEST(FillGaps, KeepsTheEndsAndEstimatedFrames) {
       Frame(0.0, TrackingStatus::kLost, 1.0), Frame(0.1, TrackingStatus::kTracked, 2.0),
       Frame(0.2, TrackingStatus::kTracked, 5.0), Frame(0.3, TrackingStatus::kPredicted, 9.0)};
   std::vector<FrameResult> after = before;
-  FillGaps(&after);
+  FillGaps({}, &after);
   for (size_t i = 0; i < before.size(); ++i) {
     EXPECT_EQ(after[i].cam_from_world.params, before[i].cam_from_world.params) << i;
   }
   std::vector<FrameResult> none;
-  FillGaps(&none);
+  FillGaps({}, &none);
+}
+
+TEST(FillGaps, DoesNotInterpolateBetweenWorlds) {
+  std::vector<FrameResult> frames = {
+      Frame(0.0, TrackingStatus::kTracked, 0.0), Frame(0.1, TrackingStatus::kLost, 7.0),
+      Frame(0.2, TrackingStatus::kTracked, 8.0), Frame(0.3, TrackingStatus::kLost, 9.0),
+      Frame(0.4, TrackingStatus::kTracked, 4.0)};
+  frames[2].segment = frames[3].segment = 1;
+  frames[4].segment = 2;
+  std::vector<Segment> segments(3);
+  segments[1].world = 1;
+  segments[2].world = 1;  // joined with the one before
+  FillGaps(segments, &frames);
+  EXPECT_EQ(frames[1].cam_from_world.OriginInSource().x(), 7.0);
+  EXPECT_NEAR(frames[3].cam_from_world.OriginInSource().x(), 6.0, 1e-12);
 }
 
 }  // namespace

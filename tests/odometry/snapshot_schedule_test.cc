@@ -127,6 +127,20 @@ TEST_F(SnapshotScheduleTest, DoesNotWaitForLateMapsInRealTime) {
   EXPECT_EQ(schedule.num_late(), 2);
 }
 
+TEST_F(SnapshotScheduleTest, WaitsForTheFirstMapOfASegment) {
+  for (const bool realtime : {false, true}) {
+    SnapshotSchedule schedule = MakeSchedule(5, 9, realtime);
+    schedule.Submit(0, {});
+    EXPECT_THAT(StepsUsed(&schedule, 0, 2), ElementsAre(0, 0));
+    KeyframePacket packet;
+    packet.begins_map = true;
+    schedule.Submit(2, std::move(packet));
+    // The pending step of the old map comes first.
+    EXPECT_THAT(StepsUsed(&schedule, 2, 5), ElementsAre(2, 2, 2));
+    EXPECT_EQ(schedule.num_late(), 0);
+  }
+}
+
 TEST_F(SnapshotScheduleTest, UsesTheSameMapsInRealTimeIfNoneIsLate) {
   SnapshotSchedule schedule = MakeSchedule(1, 3, true);
   runner_->num_ready = 6;

@@ -114,10 +114,10 @@ TEST_F(ResultFilesTest, WritesOneRowPerFrame) {
                        "time,status,keyframe,points,lines,inlier_points,inlier_lines,points_ms,"
                        "lines_ms,depth_ms,waiting_ms,matching_ms,pose_ms,tracking_ms,mapping_ms,"
                        "sigma_rx_deg,sigma_ry_deg,sigma_rz_deg,sigma_tx,sigma_ty,sigma_tz,"
-                       "dynamic\n"));
+                       "dynamic,segment\n"));
   EXPECT_THAT(csv, HasSubstr("\n10.000000,tracked,1,100,0,50,7,0.000,"));
-  EXPECT_THAT(csv, HasSubstr(",0,0.5,0,0.2,0,0,0\n"));  // degrees, metres
-  EXPECT_THAT(csv, testing::EndsWith(",80\n"));
+  EXPECT_THAT(csv, HasSubstr(",0,0.5,0,0.2,0,0,0,0\n"));  // degrees, metres
+  EXPECT_THAT(csv, testing::EndsWith(",80,0\n"));
   const auto commas = [](const std::string& row) {
     return std::count(row.begin(), row.end(), ',');
   };
@@ -161,6 +161,36 @@ TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
   EXPECT_EQ(summary["last_local_ba"]["parallel"]["rejected"], 3);
   EXPECT_EQ(summary["options"]["mode"], "msc-vo");
   EXPECT_EQ(summary["options"]["tracking.wide_radius"], 60.0);
+}
+
+TEST_F(ResultFilesTest, WritesSegmentsAndNoPoseBeforeThem) {
+  OdometryResult result = Result();
+  result.frames[0].segment = kNoSegment;
+  result.frames[4].segment = 1;
+  result.segments = {{1, 3, 1, 0, std::nullopt}, {4, 4, 1, 1, std::nullopt}};
+  WriteResultFiles(Path("out"), result, {});
+  const std::vector<TimedPose> trajectory = ReadTrajectory(Path("out/trajectory.txt"));
+  ASSERT_EQ(trajectory.size(), 4u);
+  EXPECT_EQ(trajectory[0].timestamp, 10.1);
+  EXPECT_EQ(trajectory[2].world, 0);
+  EXPECT_EQ(trajectory[3].segment, 1);
+  EXPECT_EQ(trajectory[3].world, 1);
+  const nlohmann::json summary = nlohmann::json::parse(ReadFile(Path("out/summary.json")));
+  ASSERT_EQ(summary["segments"].size(), 2u);
+  EXPECT_EQ(summary["segments"][1]["first_frame"], 4);
+  EXPECT_EQ(summary["segments"][1]["in_map"], false);
+  EXPECT_TRUE(summary["segments"][1]["joined"].is_null());
+  EXPECT_THAT(ReadFile(Path("out/frames.csv")), HasSubstr(",0,-1\n"));
+  EXPECT_THAT(FormatRunTable(Summarize(result), {}, "out"),
+              HasSubstr("segments   2, 0 of them joined with an older one; 1 not in the map"));
+
+  result.segments[1].world = 0;
+  result.segments[1].join = SegmentJoin{4, 3, 0.01, 0.02};
+  const nlohmann::json joined =
+      nlohmann::json::parse(FormatSummaryJson(Summarize(result), {}))["segments"][1];
+  EXPECT_EQ(joined["in_map"], true);
+  EXPECT_EQ(joined["joined"]["frame"], 4);
+  EXPECT_EQ(joined["joined"]["sigma_translation"], 0.02);
 }
 
 TEST_F(ResultFilesTest, WritesTheOptionsInEffect) {

@@ -121,6 +121,75 @@ TEST_F(TrackerTest, ReportsLossAndRelocalizes) {
   EXPECT_LT(PositionError(tracked.cam_from_world, Truth(90)), 0.03);
 }
 
+TEST_F(TrackerTest, BeginsASegmentWhenTheMapIsNotFoundForASecond) {
+  Start({});
+  for (int i = 1; i < 5; ++i) Track(i);
+  SyntheticFrames::Options elsewhere;
+  elsewhere.seed = 2;
+  SyntheticFrames other(elsewhere);
+  TrackedFrame tracked;
+  int first = 5;
+  for (; first < 60; ++first) {
+    tracked = tracker_.Track(other.MakeFrame(first), snapshot_);
+    if (tracked.segment_start != SegmentStart::kNone) break;
+    EXPECT_FALSE(tracked.keyframe.is_due);
+  }
+  EXPECT_NEAR(first, 4 + 30, 1);
+  EXPECT_EQ(tracked.segment_start, SegmentStart::kAfterLoss);
+  EXPECT_EQ(tracked.status, TrackingStatus::kTracked);
+  EXPECT_TRUE(tracked.keyframe.is_due);
+  EXPECT_EQ(tracked.reference, kNoId);
+  // The map begins where the camera was seen last.
+  EXPECT_LT(PositionError(tracked.cam_from_world, Truth(4)), 0.01);
+
+  const Rigid3 world_from_first = tracked.cam_from_world.Inverse();
+  snapshot_ = MapOfOneKeyframe(tracked.frame, tracked.cam_from_world);
+  for (int i = first + 1; i < first + 10; ++i) {
+    tracked = tracker_.Track(other.MakeFrame(i), snapshot_);
+    EXPECT_EQ(tracked.status, TrackingStatus::kTracked) << i;
+    const Rigid3 truth = SyntheticFrames::CamFromWorld(i) *
+                         SyntheticFrames::CamFromWorld(first).Inverse() *
+                         world_from_first.Inverse();
+    EXPECT_LT(PositionError(tracked.cam_from_world, truth), 0.01) << i;
+  }
+}
+
+TEST_F(TrackerTest, ReplacesAMapThatNothingWasTrackedIn) {
+  Start({});
+  SyntheticFrames::Options elsewhere;
+  elsewhere.seed = 2;
+  SyntheticFrames other(elsewhere);
+  for (int i = 1; i < 16; ++i) {
+    EXPECT_EQ(tracker_.Track(other.MakeFrame(i), snapshot_).segment_start, SegmentStart::kNone);
+  }
+  // max_prediction has passed.
+  EXPECT_EQ(tracker_.Track(other.MakeFrame(16), snapshot_).segment_start, SegmentStart::kReplacing);
+}
+
+TEST_F(TrackerTest, FindsFramesInAnInactiveMap) {
+  Start({});
+  // The same scene as an inactive map in another world.
+  const Rigid3 other_from_world(
+      Eigen::Quaterniond(Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitY())), {4.0, 0.0, -1.0});
+  const Rigid3 first_from_other = other_from_world.Inverse();
+  MapSnapshot inactive = MapOfOneKeyframe(world_->MakeFrame(0), first_from_other);
+  snapshot_.inactive_maps.push_back(std::make_shared<const Map>(std::move(inactive.map)));
+  std::vector<int> found;
+  for (int i = 1; i < 20; ++i) {
+    const TrackedFrame tracked = Track(i);
+    if (!tracked.in_inactive_map) continue;
+    found.push_back(i);
+    EXPECT_TRUE(tracked.keyframe.is_due);
+    EXPECT_EQ(tracked.in_inactive_map->reference, 0);
+    // The only keyframe there is camera 0.
+    EXPECT_LT(PositionError(tracked.in_inactive_map->cam_from_reference, Truth(i)), 0.01) << i;
+    EXPECT_GT(tracked.in_inactive_map->matches.points.size(), 50u);
+  }
+  // At most one in 0.2 seconds.
+  ASSERT_GE(found.size(), 3u);
+  for (size_t i = 1; i < found.size(); ++i) EXPECT_GE(found[i] - found[i - 1], 6);
+}
+
 TEST_F(TrackerTest, WaitsForAFirstFrameWithFeatures) {
   world_ = std::make_unique<SyntheticFrames>(SyntheticFrames::Options());
   const TrackedFrame empty = tracker_.Track(SyntheticFrames::MakeEmptyFrame(0), MapSnapshot());

@@ -38,6 +38,24 @@ Json FramesToJson(const RunSummary& summary) {
   return json;
 }
 
+Json SegmentsToJson(const RunSummary& summary) {
+  Json json = Json::array();
+  for (const Segment& segment : summary.segments) {
+    json.push_back({{"first_frame", segment.first_frame},
+                    {"last_frame", segment.last_frame},
+                    {"estimated", segment.num_estimated},
+                    {"world", segment.world},
+                    {"in_map", segment.world == summary.map_world}});
+    json.back()["joined"] = Json();
+    if (!segment.join) continue;
+    json.back()["joined"] = {{"frame", segment.join->frame},
+                             {"keyframes", segment.join->num_keyframes},
+                             {"sigma_rotation_deg", RadiansToDegrees(segment.join->rotation_sigma)},
+                             {"sigma_translation", segment.join->translation_sigma}};
+  }
+  return json;
+}
+
 Json AxesToJson(const RunSummary& summary) {
   const MapAxes& axes = summary.axes;
   Json json = {{"state", ToString(axes.state)}};
@@ -74,6 +92,7 @@ Json MeasurementsToJson(const RunSummary& summary, const std::optional<Trajector
                         const RunCost& cost) {
   Json json;
   json["frames"] = FramesToJson(summary);
+  json["segments"] = SegmentsToJson(summary);
   json["map"] = {{"keyframes", summary.num_keyframes},
                  {"points", summary.num_points},
                  {"lines", summary.num_lines}};

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/segment_log.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "msc_vo/geometry/pose_covariance.h"
+
+namespace msc_vo {
+
+namespace {
+
+// The join as seen from the first frame of the segment, where its alignment has no lever arm.
+SegmentJoin Describe(int frame, const MapJoin& join, const Rigid3& cam_from_kept) {
+  const Rigid3 cam_from_moved = cam_from_kept * join.moved_from_kept.Inverse();
+  const PoseCovariance covariance =
+      CameraCovariance(cam_from_kept, ComposeCovariances(cam_from_moved, PoseCovariance::Zero(),
+                                                         join.moved_from_kept, join.covariance));
+  const Eigen::Matrix<double, 6, 1> variance = covariance.diagonal();
+  return {frame, join.num_keyframes, std::sqrt(variance.head<3>().maxCoeff()),
+          std::sqrt(variance.tail<3>().maxCoeff())};
+}
+
+}  // namespace
+
+int LargestWorld(const std::vector<Segment>& segments) {
+  std::vector<int> num_estimated(segments.size(), 0);
+  for (const Segment& segment : segments) num_estimated[segment.world] += segment.num_estimated;
+  return static_cast<int>(std::max_element(num_estimated.begin(), num_estimated.end()) -
+                          num_estimated.begin());
+}
+
+void SegmentLog::Begin(int frame, bool replaces_last) {
+  if (replaces_last && !entries_.empty()) entries_.pop_back();
+  entries_.emplace_back();
+  entries_.back().first_frame = frame;
+}
+
+void SegmentLog::RecordKeyframe(int frame, KeyframeId keyframe) {
+  for (Entry& entry : entries_) {
+    if (entry.first_frame != frame || entry.first_keyframe != kNoId) continue;
+    entry.first_keyframe = keyframe;
+    entry.map = keyframe;
+  }
+}
+
+void SegmentLog::RecordJoin(int frame, const MapJoin& join) {
+  for (Entry& entry : entries_) {
+    if (entry.map != join.moved) continue;
+    entry.map = join.kept;
+    entry.moves.push_back({frame, join});
+  }
+}
+
+KeyframeId SegmentLog::FirstKeyframe(int segment) const {
+  return segment <= current() ? entries_[segment].first_keyframe : kNoId;
+}
+
+int SegmentLog::WorldOf(int segment) const {
+  for (size_t i = 0; i < entries_.size(); ++i) {
+    const KeyframeId first = entries_[i].first_keyframe;
+    if (first != kNoId && first == entries_[segment].map) return static_cast<int>(i);
+  }
+  return segment;
+}
+
+std::vector<Segment> SegmentLog::Segments(const std::vector<FrameResult>& frames) const {
+  std::vector<Segment> segments;
+  for (size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
+    Segment segment;
+    segment.first_frame = entry.first_frame;
+    segment.last_frame = i + 1 < entries_.size() ? entries_[i + 1].first_frame - 1
+                                                 : static_cast<int>(frames.size()) - 1;
+    for (int frame = segment.first_frame; frame <= segment.last_frame; ++frame) {
+      segment.num_estimated += IsEstimated(frames[frame].status) ? 1 : 0;
+    }
+    segment.world = WorldOf(static_cast<int>(i));
+    if (!entry.moves.empty()) {
+      segment.join = Describe(entry.moves.back().frame, entry.moves.back().join,
+                              frames[entry.first_frame].cam_from_world);
+    }
+    segments.push_back(segment);
+  }
+  return segments;
+}
+
+void SegmentLog::PropagateCovariances(std::vector<FrameResult>* frames) const {
+  for (size_t i = 0; i < frames->size(); ++i) {
+    FrameResult& frame = (*frames)[i];
+    if (frame.segment == kNoSegment || !IsEstimated(frame.status)) continue;
+    const std::vector<Move>& moves = entries_[frame.segment].moves;
+    // From the world of the final pose back to the one in which the pose was estimated.
+    std::vector<Rigid3> poses;  // in the worlds before each move
+    Rigid3 cam_from_world = frame.cam_from_world;
+    for (auto move = moves.rbegin(); move != moves.rend(); ++move) {
+      cam_from_world = cam_from_world * move->join.moved_from_kept.Inverse();
+      poses.push_back(cam_from_world);
+    }
+    std::reverse(poses.begin(), poses.end());
+    for (size_t m = 0; m < moves.size(); ++m) {
+      if (static_cast<int>(i) >= moves[m].frame) continue;
+      const MapJoin& join = moves[m].join;
+      frame.covariance =
+          ComposeCovariances(poses[m], frame.covariance, join.moved_from_kept, join.covariance);
+    }
+  }
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "msc_vo/mapping/map_joiner.h"
+#include "msc_vo/odometry/frame_result.h"
+
+namespace msc_vo {
+
+/// How the map of a segment came into the world of an older one.
+struct SegmentJoin {
+  int frame = 0;                   ///< index of the keyframe that completed the join
+  int num_keyframes = 0;           ///< that agree on the alignment of the two maps
+  double rotation_sigma = 0.0;     ///< radians, of the alignment; the largest of three
+  double translation_sigma = 0.0;  ///< metres, of the alignment at the segment's first frame
+};
+
+/// A part of a run that was tracked in a map of its own. A new segment begins when the map of the
+/// one before cannot be found again.
+struct Segment {
+  int first_frame = 0;    ///< index of the frame that began its map
+  int last_frame = 0;     ///< index of the last frame before the next segment
+  int num_estimated = 0;  ///< frames with an estimated pose
+  /// Number of the segment whose world its poses are in: its own, unless it was joined with an
+  /// older one. Poses of different worlds have an unknown transform between them.
+  int world = 0;
+  std::optional<SegmentJoin> join;  ///< if `world` is another segment
+};
+
+/// The world with most estimated poses, the oldest one on ties; 0 without segments.
+int LargestWorld(const std::vector<Segment>& segments);
+
+/// Keeps the segments of a run while frames are tracked and keyframes are mapped.
+class SegmentLog {
+ public:
+  /// Frame `frame` begins a segment. The last segment is discarded if `replaces_last`.
+  void Begin(int frame, bool replaces_last);
+  /// Reports that frame `frame` became keyframe `keyframe`.
+  void RecordKeyframe(int frame, KeyframeId keyframe);
+  /// Reports that frame `frame` completed a join of two maps.
+  void RecordJoin(int frame, const MapJoin& join);
+
+  /// Number of the current segment; kNoSegment before the first one.
+  int current() const { return static_cast<int>(entries_.size()) - 1; }
+  /// First frame of the current segment.
+  int first_frame() const { return entries_.back().first_frame; }
+
+  /// The first keyframe of a segment; kNoId if it was not mapped or does not exist.
+  KeyframeId FirstKeyframe(int segment) const;
+
+  /// The segments, given the frames of the run with their segments.
+  std::vector<Segment> Segments(const std::vector<FrameResult>& frames) const;
+
+  /// Adds the covariance of the joins to the poses that were estimated before them in maps that
+  /// were moved. `frames` have their final poses.
+  void PropagateCovariances(std::vector<FrameResult>* frames) const;
+
+ private:
+  // A join that moved the map of a segment.
+  struct Move {
+    int frame = 0;
+    MapJoin join;
+  };
+  struct Entry {
+    int first_frame = 0;
+    KeyframeId first_keyframe = kNoId;  // kNoId: not mapped yet
+    KeyframeId map = kNoId;             // first keyframe of the map that the segment belongs to
+    std::vector<Move> moves;            // in order of time
+  };
+
+  int WorldOf(int segment) const;
+
+  std::vector<Entry> entries_;
+};
+
+}  // namespace msc_vo

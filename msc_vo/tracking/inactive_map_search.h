@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "msc_vo/map/snapshot.h"
+#include "msc_vo/tracking/tracked_frame.h"
+#include "msc_vo/tracking/tracker_options.h"
+
+namespace msc_vo {
+
+/// Searches the inactive maps of older segments for the place that tracked frames show, so that the
+/// maps can be joined.
+class InactiveMapSearch {
+ public:
+  explicit InactiveMapSearch(const TrackerOptions& options) : options_(options) {}
+
+  /// Tries to relocalise a frame of status kTracked in the inactive maps of `snapshot`, against
+  /// SegmentOptions::search_keyframes of their keyframes: from newest to oldest, cyclically. After
+  /// a success it pauses for SegmentOptions::search_interval and begins with the same keyframe, so
+  /// that the next frame that is found has a view of its own.
+  std::optional<MapRelocalization> Search(const TrackedFrame& tracked, const MapSnapshot& snapshot);
+
+ private:
+  // The next keyframe that is to be tried, and its map.
+  struct Candidate {
+    const Map* map = nullptr;
+    const Keyframe* keyframe = nullptr;
+  };
+  Candidate NextCandidate(const InactiveMaps& maps);
+  std::optional<MapRelocalization> Relocalize(const TrackedFrame& tracked, const Map& map,
+                                              const Keyframe& keyframe) const;
+
+  TrackerOptions options_;
+  KeyframeId next_ = std::numeric_limits<KeyframeId>::max();
+  double last_success_ = -std::numeric_limits<double>::infinity();  // seconds
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include "msc_vo/tracking/tracker_options.h"
+
+namespace msc_vo {
+
+/// Decides when a map that cannot be found again is given up for a new segment.
+class SegmentStartPolicy {
+ public:
+  explicit SegmentStartPolicy(const SegmentOptions& options) : options_(options) {}
+
+  /// Reports the first frame of a segment, at `timestamp` (seconds).
+  void Started(double timestamp);
+  /// Reports a frame that was tracked in the map of the segment.
+  void Tracked(double timestamp);
+  /// Reports a frame that was not found in the map. If it had enough features to be found
+  /// (`is_searched`), the time since the frame before counts as a search, and `num_keyframes` more
+  /// keyframes have been tried.
+  void NotFound(double timestamp, bool is_searched, int num_keyframes);
+
+  /// Whether the map, which has `num_keyframes`, is given up. A map that is not confirmed is given
+  /// up at once: nothing is lost with it. Otherwise the search must last for
+  /// SegmentOptions::min_search, and until each keyframe has been tried or max_search is reached.
+  bool IsDue(int num_keyframes) const;
+
+  /// Whether a frame after the first one was tracked in the map of the segment.
+  bool is_confirmed() const { return is_confirmed_; }
+
+ private:
+  SegmentOptions options_;
+  bool is_confirmed_ = false;
+  double last_timestamp_ = 0.0;  // seconds, of the last reported frame
+  double search_seconds_ = 0.0;  // since the last tracked frame
+  int num_tried_keyframes_ = 0;  // since the last tracked frame
+};
+
+}  // namespace msc_vo
