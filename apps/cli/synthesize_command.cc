@@ -209,6 +209,33 @@ int Run(const Arguments& arguments) {
   return guard.IsInterrupted() ? kExitInterrupted : kExitSuccess;
 }
 
+// Noise, artefacts and timing of the images.
+void AddSensorArguments(CLI::App* command, Arguments* arguments) {
+  CLI::Option* noise =
+      command->add_option("--noise", arguments->noise, "Depth noise: none or that of a Kinect")
+          ->check(CLI::IsMember({"none", "kinect"}))
+          ->capture_default_str();
+  command
+      ->add_option("--sensor", arguments->sensor,
+                   "Depth sensor with its noise and artefacts; default: exact depth")
+      ->check(CLI::IsMember({"kinect", "tof", "stereo", "lidar"}))
+      ->excludes(noise);
+  command
+      ->add_option("--depth-delay", arguments->options.depth_delay,
+                   "Delay of depth images relative to colour images, seconds")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--readout-time", arguments->options.readout_time,
+          "Readout time of a rolling shutter, seconds (Kinect: 0.026); time stamps refer to "
+          "the middle row")
+      ->capture_default_str();
+  command
+      ->add_option("--image-sigma", arguments->options.image_sigma,
+                   "Noise of colour images, standard deviation in grey levels")
+      ->capture_default_str();
+}
+
 void AddCameraArguments(CLI::App* command, Arguments* arguments) {
   command
       ->add_option("--focal-length", arguments->options.focal_length,
@@ -264,15 +291,6 @@ Command AddSynthesizeCommand(CLI::App* app) {
       ->add_option("--seed", arguments->options.seed,
                    "Seed of the scene, the trajectory and the noise")
       ->capture_default_str();
-  CLI::Option* noise =
-      command->add_option("--noise", arguments->noise, "Depth noise: none or that of a Kinect")
-          ->check(CLI::IsMember({"none", "kinect"}))
-          ->capture_default_str();
-  command
-      ->add_option("--sensor", arguments->sensor,
-                   "Depth sensor with its noise and artefacts; default: exact depth")
-      ->check(CLI::IsMember({"kinect", "tof", "stereo", "lidar"}))
-      ->excludes(noise);
   command
       ->add_option("--width", arguments->options.width,
                    "Image width, pixels; the focal length is proportional")
@@ -281,22 +299,9 @@ Command AddSynthesizeCommand(CLI::App* app) {
                       "Image height, pixels; default: 3/4 of the width");
   command->add_option("--fps", arguments->options.fps, "Frames per second")->capture_default_str();
   command
-      ->add_option("--depth-delay", arguments->options.depth_delay,
-                   "Delay of depth images relative to colour images, seconds")
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--readout-time", arguments->options.readout_time,
-          "Readout time of a rolling shutter, seconds (Kinect: 0.026); time stamps refer to "
-          "the middle row")
-      ->capture_default_str();
-  command
       ->add_option("--speed", arguments->options.path.speed, "Speed of the camera, metres/second")
       ->capture_default_str();
-  command
-      ->add_option("--image-sigma", arguments->options.image_sigma,
-                   "Noise of colour images, standard deviation in grey levels")
-      ->capture_default_str();
+  AddSensorArguments(command, arguments.get());
   AddCameraArguments(command, arguments.get());
   CLI::Option* jpeg =
       command->add_flag("--jpeg", arguments->encoding.jpeg, "Write colour images as JPEG");

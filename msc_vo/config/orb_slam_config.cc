@@ -72,6 +72,24 @@ CameraType TypeOf(const Values& values, const std::string& path) {
   return CameraType::kPinhole;
 }
 
+// The lens of a camera. `find` and `require` look up numbers by the names that they may have.
+template <typename Find, typename Require>
+LensSettings ReadLens(CameraType type, const Find& find, const Require& require) {
+  LensSettings lens;
+  if (type == CameraType::kFisheye) {
+    lens.model = LensModelName(LensModel::kFisheye);
+    lens.coefficients[0] = require({"Camera.k1", "Camera1.k1"});
+    lens.coefficients[1] = require({"Camera.k2", "Camera1.k2"});
+    lens.coefficients[4] = require({"Camera.k3", "Camera1.k3"});
+    lens.coefficients[5] = require({"Camera.k4", "Camera1.k4"});
+  } else if (type == CameraType::kPinhole) {
+    lens.coefficients = {find({"Camera.k1", "Camera1.k1"}), find({"Camera.k2", "Camera1.k2"}),
+                         find({"Camera.p1", "Camera1.p1"}), find({"Camera.p2", "Camera1.p2"}),
+                         find({"Camera.k3", "Camera1.k3"})};
+  }
+  return lens;
+}
+
 }  // namespace
 
 bool IsOrbSlamConfig(const std::string& content) {
@@ -118,8 +136,6 @@ CameraSettings ReadOrbSlamConfig(const std::string& path) {
     }
     return whole;
   };
-  const CameraType type = TypeOf(values, path);
-
   CameraSettings camera;
   camera.fx = require({"Camera.fx", "Camera1.fx"});
   camera.fy = require({"Camera.fy", "Camera1.fy"});
@@ -128,18 +144,7 @@ CameraSettings ReadOrbSlamConfig(const std::string& path) {
   camera.depth_scale = require({"DepthMapFactor", "RGBD.DepthMapFactor", "depthmap_factor"});
   camera.width = find_int({"Camera.width", "Camera.cols"});
   camera.height = find_int({"Camera.height", "Camera.rows"});
-  if (type == CameraType::kFisheye) {
-    camera.lens.model = LensModelName(LensModel::kFisheye);
-    camera.lens.coefficients[0] = require({"Camera.k1", "Camera1.k1"});
-    camera.lens.coefficients[1] = require({"Camera.k2", "Camera1.k2"});
-    camera.lens.coefficients[4] = require({"Camera.k3", "Camera1.k3"});
-    camera.lens.coefficients[5] = require({"Camera.k4", "Camera1.k4"});
-  } else if (type == CameraType::kPinhole) {
-    camera.lens.coefficients = {
-        find({"Camera.k1", "Camera1.k1"}), find({"Camera.k2", "Camera1.k2"}),
-        find({"Camera.p1", "Camera1.p1"}), find({"Camera.p2", "Camera1.p2"}),
-        find({"Camera.k3", "Camera1.k3"})};
-  }
+  camera.lens = ReadLens(TypeOf(values, path), find, require);
   camera.origin = path;
   return camera;
 }
