@@ -20,11 +20,7 @@ namespace {
 
 using Eigen::Vector2d;
 using testing::AllOf;
-using testing::AzureKinectCamera;
-using testing::AzureKinectLens;
 using testing::HasSubstr;
-using testing::WideCamera;
-using testing::WideLens;
 
 TEST(LensModel, NamesRoundTrip) {
   for (const LensModel model :

@@ -3,6 +3,7 @@
 
 #include "tests/support/eigen_matchers.h"
 #include "tests/support/lenses.h"
+#include <Eigen/Geometry>
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
@@ -17,8 +18,8 @@ using S = SensorCorrection;
 using Jet = ceres::Jet<double, S::kSize>;
 
 CorrectedCamera Fisheye() {
-  PinholeCamera camera = testing::WideCamera();
-  LensDistortion lens = testing::WideLens();
+  PinholeCamera camera = WideCamera();
+  LensDistortion lens = WideLens();
   CropToFieldOfView({}, &lens, &camera);
   return {camera, lens};
 }
@@ -78,8 +79,7 @@ TEST_P(CorrectedCameraTest, DerivativesMatchFiniteDifferences) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lenses, CorrectedCameraTest,
-                         ::testing::Values(CorrectedCamera(testing::AzureKinectCamera(),
-                                                           testing::AzureKinectLens()),
+                         ::testing::Values(CorrectedCamera(AzureKinectCamera(), AzureKinectLens()),
                                            Fisheye()));
 
 }  // namespace

@@ -114,8 +114,8 @@ TEST(FrameBuilder, AppliesOptions) {
 }
 
 TEST(FrameBuilder, CropsWideImages) {
-  PinholeCamera camera = testing::WideCamera();
-  LensDistortion lens = testing::WideLens();
+  PinholeCamera camera = WideCamera();
+  LensDistortion lens = WideLens();
   CropToFieldOfView(90.0, &lens, &camera);
   const RgbdImage ideal = Poster(camera);
   RgbdImage raw = ideal;

@@ -50,8 +50,8 @@ double ErrorInDegrees(const SurfaceNormal& normal, const Vector3d& truth) {
 const Plane kTilted = {Vector3d(0.5, -0.4, -1.0).normalized(), 1.5};
 
 TEST(SurfaceNormals, AreExactThroughAWideLens) {
-  PinholeCamera camera = testing::WideCamera();
-  LensDistortion lens = testing::WideLens();
+  PinholeCamera camera = WideCamera();
+  LensDistortion lens = WideLens();
   CropToFieldOfView(100.0, &lens, &camera);
   const cv::Mat depth = DrawDepth(*lens.recorded, [&](const Vector2d& pixel) {
     return InverseDepth(camera, kTilted, lens.Undistort(camera, pixel));

@@ -62,8 +62,8 @@ TEST(RollingShutter, PhaseIncreasesFromTheFirstRowToTheLast) {
 
 TEST(RollingShutter, PhaseIsThatOfTheRecordedRow) {
   Frame frame;
-  frame.camera = testing::WideCamera();
-  LensDistortion lens = testing::WideLens();
+  frame.camera = WideCamera();
+  LensDistortion lens = WideLens();
   CropToFieldOfView(100.0, &lens, &frame.camera);
   const Eigen::Vector2d undistorted = lens.Undistort(frame.camera, {100.0, 359.5});
   EXPECT_GT(std::abs(RowPhase(frame, undistorted) - 0.25), 0.03);

@@ -117,7 +117,7 @@ TEST(DepthAlignment, PreservesMissingDepth) {
 
 TEST(DepthAlignment, WarpsPlaneThroughAWideLens) {
   PinholeCamera camera{150.0, 151.0, 161.0, 118.0, 320, 240};
-  LensDistortion lens = testing::WideLens();
+  LensDistortion lens = WideLens();
   CropToFieldOfView(90.0, &lens, &camera);
   const Vector3d normal(0.1, -0.08, 0.4);
   const auto depth_of = [&](const Vector3d& plane) {

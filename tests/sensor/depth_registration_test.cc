@@ -104,10 +104,10 @@ TEST(DepthRegistration, IsExactOnPlanes) {
 TEST(DepthRegistration, IsExactForOtherLenses) {
   // Colour by a fisheye lens, depth by a rational one.
   PinholeCamera color{150.0, 151.0, 161.0, 118.0, 320, 240};
-  LensDistortion lens = testing::WideLens();
+  LensDistortion lens = WideLens();
   CropToFieldOfView(80.0, &lens, &color);
   DepthCamera rig = Rig();
-  rig.distortion = testing::AzureKinectLens();
+  rig.distortion = AzureKinectLens();
   for (const Vector3d& normal : kPlanes) {
     cv::Mat depth(240, 320, CV_32FC1);
     for (int y = 0; y < depth.rows; ++y) {

@@ -49,10 +49,10 @@ double LargestDifference(const std::vector<cv::Point3d>& points,
 
 TEST(LensModels, EqualOpenCvsProjectPoints) {
   const std::vector<cv::Point3d> points = Points(0.8);
-  const PinholeCamera camera = testing::AzureKinectCamera();
+  const PinholeCamera camera = AzureKinectCamera();
   const cv::Vec3d zero(0.0, 0.0, 0.0);
   for (const LensModel model : {LensModel::kRadialTangential, LensModel::kRational}) {
-    LensDistortion lens = testing::AzureKinectLens();
+    LensDistortion lens = AzureKinectLens();
     lens.model = model;
     std::vector<cv::Point2d> expected;
     cv::projectPoints(points, zero, zero, Matrix(camera), lens.Coefficients(), expected);
@@ -62,8 +62,8 @@ TEST(LensModels, EqualOpenCvsProjectPoints) {
 
 TEST(LensModels, EqualOpenCvsFisheye) {
   const std::vector<cv::Point3d> points = Points(1.5);
-  PinholeCamera camera = testing::WideCamera();
-  LensDistortion lens = testing::WideLens();
+  PinholeCamera camera = WideCamera();
+  LensDistortion lens = WideLens();
   const cv::Vec3d zero(0.0, 0.0, 0.0);
   std::vector<cv::Point2d> expected;
   cv::fisheye::projectPoints(points, expected, zero, zero, Matrix(camera), lens.Coefficients());

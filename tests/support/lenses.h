@@ -5,7 +5,7 @@
 
 #include "msc_vo/camera/lens_distortion.h"
 
-namespace msc_vo::testing {
+namespace msc_vo {
 
 // Factory calibration of the colour camera of one Azure Kinect at 1280x720.
 inline PinholeCamera AzureKinectCamera() { return {613.02, 612.93, 648.1, 373.49, 1280, 720}; }
@@ -18,4 +18,4 @@ inline LensDistortion AzureKinectLens() {
 inline PinholeCamera WideCamera() { return {300.0, 301.0, 322.0, 238.0, 640, 480}; }
 inline LensDistortion WideLens() { return {{0.02, -0.012, 0.006, -0.0015}, LensModel::kFisheye}; }
 
-}  // namespace msc_vo::testing
+}  // namespace msc_vo
