@@ -3,7 +3,9 @@
 
 #include "msc_vo/synthetic/scene/lens_warp.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -29,7 +31,17 @@ SyntheticSequenceOptions WideOptions() {
   return options;
 }
 
-// Depth and colour of a recorded pixel are those of the first surface on its ray.
+// Depth along the ray of a recorded pixel; infinity where it hits nothing.
+double TrueDepth(const SyntheticSequence& sequence, const LensDistortion& lens,
+                 const Rigid3& world_from_cam, const Vector2d& pixel) {
+  const Vector3d ray = sequence.camera().Ray(lens.Undistort(sequence.camera(), pixel));
+  const auto hit =
+      sequence.scene().CastRay(world_from_cam.translation(), world_from_cam.rotation() * ray);
+  return hit ? *hit : std::numeric_limits<double>::infinity();
+}
+
+// The depth of a recorded pixel is that of the first surface on its ray, or, at edges between
+// surfaces, on a ray within a pixel of it.
 TEST(LensWarpTest, RecordsWhatTheRaysHit) {
   SyntheticSequenceOptions options = WideOptions();
   options.width = 320;
@@ -39,22 +51,34 @@ TEST(LensWarpTest, RecordsWhatTheRaysHit) {
     options.lens = lens;
     const SyntheticSequence sequence(options);
     const SyntheticFrame frame = sequence.Render(2);
-    const Rigid3& world_from_cam = frame.pose.world_from_cam;
     ASSERT_EQ(frame.image.width, 320);
     int exact = 0, seen = 0;
-    for (int y = 0; y < 240; y += 6) {
-      for (int x = 0; x < 320; x += 6) {
-        const float depth = frame.image.depth[y * 320 + x];
-        if (depth == 0.0f) continue;
+    for (int y = 6; y < 234; y += 6) {
+      for (int x = 6; x < 314; x += 6) {
+        const double depth = frame.image.depth[y * 320 + x];
+        if (depth == 0.0) continue;
         ++seen;
-        const Vector3d ray = sequence.camera().Ray(lens.Undistort(sequence.camera(), {x, y}));
-        const auto hit =
-            sequence.scene().CastRay(world_from_cam.translation(), world_from_cam.rotation() * ray);
-        exact += hit && std::abs(*hit / depth - 1.0) < 1e-5;
+        const Vector2d pixel(x, y);
+        const auto truth = [&](const Vector2d& at) {
+          return TrueDepth(sequence, lens, frame.pose.world_from_cam, at);
+        };
+        if (std::abs(truth(pixel) / depth - 1.0) < 1e-5) {
+          ++exact;
+          continue;
+        }
+        double low = truth(pixel), high = low;
+        for (double v = -1.0; v <= 1.0; v += 0.25) {
+          for (double u = -1.0; u <= 1.0; u += 0.25) {
+            const double near = truth(pixel + Vector2d(u, v));
+            low = std::min(low, near);
+            high = std::max(high, near);
+          }
+        }
+        EXPECT_LE(low, depth * (1.0 + 1e-5)) << x << " " << y;
+        EXPECT_GE(high, depth * (1.0 - 1e-5)) << x << " " << y;
       }
     }
-    EXPECT_GT(seen, 2000);
-    // The others, 7 %, are within a pixel of an edge between two surfaces.
+    EXPECT_GT(seen, 1800);
     EXPECT_GT(exact, seen * 90 / 100);
   }
 }
