@@ -197,6 +197,18 @@ int Run(const Arguments& arguments) {
   return guard.IsInterrupted() ? kExitInterrupted : kExitSuccess;
 }
 
+void AddNoiseArguments(CLI::App* command, Arguments* arguments) {
+  CLI::Option* noise =
+      command->add_option("--noise", arguments->noise, "Depth noise: none or that of a Kinect")
+          ->check(CLI::IsMember({"none", "kinect"}))
+          ->capture_default_str();
+  command
+      ->add_option("--sensor", arguments->sensor,
+                   "Depth sensor with its noise and artefacts; default: exact depth")
+      ->check(CLI::IsMember({"kinect", "tof", "stereo", "lidar"}))
+      ->excludes(noise);
+}
+
 void AddRigArguments(CLI::App* command, Arguments* arguments) {
   CLI::Option* rig =
       command
@@ -229,15 +241,7 @@ Command AddSynthesizeCommand(CLI::App* app) {
       ->add_option("--seed", arguments->options.seed,
                    "Seed of the scene, the trajectory and the noise")
       ->capture_default_str();
-  CLI::Option* noise =
-      command->add_option("--noise", arguments->noise, "Depth noise: none or that of a Kinect")
-          ->check(CLI::IsMember({"none", "kinect"}))
-          ->capture_default_str();
-  command
-      ->add_option("--sensor", arguments->sensor,
-                   "Depth sensor with its noise and artefacts; default: exact depth")
-      ->check(CLI::IsMember({"kinect", "tof", "stereo", "lidar"}))
-      ->excludes(noise);
+  AddNoiseArguments(command, arguments.get());
   command
       ->add_option("--width", arguments->options.width,
                    "Image width, pixels; the focal length is proportional")

@@ -93,8 +93,8 @@ DepthSensorModel MakeDepthSensorModel(DepthSensor sensor, const SensorNoiseOptio
     model.noise.range = env("X_RNG", model.noise.range);
     model.noise.proportional = env("X_PRO", model.noise.proportional);  // XXX
     model.has_flying_pixels = env("X_FLY", model.has_flying_pixels);
-    model.bleeds = env("X_BLD", model.bleeds);  // XXX
-  }                                             // XXX
+    model.bleeds = env("X_BLD", model.bleeds);
+  }                                                                         // XXX
   return model;
 }
 
