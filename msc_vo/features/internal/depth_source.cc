@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <vector>
 
 #include "msc_vo/sensor/depth_statistics.h"
@@ -35,11 +34,7 @@ cv::Mat DepthSource::Clean(const cv::Mat& gray, const cv::Mat& depth) {
   if (model_.has_flying_pixels) return RemoveFlyingPixels(depth, model_.noise);
   if (!model_.bleeds) return depth;
   if (!bleeding_.IsDone()) bleeding_.Add(gray, depth);
-  const char* e = std::getenv("X_REACH");                         // XXX
-  const char* e2 = std::getenv("X_BS");                           // XXX
-  const double bs = e2 ? std::atof(e2) : model_.noise.disparity;  // XXX
-  if (e) return RemoveBleeding(depth, std::atoi(e), bs);          // XXX
-  return RemoveBleeding(depth, bleeding_.reach(), bs);
+  return RemoveBleeding(depth, bleeding_.reach(), model_.noise.disparity);
 }
 
 void ShareDepthErrors(double radius, Frame* frame) {
