@@ -21,8 +21,7 @@ constexpr double kDepthFactor = 5000.0;  // of all of them
 class RecordedDepthSensorTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(RecordedDepthSensorTest, IsStructuredLight) {
-  const std::filesystem::path folder =
-      std::filesystem::path(MSC_VO_SHARED_SEQUENCES) / GetParam();
+  const std::filesystem::path folder = std::filesystem::path(MSC_VO_SHARED_SEQUENCES) / GetParam();
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " does not exist";
   const SequenceIndex index = OpenSequence(folder.string());
   for (size_t i = 0; i < index.entries.size(); i += 25) {
