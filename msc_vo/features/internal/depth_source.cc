@@ -33,8 +33,16 @@ void DepthSource::Assign(const cv::Mat& gray, const cv::Mat& depth) {
 cv::Mat DepthSource::Clean(const cv::Mat& gray, const cv::Mat& depth) {
   if (model_.has_flying_pixels) return RemoveFlyingPixels(depth, model_.noise);
   if (!model_.bleeds) return depth;
-  if (!bleeding_.IsDone()) bleeding_.Add(gray, depth);
-  return RemoveBleeding(depth, bleeding_.reach(), model_.noise.disparity);
+  // A depth out of range would spread to its neighbours.
+  cv::Mat valid = depth.clone();
+  for (int y = 0; y < valid.rows; ++y) {
+    float* z = valid.ptr<float>(y);
+    for (int x = 0; x < valid.cols; ++x) {
+      if (!(z[x] >= min_depth_ && z[x] <= max_depth_)) z[x] = 0.0f;  // also NaN
+    }
+  }
+  if (!bleeding_.IsDone()) bleeding_.Add(gray, valid);
+  return RemoveBleeding(valid, bleeding_.reach(), model_.noise.disparity);
 }
 
 void ShareDepthErrors(double radius, Frame* frame) {
