@@ -36,8 +36,8 @@ class BleedingEstimator {
   std::vector<double> gradient_;  // sum at distances -max_reach_ to max_reach_
 };
 
-/// Returns the depth image (CV_32FC1, metres) with the farthest depth within `reach` pixels at
-/// every measured pixel, which takes back what nearer surfaces gained: a surface that extends by
+/// Returns the depth image (CV_32FC1, metres, finite) with the farthest depth within `reach` pixels
+/// at every measured pixel, which takes back what nearer surfaces gained: a surface that extends by
 /// `reach` gets its outline back, and an inclined one its place. Pixels without a measurement stay
 /// without. `sigma` is the noise of a pixel (1/metres): the farthest depth has the lowest noise,
 /// which is corrected.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace msc_vo {
 
@@ -77,24 +76,6 @@ DepthSensorModel MakeDepthSensorModel(DepthSensor sensor, const SensorNoiseOptio
   if (sensor == DepthSensor::kTimeOfFlight) MakeTimeOfFlight(scale, &model);
   if (sensor == DepthSensor::kStereo) MakeStereo(scale, &model);
   if (sensor == DepthSensor::kLidar) MakeLidar(scale, &model);
-  const auto env = [](const char* name, double value) {
-    const char* e = std::getenv(name);
-    return e ? std::atof(e) : value;
-  };  // XXX
-  if (sensor == DepthSensor::kTimeOfFlight || sensor == DepthSensor::kStereo ||
-      sensor == DepthSensor::kLidar) {  // XXX
-    model.sigma.disparity = env("X_SDIS", model.sigma.disparity);
-    model.sigma.range = env("X_SRNG", model.sigma.range);
-    model.sigma.proportional = env("X_SPRO", model.sigma.proportional);  // XXX
-    model.shared_radius = env("X_SHR", model.shared_radius);             // XXX
-    model.noise.correlation_length = env("X_COR", model.noise.correlation_length);
-    model.noise.edge_gap = env("X_GAP", model.noise.edge_gap);  // XXX
-    model.noise.disparity = env("X_DIS", model.noise.disparity);
-    model.noise.range = env("X_RNG", model.noise.range);
-    model.noise.proportional = env("X_PRO", model.noise.proportional);  // XXX
-    model.has_flying_pixels = env("X_FLY", model.has_flying_pixels);
-    model.bleeds = env("X_BLD", model.bleeds);  // XXX
-  }                                             // XXX
   return model;
 }
 

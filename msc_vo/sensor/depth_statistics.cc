@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace msc_vo {
@@ -22,27 +23,24 @@ constexpr double kMaxDepth = 8.0;  // metres; farther away, noise is that of fai
 constexpr double kNormalQuartile = 0.3186;
 // Standard deviation of a second difference of independent values: sqrt(1 + 4 + 1).
 constexpr double kSecondDifference = 2.4495;
-// Bins of depth in which the exponent is measured, and the part of the samples in them, nearest
-// first: beyond, flying pixels cover whole surfaces at a flat angle.
+// Bins of depth in which the exponent is measured.
 constexpr int kNumBins = 6;
-constexpr double kBinnedRatio = 0.6;
+// Part of the samples in the bins, nearest first: beyond, flying pixels of time of flight cover
+// whole surfaces at a flat angle. Correlated noise has none.
+constexpr double kWhiteRatio = 0.6;
+constexpr double kCorrelatedPart = 0.95;
 // Smallest ratio of the depths of two bins whose noise is compared.
 constexpr double kMinDepthRatio = 1.15;
-// An edge is a relative change of inverse depth by this much, between surfaces on both sides that
-// change by less than a quarter of it. It is soft if no two neighbouring pixels differ by more than
-// half of the change.
-constexpr double kEdgeChange = 0.15;
-constexpr double kFlatRatio = 0.25;
-constexpr double kSoftRatio = 0.5;
-constexpr int kMinEdges = 20;
+// Smallest ratio of the farthest to the nearest bin that tells the exponent.
+constexpr double kMinDepthRange = 1.3;
 
 // Limits of the classes, between values measured on real and on simulated sensors, see
-// docs/lab/depth.md. Noise below 4e-4 1/m is that of rounding: 4 mm at 3 m.
-constexpr double kExactNoise = 4e-4;
-constexpr double kSoftEdgeRatio = 0.5;
-constexpr double kQuantizedNoise = 1.0;  // noise in steps; a Kinect has 0.6
+// docs/lab/depth.md. Noise below 1e-4 1/m is that of rounding: 1 mm at 3 m.
+constexpr double kExactNoise = 1e-4;
+constexpr double kQuantizedNoise = 2.0;  // noise in steps; a Kinect has at most 1.3
 constexpr double kCorrelatedRatio = 3.0;
-constexpr double kTimeOfFlightExponent = 1.4;
+constexpr double kRangeExponent = 1.4;
+constexpr double kLidarNoise = 1e-3;  // 1/metres; smooth noise of a LiDAR is below, stereo above
 
 struct Difference {
   float z = 0.0f;      // metres
@@ -103,11 +101,12 @@ double StepOf(const std::vector<Difference>& differences) {
   return Quantile(&steps, 0.5);
 }
 
-// Median of the slopes, in logarithms, between the bins of depth.
-double ExponentOf(std::vector<Difference> differences) {
+// Median of the slopes, in logarithms, between bins of the nearest samples; `ratio` of them are
+// used.
+std::optional<double> ExponentOf(std::vector<Difference> differences, double ratio) {
   std::sort(differences.begin(), differences.end(),
             [](const Difference& a, const Difference& b) { return a.z < b.z; });
-  const auto used = static_cast<size_t>(kBinnedRatio * static_cast<double>(differences.size()));
+  const auto used = static_cast<size_t>(ratio * static_cast<double>(differences.size()));
   std::array<double, kNumBins> depths{}, sigmas{};
   for (int bin = 0; bin < kNumBins; ++bin) {
     std::vector<float> values;
@@ -117,6 +116,7 @@ double ExponentOf(std::vector<Difference> differences) {
     const double sigma = Quantile(&values, 0.25) / (kNormalQuartile * kSecondDifference);
     sigmas[bin] = sigma * depths[bin] * depths[bin];
   }
+  if (depths.back() < kMinDepthRange * depths.front()) return std::nullopt;
   std::vector<float> slopes;
   for (int a = 0; a < kNumBins; ++a) {
     for (int b = a + 1; b < kNumBins; ++b) {
@@ -125,34 +125,12 @@ double ExponentOf(std::vector<Difference> differences) {
           static_cast<float>(std::log(sigmas[b] / sigmas[a]) / std::log(depths[b] / depths[a])));
     }
   }
-  return slopes.empty() ? 2.0 : Quantile(&slopes, 0.5);
+  if (slopes.empty()) return std::nullopt;
+  return Quantile(&slopes, 0.5);
 }
 
-double SoftEdgeRatioOf(const cv::Mat& depth) {
-  const int reach = std::max(3, depth.cols / 80);
-  int num_edges = 0, num_soft = 0;
-  for (int y = 0; y < depth.rows; y += kRowStep) {
-    const float* z = depth.ptr<float>(y);
-    for (int x = reach; x + 2 * reach < depth.cols; ++x) {
-      double largest = 0.0;
-      bool measured = IsMeasured(z[x - reach]) && IsMeasured(z[x + 2 * reach]);
-      for (int i = 0; i <= reach && measured; ++i) {
-        measured = IsMeasured(z[x + i]);
-        if (i == 0 || !measured) continue;
-        largest = std::max(largest, std::abs(1.0 / z[x + i] - 1.0 / z[x + i - 1]));
-      }
-      if (!measured) continue;
-      const double left = 1.0 / z[x], right = 1.0 / z[x + reach];
-      const double change = std::abs(right - left);
-      if (change < kEdgeChange * std::max(left, right)) continue;
-      if (std::abs(left - 1.0 / z[x - reach]) > kFlatRatio * change) continue;
-      if (std::abs(right - 1.0 / z[x + 2 * reach]) > kFlatRatio * change) continue;
-      ++num_edges;
-      num_soft += largest < kSoftRatio * change;
-      x += reach;  // each edge once
-    }
-  }
-  return num_edges < kMinEdges ? 0.0 : static_cast<double>(num_soft) / num_edges;
+bool IsCorrelated(const DepthStatistics& statistics) {
+  return statistics.far_noise > kCorrelatedRatio * statistics.near_noise;
 }
 
 }  // namespace
@@ -166,24 +144,24 @@ DepthStatistics MeasureDepthStatistics(const cv::Mat& depth) {
   statistics.near_noise = NoiseOf(near);
   statistics.far_noise = NoiseOf(far);
   statistics.step = StepOf(near);
-  statistics.exponent = ExponentOf(near);
-  statistics.soft_edge_ratio = SoftEdgeRatioOf(depth);
+  statistics.exponent =
+      IsCorrelated(statistics) ? ExponentOf(far, kCorrelatedPart) : ExponentOf(near, kWhiteRatio);
   return statistics;
 }
 
 DepthSensor ClassifyDepthSensor(const DepthStatistics& statistics) {
   if (statistics.num_samples < kMinSamples) return DepthSensor::kAuto;
-  const bool is_fine = statistics.step < kExactNoise;
-  if (is_fine && statistics.far_noise < kExactNoise &&
-      statistics.soft_edge_ratio > kSoftEdgeRatio) {
-    return DepthSensor::kLidar;
-  }
   if (statistics.far_noise < std::max(kExactNoise, kQuantizedNoise * statistics.step)) {
     return DepthSensor::kStructuredLight;
   }
-  if (statistics.far_noise > kCorrelatedRatio * statistics.near_noise) return DepthSensor::kStereo;
-  return statistics.exponent < kTimeOfFlightExponent ? DepthSensor::kTimeOfFlight
-                                                     : DepthSensor::kStructuredLight;
+  const std::optional<double>& exponent = statistics.exponent;
+  if (IsCorrelated(statistics)) {
+    const bool is_range =
+        statistics.far_noise < kLidarNoise && exponent.value_or(0.0) < kRangeExponent;
+    return is_range ? DepthSensor::kLidar : DepthSensor::kStereo;
+  }
+  if (!exponent) return DepthSensor::kAuto;
+  return *exponent < kRangeExponent ? DepthSensor::kTimeOfFlight : DepthSensor::kStructuredLight;
 }
 
 }  // namespace msc_vo

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <optional>
+
 #include <opencv2/core.hpp>
 
 #include "msc_vo/sensor/depth_sensor.h"
@@ -21,17 +23,15 @@ struct DepthStatistics {
   /// 1/metres: the resolution of disparity, if the sensor measures one.
   double step = 0.0;
   /// Exponent of the standard deviation of depth as a power of depth: 2 if disparity is measured,
-  /// at most 1 for time of flight. 2 if the depths are too similar.
-  double exponent = 2.0;
-  /// Ratio of depth edges that extend over several pixels.
-  double soft_edge_ratio = 0.0;
+  /// at most 1 if range is. None if the depths of the image are too similar.
+  std::optional<double> exponent;
 };
 
 /// `depth`: CV_32FC1, metres, 0 where nothing was measured.
 DepthStatistics MeasureDepthStatistics(const cv::Mat& depth);
 
 /// Returns the sensor that the statistics speak for: structured light unless there is evidence for
-/// another one, and kAuto if there are too few samples.
+/// another one, and kAuto if the image does not tell.
 DepthSensor ClassifyDepthSensor(const DepthStatistics& statistics);
 
 }  // namespace msc_vo

@@ -4,6 +4,7 @@
 #include "msc_vo/features/internal/depth_source.h"
 
 #include <cmath>
+#include <limits>
 
 #include "tests/features/depth_images.h"
 #include <gtest/gtest.h>
@@ -67,7 +68,10 @@ TEST(DepthSource, RemovesTheBleedingOfStereo) {
     return pixel.x() > 295.5 && pixel.x() < 343.5 ? 1.0 : 0.5;
   };
   DepthSource source(DepthSensor::kStereo, SensorNoiseOptions(), 0.2, 10.0, kCamera.width);
-  source.Assign(gray, testing::DrawDepth(kCamera, post));
+  cv::Mat depth = testing::DrawDepth(kCamera, post);
+  depth.at<float>(204, 320) = std::numeric_limits<float>::quiet_NaN();
+  depth.at<float>(204, 352) = 50.0f;  // out of range
+  source.Assign(gray, depth);
   for (const int x : {290, 299, 340, 350}) EXPECT_NEAR(source.image().At(x, 200), 0.5, 0.002) << x;
   for (const int x : {300, 320, 339}) EXPECT_NEAR(source.image().At(x, 200), 1.0, 0.002) << x;
 }

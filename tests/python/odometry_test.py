@@ -119,6 +119,7 @@ class Results(unittest.TestCase):
         self.assertGreater(np.count_nonzero(result.line_axes >= 0), 5)
         self.assertTrue(np.all(result.estimated))
         self.assertEqual(result.axes_state, "refined")
+        self.assertEqual(result.depth_sensor, "structured-light")
         self.assertTrue(np.shares_memory(result.points, result.points))
         self.assertFalse(result.points.flags.writeable)
         odometry = support.room_odometry()

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <vector>
 
 #include "msc_vo/sensor/depth_statistics.h"
@@ -34,12 +33,16 @@ void DepthSource::Assign(const cv::Mat& gray, const cv::Mat& depth) {
 cv::Mat DepthSource::Clean(const cv::Mat& gray, const cv::Mat& depth) {
   if (model_.has_flying_pixels) return RemoveFlyingPixels(depth, model_.noise);
   if (!model_.bleeds) return depth;
-  if (!bleeding_.IsDone()) bleeding_.Add(gray, depth);
-  const char* e = std::getenv("X_REACH");                         // XXX
-  const char* e2 = std::getenv("X_BS");                           // XXX
-  const double bs = e2 ? std::atof(e2) : model_.noise.disparity;  // XXX
-  if (e) return RemoveBleeding(depth, std::atoi(e), bs);          // XXX
-  return RemoveBleeding(depth, bleeding_.reach(), bs);
+  // A depth out of range would spread to its neighbours.
+  cv::Mat valid = depth.clone();
+  for (int y = 0; y < valid.rows; ++y) {
+    float* z = valid.ptr<float>(y);
+    for (int x = 0; x < valid.cols; ++x) {
+      if (!(z[x] >= min_depth_ && z[x] <= max_depth_)) z[x] = 0.0f;  // also NaN
+    }
+  }
+  if (!bleeding_.IsDone()) bleeding_.Add(gray, valid);
+  return RemoveBleeding(valid, bleeding_.reach(), model_.noise.disparity);
 }
 
 void ShareDepthErrors(double radius, Frame* frame) {

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Depth sensors of `synthesize` and of `replay`.
+
+#include "tests/apps/command_process.h"
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::HasSubstr;
+
+class DepthSensorCommandTest : public TemporaryFolder {
+ protected:
+  void Synthesize(const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"synthesize", Path(name), "--frames",
+                                          "3",          "--width",  "320"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const CommandOutcome outcome = RunCommand(arguments);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
+  std::string SensorOf(const std::string& name, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {
+        "replay",  Path(name),   "--output",         Path(name + "/out"),
+        "--quiet", "--log-file", Path(name + "/log")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const CommandOutcome outcome = RunCommand(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    return nlohmann::json::parse(ReadFile(Path(name + "/out/summary.json")))["depth_sensor"];
+  }
+};
+
+TEST_F(DepthSensorCommandTest, ChoosesTheSensorThatWasRendered) {
+  for (const std::string sensor : {"tof", "stereo", "lidar"}) {
+    Synthesize(sensor, {"--sensor", sensor});
+    EXPECT_EQ(SensorOf(sensor), sensor);
+    EXPECT_THAT(ReadFile(Path(sensor + "/log")),
+                HasSubstr("depth sensor: " + sensor + " (chosen from the depth images)"));
+    EXPECT_THAT(ReadFile(Path(sensor + "/out/report.html")),
+                HasSubstr(sensor + " (chosen from the depth images)"));
+  }
+  Synthesize("exact", {});
+  EXPECT_EQ(SensorOf("exact"), "structured-light");
+}
+
+TEST_F(DepthSensorCommandTest, TakesTheGivenSensor) {
+  Synthesize("exact", {});
+  EXPECT_EQ(SensorOf("exact", {"--depth-sensor", "tof"}), "tof");
+  EXPECT_THAT(ReadFile(Path("exact/log")), HasSubstr("depth sensor: tof (given)"));
+}
+
+TEST_F(DepthSensorCommandTest, KinectIsThatOfNoise) {
+  Synthesize("sensor", {"--sensor", "kinect"});
+  Synthesize("noise", {"--noise", "kinect"});
+  EXPECT_EQ(ReadFile(Path("sensor/depth/1.000000.png")),
+            ReadFile(Path("noise/depth/1.000000.png")));
+}
+
+TEST_F(DepthSensorCommandTest, RefusesUnknownSensorsAndTwoOfThem) {
+  CommandOutcome outcome = RunCommand({"synthesize", Path("a"), "--sensor", "radar"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("radar"));
+  outcome = RunCommand({"synthesize", Path("a"), "--sensor", "tof", "--noise", "kinect"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  outcome = RunCommand({"replay", Path("a"), "--depth-sensor", "radar"});
+  EXPECT_EQ(outcome.exit_code, 2);
+}
+
+}  // namespace
+}  // namespace msc_vo
