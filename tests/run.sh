@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # Builds everything into ./build and runs every test. On Debian 12 it first installs missing packages.
 #
-#   tests/run.sh                       everything, and the readers of files under AddressSanitizer
+#   tests/run.sh                       everything
 #   tests/run.sh --sanitize address    the tests under AddressSanitizer and UndefinedBehaviorSanitizer,
 #                                      in ./build-address
+#   tests/run.sh --sanitize readers    of these, only the fuzz targets of the readers of sequences
 #   tests/run.sh --sanitize thread     the tests that start threads under ThreadSanitizer, in
 #                                      ./build-thread
 #
 # Environment: JOBS, the number of parallel processes (default: one per processor); TESTS, a regular
-# expression of test programs for --sanitize ("odometry|text"; default: all that it covers).
+# expression of folders for --sanitize address and thread ("odometry|text"; default: all that it covers).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
@@ -20,8 +21,8 @@ not_instrumented='^(consumer|free_ceres|python)\.'
 
 sanitize=
 if [[ $# -gt 0 ]]; then
-  if [[ $# -ne 2 || $1 != --sanitize || ($2 != address && $2 != thread) ]]; then
-    echo "usage: tests/run.sh [--sanitize address|thread]" >&2
+  if [[ $# -ne 2 || $1 != --sanitize || ! $2 =~ ^(address|readers|thread)$ ]]; then
+    echo "usage: tests/run.sh [--sanitize address|readers|thread]" >&2
     exit 2
   fi
   sanitize=$2
@@ -71,6 +72,11 @@ case $sanitize in
       test_sanitized address asan-ubsan '.*' all
     fi
     ;;
+  readers)
+    readers='image_lists|associations|trajectory|camera_file|accelerometer|image_names|images'
+    test_sanitized address asan-ubsan "^fuzz\.($readers)$|^text\." \
+                   $(echo "$readers" | tr '|' '\n' | sed 's/^/fuzz_/') text_test
+    ;;
   thread)
     test_sanitized thread tsan "^(${TESTS:-$threaded})\." $(targets_of "${TESTS:-$threaded}")
     ;;
@@ -82,8 +88,5 @@ case $sanitize in
     cmake --build build --parallel "$jobs"
     begin "test"
     ctest --test-dir build --parallel "$jobs" --output-on-failure
-    readers='image_lists|associations|trajectory|camera_file|accelerometer|image_names|images'
-    test_sanitized address asan-ubsan "^fuzz\.($readers)$|^text\." \
-                   $(echo "$readers" | tr '|' '\n' | sed 's/^/fuzz_/') text_test
     ;;
 esac

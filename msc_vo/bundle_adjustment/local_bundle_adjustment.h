@@ -148,11 +148,11 @@ using WindowStageObserver = std::function<void(WindowStage)>;
 ///   derivative is not finite.
 ///
 /// Throws std::invalid_argument that names the offending item for: a window without keyframes, an
-/// unknown or repeated id, a number that is not finite or beyond 1e9, a sigma not in [1e-20, 1e20],
-/// a covariance that is not symmetric positive definite, a segment of zero length, a pair of a line
-/// with itself, a count below 1, an axis that is not a unit vector, a free gauge, invalid options;
-/// and for a custom factor without cost function, with parameter blocks of a wrong number or size,
-/// with a block twice, or that cannot be evaluated at the initial values.
+/// unknown or repeated id, a number that is not finite or beyond 1e9, a sigma <= 0, a covariance
+/// that is not symmetric positive definite, a segment of zero length, a pair of a line with itself,
+/// a count below 1, an axis that is not a unit vector, a free gauge, or invalid options; and for a
+/// custom factor without cost function, with parameter blocks of the wrong number or size, with a
+/// block twice, or that cannot be evaluated at the initial values.
 BundleAdjustmentSummary LocalBundleAdjustment(const BundleAdjustmentOptions& options,
                                               WindowData* data,
                                               const WindowStageObserver& enter_stage = {});

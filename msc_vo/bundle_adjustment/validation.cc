@@ -13,12 +13,7 @@ namespace msc_vo {
 
 namespace {
 
-// Limits of sigmas and of factors on them: the squares of residuals that are divided by them
-// neither overflow nor vanish.
-constexpr double kMinSigma = 1e-20;
-constexpr double kMaxSigma = 1e20;
-
-bool IsSigma(double x) { return x >= kMinSigma && x <= kMaxSigma; }  // false for NaN
+bool IsPositive(double x) { return std::isfinite(x) && x > 0.0; }
 
 // Largest coordinate (pixels, metres or their inverse). Fourth powers of valid coordinates, as in
 // the chi-square of a segment's length, do not overflow.
@@ -37,9 +32,7 @@ template <int N>
 const char* CovarianceErrorOf(const Eigen::Matrix<double, N, N>& covariance) {
   constexpr const char* kError = "covariance is not positive definite";
   const Eigen::Matrix<double, N, 1> sigma = covariance.diagonal().cwiseSqrt();
-  if (!covariance.allFinite() || !IsSigma(sigma.minCoeff()) || !IsSigma(sigma.maxCoeff())) {
-    return kError;
-  }
+  if (!covariance.allFinite() || !(sigma.minCoeff() > 0.0)) return kError;
   // Correlations are dimensionless, so one tolerance fits all entries.
   const Eigen::Matrix<double, N, N> correlation =
       sigma.cwiseInverse().asDiagonal() * covariance * sigma.cwiseInverse().asDiagonal();
@@ -62,7 +55,7 @@ const char* PositionError(const Eigen::Vector3d& position) {
 }
 
 const char* NoiseError(double noise) {
-  return IsSigma(noise) ? nullptr : "noise must be a positive number, from 1e-20 to 1e20";
+  return IsPositive(noise) ? nullptr : "noise must be a positive number";
 }
 
 const char* DepthOffsetError(double offset) {
@@ -80,12 +73,12 @@ const char* MapLineError(const LineSegment3& segment) {
 const char* PointObservationError(const Eigen::Vector2d& pixel, double sigma, double inverse_depth,
                                   double inverse_depth_sigma) {
   if (!AreCoordinates(pixel)) return "pixel is not finite or beyond 1e9";
-  if (!IsSigma(sigma)) return "sigma must be positive, from 1e-20 to 1e20";
+  if (!IsPositive(sigma)) return "sigma must be positive";
   if (!AreCoordinates(inverse_depth) || inverse_depth < 0.0) {
     return "inverse_depth must be in [0, 1e9]";
   }
-  if (inverse_depth > 0.0 && !IsSigma(inverse_depth_sigma)) {
-    return "inverse_depth_sigma must be positive, from 1e-20 to 1e20";
+  if (inverse_depth > 0.0 && !IsPositive(inverse_depth_sigma)) {
+    return "inverse_depth_sigma must be positive";
   }
   return nullptr;
 }
@@ -96,7 +89,7 @@ const char* LineObservationError(const LineSegment2& segment, double sigma, bool
     return "segment is not finite or beyond 1e9 pixels";
   }
   if (segment.start == segment.end) return "segment has zero length";
-  if (!IsSigma(sigma)) return "sigma must be positive, from 1e-20 to 1e20";
+  if (!IsPositive(sigma)) return "sigma must be positive";
   if (!has_depth) return nullptr;
   if (!AreCoordinates(depth.start) || !AreCoordinates(depth.end)) {
     return "depth is not finite or beyond 1e9";
@@ -114,14 +107,14 @@ const char* CovarianceError(const Eigen::Matrix<double, 6, 6>& covariance) {
 
 const char* LinePairError(const WindowData::LinePair& pair) {
   if (pair.a == pair.b) return "pairs a line with itself";
-  if (!IsSigma(pair.sigma)) return "sigma must be positive, from 1e-20 to 1e20";
+  if (!IsPositive(pair.sigma)) return "sigma must be positive";
   if (pair.count < 1) return "count must be at least 1";
   return nullptr;
 }
 
 const char* AxisAlignmentError(const WindowData::AxisAlignment& alignment) {
   if (UnitVectorError(alignment.axis) != nullptr) return "axis is not a unit vector";
-  if (!IsSigma(alignment.sigma)) return "sigma must be positive, from 1e-20 to 1e20";
+  if (!IsPositive(alignment.sigma)) return "sigma must be positive";
   return nullptr;
 }
 

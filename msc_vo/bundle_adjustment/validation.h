@@ -25,8 +25,7 @@ const char* LineObservationError(const LineSegment2& segment, double sigma, bool
                                  const LineDepth& depth);
 const char* NoiseError(double noise);
 const char* DepthOffsetError(double offset);
-/// Requires standard deviations from 1e-20 to 1e20, correlations that are symmetric to 1e-6, and
-/// positive definiteness.
+/// Requires correlations that are symmetric to 1e-6, and positive definiteness.
 const char* CovarianceError(const Eigen::Matrix2d& covariance);
 const char* CovarianceError(const Eigen::Matrix<double, 6, 6>& covariance);
 const char* LinePairError(const WindowData::LinePair& pair);

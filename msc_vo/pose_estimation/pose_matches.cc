@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace msc_vo {
 
@@ -61,7 +63,11 @@ double SquaredFrameNoise(const PoseOptions& options, const PoseData& data, const
   for (const PoseData::Point& p : data.points) {
     const Eigen::Vector3d in_cam = pose * p.position;
     if (!IsInFront(in_cam)) continue;
-    chi2.push_back((data.camera.Project(in_cam) - p.pixel).squaredNorm() / (p.sigma * p.sigma));
+    const double squared_sigmas =
+        (data.camera.Project(in_cam) - p.pixel).squaredNorm() / (p.sigma * p.sigma);
+    // The square of a tiny sigma vanishes; NaN has no place in an order.
+    chi2.push_back(std::isnan(squared_sigmas) ? std::numeric_limits<double>::infinity()
+                                              : squared_sigmas);
   }
   if (chi2.size() < kMinPointsForNoise) return 1.0;
   const auto middle = chi2.begin() + static_cast<std::ptrdiff_t>(chi2.size() / 2);

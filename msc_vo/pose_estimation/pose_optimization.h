@@ -116,10 +116,10 @@ struct PoseSummary {
 /// outliers. An observation whose depth alone contradicts stays an inlier and loses its depth.
 /// The result is usable if at least six residual rows, those of custom factors included, constrain
 /// all six degrees of freedom, so that the covariance exists.
-/// Throws std::invalid_argument, naming the match, on numbers that are not finite, sigmas outside
-/// [1e-20, 1e20], segments without length or invalid options; naming the custom factor, if its cost
-/// function is null, has other blocks than one of size 7 or no residuals, or cannot be evaluated at
-/// the initial pose.
+/// Throws std::invalid_argument, naming the match, on numbers that are not finite, sigmas <= 0,
+/// segments without length or invalid options; naming the custom factor, if its cost function is
+/// null, has other blocks than one of size 7 or no residuals, or cannot be evaluated at the initial
+/// pose.
 PoseSummary OptimizePose(const PoseOptions& options, PoseData* data);
 
 }  // namespace msc_vo
