@@ -36,7 +36,8 @@ inline PoseFactor GravityFactor(const Eigen::Vector3d& in_cam, double sigma) {
           nullptr};
 }
 
-inline Eigen::Matrix<double, 6, 6> PoseCovariance(double rotation_sigma, double translation_sigma) {
+inline Eigen::Matrix<double, 6, 6> DiagonalPoseCovariance(double rotation_sigma,
+                                                          double translation_sigma) {
   Eigen::Matrix<double, 6, 1> variance;
   variance << Eigen::Vector3d::Constant(rotation_sigma * rotation_sigma),
       Eigen::Vector3d::Constant(translation_sigma * translation_sigma);
@@ -46,10 +47,10 @@ inline Eigen::Matrix<double, 6, 6> PoseCovariance(double rotation_sigma, double 
 // A measured pose, such as the last one moved by a wheel step. Sigmas in radians and metres.
 inline PoseFactor PriorFactor(const std::string& name, const Rigid3& cam_from_world,
                               double rotation_sigma, double translation_sigma) {
-  return {
-      name,
-      PosePrior::CreateShared(cam_from_world, PoseCovariance(rotation_sigma, translation_sigma)),
-      nullptr};
+  return {name,
+          PosePrior::CreateShared(cam_from_world,
+                                  DiagonalPoseCovariance(rotation_sigma, translation_sigma)),
+          nullptr};
 }
 
 }  // namespace msc_vo

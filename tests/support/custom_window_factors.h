@@ -16,11 +16,11 @@ namespace msc_vo {
 // Sigmas in radians and metres.
 inline CustomFactor WheelStep(int64_t a, int64_t b, const Rigid3& b_from_a, double rotation_sigma,
                               double translation_sigma) {
-  return {
-      "wheel step to keyframe " + std::to_string(b),
-      ScaledRelativePose::CreateShared(b_from_a, PoseCovariance(rotation_sigma, translation_sigma)),
-      nullptr,
-      {BlockId::Pose(a), BlockId::Pose(b), BlockId::Extra(0)}};
+  return {"wheel step to keyframe " + std::to_string(b),
+          ScaledRelativePose::CreateShared(
+              b_from_a, DiagonalPoseCovariance(rotation_sigma, translation_sigma)),
+          nullptr,
+          {BlockId::Pose(a), BlockId::Pose(b), BlockId::Extra(0)}};
 }
 
 // An extra block of one number.

@@ -83,7 +83,7 @@ TEST_F(SegmentStartTest, CanBeDisabled) {
 TEST_F(SegmentStartTest, RefusesInvalidOptions) {
   std::string error;
   SegmentOptions options;
-  options.max_search = 0.5;
+  options.max_search = -0.5;
   EXPECT_FALSE(options.IsValid(&error));
   EXPECT_THAT(error, testing::HasSubstr("max_search"));
 }
