@@ -45,32 +45,33 @@ void MergeMatchedLines(KeyframeId id, const std::vector<LineMatch>& matches, Map
 void MapJoiner::Add(KeyframeId keyframe, const PoseCovariance& covariance,
                     const MapRelocalization& in_inactive_map) {
   // Older keyframes have drifted more, and wrong ones must not outvote the others for ever.
-  constexpr size_t kMaxSightings = 10;
-  if (sightings_.size() == kMaxSightings) sightings_.erase(sightings_.begin());
-  sightings_.push_back({keyframe, covariance, in_inactive_map});
+  constexpr size_t kMaxCommonKeyframes = 10;
+  if (common_keyframes_.size() == kMaxCommonKeyframes)
+    common_keyframes_.erase(common_keyframes_.begin());
+  common_keyframes_.push_back({keyframe, covariance, in_inactive_map});
 }
 
-std::vector<MapJoiner::Sighting> MapJoiner::SightingsIn(const Map& map) const {
-  std::vector<Sighting> sightings;
-  for (const Sighting& sighting : sightings_) {
-    if (map.KnowsKeyframe(sighting.in_inactive_map.reference)) sightings.push_back(sighting);
+std::vector<MapJoiner::CommonKeyframe> MapJoiner::CommonKeyframesWith(const Map& map) const {
+  std::vector<CommonKeyframe> common_keyframes;
+  for (const CommonKeyframe& common : common_keyframes_) {
+    if (map.KnowsKeyframe(common.in_inactive_map.reference)) common_keyframes.push_back(common);
   }
-  return sightings;
+  return common_keyframes;
 }
 
 std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
-  if (sightings_.empty()) return std::nullopt;
-  const KeyframeId reference = sightings_.back().in_inactive_map.reference;
+  if (common_keyframes_.empty()) return std::nullopt;
+  const KeyframeId reference = common_keyframes_.back().in_inactive_map.reference;
   const Map* inactive = FindMapOf(atlas->inactive(), reference);
   if (inactive == nullptr) return std::nullopt;
   const bool inactive_is_kept = IsOlder(*inactive, atlas->current());
-  const std::vector<Sighting> sightings = SightingsIn(*inactive);
+  const std::vector<CommonKeyframe> in_both = CommonKeyframesWith(*inactive);
   std::vector<FrameInTwoMaps> frames;  // a: the map that is moved, b: the one that is kept
-  for (const Sighting& sighting : sightings) {
-    const MapRelocalization& other = sighting.in_inactive_map;
-    FrameInTwoMaps frame{atlas->current().CamFromWorld(sighting.keyframe),
+  for (const CommonKeyframe& common : in_both) {
+    const MapRelocalization& other = common.in_inactive_map;
+    FrameInTwoMaps frame{atlas->current().CamFromWorld(common.keyframe),
                          other.cam_from_reference * inactive->CamFromWorld(other.reference),
-                         sighting.covariance, other.covariance};
+                         common.covariance, other.covariance};
     if (!inactive_is_kept) {
       std::swap(frame.cam_from_a, frame.cam_from_b);
       std::swap(frame.covariance_a, frame.covariance_b);
@@ -89,19 +90,19 @@ std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
   join.num_keyframes =
       static_cast<int>(std::count(alignment->inliers.begin(), alignment->inliers.end(), true));
   atlas->Join(reference, inactive_is_kept ? join.moved_from_kept : join.moved_from_kept.Inverse());
-  for (size_t i = 0; i < sightings.size(); ++i) {
-    const KeyframeId keyframe = sightings[i].keyframe;
+  for (size_t i = 0; i < in_both.size(); ++i) {
+    const KeyframeId keyframe = in_both[i].keyframe;
     if (!alignment->inliers[i] || atlas->current().FindKeyframe(keyframe) == nullptr) continue;
-    const FrameMatches& matches = sightings[i].in_inactive_map.matches;
+    const FrameMatches& matches = in_both[i].in_inactive_map.matches;
     MergeMatchedPoints(keyframe, matches.points, &atlas->current());
     MergeMatchedLines(keyframe, matches.lines, &atlas->current());
   }
-  sightings_.erase(
-      std::remove_if(sightings_.begin(), sightings_.end(),
-                     [&](const Sighting& sighting) {
-                       return atlas->current().KnowsKeyframe(sighting.in_inactive_map.reference);
+  common_keyframes_.erase(
+      std::remove_if(common_keyframes_.begin(), common_keyframes_.end(),
+                     [&](const CommonKeyframe& common) {
+                       return atlas->current().KnowsKeyframe(common.in_inactive_map.reference);
                      }),
-      sightings_.end());
+      common_keyframes_.end());
   return join;
 }
 

@@ -40,21 +40,21 @@ class MapJoiner {
   std::optional<MapJoin> TryJoin(Atlas* atlas);
 
   /// Forgets the keyframes of the current map: another one begins.
-  void Clear() { sightings_.clear(); }
+  void Clear() { common_keyframes_.clear(); }
 
  private:
   // A keyframe of the current map in an inactive one.
-  struct Sighting {
+  struct CommonKeyframe {
     KeyframeId keyframe = kNoId;
     PoseCovariance covariance = PoseCovariance::Zero();
     MapRelocalization in_inactive_map;
   };
 
-  // The sightings in `map`.
-  std::vector<Sighting> SightingsIn(const Map& map) const;
+  // Those that were found in `map`.
+  std::vector<CommonKeyframe> CommonKeyframesWith(const Map& map) const;
 
   MapAlignmentOptions options_;
-  std::vector<Sighting> sightings_;
+  std::vector<CommonKeyframe> common_keyframes_;
 };
 
 }  // namespace msc_vo
