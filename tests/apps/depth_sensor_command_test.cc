@@ -37,7 +37,8 @@ class DepthSensorCommandTest : public TemporaryFolder {
 
 TEST_F(DepthSensorCommandTest, ChoosesTheSensorThatWasRendered) {
   for (const std::string sensor : {"tof", "stereo", "lidar"}) {
-    Synthesize(sensor, {"--sensor", sensor});
+    // A scene whose first image has near and far surfaces.
+    Synthesize(sensor, {"--sensor", sensor, "--scene", "corridor"});
     EXPECT_EQ(SensorOf(sensor), sensor);
     EXPECT_THAT(ReadFile(Path(sensor + "/log")),
                 HasSubstr("depth sensor: " + sensor + " (chosen from the depth images)"));
