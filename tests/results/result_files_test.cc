@@ -9,6 +9,7 @@
 
 #include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/results/run_report.h"
 #include "msc_vo/results/summary_json.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
