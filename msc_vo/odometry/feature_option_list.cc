@@ -42,8 +42,7 @@ void ListNoise(SensorNoiseOptions* noise, OptionLister* list) {
             "Standard deviation of a point on pyramid level 0.")
       .MakeBasic("Increase for blurred or strongly compressed images.");
   list->Add("line_sigma", &noise->line_sigma, {0.001, 100, "pixels"},
-            "Initial standard deviation of a segment's end point across the line.")
-      .MakeBasic("Increase for blurred or strongly compressed images.");
+            "Initial standard deviation of a segment's end point across the line.");
 }
 
 void ListLineFit(LineFitOptions* fit, OptionLister* list) {

@@ -205,6 +205,8 @@ void ListJoining(MapAlignmentOptions* joining, OptionLister* list) {
             "Standard deviation of a position due to the errors of a map within one view.");
   list->Add("map_rotation_sigma", &joining->map_rotation_sigma, {1e-6, 90, "degrees"},
             "Standard deviation of an orientation due to the same errors.");
+  list->Add("reject_chi2_6", &joining->reject_chi2_6, {0.001, 10000},
+            "Squared Mahalanobis distance above which a keyframe disagrees with an alignment.");
 }
 
 }  // namespace

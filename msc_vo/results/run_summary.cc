@@ -133,9 +133,9 @@ std::string DescribeSegments(const RunSummary& summary) {
 std::vector<TimedPose> TrajectoryOf(const OdometryResult& result) {
   std::vector<TimedPose> poses;
   for (const FrameResult& frame : result.frames) {
-    if (frame.segment == kNoSegment) continue;
+    const int segment = frame.segment == kNoSegment ? 0 : frame.segment;
     poses.push_back({frame.timestamp, frame.cam_from_world.Inverse(), IsEstimated(frame.status),
-                     frame.segment, WorldOf(result, frame.segment)});
+                     segment, WorldOf(result, segment)});
   }
   return poses;
 }

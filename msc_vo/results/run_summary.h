@@ -105,8 +105,8 @@ struct RunContext {
   std::vector<FrameView> views;  ///< for the report, with the ids of frames; may be empty
 };
 
-/// Camera poses of all frames that have one: those before the first segment do not. Frames that are
-/// neither tracked nor weak are marked as not estimated.
+/// Camera poses of all frames. Frames that are neither tracked nor weak are marked as not
+/// estimated; those before the first segment have the pose of its first frame.
 std::vector<TimedPose> TrajectoryOf(const OdometryResult& result);
 
 }  // namespace msc_vo

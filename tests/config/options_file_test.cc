@@ -75,7 +75,7 @@ TEST_F(OptionsFileTest, ReadsBackEveryOption) {
     const std::string before = FormatOption(option);
     bool changed = false;
     for (const char* text :
-         {"true", "false", "17", "0.12345678901234567", "pl-vo", "end-points", "lsd",
+         {"true", "false", "17", "7", "0.12345678901234567", "pl-vo", "tof", "end-points", "lsd",
           "edge-drawing", "ceres-dense-schur", "never", "[1, 2.5, 3]", "[0, 0, 1, 0]"}) {
       std::string expected;
       changed = changed || (text != before && SetOption(option, text, &expected));

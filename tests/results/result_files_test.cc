@@ -164,18 +164,21 @@ TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
   EXPECT_EQ(summary["options"]["tracking.wide_radius"], 60.0);
 }
 
-TEST_F(ResultFilesTest, WritesSegmentsAndNoPoseBeforeThem) {
+TEST_F(ResultFilesTest, WritesSegmentsAndMarksPosesBeforeThem) {
   OdometryResult result = Result();
   result.frames[0].segment = kNoSegment;
+  result.frames[0].status = TrackingStatus::kLost;
   result.frames[4].segment = 1;
   result.segments = {{1, 3, 1, 0, std::nullopt}, {4, 4, 1, 1, std::nullopt}};
   WriteResultFiles(Path("out"), result, {});
   const std::vector<TimedPose> trajectory = ReadTrajectory(Path("out/trajectory.txt"));
-  ASSERT_EQ(trajectory.size(), 4u);
-  EXPECT_EQ(trajectory[0].timestamp, 10.1);
-  EXPECT_EQ(trajectory[2].world, 0);
-  EXPECT_EQ(trajectory[3].segment, 1);
-  EXPECT_EQ(trajectory[3].world, 1);
+  ASSERT_EQ(trajectory.size(), 5u);
+  EXPECT_FALSE(trajectory[0].is_estimated);
+  EXPECT_EQ(trajectory[0].segment, 0);
+  EXPECT_EQ(trajectory[1].timestamp, 10.1);
+  EXPECT_EQ(trajectory[3].world, 0);
+  EXPECT_EQ(trajectory[4].segment, 1);
+  EXPECT_EQ(trajectory[4].world, 1);
   const nlohmann::json summary = nlohmann::json::parse(ReadFile(Path("out/summary.json")));
   ASSERT_EQ(summary["segments"].size(), 2u);
   EXPECT_EQ(summary["segments"][1]["first_frame"], 4);
