@@ -13,17 +13,21 @@ namespace {
 // Width of the images that lengths in pixels refer to.
 constexpr double kReferenceWidth = 640.0;
 
-// Phase measurement: photon noise grows with distance, because light decreases; neighbouring pixels
-// are independent. Azure Kinect: 17 mm at most within its range, systematic errors of 11 mm + 0.1
-// %.
-void MakeTimeOfFlight(double scale, DepthSensorModel* model) {
-  model->noise = 0.0;
-  model->noise.range = 0.002;
-  model->noise.proportional = 0.0025;
-  model->noise.correlation_length = 2.0 * scale;
-  model->noise.edge_gap = std::max(1, static_cast<int>(std::lround(2.0 * scale)));
-  model->sigma = {0.0, 0.0025, 0.01};
+// A sensor that measures distance, not disparity. Lengths in pixels.
+void MakeRanging(const DepthSigma& noise, double correlation_length, double edge_gap,
+                 DepthSensorModel* model) {
+  static_cast<DepthSigma&>(model->noise) = noise;
+  model->noise.correlation_length = correlation_length;
+  model->noise.edge_gap = std::max(1, static_cast<int>(std::lround(edge_gap)));
   model->has_flying_pixels = true;
+}
+
+// Phase measurement: photon noise grows with distance, because light decreases; neighbouring pixels
+// are independent. Azure Kinect: 17 mm at most within its range, systematic errors of 11 mm +
+// 0.1 %.
+void MakeTimeOfFlight(double scale, DepthSensorModel* model) {
+  MakeRanging({0.0, 0.0025, 0.002}, 2.0 * scale, 2.0 * scale, model);
+  model->sigma = {0.0, 0.0025, 0.01};
 }
 
 // Disparity of a matching window: constant in 1/z. RealSense D400: 0.08 px at 50 mm baseline and a
@@ -38,14 +42,9 @@ void MakeStereo(double scale, DepthSensorModel* model) {
 
 // Some ten thousand pulses, interpolated to an image: little noise, wide edges.
 void MakeLidar(double scale, DepthSensorModel* model) {
-  model->noise = 0.0;
-  model->noise.range = 0.005;
-  model->noise.proportional = 0.002;
-  model->noise.correlation_length = 12.0 * scale;
-  model->noise.edge_gap = std::max(1, static_cast<int>(std::lround(4.0 * scale)));
+  MakeRanging({0.0, 0.002, 0.005}, 12.0 * scale, 4.0 * scale, model);
   model->sigma = {0.0, 0.003, 0.01};
   model->shared_radius = 10.0 * scale;
-  model->has_flying_pixels = true;
 }
 
 }  // namespace

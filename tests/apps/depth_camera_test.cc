@@ -3,8 +3,7 @@
 
 // Sequences with a depth camera beside the colour camera.
 
-#include "tests/apps/command_process.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/apps/rendered_camera_test.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -16,23 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-class DepthCameraTest : public TemporaryFolder {
- protected:
-  // Renders a small sequence and returns the position error of its replay, metres.
-  double ErrorOf(const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"synthesize", Path(name), "--frames",
-                                          "30",         "--width",  "240"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    CommandOutcome outcome = RunCommand(arguments);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-    outcome = RunCommand({"replay", Path(name), "--output", Path(name + "/out"), "--quiet"});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-    return Summary(name)["error"]["ape_rmse"];
-  }
-  nlohmann::json Summary(const std::string& name) {
-    return nlohmann::json::parse(ReadFile(Path(name + "/out/summary.json")));
-  }
-};
+class DepthCameraTest : public RenderedCameraTest {};
 
 TEST_F(DepthCameraTest, IsAsAccurateAsRegisteredDepth) {
   const std::string rig = "--rig=218,0.05,-0.01,3";

@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-#include "tests/apps/command_process.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/apps/rendered_camera_test.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -24,23 +23,7 @@ constexpr char kRational[] =
     "--lens=rational:0.403863,-2.602884,0.000894,-0.000042,1.511878,0.284275,-2.420721,1.435424";
 constexpr char kFisheye[] = "--lens=fisheye:0.02,-0.012,0.006,-0.0015";
 
-class LensTest : public TemporaryFolder {
- protected:
-  // Renders a small sequence and returns the position error of its replay, metres.
-  double ErrorOf(const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"synthesize", Path(name), "--frames",
-                                          "30",         "--width",  "240"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    CommandOutcome outcome = RunCommand(arguments);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-    outcome = RunCommand({"replay", Path(name), "--output", Path(name + "/out"), "--quiet"});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-    return Summary(name)["error"]["ape_rmse"];
-  }
-  nlohmann::json Summary(const std::string& name) {
-    return nlohmann::json::parse(ReadFile(Path(name + "/out/summary.json")));
-  }
-};
+class LensTest : public RenderedCameraTest {};
 
 TEST_F(LensTest, IsAsAccurateAsAPinholeCamera) {
   const double pinhole = ErrorOf("pinhole", {"--focal-length=120"});
