@@ -4,8 +4,10 @@
 // Writes options as a YAML file.
 
 #include <algorithm>
+#include <cctype>
 
 #include "msc_vo/config/options_file.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -21,13 +23,31 @@ std::vector<std::string> SectionsOf(const std::string& path) {
   return sections;
 }
 
+// A text as a YAML scalar: quoted unless it is a plain name. Bytes are kept, also those that are
+// not UTF-8, which the emitter of yaml-cpp replaces.
+std::string Quoted(const std::string& text) {
+  const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
+  const bool is_name = std::all_of(text.begin(), text.end(), is_plain) && text.front() != '-' &&
+                       text != "null" && text != "Null" && text != "NULL";
+  if (is_name) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+    quoted += is_control ? FormatText("\\x%02x", c) : std::string(1, c);
+  }
+  return quoted + "\"";
+}
+
 // Writes options below the keys of their sections, with comments in a column of their own.
 class YamlWriter {
  public:
   void Write(const Option& option) {
     OpenSections(SectionsOf(option.path));
     const std::string name = option.path.substr(option.path.rfind('.') + 1);
-    const std::string value = FormatOption(option);
+    std::string value = FormatOption(option);
+    const bool is_text = std::holds_alternative<std::string*>(option.value);
+    if (is_text && !value.empty()) value = Quoted(value);
     const std::string line =
         Indent(open_.size()) + (value.empty() ? "# " : "") + name + ": " + value;
     const std::string valid = FormatValidValues(option);

@@ -87,6 +87,15 @@ TEST_F(OptionsFileTest, ReadsBackEveryOption) {
   EXPECT_EQ(FormatConfiguration(Read(text), OptionSelection::kAll), text);
 }
 
+TEST_F(OptionsFileTest, ReadsBackAnyText) {
+  for (const std::string text :
+       {"tum-fr1", "a: b", "# no comment", "null", "-", "two\nlines", "\"\\'", "\x01\xff"}) {
+    Configuration configuration;
+    configuration.camera.preset = text;
+    EXPECT_EQ(Read(FormatConfiguration(configuration, OptionSelection::kAll)).camera.preset, text);
+  }
+}
+
 TEST_F(OptionsFileTest, WritesBasicOptionsOnlyUnlessAllAreSelected) {
   const std::string basic = FormatConfiguration(Configuration(), OptionSelection::kBasic);
   EXPECT_THAT(basic, AllOf(HasSubstr("\n  prediction_radius: 15 "),
