@@ -62,7 +62,7 @@ std::vector<Difference> SecondDifferences(const cv::Mat& depth, int lag) {
   return differences;
 }
 
-// Quantile of the values of [begin, end), which is reordered.
+// Quantile of the values, which are reordered.
 double Quantile(std::vector<float>* values, double ratio) {
   if (values->empty()) return 0.0;
   const auto place = values->begin() +

@@ -43,4 +43,18 @@ bool Accepts(const std::string& name, const Reader& read) {
   return true;
 }
 
+/// Runs a solver on hostile data. Returns whether it accepted the data. Otherwise it must have
+/// thrown std::invalid_argument with a message; any other exception ends the program.
+template <typename Solver>
+bool AcceptsData(const Solver& solve) {
+  try {
+    solve();
+  } catch (const std::invalid_argument& error) {
+    Require(*error.what() != '\0', "a message that names the item");
+    return false;
+  }
+  ++num_accepted;
+  return true;
+}
+
 }  // namespace msc_vo
