@@ -17,7 +17,8 @@ namespace msc_vo {
 /// An estimate of the Manhattan axes of the scene.
 struct AxesEstimate {
   Eigen::Quaterniond world_from_axes = Eigen::Quaterniond::Identity();
-  double sigma = 0.0;  ///< standard deviation of the least certain direction, radians
+  double sigma = 0.0;      ///< standard deviation of the least certain direction, radians
+  double deviation = 0.0;  ///< of the lines that were built along the axes, radians
 };
 
 /// The immutable map after one keyframe step. Any thread may read it.

@@ -28,6 +28,7 @@ Mapper::Mapper(const MapperOptions& options)
     : options_(options),
       joiner_(options.joining),
       axes_(options.axes),
+      pairs_(options.pairs),
       noise_(options.noise),
       readout_(options.readout_time) {
   std::string error;
@@ -45,7 +46,9 @@ MappingSummary Mapper::Insert(const KeyframePacket& packet) {
   CompensateKeyframes(readout_time_, &atlas_.current());
   std::shared_ptr<const Frame> frame = UpdateCompensation(packet.frame, readout_time_);
   summary.times.creation = stopwatch.Restart();
-  if (options_.RefinesFrames()) frame = RefineStructure(options_.structure, noise_.scale(), frame);
+  if (options_.frame_structure) {
+    frame = RefineStructure(options_.structure, noise_.scale(), options_.MapHasStructure(), frame);
+  }
   summary.times.structure = stopwatch.Restart();
   summary.keyframe = InsertKeyframe(packet, std::move(frame));
   if (packet.in_inactive_map) {
@@ -127,9 +130,8 @@ MapSnapshotPtr Mapper::Snapshot() {
   snapshot->newest_keyframe = newest_keyframe_;
   snapshot->noise_scale = noise_.scale();
   snapshot->readout_time = readout_time_;
-  const AxesEstimator& axes = axes_.estimator();
-  if (axes.state() != AxesState::kNone) snapshot->axes = {axes.world_from_axes(), axes.sigma()};
-  snapshot->needs_axes = options_.axes.enabled && axes.state() == AxesState::kNone;
+  snapshot->axes = axes_.Estimate();
+  snapshot->needs_axes = options_.axes.enabled && !snapshot->axes;
   return snapshot;
 }
 
@@ -190,14 +192,15 @@ std::optional<BundleAdjustmentSummary> Mapper::OptimizeWindow(KeyframeId keyfram
   for (const WindowData::Line& line : window.lines) last_window_lines_.insert(line.id);
   if (window.keyframes.size() < 2) return std::nullopt;
   noise_.Apply(&window);
-  axes_.AddAlignments(map(), &window);
-  AddStructuralPairs(options_.pairs, map(), &window);
+  axes_.AddAlignments(&window);
+  pairs_.Add(&window);
   AddCustomFactors(&window);
   if (window_observer_) window_observer_(keyframe, options_.window, window);
   const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_.window, &window);
   if (summary.usable) {
     noise_.Update(WindowResiduals(window));
     WriteBack(window, &atlas_.current());
+    axes_.Learn(map(), window);
     for (const ExtraBlock& block : window.extra_blocks) extra_blocks_[block.id] = block;
   }
   return summary;

@@ -103,7 +103,8 @@ class Mapper {
   Atlas atlas_;
   MapJoiner joiner_;
   Probation probation_;
-  SceneAxes axes_;                                 // of the current map
+  SceneAxes axes_;  // of the current map
+  StructuralPairs pairs_;
   std::map<KeyframeId, SceneAxes> inactive_axes_;  // of inactive maps, by first keyframe
   NoiseEstimator noise_;
   ReadoutTimeEstimator readout_;

@@ -29,17 +29,9 @@ inline BundleAdjustmentOptions MapperBundleAdjustmentOptions() {
   return options;
 }
 
-/// When the lines of a keyframe refine each other before they enter the map.
-enum class FrameStructureUse {
-  kWithoutPairs,  ///< where the map has no structural pairs of its own
-  kAlways,
-  kNever,
-};
-
 struct MapperOptions {
-  /// By default not together with the structural pairs of the map: the pairs hold the same
-  /// constraint, and each keyframe would count it again. See docs/lab/structure.md.
-  FrameStructureUse frame_structure = FrameStructureUse::kWithoutPairs;
+  /// Whether the lines of a keyframe refine each other before they enter the map.
+  bool frame_structure = true;
   FrameStructureOptions structure;
   FusionOptions fusion;
   WindowSelectionOptions selection;
@@ -58,12 +50,8 @@ struct MapperOptions {
   /// it is estimated.
   std::optional<double> readout_time;
 
-  bool RefinesFrames() const {
-    if (frame_structure != FrameStructureUse::kWithoutPairs) {
-      return frame_structure == FrameStructureUse::kAlways;
-    }
-    return !pairs.parallel && !pairs.perpendicular;
-  }
+  /// Whether windows contain structural terms.
+  bool MapHasStructure() const { return axes.enabled || pairs.parallel || pairs.perpendicular; }
   bool IsValid(std::string* error) const;
 };
 

@@ -7,8 +7,22 @@ namespace msc_vo {
 
 namespace {
 
-// Relations of lines in one frame; their thresholds are those of the pairs of the map.
+// Learnt deviation of lines from structure.
+void ListDeviation(DeviationOptions* deviation, OptionLister* list) {
+  list->Add("prior", &deviation->prior, {0.021, 3.999, "degrees"},
+            "Median deviation before the first measurement.");
+  list->Add("memory", &deviation->memory, {1, 1e9, "angles"},
+            "Number of angles that the estimate depends on.");
+}
+
 void ListFrameStructure(FrameStructureOptions* structure, OptionLister* list) {
+  list->Add("max_angle", &structure->max_angle, {0.01, 44, "degrees"},
+            "Largest deviation of a pair's angle from 0 or 90 degrees in a frame.");
+  list->Add("pair_sigma", &structure->pair_sigma, {0.001, 90, "degrees"},
+            "Standard deviation of the true angle of lines that were built parallel or "
+            "perpendicular.");
+  list->Add("gate_sigmas", &structure->gate_sigmas, {0.01, 100, "sigmas"},
+            "Largest deviation of a pair's measured angle.");
   list->Add("huber", &structure->huber, {0.01, 1000, "sigmas"}, "Huber threshold of a pair.");
   list->Add("max_iterations", &structure->max_iterations, {1, 1000, "iterations"},
             "Largest number of iterations.");
@@ -98,14 +112,14 @@ void ListPairs(StructuralPairOptions* pairs, OptionLister* list) {
             "Constrain pairs of perpendicular lines of the map. Mode msc-vo only.")
       .MakeBasic("Disable for comparison.");
   list->Add("max_angle", &pairs->max_angle, {0.01, 44, "degrees"},
-            "Largest deviation of a pair's angle from 0 or 90 degrees, in the map and in a frame.");
-  list->Add("pair_sigma", &pairs->pair_sigma, {0.001, 90, "degrees"},
-            "Standard deviation of the true angle of lines that were built parallel, perpendicular "
-            "or along a Manhattan axis.");
-  list->Add("gate_sigmas", &pairs->gate_sigmas, {0.01, 100, "sigmas"},
-            "Largest deviation of a pair's measured angle.");
+            "Range around 0 and 90 degrees in which pairs of lines of the map are sought.");
+  list->Add("max_sigma", &pairs->max_sigma, {0.01, 90, "degrees"},
+            "Largest standard deviation of the direction of a line in a pair.");
+  list->Add("min_probability", &pairs->min_probability, {0, 1},
+            "Smallest probability of a pair not to be one by chance.");
   list->Add("max_partners", &pairs->max_partners, {1, 100, "lines"},
             "Largest number of partners of each kind per line.");
+  list->Section("deviation", &pairs->deviation, ListDeviation);
 }
 
 void ListCoarseAxes(CoarseAxesOptions* coarse, OptionLister* list) {
@@ -160,8 +174,6 @@ void ListAxesEstimator(AxesEstimatorOptions* estimator, OptionLister* list) {
             "Smallest fraction of the lines on axes; coarse axes below it are dropped.");
   list->Add("max_correction", &estimator->max_correction, {0.01, 90, "degrees"},
             "Largest rotation by a refinement.");
-  list->Add("freeze_sigma", &estimator->freeze_sigma, {0, 90, "degrees"},
-            "Standard deviation below which axes are frozen.");
 }
 
 void ListNoiseEstimator(NoiseEstimatorOptions* noise, OptionLister* list) {
@@ -182,6 +194,7 @@ void ListAxes(SceneAxesOptions* axes, OptionLister* list) {
   list->Section("association", &axes->association, ListAxisAssociation);
   list->Section("refinement", &axes->refinement, ListAxesRefinement);
   list->Section("estimator", &axes->estimator, ListAxesEstimator);
+  list->Section("deviation", &axes->deviation, ListDeviation);
 }
 
 void ListCulling(CullingOptions* culling, OptionLister* list) {
@@ -225,11 +238,10 @@ void ListMapping(MapperOptions* mapping, OptionLister* list) {
             "Readout time of a rolling shutter, from the first image row to the last; 0: global "
             "shutter. Estimated if not set.")
       .MakeBasic("Set it if it is known.");
-  list->AddChoice("frame_structure", &mapping->frame_structure,
-                  {"without-pairs", "always", "never"},
-                  "When parallel and perpendicular lines of a keyframe refine the depths of each "
-                  "other: if the map has no pairs (as in mode pl-vo-depth), always, or never (as "
-                  "in mode pl-vo).");
+  list->Add(
+      "frame_structure", &mapping->frame_structure,
+      "Refine the depths of parallel and perpendicular lines of a keyframe by each other. Not "
+      "in mode pl-vo.");
   list->Add("min_window_interval", &mapping->min_window_interval, {0, 3600, "seconds"},
             "Smallest time between keyframes with local bundle adjustment.");
   list->Section("structure", &mapping->structure, ListFrameStructure);

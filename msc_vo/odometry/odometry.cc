@@ -74,9 +74,10 @@ void CountVisible(const std::vector<LandmarkId>& ids, std::map<LandmarkId, Track
   }
 }
 
-MapAxes MakeAxes(const AxesEstimator& axes) {
-  return {axes.state(), axes.frozen(), axes.num_refinements(), axes.world_from_axes(),
-          axes.sigma()};
+MapAxes MakeAxes(const SceneAxes& scene) {
+  const AxesEstimator& axes = scene.estimator();
+  return {axes.state(), axes.num_refinements(), axes.world_from_axes(), axes.sigma(),
+          scene.deviation().scale()};
 }
 
 }  // namespace
@@ -254,7 +255,7 @@ void Odometry::State::AddMap(OdometryResult* result) const {
                              mapper.last_window_lines().count(id) > 0, scene_axes.AxisOf(line),
                              line.viewing_direction});
   }
-  result->axes = MakeAxes(scene_axes.estimator());
+  result->axes = MakeAxes(scene_axes);
 }
 
 Odometry::Odometry(const OdometryOptions& options, const PinholeCamera& camera,

@@ -45,10 +45,10 @@ struct MapLine {
 /// The Manhattan axes of the scene.
 struct MapAxes {
   AxesState state = AxesState::kNone;
-  bool frozen = false;  ///< certain enough not to be refined further
   int num_refinements = 0;
   Eigen::Quaterniond world_from_axes = Eigen::Quaterniond::Identity();  ///< unless kNone
-  double sigma = 0.0;  ///< standard deviation of the least certain direction, radians
+  double sigma = 0.0;      ///< standard deviation of the least certain direction, radians
+  double deviation = 0.0;  ///< learnt scale of the angle between a line and its axis, radians
 };
 
 /// Result of a run.

@@ -15,7 +15,7 @@ namespace {
 void ApplyMode(OdometryOptions* options) {
   if (options->mode == Mode::kPlVo) {
     options->features.line_depth = LineDepthMethod::kEndPoints;
-    options->mapping.frame_structure = FrameStructureUse::kNever;
+    options->mapping.frame_structure = false;
   }
   if (options->mode != Mode::kMscVo) {
     options->mapping.pairs.parallel = false;
@@ -45,13 +45,7 @@ void ShareLosses(OdometryOptions* options) {
 }
 
 void ShareRelations(OdometryOptions* options) {
-  const StructuralPairOptions& pairs = options->mapping.pairs;
-  FrameStructureOptions& structure = options->mapping.structure;
-  structure.max_angle = pairs.max_angle;
-  structure.pair_sigma = pairs.pair_sigma;
-  structure.gate_sigmas = pairs.gate_sigmas;
-  structure.max_partners = pairs.max_partners;
-  options->mapping.axes.deviation = pairs.pair_sigma;
+  options->mapping.structure.max_partners = options->mapping.pairs.max_partners;
 }
 
 }  // namespace

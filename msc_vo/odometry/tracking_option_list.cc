@@ -97,7 +97,7 @@ void ListSegments(SegmentOptions* segments, OptionLister* list) {
 
 void ListStatus(TrackerOptions* tracking, OptionLister* list) {
   list->Add("min_matches", &tracking->min_matches, {3, 10000, "matches"},
-            "Smallest number of inliers of a pose, points and lines together.")
+            "Smallest number of inliers of a pose; a line counts as two points.")
       .MakeBasic("Decrease for scenes with little texture, at the risk of wrong poses.");
   list->Add("max_prediction", &tracking->max_prediction, {0, 60, "seconds"},
             "Longest gap that is bridged by constant velocity before a frame is lost.")
@@ -127,8 +127,10 @@ void ListTracking(TrackerOptions* tracking, OptionLister* list) {
             "Largest number of keyframes of the local map.");
   list->Add("relocalization_keyframes", &tracking->relocalization_keyframes, {1, 100, "keyframes"},
             "Keyframes that relocalisation tries per frame.");
-  list->Add("min_initial_features", &tracking->min_initial_features, {3, 10000, "features"},
-            "Smallest number of features with depth of the first frame.");
+  list->Add(
+      "min_initial_features", &tracking->min_initial_features, {3, 10000, "features"},
+      "Smallest number of features with depth of the first frame; five lines in two directions "
+      "suffice as well.");
   list->Section("point_matcher", &tracking->point_matcher, ListPointMatcher);
   list->Section("line_matcher", &tracking->line_matcher, ListLineMatcher);
   list->Section("pose", &tracking->pose, ListPose);

@@ -35,8 +35,6 @@ bool AxesEstimatorOptions::IsValid(std::string* error) const {
     *error = "min_line_ratio must lie in [0, 1]";
   } else if (!(max_correction > 0.0)) {
     *error = "max_correction must be positive (degrees)";
-  } else if (!(freeze_sigma >= 0.0)) {
-    *error = "freeze_sigma must not be negative (degrees)";
   } else {
     return true;
   }
@@ -67,8 +65,7 @@ void AxesEstimator::Update(const AxesSupport& support) {
 }
 
 bool AxesEstimator::RefinementDue() const {
-  return state_ != AxesState::kNone && !frozen_ &&
-         support_.num_keyframes >= options_.min_keyframes &&
+  return state_ != AxesState::kNone && support_.num_keyframes >= options_.min_keyframes &&
          support_.num_axis_lines >= options_.min_axis_lines &&
          support_.num_axis_lines >= options_.min_growth * num_axis_lines_tried_;
 }
@@ -85,10 +82,6 @@ bool AxesEstimator::Refine(const Eigen::Quaterniond& world_from_axes,
     RejectRefinement();
     return false;
   }
-  // Convergence can be judged from the second refinement on.
-  const double freeze_sigma = DegreesToRadians(options_.freeze_sigma);
-  frozen_ =
-      state_ == AxesState::kRefined && sigma <= freeze_sigma && correction <= 3.0 * freeze_sigma;
   state_ = AxesState::kRefined;
   world_from_axes_ = world_from_axes.normalized();
   sigma_ = sigma;

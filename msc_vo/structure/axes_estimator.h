@@ -27,22 +27,17 @@ struct AxesEstimatorOptions {
   /// surfaces.
   double coarse_sigma = 1.0;
   /// Keyframes in the map before the first refinement, so that lines have several views.
-  int min_keyframes = 5;
-  /// Lines associated with axes before a refinement: three unknowns under a robust loss need many
-  /// more equations than unknowns.
-  int min_axis_lines = 20;
-  /// Factor by which the number of lines on axes grows between refinements; 1.5 lowers the standard
-  /// deviation by a fifth.
-  double min_growth = 1.5;
+  int min_keyframes = 2;
+  /// Lines near the axes before a refinement: twelve equations for three unknowns.
+  int min_axis_lines = 6;
+  /// Factor by which the number of lines near the axes grows between refinements.
+  double min_growth = 1.1;
   /// Smallest fraction of the map's lines on the axes; coarse axes below it fit one keyframe, not
   /// the scene, and are dropped. Half of CoarseAxesOptions::min_explained_ratio.
   double min_line_ratio = 0.25;
   /// Largest rotation by a refinement, degrees; a larger one contradicts the axes so far. Three
   /// sigmas of coarse axes with a real sensor.
   double max_correction = 4.0;
-  /// Standard deviation below which axes are frozen if the last refinement rotated them by less
-  /// than three times as much, degrees.
-  double freeze_sigma = 0.1;
 
   bool IsValid(std::string* error) const;
 };
@@ -55,8 +50,8 @@ struct AxesSupport {
 };
 
 /// State machine of the Manhattan axes of the world (paper: Manhattan Axes Estimation, coarse to
-/// fine): none -> coarse -> refined, refined again as the map grows, until frozen; back to none if
-/// coarse axes prove wrong. The caller computes the axes:
+/// fine): none -> coarse -> refined, refined again as the map grows; back to none if coarse axes
+/// prove wrong. The caller computes the axes:
 ///
 ///   if (estimator.state() == AxesState::kNone) Propose() the result of FindCoarseAxes()
 ///   Update() with the support in the map
@@ -71,7 +66,7 @@ class AxesEstimator {
   /// Sets the support of the axes in the map. Drops coarse axes with too few lines on them.
   void Update(const AxesSupport& support);
   /// Whether the map holds enough keyframes and lines, and enough more lines than at the last
-  /// refinement. False once the axes are frozen.
+  /// refinement.
   bool RefinementDue() const;
   /// Sets refined axes with the covariance (radians^2) of their rotation vector, of which the
   /// largest eigenvalue is used. Returns false, with the effect of RejectRefinement(), if they
@@ -82,7 +77,6 @@ class AxesEstimator {
   void RejectRefinement();
 
   AxesState state() const { return state_; }
-  bool frozen() const { return frozen_; }
   int num_refinements() const { return num_refinements_; }
   /// The columns of its matrix are the axes in the world. Meaningless in state kNone.
   const Eigen::Quaterniond& world_from_axes() const { return world_from_axes_; }
@@ -93,7 +87,6 @@ class AxesEstimator {
 
   AxesEstimatorOptions options_;
   AxesState state_ = AxesState::kNone;
-  bool frozen_ = false;
   int num_refinements_ = 0;
   Eigen::Quaterniond world_from_axes_ = Eigen::Quaterniond::Identity();
   double sigma_ = 0.0;

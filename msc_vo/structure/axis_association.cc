@@ -37,4 +37,22 @@ std::optional<int> AssociateAxis(const AxisAssociationOptions& options,
   return axis;
 }
 
+std::optional<AxisCandidate> NearestAxis(const AxisAssociationOptions& options,
+                                         const Eigen::Matrix3d& axes, double axes_sigma,
+                                         const DirectionEstimate& line) {
+  if (line.Sigma() > DegreesToRadians(options.max_sigma)) return std::nullopt;
+  const Eigen::Vector3d direction = axes.transpose() * line.direction;
+  int axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  Eigen::Matrix<double, 3, 2> across;
+  across << axes.col((axis + 1) % 3), axes.col((axis + 2) % 3);
+  AxisCandidate candidate;
+  candidate.axis = axis;
+  candidate.deviation.angle = across.transpose() * line.direction / direction[axis];
+  candidate.deviation.covariance = across.transpose() * line.covariance * across +
+                                   axes_sigma * axes_sigma * Eigen::Matrix2d::Identity();
+  if (candidate.deviation.angle.norm() > DegreesToRadians(options.max_angle)) return std::nullopt;
+  return candidate;
+}
+
 }  // namespace msc_vo

@@ -10,6 +10,8 @@
 
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/structure/axis_evidence.h"
+#include "msc_vo/structure/deviation_estimator.h"
+#include "msc_vo/structure/direction_estimate.h"
 
 namespace msc_vo {
 
@@ -20,9 +22,9 @@ struct AxisAssociationOptions {
   /// Largest angle between a line and its axis, degrees. Random directions are within 5 degrees of
   /// an axis with a probability of 1 %.
   double max_angle = 5.0;
-  /// Largest standard deviation of a line's direction, degrees. Less certain lines would pass the
-  /// angle test by chance.
-  double max_sigma = 5.0;
+  /// Largest standard deviation of a line's direction, degrees: a line that is 2.5 sigmas off still
+  /// passes the test of the angle.
+  double max_sigma = 2.0;
 
   bool IsValid(std::string* error) const;
 };
@@ -35,5 +37,18 @@ struct AxisAssociationOptions {
 std::optional<int> AssociateAxis(const AxisAssociationOptions& options,
                                  const Eigen::Quaterniond& rotation, double rotation_sigma,
                                  const AxisEvidence& line);
+
+/// A line that is near to an axis, and its angle to it.
+struct AxisCandidate {
+  int axis = 0;
+  DirectionDeviation deviation;
+};
+
+/// Returns the axis that is within max_angle of a line's direction, if that is certain enough. The
+/// columns of `axes` are the axes in the world; `axes_sigma`: radians, part of the covariance of
+/// the angle.
+std::optional<AxisCandidate> NearestAxis(const AxisAssociationOptions& options,
+                                         const Eigen::Matrix3d& axes, double axes_sigma,
+                                         const DirectionEstimate& line);
 
 }  // namespace msc_vo

@@ -8,7 +8,7 @@
 namespace msc_vo {
 
 std::shared_ptr<const Frame> RefineStructure(const FrameStructureOptions& options,
-                                             const NoiseScale& scale,
+                                             const NoiseScale& scale, bool keep_covariance,
                                              std::shared_ptr<const Frame> frame) {
   const double variance_scale = scale.line_depth * scale.line_depth;
   std::vector<StructureLine> fits;
@@ -23,8 +23,10 @@ std::shared_ptr<const Frame> RefineStructure(const FrameStructureOptions& option
   auto fit = fits.begin();
   for (LineFeature& line : refined->lines) {
     if (!line.depth) continue;
+    const Eigen::Matrix2d covariance =
+        keep_covariance ? line.depth->covariance : fit->depth.covariance / variance_scale;
     line.depth = (fit++)->depth;
-    line.depth->covariance /= variance_scale;
+    line.depth->covariance = covariance;
   }
   return refined;
 }

@@ -4,9 +4,10 @@
 #include "msc_vo/structure/scene_axes.h"
 
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
-#include "msc_vo/factors/inverse_depth_line.h"
+#include <Eigen/Eigenvalues>
 
 namespace msc_vo {
 
@@ -24,44 +25,36 @@ std::vector<AxisEvidence> LineEvidence(const Frame& frame) {
   return evidence;
 }
 
-// Observation of a line's direction in one view. In the interpretation plane its uncertainty is
-// that of depth; across the plane it is that of the image, ten times smaller.
-ManhattanAxesData::Observation Observe(const Keyframe& keyframe, int feature, int axis) {
-  const Frame& frame = *keyframe.frame;
-  const LineFeature& line = frame.lines[feature];
-  const Eigen::Quaterniond world_from_cam = keyframe.cam_from_world.rotation().conjugate();
-  const Eigen::Vector3d normal =
-      frame.camera.Ray(line.segment.start).cross(frame.camera.Ray(line.segment.end)).normalized();
+// The direction of a line as a measurement of its axis. The least certain component of a direction
+// is that of depth, the other one that of the image.
+ManhattanAxesData::Observation Observe(const DirectionEstimate& line, int axis, double deviation) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(line.covariance);
+  const Eigen::Vector3d variances = eigen.eigenvalues().cwiseMax(0.0);
   ManhattanAxesData::Observation observation;
   observation.axis = axis;
-  observation.direction = world_from_cam * frame.LineInCamera(feature).Direction();
-  observation.normal = world_from_cam * normal;
-  observation.sigma = DirectionSigma(frame.camera, line.segment, *line.depth);
-  observation.normal_sigma =
-      InverseDepthLine(frame.camera, line.segment, *line.depth, line.sigma, 0.0).image_angle();
+  observation.direction = line.direction;
+  observation.normal = eigen.eigenvectors().col(2).cross(line.direction).normalized();
+  observation.sigma = std::hypot(std::sqrt(variances[2]), deviation);
+  observation.normal_sigma = std::hypot(std::sqrt(variances[1]), deviation);
   return observation;
 }
 
 }  // namespace
 
 bool SceneAxesOptions::IsValid(std::string* error) const {
-  if (!(deviation > 0.0)) {
-    *error = "axes.deviation must be positive (degrees)";
-    return false;
-  }
   return coarse.IsValid(error) && association.IsValid(error) && refinement.IsValid(error) &&
-         estimator.IsValid(error);
+         estimator.IsValid(error) && deviation.IsValid(error);
 }
 
 std::optional<int> AxisOfLine(const SceneAxesOptions& options, const AxesEstimate& axes,
                               const LineLandmark& line) {
   return AssociateAxis(options.association, axes.world_from_axes,
-                       std::hypot(axes.sigma, DegreesToRadians(options.deviation)),
+                       std::hypot(axes.sigma, axes.deviation),
                        {line.segment.Direction(), line.direction_sigma});
 }
 
 SceneAxes::SceneAxes(const SceneAxesOptions& options)
-    : options_(options), estimator_(options.estimator) {
+    : options_(options), estimator_(options.estimator), deviation_(options.deviation) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument("SceneAxes: " + error);
 }
@@ -72,7 +65,7 @@ void SceneAxes::Update(const Map& map, KeyframeId keyframe,
   if (estimator_.state() == AxesState::kNone) Search(map, keyframe, normals);
   if (estimator_.state() == AxesState::kNone) return;
   estimator_.Update(CountSupport(map));
-  if (estimator_.RefinementDue()) Refine(map);
+  if (estimator_.RefinementDue()) Refine();
 }
 
 void SceneAxes::Search(const Map& map, KeyframeId id, const std::vector<AxisEvidence>& normals) {
@@ -81,40 +74,57 @@ void SceneAxes::Search(const Map& map, KeyframeId id, const std::vector<AxisEvid
   if (axes) estimator_.Propose(keyframe.cam_from_world.rotation().conjugate() * axes->rotation);
 }
 
-std::optional<int> SceneAxes::AxisOf(const LineLandmark& line) const {
+void SceneAxes::Learn(const Map& map, const WindowData& window) {
+  if (!options_.enabled) return;
+  const std::vector<std::optional<DirectionEstimate>> estimates = EstimateDirections(window);
+  std::vector<DirectionDeviation> deviations;
+  for (size_t i = 0; i < estimates.size(); ++i) {
+    if (!estimates[i]) continue;
+    directions_[window.lines[i].id] = *estimates[i];
+    if (estimator_.state() != AxesState::kRefined) continue;
+    const std::optional<AxisCandidate> candidate = NearestAxis(*estimates[i]);
+    if (candidate) deviations.push_back(candidate->deviation);
+  }
+  deviation_.Update(deviations);
+  for (auto line = directions_.begin(); line != directions_.end();) {
+    line = map.FindLine(line->first) != nullptr ? std::next(line) : directions_.erase(line);
+  }
+}
+
+std::optional<AxesEstimate> SceneAxes::Estimate() const {
   if (estimator_.state() == AxesState::kNone) return std::nullopt;
-  return AxisOfLine(options_, {estimator_.world_from_axes(), estimator_.sigma()}, line);
+  return AxesEstimate{estimator_.world_from_axes(), estimator_.sigma(), deviation_.scale()};
+}
+
+std::optional<int> SceneAxes::AxisOf(const LineLandmark& line) const {
+  const std::optional<AxesEstimate> axes = Estimate();
+  return axes ? AxisOfLine(options_, *axes, line) : std::nullopt;
+}
+
+std::optional<AxisCandidate> SceneAxes::NearestAxis(const DirectionEstimate& line) const {
+  return msc_vo::NearestAxis(options_.association, estimator_.world_from_axes().toRotationMatrix(),
+                             estimator_.sigma(), line);
 }
 
 AxesSupport SceneAxes::CountSupport(const Map& map) const {
   AxesSupport support;
   support.num_keyframes = static_cast<int>(map.keyframes().size());
-  for (const auto& [id, line] : map.lines()) {
-    if (line.direction_sigma > DegreesToRadians(options_.association.max_sigma)) continue;
+  for (const auto& [id, direction] : directions_) {
+    if (direction.Sigma() > DegreesToRadians(options_.association.max_sigma)) continue;
     ++support.num_lines;
-    if (AxisOf(line)) ++support.num_axis_lines;
+    if (NearestAxis(direction)) ++support.num_axis_lines;
   }
   return support;
 }
 
-void SceneAxes::Refine(const Map& map) {
+void SceneAxes::Refine() {
   ManhattanAxesData data;
   data.world_from_manhattan = estimator_.world_from_axes();
-  for (const auto& [id, line] : map.lines()) {
-    const std::optional<int> axis = AxisOf(line);
-    if (!axis) continue;
-    // The deviation of a line from its axis is common to its n observations; sqrt(n) makes their
-    // sum count it once.
-    const double deviation = DegreesToRadians(options_.deviation) *
-                             std::sqrt(static_cast<double>(line.observations.size()));
-    for (const Observation& observation : line.observations) {
-      const Keyframe& keyframe = *map.FindKeyframe(observation.keyframe);
-      if (!keyframe.frame->lines[observation.feature].depth) continue;
-      data.observations.push_back(Observe(keyframe, observation.feature, *axis));
-      data.observations.back().sigma = std::hypot(data.observations.back().sigma, deviation);
-      data.observations.back().normal_sigma =
-          std::hypot(data.observations.back().normal_sigma, deviation);
-    }
+  for (const auto& [id, direction] : directions_) {
+    const std::optional<AxisCandidate> candidate = NearestAxis(direction);
+    if (!candidate) continue;
+    data.observations.push_back(
+        Observe(direction, candidate->axis, deviation_.Sigma(candidate->deviation)));
   }
   const ManhattanAxesSummary summary = RefineManhattanAxes(options_.refinement, &data);
   if (summary.usable) {
@@ -124,15 +134,18 @@ void SceneAxes::Refine(const Map& map) {
   }
 }
 
-void SceneAxes::AddAlignments(const Map& map, WindowData* window) const {
-  if (estimator_.state() == AxesState::kNone) return;
+void SceneAxes::AddAlignments(WindowData* window) const {
+  if (estimator_.state() != AxesState::kRefined) return;
   const Eigen::Matrix3d axes = estimator_.world_from_axes().toRotationMatrix();
-  for (const WindowData::Line& line : window->lines) {
-    const std::optional<int> axis = AxisOf(*map.FindLine(line.id));
-    if (!axis) continue;
+  const double max_chi_square = options_.association.max_sigmas * options_.association.max_sigmas;
+  const std::vector<std::optional<DirectionEstimate>> estimates = EstimateDirections(*window);
+  for (size_t i = 0; i < estimates.size(); ++i) {
+    if (!estimates[i]) continue;
+    const std::optional<AxisCandidate> candidate = NearestAxis(*estimates[i]);
+    if (!candidate || deviation_.ChiSquare(candidate->deviation) > max_chi_square) continue;
+    const double sigma = std::hypot(estimator_.sigma(), deviation_.Sigma(candidate->deviation));
     window->axis_alignments.push_back(
-        {line.id, axes.col(*axis),
-         std::hypot(estimator_.sigma(), DegreesToRadians(options_.deviation)), false});
+        {window->lines[i].id, axes.col(candidate->axis), sigma, false});
   }
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@
 #include "msc_vo/structure/axis_association.h"
 #include "msc_vo/structure/axis_evidence.h"
 #include "msc_vo/structure/coarse_axes.h"
+#include "msc_vo/structure/deviation_estimator.h"
+#include "msc_vo/structure/direction_estimate.h"
 
 namespace msc_vo {
 
@@ -25,9 +28,8 @@ struct SceneAxesOptions {
   AxisAssociationOptions association;
   ManhattanAxesOptions refinement;
   AxesEstimatorOptions estimator;
-  /// Standard deviation of the direction of a built line from its axis, degrees; as
-  /// FrameStructureOptions::pair_sigma.
-  double deviation = 0.7;
+  /// Deviation of a line from its axis.
+  DeviationOptions deviation;
 
   bool IsValid(std::string* error) const;
 };
@@ -37,7 +39,7 @@ std::optional<int> AxisOfLine(const SceneAxesOptions& options, const AxesEstimat
                               const LineLandmark& line);
 
 /// The Manhattan axes of the map (paper: Manhattan Axes Estimation and Association): found in one
-/// keyframe, refined over the lines of all keyframes, and associated with the lines of a window.
+/// keyframe, refined over the lines of all windows, and associated with the lines of a window.
 class SceneAxes {
  public:
   /// Throws std::invalid_argument on options that are not valid.
@@ -46,21 +48,30 @@ class SceneAxes {
   /// Call after `keyframe` was added to the map. `normals`: its surface normals, camera frame;
   /// needed only while there are no axes.
   void Update(const Map& map, KeyframeId keyframe, const std::vector<AxisEvidence>& normals);
+  /// Adds alignments of the window's lines with their axes (paper: M_j), once the axes are refined:
+  /// the error of coarse axes is common to all lines, and each would count it as its own.
+  void AddAlignments(WindowData* window) const;
+  /// Takes over the directions of the lines of an optimised window, from which the axes and the
+  /// deviation of the lines are estimated.
+  void Learn(const Map& map, const WindowData& window);
 
   /// Index 0..2 of the axis that the line is parallel to; std::nullopt if there is none.
   std::optional<int> AxisOf(const LineLandmark& line) const;
-  /// Adds alignments of the window's lines with their axes (paper: M_j).
-  void AddAlignments(const Map& map, WindowData* window) const;
-
+  /// The axes; std::nullopt until they are found.
+  std::optional<AxesEstimate> Estimate() const;
   const AxesEstimator& estimator() const { return estimator_; }
+  const DeviationEstimator& deviation() const { return deviation_; }
 
  private:
   void Search(const Map& map, KeyframeId keyframe, const std::vector<AxisEvidence>& normals);
+  std::optional<AxisCandidate> NearestAxis(const DirectionEstimate& line) const;
   AxesSupport CountSupport(const Map& map) const;
-  void Refine(const Map& map);
+  void Refine();
 
   SceneAxesOptions options_;
   AxesEstimator estimator_;
+  DeviationEstimator deviation_;
+  std::map<LandmarkId, DirectionEstimate> directions_;  // as the last window of each line had them
 };
 
 }  // namespace msc_vo

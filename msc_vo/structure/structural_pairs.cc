@@ -5,105 +5,171 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/structure/direction_estimate.h"
 #include "msc_vo/structure/internal/partner_selection.h"
+#include "msc_vo/structure/internal/relation_mixture.h"
 
 namespace msc_vo {
 
 namespace {
 
-struct Direction {
-  LandmarkId line = kNoId;
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
-  double sigma = 0.0;                 // radians
-  std::vector<KeyframeId> observers;  // ascending
+// Largest chi-square of a pair: 99.9 % quantiles with two and one degrees of freedom.
+constexpr double kMaxChiSquare2 = 13.816;
+constexpr double kMaxChiSquare1 = 10.828;
+
+// A line whose direction is known well enough.
+struct Line {
+  int64_t id = 0;
+  DirectionEstimate estimate;
+  double sigma = 0.0;              // radians
+  std::vector<int64_t> observers;  // keyframes, ascending
   bool on_axis = false;
 };
 
+template <typename Deviation>
 struct Candidate {
   double sigma = 0.0;  // radians, of the angle between the two
   int i = 0, j = 0;
-  int count = 0;
+  Deviation deviation;
+  double probability = 0.0;  // of a relation
 };
+using ParallelCandidate = Candidate<DirectionDeviation>;
+using PerpendicularCandidate = Candidate<AngleDeviation>;
 
-std::vector<Direction> Directions(const Map& map, const WindowData& window) {
-  std::map<LandmarkId, Direction> directions;
-  for (const WindowData::Line& line : window.lines) {
-    directions[line.id] = {
-        line.id, line.segment.Direction(), map.FindLine(line.id)->direction_sigma, {}, false};
+std::vector<Line> KnownLines(const StructuralPairOptions& options, const WindowData& window) {
+  const std::vector<std::optional<DirectionEstimate>> estimates = EstimateDirections(window);
+  std::map<int64_t, Line> known;
+  for (size_t i = 0; i < estimates.size(); ++i) {
+    if (!estimates[i]) continue;
+    const double sigma = estimates[i]->Sigma();
+    if (sigma > DegreesToRadians(options.max_sigma)) continue;
+    const int64_t id = window.lines[i].id;
+    known[id] = {id, *estimates[i], sigma, {}, false};
   }
   for (const WindowData::LineObservation& observation : window.line_observations) {
-    directions[observation.line].observers.push_back(observation.keyframe);
+    const auto line = known.find(observation.line);
+    if (line != known.end()) line->second.observers.push_back(observation.keyframe);
   }
   for (const WindowData::AxisAlignment& alignment : window.axis_alignments) {
-    directions[alignment.line].on_axis = true;
+    const auto line = known.find(alignment.line);
+    if (line != known.end()) line->second.on_axis = true;
   }
-  std::vector<Direction> list;
-  for (auto& [id, direction] : directions) {
-    std::sort(direction.observers.begin(), direction.observers.end());
-    list.push_back(std::move(direction));
+  std::vector<Line> lines;
+  for (auto& [id, line] : known) {
+    std::sort(line.observers.begin(), line.observers.end());
+    lines.push_back(std::move(line));
   }
-  return list;
+  return lines;
 }
 
-// Number of keyframes that observe both lines.
-int NumShared(const std::vector<KeyframeId>& a, const std::vector<KeyframeId>& b) {
-  int count = 0;
-  for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
-    count += *i == *j ? 1 : 0;
-    const bool step_i = *i <= *j, step_j = *j <= *i;
-    i += step_i ? 1 : 0;
-    j += step_j ? 1 : 0;
+// Whether a keyframe observes both lines.
+bool SeenTogether(const Line& a, const Line& b) {
+  auto i = a.observers.begin(), j = b.observers.begin();
+  while (i != a.observers.end() && j != b.observers.end()) {
+    if (*i == *j) return true;
+    *i < *j ? ++i : ++j;
   }
-  return count;
+  return false;
+}
+
+DirectionDeviation ParallelDeviation(const DirectionEstimate& a, const DirectionEstimate& b) {
+  Eigen::Matrix<double, 3, 2> basis;
+  basis.col(0) = a.direction.unitOrthogonal();
+  basis.col(1) = a.direction.cross(basis.col(0));
+  return {basis.transpose() * b.direction / a.direction.dot(b.direction),
+          basis.transpose() * (a.covariance + b.covariance) * basis};
+}
+
+AngleDeviation PerpendicularDeviation(const DirectionEstimate& a, const DirectionEstimate& b) {
+  return {a.direction.dot(b.direction), b.direction.dot(a.covariance * b.direction) +
+                                            a.direction.dot(b.covariance * a.direction)};
 }
 
 struct Candidates {
-  std::vector<Candidate> parallel, perpendicular;
+  std::vector<ParallelCandidate> parallel;
+  std::vector<PerpendicularCandidate> perpendicular;
 };
 
-// Pairs whose angle is near to 0 or 90 degrees.
-Candidates FindCandidates(const StructuralPairOptions& options,
-                          const std::vector<Direction>& lines) {
+// Pairs whose angle is near to 0 or 90 degrees, the most certain ones of each line.
+Candidates FindCandidates(const StructuralPairOptions& options, const std::vector<Line>& lines) {
   const double max_angle = DegreesToRadians(options.max_angle);
-  const double pair_sigma = DegreesToRadians(options.pair_sigma);
-  // A test of the cosine rejects most pairs cheaply.
   const double least_parallel = std::cos(max_angle), most_perpendicular = std::sin(max_angle);
   Candidates candidates;
-  for (size_t i = 0; i < lines.size(); ++i) {
-    for (size_t j = i + 1; j < lines.size(); ++j) {
-      if (lines[i].on_axis && lines[j].on_axis) continue;
-      const double cosine = std::abs(lines[i].direction.dot(lines[j].direction));
-      const bool is_parallel = options.parallel && cosine >= least_parallel;
+  for (int i = 0; i < static_cast<int>(lines.size()); ++i) {
+    for (int j = i + 1; j < static_cast<int>(lines.size()); ++j) {
+      const Line &a = lines[i], &b = lines[j];
+      if (a.on_axis && b.on_axis) continue;
+      const double cosine = std::abs(a.estimate.direction.dot(b.estimate.direction));
+      const bool is_parallel = cosine >= least_parallel;
       const bool is_perpendicular = options.perpendicular && cosine <= most_perpendicular;
       if (!is_parallel && !is_perpendicular) continue;
-      const double sigma =
-          std::sqrt(lines[i].sigma * lines[i].sigma + lines[j].sigma * lines[j].sigma);
-      const double gate = std::min(max_angle, options.gate_sigmas * std::hypot(sigma, pair_sigma));
-      const double angle = UndirectedAngle(lines[i].direction, lines[j].direction);
-      if (std::abs(angle - (is_parallel ? 0.0 : 0.5 * kPi)) > gate) continue;
-      const int count = NumShared(lines[i].observers, lines[j].observers);
-      if (count == 0) continue;
-      (is_parallel ? candidates.parallel : candidates.perpendicular)
-          .push_back({sigma, static_cast<int>(i), static_cast<int>(j), count});
+      if (!SeenTogether(a, b)) continue;
+      const double sigma = std::hypot(a.sigma, b.sigma);
+      if (is_parallel) {
+        candidates.parallel.push_back({sigma, i, j, ParallelDeviation(a.estimate, b.estimate)});
+      } else {
+        candidates.perpendicular.push_back(
+            {sigma, i, j, PerpendicularDeviation(a.estimate, b.estimate)});
+      }
     }
   }
+  SelectMostCertain(options.max_partners, lines.size(), &candidates.parallel);
+  SelectMostCertain(options.max_partners, lines.size(), &candidates.perpendicular);
   return candidates;
 }
 
-// Selects the most certain pairs of each line.
-std::vector<WindowData::LinePair> SelectPairs(const StructuralPairOptions& options,
-                                              const std::vector<Direction>& lines,
-                                              std::vector<Candidate> candidates) {
-  SelectMostCertain(options.max_partners, lines.size(), &candidates);
+// Removes pairs that may well be near to the angle by chance.
+template <typename Deviation>
+void RemoveUnlikely(const DeviationEstimator& deviation, double chance, double min_probability,
+                    double max_chi_square, std::vector<Candidate<Deviation>>* candidates) {
+  std::vector<double> densities;
+  for (const auto& candidate : *candidates) {
+    densities.push_back(deviation.Density(candidate.deviation));
+  }
+  const std::vector<double> probabilities = RelationProbabilities(densities, chance);
+  std::vector<Candidate<Deviation>> likely;
+  for (size_t i = 0; i < candidates->size(); ++i) {
+    Candidate<Deviation> candidate = (*candidates)[i];
+    candidate.probability = probabilities[i];
+    if (candidate.probability < min_probability) continue;
+    if (deviation.ChiSquare(candidate.deviation) > max_chi_square) continue;
+    likely.push_back(candidate);
+  }
+  *candidates = std::move(likely);
+}
+
+// Partners of each line. A perpendicular pair constrains one of the two components of a direction.
+std::vector<double> CountPartners(const Candidates& candidates, size_t num_lines) {
+  std::vector<double> partners(num_lines, 0.0);
+  for (const auto& pair : candidates.parallel) {
+    partners[pair.i] += pair.probability;
+    partners[pair.j] += pair.probability;
+  }
+  for (const auto& pair : candidates.perpendicular) {
+    partners[pair.i] += 0.5 * pair.probability;
+    partners[pair.j] += 0.5 * pair.probability;
+  }
+  return partners;
+}
+
+template <typename Deviation>
+std::vector<WindowData::LinePair> MakePairs(const std::vector<Line>& lines,
+                                            const std::vector<double>& partners,
+                                            const DeviationEstimator& deviation,
+                                            const std::vector<Candidate<Deviation>>& candidates) {
   std::vector<WindowData::LinePair> pairs;
-  for (const Candidate& candidate : candidates) {
-    pairs.push_back({lines[candidate.i].line, lines[candidate.j].line,
-                     DegreesToRadians(options.pair_sigma), candidate.count, false});
+  for (const Candidate<Deviation>& c : candidates) {
+    const double shared = (partners[c.i] + partners[c.j] + 2.0) / 4.0;
+    const double sigma = deviation.Sigma(c.deviation) * std::sqrt(shared / c.probability);
+    pairs.push_back({lines[c.i].id, lines[c.j].id, sigma, 1, false});
   }
   return pairs;
 }
@@ -113,22 +179,40 @@ std::vector<WindowData::LinePair> SelectPairs(const StructuralPairOptions& optio
 bool StructuralPairOptions::IsValid(std::string* error) const {
   if (!(max_angle > 0.0 && max_angle < 45.0)) {
     *error = "pairs.max_angle must be in (0, 45) degrees";
-  } else if (!(gate_sigmas > 0.0 && pair_sigma > 0.0)) {
-    *error = "pairs.gate_sigmas and pair_sigma must be positive";
+  } else if (!(max_sigma > 0.0)) {
+    *error = "pairs.max_sigma must be positive (degrees)";
+  } else if (!(min_probability >= 0.0 && min_probability <= 1.0)) {
+    *error = "pairs.min_probability must be in [0, 1]";
   } else if (max_partners < 1) {
     *error = "pairs.max_partners must be at least 1";
   } else {
-    return true;
+    return deviation.IsValid(error);
   }
   return false;
 }
 
-void AddStructuralPairs(const StructuralPairOptions& options, const Map& map, WindowData* window) {
-  if (!options.parallel && !options.perpendicular) return;
-  const std::vector<Direction> lines = Directions(map, *window);
-  Candidates candidates = FindCandidates(options, lines);
-  window->parallel_pairs = SelectPairs(options, lines, std::move(candidates.parallel));
-  window->perpendicular_pairs = SelectPairs(options, lines, std::move(candidates.perpendicular));
+StructuralPairs::StructuralPairs(const StructuralPairOptions& options)
+    : options_(options), deviation_(options.deviation) {
+  std::string error;
+  if (!options.IsValid(&error)) throw std::invalid_argument("StructuralPairs: " + error);
+}
+
+void StructuralPairs::Add(WindowData* window) {
+  if (!options_.parallel && !options_.perpendicular) return;
+  const std::vector<Line> lines = KnownLines(options_, *window);
+  Candidates candidates = FindCandidates(options_, lines);
+  std::vector<DirectionDeviation> deviations;
+  for (const ParallelCandidate& pair : candidates.parallel) deviations.push_back(pair.deviation);
+  deviation_.Update(deviations);
+  if (!options_.parallel) candidates.parallel.clear();
+  const double range = DegreesToRadians(options_.max_angle);
+  RemoveUnlikely(deviation_, 1.0 / (kPi * range * range), options_.min_probability, kMaxChiSquare2,
+                 &candidates.parallel);
+  RemoveUnlikely(deviation_, 1.0 / (2.0 * range), options_.min_probability, kMaxChiSquare1,
+                 &candidates.perpendicular);
+  const std::vector<double> partners = CountPartners(candidates, lines.size());
+  window->parallel_pairs = MakePairs(lines, partners, deviation_, candidates.parallel);
+  window->perpendicular_pairs = MakePairs(lines, partners, deviation_, candidates.perpendicular);
 }
 
 }  // namespace msc_vo

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/map/feature_counts.h"
 
 namespace msc_vo {
 
@@ -165,7 +166,9 @@ bool HasEnoughInliers(const TrackerOptions& options, const TrackedFrame& tracked
   const int num_matches =
       static_cast<int>(tracked.matches.points.size() + tracked.matches.lines.size());
   const int num_static = num_matches - tracked.pose.num_dynamic;
-  return tracked.pose.usable && num_inliers >= options.min_matches &&
+  const int support =
+      tracked.pose.num_inlier_points + kPointsPerLine * tracked.pose.num_inlier_lines;
+  return tracked.pose.usable && support >= options.min_matches &&
          num_inliers >= options.min_inlier_ratio * num_static;
 }
 

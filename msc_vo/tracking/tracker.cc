@@ -55,8 +55,9 @@ void AdoptKeyframe(const Keyframe& keyframe, TrackedFrame* tracked) {
   }
 }
 
+// Lines count as often as the points that constrain a pose as much.
 int NumMatches(const FrameMatches& matches) {
-  return static_cast<int>(matches.points.size() + matches.lines.size());
+  return static_cast<int>(matches.points.size() + kPointsPerLine * matches.lines.size());
 }
 
 // Options for the initial pose, which the local map is projected with. The pose is optimised again
@@ -118,7 +119,7 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
 TrackedFrame Tracker::Initialize(std::shared_ptr<const Frame> frame) {
   TrackedFrame tracked;
   tracked.frame = std::move(frame);
-  if (NumWithDepth(*tracked.frame) < options_.min_initial_features) return tracked;
+  if (!CanBeginMap(*tracked.frame, options_.min_initial_features)) return tracked;
   StartSegment(SegmentStart::kFirst, &tracked);
   return tracked;
 }
@@ -153,7 +154,7 @@ bool Tracker::IsNewSegmentDue(const Map& map, const TrackedFrame& tracked) {
     segment_start_.Tracked(timestamp);  // by pose factors, which keep the camera in the map
     return false;
   }
-  const bool could_begin = NumWithDepth(*tracked.frame) >= options_.min_initial_features;
+  const bool could_begin = CanBeginMap(*tracked.frame, options_.min_initial_features);
   segment_start_.NotFound(timestamp, could_begin, options_.relocalization_keyframes);
   if (!could_begin || tracked.status != TrackingStatus::kLost) return false;
   return segment_start_.IsDue(static_cast<int>(map.keyframes().size()));
@@ -193,11 +194,11 @@ void Tracker::BridgeWithPrediction(const Map& map, const Prediction& prediction,
 }
 
 bool Tracker::HasLeftMap(const Map& map, const TrackedFrame& tracked) const {
-  if (!tracked.pose.usable || NumWithDepth(*tracked.frame) < options_.min_initial_features) {
+  if (!tracked.pose.usable || !CanBeginMap(*tracked.frame, options_.min_initial_features)) {
     return false;
   }
   const LocalMap visible = SelectVisibleLandmarks(map, *tracked.frame, tracked.cam_from_world);
-  const size_t num_visible = visible.points.size() + visible.lines.size();
+  const size_t num_visible = visible.points.size() + kPointsPerLine * visible.lines.size();
   return num_visible < static_cast<size_t>(options_.min_matches);
 }
 

@@ -50,8 +50,8 @@ struct TrackerOptions {
   /// Largest number of keyframes whose landmarks form the local map.
   int max_local_keyframes = 30;
 
-  /// Smallest number of inlier matches of a pose, points and lines together. Six rows determine a
-  /// pose; ten matches exclude a consensus of random ones.
+  /// Smallest number of inlier matches of a pose; a line counts as kPointsPerLine points. Six rows
+  /// determine a pose; ten points exclude a consensus of random ones.
   int min_matches = 10;
   /// Smallest fraction of inliers among all matches except those on dynamic objects.
   double min_inlier_ratio = 0.3;
@@ -62,7 +62,7 @@ struct TrackerOptions {
   double max_prediction = 0.5;  ///< seconds
   /// Keyframes per frame that relocalisation tries, newest and least recently tried first.
   int relocalization_keyframes = 3;
-  /// Features with depth that the first frame needs, points and lines together.
+  /// Features with depth that the first frame needs, points and lines together (CanBeginMap).
   int min_initial_features = 20;
 
   bool IsValid(std::string* error) const;

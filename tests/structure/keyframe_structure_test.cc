@@ -41,7 +41,7 @@ TEST(KeyframeStructure, AlignsDirections) {
   const std::shared_ptr<const Frame> frame = world.MakeFrame(0);
   const Rigid3 world_from_cam = SyntheticFrames::CamFromWorld(0).Inverse();
   const double before = DirectionError(LinesInCamera(*frame), world_from_cam);
-  const auto refined = RefineStructure(WideGates(), NoiseScale(), frame);
+  const auto refined = RefineStructure(WideGates(), NoiseScale(), false, frame);
   EXPECT_LT(DirectionError(LinesInCamera(*refined), world_from_cam), 0.7 * before);
   // The original frame is unchanged; only depths of lines differ from it.
   EXPECT_EQ(DirectionError(LinesInCamera(*frame), world_from_cam), before);
@@ -60,7 +60,7 @@ TEST(KeyframeStructure, UsesTheNoiseScaleOfTheLines) {
   const Rigid3 world_from_cam = SyntheticFrames::CamFromWorld(0).Inverse();
   const auto error_with = [&](double scale) {
     const NoiseScale noise{1.0, scale, scale};
-    const auto refined = RefineStructure(FrameStructureOptions(), noise, frame);
+    const auto refined = RefineStructure(FrameStructureOptions(), noise, false, frame);
     return DirectionError(LinesInCamera(*refined), world_from_cam);
   };
   // With the nominal sigmas, most directions are less certain than the default gate is wide.
@@ -68,7 +68,8 @@ TEST(KeyframeStructure, UsesTheNoiseScaleOfTheLines) {
   EXPECT_LT(error_with(1.0), error_with(100.0));
   EXPECT_EQ(error_with(100.0), DirectionError(LinesInCamera(*frame), world_from_cam));
   // The covariances are returned without the scale.
-  const auto refined = RefineStructure(FrameStructureOptions(), NoiseScale{1.0, 0.01, 0.01}, frame);
+  const auto refined =
+      RefineStructure(FrameStructureOptions(), NoiseScale{1.0, 0.01, 0.01}, false, frame);
   ASSERT_NE(refined, frame);
   for (size_t i = 0; i < frame->lines.size(); ++i) {
     EXPECT_NEAR(
@@ -77,9 +78,25 @@ TEST(KeyframeStructure, UsesTheNoiseScaleOfTheLines) {
   }
 }
 
+TEST(KeyframeStructure, KeepsTheCovarianceOfTheFitIfAsked) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  const std::shared_ptr<const Frame> frame = world.MakeFrame(0);
+  const auto claimed = RefineStructure(WideGates(), NoiseScale(), false, frame);
+  const auto kept = RefineStructure(WideGates(), NoiseScale(), true, frame);
+  bool any_smaller = false;
+  for (size_t i = 0; i < frame->lines.size(); ++i) {
+    if (!frame->lines[i].depth) continue;
+    EXPECT_EQ(kept->lines[i].depth->start, claimed->lines[i].depth->start);
+    EXPECT_EQ(kept->lines[i].depth->covariance, frame->lines[i].depth->covariance);
+    any_smaller = any_smaller || claimed->lines[i].depth->covariance.trace() <
+                                     0.9 * frame->lines[i].depth->covariance.trace();
+  }
+  EXPECT_TRUE(any_smaller);
+}
+
 TEST(KeyframeStructure, ReturnsTheSameFrameWithoutPairs) {
   const std::shared_ptr<const Frame> empty = SyntheticFrames::MakeEmptyFrame(0);
-  EXPECT_EQ(RefineStructure(FrameStructureOptions(), NoiseScale(), empty), empty);
+  EXPECT_EQ(RefineStructure(FrameStructureOptions(), NoiseScale(), false, empty), empty);
 }
 
 }  // namespace

@@ -3,7 +3,12 @@
 
 #include "msc_vo/structure/structural_pairs.h"
 
+#include <algorithm>
 #include <map>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "tests/support/synthetic_frames.h"
 #include "tests/support/synthetic_map.h"
@@ -11,6 +16,7 @@
 
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/map/window_selection.h"
+#include "msc_vo/structure/internal/relation_mixture.h"
 
 namespace msc_vo {
 namespace {
@@ -19,11 +25,19 @@ namespace {
 class StructuralPairsTest : public ::testing::Test {
  protected:
   StructuralPairsTest() {
-    SyntheticFrames world{SyntheticFrames::Options()};
+    SyntheticFrames::Options options;
+    options.num_lines = 60;
+    options.pixel_noise = 0.1;
+    options.inverse_depth_noise = 2e-4;
+    SyntheticFrames world{options};
     map_ = MapOfOneKeyframe(world.MakeFrame(0), Rigid3()).map;
     WindowSelectionOptions selection;
     selection.min_observations = 1;
     window_ = SelectWindow(selection, map_, 0);
+    for (WindowData::LineObservation& observation : window_.line_observations) {
+      observation.sigma = 0.1;
+      observation.depth.covariance = 2e-4 * 2e-4 * Eigen::Matrix2d::Identity();
+    }
   }
 
   double Degrees(const WindowData::LinePair& pair) const {
@@ -31,51 +45,88 @@ class StructuralPairsTest : public ::testing::Test {
                                             map_.FindLine(pair.b)->segment.Direction()));
   }
 
+  void Add() { StructuralPairs(options_).Add(&window_); }
+
   Map map_;
   WindowData window_;
   StructuralPairOptions options_;
 };
 
 TEST_F(StructuralPairsTest, SelectsParallelAndPerpendicularPairs) {
-  AddStructuralPairs(options_, map_, &window_);
+  Add();
   EXPECT_GT(window_.parallel_pairs.size(), window_.lines.size() / 2);
-  EXPECT_GT(window_.perpendicular_pairs.size(), window_.lines.size() / 2);
+  EXPECT_GT(window_.perpendicular_pairs.size(), window_.lines.size() / 4);
   for (const auto& pair : window_.parallel_pairs) EXPECT_LT(Degrees(pair), options_.max_angle);
   for (const auto& pair : window_.perpendicular_pairs) {
     EXPECT_GT(Degrees(pair), 90.0 - options_.max_angle);
     EXPECT_EQ(pair.count, 1);
-    EXPECT_NEAR(pair.sigma, DegreesToRadians(options_.pair_sigma), 1e-15);
   }
 }
 
-TEST_F(StructuralPairsTest, PrefersPartnersWithTheMostCertainAngle) {
-  options_.max_partners = 1;
-  AddStructuralPairs(options_, map_, &window_);
-  EXPECT_FALSE(window_.parallel_pairs.empty());
-  EXPECT_LE(window_.parallel_pairs.size(), window_.lines.size());
-  WindowData all = window_;
+TEST_F(StructuralPairsTest, LearnsTheDeviationOfPairs) {
+  StructuralPairs pairs(options_);
+  for (int i = 0; i < 3; ++i) pairs.Add(&window_);
+  // The lines of the box are exact, and known to some tenths of a degree.
+  EXPECT_LT(RadiansToDegrees(pairs.deviation().scale()), 0.5 * options_.deviation.prior);
+}
+
+// Lines in random directions: about every twentieth pair is within three degrees of 90 by chance.
+TEST_F(StructuralPairsTest, LeavesOutPairsByChance) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  const PinholeCamera& camera = window_.camera;
+  WindowData scattered = window_;
+  scattered.lines.clear();
+  scattered.line_observations.clear();
+  for (int i = 0; i < 150; ++i) {
+    WindowData::Line line;
+    line.id = i;
+    const Eigen::Vector3d middle(0.5 * normal(random), 0.5 * normal(random), 3.0);
+    const Eigen::Vector3d direction(normal(random), normal(random), normal(random));
+    line.segment = {middle - 0.4 * direction.normalized(), middle + 0.4 * direction.normalized()};
+    WindowData::LineObservation observation;
+    observation.line = line.id;
+    observation.segment = {camera.Project(line.segment.start), camera.Project(line.segment.end)};
+    observation.has_depth = true;
+    observation.depth.start = 1.0 / line.segment.start.z();
+    observation.depth.end = 1.0 / line.segment.end.z();
+    observation.depth.covariance = 1e-8 * Eigen::Matrix2d::Identity();
+    scattered.lines.push_back(line);
+    scattered.line_observations.push_back(observation);
+  }
+  scattered.keyframes[0].cam_from_world = Rigid3();
+  StructuralPairs(options_).Add(&scattered);
+  EXPECT_LT(scattered.perpendicular_pairs.size(), scattered.lines.size() / 20);
+  EXPECT_LT(scattered.parallel_pairs.size(), scattered.lines.size() / 20);
+}
+
+// The deviation of a line is common to all its pairs: together they weigh no more than it is known.
+TEST_F(StructuralPairsTest, WeighsALineWithManyPartnersOnce) {
+  options_.perpendicular = false;
   options_.max_partners = 1000;
-  AddStructuralPairs(options_, map_, &all);
-  EXPECT_GT(all.parallel_pairs.size(), window_.parallel_pairs.size());
-  const auto sigma = [&](const WindowData::LinePair& pair) {
-    return std::hypot(map_.FindLine(pair.a)->direction_sigma,
-                      map_.FindLine(pair.b)->direction_sigma);
-  };
-  std::map<int64_t, double> best;  // smallest sigma of the pairs of each line
-  for (const auto& pair : all.parallel_pairs) {
+  StructuralPairs pairs(options_);
+  pairs.Add(&window_);
+  std::map<int64_t, double> information;
+  std::map<int64_t, int> num_partners;
+  for (const auto& pair : window_.parallel_pairs) {
     for (const int64_t line : {pair.a, pair.b}) {
-      const auto found = best.emplace(line, sigma(pair)).first;
-      found->second = std::min(found->second, sigma(pair));
+      information[line] += 1.0 / (pair.sigma * pair.sigma);
+      ++num_partners[line];
     }
   }
-  for (const auto& pair : window_.parallel_pairs) {
-    EXPECT_TRUE(sigma(pair) == best.at(pair.a) || sigma(pair) == best.at(pair.b));
+  // Two, as Student's distribution is narrower than its scale, times at most four for the partners.
+  const double limit = 8.0 / (pairs.deviation().scale() * pairs.deviation().scale());
+  int most_partners = 0;
+  for (const auto& [line, sum] : information) {
+    EXPECT_LT(sum, limit);
+    most_partners = std::max(most_partners, num_partners[line]);
   }
+  EXPECT_GE(most_partners, 15);
 }
 
 TEST_F(StructuralPairsTest, ExcludesLinesWithoutACommonKeyframe) {
   window_.line_observations.resize(1);
-  AddStructuralPairs(options_, map_, &window_);
+  Add();
   EXPECT_TRUE(window_.parallel_pairs.empty());
   EXPECT_TRUE(window_.perpendicular_pairs.empty());
 }
@@ -84,9 +135,10 @@ TEST_F(StructuralPairsTest, ExcludesPairsOfAlignedLines) {
   for (const WindowData::Line& line : window_.lines) {
     window_.axis_alignments.push_back({line.id, line.segment.Direction(), 0.01, false});
   }
-  window_.axis_alignments.pop_back();
-  const int64_t free_line = window_.lines.back().id;
-  AddStructuralPairs(options_, map_, &window_);
+  window_.axis_alignments.erase(window_.axis_alignments.begin());
+  const int64_t free_line = window_.lines.front().id;
+  options_.min_probability = 0.0;  // few pairs remain, which do not show that they are related
+  Add();
   EXPECT_FALSE(window_.perpendicular_pairs.empty());
   for (const auto& pair : window_.perpendicular_pairs) {
     EXPECT_TRUE(pair.a == free_line || pair.b == free_line);
@@ -95,18 +147,31 @@ TEST_F(StructuralPairsTest, ExcludesPairsOfAlignedLines) {
 
 TEST_F(StructuralPairsTest, CanDisableEachKind) {
   options_.parallel = false;
-  AddStructuralPairs(options_, map_, &window_);
+  Add();
   EXPECT_TRUE(window_.parallel_pairs.empty());
   EXPECT_FALSE(window_.perpendicular_pairs.empty());
+}
+
+TEST(RelationProbabilities, EstimatesTheFractionOfRelatedPairs) {
+  // Seventy related pairs among a hundred, ten times as likely as by chance at their angles.
+  std::vector<double> densities(70, 10.0);
+  densities.resize(100, 0.1);
+  const std::vector<double> probabilities = RelationProbabilities(densities, 1.0);
+  EXPECT_GT(probabilities.front(), 0.95);
+  EXPECT_LT(probabilities.back(), 0.3);
+  // The same angles among many that fit no relation.
+  densities.resize(10000, 0.1);
+  EXPECT_LT(RelationProbabilities(densities, 1.0).front(), 0.2);
 }
 
 TEST(StructuralPairOptions, ChecksItsOptions) {
   std::string error;
   StructuralPairOptions options;
   EXPECT_TRUE(options.IsValid(&error));
-  options.pair_sigma = 0.0;
+  options.max_sigma = 0.0;
   EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_THAT(error, ::testing::HasSubstr("pair_sigma"));
+  EXPECT_THAT(error, ::testing::HasSubstr("max_sigma"));
+  EXPECT_THROW(StructuralPairs{options}, std::invalid_argument);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include "tests/support/synthetic_map.h"
 #include <gmock/gmock.h>
 
+#include "msc_vo/map/feature_counts.h"
+
 namespace msc_vo {
 namespace {
 
@@ -90,6 +92,34 @@ TEST_F(TrackerTest, TracksLinesWithoutPoints) {
     ASSERT_TRUE(IsEstimated(tracked.status)) << i << ToString(tracked.status);
     EXPECT_LT(PositionError(tracked.cam_from_world, Truth(i)), 0.03) << i;
   }
+}
+
+TEST_F(TrackerTest, TracksSevenLinesWithoutPoints) {
+  SyntheticFrames::Options options;
+  options.num_points = 0;
+  options.num_lines = 12;
+  Start(options);
+  ASSERT_LT(NumWithDepth(*snapshot_.map.FindKeyframe(0)->frame), 10);
+  for (int i = 1; i < 10; ++i) {
+    const TrackedFrame tracked = Track(i);
+    ASSERT_TRUE(IsEstimated(tracked.status)) << i << ToString(tracked.status);
+    EXPECT_LT(PositionError(tracked.cam_from_world, Truth(i)), 0.05) << i;
+  }
+}
+
+TEST(CanBeginMap, NeedsManyFeaturesOrLinesInTwoDirections) {
+  SyntheticFrames::Options options;
+  options.num_points = 0;
+  options.num_lines = 12;
+  Frame frame = *SyntheticFrames(options).MakeFrame(0);
+  EXPECT_TRUE(CanBeginMap(frame, 20));
+  // One direction does not determine a position along it.
+  Frame parallel = frame;
+  parallel.lines.assign(8, frame.lines.front());
+  EXPECT_FALSE(CanBeginMap(parallel, 20));
+  EXPECT_TRUE(CanBeginMap(parallel, 8));
+  frame.lines.resize(4);
+  EXPECT_FALSE(CanBeginMap(frame, 20));
 }
 
 TEST_F(TrackerTest, PredictsCoveredFramesAndResumes) {

@@ -61,9 +61,9 @@ Json AxesToJson(const RunSummary& summary) {
   Json json = {{"state", ToString(axes.state)}};
   if (axes.state == AxesState::kNone) return json;
   const Eigen::Vector4d q = axes.world_from_axes.coeffs();
-  json["frozen"] = axes.frozen;
   json["refinements"] = axes.num_refinements;
   json["sigma_deg"] = RadiansToDegrees(axes.sigma);
+  json["deviation_deg"] = RadiansToDegrees(axes.deviation);
   json["world_from_axes"] = {q.x(), q.y(), q.z(), q.w()};
   json["lines"] = summary.num_axis_lines;
   return json;
