@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "msc_vo/camera/sensor_correction.h"
+#include "msc_vo/factors/rgbd_pair_reprojection.h"
+#include "msc_vo/geometry/rigid3.h"
+
+namespace msc_vo {
+
+/// A point that two images, a and b, have in common.
+struct CalibrationPoint {
+  RgbdPairReprojection::View a;
+  RgbdPairReprojection::View b;
+  double inverse_depth = 0.0;   ///< of a, 1/metres, a first estimate
+  double pixel_variance = 0.0;  ///< pixels^2, of both images together
+};
+
+/// What the points of one pair of images tell about a SensorCorrection: a quadratic approximation
+/// of the negative log likelihood, with the relative pose marginalised,
+/// x^T matrix x / 2 - vector^T x.
+struct CalibrationInformation {
+  SensorCorrection::Matrix matrix = SensorCorrection::Matrix::Zero();
+  SensorCorrection::Vector vector = SensorCorrection::Vector::Zero();
+};
+
+/// Optimises the relative pose of a pair of images for a given correction, beginning with
+/// `b_from_a`, and linearises around both. The errors that the points have in common limit the
+/// information of all of them together to that of one point with `common_variance` (pixels^2).
+/// Returns std::nullopt if there are fewer than 30 points.
+std::optional<CalibrationInformation> LinearizePair(const CorrectedCamera& camera,
+                                                    const std::vector<CalibrationPoint>& points,
+                                                    double common_variance,
+                                                    const SensorCorrection::Vector& correction,
+                                                    Rigid3* b_from_a);
+
+}  // namespace msc_vo
