@@ -39,6 +39,7 @@ struct FrameBuilder::State {
   PinholeCamera camera;
   LensRemap lens;
   LensDistortion distortion;
+  std::shared_ptr<const CameraIntrinsics> intrinsics;
   PointExtractor point_extractor;
   LineExtractor line_extractor;
   DepthSource depth;
@@ -49,6 +50,7 @@ struct FrameBuilder::State {
         camera(c),
         lens(camera, distortion_in),
         distortion(distortion_in),
+        intrinsics(std::make_shared<CameraIntrinsics>(CameraIntrinsics{c, distortion_in})),
         point_extractor(o.points),
         line_extractor(o.lines),
         depth(o.depth_sensor, o.noise, o.min_depth, o.max_depth, c.width) {}
@@ -154,6 +156,7 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
   frame.id = image.id;
   frame.timestamp = image.timestamp;
   frame.camera = state_->camera;
+  frame.intrinsics = state_->intrinsics;
   if (state_->distortion.model != LensModel::kRadialTangential || state_->distortion.recorded) {
     frame.lens = state_->distortion;
   }
@@ -185,6 +188,22 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
   frame.grid = FeatureGrid(frame.camera, frame.points);
   ShareDepthErrors(state_->depth.model().shared_radius, &frame);
   return frame;
+}
+
+const std::shared_ptr<const CameraIntrinsics>& FrameBuilder::intrinsics() const {
+  return state_->intrinsics;
+}
+
+void FrameBuilder::SetIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics) {
+  std::string error;
+  if (!intrinsics->camera.IsValid(&error) ||
+      !IsInvertible(intrinsics->distortion, intrinsics->camera, &error)) {
+    throw std::invalid_argument("FrameBuilder: " + error);
+  }
+  state_->camera = intrinsics->camera;
+  state_->distortion = intrinsics->distortion;
+  state_->lens = LensRemap(intrinsics->camera, intrinsics->distortion);
+  state_->intrinsics = intrinsics;
 }
 
 const FrameBuilderTimes& FrameBuilder::times() const { return state_->times; }

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -35,6 +36,11 @@ class Atlas {
   /// older map, which is the one with the first keyframe, is kept. Returns false and does nothing
   /// if no inactive map contains the keyframe.
   bool Join(KeyframeId other, const Rigid3& current_from_other_world);
+
+  /// All maps as they are, the current one last. They share memory with the atlas.
+  InactiveMaps ShareAll();
+  /// Changes all maps.
+  void ChangeAll(const std::function<void(Map*)>& change);
 
   /// The map that contains or contained the keyframe; nullptr if that was discarded.
   const Map* FindMapOf(KeyframeId keyframe) const;

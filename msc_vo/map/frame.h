@@ -5,11 +5,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "msc_vo/camera/camera_intrinsics.h"
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/camera_velocity.h"
@@ -103,6 +105,9 @@ struct Frame {
   std::vector<PointFeature> points;
   std::vector<LineFeature> lines;
   FeatureGrid grid;  ///< over `points`
+  /// Calibration that the features were undistorted with, whose camera is `camera`; null if it is
+  /// unknown.
+  std::shared_ptr<const CameraIntrinsics> intrinsics;
   /// Parameters of the rolling-shutter compensation that was applied to the features (see
   /// rolling_shutter.h): the camera's velocity, std::nullopt while it is unknown, and the readout
   /// time, seconds.

@@ -26,6 +26,8 @@ struct MapSnapshot {
   KeyframeId newest_keyframe = kNoId;
   NoiseScale noise_scale;     ///< self-calibrated
   double readout_time = 0.0;  ///< seconds, of the rolling-shutter compensation of its keyframes
+  /// Calibration of its keyframes, which frames must have that are tracked in it; null: unknown.
+  std::shared_ptr<const CameraIntrinsics> intrinsics;
   std::optional<AxesEstimate> axes;  ///< std::nullopt until they are found
   bool needs_axes = false;           ///< the next keyframe packet shall contain surface normals
   InactiveMaps inactive_maps;        ///< of older segments that are not joined with this map

@@ -15,6 +15,7 @@
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/matching/frame_matches.h"
 #include "msc_vo/matching/map_relocalization.h"
+#include "msc_vo/self_calibration/recent_pairs.h"
 #include "msc_vo/structure/axis_evidence.h"
 
 namespace msc_vo {
@@ -43,6 +44,10 @@ struct KeyframePacket {
   std::optional<CameraVelocity> last_velocity;
   /// Normals of visible surfaces, camera frame; empty if the map already has Manhattan axes.
   std::vector<AxisEvidence> normals;
+  /// For self-calibration: the depth image of `frame` (CV_32FC1, metres), and images since the last
+  /// packet. Empty: the keyframe takes no part in it.
+  cv::Mat depth;
+  std::vector<CalibrationImage> calibration_images;
   /// Over all frames since the last packet, including this one.
   std::map<LandmarkId, TrackingCount> point_counts;
   std::map<LandmarkId, TrackingCount> line_counts;

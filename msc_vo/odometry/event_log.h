@@ -34,6 +34,7 @@ class EventLog {
   void LogFinish(const NoiseScale& noise_scale, double readout_time, int num_frames) const;
 
  private:
+  static void LogCalibration(const MappingStep& step);
   void LogStatus(const FrameResult& frame, bool relocalized);
 
   std::optional<TrackingStatus> status_;  // of the last frame

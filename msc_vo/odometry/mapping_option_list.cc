@@ -225,6 +225,9 @@ void ListMapping(MapperOptions* mapping, OptionLister* list) {
             "Readout time of a rolling shutter, from the first image row to the last; 0: global "
             "shutter. Estimated if not set.")
       .MakeBasic("Set it if it is known.");
+  list->Add("self_calibration", &mapping->self_calibration,
+            "Correct focal length, principal point and radial distortion of the lens if the images "
+            "contradict them.");
   list->AddChoice("frame_structure", &mapping->frame_structure,
                   {"without-pairs", "always", "never"},
                   "When parallel and perpendicular lines of a keyframe refine the depths of each "

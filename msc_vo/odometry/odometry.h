@@ -20,6 +20,7 @@
 #include "msc_vo/odometry/odometry_options.h"
 #include "msc_vo/odometry/segment_log.h"
 #include "msc_vo/odometry/tracking_observer.h"
+#include "msc_vo/self_calibration/calibration_evidence.h"
 #include "msc_vo/sensor/rgbd_image.h"
 #include "msc_vo/structure/axes_estimator.h"
 #include "msc_vo/tracking/pose_factor_callback.h"
@@ -68,6 +69,9 @@ struct OdometryResult {
   DepthSensor depth_sensor = DepthSensor::kAuto;
   /// Readout time of the rolling shutter, seconds, given or self-calibrated; 0: global shutter.
   double readout_time = 0.0;
+  /// Self-calibration of the colour camera, relative to the given calibration.
+  CorrectionEstimate calibration;
+  CameraIntrinsics intrinsics;           ///< at the end of the run: as given, or corrected
   std::vector<ExtraBlock> extra_blocks;  ///< of the window factors, in order of their ids
   BundleAdjustmentSummary last_window;
   /// Maps that were not ready for the first frame that should have been tracked in them; 0 unless

@@ -44,8 +44,9 @@ std::optional<CalibrationInformation> CalibrationPair::Linearize(
     points.push_back(point);
   }
   Rigid3 b_from_a = b_->cam_from_world * a_->cam_from_world.Inverse();
-  return LinearizePair(camera_, points, CommonVariance(*a_->frame) + CommonVariance(*b_->frame),
-                       correction, &b_from_a);
+  const auto information = LinearizePair(camera_, points, correction, &b_from_a);
+  if (!information) return information;
+  return WithCommonError(*information, CommonVariance(*a_->frame) + CommonVariance(*b_->frame));
 }
 
 }  // namespace msc_vo

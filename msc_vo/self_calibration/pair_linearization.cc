@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
-#include <ceres/jet.h>
 
 #include "msc_vo/factors/camera_factor.h"
 #include "msc_vo/factors/robust_loss.h"
@@ -105,8 +104,8 @@ void PerturbPose(double inverse_depth, Eigen::Matrix<T, 3, 1>* in_b) {
 }
 
 template <int N>
-Eigen::Matrix<double, 3, N> JacobianOf(
-    const Eigen::Matrix<ceres::Jet<double, N>, 3, 1>& residual, Eigen::Vector3d* value) {
+Eigen::Matrix<double, 3, N> JacobianOf(const Eigen::Matrix<ceres::Jet<double, N>, 3, 1>& residual,
+                                       Eigen::Vector3d* value) {
   Eigen::Matrix<double, 3, N> jacobian;
   for (int i = 0; i < 3; ++i) {
     (*value)(i) = residual(i).a;
@@ -160,14 +159,13 @@ class PairProblem {
     for (int i = 0; i < kSize; ++i) correction(i) = Jet(correction_(i));
     for (size_t i = 0; i < points_.size(); ++i) {
       const PointTerms<double>& terms = terms_[i];
-      const Eigen::Vector3d x = rotation * terms.ray.homogeneous() +
-                                terms.inverse_depth_a * b_from_a.translation();
+      const Eigen::Vector3d x =
+          rotation * terms.ray.homogeneous() + terms.inverse_depth_a * b_from_a.translation();
       if (!Begin(i, b_from_a, x)) continue;
       Eigen::Matrix<Jet, 3, 1> in_b(Jet(x.x()), Jet(x.y()), Jet(x.z()));
       PerturbPose(terms.inverse_depth_a, &in_b);
-      const auto residual =
-          Residual<Jet>(camera_, points_[i], in_b, Jet(terms.inverse_depth_a),
-                        Jet(terms.inverse_depth_b), correction.data());
+      const auto residual = Residual<Jet>(camera_, points_[i], in_b, Jet(terms.inverse_depth_a),
+                                          Jet(terms.inverse_depth_b), correction.data());
       rows_[i].pose = sqrt_information_ * JacobianOf<kPoseSize>(residual, &rows_[i].residual);
       rows_[i].residual = (sqrt_information_ * rows_[i].residual).eval();
     }
@@ -184,8 +182,8 @@ class PairProblem {
       const PointTerms<Jet> terms = TermsOf<Jet>(camera_, points_[i], correction.data());
       Eigen::Matrix<Jet, 3, 1> in_b;
       for (int r = 0; r < 3; ++r) {
-        in_b(r) = terms.ray.x() * rotation(r, 0) + terms.ray.y() * rotation(r, 1) +
-                  rotation(r, 2) + terms.inverse_depth_a * b_from_a.translation()(r);
+        in_b(r) = terms.ray.x() * rotation(r, 0) + terms.ray.y() * rotation(r, 1) + rotation(r, 2) +
+                  terms.inverse_depth_a * b_from_a.translation()(r);
       }
       if (!Begin(i, b_from_a, {in_b(0).a, in_b(1).a, in_b(2).a})) continue;
       PerturbPose(terms.inverse_depth_a.a, &in_b);
@@ -248,18 +246,16 @@ NormalEquations SumUp(const std::vector<Rows>& all, bool rejects_outliers) {
   return equations;
 }
 
-// Eliminates the pose and limits the information by the common error, whose variance is
-// `variance_ratio` times that of a point.
+// Eliminates the pose.
 CalibrationInformation Marginalize(const NormalEquations& equations,
-                                   const SensorCorrection::Vector& at, double variance_ratio) {
+                                   const SensorCorrection::Vector& at) {
   const Eigen::LDLT<PoseMatrix> pose(equations.pose);
-  const double factor = 1.0 / (1.0 + variance_ratio * equations.weight);
   CalibrationInformation information;
-  information.matrix = factor * (equations.correction -
-                                 equations.coupling.transpose() * pose.solve(equations.coupling));
+  information.matrix =
+      equations.correction - equations.coupling.transpose() * pose.solve(equations.coupling);
   const SensorCorrection::Vector gradient =
-      factor * (equations.correction_gradient -
-                equations.coupling.transpose() * pose.solve(equations.pose_gradient));
+      equations.correction_gradient -
+      equations.coupling.transpose() * pose.solve(equations.pose_gradient);
   information.vector = information.matrix * at - gradient;
   return information;
 }
@@ -272,24 +268,32 @@ double MedianVariance(const std::vector<CalibrationPoint>& points) {
 
 }  // namespace
 
+CalibrationInformation WithCommonError(CalibrationInformation information, double common_variance) {
+  const double factor = 1.0 / (1.0 + common_variance * information.point_information);
+  information.matrix *= factor;
+  information.vector *= factor;
+  information.point_information *= factor;
+  return information;
+}
+
 std::optional<CalibrationInformation> LinearizePair(const CorrectedCamera& camera,
                                                     const std::vector<CalibrationPoint>& points,
-                                                    double common_variance,
                                                     const SensorCorrection::Vector& correction,
                                                     Rigid3* b_from_a) {
   if (points.size() < kMinPoints) return std::nullopt;
   PairProblem problem(camera, points, correction);
   Rigid3 pose = *b_from_a;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const NormalEquations equations =
-        SumUp(problem.ByPose(pose), iteration >= kRobustIterations);
+    const NormalEquations equations = SumUp(problem.ByPose(pose), iteration >= kRobustIterations);
     const PoseVector step = -equations.pose.ldlt().solve(equations.pose_gradient);
     if (!step.allFinite()) return std::nullopt;
     pose = Rigid3(ExpSO3(step.head<3>()), step.tail<3>()) * pose;
   }
   const NormalEquations equations = SumUp(problem.ByPoseAndCorrection(pose), true);
   *b_from_a = pose;
-  return Marginalize(equations, correction, common_variance / MedianVariance(points));
+  CalibrationInformation information = Marginalize(equations, correction);
+  information.point_information = equations.weight / MedianVariance(points);
+  return information;
 }
 
 }  // namespace msc_vo

@@ -26,15 +26,19 @@ struct CalibrationPoint {
 struct CalibrationInformation {
   SensorCorrection::Matrix matrix = SensorCorrection::Matrix::Zero();
   SensorCorrection::Vector vector = SensorCorrection::Vector::Zero();
+  /// Sum of the inverse variances of the points, 1/pixels^2, if their errors are independent.
+  double point_information = 0.0;
 };
 
+/// Returns what remains if the points have an error in common, besides their independent ones: all
+/// of them together count at most like one point with `common_variance` (pixels^2).
+CalibrationInformation WithCommonError(CalibrationInformation information, double common_variance);
+
 /// Optimises the relative pose of a pair of images for a given correction, beginning with
-/// `b_from_a`, and linearises around both. The errors that the points have in common limit the
-/// information of all of them together to that of one point with `common_variance` (pixels^2).
-/// Returns std::nullopt if there are fewer than 30 points.
+/// `b_from_a`, and linearises around both. The errors of the points count as independent. Returns
+/// std::nullopt if there are fewer than 30 points.
 std::optional<CalibrationInformation> LinearizePair(const CorrectedCamera& camera,
                                                     const std::vector<CalibrationPoint>& points,
-                                                    double common_variance,
                                                     const SensorCorrection::Vector& correction,
                                                     Rigid3* b_from_a);
 

@@ -27,7 +27,7 @@ Eigen::Vector2d PixelBeforeCompensation(const Frame& frame, const PointFeature& 
 }  // namespace
 
 RgbdPairReprojection::View MakePairView(const LensDistortion& distortion, const Frame& frame,
-                                    const PointFeature& point) {
+                                        const PointFeature& point) {
   const auto recorded = [&](const Eigen::Vector2d& pixel) {
     return distortion.IsZero() ? pixel : distortion.Distort(frame.camera, pixel);
   };

@@ -24,6 +24,9 @@ class ReadoutTimeEstimator {
 
   /// Seconds; negative if the rows are read from the bottom to the top.
   double readout_time() const { return readout_time_; }
+  /// Uncertainty of readout_time(), seconds; 0 if it was given. For a shutter that counts as
+  /// global, it contains the readout time that the images speak for.
+  double sigma() const;
 
  private:
   // Adds an estimate (seconds) with its information (1/seconds^2).
