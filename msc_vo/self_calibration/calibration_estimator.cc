@@ -31,6 +31,9 @@ constexpr double kMaxFocalLengthSigma = 0.01;
 constexpr double kMaxCenterSigma = 3.5;
 constexpr double kMaxK1Sigma = 0.03;
 
+// Pairs after which the estimation ends if all groups are certain.
+constexpr size_t kSettledPairs = 150;
+
 constexpr WrongGroups kAll = {true, true, true, true};
 constexpr auto kRegistration = static_cast<size_t>(CorrectionGroup::kDepthRegistration);
 
@@ -49,6 +52,13 @@ bool IsCertain(CorrectionGroup group, const SensorCorrection::Vector& sigma) {
       break;
   }
   return false;
+}
+
+// Whether all groups are certain, so that further images need not be looked at.
+bool IsSettled(const SensorCorrection::Vector& sigma, size_t num_pairs) {
+  return num_pairs >= kSettledPairs && IsCertain(CorrectionGroup::kFocalLength, sigma) &&
+         IsCertain(CorrectionGroup::kPrincipalPoint, sigma) &&
+         IsCertain(CorrectionGroup::kLens, sigma);
 }
 
 // The groups `before` and those whose correction is accepted. If the registration of depth may be
@@ -75,6 +85,7 @@ CalibrationEstimator::CalibrationEstimator(const std::shared_ptr<const CameraInt
 bool CalibrationEstimator::Update(const Map& map, KeyframeId newest, const cv::Mat& depth,
                                   const std::vector<CalibrationImage>& images,
                                   double readout_sigma) {
+  if (IsSettled(estimate_.sigma, pairs_.size())) return false;
   for (const CalibrationImage& image : images) {
     pairs_.AddImage(map, image, at_);
   }
