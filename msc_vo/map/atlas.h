@@ -39,6 +39,13 @@ class Atlas {
   /// The map that contains or contained the keyframe; nullptr if that was discarded.
   const Map* FindMapOf(KeyframeId keyframe) const;
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [current_map, inactive_maps] = *this;  // all members, or it does not compile
+    archive(current_map, inactive_maps);
+  }
+
  private:
   Map current_;
   InactiveMaps inactive_;

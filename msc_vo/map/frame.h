@@ -41,6 +41,12 @@ struct PointFeature {
   Descriptor descriptor{};
 
   bool HasDepth() const { return inverse_depth > 0.0; }
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, pixel, sigma, level, dynamic, angle, inverse_depth, inverse_depth_sigma,
+                   descriptor);
+  }
 };
 
 /// A line feature l_j of the paper. Pixels are undistorted.
@@ -50,6 +56,11 @@ struct LineFeature {
   bool dynamic = false;            ///< as for points
   std::optional<LineDepth> depth;  ///< none: the line stays 2-D
   Descriptor descriptor{};
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, segment, sigma, dynamic, depth, descriptor);
+  }
 };
 
 /// Feature indices in square cells over the image, for radius searches in time proportional to the
@@ -78,6 +89,13 @@ class FeatureGrid {
         if ((points[index].pixel - pixel).squaredNorm() <= radius * radius) visit(index);
       }
     }
+  }
+
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [columns, rows, begins, indices] = *this;  // all members, or it does not compile
+    archive(columns, rows, begins, indices);
   }
 
  private:
@@ -117,6 +135,11 @@ struct Frame {
   /// Segment in camera coordinates (metres) of a line that has a depth.
   LineSegment3 LineInCamera(int index) const {
     return BackProject(camera, lines[index].segment, *lines[index].depth);
+  }
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, id, timestamp, camera, lens, points, lines, grid, velocity, readout_time);
   }
 };
 

@@ -18,6 +18,11 @@ namespace msc_vo {
 struct AxesEstimate {
   Eigen::Quaterniond world_from_axes = Eigen::Quaterniond::Identity();
   double sigma = 0.0;  ///< standard deviation of the least certain direction, radians
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, world_from_axes, sigma);
+  }
 };
 
 /// The immutable map after one keyframe step. Any thread may read it.
@@ -29,6 +34,12 @@ struct MapSnapshot {
   std::optional<AxesEstimate> axes;  ///< std::nullopt until they are found
   bool needs_axes = false;           ///< the next keyframe packet shall contain surface normals
   InactiveMaps inactive_maps;        ///< of older segments that are not joined with this map
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, map, newest_keyframe, noise_scale, readout_time, axes, needs_axes,
+                   inactive_maps);
+  }
 };
 using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;
 

@@ -23,6 +23,11 @@ namespace msc_vo {
 struct TrackingCount {
   int num_visible = 0;
   int num_found = 0;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, num_visible, num_found);
+  }
 };
 
 /// Plain data that tracking passes to the mapper for each keyframe; shared parts are immutable.
@@ -46,6 +51,12 @@ struct KeyframePacket {
   /// Over all frames since the last packet, including this one.
   std::map<LandmarkId, TrackingCount> point_counts;
   std::map<LandmarkId, TrackingCount> line_counts;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, frame, reference, cam_from_reference, begins_map, keeps_last_map, matches,
+                   covariance, in_inactive_map, last_velocity, normals, point_counts, line_counts);
+  }
 };
 
 }  // namespace msc_vo

@@ -31,6 +31,11 @@ struct MappingTimes {
   std::optional<double> window;  ///< local bundle adjustment; none if it was not due
   double readout = 0.0;          ///< estimation of the readout time
   double culling = 0.0;          ///< keyframe culling
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, structure, creation, fusion, axes, window, readout, culling);
+  }
 };
 
 /// Result of one keyframe step.
@@ -42,6 +47,12 @@ struct MappingSummary {
   int num_axes_refinements = 0;                   ///< in the run so far
   std::optional<MapJoin> join;  ///< the map was joined with that of an older segment
   MappingTimes times;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, keyframe, num_culled_keyframes, window, axes_state, num_axes_refinements,
+                   join, times);
+  }
 };
 
 /// Local mapping (paper): owns the maps of all segments and is the only one to change them. Works
@@ -84,6 +95,17 @@ class Mapper {
   std::vector<ExtraBlock> extra_blocks() const;
   /// Lines of the last local bundle adjustment.
   const std::set<LandmarkId>& last_window_lines() const { return last_window_lines_; }
+
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [options, window_observer, window_factors, extra, maps, joiner, probation, scene_axes,
+           inactive_axes, noise_estimator, readout_estimator, readout_time, newest_keyframe,
+           last_window_time, last_lines] = *this;  // all members, or it does not compile
+    archive.Entries(inactive_axes, SceneAxes(options.axes));
+    archive(extra, maps, joiner, probation, scene_axes, noise_estimator, readout_estimator,
+            readout_time, newest_keyframe, last_window_time, last_lines);
+  }
 
  private:
   // Begins a map for a new segment.

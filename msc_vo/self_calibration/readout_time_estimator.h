@@ -25,6 +25,14 @@ class ReadoutTimeEstimator {
   /// Seconds; negative if the rows are read from the bottom to the top.
   double readout_time() const { return readout_time_; }
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [estimates, seconds, information, weighted_sum] =
+        *this;  // all members, or it does not compile
+    archive(seconds, information, weighted_sum);
+  }
+
  private:
   // Adds an estimate (seconds) with its information (1/seconds^2).
   void AddEstimate(double estimate, double information);

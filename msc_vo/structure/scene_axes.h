@@ -54,6 +54,13 @@ class SceneAxes {
 
   const AxesEstimator& estimator() const { return estimator_; }
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [options, axes_estimator] = *this;  // all members, or it does not compile
+    archive(axes_estimator);
+  }
+
  private:
   void Search(const Map& map, KeyframeId keyframe, const std::vector<AxisEvidence>& normals);
   AxesSupport CountSupport(const Map& map) const;
