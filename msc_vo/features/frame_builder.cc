@@ -9,6 +9,8 @@
 #include <string>
 
 #include "msc_vo/camera/lens_validity.h"
+#include "msc_vo/checkpoint/binary_reader.h"
+#include "msc_vo/checkpoint/binary_writer.h"
 #include "msc_vo/features/internal/depth_sampler.h"
 #include "msc_vo/features/internal/depth_source.h"
 #include "msc_vo/sensor/lens_remap.h"
@@ -190,5 +192,12 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
 const FrameBuilderTimes& FrameBuilder::times() const { return state_->times; }
 
 DepthSensor FrameBuilder::depth_sensor() const { return state_->depth.sensor(); }
+
+template <typename Archive>
+void FrameBuilder::Serialize(Archive& archive) {
+  archive(state_->depth);
+}
+template void FrameBuilder::Serialize(BinaryWriter& archive);
+template void FrameBuilder::Serialize(BinaryReader& archive);
 
 }  // namespace msc_vo

@@ -68,6 +68,11 @@ class FrameBuilder {
   /// no image had enough depth to tell.
   DepthSensor depth_sensor() const;
 
+  /// Writes or reads what the images so far have told about the sensor, for a checkpoint. Defined
+  /// for BinaryWriter and BinaryReader.
+  template <typename Archive>
+  void Serialize(Archive& archive);
+
  private:
   struct State;
   std::unique_ptr<State> state_;

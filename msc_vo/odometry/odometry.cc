@@ -9,8 +9,9 @@
 #include <utility>
 
 #include "msc_vo/camera/lens_validity.h"
+#include "msc_vo/checkpoint/binary_reader.h"
+#include "msc_vo/checkpoint/binary_writer.h"
 #include "msc_vo/features/image_statistics.h"
-#include "msc_vo/map/feature_counts.h"
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/event_log.h"
 #include "msc_vo/odometry/gap_filling.h"
@@ -44,27 +45,6 @@ const PinholeCamera& Checked(const PinholeCamera& camera, const LensDistortion& 
   return camera;
 }
 
-FrameResult MakeResult(const TrackedFrame& tracked, int segment) {
-  FrameResult result;
-  result.id = tracked.frame->id;
-  result.timestamp = tracked.frame->timestamp;
-  result.status = tracked.status;
-  result.segment = segment;
-  result.cam_from_world = tracked.cam_from_world;
-  result.by_pose_factors = !IsEstimated(tracked.status) && tracked.pose.usable;
-  result.is_keyframe = tracked.keyframe.is_due;
-  result.num_points = static_cast<int>(tracked.frame->points.size());
-  result.num_lines = static_cast<int>(tracked.frame->lines.size());
-  result.num_with_depth = NumWithDepth(*tracked.frame);
-  result.num_inlier_points = static_cast<int>(tracked.matches.points.size());
-  result.num_inlier_lines = static_cast<int>(tracked.matches.lines.size());
-  result.num_dynamic = tracked.num_dynamic;
-  result.covariance = tracked.pose.covariance;
-  result.times.matching = tracked.times.matching;
-  result.times.pose = tracked.times.pose;
-  return result;
-}
-
 // The ids are sorted, so that each insertion point is close to the previous one.
 void CountVisible(const std::vector<LandmarkId>& ids, std::map<LandmarkId, TrackingCount>* counts) {
   auto place = counts->begin();
@@ -86,6 +66,11 @@ struct Odometry::State {
   struct RelativePose {
     KeyframeId reference = kNoId;
     Rigid3 cam_from_reference;
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, reference, cam_from_reference);
+    }
   };
 
   State(const OdometryOptions& options_in, const PinholeCamera& camera_in,
@@ -115,6 +100,14 @@ struct Odometry::State {
   void SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat& depth);
   void Record(int frame, const MappingStep& step);
   void AddMap(OdometryResult* result) const;
+
+  // Everything that later results depend on, except what the options determine. The snapshot of the
+  // last frame is not needed between two frames.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive(builder, tracker, mapper, last_window, packet, results, relative_poses, segments, log,
+            schedule);
+  }
 
   OdometryOptions options;
   PinholeCamera camera;
@@ -299,7 +292,7 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   const double waiting_ms = waiting.Milliseconds();
   const TrackedFrame tracked = state_->tracker.Track(frame, *state_->snapshot);
   if (tracked.segment_start != SegmentStart::kNone) state_->BeginSegment(tracked.segment_start);
-  FrameResult result = MakeResult(tracked, state_->segments.current());
+  FrameResult result = MakeFrameResult(tracked, state_->segments.current());
   result.image = MeasureImage(image);
   result.times.features = features_ms;
   result.times.points = state_->builder.times().points;
@@ -348,6 +341,16 @@ FrameResult Odometry::Drop(int64_t id, double timestamp, TrackingStatus status) 
   state_->log.LogFrame(result, false);
   return result;
 }
+
+const std::vector<FrameResult>& Odometry::frames() const { return state_->results; }
+
+bool Odometry::Save(BinaryWriter* archive) {
+  if (!state_->schedule.WaitForMapper()) return false;
+  state_->Serialize(*archive);
+  return true;
+}
+
+void Odometry::Restore(BinaryReader* archive) { state_->Serialize(*archive); }
 
 OdometryResult Odometry::Finish() {
   state_->schedule.Drain();

@@ -26,6 +26,9 @@
 
 namespace msc_vo {
 
+class BinaryReader;
+class BinaryWriter;
+
 /// A point landmark of the final map.
 struct MapPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, world
@@ -123,10 +126,23 @@ class Odometry {
   /// std::invalid_argument if time stamps do not ascend or on another status.
   FrameResult Drop(int64_t id, double timestamp, TrackingStatus status = TrackingStatus::kDropped);
 
+  /// The frames so far, with the poses as known when each was tracked.
+  const std::vector<FrameResult>& frames() const;
+
   /// Waits for the mapper and returns the trajectory relative to the final keyframe poses. May be
   /// called at any time. Throws the exception of a keyframe step if Process() has not; the next
   /// call returns the result.
   OdometryResult Finish();
+
+  /// Waits for the mapper and writes the state of the run (checkpoint/checkpoint_file.h). A run
+  /// that restores it continues with the same results, bit by bit. Writes nothing and returns false
+  /// if a keyframe step has failed and its exception is not thrown yet. Custom factors have to save
+  /// the state of their own.
+  bool Save(BinaryWriter* archive);
+  /// Restores the state of a run with the same options, apart from the number of threads, and the
+  /// same camera. Call before the first image. Throws std::runtime_error if the archive has no such
+  /// state; the object can then only be destroyed.
+  void Restore(BinaryReader* archive);
 
  private:
   struct State;
