@@ -3,6 +3,7 @@
 set(MSC_VO_PUBLIC_HEADERS
   # The odometry
   msc_vo/odometry/odometry.h
+  msc_vo/checkpoint/checkpoint_file.h
   msc_vo/logging/logger.h
   msc_vo/config/options_file.h
   # Sequences and results

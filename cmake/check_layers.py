@@ -17,7 +17,7 @@ import tempfile
 # Lowest first. Folders of one layer do not include each other.
 LAYERS = [
     ["camera", "text", "timing"],
-    ["geometry"],
+    ["geometry", "checkpoint"],
     ["factors", "evaluation", "sensor", "synthetic/scene", "report"],
     ["bundle_adjustment"],
     ["map", "synthetic/window"],

@@ -156,7 +156,9 @@ void RefuseOutput(const Arguments& arguments, const SequenceIndex& sequence) {
 }
 
 int Run(const Arguments& arguments) {
-  const Configuration configuration = MakeConfiguration(arguments.configuration);
+  Configuration configuration = MakeConfiguration(arguments.configuration);
+  // The calibration is estimated from all images at once.
+  configuration.odometry.mapping.self_calibration = false;
   std::vector<RgbdDecoder> decoders = OpenSequences(arguments, configuration);
   for (const RgbdDecoder& decoder : decoders) RefuseOutput(arguments, decoder.index());
   RunArguments run = arguments.run;

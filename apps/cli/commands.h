@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -24,6 +25,8 @@ std::string HelpFooter(const std::string& example);
 
 /// The command line as typed.
 const std::string& CommandLine();
+/// Its arguments behind the name of the program.
+const std::vector<std::string>& CommandArguments();
 
 /// A sub-command: the declaration of its arguments and the function that executes it.
 ///

@@ -3,6 +3,7 @@
 
 #include "apps/cli/cost_meter.h"
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -56,7 +57,9 @@ CostMeter::CostMeter() {
 
 RunCost CostMeter::Read() const {
   const double seconds = 1e-3 * stopwatch_.Milliseconds();
-  return {seconds, ProcessorSeconds() - start_processor_seconds_, PeakMemory()};
+  const double processor_seconds = ProcessorSeconds() - start_processor_seconds_;
+  return {earlier_.seconds + seconds, earlier_.processor_seconds + processor_seconds,
+          std::max(earlier_.peak_memory, PeakMemory())};
 }
 
 }  // namespace msc_vo

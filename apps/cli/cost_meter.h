@@ -14,9 +14,13 @@ class CostMeter {
  public:
   CostMeter();
 
+  /// Adds the cost of an earlier part of the run, which another process had.
+  void AddEarlier(const RunCost& cost) { earlier_ = cost; }
+
   RunCost Read() const;
 
  private:
+  RunCost earlier_;
   Stopwatch stopwatch_;
   double start_processor_seconds_;
 };

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/text/format_text.h"
@@ -12,12 +13,13 @@
 namespace msc_vo {
 
 FrameLoop::FrameLoop(const RgbdDecoder& decoder, int num_frames, bool strict, ImageFeed* feed,
-                     Odometry* odometry)
+                     Odometry* odometry, LoopProgress progress)
     : entries_(decoder.index().entries),
       num_frames_(num_frames),
       strict_(strict),
       feed_(feed),
-      odometry_(odometry) {}
+      odometry_(odometry),
+      progress_(std::move(progress)) {}
 
 bool FrameLoop::Step(FrameResult* frame) {
   dropped_.clear();
@@ -35,11 +37,12 @@ bool FrameLoop::Step(FrameResult* frame) {
     *frame = odometry_->Process(image_);
     feed_->RecordPose();
   }
+  progress_.num_images = static_cast<int>(frame->id) + 1;
   return true;
 }
 
 FrameResult FrameLoop::Skip(const UnreadableImage& image) {
-  if (num_unreadable_++ == 0) first_unreadable_ = image.what();
+  if (progress_.num_unreadable++ == 0) progress_.first_unreadable = image.what();
   Log().warn("{}", image.what());
   FrameResult frame = odometry_->Drop(image.index(), entries_[image.index()].timestamp,
                                       TrackingStatus::kUnreadable);
@@ -50,15 +53,15 @@ FrameResult FrameLoop::Skip(const UnreadableImage& image) {
 // Ends a run early if the problem is evidently not a few damaged images.
 void FrameLoop::CheckNumUnreadable(int num_done) const {
   constexpr int kMaxBeforeFirstReadable = 30;  // one second at 30 frames per second
-  if (2 * num_unreadable_ > num_frames_) {
+  if (2 * progress_.num_unreadable > num_frames_) {
     throw std::runtime_error(
         FormatText("more than half of the %d images cannot be read; the first: ", num_frames_) +
-        first_unreadable_);
+        progress_.first_unreadable);
   }
-  if (num_unreadable_ == num_done && num_done >= kMaxBeforeFirstReadable) {
+  if (progress_.num_unreadable == num_done && num_done >= kMaxBeforeFirstReadable) {
     throw std::runtime_error(
         FormatText("none of the first %d images can be read; the first: ", num_done) +
-        first_unreadable_);
+        progress_.first_unreadable);
   }
 }
 

@@ -12,22 +12,33 @@
 
 namespace msc_vo {
 
+/// How far the images of a sequence have been processed.
+struct LoopProgress {
+  int num_images = 0;  ///< processed or skipped; the next one has this number
+  int num_unreadable = 0;
+  std::string first_unreadable;  ///< error message; empty without one
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, num_images, num_unreadable, first_unreadable);
+  }
+};
+
 /// Processes the images of a feed with the odometry, one per step. Unreadable images become frames
 /// with the status unreadable.
 class FrameLoop {
  public:
-  /// `num_frames`: images in the feed. `strict`: an unreadable image is an error. All references
-  /// must outlive the loop.
+  /// `num_frames`: images of the run. `strict`: an unreadable image is an error. `progress`: images
+  /// that precede those of the feed. All references must outlive the loop.
   FrameLoop(const RgbdDecoder& decoder, int num_frames, bool strict, ImageFeed* feed,
-            Odometry* odometry);
+            Odometry* odometry, LoopProgress progress = {});
 
   /// Returns false at the end. Throws exceptions of the odometry, UnreadableImage if the loop is
   /// strict, and std::runtime_error if more than half of the images or all of the first 30 are
   /// unreadable.
   bool Step(FrameResult* frame);
 
-  /// Error message of the first unreadable image; empty without one.
-  const std::string& first_unreadable() const { return first_unreadable_; }
+  const LoopProgress& progress() const { return progress_; }
 
  private:
   FrameResult Skip(const UnreadableImage& image);
@@ -40,8 +51,7 @@ class FrameLoop {
   Odometry* odometry_;
   RgbdImage image_;
   std::vector<int> dropped_;
-  int num_unreadable_ = 0;
-  std::string first_unreadable_;
+  LoopProgress progress_;
 };
 
 }  // namespace msc_vo

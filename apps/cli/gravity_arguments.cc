@@ -9,7 +9,6 @@
 
 #include "msc_vo/datasets/accelerometer.h"
 #include "msc_vo/geometry/angles.h"
-#include "msc_vo/inertial/gravity_factors.h"
 
 namespace msc_vo {
 
@@ -40,16 +39,16 @@ void AddGravityArguments(CLI::App* command, GravityArguments* arguments) {
       ->capture_default_str();
 }
 
-WindowFactorCallback MakeGravityCallback(const GravityArguments& arguments,
-                                         const SequenceIndex& sequence) {
-  if (!arguments.enabled) return {};
+std::unique_ptr<GravityFactors> MakeGravityFactors(const GravityArguments& arguments,
+                                                   const SequenceIndex& sequence) {
+  if (!arguments.enabled) return nullptr;
   const Eigen::Matrix3d rotation = RotationFromAxes(arguments.axes);
   std::vector<TimedAcceleration> readings = ReadAccelerometer(sequence);
   for (TimedAcceleration& reading : readings)
     reading.acceleration = rotation * reading.acceleration;
   GravityOptions options;
   options.min_sigma = DegreesToRadians(arguments.sigma);
-  return GravityFactors(std::move(readings), options);
+  return std::make_unique<GravityFactors>(std::move(readings), options);
 }
 
 }  // namespace msc_vo

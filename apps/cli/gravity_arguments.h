@@ -3,12 +3,13 @@
 
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "msc_vo/datasets/sequence.h"
-#include "msc_vo/mapping/window_factors.h"
+#include "msc_vo/inertial/gravity_factors.h"
 
 namespace msc_vo {
 
@@ -22,9 +23,9 @@ struct GravityArguments {
 /// Declares --gravity, --accelerometer-axes and --gravity-sigma.
 void AddGravityArguments(CLI::App* command, GravityArguments* arguments);
 
-/// Returns the factors that tie roll and pitch to accelerometer.txt; empty unless enabled.
+/// Returns the factors that tie roll and pitch to accelerometer.txt; null unless enabled.
 /// Throws std::runtime_error naming file, line and fix if the file cannot be used.
-WindowFactorCallback MakeGravityCallback(const GravityArguments& arguments,
-                                         const SequenceIndex& sequence);
+std::unique_ptr<GravityFactors> MakeGravityFactors(const GravityArguments& arguments,
+                                                   const SequenceIndex& sequence);
 
 }  // namespace msc_vo

@@ -14,7 +14,8 @@ namespace {
 
 class FastFeed : public ImageFeed {
  public:
-  FastFeed(const RgbdDecoder& decoder, int num_frames) : source_(decoder, 0, num_frames) {}
+  FastFeed(const RgbdDecoder& decoder, int first, int num_frames)
+      : source_(decoder, first, num_frames) {}
 
   bool Next(RgbdImage* image, std::vector<int>* /*dropped*/) override {
     return source_.Next(image);
@@ -26,7 +27,8 @@ class FastFeed : public ImageFeed {
 
 class PacedFeed : public ImageFeed {
  public:
-  PacedFeed(const RgbdDecoder& decoder, int num_frames) : source_(decoder, 0, num_frames) {}
+  PacedFeed(const RgbdDecoder& decoder, int first, int num_frames)
+      : source_(decoder, first, num_frames) {}
 
   bool Next(RgbdImage* image, std::vector<int>* dropped) override {
     return source_.Next(image, dropped);
@@ -72,11 +74,11 @@ class CameraFeed : public ImageFeed {
 
 }  // namespace
 
-std::unique_ptr<ImageFeed> MakeImageFeed(const RgbdDecoder& decoder, int num_frames,
+std::unique_ptr<ImageFeed> MakeImageFeed(const RgbdDecoder& decoder, int first, int num_frames,
                                          bool realtime) {
   if (decoder.index().camera) return std::make_unique<CameraFeed>(decoder, num_frames);
-  if (realtime) return std::make_unique<PacedFeed>(decoder, num_frames);
-  return std::make_unique<FastFeed>(decoder, num_frames);
+  if (realtime) return std::make_unique<PacedFeed>(decoder, first, num_frames);
+  return std::make_unique<FastFeed>(decoder, first, num_frames);
 }
 
 std::string DescribeShortenedPauses(const std::vector<SequenceEntry>& entries, int num_frames) {

@@ -33,9 +33,10 @@ class ImageFeed {
   virtual int num_dropped_by_camera() const { return 0; }
 };
 
-/// A feed of the first `num_frames` images; of a live camera, 0 means without end. The decoder must
-/// outlive it.
-std::unique_ptr<ImageFeed> MakeImageFeed(const RgbdDecoder& decoder, int num_frames, bool realtime);
+/// A feed of images `first` to `num_frames` - 1. A live camera begins with 0, and 0 `num_frames`
+/// mean without end. The decoder must outlive it.
+std::unique_ptr<ImageFeed> MakeImageFeed(const RgbdDecoder& decoder, int first, int num_frames,
+                                         bool realtime);
 
 /// Warning about pauses between images that a feed in real time shortens; empty if there are none.
 std::string DescribeShortenedPauses(const std::vector<SequenceEntry>& entries, int num_frames);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <algorithm>
 #include <exception>
 #include <optional>
 #include <string>
@@ -29,7 +30,9 @@ std::string HelpFooter(const std::string& example) {
 
 namespace {
 
-std::string command_line;  // set once, before any command runs
+// Both are set once, before any command runs.
+std::string command_line;
+std::vector<std::string> command_arguments;
 
 using AddCommand = Command (*)(CLI::App*);
 constexpr AddCommand kCommands[] = {
@@ -71,6 +74,7 @@ void CheckSubcommand(const std::vector<Command>& commands, const std::string& na
 
 int Main(int argc, char** argv) {
   for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + std::string(argv[i]);
+  command_arguments.assign(argv + std::min(argc, 1), argv + argc);
   CLI::App app("RGB-D visual odometry from points, lines and the structure of the scene", "msc_vo");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("msc_vo ") + kVersion);
@@ -99,6 +103,8 @@ int Main(int argc, char** argv) {
 }  // namespace
 
 const std::string& CommandLine() { return command_line; }
+
+const std::vector<std::string>& CommandArguments() { return command_arguments; }
 
 }  // namespace msc_vo
 

@@ -2,19 +2,22 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "apps/cli/checkpoints.h"
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/configuration_arguments.h"
-#include "apps/cli/gravity_arguments.h"
-#include "apps/cli/replay_views.h"
-#include "apps/cli/sequence_arguments.h"
+#include "apps/cli/replay_arguments.h"
+#include "apps/cli/run_identity.h"
 #include "apps/cli/sequence_run.h"
+#include "msc_vo/checkpoint/checkpoint_file.h"
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/diagnosis/sequence_check.h"
 #include "msc_vo/logging/logger.h"
@@ -29,51 +32,6 @@
 namespace msc_vo {
 
 namespace {
-
-struct Arguments {
-  SequenceArguments sequence;
-  ConfigurationArguments configuration;
-  RunArguments run;
-  std::string output;
-  std::string windows;  // folder; empty: windows are not recorded
-  GravityArguments gravity;
-  ViewArguments view;
-  std::string mode;
-  std::string lines;
-  std::string depth_sensor;
-  bool no_points = false;
-  bool no_lines = false;
-  bool no_parallel = false;
-  bool no_perpendicular = false;
-  bool no_manhattan = false;
-  bool realtime = false;
-  bool no_check = false;
-  bool print_config = false;
-  bool all = false;       // of --print-config
-  bool markdown = false;  // of --print-config
-};
-
-// Converts the short forms of frequent options to settings. --set takes precedence.
-ConfigurationArguments WithShortcuts(const Arguments& arguments) {
-  std::vector<std::string> settings;
-  if (!arguments.mode.empty()) settings.push_back("mode=" + arguments.mode);
-  if (!arguments.lines.empty()) settings.push_back("features.lines.detector=" + arguments.lines);
-  if (!arguments.depth_sensor.empty()) {
-    settings.push_back("features.depth_sensor=" + arguments.depth_sensor);
-  }
-  if (arguments.no_points) settings.push_back("use_points=false");
-  if (arguments.no_lines) settings.push_back("use_lines=false");
-  if (arguments.no_parallel) settings.push_back("mapping.pairs.parallel=false");
-  if (arguments.no_perpendicular) settings.push_back("mapping.pairs.perpendicular=false");
-  if (arguments.no_manhattan) settings.push_back("mapping.axes.enabled=false");
-  // A live camera does not wait.
-  if (arguments.realtime || IsLiveCamera(arguments.sequence.directory)) {
-    settings.push_back("realtime=true");
-  }
-  ConfigurationArguments all = arguments.configuration;
-  all.settings.insert(all.settings.begin(), settings.begin(), settings.end());
-  return all;
-}
 
 // Writes every window of local bundle adjustment to `folder`, named by its keyframe.
 WindowObserver WindowRecorder(const std::string& folder, const SequenceIndex& sequence) {
@@ -104,7 +62,7 @@ std::vector<std::string> CheckBeforeRun(const RgbdDecoder& decoder) {
   return warnings;
 }
 
-void PrintConfiguration(const Arguments& arguments, const ConfigurationArguments& settings,
+void PrintConfiguration(const ReplayArguments& arguments, const ConfigurationArguments& settings,
                         const Configuration& configuration) {
   const OptionSelection selection = arguments.all ? OptionSelection::kAll : OptionSelection::kBasic;
   if (!arguments.markdown) {
@@ -118,12 +76,121 @@ void PrintConfiguration(const Arguments& arguments, const ConfigurationArguments
   std::cout << FormatOptionsMarkdown(selection);
 }
 
-std::string OutputFolder(const Arguments& arguments) {
+std::string OutputFolder(const ReplayArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
   return (std::filesystem::path("out") / SequenceName(arguments.sequence.directory)).string();
 }
 
-int Replay(const Arguments& arguments) {
+// The checkpoint of a run that is resumed, and its identity.
+struct Resumed {
+  CheckpointFile file;
+  RunIdentity identity;
+};
+
+// Begins to write checkpoints, or continues a run, whose checkpoint must be one of `present`.
+std::unique_ptr<Checkpoints> MakeCheckpoints(const RunIdentity& present, const std::string& output,
+                                             double interval, Resumed* resumed,
+                                             const CheckpointedParts& parts) {
+  const std::string folder = CheckpointFolder(output);
+  if (resumed != nullptr) {
+    const std::string difference = DescribeDifference(resumed->identity, present);
+    if (!difference.empty()) throw std::runtime_error(resumed->file.path() + ": " + difference);
+    return std::make_unique<Checkpoints>(std::move(resumed->file), resumed->identity, interval,
+                                         parts);
+  }
+  if (CheckpointFile::Exists(folder)) {
+    PrintWarning(output + ": this run replaces an unfinished one, which --resume would continue");
+  }
+  return std::make_unique<Checkpoints>(CheckpointFile(folder), present, interval, parts);
+}
+
+// Writes and prints the results. Returns the exit code.
+int WriteResults(const ReplayArguments& arguments, const std::string& output,
+                 const SequenceRun& run, ReplayViews* views) {
+  WriteResultFiles(output, run.result, run.context);
+  views->Complete((std::filesystem::path(output) / "report.html").string());
+  if (arguments.run.json) {
+    std::cout << FormatSummaryJson(run.summary, run.context) << std::flush;
+  } else if (!arguments.run.quiet) {
+    std::cout << FormatRunTable(run.summary, run.context, output) << std::flush;
+  }
+  if (run.exit_code == kExitError) {
+    const bool resumable = CheckpointFile::Exists(CheckpointFolder(output));
+    throw std::runtime_error(run.context.outcome + "\n(results so far are in " + output +
+                             (resumable ? "; msc_vo replay --resume continues)" : ")"));
+  }
+  if (run.exit_code == kExitTrackingFailed) PrintError(run.context.outcome);
+  return run.exit_code;
+}
+
+// The decoder, after the checks of the sequence. Adds their warnings to `warnings`.
+RgbdDecoder OpenChecked(const ReplayArguments& arguments, const Configuration& configuration,
+                        std::vector<std::string>* warnings) {
+  RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration, LiveCameras::kAllowed);
+  PrintWarnings(decoder.index().warnings);
+  if (!arguments.no_check && !decoder.index().camera) *warnings = CheckBeforeRun(decoder);
+  PrintWarnings(*warnings);
+  return decoder;
+}
+
+// Runs the odometry. `resumed`: null for a new run.
+int Run(const ReplayArguments& arguments, const Configuration& configuration, Resumed* resumed) {
+  std::vector<std::string> check_warnings;
+  const RgbdDecoder decoder = OpenChecked(arguments, configuration, &check_warnings);
+  const std::string output = OutputFolder(arguments);
+  RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, output);
+  MakeFolder(output);  // fails before the run if it cannot be created
+  const std::unique_ptr<GravityFactors> gravity =
+      MakeGravityFactors(arguments.gravity, decoder.index());
+  const InterruptGuard interrupt;
+  OnlineResults online(output);
+  ReplayViews views(arguments.view, decoder, configuration, arguments.run.max_frames);
+  std::unique_ptr<Checkpoints> checkpoints;  // none in real time, which cannot be repeated
+  if (!configuration.odometry.snapshots.realtime) {
+    checkpoints = MakeCheckpoints(IdentifyRun(decoder, configuration, arguments.gravity), output,
+                                  arguments.checkpoint_interval, resumed, {&views, gravity.get()});
+  }
+  RunCallbacks callbacks;
+  callbacks.frame = [&](const FrameResult& frame) {
+    online.Add(frame);
+    views.Add(frame, [&] { return interrupt.IsInterrupted(); });
+  };
+  callbacks.window = WindowRecorder(arguments.windows, decoder.index());
+  if (gravity) callbacks.window_factors = std::ref(*gravity);
+  callbacks.tracking = [&](const TrackedImage& tracked) { views.Show(tracked); };
+  callbacks.checkpoints = checkpoints.get();
+  if (resumed != nullptr) {
+    callbacks.resume = [&](const std::vector<FrameResult>& frames) { online.Continue(frames); };
+  }
+  SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt, callbacks);
+  run.context.views = views.TakeViews();
+  if (resumed != nullptr) run.context.command_line = resumed->identity.command_line;
+  if (!run.HasImages()) {
+    if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
+    return run.exit_code;
+  }
+  std::vector<std::string>& warnings = run.context.sequence.warnings;
+  warnings.insert(warnings.end(), check_warnings.begin(), check_warnings.end());
+  const int exit_code = WriteResults(arguments, output, run, &views);
+  if (exit_code != kExitInterrupted) {
+    CheckpointFile(CheckpointFolder(output)).Remove();  // possibly of an earlier run
+  } else if (checkpoints) {
+    PrintWarning("interrupted; to continue: msc_vo replay --resume " + output);
+  }
+  return exit_code;
+}
+
+int Replay(const ReplayArguments& given) {
+  ReplayArguments arguments = given;
+  std::optional<Resumed> resumed;
+  if (!given.resume.empty()) {
+    const std::string output = std::filesystem::absolute(given.resume).string();
+    resumed = {CheckpointFile::Open(CheckpointFolder(output)), {}};
+    resumed->identity = ReadIdentity(&resumed->file);
+    if (given.sequence.directory.empty())
+      arguments = StoredArguments(resumed->identity.arguments, resumed->identity.folder, given);
+    arguments.output = output;
+  }
   const ConfigurationArguments settings = WithShortcuts(arguments);
   const Configuration configuration = MakeConfiguration(settings);
   PrintWarnings(DescribeIgnoredOptions(settings, configuration));
@@ -131,116 +198,18 @@ int Replay(const Arguments& arguments) {
     PrintConfiguration(arguments, settings, configuration);
     return kExitSuccess;
   }
-  const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration, LiveCameras::kAllowed);
-  PrintWarnings(decoder.index().warnings);
-  std::vector<std::string> check_warnings;
-  if (!arguments.no_check && !decoder.index().camera) check_warnings = CheckBeforeRun(decoder);
-  PrintWarnings(check_warnings);
-  const std::string output = OutputFolder(arguments);
-  RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, output);
-  MakeFolder(output);  // fails before the run if it cannot be created
-  const WindowFactorCallback gravity = MakeGravityCallback(arguments.gravity, decoder.index());
-  const InterruptGuard interrupt;
-  OnlineResults online(output);
-  ReplayViews views(arguments.view, decoder, configuration, arguments.run.max_frames);
-  RunCallbacks callbacks;
-  callbacks.frame = [&](const FrameResult& frame) {
-    online.Add(frame);
-    views.Add(frame, [&] { return interrupt.IsInterrupted(); });
-  };
-  callbacks.window = WindowRecorder(arguments.windows, decoder.index());
-  callbacks.window_factors = gravity;
-  callbacks.tracking = [&](const TrackedImage& tracked) { views.Show(tracked); };
-  SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt, callbacks);
-  run.context.views = views.TakeViews();
-  if (!run.HasImages()) {
-    if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
-    return run.exit_code;
+  if (resumed && configuration.odometry.snapshots.realtime) {
+    throw std::runtime_error("--resume: a run in real time cannot be continued; start a new one");
   }
-  std::vector<std::string>& warnings = run.context.sequence.warnings;
-  warnings.insert(warnings.end(), check_warnings.begin(), check_warnings.end());
-  WriteResultFiles(output, run.result, run.context);
-  views.Complete((std::filesystem::path(output) / "report.html").string());
-  if (arguments.run.json) {
-    std::cout << FormatSummaryJson(run.summary, run.context) << std::flush;
-  } else if (!arguments.run.quiet) {
-    std::cout << FormatRunTable(run.summary, run.context, output) << std::flush;
-  }
-  if (run.exit_code == kExitError) {
-    throw std::runtime_error(run.context.outcome + "\n(results so far are in " + output + ")");
-  }
-  if (run.exit_code == kExitTrackingFailed) {
-    PrintError(run.context.outcome);
-  }
-  return run.exit_code;
-}
-
-// Short forms of frequent options.
-void AddShortcuts(CLI::App* command, Arguments* arguments) {
-  command
-      ->add_option("--mode", arguments->mode,
-                   "Ablation mode of the paper; default: the option mode (msc-vo)")
-      ->check(CLI::IsMember(OptionChoices("mode")));
-  command
-      ->add_option("--lines", arguments->lines,
-                   "Line detector: LSD, as in the paper, or edge drawing, which is faster")
-      ->check(CLI::IsMember(OptionChoices("features.lines.detector")));
-  command
-      ->add_option("--depth-sensor", arguments->depth_sensor,
-                   "Sensor that measured depth; default: the option features.depth_sensor (auto, "
-                   "chosen from the depth images)")
-      ->check(CLI::IsMember(OptionChoices("features.depth_sensor")));
-  command->add_flag("--no-points", arguments->no_points, "Use lines only");
-  command->add_flag("--no-lines", arguments->no_lines, "Use points only");
-  command->add_flag("--no-parallel", arguments->no_parallel, "No pairs of parallel map lines");
-  command->add_flag("--no-perpendicular", arguments->no_perpendicular,
-                    "No pairs of perpendicular map lines");
-  command->add_flag("--no-manhattan", arguments->no_manhattan, "No Manhattan axes");
-  command->add_flag("--realtime", arguments->realtime,
-                    "Process images at the pace of their time stamps, drop late images, and never "
-                    "wait for a late map");
-}
-
-void AddPrintArguments(CLI::App* command, Arguments* arguments) {
-  CLI::Option* print =
-      command->add_flag("--print-config", arguments->print_config,
-                        "Print the basic options as a file for --config, and exit");
-  command->add_flag("--all", arguments->all, "With --print-config: also the advanced options")
-      ->needs(print);
-  command
-      ->add_flag("--markdown", arguments->markdown,
-                 "With --print-config: a reference of the options in Markdown")
-      ->needs(print);
+  return Run(arguments, configuration, resumed ? &*resumed : nullptr);
 }
 
 }  // namespace
 
 Command AddReplayCommand(CLI::App* app) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app->add_subcommand("replay", "Estimate the camera's trajectory from an RGB-D sequence");
-  CLI::Option* sequence = AddSequenceArguments(command, &arguments->sequence);
-  AddConfigurationArguments(command, &arguments->configuration);
-  command->add_option("--output", arguments->output,
-                      "Folder for the results; default: out/<name of the sequence>");
-  AddShortcuts(command, arguments.get());
-  AddGravityArguments(command, &arguments->gravity);
-  AddViewArguments(command, &arguments->view);
-  AddRunArguments(command, &arguments->run);
-  command->add_flag("--no-check", arguments->no_check,
-                    "Omit the quick check of the sequence before the run (see check)");
-  command->add_option("--dump-windows", arguments->windows,
-                      "Folder for the windows of local bundle adjustment, one file per "
-                      "keyframe with its input (see solve-window)");
-  AddPrintArguments(command, arguments.get());
-  command->footer(HelpFooter("msc_vo replay my_sequence --output out/my_sequence"));
-  command->callback([arguments, sequence] {
-    if (sequence->empty() && !arguments->print_config) {
-      // --view takes the argument behind it.
-      if (!arguments->view.port.empty()) ViewPort(arguments->view);
-      throw CLI::RequiredError("sequence");
-    }
-  });
+  const auto arguments = std::make_shared<ReplayArguments>();
+  CLI::App* command = AddReplayArguments(app, arguments.get());
+  command->callback([arguments, command] { CheckReplayArguments(*command, *arguments); });
   return {command, [arguments] { return Replay(*arguments); }};
 }
 

@@ -57,6 +57,12 @@ class ReplayViews {
   /// the video. Throws std::runtime_error if the video could not be written.
   void Complete(const std::string& report_file);
 
+  /// Lists the state for a checkpoint: the views for the report.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive(collector_);
+  }
+
  private:
   void StartLive(const std::string& address, int port, const RgbdDecoder& decoder,
                  const LiveRunOptions& options);

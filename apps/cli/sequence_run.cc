@@ -7,6 +7,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -73,26 +74,30 @@ int NumFrames(const RgbdDecoder& decoder, int max_frames) {
   return max_frames > 0 ? std::min(max_frames, decoder.size()) : decoder.size();
 }
 
-// Processes images until the end, an error or an interruption. Returns the number of processed
-// images.
-int RunLoop(const RunArguments& arguments, int num_frames, const InterruptGuard& interrupt,
-            const FrameObserver& frame_observer, FrameLoop* loop, SequenceRun* run) {
+// Processes images until the end, an error or an interruption.
+void RunLoop(const RunArguments& arguments, int num_frames, const InterruptGuard& interrupt,
+             const RunCallbacks& callbacks, const CostMeter& cost, Odometry* odometry,
+             FrameLoop* loop, SequenceRun* run) {
   Progress progress(num_frames);
-  int done = 0;
   try {
     for (FrameResult frame; !interrupt.IsInterrupted() && loop->Step(&frame);) {
-      done = static_cast<int>(frame.id) + 1;
-      frame_observer(frame);
-      if (!arguments.quiet) progress.Update(done, ToString(frame.status));
+      callbacks.frame(frame);
+      if (!arguments.quiet) progress.Update(loop->progress().num_images, ToString(frame.status));
+      if (callbacks.checkpoints != nullptr) {
+        callbacks.checkpoints->SaveIfDue(odometry, cost, loop->progress());
+      }
     }
   } catch (const std::exception& error) {
     Fail(kExitError, error.what(), run);
   }
   if (!arguments.quiet) progress.Finish();
-  if (run->exit_code == kExitSuccess && interrupt.IsInterrupted() && done < num_frames) {
+  const bool ends_early = loop->progress().num_images < num_frames;  // never for an endless camera
+  if (run->exit_code == kExitSuccess && interrupt.IsInterrupted() && ends_early) {
     Fail(kExitInterrupted, "interrupted", run);
+    if (callbacks.checkpoints != nullptr) {
+      callbacks.checkpoints->Save(odometry, cost, loop->progress());
+    }
   }
-  return done;
 }
 
 // Takes the result, also after an error in the last keyframe step.
@@ -143,7 +148,7 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
 
   LogStart(context, num_frames);
 
-  const CostMeter cost;
+  CostMeter cost;
   const OdometryOptions& options = context.configuration.odometry;
   Odometry odometry(options, context.calibration.camera, context.calibration.distortion);
   odometry.SetWindowObserver(callbacks.window);
@@ -152,10 +157,20 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   if (options.snapshots.realtime && !decoder.index().camera) {
     WarnAboutShortenedPauses(num_frames, &context.sequence);
   }
+  LoopProgress progress;
+  if (callbacks.resume) {
+    callbacks.checkpoints->Restore(&odometry, &cost, &progress);
+    if (progress.num_images > num_frames) {
+      throw std::runtime_error(FormatText(
+          "the run to be resumed has %d images already, more than the %d of --max-frames",
+          progress.num_images, num_frames));
+    }
+    callbacks.resume(odometry.frames());
+  }
   const std::unique_ptr<ImageFeed> feed =
-      MakeImageFeed(decoder, num_frames, options.snapshots.realtime);
-  FrameLoop loop(decoder, num_frames, arguments.strict, feed.get(), &odometry);
-  const int done = RunLoop(arguments, num_frames, interrupt, callbacks.frame, &loop, &run);
+      MakeImageFeed(decoder, progress.num_images, num_frames, options.snapshots.realtime);
+  FrameLoop loop(decoder, num_frames, arguments.strict, feed.get(), &odometry, progress);
+  RunLoop(arguments, num_frames, interrupt, callbacks, cost, &odometry, &loop, &run);
   FinishOdometry(&odometry, &run);
   context.cost = cost.Read();
   context.realtime = feed->Realtime();
@@ -164,12 +179,12 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
     PrintWarning(FormatText("%d images of the camera were dropped, because tracking was late",
                             feed->num_dropped_by_camera()));
   }
-  context.first_unreadable = loop.first_unreadable();
+  context.first_unreadable = loop.progress().first_unreadable;
   run.summary = Summarize(run.result);
   if (run.exit_code == kExitSuccess && TrackingFailed(run.summary)) {
     Fail(kExitTrackingFailed, DescribeFailure(run.summary), &run);
   }
-  if (!context.sequence.ground_truth.empty() && done > 0) {
+  if (!context.sequence.ground_truth.empty() && loop.progress().num_images > 0) {
     const std::vector<TimedPose> poses = TrajectoryOf(run.result);
     context.error = EvaluateTrajectory(context.sequence.ground_truth, poses);
     context.segment_errors = EvaluateSegments(context.sequence.ground_truth, poses);

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
+#include "apps/cli/checkpoints.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/interrupt_guard.h"
 #include "msc_vo/datasets/rgbd_decoder.h"
@@ -45,6 +47,10 @@ struct RunCallbacks {
   WindowObserver window;                ///< may be empty
   WindowFactorCallback window_factors;  ///< may be empty
   TrackingObserver tracking = {};       ///< may be empty
+  Checkpoints* checkpoints = nullptr;   ///< null: none are written
+  /// Called before the first image of a run that is resumed with its frames so far; if it is empty,
+  /// no run is resumed.
+  std::function<void(const std::vector<FrameResult>&)> resume = {};
 };
 
 /// Runs the odometry on a sequence. Prints progress and a warning about unreadable images to

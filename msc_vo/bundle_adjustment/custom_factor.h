@@ -47,6 +47,11 @@ struct ExtraBlock {
   Eigen::VectorXd value;                                      ///< in: initial value, out: estimate
   std::shared_ptr<const ceres::Manifold> manifold = nullptr;  ///< null: Euclidean
   bool fixed = false;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive(id, value, fixed);  // the manifold belongs to the code of the caller
+  }
 };
 
 /// A residual block of the caller's own: any Ceres cost function (automatic, analytic or numeric

@@ -62,22 +62,24 @@ class CorrectedCamera {
         camera_.fy * scale * distorted.y() + camera_.cy + correction[SensorCorrection::kCenterY]};
   }
 
-  /// Returns the point of the plane z = 1 whose Pixel() is `pixel`, by fixed-point iteration; of
-  /// lenses other than the radial-tangential one, by LensDistortion and a Newton step, which gives
-  /// the derivatives.
+  /// Returns the point of the plane z = 1 whose Pixel() is `pixel`: by LensDistortion and a Newton
+  /// step, which gives the derivatives.
   template <typename T>
   Vector2<T> Ray(const Eigen::Vector2d& pixel, const T* correction) const {
     using std::exp;
-    constexpr int kIterations = 10;
+    constexpr double kTolerance = 1e-13;
     const T scale = exp(-correction[SensorCorrection::kFocalLength]);
     const Vector2<T> distorted(
         (pixel.x() - camera_.cx - correction[SensorCorrection::kCenterX]) * scale / camera_.fx,
         (pixel.y() - camera_.cy - correction[SensorCorrection::kCenterY]) * scale / camera_.fy);
-    if (distortion_.model != LensModel::kRadialTangential)
-      return NewtonRay<T>(distorted, correction);
-    Vector2<T> x = distorted;
-    for (int i = 0; i < kIterations; ++i) x = x + (distorted - Distort<T>(x, correction));
-    return x;
+    LensDistortion lens = distortion_;
+    lens.k[0] += Scalar(correction[SensorCorrection::kK1]);
+    lens.k[1] += Scalar(correction[SensorCorrection::kK2]);
+    const Eigen::Vector2d x =
+        lens.UndistortNormalized({Scalar(distorted.x()), Scalar(distorted.y())}, kTolerance);
+    const Eigen::Matrix2d inverse = lens.Jacobian(x).inverse();
+    const Vector2<T> at = x.cast<T>();
+    return at + inverse.cast<T>() * (distorted - Distort<T>(at, correction));
   }
 
   /// Returns the pixel of the depth image that shows what colour pixel `pixel` shows, at inverse
@@ -112,19 +114,6 @@ class CorrectedCamera {
   const LensDistortion& distortion() const { return distortion_; }
 
  private:
-  template <typename T>
-  Vector2<T> NewtonRay(const Vector2<T>& distorted, const T* correction) const {
-    constexpr double kTolerance = 1e-13;
-    LensDistortion lens = distortion_;
-    lens.k[0] += Scalar(correction[SensorCorrection::kK1]);
-    lens.k[1] += Scalar(correction[SensorCorrection::kK2]);
-    const Eigen::Vector2d x =
-        lens.UndistortNormalized({Scalar(distorted.x()), Scalar(distorted.y())}, kTolerance);
-    const Eigen::Matrix2d inverse = lens.Jacobian(x).inverse();
-    const Vector2<T> at = x.cast<T>();
-    return at + inverse.cast<T>() * (distorted - Distort<T>(at, correction));
-  }
-
   static double Scalar(double value) { return value; }
   template <typename Jet>
   static double Scalar(const Jet& value) {

@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "msc_vo/camera/camera_intrinsics.h"
+
 namespace msc_vo {
 
 namespace {
@@ -35,15 +37,13 @@ DepthCamera DepthCameraOf(const Calibration& calibration) {
 }  // namespace
 
 Calibration Corrected(const Calibration& calibration, const S::Vector& correction) {
-  Calibration corrected = calibration;
-  PinholeCamera camera = calibration.Recorded();
   const PinholeCamera& given = calibration.Recorded();
-  camera.fx *= std::exp(correction(S::kFocalLength));
-  camera.fy *= std::exp(correction(S::kFocalLength));
-  camera.cx += correction(S::kCenterX);
-  camera.cy += correction(S::kCenterY);
-  corrected.distortion.k[0] += correction(S::kK1);
-  corrected.distortion.k[1] += correction(S::kK2);
+  LensDistortion lens = calibration.distortion;
+  lens.recorded.reset();
+  const CameraIntrinsics recorded = Corrected(CameraIntrinsics{given, lens}, correction);
+  const PinholeCamera& camera = recorded.camera;
+  Calibration corrected = calibration;
+  corrected.distortion.k = recorded.distortion.k;
   corrected.SetRecorded(camera);
   corrected.SetUndistorted();
   if (!CorrectsRegistration(correction)) return corrected;

@@ -17,6 +17,11 @@ struct InverseDepthPlane {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();     ///< of the depth image
   double inverse_depth = 0.0;                          ///< at `pixel`, 1/metres
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();  ///< 1/metres per pixel
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, pixel, inverse_depth, gradient);
+  }
 };
 
 /// One point in two RGB-D images, for self-calibration (not in the paper), 3 rows:
@@ -38,6 +43,11 @@ class RgbdPairReprojection
     /// Recorded pixel, before compensation: where the depth belongs to.
     Eigen::Vector2d recorded_pixel = Eigen::Vector2d::Zero();
     InverseDepthPlane surface;
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, pixel, recorded_pixel, surface);
+    }
   };
 
   RgbdPairReprojection(const CorrectedCamera& camera, const View& a, const View& b,

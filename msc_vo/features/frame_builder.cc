@@ -9,6 +9,8 @@
 #include <string>
 
 #include "msc_vo/camera/lens_validity.h"
+#include "msc_vo/checkpoint/binary_reader.h"
+#include "msc_vo/checkpoint/binary_writer.h"
 #include "msc_vo/features/internal/depth_sampler.h"
 #include "msc_vo/features/internal/depth_source.h"
 #include "msc_vo/sensor/lens_remap.h"
@@ -39,6 +41,7 @@ struct FrameBuilder::State {
   PinholeCamera camera;
   LensRemap lens;
   LensDistortion distortion;
+  std::shared_ptr<const CameraIntrinsics> intrinsics;
   PointExtractor point_extractor;
   LineExtractor line_extractor;
   DepthSource depth;
@@ -49,6 +52,7 @@ struct FrameBuilder::State {
         camera(c),
         lens(camera, distortion_in),
         distortion(distortion_in),
+        intrinsics(std::make_shared<CameraIntrinsics>(CameraIntrinsics{c, distortion_in})),
         point_extractor(o.points),
         line_extractor(o.lines),
         depth(o.depth_sensor, o.noise, o.min_depth, o.max_depth, c.width) {}
@@ -154,6 +158,7 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
   frame.id = image.id;
   frame.timestamp = image.timestamp;
   frame.camera = state_->camera;
+  frame.intrinsics = state_->intrinsics;
   if (state_->distortion.model != LensModel::kRadialTangential || state_->distortion.recorded) {
     frame.lens = state_->distortion;
   }
@@ -187,8 +192,31 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
   return frame;
 }
 
+const std::shared_ptr<const CameraIntrinsics>& FrameBuilder::intrinsics() const {
+  return state_->intrinsics;
+}
+
+void FrameBuilder::SetIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics) {
+  std::string error;
+  if (!intrinsics->camera.IsValid(&error) ||
+      !IsInvertible(intrinsics->distortion, intrinsics->camera, &error)) {
+    throw std::invalid_argument("FrameBuilder: " + error);
+  }
+  state_->camera = intrinsics->camera;
+  state_->distortion = intrinsics->distortion;
+  state_->lens = LensRemap(intrinsics->camera, intrinsics->distortion);
+  state_->intrinsics = intrinsics;
+}
+
 const FrameBuilderTimes& FrameBuilder::times() const { return state_->times; }
 
 DepthSensor FrameBuilder::depth_sensor() const { return state_->depth.sensor(); }
+
+template <typename Archive>
+void FrameBuilder::Serialize(Archive& archive) {
+  archive(state_->depth);
+}
+template void FrameBuilder::Serialize(BinaryWriter& archive);
+template void FrameBuilder::Serialize(BinaryReader& archive);
 
 }  // namespace msc_vo

@@ -63,10 +63,20 @@ class FrameBuilder {
   /// or size of the image do not match the camera.
   Frame Build(const RgbdImage& image, const TaskRunner& run = RunSequentially);
 
+  /// The calibration that frames are built with.
+  const std::shared_ptr<const CameraIntrinsics>& intrinsics() const;
+  /// Replaces it by one for images of the same size. Throws std::invalid_argument if it is invalid.
+  void SetIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics);
+
   const FrameBuilderTimes& times() const;
   /// The depth sensor of the options, or the one that the first images speak for; kAuto as long as
   /// no image had enough depth to tell.
   DepthSensor depth_sensor() const;
+
+  /// Writes or reads what the images so far have told about the sensor, for a checkpoint. Defined
+  /// for BinaryWriter and BinaryReader.
+  template <typename Archive>
+  void Serialize(Archive& archive);
 
  private:
   struct State;

@@ -47,6 +47,11 @@ struct Rigid3 {
     return {(rotation() * b_from_a.rotation()).normalized(),
             rotation() * b_from_a.translation() + translation()};
   }
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, params);
+  }
 };
 
 }  // namespace msc_vo

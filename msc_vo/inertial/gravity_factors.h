@@ -45,6 +45,14 @@ class GravityFactors {
   /// Returns the factors of a window; none before the vertical has been measured.
   WindowFactors operator()(const WindowContext& window);
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [readings, options, measured, sum_of_verticals, information] =
+        *this;  // all members, or it does not compile
+    archive(measured, sum_of_verticals, information);
+  }
+
  private:
   std::vector<TimedAcceleration> readings_;
   GravityOptions options_;

@@ -44,6 +44,22 @@ bool Atlas::Join(KeyframeId other, const Rigid3& current_from_other_world) {
   return true;
 }
 
+InactiveMaps Atlas::ShareAll() {
+  InactiveMaps all = inactive_;
+  all.push_back(std::make_shared<const Map>(current_.Share()));
+  return all;
+}
+
+void Atlas::ChangeAll(const std::function<void(Map*)>& change) {
+  for (std::shared_ptr<const Map>& map : inactive_) {
+    Map changed;
+    changed.Merge(*map);
+    change(&changed);
+    map = std::make_shared<const Map>(std::move(changed));
+  }
+  change(&current_);
+}
+
 const Map* Atlas::FindMapOf(KeyframeId keyframe) const {
   if (current_.KnowsKeyframe(keyframe)) return &current_;
   return msc_vo::FindMapOf(inactive_, keyframe);

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -36,8 +37,20 @@ class Atlas {
   /// if no inactive map contains the keyframe.
   bool Join(KeyframeId other, const Rigid3& current_from_other_world);
 
+  /// All maps as they are, the current one last. They share memory with the atlas.
+  InactiveMaps ShareAll();
+  /// Changes all maps.
+  void ChangeAll(const std::function<void(Map*)>& change);
+
   /// The map that contains or contained the keyframe; nullptr if that was discarded.
   const Map* FindMapOf(KeyframeId keyframe) const;
+
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [current_map, inactive_maps] = *this;  // all members, or it does not compile
+    archive(current_map, inactive_maps);
+  }
 
  private:
   Map current_;

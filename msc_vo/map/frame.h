@@ -5,11 +5,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "msc_vo/camera/camera_intrinsics.h"
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/camera_velocity.h"
@@ -41,6 +43,12 @@ struct PointFeature {
   Descriptor descriptor{};
 
   bool HasDepth() const { return inverse_depth > 0.0; }
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, pixel, sigma, level, dynamic, angle, inverse_depth, inverse_depth_sigma,
+                   descriptor);
+  }
 };
 
 /// A line feature l_j of the paper. Pixels are undistorted.
@@ -50,6 +58,11 @@ struct LineFeature {
   bool dynamic = false;            ///< as for points
   std::optional<LineDepth> depth;  ///< none: the line stays 2-D
   Descriptor descriptor{};
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, segment, sigma, dynamic, depth, descriptor);
+  }
 };
 
 /// Feature indices in square cells over the image, for radius searches in time proportional to the
@@ -80,6 +93,13 @@ class FeatureGrid {
     }
   }
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [columns, rows, begins, indices] = *this;  // all members, or it does not compile
+    archive(columns, rows, begins, indices);
+  }
+
  private:
   int ColumnOf(double x) const;
   int RowOf(double y) const;
@@ -103,6 +123,9 @@ struct Frame {
   std::vector<PointFeature> points;
   std::vector<LineFeature> lines;
   FeatureGrid grid;  ///< over `points`
+  /// Calibration that the features were undistorted with, whose camera is `camera`; null if it is
+  /// unknown.
+  std::shared_ptr<const CameraIntrinsics> intrinsics;
   /// Parameters of the rolling-shutter compensation that was applied to the features (see
   /// rolling_shutter.h): the camera's velocity, std::nullopt while it is unknown, and the readout
   /// time, seconds.
@@ -117,6 +140,12 @@ struct Frame {
   /// Segment in camera coordinates (metres) of a line that has a depth.
   LineSegment3 LineInCamera(int index) const {
     return BackProject(camera, lines[index].segment, *lines[index].depth);
+  }
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, id, timestamp, camera, lens, points, lines, grid, intrinsics, velocity,
+                   readout_time);
   }
 };
 

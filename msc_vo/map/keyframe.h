@@ -19,6 +19,11 @@ struct Keyframe {
   Rigid3 cam_from_world;
   std::vector<LandmarkId> points;  ///< one per point feature; kNoId: none
   std::vector<LandmarkId> lines;   ///< one per line feature
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, id, frame, cam_from_world, points, lines);
+  }
 };
 
 }  // namespace msc_vo

@@ -22,6 +22,11 @@ constexpr int64_t kNoId = -1;
 struct Observation {
   KeyframeId keyframe = kNoId;
   int feature = 0;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, keyframe, feature);
+  }
 };
 
 /// Common part of point and line landmarks.
@@ -38,6 +43,12 @@ struct Landmark {
   int num_found = 1;
   /// Noise of its observations relative to the sigmas of the features.
   double noise = 1.0;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, id, first_keyframe, observations, descriptor, descriptor_is_current,
+                   viewing_direction, num_visible, num_found, noise);
+  }
 };
 
 /// P_i of the paper.
@@ -50,6 +61,12 @@ struct PointLandmark : Landmark {
   double PredictLevel(double distance) const {
     return std::log(reference_distance / distance) / std::log(kPyramidScale);
   }
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    Landmark::Serialize(archive);
+    archive(position, reference_distance);
+  }
 };
 
 /// L_j = {S_j, E_j} of the paper.
@@ -60,6 +77,12 @@ struct LineLandmark : Landmark {
   double direction_sigma = 0.0;
   /// Common error (metres) of its measured depths in all views; positive: measured too far.
   double depth_offset = 0.0;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    Landmark::Serialize(archive);
+    archive(segment, direction_sigma, depth_offset);
+  }
 };
 
 }  // namespace msc_vo

@@ -105,11 +105,24 @@ class Map {
   /// then newest first.
   std::vector<Covisible> FindCovisible(KeyframeId keyframe) const;
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [keyframes, points, lines, relative_poses, next_keyframe, next_landmark] =
+        *this;  // all members, or it does not compile
+    archive(keyframes, points, lines, relative_poses, next_keyframe, next_landmark);
+  }
+
  private:
   // Pose of a removed keyframe relative to its successor; kNoId while the keyframe is in the map.
   struct RelativePose {
     KeyframeId successor = kNoId;
     Rigid3 cam_from_successor;
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, successor, cam_from_successor);
+    }
   };
 
   KeyframeTable keyframes_;

@@ -29,6 +29,12 @@ class SharedTable {
     int64_t first = 0;    // id of the first entry, so that searches stay in this vector
     bool shared = false;  // possibly with another table: must be copied before a write
     std::shared_ptr<Entries> entries;  // never empty
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive(first, entries);
+      shared = true;  // with the archive
+    }
   };
 
  public:
@@ -140,6 +146,12 @@ class SharedTable {
     SharedTable copy;
     copy.blocks_ = blocks_;
     return copy;
+  }
+
+  /// Lists the state for a checkpoint. Its blocks count as shared afterwards.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive(blocks_);
   }
 
  private:

@@ -19,6 +19,11 @@ struct AxesEstimate {
   Eigen::Quaterniond world_from_axes = Eigen::Quaterniond::Identity();
   double sigma = 0.0;      ///< standard deviation of the least certain direction, radians
   double deviation = 0.0;  ///< of the lines that were built along the axes, radians
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, world_from_axes, sigma, deviation);
+  }
 };
 
 /// The immutable map after one keyframe step. Any thread may read it.
@@ -27,9 +32,17 @@ struct MapSnapshot {
   KeyframeId newest_keyframe = kNoId;
   NoiseScale noise_scale;     ///< self-calibrated
   double readout_time = 0.0;  ///< seconds, of the rolling-shutter compensation of its keyframes
+  /// Calibration of its keyframes, which frames must have that are tracked in it; null: unknown.
+  std::shared_ptr<const CameraIntrinsics> intrinsics;
   std::optional<AxesEstimate> axes;  ///< std::nullopt until they are found
   bool needs_axes = false;           ///< the next keyframe packet shall contain surface normals
   InactiveMaps inactive_maps;        ///< of older segments that are not joined with this map
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, map, newest_keyframe, noise_scale, readout_time, intrinsics, axes,
+                   needs_axes, inactive_maps);
+  }
 };
 using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;
 

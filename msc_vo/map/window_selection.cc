@@ -146,6 +146,32 @@ bool IntersectRay(const LineSegment3& line, const Eigen::Vector3d& origin,
   return true;
 }
 
+WindowData MakeWindow(const WindowSelectionOptions& options, const Map& map,
+                      const std::set<KeyframeId>& window, const PinholeCamera& camera) {
+  ObserverCount observers(map);
+  const auto points = ObservedLandmarks<PointLandmark>(map, window, &Keyframe::points, map.points(),
+                                                       options.min_observations, &observers);
+  const auto lines = ObservedLandmarks<LineLandmark>(map, window, &Keyframe::lines, map.lines(),
+                                                     options.min_observations, &observers);
+
+  WindowData data;
+  data.camera = camera;
+  AddKeyframes(map, window, SelectFixed(options, window, observers), &data);
+  KeyframeIndex keyframes(map);
+  for (const WindowData::Keyframe& selected : data.keyframes) {
+    keyframes.Add(*map.FindKeyframe(selected.id));
+  }
+  for (const PointLandmark* point : points) {
+    data.points.push_back({point->id, point->position, false, point->noise});
+    AddObservations(keyframes, *point, &data.point_observations);
+  }
+  for (const LineLandmark* line : lines) {
+    data.lines.push_back({line->id, line->segment, false, line->noise, line->depth_offset});
+    AddObservations(keyframes, *line, &data.line_observations);
+  }
+  return data;
+}
+
 }  // namespace
 
 bool WindowSelectionOptions::IsValid(std::string* error) const {
@@ -165,28 +191,13 @@ WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, K
                         WindowLinks links) {
   std::set<KeyframeId> window = SelectKeyframes(options, map, keyframe);
   if (links == WindowLinks::kLandmarksAndTime) AddPredecessors(options, map, &window);
-  ObserverCount observers(map);
-  const auto points = ObservedLandmarks<PointLandmark>(map, window, &Keyframe::points, map.points(),
-                                                       options.min_observations, &observers);
-  const auto lines = ObservedLandmarks<LineLandmark>(map, window, &Keyframe::lines, map.lines(),
-                                                     options.min_observations, &observers);
+  return MakeWindow(options, map, window, map.FindKeyframe(keyframe)->frame->camera);
+}
 
-  WindowData data;
-  data.camera = map.FindKeyframe(keyframe)->frame->camera;
-  AddKeyframes(map, window, SelectFixed(options, window, observers), &data);
-  KeyframeIndex keyframes(map);
-  for (const WindowData::Keyframe& selected : data.keyframes) {
-    keyframes.Add(*map.FindKeyframe(selected.id));
-  }
-  for (const PointLandmark* point : points) {
-    data.points.push_back({point->id, point->position, false, point->noise});
-    AddObservations(keyframes, *point, &data.point_observations);
-  }
-  for (const LineLandmark* line : lines) {
-    data.lines.push_back({line->id, line->segment, false, line->noise, line->depth_offset});
-    AddObservations(keyframes, *line, &data.line_observations);
-  }
-  return data;
+WindowData SelectWholeMap(const WindowSelectionOptions& options, const Map& map) {
+  std::set<KeyframeId> window;
+  for (const auto& [id, keyframe] : map.keyframes()) window.insert(id);
+  return MakeWindow(options, map, window, map.keyframes().back().second.frame->camera);
 }
 
 LineSegment3 TrimToObservations(const Map& map, const LineLandmark& line,

@@ -40,6 +40,9 @@ enum class WindowLinks {
 WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, KeyframeId keyframe,
                         WindowLinks links = WindowLinks::kLandmarks);
 
+/// Selects all keyframes of a map that is not empty.
+WindowData SelectWholeMap(const WindowSelectionOptions& options, const Map& map);
+
 /// Writes the optimised window back into the map. Removes rejected observations and lines shorter
 /// than 1 cm. End points of lines are recomputed from the observations, because bundle adjustment
 /// leaves them free along the line.

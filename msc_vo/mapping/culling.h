@@ -30,6 +30,11 @@ struct CullingOptions {
 struct Probation {
   std::set<LandmarkId> points;
   std::set<LandmarkId> lines;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, points, lines);
+  }
 };
 
 /// Removes the landmarks on probation that fail the tests of CullingOptions, and ends the probation

@@ -15,6 +15,8 @@
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/matching/frame_matches.h"
 #include "msc_vo/matching/map_relocalization.h"
+#include "msc_vo/self_calibration/recent_pairs.h"
+#include "msc_vo/sensor/stored_depth.h"
 #include "msc_vo/structure/axis_evidence.h"
 
 namespace msc_vo {
@@ -23,6 +25,11 @@ namespace msc_vo {
 struct TrackingCount {
   int num_visible = 0;
   int num_found = 0;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, num_visible, num_found);
+  }
 };
 
 /// Plain data that tracking passes to the mapper for each keyframe; shared parts are immutable.
@@ -43,9 +50,22 @@ struct KeyframePacket {
   std::optional<CameraVelocity> last_velocity;
   /// Normals of visible surfaces, camera frame; empty if the map already has Manhattan axes.
   std::vector<AxisEvidence> normals;
+  /// For self-calibration: the depth image of `frame` (CV_32FC1, metres), and images since the last
+  /// packet. Empty: the keyframe takes no part in it.
+  cv::Mat depth;
+  std::vector<CalibrationImage> calibration_images;
   /// Over all frames since the last packet, including this one.
   std::map<LandmarkId, TrackingCount> point_counts;
   std::map<LandmarkId, TrackingCount> line_counts;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    StoredDepth stored(depth);
+    archive.Fields(*this, frame, reference, cam_from_reference, begins_map, keeps_last_map, matches,
+                   covariance, in_inactive_map, last_velocity, normals, stored, calibration_images,
+                   point_counts, line_counts);
+    depth = stored.Image();
+  }
 };
 
 }  // namespace msc_vo

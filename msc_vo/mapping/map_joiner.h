@@ -22,6 +22,11 @@ struct MapJoin {
   /// Of `moved_from_kept`, in the tangent of Rigid3Manifold.
   PoseCovariance covariance = PoseCovariance::Zero();
   int num_keyframes = 0;  ///< that agree on the alignment
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, kept, moved, moved_from_kept, covariance, num_keyframes);
+  }
 };
 
 /// Joins the current map with an inactive one when enough keyframes have been found in both.
@@ -42,12 +47,24 @@ class MapJoiner {
   /// Forgets the keyframes of the current map: another one begins.
   void Clear() { common_keyframes_.clear(); }
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [options, common_keyframes] = *this;  // all members, or it does not compile
+    archive(common_keyframes);
+  }
+
  private:
   // A keyframe of the current map in an inactive one.
   struct CommonKeyframe {
     KeyframeId keyframe = kNoId;
     PoseCovariance covariance = PoseCovariance::Zero();
     MapRelocalization in_inactive_map;
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, keyframe, covariance, in_inactive_map);
+    }
   };
 
   // Those that were found in `map`.

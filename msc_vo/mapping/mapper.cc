@@ -8,7 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "msc_vo/map/frame_intrinsics.h"
 #include "msc_vo/mapping/landmark_creation.h"
+#include "msc_vo/self_calibration/keyframe_intrinsics.h"
 #include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
 #include "msc_vo/structure/keyframe_structure.h"
 #include "msc_vo/timing/stopwatch.h"
@@ -16,6 +18,11 @@
 namespace msc_vo {
 
 namespace {
+
+// Seconds; as for the compensation of keyframes.
+constexpr double kMinReadoutChange = 0.001;
+// Iterations of both rounds of bundle adjustment after a change of the calibration.
+constexpr int kCalibrationIterations = 10;
 
 void DescribeAxes(const AxesEstimator& axes, MappingSummary* summary) {
   summary->axes_state = axes.state();
@@ -42,9 +49,11 @@ MappingSummary Mapper::Insert(const KeyframePacket& packet) {
     SetKeyframeVelocity(newest_keyframe_, *packet.last_velocity, &atlas_.current());
   }
   if (packet.begins_map) BeginMap(packet.keeps_last_map);
-  readout_time_ = readout_.readout_time();
+  UpdateReadoutTime();
   CompensateKeyframes(readout_time_, &atlas_.current());
-  std::shared_ptr<const Frame> frame = UpdateCompensation(packet.frame, readout_time_);
+  std::shared_ptr<const Frame> frame = packet.frame;
+  if (calibration_) frame = ChangeIntrinsics(frame, calibration_->present());
+  frame = UpdateCompensation(frame, readout_time_);
   summary.times.creation = stopwatch.Restart();
   if (options_.frame_structure) {
     frame = RefineStructure(options_.structure, noise_.scale(), options_.MapHasStructure(), frame);
@@ -82,6 +91,8 @@ void Mapper::Refine(const KeyframePacket& packet, MappingSummary* summary) {
   }
   readout_.Update(map(), summary->keyframe);
   summary->times.readout = stopwatch.Restart();
+  Calibrate(packet, summary);
+  summary->times.calibration = stopwatch.Restart();
   summary->num_culled_keyframes =
       CullKeyframes(options_.culling, summary->keyframe, &atlas_.current());
   summary->times.culling = stopwatch.Restart();
@@ -130,6 +141,7 @@ MapSnapshotPtr Mapper::Snapshot() {
   snapshot->newest_keyframe = newest_keyframe_;
   snapshot->noise_scale = noise_.scale();
   snapshot->readout_time = readout_time_;
+  if (calibration_) snapshot->intrinsics = calibration_->present();
   snapshot->axes = axes_.Estimate();
   snapshot->needs_axes = options_.axes.enabled && !snapshot->axes;
   return snapshot;
@@ -184,10 +196,40 @@ void Mapper::AddCustomFactors(WindowData* window) const {
   FixUnlinkedKeyframes(window);
 }
 
+void Mapper::UpdateReadoutTime() {
+  readout_time_ = readout_.readout_time();
+  // Pairs of images that were compensated otherwise would contradict the calibration.
+  if (std::abs(readout_time_ - pairs_readout_time_) < kMinReadoutChange) return;
+  pairs_readout_time_ = readout_time_;
+  if (calibration_) calibration_->Clear();
+}
+
+void Mapper::Calibrate(const KeyframePacket& packet, MappingSummary* summary) {
+  if (!calibration_ || packet.depth.empty()) return;
+  if (!calibration_->Update(map(), summary->keyframe, packet.depth, packet.calibration_images,
+                            readout_.sigma())) {
+    return;
+  }
+  summary->calibration = std::make_shared<CalibrationChange>(
+      CalibrationChange{calibration_->estimate(), atlas_.ShareAll()});
+  atlas_.ChangeAll([this](Map* map) { ChangeKeyframeIntrinsics(calibration_->present(), map); });
+  noise_ = NoiseEstimator(options_.noise);
+  axes_ = SceneAxes(options_.axes);
+  BundleAdjustmentOptions options = options_.window;
+  options.first_iterations = kCalibrationIterations;
+  options.second_iterations = kCalibrationIterations;
+  SolveWindow(options, summary->keyframe, SelectWholeMap(options_.selection, map()));
+}
+
 std::optional<BundleAdjustmentSummary> Mapper::OptimizeWindow(KeyframeId keyframe) {
   const WindowLinks links =
       window_factor_callback_ ? WindowLinks::kLandmarksAndTime : WindowLinks::kLandmarks;
-  WindowData window = SelectWindow(options_.selection, map(), keyframe, links);
+  return SolveWindow(options_.window, keyframe,
+                     SelectWindow(options_.selection, map(), keyframe, links));
+}
+
+std::optional<BundleAdjustmentSummary> Mapper::SolveWindow(const BundleAdjustmentOptions& options,
+                                                           KeyframeId keyframe, WindowData window) {
   last_window_lines_.clear();
   for (const WindowData::Line& line : window.lines) last_window_lines_.insert(line.id);
   if (window.keyframes.size() < 2) return std::nullopt;
@@ -195,8 +237,8 @@ std::optional<BundleAdjustmentSummary> Mapper::OptimizeWindow(KeyframeId keyfram
   axes_.AddAlignments(&window);
   pairs_.Add(&window);
   AddCustomFactors(&window);
-  if (window_observer_) window_observer_(keyframe, options_.window, window);
-  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_.window, &window);
+  if (window_observer_) window_observer_(keyframe, options, window);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options, &window);
   if (summary.usable) {
     noise_.Update(WindowResiduals(window));
     WriteBack(window, &atlas_.current());

@@ -18,6 +18,7 @@
 #include "msc_vo/mapping/mapper_options.h"
 #include "msc_vo/mapping/window_factors.h"
 #include "msc_vo/mapping/window_observer.h"
+#include "msc_vo/self_calibration/calibration_estimator.h"
 #include "msc_vo/self_calibration/readout_time_estimator.h"
 
 namespace msc_vo {
@@ -30,7 +31,24 @@ struct MappingTimes {
   double axes = 0.0;
   std::optional<double> window;  ///< local bundle adjustment; none if it was not due
   double readout = 0.0;          ///< estimation of the readout time
+  double calibration = 0.0;      ///< estimation of the calibration
   double culling = 0.0;          ///< keyframe culling
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, structure, creation, fusion, axes, window, readout, calibration, culling);
+  }
+};
+
+/// A corrected calibration that the maps were brought up to date with.
+struct CalibrationChange {
+  CorrectionEstimate estimate;
+  InactiveMaps maps_before;  ///< all maps, with the old poses
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, estimate, maps_before);
+  }
 };
 
 /// Result of one keyframe step.
@@ -41,7 +59,14 @@ struct MappingSummary {
   AxesState axes_state = AxesState::kNone;        ///< after the step
   int num_axes_refinements = 0;                   ///< in the run so far
   std::optional<MapJoin> join;  ///< the map was joined with that of an older segment
+  std::shared_ptr<const CalibrationChange> calibration;  ///< null: it was not changed
   MappingTimes times;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, keyframe, num_culled_keyframes, window, axes_state, num_axes_refinements,
+                   join, calibration, times);
+  }
 };
 
 /// Local mapping (paper): owns the maps of all segments and is the only one to change them. Works
@@ -58,6 +83,12 @@ class Mapper {
   /// of its estimate, throw std::invalid_argument that names it.
   void SetWindowFactors(WindowFactorCallback callback) {
     window_factor_callback_ = std::move(callback);
+  }
+
+  /// Estimates the calibration from now on, beginning with the one of the frames. Call it before
+  /// the first keyframe.
+  void SetIntrinsics(const std::shared_ptr<const CameraIntrinsics>& given) {
+    calibration_.emplace(given);
   }
 
   /// A keyframe is processed in two steps. Insert() adds it to the map with its observations and
@@ -80,10 +111,25 @@ class Mapper {
   const SceneAxes& AxesOf(const Map& map) const;
   const NoiseEstimator& noise() const { return noise_; }
   const ReadoutTimeEstimator& readout() const { return readout_; }
+  /// None before SetIntrinsics().
+  const std::optional<CalibrationEstimator>& calibration() const { return calibration_; }
   /// Values of all extra blocks that usable windows have estimated, in order of their ids.
   std::vector<ExtraBlock> extra_blocks() const;
   /// Lines of the last local bundle adjustment.
   const std::set<LandmarkId>& last_window_lines() const { return last_window_lines_; }
+
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [options, window_observer, window_factors, extra, maps, joiner, probation, scene_axes,
+           pairs, inactive_axes, noise_estimator, readout_estimator, calibration_estimator,
+           readout_time, pairs_readout_time, newest_keyframe, last_window_time,
+           last_lines] = *this;  // all members, or it does not compile
+    archive.Entries(inactive_axes, SceneAxes(options.axes));
+    archive(extra, maps, joiner, probation, scene_axes, pairs, noise_estimator, readout_estimator,
+            readout_time, pairs_readout_time, newest_keyframe, last_window_time, last_lines);
+    if (calibration_estimator) archive(*calibration_estimator);  // as the options want it
+  }
 
  private:
   // Begins a map for a new segment.
@@ -91,10 +137,15 @@ class Mapper {
   // Joins the current map with an inactive one if enough keyframes have been found in both.
   std::optional<MapJoin> JoinMaps();
   KeyframeId InsertKeyframe(const KeyframePacket& packet, std::shared_ptr<const Frame> frame);
+  void UpdateReadoutTime();
+  // Updates the self-calibration, and brings the maps up to date with it.
+  void Calibrate(const KeyframePacket& packet, MappingSummary* summary);
   // Adds the factors of the callback, the extra blocks and the axes that they may use.
   void AddCustomFactors(WindowData* window) const;
   // Returns std::nullopt if the window has a single keyframe.
   std::optional<BundleAdjustmentSummary> OptimizeWindow(KeyframeId keyframe);
+  std::optional<BundleAdjustmentSummary> SolveWindow(const BundleAdjustmentOptions& options,
+                                                     KeyframeId keyframe, WindowData window);
 
   MapperOptions options_;
   WindowObserver window_observer_;               // may be empty
@@ -108,7 +159,9 @@ class Mapper {
   std::map<KeyframeId, SceneAxes> inactive_axes_;  // of inactive maps, by first keyframe
   NoiseEstimator noise_;
   ReadoutTimeEstimator readout_;
-  double readout_time_ = 0.0;  // seconds, of the compensation of the map's keyframes
+  std::optional<CalibrationEstimator> calibration_;
+  double readout_time_ = 0.0;        // seconds, of the compensation of the map's keyframes
+  double pairs_readout_time_ = 0.0;  // seconds, of that of the pairs of the calibration
   KeyframeId newest_keyframe_ = kNoId;
   double last_window_time_ = -std::numeric_limits<double>::infinity();  // seconds, of its keyframe
   std::set<LandmarkId> last_window_lines_;

@@ -46,6 +46,9 @@ struct MapperOptions {
   double min_window_interval = 0.12;
   CullingOptions culling;
   MapAlignmentOptions joining;  ///< of the maps of two segments
+  /// Whether focal length, principal point and radial distortion are corrected if the images
+  /// contradict them.
+  bool self_calibration = true;
   /// Readout time of the rolling shutter, seconds (see rolling_shutter.h); 0: global shutter. None:
   /// it is estimated.
   std::optional<double> readout_time;

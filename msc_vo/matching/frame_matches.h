@@ -19,6 +19,11 @@ struct PointMatch {
   LandmarkId id = kNoId;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, world
   bool inlier = true;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, feature, id, position, inlier);
+  }
 };
 
 struct LineMatch {
@@ -26,12 +31,22 @@ struct LineMatch {
   LandmarkId id = kNoId;
   LineSegment3 segment;  ///< metres, world
   bool inlier = true;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, feature, id, segment, inlier);
+  }
 };
 
 /// The matches of one frame; each feature occurs at most once.
 struct FrameMatches {
   std::vector<PointMatch> points;
   std::vector<LineMatch> lines;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, points, lines);
+  }
 };
 
 }  // namespace msc_vo

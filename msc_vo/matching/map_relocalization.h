@@ -17,6 +17,11 @@ struct MapRelocalization {
   /// Of the pose in the world of the inactive map, in the tangent of Rigid3Manifold.
   PoseCovariance covariance = PoseCovariance::Zero();
   FrameMatches matches;  ///< inliers among the landmarks of the inactive map
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, reference, cam_from_reference, covariance, matches);
+  }
 };
 
 }  // namespace msc_vo

@@ -84,12 +84,26 @@ void EventLog::LogMapping(const MappingStep& step) {
     Log().info("Manhattan axes at keyframe {}: {}; refinements: {}", summary.keyframe,
                ToString(axes_state_), num_axes_refinements_);
   }
+  if (summary.calibration) LogCalibration(step);
   if (step.snapshot && step.snapshot->readout_time != readout_time_) {
     const bool was_known = std::exchange(readout_time_, step.snapshot->readout_time) != 0.0;
     Log().log(was_known ? spdlog::level::debug : spdlog::level::info,
               "readout time {} at keyframe {}: {:.2f} ms", was_known ? "updated" : "accepted",
               summary.keyframe, 1000.0 * readout_time_);
   }
+}
+
+void EventLog::LogCalibration(const MappingStep& step) {
+  using S = SensorCorrection;
+  const CameraIntrinsics& intrinsics = *step.snapshot->intrinsics;
+  const PinholeCamera& camera = intrinsics.distortion.Recorded(intrinsics.camera);
+  const S::Vector& sigma = step.summary.calibration->estimate.sigma;
+  Log().info(
+      "calibration corrected at keyframe {}: fx {:.2f} +- {:.2f} fy {:.2f} cx {:.2f} +- {:.2f} cy "
+      "{:.2f} +- {:.2f} k1 {:.4f} +- {:.4f} k2 {:.4f} +- {:.4f}",
+      step.summary.keyframe, camera.fx, camera.FocalLength() * sigma(S::kFocalLength), camera.fy,
+      camera.cx, sigma(S::kCenterX), camera.cy, sigma(S::kCenterY), intrinsics.distortion.k[0],
+      sigma(S::kK1), intrinsics.distortion.k[1], sigma(S::kK2));
 }
 
 void EventLog::LogFinish(const NoiseScale& noise_scale, double readout_time, int num_frames) const {

@@ -33,7 +33,17 @@ class EventLog {
   /// Self-calibration at the end of the run; `readout_time` in seconds.
   void LogFinish(const NoiseScale& noise_scale, double readout_time, int num_frames) const;
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [status, status_since, axes_state, num_axes_refinements, readout_time, last_moved_map,
+           depth_sensor, chooses_depth_sensor] = *this;  // all members, or it does not compile
+    archive(status, status_since, axes_state, num_axes_refinements, readout_time, last_moved_map,
+            depth_sensor, chooses_depth_sensor);
+  }
+
  private:
+  static void LogCalibration(const MappingStep& step);
   void LogStatus(const FrameResult& frame, bool relocalized);
 
   std::optional<TrackingStatus> status_;  // of the last frame

@@ -14,6 +14,8 @@
 
 namespace msc_vo {
 
+struct TrackedFrame;
+
 /// Time of each stage of one frame, milliseconds.
 struct StageTimes {
   /// Wall time of points, lines and their depths. The next three are summed over parallel threads,
@@ -31,6 +33,12 @@ struct StageTimes {
   double mapping = 0.0;
   MappingTimes mapping_stages;
   double snapshot = 0.0;  ///< snapshots of the map; part of `mapping`
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, features, points, lines, depth, matching, pose, waiting, tracking,
+                   mapping, mapping_stages, snapshot);
+  }
 };
 
 /// FrameResult::segment of a frame without one.
@@ -59,6 +67,17 @@ struct FrameResult {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   ImageStatistics image;  ///< zero if the image was not processed
   StageTimes times;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, id, timestamp, status, segment, cam_from_world, by_pose_factors,
+                   is_keyframe, num_points, num_lines, num_with_depth, num_inlier_points,
+                   num_inlier_lines, num_dynamic, covariance, image, times);
+  }
 };
+
+/// The result of a tracked frame in a segment, without statistics of its image and without times of
+/// other stages than tracking.
+FrameResult MakeFrameResult(const TrackedFrame& tracked, int segment);
 
 }  // namespace msc_vo

@@ -238,6 +238,9 @@ void ListMapping(MapperOptions* mapping, OptionLister* list) {
             "Readout time of a rolling shutter, from the first image row to the last; 0: global "
             "shutter. Estimated if not set.")
       .MakeBasic("Set it if it is known.");
+  list->Add("self_calibration", &mapping->self_calibration,
+            "Correct focal length, principal point and radial distortion of the lens if the images "
+            "contradict them.");
   list->Add(
       "frame_structure", &mapping->frame_structure,
       "Refine the depths of parallel and perpendicular lines of a keyframe by each other. Not "

@@ -19,6 +19,11 @@ struct MappingStep {
   double snapshot_ms = 0.0;   ///< total time of the snapshots of the keyframe, milliseconds
   double milliseconds = 0.0;  ///< total time since the beginning of the keyframe's first step
   std::exception_ptr error;   ///< exception of the step; null if it succeeded
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive(summary, snapshot, snapshot_ms, milliseconds);  // steps with an error are not saved
+  }
 };
 
 /// Runs the mapper, either synchronously or on a thread of its own, with identical results. For

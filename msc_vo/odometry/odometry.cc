@@ -9,12 +9,15 @@
 #include <utility>
 
 #include "msc_vo/camera/lens_validity.h"
+#include "msc_vo/checkpoint/binary_reader.h"
+#include "msc_vo/checkpoint/binary_writer.h"
 #include "msc_vo/features/image_statistics.h"
-#include "msc_vo/map/feature_counts.h"
+#include "msc_vo/map/frame_intrinsics.h"
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/event_log.h"
 #include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/odometry/mapping_runner.h"
+#include "msc_vo/odometry/pose_correction.h"
 #include "msc_vo/odometry/segment_log.h"
 #include "msc_vo/odometry/side_worker.h"
 #include "msc_vo/odometry/snapshot_schedule.h"
@@ -25,6 +28,10 @@
 namespace msc_vo {
 
 namespace {
+
+// Images between two keyframes that take part in self-calibration: every fourth, up to three.
+constexpr int kCalibrationImageInterval = 4;
+constexpr size_t kMaxCalibrationImages = 3;
 
 // Largest time between a depth image and its colour image, seconds: the motion of the last two
 // frames cannot be extrapolated further.
@@ -42,27 +49,6 @@ const PinholeCamera& Checked(const PinholeCamera& camera, const LensDistortion& 
     throw std::invalid_argument(error);
   }
   return camera;
-}
-
-FrameResult MakeResult(const TrackedFrame& tracked, int segment) {
-  FrameResult result;
-  result.id = tracked.frame->id;
-  result.timestamp = tracked.frame->timestamp;
-  result.status = tracked.status;
-  result.segment = segment;
-  result.cam_from_world = tracked.cam_from_world;
-  result.by_pose_factors = !IsEstimated(tracked.status) && tracked.pose.usable;
-  result.is_keyframe = tracked.keyframe.is_due;
-  result.num_points = static_cast<int>(tracked.frame->points.size());
-  result.num_lines = static_cast<int>(tracked.frame->lines.size());
-  result.num_with_depth = NumWithDepth(*tracked.frame);
-  result.num_inlier_points = static_cast<int>(tracked.matches.points.size());
-  result.num_inlier_lines = static_cast<int>(tracked.matches.lines.size());
-  result.num_dynamic = tracked.num_dynamic;
-  result.covariance = tracked.pose.covariance;
-  result.times.matching = tracked.times.matching;
-  result.times.pose = tracked.times.pose;
-  return result;
 }
 
 // The ids are sorted, so that each insertion point is close to the previous one.
@@ -83,25 +69,20 @@ MapAxes MakeAxes(const SceneAxes& scene) {
 }  // namespace
 
 struct Odometry::State {
-  // Pose of a frame relative to a keyframe, whose own pose may still change.
-  struct RelativePose {
-    KeyframeId reference = kNoId;
-    Rigid3 cam_from_reference;
-  };
-
   State(const OdometryOptions& options_in, const PinholeCamera& camera_in,
         const LensDistortion& distortion)
       : options(Checked(options_in)),
         camera(Checked(camera_in, distortion)),
         aligner(camera, distortion),
         builder(options.features, camera, distortion),
-        normal_estimator(NormalOptions(options), camera, distortion),
+        normal_estimator(std::in_place, NormalOptions(options), camera, distortion),
         tracker(options.tracking),
         mapper(options.mapping),
         schedule(options.snapshots,
                  options.threads > 1 ? MakeThreadedRunner(&mapper) : MakeInlineRunner(&mapper),
                  mapper.Snapshot(),
                  [this](int frame, const MappingStep& step) { Record(frame, step); }) {
+    if (options.mapping.self_calibration) mapper.SetIntrinsics(builder.intrinsics());
     if (options.threads > 1) side_worker = std::make_unique<SideWorker>();
     log.LogStart(options, camera);
   }
@@ -113,22 +94,36 @@ struct Odometry::State {
   void Count(const TrackedFrame& tracked);
   void BeginSegment(SegmentStart start);
   void DiscardSegment();
+  void KeepForCalibration(const TrackedFrame& tracked, const cv::Mat& depth);
   void SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat& depth);
   void Record(int frame, const MappingStep& step);
+  void UseIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics);
+  std::shared_ptr<const Frame> Recalibrated(std::shared_ptr<const Frame> frame);
   void AddMap(OdometryResult* result) const;
+
+  // Everything that later results depend on, except what the options determine. The snapshot of the
+  // last frame is not needed between two frames.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    std::shared_ptr<const CameraIntrinsics> intrinsics = builder.intrinsics();
+    archive(intrinsics, builder, tracker, mapper, last_window, num_since_calibration_image, packet,
+            results, relative_poses, segments, log, schedule);
+    UseIntrinsics(intrinsics);
+  }
 
   OdometryOptions options;
   PinholeCamera camera;
   DepthAligner aligner;
   FrameBuilder builder;
-  SurfaceNormalEstimator normal_estimator;
+  std::optional<SurfaceNormalEstimator> normal_estimator;
   std::unique_ptr<SideWorker> side_worker;  // none with one thread
   Tracker tracker;
   TrackingObserver tracking_observer;  // may be empty
   Mapper mapper;
   MapSnapshotPtr snapshot;  // of the last frame
   BundleAdjustmentSummary last_window;
-  KeyframePacket packet;  // accumulates counts until the next keyframe
+  int num_since_calibration_image = 0;  // frames
+  KeyframePacket packet;                // accumulates counts until the next keyframe
   std::vector<FrameResult> results;
   std::vector<RelativePose> relative_poses;  // one per result
   SegmentLog segments;
@@ -207,6 +202,18 @@ void Odometry::State::DiscardSegment() {
   }
 }
 
+void Odometry::State::KeepForCalibration(const TrackedFrame& tracked, const cv::Mat& depth) {
+  if (!options.mapping.self_calibration || tracked.keyframe.is_due ||
+      tracked.status != TrackingStatus::kTracked ||
+      packet.calibration_images.size() >= kMaxCalibrationImages ||
+      ++num_since_calibration_image < kCalibrationImageInterval) {
+    return;
+  }
+  num_since_calibration_image = 0;
+  packet.calibration_images.push_back(
+      {tracked.frame, depth.clone(), tracked.reference, tracked.cam_from_reference});
+}
+
 void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat& depth) {
   const SegmentStart start = tracked.segment_start;
   packet.begins_map = start == SegmentStart::kAfterLoss || start == SegmentStart::kReplacing;
@@ -217,8 +224,9 @@ void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat&
   packet.reference = tracked.reference;
   packet.cam_from_reference = tracked.cam_from_reference;
   packet.matches = tracked.matches;
+  if (options.mapping.self_calibration) packet.depth = depth.clone();
   if (snapshot->needs_axes || packet.begins_map) {
-    for (const SurfaceNormal& normal : normal_estimator.Estimate(depth)) {
+    for (const SurfaceNormal& normal : normal_estimator->Estimate(depth)) {
       packet.normals.push_back({normal.direction, normal.sigma});
     }
   }
@@ -234,9 +242,27 @@ void Odometry::State::Record(int frame, const MappingStep& step) {
   results[frame].cam_from_world = step.snapshot->map.CamFromWorld(step.summary.keyframe);
   relative_poses[frame] = {step.summary.keyframe, Rigid3()};
   segments.RecordKeyframe(frame, step.summary.keyframe);
+  if (step.summary.calibration) {
+    CorrectPoses(step.summary.calibration->maps_before, *step.snapshot, results, &relative_poses);
+  }
   if (step.summary.join) segments.RecordJoin(frame, *step.summary.join);
   log.LogMapping(step);
   if (step.summary.window) last_window = *step.summary.window;
+}
+
+void Odometry::State::UseIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics) {
+  if (intrinsics == builder.intrinsics()) return;
+  builder.SetIntrinsics(intrinsics);
+  camera = intrinsics->camera;
+  aligner = DepthAligner(camera, intrinsics->distortion);
+  normal_estimator.emplace(NormalOptions(options), camera, intrinsics->distortion);
+}
+
+// Takes over the calibration of the snapshot, and returns the frame with it.
+std::shared_ptr<const Frame> Odometry::State::Recalibrated(std::shared_ptr<const Frame> frame) {
+  if (!snapshot->intrinsics || snapshot->intrinsics == builder.intrinsics()) return frame;
+  UseIntrinsics(snapshot->intrinsics);
+  return ChangeIntrinsics(std::move(frame), snapshot->intrinsics);
 }
 
 // Adds the map of the segments of `result->map_world`.
@@ -286,21 +312,22 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   Stopwatch stopwatch;
   const RgbdImage image = state_->Align(recorded);
   const double alignment_ms = stopwatch.Milliseconds();
-  auto frame = std::make_shared<Frame>(state_->Build(image));
+  auto built = std::make_shared<Frame>(state_->Build(image));
   if (!state_->options.use_points) {
-    frame->points.clear();
-    frame->grid = FeatureGrid(frame->camera, frame->points);
+    built->points.clear();
+    built->grid = FeatureGrid(built->camera, built->points);
   }
-  if (!state_->options.use_lines) frame->lines.clear();
+  if (!state_->options.use_lines) built->lines.clear();
   const double features_ms = stopwatch.Milliseconds();
   state_->log.LogDepthSensor(state_->builder.depth_sensor());
   const int index = static_cast<int>(state_->results.size());
   Stopwatch waiting;
   state_->snapshot = state_->schedule.SnapshotAt(index);
   const double waiting_ms = waiting.Milliseconds();
+  const std::shared_ptr<const Frame> frame = state_->Recalibrated(built);
   const TrackedFrame tracked = state_->tracker.Track(frame, *state_->snapshot);
   if (tracked.segment_start != SegmentStart::kNone) state_->BeginSegment(tracked.segment_start);
-  FrameResult result = MakeResult(tracked, state_->segments.current());
+  FrameResult result = MakeFrameResult(tracked, state_->segments.current());
   result.image = MeasureImage(image);
   result.times.features = features_ms;
   result.times.points = state_->builder.times().points;
@@ -317,6 +344,7 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   state_->relative_poses.push_back({tracked.reference, tracked.cam_from_reference});
   state_->log.LogFrame(result, tracked.relocalized);
   const MapSnapshotPtr snapshot = state_->snapshot;
+  state_->KeepForCalibration(tracked, image.depth);
   if (tracked.keyframe.is_due) {
     state_->SubmitKeyframe(tracked, image.depth);
     state_->snapshot = state_->schedule.SnapshotAt(index);  // with this keyframe if latency is 0
@@ -335,7 +363,7 @@ FrameResult Odometry::Drop(int64_t id, double timestamp, TrackingStatus status) 
   }
   state_->CheckTime(id, timestamp);
   FrameResult result;
-  State::RelativePose relative_pose;
+  RelativePose relative_pose;
   if (!state_->results.empty()) {
     result.cam_from_world = state_->results.back().cam_from_world;
     relative_pose = state_->relative_poses.back();
@@ -350,13 +378,23 @@ FrameResult Odometry::Drop(int64_t id, double timestamp, TrackingStatus status) 
   return result;
 }
 
+const std::vector<FrameResult>& Odometry::frames() const { return state_->results; }
+
+bool Odometry::Save(BinaryWriter* archive) {
+  if (!state_->schedule.WaitForMapper()) return false;
+  state_->Serialize(*archive);
+  return true;
+}
+
+void Odometry::Restore(BinaryReader* archive) { state_->Serialize(*archive); }
+
 OdometryResult Odometry::Finish() {
   state_->schedule.Drain();
   const Atlas& atlas = state_->mapper.atlas();
   OdometryResult result;
   result.frames = state_->results;
   for (size_t i = 0; i < result.frames.size(); ++i) {
-    const State::RelativePose& pose = state_->relative_poses[i];
+    const RelativePose& pose = state_->relative_poses[i];
     const Map* map = pose.reference != kNoId ? atlas.FindMapOf(pose.reference) : nullptr;
     if (map == nullptr) continue;
     result.frames[i].cam_from_world = pose.cam_from_reference * map->CamFromWorld(pose.reference);
@@ -369,6 +407,11 @@ OdometryResult Odometry::Finish() {
   result.noise_scale = state_->mapper.noise().scale();
   result.depth_sensor = state_->builder.depth_sensor();
   result.readout_time = state_->mapper.readout().readout_time();
+  result.intrinsics = {state_->camera, state_->builder.intrinsics()->distortion};
+  if (state_->mapper.calibration()) {
+    result.calibration = state_->mapper.calibration()->estimate();
+    result.intrinsics = *state_->mapper.calibration()->present();
+  }
   result.num_late_maps = state_->schedule.num_late();
   result.extra_blocks = state_->mapper.extra_blocks();
   result.last_window = state_->last_window;

@@ -20,11 +20,15 @@
 #include "msc_vo/odometry/odometry_options.h"
 #include "msc_vo/odometry/segment_log.h"
 #include "msc_vo/odometry/tracking_observer.h"
+#include "msc_vo/self_calibration/calibration_evidence.h"
 #include "msc_vo/sensor/rgbd_image.h"
 #include "msc_vo/structure/axes_estimator.h"
 #include "msc_vo/tracking/pose_factor_callback.h"
 
 namespace msc_vo {
+
+class BinaryReader;
+class BinaryWriter;
 
 /// A point landmark of the final map.
 struct MapPoint {
@@ -68,6 +72,9 @@ struct OdometryResult {
   DepthSensor depth_sensor = DepthSensor::kAuto;
   /// Readout time of the rolling shutter, seconds, given or self-calibrated; 0: global shutter.
   double readout_time = 0.0;
+  /// Self-calibration of the colour camera, relative to the given calibration.
+  CorrectionEstimate calibration;
+  CameraIntrinsics intrinsics;           ///< at the end of the run: as given, or corrected
   std::vector<ExtraBlock> extra_blocks;  ///< of the window factors, in order of their ids
   BundleAdjustmentSummary last_window;
   /// Maps that were not ready for the first frame that should have been tracked in them; 0 unless
@@ -123,10 +130,23 @@ class Odometry {
   /// std::invalid_argument if time stamps do not ascend or on another status.
   FrameResult Drop(int64_t id, double timestamp, TrackingStatus status = TrackingStatus::kDropped);
 
+  /// The frames so far, with the poses as known when each was tracked.
+  const std::vector<FrameResult>& frames() const;
+
   /// Waits for the mapper and returns the trajectory relative to the final keyframe poses. May be
   /// called at any time. Throws the exception of a keyframe step if Process() has not; the next
   /// call returns the result.
   OdometryResult Finish();
+
+  /// Waits for the mapper and writes the state of the run (checkpoint/checkpoint_file.h). A run
+  /// that restores it continues with the same results, bit by bit. Writes nothing and returns false
+  /// if a keyframe step has failed and its exception is not thrown yet. Custom factors have to save
+  /// the state of their own.
+  bool Save(BinaryWriter* archive);
+  /// Restores the state of a run with the same options, apart from the number of threads, and the
+  /// same camera. Call before the first image. Throws std::runtime_error if the archive has no such
+  /// state; the object can then only be destroyed.
+  void Restore(BinaryReader* archive);
 
  private:
   struct State;

@@ -59,17 +59,34 @@ class SegmentLog {
   /// were moved. `frames` have their final poses.
   void PropagateCovariances(std::vector<FrameResult>* frames) const;
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [entries] = *this;  // all members, or it does not compile
+    archive(entries);
+  }
+
  private:
   // A join that moved the map of a segment.
   struct Move {
     int frame = 0;
     MapJoin join;
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, frame, join);
+    }
   };
   struct Entry {
     int first_frame = 0;
     KeyframeId first_keyframe = kNoId;  // kNoId: not mapped yet
     KeyframeId map = kNoId;             // first keyframe of the map that the segment belongs to
     std::vector<Move> moves;            // in order of time
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, first_frame, first_keyframe, map, moves);
+    }
   };
 
   int WorldOf(int segment) const;

@@ -38,12 +38,13 @@ void SnapshotSchedule::Submit(int frame, KeyframePacket packet) {
 MapSnapshotPtr SnapshotSchedule::SnapshotAt(int frame) {
   while (IsAnyDue(frame)) {
     PendingStep& next = pending_.front();
-    if (!next.step) Receive(Waits() ? runner_->Take() : runner_->TryTake(), &next);
+    Take(Waits(), &next);
     if (!next.step) {
       num_late_ += next.late ? 0 : 1;
       next.late = true;
       break;
     }
+    Record(&next);
     const MappingStep step = std::move(*next.step);
     pending_.pop_front();
     if (step.error) std::rethrow_exception(step.error);
@@ -55,11 +56,21 @@ MapSnapshotPtr SnapshotSchedule::SnapshotAt(int frame) {
 void SnapshotSchedule::Drain() {
   std::exception_ptr error;
   for (PendingStep& pending : pending_) {
-    if (!pending.step) Receive(runner_->Take(), &pending);
+    Take(true, &pending);
+    Record(&pending);
     if (!error) error = pending.step->error;
     pending.step->error = nullptr;
   }
   if (error) std::rethrow_exception(error);
+}
+
+bool SnapshotSchedule::WaitForMapper() {
+  bool succeeded = true;
+  for (PendingStep& pending : pending_) {
+    Take(true, &pending);
+    if (pending.step->error) succeeded = false;
+  }
+  return succeeded;
 }
 
 // Whether one of the pending maps is due at the frame. Earlier ones are then used as well, because
@@ -77,9 +88,18 @@ bool SnapshotSchedule::Waits() const {
                      [](const PendingStep& pending) { return pending.begins_map; });
 }
 
-void SnapshotSchedule::Receive(std::optional<MappingStep> step, PendingStep* pending) {
-  if (step && step->snapshot) record_(pending->keyframe, *step);
-  pending->step = std::move(step);
+void SnapshotSchedule::Take(bool wait, PendingStep* pending) {
+  if (pending->step) return;
+  if (wait) {
+    pending->step = runner_->Take();
+  } else {
+    pending->step = runner_->TryTake();
+  }
+}
+
+void SnapshotSchedule::Record(PendingStep* pending) {
+  if (pending->step->snapshot && !pending->recorded) record_(pending->keyframe, *pending->step);
+  pending->recorded = true;
 }
 
 }  // namespace msc_vo

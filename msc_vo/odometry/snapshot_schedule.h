@@ -36,7 +36,8 @@ struct SnapshotOptions {
 /// of a segment is always waited for.
 class SnapshotSchedule {
  public:
-  /// Called in order for every step that resulted in a map, as soon as the schedule receives it.
+  /// Called in order for every step that resulted in a map, when the map becomes visible or the
+  /// schedule is drained.
   /// `frame` is the keyframe as passed to Submit().
   using Recorder = std::function<void(int frame, const MappingStep& step)>;
 
@@ -55,6 +56,15 @@ class SnapshotSchedule {
   /// failed step unless SnapshotAt() has; all other steps have been recorded by then.
   void Drain();
 
+  /// Waits until the mapper is idle. Its maps become visible when they are due nevertheless.
+  /// Returns whether all steps have succeeded.
+  bool WaitForMapper();
+  /// Lists the state for a checkpoint, after WaitForMapper() has returned true.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive(snapshot_, pending_, num_late_);
+  }
+
   /// Number of maps that were not ready for the first frame that should have been tracked in them.
   int num_late() const { return num_late_; }
 
@@ -66,11 +76,21 @@ class SnapshotSchedule {
     std::optional<MappingStep> step = std::nullopt;  // set when it was taken from the runner
     bool late = false;
     bool begins_map = false;  // the first map of a segment: no later frame is tracked without it
+    bool recorded = false;    // the step has been passed to the recorder
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, keyframe, due, step, late, begins_map, recorded);
+    }
   };
 
   bool IsAnyDue(int frame) const;
   bool Waits() const;
-  void Receive(std::optional<MappingStep> step, PendingStep* pending);
+  // Takes the step from the runner unless it was taken before. It remains empty if it is not ready
+  // and `wait` is false.
+  void Take(bool wait, PendingStep* pending);
+  // Passes the step to the recorder, once.
+  void Record(PendingStep* pending);
 
   SnapshotOptions options_;
   std::unique_ptr<MappingRunner> runner_;

@@ -109,6 +109,12 @@ struct PoseSummary {
   /// tangent of Rigid3Manifold (rotation vector in the camera frame, radians; then translation,
   /// metres). Zero if not usable.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, usable, num_inlier_points, num_inlier_lines, num_dynamic, dynamic_cells,
+                   final_cost, covariance);
+  }
 };
 
 /// Motion-only bundle adjustment: estimates the pose of one frame from its matches with map points

@@ -19,6 +19,11 @@ enum class LineColor : uint8_t { kAxis0, kAxis1, kAxis2, kWithoutAxis, kWithoutD
 struct ViewedPoint {
   Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  ///< in the recorded image
   bool has_depth = true;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, pixel, has_depth);
+  }
 };
 
 /// A line feature that was matched with the map.
@@ -26,12 +31,22 @@ struct ViewedLine {
   Eigen::Vector2f start = Eigen::Vector2f::Zero();  ///< pixel in the recorded image
   Eigen::Vector2f end = Eigen::Vector2f::Zero();
   LineColor color = LineColor::kWithoutAxis;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, start, end, color);
+  }
 };
 
 /// The tracked features of a frame.
 struct ViewedFeatures {
   std::vector<ViewedPoint> points;
   std::vector<ViewedLine> lines;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, points, lines);
+  }
 };
 
 /// What a frame looks like: a reduced image and the features that were tracked in it.
@@ -39,6 +54,11 @@ struct FrameView {
   int frame = 0;     ///< index into ReportData::frames
   std::string jpeg;  ///< bytes of a JPEG file
   ViewedFeatures features;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, frame, jpeg, features);
+  }
 };
 
 /// Bytes that a view takes in memory and, before base64, in the page.

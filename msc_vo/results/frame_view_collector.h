@@ -40,10 +40,23 @@ class FrameViewCollector {
   /// Views by ascending id of the frame; the collector is then empty.
   std::vector<FrameView> Take();
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [distortion, axes, limits, entries, num_bytes, num_keyframes, stride, keyframe_stride] =
+        *this;  // all members, or it does not compile
+    archive(entries, num_bytes, num_keyframes, stride, keyframe_stride);
+  }
+
  private:
   struct Entry {
     FrameView view;
     int keyframe = -1;  // number of the keyframe; -1: another frame
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, view, keyframe);
+    }
   };
 
   // Whether a frame is kept with the present strides.

@@ -3,6 +3,7 @@
 
 #include "msc_vo/results/online_results.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "msc_vo/datasets/trajectory.h"
@@ -13,27 +14,54 @@ namespace msc_vo {
 const char kUnfinishedTrajectoryComment[] =
     "# unfinished run of msc_vo: poses as first estimated, without later corrections\n";
 
+namespace {
+
+// Rows of the frames.csv that an unfinished run has left; 0 if there is none.
+int CountFrames(const std::string& trajectory, const std::string& frames) {
+  if (!FileProblem(trajectory).empty() || !FileProblem(frames).empty()) return 0;
+  if (ReadFile(trajectory).rfind(kUnfinishedTrajectoryComment, 0) != 0) return 0;
+  const std::string rows = ReadFile(frames);
+  const auto num_lines = std::count(rows.begin(), rows.end(), '\n');
+  return std::max(0, static_cast<int>(num_lines) - 1);
+}
+
+}  // namespace
+
 void OnlineResults::Begin() {
   MakeFolder(directory_);
-  RemoveResultFiles(directory_);
+  if (!is_resumed_) RemoveResultFiles(directory_);
   const std::filesystem::path folder = directory_;
-  trajectory_.emplace((folder / "trajectory.txt").string());
-  trajectory_->Append(kUnfinishedTrajectoryComment);
-  frames_.emplace((folder / "frames.csv").string());
-  frames_->Append(FormatFramesCsv({}));
+  trajectory_.emplace((folder / "trajectory.txt").string(),
+                      kUnfinishedTrajectoryComment + std::exchange(unwritten_poses_, ""));
+  frames_.emplace((folder / "frames.csv").string(),
+                  FormatFramesCsv({}) + std::exchange(unwritten_rows_, ""));
+}
+
+void OnlineResults::Continue(const std::vector<FrameResult>& frames) {
+  const std::filesystem::path folder = directory_;
+  is_resumed_ = true;
+  num_frames_on_disk_ =
+      CountFrames((folder / "trajectory.txt").string(), (folder / "frames.csv").string());
+  for (const FrameResult& frame : frames) AddUnwritten(frame);
+}
+
+void OnlineResults::AddUnwritten(const FrameResult& frame) {
+  ++num_frames_;
+  unwritten_rows_ += FormatFrameRow(frame);
+  if (frame.status == TrackingStatus::kTracked || frame.status == TrackingStatus::kWeak) {
+    unwritten_poses_ += FormatTrajectory({{frame.timestamp, frame.cam_from_world.Inverse()}});
+  }
 }
 
 void OnlineResults::Add(const FrameResult& frame) {
-  unwritten_rows_ += FormatFrameRow(frame);
+  AddUnwritten(frame);
   if (!trajectory_) {
-    if (frame.status == TrackingStatus::kUnreadable) return;
-    Begin();
+    if (frame.status == TrackingStatus::kUnreadable && !is_resumed_) return;
+    if (num_frames_ < num_frames_on_disk_) return;
+    return Begin();
   }
-  if (frame.status == TrackingStatus::kTracked || frame.status == TrackingStatus::kWeak) {
-    trajectory_->Append(FormatTrajectory({{frame.timestamp, frame.cam_from_world.Inverse()}}));
-  }
-  frames_->Append(unwritten_rows_);
-  unwritten_rows_.clear();
+  if (!unwritten_poses_.empty()) trajectory_->Append(std::exchange(unwritten_poses_, ""));
+  frames_->Append(std::exchange(unwritten_rows_, ""));
 }
 
 }  // namespace msc_vo

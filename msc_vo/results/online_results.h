@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/text/files.h"
@@ -28,13 +29,24 @@ class OnlineResults {
   /// Throws std::runtime_error naming the file that cannot be written.
   void Add(const FrameResult& frame);
 
+  /// Continues the files of a run that has been resumed with `frames`. What is on disk about later
+  /// frames remains until they have been computed again. Call before Add().
+  void Continue(const std::vector<FrameResult>& frames);
+
  private:
+  void AddUnwritten(const FrameResult& frame);
   void Begin();
 
   std::string directory_;
   std::optional<GrowingFile> trajectory_;
   std::optional<GrowingFile> frames_;
-  std::string unwritten_rows_;  // unreadable images before the first readable one
+  // Rows and poses that are not on disk yet: of unreadable images before the first readable one,
+  // and of a resumed run.
+  std::string unwritten_rows_;
+  std::string unwritten_poses_;
+  bool is_resumed_ = false;
+  int num_frames_ = 0;
+  int num_frames_on_disk_ = 0;  // of a resumed run, before it was resumed
 };
 
 }  // namespace msc_vo

@@ -4,6 +4,7 @@
 #include "msc_vo/results/run_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -11,6 +12,7 @@
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/report/report.h"
+#include "msc_vo/results/calibrated_value.h"
 #include "msc_vo/results/report_frame.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/version.h"
@@ -172,6 +174,14 @@ std::vector<ReportNumber> SelfCalibration(const RunSummary& summary, const RunCo
       {"Noise of line depth", factor(scale.line_depth), ""},
       {"Readout time", FormatText("%.1f ms", 1000.0 * summary.readout_time),
        context.calibration.readout_origin}};
+  for (const CalibratedValue& value : ListCalibratedValues(summary)) {
+    const bool is_estimated = std::isfinite(value.sigma);
+    const int digits = *value.unit != '\0' ? 2 : 4;
+    std::string text = FormatText("%.*f", digits, value.value);
+    if (is_estimated) text += FormatText(" +- %.*f", digits, value.sigma);
+    if (*value.unit != '\0') text += std::string(" ") + value.unit;
+    numbers.push_back({value.name, text, value.verdict});
+  }
   if (summary.axes.state != AxesState::kNone) {
     numbers.push_back({"Manhattan axes",
                        FormatText("sigma %.2f deg", RadiansToDegrees(summary.axes.sigma)),

@@ -26,14 +26,16 @@ std::vector<StageTimeStatistics> SummarizeMapping(const std::vector<FrameResult>
     }
     return SummarizeStage(name, std::move(values));
   };
-  return {summarize("structure", [](const StageTimes& t) { return t.mapping_stages.structure; }),
-          summarize("creation", [](const StageTimes& t) { return t.mapping_stages.creation; }),
-          summarize("fusion", [](const StageTimes& t) { return t.mapping_stages.fusion; }),
-          summarize("axes", [](const StageTimes& t) { return t.mapping_stages.axes; }),
-          summarize("local_ba", [](const StageTimes& t) { return t.mapping_stages.window; }),
-          summarize("readout", [](const StageTimes& t) { return t.mapping_stages.readout; }),
-          summarize("culling", [](const StageTimes& t) { return t.mapping_stages.culling; }),
-          summarize("snapshot", [](const StageTimes& t) { return t.snapshot; })};
+  return {
+      summarize("structure", [](const StageTimes& t) { return t.mapping_stages.structure; }),
+      summarize("creation", [](const StageTimes& t) { return t.mapping_stages.creation; }),
+      summarize("fusion", [](const StageTimes& t) { return t.mapping_stages.fusion; }),
+      summarize("axes", [](const StageTimes& t) { return t.mapping_stages.axes; }),
+      summarize("local_ba", [](const StageTimes& t) { return t.mapping_stages.window; }),
+      summarize("readout", [](const StageTimes& t) { return t.mapping_stages.readout; }),
+      summarize("calibration", [](const StageTimes& t) { return t.mapping_stages.calibration; }),
+      summarize("culling", [](const StageTimes& t) { return t.mapping_stages.culling; }),
+      summarize("snapshot", [](const StageTimes& t) { return t.snapshot; })};
 }
 
 int WorldOf(const OdometryResult& result, int segment) {
@@ -77,6 +79,8 @@ RunSummary Summarize(const OdometryResult& result) {
   summary.axes = result.axes;
   summary.noise_scale = result.noise_scale;
   summary.readout_time = result.readout_time;
+  summary.calibration = result.calibration;
+  summary.intrinsics = result.intrinsics;
   summary.depth_sensor = result.depth_sensor;
   summary.last_local_ba = result.last_window;
   return summary;

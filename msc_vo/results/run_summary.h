@@ -40,8 +40,10 @@ struct RunSummary {
   int num_lines = 0;
   std::array<int, 3> num_axis_lines = {0, 0, 0};  ///< map lines parallel to each Manhattan axis
   MapAxes axes;
-  NoiseScale noise_scale;     ///< estimated scale of the sigmas of features
-  double readout_time = 0.0;  ///< of the rolling shutter, seconds, given or self-calibrated
+  NoiseScale noise_scale;          ///< estimated scale of the sigmas of features
+  double readout_time = 0.0;       ///< of the rolling shutter, seconds, given or self-calibrated
+  CorrectionEstimate calibration;  ///< self-calibration of the colour camera
+  CameraIntrinsics intrinsics;     ///< at the end of the run: as given, or corrected
   DepthSensor depth_sensor = DepthSensor::kAuto;  ///< given or chosen; kAuto: too little depth
   BundleAdjustmentSummary last_local_ba;
 
@@ -76,6 +78,11 @@ struct RunCost {
   double seconds = 0.0;            ///< wall time from the first image to the last pose
   double processor_seconds = 0.0;  ///< user and system time, summed over all threads
   double peak_memory = 0.0;        ///< resident, MiB
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, seconds, processor_seconds, peak_memory);
+  }
 };
 
 /// Latency of a replay in real time.

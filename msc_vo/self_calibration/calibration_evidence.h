@@ -32,6 +32,11 @@ struct CorrectionEstimate {
   std::array<double, kNumCorrectionGroups> log_odds = {};
 
   bool IsCorrected() const;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, correction, sigma, is_corrected, log_odds);
+  }
 };
 
 /// Standard deviation of the parameters before a measurement if their group is wrong. A parameter

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "msc_vo/camera/sensor_correction.h"
-#include "msc_vo/factors/rgbd_pair_reprojection.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/frame.h"
+#include "msc_vo/self_calibration/pair_linearization.h"
 #include "msc_vo/sensor/inverse_depth_image.h"
 
 namespace msc_vo {
@@ -20,14 +20,6 @@ struct CalibrationView {
   std::shared_ptr<const Frame> frame;
   InverseDepthImage depth;  ///< recorded, not registered by the correction
   Rigid3 cam_from_world;
-};
-
-/// What the points of one pair of images tell about a SensorCorrection: a quadratic approximation
-/// of the negative log likelihood, with the relative pose marginalised,
-/// x^T matrix x / 2 - vector^T x.
-struct CalibrationInformation {
-  SensorCorrection::Matrix matrix = SensorCorrection::Matrix::Zero();
-  SensorCorrection::Vector vector = SensorCorrection::Vector::Zero();
 };
 
 /// Points that two images have in common, for self-calibration.
@@ -49,17 +41,10 @@ class CalibrationPair {
   std::optional<CalibrationInformation> Linearize(const SensorCorrection::Vector& correction) const;
 
  private:
-  struct Point {
-    RgbdPairReprojection::View a;
-    RgbdPairReprojection::View b;
-    double inverse_depth = 0.0;  // of a, 1/metres, a first estimate
-    double pixel_variance = 0.0;
-  };
-
   CorrectedCamera camera_;
   const CalibrationView* a_;
   const CalibrationView* b_;
-  std::vector<Point> points_;
+  std::vector<CalibrationPoint> points_;
 };
 
 }  // namespace msc_vo

@@ -52,11 +52,24 @@ class NoiseEstimator {
   /// Updates the scales from a window after Apply() and its optimisation.
   void Update(const WindowResiduals& residuals);
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [options, point_depth, line_pixel, line_depth] =
+        *this;  // all members, or it does not compile
+    archive(point_depth, line_pixel, line_depth);
+  }
+
  private:
   // Square of a scale.
   struct Variance {
     double value = 1.0;
     double weight = 0.0;  // image quadrants
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, value, weight);
+    }
   };
   double Scale(const Variance& variance) const;
   // Blends in the variance ratio of a window whose sigmas had been multiplied by Scale(*variance).

@@ -72,6 +72,19 @@ void ReadoutTimeEstimator::Update(const Map& map, KeyframeId newest) {
   UpdateDecision();
 }
 
+double ReadoutTimeEstimator::sigma() const {
+  if (!estimates_) return 0.0;
+  // That of a rolling shutter.
+  const double prior = 1.0 / Square(kReadoutTimeSigma);
+  const double mean = (weighted_sum_ + prior * std::copysign(kTypicalReadoutTime, weighted_sum_)) /
+                      (information_ + prior);
+  const double variance = 1.0 / (information_ + prior);
+  if (readout_time_ != 0.0) return std::sqrt(variance);
+  const double log_odds =
+      information_ > 0.0 ? RollingLogOdds(weighted_sum_ / information_, 1.0 / information_) : 0.0;
+  return std::sqrt((Square(mean) + variance) / (1.0 + std::exp(-log_odds)));
+}
+
 void ReadoutTimeEstimator::AddEstimate(double estimate, double information) {
   information_ += information - information_ / kMemory;
   weighted_sum_ += information * estimate - weighted_sum_ / kMemory;

@@ -24,6 +24,17 @@ class ReadoutTimeEstimator {
 
   /// Seconds; negative if the rows are read from the bottom to the top.
   double readout_time() const { return readout_time_; }
+  /// Uncertainty of readout_time(), seconds; 0 if it was given. For a shutter that counts as
+  /// global, it contains the readout time that the images speak for.
+  double sigma() const;
+
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [estimates, seconds, information, weighted_sum] =
+        *this;  // all members, or it does not compile
+    archive(seconds, information, weighted_sum);
+  }
 
  private:
   // Adds an estimate (seconds) with its information (1/seconds^2).

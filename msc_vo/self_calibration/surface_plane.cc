@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "msc_vo/sensor/sensor_noise.h"
 
@@ -23,39 +23,61 @@ constexpr double kMaxRms = 1.5;
 // Steps to the intersection of a viewing ray with the surface of an unregistered depth image.
 constexpr int kSteps = 2;
 
-std::optional<InverseDepthPlane> FitPlane(const InverseDepthImage& depth,
-                                          const Eigen::Vector2d& pixel) {
+// Inverts single depths of an image.
+class MetricDepth {
+ public:
+  explicit MetricDepth(const cv::Mat& depth) : depth_(depth) {}
+
+  double At(int x, int y) const {
+    if (x < 0 || y < 0 || x >= depth_.cols || y >= depth_.rows) return 0.0;
+    const float z = depth_.at<float>(y, x);
+    return z > 0.0f ? 1.0 / static_cast<double>(z) : 0.0;
+  }
+  double Nearest(const Eigen::Vector2d& pixel) const {
+    return At(cvRound(pixel.x()), cvRound(pixel.y()));
+  }
+
+ private:
+  const cv::Mat& depth_;
+};
+
+template <typename Depth>
+std::optional<InverseDepthPlane> FitPlane(const Depth& depth, const Eigen::Vector2d& pixel) {
   const int center_x = cvRound(pixel.x());
   const int center_y = cvRound(pixel.y());
-  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
-  double squares = 0.0;
-  int count = 0;
+  double squares = 0.0, sum_w = 0.0, sum_xw = 0.0, sum_yw = 0.0;
+  int count = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0, sum_yy = 0;
   for (int y = -kRadius; y <= kRadius; ++y) {
     for (int x = -kRadius; x <= kRadius; ++x) {
       const double w = depth.At(center_x + x, center_y + y);
       if (w <= 0.0) continue;
-      const Eigen::Vector3d basis(1.0, x, y);
-      matrix += basis * basis.transpose();
-      rhs += w * basis;
+      sum_x += x;
+      sum_y += y;
+      sum_xx += x * x;
+      sum_xy += x * y;
+      sum_yy += y * y;
+      sum_w += w;
+      sum_xw += x * w;
+      sum_yw += y * w;
       squares += w * w;
       ++count;
     }
   }
   if (count < kMinPixels) return std::nullopt;
-  const Eigen::Vector3d plane = matrix.ldlt().solve(rhs);
+  Eigen::Matrix3d matrix;
+  matrix << count, sum_x, sum_y, sum_x, sum_xx, sum_xy, sum_y, sum_xy, sum_yy;
+  const Eigen::Vector3d rhs(sum_w, sum_xw, sum_yw);
+  const Eigen::Vector3d plane = matrix.inverse() * rhs;
   const double variance = std::max(0.0, squares - plane.dot(rhs)) / (count - 3);
   const double limit = kMaxRms * SensorNoiseOptions().inverse_depth_noise;
   if (variance > limit * limit) return std::nullopt;
   return InverseDepthPlane{{center_x, center_y}, plane.x(), plane.tail<2>()};
 }
 
-}  // namespace
-
-std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
-                                             const InverseDepthImage& depth,
-                                             const Eigen::Vector2d& pixel,
-                                             const SensorCorrection::Vector& correction) {
+template <typename Depth>
+std::optional<InverseDepthPlane> FindPlane(const CorrectedCamera& camera, const Depth& depth,
+                                           const Eigen::Vector2d& pixel,
+                                           const SensorCorrection::Vector& correction) {
   Eigen::Vector2d at_infinity, parallax;
   camera.DepthPixel(pixel, correction.data(), &at_infinity, &parallax);
   Eigen::Vector2d depth_pixel = at_infinity;
@@ -65,6 +87,21 @@ std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
     }
   }
   return FitPlane(depth, depth_pixel);
+}
+
+}  // namespace
+
+std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
+                                             const InverseDepthImage& depth,
+                                             const Eigen::Vector2d& pixel,
+                                             const SensorCorrection::Vector& correction) {
+  return FindPlane(camera, depth, pixel, correction);
+}
+
+std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera, const cv::Mat& depth,
+                                             const Eigen::Vector2d& pixel,
+                                             const SensorCorrection::Vector& correction) {
+  return FindPlane(camera, MetricDepth(depth), pixel, correction);
 }
 
 }  // namespace msc_vo

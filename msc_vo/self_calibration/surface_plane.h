@@ -22,4 +22,9 @@ std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
                                              const Eigen::Vector2d& pixel,
                                              const SensorCorrection::Vector& correction);
 
+/// The same in a depth image in metres (CV_32FC1; 0, NaN: no measurement), for a few points.
+std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera, const cv::Mat& depth,
+                                             const Eigen::Vector2d& pixel,
+                                             const SensorCorrection::Vector& correction);
+
 }  // namespace msc_vo

@@ -28,6 +28,13 @@ class BleedingEstimator {
   /// edges.
   int reach() const;
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [max_reach, num_edges, gradient] = *this;  // all members, or it does not compile
+    archive(num_edges, gradient);
+  }
+
  private:
   void AddRows(const cv::Mat& gradient, const cv::Mat& inverse_depth);
 

@@ -47,6 +47,11 @@ struct AxesSupport {
   int num_keyframes = 0;
   int num_lines = 0;       ///< with a direction that is certain enough for an association
   int num_axis_lines = 0;  ///< of these, associated with an axis
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, num_keyframes, num_lines, num_axis_lines);
+  }
 };
 
 /// State machine of the Manhattan axes of the world (paper: Manhattan Axes Estimation, coarse to
@@ -81,6 +86,14 @@ class AxesEstimator {
   /// The columns of its matrix are the axes in the world. Meaningless in state kNone.
   const Eigen::Quaterniond& world_from_axes() const { return world_from_axes_; }
   double sigma() const { return sigma_; }  ///< radians, of the least certain direction
+
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [options, axes_state, refinements, rotation, rotation_sigma, support,
+           num_axis_lines_tried] = *this;  // all members, or it does not compile
+    archive(axes_state, refinements, rotation, rotation_sigma, support, num_axis_lines_tried);
+  }
 
  private:
   void Drop();

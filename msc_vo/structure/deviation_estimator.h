@@ -62,6 +62,13 @@ class DeviationEstimator {
   double Sigma(const DirectionDeviation& deviation) const;
   double Sigma(const AngleDeviation& deviation) const;
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [options, scales, log_likelihoods, weight, scale] = *this;  // all members
+    archive(log_likelihoods, weight, scale);
+  }
+
  private:
   static constexpr int kNumScales = 24;
   using Grid = std::array<double, kNumScales>;

@@ -62,6 +62,13 @@ class SceneAxes {
   const AxesEstimator& estimator() const { return estimator_; }
   const DeviationEstimator& deviation() const { return deviation_; }
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [options, axes_estimator, deviation, directions] = *this;  // all members
+    archive(axes_estimator, deviation, directions);
+  }
+
  private:
   void Search(const Map& map, KeyframeId keyframe, const std::vector<AxisEvidence>& normals);
   std::optional<AxisCandidate> NearestAxis(const DirectionEstimate& line) const;

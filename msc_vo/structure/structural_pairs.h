@@ -53,6 +53,13 @@ class StructuralPairs {
 
   const DeviationEstimator& deviation() const { return deviation_; }
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [options, estimator] = *this;  // all members, or it does not compile
+    archive(estimator);
+  }
+
  private:
   StructuralPairOptions options_;
   DeviationEstimator deviation_;

@@ -152,16 +152,20 @@ void WriteFile(const std::string& path, const std::string& content) {
   if (error) throw std::runtime_error(path + ": cannot be written: " + error.message());
 }
 
-GrowingFile::GrowingFile(const std::string& path) : path_(path) {
-  CheckReplaceable(path);
-  RemoveEntry(path);
-  stream_.open(path, std::ios::binary);
+GrowingFile::GrowingFile(const std::string& path, const std::string& text) : path_(path) {
+  WriteFile(path, text);
+  stream_.rdbuf()->pubsetbuf(nullptr, 0);  // what fails is not kept and written later
+  stream_.open(path, std::ios::binary | std::ios::app);
   Append("");
 }
 
 void GrowingFile::Append(const std::string& text) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path_, error);
   stream_ << text << std::flush;
-  if (!stream_) throw std::runtime_error(path_ + kNotWritten);
+  if (stream_) return;
+  if (!error) fs::resize_file(path_, size, error);  // takes back a part of the text
+  throw std::runtime_error(path_ + kNotWritten);
 }
 
 void MakeFolder(const std::string& path) {

@@ -44,12 +44,12 @@ std::vector<std::string> ListFolder(const std::string& folder);
 /// folder.
 void WriteFile(const std::string& path, const std::string& content);
 
-/// A file that is written in steps. Appended text is on disk even if the program is killed. An
-/// existing file is replaced as by WriteFile().
+/// A file that is written in steps. Appended text is on disk even if the program is killed; text
+/// that does not fit is not there at all. An existing file is replaced as by WriteFile().
 class GrowingFile {
  public:
-  /// Both throw std::runtime_error naming the file.
-  explicit GrowingFile(const std::string& path);
+  /// The file begins with `text`. Both throw std::runtime_error naming the file.
+  explicit GrowingFile(const std::string& path, const std::string& text = "");
   void Append(const std::string& text);
 
  private:

@@ -24,6 +24,13 @@ class InactiveMapSearch {
   /// that the next frame that is found has a view of its own.
   std::optional<MapRelocalization> Search(const TrackedFrame& tracked, const MapSnapshot& snapshot);
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [options, next, last_success] = *this;  // all members, or it does not compile
+    archive(next, last_success);
+  }
+
  private:
   // The next keyframe that is to be tried, and its map.
   struct Candidate {

@@ -38,11 +38,23 @@ class KeyframePolicy {
   /// Reports that the last frame became a keyframe.
   void Inserted();
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [options, frames_since_keyframe, best] = *this;  // all members, or it does not compile
+    archive(frames_since_keyframe, best);
+  }
+
  private:
   // tracked / (tracked + creatable) of all features and of the close points; 1 if there are none.
   struct TrackedRatios {
     double all = 1.0;
     double close = 1.0;
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, all, close);
+    }
   };
   TrackedRatios ComputeRatios(const Frame& frame, const FrameMatches& matches) const;
 

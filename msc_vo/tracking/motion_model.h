@@ -31,6 +31,13 @@ class MotionModel {
   /// it. Arguments and std::nullopt as for VelocitySince().
   std::optional<CameraVelocity> LastVelocity(double timestamp, const Rigid3& cam_from_last) const;
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [last_timestamp, interval, velocity] = *this;  // all members, or it does not compile
+    archive(last_timestamp, interval, velocity);
+  }
+
  private:
   double last_timestamp_ = 0.0;
   double interval_ = 0.0;  // seconds over which velocity_ was measured; 0: at rest

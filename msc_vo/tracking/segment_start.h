@@ -29,6 +29,14 @@ class SegmentStartPolicy {
   /// Whether a frame after the first one was tracked in the map of the segment.
   bool is_confirmed() const { return is_confirmed_; }
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [options, confirmed, last_timestamp, search_seconds, num_tried_keyframes] =
+        *this;  // all members, or it does not compile
+    archive(confirmed, last_timestamp, search_seconds, num_tried_keyframes);
+  }
+
  private:
   SegmentOptions options_;
   bool is_confirmed_ = false;

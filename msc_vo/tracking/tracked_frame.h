@@ -23,6 +23,11 @@ namespace msc_vo {
 struct TrackingTimes {
   double matching = 0.0;
   double pose = 0.0;  ///< motion-only bundle adjustment
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, matching, pose);
+  }
 };
 
 /// Contribution of a tracked frame to local mapping.
@@ -33,6 +38,11 @@ struct KeyframeProposal {
   /// Landmarks that were predicted to be visible, matched ones included; for culling.
   std::vector<LandmarkId> visible_points;
   std::vector<LandmarkId> visible_lines;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, is_due, previous_velocity, visible_points, visible_lines);
+  }
 };
 
 /// Whether a frame begins a segment of the run, with a map of its own.
@@ -66,6 +76,13 @@ struct TrackedFrame {
   std::optional<MapRelocalization> in_inactive_map;
   KeyframeProposal keyframe;
   TrackingTimes times;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, frame, status, relocalized, reference, cam_from_reference, cam_from_world,
+                   matches, noise_scale, pose, num_dynamic, dynamic_cells, segment_start,
+                   in_inactive_map, keyframe, times);
+  }
 };
 
 }  // namespace msc_vo

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "msc_vo/map/feature_counts.h"
+#include "msc_vo/map/frame_intrinsics.h"
 #include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/timing/stopwatch.h"
@@ -83,6 +84,7 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
   const Map& map = snapshot.map;
   if (map.keyframes().empty()) return Initialize(std::move(raw));
 
+  last_.frame = ChangeIntrinsics(last_.frame, snapshot.intrinsics);
   if (last_.keyframe.is_due) AdoptKeyframe(*map.FindKeyframe(snapshot.newest_keyframe), &last_);
   const double timestamp = raw->timestamp;
   const double readout_time = CompensationReadoutTime(snapshot);

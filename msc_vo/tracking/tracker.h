@@ -39,6 +39,14 @@ class Tracker {
   /// Motion of the camera over the last tracked frames.
   const MotionModel& motion() const { return motion_; }
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [options, initial_pose, policy, motion_model, callback, factors, last, next_candidate,
+           segment_start, inactive_map_search] = *this;  // all members, or it does not compile
+    archive(policy, motion_model, last, next_candidate, segment_start, inactive_map_search);
+  }
+
  private:
   // Makes the first frame a keyframe if it has enough features with depth.
   TrackedFrame Initialize(std::shared_ptr<const Frame> frame);

@@ -22,6 +22,7 @@ from markdown import read_blocks
 ELSEWHERE = {
     "record openni2:": "OpenNi2Command",
     "_xyz.bag": "RosBag",
+    "replay --resume": "ResumeTest",
 }
 # Shorter, so that the test is fast.
 SHORTENED = [(re.compile(r"--frames \d+"), "--frames 4")]

@@ -55,5 +55,38 @@ TEST_F(OnlineResultsTest, RemovesEarlierResultsAtTheFirstReadableImage) {
   EXPECT_EQ(ReadTrajectory(Path("out/trajectory.txt")).size(), 1u);
 }
 
+TEST_F(OnlineResultsTest, KeepsLaterFramesOfARunUntilTheyAreComputedAgain) {
+  std::vector<FrameResult> frames;
+  for (int i = 0; i < 5; ++i) frames.push_back(Frame(1.0 + i, TrackingStatus::kTracked));
+  {
+    OnlineResults killed(Path("out"));
+    for (int i = 0; i < 4; ++i) killed.Add(frames[i]);
+  }
+  const std::string rows = ReadFile(Path("out/frames.csv"));
+  WriteText("out/frames.csv", rows + "5.0,tra");  // not a whole row
+  OnlineResults resumed(Path("out"));
+  resumed.Continue({frames[0], frames[1]});
+  resumed.Add(frames[2]);
+  EXPECT_EQ(ReadTrajectory(Path("out/trajectory.txt")).size(), 4u);
+  EXPECT_EQ(ReadFile(Path("out/frames.csv")), rows + "5.0,tra");
+  resumed.Add(frames[3]);
+  EXPECT_EQ(ReadFile(Path("out/frames.csv")), rows);
+  resumed.Add(frames[4]);
+  EXPECT_EQ(ReadFile(Path("out/frames.csv")), FormatFramesCsv(frames));
+  EXPECT_EQ(ReadTrajectory(Path("out/trajectory.txt")).size(), 5u);
+}
+
+TEST_F(OnlineResultsTest, ReplacesFilesThatAreNotThoseOfTheResumedRun) {
+  WriteText("out/trajectory.txt", "1 0 0 0 0 0 0 1\n");  // of a finished run
+  WriteText("out/frames.csv", "a\nb\nc\nd\n");
+  OnlineResults resumed(Path("out"));
+  resumed.Continue({Frame(1.0, TrackingStatus::kLost)});
+  resumed.Add(Frame(2.0, TrackingStatus::kTracked));
+  EXPECT_EQ(
+      ReadFile(Path("out/frames.csv")),
+      FormatFramesCsv({Frame(1.0, TrackingStatus::kLost), Frame(2.0, TrackingStatus::kTracked)}));
+  EXPECT_EQ(ReadTrajectory(Path("out/trajectory.txt")).size(), 1u);
+}
+
 }  // namespace
 }  // namespace msc_vo

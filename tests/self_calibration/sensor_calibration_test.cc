@@ -5,124 +5,14 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
-#include <random>
 
+#include "tests/self_calibration/simulated_camera.h"
 #include <gtest/gtest.h>
-#include <opencv2/core.hpp>
-
-#include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
 namespace {
 
 using S = SensorCorrection;
-
-const PinholeCamera kGiven{520.0, 520.0, 319.5, 239.5, 640, 480};
-
-// A box-shaped room around the cameras: half of its size, metres.
-const Eigen::Vector3d kHalf(2.0, 1.5, 3.0);
-
-// Distance along `direction` from `origin` to the walls, which is the depth for z = 1 rays.
-double DistanceToWall(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
-  double distance = 1e9;
-  for (int i = 0; i < 3; ++i) {
-    if (direction(i) == 0.0) continue;
-    const double wall = direction(i) > 0.0 ? kHalf(i) : -kHalf(i);
-    distance = std::min(distance, (wall - origin(i)) / direction(i));
-  }
-  return distance;
-}
-
-// Images of a room by a camera whose calibration differs from kGiven by `truth`.
-class SimulatedCamera {
- public:
-  SimulatedCamera(const S::Vector& truth, unsigned seed)
-      : camera_(kGiven, LensDistortion()), truth_(truth), engine_(seed) {
-    for (int i = 0; i < 3000; ++i) {
-      Eigen::Vector3d direction(Normal(), Normal(), Normal());
-      points_.push_back(DistanceToWall(Eigen::Vector3d::Zero(), direction) * direction);
-      Descriptor descriptor;
-      for (uint8_t& byte : descriptor) byte = static_cast<uint8_t>(engine_() & 0xffU);
-      descriptors_.push_back(descriptor);
-    }
-  }
-
-  CalibrationView View(const Rigid3& cam_from_world) {
-    const InverseDepthImage depth(DepthImage(cam_from_world), 0.2, 10.0);
-    auto frame = std::make_shared<Frame>();
-    frame->camera = kGiven;
-    for (size_t i = 0; i < points_.size(); ++i) {
-      const Eigen::Vector3d x = cam_from_world * points_[i];
-      if (x.z() < 0.3) continue;
-      PointFeature point;
-      point.pixel = camera_.Pixel<double>(Eigen::Vector2d(x.head<2>() / x.z()), truth_.data());
-      point.pixel += 0.2 * Eigen::Vector2d(Normal(), Normal());
-      if (!kGiven.IsInside(point.pixel, 4.0)) continue;
-      point.sigma = 0.5;
-      point.descriptor = descriptors_[i];
-      point.inverse_depth = depth.Nearest(point.pixel);
-      point.inverse_depth_sigma = 0.004;
-      frame->points.push_back(point);
-    }
-    frame->grid = FeatureGrid(frame->camera, frame->points);
-    return {frame, depth, cam_from_world};
-  }
-
-  CalibrationSequence Sequence(int count) {
-    CalibrationSequence views;
-    for (int i = 0; i < count; ++i) {
-      const double t = 0.5 * i;
-      const Eigen::Vector3d rotation(0.3 * std::sin(t), 0.45 * std::sin(0.7 * t),
-                                     0.2 * std::cos(t));
-      views.push_back(
-          View({ExpSO3(rotation), 0.3 * Eigen::Vector3d(std::sin(0.9 * t), 0.5 * std::cos(0.6 * t),
-                                                        std::sin(0.4 * t))}));
-    }
-    return views;
-  }
-
- private:
-  double Normal() { return normal_(engine_); }
-
-  // Inverse depth of the colour pixel.
-  double InverseDepthAt(const Rigid3& world_from_cam, const Eigen::Vector2d& pixel) const {
-    const Eigen::Vector2d x = camera_.Ray<double>(pixel, truth_.data());
-    return 1.0 / DistanceToWall(world_from_cam.translation(),
-                                world_from_cam.rotation() * Eigen::Vector3d(x.x(), x.y(), 1.0));
-  }
-
-  // The colour pixel that a depth pixel belongs to depends on its depth.
-  cv::Mat DepthImage(const Rigid3& cam_from_world) const {
-    const Rigid3 world_from_cam = cam_from_world.Inverse();
-    const double scale = std::exp(truth_(S::kDepthFocalLength));
-    const Eigen::Vector2d center(kGiven.cx, kGiven.cy);
-    const Eigen::Vector2d shift(truth_(S::kDepthX), truth_(S::kDepthY));
-    const Eigen::Vector2d parallax =
-        kGiven.fx * Eigen::Vector2d(truth_(S::kDepthParallaxX), truth_(S::kDepthParallaxY));
-    cv::Mat depth(kGiven.height, kGiven.width, CV_32FC1);
-    for (int v = 0; v < depth.rows; ++v) {
-      for (int u = 0; u < depth.cols; ++u) {
-        double w = 0.5;
-        const int steps = parallax.isZero() ? 1 : 5;
-        for (int i = 0; i < steps; ++i) {
-          const Eigen::Vector2d pixel =
-              (Eigen::Vector2d(u, v) - center - shift - w * parallax) / scale + center;
-          w = InverseDepthAt(world_from_cam, pixel);
-        }
-        depth.at<float>(v, u) = static_cast<float>(1.0 / w);
-      }
-    }
-    return depth;
-  }
-
-  CorrectedCamera camera_;
-  S::Vector truth_;
-  std::mt19937 engine_;
-  std::normal_distribution<double> normal_;
-  std::vector<Eigen::Vector3d> points_;
-  std::vector<Descriptor> descriptors_;
-};
 
 SensorCalibrationResult Calibrate(const S::Vector& truth, unsigned seed, int num_views = 24) {
   return CalibrateSensor(kGiven, LensDistortion(),

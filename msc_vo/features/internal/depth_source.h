@@ -28,6 +28,13 @@ class DepthSource {
   const DepthSensorModel& model() const { return model_; }
   const InverseDepthImage& image() const { return image_; }
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive(sensor_, bleeding_);
+    model_ = MakeDepthSensorModel(sensor_, noise_, width_);
+  }
+
  private:
   // The depth without the artefacts of the sensor.
   cv::Mat Clean(const cv::Mat& gray, const cv::Mat& depth);

@@ -3,7 +3,10 @@
 
 #include "msc_vo/results/internal/run_json.h"
 
+#include <cmath>
+
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/results/calibrated_value.h"
 
 namespace msc_vo {
 
@@ -75,6 +78,18 @@ Json NoiseToJson(const NoiseScale& scale) {
           {"line_depth", scale.line_depth}};
 }
 
+Json CalibrationToJson(const RunSummary& summary) {
+  Json json = {{"corrected", summary.calibration.IsCorrected()}};
+  for (const CalibratedValue& value : ListCalibratedValues(summary)) {
+    json[value.name] = {{"unit", value.unit},
+                        {"value", value.value},
+                        {"sigma", std::isfinite(value.sigma) ? Json(value.sigma) : Json()},
+                        {"verdict", value.verdict},
+                        {"log_odds", value.log_odds}};
+  }
+  return json;
+}
+
 Json ToJson(const BundleAdjustmentSummary& summary) {
   Json json = {{"usable", summary.usable}, {"iterations", summary.num_iterations}};
   for (const auto& [name, term] : summary.Terms()) {
@@ -99,6 +114,7 @@ Json MeasurementsToJson(const RunSummary& summary, const std::optional<Trajector
   json["manhattan_axes"] = AxesToJson(summary);
   json["noise_scale"] = NoiseToJson(summary.noise_scale);
   json["readout_time"] = summary.readout_time;
+  json["self_calibration"] = CalibrationToJson(summary);
   json["depth_sensor"] = ToString(summary.depth_sensor);
   json["last_local_ba"] = ToJson(summary.last_local_ba);
   json["error"] = error ? ToJson(*error) : Json();

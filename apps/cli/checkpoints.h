@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/cli/cost_meter.h"
+#include "apps/cli/frame_loop.h"
+#include "apps/cli/replay_views.h"
+#include "apps/cli/run_identity.h"
+#include "msc_vo/checkpoint/checkpoint_file.h"
+#include "msc_vo/inertial/gravity_factors.h"
+#include "msc_vo/odometry/odometry.h"
+#include "msc_vo/timing/stopwatch.h"
+
+namespace msc_vo {
+
+/// The folder of the checkpoint in a folder of results.
+std::string CheckpointFolder(const std::string& output);
+
+/// Reads the identity of the run whose checkpoint is open. Throws std::runtime_error.
+RunIdentity ReadIdentity(CheckpointFile* file);
+
+/// The parts of a replay that have a state, apart from the odometry.
+struct CheckpointedParts {
+  ReplayViews* views = nullptr;
+  GravityFactors* gravity = nullptr;  ///< null: none
+};
+
+/// Writes checkpoints of a run while it is in progress, and restores them. The clock decides when a
+/// checkpoint is written, and affects nothing else.
+class Checkpoints {
+ public:
+  /// `interval`: seconds between checkpoints. 0: after every image. Longer where writing takes more
+  /// than a fiftieth of the time.
+  Checkpoints(CheckpointFile file, RunIdentity identity, double interval,
+              const CheckpointedParts& parts);
+
+  /// Restores the checkpoint that the file was opened with. Throws std::runtime_error that names
+  /// the file.
+  void Restore(Odometry* odometry, CostMeter* cost, LoopProgress* progress);
+
+  /// Call after every image.
+  void SaveIfDue(Odometry* odometry, const CostMeter& cost, const LoopProgress& progress);
+  /// Call when the run ends early between two images. A checkpoint that cannot be written is a
+  /// warning: the one before remains.
+  void Save(Odometry* odometry, const CostMeter& cost, const LoopProgress& progress);
+
+  /// The run is complete: removes the checkpoint.
+  void Remove() { file_.Remove(); }
+
+ private:
+  CheckpointFile file_;
+  RunIdentity identity_;
+  double interval_;
+  CheckpointedParts parts_;
+  Stopwatch since_saved_;
+  std::optional<double> pause_;  // seconds until the next one is due; none: at once
+  bool has_warned_ = false;
+};
+
+}  // namespace msc_vo

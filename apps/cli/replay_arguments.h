@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/cli/configuration_arguments.h"
+#include "apps/cli/gravity_arguments.h"
+#include "apps/cli/replay_views.h"
+#include "apps/cli/sequence_arguments.h"
+#include "apps/cli/sequence_run.h"
+
+namespace msc_vo {
+
+/// Arguments of `msc_vo replay`.
+struct ReplayArguments {
+  SequenceArguments sequence;
+  ConfigurationArguments configuration;
+  RunArguments run;
+  std::string output;
+  std::string resume;  ///< folder of the results of a run to be continued; may be empty
+  double checkpoint_interval = 5.0;  ///< seconds
+  std::string windows;               ///< folder; empty: windows are not recorded
+  GravityArguments gravity;
+  ViewArguments view;
+  std::string mode;
+  std::string lines;
+  std::string depth_sensor;
+  bool no_points = false;
+  bool no_lines = false;
+  bool no_parallel = false;
+  bool no_perpendicular = false;
+  bool no_manhattan = false;
+  bool realtime = false;
+  bool no_check = false;
+  bool print_config = false;
+  bool all = false;       ///< of --print-config
+  bool markdown = false;  ///< of --print-config
+};
+
+/// Declares the sub-command with its arguments.
+CLI::App* AddReplayArguments(CLI::App* app, ReplayArguments* arguments);
+
+/// Throws CLI::ParseError if the sequence is missing: it is needed except with --print-config and
+/// --resume. With --resume alone, options that would make another run are refused.
+void CheckReplayArguments(const CLI::App& command, const ReplayArguments& arguments);
+
+/// Converts the short forms of frequent options to settings. --set takes precedence.
+ConfigurationArguments WithShortcuts(const ReplayArguments& arguments);
+
+/// The arguments of the command that began a run (`typed`), with those of `given` that do not
+/// affect results. Changes to `folder`, in which that command was typed and to which its paths are
+/// relative; throws std::runtime_error if that cannot be used.
+ReplayArguments StoredArguments(const std::vector<std::string>& typed, const std::string& folder,
+                                const ReplayArguments& given);
+
+}  // namespace msc_vo

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <typeinfo>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "msc_vo/checkpoint/field_count.h"
+#include "msc_vo/checkpoint/object_journal.h"
+
+namespace msc_vo {
+
+/// Reads what BinaryWriter wrote, in the same order. Pointers that shared an object share it again.
+/// Every function throws std::runtime_error if the bytes are not those of such values; the objects
+/// are then valid, but partly read.
+class BinaryReader {
+ public:
+  /// `bytes` and `journal`, which has the shared objects, must outlive the reader.
+  BinaryReader(std::string_view bytes, ObjectJournal* journal)
+      : BinaryReader(bytes, kNoObject, journal) {}
+
+  /// Reads the values one after the other.
+  template <typename... Values>
+  void operator()(Values&... values) {
+    (Get(values), ...);
+  }
+  /// Reads all fields of a struct.
+  template <typename T, typename... Values>
+  void Fields(const T& value, Values&... fields) {
+    CheckFieldCount<sizeof...(fields)>(value);
+    (*this)(fields...);
+  }
+  /// Reads a map of values that have no default: they are read into copies of `prototype`.
+  template <typename Key, typename T>
+  void Entries(std::map<Key, T>& map, const T& prototype) {
+    map.clear();
+    for (size_t i = GetSize(); i > 0; --i) {
+      Key key{};
+      Get(key);
+      Get(map.emplace(key, prototype).first->second);
+    }
+  }
+
+  /// Throws std::runtime_error if bytes are left.
+  void Finish() const;
+  /// Shared objects that the bytes refer to.
+  const std::vector<ObjectId>& objects() const { return objects_; }
+
+ private:
+  // Reads object `id`, which can only refer to older ones.
+  BinaryReader(std::string_view bytes, ObjectId id, ObjectJournal* journal)
+      : bytes_(bytes), id_(id), journal_(journal) {}
+
+  void GetBytes(void* data, size_t size);
+  // A number of elements, each of which takes at least one byte.
+  size_t GetSize();
+  [[noreturn]] static void Fail();
+
+  template <typename T>
+  void Get(T& value) {
+    if constexpr (std::is_same_v<T, bool>) {
+      uint8_t byte = 0;
+      Get(byte);
+      if (byte > 1) Fail();
+      value = byte != 0;
+    } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+      GetBytes(&value, sizeof(value));
+    } else {
+      value.Serialize(*this);
+    }
+  }
+  void Get(std::string& text) {
+    text.resize(GetSize());
+    GetBytes(text.data(), text.size());
+  }
+  template <typename T, int rows, int columns, int options>
+  void Get(Eigen::Matrix<T, rows, columns, options>& matrix) {
+    const size_t num_rows = GetSize();
+    const size_t num_columns = GetSize();
+    if (rows != Eigen::Dynamic && num_rows != static_cast<size_t>(rows)) Fail();
+    if (columns != Eigen::Dynamic && num_columns != static_cast<size_t>(columns)) Fail();
+    if (num_columns > 0 && num_rows > bytes_.size() / num_columns / sizeof(T)) Fail();
+    matrix.resize(static_cast<Eigen::Index>(num_rows), static_cast<Eigen::Index>(num_columns));
+    GetBytes(matrix.data(), matrix.size() * sizeof(T));
+  }
+  void Get(Eigen::Quaterniond& rotation) { Get(rotation.coeffs()); }
+  template <typename T>
+  void Get(std::vector<T>& values) {
+    GetSequence(values);
+  }
+  void Get(std::vector<bool>& values) {
+    values.resize(GetSize());
+    for (size_t i = 0; i < values.size(); ++i) {
+      bool value = false;
+      Get(value);
+      values[i] = value;
+    }
+  }
+  template <typename T>
+  void Get(std::deque<T>& values) {
+    GetSequence(values);
+  }
+  template <typename T>
+  void Get(std::set<T>& values) {
+    values.clear();
+    for (size_t i = GetSize(); i > 0; --i) {
+      T value{};
+      Get(value);
+      values.insert(values.end(), value);
+    }
+  }
+  template <typename Key, typename T>
+  void Get(std::map<Key, T>& values) {
+    Entries(values, T{});
+  }
+  template <typename T, size_t size>
+  void Get(std::array<T, size>& values) {
+    for (T& value : values) Get(value);
+  }
+  template <typename A, typename B>
+  void Get(std::pair<A, B>& value) {
+    (*this)(value.first, value.second);
+  }
+  template <typename T>
+  void Get(std::optional<T>& value) {
+    bool has_value = false;
+    Get(has_value);
+    value.reset();
+    if (has_value) Get(value.emplace());
+  }
+  template <typename T>
+  void Get(std::shared_ptr<T>& pointer) {
+    ObjectId id = kNoObject;
+    Get(id);
+    pointer.reset();
+    if (id == kNoObject) return;
+    if (id >= id_) Fail();
+    using Object = std::remove_const_t<T>;
+    std::shared_ptr<void> known = journal_->FindLoaded(id, typeid(Object));
+    if (!known) {
+      auto object = std::make_shared<Object>();
+      BinaryReader reader(journal_->Load(id), id, journal_);
+      reader(*object);
+      reader.Finish();
+      journal_->SetLoaded(id, object, typeid(Object), reader.objects());
+      known = object;
+    }
+    pointer = std::static_pointer_cast<Object>(known);
+    objects_.push_back(id);
+  }
+
+  template <typename Sequence>
+  void GetSequence(Sequence& values) {
+    values.clear();
+    values.resize(GetSize());
+    for (auto& value : values) Get(value);
+  }
+
+  std::string_view bytes_;
+  ObjectId id_;  // kNoObject: no object
+  ObjectJournal* journal_;
+  std::vector<ObjectId> objects_;
+};
+
+}  // namespace msc_vo

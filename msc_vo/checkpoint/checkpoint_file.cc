@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/checkpoint/checkpoint_file.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+
+namespace {
+
+constexpr char kMagic[8] = {'m', 's', 'c', '_', 'v', 'o', ' ', 's'};
+// Increase it with every change of what is saved.
+constexpr uint64_t kFormat = 1;
+constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 40;
+
+struct Header {
+  char magic[8] = {};
+  uint64_t format = 0;
+  uint64_t num_bytes = 0;  // behind the header
+  uint64_t checksum = 0;   // of these
+};
+static_assert(sizeof(Header) == 32, "written as it is in memory");
+
+// What is behind the header.
+struct Contents {
+  std::string description;
+  std::string state;
+  int32_t journal = 0;
+  uint64_t journal_bytes = 0;
+  uint64_t journal_checksum = 0;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, description, state, journal, journal_bytes, journal_checksum);
+  }
+};
+
+[[noreturn]] void Fail(const std::string& path, const std::string& problem) {
+  throw std::runtime_error(path + ": " + problem +
+                           "; the run cannot be resumed, start it again without --resume");
+}
+
+std::string Counts(std::uintmax_t present, std::uintmax_t expected) {
+  return std::to_string(present) + " of " + std::to_string(expected) + " bytes";
+}
+
+// Returns what is behind the header of state.bin.
+std::string CheckedContents(const std::string& path, const std::string& bytes) {
+  Header header;
+  if (bytes.size() < sizeof(header)) Fail(path, "is truncated");
+  std::memcpy(&header, bytes.data(), sizeof(header));
+  if (std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0) Fail(path, "is not a checkpoint");
+  if (header.format != kFormat) {
+    Fail(path, "has format " + std::to_string(header.format) + ", and this program reads format " +
+                   std::to_string(kFormat) + ": it is of another version of msc_vo");
+  }
+  const std::string contents = bytes.substr(sizeof(header));
+  if (contents.size() < header.num_bytes) {
+    Fail(path, "is truncated: it has " + Counts(contents.size(), header.num_bytes));
+  }
+  if (contents.size() > header.num_bytes || Checksum(contents) != header.checksum) {
+    Fail(path, "is damaged: its checksum is wrong");
+  }
+  return contents;
+}
+
+std::string WithHeader(const std::string& contents) {
+  Header header;
+  std::memcpy(header.magic, kMagic, sizeof(kMagic));
+  header.format = kFormat;
+  header.num_bytes = contents.size();
+  header.checksum = Checksum(contents);
+  return std::string(reinterpret_cast<const char*>(&header), sizeof(header)) + contents;
+}
+
+// The journal as it was when the checkpoint was written; later objects are cut off.
+std::string CheckedJournal(const std::string& path, const Contents& contents) {
+  const std::string problem = FileProblem(path, kMaxBytes);
+  if (!problem.empty()) Fail(path, problem);
+  std::string bytes = ReadFile(path, kMaxBytes);
+  if (bytes.size() < contents.journal_bytes) {
+    Fail(path, "is truncated: it has " + Counts(bytes.size(), contents.journal_bytes));
+  }
+  bytes.resize(contents.journal_bytes);
+  if (Checksum(bytes) != contents.journal_checksum) {
+    Fail(path, "is damaged: its checksum is wrong");
+  }
+  return bytes;
+}
+
+// Number of a journal by its name; 0 if the file is none.
+int JournalNumber(const std::string& path) {
+  int number = 0;
+  int length = 0;
+  const std::string name = path.substr(path.rfind('/') + 1);
+  if (std::sscanf(name.c_str(), "objects-%9d.bin%n", &number, &length) != 1) return 0;
+  return length == static_cast<int>(name.size()) && number > 0 ? number : 0;
+}
+
+}  // namespace
+
+CheckpointFile::CheckpointFile(std::string folder) : folder_(std::move(folder)) {}
+
+std::string CheckpointFile::path() const { return folder_ + "/state.bin"; }
+
+std::string CheckpointFile::JournalPath(int number) const {
+  return folder_ + "/objects-" + std::to_string(number) + ".bin";
+}
+
+bool CheckpointFile::Exists(const std::string& folder) {
+  return HasEntry(CheckpointFile(folder).path());
+}
+
+CheckpointFile CheckpointFile::Open(const std::string& folder) {
+  CheckpointFile file(folder);
+  const std::string path = file.path();
+  const std::string problem = FileProblem(path, kMaxBytes);
+  if (!problem.empty()) Fail(path, problem);
+  Contents contents;
+  const std::string bytes = CheckedContents(path, ReadFile(path, kMaxBytes));
+  ObjectJournal none;
+  BinaryReader reader(bytes, &none);
+  reader(contents);
+  reader.Finish();
+  file.number_ = contents.journal;
+  file.journal_ =
+      std::make_unique<ObjectJournal>(CheckedJournal(file.JournalPath(file.number_), contents));
+  file.description_ = std::move(contents.description);
+  file.state_ = std::move(contents.state);
+  return file;
+}
+
+void CheckpointFile::ReadDescription(const std::function<void(BinaryReader&)>& read) {
+  try {
+    ObjectJournal none;
+    BinaryReader reader(description_, &none);
+    read(reader);
+    reader.Finish();
+  } catch (const std::exception& error) {
+    Fail(path(), error.what());
+  }
+}
+
+void CheckpointFile::ReadState(const std::function<void(BinaryReader&)>& read) {
+  try {
+    BinaryReader reader(state_, journal_.get());
+    read(reader);
+    reader.Finish();
+    journal_->FinishLoading();
+    journal_->Keep(reader.objects());
+  } catch (const std::exception& error) {
+    Fail(path(), error.what());
+  }
+  state_ = std::string();
+  journal_file_ = std::make_unique<GrowingBinary>(JournalPath(number_));
+}
+
+void CheckpointFile::BeginJournal() {
+  int last = number_;
+  for (const std::string& entry : ListFolder(folder_)) last = std::max(last, JournalNumber(entry));
+  auto file = std::make_unique<GrowingBinary>(JournalPath(last + 1));
+  number_ = last + 1;
+  journal_ = std::make_unique<ObjectJournal>();
+  journal_file_ = std::move(file);
+}
+
+void CheckpointFile::Save(const std::function<void(BinaryWriter&)>& write_description,
+                          const std::function<bool(BinaryWriter&)>& write_state) {
+  constexpr uint64_t kMinBytes = uint64_t{16} << 20;  // below, a new journal is not worth its time
+  MakeFolder(folder_);
+  if (!journal_file_ || journal_->size() > kMinBytes + 2 * journal_->num_kept_bytes()) {
+    BeginJournal();
+  }
+  Contents contents;
+  BinaryWriter description(journal_.get());
+  write_description(description);
+  contents.description = description.bytes();
+  BinaryWriter state(journal_.get());
+  if (!write_state(state)) return;
+  contents.state = state.bytes();
+  journal_->Keep(state.objects());
+  contents.journal = number_;
+  contents.journal_bytes = journal_->size();
+  contents.journal_checksum = journal_->checksum();
+
+  journal_file_->Write(journal_->written(), journal_->pending());
+  journal_->SetWritten();
+  BinaryWriter file(journal_.get());
+  file(contents);
+  ReplaceFileOnDisk(path(), WithHeader(file.bytes()));
+  RemoveJournals(number_);
+}
+
+void CheckpointFile::RemoveJournals(int number) const {
+  for (const std::string& entry : ListFolder(folder_)) {
+    const int other = JournalNumber(entry);
+    if (other != 0 && other != number) std::remove(entry.c_str());
+  }
+}
+
+void CheckpointFile::Remove() {
+  journal_file_.reset();
+  if (!IsFolder(folder_)) return;
+  std::remove(path().c_str());
+  std::remove((path() + ".partial").c_str());
+  RemoveJournals(0);
+  std::remove(folder_.c_str());  // unless something else is in it
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "msc_vo/checkpoint/binary_reader.h"
+#include "msc_vo/checkpoint/binary_writer.h"
+#include "msc_vo/checkpoint/growing_binary.h"
+#include "msc_vo/checkpoint/object_journal.h"
+
+namespace msc_vo {
+
+/// The checkpoint of a run in a folder: `state.bin`, which each checkpoint replaces, and
+/// `objects-<number>.bin`, the journal of immutable objects that it refers to. Both are versioned
+/// and have checksums. A checkpoint is whole or absent: the old one is valid until the new one is
+/// complete on the disk.
+class CheckpointFile {
+ public:
+  /// Creates no file. Save() replaces an earlier checkpoint in the folder.
+  explicit CheckpointFile(std::string folder);
+
+  /// Opens the checkpoint in `folder`. Throws std::runtime_error that names the file and the fix if
+  /// there is none, if it is damaged, or of another version of the format.
+  static CheckpointFile Open(const std::string& folder);
+  /// Whether the folder has a checkpoint. It may be damaged.
+  static bool Exists(const std::string& folder);
+
+  /// Calls `read` with a reader of the checkpoint, whose errors get the name of the file.
+  /// `description` and `state`: what Save() wrote. Call ReadState() once, after Open().
+  void ReadDescription(const std::function<void(BinaryReader&)>& read);
+  void ReadState(const std::function<void(BinaryReader&)>& read);
+
+  /// Writes a checkpoint unless `write_state` returns false. Creates the folder. The journal is
+  /// begun anew when most of it is no longer needed. Throws std::runtime_error naming the file; the
+  /// checkpoint before remains.
+  void Save(const std::function<void(BinaryWriter&)>& write_description,
+            const std::function<bool(BinaryWriter&)>& write_state);
+  /// Removes the checkpoint and its folder.
+  void Remove();
+
+  /// Path of state.bin.
+  std::string path() const;
+
+ private:
+  std::string JournalPath(int number) const;
+  // Removes the journals but that of `number`.
+  void RemoveJournals(int number) const;
+  void BeginJournal();
+
+  std::string folder_;
+  int number_ = 0;  // of the journal; 0: none
+  std::unique_ptr<ObjectJournal> journal_;
+  std::unique_ptr<GrowingBinary> journal_file_;
+  std::string description_;
+  std::string state_;
+};
+
+}  // namespace msc_vo

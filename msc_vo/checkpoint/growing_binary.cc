@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/checkpoint/growing_binary.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace msc_vo {
+
+GrowingBinary::GrowingBinary(const std::string& path)
+    : path_(path), descriptor_(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) Fail("opened");
+}
+
+GrowingBinary::~GrowingBinary() { close(descriptor_); }
+
+void GrowingBinary::Fail(const char* action) const {
+  throw std::runtime_error(path_ + ": cannot be " + action + ": " + std::strerror(errno) +
+                           " (check the folder and the free space)");
+}
+
+void GrowingBinary::Write(uint64_t offset, std::string_view bytes) {
+  if (ftruncate(descriptor_, static_cast<off_t>(offset)) != 0) Fail("written");
+  while (!bytes.empty()) {
+    const ssize_t written =
+        pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) Fail("written");
+    bytes.remove_prefix(static_cast<size_t>(written));
+    offset += static_cast<uint64_t>(written);
+  }
+  if (fdatasync(descriptor_) != 0) Fail("written");
+}
+
+void ReplaceFileOnDisk(const std::string& path, std::string_view bytes) {
+  const std::string partial = path + ".partial";
+  GrowingBinary(partial).Write(0, bytes);
+  if (std::rename(partial.c_str(), path.c_str()) != 0) {
+    throw std::runtime_error(path + ": cannot be written: " + std::strerror(errno));
+  }
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/checkpoint/object_journal.h"
+
+#include <cstring>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace msc_vo {
+
+namespace {
+
+// An object is its size and its bytes, padded so that checksums can be continued.
+constexpr uint64_t kAlignment = 8;
+
+uint64_t PaddedSize(uint64_t size) { return (size + kAlignment - 1) / kAlignment * kAlignment; }
+
+[[noreturn]] void Fail() { throw std::runtime_error("its objects are not those of a checkpoint"); }
+
+}  // namespace
+
+ObjectJournal::ObjectJournal(std::string bytes)
+    : written_(bytes.size()), written_checksum_(Checksum(bytes)), loaded_bytes_(std::move(bytes)) {}
+
+ObjectId ObjectJournal::Find(const void* object) const {
+  const auto id = ids_.find(object);
+  return id == ids_.end() ? kNoObject : id->second;
+}
+
+ObjectId ObjectJournal::Append(std::shared_ptr<const void> object, const std::string& bytes,
+                               const std::vector<ObjectId>& children) {
+  const ObjectId id = size();
+  const uint64_t num_bytes = bytes.size();
+  pending_.append(reinterpret_cast<const char*>(&num_bytes), sizeof(num_bytes));
+  pending_ += bytes;
+  pending_.append(PaddedSize(num_bytes) - num_bytes, '\0');
+  ids_[object.get()] = id;
+  objects_[id] = {std::move(object), size() - id, children};
+  return id;
+}
+
+void ObjectJournal::Keep(const std::vector<ObjectId>& roots) {
+  std::set<ObjectId> kept;
+  std::vector<ObjectId> open = roots;
+  while (!open.empty()) {
+    const ObjectId id = open.back();
+    open.pop_back();
+    if (!kept.insert(id).second) continue;
+    const std::vector<ObjectId>& children = objects_.at(id).children;
+    open.insert(open.end(), children.begin(), children.end());
+  }
+  num_kept_bytes_ = 0;
+  for (auto object = objects_.begin(); object != objects_.end();) {
+    if (kept.count(object->first) > 0) {
+      num_kept_bytes_ += object->second.size;
+      ++object;
+    } else {
+      ids_.erase(object->second.pointer.get());
+      object = objects_.erase(object);
+    }
+  }
+}
+
+void ObjectJournal::SetWritten() {
+  written_checksum_ = checksum();
+  written_ = size();
+  pending_.clear();
+}
+
+std::shared_ptr<void> ObjectJournal::FindLoaded(ObjectId id, const std::type_info& type) const {
+  const auto object = loaded_.find(id);
+  if (object == loaded_.end()) return nullptr;
+  if (object->second.type != std::type_index(type)) Fail();
+  return object->second.pointer;
+}
+
+std::string_view ObjectJournal::Load(ObjectId id) const {
+  const std::string_view bytes = loaded_bytes_;
+  uint64_t size = 0;
+  if (id % kAlignment != 0 || id >= bytes.size() || bytes.size() - id < sizeof(size)) Fail();
+  std::memcpy(&size, bytes.data() + id, sizeof(size));
+  const std::string_view rest = bytes.substr(id + sizeof(size));
+  if (size > rest.size()) Fail();
+  return rest.substr(0, size);
+}
+
+void ObjectJournal::SetLoaded(ObjectId id, const std::shared_ptr<void>& object,
+                              const std::type_info& type, const std::vector<ObjectId>& children) {
+  loaded_.insert({id, {object, std::type_index(type)}});
+  ids_[object.get()] = id;
+  objects_[id] = {object, sizeof(uint64_t) + PaddedSize(Load(id).size()), children};
+}
+
+void ObjectJournal::FinishLoading() {
+  loaded_bytes_ = std::string();
+  loaded_.clear();
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <typeindex>
+#include <unordered_map>
+#include <vector>
+
+#include "msc_vo/checkpoint/checksum.h"
+
+namespace msc_vo {
+
+/// An immutable object in a journal, named by its position.
+using ObjectId = uint64_t;
+constexpr ObjectId kNoObject = ~ObjectId{0};
+
+/// The immutable objects that successive checkpoints of a run share, such as the frames of its
+/// keyframes: each is written once, and checkpoints refer to it. The journal knows an object by its
+/// address and keeps it alive while the last checkpoint refers to it.
+class ObjectJournal {
+ public:
+  ObjectJournal() = default;
+  /// A journal read from a file, to be continued.
+  explicit ObjectJournal(std::string bytes);
+
+  // Writing.
+
+  /// The id of an object that is in the journal; kNoObject if it is not.
+  ObjectId Find(const void* object) const;
+  /// Appends an object in binary form, which refers to the objects `children`.
+  ObjectId Append(std::shared_ptr<const void> object, const std::string& bytes,
+                  const std::vector<ObjectId>& children);
+  /// Forgets all objects but those that `roots` refer to, directly or through others.
+  void Keep(const std::vector<ObjectId>& roots);
+  /// Bytes of the objects that Keep() kept.
+  uint64_t num_kept_bytes() const { return num_kept_bytes_; }
+
+  /// Bytes of the journal: the written ones, and those that are to be appended to them.
+  uint64_t size() const { return written_ + pending_.size(); }
+  uint64_t written() const { return written_; }
+  const std::string& pending() const { return pending_; }
+  /// Checksum of all bytes, the pending ones included.
+  uint64_t checksum() const { return Checksum(pending_, written_checksum_); }
+  /// The pending bytes have been written.
+  void SetWritten();
+
+  // Reading. All throw std::runtime_error if the bytes are not those of a journal.
+
+  /// The object, if it was loaded; null otherwise.
+  std::shared_ptr<void> FindLoaded(ObjectId id, const std::type_info& type) const;
+  /// The bytes of an object that is to be loaded.
+  std::string_view Load(ObjectId id) const;
+  void SetLoaded(ObjectId id, const std::shared_ptr<void>& object, const std::type_info& type,
+                 const std::vector<ObjectId>& children);
+  /// All objects are loaded: frees the bytes.
+  void FinishLoading();
+
+ private:
+  struct Object {
+    std::shared_ptr<const void> pointer;
+    uint64_t size = 0;  // bytes
+    std::vector<ObjectId> children;
+  };
+  struct LoadedObject {
+    std::shared_ptr<void> pointer;
+    std::type_index type;
+  };
+
+  std::unordered_map<const void*, ObjectId> ids_;
+  std::map<ObjectId, Object> objects_;
+  uint64_t num_kept_bytes_ = 0;
+  uint64_t written_ = 0;
+  uint64_t written_checksum_ = kEmptyChecksum;
+  std::string pending_;
+  std::string loaded_bytes_;
+  std::unordered_map<ObjectId, LoadedObject> loaded_;
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <memory>
+
+#include "msc_vo/map/frame.h"
+
+namespace msc_vo {
+
+/// Returns the frame as if it had been built with other intrinsics: its features at the undistorted
+/// pixels of the same recorded ones. Returns the frame itself if it has these intrinsics already,
+/// if its own are unknown, or if `intrinsics` is null.
+///
+/// Lines are moved with their end points, which neglects the little that a wrong lens bends them;
+/// likewise rolling-shutter compensation keeps its displacements in pixels.
+std::shared_ptr<const Frame> ChangeIntrinsics(
+    std::shared_ptr<const Frame> frame, const std::shared_ptr<const CameraIntrinsics>& intrinsics);
+
+}  // namespace msc_vo

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/frame_result.h"
+
+#include "msc_vo/map/feature_counts.h"
+#include "msc_vo/tracking/tracked_frame.h"
+
+namespace msc_vo {
+
+FrameResult MakeFrameResult(const TrackedFrame& tracked, int segment) {
+  FrameResult result;
+  result.id = tracked.frame->id;
+  result.timestamp = tracked.frame->timestamp;
+  result.status = tracked.status;
+  result.segment = segment;
+  result.cam_from_world = tracked.cam_from_world;
+  result.by_pose_factors = !IsEstimated(tracked.status) && tracked.pose.usable;
+  result.is_keyframe = tracked.keyframe.is_due;
+  result.num_points = static_cast<int>(tracked.frame->points.size());
+  result.num_lines = static_cast<int>(tracked.frame->lines.size());
+  result.num_with_depth = NumWithDepth(*tracked.frame);
+  result.num_inlier_points = static_cast<int>(tracked.matches.points.size());
+  result.num_inlier_lines = static_cast<int>(tracked.matches.lines.size());
+  result.num_dynamic = tracked.num_dynamic;
+  result.covariance = tracked.pose.covariance;
+  result.times.matching = tracked.times.matching;
+  result.times.pose = tracked.times.pose;
+  return result;
+}
+
+}  // namespace msc_vo

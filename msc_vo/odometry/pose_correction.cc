@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/pose_correction.h"
+
+#include <iterator>
+#include <map>
+#include <memory>
+
+namespace msc_vo {
+
+namespace {
+
+// Corrections of the camera poses of one map.
+class PoseCorrection {
+ public:
+  PoseCorrection(const Map& before, const Map& after);
+
+  // Of a pose relative to keyframe `reference`.
+  Rigid3 Correct(double timestamp, KeyframeId reference, const Rigid3& cam_from_reference) const;
+
+ private:
+  // Maps coordinates of the old camera at `timestamp` (seconds) to those of the new one.
+  Rigid3 At(double timestamp) const;
+
+  const Map& before_;
+  const Map& after_;
+  std::map<double, Rigid3> corrections_;  // by time stamp of the keyframe
+};
+
+PoseCorrection::PoseCorrection(const Map& before, const Map& after)
+    : before_(before), after_(after) {
+  for (const auto& [id, keyframe] : after.keyframes()) {
+    corrections_[keyframe.frame->timestamp] =
+        keyframe.cam_from_world * before.CamFromWorld(id).Inverse();
+  }
+}
+
+Rigid3 PoseCorrection::Correct(double timestamp, KeyframeId reference,
+                               const Rigid3& cam_from_reference) const {
+  return At(timestamp) * cam_from_reference * before_.CamFromWorld(reference) *
+         after_.CamFromWorld(reference).Inverse();
+}
+
+Rigid3 PoseCorrection::At(double timestamp) const {
+  const auto next = corrections_.lower_bound(timestamp);
+  if (next == corrections_.begin()) return next->second;
+  const auto last = std::prev(next);
+  if (next == corrections_.end()) return last->second;
+  const double s = (timestamp - last->first) / (next->first - last->first);
+  const Rigid3& a = last->second;
+  const Rigid3& b = next->second;
+  return Rigid3(Eigen::Quaterniond(a.rotation()).slerp(s, Eigen::Quaterniond(b.rotation())),
+                (1.0 - s) * a.translation() + s * b.translation());
+}
+
+}  // namespace
+
+void CorrectPoses(const InactiveMaps& maps_before, const MapSnapshot& after,
+                  const std::vector<FrameResult>& frames, std::vector<RelativePose>* poses) {
+  for (const std::shared_ptr<const Map>& before : maps_before) {
+    if (before->keyframes().empty()) continue;
+    const KeyframeId first = before->keyframes().front().first;
+    const PoseCorrection correction(*before, after.map.KnowsKeyframe(first)
+                                                 ? after.map
+                                                 : *FindMapOf(after.inactive_maps, first));
+    for (size_t i = 0; i < poses->size(); ++i) {
+      RelativePose& pose = (*poses)[i];
+      if (pose.reference == kNoId || !before->KnowsKeyframe(pose.reference)) continue;
+      pose.cam_from_reference =
+          correction.Correct(frames[i].timestamp, pose.reference, pose.cam_from_reference);
+    }
+  }
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <vector>
+
+#include "msc_vo/map/snapshot.h"
+#include "msc_vo/odometry/frame_result.h"
+
+namespace msc_vo {
+
+/// Pose of a frame relative to a keyframe, whose own pose may still change.
+struct RelativePose {
+  KeyframeId reference = kNoId;
+  Rigid3 cam_from_reference;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, reference, cam_from_reference);
+  }
+};
+
+/// Corrects the poses of frames after those of the keyframes have changed at once, from
+/// `maps_before` to the maps of `after`, because the calibration has. Frames between two keyframes
+/// were tracked with the old calibration: their correction is interpolated between those of the
+/// keyframes. `frames`: with the time stamps, one per pose.
+void CorrectPoses(const InactiveMaps& maps_before, const MapSnapshot& after,
+                  const std::vector<FrameResult>& frames, std::vector<RelativePose>* poses);
+
+}  // namespace msc_vo

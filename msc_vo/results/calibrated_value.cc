@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/results/calibrated_value.h"
+
+#include <cmath>
+#include <limits>
+
+namespace msc_vo {
+
+namespace {
+
+using S = SensorCorrection;
+
+// Fraction of the prior's standard deviation above which a parameter counts as not observable.
+constexpr double kUnobservable = 0.7;
+
+}  // namespace
+
+std::vector<CalibratedValue> ListCalibratedValues(const RunSummary& summary) {
+  using G = CorrectionGroup;
+  const CorrectionEstimate& estimate = summary.calibration;
+  const CameraIntrinsics& intrinsics = summary.intrinsics;
+  const PinholeCamera& camera = intrinsics.distortion.Recorded(intrinsics.camera);
+  const auto make = [&](const char* name, const char* unit, double value, double scale, int index,
+                        G group) {
+    const auto g = static_cast<size_t>(group);
+    const double sigma = estimate.sigma(index);
+    const bool is_estimated = sigma > 0.0;
+    const bool is_observable =
+        is_estimated && sigma < kUnobservable * WrongCalibrationSigma()(index);
+    return CalibratedValue{
+        name,
+        unit,
+        value,
+        is_estimated ? std::abs(scale) * sigma : std::numeric_limits<double>::infinity(),
+        estimate.log_odds[g],
+        estimate.is_corrected[g] ? "corrected"
+        : is_observable          ? "as given"
+                                 : "as given, not observable"};
+  };
+  const auto& k = intrinsics.distortion.k;
+  return {make("fx", "px", camera.fx, camera.fx, S::kFocalLength, G::kFocalLength),
+          make("fy", "px", camera.fy, camera.fy, S::kFocalLength, G::kFocalLength),
+          make("cx", "px", camera.cx, 1.0, S::kCenterX, G::kPrincipalPoint),
+          make("cy", "px", camera.cy, 1.0, S::kCenterY, G::kPrincipalPoint),
+          make("k1", "", k[0], 1.0, S::kK1, G::kLens),
+          make("k2", "", k[1], 1.0, S::kK2, G::kLens)};
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <vector>
+
+#include "msc_vo/results/run_summary.h"
+
+namespace msc_vo {
+
+/// A number of the calibration of the colour camera after a run.
+struct CalibratedValue {
+  const char* name;  ///< "fx"
+  const char* unit;  ///< "px"; may be empty
+  double value = 0.0;
+  double sigma = 0.0;     ///< standard deviation of the estimate; infinite if there was none
+  double log_odds = 0.0;  ///< of the calibration to be wrong in the group of the value
+  /// "corrected", "as given", or "as given, not observable".
+  const char* verdict;
+};
+
+/// The calibration in use at the end of a run, with the standard deviations that self-calibration
+/// gives to its values.
+std::vector<CalibratedValue> ListCalibratedValues(const RunSummary& summary);
+
+}  // namespace msc_vo

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "msc_vo/camera/camera_intrinsics.h"
+#include "msc_vo/self_calibration/calibration_evidence.h"
+#include "msc_vo/self_calibration/recent_pairs.h"
+
+namespace msc_vo {
+
+/// Self-calibration of focal length, principal point and radial distortion during a run. The given
+/// calibration counts as right until another one is far more likely, see SelectCorrections().
+class CalibrationEstimator {
+ public:
+  explicit CalibrationEstimator(const std::shared_ptr<const CameraIntrinsics>& given);
+
+  /// Updates the estimate with the images since the last keyframe and the newest keyframe, whose
+  /// depth image is `depth`. Call it after local bundle adjustment. `readout_sigma` (seconds):
+  /// uncertainty of the readout time of a rolling shutter. Returns true if present() has changed.
+  bool Update(const Map& map, KeyframeId newest, const cv::Mat& depth,
+              const std::vector<CalibrationImage>& images, double readout_sigma);
+  /// Forgets the images, because their compensation of a rolling shutter is out of date.
+  void Clear() { pairs_.Clear(); }
+
+  /// The calibration in use: the given one until a correction is accepted.
+  const std::shared_ptr<const CameraIntrinsics>& present() const { return present_; }
+  /// The estimate; nothing is corrected until a correction is accepted.
+  const CorrectionEstimate& estimate() const { return estimate_; }
+
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [given, present, pairs, at, estimate, applied] = *this;  // all members
+    archive(given, present, pairs, at, estimate, applied);
+  }
+
+ private:
+  // Decides which groups are corrected. Returns true if a new one is.
+  bool SelectGroups(double readout_sigma);
+  // Whether the estimate differs enough from the calibration in use to replace it.
+  bool IsReplacementDue() const;
+
+  std::shared_ptr<const CameraIntrinsics> given_;
+  std::shared_ptr<const CameraIntrinsics> present_;
+  RecentPairs pairs_;
+  SensorCorrection::Vector at_ = SensorCorrection::Vector::Zero();  // of the linearisation
+  CorrectionEstimate estimate_;
+  CorrectionEstimate applied_;  // the one of present()
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "msc_vo/camera/camera_intrinsics.h"
+#include "msc_vo/map/map.h"
+#include "msc_vo/self_calibration/pair_linearization.h"
+#include "msc_vo/sensor/rgbd_image.h"
+#include "msc_vo/sensor/stored_depth.h"
+
+namespace msc_vo {
+
+/// A tracked image for self-calibration.
+struct CalibrationImage {
+  std::shared_ptr<const Frame> frame;
+  cv::Mat depth;  ///< CV_32FC1, metres, as recorded; 0: no measurement
+  /// Its pose relative to a keyframe.
+  KeyframeId reference = kNoId;
+  Rigid3 cam_from_reference;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    StoredDepth stored(depth);
+    archive.Fields(*this, frame, stored, reference, cam_from_reference);
+    depth = stored.Image();
+  }
+};
+
+/// Points that recent images have in common with keyframes, for self-calibration during a run. They
+/// refer to the recorded images, so that they stay valid when the calibration changes.
+class RecentPairs {
+ public:
+  /// `given`: the calibration that corrections refer to.
+  explicit RecentPairs(const CameraIntrinsics& given);
+
+  /// Forms a pair of the image with the keyframe that tells most about the calibration. All frames
+  /// must know their intrinsics.
+  void AddImage(const Map& map, const CalibrationImage& image, const SensorCorrection::Vector& at);
+  /// The same for a keyframe of the map, with which later images form pairs.
+  void AddKeyframe(const Map& map, KeyframeId id, const cv::Mat& depth,
+                   const SensorCorrection::Vector& at);
+  void Clear();
+
+  /// Linearises those pairs again that were linearised farthest from `at`, in units of `sigma`, at
+  /// most `max_pairs`, and only if they were linearised half a sigma away.
+  void Relinearize(const SensorCorrection::Vector& at, const SensorCorrection::Vector& sigma,
+                   size_t max_pairs);
+  /// Sum over all pairs. `readout_sigma` (seconds): uncertainty of the readout time of a rolling
+  /// shutter.
+  CalibrationInformation Sum(double readout_sigma) const;
+  size_t size() const { return pairs_.size(); }
+
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [camera, views, pairs] = *this;  // all members, or it does not compile
+    archive(views, pairs);
+  }
+
+ private:
+  // Variances of the error that the points of an image have in common.
+  struct CommonError {
+    double variance = 0.0;    // pixels^2, with a known readout time
+    double by_readout = 0.0;  // pixels^2 / seconds^2, times the variance of the readout time
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, variance, by_readout);
+    }
+  };
+  // A point of a keyframe.
+  struct Sample {
+    int feature = 0;
+    RgbdPairReprojection::View view;
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, feature, view);
+    }
+  };
+  struct KeyframeView {
+    KeyframeId id = kNoId;
+    std::vector<Sample> samples;
+    CommonError error;
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, id, samples, error);
+    }
+  };
+  struct Pair {
+    std::vector<CalibrationPoint> points;
+    Rigid3 b_from_a;
+    CommonError error;
+    SensorCorrection::Vector at = SensorCorrection::Vector::Zero();
+    std::optional<CalibrationInformation> information;
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, points, b_from_a, error, at, information);
+    }
+  };
+  // The image that pairs are formed with.
+  struct Partner {
+    const Frame* frame;
+    cv::Mat depth;
+    Rigid3 cam_from_world;
+    CommonError error;
+  };
+
+  // Adds the pair of the image with the best keyframe.
+  static CommonError ErrorOf(const Frame& frame);
+  void AddPair(const Map& map, const Partner& partner, const SensorCorrection::Vector& at);
+  std::optional<Pair> MakePair(const Map& map, const KeyframeView& view, const Partner& partner,
+                               const SensorCorrection::Vector& at) const;
+  void Linearize(const SensorCorrection::Vector& at, Pair* pair) const;
+
+  CorrectedCamera camera_;
+  std::deque<KeyframeView> views_;
+  std::deque<Pair> pairs_;
+};
+
+}  // namespace msc_vo

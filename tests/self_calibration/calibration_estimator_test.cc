@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/self_calibration/calibration_estimator.h"
+
+#include <memory>
+
+#include "tests/self_calibration/simulated_camera.h"
+#include <gtest/gtest.h>
+
+#include "msc_vo/self_calibration/keyframe_intrinsics.h"
+
+namespace msc_vo {
+namespace {
+
+using S = SensorCorrection;
+
+// A run whose keyframes have the given poses.
+class SimulatedRun {
+ public:
+  explicit SimulatedRun(const S::Vector& truth) : camera_(truth, 1), estimator_(camera_.given()) {}
+
+  // Adds a keyframe. Returns true if the calibration in use has changed.
+  bool Add(const Rigid3& cam_from_world) {
+    const auto [frame, depth] = camera_.Record(cam_from_world);
+    const KeyframeId id = map_.AddKeyframe(frame, cam_from_world);
+    ChangeKeyframeIntrinsics(estimator_.present(), &map_);
+    return estimator_.Update(map_, id, depth, {}, 0.0);
+  }
+  void AddKeyframes(int count) {
+    for (int i = 0; i < count; ++i) num_changes_ += Add(SimulatedCamera::PoseOf(i)) ? 1 : 0;
+  }
+
+  int num_changes() const { return num_changes_; }
+  const SimulatedCamera& camera() const { return camera_; }
+  const CalibrationEstimator& estimator() const { return estimator_; }
+
+ private:
+  SimulatedCamera camera_;
+  CalibrationEstimator estimator_;
+  Map map_;
+  int num_changes_ = 0;
+};
+
+TEST(CalibrationEstimator, KeepsARightCalibration) {
+  SimulatedRun run(S::Vector::Zero());
+  run.AddKeyframes(14);
+  EXPECT_EQ(run.num_changes(), 0);
+  EXPECT_EQ(run.estimator().present(), run.camera().given());
+  EXPECT_FALSE(run.estimator().estimate().IsCorrected());
+  EXPECT_LT(run.estimator().estimate().sigma(S::kFocalLength),
+            0.5 * WrongCalibrationSigma()(S::kFocalLength));
+}
+
+TEST(CalibrationEstimator, AcceptsAnotherFocalLengthOnce) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kFocalLength) = -0.05;
+  SimulatedRun run(truth);
+  run.AddKeyframes(28);
+  const CorrectionEstimate& estimate = run.estimator().estimate();
+  EXPECT_TRUE(estimate.is_corrected[0]);
+  EXPECT_FALSE(estimate.is_corrected[3]);
+  EXPECT_GE(run.num_changes(), 1);
+  EXPECT_LE(run.num_changes(), 3);
+  EXPECT_NEAR(estimate.correction(S::kFocalLength), -0.05, 0.005);
+  EXPECT_NEAR(run.estimator().present()->camera.fx, std::exp(-0.05) * kGiven.fx, 0.01 * kGiven.fx);
+}
+
+TEST(CalibrationEstimator, AcceptsTheDistortionOfALens) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kK1) = -0.1;
+  SimulatedRun run(truth);
+  run.AddKeyframes(14);
+  const CorrectionEstimate& estimate = run.estimator().estimate();
+  EXPECT_TRUE(estimate.is_corrected[2]);
+  EXPECT_NEAR(run.estimator().present()->distortion.k[0], -0.1, 0.01);
+}
+
+TEST(CalibrationEstimator, AcceptsNothingThatAPathDoesNotTell) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kFocalLength) = -0.03;
+  SimulatedRun run(truth);
+  for (int i = 0; i < 6; ++i) EXPECT_FALSE(run.Add(Rigid3()));
+  EXPECT_GT(run.estimator().estimate().sigma(S::kFocalLength),
+            0.9 * WrongCalibrationSigma()(S::kFocalLength));
+}
+
+TEST(KeyframeIntrinsics, MovesFeaturesAndLandmarksTogether) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kFocalLength) = 0.03;
+  truth(S::kK1) = -0.1;
+  SimulatedCamera camera(truth, 1);
+  const auto [frame, depth] = camera.Record(Rigid3());
+  Map map;
+  const KeyframeId id = map.AddKeyframe(frame, Rigid3());
+  const LandmarkId point = map.AddPoint(id, 0, frame->PointInCamera(0));
+  const auto corrected = std::make_shared<CameraIntrinsics>(Corrected(*camera.given(), truth));
+  ChangeKeyframeIntrinsics(corrected, &map);
+  const Frame& changed = *map.FindKeyframe(id)->frame;
+  EXPECT_EQ(changed.intrinsics, corrected);
+  const Eigen::Vector3d position = map.FindPoint(point)->position;
+  EXPECT_TRUE(position.isApprox(changed.PointInCamera(0), 1e-9));
+  // The simulated camera has the corrected calibration: the point projects to its recorded pixel.
+  const CorrectedCamera recorded(kGiven, LensDistortion());
+  const Eigen::Vector2d pixel =
+      recorded.Pixel<double>(Eigen::Vector2d(position.head<2>() / position.z()), truth.data());
+  EXPECT_LT((pixel - frame->points[0].pixel).norm(), 1e-6);
+}
+
+}  // namespace
+}  // namespace msc_vo
