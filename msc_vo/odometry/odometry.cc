@@ -16,6 +16,7 @@
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/event_log.h"
 #include "msc_vo/odometry/gap_filling.h"
+#include "msc_vo/odometry/map_result.h"
 #include "msc_vo/odometry/mapping_runner.h"
 #include "msc_vo/odometry/pose_correction.h"
 #include "msc_vo/odometry/segment_log.h"
@@ -60,12 +61,6 @@ void CountVisible(const std::vector<LandmarkId>& ids, std::map<LandmarkId, Track
   }
 }
 
-MapAxes MakeAxes(const SceneAxes& scene) {
-  const AxesEstimator& axes = scene.estimator();
-  return {axes.state(), axes.num_refinements(), axes.world_from_axes(), axes.sigma(),
-          scene.deviation().scale()};
-}
-
 }  // namespace
 
 struct Odometry::State {
@@ -99,7 +94,6 @@ struct Odometry::State {
   void Record(int frame, const MappingStep& step);
   void UseIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics);
   std::shared_ptr<const Frame> Recalibrated(std::shared_ptr<const Frame> frame);
-  void AddMap(OdometryResult* result) const;
 
   // Everything that later results depend on, except what the options determine. The snapshot of the
   // last frame is not needed between two frames.
@@ -265,25 +259,6 @@ std::shared_ptr<const Frame> Odometry::State::Recalibrated(std::shared_ptr<const
   return ChangeIntrinsics(std::move(frame), snapshot->intrinsics);
 }
 
-// Adds the map of the segments of `result->map_world`.
-void Odometry::State::AddMap(OdometryResult* result) const {
-  const Map* map = mapper.atlas().FindMapOf(segments.FirstKeyframe(result->map_world));
-  if (map == nullptr) return;
-  const SceneAxes& scene_axes = mapper.AxesOf(*map);
-  for (const auto& [id, keyframe] : map->keyframes()) {
-    result->keyframes.push_back({keyframe.frame->timestamp, keyframe.cam_from_world.Inverse()});
-  }
-  for (const auto& [id, point] : map->points()) {
-    result->points.push_back({point.position, static_cast<int>(point.observations.size())});
-  }
-  for (const auto& [id, line] : map->lines()) {
-    result->lines.push_back({line.segment, static_cast<int>(line.observations.size()),
-                             mapper.last_window_lines().count(id) > 0, scene_axes.AxisOf(line),
-                             line.viewing_direction});
-  }
-  result->axes = MakeAxes(scene_axes);
-}
-
 Odometry::Odometry(const OdometryOptions& options, const PinholeCamera& camera,
                    const LensDistortion& distortion)
     : state_(std::make_unique<State>(options, camera, distortion)) {}
@@ -403,7 +378,7 @@ OdometryResult Odometry::Finish() {
   FillGaps(result.segments, &result.frames);
   state_->segments.PropagateCovariances(&result.frames);
   result.map_world = LargestWorld(result.segments);
-  state_->AddMap(&result);
+  AddMap(state_->mapper, state_->segments.FirstKeyframe(result.map_world), &result);
   result.noise_scale = state_->mapper.noise().scale();
   result.depth_sensor = state_->builder.depth_sensor();
   result.readout_time = state_->mapper.readout().readout_time();
