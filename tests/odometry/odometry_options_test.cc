@@ -20,15 +20,15 @@ TEST(EffectiveOptions, DisableWhatTheModeDoesNotInclude) {
   options.mode = Mode::kPlVo;
   const OdometryOptions pl_vo = EffectiveOptions(options);
   EXPECT_EQ(pl_vo.features.line_depth, LineDepthMethod::kEndPoints);
-  EXPECT_FALSE(pl_vo.mapping.RefinesFrames());
+  EXPECT_FALSE(pl_vo.mapping.frame_structure);
   EXPECT_FALSE(pl_vo.mapping.axes.enabled);
   options.mode = Mode::kPlVoDepth;
   const OdometryOptions pl_vo_depth = EffectiveOptions(options);
   EXPECT_EQ(pl_vo_depth.features.line_depth, LineDepthMethod::kRobustFit);
-  EXPECT_TRUE(pl_vo_depth.mapping.RefinesFrames());
+  EXPECT_TRUE(pl_vo_depth.mapping.frame_structure);
   EXPECT_FALSE(pl_vo_depth.mapping.pairs.parallel);
   options.mode = Mode::kMscVo;
-  EXPECT_FALSE(EffectiveOptions(options).mapping.RefinesFrames());
+  EXPECT_TRUE(EffectiveOptions(options).mapping.frame_structure);
   EXPECT_TRUE(EffectiveOptions(options).mapping.axes.enabled);
 }
 
@@ -39,7 +39,7 @@ TEST(EffectiveOptions, ShareSettingsBetweenComponents) {
   options.mapping.window.line_depth = {false, 1.5};
   options.mapping.window.reject_chi2_2 = 7.0;
   options.mapping.window.manhattan.huber = 1.25;
-  options.mapping.pairs.pair_sigma = 0.25;
+  options.mapping.pairs.max_partners = 3;
   const OdometryOptions effective = EffectiveOptions(options);
   EXPECT_EQ(effective.mapping.fusion.point_matcher.max_distance, 33);
   EXPECT_EQ(effective.mapping.fusion.line_matcher.max_angle, 3.0);
@@ -48,8 +48,7 @@ TEST(EffectiveOptions, ShareSettingsBetweenComponents) {
   EXPECT_EQ(effective.tracking.pose.reject_chi2_2, 7.0);
   EXPECT_EQ(effective.mapping.axes.refinement.reject_chi2_2, 7.0);
   EXPECT_EQ(effective.mapping.axes.refinement.huber, 1.25);
-  EXPECT_EQ(effective.mapping.structure.pair_sigma, 0.25);
-  EXPECT_EQ(effective.mapping.axes.deviation, 0.25);
+  EXPECT_EQ(effective.mapping.structure.max_partners, 3);
 }
 
 TEST(NormalOptions, HaveTheDepthRangeOfTheFeatures) {

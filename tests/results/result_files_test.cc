@@ -204,11 +204,11 @@ TEST_F(ResultFilesTest, WritesTheOptionsInEffect) {
   WriteResultFiles(Path("out"), Result(), context);
   const nlohmann::json summary = nlohmann::json::parse(ReadFile(Path("out/summary.json")));
   EXPECT_EQ(summary["options"]["mapping.axes.enabled"], false);
-  EXPECT_EQ(summary["options"]["mapping.frame_structure"], "never");
+  EXPECT_EQ(summary["options"]["mapping.frame_structure"], false);
   EXPECT_EQ(summary["options"]["features.line_depth"], "end-points");
   const std::string report = ReadFile(Path("out/report.html"));
   EXPECT_THAT(report, HasSubstr("line_depth: end-points"));
-  EXPECT_THAT(report, HasSubstr("frame_structure: never"));
+  EXPECT_THAT(report, HasSubstr("frame_structure: false"));
 }
 
 TEST_F(ResultFilesTest, ReportsAFileInPlaceOfTheFolder) {
