@@ -27,8 +27,8 @@ namespace msc_vo {
 ///
 /// A class takes part with one member function that lists its state for both directions:
 ///
-///   template <typename Archive>
-///   void Serialize(Archive& archive) { archive(count_, poses_); }
+///     template <typename Archive>
+///     void Serialize(Archive& archive) { archive(count_, poses_); }
 ///
 /// Plain structs call archive.Fields(*this, ...), which compiles only if no field is missing. What
 /// a shared pointer points to must not change any more: it goes to the journal, once however many

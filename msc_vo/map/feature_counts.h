@@ -10,10 +10,6 @@ namespace msc_vo {
 /// Points and lines with a depth.
 int NumWithDepth(const Frame& frame);
 
-/// Points that constrain a pose as much as a line does. A line with a depth constrains four of the
-/// six degrees of freedom, a point without depth two.
-constexpr int kPointsPerLine = 2;
-
 /// Whether a map can begin with the frame: it has at least `min_features` points and lines with a
 /// depth, or five lines with a depth in two directions, which determine a pose without any point.
 bool CanBeginMap(const Frame& frame, int min_features);

@@ -150,6 +150,8 @@ void ListAxisAssociation(AxisAssociationOptions* association, OptionLister* list
             "Largest angle between a line and its axis.");
   list->Add("max_sigma", &association->max_sigma, {0.01, 90, "degrees"},
             "Largest standard deviation of the direction of a line on an axis.");
+  list->Add("min_probability", &association->min_probability, {0, 1},
+            "Smallest probability of a line near an axis not to be there by chance.");
 }
 
 void ListAxesRefinement(ManhattanAxesOptions* refinement, OptionLister* list) {

@@ -97,7 +97,8 @@ void ListSegments(SegmentOptions* segments, OptionLister* list) {
 
 void ListStatus(TrackerOptions* tracking, OptionLister* list) {
   list->Add("min_matches", &tracking->min_matches, {3, 10000, "matches"},
-            "Smallest number of inliers of a pose; a line counts as two points.")
+            "Smallest number of inliers of a pose, points and lines together; lines count twice in "
+            "images with fewer points than this.")
       .MakeBasic("Decrease for scenes with little texture, at the risk of wrong poses.");
   list->Add("max_prediction", &tracking->max_prediction, {0, 60, "seconds"},
             "Longest gap that is bridged by constant velocity before a frame is lost.")

@@ -16,6 +16,8 @@ bool AxisAssociationOptions::IsValid(std::string* error) const {
     *error = "max_angle must lie between 0 and 45 degrees: a line has one axis at most";
   } else if (!(max_sigma > 0.0)) {
     *error = "max_sigma must be positive (degrees)";
+  } else if (!(min_probability >= 0.0 && min_probability <= 1.0)) {
+    *error = "min_probability must lie in [0, 1]";
   } else {
     return true;
   }

@@ -22,9 +22,11 @@ struct AxisAssociationOptions {
   /// Largest angle between a line and its axis, degrees. Random directions are within 5 degrees of
   /// an axis with a probability of 1 %.
   double max_angle = 5.0;
-  /// Largest standard deviation of a line's direction, degrees: a line that is 2.5 sigmas off still
-  /// passes the test of the angle.
-  double max_sigma = 2.0;
+  /// Largest standard deviation of a line's direction, degrees. Less certain lines would pass the
+  /// angle test by chance.
+  double max_sigma = 5.0;
+  /// Smallest probability of a line near an axis not to be there by chance.
+  double min_probability = 0.5;
 
   bool IsValid(std::string* error) const;
 };

@@ -9,6 +9,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "msc_vo/structure/internal/relation_mixture.h"
+
 namespace msc_vo {
 
 namespace {
@@ -136,16 +138,34 @@ void SceneAxes::Refine() {
 
 void SceneAxes::AddAlignments(WindowData* window) const {
   if (estimator_.state() != AxesState::kRefined) return;
-  const Eigen::Matrix3d axes = estimator_.world_from_axes().toRotationMatrix();
-  const double max_chi_square = options_.association.max_sigmas * options_.association.max_sigmas;
+  struct Candidate {
+    size_t line;
+    AxisCandidate near;
+  };
+  std::vector<Candidate> candidates;
+  std::vector<double> densities;
   const std::vector<std::optional<DirectionEstimate>> estimates = EstimateDirections(*window);
   for (size_t i = 0; i < estimates.size(); ++i) {
     if (!estimates[i]) continue;
-    const std::optional<AxisCandidate> candidate = NearestAxis(*estimates[i]);
-    if (!candidate || deviation_.ChiSquare(candidate->deviation) > max_chi_square) continue;
-    const double sigma = std::hypot(estimator_.sigma(), deviation_.Sigma(candidate->deviation));
-    window->axis_alignments.push_back(
-        {window->lines[i].id, axes.col(candidate->axis), sigma, false});
+    const std::optional<AxisCandidate> near = NearestAxis(*estimates[i]);
+    if (!near) continue;
+    candidates.push_back({i, *near});
+    densities.push_back(deviation_.Density(near->deviation));
+  }
+  const AxisAssociationOptions& options = options_.association;
+  const double radius = DegreesToRadians(options.max_angle);
+  const std::vector<double> probabilities =
+      RelationProbabilities(densities, 1.0 / (kPi * radius * radius));
+  const Eigen::Matrix3d axes = estimator_.world_from_axes().toRotationMatrix();
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    const auto& [line, near] = candidates[i];
+    if (probabilities[i] < options.min_probability ||
+        deviation_.ChiSquare(near.deviation) > options.max_sigmas * options.max_sigmas) {
+      continue;
+    }
+    const double deviation = deviation_.Sigma(near.deviation) / std::sqrt(probabilities[i]);
+    window->axis_alignments.push_back({window->lines[line].id, axes.col(near.axis),
+                                       std::hypot(estimator_.sigma(), deviation), false});
   }
 }
 

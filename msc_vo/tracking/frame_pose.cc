@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "msc_vo/geometry/angles.h"
-#include "msc_vo/map/feature_counts.h"
 
 namespace msc_vo {
 
@@ -161,13 +160,22 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
   return summary;
 }
 
+// A line with a depth constrains four of the six degrees of freedom, a point without depth two.
+constexpr int kPointsPerLine = 2;
+
+int NumMatches(const TrackerOptions& options, const Frame& frame, size_t num_points,
+               size_t num_lines) {
+  const bool has_points = frame.points.size() >= static_cast<size_t>(options.min_matches);
+  return static_cast<int>(num_points + (has_points ? 1 : kPointsPerLine) * num_lines);
+}
+
 bool HasEnoughInliers(const TrackerOptions& options, const TrackedFrame& tracked) {
   const int num_inliers = tracked.pose.num_inlier_points + tracked.pose.num_inlier_lines;
   const int num_matches =
       static_cast<int>(tracked.matches.points.size() + tracked.matches.lines.size());
   const int num_static = num_matches - tracked.pose.num_dynamic;
-  const int support =
-      tracked.pose.num_inlier_points + kPointsPerLine * tracked.pose.num_inlier_lines;
+  const int support = NumMatches(options, *tracked.frame, tracked.pose.num_inlier_points,
+                                 tracked.pose.num_inlier_lines);
   return tracked.pose.usable && support >= options.min_matches &&
          num_inliers >= options.min_inlier_ratio * num_static;
 }

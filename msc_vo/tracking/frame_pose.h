@@ -33,6 +33,12 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
                               const NoiseScale& scale, const std::vector<PoseFactor>& factors,
                               Rigid3* cam_from_world, FrameMatches* matches);
 
+/// Number of matches for comparison with options.min_matches. Lines count twice in an image that
+/// has fewer points than that: in others, a pose by a few lines and no point would be one by
+/// chance.
+int NumMatches(const TrackerOptions& options, const Frame& frame, size_t num_points,
+               size_t num_lines);
+
 /// Whether enough of the matches of `tracked` are inliers of its pose.
 bool HasEnoughInliers(const TrackerOptions& options, const TrackedFrame& tracked);
 

@@ -56,11 +56,6 @@ void AdoptKeyframe(const Keyframe& keyframe, TrackedFrame* tracked) {
   }
 }
 
-// Lines count as often as the points that constrain a pose as much.
-int NumMatches(const FrameMatches& matches) {
-  return static_cast<int>(matches.points.size() + kPointsPerLine * matches.lines.size());
-}
-
 // Options for the initial pose, which the local map is projected with. The pose is optimised again
 // with the local map, so that the robust rounds suffice here.
 PoseOptions InitialPoseOptions(PoseOptions options) {
@@ -200,8 +195,8 @@ bool Tracker::HasLeftMap(const Map& map, const TrackedFrame& tracked) const {
     return false;
   }
   const LocalMap visible = SelectVisibleLandmarks(map, *tracked.frame, tracked.cam_from_world);
-  const size_t num_visible = visible.points.size() + kPointsPerLine * visible.lines.size();
-  return num_visible < static_cast<size_t>(options_.min_matches);
+  return NumMatches(options_, *tracked.frame, visible.points.size(), visible.lines.size()) <
+         options_.min_matches;
 }
 
 bool Tracker::TrackLastFrame(const Map& map, const Rigid3& prediction, double radius,
@@ -278,7 +273,10 @@ bool Tracker::TrackLocalMap(const Map& map, TrackedFrame* tracked) const {
 
 bool Tracker::EstimatePose(const PoseOptions& options, const Map& map,
                            TrackedFrame* tracked) const {
-  if (NumMatches(tracked->matches) < options_.min_matches) return false;
+  if (NumMatches(options_, *tracked->frame, tracked->matches.points.size(),
+                 tracked->matches.lines.size()) < options_.min_matches) {
+    return false;
+  }
   Stopwatch stopwatch;
   const Rigid3 start = tracked->cam_from_world;
   tracked->pose = EstimateFramePose(options, *tracked->frame, map, tracked->noise_scale,

@@ -50,8 +50,8 @@ struct TrackerOptions {
   /// Largest number of keyframes whose landmarks form the local map.
   int max_local_keyframes = 30;
 
-  /// Smallest number of inlier matches of a pose; a line counts as kPointsPerLine points. Six rows
-  /// determine a pose; ten points exclude a consensus of random ones.
+  /// Smallest number of inlier matches of a pose, points and lines together (NumMatches). Six rows
+  /// determine a pose; ten matches exclude a consensus of random ones.
   int min_matches = 10;
   /// Smallest fraction of inliers among all matches except those on dynamic objects.
   double min_inlier_ratio = 0.3;
