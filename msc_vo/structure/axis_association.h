@@ -26,7 +26,7 @@ struct AxisAssociationOptions {
   /// angle test by chance.
   double max_sigma = 5.0;
   /// Smallest probability of a line near an axis not to be there by chance.
-  double min_probability = 0.5;
+  double min_probability = 0.8;
 
   bool IsValid(std::string* error) const;
 };
