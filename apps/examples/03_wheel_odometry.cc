@@ -58,8 +58,7 @@ class Wheels {
   const msc_vo::SimulatedCamera& camera_;
   std::vector<Rigid3> poses_;  // cam_from_start
   double scale_ = 1.0;
-  // The norm of six rows of unit variance is sqrt(6) where no wheel slips.
-  std::shared_ptr<ceres::LossFunction> loss_ = std::make_shared<ceres::CauchyLoss>(2.45);
+  std::shared_ptr<ceres::LossFunction> loss_{new ceres::CauchyLoss(2.45)};  // sqrt(6) rows
 };
 
 }  // namespace
