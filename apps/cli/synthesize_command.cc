@@ -40,6 +40,7 @@ struct Arguments {
   std::string noise = "none";
   std::string sensor;  // empty: that of `noise`
   int frames = 260;
+  int stride = 1;
   int height = 0;  // pixels; 0: three quarters of the width
   ColorEncoding encoding;
   bool overwrite = false;
@@ -164,6 +165,7 @@ SyntheticDepth DepthOf(const Arguments& arguments) {
 int Run(const Arguments& arguments) {
   SyntheticSequenceOptions options = arguments.options;
   options.scene = *SceneKindFromName(arguments.scene);
+  options.fps /= arguments.stride;
   options.height = arguments.height > 0 ? arguments.height : options.width * 3 / 4;
   options.depth = DepthOf(arguments);
   options.depth_rig = MakeRig(arguments.rig);
@@ -282,7 +284,7 @@ Command AddSynthesizeCommand(CLI::App* app) {
                                           "true edges");
   command->add_option("out_dir", arguments->folder, "Folder to write")->required();
   command->add_option("--scene", arguments->scene, "Scene to render")
-      ->check(CLI::IsMember({"room", "corridor", "bare", "slanted", "house"}))
+      ->check(CLI::IsMember({"room", "corridor", "bare", "slanted", "house", "box"}))
       ->capture_default_str();
   command->add_option("--frames", arguments->frames, "Number of frames")
       ->check(CLI::Range(1, 1000000))
@@ -298,6 +300,11 @@ Command AddSynthesizeCommand(CLI::App* app) {
   command->add_option("--height", arguments->height,
                       "Image height, pixels; default: 3/4 of the width");
   command->add_option("--fps", arguments->options.fps, "Frames per second")->capture_default_str();
+  command
+      ->add_option("--stride", arguments->stride,
+                   "Write every STRIDE-th image of the path only, as a slower camera would")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   command
       ->add_option("--speed", arguments->options.path.speed, "Speed of the camera, metres/second")
       ->capture_default_str();

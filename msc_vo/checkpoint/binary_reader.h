@@ -105,10 +105,10 @@ class BinaryReader {
   }
   void Get(std::vector<bool>& values) {
     values.resize(GetSize());
-    for (size_t i = 0; i < values.size(); ++i) {
-      bool value = false;
-      Get(value);
-      values[i] = value;
+    for (std::vector<bool>::reference value : values) {
+      bool stored = false;
+      Get(stored);
+      value = stored;
     }
   }
   template <typename T>

@@ -61,7 +61,7 @@ std::string CheckedContents(const std::string& path, const std::string& bytes) {
     Fail(path, "has format " + std::to_string(header.format) + ", and this program reads format " +
                    std::to_string(kFormat) + ": it is of another version of msc_vo");
   }
-  const std::string contents = bytes.substr(sizeof(header));
+  std::string contents = bytes.substr(sizeof(header));
   if (contents.size() < header.num_bytes) {
     Fail(path, "is truncated: it has " + Counts(contents.size(), header.num_bytes));
   }

@@ -38,11 +38,9 @@ int ClosestAfter(const std::vector<double>& values, int from, double target) {
   const auto first = values.begin() + from + 1;
   if (first == values.end()) return -1;
   auto closest = std::lower_bound(first, values.end(), target);
-  if (closest == values.end()) {
-    --closest;
-  } else if (closest != first && target - *(closest - 1) <= *closest - target) {
-    --closest;
-  }
+  const bool lower_is_closer =
+      closest == values.end() || (closest != first && target - *(closest - 1) <= *closest - target);
+  if (lower_is_closer) --closest;
   return static_cast<int>(closest - values.begin());
 }
 

@@ -14,7 +14,9 @@ std::shared_ptr<const Frame> ChangeIntrinsics(
   moved->camera = intrinsics->camera;
   if (moved->lens) moved->lens = intrinsics->distortion;
   if (from.distortion.IsZero() && intrinsics->distortion.IsZero()) return moved;
-  const auto move = [&](Eigen::Vector2d pixel) { return MovePixel(from, *intrinsics, pixel); };
+  const auto move = [&](const Eigen::Vector2d& pixel) {
+    return MovePixel(from, *intrinsics, pixel);
+  };
   for (PointFeature& point : moved->points) point.pixel = move(point.pixel);
   for (LineFeature& line : moved->lines) {
     line.segment.start = move(line.segment.start);

@@ -119,8 +119,8 @@ void Mapper::BeginMap(bool keep_last) {
 
 std::optional<MapJoin> Mapper::JoinMaps() {
   const KeyframeId current = map().keyframes().front().first;
-  const std::optional<MapJoin> join = joiner_.TryJoin(&atlas_);
-  if (!join) return join;
+  std::optional<MapJoin> join = joiner_.TryJoin(&atlas_);
+  if (!join) return std::nullopt;
   // Axes of the other world are searched again rather than turned: the joined map has more lines.
   const auto inactive = inactive_axes_.find(join->kept == current ? join->moved : join->kept);
   if (join->kept != current) axes_ = inactive->second;

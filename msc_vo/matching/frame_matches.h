@@ -38,6 +38,10 @@ struct LineMatch {
   }
 };
 
+/// A line with a depth constrains four of the six degrees of freedom of a pose, a point without
+/// depth two: a line counts as so many points.
+constexpr int kPointsPerLine = 2;
+
 /// The matches of one frame; each feature occurs at most once.
 struct FrameMatches {
   std::vector<PointMatch> points;

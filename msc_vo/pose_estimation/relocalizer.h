@@ -15,26 +15,30 @@ struct RelocalizerOptions {
   /// Bits between descriptors; stricter than for matching by projection, where the predicted
   /// position excludes most wrong candidates.
   int max_distance = 64;
-  double max_ratio = 0.8;  ///< best over second best descriptor distance
-  /// RANSAC iterations: with 30 % inliers, 200 triples contain a clean one with 99.6 % probability.
+  double max_ratio = 0.8;  ///< best over second best descriptor distance, of points
+  /// Triples of points: with 30 % inliers, 200 contain a clean one with 99.6 % probability.
   int max_iterations = 200;
-  int min_inliers = 12;  ///< more than chance yields among some hundred wrong matches
-  /// Reprojection error of an inlier, sigmas: square root of the 99 % quantile of chi-square with
-  /// two degrees of freedom.
-  double inlier_sigmas = 3.035;
+  /// Points, and twice the lines, that support a pose: more than chance yields among some hundred
+  /// wrong matches.
+  int min_inliers = 12;
+  /// Reprojection error of an inlier, degrees: the error of a rotation from two lines or three
+  /// points, whose depths are noisy. 9 pixels at a focal length of 525.
+  double max_angle = 1.0;
 
   bool IsValid(std::string* error) const;
 };
 
 struct Relocalization {
   Rigid3 cam_from_world;
-  FrameMatches matches;  ///< with landmarks; all of them are inliers
+  FrameMatches matches;  ///< inliers only
+  /// Support by the matches: each point counts one at most, less with a larger error, and each line
+  /// kPointsPerLine.
+  double score = 0.0;
 };
 
-/// Finds the pose of `frame` from the landmarks of one keyframe without a prediction: descriptor
-/// matching, then RANSAC over triples of 3-D/3-D correspondences, scored by reprojection.
-/// Deterministic: the random numbers are seeded with the frame's id. Returns std::nullopt if too
-/// few correspondences agree.
+/// Finds the pose of `frame` from the landmarks of one keyframe without a prediction (FindPoses).
+/// Returns std::nullopt if too few features agree, or if about as many agree with another pose, as
+/// on a box that looks alike from two sides.
 std::optional<Relocalization> Relocalize(const RelocalizerOptions& options, const Frame& frame,
                                          const Map& map, const Keyframe& keyframe);
 

@@ -160,9 +160,6 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
   return summary;
 }
 
-// A line with a depth constrains four of the six degrees of freedom, a point without depth two.
-constexpr int kPointsPerLine = 2;
-
 int NumMatches(const TrackerOptions& options, const Frame& frame, size_t num_points,
                size_t num_lines) {
   const bool has_points = frame.points.size() >= static_cast<size_t>(options.min_matches);

@@ -12,6 +12,7 @@
 #include "msc_vo/map/frame_intrinsics.h"
 #include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/matching/local_map.h"
+#include "msc_vo/pose_estimation/pose_search.h"
 #include "msc_vo/timing/stopwatch.h"
 #include "msc_vo/tracking/dynamic_features.h"
 #include "msc_vo/tracking/frame_compensation.h"
@@ -61,6 +62,25 @@ void AdoptKeyframe(const Keyframe& keyframe, TrackedFrame* tracked) {
 PoseOptions InitialPoseOptions(PoseOptions options) {
   options.num_rounds = std::max(1, options.num_robust_rounds);
   return options;
+}
+
+// Poses of a search without a prediction that are tried.
+constexpr int kMaxSearchPoses = 5;
+// Fraction of the matches that support a pose beyond doubt. A pose by chance, among matches of
+// noise within the search radius, has less.
+constexpr double kClearSupport = 0.5;
+// Support of a pose relative to that near the prediction above which it replaces it: more than what
+// two estimates of the same pose differ by.
+constexpr double kClearlyBetter = 1.5;
+
+// Support of a pose by its inliers.
+double Support(const PoseSummary& pose) {
+  return pose.num_inlier_points + kPointsPerLine * pose.num_inlier_lines;
+}
+
+bool IsClear(const TrackedFrame& tracked) {
+  const size_t all = tracked.matches.points.size() + kPointsPerLine * tracked.matches.lines.size();
+  return Support(tracked.pose) >= kClearSupport * static_cast<double>(all);
 }
 
 }  // namespace
@@ -174,9 +194,46 @@ Tracker::Prediction Tracker::Predict(const Map& map, const Rigid3& last_from_wor
 bool Tracker::TrackInitialPose(const Map& map, const Prediction& prediction,
                                TrackedFrame* tracked) {
   const Rigid3& pose = prediction.cam_from_world;
-  return TrackLastFrame(map, pose, options_.prediction_radius, tracked) ||
-         TrackLastFrame(map, pose, options_.wide_radius, tracked) ||
-         TrackMapAround(map, prediction, tracked) || Relocalize(map, tracked);
+  const bool is_near = TrackLastFrame(map, pose, options_.prediction_radius, tracked);
+  if (is_near && IsClear(*tracked)) return true;
+  TrackedFrame far;
+  far.frame = tracked->frame;
+  far.noise_scale = tracked->noise_scale;
+  far.times = tracked->times;
+  if (TrackLargeMotion(map, pose, &far) &&
+      (!is_near || Support(far.pose) > kClearlyBetter * Support(tracked->pose))) {
+    *tracked = far;
+    return true;
+  }
+  tracked->times = far.times;
+  return is_near || TrackMapAround(map, prediction, tracked) || Relocalize(map, tracked);
+}
+
+bool Tracker::TrackLargeMotion(const Map& map, const Rigid3& prediction,
+                               TrackedFrame* tracked) const {
+  std::vector<Rigid3> poses;
+  Stopwatch stopwatch;
+  const Rigid3 last_from_world = CamFromWorld(map, last_);
+  const LocalMap last = CandidatesFromFrame(map, last_, last_from_world, last_from_world);
+  for (const Relocalization& found :
+       FindPoses(options_.relocalizer, *tracked->frame, last, kMaxSearchPoses)) {
+    poses.push_back(found.cam_from_world);
+  }
+  tracked->times.matching += stopwatch.Milliseconds();
+
+  std::optional<TrackedFrame> best;
+  const auto try_pose = [&](const Rigid3& pose, double radius) {
+    TrackedFrame attempt = *tracked;
+    const bool found = TrackLastFrame(map, pose, radius, &attempt);
+    tracked->times = attempt.times;
+    if (found && (!best || Support(attempt.pose) > Support(best->pose))) best = attempt;
+  };
+  try_pose(prediction, options_.wide_radius);
+  for (const Rigid3& pose : poses) try_pose(pose, options_.prediction_radius);
+  if (!best) return false;
+  best->times = tracked->times;
+  *tracked = *best;
+  return true;
 }
 
 void Tracker::BridgeWithPrediction(const Map& map, const Prediction& prediction,

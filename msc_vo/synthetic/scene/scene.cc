@@ -63,6 +63,7 @@ std::optional<SceneKind> SceneKindFromName(const std::string& name) {
   if (name == "bare") return SceneKind::kBare;
   if (name == "slanted") return SceneKind::kSlanted;
   if (name == "house") return SceneKind::kHouse;
+  if (name == "box") return SceneKind::kBox;
   return std::nullopt;
 }
 
@@ -78,6 +79,8 @@ Scene MakeScene(SceneKind kind, uint64_t seed) {
       return MakeSlanted(seed);
     case SceneKind::kHouse:
       return MakeHouse(seed);
+    case SceneKind::kBox:
+      return MakeBox(seed);
   }
   return {};
 }

@@ -71,9 +71,10 @@ enum class SceneKind {
   kBare,      ///< white boxes and zigzag walls: shading only
   kSlanted,   ///< attic with sloped walls and furniture at arbitrary angles: no Manhattan frame
   kHouse,     ///< four furnished rooms connected in a ring: for long trajectories, Manhattan
+  kBox,       ///< an orbit around one box on a plain floor, crates far off: few lines
 };
 
-/// "room", "corridor", "bare", "slanted" or "house"; std::nullopt for any other name.
+/// "room", "corridor", "bare", "slanted", "house" or "box"; std::nullopt for any other name.
 std::optional<SceneKind> SceneKindFromName(const std::string& name);
 
 /// Builds a scene. Deterministic; the seed determines sizes, colours and furniture.

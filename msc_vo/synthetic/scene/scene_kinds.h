@@ -15,5 +15,6 @@ Scene MakeCorridor(uint64_t seed);
 Scene MakeBare(uint64_t seed);
 Scene MakeSlanted(uint64_t seed);
 Scene MakeHouse(uint64_t seed);
+Scene MakeBox(uint64_t seed);
 
 }  // namespace msc_vo

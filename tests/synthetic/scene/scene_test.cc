@@ -19,9 +19,9 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-constexpr std::array<SceneKind, 5> kKinds = {SceneKind::kRoom, SceneKind::kCorridor,
-                                             SceneKind::kBare, SceneKind::kSlanted,
-                                             SceneKind::kHouse};
+constexpr std::array<SceneKind, 6> kKinds = {SceneKind::kRoom,  SceneKind::kCorridor,
+                                             SceneKind::kBare,  SceneKind::kSlanted,
+                                             SceneKind::kHouse, SceneKind::kBox};
 
 // True if a direction is one of the world's axes, to 1e-6 radians.
 bool IsAxis(const Vec& direction) {
@@ -85,6 +85,7 @@ TEST(SceneTest, ParsesNamesOfScenes) {
   EXPECT_EQ(SceneKindFromName("bare"), SceneKind::kBare);
   EXPECT_EQ(SceneKindFromName("slanted"), SceneKind::kSlanted);
   EXPECT_EQ(SceneKindFromName("house"), SceneKind::kHouse);
+  EXPECT_EQ(SceneKindFromName("box"), SceneKind::kBox);
   EXPECT_FALSE(SceneKindFromName("garden").has_value());
 }
 

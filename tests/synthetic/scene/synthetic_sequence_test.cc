@@ -148,7 +148,7 @@ TEST(SyntheticSequenceTest, KinectDepthHasPlausibleRatioOfMissingPixels) {
 
 TEST(SyntheticSequenceTest, ImagesAreWellExposed) {
   for (const SceneKind kind : {SceneKind::kRoom, SceneKind::kCorridor, SceneKind::kBare,
-                               SceneKind::kSlanted, SceneKind::kHouse}) {
+                               SceneKind::kSlanted, SceneKind::kHouse, SceneKind::kBox}) {
     SyntheticSequenceOptions options = Small();
     options.scene = kind;
     const SyntheticSequence sequence(options);

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/pose_estimation/pose_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <random>
+
+#include "msc_vo/bundle_adjustment/observation.h"
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/geometry/line_alignment.h"
+#include "msc_vo/geometry/rigid_alignment.h"
+#include "msc_vo/pose_estimation/descriptor_matches.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Errors of angles and distances between measured lines: three sigmas of a direction that is known
+// to two degrees, and of a depth of 3 metres by structured light.
+const AlignmentTolerance kTolerance{DegreesToRadians(6.0), 0.04};
+// Largest relative difference between the depth of a supporting line and its measurement.
+constexpr double kMaxDepthError = 0.1;
+// Hypotheses from pairs of lines, those that look most alike.
+constexpr size_t kMaxLinePairs = 150;
+
+// Draws `count` distinct indices below `size` >= count.
+std::vector<int> Draw(int count, int size, std::mt19937* random) {
+  std::vector<int> drawn;
+  while (static_cast<int>(drawn.size()) < count) {
+    const int i = static_cast<int>((*random)() % static_cast<unsigned>(size));
+    if (std::find(drawn.begin(), drawn.end(), i) == drawn.end()) drawn.push_back(i);
+  }
+  return drawn;
+}
+
+// Whether the line of the map has the measured depth at the middle of the feature.
+bool HasMeasuredDepth(const Frame& frame, const LineMatch& match, const Rigid3& cam_from_world) {
+  const LineFeature& feature = frame.lines[match.feature];
+  if (!feature.depth) return true;
+  const std::optional<double> inverse_depth =
+      InverseDepthAt(frame.camera, feature.segment, cam_from_world * match.segment, 0.5);
+  const double measured = feature.depth->At(0.5);
+  return inverse_depth && std::abs(*inverse_depth - measured) <= kMaxDepthError * measured;
+}
+
+// The search for one frame.
+class PoseSearch {
+ public:
+  PoseSearch(const RelocalizerOptions& options, const Frame& frame, const LocalMap& candidates)
+      : options_(options),
+        frame_(frame),
+        candidates_(candidates),
+        points_(MatchPointDescriptors(options, frame, candidates.points)),
+        lines_(MatchLineDescriptors(options, frame, candidates.lines)),
+        random_(static_cast<uint32_t>(frame.id)) {}
+
+  // All hypotheses with enough support, the best supported first.
+  std::vector<Relocalization> Hypotheses() {
+    AddLinePairs();
+    AddLinesWithPoints();
+    AddPointTriples();
+    std::stable_sort(
+        hypotheses_.begin(), hypotheses_.end(),
+        [](const Relocalization& a, const Relocalization& b) { return a.score > b.score; });
+    return std::move(hypotheses_);
+  }
+
+ private:
+  void AddLinePairs() {
+    struct Pair {
+      Rigid3 cam_from_world;
+      int distance;
+    };
+    std::vector<Pair> pairs;
+    for (size_t i = 0; i < lines_.size(); ++i) {
+      for (size_t j = i + 1; j < lines_.size(); ++j) {
+        const LinePair &a = lines_[i], &b = lines_[j];
+        if (a.feature == b.feature || a.candidate == b.candidate) continue;
+        const std::optional<Rigid3> pose =
+            AlignLines({a.in_world, b.in_world}, {a.in_cam, b.in_cam}, kTolerance);
+        if (pose) pairs.push_back({*pose, a.distance + b.distance});
+      }
+    }
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
+    if (pairs.size() > kMaxLinePairs) pairs.resize(kMaxLinePairs);
+    for (const Pair& pair : pairs) Add(pair.cam_from_world);
+  }
+
+  void AddLinesWithPoints() {
+    if (lines_.empty() || points_.empty()) return;
+    for (int i = 0; i < options_.max_iterations / 2; ++i) {
+      const LinePair& line = lines_[random_() % lines_.size()];
+      const PointMatch& point = points_[random_() % points_.size()];
+      const std::optional<Rigid3> pose =
+          AlignLineAndPoint(line.in_world, point.position, line.in_cam,
+                            frame_.PointInCamera(point.feature), kTolerance);
+      if (pose) Add(*pose);
+    }
+  }
+
+  void AddPointTriples() {
+    if (points_.size() < 3) return;
+    for (int i = 0; i < options_.max_iterations; ++i) {
+      std::vector<Eigen::Vector3d> in_world;
+      std::vector<Eigen::Vector3d> in_cam;
+      for (const int k : Draw(3, static_cast<int>(points_.size()), &random_)) {
+        in_world.push_back(points_[k].position);
+        in_cam.push_back(frame_.PointInCamera(points_[k].feature));
+      }
+      Add(AlignRigid(in_world, in_cam));
+    }
+  }
+
+  // Scores a pose and keeps it if its support suffices.
+  void Add(const Rigid3& cam_from_world) {
+    Relocalization hypothesis;
+    hypothesis.cam_from_world = cam_from_world;
+    FrameMatches& matches = hypothesis.matches;
+    const double radius = frame_.camera.fx * std::tan(DegreesToRadians(options_.max_angle));
+    double score = 0.0;
+    for (const PointMatch& match : points_) {
+      const Eigen::Vector3d in_cam = cam_from_world * match.position;
+      const Eigen::Vector2d& pixel = frame_.points[match.feature].pixel;
+      if (in_cam.z() <= 0.0) continue;
+      const double error = (frame_.camera.Project(in_cam) - pixel).norm() / radius;
+      if (error >= 1.0) continue;
+      matches.points.push_back(match);
+      score += 1.0 - error * error;
+    }
+    visible_lines_.clear();
+    for (const LineCandidate& line : candidates_.lines) {
+      visible_lines_.push_back(line);
+      if (!ProjectCandidate(frame_.camera, cam_from_world, &visible_lines_.back())) {
+        visible_lines_.pop_back();
+      }
+    }
+    for (const LineMatch& match :
+         MatchLines(LineMatcherOptions(), frame_, visible_lines_, radius, {})) {
+      if (HasMeasuredDepth(frame_, match, cam_from_world)) matches.lines.push_back(match);
+    }
+    const size_t lines = kPointsPerLine * matches.lines.size();
+    if (matches.points.size() + lines < static_cast<size_t>(options_.min_inliers)) return;
+    hypothesis.score = score + static_cast<double>(lines);
+    hypotheses_.push_back(std::move(hypothesis));
+  }
+
+  const RelocalizerOptions& options_;
+  const Frame& frame_;
+  const LocalMap& candidates_;
+  std::vector<PointMatch> points_;  // by descriptor
+  std::vector<LinePair> lines_;
+  std::mt19937 random_;
+  std::vector<LineCandidate> visible_lines_;  // from the pose that is being scored
+  std::vector<Relocalization> hypotheses_;
+};
+
+bool IsSameLandmark(const PointMatch& a, const PointMatch& b) { return a.position == b.position; }
+bool IsSameLandmark(const LineMatch& a, const LineMatch& b) {
+  return a.segment.start == b.segment.start && a.segment.end == b.segment.end;
+}
+
+// Number of matches in both; each in the order of the features.
+template <typename M>
+size_t NumShared(const std::vector<M>& a, const std::vector<M>& b) {
+  size_t num_shared = 0;
+  auto other = b.begin();
+  for (const M& match : a) {
+    while (other != b.end() && other->feature < match.feature) ++other;
+    if (other == b.end()) break;
+    if (other->feature == match.feature && IsSameLandmark(match, *other)) ++num_shared;
+  }
+  return num_shared;
+}
+
+// Whether two hypotheses are estimates of one pose: they explain most features by the same
+// landmarks. Their poses may differ, as those from short or distant lines do.
+bool AreOnePose(const FrameMatches& a, const FrameMatches& b) {
+  const size_t num_shared = NumShared(a.points, b.points) + NumShared(a.lines, b.lines);
+  return 2 * num_shared >=
+         std::min(a.points.size() + a.lines.size(), b.points.size() + b.lines.size());
+}
+
+}  // namespace
+
+std::vector<Relocalization> FindPoses(const RelocalizerOptions& options, const Frame& frame,
+                                      const LocalMap& candidates, int max_poses) {
+  std::vector<Relocalization> poses;
+  for (Relocalization& hypothesis : PoseSearch(options, frame, candidates).Hypotheses()) {
+    if (static_cast<int>(poses.size()) >= max_poses) break;
+    const bool is_new =
+        std::none_of(poses.begin(), poses.end(), [&hypothesis](const Relocalization& pose) {
+          return AreOnePose(pose.matches, hypothesis.matches);
+        });
+    if (is_new) poses.push_back(std::move(hypothesis));
+  }
+  return poses;
+}
+
+}  // namespace msc_vo
