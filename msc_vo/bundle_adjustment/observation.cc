@@ -18,6 +18,32 @@ bool IsInFront(const LineSegment3& line_in_cam) {
   return line_in_cam.start.z() >= kMinObservedDepth && line_in_cam.end.z() >= kMinObservedDepth;
 }
 
+namespace {
+
+// Parameter of the point of the line that is seen beside `pixel`: on the plane through the viewing
+// ray of the pixel and across the segment.
+double ParameterAt(const PinholeCamera& camera, const LineSegment2& segment,
+                   const LineSegment3& line_in_cam, const Eigen::Vector2d& pixel) {
+  const Eigen::Vector2d along = segment.Direction();
+  const Eigen::Vector3d across(-along.y() / camera.fx, along.x() / camera.fy, 0.0);
+  const Eigen::Vector3d normal = camera.Ray(pixel).cross(across);
+  const Eigen::Vector3d start = line_in_cam.start, end = line_in_cam.end;
+  return normal.dot(start) / normal.dot(start - end);
+}
+
+}  // namespace
+
+std::optional<LinePart> ObservedPart(const PinholeCamera& camera, const LineSegment2& segment,
+                                     const LineSegment3& line_in_cam) {
+  if (IsInFront(line_in_cam)) return LinePart();
+  const LinePart part{ParameterAt(camera, segment, line_in_cam, segment.start),
+                      ParameterAt(camera, segment, line_in_cam, segment.end)};
+  if (!std::isfinite(part.start) || !std::isfinite(part.end)) return std::nullopt;
+  const LineSegment3 seen = part.Of(line_in_cam);
+  if (!IsInFront(seen) || seen.Length() < kMinLineLength) return std::nullopt;
+  return part;
+}
+
 double ImageLineSigma(const LineSegment2& segment, double sigma, const Eigen::Vector2d& pixel) {
   const double s = segment.Parameter(pixel);
   return sigma * std::sqrt((1.0 - s) * (1.0 - s) + s * s);

@@ -39,6 +39,12 @@ constexpr double kMinLineLength = 1e-6;
 bool IsInFront(const Eigen::Vector3d& x_in_cam);
 bool IsInFront(const LineSegment3& line_in_cam);
 
+/// The part of a map line that an observation is compared with: the whole if both end points are
+/// in front of the camera. Otherwise, as with a line that passes the camera, the part that is seen
+/// between the end points of the observed `segment`; std::nullopt if that is not in front either.
+std::optional<LinePart> ObservedPart(const PinholeCamera& camera, const LineSegment2& segment,
+                                     const LineSegment3& line_in_cam);
+
 /// Standard deviation (pixels) of the observed image line's distance at the projection of `pixel`
 /// on it. With independent errors of `sigma` pixels of both end points across the line, the
 /// variance at parameter s (0 at the start, 1 at the end) is sigma^2 ((1 - s)^2 + s^2).

@@ -78,7 +78,7 @@ class CorrectedCamera {
     const Eigen::Vector2d x =
         lens.UndistortNormalized({Scalar(distorted.x()), Scalar(distorted.y())}, kTolerance);
     const Eigen::Matrix2d inverse = lens.Jacobian(x).inverse();
-    const Vector2<T> at = x.cast<T>();
+    const Vector2<T> at(T(x.x()), T(x.y()));
     return at + inverse.cast<T>() * (distorted - Distort<T>(at, correction));
   }
 

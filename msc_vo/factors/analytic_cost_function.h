@@ -31,9 +31,8 @@ class AnalyticCostFunction final
     const Eigen::Map<const Eigen::Quaterniond> q(parameters[0]);
     const Eigen::Map<const Eigen::Vector3d> t(parameters[0] + 4);
     const Eigen::Matrix3d rotation = q.toRotationMatrix();
-    if (jacobians[1] != nullptr) LandmarkJacobian(jacobians[1]).setZero();
     for (int k = 0; k < Factor::kNumPoints; ++k) {
-      const Eigen::Vector3d x_in_world(parameters[1] + 3 * k);
+      const Eigen::Vector3d x_in_world = factor_.PointInWorld(k, parameters[1]);
       const Eigen::Vector3d x_in_cam = rotation * x_in_world + t;
       if (!(x_in_cam.z() >= kMinCameraDepth)) return false;
       Eigen::Matrix<double, kRows, 3> j;
@@ -43,8 +42,9 @@ class AnalyticCostFunction final
         pose.template leftCols<4>() = j * RotatedPointJacobian(q, x_in_world);
         pose.template rightCols<3>() = j;
       }
-      if (jacobians[1] != nullptr) {
-        LandmarkJacobian(jacobians[1]).template block<kRows, 3>(k * kRows, 3 * k) = j * rotation;
+      for (int i = 0; i < Factor::kNumPoints && jacobians[1] != nullptr; ++i) {
+        LandmarkJacobian(jacobians[1]).template block<kRows, 3>(k * kRows, 3 * i) =
+            factor_.Weight(k, i) * j * rotation;
       }
     }
     return true;

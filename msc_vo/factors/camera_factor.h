@@ -3,11 +3,14 @@
 
 #pragma once
 
+#include <array>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/factors/cost_functor.h"
+#include "msc_vo/geometry/line_segment.h"
 
 namespace msc_vo {
 
@@ -34,9 +37,10 @@ inline Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camer
 }
 
 /// Base of the factors that depend on a landmark only through the camera coordinates x = T X of its
-/// points: one for a point landmark, start and end for a line. Parameter blocks: cam_from_world
-/// (7), landmark (3 per point). The derived factor defines the rows of point k and their analytic
-/// derivative,
+/// points: one for a point landmark, two for a line. Parameter blocks: cam_from_world (7), landmark
+/// (3 numbers; 6 of a line, its end points). The two points of a line are its end points, or those
+/// of the part of it that SetPart() selects. The derived factor defines the rows of point k and
+/// their analytic derivative,
 ///
 /// \code
 ///   template <typename T>
@@ -51,18 +55,44 @@ struct CameraFactor : CostFunctor<Factor, Points * RowsPerPoint, 7, 3 * Points> 
   static constexpr int kNumPoints = Points;
   static constexpr int kRowsPerPoint = RowsPerPoint;
 
+  /// Compares a part of the map line instead of the whole.
+  void SetPart(const LinePart& part) {
+    static_assert(Points == 2, "only lines have parts");
+    weight_ = {{{1.0 - part.start, part.start}, {1.0 - part.end, part.end}}};
+  }
+  /// Weight of end `i` of the landmark in its point k: dx_k / dX_i.
+  double Weight(int k, int i) const { return weight_[k][i]; }
+  /// Point k of the landmark, in the world.
+  template <typename T>
+  Eigen::Matrix<T, 3, 1> PointInWorld(int k, const T* landmark) const {
+    using Point = Eigen::Map<const Eigen::Matrix<T, 3, 1>>;
+    if (weight_[k][k] == 1.0) return Point(landmark + 3 * k);
+    Eigen::Matrix<T, 3, 1> x = T(weight_[k][0]) * Point(landmark);
+    for (int i = 1; i < Points; ++i) x += T(weight_[k][i]) * Point(landmark + 3 * i);
+    return x;
+  }
+
   template <typename T>
   bool operator()(const T* cam_from_world, const T* landmark, T* residuals) const {
     const Eigen::Map<const Eigen::Quaternion<T>> q(cam_from_world);
     const Eigen::Map<const Eigen::Matrix<T, 3, 1>> t(cam_from_world + 4);
     for (int k = 0; k < Points; ++k) {
-      const Eigen::Map<const Eigen::Matrix<T, 3, 1>> x_in_world(landmark + 3 * k);
-      const Eigen::Matrix<T, 3, 1> x_in_cam = q * x_in_world + t;
+      const Eigen::Matrix<T, 3, 1> x_in_cam = q * PointInWorld(k, landmark) + t;
       if (!(x_in_cam.z() >= kMinCameraDepth)) return false;
       static_cast<const Factor*>(this)->Residual(k, x_in_cam, residuals + k * RowsPerPoint);
     }
     return true;
   }
+
+ private:
+  static constexpr std::array<std::array<double, Points>, Points> Identity() {
+    if constexpr (Points == 1) {
+      return {{{1.0}}};
+    } else {
+      return {{{1.0, 0.0}, {0.0, 1.0}}};
+    }
+  }
+  std::array<std::array<double, Points>, Points> weight_ = Identity();
 };
 
 /// Evaluates the rows of point k and their derivative with respect to its camera coordinates.

@@ -42,6 +42,17 @@ using LineSegment2 = LineSegment<2>;
 using LineSegment3 = LineSegment<3>;
 static_assert(sizeof(LineSegment3) == 6 * sizeof(double), "must be one parameter block");
 
+/// A part of a line, by the parameters of its ends: 0 and 1 are the ends of the whole segment.
+struct LinePart {
+  double start = 0.0;
+  double end = 1.0;
+
+  bool IsWhole() const { return start == 0.0 && end == 1.0; }
+  LineSegment3 Of(const LineSegment3& line) const {
+    return IsWhole() ? line : LineSegment3{line.At(start), line.At(end)};
+  }
+};
+
 inline LineSegment3 operator*(const Rigid3& b_from_a, const LineSegment3& segment_in_a) {
   return {b_from_a * Eigen::Vector3d(segment_in_a.start),
           b_from_a * Eigen::Vector3d(segment_in_a.end)};

@@ -3,12 +3,14 @@
 
 #include "msc_vo/mapping/mapper.h"
 
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "msc_vo/map/frame_intrinsics.h"
+#include "msc_vo/map/map_validation.h"
 #include "msc_vo/mapping/landmark_creation.h"
 #include "msc_vo/self_calibration/keyframe_intrinsics.h"
 #include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
@@ -72,6 +74,7 @@ MappingSummary Mapper::Insert(const KeyframePacket& packet) {
   FuseLines(options_.fusion, summary.keyframe, &atlas_.current());
   summary.times.fusion = stopwatch.Restart();
   DescribeAxes(axes_.estimator(), &summary);
+  assert(FirstViolation(map()).empty());
   return summary;
 }
 
@@ -96,6 +99,7 @@ void Mapper::Refine(const KeyframePacket& packet, MappingSummary* summary) {
   summary->num_culled_keyframes =
       CullKeyframes(options_.culling, summary->keyframe, &atlas_.current());
   summary->times.culling = stopwatch.Restart();
+  assert(FirstViolation(map()).empty());
 }
 
 MappingSummary Mapper::Process(const KeyframePacket& packet) {

@@ -38,8 +38,8 @@ struct LineMatch {
   }
 };
 
-/// A line with a depth constrains four of the six degrees of freedom of a pose, a point without
-/// depth two: a line counts as so many points.
+/// Number of points that a line with a depth counts as: it constrains four of the six degrees of
+/// freedom of a pose, and a point without depth two.
 constexpr int kPointsPerLine = 2;
 
 /// The matches of one frame; each feature occurs at most once.

@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "msc_vo/bundle_adjustment/observation.h"
 #include "msc_vo/map/id_set.h"
 #include "msc_vo/map/observer_count.h"
 
@@ -80,9 +81,22 @@ void AddPoint(const PointLandmark& point, const Frame& frame, const Rigid3& cam_
   if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) candidates->push_back(candidate);
 }
 
+// The same for a line. Of one that passes the camera, only the direction across it is compared: its
+// middle may be behind, and views along a line differ little in its descriptor.
+bool IsViewedAlike(const LineLandmark& line, const Rigid3& cam_from_world,
+                   const Eigen::Vector3d& center) {
+  const Eigen::Vector3d ray = line.segment.Midpoint() - center;
+  if (IsInFront(cam_from_world * line.segment)) return IsViewedAlike(line, ray);
+  const Eigen::Vector3d along = line.segment.Direction();
+  const Eigen::Vector3d mean = line.viewing_direction;
+  const Eigen::Vector3d ray_across = ray - along.dot(ray) * along;
+  const Eigen::Vector3d mean_across = mean - along.dot(mean) * along;
+  return mean_across.dot(ray_across) >= kMinViewingCosine * mean_across.norm() * ray_across.norm();
+}
+
 void AddLine(const LineLandmark& line, const Frame& frame, const Rigid3& cam_from_world,
              const Eigen::Vector3d& center, std::vector<LineCandidate>* candidates) {
-  if (!IsViewedAlike(line, line.segment.Midpoint() - center)) return;
+  if (!IsViewedAlike(line, cam_from_world, center)) return;
   LineCandidate candidate;
   candidate.id = line.id;
   candidate.segment = line.segment;

@@ -105,9 +105,9 @@ class OpenNiCamera : public RgbdCamera {
     const double time = TimeOf(color_frame_);
     // The clock of the device begins anywhere.
     if (!offset_) offset_ = SecondsSince1970() - time;
-    const CameraImage image{time + *offset_, delay,
-                            ColorOf(color_frame_, color_.getMirroringEnabled(), name_),
-                            DepthOf(depth_frame_, depth_.getMirroringEnabled(), name_)};
+    CameraImage image{time + *offset_, delay,
+                      ColorOf(color_frame_, color_.getMirroringEnabled(), name_),
+                      DepthOf(depth_frame_, depth_.getMirroringEnabled(), name_)};
     color_frame_.release();
     depth_frame_.release();
     return image;

@@ -45,7 +45,7 @@ std::optional<CalibrationInformation> CalibrationPair::Linearize(
   }
   Rigid3 b_from_a = b_->cam_from_world * a_->cam_from_world.Inverse();
   const auto information = LinearizePair(camera_, points, correction, &b_from_a);
-  if (!information) return information;
+  if (!information) return std::nullopt;
   return WithCommonError(*information, CommonVariance(*a_->frame) + CommonVariance(*b_->frame));
 }
 

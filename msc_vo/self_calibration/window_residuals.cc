@@ -38,8 +38,10 @@ WindowResiduals::WindowResiduals(const WindowData& optimized) : window_(optimize
   lines_.reserve(optimized.line_observations.size());
   for (const WindowData::LineObservation& o : optimized.line_observations) {
     lines_.push_back(lines.at(o.line));
-    lines_in_cam_.push_back(optimized.keyframes[keyframes.at(o.keyframe)].cam_from_world *
-                            optimized.lines[lines_.back()].segment);
+    const LineSegment3 in_cam = optimized.keyframes[keyframes.at(o.keyframe)].cam_from_world *
+                                optimized.lines[lines_.back()].segment;
+    const LinePart part = ObservedPart(optimized.camera, o.segment, in_cam).value_or(LinePart());
+    lines_in_cam_.push_back(part.Of(in_cam));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "msc_vo/bundle_adjustment/observation.h"
 #include "msc_vo/geometry/angles.h"
 
 namespace msc_vo {
@@ -64,18 +65,18 @@ PoseData::Point Observe(const PointMatch& match, const PointFeature& feature,
           IsConfirmed(landmark)};
 }
 
-PoseData::Line Observe(const LineMatch& match, const LineFeature& feature,
+// Of a line that passes the camera at `cam_from_world`, only the visible part is observed.
+PoseData::Line Observe(const LineMatch& match, const Frame& frame, const Rigid3& cam_from_world,
                        const LineLandmark* landmark, const NoiseScale& scale) {
+  const LineFeature& feature = frame.lines[match.feature];
+  const LinePart part = ObservedPart(frame.camera, feature.segment, cam_from_world * match.segment)
+                            .value_or(LinePart());
   const double noise = landmark != nullptr ? landmark->noise : 1.0;
   LineDepth depth = feature.depth.value_or(LineDepth());
   if (landmark != nullptr) depth = Nearer(depth, landmark->depth_offset);
   depth.covariance *= noise * noise * scale.line_depth * scale.line_depth;
-  return {match.segment,
-          feature.segment,
-          noise * scale.line_pixel * feature.sigma,
-          feature.depth.has_value(),
-          depth,
-          IsConfirmed(landmark)};
+  return {part.Of(match.segment),    feature.segment, noise * scale.line_pixel * feature.sigma,
+          feature.depth.has_value(), depth,           IsConfirmed(landmark)};
 }
 
 }  // namespace
@@ -151,7 +152,7 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
         Observe(match, frame.points[match.feature], map.FindPoint(match.id), scale));
   }
   for (const LineMatch& match : matches->lines) {
-    data.lines.push_back(Observe(match, frame.lines[match.feature], map.FindLine(match.id), scale));
+    data.lines.push_back(Observe(match, frame, *cam_from_world, map.FindLine(match.id), scale));
   }
   PoseSummary summary = OptimizePose(options, &data);
   *cam_from_world = data.cam_from_world;

@@ -24,6 +24,12 @@ struct TrackingTimes {
   double matching = 0.0;
   double pose = 0.0;  ///< motion-only bundle adjustment
 
+  TrackingTimes& operator+=(const TrackingTimes& other) {
+    matching += other.matching;
+    pose += other.pose;
+    return *this;
+  }
+
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive.Fields(*this, matching, pose);

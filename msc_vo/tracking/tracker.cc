@@ -66,22 +66,6 @@ PoseOptions InitialPoseOptions(PoseOptions options) {
 
 // Poses of a search without a prediction that are tried.
 constexpr int kMaxSearchPoses = 5;
-// Fraction of the matches that support a pose beyond doubt. A pose by chance, among matches of
-// noise within the search radius, has less.
-constexpr double kClearSupport = 0.5;
-// Support of a pose relative to that near the prediction above which it replaces it: more than what
-// two estimates of the same pose differ by.
-constexpr double kClearlyBetter = 1.5;
-
-// Support of a pose by its inliers.
-double Support(const PoseSummary& pose) {
-  return pose.num_inlier_points + kPointsPerLine * pose.num_inlier_lines;
-}
-
-bool IsClear(const TrackedFrame& tracked) {
-  const size_t all = tracked.matches.points.size() + kPointsPerLine * tracked.matches.lines.size();
-  return Support(tracked.pose) >= kClearSupport * static_cast<double>(all);
-}
 
 }  // namespace
 
@@ -194,46 +178,46 @@ Tracker::Prediction Tracker::Predict(const Map& map, const Rigid3& last_from_wor
 bool Tracker::TrackInitialPose(const Map& map, const Prediction& prediction,
                                TrackedFrame* tracked) {
   const Rigid3& pose = prediction.cam_from_world;
-  const bool is_near = TrackLastFrame(map, pose, options_.prediction_radius, tracked);
-  if (is_near && IsClear(*tracked)) return true;
-  TrackedFrame far;
-  far.frame = tracked->frame;
-  far.noise_scale = tracked->noise_scale;
-  far.times = tracked->times;
-  if (TrackLargeMotion(map, pose, &far) &&
-      (!is_near || Support(far.pose) > kClearlyBetter * Support(tracked->pose))) {
+  TrackedFrame far = *tracked;
+  const PoseFit near_fit = TrackLastFrame(map, pose, options_.prediction_radius, tracked);
+  if (near_fit == PoseFit::kClear) return true;
+  const bool is_far = TrackLargeMotion(map, pose, &far);
+  tracked->times += far.times;
+  if (is_far && (near_fit == PoseFit::kNone || IsClearlyBetter(far.pose, tracked->pose))) {
+    far.times = tracked->times;
     *tracked = far;
     return true;
   }
-  tracked->times = far.times;
-  return is_near || TrackMapAround(map, prediction, tracked) || Relocalize(map, tracked);
+  return near_fit != PoseFit::kNone || TrackMapAround(map, prediction, tracked) ||
+         Relocalize(map, tracked);
 }
 
 bool Tracker::TrackLargeMotion(const Map& map, const Rigid3& prediction,
                                TrackedFrame* tracked) const {
-  std::vector<Rigid3> poses;
   Stopwatch stopwatch;
   const Rigid3 last_from_world = CamFromWorld(map, last_);
   const LocalMap last = CandidatesFromFrame(map, last_, last_from_world, last_from_world);
-  for (const Relocalization& found :
-       FindPoses(options_.relocalizer, *tracked->frame, last, kMaxSearchPoses)) {
-    poses.push_back(found.cam_from_world);
-  }
-  tracked->times.matching += stopwatch.Milliseconds();
+  const std::vector<Relocalization> poses =
+      FindPoses(options_.relocalizer, *tracked->frame, last, kMaxSearchPoses);
+  TrackingTimes times;
+  times.matching = stopwatch.Milliseconds();
 
-  std::optional<TrackedFrame> best;
+  const TrackedFrame start = *tracked;
+  bool found = false;
   const auto try_pose = [&](const Rigid3& pose, double radius) {
-    TrackedFrame attempt = *tracked;
-    const bool found = TrackLastFrame(map, pose, radius, &attempt);
-    tracked->times = attempt.times;
-    if (found && (!best || Support(attempt.pose) > Support(best->pose))) best = attempt;
+    TrackedFrame attempt = start;
+    const PoseFit fit = TrackLastFrame(map, pose, radius, &attempt);
+    times += attempt.times;
+    if (fit == PoseFit::kNone) return;
+    if (!found || Support(attempt.pose) > Support(tracked->pose)) *tracked = attempt;
+    found = true;
   };
   try_pose(prediction, options_.wide_radius);
-  for (const Rigid3& pose : poses) try_pose(pose, options_.prediction_radius);
-  if (!best) return false;
-  best->times = tracked->times;
-  *tracked = *best;
-  return true;
+  for (const Relocalization& pose : poses) {
+    try_pose(pose.cam_from_world, options_.prediction_radius);
+  }
+  tracked->times = times;
+  return found;
 }
 
 void Tracker::BridgeWithPrediction(const Map& map, const Prediction& prediction,
@@ -256,14 +240,15 @@ bool Tracker::HasLeftMap(const Map& map, const TrackedFrame& tracked) const {
          options_.min_matches;
 }
 
-bool Tracker::TrackLastFrame(const Map& map, const Rigid3& prediction, double radius,
-                             TrackedFrame* tracked) const {
+PoseFit Tracker::TrackLastFrame(const Map& map, const Rigid3& prediction, double radius,
+                                TrackedFrame* tracked) const {
   Stopwatch stopwatch;
   const LocalMap candidates = CandidatesFromFrame(map, last_, CamFromWorld(map, last_), prediction);
   tracked->cam_from_world = prediction;
   tracked->matches = MatchLocalMap(options_, *tracked->frame, candidates, radius, {});
   tracked->times.matching += stopwatch.Milliseconds();
-  return EstimatePose(initial_pose_, map, tracked);
+  if (!EstimatePose(initial_pose_, map, tracked)) return PoseFit::kNone;
+  return FitOf(*tracked, candidates);
 }
 
 // The map around the pose of the pose factors, or else the neighbourhood of the reference keyframe.

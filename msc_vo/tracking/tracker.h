@@ -11,6 +11,7 @@
 #include "msc_vo/tracking/inactive_map_search.h"
 #include "msc_vo/tracking/motion_model.h"
 #include "msc_vo/tracking/pose_factor_callback.h"
+#include "msc_vo/tracking/pose_support.h"
 #include "msc_vo/tracking/segment_start.h"
 #include "msc_vo/tracking/tracked_frame.h"
 #include "msc_vo/tracking/tracker_options.h"
@@ -70,8 +71,8 @@ class Tracker {
   // last frame determine without a prediction; then with the map there, then by relocalisation.
   // Each returns false if it did not find a pose.
   bool TrackInitialPose(const Map& map, const Prediction& prediction, TrackedFrame* tracked);
-  bool TrackLastFrame(const Map& map, const Rigid3& prediction, double radius,
-                      TrackedFrame* tracked) const;
+  PoseFit TrackLastFrame(const Map& map, const Rigid3& prediction, double radius,
+                         TrackedFrame* tracked) const;
   bool TrackLargeMotion(const Map& map, const Rigid3& prediction, TrackedFrame* tracked) const;
   bool TrackMapAround(const Map& map, const Prediction& prediction, TrackedFrame* tracked) const;
   bool Relocalize(const Map& map, TrackedFrame* tracked);

@@ -81,6 +81,19 @@ TEST_P(BundleAdjustmentSolverTest, SolvesPointsAndLines) {
   ExpectSameSolution(MakeTestWindow(scene_).data);
 }
 
+TEST_P(BundleAdjustmentSolverTest, SolvesLinesThatPassTheCamera) {
+  WindowData data = MakeTestWindow(scene_).data;
+  // Lines along the viewing direction that begin behind all cameras.
+  for (size_t i = 2; i < data.lines.size(); i += 3) {
+    LineSegment3& line = data.lines[i].segment;
+    auto& behind = line.start.z() < line.end.z() ? line.start : line.end;
+    behind -= (3.0 + behind.z()) / line.Direction().z() * line.Direction();
+  }
+  WindowData solved = data;
+  EXPECT_EQ(LocalBundleAdjustment(options_, &solved).num_behind_camera, 0);
+  ExpectSameSolution(data);
+}
+
 TEST_P(BundleAdjustmentSolverTest, SolvesWithoutDepth) {
   scene_.has_depth = false;
   ExpectSameSolution(MakeTestWindow(scene_).data);

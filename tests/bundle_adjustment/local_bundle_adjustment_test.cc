@@ -197,7 +197,8 @@ TEST_P(LocalBundleAdjustmentTest, RejectsAndCountsObservationsBehindTheCamera) {
   scene_.noise = 0.0;
   TestWindow window = MakeTestWindow(scene_);
   window.data.points[3].position.z() = -3.0;
-  window.data.lines[5].segment.end.z() = -3.0;
+  LineSegment3& line = window.data.lines[5].segment;
+  line.start.z() = line.end.z() = -3.0;
   WindowData data = window.data;
   const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data);
   ASSERT_TRUE(summary.usable);

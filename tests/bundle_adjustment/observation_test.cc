@@ -13,6 +13,44 @@ namespace {
 
 const LineSegment2 kSegment{{100.0, 100.0}, {200.0, 100.0}};
 
+// A skirting board that begins a metre behind the camera, to its right.
+const LineSegment3 kPassing{{0.8, 0.5, -1.0}, {0.8, 0.5, 3.0}};
+
+TEST(ObservedPart, IsTheWholeLineIfBothEndsAreInFront) {
+  const std::optional<LinePart> part =
+      ObservedPart(PinholeCamera(), kSegment, {{-0.6, 0.0, 2.0}, {0.8, 0.0, 2.0}});
+  ASSERT_TRUE(part.has_value());
+  EXPECT_TRUE(part->IsWhole());
+}
+
+TEST(ObservedPart, IsSeenBetweenTheEndsOfTheSegmentIfTheLinePassesTheCamera) {
+  const PinholeCamera camera;
+  const LineSegment2 seen{camera.Project(kPassing.At(0.6)), camera.Project(kPassing.At(0.9))};
+  const std::optional<LinePart> part = ObservedPart(camera, seen, kPassing);
+  ASSERT_TRUE(part.has_value());
+  EXPECT_NEAR(part->start, 0.6, 1e-12);
+  EXPECT_NEAR(part->end, 0.9, 1e-12);
+  EXPECT_LT(LineResidual(camera, seen, 0.5, part->Of(kPassing)).norm(), 1e-9);
+  // Three pixels across: the residual is that of the visible part.
+  LineSegment2 shifted = seen;
+  const Eigen::Vector2d d = seen.Direction();
+  shifted.start += 3.0 * Eigen::Vector2d(-d.y(), d.x());
+  shifted.end += 3.0 * Eigen::Vector2d(-d.y(), d.x());
+  const std::optional<LinePart> beside = ObservedPart(camera, shifted, kPassing);
+  ASSERT_TRUE(beside.has_value());
+  EXPECT_NEAR(LineResidual(camera, shifted, 0.5, beside->Of(kPassing)).norm(), 6.0 * std::sqrt(2.0),
+              0.1);
+}
+
+TEST(ObservedPart, IsMissingBehindTheCamera) {
+  const LineSegment3 behind{{0.8, 0.5, -3.0}, {0.8, 0.5, -1.0}};
+  EXPECT_FALSE(ObservedPart(PinholeCamera(), kSegment, behind).has_value());
+  // The viewing rays of the segment meet the line behind the camera.
+  const PinholeCamera camera;
+  const LineSegment2 opposite{{100.0, 100.0}, {140.0, 130.0}};
+  EXPECT_FALSE(ObservedPart(camera, opposite, kPassing).has_value());
+}
+
 TEST(ImageLineSigma, MatchesValuesByHand) {
   EXPECT_DOUBLE_EQ(ImageLineSigma(kSegment, 2.0, {100.0, 130.0}), 2.0);
   EXPECT_DOUBLE_EQ(ImageLineSigma(kSegment, 2.0, {200.0, 100.0}), 2.0);

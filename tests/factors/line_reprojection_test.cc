@@ -65,6 +65,20 @@ TEST_P(LineReprojectionTest, DerivativesMatch) {
   }
 }
 
+// The line begins behind the camera; its last tenth is in front.
+TEST_P(LineReprojectionTest, DerivativesOfPartMatch) {
+  for (int i = 0; i < 10; ++i) {
+    const Rigid3 pose = random_.Pose();
+    const LineSegment3 whole{Eigen::Vector3d(0.3, -0.2, -1.0), random_.InView()};
+    LineReprojection factor(camera_, somewhere_, 0.9, 1.7);
+    const Blocks blocks{Block(pose), Block(pose.Inverse() * whole)};
+    EXPECT_FALSE(factor(blocks[0].data(), blocks[1].data(), Eigen::Vector2d().data()));
+    factor.SetPart({0.9, 1.0});
+    ExpectGradientsMatch(*CostPtr(LineReprojection::Create(factor)), blocks);
+    ExpectAnalyticMatchesAutomatic(factor, blocks);
+  }
+}
+
 TEST_P(LineReprojectionTest, IsInvariantToMotionOfTheWorld) {
   const Rigid3 pose = random_.Pose(), shift = random_.Pose();
   const LineSegment3 line = pose.Inverse() * InView();

@@ -17,6 +17,15 @@ struct ObservationFactors {
   int block = -1;  ///< Pose-landmark block; -1: the pose or the landmark is constant.
   const Reprojection* reprojection = nullptr;
   const Depth* depth = nullptr;
+
+  /// As in CameraFactor; the same for both factors.
+  Eigen::Vector3d PointInWorld(int k, const double* landmark_block) const {
+    return reprojection != nullptr ? reprojection->PointInWorld(k, landmark_block)
+                                   : depth->PointInWorld(k, landmark_block);
+  }
+  double Weight(int k, int i) const {
+    return reprojection != nullptr ? reprojection->Weight(k, i) : depth->Weight(k, i);
+  }
 };
 using PointObservationFactors = ObservationFactors<PointReprojection, DepthReprojection>;
 using LineObservationFactors = ObservationFactors<LineReprojection, LineDepthReprojection>;

@@ -21,8 +21,10 @@ WindowInlierMask InitialInlierMask(const BundleAdjustmentOptions& options, const
   }
   for (size_t i = 0; i < index.lines.size(); ++i) {
     const WindowIndex::Observation& observation = index.lines[i];
-    const bool in_front = IsInFront(data.keyframes[observation.keyframe].cam_from_world *
-                                    data.lines[observation.landmark].segment);
+    const bool in_front = ObservedPart(data.camera, data.line_observations[i].segment,
+                                       data.keyframes[observation.keyframe].cam_from_world *
+                                           data.lines[observation.landmark].segment)
+                              .has_value();
     const bool has_depth = options.line_depth.enabled && data.line_observations[i].has_depth;
     inlier_mask.lines[i] = {in_front, in_front && has_depth};
     *num_behind += !in_front;

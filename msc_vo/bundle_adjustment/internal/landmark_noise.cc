@@ -60,8 +60,10 @@ std::vector<ResidualSums> SumLineResiduals(const WindowIndex& index,
   for (size_t i = 0; i < index.lines.size(); ++i) {
     const auto& [keyframe, line] = index.lines[i];
     const WindowData::LineObservation& o = data.line_observations[i];
-    const LineSegment3 in_cam = state.Pose(keyframe) * state.Line(line);
-    if (!inlier_mask.lines[i].reprojection || !IsInFront(in_cam)) continue;
+    const LineSegment3 whole = state.Pose(keyframe) * state.Line(line);
+    const std::optional<LinePart> part = ObservedPart(data.camera, o.segment, whole);
+    if (!inlier_mask.lines[i].reprojection || !part) continue;
+    const LineSegment3 in_cam = part->Of(whole);
     const Eigen::Vector2d pixels = LineResidual(data.camera, o.segment, o.sigma, in_cam);
     sums[line].AddResiduals(pixels.squaredNorm(), 2);
     if (!inlier_mask.lines[i].depth) continue;

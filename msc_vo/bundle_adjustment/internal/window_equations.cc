@@ -25,10 +25,11 @@ struct CameraLinearization {
   double cost = 0.0;
 
   // False if a point is behind the camera.
-  bool SetPoints(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation,
-                 const double* landmark) {
+  template <typename Observation>
+  bool SetPoints(const Observation& observation, const Eigen::Matrix3d& rotation,
+                 const Eigen::Vector3d& translation, const double* landmark) {
     for (int k = 0; k < Points; ++k) {
-      rotated[k] = rotation * Eigen::Map<const Eigen::Vector3d>(landmark + 3 * k);
+      rotated[k] = rotation * observation.PointInWorld(k, landmark);
       x[k] = rotated[k] + translation;
       if (!(x[k].z() >= kMinCameraDepth)) return false;
       hessian[k].setZero();
@@ -130,7 +131,7 @@ class Linearizer {
     const Eigen::Matrix3d& rotation = rotations_[o.keyframe];
     const Eigen::Map<const Eigen::Vector3d> translation(state_.PoseBlock(o.keyframe) + 4);
     CameraLinearization<Points> at;
-    if (!at.SetPoints(rotation, translation, landmark)) return false;
+    if (!at.SetPoints(o, rotation, translation, landmark)) return false;
     if (o.reprojection != nullptr) at.Add(*o.reprojection, terms.reprojection_loss);
     if (o.depth != nullptr) at.Add(*o.depth, terms.depth_loss);
     equations_->cost += at.cost;
@@ -138,20 +139,39 @@ class Linearizer {
     for (int k = 0; k < Points; ++k) {
       const Eigen::Matrix3d h_rotation = at.hessian[k] * rotation;
       if (unknown >= 0) {
-        terms.equations->hessian[unknown].template block<3, 3>(3 * k, 3 * k).noalias() +=
-            rotation.transpose() * h_rotation;
-        terms.equations->gradient[unknown].template segment<3>(3 * k).noalias() +=
-            rotation.transpose() * at.gradient[k];
+        AddToLandmark<Points>(o, k, rotation.transpose() * h_rotation,
+                              rotation.transpose() * at.gradient[k], unknown, terms.equations);
       }
       if (pose < 0) continue;
       const Eigen::Matrix3d arm = Skew(at.rotated[k]);
       AddToPose(pose, arm, at.hessian[k], at.rotated[k], at.gradient[k]);
       if (o.block < 0) continue;
-      auto coupling = terms.equations->pose_couplings[o.block].template middleCols<3>(3 * k);
-      coupling.template topRows<3>().noalias() += arm * h_rotation;
-      coupling.template bottomRows<3>() += h_rotation;
+      for (int i = 0; i < Points; ++i) {
+        const double weight = o.Weight(k, i);
+        if (weight == 0.0) continue;
+        auto coupling = terms.equations->pose_couplings[o.block].template middleCols<3>(3 * i);
+        coupling.template topRows<3>().noalias() += weight * arm * h_rotation;
+        coupling.template bottomRows<3>() += weight * h_rotation;
+      }
     }
     return true;
+  }
+
+  // Chain rule from point k of a landmark to the ends of which it is a weighted mean.
+  template <int Points, typename Observation>
+  static void AddToLandmark(const Observation& o, int k, const Eigen::Matrix3d& hessian,
+                            const Eigen::Vector3d& gradient, int unknown,
+                            WindowEquations::Landmarks<3 * Points>* equations) {
+    for (int i = 0; i < Points; ++i) {
+      const double weight = o.Weight(k, i);
+      if (weight == 0.0) continue;
+      equations->gradient[unknown].template segment<3>(3 * i) += weight * gradient;
+      for (int j = 0; j < Points; ++j) {
+        if (o.Weight(k, j) == 0.0) continue;
+        equations->hessian[unknown].template block<3, 3>(3 * i, 3 * j) +=
+            (weight * o.Weight(k, j)) * hessian;
+      }
+    }
   }
 
   // Chain rule from x to the pose: dx = [-[R X]x, I] (w, u), with arm = [R X]x.

@@ -99,7 +99,7 @@ void KeepInFront(const std::vector<Observation>& observations, const std::vector
     double* const landmark = block(after, o.landmark);
     const Rigid3 cam_from_world = after->Pose(o.keyframe);
     for (int k = 0; k < Points; ++k) {
-      const Eigen::Vector3d x_in_cam = cam_from_world * Eigen::Vector3d(landmark + 3 * k);
+      const Eigen::Vector3d x_in_cam = cam_from_world * o.PointInWorld(k, landmark);
       if (x_in_cam.z() >= kMinCameraDepth) continue;
       std::copy_n(block(&before, o.landmark), 3 * Points, landmark);
       break;

@@ -74,19 +74,23 @@ class WindowTermsBuilder {
       const InlierMask used = Enabled(inlier_mask_.lines[i], options_.line_reprojection.enabled,
                                       options_.line_depth.enabled);
       if (!used.reprojection && !used.depth) continue;
+      const LineSegment3 whole = state_.Pose(keyframe) * state_.Line(line);
+      const LinePart part = ObservedPart(data_.camera, o.segment, whole).value_or(LinePart());
+      const LineSegment3 in_cam = part.Of(whole);
       terms_.keyframe_constrained[keyframe] = terms_.line_constrained[line] = true;
-      const LineSegment3 in_cam = state_.Pose(keyframe) * state_.Line(line);
       if (used.reprojection) {
-        terms_.line_reprojection.blocks.push_back(
-            {MakeLineReprojection(data_.camera, o.segment, noise * o.sigma, in_cam), keyframe, line,
-             Source(i)});
+        LineReprojection factor =
+            MakeLineReprojection(data_.camera, o.segment, noise * o.sigma, in_cam);
+        factor.SetPart(part);
+        terms_.line_reprojection.blocks.push_back({factor, keyframe, line, Source(i)});
       }
       if (used.depth) {
         LineDepth depth = Nearer(o.depth, data_.lines[line].depth_offset);
         depth.covariance *= noise * noise;
-        terms_.line_depth.blocks.push_back(
-            {MakeLineDepthReprojection(data_.camera, o.segment, depth, in_cam), keyframe, line,
-             Source(i)});
+        LineDepthReprojection factor =
+            MakeLineDepthReprojection(data_.camera, o.segment, depth, in_cam);
+        factor.SetPart(part);
+        terms_.line_depth.blocks.push_back({factor, keyframe, line, Source(i)});
       }
     }
   }

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include "msc_vo/matching/local_map.h"
+#include "msc_vo/tracking/tracked_frame.h"
+
+namespace msc_vo {
+
+/// How well the features that should be visible support a pose.
+enum class PoseFit {
+  kNone,      ///< no pose
+  kDoubtful,  ///< too few: the pose may be one by chance
+  kClear,
+};
+
+/// Number of inliers of a pose; a line counts as kPointsPerLine points.
+double Support(const PoseSummary& pose);
+
+/// The fit of the estimated pose of `tracked`, whose matches were searched among `candidates`.
+PoseFit FitOf(const TrackedFrame& tracked, const LocalMap& candidates);
+
+/// Whether a pose far from the prediction has so much more support than one near it that it
+/// replaces it.
+bool IsClearlyBetter(const PoseSummary& far, const PoseSummary& near);
+
+}  // namespace msc_vo

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/map/map_validation.h"
+
+#include <limits>
+#include <memory>
+
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::shared_ptr<const Frame> MakeFrame(size_t num_points) {
+  auto frame = std::make_shared<Frame>();
+  frame->points.resize(num_points);
+  frame->lines.resize(2);
+  return frame;
+}
+
+class MapValidationTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (KeyframeId& keyframe : keyframes_) keyframe = map_.AddKeyframe(MakeFrame(3), Rigid3());
+    point_ = map_.AddPoint(keyframes_[0], 1, {0.1, 0.0, 2.0});
+    line_ = map_.AddLine(keyframes_[0], 0, {{0.0, 0.0, 2.0}, {0.0, 1.0, 2.0}});
+    map_.ObservePoint(point_, keyframes_[1], 2);
+    map_.ObserveLine(line_, keyframes_[1], 1);
+    map_.RefreshPoint(point_);
+    map_.RefreshLine(line_);
+  }
+  Map map_;
+  KeyframeId keyframes_[2] = {};
+  LandmarkId point_ = kNoId, line_ = kNoId;
+};
+
+TEST_F(MapValidationTest, AcceptsMapAndItsChanges) {
+  EXPECT_THAT(FirstViolation(Map()), IsEmpty());
+  EXPECT_THAT(FirstViolation(map_), IsEmpty());
+  map_.RemovePointObservation(point_, keyframes_[0]);
+  EXPECT_THAT(FirstViolation(map_), IsEmpty());
+  map_.RemoveKeyframe(keyframes_[0], keyframes_[1]);
+  EXPECT_THAT(FirstViolation(map_), IsEmpty());
+}
+
+TEST_F(MapValidationTest, FindsNumbersThatAreNotFinite) {
+  Map map = map_.Share();
+  map.SetPoint(point_, {0.0, kNan, 1.0});
+  EXPECT_THAT(FirstViolation(map), HasSubstr("position is not finite"));
+  map = map_.Share();
+  map.SetLine(line_, {{0.0, 0.0, kNan}, {0.0, 1.0, 2.0}});
+  EXPECT_THAT(FirstViolation(map), HasSubstr("end points are not finite"));
+  map = map_.Share();
+  map.SetPose(keyframes_[1], Rigid3(Eigen::Quaterniond::Identity(), {kNan, 0.0, 0.0}));
+  EXPECT_THAT(FirstViolation(map), HasSubstr("pose is not finite"));
+}
+
+TEST_F(MapValidationTest, FindsGeometryWithoutMeaning) {
+  Map map = map_.Share();
+  map.SetLine(line_, {{0.0, 1.0, 2.0}, {0.0, 1.0, 2.0}});
+  EXPECT_THAT(FirstViolation(map), HasSubstr("line"));
+  EXPECT_THAT(FirstViolation(map), HasSubstr("no length"));
+  map = map_.Share();
+  map.SetPointNoise(point_, 0.0);
+  EXPECT_THAT(FirstViolation(map), HasSubstr("noise"));
+  map = map_.Share();
+  map.SetPose(keyframes_[0], Rigid3(Eigen::Quaterniond(2.0, 0.0, 0.0, 0.0), {0.0, 0.0, 0.0}));
+  EXPECT_THAT(FirstViolation(map), HasSubstr("rotation is not a unit"));
+}
+
+TEST_F(MapValidationTest, FindsFrameWithOtherFeatures) {
+  map_.SetFrame(keyframes_[1], MakeFrame(4));
+  EXPECT_THAT(FirstViolation(map_), HasSubstr("keyframe " + std::to_string(keyframes_[1])));
+  EXPECT_THAT(FirstViolation(map_), HasSubstr("one entry per feature"));
+}
+
+}  // namespace
+}  // namespace msc_vo
