@@ -61,7 +61,7 @@ std::string LandmarkViolation(const Map& map, LandmarkId id, const L& landmark) 
   if (landmark.id != id) return "its id is " + std::to_string(landmark.id);
   if (!(std::isfinite(landmark.noise) && landmark.noise > 0.0)) return "its noise is not positive";
   if (!IsUnit(landmark.viewing_direction.norm())) return "its viewing direction is not a unit";
-  const std::string geometry = GeometryViolation(landmark);
+  std::string geometry = GeometryViolation(landmark);
   return geometry.empty() ? ObservationViolation(map, landmark) : geometry;
 }
 
@@ -90,7 +90,7 @@ std::string KeyframeViolation(const Map& map, KeyframeId id, const Keyframe& key
       keyframe.lines.size() != keyframe.frame->lines.size()) {
     return "it does not have one entry per feature";
   }
-  const std::string points =
+  std::string points =
       EntryViolation(id, keyframe.points, [&map](LandmarkId i) { return map.FindPoint(i); });
   if (!points.empty()) return points;
   return EntryViolation(id, keyframe.lines, [&map](LandmarkId i) { return map.FindLine(i); });

@@ -12,6 +12,7 @@
 #include "msc_vo/map/frame_intrinsics.h"
 #include "msc_vo/map/map_validation.h"
 #include "msc_vo/mapping/landmark_creation.h"
+#include "msc_vo/mapping/map_lines.h"
 #include "msc_vo/self_calibration/keyframe_intrinsics.h"
 #include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
 #include "msc_vo/structure/keyframe_structure.h"
@@ -223,6 +224,10 @@ void Mapper::Calibrate(const KeyframePacket& packet, MappingSummary* summary) {
   options.first_iterations = kCalibrationIterations;
   options.second_iterations = kCalibrationIterations;
   SolveWindow(options, summary->keyframe, SelectWholeMap(options_.selection, map()));
+}
+
+std::map<LandmarkId, LineSegment3> Mapper::RefinedLines(const Map& map) const {
+  return RefineMapLines(options_, map, AxesOf(map), pairs_, noise_);
 }
 
 std::optional<BundleAdjustmentSummary> Mapper::OptimizeWindow(KeyframeId keyframe) {

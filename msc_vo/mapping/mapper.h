@@ -109,6 +109,8 @@ class Mapper {
   const SceneAxes& axes() const { return axes_; }
   /// The axes of a map of the atlas.
   const SceneAxes& AxesOf(const Map& map) const;
+  /// The lines of a map of the atlas, refined at the end of a run (RefineMapLines).
+  std::map<LandmarkId, LineSegment3> RefinedLines(const Map& map) const;
   const NoiseEstimator& noise() const { return noise_; }
   const ReadoutTimeEstimator& readout() const { return readout_; }
   /// None before SetIntrinsics().

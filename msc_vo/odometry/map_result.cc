@@ -3,6 +3,8 @@
 
 #include "msc_vo/odometry/map_result.h"
 
+#include <map>
+
 namespace msc_vo {
 
 namespace {
@@ -25,8 +27,11 @@ void AddMap(const Mapper& mapper, KeyframeId first_keyframe, OdometryResult* res
   for (const auto& [id, point] : map->points()) {
     result->points.push_back({point.position, static_cast<int>(point.observations.size())});
   }
+  const std::map<LandmarkId, LineSegment3> refined = mapper.RefinedLines(*map);
   for (const auto& [id, line] : map->lines()) {
-    result->lines.push_back({line.segment, static_cast<int>(line.observations.size()),
+    const auto found = refined.find(id);
+    const LineSegment3& segment = found != refined.end() ? found->second : line.segment;
+    result->lines.push_back({segment, static_cast<int>(line.observations.size()),
                              mapper.last_window_lines().count(id) > 0, axes.AxisOf(line),
                              line.viewing_direction});
   }

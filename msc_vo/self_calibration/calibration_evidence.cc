@@ -92,14 +92,14 @@ Model Solve(const CalibrationInformation& information, unsigned wrong_groups) {
 
 const std::vector<int>& IndicesOf(CorrectionGroup group) {
   using S = SensorCorrection;
-  static const std::array<std::vector<int>, kNumCorrectionGroups> kIndices = {{
+  static const std::array<std::vector<int>, kNumCorrectionGroups> indices_of_groups = {{
       {S::kFocalLength},
       {S::kCenterX, S::kCenterY},
       {S::kK1, S::kK2},
       {S::kDepthFocalLength, S::kDepthX, S::kDepthY, S::kDepthRoll, S::kDepthParallaxX,
        S::kDepthParallaxY},
   }};
-  return kIndices[static_cast<size_t>(group)];
+  return indices_of_groups[static_cast<size_t>(group)];
 }
 
 bool CorrectionEstimate::IsCorrected() const {

@@ -53,11 +53,11 @@ struct Pairs {
 void MatchViews(const CorrectedCamera& camera, const CalibrationSequence& views, Pairs* result) {
   std::vector<std::pair<std::pair<int, int>, CalibrationPair>> matched;
   for (const auto& [a, b] : CandidatePairs(views)) {
-    CalibrationPair pair(camera, &views[a], &views[b]);
-    if (pair.num_points() >= kMinPoints) matched.push_back({{a, b}, std::move(pair)});
+    const CalibrationPair pair(camera, &views[a], &views[b]);
+    if (pair.num_points() >= kMinPoints) matched.push_back({{a, b}, pair});
   }
   std::set<int> used;
-  for (auto& [indices, pair] : Thin(std::move(matched), kMaxPairs)) {
+  for (auto& [indices, pair] : Thin(matched, kMaxPairs)) {
     used.insert(indices.first);
     used.insert(indices.second);
     result->pairs.push_back(std::move(pair));

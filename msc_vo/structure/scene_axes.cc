@@ -3,6 +3,7 @@
 
 #include "msc_vo/structure/scene_axes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
@@ -14,6 +15,10 @@
 namespace msc_vo {
 
 namespace {
+
+// Largest angle between an axis and an uncertain line, and largest standard deviation of the line,
+// degrees. Measured in docs/lab/structure.md.
+constexpr double kMaxUncertainAngle = 15.0;
 
 // Directions of the frame's lines that have a depth, camera frame.
 std::vector<AxisEvidence> LineEvidence(const Frame& frame) {
@@ -136,7 +141,14 @@ void SceneAxes::Refine() {
   }
 }
 
-void SceneAxes::AddAlignments(WindowData* window) const {
+void SceneAxes::AddAllAlignments(WindowData* window) const {
+  AxisAssociationOptions options = options_.association;
+  options.max_angle = std::max(options.max_angle, kMaxUncertainAngle);
+  options.max_sigma = std::max(options.max_sigma, kMaxUncertainAngle);
+  AddAlignments(options, window);
+}
+
+void SceneAxes::AddAlignments(const AxisAssociationOptions& options, WindowData* window) const {
   if (estimator_.state() != AxesState::kRefined) return;
   struct Candidate {
     size_t line;
@@ -144,19 +156,19 @@ void SceneAxes::AddAlignments(WindowData* window) const {
   };
   std::vector<Candidate> candidates;
   std::vector<double> densities;
+  const Eigen::Matrix3d axes = estimator_.world_from_axes().toRotationMatrix();
   const std::vector<std::optional<DirectionEstimate>> estimates = EstimateDirections(*window);
   for (size_t i = 0; i < estimates.size(); ++i) {
     if (!estimates[i]) continue;
-    const std::optional<AxisCandidate> near = NearestAxis(*estimates[i]);
+    const std::optional<AxisCandidate> near =
+        msc_vo::NearestAxis(options, axes, estimator_.sigma(), *estimates[i]);
     if (!near) continue;
     candidates.push_back({i, *near});
     densities.push_back(deviation_.Density(near->deviation));
   }
-  const AxisAssociationOptions& options = options_.association;
   const double radius = DegreesToRadians(options.max_angle);
   const std::vector<double> probabilities =
       RelationProbabilities(densities, 1.0 / (kPi * radius * radius));
-  const Eigen::Matrix3d axes = estimator_.world_from_axes().toRotationMatrix();
   for (size_t i = 0; i < candidates.size(); ++i) {
     const auto& [line, near] = candidates[i];
     if (probabilities[i] < options.min_probability ||

@@ -50,7 +50,10 @@ class SceneAxes {
   void Update(const Map& map, KeyframeId keyframe, const std::vector<AxisEvidence>& normals);
   /// Adds alignments of the window's lines with their axes (paper: M_j), once the axes are refined:
   /// the error of coarse axes is common to all lines, and each would count it as its own.
-  void AddAlignments(WindowData* window) const;
+  void AddAlignments(WindowData* window) const { AddAlignments(options_.association, window); }
+  /// The same, and for uncertain lines as well: for a window in which no pose depends on them. They
+  /// gain most from an axis, but each of them that follows none would turn the camera.
+  void AddAllAlignments(WindowData* window) const;
   /// Takes over the directions of the lines of an optimised window, from which the axes and the
   /// deviation of the lines are estimated.
   void Learn(const Map& map, const WindowData& window);
@@ -72,6 +75,7 @@ class SceneAxes {
  private:
   void Search(const Map& map, KeyframeId keyframe, const std::vector<AxisEvidence>& normals);
   std::optional<AxisCandidate> NearestAxis(const DirectionEstimate& line) const;
+  void AddAlignments(const AxisAssociationOptions& options, WindowData* window) const;
   AxesSupport CountSupport(const Map& map) const;
   void Refine();
 

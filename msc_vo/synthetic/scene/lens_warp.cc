@@ -132,7 +132,7 @@ RenderedImage LensWarp::Warp(const RenderedImage& rendering) const {
       if (sample.x() >= 0.0f) AddColor(rendering, sample, sums);
     }
     for (int k = 0; k < 3; ++k) {
-      image.rgb[3 * i + k] = static_cast<uint8_t>(sums[k] / kSamples + 0.5f);
+      image.rgb[3 * i + k] = static_cast<uint8_t>(std::lround(sums[k] / kSamples));
     }
   }
   return image;

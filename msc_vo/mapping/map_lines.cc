@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/map_lines.h"
+
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+#include "msc_vo/map/window_selection.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Steps of both rounds. A line that turns by ten degrees needs more than the small steps of a run.
+constexpr int kIterations = 10;
+
+}  // namespace
+
+std::map<LandmarkId, LineSegment3> RefineMapLines(const MapperOptions& options, const Map& map,
+                                                  const SceneAxes& axes, StructuralPairs pairs,
+                                                  const NoiseEstimator& noise) {
+  std::map<LandmarkId, LineSegment3> refined;
+  if (axes.estimator().state() != AxesState::kRefined || map.keyframes().empty()) return refined;
+  WindowData window = SelectWholeMap(options.selection, map);
+  for (WindowData::Keyframe& keyframe : window.keyframes) keyframe.fixed = true;
+  window.points.clear();
+  window.point_observations.clear();
+  noise.Apply(&window);
+  axes.AddAllAlignments(&window);
+  pairs.Add(&window);
+  BundleAdjustmentOptions solver = options.window;
+  solver.first_iterations = solver.second_iterations = kIterations;
+  if (!LocalBundleAdjustment(solver, &window).usable) return refined;
+  for (const WindowData::Line& line : window.lines) {
+    if (line.fixed) continue;
+    const LineSegment3 segment = TrimToObservations(map, *map.FindLine(line.id), line.segment);
+    if (segment.Length() > 0.0) refined.emplace(line.id, segment);
+  }
+  return refined;
+}
+
+}  // namespace msc_vo
