@@ -41,7 +41,7 @@ double AxisError(const LineSegment3& line) {
 TEST(RefineMapLines, TurnsUncertainLinesToTheirAxes) {
   MapperOptions options;
   // As in a run whose windows align certain lines only.
-  options.axes.association.max_sigma = 0.2;
+  options.axes.association.max_sigma = 1.0;
   const Mapper mapper = MapBox(options);
   ASSERT_EQ(mapper.axes().estimator().state(), AxesState::kRefined);
   const auto refined = mapper.RefinedLines(mapper.map());
