@@ -19,8 +19,8 @@ namespace msc_vo {
 
 namespace {
 
-// Errors of angles and distances between measured lines: three sigmas of a direction that is known
-// to two degrees, and of a depth of 3 metres by structured light.
+// Errors of angles and distances between measured lines: three sigmas of a direction with
+// a standard deviation of two degrees, and of a depth of 3 metres by structured light.
 const AlignmentTolerance kTolerance{DegreesToRadians(6.0), 0.04};
 // Largest relative difference between the depth of a supporting line and its measurement.
 constexpr double kMaxDepthError = 0.1;

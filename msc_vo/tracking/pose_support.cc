@@ -9,9 +9,9 @@ namespace msc_vo {
 
 namespace {
 
-// Fractions of the matches, and of the features that should be visible, that support a pose beyond
-// doubt. Among matches of noise within the search radius, and among parallel lines that look alike,
-// a pose by chance has less; measured in docs/lab/large_steps.md.
+// Fractions of the matches, and of the features that should be visible, that support a pose which
+// needs no search for a better one. A pose by chance, among matches of noise or among parallel
+// lines with similar descriptors, has less. Chosen by measurement, see docs/lab/large_steps.md.
 constexpr double kClearOfMatches = 0.5;
 constexpr double kClearOfVisible = 0.25;
 // More than what two estimates of one pose differ by.
@@ -33,7 +33,7 @@ PoseFit FitOf(const TrackedFrame& tracked, const LocalMap& candidates) {
   const bool is_clear =
       support >= kClearOfMatches * Count(matches.points.size(), matches.lines.size()) &&
       support >= kClearOfVisible * Count(candidates.points.size(), candidates.lines.size());
-  return is_clear ? PoseFit::kClear : PoseFit::kDoubtful;
+  return is_clear ? PoseFit::kClear : PoseFit::kPoor;
 }
 
 bool IsClearlyBetter(const PoseSummary& far, const PoseSummary& near) {

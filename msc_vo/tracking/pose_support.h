@@ -10,9 +10,9 @@ namespace msc_vo {
 
 /// How well the features that should be visible support a pose.
 enum class PoseFit {
-  kNone,      ///< no pose
-  kDoubtful,  ///< too few: the pose may be one by chance
-  kClear,
+  kNone,   ///< there is no pose
+  kPoor,   ///< by few features: matches by chance could do the same
+  kClear,  ///< by a large part of the features
 };
 
 /// Number of inliers of a pose; a line counts as kPointsPerLine points.
