@@ -3,6 +3,7 @@
 
 #include "msc_vo/bundle_adjustment/observation.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace msc_vo {
@@ -21,7 +22,7 @@ bool IsInFront(const LineSegment3& line_in_cam) {
 namespace {
 
 // Parameter of the point of the line that is seen beside `pixel`: on the plane through the viewing
-// ray of the pixel and across the segment.
+// ray of the pixel and across the segment. Not finite where that plane contains the line.
 double ParameterAt(const PinholeCamera& camera, const LineSegment2& segment,
                    const LineSegment3& line_in_cam, const Eigen::Vector2d& pixel) {
   const Eigen::Vector2d along = segment.Direction();
@@ -31,17 +32,29 @@ double ParameterAt(const PinholeCamera& camera, const LineSegment2& segment,
   return normal.dot(start) / normal.dot(start - end);
 }
 
+// The part with z >= kMinObservedDepth of a line that has one end there.
+LinePart PartInFront(const LineSegment3& line_in_cam) {
+  const double start = line_in_cam.start.z(), end = line_in_cam.end.z();
+  const double limit = (kMinObservedDepth - start) / (end - start);
+  return start < end ? LinePart{limit, 1.0} : LinePart{0.0, limit};
+}
+
 }  // namespace
 
 std::optional<LinePart> ObservedPart(const PinholeCamera& camera, const LineSegment2& segment,
                                      const LineSegment3& line_in_cam) {
   if (IsInFront(line_in_cam)) return LinePart();
-  const LinePart part{ParameterAt(camera, segment, line_in_cam, segment.start),
-                      ParameterAt(camera, segment, line_in_cam, segment.end)};
-  if (!std::isfinite(part.start) || !std::isfinite(part.end)) return std::nullopt;
-  const LineSegment3 seen = part.Of(line_in_cam);
-  if (!IsInFront(seen) || seen.Length() < kMinLineLength) return std::nullopt;
-  return part;
+  if (!IsInFront(Eigen::Vector3d(line_in_cam.start)) &&
+      !IsInFront(Eigen::Vector3d(line_in_cam.end))) {
+    return std::nullopt;
+  }
+  const LinePart front = PartInFront(line_in_cam);
+  const double start = ParameterAt(camera, segment, line_in_cam, segment.start);
+  const double end = ParameterAt(camera, segment, line_in_cam, segment.end);
+  if (!std::isfinite(start) || !std::isfinite(end)) return front;
+  const LinePart part{std::clamp(start, front.start, front.end),
+                      std::clamp(end, front.start, front.end)};
+  return part.Of(line_in_cam).Length() < kMinLineLength ? front : part;
 }
 
 double ImageLineSigma(const LineSegment2& segment, double sigma, const Eigen::Vector2d& pixel) {

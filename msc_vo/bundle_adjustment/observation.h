@@ -41,7 +41,8 @@ bool IsInFront(const LineSegment3& line_in_cam);
 
 /// The part of a map line that an observation is compared with: the whole if both end points are
 /// in front of the camera. Otherwise, as with a line that passes the camera, the part that is seen
-/// between the end points of the observed `segment`; std::nullopt if that is not in front either.
+/// between the end points of the observed `segment`, as far as that is in front and on the line.
+/// std::nullopt if both end points are behind.
 std::optional<LinePart> ObservedPart(const PinholeCamera& camera, const LineSegment2& segment,
                                      const LineSegment3& line_in_cam);
 

@@ -66,8 +66,8 @@ struct WindowData {
     int64_t a = 0;
     int64_t b = 0;
     double sigma = 0.03;  ///< Of the angle between the lines, radians.
-    /// Number of keyframes that observe both lines, at least 1: multiplicity of the term, as in the
-    /// paper's sum.
+    /// Multiplicity of the term, at least 1: in the paper's sum, the number of keyframes that
+    /// observe both lines.
     int count = 1;
     bool rejected = false;  ///< Output: an outlier.
   };

@@ -3,9 +3,11 @@
 
 #include "msc_vo/geometry/line_alignment.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 
 #include "msc_vo/geometry/angles.h"
 
@@ -13,8 +15,8 @@ namespace msc_vo {
 
 namespace {
 
-// Smallest angle between two lines. An error of a direction turns the pair about their common
-// normal's axes by its cosecant: three times as far at 20 degrees.
+// Smallest angle between two lines. An error of a direction out of the plane of both turns the
+// result by up to its product with the cosecant of that angle: three times the error at 20 degrees.
 constexpr double kMinAngle = DegreesToRadians(20.0);
 
 double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -52,10 +54,10 @@ std::optional<Rigid3> AlignLines(const std::array<LineSegment3, 2>& source,
                                  const AlignmentTolerance& tolerance) {
   const Eigen::Vector3d s0 = source[0].Direction(), s1 = source[1].Direction();
   const Eigen::Vector3d t0 = target[0].Direction(), t1 = target[1].Direction();
-  if (UndirectedAngle(s0, s1) < kMinAngle || UndirectedAngle(t0, t1) < kMinAngle ||
-      std::abs(Angle(s0, s1) - Angle(t0, t1)) > tolerance.angle ||
-      std::abs(Distance(source[0], source[1]) - Distance(target[0], target[1])) >
-          tolerance.distance) {
+  if (!(UndirectedAngle(s0, s1) >= kMinAngle) || !(UndirectedAngle(t0, t1) >= kMinAngle) ||
+      !(std::abs(Angle(s0, s1) - Angle(t0, t1)) <= tolerance.angle) ||
+      !(std::abs(Distance(source[0], source[1]) - Distance(target[0], target[1])) <=
+        tolerance.distance)) {
     return std::nullopt;
   }
   const Eigen::Matrix3d rotation = BisectorFrame(t0, t1) * BisectorFrame(s0, s1).transpose();
@@ -77,7 +79,8 @@ std::optional<Rigid3> AlignLineAndPoint(const LineSegment3& source_line,
   const Eigen::Vector3d s = Across(source_line) * (source_point - source_line.Midpoint());
   const Eigen::Vector3d t = Across(target_line) * (target_point - target_line.Midpoint());
   const double shortest = std::min(s.norm(), t.norm());
-  if (shortest < 10.0 * tolerance.distance || std::abs(s.norm() - t.norm()) > tolerance.distance) {
+  if (!(shortest > 10.0 * tolerance.distance) ||
+      !(std::abs(s.norm() - t.norm()) <= tolerance.distance)) {
     return std::nullopt;
   }
   const Eigen::Matrix3d rotation =

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kUnitTolerance = 1e-9;
 
+bool IsPositive(double x) { return std::isfinite(x) && x > 0.0; }
 bool IsUnit(double norm) { return std::abs(norm - 1.0) <= kUnitTolerance; }
 
 const std::vector<LandmarkId>& EntriesOf(const Keyframe& keyframe, const PointLandmark&) {
@@ -24,7 +25,7 @@ const std::vector<LandmarkId>& EntriesOf(const Keyframe& keyframe, const LineLan
 
 std::string GeometryViolation(const PointLandmark& point) {
   if (!point.position.allFinite()) return "its position is not finite";
-  if (!(point.reference_distance > 0.0)) return "its reference distance is not positive";
+  if (!IsPositive(point.reference_distance)) return "its reference distance is not positive";
   return "";
 }
 std::string GeometryViolation(const LineLandmark& line) {
@@ -33,7 +34,7 @@ std::string GeometryViolation(const LineLandmark& line) {
   }
   if (!(line.segment.Length() > 0.0)) return "it has no length";
   if (!std::isfinite(line.depth_offset)) return "its depth offset is not finite";
-  if (!(line.direction_sigma > 0.0)) return "its direction is exact";
+  if (!IsPositive(line.direction_sigma)) return "the sigma of its direction is not positive";
   return "";
 }
 
@@ -59,7 +60,7 @@ std::string ObservationViolation(const Map& map, const L& landmark) {
 template <typename L>
 std::string LandmarkViolation(const Map& map, LandmarkId id, const L& landmark) {
   if (landmark.id != id) return "its id is " + std::to_string(landmark.id);
-  if (!(std::isfinite(landmark.noise) && landmark.noise > 0.0)) return "its noise is not positive";
+  if (!IsPositive(landmark.noise)) return "its noise is not positive";
   if (!IsUnit(landmark.viewing_direction.norm())) return "its viewing direction is not a unit";
   std::string geometry = GeometryViolation(landmark);
   return geometry.empty() ? ObservationViolation(map, landmark) : geometry;

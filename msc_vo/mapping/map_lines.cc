@@ -15,10 +15,10 @@ constexpr int kIterations = 10;
 
 }  // namespace
 
-std::map<LandmarkId, LineSegment3> RefineMapLines(const MapperOptions& options, const Map& map,
-                                                  const SceneAxes& axes, StructuralPairs pairs,
-                                                  const NoiseEstimator& noise) {
-  std::map<LandmarkId, LineSegment3> refined;
+std::map<LandmarkId, RefinedLine> RefineMapLines(const MapperOptions& options, const Map& map,
+                                                 const SceneAxes& axes, StructuralPairs pairs,
+                                                 const NoiseEstimator& noise) {
+  std::map<LandmarkId, RefinedLine> refined;
   if (axes.estimator().state() != AxesState::kRefined || map.keyframes().empty()) return refined;
   WindowData window = SelectWholeMap(options.selection, map);
   for (WindowData::Keyframe& keyframe : window.keyframes) keyframe.fixed = true;
@@ -33,7 +33,15 @@ std::map<LandmarkId, LineSegment3> RefineMapLines(const MapperOptions& options, 
   for (const WindowData::Line& line : window.lines) {
     if (line.fixed) continue;
     const LineSegment3 segment = TrimToObservations(map, *map.FindLine(line.id), line.segment);
-    if (segment.Length() > 0.0) refined.emplace(line.id, segment);
+    if (segment.Length() > 0.0) refined[line.id].segment = segment;
+  }
+  const Eigen::Matrix3d world_from_axes = axes.estimator().world_from_axes().toRotationMatrix();
+  for (const WindowData::AxisAlignment& alignment : window.axis_alignments) {
+    const auto line = refined.find(alignment.line);
+    if (alignment.rejected || line == refined.end()) continue;
+    int axis = 0;
+    (world_from_axes.transpose() * alignment.axis).cwiseAbs().maxCoeff(&axis);
+    line->second.axis = axis;
   }
   return refined;
 }

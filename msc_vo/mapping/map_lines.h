@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/map/map.h"
@@ -14,12 +15,16 @@
 
 namespace msc_vo {
 
+struct RefinedLine {
+  LineSegment3 segment;     ///< metres, world
+  std::optional<int> axis;  ///< 0..2, of the Manhattan axis that it was aligned with
+};
+
 /// Refines the lines of a map at the end of a run: bundle adjustment of the lines alone, with all
 /// keyframes held fixed, in which uncertain lines follow the Manhattan axes as well
-/// (SceneAxes::AddAllAlignments). Returns the refined lines, in the world; none if the map has no
-/// refined axes.
-std::map<LandmarkId, LineSegment3> RefineMapLines(const MapperOptions& options, const Map& map,
-                                                  const SceneAxes& axes, StructuralPairs pairs,
-                                                  const NoiseEstimator& noise);
+/// (SceneAxes::AddAllAlignments). Returns none if the map has no refined axes.
+std::map<LandmarkId, RefinedLine> RefineMapLines(const MapperOptions& options, const Map& map,
+                                                 const SceneAxes& axes, StructuralPairs pairs,
+                                                 const NoiseEstimator& noise);
 
 }  // namespace msc_vo

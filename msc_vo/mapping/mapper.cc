@@ -226,7 +226,7 @@ void Mapper::Calibrate(const KeyframePacket& packet, MappingSummary* summary) {
   SolveWindow(options, summary->keyframe, SelectWholeMap(options_.selection, map()));
 }
 
-std::map<LandmarkId, LineSegment3> Mapper::RefinedLines(const Map& map) const {
+std::map<LandmarkId, RefinedLine> Mapper::RefinedLines(const Map& map) const {
   return RefineMapLines(options_, map, AxesOf(map), pairs_, noise_);
 }
 

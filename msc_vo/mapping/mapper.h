@@ -15,6 +15,7 @@
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/mapping/keyframe_packet.h"
 #include "msc_vo/mapping/map_joiner.h"
+#include "msc_vo/mapping/map_lines.h"
 #include "msc_vo/mapping/mapper_options.h"
 #include "msc_vo/mapping/window_factors.h"
 #include "msc_vo/mapping/window_observer.h"
@@ -110,7 +111,7 @@ class Mapper {
   /// The axes of a map of the atlas.
   const SceneAxes& AxesOf(const Map& map) const;
   /// The lines of a map of the atlas, refined at the end of a run (RefineMapLines).
-  std::map<LandmarkId, LineSegment3> RefinedLines(const Map& map) const;
+  std::map<LandmarkId, RefinedLine> RefinedLines(const Map& map) const;
   const NoiseEstimator& noise() const { return noise_; }
   const ReadoutTimeEstimator& readout() const { return readout_; }
   /// None before SetIntrinsics().

@@ -38,8 +38,8 @@ struct LineMatch {
   }
 };
 
-/// Number of points that a line with a depth counts as: it constrains four of the six degrees of
-/// freedom of a pose, and a point without depth two.
+/// Number of points that a line counts as: with its depth it constrains four of the six degrees of
+/// freedom of a pose, and the pixel of a point two.
 constexpr int kPointsPerLine = 2;
 
 /// The matches of one frame; each feature occurs at most once.

@@ -27,13 +27,13 @@ void AddMap(const Mapper& mapper, KeyframeId first_keyframe, OdometryResult* res
   for (const auto& [id, point] : map->points()) {
     result->points.push_back({point.position, static_cast<int>(point.observations.size())});
   }
-  const std::map<LandmarkId, LineSegment3> refined = mapper.RefinedLines(*map);
+  const std::map<LandmarkId, RefinedLine> refined = mapper.RefinedLines(*map);
   for (const auto& [id, line] : map->lines()) {
     const auto found = refined.find(id);
-    const LineSegment3& segment = found != refined.end() ? found->second : line.segment;
-    result->lines.push_back({segment, static_cast<int>(line.observations.size()),
-                             mapper.last_window_lines().count(id) > 0, axes.AxisOf(line),
-                             line.viewing_direction});
+    const RefinedLine best = found != refined.end() ? found->second : RefinedLine{line.segment, {}};
+    const bool is_active = mapper.last_window_lines().count(id) > 0;
+    result->lines.push_back({best.segment, static_cast<int>(line.observations.size()), is_active,
+                             best.axis ? best.axis : axes.AxisOf(line), line.viewing_direction});
   }
   result->axes = MakeAxes(axes);
 }

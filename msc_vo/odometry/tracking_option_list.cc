@@ -72,9 +72,8 @@ void ListRelocalizer(RelocalizerOptions* relocalizer, OptionLister* list) {
             "Largest descriptor distance of a match.");
   list->Add("max_ratio", &relocalizer->max_ratio, {0.001, 1},
             "Largest ratio of the best to the second best descriptor distance.");
-  list->Add(
-      "max_iterations", &relocalizer->max_iterations, {1, 10000, "iterations"},
-      "Triples of points that are tried per keyframe, and half as many of a line and a point.");
+  list->Add("max_iterations", &relocalizer->max_iterations, {1, 10000, "iterations"},
+            "Triples of points that a search tries, and half as many of a line and a point.");
   list->Add("min_inliers", &relocalizer->min_inliers, {3, 10000, "matches"},
             "Smallest number of inliers of a pose; a line counts as two points.");
   list->Add("max_angle", &relocalizer->max_angle, {0.01, 45, "degrees"},

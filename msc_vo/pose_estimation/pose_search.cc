@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "msc_vo/bundle_adjustment/observation.h"
 #include "msc_vo/geometry/angles.h"
@@ -22,7 +25,8 @@ namespace {
 // Errors of angles and distances between measured lines: three sigmas of a direction with
 // a standard deviation of two degrees, and of a depth of 3 metres by structured light.
 const AlignmentTolerance kTolerance{DegreesToRadians(6.0), 0.04};
-// Largest relative difference between the depth of a supporting line and its measurement.
+constexpr double kToleranceDepth = 3.0;  // metres
+// Largest relative difference between the inverse depth of a supporting line and its measurement.
 constexpr double kMaxDepthError = 0.1;
 // Hypotheses from pairs of lines, those that look most alike.
 constexpr size_t kMaxLinePairs = 150;
@@ -47,11 +51,27 @@ bool HasMeasuredDepth(const Frame& frame, const LineMatch& match, const Rigid3& 
   return inverse_depth && std::abs(*inverse_depth - measured) <= kMaxDepthError * measured;
 }
 
+// Whether two triangles have the same sides, within the error of depths, which grows with the
+// square of the depth.
+bool AreOneTriangle(const std::vector<Eigen::Vector3d>& in_world,
+                    const std::vector<Eigen::Vector3d>& in_cam) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const double depth =
+        std::max({kToleranceDepth, in_cam[i].z(), in_cam[j].z()}) / kToleranceDepth;
+    const double difference = (in_world[i] - in_world[j]).norm() - (in_cam[i] - in_cam[j]).norm();
+    if (!(std::abs(difference) <= kTolerance.distance * depth * depth)) return false;
+  }
+  return true;
+}
+
 // The search for one frame.
 class PoseSearch {
  public:
-  PoseSearch(const RelocalizerOptions& options, const Frame& frame, const LocalMap& candidates)
+  PoseSearch(const RelocalizerOptions& options, const LineMatcherOptions& line_matcher,
+             const Frame& frame, const LocalMap& candidates)
       : options_(options),
+        line_matcher_(line_matcher),
         frame_(frame),
         candidates_(candidates),
         points_(MatchPointDescriptors(options, frame, candidates.points)),
@@ -72,23 +92,27 @@ class PoseSearch {
  private:
   void AddLinePairs() {
     struct Pair {
-      Rigid3 cam_from_world;
+      size_t a, b;
       int distance;
     };
     std::vector<Pair> pairs;
-    for (size_t i = 0; i < lines_.size(); ++i) {
-      for (size_t j = i + 1; j < lines_.size(); ++j) {
-        const LinePair &a = lines_[i], &b = lines_[j];
-        if (a.feature == b.feature || a.candidate == b.candidate) continue;
-        const std::optional<Rigid3> pose =
-            AlignLines({a.in_world, b.in_world}, {a.in_cam, b.in_cam}, kTolerance);
-        if (pose) pairs.push_back({*pose, a.distance + b.distance});
+    for (size_t a = 0; a < lines_.size(); ++a) {
+      for (size_t b = a + 1; b < lines_.size(); ++b) {
+        pairs.push_back({a, b, lines_[a].distance + lines_[b].distance});
       }
     }
     std::stable_sort(pairs.begin(), pairs.end(),
-                     [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
-    if (pairs.size() > kMaxLinePairs) pairs.resize(kMaxLinePairs);
-    for (const Pair& pair : pairs) Add(pair.cam_from_world);
+                     [](const Pair& p, const Pair& q) { return p.distance < q.distance; });
+    size_t num_aligned = 0;
+    for (const Pair& pair : pairs) {
+      const LinePair &a = lines_[pair.a], &b = lines_[pair.b];
+      if (a.feature == b.feature || a.candidate == b.candidate) continue;
+      const std::optional<Rigid3> pose =
+          AlignLines({a.in_world, b.in_world}, {a.in_cam, b.in_cam}, kTolerance);
+      if (!pose) continue;
+      Add(*pose);
+      if (++num_aligned == kMaxLinePairs) return;
+    }
   }
 
   void AddLinesWithPoints() {
@@ -112,7 +136,7 @@ class PoseSearch {
         in_world.push_back(points_[k].position);
         in_cam.push_back(frame_.PointInCamera(points_[k].feature));
       }
-      Add(AlignRigid(in_world, in_cam));
+      if (AreOneTriangle(in_world, in_cam)) Add(AlignRigid(in_world, in_cam));
     }
   }
 
@@ -126,9 +150,9 @@ class PoseSearch {
     for (const PointMatch& match : points_) {
       const Eigen::Vector3d in_cam = cam_from_world * match.position;
       const Eigen::Vector2d& pixel = frame_.points[match.feature].pixel;
-      if (in_cam.z() <= 0.0) continue;
+      if (!(in_cam.z() > 0.0)) continue;
       const double error = (frame_.camera.Project(in_cam) - pixel).norm() / radius;
-      if (error >= 1.0) continue;
+      if (!(error < 1.0)) continue;
       matches.points.push_back(match);
       score += 1.0 - error * error;
     }
@@ -139,8 +163,7 @@ class PoseSearch {
         visible_lines_.pop_back();
       }
     }
-    for (const LineMatch& match :
-         MatchLines(LineMatcherOptions(), frame_, visible_lines_, radius, {})) {
+    for (const LineMatch& match : MatchLines(line_matcher_, frame_, visible_lines_, radius, {})) {
       if (HasMeasuredDepth(frame_, match, cam_from_world)) matches.lines.push_back(match);
     }
     const size_t lines = kPointsPerLine * matches.lines.size();
@@ -150,6 +173,7 @@ class PoseSearch {
   }
 
   const RelocalizerOptions& options_;
+  const LineMatcherOptions& line_matcher_;
   const Frame& frame_;
   const LocalMap& candidates_;
   std::vector<PointMatch> points_;  // by descriptor
@@ -187,10 +211,12 @@ bool AreOnePose(const FrameMatches& a, const FrameMatches& b) {
 
 }  // namespace
 
-std::vector<Relocalization> FindPoses(const RelocalizerOptions& options, const Frame& frame,
+std::vector<Relocalization> FindPoses(const RelocalizerOptions& options,
+                                      const LineMatcherOptions& line_matcher, const Frame& frame,
                                       const LocalMap& candidates, int max_poses) {
   std::vector<Relocalization> poses;
-  for (Relocalization& hypothesis : PoseSearch(options, frame, candidates).Hypotheses()) {
+  for (Relocalization& hypothesis :
+       PoseSearch(options, line_matcher, frame, candidates).Hypotheses()) {
     if (static_cast<int>(poses.size()) >= max_poses) break;
     const bool is_new =
         std::none_of(poses.begin(), poses.end(), [&hypothesis](const Relocalization& pose) {

@@ -56,10 +56,11 @@ bool RelocalizerOptions::IsValid(std::string* error) const {
   return false;
 }
 
-std::optional<Relocalization> Relocalize(const RelocalizerOptions& options, const Frame& frame,
+std::optional<Relocalization> Relocalize(const RelocalizerOptions& options,
+                                         const LineMatcherOptions& line_matcher, const Frame& frame,
                                          const Map& map, const Keyframe& keyframe) {
   const std::vector<Relocalization> poses =
-      FindPoses(options, frame, LandmarksOf(map, keyframe), 2);
+      FindPoses(options, line_matcher, frame, LandmarksOf(map, keyframe), 2);
   if (poses.empty()) return std::nullopt;
   if (poses.size() > 1 && poses[1].score > kMaxRival * poses[0].score) return std::nullopt;
   return poses.front();

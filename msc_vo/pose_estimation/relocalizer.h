@@ -8,6 +8,7 @@
 
 #include "msc_vo/map/map.h"
 #include "msc_vo/matching/frame_matches.h"
+#include "msc_vo/matching/line_matcher.h"
 
 namespace msc_vo {
 
@@ -39,7 +40,8 @@ struct Relocalization {
 /// Finds the pose of `frame` from the landmarks of one keyframe without a prediction (FindPoses).
 /// Returns std::nullopt if too few features agree, or if about as many agree with another pose, as
 /// on a box that looks alike from two sides.
-std::optional<Relocalization> Relocalize(const RelocalizerOptions& options, const Frame& frame,
+std::optional<Relocalization> Relocalize(const RelocalizerOptions& options,
+                                         const LineMatcherOptions& line_matcher, const Frame& frame,
                                          const Map& map, const Keyframe& keyframe);
 
 }  // namespace msc_vo

@@ -49,7 +49,7 @@ std::optional<MapRelocalization> InactiveMapSearch::Relocalize(const TrackedFram
                                                                const Keyframe& keyframe) const {
   const Frame& frame = *tracked.frame;
   const std::optional<Relocalization> hit =
-      msc_vo::Relocalize(options_.relocalizer, frame, map, keyframe);
+      msc_vo::Relocalize(options_.relocalizer, options_.line_matcher, frame, map, keyframe);
   if (!hit) return std::nullopt;
   TrackedFrame found;
   found.frame = tracked.frame;

@@ -29,15 +29,19 @@ double Support(const PoseSummary& pose) {
 
 PoseFit FitOf(const TrackedFrame& tracked, const LocalMap& candidates) {
   const double support = Support(tracked.pose);
+  // Matches on dynamic objects neither support a pose nor contradict it.
+  const double dynamic = tracked.pose.num_dynamic;
   const FrameMatches& matches = tracked.matches;
+  const double matched = Count(matches.points.size(), matches.lines.size()) - dynamic;
+  const double visible = Count(candidates.points.size(), candidates.lines.size()) - dynamic;
   const bool is_clear =
-      support >= kClearOfMatches * Count(matches.points.size(), matches.lines.size()) &&
-      support >= kClearOfVisible * Count(candidates.points.size(), candidates.lines.size());
+      support >= kClearOfMatches * matched && support >= kClearOfVisible * visible;
   return is_clear ? PoseFit::kClear : PoseFit::kPoor;
 }
 
 bool IsClearlyBetter(const PoseSummary& far, const PoseSummary& near) {
-  return Support(far) > kClearlyBetter * Support(near);
+  // A near, textured object supports the pose that moves with it.
+  return Support(far) > kClearlyBetter * (Support(near) + near.num_dynamic);
 }
 
 }  // namespace msc_vo

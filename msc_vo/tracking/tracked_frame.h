@@ -64,7 +64,7 @@ enum class SegmentStart {
 struct TrackedFrame {
   std::shared_ptr<const Frame> frame;  ///< with rolling-shutter compensation
   TrackingStatus status = TrackingStatus::kLost;
-  bool relocalized = false;  ///< the pose was found without a prediction
+  bool relocalized = false;  ///< the pose was found by relocalisation in a keyframe
   /// kNoId: the frame begins a map, or there is none, and cam_from_reference is cam_from_world.
   KeyframeId reference = kNoId;
   Rigid3 cam_from_reference;

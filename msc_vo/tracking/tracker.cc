@@ -197,8 +197,8 @@ bool Tracker::TrackLargeMotion(const Map& map, const Rigid3& prediction,
   Stopwatch stopwatch;
   const Rigid3 last_from_world = CamFromWorld(map, last_);
   const LocalMap last = CandidatesFromFrame(map, last_, last_from_world, last_from_world);
-  const std::vector<Relocalization> poses =
-      FindPoses(options_.relocalizer, *tracked->frame, last, kMaxSearchPoses);
+  const std::vector<Relocalization> poses = FindPoses(options_.relocalizer, options_.line_matcher,
+                                                      *tracked->frame, last, kMaxSearchPoses);
   TrackingTimes times;
   times.matching = stopwatch.Milliseconds();
 
@@ -274,8 +274,8 @@ bool Tracker::Relocalize(const Map& map, TrackedFrame* tracked) {
     if (keyframe == nullptr) keyframe = &map.keyframes().back();
     next_candidate_ = keyframe->first - 1;
     Stopwatch stopwatch;
-    const std::optional<Relocalization> hit =
-        msc_vo::Relocalize(options_.relocalizer, *tracked->frame, map, keyframe->second);
+    const std::optional<Relocalization> hit = msc_vo::Relocalize(
+        options_.relocalizer, options_.line_matcher, *tracked->frame, map, keyframe->second);
     tracked->times.matching += stopwatch.Milliseconds();
     if (!hit) continue;
     tracked->cam_from_world = hit->cam_from_world;

@@ -66,10 +66,10 @@ class Tracker {
   // Asks for the pose factors of the frame and predicts its pose.
   Prediction Predict(const Map& map, const Rigid3& last_from_world, const TrackedFrame& tracked);
 
-  // Stage 1, the initial pose: by matching with the last frame around the predicted pose; if few of
-  // the matches support it, with a wide search radius and around poses that lines and points of the
-  // last frame determine without a prediction; then with the map there, then by relocalisation.
-  // Each returns false if it did not find a pose.
+  // Stage 1, the initial pose: by matching with the last frame around the predicted pose; if few
+  // of the matches or of the visible features support it, with a wide search radius and around
+  // poses that lines and points of the last frame determine without a prediction; then with the map
+  // there, then by relocalisation. Each returns false if it did not find a pose.
   bool TrackInitialPose(const Map& map, const Prediction& prediction, TrackedFrame* tracked);
   PoseFit TrackLastFrame(const Map& map, const Rigid3& prediction, double radius,
                          TrackedFrame* tracked) const;

@@ -3,6 +3,7 @@
 
 #include "msc_vo/bundle_adjustment/observation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -45,10 +46,20 @@ TEST(ObservedPart, IsSeenBetweenTheEndsOfTheSegmentIfTheLinePassesTheCamera) {
 TEST(ObservedPart, IsMissingBehindTheCamera) {
   const LineSegment3 behind{{0.8, 0.5, -3.0}, {0.8, 0.5, -1.0}};
   EXPECT_FALSE(ObservedPart(PinholeCamera(), kSegment, behind).has_value());
-  // The viewing rays of the segment meet the line behind the camera.
+}
+
+TEST(ObservedPart, StaysInFrontAndOnTheLine) {
   const PinholeCamera camera;
+  // Viewing rays that meet the line behind the camera, or beyond its end.
   const LineSegment2 opposite{{100.0, 100.0}, {140.0, 130.0}};
-  EXPECT_FALSE(ObservedPart(camera, opposite, kPassing).has_value());
+  const LineSegment2 longer{camera.Project(kPassing.At(0.8)), camera.Project(kPassing.At(1.5))};
+  for (const LineSegment2& segment : {opposite, longer}) {
+    const std::optional<LinePart> part = ObservedPart(camera, segment, kPassing);
+    ASSERT_TRUE(part.has_value());
+    EXPECT_GE(part->Of(kPassing).start.z(), kMinObservedDepth - 1e-12);
+    EXPECT_GE(part->Of(kPassing).end.z(), kMinObservedDepth - 1e-12);
+    EXPECT_LE(std::max(part->start, part->end), 1.0);
+  }
 }
 
 TEST(ImageLineSigma, MatchesValuesByHand) {

@@ -3,6 +3,8 @@
 
 #include "msc_vo/geometry/line_alignment.h"
 
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/angles.h"

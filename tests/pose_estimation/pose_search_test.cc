@@ -4,6 +4,7 @@
 #include "msc_vo/pose_estimation/pose_search.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "tests/support/synthetic_frames.h"
 #include "tests/support/synthetic_map.h"
@@ -41,7 +42,8 @@ LocalMap Candidates(const Frame& frame, const Rigid3& cam_from_world) {
 
 std::vector<Relocalization> Search(SyntheticFrames* world, const Rigid3& truth) {
   const LocalMap candidates = Candidates(*world->MakeFrame(0, Rigid3()), Rigid3());
-  return FindPoses(RelocalizerOptions(), *world->MakeFrame(1, truth), candidates, 3);
+  return FindPoses(RelocalizerOptions(), LineMatcherOptions(), *world->MakeFrame(1, truth),
+                   candidates, 3);
 }
 
 SyntheticFrames World(int num_points, int num_lines) {
@@ -79,7 +81,8 @@ TEST(FindPoses, CombinesLinesWithPoints) {
   ASSERT_EQ(frame.lines.size(), 1u);
   RelocalizerOptions options;
   options.min_inliers = 4;
-  const std::vector<Relocalization> poses = FindPoses(options, frame, candidates, 1);
+  const std::vector<Relocalization> poses =
+      FindPoses(options, LineMatcherOptions(), frame, candidates, 1);
   ASSERT_FALSE(poses.empty());
   EXPECT_LT(PositionError(poses[0].cam_from_world, kMoved), 0.3);
 }
@@ -98,8 +101,9 @@ TEST(FindPoses, FindsNothingInAnotherScene) {
   SyntheticFrames other(options);
   SyntheticFrames world = World(300, 40);
   const LocalMap candidates = Candidates(*other.MakeFrame(0, Rigid3()), Rigid3());
-  EXPECT_TRUE(
-      FindPoses(RelocalizerOptions(), *world.MakeFrame(0, Rigid3()), candidates, 3).empty());
+  EXPECT_TRUE(FindPoses(RelocalizerOptions(), LineMatcherOptions(), *world.MakeFrame(0, Rigid3()),
+                        candidates, 3)
+                  .empty());
 }
 
 // A square frame of four equal lines looks the same after a quarter turn.
@@ -124,12 +128,14 @@ TEST(Relocalize, RefusesToChooseBetweenPosesThatLookAlike) {
   }
   const MapSnapshot snapshot = MapOfOneKeyframe(frame, Rigid3());
   const Keyframe& keyframe = snapshot.map.keyframes().front().second;
-  EXPECT_FALSE(Relocalize(RelocalizerOptions(), *frame, snapshot.map, keyframe).has_value());
+  EXPECT_FALSE(
+      Relocalize(RelocalizerOptions(), LineMatcherOptions(), *frame, snapshot.map, keyframe)
+          .has_value());
   // With a difference between the sides it is found.
   for (size_t i = 0; i < frame->lines.size(); i += 4) frame->lines[i].descriptor.fill(0xff);
   const MapSnapshot marked = MapOfOneKeyframe(frame, Rigid3());
-  const auto found =
-      Relocalize(RelocalizerOptions(), *frame, marked.map, marked.map.keyframes().front().second);
+  const auto found = Relocalize(RelocalizerOptions(), LineMatcherOptions(), *frame, marked.map,
+                                marked.map.keyframes().front().second);
   ASSERT_TRUE(found.has_value());
   EXPECT_LT(PositionError(found->cam_from_world, Rigid3()), 0.05);
 }

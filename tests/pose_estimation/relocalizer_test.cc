@@ -16,7 +16,7 @@ TEST(Relocalizer, EstimatesAPoseWithoutPrediction) {
       MapOfOneKeyframe(world.MakeFrame(0), SyntheticFrames::CamFromWorld(0));
   const Rigid3 truth = SyntheticFrames::CamFromWorld(60);
   const std::shared_ptr<const Frame> frame = world.MakeFrame(60);
-  const auto hit = Relocalize(RelocalizerOptions(), *frame, snapshot.map,
+  const auto hit = Relocalize(RelocalizerOptions(), LineMatcherOptions(), *frame, snapshot.map,
                               snapshot.map.keyframes().front().second);
   ASSERT_TRUE(hit.has_value());
   // From three noisy matches at 2 to 6 m: good enough to start pose optimisation.
@@ -30,8 +30,10 @@ TEST(Relocalizer, IsDeterministic) {
       MapOfOneKeyframe(world.MakeFrame(0), SyntheticFrames::CamFromWorld(0));
   const std::shared_ptr<const Frame> frame = world.MakeFrame(30);
   const Keyframe& keyframe = snapshot.map.keyframes().front().second;
-  const auto a = Relocalize(RelocalizerOptions(), *frame, snapshot.map, keyframe);
-  const auto b = Relocalize(RelocalizerOptions(), *frame, snapshot.map, keyframe);
+  const auto a =
+      Relocalize(RelocalizerOptions(), LineMatcherOptions(), *frame, snapshot.map, keyframe);
+  const auto b =
+      Relocalize(RelocalizerOptions(), LineMatcherOptions(), *frame, snapshot.map, keyframe);
   ASSERT_TRUE(a && b);
   EXPECT_EQ(a->cam_from_world.params, b->cam_from_world.params);
 }
@@ -44,9 +46,10 @@ TEST(Relocalizer, RejectsAnotherSceneAndAnEmptyFrame) {
   const MapSnapshot snapshot =
       MapOfOneKeyframe(world.MakeFrame(0), SyntheticFrames::CamFromWorld(0));
   const Keyframe& keyframe = snapshot.map.keyframes().front().second;
-  EXPECT_FALSE(Relocalize(RelocalizerOptions(), *other.MakeFrame(0), snapshot.map, keyframe));
-  EXPECT_FALSE(Relocalize(RelocalizerOptions(), *SyntheticFrames::MakeEmptyFrame(3), snapshot.map,
-                          keyframe));
+  EXPECT_FALSE(Relocalize(RelocalizerOptions(), LineMatcherOptions(), *other.MakeFrame(0),
+                          snapshot.map, keyframe));
+  EXPECT_FALSE(Relocalize(RelocalizerOptions(), LineMatcherOptions(),
+                          *SyntheticFrames::MakeEmptyFrame(3), snapshot.map, keyframe));
 }
 
 }  // namespace

@@ -145,11 +145,18 @@ TEST_F(StructuralPairsTest, ExcludesPairsOfAlignedLines) {
   }
 }
 
-TEST_F(StructuralPairsTest, CanDisableEachKind) {
+TEST_F(StructuralPairsTest, CanDisableParallelPairs) {
   options_.parallel = false;
   Add();
   EXPECT_TRUE(window_.parallel_pairs.empty());
   EXPECT_FALSE(window_.perpendicular_pairs.empty());
+}
+
+TEST_F(StructuralPairsTest, CanDisablePerpendicularPairs) {
+  options_.perpendicular = false;
+  Add();
+  EXPECT_FALSE(window_.parallel_pairs.empty());
+  EXPECT_TRUE(window_.perpendicular_pairs.empty());
 }
 
 TEST(RelationProbabilities, EstimatesTheFractionOfRelatedPairs) {

@@ -3,6 +3,7 @@
 
 #include "msc_vo/bundle_adjustment/internal/window_terms.h"
 
+#include <optional>
 #include <utility>
 
 namespace msc_vo {
@@ -75,13 +76,14 @@ class WindowTermsBuilder {
                                       options_.line_depth.enabled);
       if (!used.reprojection && !used.depth) continue;
       const LineSegment3 whole = state_.Pose(keyframe) * state_.Line(line);
-      const LinePart part = ObservedPart(data_.camera, o.segment, whole).value_or(LinePart());
-      const LineSegment3 in_cam = part.Of(whole);
+      const std::optional<LinePart> part = ObservedPart(data_.camera, o.segment, whole);
+      if (!part) continue;
+      const LineSegment3 in_cam = part->Of(whole);
       terms_.keyframe_constrained[keyframe] = terms_.line_constrained[line] = true;
       if (used.reprojection) {
         LineReprojection factor =
             MakeLineReprojection(data_.camera, o.segment, noise * o.sigma, in_cam);
-        factor.SetPart(part);
+        factor.SetPart(*part);
         terms_.line_reprojection.blocks.push_back({factor, keyframe, line, Source(i)});
       }
       if (used.depth) {
@@ -89,7 +91,7 @@ class WindowTermsBuilder {
         depth.covariance *= noise * noise;
         LineDepthReprojection factor =
             MakeLineDepthReprojection(data_.camera, o.segment, depth, in_cam);
-        factor.SetPart(part);
+        factor.SetPart(*part);
         terms_.line_depth.blocks.push_back({factor, keyframe, line, Source(i)});
       }
     }

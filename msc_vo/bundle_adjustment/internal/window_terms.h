@@ -57,7 +57,7 @@ struct WindowTerm {
 ///     + n rho(|PerpendicularLines|^2) + rho(|ManhattanAxisAlignment|^2) + |PosePrior|^2
 ///     + rho(|CustomFactor|^2)
 ///
-/// with n the number of keyframes that observe both lines. It holds values, except that custom
+/// with n the multiplicity of a pair (WindowData::LinePair). It holds values, except that custom
 /// factors are those of the data, and is minimised by CeresBackend or MinimizeWithBlockSchur.
 struct WindowTerms {
   WindowTerm<PointReprojection> point_reprojection;
