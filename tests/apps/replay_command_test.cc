@@ -311,7 +311,8 @@ TEST_F(ReplayCommandTest, ExcludesUnestimatedPosesFromCoverage) {
 
 TEST_F(ReplayCommandTest, WritesResultsOnInterrupt) {
   Synthesize(60);
-  CommandProcess replay({"replay", Path("room"), "--output", Path("out")});
+  // Paced, so that the run is not over before the signal.
+  CommandProcess replay({"replay", Path("room"), "--output", Path("out"), "--realtime"});
   WaitForPoses("out", 6);
   replay.Signal(SIGINT);
   EXPECT_EQ(replay.Wait(), 130) << replay.output();
@@ -323,7 +324,8 @@ TEST_F(ReplayCommandTest, WritesResultsOnInterrupt) {
 
 TEST_F(ReplayCommandTest, WritesResultsOnHangup) {
   Synthesize(60);
-  CommandProcess replay({"replay", Path("room"), "--output", Path("out")});
+  // Paced, so that the run is not over before the signal.
+  CommandProcess replay({"replay", Path("room"), "--output", Path("out"), "--realtime"});
   WaitForPoses("out", 6);
   replay.Signal(SIGHUP);
   replay.Signal(SIGHUP);  // from the system and from the shell
@@ -334,7 +336,8 @@ TEST_F(ReplayCommandTest, WritesResultsOnHangup) {
 TEST_F(ReplayCommandTest, LeavesFramesOfAKilledRun) {
   Synthesize(60);
   ASSERT_EQ(Replay("out", {"--max-frames", "4", "--quiet"}).exit_code, 0);
-  CommandProcess replay({"replay", Path("room"), "--output", Path("out")});
+  // Paced, so that the run is not over before the signal.
+  CommandProcess replay({"replay", Path("room"), "--output", Path("out"), "--realtime"});
   WaitForPoses("out", 6);
   replay.Signal(SIGKILL);
   ASSERT_EQ(replay.Wait(), -SIGKILL) << replay.output();
