@@ -22,7 +22,8 @@ struct RefinedLine {
 
 /// Refines the lines of a map at the end of a run: bundle adjustment of the lines alone, with all
 /// keyframes held fixed, in which uncertain lines follow the Manhattan axes as well
-/// (SceneAxes::AddAllAlignments). Returns none if the map has no refined axes.
+/// (SceneAxes::AddAllAlignments). `pairs` is a copy because adding pairs learns. Returns none if
+/// the map has no refined axes.
 std::map<LandmarkId, RefinedLine> RefineMapLines(const MapperOptions& options, const Map& map,
                                                  const SceneAxes& axes, StructuralPairs pairs,
                                                  const NoiseEstimator& noise);

@@ -66,6 +66,22 @@ bool IsViewedAlike(const Landmark& landmark, const Eigen::Vector3d& ray) {
   return landmark.viewing_direction.dot(ray) >= kMinViewingCosine * ray.norm();
 }
 
+PointCandidate CandidateOf(const PointLandmark& point) {
+  PointCandidate candidate;
+  candidate.id = point.id;
+  candidate.position = point.position;
+  candidate.descriptor = point.descriptor;
+  return candidate;
+}
+
+LineCandidate CandidateOf(const LineLandmark& line) {
+  LineCandidate candidate;
+  candidate.id = line.id;
+  candidate.segment = line.segment;
+  candidate.descriptor = line.descriptor;
+  return candidate;
+}
+
 void AddPoint(const PointLandmark& point, const Frame& frame, const Rigid3& cam_from_world,
               const Eigen::Vector3d& center, std::vector<PointCandidate>* candidates) {
   const Eigen::Vector3d ray = point.position - center;
@@ -73,10 +89,7 @@ void AddPoint(const PointLandmark& point, const Frame& frame, const Rigid3& cam_
   const double level = point.PredictLevel(ray.norm());
   // One level of tolerance on both sides, as in the matcher.
   if (!(level > -1.5 && level < kMaxLevel + 1.5)) return;
-  PointCandidate candidate;
-  candidate.id = point.id;
-  candidate.position = point.position;
-  candidate.descriptor = point.descriptor;
+  PointCandidate candidate = CandidateOf(point);
   candidate.level = std::clamp(static_cast<int>(std::lround(level)), 0, kMaxLevel);
   if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) candidates->push_back(candidate);
 }
@@ -97,14 +110,23 @@ bool IsViewedAlike(const LineLandmark& line, const Rigid3& cam_from_world,
 void AddLine(const LineLandmark& line, const Frame& frame, const Rigid3& cam_from_world,
              const Eigen::Vector3d& center, std::vector<LineCandidate>* candidates) {
   if (!IsViewedAlike(line, cam_from_world, center)) return;
-  LineCandidate candidate;
-  candidate.id = line.id;
-  candidate.segment = line.segment;
-  candidate.descriptor = line.descriptor;
+  LineCandidate candidate = CandidateOf(line);
   if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) candidates->push_back(candidate);
 }
 
 }  // namespace
+
+LocalMap LandmarksOf(const Map& map, const Keyframe& keyframe) {
+  LocalMap landmarks;
+  landmarks.reference = keyframe.id;
+  for (const LandmarkId id : keyframe.points) {
+    if (id != kNoId) landmarks.points.push_back(CandidateOf(*map.FindPoint(id)));
+  }
+  for (const LandmarkId id : keyframe.lines) {
+    if (id != kNoId) landmarks.lines.push_back(CandidateOf(*map.FindLine(id)));
+  }
+  return landmarks;
+}
 
 LocalMap SelectLocalMap(const Map& map, const Frame& frame, const Rigid3& cam_from_world,
                         const FrameMatches& matches, KeyframeId fallback, int max_keyframes) {

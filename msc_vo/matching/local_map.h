@@ -19,6 +19,10 @@ struct LocalMap {
   std::vector<LineCandidate> lines;
 };
 
+/// The landmarks of a keyframe as candidates, wherever they would project to: for a search without
+/// a prediction. Their pixels and pyramid levels are not set.
+LocalMap LandmarksOf(const Map& map, const Keyframe& keyframe);
+
 /// Selects the local map of a frame (paper: local map tracking): the landmarks of the keyframes
 /// that share landmarks with `matches`, and of the covisible keyframes of the best of them. A
 /// landmark is included if it projects into `frame` from `cam_from_world`, is observed from a

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "msc_vo/matching/local_map.h"
 #include "msc_vo/pose_estimation/pose_search.h"
 
 namespace msc_vo {
@@ -13,31 +14,6 @@ namespace {
 
 // Score of the second best pose, relative to the best, above which neither is believed.
 constexpr double kMaxRival = 0.8;
-
-// The landmarks of a keyframe, wherever they project to.
-LocalMap LandmarksOf(const Map& map, const Keyframe& keyframe) {
-  LocalMap landmarks;
-  landmarks.reference = keyframe.id;
-  for (const LandmarkId id : keyframe.points) {
-    const PointLandmark* point = map.FindPoint(id);
-    if (point == nullptr) continue;
-    PointCandidate candidate;
-    candidate.id = id;
-    candidate.position = point->position;
-    candidate.descriptor = point->descriptor;
-    landmarks.points.push_back(candidate);
-  }
-  for (const LandmarkId id : keyframe.lines) {
-    const LineLandmark* line = map.FindLine(id);
-    if (line == nullptr) continue;
-    LineCandidate candidate;
-    candidate.id = id;
-    candidate.segment = line->segment;
-    candidate.descriptor = line->descriptor;
-    landmarks.lines.push_back(candidate);
-  }
-  return landmarks;
-}
 
 }  // namespace
 

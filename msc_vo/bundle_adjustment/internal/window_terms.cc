@@ -77,7 +77,7 @@ class WindowTermsBuilder {
       if (!used.reprojection && !used.depth) continue;
       const LineSegment3 whole = state_.Pose(keyframe) * state_.Line(line);
       const std::optional<LinePart> part = ObservedPart(data_.camera, o.segment, whole);
-      if (!part) continue;
+      if (!part) continue;  // moved behind the camera by an earlier solve
       const LineSegment3 in_cam = part->Of(whole);
       terms_.keyframe_constrained[keyframe] = terms_.line_constrained[line] = true;
       if (used.reprojection) {
