@@ -8,17 +8,20 @@
 #include <stdexcept>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include "msc_vo/bundle_adjustment/validation.h"
 #include "msc_vo/pose_estimation/cell_consensus.h"
+#include "msc_vo/pose_estimation/estimate_covariance.h"
 #include "msc_vo/pose_estimation/image_grid.h"
 #include "msc_vo/pose_estimation/pose_matches.h"
 
 namespace msc_vo {
 
 namespace {
+
+const char* MapVarianceError(double map_variance) {
+  const bool valid = std::isfinite(map_variance) && map_variance >= 0.0;
+  return valid ? nullptr : "map_variance must be finite and not negative";
+}
 
 void Validate(const PoseOptions& options, const PoseData& data) {
   const auto fail = [](const std::string& who, const std::string& what) {
@@ -33,12 +36,14 @@ void Validate(const PoseOptions& options, const PoseData& data) {
     if (what == nullptr) {
       what = PointObservationError(p.pixel, p.sigma, p.inverse_depth, p.inverse_depth_sigma);
     }
+    if (what == nullptr) what = MapVarianceError(p.map_variance);
     if (what != nullptr) fail("point " + std::to_string(i), what);
   }
   for (size_t i = 0; i < data.lines.size(); ++i) {
     const PoseData::Line& l = data.lines[i];
     const char* what = MapLineError(l.map_segment);
     if (what == nullptr) what = LineObservationError(l.segment, l.sigma, l.has_depth, l.depth);
+    if (what == nullptr) what = MapVarianceError(l.map_variance);
     if (what != nullptr) fail("line " + std::to_string(i), what);
   }
   for (const PoseFactor& factor : data.custom_factors) {
@@ -101,22 +106,6 @@ std::vector<bool> RejectDynamicObjects(const PoseOptions& options, PoseData* dat
   return consensus->dynamic_cells;
 }
 
-// Inverse of J^T J, or std::nullopt if it is numerically singular. The test scales the diagonal to
-// one, because radians and metres are not comparable; the eigenvalues are then at most 6, and a
-// limit of 1e-10 leaves six digits above the rounding of the sums.
-std::optional<Eigen::Matrix<double, 6, 6>> Covariance(const Eigen::Matrix<double, 6, 6>& hessian) {
-  const Eigen::Matrix<double, 6, 1> diagonal = hessian.diagonal();
-  if (!(diagonal.minCoeff() > 0.0)) return std::nullopt;
-  const Eigen::Matrix<double, 6, 1> scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Eigen::Matrix<double, 6, 6> scaled = scale.asDiagonal() * hessian * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(scaled);
-  if (!(eigen.eigenvalues()[0] > 1e-10)) return std::nullopt;
-  const Eigen::Matrix<double, 6, 6> inverse = eigen.eigenvectors() *
-                                              eigen.eigenvalues().cwiseInverse().asDiagonal() *
-                                              eigen.eigenvectors().transpose();
-  return scale.asDiagonal() * inverse * scale.asDiagonal();
-}
-
 // Writes the flags of the matches and counts them.
 void WriteFlags(const PoseInlierMask& mask, PoseData* data, PoseSummary* summary) {
   for (size_t i = 0; i < data->points.size(); ++i) {
@@ -175,7 +164,7 @@ PoseSummary OptimizePose(const PoseOptions& options, PoseData* data) {
   const PoseFactors inliers = BuildFactors(options, *data, mask, pose, false);
   NormalEquations equations;
   if (!solved || inliers.NumRows() < 6 || !inliers.Linearize(pose, &equations)) return summary;
-  const auto covariance = Covariance(equations.hessian);
+  const auto covariance = CovarianceOfEstimate(options, *data, mask, pose, equations);
   if (!covariance || !covariance->allFinite() || !std::isfinite(equations.cost) ||
       PoseError(pose) != nullptr) {
     return summary;

@@ -26,6 +26,9 @@ struct PoseData {
     double sigma = 1.0;                                  ///< pixels
     double inverse_depth = 0.0;                          ///< 1/metres; 0: no depth measured
     double inverse_depth_sigma = 0.0;                    ///< 1/metres
+    /// Variance of the landmark in the map, relative to that of this observation; 0: exact. It does
+    /// not weigh the match, but widens the covariance of the pose.
+    double map_variance = 0.0;
     /// The landmark is confirmed static: at least two keyframes observed it at the same position.
     bool confirmed = true;
     bool dynamic = false;  ///< out: lies in a cell of a dynamic object, see CellConsensus
@@ -36,10 +39,11 @@ struct PoseData {
     LineSegment2 segment;      ///< pixels, undistorted
     double sigma = 1.0;        ///< pixels, of an end point's distance to the true line
     bool has_depth = false;
-    LineDepth depth;        ///< used if has_depth
-    bool confirmed = true;  ///< as for points
-    bool dynamic = false;   ///< out
-    bool inlier = true;     ///< out
+    LineDepth depth;            ///< used if has_depth
+    double map_variance = 0.0;  ///< as for points
+    bool confirmed = true;      ///< as for points
+    bool dynamic = false;       ///< out
+    bool inlier = true;         ///< out
   };
 
   PinholeCamera camera;
@@ -105,9 +109,9 @@ struct PoseSummary {
   std::vector<bool> dynamic_cells;  ///< one per cell of the ImageGrid; empty if there are none
   /// Half the sum of squares over the inliers, and the robust cost of the custom factors.
   double final_cost = 0.0;
-  /// Inverse of J^T J over the inliers and custom factors: covariance of the estimate in the
-  /// tangent of Rigid3Manifold (rotation vector in the camera frame, radians; then translation,
-  /// metres). Zero if not usable.
+  /// Covariance of the estimate in the tangent of Rigid3Manifold (rotation vector in the camera
+  /// frame, radians; then translation, metres), from the inliers and custom factors: see
+  /// CovarianceOfEstimate(). Zero if not usable.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 
   template <typename Archive>

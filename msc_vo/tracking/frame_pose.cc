@@ -52,6 +52,15 @@ bool IsConfirmed(const L* landmark) {
   return landmark != nullptr && landmark->observations.size() >= 2;
 }
 
+// Every keyframe that observes a landmark counts as one observation like that of the frame. A match
+// with a feature of the last frame (nullptr) is as uncertain as the frame's own.
+template <typename L>
+double MapVariance(const L* landmark) {
+  return landmark != nullptr && !landmark->observations.empty()
+             ? 1.0 / static_cast<double>(landmark->observations.size())
+             : 1.0;
+}
+
 // The sigmas of the feature are multiplied by the calibrated scale and the noise of the landmark
 // (nullptr: the match is with a feature of the last frame).
 PoseData::Point Observe(const PointMatch& match, const PointFeature& feature,
@@ -62,6 +71,7 @@ PoseData::Point Observe(const PointMatch& match, const PointFeature& feature,
           noise * feature.sigma,
           feature.inverse_depth,
           noise * scale.point_depth * feature.inverse_depth_sigma,
+          MapVariance(landmark),
           IsConfirmed(landmark)};
 }
 
@@ -76,7 +86,8 @@ PoseData::Line Observe(const LineMatch& match, const Frame& frame, const Rigid3&
   if (landmark != nullptr) depth = Nearer(depth, landmark->depth_offset);
   depth.covariance *= noise * noise * scale.line_depth * scale.line_depth;
   return {part.Of(match.segment),    feature.segment, noise * scale.line_pixel * feature.sigma,
-          feature.depth.has_value(), depth,           IsConfirmed(landmark)};
+          feature.depth.has_value(), depth,           MapVariance(landmark),
+          IsConfirmed(landmark)};
 }
 
 }  // namespace

@@ -65,15 +65,17 @@ class PoseChanges {
   }
 
   void ChangePoint(PoseData::Point* point) {
-    std::vector<double*> fields = {&point->pixel.x(), &point->pixel.y(), &point->sigma,
-                                   &point->inverse_depth, &point->inverse_depth_sigma};
+    std::vector<double*> fields = {
+        &point->pixel.x(),     &point->pixel.y(),           &point->sigma,
+        &point->inverse_depth, &point->inverse_depth_sigma, &point->map_variance};
     for (int i = 0; i < 3; ++i) fields.push_back(&point->position[i]);
     Change(fields);
     point->confirmed = bytes_.Below(4) != 0;
   }
 
   void ChangeLine(PoseData::Line* line) {
-    std::vector<double*> fields = {&line->sigma, &line->depth.start, &line->depth.end};
+    std::vector<double*> fields = {&line->sigma, &line->depth.start, &line->depth.end,
+                                   &line->map_variance};
     for (int i = 0; i < 3; ++i) {
       fields.push_back(&line->map_segment.start[i]);
       fields.push_back(&line->map_segment.end[i]);

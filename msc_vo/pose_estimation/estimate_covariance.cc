@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/pose_estimation/estimate_covariance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace msc_vo {
+
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+// The inverse, or std::nullopt if `hessian` is numerically singular. The test scales the diagonal
+// to one, because radians and metres are not comparable; the eigenvalues are then at most 6, and a
+// limit of 1e-10 leaves six digits above the rounding of the sums.
+std::optional<Matrix6> Inverse(const Matrix6& hessian) {
+  const Eigen::Matrix<double, 6, 1> diagonal = hessian.diagonal();
+  if (!(diagonal.minCoeff() > 0.0)) return std::nullopt;
+  const Eigen::Matrix<double, 6, 1> scale = diagonal.cwiseSqrt().cwiseInverse();
+  const Matrix6 scaled = scale.asDiagonal() * hessian * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scaled);
+  if (!(eigen.eigenvalues()[0] > 1e-10)) return std::nullopt;
+  const Matrix6 inverse = eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() *
+                          eigen.eigenvectors().transpose();
+  return scale.asDiagonal() * inverse * scale.asDiagonal();
+}
+
+// The matches without custom factors, weighted so that their Hessian is the sum of
+// (1 + v) J^T S^-1 J.
+PoseData WeightByMapVariance(const PoseData& data) {
+  PoseData weighted = data;
+  weighted.custom_factors.clear();
+  for (PoseData::Point& point : weighted.points) {
+    const double scale = 1.0 / std::sqrt(1.0 + point.map_variance);
+    point.sigma *= scale;
+    point.inverse_depth_sigma *= scale;
+  }
+  for (PoseData::Line& line : weighted.lines) {
+    const double variance_scale = 1.0 / (1.0 + line.map_variance);
+    line.sigma *= std::sqrt(variance_scale);
+    line.depth.covariance *= variance_scale;
+  }
+  return weighted;
+}
+
+// Sum of the variances 1 + v of the residuals of the inliers.
+double SumOfVariances(const PoseOptions& options, const PoseData& data,
+                      const PoseInlierMask& mask) {
+  const double point_rows = options.point_reprojection.enabled ? 2.0 : 0.0;
+  const double line_rows = options.line_reprojection.enabled ? 2.0 : 0.0;
+  double sum = 0.0;
+  for (size_t i = 0; i < data.points.size(); ++i) {
+    const InlierMask& inlier = mask.points[i];
+    sum += (inlier.reprojection ? point_rows : 0.0) * (1.0 + data.points[i].map_variance);
+    sum += (inlier.depth ? 1.0 : 0.0) * (1.0 + data.points[i].map_variance);
+  }
+  for (size_t i = 0; i < data.lines.size(); ++i) {
+    const InlierMask& inlier = mask.lines[i];
+    if (!inlier.reprojection) continue;
+    sum += (line_rows + (inlier.depth ? 2.0 : 0.0)) * (1.0 + data.lines[i].map_variance);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::optional<PoseCovariance> CovarianceOfEstimate(const PoseOptions& options, const PoseData& data,
+                                                   const PoseInlierMask& mask, const Rigid3& pose,
+                                                   const NormalEquations& at_pose) {
+  const std::optional<Matrix6> inverse = Inverse(at_pose.hessian);
+  if (!inverse) return std::nullopt;
+  PoseData matches = data;
+  matches.custom_factors.clear();
+  NormalEquations of_matches, of_residuals;
+  if (!BuildFactors(options, matches, mask, pose, false).Linearize(pose, &of_matches) ||
+      !BuildFactors(options, WeightByMapVariance(data), mask, pose, false)
+           .Linearize(pose, &of_residuals)) {
+    return std::nullopt;
+  }
+  // The estimate absorbs a part of the errors.
+  const double expected =
+      SumOfVariances(options, data, mask) - inverse->cwiseProduct(of_residuals.hessian).sum();
+  const double variance_factor =
+      expected > 0.0 ? std::max(1.0, 2.0 * of_matches.cost / expected) : 1.0;
+  const Matrix6 of_custom = at_pose.hessian - of_matches.hessian;
+  return *inverse * (variance_factor * of_residuals.hessian + of_custom) * *inverse;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/pose_estimation/estimate_covariance.h"
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "tests/support/custom_pose_factors.h"
+#include "tests/support/eigen_matchers.h"
+#include "tests/support/factor_checks.h"
+#include "tests/support/test_window.h"
+#include <Eigen/Cholesky>
+#include <gmock/gmock.h>
+
+namespace msc_vo {
+namespace {
+
+using ::testing::HasSubstr;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr int kFrame = 4;  // of the synthetic window
+constexpr int kNumWindows = 300;
+// kNumWindows times the mean of chi-square with six degrees of freedom is chi-square, too: the
+// 99.9 % interval of the mean is 6 +- 3.29 sqrt(2 * 6 / 300).
+constexpr double kTolerance = 0.66;
+
+TestWindowOptions FewFeatures(unsigned seed) {
+  TestWindowOptions options;
+  options.num_keyframes = 6;
+  options.num_points = 60;
+  options.num_lines = 0;
+  options.seed = seed;
+  return options;
+}
+
+// Squared error over the covariance: chi-square with six degrees of freedom if that is right.
+double SquaredSigmas(const Rigid3& estimate, const Rigid3& truth, const PoseSummary& summary) {
+  Vector6 error;
+  Rigid3Manifold().Minus(estimate.params.data(), truth.params.data(), error.data());
+  return error.dot(summary.covariance.ldlt().solve(error));
+}
+
+// Moves every point as `num_observations` measurements like that of the frame would: by their noise
+// divided by the square root of their number.
+void DisturbMap(const Rigid3& cam_from_world, double num_observations, std::mt19937* random,
+                PoseData* data) {
+  std::normal_distribution<double> normal(0.0, 1.0 / std::sqrt(num_observations));
+  for (PoseData::Point& point : data->points) {
+    const Eigen::Vector3d in_cam = cam_from_world * point.position;
+    const double du = point.sigma * normal(*random);
+    const double dv = point.sigma * normal(*random);
+    const double inverse_depth = 1.0 / in_cam.z() + point.inverse_depth_sigma * normal(*random);
+    const Eigen::Vector2d pixel = data->camera.Project(in_cam) + Eigen::Vector2d(du, dv);
+    point.position =
+        cam_from_world.Inverse() * (data->camera.BackProject(pixel, 1.0 / inverse_depth));
+  }
+}
+
+double MeanSquaredSigmas(double num_observations, double map_variance) {
+  double sum = 0.0;
+  for (unsigned seed = 1; seed <= kNumWindows; ++seed) {
+    const TestWindow window = MakeTestWindow(FewFeatures(seed));
+    const Rigid3 truth = window.truth.keyframes[kFrame].cam_from_world;
+    std::mt19937 random(seed);
+    PoseData data = MakePoseData(window, kFrame);
+    DisturbMap(truth, num_observations, &random, &data);
+    for (PoseData::Point& point : data.points) point.map_variance = map_variance;
+    PoseOptions options;
+    // The chi-square tests know nothing of the map's noise.
+    options.reject_chi2_2 = options.reject_chi2_3 = 100.0;
+    const PoseSummary summary = OptimizePose(options, &data);
+    EXPECT_TRUE(summary.usable);
+    sum += SquaredSigmas(data.cam_from_world, truth, summary);
+  }
+  return sum / kNumWindows;
+}
+
+TEST(CovarianceOfEstimate, ContainsTheUncertaintyOfTheMap) {
+  EXPECT_NEAR(MeanSquaredSigmas(1.0, 1.0), 6.0, kTolerance);
+  EXPECT_NEAR(MeanSquaredSigmas(4.0, 0.25), 6.0, kTolerance);
+}
+
+PoseSummary Optimize(const PoseData& data) {
+  PoseData copy = data;
+  return OptimizePose(PoseOptions(), &copy);
+}
+
+PoseData ExactMatches() {
+  TestWindowOptions options = FewFeatures(1);
+  options.num_lines = 10;
+  options.noise = 0.0;
+  return MakePoseData(MakeTestWindow(options), kFrame);
+}
+
+TEST(CovarianceOfEstimate, IsProportionalToOnePlusTheVarianceOfTheMap) {
+  PoseData data = ExactMatches();
+  const PoseCovariance exact_map = Optimize(data).covariance;
+  for (auto& point : data.points) point.map_variance = 0.5;
+  for (auto& line : data.lines) line.map_variance = 0.5;
+  EXPECT_THAT(Optimize(data).covariance, IsNear(1.5 * exact_map, 1e-9));
+}
+
+TEST(CovarianceOfEstimate, GrowsWithTheResiduals) {
+  PoseData exact = ExactMatches();
+  exact.lines.clear();
+  for (auto& point : exact.points) point.inverse_depth = 0.0;
+  // Two sigmas to the left and to the right in turn, of which the pose absorbs little: the mean
+  // square of both rows of a pixel is 2 instead of 1.
+  PoseData noisy = exact;
+  double shift = 2.0;
+  for (auto& point : noisy.points) {
+    point.pixel.x() += shift * point.sigma;
+    shift = -shift;
+  }
+  const double ratio = Optimize(noisy).covariance.trace() / Optimize(exact).covariance.trace();
+  EXPECT_NEAR(ratio, 2.0, 0.3);
+}
+
+TEST(CovarianceOfEstimate, DoesNotWeighCustomFactorsByResidualsOfMatches) {
+  PoseData data = ExactMatches();
+  data.points.clear();
+  data.lines.clear();
+  data.custom_factors = {PriorFactor("prior", data.cam_from_world, 0.01, 0.01)};
+  const PoseCovariance covariance = Optimize(data).covariance;
+  EXPECT_THAT(covariance, IsNear(1e-4 * PoseCovariance::Identity(), 1e-9));
+}
+
+TEST(CovarianceOfEstimate, RefusesVariancesThatAreNone) {
+  for (const double variance : {-0.1, std::nan("")}) {
+    PoseData data = ExactMatches();
+    data.points[2].map_variance = variance;
+    try {
+      OptimizePose(PoseOptions(), &data);
+      ADD_FAILURE() << variance;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_THAT(error.what(), HasSubstr("point 2: map_variance"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace msc_vo
