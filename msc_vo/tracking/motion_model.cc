@@ -41,8 +41,7 @@ std::optional<CameraVelocity> MotionModel::VelocitySince(double timestamp,
                                                          const Rigid3& cam_from_last) const {
   const double seconds = timestamp - last_timestamp_;
   if (!(seconds > 0.0 && seconds <= kHorizon)) return std::nullopt;
-  return CameraVelocity{LogSO3(cam_from_last.rotation()) / seconds,
-                        cam_from_last.translation() / seconds};
+  return CameraVelocity::Of(cam_from_last, seconds);
 }
 
 std::optional<CameraVelocity> MotionModel::LastVelocity(double timestamp,

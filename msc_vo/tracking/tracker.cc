@@ -108,8 +108,10 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
   const Rigid3 cam_from_last = tracked.cam_from_world * last_from_world.Inverse();
   tracked.frame =
       CompensateFrame(raw, motion_.VelocitySince(timestamp, cam_from_last), readout_time);
+  const bool in_local_map = TrackLocalMap(map, &tracked);
+  const bool plausible = IsPlausible(tracked, last_from_world, prediction);
   tracked.status =
-      TrackLocalMap(map, &tracked) ? ClassifyStatus(options_, tracked.pose) : TrackingStatus::kWeak;
+      in_local_map && plausible ? ClassifyStatus(options_, tracked.pose) : TrackingStatus::kWeak;
   segment_start_.Tracked(timestamp);
   ProposeKeyframe(snapshot, &tracked);
   UpdateMotion(last_from_world, &tracked);
@@ -144,6 +146,7 @@ void Tracker::StartSegment(SegmentStart start, TrackedFrame* tracked) {
   tracked->keyframe.is_due = true;
   policy_.Inserted();
   motion_.Reset(tracked->frame->timestamp);
+  plausibility_ = MotionPlausibility();
   segment_start_.Started(tracked->frame->timestamp);
   next_candidate_ = kNoId;
   last_ = *tracked;
@@ -311,6 +314,18 @@ bool Tracker::TrackLocalMap(const Map& map, TrackedFrame* tracked) const {
   tracked->matches = LandmarkInliers(tracked->matches);
   SetReference(map, local.reference, tracked);
   return found;
+}
+
+bool Tracker::IsPlausible(const TrackedFrame& tracked, const Rigid3& last_from_world,
+                          const Prediction& prediction) {
+  const double timestamp = tracked.frame->timestamp;
+  const double seconds = timestamp - last_.frame->timestamp;
+  const Rigid3 cam_from_last = tracked.cam_from_world * last_from_world.Inverse();
+  // Pose factors measure the motion where images do not.
+  const bool after_gap = (tracked.relocalized || tracked.frame->id > last_.frame->id + 1) &&
+                         !prediction.by_factors.usable;
+  plausibility_.Observe(timestamp, CameraVelocity::Of(cam_from_last, seconds), after_gap);
+  return !plausibility_.IsQuestioned(timestamp);
 }
 
 bool Tracker::EstimatePose(const PoseOptions& options, const Map& map,

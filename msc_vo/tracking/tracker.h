@@ -10,6 +10,7 @@
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/tracking/inactive_map_search.h"
 #include "msc_vo/tracking/motion_model.h"
+#include "msc_vo/tracking/motion_plausibility.h"
 #include "msc_vo/tracking/pose_factor_callback.h"
 #include "msc_vo/tracking/pose_support.h"
 #include "msc_vo/tracking/segment_start.h"
@@ -44,8 +45,10 @@ class Tracker {
   template <typename Archive>
   void Serialize(Archive& archive) {
     auto& [options, initial_pose, policy, motion_model, callback, factors, last, next_candidate,
-           segment_start, inactive_map_search] = *this;  // all members, or it does not compile
-    archive(policy, motion_model, last, next_candidate, segment_start, inactive_map_search);
+           segment_start, inactive_map_search, plausibility] =
+        *this;  // all members, or it does not compile
+    archive(policy, motion_model, last, next_candidate, segment_start, inactive_map_search,
+            plausibility);
   }
 
  private:
@@ -87,6 +90,11 @@ class Tracker {
   // has too few landmarks.
   bool TrackLocalMap(const Map& map, TrackedFrame* tracked) const;
 
+  // Whether the camera can have moved there since the last frame, and that frame itself is
+  // believed.
+  bool IsPlausible(const TrackedFrame& tracked, const Rigid3& last_from_world,
+                   const Prediction& prediction);
+
   // Stage 3: decides whether the frame becomes a keyframe.
   void ProposeKeyframe(const MapSnapshot& snapshot, TrackedFrame* tracked);
 
@@ -108,6 +116,7 @@ class Tracker {
   KeyframeId next_candidate_ = kNoId;  // the next keyframe to relocalise against
   SegmentStartPolicy segment_start_;
   InactiveMapSearch inactive_map_search_;
+  MotionPlausibility plausibility_;
 };
 
 }  // namespace msc_vo
