@@ -57,9 +57,8 @@ Json FramesToJson(const std::vector<ReportFrame>& frames, int first, double star
   for (const ReportFrame& frame : frames) {
     time.push_back(static_cast<float>(frame.timestamp - start));
     Append(frame.world_from_cam.translation(), &pose);
-    for (const double q : frame.world_from_cam.rotation().coeffs()) {
-      pose.push_back(static_cast<float>(q));
-    }
+    const Eigen::Vector4d quaternion = frame.world_from_cam.rotation().coeffs();
+    for (const double q : quaternion) pose.push_back(static_cast<float>(q));
     status.push_back(static_cast<uint8_t>(frame.status));
     keyframe.push_back(frame.is_keyframe ? 1 : 0);
     for (const int count :

@@ -4,6 +4,7 @@
 #include "msc_vo/sensor/depth_registration.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -236,9 +237,9 @@ void DepthRegistration::DistortRow(Row* row) const {
     }
     return;
   }
-  // As LensDistortion::Distort(), for several pixels at once.
-  float k[5];
-  std::transform(distortion_.k.begin(), distortion_.k.end(), k,
+  // As LensDistortion::Distort(), for several pixels at once. The model has five coefficients.
+  std::array<float, 5> k;
+  std::transform(distortion_.k.begin(), distortion_.k.begin() + k.size(), k.begin(),
                  [](double value) { return static_cast<float>(value); });
   const float fx = static_cast<float>(color_.fx), fy = static_cast<float>(color_.fy);
   const float cx = static_cast<float>(color_.cx), cy = static_cast<float>(color_.cy);
