@@ -3,6 +3,7 @@
 
 #include "msc_vo/ros_bag/ros_message.h"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -28,7 +29,8 @@ class Fields {
   std::string_view ReadArray() { return Take(Read<uint32_t>()); }
   std::string ReadString() { return std::string(ReadArray()); }
   void ReadNumbers(double* values, size_t count) {
-    std::memcpy(values, Take(count * sizeof(double)).data(), count * sizeof(double));
+    const std::string_view bytes = Take(count * sizeof(double));
+    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(values));  // also none to null
   }
   RosHeader ReadHeader() {
     Read<uint32_t>();  // sequence number
