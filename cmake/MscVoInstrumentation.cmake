@@ -14,8 +14,10 @@ if(MSC_VO_SANITIZE)
     add_compile_options(-Wno-error=maybe-uninitialized)
   endif()
   add_link_options(${flags})
-  # With AddressSanitizer, Eigen aligns memory by itself, and could not free what Ceres has allocated.
-  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
+  if(MSC_VO_SANITIZE MATCHES address)
+    # Eigen would align memory by itself then, and could not free what Ceres has allocated.
+    add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
+  endif()
 endif()
 if(MSC_VO_COVERAGE)
   add_compile_options(--coverage)

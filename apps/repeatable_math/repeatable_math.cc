@@ -4,9 +4,9 @@
 // Mathematical functions with the same bits on every x86-64 processor.
 //
 // The C library has several versions of each and chooses among them by the processor: with fused
-// multiply-add or without, which differ in the last bit. The definitions of the program come before
-// those of the C library, also for the libraries that the program loads, and call SLEEF's versions
-// that are the same everywhere. All other arithmetic is that of the compiler (SSE2), or exact.
+// multiply-add or without, which differ in the last bit. These definitions call SLEEF's versions
+// that are the same everywhere. Those of a program come before those of the C library, also for the
+// libraries that it loads. All other arithmetic is that of the compiler (SSE2), or exact.
 
 #include <sleef.h>
 
