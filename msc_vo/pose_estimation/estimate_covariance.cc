@@ -73,11 +73,14 @@ std::optional<PoseCovariance> CovarianceOfEstimate(const PoseOptions& options, c
                                                    const NormalEquations& at_pose) {
   const std::optional<Matrix6> inverse = Inverse(at_pose.hessian);
   if (!inverse) return std::nullopt;
-  PoseData matches = data;
-  matches.custom_factors.clear();
-  NormalEquations of_matches, of_residuals;
-  if (!BuildFactors(options, matches, mask, pose, false).Linearize(pose, &of_matches) ||
-      !BuildFactors(options, WeightByMapVariance(data), mask, pose, false)
+  NormalEquations of_matches = at_pose;
+  if (!data.custom_factors.empty()) {
+    PoseFactors factors = BuildFactors(options, data, mask, pose, false);
+    factors.custom.clear();
+    if (!factors.Linearize(pose, &of_matches)) return std::nullopt;
+  }
+  NormalEquations of_residuals;
+  if (!BuildFactors(options, WeightByMapVariance(data), mask, pose, false)
            .Linearize(pose, &of_residuals)) {
     return std::nullopt;
   }

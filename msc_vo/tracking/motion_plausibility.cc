@@ -13,13 +13,14 @@ namespace {
 
 // A camera may be moved faster while it sees nothing, but hardly by more than this factor.
 constexpr double kMaxSpeedUp = 3.0;
-// Speeds of a camera in the hand, which are plausible at any time: about the largest mean speeds of
-// recordings of the TUM benchmark.
-constexpr double kHandHeldLinearSpeed = 0.5;                      // metres/second
-constexpr double kHandHeldAngularSpeed = DegreesToRadians(50.0);  // radians/second
-// Seconds after which a place in which the camera goes on being tracked is believed: as long as
-// a lost map is searched for at most (SegmentOptions::max_search).
-constexpr double kSecondsUntilBelieved = 5.0;
+// Speeds that are plausible at any time, also for a camera that has been at rest: walking slowly,
+// and turning round in six seconds. Lower ones question more frames and find no more wrong ones
+// (docs/lab/tracking.md).
+constexpr double kPlausibleLinearSpeed = 1.0;                      // metres/second
+constexpr double kPlausibleAngularSpeed = DegreesToRadians(60.0);  // radians/second
+// Seconds for which the frames that follow are questioned, too: the default of
+// SegmentOptions::max_search, for which a lost map is searched.
+constexpr double kQuestionedSeconds = 5.0;
 
 }  // namespace
 
@@ -31,9 +32,9 @@ void MotionPlausibility::Observe(double timestamp, const CameraVelocity& velocit
     linear_speed_ = std::max(linear_speed_, linear_speed);
     return;
   }
-  if (angular_speed > std::max(kMaxSpeedUp * angular_speed_, kHandHeldAngularSpeed) ||
-      linear_speed > std::max(kMaxSpeedUp * linear_speed_, kHandHeldLinearSpeed)) {
-    implausible_until_ = timestamp + kSecondsUntilBelieved;
+  if (angular_speed > std::max(kMaxSpeedUp * angular_speed_, kPlausibleAngularSpeed) ||
+      linear_speed > std::max(kMaxSpeedUp * linear_speed_, kPlausibleLinearSpeed)) {
+    implausible_until_ = timestamp + kQuestionedSeconds;
   }
 }
 

@@ -109,7 +109,7 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
   tracked.frame =
       CompensateFrame(raw, motion_.VelocitySince(timestamp, cam_from_last), readout_time);
   const bool in_local_map = TrackLocalMap(map, &tracked);
-  const bool plausible = IsPlausible(tracked, last_from_world, prediction);
+  const bool plausible = CheckMotion(tracked, last_from_world, prediction);
   tracked.status =
       in_local_map && plausible ? ClassifyStatus(options_, tracked.pose) : TrackingStatus::kWeak;
   segment_start_.Tracked(timestamp);
@@ -316,7 +316,7 @@ bool Tracker::TrackLocalMap(const Map& map, TrackedFrame* tracked) const {
   return found;
 }
 
-bool Tracker::IsPlausible(const TrackedFrame& tracked, const Rigid3& last_from_world,
+bool Tracker::CheckMotion(const TrackedFrame& tracked, const Rigid3& last_from_world,
                           const Prediction& prediction) {
   const double timestamp = tracked.frame->timestamp;
   const double seconds = timestamp - last_.frame->timestamp;

@@ -90,9 +90,9 @@ class Tracker {
   // has too few landmarks.
   bool TrackLocalMap(const Map& map, TrackedFrame* tracked) const;
 
-  // Whether the camera can have moved there since the last frame, and that frame itself is
-  // believed.
-  bool IsPlausible(const TrackedFrame& tracked, const Rigid3& last_from_world,
+  // Reports the motion since the last frame. Returns false if it, or one a few seconds ago, is
+  // implausible.
+  bool CheckMotion(const TrackedFrame& tracked, const Rigid3& last_from_world,
                    const Prediction& prediction);
 
   // Stage 3: decides whether the frame becomes a keyframe.

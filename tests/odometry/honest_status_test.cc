@@ -110,7 +110,7 @@ void PrintLargeErrors(const std::vector<FrameError>& errors) {
 // MSC_VO_RANDOM_WORLDS=400 prints the distribution over 400 worlds (docs/reliability.md).
 TEST(HonestStatus, TrackedFramesAreWithinTheirSigmas) {
   std::vector<FrameError> errors;
-  for (unsigned seed = 1; seed <= NumRandomWorlds(10); ++seed) {
+  for (unsigned seed = 1; seed <= NumRandomWorlds(28); ++seed) {
     const std::vector<FrameError> of_world = ErrorsOfTrackedFrames(seed);
     errors.insert(errors.end(), of_world.begin(), of_world.end());
   }
@@ -120,7 +120,7 @@ TEST(HonestStatus, TrackedFramesAreWithinTheirSigmas) {
   std::vector<FrameError> easy;
   std::copy_if(errors.begin(), errors.end(), std::back_inserter(easy),
                [](const FrameError& error) { return error.is_easy; });
-  ASSERT_FALSE(easy.empty());
+  ASSERT_GT(easy.size(), 50u);
   PrintQuantiles("all worlds", errors);
   PrintQuantiles("easy worlds", easy);
   PrintLargeErrors(errors);

@@ -3,8 +3,8 @@
     processors.py MSC_VO [--libm] [--sequence FOLDER] [--emulate CPU]...
 
 Without --sequence, a rendered one. --libm: also without the variants of the C library's mathematical
-functions for newer processors. --emulate: also on an emulated processor ("Nehalem"), by qemu-x86_64, which
-takes a minute for every second. Exits with 77 if the sequence is not there.
+functions for newer processors. --emulate: also on an emulated processor ("Nehalem"), by qemu-x86_64, which is
+slow. Exits with 77 if the sequence is not there.
 """
 import argparse
 import os
@@ -16,7 +16,7 @@ import tempfile
 FILES = ["trajectory.txt", "keyframes.txt", "map.ply", "lines.ply"]
 # What is switched off: every extension for which the C library or OpenCV has code of its own.
 LIBM = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4,-AVX512F"}
-OPENCV = {"OPENCV_CPU_DISABLE": "AVX512_SKX,AVX512_COMMON,AVX2,FMA3,AVX,FP16,SSE4.2,SSE4.1,SSSE3"}
+OPENCV = {"OPENCV_CPU_DISABLE": "AVX512-SKX,AVX2,FMA3,AVX,FP16,SSE4.2,SSE4.1,SSSE3"}
 
 
 def replay(prefix, command, sequence, output, environment):

@@ -37,7 +37,7 @@ TEST(MotionPlausibility, QuestionsAJumpInAGapForSomeSeconds) {
   }
 }
 
-TEST(MotionPlausibility, BelievesWhatAHandHeldCameraDoes) {
+TEST(MotionPlausibility, BelievesSlowMotionsAfterRest) {
   MotionPlausibility plausibility;  // at rest so far
   plausibility.Observe(2.0, {{0.0, 0.8, 0.0}, {0.4, 0.0, 0.0}}, true);
   EXPECT_FALSE(plausibility.IsQuestioned(2.0));
