@@ -42,6 +42,8 @@ struct KeyframePacket {
   /// discarded otherwise.
   bool begins_map = false;
   bool keeps_last_map = true;
+  /// When the camera was last tracked in the map before it, at the same pose; seconds.
+  double last_seen = 0.0;
   FrameMatches matches;  ///< with landmarks of the map
   /// Of the pose in the map, in the tangent of Rigid3Manifold.
   PoseCovariance covariance = PoseCovariance::Zero();
@@ -61,9 +63,9 @@ struct KeyframePacket {
   template <typename Archive>
   void Serialize(Archive& archive) {
     StoredDepth stored(depth);
-    archive.Fields(*this, frame, reference, cam_from_reference, begins_map, keeps_last_map, matches,
-                   covariance, in_inactive_map, last_velocity, normals, stored, calibration_images,
-                   point_counts, line_counts);
+    archive.Fields(*this, frame, reference, cam_from_reference, begins_map, keeps_last_map,
+                   last_seen, matches, covariance, in_inactive_map, last_velocity, normals, stored,
+                   calibration_images, point_counts, line_counts);
     depth = stored.Image();
   }
 };

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "msc_vo/geometry/motion_limits.h"
+
 namespace msc_vo {
 
 namespace {
@@ -51,6 +53,47 @@ void MapJoiner::Add(KeyframeId keyframe, const PoseCovariance& covariance,
   common_keyframes_.push_back({keyframe, covariance, in_inactive_map});
 }
 
+void MapJoiner::Leave(const Map& current, double timestamp, const Rigid3& cam_from_world) {
+  const auto& [id, newest] = current.keyframes().back();
+  if (timestamp <= newest.frame->timestamp) return;  // the keyframe is the last view
+  last_views_.push_back({timestamp, id, cam_from_world * newest.cam_from_world.Inverse()});
+}
+
+void MapJoiner::AddPoses(const Map& map, const Rigid3& map_from_world,
+                         std::vector<TimedPose>* poses) const {
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    poses->push_back({keyframe.frame->timestamp, keyframe.cam_from_world * map_from_world, &map});
+  }
+  for (const LastView& view : last_views_) {
+    if (!map.KnowsKeyframe(view.keyframe)) continue;
+    const Rigid3 cam_from_map = view.cam_from_keyframe * map.CamFromWorld(view.keyframe);
+    poses->push_back({view.timestamp, cam_from_map * map_from_world, &map});
+  }
+}
+
+bool MapJoiner::IsPossibleMotion(const Map& a, const Map& b, const Rigid3& a_from_b) const {
+  std::vector<TimedPose> poses;
+  AddPoses(a, a_from_b, &poses);
+  AddPoses(b, Rigid3(), &poses);
+  std::sort(poses.begin(), poses.end(), [](const TimedPose& first, const TimedPose& second) {
+    return first.timestamp < second.timestamp;
+  });
+  MotionLimits limits;
+  std::vector<CameraVelocity> between_maps;
+  for (size_t i = 1; i < poses.size(); ++i) {
+    const Rigid3 cam_from_last = poses[i].cam_from_world * poses[i - 1].cam_from_world.Inverse();
+    const CameraVelocity velocity =
+        CameraVelocity::Of(cam_from_last, poses[i].timestamp - poses[i - 1].timestamp);
+    if (poses[i].map == poses[i - 1].map) {
+      limits.Observe(velocity);
+    } else {
+      between_maps.push_back(velocity);
+    }
+  }
+  return std::all_of(between_maps.begin(), between_maps.end(),
+                     [&](const CameraVelocity& velocity) { return limits.Allow(velocity); });
+}
+
 std::vector<MapJoiner::CommonKeyframe> MapJoiner::CommonKeyframesWith(const Map& map) const {
   std::vector<CommonKeyframe> common_keyframes;
   for (const CommonKeyframe& common : common_keyframes_) {
@@ -80,6 +123,9 @@ std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
   }
   const std::optional<MapAlignment> alignment = AlignMaps(options_, frames);
   if (!alignment) return std::nullopt;
+  const Map& moved = inactive_is_kept ? atlas->current() : *inactive;
+  const Map& kept = inactive_is_kept ? *inactive : atlas->current();
+  if (!IsPossibleMotion(moved, kept, alignment->a_from_b)) return std::nullopt;
 
   MapJoin join;
   join.kept = inactive->keyframes().front().first;

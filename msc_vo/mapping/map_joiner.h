@@ -40,18 +40,23 @@ class MapJoiner {
            const MapRelocalization& in_inactive_map);
 
   /// Aligns the current map with the inactive one that keyframes were found in last, joins the two
-  /// if the keyframes agree (AlignMaps), and merges the landmarks that both maps have of the same
-  /// features. std::nullopt if they are not joined.
+  /// if the keyframes agree (AlignMaps) and the camera can have moved from one map into the other
+  /// in the time that it had (MotionLimits), and merges the landmarks that both maps have of the
+  /// same features. std::nullopt if they are not joined.
   std::optional<MapJoin> TryJoin(Atlas* atlas);
 
   /// Forgets the keyframes of the current map: another one begins.
   void Clear() { common_keyframes_.clear(); }
 
+  /// Reports that the current map becomes inactive, and when and where the camera was tracked in it
+  /// last.
+  void Leave(const Map& current, double timestamp, const Rigid3& cam_from_world);
+
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, common_keyframes] = *this;  // all members, or it does not compile
-    archive(common_keyframes);
+    auto& [options, common_keyframes, last_views] = *this;  // all members, or it does not compile
+    archive(common_keyframes, last_views);
   }
 
  private:
@@ -67,11 +72,34 @@ class MapJoiner {
     }
   };
 
+  // Where the camera was tracked last in a map that was left.
+  struct LastView {
+    double timestamp = 0.0;  // seconds
+    KeyframeId keyframe = kNoId;
+    Rigid3 cam_from_keyframe;
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, timestamp, keyframe, cam_from_keyframe);
+    }
+  };
+
+  // Poses of a camera in a map, in order of time.
+  struct TimedPose {
+    double timestamp = 0.0;  // seconds
+    Rigid3 cam_from_world;
+    const Map* map = nullptr;
+  };
+
+  void AddPoses(const Map& map, const Rigid3& map_from_world, std::vector<TimedPose>* poses) const;
+  // Whether the camera can have moved from one map into the other in the time that it had.
+  bool IsPossibleMotion(const Map& a, const Map& b, const Rigid3& a_from_b) const;
   // Those that were found in `map`.
   std::vector<CommonKeyframe> CommonKeyframesWith(const Map& map) const;
 
   MapAlignmentOptions options_;
   std::vector<CommonKeyframe> common_keyframes_;
+  std::vector<LastView> last_views_;
 };
 
 }  // namespace msc_vo

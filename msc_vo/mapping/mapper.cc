@@ -51,7 +51,7 @@ MappingSummary Mapper::Insert(const KeyframePacket& packet) {
   if (packet.last_velocity) {
     SetKeyframeVelocity(newest_keyframe_, *packet.last_velocity, &atlas_.current());
   }
-  if (packet.begins_map) BeginMap(packet.keeps_last_map);
+  if (packet.begins_map) BeginMap(packet);
   UpdateReadoutTime();
   CompensateKeyframes(readout_time_, &atlas_.current());
   std::shared_ptr<const Frame> frame = packet.frame;
@@ -109,11 +109,12 @@ MappingSummary Mapper::Process(const KeyframePacket& packet) {
   return summary;
 }
 
-void Mapper::BeginMap(bool keep_last) {
-  if (keep_last && !map().keyframes().empty()) {
+void Mapper::BeginMap(const KeyframePacket& packet) {
+  if (packet.keeps_last_map && !map().keyframes().empty()) {
     inactive_axes_.emplace(map().keyframes().front().first, axes_);
+    joiner_.Leave(map(), packet.last_seen, packet.cam_from_reference);
   }
-  atlas_.Begin(keep_last);
+  atlas_.Begin(packet.keeps_last_map);
   joiner_.Clear();
   probation_ = {};
   axes_ = SceneAxes(options_.axes);

@@ -136,7 +136,7 @@ class Mapper {
 
  private:
   // Begins a map for a new segment.
-  void BeginMap(bool keep_last);
+  void BeginMap(const KeyframePacket& packet);
   // Joins the current map with an inactive one if enough keyframes have been found in both.
   std::optional<MapJoin> JoinMaps();
   KeyframeId InsertKeyframe(const KeyframePacket& packet, std::shared_ptr<const Frame> frame);

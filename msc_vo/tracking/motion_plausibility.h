@@ -6,12 +6,11 @@
 #include <limits>
 
 #include "msc_vo/geometry/camera_velocity.h"
+#include "msc_vo/geometry/motion_limits.h"
 
 namespace msc_vo {
 
-/// Tells poses after a gap that the camera can hardly have reached in that time. One image does not
-/// distinguish places that look alike, such as the sides of a box: a pose that implies a much
-/// faster motion than before may be at the wrong one.
+/// Tells poses after a gap that the camera can hardly have reached in that time (MotionLimits).
 class MotionPlausibility {
  public:
   /// Reports the mean velocity from the last frame with an estimated pose to the one at `timestamp`
@@ -24,13 +23,12 @@ class MotionPlausibility {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [angular_speed, linear_speed, implausible_until] = *this;  // all, or it does not compile
-    archive(angular_speed, linear_speed, implausible_until);
+    auto& [limits, implausible_until] = *this;  // all members, or it does not compile
+    archive(limits, implausible_until);
   }
 
  private:
-  double angular_speed_ = 0.0;  // the largest so far, radians/second
-  double linear_speed_ = 0.0;   // metres/second
+  MotionLimits limits_;
   double implausible_until_ = std::numeric_limits<double>::lowest();  // seconds
 };
 

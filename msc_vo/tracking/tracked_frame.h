@@ -39,6 +39,8 @@ struct TrackingTimes {
 /// Contribution of a tracked frame to local mapping.
 struct KeyframeProposal {
   bool is_due = false;  ///< the frame is to become a keyframe
+  /// If the frame begins a new map: time stamp of the last frame that was tracked, seconds.
+  double last_seen = 0.0;
   /// Velocity at the previous frame if that became a keyframe, from the frames before and after it.
   std::optional<CameraVelocity> previous_velocity;
   /// Landmarks that were predicted to be visible, matched ones included; for culling.
@@ -47,7 +49,7 @@ struct KeyframeProposal {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, is_due, previous_velocity, visible_points, visible_lines);
+    archive.Fields(*this, is_due, last_seen, previous_velocity, visible_points, visible_lines);
   }
 };
 

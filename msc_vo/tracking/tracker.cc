@@ -135,6 +135,7 @@ TrackedFrame Tracker::BeginSegment(std::shared_ptr<const Frame> frame,
   tracked.frame = std::move(frame);
   tracked.cam_from_world = last_from_world;
   tracked.cam_from_reference = last_from_world;
+  tracked.keyframe.last_seen = last_.frame->timestamp;
   StartSegment(segment_start_.is_confirmed() ? SegmentStart::kAfterLoss : SegmentStart::kReplacing,
                &tracked);
   return tracked;

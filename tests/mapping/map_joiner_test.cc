@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/map_joiner.h"
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+namespace msc_vo {
+namespace {
+
+// A camera that looks along z and moves along x.
+Rigid3 CameraAt(double x) { return {Eigen::Quaterniond::Identity(), {-x, 0.0, 0.0}}; }
+
+KeyframeId AddKeyframe(double timestamp, double x, Map* map) {
+  auto frame = std::make_shared<Frame>();
+  frame->timestamp = timestamp;
+  return map->AddKeyframe(frame, CameraAt(x));
+}
+
+// A camera that moves at 0.5 m/s along x is tracked in one map for two seconds, and in another one
+// from the fourth second on. Both maps have the same world.
+class MapJoinerTest : public testing::Test {
+ protected:
+  MapJoinerTest() {
+    for (const double time : {0.0, 0.5, 1.0}) AddKeyframe(time, 0.5 * time, &atlas_.current());
+    joiner_.Leave(atlas_.current(), 2.0, CameraAt(1.0));
+    atlas_.Begin(true);
+    joiner_.Clear();
+  }
+
+  // Continues at `seconds` with three keyframes that are found in the older map, `offset` metres
+  // away from where they are.
+  std::optional<MapJoin> JoinAt(double seconds, double offset) {
+    const PoseCovariance covariance = 1e-6 * PoseCovariance::Identity();
+    for (int i = 0; i < 3; ++i) {
+      const double time = seconds + 0.5 * i;
+      const double x = 0.5 * time;
+      const KeyframeId keyframe = AddKeyframe(time, x, &atlas_.current());
+      const KeyframeId reference = 0;  // at x = 0
+      joiner_.Add(keyframe, covariance, {reference, CameraAt(x + offset), covariance, {}});
+    }
+    return joiner_.TryJoin(&atlas_);
+  }
+
+  Atlas atlas_;
+  MapJoiner joiner_{MapAlignmentOptions()};
+};
+
+TEST_F(MapJoinerTest, JoinsMapsInWhichKeyframesAgree) {
+  const std::optional<MapJoin> join = JoinAt(4.0, 0.0);
+  ASSERT_TRUE(join);
+  EXPECT_EQ(join->num_keyframes, 3);
+  EXPECT_NEAR(join->moved_from_kept.translation().norm(), 0.0, 1e-6);
+  EXPECT_TRUE(atlas_.inactive().empty());
+  EXPECT_EQ(atlas_.current().keyframes().size(), 6u);
+}
+
+// The other end of a corridor, which looks alike.
+TEST_F(MapJoinerTest, JoinsNoMapsBetweenWhichTheCameraCannotHaveMoved) {
+  EXPECT_FALSE(JoinAt(4.0, 10.0));
+  EXPECT_EQ(atlas_.inactive().size(), 1u);
+  EXPECT_EQ(atlas_.current().keyframes().size(), 3u);
+}
+
+TEST_F(MapJoinerTest, JoinsDistantPlacesThatTheCameraHadTimeToReach) {
+  EXPECT_TRUE(JoinAt(40.0, 10.0));
+}
+
+// By the last keyframe alone, the camera had a second more: 1.3 m/s, which is possible.
+TEST_F(MapJoinerTest, CountsTheTimeFromTheLastView) { EXPECT_FALSE(JoinAt(4.0, 2.5)); }
+
+}  // namespace
+}  // namespace msc_vo
