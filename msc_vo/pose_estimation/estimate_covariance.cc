@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 
@@ -66,6 +68,25 @@ double SumOfVariances(const PoseOptions& options, const PoseData& data,
   return sum;
 }
 
+// Ratio of the squared residuals of all matches, outliers included, to their expectation, by the
+// median: what a frame measures badly, such as a blurred one, fails the chi-square tests, and the
+// rest looks too good.
+double VarianceFactorOfAllMatches(const PoseOptions& options, const PoseData& data,
+                                  const Rigid3& pose) {
+  std::vector<double> chi2;
+  chi2.reserve(data.points.size() + data.lines.size());
+  const auto collect = [&](const auto& matches) {
+    for (const auto& match : matches) {
+      const double squared_sigmas = PixelChiSquare(data.camera, pose, match);
+      if (match.dynamic || !std::isfinite(squared_sigmas)) continue;
+      chi2.push_back(squared_sigmas / (1.0 + match.map_variance));
+    }
+  };
+  if (options.point_reprojection.enabled) collect(data.points);
+  if (options.line_reprojection.enabled) collect(data.lines);
+  return MedianChiSquareRatio(std::move(chi2));
+}
+
 }  // namespace
 
 std::optional<PoseCovariance> CovarianceOfEstimate(const PoseOptions& options, const PoseData& data,
@@ -87,8 +108,8 @@ std::optional<PoseCovariance> CovarianceOfEstimate(const PoseOptions& options, c
   // The estimate absorbs a part of the errors.
   const double expected =
       SumOfVariances(options, data, mask) - inverse->cwiseProduct(of_residuals.hessian).sum();
-  const double variance_factor =
-      expected > 0.0 ? std::max(1.0, 2.0 * of_matches.cost / expected) : 1.0;
+  double variance_factor = std::max(1.0, VarianceFactorOfAllMatches(options, data, pose));
+  if (expected > 0.0) variance_factor = std::max(variance_factor, 2.0 * of_matches.cost / expected);
   const Matrix6 of_custom = at_pose.hessian - of_matches.hessian;
   return *inverse * (variance_factor * of_residuals.hessian + of_custom) * *inverse;
 }

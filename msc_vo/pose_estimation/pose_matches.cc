@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace msc_vo {
 
@@ -29,31 +30,31 @@ InlierMask ClassifyPoint(const PoseOptions& options, const PinholeCamera& camera
   return mask;
 }
 
+// Of a factor of both ends of a line in the camera frame.
+template <typename Factor>
+double SquaredResidual(const Factor& factor, const LineSegment3& line) {
+  Eigen::Vector2d residual;
+  factor.Residual(0, Eigen::Vector3d(line.start), &residual[0]);
+  factor.Residual(1, Eigen::Vector3d(line.end), &residual[1]);
+  return residual.squaredNorm();
+}
+
 InlierMask ClassifyLine(const PoseOptions& options, const PinholeCamera& camera, const Rigid3& pose,
                         const PoseData::Line& l) {
   const LineSegment3 line = pose * l.map_segment;
   if (!IsInFront(line)) return {};
-  const auto chi_square = [&line](const auto& factor) {
-    Eigen::Vector2d r;
-    factor.Residual(0, Eigen::Vector3d(line.start), &r[0]);
-    factor.Residual(1, Eigen::Vector3d(line.end), &r[1]);
-    return r.squaredNorm();
-  };
   const bool has_depth = options.line_depth.enabled && l.has_depth;
-  const double pixels = options.line_reprojection.enabled
-                            ? chi_square(MakeLineReprojection(camera, l.segment, l.sigma, line))
-                            : 0.0;
+  const double pixels =
+      options.line_reprojection.enabled
+          ? SquaredResidual(MakeLineReprojection(camera, l.segment, l.sigma, line), line)
+          : 0.0;
   const double depth =
-      has_depth ? chi_square(MakeLineDepthReprojection(camera, l.segment, l.depth, line)) : 0.0;
+      has_depth ? SquaredResidual(MakeLineDepthReprojection(camera, l.segment, l.depth, line), line)
+                : 0.0;
   InlierMask mask = TestChiSquare(pixels, depth, options.reject_chi2_2, options.reject_chi2_4);
   mask.depth = mask.depth && has_depth;
   return mask;
 }
-
-// Median of chi-square with two degrees of freedom.
-constexpr double kChiSquareMedian2 = 1.386;
-// Fewer points do not determine the noise of a frame.
-constexpr size_t kMinPointsForNoise = 10;
 
 // Ratio of the median squared residual of the frame's points to its expectation, clamped to
 // [1, max_frame_noise^2]: the variance inflation of a blurred image.
@@ -61,22 +62,43 @@ double SquaredFrameNoise(const PoseOptions& options, const PoseData& data, const
   std::vector<double> chi2;
   chi2.reserve(data.points.size());
   for (const PoseData::Point& p : data.points) {
-    const Eigen::Vector3d in_cam = pose * p.position;
-    if (!IsInFront(in_cam)) continue;
-    const double squared_sigmas =
-        (data.camera.Project(in_cam) - p.pixel).squaredNorm() / (p.sigma * p.sigma);
-    // The square of a tiny sigma vanishes; NaN has no place in an order.
-    chi2.push_back(std::isnan(squared_sigmas) ? std::numeric_limits<double>::infinity()
-                                              : squared_sigmas);
+    if (IsInFront(pose * p.position)) chi2.push_back(PixelChiSquare(data.camera, pose, p));
   }
-  if (chi2.size() < kMinPointsForNoise) return 1.0;
-  const auto middle = chi2.begin() + static_cast<std::ptrdiff_t>(chi2.size() / 2);
-  std::nth_element(chi2.begin(), middle, chi2.end());
-  return std::clamp(*middle / kChiSquareMedian2, 1.0,
+  return std::clamp(MedianChiSquareRatio(std::move(chi2)), 1.0,
                     options.max_frame_noise * options.max_frame_noise);
 }
 
+// NaN has no place in an order.
+double NanToInfinity(double value) {
+  return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+}
+
 }  // namespace
+
+double PixelChiSquare(const PinholeCamera& camera, const Rigid3& pose,
+                      const PoseData::Point& point) {
+  const Eigen::Vector3d in_cam = pose * point.position;
+  if (!IsInFront(in_cam)) return std::numeric_limits<double>::infinity();
+  // The square of a tiny sigma vanishes.
+  return NanToInfinity((camera.Project(in_cam) - point.pixel).squaredNorm() /
+                       (point.sigma * point.sigma));
+}
+
+double PixelChiSquare(const PinholeCamera& camera, const Rigid3& pose, const PoseData::Line& line) {
+  const LineSegment3 in_cam = pose * line.map_segment;
+  if (!IsInFront(in_cam)) return std::numeric_limits<double>::infinity();
+  return NanToInfinity(
+      SquaredResidual(MakeLineReprojection(camera, line.segment, line.sigma, in_cam), in_cam));
+}
+
+double MedianChiSquareRatio(std::vector<double> chi2) {
+  constexpr size_t kMinValues = 10;
+  constexpr double kChiSquareMedian2 = 1.386;
+  if (chi2.size() < kMinValues) return 1.0;
+  const auto middle = chi2.begin() + static_cast<std::ptrdiff_t>(chi2.size() / 2);
+  std::nth_element(chi2.begin(), middle, chi2.end());
+  return *middle / kChiSquareMedian2;
+}
 
 PoseInlierMask AllInFront(const PoseOptions& options, const PoseData& data, const Rigid3& pose) {
   PoseInlierMask all;

@@ -28,6 +28,16 @@ PoseInlierMask AllInFront(const PoseOptions& options, const PoseData& data, cons
 /// dynamic objects are inactive.
 PoseInlierMask ClassifyMatches(PoseOptions options, const PoseData& data, const Rigid3& pose);
 
+/// Squared distance of a match from its landmark in the image, in sigmas of the observation;
+/// infinite if the landmark is behind the camera.
+double PixelChiSquare(const PinholeCamera& camera, const Rigid3& pose,
+                      const PoseData::Point& point);
+double PixelChiSquare(const PinholeCamera& camera, const Rigid3& pose, const PoseData::Line& line);
+
+/// Ratio of the median of squares to that of chi-square with two degrees of freedom. Fewer than ten
+/// determine none: 1.
+double MedianChiSquareRatio(std::vector<double> chi2);
+
 /// Adds the active factors of one match. Sigmas of lines are evaluated at `pose`.
 void AddFactors(const PoseOptions& options, const PinholeCamera& camera,
                 const PoseData::Point& point, const InlierMask& mask, PoseFactors* factors);

@@ -106,16 +106,40 @@ TEST(CovarianceOfEstimate, GrowsWithTheResiduals) {
   PoseData exact = ExactMatches();
   exact.lines.clear();
   for (auto& point : exact.points) point.inverse_depth = 0.0;
-  // Two sigmas to the left and to the right in turn, of which the pose absorbs little: the mean
-  // square of both rows of a pixel is 2 instead of 1.
+  // To the left and to the right in turn, of which the pose absorbs little: three of five points by
+  // 1.2 sigmas, the others by 2.2. The mean square is 2.8, that of two rows should be 2.
   PoseData noisy = exact;
-  double shift = 2.0;
-  for (auto& point : noisy.points) {
+  for (size_t i = 0; i < noisy.points.size(); ++i) {
+    const double shift = (i % 5 < 3 ? 1.2 : 2.2) * (i % 2 == 0 ? 1.0 : -1.0);
+    noisy.points[i].pixel.x() += shift * noisy.points[i].sigma;
+  }
+  const double ratio = Optimize(noisy).covariance.trace() / Optimize(exact).covariance.trace();
+  EXPECT_NEAR(ratio, 1.4, 0.15);
+}
+
+// Three of five points are off by eight sigmas, as in a blurred image. The others alone would have
+// no residuals.
+TEST(CovarianceOfEstimate, GrowsWithTheResidualsOfOutliers) {
+  PoseData blurred = ExactMatches();
+  blurred.lines.clear();
+  PoseData inliers = blurred;
+  inliers.points.clear();
+  double shift = 8.0;
+  for (size_t i = 0; i < blurred.points.size(); ++i) {
+    PoseData::Point& point = blurred.points[i];
+    if (i % 5 < 2) {
+      inliers.points.push_back(point);
+      continue;
+    }
     point.pixel.x() += shift * point.sigma;
     shift = -shift;
   }
-  const double ratio = Optimize(noisy).covariance.trace() / Optimize(exact).covariance.trace();
-  EXPECT_NEAR(ratio, 2.0, 0.3);
+  PoseData copy = blurred;
+  const PoseSummary summary = OptimizePose(PoseOptions(), &copy);
+  ASSERT_EQ(summary.num_inlier_points, static_cast<int>(inliers.points.size()));
+  constexpr double kChiSquareMedian2 = 1.386;
+  const double expected = 8.0 * 8.0 / kChiSquareMedian2;
+  EXPECT_THAT(summary.covariance, IsNear(expected * Optimize(inliers).covariance, 1e-6));
 }
 
 TEST(CovarianceOfEstimate, DoesNotWeighCustomFactorsByResidualsOfMatches) {
