@@ -7,6 +7,7 @@
 #   tests/run.sh --sanitize readers    of these, only the fuzz targets of the readers of sequences
 #   tests/run.sh --sanitize thread     the tests that start threads under ThreadSanitizer, in
 #                                      ./build-thread
+#   tests/run.sh --sanitize pipeline   of these, only those of mapping beside tracking
 #
 # Environment: JOBS, the number of parallel processes (default: one per processor); TESTS, a regular
 # expression of folders for --sanitize address and thread ("odometry|text"; default: all that it covers).
@@ -21,8 +22,8 @@ not_instrumented='^(consumer|free_ceres|python)\.'
 
 sanitize=
 if [[ $# -gt 0 ]]; then
-  if [[ $# -ne 2 || $1 != --sanitize || ! $2 =~ ^(address|readers|thread)$ ]]; then
-    echo "usage: tests/run.sh [--sanitize address|readers|thread]" >&2
+  if [[ $# -ne 2 || $1 != --sanitize || ! $2 =~ ^(address|readers|thread|pipeline)$ ]]; then
+    echo "usage: tests/run.sh [--sanitize address|readers|thread|pipeline]" >&2
     exit 2
   fi
   sanitize=$2
@@ -79,6 +80,10 @@ case $sanitize in
     ;;
   thread)
     test_sanitized thread tsan "^(${TESTS:-$threaded})\." $(targets_of "${TESTS:-$threaded}")
+    ;;
+  pipeline)
+    pipeline='MappingRunner.*|SideWorker|SnapshotSchedule.*|SegmentsTest\.AreTheSameAtAnyThreadCount'
+    test_sanitized thread tsan "^odometry\.($pipeline)" odometry_test
     ;;
   *)
     begin "configure"

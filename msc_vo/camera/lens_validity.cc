@@ -4,6 +4,7 @@
 #include "msc_vo/camera/lens_validity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -20,9 +21,21 @@ constexpr int kMaxCircles = 50 * kCircles;
 // The lens must be one-to-one slightly beyond the corners, because the coefficients are uncertain.
 constexpr double kMargin = 1.02;
 
+using Directions = std::array<Eigen::Vector2d, kDirections>;
+
+Directions UnitCircle() {
+  Directions directions;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2.0 * M_PI * i / kDirections;
+    directions[i] = {std::cos(angle), std::sin(angle)};
+  }
+  return directions;
+}
+
 // Smaller eigenvalue of a symmetric matrix.
 double SmallerEigenvalue(const Eigen::Matrix2d& m) {
-  return 0.5 * m.trace() - std::hypot(0.5 * (m(0, 0) - m(1, 1)), m(0, 1));
+  const double half_difference = 0.5 * (m(0, 0) - m(1, 1));
+  return 0.5 * m.trace() - std::sqrt(half_difference * half_difference + m(0, 1) * m(0, 1));
 }
 
 // A distorted circle around the optical axis.
@@ -34,10 +47,10 @@ struct DistortedCircle {
 };
 
 DistortedCircle DistortCircle(const LensDistortion& distortion, double radius) {
+  static const Directions directions = UnitCircle();
   DistortedCircle circle;
-  for (int i = 0; i < kDirections; ++i) {
-    const double angle = 2.0 * M_PI * i / kDirections;
-    const Eigen::Vector2d x(radius * std::cos(angle), radius * std::sin(angle));
+  for (const Eigen::Vector2d& direction : directions) {
+    const Eigen::Vector2d x = radius * direction;
     const double stretch = SmallerEigenvalue(distortion.Jacobian(x));
     // Overflow (NaN) counts as a fold.
     if (!(stretch >= circle.smallest_stretch)) circle.smallest_stretch = stretch;

@@ -127,6 +127,34 @@ TEST_F(ResumeTest, ContinuesAKilledRunToTheSameBytes) {
   ExpectSameAsWholeRun("out");
 }
 
+TEST_F(ResumeTest, ContinuesWithTheAccelerometer) {
+  const std::string without = ReadFile(Path("whole/trajectory.txt"));
+  ASSERT_EQ(RunCommand(Command("whole", {"--gravity"})).exit_code, 0);
+  ASSERT_NE(ReadFile(Path("whole/trajectory.txt")), without);
+  Stop("out", 15, SIGKILL, {"--gravity"});
+  const CommandOutcome outcome = Resume("out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  ExpectSameAsWholeRun("out");
+}
+
+TEST_F(ResumeTest, ContinuesWithTheLensThatTheRunHasFound) {
+  std::filesystem::remove_all(Path("room"));
+  const CommandOutcome outcome =
+      RunCommand({"synthesize", Path("room"), "--scene", "room", "--frames", "30", "--fps", "5",
+                  "--width", "320", "--lens", "radial-tangential:-0.3,0.1,0,0,0", "--untold"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  ASSERT_EQ(RunCommand(Command("whole")).exit_code, 0);
+  const auto calibration = [this](const std::string& output) {
+    return nlohmann::json::parse(ReadFile(Path(output + "/summary.json"))).at("self_calibration");
+  };
+  ASSERT_EQ(calibration("whole").at("k1").at("verdict"), "corrected");
+  Stop("out", 25, SIGTERM);
+  ASSERT_EQ(calibration("out").at("k1").at("verdict"), "corrected");  // before it is stopped
+  EXPECT_EQ(Resume("out").exit_code, 0);
+  ExpectSameAsWholeRun("out");
+  EXPECT_EQ(calibration("out"), calibration("whole"));
+}
+
 TEST_F(ResumeTest, ContinuesAnInterruptedRun) {
   Stop("out", 10, SIGTERM);
   EXPECT_TRUE(HasEntry(Path("out/summary.json")));
