@@ -82,7 +82,7 @@ case $sanitize in
     test_sanitized thread tsan "^(${TESTS:-$threaded})\." $(targets_of "${TESTS:-$threaded}")
     ;;
   pipeline)
-    pipeline='MappingRunner.*|SideWorker|SnapshotSchedule.*|SegmentsTest\.AreTheSameAtAnyThreadCount'
+    pipeline='.*RunnerTest\.|SideWorker|SnapshotSchedule.*|SegmentsTest\.AreTheSameAtAnyThreadCount'
     test_sanitized thread tsan "^odometry\.($pipeline)" odometry_test
     ;;
   *)

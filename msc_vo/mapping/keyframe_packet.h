@@ -13,6 +13,7 @@
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/frame.h"
 #include "msc_vo/map/landmark.h"
+#include "msc_vo/map/last_tracked_pose.h"
 #include "msc_vo/matching/frame_matches.h"
 #include "msc_vo/matching/map_relocalization.h"
 #include "msc_vo/self_calibration/recent_pairs.h"
@@ -42,9 +43,8 @@ struct KeyframePacket {
   /// discarded otherwise.
   bool begins_map = false;
   bool keeps_last_map = true;
-  /// When the camera was last tracked in the map before it, at the same pose; seconds.
-  double last_seen = 0.0;
-  FrameMatches matches;  ///< with landmarks of the map
+  std::optional<LastTrackedPose> last_tracked;  ///< in that map
+  FrameMatches matches;                         ///< with landmarks of the map
   /// Of the pose in the map, in the tangent of Rigid3Manifold.
   PoseCovariance covariance = PoseCovariance::Zero();
   std::optional<MapRelocalization> in_inactive_map;  ///< if it was found in one
@@ -64,8 +64,8 @@ struct KeyframePacket {
   void Serialize(Archive& archive) {
     StoredDepth stored(depth);
     archive.Fields(*this, frame, reference, cam_from_reference, begins_map, keeps_last_map,
-                   last_seen, matches, covariance, in_inactive_map, last_velocity, normals, stored,
-                   calibration_images, point_counts, line_counts);
+                   last_tracked, matches, covariance, in_inactive_map, last_velocity, normals,
+                   stored, calibration_images, point_counts, line_counts);
     depth = stored.Image();
   }
 };

@@ -53,45 +53,56 @@ void MapJoiner::Add(KeyframeId keyframe, const PoseCovariance& covariance,
   common_keyframes_.push_back({keyframe, covariance, in_inactive_map});
 }
 
-void MapJoiner::Leave(const Map& current, double timestamp, const Rigid3& cam_from_world) {
-  const auto& [id, newest] = current.keyframes().back();
-  if (timestamp <= newest.frame->timestamp) return;  // the keyframe is the last view
-  last_views_.push_back({timestamp, id, cam_from_world * newest.cam_from_world.Inverse()});
-}
-
-void MapJoiner::AddPoses(const Map& map, const Rigid3& map_from_world,
-                         std::vector<TimedPose>* poses) const {
+void MapJoiner::AppendPoses(const Map& map, const Rigid3& map_from_world,
+                            std::vector<PoseInMap>* poses) const {
   for (const auto& [id, keyframe] : map.keyframes()) {
-    poses->push_back({keyframe.frame->timestamp, keyframe.cam_from_world * map_from_world, &map});
+    poses->push_back(
+        {keyframe.frame->timestamp, keyframe.cam_from_world * map_from_world, &map, false});
   }
-  for (const LastView& view : last_views_) {
-    if (!map.KnowsKeyframe(view.keyframe)) continue;
-    const Rigid3 cam_from_map = view.cam_from_keyframe * map.CamFromWorld(view.keyframe);
-    poses->push_back({view.timestamp, cam_from_map * map_from_world, &map});
+  for (const LastTrackedPose& last : last_poses_) {
+    if (!map.KnowsKeyframe(last.reference)) continue;
+    const Rigid3 cam_from_map = last.cam_from_reference * map.CamFromWorld(last.reference);
+    poses->push_back({last.timestamp, cam_from_map * map_from_world, &map, true});
   }
 }
 
 bool MapJoiner::IsPossibleMotion(const Map& a, const Map& b, const Rigid3& a_from_b) const {
-  std::vector<TimedPose> poses;
-  AddPoses(a, a_from_b, &poses);
-  AddPoses(b, Rigid3(), &poses);
-  std::sort(poses.begin(), poses.end(), [](const TimedPose& first, const TimedPose& second) {
+  std::vector<PoseInMap> poses;
+  AppendPoses(a, a_from_b, &poses);
+  AppendPoses(b, Rigid3(), &poses);
+  // Stable: a keyframe that is also the last pose comes before that.
+  std::stable_sort(poses.begin(), poses.end(), [](const PoseInMap& first, const PoseInMap& second) {
     return first.timestamp < second.timestamp;
   });
   MotionLimits limits;
   std::vector<CameraVelocity> between_maps;
   for (size_t i = 1; i < poses.size(); ++i) {
-    const Rigid3 cam_from_last = poses[i].cam_from_world * poses[i - 1].cam_from_world.Inverse();
+    const PoseInMap &from = poses[i - 1], &to = poses[i];
+    const double seconds = to.timestamp - from.timestamp;
+    if (!(seconds > 0.0)) continue;
     const CameraVelocity velocity =
-        CameraVelocity::Of(cam_from_last, poses[i].timestamp - poses[i - 1].timestamp);
-    if (poses[i].map == poses[i - 1].map) {
-      limits.Observe(velocity);
-    } else {
+        CameraVelocity::Of(to.cam_from_world * from.cam_from_world.Inverse(), seconds);
+    if (from.map != to.map) {
       between_maps.push_back(velocity);
+    } else if (!from.is_last && !to.is_last) {
+      // After a last pose there is a gap, and its own image is often a bad one.
+      limits.Observe(velocity);
     }
   }
   return std::all_of(between_maps.begin(), between_maps.end(),
                      [&](const CameraVelocity& velocity) { return limits.Allow(velocity); });
+}
+
+void MapJoiner::Forget(const std::vector<CommonKeyframe>& keyframes,
+                       const std::vector<bool>& forgotten) {
+  for (size_t i = 0; i < keyframes.size(); ++i) {
+    if (!forgotten[i]) continue;
+    const KeyframeId id = keyframes[i].keyframe;
+    common_keyframes_.erase(
+        std::remove_if(common_keyframes_.begin(), common_keyframes_.end(),
+                       [id](const CommonKeyframe& common) { return common.keyframe == id; }),
+        common_keyframes_.end());
+  }
 }
 
 std::vector<MapJoiner::CommonKeyframe> MapJoiner::CommonKeyframesWith(const Map& map) const {
@@ -125,7 +136,10 @@ std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
   if (!alignment) return std::nullopt;
   const Map& moved = inactive_is_kept ? atlas->current() : *inactive;
   const Map& kept = inactive_is_kept ? *inactive : atlas->current();
-  if (!IsPossibleMotion(moved, kept, alignment->a_from_b)) return std::nullopt;
+  if (!IsPossibleMotion(moved, kept, alignment->a_from_b)) {
+    Forget(in_both, alignment->inliers);
+    return std::nullopt;
+  }
 
   MapJoin join;
   join.kept = inactive->keyframes().front().first;

@@ -9,6 +9,7 @@
 #include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/atlas.h"
+#include "msc_vo/map/last_tracked_pose.h"
 #include "msc_vo/map/map_alignment.h"
 #include "msc_vo/matching/map_relocalization.h"
 
@@ -42,21 +43,21 @@ class MapJoiner {
   /// Aligns the current map with the inactive one that keyframes were found in last, joins the two
   /// if the keyframes agree (AlignMaps) and the camera can have moved from one map into the other
   /// in the time that it had (MotionLimits), and merges the landmarks that both maps have of the
-  /// same features. std::nullopt if they are not joined.
+  /// same features. std::nullopt if they are not joined; keyframes that agree on an impossible
+  /// motion are forgotten.
   std::optional<MapJoin> TryJoin(Atlas* atlas);
 
   /// Forgets the keyframes of the current map: another one begins.
   void Clear() { common_keyframes_.clear(); }
 
-  /// Reports that the current map becomes inactive, and when and where the camera was tracked in it
-  /// last.
-  void Leave(const Map& current, double timestamp, const Rigid3& cam_from_world);
+  /// Adds the last pose in a map that becomes inactive.
+  void AddLastPose(const LastTrackedPose& pose) { last_poses_.push_back(pose); }
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, common_keyframes, last_views] = *this;  // all members, or it does not compile
-    archive(common_keyframes, last_views);
+    auto& [options, common_keyframes, last_poses] = *this;  // all members, or it does not compile
+    archive(common_keyframes, last_poses);
   }
 
  private:
@@ -72,34 +73,26 @@ class MapJoiner {
     }
   };
 
-  // Where the camera was tracked last in a map that was left.
-  struct LastView {
-    double timestamp = 0.0;  // seconds
-    KeyframeId keyframe = kNoId;
-    Rigid3 cam_from_keyframe;
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, timestamp, keyframe, cam_from_keyframe);
-    }
-  };
-
-  // Poses of a camera in a map, in order of time.
-  struct TimedPose {
+  // The pose of a keyframe, or the last one in its map.
+  struct PoseInMap {
     double timestamp = 0.0;  // seconds
     Rigid3 cam_from_world;
     const Map* map = nullptr;
+    bool is_last = false;
   };
 
-  void AddPoses(const Map& map, const Rigid3& map_from_world, std::vector<TimedPose>* poses) const;
+  void AppendPoses(const Map& map, const Rigid3& map_from_world,
+                   std::vector<PoseInMap>* poses) const;
   // Whether the camera can have moved from one map into the other in the time that it had.
   bool IsPossibleMotion(const Map& a, const Map& b, const Rigid3& a_from_b) const;
+  // Forgets those of `keyframes` that are marked.
+  void Forget(const std::vector<CommonKeyframe>& keyframes, const std::vector<bool>& forgotten);
   // Those that were found in `map`.
   std::vector<CommonKeyframe> CommonKeyframesWith(const Map& map) const;
 
   MapAlignmentOptions options_;
   std::vector<CommonKeyframe> common_keyframes_;
-  std::vector<LastView> last_views_;
+  std::vector<LastTrackedPose> last_poses_;
 };
 
 }  // namespace msc_vo

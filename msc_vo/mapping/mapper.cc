@@ -112,7 +112,7 @@ MappingSummary Mapper::Process(const KeyframePacket& packet) {
 void Mapper::BeginMap(const KeyframePacket& packet) {
   if (packet.keeps_last_map && !map().keyframes().empty()) {
     inactive_axes_.emplace(map().keyframes().front().first, axes_);
-    joiner_.Leave(map(), packet.last_seen, packet.cam_from_reference);
+    if (packet.last_tracked) joiner_.AddLastPose(*packet.last_tracked);
   }
   atlas_.Begin(packet.keeps_last_map);
   joiner_.Clear();

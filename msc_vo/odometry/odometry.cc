@@ -212,7 +212,7 @@ void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat&
   const SegmentStart start = tracked.segment_start;
   packet.begins_map = start == SegmentStart::kAfterLoss || start == SegmentStart::kReplacing;
   packet.keeps_last_map = start != SegmentStart::kReplacing;
-  packet.last_seen = tracked.keyframe.last_seen;
+  packet.last_tracked = tracked.keyframe.last_tracked;
   packet.covariance = tracked.pose.covariance;
   packet.in_inactive_map = tracked.in_inactive_map;
   packet.frame = tracked.frame;

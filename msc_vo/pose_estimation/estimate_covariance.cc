@@ -68,9 +68,9 @@ double SumOfVariances(const PoseOptions& options, const PoseData& data,
   return sum;
 }
 
-// Ratio of the squared residuals of all matches, outliers included, to their expectation, by the
-// median: what a frame measures badly, such as a blurred one, fails the chi-square tests, and the
-// rest looks too good.
+// Ratio of the squared residuals in the image of all matches, outliers included, to their
+// expectation, by the median. Most matches of a blurred image fail the chi-square tests, and the
+// others look too good.
 double VarianceFactorOfAllMatches(const PoseOptions& options, const PoseData& data,
                                   const Rigid3& pose) {
   std::vector<double> chi2;

@@ -21,9 +21,10 @@ namespace msc_vo {
 ///   s^2 H^-1 (sum of (1 + v) J^T S^-1 J) H^-1
 ///
 /// with the variance factor s^2, by which the residuals exceed what these covariances predict, at
-/// least 1: those of the inliers by their mean square, or those of all matches that are not on
-/// dynamic objects by their median, whichever is larger. With a map that is exact and residuals as
-/// predicted it is H^-1. Custom factors count as they are.
+/// least 1: those of the inliers by their mean square, or those in the image of all matches that
+/// are not on dynamic objects by their median, whichever is larger. If more than half of ten or
+/// more matches are outliers, the latter is large. With a map that is exact and residuals as
+/// predicted the covariance is H^-1. Custom factors count as they are.
 std::optional<PoseCovariance> CovarianceOfEstimate(const PoseOptions& options, const PoseData& data,
                                                    const PoseInlierMask& mask, const Rigid3& pose,
                                                    const NormalEquations& at_pose);

@@ -110,8 +110,7 @@ struct PoseSummary {
   /// Half the sum of squares over the inliers, and the robust cost of the custom factors.
   double final_cost = 0.0;
   /// Covariance of the estimate in the tangent of Rigid3Manifold (rotation vector in the camera
-  /// frame, radians; then translation, metres), from the inliers and custom factors: see
-  /// CovarianceOfEstimate(). Zero if not usable.
+  /// frame, radians; then translation, metres): see CovarianceOfEstimate(). Zero if not usable.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 
   template <typename Archive>

@@ -7,29 +7,9 @@
 
 #include "msc_vo/pose_estimation/relocalizer.h"
 #include "msc_vo/tracking/frame_pose.h"
+#include "msc_vo/tracking/pose_support.h"
 
 namespace msc_vo {
-
-namespace {
-
-double NumFeatures(const FrameMatches& matches) {
-  return static_cast<double>(matches.points.size() + matches.lines.size());
-}
-
-// Of the landmarks in view, a frame shows less in a wrong place that looks alike than in the right
-// one. The current map, in which it is tracked, tells how many those should be; half of that may be
-// due to another direction of view.
-bool ShowsEnough(const FrameMatches& found, const LocalMap& place, const TrackedFrame& tracked) {
-  constexpr double kMinRelativeShare = 0.5;
-  const KeyframeProposal& current = tracked.keyframe;
-  const auto num_visible = static_cast<double>(place.points.size() + place.lines.size());
-  const auto num_visible_now =
-      static_cast<double>(current.visible_points.size() + current.visible_lines.size());
-  return NumFeatures(found) * num_visible_now >=
-         kMinRelativeShare * NumFeatures(tracked.matches) * num_visible;
-}
-
-}  // namespace
 
 std::optional<MapRelocalization> InactiveMapSearch::Search(const TrackedFrame& tracked,
                                                            const MapSnapshot& snapshot) {
@@ -91,7 +71,7 @@ std::optional<MapRelocalization> InactiveMapSearch::Relocalize(const TrackedFram
   if (!estimate()) return std::nullopt;
   if (ClassifyStatus(options_, found.pose) != TrackingStatus::kTracked) return std::nullopt;
   found.matches = LandmarkInliers(found.matches);
-  if (!ShowsEnough(found.matches, local, tracked)) return std::nullopt;
+  if (!ShowsAsMuch(found.matches, local, tracked)) return std::nullopt;
   const Rigid3 cam_from_reference =
       found.cam_from_world * map.CamFromWorld(local.reference).Inverse();
   return MapRelocalization{local.reference, cam_from_reference, found.pose.covariance,

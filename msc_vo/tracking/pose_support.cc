@@ -44,4 +44,17 @@ bool IsClearlyBetter(const PoseSummary& far, const PoseSummary& near) {
   return Support(far) > kClearlyBetter * (Support(near) + near.num_dynamic);
 }
 
+bool ShowsAsMuch(const FrameMatches& found, const LocalMap& place, const TrackedFrame& tracked) {
+  constexpr double kMinRelativeRatio = 0.5;  // the direction of view may be another
+  const auto num_features = [](const FrameMatches& matches) {
+    return static_cast<double>(matches.points.size() + matches.lines.size());
+  };
+  const KeyframeProposal& current = tracked.keyframe;
+  const auto in_view = static_cast<double>(place.points.size() + place.lines.size());
+  const auto in_view_now =
+      static_cast<double>(current.visible_points.size() + current.visible_lines.size());
+  return num_features(found) * in_view_now >=
+         kMinRelativeRatio * num_features(tracked.matches) * in_view;
+}
+
 }  // namespace msc_vo

@@ -11,6 +11,7 @@
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/frame.h"
 #include "msc_vo/map/landmark.h"
+#include "msc_vo/map/last_tracked_pose.h"
 #include "msc_vo/map/noise_scale.h"
 #include "msc_vo/matching/frame_matches.h"
 #include "msc_vo/matching/map_relocalization.h"
@@ -39,8 +40,8 @@ struct TrackingTimes {
 /// Contribution of a tracked frame to local mapping.
 struct KeyframeProposal {
   bool is_due = false;  ///< the frame is to become a keyframe
-  /// If the frame begins a new map: time stamp of the last frame that was tracked, seconds.
-  double last_seen = 0.0;
+  /// In the previous map, if the frame begins a new one.
+  std::optional<LastTrackedPose> last_tracked;
   /// Velocity at the previous frame if that became a keyframe, from the frames before and after it.
   std::optional<CameraVelocity> previous_velocity;
   /// Landmarks that were predicted to be visible, matched ones included; for culling.
@@ -49,7 +50,7 @@ struct KeyframeProposal {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, is_due, last_seen, previous_velocity, visible_points, visible_lines);
+    archive.Fields(*this, is_due, last_tracked, previous_velocity, visible_points, visible_lines);
   }
 };
 

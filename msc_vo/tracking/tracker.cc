@@ -135,7 +135,8 @@ TrackedFrame Tracker::BeginSegment(std::shared_ptr<const Frame> frame,
   tracked.frame = std::move(frame);
   tracked.cam_from_world = last_from_world;
   tracked.cam_from_reference = last_from_world;
-  tracked.keyframe.last_seen = last_.frame->timestamp;
+  tracked.keyframe.last_tracked = {last_.frame->timestamp, last_.reference,
+                                   last_.cam_from_reference};
   StartSegment(segment_start_.is_confirmed() ? SegmentStart::kAfterLoss : SegmentStart::kReplacing,
                &tracked);
   return tracked;

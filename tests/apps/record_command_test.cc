@@ -107,6 +107,8 @@ TEST_F(RecordCommandTest, KeepsACompleteFolderOnAFullDisk) {
 }
 
 TEST_F(RecordCommandTest, SaysWhatABuildLacks) {
+  // OpenNI2 does not free all its memory, which AddressSanitizer would report.
+  ::setenv("LSAN_OPTIONS", "detect_leaks=0", 1);
   // With or without the libraries, the message names the file.
   WriteText("x.bag", "");
   WriteText("x.oni", "");

@@ -20,6 +20,14 @@ TEST(MotionLimits, AllowNoJump) {
   EXPECT_FALSE(limits.Allow({{}, {0.0, 0.0, 2.0}}));
 }
 
+TEST(MotionLimits, AllowThreeTimesTheLargestSpeed) {
+  MotionLimits limits;
+  limits.Observe({{0.0, 0.5, 0.0}, {0.5, 0.0, 0.0}});
+  EXPECT_TRUE(limits.Allow({{0.0, 1.45, 0.0}, {1.45, 0.0, 0.0}}));
+  EXPECT_FALSE(limits.Allow({{0.0, 1.55, 0.0}, {}}));
+  EXPECT_FALSE(limits.Allow({{}, {1.55, 0.0, 0.0}}));
+}
+
 TEST(MotionLimits, AllowWhatTheCameraHasShown) {
   MotionLimits limits;
   limits.Observe({{0.0, 6.0, 0.0}, {5.0, 0.0, 0.0}});

@@ -25,7 +25,14 @@ class MapJoinerTest : public testing::Test {
  protected:
   MapJoinerTest() {
     for (const double time : {0.0, 0.5, 1.0}) AddKeyframe(time, 0.5 * time, &atlas_.current());
-    joiner_.Leave(atlas_.current(), 2.0, CameraAt(1.0));
+    BeginMap(2.0);
+  }
+
+  // Leaves the current map for a new one after a last pose at that time.
+  void BeginMap(double seconds) {
+    const auto& [id, keyframe] = atlas_.current().keyframes().back();
+    const double distance = 0.5 * (seconds - keyframe.frame->timestamp);
+    joiner_.AddLastPose({seconds, id, CameraAt(distance)});
     atlas_.Begin(true);
     joiner_.Clear();
   }
@@ -68,8 +75,20 @@ TEST_F(MapJoinerTest, JoinsDistantPlacesThatTheCameraHadTimeToReach) {
   EXPECT_TRUE(JoinAt(40.0, 10.0));
 }
 
-// By the last keyframe alone, the camera had a second more: 1.3 m/s, which is possible.
-TEST_F(MapJoinerTest, CountsTheTimeFromTheLastView) { EXPECT_FALSE(JoinAt(4.0, 2.5)); }
+// From the last keyframe on, the camera had a second more: 1.3 m/s, which is possible.
+TEST_F(MapJoinerTest, CountsTheTimeFromTheLastPose) { EXPECT_FALSE(JoinAt(4.0, 2.5)); }
+
+TEST_F(MapJoinerTest, ForgetsKeyframesThatAgreeOnAnImpossibleMotion) {
+  ASSERT_FALSE(JoinAt(4.0, 10.0));
+  EXPECT_TRUE(JoinAt(6.0, 0.0));  // three of six would not be more than half
+}
+
+// The first gap is crossed at 1.4 m/s, the second one at 2.5 m/s. Nobody has seen either motion.
+TEST_F(MapJoinerTest, DoesNotLearnSpeedsFromGaps) {
+  ASSERT_TRUE(JoinAt(4.0, 1.8));
+  BeginMap(6.0);
+  EXPECT_FALSE(JoinAt(8.0, 4.0 + 1.8));
+}
 
 }  // namespace
 }  // namespace msc_vo

@@ -41,9 +41,11 @@ class OpenNiCommandTest : public TemporaryFolder {
   }
 
   // Runs a shell command beside the fake camera; returns its exit code. Its output is in `log`.
+  // OpenNI2 and its drivers do not free all their memory, which AddressSanitizer would report.
   int Run(const std::string& command) {
-    const std::string environment =
-        "LD_LIBRARY_PATH=" + Path("lib") + " MSC_VO_FAKE_CAMERA=" + Path("images") + " timeout 60 ";
+    const std::string environment = "LD_LIBRARY_PATH=" + Path("lib") +
+                                    " MSC_VO_FAKE_CAMERA=" + Path("images") +
+                                    " LSAN_OPTIONS=detect_leaks=0 timeout 60 ";
     const int status = std::system((environment + command + " > " + Path("log") + " 2>&1").c_str());
     return WEXITSTATUS(status);
   }

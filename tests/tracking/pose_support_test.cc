@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/tracking/pose_support.h"
+
+#include <gtest/gtest.h>
+
+namespace msc_vo {
+namespace {
+
+// A frame that shows 40 of 100 landmarks of the current map, a quarter of them lines.
+TrackedFrame FrameInCurrentMap() {
+  TrackedFrame tracked;
+  tracked.matches.points.resize(30);
+  tracked.matches.lines.resize(10);
+  tracked.keyframe.visible_points.resize(80);
+  tracked.keyframe.visible_lines.resize(20);
+  return tracked;
+}
+
+// Whether `num_found` of 200 landmarks are enough.
+bool ShowsAsMuchWith(size_t num_found) {
+  FrameMatches found;
+  found.points.resize(num_found - 10);
+  found.lines.resize(10);
+  LocalMap place;
+  place.points.resize(150);
+  place.lines.resize(50);
+  return ShowsAsMuch(found, place, FrameInCurrentMap());
+}
+
+TEST(ShowsAsMuch, RequiresHalfOfTheRatioInTheCurrentMap) {
+  EXPECT_TRUE(ShowsAsMuchWith(80));
+  EXPECT_TRUE(ShowsAsMuchWith(40));
+  EXPECT_FALSE(ShowsAsMuchWith(39));
+}
+
+}  // namespace
+}  // namespace msc_vo
