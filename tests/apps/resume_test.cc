@@ -128,10 +128,17 @@ TEST_F(ResumeTest, ContinuesAKilledRunToTheSameBytes) {
 }
 
 TEST_F(ResumeTest, ContinuesWithTheAccelerometer) {
+  // Accelerations are computed from keyframes at least a second apart.
+  std::filesystem::remove_all(Path("room"));
+  ASSERT_EQ(RunCommand({"synthesize", Path("room"), "--scene", "room", "--frames",
+                        std::to_string(kNumFrames), "--width", "160", "--fps", "5"})
+                .exit_code,
+            0);
+  ASSERT_EQ(RunCommand(Command("whole")).exit_code, 0);
   const std::string without = ReadFile(Path("whole/trajectory.txt"));
   ASSERT_EQ(RunCommand(Command("whole", {"--gravity"})).exit_code, 0);
   ASSERT_NE(ReadFile(Path("whole/trajectory.txt")), without);
-  Stop("out", 15, SIGKILL, {"--gravity"});
+  Stop("out", 25, SIGKILL, {"--gravity"});
   const CommandOutcome outcome = Resume("out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   ExpectSameAsWholeRun("out");
