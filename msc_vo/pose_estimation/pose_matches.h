@@ -34,8 +34,8 @@ double PixelChiSquare(const PinholeCamera& camera, const Rigid3& pose,
                       const PoseData::Point& point);
 double PixelChiSquare(const PinholeCamera& camera, const Rigid3& pose, const PoseData::Line& line);
 
-/// Ratio of the median of squares to that of chi-square with two degrees of freedom. Fewer than ten
-/// determine none: 1.
+/// Ratio of the median of squared residuals of two rows each to that of chi-square with two degrees
+/// of freedom. 1 for fewer than ten, which determine no ratio.
 double MedianChiSquareRatio(std::vector<double> chi2);
 
 /// Adds the active factors of one match. Sigmas of lines are evaluated at `pose`.

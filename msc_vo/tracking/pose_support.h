@@ -25,8 +25,8 @@ PoseFit FitOf(const TrackedFrame& tracked, const LocalMap& candidates);
 /// replaces it.
 bool IsClearlyBetter(const PoseSummary& far, const PoseSummary& near);
 
-/// Whether a frame shows about as large a part of the landmarks in view at `place`, with the
-/// inliers `found`, as in the current map, where it is `tracked`. At a wrong place that looks
+/// Whether a frame, with the inliers `found`, shows at least half as large a part of the landmarks
+/// in view at `place` as in the current map, where it is `tracked`. At a wrong place that looks
 /// alike, it shows less (docs/lab/tracking.md).
 bool ShowsAsMuch(const FrameMatches& found, const LocalMap& place, const TrackedFrame& tracked);
 
