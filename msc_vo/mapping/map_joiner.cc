@@ -138,6 +138,7 @@ std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
   const Map& kept = inactive_is_kept ? *inactive : atlas->current();
   if (!IsPossibleMotion(moved, kept, alignment->a_from_b)) {
     Forget(in_both, alignment->inliers);
+    ++num_refused_;
     return std::nullopt;
   }
 

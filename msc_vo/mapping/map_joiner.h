@@ -47,6 +47,9 @@ class MapJoiner {
   /// motion are forgotten.
   std::optional<MapJoin> TryJoin(Atlas* atlas);
 
+  /// Alignments of the run so far that keyframes agreed on, but whose motion was impossible.
+  int num_refused() const { return num_refused_; }
+
   /// Forgets the keyframes of the current map: another one begins.
   void Clear() { common_keyframes_.clear(); }
 
@@ -56,8 +59,9 @@ class MapJoiner {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, common_keyframes, last_poses] = *this;  // all members, or it does not compile
-    archive(common_keyframes, last_poses);
+    auto& [options, common_keyframes, last_poses, refused] =
+        *this;  // all members, or it does not compile
+    archive(common_keyframes, last_poses, refused);
   }
 
  private:
@@ -93,6 +97,7 @@ class MapJoiner {
   MapAlignmentOptions options_;
   std::vector<CommonKeyframe> common_keyframes_;
   std::vector<LastTrackedPose> last_poses_;
+  int num_refused_ = 0;
 };
 
 }  // namespace msc_vo

@@ -67,6 +67,7 @@ MappingSummary Mapper::Insert(const KeyframePacket& packet) {
     joiner_.Add(summary.keyframe, packet.covariance, *packet.in_inactive_map);
     summary.join = JoinMaps();
   }
+  summary.num_refused_joins = joiner_.num_refused();
   CullLandmarks(options_.culling, summary.keyframe, &probation_, &atlas_.current());
   CreatePoints(summary.keyframe, &probation_, &atlas_.current());
   CreateLines(summary.keyframe, &probation_, &atlas_.current());

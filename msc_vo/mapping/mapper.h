@@ -60,13 +60,14 @@ struct MappingSummary {
   AxesState axes_state = AxesState::kNone;        ///< after the step
   int num_axes_refinements = 0;                   ///< in the run so far
   std::optional<MapJoin> join;  ///< the map was joined with that of an older segment
+  int num_refused_joins = 0;    ///< in the run so far (MapJoiner::num_refused)
   std::shared_ptr<const CalibrationChange> calibration;  ///< null: it was not changed
   MappingTimes times;
 
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive.Fields(*this, keyframe, num_culled_keyframes, window, axes_state, num_axes_refinements,
-                   join, calibration, times);
+                   join, num_refused_joins, calibration, times);
   }
 };
 

@@ -78,6 +78,13 @@ void EventLog::LogMapping(const MappingStep& step) {
     Log().info("maps joined at keyframe {}: {} keyframes were found in both", summary.keyframe,
                summary.join->num_keyframes);
   }
+  if (summary.num_refused_joins > num_refused_joins_) {
+    num_refused_joins_ = summary.num_refused_joins;
+    Log().info(
+        "maps not joined at keyframe {}: several keyframes were found in both, but the "
+        "camera cannot have moved as fast as they say",
+        summary.keyframe);
+  }
   if (summary.axes_state != axes_state_ || summary.num_axes_refinements != num_axes_refinements_) {
     axes_state_ = summary.axes_state;
     num_axes_refinements_ = summary.num_axes_refinements;

@@ -28,7 +28,7 @@ class EventLog {
   void LogFrame(const FrameResult& frame, bool relocalized);
   /// The next frame begins a segment. The first one is not logged.
   void LogSegment(int segment, SegmentStart start);
-  /// Changes of the Manhattan axes and of the readout time, and joins of maps.
+  /// Changes of the Manhattan axes and of the readout time, joins of maps, and refused ones.
   void LogMapping(const MappingStep& step);
   /// Self-calibration at the end of the run; `readout_time` in seconds.
   void LogFinish(const NoiseScale& noise_scale, double readout_time, int num_frames) const;
@@ -37,9 +37,10 @@ class EventLog {
   template <typename Archive>
   void Serialize(Archive& archive) {
     auto& [status, status_since, axes_state, num_axes_refinements, readout_time, last_moved_map,
-           depth_sensor, chooses_depth_sensor] = *this;  // all members, or it does not compile
+           num_refused_joins, depth_sensor, chooses_depth_sensor] =
+        *this;  // all members, or it does not compile
     archive(status, status_since, axes_state, num_axes_refinements, readout_time, last_moved_map,
-            depth_sensor, chooses_depth_sensor);
+            num_refused_joins, depth_sensor, chooses_depth_sensor);
   }
 
  private:
@@ -52,6 +53,7 @@ class EventLog {
   int num_axes_refinements_ = 0;
   double readout_time_ = 0.0;          // seconds
   KeyframeId last_moved_map_ = kNoId;  // of the last join
+  int num_refused_joins_ = 0;
   DepthSensor depth_sensor_ = DepthSensor::kAuto;
   bool chooses_depth_sensor_ = true;
 };

@@ -44,10 +44,7 @@ InlierMask ClassifyLine(const PoseOptions& options, const PinholeCamera& camera,
   const LineSegment3 line = pose * l.map_segment;
   if (!IsInFront(line)) return {};
   const bool has_depth = options.line_depth.enabled && l.has_depth;
-  const double pixels =
-      options.line_reprojection.enabled
-          ? SquaredResidual(MakeLineReprojection(camera, l.segment, l.sigma, line), line)
-          : 0.0;
+  const double pixels = options.line_reprojection.enabled ? PixelChiSquare(camera, pose, l) : 0.0;
   const double depth =
       has_depth ? SquaredResidual(MakeLineDepthReprojection(camera, l.segment, l.depth, line), line)
                 : 0.0;

@@ -11,6 +11,13 @@
 
 namespace msc_vo {
 
+namespace {
+
+// Twice the number of frames that two maps are joined by.
+constexpr int kMaxSuccesses = 6;
+
+}  // namespace
+
 std::optional<MapRelocalization> InactiveMapSearch::Search(const TrackedFrame& tracked,
                                                            const MapSnapshot& snapshot) {
   const InactiveMaps& maps = snapshot.inactive_maps;
@@ -21,12 +28,16 @@ std::optional<MapRelocalization> InactiveMapSearch::Search(const TrackedFrame& t
     const Candidate candidate = NextCandidate(maps);
     std::optional<MapRelocalization> found =
         Relocalize(tracked, *candidate.map, *candidate.keyframe);
-    if (found) {
+    if (found && ++num_successes_ < kMaxSuccesses) {
       next_ = candidate.keyframe->id;
+    } else {
+      next_ = candidate.keyframe->id - 1;
+      num_successes_ = 0;
+    }
+    if (found) {
       last_success_ = timestamp;
       return found;
     }
-    next_ = candidate.keyframe->id - 1;
   }
   return std::nullopt;
 }

@@ -20,15 +20,16 @@ class InactiveMapSearch {
 
   /// Tries to relocalise a frame of status kTracked in the inactive maps of `snapshot`, against
   /// SegmentOptions::search_keyframes of their keyframes: from newest to oldest, cyclically. After
-  /// a success it pauses for SegmentOptions::search_interval and begins with the same keyframe, so
-  /// that the next frame that is found has a view of its own.
+  /// a success it pauses for SegmentOptions::search_interval, so that the next frame that is found
+  /// has a view of its own, and begins with the same keyframe, but for six times at most: if the
+  /// maps have not been joined then, that keyframe may show another place that looks alike.
   std::optional<MapRelocalization> Search(const TrackedFrame& tracked, const MapSnapshot& snapshot);
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, next, last_success] = *this;  // all members, or it does not compile
-    archive(next, last_success);
+    auto& [options, next, successes, last_success] = *this;  // all members, or it does not compile
+    archive(next, successes, last_success);
   }
 
  private:
@@ -43,6 +44,7 @@ class InactiveMapSearch {
 
   TrackerOptions options_;
   KeyframeId next_ = std::numeric_limits<KeyframeId>::max();
+  int num_successes_ = 0;  // in turn, with the same keyframe
   double last_success_ = -std::numeric_limits<double>::infinity();  // seconds
 };
 

@@ -27,7 +27,7 @@ class LinePairFactorTest : public ::testing::Test {
   RandomGeometry random_{3};
 };
 using LinePairFactors = ::testing::Types<ParallelLines, PerpendicularLines>;
-TYPED_TEST_SUITE(LinePairFactorTest, LinePairFactors);
+TYPED_TEST_SUITE(LinePairFactorTest, LinePairFactors, );
 
 TYPED_TEST(LinePairFactorTest, DerivativesMatchAlsoWhereThePapersFormIsSingular) {
   RandomGeometry& random = this->random_;

@@ -64,7 +64,7 @@ TEST(ClipToNear, KeepsSegmentInFrontAndRejectsSegmentBehind) {
 
 class ClipToImageTest : public ::testing::Test {
  protected:
-  const PinholeCamera camera_;  // 640 x 480: the rectangle [0, 639] x [0, 479]
+  const PinholeCamera camera_ = PinholeCamera();  // 640 x 480: the rectangle [0, 639] x [0, 479]
 };
 
 TEST_F(ClipToImageTest, KeepsSegmentInside) {

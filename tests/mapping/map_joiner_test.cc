@@ -80,7 +80,9 @@ TEST_F(MapJoinerTest, CountsTheTimeFromTheLastPose) { EXPECT_FALSE(JoinAt(4.0, 2
 
 TEST_F(MapJoinerTest, ForgetsKeyframesThatAgreeOnAnImpossibleMotion) {
   ASSERT_FALSE(JoinAt(4.0, 10.0));
+  EXPECT_EQ(joiner_.num_refused(), 1);
   EXPECT_TRUE(JoinAt(6.0, 0.0));  // three of six would not be more than half
+  EXPECT_EQ(joiner_.num_refused(), 1);
 }
 
 // The first gap is crossed at 1.4 m/s, the second one at 2.5 m/s. Nobody has seen either motion.

@@ -15,6 +15,7 @@ namespace msc_vo {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 // Collects the lines of the library's logger, without their time stamps.
 class EventLogTest : public testing::Test {
@@ -103,6 +104,16 @@ TEST_F(EventLogTest, WritesAxesAndReadoutTimeWhenTheyChange) {
                                    "info: Manhattan axes at keyframe 4: refined; refinements: 1",
                                    "info: readout time accepted at keyframe 4: 25.00 ms",
                                    "debug: readout time updated at keyframe 4: 26.00 ms"));
+}
+
+TEST_F(EventLogTest, WritesEachRefusedJoinOnce) {
+  MappingStep step = Step(AxesState::kNone, 0, 0.0);
+  for (const int num_refused : {0, 1, 1, 2}) {
+    step.summary.num_refused_joins = num_refused;
+    log_.LogMapping(step);
+  }
+  EXPECT_THAT(Lines(), ElementsAre(HasSubstr("maps not joined at keyframe 4"),
+                                   HasSubstr("maps not joined at keyframe 4")));
 }
 
 TEST_F(EventLogTest, CountsFramesBelowTheLevel) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
+#include <vector>
 
 #include "tests/support/custom_pose_factors.h"
 #include "tests/support/eigen_matchers.h"
@@ -117,29 +118,99 @@ TEST(CovarianceOfEstimate, GrowsWithTheResiduals) {
   EXPECT_NEAR(ratio, 1.4, 0.15);
 }
 
-// Three of five points are off by eight sigmas, as in a blurred image. The others alone would have
-// no residuals.
-TEST(CovarianceOfEstimate, GrowsWithTheResidualsOfOutliers) {
-  PoseData blurred = ExactMatches();
-  blurred.lines.clear();
-  PoseData inliers = blurred;
-  inliers.points.clear();
-  double shift = 8.0;
-  for (size_t i = 0; i < blurred.points.size(); ++i) {
-    PoseData::Point& point = blurred.points[i];
-    if (i % 5 < 2) {
-      inliers.points.push_back(point);
-      continue;
-    }
-    point.pixel.x() += shift * point.sigma;
+// Three of five matches are off by eight sigmas, as in a blurred image. The others alone have no
+// residuals.
+constexpr double kShift = 8.0;
+bool IsShifted(size_t i) { return i % 5 >= 2; }
+
+template <typename Match>
+std::vector<Match> Unshifted(const std::vector<Match>& matches) {
+  std::vector<Match> unshifted;
+  for (size_t i = 0; i < matches.size(); ++i) {
+    if (!IsShifted(i)) unshifted.push_back(matches[i]);
+  }
+  return unshifted;
+}
+
+// To the left and to the right in turn.
+PoseData BlurredPoints() {
+  PoseData data = ExactMatches();
+  data.lines.clear();
+  double shift = kShift;
+  for (size_t i = 0; i < data.points.size(); ++i) {
+    if (!IsShifted(i)) continue;
+    data.points[i].pixel.x() += shift * data.points[i].sigma;
     shift = -shift;
   }
-  PoseData copy = blurred;
-  const PoseSummary summary = OptimizePose(PoseOptions(), &copy);
-  ASSERT_EQ(summary.num_inlier_points, static_cast<int>(inliers.points.size()));
-  constexpr double kChiSquareMedian2 = 1.386;
-  const double expected = 8.0 * 8.0 / kChiSquareMedian2;
-  EXPECT_THAT(summary.covariance, IsNear(expected * Optimize(inliers).covariance, 1e-6));
+  return data;
+}
+
+// The covariance of a frame with these matches over that with the unshifted ones alone.
+double GrowthByOutliers(const PoseData& blurred) {
+  PoseData unshifted = blurred;
+  unshifted.points = Unshifted(blurred.points);
+  unshifted.lines = Unshifted(blurred.lines);
+  const PoseSummary all = Optimize(blurred);
+  EXPECT_EQ(all.num_inlier_points, static_cast<int>(unshifted.points.size()));
+  EXPECT_EQ(all.num_inlier_lines, static_cast<int>(unshifted.lines.size()));
+  const PoseCovariance of_unshifted = Optimize(unshifted).covariance;
+  const double growth = all.covariance.trace() / of_unshifted.trace();
+  EXPECT_THAT(all.covariance, IsNear(growth * of_unshifted, 1e-6));
+  return growth;
+}
+
+constexpr double kChiSquareMedian2 = 1.386;
+
+TEST(CovarianceOfEstimate, GrowsWithTheResidualsOfOutliers) {
+  EXPECT_NEAR(GrowthByOutliers(BlurredPoints()), kShift * kShift / kChiSquareMedian2, 1e-3);
+}
+
+TEST(CovarianceOfEstimate, GrowsWithTheResidualsOfLinesThatAreOutliers) {
+  PoseData data = ExactMatches();
+  data.points.clear();
+  for (size_t i = 0; i < data.lines.size(); ++i) {
+    if (!IsShifted(i)) continue;
+    // Each end by kShift / sqrt(2) sigmas across the line.
+    PoseData::Line& line = data.lines[i];
+    const Eigen::Vector2d along = (line.segment.end - line.segment.start).normalized();
+    const Eigen::Vector2d shift =
+        kShift / std::sqrt(2.0) * line.sigma * Eigen::Vector2d(-along.y(), along.x());
+    line.segment.start += shift;
+    line.segment.end += shift;
+  }
+  // Sigmas grow where the map line extends beyond the observed segment.
+  const double growth = GrowthByOutliers(data);
+  EXPECT_LT(growth, kShift * kShift / kChiSquareMedian2);
+  EXPECT_GT(growth, 0.5 * kShift * kShift / kChiSquareMedian2);
+}
+
+TEST(CovarianceOfEstimate, ExpectsLargerResidualsOfUncertainLandmarks) {
+  PoseData data = BlurredPoints();
+  for (size_t i = 0; i < data.points.size(); ++i) {
+    if (IsShifted(i)) data.points[i].map_variance = 3.0;
+  }
+  EXPECT_NEAR(GrowthByOutliers(data), kShift * kShift / 4.0 / kChiSquareMedian2, 1e-3);
+}
+
+// At the true pose, from which these matches are marked as dynamic by hand.
+PoseCovariance CovarianceWithDynamicMatches(PoseData data, bool shifted_are_dynamic) {
+  const Rigid3 truth = MakeTestWindow(FewFeatures(1)).truth.keyframes[kFrame].cam_from_world;
+  for (size_t i = 0; i < data.points.size(); ++i) {
+    data.points[i].dynamic = shifted_are_dynamic && IsShifted(i);
+  }
+  const PoseOptions options;
+  const PoseInlierMask mask = ClassifyMatches(options, data, truth);
+  NormalEquations at_truth;
+  EXPECT_TRUE(BuildFactors(options, data, mask, truth, false).Linearize(truth, &at_truth));
+  return CovarianceOfEstimate(options, data, mask, truth, at_truth).value();
+}
+
+TEST(CovarianceOfEstimate, ExpectsNothingOfDynamicObjects) {
+  PoseData unshifted = BlurredPoints();
+  unshifted.points = Unshifted(unshifted.points);
+  const PoseCovariance expected = CovarianceWithDynamicMatches(unshifted, false);
+  EXPECT_THAT(CovarianceWithDynamicMatches(BlurredPoints(), true), IsNear(expected, 1e-9));
+  EXPECT_GT(CovarianceWithDynamicMatches(BlurredPoints(), false).trace(), 2.0 * expected.trace());
 }
 
 TEST(CovarianceOfEstimate, DoesNotWeighCustomFactorsByResidualsOfMatches) {

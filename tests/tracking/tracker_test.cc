@@ -220,6 +220,21 @@ TEST_F(TrackerTest, FindsFramesInAnInactiveMap) {
   for (size_t i = 1; i < found.size(); ++i) EXPECT_GE(found[i] - found[i - 1], 6);
 }
 
+// Two keyframes of an inactive map show the same place. While they do not lead to a join, one must
+// not keep the search from the other.
+TEST_F(TrackerTest, SearchesOtherKeyframesOfAnInactiveMapAfterSixFrames) {
+  Start({});
+  MapSnapshot inactive = MapOfOneKeyframe(world_->MakeFrame(0), Rigid3());
+  AddKeyframe(world_->MakeFrame(0), Rigid3(), &inactive);
+  snapshot_.inactive_maps.push_back(std::make_shared<const Map>(std::move(inactive.map)));
+  std::vector<KeyframeId> found;
+  for (int i = 1; i < 70 && found.size() < 8; ++i) {
+    const TrackedFrame tracked = Track(i);
+    if (tracked.in_inactive_map) found.push_back(tracked.in_inactive_map->reference);
+  }
+  EXPECT_THAT(found, testing::ElementsAre(1, 1, 1, 1, 1, 1, 0, 0));
+}
+
 TEST_F(TrackerTest, WaitsForAFirstFrameWithFeatures) {
   world_ = std::make_unique<SyntheticFrames>(SyntheticFrames::Options());
   const TrackedFrame empty = tracker_.Track(SyntheticFrames::MakeEmptyFrame(0), MapSnapshot());
