@@ -91,6 +91,7 @@ struct WindowData {
 
   /// Manhattan axes as a parameter block of custom factors; alignments do not use them.
   struct Axes {
+    Axes() {}  // Clang knows a default constructor only where WindowData is complete
     Eigen::Quaterniond world_from_axes = Eigen::Quaterniond::Identity();
     bool fixed = true;
   };

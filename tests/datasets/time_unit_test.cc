@@ -19,8 +19,8 @@ TEST(GuessTimeUnit, RecognisesDates) {
   EXPECT_EQ(GuessTimeUnit(Stamps(1305031102.1753, 0.033)), TimeUnit::kSeconds);
   EXPECT_EQ(GuessTimeUnit(Stamps(1305031102175.3, 33)), TimeUnit::kMilliseconds);
   EXPECT_EQ(GuessTimeUnit(Stamps(1305031102175304, 33333)), TimeUnit::kMicroseconds);
-  EXPECT_EQ(GuessTimeUnit(Stamps(1305031102175304000, 33333333)), TimeUnit::kNanoseconds);
-  EXPECT_EQ(GuessTimeUnit(Stamps(1305031102175304000, 1000000)), TimeUnit::kNanoseconds);  // 1 kHz
+  EXPECT_EQ(GuessTimeUnit(Stamps(1.305031102175304e18, 33333333)), TimeUnit::kNanoseconds);
+  EXPECT_EQ(GuessTimeUnit(Stamps(1.305031102175304e18, 1000000)), TimeUnit::kNanoseconds);  // 1 kHz
   EXPECT_EQ(GuessTimeUnit({1305031102175304000.0}), TimeUnit::kNanoseconds);
 }
 
