@@ -21,8 +21,7 @@ struct TermOptions {
 /// Estimation of a noise factor per landmark and a depth offset per line from their residuals. The
 /// defaults were chosen by measurement, see docs/lab/noise.md.
 struct LandmarkNoiseOptions {
-  /// Off by default: noise estimated from few residuals is itself uncertain, so covariances would
-  /// be optimistic. MapperOptions enables it.
+  /// Off by default: covariances are then those of the given sigmas. MapperOptions enables it.
   bool enabled = false;
   /// Weight of the prior noise factor 1, as a number of residuals: the degrees of freedom of the
   /// Student distribution of a landmark's residuals.

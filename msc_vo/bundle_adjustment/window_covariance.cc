@@ -9,6 +9,7 @@
 
 #include "msc_vo/bundle_adjustment/internal/covariance_blocks.h"
 #include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
+#include "msc_vo/bundle_adjustment/internal/landmark_noise.h"
 #include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
@@ -127,8 +128,10 @@ WindowCovariance EstimateCovariance(const BundleAdjustmentOptions& options,
       Positions(solved.extra_blocks, selected.extra_blocks, "extra block");
 
   const WindowState state(solved);
-  const WindowTerms terms = MakeWindowTerms(options, solved, index,
-                                            FinalInlierMask(options, solved, index, state), state);
+  const WindowInlierMask inlier_mask = FinalInlierMask(options, solved, index, state);
+  WindowData data = solved;
+  AddNoiseUncertainty(options.landmark_noise, index, inlier_mask, state, &data);
+  const WindowTerms terms = MakeWindowTerms(options, data, index, inlier_mask, state);
   const BlockStructure structure(solved, terms, state);
   WindowEquations equations;
   CovarianceBlocks blocks;

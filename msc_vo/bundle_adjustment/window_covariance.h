@@ -34,7 +34,8 @@ struct WindowCovariance {
 /// Computes marginal covariances: blocks of the inverse Gauss-Newton Hessian (J^T J)^-1 at
 /// `solved`, a window after LocalBundleAdjustment. Rejected observations, pairs and alignments, and
 /// depths that fail the chi-square test, are excluded; factors are weighted by the derivative of
-/// their loss. The result is relative to the fixed items, which count as exact.
+/// their loss. With options.landmark_noise, estimated factors count with their own uncertainty. The
+/// result is relative to the fixed items, which count as exact.
 ///
 /// Throws std::invalid_argument for the same input as LocalBundleAdjustment, and for a selected id
 /// that is not in the window.

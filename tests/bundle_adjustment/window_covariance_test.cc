@@ -3,6 +3,7 @@
 
 #include "msc_vo/bundle_adjustment/window_covariance.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "tests/support/ceres_covariance.h"
@@ -181,12 +182,15 @@ TEST(CovarianceInWorld, MatchesSamples) {
 // landmarks, noise and initial state.
 class Consistency {
  public:
-  explicit Consistency(double noise) {
-    scene_.num_keyframes = 5;
+  explicit Consistency(double noise, int num_keyframes = 5) {
+    scene_.num_keyframes = num_keyframes;
     scene_.num_fixed = 1;
-    scene_.num_points = 40;
-    scene_.num_lines = 10;
+    scene_.num_points = std::max(40, 8 * num_keyframes);
+    scene_.num_lines = std::max(10, 2 * num_keyframes);
     scene_.noise = noise;
+    // In the middle: others of 20 may share few landmarks with the fixed one.
+    keyframe_ = (num_keyframes + 1) / 2;
+    point_ = scene_.num_points / 2;
   }
   // Mean squared Mahalanobis errors over the windows, per degree of freedom.
   void Run(const BundleAdjustmentOptions& options, int num_windows) {
@@ -205,12 +209,14 @@ class Consistency {
     WindowData data = window.data;
     ASSERT_TRUE(LocalBundleAdjustment(options, &data).usable);
     const WindowCovariance covariance = EstimateCovariance(
-        options, data, {{data.keyframes[3].id}, {data.points[11].id}, {data.lines[7].id}});
+        options, data,
+        {{data.keyframes[keyframe_].id}, {data.points[point_].id}, {data.lines[7].id}});
     Eigen::Matrix<double, 6, 1> error;
-    Rigid3Manifold().Minus(data.keyframes[3].cam_from_world.params.data(),
-                           window.truth.keyframes[3].cam_from_world.params.data(), error.data());
+    Rigid3Manifold().Minus(data.keyframes[keyframe_].cam_from_world.params.data(),
+                           window.truth.keyframes[keyframe_].cam_from_world.params.data(),
+                           error.data());
     pose += error.dot(covariance.keyframes[0]->inverse() * error);
-    const Eigen::Vector3d off = data.points[11].position - window.truth.points[11].position;
+    const Eigen::Vector3d off = data.points[point_].position - window.truth.points[point_].position;
     point += off.dot(covariance.points[0]->inverse() * off);
 
     // A line has four degrees of freedom: the positions of its end points across it.
@@ -232,6 +238,7 @@ class Consistency {
   }
 
   TestWindowOptions scene_;
+  int keyframe_ = 0, point_ = 0;  // that are compared
 };
 
 // 99 % bound on |m / k - 1|, where m is the mean of n chi-square variables with k degrees of
@@ -264,6 +271,23 @@ TEST(WindowCovarianceConsistency, RobustLossesChangeTheErrorsLittle) {
   EXPECT_NEAR(errors.pose, 1.0, 0.1 + Bound(kWindows, 6));
   EXPECT_NEAR(errors.point, 1.0, 0.1 + Bound(kWindows, 3));
   EXPECT_NEAR(errors.line, 1.0, 0.1 + Bound(kWindows, 4));
+}
+
+TEST(WindowCovarianceConsistency, ContainsTheErrorOfEstimatedNoise) {
+  constexpr int kWindows = 300;
+  BundleAdjustmentOptions options = PlainLeastSquares();
+  options.landmark_noise.enabled = true;
+  options.first_iterations = options.second_iterations = 50;  // 20 keyframes
+  for (const int num_keyframes : {3, 5, 10, 20}) {
+    Consistency errors(1.0, num_keyframes);
+    errors.Run(options, kWindows);
+    // The distribution of an error whose sigma is estimated is not quite normal.
+    EXPECT_NEAR(errors.pose, 1.0, 0.1 + Bound(kWindows, 6)) << num_keyframes;
+    EXPECT_NEAR(errors.point, 1.0, 0.1 + Bound(kWindows, 3)) << num_keyframes;
+    // Too large for few views: of the two rows of a depth, one counts for the noise of a line.
+    EXPECT_LT(errors.line, 1.1 + Bound(kWindows, 4)) << num_keyframes;
+    EXPECT_GT(errors.line, 0.7) << num_keyframes;
+  }
 }
 
 TEST(WindowCovarianceConsistency, DetectsUnderestimatedNoise) {

@@ -79,9 +79,21 @@ std::vector<ResidualSums> SumLineResiduals(const WindowIndex& index,
   return sums;
 }
 
+double DegreesOfFreedom(const ResidualSums& sums, int num_parameters) {
+  return std::max(0, sums.num_residuals - num_parameters);
+}
+
 double Noise(const LandmarkNoiseOptions& options, const ResidualSums& sums, int num_parameters) {
-  const double degrees_of_freedom = std::max(0, sums.num_residuals - num_parameters);
-  return std::sqrt((options.prior + sums.chi2) / (options.prior + degrees_of_freedom));
+  return std::sqrt((options.prior + sums.chi2) /
+                   (options.prior + DegreesOfFreedom(sums, num_parameters)));
+}
+
+// Root of the ratio of the information of residuals whose noise is known to that of residuals whose
+// noise is estimated from them.
+double NoiseUncertainty(const LandmarkNoiseOptions& options, const ResidualSums& sums,
+                        int num_parameters) {
+  const double weight = options.prior + DegreesOfFreedom(sums, num_parameters);
+  return std::sqrt((weight + 2.0) / weight);
 }
 
 double DepthOffset(const LandmarkNoiseOptions& options, const ResidualSums& sums) {
@@ -117,6 +129,20 @@ void EstimateLandmarkNoise(const LandmarkNoiseOptions& options, const WindowInde
     if (lines[i].num_residuals == 0) continue;
     data->lines[i].noise = Noise(options, lines[i], kLineParameters);
     data->lines[i].depth_offset = DepthOffset(options, lines[i]);
+  }
+}
+
+void AddNoiseUncertainty(const LandmarkNoiseOptions& options, const WindowIndex& index,
+                         const WindowInlierMask& inlier_mask, const WindowState& state,
+                         WindowData* data) {
+  if (!options.enabled) return;
+  const std::vector<ResidualSums> points = SumPointResiduals(index, inlier_mask, state, *data);
+  const std::vector<ResidualSums> lines = SumLineResiduals(index, inlier_mask, state, *data);
+  for (size_t i = 0; i < points.size(); ++i) {
+    data->points[i].noise *= NoiseUncertainty(options, points[i], kPointParameters);
+  }
+  for (size_t i = 0; i < lines.size(); ++i) {
+    data->lines[i].noise *= NoiseUncertainty(options, lines[i], kLineParameters);
   }
 }
 

@@ -27,4 +27,12 @@ void EstimateLandmarkNoise(const LandmarkNoiseOptions& options, const WindowInde
                            const WindowInlierMask& inlier_mask, const WindowState& state,
                            WindowData* data);
 
+/// Multiplies the noise factors so that covariances contain the error of the factors themselves. An
+/// estimated scale makes the residuals of a landmark a Student distribution with nu + m degrees of
+/// freedom (nu: the prior; m = n - p), whose information is (nu + m) / (nu + m + 2) of that of a
+/// normal distribution with the same scale.
+void AddNoiseUncertainty(const LandmarkNoiseOptions& options, const WindowIndex& index,
+                         const WindowInlierMask& inlier_mask, const WindowState& state,
+                         WindowData* data);
+
 }  // namespace msc_vo
