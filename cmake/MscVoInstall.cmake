@@ -4,6 +4,13 @@
 include(CMakePackageConfigHelpers)
 set(MSC_VO_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/msc_vo)
 
+# An installed command finds shared libraries wherever it was installed to.
+if(BUILD_SHARED_LIBS AND NOT CMAKE_INSTALL_RPATH)
+  file(RELATIVE_PATH MSC_VO_LIBRARIES_FROM_COMMAND
+       /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+  set(CMAKE_INSTALL_RPATH $ORIGIN $ORIGIN/${MSC_VO_LIBRARIES_FROM_COMMAND})
+endif()
+
 # Sets `out` to the arguments of find_package() for the package of an external target.
 function(msc_vo_package_of target out)
   if(target MATCHES "^opencv_(.*)$")

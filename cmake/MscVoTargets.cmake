@@ -23,17 +23,18 @@ function(msc_vo_compile_options target)
 endfunction()
 
 # msc_vo_library(<folder> SOURCES a.cc ... [DEPENDS target ...] [PRIVATE_DEPENDS target ...])
-# The component has the folder's name, with _ for /. A folder that holds headers only becomes an
-# INTERFACE library.
+# The component has the folder's name, with _ for /. Libraries are static, or shared with
+# BUILD_SHARED_LIBS. A folder that holds headers only becomes an INTERFACE library.
 function(msc_vo_library folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   string(REPLACE / _ component ${folder})
   set(target msc_vo_${component})
   if(ARG_SOURCES)
-    add_library(${target} STATIC ${ARG_SOURCES})
+    add_library(${target} ${ARG_SOURCES})
     set(scope PUBLIC)
     msc_vo_compile_options(${target})
-    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON VERSION ${PROJECT_VERSION}
+                          SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
     target_link_libraries(${target} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE_DEPENDS})
   else()
     add_library(${target} INTERFACE)
