@@ -18,6 +18,12 @@
 
 namespace msc_vo {
 
+/// Manhattan axes as a parameter block of custom factors; alignments do not use them.
+struct WindowAxes {
+  Eigen::Quaterniond world_from_axes = Eigen::Quaterniond::Identity();
+  bool fixed = true;
+};
+
 /// Input and output of local bundle adjustment as plain data, independent of any map. Ids are
 /// chosen by the caller and must be unique within their vector. Observations, pairs and alignments
 /// may repeat for the same items: each is an independent measurement.
@@ -89,12 +95,7 @@ struct WindowData {
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Identity();
   };
 
-  /// Manhattan axes as a parameter block of custom factors; alignments do not use them.
-  struct Axes {
-    Axes() {}  // Clang knows a default constructor only where WindowData is complete
-    Eigen::Quaterniond world_from_axes = Eigen::Quaterniond::Identity();
-    bool fixed = true;
-  };
+  using Axes = WindowAxes;
 
   PinholeCamera camera;
   std::vector<Keyframe> keyframes;
