@@ -11,6 +11,7 @@
 #include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/checkpoint/binary_reader.h"
 #include "msc_vo/checkpoint/binary_writer.h"
+#include "msc_vo/features/internal/depth_range_builder.h"
 #include "msc_vo/features/internal/depth_sampler.h"
 #include "msc_vo/features/internal/depth_source.h"
 #include "msc_vo/sensor/lens_remap.h"
@@ -165,6 +166,7 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
   FrameBuilderTimes& times = state_->times;
   Stopwatch stopwatch;
   state_->depth.Assign(image.gray, image.depth);
+  frame.depth_ranges = MakeDepthRanges(state_->depth.image(), state_->lens, frame.camera);
   times.depth = stopwatch.Restart();
   std::vector<State::PointLevel> levels(state_->point_extractor.SetImage(image.gray));
   times.points = stopwatch.Restart();

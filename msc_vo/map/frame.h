@@ -18,6 +18,7 @@
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/map/depth_ranges.h"
 
 namespace msc_vo {
 
@@ -123,6 +124,8 @@ struct Frame {
   std::vector<PointFeature> points;
   std::vector<LineFeature> lines;
   FeatureGrid grid;  ///< over `points`
+  /// As measured with the first calibration and without rolling-shutter compensation.
+  DepthRanges depth_ranges;
   /// Calibration that the features were undistorted with, whose camera is `camera`; null if it is
   /// unknown.
   std::shared_ptr<const CameraIntrinsics> intrinsics;
@@ -144,8 +147,8 @@ struct Frame {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, id, timestamp, camera, lens, points, lines, grid, intrinsics, velocity,
-                   readout_time);
+    archive.Fields(*this, id, timestamp, camera, lens, points, lines, grid, depth_ranges,
+                   intrinsics, velocity, readout_time);
   }
 };
 

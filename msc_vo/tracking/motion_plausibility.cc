@@ -17,8 +17,12 @@ void MotionPlausibility::Observe(double timestamp, const CameraVelocity& velocit
   if (!after_gap) {
     limits_.Observe(velocity);
   } else if (!limits_.Allow(velocity)) {
-    implausible_until_ = timestamp + kQuestionedSeconds;
+    Question(timestamp);
   }
+}
+
+void MotionPlausibility::Question(double timestamp) {
+  questioned_until_ = timestamp + kQuestionedSeconds;
 }
 
 }  // namespace msc_vo

@@ -17,19 +17,22 @@ class MotionPlausibility {
   /// (seconds). `after_gap`: there are frames without a pose between both.
   void Observe(double timestamp, const CameraVelocity& velocity, bool after_gap);
 
-  /// Whether the pose of a frame at `timestamp` follows an implausible one within a few seconds.
-  bool IsQuestioned(double timestamp) const { return timestamp < implausible_until_; }
+  /// Questions the pose of the frame at `timestamp` for another reason.
+  void Question(double timestamp);
+
+  /// Whether the pose of a frame at `timestamp` follows a questioned one within a few seconds.
+  bool IsQuestioned(double timestamp) const { return timestamp < questioned_until_; }
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [limits, implausible_until] = *this;  // all members, or it does not compile
-    archive(limits, implausible_until);
+    auto& [limits, questioned_until] = *this;  // all members, or it does not compile
+    archive(limits, questioned_until);
   }
 
  private:
   MotionLimits limits_;
-  double implausible_until_ = std::numeric_limits<double>::lowest();  // seconds
+  double questioned_until_ = std::numeric_limits<double>::lowest();  // seconds
 };
 
 }  // namespace msc_vo

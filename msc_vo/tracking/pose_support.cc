@@ -5,6 +5,8 @@
 
 #include <cstddef>
 
+#include "msc_vo/map/free_space.h"
+
 namespace msc_vo {
 
 namespace {
@@ -55,6 +57,14 @@ bool ShowsAsMuch(const FrameMatches& found, const LocalMap& place, const Tracked
       static_cast<double>(current.visible_points.size() + current.visible_lines.size());
   return num_features(found) * in_view_now >=
          kMinRelativeRatio * num_features(tracked.matches) * in_view;
+}
+
+bool ContradictsDepth(const TrackedFrame& tracked, const Map& map) {
+  const Keyframe* reference = map.FindKeyframe(tracked.reference);
+  if (reference == nullptr) return false;
+  const int num_violations =
+      NumFreeSpaceViolations(*reference->frame, *tracked.frame, tracked.cam_from_reference);
+  return num_violations > Support(tracked.pose);
 }
 
 }  // namespace msc_vo

@@ -30,4 +30,8 @@ bool IsClearlyBetter(const PoseSummary& far, const PoseSummary& near);
 /// alike, it shows less (docs/lab/tracking.md).
 bool ShowsAsMuch(const FrameMatches& found, const LocalMap& place, const TrackedFrame& tracked);
 
+/// Whether the depth images of the frame and of its reference keyframe contradict its pose in more
+/// cells (NumFreeSpaceViolations) than features support it.
+bool ContradictsDepth(const TrackedFrame& tracked, const Map& map);
+
 }  // namespace msc_vo

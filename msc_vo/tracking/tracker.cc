@@ -109,7 +109,7 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
   tracked.frame =
       CompensateFrame(raw, motion_.VelocitySince(timestamp, cam_from_last), readout_time);
   const bool in_local_map = TrackLocalMap(map, &tracked);
-  const bool plausible = CheckMotion(tracked, last_from_world, prediction);
+  const bool plausible = CheckPose(map, tracked, last_from_world, prediction);
   tracked.status =
       in_local_map && plausible ? ClassifyStatus(options_, tracked.pose) : TrackingStatus::kWeak;
   segment_start_.Tracked(timestamp);
@@ -318,8 +318,8 @@ bool Tracker::TrackLocalMap(const Map& map, TrackedFrame* tracked) const {
   return found;
 }
 
-bool Tracker::CheckMotion(const TrackedFrame& tracked, const Rigid3& last_from_world,
-                          const Prediction& prediction) {
+bool Tracker::CheckPose(const Map& map, const TrackedFrame& tracked, const Rigid3& last_from_world,
+                        const Prediction& prediction) {
   const double timestamp = tracked.frame->timestamp;
   const double seconds = timestamp - last_.frame->timestamp;
   const Rigid3 cam_from_last = tracked.cam_from_world * last_from_world.Inverse();
@@ -327,6 +327,7 @@ bool Tracker::CheckMotion(const TrackedFrame& tracked, const Rigid3& last_from_w
   const bool after_gap = (tracked.relocalized || tracked.frame->id > last_.frame->id + 1) &&
                          !prediction.by_factors.usable;
   plausibility_.Observe(timestamp, CameraVelocity::Of(cam_from_last, seconds), after_gap);
+  if (after_gap && ContradictsDepth(tracked, map)) plausibility_.Question(timestamp);
   return !plausibility_.IsQuestioned(timestamp);
 }
 

@@ -306,12 +306,24 @@ TEST_P(CustomFactorTest, IsDeterministic) {
 }
 
 std::string NameOf(const ::testing::TestParamInfo<BundleAdjustmentSolver>& solver) {
-  return solver.param == BundleAdjustmentSolver::kBlockSchur ? "BlockSchur" : "Ceres";
+  switch (solver.param) {
+    case BundleAdjustmentSolver::kBlockSchur:
+      return "BlockSchur";
+    case BundleAdjustmentSolver::kCeresDenseSchur:
+      return "DenseSchur";
+    case BundleAdjustmentSolver::kCeresSuiteSparse:
+      return "SuiteSparse";
+    case BundleAdjustmentSolver::kCeresEigenSparse:
+      return "EigenSparse";
+  }
+  return "";
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, CustomFactorTest,
                          ::testing::Values(BundleAdjustmentSolver::kBlockSchur,
-                                           BundleAdjustmentSolver::kCeresDenseSchur),
+                                           BundleAdjustmentSolver::kCeresDenseSchur,
+                                           BundleAdjustmentSolver::kCeresSuiteSparse,
+                                           BundleAdjustmentSolver::kCeresEigenSparse),
                          NameOf);
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
 #include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
+#include "msc_vo/bundle_adjustment/internal/landmark_noise.h"
 #include "msc_vo/bundle_adjustment/window_covariance.h"
 
 namespace msc_vo {
@@ -46,7 +47,9 @@ class CeresCovariance {
     drop(data.parallel_pairs, &inlier_mask.parallel);
     drop(data.perpendicular_pairs, &inlier_mask.perpendicular);
     drop(data.axis_alignments, &inlier_mask.alignments);
-    terms_ = MakeWindowTerms(options, data, index, inlier_mask, state_);
+    WindowData with_uncertainty = data;
+    AddNoiseUncertainty(options.landmark_noise, index, inlier_mask, state_, &with_uncertainty);
+    terms_ = MakeWindowTerms(options, with_uncertainty, index, inlier_mask, state_);
     window_ = std::make_unique<CeresBackend>(options, data, terms_, &state_);
     ceres::Covariance::Options covariance_options;
     covariance_options.algorithm_type = ceres::SPARSE_QR;

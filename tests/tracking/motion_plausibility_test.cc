@@ -37,6 +37,14 @@ TEST(MotionPlausibility, QuestionsAJumpInAGapForSomeSeconds) {
   }
 }
 
+TEST(MotionPlausibility, QuestionsPosesForOtherReasons) {
+  MotionPlausibility plausibility = SlowCamera();
+  plausibility.Question(2.0);
+  EXPECT_TRUE(plausibility.IsQuestioned(2.0));
+  EXPECT_TRUE(plausibility.IsQuestioned(6.9));
+  EXPECT_FALSE(plausibility.IsQuestioned(7.1));
+}
+
 TEST(MotionPlausibility, BelievesSlowMotionsAfterRest) {
   MotionPlausibility plausibility;  // at rest so far
   plausibility.Observe(2.0, {{0.0, 0.8, 0.0}, {0.4, 0.0, 0.0}}, true);

@@ -3,6 +3,8 @@
 
 #include "msc_vo/tracking/pose_support.h"
 
+#include <memory>
+
 #include <gtest/gtest.h>
 
 namespace msc_vo {
@@ -33,6 +35,36 @@ TEST(ShowsAsMuch, RequiresHalfOfTheRatioInTheCurrentMap) {
   EXPECT_TRUE(ShowsAsMuchWith(80));
   EXPECT_TRUE(ShowsAsMuchWith(40));
   EXPECT_FALSE(ShowsAsMuchWith(39));
+}
+
+std::shared_ptr<Frame> FrameAtWall(double distance) {
+  auto frame = std::make_shared<Frame>();
+  const auto w = static_cast<float>(1.0 / distance);
+  frame->depth_ranges.cells.assign(DepthRanges::kColumns * DepthRanges::kRows, {w, w});
+  return frame;
+}
+
+// The frame looks at a wall at 3 metres, through the wall at 2 metres of its reference keyframe.
+TEST(ContradictsDepth, ComparesTheImageWithTheFeatures) {
+  Map map;
+  TrackedFrame tracked;
+  tracked.reference = map.AddKeyframe(FrameAtWall(2.0), Rigid3());
+  tracked.frame = FrameAtWall(3.0);
+  tracked.pose.num_inlier_points = 20;
+  EXPECT_TRUE(ContradictsDepth(tracked, map));
+  tracked.pose.num_inlier_points = 800;  // more than there are cells
+  EXPECT_FALSE(ContradictsDepth(tracked, map));
+}
+
+TEST(ContradictsDepth, BelievesAPoseThatImagesAgreeWith) {
+  Map map;
+  TrackedFrame tracked;
+  tracked.reference = map.AddKeyframe(FrameAtWall(2.0), Rigid3());
+  tracked.frame = FrameAtWall(2.0);
+  EXPECT_FALSE(ContradictsDepth(tracked, map));
+  tracked.reference = kNoId;
+  tracked.frame = FrameAtWall(3.0);
+  EXPECT_FALSE(ContradictsDepth(tracked, map));
 }
 
 }  // namespace

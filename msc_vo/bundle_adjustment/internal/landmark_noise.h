@@ -27,10 +27,11 @@ void EstimateLandmarkNoise(const LandmarkNoiseOptions& options, const WindowInde
                            const WindowInlierMask& inlier_mask, const WindowState& state,
                            WindowData* data);
 
-/// Multiplies the noise factors so that covariances contain the error of the factors themselves. An
-/// estimated scale makes the residuals of a landmark a Student distribution with nu + m degrees of
-/// freedom (nu: the prior; m = n - p), whose information is (nu + m) / (nu + m + 2) of that of a
-/// normal distribution with the same scale.
+/// Multiplies the noise factors so that covariances contain the error of the factors themselves.
+/// Residuals of a landmark with a common scale that is estimated from them are an m-dimensional
+/// Student distribution with nu degrees of freedom (nu: the prior; m = n - p), whose information is
+/// (nu + m) / (nu + m + 2) of that of a normal distribution with the given sigmas. For estimated
+/// factors it is an approximation.
 void AddNoiseUncertainty(const LandmarkNoiseOptions& options, const WindowIndex& index,
                          const WindowInlierMask& inlier_mask, const WindowState& state,
                          WindowData* data);

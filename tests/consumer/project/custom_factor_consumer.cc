@@ -11,6 +11,8 @@
 #include <ceres/autodiff_cost_function.h>
 
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+#include "msc_vo/factors/jacobian_check.h"
+#include "msc_vo/factors/rigid3_manifold.h"
 
 using msc_vo::BlockId;
 
@@ -22,8 +24,8 @@ struct Step {
     const Eigen::Map<const Eigen::Quaternion<T>> q_a(a), q_b(b);
     const Eigen::Map<const Eigen::Matrix<T, 3, 1>> t_a(a + 4), t_b(b + 4);
     const Eigen::Quaternion<T> q = q_b * q_a.conjugate();
-    Eigen::Map<Eigen::Matrix<T, 6, 1>> r(residual);
-    r << T(200.0) * q.vec(), T(100.0) * (t_b - q * t_a - scale[0] * kMeasured.cast<T>());
+    Eigen::Map<Eigen::Matrix<T, 6, 1>>(residual) << T(200.0) * q.vec(),
+        T(100.0) * (t_b - q * t_a - scale[0] * kMeasured.cast<T>());
     return true;
   }
 };
@@ -35,11 +37,19 @@ int main() {
   };
   window.keyframes = {{0, at(0.0), true}, {1, at(0.2)}, {2, at(1.0), true}};
 
-  window.extra_blocks.push_back({0, Eigen::VectorXd::Ones(1), nullptr});
+  window.extra_blocks = {{0, Eigen::VectorXd::Ones(1), nullptr}};
   const auto cost = std::make_shared<ceres::AutoDiffCostFunction<Step, 6, 7, 7, 1>>(new Step);
-  for (const int64_t i : {0, 1}) {
-    window.custom_factors.push_back(
-        {"step", cost, nullptr, {BlockId::Pose(i), BlockId::Pose(i + 1), BlockId::Extra(0)}});
+  window.custom_factors = {
+      {"first step", cost, nullptr, {BlockId::Pose(0), BlockId::Pose(1), BlockId::Extra(0)}},
+      {"second step", cost, nullptr, {BlockId::Pose(1), BlockId::Pose(2), BlockId::Extra(0)}}};
+
+  const msc_vo::Rigid3Manifold pose;
+  const msc_vo::JacobianCheck jacobians = msc_vo::CheckJacobians(
+      *cost, {{0.5, 0.5, 0.1, 0.7, 0.3, 0.1, 0.2}, {0.0, 0.0, 0.6, 0.8, 0.1, 0.5, 0.0}, {1.1}},
+      {&pose, &pose, nullptr});
+  if (jacobians.deviation > 1e-7) {
+    std::printf("%s\n", jacobians.report.c_str());
+    return 1;
   }
 
   const msc_vo::BundleAdjustmentSummary summary =

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Shows the odometry a black image: it must neither crash nor claim to have tracked anything.
+// Shows an odometry with custom factors a black image: it must neither crash nor claim to have
+// tracked anything.
+
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -10,6 +13,9 @@
 int main() {
   const msc_vo::PinholeCamera camera;
   msc_vo::Odometry odometry(msc_vo::OdometryOptions(), camera, msc_vo::LensDistortion());
+  odometry.SetWindowFactors([](const msc_vo::WindowContext&) { return msc_vo::WindowFactors(); });
+  odometry.SetPoseFactors(
+      [](const msc_vo::FrameContext&) { return std::vector<msc_vo::PoseFactor>(); });
   msc_vo::RgbdImage image;
   image.gray = cv::Mat::zeros(camera.height, camera.width, CV_8UC1);
   image.depth = cv::Mat::zeros(camera.height, camera.width, CV_32FC1);

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/map/depth_ranges.h"
+#include "msc_vo/sensor/inverse_depth_image.h"
+#include "msc_vo/sensor/lens_remap.h"
+
+namespace msc_vo {
+
+/// Collects the depth ranges of the undistorted image of `camera` from a raw depth image. A cell is
+/// a rectangle in the raw image, too: lenses bend it little.
+DepthRanges MakeDepthRanges(const InverseDepthImage& depth, const LensRemap& lens,
+                            const PinholeCamera& camera);
+
+}  // namespace msc_vo

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/map/frame.h"
+
+namespace msc_vo {
+
+/// Number of cells of the depth ranges of one of both frames whose surface the other one looks
+/// through: all that it shows there is farther by more than 5 %. The larger number of both
+/// directions; 0 if the ranges of one are unknown.
+///
+/// In a static scene no surface is looked through from the right pose but for errors of depth.
+/// Surfaces that are hidden by nearer ones tell nothing.
+int NumFreeSpaceViolations(const Frame& a, const Frame& b, const Rigid3& b_from_a);
+
+}  // namespace msc_vo
