@@ -4,12 +4,14 @@
 include(CMakePackageConfigHelpers)
 set(MSC_VO_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/msc_vo)
 
-# An installed command finds shared libraries wherever it was installed to.
-if(BUILD_SHARED_LIBS AND NOT CMAKE_INSTALL_RPATH)
-  file(RELATIVE_PATH MSC_VO_LIBRARIES_FROM_COMMAND
-       /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
-  set(CMAKE_INSTALL_RPATH $ORIGIN $ORIGIN/${MSC_VO_LIBRARIES_FROM_COMMAND})
-endif()
+# Lets a target that is installed to `destination` find shared libraries of msc_vo, wherever all are
+# installed to.
+function(msc_vo_find_libraries_from target destination)
+  if(BUILD_SHARED_LIBS)
+    file(RELATIVE_PATH libraries /${destination} /${CMAKE_INSTALL_LIBDIR})
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH $ORIGIN/${libraries})
+  endif()
+endfunction()
 
 # Sets `out` to the arguments of find_package() for the package of an external target.
 function(msc_vo_package_of target out)

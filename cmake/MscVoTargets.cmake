@@ -1,5 +1,5 @@
 # Functions that declare the targets of msc_vo. Each folder is one library that links only libraries
-# of lower layers, so that calls into a higher layer fail to link.
+# of lower layers, so that calls into a higher layer fail to link (if libraries are static).
 
 # Compiler options of msc_vo's own code: PRIVATE, so that they do not reach projects that link it.
 function(msc_vo_compile_options target)
@@ -33,8 +33,10 @@ function(msc_vo_library folder)
     add_library(${target} ${ARG_SOURCES})
     set(scope PUBLIC)
     msc_vo_compile_options(${target})
-    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON VERSION ${PROJECT_VERSION}
-                          SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+    set_target_properties(${target} PROPERTIES
+      POSITION_INDEPENDENT_CODE ON VERSION ${PROJECT_VERSION}
+      SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+    msc_vo_find_libraries_from(${target} ${CMAKE_INSTALL_LIBDIR})
     target_link_libraries(${target} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE_DEPENDS})
   else()
     add_library(${target} INTERFACE)

@@ -129,9 +129,10 @@ WindowCovariance EstimateCovariance(const BundleAdjustmentOptions& options,
 
   const WindowState state(solved);
   const WindowInlierMask inlier_mask = FinalInlierMask(options, solved, index, state);
-  WindowData data = solved;
-  AddNoiseUncertainty(options.landmark_noise, index, inlier_mask, state, &data);
-  const WindowTerms terms = MakeWindowTerms(options, data, index, inlier_mask, state);
+  WindowData with_noise_uncertainty = solved;
+  AddNoiseUncertainty(options.landmark_noise, index, inlier_mask, state, &with_noise_uncertainty);
+  const WindowTerms terms =
+      MakeWindowTerms(options, with_noise_uncertainty, index, inlier_mask, state);
   const BlockStructure structure(solved, terms, state);
   WindowEquations equations;
   CovarianceBlocks blocks;

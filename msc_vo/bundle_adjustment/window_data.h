@@ -95,7 +95,7 @@ struct WindowData {
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Identity();
   };
 
-  using Axes = WindowAxes;
+  using Axes = WindowAxes;  ///< declared before: Clang's std::optional needs a complete type
 
   PinholeCamera camera;
   std::vector<Keyframe> keyframes;

@@ -5,6 +5,10 @@
 
 #include <vector>
 
+#include <Eigen/Core>
+
+#include "msc_vo/camera/pinhole_camera.h"
+
 namespace msc_vo {
 
 /// The depths that an image shows in each cell of a coarse grid over the undistorted image.
@@ -12,21 +16,31 @@ struct DepthRanges {
   static constexpr int kColumns = 32;
   static constexpr int kRows = 24;
 
-  /// Inverse depths, 1/metres. Both are 0 where less than half of the cell has a depth.
+  /// 1/metres. Both are 0 where less than half of the cell has a depth.
   struct Cell {
-    float nearest = 0.0f;
-    float farthest = 0.0f;  ///< <= nearest
+    float min_inverse_depth = 0.0f;  ///< of the farthest surface
+    float max_inverse_depth = 0.0f;  ///< of the nearest surface
 
-    bool HasDepth() const { return farthest > 0.0f; }
+    bool HasDepth() const { return min_inverse_depth > 0.0f; }
 
     template <typename Archive>
     void Serialize(Archive& archive) {
-      archive.Fields(*this, nearest, farthest);
+      archive.Fields(*this, min_inverse_depth, max_inverse_depth);
     }
   };
   std::vector<Cell> cells;  ///< row by row; empty: unknown
 
   const Cell& At(int column, int row) const { return cells[row * kColumns + column]; }
+
+  /// Width and height of a cell, pixels.
+  static Eigen::Vector2d CellSize(const PinholeCamera& camera) {
+    return {static_cast<double>(camera.width) / kColumns,
+            static_cast<double>(camera.height) / kRows};
+  }
+  /// Pixel in the middle of a cell.
+  static Eigen::Vector2d CellCenter(const PinholeCamera& camera, int column, int row) {
+    return CellSize(camera).cwiseProduct(Eigen::Vector2d(column + 0.5, row + 0.5));
+  }
 
   template <typename Archive>
   void Serialize(Archive& archive) {

@@ -124,7 +124,7 @@ struct Frame {
   std::vector<PointFeature> points;
   std::vector<LineFeature> lines;
   FeatureGrid grid;  ///< over `points`
-  /// As measured with the first calibration and without rolling-shutter compensation.
+  /// With the calibration that the frame was built with, and without rolling-shutter compensation.
   DepthRanges depth_ranges;
   /// Calibration that the features were undistorted with, whose camera is `camera`; null if it is
   /// unknown.

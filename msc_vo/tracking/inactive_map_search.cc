@@ -13,7 +13,7 @@ namespace msc_vo {
 
 namespace {
 
-// Twice the number of frames that two maps are joined by.
+// Twice the default of MapAlignmentOptions::min_frames.
 constexpr int kMaxSuccesses = 6;
 
 }  // namespace
@@ -26,6 +26,7 @@ std::optional<MapRelocalization> InactiveMapSearch::Search(const TrackedFrame& t
   if (timestamp - last_success_ < options_.segments.search_interval) return std::nullopt;
   for (int i = 0; i < options_.segments.search_keyframes; ++i) {
     const Candidate candidate = NextCandidate(maps);
+    if (candidate.keyframe->id != next_) num_successes_ = 0;
     std::optional<MapRelocalization> found =
         Relocalize(tracked, *candidate.map, *candidate.keyframe);
     if (found && ++num_successes_ < kMaxSuccesses) {

@@ -44,7 +44,7 @@ class InactiveMapSearch {
 
   TrackerOptions options_;
   KeyframeId next_ = std::numeric_limits<KeyframeId>::max();
-  int num_successes_ = 0;  // in turn, with the same keyframe
+  int num_successes_ = 0;  // consecutive ones, with the keyframe next_
   double last_success_ = -std::numeric_limits<double>::infinity();  // seconds
 };
 

@@ -31,7 +31,7 @@ bool IsClearlyBetter(const PoseSummary& far, const PoseSummary& near);
 bool ShowsAsMuch(const FrameMatches& found, const LocalMap& place, const TrackedFrame& tracked);
 
 /// Whether the depth images of the frame and of its reference keyframe contradict its pose in more
-/// cells (NumFreeSpaceViolations) than features support it.
+/// cells (NumFreeSpaceViolations) than its Support.
 bool ContradictsDepth(const TrackedFrame& tracked, const Map& map);
 
 }  // namespace msc_vo

@@ -148,7 +148,7 @@ void Tracker::StartSegment(SegmentStart start, TrackedFrame* tracked) {
   tracked->keyframe.is_due = true;
   policy_.Inserted();
   motion_.Reset(tracked->frame->timestamp);
-  plausibility_ = MotionPlausibility();
+  plausibility_ = PosePlausibility();
   segment_start_.Started(tracked->frame->timestamp);
   next_candidate_ = kNoId;
   last_ = *tracked;
@@ -327,8 +327,8 @@ bool Tracker::CheckPose(const Map& map, const TrackedFrame& tracked, const Rigid
   const bool after_gap = (tracked.relocalized || tracked.frame->id > last_.frame->id + 1) &&
                          !prediction.by_factors.usable;
   plausibility_.Observe(timestamp, CameraVelocity::Of(cam_from_last, seconds), after_gap);
-  if (after_gap && ContradictsDepth(tracked, map)) plausibility_.Question(timestamp);
-  return !plausibility_.IsQuestioned(timestamp);
+  if (after_gap && ContradictsDepth(tracked, map)) plausibility_.MarkImplausible(timestamp);
+  return !plausibility_.IsImplausible(timestamp);
 }
 
 bool Tracker::EstimatePose(const PoseOptions& options, const Map& map,

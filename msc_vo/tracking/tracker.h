@@ -10,8 +10,8 @@
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/tracking/inactive_map_search.h"
 #include "msc_vo/tracking/motion_model.h"
-#include "msc_vo/tracking/motion_plausibility.h"
 #include "msc_vo/tracking/pose_factor_callback.h"
+#include "msc_vo/tracking/pose_plausibility.h"
 #include "msc_vo/tracking/pose_support.h"
 #include "msc_vo/tracking/segment_start.h"
 #include "msc_vo/tracking/tracked_frame.h"
@@ -116,7 +116,7 @@ class Tracker {
   KeyframeId next_candidate_ = kNoId;  // the next keyframe to relocalise against
   SegmentStartPolicy segment_start_;
   InactiveMapSearch inactive_map_search_;
-  MotionPlausibility plausibility_;
+  PosePlausibility plausibility_;
 };
 
 }  // namespace msc_vo

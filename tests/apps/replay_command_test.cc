@@ -198,17 +198,24 @@ TEST_F(ReplayCommandTest, SkipsAndCountsUnreadableImages) {
   for (const char* pace : {"--realtime=false", "--realtime"}) {
     const CommandOutcome outcome = Replay("out", {pace});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-    EXPECT_THAT(outcome.output, AllOf(HasSubstr("warning: 2 of 12 images cannot be read"),
-                                      HasSubstr(first + " (named in "), HasSubstr("truncated"),
-                                      HasSubstr("2 unreadable")));
-    EXPECT_EQ(NumPoses("out"), 12u);
     const nlohmann::json summary = Summary("out");
     EXPECT_EQ(summary["outcome"], "complete");
-    EXPECT_EQ(summary["frames"]["unreadable"], 2);
+    // In real time, a slow machine drops images, perhaps the second one.
+    const int num_unreadable = summary["frames"]["unreadable"];
+    const int num_dropped = summary["frames"]["dropped"];
+    EXPECT_GE(num_unreadable, num_dropped == 0 ? 2 : 1);
+    EXPECT_LE(num_unreadable, 2);
+    const std::string count = std::to_string(num_unreadable);
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr("warning: " + count + " of 12 images cannot be"),
+                                      HasSubstr(first + " (named in "), HasSubstr("truncated"),
+                                      HasSubstr(count + " unreadable")));
+    EXPECT_EQ(NumPoses("out"), 12u);
     EXPECT_THAT(summary["first_unreadable_image"].get<std::string>(), HasSubstr(first));
     EXPECT_THAT(ReadFile(Path("out/report.html")),
                 AllOf(HasSubstr("Unreadable images"), HasSubstr(first)));
-    EXPECT_LT(summary["error"]["ape_max"], 0.02);  // the pose of image 5 as well
+    if (num_dropped == 0) {
+      EXPECT_LT(summary["error"]["ape_max"], 0.02);  // of image 5 as well
+    }
   }
   EXPECT_THAT(Replay("out", {"--quiet"}).output, HasSubstr("2 of 12 images cannot be read"));
 }

@@ -21,11 +21,11 @@ TEST(MakeDepthRanges, ContainsTheDepthsOfACell) {
   depth(cv::Rect(104, 0, 216, kHeight)) = 2.0;  // an edge inside of column 10
   const DepthRanges ranges = RangesOf(depth);
   ASSERT_EQ(ranges.cells.size(), size_t{DepthRanges::kColumns * DepthRanges::kRows});
-  EXPECT_FLOAT_EQ(ranges.At(5, 12).nearest, 0.25f);
-  EXPECT_FLOAT_EQ(ranges.At(5, 12).farthest, 0.25f);
-  EXPECT_FLOAT_EQ(ranges.At(10, 12).nearest, 0.5f);
-  EXPECT_FLOAT_EQ(ranges.At(10, 12).farthest, 0.25f);
-  EXPECT_FLOAT_EQ(ranges.At(20, 12).farthest, 0.5f);
+  EXPECT_FLOAT_EQ(ranges.At(5, 12).max_inverse_depth, 0.25f);
+  EXPECT_FLOAT_EQ(ranges.At(5, 12).min_inverse_depth, 0.25f);
+  EXPECT_FLOAT_EQ(ranges.At(10, 12).max_inverse_depth, 0.5f);
+  EXPECT_FLOAT_EQ(ranges.At(10, 12).min_inverse_depth, 0.25f);
+  EXPECT_FLOAT_EQ(ranges.At(20, 12).min_inverse_depth, 0.5f);
 }
 
 TEST(MakeDepthRanges, IsEmptyWhereLessThanHalfOfACellHasADepth) {
@@ -43,8 +43,8 @@ TEST(MakeDepthRanges, AreThoseOfTheUndistortedImage) {
   depth(cv::Rect(300, 0, 20, kHeight)) = 2.0;
   LensDistortion lens;
   lens.k = {-0.3, 0.1};
-  EXPECT_FLOAT_EQ(RangesOf(depth).At(30, 12).farthest, 0.5f);
-  EXPECT_FLOAT_EQ(RangesOf(depth, lens).At(30, 12).nearest, 0.25f);
+  EXPECT_FLOAT_EQ(RangesOf(depth).At(30, 12).min_inverse_depth, 0.5f);
+  EXPECT_FLOAT_EQ(RangesOf(depth, lens).At(30, 12).max_inverse_depth, 0.25f);
 }
 
 }  // namespace

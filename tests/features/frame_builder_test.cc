@@ -75,6 +75,10 @@ TEST(FrameBuilder, BuildsFrameWithPointsLinesAndDepth) {
     EXPECT_NEAR(line.depth->start, Wall(line.segment.start), 1e-3);
     EXPECT_NEAR(line.depth->end, Wall(line.segment.end), 1e-3);
   }
+  const Eigen::Vector2d center = DepthRanges::CellCenter(frame.camera, 10, 5);
+  EXPECT_LE(frame.depth_ranges.At(10, 5).min_inverse_depth, Wall(center));
+  EXPECT_GE(frame.depth_ranges.At(10, 5).max_inverse_depth, Wall(center));
+  EXPECT_NEAR(frame.depth_ranges.At(10, 5).min_inverse_depth, Wall(center), 0.02);
   // The grid indexes the points.
   const std::vector<int> near = frame.grid.Near(frame.points, frame.points[5].pixel, 1.0);
   EXPECT_NE(std::find(near.begin(), near.end(), 5), near.end());

@@ -55,11 +55,13 @@ TEST(NumFreeSpaceViolations, DoesNotCountCellsWithoutDepth) {
   EXPECT_EQ(NumFreeSpaceViolations(FrameAtWall(3.0), Frame(), Forward(1.5)), 0);
 }
 
-// A cell that shows a near and a far surface is looked through only up to the far one.
+// A cell that shows a near and a far surface is looked through only beyond the far one, and looks
+// through what is before the near one.
 TEST(NumFreeSpaceViolations, TakesTheFarSurfaceOfACell) {
   Frame mixed = FrameAtWall(3.0);
-  for (DepthRanges::Cell& cell : mixed.depth_ranges.cells) cell.nearest = 1.0f;
+  for (DepthRanges::Cell& cell : mixed.depth_ranges.cells) cell.max_inverse_depth = 1.0f;
   EXPECT_EQ(NumFreeSpaceViolations(mixed, FrameAtWall(3.0), Rigid3()), 0);
+  EXPECT_EQ(NumFreeSpaceViolations(mixed, FrameAtWall(2.0), Rigid3()), 0);
 }
 
 }  // namespace

@@ -235,6 +235,33 @@ TEST_F(TrackerTest, SearchesOtherKeyframesOfAnInactiveMapAfterSixFrames) {
   EXPECT_THAT(found, testing::ElementsAre(1, 1, 1, 1, 1, 1, 0, 0));
 }
 
+// The frame as of a camera that looks at a wall at so many metres.
+std::shared_ptr<const Frame> AtWall(const std::shared_ptr<const Frame>& frame, double distance) {
+  auto at_wall = std::make_shared<Frame>(*frame);
+  const auto w = static_cast<float>(1.0 / distance);
+  at_wall->depth_ranges.cells.assign(DepthRanges::kColumns * DepthRanges::kRows, {w, w});
+  return at_wall;
+}
+
+TEST_F(TrackerTest, DoesNotTrustAPoseAfterAGapThatDepthImagesContradict) {
+  for (const double distance : {3.0, 9.0}) {
+    Tracker tracker{TrackerOptions()};
+    world_ = std::make_unique<SyntheticFrames>(SyntheticFrames::Options());
+    const std::shared_ptr<const Frame> first = AtWall(world_->MakeFrame(0), 3.0);
+    tracker.Track(first, MapSnapshot());
+    snapshot_ = MapOfOneKeyframe(first, Rigid3());
+    const auto status_of = [&](int index) {
+      return tracker.Track(AtWall(world_->MakeFrame(index), distance), snapshot_).status;
+    };
+    EXPECT_EQ(status_of(1), TrackingStatus::kTracked);
+    const bool looks_through_the_wall = distance > 3.0;
+    const TrackingStatus expected =
+        looks_through_the_wall ? TrackingStatus::kWeak : TrackingStatus::kTracked;
+    EXPECT_EQ(status_of(3), expected);  // image 2 is missing
+    EXPECT_EQ(status_of(4), expected);
+  }
+}
+
 TEST_F(TrackerTest, WaitsForAFirstFrameWithFeatures) {
   world_ = std::make_unique<SyntheticFrames>(SyntheticFrames::Options());
   const TrackedFrame empty = tracker_.Track(SyntheticFrames::MakeEmptyFrame(0), MapSnapshot());

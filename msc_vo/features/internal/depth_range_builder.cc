@@ -4,50 +4,45 @@
 #include "msc_vo/features/internal/depth_range_builder.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace msc_vo {
 
 namespace {
 
 // Every second pixel of the rectangle around a pixel.
-DepthRanges::Cell RangeAround(const InverseDepthImage& depth, int x, int y, int half_width,
-                              int half_height) {
+DepthRanges::Cell RangeAround(const InverseDepthImage& depth, const Eigen::Vector2i& pixel,
+                              const Eigen::Vector2i& half_size) {
   constexpr int kStep = 2;
-  float nearest = 0.0f, farthest = 1e9f;
+  float min = std::numeric_limits<float>::max(), max = 0.0f;
   int num_pixels = 0, num_depths = 0;
-  for (int v = y - half_height; v <= y + half_height; v += kStep) {
-    for (int u = x - half_width; u <= x + half_width; u += kStep) {
+  const Eigen::Vector2i first = pixel - half_size, last = pixel + half_size;
+  for (int v = first.y(); v <= last.y(); v += kStep) {
+    for (int u = first.x(); u <= last.x(); u += kStep) {
       ++num_pixels;
       const float inverse_depth = static_cast<float>(depth.At(u, v));
       if (!(inverse_depth > 0.0f)) continue;
       ++num_depths;
-      nearest = std::max(nearest, inverse_depth);
-      farthest = std::min(farthest, inverse_depth);
+      min = std::min(min, inverse_depth);
+      max = std::max(max, inverse_depth);
     }
   }
   if (2 * num_depths < num_pixels) return {};
-  return {nearest, farthest};
+  return {min, max};
 }
 
 }  // namespace
 
 DepthRanges MakeDepthRanges(const InverseDepthImage& depth, const LensRemap& lens,
                             const PinholeCamera& camera) {
-  const double cell_width = static_cast<double>(camera.width) / DepthRanges::kColumns;
-  const double cell_height = static_cast<double>(camera.height) / DepthRanges::kRows;
+  const Eigen::Vector2i half_size = (0.5 * DepthRanges::CellSize(camera)).cast<int>();
   DepthRanges ranges;
   ranges.cells.reserve(DepthRanges::kColumns * DepthRanges::kRows);
   for (int row = 0; row < DepthRanges::kRows; ++row) {
     for (int column = 0; column < DepthRanges::kColumns; ++column) {
-      const Eigen::Vector2d raw =
-          lens.RawFromIdeal({(column + 0.5) * cell_width, (row + 0.5) * cell_height});
-      if (!depth.Contains(raw)) {
-        ranges.cells.emplace_back();
-        continue;
-      }
-      ranges.cells.push_back(
-          RangeAround(depth, static_cast<int>(raw.x()), static_cast<int>(raw.y()),
-                      static_cast<int>(0.5 * cell_width), static_cast<int>(0.5 * cell_height)));
+      const Eigen::Vector2d raw = lens.RawFromIdeal(DepthRanges::CellCenter(camera, column, row));
+      ranges.cells.push_back(depth.Contains(raw) ? RangeAround(depth, raw.cast<int>(), half_size)
+                                                 : DepthRanges::Cell());
     }
   }
   return ranges;

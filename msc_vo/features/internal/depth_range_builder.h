@@ -10,8 +10,9 @@
 
 namespace msc_vo {
 
-/// Collects the depth ranges of the undistorted image of `camera` from a raw depth image. A cell is
-/// a rectangle in the raw image, too: lenses bend it little.
+/// Collects the depth ranges of the undistorted image of `camera` from a raw depth image. Cells
+/// have the same size in the raw image: with wide-angle lenses they overlap near its border, which
+/// makes the ranges wider.
 DepthRanges MakeDepthRanges(const InverseDepthImage& depth, const LensRemap& lens,
                             const PinholeCamera& camera);
 

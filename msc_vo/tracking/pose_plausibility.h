@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <limits>
+
+#include "msc_vo/geometry/camera_velocity.h"
+#include "msc_vo/geometry/motion_limits.h"
+
+namespace msc_vo {
+
+/// Marks poses after a gap as implausible, and those of the next seconds with them: the map that
+/// they were found in may show another place that looks alike.
+class PosePlausibility {
+ public:
+  /// Reports the mean velocity from the last frame with an estimated pose to the one at `timestamp`
+  /// (seconds). `after_gap`: there are frames without a pose between both; the pose is then
+  /// implausible if the camera can hardly have moved so fast (MotionLimits).
+  void Observe(double timestamp, const CameraVelocity& velocity, bool after_gap);
+
+  /// Marks the pose at `timestamp` for another reason, as when depth images contradict it.
+  void MarkImplausible(double timestamp);
+
+  /// Whether the pose of a frame at `timestamp` is implausible, or follows such a one within a few
+  /// seconds.
+  bool IsImplausible(double timestamp) const { return timestamp < implausible_until_; }
+
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [limits, implausible_until] = *this;  // all members, or it does not compile
+    archive(limits, implausible_until);
+  }
+
+ private:
+  MotionLimits limits_;
+  double implausible_until_ = std::numeric_limits<double>::lowest();  // seconds
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/tracking/pose_plausibility.h"
+
+#include <gtest/gtest.h>
+
+namespace msc_vo {
+namespace {
+
+// A camera that turns at 0.5 radians/second and moves at 0.6 metres/second.
+PosePlausibility SlowCamera() {
+  PosePlausibility plausibility;
+  plausibility.Observe(1.0, {{0.0, 0.5, 0.0}, {0.6, 0.0, 0.0}}, false);
+  return plausibility;
+}
+
+TEST(PosePlausibility, BelievesAFastMotionThatIsSeen) {
+  PosePlausibility plausibility = SlowCamera();
+  plausibility.Observe(1.1, {{0.0, 6.0, 0.0}, {5.0, 0.0, 0.0}}, false);
+  EXPECT_FALSE(plausibility.IsImplausible(1.1));
+  // From now on it is plausible in a gap, too.
+  plausibility.Observe(2.0, {{0.0, 6.0, 0.0}, {5.0, 0.0, 0.0}}, true);
+  EXPECT_FALSE(plausibility.IsImplausible(2.0));
+}
+
+TEST(PosePlausibility, MarksAJumpInAGapForSomeSeconds) {
+  for (const bool turns : {true, false}) {
+    PosePlausibility plausibility = SlowCamera();
+    const CameraVelocity jump =
+        turns ? CameraVelocity{{0.0, 2.0, 0.0}, {}} : CameraVelocity{{}, {0.0, 0.0, 2.0}};
+    plausibility.Observe(2.0, jump, true);
+    EXPECT_TRUE(plausibility.IsImplausible(2.0));
+    plausibility.Observe(2.1, {{0.0, 0.5, 0.0}, {}}, false);
+    EXPECT_TRUE(plausibility.IsImplausible(6.9));
+    EXPECT_FALSE(plausibility.IsImplausible(7.1));
+  }
+}
+
+TEST(PosePlausibility, RemembersContradictionsByDepth) {
+  PosePlausibility plausibility = SlowCamera();
+  plausibility.MarkImplausible(2.0);
+  EXPECT_TRUE(plausibility.IsImplausible(2.0));
+  EXPECT_TRUE(plausibility.IsImplausible(6.9));
+  EXPECT_FALSE(plausibility.IsImplausible(7.1));
+}
+
+TEST(PosePlausibility, BelievesSlowMotionsAfterRest) {
+  PosePlausibility plausibility;  // at rest so far
+  plausibility.Observe(2.0, {{0.0, 0.8, 0.0}, {0.4, 0.0, 0.0}}, true);
+  EXPECT_FALSE(plausibility.IsImplausible(2.0));
+}
+
+}  // namespace
+}  // namespace msc_vo
