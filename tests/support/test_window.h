@@ -24,14 +24,15 @@ struct TestWindowOptions {
   int num_fixed = 2;
   int num_points = 200;
   int num_lines = 40;
-  int max_observations = 10;           // per landmark
-  double noise = 1.0;                  // factor on the measurement noise; 0: exact
-  double perturbation = 1.0;           // factor on the error of the initial state
-  double outlier_ratio = 0.0;          // fraction of observations replaced by outliers
-  double fy = 525.0;                   // may be negative
-  double point_sigma = 1.0;            // pixels
-  double line_sigma = 1.0;             // pixels
-  double inverse_depth_sigma = 0.002;  // 1/metres
+  int max_observations = 10;             // per landmark
+  double noise = 1.0;                    // factor on the measurement noise; 0: exact
+  double perturbation = 1.0;             // factor on the error of the initial state
+  double outlier_ratio = 0.0;            // fraction of observations replaced by outliers
+  double fy = 525.0;                     // may be negative
+  double point_sigma = 1.0;              // pixels
+  double line_sigma = 1.0;               // pixels
+  double inverse_depth_sigma = 0.002;    // 1/metres
+  double line_depth_correlation = -0.4;  // of the errors at both ends
   bool has_depth = true;
   unsigned seed = 1;
 };
@@ -161,9 +162,10 @@ class TestWindowMaker {
       }
       window_.line_outliers.push_back(is_outlier);
       o.has_depth = options_.has_depth;
-      // As of a fit to many samples: smaller than that of one sample, ends anti-correlated.
+      // As of a fit to many samples: smaller than that of one sample.
       const double variance = std::pow(0.5 * options_.inverse_depth_sigma, 2);
-      o.depth.covariance << variance, -0.4 * variance, -0.4 * variance, variance;
+      const double covariance = options_.line_depth_correlation * variance;
+      o.depth.covariance << variance, covariance, covariance, variance;
       const Eigen::Vector2d dw =
           Eigen::Matrix2d(o.depth.covariance.llt().matrixL()) * Eigen::Vector2d(dws, dwe);
       o.depth.start = 1.0 / start.z() + options_.noise * dw.x();
