@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """The same results on other processors: compares runs whose processor features are restricted.
 
     processors.py MSC_VO [--libm] [--sequence FOLDER] [--emulate CPU]...
