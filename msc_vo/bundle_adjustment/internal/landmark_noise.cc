@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace msc_vo {
@@ -79,6 +80,14 @@ std::vector<ResidualSums> SumLineResiduals(const WindowIndex& index,
   return sums;
 }
 
+// One per point, and one per line.
+std::pair<std::vector<ResidualSums>, std::vector<ResidualSums>> SumResiduals(
+    const WindowIndex& index, const WindowInlierMask& inlier_mask, const WindowState& state,
+    const WindowData& data) {
+  return {SumPointResiduals(index, inlier_mask, state, data),
+          SumLineResiduals(index, inlier_mask, state, data)};
+}
+
 double DegreesOfFreedom(const ResidualSums& sums, int num_parameters) {
   return std::max(0, sums.num_residuals - num_parameters);
 }
@@ -119,8 +128,7 @@ void EstimateLandmarkNoise(const LandmarkNoiseOptions& options, const WindowInde
                            const WindowInlierMask& inlier_mask, const WindowState& state,
                            WindowData* data) {
   if (!options.enabled) return;
-  const std::vector<ResidualSums> points = SumPointResiduals(index, inlier_mask, state, *data);
-  const std::vector<ResidualSums> lines = SumLineResiduals(index, inlier_mask, state, *data);
+  const auto [points, lines] = SumResiduals(index, inlier_mask, state, *data);
   for (size_t i = 0; i < points.size(); ++i) {
     if (points[i].num_residuals == 0) continue;
     data->points[i].noise = Noise(options, points[i], kPointParameters);
@@ -136,8 +144,7 @@ void AddNoiseUncertainty(const LandmarkNoiseOptions& options, const WindowIndex&
                          const WindowInlierMask& inlier_mask, const WindowState& state,
                          WindowData* data) {
   if (!options.enabled) return;
-  const std::vector<ResidualSums> points = SumPointResiduals(index, inlier_mask, state, *data);
-  const std::vector<ResidualSums> lines = SumLineResiduals(index, inlier_mask, state, *data);
+  const auto [points, lines] = SumResiduals(index, inlier_mask, state, *data);
   for (size_t i = 0; i < points.size(); ++i) {
     data->points[i].noise *= NoiseUncertainty(options, points[i], kPointParameters);
   }
