@@ -167,8 +167,8 @@ class BinaryReader {
   template <typename Sequence>
   void GetSequence(Sequence& values) {
     values.clear();
-    values.resize(GetSize());
-    for (auto& value : values) Get(value);
+    // One by one: a wrong number takes no more memory than there are bytes to fill it.
+    for (size_t i = GetSize(); i > 0; --i) Get(values.emplace_back());
   }
 
   std::string_view bytes_;

@@ -145,7 +145,7 @@ class Odometry {
   bool Save(BinaryWriter* archive);
   /// Restores the state of a run with the same options, apart from the number of threads, and the
   /// same camera. Call before the first image. Throws std::runtime_error if the archive has no such
-  /// state; the object can then only be destroyed.
+  /// state, std::invalid_argument if its camera is invalid; the object can then only be destroyed.
   void Restore(BinaryReader* archive);
 
  private:
