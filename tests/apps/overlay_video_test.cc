@@ -78,5 +78,12 @@ TEST_F(OverlayVideoTest, RefusesPortsThatCannotBe) {
   EXPECT_EQ(Replay({"--view-address", "127.0.0.1"}).exit_code, 2);  // without --view
 }
 
+TEST_F(OverlayVideoTest, ShowsARunToThisMachineOnly) {
+  const CommandOutcome outcome = Replay({"--view", "0"});
+  if (outcome.output.find("built without") != std::string::npos) GTEST_SKIP() << outcome.output;
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("live view: http://127.0.0.1:"));
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -3,16 +3,47 @@
 
 #include "apps/live/live_server.h"
 
+#include <chrono>
 #include <thread>
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <httplib.h>
+#include <netinet/in.h>
 #include <nlohmann/json.hpp>
+#include <sys/socket.h>
+#include <unistd.h>
 
 namespace msc_vo {
 namespace {
 
+using std::chrono::seconds;
+using std::chrono::steady_clock;
 using testing::HasSubstr;
+
+// A client that sends `request`, which need not be complete, and reads nothing.
+class MuteClient {
+ public:
+  MuteClient(int port, const std::string& request)
+      : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    const int few_bytes = 4096;
+    setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &few_bytes, sizeof(few_bytes));
+    sockaddr_in address = {};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const int connected = connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof(address));
+    EXPECT_EQ(connected, 0);
+    EXPECT_EQ(send(socket_, request.data(), request.size(), MSG_NOSIGNAL),
+              static_cast<ssize_t>(request.size()));
+  }
+  ~MuteClient() { close(socket_); }
+  MuteClient(const MuteClient&) = delete;
+  MuteClient& operator=(const MuteClient&) = delete;
+
+ private:
+  int socket_;
+};
 
 class LiveServerTest : public testing::Test {
  protected:
@@ -122,9 +153,39 @@ TEST_F(LiveServerTest, SurvivesSilentClients) {
     ASSERT_TRUE(silent.back()->Get("/data"));  // the connection stays open
   }
   EXPECT_EQ(StatusOf("/data"), 200);
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = steady_clock::now();
   server_.reset();
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(8));
+  EXPECT_LT(steady_clock::now() - start, seconds(8));
+}
+
+// Clients that occupy every thread of the server are dropped when their time is over.
+TEST_F(LiveServerTest, DropsClientsThatDoNotEndTheirRequest) {
+  std::vector<std::unique_ptr<MuteClient>> slow;
+  for (int i = 0; i < 4; ++i) {
+    slow.push_back(std::make_unique<MuteClient>(server_->port(), "GET /data HTTP/1.1\r\nHost: lo"));
+  }
+  client_->set_read_timeout(seconds(30));
+  EXPECT_EQ(StatusOf("/data"), 200);
+}
+
+TEST_F(LiveServerTest, DropsClientsThatDoNotReadTheAnswer) {
+  run_.Finish(std::string(64 << 20, 'x'));  // more than sockets hold
+  std::vector<std::unique_ptr<MuteClient>> slow;
+  for (int i = 0; i < 4; ++i) {
+    slow.push_back(std::make_unique<MuteClient>(server_->port(),
+                                                "GET /report HTTP/1.1\r\nHost: localhost\r\n\r\n"));
+  }
+  client_->set_read_timeout(seconds(30));
+  EXPECT_EQ(StatusOf("/data"), 200);
+}
+
+TEST_F(LiveServerTest, GoesOnWhenClientsVanish) {
+  run_.Finish(std::string(64 << 20, 'x'));
+  for (int i = 0; i < 20; ++i) {
+    const MuteClient vanishes(server_->port(), "GET /report HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  }
+  client_->set_read_timeout(seconds(30));
+  EXPECT_EQ(StatusOf("/data"), 200);
 }
 
 }  // namespace
