@@ -8,6 +8,8 @@
 #   tests/run.sh --sanitize thread     the tests that start threads under ThreadSanitizer, in
 #                                      ./build-thread
 #   tests/run.sh --sanitize pipeline   of these, only those of mapping beside tracking
+#   tests/run.sh --preset NAME         everything, built as a preset of CMakePresets.json says (debug,
+#                                      clang-shared), in ./build-NAME
 #
 # Environment: JOBS, the number of parallel processes (default: one per processor); TESTS, a regular
 # expression of folders for --sanitize address and thread ("odometry|text"; default: all that it covers).
@@ -21,13 +23,20 @@ threaded='odometry|datasets|live|ros_bag|apps'
 not_instrumented='^(consumer|free_ceres|python)\.'
 
 sanitize=
-if [[ $# -gt 0 ]]; then
-  if [[ $# -ne 2 || $1 != --sanitize || ! $2 =~ ^(address|readers|thread|pipeline)$ ]]; then
-    echo "usage: tests/run.sh [--sanitize address|readers|thread|pipeline]" >&2
+preset=
+case "$#:$*" in
+  0:) ;;
+  2:--sanitize\ address | 2:--sanitize\ readers | 2:--sanitize\ thread | 2:--sanitize\ pipeline)
+    sanitize=$2
+    ;;
+  2:--preset\ *)
+    preset=$2
+    ;;
+  *)
+    echo "usage: tests/run.sh [--sanitize address|readers|thread|pipeline | --preset NAME]" >&2
     exit 2
-  fi
-  sanitize=$2
-fi
+    ;;
+esac
 
 step=none
 begin() {
@@ -86,12 +95,12 @@ case $sanitize in
     test_sanitized thread tsan "^odometry\.($pipeline)" odometry_test
     ;;
   *)
+    folder=build${preset:+-$preset}
     begin "configure"
-    cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release \
-          -DMSC_VO_BUILD_APPS=ON -DMSC_VO_BUILD_TESTS=ON
+    cmake --preset "${preset:-release}" -B "$folder"
     begin "build"
-    cmake --build build --parallel "$jobs"
+    cmake --build "$folder" --parallel "$jobs"
     begin "test"
-    ctest --test-dir build --parallel "$jobs" --output-on-failure
+    ctest --test-dir "$folder" --parallel "$jobs" --output-on-failure
     ;;
 esac
