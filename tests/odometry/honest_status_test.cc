@@ -5,6 +5,7 @@
 // which it shares most landmarks.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -22,8 +23,6 @@
 
 namespace msc_vo {
 namespace {
-
-constexpr int kNumFrames = 30;
 
 // The error of a tracked frame relative to its reference keyframe.
 struct FrameError {
@@ -58,8 +57,8 @@ bool IsEasy(const SyntheticSequenceOptions& options) {
   return options.readout_time == 0.0 && options.image_sigma <= 2.0 && options.fps >= 15.0;
 }
 
-std::vector<FrameError> ErrorsOfTrackedFrames(unsigned seed) {
-  const RandomWorld world = DrawWorld(seed, kNumFrames);
+std::vector<FrameError> ErrorsOfTrackedFrames(unsigned seed, int num_frames) {
+  const RandomWorld world = DrawWorld(seed, num_frames);
   const SyntheticSequence sequence(world.sequence);
   std::map<double, Rigid3> true_world_from_cam;
   for (const RgbdImage& image : world.images) {
@@ -98,6 +97,18 @@ void PrintQuantiles(const std::string& worlds, const std::vector<FrameError>& so
   std::cout << '\n';
 }
 
+// Counts between multiples of a quarter of a sigma; the last is that of all larger errors.
+void PrintHistogram(const std::string& worlds, const std::vector<FrameError>& errors) {
+  constexpr double kWidth = 0.25;
+  std::array<int, 21> counts = {};
+  for (const FrameError& error : errors) {
+    ++counts[static_cast<size_t>(std::min(error.sigmas / kWidth, counts.size() - 1.0))];
+  }
+  std::cout << "histogram of " << worlds << ':';
+  for (const int count : counts) std::cout << ' ' << count;
+  std::cout << '\n';
+}
+
 void PrintLargeErrors(const std::vector<FrameError>& errors) {
   std::cout << "more than five sigmas: world, easy, frame, sigmas, metres, degrees\n";
   for (const FrameError& error : errors) {
@@ -107,11 +118,15 @@ void PrintLargeErrors(const std::vector<FrameError>& errors) {
   }
 }
 
-// MSC_VO_RANDOM_WORLDS=400 prints the distribution over 400 worlds (docs/reliability.md).
+// MSC_VO_RANDOM_WORLDS=400 prints the distribution over 400 worlds of more images each
+// (docs/reliability.md).
 TEST(HonestStatus, TrackedFramesAreWithinTheirSigmas) {
+  constexpr unsigned kNumWorlds = 28;
+  const unsigned num_worlds = NumRandomWorlds(kNumWorlds);
+  const int num_frames = num_worlds > kNumWorlds ? 90 : 30;
   std::vector<FrameError> errors;
-  for (unsigned seed = 1; seed <= NumRandomWorlds(28); ++seed) {
-    const std::vector<FrameError> of_world = ErrorsOfTrackedFrames(seed);
+  for (unsigned seed = 1; seed <= num_worlds; ++seed) {
+    const std::vector<FrameError> of_world = ErrorsOfTrackedFrames(seed, num_frames);
     errors.insert(errors.end(), of_world.begin(), of_world.end());
   }
   ASSERT_GT(errors.size(), 100u);
@@ -123,6 +138,8 @@ TEST(HonestStatus, TrackedFramesAreWithinTheirSigmas) {
   ASSERT_GT(easy.size(), 50u);
   PrintQuantiles("all worlds", errors);
   PrintQuantiles("easy worlds", easy);
+  PrintHistogram("all worlds", errors);
+  PrintHistogram("easy worlds", easy);
   PrintLargeErrors(errors);
   // Chi-square with six degrees of freedom has a median of 5.35: 0.94 sigmas. Errors of depth
   // sensors and of rolling shutters that are not learnt yet are common to many features.
