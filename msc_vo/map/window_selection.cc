@@ -146,6 +146,32 @@ bool IntersectRay(const LineSegment3& line, const Eigen::Vector3d& origin,
   return true;
 }
 
+LineSegment3 Moved(const Rigid3& motion, const LineSegment3& segment) {
+  return {motion * segment.start, motion * segment.end};
+}
+
+// Moves a keyframe, and the landmarks that it alone observes with it: they are where they were in
+// its camera frame.
+void MoveKeyframe(const WindowData::Keyframe& keyframe, Map* map) {
+  const Keyframe& before = *map->FindKeyframe(keyframe.id);
+  const Rigid3 motion = keyframe.cam_from_world.Inverse() * before.cam_from_world;
+  const std::vector<LandmarkId> points = before.points;
+  const std::vector<LandmarkId> lines = before.lines;
+  map->SetPose(keyframe.id, keyframe.cam_from_world);
+  for (const LandmarkId id : points) {
+    const PointLandmark* point = id == kNoId ? nullptr : map->FindPoint(id);
+    if (point == nullptr || point->observations.size() > 1) continue;
+    map->SetPoint(id, motion * point->position);
+    map->RefreshPoint(id);
+  }
+  for (const LandmarkId id : lines) {
+    const LineLandmark* line = id == kNoId ? nullptr : map->FindLine(id);
+    if (line == nullptr || line->observations.size() > 1) continue;
+    map->SetLine(id, Moved(motion, line->segment));
+    map->RefreshLine(id);
+  }
+}
+
 WindowData MakeWindow(const WindowSelectionOptions& options, const Map& map,
                       const std::set<KeyframeId>& window, const PinholeCamera& camera) {
   ObserverCount observers(map);
@@ -227,7 +253,7 @@ LineSegment3 TrimToObservations(const Map& map, const LineLandmark& line,
 
 void WriteBack(const WindowData& window, Map* map) {
   for (const WindowData::Keyframe& keyframe : window.keyframes) {
-    if (!keyframe.fixed) map->SetPose(keyframe.id, keyframe.cam_from_world);
+    if (!keyframe.fixed) MoveKeyframe(keyframe, map);
   }
   for (const WindowData::PointObservation& observation : window.point_observations) {
     if (observation.rejected) map->RemovePointObservation(observation.point, observation.keyframe);

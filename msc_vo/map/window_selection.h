@@ -43,9 +43,10 @@ WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, K
 /// Selects all keyframes of a map that is not empty.
 WindowData SelectWholeMap(const WindowSelectionOptions& options, const Map& map);
 
-/// Writes the optimised window back into the map. Removes rejected observations and lines shorter
-/// than 1 cm. End points of lines are recomputed from the observations, because bundle adjustment
-/// leaves them free along the line.
+/// Writes the optimised window back into the map. Landmarks that one keyframe alone observes, which
+/// the window need not have, move with it. Removes rejected observations and lines shorter than 1
+/// cm. End points of lines are recomputed from the observations, because bundle adjustment leaves
+/// them free along the line.
 void WriteBack(const WindowData& window, Map* map);
 
 /// Returns the part of the infinite line of `segment` (world) that the keyframes observe: the union

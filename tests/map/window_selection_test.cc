@@ -143,6 +143,46 @@ TEST_F(WindowSelectionTest, WriteBackUpdatesTheMapAndRemovesRejectedObservations
   EXPECT_EQ(map_.FindKeyframe(window.keyframes.back().id)->cam_from_world.params, pose.params);
 }
 
+// The positions of the landmarks that one keyframe alone observes, in its camera frame.
+std::vector<Eigen::Vector3d> SeenByItAlone(const Map& map, const Keyframe& keyframe) {
+  std::vector<Eigen::Vector3d> positions;
+  for (const LandmarkId id : keyframe.points) {
+    const PointLandmark* point = id == kNoId ? nullptr : map.FindPoint(id);
+    if (point == nullptr || point->observations.size() > 1) continue;
+    positions.push_back(keyframe.cam_from_world * point->position);
+  }
+  for (const LandmarkId id : keyframe.lines) {
+    const LineLandmark* line = id == kNoId ? nullptr : map.FindLine(id);
+    if (line == nullptr || line->observations.size() > 1) continue;
+    positions.push_back(keyframe.cam_from_world * line->segment.start);
+    positions.push_back(keyframe.cam_from_world * line->segment.end);
+  }
+  return positions;
+}
+
+TEST_F(WindowSelectionTest, LandmarksOfOneKeyframeMoveWithIt) {
+  for (const KeyframeId other : {0, 1, 2, 3, 4}) {
+    const Keyframe keyframe = *map_.FindKeyframe(other);
+    for (const LandmarkId id : keyframe.points) map_.RemovePointObservation(id, other);
+    for (size_t i = 0; i < keyframe.lines.size(); i += 2) {
+      map_.RemoveLineObservation(keyframe.lines[i], other);
+    }
+  }
+  WindowData window = SelectWindow(WindowSelectionOptions(), map_, 5);
+  const std::vector<Eigen::Vector3d> before = SeenByItAlone(map_, *map_.FindKeyframe(5));
+  ASSERT_GT(before.size(), 20u);
+  for (WindowData::Keyframe& keyframe : window.keyframes) {
+    if (keyframe.id != 5) continue;
+    keyframe.fixed = false;
+    keyframe.cam_from_world.translation() += Eigen::Vector3d(0.3, -0.2, 0.1);
+    keyframe.cam_from_world.rotation() = Eigen::Quaterniond(0.8, 0.6, 0.0, 0.0);
+  }
+  WriteBack(window, &map_);
+  const std::vector<Eigen::Vector3d> after = SeenByItAlone(map_, *map_.FindKeyframe(5));
+  ASSERT_EQ(after.size(), before.size());
+  for (size_t i = 0; i < before.size(); ++i) EXPECT_LT((after[i] - before[i]).norm(), 1e-9) << i;
+}
+
 TEST_F(WindowSelectionTest, TrimsLinesToTheirObservations) {
   const LineLandmark& line = map_.lines().front().second;
   // The same infinite line with end points far along it.
