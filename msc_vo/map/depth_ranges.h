@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,6 +16,9 @@ namespace msc_vo {
 struct DepthRanges {
   static constexpr int kColumns = 32;
   static constexpr int kRows = 24;
+  /// Depths that differ by less than this part of them may be those of one surface: more than what
+  /// poses and depth images are off by.
+  static constexpr double kTolerance = 0.05;
 
   /// 1/metres. Both are 0 where less than half of the cell has a depth.
   struct Cell {
@@ -36,6 +40,13 @@ struct DepthRanges {
   static Eigen::Vector2d CellSize(const PinholeCamera& camera) {
     return {static_cast<double>(camera.width) / kColumns,
             static_cast<double>(camera.height) / kRows};
+  }
+  /// Index of the cell that contains a pixel of the image.
+  static int CellOf(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
+    const Eigen::Vector2d cell = pixel.cwiseQuotient(CellSize(camera));
+    const int column = std::clamp(static_cast<int>(cell.x()), 0, kColumns - 1);
+    const int row = std::clamp(static_cast<int>(cell.y()), 0, kRows - 1);
+    return row * kColumns + column;
   }
   /// Pixel in the middle of a cell.
   static Eigen::Vector2d CellCenter(const PinholeCamera& camera, int column, int row) {

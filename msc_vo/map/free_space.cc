@@ -4,15 +4,13 @@
 #include "msc_vo/map/free_space.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "msc_vo/bundle_adjustment/observation.h"
 
 namespace msc_vo {
 
 namespace {
-
-// Of depth: more than what poses and depth images of a right match are off by.
-constexpr double kTolerance = 0.05;
 
 // Inverse depth of the nearest surface in the four cells around a pixel; 0 if the image does not
 // contain them, or one of them has no depth.
@@ -35,6 +33,14 @@ double NearestAround(const Frame& frame, const Eigen::Vector2d& pixel) {
   return nearest;
 }
 
+// Depth of the nearest surface that `frame` shows around a point's pixel, over that of the point; 0
+// if it is unknown.
+double DepthRatio(const Frame& frame, const Eigen::Vector3d& point) {
+  if (frame.depth_ranges.cells.empty() || !IsInFront(point)) return 0.0;
+  const double nearest = NearestAround(frame, frame.camera.Project(point));
+  return nearest > 0.0 ? 1.0 / (nearest * point.z()) : 0.0;
+}
+
 // Cells of `a` that `b` looks through.
 int NumLookedThrough(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
   int number = 0;
@@ -43,17 +49,22 @@ int NumLookedThrough(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
       const DepthRanges::Cell& cell = a.depth_ranges.At(column, row);
       if (!cell.HasDepth()) continue;
       const Eigen::Vector2d pixel = DepthRanges::CellCenter(a.camera, column, row);
-      const Eigen::Vector3d in_b =
-          b_from_a * a.camera.BackProject(pixel, 1.0 / cell.min_inverse_depth);
-      if (!IsInFront(in_b)) continue;
-      const double nearest = NearestAround(b, b.camera.Project(in_b));
-      if (nearest > 0.0 && nearest * (1.0 + kTolerance) < 1.0 / in_b.z()) ++number;
+      const Eigen::Vector3d surface = a.camera.BackProject(pixel, 1.0 / cell.min_inverse_depth);
+      if (LooksThrough(b, b_from_a * surface)) ++number;
     }
   }
   return number;
 }
 
 }  // namespace
+
+bool LooksThrough(const Frame& frame, const Eigen::Vector3d& point) {
+  return DepthRatio(frame, point) > 1.0 + DepthRanges::kTolerance;
+}
+
+bool ShowsSurface(const Frame& frame, const Eigen::Vector3d& point) {
+  return std::abs(DepthRatio(frame, point) - 1.0) <= DepthRanges::kTolerance;
+}
 
 int NumFreeSpaceViolations(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
   if (a.depth_ranges.cells.empty() || b.depth_ranges.cells.empty()) return 0;

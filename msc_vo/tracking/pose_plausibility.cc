@@ -15,7 +15,7 @@ constexpr double kImplausibleSeconds = 5.0;
 
 void PosePlausibility::Observe(double timestamp, const CameraVelocity& velocity, bool after_gap) {
   if (!after_gap) {
-    limits_.Observe(velocity);
+    if (!IsImplausible(timestamp)) limits_.Observe(velocity);
   } else if (!limits_.Allow(velocity)) {
     MarkImplausible(timestamp);
   }

@@ -16,10 +16,12 @@ class PosePlausibility {
  public:
   /// Reports the mean velocity from the last frame with an estimated pose to the one at `timestamp`
   /// (seconds). `after_gap`: there are frames without a pose between both; the pose is then
-  /// implausible if the camera can hardly have moved so fast (MotionLimits).
+  /// implausible if the camera can hardly have moved so fast (MotionLimits). Speeds of plausible
+  /// poses tell how fast that is.
   void Observe(double timestamp, const CameraVelocity& velocity, bool after_gap);
 
-  /// Marks the pose at `timestamp` for another reason, as when depth images contradict it.
+  /// Marks the pose at `timestamp` for another reason: depth images contradict it, or it is weak,
+  /// so that those that follow continue a guess.
   void MarkImplausible(double timestamp);
 
   /// Whether the pose of a frame at `timestamp` is implausible, or follows such a one within a few

@@ -108,10 +108,11 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
   const Rigid3 cam_from_last = tracked.cam_from_world * last_from_world.Inverse();
   tracked.frame =
       CompensateFrame(raw, motion_.VelocitySince(timestamp, cam_from_last), readout_time);
-  const bool in_local_map = TrackLocalMap(map, &tracked);
-  const bool plausible = CheckPose(map, tracked, last_from_world, prediction);
   tracked.status =
-      in_local_map && plausible ? ClassifyStatus(options_, tracked.pose) : TrackingStatus::kWeak;
+      TrackLocalMap(map, &tracked) ? ClassifyStatus(options_, tracked.pose) : TrackingStatus::kWeak;
+  if (!IsPlausible(map, tracked, last_from_world, prediction)) {
+    tracked.status = TrackingStatus::kWeak;
+  }
   segment_start_.Tracked(timestamp);
   ProposeKeyframe(snapshot, &tracked);
   UpdateMotion(last_from_world, &tracked);
@@ -318,8 +319,8 @@ bool Tracker::TrackLocalMap(const Map& map, TrackedFrame* tracked) const {
   return found;
 }
 
-bool Tracker::CheckPose(const Map& map, const TrackedFrame& tracked, const Rigid3& last_from_world,
-                        const Prediction& prediction) {
+bool Tracker::IsPlausible(const Map& map, const TrackedFrame& tracked,
+                          const Rigid3& last_from_world, const Prediction& prediction) {
   const double timestamp = tracked.frame->timestamp;
   const double seconds = timestamp - last_.frame->timestamp;
   const Rigid3 cam_from_last = tracked.cam_from_world * last_from_world.Inverse();
@@ -327,7 +328,9 @@ bool Tracker::CheckPose(const Map& map, const TrackedFrame& tracked, const Rigid
   const bool after_gap = (tracked.relocalized || tracked.frame->id > last_.frame->id + 1) &&
                          !prediction.by_factors.usable;
   plausibility_.Observe(timestamp, CameraVelocity::Of(cam_from_last, seconds), after_gap);
-  if (after_gap && ContradictsDepth(tracked, map)) plausibility_.MarkImplausible(timestamp);
+  if (after_gap && (tracked.status == TrackingStatus::kWeak || ContradictsDepth(tracked, map))) {
+    plausibility_.MarkImplausible(timestamp);
+  }
   return !plausibility_.IsImplausible(timestamp);
 }
 
@@ -365,7 +368,7 @@ void Tracker::ProposeKeyframe(const MapSnapshot& snapshot, TrackedFrame* tracked
                              enables_compensation || tracked->in_inactive_map.has_value();
   if (!tracked->keyframe.is_due) return;
   policy_.Inserted();
-  tracked->frame = MarkDynamicFeatures(options_.pose.consensus, *tracked);
+  tracked->frame = MarkDynamicFeatures(options_.pose.consensus, snapshot.map, *tracked);
 }
 
 void Tracker::UpdateMotion(const Rigid3& last_from_world, TrackedFrame* tracked) {

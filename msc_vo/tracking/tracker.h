@@ -91,9 +91,9 @@ class Tracker {
   bool TrackLocalMap(const Map& map, TrackedFrame* tracked) const;
 
   // Reports the motion since the last frame. Returns false if the pose, or one a few seconds ago,
-  // follows a gap and takes an implausible motion or contradicts the depth images.
-  bool CheckPose(const Map& map, const TrackedFrame& tracked, const Rigid3& last_from_world,
-                 const Prediction& prediction);
+  // follows a gap, and is weak, takes an implausible motion, or contradicts the depth images.
+  bool IsPlausible(const Map& map, const TrackedFrame& tracked, const Rigid3& last_from_world,
+                   const Prediction& prediction);
 
   // Stage 3: decides whether the frame becomes a keyframe.
   void ProposeKeyframe(const MapSnapshot& snapshot, TrackedFrame* tracked);

@@ -16,6 +16,33 @@ Frame FrameAtWall(double distance) {
   return frame;
 }
 
+Frame FrameWithCamera(double distance) {
+  Frame frame = FrameAtWall(distance);
+  frame.camera = {100.0, 100.0, 100.0, 75.0, 200, 150};
+  return frame;
+}
+
+TEST(FreeSpace, IsBeforeTheNearestSurface) {
+  const Frame frame = FrameWithCamera(2.0);
+  EXPECT_TRUE(LooksThrough(frame, {0.1, 0.2, 1.0}));
+  EXPECT_FALSE(ShowsSurface(frame, {0.1, 0.2, 1.0}));
+  EXPECT_FALSE(LooksThrough(frame, {0.1, 0.2, 1.95}));
+  EXPECT_TRUE(ShowsSurface(frame, {0.1, 0.2, 1.95}));
+  EXPECT_TRUE(ShowsSurface(frame, {0.1, 0.2, 2.05}));
+  EXPECT_FALSE(LooksThrough(frame, {0.1, 0.2, 3.0}));  // hidden
+  EXPECT_FALSE(ShowsSurface(frame, {0.1, 0.2, 3.0}));
+}
+
+TEST(FreeSpace, IsUnknownOutsideOfTheImage) {
+  const Frame frame = FrameWithCamera(2.0);
+  for (const Eigen::Vector3d& point :
+       {Eigen::Vector3d(3.0, 0.0, 1.0), Eigen::Vector3d(0.0, 0.0, -1.0)}) {
+    EXPECT_FALSE(LooksThrough(frame, point));
+    EXPECT_FALSE(ShowsSurface(frame, point));
+  }
+  EXPECT_FALSE(LooksThrough(Frame(), {0.0, 0.0, 1.0}));
+}
+
 Rigid3 Forward(double metres) { return {Eigen::Quaterniond::Identity(), {0.0, 0.0, -metres}}; }
 
 TEST(NumFreeSpaceViolations, IsZeroAtTheRightPose) {

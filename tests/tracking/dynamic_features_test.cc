@@ -27,12 +27,13 @@ class DynamicFeaturesTest : public ::testing::Test {
   }
 
   CellConsensusOptions options_;
+  Map map_;
   TrackedFrame tracked_;
 };
 
 TEST_F(DynamicFeaturesTest, MarksFeaturesInDynamicCells) {
   tracked_.dynamic_cells = {true, false};
-  const auto marked = MarkDynamicFeatures(options_, tracked_);
+  const auto marked = MarkDynamicFeatures(options_, map_, tracked_);
   EXPECT_TRUE(marked->points[0].dynamic);
   EXPECT_FALSE(marked->points[1].dynamic);
   EXPECT_TRUE(marked->lines[0].dynamic);
@@ -45,7 +46,7 @@ TEST_F(DynamicFeaturesTest, KeepsInliersOfThePoseStatic) {
   tracked_.matches.points.resize(1);
   tracked_.matches.lines.resize(1);
   tracked_.matches.lines[0].feature = 1;
-  const auto marked = MarkDynamicFeatures(options_, tracked_);
+  const auto marked = MarkDynamicFeatures(options_, map_, tracked_);
   EXPECT_FALSE(marked->points[0].dynamic);
   EXPECT_TRUE(marked->points[1].dynamic);
   EXPECT_TRUE(marked->lines[0].dynamic);
@@ -53,7 +54,82 @@ TEST_F(DynamicFeaturesTest, KeepsInliersOfThePoseStatic) {
 }
 
 TEST_F(DynamicFeaturesTest, ReturnsTheSameFrameWithoutDynamicCells) {
-  EXPECT_EQ(MarkDynamicFeatures(options_, tracked_), tracked_.frame);
+  EXPECT_EQ(MarkDynamicFeatures(options_, map_, tracked_), tracked_.frame);
+}
+
+// A keyframe shows a wall at 3 metres; where its image has no depth, nothing is known. Then a board
+// stands at 1 metre in columns 8 to 23 of the depth ranges.
+class FreeSpaceTest : public ::testing::Test {
+ protected:
+  static constexpr double kWall = 1.0 / 3.0, kBoard = 1.0;  // 1/metres
+
+  void SetUp() override {
+    auto before = std::make_shared<Frame>();
+    before->camera = {160.0, 160.0, 160.0, 120.0, 320, 240};
+    SetColumns(0, 31, kWall, before.get());
+    auto now = std::make_shared<Frame>(*before);
+    for (int column = 0; column < 12; ++column) SetColumns(column, column, 0.0, before.get());
+    SetColumns(8, 23, kBoard, now.get());
+    AddPoint(15.0, kWall, now.get());    // 0: nobody has seen it
+    AddPoint(95.0, kBoard, now.get());   // 1: where the keyframe has no depth
+    AddPoint(175.0, kBoard, now.get());  // 2: in free space
+    AddPoint(205.0, kBoard, now.get());  // 3: in free space
+    AddPoint(205.0, kWall, now.get());   // 4: seen through a hole of the board
+    AddPoint(295.0, kWall, now.get());   // 5
+    tracked_.reference = map_.AddKeyframe(before, Rigid3());
+    tracked_.frame = now;
+  }
+  static void SetColumns(int first, int last, double inverse_depth, Frame* frame) {
+    frame->depth_ranges.cells.resize(DepthRanges::kColumns * DepthRanges::kRows);
+    const auto inverse = static_cast<float>(inverse_depth);
+    for (int row = 0; row < DepthRanges::kRows; ++row) {
+      for (int column = first; column <= last; ++column) {
+        frame->depth_ranges.cells[row * DepthRanges::kColumns + column] = {inverse, inverse};
+      }
+    }
+  }
+  static void AddPoint(double x, double inverse_depth, Frame* frame) {
+    PointFeature point;
+    point.pixel = {x, 115.0};
+    point.inverse_depth = inverse_depth;
+    frame->points.push_back(point);
+  }
+  std::vector<bool> Marks() const {
+    std::vector<bool> marks;
+    for (const PointFeature& point : MarkDynamicFeatures({}, map_, tracked_)->points) {
+      marks.push_back(point.dynamic);
+    }
+    return marks;
+  }
+
+  Map map_;
+  TrackedFrame tracked_;
+};
+
+TEST_F(FreeSpaceTest, MarksASurfaceThatWasLookedThrough) {
+  EXPECT_EQ(Marks(), std::vector<bool>({false, true, true, true, false, false}));
+}
+
+TEST_F(FreeSpaceTest, RemovesTheDepthRangesOfSuchASurface) {
+  const auto marked = MarkDynamicFeatures({}, map_, tracked_);
+  EXPECT_TRUE(marked->depth_ranges.At(7, 10).HasDepth());
+  EXPECT_FALSE(marked->depth_ranges.At(8, 10).HasDepth());
+  EXPECT_FALSE(marked->depth_ranges.At(23, 10).HasDepth());
+  EXPECT_TRUE(marked->depth_ranges.At(24, 10).HasDepth());
+}
+
+// If most of the surface is known to be static, only what is in free space is dynamic.
+TEST_F(FreeSpaceTest, KeepsWhatIsUnknownOnAStaticSurface) {
+  tracked_.matches.points.resize(2);
+  tracked_.matches.points[0].feature = 2;
+  tracked_.matches.points[1].feature = 3;
+  EXPECT_EQ(MarkDynamicFeatures({}, map_, tracked_), tracked_.frame);
+}
+
+TEST_F(FreeSpaceTest, IsPartOfDynamicObjectRejection) {
+  CellConsensusOptions disabled;
+  disabled.enabled = false;
+  EXPECT_EQ(MarkDynamicFeatures(disabled, map_, tracked_), tracked_.frame);
 }
 
 }  // namespace

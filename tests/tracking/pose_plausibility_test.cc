@@ -37,6 +37,15 @@ TEST(PosePlausibility, MarksAJumpInAGapForSomeSeconds) {
   }
 }
 
+// The way back from a wrong place is no motion of the camera.
+TEST(PosePlausibility, LearnsNoSpeedFromImplausiblePoses) {
+  PosePlausibility plausibility = SlowCamera();
+  plausibility.MarkImplausible(2.0);
+  plausibility.Observe(2.5, {{0.0, 3.1, 0.0}, {4.0, 0.0, 0.0}}, false);
+  plausibility.Observe(9.0, {{0.0, 3.1, 0.0}, {4.0, 0.0, 0.0}}, true);
+  EXPECT_TRUE(plausibility.IsImplausible(9.0));
+}
+
 TEST(PosePlausibility, RemembersContradictionsByDepth) {
   PosePlausibility plausibility = SlowCamera();
   plausibility.MarkImplausible(2.0);

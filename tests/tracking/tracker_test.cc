@@ -262,6 +262,42 @@ TEST_F(TrackerTest, DoesNotTrustAPoseAfterAGapThatDepthImagesContradict) {
   }
 }
 
+// The frame with every eighth of its points and without lines.
+std::shared_ptr<const Frame> Thinned(const std::shared_ptr<const Frame>& frame) {
+  auto thinned = std::make_shared<Frame>(*frame);
+  thinned->points.clear();
+  for (size_t i = 0; i < frame->points.size(); i += 8) {
+    thinned->points.push_back(frame->points[i]);
+  }
+  thinned->lines.clear();
+  thinned->grid = FeatureGrid(thinned->camera, thinned->points);
+  return thinned;
+}
+
+double TranslationSigma(const TrackedFrame& tracked) {
+  return std::sqrt(tracked.pose.covariance.diagonal().tail<3>().maxCoeff());
+}
+
+// What follows a guess continues it.
+TEST_F(TrackerTest, DoesNotTrustPosesThatFollowAWeakOneAfterAGap) {
+  Start({});
+  const double sigma = TranslationSigma(Track(1));
+  const double thinned_sigma =
+      TranslationSigma(tracker_.Track(Thinned(world_->MakeFrame(2)), snapshot_));
+  ASSERT_GT(thinned_sigma, 1.5 * sigma);
+  TrackerOptions options;
+  options.weak_translation_sigma = std::sqrt(sigma * thinned_sigma);
+  for (const bool has_gap : {true, false}) {
+    tracker_ = Tracker(options);
+    Start({});
+    EXPECT_EQ(Track(1).status, TrackingStatus::kTracked);
+    if (!has_gap) Track(2);
+    const TrackedFrame weak = tracker_.Track(Thinned(world_->MakeFrame(3)), snapshot_);
+    EXPECT_EQ(weak.status, TrackingStatus::kWeak);
+    EXPECT_EQ(Track(4).status, has_gap ? TrackingStatus::kWeak : TrackingStatus::kTracked);
+  }
+}
+
 TEST_F(TrackerTest, WaitsForAFirstFrameWithFeatures) {
   world_ = std::make_unique<SyntheticFrames>(SyntheticFrames::Options());
   const TrackedFrame empty = tracker_.Track(SyntheticFrames::MakeEmptyFrame(0), MapSnapshot());

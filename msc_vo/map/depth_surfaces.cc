@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/map/depth_surfaces.h"
+
+namespace msc_vo {
+
+namespace {
+
+bool AreConnected(const DepthRanges::Cell& a, const DepthRanges::Cell& b) {
+  constexpr double kMaxRatio = 1.0 + DepthRanges::kTolerance;
+  return a.HasDepth() && b.HasDepth() && a.max_inverse_depth <= kMaxRatio * b.max_inverse_depth &&
+         b.max_inverse_depth <= kMaxRatio * a.max_inverse_depth;
+}
+
+// Labels the surface that contains a cell.
+void Fill(const DepthRanges& ranges, int first, int label, std::vector<int>* of_cell) {
+  constexpr int kColumns = DepthRanges::kColumns;
+  const int num_cells = static_cast<int>(of_cell->size());
+  std::vector<int> open = {first};
+  (*of_cell)[first] = label;
+  while (!open.empty()) {
+    const int cell = open.back();
+    open.pop_back();
+    const auto visit = [&](int neighbor) {
+      if ((*of_cell)[neighbor] == label ||
+          !AreConnected(ranges.cells[cell], ranges.cells[neighbor])) {
+        return;
+      }
+      (*of_cell)[neighbor] = label;
+      open.push_back(neighbor);
+    };
+    if (cell % kColumns > 0) visit(cell - 1);
+    if (cell % kColumns < kColumns - 1) visit(cell + 1);
+    if (cell >= kColumns) visit(cell - kColumns);
+    if (cell + kColumns < num_cells) visit(cell + kColumns);
+  }
+}
+
+}  // namespace
+
+DepthSurfaces::DepthSurfaces(const DepthRanges& ranges) : of_cell(ranges.cells.size(), kNone) {
+  for (size_t cell = 0; cell < of_cell.size(); ++cell) {
+    if (of_cell[cell] != kNone || !ranges.cells[cell].HasDepth()) continue;
+    Fill(ranges, static_cast<int>(cell), count, &of_cell);
+    ++count;
+  }
+}
+
+}  // namespace msc_vo
