@@ -102,7 +102,7 @@ std::vector<PointMatch> MatchFrames(const Frame& from, const Rigid3& from_cam_fr
   std::vector<PointCandidate> candidates;
   for (size_t i = 0; i < from.points.size(); ++i) {
     const PointFeature& point = from.points[i];
-    if (!point.HasDepth()) continue;
+    if (point.dynamic || !point.HasDepth()) continue;
     PointCandidate candidate;
     candidate.id = static_cast<LandmarkId>(i);
     candidate.position = world_from_cam * from.PointInCamera(static_cast<int>(i));

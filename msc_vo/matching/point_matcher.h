@@ -47,8 +47,8 @@ std::vector<PointMatch> MatchPoints(const PointMatcherOptions& options, const Fr
                                     const std::vector<PointCandidate>& candidates, double radius,
                                     const std::vector<bool>& taken);
 
-/// Matches the points of `from` that have a depth with those of `to` by descriptor, within `radius`
-/// pixels of their projection. PointMatch::id is the index of the point in `from`.
+/// Matches the static points of `from` that have a depth with those of `to` by descriptor, within
+/// `radius` pixels of their projection. PointMatch::id is the index of the point in `from`.
 std::vector<PointMatch> MatchFrames(const Frame& from, const Rigid3& from_cam_from_world,
                                     const Frame& to, const Rigid3& to_cam_from_world,
                                     double radius);

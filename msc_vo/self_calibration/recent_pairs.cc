@@ -57,7 +57,7 @@ void RecentPairs::AddKeyframe(const Map& map, KeyframeId id, const cv::Mat& dept
   const size_t step = std::max<size_t>(1, frame.points.size() / kMaxSamples);
   for (size_t i = 0; i < frame.points.size(); i += step) {
     const PointFeature& point = frame.points[i];
-    if (!point.HasDepth()) continue;
+    if (point.dynamic || !point.HasDepth()) continue;
     Sample sample{static_cast<int>(i), MakePairView(frame.intrinsics->distortion, frame, point)};
     const auto surface = FindSurface(camera_, depth, sample.view.recorded_pixel, at);
     if (!surface) continue;

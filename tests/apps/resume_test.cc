@@ -147,7 +147,7 @@ TEST_F(ResumeTest, ContinuesWithTheAccelerometer) {
 TEST_F(ResumeTest, ContinuesWithTheLensThatTheRunHasFound) {
   std::filesystem::remove_all(Path("room"));
   const CommandOutcome outcome =
-      RunCommand({"synthesize", Path("room"), "--scene", "room", "--frames", "30", "--fps", "5",
+      RunCommand({"synthesize", Path("room"), "--scene", "room", "--frames", "40", "--fps", "5",
                   "--width", "320", "--lens", "radial-tangential:-0.3,0.1,0,0,0", "--untold"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   ASSERT_EQ(RunCommand(Command("whole")).exit_code, 0);
@@ -155,7 +155,7 @@ TEST_F(ResumeTest, ContinuesWithTheLensThatTheRunHasFound) {
     return nlohmann::json::parse(ReadFile(Path(output + "/summary.json"))).at("self_calibration");
   };
   ASSERT_EQ(calibration("whole").at("k1").at("verdict"), "corrected");
-  Stop("out", 25, SIGTERM);
+  Stop("out", 35, SIGTERM);
   ASSERT_EQ(calibration("out").at("k1").at("verdict"), "corrected");  // before it is stopped
   EXPECT_EQ(Resume("out").exit_code, 0);
   ExpectSameAsWholeRun("out");

@@ -50,7 +50,7 @@ struct Example {
   explicit Example(unsigned seed) : random(seed) {
     correction = AnyCorrection(&random);
     b_from_a = Rigid3(ExpSO3(0.2 * random.Normal3()), 0.2 * random.Normal3());
-    const Eigen::Vector3d in_a(random.Uniform(-1.0, 1.0), random.Uniform(-0.7, 0.7), 3.0);
+    const Eigen::Vector3d in_a{random.Uniform(-1.0, 1.0), random.Uniform(-0.7, 0.7), 3.0};
     a = ViewOf(in_a, correction, &random);
     b = ViewOf(b_from_a * in_a, correction, &random);
   }
@@ -100,7 +100,7 @@ TEST(CorrectedCamera, RayIsTheInverseOfPixel) {
   RandomGeometry random(8);
   for (int i = 0; i < 20; ++i) {
     const S::Vector correction = AnyCorrection(&random);
-    const Eigen::Vector2d x(random.Uniform(-0.5, 0.5), random.Uniform(-0.4, 0.4));
+    const Eigen::Vector2d x{random.Uniform(-0.5, 0.5), random.Uniform(-0.4, 0.4)};
     const Eigen::Vector2d pixel = kCamera.Pixel<double>(x, correction.data());
     EXPECT_THAT(kCamera.Ray<double>(pixel, correction.data()), IsNear(x, 1e-6));
   }

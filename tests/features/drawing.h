@@ -68,8 +68,8 @@ inline cv::Mat DrawQuadrilaterals(int width, int height, const Eigen::Vector2d& 
   Eigen::Matrix2d turn;
   turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector2d center(uniform(0.0, width), uniform(0.0, height));
-    const Eigen::Vector2d half(uniform(8.0, 50.0), uniform(8.0, 50.0));
+    const Eigen::Vector2d center{uniform(0.0, width), uniform(0.0, height)};
+    const Eigen::Vector2d half{uniform(8.0, 50.0), uniform(8.0, 50.0)};
     const double own = uniform(0.0, 3.0);
     Eigen::Matrix2d own_turn;
     own_turn << std::cos(own), -std::sin(own), std::sin(own), std::cos(own);

@@ -35,11 +35,11 @@ class BoardMaker {
     PoseData data;
     data.cam_from_world = Rigid3(ExpSO3(Eigen::Vector3d(2e-3, -3e-3, 1e-3)), {4e-3, -2e-3, 3e-3});
     for (int i = 0; i < scene_.num_board; ++i) {
-      const Eigen::Vector2d pixel(Uniform(scene_.left, scene_.right), Uniform(50.0, 479.0));
+      const Eigen::Vector2d pixel{Uniform(scene_.left, scene_.right), Uniform(50.0, 479.0)};
       AddPoint(pixel, 1.0, -scene_.board_motion, scene_.is_board_confirmed, &data);
     }
     while (static_cast<int>(data.points.size()) < scene_.num_board + scene_.num_room) {
-      const Eigen::Vector2d pixel(Uniform(0.0, 639.0), Uniform(0.0, 479.0));
+      const Eigen::Vector2d pixel{Uniform(0.0, 639.0), Uniform(0.0, 479.0)};
       if (IsBoard(pixel)) continue;
       AddPoint(pixel, Uniform(2.0, 5.0), Eigen::Vector3d::Zero(), true, &data);
     }
@@ -60,7 +60,7 @@ class BoardMaker {
                 bool confirmed, PoseData* data) {
     PoseData::Point point;
     point.position = data->camera.BackProject(pixel, z) + offset;
-    point.pixel = pixel + 0.7 * Eigen::Vector2d(normal_(random_), normal_(random_));
+    point.pixel = pixel + 0.7 * Eigen::Vector2d{normal_(random_), normal_(random_)};
     point.inverse_depth_sigma = 2e-3;
     point.inverse_depth = 1.0 / z + point.inverse_depth_sigma * normal_(random_);
     point.confirmed = confirmed;

@@ -39,7 +39,7 @@ class SimulatedCamera {
   SimulatedCamera(const SensorCorrection::Vector& truth, unsigned seed)
       : camera_(kGiven, LensDistortion()), truth_(truth), engine_(seed) {
     for (int i = 0; i < 3000; ++i) {
-      Eigen::Vector3d direction(Normal(), Normal(), Normal());
+      Eigen::Vector3d direction{Normal(), Normal(), Normal()};
       points_.push_back(DistanceToWall(Eigen::Vector3d::Zero(), direction) * direction);
       Descriptor descriptor;
       for (uint8_t& byte : descriptor) byte = static_cast<uint8_t>(engine_() & 0xffU);
@@ -59,7 +59,7 @@ class SimulatedCamera {
       if (x.z() < 0.3) continue;
       PointFeature point;
       point.pixel = camera_.Pixel<double>(Eigen::Vector2d(x.head<2>() / x.z()), truth_.data());
-      point.pixel += 0.2 * Eigen::Vector2d(Normal(), Normal());
+      point.pixel += 0.2 * Eigen::Vector2d{Normal(), Normal()};
       if (!kGiven.IsInside(point.pixel, 4.0)) continue;
       point.sigma = 0.5;
       point.descriptor = descriptors_[i];

@@ -22,7 +22,7 @@ std::vector<DirectionDeviation> MakeDeviations(double deviation, double noise, i
   std::vector<DirectionDeviation> deviations;
   for (int i = 0; i < count; ++i) {
     const double sigma = std::hypot(i % 10 == 0 ? 3.0 : deviation, noise);
-    const Eigen::Vector2d degrees(sigma * normal(random), sigma * normal(random));
+    const Eigen::Vector2d degrees{sigma * normal(random), sigma * normal(random)};
     deviations.push_back({DegreesToRadians(1.0) * degrees,
                           std::pow(DegreesToRadians(noise), 2) * Eigen::Matrix2d::Identity()});
   }

@@ -81,8 +81,8 @@ TEST_F(StructuralPairsTest, LeavesOutPairsByChance) {
   for (int i = 0; i < 150; ++i) {
     WindowData::Line line;
     line.id = i;
-    const Eigen::Vector3d middle(0.5 * normal(random), 0.5 * normal(random), 3.0);
-    const Eigen::Vector3d direction(normal(random), normal(random), normal(random));
+    const Eigen::Vector3d middle{0.5 * normal(random), 0.5 * normal(random), 3.0};
+    const Eigen::Vector3d direction{normal(random), normal(random), normal(random)};
     line.segment = {middle - 0.4 * direction.normalized(), middle + 0.4 * direction.normalized()};
     WindowData::LineObservation observation;
     observation.line = line.id;

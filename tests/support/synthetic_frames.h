@@ -32,7 +32,7 @@ class SyntheticFrames {
     }
     for (int i = 0; i < options.num_lines; ++i) {
       LineSegment3 line;
-      line.start = Eigen::Vector3d(Uniform(-2.5, 2.5), Uniform(-1.2, 1.2), Uniform(2.5, 5.5));
+      line.start = Eigen::Vector3d{Uniform(-2.5, 2.5), Uniform(-1.2, 1.2), Uniform(2.5, 5.5)};
       Eigen::Vector3d direction = Eigen::Vector3d::Zero();
       direction[i % 3] = i % 2 == 0 ? 1.0 : -1.0;
       line.end = Eigen::Vector3d(line.start) + Uniform(0.4, 1.2) * direction;
@@ -103,7 +103,7 @@ class SyntheticFrames {
     if (in_cam.z() < 0.3) return;
     PointFeature feature;
     feature.pixel = frame->camera.Project(in_cam) +
-                    Eigen::Vector2d(Normal(options_.pixel_noise), Normal(options_.pixel_noise));
+                    Eigen::Vector2d{Normal(options_.pixel_noise), Normal(options_.pixel_noise)};
     if (!frame->camera.IsInside(feature.pixel)) return;
     feature.inverse_depth = 1.0 / in_cam.z() + Normal(options_.inverse_depth_noise);
     feature.inverse_depth_sigma = 1.425e-3;

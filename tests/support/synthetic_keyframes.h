@@ -22,7 +22,7 @@ inline KeyframePacket Packet(SyntheticFrames* world, int index, std::mt19937* ra
   if (index > 0) {
     const Eigen::AngleAxisd turn(0.003 * normal(), Eigen::Vector3d::UnitY());
     packet.cam_from_reference =
-        Rigid3(Eigen::Quaterniond(turn), 0.004 * Eigen::Vector3d(normal(), normal(), normal())) *
+        Rigid3(Eigen::Quaterniond(turn), 0.004 * Eigen::Vector3d{normal(), normal(), normal()}) *
         truth;
   }
   return packet;

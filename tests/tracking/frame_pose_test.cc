@@ -359,7 +359,7 @@ class ConfirmedLandmarksTest : public ::testing::Test {
       const Eigen::Vector3d in_cam =
           frame.camera.BackProject(pixel, is_board ? 1.0 : uniform(2.0, 5.0));
       frame.points.push_back(PointAt(frame.camera, in_cam));
-      frame.points.back().pixel += 0.7 * Eigen::Vector2d(normal(random), normal(random));
+      frame.points.back().pixel += 0.7 * Eigen::Vector2d{normal(random), normal(random)};
       landmarks.push_back(in_cam - Eigen::Vector3d(is_board ? 0.03 : 0.0, 0.0, 0.0));
     }
     Map map;
