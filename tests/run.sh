@@ -8,8 +8,8 @@
 #   tests/run.sh --sanitize thread     the tests that start threads under ThreadSanitizer, in
 #                                      ./build-thread
 #   tests/run.sh --sanitize pipeline   of these, only those of mapping beside tracking
-#   tests/run.sh --preset NAME         everything, built as a preset of CMakePresets.json says (debug,
-#                                      clang-shared), in ./build-NAME
+#   tests/run.sh --preset debug        everything, in ./build-debug with assertions
+#   tests/run.sh --preset clang-shared everything, in ./build-clang-shared with Clang and shared libraries
 #
 # Environment: JOBS, the number of parallel processes (default: one per processor); TESTS, a regular
 # expression of folders for --sanitize address and thread ("odometry|text"; default: all that it covers).
@@ -29,11 +29,11 @@ case "$#:$*" in
   2:--sanitize\ address | 2:--sanitize\ readers | 2:--sanitize\ thread | 2:--sanitize\ pipeline)
     sanitize=$2
     ;;
-  2:--preset\ *)
+  2:--preset\ debug | 2:--preset\ clang-shared)
     preset=$2
     ;;
   *)
-    echo "usage: tests/run.sh [--sanitize address|readers|thread|pipeline | --preset NAME]" >&2
+    echo "usage: tests/run.sh [--sanitize address|readers|thread|pipeline | --preset debug|clang-shared]" >&2
     exit 2
     ;;
 esac
@@ -73,7 +73,9 @@ test_sanitized() {
 targets_of() { echo "$1" | tr '|' '\n' | sed 's/$/_test/'; }
 
 begin "packages"
-cmake/install_packages.sh report optional tests
+lists=(report optional tests)
+if [[ $preset == clang-shared ]]; then lists+=(clang); fi
+cmake/install_packages.sh "${lists[@]}"
 case $sanitize in
   address)
     if [[ -n ${TESTS:-} ]]; then
@@ -95,9 +97,11 @@ case $sanitize in
     test_sanitized thread tsan "^odometry\.($pipeline)" odometry_test
     ;;
   *)
-    folder=build${preset:+-$preset}
+    preset=${preset:-release}
+    folder=build-$preset
+    if [[ $preset == release ]]; then folder=build; fi
     begin "configure"
-    cmake --preset "${preset:-release}" -B "$folder"
+    cmake --preset "$preset"
     begin "build"
     cmake --build "$folder" --parallel "$jobs"
     begin "test"

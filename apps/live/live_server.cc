@@ -19,7 +19,6 @@ namespace msc_vo {
 
 namespace {
 
-constexpr size_t kNumThreads = 4;
 constexpr size_t kMaxRequestBytes = 1024;
 constexpr size_t kMaxRequestsPerConnection = 1000;
 constexpr time_t kTimeoutSeconds = 3;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -19,6 +20,9 @@ bool HasLiveServer();
 /// cannot read through a name of theirs that resolves to this machine.
 class LiveServer {
  public:
+  /// Connections that are served at a time.
+  static constexpr size_t kNumThreads = 4;
+
   /// Serves until it is destroyed. `port` 0: any free port. Throws std::runtime_error if the
   /// address cannot be used. `run` must outlive the server.
   LiveServer(const std::string& address, int port, std::string page, LiveRun* run);

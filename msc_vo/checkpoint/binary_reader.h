@@ -102,6 +102,7 @@ class BinaryReader {
   template <typename T>
   void Get(std::vector<T>& values) {
     GetSequence(values);
+    values.shrink_to_fit();
   }
   void Get(std::vector<bool>& values) {
     values.resize(GetSize());
@@ -167,7 +168,7 @@ class BinaryReader {
   template <typename Sequence>
   void GetSequence(Sequence& values) {
     values.clear();
-    // One by one: a wrong number takes no more memory than there are bytes to fill it.
+    // Grows with the bytes that are read, so that a corrupt size cannot allocate memory.
     for (size_t i = GetSize(); i > 0; --i) Get(values.emplace_back());
   }
 

@@ -16,8 +16,7 @@ namespace msc_vo {
 struct DepthRanges {
   static constexpr int kColumns = 32;
   static constexpr int kRows = 24;
-  /// Depths that differ by less than this part of them may be those of one surface: more than what
-  /// poses and depth images are off by.
+  /// Relative tolerance of comparisons of depth: more than what poses and depth images are off by.
   static constexpr double kTolerance = 0.05;
 
   /// 1/metres. Both are 0 where less than half of the cell has a depth.

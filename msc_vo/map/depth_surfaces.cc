@@ -14,20 +14,20 @@ bool AreConnected(const DepthRanges::Cell& a, const DepthRanges::Cell& b) {
 }
 
 // Labels the surface that contains a cell.
-void Fill(const DepthRanges& ranges, int first, int label, std::vector<int>* of_cell) {
+void FloodFill(const DepthRanges& ranges, int first, int label, std::vector<int>* labels) {
   constexpr int kColumns = DepthRanges::kColumns;
-  const int num_cells = static_cast<int>(of_cell->size());
+  const int num_cells = static_cast<int>(labels->size());
   std::vector<int> open = {first};
-  (*of_cell)[first] = label;
+  (*labels)[first] = label;
   while (!open.empty()) {
     const int cell = open.back();
     open.pop_back();
     const auto visit = [&](int neighbor) {
-      if ((*of_cell)[neighbor] == label ||
+      if ((*labels)[neighbor] == label ||
           !AreConnected(ranges.cells[cell], ranges.cells[neighbor])) {
         return;
       }
-      (*of_cell)[neighbor] = label;
+      (*labels)[neighbor] = label;
       open.push_back(neighbor);
     };
     if (cell % kColumns > 0) visit(cell - 1);
@@ -39,10 +39,10 @@ void Fill(const DepthRanges& ranges, int first, int label, std::vector<int>* of_
 
 }  // namespace
 
-DepthSurfaces::DepthSurfaces(const DepthRanges& ranges) : of_cell(ranges.cells.size(), kNone) {
-  for (size_t cell = 0; cell < of_cell.size(); ++cell) {
-    if (of_cell[cell] != kNone || !ranges.cells[cell].HasDepth()) continue;
-    Fill(ranges, static_cast<int>(cell), count, &of_cell);
+DepthSurfaces::DepthSurfaces(const DepthRanges& ranges) : labels(ranges.cells.size(), kNone) {
+  for (size_t cell = 0; cell < labels.size(); ++cell) {
+    if (labels[cell] != kNone || !ranges.cells[cell].HasDepth()) continue;
+    FloodFill(ranges, static_cast<int>(cell), count, &labels);
     ++count;
   }
 }

@@ -125,6 +125,7 @@ struct Frame {
   std::vector<LineFeature> lines;
   FeatureGrid grid;  ///< over `points`
   /// With the calibration that the frame was built with, and without rolling-shutter compensation.
+  /// A keyframe has none of dynamic surfaces.
   DepthRanges depth_ranges;
   /// Calibration that the features were undistorted with, whose camera is `camera`; null if it is
   /// unknown.

@@ -146,10 +146,6 @@ bool IntersectRay(const LineSegment3& line, const Eigen::Vector3d& origin,
   return true;
 }
 
-LineSegment3 Moved(const Rigid3& motion, const LineSegment3& segment) {
-  return {motion * segment.start, motion * segment.end};
-}
-
 // Moves a keyframe, and the landmarks that it alone observes with it: they are where they were in
 // its camera frame.
 void MoveKeyframe(const WindowData::Keyframe& keyframe, Map* map) {
@@ -167,7 +163,7 @@ void MoveKeyframe(const WindowData::Keyframe& keyframe, Map* map) {
   for (const LandmarkId id : lines) {
     const LineLandmark* line = id == kNoId ? nullptr : map->FindLine(id);
     if (line == nullptr || line->observations.size() > 1) continue;
-    map->SetLine(id, Moved(motion, line->segment));
+    map->SetLine(id, motion * line->segment);
     map->RefreshLine(id);
   }
 }

@@ -17,52 +17,61 @@ namespace {
 
 // Keyframes whose depth images are consulted, apart from the reference keyframe.
 constexpr size_t kMaxKeyframes = 20;
+// Features that a surface needs to be dynamic: as many as determine a plane.
+constexpr int kMinDynamic = 3;
 
 // What is known of a feature's surface.
 enum class Evidence { kNone, kStatic, kDynamic };
 
-// A keyframe that has seen the same space.
-struct Witness {
+// A keyframe that has observed the same space.
+struct CovisibleView {
   const Frame* frame = nullptr;
-  Rigid3 witness_from_cam;
+  Rigid3 view_from_cam;
 };
 
-std::vector<Witness> FindWitnesses(const Map& map, const TrackedFrame& tracked) {
-  std::vector<Witness> witnesses;
+std::vector<CovisibleView> FindCovisibleViews(const Map& map, const TrackedFrame& tracked) {
+  std::vector<CovisibleView> views;
   const auto add = [&](const Keyframe& keyframe) {
-    witnesses.push_back(
+    views.push_back(
         {keyframe.frame.get(), keyframe.cam_from_world * tracked.cam_from_world.Inverse()});
   };
   const Keyframe* reference = map.FindKeyframe(tracked.reference);
-  if (reference == nullptr) return witnesses;
+  if (reference == nullptr) return views;
   add(*reference);
   for (const Map::Covisible& covisible : map.FindCovisible(tracked.reference)) {
-    if (witnesses.size() > kMaxKeyframes) break;
+    if (views.size() > kMaxKeyframes) break;
     add(*map.FindKeyframe(covisible.keyframe));
   }
-  return witnesses;
+  return views;
 }
 
-// A point (metres, camera) that was looked through was not there; one that was seen is still there.
-Evidence Judge(const std::vector<Witness>& witnesses, const Eigen::Vector3d& point) {
-  Evidence evidence = Evidence::kNone;
-  for (const Witness& witness : witnesses) {
-    const Eigen::Vector3d in_witness = witness.witness_from_cam * point;
-    if (LooksThrough(*witness.frame, in_witness)) return Evidence::kDynamic;
-    if (ShowsSurface(*witness.frame, in_witness)) evidence = Evidence::kStatic;
+// A point (metres, camera) in free space was not there when the keyframes were taken. Where they
+// contradict each other, most of them are right.
+Evidence ClassifyByDepth(const std::vector<CovisibleView>& views, const Eigen::Vector3d& point) {
+  int balance = 0;
+  for (const CovisibleView& view : views) {
+    const Eigen::Vector3d in_view = view.view_from_cam * point;
+    if (LooksThrough(*view.frame, in_view)) {
+      ++balance;
+    } else if (ShowsSurface(*view.frame, in_view)) {
+      --balance;
+    }
   }
-  return evidence;
+  return balance > 0 ? Evidence::kDynamic : balance < 0 ? Evidence::kStatic : Evidence::kNone;
 }
 
 // A feature with its depth, while the frame is being marked.
 struct Candidate {
   bool* dynamic = nullptr;  // its mark
   Eigen::Vector2d pixel;
-  Eigen::Vector3d point;  // metres, camera
+  double inverse_depth = 0.0;        // 1/metres, at the pixel
+  double inverse_depth_sigma = 0.0;  // 1/metres
   bool is_inlier = false;
+  int surface = DepthSurfaces::kNone;
   Evidence evidence = Evidence::kNone;
 };
 
+// The points, and the lines by their midpoints.
 std::vector<Candidate> FeaturesWithDepth(const FrameMatches& inliers, Frame* frame) {
   std::vector<Candidate> candidates;
   std::vector<bool> point_is_inlier(frame->points.size()), line_is_inlier(frame->lines.size());
@@ -71,65 +80,92 @@ std::vector<Candidate> FeaturesWithDepth(const FrameMatches& inliers, Frame* fra
   for (size_t i = 0; i < frame->points.size(); ++i) {
     PointFeature& point = frame->points[i];
     if (!point.HasDepth()) continue;
-    candidates.push_back({&point.dynamic, point.pixel, frame->PointInCamera(static_cast<int>(i)),
-                          point_is_inlier[i]});
+    candidates.push_back({&point.dynamic, point.pixel, point.inverse_depth,
+                          point.inverse_depth_sigma, point_is_inlier[i]});
   }
   for (size_t i = 0; i < frame->lines.size(); ++i) {
     LineFeature& line = frame->lines[i];
     if (!line.depth) continue;
-    const LineSegment3 segment = frame->LineInCamera(static_cast<int>(i));
-    candidates.push_back(
-        {&line.dynamic, line.segment.Midpoint(), segment.Midpoint(), line_is_inlier[i]});
+    candidates.push_back({&line.dynamic, line.segment.Midpoint(), line.depth->At(0.5),
+                          line.depth->SigmaAt(0.5), line_is_inlier[i]});
   }
   return candidates;
 }
 
-// Marks features in free space, and all unknown ones of a surface of which more is known to be
-// dynamic than static. Such a surface tells later frames nothing: its depth ranges are removed.
-void MarkSurfaces(const std::vector<Witness>& witnesses, const FrameMatches& inliers,
+// Finds what is known of a candidate. A depth that is less certain than the tolerance tells
+// nothing.
+Evidence Classify(const std::vector<CovisibleView>& views, const PinholeCamera& camera,
+                  const Candidate& candidate) {
+  if (candidate.is_inlier) return Evidence::kStatic;
+  if (*candidate.dynamic) return Evidence::kDynamic;
+  const double tolerance = DepthRanges::kTolerance * candidate.inverse_depth;
+  if (3.0 * candidate.inverse_depth_sigma > tolerance) return Evidence::kNone;
+  return ClassifyByDepth(views, camera.BackProject(candidate.pixel, 1.0 / candidate.inverse_depth));
+}
+
+// The connected surface that a candidate lies on: the nearest one of its cell, or none.
+int SurfaceOf(const Candidate& candidate, const DepthSurfaces& surfaces, const Frame& frame) {
+  const int cell = DepthRanges::CellOf(frame.camera, candidate.pixel);
+  const double nearest = frame.depth_ranges.cells[cell].max_inverse_depth;
+  const double difference = std::abs(candidate.inverse_depth - nearest);
+  return difference <= DepthRanges::kTolerance * nearest ? surfaces.labels[cell]
+                                                         : DepthSurfaces::kNone;
+}
+
+// The surfaces with at least three dynamic features and twice as many as static ones.
+std::vector<bool> DynamicSurfaces(const std::vector<Candidate>& candidates, int num_surfaces) {
+  std::vector<int> num_static(num_surfaces), num_dynamic(num_surfaces);
+  for (const Candidate& candidate : candidates) {
+    if (candidate.surface == DepthSurfaces::kNone) continue;
+    num_static[candidate.surface] += candidate.evidence == Evidence::kStatic;
+    num_dynamic[candidate.surface] += candidate.evidence == Evidence::kDynamic;
+  }
+  std::vector<bool> dynamic(num_surfaces);
+  for (int i = 0; i < num_surfaces; ++i) {
+    dynamic[i] = num_dynamic[i] >= std::max(kMinDynamic, 2 * num_static[i]);
+  }
+  return dynamic;
+}
+
+// Marks features in free space, and all unknown ones of dynamic surfaces. Such a surface tells
+// later frames nothing: its depth ranges are removed.
+void MarkSurfaces(const std::vector<CovisibleView>& views, const FrameMatches& inliers,
                   Frame* frame) {
   DepthRanges& ranges = frame->depth_ranges;
+  if (ranges.cells.empty()) return;
   const DepthSurfaces surfaces(ranges);
-  if (surfaces.count == 0) return;
-  const auto surface_of = [&](const Candidate& candidate) {
-    const int cell = DepthRanges::CellOf(frame->camera, candidate.pixel);
-    const double ratio = candidate.point.z() * ranges.cells[cell].max_inverse_depth;
-    const bool is_nearest = std::abs(ratio - 1.0) <= DepthRanges::kTolerance;
-    return is_nearest ? surfaces.of_cell[cell] : DepthSurfaces::kNone;
-  };
   std::vector<Candidate> candidates = FeaturesWithDepth(inliers, frame);
-  std::vector<int> balance(surfaces.count);  // dynamic minus static features
   for (Candidate& candidate : candidates) {
-    candidate.evidence = candidate.is_inlier  ? Evidence::kStatic
-                         : *candidate.dynamic ? Evidence::kDynamic
-                                              : Judge(witnesses, candidate.point);
-    *candidate.dynamic = candidate.evidence == Evidence::kDynamic;
-    const int surface = surface_of(candidate);
-    if (surface == DepthSurfaces::kNone || candidate.evidence == Evidence::kNone) continue;
-    balance[surface] += *candidate.dynamic ? 1 : -1;
+    candidate.surface = SurfaceOf(candidate, surfaces, *frame);
+    candidate.evidence = Classify(views, frame->camera, candidate);
   }
-  for (Candidate& candidate : candidates) {
-    const int surface = surface_of(candidate);
-    if (surface == DepthSurfaces::kNone || candidate.evidence != Evidence::kNone) continue;
-    *candidate.dynamic = balance[surface] > 0;
+  const std::vector<bool> dynamic = DynamicSurfaces(candidates, surfaces.count);
+  const auto is_dynamic = [&](int surface) {
+    return surface != DepthSurfaces::kNone && dynamic[surface];
+  };
+  for (const Candidate& candidate : candidates) {
+    *candidate.dynamic = candidate.evidence == Evidence::kDynamic ||
+                         (candidate.evidence == Evidence::kNone && is_dynamic(candidate.surface));
   }
   for (size_t cell = 0; cell < ranges.cells.size(); ++cell) {
-    const int surface = surfaces.of_cell[cell];
-    if (surface != DepthSurfaces::kNone && balance[surface] > 0) ranges.cells[cell] = {};
+    if (is_dynamic(surfaces.labels[cell])) ranges.cells[cell] = {};
   }
 }
 
-void MarkCells(const CellConsensusOptions& options, const std::vector<bool>& dynamic_cells,
-               Frame* frame) {
-  if (dynamic_cells.empty()) return;
+// Marks what lies in dynamic cells, except inliers.
+void MarkCells(const CellConsensusOptions& options, const TrackedFrame& tracked, Frame* frame) {
+  if (tracked.dynamic_cells.empty()) return;
   const ImageGrid grid(options.columns, options.rows, frame->camera);
-  for (PointFeature& point : frame->points) point.dynamic = dynamic_cells[grid.CellOf(point.pixel)];
-  for (LineFeature& line : frame->lines) line.dynamic = dynamic_cells[grid.CellOf(line.segment)];
-}
-
-void Unmark(const FrameMatches& inliers, Frame* frame) {
-  for (const PointMatch& match : inliers.points) frame->points[match.feature].dynamic = false;
-  for (const LineMatch& match : inliers.lines) frame->lines[match.feature].dynamic = false;
+  for (PointFeature& point : frame->points) {
+    point.dynamic = tracked.dynamic_cells[grid.CellOf(point.pixel)];
+  }
+  for (LineFeature& line : frame->lines) {
+    line.dynamic = tracked.dynamic_cells[grid.CellOf(line.segment)];
+  }
+  for (const PointMatch& match : tracked.matches.points) {
+    frame->points[match.feature].dynamic = false;
+  }
+  for (const LineMatch& match : tracked.matches.lines) frame->lines[match.feature].dynamic = false;
 }
 
 bool HasDynamicFeatures(const Frame& frame) {
@@ -144,9 +180,8 @@ std::shared_ptr<const Frame> MarkDynamicFeatures(const CellConsensusOptions& opt
                                                  const Map& map, const TrackedFrame& tracked) {
   if (!options.enabled) return tracked.frame;
   auto marked = std::make_shared<Frame>(*tracked.frame);
-  MarkCells(options, tracked.dynamic_cells, marked.get());
-  MarkSurfaces(FindWitnesses(map, tracked), tracked.matches, marked.get());
-  Unmark(tracked.matches, marked.get());
+  MarkCells(options, tracked, marked.get());
+  MarkSurfaces(FindCovisibleViews(map, tracked), tracked.matches, marked.get());
   return HasDynamicFeatures(*marked) ? marked : tracked.frame;
 }
 

@@ -12,10 +12,11 @@ namespace msc_vo {
 
 /// Returns the frame of `tracked`, which becomes a keyframe, with its dynamic features marked,
 /// except inliers of the pose. Dynamic are
-/// - those in a cell of a dynamic object (CellConsensus; lines: by their midpoint),
-/// - those in free space: a keyframe around the reference keyframe looks through them,
-/// - those of a connected surface of which nothing else is known, if more of its other features are
-///   dynamic than static. The depth ranges of such a surface are removed.
+/// - features in a cell of a dynamic object (CellConsensus; lines: by their midpoint);
+/// - features with depth in free space: of the reference keyframe and its 20 most covisible ones,
+///   more look through them (LooksThrough) than show a surface there;
+/// - features of which this is not known, on a connected surface with at least three dynamic
+///   features and twice as many as static ones. The depth ranges of such a surface are removed.
 /// Returns the frame itself if there are none, or `options` disable it.
 std::shared_ptr<const Frame> MarkDynamicFeatures(const CellConsensusOptions& options,
                                                  const Map& map, const TrackedFrame& tracked);

@@ -95,6 +95,7 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
       readout_time == 0.0 ? raw : CompensateFrame(raw, motion_.VelocityAt(timestamp), readout_time);
   const Prediction prediction = Predict(map, last_from_world, tracked);
   if (!TrackInitialPose(map, prediction, &tracked)) {
+    in_gap_ = true;
     BridgeWithPrediction(map, prediction, &tracked);
     if (IsNewSegmentDue(map, tracked)) return BeginSegment(std::move(raw), last_from_world);
     if (!HasLeftMap(map, tracked)) return tracked;
@@ -110,9 +111,10 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
       CompensateFrame(raw, motion_.VelocitySince(timestamp, cam_from_last), readout_time);
   tracked.status =
       TrackLocalMap(map, &tracked) ? ClassifyStatus(options_, tracked.pose) : TrackingStatus::kWeak;
-  if (!IsPlausible(map, tracked, last_from_world, prediction)) {
+  if (!UpdatePlausibility(map, tracked, last_from_world, prediction)) {
     tracked.status = TrackingStatus::kWeak;
   }
+  in_gap_ = false;
   segment_start_.Tracked(timestamp);
   ProposeKeyframe(snapshot, &tracked);
   UpdateMotion(last_from_world, &tracked);
@@ -150,6 +152,7 @@ void Tracker::StartSegment(SegmentStart start, TrackedFrame* tracked) {
   policy_.Inserted();
   motion_.Reset(tracked->frame->timestamp);
   plausibility_ = PosePlausibility();
+  in_gap_ = false;
   segment_start_.Started(tracked->frame->timestamp);
   next_candidate_ = kNoId;
   last_ = *tracked;
@@ -319,14 +322,13 @@ bool Tracker::TrackLocalMap(const Map& map, TrackedFrame* tracked) const {
   return found;
 }
 
-bool Tracker::IsPlausible(const Map& map, const TrackedFrame& tracked,
-                          const Rigid3& last_from_world, const Prediction& prediction) {
+bool Tracker::UpdatePlausibility(const Map& map, const TrackedFrame& tracked,
+                                 const Rigid3& last_from_world, const Prediction& prediction) {
   const double timestamp = tracked.frame->timestamp;
   const double seconds = timestamp - last_.frame->timestamp;
   const Rigid3 cam_from_last = tracked.cam_from_world * last_from_world.Inverse();
   // Pose factors measure the motion where images do not.
-  const bool after_gap = (tracked.relocalized || tracked.frame->id > last_.frame->id + 1) &&
-                         !prediction.by_factors.usable;
+  const bool after_gap = (tracked.relocalized || in_gap_) && !prediction.by_factors.usable;
   plausibility_.Observe(timestamp, CameraVelocity::Of(cam_from_last, seconds), after_gap);
   if (after_gap && (tracked.status == TrackingStatus::kWeak || ContradictsDepth(tracked, map))) {
     plausibility_.MarkImplausible(timestamp);

@@ -45,10 +45,10 @@ class Tracker {
   template <typename Archive>
   void Serialize(Archive& archive) {
     auto& [options, initial_pose, policy, motion_model, callback, factors, last, next_candidate,
-           segment_start, inactive_map_search, plausibility] =
+           segment_start, inactive_map_search, plausibility, in_gap] =
         *this;  // all members, or it does not compile
     archive(policy, motion_model, last, next_candidate, segment_start, inactive_map_search,
-            plausibility);
+            plausibility, in_gap);
   }
 
  private:
@@ -90,10 +90,11 @@ class Tracker {
   // has too few landmarks.
   bool TrackLocalMap(const Map& map, TrackedFrame* tracked) const;
 
-  // Reports the motion since the last frame. Returns false if the pose, or one a few seconds ago,
-  // follows a gap, and is weak, takes an implausible motion, or contradicts the depth images.
-  bool IsPlausible(const Map& map, const TrackedFrame& tracked, const Rigid3& last_from_world,
-                   const Prediction& prediction);
+  // Reports the motion since the last frame with a pose; expects the status of `tracked`. Returns
+  // false if this pose, or one of the last five seconds, follows a gap, and is weak, takes an
+  // implausible motion, or contradicts the depth images.
+  bool UpdatePlausibility(const Map& map, const TrackedFrame& tracked,
+                          const Rigid3& last_from_world, const Prediction& prediction);
 
   // Stage 3: decides whether the frame becomes a keyframe.
   void ProposeKeyframe(const MapSnapshot& snapshot, TrackedFrame* tracked);
@@ -117,6 +118,7 @@ class Tracker {
   SegmentStartPolicy segment_start_;
   InactiveMapSearch inactive_map_search_;
   PosePlausibility plausibility_;
+  bool in_gap_ = false;  // frames since `last_` have no pose
 };
 
 }  // namespace msc_vo

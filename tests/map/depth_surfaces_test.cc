@@ -20,7 +20,7 @@ void SetColumns(int first, int last, double depth, DepthRanges* ranges) {
 }
 
 int SurfaceAt(const DepthSurfaces& surfaces, int column) {
-  return surfaces.of_cell[5 * DepthRanges::kColumns + column];
+  return surfaces.labels[5 * DepthRanges::kColumns + column];
 }
 
 TEST(DepthSurfaces, EndAtStepsOfDepth) {

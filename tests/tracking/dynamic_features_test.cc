@@ -70,12 +70,14 @@ class FreeSpaceTest : public ::testing::Test {
     auto now = std::make_shared<Frame>(*before);
     for (int column = 0; column < 12; ++column) SetColumns(column, column, 0.0, before.get());
     SetColumns(8, 23, kBoard, now.get());
-    AddPoint(15.0, kWall, now.get());    // 0: nobody has seen it
+    AddPoint(15.0, kWall, now.get());    // 0: unknown
     AddPoint(95.0, kBoard, now.get());   // 1: where the keyframe has no depth
     AddPoint(175.0, kBoard, now.get());  // 2: in free space
     AddPoint(205.0, kBoard, now.get());  // 3: in free space
-    AddPoint(205.0, kWall, now.get());   // 4: seen through a hole of the board
-    AddPoint(295.0, kWall, now.get());   // 5
+    AddPoint(225.0, kBoard, now.get());  // 4: in free space
+    AddPoint(205.0, kWall, now.get());   // 5: in a hole of the board
+    AddPoint(295.0, kWall, now.get());   // 6
+    before->points = now->points;        // which landmark it is does not matter
     tracked_.reference = map_.AddKeyframe(before, Rigid3());
     tracked_.frame = now;
   }
@@ -92,6 +94,7 @@ class FreeSpaceTest : public ::testing::Test {
     PointFeature point;
     point.pixel = {x, 115.0};
     point.inverse_depth = inverse_depth;
+    point.inverse_depth_sigma = 1e-3;
     frame->points.push_back(point);
   }
   std::vector<bool> Marks() const {
@@ -107,7 +110,7 @@ class FreeSpaceTest : public ::testing::Test {
 };
 
 TEST_F(FreeSpaceTest, MarksASurfaceThatWasLookedThrough) {
-  EXPECT_EQ(Marks(), std::vector<bool>({false, true, true, true, false, false}));
+  EXPECT_EQ(Marks(), std::vector<bool>({false, true, true, true, true, false, false}));
 }
 
 TEST_F(FreeSpaceTest, RemovesTheDepthRangesOfSuchASurface) {
@@ -118,12 +121,44 @@ TEST_F(FreeSpaceTest, RemovesTheDepthRangesOfSuchASurface) {
   EXPECT_TRUE(marked->depth_ranges.At(24, 10).HasDepth());
 }
 
-// If most of the surface is known to be static, only what is in free space is dynamic.
+// Only what is in free space is dynamic on a surface that is static otherwise.
 TEST_F(FreeSpaceTest, KeepsWhatIsUnknownOnAStaticSurface) {
   tracked_.matches.points.resize(2);
   tracked_.matches.points[0].feature = 2;
   tracked_.matches.points[1].feature = 3;
+  EXPECT_EQ(Marks(), std::vector<bool>({false, false, false, false, true, false, false}));
+}
+
+TEST_F(FreeSpaceTest, BelievesMostOfTheKeyframes) {
+  const LandmarkId shared = map_.AddPoint(0, 0, Eigen::Vector3d::UnitZ());
+  auto with_board = std::make_shared<Frame>(*map_.FindKeyframe(0)->frame);
+  SetColumns(8, 23, kBoard, with_board.get());
+  for (int i = 0; i < 2; ++i) map_.ObservePoint(shared, map_.AddKeyframe(with_board, Rigid3()), 0);
   EXPECT_EQ(MarkDynamicFeatures({}, map_, tracked_), tracked_.frame);
+}
+
+TEST_F(FreeSpaceTest, NeedsACertainDepth) {
+  auto now = std::make_shared<Frame>(*tracked_.frame);
+  for (PointFeature& point : now->points) point.inverse_depth_sigma = 0.02 * point.inverse_depth;
+  tracked_.frame = now;
+  EXPECT_EQ(MarkDynamicFeatures({}, map_, tracked_), tracked_.frame);
+}
+
+TEST_F(FreeSpaceTest, MarksLinesByTheirMidpoints) {
+  auto now = std::make_shared<Frame>(*tracked_.frame);
+  for (const double x : {175.0, 295.0}) {
+    LineFeature line;
+    line.segment = {{x, 60.0}, {x, 180.0}};
+    line.depth.emplace();
+    // Slanted: the midpoint of the segment in space is another point than that in the image.
+    line.depth->start = x < 200.0 ? 0.4 * kBoard : kWall;
+    line.depth->end = x < 200.0 ? 1.6 * kBoard : kWall;
+    now->lines.push_back(line);
+  }
+  tracked_.frame = now;
+  const auto marked = MarkDynamicFeatures({}, map_, tracked_);
+  EXPECT_TRUE(marked->lines[0].dynamic);
+  EXPECT_FALSE(marked->lines[1].dynamic);
 }
 
 TEST_F(FreeSpaceTest, IsPartOfDynamicObjectRejection) {

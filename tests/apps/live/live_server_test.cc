@@ -4,7 +4,11 @@
 #include "apps/live/live_server.h"
 
 #include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
@@ -158,10 +162,10 @@ TEST_F(LiveServerTest, SurvivesSilentClients) {
   EXPECT_LT(steady_clock::now() - start, seconds(8));
 }
 
-// Clients that occupy every thread of the server are dropped when their time is over.
+// Silent clients that occupy every thread of the server are dropped when their time is over.
 TEST_F(LiveServerTest, DropsClientsThatDoNotEndTheirRequest) {
   std::vector<std::unique_ptr<MuteClient>> slow;
-  for (int i = 0; i < 4; ++i) {
+  for (size_t i = 0; i < LiveServer::kNumThreads; ++i) {
     slow.push_back(std::make_unique<MuteClient>(server_->port(), "GET /data HTTP/1.1\r\nHost: lo"));
   }
   client_->set_read_timeout(seconds(30));
@@ -171,7 +175,7 @@ TEST_F(LiveServerTest, DropsClientsThatDoNotEndTheirRequest) {
 TEST_F(LiveServerTest, DropsClientsThatDoNotReadTheAnswer) {
   run_.Finish(std::string(64 << 20, 'x'));  // more than sockets hold
   std::vector<std::unique_ptr<MuteClient>> slow;
-  for (int i = 0; i < 4; ++i) {
+  for (size_t i = 0; i < LiveServer::kNumThreads; ++i) {
     slow.push_back(std::make_unique<MuteClient>(server_->port(),
                                                 "GET /report HTTP/1.1\r\nHost: localhost\r\n\r\n"));
   }
