@@ -49,13 +49,13 @@ def draw_soak(folder):
     save(figure, "soak.svg")
 
 
-def expected_share(low, high):
-    """Share of errors between two numbers of sigmas if the covariance is right: of the root of chi-square
+def expected_ratio(low, high):
+    """Ratio of errors between two numbers of sigmas if the covariance is right: of the root of chi-square
     with six degrees of freedom over six."""
-    def share_below(sigmas):
+    def ratio_below(sigmas):
         half = 3.0 * sigmas * sigmas
         return 1.0 - math.exp(-half) * (1.0 + half + half * half / 2.0)
-    return share_below(high) - share_below(low)
+    return ratio_below(high) - ratio_below(low)
 
 
 def draw_statuses(path):
@@ -70,9 +70,9 @@ def draw_statuses(path):
         lows = [BIN_WIDTH * i for i in range(len(counts))]
         plot.bar(lows, [count / sum(counts) for count in counts], BIN_WIDTH, align="edge", alpha=0.6,
                  label=f"{sum(counts)} tracked frames")
-        plot.plot([low + BIN_WIDTH / 2 for low in lows],
-                  [expected_share(low, low + BIN_WIDTH) for low in lows], label="expected")
-        plot.set(title=worlds, xlabel="error in sigmas (last: over five)", ylabel="share of frames")
+        plot.plot([low + BIN_WIDTH / 2 for low in lows[:-1]],
+                  [expected_ratio(low, low + BIN_WIDTH) for low in lows[:-1]], label="expected")
+        plot.set(title=worlds, xlabel="error in sigmas (last: over five)", ylabel="ratio of frames")
         plot.legend()
     save(figure, "honest_statuses.svg")
 

@@ -28,7 +28,9 @@ void ListLineMatcher(LineMatcherOptions* matcher, OptionLister* list) {
 }
 
 void ListConsensus(CellConsensusOptions* consensus, OptionLister* list) {
-  list->Add("enabled", &consensus->enabled, "Reject dynamic objects by cell consensus.");
+  list->Add(
+      "enabled", &consensus->enabled,
+      "Reject dynamic objects by cell consensus, and leave features in free space out of the map.");
   list->Add("columns", &consensus->columns, {1, 64, "cells"}, "Columns of the image grid.");
   list->Add("rows", &consensus->rows, {1, 64, "cells"}, "Rows of the image grid.");
   list->Add("reject_chi2_6", &consensus->reject_chi2_6, {0.001, 10000},

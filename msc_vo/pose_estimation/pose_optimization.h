@@ -57,6 +57,7 @@ struct PoseData {
 
 /// Dynamic-object rejection by cell consensus (CellConsensus).
 struct CellConsensusOptions {
+  /// Without it, features in free space become landmarks, too (MarkDynamicFeatures).
   bool enabled = true;
   /// Cells of the image; 53 pixels wide and high at 640x480.
   /// Chosen by measurement, see docs/lab/dynamic_objects.md.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "msc_vo/map/depth_surfaces.h"
@@ -23,33 +24,41 @@ constexpr int kMinDynamic = 3;
 // What is known of a feature's surface.
 enum class Evidence { kNone, kStatic, kDynamic };
 
-// A keyframe that has observed the same space.
-struct CovisibleView {
+// A keyframe that may have observed the same space.
+struct KeyframeView {
   const Frame* frame = nullptr;
   Rigid3 view_from_cam;
 };
 
-std::vector<CovisibleView> FindCovisibleViews(const Map& map, const TrackedFrame& tracked) {
-  std::vector<CovisibleView> views;
-  const auto add = [&](const Keyframe& keyframe) {
+// The reference keyframe, its covisible ones, and the newest ones: a reference keyframe of a frame
+// that shows little has few covisible ones.
+std::vector<KeyframeView> FindViews(const Map& map, const TrackedFrame& tracked) {
+  std::set<KeyframeId> ids;
+  if (map.FindKeyframe(tracked.reference) == nullptr) return {};
+  ids.insert(tracked.reference);
+  for (const Map::Covisible& covisible : map.FindCovisible(tracked.reference)) {
+    if (ids.size() > kMaxKeyframes) break;
+    ids.insert(covisible.keyframe);
+  }
+  const auto* newest = &map.keyframes().back();
+  for (; newest != nullptr && ids.size() <= kMaxKeyframes;
+       newest = map.keyframes().FindUpTo(newest->first - 1)) {
+    ids.insert(newest->first);
+  }
+  std::vector<KeyframeView> views;
+  for (const KeyframeId id : ids) {
+    const Keyframe& keyframe = *map.FindKeyframe(id);
     views.push_back(
         {keyframe.frame.get(), keyframe.cam_from_world * tracked.cam_from_world.Inverse()});
-  };
-  const Keyframe* reference = map.FindKeyframe(tracked.reference);
-  if (reference == nullptr) return views;
-  add(*reference);
-  for (const Map::Covisible& covisible : map.FindCovisible(tracked.reference)) {
-    if (views.size() > kMaxKeyframes) break;
-    add(*map.FindKeyframe(covisible.keyframe));
   }
   return views;
 }
 
 // A point (metres, camera) in free space was not there when the keyframes were taken. Where they
 // contradict each other, most of them are right.
-Evidence ClassifyByDepth(const std::vector<CovisibleView>& views, const Eigen::Vector3d& point) {
+Evidence ClassifyByDepth(const std::vector<KeyframeView>& views, const Eigen::Vector3d& point) {
   int balance = 0;
-  for (const CovisibleView& view : views) {
+  for (const KeyframeView& view : views) {
     const Eigen::Vector3d in_view = view.view_from_cam * point;
     if (LooksThrough(*view.frame, in_view)) {
       ++balance;
@@ -94,7 +103,7 @@ std::vector<Candidate> FeaturesWithDepth(const FrameMatches& inliers, Frame* fra
 
 // Finds what is known of a candidate. A depth that is less certain than the tolerance tells
 // nothing.
-Evidence Classify(const std::vector<CovisibleView>& views, const PinholeCamera& camera,
+Evidence Classify(const std::vector<KeyframeView>& views, const PinholeCamera& camera,
                   const Candidate& candidate) {
   if (candidate.is_inlier) return Evidence::kStatic;
   if (*candidate.dynamic) return Evidence::kDynamic;
@@ -129,7 +138,7 @@ std::vector<bool> DynamicSurfaces(const std::vector<Candidate>& candidates, int 
 
 // Marks features in free space, and all unknown ones of dynamic surfaces. Such a surface tells
 // later frames nothing: its depth ranges are removed.
-void MarkSurfaces(const std::vector<CovisibleView>& views, const FrameMatches& inliers,
+void MarkSurfaces(const std::vector<KeyframeView>& views, const FrameMatches& inliers,
                   Frame* frame) {
   DepthRanges& ranges = frame->depth_ranges;
   if (ranges.cells.empty()) return;
@@ -181,7 +190,7 @@ std::shared_ptr<const Frame> MarkDynamicFeatures(const CellConsensusOptions& opt
   if (!options.enabled) return tracked.frame;
   auto marked = std::make_shared<Frame>(*tracked.frame);
   MarkCells(options, tracked, marked.get());
-  MarkSurfaces(FindCovisibleViews(map, tracked), tracked.matches, marked.get());
+  MarkSurfaces(FindViews(map, tracked), tracked.matches, marked.get());
   return HasDynamicFeatures(*marked) ? marked : tracked.frame;
 }
 

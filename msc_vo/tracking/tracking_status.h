@@ -6,8 +6,8 @@
 namespace msc_vo {
 
 enum class TrackingStatus {
-  kTracked,     ///< pose from enough matches with the local map
-  kWeak,        ///< pose from few or badly distributed matches: large covariance
+  kTracked,  ///< pose from enough matches with the local map
+  kWeak,     ///< pose with a large covariance, or implausible after a gap, or soon after such a one
   kPredicted,   ///< no pose from the image, but from pose factors or a short extrapolation
   kLost,        ///< no pose for longer than that
   kDropped,     ///< real time: the image came too late and was not processed

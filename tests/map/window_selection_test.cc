@@ -144,7 +144,7 @@ TEST_F(WindowSelectionTest, WriteBackUpdatesTheMapAndRemovesRejectedObservations
 }
 
 // The positions of the landmarks that one keyframe alone observes, in its camera frame.
-std::vector<Eigen::Vector3d> SeenByItAlone(const Map& map, const Keyframe& keyframe) {
+std::vector<Eigen::Vector3d> ObservedByItAlone(const Map& map, const Keyframe& keyframe) {
   std::vector<Eigen::Vector3d> positions;
   for (const LandmarkId id : keyframe.points) {
     const PointLandmark* point = id == kNoId ? nullptr : map.FindPoint(id);
@@ -169,7 +169,7 @@ TEST_F(WindowSelectionTest, LandmarksOfOneKeyframeMoveWithIt) {
     }
   }
   WindowData window = SelectWindow(WindowSelectionOptions(), map_, 5);
-  const std::vector<Eigen::Vector3d> before = SeenByItAlone(map_, *map_.FindKeyframe(5));
+  const std::vector<Eigen::Vector3d> before = ObservedByItAlone(map_, *map_.FindKeyframe(5));
   ASSERT_GT(before.size(), 20u);
   for (WindowData::Keyframe& keyframe : window.keyframes) {
     if (keyframe.id != 5) continue;
@@ -178,7 +178,7 @@ TEST_F(WindowSelectionTest, LandmarksOfOneKeyframeMoveWithIt) {
     keyframe.cam_from_world.rotation() = Eigen::Quaterniond(0.8, 0.6, 0.0, 0.0);
   }
   WriteBack(window, &map_);
-  const std::vector<Eigen::Vector3d> after = SeenByItAlone(map_, *map_.FindKeyframe(5));
+  const std::vector<Eigen::Vector3d> after = ObservedByItAlone(map_, *map_.FindKeyframe(5));
   ASSERT_EQ(after.size(), before.size());
   for (size_t i = 0; i < before.size(); ++i) EXPECT_LT((after[i] - before[i]).norm(), 1e-9) << i;
 }

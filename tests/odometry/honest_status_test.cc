@@ -118,12 +118,11 @@ void PrintLargeErrors(const std::vector<FrameError>& errors) {
   }
 }
 
-// MSC_VO_RANDOM_WORLDS=400 prints the distribution over 400 worlds of more images each
-// (docs/reliability.md).
+// MSC_VO_RANDOM_WORLDS=400 MSC_VO_RANDOM_IMAGES=90 prints the distribution over 400 worlds of 90
+// images each (docs/reliability.md).
 TEST(HonestStatus, TrackedFramesAreWithinTheirSigmas) {
-  constexpr unsigned kNumWorlds = 28;
-  const unsigned num_worlds = NumRandomWorlds(kNumWorlds);
-  const int num_frames = num_worlds > kNumWorlds ? 90 : 30;
+  const unsigned num_worlds = NumRandomWorlds(28);
+  const int num_frames = NumRandomImages(30);
   std::vector<FrameError> errors;
   for (unsigned seed = 1; seed <= num_worlds; ++seed) {
     const std::vector<FrameError> of_world = ErrorsOfTrackedFrames(seed, num_frames);

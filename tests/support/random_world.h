@@ -67,10 +67,19 @@ inline RandomWorld DrawWorld(unsigned seed, int num_images) {
   return world;
 }
 
-// The number of worlds of a test. MSC_VO_RANDOM_WORLDS=500 in the environment: a long run.
-inline unsigned NumRandomWorlds(unsigned in_a_short_run) {
-  const char* number = std::getenv("MSC_VO_RANDOM_WORLDS");
+// A number of the environment for long runs.
+inline unsigned NumberFromEnvironment(const char* name, unsigned in_a_short_run) {
+  const char* number = std::getenv(name);
   return number == nullptr ? in_a_short_run : static_cast<unsigned>(std::atoi(number));
+}
+
+// The numbers of worlds and of the images of each: MSC_VO_RANDOM_WORLDS=400,
+// MSC_VO_RANDOM_IMAGES=90.
+inline unsigned NumRandomWorlds(unsigned in_a_short_run) {
+  return NumberFromEnvironment("MSC_VO_RANDOM_WORLDS", in_a_short_run);
+}
+inline int NumRandomImages(unsigned in_a_short_run) {
+  return static_cast<int>(NumberFromEnvironment("MSC_VO_RANDOM_IMAGES", in_a_short_run));
 }
 
 }  // namespace msc_vo
