@@ -59,10 +59,11 @@ def resident_mb(process):
     return None  # the process has ended
 
 
-def run(replay, folder, output, num_images, more):
+def run(replay, folder, output, num_images, checkpoint_interval):
     """Replays a sequence. Returns pairs (images so far, resident memory in MB)."""
     samples = []
-    process = replay.start(folder, "--output", output, "--quiet", "--set", "threads=1", *more,
+    process = replay.start(folder, "--output", output, "--quiet", "--set", "threads=1",
+                           "--checkpoint-interval", checkpoint_interval,
                            stdout=subprocess.DEVNULL, stderr=None)
     try:
         while process.poll() is None:
@@ -112,7 +113,7 @@ def main():
     parser.add_argument("--width", type=int, default=640)
     parser.add_argument("--scenes", nargs="+", choices=["house", "room"], default=["house", "room"])
     parser.add_argument("--output", type=pathlib.Path)
-    parser.add_argument("more", nargs="*", help="behind --: further arguments of the replay")
+    parser.add_argument("--checkpoint-interval", default="5", help="of the replay, seconds")
     arguments = parser.parse_args()
     replay = replay_process.Replay(arguments.command)
     failures = []
@@ -124,7 +125,8 @@ def main():
             count = max(2, min(2600 if scene == "house" else 260, arguments.images // ROWS))
             render(arguments, scene, count, once)
             play_back_and_forth(once, often, arguments.images)
-            rows = table(work / scene, run(replay, often, work / scene, arguments.images, arguments.more))
+            rows = table(work / scene, run(replay, often, work / scene, arguments.images,
+                                           arguments.checkpoint_interval))
             write(work / f"{scene}.csv", rows)
             print(scene, *(f"{name}: {[round(row[name], 1) for row in rows]}" for name in rows[0]), sep="\n  ")
             summary = json.loads((work / scene / "summary.json").read_text())
