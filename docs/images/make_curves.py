@@ -44,7 +44,9 @@ def draw_soak(folder):
             rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
         for plot, (name, title) in zip(plots, SOAK_CURVES.items()):
             plot.plot([row["images"] for row in rows], [row[name] for row in rows], marker=".", label=scene)
-            plot.set(title=title, xlabel="images so far", ylim=(0, None))
+            plot.set(title=title, xlabel="images so far")
+    for plot in plots:
+        plot.set_ylim(bottom=0)
     plots[0].legend()
     save(figure, "soak.svg")
 
