@@ -3,12 +3,12 @@
 
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/geometry/cell_index.h"
 
 namespace msc_vo {
 
@@ -40,12 +40,10 @@ struct DepthRanges {
     return {static_cast<double>(camera.width) / kColumns,
             static_cast<double>(camera.height) / kRows};
   }
-  /// Index of the cell that contains a pixel of the image.
+  /// Index of the cell that contains a pixel; of the nearest cell, outside the image.
   static int CellOf(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
     const Eigen::Vector2d cell = pixel.cwiseQuotient(CellSize(camera));
-    const int column = std::clamp(static_cast<int>(cell.x()), 0, kColumns - 1);
-    const int row = std::clamp(static_cast<int>(cell.y()), 0, kRows - 1);
-    return row * kColumns + column;
+    return CellIndex(cell.y(), kRows) * kColumns + CellIndex(cell.x(), kColumns);
   }
   /// Pixel in the middle of a cell.
   static Eigen::Vector2d CellCenter(const PinholeCamera& camera, int column, int row) {
