@@ -158,7 +158,7 @@ void CheckpointFile::ReadState(const std::function<void(BinaryReader&)>& read) {
   } catch (const std::exception& error) {
     Fail(path(), error.what());
   }
-  state_ = std::string();
+  std::string().swap(state_);
   journal_file_ = std::make_unique<GrowingBinary>(JournalPath(number_));
 }
 

@@ -66,7 +66,8 @@ void ObjectJournal::Keep(const std::vector<ObjectId>& roots) {
 void ObjectJournal::SetWritten() {
   written_checksum_ = checksum();
   written_ = size();
-  pending_.clear();
+  // A new journal begins with the whole map: its memory must not remain.
+  std::string().swap(pending_);
 }
 
 std::shared_ptr<void> ObjectJournal::FindLoaded(ObjectId id, const std::type_info& type) const {
@@ -94,7 +95,7 @@ void ObjectJournal::SetLoaded(ObjectId id, const std::shared_ptr<void>& object,
 }
 
 void ObjectJournal::FinishLoading() {
-  loaded_bytes_ = std::string();
+  std::string().swap(loaded_bytes_);
   loaded_.clear();
 }
 
