@@ -29,11 +29,11 @@ Checkpoints::Checkpoints(CheckpointFile file, RunIdentity identity, double inter
 
 void Checkpoints::Restore(Odometry* odometry, CostMeter* cost, LoopProgress* progress) {
   file_.ReadState([&](BinaryReader& archive) {
+    odometry->Restore(&archive);
+    if (parts_.gravity != nullptr) archive(*parts_.gravity);
     RunCost earlier_cost;
     archive(*progress, earlier_cost, *parts_.views);
     cost->AddEarlier(earlier_cost);
-    if (parts_.gravity != nullptr) archive(*parts_.gravity);
-    odometry->Restore(&archive);
   });
   Log().info("resumed at image {} from {}", progress->num_images, file_.path());
   pause_ = interval_;
@@ -51,9 +51,11 @@ void Checkpoints::Save(Odometry* odometry, const CostMeter& cost, const LoopProg
   try {
     file_.Save([&](BinaryWriter& archive) { archive(identity_); },
                [&](BinaryWriter& archive) {
-                 archive(progress, cost.Read(), *parts_.views);
+                 // Waits for the mapper, which calls the gravity factors.
+                 if (!odometry->Save(&archive)) return false;
                  if (parts_.gravity != nullptr) archive(*parts_.gravity);
-                 return odometry->Save(&archive);
+                 archive(progress, cost.Read(), *parts_.views);
+                 return true;
                });
   } catch (const std::exception& error) {
     if (!has_warned_) PrintWarning(std::string("no checkpoint: ") + error.what());
