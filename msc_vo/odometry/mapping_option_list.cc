@@ -227,11 +227,11 @@ void ListJoining(MapAlignmentOptions* joining, OptionLister* list) {
 }  // namespace
 
 void ListSnapshots(SnapshotOptions* snapshots, OptionLister* list) {
-  list->Add("latency_frames", &snapshots->latency_frames, {0, 1000, "frames"},
-            "Frames from a keyframe to the first one that is tracked in the map refined with it.")
+  list->Add("latency", &snapshots->latency, {0, 1000, "seconds"},
+            "Time from a keyframe to the first frame that is tracked in the map refined with it.")
       .MakeBasic("Increase if frames wait for the mapper; 0: no parallel mapping.");
-  list->Add("insertion_latency_frames", &snapshots->insertion_latency_frames, {0, 1000, "frames"},
-            "Frames from a keyframe to the first one that is tracked in a map with its new "
+  list->Add("insertion_latency", &snapshots->insertion_latency, {0, 1000, "seconds"},
+            "Time from a keyframe to the first frame that is tracked in a map with its new "
             "landmarks.");
 }
 

@@ -30,8 +30,9 @@ namespace msc_vo {
 
 namespace {
 
-// Images between two keyframes that take part in self-calibration: every fourth, up to three.
-constexpr int kCalibrationImageInterval = 4;
+// Images between two keyframes that take part in self-calibration: at least this far apart,
+// seconds, and up to three.
+constexpr double kCalibrationImageInterval = 0.12;
 constexpr size_t kMaxCalibrationImages = 3;
 
 // Largest time between a depth image and its colour image, seconds: the motion of the last two
@@ -100,7 +101,7 @@ struct Odometry::State {
   template <typename Archive>
   void Serialize(Archive& archive) {
     std::shared_ptr<const CameraIntrinsics> intrinsics = builder.intrinsics();
-    archive(intrinsics, builder, tracker, mapper, last_window, num_since_calibration_image, packet,
+    archive(intrinsics, builder, tracker, mapper, last_window, last_calibration_image_time, packet,
             results, relative_poses, segments, log, schedule);
     UseIntrinsics(intrinsics);
   }
@@ -116,8 +117,8 @@ struct Odometry::State {
   Mapper mapper;
   MapSnapshotPtr snapshot;  // of the last frame
   BundleAdjustmentSummary last_window;
-  int num_since_calibration_image = 0;  // frames
-  KeyframePacket packet;                // accumulates counts until the next keyframe
+  double last_calibration_image_time = 0.0;
+  KeyframePacket packet;  // accumulates counts until the next keyframe
   std::vector<FrameResult> results;
   std::vector<RelativePose> relative_poses;  // one per result
   SegmentLog segments;
@@ -200,10 +201,10 @@ void Odometry::State::KeepForCalibration(const TrackedFrame& tracked, const cv::
   if (!options.mapping.self_calibration || tracked.keyframe.is_due ||
       tracked.status != TrackingStatus::kTracked ||
       packet.calibration_images.size() >= kMaxCalibrationImages ||
-      ++num_since_calibration_image < kCalibrationImageInterval) {
+      tracked.frame->timestamp - last_calibration_image_time < kCalibrationImageInterval) {
     return;
   }
-  num_since_calibration_image = 0;
+  last_calibration_image_time = tracked.frame->timestamp;
   packet.calibration_images.push_back(
       {tracked.frame, depth.clone(), tracked.reference, tracked.cam_from_reference});
 }
@@ -225,7 +226,8 @@ void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat&
       packet.normals.push_back({normal.direction, normal.sigma});
     }
   }
-  schedule.Submit(static_cast<int>(results.size()) - 1, std::move(packet));
+  schedule.Submit(static_cast<int>(results.size()) - 1, tracked.frame->timestamp,
+                  std::move(packet));
   packet = {};
 }
 
@@ -296,9 +298,8 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   if (!state_->options.use_lines) built->lines.clear();
   const double features_ms = stopwatch.Milliseconds();
   state_->log.LogDepthSensor(state_->builder.depth_sensor());
-  const int index = static_cast<int>(state_->results.size());
   Stopwatch waiting;
-  state_->snapshot = state_->schedule.SnapshotAt(index);
+  state_->snapshot = state_->schedule.SnapshotAt(image.timestamp);
   const double waiting_ms = waiting.Milliseconds();
   const std::shared_ptr<const Frame> frame = state_->Recalibrated(built);
   const TrackedFrame tracked = state_->tracker.Track(frame, *state_->snapshot);
@@ -323,7 +324,8 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   state_->KeepForCalibration(tracked, image.depth);
   if (tracked.keyframe.is_due) {
     state_->SubmitKeyframe(tracked, image.depth);
-    state_->snapshot = state_->schedule.SnapshotAt(index);  // with this keyframe if latency is 0
+    // With this keyframe if the latency is 0.
+    state_->snapshot = state_->schedule.SnapshotAt(image.timestamp);
   }
   result = state_->results.back();
   if (state_->tracking_observer) {

@@ -9,9 +9,9 @@
 namespace msc_vo {
 
 bool SnapshotOptions::IsValid(std::string* error) const {
-  const char* negative = insertion_latency_frames < 0 ? "insertion_latency_frames"
-                         : latency_frames < 0         ? "latency_frames"
-                                                      : nullptr;
+  const char* negative = !(insertion_latency >= 0.0) ? "insertion_latency"
+                         : !(latency >= 0.0)         ? "latency"
+                                                     : nullptr;
   if (negative == nullptr) return true;
   *error = std::string("options: mapping.") + negative + " must not be negative";
   return false;
@@ -25,18 +25,18 @@ SnapshotSchedule::SnapshotSchedule(const SnapshotOptions& options,
       snapshot_(std::move(empty)),
       record_(std::move(record)) {}
 
-void SnapshotSchedule::Submit(int frame, KeyframePacket packet) {
+void SnapshotSchedule::Submit(int frame, double timestamp, KeyframePacket packet) {
   const bool begins_map = packet.begins_map;
   runner_->Submit(std::move(packet));
-  const int latency = options_.latency_frames;
-  const int insertion_latency = begins_map ? 0 : options_.insertion_latency_frames;
-  pending_.push_back({frame, frame + std::min(insertion_latency, latency)});
+  const double latency = options_.latency;
+  const double insertion_latency = begins_map ? 0.0 : options_.insertion_latency;
+  pending_.push_back({frame, timestamp + std::min(insertion_latency, latency)});
   pending_.back().begins_map = begins_map;
-  pending_.push_back({frame, frame + latency});
+  pending_.push_back({frame, timestamp + latency});
 }
 
-MapSnapshotPtr SnapshotSchedule::SnapshotAt(int frame) {
-  while (IsAnyDue(frame)) {
+MapSnapshotPtr SnapshotSchedule::SnapshotAt(double timestamp) {
+  while (IsAnyDue(timestamp)) {
     PendingStep& next = pending_.front();
     Take(Waits(), &next);
     if (!next.step) {
@@ -73,12 +73,12 @@ bool SnapshotSchedule::WaitForMapper() {
   return succeeded;
 }
 
-// Whether one of the pending maps is due at the frame. Earlier ones are then used as well, because
-// a keyframe is inserted into the map that has been refined with the previous one.
-bool SnapshotSchedule::IsAnyDue(int frame) const {
+// Whether one of the pending maps is due at the time of a frame. Earlier ones are then used as
+// well, because a keyframe is inserted into the map that has been refined with the previous one.
+bool SnapshotSchedule::IsAnyDue(double timestamp) const {
   if (snapshot_->map.keyframes().empty()) return !pending_.empty();
   return std::any_of(pending_.begin(), pending_.end(),
-                     [frame](const PendingStep& pending) { return pending.due <= frame; });
+                     [timestamp](const PendingStep& pending) { return pending.due <= timestamp; });
 }
 
 // Whether a frame waits for a map that is due; always for the first one of a segment.

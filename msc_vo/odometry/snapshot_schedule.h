@@ -15,16 +15,17 @@ namespace msc_vo {
 
 /// When frames are tracked in the map of a new keyframe.
 struct SnapshotOptions {
-  /// Frames from a keyframe to the first frame that is tracked in its map. The map is not used
-  /// earlier even if it is ready, so every frame is tracked in the same map however fast the mapper
-  /// is, and the trajectory does not depend on the number of threads. 0: the keyframe itself waits
-  /// for the map; 1: the same poses, but features of the next frame are extracted meanwhile; above:
-  /// frames are tracked in parallel with the mapper.
+  /// Seconds by time stamps from a keyframe to the frames that are tracked in its map. The map is
+  /// not used earlier even if it is ready, so every frame is tracked in the same map however fast
+  /// the mapper is, and the trajectory does not depend on the number of threads. 0: the keyframe
+  /// itself waits for the map; less than the interval of frames: the same poses, but features of
+  /// the next frame are extracted meanwhile; above: frames are tracked in parallel with the mapper.
   /// The insertion latency holds for the map with the keyframe's new landmarks, which is soon
-  /// ready; it counts no more than `latency_frames`, which holds for the map refined with the
-  /// keyframe. Chosen by measurement, see docs/lab/snapshot_latency.md.
-  int insertion_latency_frames = 1;
-  int latency_frames = 3;
+  /// ready; it counts no more than `latency`, which holds for the map refined with the keyframe. At
+  /// 30 Hz, the defaults are the next and the third frame. Chosen by measurement, see
+  /// docs/lab/snapshot_latency.md.
+  double insertion_latency = 0.02;
+  double latency = 0.08;
   /// No frame waits for a map, as with a live camera: a map that is late is used from the first
   /// frame that finds it ready. A run is repeatable as long as no map is late.
   bool realtime = false;
@@ -45,12 +46,13 @@ class SnapshotSchedule {
   SnapshotSchedule(const SnapshotOptions& options, std::unique_ptr<MappingRunner> runner,
                    MapSnapshotPtr empty, Recorder record);
 
-  /// Submits frame `frame` as a keyframe. Frames are numbered from 0.
-  void Submit(int frame, KeyframePacket packet);
+  /// Submits frame `frame`, with the time stamp `timestamp`, as a keyframe. Frames are numbered
+  /// from 0.
+  void Submit(int frame, double timestamp, KeyframePacket packet);
 
-  /// The map in which frame `frame` is tracked. Throws the exception of a failed step, once, when
-  /// its map would have become visible; the previous map remains in use.
-  MapSnapshotPtr SnapshotAt(int frame);
+  /// The map in which the frame with time stamp `timestamp` is tracked. Throws the exception of a
+  /// failed step, once, when its map would have become visible; the previous map remains in use.
+  MapSnapshotPtr SnapshotAt(double timestamp);
 
   /// Waits for all keyframes. The maps of later frames do not change. Throws the exception of a
   /// failed step unless SnapshotAt() has; all other steps have been recorded by then.
@@ -72,7 +74,7 @@ class SnapshotSchedule {
   // A step whose map has not been used yet.
   struct PendingStep {
     int keyframe = 0;                                // number of its frame
-    int due = 0;                                     // first frame to be tracked in its map
+    double due = 0.0;                                // time of the first frame in its map
     std::optional<MappingStep> step = std::nullopt;  // set when it was taken from the runner
     bool late = false;
     bool begins_map = false;  // the first map of a segment: no later frame is tracked without it
@@ -84,7 +86,7 @@ class SnapshotSchedule {
     }
   };
 
-  bool IsAnyDue(int frame) const;
+  bool IsAnyDue(double timestamp) const;
   bool Waits() const;
   // Takes the step from the runner unless it was taken before. It remains empty if it is not ready
   // and `wait` is false.

@@ -11,8 +11,8 @@ namespace msc_vo {
 bool KeyframePolicyOptions::IsValid(std::string* error) const {
   if (!(min_tracked_ratio >= 0.0 && min_tracked_ratio <= 1.0)) {
     *error = "keyframe policy: min_tracked_ratio must be in [0, 1]";
-  } else if (min_interval < 1 || max_interval < min_interval) {
-    *error = "keyframe policy: 1 <= min_interval <= max_interval must hold";
+  } else if (!(min_interval >= 0.0 && max_interval >= min_interval)) {
+    *error = "keyframe policy: 0 <= min_interval <= max_interval must hold";
   } else if (!(close_relative_sigma > 0.0)) {
     *error = "keyframe policy: close_relative_sigma must be positive";
   } else {
@@ -54,18 +54,17 @@ KeyframePolicy::TrackedRatios KeyframePolicy::ComputeRatios(const Frame& frame,
 }
 
 bool KeyframePolicy::IsDue(const Frame& frame, const FrameMatches& matches) {
-  ++frames_since_keyframe_;
   const TrackedRatios ratios = ComputeRatios(frame, matches);
   best_.all = std::max(best_.all, ratios.all);
   best_.close = std::max(best_.close, ratios.close);
-  if (frames_since_keyframe_ < options_.min_interval) return false;
-  return frames_since_keyframe_ >= options_.max_interval ||
-         ratios.all < options_.min_tracked_ratio * best_.all ||
+  const double seconds = frame.timestamp - last_keyframe_time_;
+  if (seconds < options_.min_interval) return false;
+  return seconds >= options_.max_interval || ratios.all < options_.min_tracked_ratio * best_.all ||
          ratios.close < options_.min_tracked_ratio * best_.close;
 }
 
-void KeyframePolicy::Inserted() {
-  frames_since_keyframe_ = 0;
+void KeyframePolicy::Inserted(double timestamp) {
+  last_keyframe_time_ = timestamp;
   best_ = {0.0, 0.0};
 }
 

@@ -15,9 +15,9 @@ struct KeyframePolicyOptions {
   /// value since the last keyframe. Relative, because the ratio depends on how well features repeat
   /// in the scene. Chosen by measurement, see docs/lab/tracking.md.
   double min_tracked_ratio = 0.8;
-  /// Frames between keyframes, at least and at most.
-  int min_interval = 2;
-  int max_interval = 30;
+  /// Seconds between keyframes, at least and at most: two and thirty frames at 30 Hz.
+  double min_interval = 0.05;
+  double max_interval = 1.0;
   /// A point is close if the standard deviation of its depth is below this fraction of the depth
   /// (0.5 %: 3.5 m for a Kinect). Close points determine the translation, so that their ratio is
   /// tested separately too.
@@ -35,14 +35,14 @@ class KeyframePolicy {
 
   /// Call once for every frame with a pose.
   bool IsDue(const Frame& frame, const FrameMatches& matches);
-  /// Reports that the last frame became a keyframe.
-  void Inserted();
+  /// Reports that the frame with time stamp `timestamp` became a keyframe.
+  void Inserted(double timestamp);
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, frames_since_keyframe, best] = *this;  // all members, or it does not compile
-    archive(frames_since_keyframe, best);
+    auto& [options, last_keyframe_time, best] = *this;  // all members, or it does not compile
+    archive(last_keyframe_time, best);
   }
 
  private:
@@ -59,7 +59,7 @@ class KeyframePolicy {
   TrackedRatios ComputeRatios(const Frame& frame, const FrameMatches& matches) const;
 
   KeyframePolicyOptions options_;
-  int frames_since_keyframe_ = 0;
+  double last_keyframe_time_ = 0.0;
   TrackedRatios best_{0.0, 0.0};  // highest ratios since the last keyframe
 };
 

@@ -100,7 +100,7 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
     if (IsNewSegmentDue(map, tracked)) return BeginSegment(std::move(raw), last_from_world);
     if (!HasLeftMap(map, tracked)) return tracked;
     tracked.keyframe.is_due = true;
-    policy_.Inserted();
+    policy_.Inserted(timestamp);
     UpdateMotion(last_from_world, &tracked);
     last_ = tracked;
     return tracked;
@@ -149,7 +149,7 @@ void Tracker::StartSegment(SegmentStart start, TrackedFrame* tracked) {
   tracked->status = TrackingStatus::kTracked;
   tracked->segment_start = start;
   tracked->keyframe.is_due = true;
-  policy_.Inserted();
+  policy_.Inserted(tracked->frame->timestamp);
   motion_.Reset(tracked->frame->timestamp);
   plausibility_ = PosePlausibility();
   in_gap_ = false;
@@ -369,7 +369,7 @@ void Tracker::ProposeKeyframe(const MapSnapshot& snapshot, TrackedFrame* tracked
   tracked->keyframe.is_due = policy_.IsDue(*tracked->frame, tracked->matches) ||
                              enables_compensation || tracked->in_inactive_map.has_value();
   if (!tracked->keyframe.is_due) return;
-  policy_.Inserted();
+  policy_.Inserted(tracked->frame->timestamp);
   tracked->frame = MarkDynamicFeatures(options_.pose.consensus, snapshot.map, *tracked);
 }
 

@@ -128,7 +128,7 @@ class OptionLimitsRun : public testing::Test {
     OdometryOptions options;
     options.threads = 1;
     options.features.points.num_points = 300;
-    options.tracking.keyframes.max_interval = 2;
+    options.tracking.keyframes.max_interval = 0.06;  // seconds: every second frame
     return options;
   }
 

@@ -28,7 +28,7 @@ SyntheticSequenceOptions Scene() {
 Odometry MakeOdometry() {
   static const PinholeCamera camera = SyntheticSequence(Scene()).camera();
   OdometryOptions options;
-  options.tracking.keyframes.max_interval = 2;
+  options.tracking.keyframes.max_interval = 0.06;  // seconds: every second frame
   return Odometry(options, camera, {});
 }
 

@@ -68,9 +68,9 @@ TEST_F(OdometryTest, IsDeterministicAtAnyThreadCount) {
   one_thread.threads = 1;
   OdometryOptions two_threads;
   two_threads.threads = 2;
-  for (const int latency_frames : {0, 1, 4}) {
-    one_thread.snapshots.latency_frames = latency_frames;
-    two_threads.snapshots.latency_frames = latency_frames;
+  for (const double latency : {0.0, 0.02, 0.12}) {
+    one_thread.snapshots.latency = latency;
+    two_threads.snapshots.latency = latency;
     ExpectSameBytes(Run(one_thread, *images_), Run(two_threads, *images_));
   }
 }
@@ -87,9 +87,9 @@ TEST_F(OdometryTest, TimesStagesNotLongerThanTheFrame) {
 
 TEST_F(OdometryTest, HasTheSamePosesWithALatencyOfOneFrame) {
   OdometryOptions none;
-  none.snapshots.latency_frames = 0;
+  none.snapshots.latency = 0.0;
   OdometryOptions one;
-  one.snapshots.latency_frames = 1;
+  one.snapshots.latency = 0.02;
   ExpectSameBytes(Run(none, *images_), Run(one, *images_));
 }
 
@@ -106,7 +106,7 @@ TEST_F(OdometryTest, HasTheSamePosesInRealTimeIfNoMapIsLate) {
 TEST_F(OdometryTest, TracksEveryFrameInRealTime) {
   OdometryOptions options;
   options.snapshots.realtime = true;
-  options.snapshots.latency_frames = 0;
+  options.snapshots.latency = 0.0;
   const OdometryResult result = Run(options, *images_);
   EXPECT_EQ(Count(result, TrackingStatus::kTracked), kNumFrames);
   EXPECT_LT(ApeRmse(result), 0.006);  // as without real time
@@ -139,7 +139,7 @@ TEST_F(OdometryTest, ThrowsAnErrorOfTheMapperAndContinues) {
 
 TEST_F(OdometryTest, ThrowsAPendingErrorOnFinishOnce) {
   OdometryOptions options;
-  options.snapshots.insertion_latency_frames = options.snapshots.latency_frames = 1000;
+  options.snapshots.insertion_latency = options.snapshots.latency = 1000.0;
   Odometry odometry(options, camera_, LensDistortion());
   odometry.SetWindowObserver([](KeyframeId, const BundleAdjustmentOptions&, const WindowData&) {
     throw std::runtime_error("disk full");

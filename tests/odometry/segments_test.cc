@@ -155,8 +155,8 @@ TEST_F(SegmentsTest, KeepGoingInRealTime) {
   Append(*other_room_, 0, 29);
   OdometryOptions options = QuickOptions(2);
   options.snapshots.realtime = true;
-  options.snapshots.insertion_latency_frames = 5;
-  options.snapshots.latency_frames = 5;
+  options.snapshots.insertion_latency = 0.15;
+  options.snapshots.latency = 0.15;
   const OdometryResult result = Run(options);
   ASSERT_EQ(result.segments.size(), 2u);
   // The map of the second segment is waited for: its second frame is tracked in it.

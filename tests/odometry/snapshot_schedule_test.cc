@@ -50,13 +50,13 @@ class FakeRunner : public MappingRunner {
   int num_taken_ = 0;
 };
 
+// Frame k has the time stamp k seconds.
 class SnapshotScheduleTest : public testing::Test {
  protected:
-  SnapshotSchedule MakeSchedule(int insertion_latency_frames, int latency_frames,
-                                bool realtime = false) {
+  SnapshotSchedule MakeSchedule(double insertion_latency, double latency, bool realtime = false) {
     auto runner = std::make_unique<FakeRunner>();
     runner_ = runner.get();
-    return {{insertion_latency_frames, latency_frames, realtime},
+    return {{insertion_latency, latency, realtime},
             std::move(runner),
             std::make_shared<MapSnapshot>(),
             [this](int frame, const MappingStep&) { recorded_.push_back(frame); }};
@@ -78,45 +78,59 @@ TEST_F(SnapshotScheduleTest, UsesMapsAtAFixedLatencyHoweverFastTheMapperIs) {
     SnapshotSchedule schedule = MakeSchedule(1, 3);
     runner_->num_ready = num_ready;
     EXPECT_EQ(schedule.SnapshotAt(0)->newest_keyframe, kNoId);
-    schedule.Submit(0, {});
+    schedule.Submit(0, 0.0, {});
     EXPECT_THAT(StepsUsed(&schedule, 0, 5), ElementsAre(0, 0, 0, 1, 1));  // frame 0 waits for it
-    schedule.Submit(4, {});
+    schedule.Submit(4, 4.0, {});
     EXPECT_THAT(StepsUsed(&schedule, 4, 9), ElementsAre(1, 2, 2, 3, 3));
-    schedule.Submit(8, {});
+    schedule.Submit(8, 8.0, {});
     EXPECT_THAT(StepsUsed(&schedule, 8, 12), ElementsAre(3, 4, 4, 5));
     EXPECT_THAT(recorded_, ElementsAre(0, 0, 4, 4, 8, 8));
   }
 }
 
+// At twice the frame rate, maps are used at the same times.
+TEST_F(SnapshotScheduleTest, MeasuresLatencyByTimeStamps) {
+  SnapshotSchedule schedule = MakeSchedule(0.02, 0.08);
+  schedule.Submit(0, 0.0, {});
+  schedule.SnapshotAt(0.0);
+  std::vector<int> steps;
+  for (int i = 1; i < 8; ++i) steps.push_back(schedule.SnapshotAt(i / 60.0)->newest_keyframe);
+  EXPECT_THAT(steps, ElementsAre(0, 0, 0, 0, 1, 1, 1));
+  schedule.Submit(8, 8 / 60.0, {});
+  steps.clear();
+  for (int i = 9; i < 15; ++i) steps.push_back(schedule.SnapshotAt(i / 60.0)->newest_keyframe);
+  EXPECT_THAT(steps, ElementsAre(1, 2, 2, 2, 3, 3));
+}
+
 TEST_F(SnapshotScheduleTest, UsesTheRefinedMapNotLaterThanTheNextInsertion) {
   SnapshotSchedule schedule = MakeSchedule(1, 9);
-  schedule.Submit(0, {});
+  schedule.Submit(0, 0.0, {});
   EXPECT_THAT(StepsUsed(&schedule, 0, 3), ElementsAre(0, 0, 0));
-  schedule.Submit(2, {});
+  schedule.Submit(2, 2.0, {});
   EXPECT_THAT(StepsUsed(&schedule, 2, 5), ElementsAre(0, 2, 2));
 }
 
 TEST_F(SnapshotScheduleTest, UsesTheMapOfAKeyframeForItselfWithoutLatency) {
   SnapshotSchedule schedule = MakeSchedule(1, 0);
-  schedule.Submit(0, {});
+  schedule.Submit(0, 0.0, {});
   schedule.SnapshotAt(0);
-  schedule.Submit(1, {});
+  schedule.Submit(1, 1.0, {});
   EXPECT_EQ(schedule.SnapshotAt(1)->newest_keyframe, 3);
 }
 
 TEST_F(SnapshotScheduleTest, LimitsTheLatencyOfInsertionToThatOfRefinement) {
   SnapshotSchedule schedule = MakeSchedule(5, 2);
-  schedule.Submit(0, {});
+  schedule.Submit(0, 0.0, {});
   schedule.SnapshotAt(0);
-  schedule.Submit(4, {});
+  schedule.Submit(4, 4.0, {});
   EXPECT_THAT(StepsUsed(&schedule, 4, 7), ElementsAre(1, 1, 3));
 }
 
 TEST_F(SnapshotScheduleTest, DoesNotWaitForLateMapsInRealTime) {
   SnapshotSchedule schedule = MakeSchedule(1, 3, true);
-  schedule.Submit(0, {});
+  schedule.Submit(0, 0.0, {});
   EXPECT_EQ(schedule.SnapshotAt(1)->newest_keyframe, 0);  // the first map is waited for
-  schedule.Submit(1, {});
+  schedule.Submit(1, 1.0, {});
   EXPECT_THAT(StepsUsed(&schedule, 2, 20), testing::Each(0));  // others are not
   EXPECT_EQ(schedule.num_late(), 1);
   runner_->num_ready = 3;
@@ -130,11 +144,11 @@ TEST_F(SnapshotScheduleTest, DoesNotWaitForLateMapsInRealTime) {
 TEST_F(SnapshotScheduleTest, WaitsForTheFirstMapOfASegment) {
   for (const bool realtime : {false, true}) {
     SnapshotSchedule schedule = MakeSchedule(5, 9, realtime);
-    schedule.Submit(0, {});
+    schedule.Submit(0, 0.0, {});
     EXPECT_THAT(StepsUsed(&schedule, 0, 2), ElementsAre(0, 0));
     KeyframePacket packet;
     packet.begins_map = true;
-    schedule.Submit(2, std::move(packet));
+    schedule.Submit(2, 2.0, std::move(packet));
     // The pending step of the old map comes first.
     EXPECT_THAT(StepsUsed(&schedule, 2, 5), ElementsAre(2, 2, 2));
     EXPECT_EQ(schedule.num_late(), 0);
@@ -144,20 +158,20 @@ TEST_F(SnapshotScheduleTest, WaitsForTheFirstMapOfASegment) {
 TEST_F(SnapshotScheduleTest, UsesTheSameMapsInRealTimeIfNoneIsLate) {
   SnapshotSchedule schedule = MakeSchedule(1, 3, true);
   runner_->num_ready = 6;
-  schedule.Submit(0, {});
+  schedule.Submit(0, 0.0, {});
   EXPECT_THAT(StepsUsed(&schedule, 0, 5), ElementsAre(0, 0, 0, 1, 1));
-  schedule.Submit(4, {});
+  schedule.Submit(4, 4.0, {});
   EXPECT_THAT(StepsUsed(&schedule, 4, 7), ElementsAre(1, 2, 2));
-  schedule.Submit(6, {});
+  schedule.Submit(6, 6.0, {});
   EXPECT_THAT(StepsUsed(&schedule, 6, 10), ElementsAre(2, 4, 4, 5));
   EXPECT_EQ(schedule.num_late(), 0);
 }
 
 TEST_F(SnapshotScheduleTest, RecordsAllStepsOnDrainWithoutChangingLaterFrames) {
   SnapshotSchedule schedule = MakeSchedule(1, 3);
-  schedule.Submit(0, {});
+  schedule.Submit(0, 0.0, {});
   schedule.SnapshotAt(1);
-  schedule.Submit(3, {});
+  schedule.Submit(3, 3.0, {});
   schedule.Drain();
   EXPECT_THAT(recorded_, ElementsAre(0, 0, 3, 3));
   EXPECT_THAT(StepsUsed(&schedule, 3, 7), ElementsAre(1, 2, 2, 3));
@@ -168,12 +182,12 @@ TEST_F(SnapshotScheduleTest, RecordsAllStepsOnDrainWithoutChangingLaterFrames) {
 TEST_F(SnapshotScheduleTest, ThrowsAnErrorOnceWhenItsMapIsDue) {
   SnapshotSchedule schedule = MakeSchedule(1, 3);
   runner_->failing = 3;
-  schedule.Submit(0, {});
+  schedule.Submit(0, 0.0, {});
   schedule.SnapshotAt(1);
-  schedule.Submit(1, {});
+  schedule.Submit(1, 1.0, {});
   EXPECT_THAT(StepsUsed(&schedule, 2, 4), ElementsAre(2, 2));
   EXPECT_THROW(schedule.SnapshotAt(4), std::runtime_error);
-  schedule.Submit(4, {});
+  schedule.Submit(4, 4.0, {});
   EXPECT_THAT(StepsUsed(&schedule, 4, 8), ElementsAre(2, 4, 4, 5));
   EXPECT_THAT(recorded_, ElementsAre(0, 0, 1, 4, 4));
 }
@@ -181,9 +195,9 @@ TEST_F(SnapshotScheduleTest, ThrowsAnErrorOnceWhenItsMapIsDue) {
 TEST_F(SnapshotScheduleTest, KeepsTheMapAfterAFailedInsertion) {
   SnapshotSchedule schedule = MakeSchedule(1, 3);
   runner_->failing = 2;
-  schedule.Submit(0, {});
+  schedule.Submit(0, 0.0, {});
   schedule.SnapshotAt(1);
-  schedule.Submit(3, {});
+  schedule.Submit(3, 3.0, {});
   EXPECT_THROW(schedule.SnapshotAt(4), std::runtime_error);
   EXPECT_THAT(StepsUsed(&schedule, 4, 8), ElementsAre(1, 1, 1, 1));
   EXPECT_THAT(recorded_, ElementsAre(0, 0));
@@ -192,9 +206,9 @@ TEST_F(SnapshotScheduleTest, KeepsTheMapAfterAFailedInsertion) {
 TEST_F(SnapshotScheduleTest, ThrowsAnErrorOnDrainIfItHasNotBeenThrown) {
   SnapshotSchedule schedule = MakeSchedule(1, 5);
   runner_->failing = 3;
-  schedule.Submit(0, {});
+  schedule.Submit(0, 0.0, {});
   schedule.SnapshotAt(1);
-  schedule.Submit(1, {});
+  schedule.Submit(1, 1.0, {});
   EXPECT_THROW(schedule.Drain(), std::runtime_error);
   EXPECT_THAT(recorded_, ElementsAre(0, 0, 1));
   EXPECT_NO_THROW(schedule.Drain());
@@ -203,10 +217,10 @@ TEST_F(SnapshotScheduleTest, ThrowsAnErrorOnDrainIfItHasNotBeenThrown) {
 
 TEST_F(SnapshotScheduleTest, RefusesNegativeLatency) {
   std::string error;
-  EXPECT_FALSE((SnapshotOptions{1, -1, false}).IsValid(&error));
-  EXPECT_THAT(error, testing::HasSubstr("mapping.latency_frames"));
-  EXPECT_FALSE((SnapshotOptions{-1, 1, false}).IsValid(&error));
-  EXPECT_THAT(error, testing::HasSubstr("insertion_latency_frames"));
+  EXPECT_FALSE((SnapshotOptions{1.0, -1.0, false}).IsValid(&error));
+  EXPECT_THAT(error, testing::HasSubstr("mapping.latency "));
+  EXPECT_FALSE((SnapshotOptions{-1.0, 1.0, false}).IsValid(&error));
+  EXPECT_THAT(error, testing::HasSubstr("mapping.insertion_latency "));
 }
 
 }  // namespace

@@ -8,12 +8,14 @@
 namespace msc_vo {
 namespace {
 
-// Tests a frame with `num` points at `depth` metres, of which the first `tracked` are matched.
-bool IsDue(KeyframePolicy* policy, int num, int tracked, double depth = 2.0) {
+// Tests a frame at time `timestamp` with `num` points at a depth of two metres, of which the first
+// `tracked` are matched. The last keyframe was at 0 s.
+bool IsDue(KeyframePolicy* policy, int num, int tracked, double timestamp = 0.5) {
   Frame frame;
+  frame.timestamp = timestamp;
   frame.points.resize(num);
   for (PointFeature& point : frame.points) {
-    point.inverse_depth = 1.0 / depth;
+    point.inverse_depth = 0.5;
     point.inverse_depth_sigma = 1.425e-3;
   }
   FrameMatches matches;
@@ -38,26 +40,30 @@ TEST(KeyframePolicy, IsNotDueForFewFeaturesAlone) {
 
 TEST(KeyframePolicy, IsDueAfterTheMaximumInterval) {
   KeyframePolicyOptions options;
-  options.max_interval = 5;
+  options.max_interval = 0.5;
   KeyframePolicy policy(options);
-  for (int i = 0; i < 4; ++i) EXPECT_FALSE(IsDue(&policy, 100, 60));
-  EXPECT_TRUE(IsDue(&policy, 100, 60));
-  policy.Inserted();
-  EXPECT_FALSE(IsDue(&policy, 100, 60));
+  for (const double timestamp : {0.1, 0.2, 0.4}) {
+    EXPECT_FALSE(IsDue(&policy, 100, 60, timestamp));
+  }
+  EXPECT_TRUE(IsDue(&policy, 100, 60, 0.5));
+  policy.Inserted(0.5);
+  EXPECT_FALSE(IsDue(&policy, 100, 60, 0.9));
+  EXPECT_TRUE(IsDue(&policy, 100, 60, 1.0));
 }
 
 TEST(KeyframePolicy, IsNotDueBeforeTheMinimumInterval) {
   KeyframePolicyOptions options;
-  options.min_interval = 3;
+  options.min_interval = 0.3;
   KeyframePolicy policy(options);
-  EXPECT_FALSE(IsDue(&policy, 100, 90));
-  EXPECT_FALSE(IsDue(&policy, 100, 10));
-  EXPECT_TRUE(IsDue(&policy, 100, 10));
+  EXPECT_FALSE(IsDue(&policy, 100, 90, 0.1));
+  EXPECT_FALSE(IsDue(&policy, 100, 10, 0.2));
+  EXPECT_TRUE(IsDue(&policy, 100, 10, 0.3));
 }
 
 // Of 40 close and 60 distant points, 60 are tracked in every frame, but fewer and fewer close ones.
 TEST(KeyframePolicy, TestsCloseFeaturesSeparately) {
   Frame frame;
+  frame.timestamp = 0.5;
   frame.points.resize(100);
   for (int i = 0; i < 100; ++i) {
     frame.points[i].inverse_depth = i < 40 ? 1.0 : 0.1;
@@ -79,7 +85,7 @@ TEST(KeyframePolicy, ChecksItsOptions) {
   std::string error;
   KeyframePolicyOptions options;
   EXPECT_TRUE(options.IsValid(&error));
-  options.max_interval = 0;
+  options.max_interval = 0.01;
   EXPECT_FALSE(options.IsValid(&error));
   EXPECT_THAT(error, ::testing::HasSubstr("max_interval"));
 }
