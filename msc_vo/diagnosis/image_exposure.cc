@@ -38,8 +38,8 @@ Histogram HistogramOf(const cv::Mat& gray) {
 
 // Widths of the edges in the rows of the image at local maxima of the horizontal gradient.
 double MedianEdgeWidth(const cv::Mat& gray) {
-  constexpr int kReach = 8;          // pixels, on either side of the edge
-  constexpr double kMinSlope = 4.0;  // grey levels per pixel
+  const int reach = std::max(8, gray.cols / 80);  // pixels, on either side of the edge
+  constexpr double kMinSlope = 4.0;               // grey levels per pixel
   constexpr size_t kMinEdges = 50;
   struct Edge {
     double slope;
@@ -49,7 +49,7 @@ double MedianEdgeWidth(const cv::Mat& gray) {
   for (int y = 1; y + 1 < gray.rows; y += 2) {
     const uint8_t* row = gray.ptr<uint8_t>(y);
     const auto slope = [row](int x) { return 0.5 * (row[x + 1] - row[x - 1]); };
-    for (int x = kReach + 1; x + kReach + 1 < gray.cols; ++x) {
+    for (int x = reach + 1; x + reach + 1 < gray.cols; ++x) {
       const double s = slope(x);
       const double magnitude = std::abs(s);
       if (magnitude < kMinSlope || std::abs(slope(x - 1)) > magnitude ||
@@ -59,8 +59,8 @@ double MedianEdgeWidth(const cv::Mat& gray) {
       // The edge extends as far as the grey levels are monotonic.
       const int sign = s > 0.0 ? 1 : -1;
       int left = x - 1, right = x + 1;
-      while (left > x - kReach && sign * (row[left] - row[left - 1]) > 0) --left;
-      while (right < x + kReach && sign * (row[right + 1] - row[right]) > 0) ++right;
+      while (left > x - reach && sign * (row[left] - row[left - 1]) > 0) --left;
+      while (right < x + reach && sign * (row[right + 1] - row[right]) > 0) ++right;
       edges.push_back({magnitude, std::abs(row[right] - row[left]) / magnitude});
     }
   }

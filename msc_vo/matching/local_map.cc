@@ -16,7 +16,7 @@ namespace msc_vo {
 
 namespace {
 
-// Highest pyramid level of the extractor's default; nearer points cannot be matched.
+// Highest pyramid level of the extractor's default.
 constexpr int kMaxLevel = 7;
 // Cosine of the largest viewing-angle difference, 60 degrees: beyond it ORB descriptors change.
 constexpr double kMinViewingCosine = 0.5;
@@ -61,6 +61,13 @@ void AddLandmarks(const std::vector<LandmarkId>& observed, IdSet* landmarks) {
   }
 }
 
+// Highest level that the frame may have features of; nearer points cannot be matched.
+int HighestLevel(const Frame& frame) {
+  int level = kMaxLevel;
+  for (const PointFeature& point : frame.points) level = std::max(level, point.level);
+  return level;
+}
+
 // Whether the ray from the camera to the landmark is near to its mean viewing direction.
 bool IsViewedAlike(const Landmark& landmark, const Eigen::Vector3d& ray) {
   return landmark.viewing_direction.dot(ray) >= kMinViewingCosine * ray.norm();
@@ -83,14 +90,15 @@ LineCandidate CandidateOf(const LineLandmark& line) {
 }
 
 void AddPoint(const PointLandmark& point, const Frame& frame, const Rigid3& cam_from_world,
-              const Eigen::Vector3d& center, std::vector<PointCandidate>* candidates) {
+              const Eigen::Vector3d& center, int highest_level,
+              std::vector<PointCandidate>* candidates) {
   const Eigen::Vector3d ray = point.position - center;
   if (!IsViewedAlike(point, ray)) return;
   const double level = point.PredictLevel(ray.norm());
   // One level of tolerance on both sides, as in the matcher.
-  if (!(level > -1.5 && level < kMaxLevel + 1.5)) return;
+  if (!(level > -1.5 && level < highest_level + 1.5)) return;
   PointCandidate candidate = CandidateOf(point);
-  candidate.level = std::clamp(static_cast<int>(std::lround(level)), 0, kMaxLevel);
+  candidate.level = std::clamp(static_cast<int>(std::lround(level)), 0, highest_level);
   if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) candidates->push_back(candidate);
 }
 
@@ -141,8 +149,9 @@ LocalMap SelectLocalMap(const Map& map, const Frame& frame, const Rigid3& cam_fr
     AddLandmarks(keyframe.lines, &lines);
   }
   const Eigen::Vector3d center = cam_from_world.OriginInSource();
+  const int highest_level = HighestLevel(frame);
   points.VisitAll([&](LandmarkId id) {
-    AddPoint(*map.FindPoint(id), frame, cam_from_world, center, &local.points);
+    AddPoint(*map.FindPoint(id), frame, cam_from_world, center, highest_level, &local.points);
   });
   lines.VisitAll([&](LandmarkId id) {
     AddLine(*map.FindLine(id), frame, cam_from_world, center, &local.lines);
@@ -153,8 +162,9 @@ LocalMap SelectLocalMap(const Map& map, const Frame& frame, const Rigid3& cam_fr
 LocalMap SelectVisibleLandmarks(const Map& map, const Frame& frame, const Rigid3& cam_from_world) {
   LocalMap local;
   const Eigen::Vector3d center = cam_from_world.OriginInSource();
+  const int highest_level = HighestLevel(frame);
   for (const auto& [id, point] : map.points()) {
-    AddPoint(point, frame, cam_from_world, center, &local.points);
+    AddPoint(point, frame, cam_from_world, center, highest_level, &local.points);
   }
   for (const auto& [id, line] : map.lines()) {
     AddLine(line, frame, cam_from_world, center, &local.lines);

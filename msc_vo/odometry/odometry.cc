@@ -30,8 +30,7 @@ namespace msc_vo {
 
 namespace {
 
-// Images between two keyframes that take part in self-calibration: at least this far apart,
-// seconds, and up to three.
+// Images between two keyframes that take part in self-calibration: seconds apart, and how many.
 constexpr double kCalibrationImageInterval = 0.12;
 constexpr size_t kMaxCalibrationImages = 3;
 

@@ -160,6 +160,16 @@ TEST_F(LocalMapTest, PredictsThePyramidLevelFromTheDistance) {
   EXPECT_EQ(level(-1.6), kNoId);
 }
 
+TEST_F(LocalMapTest, CoversTheLevelsOfAHigherPyramid) {
+  Frame frame = *frame_;
+  frame.points[1].level = 11;
+  const Rigid3 near = LookFrom(0.0, 2.0 * std::pow(kPyramidScale, -10.0));
+  const LocalMap local = SelectLocalMap(map_, frame, near, {}, 2, kAllKeyframes);
+  ASSERT_THAT(PointIds(local), ElementsAre(only_2_));
+  EXPECT_EQ(local.points.front().level, 10);
+  EXPECT_THAT(PointIds(SelectFrom(near)), IsEmpty());
+}
+
 TEST_F(LocalMapTest, LevelsDoNotLimitLines) {
   EXPECT_THAT(LineIds(SelectFrom(LookFrom(0.0, 0.35))), ElementsAre(line_2_));
   EXPECT_THAT(LineIds(SelectFrom(LookFrom(0.0, 6.0))), ElementsAre(line_2_));
