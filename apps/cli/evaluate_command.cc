@@ -13,6 +13,7 @@
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/evaluation_output.h"
+#include "apps/cli/number_range.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/evaluation/line_error.h"
@@ -180,7 +181,7 @@ void AddOptionsOfTheField(CLI::App* command, Arguments* arguments) {
   command
       ->add_option("--delta", arguments->options.rpe_delta.value,
                    "Distance between the poses of the relative error (RPE)")
-      ->check(CLI::PositiveNumber)
+      ->check(NumberFrom(1e-6, 1e6))
       ->capture_default_str();
   command
       ->add_option("--delta-unit", arguments->delta_unit,
@@ -223,7 +224,7 @@ Command AddEvaluateCommand(CLI::App* app) {
   command
       ->add_option("--max-dt", arguments->options.max_time_difference,
                    "Maximum time between matched poses, seconds")
-      ->check(CLI::NonNegativeNumber)
+      ->check(NumberFrom(0.0, 1e6))
       ->capture_default_str();
   command->footer(HelpFooter("msc_vo evaluate my_sequence/groundtruth.txt out/trajectory.txt"));
   return {command, [arguments] { return Run(*arguments); }};

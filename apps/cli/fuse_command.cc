@@ -16,6 +16,7 @@
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/fusion_module.h"
 #include "apps/cli/interrupt_guard.h"
+#include "apps/cli/number_range.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/sequence_arguments.h"
 #include "msc_vo/datasets/image_file.h"
@@ -225,12 +226,12 @@ int Run(const Arguments& arguments) {
 
 void AddFusionArguments(CLI::App* command, Arguments* arguments) {
   command->add_option("--voxel", arguments->fusion.voxel_size, "Size of a voxel, metres")
-      ->check(CLI::Range(0.001, 1.0))
+      ->check(NumberFrom(0.001, 1.0))
       ->capture_default_str();
   command
       ->add_option("--max-depth", arguments->fusion.max_depth,
                    "Measurements beyond this depth are ignored, metres")
-      ->check(CLI::Range(0.1, 100.0))
+      ->check(NumberFrom(0.1, 100.0))
       ->capture_default_str();
   command
       ->add_option("--min-observations", arguments->fusion.min_observations,
@@ -240,7 +241,7 @@ void AddFusionArguments(CLI::App* command, Arguments* arguments) {
   command
       ->add_option("--max-memory", arguments->fusion.max_memory_mib,
                    "Stop with an error if the voxels need more, MiB")
-      ->check(CLI::Range(16.0, 1e6))
+      ->check(NumberFrom(16.0, 1e6))
       ->capture_default_str();
   command->add_option("--every", arguments->every, "Use every Nth image with a pose")
       ->check(CLI::Range(1, 100000))

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/cli/number_range.h"
 #include "msc_vo/datasets/accelerometer.h"
 #include "msc_vo/geometry/angles.h"
 
@@ -34,7 +35,7 @@ void AddGravityArguments(CLI::App* command, GravityArguments* arguments) {
   command
       ->add_option("--gravity-sigma", arguments->sigma,
                    "Standard deviation of the measured vertical, degrees; more for a biased sensor")
-      ->check(CLI::PositiveNumber)
+      ->check(NumberFrom(1e-6, 90.0))
       ->needs(gravity)
       ->capture_default_str();
 }

@@ -11,6 +11,7 @@
 
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/number_range.h"
 
 namespace msc_vo {
 
@@ -68,7 +69,7 @@ void AddOutputArguments(CLI::App* command, ReplayArguments* arguments) {
       ->add_option("--checkpoint-interval", arguments->checkpoint_interval,
                    "Seconds between the checkpoints that --resume continues from; 0: after every "
                    "image")
-      ->check(CLI::NonNegativeNumber)
+      ->check(NumberFrom(0.0, 1e6))
       ->capture_default_str();
 }
 

@@ -15,6 +15,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/interrupt_guard.h"
+#include "apps/cli/number_range.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/rendered_frames.h"
 #include "msc_vo/datasets/camera_file.h"
@@ -225,16 +226,19 @@ void AddSensorArguments(CLI::App* command, Arguments* arguments) {
   command
       ->add_option("--depth-delay", arguments->options.depth_delay,
                    "Delay of depth images relative to colour images, seconds")
+      ->check(NumberFrom(-1.0, 1.0))
       ->capture_default_str();
   command
       ->add_option(
           "--readout-time", arguments->options.readout_time,
           "Readout time of a rolling shutter, seconds (Kinect: 0.026); time stamps refer to "
           "the middle row")
+      ->check(NumberFrom(-1.0, 1.0))
       ->capture_default_str();
   command
       ->add_option("--image-sigma", arguments->options.image_sigma,
                    "Noise of colour images, standard deviation in grey levels")
+      ->check(NumberFrom(0.0, 255.0))
       ->capture_default_str();
 }
 
@@ -242,7 +246,7 @@ void AddCameraArguments(CLI::App* command, Arguments* arguments) {
   command
       ->add_option("--focal-length", arguments->options.focal_length,
                    "Focal length of the colour camera, pixels; default: 525/640 of the width")
-      ->check(CLI::PositiveNumber);
+      ->check(NumberFrom(1.0, 1e6));
   CLI::Option* lens =
       command
           ->add_option("--lens", arguments->lens,
@@ -292,14 +296,19 @@ Command AddSynthesizeCommand(CLI::App* app) {
   command
       ->add_option("--seed", arguments->options.seed,
                    "Seed of the scene, the trajectory and the noise")
+      ->check(NumberFrom(0.0, 1e15))
       ->capture_default_str();
   command
       ->add_option("--width", arguments->options.width,
                    "Image width, pixels; the focal length is proportional")
+      ->check(CLI::Range(32, 8192))
       ->capture_default_str();
-  command->add_option("--height", arguments->height,
-                      "Image height, pixels; default: 3/4 of the width");
-  command->add_option("--fps", arguments->options.fps, "Frames per second")->capture_default_str();
+  command
+      ->add_option("--height", arguments->height, "Image height, pixels; default: 3/4 of the width")
+      ->check(CLI::Range(32, 8192));
+  command->add_option("--fps", arguments->options.fps, "Frames per second")
+      ->check(NumberFrom(0.01, 1000.0))
+      ->capture_default_str();
   command
       ->add_option("--stride", arguments->stride,
                    "Write every STRIDE-th image of the path only, as a slower camera would")
@@ -307,6 +316,7 @@ Command AddSynthesizeCommand(CLI::App* app) {
       ->capture_default_str();
   command
       ->add_option("--speed", arguments->options.path.speed, "Speed of the camera, metres/second")
+      ->check(NumberFrom(0.001, 100.0))
       ->capture_default_str();
   AddSensorArguments(command, arguments.get());
   AddCameraArguments(command, arguments.get());

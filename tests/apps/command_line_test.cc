@@ -3,6 +3,10 @@
 
 // Help, exit codes and error messages of all sub-commands.
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include "tests/apps/command_process.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
@@ -44,6 +48,37 @@ TEST_F(CommandLineTest, ReturnsTwoForInvalidArguments) {
     EXPECT_EQ(outcome.exit_code, 2) << testing::PrintToString(arguments);
     EXPECT_FALSE(outcome.output.empty());
   }
+}
+
+TEST_F(CommandLineTest, RefusesNumbersOutOfRange) {
+  const std::vector<std::vector<std::string>> commands = {
+      {"synthesize", Path("room"), "--fps"},
+      {"synthesize", Path("room"), "--speed"},
+      {"synthesize", Path("room"), "--width"},
+      {"synthesize", Path("room"), "--height"},
+      {"synthesize", Path("room"), "--seed"},
+      {"synthesize", Path("room"), "--image-sigma"},
+      {"synthesize", Path("room"), "--focal-length"},
+      {"synthesize", Path("room"), "--depth-delay"},
+      {"synthesize", Path("room"), "--readout-time"},
+      {"replay", Path("room"), "--max-frames"},
+      {"replay", Path("room"), "--checkpoint-interval"},
+      {"replay", Path("room"), "--gravity", "--gravity-sigma"},
+      {"evaluate", Path("truth.txt"), Path("estimate.txt"), "--delta"},
+      {"evaluate", Path("truth.txt"), Path("estimate.txt"), "--max-dt"},
+      {"check", Path("room"), "--images"},
+      {"fuse", Path("room"), Path("trajectory.txt"), "--output", Path("mesh.ply"), "--voxel"},
+      {"fuse", Path("room"), Path("trajectory.txt"), "--output", Path("mesh.ply"), "--max-depth"}};
+  for (const std::vector<std::string>& command : commands) {
+    for (const char* value : {"-2", "nan", "1e300"}) {
+      std::vector<std::string> arguments = command;
+      arguments.back() += std::string("=") + value;
+      const CommandOutcome outcome = RunCommand(arguments);
+      EXPECT_EQ(outcome.exit_code, 2) << arguments.back() << "\n" << outcome.output;
+      EXPECT_THAT(outcome.output, HasSubstr(command.back()));
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(Path("room")));
 }
 
 TEST_F(CommandLineTest, SuggestsSimilarCommands) {

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace msc_vo {
+
+/// Checks that an argument is a number from `min` to `max`. Unlike CLI::Range, it refuses nan, and
+/// negative numbers for unsigned integers.
+CLI::Validator NumberFrom(double min, double max);
+
+}  // namespace msc_vo
