@@ -52,7 +52,7 @@ FrameResult FrameLoop::Skip(const UnreadableImage& image) {
 
 // Ends a run early if the problem is evidently not a few damaged images.
 void FrameLoop::CheckNumUnreadable(int num_done) const {
-  constexpr int kMaxBeforeFirstReadable = 30;  // one second at 30 frames per second
+  constexpr int kMaxBeforeFirstReadable = 30;
   if (2 * progress_.num_unreadable > num_frames_) {
     throw std::runtime_error(
         FormatText("more than half of the %d images cannot be read; the first: ", num_frames_) +

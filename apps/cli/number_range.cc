@@ -3,21 +3,21 @@
 
 #include "apps/cli/number_range.h"
 
+#include <optional>
 #include <string>
 
 #include "msc_vo/text/format_text.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
 CLI::Validator NumberFrom(double min, double max) {
   const std::string range = FormatText("[%.12g - %.12g]", min, max);
   return CLI::Validator(
-      [min, max, range](std::string& text) {
-        double value = 0.0;
-        const bool is_number = CLI::detail::lexical_cast(text, value);
-        return is_number && value >= min && value <= max
-                   ? std::string()
-                   : "Value " + text + " not in range " + range;
+      [min, max, range](const std::string& text) {
+        const std::optional<double> value = ParseNumber(text);
+        return value && *value >= min && *value <= max ? std::string()
+                                                       : "Value " + text + " not in range " + range;
       },
       "in " + range);
 }

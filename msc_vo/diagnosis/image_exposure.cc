@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include <opencv2/imgproc.hpp>
+
 #include "msc_vo/diagnosis/quantile.h"
 #include "msc_vo/text/format_text.h"
 
@@ -36,10 +38,14 @@ Histogram HistogramOf(const cv::Mat& gray) {
   return histogram;
 }
 
+// Width of the widest image that edges are measured in, pixels: blur of a larger one would exceed
+// their extent, and their slope would be that of noise.
+constexpr int kMaxWidth = 640;
+
 // Widths of the edges in the rows of the image at local maxima of the horizontal gradient.
 double MedianEdgeWidth(const cv::Mat& gray) {
-  const int reach = std::max(8, gray.cols / 80);  // pixels, on either side of the edge
-  constexpr double kMinSlope = 4.0;               // grey levels per pixel
+  constexpr int kReach = 8;          // pixels, on either side of the edge
+  constexpr double kMinSlope = 4.0;  // grey levels per pixel
   constexpr size_t kMinEdges = 50;
   struct Edge {
     double slope;
@@ -49,7 +55,7 @@ double MedianEdgeWidth(const cv::Mat& gray) {
   for (int y = 1; y + 1 < gray.rows; y += 2) {
     const uint8_t* row = gray.ptr<uint8_t>(y);
     const auto slope = [row](int x) { return 0.5 * (row[x + 1] - row[x - 1]); };
-    for (int x = reach + 1; x + reach + 1 < gray.cols; ++x) {
+    for (int x = kReach + 1; x + kReach + 1 < gray.cols; ++x) {
       const double s = slope(x);
       const double magnitude = std::abs(s);
       if (magnitude < kMinSlope || std::abs(slope(x - 1)) > magnitude ||
@@ -59,8 +65,8 @@ double MedianEdgeWidth(const cv::Mat& gray) {
       // The edge extends as far as the grey levels are monotonic.
       const int sign = s > 0.0 ? 1 : -1;
       int left = x - 1, right = x + 1;
-      while (left > x - reach && sign * (row[left] - row[left - 1]) > 0) --left;
-      while (right < x + reach && sign * (row[right + 1] - row[right]) > 0) ++right;
+      while (left > x - kReach && sign * (row[left] - row[left - 1]) > 0) --left;
+      while (right < x + kReach && sign * (row[right + 1] - row[right]) > 0) ++right;
       edges.push_back({magnitude, std::abs(row[right] - row[left]) / magnitude});
     }
   }
@@ -183,7 +189,12 @@ ImageExposure MeasureExposure(const cv::Mat& gray) {
   int level = 255;
   for (; level > 0 && above + histogram[level] <= 0.05 * count; --level) above += histogram[level];
   exposure.bright_level = level;
-  exposure.edge_width = MedianEdgeWidth(gray);
+  const double reduction = std::max(1.0, static_cast<double>(gray.cols) / kMaxWidth);
+  cv::Mat reduced = gray;
+  if (reduction > 1.0) {
+    cv::resize(gray, reduced, {}, 1.0 / reduction, 1.0 / reduction, cv::INTER_AREA);
+  }
+  exposure.edge_width = reduction * MedianEdgeWidth(reduced);
   return exposure;
 }
 

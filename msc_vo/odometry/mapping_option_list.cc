@@ -227,12 +227,12 @@ void ListJoining(MapAlignmentOptions* joining, OptionLister* list) {
 }  // namespace
 
 void ListSnapshots(SnapshotOptions* snapshots, OptionLister* list) {
-  list->Add("latency", &snapshots->latency, {0, 1000, "seconds"},
+  list->Add("latency", &snapshots->latency, {0, 2, "seconds"},
             "Time from a keyframe to the first frame that is tracked in the map refined with it.")
       .MakeBasic("Increase if frames wait for the mapper; 0: no parallel mapping.");
-  list->Add("insertion_latency", &snapshots->insertion_latency, {0, 1000, "seconds"},
+  list->Add("insertion_latency", &snapshots->insertion_latency, {0, 2, "seconds"},
             "Time from a keyframe to the first frame that is tracked in a map with its new "
-            "landmarks.");
+            "landmarks; at most mapping.latency.");
 }
 
 void ListMapping(MapperOptions* mapping, OptionLister* list) {

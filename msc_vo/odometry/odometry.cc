@@ -30,8 +30,8 @@ namespace msc_vo {
 
 namespace {
 
-// Images between two keyframes that take part in self-calibration: seconds apart, and how many.
-constexpr double kCalibrationImageInterval = 0.12;
+// Images between keyframes for self-calibration: least time after another or a keyframe, number.
+constexpr double kCalibrationImageInterval = 0.115;
 constexpr size_t kMaxCalibrationImages = 3;
 
 // Largest time between a depth image and its colour image, seconds: the motion of the last two
@@ -225,6 +225,7 @@ void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat&
       packet.normals.push_back({normal.direction, normal.sigma});
     }
   }
+  last_calibration_image_time = tracked.frame->timestamp;
   schedule.Submit(static_cast<int>(results.size()) - 1, tracked.frame->timestamp,
                   std::move(packet));
   packet = {};
@@ -323,8 +324,7 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   state_->KeepForCalibration(tracked, image.depth);
   if (tracked.keyframe.is_due) {
     state_->SubmitKeyframe(tracked, image.depth);
-    // With this keyframe if the latency is 0.
-    state_->snapshot = state_->schedule.SnapshotAt(image.timestamp);
+    state_->snapshot = state_->schedule.SnapshotAt(image.timestamp);  // with it if latency is 0
   }
   result = state_->results.back();
   if (state_->tracking_observer) {

@@ -141,7 +141,7 @@ class Odometry {
   /// Waits for the mapper and writes the state of the run (checkpoint/checkpoint_file.h). A run
   /// that restores it continues with the same results, bit by bit. Writes nothing and returns false
   /// if a keyframe step has failed and its exception is not thrown yet. Custom factors have to save
-  /// the state of their own.
+  /// the state of their own, after this function has returned: the mapper calls them until then.
   bool Save(BinaryWriter* archive);
   /// Restores the state of a run with the same options, apart from the number of threads, and the
   /// same camera. Call before the first image. Throws std::runtime_error if the archive has no such

@@ -18,14 +18,15 @@ struct SnapshotOptions {
   /// Seconds by time stamps from a keyframe to the frames that are tracked in its map. The map is
   /// not used earlier even if it is ready, so every frame is tracked in the same map however fast
   /// the mapper is, and the trajectory does not depend on the number of threads. 0: the keyframe
-  /// itself waits for the map; less than the interval of frames: the same poses, but features of
+  /// itself waits for the map; at most the interval of frames: the same poses, but features of
   /// the next frame are extracted meanwhile; above: frames are tracked in parallel with the mapper.
   /// The insertion latency holds for the map with the keyframe's new landmarks, which is soon
   /// ready; it counts no more than `latency`, which holds for the map refined with the keyframe. At
-  /// 30 Hz, the defaults are the next and the third frame. Chosen by measurement, see
+  /// 30 Hz, the defaults are the next and the third frame; they are no multiples of usual
+  /// intervals, so that rounding decides nothing. Chosen by measurement, see
   /// docs/lab/snapshot_latency.md.
-  double insertion_latency = 0.02;
-  double latency = 0.08;
+  double insertion_latency = 0.015;
+  double latency = 0.085;
   /// No frame waits for a map, as with a live camera: a map that is late is used from the first
   /// frame that finds it ready. A run is repeatable as long as no map is late.
   bool realtime = false;
@@ -74,7 +75,7 @@ class SnapshotSchedule {
   // A step whose map has not been used yet.
   struct PendingStep {
     int keyframe = 0;                                // number of its frame
-    double due = 0.0;                                // time of the first frame in its map
+    double due = 0.0;                                // earliest time of a frame in its map
     std::optional<MappingStep> step = std::nullopt;  // set when it was taken from the runner
     bool late = false;
     bool begins_map = false;  // the first map of a segment: no later frame is tracked without it

@@ -59,10 +59,10 @@ void ListKeyframePolicy(KeyframePolicyOptions* policy, OptionLister* list) {
             "A keyframe is inserted when the ratio of tracked features falls below this fraction "
             "of its best value since the last keyframe.")
       .MakeBasic("Increase for more keyframes, decrease to save time.");
-  list->Add("max_interval", &policy->max_interval, {0, 1000, "seconds"},
+  list->Add("max_interval", &policy->max_interval, {0, 10, "seconds"},
             "Longest time between keyframes.")
       .MakeBasic("Decrease for more keyframes while the camera is at rest.");
-  list->Add("min_interval", &policy->min_interval, {0, 1000, "seconds"},
+  list->Add("min_interval", &policy->min_interval, {0, 1, "seconds"},
             "Shortest time between keyframes.");
   list->Add("close_relative_sigma", &policy->close_relative_sigma, {1e-6, 10},
             "A point is close if the standard deviation of its depth is below this fraction of the "

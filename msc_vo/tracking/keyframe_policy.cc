@@ -8,11 +8,19 @@
 
 namespace msc_vo {
 
+namespace {
+
+// Longest time between two frames that counts towards the intervals of keyframes, seconds: the
+// first frame after a gap, whose pose is uncertain, is no keyframe because of the gap alone.
+constexpr double kMaxFrameInterval = 0.5;
+
+}  // namespace
+
 bool KeyframePolicyOptions::IsValid(std::string* error) const {
   if (!(min_tracked_ratio >= 0.0 && min_tracked_ratio <= 1.0)) {
     *error = "keyframe policy: min_tracked_ratio must be in [0, 1]";
   } else if (!(min_interval >= 0.0 && max_interval >= min_interval)) {
-    *error = "keyframe policy: 0 <= min_interval <= max_interval must hold";
+    *error = "keyframe policy: 0 <= min_interval <= max_interval must hold (seconds)";
   } else if (!(close_relative_sigma > 0.0)) {
     *error = "keyframe policy: close_relative_sigma must be positive";
   } else {
@@ -57,14 +65,17 @@ bool KeyframePolicy::IsDue(const Frame& frame, const FrameMatches& matches) {
   const TrackedRatios ratios = ComputeRatios(frame, matches);
   best_.all = std::max(best_.all, ratios.all);
   best_.close = std::max(best_.close, ratios.close);
-  const double seconds = frame.timestamp - last_keyframe_time_;
-  if (seconds < options_.min_interval) return false;
-  return seconds >= options_.max_interval || ratios.all < options_.min_tracked_ratio * best_.all ||
+  seconds_since_keyframe_ += std::min(frame.timestamp - last_frame_time_, kMaxFrameInterval);
+  last_frame_time_ = frame.timestamp;
+  if (seconds_since_keyframe_ < options_.min_interval) return false;
+  return seconds_since_keyframe_ >= options_.max_interval ||
+         ratios.all < options_.min_tracked_ratio * best_.all ||
          ratios.close < options_.min_tracked_ratio * best_.close;
 }
 
 void KeyframePolicy::Inserted(double timestamp) {
-  last_keyframe_time_ = timestamp;
+  last_frame_time_ = timestamp;
+  seconds_since_keyframe_ = 0.0;
   best_ = {0.0, 0.0};
 }
 

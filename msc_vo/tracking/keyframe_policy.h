@@ -15,9 +15,10 @@ struct KeyframePolicyOptions {
   /// value since the last keyframe. Relative, because the ratio depends on how well features repeat
   /// in the scene. Chosen by measurement, see docs/lab/tracking.md.
   double min_tracked_ratio = 0.8;
-  /// Seconds between keyframes, at least and at most: two and thirty frames at 30 Hz.
-  double min_interval = 0.05;
-  double max_interval = 1.0;
+  /// Seconds between keyframes, at least and at most: two and thirty frames at 30 Hz, and no
+  /// multiples of usual intervals, so that rounding decides nothing.
+  double min_interval = 0.045;
+  double max_interval = 0.99;
   /// A point is close if the standard deviation of its depth is below this fraction of the depth
   /// (0.5 %: 3.5 m for a Kinect). Close points determine the translation, so that their ratio is
   /// tested separately too.
@@ -41,8 +42,9 @@ class KeyframePolicy {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, last_keyframe_time, best] = *this;  // all members, or it does not compile
-    archive(last_keyframe_time, best);
+    auto& [options, last_frame_time, seconds_since_keyframe, best] =
+        *this;  // all members, or it does not compile
+    archive(last_frame_time, seconds_since_keyframe, best);
   }
 
  private:
@@ -59,8 +61,9 @@ class KeyframePolicy {
   TrackedRatios ComputeRatios(const Frame& frame, const FrameMatches& matches) const;
 
   KeyframePolicyOptions options_;
-  double last_keyframe_time_ = 0.0;
-  TrackedRatios best_{0.0, 0.0};  // highest ratios since the last keyframe
+  double last_frame_time_ = 0.0;         // of the last frame with a pose
+  double seconds_since_keyframe_ = 0.0;  // gaps count no longer than kMaxFrameInterval
+  TrackedRatios best_{0.0, 0.0};         // highest ratios since the last keyframe
 };
 
 }  // namespace msc_vo

@@ -70,7 +70,7 @@ TEST_F(CommandLineTest, RefusesNumbersOutOfRange) {
       {"fuse", Path("room"), Path("trajectory.txt"), "--output", Path("mesh.ply"), "--voxel"},
       {"fuse", Path("room"), Path("trajectory.txt"), "--output", Path("mesh.ply"), "--max-depth"}};
   for (const std::vector<std::string>& command : commands) {
-    for (const char* value : {"-2", "nan", "1e300"}) {
+    for (const char* value : {"-2", "nan", "inf", "1e300"}) {
       std::vector<std::string> arguments = command;
       arguments.back() += std::string("=") + value;
       const CommandOutcome outcome = RunCommand(arguments);

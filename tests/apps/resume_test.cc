@@ -175,7 +175,7 @@ TEST_F(ResumeTest, RefusesAnotherRun) {
   Stop("out", 5, SIGKILL);
   ExpectRefused(RunCommand({"replay", Path("room"), "--resume", Path("out"), "--set",
                             "mapping.latency=0.05"}),
-                "is of another run: option mapping.latency was '0.08' and is '0.05' now");
+                "is of another run: option mapping.latency was '0.085' and is '0.05' now");
   const CommandOutcome option = Resume("out", {"--no-lines"});
   EXPECT_EQ(option.exit_code, 2);
   EXPECT_THAT(option.output, HasSubstr("leave out --no-lines"));

@@ -12,7 +12,7 @@ namespace {
 // Stripes an eighth of the width wide, whose edges are blurred by a Gaussian of `sigma` pixels.
 cv::Mat BlurredStripes(int width, double sigma) {
   cv::Mat image(width * 3 / 4, width, CV_8UC1);
-  for (int x = 0; x < width; ++x) image.col(x).setTo(x * 8 / width % 2 == 0 ? 20 : 240);
+  for (int x = 0; x < width; ++x) image.col(x).setTo(x * 8 / width % 2 == 0 ? 90 : 150);
   cv::GaussianBlur(image, image, cv::Size(), sigma);
   return image;
 }

@@ -85,12 +85,12 @@ TEST_F(OdometryTest, TimesStagesNotLongerThanTheFrame) {
   }
 }
 
-TEST_F(OdometryTest, HasTheSamePosesWithALatencyOfOneFrame) {
+TEST_F(OdometryTest, HasTheSamePosesWithALatencyShorterThanAFrame) {
   OdometryOptions none;
   none.snapshots.latency = 0.0;
-  OdometryOptions one;
-  one.snapshots.latency = 0.02;
-  ExpectSameBytes(Run(none, *images_), Run(one, *images_));
+  OdometryOptions shorter;
+  shorter.snapshots.latency = 0.02;
+  ExpectSameBytes(Run(none, *images_), Run(shorter, *images_));
 }
 
 TEST_F(OdometryTest, HasTheSamePosesInRealTimeIfNoMapIsLate) {

@@ -88,18 +88,30 @@ TEST_F(SnapshotScheduleTest, UsesMapsAtAFixedLatencyHoweverFastTheMapperIs) {
   }
 }
 
-// At twice the frame rate, maps are used at the same times.
+// The first frames after a keyframe that are tracked in its map and in the refined one.
 TEST_F(SnapshotScheduleTest, MeasuresLatencyByTimeStamps) {
-  SnapshotSchedule schedule = MakeSchedule(0.02, 0.08);
-  schedule.Submit(0, 0.0, {});
-  schedule.SnapshotAt(0.0);
-  std::vector<int> steps;
-  for (int i = 1; i < 8; ++i) steps.push_back(schedule.SnapshotAt(i / 60.0)->newest_keyframe);
-  EXPECT_THAT(steps, ElementsAre(0, 0, 0, 0, 1, 1, 1));
-  schedule.Submit(8, 8 / 60.0, {});
-  steps.clear();
-  for (int i = 9; i < 15; ++i) steps.push_back(schedule.SnapshotAt(i / 60.0)->newest_keyframe);
-  EXPECT_THAT(steps, ElementsAre(1, 2, 2, 2, 3, 3));
+  const auto first_frames = [this](double start, double fps) {
+    const SnapshotOptions defaults;
+    SnapshotSchedule schedule = MakeSchedule(defaults.insertion_latency, defaults.latency);
+    schedule.Submit(0, start, {});
+    schedule.SnapshotAt(start);
+    schedule.SnapshotAt(start + 1.0);
+    schedule.Submit(1, start + 2.0, {});
+    std::vector<int> frames = {0, 0};
+    for (int k = 1; frames[1] == 0 && k < 100; ++k) {
+      const KeyframeId step = schedule.SnapshotAt(start + 2.0 + k / fps)->newest_keyframe;
+      if (frames[0] == 0 && step >= 2) frames[0] = k;
+      if (step == 3) frames[1] = k;
+    }
+    return frames;
+  };
+  for (const double start : {-1000.0, 0.0, 1.0, 1305031102.175304}) {
+    EXPECT_THAT(first_frames(start, 60.0), ElementsAre(1, 6)) << start;
+    EXPECT_THAT(first_frames(start, 50.0), ElementsAre(1, 5)) << start;
+    EXPECT_THAT(first_frames(start, 30.0), ElementsAre(1, 3)) << start;
+    EXPECT_THAT(first_frames(start, 25.0), ElementsAre(1, 3)) << start;
+    EXPECT_THAT(first_frames(start, 5.0), ElementsAre(1, 1)) << start;
+  }
 }
 
 TEST_F(SnapshotScheduleTest, UsesTheRefinedMapNotLaterThanTheNextInsertion) {

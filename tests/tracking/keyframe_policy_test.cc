@@ -8,8 +8,15 @@
 namespace msc_vo {
 namespace {
 
+// A policy whose last keyframe was at `timestamp`.
+KeyframePolicy PolicyAfterKeyframe(const KeyframePolicyOptions& options, double timestamp = 0.0) {
+  KeyframePolicy policy(options);
+  policy.Inserted(timestamp);
+  return policy;
+}
+
 // Tests a frame at time `timestamp` with `num` points at a depth of two metres, of which the first
-// `tracked` are matched. The last keyframe was at 0 s.
+// `tracked` are matched.
 bool IsDue(KeyframePolicy* policy, int num, int tracked, double timestamp = 0.5) {
   Frame frame;
   frame.timestamp = timestamp;
@@ -24,7 +31,7 @@ bool IsDue(KeyframePolicy* policy, int num, int tracked, double timestamp = 0.5)
 }
 
 TEST(KeyframePolicy, IsDueWhenTheTrackedRatioFalls) {
-  KeyframePolicy policy{KeyframePolicyOptions()};
+  KeyframePolicy policy = PolicyAfterKeyframe({});
   EXPECT_FALSE(IsDue(&policy, 100, 60));
   EXPECT_FALSE(IsDue(&policy, 100, 60));
   EXPECT_FALSE(IsDue(&policy, 100, 54));
@@ -32,16 +39,39 @@ TEST(KeyframePolicy, IsDueWhenTheTrackedRatioFalls) {
 }
 
 TEST(KeyframePolicy, IsNotDueForFewFeaturesAlone) {
-  KeyframePolicy policy{KeyframePolicyOptions()};
+  KeyframePolicy policy = PolicyAfterKeyframe({});
   EXPECT_FALSE(IsDue(&policy, 1000, 600));
   EXPECT_FALSE(IsDue(&policy, 25, 15));
   EXPECT_FALSE(IsDue(&policy, 0, 0));
 }
 
-TEST(KeyframePolicy, IsDueAfterTheMaximumInterval) {
+// The number of the first frame after a keyframe at `start` that is due, at `fps` frames per
+// second.
+int FirstDue(double start, double fps, int tracked) {
+  KeyframePolicy policy = PolicyAfterKeyframe({}, start);
+  // The best ratio is that of the first frame.
+  for (int k = 1; k < 1000; ++k) {
+    if (IsDue(&policy, 100, k == 1 ? 90 : tracked, start + k / fps)) return k;
+  }
+  return -1;
+}
+
+TEST(KeyframePolicy, KeepsItsIntervalsAtEveryRateAndOriginOfTime) {
+  for (const double start : {-1000.0, 0.0, 1.0, 1305031102.175304}) {
+    EXPECT_EQ(FirstDue(start, 30.0, 90), 30) << start;
+    EXPECT_EQ(FirstDue(start, 60.0, 90), 60) << start;
+    EXPECT_EQ(FirstDue(start, 25.0, 90), 25) << start;
+    EXPECT_EQ(FirstDue(start, 5.0, 90), 5) << start;
+    EXPECT_EQ(FirstDue(start, 30.0, 10), 2) << start;
+    EXPECT_EQ(FirstDue(start, 60.0, 10), 3) << start;
+    EXPECT_EQ(FirstDue(start, 20.0, 10), 2) << start;
+  }
+}
+
+TEST(KeyframePolicy, BeginsTheIntervalWithTheKeyframe) {
   KeyframePolicyOptions options;
-  options.max_interval = 0.5;
-  KeyframePolicy policy(options);
+  options.max_interval = 0.45;
+  KeyframePolicy policy = PolicyAfterKeyframe(options);
   for (const double timestamp : {0.1, 0.2, 0.4}) {
     EXPECT_FALSE(IsDue(&policy, 100, 60, timestamp));
   }
@@ -51,10 +81,18 @@ TEST(KeyframePolicy, IsDueAfterTheMaximumInterval) {
   EXPECT_TRUE(IsDue(&policy, 100, 60, 1.0));
 }
 
+TEST(KeyframePolicy, IsNotDueBecauseOfAGap) {
+  KeyframePolicy policy = PolicyAfterKeyframe({});
+  EXPECT_FALSE(IsDue(&policy, 100, 60, 0.1));
+  EXPECT_FALSE(IsDue(&policy, 100, 60, 20.0));  // counts half a second
+  EXPECT_FALSE(IsDue(&policy, 100, 60, 20.3));
+  EXPECT_TRUE(IsDue(&policy, 100, 60, 20.5));
+}
+
 TEST(KeyframePolicy, IsNotDueBeforeTheMinimumInterval) {
   KeyframePolicyOptions options;
-  options.min_interval = 0.3;
-  KeyframePolicy policy(options);
+  options.min_interval = 0.25;
+  KeyframePolicy policy = PolicyAfterKeyframe(options);
   EXPECT_FALSE(IsDue(&policy, 100, 90, 0.1));
   EXPECT_FALSE(IsDue(&policy, 100, 10, 0.2));
   EXPECT_TRUE(IsDue(&policy, 100, 10, 0.3));
@@ -75,7 +113,7 @@ TEST(KeyframePolicy, TestsCloseFeaturesSeparately) {
     for (int i = 40; i < 40 + distant; ++i) tracked.points.push_back({i, i, {0, 0, 0}, true});
     return tracked;
   };
-  KeyframePolicy policy{KeyframePolicyOptions()};
+  KeyframePolicy policy = PolicyAfterKeyframe({});
   EXPECT_FALSE(policy.IsDue(frame, matches(40, 20)));
   EXPECT_FALSE(policy.IsDue(frame, matches(36, 24)));
   EXPECT_TRUE(policy.IsDue(frame, matches(30, 30)));  // close: 0.75 of the best ratio
