@@ -150,8 +150,8 @@ TEST_F(CheckpointTest, SavesWhatTheImagesTellAboutTheSensor) {
 
 TEST_F(CheckpointTest, SavesNothingWhileAnExceptionOfTheMapperIsPending) {
   OdometryOptions options;
-  options.snapshots.insertion_latency = 0.08;
-  options.snapshots.latency = 0.08;
+  options.snapshots.insertion_latency = 0.085;
+  options.snapshots.latency = 0.085;
   options.mapping.min_window_interval = 0.0;
   Odometry odometry(options, camera_, LensDistortion());
   odometry.SetWindowObserver([](KeyframeId, const BundleAdjustmentOptions&, const WindowData&) {

@@ -139,7 +139,7 @@ TEST_F(OdometryTest, ThrowsAnErrorOfTheMapperAndContinues) {
 
 TEST_F(OdometryTest, ThrowsAPendingErrorOnFinishOnce) {
   OdometryOptions options;
-  options.snapshots.insertion_latency = options.snapshots.latency = 1000.0;
+  options.snapshots.insertion_latency = options.snapshots.latency = 2.0;
   Odometry odometry(options, camera_, LensDistortion());
   odometry.SetWindowObserver([](KeyframeId, const BundleAdjustmentOptions&, const WindowData&) {
     throw std::runtime_error("disk full");
