@@ -61,14 +61,14 @@ KeyframePolicy::TrackedRatios KeyframePolicy::ComputeRatios(const Frame& frame,
   return {all.Ratio(), close.Ratio()};
 }
 
-bool KeyframePolicy::IsDue(const Frame& frame, const FrameMatches& matches) {
+bool KeyframePolicy::IsDue(const Frame& frame, const FrameMatches& matches, bool certain) {
   const TrackedRatios ratios = ComputeRatios(frame, matches);
   best_.all = std::max(best_.all, ratios.all);
   best_.close = std::max(best_.close, ratios.close);
   seconds_since_keyframe_ += std::min(frame.timestamp - last_frame_time_, kMaxFrameInterval);
   last_frame_time_ = frame.timestamp;
   if (seconds_since_keyframe_ < options_.min_interval) return false;
-  return seconds_since_keyframe_ >= options_.max_interval ||
+  return (certain && seconds_since_keyframe_ >= options_.max_interval) ||
          ratios.all < options_.min_tracked_ratio * best_.all ||
          ratios.close < options_.min_tracked_ratio * best_.close;
 }

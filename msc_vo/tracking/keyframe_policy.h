@@ -34,8 +34,9 @@ class KeyframePolicy {
  public:
   explicit KeyframePolicy(const KeyframePolicyOptions& options) : options_(options) {}
 
-  /// Call once for every frame with a pose.
-  bool IsDue(const Frame& frame, const FrameMatches& matches);
+  /// Call once for every frame with a pose. One that is not `certain` is not due because of
+  /// max_interval.
+  bool IsDue(const Frame& frame, const FrameMatches& matches, bool certain = true);
   /// Reports that the frame with time stamp `timestamp` became a keyframe.
   void Inserted(double timestamp);
 

@@ -10,13 +10,19 @@ namespace {
 // Seconds for which the frames that follow are implausible, too: the default of
 // SegmentOptions::max_search, for which a lost map is searched.
 constexpr double kImplausibleSeconds = 5.0;
+// A search is made because the camera moves faster than predicted.
+constexpr double kSearchFactor = 3.0;
 
 }  // namespace
 
-void PosePlausibility::Observe(double timestamp, const CameraVelocity& velocity, bool after_gap) {
-  if (!after_gap) {
+void PosePlausibility::Observe(double timestamp, const CameraVelocity& velocity,
+                               PoseOrigin origin) {
+  if (origin == PoseOrigin::kPrediction) {
     if (!IsImplausible(timestamp)) limits_.Observe(velocity);
-  } else if (!limits_.Allow(velocity)) {
+    return;
+  }
+  const double factor = origin == PoseOrigin::kSearch ? kSearchFactor : 1.0;
+  if (!limits_.Allow({velocity.angular / factor, velocity.linear / factor})) {
     MarkImplausible(timestamp);
   }
 }

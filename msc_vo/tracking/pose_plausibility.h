@@ -10,15 +10,22 @@
 
 namespace msc_vo {
 
+/// How a pose was found.
+enum class PoseOrigin {
+  kPrediction,  ///< near the prediction from the frame before
+  kSearch,      ///< by the search for large motions
+  kAfterGap,    ///< after frames without a pose
+};
+
 /// Marks poses after a gap as implausible, and those of the next seconds with them: the map that
 /// they were found in may show another place that looks alike.
 class PosePlausibility {
  public:
   /// Reports the mean velocity from the last frame with an estimated pose to the one at `timestamp`
-  /// (seconds). `after_gap`: there are frames without a pose between both; the pose is then
-  /// implausible if the camera can hardly have moved so fast (MotionLimits). Speeds of plausible
-  /// poses tell how fast that is.
-  void Observe(double timestamp, const CameraVelocity& velocity, bool after_gap);
+  /// (seconds). A pose after a gap is implausible if the camera can hardly have moved so fast
+  /// (MotionLimits); one that a search has found, if it moved three times faster than that. Speeds
+  /// of plausible poses near their predictions tell how fast the camera moves.
+  void Observe(double timestamp, const CameraVelocity& velocity, PoseOrigin origin);
 
   /// Marks the pose at `timestamp` for another reason: depth images contradict it, or it is weak,
   /// so that those that follow continue a guess.

@@ -68,6 +68,7 @@ struct TrackedFrame {
   std::shared_ptr<const Frame> frame;  ///< with rolling-shutter compensation
   TrackingStatus status = TrackingStatus::kLost;
   bool relocalized = false;  ///< the pose was found by relocalisation in a keyframe
+  bool searched = false;     ///< the pose was found by the search for large motions
   /// kNoId: the frame begins a map, or there is none, and cam_from_reference is cam_from_world.
   KeyframeId reference = kNoId;
   Rigid3 cam_from_reference;
@@ -88,9 +89,9 @@ struct TrackedFrame {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, frame, status, relocalized, reference, cam_from_reference, cam_from_world,
-                   matches, noise_scale, pose, num_dynamic, dynamic_cells, segment_start,
-                   in_inactive_map, keyframe, times);
+    archive.Fields(*this, frame, status, relocalized, searched, reference, cam_from_reference,
+                   cam_from_world, matches, noise_scale, pose, num_dynamic, dynamic_cells,
+                   segment_start, in_inactive_map, keyframe, times);
   }
 };
 

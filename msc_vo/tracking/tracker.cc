@@ -195,6 +195,7 @@ bool Tracker::TrackInitialPose(const Map& map, const Prediction& prediction,
   if (is_far && (near_fit == PoseFit::kNone || IsClearlyBetter(far.pose, tracked->pose))) {
     far.times = tracked->times;
     *tracked = far;
+    tracked->searched = true;
     return true;
   }
   return near_fit != PoseFit::kNone || TrackMapAround(map, prediction, tracked) ||
@@ -329,7 +330,10 @@ bool Tracker::UpdatePlausibility(const Map& map, const TrackedFrame& tracked,
   const Rigid3 cam_from_last = tracked.cam_from_world * last_from_world.Inverse();
   // Pose factors measure the motion where images do not.
   const bool after_gap = (tracked.relocalized || in_gap_) && !prediction.by_factors.usable;
-  plausibility_.Observe(timestamp, CameraVelocity::Of(cam_from_last, seconds), after_gap);
+  const PoseOrigin origin = after_gap          ? PoseOrigin::kAfterGap
+                            : tracked.searched ? PoseOrigin::kSearch
+                                               : PoseOrigin::kPrediction;
+  plausibility_.Observe(timestamp, CameraVelocity::Of(cam_from_last, seconds), origin);
   if (after_gap && (tracked.status == TrackingStatus::kWeak || ContradictsDepth(tracked, map))) {
     plausibility_.MarkImplausible(timestamp);
   }
@@ -366,7 +370,8 @@ void Tracker::ProposeKeyframe(const MapSnapshot& snapshot, TrackedFrame* tracked
   Stopwatch stopwatch;
   tracked->in_inactive_map = inactive_map_search_.Search(*tracked, snapshot);
   tracked->times.matching += stopwatch.Milliseconds();
-  tracked->keyframe.is_due = policy_.IsDue(*tracked->frame, tracked->matches) ||
+  tracked->keyframe.is_due = policy_.IsDue(*tracked->frame, tracked->matches,
+                                           tracked->status == TrackingStatus::kTracked) ||
                              enables_compensation || tracked->in_inactive_map.has_value();
   if (!tracked->keyframe.is_due) return;
   policy_.Inserted(tracked->frame->timestamp);

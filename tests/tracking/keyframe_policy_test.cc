@@ -81,6 +81,16 @@ TEST(KeyframePolicy, BeginsTheIntervalWithTheKeyframe) {
   EXPECT_TRUE(IsDue(&policy, 100, 60, 1.0));
 }
 
+TEST(KeyframePolicy, WaitsForACertainPoseAfterTheMaximumInterval) {
+  KeyframePolicy policy = PolicyAfterKeyframe({});
+  for (const double timestamp : {0.4, 0.8}) EXPECT_FALSE(IsDue(&policy, 100, 60, timestamp));
+  Frame frame;
+  frame.timestamp = 1.1;
+  EXPECT_FALSE(policy.IsDue(frame, {}, false));
+  frame.timestamp = 1.2;
+  EXPECT_TRUE(policy.IsDue(frame, {}, true));
+}
+
 TEST(KeyframePolicy, IsNotDueBecauseOfAGap) {
   KeyframePolicy policy = PolicyAfterKeyframe({});
   EXPECT_FALSE(IsDue(&policy, 100, 60, 0.1));

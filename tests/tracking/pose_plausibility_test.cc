@@ -11,16 +11,16 @@ namespace {
 // A camera that turns at 0.5 radians/second and moves at 0.6 metres/second.
 PosePlausibility SlowCamera() {
   PosePlausibility plausibility;
-  plausibility.Observe(1.0, {{0.0, 0.5, 0.0}, {0.6, 0.0, 0.0}}, false);
+  plausibility.Observe(1.0, {{0.0, 0.5, 0.0}, {0.6, 0.0, 0.0}}, PoseOrigin::kPrediction);
   return plausibility;
 }
 
 TEST(PosePlausibility, BelievesAFastMotionThatIsSeen) {
   PosePlausibility plausibility = SlowCamera();
-  plausibility.Observe(1.1, {{0.0, 6.0, 0.0}, {5.0, 0.0, 0.0}}, false);
+  plausibility.Observe(1.1, {{0.0, 6.0, 0.0}, {5.0, 0.0, 0.0}}, PoseOrigin::kPrediction);
   EXPECT_FALSE(plausibility.IsImplausible(1.1));
   // From now on it is plausible in a gap, too.
-  plausibility.Observe(2.0, {{0.0, 6.0, 0.0}, {5.0, 0.0, 0.0}}, true);
+  plausibility.Observe(2.0, {{0.0, 6.0, 0.0}, {5.0, 0.0, 0.0}}, PoseOrigin::kAfterGap);
   EXPECT_FALSE(plausibility.IsImplausible(2.0));
 }
 
@@ -29,20 +29,39 @@ TEST(PosePlausibility, MarksAJumpInAGapForSomeSeconds) {
     PosePlausibility plausibility = SlowCamera();
     const CameraVelocity jump =
         turns ? CameraVelocity{{0.0, 2.0, 0.0}, {}} : CameraVelocity{{}, {0.0, 0.0, 2.0}};
-    plausibility.Observe(2.0, jump, true);
+    plausibility.Observe(2.0, jump, PoseOrigin::kAfterGap);
     EXPECT_TRUE(plausibility.IsImplausible(2.0));
-    plausibility.Observe(2.1, {{0.0, 0.5, 0.0}, {}}, false);
+    plausibility.Observe(2.1, {{0.0, 0.5, 0.0}, {}}, PoseOrigin::kPrediction);
     EXPECT_TRUE(plausibility.IsImplausible(6.9));
     EXPECT_FALSE(plausibility.IsImplausible(7.1));
   }
+}
+
+TEST(PosePlausibility, MarksAFarJumpThatASearchHasFound) {
+  const auto is_implausible = [](double angular, double linear) {
+    PosePlausibility plausibility = SlowCamera();
+    plausibility.Observe(2.0, {{0.0, angular, 0.0}, {linear, 0.0, 0.0}}, PoseOrigin::kSearch);
+    return plausibility.IsImplausible(2.0);
+  };
+  // Three times the limits of a gap: 1.5 radians/second and 1.8 metres/second.
+  EXPECT_FALSE(is_implausible(4.0, 5.0));
+  EXPECT_TRUE(is_implausible(5.0, 0.0));
+  EXPECT_TRUE(is_implausible(0.0, 6.0));
+}
+
+TEST(PosePlausibility, LearnsNoSpeedFromASearch) {
+  PosePlausibility plausibility = SlowCamera();
+  plausibility.Observe(2.0, {{0.0, 4.0, 0.0}, {}}, PoseOrigin::kSearch);
+  plausibility.Observe(3.0, {{0.0, 4.0, 0.0}, {}}, PoseOrigin::kAfterGap);
+  EXPECT_TRUE(plausibility.IsImplausible(3.0));
 }
 
 // The way back from a wrong place is no motion of the camera.
 TEST(PosePlausibility, LearnsNoSpeedFromImplausiblePoses) {
   PosePlausibility plausibility = SlowCamera();
   plausibility.MarkImplausible(2.0);
-  plausibility.Observe(2.5, {{0.0, 3.1, 0.0}, {4.0, 0.0, 0.0}}, false);
-  plausibility.Observe(9.0, {{0.0, 3.1, 0.0}, {4.0, 0.0, 0.0}}, true);
+  plausibility.Observe(2.5, {{0.0, 3.1, 0.0}, {4.0, 0.0, 0.0}}, PoseOrigin::kPrediction);
+  plausibility.Observe(9.0, {{0.0, 3.1, 0.0}, {4.0, 0.0, 0.0}}, PoseOrigin::kAfterGap);
   EXPECT_TRUE(plausibility.IsImplausible(9.0));
 }
 
@@ -56,7 +75,7 @@ TEST(PosePlausibility, RemembersContradictionsByDepth) {
 
 TEST(PosePlausibility, BelievesSlowMotionsAfterRest) {
   PosePlausibility plausibility;  // at rest so far
-  plausibility.Observe(2.0, {{0.0, 0.8, 0.0}, {0.4, 0.0, 0.0}}, true);
+  plausibility.Observe(2.0, {{0.0, 0.8, 0.0}, {0.4, 0.0, 0.0}}, PoseOrigin::kAfterGap);
   EXPECT_FALSE(plausibility.IsImplausible(2.0));
 }
 
