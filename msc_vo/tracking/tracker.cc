@@ -329,10 +329,11 @@ bool Tracker::UpdatePlausibility(const Map& map, const TrackedFrame& tracked,
   const double seconds = timestamp - last_.frame->timestamp;
   const Rigid3 cam_from_last = tracked.cam_from_world * last_from_world.Inverse();
   // Pose factors measure the motion where images do not.
-  const bool after_gap = (tracked.relocalized || in_gap_) && !prediction.by_factors.usable;
-  const PoseOrigin origin = after_gap          ? PoseOrigin::kAfterGap
-                            : tracked.searched ? PoseOrigin::kSearch
-                                               : PoseOrigin::kPrediction;
+  const bool is_measured = prediction.by_factors.usable;
+  const bool after_gap = (tracked.relocalized || in_gap_) && !is_measured;
+  const PoseOrigin origin = after_gap                          ? PoseOrigin::kAfterGap
+                            : tracked.searched && !is_measured ? PoseOrigin::kSearch
+                                                               : PoseOrigin::kPrediction;
   plausibility_.Observe(timestamp, CameraVelocity::Of(cam_from_last, seconds), origin);
   if (after_gap && (tracked.status == TrackingStatus::kWeak || ContradictsDepth(tracked, map))) {
     plausibility_.MarkImplausible(timestamp);
