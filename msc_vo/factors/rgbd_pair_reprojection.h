@@ -42,11 +42,13 @@ class RgbdPairReprojection
     Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
     /// Recorded pixel, before compensation: where the depth belongs to.
     Eigen::Vector2d recorded_pixel = Eigen::Vector2d::Zero();
+    /// Derivative of `pixel` with respect to the readout time, pixels/second.
+    Eigen::Vector2d pixel_rate = Eigen::Vector2d::Zero();
     InverseDepthPlane surface;
 
     template <typename Archive>
     void Serialize(Archive& archive) {
-      archive.Fields(*this, pixel, recorded_pixel, surface);
+      archive.Fields(*this, pixel, recorded_pixel, pixel_rate, surface);
     }
   };
 

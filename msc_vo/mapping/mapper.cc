@@ -205,10 +205,9 @@ void Mapper::AddCustomFactors(WindowData* window) const {
 
 void Mapper::UpdateReadoutTime() {
   readout_time_ = readout_.readout_time();
-  // Pairs of images that were compensated otherwise would contradict the calibration.
   if (std::abs(readout_time_ - pairs_readout_time_) < kMinReadoutChange) return;
   pairs_readout_time_ = readout_time_;
-  if (calibration_) calibration_->Clear();
+  if (calibration_) calibration_->SetReadoutTime(readout_time_);
 }
 
 void Mapper::Calibrate(const KeyframePacket& packet, MappingSummary* summary) {

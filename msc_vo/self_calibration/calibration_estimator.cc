@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "msc_vo/camera/lens_validity.h"
+#include "msc_vo/self_calibration/self_calibrating_adjustment.h"
 
 namespace msc_vo {
 
@@ -31,10 +33,22 @@ constexpr double kMaxFocalLengthSigma = 0.01;
 constexpr double kMaxCenterSigma = 3.5;
 constexpr double kMaxK1Sigma = 0.03;
 
-// Pairs after which the estimation ends if all groups are certain.
+// Pairs after which their estimation ends if all groups are certain.
 constexpr size_t kSettledPairs = 150;
 
+// Posterior odds by the pairs alone from which on the map is adjusted, if the parameters of the
+// group are half as certain as must be for a correction. The largest odds of sequences that are
+// described well are 0.02 (docs/lab/self_calibration.md).
+constexpr double kSuspiciousOdds = 0.3;
+// Bundle adjustment is repeated when the map has grown by this ratio, up to this size.
+constexpr double kAdjustmentGrowth = 1.25;
+constexpr size_t kLastAdjustment = 60;
+// It replaces a correction that moves a pixel by more than this, a tenth of the noise of a point.
+constexpr double kMinShift = 0.1;
+
 constexpr WrongGroups kAll = {true, true, true, true};
+constexpr std::array<CorrectionGroup, 3> kColorGroups = {
+    CorrectionGroup::kFocalLength, CorrectionGroup::kPrincipalPoint, CorrectionGroup::kLens};
 constexpr auto kRegistration = static_cast<size_t>(CorrectionGroup::kDepthRegistration);
 
 // Whether the parameters of a group are certain enough for a correction to be an improvement. What
@@ -77,6 +91,50 @@ CorrectionEstimate Select(const CalibrationInformation& information, const Wrong
   return estimate;
 }
 
+// Whether a group of the colour camera may be wrong by the pairs alone.
+bool IsSuspicious(const CorrectionEstimate& pairs) {
+  for (const CorrectionGroup group : kColorGroups) {
+    if (pairs.log_odds[static_cast<size_t>(group)] > std::log(kSuspiciousOdds) &&
+        IsCertain(group, 0.5 * pairs.sigma)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// The estimate of the pairs with the adjusted values of the corrected groups.
+CorrectionEstimate WithAdjusted(const CorrectionEstimate& adjusted, CorrectionEstimate pairs) {
+  pairs.is_corrected = adjusted.is_corrected;
+  for (const CorrectionGroup group : kColorGroups) {
+    const auto g = static_cast<size_t>(group);
+    pairs.log_odds[g] = adjusted.log_odds[g];
+    if (!adjusted.is_corrected[g]) continue;
+    for (const int i : IndicesOf(group)) {
+      pairs.correction(i) = adjusted.correction(i);
+      pairs.sigma(i) = std::max(pairs.sigma(i), adjusted.sigma(i));
+    }
+  }
+  return pairs;
+}
+
+// Whether corrections differ by more than a standard deviation of `after`.
+bool HasMoved(const CorrectionEstimate& after, const SensorCorrection::Vector& before) {
+  return ((after.correction - before).array().abs() > after.sigma.array()).any();
+}
+
+// Largest distance between the pixels of both calibrations that show the same, over the image.
+double LargestShift(const CameraIntrinsics& from, const CameraIntrinsics& to) {
+  double shift = 0.0;
+  for (const double x : {0.0, 0.5, 1.0}) {
+    for (const double y : {0.0, 0.5, 1.0}) {
+      const Eigen::Vector2d pixel(x * from.camera.width, y * from.camera.height);
+      const Eigen::Vector3d ray = from.camera.Ray(pixel);
+      shift = std::max(shift, (MovePixel(from, to, pixel) - to.camera.Project(ray)).norm());
+    }
+  }
+  return shift;
+}
+
 }  // namespace
 
 CalibrationEstimator::CalibrationEstimator(const std::shared_ptr<const CameraIntrinsics>& given)
@@ -85,17 +143,24 @@ CalibrationEstimator::CalibrationEstimator(const std::shared_ptr<const CameraInt
 bool CalibrationEstimator::Update(const Map& map, KeyframeId newest, const cv::Mat& depth,
                                   const std::vector<CalibrationImage>& images,
                                   double readout_sigma) {
-  if (IsSettled(estimate_.sigma, pairs_.size())) return false;
-  for (const CalibrationImage& image : images) {
-    pairs_.AddImage(map, image, at_);
+  if (!IsSettled(estimate_.sigma, pairs_.size())) {
+    for (const CalibrationImage& image : images) {
+      pairs_.AddImage(map, image, at_);
+    }
+    pairs_.AddKeyframe(map, newest, depth, at_);
+    if (SelectGroups(readout_sigma) || IsReplacementDue()) return Apply();
   }
-  pairs_.AddKeyframe(map, newest, depth, at_);
-  if (!SelectGroups(readout_sigma) && !IsReplacementDue()) return false;
+  if (!IsAdjustmentDue(map.keyframes().size())) return false;
+  return Adjust(map, readout_sigma) && Apply();
+}
+
+bool CalibrationEstimator::Apply() {
   const auto corrected =
       std::make_shared<CameraIntrinsics>(Corrected(*given_, estimate_.correction));
   std::string error;
   if (!IsInvertible(corrected->distortion, corrected->camera, &error)) {
     estimate_ = applied_;
+    adjusted_.reset();
     return false;
   }
   present_ = corrected;
@@ -118,11 +183,17 @@ bool CalibrationEstimator::SelectGroups(double readout_sigma) {
     selected = Select(pairs_.Sum(readout_sigma), before);
   }
   estimate_ = selected;
-  return estimate_.is_corrected != before;
+  if (selected.is_corrected != before) {
+    adjusted_.reset();
+    next_adjustment_ = 0;
+    return true;
+  }
+  if (adjusted_) estimate_ = WithAdjusted(*adjusted_, estimate_);
+  return false;
 }
 
 bool CalibrationEstimator::IsReplacementDue() const {
-  if (!estimate_.IsCorrected()) return false;
+  if (!estimate_.IsCorrected() || adjusted_) return false;
   const SensorCorrection::Vector change = estimate_.correction - applied_.correction;
   for (int g = 0; g < kNumCorrectionGroups; ++g) {
     if (!estimate_.is_corrected[g]) continue;
@@ -134,6 +205,31 @@ bool CalibrationEstimator::IsReplacementDue() const {
     }
   }
   return false;
+}
+
+bool CalibrationEstimator::IsAdjustmentDue(size_t num_keyframes) const {
+  return num_keyframes >= next_adjustment_ && estimate_.log_odds[kRegistration] < 0.0 &&
+         (estimate_.IsCorrected() || IsSuspicious(estimate_));
+}
+
+bool CalibrationEstimator::Adjust(const Map& map, double readout_sigma) {
+  const size_t size = map.keyframes().size();
+  next_adjustment_ = size < kLastAdjustment
+                         ? std::max(size + 1, static_cast<size_t>(kAdjustmentGrowth * size))
+                         : std::numeric_limits<size_t>::max();
+  auto information = AdjustCalibration(*given_, map, estimate_.correction);
+  if (!information) return false;
+  const CalibrationInformation pairs = pairs_.Sum(readout_sigma);
+  information->matrix += pairs.matrix;
+  information->vector += pairs.vector;
+  const CorrectionEstimate adjusted = Select(*information, estimate_.is_corrected);
+  if (!adjusted.IsCorrected()) return false;
+  const bool is_new = adjusted.is_corrected != estimate_.is_corrected;
+  // Landmarks and outliers were selected with the calibration of the start.
+  if (is_new || HasMoved(adjusted, estimate_.correction)) next_adjustment_ = size + 1;
+  adjusted_ = adjusted;
+  estimate_ = WithAdjusted(adjusted, estimate_);
+  return is_new || LargestShift(*present_, Corrected(*given_, estimate_.correction)) > kMinShift;
 }
 
 }  // namespace msc_vo

@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "msc_vo/camera/camera_intrinsics.h"
@@ -13,7 +15,9 @@
 namespace msc_vo {
 
 /// Self-calibration of focal length, principal point and radial distortion during a run. The given
-/// calibration counts as right until another one is far more likely, see SelectCorrections().
+/// calibration counts as right until another one is far more likely, see SelectCorrections(). Pairs
+/// of images, which cost little, raise the suspicion; self-calibrating bundle adjustment of the map
+/// (AdjustCalibration) then tells more, and how large the error is.
 class CalibrationEstimator {
  public:
   explicit CalibrationEstimator(const std::shared_ptr<const CameraIntrinsics>& given);
@@ -23,33 +27,43 @@ class CalibrationEstimator {
   /// uncertainty of the readout time of a rolling shutter. Returns true if present() has changed.
   bool Update(const Map& map, KeyframeId newest, const cv::Mat& depth,
               const std::vector<CalibrationImage>& images, double readout_sigma);
-  /// Forgets the images, because their compensation of a rolling shutter is out of date.
-  void Clear() { pairs_.Clear(); }
+  /// Reports another readout time of a rolling shutter, seconds.
+  void SetReadoutTime(double readout_time) { pairs_.SetReadoutTime(readout_time); }
 
   /// The calibration in use: the given one until a correction is accepted.
   const std::shared_ptr<const CameraIntrinsics>& present() const { return present_; }
-  /// The estimate; nothing is corrected until a correction is accepted.
+  /// The estimate; nothing is corrected until a correction is accepted. Standard deviations are
+  /// those of the pairs, or of bundle adjustment if they are larger.
   const CorrectionEstimate& estimate() const { return estimate_; }
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [given, present, pairs, at, estimate, applied] = *this;  // all members
-    archive(given, present, pairs, at, estimate, applied);
+    auto& [given, present, pairs, at, estimate, applied, adjusted, next_adjustment] =
+        *this;  // all members
+    archive(given, present, pairs, at, estimate, applied, adjusted, next_adjustment);
   }
 
  private:
-  // Decides which groups are corrected. Returns true if a new one is.
+  // Decides by the pairs which groups are corrected. Returns true if a new one is.
   bool SelectGroups(double readout_sigma);
   // Whether the estimate differs enough from the calibration in use to replace it.
   bool IsReplacementDue() const;
+  // Whether a map of this size is to be adjusted.
+  bool IsAdjustmentDue(size_t num_keyframes) const;
+  // Decides by bundle adjustment. Returns true if the calibration in use should be replaced.
+  bool Adjust(const Map& map, double readout_sigma);
+  // Uses the estimate from now on. Returns false if it is not possible.
+  bool Apply();
 
   std::shared_ptr<const CameraIntrinsics> given_;
   std::shared_ptr<const CameraIntrinsics> present_;
   RecentPairs pairs_;
   SensorCorrection::Vector at_ = SensorCorrection::Vector::Zero();  // of the linearisation
   CorrectionEstimate estimate_;
-  CorrectionEstimate applied_;  // the one of present()
+  CorrectionEstimate applied_;                  // the one of present()
+  std::optional<CorrectionEstimate> adjusted_;  // by bundle adjustment, of the corrected groups
+  size_t next_adjustment_ = 0;                  // number of keyframes
 };
 
 }  // namespace msc_vo

@@ -46,7 +46,9 @@ std::optional<CalibrationInformation> CalibrationPair::Linearize(
   Rigid3 b_from_a = b_->cam_from_world * a_->cam_from_world.Inverse();
   const auto information = LinearizePair(camera_, points, correction, &b_from_a);
   if (!information) return std::nullopt;
-  return WithCommonError(*information, CommonVariance(*a_->frame) + CommonVariance(*b_->frame));
+  const double squared_shift_rate = SquaredShiftRate(*a_->frame) + SquaredShiftRate(*b_->frame);
+  return WithCommonError(*information,
+                         CommonVariance(squared_shift_rate, b_->frame->readout_time, 0.0));
 }
 
 }  // namespace msc_vo

@@ -3,6 +3,8 @@
 
 #include "msc_vo/self_calibration/pair_view.h"
 
+#include <cmath>
+
 #include "msc_vo/map/rolling_shutter.h"
 
 namespace msc_vo {
@@ -16,12 +18,15 @@ constexpr double kCommonError = 0.2;
 // motion between the neighbouring images.
 constexpr double kVelocityError = 0.1;
 
-// Recorded pixel of a point before the compensation of the rolling shutter.
-Eigen::Vector2d PixelBeforeCompensation(const Frame& frame, const PointFeature& point) {
-  if (!frame.velocity || frame.readout_time == 0.0) return point.pixel;
-  return frame.camera.Project(frame.camera.Ray(point.pixel) -
-                              frame.readout_time *
-                                  RayChange(frame, point.pixel, point.inverse_depth));
+// Difference of the readout time for its derivatives, seconds.
+constexpr double kStep = 0.01;
+
+// Pixel of a point if the compensation of the rolling shutter were made with another readout time,
+// larger by `change` (seconds).
+Eigen::Vector2d PixelAt(const Frame& frame, const PointFeature& point, double change) {
+  if (!frame.velocity || change == 0.0) return point.pixel;
+  return frame.camera.Project(frame.camera.Ray(point.pixel) +
+                              change * RayChange(frame, point.pixel, point.inverse_depth));
 }
 
 }  // namespace
@@ -33,15 +38,23 @@ RgbdPairReprojection::View MakePairView(const LensDistortion& distortion, const 
   };
   RgbdPairReprojection::View view;
   view.pixel = recorded(point.pixel);
-  view.recorded_pixel = recorded(PixelBeforeCompensation(frame, point));
+  view.recorded_pixel = recorded(PixelAt(frame, point, -frame.readout_time));
+  view.pixel_rate = (recorded(PixelAt(frame, point, kStep)) - view.pixel) / kStep;
   return view;
 }
 
-double CommonVariance(const Frame& frame) {
-  const double shift = frame.velocity ? frame.camera.FocalLength() * frame.readout_time *
-                                            frame.velocity->angular.norm()
-                                      : 0.0;
-  return 0.5 * kCommonError * kCommonError + kVelocityError * kVelocityError * shift * shift;
+double SquaredShiftRate(const Frame& frame) {
+  if (!frame.velocity) return 0.0;
+  const double rate = frame.camera.FocalLength() * frame.velocity->angular.norm();
+  return rate * rate;
+}
+
+double CommonVariance(double squared_shift_rate, double readout_time, double readout_sigma) {
+  const double by_velocity = kVelocityError * readout_time;
+  // Rows are shifted evenly, from the first to the last one.
+  const double by_readout = readout_sigma / std::sqrt(12.0);
+  return kCommonError * kCommonError +
+         squared_shift_rate * (by_velocity * by_velocity + by_readout * by_readout);
 }
 
 }  // namespace msc_vo

@@ -14,7 +14,13 @@ namespace msc_vo {
 RgbdPairReprojection::View MakePairView(const LensDistortion& distortion, const Frame& frame,
                                         const PointFeature& point);
 
-/// Variance, pixels^2, of the error that the points of an image have in common.
-double CommonVariance(const Frame& frame);
+/// Square of the speed (pixels^2/seconds^2) with which the camera's rotation shifts the image while
+/// it is read out.
+double SquaredShiftRate(const Frame& frame);
+
+/// Variance, pixels^2, of the error that the points of a pair of images have in common: of the
+/// lens, of depth and of the compensation of a rolling shutter. `squared_shift_rate`: sum over both
+/// images. `readout_sigma`: standard deviation of `readout_time` (seconds).
+double CommonVariance(double squared_shift_rate, double readout_time, double readout_sigma);
 
 }  // namespace msc_vo

@@ -34,6 +34,10 @@ double InSigmas(const SensorCorrection::Vector& difference, const SensorCorrecti
   return difference.cwiseQuotient(sigma).cwiseAbs().maxCoeff();
 }
 
+void Compensate(double readout_time, RgbdPairReprojection::View* view) {
+  view->pixel = view->recorded_pixel + readout_time * view->pixel_rate;
+}
+
 }  // namespace
 
 RecentPairs::RecentPairs(const CameraIntrinsics& given) : camera_(given.camera, given.distortion) {}
@@ -43,7 +47,7 @@ void RecentPairs::AddImage(const Map& map, const CalibrationImage& image,
   if (!map.KnowsKeyframe(image.reference)) return;
   AddPair(map,
           {image.frame.get(), image.depth,
-           image.cam_from_reference * map.CamFromWorld(image.reference), ErrorOf(*image.frame)},
+           image.cam_from_reference * map.CamFromWorld(image.reference)},
           at);
 }
 
@@ -51,14 +55,13 @@ void RecentPairs::AddKeyframe(const Map& map, KeyframeId id, const cv::Mat& dept
                               const SensorCorrection::Vector& at) {
   const Keyframe& keyframe = *map.FindKeyframe(id);
   const Frame& frame = *keyframe.frame;
-  const CommonError error = ErrorOf(frame);
-  AddPair(map, {&frame, depth, keyframe.cam_from_world, error}, at);
-  KeyframeView view{id, {}, error};
+  AddPair(map, {&frame, depth, keyframe.cam_from_world}, at);
+  KeyframeView view{id, {}, SquaredShiftRate(frame)};
   const size_t step = std::max<size_t>(1, frame.points.size() / kMaxSamples);
   for (size_t i = 0; i < frame.points.size(); i += step) {
     const PointFeature& point = frame.points[i];
     if (point.dynamic || !point.HasDepth()) continue;
-    Sample sample{static_cast<int>(i), MakePairView(frame.intrinsics->distortion, frame, point)};
+    Sample sample{static_cast<int>(i), MakeView(frame, point)};
     const auto surface = FindSurface(camera_, depth, sample.view.recorded_pixel, at);
     if (!surface) continue;
     sample.view.surface = *surface;
@@ -68,20 +71,25 @@ void RecentPairs::AddKeyframe(const Map& map, KeyframeId id, const cv::Mat& dept
   if (views_.size() > kMaxViews) views_.pop_front();
 }
 
-void RecentPairs::Clear() {
-  views_.clear();
-  pairs_.clear();
+void RecentPairs::SetReadoutTime(double readout_time) {
+  readout_time_ = readout_time;
+  for (KeyframeView& view : views_) {
+    for (Sample& sample : view.samples) Compensate(readout_time, &sample.view);
+  }
+  for (Pair& pair : pairs_) {
+    for (CalibrationPoint& point : pair.points) {
+      Compensate(readout_time, &point.a);
+      Compensate(readout_time, &point.b);
+    }
+    Linearize(pair.at, &pair);
+  }
 }
 
-RecentPairs::CommonError RecentPairs::ErrorOf(const Frame& frame) {
-  CommonError error;
-  error.variance = CommonVariance(frame);
-  if (frame.velocity) {
-    // Rows are shifted evenly, by up to this many pixels per second of the readout time.
-    const double shift = frame.camera.FocalLength() * frame.velocity->angular.norm();
-    error.by_readout = shift * shift / 12.0;
-  }
-  return error;
+RgbdPairReprojection::View RecentPairs::MakeView(const Frame& frame,
+                                                 const PointFeature& point) const {
+  RgbdPairReprojection::View view = MakePairView(frame.intrinsics->distortion, frame, point);
+  Compensate(readout_time_, &view);
+  return view;
 }
 
 void RecentPairs::AddPair(const Map& map, const Partner& partner,
@@ -145,8 +153,8 @@ std::optional<RecentPairs::Pair> RecentPairs::MakePair(const Map& map, const Key
     const Sample& sample = view.samples[matches[i].id];
     const PointFeature& in_a = from.points[sample.feature];
     const PointFeature& in_b = to.points[matches[i].feature];
-    CalibrationPoint point{sample.view, MakePairView(to.intrinsics->distortion, to, in_b),
-                           in_a.inverse_depth, in_a.sigma * in_a.sigma + in_b.sigma * in_b.sigma};
+    CalibrationPoint point{sample.view, MakeView(to, in_b), in_a.inverse_depth,
+                           in_a.sigma * in_a.sigma + in_b.sigma * in_b.sigma};
     const auto surface = FindSurface(camera_, partner.depth, point.b.recorded_pixel, at);
     if (!surface) continue;
     point.b.surface = *surface;
@@ -154,8 +162,7 @@ std::optional<RecentPairs::Pair> RecentPairs::MakePair(const Map& map, const Key
   }
   if (pair.points.size() < kMinPoints) return std::nullopt;
   pair.b_from_a = partner.cam_from_world * world_from_cam;
-  pair.error = {view.error.variance + partner.error.variance,
-                view.error.by_readout + partner.error.by_readout};
+  pair.squared_shift_rate = view.squared_shift_rate + SquaredShiftRate(to);
   return pair;
 }
 
@@ -180,9 +187,8 @@ CalibrationInformation RecentPairs::Sum(double readout_sigma) const {
   CalibrationInformation sum;
   for (const Pair& pair : pairs_) {
     if (!pair.information) continue;
-    const double variance =
-        pair.error.variance + readout_sigma * readout_sigma * pair.error.by_readout;
-    const CalibrationInformation information = WithCommonError(*pair.information, variance);
+    const CalibrationInformation information = WithCommonError(
+        *pair.information, CommonVariance(pair.squared_shift_rate, readout_time_, readout_sigma));
     sum.matrix += information.matrix;
     sum.vector += information.vector;
   }

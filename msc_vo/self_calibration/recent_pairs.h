@@ -45,7 +45,8 @@ class RecentPairs {
   /// The same for a keyframe of the map, with which later images form pairs.
   void AddKeyframe(const Map& map, KeyframeId id, const cv::Mat& depth,
                    const SensorCorrection::Vector& at);
-  void Clear();
+  /// Compensates the rolling shutter with another readout time (seconds).
+  void SetReadoutTime(double readout_time);
 
   /// Linearises those pairs again that were linearised farthest from `at`, in units of `sigma`, at
   /// most `max_pairs`, and only if they were linearised half a sigma away.
@@ -59,21 +60,11 @@ class RecentPairs {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [camera, views, pairs] = *this;  // all members, or it does not compile
-    archive(views, pairs);
+    auto& [camera, readout_time, views, pairs] = *this;  // all members, or it does not compile
+    archive(readout_time, views, pairs);
   }
 
  private:
-  // Variances of the error that the points of an image have in common.
-  struct CommonError {
-    double variance = 0.0;    // pixels^2, with a known readout time
-    double by_readout = 0.0;  // pixels^2 / seconds^2, times the variance of the readout time
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, variance, by_readout);
-    }
-  };
   // A point of a keyframe.
   struct Sample {
     int feature = 0;
@@ -87,23 +78,23 @@ class RecentPairs {
   struct KeyframeView {
     KeyframeId id = kNoId;
     std::vector<Sample> samples;
-    CommonError error;
+    double squared_shift_rate = 0.0;
 
     template <typename Archive>
     void Serialize(Archive& archive) {
-      archive.Fields(*this, id, samples, error);
+      archive.Fields(*this, id, samples, squared_shift_rate);
     }
   };
   struct Pair {
     std::vector<CalibrationPoint> points;
     Rigid3 b_from_a;
-    CommonError error;
+    double squared_shift_rate = 0.0;  // sum over both images
     SensorCorrection::Vector at = SensorCorrection::Vector::Zero();
     std::optional<CalibrationInformation> information;
 
     template <typename Archive>
     void Serialize(Archive& archive) {
-      archive.Fields(*this, points, b_from_a, error, at, information);
+      archive.Fields(*this, points, b_from_a, squared_shift_rate, at, information);
     }
   };
   // The image that pairs are formed with.
@@ -111,17 +102,18 @@ class RecentPairs {
     const Frame* frame;
     cv::Mat depth;
     Rigid3 cam_from_world;
-    CommonError error;
   };
 
+  // The pixels of a point with the readout time in use.
+  RgbdPairReprojection::View MakeView(const Frame& frame, const PointFeature& point) const;
   // Adds the pair of the image with the best keyframe.
-  static CommonError ErrorOf(const Frame& frame);
   void AddPair(const Map& map, const Partner& partner, const SensorCorrection::Vector& at);
   std::optional<Pair> MakePair(const Map& map, const KeyframeView& view, const Partner& partner,
                                const SensorCorrection::Vector& at) const;
   void Linearize(const SensorCorrection::Vector& at, Pair* pair) const;
 
   CorrectedCamera camera_;
+  double readout_time_ = 0.0;
   std::deque<KeyframeView> views_;
   std::deque<Pair> pairs_;
 };

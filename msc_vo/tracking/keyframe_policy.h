@@ -35,8 +35,8 @@ class KeyframePolicy {
   explicit KeyframePolicy(const KeyframePolicyOptions& options) : options_(options) {}
 
   /// Call once for every frame with a pose. One that is not `certain` is not due because of
-  /// max_interval.
-  bool IsDue(const Frame& frame, const FrameMatches& matches, bool certain = true);
+  /// max_interval alone.
+  bool IsDue(const Frame& frame, const FrameMatches& matches, bool certain);
   /// Reports that the frame with time stamp `timestamp` became a keyframe.
   void Inserted(double timestamp);
 

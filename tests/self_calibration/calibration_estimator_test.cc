@@ -31,6 +31,8 @@ class SimulatedRun {
     for (int i = 0; i < count; ++i) num_changes_ += Add(SimulatedCamera::PoseOf(i)) ? 1 : 0;
   }
 
+  void SetReadoutTime(double readout_time) { estimator_.SetReadoutTime(readout_time); }
+
   int num_changes() const { return num_changes_; }
   const SimulatedCamera& camera() const { return camera_; }
   const CalibrationEstimator& estimator() const { return estimator_; }
@@ -74,6 +76,16 @@ TEST(CalibrationEstimator, AcceptsTheDistortionOfALens) {
   const CorrectionEstimate& estimate = run.estimator().estimate();
   EXPECT_TRUE(estimate.is_corrected[2]);
   EXPECT_NEAR(run.estimator().present()->distortion.k[0], -0.1, 0.01);
+}
+
+TEST(CalibrationEstimator, KeepsWhatItKnowsWhenTheReadoutTimeChanges) {
+  SimulatedRun run(S::Vector::Zero());
+  run.AddKeyframes(10);
+  const double sigma = run.estimator().estimate().sigma(S::kFocalLength);
+  run.SetReadoutTime(0.02);
+  run.Add(SimulatedCamera::PoseOf(10));
+  EXPECT_LE(run.estimator().estimate().sigma(S::kFocalLength), sigma);
+  EXPECT_FALSE(run.estimator().estimate().IsCorrected());
 }
 
 TEST(CalibrationEstimator, AcceptsNothingThatAPathDoesNotTell) {

@@ -56,7 +56,8 @@ class SimulatedCamera {
     frame->intrinsics = given_;
     for (size_t i = 0; i < points_.size(); ++i) {
       const Eigen::Vector3d x = cam_from_world * points_[i];
-      if (x.z() < 0.3) continue;
+      // Beyond 45 degrees a lens that compresses the border would fold over.
+      if (x.z() < 0.3 || x.head<2>().norm() > x.z()) continue;
       PointFeature point;
       point.pixel = camera_.Pixel<double>(Eigen::Vector2d(x.head<2>() / x.z()), truth_.data());
       point.pixel += 0.2 * Eigen::Vector2d{Normal(), Normal()};

@@ -27,7 +27,7 @@ bool IsDue(KeyframePolicy* policy, int num, int tracked, double timestamp = 0.5)
   }
   FrameMatches matches;
   for (int i = 0; i < tracked; ++i) matches.points.push_back({i, i, Eigen::Vector3d::Zero(), true});
-  return policy->IsDue(frame, matches);
+  return policy->IsDue(frame, matches, true);
 }
 
 TEST(KeyframePolicy, IsDueWhenTheTrackedRatioFalls) {
@@ -124,9 +124,9 @@ TEST(KeyframePolicy, TestsCloseFeaturesSeparately) {
     return tracked;
   };
   KeyframePolicy policy = PolicyAfterKeyframe({});
-  EXPECT_FALSE(policy.IsDue(frame, matches(40, 20)));
-  EXPECT_FALSE(policy.IsDue(frame, matches(36, 24)));
-  EXPECT_TRUE(policy.IsDue(frame, matches(30, 30)));  // close: 0.75 of the best ratio
+  EXPECT_FALSE(policy.IsDue(frame, matches(40, 20), true));
+  EXPECT_FALSE(policy.IsDue(frame, matches(36, 24), true));
+  EXPECT_TRUE(policy.IsDue(frame, matches(30, 30), true));  // close: 0.75 of the best ratio
 }
 
 TEST(KeyframePolicy, ChecksItsOptions) {

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/self_calibration/self_calibrating_adjustment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <Eigen/SparseCholesky>
+#include <ceres/loss_function.h>
+#include <ceres/manifold.h>
+#include <ceres/normal_prior.h>
+#include <ceres/ordered_groups.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include "msc_vo/factors/rigid3_manifold.h"
+#include "msc_vo/factors/self_calibrating_reprojection.h"
+#include "msc_vo/self_calibration/calibration_evidence.h"
+#include "msc_vo/self_calibration/pair_view.h"
+
+namespace msc_vo {
+
+namespace {
+
+using S = SensorCorrection;
+using Vector = SensorCorrection::Vector;
+using Matrix = SensorCorrection::Matrix;
+
+// Bounds of the computing time.
+constexpr size_t kMaxObservations = 6000;
+constexpr int kMaxIterations = 25;
+// Fewest observations that make an adjustment worth its time.
+constexpr size_t kMinObservations = 300;
+// Fewest points that a keyframe shares with the others.
+constexpr int kMinPointsOfKeyframe = 10;
+// Square root of the 95 % quantile of chi-square with three degrees of freedom.
+constexpr double kLoss = 2.795;
+// Relative error of depth: also what a wrong registration to colour, or an error that depends on
+// the distance or the place in the image, amounts to.
+constexpr double kDepthError = 0.1;
+// Of parameters that are not estimated, in their units.
+constexpr double kFixedSigma = 1e-6;
+
+// The points with most observations, in order of their ids.
+std::vector<LandmarkId> SelectPoints(const Map& map) {
+  std::vector<std::pair<size_t, LandmarkId>> ranked;
+  for (const auto& [id, point] : map.points()) {
+    if (point.observations.size() >= 2) ranked.emplace_back(point.observations.size(), id);
+  }
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<LandmarkId> selected;
+  size_t num_observations = 0;
+  for (const auto& [count, id] : ranked) {
+    num_observations += count;
+    if (num_observations > kMaxObservations) break;
+    selected.push_back(id);
+  }
+  std::sort(selected.begin(), selected.end());
+  return selected;
+}
+
+// Keyframes that observe enough of the points.
+std::set<KeyframeId> SelectKeyframes(const Map& map, const std::vector<LandmarkId>& points) {
+  std::map<KeyframeId, int> counts;
+  for (const LandmarkId id : points) {
+    for (const Observation& observation : map.FindPoint(id)->observations) {
+      ++counts[observation.keyframe];
+    }
+  }
+  std::set<KeyframeId> selected;
+  for (const auto& [id, count] : counts) {
+    if (count >= kMinPointsOfKeyframe) selected.insert(id);
+  }
+  return selected;
+}
+
+SelfCalibratingReprojection::Measurement MeasurementOf(const Keyframe& keyframe,
+                                                       const PointLandmark& point, int feature) {
+  const Frame& frame = *keyframe.frame;
+  const PointFeature& observed = frame.points[feature];
+  SelfCalibratingReprojection::Measurement measurement;
+  measurement.pixel = MakePairView(frame.intrinsics->distortion, frame, observed).pixel;
+  measurement.sigma = observed.sigma * point.noise;
+  measurement.inverse_depth = observed.inverse_depth;
+  measurement.inverse_depth_sigma =
+      std::hypot(observed.inverse_depth_sigma * point.noise, kDepthError * observed.inverse_depth);
+  return measurement;
+}
+
+// Poses and points of a map, and the correction that all of them share. Ceres orders the blocks by
+// address: they are elements of vectors, so that the result does not depend on the allocator.
+class AdjustmentProblem {
+ public:
+  AdjustmentProblem(const CameraIntrinsics& given, const Map& map, const Vector& start)
+      : camera_(given.camera, given.distortion), correction_(start) {
+    const std::vector<LandmarkId> points = SelectPoints(map);
+    for (const KeyframeId id : SelectKeyframes(map, points)) {
+      pose_index_.emplace(id, poses_.size());
+      poses_.push_back(map.CamFromWorld(id));
+    }
+    points_.reserve(points.size());
+    for (const LandmarkId id : points) AddPoint(map, *map.FindPoint(id));
+    AddPrior();
+    HoldGauge();
+  }
+
+  size_t num_observations() const { return observations_.size(); }
+
+  bool Solve() {
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_SCHUR;
+    options.max_num_iterations = kMaxIterations;
+    options.num_threads = 1;
+    options.logging_type = ceres::SILENT;
+    auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    for (Eigen::Vector3d& point : points_) ordering->AddElementToGroup(point.data(), 0);
+    for (double* pose : FreePoses()) ordering->AddElementToGroup(pose, 1);
+    ordering->AddElementToGroup(correction_.data(), 2);
+    options.linear_solver_ordering = ordering;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+    return summary.IsSolutionUsable();
+  }
+
+  // What the observations tell about the correction, without its prior.
+  std::optional<CalibrationInformation> Marginalize() {
+    ceres::Problem::EvaluateOptions options;
+    for (Eigen::Vector3d& point : points_) options.parameter_blocks.push_back(point.data());
+    for (double* pose : FreePoses()) options.parameter_blocks.push_back(pose);
+    options.parameter_blocks.push_back(correction_.data());
+    options.residual_blocks = observations_;
+    std::vector<double> gradient;
+    ceres::CRSMatrix crs;
+    if (!problem_.Evaluate(options, nullptr, nullptr, &gradient, &crs)) return std::nullopt;
+    const Eigen::SparseMatrix<double> jacobian =
+        Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
+            crs.num_rows, crs.num_cols, static_cast<Eigen::Index>(crs.values.size()),
+            crs.rows.data(), crs.cols.data(), crs.values.data());
+    return EliminateOthers(jacobian, Eigen::Map<Eigen::VectorXd>(gradient.data(), crs.num_cols));
+  }
+
+ private:
+  void AddPoint(const Map& map, const PointLandmark& point) {
+    const auto has_pose = [this](const Observation& observation) {
+      return pose_index_.count(observation.keyframe) != 0;
+    };
+    if (std::count_if(point.observations.begin(), point.observations.end(), has_pose) < 2) return;
+    points_.push_back(point.position);
+    for (const Observation& observation : point.observations) {
+      const auto pose = pose_index_.find(observation.keyframe);
+      if (pose == pose_index_.end()) continue;
+      const Keyframe& keyframe = *map.FindKeyframe(observation.keyframe);
+      observations_.push_back(problem_.AddResidualBlock(
+          SelfCalibratingReprojection::Create(camera_,
+                                              MeasurementOf(keyframe, point, observation.feature)),
+          &loss_, poses_[pose->second].params.data(), points_.back().data(), correction_.data()));
+    }
+  }
+
+  // Keeps what the observations do not tell near zero.
+  void AddPrior() {
+    Vector sigma = WrongCalibrationSigma();
+    for (int i = S::kK2 + 1; i < S::kSize; ++i) sigma(i) = kFixedSigma;
+    const Matrix inverse = sigma.cwiseInverse().asDiagonal();
+    problem_.AddResidualBlock(new ceres::NormalPrior(inverse, Vector::Zero()), nullptr,
+                              correction_.data());
+  }
+
+  void HoldGauge() {
+    for (Rigid3& pose : poses_) {
+      if (problem_.HasParameterBlock(pose.params.data())) {
+        problem_.SetManifold(pose.params.data(), &manifold_);
+      }
+    }
+    for (Rigid3& pose : poses_) {
+      if (!problem_.HasParameterBlock(pose.params.data())) continue;
+      problem_.SetParameterBlockConstant(pose.params.data());
+      return;
+    }
+  }
+
+  std::vector<double*> FreePoses() {
+    std::vector<double*> free;
+    for (Rigid3& pose : poses_) {
+      double* block = pose.params.data();
+      if (problem_.HasParameterBlock(block) && !problem_.IsParameterBlockConstant(block)) {
+        free.push_back(block);
+      }
+    }
+    return free;
+  }
+
+  // The correction is in the last columns of the Jacobian.
+  std::optional<CalibrationInformation> EliminateOthers(const Eigen::SparseMatrix<double>& jacobian,
+                                                        const Eigen::VectorXd& gradient) const {
+    constexpr int kSize = SensorCorrection::kSize;
+    const Eigen::Index num_others = jacobian.cols() - kSize;
+    const Eigen::SparseMatrix<double> others = jacobian.leftCols(num_others);
+    const Eigen::MatrixXd shared = jacobian.rightCols(kSize);
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(others.transpose() * others);
+    if (ldlt.info() != Eigen::Success) return std::nullopt;
+    const Eigen::MatrixXd coupling = others.transpose() * shared;
+    const Eigen::MatrixXd solution = ldlt.solve(coupling);
+    CalibrationInformation information;
+    information.matrix = shared.transpose() * shared - coupling.transpose() * solution;
+    information.vector = information.matrix * correction_ - gradient.tail<kSize>() +
+                         solution.transpose() * gradient.head(num_others);
+    if (!information.matrix.allFinite() || !information.vector.allFinite()) return std::nullopt;
+    return information;
+  }
+
+  static ceres::Problem::Options ProblemOptions() {
+    ceres::Problem::Options options;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    return options;
+  }
+
+  CorrectedCamera camera_;
+  ceres::HuberLoss loss_{kLoss};
+  Rigid3Manifold manifold_;
+  ceres::Problem problem_{ProblemOptions()};
+  Vector correction_;
+  std::map<KeyframeId, size_t> pose_index_;
+  std::vector<Rigid3> poses_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<ceres::ResidualBlockId> observations_;
+};
+
+}  // namespace
+
+std::optional<CalibrationInformation> AdjustCalibration(const CameraIntrinsics& given,
+                                                        const Map& map,
+                                                        const SensorCorrection::Vector& start) {
+  AdjustmentProblem problem(given, map, start);
+  if (problem.num_observations() < kMinObservations || !problem.Solve()) return std::nullopt;
+  return problem.Marginalize();
+}
+
+}  // namespace msc_vo

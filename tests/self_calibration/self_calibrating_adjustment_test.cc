@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/self_calibration/self_calibrating_adjustment.h"
+
+#include <map>
+
+#include "tests/self_calibration/simulated_camera.h"
+#include <gtest/gtest.h>
+
+#include "msc_vo/self_calibration/calibration_evidence.h"
+
+namespace msc_vo {
+namespace {
+
+using S = SensorCorrection;
+
+constexpr WrongGroups kColor = {true, true, true, false};
+
+// The map of a camera whose calibration differs from the given one by `truth`, as the given one
+// sees it: poses are right, points are where their first observation measures them.
+void FillMap(SimulatedCamera* camera, int num_keyframes, Map* map) {
+  std::map<Descriptor, LandmarkId> landmarks;
+  for (int k = 0; k < num_keyframes; ++k) {
+    const Rigid3 cam_from_world = SimulatedCamera::PoseOf(k);
+    const auto [frame, depth] = camera->Record(cam_from_world);
+    const KeyframeId id = map->AddKeyframe(frame, cam_from_world);
+    for (int i = 0; i < static_cast<int>(frame->points.size()); ++i) {
+      const auto known = landmarks.find(frame->points[i].descriptor);
+      if (known != landmarks.end()) {
+        map->ObservePoint(known->second, id, i);
+      } else {
+        landmarks[frame->points[i].descriptor] =
+            map->AddPoint(id, i, cam_from_world.Inverse() * frame->PointInCamera(i));
+      }
+    }
+  }
+}
+
+class AdjustCalibrationTest : public testing::Test {
+ protected:
+  CorrectionEstimate Estimate(const S::Vector& truth, int num_keyframes) {
+    SimulatedCamera camera(truth, 3);
+    Map map;
+    FillMap(&camera, num_keyframes, &map);
+    const auto information = AdjustCalibration(*camera.given(), map, S::Vector::Zero());
+    EXPECT_TRUE(information);
+    return information ? EstimateCorrections(*information, kColor) : CorrectionEstimate();
+  }
+};
+
+TEST_F(AdjustCalibrationTest, FindsTheErrorsOfTheColorCamera) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kFocalLength) = -0.03;
+  truth(S::kCenterX) = 5.0;
+  truth(S::kCenterY) = -4.0;
+  truth(S::kK1) = -0.1;
+  const CorrectionEstimate estimate = Estimate(truth, 12);
+  for (const int i : {S::kFocalLength, S::kCenterX, S::kCenterY, S::kK1}) {
+    EXPECT_NEAR(estimate.correction(i), truth(i), 4.0 * estimate.sigma(i)) << i;
+  }
+  EXPECT_LT(estimate.sigma(S::kFocalLength), 0.003);
+  EXPECT_LT(estimate.sigma(S::kCenterX), 1.0);
+}
+
+TEST_F(AdjustCalibrationTest, IsNotMisledByDepthThatIsNotRegistered) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kFocalLength) = -0.03;
+  truth(S::kDepthFocalLength) = 0.05;
+  truth(S::kDepthX) = 6.0;
+  const CorrectionEstimate estimate = Estimate(truth, 12);
+  EXPECT_NEAR(estimate.correction(S::kFocalLength), -0.03, 0.005);
+}
+
+TEST_F(AdjustCalibrationTest, TellsNothingOfDepth) {
+  const CorrectionEstimate estimate = Estimate(S::Vector::Zero(), 8);
+  for (const int i : IndicesOf(CorrectionGroup::kDepthRegistration)) {
+    EXPECT_NEAR(estimate.sigma(i), WrongCalibrationSigma()(i), 0.01 * WrongCalibrationSigma()(i));
+  }
+}
+
+TEST_F(AdjustCalibrationTest, IsTheSameEachTime) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kFocalLength) = 0.02;
+  EXPECT_EQ(Estimate(truth, 6).correction, Estimate(truth, 6).correction);
+}
+
+TEST_F(AdjustCalibrationTest, NeedsObservations) {
+  SimulatedCamera camera(S::Vector::Zero(), 3);
+  Map map;
+  EXPECT_FALSE(AdjustCalibration(*camera.given(), map, S::Vector::Zero()));
+  FillMap(&camera, 1, &map);
+  EXPECT_FALSE(AdjustCalibration(*camera.given(), map, S::Vector::Zero()));
+}
+
+}  // namespace
+}  // namespace msc_vo
