@@ -19,6 +19,7 @@
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/datasets/calibration_correction.h"
 #include "msc_vo/diagnosis/edge_alignment.h"
+#include "msc_vo/self_calibration/self_calibrating_bundle_adjustment.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -73,12 +74,18 @@ std::vector<RgbdDecoder> WithCalibration(const std::vector<RgbdDecoder>& decoder
   return result;
 }
 
-// Runs the odometry on every sequence and selects images for the calibration.
-std::vector<CalibrationSequence> TrackSequences(const std::vector<RgbdDecoder>& decoders,
-                                                const Configuration& configuration,
-                                                const RunArguments& run_arguments,
-                                                const InterruptGuard& interrupt) {
-  std::vector<CalibrationSequence> sequences;
+// What the sequences tell about the calibration that they were tracked with.
+struct TrackedSequences {
+  std::vector<CalibrationSequence> views;
+  CalibrationInformation of_maps;
+};
+
+// Runs the odometry on every sequence, selects images for the calibration, and adjusts the maps.
+TrackedSequences TrackSequences(const std::vector<RgbdDecoder>& decoders,
+                                const Configuration& configuration,
+                                const RunArguments& run_arguments,
+                                const InterruptGuard& interrupt) {
+  TrackedSequences sequences;
   for (const RgbdDecoder& decoder : decoders) {
     RunCallbacks callbacks;
     callbacks.frame = [](const FrameResult&) {};
@@ -87,7 +94,14 @@ std::vector<CalibrationSequence> TrackSequences(const std::vector<RgbdDecoder>& 
     if (run.exit_code != kExitSuccess) {
       throw std::runtime_error(decoder.index().directory + ": " + run.context.outcome);
     }
-    sequences.push_back(MakeCalibrationViews(decoder, configuration.odometry.features, run.result));
+    sequences.views.push_back(
+        MakeCalibrationViews(decoder, configuration.odometry.features, run.result));
+    const Calibration& present = decoder.calibration();
+    const auto of_map = SelfCalibratingBundleAdjustment(
+        {present.camera, present.distortion}, run.map->map, SensorCorrection::Vector::Zero());
+    if (!of_map) continue;
+    sequences.of_maps.matrix += of_map->matrix;
+    sequences.of_maps.vector += of_map->vector;
   }
   return sequences;
 }
@@ -122,8 +136,12 @@ CalibrationReport Calibrate(std::vector<RgbdDecoder> decoders, const Configurati
   for (int round = 0; round < kMaxRounds; ++round) {
     const auto sequences = TrackSequences(decoders, configuration, run, interrupt);
     const Calibration& present = report.estimated;
+    // A map that was made with a wrong calibration lacks the observations that contradict it.
+    const CalibrationInformation of_maps =
+        round == 0 ? CalibrationInformation() : sequences.of_maps;
     const auto calibrate = [&] {
-      return CalibrateSensor(present.camera, present.distortion, sequences, wrong, right);
+      return CalibrateSensor(present.camera, present.distortion, sequences.views, wrong, right,
+                             of_maps);
     };
     SensorCalibrationResult result = calibrate();
     const bool is_new = result.estimate.is_corrected[kRegistration] && !wrong[kRegistration];
@@ -141,7 +159,7 @@ CalibrationReport Calibrate(std::vector<RgbdDecoder> decoders, const Configurati
     wrong = result.estimate.is_corrected;
     if (!result.estimate.IsCorrected()) break;
     report.estimated = Corrected(present, result.estimate.correction);
-    if (!NeedsAnotherRound(result.estimate)) break;
+    if (round > 0 && !NeedsAnotherRound(result.estimate)) break;
     decoders = WithCalibration(decoders, report.estimated);
   }
   return report;

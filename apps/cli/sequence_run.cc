@@ -104,9 +104,11 @@ void RunLoop(const RunArguments& arguments, int num_frames, const InterruptGuard
 void FinishOdometry(Odometry* odometry, SequenceRun* run) {
   try {
     run->result = odometry->Finish();
+    run->map = odometry->Map();
   } catch (const std::exception& error) {
     Fail(kExitError, error.what(), run);
     run->result = odometry->Finish();
+    run->map = odometry->Map();
   }
 }
 

@@ -30,6 +30,7 @@ void AddRunArguments(CLI::App* command, RunArguments* arguments);
 /// up to that point.
 struct SequenceRun {
   OdometryResult result;
+  MapSnapshotPtr map;  ///< at the end
   RunSummary summary;
   RunContext context;  ///< contains the errors, if the sequence has ground truth
   /// With kExitError and kExitTrackingFailed, context.outcome is the error message.

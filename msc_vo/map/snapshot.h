@@ -38,6 +38,11 @@ struct MapSnapshot {
   bool needs_axes = false;           ///< the next keyframe packet shall contain surface normals
   InactiveMaps inactive_maps;        ///< of older segments that are not joined with this map
 
+  /// The map that knows the keyframe; nullptr: none.
+  const Map* FindMapOf(KeyframeId keyframe) const {
+    return map.KnowsKeyframe(keyframe) ? &map : msc_vo::FindMapOf(inactive_maps, keyframe);
+  }
+
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive.Fields(*this, map, newest_keyframe, noise_scale, readout_time, intrinsics, axes,

@@ -22,8 +22,6 @@ namespace msc_vo {
 
 namespace {
 
-// Seconds; as for the compensation of keyframes.
-constexpr double kMinReadoutChange = 0.001;
 // Iterations of both rounds of bundle adjustment after a change of the calibration.
 constexpr int kCalibrationIterations = 10;
 
@@ -52,7 +50,7 @@ MappingSummary Mapper::Insert(const KeyframePacket& packet) {
     SetKeyframeVelocity(newest_keyframe_, *packet.last_velocity, &atlas_.current());
   }
   if (packet.begins_map) BeginMap(packet);
-  UpdateReadoutTime();
+  readout_time_ = readout_.readout_time();
   CompensateKeyframes(readout_time_, &atlas_.current());
   std::shared_ptr<const Frame> frame = packet.frame;
   if (calibration_) frame = ChangeIntrinsics(frame, calibration_->present());
@@ -203,15 +201,9 @@ void Mapper::AddCustomFactors(WindowData* window) const {
   FixUnlinkedKeyframes(window);
 }
 
-void Mapper::UpdateReadoutTime() {
-  readout_time_ = readout_.readout_time();
-  if (std::abs(readout_time_ - pairs_readout_time_) < kMinReadoutChange) return;
-  pairs_readout_time_ = readout_time_;
-  if (calibration_) calibration_->SetReadoutTime(readout_time_);
-}
-
 void Mapper::Calibrate(const KeyframePacket& packet, MappingSummary* summary) {
   if (!calibration_ || packet.depth.empty()) return;
+  calibration_->SetReadoutTime(readout_time_);
   if (!calibration_->Update(map(), summary->keyframe, packet.depth, packet.calibration_images,
                             readout_.sigma())) {
     return;

@@ -127,11 +127,11 @@ class Mapper {
   void Serialize(Archive& archive) {
     auto& [options, window_observer, window_factors, extra, maps, joiner, probation, scene_axes,
            pairs, inactive_axes, noise_estimator, readout_estimator, calibration_estimator,
-           readout_time, pairs_readout_time, newest_keyframe, last_window_time,
-           last_lines] = *this;  // all members, or it does not compile
+           readout_time, newest_keyframe, last_window_time, last_lines] =
+        *this;  // all members, or it does not compile
     archive.Entries(inactive_axes, SceneAxes(options.axes));
     archive(extra, maps, joiner, probation, scene_axes, pairs, noise_estimator, readout_estimator,
-            readout_time, pairs_readout_time, newest_keyframe, last_window_time, last_lines);
+            readout_time, newest_keyframe, last_window_time, last_lines);
     if (calibration_estimator) archive(*calibration_estimator);  // as the options want it
   }
 
@@ -141,7 +141,6 @@ class Mapper {
   // Joins the current map with an inactive one if enough keyframes have been found in both.
   std::optional<MapJoin> JoinMaps();
   KeyframeId InsertKeyframe(const KeyframePacket& packet, std::shared_ptr<const Frame> frame);
-  void UpdateReadoutTime();
   // Updates the self-calibration, and brings the maps up to date with it.
   void Calibrate(const KeyframePacket& packet, MappingSummary* summary);
   // Adds the factors of the callback, the extra blocks and the axes that they may use.
@@ -164,8 +163,7 @@ class Mapper {
   NoiseEstimator noise_;
   ReadoutTimeEstimator readout_;
   std::optional<CalibrationEstimator> calibration_;
-  double readout_time_ = 0.0;        // seconds, of the compensation of the map's keyframes
-  double pairs_readout_time_ = 0.0;  // seconds, of that of the pairs of the calibration
+  double readout_time_ = 0.0;  // seconds, of the compensation of the map's keyframes
   KeyframeId newest_keyframe_ = kNoId;
   double last_window_time_ = -std::numeric_limits<double>::infinity();  // seconds, of its keyframe
   std::set<LandmarkId> last_window_lines_;

@@ -3,12 +3,11 @@
 
 #include "msc_vo/odometry/odometry.h"
 
-#include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/checkpoint/binary_reader.h"
 #include "msc_vo/checkpoint/binary_writer.h"
 #include "msc_vo/features/image_statistics.h"
@@ -16,9 +15,11 @@
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/event_log.h"
 #include "msc_vo/odometry/gap_filling.h"
+#include "msc_vo/odometry/input_checks.h"
 #include "msc_vo/odometry/map_result.h"
 #include "msc_vo/odometry/mapping_runner.h"
 #include "msc_vo/odometry/pose_correction.h"
+#include "msc_vo/odometry/pose_refiner.h"
 #include "msc_vo/odometry/segment_log.h"
 #include "msc_vo/odometry/side_worker.h"
 #include "msc_vo/odometry/snapshot_schedule.h"
@@ -34,24 +35,6 @@ namespace {
 constexpr double kCalibrationImageInterval = 0.115;
 constexpr size_t kMaxCalibrationImages = 3;
 
-// Largest time between a depth image and its colour image, seconds: the motion of the last two
-// frames cannot be extrapolated further.
-constexpr double kMaxDepthDelay = 1.0;
-
-OdometryOptions Checked(const OdometryOptions& options) {
-  std::string error;
-  if (!options.IsValid(&error)) throw std::invalid_argument(error);
-  return EffectiveOptions(options);
-}
-
-const PinholeCamera& Checked(const PinholeCamera& camera, const LensDistortion& distortion) {
-  std::string error;
-  if (!camera.IsValid(&error) || !IsInvertible(distortion, camera, &error)) {
-    throw std::invalid_argument(error);
-  }
-  return camera;
-}
-
 // The ids are sorted, so that each insertion point is close to the previous one.
 void CountVisible(const std::vector<LandmarkId>& ids, std::map<LandmarkId, TrackingCount>* counts) {
   auto place = counts->begin();
@@ -66,13 +49,14 @@ void CountVisible(const std::vector<LandmarkId>& ids, std::map<LandmarkId, Track
 struct Odometry::State {
   State(const OdometryOptions& options_in, const PinholeCamera& camera_in,
         const LensDistortion& distortion)
-      : options(Checked(options_in)),
-        camera(Checked(camera_in, distortion)),
+      : options(ValidatedOptions(options_in)),
+        camera(ValidatedCamera(camera_in, distortion)),
         aligner(camera, distortion),
         builder(options.features, camera, distortion),
         normal_estimator(std::in_place, NormalOptions(options), camera, distortion),
         tracker(options.tracking),
         mapper(options.mapping),
+        refiner(options.tracking.pose, options.pose_refinement_delay),
         schedule(options.snapshots,
                  options.threads > 1 ? MakeThreadedRunner(&mapper) : MakeInlineRunner(&mapper),
                  mapper.Snapshot(),
@@ -83,7 +67,6 @@ struct Odometry::State {
   }
 
   void CheckTime(int64_t id, double timestamp) const;
-  static void CheckDepthDelay(int64_t id, double delay);
   RgbdImage Align(const RgbdImage& image) const;
   Frame Build(const RgbdImage& image);
   void Count(const TrackedFrame& tracked);
@@ -101,7 +84,7 @@ struct Odometry::State {
   void Serialize(Archive& archive) {
     std::shared_ptr<const CameraIntrinsics> intrinsics = builder.intrinsics();
     archive(intrinsics, builder, tracker, mapper, last_window, last_calibration_image_time, packet,
-            results, relative_poses, segments, log, schedule);
+            results, relative_poses, refiner, segments, log, schedule);
     UseIntrinsics(intrinsics);
   }
 
@@ -120,27 +103,15 @@ struct Odometry::State {
   KeyframePacket packet;  // accumulates counts until the next keyframe
   std::vector<FrameResult> results;
   std::vector<RelativePose> relative_poses;  // one per result
+  PoseRefiner refiner;
   SegmentLog segments;
   EventLog log;
   SnapshotSchedule schedule;  // last: it uses the members above
 };
 
 void Odometry::State::CheckTime(int64_t id, double timestamp) const {
-  const std::string image = "image " + std::to_string(id);
-  if (!std::isfinite(timestamp)) {
-    throw std::invalid_argument(image + ": its time stamp must be a finite number of seconds");
-  }
-  if (results.empty() || timestamp > results.back().timestamp) return;
-  throw std::invalid_argument(image +
-                              ": its time stamp is not later than that of the previous image");
-}
-
-void Odometry::State::CheckDepthDelay(int64_t id, double delay) {
-  if (std::abs(delay) <= kMaxDepthDelay) return;
-  throw std::invalid_argument("image " + std::to_string(id) +
-                              ": depth_delay = " + std::to_string(delay) + " must be from -" +
-                              std::to_string(kMaxDepthDelay) + " to " +
-                              std::to_string(kMaxDepthDelay) + " seconds");
+  CheckTimestamp(id, timestamp,
+                 results.empty() ? std::nullopt : std::optional(results.back().timestamp));
 }
 
 // Returns the image with its depth warped to the time of its colour image.
@@ -286,7 +257,7 @@ void Odometry::SetTrackingObserver(TrackingObserver observer) {
 
 FrameResult Odometry::Process(const RgbdImage& recorded) {
   state_->CheckTime(recorded.id, recorded.timestamp);
-  State::CheckDepthDelay(recorded.id, recorded.depth_delay);
+  CheckDepthDelay(recorded.id, recorded.depth_delay);
   Stopwatch stopwatch;
   const RgbdImage image = state_->Align(recorded);
   const double alignment_ms = stopwatch.Milliseconds();
@@ -319,6 +290,10 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   }
   state_->results.push_back(result);
   state_->relative_poses.push_back({tracked.reference, tracked.cam_from_reference});
+  state_->refiner.Refine(image.timestamp, *state_->snapshot, &state_->relative_poses);
+  if (!state_->tracker.had_pose_factors()) {
+    state_->refiner.Add(static_cast<int>(state_->results.size()) - 1, tracked);
+  }
   state_->log.LogFrame(result, tracked.relocalized);
   const MapSnapshotPtr snapshot = state_->snapshot;
   state_->KeepForCalibration(tracked, image.depth);
@@ -365,17 +340,18 @@ bool Odometry::Save(BinaryWriter* archive) {
 
 void Odometry::Restore(BinaryReader* archive) { state_->Serialize(*archive); }
 
+MapSnapshotPtr Odometry::Map() {
+  state_->schedule.Drain();
+  return state_->mapper.Snapshot();
+}
+
 OdometryResult Odometry::Finish() {
   state_->schedule.Drain();
-  const Atlas& atlas = state_->mapper.atlas();
   OdometryResult result;
   result.frames = state_->results;
-  for (size_t i = 0; i < result.frames.size(); ++i) {
-    const RelativePose& pose = state_->relative_poses[i];
-    const Map* map = pose.reference != kNoId ? atlas.FindMapOf(pose.reference) : nullptr;
-    if (map == nullptr) continue;
-    result.frames[i].cam_from_world = pose.cam_from_reference * map->CamFromWorld(pose.reference);
-  }
+  std::vector<RelativePose> poses = state_->relative_poses;
+  state_->refiner.RefineAll(*state_->mapper.Snapshot(), &poses);
+  SetPoses(state_->mapper.atlas(), poses, &result.frames);
   result.segments = state_->segments.Segments(result.frames);
   FillGaps(result.segments, &result.frames);
   state_->segments.PropagateCovariances(&result.frames);

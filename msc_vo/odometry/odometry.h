@@ -14,6 +14,7 @@
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/map/noise_scale.h"
+#include "msc_vo/map/snapshot.h"
 #include "msc_vo/mapping/window_factors.h"
 #include "msc_vo/mapping/window_observer.h"
 #include "msc_vo/odometry/frame_result.h"
@@ -133,10 +134,14 @@ class Odometry {
   /// The frames so far, with the poses as known when each was tracked.
   const std::vector<FrameResult>& frames() const;
 
-  /// Waits for the mapper and returns the trajectory relative to the final keyframe poses. May be
+  /// Waits for the mapper and returns the trajectory relative to the final keyframe poses, with
+  /// poses that are estimated again (OdometryOptions::pose_refinement_delay). May be
   /// called at any time. Throws the exception of a keyframe step if Process() has not; the next
   /// call returns the result.
   OdometryResult Finish();
+
+  /// Waits for the mapper and returns the present map. Throws as Finish() does.
+  MapSnapshotPtr Map();
 
   /// Waits for the mapper and writes the state of the run (checkpoint/checkpoint_file.h). A run
   /// that restores it continues with the same results, bit by bit. Writes nothing and returns false

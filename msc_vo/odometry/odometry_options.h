@@ -37,6 +37,9 @@ struct OdometryOptions {
   /// with lines. The result does not depend on it.
   int threads = 2;
   FrameBuilderOptions features;
+  /// Seconds after which the pose of a frame is estimated again, in the map as optimised since; 0:
+  /// never. A pose that pose factors took part in remains.
+  double pose_refinement_delay = 5.0;
   int normal_grid_step = 16;  ///< pixels between surface normals
   TrackerOptions tracking;
   MapperOptions mapping;

@@ -61,15 +61,23 @@ void CorrectPoses(const InactiveMaps& maps_before, const MapSnapshot& after,
   for (const std::shared_ptr<const Map>& before : maps_before) {
     if (before->keyframes().empty()) continue;
     const KeyframeId first = before->keyframes().front().first;
-    const PoseCorrection correction(*before, after.map.KnowsKeyframe(first)
-                                                 ? after.map
-                                                 : *FindMapOf(after.inactive_maps, first));
+    const PoseCorrection correction(*before, *after.FindMapOf(first));
     for (size_t i = 0; i < poses->size(); ++i) {
       RelativePose& pose = (*poses)[i];
       if (pose.reference == kNoId || !before->KnowsKeyframe(pose.reference)) continue;
       pose.cam_from_reference =
           correction.Correct(frames[i].timestamp, pose.reference, pose.cam_from_reference);
     }
+  }
+}
+
+void SetPoses(const Atlas& atlas, const std::vector<RelativePose>& poses,
+              std::vector<FrameResult>* frames) {
+  for (size_t i = 0; i < frames->size(); ++i) {
+    const RelativePose& pose = poses[i];
+    const Map* map = pose.reference != kNoId ? atlas.FindMapOf(pose.reference) : nullptr;
+    if (map == nullptr) continue;
+    (*frames)[i].cam_from_world = pose.cam_from_reference * map->CamFromWorld(pose.reference);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "msc_vo/map/atlas.h"
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/odometry/frame_result.h"
 
@@ -27,5 +28,9 @@ struct RelativePose {
 /// keyframes. `frames`: with the time stamps, one per pose.
 void CorrectPoses(const InactiveMaps& maps_before, const MapSnapshot& after,
                   const std::vector<FrameResult>& frames, std::vector<RelativePose>* poses);
+
+/// Sets the poses of `frames`, one per pose, from those of their keyframes in the maps of `atlas`.
+void SetPoses(const Atlas& atlas, const std::vector<RelativePose>& poses,
+              std::vector<FrameResult>* frames);
 
 }  // namespace msc_vo

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "msc_vo/camera/lens_validity.h"
-#include "msc_vo/self_calibration/self_calibrating_adjustment.h"
+#include "msc_vo/self_calibration/self_calibrating_bundle_adjustment.h"
 
 namespace msc_vo {
 
@@ -39,10 +39,10 @@ constexpr size_t kSettledPairs = 150;
 // Posterior odds by the pairs alone from which on the map is adjusted, if the parameters of the
 // group are half as certain as must be for a correction. The largest odds of sequences that are
 // described well are 0.02 (docs/lab/self_calibration.md).
-constexpr double kSuspiciousOdds = 0.3;
+constexpr double kCandidateOdds = 0.3;
 // Bundle adjustment is repeated when the map has grown by this ratio, up to this size.
-constexpr double kAdjustmentGrowth = 1.25;
-constexpr size_t kLastAdjustment = 60;
+constexpr double kGrowth = 1.25;
+constexpr size_t kLastSize = 60;
 // It replaces a correction that moves a pixel by more than this, a tenth of the noise of a point.
 constexpr double kMinShift = 0.1;
 
@@ -75,15 +75,24 @@ bool IsSettled(const SensorCorrection::Vector& sigma, size_t num_pairs) {
          IsCertain(CorrectionGroup::kLens, sigma);
 }
 
-// The groups `before` and those whose correction is accepted. If the registration of depth may be
+// Logarithms of the odds above which groups are accepted.
+using LogOdds = std::array<double, kNumCorrectionGroups>;
+
+LogOdds RequiredOfPairs() {
+  LogOdds required;
+  required.fill(std::log(kAcceptedOdds));
+  return required;
+}
+
+// The groups `before`, and those whose correction is accepted. If the registration of depth may be
 // wrong, nothing new is: its error may look like one of the colour camera.
-CorrectionEstimate Select(const CalibrationInformation& information, const WrongGroups& before) {
-  const std::array<double, kNumCorrectionGroups> log_odds =
-      SelectCorrections(information, before).log_odds;
+CorrectionEstimate Select(const CalibrationInformation& information, const WrongGroups& before,
+                          const LogOdds& required) {
+  const LogOdds log_odds = SelectCorrections(information, before).log_odds;
   const SensorCorrection::Vector sigma = EstimateCorrections(information, kAll).sigma;
   WrongGroups wrong = before;
   for (int g = 0; g < kNumCorrectionGroups && log_odds[kRegistration] < 0.0; ++g) {
-    if (log_odds[g] > std::log(kAcceptedOdds) && IsCertain(static_cast<CorrectionGroup>(g), sigma))
+    if (log_odds[g] > required[g] && IsCertain(static_cast<CorrectionGroup>(g), sigma))
       wrong[g] = true;
   }
   CorrectionEstimate estimate = EstimateCorrections(information, wrong);
@@ -91,24 +100,36 @@ CorrectionEstimate Select(const CalibrationInformation& information, const Wrong
   return estimate;
 }
 
-// Whether a group of the colour camera may be wrong by the pairs alone.
-bool IsSuspicious(const CorrectionEstimate& pairs) {
+// The groups of the colour camera that may be wrong by the pairs alone.
+WrongGroups CandidateGroups(const CorrectionEstimate& pairs) {
+  WrongGroups candidates = {};
   for (const CorrectionGroup group : kColorGroups) {
-    if (pairs.log_odds[static_cast<size_t>(group)] > std::log(kSuspiciousOdds) &&
-        IsCertain(group, 0.5 * pairs.sigma)) {
-      return true;
-    }
+    const auto g = static_cast<size_t>(group);
+    candidates[g] =
+        pairs.log_odds[g] > std::log(kCandidateOdds) && IsCertain(group, 0.5 * pairs.sigma);
   }
-  return false;
+  return candidates;
+}
+
+// What bundle adjustment of the map requires: nothing is accepted that is no candidate by the
+// pairs, and where they find an error more likely than not, the map needs to agree only.
+LogOdds RequiredOfMap(const CorrectionEstimate& pairs) {
+  const WrongGroups candidates = CandidateGroups(pairs);
+  LogOdds required;
+  for (int g = 0; g < kNumCorrectionGroups; ++g) {
+    required[g] = !candidates[g]          ? std::numeric_limits<double>::infinity()
+                  : pairs.log_odds[g] > 0 ? 0.0
+                                          : std::log(kAcceptedOdds);
+  }
+  return required;
 }
 
 // The estimate of the pairs with the adjusted values of the corrected groups.
 CorrectionEstimate WithAdjusted(const CorrectionEstimate& adjusted, CorrectionEstimate pairs) {
-  pairs.is_corrected = adjusted.is_corrected;
   for (const CorrectionGroup group : kColorGroups) {
     const auto g = static_cast<size_t>(group);
+    if (!adjusted.is_corrected[g] || !pairs.is_corrected[g]) continue;
     pairs.log_odds[g] = adjusted.log_odds[g];
-    if (!adjusted.is_corrected[g]) continue;
     for (const int i : IndicesOf(group)) {
       pairs.correction(i) = adjusted.correction(i);
       pairs.sigma(i) = std::max(pairs.sigma(i), adjusted.sigma(i));
@@ -117,12 +138,8 @@ CorrectionEstimate WithAdjusted(const CorrectionEstimate& adjusted, CorrectionEs
   return pairs;
 }
 
-// Whether corrections differ by more than a standard deviation of `after`.
-bool HasMoved(const CorrectionEstimate& after, const SensorCorrection::Vector& before) {
-  return ((after.correction - before).array().abs() > after.sigma.array()).any();
-}
-
-// Largest distance between the pixels of both calibrations that show the same, over the image.
+// Largest displacement (pixels) of an undistorted point when the calibration changes, at nine
+// points of the image.
 double LargestShift(const CameraIntrinsics& from, const CameraIntrinsics& to) {
   double shift = 0.0;
   for (const double x : {0.0, 0.5, 1.0}) {
@@ -177,19 +194,15 @@ bool CalibrationEstimator::SelectGroups(double readout_sigma) {
     pairs_.Relinearize(at_, free.sigma, max_pairs);
   };
   linearize(kMaxRelinearized);
-  CorrectionEstimate selected = Select(pairs_.Sum(readout_sigma), before);
+  CorrectionEstimate selected = Select(pairs_.Sum(readout_sigma), before, RequiredOfPairs());
   if (selected.is_corrected != before) {
     for (int i = 0; i < kIterations; ++i) linearize(pairs_.size());
-    selected = Select(pairs_.Sum(readout_sigma), before);
+    selected = Select(pairs_.Sum(readout_sigma), before, RequiredOfPairs());
   }
-  estimate_ = selected;
-  if (selected.is_corrected != before) {
-    adjusted_.reset();
-    next_adjustment_ = 0;
-    return true;
-  }
-  if (adjusted_) estimate_ = WithAdjusted(*adjusted_, estimate_);
-  return false;
+  estimate_ = adjusted_ ? WithAdjusted(*adjusted_, selected) : selected;
+  if (selected.is_corrected == before) return false;
+  next_size_ = 0;
+  return true;
 }
 
 bool CalibrationEstimator::IsReplacementDue() const {
@@ -208,28 +221,37 @@ bool CalibrationEstimator::IsReplacementDue() const {
 }
 
 bool CalibrationEstimator::IsAdjustmentDue(size_t num_keyframes) const {
-  return num_keyframes >= next_adjustment_ && estimate_.log_odds[kRegistration] < 0.0 &&
-         (estimate_.IsCorrected() || IsSuspicious(estimate_));
+  const bool is_new_map = 2 * num_keyframes < adjusted_size_;
+  return (num_keyframes >= next_size_ || is_new_map) && estimate_.log_odds[kRegistration] < 0.0 &&
+         (estimate_.IsCorrected() || CandidateGroups(estimate_) != WrongGroups());
 }
 
 bool CalibrationEstimator::Adjust(const Map& map, double readout_sigma) {
-  const size_t size = map.keyframes().size();
-  next_adjustment_ = size < kLastAdjustment
-                         ? std::max(size + 1, static_cast<size_t>(kAdjustmentGrowth * size))
-                         : std::numeric_limits<size_t>::max();
-  auto information = AdjustCalibration(*given_, map, estimate_.correction);
+  adjusted_size_ = map.keyframes().size();
+  next_size_ = adjusted_size_ < kLastSize
+                   ? std::max(adjusted_size_ + 1,
+                              static_cast<size_t>(kGrowth * static_cast<double>(adjusted_size_)))
+                   : std::numeric_limits<size_t>::max();
+  auto information = SelfCalibratingBundleAdjustment(*given_, map, estimate_.correction);
   if (!information) return false;
   const CalibrationInformation pairs = pairs_.Sum(readout_sigma);
   information->matrix += pairs.matrix;
   information->vector += pairs.vector;
-  const CorrectionEstimate adjusted = Select(*information, estimate_.is_corrected);
-  if (!adjusted.IsCorrected()) return false;
+  const CorrectionEstimate adjusted =
+      Select(*information, estimate_.is_corrected, RequiredOfMap(estimate_));
+  const CameraIntrinsics corrected = Corrected(*given_, adjusted.correction);
+  std::string error;
+  if (!adjusted.IsCorrected() || !IsInvertible(corrected.distortion, corrected.camera, &error)) {
+    return false;
+  }
   const bool is_new = adjusted.is_corrected != estimate_.is_corrected;
-  // Landmarks and outliers were selected with the calibration of the start.
-  if (is_new || HasMoved(adjusted, estimate_.correction)) next_adjustment_ = size + 1;
   adjusted_ = adjusted;
+  estimate_.is_corrected = adjusted.is_corrected;
   estimate_ = WithAdjusted(adjusted, estimate_);
-  return is_new || LargestShift(*present_, Corrected(*given_, estimate_.correction)) > kMinShift;
+  if (!is_new && LargestShift(*present_, corrected) <= kMinShift) return false;
+  // Landmarks and outliers were selected with the calibration of the start.
+  next_size_ = adjusted_size_ + 1;
+  return true;
 }
 
 }  // namespace msc_vo

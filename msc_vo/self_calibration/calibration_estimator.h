@@ -16,8 +16,8 @@ namespace msc_vo {
 
 /// Self-calibration of focal length, principal point and radial distortion during a run. The given
 /// calibration counts as right until another one is far more likely, see SelectCorrections(). Pairs
-/// of images, which cost little, raise the suspicion; self-calibrating bundle adjustment of the map
-/// (AdjustCalibration) then tells more, and how large the error is.
+/// of images, which cost little, make it a candidate; SelfCalibratingBundleAdjustment() of the map
+/// then determines how large the error is.
 class CalibrationEstimator {
  public:
   explicit CalibrationEstimator(const std::shared_ptr<const CameraIntrinsics>& given);
@@ -39,9 +39,9 @@ class CalibrationEstimator {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [given, present, pairs, at, estimate, applied, adjusted, next_adjustment] =
+    auto& [given, present, pairs, at, estimate, applied, adjusted, adjusted_size, next_size] =
         *this;  // all members
-    archive(given, present, pairs, at, estimate, applied, adjusted, next_adjustment);
+    archive(given, present, pairs, at, estimate, applied, adjusted, adjusted_size, next_size);
   }
 
  private:
@@ -49,7 +49,7 @@ class CalibrationEstimator {
   bool SelectGroups(double readout_sigma);
   // Whether the estimate differs enough from the calibration in use to replace it.
   bool IsReplacementDue() const;
-  // Whether a map of this size is to be adjusted.
+  // Whether bundle adjustment of a map of this size is due.
   bool IsAdjustmentDue(size_t num_keyframes) const;
   // Decides by bundle adjustment. Returns true if the calibration in use should be replaced.
   bool Adjust(const Map& map, double readout_sigma);
@@ -63,7 +63,9 @@ class CalibrationEstimator {
   CorrectionEstimate estimate_;
   CorrectionEstimate applied_;                  // the one of present()
   std::optional<CorrectionEstimate> adjusted_;  // by bundle adjustment, of the corrected groups
-  size_t next_adjustment_ = 0;                  // number of keyframes
+  // Numbers of keyframes at the last bundle adjustment, and from which on the next one is due.
+  size_t adjusted_size_ = 0;
+  size_t next_size_ = 0;
 };
 
 }  // namespace msc_vo

@@ -25,9 +25,9 @@ struct CalibrationPoint {
   }
 };
 
-/// What the points of one pair of images tell about a SensorCorrection: a quadratic approximation
-/// of the negative log likelihood, with the relative pose marginalised,
-/// x^T matrix x / 2 - vector^T x.
+/// Information of the points of a pair of images, of several ones or of a map about a
+/// SensorCorrection: a quadratic approximation of the negative log likelihood, with poses and
+/// points marginalised, x^T matrix x / 2 - vector^T x.
 struct CalibrationInformation {
   SensorCorrection::Matrix matrix = SensorCorrection::Matrix::Zero();
   SensorCorrection::Vector vector = SensorCorrection::Vector::Zero();

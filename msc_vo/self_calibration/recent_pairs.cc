@@ -4,6 +4,7 @@
 #include "msc_vo/self_calibration/recent_pairs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "msc_vo/matching/point_matcher.h"
@@ -27,6 +28,8 @@ constexpr double kSearchRadius = 30.0;
 constexpr double kMaxDisplacement = 80.0;
 // Smallest mean displacement of the points of a pair, pixels.
 constexpr double kMinDisplacement = 20.0;
+// Seconds; as for the compensation of keyframes.
+constexpr double kMinReadoutChange = 0.001;
 // Distance of the linearisation point that calls for a new one, standard deviations.
 constexpr double kMaxDistance = 0.5;
 
@@ -72,6 +75,7 @@ void RecentPairs::AddKeyframe(const Map& map, KeyframeId id, const cv::Mat& dept
 }
 
 void RecentPairs::SetReadoutTime(double readout_time) {
+  if (std::abs(readout_time - readout_time_) < kMinReadoutChange) return;
   readout_time_ = readout_time;
   for (KeyframeView& view : views_) {
     for (Sample& sample : view.samples) Compensate(readout_time, &sample.view);

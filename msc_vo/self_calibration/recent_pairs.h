@@ -45,7 +45,8 @@ class RecentPairs {
   /// The same for a keyframe of the map, with which later images form pairs.
   void AddKeyframe(const Map& map, KeyframeId id, const cv::Mat& depth,
                    const SensorCorrection::Vector& at);
-  /// Compensates the rolling shutter with another readout time (seconds).
+  /// Compensates the rolling shutter with another readout time (seconds), if it differs by more
+  /// than a millisecond, as for keyframes.
   void SetReadoutTime(double readout_time);
 
   /// Linearises those pairs again that were linearised farthest from `at`, in units of `sigma`, at

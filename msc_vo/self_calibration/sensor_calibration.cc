@@ -82,12 +82,18 @@ CalibrationInformation SumOf(const Pairs& pairs, const SensorCorrection::Vector&
   return sum;
 }
 
-// Gauss-Newton for the model in which exactly the groups `wrong` are corrected.
-CorrectionEstimate Iterate(const Pairs& pairs, const WrongGroups& wrong,
-                           SensorCorrection::Vector at) {
+// Gauss-Newton for the model in which exactly the groups `wrong` are corrected. The errors of maps
+// count as independent, so that the standard deviations are those of the pairs alone.
+CorrectionEstimate Iterate(const Pairs& pairs, const CalibrationInformation& of_maps,
+                           const WrongGroups& wrong, SensorCorrection::Vector at) {
   CorrectionEstimate estimate;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    estimate = EstimateCorrections(SumOf(pairs, at), wrong);
+    CalibrationInformation sum = SumOf(pairs, at);
+    const SensorCorrection::Vector sigma = EstimateCorrections(sum, wrong).sigma;
+    sum.matrix += of_maps.matrix;
+    sum.vector += of_maps.vector;
+    estimate = EstimateCorrections(sum, wrong);
+    estimate.sigma = sigma;
     const SensorCorrection::Vector change =
         (estimate.correction - at).cwiseQuotient(estimate.sigma);
     at = estimate.correction;
@@ -102,7 +108,8 @@ SensorCalibrationResult CalibrateSensor(const PinholeCamera& camera,
                                         const LensDistortion& distortion,
                                         const std::vector<CalibrationSequence>& sequences,
                                         const WrongGroups& known_wrong,
-                                        const WrongGroups& known_right) {
+                                        const WrongGroups& known_right,
+                                        const CalibrationInformation& of_maps) {
   Pairs pairs;
   for (const CalibrationSequence& views : sequences) {
     MatchViews(CorrectedCamera(camera, distortion), views, &pairs);
@@ -114,10 +121,11 @@ SensorCalibrationResult CalibrateSensor(const PinholeCamera& camera,
   // restrictions, which is near to the optimum of each model that can win.
   WrongGroups unrestricted;
   for (int g = 0; g < kNumCorrectionGroups; ++g) unrestricted[g] = !known_right[g];
-  const CorrectionEstimate free = Iterate(pairs, unrestricted, SensorCorrection::Vector::Zero());
+  const CorrectionEstimate free =
+      Iterate(pairs, {}, unrestricted, SensorCorrection::Vector::Zero());
   const CorrectionEstimate selected =
       SelectCorrections(SumOf(pairs, free.correction), known_wrong, known_right);
-  result.estimate = Iterate(pairs, selected.is_corrected, selected.correction);
+  result.estimate = Iterate(pairs, of_maps, selected.is_corrected, selected.correction);
   result.estimate.log_odds = selected.log_odds;
   return result;
 }

@@ -24,7 +24,9 @@ struct SensorCalibrationResult {
 /// relative pose of each pair marginalised, and decides which parts of the calibration are wrong.
 /// `camera`, `distortion`: the calibration that the frames were built with. Poses are first
 /// guesses; pairs are formed within each sequence. Groups that are `known_wrong` are corrected
-/// anyway, to refine an earlier correction; those that are `known_right` are not.
+/// anyway, to refine an earlier correction; those that are `known_right` are not. `of_maps`: sum of
+/// SelfCalibratingBundleAdjustment() over the maps of the sequences; it refines the groups that the
+/// pairs find wrong.
 ///
 /// The error of an image is common to all its pairs; the information of all pairs is therefore
 /// scaled to that of one pair per image.
@@ -32,6 +34,7 @@ SensorCalibrationResult CalibrateSensor(const PinholeCamera& camera,
                                         const LensDistortion& distortion,
                                         const std::vector<CalibrationSequence>& sequences,
                                         const WrongGroups& known_wrong = {},
-                                        const WrongGroups& known_right = {});
+                                        const WrongGroups& known_right = {},
+                                        const CalibrationInformation& of_maps = {});
 
 }  // namespace msc_vo

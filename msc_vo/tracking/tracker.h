@@ -30,6 +30,8 @@ class Tracker {
   /// estimate of that pose. If they determine it alone, they replace constant velocity: the search
   /// for matches starts from their pose, and a frame whose image yields none keeps it.
   void SetPoseFactors(PoseFactorCallback callback) { pose_factor_callback_ = std::move(callback); }
+  /// Whether the last frame had any.
+  bool had_pose_factors() const { return !pose_factors_.empty(); }
 
   /// Tracks the next frame. The returned frame is compensated for the rolling shutter like the map,
   /// unless the camera's velocity is unknown, as after a gap. Frames must be in order of time, and

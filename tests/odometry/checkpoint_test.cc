@@ -37,7 +37,7 @@ std::string Bytes(const OdometryResult& result) {
   }
   writer(result.axes.state, result.axes.num_refinements, result.axes.world_from_axes,
          result.axes.sigma, result.noise_scale, result.depth_sensor, result.readout_time,
-         result.last_window);
+         result.calibration, result.last_window);
   return writer.bytes();
 }
 
@@ -66,10 +66,12 @@ class CheckpointTest : public RoomTest {
     }
   }
 
-  // Short searches, so that the segments of the sequence are found and joined.
+  // Short searches, so that the segments of the sequence are found and joined, and poses that are
+  // estimated again soon.
   static OdometryOptions Options(int threads) {
     OdometryOptions options;
     options.threads = threads;
+    options.pose_refinement_delay = 0.3;
     options.tracking.max_prediction = 0.2;
     options.tracking.segments.min_search = 0.3;
     options.tracking.segments.search_interval = 0.1;

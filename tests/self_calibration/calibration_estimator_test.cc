@@ -15,15 +15,17 @@ namespace {
 
 using S = SensorCorrection;
 
-// A run whose keyframes have the given poses.
+// A run whose keyframes have the given poses, with landmarks or without.
 class SimulatedRun {
  public:
-  explicit SimulatedRun(const S::Vector& truth) : camera_(truth, 1), estimator_(camera_.given()) {}
+  explicit SimulatedRun(const S::Vector& truth, bool has_landmarks = false)
+      : has_landmarks_(has_landmarks), camera_(truth, 1), estimator_(camera_.given()) {}
 
   // Adds a keyframe. Returns true if the calibration in use has changed.
   bool Add(const Rigid3& cam_from_world) {
     const auto [frame, depth] = camera_.Record(cam_from_world);
     const KeyframeId id = map_.AddKeyframe(frame, cam_from_world);
+    if (has_landmarks_) Observe(id, &landmarks_, &map_);
     ChangeKeyframeIntrinsics(estimator_.present(), &map_);
     return estimator_.Update(map_, id, depth, {}, 0.0);
   }
@@ -38,8 +40,10 @@ class SimulatedRun {
   const CalibrationEstimator& estimator() const { return estimator_; }
 
  private:
+  bool has_landmarks_;
   SimulatedCamera camera_;
   CalibrationEstimator estimator_;
+  LandmarksByDescriptor landmarks_;
   Map map_;
   int num_changes_ = 0;
 };
@@ -66,6 +70,35 @@ TEST(CalibrationEstimator, AcceptsAnotherFocalLengthOnce) {
   EXPECT_LE(run.num_changes(), 3);
   EXPECT_NEAR(estimate.correction(S::kFocalLength), -0.05, 0.005);
   EXPECT_NEAR(run.estimator().present()->camera.fx, std::exp(-0.05) * kGiven.fx, 0.01 * kGiven.fx);
+}
+
+TEST(CalibrationEstimator, RefinesACorrectionByTheMap) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kFocalLength) = -0.03;
+  SimulatedRun run(truth, true);
+  run.AddKeyframes(20);
+  const CorrectionEstimate& estimate = run.estimator().estimate();
+  EXPECT_TRUE(estimate.is_corrected[0]);
+  EXPECT_FALSE(estimate.is_corrected[1] || estimate.is_corrected[2] || estimate.is_corrected[3]);
+  EXPECT_NEAR(estimate.correction(S::kFocalLength), -0.03, 0.002);
+  EXPECT_LE(run.num_changes(), 10);
+}
+
+TEST(CalibrationEstimator, KeepsARightCalibrationWithAMap) {
+  SimulatedRun run(S::Vector::Zero(), true);
+  run.AddKeyframes(14);
+  EXPECT_EQ(run.num_changes(), 0);
+}
+
+TEST(CalibrationEstimator, AcceptsNothingWhereDepthIsNotRegistered) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kFocalLength) = -0.02;
+  truth(S::kDepthFocalLength) = 0.06;
+  truth(S::kDepthX) = 8.0;
+  SimulatedRun run(truth, true);
+  run.AddKeyframes(14);
+  EXPECT_EQ(run.num_changes(), 0);
+  EXPECT_GT(run.estimator().estimate().log_odds[3], 0.0);
 }
 
 TEST(CalibrationEstimator, AcceptsTheDistortionOfALens) {

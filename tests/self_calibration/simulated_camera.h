@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <random>
 #include <utility>
@@ -13,6 +14,7 @@
 #include <opencv2/core.hpp>
 
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/map/map.h"
 #include "msc_vo/self_calibration/sensor_calibration.h"
 
 namespace msc_vo {
@@ -31,6 +33,24 @@ inline double DistanceToWall(const Eigen::Vector3d& origin, const Eigen::Vector3
     distance = std::min(distance, (wall - origin(i)) / direction(i));
   }
   return distance;
+}
+
+// Landmarks of simulated frames by their descriptors.
+using LandmarksByDescriptor = std::map<Descriptor, LandmarkId>;
+
+// Adds the observations of a keyframe to a map. A new landmark is where this frame measures it.
+inline void Observe(KeyframeId keyframe, LandmarksByDescriptor* landmarks, Map* map) {
+  const std::shared_ptr<const Frame> frame = map->FindKeyframe(keyframe)->frame;
+  const Rigid3 world_from_cam = map->CamFromWorld(keyframe).Inverse();
+  for (int i = 0; i < static_cast<int>(frame->points.size()); ++i) {
+    const auto known = landmarks->find(frame->points[i].descriptor);
+    if (known != landmarks->end()) {
+      map->ObservePoint(known->second, keyframe, i);
+    } else {
+      (*landmarks)[frame->points[i].descriptor] =
+          map->AddPoint(keyframe, i, world_from_cam * frame->PointInCamera(i));
+    }
+  }
 }
 
 // Images of a room by a camera whose calibration differs from kGiven by `truth`.

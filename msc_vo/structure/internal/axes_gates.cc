@@ -21,13 +21,16 @@ constexpr double kNormalsPerObservation = 16.0;
 // Fewer lines along an axis may be a coincidence.
 constexpr double kMinLinesOfAxis = 3.0;
 
-// Logarithm of the probability of k or more successes in n trials of probability p.
+// Logarithm of the probability of k or more successes in n trials of probability p. Not by
+// std::lgamma(), which writes a global variable.
 double LogBinomialTail(int n, int k, double p) {
   if (k <= 0) return 0.0;
+  double log_choose = 0.0;  // logarithm of n over i
+  for (int j = 1; j <= k; ++j) log_choose += std::log(static_cast<double>(n - k + j) / j);
   double tail = 0.0;
   for (int i = k; i <= n; ++i) {
-    tail += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) +
-                     i * std::log(p) + (n - i) * std::log1p(-p));
+    tail += std::exp(log_choose + i * std::log(p) + (n - i) * std::log1p(-p));
+    log_choose += std::log(static_cast<double>(n - i) / (i + 1));
   }
   return tail > 0.0 ? std::log(tail) : -std::numeric_limits<double>::infinity();
 }

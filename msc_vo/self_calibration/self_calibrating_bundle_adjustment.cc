@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/self_calibration/self_calibrating_adjustment.h"
+#include "msc_vo/self_calibration/self_calibrating_bundle_adjustment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +34,11 @@ using Matrix = SensorCorrection::Matrix;
 
 // Bounds of the computing time.
 constexpr size_t kMaxObservations = 6000;
+constexpr size_t kMaxKeyframes = 100;
 constexpr int kMaxIterations = 25;
 // Fewest observations that make an adjustment worth its time.
 constexpr size_t kMinObservations = 300;
-// Fewest points that a keyframe shares with the others.
+// Fewest points that a keyframe must observe.
 constexpr int kMinPointsOfKeyframe = 10;
 // Square root of the 95 % quantile of chi-square with three degrees of freedom.
 constexpr double kLoss = 2.795;
@@ -46,6 +47,13 @@ constexpr double kLoss = 2.795;
 constexpr double kDepthError = 0.1;
 // Of parameters that are not estimated, in their units.
 constexpr double kFixedSigma = 1e-6;
+// Damping of poses and points when they are marginalised, relative to their information: it bounds
+// what hardly anything determines.
+constexpr double kDamping = 1e-6;
+
+bool IsInFront(const Map& map, const PointLandmark& point, KeyframeId keyframe) {
+  return (map.CamFromWorld(keyframe) * point.position).z() > kMinCameraDepth;
+}
 
 // The points with most observations, in order of their ids.
 std::vector<LandmarkId> SelectPoints(const Map& map) {
@@ -66,7 +74,7 @@ std::vector<LandmarkId> SelectPoints(const Map& map) {
   return selected;
 }
 
-// Keyframes that observe enough of the points.
+// The keyframes that observe most of the points.
 std::set<KeyframeId> SelectKeyframes(const Map& map, const std::vector<LandmarkId>& points) {
   std::map<KeyframeId, int> counts;
   for (const LandmarkId id : points) {
@@ -74,9 +82,25 @@ std::set<KeyframeId> SelectKeyframes(const Map& map, const std::vector<LandmarkI
       ++counts[observation.keyframe];
     }
   }
-  std::set<KeyframeId> selected;
+  std::vector<std::pair<int, KeyframeId>> ranked;
   for (const auto& [id, count] : counts) {
-    if (count >= kMinPointsOfKeyframe) selected.insert(id);
+    if (count >= kMinPointsOfKeyframe) ranked.emplace_back(-count, id);
+  }
+  std::sort(ranked.begin(), ranked.end());
+  std::set<KeyframeId> selected;
+  for (const auto& [count, id] : ranked) {
+    if (selected.size() < kMaxKeyframes) selected.insert(id);
+  }
+  return selected;
+}
+
+// The keyframes whose observations of a point are used: those that have it in front of them.
+std::vector<Observation> SelectObservations(const Map& map, const PointLandmark& point,
+                                            const std::set<KeyframeId>& keyframes) {
+  std::vector<Observation> selected;
+  for (const Observation& observation : point.observations) {
+    if (keyframes.count(observation.keyframe) == 0) continue;
+    if (IsInFront(map, point, observation.keyframe)) selected.push_back(observation);
   }
   return selected;
 }
@@ -96,17 +120,22 @@ SelfCalibratingReprojection::Measurement MeasurementOf(const Keyframe& keyframe,
 
 // Poses and points of a map, and the correction that all of them share. Ceres orders the blocks by
 // address: they are elements of vectors, so that the result does not depend on the allocator.
-class AdjustmentProblem {
+class SelfCalibrationProblem {
  public:
-  AdjustmentProblem(const CameraIntrinsics& given, const Map& map, const Vector& start)
+  SelfCalibrationProblem(const CameraIntrinsics& given, const Map& map, const Vector& start)
       : camera_(given.camera, given.distortion), correction_(start) {
     const std::vector<LandmarkId> points = SelectPoints(map);
-    for (const KeyframeId id : SelectKeyframes(map, points)) {
+    const std::set<KeyframeId> keyframes = SelectKeyframes(map, points);
+    for (const KeyframeId id : keyframes) {
       pose_index_.emplace(id, poses_.size());
       poses_.push_back(map.CamFromWorld(id));
     }
     points_.reserve(points.size());
-    for (const LandmarkId id : points) AddPoint(map, *map.FindPoint(id));
+    for (const LandmarkId id : points) {
+      const PointLandmark& point = *map.FindPoint(id);
+      const std::vector<Observation> observations = SelectObservations(map, point, keyframes);
+      if (observations.size() >= 2) AddPoint(map, point, observations);
+    }
     AddPrior();
     HoldGauge();
   }
@@ -129,7 +158,7 @@ class AdjustmentProblem {
     return summary.IsSolutionUsable();
   }
 
-  // What the observations tell about the correction, without its prior.
+  // The information of the observations about the correction, without its prior.
   std::optional<CalibrationInformation> Marginalize() {
     ceres::Problem::EvaluateOptions options;
     for (Eigen::Vector3d& point : points_) options.parameter_blocks.push_back(point.data());
@@ -147,24 +176,20 @@ class AdjustmentProblem {
   }
 
  private:
-  void AddPoint(const Map& map, const PointLandmark& point) {
-    const auto has_pose = [this](const Observation& observation) {
-      return pose_index_.count(observation.keyframe) != 0;
-    };
-    if (std::count_if(point.observations.begin(), point.observations.end(), has_pose) < 2) return;
+  void AddPoint(const Map& map, const PointLandmark& point,
+                const std::vector<Observation>& observations) {
     points_.push_back(point.position);
-    for (const Observation& observation : point.observations) {
-      const auto pose = pose_index_.find(observation.keyframe);
-      if (pose == pose_index_.end()) continue;
+    for (const Observation& observation : observations) {
       const Keyframe& keyframe = *map.FindKeyframe(observation.keyframe);
+      Rigid3& pose = poses_[pose_index_.at(observation.keyframe)];
       observations_.push_back(problem_.AddResidualBlock(
           SelfCalibratingReprojection::Create(camera_,
                                               MeasurementOf(keyframe, point, observation.feature)),
-          &loss_, poses_[pose->second].params.data(), points_.back().data(), correction_.data()));
+          &loss_, pose.params.data(), points_.back().data(), correction_.data()));
     }
   }
 
-  // Keeps what the observations do not tell near zero.
+  // Keeps near zero what the observations do not determine.
   void AddPrior() {
     Vector sigma = WrongCalibrationSigma();
     for (int i = S::kK2 + 1; i < S::kSize; ++i) sigma(i) = kFixedSigma;
@@ -204,12 +229,15 @@ class AdjustmentProblem {
     const Eigen::Index num_others = jacobian.cols() - kSize;
     const Eigen::SparseMatrix<double> others = jacobian.leftCols(num_others);
     const Eigen::MatrixXd shared = jacobian.rightCols(kSize);
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(others.transpose() * others);
+    Eigen::SparseMatrix<double> damped = others.transpose() * others;
+    damped.diagonal() *= 1.0 + kDamping;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(damped);
     if (ldlt.info() != Eigen::Success) return std::nullopt;
     const Eigen::MatrixXd coupling = others.transpose() * shared;
     const Eigen::MatrixXd solution = ldlt.solve(coupling);
     CalibrationInformation information;
     information.matrix = shared.transpose() * shared - coupling.transpose() * solution;
+    information.matrix = (0.5 * (information.matrix + information.matrix.transpose())).eval();
     information.vector = information.matrix * correction_ - gradient.tail<kSize>() +
                          solution.transpose() * gradient.head(num_others);
     if (!information.matrix.allFinite() || !information.vector.allFinite()) return std::nullopt;
@@ -236,10 +264,9 @@ class AdjustmentProblem {
 
 }  // namespace
 
-std::optional<CalibrationInformation> AdjustCalibration(const CameraIntrinsics& given,
-                                                        const Map& map,
-                                                        const SensorCorrection::Vector& start) {
-  AdjustmentProblem problem(given, map, start);
+std::optional<CalibrationInformation> SelfCalibratingBundleAdjustment(
+    const CameraIntrinsics& given, const Map& map, const SensorCorrection::Vector& start) {
+  SelfCalibrationProblem problem(given, map, start);
   if (problem.num_observations() < kMinObservations || !problem.Solve()) return std::nullopt;
   return problem.Marginalize();
 }

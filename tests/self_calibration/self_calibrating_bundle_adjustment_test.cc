@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/self_calibration/self_calibrating_adjustment.h"
-
-#include <map>
+#include "msc_vo/self_calibration/self_calibrating_bundle_adjustment.h"
 
 #include "tests/self_calibration/simulated_camera.h"
 #include <gtest/gtest.h>
@@ -20,36 +18,28 @@ constexpr WrongGroups kColor = {true, true, true, false};
 // The map of a camera whose calibration differs from the given one by `truth`, as the given one
 // sees it: poses are right, points are where their first observation measures them.
 void FillMap(SimulatedCamera* camera, int num_keyframes, Map* map) {
-  std::map<Descriptor, LandmarkId> landmarks;
+  LandmarksByDescriptor landmarks;
   for (int k = 0; k < num_keyframes; ++k) {
     const Rigid3 cam_from_world = SimulatedCamera::PoseOf(k);
     const auto [frame, depth] = camera->Record(cam_from_world);
-    const KeyframeId id = map->AddKeyframe(frame, cam_from_world);
-    for (int i = 0; i < static_cast<int>(frame->points.size()); ++i) {
-      const auto known = landmarks.find(frame->points[i].descriptor);
-      if (known != landmarks.end()) {
-        map->ObservePoint(known->second, id, i);
-      } else {
-        landmarks[frame->points[i].descriptor] =
-            map->AddPoint(id, i, cam_from_world.Inverse() * frame->PointInCamera(i));
-      }
-    }
+    Observe(map->AddKeyframe(frame, cam_from_world), &landmarks, map);
   }
 }
 
-class AdjustCalibrationTest : public testing::Test {
+class SelfCalibratingBundleAdjustmentTest : public testing::Test {
  protected:
   CorrectionEstimate Estimate(const S::Vector& truth, int num_keyframes) {
     SimulatedCamera camera(truth, 3);
     Map map;
     FillMap(&camera, num_keyframes, &map);
-    const auto information = AdjustCalibration(*camera.given(), map, S::Vector::Zero());
+    const auto information =
+        SelfCalibratingBundleAdjustment(*camera.given(), map, S::Vector::Zero());
     EXPECT_TRUE(information);
     return information ? EstimateCorrections(*information, kColor) : CorrectionEstimate();
   }
 };
 
-TEST_F(AdjustCalibrationTest, FindsTheErrorsOfTheColorCamera) {
+TEST_F(SelfCalibratingBundleAdjustmentTest, FindsTheErrorsOfTheColorCamera) {
   S::Vector truth = S::Vector::Zero();
   truth(S::kFocalLength) = -0.03;
   truth(S::kCenterX) = 5.0;
@@ -63,7 +53,7 @@ TEST_F(AdjustCalibrationTest, FindsTheErrorsOfTheColorCamera) {
   EXPECT_LT(estimate.sigma(S::kCenterX), 1.0);
 }
 
-TEST_F(AdjustCalibrationTest, IsNotMisledByDepthThatIsNotRegistered) {
+TEST_F(SelfCalibratingBundleAdjustmentTest, IsNotMisledByDepthThatIsNotRegistered) {
   S::Vector truth = S::Vector::Zero();
   truth(S::kFocalLength) = -0.03;
   truth(S::kDepthFocalLength) = 0.05;
@@ -72,25 +62,35 @@ TEST_F(AdjustCalibrationTest, IsNotMisledByDepthThatIsNotRegistered) {
   EXPECT_NEAR(estimate.correction(S::kFocalLength), -0.03, 0.005);
 }
 
-TEST_F(AdjustCalibrationTest, TellsNothingOfDepth) {
+TEST_F(SelfCalibratingBundleAdjustmentTest, TellsNothingOfDepth) {
   const CorrectionEstimate estimate = Estimate(S::Vector::Zero(), 8);
   for (const int i : IndicesOf(CorrectionGroup::kDepthRegistration)) {
     EXPECT_NEAR(estimate.sigma(i), WrongCalibrationSigma()(i), 0.01 * WrongCalibrationSigma()(i));
   }
 }
 
-TEST_F(AdjustCalibrationTest, IsTheSameEachTime) {
+TEST_F(SelfCalibratingBundleAdjustmentTest, LeavesObservationsBehindTheCameraOut) {
+  SimulatedCamera camera(S::Vector::Zero(), 3);
+  Map map;
+  FillMap(&camera, 6, &map);
+  const auto& [id, point] = *map.points().begin();
+  map.SetPoint(id, map.CamFromWorld(point.observations.front().keyframe).Inverse() *
+                       Eigen::Vector3d(0.0, 0.0, -1.0));
+  EXPECT_TRUE(SelfCalibratingBundleAdjustment(*camera.given(), map, S::Vector::Zero()));
+}
+
+TEST_F(SelfCalibratingBundleAdjustmentTest, IsTheSameEachTime) {
   S::Vector truth = S::Vector::Zero();
   truth(S::kFocalLength) = 0.02;
   EXPECT_EQ(Estimate(truth, 6).correction, Estimate(truth, 6).correction);
 }
 
-TEST_F(AdjustCalibrationTest, NeedsObservations) {
+TEST_F(SelfCalibratingBundleAdjustmentTest, NeedsObservations) {
   SimulatedCamera camera(S::Vector::Zero(), 3);
   Map map;
-  EXPECT_FALSE(AdjustCalibration(*camera.given(), map, S::Vector::Zero()));
+  EXPECT_FALSE(SelfCalibratingBundleAdjustment(*camera.given(), map, S::Vector::Zero()));
   FillMap(&camera, 1, &map);
-  EXPECT_FALSE(AdjustCalibration(*camera.given(), map, S::Vector::Zero()));
+  EXPECT_FALSE(SelfCalibratingBundleAdjustment(*camera.given(), map, S::Vector::Zero()));
 }
 
 }  // namespace

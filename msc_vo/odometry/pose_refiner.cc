@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/pose_refiner.h"
+
+#include <utility>
+
+#include "msc_vo/map/frame_intrinsics.h"
+#include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
+#include "msc_vo/tracking/frame_pose.h"
+#include "msc_vo/tracking/tracked_frame.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Fewest observations that a pose is estimated from; a line counts as two points.
+constexpr size_t kMinObservations = 15;
+// Most poses that are estimated at once, after a pause.
+constexpr int kMaxFrames = 3;
+
+size_t NumObservations(size_t num_points, size_t num_lines) {
+  return num_points + kPointsPerLine * num_lines;
+}
+
+// The inliers are known, so that one round with the robust loss and one without it are enough.
+PoseOptions WithTwoRounds(PoseOptions options) {
+  options.num_rounds = 2;
+  options.num_robust_rounds = 1;
+  options.consensus.enabled = false;
+  return options;
+}
+
+// The landmarks that are still in the map, where they are now.
+FrameMatches MatchesWith(const Map& map, const std::vector<LandmarkId>& points,
+                         const std::vector<LandmarkId>& lines) {
+  FrameMatches matches;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const PointLandmark* landmark = map.FindPoint(points[i]);
+    if (landmark == nullptr) continue;
+    matches.points.push_back({static_cast<int>(i), points[i], landmark->position});
+  }
+  for (size_t i = 0; i < lines.size(); ++i) {
+    const LineLandmark* landmark = map.FindLine(lines[i]);
+    if (landmark == nullptr) continue;
+    matches.lines.push_back({static_cast<int>(i), lines[i], landmark->segment});
+  }
+  return matches;
+}
+
+}  // namespace
+
+PoseRefiner::PoseRefiner(const PoseOptions& options, double delay)
+    : options_(WithTwoRounds(options)), delay_(delay) {}
+
+void PoseRefiner::Add(int index, const TrackedFrame& tracked) {
+  if (delay_ == 0.0 || tracked.reference == kNoId || tracked.keyframe.is_due) return;
+  if (NumObservations(tracked.matches.points.size(), tracked.matches.lines.size()) <
+      kMinObservations) {
+    return;
+  }
+  PendingFrame pending;
+  pending.index = index;
+  pending.reference = tracked.reference;
+  auto frame = std::make_shared<Frame>();
+  frame->id = tracked.frame->id;
+  frame->timestamp = tracked.frame->timestamp;
+  frame->camera = tracked.frame->camera;
+  frame->lens = tracked.frame->lens;
+  frame->intrinsics = tracked.frame->intrinsics;
+  frame->velocity = tracked.frame->velocity;
+  frame->readout_time = tracked.frame->readout_time;
+  for (const PointMatch& match : tracked.matches.points) {
+    frame->points.push_back(tracked.frame->points[match.feature]);
+    pending.points.push_back(match.id);
+  }
+  for (const LineMatch& match : tracked.matches.lines) {
+    frame->lines.push_back(tracked.frame->lines[match.feature]);
+    pending.lines.push_back(match.id);
+  }
+  pending.frame = std::move(frame);
+  frames_.push_back(std::move(pending));
+}
+
+void PoseRefiner::Refine(double timestamp, const MapSnapshot& snapshot,
+                         std::vector<RelativePose>* poses) {
+  for (int i = 0; i < kMaxFrames && !frames_.empty(); ++i) {
+    if (frames_.front().frame->timestamp >= timestamp - delay_) return;
+    RefineFrame(frames_.front(), snapshot, &(*poses)[frames_.front().index]);
+    frames_.pop_front();
+  }
+}
+
+void PoseRefiner::RefineAll(const MapSnapshot& snapshot, std::vector<RelativePose>* poses) const {
+  for (const PendingFrame& pending : frames_) {
+    RefineFrame(pending, snapshot, &(*poses)[pending.index]);
+  }
+}
+
+void PoseRefiner::RefineFrame(const PendingFrame& pending, const MapSnapshot& snapshot,
+                              RelativePose* pose) const {
+  const Map* map = snapshot.FindMapOf(pending.reference);
+  // Another reference: the segment of the frame was discarded.
+  if (map == nullptr || pose->reference != pending.reference) return;
+  const std::shared_ptr<const Frame> frame = ChangeIntrinsics(
+      UpdateCompensation(pending.frame, snapshot.readout_time), snapshot.intrinsics);
+  FrameMatches matches = MatchesWith(*map, pending.points, pending.lines);
+  if (NumObservations(matches.points.size(), matches.lines.size()) < kMinObservations) return;
+  const Rigid3 reference_from_world = map->CamFromWorld(pose->reference);
+  Rigid3 cam_from_world = pose->cam_from_reference * reference_from_world;
+  const PoseSummary summary = EstimateFramePose(options_, *frame, *map, snapshot.noise_scale, {},
+                                                &cam_from_world, &matches);
+  const int num_inliers = summary.num_inlier_points + summary.num_inlier_lines;
+  const size_t num_observations = pending.points.size() + pending.lines.size();
+  if (!summary.usable || 2 * static_cast<size_t>(num_inliers) < num_observations) return;
+  pose->cam_from_reference = cam_from_world * reference_from_world.Inverse();
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <optional>
+
+#include "msc_vo/camera/camera_intrinsics.h"
+#include "msc_vo/map/map.h"
+#include "msc_vo/self_calibration/pair_linearization.h"
+
+namespace msc_vo {
+
+/// Self-calibrating bundle adjustment (not in the paper): optimises the poses and points of a map
+/// together with the colour camera's part of a correction of `given`, beginning with `start`, and
+/// returns the information about it, with poses and points marginalised. The map remains as it is.
+/// All frames must know their intrinsics. Depth hardly counts but for the scale, so that its own
+/// errors do not look like those of the colour camera. Errors of the points count as independent.
+/// Returns std::nullopt if there are too few observations, or the solver fails.
+std::optional<CalibrationInformation> SelfCalibratingBundleAdjustment(
+    const CameraIntrinsics& given, const Map& map, const SensorCorrection::Vector& start);
+
+}  // namespace msc_vo
