@@ -136,12 +136,9 @@ CalibrationReport Calibrate(std::vector<RgbdDecoder> decoders, const Configurati
   for (int round = 0; round < kMaxRounds; ++round) {
     const auto sequences = TrackSequences(decoders, configuration, run, interrupt);
     const Calibration& present = report.estimated;
-    // A map that was made with a wrong calibration lacks the observations that contradict it.
-    const CalibrationInformation of_maps =
-        round == 0 ? CalibrationInformation() : sequences.of_maps;
     const auto calibrate = [&] {
       return CalibrateSensor(present.camera, present.distortion, sequences.views, wrong, right,
-                             of_maps);
+                             sequences.of_maps);
     };
     SensorCalibrationResult result = calibrate();
     const bool is_new = result.estimate.is_corrected[kRegistration] && !wrong[kRegistration];

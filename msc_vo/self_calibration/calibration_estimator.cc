@@ -36,10 +36,6 @@ constexpr double kMaxK1Sigma = 0.03;
 // Pairs after which their estimation ends if all groups are certain.
 constexpr size_t kSettledPairs = 150;
 
-// Posterior odds by the pairs alone from which on the map is adjusted, if the parameters of the
-// group are half as certain as must be for a correction. The largest odds of sequences that are
-// described well are 0.02 (docs/lab/self_calibration.md).
-constexpr double kCandidateOdds = 0.3;
 // Bundle adjustment is repeated when the map has grown by this ratio, up to this size.
 constexpr double kGrowth = 1.25;
 constexpr size_t kLastSize = 60;
@@ -100,7 +96,8 @@ CorrectionEstimate Select(const CalibrationInformation& information, const Wrong
   return estimate;
 }
 
-// The groups of the colour camera that may be wrong by the pairs alone.
+// The groups of the colour camera that may be wrong by the pairs alone. Half of the certainty is
+// enough that a correction requires.
 WrongGroups CandidateGroups(const CorrectionEstimate& pairs) {
   WrongGroups candidates = {};
   for (const CorrectionGroup group : kColorGroups) {

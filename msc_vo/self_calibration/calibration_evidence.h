@@ -14,6 +14,11 @@ namespace msc_vo {
 enum class CorrectionGroup { kFocalLength, kPrincipalPoint, kLens, kDepthRegistration };
 constexpr int kNumCorrectionGroups = 4;
 
+/// Posterior odds by the pairs of images from which on a group is a candidate, about which the map
+/// is asked. The largest odds for the focal length of sequences that are described well and
+/// determine it are 0.1 (docs/lab/self_calibration.md).
+constexpr double kCandidateOdds = 0.3;
+
 /// One value per CorrectionGroup.
 using WrongGroups = std::array<bool, kNumCorrectionGroups>;
 

@@ -4,6 +4,7 @@
 #include "msc_vo/self_calibration/sensor_calibration.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -82,18 +83,35 @@ CalibrationInformation SumOf(const Pairs& pairs, const SensorCorrection::Vector&
   return sum;
 }
 
+CalibrationInformation Sum(CalibrationInformation a, const CalibrationInformation& b) {
+  a.matrix += b.matrix;
+  a.vector += b.vector;
+  return a;
+}
+
+// Groups that the pairs find wrong are; maps take part in the decision on those that the pairs may
+// find wrong.
+CorrectionEstimate Select(const CalibrationInformation& of_pairs,
+                          const CalibrationInformation& of_maps, const WrongGroups& known_wrong,
+                          const WrongGroups& known_right) {
+  const CorrectionEstimate by_pairs = SelectCorrections(of_pairs, known_wrong, known_right);
+  WrongGroups right = known_right;
+  for (int g = 0; g < kNumCorrectionGroups; ++g) {
+    right[g] =
+        right[g] || (!by_pairs.is_corrected[g] && by_pairs.log_odds[g] < std::log(kCandidateOdds));
+  }
+  return SelectCorrections(Sum(of_pairs, of_maps), by_pairs.is_corrected, right);
+}
+
 // Gauss-Newton for the model in which exactly the groups `wrong` are corrected. The errors of maps
 // count as independent, so that the standard deviations are those of the pairs alone.
 CorrectionEstimate Iterate(const Pairs& pairs, const CalibrationInformation& of_maps,
                            const WrongGroups& wrong, SensorCorrection::Vector at) {
   CorrectionEstimate estimate;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    CalibrationInformation sum = SumOf(pairs, at);
-    const SensorCorrection::Vector sigma = EstimateCorrections(sum, wrong).sigma;
-    sum.matrix += of_maps.matrix;
-    sum.vector += of_maps.vector;
-    estimate = EstimateCorrections(sum, wrong);
-    estimate.sigma = sigma;
+    const CalibrationInformation of_pairs = SumOf(pairs, at);
+    estimate = EstimateCorrections(Sum(of_pairs, of_maps), wrong);
+    estimate.sigma = EstimateCorrections(of_pairs, wrong).sigma;
     const SensorCorrection::Vector change =
         (estimate.correction - at).cwiseQuotient(estimate.sigma);
     at = estimate.correction;
@@ -124,8 +142,10 @@ SensorCalibrationResult CalibrateSensor(const PinholeCamera& camera,
   const CorrectionEstimate free =
       Iterate(pairs, {}, unrestricted, SensorCorrection::Vector::Zero());
   const CorrectionEstimate selected =
-      SelectCorrections(SumOf(pairs, free.correction), known_wrong, known_right);
-  result.estimate = Iterate(pairs, of_maps, selected.is_corrected, selected.correction);
+      Select(SumOf(pairs, free.correction), of_maps, known_wrong, known_right);
+  const bool is_new = selected.is_corrected != known_wrong;
+  result.estimate = Iterate(pairs, is_new ? CalibrationInformation() : of_maps,
+                            selected.is_corrected, selected.correction);
   result.estimate.log_odds = selected.log_odds;
   return result;
 }

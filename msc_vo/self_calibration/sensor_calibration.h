@@ -25,8 +25,9 @@ struct SensorCalibrationResult {
 /// `camera`, `distortion`: the calibration that the frames were built with. Poses are first
 /// guesses; pairs are formed within each sequence. Groups that are `known_wrong` are corrected
 /// anyway, to refine an earlier correction; those that are `known_right` are not. `of_maps`: sum of
-/// SelfCalibratingBundleAdjustment() over the maps of the sequences; it refines the groups that the
-/// pairs find wrong.
+/// SelfCalibratingBundleAdjustment() over the maps of the sequences. It takes part in the decision
+/// on groups that the pairs may find wrong, and refines known corrections: a map that was made with
+/// a wrong calibration lacks the observations that contradict it most.
 ///
 /// The error of an image is common to all its pairs; the information of all pairs is therefore
 /// scaled to that of one pair per image.
