@@ -17,7 +17,7 @@ namespace msc_vo {
 namespace {
 
 // Pairs that are linearised again after a keyframe.
-constexpr size_t kMaxRelinearized = 1;
+constexpr size_t kMaxRelinearized = 2;
 // Iterations over all pairs before a correction is accepted.
 constexpr int kIterations = 3;
 // A correction in use is replaced when its standard deviation has shrunk to this ratio, and the

@@ -30,6 +30,7 @@ constexpr double kMaxDisplacement = 80.0;
 constexpr double kMinDisplacement = 20.0;
 // Seconds; as for the compensation of keyframes.
 constexpr double kMinReadoutChange = 0.001;
+constexpr double kLargeReadoutChange = 0.005;
 // Distance of the linearisation point that calls for a new one, standard deviations.
 constexpr double kMaxDistance = 0.5;
 
@@ -85,7 +86,7 @@ void RecentPairs::SetReadoutTime(double readout_time) {
       Compensate(readout_time, &point.a);
       Compensate(readout_time, &point.b);
     }
-    Linearize(pair.at, &pair);
+    if (std::abs(readout_time - pair.readout_time) > kLargeReadoutChange) Linearize(pair.at, &pair);
   }
 }
 
@@ -172,15 +173,22 @@ std::optional<RecentPairs::Pair> RecentPairs::MakePair(const Map& map, const Key
 
 void RecentPairs::Linearize(const SensorCorrection::Vector& at, Pair* pair) const {
   pair->at = at;
+  pair->readout_time = readout_time_;
   pair->information = LinearizePair(camera_, pair->points, at, &pair->b_from_a);
+}
+
+double RecentPairs::Distance(const Pair& pair, const SensorCorrection::Vector& at,
+                             const SensorCorrection::Vector& sigma) const {
+  return std::max(InSigmas(at - pair.at, sigma) / kMaxDistance,
+                  std::abs(readout_time_ - pair.readout_time) / kMinReadoutChange);
 }
 
 void RecentPairs::Relinearize(const SensorCorrection::Vector& at,
                               const SensorCorrection::Vector& sigma, size_t max_pairs) {
   std::vector<std::pair<double, Pair*>> stale;
   for (Pair& pair : pairs_) {
-    const double distance = InSigmas(at - pair.at, sigma);
-    if (distance > kMaxDistance) stale.emplace_back(-distance, &pair);
+    const double distance = Distance(pair, at, sigma);
+    if (distance > 1.0) stale.emplace_back(-distance, &pair);
   }
   std::stable_sort(stale.begin(), stale.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -46,11 +46,13 @@ class RecentPairs {
   void AddKeyframe(const Map& map, KeyframeId id, const cv::Mat& depth,
                    const SensorCorrection::Vector& at);
   /// Compensates the rolling shutter with another readout time (seconds), if it differs by more
-  /// than a millisecond, as for keyframes.
+  /// than a millisecond, as for keyframes. Pairs are linearised again at once if it differs by more
+  /// than five, and by Relinearize() otherwise.
   void SetReadoutTime(double readout_time);
 
-  /// Linearises those pairs again that were linearised farthest from `at`, in units of `sigma`, at
-  /// most `max_pairs`, and only if they were linearised half a sigma away.
+  /// Linearises those pairs again that were linearised farthest from `at`, in units of `sigma`, or
+  /// from the readout time, at most `max_pairs`, and only if they were linearised half a sigma or a
+  /// millisecond away.
   void Relinearize(const SensorCorrection::Vector& at, const SensorCorrection::Vector& sigma,
                    size_t max_pairs);
   /// Sum over all pairs. `readout_sigma` (seconds): uncertainty of the readout time of a rolling
@@ -89,13 +91,14 @@ class RecentPairs {
   struct Pair {
     std::vector<CalibrationPoint> points;
     Rigid3 b_from_a;
-    double squared_shift_rate = 0.0;  // sum over both images
-    SensorCorrection::Vector at = SensorCorrection::Vector::Zero();
+    double squared_shift_rate = 0.0;                                 // sum over both images
+    SensorCorrection::Vector at = SensorCorrection::Vector::Zero();  // of the linearisation
+    double readout_time = 0.0;                                       // the same
     std::optional<CalibrationInformation> information;
 
     template <typename Archive>
     void Serialize(Archive& archive) {
-      archive.Fields(*this, points, b_from_a, squared_shift_rate, at, information);
+      archive.Fields(*this, points, b_from_a, squared_shift_rate, at, readout_time, information);
     }
   };
   // The image that pairs are formed with.
@@ -112,6 +115,9 @@ class RecentPairs {
   std::optional<Pair> MakePair(const Map& map, const KeyframeView& view, const Partner& partner,
                                const SensorCorrection::Vector& at) const;
   void Linearize(const SensorCorrection::Vector& at, Pair* pair) const;
+  // How far from `at` and from the readout time the pair was linearised; above 1: too far.
+  double Distance(const Pair& pair, const SensorCorrection::Vector& at,
+                  const SensorCorrection::Vector& sigma) const;
 
   CorrectedCamera camera_;
   double readout_time_ = 0.0;

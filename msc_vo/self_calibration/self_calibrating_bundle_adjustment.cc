@@ -36,6 +36,9 @@ using Matrix = SensorCorrection::Matrix;
 constexpr size_t kMaxObservations = 6000;
 constexpr size_t kMaxKeyframes = 100;
 constexpr int kMaxIterations = 25;
+// Relative change of the cost that ends the iteration: with thousands of residuals of size one, a
+// change far below what a standard deviation makes.
+constexpr double kFunctionTolerance = 3e-5;
 // Fewest observations that make an adjustment worth its time.
 constexpr size_t kMinObservations = 300;
 // Fewest points that a keyframe must observe.
@@ -146,6 +149,7 @@ class SelfCalibrationProblem {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_SCHUR;
     options.max_num_iterations = kMaxIterations;
+    options.function_tolerance = kFunctionTolerance;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
