@@ -99,9 +99,7 @@ TrackedSequences TrackSequences(const std::vector<RgbdDecoder>& decoders,
     const Calibration& present = decoder.calibration();
     const auto of_map = SelfCalibratingBundleAdjustment(
         {present.camera, present.distortion}, run.map->map, SensorCorrection::Vector::Zero());
-    if (!of_map) continue;
-    sequences.of_maps.matrix += of_map->matrix;
-    sequences.of_maps.vector += of_map->vector;
+    if (of_map) sequences.of_maps += *of_map;
   }
   return sequences;
 }

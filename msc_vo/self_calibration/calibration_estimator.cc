@@ -231,9 +231,7 @@ bool CalibrationEstimator::Adjust(const Map& map, double readout_sigma) {
                    : std::numeric_limits<size_t>::max();
   auto information = SelfCalibratingBundleAdjustment(*given_, map, estimate_.correction);
   if (!information) return false;
-  const CalibrationInformation pairs = pairs_.Sum(readout_sigma);
-  information->matrix += pairs.matrix;
-  information->vector += pairs.vector;
+  *information += pairs_.Sum(readout_sigma);
   const CorrectionEstimate adjusted =
       Select(*information, estimate_.is_corrected, RequiredOfMap(estimate_));
   const CameraIntrinsics corrected = Corrected(*given_, adjusted.correction);

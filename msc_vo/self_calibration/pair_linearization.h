@@ -34,6 +34,13 @@ struct CalibrationInformation {
   /// Sum of the inverse variances of the points, 1/pixels^2, if their errors are independent.
   double point_information = 0.0;
 
+  CalibrationInformation& operator+=(const CalibrationInformation& other) {
+    matrix += other.matrix;
+    vector += other.vector;
+    point_information += other.point_information;
+    return *this;
+  }
+
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive.Fields(*this, matrix, vector, point_information);

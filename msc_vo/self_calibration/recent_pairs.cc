@@ -199,10 +199,8 @@ CalibrationInformation RecentPairs::Sum(double readout_sigma) const {
   CalibrationInformation sum;
   for (const Pair& pair : pairs_) {
     if (!pair.information) continue;
-    const CalibrationInformation information = WithCommonError(
-        *pair.information, CommonVariance(pair.squared_shift_rate, readout_time_, readout_sigma));
-    sum.matrix += information.matrix;
-    sum.vector += information.vector;
+    sum += WithCommonError(*pair.information,
+                           CommonVariance(pair.squared_shift_rate, readout_time_, readout_sigma));
   }
   return sum;
 }

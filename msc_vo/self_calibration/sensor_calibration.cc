@@ -72,8 +72,7 @@ CalibrationInformation SumOf(const Pairs& pairs, const SensorCorrection::Vector&
   for (const CalibrationPair& pair : pairs.pairs) {
     const auto information = pair.Linearize(correction);
     if (!information) continue;
-    sum.matrix += information->matrix;
-    sum.vector += information->vector;
+    sum += *information;
     ++num_pairs;
   }
   if (num_pairs == 0) return sum;
@@ -81,12 +80,6 @@ CalibrationInformation SumOf(const Pairs& pairs, const SensorCorrection::Vector&
   sum.matrix *= scale;
   sum.vector *= scale;
   return sum;
-}
-
-CalibrationInformation Sum(CalibrationInformation a, const CalibrationInformation& b) {
-  a.matrix += b.matrix;
-  a.vector += b.vector;
-  return a;
 }
 
 // Groups that the pairs find wrong are; maps take part in the decision on those that the pairs may
@@ -100,7 +93,9 @@ CorrectionEstimate Select(const CalibrationInformation& of_pairs,
     right[g] =
         right[g] || (!by_pairs.is_corrected[g] && by_pairs.log_odds[g] < std::log(kCandidateOdds));
   }
-  return SelectCorrections(Sum(of_pairs, of_maps), by_pairs.is_corrected, right);
+  CalibrationInformation sum = of_pairs;
+  sum += of_maps;
+  return SelectCorrections(sum, by_pairs.is_corrected, right);
 }
 
 // Gauss-Newton for the model in which exactly the groups `wrong` are corrected. The errors of maps
@@ -109,9 +104,11 @@ CorrectionEstimate Iterate(const Pairs& pairs, const CalibrationInformation& of_
                            const WrongGroups& wrong, SensorCorrection::Vector at) {
   CorrectionEstimate estimate;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const CalibrationInformation of_pairs = SumOf(pairs, at);
-    estimate = EstimateCorrections(Sum(of_pairs, of_maps), wrong);
-    estimate.sigma = EstimateCorrections(of_pairs, wrong).sigma;
+    CalibrationInformation sum = SumOf(pairs, at);
+    const SensorCorrection::Vector sigma = EstimateCorrections(sum, wrong).sigma;
+    sum += of_maps;
+    estimate = EstimateCorrections(sum, wrong);
+    estimate.sigma = sigma;
     const SensorCorrection::Vector change =
         (estimate.correction - at).cwiseQuotient(estimate.sigma);
     at = estimate.correction;
