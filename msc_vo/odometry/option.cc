@@ -43,9 +43,6 @@ void ListGeneral(OdometryOptions* options, OptionLister* list) {
   list->Add("align_depth", &options->align_depth,
             "Warp each depth image to the time of its colour image if their time stamps differ.")
       .MakeBasic("Disable if the time stamps of the depth images are wrong.");
-  list->Add("pose_refinement_delay", &options->pose_refinement_delay, {0, 60, "seconds"},
-            "Time after which the pose of a frame is estimated again, in the map as optimised "
-            "since, for the final trajectory; 0: never.");
   list->Add("threads", &options->threads, {1, 256, "threads"},
             "1: all stages in sequence. 2 or more: mapping in parallel with tracking, points in "
             "parallel with lines. The result does not depend on it.")
@@ -84,6 +81,10 @@ std::vector<Option> ListOptions(OdometryOptions* options) {
   list.Section("features", &options->features, ListFeatures);
   list.Add("normals.grid_step", &options->normal_grid_step, {8, 1000, "pixels"},
            "Distance between surface normals, which Manhattan axes are estimated from.");
+  list.Add(
+      "tracking.pose_refinement_delay", &options->pose_refinement_delay, {0, 60, "seconds"},
+      "Time after which the pose of a frame is estimated again, in the map as optimised since, "
+      "for the final trajectory; 0: never.");
   list.Section("tracking", &options->tracking, ListTracking);
   list.Section("mapping", &options->snapshots, ListSnapshots);
   list.Section("mapping", &options->mapping, ListMapping);

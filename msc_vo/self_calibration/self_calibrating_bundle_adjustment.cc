@@ -97,7 +97,7 @@ std::set<KeyframeId> SelectKeyframes(const Map& map, const std::vector<LandmarkI
   return selected;
 }
 
-// The keyframes whose observations of a point are used: those that have it in front of them.
+// The observations of a point that are used: those of the keyframes that have it in front of them.
 std::vector<Observation> SelectObservations(const Map& map, const PointLandmark& point,
                                             const std::set<KeyframeId>& keyframes) {
   std::vector<Observation> selected;
