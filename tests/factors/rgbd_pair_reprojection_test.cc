@@ -3,41 +3,27 @@
 
 #include "msc_vo/factors/rgbd_pair_reprojection.h"
 
-#include "tests/support/factor_checks.h"
+#include "tests/factors/corrected_camera.h"
 
 namespace msc_vo {
 namespace {
 
 using S = SensorCorrection;
 
-const CorrectedCamera kCamera({525.0, 520.0, 320.0, 240.0, 640, 480},
-                              LensDistortion{{0.05, -0.02, 0.001, -0.001, 0.01}});
-
-S::Vector AnyCorrection(RandomGeometry* random) {
-  S::Vector scale;
-  scale << 0.03, 5.0, 5.0, 0.03, 0.02, 0.05, 5.0, 5.0, 0.01, 0.02, 0.02, 0.005, 0.01;
-  S::Vector correction;
-  for (int i = 0; i < S::kSize; ++i) correction(i) = scale(i) * random->Normal();
-  return correction;
-}
-
-std::vector<double> Block(const S::Vector& correction) {
-  return {correction.data(), correction.data() + S::kSize};
-}
-
 // The view of `x` (camera frame, metres) on a plane with a random slope, as the camera with the
 // correction records it.
 RgbdPairReprojection::View ViewOf(const Eigen::Vector3d& x, const S::Vector& correction,
                                   RandomGeometry* random) {
   RgbdPairReprojection::View view;
-  view.pixel = kCamera.Pixel<double>(Eigen::Vector2d(x.head<2>() / x.z()), correction.data());
+  view.pixel =
+      kCorrectedCamera.Pixel<double>(Eigen::Vector2d(x.head<2>() / x.z()), correction.data());
   view.recorded_pixel = view.pixel;
   // The inverse depth that the sensor measures.
-  const double r2 = kCamera.camera().Ray(view.pixel).head<2>().squaredNorm();
+  const double r2 = kCorrectedCamera.camera().Ray(view.pixel).head<2>().squaredNorm();
   const double measured =
       (1.0 / x.z() + correction(S::kDepthOffset)) / (1.0 - r2 * correction(S::kDepthBowl));
   Eigen::Vector2d at_infinity, parallax;
-  kCamera.DepthPixel(view.pixel, correction.data(), &at_infinity, &parallax);
+  kCorrectedCamera.DepthPixel(view.pixel, correction.data(), &at_infinity, &parallax);
   const Eigen::Vector2d true_pixel = at_infinity + measured * parallax;
   view.surface.gradient = 1e-3 * random->Normal2();
   view.surface.pixel = true_pixel + 2.0 * random->Normal2();
@@ -64,8 +50,8 @@ struct Example {
 TEST(RgbdPairReprojection, IsZeroAtTheTruth) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const Example example(seed);
-    const CostPtr cost(
-        RgbdPairReprojection::Create(kCamera, example.a, example.b, Eigen::Matrix3d::Identity()));
+    const CostPtr cost(RgbdPairReprojection::Create(kCorrectedCamera, example.a, example.b,
+                                                    Eigen::Matrix3d::Identity()));
     EXPECT_THAT(Residual(*cost, {Block(example.b_from_a), Block(example.correction)}),
                 IsNear(Eigen::Vector3d::Zero(), 1e-6));
   }
@@ -73,8 +59,8 @@ TEST(RgbdPairReprojection, IsZeroAtTheTruth) {
 
 TEST(RgbdPairReprojection, DependsOnEveryParameter) {
   const Example example(6);
-  const CostPtr cost(
-      RgbdPairReprojection::Create(kCamera, example.a, example.b, Eigen::Matrix3d::Identity()));
+  const CostPtr cost(RgbdPairReprojection::Create(kCorrectedCamera, example.a, example.b,
+                                                  Eigen::Matrix3d::Identity()));
   const Linearization at = Linearize(*cost, {Block(example.b_from_a), Block(example.correction)});
   for (int i = 0; i < S::kSize; ++i) EXPECT_GT(at.jacobians[1].col(i).norm(), 0.0) << i;
 }
@@ -83,15 +69,16 @@ TEST(RgbdPairReprojection, DerivativesMatch) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     Example example(seed);
     const Eigen::Matrix3d weight = Eigen::Vector3d(2.0, 2.0, 250.0).asDiagonal();
-    const CostPtr cost(RgbdPairReprojection::Create(kCamera, example.a, example.b, weight));
+    const CostPtr cost(
+        RgbdPairReprojection::Create(kCorrectedCamera, example.a, example.b, weight));
     ExpectGradientsMatch(*cost, {Block(example.b_from_a), Block(AnyCorrection(&example.random))});
   }
 }
 
 TEST(RgbdPairReprojection, IsUndefinedBehindTheCamera) {
   const Example example(7);
-  const CostPtr cost(
-      RgbdPairReprojection::Create(kCamera, example.a, example.b, Eigen::Matrix3d::Identity()));
+  const CostPtr cost(RgbdPairReprojection::Create(kCorrectedCamera, example.a, example.b,
+                                                  Eigen::Matrix3d::Identity()));
   const Rigid3 behind(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, 0.0, -5.0));
   EXPECT_FALSE(IsDefined(*cost, {Block(behind), Block(example.correction)}));
 }
@@ -101,8 +88,8 @@ TEST(CorrectedCamera, RayIsTheInverseOfPixel) {
   for (int i = 0; i < 20; ++i) {
     const S::Vector correction = AnyCorrection(&random);
     const Eigen::Vector2d x{random.Uniform(-0.5, 0.5), random.Uniform(-0.4, 0.4)};
-    const Eigen::Vector2d pixel = kCamera.Pixel<double>(x, correction.data());
-    EXPECT_THAT(kCamera.Ray<double>(pixel, correction.data()), IsNear(x, 1e-6));
+    const Eigen::Vector2d pixel = kCorrectedCamera.Pixel<double>(x, correction.data());
+    EXPECT_THAT(kCorrectedCamera.Ray<double>(pixel, correction.data()), IsNear(x, 1e-6));
   }
 }
 

@@ -3,29 +3,12 @@
 
 #include "msc_vo/factors/self_calibrating_reprojection.h"
 
-#include "tests/support/factor_checks.h"
+#include "tests/factors/corrected_camera.h"
 
 namespace msc_vo {
 namespace {
 
 using S = SensorCorrection;
-
-const CorrectedCamera kCamera({525.0, 520.0, 320.0, 240.0, 640, 480},
-                              LensDistortion{{0.05, -0.02, 0.001, -0.001, 0.01}});
-
-S::Vector AnyCorrection(RandomGeometry* random) {
-  S::Vector correction = S::Vector::Zero();
-  correction(S::kFocalLength) = 0.03 * random->Normal();
-  correction(S::kCenterX) = 5.0 * random->Normal();
-  correction(S::kCenterY) = 5.0 * random->Normal();
-  correction(S::kK1) = 0.03 * random->Normal();
-  correction(S::kK2) = 0.02 * random->Normal();
-  return correction;
-}
-
-std::vector<double> Block(const Eigen::VectorXd& values) {
-  return {values.data(), values.data() + values.size()};
-}
 
 // A point that a camera with a correction sees, as it measures it.
 struct Example {
@@ -35,17 +18,17 @@ struct Example {
     const Eigen::Vector3d x{random.Uniform(-1.0, 1.0), random.Uniform(-0.7, 0.7), 3.0};
     point = cam_from_world.Inverse() * x;
     measurement.pixel =
-        kCamera.Pixel<double>(Eigen::Vector2d(x.head<2>() / x.z()), correction.data());
+        kCorrectedCamera.Pixel<double>(Eigen::Vector2d(x.head<2>() / x.z()), correction.data());
     measurement.sigma = 0.5;
     measurement.inverse_depth = 1.0 / x.z();
     measurement.inverse_depth_sigma = 0.01;
   }
 
   CostPtr Cost() const {
-    return CostPtr(SelfCalibratingReprojection::Create(kCamera, measurement));
+    return CostPtr(SelfCalibratingReprojection::Create(kCorrectedCamera, measurement));
   }
   std::vector<std::vector<double>> Blocks() const {
-    return {Block(cam_from_world.params), Block(point), Block(correction)};
+    return {Block(cam_from_world), Block(point), Block(correction)};
   }
 
   RandomGeometry random;
