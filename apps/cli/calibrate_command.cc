@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -15,6 +16,7 @@
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
+#include "apps/cli/plot_file.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/datasets/calibration_correction.h"
@@ -44,6 +46,7 @@ struct Arguments {
   ConfigurationArguments configuration;
   RunArguments run;
   std::string output;
+  std::string plot;  // empty: none
 };
 
 bool SameCamera(const Calibration& a, const Calibration& b) {
@@ -121,6 +124,18 @@ bool EdgesAgree(const RgbdDecoder& before, const RgbdDecoder& after) {
   return num_better >= kMinBetterRatio * count;
 }
 
+std::vector<CalibrationResidual> ForPlots(const std::vector<PairResidual>& residuals,
+                                          const PinholeCamera& recorded) {
+  const Eigen::Vector2d center(0.5 * (recorded.width - 1), 0.5 * (recorded.height - 1));
+  std::vector<CalibrationResidual> result;
+  for (const PairResidual& residual : residuals) {
+    result.push_back({(residual.pixel - center).norm(), residual.reprojection.norm(),
+                      1.0 / residual.inverse_depth,
+                      std::abs(residual.inverse_depth_error) / residual.inverse_depth});
+  }
+  return result;
+}
+
 bool NeedsAnotherRound(const CorrectionEstimate& estimate) {
   return (estimate.correction.cwiseQuotient(estimate.sigma).array().abs() > kMinCorrection).any();
 }
@@ -149,10 +164,12 @@ CalibrationReport Calibrate(std::vector<RgbdDecoder> decoders, const Configurati
       report.log_odds = result.estimate.log_odds;
       report.num_views = result.num_views;
       report.num_pairs = result.num_pairs;
+      report.residuals.given = ForPlots(result.given_residuals, present.Recorded());
     }
     report.refinement = result.estimate;
     wrong = result.estimate.is_corrected;
     if (!result.estimate.IsCorrected()) break;
+    report.residuals.estimated = ForPlots(result.estimated_residuals, present.Recorded());
     report.estimated = Corrected(present, result.estimate.correction);
     if (round > 0 && !NeedsAnotherRound(result.estimate)) break;
     decoders = WithCalibration(decoders, report.estimated);
@@ -162,10 +179,12 @@ CalibrationReport Calibrate(std::vector<RgbdDecoder> decoders, const Configurati
 
 // Refuses to write over the configuration, or into a folder of the sequence.
 void RefuseOutput(const Arguments& arguments, const SequenceIndex& sequence) {
-  if (arguments.output.empty()) return;
-  RefuseToOverwrite({arguments.configuration.config}, arguments.output);
-  const std::filesystem::path folder = std::filesystem::absolute(arguments.output).parent_path();
-  RefuseToOverwrite(InputFolders(sequence), folder.string());
+  for (const std::string& file : {arguments.output, arguments.plot}) {
+    if (file.empty()) continue;
+    RefuseToOverwrite({arguments.configuration.config}, file);
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    RefuseToOverwrite(InputFolders(sequence), folder.string());
+  }
 }
 
 int Run(const Arguments& arguments) {
@@ -183,6 +202,10 @@ int Run(const Arguments& arguments) {
   if (!arguments.output.empty()) {
     WriteFile(arguments.output, FormatCameraYaml(report.estimated, "written by msc_vo calibrate"));
   }
+  if (!arguments.plot.empty()) {
+    WritePlotFile(arguments.plot,
+                  CalibrationPage(report, "Calibration from " + arguments.sequences.front()));
+  }
   return kExitSuccess;
 }
 
@@ -199,6 +222,10 @@ Command AddCalibrateCommand(CLI::App* app) {
   AddRunArguments(command, &arguments->run);
   command->add_option("--output", arguments->output,
                       "File for the estimated camera, YAML, to be used with --config");
+  command
+      ->add_option("--plot", arguments->plot,
+                   "Write plots of the residuals before and after: .html or .svg")
+      ->check(CheckPlotFileName);
   command->footer(HelpFooter("msc_vo calibrate my_sequence --output camera.yaml"));
   return {command, [arguments] { return Run(*arguments); }};
 }

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/commands.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/text/format_text.h"
 
@@ -94,6 +95,39 @@ const char* VerdictOf(const Row& row, const CalibrationReport& report) {
   return is_observable ? "kept" : "kept: not observable";
 }
 
+using Residuals = std::vector<CalibrationResidual>;
+
+double MedianPixels(const Residuals& residuals) {
+  return MedianOf(residuals, &CalibrationResidual::reprojection);
+}
+
+double MedianDepthPercent(const Residuals& residuals) {
+  return 100.0 * MedianOf(residuals, &CalibrationResidual::depth_error);
+}
+
+// "0.45 px", or "0.45 -> 0.31 px" if there is an estimate.
+std::string BeforeAndAfter(double before, double after, bool has_estimate, const char* unit) {
+  return has_estimate ? FormatText("%.2f -> %.2f %s", before, after, unit)
+                      : FormatText("%.2f %s", before, unit);
+}
+
+std::string PixelsText(const CalibrationResiduals& residuals) {
+  return BeforeAndAfter(MedianPixels(residuals.given), MedianPixels(residuals.estimated),
+                        !residuals.estimated.empty(), "px");
+}
+
+std::string DepthText(const CalibrationResiduals& residuals) {
+  return BeforeAndAfter(MedianDepthPercent(residuals.given),
+                        MedianDepthPercent(residuals.estimated), !residuals.estimated.empty(), "%");
+}
+
+nlohmann::ordered_json ResidualsJson(const Residuals& residuals) {
+  if (residuals.empty()) return nullptr;
+  return {{"points", residuals.size()},
+          {"median_reprojection_px", MedianPixels(residuals)},
+          {"median_depth_percent", MedianDepthPercent(residuals)}};
+}
+
 std::string LensYaml(const LensDistortion& lens, const std::string& indent) {
   std::string text;
   if (lens.model != LensModel::kRadialTangential) {
@@ -117,6 +151,8 @@ std::string FormatCalibrationTable(const CalibrationReport& report) {
     text += FormatText("%-20s %12.4f %12.4f %10.4f  %s\n", name.c_str(), row.given, row.estimated,
                        row.sigma, VerdictOf(row, report));
   }
+  text += "median error of a point: " + PixelsText(report.residuals) +
+          "; of its depth: " + DepthText(report.residuals) + "\n";
   if (!report.estimated.depth_camera) {
     text += "The depth images count as registered: their camera is the colour camera.\n";
   }
@@ -134,8 +170,27 @@ std::string FormatCalibrationJson(const CalibrationReport& report) {
                            {"log_odds", report.log_odds[static_cast<size_t>(row.group)]}};
   }
   const nlohmann::ordered_json json = {
-      {"images", report.num_views}, {"pairs", report.num_pairs}, {"parameters", parameters}};
+      {"images", report.num_views},
+      {"pairs", report.num_pairs},
+      {"parameters", parameters},
+      {"residuals",
+       {{"given", ResidualsJson(report.residuals.given)},
+        {"estimated", ResidualsJson(report.residuals.estimated)}}}};
   return json.dump(2) + "\n";
+}
+
+PlotPage CalibrationPage(const CalibrationReport& report, const std::string& title) {
+  PlotPage page{title, CommandLine(), {}, PlotResiduals(report.residuals)};
+  page.numbers = {{"images", std::to_string(report.num_views), ""},
+                  {"pairs of images", std::to_string(report.num_pairs), ""},
+                  {"median error of a point", PixelsText(report.residuals), ""},
+                  {"median error of its depth", DepthText(report.residuals), ""}};
+  for (const Row& row : RowsOf(report)) {
+    page.numbers.push_back(
+        {row.name, FormatText("%.4g %s", row.estimated, row.unit),
+         FormatText("given %.4g, +- %.2g; ", row.given, row.sigma) + VerdictOf(row, report)});
+  }
+  return page;
 }
 
 std::string FormatCameraYaml(const Calibration& calibration, const std::string& comment) {

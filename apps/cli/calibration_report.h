@@ -7,6 +7,7 @@
 #include <string>
 
 #include "msc_vo/datasets/calibration.h"
+#include "msc_vo/report/calibration_plots.h"
 #include "msc_vo/self_calibration/sensor_calibration.h"
 
 namespace msc_vo {
@@ -21,6 +22,8 @@ struct CalibrationReport {
   int num_views = 0;
   int num_pairs = 0;
   bool edges_contradict = false;  ///< depth edges refuse a correction of the registration
+  /// Of points that two images have in common, each image tracked with the same calibration.
+  CalibrationResiduals residuals;
 };
 
 /// Table of the values, their standard deviations, and the verdict on each part.
@@ -28,6 +31,9 @@ std::string FormatCalibrationTable(const CalibrationReport& report);
 
 /// The same as JSON.
 std::string FormatCalibrationJson(const CalibrationReport& report);
+
+/// The numbers and plots of the residuals before and after.
+PlotPage CalibrationPage(const CalibrationReport& report, const std::string& title);
 
 /// The section `camera` of a configuration, as YAML.
 std::string FormatCameraYaml(const Calibration& calibration, const std::string& comment);

@@ -14,6 +14,7 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/evaluation_output.h"
 #include "apps/cli/number_range.h"
+#include "apps/cli/plot_file.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/evaluation/line_error.h"
@@ -165,12 +166,6 @@ std::vector<std::string> NamesOf(const std::map<std::string, Value>& values) {
   return names;
 }
 
-std::string CheckPlotName(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".html" || extension == ".svg") return "";
-  return "must end in .html or .svg, not " + path;
-}
-
 void AddOptionsOfTheField(CLI::App* command, Arguments* arguments) {
   command
       ->add_option("--align", arguments->alignment,
@@ -200,7 +195,7 @@ void AddOptionsOfTheField(CLI::App* command, Arguments* arguments) {
   command
       ->add_option("--plot", arguments->plot,
                    "Write plots of the trajectories and their errors: .html or .svg")
-      ->check(CheckPlotName);
+      ->check(CheckPlotFileName);
 }
 
 }  // namespace

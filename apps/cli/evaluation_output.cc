@@ -3,12 +3,10 @@
 
 #include "apps/cli/evaluation_output.h"
 
-#include <filesystem>
-
 #include "apps/cli/commands.h"
+#include "apps/cli/plot_file.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/report/trajectory_comparison.h"
-#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -140,8 +138,7 @@ void WriteComparison(const std::string& path, const std::string& title,
   if (error.alignment == Alignment::kSim3) {
     comparison.numbers.push_back({"scale", FormatText("%.6f", error.scale), ""});
   }
-  const bool is_svg = std::filesystem::path(path).extension() == ".svg";
-  WriteFile(path, is_svg ? FormatComparisonSvg(comparison) : FormatComparisonHtml(comparison));
+  WritePlotFile(path, ComparisonPage(comparison));
 }
 
 }  // namespace msc_vo

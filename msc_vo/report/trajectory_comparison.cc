@@ -8,9 +8,7 @@
 #include <utility>
 
 #include "msc_vo/geometry/angles.h"
-#include "msc_vo/report/html_text.h"
 #include "msc_vo/report/svg_plot.h"
-#include "msc_vo/report/web_assets.h"
 
 namespace msc_vo {
 namespace {
@@ -22,12 +20,6 @@ constexpr double kStartRadius = 5.0;
 constexpr double kMillimetres = 1000.0;  // per metre
 constexpr char kReferenceClass[] = "curve ground-truth";
 constexpr char kEstimateClass[] = "curve estimate";
-
-struct Figure {
-  std::string heading;  // empty: belongs to the figure before
-  SvgPlot::Size size;
-  std::string svg;
-};
 
 using Points = std::vector<Eigen::Vector2d>;
 
@@ -68,8 +60,8 @@ std::string PlotPlane(const TrajectoryComparison& comparison, int x, int y) {
 }
 
 // One value per pose over time, and the same of the other trajectory.
-Figure PlotSeries(const TrajectoryComparison& comparison, const Points& reference,
-                  const Points& estimate, const std::string& name) {
+PlotFigure PlotSeries(const TrajectoryComparison& comparison, const Points& reference,
+                      const Points& estimate, const std::string& name) {
   SvgPlot plot(kSeriesSize, RangeOf(reference, estimate, 0, 0.0),
                RangeOf(reference, estimate, 1, 0.05));
   plot.AddAxes(comparison.has_stamps ? "time, s" : "pose", name);
@@ -96,7 +88,7 @@ void Unwrap(double first, Points* points) {
 }
 
 void AddPositionFigures(const TrajectoryComparison& comparison, double start,
-                        std::vector<Figure>* figures) {
+                        std::vector<PlotFigure>* figures) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto value = [axis](const TimedPose& pose) {
       return pose.world_from_cam.translation()[axis];
@@ -109,7 +101,7 @@ void AddPositionFigures(const TrajectoryComparison& comparison, double start,
 }
 
 void AddRotationFigures(const TrajectoryComparison& comparison, double start,
-                        std::vector<Figure>* figures) {
+                        std::vector<PlotFigure>* figures) {
   constexpr const char* kNames[] = {"roll, degrees", "pitch, degrees", "yaw, degrees"};
   for (int axis = 0; axis < 3; ++axis) {
     const auto value = [axis](const TimedPose& pose) {
@@ -124,7 +116,7 @@ void AddRotationFigures(const TrajectoryComparison& comparison, double start,
   }
 }
 
-Figure PlotApe(const TrajectoryComparison& comparison, double start) {
+PlotFigure PlotApe(const TrajectoryComparison& comparison, double start) {
   Points points;
   PlotRange range{0.0, 0.0};
   for (size_t i = 0; i < comparison.ape.size(); ++i) {
@@ -152,8 +144,8 @@ Figure PlotApe(const TrajectoryComparison& comparison, double start) {
           plot.ToString("Absolute position error over time")};
 }
 
-std::vector<Figure> PlotAll(const TrajectoryComparison& comparison) {
-  std::vector<Figure> figures;
+std::vector<PlotFigure> PlotAll(const TrajectoryComparison& comparison) {
+  std::vector<PlotFigure> figures;
   if (comparison.estimate.empty()) return figures;
   for (const auto& [x, y] : {std::pair(0, 1), {0, 2}, {1, 2}}) {
     figures.push_back({"", kPlaneSize, PlotPlane(comparison, x, y)});
@@ -166,8 +158,6 @@ std::vector<Figure> PlotAll(const TrajectoryComparison& comparison) {
   return figures;
 }
 
-bool IsPlane(const Figure& figure) { return figure.size.width == kPlaneSize.width; }
-
 }  // namespace
 
 Eigen::Vector3d RollPitchYaw(const Eigen::Quaterniond& rotation) {
@@ -177,58 +167,8 @@ Eigen::Vector3d RollPitchYaw(const Eigen::Quaterniond& rotation) {
          Eigen::Vector3d(std::atan2(r(2, 1), r(2, 2)), pitch, std::atan2(r(1, 0), r(0, 0)));
 }
 
-std::string FormatComparisonHtml(const TrajectoryComparison& comparison) {
-  const std::string title = EscapeHtml(comparison.title);
-  std::string html =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      title + "</title>\n<style>" + std::string(kReportStyle) + "</style>\n</head>\n<body>\n<h1>" +
-      title + "</h1>\n<p><code>" + EscapeHtml(comparison.command_line) +
-      "</code></p>\n<dl class=\"numbers\">\n";
-  for (const ReportNumber& number : comparison.numbers) {
-    html += "<div><dt>" + EscapeHtml(number.name) + "</dt><dd class=\"value\">" +
-            EscapeHtml(number.value) + "</dd><dd class=\"note\">" + EscapeHtml(number.note) +
-            "</dd></div>\n";
-  }
-  html += "</dl>\n";
-  bool in_views = false;
-  for (const Figure& figure : PlotAll(comparison)) {
-    if (in_views && !IsPlane(figure)) html += "</div>\n";
-    if (!figure.heading.empty()) html += "<h2>" + figure.heading + "</h2>\n";
-    if (!in_views && IsPlane(figure)) html += "<div class=\"views\">\n";
-    in_views = IsPlane(figure);
-    html += "<figure>\n" + figure.svg + "</figure>\n";
-  }
-  return html + "</body>\n</html>\n";
-}
-
-std::string FormatComparisonSvg(const TrajectoryComparison& comparison) {
-  constexpr int kWidth = 1200;
-  constexpr int kGap = 12;
-  std::string plots;
-  int top = kGap;
-  int left = 0;
-  int row_height = 0;
-  for (const Figure& figure : PlotAll(comparison)) {
-    if (left + figure.size.width > kWidth) {
-      top += row_height + kGap;
-      left = 0;
-    }
-    constexpr size_t kTagLength = 4;  // "<svg"
-    plots += "<svg x=\"" + std::to_string(left) + "\" y=\"" + std::to_string(top) + "\" width=\"" +
-             std::to_string(figure.size.width) + "\" height=\"" +
-             std::to_string(figure.size.height) + "\"" + figure.svg.substr(kTagLength);
-    left += figure.size.width;
-    row_height = figure.size.height;
-  }
-  const std::string height = std::to_string(top + row_height + kGap);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + std::to_string(kWidth) +
-         "\" height=\"" + height + "\" viewBox=\"0 0 " + std::to_string(kWidth) + " " + height +
-         "\" font-family=\"sans-serif\">\n<title>" + EscapeHtml(comparison.title) +
-         "</title>\n<style>" + std::string(kReportStyle) +
-         "\n.paper { fill: var(--paper); }\n</style>\n<rect class=\"paper\" width=\"100%\" "
-         "height=\"100%\"/>\n" +
-         plots + "</svg>\n";
+PlotPage ComparisonPage(const TrajectoryComparison& comparison) {
+  return {comparison.title, comparison.command_line, comparison.numbers, PlotAll(comparison)};
 }
 
 }  // namespace msc_vo

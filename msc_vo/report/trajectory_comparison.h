@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "msc_vo/geometry/timed_pose.h"
-#include "msc_vo/report/report.h"
+#include "msc_vo/report/plot_page.h"
 
 namespace msc_vo {
 
@@ -26,12 +26,9 @@ struct TrajectoryComparison {
   bool has_stamps = true;   ///< otherwise the time stamp of a pose is its index
 };
 
-/// An HTML page, without scripts and other files: the numbers; the trajectories in the planes xy,
-/// xz and yz; x, y, z, roll, pitch, yaw (in the order Rz Ry Rx, degrees) and the APE over time.
-std::string FormatComparisonHtml(const TrajectoryComparison& comparison);
-
-/// The plots of FormatComparisonHtml() below each other as one SVG image.
-std::string FormatComparisonSvg(const TrajectoryComparison& comparison);
+/// The numbers; the trajectories in the planes xy, xz and yz; x, y, z, roll, pitch, yaw (in the
+/// order Rz Ry Rx, degrees) and the APE over time.
+PlotPage ComparisonPage(const TrajectoryComparison& comparison);
 
 /// Roll, pitch and yaw of a rotation R = Rz(yaw) Ry(pitch) Rx(roll), degrees.
 Eigen::Vector3d RollPitchYaw(const Eigen::Quaterniond& rotation);

@@ -32,7 +32,7 @@ CalibrationPair::CalibrationPair(const CorrectedCamera& camera, const Calibratio
   }
 }
 
-std::optional<CalibrationInformation> CalibrationPair::Linearize(
+std::vector<CalibrationPoint> CalibrationPair::PointsWithSurfaces(
     const SensorCorrection::Vector& correction) const {
   std::vector<CalibrationPoint> points;
   for (CalibrationPoint point : points_) {
@@ -43,12 +43,34 @@ std::optional<CalibrationInformation> CalibrationPair::Linearize(
     point.b.surface = *in_b;
     points.push_back(point);
   }
+  return points;
+}
+
+std::optional<CalibrationInformation> CalibrationPair::Linearize(
+    const SensorCorrection::Vector& correction) const {
   Rigid3 b_from_a = b_->cam_from_world * a_->cam_from_world.Inverse();
-  const auto information = LinearizePair(camera_, points, correction, &b_from_a);
+  const auto information =
+      LinearizePair(camera_, PointsWithSurfaces(correction), correction, &b_from_a);
   if (!information) return std::nullopt;
   const double squared_shift_rate = SquaredShiftRate(*a_->frame) + SquaredShiftRate(*b_->frame);
   return WithCommonError(*information,
                          CommonVariance(squared_shift_rate, b_->frame->readout_time, 0.0));
+}
+
+std::vector<PairResidual> CalibrationPair::Residuals(
+    const SensorCorrection::Vector& correction) const {
+  const std::vector<CalibrationPoint> points = PointsWithSurfaces(correction);
+  Rigid3 b_from_a = b_->cam_from_world * a_->cam_from_world.Inverse();
+  if (!LinearizePair(camera_, points, correction, &b_from_a)) return {};
+  std::vector<PairResidual> residuals;
+  for (const CalibrationPoint& point : points) {
+    const RgbdPairReprojection factor(camera_, point.a, point.b, Eigen::Matrix3d::Identity());
+    Eigen::Vector3d residual;
+    if (!factor(b_from_a.params.data(), correction.data(), residual.data())) continue;
+    residuals.push_back({point.b.recorded_pixel, residual.head<2>(),
+                         factor.InverseDepth(point.b, correction.data()), residual.z()});
+  }
+  return residuals;
 }
 
 }  // namespace msc_vo

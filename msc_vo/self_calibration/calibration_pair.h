@@ -22,6 +22,15 @@ struct CalibrationView {
   Rigid3 cam_from_world;
 };
 
+/// Residual of a point that two images have in common: what their relative pose, the correction and
+/// the depth in one of them predict, minus what was observed in the other one.
+struct PairResidual {
+  Eigen::Vector2d pixel;         ///< recorded, in the other image
+  Eigen::Vector2d reprojection;  ///< pixels
+  double inverse_depth;          ///< observed in the other image, 1/metres
+  double inverse_depth_error;    ///< 1/metres
+};
+
 /// Points that two images have in common, for self-calibration.
 class CalibrationPair {
  public:
@@ -40,7 +49,15 @@ class CalibrationPair {
   /// together count at most like one point with a sigma of 0.2 px.
   std::optional<CalibrationInformation> Linearize(const SensorCorrection::Vector& correction) const;
 
+  /// The residuals of the points that Linearize() would use, at the optimal relative pose. Empty if
+  /// it would return none.
+  std::vector<PairResidual> Residuals(const SensorCorrection::Vector& correction) const;
+
  private:
+  // The points with a surface at the correction.
+  std::vector<CalibrationPoint> PointsWithSurfaces(
+      const SensorCorrection::Vector& correction) const;
+
   CorrectedCamera camera_;
   const CalibrationView* a_;
   const CalibrationView* b_;

@@ -82,6 +82,16 @@ CalibrationInformation SumOf(const Pairs& pairs, const SensorCorrection::Vector&
   return sum;
 }
 
+std::vector<PairResidual> ResidualsOf(const Pairs& pairs,
+                                      const SensorCorrection::Vector& correction) {
+  std::vector<PairResidual> all;
+  for (const CalibrationPair& pair : pairs.pairs) {
+    const std::vector<PairResidual> residuals = pair.Residuals(correction);
+    all.insert(all.end(), residuals.begin(), residuals.end());
+  }
+  return all;
+}
+
 // Groups that the pairs find wrong are; maps take part in the decision on those that the pairs may
 // find wrong.
 CorrectionEstimate Select(const CalibrationInformation& of_pairs,
@@ -144,6 +154,8 @@ SensorCalibrationResult CalibrateSensor(const PinholeCamera& camera,
   result.estimate = Iterate(pairs, is_new ? CalibrationInformation() : of_maps,
                             selected.is_corrected, selected.correction);
   result.estimate.log_odds = selected.log_odds;
+  result.given_residuals = ResidualsOf(pairs, SensorCorrection::Vector::Zero());
+  result.estimated_residuals = ResidualsOf(pairs, result.estimate.correction);
   return result;
 }
 

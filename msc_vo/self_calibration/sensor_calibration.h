@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "msc_vo/self_calibration/calibration_evidence.h"
+#include "msc_vo/self_calibration/calibration_pair.h"
 
 namespace msc_vo {
 
@@ -17,6 +18,9 @@ struct SensorCalibrationResult {
   CorrectionEstimate estimate;
   int num_views = 0;  ///< that have points in common with others
   int num_pairs = 0;
+  /// Of the points of all pairs: with the given calibration, and with the estimate.
+  std::vector<PairResidual> given_residuals;
+  std::vector<PairResidual> estimated_residuals;
 };
 
 /// Self-calibration of an RGB-D camera from images of a rigid scene (not in the paper): estimates a

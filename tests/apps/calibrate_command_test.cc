@@ -11,6 +11,7 @@
 namespace msc_vo {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 const std::string kRoom = std::string(MSC_VO_DATA_FOLDER) + "/room";
@@ -28,6 +29,21 @@ TEST_F(CalibrateCommandTest, KeepsTheCalibrationOfTheSample) {
   }
   const CommandOutcome again = RunCommand({"check", kRoom, "--config", camera});
   EXPECT_EQ(again.exit_code, 0) << again.output;
+}
+
+TEST_F(CalibrateCommandTest, PlotsTheResiduals) {
+  const std::string page = Path("residuals.html");
+  const CommandOutcome outcome =
+      RunCommand({"calibrate", kRoom, "--max-frames", "60", "--json", "--plot", page});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const nlohmann::json residuals = nlohmann::json::parse(outcome.output)["residuals"];
+  EXPECT_GT(residuals["given"]["points"], 1000);
+  EXPECT_TRUE(residuals["estimated"].is_null());
+  EXPECT_THAT(ReadFile(page), AllOf(HasSubstr(">given<"), HasSubstr("pairs of images"),
+                                    HasSubstr(">median error of depth, %<")));
+  const CommandOutcome refused = RunCommand({"calibrate", kRoom, "--plot", Path("residuals.txt")});
+  EXPECT_NE(refused.exit_code, 0);
+  EXPECT_THAT(refused.output, HasSubstr("must end in .html or .svg"));
 }
 
 TEST_F(CalibrateCommandTest, RefusesSequencesOfDifferentCameras) {

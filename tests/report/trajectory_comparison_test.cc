@@ -48,7 +48,7 @@ TEST(RollPitchYaw, InvertsTheProductOfRotations) {
 }
 
 TEST(TrajectoryComparison, PlotsEverythingOnOnePage) {
-  const std::string html = FormatComparisonHtml(Turning());
+  const std::string html = FormatPageHtml(ComparisonPage(Turning()));
   EXPECT_THAT(html, AllOf(HasSubstr("<title>turn &lt;1&gt;</title>"), HasSubstr("1.000 mm"),
                           HasSubstr("msc_vo evaluate a b"), HasSubstr(">roll, degrees<"),
                           HasSubstr(">APE, mm<"), HasSubstr(">time, s<"), Not(HasSubstr("<script")),
@@ -59,7 +59,7 @@ TEST(TrajectoryComparison, PlotsEverythingOnOnePage) {
 }
 
 TEST(TrajectoryComparison, WritesOneSvgWithThePlots) {
-  const std::string svg = FormatComparisonSvg(Turning());
+  const std::string svg = FormatPageSvg(ComparisonPage(Turning()));
   EXPECT_THAT(svg, testing::StartsWith("<svg xmlns=\"http://www.w3.org/2000/svg\""));
   EXPECT_EQ(Count(svg, "<svg"), Count(svg, "</svg>"));
   EXPECT_EQ(Count(svg, "role=\"img\""), 10);
@@ -67,7 +67,7 @@ TEST(TrajectoryComparison, WritesOneSvgWithThePlots) {
 
 TEST(TrajectoryComparison, DrawsAnglesWithoutJumps) {
   // The yaw passes 180 degrees, so the axis must have ticks on both sides of it.
-  const std::string html = FormatComparisonHtml(Turning());
+  const std::string html = FormatPageHtml(ComparisonPage(Turning()));
   const std::string yaw = html.substr(html.find(">yaw, degrees<") - 4000, 4000);
   EXPECT_THAT(yaw, AllOf(HasSubstr(">160<"), HasSubstr(">200<"), Not(HasSubstr(">-160<"))));
 }
@@ -75,9 +75,9 @@ TEST(TrajectoryComparison, DrawsAnglesWithoutJumps) {
 TEST(TrajectoryComparison, NumbersPosesWithoutStamps) {
   TrajectoryComparison comparison = Turning();
   comparison.has_stamps = false;
-  EXPECT_THAT(FormatComparisonHtml(comparison),
+  EXPECT_THAT(FormatPageHtml(ComparisonPage(comparison)),
               AllOf(HasSubstr(">pose<"), Not(HasSubstr(">time, s<"))));
-  EXPECT_THAT(FormatComparisonHtml({}), HasSubstr("</html>"));
+  EXPECT_THAT(FormatPageHtml(ComparisonPage({})), HasSubstr("</html>"));
 }
 
 }  // namespace

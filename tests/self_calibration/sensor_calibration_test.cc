@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <vector>
 
 #include "tests/self_calibration/simulated_camera.h"
 #include <gtest/gtest.h>
@@ -43,6 +45,22 @@ TEST(SensorCalibration, FindsTheFocalLength) {
         << "log odds " << estimate.log_odds[0];
     ExpectNear(estimate, truth, S::kFocalLength, 0.005);
   }
+}
+
+double MedianError(const std::vector<PairResidual>& residuals) {
+  std::vector<double> errors;
+  for (const PairResidual& residual : residuals) errors.push_back(residual.reprojection.norm());
+  std::sort(errors.begin(), errors.end());
+  return errors.at(errors.size() / 2);
+}
+
+TEST(SensorCalibration, ResidualsFallToTheNoise) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kK1) = -0.1;
+  const SensorCalibrationResult result = Calibrate(truth, 6);
+  EXPECT_GT(MedianError(result.given_residuals), 1.0);
+  // The median length of an error of 0.2 px in each coordinate of both images.
+  EXPECT_NEAR(MedianError(result.estimated_residuals), 0.2 * std::sqrt(2.0) * 1.177, 0.06);
 }
 
 TEST(SensorCalibration, FindsThePrincipalPoint) {
