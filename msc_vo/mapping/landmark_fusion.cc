@@ -157,4 +157,13 @@ void FuseLines(const FusionOptions& options, KeyframeId id, Map* map) {
   }
 }
 
+void FuseLandmarks(const FusionOptions& options, Map* map) {
+  std::vector<KeyframeId> keyframes;
+  for (const auto& [id, keyframe] : map->keyframes()) keyframes.push_back(id);
+  for (const KeyframeId id : keyframes) {
+    FusePoints(options, id, map);
+    FuseLines(options, id, map);
+  }
+}
+
 }  // namespace msc_vo

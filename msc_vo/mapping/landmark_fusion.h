@@ -32,5 +32,7 @@ struct FusionOptions {
 /// older one on ties).
 void FusePoints(const FusionOptions& options, KeyframeId id, Map* map);
 void FuseLines(const FusionOptions& options, KeyframeId id, Map* map);
+/// Both for all keyframes.
+void FuseLandmarks(const FusionOptions& options, Map* map);
 
 }  // namespace msc_vo

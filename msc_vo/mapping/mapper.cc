@@ -213,10 +213,17 @@ void Mapper::Calibrate(const KeyframePacket& packet, MappingSummary* summary) {
   atlas_.ChangeAll([this](Map* map) { ChangeKeyframeIntrinsics(calibration_->present(), map); });
   noise_ = NoiseEstimator(options_.noise);
   axes_ = SceneAxes(options_.axes);
+  OptimizeMap(summary->keyframe);
+  // A wrong calibration hides the observations that contradict it.
+  FuseLandmarks(options_.fusion, &atlas_.current());
+  OptimizeMap(summary->keyframe);
+}
+
+void Mapper::OptimizeMap(KeyframeId keyframe) {
   BundleAdjustmentOptions options = options_.window;
   options.first_iterations = kCalibrationIterations;
   options.second_iterations = kCalibrationIterations;
-  SolveWindow(options, summary->keyframe, SelectWholeMap(options_.selection, map()));
+  SolveWindow(options, keyframe, SelectWholeMap(options_.selection, map()));
 }
 
 std::map<LandmarkId, RefinedLine> Mapper::RefinedLines(const Map& map) const {

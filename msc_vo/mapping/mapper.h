@@ -143,6 +143,8 @@ class Mapper {
   KeyframeId InsertKeyframe(const KeyframePacket& packet, std::shared_ptr<const Frame> frame);
   // Updates the self-calibration, and brings the maps up to date with it.
   void Calibrate(const KeyframePacket& packet, MappingSummary* summary);
+  // Bundle adjustment of all keyframes of the current map; the newest one is `keyframe`.
+  void OptimizeMap(KeyframeId keyframe);
   // Adds the factors of the callback, the extra blocks and the axes that they may use.
   void AddCustomFactors(WindowData* window) const;
   // Returns std::nullopt if the window has a single keyframe.

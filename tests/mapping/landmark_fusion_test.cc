@@ -83,6 +83,22 @@ TEST_F(FusionTest, IgnoresDynamicFeatures) {
   EXPECT_GT(num_observed, 0.3 * marked->points.size());  // of the static half
 }
 
+TEST_F(FusionTest, FindsObservationsOfTheWholeMap) {
+  // A third keyframe that is covisible with no other one, so that fusion of the others leaves it.
+  SyntheticFrames world{SyntheticFrames::Options()};
+  const KeyframeId third =
+      map_.AddKeyframe(world.MakeFrame(20), SyntheticFrames::CamFromWorld(20));
+  CreatePoints(third, &probation_, &map_);
+  FusePoints(FusionOptions(), third, &map_);
+  const size_t points_before = map_.points().size();
+  const size_t lines_before = map_.lines().size();
+  FuseLandmarks(FusionOptions(), &map_);
+  // The duplicates of the first two keyframes are merged.
+  EXPECT_LT(map_.points().size(), 0.8 * points_before);
+  EXPECT_LT(map_.lines().size(), 0.75 * lines_before);
+  EXPECT_TRUE(map_.FindCovisible(third).empty());
+}
+
 TEST_F(FusionTest, KeepsDifferentLandmarksSeparate) {
   FusePoints(FusionOptions(), 1, &map_);
   // At most 12 bits of a descriptor are flipped per observation, so that two observations of one
