@@ -179,6 +179,9 @@ CalibrationReport Calibrate(std::vector<RgbdDecoder> decoders, const Configurati
 
 // Refuses to write over the configuration, or into a folder of the sequence.
 void RefuseOutput(const Arguments& arguments, const SequenceIndex& sequence) {
+  if (!arguments.output.empty() && arguments.output == arguments.plot) {
+    throw std::runtime_error(arguments.plot + ": --output and --plot name the same file");
+  }
   for (const std::string& file : {arguments.output, arguments.plot}) {
     if (file.empty()) continue;
     RefuseToOverwrite({arguments.configuration.config}, file);

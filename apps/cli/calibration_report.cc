@@ -98,34 +98,35 @@ const char* VerdictOf(const Row& row, const CalibrationReport& report) {
 using Residuals = std::vector<CalibrationResidual>;
 
 double MedianPixels(const Residuals& residuals) {
-  return MedianOf(residuals, &CalibrationResidual::reprojection);
+  return MedianResidual(residuals, &CalibrationResidual::reprojection);
 }
 
 double MedianDepthPercent(const Residuals& residuals) {
-  return 100.0 * MedianOf(residuals, &CalibrationResidual::depth_error);
+  return 100.0 * MedianResidual(residuals, &CalibrationResidual::depth_error);
 }
 
-// "0.45 px", or "0.45 -> 0.31 px" if there is an estimate.
-std::string BeforeAndAfter(double before, double after, bool has_estimate, const char* unit) {
-  return has_estimate ? FormatText("%.2f -> %.2f %s", before, after, unit)
-                      : FormatText("%.2f %s", before, unit);
+// The residuals of the given calibration, "0.45 px", or of both, "0.45 -> 0.31 px".
+std::string BeforeAndAfter(const CalibrationResiduals& residuals,
+                           double (*median)(const Residuals&), const char* unit) {
+  const double before = median(residuals.given);
+  return residuals.estimated.empty()
+             ? FormatText("%.2f %s", before, unit)
+             : FormatText("%.2f -> %.2f %s", before, median(residuals.estimated), unit);
 }
 
 std::string PixelsText(const CalibrationResiduals& residuals) {
-  return BeforeAndAfter(MedianPixels(residuals.given), MedianPixels(residuals.estimated),
-                        !residuals.estimated.empty(), "px");
+  return BeforeAndAfter(residuals, MedianPixels, "px");
 }
 
 std::string DepthText(const CalibrationResiduals& residuals) {
-  return BeforeAndAfter(MedianDepthPercent(residuals.given),
-                        MedianDepthPercent(residuals.estimated), !residuals.estimated.empty(), "%");
+  return BeforeAndAfter(residuals, MedianDepthPercent, "%");
 }
 
 nlohmann::ordered_json ResidualsJson(const Residuals& residuals) {
   if (residuals.empty()) return nullptr;
   return {{"points", residuals.size()},
-          {"median_reprojection_px", MedianPixels(residuals)},
-          {"median_depth_percent", MedianDepthPercent(residuals)}};
+          {"median_reprojection_error_px", MedianPixels(residuals)},
+          {"median_depth_error_percent", MedianDepthPercent(residuals)}};
 }
 
 std::string LensYaml(const LensDistortion& lens, const std::string& indent) {
@@ -151,8 +152,10 @@ std::string FormatCalibrationTable(const CalibrationReport& report) {
     text += FormatText("%-20s %12.4f %12.4f %10.4f  %s\n", name.c_str(), row.given, row.estimated,
                        row.sigma, VerdictOf(row, report));
   }
-  text += "median error of a point: " + PixelsText(report.residuals) +
-          "; of its depth: " + DepthText(report.residuals) + "\n";
+  if (!report.residuals.given.empty()) {
+    text += "median reprojection error " + PixelsText(report.residuals) + ", depth error " +
+            DepthText(report.residuals) + "\n";
+  }
   if (!report.estimated.depth_camera) {
     text += "The depth images count as registered: their camera is the colour camera.\n";
   }
@@ -182,13 +185,16 @@ std::string FormatCalibrationJson(const CalibrationReport& report) {
 PlotPage CalibrationPage(const CalibrationReport& report, const std::string& title) {
   PlotPage page{title, CommandLine(), {}, PlotResiduals(report.residuals)};
   page.numbers = {{"images", std::to_string(report.num_views), ""},
-                  {"pairs of images", std::to_string(report.num_pairs), ""},
-                  {"median error of a point", PixelsText(report.residuals), ""},
-                  {"median error of its depth", DepthText(report.residuals), ""}};
+                  {"pairs of images", std::to_string(report.num_pairs), ""}};
+  if (!report.residuals.given.empty()) {
+    page.numbers.push_back({"median reprojection error", PixelsText(report.residuals), ""});
+    page.numbers.push_back({"median depth error", DepthText(report.residuals), ""});
+  }
   for (const Row& row : RowsOf(report)) {
+    const std::string unit = *row.unit ? std::string(" ") + row.unit : std::string();
     page.numbers.push_back(
-        {row.name, FormatText("%.4g %s", row.estimated, row.unit),
-         FormatText("given %.4g, +- %.2g; ", row.given, row.sigma) + VerdictOf(row, report)});
+        {row.name, FormatText("%.6g", row.estimated) + unit,
+         FormatText("given %.6g, +- %.2g; ", row.given, row.sigma) + VerdictOf(row, report)});
   }
   return page;
 }

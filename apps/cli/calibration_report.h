@@ -22,7 +22,9 @@ struct CalibrationReport {
   int num_views = 0;
   int num_pairs = 0;
   bool edges_contradict = false;  ///< depth edges refuse a correction of the registration
-  /// Of points that two images have in common, each image tracked with the same calibration.
+  /// With the given calibration: of the first round. With the estimated one: of the last round,
+  /// whose images were tracked with the estimate of the round before, so that the points are not
+  /// the same.
   CalibrationResiduals residuals;
 };
 

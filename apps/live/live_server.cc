@@ -4,14 +4,22 @@
 #include "apps/live/live_server.h"
 
 #include <cerrno>
+#include <chrono>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <future>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
-#include <thread>
+#include <system_error>
 #include <utility>
 
+#include <arpa/inet.h>
 #include <httplib.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 
 #include "msc_vo/text/text_file.h"
 
@@ -22,6 +30,8 @@ namespace {
 constexpr size_t kMaxRequestBytes = 1024;
 constexpr size_t kMaxRequestsPerConnection = 1000;
 constexpr time_t kTimeoutSeconds = 3;
+// At the end of the run, for responses in progress.
+constexpr time_t kMaxSendingSeconds = 60;
 
 // A port that another program listens on is an error, unlike with the default options of httplib,
 // which share the port.
@@ -42,12 +52,42 @@ bool IsLoopback(const std::string& name) {
          (is_number && name.rfind("127.", 0) == 0);
 }
 
+// Port of the local end of a socket; 0 if the descriptor is not an IP socket.
+int LocalPort(int descriptor) {
+  sockaddr_storage address = {};
+  socklen_t size = sizeof(address);
+  if (getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size) != 0) return 0;
+  if (address.ss_family == AF_INET) {
+    return ntohs(reinterpret_cast<const sockaddr_in&>(address).sin_port);
+  }
+  return address.ss_family == AF_INET6
+             ? ntohs(reinterpret_cast<const sockaddr_in6&>(address).sin6_port)
+             : 0;
+}
+
+// Ends all connections of this process at a port. httplib waits for each of its requests, and the
+// time limits do not end one that arrives byte by byte. No other sockets of the process have the
+// port.
+void ShutDownConnections(int port) {
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry("/dev/fd", error), end; !error && entry != end;
+       entry.increment(error)) {
+    const int descriptor = std::atoi(entry->path().filename().c_str());
+    if (LocalPort(descriptor) == port) shutdown(descriptor, SHUT_RDWR);
+  }
+}
+
+// Shared by the server and the responses in progress.
+using ResponseToken = std::shared_ptr<const char>;
+
 // Answers with a text. A content provider keeps httplib from compressing it, which would take a
 // processor away from the run.
-void Send(std::shared_ptr<const std::string> text, const char* type, httplib::Response* response) {
+void Send(std::shared_ptr<const std::string> text, const char* type, const ResponseToken& token,
+          httplib::Response* response) {
   const size_t size = text->size();
   response->set_content_provider(
-      size, type, [text = std::move(text)](size_t offset, size_t length, httplib::DataSink& sink) {
+      size, type,
+      [text = std::move(text), token](size_t offset, size_t length, httplib::DataSink& sink) {
         return sink.write(text->data() + offset, length);
       });
 }
@@ -69,10 +109,13 @@ struct LiveServer::State {
   std::shared_ptr<const std::string> page;
   LiveRun* run = nullptr;
   int port = 0;
-  std::thread thread;
+  ResponseToken token = std::make_shared<const char>();
+  std::future<void> listening;
 
   void SetLimits();
   void Route(bool only_loopback);
+  bool IsSending() const { return token.use_count() > 1; }
+  void Stop();
 };
 
 void LiveServer::State::SetLimits() {
@@ -100,18 +143,18 @@ void LiveServer::State::Route(bool only_loopback) {
     return httplib::Server::HandlerResponse::Handled;
   });
   server.Get("/", [this](const Request&, Response& response) {
-    Send(page, "text/html; charset=utf-8", &response);
+    Send(page, "text/html; charset=utf-8", token, &response);
   });
   server.Get("/data", [this](const Request& request, Response& response) {
     const std::string update =
         run->Update(IntParameter(request, "frames", 0), IntParameter(request, "map", -1),
                     IntParameter(request, "view", -1));
-    Send(std::make_shared<const std::string>(update), "application/json", &response);
+    Send(std::make_shared<const std::string>(update), "application/json", token, &response);
   });
   server.Get("/report", [this](const Request&, Response& response) {
     const std::shared_ptr<const std::string> report = run->Report();
     if (report) {
-      Send(report, "text/html; charset=utf-8", &response);
+      Send(report, "text/html; charset=utf-8", token, &response);
     } else {
       response.status = 404;
     }
@@ -122,6 +165,17 @@ void LiveServer::State::Route(bool only_loopback) {
         run->Control(request.get_param_value("action"), request.get_param_value("value"));
     response.status = is_done ? 204 : 400;
   });
+}
+
+// Responses in progress may end.
+void LiveServer::State::Stop() {
+  using std::chrono::steady_clock;
+  server.stop();
+  const auto start = steady_clock::now();
+  while (listening.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
+    const auto limit = std::chrono::seconds(IsSending() ? kMaxSendingSeconds : kTimeoutSeconds);
+    if (steady_clock::now() - start > limit) ShutDownConnections(port);
+  }
 }
 
 LiveServer::LiveServer(const std::string& address, int port, std::string page, LiveRun* run)
@@ -143,15 +197,17 @@ LiveServer::LiveServer(const std::string& address, int port, std::string page, L
                              "; end the program that uses the port, or choose another one with "
                              "--view PORT");
   }
-  state_->thread = std::thread([server = &state_->server] { server->listen_after_bind(); });
+  state_->listening =
+      std::async(std::launch::async, [server = &state_->server] { server->listen_after_bind(); });
   // stop() has no effect before the server runs.
-  while (!state_->server.is_running()) std::this_thread::yield();
+  while (!state_->server.is_running()) {
+    if (state_->listening.wait_for(std::chrono::milliseconds(1)) == std::future_status::ready) {
+      throw std::runtime_error("the live view cannot be served: the server has ended");
+    }
+  }
 }
 
-LiveServer::~LiveServer() {
-  state_->server.stop();
-  state_->thread.join();
-}
+LiveServer::~LiveServer() { state_->Stop(); }
 
 int LiveServer::port() const { return state_->port; }
 

@@ -32,7 +32,7 @@ struct FusionOptions {
 /// older one on ties).
 void FusePoints(const FusionOptions& options, KeyframeId id, Map* map);
 void FuseLines(const FusionOptions& options, KeyframeId id, Map* map);
-/// Both for all keyframes.
+/// FusePoints() and FuseLines() for every keyframe of the map.
 void FuseLandmarks(const FusionOptions& options, Map* map);
 
 }  // namespace msc_vo

@@ -16,7 +16,7 @@ namespace msc_vo {
 struct TrackedFrame;
 
 /// Estimates the pose of each frame a second time, some seconds later (not in the paper): other
-/// keyframes have pending its landmarks since, and bundle adjustment has moved them.
+/// keyframes have observed its landmarks since, and bundle adjustment has moved them.
 class PoseRefiner {
  public:
   /// `delay`: seconds; 0: poses are not estimated again.

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <utility>
+#include <cstddef>
+#include <string>
 
 namespace msc_vo {
 namespace {
@@ -28,8 +28,8 @@ constexpr Quantity kDepthError{&CalibrationResidual::depth_error, 100.0, "error 
 
 constexpr char kGivenClass[] = "curve ground-truth";
 constexpr char kEstimatedClass[] = "curve estimate";
-// Of a distribution, the part that a plot shows: wrong matches are beyond.
-constexpr double kShownShare = 0.8;
+// Part of a distribution that a plot shows; wrong matches lie beyond it.
+constexpr double kShownRatio = 0.8;
 constexpr double kPercent = 100.0;
 // Bins of equal numbers of points, so that all medians are equally exact.
 constexpr size_t kNumBins = 12;
@@ -49,9 +49,9 @@ Points Distribution(const Residuals& residuals, const Quantity& quantity) {
   const std::vector<double> values = SortedValues(residuals, quantity);
   Points curve;
   for (size_t i = 0; i <= kNumSteps && !values.empty(); ++i) {
-    const double share = static_cast<double>(i) / kNumSteps;
-    const auto index = static_cast<size_t>(share * static_cast<double>(values.size() - 1));
-    curve.emplace_back(values[index], kPercent * share);
+    const double ratio = static_cast<double>(i) / kNumSteps;
+    const auto index = static_cast<size_t>(ratio * static_cast<double>(values.size() - 1));
+    curve.emplace_back(values[index], kPercent * ratio);
   }
   return curve;
 }
@@ -67,7 +67,8 @@ Points MediansOver(Residuals residuals, const Quantity& x, const Quantity& y) {
       return residuals.begin() + static_cast<std::ptrdiff_t>(b * residuals.size() / num_bins);
     };
     const Residuals part(at(bin), at(bin + 1));
-    curve.emplace_back(x.scale * MedianOf(part, x.member), y.scale * MedianOf(part, y.member));
+    curve.emplace_back(x.scale * MedianResidual(part, x.member),
+                       y.scale * MedianResidual(part, y.member));
   }
   return curve;
 }
@@ -95,10 +96,10 @@ PlotFigure PlotDistribution(const CalibrationResiduals& residuals, const Quantit
   PlotRange x{0.0, 0.0};
   for (const Points& curve : curves) {
     for (const Eigen::Vector2d& point : curve) {
-      if (point.y() <= kPercent * kShownShare) Include(point.x(), &x);
+      if (point.y() <= kPercent * kShownRatio) Include(point.x(), &x);
     }
   }
-  return Plot(curves, x, {0.0, kPercent}, {quantity.name, "share of the points below, %"});
+  return Plot(curves, x, {0.0, kPercent}, {quantity.name, "points with a smaller error, %"});
 }
 
 PlotFigure PlotMedians(const CalibrationResiduals& residuals, const Quantity& over,
@@ -118,8 +119,7 @@ PlotFigure PlotMedians(const CalibrationResiduals& residuals, const Quantity& ov
 
 }  // namespace
 
-double MedianOf(const Residuals& residuals, double CalibrationResidual::*member) {
-  if (residuals.empty()) return 0.0;
+double MedianResidual(const Residuals& residuals, double CalibrationResidual::*member) {
   const std::vector<double> values = SortedValues(residuals, {member, 1.0, ""});
   return values[values.size() / 2];
 }
@@ -129,8 +129,8 @@ std::vector<PlotFigure> PlotResiduals(const CalibrationResiduals& residuals) {
   std::vector<PlotFigure> figures = {
       PlotDistribution(residuals, kReprojection), PlotMedians(residuals, kRadius, kReprojection),
       PlotDistribution(residuals, kDepthError), PlotMedians(residuals, kDepth, kDepthError)};
-  figures[0].heading = "Pixels with the given and the estimated calibration";
-  figures[2].heading = "Depth with the given and the estimated calibration";
+  figures[0].heading = "Reprojection error";
+  figures[2].heading = "Depth error";
   return figures;
 }
 

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "msc_vo/report/plot_page.h"
@@ -29,8 +28,8 @@ struct CalibrationResiduals {
 /// over the depth. There are no figures without residuals.
 std::vector<PlotFigure> PlotResiduals(const CalibrationResiduals& residuals);
 
-/// Median of a member of the residuals; 0 if there are none.
-double MedianOf(const std::vector<CalibrationResidual>& residuals,
-                double CalibrationResidual::*member);
+/// Median of a member of the residuals, which must not be empty.
+double MedianResidual(const std::vector<CalibrationResidual>& residuals,
+                      double CalibrationResidual::*member);
 
 }  // namespace msc_vo

@@ -3,6 +3,8 @@
 
 #include "msc_vo/report/plot_page.h"
 
+#include <algorithm>
+
 #include "msc_vo/report/html_text.h"
 #include "msc_vo/report/web_assets.h"
 
@@ -60,13 +62,14 @@ std::string FormatPageSvg(const PlotPage& page) {
     if (left + figure.size.width > kSheetWidth) {
       top += row_height + kGap;
       left = 0;
+      row_height = 0;
     }
     constexpr size_t kTagLength = 4;  // "<svg"
     plots += "<svg x=\"" + std::to_string(left) + "\" y=\"" + std::to_string(top) + "\" width=\"" +
              std::to_string(figure.size.width) + "\" height=\"" +
              std::to_string(figure.size.height) + "\"" + figure.svg.substr(kTagLength);
     left += figure.size.width;
-    row_height = figure.size.height;
+    row_height = std::max(row_height, figure.size.height);
   }
   const std::string width = std::to_string(kSheetWidth);
   const std::string height = std::to_string(top + row_height + kGap);

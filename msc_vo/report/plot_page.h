@@ -13,8 +13,8 @@ namespace msc_vo {
 
 /// A plot with its place on a page.
 struct PlotFigure {
-  std::string heading;  ///< empty: belongs to the figure before
-  SvgPlot::Size size;   ///< two figures of at most half the width of a sheet stand side by side
+  std::string heading;  ///< on pages only; empty: belongs to the figure before
+  SvgPlot::Size size;   ///< figures of at most 600 drawing units stand side by side
   std::string svg;
 };
 
@@ -22,14 +22,14 @@ struct PlotFigure {
 struct PlotPage {
   std::string title;
   std::string command_line;
-  std::vector<ReportNumber> numbers;  ///< shown above the plots, by FormatPageHtml() only
+  std::vector<ReportNumber> numbers;  ///< on pages only, above the plots
   std::vector<PlotFigure> figures;
 };
 
-/// An HTML page, without scripts and other files.
+/// An HTML page, without scripts or external files.
 std::string FormatPageHtml(const PlotPage& page);
 
-/// The plots below each other as one SVG image.
+/// The plots as one SVG image.
 std::string FormatPageSvg(const PlotPage& page);
 
 }  // namespace msc_vo

@@ -3,6 +3,8 @@
 
 #include "msc_vo/self_calibration/calibration_pair.h"
 
+#include <cmath>
+
 #include "msc_vo/matching/point_matcher.h"
 #include "msc_vo/self_calibration/pair_view.h"
 #include "msc_vo/self_calibration/surface_plane.h"
@@ -67,8 +69,9 @@ std::vector<PairResidual> CalibrationPair::Residuals(
     const RgbdPairReprojection factor(camera_, point.a, point.b, Eigen::Matrix3d::Identity());
     Eigen::Vector3d residual;
     if (!factor(b_from_a.params.data(), correction.data(), residual.data())) continue;
-    residuals.push_back({point.b.recorded_pixel, residual.head<2>(),
-                         factor.InverseDepth(point.b, correction.data()), residual.z()});
+    const double inverse_depth = factor.InverseDepth(point.b, correction.data());
+    if (!residual.allFinite() || !(inverse_depth > 0.0) || !std::isfinite(inverse_depth)) continue;
+    residuals.push_back({point.b.recorded_pixel, residual.head<2>(), inverse_depth, residual.z()});
   }
   return residuals;
 }

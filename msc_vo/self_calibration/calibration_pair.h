@@ -22,12 +22,12 @@ struct CalibrationView {
   Rigid3 cam_from_world;
 };
 
-/// Residual of a point that two images have in common: what their relative pose, the correction and
-/// the depth in one of them predict, minus what was observed in the other one.
+/// Residual of a point that images a and b have in common: its prediction from image a minus its
+/// observation in image b.
 struct PairResidual {
-  Eigen::Vector2d pixel;         ///< recorded, in the other image
+  Eigen::Vector2d pixel;         ///< recorded, in image b
   Eigen::Vector2d reprojection;  ///< pixels
-  double inverse_depth;          ///< observed in the other image, 1/metres
+  double inverse_depth;          ///< observed in image b, 1/metres
   double inverse_depth_error;    ///< 1/metres
 };
 
@@ -49,8 +49,8 @@ class CalibrationPair {
   /// together count at most like one point with a sigma of 0.2 px.
   std::optional<CalibrationInformation> Linearize(const SensorCorrection::Vector& correction) const;
 
-  /// The residuals of the points that Linearize() would use, at the optimal relative pose. Empty if
-  /// it would return none.
+  /// Residuals of all matched points with a surface in both images, outliers included, at the
+  /// optimal relative pose. Empty if Linearize() returns std::nullopt.
   std::vector<PairResidual> Residuals(const SensorCorrection::Vector& correction) const;
 
  private:

@@ -18,7 +18,7 @@ struct SensorCalibrationResult {
   CorrectionEstimate estimate;
   int num_views = 0;  ///< that have points in common with others
   int num_pairs = 0;
-  /// Of the points of all pairs: with the given calibration, and with the estimate.
+  /// Residuals of the points of all pairs with the given calibration, and with the estimate.
   std::vector<PairResidual> given_residuals;
   std::vector<PairResidual> estimated_residuals;
 };

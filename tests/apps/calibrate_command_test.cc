@@ -42,7 +42,7 @@ TEST_F(CalibrateCommandTest, PlotsTheResiduals) {
   EXPECT_THAT(ReadFile(page), AllOf(HasSubstr(">given<"), HasSubstr("pairs of images"),
                                     HasSubstr(">median error of depth, %<")));
   const CommandOutcome refused = RunCommand({"calibrate", kRoom, "--plot", Path("residuals.txt")});
-  EXPECT_NE(refused.exit_code, 0);
+  EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.output, HasSubstr("must end in .html or .svg"));
 }
 
@@ -65,6 +65,9 @@ TEST_F(CalibrateCommandTest, DoesNotOverwriteItsInput) {
   const CommandOutcome outcome = RunCommand({"calibrate", sequence, "--output", camera});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
   EXPECT_EQ(ReadFile(camera), before);
+  const std::string page = sequence + "/residuals.html";
+  EXPECT_EQ(RunCommand({"calibrate", sequence, "--plot", page}).exit_code, 1);
+  EXPECT_FALSE(HasEntry(page));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ std::vector<CalibrationResidual> Growing(double factor) {
 TEST(CalibrationPlots, ShowsPixelsAndDepth) {
   const std::vector<PlotFigure> figures = PlotResiduals({Growing(1.0), Growing(0.5)});
   ASSERT_EQ(figures.size(), 4U);
-  EXPECT_THAT(figures[0].heading, HasSubstr("Pixels"));
+  EXPECT_THAT(figures[0].heading, HasSubstr("Reprojection"));
   EXPECT_THAT(figures[2].heading, HasSubstr("Depth"));
   for (const PlotFigure& figure : figures) {
     EXPECT_THAT(figure.svg,
@@ -35,7 +35,9 @@ TEST(CalibrationPlots, ShowsPixelsAndDepth) {
 }
 
 TEST(CalibrationPlots, ShowsTheGivenCalibrationAloneIfNothingIsCorrected) {
-  for (const PlotFigure& figure : PlotResiduals({Growing(1.0), {}})) {
+  const std::vector<PlotFigure> figures = PlotResiduals({Growing(1.0), {}});
+  ASSERT_EQ(figures.size(), 4U);
+  for (const PlotFigure& figure : figures) {
     EXPECT_THAT(figure.svg, AllOf(HasSubstr(">given<"), Not(HasSubstr(">estimated<"))));
   }
 }
@@ -43,15 +45,16 @@ TEST(CalibrationPlots, ShowsTheGivenCalibrationAloneIfNothingIsCorrected) {
 TEST(CalibrationPlots, FewPointsAreNoError) {
   EXPECT_TRUE(PlotResiduals({}).empty());
   const std::vector<CalibrationResidual> one = {{10.0, 0.5, 2.0, 0.01}};
-  for (const PlotFigure& figure : PlotResiduals({one, {}})) {
+  const std::vector<PlotFigure> figures = PlotResiduals({one, {}});
+  ASSERT_EQ(figures.size(), 4U);
+  for (const PlotFigure& figure : figures) {
     EXPECT_THAT(figure.svg, Not(HasSubstr("nan")));
   }
 }
 
 TEST(CalibrationPlots, MedianOfAMember) {
-  EXPECT_EQ(MedianOf({}, &CalibrationResidual::depth), 0.0);
-  EXPECT_DOUBLE_EQ(MedianOf(Growing(1.0), &CalibrationResidual::radius), 121.0);
-  EXPECT_DOUBLE_EQ(MedianOf(Growing(2.0), &CalibrationResidual::reprojection), 2.42);
+  EXPECT_DOUBLE_EQ(MedianResidual(Growing(1.0), &CalibrationResidual::radius), 121.0);
+  EXPECT_DOUBLE_EQ(MedianResidual(Growing(2.0), &CalibrationResidual::reprojection), 2.42);
 }
 
 }  // namespace

@@ -45,6 +45,9 @@ class MuteClient {
   MuteClient(const MuteClient&) = delete;
   MuteClient& operator=(const MuteClient&) = delete;
 
+  // Sends one more byte of an endless request. Returns false if the server has gone.
+  bool Drip() { return send(socket_, "x", 1, MSG_NOSIGNAL) == 1; }
+
  private:
   int socket_;
 };
@@ -181,6 +184,40 @@ TEST_F(LiveServerTest, DropsClientsThatDoNotReadTheAnswer) {
   }
   client_->set_read_timeout(seconds(30));
   EXPECT_EQ(StatusOf("/data"), 200);
+}
+
+TEST_F(LiveServerTest, EndsBesideAClientThatSendsByteByByte) {
+  constexpr int kNumBytes = 300;  // of 0.1 s each, far more than the test takes
+  std::thread client([port = server_->port()] {
+    MuteClient slow(port, "GET /data HTTP/1.1\r\nHost: lo");
+    for (int i = 0; i < kNumBytes && slow.Drip(); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  });
+  std::this_thread::sleep_for(seconds(1));
+  const auto start = steady_clock::now();
+  server_.reset();
+  EXPECT_LT(steady_clock::now() - start, seconds(8));
+  client.join();
+}
+
+TEST_F(LiveServerTest, SendsAReportToItsEnd) {
+  constexpr size_t kSize = size_t{64} << 20;  // more than sockets hold
+  run_.Finish(std::string(kSize, 'x'));
+  size_t num_received = 0;
+  std::thread client([&num_received, port = server_->port()] {
+    httplib::Client slow("127.0.0.1", port);
+    slow.Get("/report", [&num_received](const char*, size_t size) {
+      const bool is_half = num_received < kSize / 2 && num_received + size >= kSize / 2;
+      if (num_received == 0 || is_half) std::this_thread::sleep_for(seconds(2));
+      num_received += size;
+      return true;
+    });
+  });
+  std::this_thread::sleep_for(seconds(1));
+  server_.reset();
+  client.join();
+  EXPECT_EQ(num_received, kSize);
 }
 
 TEST_F(LiveServerTest, GoesOnWhenClientsVanish) {
