@@ -67,12 +67,12 @@ struct CellConsensusOptions {
   /// six degrees of freedom, because the cell's own best pose absorbs six.
   double reject_chi2_6 = 22.458;
   /// Weight of a cell without matches that are confirmed static, relative to one with confirmed
-  /// matches only. Landmarks of a dynamic object are rarely confirmed.
-  /// Chosen by measurement, see docs/lab/dynamic_objects.md.
-  double unconfirmed_weight = 0.1;
+  /// matches only. Landmarks of a dynamic object are rarely confirmed. The whole grid weighs as
+  /// much as one confirmed cell: whatever is new does not outvote what is confirmed.
+  double unconfirmed_weight = 0.01;
   /// Cells by which another pose must be better to replace the estimate.
   /// Chosen by measurement, see docs/lab/dynamic_objects.md.
-  double min_cells = 3.0;
+  double min_cells = 1.0;
 
   bool IsValid(std::string* error) const;
 };

@@ -185,11 +185,25 @@ TEST(CellConsensusTest, CountsAllCellsOfALine) {
   EXPECT_GE(num_failures, 4);  // without most lines; measured: 5 of 6
 }
 
-// Board and room cover half of the image each.
+// Eighty points of white walls behind a board that has come into view.
+TEST(CellConsensusTest, ANewBoardDoesNotOutvoteAFewConfirmedCells) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    BoardScene scene;
+    scene.seed = seed;
+    scene.num_room = 80;
+    scene.num_lines = 0;
+    scene.right = 340.0;
+    scene.num_board = 700;
+    scene.is_board_confirmed = false;
+    EXPECT_LT(PositionError(scene, PoseOptions()), 0.01) << seed;
+  }
+}
+
+// The board covers two thirds of the image.
 TEST(CellConsensusTest, WeightsConfirmedLandmarksMore) {
   BoardScene scene;
   scene.left = 0.0;
-  scene.right = 340.0;
+  scene.right = 430.0;
   scene.num_board = 400;
   scene.num_lines = 0;
   scene.board_motion = {0.03, 0.0, 0.0};
