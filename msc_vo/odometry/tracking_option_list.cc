@@ -34,7 +34,8 @@ void ListConsensus(CellConsensusOptions* consensus, OptionLister* list) {
   list->Add("columns", &consensus->columns, {1, 64, "cells"}, "Columns of the image grid.");
   list->Add("rows", &consensus->rows, {1, 64, "cells"}, "Rows of the image grid.");
   list->Add("reject_chi2_6", &consensus->reject_chi2_6, {0.001, 10000},
-            "Chi-square with 6 degrees of freedom above which a cell contradicts a pose.");
+            "Chi-square with 6 degrees of freedom, of the inflated sigmas, above which a cell "
+            "contradicts a pose.");
   list->Add("unconfirmed_weight", &consensus->unconfirmed_weight, {1e-6, 1},
             "Weight of a cell without landmarks that are confirmed static.");
   list->Add("min_cells", &consensus->min_cells, {0, 4096, "cells"},
@@ -48,9 +49,10 @@ void ListPose(PoseOptions* pose, OptionLister* list) {
             "Number of these rounds, from the first one, with a robust loss.");
   list->Add("iterations_per_round", &pose->iterations_per_round, {1, 100, "iterations"},
             "Largest number of iterations of a round.");
-  list->Add("max_frame_noise", &pose->max_frame_noise, {1, 100},
-            "Largest factor by which the sigmas of a blurred frame are inflated for the chi-square "
-            "tests.");
+  list->Add(
+      "max_frame_noise", &pose->max_frame_noise, {1, 100},
+      "Largest factor by which the sigmas of a frame are inflated for the chi-square tests, of "
+      "single matches and of cells.");
   list->Section("consensus", &pose->consensus, ListConsensus);
 }
 
@@ -112,7 +114,8 @@ void ListStatus(TrackerOptions* tracking, OptionLister* list) {
             "Standard deviation of the orientation above which a pose has the status weak.")
       .MakeBasic("Set it to the accuracy that the application needs.");
   list->Add("min_inlier_ratio", &tracking->min_inlier_ratio, {0, 1},
-            "Smallest ratio of inliers to all matches of a pose.");
+            "Smallest ratio of inliers of a pose, to the matches that are confirmed static or, if "
+            "these are few, to all.");
 }
 
 }  // namespace

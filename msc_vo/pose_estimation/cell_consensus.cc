@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
@@ -97,16 +98,57 @@ CellModels MakeModels(const PoseOptions& options, const PoseData& data, int num_
   return models;
 }
 
-// A step and its score: the sum of the cells' bounded misfits.
+// A step and the misfits of the cells at it.
 struct Step {
-  Vector6 d = Vector6::Zero();
-  double misfit = 0.0;
+  Vector6 d;
+  std::vector<double> misfits;  // squared sigmas, one per cell
 };
 
-double TotalMisfit(const CellModels& models, const Vector6& d, double limit) {
+Step MakeStep(const CellModels& models, const Vector6& d) {
+  Step step{d, {}};
+  step.misfits.reserve(models.size());
+  for (const CellModel& model : models) step.misfits.push_back(model.Misfit(d));
+  return step;
+}
+
+// The sum of the bounded misfits.
+double Score(const CellModels& models, const Step& step, double limit) {
   double sum = 0.0;
-  for (const CellModel& model : models) sum += model.weight * std::min(limit, model.Misfit(d));
+  for (size_t i = 0; i < models.size(); ++i) {
+    sum += models[i].weight * std::min(limit, step.misfits[i]);
+  }
   return sum;
+}
+
+// Sum of the weights of the cells that contradict the step.
+double ContradictingWeight(const CellModels& models, const Step& step, double limit) {
+  double sum = 0.0;
+  for (size_t i = 0; i < models.size(); ++i) {
+    sum += step.misfits[i] > limit ? models[i].weight : 0.0;
+  }
+  return sum;
+}
+
+// Factor by which the squared sigmas are too small for the cells: the median misfit relative to
+// that of chi-square with six degrees of freedom, at least 1. Dynamic cells with less than half of
+// the weight cannot make it arbitrarily large. Cells with fewer than two matches are left out,
+// because these have fewer degrees of freedom.
+double VarianceInflation(const CellModels& models, const Step& step) {
+  constexpr double kMedianChi2 = 5.348;
+  std::vector<std::pair<double, double>> misfits;  // misfit, weight
+  double total = 0.0;
+  for (size_t i = 0; i < models.size(); ++i) {
+    if (models[i].num_matches < 2.0) continue;
+    misfits.emplace_back(step.misfits[i], models[i].weight);
+    total += models[i].weight;
+  }
+  std::sort(misfits.begin(), misfits.end());
+  double sum = 0.0;
+  for (const auto& [misfit, weight] : misfits) {
+    sum += weight;
+    if (2.0 * sum >= total) return std::max(1.0, misfit / kMedianChi2);
+  }
+  return 1.0;
 }
 
 // Minimum of the weighted sum of the cells' models. A small multiple of the sum of all hessians
@@ -154,33 +196,27 @@ constexpr std::array<Region, 10> kStartRegions{Columns(0.0, 1.0),
 constexpr int kMaxReweightings = 5;
 constexpr double kMinDecrease = 0.01;
 
-Step FindBestStep(const ImageGrid& grid, const CellModels& models, double limit) {
-  Step best{Vector6::Zero(), TotalMisfit(models, Vector6::Zero(), limit)};
+std::vector<Step> TrySteps(const ImageGrid& grid, const CellModels& models, double limit) {
+  std::vector<Step> steps{MakeStep(models, Vector6::Zero())};
   Matrix6 all = Matrix6::Zero();
   for (const CellModel& model : models) all += model.equations.hessian;
   for (const Region& region : kStartRegions) {
-    Step step;
-    step.d = WeightedMinimum(
+    Vector6 d = WeightedMinimum(
         models, all, [&](int cell) { return region.Contains(grid.CenterOf(cell)) ? 1.0 : 0.0; });
+    double last_score = 0.0;
     for (int i = 0; i < kMaxReweightings; ++i) {
-      const double last = step.misfit;
-      step.misfit = TotalMisfit(models, step.d, limit);
-      if (step.misfit < best.misfit) best = step;
-      if (i > 0 && step.misfit > (1.0 - kMinDecrease) * last) break;
-      step.d = WeightedMinimum(models, all, [&](int cell) {
-        const double w = limit / (limit + models[cell].Misfit(step.d));
+      steps.push_back(MakeStep(models, d));
+      const Step& step = steps.back();
+      const double score = Score(models, step, limit);
+      if (i > 0 && score > (1.0 - kMinDecrease) * last_score) break;
+      last_score = score;
+      d = WeightedMinimum(models, all, [&](int cell) {
+        const double w = limit / (limit + step.misfits[cell]);
         return models[cell].weight * w * w;
       });
     }
   }
-  return best;
-}
-
-// Sum of the weights of the cells that contradict d.
-double ContradictingWeight(const CellModels& models, const Vector6& d, double limit) {
-  double sum = 0.0;
-  for (const CellModel& model : models) sum += model.Misfit(d) > limit ? model.weight : 0.0;
-  return sum;
+  return steps;
 }
 
 }  // namespace
@@ -188,29 +224,37 @@ double ContradictingWeight(const CellModels& models, const Vector6& d, double li
 std::optional<CellConsensus> FindCellConsensus(const PoseOptions& options, const PoseData& data,
                                                const Rigid3& pose) {
   constexpr int kRounds = 3;  // of linearisation
-  const double limit = options.consensus.reject_chi2_6;
   const double min_cells = options.consensus.min_cells;
+  double limit = options.consensus.reject_chi2_6;
   const ImageGrid grid(options.consensus.columns, options.consensus.rows, data.camera);
   const MatchCells cells = FindCells(grid, data);
   CellModels models = MakeModels(options, data, grid.size(), cells, pose);
-  // A search is pointless if fewer cells contradict the pose than another pose must win.
-  if (ContradictingWeight(models, Vector6::Zero(), limit) <= min_cells) return std::nullopt;
-  const double misfit = TotalMisfit(models, Vector6::Zero(), limit);
+  const Step given = MakeStep(models, Vector6::Zero());
+  // A search is pointless if fewer cells contradict the pose, even with the sigmas as they are,
+  // than another pose must win.
+  if (ContradictingWeight(models, given, limit) <= min_cells) return std::nullopt;
+  const CellModels given_models = models;
+  double inflation = options.max_frame_noise * options.max_frame_noise;
   Rigid3 best = pose;
   Step step;
   for (int round = 0; round < kRounds; ++round) {
     if (round > 0) models = MakeModels(options, data, grid.size(), cells, best);
-    step = FindBestStep(grid, models, limit);
+    const std::vector<Step> steps = TrySteps(grid, models, limit);
+    // The pose of the static scene needs the least inflation.
+    for (const Step& s : steps) inflation = std::min(inflation, VarianceInflation(models, s));
+    limit = inflation * options.consensus.reject_chi2_6;
+    step = *std::min_element(steps.begin(), steps.end(), [&](const Step& a, const Step& b) {
+      return Score(models, a, limit) < Score(models, b, limit);
+    });
+    const double gain = Score(given_models, given, limit) - Score(models, step, limit);
     // Half of the required improvement is enough to go on: relinearisation may yield the rest.
-    if (misfit - step.misfit <= 0.5 * min_cells * limit) return std::nullopt;
+    const double required = round + 1 < kRounds ? 0.5 * min_cells : min_cells;
+    if (!(gain > required * limit)) return std::nullopt;
     const Rigid3 from = best;
     Rigid3Manifold().Plus(from.params.data(), step.d.data(), best.params.data());
   }
-  if (misfit - step.misfit <= min_cells * limit) return std::nullopt;
   CellConsensus consensus{best, {}};
-  for (const CellModel& model : models) {
-    consensus.dynamic_cells.push_back(model.Misfit(step.d) > limit);
-  }
+  for (const double misfit : step.misfits) consensus.dynamic_cells.push_back(misfit > limit);
   return consensus;
 }
 

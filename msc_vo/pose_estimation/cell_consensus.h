@@ -27,7 +27,8 @@ struct CellConsensus {
 
 /// Searches for a better pose in the neighbourhood of `pose` where the linearised equations are
 /// valid. Returns std::nullopt unless the score of the best pose found improves by the limits of
-/// `options.consensus.min_cells` cells. Deterministic.
+/// `options.consensus.min_cells` cells. The limit of a cell is inflated by the variance that the
+/// cells have in common, up to the square of `options.max_frame_noise`. Deterministic.
 std::optional<CellConsensus> FindCellConsensus(const PoseOptions& options, const PoseData& data,
                                                const Rigid3& pose);
 

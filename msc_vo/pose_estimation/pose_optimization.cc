@@ -106,17 +106,26 @@ std::vector<bool> RejectDynamicObjects(const PoseOptions& options, PoseData* dat
   return consensus->dynamic_cells;
 }
 
+// Counts a match, whose flags are set, but for the inliers of its kind.
+template <typename Match>
+void Count(const Match& match, PoseSummary* summary) {
+  summary->num_dynamic += match.dynamic;
+  if (match.dynamic || !match.confirmed) return;
+  ++summary->num_confirmed;
+  summary->num_confirmed_inliers += match.inlier;
+}
+
 // Writes the flags of the matches and counts them.
 void WriteFlags(const PoseInlierMask& mask, PoseData* data, PoseSummary* summary) {
   for (size_t i = 0; i < data->points.size(); ++i) {
     data->points[i].inlier = mask.points[i].reprojection;
     summary->num_inlier_points += data->points[i].inlier;
-    summary->num_dynamic += data->points[i].dynamic;
+    Count(data->points[i], summary);
   }
   for (size_t i = 0; i < data->lines.size(); ++i) {
     data->lines[i].inlier = mask.lines[i].reprojection;
     summary->num_inlier_lines += data->lines[i].inlier;
-    summary->num_dynamic += data->lines[i].dynamic;
+    Count(data->lines[i], summary);
   }
 }
 

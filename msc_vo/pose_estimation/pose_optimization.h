@@ -64,7 +64,8 @@ struct CellConsensusOptions {
   int columns = 12;
   int rows = 9;
   /// Squared sigmas above which a cell contradicts a pose: the 99.9 % quantile of chi-square with
-  /// six degrees of freedom, because the cell's own best pose absorbs six.
+  /// six degrees of freedom, because the cell's own best pose absorbs six. The sigmas are inflated
+  /// for it, see PoseOptions::max_frame_noise.
   double reject_chi2_6 = 22.458;
   /// Weight of a cell without matches that are confirmed static, relative to one with confirmed
   /// matches only. Landmarks of a dynamic object are rarely confirmed. The whole grid weighs as
@@ -87,8 +88,9 @@ struct PoseOptions {
   double reject_chi2_3 = 11.345;
   double reject_chi2_4 = 13.277;
   /// Upper bound of the factor by which the sigmas of a frame are inflated for the chi-square
-  /// tests, as far as the median residual of its points requires it: a blurred image measures all
-  /// its points worse. Chosen by measurement, see docs/lab/tracking.md.
+  /// tests: of single matches as far as the median residual of the points requires it, because a
+  /// blurred image measures all its points worse; of cells (CellConsensus) as far as their median
+  /// misfit does. Chosen by measurement, see docs/lab/tracking.md and docs/lab/dynamic_objects.md.
   double max_frame_noise = 1.5;
   /// Rounds of optimisation and reclassification of all matches, outliers of earlier rounds
   /// included. The rounds after `num_robust_rounds` use no robust loss, because the outliers that
@@ -106,7 +108,9 @@ struct PoseSummary {
   bool usable = false;
   int num_inlier_points = 0;
   int num_inlier_lines = 0;
-  int num_dynamic = 0;  ///< matches in cells of dynamic objects: neither inliers nor outliers
+  int num_dynamic = 0;    ///< matches in cells of dynamic objects: neither inliers nor outliers
+  int num_confirmed = 0;  ///< matches whose landmark is confirmed static, but for dynamic ones
+  int num_confirmed_inliers = 0;
   std::vector<bool> dynamic_cells;  ///< one per cell of the ImageGrid; empty if there are none
   /// Half the sum of squares over the inliers, and the robust cost of the custom factors.
   double final_cost = 0.0;
@@ -116,8 +120,8 @@ struct PoseSummary {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, usable, num_inlier_points, num_inlier_lines, num_dynamic, dynamic_cells,
-                   final_cost, covariance);
+    archive.Fields(*this, usable, num_inlier_points, num_inlier_lines, num_dynamic, num_confirmed,
+                   num_confirmed_inliers, dynamic_cells, final_cost, covariance);
   }
 };
 

@@ -179,14 +179,17 @@ int NumMatches(const TrackerOptions& options, const Frame& frame, size_t num_poi
 }
 
 bool HasEnoughInliers(const TrackerOptions& options, const TrackedFrame& tracked) {
-  const int num_inliers = tracked.pose.num_inlier_points + tracked.pose.num_inlier_lines;
+  const PoseSummary& pose = tracked.pose;
+  const int support =
+      NumMatches(options, *tracked.frame, pose.num_inlier_points, pose.num_inlier_lines);
+  if (!pose.usable || support < options.min_matches) return false;
+  if (pose.num_confirmed >= options.min_matches) {
+    return pose.num_confirmed_inliers >= options.min_inlier_ratio * pose.num_confirmed;
+  }
   const int num_matches =
       static_cast<int>(tracked.matches.points.size() + tracked.matches.lines.size());
-  const int num_static = num_matches - tracked.pose.num_dynamic;
-  const int support = NumMatches(options, *tracked.frame, tracked.pose.num_inlier_points,
-                                 tracked.pose.num_inlier_lines);
-  return tracked.pose.usable && support >= options.min_matches &&
-         num_inliers >= options.min_inlier_ratio * num_static;
+  const int num_static = num_matches - pose.num_dynamic;
+  return pose.num_inlier_points + pose.num_inlier_lines >= options.min_inlier_ratio * num_static;
 }
 
 TrackingStatus ClassifyStatus(const TrackerOptions& options, const PoseSummary& pose) {

@@ -39,7 +39,10 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
 int NumMatches(const TrackerOptions& options, const Frame& frame, size_t num_points,
                size_t num_lines);
 
-/// Whether enough of the matches of `tracked` are inliers of its pose.
+/// Whether enough of the matches of `tracked` are inliers of its pose: at least `min_matches`, and
+/// `min_inlier_ratio` of all but the dynamic ones. If at least `min_matches` are confirmed static,
+/// the ratio is that of these: the matches of a dynamic object that was not recognised are outliers
+/// of the right pose.
 bool HasEnoughInliers(const TrackerOptions& options, const TrackedFrame& tracked);
 
 /// kTracked or kWeak, by the covariance of an estimated pose.

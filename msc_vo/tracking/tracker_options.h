@@ -53,7 +53,7 @@ struct TrackerOptions {
   /// Smallest number of inlier matches of a pose, points and lines together (NumMatches). Six rows
   /// determine a pose; ten matches exclude a consensus of random ones.
   int min_matches = 10;
-  /// Smallest fraction of inliers among all matches except those on dynamic objects.
+  /// Smallest ratio of inliers among the matches of a pose, see HasEnoughInliers().
   double min_inlier_ratio = 0.3;
   /// Standard deviations of a pose above which the status is kWeak.
   double weak_translation_sigma = 0.02;  ///< metres

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <random>
+#include <vector>
 
 #include "tests/support/factor_checks.h"
 #include <gtest/gtest.h>
@@ -24,6 +25,7 @@ struct BoardScene {
   double right = 240.0;
   Eigen::Vector3d board_motion = Eigen::Vector3d(0.03, 0.0, 0.0);  // metres
   bool is_board_confirmed = true;
+  double common_error = 0.0;  // pixels, sigma of a shift of all points of a cell
   unsigned seed = 1;
 };
 
@@ -44,6 +46,7 @@ class BoardMaker {
       AddPoint(pixel, Uniform(2.0, 5.0), Eigen::Vector3d::Zero(), true, &data);
     }
     for (int i = 0; i < scene_.num_lines; ++i) AddLine(&data);
+    if (scene_.common_error > 0.0) ShiftCells(&data);
     return data;
   }
 
@@ -65,6 +68,20 @@ class BoardMaker {
     point.inverse_depth = 1.0 / z + point.inverse_depth_sigma * normal_(random_);
     point.confirmed = confirmed;
     data->points.push_back(point);
+  }
+
+  void ShiftCells(PoseData* data) {
+    const CellConsensusOptions options;
+    const ImageGrid grid(options.columns, options.rows, data->camera);
+    std::vector<Eigen::Vector2d> shifts;
+    for (int i = 0; i < grid.size(); ++i) {
+      const double x = normal_(random_);
+      shifts.push_back(scene_.common_error * Eigen::Vector2d(x, normal_(random_)));
+    }
+    for (PoseData::Point& point : data->points) {
+      point.pixel += shifts[grid.CellOf(point.pixel)];
+      point.pixel = point.pixel.cwiseMax(0.0).cwiseMin(Eigen::Vector2d(639.0, 479.0));
+    }
   }
 
   void AddLine(PoseData* data) {
@@ -126,6 +143,8 @@ TEST(CellConsensusTest, ReportsDynamicMatchesAndCells) {
             num_dynamic_board + num_dynamic_room +
                 std::count_if(data.lines.begin(), data.lines.end(),
                               [](const PoseData::Line& l) { return l.dynamic; }));
+  EXPECT_EQ(summary.num_confirmed,
+            static_cast<int>(data.points.size() + data.lines.size()) - summary.num_dynamic);
   // A match is dynamic if its cell is (lines: the cell of the midpoint). Cells without matches are
   // static.
   const CellConsensusOptions options;
@@ -167,6 +186,27 @@ TEST(CellConsensusTest, DoesNotChangeTheResultOfAStaticScene) {
     OptimizePose(WithoutConsensus(), &without);
     EXPECT_EQ(with.cam_from_world.params, without.cam_from_world.params) << seed;
   }
+}
+
+// Depth sensors and rolling shutters have errors that the features of an area share.
+TEST(CellConsensusTest, ErrorsThatAllCellsHaveAreNotDynamic) {
+  int num_found = 0;
+  int num_found_with_sigmas_as_they_are = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    BoardScene scene;
+    scene.board_motion = Eigen::Vector3d::Zero();
+    scene.common_error = 1.4;
+    scene.seed = seed;
+    PoseData data = BoardMaker(scene).Make();
+    OptimizePose(WithoutConsensus(), &data);
+    PoseOptions options;
+    num_found += FindCellConsensus(options, data, data.cam_from_world).has_value();
+    options.max_frame_noise = 1.0;
+    num_found_with_sigmas_as_they_are +=
+        FindCellConsensus(options, data, data.cam_from_world).has_value();
+  }
+  EXPECT_LE(num_found, 3);
+  EXPECT_GE(num_found_with_sigmas_as_they_are, 9);
 }
 
 // The room has a tenth of the board's points, in as many cells. Its lines cross more cells.

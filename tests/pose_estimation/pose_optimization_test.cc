@@ -121,6 +121,24 @@ TEST_P(PoseOptimizationTest, InflatesTheSigmasOfANoisyFrame) {
   EXPECT_GT(inlier_ratio(2.0), 0.95);
 }
 
+TEST_P(PoseOptimizationTest, CountsConfirmedMatches) {
+  PoseData data = MakePoseData(ExactWindow(), kFrame);
+  int num_confirmed = 0;
+  int num_confirmed_outliers = 0;
+  for (size_t i = 0; i < data.points.size(); ++i) {
+    data.points[i].confirmed = i % 2 == 0;
+    if (i % 5 == 0) data.points[i].pixel.x() += 30.0;
+    num_confirmed += i % 2 == 0;
+    num_confirmed_outliers += i % 10 == 0;
+  }
+  for (PoseData::Line& line : data.lines) line.confirmed = false;
+  data.lines.front().confirmed = true;
+  const PoseSummary summary = OptimizePose(PoseOptions(), &data);
+  ASSERT_EQ(summary.num_dynamic, 0);
+  EXPECT_EQ(summary.num_confirmed, num_confirmed + 1);
+  EXPECT_EQ(summary.num_confirmed_inliers, num_confirmed - num_confirmed_outliers + 1);
+}
+
 TEST_P(PoseOptimizationTest, ReclassifiesEarlierOutliers) {
   const TestWindow window = ExactWindow();
   PoseData data = MakePoseData(window, kFrame);

@@ -73,8 +73,9 @@ inline unsigned NumberFromEnvironment(const char* name, unsigned in_a_short_run)
   return number == nullptr ? in_a_short_run : static_cast<unsigned>(std::atoi(number));
 }
 
-// The numbers of worlds and of the images of each: MSC_VO_RANDOM_WORLDS=400,
-// MSC_VO_RANDOM_IMAGES=90.
+// The first world, the number of worlds, and the number of images of each:
+// MSC_VO_FIRST_WORLD=241 MSC_VO_RANDOM_WORLDS=400 MSC_VO_RANDOM_IMAGES=90.
+inline unsigned FirstRandomWorld() { return NumberFromEnvironment("MSC_VO_FIRST_WORLD", 1); }
 inline unsigned NumRandomWorlds(unsigned in_a_short_run) {
   return NumberFromEnvironment("MSC_VO_RANDOM_WORLDS", in_a_short_run);
 }
