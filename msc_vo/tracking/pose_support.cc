@@ -3,6 +3,7 @@
 
 #include "msc_vo/tracking/pose_support.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "msc_vo/map/free_space.h"
@@ -41,7 +42,12 @@ PoseFit FitOf(const TrackedFrame& tracked, const LocalMap& candidates) {
   return is_clear ? PoseFit::kClear : PoseFit::kPoor;
 }
 
-bool IsClearlyBetter(const PoseSummary& far, const PoseSummary& near) {
+bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
+                     const PoseSummary& near) {
+  const int most_confirmed = std::max(far.num_confirmed_inliers, near.num_confirmed_inliers);
+  if (most_confirmed >= options.min_matches) {
+    return far.num_confirmed_inliers > kClearlyBetter * near.num_confirmed_inliers;
+  }
   // A near, textured object supports the pose that moves with it.
   return Support(far) > kClearlyBetter * (Support(near) + near.num_dynamic);
 }

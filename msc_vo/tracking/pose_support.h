@@ -5,6 +5,7 @@
 
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/tracking/tracked_frame.h"
+#include "msc_vo/tracking/tracker_options.h"
 
 namespace msc_vo {
 
@@ -22,8 +23,10 @@ double Support(const PoseSummary& pose);
 PoseFit FitOf(const TrackedFrame& tracked, const LocalMap& candidates);
 
 /// Whether a pose far from the prediction has so much more support than one near it that it
-/// replaces it.
-bool IsClearlyBetter(const PoseSummary& far, const PoseSummary& near);
+/// replaces it. If either has `min_matches` inliers that are confirmed static, these are compared:
+/// a dynamic object has few of them, and matches by chance no more.
+bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
+                     const PoseSummary& near);
 
 /// Whether a frame, with the inliers `found`, shows at least half as large a part of the landmarks
 /// in view at `place` as in the current map, where it is `tracked`. At a wrong place that looks

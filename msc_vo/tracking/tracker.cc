@@ -192,7 +192,8 @@ bool Tracker::TrackInitialPose(const Map& map, const Prediction& prediction,
   if (near_fit == PoseFit::kClear) return true;
   const bool is_far = TrackLargeMotion(map, pose, &far);
   tracked->times += far.times;
-  if (is_far && (near_fit == PoseFit::kNone || IsClearlyBetter(far.pose, tracked->pose))) {
+  if (is_far &&
+      (near_fit == PoseFit::kNone || IsClearlyBetter(options_, far.pose, tracked->pose))) {
     far.times = tracked->times;
     *tracked = far;
     tracked->searched = true;

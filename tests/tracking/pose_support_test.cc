@@ -67,5 +67,28 @@ TEST(ContradictsDepth, BelievesAPoseThatImagesAgreeWith) {
   EXPECT_FALSE(ContradictsDepth(tracked, map));
 }
 
+PoseSummary PoseWith(int num_inliers, int num_dynamic, int num_confirmed_inliers) {
+  PoseSummary pose;
+  pose.num_inlier_points = num_inliers;
+  pose.num_dynamic = num_dynamic;
+  pose.num_confirmed_inliers = num_confirmed_inliers;
+  return pose;
+}
+
+TEST(IsClearlyBetter, ComparesConfirmedInliers) {
+  const TrackerOptions options;
+  // Matches by chance, most of which were taken for dynamic, and the right pose after a large step.
+  EXPECT_TRUE(IsClearlyBetter(options, PoseWith(188, 0, 63), PoseWith(13, 288, 6)));
+  // The right pose beside a dynamic object, and the pose that moves with the object.
+  EXPECT_FALSE(IsClearlyBetter(options, PoseWith(300, 0, 5), PoseWith(60, 0, 30)));
+  EXPECT_FALSE(IsClearlyBetter(options, PoseWith(60, 0, 40), PoseWith(60, 0, 30)));
+}
+
+TEST(IsClearlyBetter, ComparesAllInliersIfFewAreConfirmed) {
+  const TrackerOptions options;
+  EXPECT_TRUE(IsClearlyBetter(options, PoseWith(100, 0, 5), PoseWith(60, 0, 9)));
+  EXPECT_FALSE(IsClearlyBetter(options, PoseWith(100, 0, 9), PoseWith(60, 60, 5)));
+}
+
 }  // namespace
 }  // namespace msc_vo
