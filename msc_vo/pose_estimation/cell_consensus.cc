@@ -196,6 +196,7 @@ constexpr std::array<Region, 10> kStartRegions{Columns(0.0, 1.0),
 constexpr int kMaxReweightings = 5;
 constexpr double kMinDecrease = 0.01;
 
+// The zero step, and all that the search visits from each start.
 std::vector<Step> TrySteps(const ImageGrid& grid, const CellModels& models, double limit) {
   std::vector<Step> steps{MakeStep(models, Vector6::Zero())};
   Matrix6 all = Matrix6::Zero();
@@ -241,7 +242,9 @@ std::optional<CellConsensus> FindCellConsensus(const PoseOptions& options, const
     if (round > 0) models = MakeModels(options, data, grid.size(), cells, best);
     const std::vector<Step> steps = TrySteps(grid, models, limit);
     // The pose of the static scene needs the least inflation.
-    for (const Step& s : steps) inflation = std::min(inflation, VarianceInflation(models, s));
+    for (size_t i = 0; i < steps.size() && inflation > 1.0; ++i) {
+      inflation = std::min(inflation, VarianceInflation(models, steps[i]));
+    }
     limit = inflation * options.consensus.reject_chi2_6;
     step = *std::min_element(steps.begin(), steps.end(), [&](const Step& a, const Step& b) {
       return Score(models, a, limit) < Score(models, b, limit);

@@ -23,8 +23,8 @@ double Support(const PoseSummary& pose);
 PoseFit FitOf(const TrackedFrame& tracked, const LocalMap& candidates);
 
 /// Whether a pose far from the prediction has so much more support than one near it that it
-/// replaces it. If either has `min_matches` inliers that are confirmed static, these are compared:
-/// a dynamic object has few of them, and matches by chance no more.
+/// replaces it. If either has `min_matches` inliers that are confirmed static, these are compared,
+/// because a pose that moves with a dynamic object, or that matches by chance support, has few.
 bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
                      const PoseSummary& near);
 

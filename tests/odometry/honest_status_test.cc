@@ -237,7 +237,7 @@ TEST(HonestStatus, TrackedFramesAreWithinTheirSigmas) {
   EXPECT_LT(Quantile(easy, 0.9), 3.0);
   const auto num_wrong = std::count_if(errors.begin(), errors.end(), IsAtWrongPlace);
   std::cout << num_wrong << " frames at a wrong place\n";
-  // None in the usual worlds; over 240 worlds it was 1 in 9000 (docs/reliability.md).
+  // None in the usual worlds; docs/reliability.md has the ratio over 240 worlds.
   EXPECT_LE(static_cast<size_t>(num_wrong), errors.size() / 5000);
 }
 
