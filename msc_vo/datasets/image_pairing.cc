@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "msc_vo/datasets/image_name.h"
+#include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/evaluation/association.h"
 #include "msc_vo/text/format_text.h"
@@ -24,11 +25,13 @@ std::vector<double> StampsOf(const std::vector<ListedImage>& images) {
   return stamps;
 }
 
-void AddPair(const ListedImage& color, const ListedImage& depth, SequenceIndex* index) {
+// Stamps that differ by more than `max_difference` seconds are of different clocks and give no
+// delay.
+void AddPair(const ListedImage& color, const ListedImage& depth, double max_difference,
+             SequenceIndex* index) {
   const bool same_row = color.origin == depth.origin;
   const double delay = depth.stamp - color.stamp;
-  // Stamps of different clocks give no delay.
-  const bool same_clock = std::abs(delay) <= kMaxPairDifference;
+  const bool same_clock = std::abs(delay) <= max_difference;
   index->entries.push_back({color.stamp, color.path, depth.path,
                             same_row ? color.origin : color.origin + " and " + depth.origin,
                             same_clock ? delay : 0.0, color.index, depth.index});
@@ -52,26 +55,38 @@ void CheckOffset(const ImageLists& images, double max_difference, SequenceIndex*
 
 }  // namespace
 
+double MaxPairDifference(double interval) {
+  constexpr double kSmallest = 0.02, kLargest = 0.15;  // seconds
+  constexpr double kRatio = 0.55;                      // of the interval
+  return std::clamp(kRatio * interval, kSmallest, kLargest);
+}
+
+double MaxPairDifference(const ImageLists& images) {
+  return MaxPairDifference(
+      std::min(MedianInterval(StampsOf(images.color)), MedianInterval(StampsOf(images.depth))));
+}
+
 void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* index) {
   const std::vector<StampMatch> matches =
       AssociateStamps(StampsOf(images.color), StampsOf(images.depth), max_difference);
   for (const StampMatch& match : matches) {
-    AddPair(images.color[match.reference], images.depth[match.query], index);
+    AddPair(images.color[match.reference], images.depth[match.query], max_difference, index);
   }
   const size_t num_unpaired = images.color.size() - matches.size();
   if (num_unpaired > 0) {
     index->warnings.push_back(
-        FormatText("%zu of %zu colour images have no depth image within %d ms and are left out",
-                   num_unpaired, images.color.size(), static_cast<int>(1000.0 * max_difference)));
+        FormatText("%zu of %zu colour images have no depth image within %.0f ms and are left out",
+                   num_unpaired, images.color.size(), 1e3 * max_difference));
   }
   CheckOffset(images, max_difference, index);
 }
 
 void PairByRow(const ImageLists& images, SequenceIndex* index) {
+  const double max_difference = MaxPairDifference(images);
   for (size_t i = 0; i < images.color.size(); ++i) {
-    AddPair(images.color[i], images.depth[i], index);
+    AddPair(images.color[i], images.depth[i], max_difference, index);
   }
-  CheckOffset(images, kMaxPairDifference, index);
+  CheckOffset(images, max_difference, index);
 }
 
 void PairByFrameNumber(const std::vector<std::string>& color_paths,

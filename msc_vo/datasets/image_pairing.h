@@ -11,9 +11,15 @@
 
 namespace msc_vo {
 
-/// Largest difference of the stamps of colour and depth image in a pair: the default of the TUM
-/// RGB-D tools, less than the 33 ms between two frames.
-constexpr double kMaxPairDifference = 0.02;  // seconds
+/// Largest difference of the stamps of colour and depth image in a pair, seconds, if the camera
+/// with the higher rate takes an image every `interval` seconds: half of that interval, within
+/// which every image of the other camera has a partner, and a tenth of it for jitter. It is at
+/// least 20 ms, the default of the TUM RGB-D tools, and at most 0.15 s, because the camera motion
+/// is not known well enough to move depth over longer times.
+double MaxPairDifference(double interval);
+
+/// The same for images whose stamps are in seconds.
+double MaxPairDifference(const ImageLists& images);
 
 /// Pairs colour and depth images by time, see AssociateStamps(), and adds the pairs to the entries,
 /// with the stamp of the colour image. Stamps are in seconds, both lists in order of time, and
@@ -21,7 +27,8 @@ constexpr double kMaxPairDifference = 0.02;  // seconds
 void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* index);
 
 /// Pairs the images at the same position of both lists, whose stamps are in seconds, and adds the
-/// pairs to the entries in their order.
+/// pairs to the entries in their order. Stamps that differ by more than MaxPairDifference() are
+/// taken for those of different clocks.
 void PairByRow(const ImageLists& images, SequenceIndex* index);
 
 /// Pairs colour and depth images with the same frame number, see FrameNumber(), and adds the pairs

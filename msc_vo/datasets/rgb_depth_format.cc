@@ -3,6 +3,7 @@
 
 // Two folders of images without lists: rgb/ (or color/, colour/, image/, images/) and depth/.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -38,6 +39,12 @@ std::string DepthFolder(const std::string& directory) {
 
 bool Recognises(const std::string& directory) {
   return !ListImages(ColorFolder(directory)).empty() && IsFolder(DepthFolder(directory));
+}
+
+// Whether the stamps that the names encode are frame numbers, not times.
+bool AreNumbered(const std::vector<ListedImage>& images) {
+  const std::optional<int64_t> number = FrameNumber(images.front().path);
+  return number && images.front().stamp == static_cast<double>(*number) / kDefaultFrameRate;
 }
 
 // Returns the images with the stamps that their names encode; empty if a name encodes none or the
@@ -76,8 +83,9 @@ SequenceIndex Read(const std::string& directory) {
   }
   const ImageLists stamped = {StampedByName(color), StampedByName(depth)};
   if (!stamped.color.empty() && !stamped.depth.empty()) {
-    constexpr double kMaxDifference = 0.5 / kDefaultFrameRate;  // half a frame interval
-    PairByTime(stamped, kMaxDifference, &index);
+    constexpr double kSameNumber = 0.5 / kDefaultFrameRate;
+    const bool numbered = AreNumbered(stamped.color) && AreNumbered(stamped.depth);
+    PairByTime(stamped, numbered ? kSameNumber : MaxPairDifference(stamped), &index);
   }
   // If the numbers in the names are unrelated, images are paired by their order.
   if (index.entries.empty()) {

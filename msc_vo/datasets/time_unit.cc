@@ -6,23 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "msc_vo/datasets/median_interval.h"
+
 namespace msc_vo {
 
 namespace {
 
 constexpr TimeUnit kUnits[] = {TimeUnit::kSeconds, TimeUnit::kMilliseconds, TimeUnit::kMicroseconds,
                                TimeUnit::kNanoseconds};
-
-// Median interval in the unit of the stamps; 0 for fewer than two stamps.
-double MedianInterval(std::vector<double> stamps) {
-  if (stamps.size() < 2) return 0.0;
-  std::sort(stamps.begin(), stamps.end());
-  std::vector<double> intervals;
-  for (size_t i = 1; i < stamps.size(); ++i) intervals.push_back(stamps[i] - stamps[i - 1]);
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  return *middle;
-}
 
 // Intersection over union of two time ranges, 0..1.
 double Overlap(const TimeRange& a, const TimeRange& b) {

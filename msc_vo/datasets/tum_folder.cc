@@ -90,7 +90,7 @@ void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceInd
   }
   ImageLists images = ReadLists(directory, &index->warnings);
   ToSeconds("rgb.txt", "depth.txt", whole, &images, index);
-  PairByTime(images, kMaxPairDifference, index);
+  PairByTime(images, MaxPairDifference(images), index);
 }
 
 void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, SequenceIndex* index) {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "msc_vo/datasets/image_pairing.h"
 #include "msc_vo/diagnosis/quantile.h"
 #include "msc_vo/evaluation/association.h"
+#include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -102,11 +102,12 @@ void AddGroundTruthStampFindings(const SequenceIndex& index, Findings* findings)
   std::vector<double> truth_stamps, image_stamps;
   for (const TimedPose& pose : truth) truth_stamps.push_back(pose.timestamp);
   for (const SequenceEntry& entry : index.entries) image_stamps.push_back(entry.timestamp);
-  const size_t num_matched = AssociateStamps(truth_stamps, image_stamps, kMaxPairDifference).size();
+  const double max_difference = EvaluationOptions().max_time_difference;
+  const size_t num_matched = AssociateStamps(truth_stamps, image_stamps, max_difference).size();
   const double ratio = static_cast<double>(num_matched) / static_cast<double>(image_stamps.size());
   const std::string text =
       FormatText("ground truth: %zu poses, %zu of %zu images have one within %.0f ms", truth.size(),
-                 num_matched, image_stamps.size(), 1e3 * kMaxPairDifference);
+                 num_matched, image_stamps.size(), 1e3 * max_difference);
   if (ratio >= 0.5) {
     findings->push_back(Good("ground_truth.overlap", text, Measurement{ratio, "ratio"}));
     return;

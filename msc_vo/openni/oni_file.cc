@@ -16,6 +16,7 @@
 #include "msc_vo/openni/openni_source.h"
 #include "msc_vo/openni/openni_stream.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -147,12 +148,14 @@ SequenceIndex OpenOniFile(const std::string& path) {
   index.directory = path;
   const ImageLists images{ListFrames(path + ":colour", &container->color()),
                           ListFrames(path + ":depth", &container->depth())};
-  PairByTime(images, kMaxPairDifference, &index);
+  const double max_difference = MaxPairDifference(images);
+  PairByTime(images, max_difference, &index);
   OrderEntries(&index);
   if (index.entries.empty()) {
-    throw std::runtime_error(path + ": no pair of colour and depth images within 20 ms, of " +
-                             std::to_string(images.color.size()) + " colour and " +
-                             std::to_string(images.depth.size()) + " depth images");
+    throw std::runtime_error(
+        path + FormatText(": no pair of colour and depth images within %.0f ms, of %zu colour and "
+                          "%zu depth images",
+                          1e3 * max_difference, images.color.size(), images.depth.size()));
   }
   index.depth_scale = DepthScaleOf(container->depth().stream());
   index.calibration = NominalCalibration(container->color().stream(), *index.depth_scale, path);

@@ -3,6 +3,7 @@
 
 // Live cameras of OpenNI2.
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -49,6 +50,8 @@ class OpenNiCamera : public RgbdCamera {
                {openni::PIXEL_FORMAT_RGB888, openni::PIXEL_FORMAT_GRAY8}, &color_);
     OpenStream(openni::SENSOR_DEPTH, "depth",
                {openni::PIXEL_FORMAT_DEPTH_1_MM, openni::PIXEL_FORMAT_DEPTH_100_UM}, &depth_);
+    const int rate = std::max(color_.getVideoMode().getFps(), depth_.getVideoMode().getFps());
+    max_difference_ = MaxPairDifference(1.0 / rate);
     const openni::ImageRegistrationMode registration = openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;
     is_registered_ = device_.isImageRegistrationModeSupported(registration) &&
                      device_.setImageRegistrationMode(registration) == openni::STATUS_OK;
@@ -80,7 +83,7 @@ class OpenNiCamera : public RgbdCamera {
       if (!color_frame_.isValid() || !depth_frame_.isValid()) continue;
       const double delay = TimeOf(depth_frame_) - TimeOf(color_frame_);
       // The partner of the later image is still to come.
-      if (std::abs(delay) > kMaxPairDifference) continue;
+      if (std::abs(delay) > max_difference_) continue;
       *image = TakePair(delay);
       return true;
     }
@@ -120,6 +123,7 @@ class OpenNiCamera : public RgbdCamera {
   openni::VideoStream depth_;
   openni::VideoFrameRef color_frame_;  // invalid after it was returned
   openni::VideoFrameRef depth_frame_;
+  double max_difference_ = 0.0;  // seconds, in a pair
   bool is_registered_ = false;
   std::optional<double> offset_;  // seconds from the clock of the device to that of the system
 };

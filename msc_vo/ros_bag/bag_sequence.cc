@@ -167,7 +167,7 @@ SequenceIndex OpenBag(const std::string& path, const BagTopics& topics) {
   const ImageTopic depth = ChooseTopic(path, all, RankDepthTopics(all), topics.depth, "depth",
                                        "--depth-topic", &index.warnings);
   ImageLists images{ListImages(color, bag.get()), ListImages(depth, bag.get())};
-  PairByTime(images, kMaxPairDifference, &index);
+  PairByTime(images, MaxPairDifference(images), &index);
   OrderEntries(&index);
   if (index.entries.empty()) {
     std::string message =

@@ -107,6 +107,20 @@ TEST_F(SequenceTest, PairsPlainFoldersByName) {
   EXPECT_EQ(index.entries[1].depth_path, Path("depth/1.065000.png"));
 }
 
+TEST_F(SequenceTest, PairsPlainFoldersByTimeAtLowRate) {
+  for (const std::string name : {"1.0", "1.2", "1.4"}) WriteColor("rgb/" + name + ".png");
+  for (const std::string name : {"1.08", "1.28"}) WriteDepth("depth/" + name + ".png");
+  const SequenceIndex index = OpenSequence(Folder());
+  ASSERT_EQ(index.entries.size(), 2u);
+  EXPECT_NEAR(index.entries[1].depth_delay, 0.08, 1e-9);
+}
+
+TEST_F(SequenceTest, PairsNumberedPlainFoldersByNumberOnly) {
+  for (const std::string name : {"0", "6", "12", "18"}) WriteColor("rgb/" + name + ".png");
+  for (const std::string name : {"0", "6", "14"}) WriteDepth("depth/" + name + ".png");
+  EXPECT_EQ(OpenSequence(Folder()).entries.size(), 2u);
+}
+
 TEST_F(SequenceTest, PairsPlainFoldersWithoutNumbersByOrder) {
   for (const std::string name : {"a", "b"}) {
     WriteColor("color/" + name + ".png");

@@ -6,7 +6,9 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
+#include "msc_vo/datasets/image_pairing.h"
 #include "msc_vo/datasets/sequence.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 namespace {
@@ -60,6 +62,48 @@ TEST_F(TumSequenceTest, PairsWithNextNearestIfNearestIsTaken) {
   ASSERT_EQ(index.entries.size(), 2u);
   EXPECT_EQ(index.entries[0].depth_path, Path("w"));
   EXPECT_EQ(index.entries[1].depth_path, Path("x"));
+}
+
+TEST_F(TumSequenceTest, PairsUnsynchronisedImagesAtAnyRate) {
+  for (const double rate : {5.0, 15.0, 30.0, 60.0}) {
+    const double delay = 0.45 / rate;
+    std::string color, depth;
+    for (int i = 0; i < 20; ++i) {
+      color += FormatText("%.6f rgb/%d.png\n", i / rate, i);
+      depth += FormatText("%.6f depth/%d.png\n", i / rate + delay, i);
+    }
+    WriteText("rgb.txt", color);
+    WriteText("depth.txt", depth);
+    const SequenceIndex index = OpenSequence(Folder());
+    EXPECT_EQ(index.entries.size(), 20u) << rate;
+    EXPECT_THAT(index.warnings, IsEmpty()) << rate;
+    for (const SequenceEntry& entry : index.entries) {
+      EXPECT_NEAR(entry.depth_delay, delay, 2e-6) << rate;
+    }
+  }
+}
+
+TEST(MaxPairDifference, FollowsFromTheFasterCamera) {
+  for (const double rate : {28.0, 30.0, 60.0, 1000.0})
+    EXPECT_EQ(MaxPairDifference(1.0 / rate), 0.02);
+  EXPECT_NEAR(MaxPairDifference(1.0 / 15.0), 0.0367, 1e-4);
+  EXPECT_NEAR(MaxPairDifference(1.0 / 5.0), 0.11, 1e-9);
+  EXPECT_EQ(MaxPairDifference(10.0), 0.15);
+  const std::vector<ListedImage> slow = {{0.0, "", ""}, {0.2, "", ""}, {0.4, "", ""}};
+  const std::vector<ListedImage> fast = {{0.0, "", ""}, {1.0 / 15, "", ""}, {2.0 / 15, "", ""}};
+  EXPECT_DOUBLE_EQ(MaxPairDifference(ImageLists{slow, fast}), MaxPairDifference(1.0 / 15.0));
+  EXPECT_DOUBLE_EQ(MaxPairDifference(ImageLists{fast, slow}), MaxPairDifference(1.0 / 15.0));
+  EXPECT_EQ(MaxPairDifference(ImageLists{}), 0.02);
+}
+
+TEST_F(TumSequenceTest, KeepsDelaysOfSlowAssociations) {
+  std::string rows;
+  for (int i = 0; i < 4; ++i)
+    rows += FormatText("%.2f rgb/%d %.2f depth/%d\n", 0.2 * i, i, 0.2 * i + 0.09, i);
+  WriteText("associations.txt", rows);
+  for (const SequenceEntry& entry : OpenSequence(Folder()).entries) {
+    EXPECT_NEAR(entry.depth_delay, 0.09, 1e-9);
+  }
 }
 
 TEST_F(TumSequenceTest, ReadsAssociationsInEitherOrder) {
