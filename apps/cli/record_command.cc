@@ -24,8 +24,8 @@ namespace msc_vo {
 
 namespace {
 
-// Images of a camera that wait for the disk, 40 MiB.
-constexpr int kMaxWaiting = 30;
+// Seconds of images of a camera that wait for the disk: 40 MiB at 30 Hz.
+constexpr double kMaxWaiting = 1.0;
 
 struct Arguments {
   SequenceArguments sequence;

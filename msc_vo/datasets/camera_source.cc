@@ -7,8 +7,8 @@
 
 namespace msc_vo {
 
-CameraSource::CameraSource(RgbdCamera* camera, int max_waiting)
-    : camera_(camera), max_waiting_(static_cast<size_t>(max_waiting)) {
+CameraSource::CameraSource(RgbdCamera* camera, double max_waiting)
+    : camera_(camera), max_waiting_(max_waiting) {
   thread_ = std::thread([this] { TakeImages(); });
 }
 
@@ -27,10 +27,7 @@ void CameraSource::TakeImages() {
       next.since_arrival.Restart();
       const std::lock_guard<std::mutex> lock(mutex_);
       if (stopping_) break;
-      if (waiting_.size() == max_waiting_) {
-        waiting_.pop_front();
-        ++num_dropped_;
-      }
+      MakeRoom(next.image.timestamp);
       waiting_.push_back(std::move(next));
       changed_.notify_one();
     }
@@ -41,6 +38,17 @@ void CameraSource::TakeImages() {
   error_ = error;
   ended_ = true;
   changed_.notify_one();
+}
+
+void CameraSource::MakeRoom(double newest) {
+  const auto is_recent = [&](const Waiting& waiting) {
+    const double age = newest - waiting.image.timestamp;
+    return age > 0.0 && age < max_waiting_;  // stamps that do not ascend must not fill the memory
+  };
+  while (!waiting_.empty() && !is_recent(waiting_.front())) {
+    waiting_.pop_front();
+    ++num_dropped_;
+  }
 }
 
 bool CameraSource::Next(CameraImage* image, int* num_dropped) {

@@ -15,11 +15,12 @@
 namespace msc_vo {
 
 /// Takes images from a live camera on a thread of its own. If the reader is late, images wait in a
-/// queue; when it is full, the oldest one is dropped, so that memory stays bounded.
+/// queue; the oldest ones are dropped when the queue gets too long, so that memory stays bounded.
 class CameraSource {
  public:
-  /// At most `max_waiting` images wait. The camera must outlive the source.
-  CameraSource(RgbdCamera* camera, int max_waiting);
+  /// An image is dropped when another one arrives whose stamp is `max_waiting` seconds later. The
+  /// camera must outlive the source.
+  CameraSource(RgbdCamera* camera, double max_waiting);
   ~CameraSource();  ///< waits for the image that is being taken
   CameraSource(const CameraSource&) = delete;
   CameraSource& operator=(const CameraSource&) = delete;
@@ -38,9 +39,11 @@ class CameraSource {
     Stopwatch since_arrival;
   };
   void TakeImages();
+  // Drops the images that are too old when one with the stamp `newest` arrives.
+  void MakeRoom(double newest);
 
   RgbdCamera* camera_;
-  size_t max_waiting_;
+  double max_waiting_;  // seconds
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Waiting> waiting_;  // guarded by mutex_, as all below up to thread_

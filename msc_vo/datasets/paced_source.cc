@@ -55,8 +55,8 @@ bool PacedSource::Next(RgbdImage* image, std::vector<int>* dropped) {
   const double now = clock_.now();
   int newest = next_;
   while (newest + 1 < end_ && *start_ + Time(newest + 1) <= now) ++newest;
-  const int oldest = std::max(next_, newest + 1 - kMaxWaiting);
-  for (int i = next_; i < oldest; ++i) dropped->push_back(i);
+  int oldest = next_;
+  while (Time(newest) - Time(oldest) >= kMaxWaiting) dropped->push_back(oldest++);
   next_ = oldest + 1;
   source_.SkipTo(oldest);
   source_.Next(image);

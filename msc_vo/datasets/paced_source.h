@@ -22,13 +22,16 @@ struct PacingClock {
 
 /// Delivers the images of a sequence in real time, as a camera would: the first one at once, each
 /// other one when the time between their stamps has passed. If the reader is late, images wait in a
-/// queue like that of a camera driver; when the queue is full, the oldest image is dropped. Pauses
-/// between two stamps are cut to kMaxPause.
+/// queue like that of a camera driver; when it spans more than kMaxWaiting, the oldest images are
+/// dropped. Pauses between two stamps are cut to kMaxPause.
 class PacedSource {
  public:
-  /// Length of the queue: a tenth of a second at 30 Hz. A reader that needs half the time between
-  /// two images catches up within as many images; poses with a longer delay are of little use.
-  static constexpr int kMaxWaiting = 3;
+  /// Length of the queue, seconds: an image is dropped when another one that is so much later
+  /// arrives. Three images fit at 30 Hz, six at 60 Hz, one at 10 Hz; the value is between multiples
+  /// of usual intervals, so that rounding decides nothing. A reader that needs half the time
+  /// between two images catches up within as many images; poses with a longer delay are of little
+  /// use.
+  static constexpr double kMaxWaiting = 0.09;
   /// Seconds: longer than pauses of a recording, short enough that the program does not seem to
   /// hang.
   static constexpr double kMaxPause = 10.0;
