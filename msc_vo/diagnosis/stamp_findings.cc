@@ -15,8 +15,13 @@ namespace msc_vo {
 namespace {
 
 constexpr double kMinInterval = 0.001, kMaxInterval = 5.0;  // seconds, of RGB-D cameras
-// The constant velocity model bridges one or two dropped frames, not more.
-constexpr double kMaxGap = 3.5;  // in median intervals
+// The error of a motion at constant velocity grows with the time that it is extrapolated over: from
+// about this time on, seconds, a hand-held camera leaves the search radius of tracking. Between
+// multiples of usual intervals, so that rounding decides nothing.
+constexpr double kMaxGap = 0.118;
+// A sequence of a low rate is recorded with slower motion: an interval is a gap if images are
+// missing in it. In median intervals.
+constexpr double kMissingImage = 1.5;
 // Frames per second below which motion between frames is often too large for tracking.
 constexpr double kMinRate = 4.0;
 
@@ -29,14 +34,15 @@ std::vector<double> Intervals(const std::vector<SequenceEntry>& entries) {
 }
 
 void AddGaps(const std::vector<double>& intervals, double median, Findings* findings) {
+  const double max_interval = std::max(kMaxGap, kMissingImage * median);
   const auto gaps = std::count_if(intervals.begin(), intervals.end(),
-                                  [&](double interval) { return interval > kMaxGap * median; });
+                                  [&](double interval) { return interval > max_interval; });
   if (gaps == 0) return;
   const double longest = *std::max_element(intervals.begin(), intervals.end());
   findings->push_back(
       Warning("stamps.gaps",
-              FormatText("%d %s of three frames or more, the longest %.3f s",
-                         static_cast<int>(gaps), gaps == 1 ? "gap" : "gaps", longest),
+              FormatText("%d %s of more than %.3f s, the longest %.3f s", static_cast<int>(gaps),
+                         gaps == 1 ? "gap" : "gaps", max_interval, longest),
               "tracking may be lost there; record without dropped frames (faster disk, no "
               "compression while recording)",
               Measurement{longest, "s"}));

@@ -3,6 +3,8 @@
 
 #include "msc_vo/diagnosis/sequence_check.h"
 
+#include <map>
+
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -15,6 +17,7 @@ using testing::Contains;
 using testing::Each;
 using testing::Field;
 using testing::HasSubstr;
+using testing::Not;
 
 testing::Matcher<const Finding&> Is(Severity severity, const std::string& text) {
   return AllOf(Field(&Finding::severity, severity), testing::ResultOf(&Describe, HasSubstr(text)));
@@ -96,7 +99,26 @@ TEST_F(SequenceCheckTest, QuickCheckReportsProblemsOnly) {
 
 TEST_F(SequenceCheckTest, ReportsGaps) {
   index_.entries.erase(index_.entries.begin() + 1, index_.entries.begin() + 4);
-  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "1 gap of three frames or more")));
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "1 gap of more than 0.150 s")));
+}
+
+TEST_F(SequenceCheckTest, CountsGapsByTheirTime) {
+  // Images missing in a row that are just no gap.
+  const std::map<double, int> num_missing = {{5.0, 0}, {10.0, 0}, {15.0, 0}, {30.0, 2}, {60.0, 6}};
+  for (const auto& [rate, count] : num_missing) {
+    for (const bool is_gap : {false, true}) {
+      for (int i = 0; i < 6; ++i) {
+        const int missing = i < 4 ? 0 : count + is_gap;
+        index_.entries[i].timestamp = (i + missing) / rate;
+      }
+      const auto gap = Field(&Finding::check, "stamps.gaps");
+      if (is_gap) {
+        EXPECT_THAT(Check(), Contains(gap)) << rate;
+      } else {
+        EXPECT_THAT(Check(), Not(Contains(gap))) << rate;
+      }
+    }
+  }
 }
 
 TEST_F(SequenceCheckTest, WarnsOfStampsInOtherUnits) {
