@@ -93,8 +93,10 @@ void ListSegments(SegmentOptions* segments, OptionLister* list) {
       "max_search", &segments->max_search, {0, 3600, "seconds"},
       "Longest time for which the map is searched, even if not all of its keyframes have been "
       "tried.");
-  list->Add("search_keyframes", &segments->search_keyframes, {1, 100, "keyframes"},
-            "Keyframes of older segments that are tried per tracked frame, to join the maps.");
+  list->Add(
+      "search_keyframes", &segments->search_keyframes, {1, 100, "keyframes"},
+      "Keyframes of older segments that are tried per 1/30 s, to join the maps; at least one per "
+      "tracked frame.");
   list->Add("search_interval", &segments->search_interval, {0, 3600, "seconds"},
             "Shortest time between two frames that are found in the map of an older segment.");
 }
@@ -132,7 +134,7 @@ void ListTracking(TrackerOptions* tracking, OptionLister* list) {
   list->Add("max_local_keyframes", &tracking->max_local_keyframes, {1, 1000, "keyframes"},
             "Largest number of keyframes of the local map.");
   list->Add("relocalization_keyframes", &tracking->relocalization_keyframes, {1, 100, "keyframes"},
-            "Keyframes that relocalisation tries per frame.");
+            "Keyframes that relocalisation tries per 1/30 s; at least one per frame.");
   list->Add(
       "min_initial_features", &tracking->min_initial_features, {3, 10000, "features"},
       "Smallest number of features with depth of the first frame; five lines in two directions "

@@ -8,6 +8,7 @@
 #include "msc_vo/pose_estimation/relocalizer.h"
 #include "msc_vo/tracking/frame_pose.h"
 #include "msc_vo/tracking/pose_support.h"
+#include "msc_vo/tracking/search_budget.h"
 
 namespace msc_vo {
 
@@ -16,15 +17,24 @@ namespace {
 // Twice the default of MapAlignmentOptions::min_frames.
 constexpr int kMaxSuccesses = 6;
 
+size_t NumKeyframes(const InactiveMaps& maps) {
+  size_t count = 0;
+  for (const std::shared_ptr<const Map>& map : maps) count += map->keyframes().size();
+  return count;
+}
+
 }  // namespace
 
 std::optional<MapRelocalization> InactiveMapSearch::Search(const TrackedFrame& tracked,
-                                                           const MapSnapshot& snapshot) {
+                                                           const MapSnapshot& snapshot,
+                                                           double seconds) {
   const InactiveMaps& maps = snapshot.inactive_maps;
   if (maps.empty() || tracked.status != TrackingStatus::kTracked) return std::nullopt;
   const double timestamp = tracked.frame->timestamp;
   if (timestamp - last_success_ < options_.segments.search_interval) return std::nullopt;
-  for (int i = 0; i < options_.segments.search_keyframes; ++i) {
+  const int num_keyframes =
+      KeyframesToTry(options_.segments.search_keyframes, seconds, NumKeyframes(maps));
+  for (int i = 0; i < num_keyframes; ++i) {
     const Candidate candidate = NextCandidate(maps);
     if (candidate.keyframe->id != next_) num_successes_ = 0;
     std::optional<MapRelocalization> found =

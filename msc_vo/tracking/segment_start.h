@@ -26,6 +26,8 @@ class SegmentStartPolicy {
   /// SegmentOptions::min_search, and until each keyframe has been tried or max_search is reached.
   bool IsDue(int num_keyframes) const;
 
+  /// Time stamp of the last reported frame, seconds.
+  double last_timestamp() const { return last_timestamp_; }
   /// Whether a frame after the first one was tracked in the map of the segment.
   bool is_confirmed() const { return is_confirmed_; }
 
@@ -40,7 +42,7 @@ class SegmentStartPolicy {
  private:
   SegmentOptions options_;
   bool is_confirmed_ = false;
-  double last_timestamp_ = 0.0;  // seconds, of the last reported frame
+  double last_timestamp_ = 0.0;
   double search_seconds_ = 0.0;  // since the last tracked frame
   int num_tried_keyframes_ = 0;  // since the last tracked frame
 };

@@ -115,8 +115,8 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
     tracked.status = TrackingStatus::kWeak;
   }
   in_gap_ = false;
-  segment_start_.Tracked(timestamp);
   ProposeKeyframe(snapshot, &tracked);
+  segment_start_.Tracked(timestamp);
   UpdateMotion(last_from_world, &tracked);
   last_ = tracked;
   return tracked;
@@ -165,7 +165,7 @@ bool Tracker::IsNewSegmentDue(const Map& map, const TrackedFrame& tracked) {
     return false;
   }
   const bool could_begin = CanBeginMap(*tracked.frame, options_.min_initial_features);
-  segment_start_.NotFound(timestamp, could_begin, options_.relocalization_keyframes);
+  segment_start_.NotFound(timestamp, could_begin, NumKeyframesToTry(map, timestamp));
   if (!could_begin || tracked.status != TrackingStatus::kLost) return false;
   return segment_start_.IsDue(static_cast<int>(map.keyframes().size()));
 }
@@ -279,7 +279,8 @@ bool Tracker::TrackMapAround(const Map& map, const Prediction& prediction,
 }
 
 bool Tracker::Relocalize(const Map& map, TrackedFrame* tracked) {
-  for (int i = 0; i < options_.relocalization_keyframes; ++i) {
+  const int num_keyframes = NumKeyframesToTry(map, tracked->frame->timestamp);
+  for (int i = 0; i < num_keyframes; ++i) {
     // From newest to oldest, a few keyframes per frame, cyclically.
     const auto* keyframe = map.keyframes().FindUpTo(next_candidate_);
     if (keyframe == nullptr) keyframe = &map.keyframes().back();
@@ -370,7 +371,8 @@ void Tracker::ProposeKeyframe(const MapSnapshot& snapshot, TrackedFrame* tracked
   const bool enables_compensation =
       snapshot.readout_time != 0.0 && AwaitsCompensation(snapshot) && is_second;
   Stopwatch stopwatch;
-  tracked->in_inactive_map = inactive_map_search_.Search(*tracked, snapshot);
+  tracked->in_inactive_map = inactive_map_search_.Search(
+      *tracked, snapshot, SecondsSincePrevious(tracked->frame->timestamp));
   tracked->times.matching += stopwatch.Milliseconds();
   tracked->keyframe.is_due = policy_.IsDue(*tracked->frame, tracked->matches,
                                            tracked->status == TrackingStatus::kTracked) ||

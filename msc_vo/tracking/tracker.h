@@ -13,6 +13,7 @@
 #include "msc_vo/tracking/pose_factor_callback.h"
 #include "msc_vo/tracking/pose_plausibility.h"
 #include "msc_vo/tracking/pose_support.h"
+#include "msc_vo/tracking/search_budget.h"
 #include "msc_vo/tracking/segment_start.h"
 #include "msc_vo/tracking/tracked_frame.h"
 #include "msc_vo/tracking/tracker_options.h"
@@ -59,6 +60,15 @@ class Tracker {
   // Makes the frame the first one of a new segment, whose map the mapper begins.
   TrackedFrame BeginSegment(std::shared_ptr<const Frame> frame, const Rigid3& last_from_world);
   void StartSegment(SegmentStart start, TrackedFrame* tracked);
+  // Keyframes of the map that relocalisation tries in a frame.
+  int NumKeyframesToTry(const Map& map, double timestamp) const {
+    return KeyframesToTry(options_.relocalization_keyframes, SecondsSincePrevious(timestamp),
+                          map.keyframes().size());
+  }
+  // Time since the frame before, which may be one without a pose.
+  double SecondsSincePrevious(double timestamp) const {
+    return timestamp - segment_start_.last_timestamp();
+  }
   // Whether the map is given up, because it could not be found for too long.
   bool IsNewSegmentDue(const Map& map, const TrackedFrame& tracked);
 

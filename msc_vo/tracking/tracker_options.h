@@ -23,7 +23,8 @@ struct SegmentOptions {
   /// tried once, but not longer than the maximum.
   double min_search = 1.0;
   double max_search = 5.0;
-  /// Keyframes of inactive maps that are tried per tracked frame, which bounds the cost.
+  /// Keyframes of inactive maps that tracked frames try in 1/30 s, at least one per frame
+  /// (KeyframesToTry). It bounds the cost.
   int search_keyframes = 1;
   /// Shortest time between two frames that are found in an inactive map, seconds: a hand-held
   /// camera then has a view of its own.
@@ -60,7 +61,8 @@ struct TrackerOptions {
   double weak_rotation_sigma = 1.0;      ///< degrees
   /// Longest gap that is bridged by constant velocity.
   double max_prediction = 0.5;  ///< seconds
-  /// Keyframes per frame that relocalisation tries, newest and least recently tried first.
+  /// Keyframes that relocalisation tries in 1/30 s, at least one per frame (KeyframesToTry), newest
+  /// and least recently tried first.
   int relocalization_keyframes = 3;
   /// Features with depth that the first frame needs, points and lines together (CanBeginMap).
   int min_initial_features = 20;

@@ -196,6 +196,36 @@ TEST_F(TrackerTest, ReplacesAMapThatNothingWasTrackedIn) {
   EXPECT_EQ(tracker_.Track(other.MakeFrame(16), snapshot_).segment_start, SegmentStart::kReplacing);
 }
 
+// The frame as an image of a camera with the rate, Hz.
+std::shared_ptr<const Frame> AtRate(double rate, const std::shared_ptr<const Frame>& frame) {
+  auto at_rate = std::make_shared<Frame>(*frame);
+  at_rate->timestamp *= 30.0 / rate;
+  return at_rate;
+}
+
+TEST_F(TrackerTest, GivesUpALargeMapAfterTheSameTimeAtAnyRate) {
+  SyntheticFrames::Options elsewhere;
+  elsewhere.seed = 2;
+  SyntheticFrames other(elsewhere);
+  world_ = std::make_unique<SyntheticFrames>(SyntheticFrames::Options());
+  const std::shared_ptr<const Frame> first = world_->MakeFrame(0);
+  snapshot_ = MapOfOneKeyframe(first, Rigid3());
+  // 135 keyframes are tried once in 1.5 s.
+  for (int i = 1; i < 135; ++i) snapshot_.map.AddKeyframe(first, Rigid3());
+  for (const double rate : {5.0, 15.0, 30.0, 60.0}) {
+    Tracker tracker{TrackerOptions()};
+    tracker.Track(first, MapSnapshot());
+    EXPECT_EQ(tracker.Track(AtRate(rate, world_->MakeFrame(1)), snapshot_).status,
+              TrackingStatus::kTracked);
+    int i = 2;
+    while (i < 300 && tracker.Track(AtRate(rate, other.MakeFrame(i)), snapshot_).segment_start ==
+                          SegmentStart::kNone) {
+      ++i;
+    }
+    EXPECT_NEAR((i - 1) / rate, 1.5, 0.4) << rate;
+  }
+}
+
 TEST_F(TrackerTest, FindsFramesInAnInactiveMap) {
   Start({});
   // The same scene as an inactive map in another world.
