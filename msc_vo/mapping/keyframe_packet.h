@@ -48,6 +48,8 @@ struct KeyframePacket {
   /// Of the pose in the map, in the tangent of Rigid3Manifold.
   PoseCovariance covariance = PoseCovariance::Zero();
   std::optional<MapRelocalization> in_inactive_map;  ///< if it was found in one
+  /// Seconds since the image before `frame`, keyframe or not; none if it is the first image.
+  std::optional<double> frame_interval;
   /// Velocity at the previous keyframe, from the frames before and after it; none if unknown.
   std::optional<CameraVelocity> last_velocity;
   /// Normals of visible surfaces, camera frame; empty if the map already has Manhattan axes.
@@ -64,8 +66,8 @@ struct KeyframePacket {
   void Serialize(Archive& archive) {
     StoredDepth stored(depth);
     archive.Fields(*this, frame, reference, cam_from_reference, begins_map, keeps_last_map,
-                   last_tracked, matches, covariance, in_inactive_map, last_velocity, normals,
-                   stored, calibration_images, point_counts, line_counts);
+                   last_tracked, matches, covariance, in_inactive_map, frame_interval,
+                   last_velocity, normals, stored, calibration_images, point_counts, line_counts);
     depth = stored.Image();
   }
 };

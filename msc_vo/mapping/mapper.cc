@@ -92,7 +92,7 @@ void Mapper::Refine(const KeyframePacket& packet, MappingSummary* summary) {
     last_window_time_ = packet.frame->timestamp;
     summary->times.window = stopwatch.Restart();
   }
-  readout_.Update(map(), summary->keyframe);
+  readout_.Update(map(), summary->keyframe, packet.frame_interval);
   summary->times.readout = stopwatch.Restart();
   Calibrate(packet, summary);
   summary->times.calibration = stopwatch.Restart();

@@ -196,6 +196,9 @@ void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat&
       packet.normals.push_back({normal.direction, normal.sigma});
     }
   }
+  if (results.size() > 1) {
+    packet.frame_interval = results.back().timestamp - results[results.size() - 2].timestamp;
+  }
   last_calibration_image_time = tracked.frame->timestamp;
   schedule.Submit(static_cast<int>(results.size()) - 1, tracked.frame->timestamp,
                   std::move(packet));

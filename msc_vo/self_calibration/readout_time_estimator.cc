@@ -19,8 +19,12 @@ constexpr size_t kMaxPartners = 2;
 // come from poses that were estimated without compensation and are biased towards 0.
 constexpr double kMemory = 25.0;
 // Upper bound, seconds: the interval of images at 30 Hz, because the rows of two images are not
-// read at the same time.
+// read at the same time. At higher rates it is the mean interval and a fifth for the jitter of the
+// stamps. Lower rates do not raise it: images may have been left out.
 constexpr double kMaxReadoutTime = 1.0 / 30.0;
+constexpr double kMaxIntervals = 1.2;
+// Longest interval that counts towards the mean, seconds: a longer one is a gap in the recording.
+constexpr double kLongestInterval = 0.2;
 // Prior of a rolling shutter, seconds: depth cameras and phones take 10 to 33 ms.
 constexpr double kTypicalReadoutTime = 0.020;
 constexpr double kReadoutTimeSigma = 0.008;
@@ -51,8 +55,12 @@ double RollingLogOdds(double estimate, double variance) {
 
 }  // namespace
 
-void ReadoutTimeEstimator::Update(const Map& map, KeyframeId newest) {
+void ReadoutTimeEstimator::Update(const Map& map, KeyframeId newest,
+                                  const std::optional<double>& frame_interval) {
   if (!estimates_) return;
+  if (frame_interval) {
+    frame_interval_ += (std::min(*frame_interval, kLongestInterval) - frame_interval_) / kMemory;
+  }
   const Keyframe& to = *map.FindKeyframe(newest);
   auto partners = map.FindCovisible(newest);
   partners.resize(std::min(partners.size(), kMaxPartners));
@@ -61,8 +69,7 @@ void ReadoutTimeEstimator::Update(const Map& map, KeyframeId newest) {
     const auto estimate = EstimateReadoutTime(*map.FindKeyframe(other.keyframe), to, readout_time_);
     if (!estimate) continue;
     sum += estimate->information;
-    weighted_sum += estimate->information *
-                    std::clamp(estimate->readout_time, -kMaxReadoutTime, kMaxReadoutTime);
+    weighted_sum += estimate->information * std::clamp(estimate->readout_time, -Bound(), Bound());
     largest = std::max(largest, estimate->information);
   }
   if (sum <= 0.0) return;
@@ -85,6 +92,10 @@ double ReadoutTimeEstimator::sigma() const {
   return std::sqrt((Square(mean) + variance) / (1.0 + std::exp(-log_odds)));
 }
 
+double ReadoutTimeEstimator::Bound() const {
+  return std::min(kMaxReadoutTime, kMaxIntervals * frame_interval_);
+}
+
 void ReadoutTimeEstimator::AddEstimate(double estimate, double information) {
   information_ += information - information_ / kMemory;
   weighted_sum_ += information * estimate - weighted_sum_ / kMemory;
@@ -101,7 +112,7 @@ void ReadoutTimeEstimator::UpdateDecision() {
   const double prior = 1.0 / Square(kReadoutTimeSigma);
   estimate = (weighted_sum_ + prior * std::copysign(kTypicalReadoutTime, estimate)) /
              (information_ + prior);
-  readout_time_ = log_odds < 0.0 ? 0.0 : std::clamp(estimate, -kMaxReadoutTime, kMaxReadoutTime);
+  readout_time_ = log_odds < 0.0 ? 0.0 : std::clamp(estimate, -Bound(), Bound());
 }
 
 }  // namespace msc_vo

@@ -19,8 +19,9 @@ class ReadoutTimeEstimator {
       : estimates_(!known), readout_time_(known.value_or(0.0)) {}
 
   /// Updates the estimate with the pairs of keyframe `newest` and its most covisible keyframes.
-  /// Call it after local bundle adjustment.
-  void Update(const Map& map, KeyframeId newest);
+  /// `frame_interval` is the time between this keyframe and the image before it, seconds, if there
+  /// is one. Call it after local bundle adjustment.
+  void Update(const Map& map, KeyframeId newest, const std::optional<double>& frame_interval);
 
   /// Seconds; negative if the rows are read from the bottom to the top.
   double readout_time() const { return readout_time_; }
@@ -31,12 +32,14 @@ class ReadoutTimeEstimator {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [estimates, seconds, information, weighted_sum] =
+    auto& [estimates, seconds, frame_interval, information, weighted_sum] =
         *this;  // all members, or it does not compile
-    archive(seconds, information, weighted_sum);
+    archive(seconds, frame_interval, information, weighted_sum);
   }
 
  private:
+  // Upper bound of the readout time, seconds.
+  double Bound() const;
   // Adds an estimate (seconds) with its information (1/seconds^2).
   void AddEstimate(double estimate, double information);
   // Decides between global and rolling shutter, and updates the readout time.
@@ -44,8 +47,9 @@ class ReadoutTimeEstimator {
 
   bool estimates_;
   double readout_time_;
-  double information_ = 0.0;   // 1/seconds^2
-  double weighted_sum_ = 0.0;  // sum of the estimates, weighted by their information
+  double frame_interval_ = 1.0 / 30.0;  // seconds, exponential average
+  double information_ = 0.0;            // 1/seconds^2
+  double weighted_sum_ = 0.0;           // sum of the estimates, weighted by their information
 };
 
 }  // namespace msc_vo

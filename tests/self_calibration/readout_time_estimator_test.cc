@@ -107,15 +107,16 @@ TEST(ReadoutTimePair, RequiresVelocitiesAndEnoughPoints) {
   EXPECT_FALSE(EstimateFirst(map).has_value());
 }
 
-// Readout time after twelve keyframes.
-double EstimateOverKeyframes(double truth, const std::optional<double>& known) {
+// Readout time after so many keyframes of frames at the rate, Hz.
+double EstimateOverKeyframes(double truth, const std::optional<double>& known, double rate = 30.0,
+                             int num_keyframes = 12) {
   RollingFrames world(truth, 0.5);
   Map map;
   ReadoutTimeEstimator readout(known);
-  for (int index = 0; index < 12; ++index) {
+  for (int index = 0; index < num_keyframes; ++index) {
     const KeyframeId id = AddKeyframe(&world, index, &map);
     CompensateKeyframes(readout.readout_time(), &map);
-    readout.Update(map, id);
+    readout.Update(map, id, 1.0 / rate);
   }
   return readout.readout_time();
 }
@@ -138,6 +139,10 @@ TEST(ReadoutTimeEstimator, IsBoundedByTheFrameInterval) {
   const double estimate = EstimateOverKeyframes(0.045, std::nullopt);
   EXPECT_LE(estimate, 1.0 / 30.0);
   EXPECT_GT(estimate, 0.032);
+  for (const double rate : {5.0, 15.0, 28.0, 32.0}) {
+    EXPECT_EQ(EstimateOverKeyframes(0.045, std::nullopt, rate), estimate) << rate;
+  }
+  EXPECT_LT(EstimateOverKeyframes(0.045, std::nullopt, 60.0, 80), 0.022);
 }
 
 TEST(KeyframeRollingShutter, SkipsFramesWithoutVelocityAndSmallChanges) {
