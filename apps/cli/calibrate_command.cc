@@ -20,8 +20,8 @@
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/datasets/calibration_correction.h"
-#include "msc_vo/diagnosis/edge_alignment.h"
 #include "msc_vo/self_calibration/self_calibrating_bundle_adjustment.h"
+#include "msc_vo/sensor/depth_edges.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -107,9 +107,9 @@ TrackedSequences TrackSequences(const std::vector<RgbdDecoder>& decoders,
   return sequences;
 }
 
-double EdgeAgreement(const RgbdDecoder& decoder, int image_index) {
+double AgreementOf(const RgbdDecoder& decoder, int image_index) {
   const RgbdImage image = decoder.Decode(image_index);
-  return FindPeak(AlignEdges(image.gray, image.depth, false)).at_zero;
+  return MeasureEdgeAgreement(image.gray, image.depth).mean;
 }
 
 // Whether depth edges lie on image edges better with `after` than with `before`: an error of the
@@ -119,7 +119,7 @@ bool EdgesAgree(const RgbdDecoder& before, const RgbdDecoder& after) {
   int num_better = 0;
   for (int i = 0; i < count; ++i) {
     const int index = i * before.size() / count;
-    num_better += EdgeAgreement(after, index) > EdgeAgreement(before, index);
+    num_better += AgreementOf(after, index) > AgreementOf(before, index);
   }
   return num_better >= kMinBetterRatio * count;
 }

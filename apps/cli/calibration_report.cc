@@ -39,11 +39,6 @@ DepthCamera DepthCameraOf(const Calibration& calibration) {
   return calibration.depth_camera.value_or(registered);
 }
 
-double Roll(const DepthCamera& depth_camera) {
-  const Eigen::Matrix3d rotation = depth_camera.depth_from_color.rotation().toRotationMatrix();
-  return RadiansToDegrees(std::atan2(rotation(1, 0), rotation(0, 0)));
-}
-
 std::vector<Row> RowsOf(const CalibrationReport& report) {
   using G = CorrectionGroup;
   const Calibration& given = report.given;
@@ -55,15 +50,16 @@ std::vector<Row> RowsOf(const CalibrationReport& report) {
   const Eigen::Vector3d t_a = 1000.0 * a.depth_from_color.translation();
   const Eigen::Vector3d t_b = 1000.0 * b.depth_from_color.translation();
   const S::Vector& sigma = report.refinement.sigma;
+  const double f = given_camera.FocalLength();
   const auto depth_group = G::kDepthRegistration;
   return {
       {"fx", "fx", "px", given_camera.fx, camera.fx, camera.fx * sigma(S::kFocalLength),
        S::kFocalLength, G::kFocalLength},
       {"fy", "fy", "px", given_camera.fy, camera.fy, std::abs(camera.fy) * sigma(S::kFocalLength),
        S::kFocalLength, G::kFocalLength},
-      {"cx", "cx", "px", given_camera.cx, camera.cx, sigma(S::kCenterX), S::kCenterX,
+      {"cx", "cx", "px", given_camera.cx, camera.cx, f * sigma(S::kCenterX), S::kCenterX,
        G::kPrincipalPoint},
-      {"cy", "cy", "px", given_camera.cy, camera.cy, sigma(S::kCenterY), S::kCenterY,
+      {"cy", "cy", "px", given_camera.cy, camera.cy, f * sigma(S::kCenterY), S::kCenterY,
        G::kPrincipalPoint},
       {"k1", "k1", "", given.distortion.k[0], estimated.distortion.k[0], sigma(S::kK1), S::kK1,
        G::kLens},
@@ -71,12 +67,13 @@ std::vector<Row> RowsOf(const CalibrationReport& report) {
        G::kLens},
       {"depth camera fx", "depth_fx", "px", a.camera.fx, b.camera.fx,
        b.camera.fx * sigma(S::kDepthFocalLength), S::kDepthFocalLength, depth_group},
-      {"depth camera cx", "depth_cx", "px", a.camera.cx, b.camera.cx, sigma(S::kDepthX), S::kDepthX,
+      {"depth camera cx", "depth_cx", "px", a.camera.cx, b.camera.cx,
+       a.camera.fx * sigma(S::kDepthX), S::kDepthX, depth_group},
+      {"depth camera cy", "depth_cy", "px", a.camera.cy, b.camera.cy,
+       std::abs(a.camera.fy) * sigma(S::kDepthY), S::kDepthY, depth_group},
+      {"depth camera roll", "depth_roll", "degrees", RadiansToDegrees(a.Roll()),
+       RadiansToDegrees(b.Roll()), RadiansToDegrees(sigma(S::kDepthRoll)), S::kDepthRoll,
        depth_group},
-      {"depth camera cy", "depth_cy", "px", a.camera.cy, b.camera.cy, sigma(S::kDepthY), S::kDepthY,
-       depth_group},
-      {"depth camera roll", "depth_roll", "degrees", Roll(a), Roll(b),
-       RadiansToDegrees(sigma(S::kDepthRoll)), S::kDepthRoll, depth_group},
       {"depth_from_color x", "depth_x", "mm", t_a.x(), t_b.x(), 1000.0 * sigma(S::kDepthParallaxX),
        S::kDepthParallaxX, depth_group},
       {"depth_from_color y", "depth_y", "mm", t_a.y(), t_b.y(), 1000.0 * sigma(S::kDepthParallaxY),

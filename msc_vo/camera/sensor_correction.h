@@ -21,12 +21,12 @@ struct SensorCorrection {
   /// Positions in the block.
   enum Index {
     kFocalLength,  ///< logarithm of the true over the given focal length, both axes
-    kCenterX,      ///< pixels, true minus given principal point
+    kCenterX,      ///< focal lengths, true minus given principal point
     kCenterY,
     kK1,  ///< true minus given radial distortion
     kK2,
     kDepthFocalLength,  ///< logarithm of the magnification of the depth image
-    kDepthX,            ///< pixels, shift of the depth image at infinity
+    kDepthX,            ///< focal lengths, shift of the depth image at infinity
     kDepthY,
     kDepthRoll,       ///< radians, rotation of the depth image
     kDepthParallaxX,  ///< metres, parallax of the depth image: pixels / focal length / 1/z
@@ -38,6 +38,12 @@ struct SensorCorrection {
 
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
+
+  /// The part that moves the depth images relative to the colour images.
+  static Eigen::Matrix<double, kDepthOffset - kDepthFocalLength, 1> RegistrationOf(
+      const Vector& correction) {
+    return correction.segment<kDepthOffset - kDepthFocalLength>(kDepthFocalLength);
+  }
 };
 
 /// An RGB-D camera with a correction of its calibration. Pixels are those of the recorded image,
@@ -57,9 +63,9 @@ class CorrectedCamera {
     using std::exp;
     const T scale = exp(correction[SensorCorrection::kFocalLength]);
     const Vector2<T> distorted = Distort<T>(x, correction);
-    return {
-        camera_.fx * scale * distorted.x() + camera_.cx + correction[SensorCorrection::kCenterX],
-        camera_.fy * scale * distorted.y() + camera_.cy + correction[SensorCorrection::kCenterY]};
+    const Vector2<T> center = Center(correction);
+    return {camera_.fx * scale * distorted.x() + center.x(),
+            camera_.fy * scale * distorted.y() + center.y()};
   }
 
   /// Returns the point of the plane z = 1 whose Pixel() is `pixel`: by LensDistortion and a Newton
@@ -69,9 +75,9 @@ class CorrectedCamera {
     using std::exp;
     constexpr double kTolerance = 1e-13;
     const T scale = exp(-correction[SensorCorrection::kFocalLength]);
-    const Vector2<T> distorted(
-        (pixel.x() - camera_.cx - correction[SensorCorrection::kCenterX]) * scale / camera_.fx,
-        (pixel.y() - camera_.cy - correction[SensorCorrection::kCenterY]) * scale / camera_.fy);
+    const Vector2<T> center = Center(correction);
+    const Vector2<T> distorted((pixel.x() - center.x()) * scale / camera_.fx,
+                               (pixel.y() - center.y()) * scale / camera_.fy);
     LensDistortion lens = distortion_;
     lens.k[0] += Scalar(correction[SensorCorrection::kK1]);
     lens.k[1] += Scalar(correction[SensorCorrection::kK2]);
@@ -95,10 +101,11 @@ class CorrectedCamera {
     const T s = sin(correction[SensorCorrection::kDepthRoll]);
     const T x = (pixel.x() - camera_.cx) * scale;
     const T y = (pixel.y() - camera_.cy) * scale;
-    *at_infinity = {c * x - s * y + camera_.cx + correction[SensorCorrection::kDepthX],
-                    s * x + c * y + camera_.cy + correction[SensorCorrection::kDepthY]};
-    *parallax = {camera_.FocalLength() * correction[SensorCorrection::kDepthParallaxX],
-                 camera_.FocalLength() * correction[SensorCorrection::kDepthParallaxY]};
+    const double f = camera_.FocalLength();
+    *at_infinity = {c * x - s * y + camera_.cx + f * correction[SensorCorrection::kDepthX],
+                    s * x + c * y + camera_.cy + f * correction[SensorCorrection::kDepthY]};
+    *parallax = {f * correction[SensorCorrection::kDepthParallaxX],
+                 f * correction[SensorCorrection::kDepthParallaxY]};
   }
 
   /// Returns the true inverse depth (1/metres) of a measured one at recorded pixel `pixel`.
@@ -118,6 +125,13 @@ class CorrectedCamera {
   template <typename Jet>
   static double Scalar(const Jet& value) {
     return value.a;
+  }
+
+  template <typename T>
+  Vector2<T> Center(const T* correction) const {
+    const double f = camera_.FocalLength();
+    return {camera_.cx + f * correction[SensorCorrection::kCenterX],
+            camera_.cy + f * correction[SensorCorrection::kCenterY]};
   }
 
   template <typename T>

@@ -12,8 +12,8 @@
 #include "msc_vo/checkpoint/binary_reader.h"
 #include "msc_vo/checkpoint/binary_writer.h"
 #include "msc_vo/features/internal/depth_range_builder.h"
-#include "msc_vo/features/internal/depth_sampler.h"
 #include "msc_vo/features/internal/depth_source.h"
+#include "msc_vo/features/internal/feature_depth.h"
 #include "msc_vo/sensor/lens_remap.h"
 #include "msc_vo/timing/stopwatch.h"
 
@@ -83,23 +83,13 @@ struct FrameBuilder::State {
     Stopwatch stopwatch;
     result.points = ExtractPoints(level);
     result.points_ms = stopwatch.Restart();
-    AddDepthAndUndistort(&result.points);
+    for (PointFeature& point : result.points) {
+      MeasureDepth(depth, point.pixel, &point);
+      point.pixel = lens.IdealFromRaw(point.pixel);
+    }
     if (distortion.IsCropped()) CropPoints(&result.points);
     result.depth_ms = stopwatch.Restart();
     return result;
-  }
-
-  // Samples the depth of points at their distorted pixels and undistorts these.
-  void AddDepthAndUndistort(std::vector<PointFeature>* points) const {
-    for (PointFeature& point : *points) {
-      const auto sample = SampleDepth(depth.image(), point.pixel, depth.model().noise);
-      if (sample) {
-        point.inverse_depth = sample->inverse_depth;
-        point.inverse_depth_sigma =
-            depth.model().SigmaPerNoise(sample->inverse_depth) * sample->sigma;
-      }
-      point.pixel = lens.IdealFromRaw(point.pixel);
-    }
   }
 
   // Removes the points outside the undistorted image, and scales the sigma of the others with it.
@@ -109,22 +99,6 @@ struct FrameBuilder::State {
     };
     points->erase(std::remove_if(points->begin(), points->end(), is_outside), points->end());
     for (PointFeature& point : *points) point.sigma *= std::sqrt(lens.Magnification(point.pixel));
-  }
-
-  void AddDepth(std::vector<LineFeature>* lines) const {
-    const DepthNoise& noise = depth.model().noise;
-    uint32_t seed = 0;
-    for (LineFeature& line : *lines) {
-      line.depth =
-          options.line_depth == LineDepthMethod::kRobustFit
-              ? FitDepthAlongLine(options.line_fit, depth.image(), lens, line.segment, noise, seed)
-              : EndPointDepth(depth.image(), lens, line.segment, noise);
-      if (line.depth) {
-        const double ratio = depth.model().SigmaPerNoise(line.depth->At(0.5));
-        line.depth->covariance *= ratio * ratio;
-      }
-      ++seed;
-    }
   }
 };
 
@@ -176,7 +150,7 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
     Stopwatch line_stopwatch;
     frame.lines = state_->ExtractLines(image.gray);
     times.lines = line_stopwatch.Restart();
-    state_->AddDepth(&frame.lines);
+    MeasureDepth(state_->options, state_->depth, state_->lens, &frame.lines);
     line_depth_ms = line_stopwatch.Restart();
   });
   for (size_t l = 0; l < levels.size(); ++l) {
@@ -204,6 +178,7 @@ void FrameBuilder::SetIntrinsics(const std::shared_ptr<const CameraIntrinsics>& 
       !IsInvertible(intrinsics->distortion, intrinsics->camera, &error)) {
     throw std::invalid_argument("FrameBuilder: " + error);
   }
+  if (!HasSameRegistration(*intrinsics, *state_->intrinsics)) state_->depth.Reset();
   state_->camera = intrinsics->camera;
   state_->distortion = intrinsics->distortion;
   state_->lens = LensRemap(intrinsics->camera, intrinsics->distortion);

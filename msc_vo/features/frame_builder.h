@@ -65,7 +65,8 @@ class FrameBuilder {
 
   /// The calibration that frames are built with.
   const std::shared_ptr<const CameraIntrinsics>& intrinsics() const;
-  /// Replaces it by one for images of the same size. Throws std::invalid_argument if it is invalid.
+  /// Replaces it by one for images of the same size. If the registration of depth changes, what the
+  /// images have told about the sensor is forgotten. Throws std::invalid_argument if it is invalid.
   void SetIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics);
 
   const FrameBuilderTimes& times() const;

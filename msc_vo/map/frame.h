@@ -111,7 +111,8 @@ class FeatureGrid {
   std::vector<int> indices_;  // cell by cell, ascending within each
 };
 
-/// The features of one image. No image data is kept beyond this type.
+/// The features of one image. Image data is kept beyond this type for self-calibration only, see
+/// RecordedImage.
 ///
 /// A frame is immutable once it is built; poses and associations are stored separately, so that
 /// frames can be shared between threads without locks.

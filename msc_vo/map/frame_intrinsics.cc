@@ -5,6 +5,19 @@
 
 namespace msc_vo {
 
+namespace {
+
+void RemoveDepths(Frame* frame) {
+  for (PointFeature& point : frame->points) {
+    point.inverse_depth = 0.0;
+    point.inverse_depth_sigma = 0.0;
+  }
+  for (LineFeature& line : frame->lines) line.depth.reset();
+  frame->depth_ranges = {};
+}
+
+}  // namespace
+
 std::shared_ptr<const Frame> ChangeIntrinsics(
     std::shared_ptr<const Frame> frame, const std::shared_ptr<const CameraIntrinsics>& intrinsics) {
   if (!intrinsics || !frame->intrinsics || frame->intrinsics == intrinsics) return frame;
@@ -13,6 +26,7 @@ std::shared_ptr<const Frame> ChangeIntrinsics(
   moved->intrinsics = intrinsics;
   moved->camera = intrinsics->camera;
   if (moved->lens) moved->lens = intrinsics->distortion;
+  if (intrinsics->registration && !from.registration) RemoveDepths(&*moved);
   if (from.distortion.IsZero() && intrinsics->distortion.IsZero()) return moved;
   const auto move = [&](const Eigen::Vector2d& pixel) {
     return MovePixel(from, *intrinsics, pixel);

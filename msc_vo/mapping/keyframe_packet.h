@@ -17,7 +17,7 @@
 #include "msc_vo/matching/frame_matches.h"
 #include "msc_vo/matching/map_relocalization.h"
 #include "msc_vo/self_calibration/recent_pairs.h"
-#include "msc_vo/sensor/stored_depth.h"
+#include "msc_vo/sensor/recorded_image.h"
 #include "msc_vo/structure/axis_evidence.h"
 
 namespace msc_vo {
@@ -54,9 +54,9 @@ struct KeyframePacket {
   std::optional<CameraVelocity> last_velocity;
   /// Normals of visible surfaces, camera frame; empty if the map already has Manhattan axes.
   std::vector<AxisEvidence> normals;
-  /// For self-calibration: the depth image of `frame` (CV_32FC1, metres), and images since the last
-  /// packet. Empty: the keyframe takes no part in it.
-  cv::Mat depth;
+  /// For self-calibration: the image of `frame`, and images since the last
+  /// packet. Null: the keyframe takes no part in it.
+  std::shared_ptr<const RecordedImage> image;
   std::vector<CalibrationImage> calibration_images;
   /// Over all frames since the last packet, including this one.
   std::map<LandmarkId, TrackingCount> point_counts;
@@ -64,11 +64,9 @@ struct KeyframePacket {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    StoredDepth stored(depth);
     archive.Fields(*this, frame, reference, cam_from_reference, begins_map, keeps_last_map,
                    last_tracked, matches, covariance, in_inactive_map, frame_interval,
-                   last_velocity, normals, stored, calibration_images, point_counts, line_counts);
-    depth = stored.Image();
+                   last_velocity, normals, image, calibration_images, point_counts, line_counts);
   }
 };
 

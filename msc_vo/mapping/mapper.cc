@@ -53,7 +53,7 @@ MappingSummary Mapper::Insert(const KeyframePacket& packet) {
   readout_time_ = readout_.readout_time();
   CompensateKeyframes(readout_time_, &atlas_.current());
   std::shared_ptr<const Frame> frame = packet.frame;
-  if (calibration_) frame = ChangeIntrinsics(frame, calibration_->present());
+  if (calibration_) frame = Recalibrated(frame, packet.image.get());
   frame = UpdateCompensation(frame, readout_time_);
   summary.times.creation = stopwatch.Restart();
   if (options_.frame_structure) {
@@ -201,16 +201,28 @@ void Mapper::AddCustomFactors(WindowData* window) const {
   FixUnlinkedKeyframes(window);
 }
 
+std::shared_ptr<const Frame> Mapper::Recalibrated(const std::shared_ptr<const Frame>& frame,
+                                                  const RecordedImage* image) const {
+  const std::shared_ptr<const CameraIntrinsics>& present = calibration_->present();
+  const bool has_old_depths =
+      frame->intrinsics && !HasSameRegistration(*frame->intrinsics, *present);
+  return has_old_depths && image != nullptr ? measure_depth_(*frame, *image, present)
+                                            : ChangeIntrinsics(frame, present);
+}
+
 void Mapper::Calibrate(const KeyframePacket& packet, MappingSummary* summary) {
-  if (!calibration_ || packet.depth.empty()) return;
+  if (!calibration_ || packet.image == nullptr) return;
   calibration_->SetReadoutTime(readout_time_);
-  if (!calibration_->Update(map(), summary->keyframe, packet.depth, packet.calibration_images,
+  if (!calibration_->Update(map(), summary->keyframe, packet.image, packet.calibration_images,
                             readout_.sigma())) {
     return;
   }
   summary->calibration = std::make_shared<CalibrationChange>(
       CalibrationChange{calibration_->estimate(), atlas_.ShareAll()});
-  atlas_.ChangeAll([this](Map* map) { ChangeKeyframeIntrinsics(calibration_->present(), map); });
+  const KeyframeUpdate update = [&](KeyframeId id, const std::shared_ptr<const Frame>& frame) {
+    return Recalibrated(frame, calibration_->FindImage(id).get());
+  };
+  atlas_.ChangeAll([&](Map* map) { ChangeKeyframeIntrinsics(update, map); });
   noise_ = NoiseEstimator(options_.noise);
   axes_ = SceneAxes(options_.axes);
   OptimizeMap(summary->keyframe);

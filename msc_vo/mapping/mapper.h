@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -71,6 +72,12 @@ struct MappingSummary {
   }
 };
 
+/// Returns the frame with other intrinsics, and its depths measured again in its image, registered
+/// as these say. Called on the thread of the mapper.
+using DepthMeasurement = std::function<std::shared_ptr<const Frame>(
+    const Frame& frame, const RecordedImage& image,
+    const std::shared_ptr<const CameraIntrinsics>& intrinsics)>;
+
 /// Local mapping (paper): owns the maps of all segments and is the only one to change them. Works
 /// on the current one.
 class Mapper {
@@ -89,8 +96,10 @@ class Mapper {
 
   /// Estimates the calibration from now on, beginning with the one of the frames. Call it before
   /// the first keyframe.
-  void SetIntrinsics(const std::shared_ptr<const CameraIntrinsics>& given) {
+  void BeginSelfCalibration(const std::shared_ptr<const CameraIntrinsics>& given,
+                            DepthMeasurement measure_depth) {
     calibration_.emplace(given);
+    measure_depth_ = std::move(measure_depth);
   }
 
   /// A keyframe is processed in two steps. Insert() adds it to the map with its observations and
@@ -115,7 +124,7 @@ class Mapper {
   std::map<LandmarkId, RefinedLine> RefinedLines(const Map& map) const;
   const NoiseEstimator& noise() const { return noise_; }
   const ReadoutTimeEstimator& readout() const { return readout_; }
-  /// None before SetIntrinsics().
+  /// None before BeginSelfCalibration().
   const std::optional<CalibrationEstimator>& calibration() const { return calibration_; }
   /// Values of all extra blocks that usable windows have estimated, in order of their ids.
   std::vector<ExtraBlock> extra_blocks() const;
@@ -127,7 +136,7 @@ class Mapper {
   void Serialize(Archive& archive) {
     auto& [options, window_observer, window_factors, extra, maps, joiner, probation, scene_axes,
            pairs, inactive_axes, noise_estimator, readout_estimator, calibration_estimator,
-           readout_time, newest_keyframe, last_window_time, last_lines] =
+           depth_measurement, readout_time, newest_keyframe, last_window_time, last_lines] =
         *this;  // all members, or it does not compile
     archive.Entries(inactive_axes, SceneAxes(options.axes));
     archive(extra, maps, joiner, probation, scene_axes, pairs, noise_estimator, readout_estimator,
@@ -141,6 +150,9 @@ class Mapper {
   // Joins the current map with an inactive one if enough keyframes have been found in both.
   std::optional<MapJoin> JoinMaps();
   KeyframeId InsertKeyframe(const KeyframePacket& packet, std::shared_ptr<const Frame> frame);
+  // The frame with the calibration in use. `image`: its image; may be null.
+  std::shared_ptr<const Frame> Recalibrated(const std::shared_ptr<const Frame>& frame,
+                                            const RecordedImage* image) const;
   // Updates the self-calibration, and brings the maps up to date with it.
   void Calibrate(const KeyframePacket& packet, MappingSummary* summary);
   // Bundle adjustment of all keyframes of the current map; the newest one is `keyframe`.
@@ -165,7 +177,8 @@ class Mapper {
   NoiseEstimator noise_;
   ReadoutTimeEstimator readout_;
   std::optional<CalibrationEstimator> calibration_;
-  double readout_time_ = 0.0;  // seconds, of the compensation of the map's keyframes
+  DepthMeasurement measure_depth_;  // with a calibration
+  double readout_time_ = 0.0;       // seconds, of the compensation of the map's keyframes
   KeyframeId newest_keyframe_ = kNoId;
   double last_window_time_ = -std::numeric_limits<double>::infinity();  // seconds, of its keyframe
   std::set<LandmarkId> last_window_lines_;

@@ -3,9 +3,11 @@
 
 #include "msc_vo/odometry/event_log.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/odometry/loss_cause.h"
 
@@ -105,12 +107,22 @@ void EventLog::LogCalibration(const MappingStep& step) {
   const CameraIntrinsics& intrinsics = *step.snapshot->intrinsics;
   const PinholeCamera& camera = intrinsics.distortion.Recorded(intrinsics.camera);
   const S::Vector& sigma = step.summary.calibration->estimate.sigma;
+  const double f = camera.FocalLength();
   Log().info(
       "calibration corrected at keyframe {}: fx {:.2f} +- {:.2f} fy {:.2f} cx {:.2f} +- {:.2f} cy "
       "{:.2f} +- {:.2f} k1 {:.4f} +- {:.4f} k2 {:.4f} +- {:.4f}",
-      step.summary.keyframe, camera.fx, camera.FocalLength() * sigma(S::kFocalLength), camera.fy,
-      camera.cx, sigma(S::kCenterX), camera.cy, sigma(S::kCenterY), intrinsics.distortion.k[0],
+      step.summary.keyframe, camera.fx, f * sigma(S::kFocalLength), camera.fy, camera.cx,
+      f * sigma(S::kCenterX), camera.cy, f * sigma(S::kCenterY), intrinsics.distortion.k[0],
       sigma(S::kK1), intrinsics.distortion.k[1], sigma(S::kK2));
+  if (!intrinsics.registration) return;
+  const S::Vector& depth = *intrinsics.registration;
+  Log().info(
+      "depth images are not registered: scale {:.4f} +- {:.4f}, shift {:.1f}, {:.1f} px, rotation "
+      "{:.2f} +- {:.2f} degrees, parallax {:.1f}, {:.1f} mm",
+      std::exp(depth(S::kDepthFocalLength)), sigma(S::kDepthFocalLength), f * depth(S::kDepthX),
+      f * depth(S::kDepthY), RadiansToDegrees(depth(S::kDepthRoll)),
+      RadiansToDegrees(sigma(S::kDepthRoll)), 1000.0 * depth(S::kDepthParallaxX),
+      1000.0 * depth(S::kDepthParallaxY));
 }
 
 void EventLog::LogFinish(const NoiseScale& noise_scale, double readout_time, int num_frames) const {

@@ -241,8 +241,8 @@ void ListMapping(MapperOptions* mapping, OptionLister* list) {
             "shutter. Estimated if not set.")
       .MakeBasic("Set it if it is known.");
   list->Add("self_calibration", &mapping->self_calibration,
-            "Correct focal length, principal point and radial distortion of the lens if the images "
-            "contradict them.");
+            "Correct focal length, principal point, radial distortion of the lens and the "
+            "registration of depth if the images contradict them.");
   list->Add(
       "frame_structure", &mapping->frame_structure,
       "Refine the depths of parallel and perpendicular lines of a keyframe by each other. Not "

@@ -11,8 +11,8 @@
 #include "msc_vo/checkpoint/binary_reader.h"
 #include "msc_vo/checkpoint/binary_writer.h"
 #include "msc_vo/features/image_statistics.h"
-#include "msc_vo/map/frame_intrinsics.h"
 #include "msc_vo/mapping/mapper.h"
+#include "msc_vo/odometry/depth_preparation.h"
 #include "msc_vo/odometry/event_log.h"
 #include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/odometry/input_checks.h"
@@ -23,7 +23,7 @@
 #include "msc_vo/odometry/segment_log.h"
 #include "msc_vo/odometry/side_worker.h"
 #include "msc_vo/odometry/snapshot_schedule.h"
-#include "msc_vo/sensor/depth_alignment.h"
+#include "msc_vo/sensor/depth_camera_correction.h"
 #include "msc_vo/timing/stopwatch.h"
 #include "msc_vo/tracking/tracker.h"
 
@@ -51,8 +51,8 @@ struct Odometry::State {
         const LensDistortion& distortion)
       : options(ValidatedOptions(options_in)),
         camera(ValidatedCamera(camera_in, distortion)),
-        aligner(camera, distortion),
         builder(options.features, camera, distortion),
+        preparation(builder.intrinsics()),
         normal_estimator(std::in_place, NormalOptions(options), camera, distortion),
         tracker(options.tracking),
         mapper(options.mapping),
@@ -61,37 +61,40 @@ struct Odometry::State {
                  options.threads > 1 ? MakeThreadedRunner(&mapper) : MakeInlineRunner(&mapper),
                  mapper.Snapshot(),
                  [this](int frame, const MappingStep& step) { Record(frame, step); }) {
-    if (options.mapping.self_calibration) mapper.SetIntrinsics(builder.intrinsics());
+    if (options.mapping.self_calibration) {
+      mapper.BeginSelfCalibration(builder.intrinsics(),
+                                  preparation.MeasurementFor(options.features));
+    }
     if (options.threads > 1) side_worker = std::make_unique<SideWorker>();
     log.LogStart(options, camera);
   }
 
   void CheckTime(int64_t id, double timestamp) const;
   RgbdImage Align(const RgbdImage& image) const;
-  Frame Build(const RgbdImage& image);
+  std::shared_ptr<const Frame> Build(const RgbdImage& image);
   void Count(const TrackedFrame& tracked);
   void BeginSegment(SegmentStart start);
   void DiscardSegment();
-  void KeepForCalibration(const TrackedFrame& tracked, const cv::Mat& depth);
-  void SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat& depth);
+  void KeepForCalibration(const TrackedFrame& tracked, const RgbdImage& recorded);
+  void SubmitKeyframe(const TrackedFrame& tracked, const RgbdImage& recorded, const cv::Mat& depth);
   void Record(int frame, const MappingStep& step);
-  void UseIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics);
-  std::shared_ptr<const Frame> Recalibrated(std::shared_ptr<const Frame> frame);
+  bool UseIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics);
 
   // Everything that later results depend on, except what the options determine. The snapshot of the
   // last frame is not needed between two frames.
   template <typename Archive>
   void Serialize(Archive& archive) {
     std::shared_ptr<const CameraIntrinsics> intrinsics = builder.intrinsics();
-    archive(intrinsics, builder, tracker, mapper, last_window, last_calibration_image_time, packet,
-            results, relative_poses, refiner, segments, log, schedule);
-    UseIntrinsics(intrinsics);
+    archive(intrinsics);
+    UseIntrinsics(intrinsics);  // resets what is read next
+    archive(builder, tracker, mapper, last_window, last_calibration_image_time, packet, results,
+            relative_poses, refiner, segments, log, schedule);
   }
 
   OdometryOptions options;
   PinholeCamera camera;
-  DepthAligner aligner;
   FrameBuilder builder;
+  DepthPreparation preparation;
   std::optional<SurfaceNormalEstimator> normal_estimator;
   std::unique_ptr<SideWorker> side_worker;  // none with one thread
   Tracker tracker;
@@ -116,20 +119,21 @@ void Odometry::State::CheckTime(int64_t id, double timestamp) const {
 
 // Returns the image with its depth warped to the time of its colour image.
 RgbdImage Odometry::State::Align(const RgbdImage& image) const {
-  RgbdImage aligned = image;
-  if (options.align_depth && image.depth_delay != 0.0) {
-    const auto velocity = tracker.motion().VelocityAt(image.timestamp);
-    if (velocity) {
-      aligned.depth = aligner.Align(image.depth, velocity->Over(image.depth_delay));
-    }
-    aligned.depth_delay = 0.0;
-  }
-  return aligned;
+  if (!options.align_depth) return image;
+  return preparation.Align(image, tracker.motion().VelocityAt(image.timestamp));
 }
 
-Frame Odometry::State::Build(const RgbdImage& image) {
-  if (!side_worker) return builder.Build(image);
-  return builder.Build(image, [this](const Tasks& tasks) { side_worker->RunAll(tasks); });
+std::shared_ptr<const Frame> Odometry::State::Build(const RgbdImage& image) {
+  const TaskRunner run = [this](const Tasks& tasks) {
+    side_worker ? side_worker->RunAll(tasks) : RunSequentially(tasks);
+  };
+  const auto frame = std::make_shared<Frame>(builder.Build(image, run));
+  if (!options.use_points) {
+    frame->points.clear();
+    frame->grid = FeatureGrid(frame->camera, frame->points);
+  }
+  if (!options.use_lines) frame->lines.clear();
+  return frame;
 }
 
 void Odometry::State::Count(const TrackedFrame& tracked) {
@@ -167,7 +171,7 @@ void Odometry::State::DiscardSegment() {
   }
 }
 
-void Odometry::State::KeepForCalibration(const TrackedFrame& tracked, const cv::Mat& depth) {
+void Odometry::State::KeepForCalibration(const TrackedFrame& tracked, const RgbdImage& recorded) {
   if (!options.mapping.self_calibration || tracked.keyframe.is_due ||
       tracked.status != TrackingStatus::kTracked ||
       packet.calibration_images.size() >= kMaxCalibrationImages ||
@@ -176,10 +180,12 @@ void Odometry::State::KeepForCalibration(const TrackedFrame& tracked, const cv::
   }
   last_calibration_image_time = tracked.frame->timestamp;
   packet.calibration_images.push_back(
-      {tracked.frame, depth.clone(), tracked.reference, tracked.cam_from_reference});
+      {tracked.frame, std::make_shared<RecordedImage>(recorded.gray, recorded.depth),
+       tracked.reference, tracked.cam_from_reference});
 }
 
-void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat& depth) {
+void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const RgbdImage& recorded,
+                                     const cv::Mat& depth) {
   const SegmentStart start = tracked.segment_start;
   packet.begins_map = start == SegmentStart::kAfterLoss || start == SegmentStart::kReplacing;
   packet.keeps_last_map = start != SegmentStart::kReplacing;
@@ -190,7 +196,9 @@ void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const cv::Mat&
   packet.reference = tracked.reference;
   packet.cam_from_reference = tracked.cam_from_reference;
   packet.matches = tracked.matches;
-  if (options.mapping.self_calibration) packet.depth = depth.clone();
+  if (options.mapping.self_calibration) {
+    packet.image = std::make_shared<RecordedImage>(recorded.gray, recorded.depth);
+  }
   if (snapshot->needs_axes || packet.begins_map) {
     for (const SurfaceNormal& normal : normal_estimator->Estimate(depth)) {
       packet.normals.push_back({normal.direction, normal.sigma});
@@ -221,19 +229,14 @@ void Odometry::State::Record(int frame, const MappingStep& step) {
   if (step.summary.window) last_window = *step.summary.window;
 }
 
-void Odometry::State::UseIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics) {
-  if (intrinsics == builder.intrinsics()) return;
+// Returns whether the intrinsics have changed.
+bool Odometry::State::UseIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics) {
+  if (!intrinsics || intrinsics == builder.intrinsics()) return false;
   builder.SetIntrinsics(intrinsics);
   camera = intrinsics->camera;
-  aligner = DepthAligner(camera, intrinsics->distortion);
+  preparation.SetIntrinsics(*intrinsics);
   normal_estimator.emplace(NormalOptions(options), camera, intrinsics->distortion);
-}
-
-// Takes over the calibration of the snapshot, and returns the frame with it.
-std::shared_ptr<const Frame> Odometry::State::Recalibrated(std::shared_ptr<const Frame> frame) {
-  if (!snapshot->intrinsics || snapshot->intrinsics == builder.intrinsics()) return frame;
-  UseIntrinsics(snapshot->intrinsics);
-  return ChangeIntrinsics(std::move(frame), snapshot->intrinsics);
+  return true;
 }
 
 Odometry::Odometry(const OdometryOptions& options, const PinholeCamera& camera,
@@ -262,20 +265,19 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   state_->CheckTime(recorded.id, recorded.timestamp);
   CheckDepthDelay(recorded.id, recorded.depth_delay);
   Stopwatch stopwatch;
-  const RgbdImage image = state_->Align(recorded);
+  const RgbdImage aligned = state_->Align(recorded);
+  RgbdImage image = state_->preparation.Register(aligned);
   const double alignment_ms = stopwatch.Milliseconds();
-  auto built = std::make_shared<Frame>(state_->Build(image));
-  if (!state_->options.use_points) {
-    built->points.clear();
-    built->grid = FeatureGrid(built->camera, built->points);
-  }
-  if (!state_->options.use_lines) built->lines.clear();
+  std::shared_ptr<const Frame> frame = state_->Build(image);
   const double features_ms = stopwatch.Milliseconds();
   state_->log.LogDepthSensor(state_->builder.depth_sensor());
   Stopwatch waiting;
   state_->snapshot = state_->schedule.SnapshotAt(image.timestamp);
   const double waiting_ms = waiting.Milliseconds();
-  const std::shared_ptr<const Frame> frame = state_->Recalibrated(built);
+  if (state_->UseIntrinsics(state_->snapshot->intrinsics)) {
+    image = state_->preparation.Register(aligned);
+    frame = state_->Build(image);
+  }
   const TrackedFrame tracked = state_->tracker.Track(frame, *state_->snapshot);
   if (tracked.segment_start != SegmentStart::kNone) state_->BeginSegment(tracked.segment_start);
   FrameResult result = MakeFrameResult(tracked, state_->segments.current());
@@ -299,9 +301,9 @@ FrameResult Odometry::Process(const RgbdImage& recorded) {
   }
   state_->log.LogFrame(result, tracked.relocalized);
   const MapSnapshotPtr snapshot = state_->snapshot;
-  state_->KeepForCalibration(tracked, image.depth);
+  state_->KeepForCalibration(tracked, aligned);
   if (tracked.keyframe.is_due) {
-    state_->SubmitKeyframe(tracked, image.depth);
+    state_->SubmitKeyframe(tracked, aligned, image.depth);
     state_->snapshot = state_->schedule.SnapshotAt(image.timestamp);  // with it if latency is 0
   }
   result = state_->results.back();
@@ -368,6 +370,7 @@ OdometryResult Odometry::Finish() {
     result.calibration = state_->mapper.calibration()->estimate();
     result.intrinsics = *state_->mapper.calibration()->present();
   }
+  result.depth_camera = DepthCameraOf(*state_->preparation.given(), result.intrinsics);
   result.num_late_maps = state_->schedule.num_late();
   result.extra_blocks = state_->mapper.extra_blocks();
   result.last_window = state_->last_window;

@@ -22,6 +22,7 @@
 #include "msc_vo/odometry/segment_log.h"
 #include "msc_vo/odometry/tracking_observer.h"
 #include "msc_vo/self_calibration/calibration_evidence.h"
+#include "msc_vo/sensor/depth_camera.h"
 #include "msc_vo/sensor/rgbd_image.h"
 #include "msc_vo/structure/axes_estimator.h"
 #include "msc_vo/tracking/pose_factor_callback.h"
@@ -73,9 +74,12 @@ struct OdometryResult {
   DepthSensor depth_sensor = DepthSensor::kAuto;
   /// Readout time of the rolling shutter, seconds, given or self-calibrated; 0: global shutter.
   double readout_time = 0.0;
-  /// Self-calibration of the colour camera, relative to the given calibration.
+  /// Self-calibration, relative to the given calibration.
   CorrectionEstimate calibration;
-  CameraIntrinsics intrinsics;           ///< at the end of the run: as given, or corrected
+  CameraIntrinsics intrinsics;  ///< at the end of the run: as given, or corrected
+  /// Camera of the depth images that were given to the odometry; the colour camera if they are
+  /// registered.
+  DepthCamera depth_camera;
   std::vector<ExtraBlock> extra_blocks;  ///< of the window factors, in order of their ids
   BundleAdjustmentSummary last_window;
   /// Maps that were not ready for the first frame that should have been tracked in them; 0 unless

@@ -97,6 +97,16 @@ void PoseRefiner::RefineAll(const MapSnapshot& snapshot, std::vector<RelativePos
   }
 }
 
+// Number of observations of which half must fit another pose: all of the frame, or those whose
+// landmarks are left if its depth was not registered. Many landmarks of such a map are not.
+size_t PoseRefiner::NumExpected(const PendingFrame& pending, const Frame& frame,
+                                const FrameMatches& matches) {
+  const bool is_same = pending.frame->intrinsics == frame.intrinsics ||
+                       HasSameRegistration(*pending.frame->intrinsics, *frame.intrinsics);
+  return is_same ? pending.points.size() + pending.lines.size()
+                 : matches.points.size() + matches.lines.size();
+}
+
 void PoseRefiner::RefineFrame(const PendingFrame& pending, const MapSnapshot& snapshot,
                               RelativePose* pose) const {
   const Map* map = snapshot.FindMapOf(pending.reference);
@@ -106,13 +116,13 @@ void PoseRefiner::RefineFrame(const PendingFrame& pending, const MapSnapshot& sn
       UpdateCompensation(pending.frame, snapshot.readout_time), snapshot.intrinsics);
   FrameMatches matches = MatchesWith(*map, pending.points, pending.lines);
   if (NumObservations(matches.points.size(), matches.lines.size()) < kMinObservations) return;
+  const size_t num_expected = NumExpected(pending, *frame, matches);
   const Rigid3 reference_from_world = map->CamFromWorld(pose->reference);
   Rigid3 cam_from_world = pose->cam_from_reference * reference_from_world;
   const PoseSummary summary = EstimateFramePose(options_, *frame, *map, snapshot.noise_scale, {},
                                                 &cam_from_world, &matches);
   const int num_inliers = summary.num_inlier_points + summary.num_inlier_lines;
-  const size_t num_observations = pending.points.size() + pending.lines.size();
-  if (!summary.usable || 2 * static_cast<size_t>(num_inliers) < num_observations) return;
+  if (!summary.usable || 2 * static_cast<size_t>(num_inliers) < num_expected) return;
   pose->cam_from_reference = cam_from_world * reference_from_world.Inverse();
 }
 

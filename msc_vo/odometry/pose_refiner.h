@@ -29,7 +29,7 @@ class PoseRefiner {
   /// Estimates the poses of kept frames that are older than the delay at `timestamp` (seconds), at
   /// most three of them, and forgets the frames. A pose remains if its map or its segment is gone,
   /// if few of the observed landmarks are left, or if fewer than half of the observations fit
-  /// another pose.
+  /// another pose; of those whose landmarks are left, if depth was not registered at the frame.
   void Refine(double timestamp, const MapSnapshot& snapshot, std::vector<RelativePose>* poses);
   /// The same for all kept frames, and keeps them.
   void RefineAll(const MapSnapshot& snapshot, std::vector<RelativePose>* poses) const;
@@ -56,6 +56,8 @@ class PoseRefiner {
     }
   };
 
+  static size_t NumExpected(const PendingFrame& pending, const Frame& frame,
+                            const FrameMatches& matches);
   void RefineFrame(const PendingFrame& pending, const MapSnapshot& snapshot,
                    RelativePose* pose) const;
 

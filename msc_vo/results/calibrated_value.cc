@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "msc_vo/geometry/angles.h"
+
 namespace msc_vo {
 
 namespace {
@@ -40,12 +42,24 @@ std::vector<CalibratedValue> ListCalibratedValues(const RunSummary& summary) {
                                  : "as given, not observable"};
   };
   const auto& k = intrinsics.distortion.k;
+  const PinholeCamera& depth = summary.depth_camera.camera;
+  const Eigen::Vector3d& translation = summary.depth_camera.depth_from_color.translation();
+  const double f = camera.FocalLength();
   return {make("fx", "px", camera.fx, camera.fx, S::kFocalLength, G::kFocalLength),
           make("fy", "px", camera.fy, camera.fy, S::kFocalLength, G::kFocalLength),
-          make("cx", "px", camera.cx, 1.0, S::kCenterX, G::kPrincipalPoint),
-          make("cy", "px", camera.cy, 1.0, S::kCenterY, G::kPrincipalPoint),
+          make("cx", "px", camera.cx, f, S::kCenterX, G::kPrincipalPoint),
+          make("cy", "px", camera.cy, f, S::kCenterY, G::kPrincipalPoint),
           make("k1", "", k[0], 1.0, S::kK1, G::kLens),
-          make("k2", "", k[1], 1.0, S::kK2, G::kLens)};
+          make("k2", "", k[1], 1.0, S::kK2, G::kLens),
+          make("depth_fx", "px", depth.fx, depth.fx, S::kDepthFocalLength, G::kDepthRegistration),
+          make("depth_cx", "px", depth.cx, f, S::kDepthX, G::kDepthRegistration),
+          make("depth_cy", "px", depth.cy, f, S::kDepthY, G::kDepthRegistration),
+          make("depth_roll", "degrees", RadiansToDegrees(summary.depth_camera.Roll()),
+               RadiansToDegrees(1.0), S::kDepthRoll, G::kDepthRegistration),
+          make("depth_x", "mm", 1000.0 * translation.x(), 1000.0, S::kDepthParallaxX,
+               G::kDepthRegistration),
+          make("depth_y", "mm", 1000.0 * translation.y(), 1000.0, S::kDepthParallaxY,
+               G::kDepthRegistration)};
 }
 
 }  // namespace msc_vo

@@ -9,7 +9,7 @@
 
 namespace msc_vo {
 
-/// A number of the calibration of the colour camera after a run.
+/// A number of the calibration after a run.
 struct CalibratedValue {
   const char* name;  ///< "fx"
   const char* unit;  ///< "px"; may be empty

@@ -81,6 +81,7 @@ RunSummary Summarize(const OdometryResult& result) {
   summary.readout_time = result.readout_time;
   summary.calibration = result.calibration;
   summary.intrinsics = result.intrinsics;
+  summary.depth_camera = result.depth_camera;
   summary.depth_sensor = result.depth_sensor;
   summary.last_local_ba = result.last_window;
   return summary;

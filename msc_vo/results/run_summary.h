@@ -42,8 +42,9 @@ struct RunSummary {
   MapAxes axes;
   NoiseScale noise_scale;          ///< estimated scale of the sigmas of features
   double readout_time = 0.0;       ///< of the rolling shutter, seconds, given or self-calibrated
-  CorrectionEstimate calibration;  ///< self-calibration of the colour camera
+  CorrectionEstimate calibration;  ///< self-calibration
   CameraIntrinsics intrinsics;     ///< at the end of the run: as given, or corrected
+  DepthCamera depth_camera;        ///< as in OdometryResult
   DepthSensor depth_sensor = DepthSensor::kAuto;  ///< given or chosen; kAuto: too little depth
   BundleAdjustmentSummary last_local_ba;
 

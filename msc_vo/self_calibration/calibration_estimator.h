@@ -11,24 +11,32 @@
 #include "msc_vo/camera/camera_intrinsics.h"
 #include "msc_vo/self_calibration/calibration_evidence.h"
 #include "msc_vo/self_calibration/recent_pairs.h"
+#include "msc_vo/self_calibration/recorded_images.h"
 
 namespace msc_vo {
 
-/// Self-calibration of focal length, principal point and radial distortion during a run. The given
-/// calibration counts as right until another one is far more likely, see SelectCorrections(). Pairs
-/// of images, which cost little, make it a candidate; SelfCalibratingBundleAdjustment() of the map
-/// then determines how large the error is.
+/// Self-calibration of focal length, principal point, radial distortion and registration of depth
+/// during a run. The given calibration counts as right until another one is far more likely, see
+/// SelectCorrections(). Pairs of images, which cost little, make it a candidate;
+/// SelfCalibratingBundleAdjustment() of the map then determines how large the error of the colour
+/// camera is.
 class CalibrationEstimator {
  public:
   explicit CalibrationEstimator(const std::shared_ptr<const CameraIntrinsics>& given);
 
   /// Updates the estimate with the images since the last keyframe and the newest keyframe, whose
-  /// depth image is `depth`. Call it after local bundle adjustment. `readout_sigma` (seconds):
+  /// image is `image`. Call it after local bundle adjustment. `readout_sigma` (seconds):
   /// uncertainty of the readout time of a rolling shutter. Returns true if present() has changed.
-  bool Update(const Map& map, KeyframeId newest, const cv::Mat& depth,
+  bool Update(const Map& map, KeyframeId newest, const std::shared_ptr<const RecordedImage>& image,
               const std::vector<CalibrationImage>& images, double readout_sigma);
   /// Reports another readout time of a rolling shutter, seconds.
   void SetReadoutTime(double readout_time) { pairs_.SetReadoutTime(readout_time); }
+
+  /// The image of a recent keyframe, as long as the registration of depth may be corrected; null:
+  /// it is not known.
+  std::shared_ptr<const RecordedImage> FindImage(KeyframeId keyframe) const {
+    return images_.Find(keyframe);
+  }
 
   /// The calibration in use: the given one until a correction is accepted.
   const std::shared_ptr<const CameraIntrinsics>& present() const { return present_; }
@@ -39,12 +47,20 @@ class CalibrationEstimator {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [given, present, pairs, at, estimate, applied, adjusted, adjusted_size, next_size] =
-        *this;  // all members
-    archive(given, present, pairs, at, estimate, applied, adjusted, adjusted_size, next_size);
+    auto& [given, present, pairs, images, next_registration, at, estimate, applied, adjusted,
+           adjusted_size, next_size] = *this;  // all members
+    archive(given, present, pairs, images, next_registration, at, estimate, applied, adjusted,
+            adjusted_size, next_size);
   }
 
  private:
+  // Whether the colour camera is so certain that further images are not looked at.
+  bool IsSettled() const;
+  // The given calibration with a correction; null if there can be no such camera.
+  std::shared_ptr<const CameraIntrinsics> MakeCorrected(
+      const SensorCorrection::Vector& correction) const;
+  // The groups that the pairs hold for wrong.
+  CorrectionEstimate SelectByPairs(double readout_sigma, const WrongGroups& before) const;
   // Decides by the pairs which groups are corrected. Returns true if a new one is.
   bool SelectGroups(double readout_sigma);
   // Whether the estimate differs enough from the calibration in use to replace it.
@@ -59,6 +75,9 @@ class CalibrationEstimator {
   std::shared_ptr<const CameraIntrinsics> given_;
   std::shared_ptr<const CameraIntrinsics> present_;
   RecentPairs pairs_;
+  RecordedImages images_;
+  // Number of pairs from which on a registration may be accepted, after edges contradicted one.
+  size_t next_registration_ = 0;
   SensorCorrection::Vector at_ = SensorCorrection::Vector::Zero();  // of the linearisation
   CorrectionEstimate estimate_;
   CorrectionEstimate applied_;                  // the one of present()

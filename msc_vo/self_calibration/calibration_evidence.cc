@@ -40,7 +40,7 @@ Vector MakeVector(double focal, double center, double k1, double k2, double dept
 // Errors of a calibration that counts as right. They also cover what the model of the sensor leaves
 // out.
 Vector GoodCalibrationSigma() {
-  return MakeVector(0.005, 2.0, 0.01, 0.01, 0.005, 2.0, DegreesToRadians(0.2), 0.005);
+  return MakeVector(0.005, 0.004, 0.01, 0.01, 0.005, 0.004, DegreesToRadians(0.2), 0.005);
 }
 
 struct Model {
@@ -107,7 +107,7 @@ bool CorrectionEstimate::IsCorrected() const {
 }
 
 SensorCorrection::Vector WrongCalibrationSigma() {
-  return MakeVector(0.03, 10.0, 0.1, 0.03, 0.06, 10.0, DegreesToRadians(1.0), 0.03);
+  return MakeVector(0.03, 0.02, 0.1, 0.03, 0.06, 0.02, DegreesToRadians(1.0), 0.03);
 }
 
 CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,

@@ -13,9 +13,9 @@ namespace msc_vo {
 
 namespace {
 
-// Search radius, pixels: exceeds what a focal length that is 5 % off moves a point in half an
+// Search radius, radians: exceeds what a focal length that is 5 % off moves a point in half an
 // image.
-constexpr double kSearchRadius = 30.0;
+constexpr double kSearchRadius = 0.06;
 
 }  // namespace
 
@@ -24,8 +24,9 @@ CalibrationPair::CalibrationPair(const CorrectedCamera& camera, const Calibratio
     : camera_(camera), a_(a), b_(b) {
   const Frame& from = *a->frame;
   const Frame& to = *b->frame;
+  const double radius = kSearchRadius * to.camera.FocalLength();
   for (const PointMatch& match :
-       MatchFrames(from, a->cam_from_world, to, b->cam_from_world, kSearchRadius)) {
+       MatchFrames(from, a->cam_from_world, to, b->cam_from_world, radius)) {
     const PointFeature& in_a = from.points[match.id];
     const PointFeature& in_b = to.points[match.feature];
     points_.push_back({MakePairView(camera.distortion(), from, in_a),
@@ -55,8 +56,8 @@ std::optional<CalibrationInformation> CalibrationPair::Linearize(
       LinearizePair(camera_, PointsWithSurfaces(correction), correction, &b_from_a);
   if (!information) return std::nullopt;
   const double squared_shift_rate = SquaredShiftRate(*a_->frame) + SquaredShiftRate(*b_->frame);
-  return WithCommonError(*information,
-                         CommonVariance(squared_shift_rate, b_->frame->readout_time, 0.0));
+  return WithCommonError(*information, CommonVariance(camera_.camera(), squared_shift_rate,
+                                                      b_->frame->readout_time, 0.0));
 }
 
 std::vector<PairResidual> CalibrationPair::Residuals(

@@ -46,7 +46,7 @@ class CalibrationPair {
   /// amount. Returns std::nullopt if fewer than 30 points are left.
   ///
   /// Errors of a lens, of depth and of the shutter are common to the points of a pair: all of them
-  /// together count at most like one point with a sigma of 0.2 px.
+  /// together count at most like one point, see CommonVariance().
   std::optional<CalibrationInformation> Linearize(const SensorCorrection::Vector& correction) const;
 
   /// Residuals of all matched points with a surface in both images, outliers included, at the

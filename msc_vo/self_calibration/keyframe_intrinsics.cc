@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "msc_vo/map/frame_intrinsics.h"
-
 namespace msc_vo {
 
 namespace {
@@ -49,10 +47,10 @@ void MoveLines(Map* map) {
 
 }  // namespace
 
-void ChangeKeyframeIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics, Map* map) {
+void ChangeKeyframeIntrinsics(const KeyframeUpdate& update, Map* map) {
   std::vector<std::pair<KeyframeId, std::shared_ptr<const Frame>>> frames;
   for (const auto& [id, keyframe] : map->keyframes()) {
-    frames.emplace_back(id, ChangeIntrinsics(keyframe.frame, intrinsics));
+    frames.emplace_back(id, update(id, keyframe.frame));
   }
   for (auto& [id, frame] : frames) map->SetFrame(id, std::move(frame));
   MovePoints(map);

@@ -3,15 +3,19 @@
 
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "msc_vo/map/map.h"
 
 namespace msc_vo {
 
-/// Gives all keyframes other intrinsics (see ChangeIntrinsics()), and moves every landmark to the
-/// position that the first of its observations with a depth measures. Poses remain; the map should
-/// be optimised.
-void ChangeKeyframeIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics, Map* map);
+/// Gives a keyframe other intrinsics.
+using KeyframeUpdate =
+    std::function<std::shared_ptr<const Frame>(KeyframeId, const std::shared_ptr<const Frame>&)>;
+
+/// Updates all keyframes, and moves every landmark to the position that the first of its
+/// observations with a depth measures. Poses remain; the map should be optimised.
+void ChangeKeyframeIntrinsics(const KeyframeUpdate& update, Map* map);
 
 }  // namespace msc_vo

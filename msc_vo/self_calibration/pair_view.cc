@@ -11,9 +11,9 @@ namespace msc_vo {
 
 namespace {
 
-// Standard deviation, pixels, of the error that the points of a pair have in common; as for the
-// readout time (docs/lab/self_calibration.md).
-constexpr double kCommonError = 0.2;
+// Standard deviation, radians, of the error of lens and depth that the points of a pair have in
+// common. Chosen by measurement, see docs/lab/self_calibration.md.
+constexpr double kCommonError = 4e-4;
 // Relative error of the velocity by which a rolling shutter is compensated. It comes from the
 // motion between the neighbouring images.
 constexpr double kVelocityError = 0.1;
@@ -49,11 +49,13 @@ double SquaredShiftRate(const Frame& frame) {
   return rate * rate;
 }
 
-double CommonVariance(double squared_shift_rate, double readout_time, double readout_sigma) {
+double CommonVariance(const PinholeCamera& camera, double squared_shift_rate, double readout_time,
+                      double readout_sigma) {
+  const double common_error = kCommonError * camera.FocalLength();
   const double by_velocity = kVelocityError * readout_time;
   // Rows are shifted evenly, from the first to the last one.
   const double by_readout = readout_sigma / std::sqrt(12.0);
-  return kCommonError * kCommonError +
+  return common_error * common_error +
          squared_shift_rate * (by_velocity * by_velocity + by_readout * by_readout);
 }
 

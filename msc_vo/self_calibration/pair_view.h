@@ -21,6 +21,7 @@ double SquaredShiftRate(const Frame& frame);
 /// Variance, pixels^2, of the error that the points of a pair of images have in common: of the
 /// lens, of depth and of the compensation of a rolling shutter. `squared_shift_rate`: sum over both
 /// images. `readout_sigma`: standard deviation of `readout_time` (seconds).
-double CommonVariance(double squared_shift_rate, double readout_time, double readout_sigma);
+double CommonVariance(const PinholeCamera& camera, double squared_shift_rate, double readout_time,
+                      double readout_sigma);
 
 }  // namespace msc_vo

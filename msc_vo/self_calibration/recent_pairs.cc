@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "msc_vo/matching/point_matcher.h"
@@ -18,24 +19,71 @@ namespace {
 // Bounds of memory and of computing time.
 constexpr size_t kMaxViews = 24;
 constexpr size_t kMaxPairs = 160;
-constexpr size_t kMaxSamples = 200;
+constexpr size_t kMaxSamples = 300;
+constexpr size_t kMaxMatches = 100;
+// Points with surfaces: most that are used, and fewest that make a pair worth its time.
 constexpr size_t kMaxPoints = 60;
-// Fewest points that make a pair worth its time.
 constexpr size_t kMinPoints = 40;
-// Search radius, pixels, as for recorded sequences.
-constexpr double kSearchRadius = 30.0;
-// Displacement, pixels, from which on a point tells no more about the calibration.
-constexpr double kMaxDisplacement = 80.0;
-// Smallest mean displacement of the points of a pair, pixels.
-constexpr double kMinDisplacement = 20.0;
+// Search radius, radians, as for recorded sequences.
+constexpr double kSearchRadius = 0.06;
+// Displacement, radians, from which on a point tells no more about the calibration.
+constexpr double kMaxDisplacement = 0.15;
+// Smallest mean displacement of the points of a pair, radians.
+constexpr double kMinDisplacement = 0.04;
 // Seconds; as for the compensation of keyframes.
 constexpr double kMinReadoutChange = 0.001;
 constexpr double kLargeReadoutChange = 0.005;
 // Distance of the linearisation point that calls for a new one, standard deviations.
 constexpr double kMaxDistance = 0.5;
+// Pairs whose images are kept: a bound of the memory.
+constexpr size_t kMaxImages = 48;
+// Displacement of the depth image, pixels, by which a surface leaves the window that it was fitted
+// to.
+constexpr double kMaxSurfaceShift = 2.0;
+// Inverse depths at which displacements are measured, 1/metres.
+constexpr double kNear = 1.0;
+constexpr double kFar = 0.2;
 
 double InSigmas(const SensorCorrection::Vector& difference, const SensorCorrection::Vector& sigma) {
   return difference.cwiseQuotient(sigma).cwiseAbs().maxCoeff();
+}
+
+bool HasSurfaces(const CalibrationPoint& point) {
+  return point.a.surface.inverse_depth > 0.0 && point.b.surface.inverse_depth > 0.0;
+}
+
+// The points with surfaces, or an even choice of them.
+std::vector<CalibrationPoint> WithSurfaces(const std::vector<CalibrationPoint>& points) {
+  std::vector<CalibrationPoint> found;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(found), HasSurfaces);
+  const size_t count = std::min(found.size(), kMaxPoints);
+  for (size_t i = 0; i < count; ++i) found[i] = found[i * found.size() / count];
+  found.resize(count);
+  return found;
+}
+
+Eigen::Vector2d DepthPixel(const CorrectedCamera& camera,
+                           const SensorCorrection::Vector& correction, const Eigen::Vector2d& pixel,
+                           double inverse_depth) {
+  Eigen::Vector2d at_infinity, parallax;
+  camera.DepthPixel(pixel, correction.data(), &at_infinity, &parallax);
+  return at_infinity + inverse_depth * parallax;
+}
+
+// Largest displacement (pixels) of what the corners of the colour image show in the depth image.
+double LargestDepthShift(const CorrectedCamera& camera, const SensorCorrection::Vector& from,
+                         const SensorCorrection::Vector& to) {
+  double shift = 0.0;
+  for (const double w : {kNear, kFar}) {
+    for (const int x : {0, camera.camera().width}) {
+      for (const int y : {0, camera.camera().height}) {
+        const Eigen::Vector2d pixel(x, y);
+        shift = std::max(
+            shift, (DepthPixel(camera, from, pixel, w) - DepthPixel(camera, to, pixel, w)).norm());
+      }
+    }
+  }
+  return shift;
 }
 
 void Compensate(double readout_time, RgbdPairReprojection::View* view) {
@@ -50,26 +98,23 @@ void RecentPairs::AddImage(const Map& map, const CalibrationImage& image,
                            const SensorCorrection::Vector& at) {
   if (!map.KnowsKeyframe(image.reference)) return;
   AddPair(map,
-          {image.frame.get(), image.depth,
+          {image.frame.get(), image.image,
            image.cam_from_reference * map.CamFromWorld(image.reference)},
           at);
 }
 
-void RecentPairs::AddKeyframe(const Map& map, KeyframeId id, const cv::Mat& depth,
+void RecentPairs::AddKeyframe(const Map& map, KeyframeId id,
+                              const std::shared_ptr<const RecordedImage>& image,
                               const SensorCorrection::Vector& at) {
   const Keyframe& keyframe = *map.FindKeyframe(id);
   const Frame& frame = *keyframe.frame;
-  AddPair(map, {&frame, depth, keyframe.cam_from_world}, at);
-  KeyframeView view{id, {}, SquaredShiftRate(frame)};
+  AddPair(map, {&frame, image, keyframe.cam_from_world}, at);
+  KeyframeView view{id, {}, SquaredShiftRate(frame), image};
   const size_t step = std::max<size_t>(1, frame.points.size() / kMaxSamples);
   for (size_t i = 0; i < frame.points.size(); i += step) {
     const PointFeature& point = frame.points[i];
     if (point.dynamic || !point.HasDepth()) continue;
-    Sample sample{static_cast<int>(i), MakeView(frame, point)};
-    const auto surface = FindSurface(camera_, depth, sample.view.recorded_pixel, at);
-    if (!surface) continue;
-    sample.view.surface = *surface;
-    view.samples.push_back(sample);
+    view.samples.push_back({static_cast<int>(i), MakeView(frame, point)});
   }
   views_.push_back(std::move(view));
   if (views_.size() > kMaxViews) views_.pop_front();
@@ -99,6 +144,7 @@ RgbdPairReprojection::View RecentPairs::MakeView(const Frame& frame,
 
 void RecentPairs::AddPair(const Map& map, const Partner& partner,
                           const SensorCorrection::Vector& at) {
+  const double focal_length = camera_.camera().FocalLength();
   // Sum of the displacements of the points that both images show.
   std::vector<std::pair<double, const KeyframeView*>> ranked;
   for (const KeyframeView& view : views_) {
@@ -109,11 +155,13 @@ void RecentPairs::AddPair(const Map& map, const Partner& partner,
     double sum = 0.0;
     size_t count = 0;
     for (const Sample& sample : view.samples) {
+      if (!frame.points[sample.feature].HasDepth()) continue;
       const Eigen::Vector3d in_b = b_from_a * frame.PointInCamera(sample.feature);
       if (in_b.z() < 0.1) continue;
       const Eigen::Vector2d pixel = frame.camera.Project(in_b);
       if (!frame.camera.IsInside(pixel)) continue;
-      sum += std::min((pixel - frame.points[sample.feature].pixel).norm(), kMaxDisplacement);
+      const double pixels = (pixel - frame.points[sample.feature].pixel).norm();
+      sum += std::min(pixels / focal_length, kMaxDisplacement);
       ++count;
     }
     if (count >= kMinPoints && sum > kMinDisplacement * static_cast<double>(count)) {
@@ -127,7 +175,12 @@ void RecentPairs::AddPair(const Map& map, const Partner& partner,
     if (!pair) continue;
     Linearize(at, &*pair);
     pairs_.push_back(std::move(*pair));
+    ++num_added_;
     if (pairs_.size() > kMaxPairs) pairs_.pop_front();
+    if (pairs_.size() > kMaxImages) {
+      Pair& old = pairs_[pairs_.size() - kMaxImages - 1];
+      old.image_a = old.image_b = nullptr;
+    }
     return;
   }
 }
@@ -142,6 +195,7 @@ std::optional<RecentPairs::Pair> RecentPairs::MakePair(const Map& map, const Key
   std::vector<PointCandidate> candidates;
   for (size_t i = 0; i < view.samples.size(); ++i) {
     const int feature = view.samples[i].feature;
+    if (!from.points[feature].HasDepth()) continue;  // not where depth is registered otherwise
     PointCandidate candidate;
     candidate.id = static_cast<LandmarkId>(i);
     candidate.position = world_from_cam * from.PointInCamera(feature);
@@ -152,29 +206,46 @@ std::optional<RecentPairs::Pair> RecentPairs::MakePair(const Map& map, const Key
     }
   }
   Pair pair;
-  const auto matches = MatchPoints({}, to, candidates, kSearchRadius, {});
-  const size_t step = std::max<size_t>(1, matches.size() / kMaxPoints);
+  const double radius = kSearchRadius * to.camera.FocalLength();
+  const auto matches = MatchPoints({}, to, candidates, radius, {});
+  const size_t step = std::max<size_t>(1, matches.size() / kMaxMatches);
   for (size_t i = 0; i < matches.size(); i += step) {
     const Sample& sample = view.samples[matches[i].id];
     const PointFeature& in_a = from.points[sample.feature];
     const PointFeature& in_b = to.points[matches[i].feature];
-    CalibrationPoint point{sample.view, MakeView(to, in_b), in_a.inverse_depth,
-                           in_a.sigma * in_a.sigma + in_b.sigma * in_b.sigma};
-    const auto surface = FindSurface(camera_, partner.depth, point.b.recorded_pixel, at);
-    if (!surface) continue;
-    point.b.surface = *surface;
-    pair.points.push_back(point);
+    pair.points.push_back({sample.view, MakeView(to, in_b), in_a.inverse_depth,
+                           in_a.sigma * in_a.sigma + in_b.sigma * in_b.sigma});
   }
-  if (pair.points.size() < kMinPoints) return std::nullopt;
+  pair.image_a = view.image;
+  pair.image_b = partner.image;
+  FindSurfaces(at, &pair);
+  if (WithSurfaces(pair.points).size() < kMinPoints) return std::nullopt;
   pair.b_from_a = partner.cam_from_world * world_from_cam;
   pair.squared_shift_rate = view.squared_shift_rate + SquaredShiftRate(to);
   return pair;
 }
 
+void RecentPairs::FindSurfaces(const SensorCorrection::Vector& at, Pair* pair) const {
+  const auto find = [&](const RecordedImage& image, RgbdPairReprojection::View* view) {
+    view->surface =
+        FindSurface(camera_, image, view->recorded_pixel, at).value_or(InverseDepthPlane());
+  };
+  for (CalibrationPoint& point : pair->points) {
+    find(*pair->image_a, &point.a);
+    find(*pair->image_b, &point.b);
+  }
+  pair->surfaces_at = at;
+}
+
 void RecentPairs::Linearize(const SensorCorrection::Vector& at, Pair* pair) const {
   pair->at = at;
   pair->readout_time = readout_time_;
-  pair->information = LinearizePair(camera_, pair->points, at, &pair->b_from_a);
+  pair->information.reset();
+  if (LargestDepthShift(camera_, pair->surfaces_at, at) > kMaxSurfaceShift) {
+    if (!pair->image_a) return;
+    FindSurfaces(at, pair);
+  }
+  pair->information = LinearizePair(camera_, WithSurfaces(pair->points), at, &pair->b_from_a);
 }
 
 double RecentPairs::Distance(const Pair& pair, const SensorCorrection::Vector& at,
@@ -199,8 +270,9 @@ CalibrationInformation RecentPairs::Sum(double readout_sigma) const {
   CalibrationInformation sum;
   for (const Pair& pair : pairs_) {
     if (!pair.information) continue;
-    sum += WithCommonError(*pair.information,
-                           CommonVariance(pair.squared_shift_rate, readout_time_, readout_sigma));
+    sum += WithCommonError(
+        *pair.information,
+        CommonVariance(camera_.camera(), pair.squared_shift_rate, readout_time_, readout_sigma));
   }
   return sum;
 }

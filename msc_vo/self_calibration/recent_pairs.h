@@ -11,24 +11,21 @@
 #include "msc_vo/camera/camera_intrinsics.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/self_calibration/pair_linearization.h"
-#include "msc_vo/sensor/rgbd_image.h"
-#include "msc_vo/sensor/stored_depth.h"
+#include "msc_vo/sensor/recorded_image.h"
 
 namespace msc_vo {
 
 /// A tracked image for self-calibration.
 struct CalibrationImage {
   std::shared_ptr<const Frame> frame;
-  cv::Mat depth;  ///< CV_32FC1, metres, as recorded; 0: no measurement
+  std::shared_ptr<const RecordedImage> image;
   /// Its pose relative to a keyframe.
   KeyframeId reference = kNoId;
   Rigid3 cam_from_reference;
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    StoredDepth stored(depth);
-    archive.Fields(*this, frame, stored, reference, cam_from_reference);
-    depth = stored.Image();
+    archive.Fields(*this, frame, image, reference, cam_from_reference);
   }
 };
 
@@ -43,7 +40,7 @@ class RecentPairs {
   /// must know their intrinsics.
   void AddImage(const Map& map, const CalibrationImage& image, const SensorCorrection::Vector& at);
   /// The same for a keyframe of the map, with which later images form pairs.
-  void AddKeyframe(const Map& map, KeyframeId id, const cv::Mat& depth,
+  void AddKeyframe(const Map& map, KeyframeId id, const std::shared_ptr<const RecordedImage>& image,
                    const SensorCorrection::Vector& at);
   /// Compensates the rolling shutter with another readout time (seconds), if it differs by more
   /// than a millisecond, as for keyframes. Pairs are linearised again at once if it differs by more
@@ -59,16 +56,18 @@ class RecentPairs {
   /// shutter.
   CalibrationInformation Sum(double readout_sigma) const;
   size_t size() const { return pairs_.size(); }
+  /// Number of pairs so far; old ones are forgotten.
+  size_t num_added() const { return num_added_; }
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [camera, readout_time, views, pairs] = *this;  // all members, or it does not compile
-    archive(readout_time, views, pairs);
+    auto& [camera, readout_time, views, pairs, num_added] = *this;  // all members
+    archive(readout_time, views, pairs, num_added);
   }
 
  private:
-  // A point of a keyframe.
+  // A point of a keyframe, without its surface.
   struct Sample {
     int feature = 0;
     RgbdPairReprojection::View view;
@@ -82,29 +81,34 @@ class RecentPairs {
     KeyframeId id = kNoId;
     std::vector<Sample> samples;
     double squared_shift_rate = 0.0;
+    std::shared_ptr<const RecordedImage> image;
 
     template <typename Archive>
     void Serialize(Archive& archive) {
-      archive.Fields(*this, id, samples, squared_shift_rate);
+      archive.Fields(*this, id, samples, squared_shift_rate, image);
     }
   };
   struct Pair {
-    std::vector<CalibrationPoint> points;
+    std::vector<CalibrationPoint> points;  // some have no surface
     Rigid3 b_from_a;
-    double squared_shift_rate = 0.0;                                 // sum over both images
+    double squared_shift_rate = 0.0;  // sum over both images
+    // Null once the pair is old: surfaces are not looked for again.
+    std::shared_ptr<const RecordedImage> image_a, image_b;
+    SensorCorrection::Vector surfaces_at = SensorCorrection::Vector::Zero();
     SensorCorrection::Vector at = SensorCorrection::Vector::Zero();  // of the linearisation
     double readout_time = 0.0;                                       // the same
     std::optional<CalibrationInformation> information;
 
     template <typename Archive>
     void Serialize(Archive& archive) {
-      archive.Fields(*this, points, b_from_a, squared_shift_rate, at, readout_time, information);
+      archive.Fields(*this, points, b_from_a, squared_shift_rate, image_a, image_b, surfaces_at, at,
+                     readout_time, information);
     }
   };
   // The image that pairs are formed with.
   struct Partner {
     const Frame* frame;
-    cv::Mat depth;
+    std::shared_ptr<const RecordedImage> image;
     Rigid3 cam_from_world;
   };
 
@@ -114,6 +118,8 @@ class RecentPairs {
   void AddPair(const Map& map, const Partner& partner, const SensorCorrection::Vector& at);
   std::optional<Pair> MakePair(const Map& map, const KeyframeView& view, const Partner& partner,
                                const SensorCorrection::Vector& at) const;
+  // Looks for the surfaces of all points where the correction says that they are.
+  void FindSurfaces(const SensorCorrection::Vector& at, Pair* pair) const;
   void Linearize(const SensorCorrection::Vector& at, Pair* pair) const;
   // How far from `at` and from the readout time the pair was linearised; above 1: too far.
   double Distance(const Pair& pair, const SensorCorrection::Vector& at,
@@ -123,6 +129,7 @@ class RecentPairs {
   double readout_time_ = 0.0;
   std::deque<KeyframeView> views_;
   std::deque<Pair> pairs_;
+  size_t num_added_ = 0;
 };
 
 }  // namespace msc_vo

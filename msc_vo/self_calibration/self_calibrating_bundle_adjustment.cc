@@ -127,6 +127,7 @@ class SelfCalibrationProblem {
  public:
   SelfCalibrationProblem(const CameraIntrinsics& given, const Map& map, const Vector& start)
       : camera_(given.camera, given.distortion), correction_(start) {
+    correction_.tail(S::kSize - S::kK2 - 1).setZero();
     const std::vector<LandmarkId> points = SelectPoints(map);
     const std::set<KeyframeId> keyframes = SelectKeyframes(map, points);
     for (const KeyframeId id : keyframes) {

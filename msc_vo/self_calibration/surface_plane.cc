@@ -23,24 +23,6 @@ constexpr double kMaxRms = 1.5;
 // Steps to the intersection of a viewing ray with the surface of an unregistered depth image.
 constexpr int kSteps = 2;
 
-// Inverts single depths of an image.
-class MetricDepth {
- public:
-  explicit MetricDepth(const cv::Mat& depth) : depth_(depth) {}
-
-  double At(int x, int y) const {
-    if (x < 0 || y < 0 || x >= depth_.cols || y >= depth_.rows) return 0.0;
-    const float z = depth_.at<float>(y, x);
-    return z > 0.0f ? 1.0 / static_cast<double>(z) : 0.0;
-  }
-  double Nearest(const Eigen::Vector2d& pixel) const {
-    return At(cvRound(pixel.x()), cvRound(pixel.y()));
-  }
-
- private:
-  const cv::Mat& depth_;
-};
-
 template <typename Depth>
 std::optional<InverseDepthPlane> FitPlane(const Depth& depth, const Eigen::Vector2d& pixel) {
   const int center_x = cvRound(pixel.x());
@@ -83,7 +65,8 @@ std::optional<InverseDepthPlane> FindPlane(const CorrectedCamera& camera, const 
   Eigen::Vector2d depth_pixel = at_infinity;
   if (parallax.norm() > 0.0) {
     for (int i = 0; i < kSteps; ++i) {
-      depth_pixel = at_infinity + depth.Nearest(depth_pixel) * parallax;
+      const double w = depth.At(cvRound(depth_pixel.x()), cvRound(depth_pixel.y()));
+      depth_pixel = at_infinity + w * parallax;
     }
   }
   return FitPlane(depth, depth_pixel);
@@ -98,10 +81,11 @@ std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
   return FindPlane(camera, depth, pixel, correction);
 }
 
-std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera, const cv::Mat& depth,
+std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
+                                             const RecordedImage& depth,
                                              const Eigen::Vector2d& pixel,
                                              const SensorCorrection::Vector& correction) {
-  return FindPlane(camera, MetricDepth(depth), pixel, correction);
+  return FindPlane(camera, depth, pixel, correction);
 }
 
 }  // namespace msc_vo

@@ -10,6 +10,7 @@
 #include "msc_vo/camera/sensor_correction.h"
 #include "msc_vo/factors/rgbd_pair_reprojection.h"
 #include "msc_vo/sensor/inverse_depth_image.h"
+#include "msc_vo/sensor/recorded_image.h"
 
 namespace msc_vo {
 
@@ -22,8 +23,8 @@ std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
                                              const Eigen::Vector2d& pixel,
                                              const SensorCorrection::Vector& correction);
 
-/// The same in a depth image in metres (CV_32FC1; 0, NaN: no measurement), for a few points.
-std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera, const cv::Mat& depth,
+std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
+                                             const RecordedImage& depth,
                                              const Eigen::Vector2d& pixel,
                                              const SensorCorrection::Vector& correction);
 

@@ -27,6 +27,11 @@ std::string Number(double value) {
 
 }  // namespace
 
+double DepthCamera::Roll() const {
+  const Eigen::Matrix3d rotation = depth_from_color.rotation().toRotationMatrix();
+  return std::atan2(rotation(1, 0), rotation(0, 0));
+}
+
 bool DepthCamera::IsValid(std::string* error) const {
   if (!camera.IsValid(error) || !IsInvertible(distortion, camera, error)) {
     *error = "depth " + *error;

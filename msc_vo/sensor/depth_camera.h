@@ -20,6 +20,9 @@ struct DepthCamera {
   double inverse_depth_offset = 0.0;
   LensDistortion distortion = {};  ///< of the depth images
 
+  /// Rotation of the depth images relative to the colour images, radians.
+  double Roll() const;
+
   /// If the depth camera is invalid, `error` names the value and its valid range.
   bool IsValid(std::string* error) const;
 };

@@ -19,13 +19,16 @@ namespace msc_vo {
 class RenderedCameraTest : public TemporaryFolder {
  protected:
   // Renders a small sequence and returns the position error of its replay, metres.
-  double ErrorOf(const std::string& name, const std::vector<std::string>& more) {
+  double ErrorOf(const std::string& name, const std::vector<std::string>& more,
+                 const std::vector<std::string>& replay_more = {}) {
     std::vector<std::string> arguments = {"synthesize", Path(name), "--frames",
                                           "30",         "--width",  "240"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     CommandOutcome outcome = RunCommand(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-    outcome = RunCommand({"replay", Path(name), "--output", Path(name + "/out"), "--quiet"});
+    arguments = {"replay", Path(name), "--output", Path(name + "/out"), "--quiet"};
+    arguments.insert(arguments.end(), replay_more.begin(), replay_more.end());
+    outcome = RunCommand(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     return Summary(name)["error"]["ape_rmse"];
   }

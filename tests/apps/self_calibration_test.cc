@@ -13,10 +13,10 @@ namespace {
 
 class SelfCalibrationTest : public TemporaryFolder {
  protected:
-  void Synthesize(const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> command = {"synthesize", Path(name), "--scene", "room",
-                                        "--frames",   "60",       "--fps",   "5",
-                                        "--width",    "320",      "--lens",  kLens};
+  void Synthesize(const std::string& name, int num_frames, const std::vector<std::string>& more) {
+    std::vector<std::string> command = {
+        "synthesize", Path(name), "--scene", "room",     "--fps",
+        "5",          "--width",  "320",     "--frames", std::to_string(num_frames)};
     command.insert(command.end(), more.begin(), more.end());
     const CommandOutcome outcome = RunCommand(command);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
@@ -34,8 +34,8 @@ class SelfCalibrationTest : public TemporaryFolder {
 };
 
 TEST_F(SelfCalibrationTest, CorrectsAnUnknownLens) {
-  Synthesize("described", {});
-  Synthesize("undescribed", {"--untold"});
+  Synthesize("described", 60, {"--lens", kLens});
+  Synthesize("undescribed", 60, {"--lens", kLens, "--untold"});
   const nlohmann::json described = Replay("described");
   const nlohmann::json undescribed = Replay("undescribed");
   const nlohmann::json without = Replay("undescribed", {"--set", "mapping.self_calibration=false"});
@@ -45,6 +45,26 @@ TEST_F(SelfCalibrationTest, CorrectsAnUnknownLens) {
   EXPECT_NEAR(k1.at("value").get<double>(), -0.3, 0.01);
   EXPECT_LT(Ape(undescribed), 1.5 * Ape(described));
   EXPECT_GT(Ape(without), 3.0 * Ape(described));
+}
+
+TEST_F(SelfCalibrationTest, RegistersTheImagesOfADepthCameraThatNobodyTold) {
+  // A focal length of 292.5 px instead of 262.5.
+  const std::vector<std::string> rig = {"--rig", "292.5,0.025,0,0.5"};
+  Synthesize("told", 120, rig);
+  Synthesize("untold", 120, {rig[0], rig[1], "--untold"});
+  const nlohmann::json told = Replay("told");
+  const nlohmann::json untold = Replay("untold");
+  const nlohmann::json without = Replay("untold", {"--set", "mapping.self_calibration=false"});
+  EXPECT_FALSE(told.at("self_calibration").at("corrected").get<bool>());
+  const nlohmann::json& values = untold.at("self_calibration");
+  EXPECT_EQ(values.at("fx").at("verdict"), "as given");
+  EXPECT_EQ(values.at("depth_fx").at("verdict"), "corrected");
+  for (const auto& [name, truth] :
+       {std::pair("depth_fx", 292.5), std::pair("depth_roll", 0.5), std::pair("depth_x", 25.0)}) {
+    const double value = values.at(name).at("value");
+    EXPECT_NEAR(value, truth, 3.0 * values.at(name).at("sigma").get<double>()) << name;
+  }
+  EXPECT_LT(Ape(untold), 0.5 * Ape(without));
 }
 
 }  // namespace

@@ -22,11 +22,11 @@ Calibration Given() {
 S::Vector AllCorrections() {
   S::Vector correction = S::Vector::Zero();
   correction(S::kFocalLength) = 0.03;
-  correction(S::kCenterX) = 4.0;
-  correction(S::kCenterY) = -3.0;
+  correction(S::kCenterX) = 0.008;
+  correction(S::kCenterY) = -0.006;
   correction(S::kDepthFocalLength) = 0.1;
-  correction(S::kDepthX) = 5.0;
-  correction(S::kDepthY) = -6.0;
+  correction(S::kDepthX) = 0.01;
+  correction(S::kDepthY) = -0.012;
   correction(S::kDepthParallaxX) = -0.025;
   correction(S::kDepthParallaxY) = 0.01;
   return correction;

@@ -18,7 +18,7 @@ inline const CorrectedCamera kCorrectedCamera({525.0, 520.0, 320.0, 240.0, 640, 
 /// A random correction of all parameters.
 inline SensorCorrection::Vector AnyCorrection(RandomGeometry* random) {
   SensorCorrection::Vector scale;
-  scale << 0.03, 5.0, 5.0, 0.03, 0.02, 0.05, 5.0, 5.0, 0.01, 0.02, 0.02, 0.005, 0.01;
+  scale << 0.03, 0.01, 0.01, 0.03, 0.02, 0.05, 0.01, 0.01, 0.01, 0.02, 0.02, 0.005, 0.01;
   SensorCorrection::Vector correction;
   for (int i = 0; i < SensorCorrection::kSize; ++i) correction(i) = scale(i) * random->Normal();
   return correction;

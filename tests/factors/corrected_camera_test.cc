@@ -27,8 +27,8 @@ CorrectedCamera Fisheye() {
 S::Vector AnyCorrection() {
   S::Vector correction = S::Vector::Zero();
   correction(S::kFocalLength) = 0.02;
-  correction(S::kCenterX) = 3.0;
-  correction(S::kCenterY) = -2.0;
+  correction(S::kCenterX) = 0.006;
+  correction(S::kCenterY) = -0.004;
   correction(S::kK1) = 0.01;
   correction(S::kK2) = -0.005;
   return correction;

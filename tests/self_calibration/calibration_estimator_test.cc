@@ -8,6 +8,7 @@
 #include "tests/self_calibration/simulated_camera.h"
 #include <gtest/gtest.h>
 
+#include "msc_vo/map/frame_intrinsics.h"
 #include "msc_vo/self_calibration/keyframe_intrinsics.h"
 
 namespace msc_vo {
@@ -26,8 +27,13 @@ class SimulatedRun {
     const auto [frame, depth] = camera_.Record(cam_from_world);
     const KeyframeId id = map_.AddKeyframe(frame, cam_from_world);
     if (has_landmarks_) Observe(id, &landmarks_, &map_);
-    ChangeKeyframeIntrinsics(estimator_.present(), &map_);
-    return estimator_.Update(map_, id, depth, {}, 0.0);
+    ChangeKeyframeIntrinsics(
+        [this](KeyframeId, const std::shared_ptr<const Frame>& old_frame) {
+          return ChangeIntrinsics(old_frame, estimator_.present());
+        },
+        &map_);
+    const cv::Mat gray(depth.size(), CV_8UC1, cv::Scalar(128));  // without edges
+    return estimator_.Update(map_, id, std::make_shared<RecordedImage>(gray, depth), {}, 0.0);
   }
   void AddKeyframes(int count) {
     for (int i = 0; i < count; ++i) num_changes_ += Add(SimulatedCamera::PoseOf(i)) ? 1 : 0;
@@ -62,7 +68,7 @@ TEST(CalibrationEstimator, AcceptsAnotherFocalLengthOnce) {
   S::Vector truth = S::Vector::Zero();
   truth(S::kFocalLength) = -0.05;
   SimulatedRun run(truth);
-  run.AddKeyframes(28);
+  run.AddKeyframes(40);
   const CorrectionEstimate& estimate = run.estimator().estimate();
   EXPECT_TRUE(estimate.is_corrected[0]);
   EXPECT_FALSE(estimate.is_corrected[3]);
@@ -90,15 +96,30 @@ TEST(CalibrationEstimator, KeepsARightCalibrationWithAMap) {
   EXPECT_EQ(run.num_changes(), 0);
 }
 
-TEST(CalibrationEstimator, AcceptsNothingWhereDepthIsNotRegistered) {
+TEST(CalibrationEstimator, RegistersDepth) {
   S::Vector truth = S::Vector::Zero();
-  truth(S::kFocalLength) = -0.02;
-  truth(S::kDepthFocalLength) = 0.06;
-  truth(S::kDepthX) = 8.0;
+  truth(S::kDepthFocalLength) = 0.1;
+  truth(S::kDepthX) = 8.0 * kPixel;
   SimulatedRun run(truth, true);
-  run.AddKeyframes(14);
-  EXPECT_EQ(run.num_changes(), 0);
-  EXPECT_GT(run.estimator().estimate().log_odds[3], 0.0);
+  run.AddKeyframes(40);
+  const CorrectionEstimate& estimate = run.estimator().estimate();
+  EXPECT_EQ(estimate.is_corrected, (WrongGroups{false, false, false, true}));
+  EXPECT_GE(run.num_changes(), 1);
+  ASSERT_TRUE(run.estimator().present()->registration);
+  EXPECT_NEAR(estimate.correction(S::kDepthFocalLength), 0.1, 0.01);
+  EXPECT_NEAR(estimate.correction(S::kDepthX), truth(S::kDepthX), 3.0 * estimate.sigma(S::kDepthX));
+}
+
+TEST(CalibrationEstimator, CorrectsTheColourCameraAndTheRegistration) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kFocalLength) = -0.04;
+  truth(S::kDepthFocalLength) = 0.06;
+  SimulatedRun run(truth, true);
+  run.AddKeyframes(40);
+  const CorrectionEstimate& estimate = run.estimator().estimate();
+  EXPECT_EQ(estimate.is_corrected, (WrongGroups{true, false, false, true}));
+  EXPECT_NEAR(estimate.correction(S::kFocalLength), -0.04, 0.01);
+  EXPECT_NEAR(estimate.correction(S::kDepthFocalLength), 0.06, 0.01);
 }
 
 TEST(CalibrationEstimator, AcceptsTheDistortionOfALens) {
@@ -140,7 +161,11 @@ TEST(KeyframeIntrinsics, MovesFeaturesAndLandmarksTogether) {
   const KeyframeId id = map.AddKeyframe(frame, Rigid3());
   const LandmarkId point = map.AddPoint(id, 0, frame->PointInCamera(0));
   const auto corrected = std::make_shared<CameraIntrinsics>(Corrected(*camera.given(), truth));
-  ChangeKeyframeIntrinsics(corrected, &map);
+  ChangeKeyframeIntrinsics(
+      [&](KeyframeId, const std::shared_ptr<const Frame>& given) {
+        return ChangeIntrinsics(given, corrected);
+      },
+      &map);
   const Frame& changed = *map.FindKeyframe(id)->frame;
   EXPECT_EQ(changed.intrinsics, corrected);
   const Eigen::Vector3d position = map.FindPoint(point)->position;

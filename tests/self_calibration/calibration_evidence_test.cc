@@ -24,7 +24,7 @@ CalibrationInformation Measured(
 
 TEST(CalibrationEvidence, AcceptsACorrectionWithStrongEvidence) {
   const auto estimate = SelectCorrections(Measured(
-      {{S::kFocalLength, {0.03, 0.002}}, {S::kCenterX, {0.5, 0.5}}, {S::kK1, {0.0, 0.01}}}));
+      {{S::kFocalLength, {0.03, 0.002}}, {S::kCenterX, {0.001, 0.001}}, {S::kK1, {0.0, 0.01}}}));
   EXPECT_EQ(estimate.is_corrected, (WrongGroups{true, false, false, false}));
   EXPECT_NEAR(estimate.correction(S::kFocalLength), 0.03, 0.001);
   EXPECT_NEAR(estimate.sigma(S::kFocalLength), 0.002, 1e-4);

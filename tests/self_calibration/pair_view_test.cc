@@ -67,10 +67,18 @@ TEST_P(PairViewTest, PointsOfACameraAtRestDoNotMove) {
 INSTANTIATE_TEST_SUITE_P(Lenses, PairViewTest, testing::Values(0.0, -0.1));
 
 TEST(CommonVariance, GrowsWithTheUncertaintyOfTheShutter) {
-  EXPECT_NEAR(CommonVariance(0.0, 0.02, 0.01), 0.04, 1e-12);
+  const PinholeCamera camera{500.0, 500.0, 319.5, 239.5, 640, 480};
+  EXPECT_NEAR(CommonVariance(camera, 0.0, 0.02, 0.01), 0.04, 1e-12);
   // Ten percent of a shift of 5 px, and a shift of 2.5 px that is even over the rows.
-  EXPECT_NEAR(CommonVariance(250.0 * 250.0, 0.02, 0.0), 0.04 + 0.25, 1e-12);
-  EXPECT_NEAR(CommonVariance(250.0 * 250.0, 0.0, 0.01), 0.04 + 6.25 / 12.0, 1e-12);
+  EXPECT_NEAR(CommonVariance(camera, 250.0 * 250.0, 0.02, 0.0), 0.04 + 0.25, 1e-12);
+  EXPECT_NEAR(CommonVariance(camera, 250.0 * 250.0, 0.0, 0.01), 0.04 + 6.25 / 12.0, 1e-12);
+}
+
+TEST(CommonVariance, IsThatOfOneAngleInImagesOfEverySize) {
+  const PinholeCamera camera{500.0, 500.0, 319.5, 239.5, 640, 480};
+  const PinholeCamera small{250.0, 250.0, 159.5, 119.5, 320, 240};
+  EXPECT_NEAR(CommonVariance(small, 125.0 * 125.0, 0.02, 0.01),
+              0.25 * CommonVariance(camera, 250.0 * 250.0, 0.02, 0.01), 1e-12);
 }
 
 }  // namespace

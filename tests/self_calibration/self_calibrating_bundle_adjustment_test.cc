@@ -42,22 +42,22 @@ class SelfCalibratingBundleAdjustmentTest : public testing::Test {
 TEST_F(SelfCalibratingBundleAdjustmentTest, FindsTheErrorsOfTheColorCamera) {
   S::Vector truth = S::Vector::Zero();
   truth(S::kFocalLength) = -0.03;
-  truth(S::kCenterX) = 5.0;
-  truth(S::kCenterY) = -4.0;
+  truth(S::kCenterX) = 5.0 * kPixel;
+  truth(S::kCenterY) = -4.0 * kPixel;
   truth(S::kK1) = -0.1;
   const CorrectionEstimate estimate = Estimate(truth, 12);
   for (const int i : {S::kFocalLength, S::kCenterX, S::kCenterY, S::kK1}) {
     EXPECT_NEAR(estimate.correction(i), truth(i), 4.0 * estimate.sigma(i)) << i;
   }
   EXPECT_LT(estimate.sigma(S::kFocalLength), 0.003);
-  EXPECT_LT(estimate.sigma(S::kCenterX), 1.0);
+  EXPECT_LT(estimate.sigma(S::kCenterX), kPixel);
 }
 
 TEST_F(SelfCalibratingBundleAdjustmentTest, IsNotMisledByDepthThatIsNotRegistered) {
   S::Vector truth = S::Vector::Zero();
   truth(S::kFocalLength) = -0.03;
   truth(S::kDepthFocalLength) = 0.05;
-  truth(S::kDepthX) = 6.0;
+  truth(S::kDepthX) = 6.0 * kPixel;
   const CorrectionEstimate estimate = Estimate(truth, 12);
   EXPECT_NEAR(estimate.correction(S::kFocalLength), -0.03, 0.005);
 }

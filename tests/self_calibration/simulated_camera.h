@@ -20,6 +20,8 @@
 namespace msc_vo {
 
 inline const PinholeCamera kGiven{520.0, 520.0, 319.5, 239.5, 640, 480};
+// Focal lengths.
+constexpr double kPixel = 1.0 / 520.0;
 
 // A box-shaped room around the cameras: half of its size, metres.
 inline const Eigen::Vector3d kHalf(2.0, 1.5, 3.0);
@@ -129,8 +131,8 @@ class SimulatedCamera {
     const Rigid3 world_from_cam = cam_from_world.Inverse();
     const double scale = std::exp(truth_(SensorCorrection::kDepthFocalLength));
     const Eigen::Vector2d center(kGiven.cx, kGiven.cy);
-    const Eigen::Vector2d shift(truth_(SensorCorrection::kDepthX),
-                                truth_(SensorCorrection::kDepthY));
+    const Eigen::Vector2d shift = kGiven.fx * Eigen::Vector2d(truth_(SensorCorrection::kDepthX),
+                                                              truth_(SensorCorrection::kDepthY));
     const Eigen::Vector2d parallax =
         kGiven.fx * Eigen::Vector2d(truth_(SensorCorrection::kDepthParallaxX),
                                     truth_(SensorCorrection::kDepthParallaxY));

@@ -14,13 +14,16 @@ namespace msc_vo {
 
 DepthSource::DepthSource(DepthSensor sensor, const SensorNoiseOptions& noise, double min_depth,
                          double max_depth, int width)
-    : sensor_(sensor),
+    : given_(sensor),
+      sensor_(sensor),
       noise_(noise),
       min_depth_(min_depth),
       max_depth_(max_depth),
       width_(width),
       model_(MakeDepthSensorModel(sensor, noise, width)),
       bleeding_(width) {}
+
+void DepthSource::Reset() { *this = DepthSource(given_, noise_, min_depth_, max_depth_, width_); }
 
 void DepthSource::Assign(const cv::Mat& gray, const cv::Mat& depth) {
   if (sensor_ == DepthSensor::kAuto) {

@@ -23,6 +23,9 @@ class DepthSource {
   /// Replaces the image. `gray`: CV_8UC1, `depth`: CV_32FC1, metres, of equal size.
   void Assign(const cv::Mat& gray, const cv::Mat& depth);
 
+  /// Forgets what the images have told about the sensor.
+  void Reset();
+
   /// kAuto until it is determined; the model is then that of structured light.
   DepthSensor sensor() const { return sensor_; }
   const DepthSensorModel& model() const { return model_; }
@@ -39,6 +42,7 @@ class DepthSource {
   // The depth without the artefacts of the sensor.
   cv::Mat Clean(const cv::Mat& gray, const cv::Mat& depth);
 
+  DepthSensor given_;
   DepthSensor sensor_;
   SensorNoiseOptions noise_;
   double min_depth_;

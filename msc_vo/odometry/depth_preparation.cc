@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/depth_preparation.h"
+
+#include "msc_vo/features/depth_measurement.h"
+#include "msc_vo/sensor/depth_camera_correction.h"
+
+namespace msc_vo {
+
+namespace {
+
+std::optional<DepthRegistration> FindRegistration(const CameraIntrinsics& given,
+                                                  const CameraIntrinsics& present) {
+  if (!present.registration) return std::nullopt;
+  return DepthRegistration(DepthCameraOf(given, present), present.camera, present.distortion);
+}
+
+}  // namespace
+
+DepthPreparation::DepthPreparation(const std::shared_ptr<const CameraIntrinsics>& given)
+    : given_(given), aligner_(given->camera, given->distortion) {}
+
+void DepthPreparation::SetIntrinsics(const CameraIntrinsics& intrinsics) {
+  registration_ = FindRegistration(*given_, intrinsics);
+  if (registration_) {
+    const DepthCamera depth_camera = DepthCameraOf(*given_, intrinsics);
+    aligner_ = DepthAligner(depth_camera.camera, depth_camera.distortion);
+  } else {
+    aligner_ = DepthAligner(intrinsics.camera, intrinsics.distortion);
+  }
+}
+
+RgbdImage DepthPreparation::Align(const RgbdImage& image,
+                                  const std::optional<CameraVelocity>& velocity) const {
+  RgbdImage aligned = image;
+  aligned.depth_delay = 0.0;
+  if (image.depth_delay != 0.0 && velocity) {
+    aligned.depth = aligner_.Align(image.depth, velocity->Over(image.depth_delay));
+  }
+  return aligned;
+}
+
+RgbdImage DepthPreparation::Register(const RgbdImage& image) const {
+  RgbdImage registered = image;
+  if (registration_) registered.depth = registration_->Register(image.depth);
+  return registered;
+}
+
+DepthMeasurement DepthPreparation::MeasurementFor(const FrameBuilderOptions& options) const {
+  return [options, given = given_](const Frame& frame, const RecordedImage& image,
+                                   const std::shared_ptr<const CameraIntrinsics>& intrinsics) {
+    const cv::Mat depth = FindRegistration(*given, *intrinsics)->Register(image.Depth());
+    return MeasureDepthAgain(options, image.Gray(), depth, frame, intrinsics);
+  };
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/sensor/depth_edges.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+namespace msc_vo {
+
+namespace {
+
+constexpr int kReducedWidth = 320;
+// Largest gap without depth, pixels, that an edge may span: the shadow of a structured-light
+// sensor.
+constexpr int kMaxGap = 10;
+// Least jump of inverse depth at an edge, 1/metres; the noise of a Kinect is 0.002.
+constexpr float kMinJump = 0.06f;
+// Gradients beyond this multiple of the mean count alike: one bright edge must not outweigh all.
+constexpr double kGradientLimit = 6.0;
+constexpr int kBorder = 4;
+
+// Edges along a line of `count` pixels.
+template <typename At, typename Visit>
+void ScanLine(int count, const At& inverse_depth_at, const Visit& visit) {
+  int last = -1;
+  float last_value = 0.0f;
+  for (int i = 0; i < count; ++i) {
+    const float value = inverse_depth_at(i);
+    if (value <= 0.0f) continue;
+    if (last >= 0 && i - last <= kMaxGap && std::abs(value - last_value) > kMinJump) {
+      visit(value > last_value ? i : last);
+    }
+    last = i;
+    last_value = value;
+  }
+}
+
+cv::Mat Normalize(const cv::Mat& derivative) {
+  cv::Mat magnitude = cv::abs(derivative);
+  const double limit = kGradientLimit * std::max(1.0, cv::mean(magnitude)[0]);
+  cv::min(magnitude, limit, magnitude);
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(magnitude, mean, deviation);
+  cv::Mat normalized;
+  magnitude.convertTo(normalized, CV_32F, 1.0 / std::max(1e-3, deviation[0]),
+                      -mean[0] / std::max(1e-3, deviation[0]));
+  return normalized;
+}
+
+}  // namespace
+
+std::vector<DepthEdge> FindDepthEdges(const cv::Mat& depth) {
+  cv::Mat inverse(depth.size(), CV_32FC1, cv::Scalar(0));
+  for (int y = 0; y < depth.rows; ++y) {
+    for (int x = 0; x < depth.cols; ++x) {
+      const float z = depth.at<float>(y, x);
+      if (z > 0.0f) inverse.at<float>(y, x) = 1.0f / z;
+    }
+  }
+  std::vector<DepthEdge> edges;
+  for (int y = 0; y < depth.rows; ++y) {
+    ScanLine(
+        depth.cols, [&](int x) { return inverse.at<float>(y, x); },
+        [&](int x) {
+          edges.push_back({x, y, true});
+        });
+  }
+  for (int x = 0; x < depth.cols; ++x) {
+    ScanLine(
+        depth.rows, [&](int y) { return inverse.at<float>(y, x); },
+        [&](int y) {
+          edges.push_back({x, y, false});
+        });
+  }
+  return edges;
+}
+
+EdgeGradients GradientsOf(const cv::Mat& gray) {
+  cv::Mat smooth, dx, dy;
+  cv::GaussianBlur(gray, smooth, cv::Size(3, 3), 0.8);
+  cv::Sobel(smooth, dx, CV_32F, 1, 0);
+  cv::Sobel(smooth, dy, CV_32F, 0, 1);
+  return {Normalize(dx), Normalize(dy)};
+}
+
+double SumAtEdges(const std::vector<DepthEdge>& edges, const EdgeGradients& gradients, int dx,
+                  int dy) {
+  const int width = gradients.along_rows.cols, height = gradients.along_rows.rows;
+  double sum = 0.0;
+  for (const DepthEdge& edge : edges) {
+    const int x = edge.x + dx, y = edge.y + dy;
+    if (x < kBorder || y < kBorder || x >= width - kBorder || y >= height - kBorder) continue;
+    sum += (edge.horizontal_jump ? gradients.along_rows : gradients.along_columns).at<float>(y, x);
+  }
+  return sum;
+}
+
+ReducedImage Reduce(const cv::Mat& gray, const cv::Mat& depth) {
+  ReducedImage reduced{gray, depth};
+  reduced.step = std::max(1.0, static_cast<double>(gray.cols) / kReducedWidth);
+  if (reduced.step > 1.0) {
+    const cv::Size size(kReducedWidth, static_cast<int>(std::lround(gray.rows / reduced.step)));
+    cv::resize(gray, reduced.gray, size, 0.0, 0.0, cv::INTER_AREA);
+    cv::resize(depth, reduced.depth, size, 0.0, 0.0, cv::INTER_NEAREST);
+  }
+  return reduced;
+}
+
+EdgeAgreement MeasureEdgeAgreement(const cv::Mat& gray, const cv::Mat& depth) {
+  const ReducedImage reduced = Reduce(gray, depth);
+  const std::vector<DepthEdge> edges = FindDepthEdges(reduced.depth);
+  EdgeAgreement agreement;
+  agreement.num_edges = static_cast<int>(edges.size());
+  if (edges.empty()) return agreement;
+  agreement.mean = SumAtEdges(edges, GradientsOf(reduced.gray), 0, 0) / agreement.num_edges;
+  return agreement;
+}
+
+}  // namespace msc_vo

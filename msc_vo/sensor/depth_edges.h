@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+namespace msc_vo {
+
+/// A pixel of a depth image beside which the depth jumps, on the nearer surface: the farther one
+/// ends where it is occluded, or where the sensor's shadow begins.
+struct DepthEdge {
+  int x = 0;
+  int y = 0;
+  bool horizontal_jump = false;  ///< the depth jumps along the row
+};
+
+/// The edges of a depth image (CV_32FC1, metres; 0: no measurement).
+std::vector<DepthEdge> FindDepthEdges(const cv::Mat& depth);
+
+/// Gradients of a grey image along rows and along columns, with mean 0 and standard deviation 1.
+struct EdgeGradients {
+  cv::Mat along_rows;
+  cv::Mat along_columns;
+};
+EdgeGradients GradientsOf(const cv::Mat& gray);
+
+/// Sum of the gradients at all edges, shifted by (dx, dy); edges that leave the image count 0.
+double SumAtEdges(const std::vector<DepthEdge>& edges, const EdgeGradients& gradients, int dx,
+                  int dy);
+
+/// An RGB-D image reduced to about 320 pixels in width, where an edge is found to a fraction of a
+/// pixel anyway.
+struct ReducedImage {
+  cv::Mat gray;
+  cv::Mat depth;
+  double step = 1.0;  ///< pixels of the full image per pixel
+};
+ReducedImage Reduce(const cv::Mat& gray, const cv::Mat& depth);
+
+/// How well depth edges lie on image edges.
+struct EdgeAgreement {
+  int num_edges = 0;  ///< pixels of the reduced image
+  /// Mean gradient there, in standard deviations of the gradients above their mean; 0: no edges.
+  double mean = 0.0;
+};
+EdgeAgreement MeasureEdgeAgreement(const cv::Mat& gray, const cv::Mat& depth);
+
+}  // namespace msc_vo

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/features/depth_measurement.h"
+
+#include "tests/features/depth_images.h"
+#include "tests/features/drawing.h"
+#include <gtest/gtest.h>
+
+#include "msc_vo/map/rolling_shutter.h"
+
+namespace msc_vo {
+namespace {
+
+using Eigen::Vector2d;
+
+const PinholeCamera kCamera{480.0, 480.0, 319.5, 239.5, 640, 480};
+
+// Inverse depths of two slanted walls.
+double Wall(const Vector2d& x) { return 0.5 + 0.0003 * (x.x() - 320.0); }
+double OtherWall(const Vector2d& x) { return 0.6 + 0.0002 * (x.y() - 240.0); }
+
+RgbdImage ImageOf(double (*wall)(const Vector2d&)) {
+  RgbdImage image;
+  image.gray = testing::DrawQuadrilaterals(kCamera.width, kCamera.height, {0.0, 0.0}, 0.0, 2.0);
+  image.depth = testing::DrawDepth(kCamera, wall);
+  return image;
+}
+
+// Depths of both frames, whose features are the same ones.
+void ExpectSameDepths(const Frame& a, const Frame& b, double tolerance) {
+  ASSERT_EQ(a.points.size(), b.points.size());
+  ASSERT_EQ(a.lines.size(), b.lines.size());
+  for (size_t i = 0; i < a.points.size(); ++i) {
+    EXPECT_NEAR(a.points[i].inverse_depth, b.points[i].inverse_depth, tolerance);
+    EXPECT_NEAR(a.points[i].inverse_depth_sigma, b.points[i].inverse_depth_sigma, tolerance);
+    EXPECT_LT((a.points[i].pixel - b.points[i].pixel).norm(), 0.2);
+  }
+  for (size_t i = 0; i < a.lines.size(); ++i) {
+    ASSERT_EQ(a.lines[i].depth.has_value(), b.lines[i].depth.has_value());
+    if (a.lines[i].depth) {
+      EXPECT_NEAR(a.lines[i].depth->start, b.lines[i].depth->start, tolerance);
+    }
+  }
+}
+
+class DepthMeasurement : public ::testing::TestWithParam<double> {
+ protected:
+  DepthMeasurement() {
+    LensDistortion lens;
+    lens.k[0] = GetParam();
+    builder_ = std::make_unique<FrameBuilder>(options_, kCamera, lens);
+  }
+
+  // The intrinsics of the frame with another registration.
+  static std::shared_ptr<const CameraIntrinsics> Registered(const Frame& frame) {
+    CameraIntrinsics intrinsics = *frame.intrinsics;
+    intrinsics.registration = SensorCorrection::Vector::Ones();
+    return std::make_shared<CameraIntrinsics>(intrinsics);
+  }
+
+  FrameBuilderOptions options_;
+  std::unique_ptr<FrameBuilder> builder_;
+};
+
+TEST_P(DepthMeasurement, IsThatOfAFrameWithTheOtherDepthImage) {
+  const Frame frame = builder_->Build(ImageOf(Wall));
+  const RgbdImage other = ImageOf(OtherWall);
+  const auto measured =
+      MeasureDepthAgain(options_, other.gray, other.depth, frame, Registered(frame));
+  ExpectSameDepths(*measured, builder_->Build(other), 1e-5);
+}
+
+TEST_P(DepthMeasurement, LooksWhereARollingShutterHasRecordedTheFeature) {
+  const CameraVelocity velocity{{0.8, 0.5, 0.2}, {0.1, 0.0, 0.0}};
+  const double readout_time = 0.02;
+  const RgbdImage other = ImageOf(OtherWall);
+  const Frame frame =
+      CompensateRollingShutter(builder_->Build(ImageOf(Wall)), velocity, readout_time);
+  const auto measured =
+      MeasureDepthAgain(options_, other.gray, other.depth, frame, Registered(frame));
+  EXPECT_EQ(measured->readout_time, readout_time);
+  ExpectSameDepths(*measured,
+                   CompensateRollingShutter(builder_->Build(other), velocity, readout_time), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lenses, DepthMeasurement, ::testing::Values(0.0, -0.1));
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/sensor/recorded_image.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace msc_vo {
+namespace {
+
+TEST(RecordedImage, KeepsDepthToAnEighthOfAMillimetre) {
+  cv::Mat depth(2, 3, CV_32FC1, cv::Scalar(0.0));
+  depth.at<float>(0, 1) = 1.23456f;
+  depth.at<float>(1, 2) = 15.9f;
+  const cv::Mat gray(2, 3, CV_8UC1, cv::Scalar(77));
+  const RecordedImage image(gray, depth);
+  EXPECT_LE(cv::norm(image.Depth(), depth, cv::NORM_INF), 0.000126);
+  EXPECT_EQ(cv::norm(image.Gray(), gray, cv::NORM_INF), 0.0);
+  EXPECT_NEAR(image.At(1, 0), 1.0 / 1.23456, 1e-4);
+  EXPECT_EQ(image.At(0, 0), 0.0);
+  EXPECT_EQ(image.At(3, 0), 0.0);
+  EXPECT_EQ(image.At(0, -1), 0.0);
+}
+
+TEST(RecordedImage, WhatIsNoDepthOrTooFarIsNoMeasurement) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  const cv::Mat depth = (cv::Mat_<float>(1, 4) << nan, infinity, -1.0f, 17.0f);
+  const RecordedImage image(cv::Mat(1, 4, CV_8UC1, cv::Scalar(0)), depth);
+  EXPECT_EQ(cv::countNonZero(image.Depth()), 0);
+}
+
+TEST(RecordedImage, MayBeEmpty) {
+  const RecordedImage image;
+  EXPECT_TRUE(image.Depth().empty());
+  EXPECT_TRUE(image.Gray().empty());
+  EXPECT_EQ(image.At(0, 0), 0.0);
+}
+
+}  // namespace
+}  // namespace msc_vo
