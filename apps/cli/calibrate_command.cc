@@ -33,10 +33,8 @@ constexpr int kMaxRounds = 3;
 // A correction that is smaller, in standard deviations, needs no further round.
 constexpr double kMinCorrection = 0.5;
 // Images of the first sequence in which depth edges are compared before and after a correction of
-// the registration, and the ratio of them that must agree better after it. If the correction had no
-// effect, three quarters of 20 images would agree better with a probability of 2 %.
+// the registration.
 constexpr int kNumEdgeImages = 20;
-constexpr double kMinBetterRatio = 0.75;
 
 constexpr auto kRegistration = static_cast<size_t>(CorrectionGroup::kDepthRegistration);
 
@@ -107,21 +105,15 @@ TrackedSequences TrackSequences(const std::vector<RgbdDecoder>& decoders,
   return sequences;
 }
 
-double AgreementOf(const RgbdDecoder& decoder, int image_index) {
-  const RgbdImage image = decoder.Decode(image_index);
-  return MeasureEdgeAgreement(image.gray, image.depth).mean;
-}
-
-// Whether depth edges lie on image edges better with `after` than with `before`: an error of the
-// depth sensor may look like a wrong registration to the motion of points, but not to the edges.
 bool EdgesAgree(const RgbdDecoder& before, const RgbdDecoder& after) {
+  EdgeComparison comparison;
   const int count = std::min(kNumEdgeImages, before.size());
-  int num_better = 0;
   for (int i = 0; i < count; ++i) {
     const int index = i * before.size() / count;
-    num_better += AgreementOf(after, index) > AgreementOf(before, index);
+    const RgbdImage image = before.Decode(index);
+    comparison.Add(image.gray, image.depth, after.Decode(index).depth);
   }
-  return num_better >= kMinBetterRatio * count;
+  return comparison.Agrees();
 }
 
 std::vector<CalibrationResidual> ForPlots(const std::vector<PairResidual>& residuals,

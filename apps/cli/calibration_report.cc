@@ -10,6 +10,7 @@
 
 #include "apps/cli/commands.h"
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/sensor/depth_camera_correction.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -32,11 +33,9 @@ struct Row {
   CorrectionGroup group;
 };
 
-// The depth camera of registered images is the colour camera.
 DepthCamera DepthCameraOf(const Calibration& calibration) {
-  DepthCamera registered;
-  registered.camera = calibration.Recorded();
-  return calibration.depth_camera.value_or(registered);
+  return calibration.depth_camera.value_or(
+      RegisteredDepthCamera(calibration.Recorded(), calibration.distortion));
 }
 
 std::vector<Row> RowsOf(const CalibrationReport& report) {

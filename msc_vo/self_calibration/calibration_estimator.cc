@@ -43,7 +43,7 @@ constexpr double kMaxRollSigma = DegreesToRadians(0.33);
 // given one is right.
 constexpr double kKnownFocalLengthSigma = 0.015;
 
-// Pairs after which their estimation ends if all groups are certain.
+// Pairs after which their estimation ends if the colour camera is certain.
 constexpr size_t kSettledPairs = 150;
 
 // Bundle adjustment is repeated when the map has grown by a quarter, up to this size.

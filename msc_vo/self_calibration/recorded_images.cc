@@ -34,20 +34,14 @@ bool RecordedImages::EdgesAgree(const CameraIntrinsics& given,
                                 const CameraIntrinsics& corrected) const {
   const DepthRegistration registration(DepthCameraOf(given, corrected), corrected.camera,
                                        corrected.distortion);
-  int num_better = 0, num_worse = 0;
+  EdgeComparison comparison;
   const size_t count = std::min(images_.size(), kMaxCompared);
   for (size_t i = 0; i < count; ++i) {
     const RecordedImage& image = *images_[i * images_.size() / count].image;
-    const cv::Mat gray = image.Gray();
     const cv::Mat depth = image.Depth();
-    const EdgeAgreement before = MeasureEdgeAgreement(gray, depth);
-    const EdgeAgreement after = MeasureEdgeAgreement(gray, registration.Register(depth));
-    const int num_edges = before.num_edges + after.num_edges;
-    // Edges may leave the image, but not most of them.
-    const bool is_better = after.mean > before.mean && 2 * after.num_edges >= before.num_edges;
-    (is_better ? num_better : num_worse) += num_edges;
+    comparison.Add(image.Gray(), depth, registration.Register(depth));
   }
-  return num_better >= 3 * num_worse;
+  return comparison.Agrees();
 }
 
 }  // namespace msc_vo

@@ -27,8 +27,7 @@ class RecordedImages {
   std::shared_ptr<const RecordedImage> Find(KeyframeId keyframe) const;
 
   /// Whether depth edges lie on image edges better with the corrected intrinsics than with the
-  /// given ones, in images with three quarters of all edges: an error of the depth sensor may
-  /// look like a wrong registration to the motion of points, but not to the edges.
+  /// given ones, see EdgeComparison.
   bool EdgesAgree(const CameraIntrinsics& given, const CameraIntrinsics& corrected) const;
 
   /// Lists the state for a checkpoint.

@@ -119,4 +119,13 @@ EdgeAgreement MeasureEdgeAgreement(const cv::Mat& gray, const cv::Mat& depth) {
   return agreement;
 }
 
+void EdgeComparison::Add(const cv::Mat& gray, const cv::Mat& before, const cv::Mat& after) {
+  const EdgeAgreement old_agreement = MeasureEdgeAgreement(gray, before);
+  const EdgeAgreement new_agreement = MeasureEdgeAgreement(gray, after);
+  // Edges may leave the image, but not most of them.
+  const bool is_better = new_agreement.mean > old_agreement.mean &&
+                         2 * new_agreement.num_edges >= old_agreement.num_edges;
+  (is_better ? num_better_ : num_worse_) += old_agreement.num_edges + new_agreement.num_edges;
+}
+
 }  // namespace msc_vo

@@ -48,4 +48,19 @@ struct EdgeAgreement {
 };
 EdgeAgreement MeasureEdgeAgreement(const cv::Mat& gray, const cv::Mat& depth);
 
+/// Compares depth images that are registered in two ways. An error of the depth sensor may look
+/// like a wrong registration to the motion of points, but not to the edges.
+class EdgeComparison {
+ public:
+  /// Adds an image: CV_8UC1 grey, CV_32FC1 depth in metres, before and after another registration.
+  void Add(const cv::Mat& gray, const cv::Mat& before, const cv::Mat& after);
+  /// Whether depth edges lie on image edges better with the other registration, in images with
+  /// three quarters of all edges. True without edges.
+  bool Agrees() const { return num_better_ >= 3 * num_worse_; }
+
+ private:
+  int num_better_ = 0;  // edges of the images in which they lie better
+  int num_worse_ = 0;
+};
+
 }  // namespace msc_vo
