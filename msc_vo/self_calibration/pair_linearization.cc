@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
 #include "msc_vo/factors/camera_factor.h"
 #include "msc_vo/factors/robust_loss.h"
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/self_calibration/linearized_camera.h"
 #include "msc_vo/sensor/sensor_noise.h"
 
 namespace msc_vo {
@@ -21,9 +23,6 @@ constexpr int kSize = SensorCorrection::kSize;
 constexpr int kPoseSize = 6;
 // Six unknowns of the pose need a few points; more are required as a protection against outliers.
 constexpr size_t kMinPoints = 30;
-// The robust iterations find the inliers; the last ones use the inliers alone.
-constexpr int kRobustIterations = 2;
-constexpr int kIterations = 4;
 // Square roots of the 95 %, 99 % and 50 % quantiles of chi-square with two, three and three degrees
 // of freedom.
 constexpr HuberLoss kLoss{2.448};
@@ -36,82 +35,50 @@ using PoseVector = Eigen::Matrix<double, kPoseSize, 1>;
 struct Rows {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, 3, kPoseSize> pose;
-  Eigen::Matrix<double, 3, kSize> correction;
+  double sigmas = 0.0;  // norm of the residual
   bool is_defined = false;
-
-  double Sigmas() const { return residual.norm(); }
 };
 
 // Sum over the points of a pair.
 struct NormalEquations {
   PoseMatrix pose = PoseMatrix::Zero();
+  PoseVector pose_gradient = PoseVector::Zero();
   Eigen::Matrix<double, kPoseSize, kSize> coupling =
       Eigen::Matrix<double, kPoseSize, kSize>::Zero();
   SensorCorrection::Matrix correction = SensorCorrection::Matrix::Zero();
-  PoseVector pose_gradient = PoseVector::Zero();
   SensorCorrection::Vector correction_gradient = SensorCorrection::Vector::Zero();
   double weight = 0.0;  // sum of the weights of the points
 
   void Add(const Rows& rows, double factor) {
-    pose.noalias() += factor * rows.pose.transpose() * rows.pose;
-    coupling.noalias() += factor * rows.pose.transpose() * rows.correction;
-    correction.noalias() += factor * rows.correction.transpose() * rows.correction;
-    pose_gradient.noalias() += factor * rows.pose.transpose() * rows.residual;
-    correction_gradient.noalias() += factor * rows.correction.transpose() * rows.residual;
+    const Eigen::Matrix<double, kPoseSize, 3> weighted = factor * rows.pose.transpose();
+    pose += weighted.lazyProduct(rows.pose);
+    pose_gradient += weighted.lazyProduct(rows.residual);
     weight += factor;
   }
+  // `by_correction`: derivative of the rows with respect to the correction.
+  void AddCorrection(const Rows& rows, const Eigen::Matrix<double, 3, kSize>& by_correction,
+                     double factor) {
+    const Eigen::Matrix<double, kSize, 3> weighted = factor * by_correction.transpose();
+    coupling += rows.pose.transpose().lazyProduct(weighted.transpose());
+    correction += weighted.lazyProduct(by_correction);
+    correction_gradient += weighted.lazyProduct(rows.residual);
+  }
 };
 
-// What the correction tells of a point: its ray and its inverse depths in both images.
-template <typename T>
-struct PointTerms {
-  Eigen::Matrix<T, 2, 1> ray;
-  T inverse_depth_a;
-  T inverse_depth_b;
-};
-
-template <typename T>
-PointTerms<T> TermsOf(const CorrectedCamera& camera, const CalibrationPoint& point,
-                      const T* correction) {
-  const RgbdPairReprojection factor(camera, point.a, point.b, Eigen::Matrix3d::Identity());
-  return {camera.Ray<T>(point.a.pixel, correction), factor.InverseDepth(point.a, correction),
-          factor.InverseDepth(point.b, correction)};
-}
-
-// Residual of RgbdPairReprojection, before it is whitened, of the point `in_b`: its ray in camera b
-// times the ratio of the depths.
-template <typename T>
-Eigen::Matrix<T, 3, 1> Residual(const CorrectedCamera& camera, const CalibrationPoint& point,
-                                const Eigen::Matrix<T, 3, 1>& in_b, const T& inverse_depth_a,
-                                const T& inverse_depth_b, const T* correction) {
-  const T inverse_z = T(1.0) / in_b.z();
-  const Eigen::Matrix<T, 2, 1> pixel = camera.Pixel<T>(
-      Eigen::Matrix<T, 2, 1>(in_b.x() * inverse_z, in_b.y() * inverse_z), correction);
-  return {pixel.x() - point.b.pixel.x(), pixel.y() - point.b.pixel.y(),
-          inverse_depth_a * inverse_z - inverse_depth_b};
-}
-
-// Adds the derivatives with respect to a left perturbation of the pose, rotation and translation,
-// which are the first ones of the jets.
-template <typename T>
-void PerturbPose(double inverse_depth, Eigen::Matrix<T, 3, 1>* in_b) {
-  const Eigen::Vector3d x((*in_b)(0).a, (*in_b)(1).a, (*in_b)(2).a);
-  const Eigen::Matrix3d by_rotation = -Skew(x);
-  for (int i = 0; i < 3; ++i) {
-    (*in_b)(i).v.template head<3>() += by_rotation.row(i).transpose();
-    (*in_b)(i).v(3 + i) += inverse_depth;
-  }
-}
-
-template <int N>
-Eigen::Matrix<double, 3, N> JacobianOf(const Eigen::Matrix<ceres::Jet<double, N>, 3, 1>& residual,
-                                       Eigen::Vector3d* value) {
-  Eigen::Matrix<double, 3, N> jacobian;
-  for (int i = 0; i < 3; ++i) {
-    (*value)(i) = residual(i).a;
-    jacobian.row(i) = residual(i).v.transpose();
-  }
-  return jacobian;
+// Inverse of the lower triangular root of a covariance.
+Eigen::Matrix3d SqrtInverse(const Eigen::Matrix3d& covariance) {
+  const double l11 = std::sqrt(covariance(0, 0));
+  const double l21 = covariance(1, 0) / l11;
+  const double l31 = covariance(2, 0) / l11;
+  const double l22 = std::sqrt(covariance(1, 1) - l21 * l21);
+  const double l32 = (covariance(2, 1) - l31 * l21) / l22;
+  const double l33 = std::sqrt(covariance(2, 2) - l31 * l31 - l32 * l32);
+  Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
+  inverse.diagonal() << 1.0 / l11, 1.0 / l22, 1.0 / l33;
+  inverse(1, 0) = -l21 * inverse(0, 0) * inverse(1, 1);
+  inverse(2, 0) = -(l31 * inverse(0, 0) + l32 * inverse(1, 0)) * inverse(2, 2);
+  inverse(2, 1) = -l32 * inverse(1, 1) * inverse(2, 2);
+  return inverse;
 }
 
 // Square root of the information of the rows of a point: the errors of its pixels, and of its depth
@@ -128,8 +95,7 @@ Eigen::Matrix3d SqrtInformation(const PinholeCamera& camera, const Eigen::Vector
   const double variance = sigma * sigma;
   Eigen::Matrix3d covariance = variance * by_inverse_depth * by_inverse_depth.transpose();
   covariance.diagonal() += Eigen::Vector3d(pixel_variance, pixel_variance, variance);
-  const Eigen::LLT<Eigen::Matrix3d> root(covariance);
-  return root.matrixL().solve(Eigen::Matrix3d::Identity());
+  return SqrtInverse(covariance);
 }
 
 // Ray of a recorded pixel, for the weights, which a radial-tangential lens hardly changes.
@@ -139,112 +105,143 @@ Eigen::Vector3d RayForWeights(const CorrectedCamera& camera, const Eigen::Vector
   return camera.Ray<double>(pixel, none.data()).homogeneous();
 }
 
-// A pair of images at a given correction.
-class PairProblem {
- public:
-  PairProblem(const CorrectedCamera& camera, const std::vector<CalibrationPoint>& points,
-              const SensorCorrection::Vector& correction)
-      : camera_(camera), points_(points), correction_(correction), rows_(points.size()) {
-    for (const CalibrationPoint& point : points) {
-      terms_.push_back(TermsOf<double>(camera, point, correction.data()));
-      weight_rays_.push_back(RayForWeights(camera, point.a.pixel));
-    }
-  }
-
-  // Linearises all points with respect to the pose.
-  const std::vector<Rows>& ByPose(const Rigid3& b_from_a) {
-    using Jet = ceres::Jet<double, kPoseSize>;
-    const Eigen::Matrix3d rotation = b_from_a.rotation().toRotationMatrix();
-    Eigen::Matrix<Jet, kSize, 1> correction;
-    for (int i = 0; i < kSize; ++i) correction(i) = Jet(correction_(i));
-    for (size_t i = 0; i < points_.size(); ++i) {
-      const PointTerms<double>& terms = terms_[i];
-      const Eigen::Vector3d x =
-          rotation * terms.ray.homogeneous() + terms.inverse_depth_a * b_from_a.translation();
-      if (!Begin(i, b_from_a, x)) continue;
-      Eigen::Matrix<Jet, 3, 1> in_b(Jet(x.x()), Jet(x.y()), Jet(x.z()));
-      PerturbPose(terms.inverse_depth_a, &in_b);
-      const auto residual = Residual<Jet>(camera_, points_[i], in_b, Jet(terms.inverse_depth_a),
-                                          Jet(terms.inverse_depth_b), correction.data());
-      rows_[i].pose = sqrt_information_ * JacobianOf<kPoseSize>(residual, &rows_[i].residual);
-      rows_[i].residual = (sqrt_information_ * rows_[i].residual).eval();
-    }
-    return rows_;
-  }
-
-  // Linearises all points with respect to pose and correction.
-  const std::vector<Rows>& ByPoseAndCorrection(const Rigid3& b_from_a) {
-    using Jet = ceres::Jet<double, kPoseSize + kSize>;
-    const Eigen::Matrix3d rotation = b_from_a.rotation().toRotationMatrix();
-    Eigen::Matrix<Jet, kSize, 1> correction;
-    for (int i = 0; i < kSize; ++i) correction(i) = Jet(correction_(i), kPoseSize + i);
-    for (size_t i = 0; i < points_.size(); ++i) {
-      const PointTerms<Jet> terms = TermsOf<Jet>(camera_, points_[i], correction.data());
-      Eigen::Matrix<Jet, 3, 1> in_b;
-      for (int r = 0; r < 3; ++r) {
-        in_b(r) = terms.ray.x() * rotation(r, 0) + terms.ray.y() * rotation(r, 1) + rotation(r, 2) +
-                  terms.inverse_depth_a * b_from_a.translation()(r);
-      }
-      if (!Begin(i, b_from_a, {in_b(0).a, in_b(1).a, in_b(2).a})) continue;
-      PerturbPose(terms.inverse_depth_a.a, &in_b);
-      const auto residual = Residual<Jet>(camera_, points_[i], in_b, terms.inverse_depth_a,
-                                          terms.inverse_depth_b, correction.data());
-      const Eigen::Matrix<double, 3, kPoseSize + kSize> jacobian =
-          sqrt_information_ * JacobianOf<kPoseSize + kSize>(residual, &rows_[i].residual);
-      rows_[i].residual = (sqrt_information_ * rows_[i].residual).eval();
-      rows_[i].pose = jacobian.leftCols<kPoseSize>();
-      rows_[i].correction = jacobian.rightCols<kSize>();
-    }
-    return rows_;
-  }
-
- private:
-  // Sets is_defined and the weight of point `i` at `in_b`, and returns the former.
-  bool Begin(size_t i, const Rigid3& b_from_a, const Eigen::Vector3d& in_b) {
-    const CalibrationPoint& point = points_[i];
-    const Eigen::Vector3d x_in_b =
-        b_from_a.rotation() * weight_rays_[i] + point.inverse_depth * b_from_a.translation();
-    rows_[i].is_defined = x_in_b.z() >= kMinCameraDepth && in_b.z() >= kMinCameraDepth;
-    if (rows_[i].is_defined) {
-      sqrt_information_ = SqrtInformation(camera_.camera(), x_in_b, b_from_a.translation(),
-                                          point.inverse_depth, point.pixel_variance);
-    }
-    return rows_[i].is_defined;
-  }
-
-  const CorrectedCamera& camera_;
-  const std::vector<CalibrationPoint>& points_;
-  SensorCorrection::Vector correction_;
-  std::vector<PointTerms<double>> terms_;
-  std::vector<Eigen::Vector3d> weight_rays_;
-  Eigen::Matrix3d sqrt_information_;
-  std::vector<Rows> rows_;
-};
-
 double Median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-// Weights: sigmas are inflated as far as the median residual requires it. Outliers are
-// down-weighted, or rejected if `rejects_outliers`.
-NormalEquations SumUp(const std::vector<Rows>& all, bool rejects_outliers) {
-  std::vector<double> sigmas;
-  for (const Rows& rows : all) {
-    if (rows.is_defined) sigmas.push_back(rows.Sigmas());
+// A pair of images at a given correction. The points are weighted at the first pose.
+class PairProblem {
+ public:
+  PairProblem(const CorrectedCamera& camera, const std::vector<CalibrationPoint>& points,
+              const SensorCorrection::Vector& correction, const Rigid3& b_from_a)
+      : camera_(camera, correction), rows_(points.size()) {
+    terms_.reserve(points.size());
+    const Eigen::Matrix3d rotation = b_from_a.rotation().toRotationMatrix();
+    for (const CalibrationPoint& point : points) {
+      Terms terms{&point, camera_.Ray(point.a.pixel), camera_.InverseDepth(point.a, nullptr),
+                  camera_.InverseDepth(point.b, nullptr), Eigen::Matrix3d::Zero()};
+      const Eigen::Vector3d x_in_b = rotation * RayForWeights(camera, point.a.pixel) +
+                                     point.inverse_depth * b_from_a.translation();
+      if (x_in_b.z() >= kMinCameraDepth) {
+        terms.sqrt_information = SqrtInformation(camera.camera(), x_in_b, b_from_a.translation(),
+                                                 point.inverse_depth, point.pixel_variance);
+      }
+      terms_.push_back(terms);
+    }
   }
-  if (sigmas.empty()) return {};
-  const double scale = std::max(1.0, Median(sigmas) / kMedianSigmas);
-  NormalEquations equations;
-  for (const Rows& rows : all) {
-    const double s = rows.Sigmas() / scale;
-    if (!rows.is_defined || (rejects_outliers && s > kOutlierSigmas)) continue;
-    const double loss = rejects_outliers ? 1.0 : kLoss.Weight(s * s);
-    equations.Add(rows, loss / (scale * scale));
+
+  // Linearises with respect to the pose.
+  void SetPose(const Rigid3& b_from_a) {
+    rotation_ = b_from_a.rotation().toRotationMatrix();
+    translation_ = b_from_a.translation();
+    for (size_t i = 0; i < terms_.size(); ++i) LinearizePoint(terms_[i], &rows_[i]);
   }
-  return equations;
-}
+
+  // Sigmas are inflated as far as the median residual requires it. Outliers are down-weighted.
+  NormalEquations SumRobustly() const {
+    const double scale = Scale();
+    NormalEquations equations;
+    for (const Rows& rows : rows_) {
+      if (!rows.is_defined) continue;
+      const double s = rows.sigmas / scale;
+      equations.Add(rows, kLoss.Weight(s * s) / (scale * scale));
+    }
+    return equations;
+  }
+
+  // The same without outliers, with the correction or for the pose alone.
+  NormalEquations SumInliers(bool with_correction) const {
+    const double scale = Scale();
+    const double factor = 1.0 / (scale * scale);
+    NormalEquations equations;
+    for (size_t i = 0; i < rows_.size(); ++i) {
+      if (!rows_[i].is_defined || rows_[i].sigmas > kOutlierSigmas * scale) continue;
+      equations.Add(rows_[i], factor);
+      if (with_correction) equations.AddCorrection(rows_[i], ByCorrection(terms_[i]), factor);
+    }
+    return equations;
+  }
+
+ private:
+  // What the correction says about a point.
+  struct Terms {
+    const CalibrationPoint* point;
+    Eigen::Vector2d ray;
+    double inverse_depth_a;
+    double inverse_depth_b;
+    Eigen::Matrix3d sqrt_information;  // zero: too near
+  };
+
+  // The ray of a point in camera b times the ratio of the depths.
+  Eigen::Vector3d InB(const Terms& terms) const {
+    return rotation_ * terms.ray.homogeneous() + terms.inverse_depth_a * translation_;
+  }
+  // Derivative of the residual, before it is whitened, with respect to InB().
+  Eigen::Matrix3d ByPoint(const Terms& terms, const Eigen::Vector3d& in_b) const {
+    const double inverse_z = 1.0 / in_b.z();
+    const Eigen::Vector2d x = inverse_z * in_b.head<2>();
+    Eigen::Matrix3d by_point;
+    by_point.topLeftCorner<2, 2>() = inverse_z * camera_.PixelByPoint(x);
+    by_point.topRightCorner<2, 1>() = -by_point.topLeftCorner<2, 2>() * x;
+    by_point.row(2) << 0.0, 0.0, -terms.inverse_depth_a * inverse_z * inverse_z;
+    return by_point;
+  }
+
+  void LinearizePoint(const Terms& terms, Rows* rows) const {
+    const Eigen::Vector3d in_b = InB(terms);
+    rows->is_defined = terms.sqrt_information(0, 0) > 0.0 && in_b.z() >= kMinCameraDepth;
+    if (!rows->is_defined) return;
+    const double inverse_z = 1.0 / in_b.z();
+    Eigen::Vector3d residual;
+    residual << camera_.Pixel(inverse_z * in_b.head<2>()) - terms.point->b.pixel,
+        terms.inverse_depth_a * inverse_z - terms.inverse_depth_b;
+    rows->residual = terms.sqrt_information * residual;
+    rows->sigmas = rows->residual.norm();
+    const Eigen::Matrix3d by_point = terms.sqrt_information * ByPoint(terms, in_b);
+    // A left perturbation of the pose, rotation and translation.
+    rows->pose.leftCols<3>() = by_point * -Skew(in_b);
+    rows->pose.rightCols<3>() = terms.inverse_depth_a * by_point;
+  }
+
+  // Derivative of the whitened residual with respect to the correction.
+  Eigen::Matrix<double, 3, kSize> ByCorrection(const Terms& terms) const {
+    constexpr int kColorSize = LinearizedCamera::kColorSize;
+    constexpr int kDepthSize = LinearizedCamera::kDepthSize;
+    const Eigen::Vector3d in_b = InB(terms);
+    const double inverse_z = 1.0 / in_b.z();
+    const Eigen::Matrix3d by_point = ByPoint(terms, in_b);
+    LinearizedCamera::DepthJacobian by_a, by_b;
+    camera_.InverseDepth(terms.point->a, &by_a);
+    camera_.InverseDepth(terms.point->b, &by_b);
+    Eigen::Vector3d by_inverse_depth = by_point * translation_;
+    by_inverse_depth.z() += inverse_z;
+    Eigen::Matrix<double, 3, kSize> jacobian;
+    jacobian.leftCols<kColorSize>() =
+        by_point * (rotation_.leftCols<2>() * camera_.RayByCamera(terms.ray));
+    jacobian.topLeftCorner<2, kColorSize>() += camera_.PixelByCamera(inverse_z * in_b.head<2>());
+    jacobian.rightCols<kDepthSize>() = by_inverse_depth * by_a;
+    jacobian.bottomRightCorner<1, kDepthSize>() -= by_b;
+    return terms.sqrt_information * jacobian;
+  }
+
+  // Factor of the sigmas.
+  double Scale() const {
+    std::vector<double> sigmas;
+    sigmas.reserve(rows_.size());
+    for (const Rows& rows : rows_) {
+      if (rows.is_defined) sigmas.push_back(rows.sigmas);
+    }
+    return sigmas.empty() ? 1.0 : std::max(1.0, Median(std::move(sigmas)) / kMedianSigmas);
+  }
+
+  LinearizedCamera camera_;
+  std::vector<Terms> terms_;
+  Eigen::Matrix3d rotation_;
+  Eigen::Vector3d translation_;
+  std::vector<Rows> rows_;
+};
 
 // Eliminates the pose.
 CalibrationInformation Marginalize(const NormalEquations& equations,
@@ -279,17 +276,21 @@ CalibrationInformation WithCommonError(CalibrationInformation information, doubl
 std::optional<CalibrationInformation> LinearizePair(const CorrectedCamera& camera,
                                                     const std::vector<CalibrationPoint>& points,
                                                     const SensorCorrection::Vector& correction,
+                                                    const PairIterations& iterations,
                                                     Rigid3* b_from_a) {
   if (points.size() < kMinPoints) return std::nullopt;
-  PairProblem problem(camera, points, correction);
+  PairProblem problem(camera, points, correction, *b_from_a);
   Rigid3 pose = *b_from_a;
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const NormalEquations equations = SumUp(problem.ByPose(pose), iteration >= kRobustIterations);
+  for (int i = 0; i < iterations.robust + iterations.inliers; ++i) {
+    problem.SetPose(pose);
+    const NormalEquations equations =
+        i < iterations.robust ? problem.SumRobustly() : problem.SumInliers(false);
     const PoseVector step = -equations.pose.ldlt().solve(equations.pose_gradient);
     if (!step.allFinite()) return std::nullopt;
     pose = Rigid3(ExpSO3(step.head<3>()), step.tail<3>()) * pose;
   }
-  const NormalEquations equations = SumUp(problem.ByPoseAndCorrection(pose), true);
+  problem.SetPose(pose);
+  const NormalEquations equations = problem.SumInliers(true);
   *b_from_a = pose;
   CalibrationInformation information = Marginalize(equations, correction);
   information.point_information = equations.weight / MedianVariance(points);

@@ -57,11 +57,8 @@ std::optional<InverseDepthPlane> FitPlane(const Depth& depth, const Eigen::Vecto
 }
 
 template <typename Depth>
-std::optional<InverseDepthPlane> FindPlane(const CorrectedCamera& camera, const Depth& depth,
-                                           const Eigen::Vector2d& pixel,
-                                           const SensorCorrection::Vector& correction) {
-  Eigen::Vector2d at_infinity, parallax;
-  camera.DepthPixel(pixel, correction.data(), &at_infinity, &parallax);
+std::optional<InverseDepthPlane> FindPlane(const Depth& depth, const Eigen::Vector2d& at_infinity,
+                                           const Eigen::Vector2d& parallax) {
   Eigen::Vector2d depth_pixel = at_infinity;
   if (parallax.norm() > 0.0) {
     for (int i = 0; i < kSteps; ++i) {
@@ -78,14 +75,15 @@ std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
                                              const InverseDepthImage& depth,
                                              const Eigen::Vector2d& pixel,
                                              const SensorCorrection::Vector& correction) {
-  return FindPlane(camera, depth, pixel, correction);
+  Eigen::Vector2d at_infinity, parallax;
+  camera.DepthPixel(pixel, correction.data(), &at_infinity, &parallax);
+  return FindPlane(depth, at_infinity, parallax);
 }
 
-std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
+std::optional<InverseDepthPlane> FindSurface(const LinearizedCamera& camera,
                                              const RecordedImage& depth,
-                                             const Eigen::Vector2d& pixel,
-                                             const SensorCorrection::Vector& correction) {
-  return FindPlane(camera, depth, pixel, correction);
+                                             const Eigen::Vector2d& pixel) {
+  return FindPlane(depth, camera.DepthPixelAtInfinity(pixel), camera.parallax());
 }
 
 }  // namespace msc_vo

@@ -9,6 +9,7 @@
 
 #include "msc_vo/camera/sensor_correction.h"
 #include "msc_vo/factors/rgbd_pair_reprojection.h"
+#include "msc_vo/self_calibration/linearized_camera.h"
 #include "msc_vo/sensor/inverse_depth_image.h"
 #include "msc_vo/sensor/recorded_image.h"
 
@@ -23,9 +24,8 @@ std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
                                              const Eigen::Vector2d& pixel,
                                              const SensorCorrection::Vector& correction);
 
-std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
+std::optional<InverseDepthPlane> FindSurface(const LinearizedCamera& camera,
                                              const RecordedImage& depth,
-                                             const Eigen::Vector2d& pixel,
-                                             const SensorCorrection::Vector& correction);
+                                             const Eigen::Vector2d& pixel);
 
 }  // namespace msc_vo

@@ -3,35 +3,27 @@
 
 #include "msc_vo/sensor/recorded_image.h"
 
-#include <limits>
+#include <algorithm>
 
 namespace msc_vo {
 
-namespace {
-
-constexpr float kUnitsPerMetre = 4000.0f;
-constexpr float kMaxUnits = std::numeric_limits<uint16_t>::max();
-
-}  // namespace
-
 RecordedImage::RecordedImage(const cv::Mat& gray, const cv::Mat& depth)
-    : rows_(depth.rows), columns_(depth.cols) {
-  gray_.reserve(depth.total());
-  depth_.reserve(depth.total());
+    : rows_(depth.rows), columns_(depth.cols), depth_(depth.total()) {
+  constexpr float kScale = static_cast<float>(kUnitsPerMetre);
+  constexpr float kTooMany = 65536.0f;  // 0 in 16 bits
+  gray_.reserve(gray.total());
+  for (int y = 0; y < gray.rows; ++y) {
+    gray_.insert(gray_.end(), gray.ptr<uint8_t>(y), gray.ptr<uint8_t>(y) + gray.cols);
+  }
   for (int y = 0; y < rows_; ++y) {
-    gray_.insert(gray_.end(), gray.ptr<uint8_t>(y), gray.ptr<uint8_t>(y) + columns_);
     const float* row = depth.ptr<float>(y);
+    uint16_t* units = &depth_[static_cast<size_t>(y) * columns_];
     for (int x = 0; x < columns_; ++x) {
-      const float units = kUnitsPerMetre * row[x] + 0.5f;
-      depth_.push_back(units >= 1.0f && units <= kMaxUnits ? static_cast<uint16_t>(units) : 0);
+      // In this order, NaN becomes 0.
+      const float rounded = std::min(kTooMany, std::max(0.0f, kScale * row[x] + 0.5f));
+      units[x] = static_cast<uint16_t>(static_cast<int>(rounded));
     }
   }
-}
-
-double RecordedImage::At(int x, int y) const {
-  if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return 0.0;
-  const uint16_t units = depth_[static_cast<size_t>(y) * columns_ + x];
-  return units > 0 ? static_cast<double>(kUnitsPerMetre) / units : 0.0;
 }
 
 cv::Mat RecordedImage::Depth() const {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -15,11 +16,16 @@ namespace msc_vo {
 class RecordedImage {
  public:
   RecordedImage() = default;
-  /// `gray`: CV_8UC1; `depth`: CV_32FC1, metres; 0, NaN: no measurement. Of equal size.
+  /// `gray`: CV_8UC1, or empty if it is not needed; `depth`: CV_32FC1, metres; 0, NaN: no
+  /// measurement. Of equal size.
   RecordedImage(const cv::Mat& gray, const cv::Mat& depth);
 
   /// Inverse depth of pixel (x, y), 1/metres; 0: no measurement, or outside the image.
-  double At(int x, int y) const;
+  double At(int x, int y) const {
+    if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return 0.0;
+    const uint16_t units = depth_[static_cast<size_t>(y) * columns_ + x];
+    return units > 0 ? kUnitsPerMetre / units : 0.0;
+  }
   /// CV_32FC1, metres; 0: no measurement.
   cv::Mat Depth() const;
   /// CV_8UC1.
@@ -33,6 +39,8 @@ class RecordedImage {
   }
 
  private:
+  static constexpr double kUnitsPerMetre = 4000.0;
+
   int rows_ = 0;
   int columns_ = 0;
   std::vector<uint8_t> gray_;
