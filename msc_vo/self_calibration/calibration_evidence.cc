@@ -46,7 +46,6 @@ Vector GoodCalibrationSigma() {
 struct Model {
   Vector mean = Vector::Zero();
   Vector sigma = Vector::Zero();
-  double log_evidence = -std::numeric_limits<double>::infinity();
 };
 
 unsigned MaskOf(const WrongGroups& wrong) {
@@ -65,27 +64,38 @@ Vector PriorSigma(unsigned wrong_groups) {
   return sigma;
 }
 
+// The normal equations of a model in units of its prior: I + S H S.
+struct ScaledEquations {
+  ScaledEquations(const CalibrationInformation& information, unsigned wrong_groups)
+      : prior(PriorSigma(wrong_groups)),
+        rhs(prior.cwiseProduct(information.vector)),
+        ldlt(Matrix::Identity() + prior.asDiagonal() * information.matrix * prior.asDiagonal()),
+        solution(ldlt.solve(rhs)) {}
+
+  Vector prior;
+  Vector rhs;
+  Eigen::LDLT<Matrix> ldlt;
+  Vector solution;
+};
+
 Model Solve(const CalibrationInformation& information, unsigned wrong_groups) {
-  const Vector prior = PriorSigma(wrong_groups);
-  // In units of the prior: I + S H S.
-  const Matrix scaled =
-      Matrix::Identity() + prior.asDiagonal() * information.matrix * prior.asDiagonal();
-  const Eigen::LDLT<Matrix> ldlt(scaled);
-  const Vector rhs = prior.asDiagonal() * information.vector;
-  const Vector solution = ldlt.solve(rhs);
-  Model model;
-  model.mean = prior.asDiagonal() * solution;
-  model.sigma = prior.cwiseProduct(
-      ldlt.solve(Matrix::Identity()).diagonal().cwiseMax(0.0).cwiseSqrt().eval());
+  const ScaledEquations scaled(information, wrong_groups);
+  const Matrix inverse = scaled.ldlt.solve(Matrix::Identity());
+  return {scaled.prior.cwiseProduct(scaled.solution),
+          scaled.prior.cwiseProduct(inverse.diagonal().cwiseMax(0.0).cwiseSqrt())};
+}
+
+double LogEvidence(const CalibrationInformation& information, unsigned wrong_groups) {
+  const ScaledEquations scaled(information, wrong_groups);
   double log_determinant = 0.0;
   for (int i = 0; i < Vector::RowsAtCompileTime; ++i) {
-    log_determinant += std::log(std::max(ldlt.vectorD()(i), 1e-12));
+    log_determinant += std::log(std::max(scaled.ldlt.vectorD()(i), 1e-12));
   }
-  model.log_evidence = 0.5 * rhs.dot(solution) - 0.5 * log_determinant;
+  double log_evidence = 0.5 * scaled.rhs.dot(scaled.solution) - 0.5 * log_determinant;
   for (int g = 0; g < kNumCorrectionGroups; ++g) {
-    if ((wrong_groups >> g & 1U) != 0) model.log_evidence += std::log(kPriorOdds);
+    if ((wrong_groups >> g & 1U) != 0) log_evidence += std::log(kPriorOdds);
   }
-  return model;
+  return log_evidence;
 }
 
 }  // namespace
@@ -112,8 +122,10 @@ SensorCorrection::Vector WrongCalibrationSigma() {
 
 CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,
                                        const WrongGroups& wrong) {
-  const Model model = Solve(information, MaskOf(wrong));
-  const Model unrestricted = Solve(information, kNumModels - 1);
+  constexpr unsigned kAllGroups = kNumModels - 1;
+  const Model unrestricted = Solve(information, kAllGroups);
+  const Model model =
+      MaskOf(wrong) == kAllGroups ? unrestricted : Solve(information, MaskOf(wrong));
   CorrectionEstimate estimate;
   estimate.sigma = unrestricted.sigma;
   estimate.is_corrected = wrong;
@@ -131,7 +143,7 @@ CorrectionEstimate SelectCorrections(const CalibrationInformation& information,
                                      const WrongGroups& known_wrong,
                                      const WrongGroups& known_right) {
   std::array<double, kNumModels> evidence;
-  for (unsigned m = 0; m < kNumModels; ++m) evidence[m] = Solve(information, m).log_evidence;
+  for (unsigned m = 0; m < kNumModels; ++m) evidence[m] = LogEvidence(information, m);
   const unsigned known = MaskOf(known_wrong);
   unsigned best = known;
   for (unsigned m = 0; m < kNumModels; ++m) {
