@@ -34,9 +34,10 @@ struct MapSnapshot {
   double readout_time = 0.0;  ///< seconds, of the rolling-shutter compensation of its keyframes
   /// Calibration of its keyframes, which frames must have that are tracked in it; null: unknown.
   std::shared_ptr<const CameraIntrinsics> intrinsics;
-  std::optional<AxesEstimate> axes;  ///< std::nullopt until they are found
-  bool needs_axes = false;           ///< the next keyframe packet shall contain surface normals
-  InactiveMaps inactive_maps;        ///< of older segments that are not joined with this map
+  std::optional<AxesEstimate> axes;     ///< std::nullopt until they are found
+  bool needs_axes = false;              ///< the next keyframe packet shall contain surface normals
+  bool calibration_is_settled = false;  ///< self-calibration needs no further images
+  InactiveMaps inactive_maps;           ///< of older segments that are not joined with this map
 
   /// The map that knows the keyframe; nullptr: none.
   const Map* FindMapOf(KeyframeId keyframe) const {
@@ -46,7 +47,7 @@ struct MapSnapshot {
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive.Fields(*this, map, newest_keyframe, noise_scale, readout_time, intrinsics, axes,
-                   needs_axes, inactive_maps);
+                   needs_axes, calibration_is_settled, inactive_maps);
   }
 };
 using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;

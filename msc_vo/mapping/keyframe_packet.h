@@ -54,7 +54,7 @@ struct KeyframePacket {
   std::optional<CameraVelocity> last_velocity;
   /// Normals of visible surfaces, camera frame; empty if the map already has Manhattan axes.
   std::vector<AxisEvidence> normals;
-  /// For self-calibration: the image of `frame`, and images since the last
+  /// For self-calibration, until it has settled: the image of `frame`, and images since the last
   /// packet. Null: the keyframe takes no part in it.
   std::shared_ptr<const RecordedImage> image;
   std::vector<CalibrationImage> calibration_images;

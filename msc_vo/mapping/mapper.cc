@@ -146,7 +146,10 @@ MapSnapshotPtr Mapper::Snapshot() {
   snapshot->newest_keyframe = newest_keyframe_;
   snapshot->noise_scale = noise_.scale();
   snapshot->readout_time = readout_time_;
-  if (calibration_) snapshot->intrinsics = calibration_->present();
+  if (calibration_) {
+    snapshot->intrinsics = calibration_->present();
+    snapshot->calibration_is_settled = calibration_->IsSettled();
+  }
   snapshot->axes = axes_.Estimate();
   snapshot->needs_axes = options_.axes.enabled && !snapshot->axes;
   return snapshot;
@@ -211,7 +214,7 @@ std::shared_ptr<const Frame> Mapper::Recalibrated(const std::shared_ptr<const Fr
 }
 
 void Mapper::Calibrate(const KeyframePacket& packet, MappingSummary* summary) {
-  if (!calibration_ || packet.image == nullptr) return;
+  if (!calibration_ || (packet.image == nullptr && !calibration_->IsSettled())) return;
   calibration_->SetReadoutTime(readout_time_);
   if (!calibration_->Update(map(), summary->keyframe, packet.image, packet.calibration_images,
                             readout_.sigma())) {

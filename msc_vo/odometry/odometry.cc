@@ -75,6 +75,10 @@ struct Odometry::State {
   void Count(const TrackedFrame& tracked);
   void BeginSegment(SegmentStart start);
   void DiscardSegment();
+  // Whether self-calibration needs the images of this frame.
+  bool NeedsImages() const {
+    return options.mapping.self_calibration && !snapshot->calibration_is_settled;
+  }
   void KeepForCalibration(const TrackedFrame& tracked, const RgbdImage& recorded);
   void SubmitKeyframe(const TrackedFrame& tracked, const RgbdImage& recorded, const cv::Mat& depth);
   void Record(int frame, const MappingStep& step);
@@ -172,16 +176,15 @@ void Odometry::State::DiscardSegment() {
 }
 
 void Odometry::State::KeepForCalibration(const TrackedFrame& tracked, const RgbdImage& recorded) {
-  if (!options.mapping.self_calibration || tracked.keyframe.is_due ||
-      tracked.status != TrackingStatus::kTracked ||
+  if (!NeedsImages() || tracked.keyframe.is_due || tracked.status != TrackingStatus::kTracked ||
       packet.calibration_images.size() >= kMaxCalibrationImages ||
       tracked.frame->timestamp - last_calibration_image_time < kCalibrationImageInterval) {
     return;
   }
   last_calibration_image_time = tracked.frame->timestamp;
-  packet.calibration_images.push_back(
-      {tracked.frame, std::make_shared<RecordedImage>(recorded.gray, recorded.depth),
-       tracked.reference, tracked.cam_from_reference});
+  packet.calibration_images.push_back({tracked.frame,
+                                       std::make_shared<RecordedImage>(cv::Mat(), recorded.depth),
+                                       tracked.reference, tracked.cam_from_reference});
 }
 
 void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const RgbdImage& recorded,
@@ -196,7 +199,7 @@ void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const RgbdImag
   packet.reference = tracked.reference;
   packet.cam_from_reference = tracked.cam_from_reference;
   packet.matches = tracked.matches;
-  if (options.mapping.self_calibration) {
+  if (NeedsImages()) {
     packet.image = std::make_shared<RecordedImage>(recorded.gray, recorded.depth);
   }
   if (snapshot->needs_axes || packet.begins_map) {

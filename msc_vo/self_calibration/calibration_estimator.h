@@ -29,6 +29,9 @@ class CalibrationEstimator {
   /// uncertainty of the readout time of a rolling shutter. Returns true if present() has changed.
   bool Update(const Map& map, KeyframeId newest, const std::shared_ptr<const RecordedImage>& image,
               const std::vector<CalibrationImage>& images, double readout_sigma);
+  /// Whether the colour camera is so certain that Update() needs no further images; they may be
+  /// null then.
+  bool IsSettled() const;
   /// Reports another readout time of a rolling shutter, seconds.
   void SetReadoutTime(double readout_time) { pairs_.SetReadoutTime(readout_time); }
 
@@ -54,8 +57,6 @@ class CalibrationEstimator {
   }
 
  private:
-  // Whether the colour camera is so certain that further images are not looked at.
-  bool IsSettled() const;
   // The given calibration with a correction; null if there can be no such camera.
   std::shared_ptr<const CameraIntrinsics> MakeCorrected(
       const SensorCorrection::Vector& correction) const;
