@@ -21,7 +21,9 @@ namespace {
 constexpr size_t kMaxViews = 24;
 constexpr size_t kMaxPairs = 160;
 constexpr size_t kMaxTested = 400;  // points of a keyframe whose surface is looked for
-constexpr size_t kMaxSamples = 160;
+constexpr size_t kMaxSamples = 180;
+// Of the points without a surface, every n-th is kept: it may have one with another correction.
+constexpr size_t kWithoutStep = 3;
 constexpr size_t kMaxMatches = 100;
 // Of the samples of a keyframe, every n-th tells how much of it an image shows.
 constexpr size_t kRankingStep = 4;
@@ -40,10 +42,9 @@ constexpr double kMinDisplacement = 0.04;
 constexpr double kMinReadoutChange = 0.001;
 constexpr double kLargeReadoutChange = 0.005;
 // A new pair has the pose that was tracked, which the calibration may have distorted; later its
-// pose hardly changes unless its surfaces do.
-constexpr PairIterations kFirstIterations{2, 1};
-constexpr PairIterations kIterations{0, 1};
-constexpr PairIterations kIterationsOfNewSurfaces{1, 1};
+// optimum moves far only if its surfaces do.
+constexpr PairIterations kFirstIterations{2, 2};
+constexpr PairIterations kIterations{0, 2};
 // Distance of the linearisation point that calls for a new one, standard deviations.
 constexpr double kMaxDistance = 0.5;
 // Pairs whose images are kept: a bound of the memory.
@@ -134,14 +135,15 @@ void RecentPairs::AddKeyframe(const Map& map, KeyframeId id,
   const LinearizedCamera camera(camera_, at);
   const size_t count = frame.points.size();
   const size_t step = EvenStep(count);
+  size_t num_without = 0;
   for (size_t i = 0; i < std::min(count, kMaxTested) && view.samples.size() < kMaxSamples; ++i) {
     const size_t feature = i * step % count;
     const PointFeature& point = frame.points[feature];
     if (point.dynamic || !point.HasDepth()) continue;
     Sample sample{static_cast<int>(feature), MakeView(frame, point)};
     const auto surface = FindSurface(camera, *image, sample.view.recorded_pixel);
-    if (!surface) continue;
-    sample.view.surface = *surface;
+    if (!surface && ++num_without % kWithoutStep != 0) continue;
+    sample.view.surface = surface.value_or(InverseDepthPlane());
     view.samples.push_back(sample);
   }
   views_.push_back(std::move(view));
@@ -289,7 +291,7 @@ void RecentPairs::Linearize(const SensorCorrection::Vector& at, PairIterations i
   if (LargestDepthShift(camera_, pair->surfaces_at, at) > kMaxSurfaceShift) {
     if (!pair->image_a) return;
     FindSurfaces(at, pair);
-    iterations = kIterationsOfNewSurfaces;
+    iterations = kFirstIterations;
   }
   pair->information =
       LinearizePair(camera_, WithSurfaces(pair->points), at, iterations, &pair->b_from_a);

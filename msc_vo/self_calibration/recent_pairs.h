@@ -67,7 +67,7 @@ class RecentPairs {
   }
 
  private:
-  // A point of a keyframe on a surface.
+  // A point of a keyframe, most of which are on surfaces.
   struct Sample {
     int feature = 0;
     RgbdPairReprojection::View view;
