@@ -49,9 +49,11 @@ double SquaredShiftRate(const Frame& frame) {
   return rate * rate;
 }
 
+double CommonError(const PinholeCamera& camera) { return kCommonError * camera.FocalLength(); }
+
 double CommonVariance(const PinholeCamera& camera, double squared_shift_rate, double readout_time,
                       double readout_sigma) {
-  const double common_error = kCommonError * camera.FocalLength();
+  const double common_error = CommonError(camera);
   const double by_velocity = kVelocityError * readout_time;
   // Rows are shifted evenly, from the first to the last one.
   const double by_readout = readout_sigma / std::sqrt(12.0);

@@ -18,6 +18,10 @@ RgbdPairReprojection::View MakePairView(const LensDistortion& distortion, const 
 /// it is read out.
 double SquaredShiftRate(const Frame& frame);
 
+/// Standard deviation, pixels, of the error of lens and depth that the points of a pair of images
+/// have in common.
+double CommonError(const PinholeCamera& camera);
+
 /// Variance, pixels^2, of the error that the points of a pair of images have in common: of the
 /// lens, of depth and of the compensation of a rolling shutter. `squared_shift_rate`: sum over both
 /// images. `readout_sigma`: standard deviation of `readout_time` (seconds).

@@ -15,6 +15,7 @@
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/matching/point_matcher.h"
+#include "msc_vo/self_calibration/pair_view.h"
 
 namespace msc_vo {
 
@@ -26,10 +27,10 @@ using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
 // Four matches determine the seven unknowns; more are required as a protection against outliers.
 constexpr int kMinPoints = 30;
-// Search radius, pixels. It exceeds the displacement by fast rotation during the readout, because
+// Search radius, radians. It exceeds the displacement by fast rotation during the readout, because
 // the matches must not depend on the current estimate: the inliers of poses that were estimated
 // without compensation bias the readout time. See docs/lab/self_calibration.md.
-constexpr double kSearchRadius = 20.0;
+constexpr double kSearchRadius = 0.04;
 // The robust iterations find the inliers; the last two use the inliers alone.
 constexpr int kRobustIterations = 3;
 constexpr int kIterations = 5;
@@ -37,10 +38,6 @@ constexpr int kIterations = 5;
 constexpr HuberLoss kLoss{2.448};
 constexpr double kOutlierSigmas = 3.035;
 constexpr double kMedianSigmas = 1.177;
-// Standard deviation, pixels, of the error that all residuals have in common, from errors of the
-// depths, the lens model and the velocities that vary with the row like the readout time.
-// Chosen by measurement, see docs/lab/self_calibration.md.
-constexpr double kCommonError = 0.2;
 // Damping of the readout time, 1/seconds^2: keeps it unchanged if the points do not determine it.
 constexpr double kDamping = 1.0;
 
@@ -51,8 +48,9 @@ struct PointPair {
 
 std::vector<PointPair> MatchKeyframes(const Keyframe& from, const Keyframe& to) {
   std::vector<PointPair> pairs;
+  const double radius = kSearchRadius * to.frame->camera.FocalLength();
   for (const PointMatch& match :
-       MatchFrames(*from.frame, from.cam_from_world, *to.frame, to.cam_from_world, kSearchRadius)) {
+       MatchFrames(*from.frame, from.cam_from_world, *to.frame, to.cam_from_world, radius)) {
     pairs.push_back({&from.frame->points[match.id], &to.frame->points[match.feature]});
   }
   return pairs;
@@ -88,13 +86,15 @@ struct NormalEquations {
     weight += 0.5 * factor * residual.information.trace();
   }
 
-  // Information of the readout time, marginalised over the pose. The common error of the residuals
-  // bounds it: all points together count at most like one point with this sigma.
-  double TimeInformation() const {
+  // Information of the readout time, marginalised over the pose. The variance of the common error
+  // of the residuals, from errors of the depths, the lens model and the velocities that vary with
+  // the row like the readout time, bounds it: all points together count at most like one point with
+  // this variance.
+  double TimeInformation(double common_variance) const {
     const Vector6 coupling = matrix.col(6).head<6>();
     const Vector6 explained = matrix.topLeftCorner<6, 6>().ldlt().solve(coupling);
     const double random = std::max(0.0, matrix(6, 6) - coupling.dot(explained));
-    return random / (1.0 + kCommonError * kCommonError * weight);
+    return random / (1.0 + common_variance * weight);
   }
 };
 
@@ -172,10 +172,11 @@ std::optional<ReadoutTimeEstimate> EstimateReadoutTime(const Keyframe& from, con
   if (pairs.size() < kMinPoints) return std::nullopt;
   PairProblem problem(*from.frame, *to.frame, pairs);
   State state{to.cam_from_world * from.cam_from_world.Inverse(), readout_time};
+  const double common_error = CommonError(to.frame->camera);
   double information = 0.0;
   for (int i = 0; i < kIterations; ++i) {
     NormalEquations equations = problem.Linearize(state, i >= kRobustIterations);
-    information = equations.TimeInformation();
+    information = equations.TimeInformation(common_error * common_error);
     equations.matrix(6, 6) += kDamping;
     const Vector7 step = -equations.matrix.ldlt().solve(equations.gradient);
     if (!step.allFinite()) return std::nullopt;
