@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "msc_vo/camera/image_scale.h"
+
 namespace msc_vo {
 
 namespace {
-
-// Width of the images that lengths in pixels refer to.
-constexpr double kReferenceWidth = 640.0;
 
 // A sensor that measures distance, not disparity. Lengths in pixels.
 void MakeRanging(const DepthSigma& noise, double correlation_length, double edge_gap,
@@ -71,7 +70,7 @@ DepthSensorModel MakeDepthSensorModel(DepthSensor sensor, const SensorNoiseOptio
   model.sensor = sensor == DepthSensor::kAuto ? DepthSensor::kStructuredLight : sensor;
   model.noise = options.inverse_depth_noise;
   model.sigma = {options.inverse_depth_sigma};
-  const double scale = width / kReferenceWidth;
+  const double scale = ImageScale(width);
   if (sensor == DepthSensor::kTimeOfFlight) MakeTimeOfFlight(scale, &model);
   if (sensor == DepthSensor::kStereo) MakeStereo(scale, &model);
   if (sensor == DepthSensor::kLidar) MakeLidar(scale, &model);
