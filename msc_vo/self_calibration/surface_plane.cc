@@ -8,30 +8,37 @@
 
 #include <Eigen/LU>
 
+#include "msc_vo/camera/image_scale.h"
 #include "msc_vo/sensor/sensor_noise.h"
 
 namespace msc_vo {
 
 namespace {
 
-constexpr int kRadius = 3;
-// Of the 49 pixels of the window.
-constexpr int kMinPixels = 35;
+// Radius of the window at an image width of 640 pixels.
+constexpr double kRadius = 3.0;
+// Part of the pixels of the window that must have a depth: 35 of 49.
+constexpr double kMinPixels = 0.71;
 // Largest r.m.s. of the residuals, in units of the noise of a pixel: chi-square with 46 degrees of
-// freedom would allow 1.25 (99 %); the margin covers sensors somewhat worse than their model.
+// freedom would allow 1.25 (99 %), with 22, in small images, 1.35; the margin covers sensors
+// somewhat worse than their model.
 constexpr double kMaxRms = 1.5;
 // Steps to the intersection of a viewing ray with the surface of an unregistered depth image.
 constexpr int kSteps = 2;
 
 template <typename Depth>
-std::optional<InverseDepthPlane> FitPlane(const Depth& depth, const Eigen::Vector2d& pixel) {
+std::optional<InverseDepthPlane> FitPlane(const Depth& depth, int width,
+                                          const Eigen::Vector2d& pixel) {
+  // A wider image has the same number of pixels in its window, at a larger distance.
+  const int step = ReducingStep(width);
+  const int radius = ScaledLength(kRadius / step, width, 2);
   const int center_x = cvRound(pixel.x());
   const int center_y = cvRound(pixel.y());
   double squares = 0.0, sum_w = 0.0, sum_xw = 0.0, sum_yw = 0.0;
   int count = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0, sum_yy = 0;
-  for (int y = -kRadius; y <= kRadius; ++y) {
-    for (int x = -kRadius; x <= kRadius; ++x) {
-      const double w = depth.At(center_x + x, center_y + y);
+  for (int y = -radius; y <= radius; ++y) {
+    for (int x = -radius; x <= radius; ++x) {
+      const double w = depth.At(center_x + step * x, center_y + step * y);
       if (w <= 0.0) continue;
       sum_x += x;
       sum_y += y;
@@ -45,7 +52,7 @@ std::optional<InverseDepthPlane> FitPlane(const Depth& depth, const Eigen::Vecto
       ++count;
     }
   }
-  if (count < kMinPixels) return std::nullopt;
+  if (count < kMinPixels * (2 * radius + 1) * (2 * radius + 1)) return std::nullopt;
   Eigen::Matrix3d matrix;
   matrix << count, sum_x, sum_y, sum_x, sum_xx, sum_xy, sum_y, sum_xy, sum_yy;
   const Eigen::Vector3d rhs(sum_w, sum_xw, sum_yw);
@@ -53,7 +60,7 @@ std::optional<InverseDepthPlane> FitPlane(const Depth& depth, const Eigen::Vecto
   const double variance = std::max(0.0, squares - plane.dot(rhs)) / (count - 3);
   const double limit = kMaxRms * SensorNoiseOptions().inverse_depth_noise;
   if (variance > limit * limit) return std::nullopt;
-  return InverseDepthPlane{{center_x, center_y}, plane.x(), plane.tail<2>()};
+  return InverseDepthPlane{{center_x, center_y}, plane.x(), plane.tail<2>() / step};
 }
 
 template <typename Depth>
@@ -66,7 +73,7 @@ std::optional<InverseDepthPlane> FindPlane(const Depth& depth, const Eigen::Vect
       depth_pixel = at_infinity + w * parallax;
     }
   }
-  return FitPlane(depth, depth_pixel);
+  return FitPlane(depth, camera.camera().width, depth_pixel);
 }
 
 }  // namespace

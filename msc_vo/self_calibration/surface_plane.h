@@ -15,10 +15,10 @@
 
 namespace msc_vo {
 
-/// Fits a plane to the 7x7 pixels of the depth image around the point that belongs to the recorded
-/// colour pixel `pixel` according to `correction`. Returns std::nullopt if pixels are missing or do
-/// not form a plane: beside a depth edge, the surface that a point belongs to depends on the
-/// correction.
+/// Fits a plane to the depth image around the point that belongs to the recorded colour pixel
+/// `pixel` according to `correction`, within 7x7 pixels at an image width of 640. Returns
+/// std::nullopt if pixels are missing or do not form a plane: beside a depth edge, the surface that
+/// a point belongs to depends on the correction.
 std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
                                              const InverseDepthImage& depth,
                                              const Eigen::Vector2d& pixel,
