@@ -26,6 +26,9 @@ class LinearizedCamera {
 
   LinearizedCamera(const CorrectedCamera& camera, const SensorCorrection::Vector& correction);
 
+  /// CorrectedCamera::camera().
+  const PinholeCamera& given() const { return given_; }
+
   /// CorrectedCamera::Pixel() and its derivatives with respect to `x` and the colour camera.
   Eigen::Vector2d Pixel(const Eigen::Vector2d& x) const;
   Eigen::Matrix2d PixelByPoint(const Eigen::Vector2d& x) const;

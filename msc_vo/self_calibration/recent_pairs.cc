@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "msc_vo/camera/image_scale.h"
 #include "msc_vo/matching/point_matcher.h"
 #include "msc_vo/self_calibration/pair_view.h"
 #include "msc_vo/self_calibration/surface_plane.h"
@@ -49,8 +50,8 @@ constexpr PairIterations kIterations{0, 2};
 constexpr double kMaxDistance = 0.5;
 // Pairs whose images are kept: a bound of the memory.
 constexpr size_t kMaxImages = 48;
-// Displacement of the depth image, pixels, by which a surface leaves the window that it was fitted
-// to.
+// Displacement of the depth image, pixels of an image that is 640 wide, by which a surface leaves
+// the window that it was fitted to.
 constexpr double kMaxSurfaceShift = 2.0;
 // Inverse depths at which displacements are measured, 1/metres.
 constexpr double kNear = 1.0;
@@ -87,6 +88,10 @@ size_t StepFor(size_t count, size_t limit) {
 Eigen::Vector2d DepthPixel(const LinearizedCamera& camera, const Eigen::Vector2d& pixel,
                            double inverse_depth) {
   return camera.DepthPixelAtInfinity(pixel) + inverse_depth * camera.parallax();
+}
+
+double MaxSurfaceShift(const CorrectedCamera& camera) {
+  return kMaxSurfaceShift * ImageScale(camera.camera().width);
 }
 
 // Largest displacement (pixels) of what the corners of the colour image show in the depth image.
@@ -259,11 +264,12 @@ std::optional<RecentPairs::Pair> RecentPairs::MakePair(const Map& map, const Key
 
 size_t RecentPairs::FindSurfaces(const SensorCorrection::Vector& at, Pair* pair) const {
   const LinearizedCamera camera(camera_, at);
+  const double max_shift = MaxSurfaceShift(camera_);
   const auto find = [&](const RecordedImage& image, RgbdPairReprojection::View* view) {
     InverseDepthPlane& surface = view->surface;
     const double shift =
         (DepthPixel(camera, view->recorded_pixel, surface.inverse_depth) - surface.pixel).norm();
-    if (surface.inverse_depth > 0.0 && shift < kMaxSurfaceShift) return true;
+    if (surface.inverse_depth > 0.0 && shift < max_shift) return true;
     surface = FindSurface(camera, image, view->recorded_pixel).value_or(InverseDepthPlane());
     return surface.inverse_depth > 0.0;
   };
@@ -288,7 +294,7 @@ void RecentPairs::Linearize(const SensorCorrection::Vector& at, PairIterations i
   pair->at = at;
   pair->readout_time = readout_time_;
   pair->information.reset();
-  if (LargestDepthShift(camera_, pair->surfaces_at, at) > kMaxSurfaceShift) {
+  if (LargestDepthShift(camera_, pair->surfaces_at, at) > MaxSurfaceShift(camera_)) {
     if (!pair->image_a) return;
     FindSurfaces(at, pair);
     iterations = kFirstIterations;

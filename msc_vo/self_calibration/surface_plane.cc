@@ -64,7 +64,8 @@ std::optional<InverseDepthPlane> FitPlane(const Depth& depth, int width,
 }
 
 template <typename Depth>
-std::optional<InverseDepthPlane> FindPlane(const Depth& depth, const Eigen::Vector2d& at_infinity,
+std::optional<InverseDepthPlane> FindPlane(const Depth& depth, int width,
+                                           const Eigen::Vector2d& at_infinity,
                                            const Eigen::Vector2d& parallax) {
   Eigen::Vector2d depth_pixel = at_infinity;
   if (parallax.norm() > 0.0) {
@@ -73,7 +74,7 @@ std::optional<InverseDepthPlane> FindPlane(const Depth& depth, const Eigen::Vect
       depth_pixel = at_infinity + w * parallax;
     }
   }
-  return FitPlane(depth, camera.camera().width, depth_pixel);
+  return FitPlane(depth, width, depth_pixel);
 }
 
 }  // namespace
@@ -84,13 +85,14 @@ std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
                                              const SensorCorrection::Vector& correction) {
   Eigen::Vector2d at_infinity, parallax;
   camera.DepthPixel(pixel, correction.data(), &at_infinity, &parallax);
-  return FindPlane(depth, at_infinity, parallax);
+  return FindPlane(depth, camera.camera().width, at_infinity, parallax);
 }
 
 std::optional<InverseDepthPlane> FindSurface(const LinearizedCamera& camera,
                                              const RecordedImage& depth,
                                              const Eigen::Vector2d& pixel) {
-  return FindPlane(depth, camera.DepthPixelAtInfinity(pixel), camera.parallax());
+  return FindPlane(depth, camera.given().width, camera.DepthPixelAtInfinity(pixel),
+                   camera.parallax());
 }
 
 }  // namespace msc_vo
