@@ -36,6 +36,9 @@ struct SensorCorrection {
     kSize
   };
 
+  /// Number of parameters of the colour camera, the first ones.
+  static constexpr int kColorSize = kDepthFocalLength;
+
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
 

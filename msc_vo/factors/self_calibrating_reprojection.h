@@ -18,10 +18,11 @@ namespace msc_vo {
 ///   r = ((pi(T X) - p) / sigma,   (1 / z - w) / sigma_w),   z = (T X)_z
 ///
 /// T: cam_from_world (block 0, 7). X: map point in the world, metres (block 1, 3). pi: projection
-/// to the recorded image, which depends on the SensorCorrection (block 2). p: recorded pixel. w:
-/// measured inverse depth; the last row is zero where there is none.
+/// to the recorded image, which depends on the first SensorCorrection::kColorSize parameters of the
+/// correction (block 2). p: recorded pixel. w: measured inverse depth; the last row is zero where
+/// there is none.
 class SelfCalibratingReprojection
-    : public CostFunctor<SelfCalibratingReprojection, 3, 7, 3, SensorCorrection::kSize> {
+    : public CostFunctor<SelfCalibratingReprojection, 3, 7, 3, SensorCorrection::kColorSize> {
  public:
   struct Measurement {
     /// Recorded pixel at the time stamp of the image, after rolling-shutter compensation.

@@ -52,8 +52,6 @@ constexpr size_t kLastSize = 60;
 constexpr double kMinShift = 0.1;
 
 constexpr WrongGroups kAll = {true, true, true, true};
-constexpr std::array<CorrectionGroup, 3> kColorGroups = {
-    CorrectionGroup::kFocalLength, CorrectionGroup::kPrincipalPoint, CorrectionGroup::kLens};
 constexpr auto kRegistration = static_cast<size_t>(CorrectionGroup::kDepthRegistration);
 
 // Whether the parameters of a group are certain enough for a correction to be an improvement. What

@@ -18,10 +18,11 @@ namespace {
 using Vector = SensorCorrection::Vector;
 using Matrix = SensorCorrection::Matrix;
 
-// Prior odds of a group to be wrong.
-constexpr double kPriorOdds = 0.1;
 // Posterior odds of the best model to that without any wrong group above which it is accepted.
 constexpr double kAcceptedOdds = 100.0;
+
+// Of parameters that are held, in their units.
+constexpr double kHeldSigma = 1e-6;
 
 constexpr unsigned kNumModels = 1U << kNumCorrectionGroups;
 
@@ -64,13 +65,25 @@ Vector PriorSigma(unsigned wrong_groups) {
   return sigma;
 }
 
+// The same where the colour camera keeps its given values for what is not wrong.
+Vector HoldingPriorSigma(unsigned wrong_groups) {
+  Vector sigma = PriorSigma(wrong_groups);
+  for (const CorrectionGroup group : kColorGroups) {
+    if ((wrong_groups >> static_cast<unsigned>(group) & 1U) != 0) continue;
+    for (const int i : IndicesOf(group)) sigma(i) = kHeldSigma;
+  }
+  return sigma;
+}
+
 // The normal equations of a model in units of its prior: I + S H S.
 struct ScaledEquations {
-  ScaledEquations(const CalibrationInformation& information, unsigned wrong_groups)
-      : prior(PriorSigma(wrong_groups)),
+  ScaledEquations(const CalibrationInformation& information, const Vector& prior_sigma)
+      : prior(prior_sigma),
         rhs(prior.cwiseProduct(information.vector)),
         ldlt(Matrix::Identity() + prior.asDiagonal() * information.matrix * prior.asDiagonal()),
         solution(ldlt.solve(rhs)) {}
+
+  Vector Mean() const { return prior.cwiseProduct(solution); }
 
   Vector prior;
   Vector rhs;
@@ -78,15 +91,14 @@ struct ScaledEquations {
   Vector solution;
 };
 
-Model Solve(const CalibrationInformation& information, unsigned wrong_groups) {
-  const ScaledEquations scaled(information, wrong_groups);
+Model Solve(const CalibrationInformation& information, const Vector& prior_sigma) {
+  const ScaledEquations scaled(information, prior_sigma);
   const Matrix inverse = scaled.ldlt.solve(Matrix::Identity());
-  return {scaled.prior.cwiseProduct(scaled.solution),
-          scaled.prior.cwiseProduct(inverse.diagonal().cwiseMax(0.0).cwiseSqrt())};
+  return {scaled.Mean(), scaled.prior.cwiseProduct(inverse.diagonal().cwiseMax(0.0).cwiseSqrt())};
 }
 
 double LogEvidence(const CalibrationInformation& information, unsigned wrong_groups) {
-  const ScaledEquations scaled(information, wrong_groups);
+  const ScaledEquations scaled(information, PriorSigma(wrong_groups));
   double log_determinant = 0.0;
   for (int i = 0; i < Vector::RowsAtCompileTime; ++i) {
     log_determinant += std::log(std::max(scaled.ldlt.vectorD()(i), 1e-12));
@@ -123,16 +135,20 @@ SensorCorrection::Vector WrongCalibrationSigma() {
 CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,
                                        const WrongGroups& wrong) {
   constexpr unsigned kAllGroups = kNumModels - 1;
-  const Model unrestricted = Solve(information, kAllGroups);
-  const Model model =
-      MaskOf(wrong) == kAllGroups ? unrestricted : Solve(information, MaskOf(wrong));
+  const unsigned mask = MaskOf(wrong);
+  const Model unrestricted = Solve(information, PriorSigma(kAllGroups));
+  const Model model = mask == kAllGroups ? unrestricted : Solve(information, PriorSigma(mask));
+  // What goes best with the given values that are kept. Standard deviations are those of `model`,
+  // which knows that these may be somewhat wrong.
+  const Vector mean = ScaledEquations(information, HoldingPriorSigma(mask)).Mean();
   CorrectionEstimate estimate;
   estimate.sigma = unrestricted.sigma;
   estimate.is_corrected = wrong;
+  estimate.depth_errors = mean.tail<2>();
   for (int g = 0; g < kNumCorrectionGroups; ++g) {
     if (!wrong[g]) continue;
     for (const int i : IndicesOf(static_cast<CorrectionGroup>(g))) {
-      estimate.correction(i) = model.mean(i);
+      estimate.correction(i) = mean(i);
       estimate.sigma(i) = model.sigma(i);
     }
   }

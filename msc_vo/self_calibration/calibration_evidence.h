@@ -13,6 +13,11 @@ namespace msc_vo {
 /// Parts of a calibration that are right or wrong together.
 enum class CorrectionGroup { kFocalLength, kPrincipalPoint, kLens, kDepthRegistration };
 constexpr int kNumCorrectionGroups = 4;
+constexpr std::array<CorrectionGroup, 3> kColorGroups = {
+    CorrectionGroup::kFocalLength, CorrectionGroup::kPrincipalPoint, CorrectionGroup::kLens};
+
+/// Prior odds of a group to be wrong. Where the posterior odds are lower, the images speak for it.
+constexpr double kPriorOdds = 0.1;
 
 /// Posterior odds by the pairs of images from which on a group is a candidate, about which the map
 /// is asked. The largest odds for the focal length of sequences that are described well and
@@ -35,12 +40,15 @@ struct CorrectionEstimate {
   WrongGroups is_corrected = {};
   /// Logarithm of the odds that the group is wrong: best model with it over best model without it.
   std::array<double, kNumCorrectionGroups> log_odds = {};
+  /// Errors of the depth sensor, SensorCorrection::kDepthOffset and kDepthBowl. They belong to no
+  /// group: every model estimates them, and nothing is corrected by them.
+  Eigen::Vector2d depth_errors = Eigen::Vector2d::Zero();
 
   bool IsCorrected() const;
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, correction, sigma, is_corrected, log_odds);
+    archive.Fields(*this, correction, sigma, is_corrected, log_odds, depth_errors);
   }
 };
 
@@ -48,7 +56,8 @@ struct CorrectionEstimate {
 /// that is estimated hardly better than this is not observable.
 SensorCorrection::Vector WrongCalibrationSigma();
 
-/// Estimates the corrections of the model in which exactly the groups `wrong` are wrong.
+/// Estimates the corrections of the model in which exactly the groups `wrong` are wrong: those that
+/// go best with the given values of the colour camera's other groups.
 CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,
                                        const WrongGroups& wrong);
 

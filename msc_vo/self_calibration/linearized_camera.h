@@ -17,9 +17,7 @@ namespace msc_vo {
 /// is computed once.
 class LinearizedCamera {
  public:
-  /// The parameters of the colour camera are the first ones of SensorCorrection, those of depth the
-  /// others.
-  static constexpr int kColorSize = SensorCorrection::kDepthFocalLength;
+  static constexpr int kColorSize = SensorCorrection::kColorSize;
   static constexpr int kDepthSize = SensorCorrection::kSize - kColorSize;
   using ColorJacobian = Eigen::Matrix<double, 2, kColorSize>;
   using DepthJacobian = Eigen::Matrix<double, 1, kDepthSize>;

@@ -29,8 +29,8 @@ namespace msc_vo {
 namespace {
 
 using S = SensorCorrection;
-using Vector = SensorCorrection::Vector;
-using Matrix = SensorCorrection::Matrix;
+constexpr int kSize = S::kColorSize;
+using Vector = Eigen::Matrix<double, kSize, 1>;
 
 // Bounds of the computing time.
 constexpr size_t kMaxObservations = 6000;
@@ -48,8 +48,6 @@ constexpr double kLoss = 2.795;
 // Relative error of depth: also what a wrong registration to colour, or an error that depends on
 // the distance or the place in the image, amounts to.
 constexpr double kDepthError = 0.1;
-// Of parameters that are not estimated, in their units.
-constexpr double kFixedSigma = 1e-6;
 // Damping of poses and points when they are marginalised, relative to their information: it bounds
 // what hardly anything determines.
 constexpr double kDamping = 1e-6;
@@ -121,13 +119,13 @@ SelfCalibratingReprojection::Measurement MeasurementOf(const Keyframe& keyframe,
   return measurement;
 }
 
-// Poses and points of a map, and the correction that all of them share. Ceres orders the blocks by
-// address: they are elements of vectors, so that the result does not depend on the allocator.
+// Poses and points of a map, and the correction of the colour camera that all of them share. Ceres
+// orders the blocks by address: they are elements of vectors, so that the result does not depend on
+// the allocator.
 class SelfCalibrationProblem {
  public:
   SelfCalibrationProblem(const CameraIntrinsics& given, const Map& map, const Vector& start)
       : camera_(given.camera, given.distortion), correction_(start) {
-    correction_.tail(S::kSize - S::kK2 - 1).setZero();
     const std::vector<LandmarkId> points = SelectPoints(map);
     const std::set<KeyframeId> keyframes = SelectKeyframes(map, points);
     for (const KeyframeId id : keyframes) {
@@ -196,9 +194,8 @@ class SelfCalibrationProblem {
 
   // Keeps near zero what the observations do not determine.
   void AddPrior() {
-    Vector sigma = WrongCalibrationSigma();
-    for (int i = S::kK2 + 1; i < S::kSize; ++i) sigma(i) = kFixedSigma;
-    const Matrix inverse = sigma.cwiseInverse().asDiagonal();
+    const Eigen::MatrixXd inverse =
+        WrongCalibrationSigma().head<kSize>().cwiseInverse().asDiagonal();
     problem_.AddResidualBlock(new ceres::NormalPrior(inverse, Vector::Zero()), nullptr,
                               correction_.data());
   }
@@ -230,7 +227,6 @@ class SelfCalibrationProblem {
   // The correction is in the last columns of the Jacobian.
   std::optional<CalibrationInformation> EliminateOthers(const Eigen::SparseMatrix<double>& jacobian,
                                                         const Eigen::VectorXd& gradient) const {
-    constexpr int kSize = SensorCorrection::kSize;
     const Eigen::Index num_others = jacobian.cols() - kSize;
     const Eigen::SparseMatrix<double> others = jacobian.leftCols(num_others);
     const Eigen::MatrixXd shared = jacobian.rightCols(kSize);
@@ -240,11 +236,13 @@ class SelfCalibrationProblem {
     if (ldlt.info() != Eigen::Success) return std::nullopt;
     const Eigen::MatrixXd coupling = others.transpose() * shared;
     const Eigen::MatrixXd solution = ldlt.solve(coupling);
+    Eigen::Matrix<double, kSize, kSize> matrix =
+        shared.transpose() * shared - coupling.transpose() * solution;
+    matrix = (0.5 * (matrix + matrix.transpose())).eval();
     CalibrationInformation information;
-    information.matrix = shared.transpose() * shared - coupling.transpose() * solution;
-    information.matrix = (0.5 * (information.matrix + information.matrix.transpose())).eval();
-    information.vector = information.matrix * correction_ - gradient.tail<kSize>() +
-                         solution.transpose() * gradient.head(num_others);
+    information.matrix.topLeftCorner<kSize, kSize>() = matrix;
+    information.vector.head<kSize>() = matrix * correction_ - gradient.tail<kSize>() +
+                                       solution.transpose() * gradient.head(num_others);
     if (!information.matrix.allFinite() || !information.vector.allFinite()) return std::nullopt;
     return information;
   }
@@ -271,7 +269,7 @@ class SelfCalibrationProblem {
 
 std::optional<CalibrationInformation> SelfCalibratingBundleAdjustment(
     const CameraIntrinsics& given, const Map& map, const SensorCorrection::Vector& start) {
-  SelfCalibrationProblem problem(given, map, start);
+  SelfCalibrationProblem problem(given, map, start.head<kSize>());
   if (problem.num_observations() < kMinObservations || !problem.Solve()) return std::nullopt;
   return problem.Marginalize();
 }

@@ -28,7 +28,8 @@ struct Example {
     return CostPtr(SelfCalibratingReprojection::Create(kCorrectedCamera, measurement));
   }
   std::vector<std::vector<double>> Blocks() const {
-    return {Block(cam_from_world), Block(point), Block(correction)};
+    return {Block(cam_from_world), Block(point),
+            std::vector<double>(correction.data(), correction.data() + S::kColorSize)};
   }
 
   RandomGeometry random;

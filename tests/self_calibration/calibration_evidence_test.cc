@@ -3,6 +3,8 @@
 
 #include "msc_vo/self_calibration/calibration_evidence.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace msc_vo {
@@ -52,6 +54,37 @@ TEST(CalibrationEvidence, ObeysWhatIsKnown) {
   EXPECT_EQ(SelectCorrections(information, lens).is_corrected,
             (WrongGroups{true, false, true, false}));
   EXPECT_FALSE(SelectCorrections(information, {}, focal).IsCorrected());
+}
+
+TEST(CalibrationEvidence, CorrectsWhatGoesBestWithTheGivenValuesThatAreKept) {
+  // A principal point that is off by 0.03, which the images tell only together with the focal
+  // length: 0.028 goes best with a focal length that is 0.4 % off, which is kept.
+  auto information = Measured({{S::kCenterX, {0.028, 0.001}}, {S::kFocalLength, {0.004, 0.002}}});
+  const double coupling = -0.5 * std::sqrt(information.matrix(S::kCenterX, S::kCenterX) *
+                                           information.matrix(S::kFocalLength, S::kFocalLength));
+  information.matrix(S::kCenterX, S::kFocalLength) = coupling;
+  information.matrix(S::kFocalLength, S::kCenterX) = coupling;
+  information.vector(S::kCenterX) += coupling * 0.004;
+  information.vector(S::kFocalLength) += coupling * 0.028;
+  const WrongGroups center = {false, true, false, false};
+  const CorrectionEstimate estimate = EstimateCorrections(information, center);
+  const double held =
+      information.vector(S::kCenterX) / information.matrix(S::kCenterX, S::kCenterX);
+  EXPECT_NEAR(estimate.correction(S::kCenterX), held, 1e-4);
+  EXPECT_EQ(estimate.correction(S::kFocalLength), 0.0);
+  // The given value may be somewhat wrong.
+  EXPECT_GT(estimate.sigma(S::kCenterX), 0.00105);
+}
+
+TEST(CalibrationEvidence, EstimatesTheErrorsOfTheDepthSensorInEveryModel) {
+  const auto information =
+      Measured({{S::kDepthOffset, {0.004, 0.0005}}, {S::kDepthBowl, {0.03, 0.005}}});
+  const CorrectionEstimate estimate = SelectCorrections(information);
+  EXPECT_FALSE(estimate.IsCorrected());
+  EXPECT_EQ(estimate.correction, S::Vector(S::Vector::Zero()));
+  EXPECT_NEAR(estimate.depth_errors.x(), 0.004, 2e-4);
+  EXPECT_NEAR(estimate.depth_errors.y(), 0.03, 1e-3);
+  EXPECT_NEAR(estimate.sigma(S::kDepthOffset), 0.0005, 1e-5);
 }
 
 }  // namespace
