@@ -53,7 +53,7 @@ std::optional<CalibrationInformation> CalibrationPair::Linearize(
     const SensorCorrection::Vector& correction) const {
   Rigid3 b_from_a = b_->cam_from_world * a_->cam_from_world.Inverse();
   const auto information =
-      LinearizePair(camera_, PointsWithSurfaces(correction), correction, {}, &b_from_a);
+      LinearizePair(camera_, PointsWithSurfaces(correction), correction, &b_from_a);
   if (!information) return std::nullopt;
   const double squared_shift_rate = SquaredShiftRate(*a_->frame) + SquaredShiftRate(*b_->frame);
   return WithCommonError(*information, CommonVariance(camera_.camera(), squared_shift_rate,
@@ -64,7 +64,7 @@ std::vector<PairResidual> CalibrationPair::Residuals(
     const SensorCorrection::Vector& correction) const {
   const std::vector<CalibrationPoint> points = PointsWithSurfaces(correction);
   Rigid3 b_from_a = b_->cam_from_world * a_->cam_from_world.Inverse();
-  if (!LinearizePair(camera_, points, correction, {}, &b_from_a)) return {};
+  if (!LinearizePair(camera_, points, correction, &b_from_a)) return {};
   std::vector<PairResidual> residuals;
   for (const CalibrationPoint& point : points) {
     const RgbdPairReprojection factor(camera_, point.a, point.b, Eigen::Matrix3d::Identity());

@@ -23,6 +23,9 @@ constexpr int kSize = SensorCorrection::kSize;
 constexpr int kPoseSize = 6;
 // Six unknowns of the pose need a few points; more are required as a protection against outliers.
 constexpr size_t kMinPoints = 30;
+// The robust iterations find the inliers; the last ones use the inliers alone.
+constexpr int kRobustIterations = 2;
+constexpr int kIterations = 4;
 // Square roots of the 95 %, 99 % and 50 % quantiles of chi-square with two, three and three degrees
 // of freedom.
 constexpr HuberLoss kLoss{2.448};
@@ -276,15 +279,14 @@ CalibrationInformation WithCommonError(CalibrationInformation information, doubl
 std::optional<CalibrationInformation> LinearizePair(const CorrectedCamera& camera,
                                                     const std::vector<CalibrationPoint>& points,
                                                     const SensorCorrection::Vector& correction,
-                                                    const PairIterations& iterations,
                                                     Rigid3* b_from_a) {
   if (points.size() < kMinPoints) return std::nullopt;
   PairProblem problem(camera, points, correction, *b_from_a);
   Rigid3 pose = *b_from_a;
-  for (int i = 0; i < iterations.robust + iterations.inliers; ++i) {
+  for (int i = 0; i < kIterations; ++i) {
     problem.SetPose(pose);
     const NormalEquations equations =
-        i < iterations.robust ? problem.SumRobustly() : problem.SumInliers(false);
+        i < kRobustIterations ? problem.SumRobustly() : problem.SumInliers(false);
     const PoseVector step = -equations.pose.ldlt().solve(equations.pose_gradient);
     if (!step.allFinite()) return std::nullopt;
     pose = Rigid3(ExpSO3(step.head<3>()), step.tail<3>()) * pose;

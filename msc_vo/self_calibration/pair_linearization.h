@@ -51,21 +51,12 @@ struct CalibrationInformation {
 /// of them together count at most like one point with `common_variance` (pixels^2).
 CalibrationInformation WithCommonError(CalibrationInformation information, double common_variance);
 
-/// Iterations for the relative pose of a pair of images: the robust ones find the inliers, the
-/// others use these alone. One more step is implied by the linearisation itself, which need not be
-/// at the optimum of the pose.
-struct PairIterations {
-  int robust = 2;
-  int inliers = 2;
-};
-
 /// Optimises the relative pose of a pair of images for a given correction, beginning with
 /// `b_from_a`, where the points are weighted, and linearises around both. The errors of the points
 /// count as independent. Returns std::nullopt if there are fewer than 30 points.
 std::optional<CalibrationInformation> LinearizePair(const CorrectedCamera& camera,
                                                     const std::vector<CalibrationPoint>& points,
                                                     const SensorCorrection::Vector& correction,
-                                                    const PairIterations& iterations,
                                                     Rigid3* b_from_a);
 
 }  // namespace msc_vo

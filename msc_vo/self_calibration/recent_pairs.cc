@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
 #include "msc_vo/camera/image_scale.h"
@@ -21,15 +20,8 @@ namespace {
 // Bounds of memory and of computing time.
 constexpr size_t kMaxViews = 24;
 constexpr size_t kMaxPairs = 160;
-constexpr size_t kMaxTested = 400;  // points of a keyframe whose surface is looked for
-constexpr size_t kMaxSamples = 180;
-// Of the points without a surface, every n-th is kept: it may have one with another correction.
-constexpr size_t kWithoutStep = 3;
+constexpr size_t kMaxSamples = 300;
 constexpr size_t kMaxMatches = 100;
-// Of the samples of a keyframe, every n-th tells how much of it an image shows.
-constexpr size_t kRankingStep = 4;
-// Keyframes that an image may form a pair with, in vain, before it takes no part.
-constexpr size_t kMaxAttempts = 3;
 // Points with surfaces: most that are used, and fewest that make a pair worth its time.
 constexpr size_t kMaxPoints = 60;
 constexpr size_t kMinPoints = 40;
@@ -42,10 +34,6 @@ constexpr double kMinDisplacement = 0.04;
 // Seconds; as for the compensation of keyframes.
 constexpr double kMinReadoutChange = 0.001;
 constexpr double kLargeReadoutChange = 0.005;
-// A new pair has the pose that was tracked, which the calibration may have distorted; later its
-// optimum moves far only if its surfaces do.
-constexpr PairIterations kFirstIterations{2, 2};
-constexpr PairIterations kIterations{0, 2};
 // Distance of the linearisation point that calls for a new one, standard deviations.
 constexpr double kMaxDistance = 0.5;
 // Pairs whose images are kept: a bound of the memory.
@@ -65,48 +53,34 @@ bool HasSurfaces(const CalibrationPoint& point) {
   return point.a.surface.inverse_depth > 0.0 && point.b.surface.inverse_depth > 0.0;
 }
 
+// The points with surfaces, or an even choice of them.
 std::vector<CalibrationPoint> WithSurfaces(const std::vector<CalibrationPoint>& points) {
   std::vector<CalibrationPoint> found;
-  found.reserve(points.size());
   std::copy_if(points.begin(), points.end(), std::back_inserter(found), HasSurfaces);
+  const size_t count = std::min(found.size(), kMaxPoints);
+  for (size_t i = 0; i < count; ++i) found[i] = found[i * found.size() / count];
+  found.resize(count);
   return found;
 }
 
-// Step with which all of `count` elements, in a circle, are visited so that the first ones are an
-// even choice: near the golden section.
-size_t EvenStep(size_t count) {
-  size_t step = std::max<size_t>(1, count * 5 / 8);
-  while (std::gcd(step, count) > 1) ++step;
-  return step;
-}
-
-// A step through `count` elements that visits at most `limit` of them.
-size_t StepFor(size_t count, size_t limit) {
-  return std::max<size_t>(1, (count + limit - 1) / limit);
-}
-
-Eigen::Vector2d DepthPixel(const LinearizedCamera& camera, const Eigen::Vector2d& pixel,
+Eigen::Vector2d DepthPixel(const CorrectedCamera& camera,
+                           const SensorCorrection::Vector& correction, const Eigen::Vector2d& pixel,
                            double inverse_depth) {
-  return camera.DepthPixelAtInfinity(pixel) + inverse_depth * camera.parallax();
-}
-
-double MaxSurfaceShift(const CorrectedCamera& camera) {
-  return kMaxSurfaceShift * ImageScale(camera.camera().width);
+  Eigen::Vector2d at_infinity, parallax;
+  camera.DepthPixel(pixel, correction.data(), &at_infinity, &parallax);
+  return at_infinity + inverse_depth * parallax;
 }
 
 // Largest displacement (pixels) of what the corners of the colour image show in the depth image.
-double LargestDepthShift(const CorrectedCamera& corrected, const SensorCorrection::Vector& from,
+double LargestDepthShift(const CorrectedCamera& camera, const SensorCorrection::Vector& from,
                          const SensorCorrection::Vector& to) {
-  const LinearizedCamera camera(corrected, from);
-  const LinearizedCamera other(corrected, to);
-  const PinholeCamera& image = corrected.camera();
   double shift = 0.0;
   for (const double w : {kNear, kFar}) {
-    for (const int x : {0, image.width}) {
-      for (const int y : {0, image.height}) {
+    for (const int x : {0, camera.camera().width}) {
+      for (const int y : {0, camera.camera().height}) {
         const Eigen::Vector2d pixel(x, y);
-        shift =
-            std::max(shift, (DepthPixel(camera, pixel, w) - DepthPixel(other, pixel, w)).norm());
+        shift = std::max(
+            shift, (DepthPixel(camera, from, pixel, w) - DepthPixel(camera, to, pixel, w)).norm());
       }
     }
   }
@@ -137,19 +111,11 @@ void RecentPairs::AddKeyframe(const Map& map, KeyframeId id,
   const Frame& frame = *keyframe.frame;
   AddPair(map, {&frame, image, keyframe.cam_from_world}, at);
   KeyframeView view{id, {}, SquaredShiftRate(frame), image};
-  const LinearizedCamera camera(camera_, at);
-  const size_t count = frame.points.size();
-  const size_t step = EvenStep(count);
-  size_t num_without = 0;
-  for (size_t i = 0; i < std::min(count, kMaxTested) && view.samples.size() < kMaxSamples; ++i) {
-    const size_t feature = i * step % count;
-    const PointFeature& point = frame.points[feature];
+  const size_t step = std::max<size_t>(1, frame.points.size() / kMaxSamples);
+  for (size_t i = 0; i < frame.points.size(); i += step) {
+    const PointFeature& point = frame.points[i];
     if (point.dynamic || !point.HasDepth()) continue;
-    Sample sample{static_cast<int>(feature), MakeView(frame, point)};
-    const auto surface = FindSurface(camera, *image, sample.view.recorded_pixel);
-    if (!surface && ++num_without % kWithoutStep != 0) continue;
-    sample.view.surface = surface.value_or(InverseDepthPlane());
-    view.samples.push_back(sample);
+    view.samples.push_back({static_cast<int>(i), MakeView(frame, point)});
   }
   views_.push_back(std::move(view));
   if (views_.size() > kMaxViews) views_.pop_front();
@@ -166,9 +132,7 @@ void RecentPairs::SetReadoutTime(double readout_time) {
       Compensate(readout_time, &point.a);
       Compensate(readout_time, &point.b);
     }
-    if (std::abs(readout_time - pair.readout_time) > kLargeReadoutChange) {
-      Linearize(pair.at, kIterations, &pair);
-    }
+    if (std::abs(readout_time - pair.readout_time) > kLargeReadoutChange) Linearize(pair.at, &pair);
   }
 }
 
@@ -191,27 +155,26 @@ void RecentPairs::AddPair(const Map& map, const Partner& partner,
     const Rigid3 b_from_a = partner.cam_from_world * keyframe->cam_from_world.Inverse();
     double sum = 0.0;
     size_t count = 0;
-    for (size_t i = 0; i < view.samples.size(); i += kRankingStep) {
-      const PointFeature& point = frame.points[view.samples[i].feature];
-      if (!point.HasDepth()) continue;
-      const Eigen::Vector3d in_b = b_from_a * frame.PointInCamera(view.samples[i].feature);
+    for (const Sample& sample : view.samples) {
+      if (!frame.points[sample.feature].HasDepth()) continue;
+      const Eigen::Vector3d in_b = b_from_a * frame.PointInCamera(sample.feature);
       if (in_b.z() < 0.1) continue;
       const Eigen::Vector2d pixel = frame.camera.Project(in_b);
       if (!frame.camera.IsInside(pixel)) continue;
-      const double pixels = (pixel - point.pixel).norm();
+      const double pixels = (pixel - frame.points[sample.feature].pixel).norm();
       sum += std::min(pixels / focal_length, kMaxDisplacement);
       ++count;
     }
-    if (kRankingStep * count >= kMinPoints && sum > kMinDisplacement * static_cast<double>(count)) {
+    if (count >= kMinPoints && sum > kMinDisplacement * static_cast<double>(count)) {
       ranked.emplace_back(-sum, &view);
     }
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (size_t i = 0; i < std::min(ranked.size(), kMaxAttempts); ++i) {
-    std::optional<Pair> pair = MakePair(map, *ranked[i].second, partner, at);
+  for (const auto& [score, view] : ranked) {
+    std::optional<Pair> pair = MakePair(map, *view, partner, at);
     if (!pair) continue;
-    Linearize(at, kFirstIterations, &*pair);
+    Linearize(at, &*pair);
     pairs_.push_back(std::move(*pair));
     ++num_added_;
     if (pairs_.size() > kMaxPairs) pairs_.pop_front();
@@ -246,7 +209,7 @@ std::optional<RecentPairs::Pair> RecentPairs::MakePair(const Map& map, const Key
   Pair pair;
   const double radius = kSearchRadius * to.camera.FocalLength();
   const auto matches = MatchPoints({}, to, candidates, radius, {});
-  const size_t step = StepFor(matches.size(), kMaxMatches);
+  const size_t step = std::max<size_t>(1, matches.size() / kMaxMatches);
   for (size_t i = 0; i < matches.size(); i += step) {
     const Sample& sample = view.samples[matches[i].id];
     const PointFeature& in_a = from.points[sample.feature];
@@ -256,51 +219,35 @@ std::optional<RecentPairs::Pair> RecentPairs::MakePair(const Map& map, const Key
   }
   pair.image_a = view.image;
   pair.image_b = partner.image;
-  if (FindSurfaces(at, &pair) < kMinPoints) return std::nullopt;
+  FindSurfaces(at, &pair);
+  if (WithSurfaces(pair.points).size() < kMinPoints) return std::nullopt;
   pair.b_from_a = partner.cam_from_world * world_from_cam;
   pair.squared_shift_rate = view.squared_shift_rate + SquaredShiftRate(to);
   return pair;
 }
 
-size_t RecentPairs::FindSurfaces(const SensorCorrection::Vector& at, Pair* pair) const {
+void RecentPairs::FindSurfaces(const SensorCorrection::Vector& at, Pair* pair) const {
   const LinearizedCamera camera(camera_, at);
-  const double max_shift = MaxSurfaceShift(camera_);
   const auto find = [&](const RecordedImage& image, RgbdPairReprojection::View* view) {
-    InverseDepthPlane& surface = view->surface;
-    const double shift =
-        (DepthPixel(camera, view->recorded_pixel, surface.inverse_depth) - surface.pixel).norm();
-    if (surface.inverse_depth > 0.0 && shift < max_shift) return true;
-    surface = FindSurface(camera, image, view->recorded_pixel).value_or(InverseDepthPlane());
-    return surface.inverse_depth > 0.0;
+    view->surface = FindSurface(camera, image, view->recorded_pixel).value_or(InverseDepthPlane());
   };
-  std::vector<CalibrationPoint>& points = pair->points;
-  const size_t step = EvenStep(points.size());
-  size_t num_found = 0;
-  for (size_t i = 0; i < points.size(); ++i) {
-    CalibrationPoint& point = points[i * step % points.size()];
-    if (num_found < kMaxPoints && find(*pair->image_a, &point.a) &&
-        find(*pair->image_b, &point.b)) {
-      ++num_found;
-    } else {
-      point.a.surface = {};
-    }
+  for (CalibrationPoint& point : pair->points) {
+    find(*pair->image_a, &point.a);
+    find(*pair->image_b, &point.b);
   }
   pair->surfaces_at = at;
-  return num_found;
 }
 
-void RecentPairs::Linearize(const SensorCorrection::Vector& at, PairIterations iterations,
-                            Pair* pair) const {
+void RecentPairs::Linearize(const SensorCorrection::Vector& at, Pair* pair) const {
   pair->at = at;
   pair->readout_time = readout_time_;
   pair->information.reset();
-  if (LargestDepthShift(camera_, pair->surfaces_at, at) > MaxSurfaceShift(camera_)) {
+  const double max_shift = kMaxSurfaceShift * ImageScale(camera_.camera().width);
+  if (LargestDepthShift(camera_, pair->surfaces_at, at) > max_shift) {
     if (!pair->image_a) return;
     FindSurfaces(at, pair);
-    iterations = kFirstIterations;
   }
-  pair->information =
-      LinearizePair(camera_, WithSurfaces(pair->points), at, iterations, &pair->b_from_a);
+  pair->information = LinearizePair(camera_, WithSurfaces(pair->points), at, &pair->b_from_a);
 }
 
 double RecentPairs::Distance(const Pair& pair, const SensorCorrection::Vector& at,
@@ -318,9 +265,7 @@ void RecentPairs::Relinearize(const SensorCorrection::Vector& at,
   }
   std::stable_sort(stale.begin(), stale.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (size_t i = 0; i < std::min(stale.size(), max_pairs); ++i) {
-    Linearize(at, kIterations, stale[i].second);
-  }
+  for (size_t i = 0; i < std::min(stale.size(), max_pairs); ++i) Linearize(at, stale[i].second);
 }
 
 CalibrationInformation RecentPairs::Sum(double readout_sigma) const {

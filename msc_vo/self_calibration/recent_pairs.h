@@ -67,7 +67,7 @@ class RecentPairs {
   }
 
  private:
-  // A point of a keyframe, most of which are on surfaces.
+  // A point of a keyframe, without its surface.
   struct Sample {
     int feature = 0;
     RgbdPairReprojection::View view;
@@ -89,7 +89,7 @@ class RecentPairs {
     }
   };
   struct Pair {
-    std::vector<CalibrationPoint> points;  // some have no surface in image a
+    std::vector<CalibrationPoint> points;  // some have no surface
     Rigid3 b_from_a;
     double squared_shift_rate = 0.0;  // sum over both images
     // Null once the pair is old: surfaces are not looked for again.
@@ -118,10 +118,9 @@ class RecentPairs {
   void AddPair(const Map& map, const Partner& partner, const SensorCorrection::Vector& at);
   std::optional<Pair> MakePair(const Map& map, const KeyframeView& view, const Partner& partner,
                                const SensorCorrection::Vector& at) const;
-  // Looks for surfaces of as many points as are used where the correction says that they are.
-  // Returns their number.
-  size_t FindSurfaces(const SensorCorrection::Vector& at, Pair* pair) const;
-  void Linearize(const SensorCorrection::Vector& at, PairIterations iterations, Pair* pair) const;
+  // Looks for the surfaces of all points where the correction says that they are.
+  void FindSurfaces(const SensorCorrection::Vector& at, Pair* pair) const;
+  void Linearize(const SensorCorrection::Vector& at, Pair* pair) const;
   // How far from `at` and from the readout time the pair was linearised; above 1: too far.
   double Distance(const Pair& pair, const SensorCorrection::Vector& at,
                   const SensorCorrection::Vector& sigma) const;
