@@ -80,15 +80,46 @@ std::vector<Row> RowsOf(const CalibrationReport& report) {
   };
 }
 
+// Errors of the depth sensor: every estimate contains them, and nothing is corrected by them.
+struct DepthError {
+  const char* name;
+  const char* key;
+  const char* unit;
+  double estimated;
+  double sigma;
+  const char* verdict;
+};
+
+bool IsObservable(S::Index index, const CalibrationReport& report) {
+  return report.refinement.sigma(index) < kUnobservable * WrongCalibrationSigma()(index);
+}
+
+std::vector<DepthError> DepthErrorsOf(const CalibrationReport& report) {
+  const CorrectionEstimate& refinement = report.refinement;
+  const auto make = [&](const char* name, const char* key, const char* unit, S::Index index) {
+    const bool is_observable = IsObservable(index, report);
+    return DepthError{name,
+                      key,
+                      unit,
+                      refinement.depth_errors(index - S::kDepthOffset),
+                      refinement.sigma(index),
+                      is_observable ? "not corrected" : "not observable"};
+  };
+  return {make("depth offset", "depth_offset", "1/m", S::kDepthOffset),
+          make("depth error by radius", "depth_radial_error", "", S::kDepthBowl)};
+}
+
+std::string NameWithUnit(const char* name, const char* unit) {
+  return name + (*unit ? std::string(", ") + unit : std::string());
+}
+
 const char* VerdictOf(const Row& row, const CalibrationReport& report) {
   const auto g = static_cast<size_t>(row.group);
   if (report.refinement.is_corrected[g]) return "corrected";
   if (row.group == CorrectionGroup::kDepthRegistration && report.edges_contradict) {
     return "kept: the edges contradict";
   }
-  const bool is_observable =
-      report.refinement.sigma(row.index) < kUnobservable * WrongCalibrationSigma()(row.index);
-  return is_observable ? "kept" : "kept: not observable";
+  return IsObservable(row.index, report) ? "kept" : "kept: not observable";
 }
 
 using Residuals = std::vector<CalibrationResidual>;
@@ -142,11 +173,15 @@ std::string LensYaml(const LensDistortion& lens, const std::string& indent) {
 std::string FormatCalibrationTable(const CalibrationReport& report) {
   std::string text = FormatText("%d images, %d pairs of images with points in common\n",
                                 report.num_views, report.num_pairs);
-  text += FormatText("%-20s %12s %12s %10s  %s\n", "", "given", "estimated", "+-", "verdict");
+  text += FormatText("%-21s %12s %12s %10s  %s\n", "", "given", "estimated", "+-", "verdict");
   for (const Row& row : RowsOf(report)) {
-    const std::string name = row.name + (*row.unit ? std::string(", ") + row.unit : std::string());
-    text += FormatText("%-20s %12.4f %12.4f %10.4f  %s\n", name.c_str(), row.given, row.estimated,
-                       row.sigma, VerdictOf(row, report));
+    text += FormatText("%-21s %12.4f %12.4f %10.4f  %s\n", NameWithUnit(row.name, row.unit).c_str(),
+                       row.given, row.estimated, row.sigma, VerdictOf(row, report));
+  }
+  for (const DepthError& error : DepthErrorsOf(report)) {
+    text +=
+        FormatText("%-21s %12s %12.4f %10.4f  %s\n", NameWithUnit(error.name, error.unit).c_str(),
+                   "", error.estimated, error.sigma, error.verdict);
   }
   if (!report.residuals.given.empty()) {
     text += "median reprojection error " + PixelsText(report.residuals) + ", depth error " +
@@ -167,6 +202,12 @@ std::string FormatCalibrationJson(const CalibrationReport& report) {
                            {"sigma", row.sigma},
                            {"verdict", VerdictOf(row, report)},
                            {"log_odds", report.log_odds[static_cast<size_t>(row.group)]}};
+  }
+  for (const DepthError& error : DepthErrorsOf(report)) {
+    parameters[error.key] = {{"unit", error.unit},
+                             {"estimated", error.estimated},
+                             {"sigma", error.sigma},
+                             {"verdict", error.verdict}};
   }
   const nlohmann::ordered_json json = {
       {"images", report.num_views},
@@ -191,6 +232,11 @@ PlotPage CalibrationPage(const CalibrationReport& report, const std::string& tit
     page.numbers.push_back(
         {row.name, FormatText("%.6g", row.estimated) + unit,
          FormatText("given %.6g, +- %.2g; ", row.given, row.sigma) + VerdictOf(row, report)});
+  }
+  for (const DepthError& error : DepthErrorsOf(report)) {
+    const std::string unit = *error.unit ? std::string(" ") + error.unit : std::string();
+    page.numbers.push_back({error.name, FormatText("%.4f", error.estimated) + unit,
+                            FormatText("+- %.4f; ", error.sigma) + error.verdict});
   }
   return page;
 }
