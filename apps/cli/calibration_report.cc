@@ -173,14 +173,14 @@ std::string LensYaml(const LensDistortion& lens, const std::string& indent) {
 std::string FormatCalibrationTable(const CalibrationReport& report) {
   std::string text = FormatText("%d images, %d pairs of images with points in common\n",
                                 report.num_views, report.num_pairs);
-  text += FormatText("%-21s %12s %12s %10s  %s\n", "", "given", "estimated", "+-", "verdict");
+  text += FormatText("%-26s %12s %12s %10s  %s\n", "", "given", "estimated", "+-", "verdict");
   for (const Row& row : RowsOf(report)) {
-    text += FormatText("%-21s %12.4f %12.4f %10.4f  %s\n", NameWithUnit(row.name, row.unit).c_str(),
+    text += FormatText("%-26s %12.4f %12.4f %10.4f  %s\n", NameWithUnit(row.name, row.unit).c_str(),
                        row.given, row.estimated, row.sigma, VerdictOf(row, report));
   }
   for (const DepthError& error : DepthErrorsOf(report)) {
     text +=
-        FormatText("%-21s %12s %12.4f %10.4f  %s\n", NameWithUnit(error.name, error.unit).c_str(),
+        FormatText("%-26s %12s %12.4f %10.4f  %s\n", NameWithUnit(error.name, error.unit).c_str(),
                    "", error.estimated, error.sigma, error.verdict);
   }
   if (!report.residuals.given.empty()) {

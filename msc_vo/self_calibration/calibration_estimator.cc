@@ -195,7 +195,11 @@ bool CalibrationEstimator::Update(const Map& map, KeyframeId newest,
     images_.Add(newest, recorded);
     if (SelectGroups(readout_sigma) || IsReplacementDue()) return Apply();
   } else {
+    // Without images, depths cannot be measured again: the registration in use remains.
     images_.Clear();
+    for (const int i : IndicesOf(CorrectionGroup::kDepthRegistration)) {
+      estimate_.correction(i) = applied_.correction(i);
+    }
   }
   if (!IsAdjustmentDue(map.keyframes().size())) return false;
   return Adjust(map, readout_sigma) && Apply();
@@ -215,7 +219,8 @@ std::shared_ptr<const CameraIntrinsics> CalibrationEstimator::MakeCorrected(
 bool CalibrationEstimator::Apply() {
   const auto corrected = MakeCorrected(estimate_.correction);
   if (!corrected) {
-    estimate_ = applied_;
+    estimate_.correction = applied_.correction;
+    estimate_.is_corrected = applied_.is_corrected;
     adjusted_.reset();
     return false;
   }

@@ -137,18 +137,22 @@ CorrectionEstimate EstimateCorrections(const CalibrationInformation& information
   constexpr unsigned kAllGroups = kNumModels - 1;
   const unsigned mask = MaskOf(wrong);
   const Model unrestricted = Solve(information, PriorSigma(kAllGroups));
-  const Model model = mask == kAllGroups ? unrestricted : Solve(information, PriorSigma(mask));
-  // What goes best with the given values that are kept. Standard deviations are those of `model`,
-  // which knows that these may be somewhat wrong.
-  const Vector mean = ScaledEquations(information, HoldingPriorSigma(mask)).Mean();
+  Model model = unrestricted;
+  if (mask != kAllGroups) {
+    // What goes best with the given values that are kept, which may nevertheless be somewhat wrong.
+    model.mean = ScaledEquations(information, HoldingPriorSigma(mask)).Mean();
+    model.sigma = Solve(information, PriorSigma(mask)).sigma;
+  }
   CorrectionEstimate estimate;
   estimate.sigma = unrestricted.sigma;
+  estimate.sigma.segment<2>(SensorCorrection::kDepthOffset) =
+      model.sigma.segment<2>(SensorCorrection::kDepthOffset);
   estimate.is_corrected = wrong;
-  estimate.depth_errors = mean.tail<2>();
+  estimate.depth_errors = model.mean.segment<2>(SensorCorrection::kDepthOffset);
   for (int g = 0; g < kNumCorrectionGroups; ++g) {
     if (!wrong[g]) continue;
     for (const int i : IndicesOf(static_cast<CorrectionGroup>(g))) {
-      estimate.correction(i) = mean(i);
+      estimate.correction(i) = model.mean(i);
       estimate.sigma(i) = model.sigma(i);
     }
   }

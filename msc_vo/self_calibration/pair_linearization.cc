@@ -160,7 +160,7 @@ class PairProblem {
     const double factor = 1.0 / (scale * scale);
     NormalEquations equations;
     for (size_t i = 0; i < rows_.size(); ++i) {
-      if (!rows_[i].is_defined || rows_[i].sigmas > kOutlierSigmas * scale) continue;
+      if (!rows_[i].is_defined || !(rows_[i].sigmas <= kOutlierSigmas * scale)) continue;
       equations.Add(rows_[i], factor);
       if (with_correction) equations.AddCorrection(rows_[i], ByCorrection(terms_[i]), factor);
     }
@@ -200,6 +200,8 @@ class PairProblem {
     Eigen::Vector3d residual;
     residual << camera_.Pixel(inverse_z * in_b.head<2>()) - terms.point->b.pixel,
         terms.inverse_depth_a * inverse_z - terms.inverse_depth_b;
+    rows->is_defined = residual.allFinite();
+    if (!rows->is_defined) return;
     rows->residual = terms.sqrt_information * residual;
     rows->sigmas = rows->residual.norm();
     const Eigen::Matrix3d by_point = terms.sqrt_information * ByPoint(terms, in_b);
@@ -293,9 +295,10 @@ std::optional<CalibrationInformation> LinearizePair(const CorrectedCamera& camer
   }
   problem.SetPose(pose);
   const NormalEquations equations = problem.SumInliers(true);
-  *b_from_a = pose;
   CalibrationInformation information = Marginalize(equations, correction);
   information.point_information = equations.weight / MedianVariance(points);
+  if (!information.matrix.allFinite() || !information.vector.allFinite()) return std::nullopt;
+  *b_from_a = pose;
   return information;
 }
 

@@ -29,8 +29,8 @@ namespace msc_vo {
 namespace {
 
 using S = SensorCorrection;
-constexpr int kSize = S::kColorSize;
-using Vector = Eigen::Matrix<double, kSize, 1>;
+constexpr int kColorSize = S::kColorSize;
+using ColorVector = Eigen::Matrix<double, kColorSize, 1>;
 
 // Bounds of the computing time.
 constexpr size_t kMaxObservations = 6000;
@@ -124,7 +124,7 @@ SelfCalibratingReprojection::Measurement MeasurementOf(const Keyframe& keyframe,
 // the allocator.
 class SelfCalibrationProblem {
  public:
-  SelfCalibrationProblem(const CameraIntrinsics& given, const Map& map, const Vector& start)
+  SelfCalibrationProblem(const CameraIntrinsics& given, const Map& map, const ColorVector& start)
       : camera_(given.camera, given.distortion), correction_(start) {
     const std::vector<LandmarkId> points = SelectPoints(map);
     const std::set<KeyframeId> keyframes = SelectKeyframes(map, points);
@@ -195,8 +195,8 @@ class SelfCalibrationProblem {
   // Keeps near zero what the observations do not determine.
   void AddPrior() {
     const Eigen::MatrixXd inverse =
-        WrongCalibrationSigma().head<kSize>().cwiseInverse().asDiagonal();
-    problem_.AddResidualBlock(new ceres::NormalPrior(inverse, Vector::Zero()), nullptr,
+        WrongCalibrationSigma().head<kColorSize>().cwiseInverse().asDiagonal();
+    problem_.AddResidualBlock(new ceres::NormalPrior(inverse, ColorVector::Zero()), nullptr,
                               correction_.data());
   }
 
@@ -227,22 +227,22 @@ class SelfCalibrationProblem {
   // The correction is in the last columns of the Jacobian.
   std::optional<CalibrationInformation> EliminateOthers(const Eigen::SparseMatrix<double>& jacobian,
                                                         const Eigen::VectorXd& gradient) const {
-    const Eigen::Index num_others = jacobian.cols() - kSize;
+    const Eigen::Index num_others = jacobian.cols() - kColorSize;
     const Eigen::SparseMatrix<double> others = jacobian.leftCols(num_others);
-    const Eigen::MatrixXd shared = jacobian.rightCols(kSize);
+    const Eigen::MatrixXd shared = jacobian.rightCols(kColorSize);
     Eigen::SparseMatrix<double> damped = others.transpose() * others;
     damped.diagonal() *= 1.0 + kDamping;
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(damped);
     if (ldlt.info() != Eigen::Success) return std::nullopt;
     const Eigen::MatrixXd coupling = others.transpose() * shared;
     const Eigen::MatrixXd solution = ldlt.solve(coupling);
-    Eigen::Matrix<double, kSize, kSize> matrix =
+    Eigen::Matrix<double, kColorSize, kColorSize> matrix =
         shared.transpose() * shared - coupling.transpose() * solution;
     matrix = (0.5 * (matrix + matrix.transpose())).eval();
     CalibrationInformation information;
-    information.matrix.topLeftCorner<kSize, kSize>() = matrix;
-    information.vector.head<kSize>() = matrix * correction_ - gradient.tail<kSize>() +
-                                       solution.transpose() * gradient.head(num_others);
+    information.matrix.topLeftCorner<kColorSize, kColorSize>() = matrix;
+    information.vector.head<kColorSize>() = matrix * correction_ - gradient.tail<kColorSize>() +
+                                            solution.transpose() * gradient.head(num_others);
     if (!information.matrix.allFinite() || !information.vector.allFinite()) return std::nullopt;
     return information;
   }
@@ -258,7 +258,7 @@ class SelfCalibrationProblem {
   ceres::HuberLoss loss_{kLoss};
   Rigid3Manifold manifold_;
   ceres::Problem problem_{ProblemOptions()};
-  Vector correction_;
+  ColorVector correction_;
   std::map<KeyframeId, size_t> pose_index_;
   std::vector<Rigid3> poses_;
   std::vector<Eigen::Vector3d> points_;
@@ -269,7 +269,7 @@ class SelfCalibrationProblem {
 
 std::optional<CalibrationInformation> SelfCalibratingBundleAdjustment(
     const CameraIntrinsics& given, const Map& map, const SensorCorrection::Vector& start) {
-  SelfCalibrationProblem problem(given, map, start.head<kSize>());
+  SelfCalibrationProblem problem(given, map, start.head<kColorSize>());
   if (problem.num_observations() < kMinObservations || !problem.Solve()) return std::nullopt;
   return problem.Marginalize();
 }
