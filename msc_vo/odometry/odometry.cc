@@ -54,7 +54,7 @@ struct Odometry::State {
         builder(options.features, camera, distortion),
         preparation(builder.intrinsics()),
         normal_estimator(std::in_place, NormalOptions(options), camera, distortion),
-        tracker(ForImageWidth(options.tracking, camera.width)),
+        tracker(options.tracking),
         mapper(options.mapping),
         refiner(options.tracking.pose, options.pose_refinement_delay),
         schedule(options.snapshots,

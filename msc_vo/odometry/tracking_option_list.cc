@@ -123,15 +123,12 @@ void ListStatus(TrackerOptions* tracking, OptionLister* list) {
 }  // namespace
 
 void ListTracking(TrackerOptions* tracking, OptionLister* list) {
-  list->Add(
-          "prediction_radius", &tracking->prediction_radius, {0.1, 1000, "pixels"},
-          "Search radius around the predicted projection of a landmark, at an image width of 640.")
-      .MakeBasic("Increase for fast motion or low frame rates.");
+  list->Add("prediction_radius", &tracking->prediction_radius, {0.1, 1000, "pixels"},
+            "Search radius around the predicted projection of a landmark.")
+      .MakeBasic("Increase for fast motion, low frame rates or large images.");
   ListStatus(tracking, list);
-  list->Add(
-      "wide_radius", &tracking->wide_radius, {0.1, 1000, "pixels"},
-      "Search radius after a search within prediction_radius has failed, at an image width of "
-      "640.");
+  list->Add("wide_radius", &tracking->wide_radius, {0.1, 1000, "pixels"},
+            "Search radius after a search within prediction_radius has failed.");
   list->Add("local_map_radius", &tracking->local_map_radius, {0.1, 1000, "pixels"},
             "Search radius around the projection with an estimated pose.");
   list->Add("max_local_keyframes", &tracking->max_local_keyframes, {1, 1000, "keyframes"},

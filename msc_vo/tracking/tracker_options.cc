@@ -3,8 +3,6 @@
 
 #include "msc_vo/tracking/tracker_options.h"
 
-#include "msc_vo/camera/image_scale.h"
-
 namespace msc_vo {
 
 bool SegmentOptions::IsValid(std::string* error) const {
@@ -41,13 +39,6 @@ bool TrackerOptions::IsValid(std::string* error) const {
     return true;
   }
   return false;
-}
-
-TrackerOptions ForImageWidth(TrackerOptions options, int width) {
-  const double scale = ImageScale(width);
-  options.prediction_radius *= scale;
-  options.wide_radius *= scale;
-  return options;
 }
 
 }  // namespace msc_vo

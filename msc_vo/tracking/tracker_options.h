@@ -41,13 +41,11 @@ struct TrackerOptions {
   RelocalizerOptions relocalizer;
   SegmentOptions segments;
 
-  /// Search radii, pixels at an image width of 640. The error of the constant-velocity prediction
-  /// of a hand-held camera at 30 Hz is up to about 15 pixels; the wide search allows four times
-  /// that.
+  /// Search radii, pixels. The error of the constant-velocity prediction of a hand-held camera at
+  /// 30 Hz is up to about 15 pixels; the wide search allows four times that. Around an estimated
+  /// pose the error of the landmarks remains: a few sigmas.
   double prediction_radius = 15.0;
   double wide_radius = 60.0;
-  /// Search radius around the projection with an estimated pose, pixels: the error of the landmarks
-  /// remains, a few sigmas.
   double local_map_radius = 4.0;
 
   /// Largest number of keyframes whose landmarks form the local map.
@@ -71,9 +69,5 @@ struct TrackerOptions {
 
   bool IsValid(std::string* error) const;
 };
-
-/// The options for images of `width` pixels: the error of a prediction is an angle, so the radii of
-/// searches around it are in proportion to the width.
-TrackerOptions ForImageWidth(TrackerOptions options, int width);
 
 }  // namespace msc_vo

@@ -100,7 +100,7 @@ TEST_F(OptionsFileTest, WritesBasicOptionsOnlyUnlessAllAreSelected) {
   const std::string basic = FormatConfiguration(Configuration(), OptionSelection::kBasic);
   EXPECT_THAT(basic, AllOf(HasSubstr("\n  prediction_radius: 15 "),
                            HasSubstr("# Search radius around the predicted projection of a "
-                                     "landmark, at an image width of 640. [0.1 to 1000 pixels]\n"),
+                                     "landmark. [0.1 to 1000 pixels]\n"),
                            HasSubstr(" # Increase for fast motion"), HasSubstr("\n  # fx: ")));
   EXPECT_THAT(basic, Not(HasSubstr("wide_radius")));
   EXPECT_TRUE(ChangedOptions(Read(basic)).empty());
@@ -111,8 +111,7 @@ TEST_F(OptionsFileTest, WritesBasicOptionsOnlyUnlessAllAreSelected) {
 TEST_F(OptionsFileTest, WritesTablesInMarkdown) {
   const std::string basic = FormatOptionsMarkdown(OptionSelection::kBasic);
   EXPECT_THAT(basic, HasSubstr("\n| `tracking.prediction_radius` | `15` | 0.1 to 1000 pixels | "
-                               "Search radius around the predicted projection of a landmark, at "
-                               "an image width of 640. | "
+                               "Search radius around the predicted projection of a landmark. | "
                                "Increase for fast motion"));
   EXPECT_THAT(basic, Not(HasSubstr("wide_radius")));
   const std::string all = FormatOptionsMarkdown(OptionSelection::kAll);
