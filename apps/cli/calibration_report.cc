@@ -4,6 +4,7 @@
 #include "apps/cli/calibration_report.h"
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -30,7 +31,11 @@ struct Row {
   double estimated;
   double sigma;
   S::Index index;
-  CorrectionGroup group;
+  std::optional<CorrectionGroup> group;  ///< none: an error of the depth sensor, not corrected
+
+  std::string NameWithUnit() const {
+    return *unit ? std::string(name) + ", " + unit : std::string(name);
+  }
 };
 
 DepthCamera DepthCameraOf(const Calibration& calibration) {
@@ -49,6 +54,7 @@ std::vector<Row> RowsOf(const CalibrationReport& report) {
   const Eigen::Vector3d t_a = 1000.0 * a.depth_from_color.translation();
   const Eigen::Vector3d t_b = 1000.0 * b.depth_from_color.translation();
   const S::Vector& sigma = report.refinement.sigma;
+  const Eigen::Vector2d& depth_errors = report.refinement.depth_errors;
   const double f = given_camera.FocalLength();
   const auto depth_group = G::kDepthRegistration;
   return {
@@ -77,49 +83,22 @@ std::vector<Row> RowsOf(const CalibrationReport& report) {
        S::kDepthParallaxX, depth_group},
       {"depth_from_color y", "depth_y", "mm", t_a.y(), t_b.y(), 1000.0 * sigma(S::kDepthParallaxY),
        S::kDepthParallaxY, depth_group},
+      {"depth offset", "depth_offset", "1/m", 0.0, depth_errors.x(), sigma(S::kDepthOffset),
+       S::kDepthOffset, std::nullopt},
+      {"depth error by radius", "depth_radial_error", "", 0.0, depth_errors.y(),
+       sigma(S::kDepthBowl), S::kDepthBowl, std::nullopt},
   };
-}
-
-// Errors of the depth sensor: every estimate contains them, and nothing is corrected by them.
-struct DepthError {
-  const char* name;
-  const char* key;
-  const char* unit;
-  double estimated;
-  double sigma;
-  const char* verdict;
-};
-
-bool IsObservable(S::Index index, const CalibrationReport& report) {
-  return report.refinement.sigma(index) < kUnobservable * WrongCalibrationSigma()(index);
-}
-
-std::vector<DepthError> DepthErrorsOf(const CalibrationReport& report) {
-  const CorrectionEstimate& refinement = report.refinement;
-  const auto make = [&](const char* name, const char* key, const char* unit, S::Index index) {
-    const bool is_observable = IsObservable(index, report);
-    return DepthError{name,
-                      key,
-                      unit,
-                      refinement.depth_errors(index - S::kDepthOffset),
-                      refinement.sigma(index),
-                      is_observable ? "not corrected" : "not observable"};
-  };
-  return {make("depth offset", "depth_offset", "1/m", S::kDepthOffset),
-          make("depth error by radius", "depth_radial_error", "", S::kDepthBowl)};
-}
-
-std::string NameWithUnit(const char* name, const char* unit) {
-  return name + (*unit ? std::string(", ") + unit : std::string());
 }
 
 const char* VerdictOf(const Row& row, const CalibrationReport& report) {
-  const auto g = static_cast<size_t>(row.group);
-  if (report.refinement.is_corrected[g]) return "corrected";
+  const bool is_observable =
+      report.refinement.sigma(row.index) < kUnobservable * WrongCalibrationSigma()(row.index);
+  if (!row.group) return is_observable ? "not corrected" : "not observable";
+  if (report.refinement.is_corrected[static_cast<size_t>(*row.group)]) return "corrected";
   if (row.group == CorrectionGroup::kDepthRegistration && report.edges_contradict) {
     return "kept: the edges contradict";
   }
-  return IsObservable(row.index, report) ? "kept" : "kept: not observable";
+  return is_observable ? "kept" : "kept: not observable";
 }
 
 using Residuals = std::vector<CalibrationResidual>;
@@ -175,13 +154,8 @@ std::string FormatCalibrationTable(const CalibrationReport& report) {
                                 report.num_views, report.num_pairs);
   text += FormatText("%-26s %12s %12s %10s  %s\n", "", "given", "estimated", "+-", "verdict");
   for (const Row& row : RowsOf(report)) {
-    text += FormatText("%-26s %12.4f %12.4f %10.4f  %s\n", NameWithUnit(row.name, row.unit).c_str(),
-                       row.given, row.estimated, row.sigma, VerdictOf(row, report));
-  }
-  for (const DepthError& error : DepthErrorsOf(report)) {
-    text +=
-        FormatText("%-26s %12s %12.4f %10.4f  %s\n", NameWithUnit(error.name, error.unit).c_str(),
-                   "", error.estimated, error.sigma, error.verdict);
+    text += FormatText("%-26s %12.4f %12.4f %10.4f  %s\n", row.NameWithUnit().c_str(), row.given,
+                       row.estimated, row.sigma, VerdictOf(row, report));
   }
   if (!report.residuals.given.empty()) {
     text += "median reprojection error " + PixelsText(report.residuals) + ", depth error " +
@@ -196,18 +170,15 @@ std::string FormatCalibrationTable(const CalibrationReport& report) {
 std::string FormatCalibrationJson(const CalibrationReport& report) {
   nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
   for (const Row& row : RowsOf(report)) {
-    parameters[row.key] = {{"unit", row.unit},
-                           {"given", row.given},
-                           {"estimated", row.estimated},
-                           {"sigma", row.sigma},
-                           {"verdict", VerdictOf(row, report)},
-                           {"log_odds", report.log_odds[static_cast<size_t>(row.group)]}};
-  }
-  for (const DepthError& error : DepthErrorsOf(report)) {
-    parameters[error.key] = {{"unit", error.unit},
-                             {"estimated", error.estimated},
-                             {"sigma", error.sigma},
-                             {"verdict", error.verdict}};
+    nlohmann::ordered_json& json = parameters[row.key];
+    json = {{"unit", row.unit},
+            {"given", row.given},
+            {"estimated", row.estimated},
+            {"sigma", row.sigma},
+            {"verdict", VerdictOf(row, report)}};
+    json["log_odds"] =
+        row.group ? nlohmann::ordered_json(report.log_odds[static_cast<size_t>(*row.group)])
+                  : nlohmann::ordered_json();
   }
   const nlohmann::ordered_json json = {
       {"images", report.num_views},
@@ -232,11 +203,6 @@ PlotPage CalibrationPage(const CalibrationReport& report, const std::string& tit
     page.numbers.push_back(
         {row.name, FormatText("%.6g", row.estimated) + unit,
          FormatText("given %.6g, +- %.2g; ", row.given, row.sigma) + VerdictOf(row, report)});
-  }
-  for (const DepthError& error : DepthErrorsOf(report)) {
-    const std::string unit = *error.unit ? std::string(" ") + error.unit : std::string();
-    page.numbers.push_back({error.name, FormatText("%.4f", error.estimated) + unit,
-                            FormatText("+- %.4f; ", error.sigma) + error.verdict});
   }
   return page;
 }

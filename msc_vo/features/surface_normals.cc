@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "msc_vo/camera/image_scale.h"
 #include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/features/internal/depth_sums.h"
 
@@ -18,11 +19,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Pixels over which the errors of depth are correlated: half of a structured-light sensor's
+// Lengths are pixels at an image width of 640; the reduced image is not wider.
+
+// Length over which the errors of depth are correlated: half of a structured-light sensor's
 // matching window of 9 pixels.
 constexpr double kCorrelationLength = 5.0;
-// Radius of a window, pixels: smaller ones average too few pixels, larger ones extend over several
-// objects of a room.
+// Radius of a window: smaller ones average too few pixels, larger ones extend over several objects
+// of a room.
 constexpr int kMinRadius = 5;
 constexpr int kMaxRadius = 32;
 constexpr int kMaxArea = (2 * kMaxRadius + 1) * (2 * kMaxRadius + 1);
@@ -71,17 +74,24 @@ bool SurfaceNormalOptions::IsValid(std::string* error) const {
 SurfaceNormalEstimator::SurfaceNormalEstimator(const SurfaceNormalOptions& options,
                                                const PinholeCamera& camera,
                                                const LensDistortion& distortion)
-    : options_(options), camera_(camera), recorded_(distortion.Recorded(camera)) {
+    : options_(options), camera_(camera) {
   std::string error;
   if (!options.IsValid(&error) || !camera.IsValid(&error) ||
       !IsInvertible(distortion, camera, &error)) {
     throw std::invalid_argument("SurfaceNormalEstimator: " + error);
   }
+  step_ = ReducingStep(camera.width);
+  width_ = (camera.width - 1) / step_ + 1;
+  height_ = (camera.height - 1) / step_ + 1;
+  focal_length_ = distortion.Recorded(camera).FocalLength() / step_;
+  correlation_length_ = kCorrelationLength * ImageScale(width_);
+  min_radius_ = ScaledLength(kMinRadius, width_, 2);
+  max_radius_ = ScaledLength(kMaxRadius, width_, min_radius_);
   const double widest = DepthSums::kMaxSum / (kMaxArea * options.max_depth);
-  rays_.reserve(static_cast<size_t>(camera.width) * camera.height);
-  for (int y = 0; y < camera.height; ++y) {
-    for (int x = 0; x < camera.width; ++x) {
-      Eigen::Vector2d pixel(x, y);
+  rays_.reserve(static_cast<size_t>(width_) * height_);
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      Eigen::Vector2d pixel(step_ * x, step_ * y);
       if (!distortion.IsZero()) pixel = distortion.Undistort(camera, pixel);
       const Vector3d ray = camera.Ray(pixel);
       // Points far to the side, most of which a cropped image does not show, would overflow sums.
@@ -92,24 +102,35 @@ SurfaceNormalEstimator::SurfaceNormalEstimator(const SurfaceNormalOptions& optio
                        static_cast<float>(is_shown ? ray.y() : kNotShown)});
     }
   }
-  integral_.resize(static_cast<size_t>(camera.width + 1) * (camera.height + 1));
+  integral_.resize(static_cast<size_t>(width_ + 1) * (height_ + 1));
 }
 
 SurfaceNormalEstimator::~SurfaceNormalEstimator() = default;
 
+cv::Mat SurfaceNormalEstimator::Reduce(const cv::Mat& depth) const {
+  if (step_ == 1) return depth;
+  cv::Mat reduced(height_, width_, CV_32FC1);
+  for (int y = 0; y < height_; ++y) {
+    const float* const from = depth.ptr<float>(step_ * y);
+    float* const to = reduced.ptr<float>(y);
+    for (int x = 0; x < width_; ++x) to[x] = from[step_ * x];
+  }
+  return reduced;
+}
+
 void SurfaceNormalEstimator::Integrate(const cv::Mat& depth) {
-  const int width = camera_.width;
+  const int width = width_;
   const auto nearest = static_cast<float>(options_.min_depth);
   const auto farthest = static_cast<float>(options_.max_depth);
   // Relative change of depth between neighbouring pixels: of the steepest surface, and of noise,
   // whose sigma relative to z is z sigma_w for each of the two pixels.
-  const auto steepest = static_cast<float>(std::tan(kMaxIncidence) / recorded_.FocalLength());
+  const auto steepest = static_cast<float>(std::tan(kMaxIncidence) / focal_length_);
   const auto noise = static_cast<float>(kEdgeSigmas * std::sqrt(2.0) * kInverseDepthSigma);
   const auto is_edge = [&](float z, float neighbour) {
     return neighbour >= nearest && neighbour <= farthest &&
            std::abs(z - neighbour) > z * (steepest + noise * z);
   };
-  for (int y = 0; y < camera_.height; ++y) {
+  for (int y = 0; y < height_; ++y) {
     const float* z_row = depth.ptr<float>(y);
     const float* z_above = depth.ptr<float>(std::max(y - 1, 0));
     const std::array<float, 2>* ray = &rays_[static_cast<size_t>(y) * width];
@@ -128,7 +149,7 @@ void SurfaceNormalEstimator::Integrate(const cv::Mat& depth) {
 }
 
 DepthSums SurfaceNormalEstimator::SumOver(int left, int top, int right, int bottom) const {
-  const size_t stride = camera_.width + 1;
+  const size_t stride = width_ + 1;
   const DepthSums* above = &integral_[top * stride];
   const DepthSums* below = &integral_[(bottom + 1) * stride];
   return below[right + 1] - above[right + 1] - below[left] + above[left];
@@ -139,22 +160,22 @@ DepthSums SurfaceNormalEstimator::SumOver(int left, int top, int right, int bott
 // noise of each along the ray is z^2 sigma_w / sqrt(n), with n = 2 radius^2 / correlation^2
 // independent pixels. The angle is the quotient.
 double SurfaceNormalEstimator::NormalSigma(double z, double radius) const {
-  return z * recorded_.FocalLength() * kInverseDepthSigma * kCorrelationLength / (radius * radius);
+  return z * focal_length_ * kInverseDepthSigma * correlation_length_ / (radius * radius);
 }
 
 // Selects the largest window without a depth edge, from the one that meets kTargetSigma at depth z
 // downwards. Returns false if there is none with enough depth.
 bool SurfaceNormalEstimator::SelectWindow(int x, int y, double z, Window* window) const {
   const double wanted = std::sqrt(NormalSigma(z, 1.0) / kTargetSigma);
-  int radius = static_cast<int>(std::clamp<double>(std::ceil(wanted), kMinRadius, kMaxRadius));
-  for (; radius >= kMinRadius; radius = radius * 3 / 4) {
+  int radius = static_cast<int>(std::clamp<double>(std::ceil(wanted), min_radius_, max_radius_));
+  for (; radius >= min_radius_; radius = radius * 3 / 4) {
     *window = {x,
                y,
                radius,
                std::max(x - radius, 0),
                std::max(y - radius, 0),
-               std::min(x + radius, camera_.width - 1),
-               std::min(y + radius, camera_.height - 1)};
+               std::min(x + radius, width_ - 1),
+               std::min(y + radius, height_ - 1)};
     const DepthSums sums = SumOver(window->left, window->top, window->right, window->bottom);
     if (sums.NumEdges() == 0) return sums.NumPoints() >= kMinValidRatio * window->Area();
   }
@@ -190,12 +211,13 @@ std::vector<SurfaceNormal> SurfaceNormalEstimator::Estimate(const cv::Mat& depth
         " pixels, like the camera; it is " + std::to_string(depth.cols) + "x" +
         std::to_string(depth.rows) + ", OpenCV type " + std::to_string(depth.type()));
   }
-  Integrate(depth);
+  const cv::Mat reduced = Reduce(depth);
+  Integrate(reduced);
   std::vector<SurfaceNormal> normals;
-  const int step = options_.grid_step;
-  for (int y = step / 2; y < camera_.height; y += step) {
-    for (int x = step / 2; x < camera_.width; x += step) {
-      const double z = depth.at<float>(y, x);
+  const int step = ScaledLength(options_.grid_step, width_, 1);
+  for (int y = step / 2; y < height_; y += step) {
+    for (int x = step / 2; x < width_; x += step) {
+      const double z = reduced.at<float>(y, x);
       Window window;
       SurfaceNormal normal;
       if (!(z >= options_.min_depth && z <= options_.max_depth)) continue;

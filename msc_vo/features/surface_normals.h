@@ -15,7 +15,7 @@
 namespace msc_vo {
 
 struct SurfaceNormalOptions {
-  int grid_step = 16;      ///< pixels between normals: 1200 normals at 640x480
+  int grid_step = 16;      ///< pixels between normals at an image width of 640: 1200 normals
   double min_depth = 0.2;  ///< metres; depth outside [min_depth, max_depth] is invalid
   double max_depth = 10.0;
 
@@ -36,8 +36,8 @@ class DepthSums;
 /// Estimation).
 ///
 /// The mean of any points of a plane lies on that plane, so missing depth does not bias a normal.
-/// Windows shrink until they contain no depth edge. Keeps its buffers between calls; not
-/// thread-safe.
+/// Windows shrink until they contain no depth edge. Images wider than 640 pixels are reduced to
+/// every second, third, ... pixel. Keeps its buffers between calls; not thread-safe.
 class SurfaceNormalEstimator {
  public:
   /// The window grows with depth until depth noise tilts a normal by at most this standard
@@ -61,6 +61,8 @@ class SurfaceNormalEstimator {
  private:
   struct Window;
 
+  cv::Mat Reduce(const cv::Mat& depth) const;
+  // All images and lengths below are those of the reduced image.
   void Integrate(const cv::Mat& depth);
   DepthSums SumOver(int left, int top, int right, int bottom) const;
   double NormalSigma(double z, double radius) const;
@@ -68,8 +70,14 @@ class SurfaceNormalEstimator {
   bool EstimateInWindow(const Window& window, SurfaceNormal* normal) const;
 
   SurfaceNormalOptions options_;
-  PinholeCamera camera_;
-  PinholeCamera recorded_;                  // intrinsics of the raw image
+  PinholeCamera camera_;  // of the whole image, undistorted
+  int step_ = 1;          // pixels of the whole image per pixel of the reduced one
+  int width_ = 0;
+  int height_ = 0;
+  double focal_length_ = 0.0;
+  double correlation_length_ = 0.0;
+  int min_radius_ = 0;
+  int max_radius_ = 0;
   std::vector<std::array<float, 2>> rays_;  // x / z and y / z of each pixel
   std::vector<DepthSums> integral_;         // (height + 1) x (width + 1)
 };

@@ -40,7 +40,7 @@ struct OdometryOptions {
   /// Seconds after which the pose of a frame is estimated again, in the map as optimised since; 0:
   /// never. A pose that pose factors took part in remains.
   double pose_refinement_delay = 5.0;
-  int normal_grid_step = 16;  ///< pixels between surface normals
+  int normal_grid_step = 16;  ///< pixels between surface normals at an image width of 640
   TrackerOptions tracking;
   MapperOptions mapping;
   SnapshotOptions snapshots;

@@ -29,8 +29,8 @@ class CalibrationEstimator {
   /// uncertainty of the readout time of a rolling shutter. Returns true if present() has changed.
   bool Update(const Map& map, KeyframeId newest, const std::shared_ptr<const RecordedImage>& image,
               const std::vector<CalibrationImage>& images, double readout_sigma);
-  /// Whether the colour camera is so certain that Update() needs no further images; they may be
-  /// null then.
+  /// Whether there are so many pairs, and the colour camera is so certain, that Update() needs no
+  /// further images; they may be null then. A later bundle adjustment may make it uncertain again.
   bool IsSettled() const;
   /// Reports another readout time of a rolling shutter, seconds.
   void SetReadoutTime(double readout_time) { pairs_.SetReadoutTime(readout_time); }

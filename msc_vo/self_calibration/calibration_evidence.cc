@@ -18,6 +18,8 @@ namespace {
 using Vector = SensorCorrection::Vector;
 using Matrix = SensorCorrection::Matrix;
 
+// Prior odds of a group to be wrong.
+constexpr double kPriorOdds = 0.1;
 // Posterior odds of the best model to that without any wrong group above which it is accepted.
 constexpr double kAcceptedOdds = 100.0;
 

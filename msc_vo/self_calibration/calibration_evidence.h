@@ -16,9 +16,6 @@ constexpr int kNumCorrectionGroups = 4;
 constexpr std::array<CorrectionGroup, 3> kColorGroups = {
     CorrectionGroup::kFocalLength, CorrectionGroup::kPrincipalPoint, CorrectionGroup::kLens};
 
-/// Prior odds of a group to be wrong. Where the posterior odds are lower, the images speak for it.
-constexpr double kPriorOdds = 0.1;
-
 /// Posterior odds by the pairs of images from which on a group is a candidate, about which the map
 /// is asked. The largest odds for the focal length of sequences that are described well and
 /// determine it are 0.1 (docs/lab/self_calibration.md).

@@ -37,10 +37,11 @@ CalibrationPair::CalibrationPair(const CorrectedCamera& camera, const Calibratio
 
 std::vector<CalibrationPoint> CalibrationPair::PointsWithSurfaces(
     const SensorCorrection::Vector& correction) const {
+  const LinearizedCamera camera(camera_, correction);
   std::vector<CalibrationPoint> points;
   for (CalibrationPoint point : points_) {
-    const auto in_a = FindSurface(camera_, a_->depth, point.a.recorded_pixel, correction);
-    const auto in_b = FindSurface(camera_, b_->depth, point.b.recorded_pixel, correction);
+    const auto in_a = FindSurface(camera, a_->depth, point.a.recorded_pixel);
+    const auto in_b = FindSurface(camera, b_->depth, point.b.recorded_pixel);
     if (!in_a || !in_b) continue;
     point.a.surface = *in_a;
     point.b.surface = *in_b;

@@ -101,7 +101,8 @@ Eigen::Matrix3d SqrtInformation(const PinholeCamera& camera, const Eigen::Vector
   return SqrtInverse(covariance);
 }
 
-// Ray of a recorded pixel, for the weights, which a radial-tangential lens hardly changes.
+// Ray of a recorded pixel, for the weights: those of a lens whose undistorted image is not cropped
+// hardly depend on its distortion.
 Eigen::Vector3d RayForWeights(const CorrectedCamera& camera, const Eigen::Vector2d& pixel) {
   if (!camera.distortion().IsCropped()) return camera.camera().Ray(pixel);
   const SensorCorrection::Vector none = SensorCorrection::Vector::Zero();

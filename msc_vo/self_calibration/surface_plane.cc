@@ -63,36 +63,26 @@ std::optional<InverseDepthPlane> FitPlane(const Depth& depth, int width,
   return InverseDepthPlane{{center_x, center_y}, plane.x(), plane.tail<2>() / step};
 }
 
-template <typename Depth>
-std::optional<InverseDepthPlane> FindPlane(const Depth& depth, int width,
-                                           const Eigen::Vector2d& at_infinity,
-                                           const Eigen::Vector2d& parallax) {
-  Eigen::Vector2d depth_pixel = at_infinity;
-  if (parallax.norm() > 0.0) {
-    for (int i = 0; i < kSteps; ++i) {
-      const double w = depth.At(cvRound(depth_pixel.x()), cvRound(depth_pixel.y()));
-      depth_pixel = at_infinity + w * parallax;
-    }
-  }
-  return FitPlane(depth, width, depth_pixel);
-}
-
 }  // namespace
 
-std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
-                                             const InverseDepthImage& depth,
-                                             const Eigen::Vector2d& pixel,
-                                             const SensorCorrection::Vector& correction) {
-  Eigen::Vector2d at_infinity, parallax;
-  camera.DepthPixel(pixel, correction.data(), &at_infinity, &parallax);
-  return FindPlane(depth, camera.camera().width, at_infinity, parallax);
+template <typename Depth>
+std::optional<InverseDepthPlane> FindSurface(const LinearizedCamera& camera, const Depth& depth,
+                                             const Eigen::Vector2d& pixel) {
+  const Eigen::Vector2d at_infinity = camera.DepthPixelAtInfinity(pixel);
+  Eigen::Vector2d depth_pixel = at_infinity;
+  if (camera.parallax().norm() > 0.0) {
+    for (int i = 0; i < kSteps; ++i) {
+      const double w = depth.At(cvRound(depth_pixel.x()), cvRound(depth_pixel.y()));
+      depth_pixel = at_infinity + w * camera.parallax();
+    }
+  }
+  return FitPlane(depth, camera.given().width, depth_pixel);
 }
 
-std::optional<InverseDepthPlane> FindSurface(const LinearizedCamera& camera,
-                                             const RecordedImage& depth,
-                                             const Eigen::Vector2d& pixel) {
-  return FindPlane(depth, camera.given().width, camera.DepthPixelAtInfinity(pixel),
-                   camera.parallax());
-}
+template std::optional<InverseDepthPlane> FindSurface(const LinearizedCamera&,
+                                                      const InverseDepthImage&,
+                                                      const Eigen::Vector2d&);
+template std::optional<InverseDepthPlane> FindSurface(const LinearizedCamera&, const RecordedImage&,
+                                                      const Eigen::Vector2d&);
 
 }  // namespace msc_vo

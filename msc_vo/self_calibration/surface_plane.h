@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include "msc_vo/camera/sensor_correction.h"
 #include "msc_vo/factors/rgbd_pair_reprojection.h"
 #include "msc_vo/self_calibration/linearized_camera.h"
 #include "msc_vo/sensor/inverse_depth_image.h"
@@ -16,16 +15,12 @@
 namespace msc_vo {
 
 /// Fits a plane to the depth image around the point that belongs to the recorded colour pixel
-/// `pixel` according to `correction`, within 7x7 pixels at an image width of 640. Returns
-/// std::nullopt if pixels are missing or do not form a plane: beside a depth edge, the surface that
-/// a point belongs to depends on the correction.
-std::optional<InverseDepthPlane> FindSurface(const CorrectedCamera& camera,
-                                             const InverseDepthImage& depth,
-                                             const Eigen::Vector2d& pixel,
-                                             const SensorCorrection::Vector& correction);
-
-std::optional<InverseDepthPlane> FindSurface(const LinearizedCamera& camera,
-                                             const RecordedImage& depth,
+/// `pixel` according to the correction of `camera`, within 7x7 pixels at an image width of 640.
+/// Returns std::nullopt if pixels are missing or do not form a plane: beside a depth edge, the
+/// surface that a point belongs to depends on the correction. Depth: InverseDepthImage or
+/// RecordedImage.
+template <typename Depth>
+std::optional<InverseDepthPlane> FindSurface(const LinearizedCamera& camera, const Depth& depth,
                                              const Eigen::Vector2d& pixel);
 
 }  // namespace msc_vo

@@ -5,8 +5,6 @@
 
 #include <cmath>
 
-#include "msc_vo/camera/image_scale.h"
-
 namespace msc_vo {
 
 namespace {
@@ -16,15 +14,13 @@ constexpr int kMinNeighbours = 4;
 // Largest difference between neighbours on one surface, standard deviations of a pixel: three of a
 // difference.
 constexpr double kMaxSigmas = 4.25;
-// Relative change of depth between neighbouring pixels of a surface at a flat angle, at an image
-// width of 640 pixels.
+// Relative change of depth between neighbouring pixels of a surface at a flat angle.
 constexpr double kMaxSlope = 0.005;
 
 }  // namespace
 
 cv::Mat RemoveFlyingPixels(const cv::Mat& depth, const DepthNoise& noise) {
   cv::Mat kept = cv::Mat::zeros(depth.size(), CV_32FC1);
-  const double slope = kMaxSlope / ImageScale(depth.cols);
   for (int y = 1; y + 1 < depth.rows; ++y) {
     const float* rows[] = {depth.ptr<float>(y - 1), depth.ptr<float>(y), depth.ptr<float>(y + 1)};
     float* out = kept.ptr<float>(y);
@@ -32,7 +28,7 @@ cv::Mat RemoveFlyingPixels(const cv::Mat& depth, const DepthNoise& noise) {
       const float z = rows[1][x];
       if (!(z > 0.0f)) continue;
       const double sigma = z * z * noise.At(1.0 / z);
-      const auto limit = static_cast<float>(kMaxSigmas * sigma + slope * z);
+      const auto limit = static_cast<float>(kMaxSigmas * sigma + kMaxSlope * z);
       int count = 0;
       for (const float* row : rows) {
         for (int dx = -1; dx <= 1; ++dx) count += std::abs(row[x + dx] - z) <= limit;

@@ -114,6 +114,38 @@ TEST(SurfaceNormals, WindowsGrowWithDepthToMeetTargetSigma) {
   }
 }
 
+// The camera with images of `width` pixels.
+PinholeCamera Resized(int width) {
+  const double scale = width / 640.0;
+  return {525.0 * scale,       525.0 * scale, 320.0 * scale - 0.5,
+          240.0 * scale - 0.5, width,         width * 480 / 640};
+}
+
+// A wall with a box before it: windows end at the same angle from its edges.
+TEST(SurfaceNormals, DoNotDependOnTheSizeOfTheImage) {
+  std::vector<size_t> numbers;
+  std::vector<double> sigmas;
+  for (const int width : {320, 640, 1280, 1920}) {
+    const PinholeCamera camera = Resized(width);
+    const auto normals =
+        Estimate(camera, DrawDepth(camera, [&](const Vector2d& pixel) {
+                   const Vector3d ray = camera.Ray(pixel);
+                   return std::abs(ray.x()) < 0.2 && std::abs(ray.y()) < 0.2 ? 0.8 : 1.0 / 3.0;
+                 }));
+    double sum = 0.0;
+    for (const SurfaceNormal& normal : normals) {
+      sum += normal.sigma;
+      EXPECT_LT(ErrorInDegrees(normal, -Vector3d::UnitZ()), 0.1);
+    }
+    numbers.push_back(normals.size());
+    sigmas.push_back(sum / static_cast<double>(normals.size()));
+  }
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    EXPECT_NEAR(static_cast<double>(numbers[i]) / static_cast<double>(numbers[1]), 1.0, 0.05) << i;
+    EXPECT_NEAR(sigmas[i] / sigmas[1], 1.0, 0.15) << i;
+  }
+}
+
 // The mean of any points of a plane lies on it.
 TEST(SurfaceNormals, AreUnbiasedWithMissingDepth) {
   const PinholeCamera camera;

@@ -31,9 +31,10 @@ class SurfacePlaneTest : public testing::TestWithParam<int> {
 
   // The surface at a pixel of an image of 640 pixels.
   std::optional<InverseDepthPlane> SurfaceAt(double x, double y) const {
-    return FindSurface(CorrectedCamera(camera_, LensDistortion()),
-                       InverseDepthImage(depth_, 0.1, 10.0), scale_ * Eigen::Vector2d(x, y),
-                       SensorCorrection::Vector::Zero());
+    const LinearizedCamera camera(CorrectedCamera(camera_, LensDistortion()),
+                                  SensorCorrection::Vector::Zero());
+    return FindSurface(camera, InverseDepthImage(depth_, 0.1, 10.0),
+                       scale_ * Eigen::Vector2d(x, y));
   }
 
   double scale_;
