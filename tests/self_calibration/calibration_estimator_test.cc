@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "tests/self_calibration/simulated_camera.h"
+#include "tests/support/simulated_camera.h"
 #include <gtest/gtest.h>
 
 #include "msc_vo/map/frame_intrinsics.h"
@@ -37,12 +37,6 @@ class SimulatedRun {
   }
   void AddKeyframes(int count) {
     for (int i = 0; i < count; ++i) num_changes_ += Add(SimulatedCamera::PoseOf(i)) ? 1 : 0;
-  }
-
-  // Adds a keyframe without its image.
-  bool AddWithoutImage(const Rigid3& cam_from_world) {
-    const KeyframeId id = map_.AddKeyframe(camera_.Record(cam_from_world).first, cam_from_world);
-    return estimator_.Update(map_, id, nullptr, {}, 0.0);
   }
 
   void SetReadoutTime(double readout_time) { estimator_.SetReadoutTime(readout_time); }
@@ -146,19 +140,6 @@ TEST(CalibrationEstimator, KeepsWhatItKnowsWhenTheReadoutTimeChanges) {
   run.Add(SimulatedCamera::PoseOf(10));
   EXPECT_LE(run.estimator().estimate().sigma(S::kFocalLength), sigma);
   EXPECT_FALSE(run.estimator().estimate().IsCorrected());
-}
-
-TEST(CalibrationEstimator, NeedsAndKeepsNoImagesOnceItIsSettled) {
-  SimulatedRun run(S::Vector::Zero());
-  run.AddKeyframes(20);
-  EXPECT_FALSE(run.estimator().IsSettled());
-  EXPECT_NE(run.estimator().FindImage(19), nullptr);
-  run.AddKeyframes(140);
-  EXPECT_TRUE(run.estimator().IsSettled());
-  const double sigma = run.estimator().estimate().sigma(S::kFocalLength);
-  EXPECT_FALSE(run.AddWithoutImage(SimulatedCamera::PoseOf(1)));
-  EXPECT_EQ(run.estimator().FindImage(159), nullptr);
-  EXPECT_EQ(run.estimator().estimate().sigma(S::kFocalLength), sigma);
 }
 
 TEST(CalibrationEstimator, AcceptsNothingThatAPathDoesNotTell) {

@@ -3,7 +3,7 @@
 
 #include "msc_vo/self_calibration/self_calibrating_bundle_adjustment.h"
 
-#include "tests/self_calibration/simulated_camera.h"
+#include "tests/support/simulated_camera.h"
 #include <gtest/gtest.h>
 
 #include "msc_vo/self_calibration/calibration_evidence.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/self_calibration/simulated_camera.h"
+#include "tests/support/simulated_camera.h"
 #include <gtest/gtest.h>
 
 namespace msc_vo {

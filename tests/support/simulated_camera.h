@@ -14,8 +14,11 @@
 #include <opencv2/core.hpp>
 
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/map/frame_intrinsics.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/self_calibration/sensor_calibration.h"
+#include "msc_vo/sensor/depth_camera_correction.h"
+#include "msc_vo/sensor/depth_registration.h"
 
 namespace msc_vo {
 
@@ -161,5 +164,26 @@ class SimulatedCamera {
   std::vector<Eigen::Vector3d> points_;
   std::vector<Descriptor> descriptors_;
 };
+
+// Returns the frame of a SimulatedCamera with other intrinsics and the depths that its features
+// have in the depth image registered as these say.
+inline std::shared_ptr<const Frame> MeasureSimulatedDepth(
+    const Frame& frame, const cv::Mat& metres,
+    const std::shared_ptr<const CameraIntrinsics>& intrinsics) {
+  const CameraIntrinsics given{kGiven, {}};
+  auto measured =
+      std::make_shared<Frame>(*ChangeIntrinsics(std::make_shared<Frame>(frame), intrinsics));
+  cv::Mat registered = metres;
+  if (intrinsics->registration) {
+    registered = RegisterDepth(DepthCameraOf(given, *intrinsics), intrinsics->camera,
+                               intrinsics->distortion, metres);
+  }
+  const InverseDepthImage depth(registered, 0.2, 10.0);
+  for (PointFeature& point : measured->points) {
+    point.inverse_depth = depth.Nearest(MovePixel(*intrinsics, given, point.pixel));
+    point.inverse_depth_sigma = point.HasDepth() ? 0.004 : 0.0;
+  }
+  return measured;
+}
 
 }  // namespace msc_vo
