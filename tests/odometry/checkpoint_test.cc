@@ -41,6 +41,50 @@ std::string Bytes(const OdometryResult& result) {
   return writer.bytes();
 }
 
+// Short searches, so that the segments of the sequence are found and joined, and poses that are
+// estimated again soon.
+OdometryOptions Options(int threads) {
+  OdometryOptions options;
+  options.threads = threads;
+  options.pose_refinement_delay = 0.3;
+  options.tracking.max_prediction = 0.2;
+  options.tracking.segments.min_search = 0.3;
+  options.tracking.segments.search_interval = 0.1;
+  return options;
+}
+
+using MakeOdometry = std::function<std::unique_ptr<Odometry>(int threads)>;
+
+void Process(const RgbdImage& image, Odometry* odometry) {
+  if (image.id % 17 == 5) {
+    odometry->Drop(image.id, image.timestamp, TrackingStatus::kUnreadable);
+  } else {
+    odometry->Process(image);
+  }
+}
+
+// Runs the sequence. After each image for which `is_saved` holds, the run is saved, and another
+// object continues it.
+OdometryResult RunImages(const MakeOdometry& make, const std::vector<int>& threads,
+                         const std::function<bool(int)>& is_saved,
+                         const std::vector<RgbdImage>& sequence) {
+  std::unique_ptr<Odometry> odometry = make(threads.front());
+  size_t num_saved = 0;
+  for (const RgbdImage& image : sequence) {
+    Process(image, odometry.get());
+    if (!is_saved(static_cast<int>(image.id))) continue;
+    ObjectJournal journal;
+    BinaryWriter writer(&journal);
+    EXPECT_TRUE(odometry->Save(&writer));
+    odometry = make(threads[++num_saved % threads.size()]);
+    ObjectJournal loaded(journal.pending());
+    BinaryReader reader(writer.bytes(), &loaded);
+    odometry->Restore(&reader);
+    reader.Finish();
+  }
+  return odometry->Finish();
+}
+
 class CheckpointTest : public RoomTest {
  protected:
   static void SetUpTestSuite() {
@@ -66,50 +110,13 @@ class CheckpointTest : public RoomTest {
     }
   }
 
-  // Short searches, so that the segments of the sequence are found and joined, and poses that are
-  // estimated again soon.
-  static OdometryOptions Options(int threads) {
-    OdometryOptions options;
-    options.threads = threads;
-    options.pose_refinement_delay = 0.3;
-    options.tracking.max_prediction = 0.2;
-    options.tracking.segments.min_search = 0.3;
-    options.tracking.segments.search_interval = 0.1;
-    return options;
-  }
-
-  using MakeOdometry = std::function<std::unique_ptr<Odometry>(int threads)>;
   static std::unique_ptr<Odometry> MakeDefault(int threads) {
     return std::make_unique<Odometry>(Options(threads), camera_, LensDistortion());
   }
 
-  static void Process(const RgbdImage& image, Odometry* odometry) {
-    if (image.id % 17 == 5) {
-      odometry->Drop(image.id, image.timestamp, TrackingStatus::kUnreadable);
-    } else {
-      odometry->Process(image);
-    }
-  }
-
-  // Runs the sequence. After each image for which `is_saved` holds, the run is saved, and another
-  // object continues it.
   static OdometryResult Run(const MakeOdometry& make, const std::vector<int>& threads,
                             const std::function<bool(int)>& is_saved) {
-    std::unique_ptr<Odometry> odometry = make(threads.front());
-    size_t num_saved = 0;
-    for (const RgbdImage& image : *sequence_) {
-      Process(image, odometry.get());
-      if (!is_saved(static_cast<int>(image.id))) continue;
-      ObjectJournal journal;
-      BinaryWriter writer(&journal);
-      EXPECT_TRUE(odometry->Save(&writer));
-      odometry = make(threads[++num_saved % threads.size()]);
-      ObjectJournal loaded(journal.pending());
-      BinaryReader reader(writer.bytes(), &loaded);
-      odometry->Restore(&reader);
-      reader.Finish();
-    }
-    return odometry->Finish();
+    return RunImages(make, threads, is_saved, *sequence_);
   }
 
   static inline std::vector<RgbdImage>* sequence_ = nullptr;
@@ -176,6 +183,24 @@ TEST_F(CheckpointTest, SavesNothingWhileAnExceptionOfTheMapperIsPending) {
   }
   EXPECT_TRUE(was_refused);
   EXPECT_TRUE(has_thrown);
+}
+
+// A run with a focal length that is not that of its camera.
+TEST(CheckpointOfSelfCalibration, ContinuesWithACorrectedCalibration) {
+  SyntheticSequenceOptions room = RoomOptions();
+  room.fps = 5.0;
+  PinholeCamera given = SyntheticSequence(room).camera();
+  given.fx *= 1.1;
+  given.fy *= 1.1;
+  const std::vector<RgbdImage> images = RenderImages(room, 34);
+  const auto make = [&](int threads) {
+    return std::make_unique<Odometry>(Options(threads), given, LensDistortion());
+  };
+  const auto never = [](int) { return false; };
+  const auto often = [](int i) { return i % 4 == 3; };
+  const OdometryResult expected = RunImages(make, {1}, never, images);
+  EXPECT_TRUE(expected.calibration.is_corrected[0]);
+  EXPECT_EQ(Bytes(RunImages(make, {2, 1}, often, images)), Bytes(expected));
 }
 
 }  // namespace
