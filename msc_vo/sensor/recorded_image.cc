@@ -3,27 +3,20 @@
 
 #include "msc_vo/sensor/recorded_image.h"
 
-#include <algorithm>
+#include <limits>
 
 namespace msc_vo {
 
 RecordedImage::RecordedImage(const cv::Mat& gray, const cv::Mat& depth)
     : rows_(depth.rows), columns_(depth.cols), depth_(depth.total()) {
-  constexpr float kScale = static_cast<float>(kUnitsPerMetre);
-  constexpr float kTooMany = 65536.0f;  // 0 in 16 bits
   gray_.reserve(gray.total());
   for (int y = 0; y < gray.rows; ++y) {
     gray_.insert(gray_.end(), gray.ptr<uint8_t>(y), gray.ptr<uint8_t>(y) + gray.cols);
   }
-  for (int y = 0; y < rows_; ++y) {
-    const float* row = depth.ptr<float>(y);
-    uint16_t* units = &depth_[static_cast<size_t>(y) * columns_];
-    for (int x = 0; x < columns_; ++x) {
-      // In this order, NaN becomes 0.
-      const float rounded = std::min(kTooMany, std::max(0.0f, kScale * row[x] + 0.5f));
-      units[x] = static_cast<uint16_t>(static_cast<int>(rounded));
-    }
-  }
+  cv::Mat units(rows_, columns_, CV_16UC1, depth_.data());
+  depth.convertTo(units, CV_16UC1, kUnitsPerMetre);  // NaN becomes 0
+  constexpr uint16_t kTooFar = std::numeric_limits<uint16_t>::max();
+  units.setTo(0, units == kTooFar);
 }
 
 cv::Mat RecordedImage::Depth() const {
