@@ -37,6 +37,7 @@ std::vector<CalibratedValue> ListCalibratedValues(const RunSummary& summary) {
         value,
         is_estimated ? std::abs(scale) * sigma : std::numeric_limits<double>::infinity(),
         estimate.log_odds[g],
+        estimate.is_corrected[g],
         estimate.is_corrected[g] ? "corrected"
         : is_observable          ? "as given"
                                  : "as given, not observable"};

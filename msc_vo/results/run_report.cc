@@ -165,6 +165,15 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
   return numbers;
 }
 
+// "481.30 +- 1.70 px".
+std::string ValueText(const CalibratedValue& value) {
+  const int digits = *value.unit != '\0' ? 2 : 4;
+  std::string text = FormatText("%.*f", digits, value.value);
+  if (std::isfinite(value.sigma)) text += FormatText(" +- %.*f", digits, value.sigma);
+  if (*value.unit != '\0') text += std::string(" ") + value.unit;
+  return text;
+}
+
 std::vector<ReportNumber> SelfCalibration(const RunSummary& summary, const RunContext& context) {
   const NoiseScale& scale = summary.noise_scale;
   const auto factor = [](double value) { return FormatText("x %.2f", value); };
@@ -175,12 +184,7 @@ std::vector<ReportNumber> SelfCalibration(const RunSummary& summary, const RunCo
       {"Readout time", FormatText("%.1f ms", 1000.0 * summary.readout_time),
        context.calibration.readout_origin}};
   for (const CalibratedValue& value : ListCalibratedValues(summary)) {
-    const bool is_estimated = std::isfinite(value.sigma);
-    const int digits = *value.unit != '\0' ? 2 : 4;
-    std::string text = FormatText("%.*f", digits, value.value);
-    if (is_estimated) text += FormatText(" +- %.*f", digits, value.sigma);
-    if (*value.unit != '\0') text += std::string(" ") + value.unit;
-    numbers.push_back({value.name, text, value.verdict});
+    numbers.push_back({value.name, ValueText(value), value.verdict});
   }
   if (summary.axes.state != AxesState::kNone) {
     numbers.push_back({"Manhattan axes",
@@ -251,6 +255,19 @@ std::string ErrorRows(const TrajectoryError& error) {
                                    100.0 * error.coverage));
 }
 
+// What self-calibration has corrected, and how to keep it; empty if nothing.
+std::string CalibrationRows(const RunSummary& summary, const RunContext& context) {
+  if (!summary.calibration.IsCorrected()) return "";
+  std::string corrected;
+  for (const CalibratedValue& value : ListCalibratedValues(summary)) {
+    if (!value.is_corrected) continue;
+    corrected += (corrected.empty() ? "" : ", ") + std::string(value.name) + " " + ValueText(value);
+  }
+  return Row("corrected", corrected) +
+         Row("", "determine it once with msc_vo calibrate " + context.sequence.directory +
+                     " --output camera.yaml");
+}
+
 }  // namespace
 
 std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
@@ -260,6 +277,8 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
                           std::to_string(context.sequence.entries.size()) + " images)");
   table += Row("camera", context.calibration.origin);
   table += Row("", ShutterText(summary, context));
+  table += CalibrationRows(summary, context);
+  table += Row("depth", DepthSensorText(summary, context));
   table += Row("frames", StatusText(summary));
   for (const NotTrackedSpan& span : summary.not_tracked) {
     table += Row("", FormatText("no pose in frames %d to %d", span.first_frame, span.last_frame));

@@ -197,6 +197,19 @@ TEST_F(ResultFilesTest, WritesSegmentsAndMarksPosesBeforeThem) {
   EXPECT_EQ(joined["joined"]["sigma_translation"], 0.02);
 }
 
+TEST_F(ResultFilesTest, TheTableNamesWhatSelfCalibrationHasCorrected) {
+  OdometryResult result = Result();
+  RunContext context;
+  context.sequence.directory = "room";
+  EXPECT_THAT(FormatRunTable(Summarize(result), context, "out"), Not(HasSubstr("corrected")));
+  result.intrinsics.camera = {509.4, 509.4, 319.5, 239.5, 640, 480};
+  result.calibration.sigma.setConstant(0.001);
+  result.calibration.is_corrected[static_cast<size_t>(CorrectionGroup::kFocalLength)] = true;
+  EXPECT_THAT(FormatRunTable(Summarize(result), context, "out"),
+              HasSubstr("corrected  fx 509.40 +- 0.51 px, fy 509.40 +- 0.51 px\n"
+                        "           determine it once with msc_vo calibrate room --output"));
+}
+
 TEST_F(ResultFilesTest, WritesTheOptionsInEffect) {
   RunContext context;
   context.configuration.odometry.mode = Mode::kPlVo;
