@@ -228,6 +228,7 @@ void Mapper::Calibrate(const KeyframePacket& packet, MappingSummary* summary) {
   atlas_.ChangeAll([&](Map* map) { ChangeKeyframeIntrinsics(update, map); });
   noise_ = NoiseEstimator(options_.noise);
   axes_ = SceneAxes(options_.axes);
+  for (auto& [first, axes] : inactive_axes_) axes = axes_;
   OptimizeMap(summary->keyframe);
   // A wrong calibration hides the observations that contradict it.
   FuseLandmarks(options_.fusion, &atlas_.current());
