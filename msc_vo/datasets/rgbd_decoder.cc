@@ -196,7 +196,10 @@ RgbdImage RgbdDecoder::MakeImage(int i, const SequenceEntry& entry, cv::Mat colo
   image.depth_delay = entry.depth_delay;
   image.gray = ToGray(color);
   image.depth = ToMetres(depth, calibration_.depth_scale, index_.invalid_depth);
-  if (registration_) image.depth = registration_->Register(image.depth);
+  if (registration_) {
+    image.recorded_depth = image.depth;
+    image.depth = registration_->Register(image.recorded_depth);
+  }
   return image;
 }
 

@@ -23,11 +23,11 @@ bool HasDynamicFeatures(const Frame& frame) {
 }  // namespace
 
 std::shared_ptr<const Frame> MeasureDepthAgain(
-    const FrameBuilderOptions& options, const cv::Mat& gray, const cv::Mat& depth,
-    const Frame& frame, const std::shared_ptr<const CameraIntrinsics>& intrinsics) {
+    const FrameBuilderOptions& options, const RgbdImage& image, const Frame& frame,
+    const std::shared_ptr<const CameraIntrinsics>& intrinsics) {
   DepthSource source(options.depth_sensor, options.noise, options.min_depth, options.max_depth,
-                     depth.cols);
-  source.Assign(gray, depth);
+                     image.depth.cols);
+  source.Assign(image);
   // Features are where they were recorded without compensation of the rolling shutter.
   const CameraVelocity velocity = frame.velocity.value_or(CameraVelocity());
   const auto recorded = std::make_shared<Frame>(CompensateRollingShutter(frame, velocity, 0.0));

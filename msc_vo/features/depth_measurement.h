@@ -10,11 +10,11 @@
 namespace msc_vo {
 
 /// Returns the frame with other intrinsics, and the depths that its features have in a depth image
-/// that is registered as these say. `gray`: CV_8UC1, `depth`: CV_32FC1, metres, the images of the
-/// frame; `options`: those of the FrameBuilder. The sensor is determined from this image alone.
+/// that is registered as these say. `image`: the one of the frame; `options`: those of the
+/// FrameBuilder. The sensor is determined from this image alone.
 /// Depth ranges are left out if the frame has dynamic features, whose surfaces must have none.
 std::shared_ptr<const Frame> MeasureDepthAgain(
-    const FrameBuilderOptions& options, const cv::Mat& gray, const cv::Mat& depth,
-    const Frame& frame, const std::shared_ptr<const CameraIntrinsics>& intrinsics);
+    const FrameBuilderOptions& options, const RgbdImage& image, const Frame& frame,
+    const std::shared_ptr<const CameraIntrinsics>& intrinsics);
 
 }  // namespace msc_vo

@@ -139,7 +139,7 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
   }
   FrameBuilderTimes& times = state_->times;
   Stopwatch stopwatch;
-  state_->depth.Assign(image.gray, image.depth);
+  state_->depth.Assign(image);
   frame.depth_ranges = MakeDepthRanges(state_->depth.image(), state_->lens, frame.camera);
   times.depth = stopwatch.Restart();
   std::vector<State::PointLevel> levels(state_->point_extractor.SetImage(image.gray));

@@ -36,6 +36,7 @@ RgbdImage DepthPreparation::Align(const RgbdImage& image,
   RgbdImage aligned = image;
   aligned.depth_delay = 0.0;
   if (image.depth_delay != 0.0 && velocity) {
+    if (aligned.recorded_depth.empty()) aligned.recorded_depth = image.depth;
     aligned.depth = aligner_.Align(image.depth, velocity->Over(image.depth_delay));
   }
   return aligned;
@@ -43,15 +44,20 @@ RgbdImage DepthPreparation::Align(const RgbdImage& image,
 
 RgbdImage DepthPreparation::Register(const RgbdImage& image) const {
   RgbdImage registered = image;
-  if (registration_) registered.depth = registration_->Register(image.depth);
+  if (!registration_) return registered;
+  if (registered.recorded_depth.empty()) registered.recorded_depth = image.depth;
+  registered.depth = registration_->Register(image.depth);
   return registered;
 }
 
 DepthMeasurement DepthPreparation::MeasurementFor(const FrameBuilderOptions& options) const {
   return [options, given = given_](const Frame& frame, const RecordedImage& image,
                                    const std::shared_ptr<const CameraIntrinsics>& intrinsics) {
-    const cv::Mat depth = FindRegistration(*given, *intrinsics)->Register(image.Depth());
-    return MeasureDepthAgain(options, image.Gray(), depth, frame, intrinsics);
+    RgbdImage registered;
+    registered.gray = image.Gray();
+    registered.recorded_depth = image.Depth();
+    registered.depth = FindRegistration(*given, *intrinsics)->Register(registered.recorded_depth);
+    return MeasureDepthAgain(options, registered, frame, intrinsics);
   };
 }
 

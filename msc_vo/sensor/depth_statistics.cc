@@ -40,7 +40,9 @@ constexpr double kExactNoise = 1e-4;
 constexpr double kQuantizedNoise = 2.0;  // noise in steps; a Kinect has at most 1.3
 constexpr double kCorrelatedRatio = 3.0;
 constexpr double kRangeExponent = 1.4;
-constexpr double kLidarNoise = 1e-3;  // 1/metres; smooth noise of a LiDAR is below, stereo above
+// 1/metres; correlated noise of stereo is above, that of a LiDAR and of exact depth that was
+// registered to another camera below.
+constexpr double kSmoothNoise = 1e-3;
 
 struct Difference {
   float z = 0.0f;      // metres
@@ -156,9 +158,9 @@ DepthSensor ClassifyDepthSensor(const DepthStatistics& statistics) {
   }
   const std::optional<double>& exponent = statistics.exponent;
   if (IsCorrelated(statistics)) {
-    const bool is_range =
-        statistics.far_noise < kLidarNoise && exponent.value_or(0.0) < kRangeExponent;
-    return is_range ? DepthSensor::kLidar : DepthSensor::kStereo;
+    if (statistics.far_noise > kSmoothNoise) return DepthSensor::kStereo;
+    return exponent.value_or(0.0) < kRangeExponent ? DepthSensor::kLidar
+                                                   : DepthSensor::kStructuredLight;
   }
   if (!exponent) return DepthSensor::kAuto;
   return *exponent < kRangeExponent ? DepthSensor::kTimeOfFlight : DepthSensor::kStructuredLight;

@@ -94,9 +94,10 @@ TEST_F(RgbdDecoderTest, RegistersImagesOfDepthCamera) {
   const RgbdDecoder decoder(index, calibration);
   WriteColor("0.png");
   WriteDepth("0d.png", 2500, 16, 12);
-  const cv::Mat depth = decoder.Decode(0).depth;
-  ASSERT_EQ(depth.size(), cv::Size(8, 6));
-  EXPECT_NEAR(depth.at<float>(3, 4), 2.5, 1e-5);
+  const RgbdImage image = decoder.Decode(0);
+  ASSERT_EQ(image.depth.size(), cv::Size(8, 6));
+  EXPECT_NEAR(image.depth.at<float>(3, 4), 2.5, 1e-5);
+  EXPECT_EQ(image.recorded_depth.size(), cv::Size(16, 12));
   WriteDepth("0d.png", 2500, 8, 6);
   EXPECT_THAT(ErrorOf(decoder), HasSubstr("is 8x6, but the depth camera is 16x12 (camera.txt)"));
   WriteDepth("0d.png", 2500, 16, 12);

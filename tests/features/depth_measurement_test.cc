@@ -66,8 +66,7 @@ class DepthMeasurement : public ::testing::TestWithParam<double> {
 TEST_P(DepthMeasurement, IsThatOfAFrameWithTheOtherDepthImage) {
   const Frame frame = builder_->Build(ImageOf(Wall));
   const RgbdImage other = ImageOf(OtherWall);
-  const auto measured =
-      MeasureDepthAgain(options_, other.gray, other.depth, frame, Registered(frame));
+  const auto measured = MeasureDepthAgain(options_, other, frame, Registered(frame));
   ExpectSameDepths(*measured, builder_->Build(other), 1e-5);
 }
 
@@ -77,8 +76,7 @@ TEST_P(DepthMeasurement, LooksWhereARollingShutterHasRecordedTheFeature) {
   const RgbdImage other = ImageOf(OtherWall);
   const Frame frame =
       CompensateRollingShutter(builder_->Build(ImageOf(Wall)), velocity, readout_time);
-  const auto measured =
-      MeasureDepthAgain(options_, other.gray, other.depth, frame, Registered(frame));
+  const auto measured = MeasureDepthAgain(options_, other, frame, Registered(frame));
   EXPECT_EQ(measured->readout_time, readout_time);
   ExpectSameDepths(*measured,
                    CompensateRollingShutter(builder_->Build(other), velocity, readout_time), 1e-3);

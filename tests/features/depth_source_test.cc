@@ -8,6 +8,7 @@
 
 #include "tests/features/depth_images.h"
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "msc_vo/features/line_backprojection.h"
 
@@ -71,9 +72,32 @@ TEST(DepthSource, RemovesTheBleedingOfStereo) {
   cv::Mat depth = testing::DrawDepth(kCamera, post);
   depth.at<float>(204, 320) = std::numeric_limits<float>::quiet_NaN();
   depth.at<float>(204, 352) = 50.0f;  // out of range
-  source.Assign(gray, depth);
+  RgbdImage image;
+  image.gray = gray;
+  image.depth = depth;
+  source.Assign(image);
   for (const int x : {290, 299, 340, 350}) EXPECT_NEAR(source.image().At(x, 200), 0.5, 0.002) << x;
   for (const int x : {300, 320, 339}) EXPECT_NEAR(source.image().At(x, 200), 1.0, 0.002) << x;
+}
+
+TEST(DepthSource, TheImageAsRecordedTellsTheSensor) {
+  // Noise of time of flight, which registration has smoothed.
+  RgbdImage image;
+  image.recorded_depth = testing::DrawDepth(
+      kCamera, [](const Eigen::Vector2d& pixel) { return 0.25 + 0.0008 * pixel.x(); });
+  cv::Mat noise(image.recorded_depth.size(), CV_32FC1);
+  cv::RNG(3).fill(noise, cv::RNG::NORMAL, 0.0, 0.006);
+  image.recorded_depth += noise;
+  cv::GaussianBlur(image.recorded_depth, image.depth, cv::Size(), 3.0);
+  image.gray = cv::Mat(image.depth.size(), CV_8UC1, cv::Scalar(100));
+  const auto sensor = [&] {
+    DepthSource source(DepthSensor::kAuto, SensorNoiseOptions(), 0.2, 10.0, kCamera.width);
+    source.Assign(image);
+    return source.sensor();
+  };
+  EXPECT_EQ(sensor(), DepthSensor::kTimeOfFlight);
+  image.recorded_depth.release();
+  EXPECT_NE(sensor(), DepthSensor::kTimeOfFlight);
 }
 
 }  // namespace

@@ -91,6 +91,13 @@ TEST(ClassifyDepthSensor, TellsTheSensorsApart) {
             DepthSensor::kTimeOfFlight);
 }
 
+TEST(ClassifyDepthSensor, ExactDepthThatWasWarpedToAnotherCameraIsNoStereo) {
+  // The nearest pixel of an image that is smaller by a sixth: steps on every slanted surface.
+  cv::Mat warped;
+  cv::resize(Wall(), warped, cv::Size(), 1.2, 1.2, cv::INTER_NEAREST);
+  EXPECT_EQ(ClassifyDepthSensor(MeasureDepthStatistics(warped)), DepthSensor::kStructuredLight);
+}
+
 TEST(ClassifyDepthSensor, IsUndecidedIfTheImageDoesNotTell) {
   const cv::Mat flat(kHeight, kWidth, CV_32FC1, cv::Scalar(2.0));
   EXPECT_EQ(ClassifyDepthSensor(MeasureDepthStatistics(Disturbed(flat.clone(), 0.0, TimeOfFlight))),

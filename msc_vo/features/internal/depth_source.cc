@@ -25,12 +25,13 @@ DepthSource::DepthSource(DepthSensor sensor, const SensorNoiseOptions& noise, do
 
 void DepthSource::Reset() { *this = DepthSource(given_, noise_, min_depth_, max_depth_, width_); }
 
-void DepthSource::Assign(const cv::Mat& gray, const cv::Mat& depth) {
+void DepthSource::Assign(const RgbdImage& image) {
   if (sensor_ == DepthSensor::kAuto) {
-    sensor_ = ClassifyDepthSensor(MeasureDepthStatistics(depth));
+    const cv::Mat& recorded = image.recorded_depth.empty() ? image.depth : image.recorded_depth;
+    sensor_ = ClassifyDepthSensor(MeasureDepthStatistics(recorded));
     model_ = MakeDepthSensorModel(sensor_, noise_, width_);
   }
-  image_.Assign(Clean(gray, depth), min_depth_, max_depth_);
+  image_.Assign(Clean(image.gray, image.depth), min_depth_, max_depth_);
 }
 
 cv::Mat DepthSource::Clean(const cv::Mat& gray, const cv::Mat& depth) {

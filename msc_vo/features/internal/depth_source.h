@@ -9,6 +9,7 @@
 #include "msc_vo/sensor/depth_bleeding.h"
 #include "msc_vo/sensor/depth_sensor.h"
 #include "msc_vo/sensor/inverse_depth_image.h"
+#include "msc_vo/sensor/rgbd_image.h"
 
 namespace msc_vo {
 
@@ -20,8 +21,8 @@ class DepthSource {
   DepthSource(DepthSensor sensor, const SensorNoiseOptions& noise, double min_depth,
               double max_depth, int width);
 
-  /// Replaces the image. `gray`: CV_8UC1, `depth`: CV_32FC1, metres, of equal size.
-  void Assign(const cv::Mat& gray, const cv::Mat& depth);
+  /// Replaces the image.
+  void Assign(const RgbdImage& image);
 
   /// Forgets what the images have told about the sensor.
   void Reset();
