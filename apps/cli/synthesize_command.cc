@@ -157,7 +157,7 @@ void PrintJson(const Arguments& arguments, const PinholeCamera& camera, int num_
 
 SyntheticDepth DepthOf(const Arguments& arguments) {
   const std::string& name = arguments.sensor.empty() ? arguments.noise : arguments.sensor;
-  if (name == "kinect") return SyntheticDepth::kKinect;
+  if (name == "kinect") return SyntheticDepth::kStructuredLight;
   if (name == "tof") return SyntheticDepth::kTimeOfFlight;
   if (name == "stereo") return SyntheticDepth::kStereo;
   return name == "lidar" ? SyntheticDepth::kLidar : SyntheticDepth::kExact;
