@@ -162,6 +162,23 @@ void ParseOptionalLine(const TextLine& line, Calibration* calibration) {
   if (!calibration->IsValid(&error)) line.Fail(error);
 }
 
+// The numbers, a blank before each.
+std::string FormatNumbers(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double number : numbers) text += " " + FormatNumber(number);
+  return text;
+}
+
+std::string FormatIntrinsics(const PinholeCamera& camera) {
+  return FormatNumber(camera.fx) + FormatNumbers({camera.fy, camera.cx, camera.cy}) +
+         FormatText(" %d %d", camera.width, camera.height);
+}
+
+// The model and its coefficients.
+std::string FormatLens(const LensDistortion& lens) {
+  return LensModelName(lens.model) + FormatNumbers(lens.Coefficients());
+}
+
 }  // namespace
 
 Calibration ReadCameraFile(const std::string& path) {
@@ -177,39 +194,27 @@ Calibration ReadCameraFile(const std::string& path) {
 }
 
 std::string FormatCameraFile(const Calibration& calibration, const std::string& comment) {
-  const auto intrinsics = [](const PinholeCamera& camera) {
-    return FormatText("%.17g %.17g %.17g %.17g %d %d", camera.fx, camera.fy, camera.cx, camera.cy,
-                      camera.width, camera.height);
-  };
-  const auto coefficients = [](const LensDistortion& lens) {
-    std::string text;
-    for (const double k : lens.Coefficients()) text += FormatText(" %.17g", k);
-    return text;
-  };
   const LensDistortion& lens = calibration.distortion;
   const bool has_lens_line = lens.model != LensModel::kRadialTangential;
   std::string text =
-      intrinsics(calibration.Recorded()) + FormatText(" %.17g", calibration.depth_scale);
-  if (!lens.IsZero() && !has_lens_line) text += coefficients(lens);
+      FormatIntrinsics(calibration.Recorded()) + FormatNumbers({calibration.depth_scale});
+  if (!lens.IsZero() && !has_lens_line) text += FormatNumbers(lens.Coefficients());
   text += "\n";
-  if (has_lens_line) text += "lens " + (LensModelName(lens.model) + coefficients(lens)) + "\n";
+  if (has_lens_line) text += "lens " + FormatLens(lens) + "\n";
   if (calibration.field_of_view) {
-    text += FormatText("field_of_view %.17g\n", *calibration.field_of_view);
+    text += "field_of_view" + FormatNumbers({*calibration.field_of_view}) + "\n";
   }
   if (calibration.readout_time) {
-    text += FormatText("readout_time %.17g\n", *calibration.readout_time);
+    text += "readout_time" + FormatNumbers({*calibration.readout_time}) + "\n";
   }
   if (calibration.depth_camera) {
     const Rigid3& transform = calibration.depth_camera->depth_from_color;
     const Eigen::Vector3d t = transform.translation();
     const Eigen::Quaterniond q(transform.rotation());
-    text += "depth_camera " + intrinsics(calibration.depth_camera->camera) +
-            FormatText(" %.17g %.17g %.17g", t.x(), t.y(), t.z()) +
-            FormatText(" %.17g %.17g %.17g %.17g\n", q.x(), q.y(), q.z(), q.w());
+    text += "depth_camera " + FormatIntrinsics(calibration.depth_camera->camera) +
+            FormatNumbers({t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) + "\n";
     const LensDistortion& depth_lens = calibration.depth_camera->distortion;
-    if (!depth_lens.IsZero()) {
-      text += "depth_lens " + (LensModelName(depth_lens.model) + coefficients(depth_lens)) + "\n";
-    }
+    if (!depth_lens.IsZero()) text += "depth_lens " + FormatLens(depth_lens) + "\n";
   }
   // Numbers come first, for readers that do not skip comments.
   return text + "# fx fy cx cy width height depth_scale [k1 k2 p1 p2 k3]\n# " + comment + "\n";

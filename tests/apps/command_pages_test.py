@@ -20,8 +20,9 @@ def help_of(*command):
 
 
 def options_of(*command):
-    """The options that --help lists: words that begin a line of its list."""
-    return set(re.findall(r"^\s+(?:-\w,)?(--[\w-]+)", help_of(*command), re.MULTILINE))
+    """The options that --help lists: words that begin a line of its list, separated by commas."""
+    names = re.findall(r"^\s+(?:-\w,)?(--[\w,-]+)", help_of(*command), re.MULTILINE)
+    return {name for listed in names for name in listed.split(",")}
 
 
 def commands():

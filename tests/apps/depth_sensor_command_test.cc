@@ -38,7 +38,7 @@ class DepthSensorCommandTest : public TemporaryFolder {
 TEST_F(DepthSensorCommandTest, ChoosesTheSensorThatWasRendered) {
   for (const std::string sensor : {"tof", "stereo", "lidar"}) {
     // A scene whose first image has near and far surfaces.
-    Synthesize(sensor, {"--sensor", sensor, "--scene", "corridor"});
+    Synthesize(sensor, {"--depth-sensor", sensor, "--scene", "corridor"});
     EXPECT_EQ(SensorOf(sensor), sensor);
     EXPECT_THAT(ReadFile(Path(sensor + "/log")),
                 HasSubstr("depth sensor: " + sensor + " (chosen from the depth images)"));
@@ -55,17 +55,26 @@ TEST_F(DepthSensorCommandTest, TakesTheGivenSensor) {
   EXPECT_THAT(ReadFile(Path("exact/log")), HasSubstr("depth sensor: tof (given)"));
 }
 
-TEST_F(DepthSensorCommandTest, KinectIsThatOfNoise) {
-  Synthesize("sensor", {"--sensor", "kinect"});
-  Synthesize("noise", {"--noise", "kinect"});
-  EXPECT_EQ(ReadFile(Path("sensor/depth/1.000000.png")),
-            ReadFile(Path("noise/depth/1.000000.png")));
+TEST_F(DepthSensorCommandTest, HasTheNamesOfReplayAndOlderOnes) {
+  const auto depth_of = [this](const std::string& option, const std::string& sensor) {
+    Synthesize(option + sensor, {"--" + option, sensor});
+    const std::string truth = ReadFile(Path(option + sensor + "/truth.json"));
+    return nlohmann::json::parse(truth)["depth_sensor"].get<std::string>() +
+           ReadFile(Path(option + sensor + "/depth/1.000000.png"));
+  };
+  const std::string structured_light = depth_of("depth-sensor", "structured-light");
+  EXPECT_THAT(structured_light, testing::StartsWith("structured-light"));
+  EXPECT_EQ(depth_of("sensor", "kinect"), structured_light);
+  EXPECT_EQ(depth_of("noise", "kinect"), structured_light);
+  const std::string exact = depth_of("depth-sensor", "exact");
+  EXPECT_THAT(exact, testing::StartsWith("exact"));
+  EXPECT_EQ(depth_of("noise", "none"), exact);
 }
 
 TEST_F(DepthSensorCommandTest, RefusesUnknownSensorsAndTwoOfThem) {
   CommandOutcome outcome = RunCommand({"synthesize", Path("a"), "--sensor", "radar"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output, HasSubstr("radar"));
+  EXPECT_THAT(outcome.output, HasSubstr("'radar' is not a depth sensor; known: exact,"));
   outcome = RunCommand({"synthesize", Path("a"), "--sensor", "tof", "--noise", "kinect"});
   EXPECT_EQ(outcome.exit_code, 2);
   outcome = RunCommand({"replay", Path("a"), "--depth-sensor", "radar"});

@@ -47,6 +47,15 @@ TEST_F(SelfCalibrationTest, CorrectsAnUnknownLens) {
   EXPECT_GT(Ape(without), 3.0 * Ape(described));
 }
 
+TEST_F(SelfCalibrationTest, CorrectsAWrongFocalLength) {
+  Synthesize("wrong", 60, {"--focal-length-error", "3"});
+  const nlohmann::json truth = nlohmann::json::parse(ReadFile(Path("wrong/truth.json")));
+  const nlohmann::json fx = Replay("wrong").at("self_calibration").at("fx");
+  EXPECT_EQ(fx.at("verdict"), "corrected");
+  EXPECT_NEAR(fx.at("value").get<double>(), truth["camera"]["fx"].get<double>(),
+              0.01 * truth["camera"]["fx"].get<double>());
+}
+
 TEST_F(SelfCalibrationTest, RegistersTheImagesOfADepthCameraThatNobodyTold) {
   // A focal length of 292.5 px instead of 262.5.
   const std::vector<std::string> rig = {"--rig", "292.5,0.025,0,0.5"};

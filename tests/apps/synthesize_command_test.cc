@@ -4,6 +4,8 @@
 #include "tests/apps/command_process.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "msc_vo/datasets/accelerometer.h"
 #include "msc_vo/text/files.h"
@@ -11,7 +13,10 @@
 namespace msc_vo {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
 
 class SynthesizeCommandTest : public TemporaryFolder {
  protected:
@@ -21,6 +26,17 @@ class SynthesizeCommandTest : public TemporaryFolder {
                                           "1",          "--width",  "160"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return RunCommand(arguments);
+  }
+  // The same, which must succeed. Returns truth.json.
+  nlohmann::json Truth(const std::string& name, const std::vector<std::string>& more) {
+    const CommandOutcome outcome = Synthesize(name, more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    return nlohmann::json::parse(ReadFile(Path(name + "/truth.json")));
+  }
+  std::string Camera(const std::string& name) { return ReadFile(Path(name + "/camera.txt")); }
+  std::string Color(const std::string& name) { return ReadFile(Path(name + "/rgb/1.000000.png")); }
+  std::string Depth(const std::string& name) {
+    return ReadFile(Path(name + "/depth/1.000000.png"));
   }
   size_t ColorBytes(const std::string& name) {
     return ReadFile(Path(name + "/rgb/1.000000.jpg")).size();
@@ -47,6 +63,132 @@ TEST_F(SynthesizeCommandTest, WritesAnAccelerometer) {
   ASSERT_FALSE(readings.empty());
   // The camera is held upright: up is against its y axis.
   EXPECT_LT(readings.front().acceleration.y(), -8.0);
+}
+
+TEST_F(SynthesizeCommandTest, WritesTheTruth) {
+  const nlohmann::json truth = Truth("room", {"--seed", "7"});
+  const nlohmann::json& camera = truth["camera"];
+  EXPECT_EQ(camera["fx"], 131.25);
+  EXPECT_EQ(camera["cy"], 59.5);
+  EXPECT_EQ(camera["width"], 160);
+  EXPECT_EQ(camera["lens"], "radial-tangential");
+  EXPECT_EQ(camera["distortion"], std::vector<double>(5, 0.0));
+  EXPECT_EQ(camera["depth_scale"], 5000.0);
+  EXPECT_EQ(camera["readout_time"], 0.0);
+  EXPECT_TRUE(camera["depth_camera"].is_null());
+  EXPECT_TRUE(truth["given"]["readout_time"].is_null());
+  for (const char* key : {"fx", "fy", "cx", "cy", "height", "distortion", "depth_scale"}) {
+    EXPECT_EQ(truth["given"][key], camera[key]) << key;
+  }
+  EXPECT_EQ(truth["seed"], 7);
+  EXPECT_EQ(truth["depth_sensor"], "exact");
+  EXPECT_TRUE(truth["light"].is_null());
+  EXPECT_EQ(truth["hunting_exposure"], false);
+  EXPECT_EQ(truth["motion_blur"], 0.0);
+}
+
+TEST_F(SynthesizeCommandTest, WritesTheTrueCamerasThatAreUntold) {
+  const std::string lens = "--lens=radial-tangential:-0.3,0.1,0,0,0";
+  const std::string rig = "--rig=146.25,0.025,0,0";
+  nlohmann::json truth = Truth("told", {lens, rig});
+  EXPECT_EQ(truth["given"]["distortion"], truth["camera"]["distortion"]);
+  EXPECT_EQ(truth["given"]["depth_camera"], truth["camera"]["depth_camera"]);
+  EXPECT_THAT(Camera("told"),
+              HasSubstr(" 5000 -0.3 0.1 0 0 0\ndepth_camera 146.25 146.25 79.5 59.5 "
+                        "160 120 0.025 0 0 0 0 0 1\n"));
+  truth = Truth("untold", {lens, rig, "--untold"});
+  EXPECT_EQ(truth["camera"]["distortion"], (std::vector<double>{-0.3, 0.1, 0.0, 0.0, 0.0}));
+  EXPECT_EQ(truth["camera"]["depth_camera"]["fx"], 146.25);
+  EXPECT_EQ(truth["camera"]["depth_camera"]["translation"], (std::vector<double>{0.025, 0.0, 0.0}));
+  EXPECT_EQ(truth["given"]["distortion"], std::vector<double>(5, 0.0));
+  EXPECT_TRUE(truth["given"]["depth_camera"].is_null());
+  EXPECT_THAT(Camera("untold"), StartsWith("131.25 131.25 79.5 59.5 160 120 5000\n#"));
+  truth = Truth("rolling", {"--readout-time", "0.02"});
+  EXPECT_EQ(truth["camera"]["readout_time"], 0.02);
+}
+
+TEST_F(SynthesizeCommandTest, WritesAWrongCalibration) {
+  Truth("right", {});
+  const nlohmann::json truth =
+      Truth("wrong", {"--focal-length-error", "2", "--principal-point-error", "3,-1.5"});
+  EXPECT_THAT(Camera("wrong"), StartsWith("133.875 133.875 82.5 58 160 120 5000\n"));
+  EXPECT_EQ(truth["camera"]["fx"], 131.25);
+  EXPECT_EQ(truth["camera"]["cx"], 79.5);
+  EXPECT_EQ(truth["given"]["fy"], 133.875);
+  EXPECT_EQ(truth["given"]["cy"], 58.0);
+  EXPECT_EQ(Color("wrong"), Color("right"));
+  EXPECT_EQ(Depth("wrong"), Depth("right"));
+  Truth("short", {"--focal-length-error", "-2"});
+  EXPECT_THAT(Camera("short"), StartsWith("128.625 128.625 79.5 59.5 "));
+  // With a depth camera and a lens, the errors are those of the colour camera alone.
+  Truth("rig", {"--focal-length-error=2", "--rig=146.25,0,0,0", "--lens=fisheye:0.02,0,0,0"});
+  EXPECT_THAT(Camera("rig"),
+              AllOf(StartsWith("133.875 133.875 79.5 "), HasSubstr("\nlens fisheye 0.02 0 0 0\n"),
+                    HasSubstr("\ndepth_camera 146.25 146.25 ")));
+}
+
+TEST_F(SynthesizeCommandTest, AppliesErrorsOfColourImages) {
+  Truth("plain", {"--fps", "5"});
+  const std::vector<std::pair<std::string, std::vector<std::string>>> errors = {
+      {"light", {"--light", "0.2"}},
+      {"hunting_exposure", {"--hunting-exposure"}},
+      {"motion_blur", {"--motion-blur", "0.5"}}};
+  for (const auto& [name, option] : errors) {
+    std::vector<std::string> arguments = {"--fps", "5"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    const nlohmann::json truth = Truth(name, arguments);
+    EXPECT_EQ(truth[name].dump(), option.size() == 1 ? "true" : option[1]);
+    EXPECT_NE(Color(name), Color("plain")) << name;
+    EXPECT_EQ(Depth(name), Depth("plain")) << name;
+    EXPECT_EQ(Camera(name), Camera("plain")) << name;
+    EXPECT_EQ(Truth(name + "_again", arguments), truth);
+    EXPECT_EQ(Color(name + "_again"), Color(name)) << name;
+  }
+}
+
+TEST_F(SynthesizeCommandTest, AppliesErrorsOfDepthImages) {
+  Truth("plain", {});
+  nlohmann::json truth = Truth("scale", {"--depth-factor", "1.1"});
+  EXPECT_EQ(truth["camera"]["depth_scale"], 5500.0);
+  EXPECT_EQ(truth["given"]["depth_scale"], 5000.0);
+  EXPECT_EQ(Camera("scale"), Camera("plain"));
+  EXPECT_EQ(Color("scale"), Color("plain"));
+  const auto depth_at_center = [this](const std::string& name) {
+    return cv::imread(Path(name + "/depth/1.000000.png"), cv::IMREAD_UNCHANGED)
+        .at<uint16_t>(60, 80);
+  };
+  EXPECT_NEAR(depth_at_center("scale"), 1.1 * depth_at_center("plain"), 1.0);
+  truth = Truth("unbiased", {"--depth-sensor", "tof", "--depth-bias", "0"});
+  EXPECT_EQ(truth["depth_sensor"], "tof");
+  EXPECT_EQ(truth["depth_bias"], 0.0);
+  EXPECT_EQ(Truth("tof", {"--depth-sensor", "tof"})["depth_bias"], 0.005);
+  EXPECT_EQ(Truth("biased", {"--depth-sensor", "tof", "--depth-bias", "0.2"})["depth_bias"], 0.2);
+  const double tof = depth_at_center("tof") - depth_at_center("unbiased");
+  EXPECT_NEAR(depth_at_center("biased") - depth_at_center("unbiased"), 40.0 * tof, 21.0);
+}
+
+TEST_F(SynthesizeCommandTest, RefusesBadValues) {
+  const auto expect_refused = [this](const std::vector<std::string>& arguments, int exit_code,
+                                     const std::string& message) {
+    const CommandOutcome outcome = Synthesize("bad", arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << message;
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr(message), Not(HasSubstr("SyntheticSequence"))));
+    EXPECT_FALSE(HasEntry(Path("bad"))) << message;
+  };
+  expect_refused({"--focal-length-error", "-95"}, 2, "--focal-length-error: Value -95 not in");
+  expect_refused({"--focal-length-error", "a"}, 2, "--focal-length-error: Value a not in");
+  expect_refused({"--principal-point-error", "3"}, 2, "--principal-point-error: At least 2");
+  expect_refused({"--principal-point-error", "3,nan"}, 2, "Value nan not in range");
+  expect_refused({"--principal-point-error", "100,0"}, 1,
+                 "the errors of camera.txt are too large: camera: cx = 179.5 must be from 0");
+  expect_refused({"--light", "0"}, 2, "--light: Value 0 not in range");
+  expect_refused({"--light", "1.5"}, 2, "--light: Value 1.5 not in range");
+  expect_refused({"--motion-blur", "1.5"}, 2, "--motion-blur: Value 1.5 not in range");
+  expect_refused({"--hunting-exposure=maybe"}, 2, "--hunting-exposure");
+  expect_refused({"--depth-factor", "0"}, 2, "--depth-factor: Value 0 not in range");
+  expect_refused({"--depth-bias", "0.01"}, 1, "give --depth-sensor tof");
+  expect_refused({"--depth-bias", "0.01", "--sensor", "stereo"}, 1, "give --depth-sensor tof");
+  expect_refused({"--readout-time", "0.5"}, 1, "error: readout_time must be at most");
 }
 
 }  // namespace

@@ -136,6 +136,20 @@ TEST_F(CameraFileTest, ReadsLens) {
             calibration.depth_camera->distortion.k);
 }
 
+TEST_F(CameraFileTest, WritesTheShortestNumbersThatAreReadAsTheSame) {
+  Calibration calibration;
+  calibration.camera = {525.1, 525.2, 319.3, 239.7, 640, 480};
+  calibration.distortion.k = {-0.3, 0.1};
+  calibration.readout_time = 0.025;
+  calibration.depth_camera = DepthCamera{{585.0, 585.0, 319.5, 239.5, 640, 480}, {}};
+  calibration.depth_camera->depth_from_color.translation().x() = 0.025;
+  EXPECT_EQ(FormatCameraFile(calibration, "test"),
+            "525.1 525.2 319.3 239.7 640 480 5000 -0.3 0.1 0 0 0\n"
+            "readout_time 0.025\n"
+            "depth_camera 585 585 319.5 239.5 640 480 0.025 0 0 0 0 0 1\n"
+            "# fx fy cx cy width height depth_scale [k1 k2 p1 p2 k3]\n# test\n");
+}
+
 TEST_F(CameraFileTest, RejectsImpossibleLenses) {
   const std::string camera = "300 301 322 238 640 480 1000\n";
   EXPECT_THAT(ErrorOf(camera + "lens fish 0 0 0 0\n"),

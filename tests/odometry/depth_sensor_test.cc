@@ -28,7 +28,7 @@ struct SensorCase {
 
 constexpr SensorCase kSensors[] = {
     {SyntheticDepth::kExact, DepthSensor::kStructuredLight},
-    {SyntheticDepth::kKinect, DepthSensor::kStructuredLight},
+    {SyntheticDepth::kStructuredLight, DepthSensor::kStructuredLight},
     {SyntheticDepth::kTimeOfFlight, DepthSensor::kTimeOfFlight},
     {SyntheticDepth::kStereo, DepthSensor::kStereo},
     {SyntheticDepth::kLidar, DepthSensor::kLidar},

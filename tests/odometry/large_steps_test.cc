@@ -48,7 +48,7 @@ void ExpectAllTracked(const SyntheticSequenceOptions& options, int num_frames) {
 
 TEST(LargeSteps, OrbitAroundBoxIsTracked) {
   for (const uint64_t seed : {1, 2}) ExpectAllTracked(Orbit(seed, SyntheticDepth::kExact), 12);
-  ExpectAllTracked(Orbit(3, SyntheticDepth::kKinect), 12);
+  ExpectAllTracked(Orbit(3, SyntheticDepth::kStructuredLight), 12);
 }
 
 TEST(LargeSteps, BareRoomIsTracked) { ExpectAllTracked(BareRoom(1), 10); }

@@ -54,7 +54,7 @@ inline RandomWorld DrawWorld(unsigned seed, int num_images) {
   sequence.width = Choose({160, 240, 320}, &random);
   sequence.height = sequence.width * 3 / 4;
   sequence.fps = Choose({2.0, 5.0, 15.0, 30.0}, &random);
-  sequence.depth = Choose({SyntheticDepth::kExact, SyntheticDepth::kKinect,
+  sequence.depth = Choose({SyntheticDepth::kExact, SyntheticDepth::kStructuredLight,
                            SyntheticDepth::kTimeOfFlight, SyntheticDepth::kStereo},
                           &random);
   sequence.readout_time = Choose({0.0, 0.02}, &random);

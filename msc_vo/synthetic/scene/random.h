@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -51,6 +52,17 @@ class Random {
   Eigen::Vector3d Normal3() {
     const Eigen::Vector2d xy = Normal2();
     return {xy.x(), xy.y(), Normal()};
+  }
+
+  /// Poisson deviate of a `mean` >= 0: by inversion, above 30 by its normal approximation.
+  int Poisson(double mean) {
+    if (mean > 30.0)
+      return std::max(0, static_cast<int>(std::lround(mean + std::sqrt(mean) * Normal())));
+    const double uniform = Uniform();
+    double probability = std::exp(-mean), sum = probability;
+    int count = 0;
+    for (; sum < uniform && count < 200; sum += probability) probability *= mean / ++count;
+    return count;
   }
 
  private:

@@ -155,16 +155,12 @@ Color FilterPixel(const Shader& shader, const HitBuffer& hits, const BorderBuffe
   return SampleSquare(shader, views, x, y, side, centers[here]);
 }
 
-uint8_t ToByte(float value) {
-  return static_cast<uint8_t>(std::lround(std::clamp(value, 0.0f, 255.0f)));
-}
-
 }  // namespace
 
 std::vector<uint8_t> RenderedImage::Gray() const {
   std::vector<uint8_t> gray(rgb.size() / 3);
   for (size_t i = 0; i < gray.size(); ++i) {
-    gray[i] = ToByte(0.299f * rgb[3 * i] + 0.587f * rgb[3 * i + 1] + 0.114f * rgb[3 * i + 2]);
+    gray[i] = ToGrayValue(0.299f * rgb[3 * i] + 0.587f * rgb[3 * i + 1] + 0.114f * rgb[3 * i + 2]);
   }
   return gray;
 }
@@ -210,7 +206,7 @@ void Renderer::DrawBand(const Rigid3& cam_from_world, const RowBand& band,
     for (int x = 0; x < camera_.width; ++x) {
       const size_t pixel = static_cast<size_t>(y) * camera_.width + x, hit = hits.Index(x, y);
       const Color color = FilterPixel(shader, hits, borders, centers, x, y);
-      for (int k = 0; k < 3; ++k) image->rgb[3 * pixel + k] = ToByte(255.0f * color[k]);
+      for (int k = 0; k < 3; ++k) image->rgb[3 * pixel + k] = ToGrayValue(255.0f * color[k]);
       if (hits.view[hit] < 0) continue;
       image->depth[pixel] = static_cast<float>(1.0 / hits.inverse_depth[hit]);
     }
@@ -227,11 +223,15 @@ PinholeCamera KinectCamera(int width, int height) {
   return camera;
 }
 
+uint8_t ToGrayValue(float value) {
+  return static_cast<uint8_t>(std::lround(std::clamp(value, 0.0f, 255.0f)));
+}
+
 void AddImageNoise(double sigma, uint64_t seed, uint64_t frame, RenderedImage* image) {
   Random random(seed, frame);
   for (size_t i = 0; i < image->rgb.size(); i += 3) {
     const float noise = static_cast<float>(sigma * random.Normal());
-    for (size_t k = i; k < i + 3; ++k) image->rgb[k] = ToByte(image->rgb[k] + noise);
+    for (size_t k = i; k < i + 3; ++k) image->rgb[k] = ToGrayValue(image->rgb[k] + noise);
   }
 }
 

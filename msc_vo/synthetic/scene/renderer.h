@@ -53,6 +53,9 @@ class Renderer {
 /// the principal point is the centre of the image.
 PinholeCamera KinectCamera(int width, int height);
 
+/// Rounds to a grey value, 0 to 255.
+uint8_t ToGrayValue(float value);
+
 /// Adds normal noise of `sigma` grey values, the same deviate to the three colours of a pixel.
 void AddImageNoise(double sigma, uint64_t seed, uint64_t frame, RenderedImage* image);
 

@@ -8,6 +8,7 @@
 
 #include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/camera/undistorted_camera.h"
+#include "msc_vo/synthetic/scene/motion_blur.h"
 #include "msc_vo/synthetic/scene/random.h"
 
 namespace msc_vo {
@@ -16,6 +17,9 @@ namespace {
 
 // Time stamp of the first frame, seconds. Not 0, which some tools interpret as missing.
 constexpr double kFirstTime = 1.0;
+
+// Random numbers of photon noise; those of other noise of the images have smaller numbers.
+constexpr uint64_t kPhotonStream = uint64_t{1} << 40;
 
 const Eigen::Vector3d kGravity(0.0, 0.0, -9.81);  // metres/second^2, world
 
@@ -81,6 +85,14 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
     return false;
   } else if (!(image_sigma >= 0.0)) {
     *error = "image_sigma must not be negative";
+  } else if (!(motion_blur >= 0.0 && motion_blur <= 1.0)) {
+    *error = "motion_blur must be from 0 to 1 times the time between two images";
+  } else if (!(depth_factor > 0.0)) {
+    *error = "depth_factor must be positive";
+  } else if (photon_noise && !photon_noise->IsValid(error)) {
+    return false;
+  } else if (hunting_exposure && !hunting_exposure->IsValid(error)) {
+    return false;
   } else if (!(accelerometer_sigma >= 0.0)) {
     *error = "accelerometer_sigma must not be negative";
   } else if (!(accelerometer_rate > 0.0)) {
@@ -164,24 +176,57 @@ SyntheticFrame SyntheticSequence::Render(int index) const {
   SyntheticFrame frame;
   frame.pose = PoseAt(index);
   frame.image = RenderColor(seconds, frame.pose.world_from_cam.Inverse());
+  BlurMotion(seconds, &frame.image);
   if (options_.depth_delay != 0.0 || options_.depth_rig) {
     frame.image.depth = RenderDepth(seconds + options_.depth_delay).depth;
   }
   // Even streams for colour, odd streams for depth, so that their noise is independent.
-  const uint64_t stream = 2 * static_cast<uint64_t>(index);
-  if (options_.image_sigma > 0.0) {
-    AddImageNoise(options_.image_sigma, options_.seed, stream, &frame.image);
-  }
-  Disturb(stream + 1, &frame.image.depth);
+  DisturbColor(index, &frame.image);
+  DisturbDepth(2 * static_cast<uint64_t>(index) + 1, &frame.image.depth);
   return frame;
 }
 
-void SyntheticSequence::Disturb(uint64_t stream, std::vector<float>* depth) const {
+void SyntheticSequence::BlurMotion(double seconds, RenderedImage* image) const {
+  if (options_.motion_blur == 0.0) return;
+  const double exposure = options_.motion_blur / options_.fps;
+  const Rigid3 begin = path_.CamFromWorld(seconds - 0.5 * exposure);
+  const Rigid3 end = path_.CamFromWorld(seconds + 0.5 * exposure);
+  const int count =
+      NumExposureSamples(LargestImageMotion(camera_, image->depth, end * begin.Inverse()));
+  if (count == 1) return;
+  ImageMean mean;
+  for (int k = 0; k < count; ++k) {
+    const double time = seconds + exposure * ((k + 0.5) / count - 0.5);
+    mean.Add(RenderColor(time, path_.CamFromWorld(time)).rgb);
+  }
+  image->rgb = mean.Value();
+}
+
+void SyntheticSequence::DisturbColor(int index, RenderedImage* image) const {
+  const uint64_t frame = static_cast<uint64_t>(index);
+  if (options_.hunting_exposure) {
+    ApplyHuntingExposure(*options_.hunting_exposure, index / options_.fps, image);
+  }
+  if (options_.photon_noise) {
+    AddPhotonNoise(*options_.photon_noise, options_.seed, kPhotonStream + frame, image);
+  }
+  if (options_.image_sigma > 0.0) {
+    AddImageNoise(options_.image_sigma, options_.seed, 2 * frame, image);
+  }
+}
+
+void SyntheticSequence::DisturbDepth(uint64_t stream, std::vector<float>* depth) const {
+  AddDepthNoise(stream, depth);
+  if (options_.depth_factor == 1.0) return;
+  for (float& z : *depth) z = static_cast<float>(options_.depth_factor * z);
+}
+
+void SyntheticSequence::AddDepthNoise(uint64_t stream, std::vector<float>* depth) const {
   const uint64_t seed = options_.seed;
-  switch (options_.kinect_depth ? SyntheticDepth::kKinect : options_.depth) {
+  switch (options_.kinect_depth ? SyntheticDepth::kStructuredLight : options_.depth) {
     case SyntheticDepth::kExact:
       return;
-    case SyntheticDepth::kKinect:
+    case SyntheticDepth::kStructuredLight:
       return AddKinectNoise(options_.kinect, depth_camera(), seed, stream, depth);
     case SyntheticDepth::kTimeOfFlight:
       return AddTimeOfFlightNoise(options_.time_of_flight, depth_camera(), seed, stream, depth);

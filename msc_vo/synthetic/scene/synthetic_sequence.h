@@ -15,10 +15,13 @@
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/synthetic/scene/camera_path.h"
 #include "msc_vo/synthetic/scene/depth_artifacts.h"
+#include "msc_vo/synthetic/scene/hunting_exposure.h"
 #include "msc_vo/synthetic/scene/kinect_noise.h"
 #include "msc_vo/synthetic/scene/lens_warp.h"
+#include "msc_vo/synthetic/scene/photon_noise.h"
 #include "msc_vo/synthetic/scene/renderer.h"
 #include "msc_vo/synthetic/scene/scene.h"
+#include "msc_vo/synthetic/scene/synthetic_depth.h"
 
 namespace msc_vo {
 
@@ -28,9 +31,6 @@ struct DepthRig {
   double focal_length = 585.0;  ///< pixels
   Rigid3 depth_from_color;
 };
-
-/// What measures depth.
-enum class SyntheticDepth { kExact, kKinect, kTimeOfFlight, kStereo, kLidar };
 
 struct SyntheticSequenceOptions {
   SceneKind scene = SceneKind::kRoom;
@@ -50,12 +50,20 @@ struct SyntheticSequenceOptions {
   double readout_time = 0.0;
   /// Standard deviation of the image noise, grey values; about 2 for a Kinect indoors.
   double image_sigma = 2.0;
+  /// Noise of dim light, in addition to image_sigma; none: no photon noise.
+  std::optional<PhotonNoiseOptions> photon_noise;
+  /// Gain and vignetting of the colour images; none: constant exposure.
+  std::optional<HuntingExposureOptions> hunting_exposure;
+  /// Exposure time of the colour images as a fraction of the time between two images, 0 to 1.
+  double motion_blur = 0.0;
   SyntheticDepth depth = SyntheticDepth::kExact;
-  bool kinect_depth = false;  ///< short for depth = SyntheticDepth::kKinect
+  bool kinect_depth = false;  ///< short for depth = SyntheticDepth::kStructuredLight
   KinectNoiseOptions kinect;
   TimeOfFlightOptions time_of_flight;
   StereoOptions stereo;
   LidarOptions lidar;
+  /// Recorded depth divided by measured depth; 1: the depth scale is right.
+  double depth_factor = 1.0;
   /// Camera that records depth, which is not registered to colour then; none: the colour camera.
   std::optional<DepthRig> depth_rig;
   /// Standard deviation of the noise of the accelerometer, of each axis, metres/second^2.
@@ -96,8 +104,14 @@ class SyntheticSequence {
   // Acceleration of the optical centre in the world, metres/second^2.
   Eigen::Vector3d AccelerationAt(double seconds) const;
   Rigid3 DepthCameraFromWorld(double seconds) const;
+  // Applies the errors of the colour camera to frame `index`.
+  void DisturbColor(int index, RenderedImage* image) const;
   // Applies the errors of the depth sensor; `stream` of the random numbers.
-  void Disturb(uint64_t stream, std::vector<float>* depth) const;
+  void DisturbDepth(uint64_t stream, std::vector<float>* depth) const;
+  void AddDepthNoise(uint64_t stream, std::vector<float>* depth) const;
+  // Replaces the colours of the image at `seconds` by those of its exposure time; its depth must be
+  // exact.
+  void BlurMotion(double seconds, RenderedImage* image) const;
   // The image whose readout is centred `seconds` after the start.
   RenderedImage RenderRolling(const Renderer& renderer,
                               const std::function<Rigid3(double seconds)>& camera_from_world,

@@ -60,6 +60,23 @@ TEST(RandomTest, SuccessiveNormalsAreIndependent) {
   EXPECT_NEAR(squares_product / count, 0.0, 0.032);
 }
 
+TEST(RandomTest, PoissonHasEqualMeanAndVariance) {
+  Random random(5);
+  EXPECT_EQ(random.Poisson(0.0), 0);
+  for (const double mean : {0.3, 4.0, 29.0, 31.0, 300.0}) {
+    double sum = 0.0, squares = 0.0;
+    const int count = 100000;
+    for (int i = 0; i < count; ++i) {
+      const int x = random.Poisson(mean);
+      ASSERT_GE(x, 0);
+      sum += x;
+      squares += (x - mean) * (x - mean);
+    }
+    EXPECT_NEAR(sum / count / mean, 1.0, 0.03) << mean;
+    EXPECT_NEAR(squares / count / mean, 1.0, 0.05) << mean;
+  }
+}
+
 TEST(RandomTest, IndexIsUniformOverRange) {
   Random random(3);
   int counts[5] = {};

@@ -109,6 +109,72 @@ TEST(SyntheticSequenceTest, RollingShutterRendersEveryRowAtItsTime) {
   }
 }
 
+// Sum of the differences between neighbouring pixels.
+int64_t Contrast(const RenderedImage& image) {
+  const std::vector<uint8_t> gray = image.Gray();
+  int64_t sum = 0;
+  for (size_t i = 1; i < gray.size(); ++i) sum += std::abs(gray[i] - gray[i - 1]);
+  return sum;
+}
+
+TEST(SyntheticSequenceTest, MotionBlurSmoothsColourOnly) {
+  SyntheticSequenceOptions options = Small();
+  options.image_sigma = 0.0;
+  options.fps = 5.0;
+  const SyntheticFrame sharp = SyntheticSequence(options).Render(3);
+  options.motion_blur = 0.5;
+  const SyntheticFrame blurred = SyntheticSequence(options).Render(3);
+  EXPECT_LT(Contrast(blurred.image), 0.8 * Contrast(sharp.image));
+  EXPECT_EQ(blurred.image.depth, sharp.image.depth);
+  EXPECT_EQ(blurred.pose.world_from_cam.params, sharp.pose.world_from_cam.params);
+  // It is symmetric in time, so that the image does not move: a shift to either side is farther
+  // from the sharp image than none.
+  const std::vector<uint8_t> a = sharp.image.Gray(), b = blurred.image.Gray();
+  int64_t differences[3] = {};
+  for (size_t i = 2; i + 2 < a.size(); ++i) {
+    for (int shift = -1; shift <= 1; ++shift) {
+      differences[shift + 1] += std::abs(a[i + 2 * shift] - b[i]);
+    }
+  }
+  EXPECT_LT(differences[1], differences[0]);
+  EXPECT_LT(differences[1], differences[2]);
+}
+
+TEST(SyntheticSequenceTest, MotionBlurNeedsMotion) {
+  SyntheticSequenceOptions options = Small();
+  options.image_sigma = 0.0;
+  const SyntheticFrame sharp = SyntheticSequence(options).Render(3);
+  options.motion_blur = 1e-3;
+  EXPECT_EQ(SyntheticSequence(options).Render(3).image.rgb, sharp.image.rgb);
+}
+
+TEST(SyntheticSequenceTest, DepthFactorScalesRecordedDepth) {
+  SyntheticSequenceOptions options = Small();
+  options.depth = SyntheticDepth::kStructuredLight;
+  const SyntheticFrame right = SyntheticSequence(options).Render(3);
+  options.depth_factor = 1.02;
+  const SyntheticFrame wrong = SyntheticSequence(options).Render(3);
+  EXPECT_EQ(wrong.image.rgb, right.image.rgb);
+  for (size_t i = 0; i < right.image.depth.size(); ++i) {
+    ASSERT_FLOAT_EQ(wrong.image.depth[i], 1.02f * right.image.depth[i]);
+  }
+}
+
+TEST(SyntheticSequenceTest, DimLightAndHuntingExposureChangeColourOnly) {
+  const SyntheticFrame plain = SyntheticSequence(Small()).Render(14);
+  SyntheticSequenceOptions options = Small();
+  options.photon_noise.emplace().light = 0.1;
+  const SyntheticFrame dim = SyntheticSequence(options).Render(14);
+  EXPECT_GT(Contrast(dim.image), 2 * Contrast(plain.image));
+  EXPECT_EQ(dim.image.depth, plain.image.depth);
+  options = Small();
+  options.hunting_exposure.emplace();
+  const SyntheticFrame bright = SyntheticSequence(options).Render(14);  // 0.47 s: most gain
+  const size_t center = 3 * (60 * 160 + 80);
+  EXPECT_GT(bright.image.rgb[center], std::min(255, plain.image.rgb[center] + 40) - 1);
+  EXPECT_EQ(bright.image.depth, plain.image.depth);
+}
+
 TEST(SyntheticSequenceTest, DepthIsConsistentBetweenFrames) {
   SyntheticSequenceOptions options = Small();
   options.image_sigma = 0.0;
@@ -171,6 +237,18 @@ TEST(SyntheticSequenceTest, ThrowsOnInvalidOptions) {
   EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
   options = Small();
   options.path.speed = -1.0;
+  EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
+  options = Small();
+  options.motion_blur = 1.1;
+  EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
+  options = Small();
+  options.depth_factor = 0.0;
+  EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
+  options = Small();
+  options.photon_noise.emplace().light = 0.0;
+  EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
+  options = Small();
+  options.hunting_exposure.emplace().period = 0.0;
   EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
 }
 
