@@ -48,8 +48,9 @@ constexpr size_t kSettledPairs = 150;
 
 // Bundle adjustment is repeated when the map has grown by a quarter, up to this size.
 constexpr size_t kLastSize = 60;
-// It replaces a correction that moves a pixel by more than this, a tenth of the noise of a point.
-constexpr double kMinShift = 0.1;
+// It replaces a correction that moves a pixel by more than this, radians: a tenth of the noise of a
+// point.
+constexpr double kMinShift = 2e-4;
 
 constexpr WrongGroups kAll = {true, true, true, true};
 constexpr auto kRegistration = static_cast<size_t>(CorrectionGroup::kDepthRegistration);
@@ -158,7 +159,7 @@ CorrectionEstimate WithAdjusted(const CorrectionEstimate& adjusted, CorrectionEs
   return pairs;
 }
 
-// Largest displacement (pixels) of an undistorted point when the calibration changes, at nine
+// Largest displacement (radians) of an undistorted point when the calibration changes, at nine
 // points of the image.
 double LargestShift(const CameraIntrinsics& from, const CameraIntrinsics& to) {
   double shift = 0.0;
@@ -169,7 +170,7 @@ double LargestShift(const CameraIntrinsics& from, const CameraIntrinsics& to) {
       shift = std::max(shift, (MovePixel(from, to, pixel) - to.camera.Project(ray)).norm());
     }
   }
-  return shift;
+  return shift / to.camera.FocalLength();
 }
 
 }  // namespace

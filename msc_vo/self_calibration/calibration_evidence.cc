@@ -31,8 +31,8 @@ constexpr unsigned kNumModels = 1U << kNumCorrectionGroups;
 Vector MakeVector(double focal, double center, double k1, double k2, double depth_focal,
                   double depth_shift, double roll, double parallax) {
   Vector sigma;
-  // Errors of depth sensors, which every model contains. Three structured-light cameras have 0.002
-  // to 0.014 1/m and 0.02 to 0.05, see docs/lab/self_calibration.md.
+  // Errors of depth sensors, which every model contains. Structured-light cameras have up to
+  // 0.012 1/m and 0.05, see docs/lab/self_calibration.md.
   constexpr double kOffset = 0.003;
   constexpr double kBowl = 0.05;
   sigma << focal, center, center, k1, k2, depth_focal, depth_shift, depth_shift, roll, parallax,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "msc_vo/camera/image_scale.h"
+#include "msc_vo/factors/camera_factor.h"
 #include "msc_vo/matching/point_matcher.h"
 #include "msc_vo/self_calibration/pair_view.h"
 #include "msc_vo/self_calibration/surface_plane.h"
@@ -158,7 +159,7 @@ void RecentPairs::AddPair(const Map& map, const Partner& partner,
     for (const Sample& sample : view.samples) {
       if (!frame.points[sample.feature].HasDepth()) continue;
       const Eigen::Vector3d in_b = b_from_a * frame.PointInCamera(sample.feature);
-      if (in_b.z() < 0.1) continue;
+      if (in_b.z() < kMinCameraDepth) continue;
       const Eigen::Vector2d pixel = frame.camera.Project(in_b);
       if (!frame.camera.IsInside(pixel)) continue;
       const double pixels = (pixel - frame.points[sample.feature].pixel).norm();

@@ -19,7 +19,7 @@ struct RgbdImage {
   double depth_delay = 0.0;
   /// The depth image as the sensor recorded it, if `depth` was registered to the colour image or
   /// aligned to its time, which changes its noise; otherwise empty.
-  cv::Mat recorded_depth;
+  cv::Mat recorded_depth = {};
 };
 
 }  // namespace msc_vo
