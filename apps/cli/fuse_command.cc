@@ -272,6 +272,7 @@ Command AddFuseCommand(CLI::App* app) {
   command->add_flag("--quiet", arguments->quiet, "Print neither progress nor results");
   AddFusionArguments(command, arguments.get());
   AddConfigurationArguments(command, &arguments->configuration);
+  AddCameraFileArgument(command, &arguments->configuration);
   command->footer(
       HelpFooter("msc_vo fuse my_sequence out/trajectory.txt --output out/surface.ply "
                  "--report out/report.html"));
