@@ -116,7 +116,7 @@ int RunBenchmark(const Arguments& arguments) {
   plan.sequences = ShareOf(ListBenchmarkSequences(arguments.sequences), plan.shard);
   plan.layout = arguments.layout;
   plan.run = arguments.run;
-  plan.config = arguments.configuration.config;
+  plan.input_files = arguments.configuration.InputFiles();
   plan.output = arguments.output;
   std::vector<std::string> inputs = arguments.sequences;
   for (const BenchmarkSequence& sequence : plan.sequences) inputs.push_back(sequence.directory);
@@ -193,6 +193,7 @@ Command AddBenchmarkCommand(CLI::App* app) {
       ->excludes("--merge");
   AddLayoutArguments(command, &arguments->layout);
   AddConfigurationArguments(command, &arguments->configuration);
+  AddCameraFileArgument(command, &arguments->configuration);
   command->add_option("--modes", arguments->modes, "Comma-separated list; default: all modes")
       ->delimiter(',')
       ->allow_extra_args(false)

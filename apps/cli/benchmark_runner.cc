@@ -146,7 +146,7 @@ void BenchmarkRunner::RunMode(const RgbdDecoder& decoder, const Configuration& c
   if (!plan_.run.quiet) std::cerr << row->sequence << ", " << row->mode << ":" << std::endl;
   try {
     row->folder = (fs::path(plan_.output) / row->sequence / row->mode).string();
-    RefuseToOverwriteInputs(decoder.index(), plan_.config, row->folder);
+    RefuseToOverwriteInputs(decoder.index(), plan_.input_files, row->folder);
     OnlineResults online(row->folder);
     const SequenceRun run =
         RunSequence(decoder, configuration, plan_.run, interrupt_,

@@ -22,7 +22,7 @@ struct BenchmarkPlan {
   std::vector<Configuration> configurations;  ///< one for each of Benchmark::modes
   SequenceArguments layout;                   ///< without the directory
   RunArguments run;
-  std::string config;  ///< file of the options, which must not be overwritten; may be empty
+  std::vector<std::string> input_files;  ///< which must not be overwritten; names may be empty
   std::string output;
   Shard shard;
 };

@@ -3,103 +3,18 @@
 
 #include "apps/cli/calibration_report.h"
 
-#include <cmath>
 #include <optional>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/calibration_rows.h"
 #include "apps/cli/commands.h"
-#include "msc_vo/geometry/angles.h"
-#include "msc_vo/sensor/depth_camera_correction.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
 namespace {
-
-using S = SensorCorrection;
-
-// Fraction of the prior's standard deviation above which a parameter counts as not observable.
-constexpr double kUnobservable = 0.7;
-
-struct Row {
-  const char* name;
-  const char* key;
-  const char* unit;
-  double given;
-  double estimated;
-  double sigma;
-  S::Index index;
-  std::optional<CorrectionGroup> group;  ///< none: an error of the depth sensor, not corrected
-
-  std::string NameWithUnit() const {
-    return *unit ? std::string(name) + ", " + unit : std::string(name);
-  }
-};
-
-DepthCamera DepthCameraOf(const Calibration& calibration) {
-  return calibration.depth_camera.value_or(
-      RegisteredDepthCamera(calibration.Recorded(), calibration.distortion));
-}
-
-std::vector<Row> RowsOf(const CalibrationReport& report) {
-  using G = CorrectionGroup;
-  const Calibration& given = report.given;
-  const Calibration& estimated = report.estimated;
-  const PinholeCamera& given_camera = given.Recorded();
-  const PinholeCamera& camera = estimated.Recorded();
-  const DepthCamera a = DepthCameraOf(given);
-  const DepthCamera b = DepthCameraOf(estimated);
-  const Eigen::Vector3d t_a = 1000.0 * a.depth_from_color.translation();
-  const Eigen::Vector3d t_b = 1000.0 * b.depth_from_color.translation();
-  const S::Vector& sigma = report.refinement.sigma;
-  const Eigen::Vector2d& depth_errors = report.refinement.depth_errors;
-  const double f = given_camera.FocalLength();
-  const auto depth_group = G::kDepthRegistration;
-  return {
-      {"fx", "fx", "px", given_camera.fx, camera.fx, camera.fx * sigma(S::kFocalLength),
-       S::kFocalLength, G::kFocalLength},
-      {"fy", "fy", "px", given_camera.fy, camera.fy, std::abs(camera.fy) * sigma(S::kFocalLength),
-       S::kFocalLength, G::kFocalLength},
-      {"cx", "cx", "px", given_camera.cx, camera.cx, f * sigma(S::kCenterX), S::kCenterX,
-       G::kPrincipalPoint},
-      {"cy", "cy", "px", given_camera.cy, camera.cy, f * sigma(S::kCenterY), S::kCenterY,
-       G::kPrincipalPoint},
-      {"k1", "k1", "", given.distortion.k[0], estimated.distortion.k[0], sigma(S::kK1), S::kK1,
-       G::kLens},
-      {"k2", "k2", "", given.distortion.k[1], estimated.distortion.k[1], sigma(S::kK2), S::kK2,
-       G::kLens},
-      {"depth camera fx", "depth_fx", "px", a.camera.fx, b.camera.fx,
-       b.camera.fx * sigma(S::kDepthFocalLength), S::kDepthFocalLength, depth_group},
-      {"depth camera cx", "depth_cx", "px", a.camera.cx, b.camera.cx,
-       a.camera.fx * sigma(S::kDepthX), S::kDepthX, depth_group},
-      {"depth camera cy", "depth_cy", "px", a.camera.cy, b.camera.cy,
-       std::abs(a.camera.fy) * sigma(S::kDepthY), S::kDepthY, depth_group},
-      {"depth camera roll", "depth_roll", "degrees", RadiansToDegrees(a.Roll()),
-       RadiansToDegrees(b.Roll()), RadiansToDegrees(sigma(S::kDepthRoll)), S::kDepthRoll,
-       depth_group},
-      {"depth_from_color x", "depth_x", "mm", t_a.x(), t_b.x(), 1000.0 * sigma(S::kDepthParallaxX),
-       S::kDepthParallaxX, depth_group},
-      {"depth_from_color y", "depth_y", "mm", t_a.y(), t_b.y(), 1000.0 * sigma(S::kDepthParallaxY),
-       S::kDepthParallaxY, depth_group},
-      {"depth offset", "depth_offset", "1/m", 0.0, depth_errors.x(), sigma(S::kDepthOffset),
-       S::kDepthOffset, std::nullopt},
-      {"depth error by radius", "depth_radial_error", "", 0.0, depth_errors.y(),
-       sigma(S::kDepthBowl), S::kDepthBowl, std::nullopt},
-  };
-}
-
-const char* VerdictOf(const Row& row, const CalibrationReport& report) {
-  const bool is_observable =
-      report.refinement.sigma(row.index) < kUnobservable * WrongCalibrationSigma()(row.index);
-  if (!row.group) return is_observable ? "not corrected" : "not observable";
-  if (report.refinement.is_corrected[static_cast<size_t>(*row.group)]) return "corrected";
-  if (row.group == CorrectionGroup::kDepthRegistration && report.edges_contradict) {
-    return "kept: the edges contradict";
-  }
-  return is_observable ? "kept" : "kept: not observable";
-}
 
 using Residuals = std::vector<CalibrationResidual>;
 
@@ -135,16 +50,12 @@ nlohmann::ordered_json ResidualsJson(const Residuals& residuals) {
           {"median_depth_error_percent", MedianDepthPercent(residuals)}};
 }
 
-std::string LensYaml(const LensDistortion& lens, const std::string& indent) {
-  std::string text;
-  if (lens.model != LensModel::kRadialTangential) {
-    text += indent + "lens: " + LensModelName(lens.model) + "\n";
-  }
-  const std::vector<std::string>& names = LensCoefficientNames(lens.model);
-  for (size_t i = 0; i < names.size(); ++i) {
-    text += indent + names[i] + FormatText(": %.8g\n", lens.k[i]);
-  }
-  return text;
+std::string Cell(const std::optional<double>& number) {
+  return number ? FormatText("%12.4f", *number) : std::string(12, ' ');
+}
+
+nlohmann::ordered_json Json(const std::optional<double>& number) {
+  return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
 }
 
 }  // namespace
@@ -152,16 +63,19 @@ std::string LensYaml(const LensDistortion& lens, const std::string& indent) {
 std::string FormatCalibrationTable(const CalibrationReport& report) {
   std::string text = FormatText("%d images, %d pairs of images with points in common\n",
                                 report.num_views, report.num_pairs);
-  text += FormatText("%-26s %12s %12s %10s  %s\n", "", "given", "estimated", "+-", "verdict");
-  for (const Row& row : RowsOf(report)) {
-    text += FormatText("%-26s %12.4f %12.4f %10.4f  %s\n", row.NameWithUnit().c_str(), row.given,
-                       row.estimated, row.sigma, VerdictOf(row, report));
+  text += FormatText("%-26s %12s %12s %12s %12s  %s\n", "", "given", "estimated", "+-", "used",
+                     "verdict");
+  for (const CalibrationRow& row : CalibrationRows(report)) {
+    if (!row.is_listed) continue;
+    text += FormatText("%-26s %s %s %s %s  %s\n", row.NameWithUnit().c_str(),
+                       Cell(row.given).c_str(), Cell(row.estimated).c_str(),
+                       Cell(row.sigma).c_str(), Cell(row.used).c_str(), row.verdict.c_str());
   }
   if (!report.residuals.given.empty()) {
     text += "median reprojection error " + PixelsText(report.residuals) + ", depth error " +
             DepthText(report.residuals) + "\n";
   }
-  if (!report.estimated.depth_camera) {
+  if (!report.used.depth_camera) {
     text += "The depth images count as registered: their camera is the colour camera.\n";
   }
   return text;
@@ -169,21 +83,22 @@ std::string FormatCalibrationTable(const CalibrationReport& report) {
 
 std::string FormatCalibrationJson(const CalibrationReport& report) {
   nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
-  for (const Row& row : RowsOf(report)) {
+  for (const CalibrationRow& row : CalibrationRows(report)) {
     nlohmann::ordered_json& json = parameters[row.key];
-    json = {{"unit", row.unit},
-            {"given", row.given},
-            {"estimated", row.estimated},
-            {"sigma", row.sigma},
-            {"verdict", VerdictOf(row, report)}};
-    json["log_odds"] =
-        row.group ? nlohmann::ordered_json(report.log_odds[static_cast<size_t>(*row.group)])
-                  : nlohmann::ordered_json();
+    json = {
+        {"unit", row.unit},         {"given", Json(row.given)}, {"estimated", Json(row.estimated)},
+        {"sigma", Json(row.sigma)}, {"used", Json(row.used)},   {"verdict", row.verdict}};
+    std::optional<double> log_odds;
+    if (row.group) log_odds = report.log_odds[static_cast<size_t>(*row.group)];
+    json["log_odds"] = Json(log_odds);
   }
+  const nlohmann::ordered_json problem =
+      report.problem.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(report.problem);
   const nlohmann::ordered_json json = {
       {"images", report.num_views},
       {"pairs", report.num_pairs},
       {"parameters", parameters},
+      {"problem", problem},
       {"residuals",
        {{"given", ResidualsJson(report.residuals.given)},
         {"estimated", ResidualsJson(report.residuals.estimated)}}}};
@@ -198,41 +113,17 @@ PlotPage CalibrationPage(const CalibrationReport& report, const std::string& tit
     page.numbers.push_back({"median reprojection error", PixelsText(report.residuals), ""});
     page.numbers.push_back({"median depth error", DepthText(report.residuals), ""});
   }
-  for (const Row& row : RowsOf(report)) {
-    const std::string unit = *row.unit ? std::string(" ") + row.unit : std::string();
-    page.numbers.push_back(
-        {row.name, FormatText("%.6g", row.estimated) + unit,
-         FormatText("given %.6g, +- %.2g; ", row.given, row.sigma) + VerdictOf(row, report)});
+  for (const CalibrationRow& row : CalibrationRows(report)) {
+    if (!row.is_listed) continue;
+    const std::string unit = row.unit.empty() ? "" : " " + row.unit;
+    const auto number = [&](const std::optional<double>& value) {
+      return value ? FormatText("%.6g", *value) + unit : "-";
+    };
+    std::string note = "given " + number(row.given) + ", estimated " + number(row.estimated);
+    if (row.sigma) note += FormatText(" +- %.2g", *row.sigma);
+    page.numbers.push_back({row.name, number(row.used), note + "; " + row.verdict});
   }
   return page;
-}
-
-std::string FormatCameraYaml(const Calibration& calibration, const std::string& comment) {
-  const auto intrinsics = [](const PinholeCamera& c, const std::string& indent) {
-    return indent + FormatText("fx: %.6f\n", c.fx) + indent + FormatText("fy: %.6f\n", c.fy) +
-           indent + FormatText("cx: %.6f\n", c.cx) + indent + FormatText("cy: %.6f\n", c.cy) +
-           indent + FormatText("width: %d\n", c.width) + indent +
-           FormatText("height: %d\n", c.height);
-  };
-  std::string text = "# " + comment + "\ncamera:\n" + intrinsics(calibration.Recorded(), "  ") +
-                     FormatText("  depth_scale: %.17g\n", calibration.depth_scale);
-  text += LensYaml(calibration.distortion, "  ");
-  if (calibration.field_of_view) {
-    text += FormatText("  field_of_view: %.17g\n", *calibration.field_of_view);
-  }
-  if (calibration.depth_camera) {
-    const Rigid3& transform = calibration.depth_camera->depth_from_color;
-    const Eigen::Vector3d t = transform.translation();
-    const Eigen::Quaterniond q(transform.rotation());
-    text += "  depth_camera:\n" + intrinsics(calibration.depth_camera->camera, "    ") +
-            FormatText("    translation: [%.6f, %.6f, %.6f]\n", t.x(), t.y(), t.z()) +
-            FormatText("    rotation: [%.8f, %.8f, %.8f, %.8f]\n", q.x(), q.y(), q.z(), q.w()) +
-            FormatText("    inverse_depth_offset: %.8g\n",
-                       calibration.depth_camera->inverse_depth_offset);
-    const LensDistortion& lens = calibration.depth_camera->distortion;
-    if (!lens.IsZero()) text += LensYaml(lens, "    ");
-  }
-  return text;
 }
 
 }  // namespace msc_vo

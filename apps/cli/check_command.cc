@@ -44,9 +44,10 @@ std::ptrdiff_t Count(const Findings& findings, Severity severity) {
 }
 
 int Run(const Arguments& arguments) {
-  const RgbdDecoder decoder =
-      OpenDecoder(arguments.sequence, MakeConfiguration(arguments.configuration));
+  const Configuration configuration = MakeConfiguration(arguments.configuration);
+  const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
   SequenceCheckOptions options = arguments.options;
+  options.depth_sensor = configuration.odometry.features.depth_sensor;
   if (arguments.all) options.max_images = decoder.size();
   const Findings findings = CheckSequence(decoder, options);
   const auto errors = Count(findings, Severity::kError);
@@ -72,6 +73,8 @@ Command AddCheckCommand(CLI::App* app) {
       "check", "Diagnose a sequence: files, time stamps, images, depth, calibration, ground truth");
   AddSequenceArguments(command, &arguments->sequence)->required();
   AddConfigurationArguments(command, &arguments->configuration);
+  AddCameraFileArgument(command, &arguments->configuration);
+  AddDepthSensorArgument(command, &arguments->configuration);
   command
       ->add_option("--images", arguments->options.max_images,
                    "Number of images to decode, evenly spaced")

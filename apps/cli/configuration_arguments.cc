@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "msc_vo/config/camera_options.h"
 #include "msc_vo/config/options_file.h"
 
 namespace msc_vo {
@@ -57,9 +58,27 @@ void AddConfigurationArguments(CLI::App* command, ConfigurationArguments* argume
       ->allow_extra_args(false);
 }
 
+void AddCameraFileArgument(CLI::App* command, ConfigurationArguments* arguments) {
+  command->add_option("--camera-file", arguments->camera_file,
+                      "Camera, instead of that of --config or of the sequence: YAML as written by "
+                      "calibrate --output, or a camera.txt");
+}
+
+void AddDepthSensorArgument(CLI::App* command, ConfigurationArguments* arguments) {
+  command
+      ->add_option("--depth-sensor", arguments->depth_sensor,
+                   "Sensor that measured depth; default: the option features.depth_sensor (auto, "
+                   "chosen from the depth images)")
+      ->check(CLI::IsMember(OptionChoices("features.depth_sensor")));
+}
+
 Configuration MakeConfiguration(const ConfigurationArguments& arguments,
                                 Configuration configuration) {
   if (!arguments.config.empty()) ReadConfiguration(arguments.config, &configuration);
+  if (!arguments.camera_file.empty()) ReadCamera(arguments.camera_file, &configuration);
+  if (!arguments.depth_sensor.empty()) {
+    Set("features.depth_sensor", arguments.depth_sensor, &configuration);
+  }
   for (const std::string& setting : arguments.settings) {
     const size_t equals = setting.find('=');
     if (equals == std::string::npos) {

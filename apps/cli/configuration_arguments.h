@@ -16,15 +16,25 @@ namespace msc_vo {
 struct ConfigurationArguments {
   std::string config;                 ///< file; may be empty
   std::vector<std::string> settings;  ///< "path=value"
+  std::string camera_file = {};       ///< may be empty
+  std::string depth_sensor = {};      ///< empty: the option features.depth_sensor
 
-  bool IsEmpty() const { return config.empty() && settings.empty(); }
+  bool IsEmpty() const {
+    return config.empty() && camera_file.empty() && depth_sensor.empty() && settings.empty();
+  }
+  /// The files that are read. Names may be empty.
+  std::vector<std::string> InputFiles() const { return {config, camera_file}; }
 };
 
 /// Declares --config and --set.
 void AddConfigurationArguments(CLI::App* command, ConfigurationArguments* arguments);
+/// Declares --camera-file, for commands that read sequences.
+void AddCameraFileArgument(CLI::App* command, ConfigurationArguments* arguments);
+/// Declares --depth-sensor, for commands that measure depth.
+void AddDepthSensorArgument(CLI::App* command, ConfigurationArguments* arguments);
 
-/// Applies the file, then the settings in their order, to `configuration`. Throws
-/// std::runtime_error on an unknown option or an invalid value.
+/// Applies the file of options, that of the camera, the depth sensor, then the settings in their
+/// order, to `configuration`. Throws std::runtime_error on an unknown option or an invalid value.
 Configuration MakeConfiguration(const ConfigurationArguments& arguments,
                                 Configuration configuration = {});
 

@@ -17,6 +17,7 @@
 #include "apps/cli/fusion_module.h"
 #include "apps/cli/interrupt_guard.h"
 #include "apps/cli/number_range.h"
+#include "apps/cli/output_file.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/sequence_arguments.h"
 #include "msc_vo/datasets/image_file.h"
@@ -201,8 +202,9 @@ int Run(const Arguments& arguments) {
   const Configuration configuration = MakeConfiguration(arguments.configuration);
   const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
   PrintWarnings(decoder.index().warnings);
-  RefuseToOverwrite({arguments.trajectory, arguments.configuration.config, arguments.report},
-                    arguments.output);
+  std::vector<std::string> inputs = arguments.configuration.InputFiles();
+  inputs.insert(inputs.end(), {arguments.trajectory, arguments.report});
+  CheckOutputFile(arguments.output, inputs, {decoder.index()});
   const std::string page = ReadReport(arguments.report);
   const std::vector<PosedImage> images = SelectImages(arguments, decoder);
   SurfaceFusionOptions options = arguments.fusion;
@@ -272,6 +274,7 @@ Command AddFuseCommand(CLI::App* app) {
   command->add_flag("--quiet", arguments->quiet, "Print neither progress nor results");
   AddFusionArguments(command, arguments.get());
   AddConfigurationArguments(command, &arguments->configuration);
+  AddCameraFileArgument(command, &arguments->configuration);
   command->footer(
       HelpFooter("msc_vo fuse my_sequence out/trajectory.txt --output out/surface.ply "
                  "--report out/report.html"));

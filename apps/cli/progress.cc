@@ -19,7 +19,10 @@ constexpr int kBarWidth = 24;              // characters
 
 }  // namespace
 
-Progress::Progress(int total) : total_(total), is_terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(int total, const std::string& label)
+    : total_(total),
+      prefix_(label.empty() ? "" : label + ": "),
+      is_terminal_(isatty(STDERR_FILENO) == 1) {}
 
 std::string Progress::Text(int done, const std::string& note) const {
   if (total_ <= 0) {
@@ -47,10 +50,10 @@ void Progress::Update(int done, const std::string& note) {
       bar = "[" + std::string(filled, '#') + std::string(kBarWidth - filled, '.') + "] ";
     }
     // The escape sequence erases the rest of a longer previous text.
-    std::fprintf(stderr, "\r%s%s\x1b[K", bar.c_str(), Text(done, note).c_str());
+    std::fprintf(stderr, "\r%s%s%s\x1b[K", prefix_.c_str(), bar.c_str(), Text(done, note).c_str());
   } else {
     if (since < kPlainInterval && !last) return;
-    std::fprintf(stderr, "%s\n", Text(done, note).c_str());
+    std::fprintf(stderr, "%s%s\n", prefix_.c_str(), Text(done, note).c_str());
   }
   std::fflush(stderr);
   since_shown_.Restart();

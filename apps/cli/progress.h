@@ -13,8 +13,8 @@ namespace msc_vo {
 /// per second and one at the end.
 class Progress {
  public:
-  /// `total`: number of steps; 0: unknown.
-  explicit Progress(int total);
+  /// `total`: number of steps; 0: unknown. `label`: text shown before the bar or the line.
+  explicit Progress(int total, const std::string& label = "");
 
   /// `done`: number of finished steps. `note`: text shown after the numbers.
   void Update(int done, const std::string& note);
@@ -25,6 +25,7 @@ class Progress {
   std::string Text(int done, const std::string& note) const;
 
   int total_;
+  std::string prefix_;
   bool is_terminal_;
   Stopwatch since_start_;
   Stopwatch since_shown_;

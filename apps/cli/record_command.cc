@@ -149,6 +149,7 @@ Command AddRecordCommand(CLI::App* app) {
   command->add_option("folder", arguments->folder, "Folder to write; must be empty or new")
       ->required();
   AddConfigurationArguments(command, &arguments->configuration);
+  AddCameraFileArgument(command, &arguments->configuration);
   command->add_option("--max-frames", arguments->max_frames, "Stop after N image pairs")
       ->check(CLI::PositiveNumber);
   command->add_flag("--json", arguments->json, "Print what was written as JSON");

@@ -27,11 +27,7 @@ void AddShortcuts(CLI::App* command, ReplayArguments* arguments) {
       ->add_option("--lines", arguments->lines,
                    "Line detector: LSD, as in the paper, or edge drawing, which is faster")
       ->check(CLI::IsMember(OptionChoices("features.lines.detector")));
-  command
-      ->add_option("--depth-sensor", arguments->depth_sensor,
-                   "Sensor that measured depth; default: the option features.depth_sensor (auto, "
-                   "chosen from the depth images)")
-      ->check(CLI::IsMember(OptionChoices("features.depth_sensor")));
+  AddDepthSensorArgument(command, &arguments->configuration);
   command->add_flag("--no-points", arguments->no_points, "Use lines only");
   command->add_flag("--no-lines", arguments->no_lines, "Use points only");
   command->add_flag("--no-parallel", arguments->no_parallel, "No pairs of parallel map lines");
@@ -80,6 +76,7 @@ CLI::App* AddReplayArguments(CLI::App* app, ReplayArguments* arguments) {
       app->add_subcommand("replay", "Estimate the camera's trajectory from an RGB-D sequence");
   AddSequenceArguments(command, &arguments->sequence);
   AddConfigurationArguments(command, &arguments->configuration);
+  AddCameraFileArgument(command, &arguments->configuration);
   AddOutputArguments(command, arguments);
   AddShortcuts(command, arguments);
   AddGravityArguments(command, &arguments->gravity);
@@ -118,9 +115,6 @@ ConfigurationArguments WithShortcuts(const ReplayArguments& arguments) {
   std::vector<std::string> settings;
   if (!arguments.mode.empty()) settings.push_back("mode=" + arguments.mode);
   if (!arguments.lines.empty()) settings.push_back("features.lines.detector=" + arguments.lines);
-  if (!arguments.depth_sensor.empty()) {
-    settings.push_back("features.depth_sensor=" + arguments.depth_sensor);
-  }
   if (arguments.no_points) settings.push_back("use_points=false");
   if (arguments.no_lines) settings.push_back("use_lines=false");
   if (arguments.no_parallel) settings.push_back("mapping.pairs.parallel=false");

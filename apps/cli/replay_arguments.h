@@ -29,7 +29,6 @@ struct ReplayArguments {
   ViewArguments view;
   std::string mode;
   std::string lines;
-  std::string depth_sensor;
   bool no_points = false;
   bool no_lines = false;
   bool no_parallel = false;

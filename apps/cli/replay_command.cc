@@ -138,7 +138,7 @@ int Run(const ReplayArguments& arguments, const Configuration& configuration, Re
   std::vector<std::string> check_warnings;
   const RgbdDecoder decoder = OpenChecked(arguments, configuration, &check_warnings);
   const std::string output = OutputFolder(arguments);
-  RefuseToOverwriteInputs(decoder.index(), arguments.configuration.config, output);
+  RefuseToOverwriteInputs(decoder.index(), arguments.configuration.InputFiles(), output);
   MakeFolder(output);  // fails before the run if it cannot be created
   const std::unique_ptr<GravityFactors> gravity =
       MakeGravityFactors(arguments.gravity, decoder.index());

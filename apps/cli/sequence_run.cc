@@ -78,7 +78,7 @@ int NumFrames(const RgbdDecoder& decoder, int max_frames) {
 void RunLoop(const RunArguments& arguments, int num_frames, const InterruptGuard& interrupt,
              const RunCallbacks& callbacks, const CostMeter& cost, Odometry* odometry,
              FrameLoop* loop, SequenceRun* run) {
-  Progress progress(num_frames);
+  Progress progress(num_frames, arguments.label);
   try {
     for (FrameResult frame; !interrupt.IsInterrupted() && loop->Step(&frame);) {
       callbacks.frame(frame);

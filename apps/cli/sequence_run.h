@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "apps/cli/checkpoints.h"
@@ -21,6 +22,7 @@ struct RunArguments {
   bool strict = false;  ///< stop at the first unreadable image
   bool quiet = false;   ///< print neither progress nor results
   bool json = false;    ///< print results as JSON
+  std::string label;    ///< shown before the progress; no argument
 };
 
 /// Declares --max-frames, --strict, --quiet and --json.

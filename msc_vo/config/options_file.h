@@ -23,6 +23,10 @@ enum class OptionSelection { kBasic, kAll };
 /// Options that are not set (the camera) are written as comments.
 std::string FormatConfiguration(const Configuration& configuration, OptionSelection selection);
 
+/// The options that differ from their defaults, as a file for ReadConfiguration without
+/// explanations. `title`: a comment in the first line.
+std::string FormatChangedOptions(const Configuration& configuration, const std::string& title);
+
 /// The options with their defaults as Markdown tables: first the basic ones, then the advanced ones
 /// by section. docs/options.md is this text.
 std::string FormatOptionsMarkdown(OptionSelection selection);

@@ -39,26 +39,33 @@ std::string Quoted(const std::string& text) {
   return quoted + "\"";
 }
 
-// Writes options below the keys of their sections, with comments in a column of their own.
+// Writes options below the keys of their sections.
 class YamlWriter {
  public:
-  void Write(const Option& option) {
-    OpenSections(SectionsOf(option.path));
-    const std::string name = option.path.substr(option.path.rfind('.') + 1);
-    std::string value = FormatOption(option);
-    const bool is_text = std::holds_alternative<std::string*>(option.value);
-    if (is_text && !value.empty()) value = Quoted(value);
-    const std::string line =
-        Indent(open_.size()) + (value.empty() ? "# " : "") + name + ": " + value;
+  // With comments in a column of their own.
+  void WriteExplained(const Option& option) {
+    const std::string line = LineOf(option);
     const std::string valid = FormatValidValues(option);
     WriteComment(line, option.help + (valid.empty() ? "" : " [" + valid + "]"));
     if (option.IsBasic()) WriteComment("", option.when_to_change);
   }
 
+  void Write(const Option& option) { text_ += LineOf(option) + "\n"; }
+
   std::string Take() { return std::move(text_); }
 
  private:
   static std::string Indent(size_t depth) { return std::string(2 * depth, ' '); }
+
+  // Opens the sections of the option.
+  std::string LineOf(const Option& option) {
+    OpenSections(SectionsOf(option.path));
+    const std::string name = option.path.substr(option.path.rfind('.') + 1);
+    std::string value = FormatOption(option);
+    const bool is_text = std::holds_alternative<std::string*>(option.value);
+    if (is_text && !value.empty()) value = Quoted(value);
+    return Indent(open_.size()) + (value.empty() ? "# " : "") + name + ": " + value;
+  }
 
   void OpenSections(const std::vector<std::string>& sections) {
     const auto [end, ignored] =
@@ -85,13 +92,24 @@ std::string FormatConfiguration(const Configuration& configuration, OptionSelect
   Configuration copy = configuration;
   YamlWriter writer;
   for (const Option& option : ListOptions(&copy)) {
-    if (selection == OptionSelection::kAll || option.IsBasic()) writer.Write(option);
+    if (selection == OptionSelection::kAll || option.IsBasic()) writer.WriteExplained(option);
   }
   const std::string title =
       selection == OptionSelection::kAll
           ? "# All options of msc_vo.\n"
           : "# The basic options of msc_vo; --print-config --all adds the advanced ones.\n";
   return title + writer.Take();
+}
+
+std::string FormatChangedOptions(const Configuration& configuration, const std::string& title) {
+  Configuration copy = configuration, defaults;
+  const std::vector<Option> options = ListOptions(&copy);
+  const std::vector<Option> default_options = ListOptions(&defaults);
+  YamlWriter writer;
+  for (size_t i = 0; i < options.size(); ++i) {
+    if (FormatOption(options[i]) != FormatOption(default_options[i])) writer.Write(options[i]);
+  }
+  return "# " + title + "\n" + writer.Take();
 }
 
 }  // namespace msc_vo

@@ -20,6 +20,43 @@ constexpr double kMaxReadoutTime = 1.0;  // seconds; no camera takes longer for 
 constexpr double kMinDepthScale = 10.0;
 constexpr double kMaxDepthScale = 1e5;
 
+// Sets the intrinsics and the size of a camera or of a depth camera.
+template <typename Settings>
+void SetIntrinsics(const PinholeCamera& camera, Settings* settings) {
+  settings->fx = camera.fx;
+  settings->fy = camera.fy;
+  settings->cx = camera.cx;
+  settings->cy = camera.cy;
+  settings->width = camera.width;
+  settings->height = camera.height;
+}
+
+// The model and its coefficients; nothing without distortion.
+LensSettings SettingsOf(const LensDistortion& lens) {
+  LensSettings settings;
+  if (lens.IsZero()) return settings;
+  settings.model = LensModelName(lens.model);
+  const std::vector<std::string>& all_names = LensCoefficientNames(LensModel::kRational);
+  const std::vector<std::string>& names = LensCoefficientNames(lens.model);
+  for (size_t i = 0; i < names.size(); ++i) {
+    const auto at = std::find(all_names.begin(), all_names.end(), names[i]);
+    settings.coefficients.at(static_cast<size_t>(at - all_names.begin())) = lens.k.at(i);
+  }
+  return settings;
+}
+
+DepthCameraSettings SettingsOf(const DepthCamera& depth_camera) {
+  DepthCameraSettings settings;
+  SetIntrinsics(depth_camera.camera, &settings);
+  const Eigen::Vector3d translation = depth_camera.depth_from_color.translation();
+  const Eigen::Quaterniond rotation(depth_camera.depth_from_color.rotation());
+  settings.translation = {translation.x(), translation.y(), translation.z()};
+  settings.rotation = {rotation.x(), rotation.y(), rotation.z(), rotation.w()};
+  settings.inverse_depth_offset = depth_camera.inverse_depth_offset;
+  settings.lens = SettingsOf(depth_camera.distortion);
+  return settings;
+}
+
 }  // namespace
 
 void Calibration::SetRecorded(const PinholeCamera& recorded) {
@@ -52,6 +89,17 @@ bool Calibration::IsValid(std::string* error) const {
     return false;
   }
   return true;
+}
+
+CameraSettings SettingsOf(const Calibration& calibration) {
+  CameraSettings settings;
+  SetIntrinsics(calibration.Recorded(), &settings);
+  settings.depth_scale = calibration.depth_scale;
+  settings.lens = SettingsOf(calibration.distortion);
+  settings.field_of_view = calibration.field_of_view;
+  if (calibration.depth_camera) settings.depth_camera = SettingsOf(*calibration.depth_camera);
+  settings.origin = calibration.origin;
+  return settings;
 }
 
 std::optional<Eigen::Quaterniond> NormalizedQuaternion(const std::vector<double>& xyzw) {

@@ -83,6 +83,9 @@ struct CameraSettings {
   bool IsEmpty() const;
 };
 
+/// Returns the settings that give all values of a calibration but its readout time.
+CameraSettings SettingsOf(const Calibration& calibration);
+
 /// Returns the unit quaternion of four numbers x y z w as a file gives them; none if their length
 /// differs from 1 by more than 5 %.
 std::optional<Eigen::Quaterniond> NormalizedQuaternion(const std::vector<double>& xyzw);

@@ -121,4 +121,30 @@ std::vector<std::string> InputFolders(const SequenceIndex& index) {
   return {folders.begin(), folders.end()};
 }
 
+void RefuseToOverwriteSequence(const SequenceIndex& index, const std::string& file) {
+  namespace fs = std::filesystem;
+  std::error_code error;  // set if one of them does not exist
+  const fs::path folder = fs::absolute(file).parent_path();
+  const auto is_folder = [&](const std::string& path) {
+    return fs::equivalent(folder, path, error);
+  };
+  if (index.container) return RefuseToOverwrite({index.directory}, file);
+  std::vector<std::string> inputs;
+  if (index.calibration) inputs.push_back(index.calibration->origin);
+  for (const SequenceEntry& entry : index.entries) {
+    inputs.insert(inputs.end(), {entry.color_path, entry.depth_path});
+  }
+  const std::string ending = fs::path(file).extension().string();
+  if (is_folder(index.directory)) {
+    if (ending == ".txt" || ending == ".freiburg") inputs.push_back(file);
+    return RefuseToOverwrite(inputs, file);
+  }
+  RefuseToOverwrite(inputs, file);
+  for (const std::string& input : InputFolders(index)) {
+    if (!is_folder(input)) continue;
+    throw std::runtime_error(file + ": lies in a folder of images, " + input +
+                             "; give another path for the results");
+  }
+}
+
 }  // namespace msc_vo

@@ -67,4 +67,9 @@ void OrderEntries(SequenceIndex* index);
 /// Returns the folder of the sequence and the folders of its images, or the file that holds them.
 std::vector<std::string> InputFolders(const SequenceIndex& index);
 
+/// Throws std::runtime_error if writing `file` would destroy a part of the sequence: an image or
+/// the file that holds them, or a text file of its folder (lists, camera, trajectories); or if
+/// `file` lies in a folder of its images. Other files in the folder of the sequence are results.
+void RefuseToOverwriteSequence(const SequenceIndex& index, const std::string& file);
+
 }  // namespace msc_vo

@@ -45,10 +45,9 @@ std::vector<int> Stretches(int size, int max_images) {
 
 class MotionTracker {
  public:
-  explicit MotionTracker(const RgbdDecoder& decoder)
+  MotionTracker(const RgbdDecoder& decoder, const FrameBuilderOptions& features)
       : decoder_(decoder),
-        builder_(FrameBuilderOptions(), decoder.calibration().camera,
-                 decoder.calibration().distortion) {}
+        builder_(features, decoder.calibration().camera, decoder.calibration().distortion) {}
 
   void Add(int index) {
     MotionImage image;
@@ -186,8 +185,9 @@ class MotionTracker {
 
 }  // namespace
 
-MotionTrack TrackMotion(const RgbdDecoder& decoder, int max_images) {
-  MotionTracker tracker(decoder);
+MotionTrack TrackMotion(const RgbdDecoder& decoder, const FrameBuilderOptions& features,
+                        int max_images) {
+  MotionTracker tracker(decoder, features);
   for (const int index : Stretches(decoder.size(), max_images)) tracker.Add(index);
   return tracker.Finish();
 }

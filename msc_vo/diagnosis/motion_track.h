@@ -9,6 +9,7 @@
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/diagnosis/edge_alignment.h"
 #include "msc_vo/diagnosis/frame_motion.h"
+#include "msc_vo/features/frame_builder.h"
 #include "msc_vo/geometry/camera_velocity.h"
 
 namespace msc_vo {
@@ -46,6 +47,7 @@ struct MotionTrack {
 };
 
 /// Tracks at most `max_images` images in up to four stretches of consecutive images.
-MotionTrack TrackMotion(const RgbdDecoder& decoder, int max_images);
+MotionTrack TrackMotion(const RgbdDecoder& decoder, const FrameBuilderOptions& features,
+                        int max_images);
 
 }  // namespace msc_vo

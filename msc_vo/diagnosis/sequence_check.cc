@@ -49,14 +49,19 @@ int SampleIndex(int k, int count, int size) {
   return static_cast<int>(static_cast<int64_t>(k) * (size - 1) / (count - 1));
 }
 
+FrameBuilderOptions FeatureOptions(DepthSensor depth_sensor) {
+  FrameBuilderOptions options;
+  options.depth_sensor = depth_sensor;
+  return options;
+}
+
 // Edges and features take longer than the rest and are optional.
-SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count, bool with_features) {
+SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count,
+                                 const std::optional<FrameBuilderOptions>& features) {
   SampleMeasurements sample;
   const Calibration& calibration = decoder.calibration();
   std::optional<FrameBuilder> builder;
-  if (with_features) {
-    builder.emplace(FrameBuilderOptions(), calibration.camera, calibration.distortion);
-  }
+  if (features) builder.emplace(*features, calibration.camera, calibration.distortion);
   for (int k = 0; k < count; ++k) {
     try {
       const RgbdImage image = decoder.Decode(SampleIndex(k, count, decoder.size()));
@@ -93,9 +98,10 @@ void AddSampleFindings(const SampleMeasurements& sample, const Calibration& cali
   AddDepthFindings(sample.depths, calibration.depth_scale, findings);
 }
 
-void AddMotionFindings(const RgbdDecoder& decoder, Findings* findings) {
+void AddMotionFindings(const RgbdDecoder& decoder, const FrameBuilderOptions& features,
+                       Findings* findings) {
   const Calibration& calibration = decoder.calibration();
-  const MotionTrack track = TrackMotion(decoder, kDeepImages);
+  const MotionTrack track = TrackMotion(decoder, features, kDeepImages);
   AddFrameMotionFindings(track, calibration.camera.width, findings);
   AddLatencyFindings(track, findings);
   const auto estimate = EstimatePairCalibration(calibration.camera, track);
@@ -128,13 +134,14 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
   AddStampFindings(index, &findings);
   AddCameraFindings(calibration, index.format, &findings);
   const int count = std::min(std::max(options.max_images, 1), decoder.size());
-  const SampleMeasurements sample = MeasureSample(decoder, count, true);
+  const FrameBuilderOptions features = FeatureOptions(options.depth_sensor);
+  const SampleMeasurements sample = MeasureSample(decoder, count, features);
   AddDecodingFindings(sample, count, &findings);
   AddSampleFindings(sample, calibration, &findings);
   AddRegistrationFindings(sample.alignments, calibration.camera.width, &findings);
   AddTextureFindings(sample.textures, &findings);
   AddGroundTruthStampFindings(index, &findings);
-  if (options.deep) AddMotionFindings(decoder, &findings);
+  if (options.deep) AddMotionFindings(decoder, features, &findings);
   return findings;
 }
 
@@ -144,7 +151,7 @@ Findings CheckSequenceQuickly(const RgbdDecoder& decoder) {
   AddStampFindings(index, &findings);
   AddCameraFindings(decoder.calibration(), index.format, &findings);
   const SampleMeasurements sample =
-      MeasureSample(decoder, std::min(kQuickImages, decoder.size()), false);
+      MeasureSample(decoder, std::min(kQuickImages, decoder.size()), std::nullopt);
   AddSampleFindings(sample, decoder.calibration(), &findings);
   AddGroundTruthStampFindings(index, &findings);
   findings.erase(

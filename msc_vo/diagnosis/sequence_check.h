@@ -5,6 +5,7 @@
 
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/diagnosis/finding.h"
+#include "msc_vo/sensor/depth_sensor.h"
 
 namespace msc_vo {
 
@@ -15,6 +16,7 @@ struct SequenceCheckOptions {
   /// Also tracks features over frames to compare motion with calibration, time stamps and ground
   /// truth; takes up to a minute.
   bool deep = false;
+  DepthSensor depth_sensor = DepthSensor::kAuto;  ///< that measured depth
 };
 
 /// Checks a sequence before a run: files, stamps and gaps, image sizes and bit depths, exposure and

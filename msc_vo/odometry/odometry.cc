@@ -368,6 +368,7 @@ OdometryResult Odometry::Finish() {
   result.noise_scale = state_->mapper.noise().scale();
   result.depth_sensor = state_->builder.depth_sensor();
   result.readout_time = state_->mapper.readout().readout_time();
+  result.readout_time_sigma = state_->mapper.readout().sigma();
   result.intrinsics = {state_->camera, state_->builder.intrinsics()->distortion};
   if (state_->mapper.calibration()) {
     result.calibration = state_->mapper.calibration()->estimate();

@@ -74,6 +74,8 @@ struct OdometryResult {
   DepthSensor depth_sensor = DepthSensor::kAuto;
   /// Readout time of the rolling shutter, seconds, given or self-calibrated; 0: global shutter.
   double readout_time = 0.0;
+  /// Uncertainty of `readout_time`, seconds; 0 if it was given.
+  double readout_time_sigma = 0.0;
   /// Self-calibration, relative to the given calibration.
   CorrectionEstimate calibration;
   CameraIntrinsics intrinsics;  ///< at the end of the run: as given, or corrected

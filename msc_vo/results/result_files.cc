@@ -56,11 +56,11 @@ std::string FormatFramesCsv(const std::vector<FrameResult>& frames) {
   return text;
 }
 
-void RefuseToOverwriteInputs(const SequenceIndex& sequence, const std::string& config,
+void RefuseToOverwriteInputs(const SequenceIndex& sequence, const std::vector<std::string>& files,
                              const std::string& directory) {
   RefuseToOverwrite(InputFolders(sequence), directory);
   for (const char* name : kFilesOfEveryRun) {
-    RefuseToOverwrite({config}, FileIn(directory, name));
+    RefuseToOverwrite(files, FileIn(directory, name));
   }
 }
 

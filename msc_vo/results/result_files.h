@@ -20,8 +20,8 @@ std::string FormatFramesCsv(const std::vector<FrameResult>& frames);
 std::string FormatFrameRow(const FrameResult& frame);
 
 /// Throws std::runtime_error if results in `directory` would be written into a folder of the
-/// sequence or over the file `config` (may be empty). Call before the run, so that no work is lost.
-void RefuseToOverwriteInputs(const SequenceIndex& sequence, const std::string& config,
+/// sequence or over one of `files` (may be empty). Call before the run, so that no work is lost.
+void RefuseToOverwriteInputs(const SequenceIndex& sequence, const std::vector<std::string>& files,
                              const std::string& directory);
 
 /// Removes existing result files, except groundtruth.txt, which not every run writes. Throws

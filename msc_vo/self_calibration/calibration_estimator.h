@@ -25,9 +25,10 @@ class CalibrationEstimator {
   explicit CalibrationEstimator(const std::shared_ptr<const CameraIntrinsics>& given);
 
   /// Updates the estimate with the images since the last keyframe and the newest keyframe, whose
-  /// image is `image`. Call it after local bundle adjustment. `readout_sigma` (seconds):
+  /// image is `recorded`. Call it after local bundle adjustment. `readout_sigma` (seconds):
   /// uncertainty of the readout time of a rolling shutter. Returns true if present() has changed.
-  bool Update(const Map& map, KeyframeId newest, const std::shared_ptr<const RecordedImage>& image,
+  bool Update(const Map& map, KeyframeId newest,
+              const std::shared_ptr<const RecordedImage>& recorded,
               const std::vector<CalibrationImage>& images, double readout_sigma);
   /// Whether there are so many pairs, and the colour camera is so certain, that Update() needs no
   /// further images; they may be null then. A later bundle adjustment may make it uncertain again.

@@ -12,9 +12,9 @@ namespace msc_vo {
 
 namespace {
 
-// Largest angle between two images, radians: with a field of view of 60 degrees, little is left in
+// Largest angle between two images, as a ratio of the horizontal field of view: little is left in
 // common.
-constexpr double kMaxAngle = 0.8;
+constexpr double kMaxAngle = 0.76;
 // Bounds of the computing time.
 constexpr size_t kMaxCandidates = 800;
 constexpr size_t kMaxPairs = 150;
@@ -33,63 +33,23 @@ std::vector<T> Thin(std::vector<T> all, size_t limit) {
   return thinned;
 }
 
-// Pairs of images that may show the same points.
-std::vector<std::pair<int, int>> CandidatePairs(const CalibrationSequence& views) {
+// Radians.
+double HorizontalFieldOfView(const PinholeCamera& camera) {
+  return 2.0 * std::atan(0.5 * camera.width / std::abs(camera.fx));
+}
+
+// Pairs of images that may show the same points: with at most `max_angle` (radians) between them.
+std::vector<std::pair<int, int>> CandidatePairs(const CalibrationSequence& views,
+                                                double max_angle) {
   std::vector<std::pair<int, int>> candidates;
   for (int b = 1; b < static_cast<int>(views.size()); ++b) {
     for (int a = 0; a < b; ++a) {
       const double angle =
           views[a].cam_from_world.rotation().angularDistance(views[b].cam_from_world.rotation());
-      if (angle <= kMaxAngle) candidates.emplace_back(a, b);
+      if (angle <= max_angle) candidates.emplace_back(a, b);
     }
   }
   return Thin(std::move(candidates), kMaxCandidates);
-}
-
-struct Pairs {
-  std::vector<CalibrationPair> pairs;
-  int num_views = 0;
-};
-
-void MatchViews(const CorrectedCamera& camera, const CalibrationSequence& views, Pairs* result) {
-  std::vector<std::pair<std::pair<int, int>, CalibrationPair>> matched;
-  for (const auto& [a, b] : CandidatePairs(views)) {
-    const CalibrationPair pair(camera, &views[a], &views[b]);
-    if (pair.num_points() >= kMinPoints) matched.push_back({{a, b}, pair});
-  }
-  std::set<int> used;
-  for (auto& [indices, pair] : Thin(matched, kMaxPairs)) {
-    used.insert(indices.first);
-    used.insert(indices.second);
-    result->pairs.push_back(std::move(pair));
-  }
-  result->num_views += static_cast<int>(used.size());
-}
-
-CalibrationInformation SumOf(const Pairs& pairs, const SensorCorrection::Vector& correction) {
-  CalibrationInformation sum;
-  int num_pairs = 0;
-  for (const CalibrationPair& pair : pairs.pairs) {
-    const auto information = pair.Linearize(correction);
-    if (!information) continue;
-    sum += *information;
-    ++num_pairs;
-  }
-  if (num_pairs == 0) return sum;
-  const double scale = std::min(1.0, (pairs.num_views - 1.0) / num_pairs);
-  sum.matrix *= scale;
-  sum.vector *= scale;
-  return sum;
-}
-
-std::vector<PairResidual> ResidualsOf(const Pairs& pairs,
-                                      const SensorCorrection::Vector& correction) {
-  std::vector<PairResidual> all;
-  for (const CalibrationPair& pair : pairs.pairs) {
-    const std::vector<PairResidual> residuals = pair.Residuals(correction);
-    all.insert(all.end(), residuals.begin(), residuals.end());
-  }
-  return all;
 }
 
 // Groups that the pairs find wrong are; maps take part in the decision on those that the pairs may
@@ -108,13 +68,80 @@ CorrectionEstimate Select(const CalibrationInformation& of_pairs,
   return SelectCorrections(sum, by_pairs.is_corrected, right);
 }
 
-// Gauss-Newton for the model in which exactly the groups `wrong` are corrected. The errors of maps
-// count as independent, so that the standard deviations are those of the pairs alone.
-CorrectionEstimate Iterate(const Pairs& pairs, const CalibrationInformation& of_maps,
-                           const WrongGroups& wrong, SensorCorrection::Vector at) {
+}  // namespace
+
+SensorCalibration::SensorCalibration(const PinholeCamera& camera, const LensDistortion& distortion,
+                                     const std::vector<CalibrationSequence>& sequences) {
+  const CorrectedCamera corrected(camera, distortion);
+  const double max_angle = kMaxAngle * HorizontalFieldOfView(camera);
+  for (const CalibrationSequence& views : sequences) {
+    sequences_.push_back(Match(corrected, max_angle, views));
+  }
+}
+
+int SensorCalibration::num_views() const {
+  int count = 0;
+  for (const Pairs& pairs : sequences_) count += pairs.num_views;
+  return count;
+}
+
+int SensorCalibration::num_pairs() const {
+  int count = 0;
+  for (size_t i = 0; i < sequences_.size(); ++i) count += num_pairs(i);
+  return count;
+}
+
+int SensorCalibration::num_pairs(size_t sequence) const {
+  return static_cast<int>(sequences_.at(sequence).pairs.size());
+}
+
+SensorCalibration::Pairs SensorCalibration::Match(const CorrectedCamera& camera, double max_angle,
+                                                  const CalibrationSequence& views) {
+  std::vector<std::pair<std::pair<int, int>, CalibrationPair>> matched;
+  for (const auto& [a, b] : CandidatePairs(views, max_angle)) {
+    const CalibrationPair pair(camera, &views[a], &views[b]);
+    if (pair.num_points() >= kMinPoints) matched.push_back({{a, b}, pair});
+  }
+  Pairs result;
+  std::set<int> used;
+  for (auto& [indices, pair] : Thin(std::move(matched), kMaxPairs)) {
+    used.insert(indices.first);
+    used.insert(indices.second);
+    result.pairs.push_back(std::move(pair));
+  }
+  result.num_views = static_cast<int>(used.size());
+  return result;
+}
+
+CalibrationInformation SensorCalibration::SumOf(const Pairs& pairs,
+                                                const SensorCorrection::Vector& correction) {
+  CalibrationInformation sum;
+  int num_pairs = 0;
+  for (const CalibrationPair& pair : pairs.pairs) {
+    const auto information = pair.Linearize(correction);
+    if (!information) continue;
+    sum += *information;
+    ++num_pairs;
+  }
+  if (num_pairs == 0) return sum;
+  const double scale = std::min(1.0, (pairs.num_views - 1.0) / num_pairs);
+  sum.matrix *= scale;
+  sum.vector *= scale;
+  return sum;
+}
+
+CalibrationInformation SensorCalibration::Sum(const SensorCorrection::Vector& correction) const {
+  CalibrationInformation sum;
+  for (const Pairs& pairs : sequences_) sum += SumOf(pairs, correction);
+  return sum;
+}
+
+CorrectionEstimate SensorCalibration::Iterate(const CalibrationInformation& of_maps,
+                                              const WrongGroups& wrong,
+                                              SensorCorrection::Vector at) const {
   CorrectionEstimate estimate;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    CalibrationInformation sum = SumOf(pairs, at);
+    CalibrationInformation sum = Sum(at);
     const SensorCorrection::Vector sigma = EstimateCorrections(sum, wrong).sigma;
     sum += of_maps;
     estimate = EstimateCorrections(sum, wrong);
@@ -127,36 +154,36 @@ CorrectionEstimate Iterate(const Pairs& pairs, const CalibrationInformation& of_
   return estimate;
 }
 
-}  // namespace
-
-SensorCalibrationResult CalibrateSensor(const PinholeCamera& camera,
-                                        const LensDistortion& distortion,
-                                        const std::vector<CalibrationSequence>& sequences,
-                                        const WrongGroups& known_wrong,
-                                        const WrongGroups& known_right,
-                                        const CalibrationInformation& of_maps) {
-  Pairs pairs;
-  for (const CalibrationSequence& views : sequences) {
-    MatchViews(CorrectedCamera(camera, distortion), views, &pairs);
-  }
-  SensorCalibrationResult result;
-  result.num_views = pairs.num_views;
-  result.num_pairs = static_cast<int>(pairs.pairs.size());
+SensorCalibration::Estimate SensorCalibration::MakeEstimate(
+    const WrongGroups& known_wrong, const WrongGroups& known_right,
+    const CalibrationInformation& of_maps) const {
   // The models are compared by a quadratic approximation at the optimum of the one without
   // restrictions, which is near to the optimum of each model that can win.
-  WrongGroups unrestricted;
+  WrongGroups all, unrestricted;
+  all.fill(true);
   for (int g = 0; g < kNumCorrectionGroups; ++g) unrestricted[g] = !known_right[g];
-  const CorrectionEstimate free =
-      Iterate(pairs, {}, unrestricted, SensorCorrection::Vector::Zero());
-  const CorrectionEstimate selected =
-      Select(SumOf(pairs, free.correction), of_maps, known_wrong, known_right);
+  const CorrectionEstimate free = Iterate({}, unrestricted, SensorCorrection::Vector::Zero());
+  const CalibrationInformation of_pairs = Sum(free.correction);
+  const CorrectionEstimate selected = Select(of_pairs, of_maps, known_wrong, known_right);
   const bool is_new = selected.is_corrected != known_wrong;
-  result.estimate = Iterate(pairs, is_new ? CalibrationInformation() : of_maps,
-                            selected.is_corrected, selected.correction);
-  result.estimate.log_odds = selected.log_odds;
-  result.given_residuals = ResidualsOf(pairs, SensorCorrection::Vector::Zero());
-  result.estimated_residuals = ResidualsOf(pairs, result.estimate.correction);
-  return result;
+  Estimate estimate;
+  estimate.selected = Iterate(is_new ? CalibrationInformation() : of_maps, selected.is_corrected,
+                              selected.correction);
+  estimate.selected.log_odds = selected.log_odds;
+  estimate.unrestricted = EstimateCorrections(of_pairs, all).correction;
+  return estimate;
+}
+
+std::vector<PairResidual> SensorCalibration::Residuals(
+    const SensorCorrection::Vector& correction) const {
+  std::vector<PairResidual> all;
+  for (const Pairs& pairs : sequences_) {
+    for (const CalibrationPair& pair : pairs.pairs) {
+      const std::vector<PairResidual> residuals = pair.Residuals(correction);
+      all.insert(all.end(), residuals.begin(), residuals.end());
+    }
+  }
+  return all;
 }
 
 }  // namespace msc_vo

@@ -68,6 +68,19 @@ void RemoveEntry(const std::string& path) {
   fs::remove(path, ignored);
 }
 
+// Writes the temporary file that becomes `path`, and returns its name.
+std::string WritePartial(const std::string& path, const std::string& content) {
+  CheckReplaceable(path);
+  const std::string partial = path + ".partial";
+  RemoveEntry(partial);
+  std::ofstream file(partial, std::ios::binary);
+  file.write(content.data(), static_cast<std::streamsize>(content.size()));
+  file.close();
+  if (file) return partial;
+  RemoveEntry(partial);
+  throw std::runtime_error(path + kNotWritten);
+}
+
 }  // namespace
 
 bool HasEntry(const std::string& path) {
@@ -135,22 +148,13 @@ std::vector<std::string> ListFolder(const std::string& folder) {
 }
 
 void WriteFile(const std::string& path, const std::string& content) {
-  CheckReplaceable(path);
-  const std::string partial = path + ".partial";
-  RemoveEntry(partial);
-  {
-    std::ofstream file(partial, std::ios::binary);
-    file.write(content.data(), static_cast<std::streamsize>(content.size()));
-    file.close();
-    if (!file) {
-      RemoveEntry(partial);
-      throw std::runtime_error(path + kNotWritten);
-    }
-  }
+  const std::string partial = WritePartial(path, content);
   std::error_code error;
   fs::rename(partial, path, error);
   if (error) throw std::runtime_error(path + ": cannot be written: " + error.message());
 }
+
+void CheckWritable(const std::string& path) { RemoveEntry(WritePartial(path, "")); }
 
 GrowingFile::GrowingFile(const std::string& path, const std::string& text) : path_(path) {
   WriteFile(path, text);

@@ -44,6 +44,10 @@ std::vector<std::string> ListFolder(const std::string& folder);
 /// folder.
 void WriteFile(const std::string& path, const std::string& content);
 
+/// Throws std::runtime_error as WriteFile() would for a file that cannot be written, and writes
+/// nothing: for the results of long work.
+void CheckWritable(const std::string& path);
+
 /// A file that is written in steps. Appended text is on disk even if the program is killed; text
 /// that does not fit is not there at all. An existing file is replaced as by WriteFile().
 class GrowingFile {

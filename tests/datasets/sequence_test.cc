@@ -54,6 +54,32 @@ TEST_F(SequenceTest, ReadsIntrinsicsOf3DMatch) {
   EXPECT_EQ(index.calibration->depth_scale, 1000.0);
 }
 
+TEST_F(SequenceTest, RefusesToOverwriteItsParts) {
+  WriteColor("seq/frame-000000.color.png");
+  WriteDepth("seq/frame-000000.depth.png");
+  WriteText("seq/frame-000000.pose.txt", kPose);
+  WriteText("camera-intrinsics.txt", "572 0 320\n0 573 240\n0 0 1\n");
+  WriteText("seq/result.html", "");
+  const SequenceIndex index = OpenSequence(Path("seq"));
+  for (const char* name : {"seq/frame-000000.color.png", "seq/frame-000000.depth.png",
+                           "seq/frame-000000.pose.txt", "camera-intrinsics.txt"}) {
+    EXPECT_THAT(MessageOf([&] { RefuseToOverwriteSequence(index, Path(name)); }),
+                HasSubstr("would be written over the input"));
+  }
+  RefuseToOverwriteSequence(index, Path("seq/camera.yaml"));
+  RefuseToOverwriteSequence(index, Path("seq/result.html"));
+  RefuseToOverwriteSequence(index, Path("new.txt"));
+}
+
+TEST_F(SequenceTest, RefusesToWriteBesideImagesInTheirOwnFolder) {
+  WriteColor("rgb/1.png");
+  WriteDepth("depth/1.png");
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_THAT(MessageOf([&] { RefuseToOverwriteSequence(index, Path("rgb/camera.yaml")); }),
+              HasSubstr("lies in a folder of images"));
+  RefuseToOverwriteSequence(index, Path("camera.yaml"));
+}
+
 TEST_F(SequenceTest, ReadsReplica) {
   for (const std::string number : {"000000", "000001"}) {
     WriteColor("results/frame" + number + ".jpg");

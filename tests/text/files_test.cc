@@ -53,6 +53,18 @@ TEST_F(FilesTest, ReadNamesBrokenLinks) {
   EXPECT_FALSE(HasEntry(Path("missing")));
 }
 
+TEST_F(FilesTest, CheckWritableLeavesNoTrace) {
+  CheckWritable(Path("new.txt"));
+  EXPECT_FALSE(HasEntry(Path("new.txt")));
+  EXPECT_FALSE(HasEntry(Path("new.txt.partial")));
+  WriteText("old.txt", "old");
+  CheckWritable(Path("old.txt"));
+  EXPECT_EQ(ReadFile(Path("old.txt")), "old");
+  EXPECT_THAT(MessageOf([&] { CheckWritable(Path("no/such/folder.txt")); }),
+              HasSubstr("folder.txt: cannot be written"));
+  EXPECT_THAT(MessageOf([&] { CheckWritable(Folder()); }), HasSubstr("is a folder; give a file"));
+}
+
 TEST_F(FilesTest, WriteReplacesLinkAndKeepsItsTarget) {
   for (const char* link : {"a.txt", "a.txt.partial"}) {
     WriteText("target.txt", "old");

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "msc_vo/datasets/sequence.h"
+
+namespace msc_vo {
+
+/// Tests before long work that its result can be written to `file`. Throws std::runtime_error if it
+/// would be written over one of `inputs` (names may be empty) or a part of one of `sequences`, or
+/// if it cannot be written.
+void CheckOutputFile(const std::string& file, const std::vector<std::string>& inputs,
+                     const std::vector<SequenceIndex>& sequences);
+
+}  // namespace msc_vo

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Sequences and files that `calibrate` refuses.
+
+#include <filesystem>
+
+#include "tests/apps/command_process.h"
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kRoom = std::string(MSC_VO_DATA_FOLDER) + "/room";
+
+class CalibrateInputTest : public TemporaryFolder {
+ protected:
+  void ExpectRefused(std::vector<std::string> arguments, const std::string& message) {
+    arguments.insert(arguments.begin(), "calibrate");
+    const CommandOutcome outcome = RunCommand(arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << testing::PrintToString(arguments);
+    // Before any image is tracked.
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr(message), Not(HasSubstr("round"))));
+  }
+  void Synthesize(const std::string& name, const std::string& num_frames) {
+    const CommandOutcome outcome =
+        RunCommand({"synthesize", Path(name), "--frames", num_frames, "--width", "160"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
+};
+
+TEST_F(CalibrateInputTest, RefusesSequencesOfDifferentCameras) {
+  Synthesize("other", "2");
+  ExpectRefused({kRoom, Path("other")}, "calibrate the sequences of each camera together");
+}
+
+TEST_F(CalibrateInputTest, RefusesASequenceThatIsGivenTwice) {
+  fs::create_directory_symlink(kRoom, Path("link"));
+  ExpectRefused({kRoom, kRoom + "/."}, "would count twice");
+  ExpectRefused({kRoom, Path("link")}, "is the same sequence as " + kRoom);
+}
+
+TEST_F(CalibrateInputTest, RefusesSequencesWithoutPairs) {
+  Synthesize("short", "3");
+  const std::string camera = Path("camera.yaml"), page = Path("page.html");
+  for (const char* count : {"1", "2", "3"}) {
+    const CommandOutcome outcome =
+        RunCommand({"calibrate", kRoom, "--max-frames", count, "--output", camera, "--plot", page});
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+    EXPECT_THAT(outcome.output,
+                AllOf(HasSubstr(kRoom + ": too little for a calibration: " + count + " images"),
+                      HasSubstr("0 pairs"), HasSubstr("record 10 seconds")));
+    EXPECT_FALSE(HasEntry(camera) || HasEntry(page));
+  }
+}
+
+TEST_F(CalibrateInputTest, TestsItsOutputsBeforeTheWork) {
+  ExpectRefused({kRoom, "--output", Path("no/camera.yaml")}, "camera.yaml: cannot be written");
+  ExpectRefused({kRoom, "--plot", Path("no/page.html")}, "page.html: cannot be written");
+  ExpectRefused({kRoom, "--output", Folder()}, "is a folder");
+  ExpectRefused({kRoom, "--output", Path("a.svg"), "--plot", Path("a.svg")}, "the same file");
+}
+
+TEST_F(CalibrateInputTest, DoesNotOverwriteItsInput) {
+  Synthesize("sequence", "2");
+  const std::string sequence = Path("sequence"), camera = sequence + "/camera.txt";
+  const std::string before = ReadFile(camera);
+  for (const char* name : {"/camera.txt", "/rgb.txt", "/depth/1.000000.png"}) {
+    ExpectRefused({sequence, "--output", sequence + name}, "would be written over the input");
+  }
+  ExpectRefused({sequence, "--output", camera, "--camera-file", camera}, "over the input");
+  ExpectRefused({sequence, "--plot", sequence + "/rgb/page.html"}, "lies in a folder of images");
+  EXPECT_EQ(ReadFile(camera), before);
+}
+
+TEST_F(CalibrateInputTest, WritesBesideItsInput) {
+  fs::copy(kRoom, Path("room"), fs::copy_options::recursive);
+  const std::string camera = Path("room/camera.yaml");
+  for (int i = 0; i < 2; ++i) {  // also over an earlier result
+    const CommandOutcome outcome =
+        RunCommand({"calibrate", Path("room"), "--quiet", "--output", camera});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_TRUE(HasEntry(camera));
+  }
+}
+
+TEST_F(CalibrateInputTest, TakesTheDepthSensor) {
+  for (const char* command : {"calibrate", "check"}) {
+    CommandOutcome outcome = RunCommand({command, kRoom, "--depth-sensor", "radar"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.output, HasSubstr("radar"));
+    outcome = RunCommand({command, kRoom, "--depth-sensor", "tof"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
+}
+
+}  // namespace
+}  // namespace msc_vo
