@@ -22,8 +22,8 @@ struct ReadoutEstimate {
 /// A calibration before and after self-calibration.
 struct CalibrationReport {
   Calibration given;
-  Calibration used;               ///< the result: given values, and those that are corrected
-  WrongGroups is_corrected = {};  ///< groups of `used` that are not as given
+  Calibration used;                    ///< the result: given values, and those that are corrected
+  CorrectionGroups is_corrected = {};  ///< groups of `used` that are not as given
   /// Estimates of the last round: of the groups that `refinement` corrects, and of all groups if
   /// every group were wrong.
   Calibration estimated;

@@ -51,8 +51,8 @@ class CalibrationRounds {
   RunArguments run_;
   const InterruptGuard& interrupt_;
   CalibrationReport report_;
-  WrongGroups wrong_ = {};  // corrected from now on
-  WrongGroups right_ = {};  // not to be corrected
+  CorrectionGroups wrong_ = {};  // corrected from now on
+  CorrectionGroups right_ = {};  // not to be corrected
   // The unrestricted correction of the round in which depth edges contradicted it.
   std::optional<SensorCorrection::Vector> contradicted_;
   // Of the present round.

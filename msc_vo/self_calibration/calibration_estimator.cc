@@ -52,7 +52,7 @@ constexpr size_t kLastSize = 60;
 // point.
 constexpr double kMinShift = 2e-4;
 
-constexpr WrongGroups kAll = {true, true, true, true};
+constexpr CorrectionGroups kAll = {true, true, true, true};
 constexpr auto kRegistration = static_cast<size_t>(CorrectionGroup::kDepthRegistration);
 
 // Whether the parameters of a group are certain enough for a correction to be an improvement. What
@@ -97,11 +97,11 @@ bool CorrectsColor(const CorrectionEstimate& estimate) {
 // may be wrong, nothing else is: its error may look like one of the colour camera. It is corrected
 // together with whatever else is more likely wrong than right, or not at all, because their errors
 // may compensate each other.
-CorrectionEstimate Select(const CalibrationInformation& information, const WrongGroups& before,
+CorrectionEstimate Select(const CalibrationInformation& information, const CorrectionGroups& before,
                           const LogOdds& required) {
   const LogOdds log_odds = SelectCorrections(information, before).log_odds;
   const SensorCorrection::Vector sigma = EstimateCorrections(information, kAll).sigma;
-  WrongGroups wrong = before;
+  CorrectionGroups wrong = before;
   for (size_t g = 0; g < wrong.size(); ++g) {
     if (log_odds[g] > required[g] && IsCertain(static_cast<CorrectionGroup>(g), sigma)) {
       wrong[g] = true;
@@ -122,8 +122,8 @@ size_t NextSize(size_t size) { return size + std::max<size_t>(1, size / 4); }
 
 // The groups of the colour camera that may be wrong by the pairs alone. Half of the certainty is
 // enough that a correction requires.
-WrongGroups CandidateGroups(const CorrectionEstimate& pairs) {
-  WrongGroups candidates = {};
+CorrectionGroups CandidateGroups(const CorrectionEstimate& pairs) {
+  CorrectionGroups candidates = {};
   for (const CorrectionGroup group : kColorGroups) {
     const auto g = static_cast<size_t>(group);
     candidates[g] =
@@ -135,7 +135,7 @@ WrongGroups CandidateGroups(const CorrectionEstimate& pairs) {
 // What bundle adjustment of the map requires: nothing is accepted that is no candidate by the
 // pairs, and where they find an error more likely than not, the map needs to agree only.
 LogOdds RequiredOfMap(const CorrectionEstimate& pairs) {
-  const WrongGroups candidates = CandidateGroups(pairs);
+  const CorrectionGroups candidates = CandidateGroups(pairs);
   LogOdds required;
   for (int g = 0; g < kNumCorrectionGroups; ++g) {
     required[g] = !candidates[g]          ? std::numeric_limits<double>::infinity()
@@ -231,7 +231,7 @@ bool CalibrationEstimator::Apply() {
 }
 
 CorrectionEstimate CalibrationEstimator::SelectByPairs(double readout_sigma,
-                                                       const WrongGroups& before) const {
+                                                       const CorrectionGroups& before) const {
   LogOdds required;
   required.fill(std::log(kAcceptedOdds));
   if (pairs_.num_added() < next_registration_) {
@@ -241,7 +241,7 @@ CorrectionEstimate CalibrationEstimator::SelectByPairs(double readout_sigma,
 }
 
 bool CalibrationEstimator::SelectGroups(double readout_sigma) {
-  const WrongGroups before = estimate_.is_corrected;
+  const CorrectionGroups before = estimate_.is_corrected;
   // Linearises at the present optimum of all parameters.
   const auto linearize = [this, readout_sigma](size_t max_pairs) {
     const CorrectionEstimate free = EstimateCorrections(pairs_.Sum(readout_sigma), kAll);
@@ -285,7 +285,7 @@ bool CalibrationEstimator::IsReplacementDue() const {
 bool CalibrationEstimator::IsAdjustmentDue(size_t num_keyframes) const {
   const bool is_new_map = 2 * num_keyframes < adjusted_size_;
   return (num_keyframes >= next_size_ || is_new_map) && KnowsRegistration(estimate_) &&
-         (CorrectsColor(estimate_) || CandidateGroups(estimate_) != WrongGroups());
+         (CorrectsColor(estimate_) || CandidateGroups(estimate_) != CorrectionGroups());
 }
 
 bool CalibrationEstimator::Adjust(const Map& map, double readout_sigma) {

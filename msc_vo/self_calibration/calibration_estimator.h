@@ -62,7 +62,7 @@ class CalibrationEstimator {
   std::shared_ptr<const CameraIntrinsics> MakeCorrected(
       const SensorCorrection::Vector& correction) const;
   // The groups that the pairs hold for wrong.
-  CorrectionEstimate SelectByPairs(double readout_sigma, const WrongGroups& before) const;
+  CorrectionEstimate SelectByPairs(double readout_sigma, const CorrectionGroups& before) const;
   // Decides by the pairs which groups are corrected. Returns true if a new one is.
   bool SelectGroups(double readout_sigma);
   // Whether the estimate differs enough from the calibration in use to replace it.

@@ -20,7 +20,9 @@ using Matrix = SensorCorrection::Matrix;
 
 // Prior odds of a group to be wrong.
 constexpr double kPriorOdds = 0.1;
-// Posterior odds of the best model to that without any wrong group above which it is accepted.
+// Posterior odds of the best model to that of the known wrong groups above which it is accepted.
+// Runs, which also judge the certainty of each group, have their own limit, see
+// calibration_estimator.cc.
 constexpr double kAcceptedOdds = 100.0;
 
 // Of parameters that are held, in their units.
@@ -51,7 +53,7 @@ struct Model {
   Vector sigma = Vector::Zero();
 };
 
-unsigned MaskOf(const WrongGroups& wrong) {
+unsigned MaskOf(const CorrectionGroups& wrong) {
   unsigned mask = 0;
   for (int g = 0; g < kNumCorrectionGroups; ++g) mask |= (wrong[g] ? 1U : 0U) << g;
   return mask;
@@ -135,7 +137,7 @@ SensorCorrection::Vector WrongCalibrationSigma() {
 }
 
 CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,
-                                       const WrongGroups& wrong) {
+                                       const CorrectionGroups& wrong) {
   constexpr unsigned kAllGroups = kNumModels - 1;
   const unsigned mask = MaskOf(wrong);
   const Model unrestricted = Solve(information, PriorSigma(kAllGroups));
@@ -162,8 +164,8 @@ CorrectionEstimate EstimateCorrections(const CalibrationInformation& information
 }
 
 CorrectionEstimate SelectCorrections(const CalibrationInformation& information,
-                                     const WrongGroups& known_wrong,
-                                     const WrongGroups& known_right) {
+                                     const CorrectionGroups& known_wrong,
+                                     const CorrectionGroups& known_right) {
   std::array<double, kNumModels> evidence;
   for (unsigned m = 0; m < kNumModels; ++m) evidence[m] = LogEvidence(information, m);
   const unsigned known = MaskOf(known_wrong);
@@ -174,7 +176,7 @@ CorrectionEstimate SelectCorrections(const CalibrationInformation& information,
   }
   if (evidence[best] - evidence[known] < std::log(kAcceptedOdds)) best = known;
 
-  WrongGroups wrong;
+  CorrectionGroups wrong;
   for (int g = 0; g < kNumCorrectionGroups; ++g) wrong[g] = (best >> g & 1U) != 0;
   CorrectionEstimate estimate = EstimateCorrections(information, wrong);
   for (int g = 0; g < kNumCorrectionGroups; ++g) {

@@ -21,8 +21,8 @@ constexpr std::array<CorrectionGroup, 3> kColorGroups = {
 /// determine it are 0.1 (docs/lab/self_calibration.md).
 constexpr double kCandidateOdds = 0.3;
 
-/// One value per CorrectionGroup.
-using WrongGroups = std::array<bool, kNumCorrectionGroups>;
+/// A set of groups: whether each CorrectionGroup belongs to it.
+using CorrectionGroups = std::array<bool, kNumCorrectionGroups>;
 
 /// Indices of the group in SensorCorrection.
 const std::vector<int>& IndicesOf(CorrectionGroup group);
@@ -34,7 +34,7 @@ struct CorrectionEstimate {
   /// Standard deviation of the correction; in groups that are not corrected, that of their
   /// correction if every group were wrong.
   SensorCorrection::Vector sigma = SensorCorrection::Vector::Zero();
-  WrongGroups is_corrected = {};
+  CorrectionGroups is_corrected = {};
   /// Logarithm of the odds that the group is wrong: best model with it over best model without it.
   std::array<double, kNumCorrectionGroups> log_odds = {};
   /// Errors of the depth sensor, SensorCorrection::kDepthOffset and kDepthBowl. They belong to no
@@ -56,14 +56,14 @@ SensorCorrection::Vector WrongCalibrationSigma();
 /// Estimates the corrections of the model in which exactly the groups `wrong` are wrong: those that
 /// go best with the given values of the colour camera's other groups.
 CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,
-                                       const WrongGroups& wrong);
+                                       const CorrectionGroups& wrong);
 
 /// Compares the 16 models in which each group is either right, up to the errors of a good
 /// calibration, or wrong, by their evidence. A group is wrong with a prior probability of 1/11; the
 /// model is accepted if it is a hundred times more likely than a calibration that is right. Only
 /// models in which the `known_wrong` groups are wrong, and the `known_right` ones right, take part.
 CorrectionEstimate SelectCorrections(const CalibrationInformation& information,
-                                     const WrongGroups& known_wrong = {},
-                                     const WrongGroups& known_right = {});
+                                     const CorrectionGroups& known_wrong = {},
+                                     const CorrectionGroups& known_right = {});
 
 }  // namespace msc_vo

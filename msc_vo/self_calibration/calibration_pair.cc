@@ -11,20 +11,12 @@
 
 namespace msc_vo {
 
-namespace {
-
-// Search radius, radians: exceeds what a focal length that is 5 % off moves a point in half an
-// image.
-constexpr double kSearchRadius = 0.06;
-
-}  // namespace
-
 CalibrationPair::CalibrationPair(const CorrectedCamera& camera, const CalibrationView* a,
                                  const CalibrationView* b)
     : camera_(camera), a_(a), b_(b) {
   const Frame& from = *a->frame;
   const Frame& to = *b->frame;
-  const double radius = kSearchRadius * to.camera.FocalLength();
+  const double radius = kPairSearchRadius * to.camera.FocalLength();
   for (const PointMatch& match :
        MatchFrames(from, a->cam_from_world, to, b->cam_from_world, radius)) {
     const PointFeature& in_a = from.points[match.id];

@@ -39,7 +39,7 @@ class CalibrationPair {
   CalibrationPair(const CorrectedCamera& camera, const CalibrationView* a,
                   const CalibrationView* b);
 
-  int num_points() const { return static_cast<int>(points_.size()); }
+  size_t num_points() const { return points_.size(); }
 
   /// Optimises the relative pose for a given correction and linearises around both. Points on depth
   /// edges take no part, because a small shift of the depth image changes their depth by any

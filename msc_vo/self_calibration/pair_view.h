@@ -3,11 +3,19 @@
 
 #pragma once
 
+#include <cstddef>
+
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/factors/rgbd_pair_reprojection.h"
 #include "msc_vo/map/frame.h"
 
 namespace msc_vo {
+
+/// Radius, radians, in which the points of a pair of images are looked for: exceeds what a focal
+/// length that is 5 % off moves a point in half an image.
+constexpr double kPairSearchRadius = 0.06;
+/// Fewest points that make a pair of images worth its time.
+constexpr size_t kMinPairPoints = 40;
 
 /// The recorded pixels of a point of a frame that was recorded through `distortion`. The surface is
 /// left to the caller.

@@ -23,11 +23,7 @@ constexpr size_t kMaxViews = 24;
 constexpr size_t kMaxPairs = 160;
 constexpr size_t kMaxSamples = 300;
 constexpr size_t kMaxMatches = 100;
-// Points with surfaces: most that are used, and fewest that make a pair worth its time.
-constexpr size_t kMaxPoints = 60;
-constexpr size_t kMinPoints = 40;
-// Search radius, radians, as for recorded sequences.
-constexpr double kSearchRadius = 0.06;
+constexpr size_t kMaxPoints = 60;  // with surfaces
 // Displacement, radians, from which on a point tells no more about the calibration.
 constexpr double kMaxDisplacement = 0.15;
 // Smallest mean displacement of the points of a pair, radians.
@@ -166,7 +162,7 @@ void RecentPairs::AddPair(const Map& map, const Partner& partner,
       sum += std::min(pixels / focal_length, kMaxDisplacement);
       ++count;
     }
-    if (count >= kMinPoints && sum > kMinDisplacement * static_cast<double>(count)) {
+    if (count >= kMinPairPoints && sum > kMinDisplacement * static_cast<double>(count)) {
       ranked.emplace_back(-sum, &view);
     }
   }
@@ -208,7 +204,7 @@ std::optional<RecentPairs::Pair> RecentPairs::MakePair(const Map& map, const Key
     }
   }
   Pair pair;
-  const double radius = kSearchRadius * to.camera.FocalLength();
+  const double radius = kPairSearchRadius * to.camera.FocalLength();
   const auto matches = MatchPoints({}, to, candidates, radius, {});
   const size_t step = std::max<size_t>(1, matches.size() / kMaxMatches);
   for (size_t i = 0; i < matches.size(); i += step) {
@@ -221,7 +217,7 @@ std::optional<RecentPairs::Pair> RecentPairs::MakePair(const Map& map, const Key
   pair.image_a = view.image;
   pair.image_b = partner.image;
   FindSurfaces(at, &pair);
-  if (WithSurfaces(pair.points).size() < kMinPoints) return std::nullopt;
+  if (WithSurfaces(pair.points).size() < kMinPairPoints) return std::nullopt;
   pair.b_from_a = partner.cam_from_world * world_from_cam;
   pair.squared_shift_rate = view.squared_shift_rate + SquaredShiftRate(to);
   return pair;

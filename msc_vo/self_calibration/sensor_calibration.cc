@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "msc_vo/self_calibration/pair_view.h"
+
 namespace msc_vo {
 
 namespace {
@@ -18,8 +20,6 @@ constexpr double kMaxAngle = 0.76;
 // Bounds of the computing time.
 constexpr size_t kMaxCandidates = 800;
 constexpr size_t kMaxPairs = 150;
-// Fewest points that make a pair worth its time.
-constexpr int kMinPoints = 40;
 constexpr int kMaxIterations = 12;
 // Smallest change that continues the iteration, standard deviations.
 constexpr double kMinChange = 0.05;
@@ -55,10 +55,11 @@ std::vector<std::pair<int, int>> CandidatePairs(const CalibrationSequence& views
 // Groups that the pairs find wrong are; maps take part in the decision on those that the pairs may
 // find wrong.
 CorrectionEstimate Select(const CalibrationInformation& of_pairs,
-                          const CalibrationInformation& of_maps, const WrongGroups& known_wrong,
-                          const WrongGroups& known_right) {
+                          const CalibrationInformation& of_maps,
+                          const CorrectionGroups& known_wrong,
+                          const CorrectionGroups& known_right) {
   const CorrectionEstimate by_pairs = SelectCorrections(of_pairs, known_wrong, known_right);
-  WrongGroups right = known_right;
+  CorrectionGroups right = known_right;
   for (int g = 0; g < kNumCorrectionGroups; ++g) {
     right[g] =
         right[g] || (!by_pairs.is_corrected[g] && by_pairs.log_odds[g] < std::log(kCandidateOdds));
@@ -100,7 +101,7 @@ SensorCalibration::Pairs SensorCalibration::Match(const CorrectedCamera& camera,
   std::vector<std::pair<std::pair<int, int>, CalibrationPair>> matched;
   for (const auto& [a, b] : CandidatePairs(views, max_angle)) {
     const CalibrationPair pair(camera, &views[a], &views[b]);
-    if (pair.num_points() >= kMinPoints) matched.push_back({{a, b}, pair});
+    if (pair.num_points() >= kMinPairPoints) matched.push_back({{a, b}, pair});
   }
   Pairs result;
   std::set<int> used;
@@ -137,7 +138,7 @@ CalibrationInformation SensorCalibration::Sum(const SensorCorrection::Vector& co
 }
 
 CorrectionEstimate SensorCalibration::Iterate(const CalibrationInformation& of_maps,
-                                              const WrongGroups& wrong,
+                                              const CorrectionGroups& wrong,
                                               SensorCorrection::Vector at) const {
   CorrectionEstimate estimate;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
@@ -155,11 +156,11 @@ CorrectionEstimate SensorCalibration::Iterate(const CalibrationInformation& of_m
 }
 
 SensorCalibration::Estimate SensorCalibration::MakeEstimate(
-    const WrongGroups& known_wrong, const WrongGroups& known_right,
+    const CorrectionGroups& known_wrong, const CorrectionGroups& known_right,
     const CalibrationInformation& of_maps) const {
   // The models are compared by a quadratic approximation at the optimum of the one without
   // restrictions, which is near to the optimum of each model that can win.
-  WrongGroups all, unrestricted;
+  CorrectionGroups all, unrestricted;
   all.fill(true);
   for (int g = 0; g < kNumCorrectionGroups; ++g) unrestricted[g] = !known_right[g];
   const CorrectionEstimate free = Iterate({}, unrestricted, SensorCorrection::Vector::Zero());

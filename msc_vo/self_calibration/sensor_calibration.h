@@ -43,7 +43,8 @@ class SensorCalibration {
   ///
   /// The error of an image is common to all its pairs; the information of the pairs of a sequence
   /// is therefore scaled to that of one pair per image.
-  Estimate MakeEstimate(const WrongGroups& known_wrong = {}, const WrongGroups& known_right = {},
+  Estimate MakeEstimate(const CorrectionGroups& known_wrong = {},
+                        const CorrectionGroups& known_right = {},
                         const CalibrationInformation& of_maps = {}) const;
 
   /// Residuals of the points of all pairs.
@@ -63,7 +64,7 @@ class SensorCalibration {
   CalibrationInformation Sum(const SensorCorrection::Vector& correction) const;
   // Gauss-Newton for the model in which exactly the groups `wrong` are corrected. The errors of
   // maps count as independent, so that the standard deviations are those of the pairs alone.
-  CorrectionEstimate Iterate(const CalibrationInformation& of_maps, const WrongGroups& wrong,
+  CorrectionEstimate Iterate(const CalibrationInformation& of_maps, const CorrectionGroups& wrong,
                              SensorCorrection::Vector at) const;
 
   std::vector<Pairs> sequences_;

@@ -103,7 +103,7 @@ TEST(CalibrationEstimator, RegistersDepth) {
   SimulatedRun run(truth, true);
   run.AddKeyframes(40);
   const CorrectionEstimate& estimate = run.estimator().estimate();
-  EXPECT_EQ(estimate.is_corrected, (WrongGroups{false, false, false, true}));
+  EXPECT_EQ(estimate.is_corrected, (CorrectionGroups{false, false, false, true}));
   EXPECT_GE(run.num_changes(), 1);
   ASSERT_TRUE(run.estimator().present()->registration);
   EXPECT_NEAR(estimate.correction(S::kDepthFocalLength), 0.1, 0.01);
@@ -117,7 +117,7 @@ TEST(CalibrationEstimator, CorrectsTheColourCameraAndTheRegistration) {
   SimulatedRun run(truth, true);
   run.AddKeyframes(40);
   const CorrectionEstimate& estimate = run.estimator().estimate();
-  EXPECT_EQ(estimate.is_corrected, (WrongGroups{true, false, false, true}));
+  EXPECT_EQ(estimate.is_corrected, (CorrectionGroups{true, false, false, true}));
   EXPECT_NEAR(estimate.correction(S::kFocalLength), -0.04, 0.01);
   EXPECT_NEAR(estimate.correction(S::kDepthFocalLength), 0.06, 0.01);
 }

@@ -27,7 +27,7 @@ CalibrationInformation Measured(
 TEST(CalibrationEvidence, AcceptsACorrectionWithStrongEvidence) {
   const auto estimate = SelectCorrections(Measured(
       {{S::kFocalLength, {0.03, 0.002}}, {S::kCenterX, {0.001, 0.001}}, {S::kK1, {0.0, 0.01}}}));
-  EXPECT_EQ(estimate.is_corrected, (WrongGroups{true, false, false, false}));
+  EXPECT_EQ(estimate.is_corrected, (CorrectionGroups{true, false, false, false}));
   EXPECT_NEAR(estimate.correction(S::kFocalLength), 0.03, 0.001);
   EXPECT_NEAR(estimate.sigma(S::kFocalLength), 0.002, 1e-4);
   EXPECT_EQ(estimate.correction(S::kCenterX), 0.0);
@@ -50,9 +50,9 @@ TEST(CalibrationEvidence, LeavesUnobservableParametersAtThePrior) {
 
 TEST(CalibrationEvidence, ObeysWhatIsKnown) {
   const auto information = Measured({{S::kFocalLength, {0.03, 0.002}}, {S::kK1, {0.02, 0.01}}});
-  const WrongGroups focal = {true, false, false, false}, lens = {false, false, true, false};
+  const CorrectionGroups focal = {true, false, false, false}, lens = {false, false, true, false};
   EXPECT_EQ(SelectCorrections(information, lens).is_corrected,
-            (WrongGroups{true, false, true, false}));
+            (CorrectionGroups{true, false, true, false}));
   EXPECT_FALSE(SelectCorrections(information, {}, focal).IsCorrected());
 }
 
@@ -66,7 +66,7 @@ TEST(CalibrationEvidence, CorrectsWhatGoesBestWithTheGivenValuesThatAreKept) {
   information.matrix(S::kFocalLength, S::kCenterX) = coupling;
   information.vector(S::kCenterX) += coupling * 0.004;
   information.vector(S::kFocalLength) += coupling * 0.028;
-  const WrongGroups center = {false, true, false, false};
+  const CorrectionGroups center = {false, true, false, false};
   const CorrectionEstimate estimate = EstimateCorrections(information, center);
   const double held =
       information.vector(S::kCenterX) / information.matrix(S::kCenterX, S::kCenterX);

@@ -13,7 +13,7 @@ namespace {
 
 using S = SensorCorrection;
 
-constexpr WrongGroups kColor = {true, true, true, false};
+constexpr CorrectionGroups kColor = {true, true, true, false};
 
 // The map of a camera whose calibration differs from the given one by `truth`, as the given one
 // sees it: poses are right, points are where their first observation measures them.

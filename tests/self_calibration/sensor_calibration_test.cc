@@ -50,7 +50,7 @@ TEST(SensorCalibration, FindsTheFocalLength) {
     S::Vector truth = S::Vector::Zero();
     truth(S::kFocalLength) = error;
     const CorrectionEstimate estimate = Calibrated(truth, 4, 60).estimate;
-    EXPECT_EQ(estimate.is_corrected, (WrongGroups{true, false, false, false}))
+    EXPECT_EQ(estimate.is_corrected, (CorrectionGroups{true, false, false, false}))
         << "log odds " << estimate.log_odds[0];
     ExpectNear(estimate, truth, S::kFocalLength, 0.005);
   }
@@ -78,7 +78,7 @@ TEST(SensorCalibration, FindsThePrincipalPoint) {
   truth(S::kCenterX) = 8.0 * kPixel;
   truth(S::kCenterY) = -8.0 * kPixel;
   const CorrectionEstimate estimate = Calibrated(truth, 5).estimate;
-  EXPECT_EQ(estimate.is_corrected, (WrongGroups{false, true, false, false}));
+  EXPECT_EQ(estimate.is_corrected, (CorrectionGroups{false, true, false, false}));
   ExpectNear(estimate, truth, S::kCenterX, kPixel);
   ExpectNear(estimate, truth, S::kCenterY, kPixel);
 }
@@ -87,7 +87,7 @@ TEST(SensorCalibration, FindsTheDistortionOfTheLens) {
   S::Vector truth = S::Vector::Zero();
   truth(S::kK1) = -0.1;
   const CorrectionEstimate estimate = Calibrated(truth, 6).estimate;
-  EXPECT_EQ(estimate.is_corrected, (WrongGroups{false, false, true, false}));
+  EXPECT_EQ(estimate.is_corrected, (CorrectionGroups{false, false, true, false}));
   ExpectNear(estimate, truth, S::kK1, 0.01);
 }
 
@@ -96,7 +96,7 @@ TEST(SensorCalibration, FindsADepthCameraBesideTheColourCamera) {
   truth(S::kDepthFocalLength) = 0.1;
   truth(S::kDepthParallaxX) = -0.03;
   const CorrectionEstimate estimate = Calibrated(truth, 7).estimate;
-  EXPECT_EQ(estimate.is_corrected, (WrongGroups{false, false, false, true}));
+  EXPECT_EQ(estimate.is_corrected, (CorrectionGroups{false, false, false, true}));
   // The image is read up to 32 px beside the true place; `calibrate` registers it and repeats.
   ExpectNear(estimate, truth, S::kDepthFocalLength, 0.015);
   // Shift and parallax together: the parallax alone needs a large range of depths.

@@ -192,7 +192,8 @@ class WarmLens : public testing::Test {
  protected:
   void SetUp() override {
     run_.Settle();
-    ASSERT_EQ(run_.estimator().estimate().is_corrected, (WrongGroups{true, false, false, true}));
+    ASSERT_EQ(run_.estimator().estimate().is_corrected,
+              (CorrectionGroups{true, false, false, true}));
   }
   void WarmUp() {
     run_.BeginMap();
@@ -214,7 +215,7 @@ TEST_F(WarmLens, IsCorrectedByTheMapWhileTheRegistrationRemains) {
   EXPECT_LT(present->camera.fx, std::exp(-0.02) * kGiven.fx);
   ASSERT_TRUE(present->registration && settled->registration);
   EXPECT_TRUE(HasSameRegistration(*present, *settled));
-  EXPECT_EQ(run_.estimator().estimate().is_corrected, (WrongGroups{true, false, false, true}));
+  EXPECT_EQ(run_.estimator().estimate().is_corrected, (CorrectionGroups{true, false, false, true}));
 }
 
 TEST_F(WarmLens, IsCorrectedInTheSameWayAfterACheckpoint) {
