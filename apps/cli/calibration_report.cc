@@ -20,9 +20,6 @@ namespace {
 
 using S = SensorCorrection;
 
-// Fraction of the prior's standard deviation above which a parameter counts as not observable.
-constexpr double kUnobservable = 0.7;
-
 struct Row {
   const char* name;
   const char* key;
@@ -91,8 +88,7 @@ std::vector<Row> RowsOf(const CalibrationReport& report) {
 }
 
 const char* VerdictOf(const Row& row, const CalibrationReport& report) {
-  const bool is_observable =
-      report.refinement.sigma(row.index) < kUnobservable * WrongCalibrationSigma()(row.index);
+  const bool is_observable = IsObservable(row.index, report.refinement.sigma(row.index));
   if (!row.group) return is_observable ? "not corrected" : "not observable";
   if (report.refinement.is_corrected[static_cast<size_t>(*row.group)]) return "corrected";
   if (row.group == CorrectionGroup::kDepthRegistration && report.edges_contradict) {
