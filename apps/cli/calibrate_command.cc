@@ -20,8 +20,8 @@
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/datasets/calibration_correction.h"
+#include "msc_vo/diagnosis/registration_edges.h"
 #include "msc_vo/self_calibration/self_calibrating_bundle_adjustment.h"
-#include "msc_vo/sensor/depth_edges.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -32,9 +32,6 @@ namespace {
 constexpr int kMaxRounds = 3;
 // A correction that is smaller, in standard deviations, needs no further round.
 constexpr double kMinCorrection = 0.5;
-// Images of the first sequence in which depth edges are compared before and after a correction of
-// the registration.
-constexpr int kNumEdgeImages = 20;
 
 constexpr auto kRegistration = static_cast<size_t>(CorrectionGroup::kDepthRegistration);
 
@@ -105,17 +102,6 @@ TrackedSequences TrackSequences(const std::vector<RgbdDecoder>& decoders,
   return sequences;
 }
 
-bool EdgesAgree(const RgbdDecoder& before, const RgbdDecoder& after) {
-  EdgeComparison comparison;
-  const int count = std::min(kNumEdgeImages, before.size());
-  for (int i = 0; i < count; ++i) {
-    const int index = i * before.size() / count;
-    const RgbdImage image = before.Decode(index);
-    comparison.Add(image.gray, image.depth, after.Decode(index).depth);
-  }
-  return comparison.Agrees();
-}
-
 std::vector<CalibrationResidual> ForPlots(const std::vector<PairResidual>& residuals,
                                           const PinholeCamera& recorded) {
   const Eigen::Vector2d center(0.5 * (recorded.width - 1), 0.5 * (recorded.height - 1));
@@ -147,8 +133,7 @@ CalibrationReport Calibrate(std::vector<RgbdDecoder> decoders, const Configurati
     };
     SensorCalibrationResult result = calibrate();
     const bool is_new = result.estimate.is_corrected[kRegistration] && !wrong[kRegistration];
-    if (is_new && !EdgesAgree(decoders.front(), {decoders.front().index(),
-                                                 Corrected(present, result.estimate.correction)})) {
+    if (is_new && !EdgesAgree(decoders.front(), Corrected(present, result.estimate.correction))) {
       right[kRegistration] = report.edges_contradict = true;
       result = calibrate();
     }

@@ -15,9 +15,6 @@ namespace {
 // Largest angle between two images, radians: with a field of view of 60 degrees, little is left in
 // common.
 constexpr double kMaxAngle = 0.8;
-// Bounds of the computing time.
-constexpr size_t kMaxCandidates = 800;
-constexpr size_t kMaxPairs = 150;
 // Fewest points that make a pair worth its time.
 constexpr int kMinPoints = 40;
 constexpr int kMaxIterations = 12;
@@ -34,7 +31,7 @@ std::vector<T> Thin(std::vector<T> all, size_t limit) {
 }
 
 // Pairs of images that may show the same points.
-std::vector<std::pair<int, int>> CandidatePairs(const CalibrationSequence& views) {
+std::vector<std::pair<int, int>> CandidatePairs(const CalibrationSequence& views, size_t limit) {
   std::vector<std::pair<int, int>> candidates;
   for (int b = 1; b < static_cast<int>(views.size()); ++b) {
     for (int a = 0; a < b; ++a) {
@@ -43,7 +40,7 @@ std::vector<std::pair<int, int>> CandidatePairs(const CalibrationSequence& views
       if (angle <= kMaxAngle) candidates.emplace_back(a, b);
     }
   }
-  return Thin(std::move(candidates), kMaxCandidates);
+  return Thin(std::move(candidates), limit);
 }
 
 struct Pairs {
@@ -51,14 +48,15 @@ struct Pairs {
   int num_views = 0;
 };
 
-void MatchViews(const CorrectedCamera& camera, const CalibrationSequence& views, Pairs* result) {
+void MatchViews(const CorrectedCamera& camera, const CalibrationSequence& views,
+                const CalibrationEffort& effort, Pairs* result) {
   std::vector<std::pair<std::pair<int, int>, CalibrationPair>> matched;
-  for (const auto& [a, b] : CandidatePairs(views)) {
+  for (const auto& [a, b] : CandidatePairs(views, effort.max_candidates)) {
     const CalibrationPair pair(camera, &views[a], &views[b]);
     if (pair.num_points() >= kMinPoints) matched.push_back({{a, b}, pair});
   }
   std::set<int> used;
-  for (auto& [indices, pair] : Thin(matched, kMaxPairs)) {
+  for (auto& [indices, pair] : Thin(matched, effort.max_pairs)) {
     used.insert(indices.first);
     used.insert(indices.second);
     result->pairs.push_back(std::move(pair));
@@ -134,10 +132,11 @@ SensorCalibrationResult CalibrateSensor(const PinholeCamera& camera,
                                         const std::vector<CalibrationSequence>& sequences,
                                         const WrongGroups& known_wrong,
                                         const WrongGroups& known_right,
-                                        const CalibrationInformation& of_maps) {
+                                        const CalibrationInformation& of_maps,
+                                        const CalibrationEffort& effort) {
   Pairs pairs;
   for (const CalibrationSequence& views : sequences) {
-    MatchViews(CorrectedCamera(camera, distortion), views, &pairs);
+    MatchViews(CorrectedCamera(camera, distortion), views, effort, &pairs);
   }
   SensorCalibrationResult result;
   result.num_views = pairs.num_views;

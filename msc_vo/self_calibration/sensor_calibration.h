@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "msc_vo/self_calibration/calibration_evidence.h"
@@ -12,6 +13,12 @@ namespace msc_vo {
 
 /// Images of one sequence. Their poses have a common world frame.
 using CalibrationSequence = std::vector<CalibrationView>;
+
+/// Bounds of the computing time of CalibrateSensor(), for each sequence.
+struct CalibrationEffort {
+  size_t max_candidates = 800;  ///< pairs of images that are matched
+  size_t max_pairs = 150;       ///< pairs with points in common that are used
+};
 
 /// Result of CalibrateSensor().
 struct SensorCalibrationResult {
@@ -40,6 +47,7 @@ SensorCalibrationResult CalibrateSensor(const PinholeCamera& camera,
                                         const std::vector<CalibrationSequence>& sequences,
                                         const WrongGroups& known_wrong = {},
                                         const WrongGroups& known_right = {},
-                                        const CalibrationInformation& of_maps = {});
+                                        const CalibrationInformation& of_maps = {},
+                                        const CalibrationEffort& effort = {});
 
 }  // namespace msc_vo

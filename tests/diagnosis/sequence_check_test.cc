@@ -166,6 +166,10 @@ TEST_F(SequenceCheckTest, AcceptsWideViewsThatAreMeant) {
   EXPECT_THAT(Check(), Not(Contains(of_view)));
 }
 
+TEST_F(SequenceCheckTest, SaysThatTheCalibrationIsNotTested) {
+  EXPECT_THAT(Check().back(), Is(Severity::kGood, "to test it, run msc_vo check --deep"));
+}
+
 TEST_F(SequenceCheckTest, WarnsOfGroundTruthAtOtherTimes) {
   for (TimedPose& pose : index_.ground_truth) pose.timestamp += 1000.0;
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "its stamps begin 1000.000 s after")));
