@@ -13,8 +13,8 @@
 #include "apps/cli/sequence_arguments.h"
 #include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/datasets/calibration_correction.h"
+#include "msc_vo/diagnosis/registration_edges.h"
 #include "msc_vo/self_calibration/self_calibrating_bundle_adjustment.h"
-#include "msc_vo/sensor/depth_edges.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -185,15 +185,14 @@ bool CalibrationRounds::EdgesAgree(const Calibration& corrected) const {
   if (!corrected.IsValid(&ignored)) return true;  // not used anyway
   EdgeComparison comparison;
   for (size_t s = 0; s < sequences_.size(); ++s) {
-    const RgbdDecoder after(sequences_[s].index(), corrected);
     const size_t num_views = views_[s].size();
     const size_t share = std::max<size_t>(1, kNumEdgeImages / sequences_.size());
     const size_t count = std::min(share, num_views);
+    std::vector<int> images;
     for (size_t i = 0; i < count; ++i) {
-      const auto id = static_cast<int>(views_[s][i * num_views / count].frame->id);
-      const RgbdImage image = sequences_[s].Decode(id);
-      comparison.Add(image.gray, image.depth, after.Decode(id).depth);
+      images.push_back(static_cast<int>(views_[s][i * num_views / count].frame->id));
     }
+    CompareEdges(sequences_[s], images, corrected, &comparison);
   }
   return comparison.Agrees();
 }

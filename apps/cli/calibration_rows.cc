@@ -17,9 +17,6 @@ namespace {
 using S = SensorCorrection;
 using G = CorrectionGroup;
 
-// Fraction of the prior's standard deviation above which a parameter counts as not observable.
-constexpr double kUnobservable = 0.7;
-
 // A value that belongs to a group.
 struct Value {
   const char* name;
@@ -80,10 +77,6 @@ Numbers ScalesOf(const Calibration& calibration) {
           std::abs(depth.fy), RadiansToDegrees(1.0), 1000.0, 1000.0};
 }
 
-bool IsObservable(S::Index index, const CalibrationReport& report) {
-  return report.refinement.sigma(index) < kUnobservable * WrongCalibrationSigma()(index);
-}
-
 std::string VerdictOf(const Value& value, const CalibrationReport& report) {
   const auto group = static_cast<size_t>(value.group);
   if (report.is_corrected[group]) return "corrected";
@@ -91,7 +84,8 @@ std::string VerdictOf(const Value& value, const CalibrationReport& report) {
   if (value.group == G::kDepthRegistration && report.edges_contradict) {
     return "kept: the edges contradict";
   }
-  return IsObservable(value.index, report) ? "kept" : "kept: not observable";
+  return IsObservable(value.index, report.refinement.sigma(value.index)) ? "kept"
+                                                                         : "kept: not observable";
 }
 
 std::vector<CalibrationRow> GroupedRows(const CalibrationReport& report) {
@@ -111,7 +105,7 @@ std::vector<CalibrationRow> GroupedRows(const CalibrationReport& report) {
     row.verdict = VerdictOf(value, report);
     row.group = value.group;
     const bool is_corrected = report.refinement.is_corrected[static_cast<size_t>(value.group)];
-    if (is_corrected || IsObservable(value.index, report)) {
+    if (is_corrected || IsObservable(value.index, report.refinement.sigma(value.index))) {
       row.estimated = is_corrected ? estimated[i] : unrestricted[i];
       row.sigma = scales[i] * report.refinement.sigma(value.index);
     }
@@ -141,7 +135,7 @@ CalibrationRow DepthErrorRow(const char* name, const char* key, const char* unit
                              double estimated, const CalibrationReport& report) {
   CalibrationRow row{name, key, unit};
   row.verdict = "not observable";
-  if (!IsObservable(index, report)) return row;
+  if (!IsObservable(index, report.refinement.sigma(index))) return row;
   row.estimated = estimated;
   row.sigma = report.refinement.sigma(index);
   row.verdict = "not corrected";

@@ -4,110 +4,165 @@
 #include "msc_vo/diagnosis/calibration_findings.h"
 
 #include <cmath>
+#include <string>
 
+#include "msc_vo/datasets/calibration_correction.h"
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/sensor/depth_camera_correction.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
 namespace {
 
-constexpr double kSigmas = 3.0;
-// Deviations that are usual in well calibrated sequences, see docs/usage.md.
-constexpr double kFocalLength = 0.02;     // relative
-constexpr double kPrincipalPoint = 12.0;  // pixels at an image width of 640
-constexpr double kDistortion = 0.05;      // k1
-// Standard deviations with which an estimate decides nothing.
-constexpr double kMaxFocalSigma = 0.015, kMaxPointSigma = 10.0, kMaxDistortionSigma = 0.015;
+using S = SensorCorrection;
 
-bool Differs(double difference, double sigma, double usual) {
-  return std::abs(difference) > kSigmas * sigma && std::abs(difference) > usual;
-}
+constexpr char kFix[] = "run msc_vo calibrate";
 
-void AddFocalLength(const CalibrationEstimate& estimate, Findings* findings) {
-  const double given = estimate.given_focal_length;
-  const Estimate& focal = estimate.focal_length;
-  const double ratio = given / focal.value - 1.0;
-  const double sigma = focal.sigma / focal.value;
-  if (sigma > kMaxFocalSigma) {
-    findings->push_back(
-        Good("calibration.focal_length",
-             FormatText("focal length: not tested, the motion does not determine it (%.0f +- %.0f "
-                        "px); to test it, turn the camera slowly in all directions",
-                        focal.value, focal.sigma)));
-    return;
-  }
-  const Measurement measurement{focal.value, "px"};
-  const std::string numbers =
-      FormatText("estimated %.1f +- %.1f, given %.1f px", focal.value, focal.sigma, given);
-  if (!Differs(ratio, sigma, kFocalLength)) {
-    findings->push_back(Good("calibration.focal_length", "focal length: " + numbers, measurement));
-    return;
-  }
-  findings->push_back(Warning("calibration.focal_length",
-                              FormatText("focal length %.1f %% too %s: ", 100.0 * std::abs(ratio),
-                                         ratio > 0.0 ? "long" : "short") +
-                                  numbers,
-                              "calibrate the camera, or give the calibration of this image size",
-                              measurement));
-}
+// One part of a calibration, in words.
+struct Part {
+  CorrectionGroup group;
+  std::string check;      // Finding::check
+  std::string name;       // "focal length"
+  std::string precision;  // "+- 0.6 px"
+  std::string error;      // what is wrong, with the estimate, if it is corrected
+  Measurement estimate;
+  std::string fix = kFix;
+};
 
-void AddPrincipalPoint(const CalibrationEstimate& estimate, int width, Findings* findings) {
-  const double scale = width / 640.0;
-  const double x = estimate.cx.value - estimate.given_cx;
-  const double y = estimate.cy.value - estimate.given_cy;
-  if (std::fmax(estimate.cx.sigma, estimate.cy.sigma) > kMaxPointSigma * scale) {
-    findings->push_back(
-        Good("calibration.principal_point",
-             FormatText("principal point: not tested, the motion does not determine it (+- %.0f, "
-                        "%.0f px)",
-                        estimate.cx.sigma, estimate.cy.sigma)));
-    return;
-  }
-  const std::string text =
-      FormatText("principal point: estimated (%.1f +- %.1f, %.1f +- %.1f), given (%.1f, %.1f) px",
-                 estimate.cx.value, estimate.cx.sigma, estimate.cy.value, estimate.cy.sigma,
-                 estimate.given_cx, estimate.given_cy);
-  const Measurement measurement{std::hypot(x, y), "px"};
-  if (!Differs(x, estimate.cx.sigma, kPrincipalPoint * scale) &&
-      !Differs(y, estimate.cy.sigma, kPrincipalPoint * scale)) {
-    findings->push_back(Good("calibration.principal_point", text, measurement));
-    return;
-  }
-  findings->push_back(Warning("calibration.principal_point",
-                              FormatText("principal point off by (%.0f, %.0f) px; ", -x, -y) + text,
-                              "calibrate the camera; cropped, scaled or mirrored images need "
-                              "changed values",
-                              measurement));
-}
+class CalibrationFindings {
+ public:
+  CalibrationFindings(const Calibration& given, const MotionCalibration& calibration,
+                      Findings* findings)
+      : given_(given),
+        estimate_(calibration.estimate),
+        edges_contradict_(calibration.edges_contradict),
+        estimated_(Corrected(given, calibration.estimate.correction)),
+        findings_(findings) {}
 
-void AddDistortion(const CalibrationEstimate& estimate, Findings* findings) {
-  const Estimate& k1 = estimate.k1;
-  if (k1.sigma > kMaxDistortionSigma) {
-    findings->push_back(Good("calibration.lens",
-                             FormatText("lens: not tested, the motion does not determine it (k1 +- "
-                                        "%.2f)",
-                                        k1.sigma)));
-    return;
+  void Run() {
+    AddFocalLength();
+    AddPrincipalPoint();
+    AddLens();
+    AddRegistration();
   }
-  const std::string text =
-      FormatText("radial distortion beyond the given lens: k1 = %.3f +- %.3f", k1.value, k1.sigma);
-  const Measurement measurement{k1.value, "k1"};
-  if (!Differs(k1.value, k1.sigma, kDistortion)) {
-    findings->push_back(Good("calibration.lens", text, measurement));
-    return;
+
+ private:
+  bool IsCorrected(CorrectionGroup group) const {
+    return estimate_.is_corrected[static_cast<size_t>(group)];
   }
-  findings->push_back(Warning("calibration.lens", text,
-                              "give the lens distortion k1 k2 p1 p2 k3 in camera.txt, or "
-                              "undistort the images (colour and depth)",
-                              measurement));
-}
+
+  void Add(const Part& part) {
+    if (IsCorrected(part.group)) {
+      findings_->push_back(Warning(part.check, part.error, part.fix, part.estimate));
+      return;
+    }
+    findings_->push_back(Good(part.check, part.name + VerdictOn(part)));
+  }
+
+  // On a part that is not corrected.
+  std::string VerdictOn(const Part& part) const {
+    const int index = IndicesOf(part.group).front();
+    if (!IsObservable(index, estimate_.sigma(index))) {
+      return ": not tested, the motion does not determine it (" + part.precision +
+             "); to test it, turn the camera slowly in all directions";
+    }
+    const double odds = std::exp(estimate_.log_odds[static_cast<size_t>(part.group)]);
+    if (odds < kCandidateOdds) return " agrees with the motion, " + part.precision;
+    return FormatText(": in doubt, the odds that it is wrong are %.1f to 1 (", odds) +
+           part.precision + "); to decide it, " + kFix;
+  }
+
+  void AddFocalLength() {
+    const double given = given_.Recorded().fx;
+    const double value = estimated_.Recorded().fx;
+    const double sigma = value * estimate_.sigma(S::kFocalLength);
+    const double ratio = given / value - 1.0;
+    Add({CorrectionGroup::kFocalLength,
+         "calibration.focal_length",
+         "focal length",
+         FormatText("+- %.1f px", sigma),
+         FormatText("focal length %.1f %% too %s: estimated %.1f +- %.1f, given %.1f px",
+                    100.0 * std::abs(ratio), ratio > 0.0 ? "long" : "short", value, sigma, given),
+         {value, "px"}});
+  }
+
+  void AddPrincipalPoint() {
+    const PinholeCamera& given = given_.Recorded();
+    const PinholeCamera& value = estimated_.Recorded();
+    const double x = value.cx - given.cx, y = value.cy - given.cy;
+    const double sigma_x = given.FocalLength() * estimate_.sigma(S::kCenterX);
+    const double sigma_y = given.FocalLength() * estimate_.sigma(S::kCenterY);
+    Add({CorrectionGroup::kPrincipalPoint, "calibration.principal_point", "principal point",
+         FormatText("+- %.1f, %.1f px", sigma_x, sigma_y),
+         FormatText("principal point off by (%.1f, %.1f) px: estimated (%.1f +- %.1f, %.1f +- "
+                    "%.1f), given (%.1f, %.1f) px",
+                    -x, -y, value.cx, sigma_x, value.cy, sigma_y, given.cx, given.cy),
+         Measurement{std::hypot(x, y), "px"},
+         std::string(kFix) + "; cropped, scaled or mirrored images need changed values"});
+  }
+
+  void AddLens() {
+    const auto& given = given_.distortion.k;
+    const auto& value = estimated_.distortion.k;
+    const double sigma_1 = estimate_.sigma(S::kK1), sigma_2 = estimate_.sigma(S::kK2);
+    Add({CorrectionGroup::kLens,
+         "calibration.lens",
+         "lens",
+         FormatText("k1 +- %.3f, k2 +- %.3f", sigma_1, sigma_2),
+         FormatText("lens distortion: estimated k1 %.3f +- %.3f, k2 %.3f +- %.3f, given k1 %.3f, "
+                    "k2 %.3f",
+                    value[0], sigma_1, value[1], sigma_2, given[0], given[1]),
+         {value[0], "k1"}});
+  }
+
+  void AddRegistration() {
+    const std::string check = "calibration.depth_registration";
+    const std::string name = "registration of depth to colour";
+    if (edges_contradict_) {
+      findings_->push_back(Good(check, name + ": not tested, the edges of the depth images "
+                                              "contradict their motion"));
+      return;
+    }
+    const DepthCamera camera = estimated_.depth_camera.value_or(
+        RegisteredDepthCamera(estimated_.Recorded(), estimated_.distortion));
+    const S::Vector& sigma = estimate_.sigma;
+    Add({CorrectionGroup::kDepthRegistration,
+         check,
+         name,
+         FormatText("magnification +- %.1f %%, roll +- %.2f degrees",
+                    100.0 * sigma(S::kDepthFocalLength), RadiansToDegrees(sigma(S::kDepthRoll))),
+         RegistrationError(camera),
+         {camera.camera.fx, "px"}});
+  }
+
+  std::string RegistrationError(const DepthCamera& camera) const {
+    const S::Vector& sigma = estimate_.sigma;
+    const Eigen::Vector3d millimetres = 1000.0 * camera.depth_from_color.translation();
+    return std::string(given_.depth_camera
+                           ? "the given depth camera does not register depth to colour: it"
+                           : "depth is not registered to colour: the depth camera") +
+           FormatText(
+               " seems to have fx %.1f +- %.1f px, to be turned by %.2f +- %.2f degrees, "
+               "and depth_from_color (%.0f +- %.0f, %.0f +- %.0f) mm",
+               camera.camera.fx, camera.camera.fx * sigma(S::kDepthFocalLength),
+               RadiansToDegrees(camera.Roll()), RadiansToDegrees(sigma(S::kDepthRoll)),
+               millimetres.x(), 1000.0 * sigma(S::kDepthParallaxX), millimetres.y(),
+               1000.0 * sigma(S::kDepthParallaxY));
+  }
+
+  const Calibration& given_;
+  const CorrectionEstimate& estimate_;
+  bool edges_contradict_;
+  Calibration estimated_;
+  Findings* findings_;
+};
 
 }  // namespace
 
-void AddCalibrationFindings(const CalibrationEstimate& estimate, int width, Findings* findings) {
-  AddFocalLength(estimate, findings);
-  AddPrincipalPoint(estimate, width, findings);
-  AddDistortion(estimate, findings);
+void AddCalibrationFindings(const Calibration& given, const MotionCalibration& calibration,
+                            Findings* findings) {
+  CalibrationFindings(given, calibration, findings).Run();
 }
 
 }  // namespace msc_vo

@@ -3,8 +3,12 @@
 
 #include "msc_vo/diagnosis/camera_findings.h"
 
+#include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "msc_vo/camera/undistorted_camera.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/text/format_text.h"
 
@@ -18,7 +22,8 @@ constexpr double kMinFieldOfView = 35.0, kMaxFieldOfView = 110.0;
 // RGB-D cameras have up to 0.04 (tum-fr1).
 constexpr double kMaxOffset = 0.08;
 
-void AddSigns(const PinholeCamera& camera, const std::string& format, Findings* findings) {
+void AddSigns(const Calibration& calibration, const std::string& format, Findings* findings) {
+  const PinholeCamera& camera = calibration.Recorded();
   if (camera.fy < 0.0 && format != "icl-nuim") {
     findings->push_back(Warning("camera.sign",
                                 "fy is negative: correct only for mirrored images (ICL-NUIM)",
@@ -30,6 +35,16 @@ void AddSigns(const PinholeCamera& camera, const std::string& format, Findings* 
                                 "ground truth requires fy = -480",
                                 "make fy negative, or mirror the images"));
   }
+  if (!calibration.depth_camera) return;
+  const double depth_fy = calibration.depth_camera->camera.fy;
+  if ((depth_fy < 0.0) == (camera.fy < 0.0)) return;
+  findings->push_back(Warning(
+      "camera.sign",
+      FormatText("fy of the depth camera is %s, that of the colour camera is %s: correct "
+                 "only if one of the two images is mirrored top to bottom",
+                 depth_fy < 0.0 ? "negative" : "positive",
+                 camera.fy < 0.0 ? "negative" : "positive"),
+      FormatText("make fy of the depth camera %s", camera.fy < 0.0 ? "negative" : "positive")));
 }
 
 void AddPrincipalPoint(const PinholeCamera& camera, Findings* findings) {
@@ -46,23 +61,50 @@ void AddPrincipalPoint(const PinholeCamera& camera, Findings* findings) {
       Measurement{std::hypot(x, y), "px"}));
 }
 
-void AddFocalLength(const PinholeCamera& camera, Findings* findings) {
+void AddAspect(const PinholeCamera& camera, Findings* findings) {
   const double ratio = std::abs(camera.fx / camera.fy);
-  if (std::abs(ratio - 1.0) > 0.1) {
-    findings->push_back(Warning("camera.aspect",
-                                "fx and fy differ by more than 10 %, but pixels are nearly always "
-                                "square",
-                                "check both", Measurement{ratio, "ratio"}));
-  }
-  const double degrees =
-      2.0 * std::atan(0.5 * camera.width / std::abs(camera.fx)) * 180.0 / std::acos(-1.0);
-  if (degrees >= kMinFieldOfView && degrees <= kMaxFieldOfView) return;
+  if (std::abs(ratio - 1.0) <= 0.1) return;
+  findings->push_back(Warning("camera.aspect",
+                              "fx and fy differ by more than 10 %, but pixels are nearly always "
+                              "square",
+                              "check both", Measurement{ratio, "ratio"}));
+}
+
+// A lens whose undistorted image is a chosen part of what it sees may see as much as it likes.
+void AddFieldOfView(const Calibration& calibration, Findings* findings) {
+  const PinholeCamera& camera = calibration.Recorded();
+  const double degrees = FieldOfView(calibration.distortion, camera);
+  const bool is_wide = degrees > kMaxFieldOfView && !calibration.distortion.IsCropped();
+  if (degrees >= kMinFieldOfView && !is_wide) return;
   findings->push_back(Warning(
       "camera.field_of_view",
       FormatText("the horizontal field of view is %.0f degrees (fx %.1f at a width of %d "
                  "px), unusual for an RGB-D camera",
                  degrees, camera.fx, camera.width),
       "check that the calibration is for this image size", Measurement{degrees, "degrees"}));
+}
+
+std::string LensText(const LensDistortion& lens) {
+  const bool is_pinhole = lens.k == std::array<double, 8>{} && lens.model != LensModel::kFisheye;
+  if (is_pinhole) return "";
+  std::string text = std::string(", ") + LensModelName(lens.model) + " lens";
+  const std::vector<std::string>& names = LensCoefficientNames(lens.model);
+  for (size_t i = 0; i < names.size(); ++i)
+    text += FormatText(" %s %.4g", names[i].c_str(), lens.k[i]);
+  return text;
+}
+
+// Where the images are undistorted to another camera than the recorded one.
+void AddUndistortedCamera(const Calibration& calibration, Findings* findings) {
+  if (!calibration.distortion.recorded) return;
+  const PinholeCamera& camera = calibration.camera;
+  findings->push_back(Good(
+      "camera.undistorted",
+      FormatText("undistorted to fx %.3f, fy %.3f, cx %.3f, cy %.3f, %dx%d: a horizontal field "
+                 "of view of %.0f degrees, of %.0f degrees that the lens sees",
+                 camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height,
+                 FieldOfView({}, camera),
+                 FieldOfView(calibration.distortion, calibration.Recorded()))));
 }
 
 void AddDepthCamera(const DepthCamera& depth_camera, Findings* findings) {
@@ -83,17 +125,19 @@ void AddDepthCamera(const DepthCamera& depth_camera, Findings* findings) {
 
 void AddCameraFindings(const Calibration& calibration, const std::string& format,
                        Findings* findings) {
-  const PinholeCamera& camera = calibration.camera;
+  const PinholeCamera& camera = calibration.Recorded();
   findings->push_back(
       Good("camera.source",
            "camera from " + calibration.origin +
                FormatText(": fx %.3f, fy %.3f, cx %.3f, cy %.3f, %dx%d, %.1f depth units per metre",
                           camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height,
                           calibration.depth_scale) +
-               (calibration.distortion.IsZero() ? "" : ", with lens distortion")));
+               LensText(calibration.distortion)));
+  AddUndistortedCamera(calibration, findings);
   if (calibration.depth_camera) AddDepthCamera(*calibration.depth_camera, findings);
-  AddSigns(camera, format, findings);
-  AddFocalLength(camera, findings);
+  AddSigns(calibration, format, findings);
+  AddAspect(camera, findings);
+  AddFieldOfView(calibration, findings);
   AddPrincipalPoint(camera, findings);
 }
 

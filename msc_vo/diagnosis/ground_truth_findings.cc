@@ -47,8 +47,12 @@ struct Reading {
 class GroundTruthComparison {
  public:
   GroundTruthComparison(const MotionTrack& track, const std::vector<TimedPose>& truth,
-                        double depth_scale, Findings* findings)
-      : track_(track), truth_(truth), depth_scale_(depth_scale), findings_(findings) {}
+                        double depth_scale, bool is_calibrated, Findings* findings)
+      : track_(track),
+        truth_(truth),
+        depth_scale_(depth_scale),
+        is_calibrated_(is_calibrated),
+        findings_(findings) {}
 
   void Run() {
     const std::vector<MotionComparison> given = Compare(Reading());
@@ -261,6 +265,12 @@ class GroundTruthComparison {
         "ground truth",
         ratio, sigma);
     const Measurement measurement{ratio, "ratio"};
+    if (!is_calibrated_) {
+      findings_->push_back(Good("ground_truth.scale",
+                                "scale: not tested, since the calibration is wrong; " + text,
+                                measurement));
+      return;
+    }
     if (std::abs(ratio - 1.0) <= std::max(kMaxScaleError, kSigmas * sigma)) {
       findings_->push_back(Good("ground_truth.scale", text, measurement));
       return;
@@ -300,15 +310,16 @@ class GroundTruthComparison {
   const MotionTrack& track_;
   const std::vector<TimedPose>& truth_;
   double depth_scale_;
+  bool is_calibrated_;
   Findings* findings_;
 };
 
 }  // namespace
 
 void AddGroundTruthMotionFindings(const MotionTrack& track, const std::vector<TimedPose>& truth,
-                                  double depth_scale, Findings* findings) {
+                                  double depth_scale, bool is_calibrated, Findings* findings) {
   if (truth.empty()) return;
-  GroundTruthComparison(track, truth, depth_scale, findings).Run();
+  GroundTruthComparison(track, truth, depth_scale, is_calibrated, findings).Run();
 }
 
 }  // namespace msc_vo

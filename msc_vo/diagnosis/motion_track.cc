@@ -24,6 +24,8 @@ constexpr double kPairRadius = 0.04;
 // Pairs: times in seconds, angles in radians.
 constexpr double kMinPairTime = 0.25, kMaxPairTime = 1.5, kMaxPairAngle = 0.45;
 constexpr int kMaxPairs = 80;
+// About as many images keep their depth: a bound of the memory.
+constexpr size_t kDepthImages = 80;
 
 // Indices of the images to track; stretches begin where the index jumps.
 std::vector<int> Stretches(int size, int max_images) {
@@ -45,8 +47,10 @@ std::vector<int> Stretches(int size, int max_images) {
 
 class MotionTracker {
  public:
-  MotionTracker(const RgbdDecoder& decoder, const FrameBuilderOptions& features)
+  // The depth of every `depth_step`-th image is kept.
+  MotionTracker(const RgbdDecoder& decoder, const FrameBuilderOptions& features, size_t depth_step)
       : decoder_(decoder),
+        depth_step_(depth_step),
         builder_(features, decoder.calibration().camera, decoder.calibration().distortion) {}
 
   void Add(int index) {
@@ -85,7 +89,13 @@ class MotionTracker {
         rgbd.depth = AlignDepth(decoder_.calibration().camera, rgbd.depth,
                                 Fraction(rgbd.depth_delay / interval_));
       }
-      return builder_.Build(rgbd);
+      Frame frame = builder_.Build(rgbd);
+      if (track_.images.size() % depth_step_ == 0) {
+        const FrameBuilderOptions options;
+        image->depth = std::make_shared<const InverseDepthImage>(rgbd.depth, options.min_depth,
+                                                                 options.max_depth);
+      }
+      return frame;
     } catch (const std::exception&) {
       return std::nullopt;  // reported by the check of the images
     }
@@ -176,6 +186,7 @@ class MotionTracker {
   }
 
   const RgbdDecoder& decoder_;
+  size_t depth_step_;
   FrameBuilder builder_;
   MotionTrack track_;
   Rigid3 velocity_;        // motion from the image before the last one to the last one
@@ -187,8 +198,9 @@ class MotionTracker {
 
 MotionTrack TrackMotion(const RgbdDecoder& decoder, const FrameBuilderOptions& features,
                         int max_images) {
-  MotionTracker tracker(decoder, features);
-  for (const int index : Stretches(decoder.size(), max_images)) tracker.Add(index);
+  const std::vector<int> indices = Stretches(decoder.size(), max_images);
+  MotionTracker tracker(decoder, features, std::max<size_t>(1, indices.size() / kDepthImages));
+  for (const int index : indices) tracker.Add(index);
   return tracker.Finish();
 }
 

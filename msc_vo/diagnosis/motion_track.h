@@ -11,6 +11,7 @@
 #include "msc_vo/diagnosis/frame_motion.h"
 #include "msc_vo/features/frame_builder.h"
 #include "msc_vo/geometry/camera_velocity.h"
+#include "msc_vo/sensor/inverse_depth_image.h"
 
 namespace msc_vo {
 
@@ -18,6 +19,8 @@ namespace msc_vo {
 struct MotionImage {
   double timestamp = 0.0;  ///< seconds
   std::shared_ptr<const Frame> frame;
+  /// Depth at the time of the colour image; kept of about 80 images, null in the others.
+  std::shared_ptr<const InverseDepthImage> depth;
   /// Images of one segment are linked by motions; a segment ends where an image does not match.
   int segment = 0;
   Rigid3 cam_from_origin;     ///< origin: the camera at the begin of the segment

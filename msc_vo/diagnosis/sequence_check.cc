@@ -17,9 +17,9 @@
 #include "msc_vo/diagnosis/file_findings.h"
 #include "msc_vo/diagnosis/ground_truth_findings.h"
 #include "msc_vo/diagnosis/image_exposure.h"
+#include "msc_vo/diagnosis/motion_calibration.h"
 #include "msc_vo/diagnosis/motion_findings.h"
 #include "msc_vo/diagnosis/motion_track.h"
-#include "msc_vo/diagnosis/pair_calibration.h"
 #include "msc_vo/diagnosis/registration_findings.h"
 #include "msc_vo/diagnosis/stamp_findings.h"
 #include "msc_vo/diagnosis/texture.h"
@@ -33,6 +33,7 @@ namespace {
 constexpr int kMaxReports = 5;
 constexpr int kQuickImages = 4;
 constexpr int kDeepImages = 240;
+constexpr char kCalibrationCheck[] = "calibration";
 
 // What the images of a sample say.
 struct SampleMeasurements {
@@ -98,21 +99,30 @@ void AddSampleFindings(const SampleMeasurements& sample, const Calibration& cali
   AddDepthFindings(sample.depths, calibration.depth_scale, findings);
 }
 
+// Whether the images do not contradict the calibration, as far as it was tested.
+bool IsCalibrated(const Findings& findings) {
+  return std::none_of(findings.begin(), findings.end(), [](const Finding& finding) {
+    const std::string topic = finding.check.substr(0, finding.check.find('.'));
+    return finding.severity != Severity::kGood &&
+           (topic == kCalibrationCheck || topic == "registration");
+  });
+}
+
 void AddMotionFindings(const RgbdDecoder& decoder, const FrameBuilderOptions& features,
                        Findings* findings) {
   const Calibration& calibration = decoder.calibration();
   const MotionTrack track = TrackMotion(decoder, features, kDeepImages);
   AddFrameMotionFindings(track, calibration.camera.width, findings);
   AddLatencyFindings(track, findings);
-  const auto estimate = EstimatePairCalibration(calibration.camera, track);
+  const auto estimate = CalibrateFromMotion(decoder, track);
   if (estimate) {
-    AddCalibrationFindings(*estimate, calibration.camera.width, findings);
+    AddCalibrationFindings(calibration, *estimate, findings);
   } else {
-    findings->push_back(Good("calibration.focal_length",
-                             "calibration against motion: not tested, too few images match"));
+    findings->push_back(
+        Good(kCalibrationCheck, "calibration against motion: not tested, too few images match"));
   }
   AddGroundTruthMotionFindings(track, decoder.index().ground_truth, calibration.depth_scale,
-                               findings);
+                               IsCalibrated(*findings), findings);
 }
 
 // Whether no run can succeed in spite of an error.
@@ -141,7 +151,13 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
   AddRegistrationFindings(sample.alignments, calibration.camera.width, &findings);
   AddTextureFindings(sample.textures, &findings);
   AddGroundTruthStampFindings(index, &findings);
-  if (options.deep) AddMotionFindings(decoder, features, &findings);
+  if (options.deep) {
+    AddMotionFindings(decoder, features, &findings);
+  } else {
+    findings.push_back(Good(kCalibrationCheck,
+                            "calibration against motion: not tested; to test it, run msc_vo check "
+                            "--deep"));
+  }
   return findings;
 }
 

@@ -10,17 +10,9 @@
 
 namespace msc_vo {
 
-namespace {
-
-using S = SensorCorrection;
-
-// Fraction of the prior's standard deviation above which a parameter counts as not observable.
-constexpr double kUnobservable = 0.7;
-
-}  // namespace
-
 std::vector<CalibratedValue> ListCalibratedValues(const RunSummary& summary) {
   using G = CorrectionGroup;
+  using S = SensorCorrection;
   const CorrectionEstimate& estimate = summary.calibration;
   const CameraIntrinsics& intrinsics = summary.intrinsics;
   const PinholeCamera& camera = intrinsics.distortion.Recorded(intrinsics.camera);
@@ -29,8 +21,7 @@ std::vector<CalibratedValue> ListCalibratedValues(const RunSummary& summary) {
     const auto g = static_cast<size_t>(group);
     const double sigma = estimate.sigma(index);
     const bool is_estimated = sigma > 0.0;
-    const bool is_observable =
-        is_estimated && sigma < kUnobservable * WrongCalibrationSigma()(index);
+    const bool is_observable = is_estimated && IsObservable(index, sigma);
     return CalibratedValue{
         name,
         unit,

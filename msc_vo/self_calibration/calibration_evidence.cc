@@ -25,6 +25,10 @@ constexpr double kPriorOdds = 0.1;
 // calibration_estimator.cc.
 constexpr double kAcceptedOdds = 100.0;
 
+// Ratio of the standard deviations after and before a measurement from which on it does not tell a
+// parameter.
+constexpr double kUnobservable = 0.7;
+
 // Of parameters that are held, in their units.
 constexpr double kHeldSigma = 1e-6;
 
@@ -134,6 +138,10 @@ bool CorrectionEstimate::IsCorrected() const {
 
 SensorCorrection::Vector WrongCalibrationSigma() {
   return MakeVector(0.03, 0.02, 0.1, 0.03, 0.06, 0.02, DegreesToRadians(1.0), 0.03);
+}
+
+bool IsObservable(int index, double sigma) {
+  return sigma < kUnobservable * WrongCalibrationSigma()(index);
 }
 
 CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,

@@ -49,9 +49,12 @@ struct CorrectionEstimate {
   }
 };
 
-/// Standard deviation of the parameters before a measurement if their group is wrong. A parameter
-/// that is estimated hardly better than this is not observable.
+/// Standard deviation of the parameters before a measurement if their group is wrong.
 SensorCorrection::Vector WrongCalibrationSigma();
+
+/// Whether a measurement that leaves parameter `index` of SensorCorrection with the standard
+/// deviation `sigma` tells it: better than it is known before.
+bool IsObservable(int index, double sigma);
 
 /// Estimates the corrections of the model in which exactly the groups `wrong` are wrong: those that
 /// go best with the given values of the colour camera's other groups.

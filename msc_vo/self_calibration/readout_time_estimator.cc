@@ -57,16 +57,25 @@ double RollingLogOdds(double estimate, double variance) {
 
 void ReadoutTimeEstimator::Update(const Map& map, KeyframeId newest,
                                   const std::optional<double>& frame_interval) {
+  auto covisible = map.FindCovisible(newest);
+  covisible.resize(std::min(covisible.size(), kMaxPartners));
+  std::vector<const Keyframe*> partners;
+  for (const Map::Covisible& other : covisible) {
+    partners.push_back(map.FindKeyframe(other.keyframe));
+  }
+  Update(*map.FindKeyframe(newest), partners, frame_interval);
+}
+
+void ReadoutTimeEstimator::Update(const Keyframe& newest,
+                                  const std::vector<const Keyframe*>& partners,
+                                  const std::optional<double>& frame_interval) {
   if (!estimates_) return;
   if (frame_interval) {
     frame_interval_ += (std::min(*frame_interval, kLongestInterval) - frame_interval_) / kMemory;
   }
-  const Keyframe& to = *map.FindKeyframe(newest);
-  auto partners = map.FindCovisible(newest);
-  partners.resize(std::min(partners.size(), kMaxPartners));
   double sum = 0.0, weighted_sum = 0.0, largest = 0.0;
-  for (const Map::Covisible& other : partners) {
-    const auto estimate = EstimateReadoutTime(*map.FindKeyframe(other.keyframe), to, readout_time_);
+  for (const Keyframe* partner : partners) {
+    const auto estimate = EstimateReadoutTime(*partner, newest, readout_time_);
     if (!estimate) continue;
     sum += estimate->information;
     weighted_sum += estimate->information * std::clamp(estimate->readout_time, -Bound(), Bound());

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "msc_vo/map/map.h"
 
@@ -22,6 +23,9 @@ class ReadoutTimeEstimator {
   /// `frame_interval` is the time between this keyframe and the image before it, seconds, if there
   /// is one. Call it after local bundle adjustment.
   void Update(const Map& map, KeyframeId newest, const std::optional<double>& frame_interval);
+  /// The same without a map: `partners` show much of what `newest` shows.
+  void Update(const Keyframe& newest, const std::vector<const Keyframe*>& partners,
+              const std::optional<double>& frame_interval);
 
   /// Seconds; negative if the rows are read from the bottom to the top.
   double readout_time() const { return readout_time_; }

@@ -17,9 +17,6 @@ namespace {
 // Largest angle between two images, as a ratio of the horizontal field of view: little is left in
 // common.
 constexpr double kMaxAngle = 0.76;
-// Bounds of the computing time.
-constexpr size_t kMaxCandidates = 800;
-constexpr size_t kMaxPairs = 150;
 constexpr int kMaxIterations = 12;
 // Smallest change that continues the iteration, standard deviations.
 constexpr double kMinChange = 0.05;
@@ -39,8 +36,8 @@ double HorizontalFieldOfView(const PinholeCamera& camera) {
 }
 
 // Pairs of images that may show the same points: with at most `max_angle` (radians) between them.
-std::vector<std::pair<int, int>> CandidatePairs(const CalibrationSequence& views,
-                                                double max_angle) {
+std::vector<std::pair<int, int>> CandidatePairs(const CalibrationSequence& views, double max_angle,
+                                                size_t limit) {
   std::vector<std::pair<int, int>> candidates;
   for (int b = 1; b < static_cast<int>(views.size()); ++b) {
     for (int a = 0; a < b; ++a) {
@@ -49,7 +46,7 @@ std::vector<std::pair<int, int>> CandidatePairs(const CalibrationSequence& views
       if (angle <= max_angle) candidates.emplace_back(a, b);
     }
   }
-  return Thin(std::move(candidates), kMaxCandidates);
+  return Thin(std::move(candidates), limit);
 }
 
 // Groups that the pairs find wrong are; maps take part in the decision on those that the pairs may
@@ -72,11 +69,11 @@ CorrectionEstimate Select(const CalibrationInformation& of_pairs,
 }  // namespace
 
 SensorCalibration::SensorCalibration(const PinholeCamera& camera, const LensDistortion& distortion,
-                                     const std::vector<CalibrationSequence>& sequences) {
+                                     const std::vector<CalibrationSequence>& sequences,
+                                     const CalibrationEffort& effort) {
   const CorrectedCamera corrected(camera, distortion);
-  const double max_angle = kMaxAngle * HorizontalFieldOfView(camera);
   for (const CalibrationSequence& views : sequences) {
-    sequences_.push_back(Match(corrected, max_angle, views));
+    sequences_.push_back(Match(corrected, views, effort));
   }
 }
 
@@ -96,16 +93,18 @@ int SensorCalibration::num_pairs(size_t sequence) const {
   return static_cast<int>(sequences_.at(sequence).pairs.size());
 }
 
-SensorCalibration::Pairs SensorCalibration::Match(const CorrectedCamera& camera, double max_angle,
-                                                  const CalibrationSequence& views) {
+SensorCalibration::Pairs SensorCalibration::Match(const CorrectedCamera& camera,
+                                                  const CalibrationSequence& views,
+                                                  const CalibrationEffort& effort) {
+  const double max_angle = kMaxAngle * HorizontalFieldOfView(camera.camera());
   std::vector<std::pair<std::pair<int, int>, CalibrationPair>> matched;
-  for (const auto& [a, b] : CandidatePairs(views, max_angle)) {
+  for (const auto& [a, b] : CandidatePairs(views, max_angle, effort.max_candidates)) {
     const CalibrationPair pair(camera, &views[a], &views[b]);
     if (pair.num_points() >= kMinPairPoints) matched.push_back({{a, b}, pair});
   }
   Pairs result;
   std::set<int> used;
-  for (auto& [indices, pair] : Thin(std::move(matched), kMaxPairs)) {
+  for (auto& [indices, pair] : Thin(std::move(matched), effort.max_pairs)) {
     used.insert(indices.first);
     used.insert(indices.second);
     result.pairs.push_back(std::move(pair));

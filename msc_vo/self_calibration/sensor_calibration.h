@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "msc_vo/self_calibration/calibration_evidence.h"
@@ -12,6 +13,12 @@ namespace msc_vo {
 
 /// Images of one sequence. Their poses have a common world frame.
 using CalibrationSequence = std::vector<CalibrationView>;
+
+/// Bounds of the computing time of a SensorCalibration, for each sequence.
+struct CalibrationEffort {
+  size_t max_candidates = 800;  ///< pairs of images that are matched
+  size_t max_pairs = 150;       ///< pairs with points in common that are used
+};
 
 /// Self-calibration of an RGB-D camera from images of a rigid scene (not in the paper): estimates a
 /// SensorCorrection from the points that pairs of images have in common, by Gauss-Newton with the
@@ -28,7 +35,8 @@ class SensorCalibration {
   /// Matches pairs of images within each sequence, which must outlive the object. `camera`,
   /// `distortion`: the calibration that the frames were built with. Poses are first guesses.
   SensorCalibration(const PinholeCamera& camera, const LensDistortion& distortion,
-                    const std::vector<CalibrationSequence>& sequences);
+                    const std::vector<CalibrationSequence>& sequences,
+                    const CalibrationEffort& effort = {});
 
   /// Number of images that have points in common with others, and of pairs of them.
   int num_views() const;
@@ -57,8 +65,8 @@ class SensorCalibration {
     int num_views = 0;
   };
 
-  static Pairs Match(const CorrectedCamera& camera, double max_angle,
-                     const CalibrationSequence& views);
+  static Pairs Match(const CorrectedCamera& camera, const CalibrationSequence& views,
+                     const CalibrationEffort& effort);
   static CalibrationInformation SumOf(const Pairs& pairs,
                                       const SensorCorrection::Vector& correction);
   CalibrationInformation Sum(const SensorCorrection::Vector& correction) const;

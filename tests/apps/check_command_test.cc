@@ -54,6 +54,16 @@ TEST_F(CheckCommandTest, PrintsFindingsAsJson) {
   EXPECT_EQ(num_errors, 1);
 }
 
+TEST_F(CheckCommandTest, TestsTheCalibrationOnRequest) {
+  const std::string line =
+      "ok       calibration against motion: not tested; to test it, run msc_vo check --deep\n";
+  const CommandOutcome plain = RunCommand({"check", Path("room")});
+  EXPECT_THAT(plain.output, HasSubstr(line + "0 errors"));
+  const CommandOutcome deep = RunCommand({"check", Path("room"), "--deep"});
+  EXPECT_THAT(deep.output, Not(HasSubstr(line)));
+  EXPECT_THAT(deep.output, HasSubstr("ok       focal length"));
+}
+
 TEST_F(CheckCommandTest, ReplayStopsBeforeAnImpossibleRun) {
   SwapBytes();
   const CommandOutcome stopped =

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,8 @@ class BrokenSequenceTest : public TemporaryFolder {
   // Writes a copy of the recording and returns the findings on it. `damage` changes the images and
   // poses that are written, `damage_files` the files.
   Findings Diagnose(const Damage& damage, bool deep, const std::string& name,
-                    const std::function<void(const std::string& folder)>& damage_files = {}) {
+                    const std::function<void(const std::string& folder)>& damage_files = {},
+                    const std::optional<double>& field_of_view = {}) {
     Recording recording = *recording_;
     if (!deep) recording.images.resize(kFewImages);
     for (Recording::Image& image : recording.images) {
@@ -47,7 +49,9 @@ class BrokenSequenceTest : public TemporaryFolder {
     recording.Write(folder);
     if (damage_files) damage_files(folder);
     SequenceIndex index = OpenSequence(folder);
-    const Calibration calibration = ResolveCalibration(CameraSettings(), "", &index);
+    CameraSettings settings;
+    settings.field_of_view = field_of_view;
+    const Calibration calibration = ResolveCalibration(settings, "", &index);
     SequenceCheckOptions options;
     options.deep = deep;
     options.max_images = 12;
@@ -63,6 +67,17 @@ class BrokenSequenceTest : public TemporaryFolder {
   void ExpectError(const std::string& name, const std::string& check, const std::string& words,
                    const Damage& damage) {
     ExpectFinding(Diagnose(damage, false, name), Severity::kError, check, words, name);
+  }
+  // A warning of the motion, and no other.
+  void ExpectOnly(const std::string& name, const std::string& check, const std::string& words,
+                  const Damage& damage) {
+    const Findings findings = Diagnose(damage, true, name);
+    ExpectFinding(findings, Severity::kWarning, check, words, name);
+    for (const Finding& finding : findings) {
+      if (finding.check != check) {
+        EXPECT_EQ(finding.severity, Severity::kGood) << name << ": " << Describe(finding);
+      }
+    }
   }
   static void ExpectClean(const Findings& findings) {
     for (const Finding& finding : findings) {
@@ -214,21 +229,54 @@ TEST_F(BrokenSequenceTest, FindsWrongCalibration) {
       r->calibration.camera.fy *= factor;
     };
   };
-  ExpectWarning("focal_10", true, "calibration.focal_length", "% too long",
-                with_focal_length(1.10));
-  ExpectWarning("focal_3", true, "calibration.focal_length", "% too long", with_focal_length(1.03));
-  ExpectWarning("focal_short", true, "calibration.focal_length", "% too short",
-                with_focal_length(0.95));
-  ExpectWarning("centre", true, "calibration.principal_point", "off by (20,",
-                [](Recording* r) { r->calibration.camera.cx += 20.0; });
+  ExpectOnly("focal_10", "calibration.focal_length", "% too long", with_focal_length(1.10));
+  ExpectOnly("focal_3", "calibration.focal_length", "% too long: estimated 26",
+             with_focal_length(1.03));
+  ExpectOnly("focal_short", "calibration.focal_length", "% too short", with_focal_length(0.95));
+  ExpectOnly("centre", "calibration.principal_point", "off by (",
+             [](Recording* r) { r->calibration.camera.cx += 10.0; });
 }
 
 TEST_F(BrokenSequenceTest, FindsALensThatTheCalibrationDoesNotGive) {
   SyntheticSequenceOptions options = SmallRoom();
   options.lens.k[0] = -0.12;
   const Recording recording = Record(options, kNumImages);
-  ExpectWarning("lens", true, "calibration.lens", "k1 = -0.1",
-                [&](Recording* r) { *r = recording; });
+  ExpectOnly("lens", "calibration.lens", "estimated k1 -0.1",
+             [&](Recording* r) { *r = recording; });
+}
+
+TEST_F(BrokenSequenceTest, FindsUnregisteredDepth) {
+  SyntheticSequenceOptions options = SmallRoom();
+  const Eigen::AngleAxisd roll(0.01, Eigen::Vector3d::UnitZ());
+  options.depth_rig = DepthRig{290.0, {Eigen::Quaterniond(roll), {0.025, 0.0, 0.0}}};
+  const Recording recording = Record(options, kNumImages);
+  const Findings findings =
+      Diagnose([&](Recording* r) { *r = recording; }, true, "unregistered depth");
+  ExpectFinding(findings, Severity::kWarning, "calibration.depth_registration",
+                "depth is not registered to colour: the depth camera seems to have fx 2", "rig");
+  for (const Finding& finding : findings) {
+    if (finding.check == "calibration.depth_registration") {
+      EXPECT_NEAR(*finding.value, 290.0, 6.0) << Describe(finding);
+    } else if (finding.check.find("calibration.") == 0) {
+      EXPECT_EQ(finding.severity, Severity::kGood) << Describe(finding);
+    }
+  }
+  // Only the registration is wrong, not the scale of depth.
+  EXPECT_EQ(Text(findings).find("depth_scale is probably"), std::string::npos) << Text(findings);
+}
+
+TEST_F(BrokenSequenceTest, ReportsTheRecordedCamera) {
+  const auto check = [this](double factor, const std::string& name) {
+    return Diagnose(
+        [factor](Recording* r) {
+          r->calibration.camera.fx *= factor, r->calibration.camera.fy *= factor;
+        },
+        true, name, {}, 80.0);
+  };
+  ExpectFinding(check(1.0, "wide"), Severity::kGood, "camera.source", "fx 262.500", "wide");
+  ExpectFinding(check(1.0, "wide"), Severity::kGood, "camera.undistorted", "of 80 degrees", "wide");
+  ExpectFinding(check(1.04, "wrong"), Severity::kWarning, "calibration.focal_length",
+                "given 273.0 px", "wrong");
 }
 
 TEST_F(BrokenSequenceTest, FindsMirroredImagesWithTheCalibrationOfUnmirroredOnes) {

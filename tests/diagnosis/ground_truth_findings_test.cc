@@ -32,9 +32,10 @@ class GroundTruthTest : public TemporaryFolder {
     track_ = TrackMotion(RgbdDecoder(index, calibration), FrameBuilderOptions(), kNumImages);
   }
 
-  Findings Diagnose(const std::vector<TimedPose>& truth, double depth_scale = 5000.0) const {
+  Findings Diagnose(const std::vector<TimedPose>& truth, double depth_scale = 5000.0,
+                    bool is_calibrated = true) const {
     Findings findings;
-    AddGroundTruthMotionFindings(track_, truth, depth_scale, &findings);
+    AddGroundTruthMotionFindings(track_, truth, depth_scale, is_calibrated, &findings);
     return findings;
   }
 
@@ -89,6 +90,12 @@ TEST_F(GroundTruthTest, FindsWrongPoses) {
   ExpectWarning(
       "ground_truth.scale", "probably 5000",
       [](TimedPose* p) { p->world_from_cam.translation() /= 5.0; }, 1000.0);
+  // With another error of the calibration.
+  std::vector<TimedPose> scaled = truth_;
+  for (TimedPose& pose : scaled) pose.world_from_cam.translation() /= 1.1;
+  const Findings uncalibrated = Diagnose(scaled, 5000.0, false);
+  ExpectFinding(uncalibrated, Severity::kGood, "ground_truth.scale", "not tested", "uncalibrated");
+  EXPECT_EQ(Text(uncalibrated).find("depth_scale"), std::string::npos) << Text(uncalibrated);
   // Another sequence.
   SyntheticSequenceOptions other_options = SmallRoom();
   other_options.scene = SceneKind::kSlanted;

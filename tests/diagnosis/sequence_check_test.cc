@@ -137,6 +137,39 @@ TEST_F(SequenceCheckTest, WarnsOfUnusualCamera) {
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "fy is positive")));
 }
 
+TEST_F(SequenceCheckTest, WarnsOfADepthCameraWithAnotherSign) {
+  const auto of_sign = Field(&Finding::check, "camera.sign");
+  calibration_.depth_camera = DepthCamera{calibration_.camera, Rigid3()};
+  EXPECT_THAT(Check(), Not(Contains(of_sign)));
+  calibration_.depth_camera->camera.fy = -10.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "make fy of the depth camera positive")));
+  calibration_.camera.fy = -10.0;
+  index_.format = "icl-nuim";
+  EXPECT_THAT(Check(), Not(Contains(of_sign)));
+  calibration_.depth_camera->camera.fy = 10.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "make fy of the depth camera negative")));
+}
+
+TEST_F(SequenceCheckTest, AcceptsWideViewsThatAreMeant) {
+  const auto of_view = Field(&Finding::check, "camera.field_of_view");
+  calibration_.camera.fx = calibration_.camera.fy = 2.4;
+  EXPECT_THAT(Check(), Contains(AllOf(of_view, Is(Severity::kWarning, "is 111 degrees"))));
+  calibration_.distortion.model = LensModel::kFisheye;
+  calibration_.SetUndistorted();
+  EXPECT_THAT(Check(), Not(Contains(of_view)));
+  EXPECT_THAT(Check(), Contains(Is(Severity::kGood, "fx 2.400, fy 2.400")));
+  EXPECT_THAT(Check(), Contains(Is(Severity::kGood, "fisheye lens k1 0 k2 0 k3 0 k4 0")));
+  calibration_ = Calibration();
+  calibration_.camera = {10.0, 10.0, 3.5, 2.5, 8, 6};
+  calibration_.field_of_view = 20.0;
+  calibration_.SetUndistorted();
+  EXPECT_THAT(Check(), Not(Contains(of_view)));
+}
+
+TEST_F(SequenceCheckTest, SaysThatTheCalibrationIsNotTested) {
+  EXPECT_THAT(Check().back(), Is(Severity::kGood, "to test it, run msc_vo check --deep"));
+}
+
 TEST_F(SequenceCheckTest, WarnsOfGroundTruthAtOtherTimes) {
   for (TimedPose& pose : index_.ground_truth) pose.timestamp += 1000.0;
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "its stamps begin 1000.000 s after")));
