@@ -29,11 +29,10 @@ constexpr int kIterations = 3;
 constexpr double kSigmaRatio = 0.7;
 constexpr double kMinChange = 1.0;
 
-// Posterior odds above which a correction is accepted, and the largest standard deviations with
-// which it is, a third of those of a wrong calibration: of the logarithm of the focal length, of
-// the principal point (focal lengths), of k1, of the logarithm of the magnification of depth and of
-// its roll. Chosen by measurement, see docs/lab/self_calibration.md.
-constexpr double kAcceptedOdds = 20.0;
+// Largest standard deviations with which a correction is accepted, a third of those of a wrong
+// calibration: of the logarithm of the focal length, of the principal point (focal lengths), of k1,
+// of the logarithm of the magnification of depth and of its roll. Chosen by measurement, see
+// docs/lab/self_calibration.md.
 constexpr double kMaxFocalLengthSigma = 0.01;
 constexpr double kMaxCenterSigma = 0.0067;
 constexpr double kMaxK1Sigma = 0.03;

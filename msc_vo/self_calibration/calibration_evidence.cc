@@ -20,10 +20,6 @@ using Matrix = SensorCorrection::Matrix;
 
 // Prior odds of a group to be wrong.
 constexpr double kPriorOdds = 0.1;
-// Posterior odds of the best model to that of the known wrong groups above which it is accepted.
-// Runs, which also judge the certainty of each group, have their own limit, see
-// calibration_estimator.cc.
-constexpr double kAcceptedOdds = 100.0;
 
 // Ratio of the standard deviations after and before a measurement from which on it does not tell a
 // parameter.

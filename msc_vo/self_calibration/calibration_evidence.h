@@ -20,6 +20,9 @@ constexpr std::array<CorrectionGroup, 3> kColorGroups = {
 /// is asked. The largest odds for the focal length of sequences that are described well and
 /// determine it are 0.1 (docs/lab/self_calibration.md).
 constexpr double kCandidateOdds = 0.3;
+/// Posterior odds above which a correction is accepted. Chosen by measurement, see
+/// docs/lab/self_calibration.md.
+constexpr double kAcceptedOdds = 20.0;
 
 /// A set of groups: whether each CorrectionGroup belongs to it.
 using CorrectionGroups = std::array<bool, kNumCorrectionGroups>;
@@ -63,8 +66,9 @@ CorrectionEstimate EstimateCorrections(const CalibrationInformation& information
 
 /// Compares the 16 models in which each group is either right, up to the errors of a good
 /// calibration, or wrong, by their evidence. A group is wrong with a prior probability of 1/11; the
-/// model is accepted if it is a hundred times more likely than a calibration that is right. Only
-/// models in which the `known_wrong` groups are wrong, and the `known_right` ones right, take part.
+/// model is accepted if it is kAcceptedOdds times more likely than a calibration that is right.
+/// Only models in which the `known_wrong` groups are wrong, and the `known_right` ones right, take
+/// part.
 CorrectionEstimate SelectCorrections(const CalibrationInformation& information,
                                      const CorrectionGroups& known_wrong = {},
                                      const CorrectionGroups& known_right = {});
