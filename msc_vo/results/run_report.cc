@@ -256,7 +256,7 @@ std::string ErrorRows(const TrajectoryError& error) {
 }
 
 // What self-calibration has corrected, and how to keep it; empty if nothing.
-std::string CalibrationRows(const RunSummary& summary, const RunContext& context) {
+std::string CorrectionRows(const RunSummary& summary, const RunContext& context) {
   if (!summary.calibration.IsCorrected()) return "";
   std::string corrected;
   for (const CalibratedValue& value : ListCalibratedValues(summary)) {
@@ -277,7 +277,7 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
                           std::to_string(context.sequence.entries.size()) + " images)");
   table += Row("camera", context.calibration.origin);
   table += Row("", ShutterText(summary, context));
-  table += CalibrationRows(summary, context);
+  table += CorrectionRows(summary, context);
   table += Row("depth", DepthSensorText(summary, context));
   table += Row("frames", StatusText(summary));
   for (const NotTrackedSpan& span : summary.not_tracked) {

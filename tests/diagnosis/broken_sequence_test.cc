@@ -233,7 +233,7 @@ TEST_F(BrokenSequenceTest, FindsWrongCalibration) {
   ExpectOnly("focal_3", "calibration.focal_length", "% too long: estimated 26",
              with_focal_length(1.03));
   ExpectOnly("focal_short", "calibration.focal_length", "% too short", with_focal_length(0.95));
-  ExpectOnly("centre", "calibration.principal_point", "off by (",
+  ExpectOnly("centre", "calibration.principal_point", "off by (10.",
              [](Recording* r) { r->calibration.camera.cx += 10.0; });
 }
 

@@ -11,7 +11,7 @@
 
 namespace msc_vo {
 
-/// Motion blur is the mean of images rendered at times that divide the exposure time evenly.
+// Motion blur is the mean of images rendered at times that divide the exposure time evenly.
 
 /// Returns the largest displacement of a pixel, in pixels, that a camera sees when it moves from
 /// pose a to pose b. `depth`: metres at a, camera.width * camera.height values, 0: none. A lens
