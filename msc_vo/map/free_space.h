@@ -3,8 +3,8 @@
 
 #pragma once
 
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/map/frame.h"
 
 namespace msc_vo {
 

@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/geometry/line_segment.h"
-#include "msc_vo/map/frame.h"
 
 namespace msc_vo {
 

@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/map/frame.h"
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/map/last_tracked_pose.h"
 #include "msc_vo/matching/frame_matches.h"

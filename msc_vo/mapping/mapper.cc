@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "msc_vo/map/frame_intrinsics.h"
+#include "msc_vo/frame/frame_intrinsics.h"
 #include "msc_vo/map/map_validation.h"
 #include "msc_vo/mapping/landmark_creation.h"
 #include "msc_vo/mapping/map_lines.h"

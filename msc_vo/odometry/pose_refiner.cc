@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "msc_vo/map/frame_intrinsics.h"
+#include "msc_vo/frame/frame_intrinsics.h"
 #include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
 #include "msc_vo/tracking/frame_pose.h"
 #include "msc_vo/tracking/tracked_frame.h"

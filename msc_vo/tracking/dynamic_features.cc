@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "msc_vo/map/depth_surfaces.h"
+#include "msc_vo/frame/depth_surfaces.h"
 #include "msc_vo/map/free_space.h"
 #include "msc_vo/pose_estimation/image_grid.h"
 

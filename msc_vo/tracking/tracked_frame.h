@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/map/frame.h"
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/map/last_tracked_pose.h"
 #include "msc_vo/map/noise_scale.h"

@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "msc_vo/map/feature_counts.h"
-#include "msc_vo/map/frame_intrinsics.h"
-#include "msc_vo/map/rolling_shutter.h"
+#include "msc_vo/frame/feature_counts.h"
+#include "msc_vo/frame/frame_intrinsics.h"
+#include "msc_vo/frame/rolling_shutter.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/pose_estimation/pose_search.h"
 #include "msc_vo/timing/stopwatch.h"

@@ -8,7 +8,7 @@
 #include "tests/support/simulated_camera.h"
 #include <gtest/gtest.h>
 
-#include "msc_vo/map/frame_intrinsics.h"
+#include "msc_vo/frame/frame_intrinsics.h"
 #include "msc_vo/self_calibration/keyframe_intrinsics.h"
 
 namespace msc_vo {

@@ -13,8 +13,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "msc_vo/frame/frame_intrinsics.h"
 #include "msc_vo/geometry/so3.h"
-#include "msc_vo/map/frame_intrinsics.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/self_calibration/sensor_calibration.h"
 #include "msc_vo/sensor/depth_camera_correction.h"
