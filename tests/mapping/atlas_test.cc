@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/map/atlas.h"
+#include "msc_vo/mapping/atlas.h"
 
 #include <gmock/gmock.h>
 
@@ -26,9 +26,9 @@ class AtlasTest : public testing::Test {
   };
 
   void SetUp() override {
-    old_ = Fill(&atlas_.current());
+    old_ = Fill(&atlas_.current().map);
     atlas_.Begin(true);
-    new_ = Fill(&atlas_.current());
+    new_ = Fill(&atlas_.current().map);
   }
 
   static Ids Fill(Map* map) {
@@ -41,7 +41,7 @@ class AtlasTest : public testing::Test {
     return ids;
   }
 
-  Atlas atlas_;
+  Atlas atlas_{SceneAxesOptions(), NoiseEstimatorOptions()};
   Ids old_, new_;
   const Rigid3 new_from_old_{ExpSO3({0.1, -0.4, 0.9}), {3.0, -2.0, 1.0}};
 };
@@ -49,23 +49,27 @@ class AtlasTest : public testing::Test {
 TEST_F(AtlasTest, ContinuesTheIdsInTheNewMap) {
   EXPECT_GT(new_.first, old_.second);
   EXPECT_GT(new_.point, old_.line);
-  ASSERT_EQ(atlas_.inactive().size(), 1u);
-  EXPECT_EQ(atlas_.FindMapOf(old_.first), atlas_.inactive()[0].get());
-  EXPECT_EQ(atlas_.FindMapOf(new_.second), &atlas_.current());
-  EXPECT_EQ(atlas_.FindMapOf(99), nullptr);
+  ASSERT_EQ(atlas_.inactive_maps().size(), 1u);
+  EXPECT_EQ(atlas_.FindSubMapOf(old_.first)->id, 0);
+  EXPECT_TRUE(atlas_.inactive_maps()[0]->KnowsKeyframe(old_.first));
+  EXPECT_EQ(atlas_.FindSubMapOf(new_.second), &atlas_.current());
+  EXPECT_EQ(atlas_.Find(1), &atlas_.current());
+  EXPECT_EQ(atlas_.FindSubMapOf(99), nullptr);
 }
 
 TEST_F(AtlasTest, DiscardsAMapThatIsNotKept) {
   atlas_.Begin(false);
-  EXPECT_EQ(atlas_.inactive().size(), 1u);
-  EXPECT_TRUE(atlas_.current().keyframes().empty());
-  EXPECT_EQ(atlas_.FindMapOf(new_.first), nullptr);
+  EXPECT_EQ(atlas_.inactive_maps().size(), 1u);
+  EXPECT_TRUE(atlas_.current().map.keyframes().empty());
+  EXPECT_EQ(atlas_.FindSubMapOf(new_.first), nullptr);
+  EXPECT_EQ(atlas_.Find(1), nullptr);
 }
 
 TEST_F(AtlasTest, JoinKeepsTheWorldOfTheOlderMap) {
   ASSERT_TRUE(atlas_.Join(old_.second, new_from_old_));
-  EXPECT_TRUE(atlas_.inactive().empty());
-  const Map& map = atlas_.current();
+  EXPECT_TRUE(atlas_.inactive_maps().empty());
+  EXPECT_EQ(atlas_.current().id, 0);
+  const Map& map = atlas_.current().map;
   EXPECT_EQ(map.keyframes().size(), 4u);
   EXPECT_EQ(map.CamFromWorld(old_.first).params, Rigid3().params);
   const Rigid3 old_from_new = new_from_old_.Inverse();
@@ -83,10 +87,10 @@ TEST_F(AtlasTest, JoinKeepsTheWorldOfTheOlderMap) {
 
 TEST_F(AtlasTest, JoinMovesAYoungerInactiveMap) {
   atlas_.Begin(true);  // the maps 0 and 1 are inactive
-  Fill(&atlas_.current());
+  Fill(&atlas_.current().map);
   ASSERT_TRUE(atlas_.Join(old_.first, Rigid3()));  // 0 and 2
   ASSERT_TRUE(atlas_.Join(new_.first, new_from_old_.Inverse()));
-  const Map& map = atlas_.current();
+  const Map& map = atlas_.current().map;
   EXPECT_EQ(map.keyframes().size(), 6u);
   EXPECT_EQ(map.CamFromWorld(old_.first).params, Rigid3().params);
   EXPECT_TRUE(map.CamFromWorld(new_.first).params.isApprox(new_from_old_.params, 1e-12));
@@ -95,7 +99,7 @@ TEST_F(AtlasTest, JoinMovesAYoungerInactiveMap) {
 
 TEST_F(AtlasTest, AJoinedMapCanGrowAndMergeLandmarks) {
   atlas_.Join(old_.first, new_from_old_);
-  Map& map = atlas_.current();
+  Map& map = atlas_.current().map;
   map.MergePoints(new_.point, old_.point);
   EXPECT_EQ(map.FindPoint(old_.point)->observations.size(), 4u);
   EXPECT_EQ(map.FindKeyframe(new_.second)->points[1], old_.point);
@@ -107,7 +111,7 @@ TEST_F(AtlasTest, AJoinedMapCanGrowAndMergeLandmarks) {
 }
 
 TEST_F(AtlasTest, SnapshotsDoNotSeeAJoin) {
-  const Map before = atlas_.current().Share();
+  const Map before = atlas_.current().map.Share();
   atlas_.Join(old_.first, new_from_old_);
   EXPECT_EQ(before.keyframes().size(), 2u);
   EXPECT_EQ(before.CamFromWorld(new_.first).params, Rigid3().params);
