@@ -68,8 +68,8 @@ int HighestLevel(const Frame& frame) {
   return level;
 }
 
-// Whether the ray from the camera to the landmark is near to its mean viewing direction.
-bool IsViewedAlike(const Landmark& landmark, const Eigen::Vector3d& ray) {
+// Whether the ray from the camera to the landmark is close to its mean viewing direction.
+bool HasSimilarViewingAngle(const Landmark& landmark, const Eigen::Vector3d& ray) {
   return landmark.viewing_direction.dot(ray) >= kMinViewingCosine * ray.norm();
 }
 
@@ -93,7 +93,7 @@ void AddPoint(const PointLandmark& point, const Frame& frame, const Rigid3& cam_
               const Eigen::Vector3d& center, int highest_level,
               std::vector<PointCandidate>* candidates) {
   const Eigen::Vector3d ray = point.position - center;
-  if (!IsViewedAlike(point, ray)) return;
+  if (!HasSimilarViewingAngle(point, ray)) return;
   const double level = point.PredictLevel(ray.norm());
   // One level of tolerance on both sides, as in the matcher.
   if (!(level > -1.5 && level < highest_level + 1.5)) return;
@@ -104,10 +104,10 @@ void AddPoint(const PointLandmark& point, const Frame& frame, const Rigid3& cam_
 
 // The same for a line. Of one that passes the camera, only the direction across it is compared: its
 // middle may be behind, and views along a line differ little in its descriptor.
-bool IsViewedAlike(const LineLandmark& line, const Rigid3& cam_from_world,
-                   const Eigen::Vector3d& center) {
+bool HasSimilarViewingAngle(const LineLandmark& line, const Rigid3& cam_from_world,
+                            const Eigen::Vector3d& center) {
   const Eigen::Vector3d ray = line.segment.Midpoint() - center;
-  if (IsInFront(cam_from_world * line.segment)) return IsViewedAlike(line, ray);
+  if (IsInFront(cam_from_world * line.segment)) return HasSimilarViewingAngle(line, ray);
   const Eigen::Vector3d along = line.segment.Direction();
   const Eigen::Vector3d mean = line.viewing_direction;
   const Eigen::Vector3d ray_across = ray - along.dot(ray) * along;
@@ -117,7 +117,7 @@ bool IsViewedAlike(const LineLandmark& line, const Rigid3& cam_from_world,
 
 void AddLine(const LineLandmark& line, const Frame& frame, const Rigid3& cam_from_world,
              const Eigen::Vector3d& center, std::vector<LineCandidate>* candidates) {
-  if (!IsViewedAlike(line, cam_from_world, center)) return;
+  if (!HasSimilarViewingAngle(line, cam_from_world, center)) return;
   LineCandidate candidate = CandidateOf(line);
   if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) candidates->push_back(candidate);
 }

@@ -52,7 +52,8 @@ bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
   return Support(far) > kClearlyBetter * (Support(near) + near.num_dynamic);
 }
 
-bool ShowsAsMuch(const FrameMatches& found, const LocalMap& place, const TrackedFrame& tracked) {
+bool HasComparableMatchRatio(const FrameMatches& found, const LocalMap& place,
+                             const TrackedFrame& tracked) {
   constexpr double kMinRelativeRatio = 0.5;  // the direction of view may be another
   const auto num_features = [](const FrameMatches& matches) {
     return static_cast<double>(matches.points.size() + matches.lines.size());

@@ -21,20 +21,20 @@ TrackedFrame FrameInCurrentMap() {
 }
 
 // Whether `num_found` of 200 landmarks are enough.
-bool ShowsAsMuchWith(size_t num_found) {
+bool HasComparableMatchRatioWith(size_t num_found) {
   FrameMatches found;
   found.points.resize(num_found - 10);
   found.lines.resize(10);
   LocalMap place;
   place.points.resize(150);
   place.lines.resize(50);
-  return ShowsAsMuch(found, place, FrameInCurrentMap());
+  return HasComparableMatchRatio(found, place, FrameInCurrentMap());
 }
 
-TEST(ShowsAsMuch, RequiresHalfOfTheRatioInTheCurrentMap) {
-  EXPECT_TRUE(ShowsAsMuchWith(80));
-  EXPECT_TRUE(ShowsAsMuchWith(40));
-  EXPECT_FALSE(ShowsAsMuchWith(39));
+TEST(HasComparableMatchRatio, RequiresHalfOfTheRatioInTheCurrentMap) {
+  EXPECT_TRUE(HasComparableMatchRatioWith(80));
+  EXPECT_TRUE(HasComparableMatchRatioWith(40));
+  EXPECT_FALSE(HasComparableMatchRatioWith(39));
 }
 
 std::shared_ptr<Frame> FrameAtWall(double distance) {
