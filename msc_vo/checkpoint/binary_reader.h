@@ -45,12 +45,12 @@ class BinaryReader {
     CheckFieldCount<sizeof...(fields)>(value);
     (*this)(fields...);
   }
-  /// Reads values that have no default: they are read into copies of `prototype`.
-  template <typename T>
-  void Entries(std::vector<T>& values, const T& prototype) {
+  /// Reads values that have no default: they are read into results of make().
+  template <typename T, typename Make>
+  void Entries(std::vector<T>& values, const Make& make) {
     values.clear();
     for (size_t i = GetSize(); i > 0; --i) {
-      values.push_back(prototype);
+      values.push_back(make());
       Get(values.back());
     }
   }

@@ -50,8 +50,8 @@ class BinaryWriter {
     (*this)(fields...);
   }
   /// Writes values that have no default; see BinaryReader.
-  template <typename T>
-  void Entries(const std::vector<T>& values, const T& /*prototype*/) {
+  template <typename T, typename Make>
+  void Entries(const std::vector<T>& values, const Make& /*make*/) {
     Put(values);
   }
 

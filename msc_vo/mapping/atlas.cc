@@ -17,12 +17,16 @@ std::shared_ptr<const Map> Share(SubMap* submap) {
 }  // namespace
 
 Atlas::Atlas(const SceneAxesOptions& axes, const NoiseEstimatorOptions& noise)
-    : empty_{kNoSubMap, {}, SceneAxes(axes), NoiseEstimator(noise)}, current_(empty_) {
+    : axes_(axes), noise_(noise), current_(MakeEmpty()) {
   current_.id = 0;
 }
 
+SubMap Atlas::MakeEmpty() const {
+  return {kNoSubMap, {}, SceneAxes(axes_), NoiseEstimator(noise_)};
+}
+
 void Atlas::Begin(bool keep_current) {
-  SubMap next = empty_;
+  SubMap next = MakeEmpty();
   next.id = next_id_++;
   next.map = current_.map.Next();
   next.noise = current_.noise;

@@ -49,15 +49,19 @@ class Atlas {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [next_id, empty, current_submap, inactive, maps] = *this;  // all members
+    auto& [axes, noise, next_id, current_submap, inactive, maps] = *this;  // all members
     archive(next_id, current_submap);
-    archive.Entries(inactive, empty);
+    archive.Entries(inactive, [this] { return MakeEmpty(); });
     archive(maps);
   }
 
  private:
+  // Without an id.
+  SubMap MakeEmpty() const;
+
+  SceneAxesOptions axes_;
+  NoiseEstimatorOptions noise_;
   SubMapId next_id_ = 1;
-  SubMap empty_;  // what every submap begins with
   SubMap current_;
   std::vector<SubMap> inactive_;
   InactiveMaps inactive_maps_;  // the maps of inactive_

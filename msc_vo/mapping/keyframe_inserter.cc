@@ -11,18 +11,15 @@ namespace {
 
 // Adds the observations of a keyframe, and what its frames have counted since the last one.
 void AddObservations(const KeyframePacket& packet, KeyframeId keyframe, Map* map) {
-  for (const PointMatch& match : packet.matches.points) {
-    map->ObservePoint(match.id, keyframe, match.feature);
-  }
-  for (const LineMatch& match : packet.matches.lines) {
-    map->ObserveLine(match.id, keyframe, match.feature);
-  }
-  for (const auto& [id, count] : packet.point_counts) {
-    map->CountPointTracking(id, count.num_visible, count.num_found);
-  }
-  for (const auto& [id, count] : packet.line_counts) {
-    map->CountLineTracking(id, count.num_visible, count.num_found);
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const auto& match : MatchesOf<L>(packet.matches)) {
+      map->Observe<L>(match.id, keyframe, match.feature);
+    }
+    for (const auto& [id, count] : packet.counts.Of<L>()) {
+      map->CountTracking<L>(id, count.num_visible, count.num_found);
+    }
+  });
 }
 
 }  // namespace

@@ -59,14 +59,13 @@ struct KeyframePacket {
   std::shared_ptr<const RecordedImage> image;
   std::vector<CalibrationImage> calibration_images;
   /// Over all frames since the last packet, including this one.
-  std::map<LandmarkId, TrackingCount> point_counts;
-  std::map<LandmarkId, TrackingCount> line_counts;
+  PerKind<std::map<LandmarkId, TrackingCount>> counts;
 
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive.Fields(*this, frame, reference, cam_from_reference, begins_map, keeps_last_map,
                    last_tracked, matches, covariance, in_inactive_map, frame_interval,
-                   last_velocity, normals, image, calibration_images, point_counts, line_counts);
+                   last_velocity, normals, image, calibration_images, counts);
   }
 };
 

@@ -9,13 +9,7 @@ namespace msc_vo {
 
 void LandmarkCare::Renew(KeyframeId newest, Map* map) {
   CullLandmarks(culling_, newest, &probation_, map);
-  CreatePoints(newest, &probation_, map);
-  CreateLines(newest, &probation_, map);
-}
-
-void LandmarkCare::Fuse(KeyframeId newest, Map* map) const {
-  FusePoints(fusion_, newest, map);
-  FuseLines(fusion_, newest, map);
+  CreateLandmarks(newest, &probation_, map);
 }
 
 }  // namespace msc_vo

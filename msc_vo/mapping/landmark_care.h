@@ -22,9 +22,9 @@ class LandmarkCare {
   /// Removes the landmarks that fail their probation, and creates those of the newest keyframe.
   void Renew(KeyframeId newest, Map* map);
   /// Fuses the landmarks of the newest keyframe with those of its covisible keyframes.
-  void Fuse(KeyframeId newest, Map* map) const;
+  void Fuse(KeyframeId newest, Map* map) const { FuseLandmarks(fusion_, newest, map); }
   /// Fuses the landmarks of all keyframes.
-  void FuseAll(Map* map) const { FuseLandmarks(fusion_, map); }
+  void FuseAll(Map* map) const { FuseAllLandmarks(fusion_, map); }
   /// Removes redundant keyframes and returns their number.
   int CullKeyframes(KeyframeId newest, Map* map) const {
     return msc_vo::CullKeyframes(culling_, newest, map);

@@ -12,33 +12,20 @@ namespace msc_vo {
 
 namespace {
 
-// Lets keyframe `id` observe the points of the other map that its features were matched with. Where
-// a feature has a point already, the two are one.
-void MergeMatchedPoints(KeyframeId id, const std::vector<PointMatch>& matches, Map* map) {
-  for (const PointMatch& match : matches) {
-    if (map->FindPoint(match.id) == nullptr) continue;  // merged by an earlier match
-    const LandmarkId holder = map->FindKeyframe(id)->points[match.feature];
+// Lets keyframe `id` observe the landmarks of the other map that its features were matched with.
+// Where a feature has a landmark already, the two are one.
+template <typename L>
+void MergeMatched(KeyframeId id, const FrameMatches& matches, Map* map) {
+  for (const auto& match : MatchesOf<L>(matches)) {
+    if (map->Find<L>(match.id) == nullptr) continue;  // merged by an earlier match
+    const LandmarkId holder = SlotsOf<L>(*map->FindKeyframe(id))[match.feature];
     if (holder == match.id) continue;
     if (holder == kNoId) {
-      map->ObservePoint(match.id, id, match.feature);
+      map->Observe<L>(match.id, id, match.feature);
     } else {
-      map->MergePoints(holder, match.id);
+      map->MergeLandmarks<L>(holder, match.id);
     }
-    map->RefreshPoint(match.id);
-  }
-}
-
-void MergeMatchedLines(KeyframeId id, const std::vector<LineMatch>& matches, Map* map) {
-  for (const LineMatch& match : matches) {
-    if (map->FindLine(match.id) == nullptr) continue;  // merged by an earlier match
-    const LandmarkId holder = map->FindKeyframe(id)->lines[match.feature];
-    if (holder == match.id) continue;
-    if (holder == kNoId) {
-      map->ObserveLine(match.id, id, match.feature);
-    } else {
-      map->MergeLines(holder, match.id);
-    }
-    map->RefreshLine(match.id);
+    map->Refresh<L>(match.id);
   }
 }
 
@@ -152,8 +139,9 @@ std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
     const KeyframeId keyframe = in_both[i].keyframe;
     if (!alignment->inliers[i] || map->FindKeyframe(keyframe) == nullptr) continue;
     const FrameMatches& matches = in_both[i].in_inactive_map.matches;
-    MergeMatchedPoints(keyframe, matches.points, map);
-    MergeMatchedLines(keyframe, matches.lines, map);
+    ForEachLandmarkKind([&](auto kind) {
+      MergeMatched<typename decltype(kind)::Landmark>(keyframe, matches, map);
+    });
   }
   common_keyframes_.erase(
       std::remove_if(common_keyframes_.begin(), common_keyframes_.end(),

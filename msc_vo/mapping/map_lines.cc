@@ -33,7 +33,8 @@ std::map<LandmarkId, RefinedLine> RefineMapLines(const MapperOptions& options, c
   if (!LocalBundleAdjustment(solver, &window).usable) return refined;
   for (const WindowData::Line& line : window.lines) {
     if (line.fixed) continue;
-    const LineSegment3 segment = TrimToObservations(map, *map.FindLine(line.id), line.segment);
+    const LineSegment3 segment =
+        TrimToObservations(map, *map.Find<LineLandmark>(line.id), line.segment);
     if (segment.Length() > 0.0) refined[line.id].segment = segment;
   }
   const Eigen::Matrix3d world_from_axes = axes.estimator().world_from_axes().toRotationMatrix();

@@ -28,10 +28,10 @@ std::vector<Map::Covisible> RankObservers(const Map& map, const FrameMatches& ma
     if (landmark != nullptr) observers.Add(*landmark);
   };
   for (const PointMatch& match : matches.points) {
-    if (match.inlier) count(map.FindPoint(match.id));
+    if (match.inlier) count(map.Find<PointLandmark>(match.id));
   }
   for (const LineMatch& match : matches.lines) {
-    if (match.inlier) count(map.FindLine(match.id));
+    if (match.inlier) count(map.Find<LineLandmark>(match.id));
   }
   return observers.Ranked();
 }
@@ -128,10 +128,10 @@ LocalMap LandmarksOf(const Map& map, const Keyframe& keyframe) {
   LocalMap landmarks;
   landmarks.reference = keyframe.id;
   for (const LandmarkId id : keyframe.points) {
-    if (id != kNoId) landmarks.points.push_back(CandidateOf(*map.FindPoint(id)));
+    if (id != kNoId) landmarks.points.push_back(CandidateOf(*map.Find<PointLandmark>(id)));
   }
   for (const LandmarkId id : keyframe.lines) {
-    if (id != kNoId) landmarks.lines.push_back(CandidateOf(*map.FindLine(id)));
+    if (id != kNoId) landmarks.lines.push_back(CandidateOf(*map.Find<LineLandmark>(id)));
   }
   return landmarks;
 }
@@ -151,10 +151,11 @@ LocalMap SelectLocalMap(const Map& map, const Frame& frame, const Rigid3& cam_fr
   const Eigen::Vector3d center = cam_from_world.OriginInSource();
   const int highest_level = HighestLevel(frame);
   points.VisitAll([&](LandmarkId id) {
-    AddPoint(*map.FindPoint(id), frame, cam_from_world, center, highest_level, &local.points);
+    AddPoint(*map.Find<PointLandmark>(id), frame, cam_from_world, center, highest_level,
+             &local.points);
   });
   lines.VisitAll([&](LandmarkId id) {
-    AddLine(*map.FindLine(id), frame, cam_from_world, center, &local.lines);
+    AddLine(*map.Find<LineLandmark>(id), frame, cam_from_world, center, &local.lines);
   });
   return local;
 }

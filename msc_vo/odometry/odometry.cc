@@ -141,10 +141,12 @@ std::shared_ptr<const Frame> Odometry::State::Build(const RgbdImage& image) {
 }
 
 void Odometry::State::Count(const TrackedFrame& tracked) {
-  CountVisible(tracked.keyframe.visible_points, &packet.point_counts);
-  CountVisible(tracked.keyframe.visible_lines, &packet.line_counts);
-  for (const PointMatch& match : tracked.matches.points) ++packet.point_counts[match.id].num_found;
-  for (const LineMatch& match : tracked.matches.lines) ++packet.line_counts[match.id].num_found;
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    std::map<LandmarkId, TrackingCount>& counts = packet.counts.Of<L>();
+    CountVisible(tracked.keyframe.visible.Of<L>(), &counts);
+    for (const auto& match : MatchesOf<L>(tracked.matches)) ++counts[match.id].num_found;
+  });
 }
 
 // The next result is the first one of a segment.

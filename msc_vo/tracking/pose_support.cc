@@ -61,7 +61,7 @@ bool HasComparableMatchRatio(const FrameMatches& found, const LocalMap& place,
   const KeyframeProposal& current = tracked.keyframe;
   const auto in_view = static_cast<double>(place.points.size() + place.lines.size());
   const auto in_view_now =
-      static_cast<double>(current.visible_points.size() + current.visible_lines.size());
+      static_cast<double>(current.visible.points.size() + current.visible.lines.size());
   return num_features(found) * in_view_now >=
          kMinRelativeRatio * num_features(tracked.matches) * in_view;
 }

@@ -310,9 +310,9 @@ bool Tracker::TrackLocalMap(const Map& map, TrackedFrame* tracked) const {
                      ReferenceOrNewest(map, last_.reference), options_.max_local_keyframes);
   tracked->matches = MatchLocalMap(options_, *tracked->frame, local, options_.local_map_radius,
                                    LandmarkInliers(tracked->matches));
-  for (const PointCandidate& point : local.points)
-    tracked->keyframe.visible_points.push_back(point.id);
-  for (const LineCandidate& line : local.lines) tracked->keyframe.visible_lines.push_back(line.id);
+  PerKind<std::vector<LandmarkId>>& visible = tracked->keyframe.visible;
+  for (const PointCandidate& point : local.points) visible.points.push_back(point.id);
+  for (const LineCandidate& line : local.lines) visible.lines.push_back(line.id);
   tracked->times.matching += stopwatch.Milliseconds();
   const bool found = EstimatePose(options_.pose, map, tracked);
   if (!found) {

@@ -35,9 +35,9 @@ class AtlasTest : public testing::Test {
     Ids ids;
     ids.first = map->AddKeyframe(MakeFrame(), Rigid3());
     ids.second = map->AddKeyframe(MakeFrame(), Rigid3(ExpSO3({0.0, 0.3, 0.0}), {1.0, 0.0, 0.0}));
-    ids.point = map->AddPoint(ids.first, 0, {0.5, 0.0, 2.0});
-    map->ObservePoint(ids.point, ids.second, 1);
-    ids.line = map->AddLine(ids.first, 0, {{0.0, 0.0, 2.0}, {0.0, 1.0, 3.0}});
+    ids.point = map->Add<PointLandmark>(ids.first, 0, {0.5, 0.0, 2.0});
+    map->Observe<PointLandmark>(ids.point, ids.second, 1);
+    ids.line = map->Add<LineLandmark>(ids.first, 0, {{0.0, 0.0, 2.0}, {0.0, 1.0, 3.0}});
     return ids;
   }
 
@@ -74,13 +74,13 @@ TEST_F(AtlasTest, JoinKeepsTheWorldOfTheOlderMap) {
   EXPECT_EQ(map.CamFromWorld(old_.first).params, Rigid3().params);
   const Rigid3 old_from_new = new_from_old_.Inverse();
   EXPECT_TRUE(map.CamFromWorld(new_.first).params.isApprox(new_from_old_.params, 1e-12));
-  EXPECT_TRUE(map.FindPoint(new_.point)
+  EXPECT_TRUE(map.Find<PointLandmark>(new_.point)
                   ->position.isApprox(old_from_new * Eigen::Vector3d(0.5, 0.0, 2.0), 1e-12));
-  EXPECT_TRUE(Eigen::Vector3d(map.FindLine(new_.line)->segment.end)
+  EXPECT_TRUE(Eigen::Vector3d(map.Find<LineLandmark>(new_.line)->segment.end)
                   .isApprox(old_from_new * Eigen::Vector3d(0.0, 1.0, 3.0), 1e-12));
   // Landmarks keep their place in the cameras that observe them.
   const Eigen::Vector3d in_cam =
-      map.CamFromWorld(new_.second) * map.FindPoint(new_.point)->position;
+      map.CamFromWorld(new_.second) * map.Find<PointLandmark>(new_.point)->position;
   EXPECT_TRUE(in_cam.isApprox(
       Rigid3(ExpSO3({0.0, 0.3, 0.0}), {1.0, 0.0, 0.0}) * Eigen::Vector3d(0.5, 0.0, 2.0), 1e-12));
 }
@@ -100,14 +100,14 @@ TEST_F(AtlasTest, JoinMovesAYoungerInactiveMap) {
 TEST_F(AtlasTest, AJoinedMapCanGrowAndMergeLandmarks) {
   atlas_.Join(old_.first, new_from_old_);
   Map& map = atlas_.current().map;
-  map.MergePoints(new_.point, old_.point);
-  EXPECT_EQ(map.FindPoint(old_.point)->observations.size(), 4u);
+  map.MergeLandmarks<PointLandmark>(new_.point, old_.point);
+  EXPECT_EQ(map.Find<PointLandmark>(old_.point)->observations.size(), 4u);
   EXPECT_EQ(map.FindKeyframe(new_.second)->points[1], old_.point);
   map.RemoveKeyframe(new_.first, new_.second);
   EXPECT_TRUE(map.KnowsKeyframe(new_.first));
   const KeyframeId next = map.AddKeyframe(MakeFrame(), Rigid3());
   EXPECT_GT(next, new_.second);
-  EXPECT_GT(map.AddPoint(next, 0, {0.0, 0.0, 1.0}), new_.line);
+  EXPECT_GT(map.Add<PointLandmark>(next, 0, {0.0, 0.0, 1.0}), new_.line);
 }
 
 TEST_F(AtlasTest, SnapshotsDoNotSeeAJoin) {
@@ -115,7 +115,7 @@ TEST_F(AtlasTest, SnapshotsDoNotSeeAJoin) {
   atlas_.Join(old_.first, new_from_old_);
   EXPECT_EQ(before.keyframes().size(), 2u);
   EXPECT_EQ(before.CamFromWorld(new_.first).params, Rigid3().params);
-  EXPECT_EQ(before.FindPoint(new_.point)->position, Eigen::Vector3d(0.5, 0.0, 2.0));
+  EXPECT_EQ(before.Find<PointLandmark>(new_.point)->position, Eigen::Vector3d(0.5, 0.0, 2.0));
 }
 
 }  // namespace

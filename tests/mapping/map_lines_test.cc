@@ -53,7 +53,7 @@ TEST(RefineMapLines, TurnsUncertainLinesToTheirAxes) {
   double before = 0.0, after = 0.0;
   size_t num_aligned = 0;
   for (const auto& [id, best] : refined) {
-    const LineLandmark* line = mapper.map().FindLine(id);
+    const LineLandmark* line = mapper.map().Find<LineLandmark>(id);
     ASSERT_NE(line, nullptr);
     before += std::pow(AxisError(line->segment), 2);
     after += std::pow(AxisError(best.segment), 2);

@@ -136,7 +136,8 @@ class CalibratingMapper {
       const auto found = landmarks.find(packet->frame->points[i].descriptor);
       if (found == landmarks.end()) continue;
       packet->matches.points.push_back({static_cast<int>(i), found->second,
-                                        mapper_.map().FindPoint(found->second)->position, true});
+                                        mapper_.map().Find<PointLandmark>(found->second)->position,
+                                        true});
     }
   }
 

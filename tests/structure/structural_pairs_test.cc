@@ -41,8 +41,8 @@ class StructuralPairsTest : public ::testing::Test {
   }
 
   double Degrees(const WindowData::LinePair& pair) const {
-    return RadiansToDegrees(UndirectedAngle(map_.FindLine(pair.a)->segment.Direction(),
-                                            map_.FindLine(pair.b)->segment.Direction()));
+    return RadiansToDegrees(UndirectedAngle(map_.Find<LineLandmark>(pair.a)->segment.Direction(),
+                                            map_.Find<LineLandmark>(pair.b)->segment.Direction()));
   }
 
   void Add() {

@@ -50,10 +50,10 @@ inline void Observe(KeyframeId keyframe, LandmarksByDescriptor* landmarks, Map* 
   for (int i = 0; i < static_cast<int>(frame->points.size()); ++i) {
     const auto known = landmarks->find(frame->points[i].descriptor);
     if (known != landmarks->end()) {
-      map->ObservePoint(known->second, keyframe, i);
+      map->Observe<PointLandmark>(known->second, keyframe, i);
     } else {
       (*landmarks)[frame->points[i].descriptor] =
-          map->AddPoint(keyframe, i, world_from_cam * frame->PointInCamera(i));
+          map->Add<PointLandmark>(keyframe, i, world_from_cam * frame->PointInCamera(i));
     }
   }
 }
