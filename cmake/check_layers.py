@@ -18,7 +18,7 @@ import tempfile
 LAYERS = [
     ["camera", "text", "timing"],
     ["geometry", "checkpoint"],
-    ["factors", "evaluation", "sensor", "synthetic/scene", "report"],
+    ["frame", "factors", "evaluation", "sensor", "synthetic/scene", "report"],
     ["bundle_adjustment"],
     ["map", "synthetic/window"],
     ["matching", "structure", "features"],

@@ -31,16 +31,18 @@ Map MakeMap(int num_keyframes) {
     const size_t num_points = points.size();
     const size_t num_lines = lines.size();
     for (int j = 0; j < kNewPoints; ++j) {
-      points.push_back(map.AddPoint(keyframe, j, Eigen::Vector3d(0.0, 0.0, 2.0)));
+      points.push_back(map.Add<PointLandmark>(keyframe, j, Eigen::Vector3d(0.0, 0.0, 2.0)));
     }
     for (int j = 0; j < kNewLines; ++j) {
-      lines.push_back(map.AddLine(keyframe, j, {{0.0, 0.0, 2.0}, {1.0, 0.0, 2.0}}));
+      lines.push_back(map.Add<LineLandmark>(keyframe, j, {{0.0, 0.0, 2.0}, {1.0, 0.0, 2.0}}));
     }
     for (size_t j = kNewPoints; j < frame->points.size() && j - kNewPoints < num_points; ++j) {
-      map.ObservePoint(points[num_points - 1 - (j - kNewPoints)], keyframe, static_cast<int>(j));
+      map.Observe<PointLandmark>(points[num_points - 1 - (j - kNewPoints)], keyframe,
+                                 static_cast<int>(j));
     }
     for (size_t j = kNewLines; j < frame->lines.size() && j - kNewLines < num_lines; ++j) {
-      map.ObserveLine(lines[num_lines - 1 - (j - kNewLines)], keyframe, static_cast<int>(j));
+      map.Observe<LineLandmark>(lines[num_lines - 1 - (j - kNewLines)], keyframe,
+                                static_cast<int>(j));
     }
   }
   return map;
@@ -55,7 +57,8 @@ void Snapshot(benchmark::State& state) {
   moved.erase(moved.begin(), moved.end() - state.range(1));
   MapSnapshotPtr newest;
   for (auto _ : state) {
-    for (const LandmarkId id : moved) map.SetPoint(id, Eigen::Vector3d(0.0, 0.0, 3.0));
+    for (const LandmarkId id : moved)
+      map.SetGeometry<PointLandmark>(id, Eigen::Vector3d(0.0, 0.0, 3.0));
     auto snapshot = std::make_shared<MapSnapshot>();
     snapshot->map = map.Share();
     newest = std::move(snapshot);

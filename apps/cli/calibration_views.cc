@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "msc_vo/frame/rolling_shutter.h"
 #include "msc_vo/geometry/so3.h"
-#include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/sensor/depth_alignment.h"
 
 namespace msc_vo {

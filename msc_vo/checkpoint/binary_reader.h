@@ -45,14 +45,13 @@ class BinaryReader {
     CheckFieldCount<sizeof...(fields)>(value);
     (*this)(fields...);
   }
-  /// Reads a map of values that have no default: they are read into copies of `prototype`.
-  template <typename Key, typename T>
-  void Entries(std::map<Key, T>& map, const T& prototype) {
-    map.clear();
+  /// Reads values that have no default: they are read into results of make().
+  template <typename T, typename Make>
+  void Entries(std::vector<T>& values, const Make& make) {
+    values.clear();
     for (size_t i = GetSize(); i > 0; --i) {
-      Key key{};
-      Get(key);
-      Get(map.emplace(key, prototype).first->second);
+      values.push_back(make());
+      Get(values.back());
     }
   }
 
@@ -127,7 +126,12 @@ class BinaryReader {
   }
   template <typename Key, typename T>
   void Get(std::map<Key, T>& values) {
-    Entries(values, T{});
+    values.clear();
+    for (size_t i = GetSize(); i > 0; --i) {
+      Key key{};
+      Get(key);
+      Get(values[key]);
+    }
   }
   template <typename T, size_t size>
   void Get(std::array<T, size>& values) {

@@ -49,10 +49,10 @@ class BinaryWriter {
     CheckFieldCount<sizeof...(fields)>(value);
     (*this)(fields...);
   }
-  /// Writes a map of values that have no default; see BinaryReader.
-  template <typename Key, typename T>
-  void Entries(const std::map<Key, T>& map, const T& /*prototype*/) {
-    Put(map);
+  /// Writes values that have no default; see BinaryReader.
+  template <typename T, typename Make>
+  void Entries(const std::vector<T>& values, const Make& /*make*/) {
+    Put(values);
   }
 
   const std::string& bytes() const { return bytes_; }

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/map/frame.h"
 
 namespace msc_vo {
 

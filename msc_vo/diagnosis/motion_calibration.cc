@@ -10,8 +10,8 @@
 
 #include "msc_vo/datasets/calibration_correction.h"
 #include "msc_vo/diagnosis/registration_edges.h"
+#include "msc_vo/frame/rolling_shutter.h"
 #include "msc_vo/map/keyframe.h"
-#include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/self_calibration/readout_time_estimator.h"
 #include "msc_vo/self_calibration/sensor_calibration.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "msc_vo/diagnosis/finding.h"
-#include "msc_vo/map/frame.h"
+#include "msc_vo/frame/frame.h"
 
 namespace msc_vo {
 

@@ -7,8 +7,8 @@
 
 #include "msc_vo/features/internal/depth_range_builder.h"
 #include "msc_vo/features/internal/feature_depth.h"
-#include "msc_vo/map/frame_intrinsics.h"
-#include "msc_vo/map/rolling_shutter.h"
+#include "msc_vo/frame/frame_intrinsics.h"
+#include "msc_vo/frame/rolling_shutter.h"
 
 namespace msc_vo {
 

@@ -12,8 +12,8 @@
 #include "msc_vo/features/line_backprojection.h"
 #include "msc_vo/features/line_extractor.h"
 #include "msc_vo/features/point_extractor.h"
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/geometry/line_fit.h"
-#include "msc_vo/map/frame.h"
 #include "msc_vo/sensor/depth_sensor.h"
 #include "msc_vo/sensor/rgbd_image.h"
 #include "msc_vo/sensor/sensor_noise.h"
@@ -70,11 +70,11 @@ class FrameBuilder {
   void SetIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics);
 
   const FrameBuilderTimes& times() const;
-  /// The depth sensor of the options, or the one that the first images speak for; kAuto as long as
-  /// no image had enough depth to tell.
+  /// The depth sensor of the options, or the one inferred from the first depth images; kAuto until
+  /// an image has enough depth.
   DepthSensor depth_sensor() const;
 
-  /// Writes or reads what the images so far have told about the sensor, for a checkpoint. Defined
+  /// Writes or reads what is known of the sensor from the images so far, for a checkpoint. Defined
   /// for BinaryWriter and BinaryReader.
   template <typename Archive>
   void Serialize(Archive& archive);

@@ -113,8 +113,8 @@ Eigen::Vector2d ToFullImage(const Eigen::Vector2d& pixel, const cv::Size& level,
           (pixel.y() + 0.5) * image.height / level.height - 0.5};
 }
 
-// Refines the corners of one level to sub-pixels; of those that converge to the same pixel, the
-// first is kept.
+// Refines the corners of one level to sub-pixels. Keeps the first of several corners that converge
+// to the same pixel.
 std::vector<RefinedCorner> RefineCorners(const cv::Mat& level, const cv::Mat& smooth,
                                          const std::vector<FastCorner>& corners) {
   const CornerRefiner refiner(level, smooth, DetectionArea(level));

@@ -41,8 +41,8 @@ double DepthRatio(const Frame& frame, const Eigen::Vector3d& point) {
   return nearest > 0.0 ? 1.0 / (nearest * point.z()) : 0.0;
 }
 
-// Cells of `a` that `b` looks through.
-int NumLookedThrough(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
+// Cells of `a` whose surface lies in the free space of `b`.
+int NumInFreeSpace(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
   int number = 0;
   for (int row = 0; row < DepthRanges::kRows; ++row) {
     for (int column = 0; column < DepthRanges::kColumns; ++column) {
@@ -50,7 +50,7 @@ int NumLookedThrough(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
       if (!cell.HasDepth()) continue;
       const Eigen::Vector2d pixel = DepthRanges::CellCenter(a.camera, column, row);
       const Eigen::Vector3d surface = a.camera.BackProject(pixel, 1.0 / cell.min_inverse_depth);
-      if (LooksThrough(b, b_from_a * surface)) ++number;
+      if (IsInFreeSpace(b, b_from_a * surface)) ++number;
     }
   }
   return number;
@@ -58,7 +58,7 @@ int NumLookedThrough(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
 
 }  // namespace
 
-bool LooksThrough(const Frame& frame, const Eigen::Vector3d& point) {
+bool IsInFreeSpace(const Frame& frame, const Eigen::Vector3d& point) {
   return DepthRatio(frame, point) > 1.0 + DepthRanges::kTolerance;
 }
 
@@ -68,7 +68,7 @@ bool ShowsSurface(const Frame& frame, const Eigen::Vector3d& point) {
 
 int NumFreeSpaceViolations(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
   if (a.depth_ranges.cells.empty() || b.depth_ranges.cells.empty()) return 0;
-  return std::max(NumLookedThrough(a, b, b_from_a), NumLookedThrough(b, a, b_from_a.Inverse()));
+  return std::max(NumInFreeSpace(a, b, b_from_a), NumInFreeSpace(b, a, b_from_a.Inverse()));
 }
 
 }  // namespace msc_vo

@@ -3,14 +3,12 @@
 
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "msc_vo/geometry/line_segment.h"
-#include "msc_vo/map/frame.h"
+#include "msc_vo/frame/descriptor.h"
 
 namespace msc_vo {
 
@@ -29,7 +27,11 @@ struct Observation {
   }
 };
 
-/// Common part of point and line landmarks.
+/// Common part of all kinds of landmarks.
+///
+/// A kind is a struct that derives from Landmark (point_landmark.h, line_landmark.h) and defines
+/// its Feature, its Geometry, geometry(), SetGeometry(), Center() and Transform(). Code that is the
+/// same for all kinds is a template over that struct; landmark_kinds.h lists the kinds.
 struct Landmark {
   LandmarkId id = kNoId;
   KeyframeId first_keyframe = kNoId;      ///< the keyframe that created it
@@ -48,40 +50,6 @@ struct Landmark {
   void Serialize(Archive& archive) {
     archive.Fields(*this, id, first_keyframe, observations, descriptor, descriptor_is_current,
                    viewing_direction, num_visible, num_found, noise);
-  }
-};
-
-/// P_i of the paper.
-struct PointLandmark : Landmark {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, world
-  /// Distance (metres) at which the point's patch has the size of pyramid level 0.
-  double reference_distance = 0.0;
-
-  /// Pyramid level, not rounded, at which the point is expected from `distance` metres.
-  double PredictLevel(double distance) const {
-    return std::log(reference_distance / distance) / std::log(kPyramidScale);
-  }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    Landmark::Serialize(archive);
-    archive(position, reference_distance);
-  }
-};
-
-/// L_j = {S_j, E_j} of the paper.
-struct LineLandmark : Landmark {
-  LineSegment3 segment;  ///< metres, world
-  /// Standard deviation (radians) of the direction's least certain component in the best single
-  /// view; pi if no view has a depth.
-  double direction_sigma = 0.0;
-  /// Common error (metres) of its measured depths in all views; positive: measured too far.
-  double depth_offset = 0.0;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    Landmark::Serialize(archive);
-    archive(segment, direction_sigma, depth_offset);
   }
 };
 

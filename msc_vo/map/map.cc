@@ -13,80 +13,12 @@ namespace msc_vo {
 
 namespace {
 
-// Either the points or the lines of a keyframe; the bookkeeping of observations is the same for
-// both.
-using Slots = std::vector<LandmarkId> Keyframe::*;
-
 // Position of the observation by `keyframe`, or where it is to be inserted.
 template <typename Observations>
 auto LowerBound(Observations* observations, KeyframeId keyframe) {
   return std::lower_bound(
       observations->begin(), observations->end(), keyframe,
       [](const Observation& observation, KeyframeId id) { return observation.keyframe < id; });
-}
-
-template <typename Table>
-bool Observe(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, LandmarkId id,
-             const Observation& observation) {
-  const auto* landmark = landmarks->Find(id);
-  const Keyframe* keyframe = keyframes->Find(observation.keyframe);
-  if (landmark == nullptr || keyframe == nullptr) return false;
-  if ((keyframe->*slots)[observation.feature] != kNoId) return false;
-  if (FindObservation(*landmark, observation.keyframe) != nullptr) return false;
-  (keyframes->FindToChange(observation.keyframe)->*slots)[observation.feature] = id;
-  auto* changed = landmarks->FindToChange(id);
-  std::vector<Observation>& observations = changed->observations;
-  observations.insert(LowerBound(&observations, observation.keyframe), observation);
-  changed->descriptor_is_current = false;
-  return true;
-}
-
-template <typename Table>
-void RemoveObservation(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, LandmarkId id,
-                       KeyframeId keyframe) {
-  const auto* landmark = landmarks->Find(id);
-  if (landmark == nullptr) return;
-  const Observation* observation = FindObservation(*landmark, keyframe);
-  if (observation == nullptr) return;
-  (keyframes->FindToChange(keyframe)->*slots)[observation->feature] = kNoId;
-  if (landmark->observations.size() == 1) {
-    landmarks->Erase(id);
-    return;
-  }
-  auto* changed = landmarks->FindToChange(id);
-  changed->observations.erase(LowerBound(&changed->observations, keyframe));
-  changed->descriptor_is_current = false;
-}
-
-template <typename Table>
-void Remove(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, LandmarkId id) {
-  const auto* landmark = landmarks->Find(id);
-  if (landmark == nullptr) return;
-  for (const Observation& observation : landmark->observations) {
-    (keyframes->FindToChange(observation.keyframe)->*slots)[observation.feature] = kNoId;
-  }
-  landmarks->Erase(id);
-}
-
-template <typename Table>
-void MergeLandmarks(Table* landmarks, Map::KeyframeTable* keyframes, Slots slots, LandmarkId from,
-                    LandmarkId into) {
-  const auto source = *landmarks->Find(from);
-  Remove(landmarks, keyframes, slots, from);
-  for (const Observation& observation : source.observations) {
-    Observe(landmarks, keyframes, slots, into, observation);
-  }
-  auto* target = landmarks->FindToChange(into);
-  target->num_visible += source.num_visible;
-  target->num_found += source.num_found;
-}
-
-template <typename Table>
-void CountTracking(LandmarkId id, int num_visible, int num_found, Table* landmarks) {
-  auto* landmark = landmarks->FindToChange(id);
-  if (landmark == nullptr) return;
-  landmark->num_visible += num_visible;
-  landmark->num_found += num_found;
 }
 
 template <typename Table>
@@ -110,15 +42,14 @@ Descriptor CentralDescriptor(const std::vector<Descriptor>& descriptors) {
 }
 
 // Selects the descriptor again if the observations have changed.
-template <typename Feature>
-void RefreshDescriptor(const Map::KeyframeTable& keyframes, std::vector<Feature> Frame::*features,
-                       Landmark* landmark) {
+template <typename L>
+void RefreshDescriptor(const Map::KeyframeTable& keyframes, L* landmark) {
   if (landmark->descriptor_is_current) return;
   std::vector<Descriptor> descriptors;
   descriptors.reserve(landmark->observations.size());
   for (const Observation& observation : landmark->observations) {
     const Frame& frame = *keyframes.Find(observation.keyframe)->frame;
-    descriptors.push_back((frame.*features)[observation.feature].descriptor);
+    descriptors.push_back(FeaturesOf<L>(frame)[observation.feature].descriptor);
   }
   landmark->descriptor = CentralDescriptor(descriptors);
   landmark->descriptor_is_current = true;
@@ -164,21 +95,14 @@ void Map::Transform(const Rigid3& new_from_old_world) {
     Keyframe& keyframe = *keyframes_.FindToChange(id);
     keyframe.cam_from_world = keyframe.cam_from_world * old_from_new_world;
   }
-  for (const int64_t id : Ids(points_)) {
-    PointLandmark& point = *points_.FindToChange(id);
-    point.position = new_from_old_world * point.position;
-    point.viewing_direction = new_from_old_world.rotation() * point.viewing_direction;
-  }
-  for (const int64_t id : Ids(lines_)) {
-    LineLandmark& line = *lines_.FindToChange(id);
-    line.segment = new_from_old_world * line.segment;
-    line.viewing_direction = new_from_old_world.rotation() * line.viewing_direction;
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const int64_t id : Ids(Table<L>()))
+      Table<L>().FindToChange(id)->Transform(new_from_old_world);
+  });
 }
 
 const Keyframe* Map::FindKeyframe(KeyframeId id) const { return keyframes_.Find(id); }
-const PointLandmark* Map::FindPoint(LandmarkId id) const { return points_.Find(id); }
-const LineLandmark* Map::FindLine(LandmarkId id) const { return lines_.Find(id); }
 
 KeyframeId Map::AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& cam_from_world) {
   Keyframe keyframe;
@@ -193,61 +117,83 @@ KeyframeId Map::AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& ca
   return id;
 }
 
-LandmarkId Map::AddPoint(KeyframeId keyframe, int feature, const Eigen::Vector3d& position) {
+template <typename L>
+LandmarkId Map::Add(KeyframeId keyframe, int feature, const typename L::Geometry& geometry) {
   const LandmarkId id = next_landmark_++;
-  PointLandmark point;
-  point.id = id;
-  point.first_keyframe = keyframe;
-  point.position = position;
-  points_.Append(id, std::move(point));
-  ObservePoint(id, keyframe, feature);
-  RefreshPoint(id);
+  L landmark;
+  landmark.id = id;
+  landmark.first_keyframe = keyframe;
+  landmark.SetGeometry(geometry);
+  Table<L>().Append(id, std::move(landmark));
+  Observe<L>(id, keyframe, feature);
+  Refresh<L>(id);
   return id;
 }
 
-LandmarkId Map::AddLine(KeyframeId keyframe, int feature, const LineSegment3& segment) {
-  const LandmarkId id = next_landmark_++;
-  LineLandmark line;
-  line.id = id;
-  line.first_keyframe = keyframe;
-  line.segment = segment;
-  lines_.Append(id, std::move(line));
-  ObserveLine(id, keyframe, feature);
-  RefreshLine(id);
-  return id;
+template <typename L>
+bool Map::Observe(LandmarkId id, KeyframeId keyframe_id, int feature) {
+  const L* landmark = Find<L>(id);
+  const Keyframe* keyframe = FindKeyframe(keyframe_id);
+  if (landmark == nullptr || keyframe == nullptr) return false;
+  if (SlotsOf<L>(*keyframe)[feature] != kNoId) return false;
+  if (FindObservation(*landmark, keyframe_id) != nullptr) return false;
+  (keyframes_.FindToChange(keyframe_id)->*LandmarkKind<L>::kSlots)[feature] = id;
+  L* const changed = Table<L>().FindToChange(id);
+  std::vector<Observation>& observations = changed->observations;
+  observations.insert(LowerBound(&observations, keyframe_id), {keyframe_id, feature});
+  changed->descriptor_is_current = false;
+  return true;
 }
 
-bool Map::ObservePoint(LandmarkId point, KeyframeId keyframe, int feature) {
-  return Observe(&points_, &keyframes_, &Keyframe::points, point, {keyframe, feature});
+template <typename L>
+void Map::RemoveObservation(LandmarkId id, KeyframeId keyframe) {
+  const L* landmark = Find<L>(id);
+  if (landmark == nullptr) return;
+  const Observation* observation = FindObservation(*landmark, keyframe);
+  if (observation == nullptr) return;
+  (keyframes_.FindToChange(keyframe)->*LandmarkKind<L>::kSlots)[observation->feature] = kNoId;
+  if (landmark->observations.size() == 1) {
+    Table<L>().Erase(id);
+    return;
+  }
+  L* const changed = Table<L>().FindToChange(id);
+  changed->observations.erase(LowerBound(&changed->observations, keyframe));
+  changed->descriptor_is_current = false;
 }
-bool Map::ObserveLine(LandmarkId line, KeyframeId keyframe, int feature) {
-  return Observe(&lines_, &keyframes_, &Keyframe::lines, line, {keyframe, feature});
+
+template <typename L>
+void Map::Remove(LandmarkId id) {
+  const L* landmark = Find<L>(id);
+  if (landmark == nullptr) return;
+  for (const Observation& observation : landmark->observations) {
+    Keyframe* const keyframe = keyframes_.FindToChange(observation.keyframe);
+    (keyframe->*LandmarkKind<L>::kSlots)[observation.feature] = kNoId;
+  }
+  Table<L>().Erase(id);
 }
-void Map::RemovePointObservation(LandmarkId point, KeyframeId keyframe) {
-  RemoveObservation(&points_, &keyframes_, &Keyframe::points, point, keyframe);
-}
-void Map::RemoveLineObservation(LandmarkId line, KeyframeId keyframe) {
-  RemoveObservation(&lines_, &keyframes_, &Keyframe::lines, line, keyframe);
-}
-void Map::RemovePoint(LandmarkId point) { Remove(&points_, &keyframes_, &Keyframe::points, point); }
-void Map::RemoveLine(LandmarkId line) { Remove(&lines_, &keyframes_, &Keyframe::lines, line); }
-void Map::MergePoints(LandmarkId from, LandmarkId into) {
-  MergeLandmarks(&points_, &keyframes_, &Keyframe::points, from, into);
-}
-void Map::MergeLines(LandmarkId from, LandmarkId into) {
-  MergeLandmarks(&lines_, &keyframes_, &Keyframe::lines, from, into);
+
+template <typename L>
+void Map::MergeLandmarks(LandmarkId from, LandmarkId into) {
+  const L source = *Find<L>(from);
+  Remove<L>(from);
+  for (const Observation& observation : source.observations) {
+    Observe<L>(into, observation.keyframe, observation.feature);
+  }
+  L* const target = Table<L>().FindToChange(into);
+  target->num_visible += source.num_visible;
+  target->num_found += source.num_found;
 }
 
 void Map::RemoveKeyframe(KeyframeId id, KeyframeId successor) {
   const Keyframe keyframe = *keyframes_.Find(id);
   *relative_poses_.FindToChange(id) = {
       successor, keyframe.cam_from_world * keyframes_.Find(successor)->cam_from_world.Inverse()};
-  for (const LandmarkId point : keyframe.points) {
-    if (point != kNoId) RemovePointObservation(point, id);
-  }
-  for (const LandmarkId line : keyframe.lines) {
-    if (line != kNoId) RemoveLineObservation(line, id);
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const LandmarkId landmark : SlotsOf<L>(keyframe)) {
+      if (landmark != kNoId) RemoveObservation<L>(landmark, id);
+    }
+  });
   keyframes_.Erase(id);
 }
 
@@ -272,71 +218,62 @@ void Map::SetFrame(KeyframeId keyframe, std::shared_ptr<const Frame> frame) {
 void Map::SetPose(KeyframeId keyframe, const Rigid3& cam_from_world) {
   keyframes_.FindToChange(keyframe)->cam_from_world = cam_from_world;
 }
-void Map::SetPoint(LandmarkId point, const Eigen::Vector3d& position) {
-  points_.FindToChange(point)->position = position;
-}
-void Map::SetLine(LandmarkId line, const LineSegment3& segment) {
-  lines_.FindToChange(line)->segment = segment;
-}
-void Map::SetPointNoise(LandmarkId point, double noise) {
-  points_.FindToChange(point)->noise = noise;
-}
-void Map::SetLineNoise(LandmarkId line, double noise, double depth_offset) {
-  LineLandmark* const landmark = lines_.FindToChange(line);
-  landmark->noise = noise;
-  landmark->depth_offset = depth_offset;
+
+template <typename L>
+void Map::CountTracking(LandmarkId id, int num_visible, int num_found) {
+  L* const landmark = Table<L>().FindToChange(id);
+  if (landmark == nullptr) return;
+  landmark->num_visible += num_visible;
+  landmark->num_found += num_found;
 }
 
-void Map::CountPointTracking(LandmarkId point, int num_visible, int num_found) {
-  CountTracking(point, num_visible, num_found, &points_);
-}
-void Map::CountLineTracking(LandmarkId line, int num_visible, int num_found) {
-  CountTracking(line, num_visible, num_found, &lines_);
+template <typename L>
+void Map::Refresh(LandmarkId id) {
+  L* const landmark = Table<L>().FindToChange(id);
+  RefreshDescriptor(keyframes_, landmark);
+  RefreshViews(landmark);
 }
 
-void Map::RefreshPoint(LandmarkId id) {
-  PointLandmark& point = *points_.FindToChange(id);
-  RefreshDescriptor(keyframes_, &Frame::points, &point);
+void Map::RefreshViews(PointLandmark* point) const {
   Eigen::Vector3d directions = Eigen::Vector3d::Zero();
   double log_reference = 0.0;
-  for (const Observation& observation : point.observations) {
+  for (const Observation& observation : point->observations) {
     const Keyframe& keyframe = *keyframes_.Find(observation.keyframe);
     const PointFeature& feature = keyframe.frame->points[observation.feature];
-    const Eigen::Vector3d ray = point.position - keyframe.cam_from_world.OriginInSource();
+    const Eigen::Vector3d ray = point->position - keyframe.cam_from_world.OriginInSource();
     directions += ray.normalized();
     log_reference += std::log(std::max(ray.norm(), 1e-6)) + feature.level * std::log(kPyramidScale);
   }
-  point.viewing_direction = directions.normalized();
-  point.reference_distance = std::exp(log_reference / point.observations.size());
+  point->viewing_direction = directions.normalized();
+  point->reference_distance = std::exp(log_reference / point->observations.size());
 }
 
-void Map::RefreshLine(LandmarkId id) {
-  LineLandmark& line = *lines_.FindToChange(id);
-  RefreshDescriptor(keyframes_, &Frame::lines, &line);
+void Map::RefreshViews(LineLandmark* line) const {
   Eigen::Vector3d directions = Eigen::Vector3d::Zero();
-  line.direction_sigma = kPi;
-  for (const Observation& observation : line.observations) {
+  line->direction_sigma = kPi;
+  for (const Observation& observation : line->observations) {
     const Keyframe& keyframe = *keyframes_.Find(observation.keyframe);
     const LineFeature& feature = keyframe.frame->lines[observation.feature];
     if (feature.depth) {
-      line.direction_sigma =
-          std::min(line.direction_sigma,
+      line->direction_sigma =
+          std::min(line->direction_sigma,
                    DirectionSigma(keyframe.frame->camera, feature.segment, *feature.depth));
     }
-    directions += (line.segment.Midpoint() - keyframe.cam_from_world.OriginInSource()).normalized();
+    directions +=
+        (line->segment.Midpoint() - keyframe.cam_from_world.OriginInSource()).normalized();
   }
-  line.viewing_direction = directions.normalized();
+  line->viewing_direction = directions.normalized();
 }
 
 std::vector<Map::Covisible> Map::FindCovisible(KeyframeId keyframe) const {
   const Keyframe& center = *keyframes_.Find(keyframe);
   ObserverCount observers(*this);
-  for (const LandmarkId id : center.points) {
-    if (id != kNoId) observers.Add(*points_.Find(id));
-  }
-  for (const LandmarkId id : center.lines) {
-    if (id != kNoId) observers.Add(*lines_.Find(id));
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const LandmarkId id : SlotsOf<L>(center)) {
+      if (id != kNoId) observers.Add(*Find<L>(id));
+    }
+  });
   std::vector<Covisible> covisible = observers.Ranked();
   covisible.erase(
       std::remove_if(covisible.begin(), covisible.end(),
@@ -344,5 +281,21 @@ std::vector<Map::Covisible> Map::FindCovisible(KeyframeId keyframe) const {
       covisible.end());
   return covisible;
 }
+
+// The kinds of landmarks (landmark_kinds.h).
+template LandmarkId Map::Add<PointLandmark>(KeyframeId, int, const Eigen::Vector3d&);
+template bool Map::Observe<PointLandmark>(LandmarkId, KeyframeId, int);
+template void Map::RemoveObservation<PointLandmark>(LandmarkId, KeyframeId);
+template void Map::Remove<PointLandmark>(LandmarkId);
+template void Map::MergeLandmarks<PointLandmark>(LandmarkId, LandmarkId);
+template void Map::CountTracking<PointLandmark>(LandmarkId, int, int);
+template void Map::Refresh<PointLandmark>(LandmarkId);
+template LandmarkId Map::Add<LineLandmark>(KeyframeId, int, const LineSegment3&);
+template bool Map::Observe<LineLandmark>(LandmarkId, KeyframeId, int);
+template void Map::RemoveObservation<LineLandmark>(LandmarkId, KeyframeId);
+template void Map::Remove<LineLandmark>(LandmarkId);
+template void Map::MergeLandmarks<LineLandmark>(LandmarkId, LandmarkId);
+template void Map::CountTracking<LineLandmark>(LandmarkId, int, int);
+template void Map::Refresh<LineLandmark>(LandmarkId);
 
 }  // namespace msc_vo

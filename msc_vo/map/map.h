@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "msc_vo/map/keyframe.h"
-#include "msc_vo/map/landmark.h"
+#include "msc_vo/map/landmark_kinds.h"
 #include "msc_vo/map/shared_table.h"
 
 namespace msc_vo {
@@ -49,32 +49,39 @@ class Map {
   const KeyframeTable& keyframes() const { return keyframes_; }
   const PointTable& points() const { return points_; }
   const LineTable& lines() const { return lines_; }
+  /// The landmarks of a kind (landmark_kinds.h).
+  template <typename L>
+  const SharedTable<L, 16>& landmarks() const {
+    return const_cast<Map*>(this)->Table<L>();
+  }
 
   /// Returns nullptr if the map does not contain the id.
   const Keyframe* FindKeyframe(KeyframeId id) const;
-  const PointLandmark* FindPoint(LandmarkId id) const;
-  const LineLandmark* FindLine(LandmarkId id) const;
+  template <typename L>
+  const L* Find(LandmarkId id) const {
+    return landmarks<L>().Find(id);
+  }
 
   /// Adds a keyframe without associations and returns its id.
   KeyframeId AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& cam_from_world);
   /// Adds a landmark (metres, world) and its observation by feature `feature` of `keyframe`.
-  LandmarkId AddPoint(KeyframeId keyframe, int feature, const Eigen::Vector3d& position);
-  LandmarkId AddLine(KeyframeId keyframe, int feature, const LineSegment3& segment);
+  template <typename L>
+  LandmarkId Add(KeyframeId keyframe, int feature, const typename L::Geometry& geometry);
 
   /// Adds an observation. Returns false and changes nothing if the landmark does not exist, is
   /// already observed by this keyframe, or the feature observes another landmark.
-  bool ObservePoint(LandmarkId point, KeyframeId keyframe, int feature);
-  bool ObserveLine(LandmarkId line, KeyframeId keyframe, int feature);
+  template <typename L>
+  bool Observe(LandmarkId landmark, KeyframeId keyframe, int feature);
   /// Removes an observation if it exists, and the landmark with its last observation.
-  void RemovePointObservation(LandmarkId point, KeyframeId keyframe);
-  void RemoveLineObservation(LandmarkId line, KeyframeId keyframe);
+  template <typename L>
+  void RemoveObservation(LandmarkId landmark, KeyframeId keyframe);
 
-  void RemovePoint(LandmarkId point);
-  void RemoveLine(LandmarkId line);
+  template <typename L>
+  void Remove(LandmarkId landmark);
   /// Moves the observations of `from` to `into` where they do not collide, and removes `from`. Both
   /// must be in the map.
-  void MergePoints(LandmarkId from, LandmarkId into);
-  void MergeLines(LandmarkId from, LandmarkId into);
+  template <typename L>
+  void MergeLandmarks(LandmarkId from, LandmarkId into);
 
   /// Removes a keyframe and its observations. Its pose relative to `successor`, which must be in
   /// the map, is kept, so that frames that were tracked relative to it keep their pose.
@@ -84,22 +91,30 @@ class Map {
   /// Pose of a keyframe that is in the map or was removed from it.
   Rigid3 CamFromWorld(KeyframeId id) const;
 
-  /// The keyframes and landmarks of these setters must be in the map. Positions are in metres,
-  /// world. SetFrame() replaces the frame by one with the same features in the same order.
+  /// The keyframes and landmarks of these setters must be in the map. Geometry is in metres, world.
+  /// SetFrame() replaces the frame by one with the same features in the same order.
   void SetFrame(KeyframeId keyframe, std::shared_ptr<const Frame> frame);
   void SetPose(KeyframeId keyframe, const Rigid3& cam_from_world);
-  void SetPoint(LandmarkId point, const Eigen::Vector3d& position);
-  void SetLine(LandmarkId line, const LineSegment3& segment);
-  /// Sets Landmark::noise and LineLandmark::depth_offset.
-  void SetPointNoise(LandmarkId point, double noise);
-  void SetLineNoise(LandmarkId line, double noise, double depth_offset);
+  template <typename L>
+  void SetGeometry(LandmarkId landmark, const typename L::Geometry& geometry) {
+    Table<L>().FindToChange(landmark)->SetGeometry(geometry);
+  }
+  /// Sets Landmark::noise.
+  template <typename L>
+  void SetNoise(LandmarkId landmark, double noise) {
+    Table<L>().FindToChange(landmark)->noise = noise;
+  }
+  /// Sets LineLandmark::depth_offset.
+  void SetDepthOffset(LandmarkId line, double depth_offset) {
+    lines_.FindToChange(line)->depth_offset = depth_offset;
+  }
   /// Adds to Landmark::num_visible and num_found; no effect if the landmark does not exist.
-  void CountPointTracking(LandmarkId point, int num_visible, int num_found);
-  void CountLineTracking(LandmarkId line, int num_visible, int num_found);
+  template <typename L>
+  void CountTracking(LandmarkId landmark, int num_visible, int num_found);
 
-  /// Recomputes descriptor, viewing direction and reference distance from the observations.
-  void RefreshPoint(LandmarkId point);
-  void RefreshLine(LandmarkId line);
+  /// Recomputes descriptor, viewing direction and what else depends on the observations.
+  template <typename L>
+  void Refresh(LandmarkId landmark);
 
   /// Keyframes that share landmarks with `keyframe`, which must be in the map: most shared first,
   /// then newest first.
@@ -114,6 +129,11 @@ class Map {
   }
 
  private:
+  template <typename L>
+  SharedTable<L, 16>& Table();
+  void RefreshViews(PointLandmark* point) const;
+  void RefreshViews(LineLandmark* line) const;
+
   // Pose of a removed keyframe relative to its successor; kNoId while the keyframe is in the map.
   struct RelativePose {
     KeyframeId successor = kNoId;
@@ -132,5 +152,14 @@ class Map {
   KeyframeId next_keyframe_ = 0;
   LandmarkId next_landmark_ = 0;
 };
+
+template <>
+inline Map::PointTable& Map::Table<PointLandmark>() {
+  return points_;
+}
+template <>
+inline Map::LineTable& Map::Table<LineLandmark>() {
+  return lines_;
+}
 
 }  // namespace msc_vo

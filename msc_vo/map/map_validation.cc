@@ -91,10 +91,11 @@ std::string KeyframeViolation(const Map& map, KeyframeId id, const Keyframe& key
       keyframe.lines.size() != keyframe.frame->lines.size()) {
     return "it does not have one entry per feature";
   }
-  std::string points =
-      EntryViolation(id, keyframe.points, [&map](LandmarkId i) { return map.FindPoint(i); });
+  std::string points = EntryViolation(id, keyframe.points,
+                                      [&map](LandmarkId i) { return map.Find<PointLandmark>(i); });
   if (!points.empty()) return points;
-  return EntryViolation(id, keyframe.lines, [&map](LandmarkId i) { return map.FindLine(i); });
+  return EntryViolation(id, keyframe.lines,
+                        [&map](LandmarkId i) { return map.Find<LineLandmark>(i); });
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "msc_vo/map/atlas.h"
+#include "msc_vo/map/inactive_maps.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/noise_scale.h"
 

@@ -19,20 +19,18 @@ namespace {
 constexpr double kMinLineLength = 0.01;
 
 // The landmarks that the window's keyframes observe, by id; counts their observers.
-template <typename L, typename Table>
+template <typename L>
 std::vector<const L*> ObservedLandmarks(const Map& map, const std::set<KeyframeId>& window,
-                                        std::vector<LandmarkId> Keyframe::*slots,
-                                        const Table& table, int min_observations,
-                                        ObserverCount* observers) {
-  IdSet ids(table);
+                                        int min_observations, ObserverCount* observers) {
+  IdSet ids(map.landmarks<L>());
   for (const KeyframeId keyframe : window) {
-    for (const LandmarkId id : map.FindKeyframe(keyframe)->*slots) {
+    for (const LandmarkId id : SlotsOf<L>(*map.FindKeyframe(keyframe))) {
       if (id != kNoId) ids.Insert(id);
     }
   }
   std::vector<const L*> landmarks;
   ids.VisitAll([&](LandmarkId id) {
-    const L* landmark = table.Find(id);
+    const L* landmark = map.Find<L>(id);
     if (static_cast<int>(landmark->observations.size()) < min_observations) return;
     landmarks.push_back(landmark);
     observers->Add(*landmark);
@@ -148,33 +146,28 @@ bool IntersectRay(const LineSegment3& line, const Eigen::Vector3d& origin,
 
 // Moves a keyframe, and the landmarks that it alone observes with it: they are where they were in
 // its camera frame.
-void MoveKeyframe(const WindowData::Keyframe& keyframe, Map* map) {
-  const Keyframe& before = *map->FindKeyframe(keyframe.id);
-  const Rigid3 motion = keyframe.cam_from_world.Inverse() * before.cam_from_world;
-  const std::vector<LandmarkId> points = before.points;
-  const std::vector<LandmarkId> lines = before.lines;
-  map->SetPose(keyframe.id, keyframe.cam_from_world);
-  for (const LandmarkId id : points) {
-    const PointLandmark* point = id == kNoId ? nullptr : map->FindPoint(id);
-    if (point == nullptr || point->observations.size() > 1) continue;
-    map->SetPoint(id, motion * point->position);
-    map->RefreshPoint(id);
-  }
-  for (const LandmarkId id : lines) {
-    const LineLandmark* line = id == kNoId ? nullptr : map->FindLine(id);
-    if (line == nullptr || line->observations.size() > 1) continue;
-    map->SetLine(id, motion * line->segment);
-    map->RefreshLine(id);
-  }
+void MoveKeyframe(const WindowData::Keyframe& moved, Map* map) {
+  const Keyframe before = *map->FindKeyframe(moved.id);
+  const Rigid3 motion = moved.cam_from_world.Inverse() * before.cam_from_world;
+  map->SetPose(moved.id, moved.cam_from_world);
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const LandmarkId id : SlotsOf<L>(before)) {
+      const L* landmark = id == kNoId ? nullptr : map->Find<L>(id);
+      if (landmark == nullptr || landmark->observations.size() > 1) continue;
+      map->SetGeometry<L>(id, motion * landmark->geometry());
+      map->Refresh<L>(id);
+    }
+  });
 }
 
 WindowData MakeWindow(const WindowSelectionOptions& options, const Map& map,
                       const std::set<KeyframeId>& window, const PinholeCamera& camera) {
   ObserverCount observers(map);
-  const auto points = ObservedLandmarks<PointLandmark>(map, window, &Keyframe::points, map.points(),
-                                                       options.min_observations, &observers);
-  const auto lines = ObservedLandmarks<LineLandmark>(map, window, &Keyframe::lines, map.lines(),
-                                                     options.min_observations, &observers);
+  const auto points =
+      ObservedLandmarks<PointLandmark>(map, window, options.min_observations, &observers);
+  const auto lines =
+      ObservedLandmarks<LineLandmark>(map, window, options.min_observations, &observers);
 
   WindowData data;
   data.camera = camera;
@@ -252,28 +245,31 @@ void WriteBack(const WindowData& window, Map* map) {
     if (!keyframe.fixed) MoveKeyframe(keyframe, map);
   }
   for (const WindowData::PointObservation& observation : window.point_observations) {
-    if (observation.rejected) map->RemovePointObservation(observation.point, observation.keyframe);
+    if (observation.rejected)
+      map->RemoveObservation<PointLandmark>(observation.point, observation.keyframe);
   }
   for (const WindowData::LineObservation& observation : window.line_observations) {
-    if (observation.rejected) map->RemoveLineObservation(observation.line, observation.keyframe);
+    if (observation.rejected)
+      map->RemoveObservation<LineLandmark>(observation.line, observation.keyframe);
   }
   for (const WindowData::Point& point : window.points) {
-    if (map->FindPoint(point.id) == nullptr) continue;
-    map->SetPoint(point.id, point.position);
-    map->SetPointNoise(point.id, point.noise);
-    map->RefreshPoint(point.id);
+    if (map->Find<PointLandmark>(point.id) == nullptr) continue;
+    map->SetGeometry<PointLandmark>(point.id, point.position);
+    map->SetNoise<PointLandmark>(point.id, point.noise);
+    map->Refresh<PointLandmark>(point.id);
   }
   for (const WindowData::Line& line : window.lines) {
-    const LineLandmark* landmark = map->FindLine(line.id);
+    const LineLandmark* landmark = map->Find<LineLandmark>(line.id);
     if (landmark == nullptr) continue;
     // Wrong matches may contract a line until it has no direction.
     if (!(line.segment.Length() > kMinLineLength)) {
-      map->RemoveLine(line.id);
+      map->Remove<LineLandmark>(line.id);
       continue;
     }
-    map->SetLine(line.id, TrimToObservations(*map, *landmark, line.segment));
-    map->SetLineNoise(line.id, line.noise, line.depth_offset);
-    map->RefreshLine(line.id);
+    map->SetGeometry<LineLandmark>(line.id, TrimToObservations(*map, *landmark, line.segment));
+    map->SetNoise<LineLandmark>(line.id, line.noise);
+    map->SetDepthOffset(line.id, line.depth_offset);
+    map->Refresh<LineLandmark>(line.id);
   }
 }
 

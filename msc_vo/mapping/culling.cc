@@ -26,25 +26,33 @@ ProbationState Evaluate(const CullingOptions& options, KeyframeId newest,
                                                       : ProbationState::kFailed;
 }
 
-template <typename Find, typename Remove>
-void CullKind(const CullingOptions& options, KeyframeId newest, const Find& find,
-              const Remove& remove, std::set<LandmarkId>* probation) {
+template <typename L>
+void CullKind(const CullingOptions& options, KeyframeId newest, std::set<LandmarkId>* probation,
+              Map* map) {
   for (auto it = probation->begin(); it != probation->end();) {
-    const Landmark* landmark = find(*it);
+    const L* landmark = map->Find<L>(*it);
     const ProbationState state =
         landmark == nullptr ? ProbationState::kPassed : Evaluate(options, newest, *landmark);
-    if (state == ProbationState::kFailed) remove(*it);
+    if (state == ProbationState::kFailed) map->Remove<L>(*it);
     it = state == ProbationState::kPending ? std::next(it) : probation->erase(it);
   }
 }
 
-// Whether enough other keyframes observe the landmark with an observation that is_as_fine accepts.
-template <typename IsAsFine>
-bool IsCovered(const CullingOptions& options, KeyframeId keyframe, const Landmark& landmark,
-               const IsAsFine& is_as_fine) {
+// Whether an observation is as fine as a feature: points have levels, at most one coarser.
+bool IsAsFine(const PointFeature& other, const PointFeature& feature) {
+  return other.level <= feature.level + 1;
+}
+bool IsAsFine(const LineFeature& /*other*/, const LineFeature& /*feature*/) { return true; }
+
+// Whether enough other keyframes observe the landmark of a feature as finely.
+template <typename L>
+bool IsCovered(const CullingOptions& options, const KeyframeIndex& keyframes,
+               const Keyframe& keyframe, const L& landmark, const typename L::Feature& feature) {
   int observers = 0;
   for (const Observation& observation : landmark.observations) {
-    if (observation.keyframe == keyframe || !is_as_fine(observation)) continue;
+    if (observation.keyframe == keyframe.id) continue;
+    const Frame& other = *keyframes.Find(observation.keyframe)->frame;
+    if (!IsAsFine(FeaturesOf<L>(other)[observation.feature], feature)) continue;
     if (++observers >= options.redundant_observers) return true;
   }
   return false;
@@ -63,24 +71,21 @@ KeyframeIndex IndexAll(const Map& map) {
 // Stops at the first landmarks that prove the keyframe not redundant, as for most keyframes.
 bool IsRedundant(const CullingOptions& options, const Map& map, const KeyframeIndex& keyframes,
                  const Keyframe& keyframe) {
-  const int num_landmarks = NumLandmarks(keyframe.points) + NumLandmarks(keyframe.lines);
+  int num_landmarks = 0;
+  ForEachLandmarkKind([&](auto kind) {
+    num_landmarks += NumLandmarks(SlotsOf<typename decltype(kind)::Landmark>(keyframe));
+  });
   const double allowed = (1.0 - options.redundant_ratio) * num_landmarks;
   int num_uncovered = 0;
-  for (size_t i = 0; i < keyframe.points.size() && num_uncovered < allowed; ++i) {
-    if (keyframe.points[i] == kNoId) continue;
-    const int level = keyframe.frame->points[i].level;
-    const PointLandmark& point = *map.FindPoint(keyframe.points[i]);
-    num_uncovered += !IsCovered(options, keyframe.id, point, [&](const Observation& observation) {
-      const Keyframe& other = *keyframes.Find(observation.keyframe);
-      return other.frame->points[observation.feature].level <= level + 1;
-    });
-  }
-  for (size_t i = 0; i < keyframe.lines.size() && num_uncovered < allowed; ++i) {
-    if (keyframe.lines[i] == kNoId) continue;
-    const LineLandmark& line = *map.FindLine(keyframe.lines[i]);
-    num_uncovered +=
-        !IsCovered(options, keyframe.id, line, [](const Observation&) { return true; });
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    const std::vector<LandmarkId>& slots = SlotsOf<L>(keyframe);
+    for (size_t i = 0; i < slots.size() && num_uncovered < allowed; ++i) {
+      if (slots[i] == kNoId) continue;
+      num_uncovered += !IsCovered(options, keyframes, keyframe, *map.Find<L>(slots[i]),
+                                  FeaturesOf<L>(*keyframe.frame)[i]);
+    }
+  });
   return num_uncovered < allowed;
 }
 
@@ -101,12 +106,10 @@ bool CullingOptions::IsValid(std::string* error) const {
 
 void CullLandmarks(const CullingOptions& options, KeyframeId newest, Probation* probation,
                    Map* map) {
-  CullKind(
-      options, newest, [&](LandmarkId id) { return map->FindPoint(id); },
-      [&](LandmarkId id) { map->RemovePoint(id); }, &probation->points);
-  CullKind(
-      options, newest, [&](LandmarkId id) { return map->FindLine(id); },
-      [&](LandmarkId id) { map->RemoveLine(id); }, &probation->lines);
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    CullKind<L>(options, newest, &probation->Of<L>(), map);
+  });
 }
 
 int CullKeyframes(const CullingOptions& options, KeyframeId newest, Map* map) {

@@ -27,15 +27,7 @@ struct CullingOptions {
 };
 
 /// Landmarks on probation.
-struct Probation {
-  std::set<LandmarkId> points;
-  std::set<LandmarkId> lines;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, points, lines);
-  }
-};
+using Probation = PerKind<std::set<LandmarkId>>;
 
 /// Removes the landmarks on probation that fail the tests of CullingOptions, and ends the probation
 /// of those that pass.

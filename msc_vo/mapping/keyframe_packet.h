@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/map/frame.h"
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/map/last_tracked_pose.h"
 #include "msc_vo/matching/frame_matches.h"
@@ -59,14 +59,13 @@ struct KeyframePacket {
   std::shared_ptr<const RecordedImage> image;
   std::vector<CalibrationImage> calibration_images;
   /// Over all frames since the last packet, including this one.
-  std::map<LandmarkId, TrackingCount> point_counts;
-  std::map<LandmarkId, TrackingCount> line_counts;
+  PerKind<std::map<LandmarkId, TrackingCount>> counts;
 
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive.Fields(*this, frame, reference, cam_from_reference, begins_map, keeps_last_map,
                    last_tracked, matches, covariance, in_inactive_map, frame_interval,
-                   last_velocity, normals, image, calibration_images, point_counts, line_counts);
+                   last_velocity, normals, image, calibration_images, counts);
   }
 };
 

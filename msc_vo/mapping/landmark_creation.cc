@@ -5,28 +5,30 @@
 
 namespace msc_vo {
 
-void CreatePoints(KeyframeId id, Probation* probation, Map* map) {
-  const Keyframe keyframe = *map->FindKeyframe(id);  // a copy: adding landmarks changes it
+namespace {
+
+template <typename L>
+void CreateKind(const Keyframe& keyframe, std::set<LandmarkId>* probation, Map* map) {
   const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
-  for (size_t i = 0; i < keyframe.points.size(); ++i) {
+  const auto& features = FeaturesOf<L>(*keyframe.frame);
+  for (size_t i = 0; i < features.size(); ++i) {
     const int feature = static_cast<int>(i);
-    const PointFeature& point = keyframe.frame->points[i];
-    if (keyframe.points[i] != kNoId || !point.HasDepth() || point.dynamic) continue;
-    probation->points.insert(
-        map->AddPoint(id, feature, world_from_cam * keyframe.frame->PointInCamera(feature)));
+    if (SlotsOf<L>(keyframe)[i] != kNoId || !L::HasDepth(features[i]) || features[i].dynamic) {
+      continue;
+    }
+    probation->insert(
+        map->Add<L>(keyframe.id, feature, world_from_cam * L::InCamera(*keyframe.frame, feature)));
   }
 }
 
-void CreateLines(KeyframeId id, Probation* probation, Map* map) {
+}  // namespace
+
+void CreateLandmarks(KeyframeId id, Probation* probation, Map* map) {
   const Keyframe keyframe = *map->FindKeyframe(id);  // a copy: adding landmarks changes it
-  const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
-  for (size_t i = 0; i < keyframe.lines.size(); ++i) {
-    const int feature = static_cast<int>(i);
-    const LineFeature& line = keyframe.frame->lines[i];
-    if (keyframe.lines[i] != kNoId || !line.depth || line.dynamic) continue;
-    probation->lines.insert(
-        map->AddLine(id, feature, world_from_cam * keyframe.frame->LineInCamera(feature)));
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    CreateKind<L>(keyframe, &probation->Of<L>(), map);
+  });
 }
 
 }  // namespace msc_vo

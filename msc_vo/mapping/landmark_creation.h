@@ -10,7 +10,6 @@ namespace msc_vo {
 
 /// Creates a landmark on probation from every feature of `keyframe` that has a depth and no
 /// landmark, except on dynamic objects.
-void CreatePoints(KeyframeId keyframe, Probation* probation, Map* map);
-void CreateLines(KeyframeId keyframe, Probation* probation, Map* map);
+void CreateLandmarks(KeyframeId keyframe, Probation* probation, Map* map);
 
 }  // namespace msc_vo

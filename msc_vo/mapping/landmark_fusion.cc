@@ -3,14 +3,12 @@
 
 #include "msc_vo/mapping/landmark_fusion.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
-#include "msc_vo/geometry/angles.h"
-#include "msc_vo/geometry/cell_index.h"
+#include "msc_vo/mapping/line_rules.h"
+#include "msc_vo/mapping/point_rules.h"
 
 namespace msc_vo {
 
@@ -34,97 +32,21 @@ std::pair<LandmarkId, LandmarkId> SelectSurvivor(const L& a, const L& b) {
   return a_stays ? std::make_pair(a.id, b.id) : std::make_pair(b.id, a.id);
 }
 
-std::vector<PointCandidate> PointsOf(const Map& map, const Keyframe& source,
-                                     const Keyframe& target) {
-  std::vector<PointCandidate> candidates;
-  const Eigen::Vector3d center = target.cam_from_world.OriginInSource();
-  for (const LandmarkId id : source.points) {
-    const PointLandmark* point = map.FindPoint(id);
-    if (point == nullptr || FindObservation(*point, target.id) != nullptr) continue;
-    PointCandidate candidate;
-    candidate.id = id;
-    candidate.position = point->position;
-    candidate.descriptor = point->descriptor;
-    const double level = point->PredictLevel((point->position - center).norm());
-    candidate.level = CellIndex(std::round(level), std::numeric_limits<int>::max());
-    if (ProjectCandidate(target.frame->camera, target.cam_from_world, &candidate)) {
-      candidates.push_back(candidate);
-    }
-  }
-  return candidates;
-}
-
-std::vector<LineCandidate> LinesOf(const Map& map, const Keyframe& source, const Keyframe& target) {
-  std::vector<LineCandidate> candidates;
-  for (const LandmarkId id : source.lines) {
-    const LineLandmark* line = map.FindLine(id);
-    if (line == nullptr || FindObservation(*line, target.id) != nullptr) continue;
-    LineCandidate candidate;
-    candidate.id = id;
-    candidate.segment = line->segment;
-    candidate.descriptor = line->descriptor;
-    if (ProjectCandidate(target.frame->camera, target.cam_from_world, &candidate)) {
-      candidates.push_back(candidate);
-    }
-  }
-  return candidates;
-}
-
-// Whether the measured depth, if any, agrees with the landmark at the 99 % quantile.
-bool AgreesWithDepth(const Keyframe& keyframe, const PointFeature& feature,
-                     const PointLandmark& point) {
-  if (!feature.HasDepth()) return true;
-  const double depth = (keyframe.cam_from_world * point.position).z();
-  return depth > 0.0 &&
-         std::abs(1.0 / depth - feature.inverse_depth) < 2.576 * feature.inverse_depth_sigma;
-}
-
-void FusePointsInto(const FusionOptions& options, KeyframeId source, KeyframeId target, Map* map) {
-  const std::shared_ptr<const Frame> frame = map->FindKeyframe(target)->frame;
-  const std::vector<PointMatch> matches = MatchPoints(
-      options.point_matcher, *frame,
-      PointsOf(*map, *map->FindKeyframe(source), *map->FindKeyframe(target)), options.radius, {});
-  for (const PointMatch& match : matches) {
-    const PointLandmark* point = map->FindPoint(match.id);
-    if (point == nullptr) continue;                         // merged by an earlier match
+template <typename L>
+void FuseInto(const FusionOptions& options, KeyframeId source, KeyframeId target, Map* map) {
+  const auto matches = MatchForFusion(LandmarkKind<L>(), options, *map, *map->FindKeyframe(source),
+                                      *map->FindKeyframe(target));
+  for (const auto& match : matches) {
+    const L* landmark = map->Find<L>(match.id);
+    if (landmark == nullptr) continue;                      // merged by an earlier match
     const Keyframe& keyframe = *map->FindKeyframe(target);  // earlier matches changed it
-    if (!AgreesWithDepth(keyframe, frame->points[match.feature], *point)) continue;
-    const PointLandmark* holder = map->FindPoint(keyframe.points[match.feature]);
+    if (!AgreesWithDepth(keyframe, match.feature, *landmark)) continue;
+    const L* holder = map->Find<L>(SlotsOf<L>(keyframe)[match.feature]);
     if (holder == nullptr) {
-      map->ObservePoint(match.id, target, match.feature);
-    } else if (holder->id != match.id) {
-      const auto [survivor, duplicate] = SelectSurvivor(*point, *holder);
-      map->MergePoints(duplicate, survivor);
-    }
-  }
-}
-
-bool AreOneLine(const FusionOptions& options, const Keyframe& keyframe, const LineSegment3& a,
-                const LineSegment3& b) {
-  if (UndirectedAngle(a.Direction(), b.Direction()) > DegreesToRadians(options.max_line_angle)) {
-    return false;
-  }
-  const double distance = (a.Midpoint() - keyframe.cam_from_world.OriginInSource()).norm();
-  return std::max(a.DistanceToLine(b.Midpoint()), b.DistanceToLine(a.Midpoint())) <
-         options.max_line_offset * distance;
-}
-
-void FuseLinesInto(const FusionOptions& options, KeyframeId source, KeyframeId target, Map* map) {
-  const std::shared_ptr<const Frame> frame = map->FindKeyframe(target)->frame;
-  const std::vector<LineMatch> matches = MatchLines(
-      options.line_matcher, *frame,
-      LinesOf(*map, *map->FindKeyframe(source), *map->FindKeyframe(target)), options.radius, {});
-  for (const LineMatch& match : matches) {
-    const LineLandmark* line = map->FindLine(match.id);
-    if (line == nullptr) continue;                          // merged by an earlier match
-    const Keyframe& keyframe = *map->FindKeyframe(target);  // earlier matches changed it
-    const LineLandmark* holder = map->FindLine(keyframe.lines[match.feature]);
-    if (holder == nullptr) {
-      map->ObserveLine(match.id, target, match.feature);
-    } else if (holder->id != match.id &&
-               AreOneLine(options, keyframe, line->segment, holder->segment)) {
-      const auto [survivor, duplicate] = SelectSurvivor(*line, *holder);
-      map->MergeLines(duplicate, survivor);
+      map->Observe<L>(match.id, target, match.feature);
+    } else if (holder->id != match.id && AreDuplicates(options, keyframe, *landmark, *holder)) {
+      const auto [survivor, duplicate] = SelectSurvivor(*landmark, *holder);
+      map->MergeLandmarks<L>(duplicate, survivor);
     }
   }
 }
@@ -143,27 +65,20 @@ bool FusionOptions::IsValid(std::string* error) const {
   return false;
 }
 
-void FusePoints(const FusionOptions& options, KeyframeId id, Map* map) {
-  for (const KeyframeId neighbour : Neighbours(options, *map, id)) {
-    FusePointsInto(options, id, neighbour, map);
-    FusePointsInto(options, neighbour, id, map);
-  }
+void FuseLandmarks(const FusionOptions& options, KeyframeId id, Map* map) {
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const KeyframeId neighbour : Neighbours(options, *map, id)) {
+      FuseInto<L>(options, id, neighbour, map);
+      FuseInto<L>(options, neighbour, id, map);
+    }
+  });
 }
 
-void FuseLines(const FusionOptions& options, KeyframeId id, Map* map) {
-  for (const KeyframeId neighbour : Neighbours(options, *map, id)) {
-    FuseLinesInto(options, id, neighbour, map);
-    FuseLinesInto(options, neighbour, id, map);
-  }
-}
-
-void FuseLandmarks(const FusionOptions& options, Map* map) {
+void FuseAllLandmarks(const FusionOptions& options, Map* map) {
   std::vector<KeyframeId> keyframes;
   for (const auto& [id, keyframe] : map->keyframes()) keyframes.push_back(id);
-  for (const KeyframeId id : keyframes) {
-    FusePoints(options, id, map);
-    FuseLines(options, id, map);
-  }
+  for (const KeyframeId id : keyframes) FuseLandmarks(options, id, map);
 }
 
 }  // namespace msc_vo

@@ -30,9 +30,8 @@ struct FusionOptions {
 /// with its features. A matched feature without a landmark becomes an observation. If it observes
 /// another landmark, the two are duplicates and are merged into the one with more observations (the
 /// older one on ties).
-void FusePoints(const FusionOptions& options, KeyframeId id, Map* map);
-void FuseLines(const FusionOptions& options, KeyframeId id, Map* map);
-/// FusePoints() and FuseLines() for every keyframe of the map.
-void FuseLandmarks(const FusionOptions& options, Map* map);
+void FuseLandmarks(const FusionOptions& options, KeyframeId id, Map* map);
+/// FuseLandmarks() for every keyframe of the map.
+void FuseAllLandmarks(const FusionOptions& options, Map* map);
 
 }  // namespace msc_vo

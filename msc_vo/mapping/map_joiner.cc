@@ -12,33 +12,20 @@ namespace msc_vo {
 
 namespace {
 
-// Lets keyframe `id` observe the points of the other map that its features were matched with. Where
-// a feature has a point already, the two are one.
-void MergeMatchedPoints(KeyframeId id, const std::vector<PointMatch>& matches, Map* map) {
-  for (const PointMatch& match : matches) {
-    if (map->FindPoint(match.id) == nullptr) continue;  // merged by an earlier match
-    const LandmarkId holder = map->FindKeyframe(id)->points[match.feature];
+// Lets keyframe `id` observe the landmarks of the other map that its features were matched with.
+// Where a feature has a landmark already, the two are one.
+template <typename L>
+void MergeMatched(KeyframeId id, const FrameMatches& matches, Map* map) {
+  for (const auto& match : MatchesOf<L>(matches)) {
+    if (map->Find<L>(match.id) == nullptr) continue;  // merged by an earlier match
+    const LandmarkId holder = SlotsOf<L>(*map->FindKeyframe(id))[match.feature];
     if (holder == match.id) continue;
     if (holder == kNoId) {
-      map->ObservePoint(match.id, id, match.feature);
+      map->Observe<L>(match.id, id, match.feature);
     } else {
-      map->MergePoints(holder, match.id);
+      map->MergeLandmarks<L>(holder, match.id);
     }
-    map->RefreshPoint(match.id);
-  }
-}
-
-void MergeMatchedLines(KeyframeId id, const std::vector<LineMatch>& matches, Map* map) {
-  for (const LineMatch& match : matches) {
-    if (map->FindLine(match.id) == nullptr) continue;  // merged by an earlier match
-    const LandmarkId holder = map->FindKeyframe(id)->lines[match.feature];
-    if (holder == match.id) continue;
-    if (holder == kNoId) {
-      map->ObserveLine(match.id, id, match.feature);
-    } else {
-      map->MergeLines(holder, match.id);
-    }
-    map->RefreshLine(match.id);
+    map->Refresh<L>(match.id);
   }
 }
 
@@ -116,15 +103,16 @@ std::vector<MapJoiner::CommonKeyframe> MapJoiner::CommonKeyframesWith(const Map&
 std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
   if (common_keyframes_.empty()) return std::nullopt;
   const KeyframeId reference = common_keyframes_.back().in_inactive_map.reference;
-  const Map* inactive = FindMapOf(atlas->inactive(), reference);
-  if (inactive == nullptr) return std::nullopt;
-  const bool inactive_is_kept = IsOlder(*inactive, atlas->current());
-  const std::vector<CommonKeyframe> in_both = CommonKeyframesWith(*inactive);
+  const SubMap* inactive = atlas->FindSubMapOf(reference);
+  if (inactive == nullptr || inactive == &atlas->current()) return std::nullopt;
+  const SubMap& current = atlas->current();
+  const bool inactive_is_kept = IsOlder(*inactive, current);
+  const std::vector<CommonKeyframe> in_both = CommonKeyframesWith(inactive->map);
   std::vector<FrameInTwoMaps> frames;  // a: the map that is moved, b: the one that is kept
   for (const CommonKeyframe& common : in_both) {
     const MapRelocalization& other = common.in_inactive_map;
-    FrameInTwoMaps frame{atlas->current().CamFromWorld(common.keyframe),
-                         other.cam_from_reference * inactive->CamFromWorld(other.reference),
+    FrameInTwoMaps frame{current.map.CamFromWorld(common.keyframe),
+                         other.cam_from_reference * inactive->map.CamFromWorld(other.reference),
                          common.covariance, other.covariance};
     if (!inactive_is_kept) {
       std::swap(frame.cam_from_a, frame.cam_from_b);
@@ -134,34 +122,31 @@ std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
   }
   const std::optional<MapAlignment> alignment = AlignMaps(options_, frames);
   if (!alignment) return std::nullopt;
-  const Map& moved = inactive_is_kept ? atlas->current() : *inactive;
-  const Map& kept = inactive_is_kept ? *inactive : atlas->current();
-  if (!IsPossibleMotion(moved, kept, alignment->a_from_b)) {
+  const SubMap& moved = inactive_is_kept ? current : *inactive;
+  const SubMap& kept = inactive_is_kept ? *inactive : current;
+  if (!IsPossibleMotion(moved.map, kept.map, alignment->a_from_b)) {
     Forget(in_both, alignment->inliers);
     ++num_refused_;
     return std::nullopt;
   }
 
-  MapJoin join;
-  join.kept = inactive->keyframes().front().first;
-  join.moved = atlas->current().keyframes().front().first;
-  if (!inactive_is_kept) std::swap(join.kept, join.moved);
-  join.moved_from_kept = alignment->a_from_b;
-  join.covariance = alignment->covariance;
-  join.num_keyframes =
-      static_cast<int>(std::count(alignment->inliers.begin(), alignment->inliers.end(), true));
+  const MapJoin join{
+      kept.id, moved.id, alignment->a_from_b, alignment->covariance,
+      static_cast<int>(std::count(alignment->inliers.begin(), alignment->inliers.end(), true))};
   atlas->Join(reference, inactive_is_kept ? join.moved_from_kept : join.moved_from_kept.Inverse());
+  Map* const map = &atlas->current().map;
   for (size_t i = 0; i < in_both.size(); ++i) {
     const KeyframeId keyframe = in_both[i].keyframe;
-    if (!alignment->inliers[i] || atlas->current().FindKeyframe(keyframe) == nullptr) continue;
+    if (!alignment->inliers[i] || map->FindKeyframe(keyframe) == nullptr) continue;
     const FrameMatches& matches = in_both[i].in_inactive_map.matches;
-    MergeMatchedPoints(keyframe, matches.points, &atlas->current());
-    MergeMatchedLines(keyframe, matches.lines, &atlas->current());
+    ForEachLandmarkKind([&](auto kind) {
+      MergeMatched<typename decltype(kind)::Landmark>(keyframe, matches, map);
+    });
   }
   common_keyframes_.erase(
       std::remove_if(common_keyframes_.begin(), common_keyframes_.end(),
-                     [&](const CommonKeyframe& common) {
-                       return atlas->current().KnowsKeyframe(common.in_inactive_map.reference);
+                     [map](const CommonKeyframe& common) {
+                       return map->KnowsKeyframe(common.in_inactive_map.reference);
                      }),
       common_keyframes_.end());
   return join;

@@ -8,18 +8,18 @@
 
 #include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/map/atlas.h"
 #include "msc_vo/map/last_tracked_pose.h"
 #include "msc_vo/map/map_alignment.h"
+#include "msc_vo/mapping/atlas.h"
 #include "msc_vo/matching/map_relocalization.h"
 
 namespace msc_vo {
 
-/// Two maps that became one. Maps are named by their first keyframes.
+/// Two submaps that became one.
 struct MapJoin {
-  KeyframeId kept = kNoId;   ///< the map whose world was kept
-  KeyframeId moved = kNoId;  ///< the map that was moved into that world
-  Rigid3 moved_from_kept;    ///< world to world
+  SubMapId kept = kNoSubMap;   ///< the one whose world and id were kept
+  SubMapId moved = kNoSubMap;  ///< the one that was moved into that world
+  Rigid3 moved_from_kept;      ///< world to world
   /// Of `moved_from_kept`, in the tangent of Rigid3Manifold.
   PoseCovariance covariance = PoseCovariance::Zero();
   int num_keyframes = 0;  ///< that agree on the alignment

@@ -15,24 +15,26 @@ constexpr int kIterations = 10;
 
 }  // namespace
 
-std::map<LandmarkId, RefinedLine> RefineMapLines(const MapperOptions& options, const Map& map,
-                                                 const SceneAxes& axes, StructuralPairs pairs,
-                                                 const NoiseEstimator& noise) {
+std::map<LandmarkId, RefinedLine> RefineMapLines(const MapperOptions& options, const SubMap& submap,
+                                                 const StructuralPairs& pairs) {
+  const Map& map = submap.map;
+  const SceneAxes& axes = submap.axes;
   std::map<LandmarkId, RefinedLine> refined;
   if (axes.estimator().state() != AxesState::kRefined || map.keyframes().empty()) return refined;
   WindowData window = SelectWholeMap(options.selection, map);
   for (WindowData::Keyframe& keyframe : window.keyframes) keyframe.fixed = true;
   window.points.clear();
   window.point_observations.clear();
-  noise.Apply(&window);
+  submap.noise.Apply(&window);
   axes.AddAllAlignments(&window);
-  pairs.Add(&window);
+  pairs.Add(pairs.Find(window), &window);
   BundleAdjustmentOptions solver = options.window;
   solver.first_iterations = solver.second_iterations = kIterations;
   if (!LocalBundleAdjustment(solver, &window).usable) return refined;
   for (const WindowData::Line& line : window.lines) {
     if (line.fixed) continue;
-    const LineSegment3 segment = TrimToObservations(map, *map.FindLine(line.id), line.segment);
+    const LineSegment3 segment =
+        TrimToObservations(map, *map.Find<LineLandmark>(line.id), line.segment);
     if (segment.Length() > 0.0) refined[line.id].segment = segment;
   }
   const Eigen::Matrix3d world_from_axes = axes.estimator().world_from_axes().toRotationMatrix();

@@ -7,10 +7,8 @@
 #include <optional>
 
 #include "msc_vo/geometry/line_segment.h"
-#include "msc_vo/map/map.h"
 #include "msc_vo/mapping/mapper_options.h"
-#include "msc_vo/self_calibration/noise_estimator.h"
-#include "msc_vo/structure/scene_axes.h"
+#include "msc_vo/mapping/submap.h"
 #include "msc_vo/structure/structural_pairs.h"
 
 namespace msc_vo {
@@ -20,12 +18,10 @@ struct RefinedLine {
   std::optional<int> axis;  ///< 0..2, of the Manhattan axis that it was aligned with
 };
 
-/// Refines the lines of a map at the end of a run: bundle adjustment of the lines alone, with all
-/// keyframes held fixed, in which uncertain lines follow the Manhattan axes as well
-/// (SceneAxes::AddAllAlignments). `pairs` is a copy because adding pairs learns. Returns none if
-/// the map has no refined axes.
-std::map<LandmarkId, RefinedLine> RefineMapLines(const MapperOptions& options, const Map& map,
-                                                 const SceneAxes& axes, StructuralPairs pairs,
-                                                 const NoiseEstimator& noise);
+/// Refines the lines of a submap at the end of a run: bundle adjustment of the lines alone, with
+/// all keyframes held fixed, in which uncertain lines follow the Manhattan axes as well
+/// (SceneAxes::AddAllAlignments). Returns none if the submap has no refined axes.
+std::map<LandmarkId, RefinedLine> RefineMapLines(const MapperOptions& options, const SubMap& submap,
+                                                 const StructuralPairs& pairs);
 
 }  // namespace msc_vo

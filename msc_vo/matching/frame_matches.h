@@ -3,12 +3,13 @@
 
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "msc_vo/geometry/line_segment.h"
-#include "msc_vo/map/landmark.h"
+#include "msc_vo/map/landmark_kinds.h"
 
 namespace msc_vo {
 
@@ -52,5 +53,16 @@ struct FrameMatches {
     archive.Fields(*this, points, lines);
   }
 };
+
+/// The matches with landmarks of a kind.
+template <typename L>
+const auto& MatchesOf(const FrameMatches& matches) {
+  if constexpr (std::is_same_v<L, PointLandmark>) {
+    return matches.points;
+  } else {
+    static_assert(std::is_same_v<L, LineLandmark>);
+    return matches.lines;
+  }
+}
 
 }  // namespace msc_vo

@@ -28,10 +28,10 @@ std::vector<Map::Covisible> RankObservers(const Map& map, const FrameMatches& ma
     if (landmark != nullptr) observers.Add(*landmark);
   };
   for (const PointMatch& match : matches.points) {
-    if (match.inlier) count(map.FindPoint(match.id));
+    if (match.inlier) count(map.Find<PointLandmark>(match.id));
   }
   for (const LineMatch& match : matches.lines) {
-    if (match.inlier) count(map.FindLine(match.id));
+    if (match.inlier) count(map.Find<LineLandmark>(match.id));
   }
   return observers.Ranked();
 }
@@ -68,8 +68,8 @@ int HighestLevel(const Frame& frame) {
   return level;
 }
 
-// Whether the ray from the camera to the landmark is near to its mean viewing direction.
-bool IsViewedAlike(const Landmark& landmark, const Eigen::Vector3d& ray) {
+// Whether the ray from the camera to the landmark is close to its mean viewing direction.
+bool HasSimilarViewingAngle(const Landmark& landmark, const Eigen::Vector3d& ray) {
   return landmark.viewing_direction.dot(ray) >= kMinViewingCosine * ray.norm();
 }
 
@@ -93,7 +93,7 @@ void AddPoint(const PointLandmark& point, const Frame& frame, const Rigid3& cam_
               const Eigen::Vector3d& center, int highest_level,
               std::vector<PointCandidate>* candidates) {
   const Eigen::Vector3d ray = point.position - center;
-  if (!IsViewedAlike(point, ray)) return;
+  if (!HasSimilarViewingAngle(point, ray)) return;
   const double level = point.PredictLevel(ray.norm());
   // One level of tolerance on both sides, as in the matcher.
   if (!(level > -1.5 && level < highest_level + 1.5)) return;
@@ -104,10 +104,10 @@ void AddPoint(const PointLandmark& point, const Frame& frame, const Rigid3& cam_
 
 // The same for a line. Of one that passes the camera, only the direction across it is compared: its
 // middle may be behind, and views along a line differ little in its descriptor.
-bool IsViewedAlike(const LineLandmark& line, const Rigid3& cam_from_world,
-                   const Eigen::Vector3d& center) {
+bool HasSimilarViewingAngle(const LineLandmark& line, const Rigid3& cam_from_world,
+                            const Eigen::Vector3d& center) {
   const Eigen::Vector3d ray = line.segment.Midpoint() - center;
-  if (IsInFront(cam_from_world * line.segment)) return IsViewedAlike(line, ray);
+  if (IsInFront(cam_from_world * line.segment)) return HasSimilarViewingAngle(line, ray);
   const Eigen::Vector3d along = line.segment.Direction();
   const Eigen::Vector3d mean = line.viewing_direction;
   const Eigen::Vector3d ray_across = ray - along.dot(ray) * along;
@@ -117,7 +117,7 @@ bool IsViewedAlike(const LineLandmark& line, const Rigid3& cam_from_world,
 
 void AddLine(const LineLandmark& line, const Frame& frame, const Rigid3& cam_from_world,
              const Eigen::Vector3d& center, std::vector<LineCandidate>* candidates) {
-  if (!IsViewedAlike(line, cam_from_world, center)) return;
+  if (!HasSimilarViewingAngle(line, cam_from_world, center)) return;
   LineCandidate candidate = CandidateOf(line);
   if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) candidates->push_back(candidate);
 }
@@ -128,10 +128,10 @@ LocalMap LandmarksOf(const Map& map, const Keyframe& keyframe) {
   LocalMap landmarks;
   landmarks.reference = keyframe.id;
   for (const LandmarkId id : keyframe.points) {
-    if (id != kNoId) landmarks.points.push_back(CandidateOf(*map.FindPoint(id)));
+    if (id != kNoId) landmarks.points.push_back(CandidateOf(*map.Find<PointLandmark>(id)));
   }
   for (const LandmarkId id : keyframe.lines) {
-    if (id != kNoId) landmarks.lines.push_back(CandidateOf(*map.FindLine(id)));
+    if (id != kNoId) landmarks.lines.push_back(CandidateOf(*map.Find<LineLandmark>(id)));
   }
   return landmarks;
 }
@@ -151,10 +151,11 @@ LocalMap SelectLocalMap(const Map& map, const Frame& frame, const Rigid3& cam_fr
   const Eigen::Vector3d center = cam_from_world.OriginInSource();
   const int highest_level = HighestLevel(frame);
   points.VisitAll([&](LandmarkId id) {
-    AddPoint(*map.FindPoint(id), frame, cam_from_world, center, highest_level, &local.points);
+    AddPoint(*map.Find<PointLandmark>(id), frame, cam_from_world, center, highest_level,
+             &local.points);
   });
   lines.VisitAll([&](LandmarkId id) {
-    AddLine(*map.FindLine(id), frame, cam_from_world, center, &local.lines);
+    AddLine(*map.Find<LineLandmark>(id), frame, cam_from_world, center, &local.lines);
   });
   return local;
 }

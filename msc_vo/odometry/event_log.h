@@ -51,8 +51,8 @@ class EventLog {
   int64_t status_since_ = 0;              // id of the first frame with that status
   AxesState axes_state_ = AxesState::kNone;
   int num_axes_refinements_ = 0;
-  double readout_time_ = 0.0;          // seconds
-  KeyframeId last_moved_map_ = kNoId;  // of the last join
+  double readout_time_ = 0.0;            // seconds
+  SubMapId last_moved_map_ = kNoSubMap;  // of the last join
   int num_refused_joins_ = 0;
   DepthSensor depth_sensor_ = DepthSensor::kAuto;
   bool chooses_depth_sensor_ = true;

@@ -3,7 +3,7 @@
 
 #include "msc_vo/odometry/frame_result.h"
 
-#include "msc_vo/map/feature_counts.h"
+#include "msc_vo/frame/feature_counts.h"
 #include "msc_vo/tracking/tracked_frame.h"
 
 namespace msc_vo {

@@ -17,25 +17,26 @@ MapAxes MakeAxes(const SceneAxes& scene) {
 
 }  // namespace
 
-void AddMap(const Mapper& mapper, KeyframeId first_keyframe, OdometryResult* result) {
-  const Map* map = mapper.atlas().FindMapOf(first_keyframe);
-  if (map == nullptr) return;
-  const SceneAxes& axes = mapper.AxesOf(*map);
-  for (const auto& [id, keyframe] : map->keyframes()) {
+void AddMap(const Mapper& mapper, SubMapId submap_id, OdometryResult* result) {
+  const SubMap* submap = mapper.atlas().Find(submap_id);
+  if (submap == nullptr) return;
+  const Map& map = submap->map;
+  for (const auto& [id, keyframe] : map.keyframes()) {
     result->keyframes.push_back({keyframe.frame->timestamp, keyframe.cam_from_world.Inverse()});
   }
-  for (const auto& [id, point] : map->points()) {
+  for (const auto& [id, point] : map.points()) {
     result->points.push_back({point.position, static_cast<int>(point.observations.size())});
   }
-  const std::map<LandmarkId, RefinedLine> refined = mapper.RefinedLines(*map);
-  for (const auto& [id, line] : map->lines()) {
+  const std::map<LandmarkId, RefinedLine> refined = mapper.RefinedLines(*submap);
+  for (const auto& [id, line] : map.lines()) {
     const auto found = refined.find(id);
     const RefinedLine best = found != refined.end() ? found->second : RefinedLine{line.segment, {}};
     const bool is_active = mapper.last_window_lines().count(id) > 0;
     result->lines.push_back({best.segment, static_cast<int>(line.observations.size()), is_active,
-                             best.axis ? best.axis : axes.AxisOf(line), line.viewing_direction});
+                             best.axis ? best.axis : submap->axes.AxisOf(line),
+                             line.viewing_direction});
   }
-  result->axes = MakeAxes(axes);
+  result->axes = MakeAxes(submap->axes);
 }
 
 }  // namespace msc_vo

@@ -3,14 +3,13 @@
 
 #pragma once
 
-#include "msc_vo/map/landmark.h"
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/odometry.h"
 
 namespace msc_vo {
 
-/// Adds keyframes, landmarks and axes of the map whose first keyframe is `first_keyframe` to the
-/// result; nothing if there is no such map.
-void AddMap(const Mapper& mapper, KeyframeId first_keyframe, OdometryResult* result);
+/// Adds keyframes, landmarks and axes of a submap to the result; nothing if there is no such
+/// submap.
+void AddMap(const Mapper& mapper, SubMapId submap_id, OdometryResult* result);
 
 }  // namespace msc_vo

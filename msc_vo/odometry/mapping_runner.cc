@@ -17,14 +17,14 @@ namespace msc_vo {
 
 namespace {
 
-using MappingCall = std::function<void(MappingSummary*)>;
+using MappingCall = std::function<MappingSummary()>;
 
 // Runs a call of the mapper and returns `step`, the previous one of the keyframe, updated.
 MappingStep RunStep(const MappingCall& call, Mapper* mapper, MappingStep step) {
   const Stopwatch stopwatch;
   const double milliseconds_before = step.milliseconds;
   try {
-    call(&step.summary);
+    step.summary = call();
     const Stopwatch snapshot;
     step.snapshot = mapper->Snapshot();
     step.snapshot_ms += snapshot.Milliseconds();
@@ -40,12 +40,16 @@ MappingStep RunStep(const MappingCall& call, Mapper* mapper, MappingStep step) {
 // one is empty.
 void RunKeyframe(const KeyframePacket& packet, Mapper* mapper,
                  const std::function<void(MappingStep)>& deliver) {
+  std::optional<InsertedKeyframe> keyframe;
   const MappingStep inserted = RunStep(
-      [&](MappingSummary* summary) { *summary = mapper->Insert(packet); }, mapper, MappingStep());
+      [&] {
+        keyframe.emplace(mapper->Insert(packet));
+        return keyframe->summary();
+      },
+      mapper, MappingStep());
   deliver(inserted);
   if (inserted.error) return deliver(MappingStep());
-  deliver(
-      RunStep([&](MappingSummary* summary) { mapper->Refine(packet, summary); }, mapper, inserted));
+  deliver(RunStep([&] { return mapper->Refine(*std::move(keyframe)); }, mapper, inserted));
 }
 
 MappingStep PopFront(std::deque<MappingStep>* steps) {

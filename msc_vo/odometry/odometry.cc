@@ -141,10 +141,12 @@ std::shared_ptr<const Frame> Odometry::State::Build(const RgbdImage& image) {
 }
 
 void Odometry::State::Count(const TrackedFrame& tracked) {
-  CountVisible(tracked.keyframe.visible_points, &packet.point_counts);
-  CountVisible(tracked.keyframe.visible_lines, &packet.line_counts);
-  for (const PointMatch& match : tracked.matches.points) ++packet.point_counts[match.id].num_found;
-  for (const LineMatch& match : tracked.matches.lines) ++packet.line_counts[match.id].num_found;
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    std::map<LandmarkId, TrackingCount>& counts = packet.counts.Of<L>();
+    CountVisible(tracked.keyframe.visible.Of<L>(), &counts);
+    for (const auto& match : MatchesOf<L>(tracked.matches)) ++counts[match.id].num_found;
+  });
 }
 
 // The next result is the first one of a segment.
@@ -223,7 +225,7 @@ void Odometry::State::Record(int frame, const MappingStep& step) {
   times.snapshot = step.snapshot_ms;
   results[frame].cam_from_world = step.snapshot->map.CamFromWorld(step.summary.keyframe);
   relative_poses[frame] = {step.summary.keyframe, Rigid3()};
-  segments.RecordKeyframe(frame, step.summary.keyframe);
+  segments.RecordKeyframe(frame, step.summary.submap);
   if (step.summary.calibration) {
     CorrectPoses(step.summary.calibration->maps_before, *step.snapshot, results, &relative_poses);
   }
@@ -364,15 +366,16 @@ OdometryResult Odometry::Finish() {
   FillGaps(result.segments, &result.frames);
   state_->segments.PropagateCovariances(&result.frames);
   result.map_world = LargestWorld(result.segments);
-  AddMap(state_->mapper, state_->segments.FirstKeyframe(result.map_world), &result);
+  AddMap(state_->mapper, state_->segments.SubMapOf(result.map_world), &result);
   result.noise_scale = state_->mapper.noise().scale();
   result.depth_sensor = state_->builder.depth_sensor();
-  result.readout_time = state_->mapper.readout().readout_time();
-  result.readout_time_sigma = state_->mapper.readout().sigma();
+  const MapCalibration& calibration = state_->mapper.calibration();
+  result.readout_time = calibration.readout().readout_time();
+  result.readout_time_sigma = calibration.readout().sigma();
   result.intrinsics = {state_->camera, state_->builder.intrinsics()->distortion};
-  if (state_->mapper.calibration()) {
-    result.calibration = state_->mapper.calibration()->estimate();
-    result.intrinsics = *state_->mapper.calibration()->present();
+  if (calibration.intrinsics()) {
+    result.calibration = calibration.intrinsics()->estimate();
+    result.intrinsics = *calibration.intrinsics()->present();
   }
   result.depth_camera = DepthCameraOf(*state_->preparation.given(), result.intrinsics);
   result.num_late_maps = state_->schedule.num_late();

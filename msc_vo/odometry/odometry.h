@@ -69,7 +69,7 @@ struct OdometryResult {
   std::vector<MapLine> lines;
   MapAxes axes;
   NoiseScale noise_scale;  ///< of the sigmas of the features, self-calibrated
-  /// The depth sensor of the options, or the one that the images speak for; kAuto: too little
+  /// The depth sensor of the options, or the one inferred from the depth images; kAuto: too little
   /// depth.
   DepthSensor depth_sensor = DepthSensor::kAuto;
   /// Readout time of the rolling shutter, seconds, given or self-calibrated; 0: global shutter.

@@ -75,9 +75,10 @@ void SetPoses(const Atlas& atlas, const std::vector<RelativePose>& poses,
               std::vector<FrameResult>* frames) {
   for (size_t i = 0; i < frames->size(); ++i) {
     const RelativePose& pose = poses[i];
-    const Map* map = pose.reference != kNoId ? atlas.FindMapOf(pose.reference) : nullptr;
-    if (map == nullptr) continue;
-    (*frames)[i].cam_from_world = pose.cam_from_reference * map->CamFromWorld(pose.reference);
+    const SubMap* submap = pose.reference != kNoId ? atlas.FindSubMapOf(pose.reference) : nullptr;
+    if (submap == nullptr) continue;
+    (*frames)[i].cam_from_world =
+        pose.cam_from_reference * submap->map.CamFromWorld(pose.reference);
   }
 }
 

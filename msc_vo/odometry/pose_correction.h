@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "msc_vo/map/atlas.h"
 #include "msc_vo/map/snapshot.h"
+#include "msc_vo/mapping/atlas.h"
 #include "msc_vo/odometry/frame_result.h"
 
 namespace msc_vo {

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "msc_vo/map/frame_intrinsics.h"
+#include "msc_vo/frame/frame_intrinsics.h"
 #include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
 #include "msc_vo/tracking/frame_pose.h"
 #include "msc_vo/tracking/tracked_frame.h"
@@ -36,12 +36,12 @@ FrameMatches MatchesWith(const Map& map, const std::vector<LandmarkId>& points,
                          const std::vector<LandmarkId>& lines) {
   FrameMatches matches;
   for (size_t i = 0; i < points.size(); ++i) {
-    const PointLandmark* landmark = map.FindPoint(points[i]);
+    const PointLandmark* landmark = map.Find<PointLandmark>(points[i]);
     if (landmark == nullptr) continue;
     matches.points.push_back({static_cast<int>(i), points[i], landmark->position});
   }
   for (size_t i = 0; i < lines.size(); ++i) {
-    const LineLandmark* landmark = map.FindLine(lines[i]);
+    const LineLandmark* landmark = map.Find<LineLandmark>(lines[i]);
     if (landmark == nullptr) continue;
     matches.lines.push_back({static_cast<int>(i), lines[i], landmark->segment});
   }

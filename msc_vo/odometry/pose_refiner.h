@@ -27,9 +27,9 @@ class PoseRefiner {
   void Add(int index, const TrackedFrame& tracked);
 
   /// Estimates the poses of kept frames that are older than the delay at `timestamp` (seconds), at
-  /// most three of them, and forgets the frames. A pose remains if its map or its segment is gone,
-  /// if few of the observed landmarks are left, or if fewer than half of the observations fit
-  /// another pose; of those whose landmarks are left, if depth was not registered at the frame.
+  /// most three of them, and forgets the frames. Keeps a pose if its map or its segment is
+  /// gone, if few of the observed landmarks are left, or if fewer than half of the observations fit
+  /// another pose; if depth was unregistered at the frame, only surviving landmarks count.
   void Refine(double timestamp, const MapSnapshot& snapshot, std::vector<RelativePose>* poses);
   /// The same for all kept frames, and keeps them.
   void RefineAll(const MapSnapshot& snapshot, std::vector<RelativePose>* poses) const;

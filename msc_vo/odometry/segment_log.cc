@@ -38,30 +38,30 @@ void SegmentLog::Begin(int frame, bool replaces_last) {
   entries_.back().first_frame = frame;
 }
 
-void SegmentLog::RecordKeyframe(int frame, KeyframeId keyframe) {
+void SegmentLog::RecordKeyframe(int frame, SubMapId submap) {
   for (Entry& entry : entries_) {
-    if (entry.first_frame != frame || entry.first_keyframe != kNoId) continue;
-    entry.first_keyframe = keyframe;
-    entry.map = keyframe;
+    if (entry.first_frame != frame || entry.first_submap != kNoSubMap) continue;
+    entry.first_submap = submap;
+    entry.submap = submap;
   }
 }
 
 void SegmentLog::RecordJoin(int frame, const MapJoin& join) {
   for (Entry& entry : entries_) {
-    if (entry.map != join.moved) continue;
-    entry.map = join.kept;
+    if (entry.submap != join.moved) continue;
+    entry.submap = join.kept;
     entry.moves.push_back({frame, join});
   }
 }
 
-KeyframeId SegmentLog::FirstKeyframe(int segment) const {
-  return segment <= current() ? entries_[segment].first_keyframe : kNoId;
+SubMapId SegmentLog::SubMapOf(int segment) const {
+  return segment <= current() ? entries_[segment].first_submap : kNoSubMap;
 }
 
 int SegmentLog::WorldOf(int segment) const {
   for (size_t i = 0; i < entries_.size(); ++i) {
-    const KeyframeId first = entries_[i].first_keyframe;
-    if (first != kNoId && first == entries_[segment].map) return static_cast<int>(i);
+    const SubMapId first = entries_[i].first_submap;
+    if (first != kNoSubMap && first == entries_[segment].submap) return static_cast<int>(i);
   }
   return segment;
 }

@@ -39,8 +39,8 @@ class SegmentLog {
  public:
   /// Frame `frame` begins a segment. The last segment is discarded if `replaces_last`.
   void Begin(int frame, bool replaces_last);
-  /// Reports that frame `frame` became keyframe `keyframe`.
-  void RecordKeyframe(int frame, KeyframeId keyframe);
+  /// Reports that frame `frame` became a keyframe of a submap.
+  void RecordKeyframe(int frame, SubMapId submap);
   /// Reports that frame `frame` completed a join of two maps.
   void RecordJoin(int frame, const MapJoin& join);
 
@@ -49,8 +49,8 @@ class SegmentLog {
   /// First frame of the current segment.
   int first_frame() const { return entries_.back().first_frame; }
 
-  /// The first keyframe of a segment; kNoId if it was not mapped or does not exist.
-  KeyframeId FirstKeyframe(int segment) const;
+  /// The submap that began with a segment; kNoSubMap if it was not mapped or does not exist.
+  SubMapId SubMapOf(int segment) const;
 
   /// The segments, given the frames of the run with their segments.
   std::vector<Segment> Segments(const std::vector<FrameResult>& frames) const;
@@ -79,13 +79,13 @@ class SegmentLog {
   };
   struct Entry {
     int first_frame = 0;
-    KeyframeId first_keyframe = kNoId;  // kNoId: not mapped yet
-    KeyframeId map = kNoId;             // first keyframe of the map that the segment belongs to
+    SubMapId first_submap = kNoSubMap;  // that began with the segment; kNoSubMap: not mapped yet
+    SubMapId submap = kNoSubMap;        // that the segment belongs to since the last join
     std::vector<Move> moves;            // in order of time
 
     template <typename Archive>
     void Serialize(Archive& archive) {
-      archive.Fields(*this, first_frame, first_keyframe, map, moves);
+      archive.Fields(*this, first_frame, first_submap, submap, moves);
     }
   };
 

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "msc_vo/map/frame.h"
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/sensor/rgbd_image.h"

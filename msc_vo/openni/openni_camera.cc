@@ -106,7 +106,7 @@ class OpenNiCamera : public RgbdCamera {
 
   CameraImage TakePair(double delay) {
     const double time = TimeOf(color_frame_);
-    // The clock of the device begins anywhere.
+    // Device time stamps have an arbitrary origin.
     if (!offset_) offset_ = SecondsSince1970() - time;
     CameraImage image{time + *offset_, delay,
                       ColorOf(color_frame_, color_.getMirroringEnabled(), name_),

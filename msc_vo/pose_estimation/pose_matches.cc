@@ -65,7 +65,7 @@ double SquaredFrameNoise(const PoseOptions& options, const PoseData& data, const
                     options.max_frame_noise * options.max_frame_noise);
 }
 
-// NaN has no place in an order.
+// NaN breaks nth_element.
 double NanToInfinity(double value) {
   return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
 }
@@ -76,7 +76,7 @@ double PixelChiSquare(const PinholeCamera& camera, const Rigid3& pose,
                       const PoseData::Point& point) {
   const Eigen::Vector3d in_cam = pose * point.position;
   if (!IsInFront(in_cam)) return std::numeric_limits<double>::infinity();
-  // The square of a tiny sigma vanishes.
+  // sigma^2 may underflow.
   return NanToInfinity((camera.Project(in_cam) - point.pixel).squaredNorm() /
                        (point.sigma * point.sigma));
 }

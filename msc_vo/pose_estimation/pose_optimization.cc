@@ -106,7 +106,7 @@ std::vector<bool> RejectDynamicObjects(const PoseOptions& options, PoseData* dat
   return consensus->dynamic_cells;
 }
 
-// Counts a match, whose flags are set, but for the inliers of its kind.
+// Counts a match, whose flags are set; the caller counts the inliers of its kind.
 template <typename Match>
 void Count(const Match& match, PoseSummary* summary) {
   summary->num_dynamic += match.dynamic;

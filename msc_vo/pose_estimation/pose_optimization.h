@@ -69,7 +69,7 @@ struct CellConsensusOptions {
   double reject_chi2_6 = 22.458;
   /// Weight of a cell without matches that are confirmed static, relative to one with confirmed
   /// matches only. Landmarks of a dynamic object are rarely confirmed. The whole grid weighs as
-  /// much as one confirmed cell: whatever is new does not outvote what is confirmed.
+  /// much as one confirmed cell: unconfirmed landmarks cannot outvote one confirmed cell.
   double unconfirmed_weight = 0.01;
   /// Cells by which another pose must be better to replace the estimate.
   /// Chosen by measurement, see docs/lab/dynamic_objects.md.
@@ -109,7 +109,7 @@ struct PoseSummary {
   int num_inlier_points = 0;
   int num_inlier_lines = 0;
   int num_dynamic = 0;    ///< matches in cells of dynamic objects: neither inliers nor outliers
-  int num_confirmed = 0;  ///< matches whose landmark is confirmed static, but for dynamic ones
+  int num_confirmed = 0;  ///< matches with confirmed static landmarks, without dynamic matches
   int num_confirmed_inliers = 0;
   std::vector<bool> dynamic_cells;  ///< one per cell of the ImageGrid; empty if there are none
   /// Half the sum of squares over the inliers, and the robust cost of the custom factors.

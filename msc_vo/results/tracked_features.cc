@@ -41,7 +41,7 @@ ViewedFeatures TrackedFeatures(const TrackedImage& tracked, const LensDistortion
     const LineFeature& line = frame.lines[match.feature];
     features.lines.push_back(
         {recorded(line.segment.start), recorded(line.segment.end),
-         ColorOf(line, tracked.map.map.FindLine(match.id), tracked.map, axes)});
+         ColorOf(line, tracked.map.map.Find<LineLandmark>(match.id), tracked.map, axes)});
   }
   return features;
 }

@@ -55,8 +55,8 @@ struct CorrectionEstimate {
 /// Standard deviation of the parameters before a measurement if their group is wrong.
 SensorCorrection::Vector WrongCalibrationSigma();
 
-/// Whether a measurement that leaves parameter `index` of SensorCorrection with the standard
-/// deviation `sigma` tells it: better than it is known before.
+/// Whether parameter `index` of SensorCorrection is observable: its posterior standard deviation
+/// `sigma` is well below the prior one.
 bool IsObservable(int index, double sigma);
 
 /// Estimates the corrections of the model in which exactly the groups `wrong` are wrong: those that

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "msc_vo/camera/sensor_correction.h"
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/map/frame.h"
 #include "msc_vo/self_calibration/pair_linearization.h"
 #include "msc_vo/sensor/inverse_depth_image.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "msc_vo/map/rolling_shutter.h"
+#include "msc_vo/frame/rolling_shutter.h"
 
 namespace msc_vo {
 
@@ -18,24 +18,24 @@ namespace {
 // millisecond shifts the first and the last row by 0.3 px, less than the sigma of a point.
 constexpr double kMinChange = 0.001;
 
-// Moves the landmarks that only this keyframe observes to their position in its frame.
+// Moves the landmarks of a kind that only this keyframe observes to their position in its frame.
+template <typename L>
+void MoveExclusiveLandmarks(const Keyframe& keyframe, Map* map) {
+  const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
+  const std::vector<LandmarkId>& slots = SlotsOf<L>(keyframe);
+  for (size_t i = 0; i < slots.size(); ++i) {
+    const int feature = static_cast<int>(i);
+    const L* landmark = map->Find<L>(slots[i]);
+    if (landmark == nullptr || landmark->observations.size() > 1) continue;
+    if (!L::HasDepth(FeaturesOf<L>(*keyframe.frame)[i])) continue;
+    map->SetGeometry<L>(landmark->id, world_from_cam * L::InCamera(*keyframe.frame, feature));
+  }
+}
+
 void MoveExclusiveLandmarks(KeyframeId id, Map* map) {
   const Keyframe keyframe = *map->FindKeyframe(id);
-  const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
-  for (size_t i = 0; i < keyframe.points.size(); ++i) {
-    const int feature = static_cast<int>(i);
-    const PointLandmark* point = map->FindPoint(keyframe.points[i]);
-    if (point == nullptr || point->observations.size() > 1) continue;
-    if (!keyframe.frame->points[i].HasDepth()) continue;
-    map->SetPoint(point->id, world_from_cam * keyframe.frame->PointInCamera(feature));
-  }
-  for (size_t i = 0; i < keyframe.lines.size(); ++i) {
-    const int feature = static_cast<int>(i);
-    const LineLandmark* line = map->FindLine(keyframe.lines[i]);
-    if (line == nullptr || line->observations.size() > 1) continue;
-    if (!keyframe.frame->lines[i].depth) continue;
-    map->SetLine(line->id, world_from_cam * keyframe.frame->LineInCamera(feature));
-  }
+  ForEachLandmarkKind(
+      [&](auto kind) { MoveExclusiveLandmarks<typename decltype(kind)::Landmark>(keyframe, map); });
 }
 
 }  // namespace

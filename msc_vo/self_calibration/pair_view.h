@@ -7,7 +7,7 @@
 
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/factors/rgbd_pair_reprojection.h"
-#include "msc_vo/map/frame.h"
+#include "msc_vo/frame/frame.h"
 
 namespace msc_vo {
 

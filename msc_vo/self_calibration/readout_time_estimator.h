@@ -30,7 +30,7 @@ class ReadoutTimeEstimator {
   /// Seconds; negative if the rows are read from the bottom to the top.
   double readout_time() const { return readout_time_; }
   /// Uncertainty of readout_time(), seconds; 0 if it was given. For a shutter that counts as
-  /// global, it contains the readout time that the images speak for.
+  /// global, it contains the estimate from the images.
   double sigma() const;
 
   /// Lists the state for a checkpoint.

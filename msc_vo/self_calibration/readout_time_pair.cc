@@ -12,8 +12,8 @@
 
 #include "msc_vo/factors/camera_factor.h"
 #include "msc_vo/factors/robust_loss.h"
+#include "msc_vo/frame/rolling_shutter.h"
 #include "msc_vo/geometry/so3.h"
-#include "msc_vo/map/rolling_shutter.h"
 #include "msc_vo/matching/point_matcher.h"
 #include "msc_vo/self_calibration/pair_view.h"
 

@@ -36,7 +36,7 @@ class RecentPairs {
   /// `given`: the calibration that corrections refer to.
   explicit RecentPairs(const CameraIntrinsics& given);
 
-  /// Forms a pair of the image with the keyframe that tells most about the calibration. All frames
+  /// Forms a pair of the image with the most informative keyframe for the calibration. All frames
   /// must know their intrinsics.
   void AddImage(const Map& map, const CalibrationImage& image, const SensorCorrection::Vector& at);
   /// The same for a keyframe of the map, with which later images form pairs.

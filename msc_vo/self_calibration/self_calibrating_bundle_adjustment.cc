@@ -79,7 +79,7 @@ std::vector<LandmarkId> SelectPoints(const Map& map) {
 std::set<KeyframeId> SelectKeyframes(const Map& map, const std::vector<LandmarkId>& points) {
   std::map<KeyframeId, int> counts;
   for (const LandmarkId id : points) {
-    for (const Observation& observation : map.FindPoint(id)->observations) {
+    for (const Observation& observation : map.Find<PointLandmark>(id)->observations) {
       ++counts[observation.keyframe];
     }
   }
@@ -134,7 +134,7 @@ class SelfCalibrationProblem {
     }
     points_.reserve(points.size());
     for (const LandmarkId id : points) {
-      const PointLandmark& point = *map.FindPoint(id);
+      const PointLandmark& point = *map.Find<PointLandmark>(id);
       const std::vector<Observation> observations = SelectObservations(map, point, keyframes);
       if (observations.size() >= 2) AddPoint(map, point, observations);
     }

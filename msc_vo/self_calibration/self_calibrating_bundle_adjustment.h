@@ -14,8 +14,8 @@ namespace msc_vo {
 /// Self-calibrating bundle adjustment (not in the paper): optimises the poses and points of a map
 /// together with the colour camera's part of a correction of `given`, beginning with `start`, and
 /// returns the information about it, with poses and points marginalised. The map remains as it is.
-/// All frames must know their intrinsics. Depth hardly counts but for the scale, so that its own
-/// errors do not look like those of the colour camera. Errors of the points count as independent.
+/// All frames must know their intrinsics. Depth is down-weighted and mainly fixes the scale, so
+/// that its errors are not taken for those of the colour camera. Point errors are independent.
 /// Returns std::nullopt if there are too few observations, or the solver fails.
 std::optional<CalibrationInformation> SelfCalibratingBundleAdjustment(
     const CameraIntrinsics& given, const Map& map, const SensorCorrection::Vector& start);

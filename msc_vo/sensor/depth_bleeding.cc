@@ -21,7 +21,7 @@ constexpr int kTypicalReachDivisor = 160;
 constexpr double kEdgeChange = 0.06;
 // Smallest mean gradient around an edge that counts, grey levels: below, there is only noise.
 constexpr double kMinGradient = 2.0;
-// Pixels on depth edges: the fewest that tell the reach, and enough of them.
+// Pixels on depth edges: the minimum needed to estimate the reach, and a sufficient number.
 constexpr int kMinEdges = 60;
 constexpr int kEnoughEdges = 500;
 // The mean gradient on both sides of an edge is the same up to this ratio.

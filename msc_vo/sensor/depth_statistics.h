@@ -30,8 +30,8 @@ struct DepthStatistics {
 /// `depth`: CV_32FC1, metres, 0 where nothing was measured.
 DepthStatistics MeasureDepthStatistics(const cv::Mat& depth);
 
-/// Returns the sensor that the statistics speak for: structured light unless there is evidence for
-/// another one, and kAuto if the image does not tell.
+/// Returns the most likely sensor: structured light unless there is evidence for another one, and
+/// kAuto if the image is inconclusive.
 DepthSensor ClassifyDepthSensor(const DepthStatistics& statistics);
 
 }  // namespace msc_vo

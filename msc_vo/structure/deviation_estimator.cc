@@ -23,7 +23,7 @@ double ChiSquareAt(const DirectionDeviation& deviation, double scale) {
   return deviation.angle.dot(Total(deviation, scale).inverse() * deviation.angle);
 }
 
-// Logarithm of Student's density with two degrees of freedom in the plane, but for a constant.
+// Logarithm of Student's density with two degrees of freedom in the plane, up to a constant.
 double LogDensity(const DirectionDeviation& deviation, double scale) {
   return -0.5 * std::log(Total(deviation, scale).determinant()) -
          2.0 * std::log1p(0.5 * ChiSquareAt(deviation, scale));

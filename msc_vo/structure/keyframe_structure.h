@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "msc_vo/map/frame.h"
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/map/noise_scale.h"
 #include "msc_vo/structure/frame_structure.h"
 

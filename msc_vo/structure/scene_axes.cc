@@ -94,7 +94,8 @@ void SceneAxes::Learn(const Map& map, const WindowData& window) {
   }
   deviation_.Update(deviations);
   for (auto line = directions_.begin(); line != directions_.end();) {
-    line = map.FindLine(line->first) != nullptr ? std::next(line) : directions_.erase(line);
+    line =
+        map.Find<LineLandmark>(line->first) != nullptr ? std::next(line) : directions_.erase(line);
   }
 }
 

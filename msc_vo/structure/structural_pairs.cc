@@ -3,18 +3,12 @@
 
 #include "msc_vo/structure/structural_pairs.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <map>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "msc_vo/geometry/angles.h"
-#include "msc_vo/structure/direction_estimate.h"
-#include "msc_vo/structure/internal/partner_selection.h"
 #include "msc_vo/structure/internal/relation_mixture.h"
 
 namespace msc_vo {
@@ -25,119 +19,19 @@ namespace {
 constexpr double kMaxChiSquare2 = 13.816;
 constexpr double kMaxChiSquare1 = 10.828;
 
-// A line whose direction is known well enough.
-struct Line {
-  int64_t id = 0;
-  DirectionEstimate estimate;
-  double sigma = 0.0;              // radians
-  std::vector<int64_t> observers;  // keyframes, ascending
-  bool on_axis = false;
-};
-
-template <typename Deviation>
-struct Candidate {
-  double sigma = 0.0;  // radians, of the angle between the two
-  int i = 0, j = 0;
-  Deviation deviation;
-  double probability = 0.0;  // of a relation
-};
-using ParallelCandidate = Candidate<DirectionDeviation>;
-using PerpendicularCandidate = Candidate<AngleDeviation>;
-
-std::vector<Line> KnownLines(const StructuralPairOptions& options, const WindowData& window) {
-  const std::vector<std::optional<DirectionEstimate>> estimates = EstimateDirections(window);
-  std::map<int64_t, Line> known;
-  for (size_t i = 0; i < estimates.size(); ++i) {
-    if (!estimates[i]) continue;
-    const double sigma = estimates[i]->Sigma();
-    if (sigma > DegreesToRadians(options.max_sigma)) continue;
-    const int64_t id = window.lines[i].id;
-    known[id] = {id, *estimates[i], sigma, {}, false};
-  }
-  for (const WindowData::LineObservation& observation : window.line_observations) {
-    const auto line = known.find(observation.line);
-    if (line != known.end()) line->second.observers.push_back(observation.keyframe);
-  }
-  for (const WindowData::AxisAlignment& alignment : window.axis_alignments) {
-    const auto line = known.find(alignment.line);
-    if (line != known.end()) line->second.on_axis = true;
-  }
-  std::vector<Line> lines;
-  for (auto& [id, line] : known) {
-    std::sort(line.observers.begin(), line.observers.end());
-    lines.push_back(std::move(line));
-  }
-  return lines;
-}
-
-// Whether a keyframe observes both lines.
-bool SeenTogether(const Line& a, const Line& b) {
-  auto i = a.observers.begin(), j = b.observers.begin();
-  while (i != a.observers.end() && j != b.observers.end()) {
-    if (*i == *j) return true;
-    *i < *j ? ++i : ++j;
-  }
-  return false;
-}
-
-DirectionDeviation ParallelDeviation(const DirectionEstimate& a, const DirectionEstimate& b) {
-  Eigen::Matrix<double, 3, 2> basis;
-  basis.col(0) = a.direction.unitOrthogonal();
-  basis.col(1) = a.direction.cross(basis.col(0));
-  return {basis.transpose() * b.direction / a.direction.dot(b.direction),
-          basis.transpose() * (a.covariance + b.covariance) * basis};
-}
-
-AngleDeviation PerpendicularDeviation(const DirectionEstimate& a, const DirectionEstimate& b) {
-  return {a.direction.dot(b.direction), b.direction.dot(a.covariance * b.direction) +
-                                            a.direction.dot(b.covariance * a.direction)};
-}
-
-struct Candidates {
-  std::vector<ParallelCandidate> parallel;
-  std::vector<PerpendicularCandidate> perpendicular;
-};
-
-// Pairs whose angle is near to 0 or 90 degrees, the most certain ones of each line.
-Candidates FindCandidates(const StructuralPairOptions& options, const std::vector<Line>& lines) {
-  const double max_angle = DegreesToRadians(options.max_angle);
-  const double least_parallel = std::cos(max_angle), most_perpendicular = std::sin(max_angle);
-  Candidates candidates;
-  for (int i = 0; i < static_cast<int>(lines.size()); ++i) {
-    for (int j = i + 1; j < static_cast<int>(lines.size()); ++j) {
-      const Line &a = lines[i], &b = lines[j];
-      if (a.on_axis && b.on_axis) continue;
-      const double cosine = std::abs(a.estimate.direction.dot(b.estimate.direction));
-      const bool is_parallel = cosine >= least_parallel;
-      const bool is_perpendicular = options.perpendicular && cosine <= most_perpendicular;
-      if (!is_parallel && !is_perpendicular) continue;
-      if (!SeenTogether(a, b)) continue;
-      const double sigma = std::hypot(a.sigma, b.sigma);
-      if (is_parallel) {
-        candidates.parallel.push_back({sigma, i, j, ParallelDeviation(a.estimate, b.estimate)});
-      } else {
-        candidates.perpendicular.push_back(
-            {sigma, i, j, PerpendicularDeviation(a.estimate, b.estimate)});
-      }
-    }
-  }
-  SelectMostCertain(options.max_partners, lines.size(), &candidates.parallel);
-  SelectMostCertain(options.max_partners, lines.size(), &candidates.perpendicular);
-  return candidates;
-}
-
 // Removes pairs that may well be near to the angle by chance.
 template <typename Deviation>
 void RemoveUnlikely(const DeviationEstimator& deviation, double chance, double min_probability,
-                    double max_chi_square, std::vector<Candidate<Deviation>>* candidates) {
+                    double max_chi_square,
+                    std::vector<PairCandidates::Pair<Deviation>>* candidates) {
   std::vector<double> densities;
   for (const auto& candidate : *candidates) {
     densities.push_back(deviation.Density(candidate.deviation));
   }
   const std::vector<double> probabilities = RelationProbabilities(densities, chance);
-  std::vector<Candidate<Deviation>> likely;
+  std::vector<PairCandidates::Pair<Deviation>> likely;
   for (size_t i = 0; i < candidates->size(); ++i) {
-    Candidate<Deviation> candidate = (*candidates)[i];
+    PairCandidates::Pair<Deviation> candidate = (*candidates)[i];
     candidate.probability = probabilities[i];
     if (candidate.probability < min_probability) continue;
     if (deviation.ChiSquare(candidate.deviation) > max_chi_square) continue;
@@ -147,7 +41,7 @@ void RemoveUnlikely(const DeviationEstimator& deviation, double chance, double m
 }
 
 // Partners of each line. A perpendicular pair constrains one of the two components of a direction.
-std::vector<double> CountPartners(const Candidates& candidates, size_t num_lines) {
+std::vector<double> CountPartners(const PairCandidates& candidates, size_t num_lines) {
   std::vector<double> partners(num_lines, 0.0);
   for (const auto& pair : candidates.parallel) {
     partners[pair.i] += pair.probability;
@@ -161,35 +55,20 @@ std::vector<double> CountPartners(const Candidates& candidates, size_t num_lines
 }
 
 template <typename Deviation>
-std::vector<WindowData::LinePair> MakePairs(const std::vector<Line>& lines,
-                                            const std::vector<double>& partners,
-                                            const DeviationEstimator& deviation,
-                                            const std::vector<Candidate<Deviation>>& candidates) {
+std::vector<WindowData::LinePair> MakePairs(
+    const std::vector<int64_t>& lines, const std::vector<double>& partners,
+    const DeviationEstimator& deviation,
+    const std::vector<PairCandidates::Pair<Deviation>>& candidates) {
   std::vector<WindowData::LinePair> pairs;
-  for (const Candidate<Deviation>& c : candidates) {
+  for (const PairCandidates::Pair<Deviation>& c : candidates) {
     const double shared = (partners[c.i] + partners[c.j] + 2.0) / 4.0;
     const double sigma = deviation.Sigma(c.deviation) * std::sqrt(shared / c.probability);
-    pairs.push_back({lines[c.i].id, lines[c.j].id, sigma, 1, false});
+    pairs.push_back({lines[c.i], lines[c.j], sigma, 1, false});
   }
   return pairs;
 }
 
 }  // namespace
-
-bool StructuralPairOptions::IsValid(std::string* error) const {
-  if (!(max_angle > 0.0 && max_angle < 45.0)) {
-    *error = "pairs.max_angle must be in (0, 45) degrees";
-  } else if (!(max_sigma > 0.0)) {
-    *error = "pairs.max_sigma must be positive (degrees)";
-  } else if (!(min_probability >= 0.0 && min_probability <= 1.0)) {
-    *error = "pairs.min_probability must be in [0, 1]";
-  } else if (max_partners < 1) {
-    *error = "pairs.max_partners must be at least 1";
-  } else {
-    return deviation.IsValid(error);
-  }
-  return false;
-}
 
 StructuralPairs::StructuralPairs(const StructuralPairOptions& options)
     : options_(options), deviation_(options.deviation) {
@@ -197,19 +76,25 @@ StructuralPairs::StructuralPairs(const StructuralPairOptions& options)
   if (!options.IsValid(&error)) throw std::invalid_argument("StructuralPairs: " + error);
 }
 
-void StructuralPairs::Add(WindowData* window) {
-  if (!options_.parallel && !options_.perpendicular) return;
-  const std::vector<Line> lines = KnownLines(options_, *window);
-  Candidates candidates = FindCandidates(options_, lines);
+PairCandidates StructuralPairs::Find(const WindowData& window) const {
+  if (!options_.parallel && !options_.perpendicular) return {};
+  return FindPairCandidates(options_, window);
+}
+
+void StructuralPairs::Learn(const PairCandidates& candidates) {
   std::vector<DirectionDeviation> deviations;
-  for (const ParallelCandidate& pair : candidates.parallel) deviations.push_back(pair.deviation);
+  for (const auto& pair : candidates.parallel) deviations.push_back(pair.deviation);
   deviation_.Update(deviations);
+}
+
+void StructuralPairs::Add(PairCandidates candidates, WindowData* window) const {
   if (!options_.parallel) candidates.parallel.clear();
   const double range = DegreesToRadians(options_.max_angle);
   RemoveUnlikely(deviation_, 1.0 / (kPi * range * range), options_.min_probability, kMaxChiSquare2,
                  &candidates.parallel);
   RemoveUnlikely(deviation_, 1.0 / (2.0 * range), options_.min_probability, kMaxChiSquare1,
                  &candidates.perpendicular);
+  const std::vector<int64_t>& lines = candidates.lines;
   const std::vector<double> partners = CountPartners(candidates, lines.size());
   window->parallel_pairs = MakePairs(lines, partners, deviation_, candidates.parallel);
   window->perpendicular_pairs = MakePairs(lines, partners, deviation_, candidates.perpendicular);

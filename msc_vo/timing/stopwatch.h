@@ -25,4 +25,16 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
+/// Runs `step`, adds its time to *milliseconds, and returns its result.
+template <typename Step>
+auto Timed(double* milliseconds, const Step& step) {
+  struct Meter {
+    ~Meter() { *milliseconds += stopwatch.Milliseconds(); }
+    double* milliseconds;
+    Stopwatch stopwatch;
+  };
+  const Meter meter{milliseconds, {}};
+  return step();
+}
+
 }  // namespace msc_vo

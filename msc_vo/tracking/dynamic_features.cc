@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "msc_vo/map/depth_surfaces.h"
+#include "msc_vo/frame/depth_surfaces.h"
 #include "msc_vo/map/free_space.h"
 #include "msc_vo/pose_estimation/image_grid.h"
 
@@ -21,7 +21,7 @@ constexpr size_t kMaxKeyframes = 20;
 // Features that a surface needs to be dynamic: as many as determine a plane.
 constexpr int kMinDynamic = 3;
 
-// What is known of a feature's surface.
+// Classification of a feature's surface.
 enum class Evidence { kNone, kStatic, kDynamic };
 
 // A keyframe that may have observed the same space.
@@ -60,7 +60,7 @@ Evidence ClassifyByDepth(const std::vector<KeyframeView>& views, const Eigen::Ve
   int balance = 0;
   for (const KeyframeView& view : views) {
     const Eigen::Vector3d in_view = view.view_from_cam * point;
-    if (LooksThrough(*view.frame, in_view)) {
+    if (IsInFreeSpace(*view.frame, in_view)) {
       ++balance;
     } else if (ShowsSurface(*view.frame, in_view)) {
       --balance;
@@ -101,8 +101,7 @@ std::vector<Candidate> FeaturesWithDepth(const FrameMatches& inliers, Frame* fra
   return candidates;
 }
 
-// Finds what is known of a candidate. A depth that is less certain than the tolerance tells
-// nothing.
+// Classifies a candidate. A depth that is less certain than the tolerance is inconclusive.
 Evidence Classify(const std::vector<KeyframeView>& views, const PinholeCamera& camera,
                   const Candidate& candidate) {
   if (candidate.is_inlier) return Evidence::kStatic;

@@ -13,7 +13,7 @@ namespace msc_vo {
 /// Returns the frame of `tracked`, which becomes a keyframe, with its dynamic features marked,
 /// except inliers of the pose. Dynamic are
 /// - features in a cell of a dynamic object (CellConsensus; lines: by their midpoint);
-/// - features with depth in free space: more keyframes look through them (LooksThrough) than show
+/// - features with depth in free space: more keyframes look through them (IsInFreeSpace) than show
 ///   a surface there, among up to 21, the reference keyframe, its covisible and the newest ones;
 /// - features of which this is not known, on a connected surface with at least three dynamic
 ///   features and twice as many as static ones. The depth ranges of such a surface are removed.

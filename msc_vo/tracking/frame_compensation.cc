@@ -3,7 +3,7 @@
 
 #include "msc_vo/tracking/frame_compensation.h"
 
-#include "msc_vo/map/rolling_shutter.h"
+#include "msc_vo/frame/rolling_shutter.h"
 
 namespace msc_vo {
 

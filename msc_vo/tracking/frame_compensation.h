@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/geometry/camera_velocity.h"
-#include "msc_vo/map/frame.h"
 #include "msc_vo/map/snapshot.h"
 
 namespace msc_vo {

@@ -104,7 +104,7 @@ LocalMap CandidatesFromFrame(const Map& map, const TrackedFrame& last,
   candidates.reference = last.reference;
   const Rigid3 world_from_last = last_from_world.Inverse();
   for (size_t i = 0; i < frame.points.size(); ++i) {
-    const PointLandmark* landmark = map.FindPoint(point_ids[i]);
+    const PointLandmark* landmark = map.Find<PointLandmark>(point_ids[i]);
     if (landmark == nullptr && !frame.points[i].HasDepth()) continue;
     PointCandidate candidate;
     candidate.id = landmark != nullptr ? landmark->id : kNoId;
@@ -118,7 +118,7 @@ LocalMap CandidatesFromFrame(const Map& map, const TrackedFrame& last,
     }
   }
   for (size_t i = 0; i < frame.lines.size(); ++i) {
-    const LineLandmark* landmark = map.FindLine(line_ids[i]);
+    const LineLandmark* landmark = map.Find<LineLandmark>(line_ids[i]);
     if (landmark == nullptr && !frame.lines[i].depth) continue;
     LineCandidate candidate;
     candidate.id = landmark != nullptr ? landmark->id : kNoId;
@@ -160,10 +160,11 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
   data.custom_factors = factors;
   for (const PointMatch& match : matches->points) {
     data.points.push_back(
-        Observe(match, frame.points[match.feature], map.FindPoint(match.id), scale));
+        Observe(match, frame.points[match.feature], map.Find<PointLandmark>(match.id), scale));
   }
   for (const LineMatch& match : matches->lines) {
-    data.lines.push_back(Observe(match, frame, *cam_from_world, map.FindLine(match.id), scale));
+    data.lines.push_back(
+        Observe(match, frame, *cam_from_world, map.Find<LineLandmark>(match.id), scale));
   }
   PoseSummary summary = OptimizePose(options, &data);
   *cam_from_world = data.cam_from_world;

@@ -93,7 +93,7 @@ std::optional<MapRelocalization> InactiveMapSearch::Relocalize(const TrackedFram
   if (!estimate()) return std::nullopt;
   if (ClassifyStatus(options_, found.pose) != TrackingStatus::kTracked) return std::nullopt;
   found.matches = LandmarkInliers(found.matches);
-  if (!ShowsAsMuch(found.matches, local, tracked)) return std::nullopt;
+  if (!HasComparableMatchRatio(found.matches, local, tracked)) return std::nullopt;
   const Rigid3 cam_from_reference =
       found.cam_from_world * map.CamFromWorld(local.reference).Inverse();
   return MapRelocalization{local.reference, cam_from_reference, found.pose.covariance,

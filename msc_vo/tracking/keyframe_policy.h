@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "msc_vo/map/frame.h"
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/matching/frame_matches.h"
 
 namespace msc_vo {

@@ -52,7 +52,8 @@ bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
   return Support(far) > kClearlyBetter * (Support(near) + near.num_dynamic);
 }
 
-bool ShowsAsMuch(const FrameMatches& found, const LocalMap& place, const TrackedFrame& tracked) {
+bool HasComparableMatchRatio(const FrameMatches& found, const LocalMap& place,
+                             const TrackedFrame& tracked) {
   constexpr double kMinRelativeRatio = 0.5;  // the direction of view may be another
   const auto num_features = [](const FrameMatches& matches) {
     return static_cast<double>(matches.points.size() + matches.lines.size());
@@ -60,7 +61,7 @@ bool ShowsAsMuch(const FrameMatches& found, const LocalMap& place, const Tracked
   const KeyframeProposal& current = tracked.keyframe;
   const auto in_view = static_cast<double>(place.points.size() + place.lines.size());
   const auto in_view_now =
-      static_cast<double>(current.visible_points.size() + current.visible_lines.size());
+      static_cast<double>(current.visible.points.size() + current.visible.lines.size());
   return num_features(found) * in_view_now >=
          kMinRelativeRatio * num_features(tracked.matches) * in_view;
 }

@@ -12,8 +12,8 @@ namespace msc_vo {
 /// How well the features that should be visible support a pose.
 enum class PoseFit {
   kNone,   ///< there is no pose
-  kPoor,   ///< by few features: matches by chance could do the same
-  kClear,  ///< by a large part of the features
+  kPoor,   ///< weak support, which could arise from random matches
+  kClear,  ///< support by a large part of the features
 };
 
 /// Number of inliers of a pose; a line counts as kPointsPerLine points.
@@ -24,14 +24,15 @@ PoseFit FitOf(const TrackedFrame& tracked, const LocalMap& candidates);
 
 /// Whether a pose far from the prediction has so much more support than one near it that it
 /// replaces it. If either has `min_matches` inliers that are confirmed static, these are compared,
-/// because a pose that moves with a dynamic object, or that matches by chance support, has few.
+/// because a pose that follows a dynamic object, or that only random matches support, has few.
 bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
                      const PoseSummary& near);
 
-/// Whether a frame, with the inliers `found`, shows at least half as large a part of the landmarks
-/// in view at `place` as in the current map, where it is `tracked`. At a wrong place that looks
-/// alike, it shows less (docs/lab/tracking.md).
-bool ShowsAsMuch(const FrameMatches& found, const LocalMap& place, const TrackedFrame& tracked);
+/// Whether the ratio of the inliers `found` to the landmarks in view at `place` is at least half of
+/// the same ratio in the current map, where the frame is `tracked`. At another place that looks
+/// alike it is lower (docs/lab/tracking.md).
+bool HasComparableMatchRatio(const FrameMatches& found, const LocalMap& place,
+                             const TrackedFrame& tracked);
 
 /// Whether the depth images of the frame and of its reference keyframe contradict its pose in more
 /// cells (NumFreeSpaceViolations) than its Support.

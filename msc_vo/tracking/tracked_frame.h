@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/map/frame.h"
-#include "msc_vo/map/landmark.h"
+#include "msc_vo/map/landmark_kinds.h"
 #include "msc_vo/map/last_tracked_pose.h"
 #include "msc_vo/map/noise_scale.h"
 #include "msc_vo/matching/frame_matches.h"
@@ -45,12 +45,11 @@ struct KeyframeProposal {
   /// Velocity at the previous frame if that became a keyframe, from the frames before and after it.
   std::optional<CameraVelocity> previous_velocity;
   /// Landmarks that were predicted to be visible, matched ones included; for culling.
-  std::vector<LandmarkId> visible_points;
-  std::vector<LandmarkId> visible_lines;
+  PerKind<std::vector<LandmarkId>> visible;
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, is_due, last_tracked, previous_velocity, visible_points, visible_lines);
+    archive.Fields(*this, is_due, last_tracked, previous_velocity, visible);
   }
 };
 

@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "msc_vo/map/feature_counts.h"
-#include "msc_vo/map/frame_intrinsics.h"
-#include "msc_vo/map/rolling_shutter.h"
+#include "msc_vo/frame/feature_counts.h"
+#include "msc_vo/frame/frame_intrinsics.h"
+#include "msc_vo/frame/rolling_shutter.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/pose_estimation/pose_search.h"
 #include "msc_vo/timing/stopwatch.h"
@@ -29,7 +29,7 @@ Rigid3 CamFromWorld(const Map& map, const TrackedFrame& tracked) {
 }
 
 // The keyframe `id`, or the newest keyframe if it was removed from the map.
-KeyframeId LivingReference(const Map& map, KeyframeId id) {
+KeyframeId ReferenceOrNewest(const Map& map, KeyframeId id) {
   return map.FindKeyframe(id) != nullptr ? id : map.keyframes().back().first;
 }
 
@@ -98,7 +98,7 @@ TrackedFrame Tracker::Track(std::shared_ptr<const Frame> raw, const MapSnapshot&
     in_gap_ = true;
     BridgeWithPrediction(map, prediction, &tracked);
     if (IsNewSegmentDue(map, tracked)) return BeginSegment(std::move(raw), last_from_world);
-    if (!HasLeftMap(map, tracked)) return tracked;
+    if (!IsOutsideMappedArea(map, tracked)) return tracked;
     tracked.keyframe.is_due = true;
     policy_.Inserted(timestamp);
     UpdateMotion(last_from_world, &tracked);
@@ -239,10 +239,10 @@ void Tracker::BridgeWithPrediction(const Map& map, const Prediction& prediction,
   tracked->matches = {};
   tracked->pose = prediction.by_factors;
   tracked->cam_from_world = prediction.cam_from_world;
-  SetReference(map, LivingReference(map, last_.reference), tracked);
+  SetReference(map, ReferenceOrNewest(map, last_.reference), tracked);
 }
 
-bool Tracker::HasLeftMap(const Map& map, const TrackedFrame& tracked) const {
+bool Tracker::IsOutsideMappedArea(const Map& map, const TrackedFrame& tracked) const {
   if (!tracked.pose.usable || !CanBeginMap(*tracked.frame, options_.min_initial_features)) {
     return false;
   }
@@ -270,7 +270,7 @@ bool Tracker::TrackMapAround(const Map& map, const Prediction& prediction,
   const LocalMap local =
       prediction.by_factors.usable
           ? SelectVisibleLandmarks(map, *tracked->frame, pose)
-          : SelectLocalMap(map, *tracked->frame, pose, {}, LivingReference(map, last_.reference),
+          : SelectLocalMap(map, *tracked->frame, pose, {}, ReferenceOrNewest(map, last_.reference),
                            options_.max_local_keyframes);
   tracked->cam_from_world = pose;
   tracked->matches = MatchLocalMap(options_, *tracked->frame, local, options_.wide_radius, {});
@@ -307,12 +307,12 @@ bool Tracker::TrackLocalMap(const Map& map, TrackedFrame* tracked) const {
   const FrameMatches initial_matches = tracked->matches;
   const LocalMap local =
       SelectLocalMap(map, *tracked->frame, tracked->cam_from_world, tracked->matches,
-                     LivingReference(map, last_.reference), options_.max_local_keyframes);
+                     ReferenceOrNewest(map, last_.reference), options_.max_local_keyframes);
   tracked->matches = MatchLocalMap(options_, *tracked->frame, local, options_.local_map_radius,
                                    LandmarkInliers(tracked->matches));
-  for (const PointCandidate& point : local.points)
-    tracked->keyframe.visible_points.push_back(point.id);
-  for (const LineCandidate& line : local.lines) tracked->keyframe.visible_lines.push_back(line.id);
+  PerKind<std::vector<LandmarkId>>& visible = tracked->keyframe.visible;
+  for (const PointCandidate& point : local.points) visible.points.push_back(point.id);
+  for (const LineCandidate& line : local.lines) visible.lines.push_back(line.id);
   tracked->times.matching += stopwatch.Milliseconds();
   const bool found = EstimatePose(options_.pose, map, tracked);
   if (!found) {

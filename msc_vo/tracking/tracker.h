@@ -96,7 +96,7 @@ class Tracker {
                             TrackedFrame* tracked) const;
   // Whether the pose factors have moved the camera to where the map has too few landmarks, and the
   // image has enough features to begin another part of it.
-  bool HasLeftMap(const Map& map, const TrackedFrame& tracked) const;
+  bool IsOutsideMappedArea(const Map& map, const TrackedFrame& tracked) const;
 
   // Stage 2: matching with the local map. Returns false and keeps the initial pose if the local map
   // has too few landmarks.

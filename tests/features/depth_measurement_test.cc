@@ -7,7 +7,7 @@
 #include "tests/features/drawing.h"
 #include <gtest/gtest.h>
 
-#include "msc_vo/map/rolling_shutter.h"
+#include "msc_vo/frame/rolling_shutter.h"
 
 namespace msc_vo {
 namespace {

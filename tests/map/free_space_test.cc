@@ -24,12 +24,12 @@ Frame FrameWithCamera(double distance) {
 
 TEST(FreeSpace, IsBeforeTheNearestSurface) {
   const Frame frame = FrameWithCamera(2.0);
-  EXPECT_TRUE(LooksThrough(frame, {0.1, 0.2, 1.0}));
+  EXPECT_TRUE(IsInFreeSpace(frame, {0.1, 0.2, 1.0}));
   EXPECT_FALSE(ShowsSurface(frame, {0.1, 0.2, 1.0}));
-  EXPECT_FALSE(LooksThrough(frame, {0.1, 0.2, 1.95}));
+  EXPECT_FALSE(IsInFreeSpace(frame, {0.1, 0.2, 1.95}));
   EXPECT_TRUE(ShowsSurface(frame, {0.1, 0.2, 1.95}));
   EXPECT_TRUE(ShowsSurface(frame, {0.1, 0.2, 2.05}));
-  EXPECT_FALSE(LooksThrough(frame, {0.1, 0.2, 3.0}));  // hidden
+  EXPECT_FALSE(IsInFreeSpace(frame, {0.1, 0.2, 3.0}));  // hidden
   EXPECT_FALSE(ShowsSurface(frame, {0.1, 0.2, 3.0}));
 }
 
@@ -37,10 +37,10 @@ TEST(FreeSpace, IsUnknownOutsideOfTheImage) {
   const Frame frame = FrameWithCamera(2.0);
   for (const Eigen::Vector3d& point :
        {Eigen::Vector3d(3.0, 0.0, 1.0), Eigen::Vector3d(0.0, 0.0, -1.0)}) {
-    EXPECT_FALSE(LooksThrough(frame, point));
+    EXPECT_FALSE(IsInFreeSpace(frame, point));
     EXPECT_FALSE(ShowsSurface(frame, point));
   }
-  EXPECT_FALSE(LooksThrough(Frame(), {0.0, 0.0, 1.0}));
+  EXPECT_FALSE(IsInFreeSpace(Frame(), {0.0, 0.0, 1.0}));
 }
 
 Rigid3 Forward(double metres) { return {Eigen::Quaterniond::Identity(), {0.0, 0.0, -metres}}; }

@@ -27,12 +27,12 @@ class MapTest : public ::testing::Test {
       keyframes_[i] =
           map_.AddKeyframe(MakeFrame(4, 2), Rigid3(Eigen::Quaterniond::Identity(), translation));
     }
-    a_ = map_.AddPoint(keyframes_[0], 0, {0, 0, 2});
-    b_ = map_.AddPoint(keyframes_[1], 1, {0.1, 0, 2});
+    a_ = map_.Add<PointLandmark>(keyframes_[0], 0, {0, 0, 2});
+    b_ = map_.Add<PointLandmark>(keyframes_[1], 1, {0.1, 0, 2});
     LineSegment3 segment;
     segment.start = {0, 0, 2};
     segment.end = {0, 1, 2};
-    line_ = map_.AddLine(keyframes_[0], 0, segment);
+    line_ = map_.Add<LineLandmark>(keyframes_[0], 0, segment);
   }
 
   Map map_;
@@ -43,55 +43,56 @@ class MapTest : public ::testing::Test {
 };
 
 TEST_F(MapTest, StoresObservationsInLandmarkAndKeyframe) {
-  EXPECT_TRUE(map_.ObservePoint(a_, keyframes_[2], 3));
+  EXPECT_TRUE(map_.Observe<PointLandmark>(a_, keyframes_[2], 3));
   EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->points[3], a_);
-  ASSERT_EQ(map_.FindPoint(a_)->observations.size(), 2u);
-  EXPECT_EQ(map_.FindPoint(a_)->observations[1].keyframe, keyframes_[2]);
-  EXPECT_EQ(map_.FindPoint(a_)->observations[1].feature, 3);
+  ASSERT_EQ(map_.Find<PointLandmark>(a_)->observations.size(), 2u);
+  EXPECT_EQ(map_.Find<PointLandmark>(a_)->observations[1].keyframe, keyframes_[2]);
+  EXPECT_EQ(map_.Find<PointLandmark>(a_)->observations[1].feature, 3);
 }
 
 TEST_F(MapTest, SortsObservationsByKeyframe) {
-  EXPECT_TRUE(map_.ObservePoint(b_, keyframes_[2], 0));
-  EXPECT_TRUE(map_.ObservePoint(b_, keyframes_[0], 2));
+  EXPECT_TRUE(map_.Observe<PointLandmark>(b_, keyframes_[2], 0));
+  EXPECT_TRUE(map_.Observe<PointLandmark>(b_, keyframes_[0], 2));
   std::vector<KeyframeId> order;
-  for (const Observation& o : map_.FindPoint(b_)->observations) order.push_back(o.keyframe);
+  for (const Observation& o : map_.Find<PointLandmark>(b_)->observations)
+    order.push_back(o.keyframe);
   EXPECT_THAT(order, ElementsAre(keyframes_[0], keyframes_[1], keyframes_[2]));
 }
 
 TEST_F(MapTest, RejectsDuplicateTakenAndUnknownObservations) {
-  EXPECT_FALSE(map_.ObservePoint(a_, keyframes_[0], 3));  // already observed
-  EXPECT_FALSE(map_.ObservePoint(a_, keyframes_[1], 1));  // feature of b
-  EXPECT_FALSE(map_.ObservePoint(999, keyframes_[0], 3));
-  EXPECT_FALSE(map_.ObserveLine(line_, keyframes_[0], 1));
-  EXPECT_EQ(map_.FindPoint(a_)->observations.size(), 1u);
+  EXPECT_FALSE(map_.Observe<PointLandmark>(a_, keyframes_[0], 3));  // already observed
+  EXPECT_FALSE(map_.Observe<PointLandmark>(a_, keyframes_[1], 1));  // feature of b
+  EXPECT_FALSE(map_.Observe<PointLandmark>(999, keyframes_[0], 3));
+  EXPECT_FALSE(map_.Observe<LineLandmark>(line_, keyframes_[0], 1));
+  EXPECT_EQ(map_.Find<PointLandmark>(a_)->observations.size(), 1u);
 }
 
 TEST_F(MapTest, RemovesTheLandmarkWithItsLastObservation) {
-  map_.RemovePointObservation(a_, keyframes_[1]);  // not observed there: no effect
-  EXPECT_NE(map_.FindPoint(a_), nullptr);
-  map_.RemovePointObservation(a_, keyframes_[0]);
-  EXPECT_EQ(map_.FindPoint(a_), nullptr);
+  map_.RemoveObservation<PointLandmark>(a_, keyframes_[1]);  // not observed there: no effect
+  EXPECT_NE(map_.Find<PointLandmark>(a_), nullptr);
+  map_.RemoveObservation<PointLandmark>(a_, keyframes_[0]);
+  EXPECT_EQ(map_.Find<PointLandmark>(a_), nullptr);
   EXPECT_EQ(map_.FindKeyframe(keyframes_[0])->points[0], kNoId);
 }
 
 TEST_F(MapTest, MergesObservationsWithoutCollision) {
-  map_.ObservePoint(a_, keyframes_[2], 0);
-  map_.ObservePoint(b_, keyframes_[2], 1);  // both observed in keyframe 2: one remains
-  map_.MergePoints(b_, a_);
-  EXPECT_EQ(map_.FindPoint(b_), nullptr);
-  EXPECT_EQ(map_.FindPoint(a_)->observations.size(), 3u);
+  map_.Observe<PointLandmark>(a_, keyframes_[2], 0);
+  map_.Observe<PointLandmark>(b_, keyframes_[2], 1);  // both observed in keyframe 2: one remains
+  map_.MergeLandmarks<PointLandmark>(b_, a_);
+  EXPECT_EQ(map_.Find<PointLandmark>(b_), nullptr);
+  EXPECT_EQ(map_.Find<PointLandmark>(a_)->observations.size(), 3u);
   EXPECT_EQ(map_.FindKeyframe(keyframes_[1])->points[1], a_);
   EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->points[0], a_);
   EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->points[1], kNoId);
-  EXPECT_EQ(map_.FindPoint(a_)->num_found, 2);
+  EXPECT_EQ(map_.Find<PointLandmark>(a_)->num_found, 2);
 }
 
 TEST_F(MapTest, KeepsThePoseOfARemovedKeyframeRelativeToItsSuccessor) {
   const Rigid3 before = map_.CamFromWorld(keyframes_[1]);
-  map_.ObservePoint(b_, keyframes_[2], 0);
+  map_.Observe<PointLandmark>(b_, keyframes_[2], 0);
   map_.RemoveKeyframe(keyframes_[1], keyframes_[2]);
   EXPECT_EQ(map_.FindKeyframe(keyframes_[1]), nullptr);
-  EXPECT_EQ(map_.FindPoint(b_)->observations.size(), 1u);
+  EXPECT_EQ(map_.Find<PointLandmark>(b_)->observations.size(), 1u);
   EXPECT_TRUE(map_.CamFromWorld(keyframes_[1]).params.isApprox(before.params, 1e-12));
   // The pose moves with the successor, also after its removal.
   const Rigid3 shift(Eigen::Quaterniond::Identity(), {0, 0, 1});
@@ -101,9 +102,9 @@ TEST_F(MapTest, KeepsThePoseOfARemovedKeyframeRelativeToItsSuccessor) {
 }
 
 TEST_F(MapTest, RanksCovisibleKeyframesBySharedLandmarks) {
-  map_.ObservePoint(a_, keyframes_[1], 0);
-  map_.ObserveLine(line_, keyframes_[1], 0);
-  map_.ObservePoint(a_, keyframes_[2], 0);
+  map_.Observe<PointLandmark>(a_, keyframes_[1], 0);
+  map_.Observe<LineLandmark>(line_, keyframes_[1], 0);
+  map_.Observe<PointLandmark>(a_, keyframes_[2], 0);
   const std::vector<Map::Covisible> covisible = map_.FindCovisible(keyframes_[0]);
   ASSERT_EQ(covisible.size(), 2u);
   EXPECT_EQ(covisible[0].keyframe, keyframes_[1]);
@@ -113,10 +114,10 @@ TEST_F(MapTest, RanksCovisibleKeyframesBySharedLandmarks) {
 }
 
 TEST_F(MapTest, RefreshComputesTheCentralDescriptorAndMeanDirection) {
-  map_.ObservePoint(a_, keyframes_[1], 3);  // descriptor 0b11, nearest to both others
-  map_.ObservePoint(a_, keyframes_[2], 2);  // descriptor 0b10
-  map_.RefreshPoint(a_);
-  const PointLandmark& point = *map_.FindPoint(a_);
+  map_.Observe<PointLandmark>(a_, keyframes_[1], 3);  // descriptor 0b11, nearest to both others
+  map_.Observe<PointLandmark>(a_, keyframes_[2], 2);  // descriptor 0b10
+  map_.Refresh<PointLandmark>(a_);
+  const PointLandmark& point = *map_.Find<PointLandmark>(a_);
   EXPECT_EQ(point.descriptor[0], 0b10);
   const Eigen::Vector3d expected =
       (Eigen::Vector3d(0, 0, 2).normalized() + Eigen::Vector3d(-0.5, 0, 2).normalized() +
@@ -126,25 +127,25 @@ TEST_F(MapTest, RefreshComputesTheCentralDescriptorAndMeanDirection) {
 }
 
 TEST_F(MapTest, RefreshUpdatesTheDescriptorWithTheObservations) {
-  const Descriptor first = map_.FindPoint(a_)->descriptor;
-  map_.ObservePoint(a_, keyframes_[1], 3);
-  map_.ObservePoint(a_, keyframes_[2], 2);
-  map_.RefreshPoint(a_);
-  EXPECT_NE(map_.FindPoint(a_)->descriptor, first);
-  map_.RemovePointObservation(a_, keyframes_[1]);
-  map_.RemovePointObservation(a_, keyframes_[2]);
-  map_.RefreshPoint(a_);
-  EXPECT_EQ(map_.FindPoint(a_)->descriptor, first);
+  const Descriptor first = map_.Find<PointLandmark>(a_)->descriptor;
+  map_.Observe<PointLandmark>(a_, keyframes_[1], 3);
+  map_.Observe<PointLandmark>(a_, keyframes_[2], 2);
+  map_.Refresh<PointLandmark>(a_);
+  EXPECT_NE(map_.Find<PointLandmark>(a_)->descriptor, first);
+  map_.RemoveObservation<PointLandmark>(a_, keyframes_[1]);
+  map_.RemoveObservation<PointLandmark>(a_, keyframes_[2]);
+  map_.Refresh<PointLandmark>(a_);
+  EXPECT_EQ(map_.Find<PointLandmark>(a_)->descriptor, first);
 }
 
 TEST_F(MapTest, SharedMapsChangeIndependently) {
   Map copy = map_.Share();
-  map_.RemovePoint(a_);
+  map_.Remove<PointLandmark>(a_);
   map_.SetPose(keyframes_[1], Rigid3());
-  EXPECT_NE(copy.FindPoint(a_), nullptr);
+  EXPECT_NE(copy.Find<PointLandmark>(a_), nullptr);
   EXPECT_DOUBLE_EQ(copy.FindKeyframe(keyframes_[1])->cam_from_world.translation().x(), -0.5);
-  copy.RemoveLine(line_);
-  EXPECT_NE(map_.FindLine(line_), nullptr);
+  copy.Remove<LineLandmark>(line_);
+  EXPECT_NE(map_.Find<LineLandmark>(line_), nullptr);
 }
 
 }  // namespace

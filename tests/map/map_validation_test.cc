@@ -27,12 +27,12 @@ class MapValidationTest : public ::testing::Test {
  protected:
   void SetUp() override {
     for (KeyframeId& keyframe : keyframes_) keyframe = map_.AddKeyframe(MakeFrame(3), Rigid3());
-    point_ = map_.AddPoint(keyframes_[0], 1, {0.1, 0.0, 2.0});
-    line_ = map_.AddLine(keyframes_[0], 0, {{0.0, 0.0, 2.0}, {0.0, 1.0, 2.0}});
-    map_.ObservePoint(point_, keyframes_[1], 2);
-    map_.ObserveLine(line_, keyframes_[1], 1);
-    map_.RefreshPoint(point_);
-    map_.RefreshLine(line_);
+    point_ = map_.Add<PointLandmark>(keyframes_[0], 1, {0.1, 0.0, 2.0});
+    line_ = map_.Add<LineLandmark>(keyframes_[0], 0, {{0.0, 0.0, 2.0}, {0.0, 1.0, 2.0}});
+    map_.Observe<PointLandmark>(point_, keyframes_[1], 2);
+    map_.Observe<LineLandmark>(line_, keyframes_[1], 1);
+    map_.Refresh<PointLandmark>(point_);
+    map_.Refresh<LineLandmark>(line_);
   }
   Map map_;
   KeyframeId keyframes_[2] = {};
@@ -42,7 +42,7 @@ class MapValidationTest : public ::testing::Test {
 TEST_F(MapValidationTest, AcceptsMapAndItsChanges) {
   EXPECT_THAT(FirstViolation(Map()), IsEmpty());
   EXPECT_THAT(FirstViolation(map_), IsEmpty());
-  map_.RemovePointObservation(point_, keyframes_[0]);
+  map_.RemoveObservation<PointLandmark>(point_, keyframes_[0]);
   EXPECT_THAT(FirstViolation(map_), IsEmpty());
   map_.RemoveKeyframe(keyframes_[0], keyframes_[1]);
   EXPECT_THAT(FirstViolation(map_), IsEmpty());
@@ -50,10 +50,10 @@ TEST_F(MapValidationTest, AcceptsMapAndItsChanges) {
 
 TEST_F(MapValidationTest, FindsNumbersThatAreNotFinite) {
   Map map = map_.Share();
-  map.SetPoint(point_, {0.0, kNan, 1.0});
+  map.SetGeometry<PointLandmark>(point_, {0.0, kNan, 1.0});
   EXPECT_THAT(FirstViolation(map), HasSubstr("position is not finite"));
   map = map_.Share();
-  map.SetLine(line_, {{0.0, 0.0, kNan}, {0.0, 1.0, 2.0}});
+  map.SetGeometry<LineLandmark>(line_, {{0.0, 0.0, kNan}, {0.0, 1.0, 2.0}});
   EXPECT_THAT(FirstViolation(map), HasSubstr("end points are not finite"));
   map = map_.Share();
   map.SetPose(keyframes_[1], Rigid3(Eigen::Quaterniond::Identity(), {kNan, 0.0, 0.0}));
@@ -62,11 +62,11 @@ TEST_F(MapValidationTest, FindsNumbersThatAreNotFinite) {
 
 TEST_F(MapValidationTest, FindsGeometryWithoutMeaning) {
   Map map = map_.Share();
-  map.SetLine(line_, {{0.0, 1.0, 2.0}, {0.0, 1.0, 2.0}});
+  map.SetGeometry<LineLandmark>(line_, {{0.0, 1.0, 2.0}, {0.0, 1.0, 2.0}});
   EXPECT_THAT(FirstViolation(map), HasSubstr("line"));
   EXPECT_THAT(FirstViolation(map), HasSubstr("no length"));
   map = map_.Share();
-  map.SetPointNoise(point_, 0.0);
+  map.SetNoise<PointLandmark>(point_, 0.0);
   EXPECT_THAT(FirstViolation(map), HasSubstr("noise"));
   map = map_.Share();
   map.SetPose(keyframes_[0], Rigid3(Eigen::Quaterniond(2.0, 0.0, 0.0, 0.0), {0.0, 0.0, 0.0}));

@@ -24,8 +24,8 @@ class ObserverCountTest : public ::testing::Test {
     frame->points.resize(4);
     for (int i = 0; i < 4; ++i) map_.AddKeyframe(frame, Rigid3());
     for (int i = 0; i < 4; ++i) {
-      points_.push_back(map_.AddPoint(0, i, {0, 0, 2}));
-      for (int k = 1; k <= i; ++k) map_.ObservePoint(points_.back(), k, i);
+      points_.push_back(map_.Add<PointLandmark>(0, i, {0, 0, 2}));
+      for (int k = 1; k <= i; ++k) map_.Observe<PointLandmark>(points_.back(), k, i);
     }
   }
 
@@ -36,9 +36,9 @@ class ObserverCountTest : public ::testing::Test {
 TEST_F(ObserverCountTest, RanksByCountThenNewestFirst) {
   ObserverCount observers(map_);
   EXPECT_TRUE(observers.Ranked().empty());
-  observers.Add(*map_.FindPoint(points_[2]));
+  observers.Add(*map_.Find<PointLandmark>(points_[2]));
   EXPECT_THAT(Keyframes(observers.Ranked()), ElementsAre(2, 1, 0));
-  observers.Add(*map_.FindPoint(points_[1]));
+  observers.Add(*map_.Find<PointLandmark>(points_[1]));
   EXPECT_THAT(Keyframes(observers.Ranked()), ElementsAre(1, 0, 2));
   EXPECT_EQ(observers.Ranked().front().num_shared, 2);
 }
@@ -48,7 +48,7 @@ TEST_F(ObserverCountTest, SupportsRemovedKeyframes) {
   map_.RemoveKeyframe(2, 1);
   ObserverCount observers(map_);
   for (const LandmarkId id : {points_[1], points_[2], points_[3]}) {
-    observers.Add(*map_.FindPoint(id));
+    observers.Add(*map_.Find<PointLandmark>(id));
   }
   EXPECT_THAT(Keyframes(observers.Ranked()), ElementsAre(1, 3));
   EXPECT_EQ(observers.Ranked().front().num_shared, 3);

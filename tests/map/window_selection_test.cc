@@ -32,16 +32,16 @@ class WindowSelectionTest : public ::testing::Test {
     for (size_t i = 0; i < frame->points.size(); ++i) {
       const auto [known, is_new] = point_of_.emplace(frame->points[i].descriptor, kNoId);
       const int feature = static_cast<int>(i);
-      if (!is_new && map_.ObservePoint(known->second, id, feature)) continue;
-      known->second =
-          map_.AddPoint(id, feature, cam_from_world.Inverse() * frame->PointInCamera(feature));
+      if (!is_new && map_.Observe<PointLandmark>(known->second, id, feature)) continue;
+      known->second = map_.Add<PointLandmark>(
+          id, feature, cam_from_world.Inverse() * frame->PointInCamera(feature));
     }
     for (size_t i = 0; i < frame->lines.size(); ++i) {
       const auto [known, is_new] = line_of_.emplace(frame->lines[i].descriptor, kNoId);
       const int feature = static_cast<int>(i);
-      if (!is_new && map_.ObserveLine(known->second, id, feature)) continue;
-      known->second =
-          map_.AddLine(id, feature, cam_from_world.Inverse() * frame->LineInCamera(feature));
+      if (!is_new && map_.Observe<LineLandmark>(known->second, id, feature)) continue;
+      known->second = map_.Add<LineLandmark>(
+          id, feature, cam_from_world.Inverse() * frame->LineInCamera(feature));
     }
   }
 
@@ -129,7 +129,7 @@ TEST_F(WindowSelectionTest, ObservationsReferToKeyframesOfTheWindow) {
 TEST_F(WindowSelectionTest, WriteBackUpdatesTheMapAndRemovesRejectedObservations) {
   WindowData window = SelectWindow(WindowSelectionOptions(), map_, 5);
   const size_t observations_before =
-      map_.FindPoint(window.point_observations[0].point)->observations.size();
+      map_.Find<PointLandmark>(window.point_observations[0].point)->observations.size();
   ASSERT_GE(observations_before, 2u);
   window.point_observations[0].rejected = true;
   const Eigen::Vector3d moved(9, 9, 9);
@@ -137,8 +137,8 @@ TEST_F(WindowSelectionTest, WriteBackUpdatesTheMapAndRemovesRejectedObservations
   window.keyframes.back().cam_from_world.translation().x() += 0.25;
   const Rigid3 pose = window.keyframes.back().cam_from_world;
   WriteBack(window, &map_);
-  EXPECT_EQ(map_.FindPoint(window.points[0].id)->position, moved);
-  EXPECT_EQ(map_.FindPoint(window.point_observations[0].point)->observations.size(),
+  EXPECT_EQ(map_.Find<PointLandmark>(window.points[0].id)->position, moved);
+  EXPECT_EQ(map_.Find<PointLandmark>(window.point_observations[0].point)->observations.size(),
             observations_before - 1);
   EXPECT_EQ(map_.FindKeyframe(window.keyframes.back().id)->cam_from_world.params, pose.params);
 }
@@ -147,12 +147,12 @@ TEST_F(WindowSelectionTest, WriteBackUpdatesTheMapAndRemovesRejectedObservations
 std::vector<Eigen::Vector3d> ObservedByItAlone(const Map& map, const Keyframe& keyframe) {
   std::vector<Eigen::Vector3d> positions;
   for (const LandmarkId id : keyframe.points) {
-    const PointLandmark* point = id == kNoId ? nullptr : map.FindPoint(id);
+    const PointLandmark* point = id == kNoId ? nullptr : map.Find<PointLandmark>(id);
     if (point == nullptr || point->observations.size() > 1) continue;
     positions.push_back(keyframe.cam_from_world * point->position);
   }
   for (const LandmarkId id : keyframe.lines) {
-    const LineLandmark* line = id == kNoId ? nullptr : map.FindLine(id);
+    const LineLandmark* line = id == kNoId ? nullptr : map.Find<LineLandmark>(id);
     if (line == nullptr || line->observations.size() > 1) continue;
     positions.push_back(keyframe.cam_from_world * line->segment.start);
     positions.push_back(keyframe.cam_from_world * line->segment.end);
@@ -163,9 +163,9 @@ std::vector<Eigen::Vector3d> ObservedByItAlone(const Map& map, const Keyframe& k
 TEST_F(WindowSelectionTest, LandmarksOfOneKeyframeMoveWithIt) {
   for (const KeyframeId other : {0, 1, 2, 3, 4}) {
     const Keyframe keyframe = *map_.FindKeyframe(other);
-    for (const LandmarkId id : keyframe.points) map_.RemovePointObservation(id, other);
+    for (const LandmarkId id : keyframe.points) map_.RemoveObservation<PointLandmark>(id, other);
     for (size_t i = 0; i < keyframe.lines.size(); i += 2) {
-      map_.RemoveLineObservation(keyframe.lines[i], other);
+      map_.RemoveObservation<LineLandmark>(keyframe.lines[i], other);
     }
   }
   WindowData window = SelectWindow(WindowSelectionOptions(), map_, 5);

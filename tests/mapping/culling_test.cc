@@ -17,11 +17,12 @@ class CullingTest : public ::testing::Test {
     return map_.AddKeyframe(frame, Rigid3());
   }
   void ObserveAllPoints(KeyframeId keyframe) {
-    for (int i = 0; i < 4; ++i) map_.ObservePoint(points_[i], keyframe, i);
+    for (int i = 0; i < 4; ++i) map_.Observe<PointLandmark>(points_[i], keyframe, i);
   }
   void SetUp() override {
     const KeyframeId first = AddKeyframe();
-    for (int i = 0; i < 4; ++i) points_.push_back(map_.AddPoint(first, i, {0.1 * i, 0, 2}));
+    for (int i = 0; i < 4; ++i)
+      points_.push_back(map_.Add<PointLandmark>(first, i, {0.1 * i, 0, 2}));
   }
 
   Map map_;
@@ -33,22 +34,22 @@ TEST_F(CullingTest, RemovesUnconfirmedLandmarksAfterProbation) {
   Probation probation;
   probation.points.insert(points_.begin(), points_.end());
   const KeyframeId second = AddKeyframe();
-  map_.ObservePoint(points_[0], second, 0);
+  map_.Observe<PointLandmark>(points_[0], second, 0);
   CullLandmarks(options_, second, &probation, &map_);
   EXPECT_EQ(map_.points().size(), 4u);  // still on probation
   const KeyframeId third = AddKeyframe();
   CullLandmarks(options_, third, &probation, &map_);
   EXPECT_EQ(map_.points().size(), 1u);
-  EXPECT_NE(map_.FindPoint(points_[0]), nullptr);
+  EXPECT_NE(map_.Find<PointLandmark>(points_[0]), nullptr);
   EXPECT_TRUE(probation.points.empty());
 }
 
 TEST_F(CullingTest, RemovesLandmarksThatAreRarelyFound) {
   Probation probation;
   probation.points.insert(points_.begin(), points_.end());
-  map_.CountPointTracking(points_[1], 20, 1);
+  map_.CountTracking<PointLandmark>(points_[1], 20, 1);
   CullLandmarks(options_, 0, &probation, &map_);
-  EXPECT_EQ(map_.FindPoint(points_[1]), nullptr);
+  EXPECT_EQ(map_.Find<PointLandmark>(points_[1]), nullptr);
   EXPECT_EQ(map_.points().size(), 3u);
 }
 
@@ -64,8 +65,8 @@ TEST_F(CullingTest, RemovesRedundantKeyframesExceptTheEnds) {
 
 TEST_F(CullingTest, KeepsKeyframesWithFewObservedLandmarks) {
   for (int i = 1; i <= 5; ++i) AddKeyframe();
-  map_.ObservePoint(points_[0], 2, 0);
-  map_.ObservePoint(points_[0], 5, 0);
+  map_.Observe<PointLandmark>(points_[0], 2, 0);
+  map_.Observe<PointLandmark>(points_[0], 5, 0);
   EXPECT_EQ(CullKeyframes(options_, 5, &map_), 0);
 }
 

@@ -24,8 +24,7 @@ class FusionTest : public ::testing::Test {
     for (const int index : {first, second}) {
       ids.push_back(
           map_.AddKeyframe(world_.MakeFrame(index), SyntheticFrames::CamFromWorld(index)));
-      CreatePoints(ids.back(), &probation_, &map_);
-      CreateLines(ids.back(), &probation_, &map_);
+      CreateLandmarks(ids.back(), &probation_, &map_);
     }
     MergeOnePoint(*map_.FindKeyframe(ids[0]), *map_.FindKeyframe(ids[1]));
   }
@@ -35,7 +34,7 @@ class FusionTest : public ::testing::Test {
         if (HammingDistance(a.frame->points[i].descriptor, b.frame->points[j].descriptor) > 40) {
           continue;
         }
-        map_.MergePoints(b.points[j], a.points[i]);
+        map_.MergeLandmarks<PointLandmark>(b.points[j], a.points[i]);
         return;
       }
     }
@@ -49,8 +48,7 @@ class FusionTest : public ::testing::Test {
 TEST_F(FusionTest, MergesDuplicates) {
   const size_t points_before = map_.points().size();
   const size_t lines_before = map_.lines().size();
-  FusePoints(FusionOptions(), 1, &map_);
-  FuseLines(FusionOptions(), 1, &map_);
+  FuseLandmarks(FusionOptions(), 1, &map_);
   // Nearly all points are visible in both frames; a few leave the image or fail to match.
   EXPECT_LT(map_.points().size(), 0.65 * points_before);
   EXPECT_LT(map_.lines().size(), 0.75 * lines_before);
@@ -66,17 +64,18 @@ TEST_F(FusionTest, IgnoresDynamicFeatures) {
   Map map;
   SyntheticFrames world{SyntheticFrames::Options()};
   const KeyframeId first = map.AddKeyframe(world.MakeFrame(0), SyntheticFrames::CamFromWorld(0));
-  CreatePoints(first, &probation_, &map);
+  CreateLandmarks(first, &probation_, &map);
   auto marked = std::make_shared<Frame>(*world.MakeFrame(15));
   for (size_t i = 1; i < marked->points.size(); ++i) marked->points[i].dynamic = i % 2 == 0;
   const KeyframeId second = map.AddKeyframe(marked, SyntheticFrames::CamFromWorld(15));
   // One shared landmark makes the keyframes covisible.
   for (const LandmarkId id : map.FindKeyframe(first)->points) {
-    if (HammingDistance(map.FindPoint(id)->descriptor, marked->points[0].descriptor) > 40) continue;
-    map.ObservePoint(id, second, 0);
+    if (HammingDistance(map.Find<PointLandmark>(id)->descriptor, marked->points[0].descriptor) > 40)
+      continue;
+    map.Observe<PointLandmark>(id, second, 0);
     break;
   }
-  FusePoints(FusionOptions(), second, &map);
+  FuseLandmarks(FusionOptions(), second, &map);
   int num_observed = 0;
   for (size_t i = 0; i < marked->points.size(); ++i) {
     const bool is_observed = map.FindKeyframe(second)->points[i] != kNoId;
@@ -90,13 +89,13 @@ TEST_F(FusionTest, MergesDuplicatesOfAllKeyframes) {
   AddPair(30, 45);  // covisible with each other only
   const size_t points_before = map_.points().size();
   const size_t lines_before = map_.lines().size();
-  FuseLandmarks(FusionOptions(), &map_);
+  FuseAllLandmarks(FusionOptions(), &map_);
   EXPECT_LT(map_.points().size(), 0.65 * points_before);
   EXPECT_LT(map_.lines().size(), 0.75 * lines_before);
 }
 
 TEST_F(FusionTest, KeepsDifferentLandmarksSeparate) {
-  FusePoints(FusionOptions(), 1, &map_);
+  FuseLandmarks(FusionOptions(), 1, &map_);
   // At most 12 bits of a descriptor are flipped per observation, so that two observations of one
   // landmark differ in at most 24.
   size_t num_shared = 0;

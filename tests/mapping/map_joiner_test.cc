@@ -24,13 +24,13 @@ KeyframeId AddKeyframe(double timestamp, double x, Map* map) {
 class MapJoinerTest : public testing::Test {
  protected:
   MapJoinerTest() {
-    for (const double time : {0.0, 0.5, 1.0}) AddKeyframe(time, 0.5 * time, &atlas_.current());
+    for (const double time : {0.0, 0.5, 1.0}) AddKeyframe(time, 0.5 * time, &atlas_.current().map);
     BeginMap(2.0);
   }
 
   // Leaves the current map for a new one after a last pose at that time.
   void BeginMap(double seconds) {
-    const auto& [id, keyframe] = atlas_.current().keyframes().back();
+    const auto& [id, keyframe] = atlas_.current().map.keyframes().back();
     const double distance = 0.5 * (seconds - keyframe.frame->timestamp);
     joiner_.AddLastPose({seconds, id, CameraAt(distance)});
     atlas_.Begin(true);
@@ -44,14 +44,14 @@ class MapJoinerTest : public testing::Test {
     for (int i = 0; i < 3; ++i) {
       const double time = seconds + 0.5 * i;
       const double x = 0.5 * time;
-      const KeyframeId keyframe = AddKeyframe(time, x, &atlas_.current());
+      const KeyframeId keyframe = AddKeyframe(time, x, &atlas_.current().map);
       const KeyframeId reference = 0;  // at x = 0
       joiner_.Add(keyframe, covariance, {reference, CameraAt(x + offset), covariance, {}});
     }
     return joiner_.TryJoin(&atlas_);
   }
 
-  Atlas atlas_;
+  Atlas atlas_{SceneAxesOptions(), NoiseEstimatorOptions()};
   MapJoiner joiner_{MapAlignmentOptions()};
 };
 
@@ -60,15 +60,15 @@ TEST_F(MapJoinerTest, JoinsMapsInWhichKeyframesAgree) {
   ASSERT_TRUE(join);
   EXPECT_EQ(join->num_keyframes, 3);
   EXPECT_NEAR(join->moved_from_kept.translation().norm(), 0.0, 1e-6);
-  EXPECT_TRUE(atlas_.inactive().empty());
-  EXPECT_EQ(atlas_.current().keyframes().size(), 6u);
+  EXPECT_TRUE(atlas_.inactive_maps().empty());
+  EXPECT_EQ(atlas_.current().map.keyframes().size(), 6u);
 }
 
 // The other end of a corridor, which looks alike.
 TEST_F(MapJoinerTest, JoinsNoMapsBetweenWhichTheCameraCannotHaveMoved) {
   EXPECT_FALSE(JoinAt(4.0, 10.0));
-  EXPECT_EQ(atlas_.inactive().size(), 1u);
-  EXPECT_EQ(atlas_.current().keyframes().size(), 3u);
+  EXPECT_EQ(atlas_.inactive_maps().size(), 1u);
+  EXPECT_EQ(atlas_.current().map.keyframes().size(), 3u);
 }
 
 TEST_F(MapJoinerTest, JoinsDistantPlacesThatTheCameraHadTimeToReach) {

@@ -48,12 +48,12 @@ TEST(RefineMapLines, TurnsUncertainLinesToTheirAxes) {
   options.axes.association.max_sigma = 1.0;
   const Mapper mapper = MapBox(options);
   ASSERT_EQ(mapper.axes().estimator().state(), AxesState::kRefined);
-  const auto refined = mapper.RefinedLines(mapper.map());
+  const auto refined = mapper.RefinedLines(mapper.atlas().current());
   ASSERT_GE(refined.size(), 20u);
   double before = 0.0, after = 0.0;
   size_t num_aligned = 0;
   for (const auto& [id, best] : refined) {
-    const LineLandmark* line = mapper.map().FindLine(id);
+    const LineLandmark* line = mapper.map().Find<LineLandmark>(id);
     ASSERT_NE(line, nullptr);
     before += std::pow(AxisError(line->segment), 2);
     after += std::pow(AxisError(best.segment), 2);
@@ -68,7 +68,7 @@ TEST(RefineMapLines, ReturnsNoneWithoutAxes) {
   MapperOptions options;
   options.axes.enabled = false;
   const Mapper mapper = MapBox(options);
-  EXPECT_TRUE(mapper.RefinedLines(mapper.map()).empty());
+  EXPECT_TRUE(mapper.RefinedLines(mapper.atlas().current()).empty());
 }
 
 }  // namespace

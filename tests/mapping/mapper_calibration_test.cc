@@ -99,10 +99,10 @@ class CalibratingMapper {
 
   Mapper& mapper() { return mapper_; }
   const Frame& FrameOf(KeyframeId id) const {
-    return *mapper_.atlas().FindMapOf(id)->FindKeyframe(id)->frame;
+    return *mapper_.atlas().FindSubMapOf(id)->map.FindKeyframe(id)->frame;
   }
   std::shared_ptr<const CameraIntrinsics> present() const {
-    return mapper_.calibration()->present();
+    return mapper_.calibration().intrinsics()->present();
   }
   int NumMeasured(KeyframeId id) { return num_measured_[FrameOf(id).id]; }
 
@@ -136,7 +136,8 @@ class CalibratingMapper {
       const auto found = landmarks.find(packet->frame->points[i].descriptor);
       if (found == landmarks.end()) continue;
       packet->matches.points.push_back({static_cast<int>(i), found->second,
-                                        mapper_.map().FindPoint(found->second)->position, true});
+                                        mapper_.map().Find<PointLandmark>(found->second)->position,
+                                        true});
     }
   }
 
@@ -297,7 +298,7 @@ TEST(MapperCalibration, MeasuresDepthsOfInactiveMapsIfTheirImagesAreKept) {
   first.matches = {};
   run.Process(first);
   run.ProcessUntilChange(3);
-  ASSERT_EQ(run.mapper().atlas().inactive().size(), 1u);
+  ASSERT_EQ(run.mapper().atlas().inactive_maps().size(), 1u);
   ExpectSameDepths(
       run.FrameOf(0),
       *MeasureSimulatedDepth(*with_image.frame, with_image.image->Depth(), run.present()));

@@ -103,7 +103,7 @@ TEST(Mapper, MovesLandmarksWithTheCompensationOfTheFirstKeyframe) {
   double largest_move = 0.0;
   for (size_t i = 0; i < first.points.size(); ++i) {
     const int feature = static_cast<int>(i);
-    const PointLandmark* point = mapper.map().FindPoint(first.points[i]);
+    const PointLandmark* point = mapper.map().Find<PointLandmark>(first.points[i]);
     if (point == nullptr) continue;
     EXPECT_EQ(point->position, first.frame->PointInCamera(feature)) << i;
     largest_move = std::max(largest_move, (point->position - raw->PointInCamera(feature)).norm());

@@ -52,12 +52,12 @@ class LocalMapTest : public ::testing::Test {
     frame->lines.resize(1);
     frame_ = frame;
     for (int i = 0; i < 3; ++i) map_.AddKeyframe(frame_, Rigid3());
-    shared_ = map_.AddPoint(0, 0, kPosition);
-    map_.ObservePoint(shared_, 1, 0);
-    only_0_ = map_.AddPoint(0, 1, kPosition);
-    only_1_ = map_.AddPoint(1, 1, kPosition);
-    only_2_ = map_.AddPoint(2, 0, kPosition);
-    line_2_ = map_.AddLine(2, 0, kSegment);
+    shared_ = map_.Add<PointLandmark>(0, 0, kPosition);
+    map_.Observe<PointLandmark>(shared_, 1, 0);
+    only_0_ = map_.Add<PointLandmark>(0, 1, kPosition);
+    only_1_ = map_.Add<PointLandmark>(1, 1, kPosition);
+    only_2_ = map_.Add<PointLandmark>(2, 0, kPosition);
+    line_2_ = map_.Add<LineLandmark>(2, 0, kSegment);
   }
 
   static FrameMatches Matches(std::initializer_list<LandmarkId> points) {
@@ -190,8 +190,8 @@ TEST_F(LocalMapTest, CandidatesHaveTheDataOfTheirLandmarks) {
   frame->points[0].descriptor.fill(0x5a);
   frame->lines[0].descriptor.fill(0xa5);
   const KeyframeId keyframe = map_.AddKeyframe(frame, Rigid3());
-  map_.AddPoint(keyframe, 0, {0.4, 0.0, 2.0});
-  map_.AddLine(keyframe, 0, kSegment);
+  map_.Add<PointLandmark>(keyframe, 0, {0.4, 0.0, 2.0});
+  map_.Add<LineLandmark>(keyframe, 0, kSegment);
   const LocalMap local = Select({}, keyframe);
   ASSERT_EQ(local.points.size(), 1u);
   EXPECT_EQ(local.points[0].position, Eigen::Vector3d(0.4, 0.0, 2.0));

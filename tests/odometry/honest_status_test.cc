@@ -77,14 +77,14 @@ double FractionOfWrongInliers(const TrackedImage& image, const Rigid3& true_cam_
   int num_matches = 0;
   int num_wrong = 0;
   for (const PointMatch& match : image.tracked.matches.points) {
-    const PointLandmark* landmark = image.map.map.FindPoint(match.id);
+    const PointLandmark* landmark = image.map.map.Find<PointLandmark>(match.id);
     if (landmark == nullptr) continue;
     const Eigen::Vector2d offset = frame.points[match.feature].pixel - project(landmark->position);
     num_wrong += !(offset.norm() <= kMaxDistance);
     ++num_matches;
   }
   for (const LineMatch& match : image.tracked.matches.lines) {
-    const LineLandmark* landmark = image.map.map.FindLine(match.id);
+    const LineLandmark* landmark = image.map.map.Find<LineLandmark>(match.id);
     if (landmark == nullptr) continue;
     const LineSegment2& segment = frame.lines[match.feature].segment;
     const LineSegment2 truth{project(landmark->segment.start), project(landmark->segment.end)};
@@ -101,10 +101,10 @@ double LeastError(const TruePoses& world_from_cam, const TrackedImage& image) {
   const Map& map = image.map.map;
   ObserverCount observers(map);
   for (const PointMatch& match : image.tracked.matches.points) {
-    if (const PointLandmark* landmark = map.FindPoint(match.id)) observers.Add(*landmark);
+    if (const PointLandmark* landmark = map.Find<PointLandmark>(match.id)) observers.Add(*landmark);
   }
   for (const LineMatch& match : image.tracked.matches.lines) {
-    if (const LineLandmark* landmark = map.FindLine(match.id)) observers.Add(*landmark);
+    if (const LineLandmark* landmark = map.Find<LineLandmark>(match.id)) observers.Add(*landmark);
   }
   const std::vector<Map::Covisible> ranked = observers.Ranked();
   double least = std::numeric_limits<double>::infinity();

@@ -28,7 +28,8 @@ class PoseRefinerTest : public testing::Test {
     }
     keyframe_ = snapshot_.map.AddKeyframe(Observe(0.0, Rigid3()), Rigid3());
     for (size_t i = 0; i < positions_.size(); ++i) {
-      points_.push_back(snapshot_.map.AddPoint(keyframe_, static_cast<int>(i), positions_[i]));
+      points_.push_back(
+          snapshot_.map.Add<PointLandmark>(keyframe_, static_cast<int>(i), positions_[i]));
     }
     poses_.push_back({keyframe_, wrong_});
   }
@@ -124,7 +125,7 @@ TEST_F(PoseRefinerTest, LeavesFramesWhoseSegmentWasDiscarded) {
 
 TEST_F(PoseRefinerTest, KeepsAPoseIfMostLandmarksAreGone) {
   refiner_.Add(0, Tracked(1.0));
-  for (size_t i = 0; i < 19; ++i) snapshot_.map.RemovePoint(points_[i]);
+  for (size_t i = 0; i < 19; ++i) snapshot_.map.Remove<PointLandmark>(points_[i]);
   refiner_.RefineAll(snapshot_, &poses_);
   EXPECT_TRUE(IsUnchanged());
 }
@@ -133,7 +134,8 @@ TEST_F(PoseRefinerTest, KeepsAPoseIfTheMapContradictsTheObservations) {
   refiner_.Add(0, Tracked(1.0));
   for (size_t i = 0; i < points_.size(); ++i) {
     const double sign = i % 2 == 0 ? 1.0 : -1.0;
-    snapshot_.map.SetPoint(points_[i], positions_[i] + Eigen::Vector3d(0.0, sign * 0.3, 0.0));
+    snapshot_.map.SetGeometry<PointLandmark>(points_[i],
+                                             positions_[i] + Eigen::Vector3d(0.0, sign * 0.3, 0.0));
   }
   refiner_.RefineAll(snapshot_, &poses_);
   EXPECT_TRUE(IsUnchanged());

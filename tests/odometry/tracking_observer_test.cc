@@ -27,7 +27,7 @@ TEST_F(TrackingObserverTest, SeesEveryFrameWithItsMatchesAndMap) {
     EXPECT_EQ(static_cast<int>(image.features.points.size()), image.result.num_points);
     for (const LineMatch& match : image.tracked.matches.lines) {
       ASSERT_LT(static_cast<size_t>(match.feature), image.features.lines.size());
-      EXPECT_NE(image.map.map.FindLine(match.id), nullptr);
+      EXPECT_NE(image.map.map.Find<LineLandmark>(match.id), nullptr);
     }
     num_axes += image.map.axes ? 1 : 0;
   });

@@ -8,7 +8,7 @@
 #include "tests/support/simulated_camera.h"
 #include <gtest/gtest.h>
 
-#include "msc_vo/map/frame_intrinsics.h"
+#include "msc_vo/frame/frame_intrinsics.h"
 #include "msc_vo/self_calibration/keyframe_intrinsics.h"
 
 namespace msc_vo {
@@ -159,7 +159,7 @@ TEST(KeyframeIntrinsics, MovesFeaturesAndLandmarksTogether) {
   const auto [frame, depth] = camera.Record(Rigid3());
   Map map;
   const KeyframeId id = map.AddKeyframe(frame, Rigid3());
-  const LandmarkId point = map.AddPoint(id, 0, frame->PointInCamera(0));
+  const LandmarkId point = map.Add<PointLandmark>(id, 0, frame->PointInCamera(0));
   const auto corrected = std::make_shared<CameraIntrinsics>(Corrected(*camera.given(), truth));
   ChangeKeyframeIntrinsics(
       [&](KeyframeId, const std::shared_ptr<const Frame>& given) {
@@ -168,7 +168,7 @@ TEST(KeyframeIntrinsics, MovesFeaturesAndLandmarksTogether) {
       &map);
   const Frame& changed = *map.FindKeyframe(id)->frame;
   EXPECT_EQ(changed.intrinsics, corrected);
-  const Eigen::Vector3d position = map.FindPoint(point)->position;
+  const Eigen::Vector3d position = map.Find<PointLandmark>(point)->position;
   EXPECT_TRUE(position.isApprox(changed.PointInCamera(0), 1e-9));
   // The simulated camera has the corrected calibration: the point projects to its recorded pixel.
   const CorrectedCamera recorded(kGiven, LensDistortion());

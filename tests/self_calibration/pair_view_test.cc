@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "msc_vo/map/rolling_shutter.h"
+#include "msc_vo/frame/rolling_shutter.h"
 
 namespace msc_vo {
 namespace {

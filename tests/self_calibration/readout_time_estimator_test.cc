@@ -27,9 +27,9 @@ KeyframeId AddKeyframe(RollingFrames* world, int index, Map* map) {
   for (const auto& [landmark, point] : map->points()) landmarks.push_back(landmark);
   for (int i = 0; i < static_cast<int>(world->points().size()); ++i) {
     if (is_first) {
-      map->AddPoint(id, i, world->points()[i]);
+      map->Add<PointLandmark>(id, i, world->points()[i]);
     } else {
-      map->ObservePoint(landmarks[i], id, i);
+      map->Observe<PointLandmark>(landmarks[i], id, i);
     }
   }
   return id;

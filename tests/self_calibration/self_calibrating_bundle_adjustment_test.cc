@@ -74,8 +74,9 @@ TEST_F(SelfCalibratingBundleAdjustmentTest, LeavesObservationsBehindTheCameraOut
   Map map;
   FillMap(&camera, 6, &map);
   const auto& [id, point] = *map.points().begin();
-  map.SetPoint(id, map.CamFromWorld(point.observations.front().keyframe).Inverse() *
-                       Eigen::Vector3d(0.0, 0.0, -1.0));
+  map.SetGeometry<PointLandmark>(id,
+                                 map.CamFromWorld(point.observations.front().keyframe).Inverse() *
+                                     Eigen::Vector3d(0.0, 0.0, -1.0));
   EXPECT_TRUE(SelfCalibratingBundleAdjustment(*camera.given(), map, S::Vector::Zero()));
 }
 

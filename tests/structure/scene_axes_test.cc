@@ -29,10 +29,10 @@ Map MakeMap(SyntheticFrames* world, int count) {
         if (HammingDistance(line.descriptor, frame.lines[i].descriptor) < 40) match = line_id;
       }
       if (match != kNoId) {
-        map.ObserveLine(match, id, i);
-        map.RefreshLine(match);
+        map.Observe<LineLandmark>(match, id, i);
+        map.Refresh<LineLandmark>(match);
       } else if (frame.lines[i].depth) {
-        map.AddLine(id, i, cam_from_world.Inverse() * frame.LineInCamera(i));
+        map.Add<LineLandmark>(id, i, cam_from_world.Inverse() * frame.LineInCamera(i));
       }
     }
   }
@@ -77,7 +77,7 @@ TEST(SceneAxes, AlignsTheLinesOfAWindowWithTheirAxes) {
   axes.AddAlignments(&window);
   EXPECT_GT(window.axis_alignments.size(), 0.6 * window.lines.size());
   for (const WindowData::AxisAlignment& alignment : window.axis_alignments) {
-    const LineLandmark& line = *map.FindLine(alignment.line);
+    const LineLandmark& line = *map.Find<LineLandmark>(alignment.line);
     // The association takes the direction that all views determine, not that of the segment.
     EXPECT_LT(UndirectedAngle(line.segment.Direction(), alignment.axis),
               DegreesToRadians(5.0) + 3.0 * line.direction_sigma);

@@ -41,11 +41,19 @@ class StructuralPairsTest : public ::testing::Test {
   }
 
   double Degrees(const WindowData::LinePair& pair) const {
-    return RadiansToDegrees(UndirectedAngle(map_.FindLine(pair.a)->segment.Direction(),
-                                            map_.FindLine(pair.b)->segment.Direction()));
+    return RadiansToDegrees(UndirectedAngle(map_.Find<LineLandmark>(pair.a)->segment.Direction(),
+                                            map_.Find<LineLandmark>(pair.b)->segment.Direction()));
   }
 
-  void Add() { StructuralPairs(options_).Add(&window_); }
+  void Add() {
+    StructuralPairs pairs(options_);
+    LearnAndAdd(&pairs, &window_);
+  }
+  static void LearnAndAdd(StructuralPairs* pairs, WindowData* window) {
+    const PairCandidates candidates = pairs->Find(*window);
+    pairs->Learn(candidates);
+    pairs->Add(candidates, window);
+  }
 
   Map map_;
   WindowData window_;
@@ -65,7 +73,7 @@ TEST_F(StructuralPairsTest, SelectsParallelAndPerpendicularPairs) {
 
 TEST_F(StructuralPairsTest, LearnsTheDeviationOfPairs) {
   StructuralPairs pairs(options_);
-  for (int i = 0; i < 3; ++i) pairs.Add(&window_);
+  for (int i = 0; i < 3; ++i) LearnAndAdd(&pairs, &window_);
   // The lines of the box are exact, and known to some tenths of a degree.
   EXPECT_LT(RadiansToDegrees(pairs.deviation().scale()), 0.5 * options_.deviation.prior);
 }
@@ -95,7 +103,8 @@ TEST_F(StructuralPairsTest, LeavesOutPairsByChance) {
     scattered.line_observations.push_back(observation);
   }
   scattered.keyframes[0].cam_from_world = Rigid3();
-  StructuralPairs(options_).Add(&scattered);
+  StructuralPairs scattered_pairs(options_);
+  LearnAndAdd(&scattered_pairs, &scattered);
   EXPECT_LT(scattered.perpendicular_pairs.size(), scattered.lines.size() / 20);
   EXPECT_LT(scattered.parallel_pairs.size(), scattered.lines.size() / 20);
 }
@@ -105,7 +114,7 @@ TEST_F(StructuralPairsTest, WeighsALineWithManyPartnersOnce) {
   options_.perpendicular = false;
   options_.max_partners = 1000;
   StructuralPairs pairs(options_);
-  pairs.Add(&window_);
+  LearnAndAdd(&pairs, &window_);
   std::map<int64_t, double> information;
   std::map<int64_t, int> num_partners;
   for (const auto& pair : window_.parallel_pairs) {

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "msc_vo/map/rolling_shutter.h"
+#include "msc_vo/frame/rolling_shutter.h"
 
 namespace msc_vo {
 

@@ -13,8 +13,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "msc_vo/frame/frame_intrinsics.h"
 #include "msc_vo/geometry/so3.h"
-#include "msc_vo/map/frame_intrinsics.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/self_calibration/sensor_calibration.h"
 #include "msc_vo/sensor/depth_camera_correction.h"
@@ -50,10 +50,10 @@ inline void Observe(KeyframeId keyframe, LandmarksByDescriptor* landmarks, Map* 
   for (int i = 0; i < static_cast<int>(frame->points.size()); ++i) {
     const auto known = landmarks->find(frame->points[i].descriptor);
     if (known != landmarks->end()) {
-      map->ObservePoint(known->second, keyframe, i);
+      map->Observe<PointLandmark>(known->second, keyframe, i);
     } else {
       (*landmarks)[frame->points[i].descriptor] =
-          map->AddPoint(keyframe, i, world_from_cam * frame->PointInCamera(i));
+          map->Add<PointLandmark>(keyframe, i, world_from_cam * frame->PointInCamera(i));
     }
   }
 }

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "msc_vo/map/frame.h"
+#include "msc_vo/frame/frame.h"
 
 namespace msc_vo {
 

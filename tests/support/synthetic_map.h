@@ -17,11 +17,11 @@ inline void AddKeyframe(const std::shared_ptr<const Frame>& frame, const Rigid3&
   const Rigid3 world_from_cam = cam_from_world.Inverse();
   for (int i = 0; i < static_cast<int>(frame->points.size()); ++i) {
     if (!frame->points[i].HasDepth()) continue;
-    snapshot->map.AddPoint(id, i, world_from_cam * frame->PointInCamera(i));
+    snapshot->map.Add<PointLandmark>(id, i, world_from_cam * frame->PointInCamera(i));
   }
   for (int i = 0; i < static_cast<int>(frame->lines.size()); ++i) {
     if (!frame->lines[i].depth) continue;
-    snapshot->map.AddLine(id, i, world_from_cam * frame->LineInCamera(i));
+    snapshot->map.Add<LineLandmark>(id, i, world_from_cam * frame->LineInCamera(i));
   }
   snapshot->newest_keyframe = id;
 }

@@ -30,11 +30,13 @@ struct TrackedScene {
             false, &frame);
     tracked.frame = std::make_shared<Frame>(frame);
     const KeyframeId keyframe = map.map.AddKeyframe(tracked.frame, Rigid3());
-    const LandmarkId point = map.map.AddPoint(keyframe, 0, tracked.frame->PointInCamera(0));
+    const LandmarkId point =
+        map.map.Add<PointLandmark>(keyframe, 0, tracked.frame->PointInCamera(0));
     tracked.matches.points = {{0, point, Eigen::Vector3d::Zero()},
                               {1, kNoId, Eigen::Vector3d::Zero()}};
     for (int i = 0; i < 3; ++i) {
-      tracked.matches.lines.push_back({i, map.map.AddLine(keyframe, i, segments[i]), segments[i]});
+      tracked.matches.lines.push_back(
+          {i, map.map.Add<LineLandmark>(keyframe, i, segments[i]), segments[i]});
     }
     map.newest_keyframe = keyframe;
     map.axes = AxesEstimate{Eigen::Quaterniond::Identity(), 0.001};

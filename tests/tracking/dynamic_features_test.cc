@@ -130,10 +130,11 @@ TEST_F(FreeSpaceTest, KeepsWhatIsUnknownOnAStaticSurface) {
 }
 
 TEST_F(FreeSpaceTest, BelievesMostOfTheKeyframes) {
-  const LandmarkId shared = map_.AddPoint(0, 0, Eigen::Vector3d::UnitZ());
+  const LandmarkId shared = map_.Add<PointLandmark>(0, 0, Eigen::Vector3d::UnitZ());
   auto with_board = std::make_shared<Frame>(*map_.FindKeyframe(0)->frame);
   SetColumns(8, 23, kBoard, with_board.get());
-  for (int i = 0; i < 2; ++i) map_.ObservePoint(shared, map_.AddKeyframe(with_board, Rigid3()), 0);
+  for (int i = 0; i < 2; ++i)
+    map_.Observe<PointLandmark>(shared, map_.AddKeyframe(with_board, Rigid3()), 0);
   EXPECT_EQ(MarkDynamicFeatures({}, map_, tracked_), tracked_.frame);
 }
 

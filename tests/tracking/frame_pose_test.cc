@@ -50,8 +50,8 @@ class CandidatesFromFrameTest : public ::testing::Test {
     keyframe->points.resize(1);
     keyframe->lines.resize(1);
     last_.reference = map_.AddKeyframe(keyframe, Rigid3());
-    point_ = map_.AddPoint(last_.reference, 0, landmark_);
-    line_ = map_.AddLine(last_.reference, 0, landmark_line_);
+    point_ = map_.Add<PointLandmark>(last_.reference, 0, landmark_);
+    line_ = map_.Add<LineLandmark>(last_.reference, 0, landmark_line_);
     last_.matches.points = {{0, point_, Eigen::Vector3d::Zero(), true}};
     last_.matches.lines = {{0, line_, LineSegment3(), true}};
   }
@@ -117,8 +117,8 @@ TEST_F(CandidatesFromFrameTest, RequiresALandmarkOrADepth) {
 }
 
 TEST_F(CandidatesFromFrameTest, FallsBackToTheMeasurementOfARemovedLandmark) {
-  map_.RemovePoint(point_);
-  map_.RemoveLine(line_);
+  map_.Remove<PointLandmark>(point_);
+  map_.Remove<LineLandmark>(line_);
   const LocalMap candidates = Candidates();
   ASSERT_THAT(candidates.points, SizeIs(2));
   EXPECT_EQ(candidates.points[0].id, kNoId);
@@ -252,11 +252,13 @@ class EstimateFramePoseTest : public ::testing::Test {
     const Keyframe& keyframe = map_.keyframes().front().second;
     for (size_t i = 0; i < keyframe.points.size(); ++i) {
       const LandmarkId id = keyframe.points[i];
-      matches_.points.push_back({static_cast<int>(i), id, map_.FindPoint(id)->position, true});
+      matches_.points.push_back(
+          {static_cast<int>(i), id, map_.Find<PointLandmark>(id)->position, true});
     }
     for (size_t i = 0; i < keyframe.lines.size(); ++i) {
       const LandmarkId id = keyframe.lines[i];
-      matches_.lines.push_back({static_cast<int>(i), id, map_.FindLine(id)->segment, true});
+      matches_.lines.push_back(
+          {static_cast<int>(i), id, map_.Find<LineLandmark>(id)->segment, true});
     }
   }
 
@@ -311,10 +313,10 @@ TEST_F(EstimateFramePoseTest, MultipliesSigmasByTheNoiseScale) {
 
 TEST_F(EstimateFramePoseTest, MultipliesSigmasByTheNoiseOfTheLandmark) {
   const Matrix6 nominal = Information();
-  for (const auto& match : matches_.points) map_.SetPointNoise(match.id, 2.0);
+  for (const auto& match : matches_.points) map_.SetNoise<PointLandmark>(match.id, 2.0);
   const Matrix6 noisy_points = Information();
   EXPECT_LT(noisy_points.trace(), 0.9 * nominal.trace());
-  for (const auto& match : matches_.lines) map_.SetLineNoise(match.id, 2.0, 0.0);
+  for (const auto& match : matches_.lines) map_.SetNoise<LineLandmark>(match.id, 2.0);
   const Matrix6 noisy = Information();
   EXPECT_LT(noisy.trace(), noisy_points.trace());
   EXPECT_LT((4.0 * noisy - nominal).norm(), 1e-3 * nominal.norm());
@@ -332,7 +334,7 @@ TEST_F(EstimateFramePoseTest, CorrectsTheDepthOffsetOfLines) {
   matches_.points.clear();
   Estimate();
   EXPECT_GT(PositionError(pose_, Rigid3()), 3e-3);
-  for (const auto& match : matches_.lines) map_.SetLineNoise(match.id, 1.0, kOffset);
+  for (const auto& match : matches_.lines) map_.SetDepthOffset(match.id, kOffset);
   Estimate();
   EXPECT_LT(PositionError(pose_, Rigid3()), 3e-4);
 }
@@ -367,8 +369,8 @@ class ConfirmedLandmarksTest : public ::testing::Test {
     const KeyframeId second = map.AddKeyframe(std::make_shared<Frame>(frame), Rigid3());
     FrameMatches matches;
     for (int i = 0; i < 2 * kPerHalf; ++i) {
-      const LandmarkId id = map.AddPoint(first, i, landmarks[i]);
-      if (i >= kPerHalf || is_board_confirmed) map.ObservePoint(id, second, i);
+      const LandmarkId id = map.Add<PointLandmark>(first, i, landmarks[i]);
+      if (i >= kPerHalf || is_board_confirmed) map.Observe<PointLandmark>(id, second, i);
       matches.points.push_back({i, id, landmarks[i], true});
     }
     Rigid3 pose(Eigen::Quaterniond::Identity(), {4e-3, -2e-3, 3e-3});

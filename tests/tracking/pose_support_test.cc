@@ -15,26 +15,26 @@ TrackedFrame FrameInCurrentMap() {
   TrackedFrame tracked;
   tracked.matches.points.resize(30);
   tracked.matches.lines.resize(10);
-  tracked.keyframe.visible_points.resize(80);
-  tracked.keyframe.visible_lines.resize(20);
+  tracked.keyframe.visible.points.resize(80);
+  tracked.keyframe.visible.lines.resize(20);
   return tracked;
 }
 
 // Whether `num_found` of 200 landmarks are enough.
-bool ShowsAsMuchWith(size_t num_found) {
+bool HasComparableMatchRatioWith(size_t num_found) {
   FrameMatches found;
   found.points.resize(num_found - 10);
   found.lines.resize(10);
   LocalMap place;
   place.points.resize(150);
   place.lines.resize(50);
-  return ShowsAsMuch(found, place, FrameInCurrentMap());
+  return HasComparableMatchRatio(found, place, FrameInCurrentMap());
 }
 
-TEST(ShowsAsMuch, RequiresHalfOfTheRatioInTheCurrentMap) {
-  EXPECT_TRUE(ShowsAsMuchWith(80));
-  EXPECT_TRUE(ShowsAsMuchWith(40));
-  EXPECT_FALSE(ShowsAsMuchWith(39));
+TEST(HasComparableMatchRatio, RequiresHalfOfTheRatioInTheCurrentMap) {
+  EXPECT_TRUE(HasComparableMatchRatioWith(80));
+  EXPECT_TRUE(HasComparableMatchRatioWith(40));
+  EXPECT_FALSE(HasComparableMatchRatioWith(39));
 }
 
 std::shared_ptr<Frame> FrameAtWall(double distance) {

@@ -7,7 +7,7 @@
 #include "tests/support/synthetic_map.h"
 #include <gmock/gmock.h>
 
-#include "msc_vo/map/feature_counts.h"
+#include "msc_vo/frame/feature_counts.h"
 
 namespace msc_vo {
 namespace {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "msc_vo/camera/pinhole_camera.h"
-#include "msc_vo/map/depth_ranges.h"
+#include "msc_vo/frame/depth_ranges.h"
 #include "msc_vo/sensor/inverse_depth_image.h"
 #include "msc_vo/sensor/lens_remap.h"
 

@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "msc_vo/map/frame.h"
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/sensor/depth_bleeding.h"
 #include "msc_vo/sensor/depth_sensor.h"
 #include "msc_vo/sensor/inverse_depth_image.h"

@@ -5,8 +5,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/geometry/line_segment.h"
-#include "msc_vo/map/frame.h"
 
 namespace msc_vo {
 

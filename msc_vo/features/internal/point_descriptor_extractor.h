@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "msc_vo/map/frame.h"
+#include "msc_vo/frame/frame.h"
 
 namespace msc_vo {
 

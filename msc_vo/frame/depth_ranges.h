@@ -16,7 +16,7 @@ namespace msc_vo {
 struct DepthRanges {
   static constexpr int kColumns = 32;
   static constexpr int kRows = 24;
-  /// Relative tolerance of comparisons of depth: more than what poses and depth images are off by.
+  /// Relative tolerance of comparisons of depth: larger than pose and depth errors.
   static constexpr double kTolerance = 0.05;
 
   /// 1/metres. Both are 0 where less than half of the cell has a depth.

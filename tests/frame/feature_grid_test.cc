@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/map/frame.h"
+#include "msc_vo/frame/feature_grid.h"
 
 #include <limits>
 #include <random>
@@ -10,33 +10,6 @@
 
 namespace msc_vo {
 namespace {
-
-TEST(HammingDistance, CountsDifferingBits) {
-  Descriptor a{};
-  Descriptor b{};
-  EXPECT_EQ(HammingDistance(a, b), 0);
-  b[0] = 0x01;
-  b[31] = 0x80;
-  EXPECT_EQ(HammingDistance(a, b), 2);
-  a.fill(0xff);
-  b.fill(0x00);
-  EXPECT_EQ(HammingDistance(a, b), 256);
-}
-
-TEST(HammingDistance, MatchesBitwiseCount) {
-  std::mt19937 random(5);
-  for (int i = 0; i < 100; ++i) {
-    Descriptor a;
-    Descriptor b;
-    int expected = 0;
-    for (size_t k = 0; k < a.size(); ++k) {
-      a[k] = static_cast<uint8_t>(random());
-      b[k] = static_cast<uint8_t>(random());
-      for (int bit = 0; bit < 8; ++bit) expected += ((a[k] ^ b[k]) >> bit) & 1;
-    }
-    EXPECT_EQ(HammingDistance(a, b), expected);
-  }
-}
 
 TEST(FeatureGrid, AcceptsNonFinitePixels) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -77,27 +50,6 @@ TEST(FeatureGrid, MatchesExhaustiveSearch) {
 
 TEST(FeatureGrid, FindsNothingIfEmpty) {
   EXPECT_TRUE(FeatureGrid().Near({}, {10, 10}, 100).empty());
-}
-
-TEST(Frame, BackProjectsPointsAndLines) {
-  Frame frame;
-  PointFeature point;
-  point.pixel = {frame.camera.cx + 105.0, frame.camera.cy};
-  point.inverse_depth = 0.5;
-  frame.points = {point};
-  EXPECT_TRUE(frame.PointInCamera(0).isApprox(Eigen::Vector3d(0.4, 0.0, 2.0), 1e-12));
-
-  LineFeature line;
-  line.segment.start = frame.camera.Project({-1.0, 0.2, 2.0});
-  line.segment.end = frame.camera.Project({1.0, 0.2, 4.0});
-  LineDepth depth;
-  depth.start = 0.5;
-  depth.end = 0.25;
-  line.depth = depth;
-  frame.lines = {line};
-  const LineSegment3 segment = frame.LineInCamera(0);
-  EXPECT_TRUE(segment.start.isApprox(Eigen::Vector3d(-1.0, 0.2, 2.0), 1e-12));
-  EXPECT_TRUE(segment.end.isApprox(Eigen::Vector3d(1.0, 0.2, 4.0), 1e-12));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "msc_vo/map/depth_ranges.h"
+#include "msc_vo/frame/depth_ranges.h"
 
 namespace msc_vo {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/map/depth_surfaces.h"
+#include "msc_vo/frame/depth_surfaces.h"
 
 namespace msc_vo {
 

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "msc_vo/map/frame.h"
+#include "msc_vo/frame/frame.h"
 
 namespace msc_vo {
 

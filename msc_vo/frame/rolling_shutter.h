@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 
 #include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/frame/frame.h"
 #include "msc_vo/geometry/camera_velocity.h"
-#include "msc_vo/map/frame.h"
 
 namespace msc_vo {
 

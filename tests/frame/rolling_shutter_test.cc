@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/map/rolling_shutter.h"
+#include "msc_vo/frame/rolling_shutter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include "msc_vo/frame/descriptor.h"
+
+namespace msc_vo {
+
+/// Scale between adjacent pyramid levels of point features, as in ORB. A constant rather than an
+/// option, because extraction, matching by projection and culling must agree on it.
+constexpr double kPyramidScale = 1.2;
+
+/// A point feature p_i of the paper. Pixels are undistorted.
+struct PointFeature {
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  double sigma = 1.0;                ///< pixels, standard deviation of each coordinate
+  int level = 0;                     ///< pyramid level, 0 is the full image
+  bool dynamic = false;              ///< on a dynamic object: must not create a landmark
+  double angle = 0.0;                ///< radians, orientation in the image
+  double inverse_depth = 0.0;        ///< 1/metres; 0: no depth measured
+  double inverse_depth_sigma = 0.0;  ///< 1/metres; > 0 if there is a depth
+  Descriptor descriptor{};
+
+  bool HasDepth() const { return inverse_depth > 0.0; }
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, pixel, sigma, level, dynamic, angle, inverse_depth, inverse_depth_sigma,
+                   descriptor);
+  }
+};
+
+}  // namespace msc_vo

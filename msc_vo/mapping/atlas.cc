@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/atlas.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace msc_vo {
+
+namespace {
+
+std::shared_ptr<const Map> Share(SubMap* submap) {
+  return std::make_shared<const Map>(submap->map.Share());
+}
+
+}  // namespace
+
+Atlas::Atlas(const SceneAxesOptions& axes, const NoiseEstimatorOptions& noise)
+    : axes_(axes), noise_(noise), current_(MakeEmpty()) {
+  current_.id = 0;
+}
+
+SubMap Atlas::MakeEmpty() const {
+  return {kNoSubMap, {}, SceneAxes(axes_), NoiseEstimator(noise_)};
+}
+
+void Atlas::Begin(bool keep_current) {
+  SubMap next = MakeEmpty();
+  next.id = next_id_++;
+  next.map = current_.map.Next();
+  next.noise = current_.noise;
+  if (keep_current && !current_.map.keyframes().empty()) {
+    inactive_.push_back(std::move(current_));
+    inactive_maps_.push_back(Share(&inactive_.back()));
+  }
+  current_ = std::move(next);
+}
+
+bool Atlas::Join(KeyframeId other, const Rigid3& current_from_other_world) {
+  const auto place =
+      std::find_if(inactive_.begin(), inactive_.end(),
+                   [other](const SubMap& submap) { return submap.map.KnowsKeyframe(other); });
+  if (place == inactive_.end()) return false;
+  if (IsOlder(*place, current_)) {
+    current_.map.Transform(current_from_other_world.Inverse());
+    current_.id = place->id;
+    current_.axes = place->axes;
+  } else {
+    place->map.Transform(current_from_other_world);
+  }
+  current_.map.Merge(place->map);
+  inactive_maps_.erase(inactive_maps_.begin() + (place - inactive_.begin()));
+  inactive_.erase(place);
+  return true;
+}
+
+InactiveMaps Atlas::ShareAll() {
+  InactiveMaps all = inactive_maps_;
+  all.push_back(Share(&current_));
+  return all;
+}
+
+void Atlas::ChangeAll(const std::function<void(SubMap*)>& change) {
+  for (size_t i = 0; i < inactive_.size(); ++i) {
+    change(&inactive_[i]);
+    inactive_maps_[i] = Share(&inactive_[i]);
+  }
+  change(&current_);
+}
+
+const SubMap* Atlas::Find(SubMapId id) const {
+  if (current_.id == id) return &current_;
+  const auto place = std::find_if(inactive_.begin(), inactive_.end(),
+                                  [id](const SubMap& submap) { return submap.id == id; });
+  return place != inactive_.end() ? &*place : nullptr;
+}
+
+const SubMap* Atlas::FindSubMapOf(KeyframeId keyframe) const {
+  if (current_.map.KnowsKeyframe(keyframe)) return &current_;
+  const auto place =
+      std::find_if(inactive_.begin(), inactive_.end(),
+                   [keyframe](const SubMap& submap) { return submap.map.KnowsKeyframe(keyframe); });
+  return place != inactive_.end() ? &*place : nullptr;
+}
+
+}  // namespace msc_vo

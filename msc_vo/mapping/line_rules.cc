@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/line_rules.h"
+
+#include <algorithm>
+
+#include "msc_vo/geometry/angles.h"
+
+namespace msc_vo {
+
+namespace {
+
+std::vector<LineCandidate> LinesOf(const Map& map, const Keyframe& source, const Keyframe& target) {
+  std::vector<LineCandidate> candidates;
+  for (const LandmarkId id : source.lines) {
+    const LineLandmark* line = map.Find<LineLandmark>(id);
+    if (line == nullptr || FindObservation(*line, target.id) != nullptr) continue;
+    LineCandidate candidate;
+    candidate.id = id;
+    candidate.segment = line->segment;
+    candidate.descriptor = line->descriptor;
+    if (ProjectCandidate(target.frame->camera, target.cam_from_world, &candidate)) {
+      candidates.push_back(candidate);
+    }
+  }
+  return candidates;
+}
+
+}  // namespace
+
+std::vector<LineMatch> MatchForFusion(LandmarkKind<LineLandmark> /*kind*/,
+                                      const FusionOptions& options, const Map& map,
+                                      const Keyframe& source, const Keyframe& target) {
+  return MatchLines(options.line_matcher, *target.frame, LinesOf(map, source, target),
+                    options.radius, {});
+}
+
+bool AgreesWithDepth(const Keyframe& /*keyframe*/, int /*feature*/, const LineLandmark& /*line*/) {
+  return true;  // the depth of a line has an offset of its own
+}
+
+bool AreDuplicates(const FusionOptions& options, const Keyframe& keyframe,
+                   const LineLandmark& line_a, const LineLandmark& line_b) {
+  const LineSegment3 &a = line_a.segment, &b = line_b.segment;
+  if (UndirectedAngle(a.Direction(), b.Direction()) > DegreesToRadians(options.max_line_angle)) {
+    return false;
+  }
+  const double distance = (a.Midpoint() - keyframe.cam_from_world.OriginInSource()).norm();
+  return std::max(a.DistanceToLine(b.Midpoint()), b.DistanceToLine(a.Midpoint())) <
+         options.max_line_offset * distance;
+}
+
+}  // namespace msc_vo

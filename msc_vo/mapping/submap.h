@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include "msc_vo/map/map.h"
+#include "msc_vo/self_calibration/noise_estimator.h"
+#include "msc_vo/structure/scene_axes.h"
+
+namespace msc_vo {
+
+/// Name of a submap: the submaps of a run are numbered in the order in which they begin.
+using SubMapId = int;
+constexpr SubMapId kNoSubMap = -1;
+
+/// A map in a world of its own, with what is estimated from its windows.
+struct SubMap {
+  SubMapId id = kNoSubMap;
+  Map map;
+  SceneAxes axes;        ///< of its world
+  NoiseEstimator noise;  ///< of the measurements in it
+
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, id, map, axes, noise);
+  }
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/window_optimizer.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "msc_vo/map/window_selection.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Iterations of both rounds of bundle adjustment after a change of the calibration.
+constexpr int kCalibrationIterations = 10;
+
+}  // namespace
+
+void WindowOptimizer::BeginMap() {
+  last_time_ = -std::numeric_limits<double>::infinity();
+  last_lines_.clear();
+}
+
+std::optional<BundleAdjustmentSummary> WindowOptimizer::OptimizeWindow(KeyframeId keyframe,
+                                                                       SubMap* submap) {
+  const double timestamp = submap->map.FindKeyframe(keyframe)->frame->timestamp;
+  // The absolute value lets an interval of 0 mean every keyframe even if time stamps do not ascend.
+  if (!(std::abs(timestamp - last_time_) >= options_.min_window_interval)) return std::nullopt;
+  const WindowLinks links =
+      factor_callback_ ? WindowLinks::kLandmarksAndTime : WindowLinks::kLandmarks;
+  const std::optional<BundleAdjustmentSummary> summary =
+      Solve(options_.window, keyframe,
+            SelectWindow(options_.selection, submap->map, keyframe, links), submap);
+  if (summary) last_time_ = timestamp;
+  return summary;
+}
+
+void WindowOptimizer::OptimizeMap(KeyframeId keyframe, SubMap* submap) {
+  BundleAdjustmentOptions options = options_.window;
+  options.first_iterations = kCalibrationIterations;
+  options.second_iterations = kCalibrationIterations;
+  Solve(options, keyframe, SelectWholeMap(options_.selection, submap->map), submap);
+}
+
+std::optional<BundleAdjustmentSummary> WindowOptimizer::Solve(
+    const BundleAdjustmentOptions& options, KeyframeId keyframe, WindowData window,
+    SubMap* submap) {
+  last_lines_.clear();
+  for (const WindowData::Line& line : window.lines) last_lines_.insert(line.id);
+  if (window.keyframes.size() < 2) return std::nullopt;
+  submap->noise.Apply(&window);
+  submap->axes.AddAlignments(&window);
+  const PairCandidates pairs = pairs_.Find(window);
+  pairs_.Learn(pairs);
+  pairs_.Add(pairs, &window);
+  AddCustomFactors(*submap, &window);
+  if (observer_) observer_(keyframe, options, window);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options, &window);
+  if (summary.usable) {
+    submap->noise.Update(WindowResiduals(window));
+    WriteBack(window, &submap->map);
+    submap->axes.Learn(submap->map, window);
+    for (const ExtraBlock& block : window.extra_blocks) extra_blocks_[block.id] = block;
+  }
+  return summary;
+}
+
+std::vector<ExtraBlock> WindowOptimizer::extra_blocks() const {
+  std::vector<ExtraBlock> blocks;
+  for (const auto& [id, block] : extra_blocks_) blocks.push_back(block);
+  return blocks;
+}
+
+void WindowOptimizer::AddCustomFactors(const SubMap& submap, WindowData* window) const {
+  if (!factor_callback_) return;
+  const AxesEstimator& axes = submap.axes.estimator();
+  if (axes.state() != AxesState::kNone) window->axes = {axes.world_from_axes(), true};
+  WindowFactors custom = factor_callback_(MakeWindowContext(submap.map, *window, extra_blocks()));
+  for (ExtraBlock& block : custom.extra_blocks) {
+    const auto known = extra_blocks_.find(block.id);
+    if (known == extra_blocks_.end()) continue;
+    if (block.value.size() != known->second.value.size()) {
+      throw std::invalid_argument("extra block " + std::to_string(block.id) + ": its size is " +
+                                  std::to_string(block.value.size()) + ", that of its estimate " +
+                                  std::to_string(known->second.value.size()) +
+                                  "; give a block of another size another id");
+    }
+    block.value = known->second.value;
+  }
+  window->extra_blocks = std::move(custom.extra_blocks);
+  window->custom_factors = std::move(custom.factors);
+  FixUnlinkedKeyframes(window);
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/structure/pair_candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/structure/direction_estimate.h"
+#include "msc_vo/structure/internal/partner_selection.h"
+
+namespace msc_vo {
+
+namespace {
+
+// A line whose direction is known well enough.
+struct Line {
+  int64_t id = 0;
+  DirectionEstimate estimate;
+  double sigma = 0.0;              // radians
+  std::vector<int64_t> observers;  // keyframes, ascending
+  bool on_axis = false;
+};
+
+std::vector<Line> KnownLines(const StructuralPairOptions& options, const WindowData& window) {
+  const std::vector<std::optional<DirectionEstimate>> estimates = EstimateDirections(window);
+  std::map<int64_t, Line> known;
+  for (size_t i = 0; i < estimates.size(); ++i) {
+    if (!estimates[i]) continue;
+    const double sigma = estimates[i]->Sigma();
+    if (sigma > DegreesToRadians(options.max_sigma)) continue;
+    const int64_t id = window.lines[i].id;
+    known[id] = {id, *estimates[i], sigma, {}, false};
+  }
+  for (const WindowData::LineObservation& observation : window.line_observations) {
+    const auto line = known.find(observation.line);
+    if (line != known.end()) line->second.observers.push_back(observation.keyframe);
+  }
+  for (const WindowData::AxisAlignment& alignment : window.axis_alignments) {
+    const auto line = known.find(alignment.line);
+    if (line != known.end()) line->second.on_axis = true;
+  }
+  std::vector<Line> lines;
+  for (auto& [id, line] : known) {
+    std::sort(line.observers.begin(), line.observers.end());
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+// Whether a keyframe observes both lines.
+bool AreCoobserved(const Line& a, const Line& b) {
+  auto i = a.observers.begin(), j = b.observers.begin();
+  while (i != a.observers.end() && j != b.observers.end()) {
+    if (*i == *j) return true;
+    *i < *j ? ++i : ++j;
+  }
+  return false;
+}
+
+DirectionDeviation ParallelDeviation(const DirectionEstimate& a, const DirectionEstimate& b) {
+  Eigen::Matrix<double, 3, 2> basis;
+  basis.col(0) = a.direction.unitOrthogonal();
+  basis.col(1) = a.direction.cross(basis.col(0));
+  return {basis.transpose() * b.direction / a.direction.dot(b.direction),
+          basis.transpose() * (a.covariance + b.covariance) * basis};
+}
+
+AngleDeviation PerpendicularDeviation(const DirectionEstimate& a, const DirectionEstimate& b) {
+  return {a.direction.dot(b.direction), b.direction.dot(a.covariance * b.direction) +
+                                            a.direction.dot(b.covariance * a.direction)};
+}
+
+}  // namespace
+
+bool StructuralPairOptions::IsValid(std::string* error) const {
+  if (!(max_angle > 0.0 && max_angle < 45.0)) {
+    *error = "pairs.max_angle must be in (0, 45) degrees";
+  } else if (!(max_sigma > 0.0)) {
+    *error = "pairs.max_sigma must be positive (degrees)";
+  } else if (!(min_probability >= 0.0 && min_probability <= 1.0)) {
+    *error = "pairs.min_probability must be in [0, 1]";
+  } else if (max_partners < 1) {
+    *error = "pairs.max_partners must be at least 1";
+  } else {
+    return deviation.IsValid(error);
+  }
+  return false;
+}
+
+PairCandidates FindPairCandidates(const StructuralPairOptions& options, const WindowData& window) {
+  const std::vector<Line> lines = KnownLines(options, window);
+  const double max_angle = DegreesToRadians(options.max_angle);
+  const double least_parallel = std::cos(max_angle), most_perpendicular = std::sin(max_angle);
+  PairCandidates candidates;
+  for (const Line& line : lines) candidates.lines.push_back(line.id);
+  for (int i = 0; i < static_cast<int>(lines.size()); ++i) {
+    for (int j = i + 1; j < static_cast<int>(lines.size()); ++j) {
+      const Line &a = lines[i], &b = lines[j];
+      if (a.on_axis && b.on_axis) continue;
+      const double cosine = std::abs(a.estimate.direction.dot(b.estimate.direction));
+      const bool is_parallel = cosine >= least_parallel;
+      const bool is_perpendicular = options.perpendicular && cosine <= most_perpendicular;
+      if (!is_parallel && !is_perpendicular) continue;
+      if (!AreCoobserved(a, b)) continue;
+      const double sigma = std::hypot(a.sigma, b.sigma);
+      if (is_parallel) {
+        candidates.parallel.push_back({sigma, i, j, ParallelDeviation(a.estimate, b.estimate)});
+      } else {
+        candidates.perpendicular.push_back(
+            {sigma, i, j, PerpendicularDeviation(a.estimate, b.estimate)});
+      }
+    }
+  }
+  SelectMostCertain(options.max_partners, lines.size(), &candidates.parallel);
+  SelectMostCertain(options.max_partners, lines.size(), &candidates.perpendicular);
+  return candidates;
+}
+
+}  // namespace msc_vo
