@@ -21,7 +21,7 @@ constexpr size_t kNumLevels = 16;  // values next to the extreme one that show t
 // without being clipped, the last step of the rounding has as many as those before.
 constexpr size_t kMinExcess = 4;
 constexpr size_t kMinCommon = 32;   // samples that show the motion
-constexpr float kMinMotion = 3.0f;  // steps of the rounding
+constexpr float kMinMotion = 2.0f;  // steps of the rounding
 // Images of real surfaces reach one, with depth rounded to 3 cm two; see docs/lab/depth.md.
 constexpr int kMinMoved = 4;
 
@@ -125,9 +125,10 @@ bool ClippedDepthFinder::AddEvidence(const cv::Mat& depth, const std::vector<flo
     if (ratio > kSimilar) ++evidence->num_others;
     return false;
   }
-  if (AreaOf(extreme, depth, samples.size()) < kMinArea) return false;
-  const Rounding rounding = RoundingNextTo(extreme, samples, sign);
-  if (rounding.num_extreme < kMinExcess * rounding.num_samples) {
+  Rounding rounding;
+  const bool has_areas = AreaOf(extreme, depth, samples.size()) >= kMinArea;
+  if (has_areas) rounding = RoundingNextTo(extreme, samples, sign);
+  if (!has_areas || rounding.num_extreme < kMinExcess * rounding.num_samples) {
     ++evidence->num_others;
     return false;
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -32,36 +33,42 @@ DepthLimits Find(const std::vector<cv::Mat>& images, const Change& change) {
 
 class ClippedDepthTest : public ::testing::TestWithParam<SyntheticDepth> {
  protected:
-  const std::vector<cv::Mat> images_ = RenderDepth(SceneKind::kRoom, GetParam(), kNumImages);
+  // Rendered once for all tests.
+  static const std::vector<cv::Mat>& Images() {
+    static std::map<SyntheticDepth, std::vector<cv::Mat>> images;
+    std::vector<cv::Mat>& of_sensor = images[GetParam()];
+    if (of_sensor.empty()) of_sensor = RenderDepth(SceneKind::kRoom, GetParam(), kNumImages);
+    return of_sensor;
+  }
 };
 
 TEST_P(ClippedDepthTest, IsFoundAtEitherEndInEveryUnit) {
   for (const double units : {100.0, 1000.0, 5000.0}) {
     const auto round = [units](float z) { return static_cast<float>(std::round(z * units)); };
-    for (const float end : {2.0f, 2.53f, 3.0f}) {
-      const DepthLimits limits = Find(images_, [&](float z) { return round(std::min(z, end)); });
+    for (const float end : {2.3f, 2.53f, 3.0f}) {
+      const DepthLimits limits = Find(Images(), [&](float z) { return round(std::min(z, end)); });
       EXPECT_EQ(limits.farthest, round(end)) << units;
       EXPECT_FALSE(limits.HasNearest()) << units;
     }
-    const DepthLimits limits = Find(images_, [&](float z) { return round(std::max(z, 2.2f)); });
+    const DepthLimits limits = Find(Images(), [&](float z) { return round(std::max(z, 2.2f)); });
     EXPECT_EQ(limits.nearest, round(2.2f)) << units;
     EXPECT_FALSE(limits.HasFarthest()) << units;
   }
 }
 
 TEST_P(ClippedDepthTest, IsFoundAtBothEndsAndBelowAMark) {
-  const DepthLimits both = Find(images_, [](float z) { return std::clamp(z, 2.0f, 3.0f); });
+  const DepthLimits both = Find(Images(), [](float z) { return std::clamp(z, 2.0f, 3.0f); });
   EXPECT_EQ(both.nearest, 2.0f);
   EXPECT_EQ(both.farthest, 3.0f);
   EXPECT_TRUE(both.Contain(2.5f));
   EXPECT_FALSE(both.Contain(3.0f));
-  const DepthLimits mark = Find(images_, [](float z) { return z > 2.5f ? 65.535f : z; });
+  const DepthLimits mark = Find(Images(), [](float z) { return z > 2.5f ? 65.535f : z; });
   EXPECT_EQ(mark.farthest, 65.535f);
 }
 
 TEST_P(ClippedDepthTest, IsNotFoundInRoundedDepth) {
   for (const double step : {1e-4, 0.001, 0.01, 0.03}) {
-    const DepthLimits limits = Find(images_, [step](float z) {
+    const DepthLimits limits = Find(Images(), [step](float z) {
       return static_cast<float>(step * std::max(1.0, std::round(z / step)));
     });
     EXPECT_FALSE(limits.HasNearest()) << step;
@@ -69,7 +76,7 @@ TEST_P(ClippedDepthTest, IsNotFoundInRoundedDepth) {
   }
   // Disparity of a Kinect in steps of 1/8 and of 1/2 pixel.
   for (const double step : {0.125, 0.5}) {
-    const DepthLimits limits = Find(images_, [step](float z) {
+    const DepthLimits limits = Find(Images(), [step](float z) {
       return static_cast<float>(40.0 / (step * std::max(1.0, std::round(40.0 / z / step))));
     });
     EXPECT_FALSE(limits.HasNearest()) << step;
