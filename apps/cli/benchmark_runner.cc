@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "apps/cli/command_log.h"
+#include "apps/cli/input_check.h"
 #include "msc_vo/results/benchmark_index.h"
 #include "msc_vo/results/benchmark_json.h"
 #include "msc_vo/results/online_results.h"
@@ -29,7 +30,8 @@ constexpr char kUnfinished[] = "the program was ended during this run";
 RgbdDecoder OpenWithGroundTruth(const SequenceArguments& sequence,
                                 const Configuration& configuration) {
   RgbdDecoder decoder = OpenDecoder(sequence, configuration);
-  PrintWarnings(decoder.index().warnings);
+  PrintWarnings(decoder.Warnings());
+  CheckInput(decoder);
   if (!decoder.index().ground_truth.empty()) return decoder;
   throw std::runtime_error(decoder.index().directory +
                            ": no ground truth (groundtruth.txt or the file of the layout); add it, "

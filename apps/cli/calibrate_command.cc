@@ -14,8 +14,10 @@
 
 #include "apps/cli/calibration_report.h"
 #include "apps/cli/calibration_rounds.h"
+#include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
+#include "apps/cli/input_check.h"
 #include "apps/cli/output_file.h"
 #include "apps/cli/plot_file.h"
 #include "apps/cli/sequence_arguments.h"
@@ -60,6 +62,8 @@ std::vector<RgbdDecoder> OpenSequences(const Arguments& arguments,
     SequenceArguments sequence = arguments.layout;
     sequence.directory = directory;
     const RgbdDecoder decoder = OpenDecoder(sequence, configuration);
+    PrintWarnings(decoder.Warnings());
+    CheckInput(decoder);
     Calibration calibration = decoder.calibration();
     const std::optional<double>& readout_time = configuration.odometry.mapping.readout_time;
     if (readout_time) calibration.readout_time = readout_time;

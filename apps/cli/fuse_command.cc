@@ -15,6 +15,7 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/fusion_module.h"
+#include "apps/cli/input_check.h"
 #include "apps/cli/interrupt_guard.h"
 #include "apps/cli/number_range.h"
 #include "apps/cli/output_file.h"
@@ -201,7 +202,8 @@ void PrintResult(const Arguments& arguments, const ColoredMesh& mesh, int num_im
 int Run(const Arguments& arguments) {
   const Configuration configuration = MakeConfiguration(arguments.configuration);
   const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
-  PrintWarnings(decoder.index().warnings);
+  PrintWarnings(decoder.Warnings());
+  CheckInput(decoder);
   std::vector<std::string> inputs = arguments.configuration.InputFiles();
   inputs.insert(inputs.end(), {arguments.trajectory, arguments.report});
   CheckOutputFile(arguments.output, inputs, {decoder.index()});

@@ -109,7 +109,7 @@ void Print(const Arguments& arguments, const TumWriter& writer, const Recording&
 int Run(const Arguments& arguments) {
   const RgbdDecoder decoder = OpenDecoder(
       arguments.sequence, MakeConfiguration(arguments.configuration), LiveCameras::kAllowed);
-  PrintWarnings(decoder.index().warnings);
+  PrintWarnings(decoder.Warnings());
   RefuseToOverwrite(InputFolders(decoder.index()), arguments.folder);
   const InterruptGuard interrupt;
   TumWriter writer(arguments.folder, decoder.calibration(),

@@ -56,6 +56,9 @@ void AddImages(const SequenceIndex& index, std::map<std::string, std::string>* f
   (*facts)["sequence: checksum of the time stamps"] = ChecksumText(stamps);
   (*facts)["sequence: checksum of names and sizes of the images"] = ChecksumText(files);
   (*facts)["sequence: raw depth without a measurement"] = std::to_string(index.invalid_depth);
+  const DepthLimits& limits = index.clipped_depth.limits;
+  (*facts)["sequence: raw depths at which it is clipped"] =
+      FormatNumber(limits.nearest) + " " + FormatNumber(limits.farthest);
   (*facts)["sequence: colour is scaled to depth"] = index.scale_color ? "true" : "false";
 }
 

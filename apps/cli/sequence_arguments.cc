@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "msc_vo/datasets/camera_preset.h"
+#include "msc_vo/datasets/clipped_depth_search.h"
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/openni/openni_source.h"
@@ -80,6 +81,7 @@ RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration&
   }
   SequenceIndex index = OpenSource(arguments);
   Calibration calibration = ResolveCalibration(configuration.camera, arguments.camera, &index);
+  index.clipped_depth = FindClippedDepth(index);
   return {std::move(index), std::move(calibration)};
 }
 

@@ -41,6 +41,7 @@ RunContext MakeContext(const RgbdDecoder& decoder, const Configuration& configur
   context.command_line = CommandLine();
   context.outcome = "complete";
   context.sequence = decoder.index();
+  context.sequence.warnings = decoder.Warnings();
   context.calibration = decoder.calibration();
   context.configuration = configuration;
   ResolveReadoutTime(&context.configuration.odometry.mapping.readout_time, &context.calibration);

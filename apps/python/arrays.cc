@@ -4,6 +4,8 @@
 #include "apps/python/arrays.h"
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 
 #include <opencv2/imgproc.hpp>
@@ -186,8 +188,10 @@ cv::Mat DepthArgument(py::handle value, py::handle depth_scale, const std::strin
   }
   const double scale = py::float_(py::reinterpret_borrow<py::object>(depth_scale));
   if (!(scale > 0.0) || !std::isfinite(scale)) Fail("depth_scale", "must be a positive number");
+  const cv::Mat raw = SharedMat(array, CV_16UC1);
   cv::Mat metres;
-  SharedMat(array, CV_16UC1).convertTo(metres, CV_32F, 1.0 / scale);
+  raw.convertTo(metres, CV_32F, 1.0 / scale);
+  metres.setTo(0.0f, raw == std::numeric_limits<uint16_t>::max());  // no measurement
   return metres;
 }
 

@@ -17,6 +17,7 @@
 #include "apps/python/factors.h"
 #include "apps/python/option_table.h"
 #include "apps/python/shared_object.h"
+#include "msc_vo/sensor/byte_order.h"
 
 namespace msc_vo {
 
@@ -35,6 +36,16 @@ LensDistortion DistortionArgument(const py::object& value) {
   }
   std::copy(k.begin(), k.end(), distortion.k.begin());
   return distortion;
+}
+
+// Throws std::invalid_argument if the bytes of raw depth, here in metres, are swapped.
+void CheckByteOrder(const cv::Mat& depth, const py::object& depth_scale) {
+  ByteOrder order;
+  order.Add(depth, depth_scale.cast<double>());
+  if (!order.IsSwapped()) return;
+  throw std::invalid_argument(
+      "depth: the two bytes of the values are swapped; give depth.byteswap(), or read the images "
+      "with the high byte first");
 }
 
 // The odometry without the GIL, and the numbering of its images.
@@ -59,6 +70,7 @@ class PyOdometry {
     image.depth_delay = depth_delay;
     image.gray = GrayArgument(gray, "gray");
     image.depth = DepthArgument(depth, depth_scale, "depth");
+    if (!depth_scale.is_none() && next_id_ < kNumChecked) CheckByteOrder(image.depth, depth_scale);
     const FrameResult result = Alone([&] { return odometry_->Process(image); });
     ++next_id_;
     return result;
@@ -133,6 +145,8 @@ class PyOdometry {
   void CheckNotStarted() const {
     if (next_id_ > 0) throw std::runtime_error("callbacks must be set before the first image");
   }
+
+  static constexpr int64_t kNumChecked = 4;  // images whose byte order is checked
 
   std::unique_ptr<Odometry> odometry_;
   int64_t next_id_ = 0;

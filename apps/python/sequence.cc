@@ -12,6 +12,7 @@
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "msc_vo/config/options_file.h"
+#include "msc_vo/datasets/clipped_depth_search.h"
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/datasets/sequence_calibration.h"
 
@@ -31,6 +32,7 @@ RgbdDecoder Open(const py::object& directory, const std::string& format, const s
   if (!config.is_none()) ReadConfiguration(PathArgument(config), &configuration);
   SequenceIndex index = OpenSequence(PathArgument(directory), format);
   Calibration calibration = ResolveCalibration(configuration.camera, camera, &index);
+  index.clipped_depth = FindClippedDepth(index);
   return {std::move(index), std::move(calibration)};
 }
 
@@ -113,8 +115,7 @@ void BindSequence(py::module_* module) {
       .def_property_readonly("directory",
                              [](const RgbdDecoder& self) { return self.index().directory; })
       .def_property_readonly("format", [](const RgbdDecoder& self) { return self.index().format; })
-      .def_property_readonly("warnings",
-                             [](const RgbdDecoder& self) { return self.index().warnings; });
+      .def_property_readonly("warnings", &RgbdDecoder::Warnings);
 }
 
 }  // namespace msc_vo

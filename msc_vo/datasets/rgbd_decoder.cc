@@ -11,6 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "msc_vo/datasets/clipped_depth_search.h"
 #include "msc_vo/datasets/image_file.h"
 #include "msc_vo/text/files.h"
 
@@ -81,15 +82,20 @@ cv::Mat ToGray(const cv::Mat& image) {
   }
 }
 
-cv::Mat ToMetres(const cv::Mat& raw, double depth_scale, int invalid_depth) {
+// The largest value of 16 bits: a mark for no measurement, or the end of the range.
+constexpr int kSaturated = std::numeric_limits<uint16_t>::max();
+
+cv::Mat ToMetres(const cv::Mat& raw, double depth_scale, const DepthLimits& limits) {
   cv::Mat metres;
   if (raw.type() == CV_32FC1) {
     metres = raw.clone();
     metres.setTo(0.0f, ~((raw > 0.0f) & (raw <= std::numeric_limits<float>::max())));
-    return metres;
+  } else {
+    raw.convertTo(metres, CV_32F, 1.0 / depth_scale);
+    metres.setTo(0.0f, raw == kSaturated);
   }
-  raw.convertTo(metres, CV_32F, 1.0 / depth_scale);
-  if (invalid_depth != 0) metres.setTo(0.0f, raw == invalid_depth);
+  if (limits.HasNearest()) metres.setTo(0.0f, raw <= limits.nearest);
+  if (limits.HasFarthest()) metres.setTo(0.0f, raw >= limits.farthest);
   return metres;
 }
 
@@ -102,6 +108,15 @@ RgbdDecoder::RgbdDecoder(SequenceIndex index, Calibration calibration)
                                                       calibration_.camera, calibration_.distortion);
 }
 
+std::vector<std::string> RgbdDecoder::Warnings() const {
+  std::vector<std::string> warnings = index_.warnings;
+  for (const ClippingReport& report :
+       DescribeClippedDepth(index_.clipped_depth, calibration_.depth_scale)) {
+    warnings.push_back(report.text);
+  }
+  return warnings;
+}
+
 RgbdImage RgbdDecoder::Decode(int i) const {
   try {
     return DecodePair(i, ReadStored(i));
@@ -112,15 +127,31 @@ RgbdImage RgbdDecoder::Decode(int i) const {
   }
 }
 
+StoredImage RgbdDecoder::ReadStoredDepth(int i) const {
+  const SequenceEntry& entry = index_.entries.at(i);
+  if (index_.container) return index_.container->ReadDepth(entry.depth_index);
+  return {ReadImageBytes(entry.depth_path, entry), {}};
+}
+
 StoredRgbd RgbdDecoder::ReadStored(int i) const {
   const SequenceEntry& entry = index_.entries.at(i);
   try {
-    if (index_.container) {
-      return {index_.container->ReadColor(entry.color_index),
-              index_.container->ReadDepth(entry.depth_index)};
-    }
-    return {{ReadImageBytes(entry.color_path, entry), {}},
-            {ReadImageBytes(entry.depth_path, entry), {}}};
+    const StoredImage color = index_.container
+                                  ? index_.container->ReadColor(entry.color_index)
+                                  : StoredImage{ReadImageBytes(entry.color_path, entry), {}};
+    return {color, ReadStoredDepth(i)};
+  } catch (const std::runtime_error& error) {
+    throw UnreadableImage(i, error.what());
+  }
+}
+
+cv::Mat RgbdDecoder::DecodeRawDepth(int i) const {
+  const SequenceEntry& entry = index_.entries.at(i);
+  try {
+    cv::Mat depth = DecodeStored(ReadStoredDepth(i), entry.depth_path, entry).clone();
+    CheckDepthType(depth, entry);
+    if (index_.invalid_depth != 0) depth.setTo(0, depth == index_.invalid_depth);
+    return depth;
   } catch (const std::runtime_error& error) {
     throw UnreadableImage(i, error.what());
   }
@@ -139,9 +170,11 @@ StoredRgbd RgbdDecoder::ReadForExport(int i) const {
       cv::resize(color, color, size, 0.0, 0.0, cv::INTER_AREA);
       stored.color = {"", color};
     }
-    if (index_.invalid_depth != 0) {
+    const DepthLimits& limits = index_.clipped_depth.limits;
+    if (index_.invalid_depth != 0 || limits.HasNearest() || limits.HasFarthest()) {
       cv::Mat depth = DecodeStored(stored.depth, entry.depth_path, entry).clone();
-      depth.setTo(0, depth == index_.invalid_depth);
+      if (index_.invalid_depth != 0) depth.setTo(0, depth == index_.invalid_depth);
+      limits.Apply(&depth);
       stored.depth = {"", depth};
     }
   } catch (const UnreadableImage&) {
@@ -177,13 +210,7 @@ RgbdImage RgbdDecoder::MakeImage(int i, const SequenceEntry& entry, cv::Mat colo
     Fail(entry.color_path, entry,
          "has " + TypeText(color) + "; colour images need 8 bits and 1, 3 or 4 channels");
   }
-  const bool is_metres = index_.container && depth.type() == CV_32FC1;
-  if (depth.type() != CV_16UC1 && !is_metres) {
-    Fail(entry.depth_path, entry,
-         "has " + TypeText(depth) +
-             "; depth images need 1 channel of 16 bits (a visualisation of the depth does not "
-             "contain the measurements)");
-  }
+  CheckDepthType(depth, entry);
   CheckDepthSize(depth, entry);
   const cv::Size size(calibration_.camera.width, calibration_.camera.height);
   if (index_.scale_color && color.cols > size.width && color.rows > size.height) {
@@ -195,12 +222,21 @@ RgbdImage RgbdDecoder::MakeImage(int i, const SequenceEntry& entry, cv::Mat colo
   image.timestamp = entry.timestamp;
   image.depth_delay = entry.depth_delay;
   image.gray = ToGray(color);
-  image.depth = ToMetres(depth, calibration_.depth_scale, index_.invalid_depth);
+  image.depth = ToMetres(depth, calibration_.depth_scale, index_.clipped_depth.limits);
   if (registration_) {
     image.recorded_depth = image.depth;
     image.depth = registration_->Register(image.recorded_depth);
   }
   return image;
+}
+
+void RgbdDecoder::CheckDepthType(const cv::Mat& depth, const SequenceEntry& entry) const {
+  const bool is_metres = index_.container && depth.type() == CV_32FC1;
+  if (depth.type() == CV_16UC1 || is_metres) return;
+  Fail(entry.depth_path, entry,
+       "has " + TypeText(depth) +
+           "; depth images need 1 channel of 16 bits (a visualisation of the depth does not "
+           "contain the measurements)");
 }
 
 void RgbdDecoder::CheckDepthSize(const cv::Mat& depth, const SequenceEntry& entry) const {

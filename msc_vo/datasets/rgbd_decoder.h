@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "msc_vo/datasets/calibration.h"
 #include "msc_vo/datasets/image_container.h"
@@ -46,26 +47,37 @@ class RgbdDecoder {
   const SequenceIndex& index() const { return index_; }
   const Calibration& calibration() const { return calibration_; }
 
+  /// What the user should know of the sequence, one sentence each: the warnings of the index, and
+  /// clipped depth.
+  std::vector<std::string> Warnings() const;
+
   /// Decodes entry i, 0 <= i < size(): converts colour to grey and depth to metres (0: no
-  /// measurement), scales colour down to the size of the camera if the index requires it, and
-  /// registers depth to colour if the calibration has a depth camera. The id of the image is i.
-  /// Throws UnreadableImage if a file is missing, damaged, of another size than the camera, or of
-  /// the wrong bit depth.
+  /// measurement, which includes clipped depth), scales colour down to the size of the camera if
+  /// the index requires it, and registers depth to colour if the calibration has a depth camera.
+  /// The id of the image is i. Throws UnreadableImage if a file is missing, damaged, of another
+  /// size than the camera, or of the wrong bit depth.
   RgbdImage Decode(int i) const;
 
   /// Returns entry i for a copy of the sequence: as it is stored, unless the index says that colour
-  /// has to be scaled or that depth has another value than 0 for no measurement. Throws
+  /// has to be scaled or that depth has other values than 0 for no measurement. Throws
   /// UnreadableImage as Decode() does.
   StoredRgbd ReadForExport(int i) const;
+
+  /// Decodes the depth image of entry i only, before registration: CV_16UC1, raw units, or
+  /// CV_32FC1, metres; 0: no measurement. Clipped values are included. Throws UnreadableImage as
+  /// Decode() does.
+  cv::Mat DecodeRawDepth(int i) const;
 
   /// Converts a pair of images of SequenceIndex::camera. Throws std::runtime_error if its size is
   /// not that of the camera.
   RgbdImage Convert(const CameraImage& image, int id) const;
 
  private:
+  StoredImage ReadStoredDepth(int i) const;
   StoredRgbd ReadStored(int i) const;
   RgbdImage DecodePair(int i, const StoredRgbd& stored) const;
   RgbdImage MakeImage(int i, const SequenceEntry& entry, cv::Mat color, const cv::Mat& depth) const;
+  void CheckDepthType(const cv::Mat& depth, const SequenceEntry& entry) const;
   void CheckDepthSize(const cv::Mat& depth, const SequenceEntry& entry) const;
   void CheckColorSize(const cv::Mat& color, const cv::Mat& depth, const SequenceEntry& entry) const;
 

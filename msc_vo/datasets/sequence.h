@@ -11,6 +11,7 @@
 #include "msc_vo/datasets/calibration.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/geometry/timed_pose.h"
+#include "msc_vo/sensor/depth_limits.h"
 
 namespace msc_vo {
 
@@ -30,6 +31,15 @@ struct SequenceEntry {
   int depth_index = -1;
 };
 
+/// Raw depth values at which the images of a sequence are clipped.
+struct ClippedDepth {
+  DepthLimits limits;      ///< raw units; values at and beyond them do not count as measured
+  bool is_metric = false;  ///< the images hold metres, which then are the raw units
+  /// Ratio of the pixels that are left out because they are too near or too far.
+  double nearest_ratio = 0.0;
+  double farthest_ratio = 0.0;
+};
+
 /// The contents of a sequence folder or of another source of images; images are not decoded.
 struct SequenceIndex {
   std::string format;                        ///< name of the layout, "tum"
@@ -38,9 +48,10 @@ struct SequenceIndex {
   TimeUnit stamp_unit = TimeUnit::kSeconds;  ///< original unit of the image stamps
   /// Calibration file of the folder; for images of the size of depth.
   std::optional<Calibration> calibration;
-  std::string preset;        ///< camera preset guessed from the layout or the name; may be empty
-  int invalid_depth = 0;     ///< raw depth value for "no measurement", in addition to 0
-  bool scale_color = false;  ///< colour is larger than depth and is scaled down to its size
+  std::string preset;          ///< camera preset guessed from the layout or the name; may be empty
+  int invalid_depth = 0;       ///< raw depth value for "no measurement", in addition to 0
+  ClippedDepth clipped_depth;  ///< see FindClippedDepth()
+  bool scale_color = false;    ///< colour is larger than depth and is scaled down to its size
   /// The images, if they are in one file; null: every image is a file.
   std::shared_ptr<const ImageContainer> container;
   /// A live camera. There are no entries then.

@@ -8,26 +8,21 @@
 #include <opencv2/core.hpp>
 
 #include "msc_vo/diagnosis/finding.h"
+#include "msc_vo/sensor/byte_order.h"
 
 namespace msc_vo {
 
 /// Statistics of one depth image.
 struct DepthQuality {
   double valid = 0.0;         ///< ratio of pixels with a depth
-  double saturated = 0.0;     ///< ratio of pixels at the largest raw value, 65535
   std::vector<float> sample;  ///< metres, valid depths of a regular subset of the pixels
-  /// Median of |a - b| / (a + b) over neighbouring raw values a and b that differ: as they are, and
-  /// with the two bytes of each value swapped. Zero without such neighbours.
-  double roughness = 0.0;
-  double swapped_roughness = 0.0;
 };
 
-/// Measures a depth image in metres (CV_32FC1, 0: none) that has `depth_scale` raw units per metre.
-DepthQuality MeasureDepth(const cv::Mat& depth, double depth_scale);
+/// Measures a depth image in metres (CV_32FC1, 0: none).
+DepthQuality MeasureDepth(const cv::Mat& depth);
 
-/// Range of the depths (a wrong depth scale shows here), ratio of valid pixels, byte order and
-/// saturation.
-void AddDepthFindings(const std::vector<DepthQuality>& images, double depth_scale,
-                      Findings* findings);
+/// Range of the depths (a wrong depth scale shows here), ratio of valid pixels and byte order.
+void AddDepthFindings(const std::vector<DepthQuality>& images, const ByteOrder& byte_order,
+                      double depth_scale, Findings* findings);
 
 }  // namespace msc_vo

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/datasets/clipped_depth_search.h"
 #include "msc_vo/diagnosis/calibration_findings.h"
 #include "msc_vo/diagnosis/camera_findings.h"
 #include "msc_vo/diagnosis/depth_quality.h"
@@ -39,6 +40,7 @@ constexpr char kCalibrationCheck[] = "calibration";
 struct SampleMeasurements {
   std::vector<ImageExposure> exposures;
   std::vector<DepthQuality> depths;
+  ByteOrder byte_order;
   std::vector<EdgeAlignment> alignments;
   std::vector<Texture> textures;
   std::vector<std::string> failures;
@@ -67,7 +69,9 @@ SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count,
     try {
       const RgbdImage image = decoder.Decode(SampleIndex(k, count, decoder.size()));
       sample.exposures.push_back(MeasureExposure(image.gray));
-      sample.depths.push_back(MeasureDepth(image.depth, calibration.depth_scale));
+      sample.depths.push_back(MeasureDepth(image.depth));
+      sample.byte_order.Add(image.recorded_depth.empty() ? image.depth : image.recorded_depth,
+                            calibration.depth_scale);
       if (!builder) continue;
       sample.alignments.push_back(AlignEdges(image.gray, image.depth, true));
       sample.textures.push_back(MeasureTexture(builder->Build(image)));
@@ -96,7 +100,15 @@ void AddDecodingFindings(const SampleMeasurements& sample, int count, Findings* 
 void AddSampleFindings(const SampleMeasurements& sample, const Calibration& calibration,
                        Findings* findings) {
   AddExposureFindings(sample.exposures, calibration.camera.width, findings);
-  AddDepthFindings(sample.depths, calibration.depth_scale, findings);
+  AddDepthFindings(sample.depths, sample.byte_order, calibration.depth_scale, findings);
+}
+
+void AddClippingFindings(const RgbdDecoder& decoder, Findings* findings) {
+  for (const ClippingReport& report :
+       DescribeClippedDepth(decoder.index().clipped_depth, decoder.calibration().depth_scale)) {
+    findings->push_back(Warning("depth.clipped", report.text, "write 0 where nothing was measured",
+                                Measurement{report.depth, "m"}));
+  }
 }
 
 // Whether the images do not contradict the calibration, as far as it was tested.
@@ -148,6 +160,7 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
   const SampleMeasurements sample = MeasureSample(decoder, count, features);
   AddDecodingFindings(sample, count, &findings);
   AddSampleFindings(sample, calibration, &findings);
+  AddClippingFindings(decoder, &findings);
   AddRegistrationFindings(sample.alignments, calibration.camera.width, &findings);
   AddTextureFindings(sample.textures, &findings);
   AddGroundTruthStampFindings(index, &findings);

@@ -4,6 +4,7 @@
 #include "msc_vo/odometry/depth_preparation.h"
 
 #include "msc_vo/features/depth_measurement.h"
+#include "msc_vo/odometry/event_log.h"
 #include "msc_vo/sensor/depth_camera_correction.h"
 
 namespace msc_vo {
@@ -29,6 +30,22 @@ void DepthPreparation::SetIntrinsics(const CameraIntrinsics& intrinsics) {
   } else {
     aligner_ = DepthAligner(intrinsics.camera, intrinsics.distortion);
   }
+}
+
+RgbdImage DepthPreparation::RemoveClipped(const RgbdImage& image) {
+  // Registration has changed the values; who registers depth knows those before.
+  if (!image.recorded_depth.empty()) return image;
+  const PinholeCamera& camera = given_->distortion.Recorded(given_->camera);
+  const bool fits = image.depth.type() == CV_32FC1 && image.depth.cols == camera.width &&
+                    image.depth.rows == camera.height;
+  if (!fits) return image;  // refused later
+  if (clipped_.Add(image.depth)) EventLog::LogClippedDepth(image.id, clipped_.limits());
+  const DepthLimits& limits = clipped_.limits();
+  if (!limits.HasNearest() && !limits.HasFarthest()) return image;
+  RgbdImage measured = image;
+  measured.depth = image.depth.clone();
+  limits.Apply(&measured.depth);
+  return measured;
 }
 
 RgbdImage DepthPreparation::Align(const RgbdImage& image,

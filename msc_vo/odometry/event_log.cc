@@ -40,6 +40,17 @@ void EventLog::LogDepthSensor(DepthSensor sensor) {
              chooses_depth_sensor_ ? "chosen from the depth images" : "given");
 }
 
+void EventLog::LogClippedDepth(int64_t id, const DepthLimits& limits) {
+  const auto log = [id](const char* condition, float depth) {
+    Log().warn(
+        "depth is clipped at {:.3f} m: it is that value wherever the scene is {}; from image "
+        "{} on it does not count as measured",
+        depth, condition, id);
+  };
+  if (limits.HasNearest()) log("nearer", limits.nearest);
+  if (limits.HasFarthest()) log("farther", limits.farthest);
+}
+
 void EventLog::LogFrame(const FrameResult& frame, bool relocalized) {
   LogStatus(frame, relocalized);
   if (frame.is_keyframe) {

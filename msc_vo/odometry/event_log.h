@@ -10,6 +10,7 @@
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/odometry/mapping_runner.h"
 #include "msc_vo/odometry/odometry_options.h"
+#include "msc_vo/sensor/depth_limits.h"
 #include "msc_vo/structure/axes_estimator.h"
 #include "msc_vo/tracking/tracked_frame.h"
 
@@ -23,6 +24,8 @@ class EventLog {
   void LogStart(const OdometryOptions& options, const PinholeCamera& camera);
   /// The depth sensor, once it is known.
   void LogDepthSensor(DepthSensor sensor);
+  /// Depths at which the images are clipped, found with image `id`.
+  static void LogClippedDepth(int64_t id, const DepthLimits& limits);
   /// Changes of the tracking status, and keyframes. `relocalized`: the pose was found without a
   /// prediction.
   void LogFrame(const FrameResult& frame, bool relocalized);

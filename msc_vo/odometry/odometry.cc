@@ -91,8 +91,8 @@ struct Odometry::State {
     std::shared_ptr<const CameraIntrinsics> intrinsics = builder.intrinsics();
     archive(intrinsics);
     UseIntrinsics(intrinsics);  // resets what is read next
-    archive(builder, tracker, mapper, last_window, last_calibration_image_time, packet, results,
-            relative_poses, refiner, segments, log, schedule);
+    archive(preparation, builder, tracker, mapper, last_window, last_calibration_image_time, packet,
+            results, relative_poses, refiner, segments, log, schedule);
   }
 
   OdometryOptions options;
@@ -266,10 +266,11 @@ void Odometry::SetTrackingObserver(TrackingObserver observer) {
   state_->tracking_observer = std::move(observer);
 }
 
-FrameResult Odometry::Process(const RgbdImage& recorded) {
-  state_->CheckTime(recorded.id, recorded.timestamp);
-  CheckDepthDelay(recorded.id, recorded.depth_delay);
+FrameResult Odometry::Process(const RgbdImage& given) {
+  state_->CheckTime(given.id, given.timestamp);
+  CheckDepthDelay(given.id, given.depth_delay);
   Stopwatch stopwatch;
+  const RgbdImage recorded = state_->preparation.RemoveClipped(given);
   const RgbdImage aligned = state_->Align(recorded);
   RgbdImage image = state_->preparation.Register(aligned);
   const double alignment_ms = stopwatch.Milliseconds();

@@ -72,6 +72,14 @@ cv::Mat Dequantise(const cv::Mat& raw, const DepthHeader& header) {
   return metres;
 }
 
+// Reverses the order of the bytes of each value.
+void ReverseBytes(cv::Mat* image) {
+  const size_t size = image->elemSize1();
+  for (uint8_t* value = image->data; value < image->dataend; value += size) {
+    std::reverse(value, value + size);
+  }
+}
+
 StoredImage DecodeCompressedDepth(const RosCompressedImage& image) {
   DepthHeader header;
   if (image.data.size() <= sizeof(header)) {
@@ -138,14 +146,12 @@ StoredImage ConvertRosImage(const RosImage& image) {
       image.data.size() / image.step < image.height) {
     throw std::runtime_error("damaged image: its size does not fit its data");
   }
-  if (image.is_big_endian && CV_ELEM_SIZE1(encoding.type) > 1) {
-    throw std::runtime_error("images of big-endian machines cannot be read");
-  }
   const cv::Mat view(static_cast<int>(image.height), static_cast<int>(image.width), encoding.type,
                      const_cast<char*>(image.data.data()), image.step);
   cv::Mat pixels;
   if (encoding.conversion == kNoConversion) {
     pixels = view.clone();
+    if (image.is_big_endian) ReverseBytes(&pixels);
   } else {
     cv::cvtColor(view, pixels, encoding.conversion);
   }

@@ -10,15 +10,16 @@ namespace msc_vo {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 class RgbdDecoderTest : public TemporaryFolder {
  protected:
   // Entry i is <i>.png and <i>d.png, one second apart, for a camera of 8 x 6 pixels.
-  RgbdDecoder Decoder(int count, bool scale_color = false) {
+  RgbdDecoder Decoder(int count, bool scale_color = false, const DepthLimits& limits = {}) {
     SequenceIndex index;
     index.scale_color = scale_color;
-    index.invalid_depth = 65535;
+    index.clipped_depth.limits = limits;
     for (int i = 0; i < count; ++i) {
       const std::string name = std::to_string(i);
       index.entries.push_back(
@@ -55,6 +56,21 @@ TEST_F(RgbdDecoderTest, ConvertsToGreyAndMetres) {
   EXPECT_FLOAT_EQ(image.depth.at<float>(0, 0), 2.5f);
   EXPECT_EQ(image.depth.at<float>(0, 1), 0.0f);
   EXPECT_EQ(image.depth.at<float>(0, 2), 0.0f);
+}
+
+TEST_F(RgbdDecoderTest, LeavesOutClippedDepth) {
+  WriteColor("0.png");
+  const cv::Mat raw = (cv::Mat_<uint16_t>(6, 1) << 0, 500, 800, 2499, 2500, 65535);
+  cv::imwrite(Path("0d.png"), cv::repeat(raw, 1, 8));
+  const RgbdDecoder decoder = Decoder(1, false, {500.0f, 2500.0f});
+  const cv::Mat depth = decoder.Decode(0).depth.col(3);
+  EXPECT_LT(cv::norm(depth, cv::Mat((cv::Mat_<float>(6, 1) << 0, 0, 0.8f, 2.499f, 0, 0))), 1e-6);
+  EXPECT_EQ(cv::norm(decoder.DecodeRawDepth(0).col(3), raw), 0.0);
+  const cv::Mat copy = decoder.ReadForExport(0).depth.pixels.col(3);
+  EXPECT_EQ(cv::norm(copy, cv::Mat((cv::Mat_<uint16_t>(6, 1) << 0, 0, 800, 2499, 0, 0))), 0.0);
+  EXPECT_THAT(decoder.Warnings(),
+              ElementsAre(HasSubstr("clipped at 0.500 m"), HasSubstr("clipped at 2.500 m")));
+  EXPECT_TRUE(Decoder(1).Warnings().empty());
 }
 
 TEST_F(RgbdDecoderTest, AcceptsGreyAndTransparentImages) {

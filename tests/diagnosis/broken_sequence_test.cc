@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "msc_vo/datasets/clipped_depth_search.h"
 #include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/diagnosis/sequence_check.h"
 #include "msc_vo/synthetic/scene/synthetic_sequence.h"
@@ -52,6 +53,7 @@ class BrokenSequenceTest : public TemporaryFolder {
     CameraSettings settings;
     settings.field_of_view = field_of_view;
     const Calibration calibration = ResolveCalibration(settings, "", &index);
+    index.clipped_depth = FindClippedDepth(index);
     SequenceCheckOptions options;
     options.deep = deep;
     options.max_images = 12;
@@ -126,13 +128,17 @@ TEST_F(BrokenSequenceTest, FindsDefectsOfDepth) {
     ForAllImages(r, [](Recording::Image* i) { i->depth.convertTo(i->depth, CV_16U, 0.2); });
     r->calibration.depth_scale = 100000.0;
   });
-  ExpectError("byte_swapped", "depth.byte_order", "two bytes", [](Recording* r) {
-    ForAllImages(r, [](Recording::Image* i) {
-      for (auto p = i->depth.begin<uint16_t>(); p != i->depth.end<uint16_t>(); ++p) {
-        *p = static_cast<uint16_t>(*p << 8 | *p >> 8);
-      }
+  for (const double units : {5000.0, 1000.0, 100.0}) {
+    ExpectError("byte_swapped", "depth.byte_order", "two bytes", [units](Recording* r) {
+      r->calibration.depth_scale = units;
+      ForAllImages(r, [units](Recording::Image* i) {
+        i->depth.convertTo(i->depth, CV_16U, units / 5000.0);
+        for (auto p = i->depth.begin<uint16_t>(); p != i->depth.end<uint16_t>(); ++p) {
+          *p = static_cast<uint16_t>(*p << 8 | *p >> 8);
+        }
+      });
     });
-  });
+  }
   ExpectError("no_depth", "depth.valid", "no measurement", [](Recording* r) {
     ForAllImages(r, [](Recording::Image* i) { i->depth.setTo(0); });
   });
@@ -140,9 +146,20 @@ TEST_F(BrokenSequenceTest, FindsDefectsOfDepth) {
                 [](Recording* r) {
                   ForAllImages(r, [](Recording::Image* i) { i->depth.rowRange(40, 240).setTo(0); });
                 });
-  ExpectWarning("saturated", false, "depth.saturated", "65535", [](Recording* r) {
-    ForAllImages(r, [](Recording::Image* i) { i->depth.rowRange(0, 20).setTo(65535); });
-  });
+  ExpectWarning("saturated", false, "depth.clipped", "clipped at 13.107 m, raw value 65535",
+                [](Recording* r) {
+                  ForAllImages(r,
+                               [](Recording::Image* i) { i->depth.rowRange(0, 20).setTo(65535); });
+                });
+  ExpectWarning("clipped", false, "depth.clipped", "clipped at 2.500 m, raw value 12500",
+                [](Recording* r) {
+                  ForAllImages(r, [](Recording::Image* i) { cv::min(i->depth, 12500, i->depth); });
+                });
+  ExpectWarning(
+      "clipped_near", false, "depth.clipped", "wherever the scene is nearer", [](Recording* r) {
+        ForAllImages(
+            r, [](Recording::Image* i) { i->depth.setTo(11000, i->depth > 0 & i->depth < 11000); });
+      });
   ExpectError("eight_bits", "images.decoding", "1 channel of 8 bits", [](Recording* r) {
     ForAllImages(r, [](Recording::Image* i) { i->depth.convertTo(i->depth, CV_8U, 0.01); });
   });

@@ -87,6 +87,27 @@ class Replay(unittest.TestCase):
                             depth_scale=scale)
             np.testing.assert_array_equal(a.cam_from_world, b.cam_from_world)
 
+    def test_saturated_raw_depth_is_not_measured(self):
+        image = support.room()[0]
+        scale = support.room().depth_scale
+        zeros = np.rint(image.depth * scale).astype(np.uint16)
+        zeros[100:200] = 0
+        saturated = zeros.copy()
+        saturated[saturated == 0] = 65535
+        a, b = [support.room_odometry().process(image.timestamp, image.gray, depth,
+                                                depth_scale=scale) for depth in (zeros, saturated)]
+        self.assertEqual((a.num_points, a.num_lines), (b.num_points, b.num_lines))
+        np.testing.assert_array_equal(a.covariance, b.covariance)
+
+    def test_swapped_bytes_are_refused(self):
+        for scale in (1000, 5000):
+            units = np.rint(support.room()[0].depth * scale).astype(np.uint16)
+            odometry = support.room_odometry()
+            gray = support.room()[0].gray
+            with self.assertRaisesRegex(ValueError, "depth: the two bytes .* byteswap"):
+                odometry.process(0.0, gray, units.byteswap(), depth_scale=scale)
+            self.assertEqual(odometry.process(0.0, gray, units, depth_scale=scale).id, 0)
+
     def test_depth_that_is_not_a_number_is_not_measured(self):
         images = support.room_images()[:6]
         zeros, nans = support.room_odometry(), support.room_odometry()

@@ -3,6 +3,8 @@
 
 #include "msc_vo/ros_bag/ros_image.h"
 
+#include <algorithm>
+
 #include "tests/ros_bag/message_bytes.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
@@ -54,6 +56,26 @@ TEST(RosImage, ConvertsColours) {
   image.height = 1;
   ++image.step;  // no whole number of values
   EXPECT_THAT(MessageOf([&] { ConvertRosImage(image); }), HasSubstr("does not fit its data"));
+}
+
+TEST(RosImage, ReadsEitherByteOrder) {
+  const cv::Mat depth = (cv::Mat_<uint16_t>(1, 3) << 0, 0x1234, 0xFF01);
+  const cv::Mat metres = (cv::Mat_<float>(1, 3) << 0.0f, 1.25f, 3.75f);
+  const auto read_reversed = [](const cv::Mat& values, const std::string& encoding) {
+    cv::Mat reversed = values.clone();
+    for (uint8_t* value = reversed.data; value < reversed.dataend; value += values.elemSize()) {
+      std::reverse(value, value + values.elemSize());
+    }
+    const std::string bytes = ImageMessage(1, 0, reversed, encoding);
+    RosImage image = ParseRosImage(bytes);
+    image.is_big_endian = true;
+    return ConvertRosImage(image).pixels;
+  };
+  EXPECT_EQ(cv::norm(read_reversed(depth, "16UC1"), depth), 0.0);
+  EXPECT_EQ(cv::norm(read_reversed(depth, "mono16"), depth), 0.0);
+  EXPECT_EQ(cv::norm(read_reversed(metres, "32FC1"), metres), 0.0);
+  const cv::Mat gray = (cv::Mat_<uint8_t>(1, 3) << 1, 2, 3);
+  EXPECT_EQ(cv::norm(read_reversed(gray, "mono8"), gray), 0.0);
 }
 
 TEST(RosImage, FindsRedInABayerPattern) {
