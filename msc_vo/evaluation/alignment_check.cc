@@ -130,8 +130,8 @@ std::string DescribeUndetermined(const Poses& reference, const Poses& estimate, 
   if (scale * moments.common.sum() <= error) {
     return "the error of the positions (" + Millimetres(error) +
            ") exceeds the motion that both trajectories share (" +
-           Millimetres(scale * moments.common.sum()) + "): the rotation" +
-           (with_scale ? " and the scale" : "") + " of the alignment mean nothing";
+           Millimetres(scale * moments.common.sum()) + "), which determines no rotation" +
+           (with_scale ? " and no scale" : "") + " of the alignment";
   }
   if (scale * (moments.common.y() + moments.common.z()) <= error) {
     return "the positions are on a straight line up to their error, which determines no rotation "
@@ -146,8 +146,7 @@ std::string DescribeScaleContradiction(const Poses& reference, const Poses& esti
   constexpr double kMinExplained = 0.75;  // of the variance: noise is at most half of the motion
   constexpr double kQuantile = 8.61;      // of the t-distribution, two-sided 99.9 %, kParts - 1 = 4
   const double sensor_error = std::log(1.1);  // above that of any depth sensor, a few percent
-  std::array<double, kParts> logs;
-  std::array<double, kParts> bounds[2];  // as if the reference is longer, as if it is shorter
+  std::array<double, kParts> bounds[2];       // as if the reference is longer, as if it is shorter
   const std::vector<size_t> ends = DividePath(reference, kParts);
   for (int i = 0; i < kParts; ++i) {
     if (ends[i + 1] < ends[i] + kMinPoses) return "";
@@ -155,21 +154,18 @@ std::string DescribeScaleContradiction(const Poses& reference, const Poses& esti
     const double common = moments.common.sum();
     const double explained = common * common / (moments.reference * moments.estimate);
     if (!(common > 0.0 && explained >= kMinExplained)) return "";
-    logs[i] = 0.5 * std::log(moments.reference / moments.estimate);
     bounds[0][i] = std::log(common / moments.estimate);
     bounds[1][i] = -std::log(moments.reference / common);
   }
-  const auto mean_of = [](const std::array<double, kParts>& values) {
-    return Eigen::Map<const Eigen::Array<double, kParts, 1>>(values.data()).mean();
-  };
   for (const std::array<double, kParts>& bound : bounds) {
-    const double mean = mean_of(bound);
-    double squares = 0.0;
-    for (const double value : bound) squares += (value - mean) * (value - mean);
-    const double sigma = std::sqrt(squares / (kParts * (kParts - 1)));
+    const Eigen::Map<const Eigen::Array<double, kParts, 1>> values(bound.data());
+    const double mean = values.mean();
+    const double sigma = std::sqrt((values - mean).square().sum() / (kParts * (kParts - 1)));
     if (mean - kQuantile * sigma <= sensor_error) continue;
     const bool is_longer = &bound == &bounds[0];
-    const double factor = std::exp(std::abs(mean_of(logs)));
+    const Moments all = MomentsOf(reference, estimate, 0, reference.size());
+    const double ratio = std::sqrt(all.reference / all.estimate);
+    const double factor = is_longer ? ratio : 1.0 / ratio;
     return FormatText(
         "the %s path is %.*f times as long as the %s: depth units? (depth_scale, or "
         "a reference that is not in metres)",
@@ -185,24 +181,39 @@ std::string DescribeQuaternionOrder(const Poses& reference, const Poses& estimat
   // freedom, few because errors of a trajectory are correlated.
   constexpr double kBetter = 0.3;
   const double given = OrientationError(reference, estimate);
-  double best = given > kRounding ? kBetter * given : 0.0;
-  std::string text;
-  for (const bool scalar_was_first : {true, false}) {
-    for (const bool of_reference : {true, false}) {
-      const double error = of_reference
-                               ? OrientationError(Reordered(reference, scalar_was_first), estimate)
-                               : OrientationError(reference, Reordered(estimate, scalar_was_first));
-      if (error >= best) continue;
-      best = error;
-      text = FormatText(
-          "the quaternions of the %s seem to be in the order %s: read so, the orientations differ "
-          "by %.2f degrees instead of %.2f; name the columns in a header, '# time tx ty tz %s'",
-          of_reference ? "reference" : "estimate", scalar_was_first ? "qw qx qy qz" : "qx qy qz qw",
-          RadiansToDegrees(error), RadiansToDegrees(given),
-          scalar_was_first ? "qw qx qy qz" : "qx qy qz qw");
-    }
+  if (given <= kRounding) return "";
+  struct Reading {
+    double error;  // radians
+    bool of_reference;
+    const char* order;
+  };
+  std::vector<Reading> readings;
+  for (const bool of_reference : {true, false}) {
+    const auto add = [&](bool scalar_was_first, const char* order) {
+      const Poses read = Reordered(of_reference ? reference : estimate, scalar_was_first);
+      const double error =
+          of_reference ? OrientationError(read, estimate) : OrientationError(reference, read);
+      if (error < kBetter * given) readings.push_back({error, of_reference, order});
+    };
+    add(true, "qw qx qy qz");
+    add(false, "qx qy qz qw");
   }
-  return text;
+  if (readings.empty()) return "";
+  std::stable_sort(readings.begin(), readings.end(),
+                   [](const Reading& a, const Reading& b) { return a.error < b.error; });
+  std::string text;
+  for (const Reading& reading : readings) {
+    // Rotations about one axis do not tell which of the two trajectories it is.
+    if (reading.error > std::max(readings.front().error / kBetter, kRounding)) break;
+    text += FormatText("%s of the %s seem to be in the order %s", text.empty() ? "" : ", or those",
+                       reading.of_reference ? "reference" : "estimate", reading.order);
+  }
+  return "the quaternions" + text +
+         FormatText(
+             ": read so, the orientations differ by %.2f degrees instead of %.2f; name the "
+             "columns in a header, '# time tx ty tz %s'",
+             RadiansToDegrees(readings.front().error), RadiansToDegrees(given),
+             readings.front().order);
 }
 
 }  // namespace msc_vo

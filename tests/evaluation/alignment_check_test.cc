@@ -69,9 +69,9 @@ TEST(DescribeUndetermined, NamesPositionsThatAreTheSame) {
   // A tripod, measured with noise.
   const Poses tripod = WithNoise(Still(Path()), 1e-3, 0.0, 1);
   for (const bool with_scale : {false, true}) {
-    EXPECT_THAT(DescribeUndetermined(tripod, Path(), with_scale), HasSubstr("mean nothing"));
+    EXPECT_THAT(DescribeUndetermined(tripod, Path(), with_scale), HasSubstr("exceeds the motion"));
     EXPECT_THAT(DescribeUndetermined(tripod, WithNoise(Still(Path()), 1e-3, 0.0, 2), with_scale),
-                HasSubstr("mean nothing"));
+                HasSubstr("exceeds the motion"));
   }
 }
 
@@ -149,6 +149,16 @@ TEST(DescribeQuaternionOrder, NamesTheTrajectoryAndItsOrder) {
               HasSubstr("quaternions of the estimate seem to be in the order qw qx qy qz"));
   EXPECT_THAT(DescribeQuaternionOrder(Path(), Misread(estimate, false)),
               HasSubstr("quaternions of the estimate seem to be in the order qx qy qz qw"));
+}
+
+TEST(DescribeQuaternionOrder, NamesBothIfEitherExplains) {
+  Poses turning = Path();
+  for (size_t i = 0; i < turning.size(); ++i) {
+    turning[i].rotation() = ExpSO3({0.0, 0.01 * static_cast<double>(i), 0.0});
+  }
+  EXPECT_THAT(
+      DescribeQuaternionOrder(Misread(turning, true), turning),
+      testing::AllOf(HasSubstr("of the reference seem"), HasSubstr("of the estimate seem")));
 }
 
 TEST(DescribeQuaternionOrder, IsSilentIfTheOrderMakesNoDifference) {
