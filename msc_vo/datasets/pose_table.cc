@@ -61,14 +61,14 @@ bool Fits(const PoseColumns& columns, const std::vector<TextLine>& rows) {
   });
 }
 
-// The numbers of a column; empty if a row has none.
+// The finite numbers of a column; empty if a row has no number there.
 std::vector<double> NumbersOf(const std::vector<TextLine>& rows, size_t column) {
   std::vector<double> numbers;
   for (const TextLine& line : rows) {
     const auto number =
         column < line.fields.size() ? ParseNumber(line.fields[column]) : std::nullopt;
-    if (!number || !std::isfinite(*number)) return {};
-    numbers.push_back(*number);
+    if (!number) return {};
+    if (std::isfinite(*number)) numbers.push_back(*number);
   }
   return numbers;
 }
@@ -83,8 +83,10 @@ PoseColumns Moved(PoseColumns columns, size_t from, size_t to) {
 }
 
 size_t FirstColumn(const PoseColumns& columns) {
-  const size_t first = std::min(columns.position[0], columns.quaternion[0]);
-  return std::min({first, columns.time.value_or(first), columns.quaternion[3]});
+  const size_t first =
+      std::min(*std::min_element(columns.position.begin(), columns.position.end()),
+               *std::min_element(columns.quaternion.begin(), columns.quaternion.end()));
+  return std::min({first, columns.time.value_or(first), columns.nanoseconds.value_or(first)});
 }
 
 // The named columns; and moved, if rows have another number of columns: a row may begin with a
@@ -125,7 +127,8 @@ std::vector<PoseColumns> UnnamedCandidates(const std::vector<TextLine>& rows,
       (AreFrameNumbers(second) && !AreFrameNumbers(first))) {
     numbered.time = 0;
   }
-  if (is_date(second) && !is_date(first)) return {numbered, columns};
+  const bool is_long = rows.front().fields.size() >= numbered.MinColumns();
+  if (is_long && is_date(second) && !is_date(first)) return {numbered, columns};
   return {columns, numbered};
 }
 
@@ -201,7 +204,7 @@ class TableReader {
       line.Fail("expected at least " + std::to_string(columns_.MinColumns()) +
                 " fields, which the header names" + found + "; correct the line");
     }
-    const size_t expected = std::max(rows_.front().fields.size(), kFieldsPerPose);
+    const size_t expected = std::max(rows_.front().fields.size(), columns_.MinColumns());
     if (line.fields.size() == expected) return;
     if (expected == kFieldsPerPose) {
       line.Fail(std::string("expected 8 numbers ") + kTumColumns + found +

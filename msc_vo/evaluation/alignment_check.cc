@@ -182,38 +182,37 @@ std::string DescribeQuaternionOrder(const Poses& reference, const Poses& estimat
   constexpr double kBetter = 0.3;
   const double given = OrientationError(reference, estimate);
   if (given <= kRounding) return "";
+  // Both trajectories agree just as well if the other one is misread in the same way.
   struct Reading {
-    double error;  // radians
     bool of_reference;
-    const char* order;
+    bool scalar_was_first;
+    double error;  // radians
   };
   std::vector<Reading> readings;
-  for (const bool of_reference : {true, false}) {
-    const auto add = [&](bool scalar_was_first, const char* order) {
+  double best = kBetter * given;
+  for (const bool scalar_was_first : {true, false}) {
+    for (const bool of_reference : {true, false}) {
       const Poses read = Reordered(of_reference ? reference : estimate, scalar_was_first);
       const double error =
           of_reference ? OrientationError(read, estimate) : OrientationError(reference, read);
-      if (error < kBetter * given) readings.push_back({error, of_reference, order});
-    };
-    add(true, "qw qx qy qz");
-    add(false, "qx qy qz qw");
+      best = std::min(best, error);
+      if (error < kBetter * given) readings.push_back({of_reference, scalar_was_first, error});
+    }
   }
-  if (readings.empty()) return "";
-  std::stable_sort(readings.begin(), readings.end(),
-                   [](const Reading& a, const Reading& b) { return a.error < b.error; });
   std::string text;
   for (const Reading& reading : readings) {
-    // Rotations about one axis do not tell which of the two trajectories it is.
-    if (reading.error > std::max(readings.front().error / kBetter, kRounding)) break;
-    text += FormatText("%s of the %s seem to be in the order %s", text.empty() ? "" : ", or those",
-                       reading.of_reference ? "reference" : "estimate", reading.order);
+    if (reading.error > std::max(best / kBetter, kRounding)) continue;
+    text +=
+        FormatText("%s of the %s seem to be in the order %s", text.empty() ? "" : ", or those",
+                   reading.of_reference ? "reference" : "estimate",
+                   reading.scalar_was_first ? "qw qx qy qz" : "qx qy qz qw, if qw was read first");
   }
+  if (text.empty()) return "";
   return "the quaternions" + text +
          FormatText(
              ": read so, the orientations differ by %.2f degrees instead of %.2f; name the "
-             "columns in a header, '# time tx ty tz %s'",
-             RadiansToDegrees(readings.front().error), RadiansToDegrees(given),
-             readings.front().order);
+             "columns in a header, '# time tx ty tz qw qx qy qz'",
+             RadiansToDegrees(best), RadiansToDegrees(given));
 }
 
 }  // namespace msc_vo

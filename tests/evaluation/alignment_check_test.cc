@@ -148,17 +148,7 @@ TEST(DescribeQuaternionOrder, NamesTheTrajectoryAndItsOrder) {
   EXPECT_THAT(DescribeQuaternionOrder(Path(), Misread(estimate, true)),
               HasSubstr("quaternions of the estimate seem to be in the order qw qx qy qz"));
   EXPECT_THAT(DescribeQuaternionOrder(Path(), Misread(estimate, false)),
-              HasSubstr("quaternions of the estimate seem to be in the order qx qy qz qw"));
-}
-
-TEST(DescribeQuaternionOrder, NamesBothIfEitherExplains) {
-  Poses turning = Path();
-  for (size_t i = 0; i < turning.size(); ++i) {
-    turning[i].rotation() = ExpSO3({0.0, 0.01 * static_cast<double>(i), 0.0});
-  }
-  EXPECT_THAT(
-      DescribeQuaternionOrder(Misread(turning, true), turning),
-      testing::AllOf(HasSubstr("of the reference seem"), HasSubstr("of the estimate seem")));
+              HasSubstr("of the estimate seem to be in the order qx qy qz qw, if qw was"));
 }
 
 TEST(DescribeQuaternionOrder, IsSilentIfTheOrderMakesNoDifference) {
