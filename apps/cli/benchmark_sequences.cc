@@ -27,7 +27,7 @@ bool IsList(const std::string& path) {
 
 std::vector<std::string> ReadList(const std::string& path) {
   std::vector<std::string> sequences;
-  std::istringstream content(ReadFile(path));
+  std::istringstream content(ReadText(path));
   for (std::string line; std::getline(content, line);) {
     line = Trimmed(line);
     if (line.empty() || line[0] == '#') continue;

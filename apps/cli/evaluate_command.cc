@@ -15,7 +15,6 @@
 #include "apps/cli/evaluation_output.h"
 #include "apps/cli/number_range.h"
 #include "apps/cli/plot_file.h"
-#include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/evaluation/line_error.h"
 #include "msc_vo/evaluation/segment_error.h"
@@ -54,37 +53,6 @@ struct Trajectories {
   TrajectoryFile estimate;
 };
 
-std::vector<double> StampsOf(const std::vector<TimedPose>& poses) {
-  std::vector<double> stamps;
-  for (const TimedPose& pose : poses) stamps.push_back(pose.timestamp);
-  return stamps;
-}
-
-// Converts the time stamps from `unit` to seconds.
-void ToSeconds(const std::string& path, TimeUnit unit, std::vector<TimedPose>* poses) {
-  if (unit == TimeUnit::kSeconds) return;
-  PrintWarning(path + ": the time stamps are " + ToString(unit) + " and are converted to seconds");
-  for (TimedPose& pose : *poses) pose.timestamp /= UnitsPerSecond(unit);
-}
-
-// Stamps in other units than seconds are converted, with a warning, unless the format defines the
-// unit.
-void ConvertStamps(const Arguments& arguments, Trajectories* trajectories) {
-  TrajectoryFile& truth = trajectories->truth;
-  TrajectoryFile& estimate = trajectories->estimate;
-  TimeUnit unit = TimeUnit::kSeconds;
-  if (truth.format == TrajectoryFormat::kTum) {
-    unit = GuessTimeUnit(StampsOf(truth.poses));
-    ToSeconds(arguments.truth, unit, &truth.poses);
-  }
-  if (estimate.format != TrajectoryFormat::kTum) return;
-  const std::vector<double> stamps = StampsOf(estimate.poses);
-  ToSeconds(arguments.estimate,
-            truth.has_stamps ? GuessTimeUnit(stamps, RangeOf(StampsOf(truth.poses), unit))
-                             : GuessTimeUnit(stamps),
-            &estimate.poses);
-}
-
 Trajectories ReadTrajectories(const Arguments& arguments) {
   std::optional<TrajectoryFormat> truth_format, estimate_format;
   if (!arguments.formats.empty()) {
@@ -93,7 +61,10 @@ Trajectories ReadTrajectories(const Arguments& arguments) {
   }
   Trajectories trajectories{ReadTrajectoryFile(arguments.truth, truth_format),
                             ReadTrajectoryFile(arguments.estimate, estimate_format)};
-  ConvertStamps(arguments, &trajectories);
+  std::vector<std::string> warnings;
+  ConvertToSeconds(arguments.truth, arguments.estimate, &trajectories.truth, &trajectories.estimate,
+                   &warnings);
+  PrintWarnings(warnings);
   ShareStamps(arguments.truth, arguments.estimate, &trajectories.truth, &trajectories.estimate);
   return trajectories;
 }
@@ -114,6 +85,7 @@ TrajectoryError Evaluate(const Arguments& arguments, const Trajectories& traject
                                   ? "; --all-poses compares them"
                                   : "; are the time stamps of both in seconds of the same clock?"));
   }
+  PrintWarnings(error.warnings);
   if (!context.has_stamps) error.rpe_per_second = {};
   return error;
 }

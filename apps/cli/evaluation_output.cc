@@ -138,6 +138,9 @@ void WriteComparison(const std::string& path, const std::string& title,
   if (error.alignment == Alignment::kSim3) {
     comparison.numbers.push_back({"scale", FormatText("%.6f", error.scale), ""});
   }
+  for (const std::string& warning : error.warnings) {
+    comparison.numbers.push_back({"warning", warning, ""});
+  }
   WritePlotFile(path, ComparisonPage(comparison));
 }
 

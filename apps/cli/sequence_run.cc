@@ -190,6 +190,9 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   if (!context.sequence.ground_truth.empty() && loop.progress().num_images > 0) {
     const std::vector<TimedPose> poses = TrajectoryOf(run.result);
     context.error = EvaluateTrajectory(context.sequence.ground_truth, poses);
+    for (const std::string& warning : context.error->warnings) {
+      PrintWarning("ground truth: " + warning);
+    }
     context.segment_errors = EvaluateSegments(context.sequence.ground_truth, poses);
   }
   WarnAboutUnreadableImages(run);

@@ -10,7 +10,7 @@
 
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
-#include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/results/run_summary.h"
 #include "msc_vo/text/format_text.h"
@@ -35,15 +35,25 @@ std::vector<TimedPose> PosesOfRows(const RowMajorMatrix& rows, const std::string
   return poses;
 }
 
+std::string PathOf(const py::object& value) {
+  return py::module_::import("os").attr("fspath")(value).cast<std::string>();
+}
+
+void Warn(const std::string& text) {
+  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+}
+
 // A Result, a file, or an (N, 8) array.
-std::vector<TimedPose> TrajectoryArgument(const py::object& value, const std::string& name) {
-  if (py::isinstance<OdometryResult>(value)) {
-    return TrajectoryOf(value.cast<const OdometryResult&>());
-  }
+TrajectoryFile TrajectoryArgument(const py::object& value, const std::string& name) {
   if (py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__")) {
-    return ReadTrajectory(py::module_::import("os").attr("fspath")(value).cast<std::string>());
+    return ReadTrajectoryFile(PathOf(value));
   }
-  return PosesOfRows(MatrixArgument(value, name, -1, 8), name);
+  TrajectoryFile trajectory;
+  trajectory.unit = TimeUnit::kSeconds;
+  trajectory.poses = py::isinstance<OdometryResult>(value)
+                         ? TrajectoryOf(value.cast<const OdometryResult&>())
+                         : PosesOfRows(MatrixArgument(value, name, -1, 8), name);
+  return trajectory;
 }
 
 TrajectoryError Evaluate(const py::object& gt, const py::object& est, const std::string& align,
@@ -52,9 +62,15 @@ TrajectoryError Evaluate(const py::object& gt, const py::object& est, const std:
   options.max_time_difference = max_dt;
   options.alignment = AlignmentFromString(align);
   options.all_poses = all_poses;
-  TrajectoryError error =
-      EvaluateTrajectory(TrajectoryArgument(gt, "gt"), TrajectoryArgument(est, "est"), options);
+  TrajectoryFile reference = TrajectoryArgument(gt, "gt");
+  TrajectoryFile estimate = TrajectoryArgument(est, "est");
+  std::vector<std::string> warnings;
+  ConvertToSeconds("gt", "est", &reference, &estimate, &warnings);
+  ShareStamps("gt", "est", &reference, &estimate);
+  TrajectoryError error = EvaluateTrajectory(reference.poses, estimate.poses, options);
   if (!error.usable) throw std::invalid_argument(error.message);
+  error.warnings.insert(error.warnings.begin(), warnings.begin(), warnings.end());
+  for (const std::string& warning : error.warnings) Warn(warning);
   return error;
 }
 
@@ -111,6 +127,10 @@ void BindEvaluation(py::module_* module) {
       .def_readonly("coverage", &TrajectoryError::coverage, "Matched / reference poses, 0..1.")
       .def_readonly("coverage_in_range", &TrajectoryError::coverage_in_range)
       .def_readonly("path_length", &TrajectoryError::path_length, "Metres.")
+      .def_readonly(
+          "warnings", &TrajectoryError::warnings,
+          "What makes the errors doubtful: an undetermined alignment, contradicting scales "
+          "or orders of quaternions.")
       .def_property_readonly(
           "reference_from_estimate",
           [](const TrajectoryError& self) { return PoseMatrix(self.reference_from_estimate); },
@@ -127,7 +147,9 @@ void BindEvaluation(py::module_* module) {
       "Compares trajectories: a file, an (N, 8) array of rows t tx ty tz qx qy qz qw, or a Result. "
       "align: 'se3' (Umeyama), 'sim3' (with scale), 'origin' (first poses) or 'none'. max_dt: "
       "seconds. "
-      "Raises ValueError if fewer than three poses match.");
+      "Raises ValueError if fewer than three poses match or the alignment has no scale, and warns "
+      "of "
+      "what is in TrajectoryError.warnings.");
 }
 
 }  // namespace msc_vo

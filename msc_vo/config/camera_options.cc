@@ -9,7 +9,7 @@
 
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/datasets/camera_file.h"
-#include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -38,7 +38,7 @@ Configuration CameraConfiguration(const Calibration& calibration) {
 
 void ReadCamera(const std::string& path, Configuration* configuration) {
   Configuration read;
-  if (IsCameraFile(ReadFile(path, kMaxOptionsBytes))) {
+  if (IsCameraFile(ReadText(path, kMaxOptionsBytes))) {
     read = CameraConfiguration(ReadCameraFile(path));
   } else {
     ReadConfiguration(path, &read);

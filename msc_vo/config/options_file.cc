@@ -12,7 +12,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "msc_vo/config/orb_slam_config.h"
-#include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -84,7 +84,7 @@ class YamlReader {
 }  // namespace
 
 void ReadConfiguration(const std::string& path, Configuration* configuration) {
-  const std::string content = ReadFile(path, kMaxOptionsBytes);
+  const std::string content = ReadText(path, kMaxOptionsBytes);
   if (IsOrbSlamConfig(content)) {
     configuration->camera = ReadOrbSlamConfig(path);
     return;

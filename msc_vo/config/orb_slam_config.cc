@@ -100,7 +100,7 @@ bool IsOrbSlamConfig(const std::string& content) {
 }
 
 CameraSettings ReadOrbSlamConfig(const std::string& path) {
-  const Values values = ReadValues(ReadFile(path, kMaxOptionsBytes));
+  const Values values = ReadValues(ReadText(path, kMaxOptionsBytes));
   // The first of the names that the file contains, with its value; null if it contains none.
   const auto find_entry =
       [&](std::initializer_list<const char*> names) -> const Values::value_type* {

@@ -5,44 +5,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
+#include <stdexcept>
+#include <utility>
 
+#include "msc_vo/datasets/trajectory_comment.h"
+#include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/text/files.h"
-#include "msc_vo/text/format_text.h"
-#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
 namespace {
-
-constexpr size_t kFieldsPerPose = 8;
-// Deviation of the norm from 1; larger than the rounding of components with two decimals.
-constexpr double kMaxQuaternionError = 0.05;
-constexpr char kNotEstimated[] = "not estimated";
-constexpr char kSegmentFormat[] = "segment %d, world %d";
-
-// Reads segment and world from a comment; other comments have no effect.
-void ReadSegment(const std::string& comment, int* segment, int* world) {
-  int numbers[2] = {0, 0};
-  if (std::sscanf(comment.c_str(), kSegmentFormat, &numbers[0], &numbers[1]) != 2) return;
-  *segment = numbers[0];
-  *world = numbers[1];
-}
-
-// The comment above a pose, empty if it needs none. `segment` and `world`: of the pose before it.
-std::string CommentOf(const TimedPose& pose, int segment, int world) {
-  std::string comment;
-  if (pose.segment != segment || pose.world != world) {
-    comment = FormatText(kSegmentFormat, pose.segment, pose.world);
-  }
-  if (!pose.is_estimated) comment += (comment.empty() ? "" : ", ") + std::string(kNotEstimated);
-  return comment;
-}
-
-bool EndsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 void SortByTime(std::vector<TimedPose>* poses) {
   std::stable_sort(poses->begin(), poses->end(), [](const TimedPose& a, const TimedPose& b) {
@@ -62,40 +35,12 @@ std::string Fixed(double value, int decimals) {
 }  // namespace
 
 std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out) {
-  std::vector<TimedPose> poses;
-  if (num_left_out) *num_left_out = 0;
-  int segment = 0, world = 0;
-  for (const TextLine& line : ReadTextLines(path)) {
-    ReadSegment(line.comment, &segment, &world);
-    if (line.fields.size() != kFieldsPerPose) {
-      line.Fail("expected 8 numbers 'time tx ty tz qx qy qz qw', found " +
-                std::to_string(line.fields.size()) + " fields; correct the line");
-    }
-    std::array<double, kFieldsPerPose> v;
-    bool finite = true;
-    for (size_t i = 0; i < kFieldsPerPose; ++i) {
-      const std::optional<double> value = ParseNumber(line.fields[i]);
-      if (!value) {
-        line.Fail("'" + line.fields[i] + "' is not a number; correct or remove the line");
-      }
-      v[i] = *value;
-      finite = finite && std::isfinite(v[i]);
-    }
-    if (!finite) {
-      if (num_left_out) ++*num_left_out;
-      continue;
-    }
-    const Eigen::Quaterniond rotation(v[7], v[4], v[5], v[6]);
-    if (!(std::abs(rotation.norm() - 1.0) <= kMaxQuaternionError)) {
-      line.Fail(FormatText(
-          "the quaternion qx qy qz qw has length %.3f instead of 1; correct or remove the line",
-          rotation.norm()));
-    }
-    poses.push_back({v[0], Rigid3(rotation.normalized(), {v[1], v[2], v[3]}),
-                     !EndsWith(line.comment, kNotEstimated), segment, world});
+  TrajectoryFile file = ReadTrajectoryFile(path);
+  if (!file.has_stamps) {
+    throw std::runtime_error(path + ": has no time stamps; write 'time tx ty tz qx qy qz qw' rows");
   }
-  SortByTime(&poses);
-  return poses;
+  if (num_left_out) *num_left_out = file.num_left_out;
+  return std::move(file.poses);
 }
 
 std::string FormatTrajectory(std::vector<TimedPose> poses) {
@@ -107,7 +52,7 @@ std::string FormatTrajectory(std::vector<TimedPose> poses) {
     const std::string stamp = Fixed(pose.timestamp, 6);
     if (stamp == previous_stamp) continue;
     previous_stamp = stamp;
-    const std::string comment = CommentOf(pose, segment, world);
+    const std::string comment = FormatPoseComment(pose, segment, world);
     if (!comment.empty()) text += "# " + comment + "\n";
     segment = pose.segment;
     world = pose.world;

@@ -10,12 +10,13 @@
 
 namespace msc_vo {
 
-/// Reads a TUM trajectory: one pose world_from_cam per line, "time tx ty tz qx qy qz qw", in
-/// seconds and metres. A comment "# segment 2, world 0" is the beginning of another segment.
-/// Accepts comments (#), blank lines, commas, tabs and CRLF; normalises quaternions. A pose below a
-/// comment "# not estimated" is marked as such. Poses with nan or inf, which some programs write
-/// for lost frames, are left out and counted in `num_left_out` unless that is null. The result is
-/// in order of time. Throws std::runtime_error naming file and line if a line does not fit or its
+/// Reads a trajectory with one pose world_from_cam per line in metres, "time tx ty tz qx qy qz qw",
+/// or in the columns that a header names (ReadTrajectoryFile()). A comment "# segment 2, world 0"
+/// is the beginning of another segment. Accepts comments (#), blank lines, commas, tabs and CRLF;
+/// normalises quaternions. A pose below a comment "# not estimated" is marked as such. Poses with
+/// nan or inf, which some programs write for lost frames, are left out and counted in
+/// `num_left_out` unless that is null. The result is in order of time; poses of the same time
+/// remain in order. Throws std::runtime_error naming file and line if a line does not fit or its
 /// quaternion is far from unit length.
 std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out = nullptr);
 

@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
-#include <utility>
 
 #include "msc_vo/datasets/pose_matrix.h"
-#include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/datasets/pose_table.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -21,59 +19,19 @@ namespace {
 
 constexpr std::array<TrajectoryFormat, 3> kFormats = {
     TrajectoryFormat::kTum, TrajectoryFormat::kKitti, TrajectoryFormat::kEuroc};
-constexpr size_t kKittiFields = 12;
-constexpr size_t kEurocFields = 8;  // those that are read
-constexpr double kNanoseconds = 1e9;
-constexpr double kMaxQuaternionError = 0.05;  // deviation of the norm from 1
+constexpr size_t kRowsFields = 12, kMatrixFields = 16;  // of a 4x4 matrix
 
-// The first row of a file and what stands above it.
-struct FirstRow {
-  std::string header;  // in lower case
-  std::string text;
-};
-
-FirstRow ReadFirstRow(const std::string& path) {
-  std::istringstream content(ReadFile(path));
-  FirstRow row;
-  for (std::string text; std::getline(content, text);) {
-    text = Trimmed(text);
-    if (text.empty()) continue;
-    const size_t end = text.find_first_of(" \t,");
-    if (text[0] != '#' && ParseNumber(text.substr(0, end))) {
-      row.text = text;
-      break;
-    }
-    row.header = Lowercase(text);
-  }
-  return row;
-}
-
-size_t NumFields(std::string text) {
-  std::replace(text.begin(), text.end(), ',', ' ');
-  std::istringstream fields(text);
-  size_t count = 0;
-  for (std::string field; fields >> field;) ++count;
-  return count;
-}
-
-bool NamesEurocColumns(const std::string& header) {
-  if (header.find("[ns]") != std::string::npos) return true;
-  for (const auto& [w, x] : {std::pair("q_rs_w", "q_rs_x"), {"qw", "qx"}, {"q_w", "q_x"}}) {
-    const size_t at = header.find(w);
-    if (at != std::string::npos && at < header.find(x)) return true;
-  }
-  return false;
+bool MayBeMatrix(const TextLine& line) {
+  return line.fields.size() == kRowsFields || line.fields.size() == kMatrixFields;
 }
 
 // All fields as numbers; none if one of them is not finite.
-std::optional<std::vector<double>> ParseFields(const TextLine& line, size_t count) {
+std::optional<std::vector<double>> ParseFields(const TextLine& line) {
   std::vector<double> values;
   bool finite = true;
-  for (size_t i = 0; i < count; ++i) {
-    const std::optional<double> value = ParseNumber(line.fields[i]);
-    if (!value) {
-      line.Fail("'" + line.fields[i] + "' is not a number; correct or remove the line");
-    }
+  for (const std::string& field : line.fields) {
+    const std::optional<double> value = ParseNumber(field);
+    if (!value) line.Fail("'" + field + "' is not a number; correct or remove the line");
     values.push_back(*value);
     finite = finite && std::isfinite(*value);
   }
@@ -81,25 +39,51 @@ std::optional<std::vector<double>> ParseFields(const TextLine& line, size_t coun
   return values;
 }
 
-TrajectoryFile ReadKitti(const std::string& path) {
+// The pose of a row with 12 or 16 numbers; none if they are not [R t] or [R t; 0 1].
+std::optional<Rigid3> PoseOfRow(const std::vector<double>& values) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  for (int i = 0; i < static_cast<int>(values.size()); ++i) matrix(i / 4, i % 4) = values[i];
+  if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) return std::nullopt;
+  return RigidFromMatrix(matrix);
+}
+
+bool HasQuaternion(const std::vector<double>& values, size_t column) {
+  return IsUnitQuaternion(Eigen::Map<const Eigen::Vector4d>(values.data() + column));
+}
+
+// Tests whether the first finite row is a rigid transform. A row of this length that is neither
+// that nor has a quaternion is taken for a wrong one.
+bool IsKitti(const std::vector<TextLine>& rows) {
+  for (const TextLine& line : rows) {
+    if (!MayBeMatrix(line)) return false;
+    std::vector<double> values;
+    for (const std::string& field : line.fields) {
+      values.push_back(ParseNumber(field).value_or(std::nan("")));
+    }
+    const auto is_finite = [](double value) { return std::isfinite(value); };
+    if (!std::all_of(values.begin(), values.end(), is_finite)) continue;
+    return PoseOfRow(values) || !(HasQuaternion(values, 4) || HasQuaternion(values, 5));
+  }
+  return !rows.empty();
+}
+
+TrajectoryFile ReadKitti(const std::vector<TextLine>& rows) {
   TrajectoryFile file;
   file.format = TrajectoryFormat::kKitti;
   file.has_stamps = false;
   double row = 0.0;
-  for (const TextLine& line : ReadTextLines(path)) {
-    if (line.fields.size() != kKittiFields) {
+  for (const TextLine& line : rows) {
+    if (!MayBeMatrix(line)) {
       line.Fail("expected 12 numbers, the rows of [R t], found " +
                 std::to_string(line.fields.size()) + " fields; correct the line");
     }
     const double stamp = row++;
-    const auto values = ParseFields(line, kKittiFields);
+    const auto values = ParseFields(line);
     if (!values) {
       ++file.num_left_out;
       continue;
     }
-    Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-    for (int i = 0; i < static_cast<int>(kKittiFields); ++i) matrix(i / 4, i % 4) = (*values)[i];
-    const std::optional<Rigid3> pose = RigidFromMatrix(matrix);
+    const std::optional<Rigid3> pose = PoseOfRow(*values);
     if (!pose) {
       line.Fail("columns 1-3, 5-7 and 9-11 are not a rotation matrix; correct or remove the line");
     }
@@ -108,36 +92,19 @@ TrajectoryFile ReadKitti(const std::string& path) {
   return file;
 }
 
-TrajectoryFile ReadEuroc(const std::string& path) {
-  TrajectoryFile file;
-  file.format = TrajectoryFormat::kEuroc;
-  bool is_first = true;
-  for (const TextLine& line : ReadTextLines(path)) {
-    // A header is usually a comment.
-    const bool is_header = std::exchange(is_first, false) && !ParseNumber(line.fields[0]);
-    if (is_header) continue;
-    if (line.fields.size() < kEurocFields) {
-      line.Fail("expected at least 8 numbers 'nanoseconds, x, y, z, qw, qx, qy, qz', found " +
-                std::to_string(line.fields.size()) + " fields; correct the line");
-    }
-    const auto values = ParseFields(line, kEurocFields);
-    if (!values) {
-      ++file.num_left_out;
-      continue;
-    }
-    const std::vector<double>& v = *values;
-    const Eigen::Quaterniond rotation(v[4], v[5], v[6], v[7]);
-    if (!(std::abs(rotation.norm() - 1.0) <= kMaxQuaternionError)) {
-      line.Fail(FormatText(
-          "the quaternion qw qx qy qz has length %.3f instead of 1; correct or remove the line",
-          rotation.norm()));
-    }
-    file.poses.push_back({v[0] / kNanoseconds, Rigid3(rotation.normalized(), {v[1], v[2], v[3]})});
-  }
-  std::stable_sort(
-      file.poses.begin(), file.poses.end(),
-      [](const TimedPose& a, const TimedPose& b) { return a.timestamp < b.timestamp; });
-  return file;
+std::vector<double> StampsOf(const std::vector<TimedPose>& poses) {
+  std::vector<double> stamps;
+  for (const TimedPose& pose : poses) stamps.push_back(pose.timestamp);
+  return stamps;
+}
+
+// Converts the time stamps from `unit` to seconds.
+void ToSeconds(const std::string& path, TimeUnit unit, TrajectoryFile* file,
+               std::vector<std::string>* warnings) {
+  if (unit == TimeUnit::kSeconds) return;
+  warnings->push_back(path + ": the time stamps are " + ToString(unit) +
+                      " and are converted to seconds");
+  for (TimedPose& pose : file->poses) pose.timestamp /= UnitsPerSecond(unit);
 }
 
 // Copies the stamps of the row with the same number.
@@ -175,32 +142,28 @@ std::optional<TrajectoryFormat> TrajectoryFormatFromName(const std::string& name
   return std::nullopt;
 }
 
-TrajectoryFormat DetectTrajectoryFormat(const std::string& path) {
-  const FirstRow row = ReadFirstRow(path);
-  const size_t num_fields = NumFields(row.text);
-  if (num_fields == kKittiFields) return TrajectoryFormat::kKitti;
-  if (row.text.find(',') == std::string::npos) return TrajectoryFormat::kTum;
-  constexpr double kFirstDate = 1e18;  // nanoseconds since 1970, in 2001
-  const std::optional<double> stamp = ParseNumber(row.text.substr(0, row.text.find(',')));
-  if (NamesEurocColumns(row.header) || num_fields > kEurocFields ||
-      (stamp && *stamp >= kFirstDate)) {
-    return TrajectoryFormat::kEuroc;
-  }
-  return TrajectoryFormat::kTum;
+TrajectoryFile ReadTrajectoryFile(const std::string& path, std::optional<TrajectoryFormat> format) {
+  if (format == TrajectoryFormat::kKitti) return ReadKitti(ReadTextLines(path));
+  const PoseRows rows = ReadPoseRows(path, format.has_value());
+  if (!format && !rows.named && IsKitti(rows.rows)) return ReadKitti(rows.rows);
+  return ReadPoseTable(rows, format);
 }
 
-TrajectoryFile ReadTrajectoryFile(const std::string& path, std::optional<TrajectoryFormat> format) {
-  switch (format ? *format : DetectTrajectoryFormat(path)) {
-    case TrajectoryFormat::kKitti:
-      return ReadKitti(path);
-    case TrajectoryFormat::kEuroc:
-      return ReadEuroc(path);
-    case TrajectoryFormat::kTum:
-      break;
+void ConvertToSeconds(const std::string& reference_path, const std::string& estimate_path,
+                      TrajectoryFile* reference, TrajectoryFile* estimate,
+                      std::vector<std::string>* warnings) {
+  TimeUnit unit = reference->unit.value_or(TimeUnit::kSeconds);
+  if (reference->has_stamps && !reference->unit) {
+    unit = GuessTimeUnit(StampsOf(reference->poses));
+    ToSeconds(reference_path, unit, reference, warnings);
   }
-  TrajectoryFile file;
-  file.poses = ReadTrajectory(path, &file.num_left_out);
-  return file;
+  if (!estimate->has_stamps || estimate->unit) return;
+  const std::vector<double> stamps = StampsOf(estimate->poses);
+  const bool is_known = reference->has_stamps && !reference->poses.empty();
+  ToSeconds(estimate_path,
+            is_known ? GuessTimeUnit(stamps, RangeOf(StampsOf(reference->poses), unit))
+                     : GuessTimeUnit(stamps),
+            estimate, warnings);
 }
 
 void ShareStamps(const std::string& reference_path, const std::string& estimate_path,

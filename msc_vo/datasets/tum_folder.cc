@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "msc_vo/datasets/camera_file.h"
@@ -13,7 +14,7 @@
 #include "msc_vo/datasets/image_pairing.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/time_unit.h"
-#include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -96,14 +97,21 @@ void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceInd
 void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, SequenceIndex* index) {
   const std::string path = (fs::path(directory) / "groundtruth.txt").string();
   const std::string truth = HasEntry(path) ? path : FindFreiburgTruth(directory);
-  if (truth.empty()) return;
-  int num_left_out = 0;
-  index->ground_truth = ReadTrajectory(truth, &num_left_out);
-  const std::string name = fs::path(truth).filename().string();
-  if (num_left_out > 0) {
-    index->warnings.push_back(name + ": " + std::to_string(num_left_out) +
+  if (!truth.empty()) ReadGroundTruthFile(truth, whole, index);
+}
+
+void ReadGroundTruthFile(const std::string& path, WholeStamps whole, SequenceIndex* index) {
+  TrajectoryFile file = ReadTrajectoryFile(path);
+  if (!file.has_stamps) {
+    throw std::runtime_error(path + ": has no time stamps; write 'time tx ty tz qx qy qz qw' rows");
+  }
+  index->ground_truth = std::move(file.poses);
+  const std::string name = fs::path(path).filename().string();
+  if (file.num_left_out > 0) {
+    index->warnings.push_back(name + ": " + std::to_string(file.num_left_out) +
                               " poses with nan or inf are left out");
   }
+  if (file.unit) return;
   const TimeRange images =
       RangeOf(StampsOf(index->entries, &SequenceEntry::timestamp), index->stamp_unit);
   ToSeconds(name, &TimedPose::timestamp, whole, images, &index->ground_truth, index);

@@ -27,6 +27,10 @@ void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceInd
 /// which must be called first.
 void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, SequenceIndex* index);
 
+/// Reads a trajectory as ground truth. The entries must be known: their time range tells the unit
+/// of stamps, unless a header names it.
+void ReadGroundTruthFile(const std::string& path, WholeStamps whole, SequenceIndex* index);
+
 /// Reads camera.txt if it exists.
 void ReadFolderCamera(const std::string& directory, SequenceIndex* index);
 

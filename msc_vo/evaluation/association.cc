@@ -7,6 +7,7 @@
 #include <functional>
 #include <queue>
 #include <tuple>
+#include <utility>
 
 namespace msc_vo {
 
@@ -35,6 +36,7 @@ class StampAssociator {
     }
   }
 
+  // The matches are in no particular order.
   std::vector<StampMatch> Associate() {
     std::vector<StampMatch> matches;
     while (!candidates_.empty()) {
@@ -44,8 +46,6 @@ class StampAssociator {
       matches.push_back({reference, query});
       Remove(left, right);
     }
-    std::sort(matches.begin(), matches.end(),
-              [](const StampMatch& a, const StampMatch& b) { return a.reference < b.reference; });
     return matches;
   }
 
@@ -84,12 +84,39 @@ class StampAssociator {
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates_;
 };
 
+// Matches the first of several equal stamps of a list, in their order. `matches` must be in order
+// of `stamps`.
+void MatchEqualStampsInOrder(const std::vector<double>& stamps, int StampMatch::*index,
+                             std::vector<StampMatch>* matches) {
+  int next = 0;
+  for (StampMatch& match : *matches) {
+    const double stamp = stamps[match.*index];
+    if (next == 0 || stamps[next - 1] != stamp) {
+      next =
+          static_cast<int>(std::lower_bound(stamps.begin(), stamps.end(), stamp) - stamps.begin());
+    }
+    match.*index = next++;
+  }
+}
+
 }  // namespace
 
 std::vector<StampMatch> AssociateStamps(const std::vector<double>& reference_stamps,
                                         const std::vector<double>& query_stamps,
                                         double max_difference) {
-  return StampAssociator(reference_stamps, query_stamps, max_difference).Associate();
+  std::vector<StampMatch> matches =
+      StampAssociator(reference_stamps, query_stamps, max_difference).Associate();
+  std::stable_sort(matches.begin(), matches.end(), [&](const StampMatch& a, const StampMatch& b) {
+    return std::pair(query_stamps[a.query], reference_stamps[a.reference]) <
+           std::pair(query_stamps[b.query], reference_stamps[b.reference]);
+  });
+  MatchEqualStampsInOrder(query_stamps, &StampMatch::query, &matches);
+  std::stable_sort(matches.begin(), matches.end(), [&](const StampMatch& a, const StampMatch& b) {
+    return std::pair(reference_stamps[a.reference], a.query) <
+           std::pair(reference_stamps[b.reference], b.query);
+  });
+  MatchEqualStampsInOrder(reference_stamps, &StampMatch::reference, &matches);
+  return matches;
 }
 
 }  // namespace msc_vo

@@ -17,8 +17,9 @@ struct StampMatch {
 /// benchmark): of all pairs that differ by at most `max_difference` seconds, the closest is
 /// matched, then the closest of the remaining stamps, and so on. A stamp whose nearest partner is
 /// taken gets the next one within `max_difference`. On ties the earlier reference is matched first,
-/// then the earlier query. Both lists must be in ascending order; of repeated stamps any may be
-/// matched. The matches are in ascending order of the reference.
+/// then the earlier query. Both lists must be in ascending order. Equal stamps of a list are
+/// matched in their order, the first of them if there are too many. The matches are in ascending
+/// order of the reference.
 std::vector<StampMatch> AssociateStamps(const std::vector<double>& reference_stamps,
                                         const std::vector<double>& query_stamps,
                                         double max_difference);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "msc_vo/evaluation/alignment_check.h"
 #include "msc_vo/evaluation/association.h"
 #include "msc_vo/geometry/rigid_alignment.h"
 #include "msc_vo/geometry/so3.h"
@@ -177,16 +178,24 @@ RelativeError MeasurePerMetre(const std::vector<PosePair>& pairs,
   return {StatisticsOf(translations), StatisticsOf(rotations)};
 }
 
+std::vector<Rigid3> PosesOf(const std::vector<PosePair>& pairs, TimedPose PosePair::*which) {
+  std::vector<Rigid3> poses;
+  for (const PosePair& pair : pairs) poses.push_back((pair.*which).world_from_cam);
+  return poses;
+}
+
 // Why the pairs cannot be compared; empty if they can.
 std::string DescribeProblem(const std::vector<PosePair>& pairs, const TrajectoryError& error,
                             const EvaluationOptions& options) {
   if (pairs.size() >= 3) {
     if (options.alignment != Alignment::kSim3) return "";
-    const Eigen::Vector3d first = pairs.front().estimate.world_from_cam.translation();
-    for (const PosePair& pair : pairs) {
-      if (pair.estimate.world_from_cam.translation() != first) return "";
+    if (IsStatic(PosesOf(pairs, &PosePair::estimate))) {
+      return "all positions of the estimate are the same, which determines no scale";
     }
-    return "all positions of the estimate are the same, which determines no scale";
+    if (IsStatic(PosesOf(pairs, &PosePair::reference))) {
+      return "all positions of the reference are the same, which determines no scale";
+    }
+    return "";
   }
   std::string problem = "only " + std::to_string(pairs.size()) + " of " +
                         std::to_string(error.num_estimate) +
@@ -197,6 +206,21 @@ std::string DescribeProblem(const std::vector<PosePair>& pairs, const Trajectory
                " others are marked as not estimated and left out";
   }
   return problem;
+}
+
+// What makes errors of the pairs doubtful.
+std::vector<std::string> DescribeDoubts(const std::vector<PosePair>& pairs, Alignment alignment) {
+  const std::vector<Rigid3> reference = PosesOf(pairs, &PosePair::reference);
+  const std::vector<Rigid3> estimate = PosesOf(pairs, &PosePair::estimate);
+  const bool with_scale = alignment == Alignment::kSim3;
+  std::vector<std::string> doubts;
+  if (with_scale || alignment == Alignment::kSe3) {
+    doubts.push_back(DescribeUndetermined(reference, estimate, with_scale));
+  }
+  if (!with_scale) doubts.push_back(DescribeScaleContradiction(reference, estimate));
+  doubts.push_back(DescribeQuaternionOrder(reference, estimate));
+  doubts.erase(std::remove(doubts.begin(), doubts.end(), ""), doubts.end());
+  return doubts;
 }
 
 void MeasureCoverage(const std::vector<TimedPose>& reference,
@@ -271,6 +295,7 @@ TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
   error.message = DescribeProblem(pairs, error, options);
   error.usable = error.message.empty();
   if (!error.usable) return error;
+  error.warnings = DescribeDoubts(pairs, options.alignment);
   MeasureCoverage(truth, compared, options.max_time_difference, &error);
 
   error.scale = ScaleOf(pairs, options.alignment);

@@ -59,6 +59,9 @@ struct RelativeError {
 struct TrajectoryError {
   bool usable = false;  ///< false: there are no errors, `message` names the reason
   std::string message;
+  /// What makes the errors doubtful although they are usable: an alignment that is not determined,
+  /// scales or orders of quaternions that contradict each other (alignment_check.h).
+  std::vector<std::string> warnings;
 
   int num_reference = 0;
   int num_estimate = 0;       ///< poses that are compared
@@ -91,8 +94,9 @@ struct TrajectoryError {
 /// Compares an estimate with a reference: association by time (AssociateStamps), alignment, by
 /// default rigid (Umeyama), then APE |q_i - (s R p_i + t)| and RPE |(Q_i^-1 Q_j)^-1 (P_i^-1 P_j)|,
 /// where (P, p) is the estimate and (Q, q) the reference, both camera in world. The poses may be in
-/// any order. With fewer than three matches the result is not `usable`. Throws
-/// std::invalid_argument on invalid options.
+/// any order; poses of the same time are matched in their order. With fewer than three matches, or
+/// if a scale is to be aligned to positions that are all the same, the result is not `usable`.
+/// Throws std::invalid_argument on invalid options.
 TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
                                    const std::vector<TimedPose>& estimate,
                                    const EvaluationOptions& options = {});

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "msc_vo/results/internal/run_json.h"
-#include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
 #include "msc_vo/version.h"
 
 namespace msc_vo {
@@ -94,7 +94,7 @@ std::string FormatBenchmarkJson(const Benchmark& benchmark) {
 Benchmark ReadBenchmarkJson(const std::string& path) {
   Benchmark benchmark;
   try {
-    const Json json = Json::parse(ReadFile(path));
+    const Json json = Json::parse(ReadText(path));
     if (json.at("version") != kVersion) {
       throw std::runtime_error("written by msc_vo " + json.at("version").get<std::string>() +
                                ", this is " + kVersion);

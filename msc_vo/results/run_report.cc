@@ -134,6 +134,9 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
     }
     numbers.push_back({"Coverage", FormatText("%.1f %%", 100.0 * error.coverage),
                        "of the ground-truth poses have an estimated pose"});
+    for (const std::string& warning : error.warnings) {
+      numbers.push_back({"Ground truth", "doubtful", warning});
+    }
   }
   numbers.push_back({"Frames", StatusText(summary), context.outcome});
   if (!context.first_unreadable.empty()) {

@@ -9,7 +9,7 @@
 
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/image_pairing.h"
-#include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/datasets/tum_folder.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/ros_bag/bag_file.h"
 #include "msc_vo/ros_bag/topic_choice.h"
@@ -143,13 +143,7 @@ void ReadGroundTruth(const std::string& path, SequenceIndex* index) {
   const std::filesystem::path bag = path;
   const std::string truth =
       (bag.parent_path() / (bag.stem().string() + "-groundtruth.txt")).string();
-  if (!HasEntry(truth)) return;
-  int num_left_out = 0;
-  index->ground_truth = ReadTrajectory(truth, &num_left_out);
-  if (num_left_out > 0) {
-    index->warnings.push_back(truth + ": " + std::to_string(num_left_out) +
-                              " poses with nan or inf are left out");
-  }
+  if (HasEntry(truth)) ReadGroundTruthFile(truth, WholeStamps::kTimes, index);
 }
 
 }  // namespace

@@ -16,16 +16,26 @@ namespace msc_vo {
 
 namespace {
 
-std::vector<std::string> SplitFields(const std::string& text) {
-  constexpr char kSeparators[] = " \t\r\n,";
-  std::vector<std::string> fields;
-  size_t begin = text.find_first_not_of(kSeparators);
+constexpr char kBlanks[] = " \t\r\n";
+
+// Appends the words between blanks, or an empty one if there are none.
+void AppendWords(const std::string& text, std::vector<std::string>* words) {
+  size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string::npos) words->emplace_back();
   while (begin != std::string::npos) {
-    const size_t end = text.find_first_of(kSeparators, begin);
-    fields.push_back(text.substr(begin, end - begin));
-    begin = text.find_first_not_of(kSeparators, end);
+    const size_t end = text.find_first_of(kBlanks, begin);
+    words->push_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(kBlanks, end);
   }
-  return fields;
+}
+
+// Tests whether the text has units of two or four bytes. Text begins with a byte order mark or an
+// ASCII character, whose other bytes are zero.
+bool IsWideText(const std::string& content) {
+  if (content.size() < 2) return false;
+  const std::string mark = content.substr(0, 2);
+  return mark == "\xFF\xFE" || mark == "\xFE\xFF" || (content[0] == '\0') != (content[1] == '\0') ||
+         content.compare(0, 4, std::string("\0\0\xFE\xFF", 4)) == 0;
 }
 
 }  // namespace
@@ -33,17 +43,42 @@ std::vector<std::string> SplitFields(const std::string& text) {
 std::string TextLine::Where() const { return file + ":" + std::to_string(number); }
 
 void TextLine::Fail(const std::string& problem) const {
-  throw std::runtime_error(Where() + ": " + problem);
+  std::string message = Where() + ": " + problem;
+  std::replace(message.begin(), message.end(), '\0', '?');  // what() would end there
+  throw std::runtime_error(message);
+}
+
+std::string ReadText(const std::string& path, std::uintmax_t max_bytes) {
+  std::string content = ReadFile(path, max_bytes);
+  if (IsWideText(content)) {
+    throw std::runtime_error(path + ": is UTF-16 or UTF-32 text; save it as UTF-8");
+  }
+  if (content.rfind("\xEF\xBB\xBF", 0) == 0) content.erase(0, 3);
+  if (content.find('\n') == std::string::npos) {
+    std::replace(content.begin(), content.end(), '\r', '\n');
+  }
+  return content;
+}
+
+std::vector<std::string> SplitFields(const std::string& text) {
+  const char delimiter = text.find(';') != std::string::npos ? ';' : ',';
+  std::vector<std::string> fields;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(delimiter, begin), text.size());
+    AppendWords(text.substr(begin, end - begin), &fields);
+    begin = end + 1;
+  }
+  while (!fields.empty() && fields.back().empty()) fields.pop_back();
+  return fields;
 }
 
 std::vector<TextLine> ReadTextLines(const std::string& path) {
-  std::istringstream content(ReadFile(path));
+  std::istringstream content(ReadText(path));
   std::vector<TextLine> lines;
   std::string text, comment;
   for (int number = 1; std::getline(content, text); ++number) {
-    // Some editors on Windows write a byte order mark before the first line.
-    if (number == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
-    TextLine line{path, number, SplitFields(text), std::exchange(comment, "")};
+    TextLine line{path, number, SplitFields(text), std::exchange(comment, ""),
+                  text.find_first_of(",;") != std::string::npos};
     if (line.fields.empty()) continue;
     if (line.fields.front()[0] == '#') {
       comment = Trimmed(text.substr(text.find('#') + 1));
@@ -61,7 +96,6 @@ std::string Lowercase(std::string text) {
 }
 
 std::string Trimmed(const std::string& text) {
-  constexpr char kBlanks[] = " \t\r\n";
   const size_t begin = text.find_first_not_of(kBlanks);
   if (begin == std::string::npos) return "";
   return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);

@@ -15,10 +15,11 @@ namespace msc_vo {
 struct TextLine {
   std::string file;
   int number = 0;                   ///< line number, from 1
-  std::vector<std::string> fields;  ///< separated by blanks, tabs or commas
+  std::vector<std::string> fields;  ///< see SplitFields()
   /// Text of the comment on the line directly above, trimmed and without '#'; empty if there is
   /// none.
   std::string comment;
+  bool has_delimiters = false;  ///< commas or semicolons between the fields
 
   /// Returns the position for error messages, "file:12".
   std::string Where() const;
@@ -26,8 +27,17 @@ struct TextLine {
   [[noreturn]] void Fail(const std::string& problem) const;
 };
 
-/// Reads the lines of a file that are neither blank nor a comment (#). Accepts CRLF line ends and a
-/// byte order mark. Throws std::runtime_error, naming the file, if it cannot be read.
+/// Returns the contents of a text file without a UTF-8 byte order mark. The line ends CRLF remain;
+/// CR alone becomes LF. Throws std::runtime_error as ReadFile() does, and if the text is UTF-16 or
+/// UTF-32.
+std::string ReadText(const std::string& path, std::uintmax_t max_bytes = kMaxTextBytes);
+
+/// Splits a line at blanks and tabs, and at commas or, if there are semicolons, at these. Nothing
+/// between two commas is an empty field, but for the end of the line.
+std::vector<std::string> SplitFields(const std::string& text);
+
+/// Reads the lines of a file that are neither blank nor a comment (#). Throws std::runtime_error as
+/// ReadText() does.
 std::vector<TextLine> ReadTextLines(const std::string& path);
 
 /// Returns `text` in lower case; only ASCII letters are changed in the "C" locale.

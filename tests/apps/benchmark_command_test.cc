@@ -147,7 +147,10 @@ class BenchmarkSharesTest : public BenchmarkCommandTest {
   void SetUp() override {
     TemporaryFolder::SetUp();
     for (const char* name : {"a", "b", "c"}) Synthesize("room", 6, name);
-    WriteText("list.txt", "# three sequences\na\n\nb\nc\n");
+    // Saved on Windows.
+    WriteText("list.txt",
+              "\xEF\xBB\xBF"
+              "a\r\n\r\n# two more\r\nb\r\nc\r\n");
   }
   CommandOutcome Benchmark(const std::string& output, std::vector<std::string> more) {
     std::vector<std::string> arguments = {"benchmark", Path("list.txt"), "--modes",   "pl-vo",

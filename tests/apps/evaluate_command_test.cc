@@ -9,8 +9,10 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "msc_vo/geometry/so3.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 namespace {
@@ -181,6 +183,76 @@ TEST_F(EvaluateCommandTest, ReadsKittiAndEuroc) {
                 .exit_code,
             0);
   EXPECT_EQ(RunCommand({"evaluate", "a", "b", "--format", "xml"}).exit_code, 2);
+}
+
+// 60 poses along a curve, times and positions multiplied, quaternions x y z w or w x y z.
+std::string CurveRows(double seconds, double scale, bool scalar_first, const char* separator) {
+  std::string text;
+  for (int i = 0; i < 60; ++i) {
+    const double t = 0.05 * i;
+    const Eigen::Quaterniond q = ExpSO3({0.3 * std::sin(t), t, 0.2});
+    const double xyz[] = {q.x(), q.y(), q.z()};
+    std::vector<double> values = {seconds * (100.0 + t), scale * std::sin(t), scale * t,
+                                  scale * std::cos(2.0 * t)};
+    if (scalar_first) values.push_back(q.w());
+    values.insert(values.end(), std::begin(xyz), std::end(xyz));
+    if (!scalar_first) values.push_back(q.w());
+    for (size_t k = 0; k < values.size(); ++k)
+      text += (k > 0 ? separator : "") + FormatNumber(values[k]);
+    text += "\n";
+  }
+  return text;
+}
+
+TEST_F(EvaluateCommandTest, SaysWhatContradicts) {
+  WriteText("truth.txt", CurveRows(1.0, 1.0, false, " "));
+  WriteText("estimate.txt", CurveRows(1e3, 5.0, true, ","));
+  const CommandOutcome outcome = Evaluate({"--plot", Path("plot.html")});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("estimate.txt: the time stamps are milliseconds"));
+  const char scale[] = "the estimated path is 5.0 times as long as the reference: depth units?";
+  const char order[] = "the quaternions of the estimate seem to be in the order qw qx qy qz";
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr(scale), HasSubstr(order)));
+  EXPECT_THAT(ReadFile(Path("plot.html")), AllOf(HasSubstr(scale), HasSubstr(order)));
+  const std::string text = Evaluate({"--json", "--align", "origin"}).output;
+  const nlohmann::json json = nlohmann::json::parse(text.substr(text.find('{')));
+  EXPECT_EQ(json["warnings"].size(), 2u);
+  // The scale of sim3 is free, and a header says the order.
+  WriteText("estimate.txt", "# time x y z qw qx qy qz\n" + CurveRows(1.0, 5.0, true, ","));
+  const CommandOutcome named = Evaluate({"--align", "sim3"});
+  EXPECT_THAT(named.output, testing::Not(HasSubstr("warning")));
+  EXPECT_THAT(named.output, HasSubstr("scale 0.200000"));
+}
+
+TEST_F(EvaluateCommandTest, RefusesOrNamesDegenerateAlignments) {
+  std::string still;
+  for (int i = 0; i < 4; ++i) still += std::to_string(i) + " 3 4 5 0 0 0 1\n";
+  WriteText("estimate.txt", ReadFile(Path("truth.txt")));
+  WriteText("truth.txt", still);
+  const CommandOutcome scale = Evaluate({"--align", "sim3"});
+  EXPECT_EQ(scale.exit_code, 1);
+  EXPECT_THAT(scale.output, HasSubstr("all positions of the reference are the same"));
+  const CommandOutcome rotation = Evaluate({});
+  EXPECT_EQ(rotation.exit_code, 0);
+  EXPECT_THAT(rotation.output, HasSubstr("of the reference are the same, which determines no "));
+  WriteText("estimate.txt", "0 0 0 0 0 0 0 1\n1 1 1 0 0 0 0 1\n2 2 2 0 0 0 0 1\n3 3 3 0 0 0 0 1\n");
+  WriteText("truth.txt", ReadFile(Path("estimate.txt")));
+  EXPECT_THAT(Evaluate({}).output, HasSubstr("warning: the positions are on a straight line"));
+  // Nothing is aligned.
+  EXPECT_THAT(Evaluate({"--align", "none"}).output, testing::Not(HasSubstr("straight line")));
+}
+
+TEST_F(EvaluateCommandTest, MatchesEqualStampsInOrderOfTheFile) {
+  std::string rows;
+  for (int i = 0; i < 30; ++i) {
+    rows += FormatNumber(0.1 * (i / 3)) + " " + FormatNumber(std::sin(0.1 * i)) + " " +
+            FormatNumber(0.1 * i) + " 0 0 0 0 1\n";
+  }
+  WriteText("truth.txt", rows);
+  WriteText("estimate.txt", rows);
+  const nlohmann::json json = nlohmann::json::parse(Evaluate({"--json"}).output);
+  EXPECT_EQ(json["matched"], 30);
+  EXPECT_NEAR(json["ape_max"], 0.0, 1e-9);
 }
 
 TEST_F(EvaluateCommandTest, WritesPlots) {

@@ -123,6 +123,33 @@ TEST_F(ReplayCommandTest, WritesConsistentAndRepeatableResults) {
   }
 }
 
+TEST_F(ReplayCommandTest, SaysWhatContradictsTheGroundTruth) {
+  Synthesize(45);
+  const std::string file = Path("room/groundtruth.txt");
+  const std::vector<TimedPose> truth = ReadTrajectory(file);
+  EXPECT_THAT(Replay("right").output, testing::Not(HasSubstr("ground truth: ")));
+  EXPECT_TRUE(Summary("right")["error"]["warnings"].empty());
+  std::vector<TimedPose> larger = truth;
+  for (TimedPose& pose : larger) pose.world_from_cam.translation() *= 4.0;
+  WriteTrajectory(file, larger);
+  const char scale[] = "the reference path is 4.0 times as long as the estimate: depth units?";
+  EXPECT_THAT(Replay("larger").output, HasSubstr(scale));
+  EXPECT_EQ(Summary("larger")["error"]["warnings"].size(), 1u);
+  EXPECT_THAT(ReadFile(Path("larger/report.html")), HasSubstr(scale));
+  for (TimedPose& pose : larger) pose.world_from_cam.translation() /= 40.0;
+  WriteTrajectory(file, larger);
+  EXPECT_THAT(Replay("smaller").output,
+              HasSubstr("the estimated path is 10.0 times as long as the reference: depth units?"));
+  std::vector<TimedPose> reordered = truth;
+  for (TimedPose& pose : reordered) {
+    const Eigen::Quaterniond q(pose.world_from_cam.rotation());
+    pose.world_from_cam.rotation() = Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y());
+  }
+  WriteTrajectory(file, reordered);
+  EXPECT_THAT(Replay("reordered").output,
+              HasSubstr("quaternions of the reference seem to be in the order qw qx qy qz"));
+}
+
 TEST_F(ReplayCommandTest, UsesTheAccelerometer) {
   Synthesize(90);
   ASSERT_EQ(Replay("plain", {"--quiet"}).exit_code, 0);

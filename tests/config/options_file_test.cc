@@ -8,6 +8,7 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
+#include "msc_vo/config/camera_options.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -45,6 +46,26 @@ TEST_F(OptionsFileTest, KeepsOptionsThatTheFileDoesNotContain) {
   EXPECT_EQ(configuration.odometry.tracking.pose.num_rounds, 7);
   EXPECT_FALSE(configuration.odometry.tracking.pose.consensus.enabled);
   EXPECT_EQ(configuration.odometry.tracking.prediction_radius, TrackerOptions().prediction_radius);
+}
+
+TEST_F(OptionsFileTest, ReadsUtf8WithAByteOrderMarkAndNamesUtf16) {
+  const std::string mark = "\xEF\xBB\xBF";
+  EXPECT_EQ(*Read(mark + "camera: {fx: 500}\n").camera.fx, 500.0);
+  const std::string orb_slam =
+      "Camera.fx: 500\nCamera.fy: 500\nCamera.cx: 1\nCamera.cy: 1\nDepthMapFactor: 1000\n";
+  EXPECT_EQ(*Read(mark + orb_slam).camera.fx, 500.0);
+  WriteText("camera.txt", mark + "500 500 320 240 640 480 1000\n");
+  Configuration configuration;
+  ReadCamera(Path("camera.txt"), &configuration);
+  EXPECT_EQ(*configuration.camera.fx, 500.0);
+  for (const std::string& text : {std::string("camera: {fx: 500}\n"), orb_slam}) {
+    std::string wide = "\xFF\xFE";
+    for (const char c : text) wide += std::string(1, c) + '\0';
+    EXPECT_THAT(ErrorOf(wide),
+                HasSubstr("options.yaml: is UTF-16 or UTF-32 text; save it as UTF-8"));
+    EXPECT_THAT(MessageOf([&] { ReadCamera(Path("options.yaml"), &configuration); }),
+                HasSubstr("save it as UTF-8"));
+  }
 }
 
 TEST_F(OptionsFileTest, ReadsLists) {

@@ -21,10 +21,7 @@ constexpr char kEuroc[] = "1403636580838000000,1,2,3,0.70710678,0,0,0.70710678";
 
 class TrajectoryFormatTest : public TemporaryFolder {
  protected:
-  TrajectoryFormat Detect(const std::string& text) {
-    WriteText("file", text);
-    return DetectTrajectoryFormat(Path("file"));
-  }
+  TrajectoryFormat Detect(const std::string& text) { return Read(text).format; }
   TrajectoryFile Read(const std::string& text,
                       std::optional<TrajectoryFormat> format = std::nullopt) {
     WriteText("file", text);
@@ -60,6 +57,79 @@ TEST_F(TrajectoryFormatTest, ReadsTheSamePoseFromAllFormats) {
   }
 }
 
+// The pose of kTum in columns of many programs.
+TEST_F(TrajectoryFormatTest, HeadersDecideTheColumns) {
+  const std::string q = "0.70710678", xyzw = "0,0," + q + "," + q, wxyz = q + ",0,0," + q;
+  const std::string rows[] = {
+      "# timestamp tx ty tz qw qx qy qz\n1403636580.838 1 2 3 " + q + " 0 0 " + q + "\n",
+      "# ground truth\n# t, x, y, z, qw, qx, qy, qz\n# of a camera\n1403636580.838,1,2,3," + wxyz,
+      "timestamp,tx,ty,tz,qx,qy,qz,qw,tracking_state\n1403636580.838,1,2,3," + xyzw + ",OK\n",
+      "num,t,x,y,z,qx,qy,qz,qw\r\n0,1403636580.838,1,2,3," + xyzw + ",\r\n",
+      "t;x;y;z;q_w;q_x;q_y;q_z\n1403636580.838;1;2;3;" + q + ";0;0;" + q + ";\n",
+      "%time,field.header.seq,field.header.stamp,field.header.frame_id,field.pose.position.x,"
+      "field.pose.position.y,field.pose.position.z,field.pose.orientation.w,"
+      "field.pose.orientation.x,field.pose.orientation.y,field.pose.orientation.z\n"
+      "1403636580900000000,0,1403636580838000000,,1,2,3," +
+          wxyz,
+      "secs,nsecs,px,py,pz,qx,qy,qz,qw\n1403636580,838000000,1,2,3," + xyzw,
+      "timestamp [ms] x [mm] y [mm] z [mm] qx qy qz qw\n1403636580838 1000 2000 3000 0 0 " + q +
+          " " + q,
+      // A number in front of the row that the header does not name.
+      "timestamp tx ty tz qx qy qz qw\n0 1403636580.838 1 2 3 0 0 " + q + " " + q + "\n",
+      // Words in front of the names.
+      "# columns: timestamp tx ty tz qw qx qy qz\n1403636580.838 1 2 3 " + q + " 0 0 " + q,
+      // No header: the quaternion is the one of unit length.
+      "7,1403636580.838,1,2,3," + xyzw, "1403636580.838,1,2,3," + xyzw + ",1,0,0.5\n",
+      "1403636580.838 7 1 2 3 0 0 " + q + " " + q + "\n"};
+  for (const std::string& text : rows) {
+    TrajectoryFile file = Read(text);
+    std::vector<std::string> warnings;
+    TrajectoryFile tum = Read(kTum);
+    ConvertToSeconds("a", "b", &tum, &file, &warnings);
+    ASSERT_EQ(file.poses.size(), 1u) << text;
+    EXPECT_NEAR(file.poses[0].timestamp, 1403636580.838, 1e-6) << text;
+    const Rigid3& pose = file.poses[0].world_from_cam;
+    EXPECT_NEAR((pose.translation() - Eigen::Vector3d(1, 2, 3)).norm(), 0.0, 1e-9) << text;
+    EXPECT_NEAR((pose.rotation() * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), 0.0,
+                1e-8)
+        << text;
+  }
+}
+
+TEST_F(TrajectoryFormatTest, MagnitudesOfStampsTellEurocWithoutAHeader) {
+  const std::string rows = ",1,2,3,1,0,0,0,5\n";
+  EXPECT_EQ(Detect("1403636580838000000" + rows), TrajectoryFormat::kEuroc);
+  EXPECT_EQ(Detect("1403636580.838" + rows), TrajectoryFormat::kTum);
+  EXPECT_EQ(Detect("1.5" + rows), TrajectoryFormat::kTum);
+  EXPECT_EQ(Detect("5000000000" + rows + "5033000000" + rows), TrajectoryFormat::kEuroc);
+}
+
+TEST_F(TrajectoryFormatTest, ReadsTablesWithoutTime) {
+  const TrajectoryFile file = Read("tx ty tz qx qy qz qw\n1 2 3 0 0 0 1\n4 5 6 0 0 0 1\n");
+  EXPECT_FALSE(file.has_stamps);
+  ASSERT_EQ(file.poses.size(), 2u);
+  EXPECT_EQ(file.poses[1].timestamp, 1.0);
+  // All 16 numbers of a matrix.
+  EXPECT_EQ(Detect("0 -1 0 1 1 0 0 2 0 0 1 3 0 0 0 1\n"), TrajectoryFormat::kKitti);
+  // Twelve columns that are no matrix.
+  EXPECT_EQ(Detect("1.5 1 2 3 0 0 0 1 9 9 9 9\n"), TrajectoryFormat::kTum);
+}
+
+TEST_F(TrajectoryFormatTest, RefusesRowsThatHeaderAndFormatDoNotExplain) {
+  EXPECT_THAT(MessageOf([&] { Read("a,b,c\n1,2,3,4,5,6,7,8\n"); }),
+              HasSubstr("file:1: names no columns of a trajectory; name them as in 'time tx"));
+  EXPECT_THAT(MessageOf([&] { Read("5 1 2 3 0 0 0 9 9\n"); }),
+              HasSubstr("found 9 fields, none of which are a quaternion; name the columns"));
+  EXPECT_THAT(MessageOf([&] { Read("1,5;0;0;0;0;0;0;1\n"); }),
+              HasSubstr("'1,5' is not a number"));  // decimal commas
+  EXPECT_THAT(MessageOf([&] { Read("t,x,y,z,qx,qy,qz,qw\n1,2,,3,0,0,0,1\n"); }),
+              HasSubstr("file:2: '' is not a number"));
+  // Of two rows, one is wrong: no other columns are tried.
+  EXPECT_THAT(
+      MessageOf([&] { Read("# t x y z qw qx qy qz s\n1 0 0 0 1 0 0 0 5\n2 0 0 0 0.5 0 0 0 5\n"); }),
+      HasSubstr("file:3: the quaternion qw qx qy qz has length 0.500"));
+}
+
 TEST_F(TrajectoryFormatTest, SkipsRowsThatAreNotFinite) {
   const TrajectoryFile kitti =
       Read("nan -1 0 1 1 0 0 2 0 0 1 3\n" + std::string(kKitti), TrajectoryFormat::kKitti);
@@ -78,7 +148,7 @@ TEST_F(TrajectoryFormatTest, NamesFileAndLineOfErrors) {
               HasSubstr("file:1: 'x' is not a number"));
   const std::string header = kEurocHeader;
   EXPECT_THAT(MessageOf([&] { Read(header + "1,2,3\n"); }),
-              HasSubstr("file:2: expected at least 8 numbers 'nanoseconds, x, y, z, qw"));
+              HasSubstr("file:2: expected at least 8 fields, which the header names, found 3"));
   EXPECT_THAT(MessageOf([&] { Read(header + "1,2,3,4,5,0,0,0\n"); }),
               HasSubstr("file:2: the quaternion qw qx qy qz has length 5.000"));
   // The override of the format decides how a row is read.

@@ -105,7 +105,11 @@ TEST_F(TrajectoryTest, AcceptsCommentsCommasTabsBlankLinesAndCrlf) {
 
 TEST_F(TrajectoryTest, ErrorsNameFileAndLine) {
   EXPECT_THAT(ErrorOf("# c\n1 2 3\n"), HasSubstr("trajectory.txt:2: expected 8 numbers"));
-  EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 1 9\n"), HasSubstr("found 9 fields"));
+  EXPECT_THAT(
+      ErrorOf("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1 9\n"),
+      HasSubstr("trajectory.txt:2: expected 8 numbers 'time tx ty tz qx qy qz qw', found 9"));
+  EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 1 9\n2 0 0 0 0 0 0 1\n"),
+              HasSubstr("trajectory.txt:2: expected 9 fields, as in the first row, found 8"));
   EXPECT_THAT(ErrorOf("1 0 0 x 0 0 0 1\n"), HasSubstr("trajectory.txt:1: 'x' is not a number"));
   EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 0\n"), HasSubstr("has length 0.000"));
   EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0.6 0.5\n"),

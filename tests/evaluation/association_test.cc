@@ -74,6 +74,42 @@ TEST(AssociateStamps, HandlesEmptyListsAndStampsOutsideRange) {
   EXPECT_EQ(Associate({1.0, 2.0}, {0.9, 2.1}, 0.2), (Pairs{{0, 0}, {1, 1}}));
 }
 
+// Stamps in seconds that are rounded to a resolution.
+std::vector<double> Rounded(std::vector<double> stamps, double resolution) {
+  for (double& stamp : stamps) stamp = std::round(stamp / resolution) * resolution;
+  return stamps;
+}
+
+TEST(AssociateStamps, MatchesEqualStampsInTheirOrder) {
+  EXPECT_EQ(Associate({1, 1, 1, 2}, {1, 1, 1, 2}, 0.0), (Pairs{{0, 0}, {1, 1}, {2, 2}, {3, 3}}));
+  EXPECT_EQ(Associate({1, 1, 1, 2}, {1, 1, 2}, 0.02), (Pairs{{0, 0}, {1, 1}, {3, 2}}));
+  EXPECT_EQ(Associate({1, 2, 2}, {1, 1, 1, 2}, 0.02), (Pairs{{0, 0}, {1, 3}}));
+  // Equal only up to the rounding of a conversion.
+  EXPECT_EQ(Associate({1, 1, 1}, {1 + 1e-15, 1 + 1e-15, 1 + 1e-15}, 0.02),
+            (Pairs{{0, 0}, {1, 1}, {2, 2}}));
+  // Only one list is rounded.
+  EXPECT_EQ(Associate({1, 1, 1}, {0.97, 1.0, 1.03}, 0.05), (Pairs{{0, 0}, {1, 1}, {2, 2}}));
+  EXPECT_EQ(Associate({0.97, 1.0, 1.03}, {1, 1, 1}, 0.05), (Pairs{{0, 0}, {1, 1}, {2, 2}}));
+}
+
+TEST(AssociateStamps, KeepsOrderAtAnyResolution) {
+  std::mt19937 random(2);
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<double> times(40);
+    for (double& time : times) time = random() / 4294967296.0;
+    std::sort(times.begin(), times.end());
+    for (const double resolution : {0.02, 0.1, 0.3}) {
+      const std::vector<double> coarse = Rounded(times, resolution);
+      Pairs expected;
+      for (int i = 0; i < static_cast<int>(times.size()); ++i) expected.emplace_back(i, i);
+      EXPECT_EQ(Associate(coarse, coarse, 0.5 * resolution), expected);
+      // Whatever is matched does not cross.
+      const Pairs pairs = Associate(coarse, times, 0.5 * resolution);
+      for (size_t i = 1; i < pairs.size(); ++i) EXPECT_LT(pairs[i - 1].second, pairs[i].second);
+    }
+  }
+}
+
 TEST(AssociateStamps, AgreesWithExhaustiveSearch) {
   std::mt19937 random(1);
   const auto make_stamps = [&] {

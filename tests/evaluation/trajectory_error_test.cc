@@ -4,6 +4,7 @@
 #include "msc_vo/evaluation/trajectory_error.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/evaluation/curved_path.h"
 #include <gtest/gtest.h>
@@ -192,6 +193,28 @@ TEST(EvaluateTrajectory, IsNotUsableWithTooFewMatches) {
   EXPECT_FALSE(error.usable);
   EXPECT_NE(error.message.find("only 0 of 100"), std::string::npos) << error.message;
   EXPECT_FALSE(EvaluateTrajectory({}, {}).usable);
+}
+
+TEST(EvaluateTrajectory, MatchesPosesOfTheSameTimeInOrder) {
+  std::vector<TimedPose> path = CurvedPath(90, 30.0);
+  for (TimedPose& pose : path) pose.timestamp = std::floor(10.0 * pose.timestamp) / 10.0;
+  const TrajectoryError error = EvaluateTrajectory(path, path);
+  EXPECT_EQ(error.num_matched, 90);
+  EXPECT_NEAR(error.ape.max, 0.0, 1e-9);
+}
+
+TEST(EvaluateTrajectory, AlignsNoScaleToPositionsThatAreTheSame) {
+  const std::vector<TimedPose> path = CurvedPath(50, 30.0);
+  std::vector<TimedPose> still = path;
+  for (TimedPose& pose : still) pose.world_from_cam.translation() = Eigen::Vector3d(3, 4, 5);
+  EvaluationOptions options;
+  options.alignment = Alignment::kSim3;
+  const TrajectoryError of_reference = EvaluateTrajectory(still, path, options);
+  EXPECT_FALSE(of_reference.usable);
+  EXPECT_NE(of_reference.message.find("of the reference are the same"), std::string::npos);
+  const TrajectoryError of_estimate = EvaluateTrajectory(path, still, options);
+  EXPECT_FALSE(of_estimate.usable);
+  EXPECT_NE(of_estimate.message.find("of the estimate are the same"), std::string::npos);
 }
 
 TEST(EvaluateTrajectory, ThrowsOnInvalidOptions) {

@@ -1,6 +1,7 @@
 import json
 import subprocess
 import unittest
+import warnings
 
 import numpy as np
 
@@ -18,6 +19,43 @@ def path():
 
 
 class Evaluate(unittest.TestCase):
+    def test_what_makes_errors_doubtful(self):
+        straight, still = path(), path()
+        straight[:, 1:4] = straight[:, :1] * [1, 2, 3]
+        still[:, 1:4] = 1.0
+        with self.assertWarnsRegex(UserWarning, "straight line"):
+            error = msc_vo.evaluate(straight, straight)
+        self.assertEqual(len(error.warnings), 1)
+        for gt, est, name in [(still, path(), "reference"), (path(), still, "estimate")]:
+            with self.assertRaisesRegex(ValueError, f"of the {name} are the same"):
+                msc_vo.evaluate(gt, est, align="sim3")
+            with self.assertWarnsRegex(UserWarning, f"of the {name} are the same"):
+                msc_vo.evaluate(gt, est)
+        longer = path()
+        longer[:, 1:4] *= 5.0
+        with self.assertWarnsRegex(UserWarning, "reference path is 5.0 times as long"):
+            msc_vo.evaluate(longer, path())
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertEqual(msc_vo.evaluate(path(), path()).warnings, [])
+
+    def test_files_in_other_formats(self):
+        rows = path()
+        euroc = np.column_stack([rows[:, 0] * 1e9, rows[:, 1:4], rows[:, 7], rows[:, 4:7]])
+        np.savetxt("euroc.csv", euroc, delimiter=",", header="timestamp [ns],x,y,z,qw,qx,qy,qz")
+        self.assertLess(msc_vo.evaluate("euroc.csv", rows).ape.max, 1e-9)
+        kitti = np.tile([1.0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], (101, 1))
+        kitti[:, 3::4] = rows[:, 1:4]
+        np.savetxt("kitti.txt", kitti)
+        self.assertLess(msc_vo.evaluate(rows, "kitti.txt").ape.max, 1e-9)
+
+    def test_equal_stamps_go_in_order(self):
+        rows = path()
+        rows[:, 0] = np.floor(rows[:, 0] / 0.5) * 0.5
+        error = msc_vo.evaluate(rows, rows)
+        self.assertEqual(error.num_matched, 101)
+        self.assertLess(error.ape.max, 1e-9)
+
     def test_alignment(self):
         moved = path()
         moved[:, 1] += 0.5

@@ -41,6 +41,7 @@ Json ToJson(const TrajectoryError& error) {
   json["coverage"] = error.coverage;
   json["coverage_in_range"] = error.coverage_in_range;
   json["path_len"] = error.path_length;
+  json["warnings"] = error.warnings;
   return json;
 }
 

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/pose_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "msc_vo/datasets/time_unit.h"
+#include "msc_vo/datasets/trajectory_comment.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace {
+
+constexpr size_t kFieldsPerPose = 8;
+constexpr char kTumColumns[] = "'time tx ty tz qx qy qz qw'";
+
+bool IsScalarFirst(const PoseColumns& columns) {
+  return columns.quaternion[3] < columns.quaternion[0];
+}
+
+// The values of a row: time, nanoseconds, position, quaternion x y z w; std::nullopt if a field is
+// no number. Columns that do not exist are 0.
+std::optional<std::array<double, 9>> ParseRow(const TextLine& line, const PoseColumns& columns,
+                                              std::string* not_a_number) {
+  std::array<double, 9> values = {};
+  const auto parse = [&](size_t column, double* value) {
+    const std::optional<double> number = ParseNumber(line.fields[column]);
+    if (!number) *not_a_number = line.fields[column];
+    *value = number.value_or(0.0);
+    return number.has_value();
+  };
+  bool is_valid = !columns.time || parse(*columns.time, &values[0]);
+  is_valid = is_valid && (!columns.nanoseconds || parse(*columns.nanoseconds, &values[1]));
+  for (size_t i = 0; i < 3; ++i) is_valid = is_valid && parse(columns.position[i], &values[2 + i]);
+  for (size_t i = 0; i < 4; ++i) {
+    is_valid = is_valid && parse(columns.quaternion[i], &values[5 + i]);
+  }
+  return is_valid ? std::optional(values) : std::nullopt;
+}
+
+bool IsFinite(const std::array<double, 9>& values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](double value) { return std::isfinite(value); });
+}
+
+Eigen::Quaterniond QuaternionOf(const std::array<double, 9>& values) {
+  return {values[8], values[5], values[6], values[7]};
+}
+
+// Whether all rows have the columns, and quaternions in them.
+bool Fits(const PoseColumns& columns, const std::vector<TextLine>& rows) {
+  return std::all_of(rows.begin(), rows.end(), [&](const TextLine& line) {
+    std::string ignored;
+    if (line.fields.size() < columns.MinColumns()) return false;
+    const auto values = ParseRow(line, columns, &ignored);
+    return values && (!IsFinite(*values) || IsUnitQuaternion(QuaternionOf(*values).coeffs()));
+  });
+}
+
+// The finite numbers of a column; empty if a row has no number there.
+std::vector<double> NumbersOf(const std::vector<TextLine>& rows, size_t column) {
+  std::vector<double> numbers;
+  for (const TextLine& line : rows) {
+    const auto number =
+        column < line.fields.size() ? ParseNumber(line.fields[column]) : std::nullopt;
+    if (!number) return {};
+    if (std::isfinite(*number)) numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+PoseColumns Moved(PoseColumns columns, size_t from, size_t to) {
+  const auto move = [&](size_t* column) { *column = *column + to - from; };
+  if (columns.time) move(&*columns.time);
+  if (columns.nanoseconds) move(&*columns.nanoseconds);
+  for (size_t& column : columns.position) move(&column);
+  for (size_t& column : columns.quaternion) move(&column);
+  return columns;
+}
+
+size_t FirstColumn(const PoseColumns& columns) {
+  const size_t first =
+      std::min(*std::min_element(columns.position.begin(), columns.position.end()),
+               *std::min_element(columns.quaternion.begin(), columns.quaternion.end()));
+  return std::min({first, columns.time.value_or(first), columns.nanoseconds.value_or(first)});
+}
+
+// The named columns; and moved, if rows have another number of columns: a row may begin with a
+// number that the header does not name, and a header with other words.
+std::vector<PoseColumns> NamedCandidates(const PoseColumns& named, size_t num_fields) {
+  std::vector<PoseColumns> candidates = {named};
+  if (num_fields + FirstColumn(named) >= named.num_names && num_fields != named.num_names) {
+    candidates.push_back(Moved(named, named.num_names, num_fields));
+  }
+  return candidates;
+}
+
+// Columns in the order of a format.
+PoseColumns FormatColumns(bool is_scalar_first) {
+  PoseColumns columns;
+  columns.time = 0;
+  if (is_scalar_first) columns.quaternion = {5, 6, 7, 4};
+  return columns;
+}
+
+// Comma-separated rows with nanoseconds are those of EuRoC.
+bool LooksLikeEuroc(const std::vector<TextLine>& rows) {
+  const std::vector<double> first = NumbersOf(rows, 0);
+  return rows.front().has_delimiters && !first.empty() &&
+         GuessTimeUnit(first) == TimeUnit::kNanoseconds;
+}
+
+std::vector<PoseColumns> UnnamedCandidates(const std::vector<TextLine>& rows,
+                                           std::optional<TrajectoryFormat> format) {
+  const std::vector<double> first = NumbersOf(rows, 0), second = NumbersOf(rows, 1);
+  const bool is_scalar_first = format ? *format == TrajectoryFormat::kEuroc : LooksLikeEuroc(rows);
+  const PoseColumns columns = FormatColumns(is_scalar_first);
+  PoseColumns numbered = Moved(columns, 0, 1);
+  const auto is_date = [](const std::vector<double>& stamps) {
+    return !stamps.empty() && UnitOfDate(stamps.front()).has_value();
+  };
+  if ((is_date(first) && !is_date(second)) ||
+      (AreFrameNumbers(second) && !AreFrameNumbers(first))) {
+    numbered.time = 0;
+  }
+  const bool is_long = rows.front().fields.size() >= numbered.MinColumns();
+  if (is_long && is_date(second) && !is_date(first)) return {numbered, columns};
+  return {columns, numbered};
+}
+
+class TableReader {
+ public:
+  TableReader(const PoseRows& table, std::optional<TrajectoryFormat> format)
+      : rows_(table.rows), format_(format) {
+    std::vector<PoseColumns> candidates;
+    if (table.named && !format) {
+      candidates = NamedCandidates(*table.named, rows_.front().fields.size());
+    }
+    const size_t num_named = candidates.size();
+    for (const PoseColumns& columns : UnnamedCandidates(rows_, format)) {
+      candidates.push_back(columns);
+    }
+    const auto found =
+        std::find_if(candidates.begin(), candidates.end(),
+                     [&](const PoseColumns& columns) { return Fits(columns, rows_); });
+    // If no columns fit, the first ones tell which row is wrong.
+    const auto chosen = found == candidates.end() ? candidates.begin() : found;
+    is_named_ = static_cast<size_t>(chosen - candidates.begin()) < num_named;
+    columns_ = *chosen;
+  }
+
+  TrajectoryFile Read() {
+    TrajectoryFile file;
+    file.format = IsScalarFirst(columns_) ? TrajectoryFormat::kEuroc : TrajectoryFormat::kTum;
+    file.has_stamps = columns_.time.has_value();
+    file.unit = columns_.unit;
+    if (!is_named_ && file.format == TrajectoryFormat::kEuroc) file.unit = TimeUnit::kNanoseconds;
+    const double rate = UnitsPerSecond(file.unit.value_or(TimeUnit::kSeconds));
+    TimedPose pose;
+    for (size_t row = 0; row < rows_.size(); ++row) {
+      ReadPoseComment(rows_[row].comment, &pose);
+      if (!ReadRow(rows_[row], rate, &pose)) {
+        ++file.num_left_out;
+        continue;
+      }
+      if (!file.has_stamps) pose.timestamp = static_cast<double>(row);
+      file.poses.push_back(pose);
+    }
+    std::stable_sort(
+        file.poses.begin(), file.poses.end(),
+        [](const TimedPose& a, const TimedPose& b) { return a.timestamp < b.timestamp; });
+    return file;
+  }
+
+ private:
+  // Returns false if a number is not finite.
+  bool ReadRow(const TextLine& line, double rate, TimedPose* pose) const {
+    CheckNumFields(line);
+    std::string field;
+    const auto values = ParseRow(line, columns_, &field);
+    if (!values) line.Fail("'" + field + "' is not a number; correct or remove the line");
+    if (!IsFinite(*values)) return false;
+    const Eigen::Quaterniond rotation = QuaternionOf(*values);
+    if (!IsUnitQuaternion(rotation.coeffs())) FailQuaternion(line, rotation.norm());
+    const std::array<double, 9>& v = *values;
+    if (v[1] < 0.0 || v[1] >= UnitsPerSecond(TimeUnit::kNanoseconds)) {
+      line.Fail(FormatNumber(v[1]) +
+                " is not the nanoseconds after a whole second; name only one column of time");
+    }
+    pose->timestamp = v[0] / rate + v[1] / UnitsPerSecond(TimeUnit::kNanoseconds);
+    pose->world_from_cam =
+        Rigid3(rotation.normalized(), columns_.metres * Eigen::Vector3d(v[2], v[3], v[4]));
+    return true;
+  }
+
+  void CheckNumFields(const TextLine& line) const {
+    const std::string found = ", found " + std::to_string(line.fields.size());
+    if (is_named_) {
+      if (line.fields.size() >= columns_.MinColumns()) return;
+      line.Fail("expected at least " + std::to_string(columns_.MinColumns()) +
+                " fields, which the header names" + found + "; correct the line");
+    }
+    const size_t expected = std::max(rows_.front().fields.size(), columns_.MinColumns());
+    if (line.fields.size() == expected) return;
+    if (expected == kFieldsPerPose) {
+      line.Fail(std::string("expected 8 numbers ") + kTumColumns + found +
+                " fields; correct the line");
+    }
+    line.Fail("expected " + std::to_string(expected) + " fields, as in the first row" + found +
+              " fields; correct the line");
+  }
+
+  [[noreturn]] void FailQuaternion(const TextLine& line, double norm) const {
+    if (!is_named_ && line.fields.size() > kFieldsPerPose) {
+      line.Fail(std::string("expected 8 numbers ") + kTumColumns + ", found " +
+                std::to_string(line.fields.size()) +
+                " fields, none of which are a quaternion; name the columns in a header, '# time tx "
+                "ty tz qx qy qz qw'");
+    }
+    line.Fail(
+        FormatText("the quaternion %s has length %.3f instead of 1; correct or remove the line",
+                   IsScalarFirst(columns_) ? "qw qx qy qz" : "qx qy qz qw", norm));
+  }
+
+  const std::vector<TextLine>& rows_;
+  std::optional<TrajectoryFormat> format_;
+  PoseColumns columns_;
+  bool is_named_ = false;
+};
+
+}  // namespace
+
+bool IsUnitQuaternion(const Eigen::Vector4d& components) {
+  // Larger than the rounding of components with two decimals.
+  constexpr double kMaxError = 0.05;
+  return std::abs(components.norm() - 1.0) <= kMaxError;
+}
+
+PoseRows ReadPoseRows(const std::string& path, bool any_header) {
+  PoseRows table;
+  std::istringstream content(ReadText(path));
+  int header_end = 0;
+  std::string text;
+  for (int number = 1; std::getline(content, text); ++number) {
+    const std::vector<std::string> fields = SplitFields(text);
+    if (fields.empty()) continue;
+    const bool is_comment = fields[0][0] == '#';
+    const auto is_number = [](const std::string& field) { return ParseNumber(field).has_value(); };
+    if (!is_comment && std::any_of(fields.begin(), fields.end(), is_number)) break;
+    const std::optional<PoseColumns> columns = FindPoseColumns(text);
+    if (columns) table.named = columns;
+    if (is_comment) continue;
+    header_end = number;
+    if (!columns && !any_header && fields[0][0] != '%') {
+      TextLine{path, number, fields, ""}.Fail(
+          std::string("names no columns of a trajectory; name them as in ") + kTumColumns +
+          ", or begin the line with #");
+    }
+  }
+  for (TextLine& line : ReadTextLines(path)) {
+    if (line.number > header_end) table.rows.push_back(std::move(line));
+  }
+  return table;
+}
+
+TrajectoryFile ReadPoseTable(const PoseRows& rows, std::optional<TrajectoryFormat> format) {
+  if (rows.rows.empty()) {
+    TrajectoryFile file;
+    file.format = format.value_or(TrajectoryFormat::kTum);
+    return file;
+  }
+  return TableReader(rows, format).Read();
+}
+
+}  // namespace msc_vo

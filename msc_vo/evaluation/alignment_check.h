@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "msc_vo/geometry/rigid3.h"
+
+namespace msc_vo {
+
+// Checks of matched poses: the i-th pose of both vectors is of the same time, camera in world. The
+// vectors must have the same size.
+
+/// Whether all positions are the same up to rounding.
+bool IsStatic(const std::vector<Rigid3>& poses);
+
+/// Describes what a rigid alignment, or a similarity, leaves undetermined: the rotation if a
+/// trajectory does not move, or moves less than it is in error; the rotation about a straight line.
+/// Empty if the alignment is determined.
+std::string DescribeUndetermined(const std::vector<Rigid3>& reference,
+                                 const std::vector<Rigid3>& estimate, bool with_scale);
+
+/// Describes a scale of the estimate that clearly contradicts the reference, as wrong units of
+/// depth cause; empty if there is none. The path is divided into parts of equal length, which are
+/// aligned by themselves. The mean of their logarithmic scales must exceed what depth sensors err
+/// by, according to a t-test at 99.9 %: a trajectory that was lost has parts that differ. In each
+/// part, the scale counts that is closest to 1 between the regression of the reference on the
+/// estimate and that of the estimate on the reference, so that noise makes no scale.
+std::string DescribeScaleContradiction(const std::vector<Rigid3>& reference,
+                                       const std::vector<Rigid3>& estimate);
+
+/// Describes that quaternions of one trajectory agree much better with the other one if their
+/// scalar is taken from the other end of the four numbers; empty if they do not.
+std::string DescribeQuaternionOrder(const std::vector<Rigid3>& reference,
+                                    const std::vector<Rigid3>& estimate);
+
+}  // namespace msc_vo
