@@ -24,6 +24,7 @@
 #include "msc_vo/odometry/side_worker.h"
 #include "msc_vo/odometry/snapshot_schedule.h"
 #include "msc_vo/sensor/depth_camera_correction.h"
+#include "msc_vo/sensor/standalone_image.h"
 #include "msc_vo/timing/stopwatch.h"
 #include "msc_vo/tracking/tracker.h"
 
@@ -264,9 +265,12 @@ void Odometry::SetTrackingObserver(TrackingObserver observer) {
   state_->tracking_observer = std::move(observer);
 }
 
-FrameResult Odometry::Process(const RgbdImage& recorded) {
-  state_->CheckTime(recorded.id, recorded.timestamp);
-  CheckDepthDelay(recorded.id, recorded.depth_delay);
+FrameResult Odometry::Process(const RgbdImage& given) {
+  state_->CheckTime(given.id, given.timestamp);
+  CheckDepthDelay(given.id, given.depth_delay);
+  state_->builder.Check(given);
+  CheckDepthUnits(given.id, given.depth);
+  const RgbdImage recorded = StandaloneImages(given);
   Stopwatch stopwatch;
   const RgbdImage aligned = state_->Align(recorded);
   RgbdImage image = state_->preparation.Register(aligned);
