@@ -80,7 +80,7 @@ TEST(ImageViews, GiveTheFrameOfACopy) {
         const LensDistortion lens{{k1, 0.0, 0.0, 0.0, 0.0}};
         const std::string expected = FrameBytes(options, lens, image);
         for (const RgbdImage& view : Views(image)) {
-          EXPECT_EQ(FrameBytes(options, lens, view), expected)
+          EXPECT_TRUE(FrameBytes(options, lens, view) == expected)
               << ToString(sensor) << ", detector " << static_cast<int>(detector) << ", k1 " << k1;
         }
       }

@@ -100,7 +100,7 @@ class LocaleTest : public TemporaryFolder {
     result.axes.sigma = 0.0015;
     result.last_window.parallel = {1200, 3, 5.5, 4.25};
     result.readout_time = 0.0155;
-    result.segments = {{0, 1999, 1999, 0}};
+    result.segments = {{0, 1999, 1999, 0, std::nullopt}};
     return result;
   }
 

@@ -32,6 +32,14 @@ class InputImagesTest : public RoomTest {
     return odometry.Finish();
   }
 
+  // Whole units; the images of the suite share their pixels.
+  static cv::Mat Rounded(const cv::Mat& depth, double units_per_metre) {
+    cv::Mat raw, rounded;
+    depth.convertTo(raw, CV_16UC1, units_per_metre);
+    raw.convertTo(rounded, CV_32FC1);
+    return rounded;
+  }
+
   static std::string ErrorOf(const RgbdImage& image) {
     Odometry odometry({}, camera_, {});
     try {
@@ -69,9 +77,7 @@ TEST_F(InputImagesTest, WrongTypesAndSizesAreRefusedBeforeTheyAreRead) {
 TEST_F(InputImagesTest, RawDepthIsNotTakenForMetres) {
   for (const double units_per_metre : {1000.0, 5000.0}) {
     RgbdImage image = (*images_)[0];
-    cv::Mat raw;
-    image.depth.convertTo(raw, CV_16UC1, units_per_metre);
-    raw.convertTo(image.depth, CV_32FC1);
+    image.depth = Rounded(image.depth, units_per_metre);
     EXPECT_THAT(ErrorOf(image), HasSubstr("image 0: depth is in metres"));
     EXPECT_THAT(ErrorOf(image), HasSubstr("1000 for millimetres"));
   }
@@ -79,11 +85,9 @@ TEST_F(InputImagesTest, RawDepthIsNotTakenForMetres) {
 
 TEST_F(InputImagesTest, MetresRoundedToTheMillimetreAndSentinelsAreTaken) {
   RgbdImage image = (*images_)[0];
-  cv::Mat raw;
-  image.depth.convertTo(raw, CV_16UC1, 1000.0);
-  raw.convertTo(image.depth, CV_32FC1, 0.001);
+  image.depth = 0.001 * Rounded(image.depth, 1000.0);
   EXPECT_EQ(ErrorOf(image), "");
-  image.depth.setTo(65504.0f);  // the sky of a simulator
+  image.depth = cv::Mat(image.depth.size(), CV_32FC1, cv::Scalar(65504.0));  // sky of a simulator
   EXPECT_EQ(ErrorOf(image), "");
 }
 
