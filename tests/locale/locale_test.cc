@@ -187,7 +187,7 @@ TEST_F(LocaleTest, ErrorsAreTheSame) {
     return MessageOf([&] { ReadConfiguration(Path("options.yaml"), &configuration); });
   };
   ExpectSame("de_DE", {[&] {
-                         return invalid(PinholeCamera{1e6, 1e6, 319.5, 239.5, 6400, 4800});
+                         return invalid(PinholeCamera{2.5e6, 2.5e6, 319.5, 239.5, 6400, 4800});
                        },
                        [&] {
                          Calibration calibration;
