@@ -150,7 +150,7 @@ ReplayArguments StoredArguments(const std::vector<std::string>& typed, const std
   std::filesystem::current_path(folder, error);
   if (error) {
     throw std::runtime_error(folder + ": the run was begun in this folder, which cannot " +
-                             "be used (" + error.message() + "); give the sequence and the " +
+                             "be used (" + ErrorText(error) + "); give the sequence and the " +
                              "options of the run together with --resume");
   }
   return arguments;

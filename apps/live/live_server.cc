@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <future>
 #include <memory>
@@ -21,6 +20,7 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -191,7 +191,8 @@ LiveServer::LiveServer(const std::string& address, int port, std::string page, L
     state_->port = port;
   }
   if (state_->port <= 0) {
-    const std::string reason = errno != 0 ? std::string(": ") + std::strerror(errno) : "";
+    const std::string reason =
+        errno != 0 ? std::string(": ") + ErrorText({errno, std::generic_category()}) : "";
     throw std::runtime_error("the live view cannot be served at " + address + ", port " +
                              std::to_string(port) + reason +
                              "; end the program that uses the port, or choose another one with "

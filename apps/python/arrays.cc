@@ -3,12 +3,15 @@
 
 #include "apps/python/arrays.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
 
 #include <opencv2/imgproc.hpp>
+
+#include "msc_vo/datasets/calibration.h"
 
 namespace msc_vo {
 
@@ -20,38 +23,33 @@ namespace {
   throw std::invalid_argument(name + ": " + problem);
 }
 
-std::string ShapeText(const py::array& array) {
-  std::string text = "(";
-  for (py::ssize_t i = 0; i < array.ndim(); ++i) {
-    text += (i > 0 ? ", " : "") + std::to_string(array.shape(i));
-  }
-  return text + (array.ndim() == 1 ? ",)" : ")");
-}
-
 std::string SizeText(int size, const char* any) { return size < 0 ? any : std::to_string(size); }
 
-py::array AnyArray(py::handle value, const std::string& name) {
-  py::array array = py::array::ensure(value);
-  if (!array) {
-    PyErr_Clear();
-    Fail(name, "expected an array, not " + std::string(py::str(py::type::of(value))));
-  }
-  return array;
-}
+using DoubleArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 // Numbers as doubles in C order. Copies only if they are not.
-py::array_t<double, py::array::c_style> Doubles(py::handle value, const std::string& name) {
-  const py::array array = AnyArray(value, name);
-  if (std::string("fiu").find(array.dtype().kind()) == std::string::npos) {
-    Fail(name, "expected numbers, not " + DescribeArray(array));
-  }
-  const auto doubles =
-      py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
+DoubleArray Doubles(py::handle value, const std::string& name) {
+  return DoubleArray::ensure(NumberArray(value, name));
+}
+
+DoubleArray FiniteDoubles(py::handle value, const std::string& name) {
+  const DoubleArray doubles = Doubles(value, name);
   const double* begin = doubles.data();
   for (py::ssize_t i = 0; i < doubles.size(); ++i) {
     if (!std::isfinite(begin[i])) Fail(name, "contains a number that is not finite");
   }
   return doubles;
+}
+
+RowMajorMatrix MatrixOf(const DoubleArray& array, const std::string& name, int num_rows,
+                        int num_cols) {
+  const bool is_vector = array.ndim() == 1 && num_cols == 1;
+  if (!(is_vector || array.ndim() == 2) || (!is_vector && array.shape(1) != num_cols) ||
+      (num_rows >= 0 && array.shape(0) != num_rows)) {
+    Fail(name, "expected shape (" + SizeText(num_rows, "N") + ", " + std::to_string(num_cols) +
+                   "), not " + DescribeArray(array));
+  }
+  return Eigen::Map<const RowMajorMatrix>(array.data(), array.shape(0), num_cols);
 }
 
 // Images share memory with OpenCV, so that their rows must be contiguous.
@@ -66,60 +64,62 @@ bool HasType(const py::array& array, char kind, int bytes) {
   return array.dtype().kind() == kind && array.itemsize() == bytes;
 }
 
-cv::Mat SharedMat(const py::array& array, int type) {
+// The pixels of the array, or a copy if `value` is something else, from which the array was made.
+cv::Mat ImageOf(const py::array& array, py::handle value, int type) {
   // OpenCV has no read-only images; msc_vo does not write to its input.
-  return {static_cast<int>(array.shape(0)), static_cast<int>(array.shape(1)), type,
-          const_cast<void*>(array.data())};
+  const cv::Mat image(static_cast<int>(array.shape(0)), static_cast<int>(array.shape(1)), type,
+                      const_cast<void*>(array.data()));
+  return array.is(value) ? image : image.clone();
 }
 
 }  // namespace
 
-std::string DescribeArray(const py::array& array) {
-  return ShapeText(array) + " of " + std::string(py::str(array.dtype()));
-}
-
 RowMajorMatrix MatrixArgument(py::handle value, const std::string& name, int num_rows,
                               int num_cols) {
-  const auto array = Doubles(value, name);
-  const bool is_vector = array.ndim() == 1 && num_cols == 1;
-  if (!(is_vector || array.ndim() == 2) || (!is_vector && array.shape(1) != num_cols) ||
-      (num_rows >= 0 && array.shape(0) != num_rows)) {
-    Fail(name, "expected shape (" + SizeText(num_rows, "N") + ", " + std::to_string(num_cols) +
-                   "), not " + ShapeText(array));
-  }
-  return Eigen::Map<const RowMajorMatrix>(array.data(), array.shape(0), num_cols);
+  return MatrixOf(FiniteDoubles(value, name), name, num_rows, num_cols);
+}
+
+RowMajorMatrix TimedRowsArgument(py::handle value, const std::string& name, int num_cols) {
+  const py::array array = NumberArray(value, name);
+  RowMajorMatrix rows = MatrixOf(DoubleArray::ensure(array), name, -1, num_cols);
+  CheckTimeType(array[py::make_tuple(py::ellipsis(), 0)], name);
+  return rows;
 }
 
 Eigen::VectorXd VectorArgument(py::handle value, const std::string& name, int size) {
-  const auto array = Doubles(value, name);
+  const DoubleArray array = FiniteDoubles(value, name);
   if (array.ndim() != 1 || (size >= 0 && array.shape(0) != size)) {
-    Fail(name, "expected shape (" + SizeText(size, "N") + ",), not " + ShapeText(array));
+    Fail(name, "expected shape (" + SizeText(size, "N") + ",), not " + DescribeArray(array));
   }
   return Eigen::Map<const Eigen::VectorXd>(array.data(), array.shape(0));
 }
 
 Eigen::VectorXd PerRowArgument(py::handle value, const std::string& name, int size) {
-  const auto array = Doubles(value, name);
+  const DoubleArray array = FiniteDoubles(value, name);
   if (array.ndim() == 0) return Eigen::VectorXd::Constant(size, *array.data());
   return VectorArgument(value, name, size);
 }
 
 std::vector<int64_t> IdsArgument(py::handle value, const std::string& name, int size) {
-  const py::array array = AnyArray(value, name);
+  const py::array array = PlainArray(value, name);
   const bool is_empty = array.size() == 0;  // of which NumPy does not know that it holds integers
   if (!is_empty && array.dtype().kind() != 'i' && array.dtype().kind() != 'u') {
     Fail(name, "expected whole numbers, not " + DescribeArray(array));
   }
   if (array.ndim() != 1 || (size >= 0 && array.shape(0) != size)) {
-    Fail(name, "expected shape (" + SizeText(size, "N") + ",), not " + ShapeText(array));
+    Fail(name, "expected shape (" + SizeText(size, "N") + ",), not " + DescribeArray(array));
   }
   const auto ids = py::array_t<int64_t, py::array::c_style | py::array::forcecast>::ensure(array);
-  return {ids.data(), ids.data() + ids.size()};
+  const std::vector<int64_t> numbers(ids.data(), ids.data() + ids.size());
+  const bool wraps = array.dtype().kind() == 'u' &&
+                     std::any_of(numbers.begin(), numbers.end(), [](int64_t n) { return n < 0; });
+  if (wraps) Fail(name, "contains a number that 64 bits with a sign cannot hold");
+  return numbers;
 }
 
 std::vector<bool> FlagsArgument(py::handle value, const std::string& name, int size) {
   if (value.is_none()) return std::vector<bool>(size, false);
-  const py::array array = AnyArray(value, name);
+  const py::array array = PlainArray(value, name);
   if (array.ndim() != 1 || array.shape(0) != size || array.dtype().kind() != 'b') {
     Fail(name, "expected " + std::to_string(size) + " truth values, not " + DescribeArray(array));
   }
@@ -142,9 +142,9 @@ Rigid3 PoseArgument(py::handle value, const std::string& name) {
 }
 
 std::vector<Rigid3> PosesArgument(py::handle value, const std::string& name) {
-  const py::array array = AnyArray(value, name);
+  const py::array array = PlainArray(value, name);
   if (array.ndim() != 3 || array.shape(1) != 4 || array.shape(2) != 4) {
-    Fail(name, "expected shape (N, 4, 4), not " + ShapeText(array));
+    Fail(name, "expected shape (N, 4, 4), not " + DescribeArray(array));
   }
   std::vector<Rigid3> poses;
   for (py::ssize_t i = 0; i < array.shape(0); ++i) {
@@ -153,8 +153,22 @@ std::vector<Rigid3> PosesArgument(py::handle value, const std::string& name) {
   return poses;
 }
 
+void CopyNumbers(py::handle value, const std::string& name, py::ssize_t rows, py::ssize_t cols,
+                 double* to) {
+  const DoubleArray array = Doubles(value, name);
+  const bool fits = cols < 0
+                        ? array.ndim() == 1 && array.shape(0) == rows
+                        : array.ndim() == 2 && array.shape(0) == rows && array.shape(1) == cols;
+  if (!fits) {
+    Fail(name, "expected shape (" + std::to_string(rows) +
+                   (cols < 0 ? "," : ", " + std::to_string(cols)) + "), not " +
+                   DescribeArray(array));
+  }
+  std::copy_n(array.data(), array.size(), to);
+}
+
 cv::Mat GrayArgument(py::handle value, const std::string& name) {
-  const py::array array = AnyArray(value, name);
+  const py::array array = PlainArray(value, name);
   const bool is_gray = array.ndim() == 2;
   const bool is_rgb = array.ndim() == 3 && array.shape(2) == 3;
   if (!HasType(array, 'u', 1) || !(is_gray || is_rgb)) {
@@ -162,14 +176,16 @@ cv::Mat GrayArgument(py::handle value, const std::string& name) {
                    DescribeArray(array));
   }
   CheckImage(array, name);
-  if (is_gray) return SharedMat(array, CV_8UC1);
+  if (is_gray) return ImageOf(array, value, CV_8UC1);
   cv::Mat gray;
-  cv::cvtColor(SharedMat(array, CV_8UC3), gray, cv::COLOR_RGB2GRAY);
+  cv::cvtColor(ImageOf(array, value, CV_8UC3), gray, cv::COLOR_RGB2GRAY);
   return gray;
 }
 
 cv::Mat DepthArgument(py::handle value, py::handle depth_scale, const std::string& name) {
-  const py::array array = AnyArray(value, name);
+  const py::object filled = IsMasked(value) ? value.attr("filled")(0)  // not measured
+                                            : py::reinterpret_borrow<py::object>(value);
+  const py::array array = PlainArray(filled, name);
   const bool is_metric = HasType(array, 'f', 4);
   const bool is_raw = HasType(array, 'u', 2);
   if (array.ndim() != 2 || !(is_metric || is_raw)) {
@@ -181,14 +197,15 @@ cv::Mat DepthArgument(py::handle value, py::handle depth_scale, const std::strin
   CheckImage(array, name);
   if (is_metric) {
     if (!depth_scale.is_none()) Fail(name, "depth_scale is for uint16; float32 is in metres");
-    return SharedMat(array, CV_32FC1);
+    return ImageOf(array, value, CV_32FC1);
   }
   if (depth_scale.is_none()) {
     Fail(name, "uint16 needs depth_scale, the units per metre (such as 1000 or 5000)");
   }
-  const double scale = py::float_(py::reinterpret_borrow<py::object>(depth_scale));
-  if (!(scale > 0.0) || !std::isfinite(scale)) Fail("depth_scale", "must be a positive number");
-  const cv::Mat raw = SharedMat(array, CV_16UC1);
+  const double scale = NumberArgument(depth_scale, "depth_scale");
+  std::string error;
+  if (!IsValidDepthScale(scale, &error)) throw std::invalid_argument(error);
+  const cv::Mat raw = ImageOf(array, value, CV_16UC1);
   cv::Mat metres;
   raw.convertTo(metres, CV_32F, 1.0 / scale);
   metres.setTo(0.0f, raw == std::numeric_limits<uint16_t>::max());  // no measurement

@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 #include <pybind11/numpy.h>
 
+#include "apps/python/plain_array.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/geometry/timed_pose.h"
 
@@ -21,13 +22,13 @@ namespace msc_vo {
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// "(480, 640, 3) of uint8", for messages.
-std::string DescribeArray(const pybind11::array& array);
-
 /// A matrix with `num_cols` columns, and `num_rows` rows unless that is negative. A vector counts
 /// as a matrix with one column. Its numbers are finite.
 RowMajorMatrix MatrixArgument(pybind11::handle value, const std::string& name, int num_rows,
                               int num_cols);
+/// A matrix with `num_cols` columns, the first of which are times in seconds. Its numbers need not
+/// be finite.
+RowMajorMatrix TimedRowsArgument(pybind11::handle value, const std::string& name, int num_cols);
 /// A vector; any length if `size` is negative.
 Eigen::VectorXd VectorArgument(pybind11::handle value, const std::string& name, int size);
 /// A vector of `size` numbers, or one number for all.
@@ -41,11 +42,16 @@ Rigid3 PoseArgument(pybind11::handle value, const std::string& name);
 /// Poses as 4x4 matrices, shape (N, 4, 4).
 std::vector<Rigid3> PosesArgument(pybind11::handle value, const std::string& name);
 
+/// Numbers of the shape (rows, cols), or (rows,) if `cols` is negative, written to `to`. They need
+/// not be finite: a solver rejects a step to where a cost function is nan or inf.
+void CopyNumbers(pybind11::handle value, const std::string& name, pybind11::ssize_t rows,
+                 pybind11::ssize_t cols, double* to);
+
 /// An 8-bit grey image from (height, width) or RGB (height, width, 3). Grey images share the memory
 /// of the array.
 cv::Mat GrayArgument(pybind11::handle value, const std::string& name);
 /// A depth image in metres: float32 in metres, which shares the memory of the array, or uint16 with
-/// `depth_scale` units per metre (None with float32).
+/// `depth_scale` units per metre (None with float32). Masked elements are not measured.
 cv::Mat DepthArgument(pybind11::handle value, pybind11::handle depth_scale,
                       const std::string& name);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -24,14 +26,19 @@ namespace {
 std::vector<TimedPose> PosesOfRows(const RowMajorMatrix& rows, const std::string& name) {
   std::vector<TimedPose> poses;
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    if (!rows.row(i).allFinite()) continue;  // a frame without a pose
+    const auto pose = rows.row(i).tail<7>();
+    if (std::isfinite(rows(i, 0)) && pose.array().isNaN().all()) continue;  // a frame without one
+    const std::string row = name + ": row " + std::to_string(i);
+    if (!rows.row(i).allFinite()) throw std::invalid_argument(row + " is not finite");
     const Eigen::Quaterniond q(rows(i, 7), rows(i, 4), rows(i, 5), rows(i, 6));
     if (std::abs(q.norm() - 1.0) > 0.05) {
-      throw std::invalid_argument(name + ": the quaternion of row " + std::to_string(i) +
-                                  " is not of unit length");
+      throw std::invalid_argument(row + ": the quaternion is not of unit length");
     }
     poses.push_back({rows(i, 0), Rigid3(q.normalized(), rows.row(i).segment<3>(1).transpose())});
   }
+  std::stable_sort(poses.begin(), poses.end(), [](const TimedPose& a, const TimedPose& b) {
+    return a.timestamp < b.timestamp;
+  });
   return poses;
 }
 
@@ -52,7 +59,7 @@ TrajectoryFile TrajectoryArgument(const py::object& value, const std::string& na
   trajectory.unit = TimeUnit::kSeconds;
   trajectory.poses = py::isinstance<OdometryResult>(value)
                          ? TrajectoryOf(value.cast<const OdometryResult&>())
-                         : PosesOfRows(MatrixArgument(value, name, -1, 8), name);
+                         : PosesOfRows(TimedRowsArgument(value, name, 8), name);
   return trajectory;
 }
 

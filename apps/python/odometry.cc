@@ -62,12 +62,12 @@ class PyOdometry {
   PyOdometry(const PyOdometry&) = delete;
   PyOdometry& operator=(const PyOdometry&) = delete;
 
-  FrameResult Process(double timestamp, const py::object& gray, const py::object& depth,
-                      const py::object& depth_scale, double depth_delay) {
+  FrameResult Process(const py::object& timestamp, const py::object& gray, const py::object& depth,
+                      const py::object& depth_scale, const py::object& depth_delay) {
     RgbdImage image;
     image.id = next_id_;
-    image.timestamp = timestamp;
-    image.depth_delay = depth_delay;
+    image.timestamp = TimeArgument(timestamp, "timestamp");
+    image.depth_delay = NumberArgument(depth_delay, "depth_delay");
     image.gray = GrayArgument(gray, "gray");
     image.depth = DepthArgument(depth, depth_scale, "depth");
     if (!depth_scale.is_none() && next_id_ < kNumChecked) CheckByteOrder(image.depth, depth_scale);
@@ -76,14 +76,15 @@ class PyOdometry {
     return result;
   }
 
-  FrameResult Drop(double timestamp, const std::string& status) {
+  FrameResult Drop(const py::object& timestamp, const std::string& status) {
+    const double time = TimeArgument(timestamp, "timestamp");
     if (status != "dropped" && status != "unreadable") {
       throw std::invalid_argument("status: must be 'dropped' or 'unreadable', not '" + status +
                                   "'");
     }
     const TrackingStatus value =
         status == "dropped" ? TrackingStatus::kDropped : TrackingStatus::kUnreadable;
-    const FrameResult result = Alone([&] { return odometry_->Drop(next_id_, timestamp, value); });
+    const FrameResult result = Alone([&] { return odometry_->Drop(next_id_, time, value); });
     ++next_id_;
     return result;
   }
@@ -203,7 +204,9 @@ void BindOdometry(py::module_* module) {
            py::kw_only(), py::arg("depth_scale") = py::none(), py::arg("depth_delay") = 0.0,
            "Tracks one image. timestamp: seconds, ascending. gray: uint8 (height, width), or RGB "
            "(height, width, 3). depth: float32 in metres, or uint16 with depth_scale units per "
-           "metre; 0: not measured. Arrays must be C-contiguous; they are not copied. "
+           "metre, 10 to 100000; 0 or masked: not measured. Arrays must be C-contiguous; those in "
+           "the "
+           "byte order of the machine are not copied. "
            "depth_delay: seconds from the colour image to the depth image. Raises ValueError on "
            "arrays that do not fit; the next call may continue.")
       .def("drop", &PyOdometry::Drop, py::arg("timestamp"), py::arg("status") = "dropped",

@@ -10,6 +10,7 @@
 #include <pybind11/stl.h>
 
 #include "apps/python/bindings.h"
+#include "apps/python/plain_array.h"
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/text/text_file.h"
 
@@ -108,6 +109,7 @@ void OptionTable::Set(const std::string& name, py::handle value) {
   if (option == nullptr) {
     throw std::invalid_argument(UnknownOptionMessage(options, name, "list(options) names all"));
   }
+  if (IsMasked(value)) throw std::invalid_argument(name + " must not be masked");
   if (value.is_none() && Unset(*option)) return;
   const std::string text = ToText(py::reinterpret_borrow<py::object>(value));
   std::string expected;

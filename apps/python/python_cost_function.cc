@@ -27,22 +27,6 @@ py::object Call(const py::object& callable, const std::vector<int>& sizes,
   return callable(*blocks);
 }
 
-// The result may contain nan and inf, which make the solver reject a step.
-void CopyResult(py::handle value, const std::string& name, py::ssize_t rows, py::ssize_t cols,
-                double* to) {
-  const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
-  if (!array) throw py::error_already_set();
-  const bool fits = cols < 0
-                        ? array.ndim() == 1 && array.shape(0) == rows
-                        : array.ndim() == 2 && array.shape(0) == rows && array.shape(1) == cols;
-  if (!fits) {
-    throw std::invalid_argument(
-        "cost function: expected " + name + " of shape (" + std::to_string(rows) +
-        (cols < 0 ? "," : ", " + std::to_string(cols)) + "), not " + DescribeArray(array));
-  }
-  std::copy_n(array.data(), array.size(), to);
-}
-
 // The functor of a cost function with numeric derivatives.
 class NumericFunctor {
  public:
@@ -53,7 +37,7 @@ class NumericFunctor {
     const py::gil_scoped_acquire gil;
     const py::object result = Call(callable_.get(), sizes_, parameters);
     if (result.is_none()) return false;
-    CopyResult(result, "residuals", num_residuals_, -1, residuals);
+    CopyNumbers(result, "cost function: residuals", num_residuals_, -1, residuals);
     return true;
   }
 
@@ -93,7 +77,7 @@ bool PythonCostFunction::Evaluate(double const* const* parameters, double* resid
         "numeric=True");
   }
   const py::tuple pair = result;
-  CopyResult(pair[0], "residuals", num_residuals(), -1, residuals);
+  CopyNumbers(pair[0], "cost function: residuals", num_residuals(), -1, residuals);
   const py::sequence list = pair[1];
   if (list.size() != sizes.size()) {
     throw std::invalid_argument("cost function: expected " + std::to_string(sizes.size()) +
@@ -103,7 +87,8 @@ bool PythonCostFunction::Evaluate(double const* const* parameters, double* resid
   if (jacobians == nullptr) return true;
   for (size_t i = 0; i < sizes.size(); ++i) {
     if (jacobians[i] == nullptr) continue;
-    CopyResult(list[i], "Jacobian " + std::to_string(i), num_residuals(), sizes[i], jacobians[i]);
+    CopyNumbers(list[i], "cost function: Jacobian " + std::to_string(i), num_residuals(), sizes[i],
+                jacobians[i]);
   }
   return true;
 }

@@ -3,6 +3,7 @@
 
 #include "apps/python/window_arrays.h"
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,12 +25,10 @@ LineSegment3 SegmentOf(const RowMajorMatrix& rows, size_t i) {
 
 // (N, 2, 2) covariances as rows of four.
 RowMajorMatrix CovarianceRows(py::handle value, const std::string& name, int size) {
-  const py::array array = py::array::ensure(value);
-  if (!array || array.ndim() != 3 || array.shape(0) != size || array.shape(1) != 2 ||
-      array.shape(2) != 2) {
-    PyErr_Clear();
-    throw std::invalid_argument(name + ": expected shape (" + std::to_string(size) + ", 2, 2)" +
-                                (array ? ", not " + DescribeArray(array) : ""));
+  const py::array array = PlainArray(value, name);
+  if (array.ndim() != 3 || array.shape(0) != size || array.shape(1) != 2 || array.shape(2) != 2) {
+    throw std::invalid_argument(name + ": expected shape (" + std::to_string(size) +
+                                ", 2, 2), not " + DescribeArray(array));
   }
   return MatrixArgument(array.attr("reshape")(size, 4), name, size, 4);
 }
@@ -123,6 +122,13 @@ void AddLinePairs(std::vector<WindowData::LinePair>* pairs, py::handle a, py::ha
   const Eigen::VectorXd sigma = PerRowArgument(sigmas, "sigmas", size);
   std::vector<int64_t> count(size, 1);
   if (!counts.is_none()) count = IdsArgument(counts, "counts", size);
+  constexpr int64_t kLargest = std::numeric_limits<int>::max();
+  for (const int64_t n : count) {
+    if (n < 0 || n > kLargest) {
+      throw std::invalid_argument("counts: " + std::to_string(n) + " must be from 0 to " +
+                                  std::to_string(kLargest));
+    }
+  }
   for (int i = 0; i < size; ++i) {
     pairs->push_back({first[i], second[i], sigma[i], static_cast<int>(count[i]), false});
   }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
@@ -13,6 +12,7 @@
 #include "msc_vo/bundle_adjustment/internal/landmark_noise.h"
 #include "msc_vo/bundle_adjustment/internal/window_validation.h"
 #include "msc_vo/bundle_adjustment/validation.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -182,18 +182,15 @@ std::vector<std::pair<std::string, const TermSummary*>> BundleAdjustmentSummary:
 }
 
 std::string BundleAdjustmentSummary::BriefReport() const {
-  char text[160];
-  std::snprintf(
-      text, sizeof(text), "local BA: %s, %d iterations, cost %.6g -> %.6g, %d behind camera",
+  std::string report = FormatText(
+      "local BA: %s, %d iterations, cost %.6g -> %.6g, %d behind camera",
       usable ? "solved" : "failed", num_iterations, initial_cost, final_cost, num_behind_camera);
-  std::string report = text;
   for (const auto& [name, term] : Terms()) {
     std::string label = name;
     std::replace(label.begin(), label.end(), '_', ' ');
-    std::snprintf(text, sizeof(text), "\n  %-19s %6d blocks, %4d rejected, cost %.6g -> %.6g",
-                  label.c_str(), term->num_residual_blocks, term->num_rejected, term->initial_cost,
-                  term->final_cost);
-    report += text;
+    report += FormatText("\n  %-19s %6d blocks, %4d rejected, cost %.6g -> %.6g", label.c_str(),
+                         term->num_residual_blocks, term->num_rejected, term->initial_cost,
+                         term->final_cost);
   }
   return report + "\n  " + schur_structure + (message.empty() ? "" : ": ") + message;
 }

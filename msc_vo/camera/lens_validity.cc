@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <locale>
 #include <sstream>
 
 namespace msc_vo {
@@ -73,9 +74,11 @@ double CornerRadius(const PinholeCamera& camera) {
 std::string FoldMessage(const LensDistortion& distortion, const PinholeCamera& camera,
                         double undistorted_radius, double recorded_radius) {
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   const PinholeCamera& recorded = distortion.Recorded(camera);
   const auto length = [](double radius, const PinholeCamera& in) {
     std::ostringstream length_text;
+    length_text.imbue(std::locale::classic());
     length_text.precision(3);
     length_text << radius << " (" << std::round(radius * in.FocalLength()) << " pixels)";
     return length_text.str();

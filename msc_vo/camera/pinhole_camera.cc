@@ -4,6 +4,7 @@
 #include "msc_vo/camera/pinhole_camera.h"
 
 #include <algorithm>
+#include <locale>
 #include <sstream>
 
 namespace msc_vo {
@@ -26,6 +27,7 @@ bool PinholeCamera::IsValid(std::string* error) const {
   const auto is_within = [error](const char* name, double value, double from, double to) {
     if (value >= from && value <= to) return true;  // false for NaN
     std::ostringstream text;
+    text.imbue(std::locale::classic());
     text << "camera: " << name << " = " << value << " must be from " << from << " to " << to
          << " pixels";
     *error = text.str();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <locale>
 #include <sstream>
 
 namespace msc_vo {
@@ -31,6 +32,7 @@ double FieldOfView(const LensDistortion& distortion, const PinholeCamera& record
 bool IsValidFieldOfView(double field_of_view, std::string* error) {
   if (field_of_view >= kMinFieldOfView && field_of_view <= kMaxFieldOfView) return true;
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   text << "camera: field_of_view = " << field_of_view << " must be from " << kMinFieldOfView
        << " to " << kMaxFieldOfView << " degrees";
   *error = text.str();

@@ -5,13 +5,21 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <stdexcept>
+#include <system_error>
 
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "msc_vo/text/files.h"
+
 namespace msc_vo {
+
+namespace {
+
+std::string LastError() { return ErrorText({errno, std::generic_category()}); }
+
+}  // namespace
 
 GrowingBinary::GrowingBinary(const std::string& path)
     : path_(path), descriptor_(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)) {
@@ -21,7 +29,7 @@ GrowingBinary::GrowingBinary(const std::string& path)
 GrowingBinary::~GrowingBinary() { close(descriptor_); }
 
 void GrowingBinary::Fail(const char* action) const {
-  throw std::runtime_error(path_ + ": cannot be " + action + ": " + std::strerror(errno) +
+  throw std::runtime_error(path_ + ": cannot be " + action + ": " + LastError() +
                            " (check the folder and the free space)");
 }
 
@@ -42,7 +50,7 @@ void ReplaceFileOnDisk(const std::string& path, std::string_view bytes) {
   const std::string partial = path + ".partial";
   GrowingBinary(partial).Write(0, bytes);
   if (std::rename(partial.c_str(), path.c_str()) != 0) {
-    throw std::runtime_error(path + ": cannot be written: " + std::strerror(errno));
+    throw std::runtime_error(path + ": cannot be written: " + LastError());
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include "msc_vo/config/camera_options.h"
 
-#include <cctype>
+#include <cstring>
 #include <stdexcept>
 #include <vector>
 
@@ -21,8 +21,8 @@ bool IsCameraFile(const std::string& content) {
   for (const char c : content) {
     if (c == '#') is_comment = true;
     if (c == '\n') is_comment = false;
-    if (is_comment || std::isspace(static_cast<unsigned char>(c)) != 0) continue;
-    return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '+';
+    if (is_comment || std::strchr(" \t\r\n\v\f", c) != nullptr) continue;
+    return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+';
   }
   return false;
 }

@@ -4,10 +4,10 @@
 // Writes options as a YAML file.
 
 #include <algorithm>
-#include <cctype>
 
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/text/format_text.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -26,7 +26,7 @@ std::vector<std::string> SectionsOf(const std::string& path) {
 // A text as a YAML scalar: quoted unless it is a plain name. Bytes are kept, also those that are
 // not UTF-8, which the emitter of yaml-cpp replaces.
 std::string Quoted(const std::string& text) {
-  const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
+  const auto is_plain = [](char c) { return IsLetterOrDigit(c) || c == '-' || c == '_'; };
   const bool is_name = std::all_of(text.begin(), text.end(), is_plain) && text.front() != '-' &&
                        text != "null" && text != "Null" && text != "NULL";
   if (is_name) return text;

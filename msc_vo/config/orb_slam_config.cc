@@ -141,7 +141,12 @@ CameraSettings ReadOrbSlamConfig(const std::string& path) {
   camera.fy = require({"Camera.fy", "Camera1.fy"});
   camera.cx = require({"Camera.cx", "Camera1.cx"});
   camera.cy = require({"Camera.cy", "Camera1.cy"});
-  camera.depth_scale = require({"DepthMapFactor", "RGBD.DepthMapFactor", "depthmap_factor"});
+  const auto factor_names = {"DepthMapFactor", "RGBD.DepthMapFactor", "depthmap_factor"};
+  camera.depth_scale = require(factor_names);
+  std::string error;
+  if (!IsValidDepthScale(*camera.depth_scale, &error)) {
+    Fail(path, *find_entry(factor_names), " is the depth_scale: " + error);
+  }
   camera.width = find_int({"Camera.width", "Camera.cols"});
   camera.height = find_int({"Camera.height", "Camera.rows"});
   camera.lens = ReadLens(TypeOf(values, path), find, require);

@@ -8,6 +8,7 @@
 
 #include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/camera/undistorted_camera.h"
+#include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -19,6 +20,10 @@ constexpr double kMaxReadoutTime = 1.0;  // seconds; no camera takes longer for 
 // Raw units per metre of 16-bit depth images: a step of 10 cm, and a range of 65 cm.
 constexpr double kMinDepthScale = 10.0;
 constexpr double kMaxDepthScale = 1e5;
+
+bool IsInDepthScaleRange(double units_per_metre) {
+  return units_per_metre >= kMinDepthScale && units_per_metre <= kMaxDepthScale;
+}
 
 // Sets the intrinsics and the size of a camera or of a depth camera.
 template <typename Settings>
@@ -59,6 +64,19 @@ DepthCameraSettings SettingsOf(const DepthCamera& depth_camera) {
 
 }  // namespace
 
+bool IsValidDepthScale(double depth_scale, std::string* error) {
+  if (IsInDepthScaleRange(depth_scale)) return true;
+  *error = FormatText("depth_scale = %.10g must be from %g to %g raw depth units per metre",
+                      depth_scale, kMinDepthScale, kMaxDepthScale);
+  if (IsInDepthScaleRange(1.0 / depth_scale)) {  // as the drivers of some sensors give it
+    *error += FormatText("; %.10g metres per unit are %.6g units per metre", depth_scale,
+                         1.0 / depth_scale);
+  } else {
+    *error += ", 1000 units per metre if depth is in millimetres";
+  }
+  return false;
+}
+
 void Calibration::SetRecorded(const PinholeCamera& recorded) {
   distortion.recorded.reset();
   camera = recorded;
@@ -76,10 +94,8 @@ bool Calibration::IsValid(std::string* error) const {
   if (!camera.IsValid(error)) return false;
   if (!IsInvertible(distortion, camera, error)) return false;
   if (depth_camera && !depth_camera->IsValid(error)) return false;
-  if (!(depth_scale >= kMinDepthScale && depth_scale <= kMaxDepthScale)) {
-    *error = "camera: depth_scale = " + FormatNumber(depth_scale) + " must be from " +
-             FormatNumber(kMinDepthScale) + " to " + FormatNumber(kMaxDepthScale) +
-             " raw depth units per metre";
+  if (!IsValidDepthScale(depth_scale, error)) {
+    *error = "camera: " + *error;
     return false;
   }
   if (readout_time && !(std::abs(*readout_time) < kMaxReadoutTime)) {

@@ -13,6 +13,10 @@
 
 namespace msc_vo {
 
+/// Tests whether `depth_scale` can be the raw units per metre of a depth image. If it cannot,
+/// `error` names the valid range and, if the value is metres per unit, its reciprocal.
+bool IsValidDepthScale(double depth_scale, std::string* error);
+
 /// Calibration of an RGB-D camera: intrinsics, lens distortion, depth scale and readout time.
 /// `camera` (of the undistorted images) and `distortion` are those of the colour images, and of the
 /// depth images too unless there is a depth camera.

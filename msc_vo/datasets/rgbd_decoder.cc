@@ -103,6 +103,8 @@ cv::Mat ToMetres(const cv::Mat& raw, double depth_scale, const DepthLimits& limi
 
 RgbdDecoder::RgbdDecoder(SequenceIndex index, Calibration calibration)
     : index_(std::move(index)), calibration_(std::move(calibration)) {
+  std::string error;
+  if (!IsValidDepthScale(calibration_.depth_scale, &error)) throw std::invalid_argument(error);
   if (!calibration_.depth_camera) return;
   registration_ = std::make_shared<DepthRegistration>(*calibration_.depth_camera,
                                                       calibration_.camera, calibration_.distortion);

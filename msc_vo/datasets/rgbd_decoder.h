@@ -40,7 +40,7 @@ struct StoredRgbd {
 class RgbdDecoder {
  public:
   /// `calibration` must be valid; without a depth camera, its image size is also that of the depth
-  /// images.
+  /// images. Throws std::invalid_argument on an impossible depth scale.
   RgbdDecoder(SequenceIndex index, Calibration calibration);
 
   int size() const { return static_cast<int>(index_.entries.size()); }

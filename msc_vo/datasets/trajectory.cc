@@ -25,9 +25,7 @@ void SortByTime(std::vector<TimedPose>* poses) {
 
 // Formats with a fixed number of decimals: "0.1000000000"; never "-0.0000000000".
 std::string Fixed(double value, int decimals) {
-  std::array<char, 400> buffer;  // 309 digits of the largest double, sign, point, decimals
-  std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, value);
-  std::string text = buffer.data();
+  std::string text = FormatText("%.*f", decimals, value);
   if (text.find_first_of("123456789") == std::string::npos && text[0] == '-') text.erase(0, 1);
   return text;
 }

@@ -21,7 +21,9 @@ namespace fs = std::filesystem;
 namespace {
 
 // The folder, created with rgb/ and depth/.
-std::string PrepareFolder(const std::string& folder) {
+std::string PrepareFolder(const std::string& folder, const Calibration& calibration) {
+  std::string error;
+  if (!IsValidDepthScale(calibration.depth_scale, &error)) throw std::invalid_argument(error);
   if (HasEntry(folder) && !ListFolder(folder).empty()) {
     throw std::runtime_error(folder + ": is not empty; give another folder for the recording");
   }
@@ -76,7 +78,7 @@ void TumWriter::List::TruncateTo(size_t size) {
 
 TumWriter::TumWriter(const std::string& folder, const Calibration& calibration,
                      const std::string& comment)
-    : folder_(PrepareFolder(folder)),
+    : folder_(PrepareFolder(folder, calibration)),
       depth_scale_(calibration.depth_scale),
       color_list_((fs::path(folder) / "rgb.txt").string(), "# timestamp filename\n"),
       depth_list_((fs::path(folder) / "depth.txt").string(), "# timestamp filename\n"),

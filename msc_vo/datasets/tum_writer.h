@@ -16,7 +16,8 @@ namespace msc_vo {
 class TumWriter {
  public:
   /// Creates the folder and writes camera.txt. `comment` is one line about the source. Throws
-  /// std::runtime_error, naming the folder, if it is not empty or cannot be written.
+  /// std::runtime_error, naming the folder, if it is not empty or cannot be written, and
+  /// std::invalid_argument on an impossible depth scale.
   TumWriter(const std::string& folder, const Calibration& calibration, const std::string& comment);
 
   /// Writes a pair of images with their times in seconds, which must differ from those before.

@@ -12,6 +12,7 @@
 #include "msc_vo/evaluation/association.h"
 #include "msc_vo/geometry/rigid_alignment.h"
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -200,7 +201,7 @@ std::string DescribeProblem(const std::vector<PosePair>& pairs, const Trajectory
   std::string problem = "only " + std::to_string(pairs.size()) + " of " +
                         std::to_string(error.num_estimate) +
                         " estimated poses have a reference pose within " +
-                        std::to_string(options.max_time_difference) + " s; three are needed";
+                        FormatText("%g s; three are needed", options.max_time_difference);
   if (error.num_not_estimated > 0) {
     problem += "; " + std::to_string(error.num_not_estimated) +
                " others are marked as not estimated and left out";

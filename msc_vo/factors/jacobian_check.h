@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <locale>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -79,6 +80,7 @@ inline void Compare(size_t block, const Eigen::MatrixXd& analytic, const Eigen::
   }
   if (!(deviation > check->deviation)) return;
   std::ostringstream report;
+  report.imbue(std::locale::classic());
   report << "parameter block " << block << ": deviation " << deviation << "\nJacobian:\n"
          << analytic << "\nnumeric derivative:\n"
          << numeric;

@@ -126,9 +126,13 @@ FrameBuilder::FrameBuilder(const FrameBuilderOptions& options, const PinholeCame
 
 FrameBuilder::~FrameBuilder() = default;
 
-Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
+void FrameBuilder::Check(const RgbdImage& image) const {
   CheckImage(image.gray, CV_8UC1, state_->camera, "grey", "8-bit grey (CV_8UC1)");
   CheckImage(image.depth, CV_32FC1, state_->camera, "depth", "float (CV_32FC1, metres)");
+}
+
+Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
+  Check(image);
   Frame frame;
   frame.id = image.id;
   frame.timestamp = image.timestamp;

@@ -58,9 +58,12 @@ class FrameBuilder {
                const LensDistortion& distortion);
   ~FrameBuilder();
 
+  /// Throws std::invalid_argument if type or size of the image do not match the camera.
+  void Check(const RgbdImage& image) const;
+
   /// `run` is given one task for the lines and one for each pyramid level of the points, the
-  /// longest first; the result does not depend on their order. Throws std::invalid_argument if type
-  /// or size of the image do not match the camera.
+  /// longest first; the result does not depend on their order. Throws as Check()
+  /// does.
   Frame Build(const RgbdImage& image, const TaskRunner& run = RunSequentially);
 
   /// The calibration that frames are built with.

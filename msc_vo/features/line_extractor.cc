@@ -14,6 +14,7 @@
 #include "msc_vo/features/internal/line_merging.h"
 #include "msc_vo/features/internal/line_refinement.h"
 #include "msc_vo/geometry/cell_index.h"
+#include "msc_vo/sensor/standalone_image.h"
 
 namespace msc_vo {
 
@@ -119,10 +120,11 @@ LineExtractor::LineExtractor(const LineExtractorOptions& options)
 
 LineExtractor::~LineExtractor() = default;
 
-std::vector<LineFeature> LineExtractor::Extract(const cv::Mat& gray, const cv::Mat& mask) {
-  if (gray.empty() || gray.type() != CV_8UC1) {
+std::vector<LineFeature> LineExtractor::Extract(const cv::Mat& image, const cv::Mat& mask) {
+  if (image.empty() || image.type() != CV_8UC1) {
     throw std::invalid_argument("LineExtractor: the image must be 8-bit grey (CV_8UC1)");
   }
+  const cv::Mat gray = StandaloneImage(image);
   detectors_->Detect(options_.detector, gray);
   std::vector<LineSegment2> pieces;
   for (LineSegment2 segment : detectors_->pieces) {

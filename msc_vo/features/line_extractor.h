@@ -46,7 +46,7 @@ class LineExtractor {
   /// Returns the lines of an undistorted 8-bit grey image, longest first, without depth and with
   /// sigma 1. `mask` (CV_8UC1 of the same size, or empty) is zero at pixels without image content,
   /// where segments are clipped. Throws std::invalid_argument if the image is not CV_8UC1.
-  std::vector<LineFeature> Extract(const cv::Mat& gray, const cv::Mat& mask = cv::Mat());
+  std::vector<LineFeature> Extract(const cv::Mat& image, const cv::Mat& mask = cv::Mat());
 
  private:
   struct Detectors;

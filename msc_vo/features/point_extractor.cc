@@ -13,6 +13,7 @@
 #include "msc_vo/features/internal/corner_refinement.h"
 #include "msc_vo/features/internal/fast_corners.h"
 #include "msc_vo/features/internal/point_descriptor_extractor.h"
+#include "msc_vo/sensor/standalone_image.h"
 
 namespace msc_vo {
 
@@ -169,7 +170,7 @@ int PointExtractor::SetImage(const cv::Mat& gray) {
   if (gray.empty() || gray.type() != CV_8UC1) {
     throw std::invalid_argument("PointExtractor: the image must be 8-bit grey (CV_8UC1)");
   }
-  levels_[0].image = gray;
+  levels_[0].image = StandaloneImage(gray);
   for (size_t l = 0; l < levels_.size(); ++l) {
     const cv::Size size(cvRound(gray.cols / levels_[l].scale),
                         cvRound(gray.rows / levels_[l].scale));

@@ -12,6 +12,7 @@
 #include "msc_vo/camera/image_scale.h"
 #include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/features/internal/depth_sums.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -63,8 +64,10 @@ bool SurfaceNormalOptions::IsValid(std::string* error) const {
   } else if (!(min_depth > 0.0 && max_depth > min_depth)) {
     *error = "normals: 0 < min_depth < max_depth (metres) must hold";
   } else if (kMaxArea * max_depth > DepthSums::kMaxSum) {
-    *error = "normals.max_depth must not exceed " + std::to_string(DepthSums::kMaxSum / kMaxArea) +
-             " metres: sums over a window would overflow";
+    *error = FormatText(
+        "normals.max_depth must not exceed %g metres: sums over a window would "
+        "overflow",
+        DepthSums::kMaxSum / kMaxArea);
   } else {
     return true;
   }

@@ -4,10 +4,12 @@
 #include "msc_vo/odometry/input_checks.h"
 
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <string>
 
 #include "msc_vo/camera/lens_validity.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -47,9 +49,30 @@ void CheckTimestamp(int64_t id, double timestamp, const std::optional<double>& l
 void CheckDepthDelay(int64_t id, double delay) {
   if (std::abs(delay) <= kMaxDepthDelay) return;
   throw std::invalid_argument("image " + std::to_string(id) +
-                              ": depth_delay = " + std::to_string(delay) + " must be from -" +
-                              std::to_string(kMaxDepthDelay) + " to " +
-                              std::to_string(kMaxDepthDelay) + " seconds");
+                              FormatText(": depth_delay = %g must be from -%g to %g seconds", delay,
+                                         kMaxDepthDelay, kMaxDepthDelay));
+}
+
+void CheckDepthUnits(int64_t id, const cv::Mat& depth) {
+  constexpr int kStride = 8;           // pixels, along rows and columns
+  constexpr float kFarthest = 100.0f;  // metres, beyond all surfaces of an indoor scene
+  constexpr size_t kEnough = 10;       // one value may stand for pixels without a measurement
+  std::set<float> values;
+  for (int y = 0; y < depth.rows; y += kStride) {
+    const float* row = depth.ptr<float>(y);
+    for (int x = 0; x < depth.cols; x += kStride) {
+      const float z = row[x];
+      if (!(z > 0.0f) || !std::isfinite(z)) continue;
+      if (z != std::floor(z)) return;  // metres are no whole numbers
+      values.insert(z);
+    }
+  }
+  if (values.size() < kEnough || *values.rbegin() <= kFarthest) return;
+  throw std::invalid_argument(
+      "image " + std::to_string(id) +
+      FormatText(": depth is in metres, but all of it is whole numbers up to %g: divide it by the "
+                 "units per metre (1000 for millimetres)",
+                 static_cast<double>(*values.rbegin())));
 }
 
 }  // namespace msc_vo

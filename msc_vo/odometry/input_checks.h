@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 
+#include <opencv2/core.hpp>
+
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/odometry/odometry_options.h"
@@ -27,5 +29,8 @@ void CheckTimestamp(int64_t id, double timestamp, const std::optional<double>& l
 
 /// Checks the time from the colour image to its depth image, seconds.
 void CheckDepthDelay(int64_t id, double delay);
+
+/// Refuses a depth image that is not in metres but in raw units of a sensor.
+void CheckDepthUnits(int64_t id, const cv::Mat& depth);
 
 }  // namespace msc_vo

@@ -24,6 +24,7 @@
 #include "msc_vo/odometry/side_worker.h"
 #include "msc_vo/odometry/snapshot_schedule.h"
 #include "msc_vo/sensor/depth_camera_correction.h"
+#include "msc_vo/sensor/standalone_image.h"
 #include "msc_vo/timing/stopwatch.h"
 #include "msc_vo/tracking/tracker.h"
 
@@ -269,8 +270,10 @@ void Odometry::SetTrackingObserver(TrackingObserver observer) {
 FrameResult Odometry::Process(const RgbdImage& given) {
   state_->CheckTime(given.id, given.timestamp);
   CheckDepthDelay(given.id, given.depth_delay);
+  state_->builder.Check(given);
+  CheckDepthUnits(given.id, given.depth);
   Stopwatch stopwatch;
-  const RgbdImage recorded = state_->preparation.RemoveClipped(given);
+  const RgbdImage recorded = state_->preparation.RemoveClipped(StandaloneImages(given));
   const RgbdImage aligned = state_->Align(recorded);
   RgbdImage image = state_->preparation.Register(aligned);
   const double alignment_ms = stopwatch.Milliseconds();

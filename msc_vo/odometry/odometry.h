@@ -124,11 +124,11 @@ class Odometry {
   void SetTrackingObserver(TrackingObserver observer);
 
   /// Tracks one image and returns its result, which may still improve until Finish().
-  /// Throws std::invalid_argument if the image does not match the camera or time stamps do not
-  /// ascend, and the exception of a keyframe step of an earlier frame; the next call continues
-  /// without that step; and what the tracking observer throws. Exceptions of the callback of the
-  /// pose factors, and std::invalid_argument that names an invalid factor, leave the frame out of
-  /// the result.
+  /// Images that are views of larger matrices are copied. Throws std::invalid_argument if the image
+  /// does not match the camera, depth is not in metres or time stamps do not ascend, and the
+  /// exception of a keyframe step of an earlier frame; the next call continues without that step;
+  /// and what the tracking observer throws. Exceptions of the callback of the pose factors, and
+  /// std::invalid_argument that names an invalid factor, leave the frame out of the result.
   FrameResult Process(const RgbdImage& image);
 
   /// Records a frame at `timestamp` (seconds) that is not processed, because its image came too

@@ -3,9 +3,8 @@
 
 #include "msc_vo/odometry/option.h"
 
-#include <sstream>
-
 #include "msc_vo/odometry/option_lister.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -23,12 +22,7 @@ struct NumberReader {
 };
 
 // Ten digits represent every int and every limit of a range exactly.
-std::string FormatValue(double value) {
-  std::ostringstream text;
-  text.precision(10);
-  text << value;
-  return text.str();
-}
+std::string FormatValue(double value) { return FormatText("%.10g", value); }
 
 void ListGeneral(OdometryOptions* options, OptionLister* list) {
   list->AddChoice("mode", &options->mode,

@@ -197,9 +197,11 @@ void WriteNotTracked(const ReportData& data, std::ostream& out) {
   const double start = data.frames.front().timestamp;
   for (const NotTrackedSpan& span : spans) {
     const int count = span.last_frame - span.first_frame + 1;
-    out << "<tr><td>" << span.first_frame << " to " << span.last_frame << "</td><td>"
-        << FormatFixed(span.start - start, 2) << "</td><td>" << FormatFixed(span.end - start, 2)
-        << "</td><td>" << count - span.num_lost << "</td><td>" << span.num_lost << "</td></tr>\n";
+    out << "<tr><td>" << std::to_string(span.first_frame) << " to "
+        << std::to_string(span.last_frame) << "</td><td>" << FormatFixed(span.start - start, 2)
+        << "</td><td>" << FormatFixed(span.end - start, 2) << "</td><td>"
+        << std::to_string(count - span.num_lost) << "</td><td>" << std::to_string(span.num_lost)
+        << "</td></tr>\n";
   }
   out << "</table>\n";
 }
@@ -221,7 +223,8 @@ void WriteTimes(const ReportData& data, std::ostream& out) {
   for (const StageTimeStatistics& stage : SummarizeStages(data.stages, data.frames)) {
     out << "<tr><td>" << EscapeHtml(stage.name) << "</td><td>" << FormatFixed(stage.mean, 2)
         << "</td><td>" << FormatFixed(stage.median, 2) << "</td><td>" << FormatFixed(stage.p95, 2)
-        << "</td><td>" << FormatFixed(stage.max, 2) << "</td><td>" << stage.count << "</td></tr>\n";
+        << "</td><td>" << FormatFixed(stage.max, 2) << "</td><td>" << std::to_string(stage.count)
+        << "</td></tr>\n";
   }
   out << "</table>\n";
 }

@@ -4,7 +4,6 @@
 #include "msc_vo/results/benchmark_index.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <system_error>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "msc_vo/report/web_assets.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
+#include "msc_vo/text/text_file.h"
 #include "msc_vo/version.h"
 
 namespace msc_vo {
@@ -24,9 +24,9 @@ namespace {
 // A path as a relative URL.
 std::string Url(const std::string& path) {
   std::string url;
-  for (const unsigned char c : path) {
-    const bool is_plain = std::isalnum(c) != 0 || c == '/' || c == '-' || c == '_' || c == '.';
-    url += is_plain ? std::string(1, static_cast<char>(c)) : FormatText("%%%02X", c);
+  for (const char c : path) {
+    const bool is_plain = IsLetterOrDigit(c) || c == '/' || c == '-' || c == '_' || c == '.';
+    url += is_plain ? std::string(1, c) : FormatText("%%%02X", static_cast<unsigned char>(c));
   }
   return url;
 }

@@ -70,7 +70,7 @@ void RemoveResultFiles(const std::string& directory) {
     std::filesystem::remove(FileIn(directory, name), error);
     if (error) {
       throw std::runtime_error(FileIn(directory, name) +
-                               ": cannot be replaced: " + error.message());
+                               ": cannot be replaced: " + ErrorText(error));
     }
   }
 }

@@ -9,6 +9,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "msc_vo/sensor/standalone_image.h"
+
 namespace msc_vo {
 
 namespace {
@@ -105,7 +107,7 @@ cv::Mat RemoveBleeding(const cv::Mat& depth, int reach, double sigma) {
   if (reach <= 0) return depth;
   const cv::Mat kernel = cv::getStructuringElement(cv::MORPH_RECT, {2 * reach + 1, 2 * reach + 1});
   cv::Mat restored;
-  cv::dilate(depth, restored, kernel);
+  cv::dilate(StandaloneImage(depth), restored, kernel);
   const auto bias = static_cast<float>(kLowestNoise * sigma);
   for (int y = 0; y < depth.rows; ++y) {
     const float* z = depth.ptr<float>(y);

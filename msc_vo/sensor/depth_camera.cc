@@ -4,9 +4,9 @@
 #include "msc_vo/sensor/depth_camera.h"
 
 #include <cmath>
-#include <sstream>
 
 #include "msc_vo/camera/lens_validity.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -19,11 +19,7 @@ constexpr double kMaxLengthError = 1e-6;
 // The offset corrects small errors of a sensor; this is the inverse depth of two metres.
 constexpr double kMaxInverseDepthOffset = 0.5;
 
-std::string Number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
+std::string Number(double value) { return FormatText("%g", value); }
 
 }  // namespace
 

@@ -8,6 +8,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "msc_vo/sensor/standalone_image.h"
+
 namespace msc_vo {
 
 namespace {
@@ -80,7 +82,7 @@ std::vector<DepthEdge> FindDepthEdges(const cv::Mat& depth) {
 
 EdgeGradients GradientsOf(const cv::Mat& gray) {
   cv::Mat smooth, dx, dy;
-  cv::GaussianBlur(gray, smooth, cv::Size(3, 3), 0.8);
+  cv::GaussianBlur(StandaloneImage(gray), smooth, cv::Size(3, 3), 0.8);
   cv::Sobel(smooth, dx, CV_32F, 1, 0);
   cv::Sobel(smooth, dy, CV_32F, 0, 1);
   return {Normalize(dx), Normalize(dy)};

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "msc_vo/text/classic_locale.h"
+
 namespace msc_vo {
 
 namespace fs = std::filesystem;
@@ -27,7 +29,7 @@ std::string ResolveType(const std::string& path, fs::file_type* type) {
   if (error == std::errc::too_many_symbolic_link_levels) {
     return "is a symbolic link that leads back to itself";
   }
-  if (error) return "cannot be read: " + error.message() + " (check the permissions)";
+  if (error) return "cannot be read: " + ErrorText(error) + " (check the permissions)";
   return "";
 }
 
@@ -83,6 +85,11 @@ std::string WritePartial(const std::string& path, const std::string& content) {
 
 }  // namespace
 
+std::string ErrorText(const std::error_code& error) {
+  const ClassicLocale locale;
+  return error.message();
+}
+
 bool HasEntry(const std::string& path) {
   std::error_code error;
   const fs::file_type type = fs::symlink_status(path, error).type();
@@ -105,7 +112,7 @@ std::string FileProblem(const std::string& path, std::uintmax_t max_bytes) {
   }
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
-  if (error) return "cannot be read: " + error.message();
+  if (error) return "cannot be read: " + ErrorText(error);
   if (size > max_bytes) {
     return "has " + Megabytes(size) + ", more than the " + Megabytes(max_bytes) +
            " allowed for such a file; check that it is the right file";
@@ -121,7 +128,7 @@ std::string FolderProblem(const std::string& path) {
   if (type != fs::file_type::directory) return "is a " + SpecialTypeName(type);
   std::error_code error;
   const fs::directory_iterator entries(path, error);
-  return error ? "cannot be listed: " + error.message() + " (check the permissions)" : "";
+  return error ? "cannot be listed: " + ErrorText(error) + " (check the permissions)" : "";
 }
 
 std::string ReadFile(const std::string& path, std::uintmax_t max_bytes) {
@@ -151,7 +158,7 @@ void WriteFile(const std::string& path, const std::string& content) {
   const std::string partial = WritePartial(path, content);
   std::error_code error;
   fs::rename(partial, path, error);
-  if (error) throw std::runtime_error(path + ": cannot be written: " + error.message());
+  if (error) throw std::runtime_error(path + ": cannot be written: " + ErrorText(error));
 }
 
 void CheckWritable(const std::string& path) { RemoveEntry(WritePartial(path, "")); }
@@ -175,7 +182,7 @@ void GrowingFile::Append(const std::string& text) {
 void MakeFolder(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) throw std::runtime_error(path + ": cannot be created: " + error.message());
+  if (error) throw std::runtime_error(path + ": cannot be created: " + ErrorText(error));
 }
 
 void RefuseToOverwrite(const std::vector<std::string>& inputs, const std::string& output) {

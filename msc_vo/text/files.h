@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <fstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace msc_vo {
@@ -21,6 +22,9 @@ bool HasEntry(const std::string& path);
 
 /// Tests whether `path` is a folder or a link to one. Never throws.
 bool IsFolder(const std::string& path);
+
+/// Describes an error of the system, in the "C" locale.
+std::string ErrorText(const std::error_code& error);
 
 /// Describes why `path` cannot be read as a regular file of at most `max_bytes`: "does not exist",
 /// "is a pipe; ...". Empty if it can.

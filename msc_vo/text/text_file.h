@@ -40,7 +40,11 @@ std::vector<std::string> SplitFields(const std::string& text);
 /// ReadText() does.
 std::vector<TextLine> ReadTextLines(const std::string& path);
 
-/// Returns `text` in lower case; only ASCII letters are changed in the "C" locale.
+/// Tests for a letter or digit of ASCII.
+constexpr bool IsLetterOrDigit(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+/// Returns `text` in lower case; changes only the letters of ASCII.
 std::string Lowercase(std::string text);
 /// Returns `text` without leading and trailing blanks, tabs and line ends.
 std::string Trimmed(const std::string& text);

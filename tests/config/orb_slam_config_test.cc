@@ -39,6 +39,17 @@ TEST_F(OrbSlamConfigTest, ReadsOrbSlam3Settings) {
   EXPECT_EQ(*camera.depth_scale, 1000.0);
 }
 
+TEST_F(OrbSlamConfigTest, RejectsFactorsThatAreNoUnitsPerMetre) {
+  for (const char* name : {"DepthMapFactor", "RGBD.DepthMapFactor", "depthmap_factor"}) {
+    WriteText("orb.yaml",
+              "%YAML:1.0\nCamera.fx: 600\nCamera.fy: 601\nCamera.cx: 320\nCamera.cy: 240\n" +
+                  std::string(name) + ": 0.0002\n");
+    EXPECT_THAT(MessageOf([&] { ReadOrbSlamConfig(Path("orb.yaml")); }),
+                AllOf(HasSubstr("orb.yaml:6: " + std::string(name)),
+                      HasSubstr("depth_scale = 0.0002"), HasSubstr("5000 units per metre")));
+  }
+}
+
 TEST_F(OrbSlamConfigTest, RejectsOtherCameraModels) {
   const std::string camera =
       "Camera1.fx: 600\nCamera1.fy: 601\nCamera1.cx: 320\nCamera1.cy: 240\n"

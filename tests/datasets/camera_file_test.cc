@@ -6,6 +6,10 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
+#include "msc_vo/datasets/rgbd_decoder.h"
+#include "msc_vo/datasets/tum_writer.h"
+#include "msc_vo/text/files.h"
+
 namespace msc_vo {
 namespace {
 
@@ -56,6 +60,26 @@ TEST_F(CameraFileTest, RejectsImpossibleCameras) {
     EXPECT_THAT(ErrorOf(std::string("535 535 320 240 640 480 ") + scale),
                 HasSubstr("camera.txt:1: camera: depth_scale = "));
   }
+}
+
+TEST_F(CameraFileTest, NamesTheReciprocalOfMetresPerUnit) {
+  const std::string camera = "535 535 320 240 640 480 ";
+  EXPECT_THAT(ErrorOf(camera + "0.001"),
+              AllOf(HasSubstr("camera.txt:1: camera: depth_scale = 0.001"),
+                    HasSubstr("1000 units per metre")));
+  EXPECT_THAT(ErrorOf(camera + "0.00025"), HasSubstr("4000 units per metre"));
+  EXPECT_THAT(ErrorOf(camera + "1"), HasSubstr("1000 units per metre if depth is in millimetres"));
+}
+
+TEST(DepthScale, DecoderAndWriterRefuseMetresPerUnit) {
+  Calibration calibration;
+  calibration.depth_scale = 0.001;
+  EXPECT_THAT(MessageOf([&] { RgbdDecoder(SequenceIndex(), calibration); }),
+              HasSubstr("1000 units per metre"));
+  const std::string folder = testing::TempDir() + "/not_written";
+  EXPECT_THAT(MessageOf([&] { TumWriter(folder, calibration, ""); }),
+              HasSubstr("1000 units per metre"));
+  EXPECT_FALSE(HasEntry(folder));
 }
 
 TEST_F(CameraFileTest, ReadsReadoutTime) {

@@ -144,6 +144,12 @@ TEST_F(SequenceCalibrationTest, CompleteSettingsAreTheOnlySource) {
   EXPECT_TRUE(calibration.distortion.IsZero());
   EXPECT_EQ(calibration.camera.width, 8);  // from the depth image
   EXPECT_EQ(calibration.camera.height, 6);
+  CameraSettings scaled = settings;
+  scaled.depth_scale = 0.001;  // metres per unit
+  scaled.origin = "options.yaml";
+  EXPECT_THAT(MessageOf([&] { ResolveCalibration(scaled, "", &index); }),
+              AllOf(HasSubstr("options.yaml: camera: depth_scale = 0.001"),
+                    HasSubstr("1000 units per metre")));
   settings.width = 0;  // not the same as not given
   settings.origin = "--set";
   EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),

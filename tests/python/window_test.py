@@ -226,8 +226,8 @@ class Factors(unittest.TestCase):
 
     def test_results_of_the_wrong_shape_are_named(self):
         for message, result in [
-                (r"residuals of shape \(1,\), not \(2,\)", (np.zeros(2), [np.zeros((1, 7))])),
-                (r"Jacobian 0 of shape \(1, 7\), not \(1, 6\)", (np.zeros(1), [np.zeros((1, 6))])),
+                (r"residuals: expected shape \(1,\), not \(2,\)", (np.zeros(2), [np.zeros((1, 7))])),
+                (r"Jacobian 0: expected shape \(1, 7\), not \(1, 6\)", (np.zeros(1), [np.zeros((1, 6))])),
                 ("expected 1 Jacobians", (np.zeros(1), [])),
                 ("the tuple", np.zeros(1))]:
             window = Scene().window()

@@ -11,6 +11,7 @@
 #include "msc_vo/factors/analytic_cost_function.h"
 #include "msc_vo/factors/analytic_line_pair_cost_function.h"
 #include "msc_vo/factors/observation_cost_function.h"
+#include "msc_vo/text/classic_locale.h"
 
 namespace msc_vo {
 
@@ -208,7 +209,10 @@ MinimizerReport CeresBackend::Minimize(int max_iterations) {
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem_, &summary);
+  {
+    const ClassicLocale locale;  // of the message
+    ceres::Solve(options, &problem_, &summary);
+  }
   MinimizerReport report;
   report.usable = summary.IsSolutionUsable();
   // The first entry is the evaluation before the first step.
