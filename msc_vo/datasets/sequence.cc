@@ -10,6 +10,7 @@
 
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -80,12 +81,7 @@ SequenceIndex OpenSequence(const std::string& directory, const std::string& form
   index.format = format->name;
   index.directory = folder;
   OrderEntries(&index);
-  if (index.entries.empty()) {
-    std::string message = folder + ": no pair of colour and depth image found (read as " +
-                          format->name + ": " + format->description + ")";
-    for (const std::string& warning : index.warnings) message += "\n" + warning;
-    throw std::runtime_error(message);
-  }
+  RequireMostImages(index, folder + " (read as " + format->name + ": " + format->description + ")");
   return index;
 }
 
@@ -108,6 +104,19 @@ void OrderEntries(SequenceIndex* index) {
     index->warnings.push_back(std::to_string(before - entries.size()) +
                               " images have the time stamp of another one and are left out");
   }
+}
+
+void RequireMostImages(const SequenceIndex& index, const std::string& source) {
+  const size_t num_used = index.entries.size();
+  if (num_used > 0 && 2 * num_used >= index.num_listed) return;
+  std::string message = source + ": ";
+  if (num_used == 0) {
+    message += "no pair of colour and depth image found";
+  } else {
+    message += FormatText("only %zu of %zu images can be used", num_used, index.num_listed);
+  }
+  for (const std::string& warning : index.warnings) message += "\n" + warning;
+  throw std::runtime_error(message);
 }
 
 std::vector<std::string> InputFolders(const SequenceIndex& index) {
