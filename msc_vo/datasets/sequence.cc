@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "msc_vo/datasets/recording_file.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
@@ -35,12 +36,16 @@ const SequenceFormat* Recognise(const std::string& directory) {
     message += std::string("\n  ") + format->name + ": " + format->description;
   }
   // Giving the parent folder of a sequence is the most frequent mistake.
-  std::vector<std::string> children;
-  for (const std::string& child : ListFolder(directory)) {
-    if (FolderProblem(child).empty() && Recognise(child)) children.push_back(child);
-  }
-  if (!children.empty()) {
-    message += "\nDid you mean " + *std::min_element(children.begin(), children.end()) + "?";
+  std::vector<std::string> entries = ListFolder(directory);
+  std::sort(entries.begin(), entries.end());
+  const auto child = std::find_if(entries.begin(), entries.end(), [](const std::string& entry) {
+    return FolderProblem(entry).empty() && Recognise(entry);
+  });
+  const auto file = std::find_if(entries.begin(), entries.end(), IsSequenceFile);
+  if (child != entries.end()) {
+    message += "\nDid you mean " + *child + "?";
+  } else if (file != entries.end()) {
+    message += "\n" + *file + " " + DescribeFile(*file);
   }
   throw std::runtime_error(message);
 }
@@ -73,7 +78,10 @@ SequenceIndex OpenSequence(const std::string& directory, const std::string& form
   const SequenceFormat* format = format_name == "auto" ? nullptr : &FormatByName(format_name);
   const std::string problem = FolderProblem(folder);
   if (!problem.empty()) {
-    throw std::runtime_error(directory + ": " + problem + "; give the folder of the sequence");
+    const std::string file = DescribeFile(folder);
+    throw std::runtime_error(directory + (file.empty()
+                                              ? ": " + problem + "; give the folder of the sequence"
+                                              : " " + file));
   }
   if (!format) format = Recognise(folder);
   if (!format) FailUnrecognised(folder);
