@@ -176,11 +176,16 @@ Certainty AreTimes(const std::vector<double>& numbers) {
   return std::fmod(numbers[0], step) > 1.0 ? Certainty::kYes : Certainty::kPossible;
 }
 
-// Whether a number before the times ascends while the times do not.
+// Whether the times do not ascend although a number before them does, such as a counter or the
+// minutes of a time of day.
 bool ContradictsOrder(const Names& names, const NameTimes& times) {
-  if (IsStrictlyAscending(times.seconds)) return false;
+  if (std::is_sorted(times.seconds.begin(), times.seconds.end())) return false;
   for (size_t run = 0; run < times.first_run; ++run) {
-    if (IsStrictlyAscending(Numbers(Column(names, run)))) return true;
+    const std::string& first = names.front().digits[run];
+    const bool varies = std::any_of(names.begin(), names.end(), [&](const NameParts& name) {
+      return name.digits[run] != first;
+    });
+    if (varies) return true;
   }
   return false;
 }

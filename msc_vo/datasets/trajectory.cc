@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
+#include "msc_vo/datasets/stamp_precision.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
@@ -50,6 +52,19 @@ void SortByTime(std::vector<TimedPose>* poses) {
   });
 }
 
+// Throws if the stamps, as they are written in the file, do not tell most poses apart because they
+// lost digits.
+void CheckStampPrecision(const std::string& path, const std::vector<std::string>& stamps,
+                         const std::vector<TimedPose>& sorted) {
+  size_t num_repeated = 0;
+  for (size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i].timestamp == sorted[i - 1].timestamp) ++num_repeated;
+  }
+  if (2 * num_repeated <= sorted.size()) return;
+  const std::string problem = DescribeLostDigits(stamps);
+  if (!problem.empty()) throw std::runtime_error(path + ": " + problem);
+}
+
 // Formats with a fixed number of decimals: "0.1000000000"; never "-0.0000000000".
 std::string Fixed(double value, int decimals) {
   std::array<char, 400> buffer;  // 309 digits of the largest double, sign, point, decimals
@@ -64,6 +79,7 @@ std::string Fixed(double value, int decimals) {
 std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out) {
   std::vector<TimedPose> poses;
   if (num_left_out) *num_left_out = 0;
+  std::vector<std::string> stamps;
   int segment = 0, world = 0;
   for (const TextLine& line : ReadTextLines(path)) {
     ReadSegment(line.comment, &segment, &world);
@@ -91,10 +107,12 @@ std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out
           "the quaternion qx qy qz qw has length %.3f instead of 1; correct or remove the line",
           rotation.norm()));
     }
+    stamps.push_back(line.fields[0]);
     poses.push_back({v[0], Rigid3(rotation.normalized(), {v[1], v[2], v[3]}),
                      !EndsWith(line.comment, kNotEstimated), segment, world});
   }
   SortByTime(&poses);
+  CheckStampPrecision(path, stamps, poses);
   return poses;
 }
 

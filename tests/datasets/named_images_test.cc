@@ -161,6 +161,15 @@ TEST(NamedImages, TimesThatGoBackwardsAreNotUsed) {
   EXPECT_THAT(images.warnings, ElementsAre(HasSubstr("go backwards")));
 }
 
+TEST(NamedImages, SecondsOfAMinuteAreNoTimesBeyondIt) {
+  const NamedImages images = Read([](int i) {
+    const int ms = 33 * i + 59000;
+    return FormatText("01-05-2023 12.%02d.%02d.%03d", 30 + ms / 60000, ms / 1000 % 60, ms % 1000);
+  });
+  EXPECT_EQ(images.certainty, NamedTimes::kNone);
+  EXPECT_THAT(images.description, HasSubstr("nothing that is understood"));
+}
+
 TEST(NamedImages, LeavesOutNamesOfAnotherPattern) {
   const NamedImages images = Read([](int i) {
     return i == 3 ? "background_" + std::to_string(i) : FormatText("%.3f", 0.5 * i);
