@@ -91,17 +91,16 @@ Names KeepPattern(NamedImages* images) {
   return names;
 }
 
-// The numbers of a run of digits; empty if they are not all different or too large.
+// The numbers of a run of digits; empty if they do not ascend in the order of the names, as those
+// of a counter do, or are too large.
 std::vector<double> KeysOf(const Names& names, size_t run) {
   constexpr size_t kMaxDigits = 15;  // a double represents them exactly
   std::vector<double> keys;
   for (const NameParts& name : names) {
     if (name.digits[run].size() > kMaxDigits) return {};
     keys.push_back(*ParseNumber(name.digits[run]));
+    if (keys.size() > 1 && keys.back() <= keys[keys.size() - 2]) return {};
   }
-  std::vector<double> sorted = keys;
-  std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return {};
   return keys;
 }
 
