@@ -88,7 +88,8 @@ ImageTopic ChooseTopic(const std::string& path, const std::vector<ImageTopic>& a
   }
   if (ranked.empty()) {
     throw std::runtime_error(path + ": no topic with " + what + " images found; topics with " +
-                             "images: " + Describe(all) + "; " + option + " names one");
+                             "images: " + Describe(all) +
+                             (all.empty() ? "" : "; " + option + " names one"));
   }
   const ImageTopic& best = ranked.front();
   if (ranked.size() > 1) {
