@@ -37,6 +37,7 @@ struct Arguments {
   RunArguments run;
   std::vector<std::string> modes;
   std::string output = "out/benchmark";
+  bool overwrite = false;
   std::string shard;               // "K/N"; empty: all
   std::vector<std::string> merge;  // folders; empty: run
   bool resume = false;
@@ -118,6 +119,7 @@ int RunBenchmark(const Arguments& arguments) {
   plan.run = arguments.run;
   plan.input_files = arguments.configuration.InputFiles();
   plan.output = arguments.output;
+  plan.overwrite = arguments.overwrite;
   std::vector<std::string> inputs = arguments.sequences;
   for (const BenchmarkSequence& sequence : plan.sequences) inputs.push_back(sequence.directory);
   RefuseToOverwrite(inputs, arguments.output);
@@ -203,6 +205,8 @@ Command AddBenchmarkCommand(CLI::App* app) {
                    "Folder for benchmark.md, benchmark.json, index.html and the results in "
                    "<sequence>/<mode>/")
       ->capture_default_str();
+  command->add_flag("--overwrite", arguments->overwrite,
+                    "Write into a folder that holds the results of other sequences");
   AddRunArguments(command, &arguments->run);
   command->footer(
       HelpFooter("msc_vo benchmark data/living data/corridor --modes pl-vo,pl-vo-depth"));

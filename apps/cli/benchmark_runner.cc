@@ -16,6 +16,7 @@
 #include "msc_vo/results/benchmark_json.h"
 #include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
+#include "msc_vo/results/sequence_identity.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -97,7 +98,33 @@ bool BenchmarkRunner::IsDone(const std::string& sequence, const std::string& mod
                      });
 }
 
+// The folders of the runs, and the table, whose rows would be lost.
+void BenchmarkRunner::RefuseToOverwriteOtherRuns() const {
+  std::vector<SequenceIdentity> planned;
+  for (const BenchmarkSequence& sequence : plan_.sequences) {
+    planned.push_back(IdentifySequence(sequence.directory));
+    for (const std::string& mode : benchmark_->modes) {
+      RefuseToOverwriteOthers(RunFolder(sequence.name, mode), planned.back());
+    }
+  }
+  const fs::path table = fs::path(plan_.output) / ShardFileName("benchmark", plan_.shard, ".json");
+  if (!HasEntry(table.string())) return;
+  for (const BenchmarkRun& run : ReadBenchmarkJson(table.string()).runs) {
+    const SequenceIdentity earlier = IdentifySequence(run.directory);
+    const auto is_same = [&](const SequenceIdentity& s) { return s.IsSame(earlier); };
+    if (std::any_of(planned.begin(), planned.end(), is_same)) continue;
+    throw std::runtime_error(table.string() + ": holds the results of another sequence, " +
+                             run.directory +
+                             "; give another folder with --output, or use --overwrite");
+  }
+}
+
+std::string BenchmarkRunner::RunFolder(const std::string& sequence, const std::string& mode) const {
+  return (fs::path(plan_.output) / sequence / mode).string();
+}
+
 void BenchmarkRunner::Run() {
+  if (!plan_.overwrite) RefuseToOverwriteOtherRuns();
   WriteBenchmarkTables(plan_.output, plan_.shard,
                        *benchmark_);  // fails early if it is not writable
   std::vector<BenchmarkSequence> sequences = plan_.sequences;
@@ -147,9 +174,9 @@ void BenchmarkRunner::RunMode(const RgbdDecoder& decoder, const Configuration& c
   Record(std::move(unfinished));
   if (!plan_.run.quiet) std::cerr << row->sequence << ", " << row->mode << ":" << std::endl;
   try {
-    row->folder = (fs::path(plan_.output) / row->sequence / row->mode).string();
+    row->folder = RunFolder(row->sequence, row->mode);
     RefuseToOverwriteInputs(decoder.index(), plan_.input_files, row->folder);
-    OnlineResults online(row->folder);
+    OnlineResults online(row->folder, IdentifySequence(decoder.index()));
     const SequenceRun run =
         RunSequence(decoder, configuration, plan_.run, interrupt_,
                     {[&](const FrameResult& frame) { online.Add(frame); }, {}, {}});

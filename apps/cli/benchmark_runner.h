@@ -24,6 +24,7 @@ struct BenchmarkPlan {
   RunArguments run;
   std::vector<std::string> input_files;  ///< which must not be overwritten; names may be empty
   std::string output;
+  bool overwrite = false;  ///< also results of other sequences
   Shard shard;
 };
 
@@ -44,11 +45,14 @@ class BenchmarkRunner {
   /// these tables have other settings.
   void Resume();
 
-  /// Runs what is not yet done. Failures are printed and become part of the results.
+  /// Runs what is not yet done. Failures are printed and become part of the results. Throws
+  /// std::runtime_error before the first run if it would overwrite results of other sequences.
   void Run();
 
  private:
   bool IsDone(const std::string& sequence, const std::string& mode) const;
+  void RefuseToOverwriteOtherRuns() const;
+  std::string RunFolder(const std::string& sequence, const std::string& mode) const;
   void RunSequenceModes(const BenchmarkSequence& sequence);
   void RunMode(const RgbdDecoder& decoder, const Configuration& configuration, BenchmarkRun* row);
   void Record(BenchmarkRun row);

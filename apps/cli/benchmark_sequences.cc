@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "apps/cli/sequence_arguments.h"
+#include "msc_vo/datasets/recording_file.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
@@ -19,10 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whether the argument is a file that is no recording.
+// Whether the argument is a file that is no recording, video or archive.
 bool IsList(const std::string& path) {
   const std::string extension = Lowercase(fs::path(path).extension().string());
-  return extension != ".bag" && extension != ".oni" && FileProblem(path).empty();
+  const bool is_recording = extension == ".bag" || extension == ".oni" || IsSequenceFile(path);
+  return !is_recording && FileProblem(path).empty();
 }
 
 std::vector<std::string> ReadList(const std::string& path) {

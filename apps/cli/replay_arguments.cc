@@ -51,10 +51,12 @@ void AddPrintArguments(CLI::App* command, ReplayArguments* arguments) {
       ->needs(print);
 }
 
-// Declares --output, --resume and --checkpoint-interval.
+// Declares --output, --overwrite, --resume and --checkpoint-interval.
 void AddOutputArguments(CLI::App* command, ReplayArguments* arguments) {
   CLI::Option* output = command->add_option(
       "--output", arguments->output, "Folder for the results; default: out/<name of the sequence>");
+  command->add_flag("--overwrite", arguments->overwrite,
+                    "Write into a folder that holds the results of another sequence");
   command
       ->add_option("--resume", arguments->resume,
                    "Continue the unfinished run whose results are in this folder, with the options "

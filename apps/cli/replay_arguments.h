@@ -22,7 +22,8 @@ struct ReplayArguments {
   ConfigurationArguments configuration;
   RunArguments run;
   std::string output;
-  std::string resume;  ///< folder of the results of a run to be continued; may be empty
+  bool overwrite = false;  ///< also results of another sequence
+  std::string resume;      ///< folder of the results of a run to be continued; may be empty
   double checkpoint_interval = 5.0;  ///< seconds
   std::string windows;               ///< folder; empty: windows are not recorded
   GravityArguments gravity;

@@ -25,6 +25,7 @@
 #include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/results/run_report.h"
+#include "msc_vo/results/sequence_identity.h"
 #include "msc_vo/results/summary_json.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
@@ -127,11 +128,13 @@ int Run(const ReplayArguments& arguments, const Configuration& configuration, Re
   const RgbdDecoder decoder = OpenChecked(arguments, configuration, &check_warnings);
   const std::string output = OutputFolder(arguments);
   RefuseToOverwriteInputs(decoder.index(), arguments.configuration.InputFiles(), output);
+  const SequenceIdentity sequence = IdentifySequence(decoder.index());
+  if (!arguments.overwrite && resumed == nullptr) RefuseToOverwriteOthers(output, sequence);
   MakeFolder(output);  // fails before the run if it cannot be created
   const std::unique_ptr<GravityFactors> gravity =
       MakeGravityFactors(arguments.gravity, decoder.index());
   const InterruptGuard interrupt;
-  OnlineResults online(output);
+  OnlineResults online(output, sequence);
   ReplayViews views(arguments.view, decoder, configuration, arguments.run.max_frames);
   std::unique_ptr<Checkpoints> checkpoints;  // none in real time, which cannot be repeated
   if (!configuration.odometry.snapshots.realtime) {

@@ -13,6 +13,7 @@
 #include "apps/cli/commands.h"
 #include "msc_vo/checkpoint/checksum.h"
 #include "msc_vo/datasets/camera_file.h"
+#include "msc_vo/results/sequence_identity.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 #include "msc_vo/version.h"
@@ -37,24 +38,12 @@ std::string DescribeProgram() {
   return file ? version + ", checksum " + ChecksumText(bytes.str()) : version;
 }
 
-// Name and size of a file; its folder may have been moved.
-std::string NameAndSize(const std::string& path) {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(path, error);
-  return fs::path(path).filename().string() + (error ? "?" : " " + std::to_string(size)) + "\n";
-}
-
 void AddImages(const SequenceIndex& index, std::map<std::string, std::string>* facts) {
-  std::string stamps, files;
-  for (const SequenceEntry& entry : index.entries) {
-    stamps += FormatNumber(entry.timestamp) + " " + FormatNumber(entry.depth_delay) + "\n";
-    if (!index.container) files += NameAndSize(entry.color_path) + NameAndSize(entry.depth_path);
-  }
-  if (index.container) files = NameAndSize(index.directory);
+  const SequenceIdentity sequence = IdentifySequence(index);
   (*facts)["sequence: format"] = index.format;
   (*facts)["sequence: number of images"] = std::to_string(index.entries.size());
-  (*facts)["sequence: checksum of the time stamps"] = ChecksumText(stamps);
-  (*facts)["sequence: checksum of names and sizes of the images"] = ChecksumText(files);
+  (*facts)["sequence: checksum of the time stamps"] = sequence.stamps;
+  (*facts)["sequence: checksum of names and sizes of the images"] = sequence.images;
   (*facts)["sequence: raw depth without a measurement"] = std::to_string(index.invalid_depth);
   const DepthLimits& limits = index.clipped_depth.limits;
   (*facts)["sequence: raw depths at which it is clipped"] =

@@ -11,7 +11,7 @@
 
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/image_list.h"
-#include "msc_vo/datasets/image_pairing.h"
+#include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/tum_folder.h"
@@ -50,8 +50,8 @@ SequenceIndex Read(const std::string& directory) {
   if (!FindAssociations(directory).empty() || HasEntry((folder / "rgb.txt").string())) {
     ReadTumEntries(directory, WholeStamps::kFrameNumbers, &index);
   } else {
-    PairByFrameNumber(ListImages((folder / "rgb").string()),
-                      ListImages((folder / "depth").string()), &index);
+    PairByName(ListImages((folder / "rgb").string()), ListImages((folder / "depth").string()),
+               &index);
   }
   ReadTumGroundTruth(directory, WholeStamps::kFrameNumbers, &index);
   ReadFolderCamera(directory, &index);

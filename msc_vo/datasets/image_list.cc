@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 
 #include "msc_vo/datasets/image_file.h"
+#include "msc_vo/datasets/stamp_precision.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
@@ -28,6 +29,19 @@ double ParseStamp(const TextLine& line, size_t field) {
     line.Fail("'" + line.fields[field] + "' is not a time stamp; correct or remove the line");
   }
   return *stamp;
+}
+
+// Warns if the stamps in one of the fields lost digits.
+void CheckPrecision(const std::vector<TextLine>& lines, const std::vector<size_t>& fields,
+                    std::vector<std::string>* warnings) {
+  for (const size_t field : fields) {
+    std::vector<std::string> stamps;
+    for (const TextLine& line : lines) stamps.push_back(line.fields[field]);
+    const std::string problem = DescribeLostDigits(stamps);
+    if (problem.empty()) continue;
+    warnings->push_back(lines.front().Where() + ": " + problem);
+    return;
+  }
 }
 
 std::string ResolvePath(const TextLine& line, size_t field) {
@@ -73,7 +87,8 @@ void CheckAssociation(const TextLine& line) {
 std::vector<ListedImage> ReadImageList(const std::string& path,
                                        std::vector<std::string>* warnings) {
   std::vector<ListedImage> images;
-  for (const TextLine& line : ReadTextLines(path)) {
+  const std::vector<TextLine> lines = ReadTextLines(path);
+  for (const TextLine& line : lines) {
     if (line.fields.size() != 2) {
       line.Fail("expected 2 fields 'time path', found " + std::to_string(line.fields.size()) +
                 "; correct the line");
@@ -83,6 +98,7 @@ std::vector<ListedImage> ReadImageList(const std::string& path,
   if (images.empty()) {
     throw std::runtime_error(path + ": lists no image; expected 'time path' rows");
   }
+  CheckPrecision(lines, {0}, warnings);
   const auto earlier = [](const ListedImage& a, const ListedImage& b) { return a.stamp < b.stamp; };
   const auto unordered = std::is_sorted_until(images.begin(), images.end(), earlier);
   if (unordered != images.end()) {
@@ -93,12 +109,13 @@ std::vector<ListedImage> ReadImageList(const std::string& path,
   return images;
 }
 
-ImageLists ReadAssociations(const std::string& path) {
+ImageLists ReadAssociations(const std::string& path, std::vector<std::string>* warnings) {
   const std::vector<TextLine> lines = ReadTextLines(path);
   if (lines.empty()) {
     throw std::runtime_error(path + ": lists no image; expected 'time colour time depth' rows");
   }
   for (const TextLine& line : lines) CheckAssociation(line);
+  CheckPrecision(lines, {0, 2}, warnings);
   const bool depth_first = IsDepthFirst(lines.front());
   const auto image = [](const TextLine& line, size_t field) {
     return ListedImage{ParseStamp(line, field), ResolvePath(line, field + 1), line.Where()};

@@ -23,15 +23,16 @@ struct ImageLists {
 };
 
 /// Reads "time path" rows, whose paths are relative to the folder of the list, in order of time.
-/// Adds a warning if the rows are in another order.
+/// Adds a warning if the rows are in another order or the stamps lost digits.
 /// Throws std::runtime_error naming file and line if a row does not fit.
 std::vector<ListedImage> ReadImageList(const std::string& path, std::vector<std::string>* warnings);
 
 /// Reads an association file with "time path time path" rows, colour and depth in either order. The
 /// images of a row are at the same position of both lists. Which column is depth follows from the
-/// folder names, or else from the bit depth of the first pair.
+/// folder names, or else from the bit depth of the first pair. Adds a warning if the stamps lost
+/// digits.
 /// Throws std::runtime_error naming file, line and fix if a row does not fit.
-ImageLists ReadAssociations(const std::string& path);
+ImageLists ReadAssociations(const std::string& path, std::vector<std::string>* warnings);
 
 /// Returns the path of the association file of a folder; empty if there is none.
 std::string FindAssociations(const std::string& directory);

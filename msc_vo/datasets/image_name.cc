@@ -3,16 +3,7 @@
 
 #include "msc_vo/datasets/image_name.h"
 
-#include <cmath>
-#include <filesystem>
-
-#include "msc_vo/datasets/sequence_format.h"
-#include "msc_vo/datasets/time_unit.h"
-#include "msc_vo/text/text_file.h"
-
 namespace msc_vo {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -55,29 +46,16 @@ bool NaturalLess(const std::string& a, const std::string& b) {
   return left_a != left_b ? left_a < left_b : a < b;  // "01" and "1" need some fixed order
 }
 
-std::optional<int64_t> FrameNumber(const std::string& path) {
-  const std::string stem = fs::path(path).stem().string();
-  size_t end = stem.size();
-  while (end > 0 && !IsDigit(stem[end - 1])) --end;
-  size_t begin = end;
-  while (begin > 0 && IsDigit(stem[begin - 1])) --begin;
-  constexpr size_t kMaxDigits = 18;  // fits int64_t
-  if (begin == end || end - begin > kMaxDigits) return std::nullopt;
-  return std::stoll(stem.substr(begin, end - begin));
-}
-
-std::optional<double> StampFromName(const std::string& path) {
-  const std::string stem = fs::path(path).stem().string();
-  constexpr size_t kNanosecondDigits = 16;  // more than any frame number, fewer than any date
-  const std::optional<double> value = ParseNumber(stem);
-  if (value && std::isfinite(*value)) {
-    if (stem.find('.') != std::string::npos) return value;
-    if (const auto unit = UnitOfDate(*value)) return *value / UnitsPerSecond(*unit);
-    if (stem.size() >= kNanosecondDigits) return 1e-9 * *value;
+NameParts SplitName(const std::string& stem) {
+  NameParts parts;
+  for (size_t at = 0;;) {
+    size_t begin = at;
+    while (begin < stem.size() && !IsDigit(stem[begin])) ++begin;
+    parts.texts.push_back(stem.substr(at, begin - at));
+    if (begin == stem.size()) return parts;
+    at = EndOfDigits(stem, begin);
+    parts.digits.push_back(stem.substr(begin, at - begin));
   }
-  const std::optional<int64_t> number = FrameNumber(path);
-  if (!number) return std::nullopt;
-  return static_cast<double>(*number) / kDefaultFrameRate;
 }
 
 }  // namespace msc_vo

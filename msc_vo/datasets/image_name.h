@@ -3,9 +3,8 @@
 
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace msc_vo {
 
@@ -13,12 +12,12 @@ namespace msc_vo {
 /// "10.png".
 bool NaturalLess(const std::string& a, const std::string& b);
 
-/// Returns the last run of digits in the stem of a path ("frame-000012.color" -> 12).
-std::optional<int64_t> FrameNumber(const std::string& path);
+/// The stem of the path of an image, split into its runs of digits and the text around them.
+struct NameParts {
+  std::vector<std::string> digits;
+  std::vector<std::string> texts;  ///< before, between and behind the runs; may be empty
+};
 
-/// Returns the time stamp that the name of an image encodes, seconds: "1.033333.png" is a time;
-/// other numbers are a date of this century in any TimeUnit, nanoseconds if they have 16 digits or
-/// more, and otherwise frame numbers at kDefaultFrameRate. None if the name contains no number.
-std::optional<double> StampFromName(const std::string& path);
+NameParts SplitName(const std::string& stem);
 
 }  // namespace msc_vo

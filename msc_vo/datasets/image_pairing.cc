@@ -5,13 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <map>
-#include <optional>
+#include <string>
+#include <vector>
 
-#include "msc_vo/datasets/image_name.h"
 #include "msc_vo/datasets/median_interval.h"
-#include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/evaluation/association.h"
 #include "msc_vo/text/format_text.h"
 
@@ -72,8 +69,16 @@ void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* 
   for (const StampMatch& match : matches) {
     AddPair(images.color[match.reference], images.depth[match.query], max_difference, index);
   }
+  index->num_listed = std::min(images.color.size(), images.depth.size());
   const size_t num_unpaired = images.color.size() - matches.size();
-  if (num_unpaired > 0) {
+  if (matches.empty() && index->num_listed > 0) {
+    index->warnings.push_back(FormatText(
+        "the stamps of the colour images are from %.3f to %.3f s, those of the depth images from "
+        "%.3f to %.3f s; if their clocks differ, write associations.txt with 'time colour time "
+        "depth' rows",
+        images.color.front().stamp, images.color.back().stamp, images.depth.front().stamp,
+        images.depth.back().stamp));
+  } else if (num_unpaired > 0) {
     index->warnings.push_back(
         FormatText("%zu of %zu colour images have no depth image within %.0f ms and are left out",
                    num_unpaired, images.color.size(), 1e3 * max_difference));
@@ -83,33 +88,11 @@ void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* 
 
 void PairByRow(const ImageLists& images, SequenceIndex* index) {
   const double max_difference = MaxPairDifference(images);
+  index->num_listed = images.color.size();
   for (size_t i = 0; i < images.color.size(); ++i) {
     AddPair(images.color[i], images.depth[i], max_difference, index);
   }
   CheckOffset(images, max_difference, index);
-}
-
-void PairByFrameNumber(const std::vector<std::string>& color_paths,
-                       const std::vector<std::string>& depth_paths, SequenceIndex* index) {
-  std::map<int64_t, std::string> depth_of_number;
-  for (const std::string& path : depth_paths) {
-    if (const auto number = FrameNumber(path)) depth_of_number.emplace(*number, path);
-  }
-  size_t num_pairs = 0;
-  for (const std::string& path : color_paths) {
-    const auto number = FrameNumber(path);
-    const auto depth = number ? depth_of_number.find(*number) : depth_of_number.end();
-    if (depth == depth_of_number.end()) continue;
-    ++num_pairs;
-    index->entries.push_back(
-        {static_cast<double>(*number) / kDefaultFrameRate, path, depth->second, ""});
-  }
-  const size_t num_unpaired = color_paths.size() - num_pairs + depth_paths.size() - num_pairs;
-  if (num_unpaired > 0) {
-    index->warnings.push_back(
-        std::to_string(num_unpaired) +
-        " images have no partner with the same frame number and are left out");
-  }
 }
 
 }  // namespace msc_vo

@@ -3,9 +3,6 @@
 
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "msc_vo/datasets/image_list.h"
 #include "msc_vo/datasets/sequence.h"
 
@@ -23,18 +20,13 @@ double MaxPairDifference(const ImageLists& images);
 
 /// Pairs colour and depth images by time, see AssociateStamps(), and adds the pairs to the entries,
 /// with the stamp of the colour image. Stamps are in seconds, both lists in order of time, and
-/// `max_difference` in seconds. Adds a warning for images without a partner.
+/// `max_difference` in seconds. Adds warnings for images without a partner and for stamps of
+/// different clocks.
 void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* index);
 
 /// Pairs the images at the same position of both lists, whose stamps are in seconds, and adds the
 /// pairs to the entries in their order. Stamps that differ by more than MaxPairDifference() are
 /// taken for those of different clocks.
 void PairByRow(const ImageLists& images, SequenceIndex* index);
-
-/// Pairs colour and depth images with the same frame number, see FrameNumber(), and adds the pairs
-/// to the entries with the time frame number / kDefaultFrameRate. Adds a warning for images without
-/// a partner.
-void PairByFrameNumber(const std::vector<std::string>& color_paths,
-                       const std::vector<std::string>& depth_paths, SequenceIndex* index);
 
 }  // namespace msc_vo

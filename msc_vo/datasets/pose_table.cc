@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
+#include "msc_vo/datasets/stamp_precision.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory_comment.h"
 #include "msc_vo/text/format_text.h"
@@ -132,6 +134,19 @@ std::vector<PoseColumns> UnnamedCandidates(const std::vector<TextLine>& rows,
   return {columns, numbered};
 }
 
+// Throws if the stamps, as they are written in the file, do not tell most poses apart because they
+// lost digits.
+void CheckStampPrecision(const std::string& path, const std::vector<std::string>& stamps,
+                         const std::vector<TimedPose>& sorted) {
+  size_t num_repeated = 0;
+  for (size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i].timestamp == sorted[i - 1].timestamp) ++num_repeated;
+  }
+  if (2 * num_repeated <= sorted.size()) return;
+  const std::string problem = DescribeLostDigits(stamps);
+  if (!problem.empty()) throw std::runtime_error(path + ": " + problem);
+}
+
 class TableReader {
  public:
   TableReader(const PoseRows& table, std::optional<TrajectoryFormat> format)
@@ -161,6 +176,7 @@ class TableReader {
     if (!is_named_ && file.format == TrajectoryFormat::kEuroc) file.unit = TimeUnit::kNanoseconds;
     const double rate = UnitsPerSecond(file.unit.value_or(TimeUnit::kSeconds));
     TimedPose pose;
+    std::vector<std::string> stamps;
     for (size_t row = 0; row < rows_.size(); ++row) {
       ReadPoseComment(rows_[row].comment, &pose);
       if (!ReadRow(rows_[row], rate, &pose)) {
@@ -168,11 +184,13 @@ class TableReader {
         continue;
       }
       if (!file.has_stamps) pose.timestamp = static_cast<double>(row);
+      if (columns_.time) stamps.push_back(rows_[row].fields[*columns_.time]);
       file.poses.push_back(pose);
     }
     std::stable_sort(
         file.poses.begin(), file.poses.end(),
         [](const TimedPose& a, const TimedPose& b) { return a.timestamp < b.timestamp; });
+    CheckStampPrecision(rows_.front().file, stamps, file.poses);
     return file;
   }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "msc_vo/datasets/image_folder.h"
-#include "msc_vo/datasets/image_pairing.h"
+#include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
@@ -50,8 +50,8 @@ void ReadPoses(const std::string& path, SequenceIndex* index) {
 
 SequenceIndex Read(const std::string& directory) {
   SequenceIndex index;
-  PairByFrameNumber(ListImages(ImageFolder(directory), "frame"),
-                    ListImages(ImageFolder(directory), "depth"), &index);
+  PairByName(ListImages(ImageFolder(directory), "frame"),
+             ListImages(ImageFolder(directory), "depth"), &index);
   index.preset = "replica";
   const std::string poses = (fs::path(directory) / "traj.txt").string();
   if (HasEntry(poses)) ReadPoses(poses, &index);

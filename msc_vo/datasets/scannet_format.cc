@@ -10,7 +10,7 @@
 
 #include "msc_vo/datasets/image_file.h"
 #include "msc_vo/datasets/image_folder.h"
-#include "msc_vo/datasets/image_pairing.h"
+#include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
@@ -68,8 +68,8 @@ void ReadIntrinsics(const fs::path& folder, SequenceIndex* index) {
 SequenceIndex Read(const std::string& directory) {
   SequenceIndex index;
   const fs::path folder = directory;
-  PairByFrameNumber(ListImages((folder / "color").string()),
-                    ListImages((folder / "depth").string()), &index);
+  PairByName(ListImages((folder / "color").string()), ListImages((folder / "depth").string()),
+             &index);
   index.scale_color = true;
   ReadPoseFiles(PosePath, &index);
   ReadIntrinsics(folder, &index);

@@ -8,8 +8,10 @@
 #include <set>
 #include <stdexcept>
 
+#include "msc_vo/datasets/recording_file.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -34,12 +36,16 @@ const SequenceFormat* Recognise(const std::string& directory) {
     message += std::string("\n  ") + format->name + ": " + format->description;
   }
   // Giving the parent folder of a sequence is the most frequent mistake.
-  std::vector<std::string> children;
-  for (const std::string& child : ListFolder(directory)) {
-    if (FolderProblem(child).empty() && Recognise(child)) children.push_back(child);
-  }
-  if (!children.empty()) {
-    message += "\nDid you mean " + *std::min_element(children.begin(), children.end()) + "?";
+  std::vector<std::string> entries = ListFolder(directory);
+  std::sort(entries.begin(), entries.end());
+  const auto child = std::find_if(entries.begin(), entries.end(), [](const std::string& entry) {
+    return FolderProblem(entry).empty() && Recognise(entry);
+  });
+  const auto file = std::find_if(entries.begin(), entries.end(), IsSequenceFile);
+  if (child != entries.end()) {
+    message += "\nDid you mean " + *child + "?";
+  } else if (file != entries.end()) {
+    message += "\n" + *file + " " + DescribeFile(*file);
   }
   throw std::runtime_error(message);
 }
@@ -72,7 +78,10 @@ SequenceIndex OpenSequence(const std::string& directory, const std::string& form
   const SequenceFormat* format = format_name == "auto" ? nullptr : &FormatByName(format_name);
   const std::string problem = FolderProblem(folder);
   if (!problem.empty()) {
-    throw std::runtime_error(directory + ": " + problem + "; give the folder of the sequence");
+    const std::string file = DescribeFile(folder);
+    throw std::runtime_error(directory + (file.empty()
+                                              ? ": " + problem + "; give the folder of the sequence"
+                                              : " " + file));
   }
   if (!format) format = Recognise(folder);
   if (!format) FailUnrecognised(folder);
@@ -80,12 +89,7 @@ SequenceIndex OpenSequence(const std::string& directory, const std::string& form
   index.format = format->name;
   index.directory = folder;
   OrderEntries(&index);
-  if (index.entries.empty()) {
-    std::string message = folder + ": no pair of colour and depth image found (read as " +
-                          format->name + ": " + format->description + ")";
-    for (const std::string& warning : index.warnings) message += "\n" + warning;
-    throw std::runtime_error(message);
-  }
+  RequireMostImages(index, folder + " (read as " + format->name + ": " + format->description + ")");
   return index;
 }
 
@@ -108,6 +112,19 @@ void OrderEntries(SequenceIndex* index) {
     index->warnings.push_back(std::to_string(before - entries.size()) +
                               " images have the time stamp of another one and are left out");
   }
+}
+
+void RequireMostImages(const SequenceIndex& index, const std::string& source) {
+  const size_t num_used = index.entries.size();
+  if (num_used > 0 && 2 * num_used >= index.num_listed) return;
+  std::string message = source + ": ";
+  if (num_used == 0) {
+    message += "no pair of colour and depth image found";
+  } else {
+    message += FormatText("only %zu of %zu images can be used", num_used, index.num_listed);
+  }
+  for (const std::string& warning : index.warnings) message += "\n" + warning;
+  throw std::runtime_error(message);
 }
 
 std::vector<std::string> InputFolders(const SequenceIndex& index) {

@@ -42,9 +42,10 @@ struct ClippedDepth {
 
 /// The contents of a sequence folder or of another source of images; images are not decoded.
 struct SequenceIndex {
-  std::string format;                        ///< name of the layout, "tum"
-  std::string directory;                     ///< without trailing slash; or the file of a recording
-  std::vector<SequenceEntry> entries;        ///< in order of time, stamps unique
+  std::string format;                  ///< name of the layout, "tum"
+  std::string directory;               ///< without trailing slash; or the file of a recording
+  std::vector<SequenceEntry> entries;  ///< in order of time, stamps unique
+  size_t num_listed = 0;  ///< images that the source names, of the stream with fewer of them
   TimeUnit stamp_unit = TimeUnit::kSeconds;  ///< original unit of the image stamps
   /// Calibration file of the folder; for images of the size of depth.
   std::optional<Calibration> calibration;
@@ -68,12 +69,16 @@ std::vector<std::string> SequenceFormatNames();
 /// Reads the lists and the ground truth of a sequence folder. `format` is "auto" or one of
 /// SequenceFormatNames().
 /// Throws std::runtime_error naming file, line and fix if the folder is not a sequence, a list or
-/// the ground truth is malformed, or there is no pair of images; std::invalid_argument on an
-/// unknown format.
+/// the ground truth is malformed, or fewer than half of the images can be used;
+/// std::invalid_argument on an unknown format.
 SequenceIndex OpenSequence(const std::string& directory, const std::string& format = "auto");
 
 /// Sorts the entries by time and removes those with the stamp of another one, with warnings.
 void OrderEntries(SequenceIndex* index);
+
+/// Throws std::runtime_error that gives the warnings as reasons if no entry is left, or fewer than
+/// half of the listed images. `source` says where they were looked for, "x.bag (/color, /depth)".
+void RequireMostImages(const SequenceIndex& index, const std::string& source);
 
 /// Returns the folder of the sequence and the folders of its images, or the file that holds them.
 std::vector<std::string> InputFolders(const SequenceIndex& index);

@@ -9,7 +9,7 @@
 
 #include "msc_vo/datasets/image_file.h"
 #include "msc_vo/datasets/image_folder.h"
-#include "msc_vo/datasets/image_pairing.h"
+#include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
@@ -53,8 +53,8 @@ void ReadIntrinsics(const std::string& directory, SequenceIndex* index) {
 
 SequenceIndex Read(const std::string& directory) {
   SequenceIndex index;
-  PairByFrameNumber(ListImages(directory, "frame-", ".color"),
-                    ListImages(directory, "frame-", ".depth"), &index);
+  PairByName(ListImages(directory, "frame-", ".color"), ListImages(directory, "frame-", ".depth"),
+             &index);
   index.invalid_depth = 65535;
   index.preset = "7-scenes";
   ReadPoseFiles(PosePath, &index);

@@ -22,6 +22,20 @@ double Overlap(const TimeRange& a, const TimeRange& b) {
   return all > 0.0 ? std::max(common, 0.0) / all : 1.0;
 }
 
+// The unit of stamps in which their median interval is plausible.
+TimeUnit GuessOwnUnit(const std::vector<double>& stamps, double max_interval) {
+  if (stamps.empty()) return TimeUnit::kSeconds;
+  const double interval = MedianInterval(stamps);
+  // Times since boot are a date in a larger unit during part of the uptime: nanoseconds in the
+  // first hours, milliseconds from the eleventh day. The interval distinguishes the two.
+  const std::optional<TimeUnit> date = UnitOfDate(stamps.front());
+  if (date && interval / UnitsPerSecond(*date) < max_interval) return *date;
+  for (const TimeUnit unit : kUnits) {
+    if (interval / UnitsPerSecond(unit) < kMaxImageInterval) return unit;
+  }
+  return TimeUnit::kNanoseconds;
+}
+
 }  // namespace
 
 const char* ToString(TimeUnit unit) {
@@ -68,29 +82,16 @@ std::optional<TimeUnit> UnitOfDate(double stamp) {
   return std::nullopt;
 }
 
-TimeUnit GuessTimeUnit(const std::vector<double>& stamps) {
-  if (stamps.empty()) return TimeUnit::kSeconds;
-  const double interval = MedianInterval(stamps);
-  // Nanoseconds since boot are a date in milliseconds during part of the first hours of uptime; the
-  // interval between images distinguishes the two.
-  constexpr double kMaxIntervalOfDates = 3600.0;  // seconds
-  const std::optional<TimeUnit> date = UnitOfDate(stamps.front());
-  if (date && interval / UnitsPerSecond(*date) < kMaxIntervalOfDates) return *date;
-  constexpr double kMaxInterval = 5.0;  // seconds, far above the interval of any camera
-  for (const TimeUnit unit : kUnits) {
-    if (interval / UnitsPerSecond(unit) < kMaxInterval) return unit;
-  }
-  return TimeUnit::kNanoseconds;
-}
-
-TimeUnit GuessTimeUnit(const std::vector<double>& stamps, const TimeRange& reference) {
-  const TimeUnit own = GuessTimeUnit(stamps);
+TimeUnit GuessTimeUnit(const std::vector<double>& stamps, const std::optional<TimeRange>& reference,
+                       double max_interval) {
+  const TimeUnit own = GuessOwnUnit(stamps, max_interval);
+  if (!reference) return own;
   const TimeRange counted = RangeOf(stamps, own);
   const auto overlap_in = [&](TimeUnit unit) {
     const double rate = UnitsPerSecond(unit);
-    return Overlap({counted.begin / rate, counted.end / rate, unit}, reference);
+    return Overlap({counted.begin / rate, counted.end / rate, unit}, *reference);
   };
-  return overlap_in(reference.unit) > overlap_in(own) ? reference.unit : own;
+  return overlap_in(reference->unit) > overlap_in(own) ? reference->unit : own;
 }
 
 bool AreFrameNumbers(const std::vector<double>& stamps) {

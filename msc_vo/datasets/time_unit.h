@@ -31,13 +31,19 @@ TimeRange RangeOf(const std::vector<double>& seconds, TimeUnit unit);
 /// is no such unit.
 std::optional<TimeUnit> UnitOfDate(double stamp);
 
-/// Guesses the unit of the stamps of a recording, which may be in any order: the unit in which they
-/// are dates of this century, or else the first one in which their median interval is below 5 s.
-TimeUnit GuessTimeUnit(const std::vector<double>& stamps);
+/// Largest median interval of the images of a recording, seconds; far above that of any camera.
+constexpr double kMaxImageInterval = 5.0;
+/// The same for the poses of a trajectory, which may be sparse.
+constexpr double kMaxPoseInterval = 3600.0;
 
-/// Guesses the unit of stamps of the same recording as `reference`: the unit of `reference` if the
-/// two time ranges overlap more in that unit, or else that of GuessTimeUnit(stamps).
-TimeUnit GuessTimeUnit(const std::vector<double>& stamps, const TimeRange& reference);
+/// Guesses the unit of the stamps of a recording, which may be in any order: the unit in which they
+/// are dates of this century at a median interval of less than `max_interval` seconds, or else the
+/// first one in which the interval is below kMaxImageInterval. If `reference` is given, the range
+/// of other stamps of the same recording, its unit takes precedence if the two ranges overlap more
+/// in that unit.
+TimeUnit GuessTimeUnit(const std::vector<double>& stamps,
+                       const std::optional<TimeRange>& reference = std::nullopt,
+                       double max_interval = kMaxPoseInterval);
 
 /// Tests whether the stamps may be frame numbers: whole numbers with steps of at most 60.
 bool AreFrameNumbers(const std::vector<double>& stamps);

@@ -4,14 +4,13 @@
 #include "msc_vo/datasets/trajectory.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
 #include "msc_vo/datasets/trajectory_comment.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,13 +31,13 @@ std::vector<double> StampsOf(const std::vector<Item>& items, double Item::*stamp
   return stamps;
 }
 
-// Units per second of the stamps of the list `name`. `images` is the time range of the images, if
-// it is known.
+// Units per second of the stamps of the list `name`, whose median interval is at most
+// `max_interval` seconds. `images` is the time range of the images, if it is known.
 double StampsPerSecond(const std::string& name, const std::vector<double>& stamps,
                        WholeStamps whole, const std::optional<TimeRange>& images,
-                       SequenceIndex* index) {
+                       double max_interval, SequenceIndex* index) {
   if (whole == WholeStamps::kFrameNumbers && AreFrameNumbers(stamps)) return kDefaultFrameRate;
-  const TimeUnit unit = images ? GuessTimeUnit(stamps, *images) : GuessTimeUnit(stamps);
+  const TimeUnit unit = GuessTimeUnit(stamps, images, max_interval);
   if (!images) index->stamp_unit = unit;
   if (!images && unit == TimeUnit::kSeconds && AreFrameNumbers(stamps)) {
     index->warnings.push_back(name +
@@ -55,7 +56,10 @@ template <typename Item>
 void ToSeconds(const std::string& name, double Item::*stamp, WholeStamps whole,
                const std::optional<TimeRange>& images, std::vector<Item>* items,
                SequenceIndex* index) {
-  const double rate = StampsPerSecond(name, StampsOf(*items, stamp), whole, images, index);
+  constexpr double kMaxInterval =
+      std::is_same_v<Item, TimedPose> ? kMaxPoseInterval : kMaxImageInterval;
+  const double rate =
+      StampsPerSecond(name, StampsOf(*items, stamp), whole, images, kMaxInterval, index);
   for (Item& item : *items) item.*stamp /= rate;
 }
 
@@ -83,7 +87,7 @@ ImageLists ReadLists(const fs::path& folder, std::vector<std::string>* warnings)
 void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceIndex* index) {
   const std::string associations = FindAssociations(directory);
   if (!associations.empty()) {
-    ImageLists images = ReadAssociations(associations);
+    ImageLists images = ReadAssociations(associations, &index->warnings);
     const std::string name = fs::path(associations).filename().string();
     ToSeconds(name + ", colour", name + ", depth", whole, &images, index);
     PairByRow(images, index);

@@ -148,15 +148,10 @@ SequenceIndex OpenOniFile(const std::string& path) {
   index.directory = path;
   const ImageLists images{ListFrames(path + ":colour", &container->color()),
                           ListFrames(path + ":depth", &container->depth())};
-  const double max_difference = MaxPairDifference(images);
-  PairByTime(images, max_difference, &index);
+  PairByTime(images, MaxPairDifference(images), &index);
   OrderEntries(&index);
-  if (index.entries.empty()) {
-    throw std::runtime_error(
-        path + FormatText(": no pair of colour and depth images within %.0f ms, of %zu colour and "
-                          "%zu depth images",
-                          1e3 * max_difference, images.color.size(), images.depth.size()));
-  }
+  RequireMostImages(index, FormatText("%s (%zu colour and %zu depth images)", path.c_str(),
+                                      images.color.size(), images.depth.size()));
   index.depth_scale = DepthScaleOf(container->depth().stream());
   index.calibration = NominalCalibration(container->color().stream(), *index.depth_scale, path);
   if (!index.calibration) index.warnings.push_back("the recording has no field of view");

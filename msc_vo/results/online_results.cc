@@ -30,6 +30,7 @@ int CountFrames(const std::string& trajectory, const std::string& frames) {
 void OnlineResults::Begin() {
   MakeFolder(directory_);
   if (!is_resumed_) RemoveResultFiles(directory_);
+  WriteIdentity(directory_, sequence_);
   const std::filesystem::path folder = directory_;
   trajectory_.emplace((folder / "trajectory.txt").string(),
                       kUnfinishedTrajectoryComment + std::exchange(unwritten_poses_, ""));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "msc_vo/odometry/frame_result.h"
+#include "msc_vo/results/sequence_identity.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -16,14 +17,15 @@ namespace msc_vo {
 /// First line of the trajectory.txt of a run that is still in progress or was killed.
 extern const char kUnfinishedTrajectoryComment[];
 
-/// Writes trajectory.txt and frames.csv while a run is in progress, so that they remain if it is
-/// killed. Every frame is on disk, as first estimated, when Add() returns; WriteResultFiles
-/// replaces both files by the final ones. trajectory.txt contains tracked and weak frames,
-/// frames.csv all.
+/// Writes sequence.json, trajectory.txt and frames.csv while a run is in progress, so that they
+/// remain if it is killed. Every frame is on disk, as first estimated, when Add() returns;
+/// WriteResultFiles replaces the last two by the final ones. trajectory.txt contains tracked and
+/// weak frames, frames.csv all.
 class OnlineResults {
  public:
   /// Creates no file.
-  explicit OnlineResults(std::string directory) : directory_(std::move(directory)) {}
+  OnlineResults(std::string directory, SequenceIdentity sequence)
+      : directory_(std::move(directory)), sequence_(std::move(sequence)) {}
 
   /// The first readable image creates the folder and removes the result files of an earlier run.
   /// Throws std::runtime_error naming the file that cannot be written.
@@ -38,6 +40,7 @@ class OnlineResults {
   void Begin();
 
   std::string directory_;
+  SequenceIdentity sequence_;
   std::optional<GrowingFile> trajectory_;
   std::optional<GrowingFile> frames_;
   // Rows and poses that are not on disk yet: of unreadable images before the first readable one,

@@ -4,11 +4,14 @@
 #include "msc_vo/ros_bag/bag_file.h"
 
 #include <cstdint>
+#include <fstream>
 #include <map>
 #include <stdexcept>
 
 #include <ros/serialization.h>
 
+#include "msc_vo/datasets/recording_file.h"
+#include "msc_vo/ros_bag/ros_message.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -24,6 +27,12 @@ constexpr char kMagic[] = "#ROSBAG V2.0";
       "of it with 'rosbag reindex'");
 }
 
+bool HasMagic(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(sizeof(kMagic) - 1, '\0');
+  return file.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) && bytes == kMagic;
+}
+
 std::string BytesOf(const rosbag::MessageInstance& message) {
   std::string bytes(message.size(), '\0');
   ros::serialization::OStream stream(reinterpret_cast<uint8_t*>(bytes.data()),
@@ -37,6 +46,8 @@ std::string BytesOf(const rosbag::MessageInstance& message) {
 BagFile::BagFile(const std::string& path) : path_(path), bag_(std::make_unique<rosbag::Bag>()) {
   const std::string problem = FileProblem(path, UINTMAX_MAX);
   if (!problem.empty()) throw std::runtime_error(path + ": " + problem);
+  const std::string file = HasMagic(path) ? "" : DescribeFile(path);
+  if (!file.empty()) throw std::runtime_error(path + " " + file);
   try {
     bag_->open(path, rosbag::bagmode::Read);
     rosbag::View all(*bag_);
@@ -79,6 +90,12 @@ std::string BagFile::Read(const std::string& topic, int i) const {
   } catch (const std::exception& error) {
     throw std::runtime_error(NameOf(topic, i) + ": " + error.what());
   }
+}
+
+double BagFile::ReceiveTime(const std::string& topic, int i) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const ros::Time time = Find(topic).messages.at(static_cast<size_t>(i)).getTime();
+  return SecondsOf(time.sec, time.nsec);
 }
 
 std::string BagFile::ReadFirst(const std::string& topic) const {

@@ -34,6 +34,8 @@ class BagFile {
   /// Bytes of message i of a selected topic. Throws std::runtime_error, naming file, topic and
   /// message, if they cannot be read.
   std::string Read(const std::string& topic, int i) const;
+  /// Time at which message i of a selected topic was recorded, seconds.
+  double ReceiveTime(const std::string& topic, int i) const;
   /// Bytes of the first message of any topic; empty if there is none.
   std::string ReadFirst(const std::string& topic) const;
   /// "x.bag:/camera/depth, message 12", for messages.

@@ -12,6 +12,7 @@
 #include "msc_vo/datasets/tum_folder.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/ros_bag/bag_file.h"
+#include "msc_vo/ros_bag/bag_stamps.h"
 #include "msc_vo/ros_bag/topic_choice.h"
 #include "msc_vo/text/files.h"
 
@@ -65,46 +66,50 @@ std::vector<ImageTopic> FindImageTopics(const BagFile& bag) {
   return topics;
 }
 
-std::string NamesOf(const std::vector<ImageTopic>& topics) {
-  std::string names;
-  for (const ImageTopic& topic : topics) names += (names.empty() ? "" : ", ") + topic.name;
-  return names.empty() ? "none" : names;
+std::string Describe(const std::vector<ImageTopic>& topics, const std::string& except = "") {
+  std::string text;
+  for (const ImageTopic& topic : topics) {
+    if (topic.name != except) text += (text.empty() ? "" : ", ") + DescribeTopic(topic);
+  }
+  return text.empty() ? "none" : text;
 }
 
-// The topic that the user names, or else the best one.
+// The topic that the user names, or else the best one. Says which other topics would fit.
 ImageTopic ChooseTopic(const std::string& path, const std::vector<ImageTopic>& all,
                        const std::vector<ImageTopic>& ranked, const std::string& name,
-                       const std::string& what, const std::string& option,
-                       std::vector<std::string>* warnings) {
+                       const std::string& what, std::vector<std::string>* warnings) {
+  const std::string option = what == "depth" ? "--depth-topic" : "--color-topic";
   if (!name.empty()) {
     for (const ImageTopic& topic : all) {
       if (topic.name == name) return topic;
     }
     throw std::runtime_error(path + ": no images in the topic " + name + " (" + option +
-                             "); topics with images: " + NamesOf(all));
+                             "); topics with images: " + Describe(all));
   }
   if (ranked.empty()) {
-    throw std::runtime_error(path + ": no topic with " + what +
-                             " images found; topics with images: " + NamesOf(all));
+    throw std::runtime_error(path + ": no topic with " + what + " images found; topics with " +
+                             "images: " + Describe(all) +
+                             (all.empty() ? "" : "; " + option + " names one"));
   }
+  const ImageTopic& best = ranked.front();
   if (ranked.size() > 1) {
-    warnings->push_back("of the topics with " + what + " images " + NamesOf(ranked) +
-                        ", the first is used; " + option + " names another one");
+    warnings->push_back(what + " images: " + DescribeTopic(best) + " is used, not " +
+                        Describe(ranked, best.name) + "; " + option + " names another one");
   }
-  return ranked.front();
+  return best;
 }
 
-// Stamps of all messages of a topic, in order of time.
-std::vector<ListedImage> ListImages(const ImageTopic& topic, BagFile* bag) {
-  std::vector<ListedImage> images;
+// Names all messages of a topic and reads their times, in the order of recording.
+std::vector<MessageTimes> ListImages(const ImageTopic& topic, BagFile* bag,
+                                     std::vector<ListedImage>* images) {
+  std::vector<MessageTimes> times;
   const int count = bag->Select(topic.name);
   for (int i = 0; i < count; ++i) {
-    const std::string name = bag->NameOf(topic.name, i);
-    images.push_back({ParseRosHeader(bag->Read(topic.name, i)).stamp, name, "", i});
+    images->push_back({0.0, bag->NameOf(topic.name, i), "", i});
+    times.push_back(
+        {ParseRosHeader(bag->Read(topic.name, i)).stamp, bag->ReceiveTime(topic.name, i)});
   }
-  std::stable_sort(images.begin(), images.end(),
-                   [](const ListedImage& a, const ListedImage& b) { return a.stamp < b.stamp; });
-  return images;
+  return times;
 }
 
 void ReadCamera(const BagFile& bag, const ImageTopic& color, const ImageTopic& depth,
@@ -118,11 +123,11 @@ void ReadCamera(const BagFile& bag, const ImageTopic& color, const ImageTopic& d
     if (found == bag.topics().end()) continue;
     const std::string bytes = bag.ReadFirst(name);
     if (bytes.empty()) continue;
-    const bool is_rectified = color.name.find("rect") != std::string::npos;
     std::string problem;
-    index->calibration = CalibrationFrom(ParseRosCameraInfo(bytes), is_rectified, &problem);
+    index->calibration = CalibrationFrom(ParseRosCameraInfo(bytes), IsRectified(color), &problem);
     if (index->calibration) {
-      index->calibration->origin = bag.path() + ":" + name;
+      index->calibration->origin =
+          bag.path() + ":" + name + (IsRectified(color) ? " for rectified images" : "");
       return;
     }
     index->warnings.push_back(name + " gives no calibration: " + problem);
@@ -156,19 +161,18 @@ SequenceIndex OpenBag(const std::string& path, const BagTopics& topics) {
   index.format = "ros-bag";
   index.directory = path;
   const std::vector<ImageTopic> all = FindImageTopics(*bag);
-  const ImageTopic color = ChooseTopic(path, all, RankColorTopics(all), topics.color, "colour",
-                                       "--color-topic", &index.warnings);
-  const ImageTopic depth = ChooseTopic(path, all, RankDepthTopics(all), topics.depth, "depth",
-                                       "--depth-topic", &index.warnings);
-  ImageLists images{ListImages(color, bag.get()), ListImages(depth, bag.get())};
+  const ImageTopic depth =
+      ChooseTopic(path, all, RankDepthTopics(all), topics.depth, "depth", &index.warnings);
+  const ImageTopic color = ChooseTopic(path, all, RankColorTopics(all, depth.name), topics.color,
+                                       "colour", &index.warnings);
+  ImageLists images;
+  TopicTimes times;
+  times.color = ListImages(color, bag.get(), &images.color);
+  times.depth = ListImages(depth, bag.get(), &images.depth);
+  StampImages(times, &images, &index.warnings);
   PairByTime(images, MaxPairDifference(images), &index);
   OrderEntries(&index);
-  if (index.entries.empty()) {
-    std::string message =
-        path + ": no pair of colour and depth images in " + color.name + " and " + depth.name;
-    for (const std::string& warning : index.warnings) message += "\n" + warning;
-    throw std::runtime_error(message);
-  }
+  RequireMostImages(index, path + " (" + color.name + ", " + depth.name + ")");
   index.container = std::make_shared<BagContainer>(bag, color, depth);
   const StoredImage first = index.container->ReadDepth(index.entries.front().depth_index);
   const bool is_metres = first.bytes.empty() && first.pixels.type() == CV_32FC1;

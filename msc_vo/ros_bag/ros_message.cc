@@ -37,8 +37,7 @@ class Fields {
     const auto seconds = Read<uint32_t>();
     const auto nanoseconds = Read<uint32_t>();
     ReadArray();  // name of the frame
-    // A sum in double precision would round twice and differ from the same stamp in a text file.
-    return {*ParseNumber(FormatText("%u.%09u", seconds, nanoseconds))};
+    return {SecondsOf(seconds, nanoseconds)};
   }
 
  private:
@@ -53,6 +52,11 @@ class Fields {
 };
 
 }  // namespace
+
+double SecondsOf(uint32_t seconds, uint32_t nanoseconds) {
+  // A sum in double precision would round twice.
+  return *ParseNumber(FormatText("%u.%09u", seconds, nanoseconds));
+}
 
 RosHeader ParseRosHeader(std::string_view bytes) { return Fields(bytes).ReadHeader(); }
 

@@ -13,6 +13,9 @@ namespace msc_vo {
 // Messages of ROS 1 that RGB-D cameras publish, deserialised from their bytes. The parsers throw
 // std::runtime_error if the bytes end too early. Views point into the bytes.
 
+/// Returns a time as the double nearest to its decimal number of seconds, as in a text file.
+double SecondsOf(uint32_t seconds, uint32_t nanoseconds);
+
 /// std_msgs/Header.
 struct RosHeader {
   double stamp = 0.0;  ///< seconds; the double nearest to the decimal number of the stamp

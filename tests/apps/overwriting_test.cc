@@ -68,6 +68,66 @@ TEST_F(OverwritingTest, RefusesBenchmarkResultsInTheFolderOfTheSequence) {
   EXPECT_EQ(Contents("pl-vo"), before);
 }
 
+TEST_F(OverwritingTest, RefusesToOverwriteResultsOfAnotherSequence) {
+  Synthesize("chess/seq-01");
+  Synthesize("fire/seq-01");
+  const auto replay = [&](const std::string& sequence, std::vector<std::string> options = {}) {
+    options.insert(options.begin(), {"replay", Path(sequence), "--quiet", "--output", Path("out")});
+    return RunCommand(options);
+  };
+  EXPECT_NE(replay("chess/seq-01").exit_code, 1);
+  const auto before = Contents("out");
+  // The same images in another place are another sequence unless their sizes are the same, too.
+  WriteText("fire/seq-01/rgb/" +
+                fs::directory_iterator(Path("fire/seq-01/rgb"))->path().filename().string(),
+            "another image");
+  const CommandOutcome refused = replay("fire/seq-01");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.output, AllOf(HasSubstr("holds the results of another sequence"),
+                                    HasSubstr("chess/seq-01"), HasSubstr("--overwrite")));
+  EXPECT_EQ(Contents("out"), before);
+
+  EXPECT_NE(replay("chess/seq-01").exit_code, 1);  // the same again
+  fs::rename(Path("chess"), Path("moved"));
+  EXPECT_NE(replay("moved/seq-01").exit_code, 1);
+  EXPECT_THAT(replay("fire/seq-01", {"--overwrite"}).output,
+              testing::Not(HasSubstr("another sequence")));
+  EXPECT_THAT(ReadFile(Path("out/sequence.json")), HasSubstr("fire/seq-01"));
+}
+
+// Also those of a run that was ended, and those of a version that wrote no sequence.json.
+TEST_F(OverwritingTest, RefusesToOverwriteResultsThatNameTheirSequence) {
+  Synthesize("room");
+  WriteText("killed/sequence.json", R"({"path": "/data/fire/seq-01"})");
+  WriteText("earlier/summary.json", R"({"sequence": {"directory": "/data/fire/seq-01"}})");
+  WriteText("damaged/summary.json", "{");
+  for (const char* output : {"killed", "earlier"}) {
+    const CommandOutcome outcome = RunCommand({"replay", Path("room"), "--output", Path(output)});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.output, HasSubstr("another sequence, /data/fire/seq-01"));
+  }
+  EXPECT_NE(RunCommand({"replay", Path("room"), "--output", Path("damaged")}).exit_code, 1);
+}
+
+TEST_F(OverwritingTest, BenchmarkRefusesToOverwriteResultsOfAnotherSequence) {
+  Synthesize("chess/seq-01");
+  Synthesize("fire/seq-01");
+  Synthesize("office");
+  const auto benchmark = [&](const std::string& sequence, std::vector<std::string> options = {}) {
+    options.insert(options.begin(), {"benchmark", Path(sequence), "--quiet", "--modes", "pl-vo",
+                                     "--output", Path("out")});
+    return RunCommand(options).output;
+  };
+  const std::string first = benchmark("chess/seq-01");
+  const auto before = Contents("out");
+  for (const char* sequence : {"fire/seq-01", "office"}) {
+    EXPECT_THAT(benchmark(sequence), HasSubstr("holds the results of another sequence"));
+  }
+  EXPECT_EQ(Contents("out"), before);
+  EXPECT_THAT(benchmark("chess/seq-01"), testing::Not(HasSubstr("another sequence")));
+  EXPECT_THAT(benchmark("office", {"--overwrite"}), testing::Not(HasSubstr("another sequence")));
+}
+
 TEST_F(OverwritingTest, RefusesToOverwriteTheConfiguration) {
   Synthesize("room");
   WriteText("out/summary.json", "mode: pl-vo\n");

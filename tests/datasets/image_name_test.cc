@@ -3,10 +3,12 @@
 
 #include "msc_vo/datasets/image_name.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 namespace msc_vo {
 namespace {
+
+using testing::ElementsAre;
 
 TEST(NaturalLess, ComparesDigitsAsNumbers) {
   EXPECT_TRUE(NaturalLess("2.png", "10.png"));
@@ -19,20 +21,12 @@ TEST(NaturalLess, ComparesDigitsAsNumbers) {
   EXPECT_NE(NaturalLess("07", "7"), NaturalLess("7", "07"));  // a fixed order
 }
 
-TEST(StampFromName, ParsesTimesDatesAndFrameNumbers) {
-  EXPECT_DOUBLE_EQ(*StampFromName("rgb/1305031102.175304.png"), 1305031102.175304);
-  EXPECT_DOUBLE_EQ(*StampFromName("rgb/15.png"), 0.5);
-  EXPECT_DOUBLE_EQ(*StampFromName("rgb/frame000030.jpg"), 1.0);
-  EXPECT_NEAR(*StampFromName("1403636579763555584.png"), 1403636579.763555584, 1e-6);
-  EXPECT_NEAR(*StampFromName("1403636579763.png"), 1403636579.763, 1e-6);
-  EXPECT_NEAR(*StampFromName("1403636579763555.png"), 1403636579.763555, 1e-6);
-  EXPECT_FALSE(StampFromName("rgb/left.png").has_value());
-}
-
-TEST(FrameNumber, IsLastNumberOfStem) {
-  EXPECT_EQ(FrameNumber("seq-01/frame-000012.color.png"), 12);
-  EXPECT_EQ(FrameNumber("a/b7c.png"), 7);
-  EXPECT_FALSE(FrameNumber("a7/b.png").has_value());
+TEST(SplitName, SeparatesDigitsAndText) {
+  const NameParts parts = SplitName("frame-000012.color");
+  EXPECT_THAT(parts.digits, ElementsAre("000012"));
+  EXPECT_THAT(parts.texts, ElementsAre("frame-", ".color"));
+  EXPECT_THAT(SplitName("1.5").texts, ElementsAre("", ".", ""));
+  EXPECT_THAT(SplitName("").texts, ElementsAre(""));
 }
 
 }  // namespace

@@ -35,6 +35,16 @@ TEST(GuessTimeUnit, RecognisesIntervalsBetweenImages) {
   EXPECT_EQ(GuessTimeUnit({}), TimeUnit::kSeconds);
 }
 
+// Two weeks after the start of a machine, its milliseconds are dates in seconds.
+TEST(GuessTimeUnit, IntervalsOfImagesDistinguishUptimeFromDates) {
+  for (const double start : {1.2e9, 3.6e9}) {
+    EXPECT_EQ(GuessTimeUnit(Stamps(start, 33), std::nullopt, kMaxImageInterval),
+              TimeUnit::kMilliseconds);
+    EXPECT_EQ(GuessTimeUnit(Stamps(start, 2), std::nullopt, kMaxImageInterval), TimeUnit::kSeconds);
+    EXPECT_EQ(GuessTimeUnit(Stamps(start, 33)), TimeUnit::kSeconds);  // sparse poses
+  }
+}
+
 TEST(GuessTimeUnit, PrefersUnitOfReference) {
   const TimeRange images = {0.0, 9.0, TimeUnit::kMilliseconds};
   EXPECT_EQ(GuessTimeUnit(Stamps(0, 1)), TimeUnit::kSeconds);

@@ -8,6 +8,7 @@
 
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 namespace {
@@ -27,6 +28,21 @@ TEST_F(TrajectoryTest, WritesTumFormat) {
   EXPECT_EQ(FormatTrajectory({{1.5, Rigid3(rotation, {1.0, -2.0, -1e-15})}}),
             "1.500000 1.0000000000 -2.0000000000 0.0000000000 "
             "-0.5000000000 -0.5000000000 -0.5000000000 0.5000000000\n");
+}
+
+TEST_F(TrajectoryTest, RefusesStampsThatLostTheirDigits) {
+  const auto rows = [](const char* format) {
+    std::string text;
+    for (int i = 0; i < 40; ++i) {
+      text += FormatText(format, 1604645033.1 + i / 100.0) + " 0 0 0 0 0 0 1\n";
+    }
+    return text;
+  };
+  EXPECT_THAT(ErrorOf(rows("%.6e")),
+              testing::AllOf(HasSubstr("trajectory.txt: the stamps are in scientific notation"),
+                             HasSubstr("write them with all digits")));
+  EXPECT_EQ(ErrorOf(rows("%.18e")), "");
+  EXPECT_EQ(ErrorOf(rows("%.0f")), "");  // repeated, but as they are
 }
 
 TEST_F(TrajectoryTest, MarksSegments) {

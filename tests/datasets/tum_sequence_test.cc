@@ -235,6 +235,54 @@ TEST_F(TumSequenceTest, SortsAndRemovesRepeatedStamps) {
   EXPECT_EQ(index.warnings.size(), 2u);
 }
 
+// An error instead of a run on one image of many, with the reason.
+TEST_F(TumSequenceTest, FailsIfFewerThanHalfOfTheListedImagesCanBeUsed) {
+  const auto write = [&](const char* format, double start) {
+    std::string pairs, color, depth;
+    for (int i = 0; i < 32; ++i) {
+      const std::string stamp = FormatText(format, start + i / 30.0);
+      pairs +=
+          stamp + " rgb/" + std::to_string(i) + " " + stamp + " depth/" + std::to_string(i) + "\n";
+      color += stamp + " rgb/" + std::to_string(i) + "\n";
+      depth += stamp + " depth/" + std::to_string(i) + "\n";
+    }
+    WriteText("lists/rgb.txt", color);
+    WriteText("lists/depth.txt", depth);
+    WriteText("pairs/associations.txt", pairs);
+  };
+  const auto error = [&](const char* folder) {
+    return MessageOf([&] { OpenSequence(Path(folder)); });
+  };
+  for (const auto& [name, list] :
+       {std::pair("lists", "rgb.txt:1: "), std::pair("pairs", "associations.txt:1: ")}) {
+    SCOPED_TRACE(name);
+    write("%.6e", 1604645033.1);
+    EXPECT_THAT(error(name), testing::AllOf(HasSubstr("only 1 of 32 images can be used"),
+                                            HasSubstr(list), HasSubstr("such as 1.604645e+09"),
+                                            HasSubstr("31 images have the time stamp")));
+    write("%.0f", 1604645033.1);
+    EXPECT_THAT(error(name), testing::AllOf(HasSubstr("only 2 of 32 images can be used"),
+                                            HasSubstr("30 images have the time stamp")));
+    write("%.18e", 1604645033.1);
+    EXPECT_EQ(OpenSequence(Path(name)).entries.size(), 32u);
+    EXPECT_THAT(OpenSequence(Path(name)).warnings, IsEmpty());
+    write("%.10e", 1604645033.0);  // to 0.1 s: a third of the images
+    EXPECT_THAT(error(name), HasSubstr("tell only steps of 0.1 s"));
+  }
+}
+
+TEST_F(TumSequenceTest, NamesClocksThatDiffer) {
+  std::string color, depth;
+  for (int i = 0; i < 9; ++i) {
+    color += FormatText("%.6f rgb/%d\n", 1604645033.1 + i / 30.0, i);
+    depth += FormatText("%d depth/%d\n", 81500 + 33 * i, i);
+  }
+  WriteText("rgb.txt", color);
+  WriteText("depth.txt", depth);
+  EXPECT_THAT(ErrorOf(), testing::AllOf(HasSubstr("depth images from 81.500 to 81.764 s"),
+                                        HasSubstr("write associations.txt")));
+}
+
 TEST_F(TumSequenceTest, ErrorsNameFileLineAndFix) {
   WriteText("rgb.txt", "1.0 rgb/1.png\n");
   EXPECT_THAT(ErrorOf(), testing::AllOf(HasSubstr("depth.txt: does not exist"),

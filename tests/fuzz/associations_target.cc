@@ -15,10 +15,12 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static InputFolder folder;
   const std::string path = folder.Write("associations.txt", AsText(data, size));
   ImageLists lists;
-  if (!Accepts(path, [&] { lists = ReadAssociations(path); })) return 0;
+  std::vector<std::string> warnings;
+  if (!Accepts(path, [&] { lists = ReadAssociations(path, &warnings); })) return 0;
   Require(lists.color.size() == lists.depth.size() && !lists.color.empty(), "pairs of images");
-  const SequenceIndex index = OpenSequence(folder.path(), "tum");
-  Require(!index.entries.empty(), "a list that is read has entries");
+  SequenceIndex index;
+  if (!Accepts(folder.path(), [&] { index = OpenSequence(folder.path(), "tum"); })) return 0;
+  Require(2 * index.entries.size() >= lists.color.size(), "most of the list is used");
   for (const SequenceEntry& entry : index.entries) {
     Require(std::isfinite(entry.timestamp) && std::isfinite(entry.depth_delay), "finite stamps");
   }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Names of images: their order, frame numbers and time stamps.
+// Names of images: their order, frame numbers and times.
 
 #include <cmath>
 
 #include "tests/fuzz/input_folder.h"
 
 #include "msc_vo/datasets/image_name.h"
+#include "msc_vo/datasets/named_images.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace msc_vo;
@@ -16,12 +17,10 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string a = text.substr(0, end), b = text.substr(std::min(end + 1, text.size()));
   Require(!(NaturalLess(a, b) && NaturalLess(b, a)), "an order");
   Require(a == b || NaturalLess(a, b) || NaturalLess(b, a), "an order of different names");
-  for (const std::string& name : {a, b}) {
-    const std::optional<int64_t> number = FrameNumber(name);
-    Require(!number || *number >= 0, "frame numbers count from 0");
-    const std::optional<double> stamp = StampFromName(name);
-    Require(!stamp || std::isfinite(*stamp), "finite stamps");
-    if (stamp) ++num_accepted;
-  }
+  const NamedImages images = ReadImageNames({a, b});
+  for (const double time : images.times) Require(std::isfinite(time), "finite times");
+  for (const int64_t number : images.numbers) Require(number >= 0, "frame numbers count from 0");
+  Require(images.times.empty() || images.times.size() == images.paths.size(), "a time per image");
+  if (!images.times.empty()) ++num_accepted;
   return 0;
 }

@@ -24,7 +24,7 @@ class OnlineResultsTest : public TemporaryFolder {
 };
 
 TEST_F(OnlineResultsTest, WritesEveryFrameImmediately) {
-  OnlineResults online(Path("out"));
+  OnlineResults online(Path("out"), {"/data/room", "", ""});
   std::vector<FrameResult> frames;
   size_t num_poses = 0;
   for (const TrackingStatus status :
@@ -45,7 +45,7 @@ TEST_F(OnlineResultsTest, RemovesEarlierResultsAtTheFirstReadableImage) {
   for (const char* name : {"trajectory.txt", "summary.json", "groundtruth.txt", "mine.txt"}) {
     WriteText(std::string("out/") + name, "earlier");
   }
-  OnlineResults online(Path("out"));
+  OnlineResults online(Path("out"), {"/data/room", "", ""});
   online.Add(Frame(0.5, TrackingStatus::kUnreadable));
   EXPECT_TRUE(HasEntry(Path("out/summary.json")));
   online.Add(Frame(1.0, TrackingStatus::kTracked));
@@ -59,12 +59,12 @@ TEST_F(OnlineResultsTest, KeepsLaterFramesOfARunUntilTheyAreComputedAgain) {
   std::vector<FrameResult> frames;
   for (int i = 0; i < 5; ++i) frames.push_back(Frame(1.0 + i, TrackingStatus::kTracked));
   {
-    OnlineResults killed(Path("out"));
+    OnlineResults killed(Path("out"), {"/data/room", "", ""});
     for (int i = 0; i < 4; ++i) killed.Add(frames[i]);
   }
   const std::string rows = ReadFile(Path("out/frames.csv"));
   WriteText("out/frames.csv", rows + "5.0,tra");  // not a whole row
-  OnlineResults resumed(Path("out"));
+  OnlineResults resumed(Path("out"), {"/data/room", "", ""});
   resumed.Continue({frames[0], frames[1]});
   resumed.Add(frames[2]);
   EXPECT_EQ(ReadTrajectory(Path("out/trajectory.txt")).size(), 4u);
@@ -79,7 +79,7 @@ TEST_F(OnlineResultsTest, KeepsLaterFramesOfARunUntilTheyAreComputedAgain) {
 TEST_F(OnlineResultsTest, ReplacesFilesThatAreNotThoseOfTheResumedRun) {
   WriteText("out/trajectory.txt", "1 0 0 0 0 0 0 1\n");  // of a finished run
   WriteText("out/frames.csv", "a\nb\nc\nd\n");
-  OnlineResults resumed(Path("out"));
+  OnlineResults resumed(Path("out"), {"/data/room", "", ""});
   resumed.Continue({Frame(1.0, TrackingStatus::kLost)});
   resumed.Add(Frame(2.0, TrackingStatus::kTracked));
   EXPECT_EQ(

@@ -3,6 +3,9 @@
 
 #include "msc_vo/ros_bag/bag_sequence.h"
 
+#include <functional>
+#include <utility>
+
 #include "tests/ros_bag/bag_writer.h"
 #include "tests/ros_bag/message_bytes.h"
 #include "tests/support/temporary_folder.h"
@@ -16,7 +19,9 @@ namespace msc_vo {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 class BagSequenceTest : public TemporaryFolder {
  protected:
@@ -47,6 +52,33 @@ class BagSequenceTest : public TemporaryFolder {
               ImageMessage(100, 0, cv::Mat::zeros(24, 32, CV_8UC1), "mono8"));
   }
   int recordings_ = 0;
+
+  // Ten pairs that are recorded at 30 Hz from 50 s on. `stamp_of` gives the seconds and nanoseconds
+  // of the header of image i, the depth image if the second argument is true.
+  using Stamp = std::pair<uint32_t, uint32_t>;
+  SequenceIndex OpenStamped(const std::function<Stamp(int, bool)>& stamp_of,
+                            const std::string& color_topic = "/rgb/image") {
+    const cv::Mat color(2, 2, CV_8UC3, cv::Scalar::all(9)), depth(2, 2, CV_16UC1, 1000);
+    {
+      BagWriter bag(Path("stamped.bag"), BagCompression::kNone);
+      for (int i = 0; i < 10; ++i) {
+        const Stamp of_color = stamp_of(i, false), of_depth = stamp_of(i, true);
+        const double recorded = 50.0 + i / 30.0;
+        bag.Write(color_topic, "Image", recorded,
+                  ImageMessage(of_color.first, of_color.second, color, "bgr8"));
+        bag.Write("/depth/image", "Image", recorded + 0.003,
+                  ImageMessage(of_depth.first, of_depth.second, depth, "16UC1"));
+      }
+    }
+    return OpenBag(Path("stamped.bag"));
+  }
+  static void ExpectReceiveTimes(const SequenceIndex& index, const std::string& reason) {
+    ASSERT_EQ(index.entries.size(), 10u);
+    EXPECT_NEAR(index.entries[9].timestamp, 50.3, 1e-6);
+    EXPECT_NEAR(index.entries[9].depth_delay, 0.003, 1e-6);
+    EXPECT_THAT(index.warnings,
+                ElementsAre(AllOf(HasSubstr(reason), HasSubstr("were recorded are used"))));
+  }
 
   static RgbdDecoder Decoder(SequenceIndex index) {
     Calibration calibration = ResolveCalibration({}, "", &index);
@@ -117,6 +149,57 @@ TEST_F(BagSequenceTest, PrefersThePresetThatTheNameSuggests) {
   EXPECT_EQ(index.ground_truth.size(), 1u);
 }
 
+// Nanoseconds of image i at 30 Hz.
+uint32_t At30Hz(int i) { return static_cast<uint32_t>(33333333 * i); }
+
+TEST_F(BagSequenceTest, FallsBackToTheTimesOfRecording) {
+  using Stamp = std::pair<uint32_t, uint32_t>;
+  ExpectReceiveTimes(OpenStamped([](int, bool) { return Stamp(0, 0); }), "colour images are zero");
+  ExpectReceiveTimes(OpenStamped([](int, bool) { return Stamp(1604645033, 7); }),
+                     "colour images repeat");
+  ExpectReceiveTimes(OpenStamped([](int i, bool is_depth) {
+                       return is_depth ? Stamp(0, 0) : Stamp(1604645033, At30Hz(i));
+                     }),
+                     "depth images are zero");
+  ExpectReceiveTimes(OpenStamped([](int i, bool is_depth) {
+                       return Stamp(is_depth ? 1604645033 : 812, At30Hz(i));
+                     }),
+                     "are of different clocks");
+  ExpectReceiveTimes(
+      OpenStamped([](int i, bool) { return Stamp(i < 5 ? 1604645033 : 1604645013, At30Hz(i)); }),
+      "go back by 20.0 s");
+}
+
+TEST_F(BagSequenceTest, LeavesOutMessagesWithoutStamps) {
+  const SequenceIndex index = OpenStamped([](int i, bool) {
+    return i < 2 ? std::pair<uint32_t, uint32_t>(0, 0)
+                 : std::pair<uint32_t, uint32_t>(1604645033, At30Hz(i));
+  });
+  ASSERT_EQ(index.entries.size(), 8u);
+  EXPECT_NEAR(index.entries[0].timestamp, 1604645033.066667, 1e-6);
+  EXPECT_THAT(index.warnings, ElementsAre(HasSubstr("2 of 10 colour images are left out"),
+                                          HasSubstr("2 of 10 depth images are left out")));
+}
+
+TEST_F(BagSequenceTest, SaysWhyTopicsAreNotUsed) {
+  const auto stamp_of = [](int i, bool) {
+    return std::pair<uint32_t, uint32_t>(1604645033, At30Hz(i));
+  };
+  EXPECT_EQ(OpenStamped(stamp_of, "/iris/camera/image_raw").entries.size(), 10u);
+  EXPECT_THAT(MessageOf([&] { OpenStamped(stamp_of, "/camera/ir/image_raw"); }),
+              AllOf(HasSubstr("no topic with colour images found"),
+                    HasSubstr("/camera/ir/image_raw (colour, infrared)"),
+                    HasSubstr("--color-topic names one")));
+  WriteBag("x.bag", BagCompression::kNone, "16UC1");
+  EXPECT_THAT(OpenBag(Path("x.bag")).warnings, IsEmpty());
+}
+
+TEST_F(BagSequenceTest, NamesFilesThatAreNoBags) {
+  WriteText("ros2.bag", std::string("SQLite format 3\0", 16) + std::string(100, 'x'));
+  EXPECT_THAT(MessageOf([&] { OpenBag(Path("ros2.bag")); }),
+              AllOf(HasSubstr("ros2.bag is a bag of ROS 2"), HasSubstr("rosbags-convert")));
+}
+
 TEST_F(BagSequenceTest, NamesWhatIsWrong) {
   WriteText("text.bag", "this is no bag");
   EXPECT_THAT(MessageOf([&] { OpenBag(Path("text.bag")); }),
@@ -124,7 +207,7 @@ TEST_F(BagSequenceTest, NamesWhatIsWrong) {
   EXPECT_THAT(MessageOf([&] { OpenBag(Path("no.bag")); }), HasSubstr("no.bag: does not exist"));
   { const BagWriter empty(Path("empty.bag"), BagCompression::kNone); }
   EXPECT_THAT(MessageOf([&] { OpenBag(Path("empty.bag")); }),
-              HasSubstr("no topic with colour images found; topics with images: none"));
+              HasSubstr("no topic with depth images found; topics with images: none"));
   WriteBag("cut.bag", BagCompression::kNone, "16UC1");
   const std::string bytes = ReadFile(Path("cut.bag"));
   WriteText("cut.bag", bytes.substr(0, bytes.size() / 2));

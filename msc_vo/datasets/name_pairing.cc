@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/name_pairing.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include "msc_vo/datasets/image_list.h"
+#include "msc_vo/datasets/image_pairing.h"
+#include "msc_vo/datasets/named_images.h"
+#include "msc_vo/datasets/sequence_format.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace {
+
+std::vector<ListedImage> StampedImages(const NamedImages& images) {
+  std::vector<ListedImage> listed;
+  for (size_t i = 0; i < images.paths.size(); ++i) {
+    listed.push_back({images.times[i], images.paths[i], images.paths[i]});
+  }
+  std::stable_sort(listed.begin(), listed.end(),
+                   [](const ListedImage& a, const ListedImage& b) { return a.stamp < b.stamp; });
+  return listed;
+}
+
+// Pairs the images by time if the time ranges of both streams overlap; returns whether they do.
+bool PairedByTime(const NamedImages& color, const NamedImages& depth, SequenceIndex* index) {
+  if (color.times.empty() || depth.times.empty()) return false;
+  const ImageLists images = {StampedImages(color), StampedImages(depth)};
+  const double max_difference = MaxPairDifference(images);
+  const double common = std::min(images.color.back().stamp, images.depth.back().stamp) -
+                        std::max(images.color.front().stamp, images.depth.front().stamp);
+  if (common < -max_difference) return false;
+  index->stamp_unit = color.unit;
+  PairByTime(images, max_difference, index);
+  return true;
+}
+
+// Warns if the depth images have the numbers of the colour images plus a constant: the same image
+// may have different numbers in both streams.
+void CheckNumberOffset(const NamedImages& color, const NamedImages& depth, SequenceIndex* index) {
+  const int64_t offset = depth.numbers.front() - color.numbers.front();
+  if (offset == 0 || depth.numbers.back() - color.numbers.back() != offset) return;
+  index->warnings.push_back(
+      FormatText("the frame numbers of the depth images begin and end %lld %s than those of the "
+                 "colour images; "
+                 "images with the same number are paired; if that is wrong, write associations.txt",
+                 static_cast<long long>(std::abs(offset)), offset > 0 ? "higher" : "lower"));
+}
+
+// Adds the pair of two images, at the time that either name holds.
+void AddPair(const NamedImages& color, size_t i, const NamedImages& depth, size_t j,
+             SequenceIndex* index) {
+  double stamp = static_cast<double>(color.numbers[i]) / kDefaultFrameRate;
+  if (depth.certainty == NamedTimes::kCertain) stamp = depth.times[j];
+  if (color.certainty == NamedTimes::kCertain) stamp = color.times[i];
+  index->entries.push_back({stamp, color.paths[i], depth.paths[j], ""});
+}
+
+// Pairs the images with the same number; returns whether there are any.
+bool PairedByNumber(const NamedImages& color, const NamedImages& depth, SequenceIndex* index) {
+  std::map<int64_t, size_t> depth_of_number;
+  for (size_t i = 0; i < depth.numbers.size(); ++i) depth_of_number.emplace(depth.numbers[i], i);
+  for (size_t i = 0; i < color.numbers.size(); ++i) {
+    const auto found = depth_of_number.find(color.numbers[i]);
+    if (found != depth_of_number.end()) AddPair(color, i, depth, found->second, index);
+  }
+  const size_t num_pairs = index->entries.size();
+  if (num_pairs == 0) return false;
+  const size_t num_unpaired = color.paths.size() - num_pairs + depth.paths.size() - num_pairs;
+  if (num_unpaired > 0) {
+    index->warnings.push_back(
+        std::to_string(num_unpaired) +
+        " images have no partner with the same frame number and are left out");
+  }
+  CheckNumberOffset(color, depth, index);
+  if (color.certainty == NamedTimes::kPossible && depth.certainty == NamedTimes::kPossible) {
+    index->warnings.push_back(FormatText(
+        "the names count in steps of %lld; the numbers are read as frame numbers at %.0f per "
+        "second; if they are times, write rgb.txt and depth.txt with 'time path' rows",
+        static_cast<long long>(color.numbers[1] - color.numbers[0]), kDefaultFrameRate));
+  }
+  return true;
+}
+
+// Whether the numbers of both streams differ by a constant that leaves them no number in common.
+bool HaveSeparateNumbers(const NamedImages& color, const NamedImages& depth) {
+  const auto [first, last] = std::minmax_element(color.numbers.begin(), color.numbers.end());
+  const auto [begin, end] = std::minmax_element(depth.numbers.begin(), depth.numbers.end());
+  if (*first <= *end && *begin <= *last) return false;
+  for (size_t i = 0; i < color.numbers.size(); ++i) {
+    if (depth.numbers[i] - color.numbers[i] != *begin - *first) return false;
+  }
+  return true;
+}
+
+[[noreturn]] void FailPairing(const NamedImages& color, const NamedImages& depth) {
+  const auto folder = [](const NamedImages& images) {
+    return std::filesystem::path(images.paths.front()).parent_path().string();
+  };
+  throw std::runtime_error(FormatText(
+      "%s: %zu colour images, but %zu depth images in %s, and their names do not tell the pairs: "
+      "those of the colour images hold %s, those of the depth images %s; write associations.txt "
+      "with 'time colour time depth' rows",
+      folder(color).c_str(), color.paths.size(), depth.paths.size(), folder(depth).c_str(),
+      color.description.c_str(), depth.description.c_str()));
+}
+
+// Pairs images at the same position of both lists, at kDefaultFrameRate.
+void PairByPosition(const NamedImages& color, const NamedImages& depth, SequenceIndex* index) {
+  const bool have_times =
+      color.certainty == NamedTimes::kCertain || depth.certainty == NamedTimes::kCertain;
+  const bool have_numbers = !color.numbers.empty() && !depth.numbers.empty();
+  if (have_times || color.paths.size() != depth.paths.size() ||
+      (have_numbers && !HaveSeparateNumbers(color, depth))) {
+    FailPairing(color, depth);
+  }
+  for (size_t i = 0; i < color.paths.size(); ++i) {
+    index->entries.push_back({i / kDefaultFrameRate, color.paths[i], depth.paths[i], ""});
+  }
+  index->warnings.push_back(FormatText(
+      "the images are paired by the order of their names, at %.0f per second, because the names of "
+      "the colour images hold %s, those of the depth images %s",
+      kDefaultFrameRate, color.description.c_str(), depth.description.c_str()));
+}
+
+std::optional<TimeRange> RangeOfTimes(const NamedImages& images) {
+  if (images.times.empty()) return std::nullopt;
+  return RangeOf(images.times, images.unit);
+}
+
+}  // namespace
+
+void PairByName(const std::vector<std::string>& color_paths,
+                const std::vector<std::string>& depth_paths, SequenceIndex* index) {
+  if (color_paths.empty() || depth_paths.empty()) return;
+  const NamedImages color = ReadImageNames(color_paths);
+  const NamedImages depth = ReadImageNames(depth_paths, RangeOfTimes(color));
+  const size_t num_listed = std::min(color_paths.size(), depth_paths.size());
+  for (const std::string& warning : color.warnings) {
+    index->warnings.push_back("colour images: " + warning);
+  }
+  for (const std::string& warning : depth.warnings) {
+    index->warnings.push_back("depth images: " + warning);
+  }
+  const bool may_be_numbers =
+      color.certainty != NamedTimes::kCertain && depth.certainty != NamedTimes::kCertain;
+  const bool paired = (!may_be_numbers && PairedByTime(color, depth, index)) ||
+                      PairedByNumber(color, depth, index) ||
+                      (may_be_numbers && PairedByTime(color, depth, index));
+  if (!paired) PairByPosition(color, depth, index);
+  index->num_listed = num_listed;
+}
+
+}  // namespace msc_vo

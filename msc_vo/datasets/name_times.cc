@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/name_times.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "msc_vo/datasets/calendar_time.h"
+#include "msc_vo/datasets/median_interval.h"
+#include "msc_vo/text/text_file.h"
+
+namespace msc_vo {
+
+namespace {
+
+using Names = std::vector<NameParts>;
+using Texts = std::vector<std::string>;
+
+// A column of numbers that may be times.
+struct Candidate {
+  Texts texts;  // one decimal number per name
+  size_t first_run = 0;
+  size_t last_run = 0;
+  bool is_calendar = false;
+  bool has_seconds = false;  // whole seconds and a fraction of them
+};
+
+Texts Column(const Names& names, size_t run) {
+  Texts column;
+  for (const NameParts& name : names) column.push_back(name.digits[run]);
+  return column;
+}
+
+std::vector<double> Numbers(const Texts& texts) {
+  std::vector<double> numbers;
+  for (const std::string& text : texts) numbers.push_back(ParseNumber(text).value_or(HUGE_VAL));
+  return numbers;
+}
+
+bool IsStrictlyAscending(const std::vector<double>& values) {
+  return std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end();
+}
+
+// Number of steps that are equal to the median step within 20 %, as those of a camera are.
+size_t CountRegularSteps(std::vector<double> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  const double median = MedianInterval(numbers);
+  size_t count = 0;
+  for (size_t i = 1; i < numbers.size(); ++i) {
+    if (std::abs(numbers[i] - numbers[i - 1] - median) <= 0.2 * median) ++count;
+  }
+  return count;
+}
+
+bool IsPoint(const std::string& separator) { return separator == "." || separator == ","; }
+
+Texts WithDecimals(const Texts& seconds, const Texts& decimals) {
+  Texts texts;
+  for (size_t i = 0; i < seconds.size(); ++i) texts.push_back(seconds[i] + "." + decimals[i]);
+  return texts;
+}
+
+// Appends the fraction in another column to whole seconds. Digits of one width are decimals as they
+// are. Others are a whole number of milliseconds, microseconds or nanoseconds, or, behind a point,
+// possibly decimals without zeros at the end; the reading with more regular steps is returned.
+Texts AppendFraction(const Texts& seconds, const Texts& column, bool is_behind_point) {
+  size_t width = 0;
+  bool is_fixed = true;
+  for (const std::string& digits : column) {
+    width = std::max(width, digits.size());
+    is_fixed = is_fixed && digits.size() == column.front().size();
+  }
+  Texts decimals = WithDecimals(seconds, column);
+  constexpr size_t kNanosecondDigits = 9;
+  if (is_fixed || width > kNanosecondDigits) return decimals;
+  width = (width + 2) / 3 * 3;
+  Texts padded;
+  for (const std::string& digits : column) {
+    padded.push_back(std::string(width - digits.size(), '0') + digits);
+  }
+  padded = WithDecimals(seconds, padded);
+  const bool are_decimals =
+      is_behind_point && CountRegularSteps(Numbers(decimals)) >= CountRegularSteps(Numbers(padded));
+  return are_decimals ? decimals : padded;
+}
+
+// The date and the time of day that begin with a run, if all names have them there.
+std::optional<Candidate> ReadCalendar(const Names& names, size_t first_run) {
+  Candidate candidate;
+  candidate.first_run = first_run;
+  candidate.is_calendar = candidate.has_seconds = true;
+  Texts seconds, fractions;
+  for (const NameParts& name : names) {
+    const std::optional<CalendarTime> time = ReadCalendarTime(name, first_run);
+    if (!time || (!seconds.empty() && time->last_run != candidate.last_run)) return std::nullopt;
+    candidate.last_run = time->last_run;
+    seconds.push_back(std::to_string(time->seconds));
+    fractions.push_back(time->fraction);
+  }
+  const bool has_fraction = std::none_of(fractions.begin(), fractions.end(),
+                                         [](const std::string& text) { return text.empty(); });
+  const size_t next = candidate.last_run + 1;
+  if (has_fraction) {
+    candidate.texts = WithDecimals(seconds, fractions);
+  } else if (next < names.front().digits.size()) {
+    const bool is_behind_point = IsPoint(names.front().texts[next]);
+    candidate.texts = AppendFraction(seconds, Column(names, next), is_behind_point);
+    candidate.last_run = next;
+  } else {
+    candidate.texts = seconds;
+  }
+  return candidate;
+}
+
+// Whether a run may hold the whole seconds of the fraction in the next run: a date, or a number
+// that several images have in common.
+bool MayHaveFraction(const Names& names, size_t run) {
+  const std::vector<double> seconds = Numbers(Column(names, run));
+  if (UnitOfDate(seconds.front()) == TimeUnit::kSeconds) return true;
+  const size_t width = names.front().digits[run + 1].size();
+  const bool has_unit = width == 3 || width == 6 || width == 9;
+  const bool varies = seconds.front() != seconds.back();
+  return has_unit && (varies || width > 3) && !IsStrictlyAscending(seconds);
+}
+
+std::vector<Candidate> ListCandidates(const Names& names) {
+  std::vector<Candidate> candidates;
+  const size_t num_runs = names.front().digits.size();
+  for (size_t run = 0; run < num_runs; ++run) {
+    if (auto calendar = ReadCalendar(names, run)) candidates.push_back(std::move(*calendar));
+  }
+  for (size_t run = 0; run < num_runs; ++run) {
+    const Texts column = Column(names, run);
+    if (run + 1 < num_runs) {
+      const bool is_behind_point = IsPoint(names.front().texts[run + 1]);
+      if (is_behind_point || MayHaveFraction(names, run)) {
+        candidates.push_back({AppendFraction(column, Column(names, run + 1), is_behind_point), run,
+                              run + 1, false, !is_behind_point});
+      }
+    }
+    candidates.push_back({column, run, run, false, false});
+  }
+  return candidates;
+}
+
+// Whether the stamps can be those of a camera: hardly any is repeated, and the median interval is
+// that of a camera. It exceeds the milliseconds of a counter that is taken for decimals of seconds.
+bool AreUsable(const std::vector<double>& seconds) {
+  constexpr double kMinInterval = 0.0015;  // seconds
+  std::vector<double> sorted = seconds;
+  std::sort(sorted.begin(), sorted.end());
+  const auto num_different = std::unique(sorted.begin(), sorted.end()) - sorted.begin();
+  const auto num_repeated = static_cast<std::ptrdiff_t>(seconds.size()) - num_different;
+  if (10 * num_repeated > static_cast<std::ptrdiff_t>(seconds.size())) return false;
+  const double interval = MedianInterval(seconds);
+  return seconds.size() < 2 || (interval >= kMinInterval && interval <= kMaxImageInterval);
+}
+
+// How sure it is that whole numbers, which are no dates, are times.
+enum class Certainty { kNo, kPossible, kYes };
+Certainty AreTimes(const std::vector<double>& numbers) {
+  constexpr double kMaxFrameStep = 60.0;            // two seconds without an image at 30 Hz
+  constexpr double kMinMilliseconds = 1e3 / 120.0;  // interval of the fastest RGB-D cameras
+  const double median = MedianInterval(numbers);
+  if (numbers.size() < 3 || median < kMinMilliseconds) return Certainty::kNo;
+  if (median > kMaxFrameStep) return Certainty::kYes;
+  if (!CountFrames(numbers)) {
+    const bool is_regular = 2 * CountRegularSteps(numbers) + 1 >= numbers.size();
+    return is_regular ? Certainty::kYes : Certainty::kNo;
+  }
+  // Every nth frame of a recording is counted from 0 or 1; a clock begins anywhere.
+  const double step = numbers[1] - numbers[0];
+  return std::fmod(numbers[0], step) > 1.0 ? Certainty::kYes : Certainty::kPossible;
+}
+
+// Whether the times do not ascend although a number before them does, such as a counter or the
+// minutes of a time of day.
+bool ContradictsOrder(const Names& names, const NameTimes& times) {
+  if (std::is_sorted(times.seconds.begin(), times.seconds.end())) return false;
+  for (size_t run = 0; run < times.first_run; ++run) {
+    const std::string& first = names.front().digits[run];
+    const bool varies = std::any_of(names.begin(), names.end(), [&](const NameParts& name) {
+      return name.digits[run] != first;
+    });
+    if (varies) return true;
+  }
+  return false;
+}
+
+std::optional<NameTimes> ReadTimes(const Candidate& candidate,
+                                   const std::optional<TimeRange>& reference) {
+  std::vector<double> numbers = Numbers(candidate.texts);
+  const auto is_finite = [](double number) { return std::isfinite(number); };
+  if (!std::all_of(numbers.begin(), numbers.end(), is_finite)) return std::nullopt;
+  NameTimes times;
+  times.first_run = candidate.first_run;
+  times.last_run = candidate.last_run;
+  times.is_calendar = candidate.is_calendar;
+  if (!candidate.has_seconds) {
+    times.unit = GuessTimeUnit(numbers, reference, kMaxImageInterval);
+  }
+  const double rate = UnitsPerSecond(times.unit);
+  times.is_date = UnitOfDate(numbers.front()) == times.unit;
+  const bool is_whole = candidate.texts.front().find('.') == std::string::npos;
+  if (is_whole && !times.is_date) {
+    const Certainty certainty = AreTimes(numbers);
+    if (certainty == Certainty::kNo) return std::nullopt;
+    times.is_certain = certainty == Certainty::kYes;
+  }
+  for (double& number : numbers) number /= rate;
+  times.seconds = std::move(numbers);
+  return times;
+}
+
+}  // namespace
+
+bool CountFrames(const std::vector<double>& numbers) {
+  std::vector<double> sorted = numbers;
+  std::sort(sorted.begin(), sorted.end());
+  double smallest = 0.0;
+  for (size_t i = 1; i < sorted.size(); ++i) {
+    const double step = sorted[i] - sorted[i - 1];
+    if (step <= 0.0) return false;
+    if (smallest == 0.0 || step < smallest) smallest = step;
+  }
+  for (size_t i = 1; i < sorted.size(); ++i) {
+    if (std::fmod(sorted[i] - sorted[i - 1], smallest) != 0.0) return false;
+  }
+  return true;
+}
+
+std::optional<NameTimes> FindTimes(const Names& names, const std::optional<TimeRange>& reference,
+                                   std::vector<std::string>* warnings) {
+  std::optional<NameTimes> best;
+  bool has_unusable_dates = false;
+  const auto rank = [](const NameTimes& times) {
+    return times.is_date ? 2 : times.is_certain ? 1 : 0;
+  };
+  for (const Candidate& candidate : ListCandidates(names)) {
+    std::optional<NameTimes> times = ReadTimes(candidate, reference);
+    if (!times) continue;
+    if (!AreUsable(times->seconds) || ContradictsOrder(names, *times)) {
+      // A name may also hold the date of the recording, or a serial number.
+      const bool varies = std::floor(times->seconds.front()) != std::floor(times->seconds.back());
+      has_unusable_dates = has_unusable_dates || (times->is_date && varies);
+    } else if (!best || rank(*times) > rank(*best)) {
+      best = std::move(times);
+    }
+  }
+  if (has_unusable_dates && !(best && best->is_date)) {
+    warnings->push_back(
+        "the dates in the names are not used, because they repeat, go backwards or have whole "
+        "seconds only");
+  }
+  return best;
+}
+
+}  // namespace msc_vo

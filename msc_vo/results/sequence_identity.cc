@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/results/sequence_identity.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/checkpoint/checksum.h"
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
+#include "msc_vo/text/text_file.h"
+
+namespace msc_vo {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string ChecksumText(const std::string& bytes) {
+  return FormatText("%016llx", static_cast<unsigned long long>(Checksum(bytes)));
+}
+
+// Name and size of a file; its folder may have been moved.
+std::string NameAndSize(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  return fs::path(path).filename().string() + (error ? "?" : " " + std::to_string(size)) + "\n";
+}
+
+std::string FileIn(const std::string& directory, const char* name) {
+  return (fs::path(directory) / name).string();
+}
+
+// Contents of a file in JSON; none if it is missing or damaged.
+std::optional<Json> ReadJson(const std::string& path) {
+  if (!FileProblem(path).empty()) return std::nullopt;
+  Json json = Json::parse(ReadFile(path), nullptr, false);
+  if (!json.is_object()) return std::nullopt;
+  return json;
+}
+
+std::string Text(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+// The sequence whose results are in a folder; none if there are no results or they do not say it.
+std::optional<SequenceIdentity> ReadIdentity(const std::string& directory) {
+  if (const auto json = ReadJson(FileIn(directory, "sequence.json"))) {
+    return SequenceIdentity{Text(*json, "path"), Text(*json, "stamps"), Text(*json, "images")};
+  }
+  // Results of earlier versions.
+  const auto summary = ReadJson(FileIn(directory, "summary.json"));
+  if (!summary || !summary->contains("sequence") || !(*summary)["sequence"].is_object()) return {};
+  return IdentifySequence(Text((*summary)["sequence"], "directory"));
+}
+
+}  // namespace
+
+bool SequenceIdentity::IsSame(const SequenceIdentity& other) const {
+  if (path == other.path) return true;
+  return !stamps.empty() && stamps == other.stamps && images == other.images;
+}
+
+SequenceIdentity IdentifySequence(const std::string& directory) {
+  SequenceIdentity sequence;
+  std::error_code error;
+  const fs::path path = fs::canonical(directory, error);
+  sequence.path = error ? directory : path.string();
+  return sequence;
+}
+
+SequenceIdentity IdentifySequence(const SequenceIndex& index) {
+  SequenceIdentity sequence = IdentifySequence(index.directory);
+  if (index.camera) return sequence;
+  std::string stamps, files;
+  for (const SequenceEntry& entry : index.entries) {
+    stamps += FormatNumber(entry.timestamp) + " " + FormatNumber(entry.depth_delay) + "\n";
+    if (!index.container) files += NameAndSize(entry.color_path) + NameAndSize(entry.depth_path);
+  }
+  if (index.container) files = NameAndSize(index.directory);
+  sequence.stamps = ChecksumText(stamps);
+  sequence.images = ChecksumText(files);
+  return sequence;
+}
+
+void WriteIdentity(const std::string& directory, const SequenceIdentity& sequence) {
+  const Json json = {
+      {"path", sequence.path}, {"stamps", sequence.stamps}, {"images", sequence.images}};
+  WriteFile(FileIn(directory, "sequence.json"),
+            json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void RefuseToOverwriteOthers(const std::string& directory, const SequenceIdentity& sequence) {
+  const std::optional<SequenceIdentity> earlier = ReadIdentity(directory);
+  if (!earlier || earlier->IsSame(sequence)) return;
+  throw std::runtime_error(directory + ": holds the results of another sequence, " + earlier->path +
+                           "; give another folder with --output, or use --overwrite");
+}
+
+}  // namespace msc_vo

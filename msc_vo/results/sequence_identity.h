@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+
+#include "msc_vo/datasets/sequence.h"
+
+namespace msc_vo {
+
+/// What distinguishes a sequence from others with the same name.
+struct SequenceIdentity {
+  std::string path;    ///< absolute, without symbolic links; or the name of a live camera
+  std::string stamps;  ///< checksum of the time stamps
+  std::string images;  ///< checksum of the names and sizes of the image files
+
+  /// Whether it is the same sequence: in the same place, or moved to another one.
+  bool IsSame(const SequenceIdentity& other) const;
+};
+
+SequenceIdentity IdentifySequence(const SequenceIndex& index);
+/// The path only, which does not need the sequence to be opened.
+SequenceIdentity IdentifySequence(const std::string& directory);
+
+/// Writes sequence.json, which says of which sequence the results in `directory` are.
+void WriteIdentity(const std::string& directory, const SequenceIdentity& sequence);
+
+/// Throws std::runtime_error that names the other sequence if `directory` holds results of one.
+void RefuseToOverwriteOthers(const std::string& directory, const SequenceIdentity& sequence);
+
+}  // namespace msc_vo

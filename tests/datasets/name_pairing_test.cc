@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Pairs of images that are found by the names of their files, in all layouts without lists.
+
+#include "msc_vo/datasets/name_pairing.h"
+
+#include <functional>
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class NamePairingTest : public TemporaryFolder {
+ protected:
+  using NameOf = std::function<std::string(int)>;
+
+  // Writes images first..last-1 of both streams.
+  void WriteColors(int first, int last, const NameOf& name_of) {
+    for (int i = first; i < last; ++i) WriteColor(color_ + name_of(i) + ".png");
+  }
+  void WriteDepths(int first, int last, const NameOf& name_of) {
+    for (int i = first; i < last; ++i) WriteDepth(depth_ + name_of(i) + ".png");
+  }
+  std::string Error() {
+    return MessageOf([&] { OpenSequence(Folder()); });
+  }
+
+  std::string color_ = "rgb/";
+  std::string depth_ = "depth/";
+};
+
+std::string Milliseconds(const char* prefix, int i, double delay = 0.0) {
+  return FormatText("%s%.3f", prefix, 1305031102175.304 + 33.4 * i + delay);
+}
+
+TEST_F(NamePairingTest, PairsByTimesInAnyLayout) {
+  for (const auto& [color, depth] : {std::pair("rgb/", "depth/"), std::pair("color/", "depth/"),
+                                     std::pair("results/frame", "results/depth")}) {
+    SCOPED_TRACE(color);
+    std::filesystem::remove_all(Folder());
+    color_ = color;
+    depth_ = depth;
+    if (color_ == "color/") WriteText("pose/readme.txt", "");  // ScanNet
+    WriteColors(0, 20, [](int i) { return Milliseconds("_", i); });
+    WriteDepths(10, 31, [](int i) { return Milliseconds("_", i, 8.0); });
+    const SequenceIndex index = OpenSequence(Folder());
+    ASSERT_EQ(index.entries.size(), 10u);
+    EXPECT_NEAR(index.entries[0].timestamp, 1305031102.175304 + 0.334, 2e-6);
+    EXPECT_NEAR(index.entries[9].depth_delay, 0.008, 2e-6);
+  }
+}
+
+TEST_F(NamePairingTest, StreamsMayHaveTheirOwnUnits) {
+  WriteColors(0, 20, [](int i) { return FormatText("c%.6f", 1305031102.0 + i / 30.0); });
+  WriteDepths(0, 20, [](int i) { return FormatText("d%.0f", 1e6 * (1305031102.004 + i / 30.0)); });
+  const SequenceIndex index = OpenSequence(Folder());
+  ASSERT_EQ(index.entries.size(), 20u);
+  EXPECT_NEAR(index.entries[7].depth_delay, 0.004, 2e-6);
+  EXPECT_THAT(index.warnings, Contains(HasSubstr("depth images: the names hold times in micro")));
+}
+
+TEST_F(NamePairingTest, NeverPairsTimesByOrder) {
+  WriteColors(0, 9, [](int i) { return Milliseconds("", i); });
+  WriteDepths(0, 9, [](int i) { return std::to_string(i); });
+  EXPECT_THAT(Error(),
+              AllOf(HasSubstr("hold times from 1305031102.175 to"),
+                    HasSubstr("frame numbers from 0 to 8"), HasSubstr("associations.txt")));
+}
+
+TEST_F(NamePairingTest, NeverPairsTimesOfDifferentClocksByOrder) {
+  WriteColors(0, 9, [](int i) { return Milliseconds("", i); });
+  WriteDepths(0, 9, [](int i) { return FormatText("%.3f", 81.5 + i / 30.0); });
+  EXPECT_THAT(Error(), AllOf(HasSubstr("hold times from 1305031102.175 to"),
+                             HasSubstr("times from 81.500 to 81.767 s")));
+}
+
+TEST_F(NamePairingTest, CountersPairTimesOfDifferentClocks) {
+  WriteColors(0, 9, [](int i) { return Milliseconds(FormatText("%04d_", i).c_str(), i); });
+  WriteDepths(2, 12, [](int i) { return FormatText("%04d_%.3f", i, 81.5 + i / 30.0); });
+  const SequenceIndex index = OpenSequence(Folder());
+  ASSERT_EQ(index.entries.size(), 7u);
+  EXPECT_NEAR(index.entries[0].timestamp, 1305031102.175304 + 2 * 0.0334, 2e-6);
+  EXPECT_THAT(index.entries[0].depth_path, HasSubstr("0002_81.567"));
+  EXPECT_EQ(index.entries[0].depth_delay, 0.0);
+}
+
+TEST_F(NamePairingTest, PairsNumbersByNumberIfTheyShareARange) {
+  WriteColors(0, 30, [](int i) { return FormatText("img_%03d", i); });
+  WriteDepths(10, 40, [](int i) { return FormatText("img_%03d", i); });
+  const SequenceIndex index = OpenSequence(Folder());
+  ASSERT_EQ(index.entries.size(), 20u);
+  EXPECT_THAT(index.entries[0].color_path, HasSubstr("img_010"));
+  EXPECT_THAT(index.entries[0].depth_path, HasSubstr("img_010"));
+  EXPECT_THAT(index.warnings, Contains(HasSubstr("begin and end 10 higher")));
+}
+
+TEST_F(NamePairingTest, FailsIfOneCounterNumbersBothStreams) {
+  WriteColors(0, 20, [](int i) { return std::to_string(2 * i); });
+  WriteDepths(0, 20, [](int i) { return std::to_string(2 * i + 1); });
+  EXPECT_THAT(Error(), AllOf(HasSubstr("frame numbers from 0 to 38"),
+                             HasSubstr("frame numbers from 1 to 39")));
+}
+
+TEST_F(NamePairingTest, PairsSeparateNumbersByOrderAndSaysSo) {
+  WriteColors(0, 20, [](int i) { return std::to_string(i); });
+  WriteDepths(0, 20, [](int i) { return std::to_string(1000 + i); });
+  const SequenceIndex index = OpenSequence(Folder());
+  ASSERT_EQ(index.entries.size(), 20u);
+  EXPECT_THAT(index.warnings, Contains(HasSubstr("paired by the order of their names")));
+  std::filesystem::remove(Path("depth/1007.png"));
+  EXPECT_THAT(Error(), HasSubstr("20 colour images, but 19 depth images"));
+  WriteDepth("depth/1020.png");  // as many, but not the same steps
+  EXPECT_THAT(Error(), HasSubstr("their names do not tell the pairs"));
+}
+
+TEST_F(NamePairingTest, ConstantStepsAreFramesUnlessOnlyTimesFit) {
+  WriteColors(0, 20, [](int i) { return std::to_string(33 * i); });
+  WriteDepths(0, 20, [](int i) { return std::to_string(33 * i); });
+  const SequenceIndex frames = OpenSequence(Folder());
+  EXPECT_NEAR(frames.entries.back().timestamp, 33 * 19 / 30.0, 1e-9);
+  EXPECT_THAT(frames.warnings, Contains(HasSubstr("count in steps of 33")));
+
+  std::filesystem::remove_all(Path("depth"));
+  WriteDepths(0, 20, [](int i) { return std::to_string(33 * i + 7); });
+  const SequenceIndex times = OpenSequence(Folder());
+  ASSERT_EQ(times.entries.size(), 20u);
+  EXPECT_NEAR(times.entries.back().timestamp, 0.033 * 19, 1e-9);
+  EXPECT_NEAR(times.entries.back().depth_delay, 0.007, 1e-9);
+}
+
+TEST_F(NamePairingTest, FailsIfFewImagesHaveAPartner) {
+  WriteColors(0, 30, [](int i) { return std::to_string(i); });
+  WriteDepths(20, 50, [](int i) { return std::to_string(i); });
+  EXPECT_THAT(Error(), AllOf(HasSubstr("only 10 of 30 images can be used"),
+                             HasSubstr("40 images have no partner")));
+}
+
+TEST_F(NamePairingTest, PlainCountersGiveNoWarning) {
+  WriteColors(0, 20, [](int i) { return FormatText("frame-%06d.color", i); });
+  WriteDepths(0, 20, [](int i) { return FormatText("frame-%06d.depth", i); });
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_EQ(index.entries.size(), 20u);
+  EXPECT_THAT(index.warnings, IsEmpty());
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/stamp_precision.h"
+
+#include <gmock/gmock.h>
+
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+// Stamps of half a minute at 30 Hz that begin at `start`, in a unit.
+std::string Describe(const char* format, double start, double units_per_second = 1.0) {
+  std::vector<std::string> stamps;
+  for (int i = 0; i < 900; ++i) {
+    stamps.push_back(FormatText(format, units_per_second * (start + i / 30.0)));
+  }
+  return DescribeLostDigits(stamps);
+}
+
+TEST(DescribeLostDigits, NamesScientificNotationWithTooFewDigits) {
+  EXPECT_THAT(Describe("%.6e", 1604645033.1),
+              AllOf(HasSubstr("such as 1.604645e+09"), HasSubstr("steps of 1000 s")));
+  EXPECT_THAT(Describe("%g", 1604645033.1), HasSubstr("steps of 10000 s"));
+  EXPECT_THAT(Describe("%.10E", 1604645033.1), HasSubstr("steps of 0.1 s"));
+  EXPECT_THAT(Describe("%.8e", 1604645033.1, 1e9), HasSubstr("steps of 10 s"));
+  EXPECT_THAT(Describe("%.2e", 120.0), HasSubstr("steps of 1 s"));
+}
+
+TEST(DescribeLostDigits, AcceptsAllDigitsInAnyNotation) {
+  for (const char* format : {"%.18e", "%.12e", "%.17g", "%f", "%.3f"}) {
+    EXPECT_EQ(Describe(format, 1604645033.1), "") << format;
+    EXPECT_EQ(Describe(format, 0.0), "") << format;
+  }
+  EXPECT_EQ(Describe("%.17g", 1604645033.1, 1e9), "");
+  EXPECT_EQ(DescribeLostDigits({"1e0"}), "");
+  EXPECT_EQ(DescribeLostDigits({"0", "1e-01", "2e-01"}), "");  // not all are scientific
+}
+
+TEST(DescribeLostDigits, NamesSinglePrecision) {
+  std::vector<std::string> stamps;
+  for (int i = 0; i < 900; ++i) {
+    stamps.push_back(FormatText("%.6f", static_cast<float>(1604645033.1 + i / 30.0)));
+  }
+  EXPECT_THAT(DescribeLostDigits(stamps),
+              AllOf(HasSubstr("single precision"), HasSubstr("steps of 128 s")));
+}
+
+}  // namespace
+}  // namespace msc_vo
