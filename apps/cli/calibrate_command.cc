@@ -16,6 +16,7 @@
 #include "apps/cli/calibration_rounds.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
+#include "apps/cli/input_check.h"
 #include "apps/cli/output_file.h"
 #include "apps/cli/plot_file.h"
 #include "apps/cli/sequence_arguments.h"
@@ -107,6 +108,7 @@ int Run(const Arguments& arguments) {
   const Configuration configuration = MakeConfiguration(arguments.configuration);
   std::vector<RgbdDecoder> decoders = OpenSequences(arguments, configuration);
   CheckOutputs(arguments, decoders);
+  for (const RgbdDecoder& decoder : decoders) CheckBeforeRun(decoder, "msc_vo check tells more");
   RunArguments run = arguments.run;
   run.quiet = run.quiet || run.json;
   const InterruptGuard interrupt;

@@ -14,12 +14,12 @@
 #include "apps/cli/checkpoints.h"
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/input_check.h"
 #include "apps/cli/replay_arguments.h"
 #include "apps/cli/run_identity.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/checkpoint/checkpoint_file.h"
 #include "msc_vo/config/options_file.h"
-#include "msc_vo/diagnosis/sequence_check.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/recording/window_file.h"
 #include "msc_vo/results/online_results.h"
@@ -46,20 +46,6 @@ WindowObserver WindowRecorder(const std::string& folder, const SequenceIndex& se
     WriteWindow(path, options, data);
     Log().debug("window written to {}", path);
   };
-}
-
-// Checks the sequence before the run. Returns the warnings. Throws std::runtime_error with the
-// first error, with which no run can succeed.
-std::vector<std::string> CheckBeforeRun(const RgbdDecoder& decoder) {
-  std::vector<std::string> warnings;
-  for (const Finding& finding : CheckSequenceQuickly(decoder)) {
-    if (finding.severity == Severity::kError) {
-      throw std::runtime_error(decoder.index().directory + ": " + Describe(finding) +
-                               " (msc_vo check tells more; --no-check runs all the same)");
-    }
-    warnings.push_back(Describe(finding));
-  }
-  return warnings;
 }
 
 void PrintConfiguration(const ReplayArguments& arguments, const ConfigurationArguments& settings,
@@ -128,7 +114,9 @@ RgbdDecoder OpenChecked(const ReplayArguments& arguments, const Configuration& c
                         std::vector<std::string>* warnings) {
   RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration, LiveCameras::kAllowed);
   PrintWarnings(decoder.index().warnings);
-  if (!arguments.no_check && !decoder.index().camera) *warnings = CheckBeforeRun(decoder);
+  if (!arguments.no_check && !decoder.index().camera) {
+    *warnings = CheckBeforeRun(decoder, "msc_vo check tells more; --no-check runs all the same");
+  }
   PrintWarnings(*warnings);
   return decoder;
 }
