@@ -14,6 +14,7 @@
 #include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/datasets/calibration_correction.h"
 #include "msc_vo/diagnosis/registration_edges.h"
+#include "msc_vo/self_calibration/calibration_bounds.h"
 #include "msc_vo/self_calibration/self_calibrating_bundle_adjustment.h"
 #include "msc_vo/text/format_text.h"
 
@@ -53,13 +54,22 @@ class ReadoutMean {
   double sum_ = 0.0;
 };
 
-// Why there can be no camera with the calibration, and what to do; empty if it is valid.
-std::string DescribeProblem(const Calibration& calibration) {
+// Why there can be no camera with the calibration, which is `given` with the corrections of all
+// rounds, and what to do; empty if there can be one.
+std::string DescribeProblem(const Calibration& given, const SensorCorrection::Vector& correction,
+                            const Calibration& calibration) {
   std::string error;
-  if (calibration.IsValid(&error)) return "";
   const LensDistortion& lens = calibration.distortion;
   std::string ignored;
-  if (IsInvertible(lens, calibration.camera, &ignored)) return "no camera fits: " + error;
+  if (IsInvertible(lens, calibration.camera, &ignored)) {
+    error = DescribeImplausible({given.camera, given.distortion}, correction);
+    if (error.empty() && calibration.IsValid(&error)) return "";
+    return "no camera fits the images: " + error +
+           "; check that the depth images hold depth along the optical axis and belong to the "
+           "colour images, and that the given focal length is that of this image size (msc_vo "
+           "check "
+           "--deep)";
+  }
   const char* const advice =
       lens.model == LensModel::kFisheye
           ? "give the coefficients of the lens, or a smaller field_of_view"
@@ -146,12 +156,15 @@ bool CalibrationRounds::Estimate(int round) {
   report_.refinement = selected;
   report_.estimated = Corrected(present, selected.correction);
   report_.unrestricted = Corrected(present, estimate.unrestricted);
-  if (!selected.IsCorrected()) return false;
-  report_.problem = DescribeProblem(report_.estimated);
+  SensorCorrection::Vector total = correction_ + selected.correction;
+  total.segment<2>(SensorCorrection::kDepthOffset) = selected.depth_errors;
+  report_.problem = DescribeProblem(report_.given, total, report_.estimated);
   if (!report_.problem.empty()) {
     if (round > 0) report_.residuals.estimated = Residuals(calibration, zero);
     return false;
   }
+  if (!selected.IsCorrected()) return false;
+  correction_ += selected.correction;
   wrong_ = report_.is_corrected = selected.is_corrected;
   report_.used = report_.estimated;
   if (round == kMaxRounds - 1 || (round > 0 && !NeedsAnotherRound(selected))) {

@@ -51,8 +51,9 @@ class CalibrationRounds {
   RunArguments run_;
   const InterruptGuard& interrupt_;
   CalibrationReport report_;
-  CorrectionGroups wrong_ = {};  // corrected from now on
-  CorrectionGroups right_ = {};  // not to be corrected
+  CorrectionGroups wrong_ = {};                                             // corrected from now on
+  CorrectionGroups right_ = {};                                             // not to be corrected
+  SensorCorrection::Vector correction_ = SensorCorrection::Vector::Zero();  // sum of all rounds
   // The unrestricted correction of the round in which depth edges contradicted it.
   std::optional<SensorCorrection::Vector> contradicted_;
   // Of the present round.

@@ -80,7 +80,7 @@ Numbers ScalesOf(const Calibration& calibration) {
 std::string VerdictOf(const Value& value, const CalibrationReport& report) {
   const auto group = static_cast<size_t>(value.group);
   if (report.is_corrected[group]) return "corrected";
-  if (report.refinement.is_corrected[group]) return "kept: no such lens";
+  if (report.refinement.is_corrected[group]) return "kept: no such camera";
   if (value.group == G::kDepthRegistration && report.edges_contradict) {
     return "kept: the edges contradict";
   }

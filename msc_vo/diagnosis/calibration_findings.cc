@@ -8,6 +8,7 @@
 
 #include "msc_vo/datasets/calibration_correction.h"
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/self_calibration/calibration_bounds.h"
 #include "msc_vo/sensor/depth_camera_correction.h"
 #include "msc_vo/text/format_text.h"
 
@@ -162,6 +163,16 @@ class CalibrationFindings {
 
 void AddCalibrationFindings(const Calibration& given, const MotionCalibration& calibration,
                             Findings* findings) {
+  S::Vector correction = calibration.estimate.correction;
+  correction.segment<2>(S::kDepthOffset) = calibration.estimate.depth_errors;
+  const std::string implausible = DescribeImplausible({given.camera, given.distortion}, correction);
+  if (!implausible.empty()) {
+    findings->push_back(Error("calibration", "no calibration makes the scene rigid: " + implausible,
+                              "check that the depth images hold depth along the optical axis and "
+                              "belong to the colour images, and that the given focal length is "
+                              "that of this image size"));
+    return;
+  }
   CalibrationFindings(given, calibration, findings).Run();
 }
 

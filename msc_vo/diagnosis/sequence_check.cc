@@ -13,6 +13,7 @@
 #include "msc_vo/datasets/clipped_depth_search.h"
 #include "msc_vo/diagnosis/calibration_findings.h"
 #include "msc_vo/diagnosis/camera_findings.h"
+#include "msc_vo/diagnosis/depth_curve.h"
 #include "msc_vo/diagnosis/depth_quality.h"
 #include "msc_vo/diagnosis/edge_alignment.h"
 #include "msc_vo/diagnosis/file_findings.h"
@@ -33,8 +34,11 @@ namespace {
 
 constexpr int kMaxReports = 5;
 constexpr int kQuickImages = 4;
+// Images that decide what the depth values are, if the quick ones do not; they include those.
+constexpr int kCurveImages = 13;
 constexpr int kDeepImages = 240;
 constexpr char kCalibrationCheck[] = "calibration";
+constexpr char kByteOrderCheck[] = "depth.byte_order";
 
 // What the images of a sample say.
 struct SampleMeasurements {
@@ -60,7 +64,8 @@ FrameBuilderOptions FeatureOptions(DepthSensor depth_sensor) {
 
 // Edges and features take longer than the rest and are optional.
 SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count,
-                                 const std::optional<FrameBuilderOptions>& features) {
+                                 const std::optional<FrameBuilderOptions>& features,
+                                 DepthCurveTest* curve) {
   SampleMeasurements sample;
   const Calibration& calibration = decoder.calibration();
   std::optional<FrameBuilder> builder;
@@ -72,6 +77,7 @@ SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count,
       sample.depths.push_back(MeasureDepth(image.depth));
       sample.byte_order.Add(image.recorded_depth.empty() ? image.depth : image.recorded_depth,
                             calibration.depth_scale);
+      curve->Add(image.depth);
       if (!builder) continue;
       sample.alignments.push_back(AlignEdges(image.gray, image.depth, true));
       sample.textures.push_back(MeasureTexture(builder->Build(image)));
@@ -80,6 +86,22 @@ SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count,
     }
   }
   return sample;
+}
+
+// Adds images between the quick ones until they decide.
+void DecideCurve(const RgbdDecoder& decoder, DepthCurveTest* curve) {
+  static_assert((kCurveImages - 1) % (kQuickImages - 1) == 0);
+  constexpr int kKnown = (kCurveImages - 1) / (kQuickImages - 1);
+  if (decoder.size() < kCurveImages) return;
+  for (int k = 0; k < kCurveImages; ++k) {
+    if (k % kKnown == 0) continue;
+    if (curve->IsDecided()) return;
+    try {
+      curve->Add(decoder.Decode(SampleIndex(k, kCurveImages, decoder.size())).depth);
+    } catch (const std::exception&) {
+      continue;  // reported by the run
+    }
+  }
 }
 
 void AddDecodingFindings(const SampleMeasurements& sample, int count, Findings* findings) {
@@ -97,10 +119,18 @@ void AddDecodingFindings(const SampleMeasurements& sample, int count, Findings* 
   }
 }
 
-void AddSampleFindings(const SampleMeasurements& sample, const Calibration& calibration,
-                       Findings* findings) {
+bool HasError(const Findings& findings, const std::string& check) {
+  return std::any_of(findings.begin(), findings.end(), [&check](const Finding& finding) {
+    return finding.severity == Severity::kError && finding.check == check;
+  });
+}
+
+void AddSampleFindings(const SampleMeasurements& sample, const DepthCurveTest& curve,
+                       const Calibration& calibration, Findings* findings) {
   AddExposureFindings(sample.exposures, calibration.camera.width, findings);
   AddDepthFindings(sample.depths, sample.byte_order, calibration.depth_scale, findings);
+  // Swapped bytes leave no surfaces.
+  if (!HasError(*findings, kByteOrderCheck)) AddDepthCurveFindings(curve, findings);
 }
 
 void AddClippingFindings(const RgbdDecoder& decoder, Findings* findings) {
@@ -137,10 +167,14 @@ void AddMotionFindings(const RgbdDecoder& decoder, const FrameBuilderOptions& fe
                                IsCalibrated(*findings), findings);
 }
 
+bool HoldsNoDepth(const Findings& findings) {
+  return HasError(findings, kByteOrderCheck) || HasError(findings, DepthCurveTest::kCheck);
+}
+
 // Whether no run can succeed in spite of an error.
 bool StopsRun(const Finding& finding) {
   return finding.severity == Severity::kError &&
-         (finding.check == "depth.byte_order" || finding.check == "depth.scale");
+         (finding.check == "depth.scale" || HoldsNoDepth({finding}));
 }
 
 }  // namespace
@@ -157,14 +191,18 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
   AddCameraFindings(calibration, index.format, &findings);
   const int count = std::min(std::max(options.max_images, 1), decoder.size());
   const FrameBuilderOptions features = FeatureOptions(options.depth_sensor);
-  const SampleMeasurements sample = MeasureSample(decoder, count, features);
+  DepthCurveTest curve(calibration.camera, calibration.distortion, calibration.depth_scale);
+  const SampleMeasurements sample = MeasureSample(decoder, count, features, &curve);
   AddDecodingFindings(sample, count, &findings);
-  AddSampleFindings(sample, calibration, &findings);
+  AddSampleFindings(sample, curve, calibration, &findings);
   AddClippingFindings(decoder, &findings);
   AddRegistrationFindings(sample.alignments, calibration.camera.width, &findings);
   AddTextureFindings(sample.textures, &findings);
   AddGroundTruthStampFindings(index, &findings);
-  if (options.deep) {
+  if (HoldsNoDepth(findings)) {
+    findings.push_back(
+        Good(kCalibrationCheck, "calibration against motion: not tested, depth is not depth"));
+  } else if (options.deep) {
     AddMotionFindings(decoder, features, &findings);
   } else {
     findings.push_back(Good(kCalibrationCheck,
@@ -176,12 +214,15 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
 
 Findings CheckSequenceQuickly(const RgbdDecoder& decoder) {
   const SequenceIndex& index = decoder.index();
+  const Calibration& calibration = decoder.calibration();
   Findings findings;
   AddStampFindings(index, &findings);
-  AddCameraFindings(decoder.calibration(), index.format, &findings);
+  AddCameraFindings(calibration, index.format, &findings);
+  DepthCurveTest curve(calibration.camera, calibration.distortion, calibration.depth_scale);
   const SampleMeasurements sample =
-      MeasureSample(decoder, std::min(kQuickImages, decoder.size()), std::nullopt);
-  AddSampleFindings(sample, decoder.calibration(), &findings);
+      MeasureSample(decoder, std::min(kQuickImages, decoder.size()), std::nullopt, &curve);
+  DecideCurve(decoder, &curve);
+  AddSampleFindings(sample, curve, calibration, &findings);
   AddGroundTruthStampFindings(index, &findings);
   findings.erase(
       std::remove_if(findings.begin(), findings.end(),

@@ -9,8 +9,8 @@
 #include <limits>
 #include <string>
 
-#include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/self_calibration/calibration_bounds.h"
 #include "msc_vo/self_calibration/self_calibrating_bundle_adjustment.h"
 #include "msc_vo/sensor/depth_camera_correction.h"
 
@@ -207,9 +207,9 @@ bool CalibrationEstimator::Update(const Map& map, KeyframeId newest,
 
 std::shared_ptr<const CameraIntrinsics> CalibrationEstimator::MakeCorrected(
     const SensorCorrection::Vector& correction) const {
+  if (!DescribeImplausible(*given_, correction).empty()) return nullptr;
   const auto corrected = std::make_shared<CameraIntrinsics>(Corrected(*given_, correction));
   std::string error;
-  if (!IsInvertible(corrected->distortion, corrected->camera, &error)) return nullptr;
   if (corrected->registration && !DepthCameraOf(*given_, *corrected).IsValid(&error)) {
     return nullptr;
   }

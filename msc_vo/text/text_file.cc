@@ -3,6 +3,7 @@
 
 #include "msc_vo/text/text_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>

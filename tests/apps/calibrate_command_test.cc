@@ -117,7 +117,7 @@ TEST_F(CalibrateCommandTest, SaysThatNoSuchLensFits) {
   std::vector<std::string> arguments = {"calibrate", Path("wide"), "--output", camera};
   outcome = RunCommand(arguments);
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(LineOf(outcome.output, "k1"), HasSubstr("kept: no such lens"));
+  EXPECT_THAT(LineOf(outcome.output, "k1"), HasSubstr("kept: no such camera"));
   EXPECT_THAT(outcome.output,
               AllOf(HasSubstr("error: no radial-tangential lens fits the images"),
                     HasSubstr("camera.lens: fisheye with k1, k2, k3 and k4, which may be 0")));

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/diagnosis/depth_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+
+#include "tests/diagnosis/expected_finding.h"
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+namespace msc_vo {
+namespace {
+
+// Of raw values, per metre.
+constexpr double kScale = 1000.0;
+constexpr int kNumImages = 6;
+const PinholeCamera kCamera{130.0, 130.0, 79.5, 59.5, 160, 120};
+
+// What an image holds instead of a depth (metres) along the viewing ray through a point of the
+// plane z = 1, in raw units.
+using Encoding = std::function<double(double depth, const Eigen::Vector2d& ray)>;
+
+double Depth(double depth, const Eigen::Vector2d&) { return kScale * depth; }
+double RayLength(double depth, const Eigen::Vector2d& ray) {
+  return kScale * depth * ray.homogeneous().norm();
+}
+
+// The distance to a surface from the middle of the room along a direction.
+using Surface = std::function<double(const Eigen::Vector3d& direction)>;
+
+// A room with flat walls.
+double Box(const Eigen::Vector3d& direction) {
+  const Eigen::Array3d half_size(3.0, 1.4, 2.2);
+  return (half_size / direction.array().abs()).minCoeff();
+}
+// The inside of a bag of balls: surfaces that bend in all ways.
+double Bumps(const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d d = direction.normalized();
+  return (2.0 + 0.15 * std::sin(9.0 * d.x()) * std::cos(11.0 * d.y() + 1.0) +
+          0.1 * std::sin(14.0 * d.z() + 2.0 * d.x())) /
+         direction.norm();
+}
+
+struct Scene {
+  Surface surface = Box;
+  LensDistortion lens = {};
+  double inverse_depth_noise = 0.0;  // standard deviation, 1/metres
+};
+
+// Depth images from the middle of the room, whose values are encoded, with rounding to raw units.
+DepthCurveTest Test(const Scene& scene, const Encoding& encode,
+                    const PinholeCamera& given = kCamera) {
+  DepthCurveTest test(given, scene.lens, kScale);
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0.0, scene.inverse_depth_noise);
+  for (int i = 0; i < kNumImages; ++i) {
+    const Eigen::Matrix3d rotation =
+        (Eigen::AngleAxisd(0.9 * i + 0.3, Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(0.35 * std::sin(2.0 * i + 0.5), Eigen::Vector3d::UnitX()))
+            .toRotationMatrix();
+    cv::Mat depth(kCamera.height, kCamera.width, CV_32FC1);
+    for (int y = 0; y < depth.rows; ++y) {
+      for (int x = 0; x < depth.cols; ++x) {
+        const Eigen::Vector2d ray =
+            scene.lens.UndistortNormalized(kCamera.Ray({x, y}).head<2>(), 1e-9);
+        // The direction has z = 1 in the camera, so that the distance along it is the depth.
+        const double z = scene.surface(rotation * ray.homogeneous());
+        const double value = std::round(encode(1.0 / (1.0 / z + noise(random)), ray));
+        depth.at<float>(y, x) = static_cast<float>(std::clamp(value, 0.0, 65535.0) / kScale);
+      }
+    }
+    test.Add(depth);
+  }
+  return test;
+}
+
+std::string Verdict(const DepthCurveTest& test) {
+  Findings findings;
+  AddDepthCurveFindings(test, &findings);
+  return Text(findings);
+}
+
+TEST(DepthCurve, IsDepth) {
+  for (const double noise : {0.0, 0.002}) {
+    const DepthCurveTest test = Test({Box, {}, noise}, Depth);
+    EXPECT_TRUE(test.OfInverse().ProveDepth()) << noise;
+    EXPECT_FALSE(test.Best().ProveCurve()) << noise;
+    EXPECT_NE(Verdict(test).find("ok [depth.curve] depth: "), std::string::npos) << Verdict(test);
+  }
+}
+
+TEST(DepthCurve, IsNamed) {
+  struct Case {
+    DepthCurve curve;
+    const char* words;
+    Encoding encode;
+  };
+  const double log_scale = 60000.0 / std::log(200.0);
+  const std::vector<Case> cases = {
+      {DepthCurve::kInverse, "focal length (px) times baseline (m) divided by disparity",
+       [](double z, auto&) { return 20000.0 / z; }},
+      {DepthCurve::kInverse, "inverse depth", [](double z, auto&) { return 4000.0 + 9000.0 / z; }},
+      {DepthCurve::kInverse, "depth buffer", [](double z, auto&) { return 60000.0 - 9000.0 / z; }},
+      {DepthCurve::kInverted, "raw units", [](double z, auto&) { return 65535.0 - 9000.0 * z; }},
+      {DepthCurve::kInverted, "at distance 0", [](double z, auto&) { return 8000.0 - 1000.0 * z; }},
+      {DepthCurve::kCompressed, "square root",
+       [](double z, auto&) { return 9000.0 * std::sqrt(z); }},
+      {DepthCurve::kCompressed, "logarithm",
+       [&](double z, auto&) { return log_scale * std::log(z / 0.1); }},
+      {DepthCurve::kStretched, "its square", [](double z, auto&) { return 900.0 * z * z; }},
+      {DepthCurve::kRayLength, "sqrt(1 + x^2 + y^2)", RayLength},
+  };
+  for (const Case& c : cases) {
+    for (const double noise : {0.0, 0.001}) {
+      const DepthCurveTest test = Test({Box, {}, noise}, c.encode);
+      const std::string verdict = Verdict(test);
+      EXPECT_EQ(test.Best().curve, c.curve) << c.words << noise << verdict;
+      EXPECT_TRUE(test.IsDecided()) << c.words << noise << verdict;
+      EXPECT_NE(verdict.find("error [depth.curve]"), std::string::npos) << verdict;
+      EXPECT_NE(verdict.find(c.words), std::string::npos) << verdict;
+    }
+  }
+}
+
+// Of a camera that is described wrongly, and of one that is described by a lens.
+TEST(DepthCurve, IsIndependentOfTheCamera) {
+  LensDistortion lens;
+  lens.k = {-0.3, 0.08};
+  for (const double ratio : {0.8, 1.0, 1.25}) {
+    PinholeCamera given = kCamera;
+    given.fx *= ratio;
+    given.fy *= ratio;
+    given.cx += 10.0;
+    for (const Scene& scene : {Scene(), Scene{Box, lens}}) {
+      EXPECT_TRUE(Test(scene, Depth, given).OfInverse().ProveDepth()) << ratio;
+      EXPECT_FALSE(Test(scene, Depth, given).Best().ProveCurve()) << ratio;
+      EXPECT_EQ(Test(scene, RayLength, given).Best().curve, DepthCurve::kRayLength) << ratio;
+    }
+  }
+}
+
+TEST(DepthCurve, IsNotToldByCurvedSurfaces) {
+  const DepthCurveTest test = Test({Bumps}, Depth);
+  EXPECT_FALSE(test.Best().ProveCurve()) << Verdict(test);
+}
+
+TEST(DepthCurve, IsNotToldByEmptyOrConstantImages) {
+  for (const float value : {0.0f, 2.0f, 65.535f}) {
+    DepthCurveTest test(kCamera, {}, kScale);
+    EXPECT_FALSE(test.IsDecided());
+    for (int i = 0; i < kNumImages; ++i) test.Add(cv::Mat(120, 160, CV_32FC1, cv::Scalar(value)));
+    EXPECT_FALSE(test.IsDecided() && test.Best().ProveCurve()) << value;
+    EXPECT_NE(Verdict(test).find("not tested"), std::string::npos) << value << Verdict(test);
+  }
+}
+
+}  // namespace
+}  // namespace msc_vo
