@@ -4,13 +4,13 @@
 #include "msc_vo/self_calibration/calibration_estimator.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/self_calibration/calibration_bounds.h"
+#include "msc_vo/self_calibration/pair_view.h"
 #include "msc_vo/self_calibration/self_calibrating_bundle_adjustment.h"
 #include "msc_vo/sensor/depth_camera_correction.h"
 
@@ -21,7 +21,7 @@ namespace {
 // Pairs that are linearised again after a keyframe: more where depth images may not be registered,
 // whose large errors need several steps.
 constexpr size_t kMaxRelinearized = 2;
-constexpr size_t kMaxRelinearizedUnregistered = 12;
+constexpr size_t kMaxRelinearizedUnregistered = 4;
 // Iterations over all pairs before a correction is accepted.
 constexpr int kIterations = 3;
 // A correction in use is replaced when its standard deviation has shrunk to this ratio, and the
@@ -42,10 +42,17 @@ constexpr double kMaxRollSigma = DegreesToRadians(0.33);
 // given one is right.
 constexpr double kKnownFocalLengthSigma = 0.015;
 
-// Pairs after which their estimation ends if the colour camera is certain.
-constexpr size_t kSettledPairs = 150;
+// Keyframes in succession at which a group has to be a candidate. Chosen by measurement, see
+// docs/lab/self_calibration.md.
+constexpr int kMinCandidacy = 3;
 
-// Bundle adjustment is repeated when the map has grown by a quarter, up to this size.
+// Pairs after which their estimation ends if the colour camera is certain; and if it is not: the
+// pairs in memory have been replaced by then, so that further ones tell as much as these.
+constexpr size_t kSettledPairs = 150;
+constexpr size_t kLastPair = 2 * kSettledPairs;
+
+// Bundle adjustment is repeated when the map has grown by a quarter, or by half as long as nothing
+// is corrected, up to this size.
 constexpr size_t kLastSize = 60;
 // It replaces a correction that moves a pixel by more than this, radians: a tenth of the noise of a
 // point.
@@ -73,9 +80,6 @@ bool IsCertain(CorrectionGroup group, const SensorCorrection::Vector& sigma) {
   return false;
 }
 
-// Logarithms of the odds above which groups are accepted.
-using LogOdds = std::array<double, kNumCorrectionGroups>;
-
 // Whether the registration of depth is as given or corrected, so that its error cannot look like
 // one of the colour camera.
 bool KnowsRegistration(const CorrectionEstimate& estimate) {
@@ -92,70 +96,27 @@ bool CorrectsColor(const CorrectionEstimate& estimate) {
   return AnyOfColor([&](size_t group) { return estimate.is_corrected[group]; });
 }
 
-// The groups `before`, and those whose correction is accepted. As long as the registration of depth
-// may be wrong, nothing else is: its error may look like one of the colour camera. It is corrected
-// together with whatever else is more likely wrong than right, or not at all, because their errors
-// may compensate each other.
-CorrectionEstimate Select(const CalibrationInformation& information, const CorrectionGroups& before,
-                          const LogOdds& required) {
-  const LogOdds log_odds = SelectCorrections(information, before).log_odds;
-  const SensorCorrection::Vector sigma = EstimateCorrections(information, kAll).sigma;
-  CorrectionGroups wrong = before;
-  for (size_t g = 0; g < wrong.size(); ++g) {
-    if (log_odds[g] > required[g] && IsCertain(static_cast<CorrectionGroup>(g), sigma)) {
-      wrong[g] = true;
-    }
-  }
-  const bool is_in_doubt = log_odds[kRegistration] > 0.0 && !wrong[kRegistration];
-  const bool is_new = wrong[kRegistration] && !before[kRegistration];
-  const bool leaves_errors =
-      AnyOfColor([&](size_t group) { return log_odds[group] > 0.0 && !wrong[group]; });
-  if (is_in_doubt || (is_new && leaves_errors)) wrong = before;
-  CorrectionEstimate estimate = EstimateCorrections(information, wrong);
-  estimate.log_odds = log_odds;
+// Odds and standard deviations as if every group were wrong.
+CorrectionEstimate Judge(const CalibrationInformation& information) {
+  CorrectionEstimate estimate = EstimateCorrections(information, kAll);
+  estimate.log_odds = GroupLogOdds(information);
   return estimate;
 }
 
-// A size that is larger by a quarter.
-size_t NextSize(size_t size) { return size + std::max<size_t>(1, size / 4); }
+// A size that is larger by a part of it.
+size_t NextSize(size_t size, size_t part) { return size + std::max<size_t>(1, size / part); }
 
-// The groups of the colour camera that may be wrong by the pairs alone. Half of the certainty is
-// enough that a correction requires.
-CorrectionGroups CandidateGroups(const CorrectionEstimate& pairs) {
+// The groups that may be wrong by the pairs alone. Half of the certainty of the colour camera is
+// enough that a correction requires: the map adds to it.
+CorrectionGroups CandidateGroups(const CorrectionEstimate& by_pairs) {
   CorrectionGroups candidates = {};
   for (const CorrectionGroup group : kColorGroups) {
     const auto g = static_cast<size_t>(group);
     candidates[g] =
-        pairs.log_odds[g] > std::log(kCandidateOdds) && IsCertain(group, 0.5 * pairs.sigma);
+        by_pairs.log_odds[g] > std::log(kCandidateOdds) && IsCertain(group, 0.5 * by_pairs.sigma);
   }
+  candidates[kRegistration] = by_pairs.log_odds[kRegistration] > std::log(kAcceptedOdds);
   return candidates;
-}
-
-// What bundle adjustment of the map requires: nothing is accepted that is no candidate by the
-// pairs, and where they find an error more likely than not, the map needs to agree only.
-LogOdds RequiredOfMap(const CorrectionEstimate& pairs) {
-  const CorrectionGroups candidates = CandidateGroups(pairs);
-  LogOdds required;
-  for (int g = 0; g < kNumCorrectionGroups; ++g) {
-    required[g] = !candidates[g]          ? std::numeric_limits<double>::infinity()
-                  : pairs.log_odds[g] > 0 ? 0.0
-                                          : std::log(kAcceptedOdds);
-  }
-  return required;
-}
-
-// The estimate of the pairs with the adjusted values of the corrected groups.
-CorrectionEstimate WithAdjusted(const CorrectionEstimate& adjusted, CorrectionEstimate pairs) {
-  for (const CorrectionGroup group : kColorGroups) {
-    const auto g = static_cast<size_t>(group);
-    if (!adjusted.is_corrected[g] || !pairs.is_corrected[g]) continue;
-    pairs.log_odds[g] = adjusted.log_odds[g];
-    for (const int i : IndicesOf(group)) {
-      pairs.correction(i) = adjusted.correction(i);
-      pairs.sigma(i) = std::max(pairs.sigma(i), adjusted.sigma(i));
-    }
-  }
-  return pairs;
 }
 
 // Largest displacement (radians) of an undistorted point when the calibration changes, at nine
@@ -177,32 +138,36 @@ double LargestShift(const CameraIntrinsics& from, const CameraIntrinsics& to) {
 CalibrationEstimator::CalibrationEstimator(const std::shared_ptr<const CameraIntrinsics>& given)
     : given_(given), present_(given), pairs_(*given) {}
 
-bool CalibrationEstimator::IsSettled() const {
-  return pairs_.size() >= kSettledPairs &&
-         std::all_of(kColorGroups.begin(), kColorGroups.end(),
-                     [this](CorrectionGroup group) { return IsCertain(group, estimate_.sigma); });
-}
-
 bool CalibrationEstimator::Update(const Map& map, KeyframeId newest,
                                   const std::shared_ptr<const RecordedImage>& recorded,
                                   const std::vector<CalibrationImage>& images,
                                   double readout_sigma) {
   if (!IsSettled()) {
-    for (const CalibrationImage& image : images) {
-      pairs_.AddImage(map, image, at_);
-    }
+    for (const CalibrationImage& image : images) pairs_.AddImage(map, image, at_);
     pairs_.AddKeyframe(map, newest, recorded, at_);
     images_.Add(newest, recorded);
-    if (SelectGroups(readout_sigma) || IsReplacementDue()) return Apply();
-  } else {
-    // Without images, depths cannot be measured again: the registration in use remains.
-    images_.Clear();
-    for (const int i : IndicesOf(CorrectionGroup::kDepthRegistration)) {
-      estimate_.correction(i) = applied_.correction(i);
-    }
+    const bool is_registered = estimate_.log_odds[kRegistration] < 0.0;
+    Linearize(readout_sigma, is_registered ? kMaxRelinearized : kMaxRelinearizedUnregistered);
+    CountCandidacy(Judge(pairs_.Sum(readout_sigma)));
   }
-  if (!IsAdjustmentDue(map.keyframes().size())) return false;
-  return Adjust(map, readout_sigma) && Apply();
+  const bool is_adjusted = IsAdjustmentDue(map.keyframes().size()) && Adjust(map);
+  estimate_ = Estimate(readout_sigma, estimate_.is_corrected);
+  if (TakeBack(readout_sigma) || SelectGroups(readout_sigma) || IsReplacementDue(is_adjusted)) {
+    return Apply();
+  }
+  if (!IsSettled() && IsEnough(readout_sigma)) {
+    pairs_.Close(readout_sigma);
+    images_.Clear();
+  }
+  return false;
+}
+
+bool CalibrationEstimator::IsEnough(double readout_sigma) const {
+  if (pairs_.num_added() >= kLastPair) return true;
+  const SensorCorrection::Vector sigma = EstimateCorrections(pairs_.Sum(readout_sigma), kAll).sigma;
+  return pairs_.num_added() >= kSettledPairs &&
+         std::all_of(kColorGroups.begin(), kColorGroups.end(),
+                     [&](CorrectionGroup group) { return IsCertain(group, sigma); });
 }
 
 std::shared_ptr<const CameraIntrinsics> CalibrationEstimator::MakeCorrected(
@@ -221,7 +186,6 @@ bool CalibrationEstimator::Apply() {
   if (!corrected) {
     estimate_.correction = applied_.correction;
     estimate_.is_corrected = applied_.is_corrected;
-    adjusted_.reset();
     return false;
   }
   present_ = corrected;
@@ -229,48 +193,124 @@ bool CalibrationEstimator::Apply() {
   return true;
 }
 
-CorrectionEstimate CalibrationEstimator::SelectByPairs(double readout_sigma,
-                                                       const CorrectionGroups& before) const {
-  LogOdds required;
-  required.fill(std::log(kAcceptedOdds));
-  if (pairs_.num_added() < next_registration_) {
-    required[kRegistration] = std::numeric_limits<double>::infinity();
+void CalibrationEstimator::Linearize(double readout_sigma, size_t max_pairs) {
+  const CorrectionEstimate free = EstimateCorrections(pairs_.Sum(readout_sigma), kAll);
+  at_ = free.correction;
+  pairs_.Relinearize(at_, free.sigma, max_pairs);
+}
+
+void CalibrationEstimator::CountCandidacy(const CorrectionEstimate& by_pairs) {
+  const CorrectionGroups candidates = CandidateGroups(by_pairs);
+  for (size_t g = 0; g < candidates.size(); ++g) {
+    candidacy_[g] = candidates[g] && !taken_back_[g] ? candidacy_[g] + 1 : 0;
   }
-  return Select(pairs_.Sum(readout_sigma), before, required);
+  is_suspected_ = {};
+  for (size_t g = 0; g < candidates.size(); ++g) is_suspected_[g] = by_pairs.log_odds[g] > 0.0;
+}
+
+bool CalibrationEstimator::IsLastingCandidate(size_t group) const {
+  return candidacy_[group] >= kMinCandidacy;
+}
+
+CalibrationInformation CalibrationEstimator::Information(double readout_sigma) const {
+  CalibrationInformation sum = pairs_.Sum(readout_sigma);
+  if (of_map_) {
+    sum +=
+        WithCommonError(*of_map_, MapCommonVariance(given_->distortion.Recorded(given_->camera)));
+  }
+  return sum;
+}
+
+CorrectionEstimate CalibrationEstimator::Estimate(double readout_sigma,
+                                                  const CorrectionGroups& wrong) const {
+  const CalibrationInformation information = Information(readout_sigma);
+  CorrectionEstimate estimate = EstimateCorrections(information, wrong);
+  estimate.log_odds = GroupLogOdds(information);
+  if (of_map_ && is_map_corrected_) {
+    CalibrationInformation independent = pairs_.Sum(readout_sigma);
+    independent += *of_map_;
+    estimate.correction = EstimateCorrections(independent, wrong).correction;
+  }
+  if (!IsSettled()) return estimate;
+  // Without images, depths cannot be measured again: the registration in use remains.
+  for (const int i : IndicesOf(CorrectionGroup::kDepthRegistration)) {
+    estimate.correction(i) = applied_.correction(i);
+  }
+  return estimate;
+}
+
+// As long as the registration of depth may be wrong, nothing else is corrected: its error may look
+// like one of the colour camera. It is corrected together with whatever else is more likely wrong
+// than right, or not at all, because their errors may compensate each other.
+CorrectionEstimate CalibrationEstimator::Select(double readout_sigma) const {
+  const CorrectionGroups& before = estimate_.is_corrected;
+  const CorrectionEstimate judged = Judge(Information(readout_sigma));
+  CorrectionGroups wrong = before;
+  for (size_t g = 0; g < wrong.size(); ++g) {
+    const bool agrees = of_map_ && g != kRegistration && is_suspected_[g];
+    const double required = agrees ? 0.0 : std::log(kAcceptedOdds);
+    wrong[g] = before[g] || (IsLastingCandidate(g) && judged.log_odds[g] > required &&
+                             IsCertain(static_cast<CorrectionGroup>(g), judged.sigma));
+  }
+  if (pairs_.num_added() < next_registration_) wrong[kRegistration] = before[kRegistration];
+  const CorrectionEstimate estimate = Estimate(readout_sigma, wrong);
+  for (size_t g = 0; g < wrong.size(); ++g) {
+    wrong[g] = before[g] || (wrong[g] && IsSignificant(static_cast<CorrectionGroup>(g), estimate));
+  }
+  const bool is_in_doubt = judged.log_odds[kRegistration] > 0.0 && !wrong[kRegistration];
+  const bool is_new = wrong[kRegistration] && !before[kRegistration];
+  const bool leaves_errors =
+      AnyOfColor([&](size_t group) { return judged.log_odds[group] > 0.0 && !wrong[group]; });
+  if (is_in_doubt || (is_new && leaves_errors)) wrong = before;
+  return Estimate(readout_sigma, wrong);
 }
 
 bool CalibrationEstimator::SelectGroups(double readout_sigma) {
   const CorrectionGroups before = estimate_.is_corrected;
-  // Linearises at the present optimum of all parameters.
-  const auto linearize = [this, readout_sigma](size_t max_pairs) {
-    const CorrectionEstimate free = EstimateCorrections(pairs_.Sum(readout_sigma), kAll);
-    at_ = free.correction;
-    pairs_.Relinearize(at_, free.sigma, max_pairs);
-  };
-  const bool is_registered = estimate_.log_odds[kRegistration] < 0.0;
-  linearize(is_registered ? kMaxRelinearized : kMaxRelinearizedUnregistered);
-  CorrectionEstimate selected = SelectByPairs(readout_sigma, before);
-  if (selected.is_corrected != before) {
-    for (int i = 0; i < kIterations; ++i) linearize(pairs_.size());
-    selected = SelectByPairs(readout_sigma, before);
+  bool has_candidate = false;
+  for (size_t g = 0; g < before.size(); ++g) {
+    has_candidate = has_candidate || (!before[g] && IsLastingCandidate(g));
+  }
+  if (!has_candidate) return false;
+  CorrectionEstimate selected = Select(readout_sigma);
+  if (selected.is_corrected == before) return false;
+  if (!IsSettled()) {
+    for (int i = 0; i < kIterations; ++i) Linearize(readout_sigma, pairs_.size());
+    selected = Select(readout_sigma);
   }
   if (selected.is_corrected[kRegistration] && !before[kRegistration]) {
     const auto corrected = MakeCorrected(selected.correction);
     if (!corrected || !images_.EdgesAgree(*given_, *corrected)) {
-      next_registration_ = NextSize(pairs_.num_added());
-      selected = SelectByPairs(readout_sigma, before);
+      next_registration_ = NextSize(pairs_.num_added(), 4);
+      selected = Select(readout_sigma);
     }
   }
-  estimate_ = adjusted_ ? WithAdjusted(*adjusted_, selected) : selected;
-  if (selected.is_corrected == before) return false;
-  next_size_ = 0;
+  estimate_ = selected;
+  next_size_ = 0;  // the map hides what contradicts the old calibration
+  return estimate_.is_corrected != before;
+}
+
+bool CalibrationEstimator::TakeBack(double readout_sigma) {
+  CorrectionGroups wrong = estimate_.is_corrected;
+  for (size_t g = 0; g < wrong.size(); ++g) {
+    if (!wrong[g] || estimate_.log_odds[g] > 0.0) continue;
+    if (IsSignificant(static_cast<CorrectionGroup>(g), estimate_) &&
+        estimate_.log_odds[g] > -std::log(kAcceptedOdds)) {
+      continue;
+    }
+    wrong[g] = false;
+    taken_back_[g] = true;
+    candidacy_[g] = 0;
+  }
+  if (wrong == estimate_.is_corrected) return false;
+  estimate_ = Estimate(readout_sigma, wrong);
   return true;
 }
 
-bool CalibrationEstimator::IsReplacementDue() const {
+bool CalibrationEstimator::IsReplacementDue(bool is_adjusted) const {
   const SensorCorrection::Vector change = estimate_.correction - applied_.correction;
   for (size_t g = 0; g < estimate_.is_corrected.size(); ++g) {
-    if (!estimate_.is_corrected[g] || (adjusted_ && g != kRegistration)) continue;
+    if (!estimate_.is_corrected[g] || (is_map_corrected_ && g != kRegistration)) continue;
     for (const int i : IndicesOf(static_cast<CorrectionGroup>(g))) {
       if (estimate_.sigma(i) < kSigmaRatio * applied_.sigma(i) &&
           std::abs(change(i)) > kMinChange * estimate_.sigma(i)) {
@@ -278,33 +318,27 @@ bool CalibrationEstimator::IsReplacementDue() const {
       }
     }
   }
-  return false;
+  if (!is_adjusted || !is_map_corrected_) return false;
+  const auto corrected = MakeCorrected(estimate_.correction);
+  return corrected != nullptr && LargestShift(*present_, *corrected) > kMinShift;
 }
 
 bool CalibrationEstimator::IsAdjustmentDue(size_t num_keyframes) const {
   const bool is_new_map = 2 * num_keyframes < adjusted_size_;
   return (num_keyframes >= next_size_ || is_new_map) && KnowsRegistration(estimate_) &&
-         (CorrectsColor(estimate_) || CandidateGroups(estimate_) != CorrectionGroups());
+         (CorrectsColor(estimate_) ||
+          AnyOfColor([this](size_t group) { return IsLastingCandidate(group); }));
 }
 
-bool CalibrationEstimator::Adjust(const Map& map, double readout_sigma) {
+bool CalibrationEstimator::Adjust(const Map& map) {
   adjusted_size_ = map.keyframes().size();
-  next_size_ =
-      adjusted_size_ < kLastSize ? NextSize(adjusted_size_) : std::numeric_limits<size_t>::max();
-  auto information = SelfCalibratingBundleAdjustment(*given_, map, estimate_.correction);
+  next_size_ = adjusted_size_ < kLastSize
+                   ? NextSize(adjusted_size_, CorrectsColor(estimate_) ? 4 : 2)
+                   : std::numeric_limits<size_t>::max();
+  const auto information = SelfCalibratingBundleAdjustment(*given_, map, estimate_.correction);
   if (!information) return false;
-  *information += pairs_.Sum(readout_sigma);
-  const CorrectionEstimate adjusted =
-      Select(*information, estimate_.is_corrected, RequiredOfMap(estimate_));
-  const auto corrected = MakeCorrected(adjusted.correction);
-  if (!CorrectsColor(adjusted) || !corrected) return false;
-  const bool is_new = adjusted.is_corrected != estimate_.is_corrected;
-  adjusted_ = adjusted;
-  estimate_.is_corrected = adjusted.is_corrected;
-  estimate_ = WithAdjusted(adjusted, estimate_);
-  if (!is_new && LargestShift(*present_, *corrected) <= kMinShift) return false;
-  // Landmarks and outliers were selected with the calibration of the start.
-  next_size_ = adjusted_size_ + 1;
+  of_map_ = information;
+  is_map_corrected_ = CorrectsColor(applied_);
   return true;
 }
 

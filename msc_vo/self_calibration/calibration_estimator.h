@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -17,9 +18,10 @@ namespace msc_vo {
 
 /// Self-calibration of focal length, principal point, radial distortion and registration of depth
 /// during a run. The given calibration counts as right until another one is far more likely, see
-/// SelectCorrections(). Pairs of images, which cost little, make it a candidate;
-/// SelfCalibratingBundleAdjustment() of the map then determines how large the error of the colour
-/// camera is.
+/// SelectCorrections(). Pairs of images, which cost little, make it a candidate. Once it has been
+/// one at several keyframes in succession, SelfCalibratingBundleAdjustment() of the map takes part
+/// in the decision and then determines how large the error of the colour camera is. A correction
+/// that later images contradict is taken back for good.
 class CalibrationEstimator {
  public:
   explicit CalibrationEstimator(const std::shared_ptr<const CameraIntrinsics>& given);
@@ -30,9 +32,9 @@ class CalibrationEstimator {
   bool Update(const Map& map, KeyframeId newest,
               const std::shared_ptr<const RecordedImage>& recorded,
               const std::vector<CalibrationImage>& images, double readout_sigma);
-  /// Whether there are so many pairs, and the colour camera is so certain, that Update() needs no
-  /// further images; they may be null then. A later bundle adjustment may make it uncertain again.
-  bool IsSettled() const;
+  /// Whether further pairs would tell nothing new: Update() needs no further images, which may be
+  /// null then, and keeps none.
+  bool IsSettled() const { return pairs_.is_closed(); }
   /// Reports another readout time of a rolling shutter, seconds.
   void SetReadoutTime(double readout_time) { pairs_.SetReadoutTime(readout_time); }
 
@@ -44,33 +46,50 @@ class CalibrationEstimator {
 
   /// The calibration in use: the given one until a correction is accepted.
   const std::shared_ptr<const CameraIntrinsics>& present() const { return present_; }
-  /// The estimate; nothing is corrected until a correction is accepted. Standard deviations are
-  /// those of the pairs, or of bundle adjustment if they are larger.
+  /// The estimate; nothing is corrected until a correction is accepted. Standard deviations and
+  /// odds are those of the pairs and the map, whose images have errors in common.
   const CorrectionEstimate& estimate() const { return estimate_; }
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [given, present, pairs, images, next_registration, at, estimate, applied, adjusted,
-           adjusted_size, next_size] = *this;  // all members
-    archive(given, present, pairs, images, next_registration, at, estimate, applied, adjusted,
-            adjusted_size, next_size);
+    auto& [given, present, pairs, images, next_registration, at, estimate, applied, candidacy,
+           is_suspected, taken_back, of_map, is_map_corrected, adjusted_size, next_size] =
+        *this;  // all members
+    archive(given, present, pairs, images, next_registration, at, estimate, applied, candidacy,
+            is_suspected, taken_back, of_map, is_map_corrected, adjusted_size, next_size);
   }
 
  private:
   // The given calibration with a correction; null if there can be no such camera.
   std::shared_ptr<const CameraIntrinsics> MakeCorrected(
       const SensorCorrection::Vector& correction) const;
-  // The groups that the pairs hold for wrong.
-  CorrectionEstimate SelectByPairs(double readout_sigma, const CorrectionGroups& before) const;
-  // Decides by the pairs which groups are corrected. Returns true if a new one is.
+  // Whether further pairs would tell nothing new.
+  bool IsEnough(double readout_sigma) const;
+  // Linearises pairs again, at the present optimum of all parameters.
+  void Linearize(double readout_sigma, size_t max_pairs);
+  // Counts the keyframes in succession at which each group is a candidate by the pairs.
+  void CountCandidacy(const CorrectionEstimate& by_pairs);
+  bool IsLastingCandidate(size_t group) const;
+  // What pairs and map tell, with the errors that the points of an image have in common.
+  CalibrationInformation Information(double readout_sigma) const;
+  // The estimate in which exactly the groups `wrong` are corrected. In a map of the corrected
+  // camera, the errors of the points count as independent for the values, not for their sigmas.
+  CorrectionEstimate Estimate(double readout_sigma, const CorrectionGroups& wrong) const;
+  // The groups that are corrected already, and those whose correction is accepted.
+  CorrectionEstimate Select(double readout_sigma) const;
+  // Accepts corrections. Returns true if there are new ones.
   bool SelectGroups(double readout_sigma);
+  // Gives up corrections of what is more likely right than wrong by now, if they are not
+  // significant any more or the odds are as clear as those that accept one. Returns true if there
+  // are any.
+  bool TakeBack(double readout_sigma);
   // Whether the estimate differs enough from the calibration in use to replace it.
-  bool IsReplacementDue() const;
+  bool IsReplacementDue(bool is_adjusted) const;
   // Whether bundle adjustment of a map of this size is due.
   bool IsAdjustmentDue(size_t num_keyframes) const;
-  // Decides by bundle adjustment. Returns true if the calibration in use should be replaced.
-  bool Adjust(const Map& map, double readout_sigma);
+  // Optimises the map together with the calibration. Returns whether it has succeeded.
+  bool Adjust(const Map& map);
   // Uses the estimate from now on. Returns false if it is not possible.
   bool Apply();
 
@@ -82,8 +101,14 @@ class CalibrationEstimator {
   size_t next_registration_ = 0;
   SensorCorrection::Vector at_ = SensorCorrection::Vector::Zero();  // of the linearisation
   CorrectionEstimate estimate_;
-  CorrectionEstimate applied_;                  // the one of present()
-  std::optional<CorrectionEstimate> adjusted_;  // by bundle adjustment, of the corrected groups
+  CorrectionEstimate applied_;                            // the one of present()
+  std::array<int, kNumCorrectionGroups> candidacy_ = {};  // keyframes in succession
+  CorrectionGroups is_suspected_ = {};  // more likely wrong than right by the pairs alone
+  CorrectionGroups taken_back_ = {};    // these remain as given
+  // Of the last bundle adjustment, with independent errors; and whether its map was made with a
+  // corrected colour camera.
+  std::optional<CalibrationInformation> of_map_;
+  bool is_map_corrected_ = false;
   // Numbers of keyframes at the last bundle adjustment, and from which on the next one is due.
   size_t adjusted_size_ = 0;
   size_t next_size_ = 0;

@@ -25,6 +25,9 @@ constexpr double kPriorOdds = 0.1;
 // parameter.
 constexpr double kUnobservable = 0.7;
 
+// Fewest standard deviations of a correction.
+constexpr double kMinSigmas = 3.0;
+
 // Of parameters that are held, in their units.
 constexpr double kHeldSigma = 1e-6;
 
@@ -57,6 +60,12 @@ unsigned MaskOf(const CorrectionGroups& wrong) {
   unsigned mask = 0;
   for (int g = 0; g < kNumCorrectionGroups; ++g) mask |= (wrong[g] ? 1U : 0U) << g;
   return mask;
+}
+
+CorrectionGroups GroupsOf(unsigned mask) {
+  CorrectionGroups groups;
+  for (int g = 0; g < kNumCorrectionGroups; ++g) groups[g] = (mask >> g & 1U) != 0;
+  return groups;
 }
 
 Vector PriorSigma(unsigned wrong_groups) {
@@ -114,6 +123,38 @@ double LogEvidence(const CalibrationInformation& information, unsigned wrong_gro
   return log_evidence;
 }
 
+// By model.
+std::array<double, kNumModels> LogEvidences(const CalibrationInformation& information) {
+  std::array<double, kNumModels> evidence;
+  for (unsigned m = 0; m < kNumModels; ++m) evidence[m] = LogEvidence(information, m);
+  return evidence;
+}
+
+std::array<double, kNumCorrectionGroups> LogOddsOf(const std::array<double, kNumModels>& evidence) {
+  std::array<double, kNumCorrectionGroups> log_odds;
+  for (int g = 0; g < kNumCorrectionGroups; ++g) {
+    double with = -std::numeric_limits<double>::infinity();
+    double without = with;
+    for (unsigned m = 0; m < kNumModels; ++m) {
+      double& side = (m >> g & 1U) != 0 ? with : without;
+      side = std::max(side, evidence[m]);
+    }
+    log_odds[g] = with - without;
+  }
+  return log_odds;
+}
+
+// Whether the corrections of a model are significant, those of `known` groups aside.
+bool HasSignificantCorrections(const CalibrationInformation& information, unsigned wrong_groups,
+                               unsigned known) {
+  const CorrectionEstimate estimate = EstimateCorrections(information, GroupsOf(wrong_groups));
+  for (int g = 0; g < kNumCorrectionGroups; ++g) {
+    const bool is_new = ((wrong_groups & ~known) >> g & 1U) != 0;
+    if (is_new && !IsSignificant(static_cast<CorrectionGroup>(g), estimate)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 const std::vector<int>& IndicesOf(CorrectionGroup group) {
@@ -138,6 +179,13 @@ SensorCorrection::Vector WrongCalibrationSigma() {
 
 bool IsObservable(int index, double sigma) {
   return sigma < kUnobservable * WrongCalibrationSigma()(index);
+}
+
+bool IsSignificant(CorrectionGroup group, const CorrectionEstimate& estimate) {
+  const std::vector<int>& indices = IndicesOf(group);
+  return std::any_of(indices.begin(), indices.end(), [&](int i) {
+    return std::abs(estimate.correction(i)) > kMinSigmas * estimate.sigma(i);
+  });
 }
 
 CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,
@@ -170,29 +218,22 @@ CorrectionEstimate EstimateCorrections(const CalibrationInformation& information
 CorrectionEstimate SelectCorrections(const CalibrationInformation& information,
                                      const CorrectionGroups& known_wrong,
                                      const CorrectionGroups& known_right) {
-  std::array<double, kNumModels> evidence;
-  for (unsigned m = 0; m < kNumModels; ++m) evidence[m] = LogEvidence(information, m);
+  const std::array<double, kNumModels> evidence = LogEvidences(information);
   const unsigned known = MaskOf(known_wrong);
   unsigned best = known;
   for (unsigned m = 0; m < kNumModels; ++m) {
     if ((m & known) != known || (m & MaskOf(known_right)) != 0) continue;
-    if (evidence[m] > evidence[best]) best = m;
+    if (evidence[m] > evidence[best] && HasSignificantCorrections(information, m, known)) best = m;
   }
   if (evidence[best] - evidence[known] < std::log(kAcceptedOdds)) best = known;
 
-  CorrectionGroups wrong;
-  for (int g = 0; g < kNumCorrectionGroups; ++g) wrong[g] = (best >> g & 1U) != 0;
-  CorrectionEstimate estimate = EstimateCorrections(information, wrong);
-  for (int g = 0; g < kNumCorrectionGroups; ++g) {
-    double with = -std::numeric_limits<double>::infinity();
-    double without = with;
-    for (unsigned m = 0; m < kNumModels; ++m) {
-      double& side = (m >> g & 1U) != 0 ? with : without;
-      side = std::max(side, evidence[m]);
-    }
-    estimate.log_odds[g] = with - without;
-  }
+  CorrectionEstimate estimate = EstimateCorrections(information, GroupsOf(best));
+  estimate.log_odds = LogOddsOf(evidence);
   return estimate;
+}
+
+std::array<double, kNumCorrectionGroups> GroupLogOdds(const CalibrationInformation& information) {
+  return LogOddsOf(LogEvidences(information));
 }
 
 }  // namespace msc_vo

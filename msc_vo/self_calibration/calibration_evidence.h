@@ -59,16 +59,23 @@ SensorCorrection::Vector WrongCalibrationSigma();
 /// `sigma` is well below the prior one.
 bool IsObservable(int index, double sigma);
 
+/// Whether a parameter of a group that is corrected differs from the given value by more than three
+/// of its standard deviations.
+bool IsSignificant(CorrectionGroup group, const CorrectionEstimate& estimate);
+
 /// Estimates the corrections of the model in which exactly the groups `wrong` are wrong: those that
 /// go best with the given values of the colour camera's other groups.
 CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,
                                        const CorrectionGroups& wrong);
 
+/// CorrectionEstimate::log_odds.
+std::array<double, kNumCorrectionGroups> GroupLogOdds(const CalibrationInformation& information);
+
 /// Compares the 16 models in which each group is either right, up to the errors of a good
 /// calibration, or wrong, by their evidence. A group is wrong with a prior probability of 1/11; the
-/// model is accepted if it is kAcceptedOdds times more likely than a calibration that is right.
-/// Only models in which the `known_wrong` groups are wrong, and the `known_right` ones right, take
-/// part.
+/// model is accepted if it is kAcceptedOdds times more likely than a calibration that is right, and
+/// every correction IsSignificant(). Only models in which the `known_wrong` groups are wrong, and
+/// the `known_right` ones right, take part.
 CorrectionEstimate SelectCorrections(const CalibrationInformation& information,
                                      const CorrectionGroups& known_wrong = {},
                                      const CorrectionGroups& known_right = {});

@@ -31,7 +31,8 @@ struct CalibrationPoint {
 struct CalibrationInformation {
   SensorCorrection::Matrix matrix = SensorCorrection::Matrix::Zero();
   SensorCorrection::Vector vector = SensorCorrection::Vector::Zero();
-  /// Sum of the inverse variances of the points, 1/pixels^2, if their errors are independent.
+  /// Sum of the inverse variances of the points, 1/pixels^2, if their errors are independent; of a
+  /// map: of the points of one image, in the mean.
   double point_information = 0.0;
 
   CalibrationInformation& operator+=(const CalibrationInformation& other) {

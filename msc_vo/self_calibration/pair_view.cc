@@ -14,6 +14,8 @@ namespace {
 // Standard deviation, radians, of the error of lens and depth that the points of a pair have in
 // common. Chosen by measurement, see docs/lab/self_calibration.md.
 constexpr double kCommonError = 4e-4;
+// The same of an image of a map, whose points other images also determine.
+constexpr double kMapCommonError = 2.3e-4;
 // Relative error of the velocity by which a rolling shutter is compensated. It comes from the
 // motion between the neighbouring images.
 constexpr double kVelocityError = 0.1;
@@ -50,6 +52,11 @@ double SquaredShiftRate(const Frame& frame) {
 }
 
 double CommonError(const PinholeCamera& camera) { return kCommonError * camera.FocalLength(); }
+
+double MapCommonVariance(const PinholeCamera& camera) {
+  const double common_error = kMapCommonError * camera.FocalLength();
+  return common_error * common_error;
+}
 
 double CommonVariance(const PinholeCamera& camera, double squared_shift_rate, double readout_time,
                       double readout_sigma) {

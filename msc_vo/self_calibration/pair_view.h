@@ -30,6 +30,10 @@ double SquaredShiftRate(const Frame& frame);
 /// have in common.
 double CommonError(const PinholeCamera& camera);
 
+/// Variance, pixels^2, of the error that the points of one image of an optimised map have in
+/// common.
+double MapCommonVariance(const PinholeCamera& camera);
+
 /// Variance, pixels^2, of the error that the points of a pair of images have in common: of the
 /// lens, of depth and of the compensation of a rolling shutter. `squared_shift_rate`: sum over both
 /// images. `readout_sigma`: standard deviation of `readout_time` (seconds).

@@ -21,6 +21,7 @@ namespace {
 // Bounds of memory and of computing time.
 constexpr size_t kMaxViews = 24;
 constexpr size_t kMaxPairs = 160;
+constexpr size_t kMaxTries = 3;  // keyframes that an image is matched with
 constexpr size_t kMaxSamples = 300;
 constexpr size_t kMaxMatches = 100;
 constexpr size_t kMaxPoints = 60;  // with surfaces
@@ -168,6 +169,7 @@ void RecentPairs::AddPair(const Map& map, const Partner& partner,
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (ranked.size() > kMaxTries) ranked.resize(kMaxTries);
   for (const auto& [score, view] : ranked) {
     std::optional<Pair> pair = MakePair(map, *view, partner, at);
     if (!pair) continue;
@@ -265,7 +267,14 @@ void RecentPairs::Relinearize(const SensorCorrection::Vector& at,
   for (size_t i = 0; i < std::min(stale.size(), max_pairs); ++i) Linearize(at, stale[i].second);
 }
 
+void RecentPairs::Close(double readout_sigma) {
+  closed_ = Sum(readout_sigma);
+  views_.clear();
+  pairs_.clear();
+}
+
 CalibrationInformation RecentPairs::Sum(double readout_sigma) const {
+  if (closed_) return *closed_;
   CalibrationInformation sum;
   for (const Pair& pair : pairs_) {
     if (!pair.information) continue;

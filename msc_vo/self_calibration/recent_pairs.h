@@ -55,6 +55,9 @@ class RecentPairs {
   /// Sum over all pairs. `readout_sigma` (seconds): uncertainty of the readout time of a rolling
   /// shutter.
   CalibrationInformation Sum(double readout_sigma) const;
+  /// Keeps the sum alone from now on, and frees the memory of pairs and images.
+  void Close(double readout_sigma);
+  bool is_closed() const { return closed_.has_value(); }
   size_t size() const { return pairs_.size(); }
   /// Number of pairs so far; old ones are forgotten.
   size_t num_added() const { return num_added_; }
@@ -62,8 +65,8 @@ class RecentPairs {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [camera, readout_time, views, pairs, num_added] = *this;  // all members
-    archive(readout_time, views, pairs, num_added);
+    auto& [camera, readout_time, views, pairs, num_added, closed] = *this;  // all members
+    archive(readout_time, views, pairs, num_added, closed);
   }
 
  private:
@@ -130,6 +133,7 @@ class RecentPairs {
   std::deque<KeyframeView> views_;
   std::deque<Pair> pairs_;
   size_t num_added_ = 0;
+  std::optional<CalibrationInformation> closed_;  // the last sum
 };
 
 }  // namespace msc_vo

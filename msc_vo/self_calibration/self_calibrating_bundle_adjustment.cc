@@ -185,10 +185,12 @@ class SelfCalibrationProblem {
     for (const Observation& observation : observations) {
       const Keyframe& keyframe = *map.FindKeyframe(observation.keyframe);
       Rigid3& pose = poses_[pose_index_.at(observation.keyframe)];
+      const SelfCalibratingReprojection::Measurement measurement =
+          MeasurementOf(keyframe, point, observation.feature);
       observations_.push_back(problem_.AddResidualBlock(
-          SelfCalibratingReprojection::Create(camera_,
-                                              MeasurementOf(keyframe, point, observation.feature)),
-          &loss_, pose.params.data(), points_.back().data(), correction_.data()));
+          SelfCalibratingReprojection::Create(camera_, measurement), &loss_, pose.params.data(),
+          points_.back().data(), correction_.data()));
+      point_information_ += 1.0 / (measurement.sigma * measurement.sigma);
     }
   }
 
@@ -243,6 +245,7 @@ class SelfCalibrationProblem {
     information.matrix.topLeftCorner<kColorSize, kColorSize>() = matrix;
     information.vector.head<kColorSize>() = matrix * correction_ - gradient.tail<kColorSize>() +
                                             solution.transpose() * gradient.head(num_others);
+    information.point_information = point_information_ / static_cast<double>(poses_.size());
     if (!information.matrix.allFinite() || !information.vector.allFinite()) return std::nullopt;
     return information;
   }
@@ -263,6 +266,7 @@ class SelfCalibrationProblem {
   std::vector<Rigid3> poses_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<ceres::ResidualBlockId> observations_;
+  double point_information_ = 0.0;  // 1/pixels^2, of all images
 };
 
 }  // namespace

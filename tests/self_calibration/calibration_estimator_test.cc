@@ -151,6 +151,51 @@ TEST(CalibrationEstimator, AcceptsNothingThatAPathDoesNotTell) {
             0.9 * WrongCalibrationSigma()(S::kFocalLength));
 }
 
+// A run that ends as soon as a correction is accepted.
+struct Acceptance {
+  int first_candidacy = -1;  // keyframe
+  int keyframe = -1;
+  double sigmas = 0.0;  // of the correction that is accepted
+};
+
+Acceptance FindAcceptance(double focal_length, bool has_landmarks) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kFocalLength) = focal_length;
+  SimulatedRun run(truth, has_landmarks);
+  Acceptance acceptance;
+  for (int i = 0; i < 40 && acceptance.keyframe < 0; ++i) {
+    const bool is_changed = run.Add(SimulatedCamera::PoseOf(i));
+    const CorrectionEstimate& estimate = run.estimator().estimate();
+    if (acceptance.first_candidacy < 0 && estimate.log_odds[0] > std::log(kCandidateOdds)) {
+      acceptance.first_candidacy = i;
+    }
+    if (!is_changed) continue;
+    acceptance.keyframe = i;
+    acceptance.sigmas =
+        std::abs(estimate.correction(S::kFocalLength)) / estimate.sigma(S::kFocalLength);
+  }
+  return acceptance;
+}
+
+TEST(CalibrationEstimator, WaitsUntilACandidateHasLasted) {
+  for (const bool has_landmarks : {false, true}) {
+    const Acceptance acceptance = FindAcceptance(-0.06, has_landmarks);
+    EXPECT_GE(acceptance.first_candidacy, 0);
+    EXPECT_GE(acceptance.keyframe, acceptance.first_candidacy + 2);
+  }
+}
+
+TEST(CalibrationEstimator, AcceptsNoCorrectionBelowThreeSigmas) {
+  int num_accepted = 0;
+  for (const double focal_length : {-0.03, -0.015, 0.01, 0.02}) {
+    const Acceptance acceptance = FindAcceptance(focal_length, true);
+    if (acceptance.keyframe < 0) continue;
+    ++num_accepted;
+    EXPECT_GT(acceptance.sigmas, 3.0) << focal_length;
+  }
+  EXPECT_GE(num_accepted, 2);
+}
+
 TEST(KeyframeIntrinsics, MovesFeaturesAndLandmarksTogether) {
   S::Vector truth = S::Vector::Zero();
   truth(S::kFocalLength) = 0.03;

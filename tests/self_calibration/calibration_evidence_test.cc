@@ -43,6 +43,33 @@ TEST(CalibrationEvidence, KeepsWhatIsWithinTheErrorsOfAGoodCalibration) {
   EXPECT_FALSE(SelectCorrections(CalibrationInformation()).IsCorrected());
 }
 
+// Six parameters that are each off by two standard deviations make a group likely wrong.
+TEST(CalibrationEvidence, RefusesACorrectionBelowThreeSigmas) {
+  const auto make = [](double sigmas) {
+    std::vector<std::pair<S::Index, std::pair<double, double>>> all;
+    for (const int i : IndicesOf(CorrectionGroup::kDepthRegistration)) {
+      const double sigma = 0.3 * WrongCalibrationSigma()(i);
+      all.push_back({static_cast<S::Index>(i), {sigmas * sigma, sigma}});
+    }
+    return SelectCorrections(Measured(all));
+  };
+  const CorrectionEstimate refused = make(2.9), accepted = make(4.0);
+  EXPECT_GT(refused.log_odds[3], std::log(kAcceptedOdds));
+  EXPECT_FALSE(refused.IsCorrected());
+  EXPECT_TRUE(accepted.is_corrected[3]);
+  EXPECT_TRUE(IsSignificant(CorrectionGroup::kDepthRegistration, accepted));
+}
+
+TEST(CalibrationEvidence, IsSignificantIfOneParameterIs) {
+  CorrectionEstimate estimate;
+  estimate.sigma.setConstant(0.01);
+  estimate.correction(S::kCenterX) = 0.029;
+  EXPECT_FALSE(IsSignificant(CorrectionGroup::kPrincipalPoint, estimate));
+  estimate.correction(S::kCenterY) = -0.031;
+  EXPECT_TRUE(IsSignificant(CorrectionGroup::kPrincipalPoint, estimate));
+  EXPECT_FALSE(IsSignificant(CorrectionGroup::kFocalLength, estimate));
+}
+
 TEST(CalibrationEvidence, LeavesUnobservableParametersAtThePrior) {
   const auto estimate = SelectCorrections(Measured({{S::kFocalLength, {0.03, 0.002}}}));
   EXPECT_NEAR(estimate.sigma(S::kK1), WrongCalibrationSigma()(S::kK1), 1e-12);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "msc_vo/self_calibration/calibration_evidence.h"
+#include "msc_vo/self_calibration/pair_view.h"
 
 namespace msc_vo {
 namespace {
@@ -67,6 +68,35 @@ TEST_F(SelfCalibratingBundleAdjustmentTest, TellsNothingOfDepth) {
   for (const int i : IndicesOf(CorrectionGroup::kDepthRegistration)) {
     EXPECT_NEAR(estimate.sigma(i), WrongCalibrationSigma()(i), 0.01 * WrongCalibrationSigma()(i));
   }
+}
+
+// Its points count as one with the common error, so that the standard deviations do not fall below
+// what that leaves.
+TEST_F(SelfCalibratingBundleAdjustmentTest, TellsTheInformationOfTheMeanImage) {
+  constexpr int kNumKeyframes = 8;
+  SimulatedCamera camera(S::Vector::Zero(), 3);
+  Map map;
+  FillMap(&camera, kNumKeyframes, &map);
+  double sum = 0.0;
+  for (const auto& [id, point] : map.points()) {
+    if (point.observations.size() < 2) continue;
+    for (const Observation& observation : point.observations) {
+      const double sigma =
+          map.FindKeyframe(observation.keyframe)->frame->points[observation.feature].sigma *
+          point.noise;
+      sum += 1.0 / (sigma * sigma);
+    }
+  }
+  const auto information = SelfCalibratingBundleAdjustment(*camera.given(), map, S::Vector::Zero());
+  ASSERT_TRUE(information);
+  EXPECT_GT(information->point_information, 0.9 * sum / kNumKeyframes);
+  EXPECT_LE(information->point_information, (1.0 + 1e-9) * sum / kNumKeyframes);
+  const double variance = MapCommonVariance(kGiven);
+  EXPECT_GT(variance * information->point_information, 1.0);
+  const CorrectionEstimate independent = EstimateCorrections(*information, kColor);
+  const CorrectionEstimate common =
+      EstimateCorrections(WithCommonError(*information, variance), kColor);
+  EXPECT_GT(common.sigma(S::kFocalLength), 1.4 * independent.sigma(S::kFocalLength));
 }
 
 TEST_F(SelfCalibratingBundleAdjustmentTest, LeavesObservationsBehindTheCameraOut) {

@@ -103,6 +103,8 @@ class SettledRun {
   }
 
   const CalibrationEstimator& estimator() const { return estimator_; }
+  // References of this object to images.
+  long num_held_images() const { return static_cast<long>(recordings_.size() + keyframes_.size()); }
   const Map& map() const { return map_; }
   KeyframeId newest() const { return newest_; }
 
@@ -169,7 +171,6 @@ TEST(SettledCalibration, NeedsAndKeepsNoImages) {
   SettledRun run(Record(S::Vector::Zero(), HandHeldPoses()));
   run.Settle();
   const KeyframeId last = run.newest();
-  EXPECT_NE(run.estimator().FindImage(last), nullptr);
   const auto present = run.estimator().present();
   const double sigma = run.estimator().estimate().sigma(S::kFocalLength);
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(run.AddWithoutImages());
@@ -177,6 +178,32 @@ TEST(SettledCalibration, NeedsAndKeepsNoImages) {
   EXPECT_EQ(run.estimator().present(), present);
   EXPECT_EQ(run.estimator().estimate().sigma(S::kFocalLength), sigma);
   EXPECT_EQ(run.estimator().FindImage(last), nullptr);
+}
+
+// The images are held by the test alone.
+TEST(SettledCalibration, FreesTheImagesOfPairs) {
+  const std::vector<Recording> recordings = Record(S::Vector::Zero(), HandHeldPoses());
+  SettledRun run(recordings);
+  const auto count = [&] {
+    long sum = 0;
+    for (const Recording& recording : recordings) sum += recording.image.use_count();
+    return sum;
+  };
+  run.Add(0);
+  run.Add(7);
+  const long before = count() - run.num_held_images();
+  EXPECT_GT(before, static_cast<long>(recordings.size()));
+  run.Settle();
+  EXPECT_EQ(count() - run.num_held_images(), static_cast<long>(recordings.size()));
+}
+
+// Further pairs tell as much as those that they replace in memory.
+TEST(SettledCalibration, EndsAlsoIfThePathDoesNotTellTheCamera) {
+  SettledRun run(Record(S::Vector::Zero(), RollingPoses()));
+  for (int i = 0; i < 5; ++i) run.Add(0);
+  for (int i = 0; i < 20 && !run.estimator().IsSettled(); ++i) run.Add(kSettledPairs / 6);
+  EXPECT_TRUE(run.estimator().IsSettled());
+  EXPECT_FALSE(run.estimator().estimate().IsCorrected());
 }
 
 S::Vector Truth(double focal_length, double depth_focal_length) {
@@ -216,6 +243,20 @@ TEST_F(WarmLens, IsCorrectedByTheMapWhileTheRegistrationRemains) {
   ASSERT_TRUE(present->registration && settled->registration);
   EXPECT_TRUE(HasSameRegistration(*present, *settled));
   EXPECT_EQ(run_.estimator().estimate().is_corrected, (CorrectionGroups{true, false, false, true}));
+}
+
+// Images that contradict a correction outweigh those that made it.
+TEST(TakenBackCorrection, IsNotAcceptedAgain) {
+  SettledRun run(Record(Truth(-0.05, 0.0), HandHeldPoses()));
+  for (int i = 0; i < 10 && !run.estimator().estimate().is_corrected[0]; ++i) run.Add(1);
+  ASSERT_TRUE(run.estimator().estimate().is_corrected[0]);
+  run.BeginMap();
+  run.Continue(Record(S::Vector::Zero(), HandHeldPoses()));
+  int num_changes = 0;
+  for (int i = 0; i < 14; ++i) num_changes += run.Add(8) ? 1 : 0;
+  EXPECT_FALSE(run.estimator().estimate().IsCorrected());
+  EXPECT_EQ(run.estimator().present()->camera.fx, kGiven.fx);
+  EXPECT_LE(num_changes, 4);
 }
 
 TEST_F(WarmLens, IsCorrectedInTheSameWayAfterACheckpoint) {
