@@ -79,11 +79,13 @@ TrajectoryError Evaluate(const Arguments& arguments, const Trajectories& traject
   TrajectoryError error =
       EvaluateTrajectory(trajectories.truth.poses, trajectories.estimate.poses, arguments.options);
   if (!error.usable) {
+    const bool too_few = error.num_matched < 3;
+    const char* hint = !too_few ? ""
+                       : error.num_not_estimated > 0
+                           ? "; --all-poses compares them"
+                           : "; are the time stamps of both in seconds of the same clock?";
     throw std::runtime_error(arguments.estimate + " cannot be compared with " + arguments.truth +
-                             ": " + error.message +
-                             (error.num_not_estimated > 0
-                                  ? "; --all-poses compares them"
-                                  : "; are the time stamps of both in seconds of the same clock?"));
+                             ": " + error.message + hint);
   }
   PrintWarnings(error.warnings);
   if (!context.has_stamps) error.rpe_per_second = {};
