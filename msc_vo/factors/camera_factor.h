@@ -48,8 +48,7 @@ inline Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camer
 ///   Eigen::Matrix<double, RowsPerPoint, 3> Jacobian(int k, const Vector3d& x_in_cam) const;
 /// \endcode
 ///
-/// The chain rule from x to pose and landmark is shared (AnalyticCostFunction, pose optimization
-/// and local bundle adjustment).
+/// The chain rule from x to pose and landmark is in camera_linearization.h.
 template <typename Factor, int Points, int RowsPerPoint>
 struct CameraFactor : CostFunctor<Factor, Points * RowsPerPoint, 7, 3 * Points> {
   static constexpr int kNumPoints = Points;
@@ -66,7 +65,7 @@ struct CameraFactor : CostFunctor<Factor, Points * RowsPerPoint, 7, 3 * Points> 
   template <typename T>
   Eigen::Matrix<T, 3, 1> PointInWorld(int k, const T* landmark) const {
     using Point = Eigen::Map<const Eigen::Matrix<T, 3, 1>>;
-    if (weight_[k][k] == 1.0) return Point(landmark + 3 * k);
+    if (Points == 1 || weight_[k][k] == 1.0) return Point(landmark + 3 * k);
     Eigen::Matrix<T, 3, 1> x = T(weight_[k][0]) * Point(landmark);
     for (int i = 1; i < Points; ++i) x += T(weight_[k][i]) * Point(landmark + 3 * i);
     return x;
@@ -94,14 +93,5 @@ struct CameraFactor : CostFunctor<Factor, Points * RowsPerPoint, 7, 3 * Points> 
   }
   std::array<std::array<double, Points>, Points> weight_ = Identity();
 };
-
-/// Evaluates the rows of point k and their derivative with respect to its camera coordinates.
-template <typename Factor>
-void LinearizeInCamera(const Factor& factor, int k, const Eigen::Vector3d& x_in_cam,
-                       double* residual,
-                       Eigen::Matrix<double, Factor::kRowsPerPoint, 3>* jacobian) {
-  factor.Residual(k, x_in_cam, residual);
-  *jacobian = factor.Jacobian(k, x_in_cam);
-}
 
 }  // namespace msc_vo

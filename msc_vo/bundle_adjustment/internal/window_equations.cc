@@ -3,57 +3,15 @@
 
 #include "msc_vo/bundle_adjustment/internal/window_equations.h"
 
-#include <array>
 #include <cmath>
 
-#include "msc_vo/geometry/so3.h"
+#include "msc_vo/factors/camera_equations.h"
 
 namespace msc_vo {
 
 namespace {
 
 using Pose = WindowEquations::Pose;
-
-// Residuals of one observation in camera coordinates: cost, and derivatives with respect to the
-// camera coordinates x = R X + t of each of the landmark's points.
-template <int Points>
-struct CameraLinearization {
-  std::array<Eigen::Vector3d, Points> rotated;  // R X
-  std::array<Eigen::Vector3d, Points> x;
-  std::array<Eigen::Matrix3d, Points> hessian;
-  std::array<Eigen::Vector3d, Points> gradient;
-  double cost = 0.0;
-
-  // False if a point is behind the camera.
-  template <typename Observation>
-  bool SetPoints(const Observation& observation, const Eigen::Matrix3d& rotation,
-                 const Eigen::Vector3d& translation, const double* landmark) {
-    for (int k = 0; k < Points; ++k) {
-      rotated[k] = rotation * observation.PointInWorld(k, landmark);
-      x[k] = rotated[k] + translation;
-      if (!(x[k].z() >= kMinCameraDepth)) return false;
-      hessian[k].setZero();
-      gradient[k].setZero();
-    }
-    return true;
-  }
-
-  template <typename Factor>
-  void Add(const Factor& factor, const HuberLoss& loss) {
-    constexpr int kRows = Factor::kRowsPerPoint;
-    Eigen::Matrix<double, Factor::kNumResiduals, 1> r;
-    for (int k = 0; k < Points; ++k) factor.Residual(k, x[k], r.data() + k * kRows);
-    const double s = r.squaredNorm();
-    const double weight = loss.Weight(s);
-    cost += 0.5 * loss.Cost(s);
-    for (int k = 0; k < Points; ++k) {
-      const Eigen::Matrix<double, kRows, 3> j = factor.Jacobian(k, x[k]);
-      const Eigen::Matrix<double, kRows, 3> weighted = weight * j;
-      hessian[k].noalias() += weighted.transpose() * j;
-      gradient[k].noalias() += weighted.transpose() * r.template segment<kRows>(k * kRows);
-    }
-  }
-};
 
 // Data that all observations of one kind of landmark share.
 template <int Points>
@@ -130,60 +88,25 @@ class Linearizer {
                       const double* landmark) {
     const Eigen::Matrix3d& rotation = rotations_[o.keyframe];
     const Eigen::Map<const Eigen::Vector3d> translation(state_.PoseBlock(o.keyframe) + 4);
-    CameraLinearization<Points> at;
-    if (!at.SetPoints(o, rotation, translation, landmark)) return false;
-    if (o.reprojection != nullptr) at.Add(*o.reprojection, terms.reprojection_loss);
-    if (o.depth != nullptr) at.Add(*o.depth, terms.depth_loss);
+    CameraPoints<Points> points;
+    if (!points.Set(o, rotation, translation, landmark)) return false;
+    CameraEquations<Points> at;
+    if (o.reprojection != nullptr) at.Add(*o.reprojection, terms.reprojection_loss, points);
+    if (o.depth != nullptr) at.Add(*o.depth, terms.depth_loss, points);
     equations_->cost += at.cost;
     const int unknown = terms.unknown[o.landmark], pose = structure_.pose[o.keyframe];
-    for (int k = 0; k < Points; ++k) {
-      const Eigen::Matrix3d h_rotation = at.hessian[k] * rotation;
-      if (unknown >= 0) {
-        AddToLandmark<Points>(o, k, rotation.transpose() * h_rotation,
-                              rotation.transpose() * at.gradient[k], unknown, terms.equations);
-      }
-      if (pose < 0) continue;
-      const Eigen::Matrix3d arm = Skew(at.rotated[k]);
-      AddToPose(pose, arm, at.hessian[k], at.rotated[k], at.gradient[k]);
-      if (o.block < 0) continue;
-      for (int i = 0; i < Points; ++i) {
-        const double weight = o.Weight(k, i);
-        if (weight == 0.0) continue;
-        auto coupling = terms.equations->pose_couplings[o.block].template middleCols<3>(3 * i);
-        coupling.template topRows<3>().noalias() += weight * arm * h_rotation;
-        coupling.template bottomRows<3>() += weight * h_rotation;
-      }
+    typename CameraEquations<Points>::Blocks blocks;
+    if (unknown >= 0) {
+      blocks.landmark_hessian = &terms.equations->hessian[unknown];
+      blocks.landmark_gradient = &terms.equations->gradient[unknown];
     }
+    if (pose >= 0) {
+      blocks.pose_hessian = &equations_->pose_hessian[pose];
+      blocks.pose_gradient = &equations_->pose_gradient[pose];
+    }
+    if (o.block >= 0) blocks.coupling = &terms.equations->pose_couplings[o.block];
+    at.AddTo(blocks, o, rotation, points);
     return true;
-  }
-
-  // Chain rule from point k of a landmark to the ends of which it is a weighted mean.
-  template <int Points, typename Observation>
-  static void AddToLandmark(const Observation& o, int k, const Eigen::Matrix3d& hessian,
-                            const Eigen::Vector3d& gradient, int unknown,
-                            WindowEquations::Landmarks<3 * Points>* equations) {
-    for (int i = 0; i < Points; ++i) {
-      const double weight = o.Weight(k, i);
-      if (weight == 0.0) continue;
-      equations->gradient[unknown].template segment<3>(3 * i) += weight * gradient;
-      for (int j = 0; j < Points; ++j) {
-        if (o.Weight(k, j) == 0.0) continue;
-        equations->hessian[unknown].template block<3, 3>(3 * i, 3 * j) +=
-            (weight * o.Weight(k, j)) * hessian;
-      }
-    }
-  }
-
-  // Chain rule from x to the pose: dx = [-[R X]x, I] (w, u), with arm = [R X]x.
-  void AddToPose(int pose, const Eigen::Matrix3d& arm, const Eigen::Matrix3d& hessian,
-                 const Eigen::Vector3d& rotated, const Eigen::Vector3d& gradient) {
-    const Eigen::Matrix3d arm_h = arm * hessian;
-    Pose::Block& pose_hessian = equations_->pose_hessian[pose];
-    pose_hessian.topLeftCorner<3, 3>().noalias() -= arm_h * arm;
-    pose_hessian.bottomLeftCorner<3, 3>() += arm_h.transpose();
-    pose_hessian.bottomRightCorner<3, 3>() += hessian;
-    equations_->pose_gradient[pose].head<3>() += rotated.cross(gradient);
-    equations_->pose_gradient[pose].tail<3>() += gradient;
   }
 
   // Computes the directions of all observed lines once, as a line is part of many pairs. Returns
