@@ -18,35 +18,20 @@ namespace msc_vo {
 
 namespace {
 
-// Calls visit(term, summary of the term) for every term.
-template <typename Visitor>
-void ForEachTerm(const WindowTerms& terms, BundleAdjustmentSummary* summary, const Visitor& visit) {
-  visit(terms.point_reprojection, &summary->point_reprojection);
-  visit(terms.point_depth, &summary->point_depth);
-  visit(terms.line_reprojection, &summary->line_reprojection);
-  visit(terms.line_depth, &summary->line_depth);
-  visit(terms.line_endpoint_prior, &summary->line_endpoint_prior);
-  visit(terms.parallel, &summary->parallel);
-  visit(terms.perpendicular, &summary->perpendicular);
-  visit(terms.manhattan, &summary->manhattan);
-  visit(terms.pose_prior, &summary->pose_prior);
-  visit(terms.custom, &summary->custom);
-}
-
 // Writes the cost of every term to `member` of its summary. Returns the sum.
 double WriteCosts(const WindowTerms& terms, const WindowState& state, double TermSummary::*member,
                   BundleAdjustmentSummary* summary) {
   double sum = 0.0;
-  ForEachTerm(terms, summary, [&](const auto& term, TermSummary* term_summary) {
-    term_summary->*member = Cost(term, state);
-    sum += term_summary->*member;
+  ForEachTerm(terms, [&](const auto& term, const auto& of_term) {
+    (summary->*term.summary).*member = Cost(of_term, state);
+    sum += (summary->*term.summary).*member;
   });
   return sum;
 }
 
 void WriteCounts(const WindowTerms& terms, BundleAdjustmentSummary* summary) {
-  ForEachTerm(terms, summary, [](const auto& term, TermSummary* term_summary) {
-    term_summary->num_residual_blocks = static_cast<int>(term.blocks.size());
+  ForEachTerm(terms, [summary](const auto& term, const auto& of_term) {
+    (summary->*term.summary).num_residual_blocks = static_cast<int>(of_term.blocks.size());
   });
 }
 
@@ -54,36 +39,22 @@ void WriteCounts(const WindowTerms& terms, BundleAdjustmentSummary* summary) {
 // the second solve keep their initial values.
 void WriteBack(const WindowTerms& terms, const WindowInlierMask& inlier_mask,
                const WindowState& state, WindowData* data) {
-  for (size_t i = 0; i < data->keyframes.size(); ++i) {
-    if (terms.keyframe_constrained[i]) data->keyframes[i].cam_from_world = state.Pose(i);
-  }
-  for (size_t i = 0; i < data->points.size(); ++i) {
-    if (terms.point_constrained[i]) data->points[i].position = state.Point(i);
-  }
-  for (size_t i = 0; i < data->lines.size(); ++i) {
-    if (terms.line_constrained[i]) data->lines[i].segment = state.Line(i);
-  }
-  for (size_t i = 0; i < data->extra_blocks.size(); ++i) {
-    if (terms.extra_constrained[i]) data->extra_blocks[i].value = state.Extra(i);
-  }
-  if (data->axes && terms.extra_constrained.back()) {
-    data->axes->world_from_axes = Eigen::Quaterniond(state.ExtraBlock(data->extra_blocks.size()));
-  }
+  const auto is_constrained = [&terms](const StateBlock& block) {
+    return terms.Constrained(block.kind)[block.position];
+  };
+  WriteState(state, is_constrained, data);
   for (size_t i = 0; i < inlier_mask.points.size(); ++i) {
     data->point_observations[i].rejected = !inlier_mask.points[i].reprojection;
   }
   for (size_t i = 0; i < inlier_mask.lines.size(); ++i) {
     data->line_observations[i].rejected = !inlier_mask.lines[i].reprojection;
   }
-  for (size_t i = 0; i < inlier_mask.parallel.size(); ++i) {
-    data->parallel_pairs[i].rejected = !inlier_mask.parallel[i];
-  }
-  for (size_t i = 0; i < inlier_mask.perpendicular.size(); ++i) {
-    data->perpendicular_pairs[i].rejected = !inlier_mask.perpendicular[i];
-  }
-  for (size_t i = 0; i < inlier_mask.alignments.size(); ++i) {
-    data->axis_alignments[i].rejected = !inlier_mask.alignments[i];
-  }
+  ForEachRelation([&](const auto& term) {
+    auto& records = data->*term.records;
+    for (size_t i = 0; i < records.size(); ++i) {
+      records[i].rejected = !(inlier_mask.*term.inliers)[i];
+    }
+  });
 }
 
 MinimizerReport Minimize(const BundleAdjustmentOptions& options, const WindowData& data,
@@ -94,7 +65,7 @@ MinimizerReport Minimize(const BundleAdjustmentOptions& options, const WindowDat
                                   enter_stage, state);
   }
   if (enter_stage) enter_stage(WindowStage::kStep);
-  return CeresBackend(options, data, terms, state).Minimize(max_iterations);
+  return MinimizeWithCeres(options, data, terms, max_iterations, state);
 }
 
 }  // namespace
@@ -169,16 +140,9 @@ bool BundleAdjustmentOptions::IsValid(std::string* error) const {
 }
 
 std::vector<std::pair<std::string, const TermSummary*>> BundleAdjustmentSummary::Terms() const {
-  return {{"point_reprojection", &point_reprojection},
-          {"point_depth", &point_depth},
-          {"line_reprojection", &line_reprojection},
-          {"line_depth", &line_depth},
-          {"line_endpoint_prior", &line_endpoint_prior},
-          {"parallel", &parallel},
-          {"perpendicular", &perpendicular},
-          {"manhattan", &manhattan},
-          {"pose_prior", &pose_prior},
-          {"custom", &custom}};
+  std::vector<std::pair<std::string, const TermSummary*>> terms;
+  ForEachTerm([&](const auto& term) { terms.emplace_back(term.name, &(this->*term.summary)); });
+  return terms;
 }
 
 std::string BundleAdjustmentSummary::BriefReport() const {

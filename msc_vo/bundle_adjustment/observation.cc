@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "msc_vo/factors/camera_linearization.h"
+
 namespace msc_vo {
 
 InlierMask TestChiSquare(double reprojection, double depth, double limit, double limit_with_depth) {
@@ -78,11 +80,8 @@ LineDepthReprojection MakeLineDepthReprojection(const PinholeCamera& camera,
 
 Eigen::Vector2d LineResidual(const PinholeCamera& camera, const LineSegment2& segment, double sigma,
                              const LineSegment3& line_in_cam) {
-  const LineReprojection reprojection = MakeLineReprojection(camera, segment, sigma, line_in_cam);
-  Eigen::Vector2d residual;
-  reprojection.Residual(0, Eigen::Vector3d(line_in_cam.start), &residual[0]);
-  reprojection.Residual(1, Eigen::Vector3d(line_in_cam.end), &residual[1]);
-  return residual;
+  return ResidualInCamera(MakeLineReprojection(camera, segment, sigma, line_in_cam),
+                          {line_in_cam.start, line_in_cam.end});
 }
 
 std::optional<double> InverseDepthAt(const PinholeCamera& camera, const LineSegment2& segment,

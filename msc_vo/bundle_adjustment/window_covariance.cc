@@ -26,22 +26,7 @@ constexpr double kMaxInflation = 1e8;
 // The inliers of the second solve of LocalBundleAdjustment.
 WindowInlierMask FinalInlierMask(const BundleAdjustmentOptions& options, const WindowData& data,
                                  const WindowIndex& index, const WindowState& state) {
-  int num_behind = 0;
-  WindowInlierMask inlier_mask = InitialInlierMask(options, index, data, &num_behind);
-  const auto keep = [](const auto& items, std::vector<bool>* inliers) {
-    for (size_t i = 0; i < items.size(); ++i) (*inliers)[i] = !items[i].rejected;
-  };
-  const auto keep_observations = [](const auto& items, std::vector<InlierMask>* inliers) {
-    for (size_t i = 0; i < items.size(); ++i) {
-      if (items[i].rejected) (*inliers)[i] = {};
-    }
-  };
-  keep_observations(data.point_observations, &inlier_mask.points);
-  keep_observations(data.line_observations, &inlier_mask.lines);
-  keep(data.parallel_pairs, &inlier_mask.parallel);
-  keep(data.perpendicular_pairs, &inlier_mask.perpendicular);
-  keep(data.axis_alignments, &inlier_mask.alignments);
-
+  WindowInlierMask inlier_mask = UnrejectedInlierMask(options, index, data);
   // Observations that lost only their depth have no mark in the data: repeat the test.
   WindowInlierMask tested = inlier_mask;
   BundleAdjustmentSummary unused;
@@ -151,7 +136,7 @@ WindowCovariance EstimateCovariance(const BundleAdjustmentOptions& options,
                   [](int) { return 6; }),
           Collect(solved.extra_blocks, extra, structure.extra, equations.extra_hessian,
                   blocks.extra, [&state](int i) {
-                    return state.TangentSize({StateBlock::Kind::kExtra, i});
+                    return state.TangentSize({BlockKind::kExtra, i});
                   })};
 }
 

@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "msc_vo/bundle_adjustment/custom_linearization.h"
+#include "msc_vo/factors/camera_linearization.h"
 #include "msc_vo/factors/rigid3_manifold.h"
 #include "msc_vo/factors/robust_loss.h"
 
@@ -87,25 +88,18 @@ bool PoseTerm<Factor>::AddTo(const Rigid3& cam_from_world, NormalEquations* sum)
   const Eigen::Matrix3d rotation = cam_from_world.rotation().toRotationMatrix();
   const Eigen::Vector3d translation = cam_from_world.translation();
   const HuberLoss loss{huber};
-  Eigen::Matrix<double, Factor::kNumResiduals, 1> r;
+  CameraPoints<Factor::kNumPoints> points;
   Eigen::Matrix<double, Factor::kNumResiduals, 6> j;
   for (const Block& block : blocks) {
-    for (int k = 0; k < Factor::kNumPoints; ++k) {
-      const Eigen::Vector3d rotated = rotation * block.x_in_world[k];
-      const Eigen::Vector3d x_in_cam = rotated + translation;
-      if (!(x_in_cam.z() >= kMinCameraDepth)) return false;
-      Eigen::Matrix<double, kRows, 3> g;
-      LinearizeInCamera(block.factor, k, x_in_cam, &r[k * kRows], &g);
-      // x = Exp(w) R X + t + u: dx/dw = -[R X]x, dx/du = I.
-      for (int i = 0; i < kRows; ++i) {
-        const Eigen::Vector3d row = g.row(i);
-        j.row(k * kRows + i) << rotated.cross(row).transpose(), row.transpose();
-      }
+    if (!points.Set(block.factor, rotation, translation, block.landmark.data())) return false;
+    const CameraLinearization<Factor> at = LinearizeInCamera(block.factor, points);
+    for (int row = 0; row < Factor::kNumResiduals; ++row) {
+      j.row(row) = points.ByPose(row / kRows, at.by_x[row / kRows].row(row % kRows));
     }
-    const double s = r.squaredNorm();
+    const double s = at.residual.squaredNorm();
     const double weight = loss.Weight(s);
     sum->cost += 0.5 * loss.Cost(s);
-    sum->gradient += weight * (j.transpose() * r);
+    sum->gradient += weight * (j.transpose() * at.residual);
     for (int column = 0; column < 6; ++column) {
       for (int row = column; row < 6; ++row) {
         sum->hessian(row, column) += weight * j.col(row).dot(j.col(column));
@@ -120,14 +114,10 @@ bool PoseTerm<Factor>::AddCostTo(const Rigid3& cam_from_world, double* sum) cons
   const Eigen::Matrix3d rotation = cam_from_world.rotation().toRotationMatrix();
   const Eigen::Vector3d translation = cam_from_world.translation();
   const HuberLoss loss{huber};
-  Eigen::Matrix<double, Factor::kNumResiduals, 1> r;
+  CameraPoints<Factor::kNumPoints> points;
   for (const Block& block : blocks) {
-    for (int k = 0; k < Factor::kNumPoints; ++k) {
-      const Eigen::Vector3d x_in_cam = rotation * block.x_in_world[k] + translation;
-      if (!(x_in_cam.z() >= kMinCameraDepth)) return false;
-      block.factor.Residual(k, x_in_cam, &r[k * Factor::kRowsPerPoint]);
-    }
-    *sum += 0.5 * loss.Cost(r.squaredNorm());
+    if (!points.Set(block.factor, rotation, translation, block.landmark.data())) return false;
+    *sum += 0.5 * loss.Cost(ResidualInCamera(block.factor, points.x).squaredNorm());
   }
   return true;
 }

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -31,7 +30,7 @@ template <typename Factor>
 struct PoseTerm {
   struct Block {
     Factor factor;
-    std::array<Eigen::Vector3d, Factor::kNumPoints> x_in_world;
+    Eigen::Matrix<double, 3 * Factor::kNumPoints, 1> landmark;  ///< World, metres.
   };
   double huber = 0.0;  ///< Huber threshold in standard deviations; 0: no loss.
   std::vector<Block> blocks;

@@ -4,10 +4,11 @@
 #include "msc_vo/pose_estimation/pose_matches.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "msc_vo/factors/camera_linearization.h"
 
 namespace msc_vo {
 
@@ -18,25 +19,14 @@ InlierMask ClassifyPoint(const PoseOptions& options, const PinholeCamera& camera
   const Eigen::Vector3d x = pose * p.position;
   if (!IsInFront(x)) return {};
   const bool has_depth = options.point_depth.enabled && p.inverse_depth > 0.0;
-  Eigen::Vector2d pixels = Eigen::Vector2d::Zero();
-  double depth = 0.0;
-  if (options.point_reprojection.enabled) {
-    PointReprojection(camera, p.pixel, p.sigma).Residual(0, x, pixels.data());
-  }
-  if (has_depth) DepthReprojection(p.inverse_depth, p.inverse_depth_sigma).Residual(0, x, &depth);
-  InlierMask mask = TestChiSquare(pixels.squaredNorm(), depth * depth, options.reject_chi2_2,
-                                  options.reject_chi2_3);
+  const double pixels = options.point_reprojection.enabled ? PixelChiSquare(camera, pose, p) : 0.0;
+  const double depth =
+      has_depth ? ResidualInCamera(DepthReprojection(p.inverse_depth, p.inverse_depth_sigma), {x})
+                      .squaredNorm()
+                : 0.0;
+  InlierMask mask = TestChiSquare(pixels, depth, options.reject_chi2_2, options.reject_chi2_3);
   mask.depth = mask.depth && has_depth;
   return mask;
-}
-
-// Of a factor of both ends of a line in the camera frame.
-template <typename Factor>
-double SquaredResidual(const Factor& factor, const LineSegment3& line) {
-  Eigen::Vector2d residual;
-  factor.Residual(0, Eigen::Vector3d(line.start), &residual[0]);
-  factor.Residual(1, Eigen::Vector3d(line.end), &residual[1]);
-  return residual.squaredNorm();
 }
 
 InlierMask ClassifyLine(const PoseOptions& options, const PinholeCamera& camera, const Rigid3& pose,
@@ -46,7 +36,9 @@ InlierMask ClassifyLine(const PoseOptions& options, const PinholeCamera& camera,
   const bool has_depth = options.line_depth.enabled && l.has_depth;
   const double pixels = options.line_reprojection.enabled ? PixelChiSquare(camera, pose, l) : 0.0;
   const double depth =
-      has_depth ? SquaredResidual(MakeLineDepthReprojection(camera, l.segment, l.depth, line), line)
+      has_depth ? ResidualInCamera(MakeLineDepthReprojection(camera, l.segment, l.depth, line),
+                                   {line.start, line.end})
+                      .squaredNorm()
                 : 0.0;
   InlierMask mask = TestChiSquare(pixels, depth, options.reject_chi2_2, options.reject_chi2_4);
   mask.depth = mask.depth && has_depth;
@@ -65,7 +57,7 @@ double SquaredFrameNoise(const PoseOptions& options, const PoseData& data, const
                     options.max_frame_noise * options.max_frame_noise);
 }
 
-// NaN breaks nth_element.
+// Maps NaN, as of a sigma whose inverse overflows, to infinity: std::nth_element needs an order.
 double NanToInfinity(double value) {
   return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
 }
@@ -76,16 +68,15 @@ double PixelChiSquare(const PinholeCamera& camera, const Rigid3& pose,
                       const PoseData::Point& point) {
   const Eigen::Vector3d in_cam = pose * point.position;
   if (!IsInFront(in_cam)) return std::numeric_limits<double>::infinity();
-  // sigma^2 may underflow.
-  return NanToInfinity((camera.Project(in_cam) - point.pixel).squaredNorm() /
-                       (point.sigma * point.sigma));
+  return NanToInfinity(
+      ResidualInCamera(PointReprojection(camera, point.pixel, point.sigma), {in_cam})
+          .squaredNorm());
 }
 
 double PixelChiSquare(const PinholeCamera& camera, const Rigid3& pose, const PoseData::Line& line) {
   const LineSegment3 in_cam = pose * line.map_segment;
   if (!IsInFront(in_cam)) return std::numeric_limits<double>::infinity();
-  return NanToInfinity(
-      SquaredResidual(MakeLineReprojection(camera, line.segment, line.sigma, in_cam), in_cam));
+  return NanToInfinity(LineResidual(camera, line.segment, line.sigma, in_cam).squaredNorm());
 }
 
 double MedianChiSquareRatio(std::vector<double> chi2) {
@@ -131,11 +122,11 @@ void AddFactors(const PoseOptions& options, const PinholeCamera& camera,
                 const PoseData::Point& point, const InlierMask& mask, PoseFactors* factors) {
   if (mask.reprojection && options.point_reprojection.enabled) {
     factors->point_reprojection.blocks.push_back(
-        {PointReprojection(camera, point.pixel, point.sigma), {point.position}});
+        {PointReprojection(camera, point.pixel, point.sigma), point.position});
   }
   if (mask.depth) {
     factors->point_depth.blocks.push_back(
-        {DepthReprojection(point.inverse_depth, point.inverse_depth_sigma), {point.position}});
+        {DepthReprojection(point.inverse_depth, point.inverse_depth_sigma), point.position});
   }
 }
 
@@ -143,7 +134,8 @@ void AddFactors(const PoseOptions& options, const PinholeCamera& camera, const P
                 const InlierMask& mask, const Rigid3& pose, PoseFactors* factors) {
   if (!mask.reprojection) return;
   const LineSegment3 in_cam = pose * line.map_segment;
-  const std::array<Eigen::Vector3d, 2> ends{line.map_segment.start, line.map_segment.end};
+  Eigen::Matrix<double, 6, 1> ends;
+  ends << line.map_segment.start, line.map_segment.end;
   if (options.line_reprojection.enabled) {
     factors->line_reprojection.blocks.push_back(
         {MakeLineReprojection(camera, line.segment, line.sigma, in_cam), ends});

@@ -73,9 +73,7 @@ class CeresForm {
     for (const auto& block : term.blocks) {
       landmarks_.push_back(std::make_unique<std::array<double, 6>>());
       double* landmark = landmarks_.back()->data();
-      for (int k = 0; k < Factor::kNumPoints; ++k) {
-        Eigen::Map<Eigen::Vector3d>(landmark + 3 * k, 3) = block.x_in_world[k];
-      }
+      std::copy(block.landmark.begin(), block.landmark.end(), landmark);
       problem_.AddResidualBlock(Factor::Create(block.factor), new ceres::HuberLoss(term.huber),
                                 pose_.params.data(), landmark);
       problem_.SetParameterBlockConstant(landmark);

@@ -3,57 +3,16 @@
 
 #include "msc_vo/bundle_adjustment/internal/window_equations.h"
 
-#include <array>
 #include <cmath>
+#include <type_traits>
 
-#include "msc_vo/geometry/so3.h"
+#include "msc_vo/factors/camera_equations.h"
 
 namespace msc_vo {
 
 namespace {
 
 using Pose = WindowEquations::Pose;
-
-// Residuals of one observation in camera coordinates: cost, and derivatives with respect to the
-// camera coordinates x = R X + t of each of the landmark's points.
-template <int Points>
-struct CameraLinearization {
-  std::array<Eigen::Vector3d, Points> rotated;  // R X
-  std::array<Eigen::Vector3d, Points> x;
-  std::array<Eigen::Matrix3d, Points> hessian;
-  std::array<Eigen::Vector3d, Points> gradient;
-  double cost = 0.0;
-
-  // False if a point is behind the camera.
-  template <typename Observation>
-  bool SetPoints(const Observation& observation, const Eigen::Matrix3d& rotation,
-                 const Eigen::Vector3d& translation, const double* landmark) {
-    for (int k = 0; k < Points; ++k) {
-      rotated[k] = rotation * observation.PointInWorld(k, landmark);
-      x[k] = rotated[k] + translation;
-      if (!(x[k].z() >= kMinCameraDepth)) return false;
-      hessian[k].setZero();
-      gradient[k].setZero();
-    }
-    return true;
-  }
-
-  template <typename Factor>
-  void Add(const Factor& factor, const HuberLoss& loss) {
-    constexpr int kRows = Factor::kRowsPerPoint;
-    Eigen::Matrix<double, Factor::kNumResiduals, 1> r;
-    for (int k = 0; k < Points; ++k) factor.Residual(k, x[k], r.data() + k * kRows);
-    const double s = r.squaredNorm();
-    const double weight = loss.Weight(s);
-    cost += 0.5 * loss.Cost(s);
-    for (int k = 0; k < Points; ++k) {
-      const Eigen::Matrix<double, kRows, 3> j = factor.Jacobian(k, x[k]);
-      const Eigen::Matrix<double, kRows, 3> weighted = weight * j;
-      hessian[k].noalias() += weighted.transpose() * j;
-      gradient[k].noalias() += weighted.transpose() * r.template segment<kRows>(k * kRows);
-    }
-  }
-};
 
 // Data that all observations of one kind of landmark share.
 template <int Points>
@@ -74,10 +33,12 @@ class Linearizer {
     for (size_t i = 0; i < structure_.pose.size(); ++i) {
       rotations_.push_back(state_.Pose(i).rotation().toRotationMatrix());
     }
-    const ObservationTerms<1> points{terms_.point_reprojection.loss, terms_.point_depth.loss,
-                                     structure_.point, &equations_->points};
-    const ObservationTerms<2> lines{terms_.line_reprojection.loss, terms_.line_depth.loss,
-                                    structure_.line, &equations_->lines};
+    const ObservationTerms<1> points{terms_.Of<PointReprojection>().loss,
+                                     terms_.Of<DepthReprojection>().loss, structure_.point,
+                                     &equations_->points};
+    const ObservationTerms<2> lines{terms_.Of<LineReprojection>().loss,
+                                    terms_.Of<LineDepthReprojection>().loss, structure_.line,
+                                    &equations_->lines};
     for (const PointObservationFactors& o : structure_.point_observations) {
       if (!AddObservation(points, o, state_.PointBlock(o.landmark))) return false;
     }
@@ -85,13 +46,9 @@ class Linearizer {
       if (!AddObservation(lines, o, state_.LineBlock(o.landmark))) return false;
     }
     if (!ComputeDirections()) return false;
-    AddEndpointPriors();
-    AddAlignments();
-    AddPairs(terms_.parallel);
-    AddPairs(terms_.perpendicular);
-    AddPriors();
-    if (!AddCustomFactors()) return false;
-    return std::isfinite(equations_->cost);
+    bool defined = true;
+    ForEachTerm(terms_, [&](const auto&, const auto& blocks) { defined = defined && Add(blocks); });
+    return defined && std::isfinite(equations_->cost);
   }
 
  private:
@@ -130,60 +87,25 @@ class Linearizer {
                       const double* landmark) {
     const Eigen::Matrix3d& rotation = rotations_[o.keyframe];
     const Eigen::Map<const Eigen::Vector3d> translation(state_.PoseBlock(o.keyframe) + 4);
-    CameraLinearization<Points> at;
-    if (!at.SetPoints(o, rotation, translation, landmark)) return false;
-    if (o.reprojection != nullptr) at.Add(*o.reprojection, terms.reprojection_loss);
-    if (o.depth != nullptr) at.Add(*o.depth, terms.depth_loss);
+    CameraPoints<Points> points;
+    if (!points.Set(o, rotation, translation, landmark)) return false;
+    CameraEquations<Points> at;
+    if (o.reprojection != nullptr) at.Add(*o.reprojection, terms.reprojection_loss, points);
+    if (o.depth != nullptr) at.Add(*o.depth, terms.depth_loss, points);
     equations_->cost += at.cost;
     const int unknown = terms.unknown[o.landmark], pose = structure_.pose[o.keyframe];
-    for (int k = 0; k < Points; ++k) {
-      const Eigen::Matrix3d h_rotation = at.hessian[k] * rotation;
-      if (unknown >= 0) {
-        AddToLandmark<Points>(o, k, rotation.transpose() * h_rotation,
-                              rotation.transpose() * at.gradient[k], unknown, terms.equations);
-      }
-      if (pose < 0) continue;
-      const Eigen::Matrix3d arm = Skew(at.rotated[k]);
-      AddToPose(pose, arm, at.hessian[k], at.rotated[k], at.gradient[k]);
-      if (o.block < 0) continue;
-      for (int i = 0; i < Points; ++i) {
-        const double weight = o.Weight(k, i);
-        if (weight == 0.0) continue;
-        auto coupling = terms.equations->pose_couplings[o.block].template middleCols<3>(3 * i);
-        coupling.template topRows<3>().noalias() += weight * arm * h_rotation;
-        coupling.template bottomRows<3>() += weight * h_rotation;
-      }
+    typename CameraEquations<Points>::Blocks blocks;
+    if (unknown >= 0) {
+      blocks.landmark_hessian = &terms.equations->hessian[unknown];
+      blocks.landmark_gradient = &terms.equations->gradient[unknown];
     }
+    if (pose >= 0) {
+      blocks.pose_hessian = &equations_->pose_hessian[pose];
+      blocks.pose_gradient = &equations_->pose_gradient[pose];
+    }
+    if (o.block >= 0) blocks.coupling = &terms.equations->pose_couplings[o.block];
+    at.AddTo(blocks, o, rotation, points);
     return true;
-  }
-
-  // Chain rule from point k of a landmark to the ends of which it is a weighted mean.
-  template <int Points, typename Observation>
-  static void AddToLandmark(const Observation& o, int k, const Eigen::Matrix3d& hessian,
-                            const Eigen::Vector3d& gradient, int unknown,
-                            WindowEquations::Landmarks<3 * Points>* equations) {
-    for (int i = 0; i < Points; ++i) {
-      const double weight = o.Weight(k, i);
-      if (weight == 0.0) continue;
-      equations->gradient[unknown].template segment<3>(3 * i) += weight * gradient;
-      for (int j = 0; j < Points; ++j) {
-        if (o.Weight(k, j) == 0.0) continue;
-        equations->hessian[unknown].template block<3, 3>(3 * i, 3 * j) +=
-            (weight * o.Weight(k, j)) * hessian;
-      }
-    }
-  }
-
-  // Chain rule from x to the pose: dx = [-[R X]x, I] (w, u), with arm = [R X]x.
-  void AddToPose(int pose, const Eigen::Matrix3d& arm, const Eigen::Matrix3d& hessian,
-                 const Eigen::Vector3d& rotated, const Eigen::Vector3d& gradient) {
-    const Eigen::Matrix3d arm_h = arm * hessian;
-    Pose::Block& pose_hessian = equations_->pose_hessian[pose];
-    pose_hessian.topLeftCorner<3, 3>().noalias() -= arm_h * arm;
-    pose_hessian.bottomLeftCorner<3, 3>() += arm_h.transpose();
-    pose_hessian.bottomRightCorner<3, 3>() += hessian;
-    equations_->pose_gradient[pose].head<3>() += rotated.cross(gradient);
-    equations_->pose_gradient[pose].tail<3>() += gradient;
   }
 
   // Computes the directions of all observed lines once, as a line is part of many pairs. Returns
@@ -202,11 +124,18 @@ class Linearizer {
     return true;
   }
 
-  void AddEndpointPriors() {
-    for (const auto& block : terms_.line_endpoint_prior.blocks) {
-      const int unknown = structure_.line[block.first];
+  // Observations are added with all of their factors at once (AddObservation).
+  template <typename Factor>
+  std::enable_if_t<kIsOfObservation<Factor>, bool> Add(const WindowTerm<Factor>&) {
+    return true;
+  }
+
+  bool Add(const WindowTerm<LineEndpointPrior>& term) {
+    for (const auto& block : term.blocks) {
+      const auto [line] = block.parameters;
+      const int unknown = structure_.line[line];
       Eigen::Vector2d r;
-      block.factor(state_.LineBlock(block.first), r.data());
+      block.factor(state_.LineBlock(line), r.data());
       equations_->cost += 0.5 * r.squaredNorm();
       for (int k = 0; k < 2; ++k) {
         const Eigen::Vector3d j = block.factor.Jacobian();
@@ -214,6 +143,7 @@ class Linearizer {
         equations_->lines.gradient[unknown].segment<3>(3 * k) += r[k] * j;
       }
     }
+    return true;
   }
 
   // Adds derivatives with respect to E - S to those of a line.
@@ -227,24 +157,26 @@ class Linearizer {
     equations_->lines.gradient[unknown].tail<3>() += gradient;
   }
 
-  void AddAlignments() {
-    for (const auto& block : terms_.manhattan.blocks) {
+  bool Add(const WindowTerm<ManhattanAxisAlignment>& term) {
+    for (const auto& block : term.blocks) {
+      const auto [line] = block.parameters;
       Eigen::Vector2d r;
-      const Direction& d = directions_[block.first];
+      const Direction& d = directions_[line];
       block.factor.Residual(d.unit, r.data());
       const double s = r.squaredNorm();
-      const double weight = terms_.manhattan.loss.Weight(s);
-      equations_->cost += 0.5 * terms_.manhattan.loss.Cost(s);
+      const double weight = term.loss.Weight(s);
+      equations_->cost += 0.5 * term.loss.Cost(s);
       const Eigen::Matrix<double, 2, 3> j = block.factor.Jacobian() * d.jacobian;
-      AddToLine(structure_.line[block.first], weight * j.transpose() * j,
-                weight * j.transpose() * r);
+      AddToLine(structure_.line[line], weight * j.transpose() * j, weight * j.transpose() * r);
     }
+    return true;
   }
 
   template <typename Factor>
-  void AddPairs(const WindowTerm<Factor>& term) {
+  std::enable_if_t<kRelatesLines<Factor>, bool> Add(const WindowTerm<Factor>& term) {
     for (const auto& block : term.blocks) {
-      const Direction &d_i = directions_[block.first], &d_j = directions_[block.second];
+      const auto [line_i, line_j] = block.parameters;
+      const Direction &d_i = directions_[line_i], &d_j = directions_[line_j];
       Eigen::Matrix<double, Factor::kNumResiduals, 1> r;
       block.factor.Residual(d_i.unit, d_j.unit, r.data());
       const double s = r.squaredNorm();
@@ -254,31 +186,34 @@ class Linearizer {
           block.factor.JacobianI(d_i.unit, d_j.unit) * d_i.jacobian;
       const typename Factor::Jacobian by_j =
           block.factor.JacobianJ(d_i.unit, d_j.unit) * d_j.jacobian;
-      const int i = structure_.line[block.first], j = structure_.line[block.second];
+      const int i = structure_.line[line_i], j = structure_.line[line_j];
       if (i >= 0) AddToLine(i, weight * by_i.transpose() * by_i, weight * by_i.transpose() * r);
       if (j >= 0) AddToLine(j, weight * by_j.transpose() * by_j, weight * by_j.transpose() * r);
       if (i >= 0 && j >= 0) equations_->line_couplings.push_back(weight * by_i.transpose() * by_j);
     }
+    return true;
   }
 
-  void AddPriors() {
-    for (const auto& block : terms_.pose_prior.blocks) {
-      const int pose = structure_.pose[block.first];
+  bool Add(const WindowTerm<PosePrior>& term) {
+    for (const auto& block : term.blocks) {
+      const auto [keyframe] = block.parameters;
+      const int pose = structure_.pose[keyframe];
       Pose::Vector r;
-      block.factor(state_.PoseBlock(block.first), r.data());
-      const Pose::Block j = block.factor.TangentJacobian(state_.Pose(block.first));
+      block.factor(state_.PoseBlock(keyframe), r.data());
+      const Pose::Block j = block.factor.TangentJacobian(state_.Pose(keyframe));
       equations_->cost += 0.5 * r.squaredNorm();
       equations_->pose_hessian[pose] += j.transpose() * j;
       equations_->pose_gradient[pose] += j.transpose() * r;
     }
+    return true;
   }
 
-  bool AddCustomFactors() {
+  bool Add(const WindowTerm<CustomFactor>& term) {
     CustomLinearization at;
-    for (size_t i = 0; i < terms_.custom.blocks.size(); ++i) {
+    for (size_t i = 0; i < term.blocks.size(); ++i) {
       const std::vector<StateBlock>& unknowns = structure_.custom_factors[i];
-      const CustomFactor& factor = *terms_.custom.blocks[i].factor;
-      std::vector<CustomParameter> parameters = ParametersOf(terms_.custom.blocks[i], state_);
+      const CustomFactor& factor = *term.blocks[i].factor;
+      std::vector<CustomParameter> parameters = ParametersOf(term.blocks[i], state_);
       for (size_t a = 0; a < unknowns.size(); ++a) {
         parameters[a].variable = unknowns[a].position >= 0;
       }
@@ -306,13 +241,14 @@ class Linearizer {
       sum_gradient[i] += gradient;
     };
     switch (unknown.kind) {
-      case StateBlock::Kind::kPose:
+      case BlockKind::kPose:
         return add(equations_->pose_hessian, equations_->pose_gradient);
-      case StateBlock::Kind::kPoint:
+      case BlockKind::kPoint:
         return add(equations_->points.hessian, equations_->points.gradient);
-      case StateBlock::Kind::kLine:
+      case BlockKind::kLine:
         return add(equations_->lines.hessian, equations_->lines.gradient);
-      case StateBlock::Kind::kExtra:
+      case BlockKind::kAxes:
+      case BlockKind::kExtra:
         return add(equations_->extra_hessian, equations_->extra_gradient);
     }
   }

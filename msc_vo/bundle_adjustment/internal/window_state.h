@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/window_data.h"
@@ -11,10 +12,9 @@
 namespace msc_vo {
 
 /// Parameter block of a WindowState: a keyframe, point, line or extra block by its position in the
-/// data. The Manhattan axes follow the extra blocks of the data.
+/// data. The Manhattan axes are an extra block, behind those of the data (never kAxes).
 struct StateBlock {
-  enum class Kind { kPose, kPoint, kLine, kExtra };
-  Kind kind = Kind::kPose;
+  BlockKind kind = BlockKind::kPose;
   int position = 0;
 
   bool operator==(const StateBlock& other) const {
@@ -91,5 +91,9 @@ class WindowState {
   std::vector<ExtraEntry> extra_;
   std::vector<double> parameters_;
 };
+
+/// Writes the blocks for which is_written(block) holds to the data that the state was made of.
+void WriteState(const WindowState& state, const std::function<bool(const StateBlock&)>& is_written,
+                WindowData* data);
 
 }  // namespace msc_vo
