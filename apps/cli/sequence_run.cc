@@ -152,7 +152,8 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   LogStart(context, num_frames);
 
   CostMeter cost;
-  const OdometryOptions& options = context.configuration.odometry;
+  OdometryOptions options = context.configuration.odometry;
+  options.find_clipped_depth = decoder.index().camera != nullptr;
   Odometry odometry(options, context.calibration.camera, context.calibration.distortion);
   odometry.SetWindowObserver(callbacks.window);
   odometry.SetWindowFactors(callbacks.window_factors);

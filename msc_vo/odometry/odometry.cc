@@ -273,7 +273,8 @@ FrameResult Odometry::Process(const RgbdImage& given) {
   state_->builder.Check(given);
   CheckDepthUnits(given.id, given.depth);
   Stopwatch stopwatch;
-  const RgbdImage recorded = state_->preparation.RemoveClipped(StandaloneImages(given));
+  RgbdImage recorded = StandaloneImages(given);
+  if (state_->options.find_clipped_depth) recorded = state_->preparation.RemoveClipped(recorded);
   const RgbdImage aligned = state_->Align(recorded);
   RgbdImage image = state_->preparation.Register(aligned);
   const double alignment_ms = stopwatch.Milliseconds();
