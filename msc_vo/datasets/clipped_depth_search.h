@@ -11,7 +11,7 @@
 namespace msc_vo {
 
 /// Finds the values at which the depth images of a sequence are clipped, see ClippedDepthFinder,
-/// from a sample of images that is spread over the sequence. Takes 0.1 s. Images that cannot be
+/// from a sample of images that is spread over the sequence. Images that cannot be
 /// read are left out.
 ClippedDepth FindClippedDepth(const SequenceIndex& index);
 
