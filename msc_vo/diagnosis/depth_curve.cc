@@ -253,11 +253,11 @@ DepthCurveTest::DepthCurveTest(const PinholeCamera& camera, const LensDistortion
   step_ = std::max(1, recorded.width / kCellsPerRow);
   cell_size_ = step_ / recorded.FocalLength();
   rays_.create((recorded.height + step_ - 1) / step_, (recorded.width + step_ - 1) / step_);
-  constexpr double kTolerance = 1e-6;
+  constexpr double kRayTolerance = 1e-6;
   for (int y = 0; y < rays_.rows; ++y) {
     for (int x = 0; x < rays_.cols; ++x) {
       const Eigen::Vector2d distorted = recorded.Ray({x * step_, y * step_}).head<2>();
-      const Eigen::Vector2d ray = distortion.UndistortNormalized(distorted, kTolerance);
+      const Eigen::Vector2d ray = distortion.UndistortNormalized(distorted, kRayTolerance);
       rays_(y, x) = {ray.x(), ray.y()};
     }
   }

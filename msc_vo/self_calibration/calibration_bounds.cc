@@ -126,6 +126,7 @@ std::string DescribeDepth(const S::Vector& correction) {
 }  // namespace
 
 std::string DescribeImplausible(const CameraIntrinsics& given, const S::Vector& correction) {
+  if (!correction.allFinite()) return "the estimate has no finite value";
   const std::string color = DescribeColor(given, correction);
   return color.empty() ? DescribeDepth(correction) : color;
 }

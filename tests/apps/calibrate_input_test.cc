@@ -8,6 +8,7 @@
 #include "tests/apps/command_process.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include "msc_vo/text/files.h"
 
@@ -60,6 +61,38 @@ TEST_F(CalibrateInputTest, RefusesSequencesWithoutPairs) {
                       HasSubstr("0 pairs"), HasSubstr("record 10 seconds")));
     EXPECT_FALSE(HasEntry(camera) || HasEntry(page));
   }
+}
+
+// As `replay` does, unless it is told not to check.
+TEST_F(CalibrateInputTest, RefusesValuesThatAreNoDepths) {
+  const std::string folder = Path("disparity"), camera = Path("camera.yaml");
+  Synthesize("disparity", "8");
+  for (const auto& entry : fs::directory_iterator(folder + "/depth")) {
+    cv::Mat depth = cv::imread(entry.path().string(), cv::IMREAD_UNCHANGED);
+    depth.forEach<uint16_t>([](uint16_t& value, const int*) {
+      if (value > 0) value = cv::saturate_cast<uint16_t>(8e7 / value);
+    });
+    ASSERT_TRUE(cv::imwrite(entry.path().string(), depth));
+  }
+  ExpectRefused({folder, "--output", camera}, "the depth images hold inverse depth");
+  EXPECT_FALSE(HasEntry(camera));
+  const CommandOutcome refused = RunCommand({"replay", folder, "--output", Path("out")});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.output, HasSubstr("divided by disparity"));
+  const CommandOutcome forced =
+      RunCommand({"replay", folder, "--no-check", "--output", Path("out")});
+  EXPECT_THAT(forced.output, Not(HasSubstr("inverse depth")));
+}
+
+// Of a camera whose focal length is given as that of another image size.
+TEST_F(CalibrateInputTest, WritesNoCameraBeyondTheBounds) {
+  const std::string camera = Path("camera.yaml");
+  const CommandOutcome outcome =
+      RunCommand({"calibrate", kRoom, "--set", "camera.fx=1050", "--set", "camera.fy=1050", "--set",
+                  "camera.cx=319.5", "--set", "camera.cy=239.5", "--set", "camera.depth_scale=5000",
+                  "--output", camera});
+  EXPECT_NE(outcome.exit_code, 0) << outcome.output;
+  EXPECT_FALSE(HasEntry(camera)) << outcome.output;
 }
 
 TEST_F(CalibrateInputTest, TestsItsOutputsBeforeTheWork) {

@@ -3,6 +3,7 @@
 
 // Verdicts on purposely broken and miscalibrated copies of a rendered sequence.
 
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -117,6 +118,35 @@ TEST_F(BrokenSequenceTest, FindsNothingInAnotherScene) {
   options.seed = 2;
   const Recording other = Record(options, kNumImages);
   ExpectClean(Diagnose([&](Recording* r) { *r = other; }, true, "other"));
+}
+
+// Replaces each depth (metres) by a raw value, in place.
+Damage Encode(const std::function<double(double depth)>& encode) {
+  return [encode](Recording* r) {
+    const double scale = r->calibration.depth_scale;
+    ForAllImages(r, [&](Recording::Image* i) {
+      for (auto p = i->depth.begin<uint16_t>(); p != i->depth.end<uint16_t>(); ++p) {
+        if (*p > 0) *p = cv::saturate_cast<uint16_t>(encode(*p / scale));
+      }
+    });
+    r->calibration.depth_scale = 1000.0;
+  };
+}
+
+TEST_F(BrokenSequenceTest, NamesValuesThatAreNoDepths) {
+  const Damage disparity = Encode([](double z) { return 6000.0 / z; });
+  ExpectError("disparity", "depth.curve", "inverse depth", disparity);
+  ExpectError("inverted", "depth.curve", "inverted depth",
+              Encode([](double z) { return 10000.0 - 1000.0 * z; }));
+  ExpectError("root", "depth.curve", "compressed depth",
+              Encode([](double z) { return 3000.0 * std::sqrt(z); }));
+  // No other part of the calibration is blamed.
+  for (const Finding& finding : Diagnose(disparity, true, "deep")) {
+    if (finding.check == "depth.curve") continue;
+    EXPECT_NE(finding.severity, Severity::kError) << Describe(finding);
+    EXPECT_FALSE(finding.check.rfind("calibration", 0) == 0 && finding.severity != Severity::kGood)
+        << Describe(finding);
+  }
 }
 
 TEST_F(BrokenSequenceTest, FindsDefectsOfDepth) {

@@ -26,7 +26,7 @@ std::string Describe(int index, double value, const CameraIntrinsics& given = kG
 TEST(CalibrationBounds, ContainWrongCalibrations) {
   EXPECT_EQ(DescribeImplausible(kGiven, S::Vector::Zero()), "");
   for (int i = 0; i < S::kSize; ++i) {
-    for (const double sigmas : {-3.0, 3.0}) {
+    for (const double sigmas : {-2.0, 2.0}) {
       EXPECT_EQ(Describe(i, sigmas * WrongCalibrationSigma()(i)), "") << i;
     }
   }

@@ -132,6 +132,18 @@ TEST(CalibrationEstimator, AcceptsTheDistortionOfALens) {
   EXPECT_NEAR(run.estimator().present()->distortion.k[0], -0.1, 0.01);
 }
 
+// Images that contradict the given lens, by more than any lens distorts.
+TEST(CalibrationEstimator, UsesNoLensThatNoCameraHas) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kK1) = 0.6;
+  SimulatedRun run(truth);
+  run.AddKeyframes(14);
+  EXPECT_GT(run.estimator().estimate().log_odds[2], 0.0);
+  EXPECT_EQ(run.num_changes(), 0);
+  EXPECT_EQ(run.estimator().present(), run.camera().given());
+  EXPECT_FALSE(run.estimator().estimate().IsCorrected());
+}
+
 TEST(CalibrationEstimator, KeepsWhatItKnowsWhenTheReadoutTimeChanges) {
   SimulatedRun run(S::Vector::Zero());
   run.AddKeyframes(10);
