@@ -248,10 +248,12 @@ TEST_F(WarmLens, IsCorrectedByTheMapWhileTheRegistrationRemains) {
 // Images that contradict a correction outweigh those that made it.
 TEST(TakenBackCorrection, IsNotAcceptedAgain) {
   SettledRun run(Record(Truth(-0.05, 0.0), HandHeldPoses()));
+  run.Add(0);
   for (int i = 0; i < 10 && !run.estimator().estimate().is_corrected[0]; ++i) run.Add(1);
   ASSERT_TRUE(run.estimator().estimate().is_corrected[0]);
   run.BeginMap();
   run.Continue(Record(S::Vector::Zero(), HandHeldPoses()));
+  run.Add(0);
   int num_changes = 0;
   for (int i = 0; i < 14; ++i) num_changes += run.Add(8) ? 1 : 0;
   EXPECT_FALSE(run.estimator().estimate().IsCorrected());
