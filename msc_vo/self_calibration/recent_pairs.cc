@@ -23,7 +23,6 @@ constexpr size_t kMaxViews = 24;
 constexpr size_t kMaxPairs = 160;
 constexpr size_t kMaxTries = 3;  // keyframes that an image is matched with
 constexpr size_t kMaxSamples = 300;
-constexpr size_t kRankingStep = 3;  // samples, when keyframes are compared
 constexpr size_t kMaxMatches = 100;
 constexpr size_t kMaxPoints = 60;  // with surfaces
 // Displacement, radians, from which on a point tells no more about the calibration.
@@ -154,8 +153,7 @@ void RecentPairs::AddPair(const Map& map, const Partner& partner,
     const Rigid3 b_from_a = partner.cam_from_world * keyframe->cam_from_world.Inverse();
     double sum = 0.0;
     size_t count = 0;
-    for (size_t i = 0; i < view.samples.size(); i += kRankingStep) {
-      const Sample& sample = view.samples[i];
+    for (const Sample& sample : view.samples) {
       if (!frame.points[sample.feature].HasDepth()) continue;
       const Eigen::Vector3d in_b = b_from_a * frame.PointInCamera(sample.feature);
       if (in_b.z() < kMinCameraDepth) continue;
@@ -165,8 +163,7 @@ void RecentPairs::AddPair(const Map& map, const Partner& partner,
       sum += std::min(pixels / focal_length, kMaxDisplacement);
       ++count;
     }
-    if (count * kRankingStep >= kMinPairPoints &&
-        sum > kMinDisplacement * static_cast<double>(count)) {
+    if (count >= kMinPairPoints && sum > kMinDisplacement * static_cast<double>(count)) {
       ranked.emplace_back(-sum, &view);
     }
   }
