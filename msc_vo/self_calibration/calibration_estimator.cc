@@ -51,8 +51,7 @@ constexpr int kMinCandidacy = 3;
 constexpr size_t kSettledPairs = 150;
 constexpr size_t kLastPair = 2 * kSettledPairs;
 
-// Bundle adjustment is repeated when the map has grown by a quarter, or by half as long as nothing
-// is corrected, up to this size.
+// Bundle adjustment is repeated when the map has grown by half, up to this size.
 constexpr size_t kLastSize = 60;
 // It replaces a correction that moves a pixel by more than this, radians: a tenth of the noise of a
 // point.
@@ -103,8 +102,8 @@ CorrectionEstimate Judge(const CalibrationInformation& information) {
   return estimate;
 }
 
-// A size that is larger by a part of it.
-size_t NextSize(size_t size, size_t part) { return size + std::max<size_t>(1, size / part); }
+// A size that is larger by half.
+size_t NextSize(size_t size) { return size + std::max<size_t>(1, size / 2); }
 
 // The groups that may be wrong by the pairs alone. Half of the certainty of the colour camera is
 // enough that a correction requires: the map adds to it.
@@ -281,7 +280,7 @@ bool CalibrationEstimator::SelectGroups(double readout_sigma) {
   if (selected.is_corrected[kRegistration] && !before[kRegistration]) {
     const auto corrected = MakeCorrected(selected.correction);
     if (!corrected || !images_.EdgesAgree(*given_, *corrected)) {
-      next_registration_ = NextSize(pairs_.num_added(), 4);
+      next_registration_ = NextSize(pairs_.num_added());
       selected = Select(readout_sigma);
     }
   }
@@ -332,9 +331,8 @@ bool CalibrationEstimator::IsAdjustmentDue(size_t num_keyframes) const {
 
 bool CalibrationEstimator::Adjust(const Map& map) {
   adjusted_size_ = map.keyframes().size();
-  next_size_ = adjusted_size_ < kLastSize
-                   ? NextSize(adjusted_size_, CorrectsColor(estimate_) ? 4 : 2)
-                   : std::numeric_limits<size_t>::max();
+  next_size_ =
+      adjusted_size_ < kLastSize ? NextSize(adjusted_size_) : std::numeric_limits<size_t>::max();
   const auto information = SelfCalibratingBundleAdjustment(*given_, map, estimate_.correction);
   if (!information) return false;
   of_map_ = information;

@@ -199,7 +199,7 @@ TEST(CalibrationEstimator, WaitsUntilACandidateHasLasted) {
 
 TEST(CalibrationEstimator, AcceptsNoCorrectionBelowThreeSigmas) {
   int num_accepted = 0;
-  for (const double focal_length : {-0.03, -0.015, 0.01, 0.02}) {
+  for (const double focal_length : {-0.05, -0.03, -0.015, 0.015}) {
     const Acceptance acceptance = FindAcceptance(focal_length, true);
     if (acceptance.keyframe < 0) continue;
     ++num_accepted;
