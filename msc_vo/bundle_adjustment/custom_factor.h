@@ -10,6 +10,8 @@
 
 #include <Eigen/Core>
 
+#include "msc_vo/factors/block_kind.h"
+
 namespace ceres {
 class CostFunction;
 class LossFunction;
@@ -20,13 +22,7 @@ namespace msc_vo {
 
 /// Identifies a parameter block of a window by its kind and id.
 struct BlockId {
-  enum class Kind {
-    kPose,   ///< cam_from_world of a keyframe, 7: unit quaternion (x, y, z, w), translation
-    kPoint,  ///< position, 3
-    kLine,   ///< end points S and E, 6
-    kAxes,   ///< world_from_axes of the Manhattan axes, 4: unit quaternion (x, y, z, w)
-    kExtra,  ///< an ExtraBlock
-  };
+  using Kind = BlockKind;
   Kind kind = Kind::kPose;
   int64_t id = 0;
 

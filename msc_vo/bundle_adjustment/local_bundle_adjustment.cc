@@ -18,35 +18,20 @@ namespace msc_vo {
 
 namespace {
 
-// Calls visit(term, summary of the term) for every term.
-template <typename Visitor>
-void ForEachTerm(const WindowTerms& terms, BundleAdjustmentSummary* summary, const Visitor& visit) {
-  visit(terms.point_reprojection, &summary->point_reprojection);
-  visit(terms.point_depth, &summary->point_depth);
-  visit(terms.line_reprojection, &summary->line_reprojection);
-  visit(terms.line_depth, &summary->line_depth);
-  visit(terms.line_endpoint_prior, &summary->line_endpoint_prior);
-  visit(terms.parallel, &summary->parallel);
-  visit(terms.perpendicular, &summary->perpendicular);
-  visit(terms.manhattan, &summary->manhattan);
-  visit(terms.pose_prior, &summary->pose_prior);
-  visit(terms.custom, &summary->custom);
-}
-
 // Writes the cost of every term to `member` of its summary. Returns the sum.
 double WriteCosts(const WindowTerms& terms, const WindowState& state, double TermSummary::*member,
                   BundleAdjustmentSummary* summary) {
   double sum = 0.0;
-  ForEachTerm(terms, summary, [&](const auto& term, TermSummary* term_summary) {
-    term_summary->*member = Cost(term, state);
-    sum += term_summary->*member;
+  ForEachTerm(terms, [&](const auto& term, const auto& of_term) {
+    (summary->*term.summary).*member = Cost(of_term, state);
+    sum += (summary->*term.summary).*member;
   });
   return sum;
 }
 
 void WriteCounts(const WindowTerms& terms, BundleAdjustmentSummary* summary) {
-  ForEachTerm(terms, summary, [](const auto& term, TermSummary* term_summary) {
-    term_summary->num_residual_blocks = static_cast<int>(term.blocks.size());
+  ForEachTerm(terms, [summary](const auto& term, const auto& of_term) {
+    (summary->*term.summary).num_residual_blocks = static_cast<int>(of_term.blocks.size());
   });
 }
 
@@ -75,15 +60,12 @@ void WriteBack(const WindowTerms& terms, const WindowInlierMask& inlier_mask,
   for (size_t i = 0; i < inlier_mask.lines.size(); ++i) {
     data->line_observations[i].rejected = !inlier_mask.lines[i].reprojection;
   }
-  for (size_t i = 0; i < inlier_mask.parallel.size(); ++i) {
-    data->parallel_pairs[i].rejected = !inlier_mask.parallel[i];
-  }
-  for (size_t i = 0; i < inlier_mask.perpendicular.size(); ++i) {
-    data->perpendicular_pairs[i].rejected = !inlier_mask.perpendicular[i];
-  }
-  for (size_t i = 0; i < inlier_mask.alignments.size(); ++i) {
-    data->axis_alignments[i].rejected = !inlier_mask.alignments[i];
-  }
+  ForEachRelation([&](const auto& term) {
+    auto& records = data->*term.records;
+    for (size_t i = 0; i < records.size(); ++i) {
+      records[i].rejected = !(inlier_mask.*term.inliers)[i];
+    }
+  });
 }
 
 MinimizerReport Minimize(const BundleAdjustmentOptions& options, const WindowData& data,
@@ -169,16 +151,9 @@ bool BundleAdjustmentOptions::IsValid(std::string* error) const {
 }
 
 std::vector<std::pair<std::string, const TermSummary*>> BundleAdjustmentSummary::Terms() const {
-  return {{"point_reprojection", &point_reprojection},
-          {"point_depth", &point_depth},
-          {"line_reprojection", &line_reprojection},
-          {"line_depth", &line_depth},
-          {"line_endpoint_prior", &line_endpoint_prior},
-          {"parallel", &parallel},
-          {"perpendicular", &perpendicular},
-          {"manhattan", &manhattan},
-          {"pose_prior", &pose_prior},
-          {"custom", &custom}};
+  std::vector<std::pair<std::string, const TermSummary*>> terms;
+  ForEachTerm([&](const auto& term) { terms.emplace_back(term.name, &(this->*term.summary)); });
+  return terms;
 }
 
 std::string BundleAdjustmentSummary::BriefReport() const {

@@ -28,9 +28,6 @@ WindowInlierMask FinalInlierMask(const BundleAdjustmentOptions& options, const W
                                  const WindowIndex& index, const WindowState& state) {
   int num_behind = 0;
   WindowInlierMask inlier_mask = InitialInlierMask(options, index, data, &num_behind);
-  const auto keep = [](const auto& items, std::vector<bool>* inliers) {
-    for (size_t i = 0; i < items.size(); ++i) (*inliers)[i] = !items[i].rejected;
-  };
   const auto keep_observations = [](const auto& items, std::vector<InlierMask>* inliers) {
     for (size_t i = 0; i < items.size(); ++i) {
       if (items[i].rejected) (*inliers)[i] = {};
@@ -38,9 +35,12 @@ WindowInlierMask FinalInlierMask(const BundleAdjustmentOptions& options, const W
   };
   keep_observations(data.point_observations, &inlier_mask.points);
   keep_observations(data.line_observations, &inlier_mask.lines);
-  keep(data.parallel_pairs, &inlier_mask.parallel);
-  keep(data.perpendicular_pairs, &inlier_mask.perpendicular);
-  keep(data.axis_alignments, &inlier_mask.alignments);
+  ForEachRelation([&](const auto& term) {
+    const auto& records = data.*term.records;
+    for (size_t i = 0; i < records.size(); ++i) {
+      (inlier_mask.*term.inliers)[i] = !records[i].rejected;
+    }
+  });
 
   // Observations that lost only their depth have no mark in the data: repeat the test.
   WindowInlierMask tested = inlier_mask;
@@ -151,7 +151,7 @@ WindowCovariance EstimateCovariance(const BundleAdjustmentOptions& options,
                   [](int) { return 6; }),
           Collect(solved.extra_blocks, extra, structure.extra, equations.extra_hessian,
                   blocks.extra, [&state](int i) {
-                    return state.TangentSize({StateBlock::Kind::kExtra, i});
+                    return state.TangentSize({BlockKind::kExtra, i});
                   })};
 }
 

@@ -37,8 +37,8 @@ inline Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camer
 }
 
 /// Base of the factors that depend on a landmark only through the camera coordinates x = T X of its
-/// points: one for a point landmark, two for a line. Parameter blocks: cam_from_world (7), landmark
-/// (3 numbers; 6 of a line, its end points). The two points of a line are its end points, or those
+/// points: one for a point landmark, two for a line (`Landmark`). Parameter blocks: cam_from_world,
+/// landmark. The two points of a line are its end points, or those
 /// of the part of it that SetPart() selects. The derived factor defines the rows of point k and
 /// their analytic derivative,
 ///
@@ -49,14 +49,16 @@ inline Eigen::Matrix<double, 2, 3> ProjectionJacobian(const PinholeCamera& camer
 /// \endcode
 ///
 /// The chain rule from x to pose and landmark is in camera_linearization.h.
-template <typename Factor, int Points, int RowsPerPoint>
-struct CameraFactor : CostFunctor<Factor, Points * RowsPerPoint, 7, 3 * Points> {
-  static constexpr int kNumPoints = Points;
+template <typename Factor, BlockKind Landmark, int RowsPerPoint>
+struct CameraFactor : WindowFactor<Factor, (Landmark == BlockKind::kLine ? 2 : 1) * RowsPerPoint,
+                                   BlockKind::kPose, Landmark> {
+  static_assert(Landmark == BlockKind::kPoint || Landmark == BlockKind::kLine);
+  static constexpr int kNumPoints = Landmark == BlockKind::kLine ? 2 : 1;
   static constexpr int kRowsPerPoint = RowsPerPoint;
 
   /// Compares a part of the map line instead of the whole.
   void SetPart(const LinePart& part) {
-    static_assert(Points == 2, "only lines have parts");
+    static_assert(Landmark == BlockKind::kLine, "only lines have parts");
     weight_ = {{{1.0 - part.start, part.start}, {1.0 - part.end, part.end}}};
   }
   /// Weight of end `i` of the landmark in its point k: dx_k / dX_i.
@@ -65,9 +67,9 @@ struct CameraFactor : CostFunctor<Factor, Points * RowsPerPoint, 7, 3 * Points> 
   template <typename T>
   Eigen::Matrix<T, 3, 1> PointInWorld(int k, const T* landmark) const {
     using Point = Eigen::Map<const Eigen::Matrix<T, 3, 1>>;
-    if (Points == 1 || weight_[k][k] == 1.0) return Point(landmark + 3 * k);
+    if (kNumPoints == 1 || weight_[k][k] == 1.0) return Point(landmark + 3 * k);
     Eigen::Matrix<T, 3, 1> x = T(weight_[k][0]) * Point(landmark);
-    for (int i = 1; i < Points; ++i) x += T(weight_[k][i]) * Point(landmark + 3 * i);
+    for (int i = 1; i < kNumPoints; ++i) x += T(weight_[k][i]) * Point(landmark + 3 * i);
     return x;
   }
 
@@ -75,7 +77,7 @@ struct CameraFactor : CostFunctor<Factor, Points * RowsPerPoint, 7, 3 * Points> 
   bool operator()(const T* cam_from_world, const T* landmark, T* residuals) const {
     const Eigen::Map<const Eigen::Quaternion<T>> q(cam_from_world);
     const Eigen::Map<const Eigen::Matrix<T, 3, 1>> t(cam_from_world + 4);
-    for (int k = 0; k < Points; ++k) {
+    for (int k = 0; k < kNumPoints; ++k) {
       const Eigen::Matrix<T, 3, 1> x_in_cam = q * PointInWorld(k, landmark) + t;
       if (!(x_in_cam.z() >= kMinCameraDepth)) return false;
       static_cast<const Factor*>(this)->Residual(k, x_in_cam, residuals + k * RowsPerPoint);
@@ -84,14 +86,14 @@ struct CameraFactor : CostFunctor<Factor, Points * RowsPerPoint, 7, 3 * Points> 
   }
 
  private:
-  static constexpr std::array<std::array<double, Points>, Points> Identity() {
-    if constexpr (Points == 1) {
+  static constexpr std::array<std::array<double, kNumPoints>, kNumPoints> Identity() {
+    if constexpr (kNumPoints == 1) {
       return {{{1.0}}};
     } else {
       return {{{1.0, 0.0}, {0.0, 1.0}}};
     }
   }
-  std::array<std::array<double, Points>, Points> weight_ = Identity();
+  std::array<std::array<double, kNumPoints>, kNumPoints> weight_ = Identity();
 };
 
 }  // namespace msc_vo

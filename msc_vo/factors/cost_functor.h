@@ -9,6 +9,8 @@
 
 #include <ceres/autodiff_cost_function.h>
 
+#include "msc_vo/factors/block_kind.h"
+
 namespace msc_vo {
 
 /// Base of every factor (CRTP): a functor with `Rows` residuals over parameter blocks of the sizes
@@ -37,6 +39,14 @@ struct CostFunctor {
     return std::shared_ptr<const ceres::CostFunction>(
         Create(std::forward<Arguments>(arguments)...));
   }
+};
+
+/// Base of the factors that the library itself adds to a window: a CostFunctor that names the kinds
+/// of its parameter blocks, from which their sizes follow.
+template <typename Factor, int Rows, BlockKind... Kinds>
+struct WindowFactor : CostFunctor<Factor, Rows, BlockSize(Kinds)...> {
+  static_assert(((Kinds != BlockKind::kExtra) && ...), "use CostFunctor for extra blocks");
+  static constexpr std::array<BlockKind, sizeof...(Kinds)> kBlockKinds{Kinds...};
 };
 
 }  // namespace msc_vo

@@ -17,7 +17,7 @@ namespace msc_vo {
 ///
 /// The noise of a disparity sensor is constant in inverse depth, so the weight of an error in
 /// metres falls with z^-4 and distant points are hardly constrained.
-class DepthReprojection : public CameraFactor<DepthReprojection, 1, 1> {
+class DepthReprojection : public CameraFactor<DepthReprojection, BlockKind::kPoint, 1> {
  public:
   DepthReprojection(double inverse_depth, double sigma)
       : inverse_depth_(inverse_depth), inverse_sigma_(1.0 / sigma) {}

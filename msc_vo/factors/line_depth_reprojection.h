@@ -24,7 +24,7 @@ namespace msc_vo {
 /// The measured line is evaluated where the map's end point projects, so a map line and an
 /// observation that cover different parts of the same line agree. Together with LineReprojection
 /// the rows constrain the four degrees of freedom of a line and none along it.
-class LineDepthReprojection : public CameraFactor<LineDepthReprojection, 2, 1> {
+class LineDepthReprojection : public CameraFactor<LineDepthReprojection, BlockKind::kLine, 1> {
  public:
   LineDepthReprojection(const PinholeCamera& camera, const LineSegment2& segment,
                         const LineDepth& depth, double sigma_start, double sigma_end)

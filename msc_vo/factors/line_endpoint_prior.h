@@ -18,7 +18,7 @@ namespace msc_vo {
 /// Line observations do not constrain the position of an end point along its line, so two of the
 /// six coordinates are free without this prior. It conditions the normal equations and leaves the
 /// line's four degrees of freedom unconstrained.
-class LineEndpointPrior : public CostFunctor<LineEndpointPrior, 2, 6> {
+class LineEndpointPrior : public WindowFactor<LineEndpointPrior, 2, BlockKind::kLine> {
  public:
   LineEndpointPrior(const LineSegment3& initial, double sigma)
       : initial_(initial), direction_(initial.Direction()), inverse_sigma_(1.0 / sigma) {}

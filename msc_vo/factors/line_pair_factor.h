@@ -19,7 +19,7 @@ namespace msc_vo {
 ///   Jacobian JacobianJ(d_i, d_j) const;  // dr/dd_j
 /// \endcode
 template <typename Factor, int Rows>
-class LinePairFactor : public CostFunctor<Factor, Rows, 6, 6> {
+class LinePairFactor : public WindowFactor<Factor, Rows, BlockKind::kLine, BlockKind::kLine> {
  public:
   using Jacobian = Eigen::Matrix<double, Rows, 3>;
 

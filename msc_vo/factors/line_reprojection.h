@@ -21,7 +21,7 @@ namespace msc_vo {
 ///
 /// Distances are to the infinite image line because detected end points are not repeatable along a
 /// line.
-class LineReprojection : public CameraFactor<LineReprojection, 2, 1> {
+class LineReprojection : public CameraFactor<LineReprojection, BlockKind::kLine, 1> {
  public:
   LineReprojection(const PinholeCamera& camera, const LineSegment2& segment, double sigma_start,
                    double sigma_end)

@@ -17,7 +17,7 @@ namespace msc_vo {
 /// axis m to an orthonormal basis. sigma: radians, of each component of the angle. |r| sigma is the
 /// sine of the angle, as for ParallelLines; two rows suffice here because the axis is constant. The
 /// residual is smooth everywhere and its norm does not depend on the sign of d.
-class ManhattanAxisAlignment : public CostFunctor<ManhattanAxisAlignment, 2, 6> {
+class ManhattanAxisAlignment : public WindowFactor<ManhattanAxisAlignment, 2, BlockKind::kLine> {
  public:
   /// `axis`: m, a unit vector in the world.
   ManhattanAxisAlignment(const Eigen::Vector3d& axis, double sigma)

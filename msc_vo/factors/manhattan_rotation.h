@@ -22,7 +22,7 @@ namespace msc_vo {
 /// With equal sigmas the norm of the rows is the sine of the angle, |d x m_k|^2 = (m_k . p)^2 +
 /// (m_k . n)^2 = (d . m_k')^2 + (d . m_k'')^2, which covers all three conditions of the paper. One
 /// rotation replaces the paper's three free vectors, so the axes stay orthogonal.
-class ManhattanRotation : public CostFunctor<ManhattanRotation, 2, 4> {
+class ManhattanRotation : public WindowFactor<ManhattanRotation, 2, BlockKind::kAxes> {
  public:
   ManhattanRotation(const Eigen::Vector3d& direction, const Eigen::Vector3d& normal, int axis,
                     double sigma, double normal_sigma)

@@ -14,7 +14,7 @@ namespace msc_vo {
 /// T: cam_from_world (block 0, 7). X: map point in the world, metres (block 1, 3). p: observed
 /// pixel, undistorted. sigma: standard deviation of each coordinate of p, pixels; it grows with the
 /// pyramid level, as the paper's covariance does.
-class PointReprojection : public CameraFactor<PointReprojection, 1, 2> {
+class PointReprojection : public CameraFactor<PointReprojection, BlockKind::kPoint, 2> {
  public:
   PointReprojection(const PinholeCamera& camera, const Eigen::Vector2d& pixel, double sigma)
       : camera_(camera), pixel_(pixel), inverse_sigma_(1.0 / sigma) {}

@@ -19,7 +19,7 @@ namespace msc_vo {
 /// (q, t): cam_from_world (block 0, 7). (q_0, t_0): mean of the prior. (w, u): difference to the
 /// mean in the tangent space of Rigid3Manifold, rotation vector in the camera frame (radians), then
 /// translation (metres). The residual is smooth for rotations below 180 degrees.
-class PosePrior : public CostFunctor<PosePrior, 6, 7> {
+class PosePrior : public WindowFactor<PosePrior, 6, BlockKind::kPose> {
  public:
   using Matrix6d = Eigen::Matrix<double, 6, 6>;
 

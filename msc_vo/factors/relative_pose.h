@@ -44,7 +44,8 @@ class RelativePoseMeasurement {
 ///
 /// T_a, T_b: cam_from_world (blocks 0 and 1, 7). (q_0, t_0): measured pose b_from_a. Rotation
 /// vector in camera b, radians; translation in metres.
-class RelativePose : public RelativePoseMeasurement, public CostFunctor<RelativePose, 6, 7, 7> {
+class RelativePose : public RelativePoseMeasurement,
+                     public WindowFactor<RelativePose, 6, BlockKind::kPose, BlockKind::kPose> {
  public:
   using RelativePoseMeasurement::RelativePoseMeasurement;
 

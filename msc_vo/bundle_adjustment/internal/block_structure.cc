@@ -31,13 +31,14 @@ std::vector<ObservationFactors<Reprojection, Depth>> MergeTerms(
   auto d = depth.blocks.begin();
   const auto add_depths_before = [&](int source) {
     for (; d != depth.blocks.end() && d->source < source; ++d) {
-      observations.push_back({d->first, d->second, -1, nullptr, &d->factor});
+      observations.push_back({d->parameters[0], d->parameters[1], -1, nullptr, &d->factor});
     }
   };
   for (const auto& r : reprojection.blocks) {
     add_depths_before(r.source);
     const bool has_depth = d != depth.blocks.end() && d->source == r.source;
-    observations.push_back({r.first, r.second, -1, &r.factor, has_depth ? &d->factor : nullptr});
+    observations.push_back(
+        {r.parameters[0], r.parameters[1], -1, &r.factor, has_depth ? &d->factor : nullptr});
     if (has_depth) ++d;
   }
   if (d != depth.blocks.end()) add_depths_before(depth.blocks.back().source + 1);
@@ -73,7 +74,7 @@ PoseLandmarkBlocks CreateBlocks(const std::vector<int>& pose, const std::vector<
 }  // namespace
 
 template <typename Action>
-void BlockStructure::ForEachCustomUnknown(StateBlock::Kind kind, const Action& action) const {
+void BlockStructure::ForEachCustomUnknown(BlockKind kind, const Action& action) const {
   for (const std::vector<StateBlock>& blocks : custom_factors) {
     for (const StateBlock& block : blocks) {
       if (block.kind == kind && block.position >= 0) action(block.position);
@@ -83,26 +84,22 @@ void BlockStructure::ForEachCustomUnknown(StateBlock::Kind kind, const Action& a
 
 BlockStructure::BlockStructure(const WindowData& data, const WindowTerms& terms,
                                const WindowState& state)
-    : point_observations(MergeTerms(terms.point_reprojection, terms.point_depth)),
-      line_observations(MergeTerms(terms.line_reprojection, terms.line_depth)) {
+    : point_observations(MergeTerms(terms.Of<PointReprojection>(), terms.Of<DepthReprojection>())),
+      line_observations(
+          MergeTerms(terms.Of<LineReprojection>(), terms.Of<LineDepthReprojection>())) {
   num_poses = NumberUnknowns(data.keyframes, terms.keyframe_constrained, &pose);
   num_points = NumberUnknowns(data.points, terms.point_constrained, &point);
   num_lines = NumberUnknowns(data.lines, terms.line_constrained, &line);
   point_blocks = CreateBlocks(pose, point, num_points, &point_observations);
   line_blocks = CreateBlocks(pose, line, num_lines, &line_observations);
 
-  const auto add_pairs = [this](const auto& term) {
-    for (const auto& block : term.blocks) {
-      const WindowIndex::Pair pair{line[block.first], line[block.second]};
-      if (pair.a >= 0 && pair.b >= 0) line_pairs.push_back(pair);
-    }
-  };
-  add_pairs(terms.parallel);
-  add_pairs(terms.perpendicular);
+  ForEachPair(terms, [this](int a, int b) {
+    if (line[a] >= 0 && line[b] >= 0) line_pairs.push_back({line[a], line[b]});
+  });
   NumberExtraBlocks(data, terms, state);
   NumberCustomFactors(terms);
   std::vector<bool> in_reduced_system = LinesInReducedSystem(num_lines, line_pairs);
-  ForEachCustomUnknown(StateBlock::Kind::kLine, [&](int i) { in_reduced_system[i] = true; });
+  ForEachCustomUnknown(BlockKind::kLine, [&](int i) { in_reduced_system[i] = true; });
   for (const bool is_reduced : in_reduced_system) {
     reduced_line.push_back(is_reduced ? num_reduced_lines++ : -1);
   }
@@ -112,7 +109,7 @@ BlockStructure::BlockStructure(const WindowData& data, const WindowTerms& terms,
 void BlockStructure::NumberExtraBlocks(const WindowData& data, const WindowTerms& terms,
                                        const WindowState& state) {
   for (size_t i = 0; i < state.NumExtra(); ++i) {
-    const StateBlock block{StateBlock::Kind::kExtra, static_cast<int>(i)};
+    const StateBlock block{BlockKind::kExtra, static_cast<int>(i)};
     const bool is_unknown = terms.extra_constrained[i] && !IsFixed(data, block);
     extra.push_back(is_unknown ? static_cast<int>(extra_size.size()) : -1);
     if (is_unknown) extra_size.push_back(state.TangentSize(block));
@@ -121,20 +118,21 @@ void BlockStructure::NumberExtraBlocks(const WindowData& data, const WindowTerms
 
 int BlockStructure::Number(const StateBlock& block) const {
   switch (block.kind) {
-    case StateBlock::Kind::kPose:
+    case BlockKind::kPose:
       return pose[block.position];
-    case StateBlock::Kind::kPoint:
+    case BlockKind::kPoint:
       return point[block.position];
-    case StateBlock::Kind::kLine:
+    case BlockKind::kLine:
       return line[block.position];
-    case StateBlock::Kind::kExtra:
+    case BlockKind::kAxes:
+    case BlockKind::kExtra:
       break;
   }
   return extra[block.position];
 }
 
 void BlockStructure::NumberCustomFactors(const WindowTerms& terms) {
-  for (const CustomTerm::Block& block : terms.custom.blocks) {
+  for (const auto& block : terms.Of<CustomFactor>().blocks) {
     custom_factors.emplace_back();
     for (const StateBlock& b : block.parameters) {
       custom_factors.back().push_back({b.kind, Number(b)});
@@ -152,9 +150,8 @@ void BlockStructure::AssignRows() {
   point_row.assign(num_points, -1);
   position_row.assign(num_reduced_lines, -1);
   extra_row.assign(extra_size.size(), -1);
-  ForEachCustomUnknown(StateBlock::Kind::kPoint, [&](int i) { assign(3, &point_row[i]); });
-  ForEachCustomUnknown(StateBlock::Kind::kLine,
-                       [&](int i) { assign(4, &position_row[reduced_line[i]]); });
+  ForEachCustomUnknown(BlockKind::kPoint, [&](int i) { assign(3, &point_row[i]); });
+  ForEachCustomUnknown(BlockKind::kLine, [&](int i) { assign(4, &position_row[reduced_line[i]]); });
   for (size_t i = 0; i < extra_size.size(); ++i) assign(extra_size[i], &extra_row[i]);
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/internal/window_terms.h"
@@ -27,6 +28,11 @@ struct ObservationFactors {
     return reprojection != nullptr ? reprojection->Weight(k, i) : depth->Weight(k, i);
   }
 };
+/// Whether a factor is one of an ObservationFactors, which are evaluated together.
+template <typename Factor>
+constexpr bool kIsOfObservation =
+    std::is_same_v<Factor, PointReprojection> || std::is_same_v<Factor, DepthReprojection> ||
+    std::is_same_v<Factor, LineReprojection> || std::is_same_v<Factor, LineDepthReprojection>;
 using PointObservationFactors = ObservationFactors<PointReprojection, DepthReprojection>;
 using LineObservationFactors = ObservationFactors<LineReprojection, LineDepthReprojection>;
 
@@ -87,7 +93,7 @@ struct BlockStructure {
   void NumberCustomFactors(const WindowTerms& terms);
   // Calls action(number) for every unknown of a kind in every custom factor.
   template <typename Action>
-  void ForEachCustomUnknown(StateBlock::Kind kind, const Action& action) const;
+  void ForEachCustomUnknown(BlockKind kind, const Action& action) const;
 };
 
 }  // namespace msc_vo

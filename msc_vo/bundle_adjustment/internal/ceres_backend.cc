@@ -61,14 +61,11 @@ bool IsAvailable(BundleAdjustmentSolver solver) {
 CeresBackend::CeresBackend(const BundleAdjustmentOptions& options, const WindowData& data,
                            const WindowTerms& terms, WindowState* state)
     : options_(options), data_(data), terms_(terms), state_(state), problem_(ProblemOptions()) {
-  AddObservations(terms.point_reprojection, terms.point_depth);
-  AddObservations(terms.line_reprojection, terms.line_depth);
-  AddTerm(terms.line_endpoint_prior);
-  AddTerm(terms.parallel);
-  AddTerm(terms.perpendicular);
-  AddTerm(terms.manhattan);
-  AddTerm(terms.pose_prior);
-  AddCustomFactors();
+  AddObservations(terms.Of<PointReprojection>(), terms.Of<DepthReprojection>());
+  AddObservations(terms.Of<LineReprojection>(), terms.Of<LineDepthReprojection>());
+  ForEachTerm(terms, [this](const auto& term, const auto& blocks) {
+    if constexpr (!kIsOfObservation<typename std::decay_t<decltype(term)>::Factor>) AddTerm(blocks);
+  });
   HoldGauge();
 }
 
@@ -131,8 +128,8 @@ void CeresBackend::AddObservations(const WindowTerm<Reprojection>& reprojection,
 
 // Ceres takes pointers to non-const cost functions, losses and manifolds, but calls their const
 // functions only.
-void CeresBackend::AddCustomFactors() {
-  for (const CustomTerm::Block& block : terms_.custom.blocks) {
+void CeresBackend::AddTerm(const WindowTerm<CustomFactor>& term) {
+  for (const auto& block : term.blocks) {
     std::vector<double*> parameters;
     for (const StateBlock& b : block.parameters) parameters.push_back(state_->Block(b));
     problem_.AddResidualBlock(const_cast<ceres::CostFunction*>(block.factor->cost.get()),
@@ -140,7 +137,7 @@ void CeresBackend::AddCustomFactors() {
                               parameters.data(), static_cast<int>(parameters.size()));
   }
   for (size_t i = 0; i < state_->NumExtra(); ++i) {
-    const StateBlock extra{StateBlock::Kind::kExtra, static_cast<int>(i)};
+    const StateBlock extra{BlockKind::kExtra, static_cast<int>(i)};
     double* block = state_->Block(extra);
     if (!problem_.HasParameterBlock(block)) continue;
     problem_.SetManifold(block, const_cast<ceres::Manifold*>(state_->ManifoldOf(extra)));
@@ -173,20 +170,15 @@ std::shared_ptr<ceres::ParameterBlockOrdering> CeresBackend::EliminationOrdering
   };
   for (size_t i = 0; i < data_.points.size(); ++i) add(state_->PointBlock(i), 0);
   std::vector<WindowIndex::Pair> pairs;
-  const auto collect = [&](const auto& term) {
-    for (const auto& block : term.blocks) {
-      if (data_.lines[block.first].fixed || data_.lines[block.second].fixed) continue;
-      pairs.push_back({block.first, block.second});
-    }
-  };
-  collect(terms_.parallel);
-  collect(terms_.perpendicular);
+  ForEachPair(terms_, [&](int a, int b) {
+    if (!data_.lines[a].fixed && !data_.lines[b].fixed) pairs.push_back({a, b});
+  });
   const std::vector<bool> in_reduced_system =
       LinesInReducedSystem(static_cast<int>(data_.lines.size()), pairs);
   for (size_t i = 0; i < data_.lines.size(); ++i)
     add(state_->LineBlock(i), in_reduced_system[i] ? 1 : 0);
   for (size_t i = 0; i < data_.keyframes.size(); ++i) add(state_->PoseBlock(i), 1);
-  for (const CustomTerm::Block& block : terms_.custom.blocks) {
+  for (const auto& block : terms_.Of<CustomFactor>().blocks) {
     for (const StateBlock& b : block.parameters) add(state_->Block(b), 1);  // moves landmarks
   }
   return ordering;

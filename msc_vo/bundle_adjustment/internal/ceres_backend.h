@@ -50,7 +50,7 @@ class CeresBackend {
                         const Parameters& parameters);
   // Null where no loss is needed.
   ceres::LossFunction* LossOf(const HuberLoss& loss, int count);
-  void AddCustomFactors();
+  void AddTerm(const WindowTerm<CustomFactor>& term);
   void HoldGauge();
 
   const BundleAdjustmentOptions& options_;

@@ -8,7 +8,7 @@
 
 #include <ceres/manifold.h>
 
-#include "msc_vo/bundle_adjustment/internal/custom_term.h"
+#include "msc_vo/bundle_adjustment/internal/window_terms.h"
 #include "msc_vo/bundle_adjustment/validation.h"
 
 namespace msc_vo {
@@ -62,7 +62,7 @@ class FactorResolver {
         state_(data) {}
 
   std::vector<StateBlock> Resolve(const CustomFactor& factor) const {
-    CustomTerm::Block block{&factor, {}};
+    WindowTerm<CustomFactor>::Block block{&factor, {}};
     std::vector<std::string> names;
     for (size_t i = 0; i < factor.blocks.size(); ++i) {
       block.parameters.push_back(ResolveBlock(factor, i));
@@ -92,18 +92,18 @@ class FactorResolver {
     const std::string role = "a parameter block of custom factor '" + factor.name + "'";
     switch (block.kind) {
       case BlockId::Kind::kPose:
-        return {StateBlock::Kind::kPose, keyframes_.At(block.id, role)};
+        return {BlockKind::kPose, keyframes_.At(block.id, role)};
       case BlockId::Kind::kPoint:
-        return {StateBlock::Kind::kPoint, points_.At(block.id, role)};
+        return {BlockKind::kPoint, points_.At(block.id, role)};
       case BlockId::Kind::kLine:
-        return {StateBlock::Kind::kLine, lines_.At(block.id, role)};
+        return {BlockKind::kLine, lines_.At(block.id, role)};
       case BlockId::Kind::kExtra:
-        return {StateBlock::Kind::kExtra, extra_.At(block.id, role)};
+        return {BlockKind::kExtra, extra_.At(block.id, role)};
       case BlockId::Kind::kAxes:
         break;
     }
     if (!data_.axes) Fail(factor, "the window has no Manhattan axes");
-    return {StateBlock::Kind::kExtra, static_cast<int>(data_.extra_blocks.size())};
+    return {BlockKind::kExtra, static_cast<int>(data_.extra_blocks.size())};
   }
 
   const WindowData& data_;

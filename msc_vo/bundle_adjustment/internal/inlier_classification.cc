@@ -29,9 +29,9 @@ WindowInlierMask InitialInlierMask(const BundleAdjustmentOptions& options, const
     inlier_mask.lines[i] = {in_front, in_front && has_depth};
     *num_behind += !in_front;
   }
-  inlier_mask.parallel.assign(index.parallel.size(), true);
-  inlier_mask.perpendicular.assign(index.perpendicular.size(), true);
-  inlier_mask.alignments.assign(index.alignments.size(), true);
+  ForEachRelation([&](const auto& term) {
+    (inlier_mask.*term.inliers).assign((data.*term.records).size(), true);
+  });
   return inlier_mask;
 }
 
@@ -58,7 +58,7 @@ void Reject(const WindowTerm<Reprojection>& reprojection, const WindowTerm<Depth
   }
 }
 
-// Tests pairs or alignments.
+// Tests relations.
 template <typename Factor>
 void Reject(const WindowTerm<Factor>& term, const WindowState& state, double limit,
             std::vector<bool>* inliers, int* num_rejected) {
@@ -74,18 +74,16 @@ void Reject(const WindowTerm<Factor>& term, const WindowState& state, double lim
 void RejectOutliers(const BundleAdjustmentOptions& options, const WindowTerms& terms,
                     const WindowState& state, WindowInlierMask* inlier_mask,
                     BundleAdjustmentSummary* summary) {
-  Reject(terms.point_reprojection, terms.point_depth, state, options.reject_chi2_2,
+  Reject(terms.Of<PointReprojection>(), terms.Of<DepthReprojection>(), state, options.reject_chi2_2,
          options.reject_chi2_3, &inlier_mask->points, &summary->point_reprojection.num_rejected,
          &summary->point_depth.num_rejected);
-  Reject(terms.line_reprojection, terms.line_depth, state, options.reject_chi2_2,
-         options.reject_chi2_4, &inlier_mask->lines, &summary->line_reprojection.num_rejected,
-         &summary->line_depth.num_rejected);
-  Reject(terms.parallel, state, options.reject_chi2_2, &inlier_mask->parallel,
-         &summary->parallel.num_rejected);
-  Reject(terms.perpendicular, state, options.reject_chi2_1, &inlier_mask->perpendicular,
-         &summary->perpendicular.num_rejected);
-  Reject(terms.manhattan, state, options.reject_chi2_2, &inlier_mask->alignments,
-         &summary->manhattan.num_rejected);
+  Reject(terms.Of<LineReprojection>(), terms.Of<LineDepthReprojection>(), state,
+         options.reject_chi2_2, options.reject_chi2_4, &inlier_mask->lines,
+         &summary->line_reprojection.num_rejected, &summary->line_depth.num_rejected);
+  ForEachRelation([&](const auto& term) {
+    Reject(terms.Of<typename std::decay_t<decltype(term)>::Factor>(), state, options.*term.limit,
+           &(inlier_mask->*term.inliers), &(summary->*term.summary).num_rejected);
+  });
 }
 
 }  // namespace msc_vo

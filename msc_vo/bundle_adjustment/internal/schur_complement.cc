@@ -53,13 +53,14 @@ std::vector<ReducedCoordinates> CoordinatesOf(const BlockStructure& structure,
                                               const StateBlock& unknown, Eigen::Index size) {
   const int i = unknown.position;
   switch (unknown.kind) {
-    case StateBlock::Kind::kPose:
+    case BlockKind::kPose:
       return {{structure.PoseRow(i), Eigen::MatrixXd::Identity(size, size)}};
-    case StateBlock::Kind::kPoint:
+    case BlockKind::kPoint:
       return {{structure.point_row[i], Eigen::MatrixXd::Identity(size, size)}};
-    case StateBlock::Kind::kExtra:
+    case BlockKind::kAxes:
+    case BlockKind::kExtra:
       return {{structure.extra_row[i], Eigen::MatrixXd::Identity(size, size)}};
-    case StateBlock::Kind::kLine:
+    case BlockKind::kLine:
       break;
   }
   const ReducedLine& line = reduced_lines[structure.reduced_line[i]];

@@ -4,6 +4,7 @@
 #include "msc_vo/bundle_adjustment/internal/window_equations.h"
 
 #include <cmath>
+#include <type_traits>
 
 #include "msc_vo/factors/camera_equations.h"
 
@@ -32,10 +33,12 @@ class Linearizer {
     for (size_t i = 0; i < structure_.pose.size(); ++i) {
       rotations_.push_back(state_.Pose(i).rotation().toRotationMatrix());
     }
-    const ObservationTerms<1> points{terms_.point_reprojection.loss, terms_.point_depth.loss,
-                                     structure_.point, &equations_->points};
-    const ObservationTerms<2> lines{terms_.line_reprojection.loss, terms_.line_depth.loss,
-                                    structure_.line, &equations_->lines};
+    const ObservationTerms<1> points{terms_.Of<PointReprojection>().loss,
+                                     terms_.Of<DepthReprojection>().loss, structure_.point,
+                                     &equations_->points};
+    const ObservationTerms<2> lines{terms_.Of<LineReprojection>().loss,
+                                    terms_.Of<LineDepthReprojection>().loss, structure_.line,
+                                    &equations_->lines};
     for (const PointObservationFactors& o : structure_.point_observations) {
       if (!AddObservation(points, o, state_.PointBlock(o.landmark))) return false;
     }
@@ -43,13 +46,9 @@ class Linearizer {
       if (!AddObservation(lines, o, state_.LineBlock(o.landmark))) return false;
     }
     if (!ComputeDirections()) return false;
-    AddEndpointPriors();
-    AddAlignments();
-    AddPairs(terms_.parallel);
-    AddPairs(terms_.perpendicular);
-    AddPriors();
-    if (!AddCustomFactors()) return false;
-    return std::isfinite(equations_->cost);
+    bool defined = true;
+    ForEachTerm(terms_, [&](const auto&, const auto& blocks) { defined = defined && Add(blocks); });
+    return defined && std::isfinite(equations_->cost);
   }
 
  private:
@@ -125,11 +124,18 @@ class Linearizer {
     return true;
   }
 
-  void AddEndpointPriors() {
-    for (const auto& block : terms_.line_endpoint_prior.blocks) {
-      const int unknown = structure_.line[block.first];
+  // Observations are added with all of their factors at once (AddObservation).
+  template <typename Factor>
+  std::enable_if_t<kIsOfObservation<Factor>, bool> Add(const WindowTerm<Factor>&) {
+    return true;
+  }
+
+  bool Add(const WindowTerm<LineEndpointPrior>& term) {
+    for (const auto& block : term.blocks) {
+      const auto [line] = block.parameters;
+      const int unknown = structure_.line[line];
       Eigen::Vector2d r;
-      block.factor(state_.LineBlock(block.first), r.data());
+      block.factor(state_.LineBlock(line), r.data());
       equations_->cost += 0.5 * r.squaredNorm();
       for (int k = 0; k < 2; ++k) {
         const Eigen::Vector3d j = block.factor.Jacobian();
@@ -137,6 +143,7 @@ class Linearizer {
         equations_->lines.gradient[unknown].segment<3>(3 * k) += r[k] * j;
       }
     }
+    return true;
   }
 
   // Adds derivatives with respect to E - S to those of a line.
@@ -150,24 +157,26 @@ class Linearizer {
     equations_->lines.gradient[unknown].tail<3>() += gradient;
   }
 
-  void AddAlignments() {
-    for (const auto& block : terms_.manhattan.blocks) {
+  bool Add(const WindowTerm<ManhattanAxisAlignment>& term) {
+    for (const auto& block : term.blocks) {
+      const auto [line] = block.parameters;
       Eigen::Vector2d r;
-      const Direction& d = directions_[block.first];
+      const Direction& d = directions_[line];
       block.factor.Residual(d.unit, r.data());
       const double s = r.squaredNorm();
-      const double weight = terms_.manhattan.loss.Weight(s);
-      equations_->cost += 0.5 * terms_.manhattan.loss.Cost(s);
+      const double weight = term.loss.Weight(s);
+      equations_->cost += 0.5 * term.loss.Cost(s);
       const Eigen::Matrix<double, 2, 3> j = block.factor.Jacobian() * d.jacobian;
-      AddToLine(structure_.line[block.first], weight * j.transpose() * j,
-                weight * j.transpose() * r);
+      AddToLine(structure_.line[line], weight * j.transpose() * j, weight * j.transpose() * r);
     }
+    return true;
   }
 
   template <typename Factor>
-  void AddPairs(const WindowTerm<Factor>& term) {
+  std::enable_if_t<kRelatesLines<Factor>, bool> Add(const WindowTerm<Factor>& term) {
     for (const auto& block : term.blocks) {
-      const Direction &d_i = directions_[block.first], &d_j = directions_[block.second];
+      const auto [line_i, line_j] = block.parameters;
+      const Direction &d_i = directions_[line_i], &d_j = directions_[line_j];
       Eigen::Matrix<double, Factor::kNumResiduals, 1> r;
       block.factor.Residual(d_i.unit, d_j.unit, r.data());
       const double s = r.squaredNorm();
@@ -177,31 +186,34 @@ class Linearizer {
           block.factor.JacobianI(d_i.unit, d_j.unit) * d_i.jacobian;
       const typename Factor::Jacobian by_j =
           block.factor.JacobianJ(d_i.unit, d_j.unit) * d_j.jacobian;
-      const int i = structure_.line[block.first], j = structure_.line[block.second];
+      const int i = structure_.line[line_i], j = structure_.line[line_j];
       if (i >= 0) AddToLine(i, weight * by_i.transpose() * by_i, weight * by_i.transpose() * r);
       if (j >= 0) AddToLine(j, weight * by_j.transpose() * by_j, weight * by_j.transpose() * r);
       if (i >= 0 && j >= 0) equations_->line_couplings.push_back(weight * by_i.transpose() * by_j);
     }
+    return true;
   }
 
-  void AddPriors() {
-    for (const auto& block : terms_.pose_prior.blocks) {
-      const int pose = structure_.pose[block.first];
+  bool Add(const WindowTerm<PosePrior>& term) {
+    for (const auto& block : term.blocks) {
+      const auto [keyframe] = block.parameters;
+      const int pose = structure_.pose[keyframe];
       Pose::Vector r;
-      block.factor(state_.PoseBlock(block.first), r.data());
-      const Pose::Block j = block.factor.TangentJacobian(state_.Pose(block.first));
+      block.factor(state_.PoseBlock(keyframe), r.data());
+      const Pose::Block j = block.factor.TangentJacobian(state_.Pose(keyframe));
       equations_->cost += 0.5 * r.squaredNorm();
       equations_->pose_hessian[pose] += j.transpose() * j;
       equations_->pose_gradient[pose] += j.transpose() * r;
     }
+    return true;
   }
 
-  bool AddCustomFactors() {
+  bool Add(const WindowTerm<CustomFactor>& term) {
     CustomLinearization at;
-    for (size_t i = 0; i < terms_.custom.blocks.size(); ++i) {
+    for (size_t i = 0; i < term.blocks.size(); ++i) {
       const std::vector<StateBlock>& unknowns = structure_.custom_factors[i];
-      const CustomFactor& factor = *terms_.custom.blocks[i].factor;
-      std::vector<CustomParameter> parameters = ParametersOf(terms_.custom.blocks[i], state_);
+      const CustomFactor& factor = *term.blocks[i].factor;
+      std::vector<CustomParameter> parameters = ParametersOf(term.blocks[i], state_);
       for (size_t a = 0; a < unknowns.size(); ++a) {
         parameters[a].variable = unknowns[a].position >= 0;
       }
@@ -229,13 +241,14 @@ class Linearizer {
       sum_gradient[i] += gradient;
     };
     switch (unknown.kind) {
-      case StateBlock::Kind::kPose:
+      case BlockKind::kPose:
         return add(equations_->pose_hessian, equations_->pose_gradient);
-      case StateBlock::Kind::kPoint:
+      case BlockKind::kPoint:
         return add(equations_->points.hessian, equations_->points.gradient);
-      case StateBlock::Kind::kLine:
+      case BlockKind::kLine:
         return add(equations_->lines.hessian, equations_->lines.gradient);
-      case StateBlock::Kind::kExtra:
+      case BlockKind::kAxes:
+      case BlockKind::kExtra:
         return add(equations_->extra_hessian, equations_->extra_gradient);
     }
   }

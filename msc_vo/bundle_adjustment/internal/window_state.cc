@@ -17,13 +17,14 @@ const Rotation3Manifold kRotationManifold;
 bool IsFixed(const WindowData& data, const StateBlock& block) {
   const size_t i = static_cast<size_t>(block.position);
   switch (block.kind) {
-    case StateBlock::Kind::kPose:
+    case BlockKind::kPose:
       return data.keyframes[i].fixed;
-    case StateBlock::Kind::kPoint:
+    case BlockKind::kPoint:
       return data.points[i].fixed;
-    case StateBlock::Kind::kLine:
+    case BlockKind::kLine:
       return data.lines[i].fixed;
-    case StateBlock::Kind::kExtra:
+    case BlockKind::kAxes:
+    case BlockKind::kExtra:
       break;
   }
   return i < data.extra_blocks.size() ? data.extra_blocks[i].fixed : data.axes->fixed;
@@ -51,30 +52,22 @@ void WindowState::AppendExtra(const double* value, int size, const ceres::Manifo
 
 const double* WindowState::Block(const StateBlock& block) const {
   switch (block.kind) {
-    case StateBlock::Kind::kPose:
+    case BlockKind::kPose:
       return PoseBlock(block.position);
-    case StateBlock::Kind::kPoint:
+    case BlockKind::kPoint:
       return PointBlock(block.position);
-    case StateBlock::Kind::kLine:
+    case BlockKind::kLine:
       return LineBlock(block.position);
-    case StateBlock::Kind::kExtra:
+    case BlockKind::kAxes:
+    case BlockKind::kExtra:
       break;
   }
   return ExtraBlock(block.position);
 }
 
 int WindowState::Size(const StateBlock& block) const {
-  switch (block.kind) {
-    case StateBlock::Kind::kPose:
-      return 7;
-    case StateBlock::Kind::kPoint:
-      return 3;
-    case StateBlock::Kind::kLine:
-      return 6;
-    case StateBlock::Kind::kExtra:
-      break;
-  }
-  return extra_[block.position].size;
+  const int size = BlockSize(block.kind);
+  return size > 0 ? size : extra_[block.position].size;
 }
 
 int WindowState::TangentSize(const StateBlock& block) const {
@@ -83,8 +76,8 @@ int WindowState::TangentSize(const StateBlock& block) const {
 }
 
 const ceres::Manifold* WindowState::ManifoldOf(const StateBlock& block) const {
-  if (block.kind == StateBlock::Kind::kPose) return &kPoseManifold;
-  return block.kind == StateBlock::Kind::kExtra ? extra_[block.position].manifold : nullptr;
+  if (block.kind == BlockKind::kPose) return &kPoseManifold;
+  return block.kind == BlockKind::kExtra ? extra_[block.position].manifold : nullptr;
 }
 
 }  // namespace msc_vo

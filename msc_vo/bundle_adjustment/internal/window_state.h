@@ -11,10 +11,9 @@
 namespace msc_vo {
 
 /// Parameter block of a WindowState: a keyframe, point, line or extra block by its position in the
-/// data. The Manhattan axes follow the extra blocks of the data.
+/// data. The Manhattan axes are an extra block, behind those of the data (never kAxes).
 struct StateBlock {
-  enum class Kind { kPose, kPoint, kLine, kExtra };
-  Kind kind = Kind::kPose;
+  BlockKind kind = BlockKind::kPose;
   int position = 0;
 
   bool operator==(const StateBlock& other) const {

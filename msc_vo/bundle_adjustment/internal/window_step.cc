@@ -145,7 +145,7 @@ WindowState Plus(const BlockStructure& structure, const WindowState& state,
   }
   for (size_t i = 0; i < structure.extra.size(); ++i) {
     if (structure.extra[i] < 0) continue;
-    const StateBlock block{StateBlock::Kind::kExtra, static_cast<int>(i)};
+    const StateBlock block{BlockKind::kExtra, static_cast<int>(i)};
     AddInTangentSpace(step.extra[structure.extra[i]], state.ManifoldOf(block), state.ExtraBlock(i),
                       sum.ExtraBlock(i));
   }

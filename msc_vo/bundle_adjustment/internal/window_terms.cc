@@ -3,7 +3,9 @@
 
 #include "msc_vo/bundle_adjustment/internal/window_terms.h"
 
+#include <algorithm>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace msc_vo {
@@ -23,26 +25,31 @@ class WindowTermsBuilder {
   }
 
   WindowTerms Build() {
+    ForEachTerm([this](const auto& term) { SetLoss(term); });
     AddPoints();
     AddLines();
     AddCustomFactors();
     // The terms below depend on line_constrained.
     AddEndpointPriors();
-    AddPairs(options_.parallel, data_.parallel_pairs, index_.parallel, inlier_mask_.parallel,
-             &terms_.parallel);
-    AddPairs(options_.perpendicular, data_.perpendicular_pairs, index_.perpendicular,
-             inlier_mask_.perpendicular, &terms_.perpendicular);
-    AddAlignments();
-    AddPriors();
+    ForEachRelation([this](const auto& term) { AddRelations(term); });
+    AddPosePriors();
     return std::move(terms_);
   }
 
  private:
+  template <typename Factor>
+  void SetLoss(const Term<Factor>& term) {
+    if constexpr (!std::is_same_v<Factor, CustomFactor>) {
+      if (term.options == nullptr) return;
+      terms_.Of<Factor>().loss.threshold = (options_.*term.options).huber;
+    }
+  }
+
   void AddPoints() {
-    terms_.point_reprojection.loss.threshold = options_.point_reprojection.huber;
-    terms_.point_depth.loss.threshold = options_.point_depth.huber;
-    terms_.point_reprojection.blocks.reserve(index_.points.size());
-    terms_.point_depth.blocks.reserve(index_.points.size());
+    auto& reprojections = terms_.Of<PointReprojection>().blocks;
+    auto& depths = terms_.Of<DepthReprojection>().blocks;
+    reprojections.reserve(index_.points.size());
+    depths.reserve(index_.points.size());
     for (size_t i = 0; i < index_.points.size(); ++i) {
       const auto& [keyframe, point] = index_.points[i];
       const WindowData::PointObservation& o = data_.point_observations[i];
@@ -50,14 +57,14 @@ class WindowTermsBuilder {
       const InlierMask used = Enabled(inlier_mask_.points[i], options_.point_reprojection.enabled,
                                       options_.point_depth.enabled);
       if (used.reprojection) {
-        terms_.point_reprojection.blocks.push_back(
-            {PointReprojection(data_.camera, o.pixel, noise * o.sigma), keyframe, point,
-             Source(i)});
+        reprojections.push_back({PointReprojection(data_.camera, o.pixel, noise * o.sigma),
+                                 {keyframe, point},
+                                 Source(i)});
       }
       if (used.depth) {
-        terms_.point_depth.blocks.push_back(
-            {DepthReprojection(o.inverse_depth, noise * o.inverse_depth_sigma), keyframe, point,
-             Source(i)});
+        depths.push_back({DepthReprojection(o.inverse_depth, noise * o.inverse_depth_sigma),
+                          {keyframe, point},
+                          Source(i)});
       }
       if (used.reprojection || used.depth) {
         terms_.keyframe_constrained[keyframe] = terms_.point_constrained[point] = true;
@@ -66,8 +73,6 @@ class WindowTermsBuilder {
   }
 
   void AddLines() {
-    terms_.line_reprojection.loss.threshold = options_.line_reprojection.huber;
-    terms_.line_depth.loss.threshold = options_.line_depth.huber;
     for (size_t i = 0; i < index_.lines.size(); ++i) {
       const auto& [keyframe, line] = index_.lines[i];
       const WindowData::LineObservation& o = data_.line_observations[i];
@@ -84,7 +89,7 @@ class WindowTermsBuilder {
         LineReprojection factor =
             MakeLineReprojection(data_.camera, o.segment, noise * o.sigma, in_cam);
         factor.SetPart(*part);
-        terms_.line_reprojection.blocks.push_back({factor, keyframe, line, Source(i)});
+        terms_.Of<LineReprojection>().blocks.push_back({factor, {keyframe, line}, Source(i)});
       }
       if (used.depth) {
         LineDepth depth = Nearer(o.depth, data_.lines[line].depth_offset);
@@ -92,69 +97,76 @@ class WindowTermsBuilder {
         LineDepthReprojection factor =
             MakeLineDepthReprojection(data_.camera, o.segment, depth, in_cam);
         factor.SetPart(*part);
-        terms_.line_depth.blocks.push_back({factor, keyframe, line, Source(i)});
+        terms_.Of<LineDepthReprojection>().blocks.push_back({factor, {keyframe, line}, Source(i)});
       }
     }
   }
 
   void AddCustomFactors() {
     for (size_t i = 0; i < index_.custom_factors.size(); ++i) {
-      terms_.custom.blocks.push_back({&data_.custom_factors[i], index_.custom_factors[i]});
+      terms_.Of<CustomFactor>().blocks.push_back(
+          {&data_.custom_factors[i], index_.custom_factors[i]});
       for (const StateBlock& block : index_.custom_factors[i]) {
         Constrained(block.kind)[block.position] = true;
       }
     }
   }
-  std::vector<bool>& Constrained(StateBlock::Kind kind) {
-    if (kind == StateBlock::Kind::kPose) return terms_.keyframe_constrained;
-    if (kind == StateBlock::Kind::kPoint) return terms_.point_constrained;
-    return kind == StateBlock::Kind::kLine ? terms_.line_constrained : terms_.extra_constrained;
+  std::vector<bool>& Constrained(BlockKind kind) {
+    if (kind == BlockKind::kPose) return terms_.keyframe_constrained;
+    if (kind == BlockKind::kPoint) return terms_.point_constrained;
+    return kind == BlockKind::kLine ? terms_.line_constrained : terms_.extra_constrained;
   }
 
   void AddEndpointPriors() {
     if (!options_.line_endpoint_prior) return;
     for (size_t i = 0; i < data_.lines.size(); ++i) {
       if (!IsFree(Source(i))) continue;
-      terms_.line_endpoint_prior.blocks.push_back(
-          {LineEndpointPrior(data_.lines[i].segment, options_.line_endpoint_prior_sigma), Source(i),
-           -1, Source(i)});
+      terms_.Of<LineEndpointPrior>().blocks.push_back(
+          {LineEndpointPrior(data_.lines[i].segment, options_.line_endpoint_prior_sigma),
+           {Source(i)},
+           Source(i)});
     }
   }
 
+  static ManhattanAxisAlignment Make(const Term<ManhattanAxisAlignment>&,
+                                     const WindowData::AxisAlignment& alignment) {
+    return {alignment.axis, alignment.sigma};
+  }
   template <typename Factor>
-  void AddPairs(const TermOptions& options, const std::vector<WindowData::LinePair>& pairs,
-                const std::vector<WindowIndex::Pair>& lines, const std::vector<bool>& inliers,
-                WindowTerm<Factor>* term) {
-    term->loss.threshold = options.huber;
-    if (!options.enabled) return;
-    for (size_t i = 0; i < pairs.size(); ++i) {
-      const auto& [a, b] = lines[i];
-      if (!inliers[i] || !terms_.line_constrained[a] || !terms_.line_constrained[b]) continue;
-      if (!IsFree(a) && !IsFree(b)) continue;
-      term->blocks.push_back({Factor(pairs[i].sigma), a, b, Source(i), pairs[i].count});
-    }
+  static Factor Make(const Term<Factor>&, const WindowData::LinePair& pair) {
+    return Factor(pair.sigma);
   }
+  static int Multiplicity(const WindowData::AxisAlignment&) { return 1; }
+  static int Multiplicity(const WindowData::LinePair& pair) { return pair.count; }
 
-  void AddAlignments() {
-    terms_.manhattan.loss.threshold = options_.manhattan.huber;
-    if (!options_.manhattan.enabled) return;
-    for (size_t i = 0; i < index_.alignments.size(); ++i) {
-      if (!inlier_mask_.alignments[i] || !IsFree(index_.alignments[i])) continue;
-      const WindowData::AxisAlignment& alignment = data_.axis_alignments[i];
-      terms_.manhattan.blocks.push_back({ManhattanAxisAlignment(alignment.axis, alignment.sigma),
-                                         index_.alignments[i], -1, Source(i)});
+  // Relations of observed lines of which at least one is free.
+  template <typename Factor, typename Record>
+  void AddRelations(const RelationTerm<Factor, Record>& term) {
+    if (!(options_.*term.options).enabled) return;
+    const std::vector<Record>& records = data_.*term.records;
+    for (size_t i = 0; i < records.size(); ++i) {
+      const auto& lines = (index_.*term.lines)[i];
+      const auto is_constrained = [this](int line) { return terms_.line_constrained[line]; };
+      const auto is_free = [this](int line) { return IsFree(line); };
+      if (!(inlier_mask_.*term.inliers)[i] ||
+          !std::all_of(lines.begin(), lines.end(), is_constrained) ||
+          !std::any_of(lines.begin(), lines.end(), is_free)) {
+        continue;
+      }
+      terms_.Of<Factor>().blocks.push_back(
+          {Make(term, records[i]), lines, Source(i), Multiplicity(records[i])});
     }
   }
 
   // Priors have no robust loss: they contain no outliers.
-  void AddPriors() {
+  void AddPosePriors() {
     for (size_t i = 0; i < index_.priors.size(); ++i) {
       const int keyframe = index_.priors[i];
       if (data_.keyframes[keyframe].fixed) continue;
       const WindowData::PosePrior& prior = data_.pose_priors[i];
       terms_.keyframe_constrained[keyframe] = true;
-      terms_.pose_prior.blocks.push_back(
-          {PosePrior(prior.cam_from_world, prior.covariance), keyframe, -1, Source(i)});
+      terms_.Of<PosePrior>().blocks.push_back(
+          {PosePrior(prior.cam_from_world, prior.covariance), {keyframe}, Source(i)});
     }
   }
 
@@ -181,11 +193,28 @@ WindowTerms MakeWindowTerms(const BundleAdjustmentOptions& options, const Window
 }
 
 double Cost(const WindowTerms& terms, const WindowState& state) {
-  return Cost(terms.point_reprojection, state) + Cost(terms.point_depth, state) +
-         Cost(terms.line_reprojection, state) + Cost(terms.line_depth, state) +
-         Cost(terms.line_endpoint_prior, state) + Cost(terms.parallel, state) +
-         Cost(terms.perpendicular, state) + Cost(terms.manhattan, state) +
-         Cost(terms.pose_prior, state) + Cost(terms.custom, state);
+  double sum = 0.0;
+  ForEachTerm(terms, [&](const auto&, const auto& blocks) { sum += Cost(blocks, state); });
+  return sum;
+}
+
+std::vector<CustomParameter> ParametersOf(const WindowTerm<CustomFactor>::Block& block,
+                                          const WindowState& state) {
+  std::vector<CustomParameter> parameters;
+  parameters.reserve(block.parameters.size());
+  for (const StateBlock& b : block.parameters) {
+    parameters.push_back({state.Block(b), state.Size(b), state.ManifoldOf(b), true});
+  }
+  return parameters;
+}
+
+double Cost(const WindowTerm<CustomFactor>& term, const WindowState& state) {
+  double sum = 0.0;
+  for (const WindowTerm<CustomFactor>::Block& block : term.blocks) {
+    const CustomFactor& factor = *block.factor;
+    sum += CustomFactorCost(*factor.cost, factor.loss.get(), ParametersOf(block, state));
+  }
+  return sum;
 }
 
 }  // namespace msc_vo

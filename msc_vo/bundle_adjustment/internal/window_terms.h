@@ -5,43 +5,25 @@
 
 #include <array>
 #include <cmath>
+#include <tuple>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
-#include "msc_vo/bundle_adjustment/internal/custom_term.h"
-#include "msc_vo/bundle_adjustment/internal/window_state.h"
-#include "msc_vo/bundle_adjustment/internal/window_validation.h"
-#include "msc_vo/bundle_adjustment/observation.h"
-#include "msc_vo/factors/depth_reprojection.h"
-#include "msc_vo/factors/line_endpoint_prior.h"
-#include "msc_vo/factors/manhattan_axis_alignment.h"
-#include "msc_vo/factors/parallel_lines.h"
-#include "msc_vo/factors/perpendicular_lines.h"
-#include "msc_vo/factors/point_reprojection.h"
-#include "msc_vo/factors/pose_prior.h"
+#include "msc_vo/bundle_adjustment/custom_linearization.h"
+#include "msc_vo/bundle_adjustment/internal/term_list.h"
 #include "msc_vo/factors/robust_loss.h"
 
 namespace msc_vo {
 
-/// Inliers among the measurements of a window.
-struct WindowInlierMask {
-  std::vector<InlierMask> points;   ///< One per point observation.
-  std::vector<InlierMask> lines;    ///< One per line observation.
-  std::vector<bool> parallel;       ///< One per parallel pair.
-  std::vector<bool> perpendicular;  ///< One per perpendicular pair.
-  std::vector<bool> alignments;     ///< One per axis alignment.
-};
-
-/// All residual blocks of one factor type, in the order of the data.
-template <typename FactorType>
+/// The residual blocks of a term, in the order of the data.
+template <typename Factor>
 struct WindowTerm {
-  using Factor = FactorType;
   struct Block {
     Factor factor;
-    /// Positions in the state of the parameter blocks, in the factor's order: keyframe and
-    /// landmark, two lines, or one line or keyframe (second: -1).
-    int first;
-    int second;
-    /// Position in WindowData of the observation, pair, alignment or pose prior, or of the line for
+    /// Positions in the state of the parameter blocks, whose kinds are those of the factor.
+    std::array<int, Factor::kBlockKinds.size()> parameters;
+    /// Position in WindowData of the observation, relation or pose prior, or of the line for
     /// endpoint priors.
     int source;
     int count = 1;  ///< Multiplicity.
@@ -49,27 +31,40 @@ struct WindowTerm {
   HuberLoss loss;
   std::vector<Block> blocks;
 };
+template <>
+struct WindowTerm<CustomFactor> {
+  struct Block {
+    const CustomFactor* factor = nullptr;
+    std::vector<StateBlock> parameters;  ///< In the order of the cost function.
+  };
+  std::vector<Block> blocks;
+};
+
+/// One WindowTerm per entry of a list of terms.
+template <typename... Terms>
+std::tuple<WindowTerm<typename Terms::Factor>...> BlocksOf(const std::tuple<Terms...>&);
 
 /// Cost function of local bundle adjustment (paper: Local Map Optimization):
 ///
 ///   1/2 sum rho(|PointReprojection|^2) + rho(|DepthReprojection|^2) + rho(|LineReprojection|^2)
-///     + rho(|LineDepthReprojection|^2) + |LineEndpointPrior|^2 + n rho(|ParallelLines|^2)
-///     + n rho(|PerpendicularLines|^2) + rho(|ManhattanAxisAlignment|^2) + |PosePrior|^2
+///     + rho(|LineDepthReprojection|^2) + |LineEndpointPrior|^2 + rho(|ManhattanAxisAlignment|^2)
+///     + n rho(|ParallelLines|^2) + n rho(|PerpendicularLines|^2) + |PosePrior|^2
 ///     + rho(|CustomFactor|^2)
 ///
 /// with n the multiplicity of a pair (WindowData::LinePair). It holds values, except that custom
 /// factors are those of the data, and is minimised by CeresBackend or MinimizeWithBlockSchur.
 struct WindowTerms {
-  WindowTerm<PointReprojection> point_reprojection;
-  WindowTerm<DepthReprojection> point_depth;
-  WindowTerm<LineReprojection> line_reprojection;
-  WindowTerm<LineDepthReprojection> line_depth;
-  WindowTerm<LineEndpointPrior> line_endpoint_prior;
-  WindowTerm<ParallelLines> parallel;
-  WindowTerm<PerpendicularLines> perpendicular;
-  WindowTerm<ManhattanAxisAlignment> manhattan;
-  WindowTerm<PosePrior> pose_prior;
-  CustomTerm custom;
+  decltype(BlocksOf(kTerms)) all;
+
+  /// The residual blocks of a factor.
+  template <typename Factor>
+  WindowTerm<Factor>& Of() {
+    return std::get<WindowTerm<Factor>>(all);
+  }
+  template <typename Factor>
+  const WindowTerm<Factor>& Of() const {
+    return std::get<WindowTerm<Factor>>(all);
+  }
 
   /// One per keyframe: whether an observation, a pose prior or a custom factor has a residual
   /// block.
@@ -80,6 +75,33 @@ struct WindowTerms {
   std::vector<bool> extra_constrained;
 };
 
+/// Calls visit(term, blocks of the term) for every term.
+template <typename Visitor>
+void ForEachTerm(const WindowTerms& terms, const Visitor& visit) {
+  ForEachTerm([&](const auto& term) {
+    visit(term, terms.Of<typename std::decay_t<decltype(term)>::Factor>());
+  });
+}
+
+/// Whether a factor couples two lines.
+template <typename Factor>
+constexpr bool kRelatesLines =
+    Factor::kBlockKinds.size() == 2 && Factor::kBlockKinds.front() ==
+                                           BlockKind::kLine&& Factor::kBlockKinds
+                                               .back() == BlockKind::kLine;
+template <>
+inline constexpr bool kRelatesLines<CustomFactor> = false;
+
+/// Calls visit(a, b) for every residual block between two lines.
+template <typename Visitor>
+void ForEachPair(const WindowTerms& terms, const Visitor& visit) {
+  ForEachTerm(terms, [&visit](const auto& term, const auto& of_term) {
+    if constexpr (kRelatesLines<typename std::decay_t<decltype(term)>::Factor>) {
+      for (const auto& block : of_term.blocks) visit(block.parameters[0], block.parameters[1]);
+    }
+  });
+}
+
 /// Builds the terms of the inliers. The sigmas of line factors are those at `state`; the endpoint
 /// priors are centred at the lines of `data`.
 WindowTerms MakeWindowTerms(const BundleAdjustmentOptions& options, const WindowData& data,
@@ -89,38 +111,36 @@ WindowTerms MakeWindowTerms(const BundleAdjustmentOptions& options, const Window
 /// Cost of all terms; NaN where a factor is undefined.
 double Cost(const WindowTerms& terms, const WindowState& state);
 
-/// Whether a factor with two parameter blocks depends on a point, not on a line.
-template <typename Factor>
-constexpr bool kObservesPoint = Factor::kBlockSizes.size() == 2 && Factor::kBlockSizes[1] == 3;
+/// Pointer to parameter block `position` of a kind.
+template <BlockKind Kind, typename State>
+auto BlockOf(State* state, int position) {
+  if constexpr (Kind == BlockKind::kPose) return state->PoseBlock(position);
+  if constexpr (Kind == BlockKind::kPoint) return state->PointBlock(position);
+  if constexpr (Kind == BlockKind::kLine) return state->LineBlock(position);
+}
 
 /// Pointers to the parameter blocks of a residual block, in the factor's order.
-template <typename Factor, typename State, typename Block>
-auto ParametersOf(State* state, const Block& block) {
-  using Number = decltype(state->PoseBlock(0));
-  if constexpr (Factor::kBlockSizes.size() == 1 && Factor::kBlockSizes[0] == 7) {
-    return std::array<Number, 1>{state->PoseBlock(block.first)};
-  } else if constexpr (Factor::kBlockSizes.size() == 1) {
-    return std::array<Number, 1>{state->LineBlock(block.first)};
-  } else if constexpr (Factor::kBlockSizes[0] == 7) {
-    return std::array<Number, 2>{
-        state->PoseBlock(block.first),
-        kObservesPoint<Factor> ? state->PointBlock(block.second) : state->LineBlock(block.second)};
-  } else {
-    return std::array<Number, 2>{state->LineBlock(block.first), state->LineBlock(block.second)};
-  }
+template <typename Factor, typename State, size_t... I>
+auto ParametersOf(State* state, const std::array<int, sizeof...(I)>& positions,
+                  std::index_sequence<I...>) {
+  return std::array{BlockOf<Factor::kBlockKinds[I]>(state, positions[I])...};
 }
+template <typename Factor, typename State>
+auto ParametersOf(State* state, const typename WindowTerm<Factor>::Block& block) {
+  return ParametersOf<Factor>(state, block.parameters,
+                              std::make_index_sequence<Factor::kBlockKinds.size()>());
+}
+/// The parameter blocks of a custom factor, all of them variable. They point into `state`.
+std::vector<CustomParameter> ParametersOf(const WindowTerm<CustomFactor>::Block& block,
+                                          const WindowState& state);
 
 /// Squared norm of a whitened residual before the loss; NaN where the factor is undefined.
 template <typename Factor>
 double ChiSquare(const typename WindowTerm<Factor>::Block& block, const WindowState& state) {
   Eigen::Matrix<double, Factor::kNumResiduals, 1> r;
-  const auto parameters = ParametersOf<Factor>(&state, block);
-  bool defined;
-  if constexpr (parameters.size() == 1) {
-    defined = block.factor(parameters[0], r.data());
-  } else {
-    defined = block.factor(parameters[0], parameters[1], r.data());
-  }
+  const bool defined =
+      std::apply([&](const auto*... parameters) { return block.factor(parameters..., r.data()); },
+                 ParametersOf<Factor>(&state, block));
   return defined ? r.squaredNorm() : std::nan("");
 }
 
@@ -133,5 +153,6 @@ double Cost(const WindowTerm<Factor>& term, const WindowState& state) {
   }
   return cost;
 }
+double Cost(const WindowTerm<CustomFactor>& term, const WindowState& state);
 
 }  // namespace msc_vo

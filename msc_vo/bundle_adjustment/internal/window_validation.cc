@@ -67,15 +67,15 @@ std::vector<WindowIndex::Pair> ResolvePairs(const std::vector<WindowData::LinePa
   return resolved;
 }
 
-std::vector<int> ResolveAlignments(const std::vector<WindowData::AxisAlignment>& alignments,
-                                   const IdMap& lines) {
-  std::vector<int> resolved;
+std::vector<std::array<int, 1>> ResolveAlignments(
+    const std::vector<WindowData::AxisAlignment>& alignments, const IdMap& lines) {
+  std::vector<std::array<int, 1>> resolved;
   resolved.reserve(alignments.size());
   for (const WindowData::AxisAlignment& a : alignments) {
     if (const char* error = AxisAlignmentError(a)) {
       ThrowInvalidWindow("alignment of line " + std::to_string(a.line) + ": " + error);
     }
-    resolved.push_back(lines.At(a.line, "aligned with an axis"));
+    resolved.push_back({lines.At(a.line, "aligned with an axis")});
   }
   return resolved;
 }

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -20,14 +21,11 @@ struct WindowIndex {
   };
   std::vector<Observation> points;  ///< One per point observation.
   std::vector<Observation> lines;   ///< One per line observation.
-  struct Pair {
-    int a = 0;
-    int b = 0;
-  };
-  std::vector<Pair> parallel;       ///< Lines of each parallel pair.
-  std::vector<Pair> perpendicular;  ///< Lines of each perpendicular pair.
-  std::vector<int> alignments;      ///< Line of each axis alignment.
-  std::vector<int> priors;          ///< Keyframe of each pose prior.
+  using Pair = std::array<int, 2>;
+  std::vector<Pair> parallel;                  ///< Lines of each parallel pair.
+  std::vector<Pair> perpendicular;             ///< Lines of each perpendicular pair.
+  std::vector<std::array<int, 1>> alignments;  ///< Line of each axis alignment.
+  std::vector<int> priors;                     ///< Keyframe of each pose prior.
   /// Parameter blocks of each custom factor.
   std::vector<std::vector<StateBlock>> custom_factors;
 };

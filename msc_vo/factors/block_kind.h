@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+namespace msc_vo {
+
+/// Kinds of parameter blocks. The kind says what the numbers mean; the size does not: three numbers
+/// may be a point, a direction or a plane.
+enum class BlockKind {
+  kPose,   ///< cam_from_world of a keyframe, 7: unit quaternion (x, y, z, w), translation
+  kPoint,  ///< position, 3
+  kLine,   ///< end points S and E, 6
+  kAxes,   ///< world_from_axes of the Manhattan axes, 4: unit quaternion (x, y, z, w)
+  kExtra,  ///< a block of the caller's own, of any size
+};
+
+/// Number of parameters of a block; 0 for kExtra, which has no size of its own.
+constexpr int BlockSize(BlockKind kind) {
+  switch (kind) {
+    case BlockKind::kPose:
+      return 7;
+    case BlockKind::kPoint:
+      return 3;
+    case BlockKind::kLine:
+      return 6;
+    case BlockKind::kAxes:
+      return 4;
+    case BlockKind::kExtra:
+      break;
+  }
+  return 0;
+}
+
+}  // namespace msc_vo
