@@ -10,6 +10,9 @@
 #include <string>
 #include <utility>
 
+#include <ceres/loss_function.h>
+#include <ceres/ordered_groups.h>
+
 #include "msc_vo/bundle_adjustment/internal/elimination_order.h"
 #include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
 #include "msc_vo/factors/analytic_cost_function.h"
