@@ -146,6 +146,15 @@ struct Height : CostFunctor<Height, 1, 7> {
   }
 };
 
+// Offset of two points, a block of the caller's own: (y - x - own) / sigma.
+struct Offset : CostFunctor<Offset, 3, 3, 3, 3> {
+  template <typename T>
+  bool operator()(const T* x, const T* y, const T* own, T* residuals) const {
+    for (int i = 0; i < 3; ++i) residuals[i] = (y[i] - x[i] - own[i]) / 1e-3;
+    return true;
+  }
+};
+
 TEST_F(WindowProblemTest, SolvesAWindowAsLocalBundleAdjustmentDoes) {
   WindowData expected = data_, data = data_;
   // No outliers: the first solve is the only one.
@@ -196,13 +205,6 @@ TEST_F(WindowProblemTest, IsExtendedByResidualBlocks) {
   double* const a = window.Block(BlockId::Point(data_.points[0].id));
   double* const b = window.Block(BlockId::Point(data_.points[1].id));
   window.AddResidualBlock(Height::Create(), nullptr, {pose});
-  struct Offset : CostFunctor<Offset, 3, 3, 3, 3> {
-    template <typename T>
-    bool operator()(const T* x, const T* y, const T* own, T* residuals) const {
-      for (int i = 0; i < 3; ++i) residuals[i] = (y[i] - x[i] - own[i]) / 1e-3;
-      return true;
-    }
-  };
   double own[3] = {0.0, 0.0, 0.0};
   window.AddResidualBlock(Offset::Create(), new ceres::HuberLoss(1.0), {a, b, own});
   const auto ordering = window.EliminationOrdering();
