@@ -11,9 +11,9 @@
 #include <stdexcept>
 
 #include "apps/cli/command_log.h"
+#include "apps/cli/run_files.h"
 #include "msc_vo/results/benchmark_index.h"
 #include "msc_vo/results/benchmark_json.h"
-#include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/text/files.h"
 
@@ -44,8 +44,8 @@ void WriteBenchmarkTables(const std::string& folder, const Shard& shard,
   const auto path = [&](const char* stem, const char* ending) {
     return (fs::path(folder) / ShardFileName(stem, shard, ending)).string();
   };
-  WriteFile(path("benchmark", ".md"), FormatBenchmarkMarkdown(benchmark));
   WriteFile(path("benchmark", ".json"), FormatBenchmarkJson(benchmark));
+  WriteFile(path("benchmark", ".md"), FormatBenchmarkMarkdown(benchmark));
   WriteFile(path("index", ".html"), FormatBenchmarkIndex(benchmark, folder));
 }
 
@@ -95,7 +95,7 @@ bool BenchmarkRunner::IsDone(const std::string& sequence, const std::string& mod
                      });
 }
 
-void BenchmarkRunner::Run() {
+std::string BenchmarkRunner::Run() {
   WriteBenchmarkTables(plan_.output, plan_.shard,
                        *benchmark_);  // fails early if it is not writable
   std::vector<BenchmarkSequence> sequences = plan_.sequences;
@@ -104,9 +104,10 @@ void BenchmarkRunner::Run() {
     return std::find(attempted_.begin(), attempted_.end(), s.name) == attempted_.end();
   });
   for (const BenchmarkSequence& sequence : sequences) {
-    if (interrupt_.IsInterrupted()) return;
+    if (interrupt_.IsInterrupted()) break;
     RunSequenceModes(sequence);
   }
+  return problem_;
 }
 
 void BenchmarkRunner::RunSequenceModes(const BenchmarkSequence& sequence) {
@@ -147,14 +148,17 @@ void BenchmarkRunner::RunMode(const RgbdDecoder& decoder, const Configuration& c
   try {
     row->folder = (fs::path(plan_.output) / row->sequence / row->mode).string();
     RefuseToOverwriteInputs(decoder.index(), plan_.input_files, row->folder);
-    OnlineResults online(row->folder);
+    RunFiles files(row->folder);
     const SequenceRun run =
         RunSequence(decoder, configuration, plan_.run, interrupt_,
-                    {[&](const FrameResult& frame) { online.Add(frame); }, {}, {}});
+                    {[&](const FrameResult& frame) { files.Add(frame); }, {}, {}});
     row->summary = run.summary;
     row->cost = run.context.cost;
     row->error = run.context.error;
-    if (run.HasImages()) WriteResultFiles(row->folder, run.result, run.context);
+    if (run.HasImages()) {
+      const std::string missing = files.Finish(run.result, run.context);
+      if (!missing.empty()) PrintWarning(missing);
+    }
     if (run.exit_code != kExitSuccess) throw std::runtime_error(run.context.outcome);
     if (!row->error->usable) throw std::runtime_error("no errors: " + row->error->message);
   } catch (const std::exception& error) {
@@ -163,7 +167,8 @@ void BenchmarkRunner::RunMode(const RgbdDecoder& decoder, const Configuration& c
   }
 }
 
-// Adds or replaces a run and writes the tables.
+// Adds or replaces a run and writes the tables. If they cannot be written now, the next run may
+// write them.
 void BenchmarkRunner::Record(BenchmarkRun row) {
   std::vector<BenchmarkRun>& runs = benchmark_->runs;
   runs.erase(std::remove_if(runs.begin(), runs.end(),
@@ -173,7 +178,14 @@ void BenchmarkRunner::Record(BenchmarkRun row) {
              runs.end());
   runs.push_back(std::move(row));
   SortRuns(benchmark_);
-  WriteBenchmarkTables(plan_.output, plan_.shard, *benchmark_);
+  problem_.clear();
+  try {
+    WriteBenchmarkTables(plan_.output, plan_.shard, *benchmark_);
+  } catch (const std::exception& error) {
+    problem_ = error.what();
+    if (!has_warned_) PrintWarning(problem_ + "; the benchmark goes on");
+    has_warned_ = true;
+  }
 }
 
 }  // namespace msc_vo
