@@ -13,7 +13,7 @@ for clang_format in clang-format-14 clang-format ''; do
   [[ $("$clang_format" --version 2>/dev/null) == *'version 14.'* ]] && break
 done
 if [[ -z $clang_format ]]; then
-  echo "clang-format 14 is not installed: formatting not checked"
+  echo "clang-format 14 is not installed (Debian 12 has it, Debian 13 has not): formatting not checked"
   exit 77
 fi
 

@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # Installs the missing packages of cmake/debian_packages.txt without asking.
 #
-#   install_packages.sh [report] [optional] [tests] [clang]
+#   install_packages.sh [report] [optional] [developer] [tests] [clang]
 #
 # The arguments name further lists, cmake/debian_packages_NAME.txt. It goes on without a package of
-# these that cannot be installed. If no package is missing, it needs neither root nor a network.
+# these that the release does not have or that cannot be installed. If no package is missing, it needs
+# neither root nor a network.
 set -euo pipefail
 cd "$(dirname "$0")"
 for list in "$@"; do
   if [[ ! -f debian_packages_$list.txt ]]; then
-    echo "usage: cmake/install_packages.sh [report] [optional] [tests] [clang]" >&2
+    echo "usage: cmake/install_packages.sh [report] [optional] [developer] [tests] [clang]" >&2
     exit 2
   fi
 done
@@ -58,7 +59,20 @@ if [[ ${#missing[@]} -gt 0 ]]; then
 else
   "${apt[@]}" update || true
 fi
+
+# Packages that the release does not have would keep the others from being installed with them.
+present=()
 for package in "${optional[@]}"; do
-  echo "Installing $package"
-  "${install[@]}" "$package" || echo "Going on without $package, which is optional."
+  if apt-cache show "$package" >/dev/null 2>&1; then
+    present+=("$package")
+  else
+    echo "Going on without $package, which this release does not have and msc_vo does not need."
+  fi
 done
+if [[ ${#present[@]} -eq 0 ]]; then exit 0; fi
+echo "Installing ${present[*]}"
+if ! "${install[@]}" "${present[@]}"; then
+  for package in "${present[@]}"; do
+    "${install[@]}" "$package" || echo "Going on without $package, which is optional."
+  done
+fi

@@ -128,8 +128,10 @@ int RunBenchmark(const Arguments& arguments) {
   const InterruptGuard interrupt;
   BenchmarkRunner runner(plan, interrupt, &benchmark);
   if (arguments.resume) runner.Resume();
-  runner.Run();
-  return Report(arguments, plan.shard, benchmark, interrupt.IsInterrupted());
+  const std::string problem = runner.Run();
+  const int exit_code = Report(arguments, plan.shard, benchmark, interrupt.IsInterrupted());
+  if (!problem.empty()) throw std::runtime_error(problem);
+  return exit_code;
 }
 
 // Joins the tables of several shares.

@@ -12,9 +12,9 @@
 
 #include "apps/cli/command_log.h"
 #include "apps/cli/input_check.h"
+#include "apps/cli/run_files.h"
 #include "msc_vo/results/benchmark_index.h"
 #include "msc_vo/results/benchmark_json.h"
-#include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/results/sequence_identity.h"
 #include "msc_vo/text/files.h"
@@ -47,8 +47,8 @@ void WriteBenchmarkTables(const std::string& folder, const Shard& shard,
   const auto path = [&](const char* stem, const char* ending) {
     return (fs::path(folder) / ShardFileName(stem, shard, ending)).string();
   };
-  WriteFile(path("benchmark", ".md"), FormatBenchmarkMarkdown(benchmark));
   WriteFile(path("benchmark", ".json"), FormatBenchmarkJson(benchmark));
+  WriteFile(path("benchmark", ".md"), FormatBenchmarkMarkdown(benchmark));
   WriteFile(path("index", ".html"), FormatBenchmarkIndex(benchmark, folder));
 }
 
@@ -123,7 +123,7 @@ std::string BenchmarkRunner::RunFolder(const std::string& sequence, const std::s
   return (fs::path(plan_.output) / sequence / mode).string();
 }
 
-void BenchmarkRunner::Run() {
+std::string BenchmarkRunner::Run() {
   if (!plan_.overwrite) RefuseToOverwriteOtherRuns();
   WriteBenchmarkTables(plan_.output, plan_.shard,
                        *benchmark_);  // fails early if it is not writable
@@ -133,9 +133,10 @@ void BenchmarkRunner::Run() {
     return std::find(attempted_.begin(), attempted_.end(), s.name) == attempted_.end();
   });
   for (const BenchmarkSequence& sequence : sequences) {
-    if (interrupt_.IsInterrupted()) return;
+    if (interrupt_.IsInterrupted()) break;
     RunSequenceModes(sequence);
   }
+  return problem_;
 }
 
 void BenchmarkRunner::RunSequenceModes(const BenchmarkSequence& sequence) {
@@ -176,14 +177,17 @@ void BenchmarkRunner::RunMode(const RgbdDecoder& decoder, const Configuration& c
   try {
     row->folder = RunFolder(row->sequence, row->mode);
     RefuseToOverwriteInputs(decoder.index(), plan_.input_files, row->folder);
-    OnlineResults online(row->folder, IdentifySequence(decoder.index()));
+    RunFiles files(row->folder, IdentifySequence(decoder.index()));
     const SequenceRun run =
         RunSequence(decoder, configuration, plan_.run, interrupt_,
-                    {[&](const FrameResult& frame) { online.Add(frame); }, {}, {}});
+                    {[&](const FrameResult& frame) { files.Add(frame); }, {}, {}});
     row->summary = run.summary;
     row->cost = run.context.cost;
     row->error = run.context.error;
-    if (run.HasImages()) WriteResultFiles(row->folder, run.result, run.context);
+    if (run.HasImages()) {
+      const std::string missing = files.Finish(run.result, run.context);
+      if (!missing.empty()) PrintWarning(missing);
+    }
     if (run.exit_code != kExitSuccess) throw std::runtime_error(run.context.outcome);
     if (!row->error->usable) throw std::runtime_error("no errors: " + row->error->message);
   } catch (const std::exception& error) {
@@ -192,7 +196,8 @@ void BenchmarkRunner::RunMode(const RgbdDecoder& decoder, const Configuration& c
   }
 }
 
-// Adds or replaces a run and writes the tables.
+// Adds or replaces a run and writes the tables. If they cannot be written now, the next run may
+// write them.
 void BenchmarkRunner::Record(BenchmarkRun row) {
   std::vector<BenchmarkRun>& runs = benchmark_->runs;
   runs.erase(std::remove_if(runs.begin(), runs.end(),
@@ -202,7 +207,14 @@ void BenchmarkRunner::Record(BenchmarkRun row) {
              runs.end());
   runs.push_back(std::move(row));
   SortRuns(benchmark_);
-  WriteBenchmarkTables(plan_.output, plan_.shard, *benchmark_);
+  problem_.clear();
+  try {
+    WriteBenchmarkTables(plan_.output, plan_.shard, *benchmark_);
+  } catch (const std::exception& error) {
+    problem_ = error.what();
+    if (!has_warned_) PrintWarning(problem_ + "; the benchmark goes on");
+    has_warned_ = true;
+  }
 }
 
 }  // namespace msc_vo

@@ -28,8 +28,9 @@ struct BenchmarkPlan {
   Shard shard;
 };
 
-/// Writes the tables of a benchmark to a folder: benchmark.md, benchmark.json and index.html, with
-/// the number of the share in their names. Throws std::runtime_error naming the file.
+/// Writes the tables of a benchmark to a folder: benchmark.json, benchmark.md and index.html, with
+/// the number of the share in their names. Throws std::runtime_error naming the first file that
+/// cannot be written.
 void WriteBenchmarkTables(const std::string& folder, const Shard& shard,
                           const Benchmark& benchmark);
 
@@ -45,9 +46,11 @@ class BenchmarkRunner {
   /// these tables have other settings.
   void Resume();
 
-  /// Runs what is not yet done. Failures are printed and become part of the results. Throws
-  /// std::runtime_error before the first run if it would overwrite results of other sequences.
-  void Run();
+  /// Runs what is not yet done. Failures are printed and become part of the results. Returns why
+  /// the tables could not be written in the end; empty if they are. Throws std::runtime_error
+  /// before the first run if they cannot be written, or if a run would overwrite results of another
+  /// sequence.
+  [[nodiscard]] std::string Run();
 
  private:
   bool IsDone(const std::string& sequence, const std::string& mode) const;
@@ -61,6 +64,8 @@ class BenchmarkRunner {
   const InterruptGuard& interrupt_;
   Benchmark* benchmark_;
   std::vector<std::string> attempted_;  // sequences with a run that failed or did not end
+  std::string problem_;                 // why the tables could not be written last
+  bool has_warned_ = false;
 };
 
 }  // namespace msc_vo

@@ -89,22 +89,23 @@ void CheckOutputs(const Arguments& arguments, const std::vector<RgbdDecoder>& de
   }
 }
 
-// Prints the results and writes the files. Throws std::runtime_error if the estimate is no camera.
+// Prints the results and writes the files, first the one that counts. Throws std::runtime_error if
+// the estimate is no camera.
 void WriteResults(const Arguments& arguments, const CalibrationReport& report) {
   if (arguments.run.json) {
     std::cout << FormatCalibrationJson(report) << std::flush;
   } else if (!arguments.run.quiet) {
     std::cout << FormatCalibrationTable(report) << std::flush;
   }
+  if (report.problem.empty() && !arguments.output.empty()) {
+    WriteFile(arguments.output, FormatChangedOptions(CameraConfiguration(report.used),
+                                                     "written by msc_vo calibrate"));
+  }
   if (!arguments.plot.empty()) {
     WritePlotFile(arguments.plot,
                   CalibrationPage(report, "Calibration from " + arguments.sequences.front()));
   }
   if (!report.problem.empty()) throw std::runtime_error(report.problem);
-  if (!arguments.output.empty()) {
-    WriteFile(arguments.output, FormatChangedOptions(CameraConfiguration(report.used),
-                                                     "written by msc_vo calibrate"));
-  }
 }
 
 int Run(const Arguments& arguments) {

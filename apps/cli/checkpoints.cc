@@ -10,11 +10,21 @@
 
 #include "apps/cli/command_log.h"
 #include "msc_vo/logging/logger.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
 std::string CheckpointFolder(const std::string& output) {
   return (std::filesystem::path(output) / "checkpoint").string();
+}
+
+std::string RemoveCheckpoint(const std::string& output) {
+  const std::string folder = CheckpointFolder(output);
+  if (!HasEntry(folder)) return "";
+  CheckpointFile(folder).Remove();
+  if (!HasEntry(CheckpointFile(folder).path())) return folder;
+  PrintWarning(folder + ": cannot be removed, and is of no use any more");
+  return "";
 }
 
 RunIdentity ReadIdentity(CheckpointFile* file) {

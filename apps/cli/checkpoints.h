@@ -20,6 +20,10 @@ namespace msc_vo {
 /// The folder of the checkpoint in a folder of results.
 std::string CheckpointFolder(const std::string& output);
 
+/// Removes the checkpoint in a folder of results. Returns its path; empty if there was none. Warns
+/// if it cannot be removed.
+std::string RemoveCheckpoint(const std::string& output);
+
 /// Reads the identity of the run whose checkpoint is open. Throws std::runtime_error.
 RunIdentity ReadIdentity(CheckpointFile* file);
 
@@ -45,11 +49,8 @@ class Checkpoints {
   /// Call after every image.
   void SaveIfDue(Odometry* odometry, const CostMeter& cost, const LoopProgress& progress);
   /// Call when the run ends early between two images. A checkpoint that cannot be written is a
-  /// warning: the one before remains.
+  /// warning: the one before remains, if there is one.
   void Save(Odometry* odometry, const CostMeter& cost, const LoopProgress& progress);
-
-  /// The run is complete: removes the checkpoint.
-  void Remove() { file_.Remove(); }
 
  private:
   CheckpointFile file_;

@@ -3,6 +3,7 @@
 
 #include "apps/cli/command_log.h"
 
+#include <atomic>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -27,6 +28,14 @@ spdlog::sink_ptr MakeSink(const std::string& file) {
   } catch (const spdlog::spdlog_ex& error) {
     throw std::runtime_error("--log-file " + file + ": " + error.what());
   }
+}
+
+// Called by the thread whose line could not be written.
+void EndLog(const std::string& file, const std::string& problem) {
+  static std::atomic<bool> has_ended{false};
+  Log().set_level(spdlog::level::off);
+  if (has_ended.exchange(true)) return;
+  PrintWarning((file.empty() ? "standard error" : file) + ": the log ends here: " + problem);
 }
 
 void Print(spdlog::level::level_enum level, const std::string& text) {
@@ -58,6 +67,8 @@ void StartLog(const LogArguments& arguments) {
   if (level == spdlog::level::off) return;
   Log().sinks() = {MakeSink(arguments.file)};
   Log().set_level(level);
+  Log().set_error_handler(
+      [file = arguments.file](const std::string& problem) { EndLog(file, problem); });
   logs_to_file = !arguments.file.empty();
 }
 

@@ -115,20 +115,20 @@ int Run(Arguments arguments) {
     line_error = EvaluateLines(ReadEdgesPly(arguments.edges), ReadLinesPly(arguments.lines),
                                *AlignOrientations(truth.poses, estimate.poses, arguments.options));
   }
-  if (!arguments.plot.empty()) {
-    const std::string name = std::filesystem::path(arguments.estimate).filename().string();
-    WriteComparison(arguments.plot, name, error, context);
-  }
   if (arguments.json) {
     const SkippedRows skipped{truth.num_left_out, estimate.num_left_out};
-    std::cout << FormatErrorJson(error, skipped, context, line_error, segments);
+    std::cout << FormatErrorJson(error, skipped, context, line_error, segments) << std::flush;
   } else {
     std::cout << FormatErrorTable(error, context)
               << FormatSegmentTable(segments, HasSeveralWorlds(estimate.poses))
               << SkippedRowsText(arguments.truth, truth.num_left_out)
               << SkippedRowsText(arguments.estimate, estimate.num_left_out);
     if (line_error) std::cout << FormatLineTable(*line_error);
-    if (!arguments.plot.empty()) std::cout << "plots: " << arguments.plot << "\n";
+  }
+  if (!arguments.plot.empty()) {
+    const std::string name = std::filesystem::path(arguments.estimate).filename().string();
+    WriteComparison(arguments.plot, name, error, context);
+    if (!arguments.json) std::cout << "plots: " << arguments.plot << "\n";
   }
   return kExitSuccess;
 }

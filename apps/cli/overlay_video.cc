@@ -42,6 +42,12 @@ void DrawLabel(const FrameResult& frame, cv::Mat* image) {
   }
 }
 
+// Number of images that a video holds; 0 if it cannot be read.
+int CountImages(const std::string& path) {
+  const cv::VideoCapture video(path, cv::CAP_FFMPEG);
+  return video.isOpened() ? cvRound(video.get(cv::CAP_PROP_FRAME_COUNT)) : 0;
+}
+
 }  // namespace
 
 cv::Mat DrawFeatures(const cv::Mat& gray, const ViewedFeatures& features) {
@@ -77,8 +83,7 @@ OverlayVideo::OverlayVideo(const std::string& path, double frame_rate, int width
   throw std::runtime_error(
       path +
       ": cannot be written as a video; check that the folder can be written, "
-      "and that OpenCV has FFmpeg with an encoder for H.264 or MPEG-4 (Debian: "
-      "libopencv-videoio406)");
+      "and that OpenCV has FFmpeg with an encoder for H.264 or MPEG-4, as that of Debian has");
 }
 
 void OverlayVideo::Add(const TrackedImage& tracked) {
@@ -86,15 +91,21 @@ void OverlayVideo::Add(const TrackedImage& tracked) {
       DrawFeatures(tracked.image.gray, TrackedFeatures(tracked, distortion_, axes_))(covered_);
   DrawLabel(tracked.result, &image);
   writer_.write(image);
+  ++num_images_;
 }
 
 void OverlayVideo::Finish() {
   writer_.release();
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path_, error);
-  if (error || size == 0) {
-    throw std::runtime_error(path_ + ": the video could not be written; is the disk full?");
-  }
+  // The encoder does not say that it could not write.
+  if (num_images_ == CountImages(path_)) return;
+  Remove();
+  throw std::runtime_error(path_ + ": the video could not be written; is the disk full?");
+}
+
+void OverlayVideo::Remove() {
+  writer_.release();
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
 }
 
 }  // namespace msc_vo

@@ -28,8 +28,14 @@ class OverlayVideo {
 
   void Add(const TrackedImage& tracked);
 
-  /// Completes the file. Throws std::runtime_error if it is empty, as after a full disk.
+  /// Completes the file. If it does not hold every image then, as after a full disk, removes it and
+  /// throws std::runtime_error.
   void Finish();
+
+  /// Ends the video and removes the file.
+  void Remove();
+
+  const std::string& path() const { return path_; }
 
  private:
   std::string path_;
@@ -37,6 +43,7 @@ class OverlayVideo {
   LensDistortion distortion_;
   SceneAxesOptions axes_;
   cv::VideoWriter writer_;
+  int num_images_ = 0;
 };
 
 }  // namespace msc_vo

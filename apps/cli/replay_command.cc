@@ -16,13 +16,13 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/input_check.h"
 #include "apps/cli/replay_arguments.h"
+#include "apps/cli/run_files.h"
 #include "apps/cli/run_identity.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/checkpoint/checkpoint_file.h"
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/recording/window_file.h"
-#include "msc_vo/results/online_results.h"
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/results/run_report.h"
 #include "msc_vo/results/sequence_identity.h"
@@ -34,18 +34,25 @@ namespace msc_vo {
 
 namespace {
 
-// Writes every window of local bundle adjustment to `folder`, named by its keyframe.
-WindowObserver WindowRecorder(const std::string& folder, const SequenceIndex& sequence) {
+// Writes every window of local bundle adjustment to `folder`, named by its keyframe. Stops at the
+// first one that cannot be written, and writes the reason to `problem`.
+WindowObserver WindowRecorder(const std::string& folder, const SequenceIndex& sequence,
+                              std::string* problem) {
   if (folder.empty()) return {};
   RefuseToOverwrite(InputFolders(sequence), folder);
   MakeFolder(folder);
-  return [folder](KeyframeId keyframe, const BundleAdjustmentOptions& options,
-                  const WindowData& data) {
+  return [folder, problem](KeyframeId keyframe, const BundleAdjustmentOptions& options,
+                           const WindowData& data) {
+    if (!problem->empty()) return;
     const std::string name =
         FormatText("window_%06lld.txt", static_cast<long long>(keyframe));  // sorts by name
     const std::string path = (std::filesystem::path(folder) / name).string();
-    WriteWindow(path, options, data);
-    Log().debug("window written to {}", path);
+    try {
+      WriteWindow(path, options, data);
+      Log().debug("window written to {}", path);
+    } catch (const std::exception& error) {
+      *problem = error.what() + std::string("; neither this window nor later ones are written");
+    }
   };
 }
 
@@ -91,19 +98,36 @@ std::unique_ptr<Checkpoints> MakeCheckpoints(const RunIdentity& present, const s
   return std::make_unique<Checkpoints>(CheckpointFile(folder), present, interval, parts);
 }
 
-// Writes and prints the results. Returns the exit code.
+// Writes and prints the results. `problem`: why a file that was asked for could not be written;
+// empty if there is none. Returns the exit code.
 int WriteResults(const ReplayArguments& arguments, const std::string& output,
-                 const SequenceRun& run, ReplayViews* views) {
-  WriteResultFiles(output, run.result, run.context);
-  views->Complete((std::filesystem::path(output) / "report.html").string());
+                 const SequenceRun& run, std::string problem, RunFiles* files, ReplayViews* views) {
+  const auto add_problem = [&problem](const std::string& another) {
+    problem += (problem.empty() || another.empty() ? "" : "\n") + another;
+  };
+  bool is_complete = run.exit_code == kExitSuccess || run.exit_code == kExitTrackingFailed;
+  try {
+    add_problem(files->Finish(run.result, run.context));
+  } catch (const std::exception& error) {
+    is_complete = false;
+    add_problem(error.what());
+  }
+  try {
+    views->Complete((std::filesystem::path(output) / "report.html").string());
+  } catch (const std::exception& error) {
+    add_problem(error.what());
+  }
   if (arguments.run.json) {
     std::cout << FormatSummaryJson(run.summary, run.context) << std::flush;
   } else if (!arguments.run.quiet) {
     std::cout << FormatRunTable(run.summary, run.context, output) << std::flush;
   }
-  if (run.exit_code == kExitError) {
+  if (run.exit_code == kExitError) add_problem(run.context.outcome);
+  if (!problem.empty()) {
+    // A checkpoint has all that the results are made of.
+    if (is_complete) RemoveCheckpoint(output);
     const bool resumable = CheckpointFile::Exists(CheckpointFolder(output));
-    throw std::runtime_error(run.context.outcome + "\n(results so far are in " + output +
+    throw std::runtime_error(problem + "\n(results so far are in " + output +
                              (resumable ? "; msc_vo replay --resume continues)" : ")"));
   }
   if (run.exit_code == kExitTrackingFailed) PrintError(run.context.outcome);
@@ -134,24 +158,30 @@ int Run(const ReplayArguments& arguments, const Configuration& configuration, Re
   const std::unique_ptr<GravityFactors> gravity =
       MakeGravityFactors(arguments.gravity, decoder.index());
   const InterruptGuard interrupt;
-  OnlineResults online(output, sequence);
+  RunFiles files(output, sequence);
   ReplayViews views(arguments.view, decoder, configuration, arguments.run.max_frames);
   std::unique_ptr<Checkpoints> checkpoints;  // none in real time, which cannot be repeated
   if (!configuration.odometry.snapshots.realtime) {
     checkpoints = MakeCheckpoints(IdentifyRun(decoder, configuration, arguments.gravity), output,
                                   arguments.checkpoint_interval, resumed, {&views, gravity.get()});
   }
+  files.AddExpendable(CheckpointFolder(output), [&] {
+    checkpoints.reset();  // closes its files
+    return RemoveCheckpoint(output);
+  });
+  files.AddExpendable(arguments.view.overlay, [&] { return views.RemoveVideo(); });
+  std::string window_problem;
   RunCallbacks callbacks;
   callbacks.frame = [&](const FrameResult& frame) {
-    online.Add(frame);
+    files.Add(frame);
     views.Add(frame, [&] { return interrupt.IsInterrupted(); });
   };
-  callbacks.window = WindowRecorder(arguments.windows, decoder.index());
+  callbacks.window = WindowRecorder(arguments.windows, decoder.index(), &window_problem);
   if (gravity) callbacks.window_factors = std::ref(*gravity);
   callbacks.tracking = [&](const TrackedImage& tracked) { views.Show(tracked); };
   callbacks.checkpoints = checkpoints.get();
   if (resumed != nullptr) {
-    callbacks.resume = [&](const std::vector<FrameResult>& frames) { online.Continue(frames); };
+    callbacks.resume = [&](const std::vector<FrameResult>& frames) { files.Continue(frames); };
   }
   SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt, callbacks);
   run.context.views = views.TakeViews();
@@ -162,10 +192,10 @@ int Run(const ReplayArguments& arguments, const Configuration& configuration, Re
   }
   std::vector<std::string>& warnings = run.context.sequence.warnings;
   warnings.insert(warnings.end(), check_warnings.begin(), check_warnings.end());
-  const int exit_code = WriteResults(arguments, output, run, &views);
+  const int exit_code = WriteResults(arguments, output, run, window_problem, &files, &views);
   if (exit_code != kExitInterrupted) {
-    CheckpointFile(CheckpointFolder(output)).Remove();  // possibly of an earlier run
-  } else if (checkpoints) {
+    RemoveCheckpoint(output);  // possibly of an earlier run
+  } else if (CheckpointFile::Exists(CheckpointFolder(output))) {
     PrintWarning("interrupted; to continue: msc_vo replay --resume " + output);
   }
   return exit_code;

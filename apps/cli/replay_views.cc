@@ -24,6 +24,9 @@ namespace {
 constexpr int kDefaultPort = 8765;
 constexpr int kMaxPort = 65535;
 constexpr std::chrono::seconds kLongestWaitForViewers(5);
+constexpr char kNoReport[] =
+    "<!DOCTYPE html>\n<title>msc_vo</title>\n<p>The run has ended; its report cannot be "
+    "read.</p>\n";
 
 int NumFrames(const RgbdDecoder& decoder, int max_frames) {
   return max_frames > 0 ? std::min(max_frames, decoder.size()) : decoder.size();
@@ -143,10 +146,18 @@ void ReplayViews::Add(const FrameResult& frame, const std::function<bool()>& is_
 
 void ReplayViews::Complete(const std::string& report_file) {
   if (run_) {
-    run_->Finish(ReadFile(report_file));
+    run_->Finish(FileProblem(report_file).empty() ? ReadFile(report_file) : kNoReport);
     run_->WaitForViewers(kLongestWaitForViewers);
   }
   if (video_) video_->Finish();
+}
+
+std::string ReplayViews::RemoveVideo() {
+  if (!video_) return "";
+  const std::string path = video_->path();
+  video_->Remove();
+  video_.reset();
+  return path;
 }
 
 }  // namespace msc_vo

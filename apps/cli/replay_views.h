@@ -56,6 +56,8 @@ class ReplayViews {
   /// Hands the report (file) to those who watch and waits a moment until they have it; completes
   /// the video. Throws std::runtime_error if the video could not be written.
   void Complete(const std::string& report_file);
+  /// Gives up the video and removes its file. Returns its name; empty if there is none.
+  std::string RemoveVideo();
 
   /// Lists the state for a checkpoint: the views for the report.
   template <typename Archive>

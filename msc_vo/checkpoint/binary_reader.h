@@ -145,8 +145,10 @@ class BinaryReader {
   void Get(std::optional<T>& value) {
     bool has_value = false;
     Get(has_value);
-    value.reset();
-    if (has_value) Get(value.emplace());
+    if (!has_value) return value.reset();
+    T stored{};  // read in place after emplace(), GCC 14 takes it for uninitialised
+    Get(stored);
+    value = std::move(stored);
   }
   template <typename T>
   void Get(std::shared_ptr<T>& pointer) {

@@ -173,6 +173,16 @@ void CheckpointFile::BeginJournal() {
 
 void CheckpointFile::Save(const std::function<void(BinaryWriter&)>& write_description,
                           const std::function<bool(BinaryWriter&)>& write_state) {
+  try {
+    SaveUnsafely(write_description, write_state);
+  } catch (...) {
+    RemoveRemains();
+    throw;
+  }
+}
+
+void CheckpointFile::SaveUnsafely(const std::function<void(BinaryWriter&)>& write_description,
+                                  const std::function<bool(BinaryWriter&)>& write_state) {
   constexpr uint64_t kMinBytes = uint64_t{16} << 20;  // below, a new journal is not worth its time
   MakeFolder(folder_);
   if (!journal_file_ || journal_->size() > kMinBytes + 2 * journal_->num_kept_bytes()) {
@@ -191,14 +201,30 @@ void CheckpointFile::Save(const std::function<void(BinaryWriter&)>& write_descri
   contents.journal_checksum = journal_->checksum();
 
   journal_file_->Write(journal_->written(), journal_->pending());
-  journal_->SetWritten();
   BinaryWriter file(journal_.get());
   file(contents);
   ReplaceFileOnDisk(path(), WithHeader(file.bytes()));
+  journal_->SetWritten();
   RemoveJournals(number_);
 }
 
+void CheckpointFile::RemoveRemains() {
+  if (!Exists(folder_)) return Remove();
+  if (!journal_file_) return;
+  if (journal_->written() == 0) {  // the checkpoint on the disk has another journal
+    journal_file_.reset();
+    std::remove(JournalPath(number_).c_str());
+    return;
+  }
+  try {
+    journal_file_->Write(journal_->written(), "");
+  } catch (const std::exception&) {
+    // The remains do no harm but for their space.
+  }
+}
+
 void CheckpointFile::RemoveJournals(int number) const {
+  if (!FolderProblem(folder_).empty()) return;
   for (const std::string& entry : ListFolder(folder_)) {
     const int other = JournalNumber(entry);
     if (other != 0 && other != number) std::remove(entry.c_str());
@@ -207,6 +233,7 @@ void CheckpointFile::RemoveJournals(int number) const {
 
 void CheckpointFile::Remove() {
   journal_file_.reset();
+  number_ = 0;
   if (!IsFolder(folder_)) return;
   std::remove(path().c_str());
   std::remove((path() + ".partial").c_str());

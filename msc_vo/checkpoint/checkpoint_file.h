@@ -36,7 +36,7 @@ class CheckpointFile {
 
   /// Writes a checkpoint unless `write_state` returns false. Creates the folder. The journal is
   /// begun anew when most of it is no longer needed. Throws std::runtime_error naming the file; the
-  /// checkpoint before remains.
+  /// checkpoint before remains, and takes no more space than before.
   void Save(const std::function<void(BinaryWriter&)>& write_description,
             const std::function<bool(BinaryWriter&)>& write_state);
   /// Removes the checkpoint and its folder.
@@ -46,10 +46,14 @@ class CheckpointFile {
   std::string path() const;
 
  private:
+  void SaveUnsafely(const std::function<void(BinaryWriter&)>& write_description,
+                    const std::function<bool(BinaryWriter&)>& write_state);
   std::string JournalPath(int number) const;
   // Removes the journals but that of `number`.
   void RemoveJournals(int number) const;
   void BeginJournal();
+  // Removes what a checkpoint that could not be written has left.
+  void RemoveRemains();
 
   std::string folder_;
   int number_ = 0;  // of the journal; 0: none

@@ -48,9 +48,14 @@ void GrowingBinary::Write(uint64_t offset, std::string_view bytes) {
 
 void ReplaceFileOnDisk(const std::string& path, std::string_view bytes) {
   const std::string partial = path + ".partial";
-  GrowingBinary(partial).Write(0, bytes);
-  if (std::rename(partial.c_str(), path.c_str()) != 0) {
-    throw std::runtime_error(path + ": cannot be written: " + LastError());
+  try {
+    GrowingBinary(partial).Write(0, bytes);
+    if (std::rename(partial.c_str(), path.c_str()) != 0) {
+      throw std::runtime_error(path + ": cannot be written: " + LastError());
+    }
+  } catch (const std::exception&) {
+    std::remove(partial.c_str());
+    throw;
   }
 }
 

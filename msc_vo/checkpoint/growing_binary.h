@@ -30,7 +30,8 @@ class GrowingBinary {
   int descriptor_ = -1;
 };
 
-/// Replaces a file as WriteFile() does, on the disk. Throws std::runtime_error naming it.
+/// Replaces a file as WriteFile() does, on the disk. Throws std::runtime_error naming it; the file
+/// is then unchanged.
 void ReplaceFileOnDisk(const std::string& path, std::string_view bytes);
 
 }  // namespace msc_vo

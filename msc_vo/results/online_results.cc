@@ -25,17 +25,30 @@ int CountFrames(const std::string& trajectory, const std::string& frames) {
   return std::max(0, static_cast<int>(num_lines) - 1);
 }
 
+// Appends `text` to a file that begins with `header`, and empties it.
+void AppendTo(const std::string& path, const std::string& header, std::optional<GrowingFile>* file,
+              std::string* text) {
+  if (!*file) {
+    file->emplace(path, header + *text);
+  } else if (!text->empty()) {
+    (*file)->Append(*text);
+  }
+  text->clear();
+}
+
 }  // namespace
 
-void OnlineResults::Begin() {
-  MakeFolder(directory_);
-  if (!is_resumed_) RemoveResultFiles(directory_);
-  WriteIdentity(directory_, sequence_);
+void OnlineResults::Write() {
+  if (!is_begun_) {
+    MakeFolder(directory_);
+    if (!is_resumed_) RemoveResultFiles(directory_);
+    WriteIdentity(directory_, sequence_);
+    is_begun_ = true;
+  }
   const std::filesystem::path folder = directory_;
-  trajectory_.emplace((folder / "trajectory.txt").string(),
-                      kUnfinishedTrajectoryComment + std::exchange(unwritten_poses_, ""));
-  frames_.emplace((folder / "frames.csv").string(),
-                  FormatFramesCsv({}) + std::exchange(unwritten_rows_, ""));
+  AppendTo((folder / "trajectory.txt").string(), kUnfinishedTrajectoryComment, &trajectory_,
+           &unwritten_poses_);
+  AppendTo((folder / "frames.csv").string(), FormatFramesCsv({}), &frames_, &unwritten_rows_);
 }
 
 void OnlineResults::Continue(const std::vector<FrameResult>& frames) {
@@ -56,13 +69,10 @@ void OnlineResults::AddUnwritten(const FrameResult& frame) {
 
 void OnlineResults::Add(const FrameResult& frame) {
   AddUnwritten(frame);
-  if (!trajectory_) {
-    if (frame.status == TrackingStatus::kUnreadable && !is_resumed_) return;
-    if (num_frames_ < num_frames_on_disk_) return;
-    return Begin();
-  }
-  if (!unwritten_poses_.empty()) trajectory_->Append(std::exchange(unwritten_poses_, ""));
-  frames_->Append(std::exchange(unwritten_rows_, ""));
+  const bool is_first = is_resumed_ ? num_frames_ >= num_frames_on_disk_
+                                    : frame.status != TrackingStatus::kUnreadable;
+  is_due_ = is_due_ || is_first;
+  if (is_due_) Write();
 }
 
 }  // namespace msc_vo

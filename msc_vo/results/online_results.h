@@ -28,7 +28,8 @@ class OnlineResults {
       : directory_(std::move(directory)), sequence_(std::move(sequence)) {}
 
   /// The first readable image creates the folder and removes the result files of an earlier run.
-  /// Throws std::runtime_error naming the file that cannot be written.
+  /// Throws std::runtime_error naming the file that cannot be written; the next call tries again,
+  /// with all frames that are not on disk yet.
   void Add(const FrameResult& frame);
 
   /// Continues the files of a run that has been resumed with `frames`. What is on disk about later
@@ -37,17 +38,19 @@ class OnlineResults {
 
  private:
   void AddUnwritten(const FrameResult& frame);
-  void Begin();
+  void Write();
 
   std::string directory_;
   SequenceIdentity sequence_;
   std::optional<GrowingFile> trajectory_;
   std::optional<GrowingFile> frames_;
   // Rows and poses that are not on disk yet: of unreadable images before the first readable one,
-  // and of a resumed run.
+  // of a resumed run, and those that could not be written.
   std::string unwritten_rows_;
   std::string unwritten_poses_;
   bool is_resumed_ = false;
+  bool is_due_ = false;  // since the first readable image, or the last one on disk
+  bool is_begun_ = false;
   int num_frames_ = 0;
   int num_frames_on_disk_ = 0;  // of a resumed run, before it was resumed
 };

@@ -4,9 +4,13 @@
 #include "msc_vo/results/result_files.h"
 
 #include <cmath>
+#include <cstdint>
+#include <exception>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/geometry/angles.h"
@@ -30,6 +34,30 @@ std::string FileIn(const std::string& directory, const char* name) {
 constexpr const char* kFilesOfEveryRun[] = {"trajectory.txt", "keyframes.txt", "frames.csv",
                                             "map.ply",        "lines.ply",     "summary.json",
                                             "report.html"};
+
+// Calls `write` and adds the message of its exception to `problems`, one per line.
+void TryTo(const std::function<void()>& write, std::string* problems) {
+  try {
+    write();
+  } catch (const std::exception& error) {
+    *problems += (problems->empty() ? "" : "\n") + std::string(error.what());
+  }
+}
+
+// Writes a file even if the disk has only room for it in place of its earlier version, which a run
+// in progress has left. `num_bytes`: of this file and of those that follow.
+void WriteResult(const std::string& path, const std::string& content, std::uintmax_t num_bytes,
+                 const MakeRoom& make_room) {
+  const auto make_more_room = [&](std::uintmax_t) {
+    if (make_room && make_room(num_bytes)) return true;
+    std::error_code error;
+    const std::uintmax_t earlier = std::filesystem::file_size(path, error);
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    return !error && WouldFit(folder, earlier, content.size()) &&
+           std::filesystem::remove(path, error);
+  };
+  WriteWithRoom([&] { WriteFile(path, content); }, num_bytes, make_more_room);
+}
 
 }  // namespace
 
@@ -75,21 +103,39 @@ void RemoveResultFiles(const std::string& directory) {
   }
 }
 
-void WriteResultFiles(const std::string& directory, const OdometryResult& result,
-                      const RunContext& context) {
+std::string WriteResultFiles(const std::string& directory, const OdometryResult& result,
+                             const RunContext& context, const MakeRoom& make_room) {
   MakeFolder(directory);
   const auto path = [&](const char* name) { return FileIn(directory, name); };
-  WriteTrajectory(path("trajectory.txt"), TrajectoryOf(result));
-  WriteTrajectory(path("keyframes.txt"), result.keyframes);
-  const std::vector<TimedPose>& truth = context.sequence.ground_truth;
-  if (!truth.empty()) WriteTrajectory(path("groundtruth.txt"), truth);
-  WriteFile(path("frames.csv"), FormatFramesCsv(result.frames));
-  WriteFile(path("map.ply"), FormatPointsPly(result.points));
-  WriteFile(path("lines.ply"), FormatLinesPly(result.lines));
   const RunSummary summary = Summarize(result);
-  WriteFile(path("summary.json"), FormatSummaryJson(summary, context));
-  WriteFile(path("report.html"), FormatReport(result, summary, context));
+  const std::pair<const char*, std::string> files[] = {
+      {"trajectory.txt", FormatTrajectory(TrajectoryOf(result))},
+      {"keyframes.txt", FormatTrajectory(result.keyframes)},
+      {"frames.csv", FormatFramesCsv(result.frames)},
+      {"summary.json", FormatSummaryJson(summary, context)},
+      {"map.ply", FormatPointsPly(result.points)},
+      {"lines.ply", FormatLinesPly(result.lines)}};
+  std::uintmax_t num_bytes = 0;
+  for (const auto& [name, content] : files) num_bytes += content.size();
+  std::string lost;
+  for (const auto& [name, content] : files) {
+    TryTo([&, &name = name,
+           &content = content] { WriteResult(path(name), content, num_bytes, make_room); },
+          &lost);
+    num_bytes -= content.size();
+  }
+
+  std::string missing;
+  const std::vector<TimedPose>& truth = context.sequence.ground_truth;
+  TryTo(
+      [&] {
+        if (!truth.empty()) WriteTrajectory(path("groundtruth.txt"), truth);
+      },
+      &missing);
+  TryTo([&] { WriteFile(path("report.html"), FormatReport(result, summary, context)); }, &missing);
+  if (!lost.empty()) throw std::runtime_error(lost + (missing.empty() ? "" : "\n" + missing));
   Log().info("results written to {}", directory);
+  return missing;
 }
 
 }  // namespace msc_vo

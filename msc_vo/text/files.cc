@@ -4,19 +4,19 @@
 #include "msc_vo/text/files.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
 
 #include "msc_vo/text/classic_locale.h"
+#include "msc_vo/text/write_error.h"
 
 namespace msc_vo {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr char kNotWritten[] = ": cannot be written (check the folder and the free space)";
 
 // Describes why `path` cannot be resolved; empty if it can. Writes its type to `type`.
 std::string ResolveType(const std::string& path, fs::file_type* type) {
@@ -75,12 +75,14 @@ std::string WritePartial(const std::string& path, const std::string& content) {
   CheckReplaceable(path);
   const std::string partial = path + ".partial";
   RemoveEntry(partial);
+  errno = 0;
   std::ofstream file(partial, std::ios::binary);
   file.write(content.data(), static_cast<std::streamsize>(content.size()));
   file.close();
   if (file) return partial;
+  const int cause = errno;
   RemoveEntry(partial);
-  throw std::runtime_error(path + kNotWritten);
+  throw WriteError(path, cause);
 }
 
 }  // namespace
@@ -158,7 +160,9 @@ void WriteFile(const std::string& path, const std::string& content) {
   const std::string partial = WritePartial(path, content);
   std::error_code error;
   fs::rename(partial, path, error);
-  if (error) throw std::runtime_error(path + ": cannot be written: " + ErrorText(error));
+  if (!error) return;
+  RemoveEntry(partial);
+  throw WriteError(path, error.value());
 }
 
 void CheckWritable(const std::string& path) { RemoveEntry(WritePartial(path, "")); }
@@ -173,10 +177,13 @@ GrowingFile::GrowingFile(const std::string& path, const std::string& text) : pat
 void GrowingFile::Append(const std::string& text) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path_, error);
+  errno = 0;
   stream_ << text << std::flush;
   if (stream_) return;
+  const int cause = errno;
+  stream_.clear();                                  // a later text may fit
   if (!error) fs::resize_file(path_, size, error);  // takes back a part of the text
-  throw std::runtime_error(path_ + kNotWritten);
+  throw WriteError(path_, cause);
 }
 
 void MakeFolder(const std::string& path) {

@@ -44,8 +44,8 @@ std::vector<std::string> ListFolder(const std::string& folder);
 
 /// Writes `content` to a temporary file and renames it to `path`: readers never see a partial file,
 /// and an interrupted run leaves the previous one. A symbolic link is replaced, its target is kept.
-/// Throws std::runtime_error, naming the file, if that fails or if `path` is a device, a pipe or a
-/// folder.
+/// Throws std::runtime_error, naming the file, if that fails (WriteError) or if `path` is a device,
+/// a pipe or a folder.
 void WriteFile(const std::string& path, const std::string& content);
 
 /// Throws std::runtime_error as WriteFile() would for a file that cannot be written, and writes
@@ -56,7 +56,7 @@ void CheckWritable(const std::string& path);
 /// that does not fit is not there at all. An existing file is replaced as by WriteFile().
 class GrowingFile {
  public:
-  /// The file begins with `text`. Both throw std::runtime_error naming the file.
+  /// The file begins with `text`. Both throw std::runtime_error naming the file, as WriteFile().
   explicit GrowingFile(const std::string& path, const std::string& text = "");
   void Append(const std::string& text);
 

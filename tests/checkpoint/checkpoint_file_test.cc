@@ -133,6 +133,35 @@ TEST_F(CheckpointFileTest, KeepsTheOldCheckpointUntilTheNewOneIsWhole) {
   EXPECT_EQ(Read(), TextOf(objects));
 }
 
+TEST_F(CheckpointFileTest, LeavesNothingOfACheckpointThatCannotBeWritten) {
+  const auto fail = [](CheckpointFile* file) {
+    EXPECT_THROW(file->Save([](BinaryWriter&) {},
+                            [](BinaryWriter&) -> bool { throw std::runtime_error("full"); }),
+                 std::runtime_error);
+  };
+  CheckpointFile file(Path("checkpoint"));
+  fail(&file);
+  EXPECT_FALSE(HasEntry(Path("checkpoint")));
+  Objects objects = MakeObjects(3);
+  Save("run", objects, &file);
+  const std::string earlier = TextOf(objects);
+  const std::string journal = ReadFile(Path("checkpoint/objects-1.bin"));
+
+  objects.push_back(std::make_shared<std::string>("new"));
+  WriteText("checkpoint/state.bin.partial/entry", "");  // cannot be opened after the journal
+  EXPECT_THROW(Save("run", objects, &file), std::runtime_error);
+  EXPECT_EQ(ReadFile(Path("checkpoint/objects-1.bin")), journal);
+  EXPECT_EQ(Read(), earlier);
+  CheckpointFile other(Path("checkpoint"));  // of a run that would replace this one
+  EXPECT_THROW(Save("other", objects, &other), std::runtime_error);
+  EXPECT_FALSE(HasEntry(Path("checkpoint/objects-2.bin")));
+  EXPECT_EQ(Read(), earlier);
+
+  std::filesystem::remove_all(Path("checkpoint/state.bin.partial"));
+  Save("run", objects, &file);
+  EXPECT_EQ(Read(), TextOf(objects));
+}
+
 TEST_F(CheckpointFileTest, RefusesDamagedAndForeignFiles) {
   ExpectRefused("checkpoint/state.bin", "does not exist");
   CheckpointFile file(Path("checkpoint"));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Verdicts on purposely broken and miscalibrated copies of a rendered sequence.
-
+// Verdicts on broken and miscalibrated copies of a rendered sequence.
 #include <cmath>
 #include <filesystem>
 #include <functional>

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs `msc_vo replay` with damaged input and under limits of the system.
+"""Runs `msc_vo replay` and other commands with damaged input and under limits of the system.
 
     inputs_and_limits.py COMMAND [--only PART_OF_NAME]
 
@@ -7,6 +7,7 @@ Each run must complete, or end with an error that names the cause; none may end 
 file that is not whole, or lose frames. Prints one line per fault; exit status 1 if any test failed.
 """
 import argparse
+import json
 import os
 import pathlib
 import random
@@ -93,6 +94,13 @@ class Case:
             assert "msc_vo: error: " in output, output
         damaged = replay_process.damaged_files(self.output)
         assert not damaged, damaged
+
+    def check_remains(self):
+        """Nothing is left of files that could not be written."""
+        partial = [path.name for path in self.output.rglob("*.partial")]
+        assert not partial, f"{partial} remain"
+        folder = self.output / "checkpoint"
+        assert not folder.exists() or (folder / "state.bin").exists(), "a part of a checkpoint remains"
 
     def resume(self, expected):
         code, output = self.replay.run("--quiet", "--resume", self.output)
@@ -243,26 +251,125 @@ def limit_file_size(kilobytes):
 
 @fault
 def files_cannot_grow(case, expected):
+    """Each file that is allowed its size is there; nothing remains of those that are not."""
+    sizes = {name: (expected / name).stat().st_size for name in [*replay_process.RESULTS, "report.html"]}
     for kilobytes in [0, 1, 4, 16, 64, 256]:
         shutil.rmtree(case.output, ignore_errors=True)
         code, output = case.replay.run(*case.arguments(), preexec_fn=limit_file_size(kilobytes))
         case.check(code, output, (0, 1))
+        # Times and paths make some files longer or shorter than those of the other run.
+        fitting = [name for name in replay_process.RESULTS if sizes[name] + 1024 < kilobytes << 10]
+        different = replay_process.differences(case.output, expected, fitting)
+        assert not different, f"{different} differ with {kilobytes} kB: {output}"
+        for name, size in sizes.items():
+            if size > (kilobytes << 10) + 1024:
+                assert code == 1 and f"{name}: cannot be written" in output, f"{name} is not named: {output}"
+        case.check_remains()
         if (case.output / "checkpoint" / "state.bin").exists():
             case.resume(expected)
+
+
+@fault
+def only_what_helps_cannot_be_written(case, expected):
+    """Log, video, windows, report and checkpoint are too large: the results are the same."""
+    largest = max((expected / name).stat().st_size for name in replay_process.RESULTS)
+    limit = (largest >> 10) + 2
+    help_files = {"--log-file": "log.txt", "--overlay": "video.mp4", "--windows": "windows"}
+    for argument, name in help_files.items():
+        shutil.rmtree(case.output, ignore_errors=True)
+        file = case.output.with_name(name)
+        more = [argument, file]
+        if argument == "--log-file":
+            file.write_text("x" * ((limit << 10) - 100) + "\n")  # the log appends
+            more += ["--log-level", "debug"]
+        code, output = case.replay.run(*case.arguments(), *more, preexec_fn=limit_file_size(limit))
+        case.check(code, output, (1,), "report.html: cannot be written: File too large")
+        different = replay_process.differences(case.output, expected, replay_process.RESULTS)
+        assert not different, f"{different} differ with {argument}: {output}"
+        case.check_remains()
+        if "encoder" in output:
+            continue  # OpenCV has none
+        if argument == "--log-file":
+            assert "the log ends here" in output, output
+        else:
+            assert name in output, f"{name} is not named: {output}"
+        if argument == "--overlay":
+            assert not file.exists(), "a part of the video remains"
+
+
+@fault
+def reports_of_a_benchmark_cannot_be_written(case, expected):
+    limit = (max((expected / name).stat().st_size for name in replay_process.RESULTS) >> 10) + 2
+    code, output = case.replay.command_run("benchmark", case.sequence, "--modes", "pl-vo", "--quiet",
+                                           "--output", case.output, preexec_fn=limit_file_size(limit))
+    assert code == 0 and "report.html: cannot be written" in output, f"exit code {code}: {output}"
+    runs = json.loads((case.output / "benchmark.json").read_text())["runs"]
+    assert len(runs) == 1 and not runs[0].get("failure"), runs
+
+
+@fault
+def plots_cannot_be_written(case, expected):
+    """The printed errors and the estimated camera do not depend on them."""
+    code, output = case.replay.command_run("evaluate", case.sequence / "groundtruth.txt", expected / "trajectory.txt",
+                                           "--plot", case.output / "no" / "such" / "plot.svg")
+    assert code == 1 and "APE" in output and "plot.svg: cannot be written" in output, output
+    camera = case.output.with_name("camera.yaml")
+    code, output = case.replay.command_run("calibrate", case.sequence, "--output", camera, "--quiet", "--plot",
+                                           case.output.with_name("plot.html"), preexec_fn=limit_file_size(16))
+    assert code == 1 and ("plot.html: cannot be written" in output or "camera.yaml" not in output), output
+    assert camera.exists() == ("plot.html: cannot be written" in output), output
+
+
+def mount_tmpfs(folder, size):
+    """Whether a file system of this size could be mounted, for which only root has the right."""
+    return os.geteuid() == 0 and subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", folder], capture_output=True).returncode == 0
+
+
+def pages(size):
+    return -(-size // 4096) * 4096
+
+
+@fault
+def disk_has_room_for_the_results(case, expected):
+    """The checkpoint and the video take the space of the results: they give way."""
+    needed = sum(pages((expected / name).stat().st_size) for name in replay_process.RESULTS)
+    report = pages((expected / "report.html").stat().st_size)
+    largest = max(pages((expected / name).stat().st_size) for name in replay_process.RESULTS)
+    video = case.output / "video.mp4"
+    # From room for the results, each beside its temporary file, to room for everything.
+    for size, more in [(needed + 8 * 4096, []), (needed + largest, ["--overlay", video]),
+                       (needed + report // 2, []), (needed + report + 16 * 4096, ["--overlay", video])]:
+        case.output.mkdir()
+        if not mount_tmpfs(case.output, size):
+            case.output.rmdir()
+            return "left out: a file system cannot be mounted"
+        try:
+            code, output = case.replay.run(*case.arguments(), *more)
+            case.check(code, output, (0, 1))
+            different = replay_process.differences(case.output, expected, replay_process.RESULTS)
+            assert not different, f"{different} differ with {size} bytes: {output}"
+            case.check_remains()
+            assert not (case.output / "checkpoint").exists(), "the checkpoint remains"
+            if code == 1:
+                assert "report.html: cannot be written" in output or "video.mp4" in output, output
+        finally:
+            subprocess.run(["umount", case.output], check=True)
+            case.output.rmdir()
+    return None
 
 
 @fault
 def disk_is_full(case, expected):
     for kilobytes in [0, 8, 64, 256, 512, 1024]:
         case.output.mkdir()
-        size = f"size={max(4, kilobytes)}k"
-        if os.geteuid() != 0 or subprocess.run(["mount", "-t", "tmpfs", "-o", size, "tmpfs", case.output],
-                                               capture_output=True).returncode != 0:
+        if not mount_tmpfs(case.output, f"{max(4, kilobytes)}k"):
             case.output.rmdir()
             return "left out: a file system cannot be mounted"
         try:
             code, output = case.replay.run(*case.arguments())
             case.check(code, output, (0, 1))
+            case.check_remains()
             frames = replay_process.count_frames(case.output)
             if (case.output / "checkpoint" / "state.bin").exists():
                 subprocess.run(["mount", "-o", "remount,size=64m", case.output], check=True)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the Debian packages, checks them with lintian, installs them in a bare Debian 12 made by
-# debootstrap, and runs them there: the command, the Python module, a program built with the
+# Builds the Debian packages, checks them with lintian, installs them in a bare system of the same
+# release made by debootstrap, and runs them there: the command, the Python module, a program built with the
 # development package, and their removal. Needs root, a Debian mirror, and the packages debootstrap,
 # fakeroot, dpkg-dev and lintian. Takes some minutes; not part of ctest.
 #
@@ -12,6 +12,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 packages=$(realpath --canonicalize-missing "${1:-out/packages}")
 mirror=${MIRROR:-http://deb.debian.org/debian}
+release=$(source /etc/os-release && echo "$VERSION_CODENAME")
 version=$(sed -n 's/^project(msc_vo VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 
 say() { printf '\n== %s (%d s)\n' "$*" "$SECONDS"; }
@@ -43,9 +44,9 @@ clean_up() {
 }
 trap clean_up EXIT
 
-say "Bare Debian 12 in $bare"
+say "Bare $release in $bare"
 if [[ ! -e $bare/usr/bin/apt-get ]]; then
-  debootstrap --variant=minbase bookworm "$bare" "$mirror"
+  debootstrap --variant=minbase "$release" "$bare" "$mirror"
 fi
 mount -t proc proc "$bare/proc"
 mount --bind /dev "$bare/dev"
@@ -119,4 +120,4 @@ inside apt-get purge --yes --quiet --quiet libmsc-vo-dev msc-vo 'msc-vo-fusion*'
 left=$(inside find /usr /etc -path '*msc[-_]vo*' -not -path '/usr/share/doc/msc-vo')
 [[ -z $left ]] || fail "left after purging: $left"
 
-say "All packages work in a bare Debian 12"
+say "All packages work in a bare $release"

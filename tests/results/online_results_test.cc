@@ -3,6 +3,8 @@
 
 #include "msc_vo/results/online_results.h"
 
+#include <filesystem>
+
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -86,6 +88,27 @@ TEST_F(OnlineResultsTest, ReplacesFilesThatAreNotThoseOfTheResumedRun) {
       ReadFile(Path("out/frames.csv")),
       FormatFramesCsv({Frame(1.0, TrackingStatus::kLost), Frame(2.0, TrackingStatus::kTracked)}));
   EXPECT_EQ(ReadTrajectory(Path("out/trajectory.txt")).size(), 1u);
+}
+
+TEST_F(OnlineResultsTest, WritesLaterWhatCouldNotBeWritten) {
+  for (const char* blocked : {"out/trajectory.txt/entry", "out/frames.csv/entry"}) {
+    WriteText(blocked, "");
+    OnlineResults online(Path("out"), {"/data/room", "", ""});
+    std::vector<FrameResult> frames;
+    for (int i = 0; i < 4; ++i) {
+      frames.push_back(
+          Frame(1.0 + i, i == 1 ? TrackingStatus::kUnreadable : TrackingStatus::kWeak));
+      if (i < 2) {
+        EXPECT_THROW(online.Add(frames.back()), std::runtime_error) << blocked;
+      } else {
+        if (i == 2) std::filesystem::remove_all(std::filesystem::path(Path(blocked)).parent_path());
+        online.Add(frames.back());
+      }
+    }
+    EXPECT_EQ(ReadFile(Path("out/frames.csv")), FormatFramesCsv(frames));
+    EXPECT_EQ(ReadTrajectory(Path("out/trajectory.txt")).size(), 3u);
+    std::filesystem::remove_all(Path("out"));
+  }
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 
 #include "msc_vo/results/result_files.h"
 
+#include <algorithm>
+#include <filesystem>
+
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -133,7 +136,7 @@ TEST_F(ResultFilesTest, WritesAllFilesAndNothingElse) {
   context.cost.processor_seconds = 3.0;
   context.sequence.ground_truth = {{10.0, Rigid3()}};
   const std::string out = Path("deep/down/out");
-  WriteResultFiles(out, Result(), context);
+  EXPECT_EQ(WriteResultFiles(out, Result(), context), "");
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(out)) {
     names.push_back(entry.path().filename().string());
@@ -170,7 +173,7 @@ TEST_F(ResultFilesTest, WritesSegmentsAndMarksPosesBeforeThem) {
   result.frames[0].status = TrackingStatus::kLost;
   result.frames[4].segment = 1;
   result.segments = {{1, 3, 1, 0, std::nullopt}, {4, 4, 1, 1, std::nullopt}};
-  WriteResultFiles(Path("out"), result, {});
+  EXPECT_EQ(WriteResultFiles(Path("out"), result, {}), "");
   const std::vector<TimedPose> trajectory = ReadTrajectory(Path("out/trajectory.txt"));
   ASSERT_EQ(trajectory.size(), 5u);
   EXPECT_FALSE(trajectory[0].is_estimated);
@@ -214,7 +217,7 @@ TEST_F(ResultFilesTest, WritesTheOptionsInEffect) {
   RunContext context;
   context.configuration.odometry.mode = Mode::kPlVo;
   context.configuration.odometry.mapping.axes.enabled = true;
-  WriteResultFiles(Path("out"), Result(), context);
+  EXPECT_EQ(WriteResultFiles(Path("out"), Result(), context), "");
   const nlohmann::json summary = nlohmann::json::parse(ReadFile(Path("out/summary.json")));
   EXPECT_EQ(summary["options"]["mapping.axes.enabled"], false);
   EXPECT_EQ(summary["options"]["mapping.frame_structure"], false);
@@ -226,8 +229,31 @@ TEST_F(ResultFilesTest, WritesTheOptionsInEffect) {
 
 TEST_F(ResultFilesTest, ReportsAFileInPlaceOfTheFolder) {
   WriteText("out", "");
-  EXPECT_THAT(MessageOf([&] { WriteResultFiles(Path("out"), Result(), {}); }),
+  EXPECT_THAT(MessageOf([&] { static_cast<void>(WriteResultFiles(Path("out"), Result(), {})); }),
               HasSubstr("out: cannot be created"));
+}
+
+// A folder of the name of a file keeps it from being written.
+TEST_F(ResultFilesTest, AFileThatCannotBeWrittenKeepsNoOtherFromBeingWritten) {
+  RunContext context;
+  context.sequence.ground_truth = {{10.0, Rigid3()}};
+  const std::vector<std::string> counts = {"trajectory.txt", "keyframes.txt", "frames.csv",
+                                           "summary.json",   "map.ply",       "lines.ply"};
+  std::vector<std::string> all = counts;
+  all.insert(all.end(), {"groundtruth.txt", "report.html"});
+  for (const std::string& blocked : all) {
+    std::filesystem::remove_all(Path("out"));
+    WriteText("out/" + blocked + "/entry", "");
+    std::string missing;
+    const std::string lost =
+        MessageOf([&] { missing = WriteResultFiles(Path("out"), Result(), context); });
+    const bool is_lost = std::find(counts.begin(), counts.end(), blocked) != counts.end();
+    EXPECT_THAT(is_lost ? lost : missing, HasSubstr(blocked + ": cannot be written"));
+    EXPECT_EQ(is_lost ? missing : lost, "");
+    for (const std::string& name : all) {
+      EXPECT_EQ(FileProblem(Path("out/" + name)).empty(), name != blocked) << name << blocked;
+    }
+  }
 }
 
 }  // namespace

@@ -3,11 +3,14 @@
 
 #include "msc_vo/text/files.h"
 
+#include <cerrno>
 #include <filesystem>
 
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <sys/stat.h>
+
+#include "msc_vo/text/write_error.h"
 
 namespace msc_vo {
 namespace {
@@ -94,6 +97,46 @@ TEST_F(FilesTest, WriteReplacesOnlyRegularFiles) {
   EXPECT_THAT(MessageOf([&] { GrowingFile file(pipe); }), HasSubstr("is a pipe"));
   EXPECT_THAT(MessageOf([&] { WriteFile(Folder(), "text"); }), HasSubstr("is a folder"));
   EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST_F(FilesTest, WriteErrorsNameTheCause) {
+  EXPECT_THAT(MessageOf([&] { WriteFile(Path("no/folder.txt"), "text"); }),
+              HasSubstr("folder.txt: cannot be written: No such file or directory"));
+  for (const auto& [cause, lacks_space] :
+       {std::pair(ENOSPC, true), {EDQUOT, true}, {EROFS, false}, {EFBIG, false}, {0, false}}) {
+    EXPECT_EQ(WriteError("file", cause).LacksSpace(), lacks_space) << cause;
+  }
+}
+
+// `make_room` can remove two files; the third attempt succeeds.
+TEST(WriteWithRoom, MakesRoomOnlyForLackOfSpace) {
+  int num_attempts = 0, num_files = 2;
+  const MakeRoom make_room = [&](std::uintmax_t num_bytes) {
+    EXPECT_EQ(num_bytes, 5u);
+    return num_files-- > 0;
+  };
+  const auto write = [&](int cause, int num_failures) {
+    num_attempts = 0;
+    num_files = 2;
+    WriteWithRoom(
+        [&] {
+          if (num_attempts++ < num_failures) throw WriteError("file", cause);
+        },
+        5, make_room);
+  };
+  write(ENOSPC, 2);
+  EXPECT_EQ(num_attempts, 3);
+  EXPECT_EQ(num_files, 0);
+  EXPECT_THROW(write(ENOSPC, 3), WriteError);
+  EXPECT_THROW(write(EROFS, 1), WriteError);
+  EXPECT_EQ(num_files, 2);
+}
+
+TEST_F(FilesTest, TellsWhatWouldFitOntoTheDisk) {
+  const std::uintmax_t available = fs::space(Folder()).available;
+  EXPECT_TRUE(WouldFit(Folder(), 0, available / 2));
+  EXPECT_FALSE(WouldFit(Folder(), 0, 2 * available + 1));
+  EXPECT_TRUE(WouldFit(Folder(), 2 * available, 2 * available + 1));
 }
 
 }  // namespace
