@@ -245,6 +245,22 @@ TEST_F(WarmLens, IsCorrectedByTheMapWhileTheRegistrationRemains) {
   EXPECT_EQ(run_.estimator().estimate().is_corrected, (CorrectionGroups{true, false, false, true}));
 }
 
+// Images that contradict a correction outweigh those that made it.
+TEST(TakenBackCorrection, IsNotAcceptedAgain) {
+  SettledRun run(Record(Truth(-0.05, 0.0), HandHeldPoses()));
+  run.Add(0);
+  for (int i = 0; i < 10 && !run.estimator().estimate().is_corrected[0]; ++i) run.Add(1);
+  ASSERT_TRUE(run.estimator().estimate().is_corrected[0]);
+  run.BeginMap();
+  run.Continue(Record(S::Vector::Zero(), HandHeldPoses()));
+  run.Add(0);
+  int num_changes = 0;
+  for (int i = 0; i < 14; ++i) num_changes += run.Add(8) ? 1 : 0;
+  EXPECT_FALSE(run.estimator().estimate().IsCorrected());
+  EXPECT_EQ(run.estimator().present()->camera.fx, kGiven.fx);
+  EXPECT_LE(num_changes, 4);
+}
+
 TEST_F(WarmLens, IsCorrectedInTheSameWayAfterACheckpoint) {
   ObjectJournal journal;
   BinaryWriter writer(&journal);
