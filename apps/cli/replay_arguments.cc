@@ -12,6 +12,7 @@
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/number_range.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
