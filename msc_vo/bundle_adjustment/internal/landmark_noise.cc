@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "msc_vo/factors/camera_linearization.h"
-
 namespace msc_vo {
 
 namespace {
@@ -26,10 +24,9 @@ struct ResidualSums {
   double offset_sum = 0.0;
   double offset_weight = 0.0;
 
-  template <int Rows>
-  void AddResiduals(const Eigen::Matrix<double, Rows, 1>& residuals) {
-    chi2 += residuals.squaredNorm();
-    num_residuals += Rows;
+  void AddResiduals(double squared_norm, int rows) {
+    chi2 += squared_norm;
+    num_residuals += rows;
   }
   void AddOffset(double offset, double sigma) {
     offset_sum += offset / (sigma * sigma);
@@ -46,11 +43,11 @@ std::vector<ResidualSums> SumPointResiduals(const WindowIndex& index,
     const WindowData::PointObservation& o = data.point_observations[i];
     const Eigen::Vector3d in_cam = state.Pose(keyframe) * state.Point(point);
     if (!inlier_mask.points[i].reprojection || !IsInFront(in_cam)) continue;
-    const PointReprojection reprojection(data.camera, o.pixel, o.sigma);
-    sums[point].AddResiduals(ResidualInCamera(reprojection, {in_cam}));
+    const Eigen::Vector2d pixels = data.camera.Project(in_cam) - o.pixel;
+    sums[point].AddResiduals(pixels.squaredNorm() / (o.sigma * o.sigma), 2);
     if (!inlier_mask.points[i].depth) continue;
-    const DepthReprojection depth(o.inverse_depth, o.inverse_depth_sigma);
-    sums[point].AddResiduals(ResidualInCamera(depth, {in_cam}));
+    const double depth = (1.0 / in_cam.z() - o.inverse_depth) / o.inverse_depth_sigma;
+    sums[point].AddResiduals(depth * depth, 1);
   }
   return sums;
 }
@@ -68,14 +65,15 @@ std::vector<ResidualSums> SumLineResiduals(const WindowIndex& index,
     const std::optional<LinePart> part = ObservedPart(data.camera, o.segment, whole);
     if (!inlier_mask.lines[i].reprojection || !part) continue;
     const LineSegment3 in_cam = part->Of(whole);
-    sums[line].AddResiduals(LineResidual(data.camera, o.segment, o.sigma, in_cam));
+    const Eigen::Vector2d pixels = LineResidual(data.camera, o.segment, o.sigma, in_cam);
+    sums[line].AddResiduals(pixels.squaredNorm(), 2);
     if (!inlier_mask.lines[i].depth) continue;
     const WindowData::Line& previous = data.lines[line];
     const std::optional<double> inverse_depth = InverseDepthAt(data.camera, o.segment, in_cam, 0.5);
     if (!inverse_depth) continue;
     const double sigma = o.depth.SigmaAt(0.5);
     const double depth = (*inverse_depth - Nearer(o.depth, previous.depth_offset).At(0.5)) / sigma;
-    sums[line].AddResiduals(Eigen::Matrix<double, 1, 1>(depth));
+    sums[line].AddResiduals(depth * depth, 1);
     const double z = 1.0 / *inverse_depth;
     sums[line].AddOffset(1.0 / o.depth.At(0.5) - z, z * z * previous.noise * sigma);
   }
