@@ -23,8 +23,7 @@ constexpr int kMaxIterations = 50;
 // Keeps the directions of all paired lines in the reduced system.
 void KeepAllPaired(BlockStructure* structure) {
   std::vector<bool> paired(structure->num_lines, false);
-  for (const WindowIndex::Pair& pair : structure->line_pairs)
-    paired[pair.a] = paired[pair.b] = true;
+  for (const auto& [a, b] : structure->line_pairs) paired[a] = paired[b] = true;
   structure->num_reduced_lines = 0;
   for (int i = 0; i < structure->num_lines; ++i) {
     structure->reduced_line[i] = paired[i] ? structure->num_reduced_lines++ : -1;

@@ -39,21 +39,10 @@ void WriteCounts(const WindowTerms& terms, BundleAdjustmentSummary* summary) {
 // the second solve keep their initial values.
 void WriteBack(const WindowTerms& terms, const WindowInlierMask& inlier_mask,
                const WindowState& state, WindowData* data) {
-  for (size_t i = 0; i < data->keyframes.size(); ++i) {
-    if (terms.keyframe_constrained[i]) data->keyframes[i].cam_from_world = state.Pose(i);
-  }
-  for (size_t i = 0; i < data->points.size(); ++i) {
-    if (terms.point_constrained[i]) data->points[i].position = state.Point(i);
-  }
-  for (size_t i = 0; i < data->lines.size(); ++i) {
-    if (terms.line_constrained[i]) data->lines[i].segment = state.Line(i);
-  }
-  for (size_t i = 0; i < data->extra_blocks.size(); ++i) {
-    if (terms.extra_constrained[i]) data->extra_blocks[i].value = state.Extra(i);
-  }
-  if (data->axes && terms.extra_constrained.back()) {
-    data->axes->world_from_axes = Eigen::Quaterniond(state.ExtraBlock(data->extra_blocks.size()));
-  }
+  const auto is_constrained = [&terms](const StateBlock& block) {
+    return terms.Constrained(block.kind)[block.position];
+  };
+  WriteState(state, is_constrained, data);
   for (size_t i = 0; i < inlier_mask.points.size(); ++i) {
     data->point_observations[i].rejected = !inlier_mask.points[i].reprojection;
   }
@@ -76,7 +65,7 @@ MinimizerReport Minimize(const BundleAdjustmentOptions& options, const WindowDat
                                   enter_stage, state);
   }
   if (enter_stage) enter_stage(WindowStage::kStep);
-  return CeresBackend(options, data, terms, state).Minimize(max_iterations);
+  return MinimizeWithCeres(options, data, terms, max_iterations, state);
 }
 
 }  // namespace

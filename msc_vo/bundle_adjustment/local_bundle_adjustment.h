@@ -33,23 +33,18 @@ struct LandmarkNoiseOptions {
   bool IsValid(std::string* error) const;
 };
 
-/// Solver of the nonlinear least-squares problem. All solvers take the same steps, up to rounding,
-/// as long as no step moves a landmark behind a camera that observes it or leaves a line without
-/// length: kBlockSchur then keeps that landmark and takes the rest of the step, Ceres rejects the
-/// step. Both go on to the same minimum.
+/// Solver of the nonlinear least-squares problem. All of them minimise the same functors and go to
+/// the same minimum. Where a step moves a landmark behind a camera that observes it or leaves a
+/// line without length, kBlockSchur keeps that landmark and takes the rest of the step, and Ceres
+/// rejects the step.
 enum class BundleAdjustmentSolver {
   kBlockSchur,        ///< Specialised block-sparse Schur complement; the fastest.
-  kCeresDenseSchur,   ///< Ceres, the reference.
-  kCeresSuiteSparse,  ///< Ceres with SuiteSparse, if Ceres was built with it.
-  kCeresEigenSparse,  ///< Ceres with Eigen's sparse matrices, if Ceres was built with them.
+  kCeres,             ///< Ceres (WindowProblem): sparse Schur complement, factorised by Eigen.
+  kCeresSuiteSparse,  ///< The same, factorised by SuiteSparse, if Ceres was built with it.
 };
 
 struct BundleAdjustmentOptions {
   BundleAdjustmentSolver solver = BundleAdjustmentSolver::kBlockSchur;
-  /// Ceres solvers only. Off: automatic derivatives, and Ceres' own elimination ordering.
-  bool analytic_jacobians = true;
-  bool explicit_ordering = true;
-
   /// The Huber thresholds are square roots of the 95 % chi-square quantile with as many degrees of
   /// freedom as the term has rows (2 rows: 5.991, 1 row: 3.841).
   TermOptions point_reprojection{true, 2.448};

@@ -26,22 +26,7 @@ constexpr double kMaxInflation = 1e8;
 // The inliers of the second solve of LocalBundleAdjustment.
 WindowInlierMask FinalInlierMask(const BundleAdjustmentOptions& options, const WindowData& data,
                                  const WindowIndex& index, const WindowState& state) {
-  int num_behind = 0;
-  WindowInlierMask inlier_mask = InitialInlierMask(options, index, data, &num_behind);
-  const auto keep_observations = [](const auto& items, std::vector<InlierMask>* inliers) {
-    for (size_t i = 0; i < items.size(); ++i) {
-      if (items[i].rejected) (*inliers)[i] = {};
-    }
-  };
-  keep_observations(data.point_observations, &inlier_mask.points);
-  keep_observations(data.line_observations, &inlier_mask.lines);
-  ForEachRelation([&](const auto& term) {
-    const auto& records = data.*term.records;
-    for (size_t i = 0; i < records.size(); ++i) {
-      (inlier_mask.*term.inliers)[i] = !records[i].rejected;
-    }
-  });
-
+  WindowInlierMask inlier_mask = UnrejectedInlierMask(options, index, data);
   // Observations that lost only their depth have no mark in the data: repeat the test.
   WindowInlierMask tested = inlier_mask;
   BundleAdjustmentSummary unused;

@@ -75,14 +75,9 @@ void ListWindowTerms(BundleAdjustmentOptions* window, OptionLister* list) {
 }
 
 void ListWindow(BundleAdjustmentOptions* window, OptionLister* list) {
-  list->AddChoice("solver", &window->solver,
-                  {"block-schur", "ceres-dense-schur", "ceres-suite-sparse", "ceres-eigen-sparse"},
+  list->AddChoice("solver", &window->solver, {"block-schur", "ceres", "ceres-suite-sparse"},
                   "Solver of local bundle adjustment.")
       .MakeBasic("Choose a Ceres solver for comparison; block-schur is the fastest.");
-  list->Add("analytic_jacobians", &window->analytic_jacobians,
-            "Analytic instead of automatic derivatives in the Ceres solvers.");
-  list->Add("explicit_ordering", &window->explicit_ordering,
-            "Set the elimination ordering of the Ceres solvers instead of leaving it to Ceres.");
   list->Add("line_endpoint_prior", &window->line_endpoint_prior,
             "Prior on the end points of a line along its direction.");
   list->Add("line_endpoint_prior_sigma", &window->line_endpoint_prior_sigma, {1e-6, 100, "metres"},

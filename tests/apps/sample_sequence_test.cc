@@ -51,9 +51,8 @@ TEST_F(SampleSequenceTest, HasTheSameTrajectoryWithEverySolver) {
   const std::vector<TimedPose> expected = replay("block-schur");
   ASSERT_EQ(expected.size(), 32u);
   for (const auto& [name, solver] :
-       {std::pair("ceres-dense-schur", BundleAdjustmentSolver::kCeresDenseSchur),
-        std::pair("ceres-suite-sparse", BundleAdjustmentSolver::kCeresSuiteSparse),
-        std::pair("ceres-eigen-sparse", BundleAdjustmentSolver::kCeresEigenSparse)}) {
+       {std::pair("ceres", BundleAdjustmentSolver::kCeres),
+        std::pair("ceres-suite-sparse", BundleAdjustmentSolver::kCeresSuiteSparse)}) {
     BundleAdjustmentOptions options;
     options.solver = solver;
     std::string error;

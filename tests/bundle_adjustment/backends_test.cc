@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// All solvers take the same steps to the same minimum.
+// All solvers reach the same minimum.
 
 #include <regex>
 
@@ -17,8 +17,6 @@ namespace {
 struct Variant {
   const char* name;
   BundleAdjustmentSolver solver;
-  bool analytic_jacobians = true;
-  bool explicit_ordering = true;
 };
 void PrintTo(const Variant& variant, std::ostream* stream) { *stream << variant.name; }
 
@@ -29,8 +27,6 @@ class BundleAdjustmentSolverTest : public ::testing::TestWithParam<Variant> {
     scene_.max_observations = 5;
     reference_.solver = BundleAdjustmentSolver::kBlockSchur;
     options_.solver = GetParam().solver;
-    options_.analytic_jacobians = GetParam().analytic_jacobians;
-    options_.explicit_ordering = GetParam().explicit_ordering;
   }
   void SetUp() override {
     if (!IsAvailable(options_.solver))
@@ -59,7 +55,6 @@ class BundleAdjustmentSolverTest : public ::testing::TestWithParam<Variant> {
     EXPECT_NEAR(b.initial_cost, a.initial_cost, 1e-12 * a.initial_cost);
     EXPECT_NEAR(b.final_cost, a.final_cost, 1e-6 * a.final_cost);
     EXPECT_LT(a.final_cost, 0.5 * a.initial_cost);
-    EXPECT_EQ(b.num_iterations, a.num_iterations);
     EXPECT_EQ(b.point_reprojection.num_rejected, a.point_reprojection.num_rejected);
     EXPECT_EQ(b.line_reprojection.num_rejected, a.line_reprojection.num_rejected);
     EXPECT_EQ(b.parallel.num_rejected, a.parallel.num_rejected);
@@ -202,15 +197,11 @@ TEST_P(BundleAdjustmentSolverTest, ReportsStagesInOrder) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Solvers, BundleAdjustmentSolverTest,
-    ::testing::Values(
-        Variant{"DenseSchur", BundleAdjustmentSolver::kCeresDenseSchur},
-        Variant{"AutomaticDerivatives", BundleAdjustmentSolver::kCeresDenseSchur, false},
-        Variant{"AutomaticOrdering", BundleAdjustmentSolver::kCeresDenseSchur, true, false},
-        Variant{"SuiteSparse", BundleAdjustmentSolver::kCeresSuiteSparse},
-        Variant{"EigenSparse", BundleAdjustmentSolver::kCeresEigenSparse}),
-    [](const auto& variant) { return std::string(variant.param.name); });
+INSTANTIATE_TEST_SUITE_P(Solvers, BundleAdjustmentSolverTest,
+                         ::testing::Values(Variant{"Eigen", BundleAdjustmentSolver::kCeres},
+                                           Variant{"SuiteSparse",
+                                                   BundleAdjustmentSolver::kCeresSuiteSparse}),
+                         [](const auto& variant) { return std::string(variant.param.name); });
 
 }  // namespace
 }  // namespace msc_vo

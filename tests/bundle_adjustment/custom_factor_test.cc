@@ -168,8 +168,7 @@ class CustomFactorTest : public ::testing::TestWithParam<BundleAdjustmentSolver>
 TEST_P(CustomFactorTest, ReachesTheOptimumOfCeres) {
   AddOneOfEachKind();
   BundleAdjustmentOptions reference = options_;
-  reference.solver = BundleAdjustmentSolver::kCeresDenseSchur;
-  reference.analytic_jacobians = reference.explicit_ordering = false;
+  reference.solver = BundleAdjustmentSolver::kCeres;
   WindowData expected = data_;
   const BundleAdjustmentSummary a = LocalBundleAdjustment(reference, &expected);
   const BundleAdjustmentSummary b = LocalBundleAdjustment(options_, &data_);
@@ -309,21 +308,18 @@ std::string NameOf(const ::testing::TestParamInfo<BundleAdjustmentSolver>& solve
   switch (solver.param) {
     case BundleAdjustmentSolver::kBlockSchur:
       return "BlockSchur";
-    case BundleAdjustmentSolver::kCeresDenseSchur:
-      return "DenseSchur";
+    case BundleAdjustmentSolver::kCeres:
+      return "Ceres";
     case BundleAdjustmentSolver::kCeresSuiteSparse:
       return "SuiteSparse";
-    case BundleAdjustmentSolver::kCeresEigenSparse:
-      return "EigenSparse";
   }
   return "";
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, CustomFactorTest,
                          ::testing::Values(BundleAdjustmentSolver::kBlockSchur,
-                                           BundleAdjustmentSolver::kCeresDenseSchur,
-                                           BundleAdjustmentSolver::kCeresSuiteSparse,
-                                           BundleAdjustmentSolver::kCeresEigenSparse),
+                                           BundleAdjustmentSolver::kCeres,
+                                           BundleAdjustmentSolver::kCeresSuiteSparse),
                          NameOf);
 
 }  // namespace

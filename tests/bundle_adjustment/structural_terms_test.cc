@@ -10,8 +10,9 @@
 #include "tests/support/test_window.h"
 #include <gmock/gmock.h>
 
-#include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
+#include "msc_vo/bundle_adjustment/internal/window_terms.h"
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+#include "msc_vo/bundle_adjustment/window_problem.h"
 #include "msc_vo/geometry/angles.h"
 
 namespace msc_vo {
@@ -297,15 +298,15 @@ TEST_F(StructuralTermsTest, CeresOrderingEliminatesNoTwoPairedLines) {
   inlier_mask.alignments.assign(data_.axis_alignments.size(), true);
   WindowState state(data_);
   const WindowTerms terms = MakeWindowTerms(options_, data_, index, inlier_mask, state);
-  const auto ordering = CeresBackend(options_, data_, terms, &state).EliminationOrdering();
+  const auto ordering = WindowProblem(options_, data_, terms, &state).EliminationOrdering();
   const auto group = [&](int line) { return ordering->GroupId(state.LineBlock(line)); };
   EXPECT_EQ(group(0), 1);
   for (int i = 1; i < 10; ++i) EXPECT_EQ(group(i), 0) << i;
   for (int i = 10; i < 14; ++i) EXPECT_EQ(group(i) + group(i + 1), 1) << i;
   for (int i = 15; i < 40; ++i) EXPECT_EQ(group(i), 0) << i;
-  EXPECT_EQ(terms.parallel.blocks.size(), 3u);
-  EXPECT_EQ(terms.perpendicular.blocks.size(), 10u);
-  EXPECT_EQ(terms.manhattan.blocks.size(), 40u);
+  EXPECT_EQ(terms.Of<ParallelLines>().blocks.size(), 3u);
+  EXPECT_EQ(terms.Of<PerpendicularLines>().blocks.size(), 10u);
+  EXPECT_EQ(terms.Of<ManhattanAxisAlignment>().blocks.size(), 40u);
 }
 
 TEST_F(StructuralTermsTest, InvalidInputThrowsAndNamesTheItem) {

@@ -76,7 +76,7 @@ TEST_F(OptionsFileTest, ReadsBackEveryOption) {
     bool changed = false;
     for (const char* text :
          {"true", "false", "17", "7", "0.12345678901234567", "pl-vo", "tof", "end-points", "lsd",
-          "edge-drawing", "ceres-dense-schur", "never", "[1, 2.5, 3]", "[0, 0, 1, 0]"}) {
+          "edge-drawing", "ceres", "never", "[1, 2.5, 3]", "[0, 0, 1, 0]"}) {
       std::string expected;
       changed = changed || (text != before && SetOption(option, text, &expected));
     }
@@ -136,6 +136,8 @@ TEST_F(OptionsFileTest, RefusesWrongTypes) {
   EXPECT_THAT(ErrorOf("tracking:\n  min_matches: 10.5\n"), HasSubstr("a whole number"));
   EXPECT_THAT(ErrorOf("use_points: 3\n"), HasSubstr("true or false"));
   EXPECT_THAT(ErrorOf("mode: orb\n"), HasSubstr("one of pl-vo pl-vo-depth msc-vo, not 'orb'"));
+  EXPECT_THAT(ErrorOf("mapping:\n  window:\n    solver: ceres-dense-schur\n"),
+              HasSubstr("one of block-schur ceres ceres-suite-sparse, not 'ceres-dense-schur'"));
   EXPECT_THAT(ErrorOf("mode: [pl-vo]\n"), HasSubstr("'mode' must be"));
   EXPECT_THAT(ErrorOf("tracking: 5\n"), HasSubstr("'tracking' is a section"));
   EXPECT_THAT(ErrorOf("tracking:\n  wide_radius: .inf\n"), HasSubstr("must be a number"));

@@ -117,8 +117,7 @@ class WindowChanges {
                                     &options->reject_chi2_4,
                                     &options->landmark_noise.prior,
                                     &options->landmark_noise.depth_offset_sigma};
-    std::vector<bool*> flags = {&options->landmark_noise.enabled, &options->line_endpoint_prior,
-                                &options->analytic_jacobians, &options->explicit_ordering};
+    std::vector<bool*> flags = {&options->landmark_noise.enabled, &options->line_endpoint_prior};
     for (TermOptions* term : terms) {
       numbers.push_back(&term->huber);
       flags.push_back(&term->enabled);

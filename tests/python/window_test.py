@@ -7,7 +7,7 @@ import numpy as np
 import msc_vo
 import support
 
-SOLVERS = ("block-schur", "ceres-dense-schur")
+SOLVERS = ("block-schur", "ceres")
 
 
 def rotation_y(angle):

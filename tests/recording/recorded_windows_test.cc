@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// All solvers take the same steps on windows that the mapper met (tests/data/windows).
+// All solvers have the same solution on windows that the mapper met (tests/data/windows).
 
 #include <algorithm>
 
@@ -9,6 +9,7 @@
 #include "tests/support/factor_checks.h"
 #include <gmock/gmock.h>
 
+#include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
 #include "msc_vo/recording/window_file.h"
 
 namespace msc_vo {
@@ -24,9 +25,8 @@ constexpr double kPoseTolerance = 1e-9;      // radians, metres
 constexpr double kLandmarkTolerance = 1e-8;  // metres
 constexpr double kNoiseTolerance = 1e-8;     // of noise factors; metres of depth offsets
 
-constexpr BundleAdjustmentSolver kCeresSolvers[] = {BundleAdjustmentSolver::kCeresDenseSchur,
-                                                    BundleAdjustmentSolver::kCeresSuiteSparse,
-                                                    BundleAdjustmentSolver::kCeresEigenSparse};
+constexpr BundleAdjustmentSolver kCeresSolvers[] = {BundleAdjustmentSolver::kCeres,
+                                                    BundleAdjustmentSolver::kCeresSuiteSparse};
 
 struct Solution {
   BundleAdjustmentSummary summary;
@@ -45,8 +45,6 @@ Solution Solve(const BundleAdjustmentOptions& options, const WindowData& start,
 }
 
 void ExpectSameSummary(const BundleAdjustmentSummary& a, const BundleAdjustmentSummary& b) {
-  EXPECT_EQ(a.num_iterations, b.num_iterations);
-  EXPECT_EQ(a.num_accepted, b.num_accepted);
   EXPECT_EQ(a.num_behind_camera, b.num_behind_camera);
   const auto terms_a = a.Terms(), terms_b = b.Terms();
   for (size_t i = 0; i < terms_a.size(); ++i) {
@@ -141,7 +139,7 @@ TEST_P(RecordedWindowsTest, HaveTheSameCovariances) {
   // No observation loses only its depth: CeresCovariance would include that.
   window_.options.reject_chi2_3 = window_.options.reject_chi2_4 = 1e9;
   for (const BundleAdjustmentSolver solver :
-       {BundleAdjustmentSolver::kBlockSchur, BundleAdjustmentSolver::kCeresDenseSchur}) {
+       {BundleAdjustmentSolver::kBlockSchur, BundleAdjustmentSolver::kCeres}) {
     const WindowData solved = Solve(window_.options, window_.data, solver).data;
     const WindowCovariance found = EstimateCovariance(window_.options, solved, AllItems(solved));
     const CeresCovariance expected(window_.options, solved);

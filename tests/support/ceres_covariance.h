@@ -11,10 +11,10 @@
 #include <ceres/covariance.h>
 #include <gtest/gtest.h>
 
-#include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
 #include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
 #include "msc_vo/bundle_adjustment/internal/landmark_noise.h"
 #include "msc_vo/bundle_adjustment/window_covariance.h"
+#include "msc_vo/bundle_adjustment/window_problem.h"
 
 namespace msc_vo {
 
@@ -35,22 +35,11 @@ class CeresCovariance {
  public:
   CeresCovariance(const BundleAdjustmentOptions& options, const WindowData& data) : state_(data) {
     const WindowIndex index = ValidateWindow(options, data);
-    int num_behind = 0;
-    WindowInlierMask inlier_mask = InitialInlierMask(options, index, data, &num_behind);
-    const auto drop = [](const auto& items, auto* inliers) {
-      for (size_t i = 0; i < items.size(); ++i) {
-        if (items[i].rejected) (*inliers)[i] = {};
-      }
-    };
-    drop(data.point_observations, &inlier_mask.points);
-    drop(data.line_observations, &inlier_mask.lines);
-    drop(data.parallel_pairs, &inlier_mask.parallel);
-    drop(data.perpendicular_pairs, &inlier_mask.perpendicular);
-    drop(data.axis_alignments, &inlier_mask.alignments);
+    const WindowInlierMask inlier_mask = UnrejectedInlierMask(options, index, data);
     WindowData with_uncertainty = data;
     AddNoiseUncertainty(options.landmark_noise, index, inlier_mask, state_, &with_uncertainty);
     terms_ = MakeWindowTerms(options, with_uncertainty, index, inlier_mask, state_);
-    window_ = std::make_unique<CeresBackend>(options, data, terms_, &state_);
+    window_ = std::make_unique<WindowProblem>(options, data, terms_, &state_);
     ceres::Covariance::Options covariance_options;
     covariance_options.algorithm_type = ceres::SPARSE_QR;
     covariance_options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
@@ -78,7 +67,7 @@ class CeresCovariance {
 
  private:
   WindowTerms terms_;
-  std::unique_ptr<CeresBackend> window_;
+  std::unique_ptr<WindowProblem> window_;
   std::unique_ptr<ceres::Covariance> covariance_;
 };
 

@@ -35,6 +35,22 @@ WindowInlierMask InitialInlierMask(const BundleAdjustmentOptions& options, const
   return inlier_mask;
 }
 
+WindowInlierMask UnrejectedInlierMask(const BundleAdjustmentOptions& options,
+                                      const WindowIndex& index, const WindowData& data) {
+  int num_behind = 0;
+  WindowInlierMask inlier_mask = InitialInlierMask(options, index, data, &num_behind);
+  const auto drop_rejected = [](const auto& records, auto* inliers) {
+    for (size_t i = 0; i < records.size(); ++i) {
+      if (records[i].rejected) (*inliers)[i] = {};
+    }
+  };
+  drop_rejected(data.point_observations, &inlier_mask.points);
+  drop_rejected(data.line_observations, &inlier_mask.lines);
+  ForEachRelation(
+      [&](const auto& term) { drop_rejected(data.*term.records, &(inlier_mask.*term.inliers)); });
+  return inlier_mask;
+}
+
 namespace {
 
 // Tests the observations of points or of lines.

@@ -12,6 +12,10 @@ namespace msc_vo {
 WindowInlierMask InitialInlierMask(const BundleAdjustmentOptions& options, const WindowIndex& index,
                                    const WindowData& data, int* num_behind);
 
+/// The same without the measurements that the data mark as rejected.
+WindowInlierMask UnrejectedInlierMask(const BundleAdjustmentOptions& options,
+                                      const WindowIndex& index, const WindowData& data);
+
 /// Removes the measurements that fail the chi-square test at `state` from *inlier_mask, and adds
 /// their numbers to the num_rejected counts of *summary.
 void RejectOutliers(const BundleAdjustmentOptions& options, const WindowTerms& terms,

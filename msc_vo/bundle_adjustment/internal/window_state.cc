@@ -80,4 +80,27 @@ const ceres::Manifold* WindowState::ManifoldOf(const StateBlock& block) const {
   return block.kind == BlockKind::kExtra ? extra_[block.position].manifold : nullptr;
 }
 
+void WriteState(const WindowState& state, const std::function<bool(const StateBlock&)>& is_written,
+                WindowData* data) {
+  const auto is = [&is_written](BlockKind kind, size_t i) {
+    return is_written({kind, static_cast<int>(i)});
+  };
+  for (size_t i = 0; i < data->keyframes.size(); ++i) {
+    if (is(BlockKind::kPose, i)) data->keyframes[i].cam_from_world = state.Pose(i);
+  }
+  for (size_t i = 0; i < data->points.size(); ++i) {
+    if (is(BlockKind::kPoint, i)) data->points[i].position = state.Point(i);
+  }
+  for (size_t i = 0; i < data->lines.size(); ++i) {
+    if (is(BlockKind::kLine, i)) data->lines[i].segment = state.Line(i);
+  }
+  const size_t axes = data->extra_blocks.size();
+  for (size_t i = 0; i < axes; ++i) {
+    if (is(BlockKind::kExtra, i)) data->extra_blocks[i].value = state.Extra(i);
+  }
+  if (data->axes && is(BlockKind::kExtra, axes)) {
+    data->axes->world_from_axes = Eigen::Quaterniond(state.ExtraBlock(axes));
+  }
+}
+
 }  // namespace msc_vo

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/window_data.h"
@@ -90,5 +91,9 @@ class WindowState {
   std::vector<ExtraEntry> extra_;
   std::vector<double> parameters_;
 };
+
+/// Writes the blocks for which is_written(block) holds to the data that the state was made of.
+void WriteState(const WindowState& state, const std::function<bool(const StateBlock&)>& is_written,
+                WindowData* data);
 
 }  // namespace msc_vo

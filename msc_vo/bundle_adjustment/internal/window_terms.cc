@@ -107,14 +107,9 @@ class WindowTermsBuilder {
       terms_.Of<CustomFactor>().blocks.push_back(
           {&data_.custom_factors[i], index_.custom_factors[i]});
       for (const StateBlock& block : index_.custom_factors[i]) {
-        Constrained(block.kind)[block.position] = true;
+        terms_.Constrained(block.kind)[block.position] = true;
       }
     }
-  }
-  std::vector<bool>& Constrained(BlockKind kind) {
-    if (kind == BlockKind::kPose) return terms_.keyframe_constrained;
-    if (kind == BlockKind::kPoint) return terms_.point_constrained;
-    return kind == BlockKind::kLine ? terms_.line_constrained : terms_.extra_constrained;
   }
 
   void AddEndpointPriors() {
@@ -185,6 +180,12 @@ class WindowTermsBuilder {
 };
 
 }  // namespace
+
+std::vector<bool>& WindowTerms::Constrained(BlockKind kind) {
+  if (kind == BlockKind::kPose) return keyframe_constrained;
+  if (kind == BlockKind::kPoint) return point_constrained;
+  return kind == BlockKind::kLine ? line_constrained : extra_constrained;
+}
 
 WindowTerms MakeWindowTerms(const BundleAdjustmentOptions& options, const WindowData& data,
                             const WindowIndex& index, const WindowInlierMask& inlier_mask,

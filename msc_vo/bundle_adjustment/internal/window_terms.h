@@ -52,7 +52,7 @@ std::tuple<WindowTerm<typename Terms::Factor>...> BlocksOf(const std::tuple<Term
 ///     + rho(|CustomFactor|^2)
 ///
 /// with n the multiplicity of a pair (WindowData::LinePair). It holds values, except that custom
-/// factors are those of the data, and is minimised by CeresBackend or MinimizeWithBlockSchur.
+/// factors are those of the data, and is minimised by WindowProblem or MinimizeWithBlockSchur.
 struct WindowTerms {
   decltype(BlocksOf(kTerms)) all;
 
@@ -73,6 +73,11 @@ struct WindowTerms {
   std::vector<bool> point_constrained, line_constrained;
   /// One per extra block: whether a custom factor has it.
   std::vector<bool> extra_constrained;
+  /// The flags of a kind of StateBlock.
+  std::vector<bool>& Constrained(BlockKind kind);
+  const std::vector<bool>& Constrained(BlockKind kind) const {
+    return const_cast<WindowTerms*>(this)->Constrained(kind);
+  }
 };
 
 /// Calls visit(term, blocks of the term) for every term.
@@ -83,12 +88,16 @@ void ForEachTerm(const WindowTerms& terms, const Visitor& visit) {
   });
 }
 
+/// Number of lines among the parameter blocks of a factor.
+template <typename Factor>
+constexpr int NumLines() {
+  int count = 0;
+  for (const BlockKind kind : Factor::kBlockKinds) count += kind == BlockKind::kLine ? 1 : 0;
+  return count;
+}
 /// Whether a factor couples two lines.
 template <typename Factor>
-constexpr bool kRelatesLines =
-    Factor::kBlockKinds.size() == 2 && Factor::kBlockKinds.front() ==
-                                           BlockKind::kLine&& Factor::kBlockKinds
-                                               .back() == BlockKind::kLine;
+constexpr bool kRelatesLines = NumLines<Factor>() == 2;
 template <>
 inline constexpr bool kRelatesLines<CustomFactor> = false;
 
