@@ -9,6 +9,7 @@
 #include "tests/support/factor_checks.h"
 #include <gmock/gmock.h>
 
+#include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
 #include "msc_vo/recording/window_file.h"
 
 namespace msc_vo {
