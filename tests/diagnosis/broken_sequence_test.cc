@@ -24,8 +24,7 @@ namespace msc_vo {
 namespace {
 
 constexpr int kNumImages = 60;
-// Enough for checks without motion.
-constexpr int kFewImages = 20;
+constexpr int kFewImages = 20;  // enough for checks without motion
 
 using Damage = std::function<void(Recording*)>;
 
@@ -184,11 +183,12 @@ TEST_F(BrokenSequenceTest, FindsDefectsOfDepth) {
                 [](Recording* r) {
                   ForAllImages(r, [](Recording::Image* i) { cv::min(i->depth, 12500, i->depth); });
                 });
-  ExpectWarning(
-      "clipped_near", false, "depth.clipped", "wherever the scene is nearer", [](Recording* r) {
-        ForAllImages(
-            r, [](Recording::Image* i) { i->depth.setTo(11000, i->depth > 0 & i->depth < 11000); });
-      });
+  ExpectWarning("clipped_near", false, "depth.clipped", "wherever the scene is nearer",
+                [](Recording* r) {
+                  ForAllImages(r, [](Recording::Image* i) {
+                    i->depth.setTo(11000, (i->depth > 0) & (i->depth < 11000));
+                  });
+                });
   ExpectError("eight_bits", "images.decoding", "1 channel of 8 bits", [](Recording* r) {
     ForAllImages(r, [](Recording::Image* i) { i->depth.convertTo(i->depth, CV_8U, 0.01); });
   });

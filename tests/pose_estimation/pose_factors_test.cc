@@ -22,13 +22,14 @@ PoseFactors MakeFactors(const PoseData& data) {
   factors.line_depth.huber = 2.448;
   for (const PoseData::Point& p : data.points) {
     factors.point_reprojection.blocks.push_back(
-        {PointReprojection(data.camera, p.pixel, p.sigma), {p.position}});
+        {PointReprojection(data.camera, p.pixel, p.sigma), p.position});
     factors.point_depth.blocks.push_back(
-        {DepthReprojection(p.inverse_depth, p.inverse_depth_sigma), {p.position}});
+        {DepthReprojection(p.inverse_depth, p.inverse_depth_sigma), p.position});
   }
   for (const PoseData::Line& l : data.lines) {
     const LineSegment3 line = data.cam_from_world * l.map_segment;
-    const std::array<Eigen::Vector3d, 2> ends{l.map_segment.start, l.map_segment.end};
+    Eigen::Matrix<double, 6, 1> ends;
+    ends << l.map_segment.start, l.map_segment.end;
     factors.line_reprojection.blocks.push_back(
         {MakeLineReprojection(data.camera, l.segment, l.sigma, line), ends});
     factors.line_depth.blocks.push_back(
