@@ -153,7 +153,6 @@ TEST_F(BagSequenceTest, PrefersThePresetThatTheNameSuggests) {
 uint32_t At30Hz(int i) { return static_cast<uint32_t>(33333333 * i); }
 
 TEST_F(BagSequenceTest, FallsBackToTheTimesOfRecording) {
-  using Stamp = std::pair<uint32_t, uint32_t>;
   ExpectReceiveTimes(OpenStamped([](int, bool) { return Stamp(0, 0); }), "colour images are zero");
   ExpectReceiveTimes(OpenStamped([](int, bool) { return Stamp(1604645033, 7); }),
                      "colour images repeat");
