@@ -152,9 +152,9 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   LogStart(context, num_frames);
 
   CostMeter cost;
-  OdometryOptions options = context.configuration.odometry;
-  options.find_clipped_depth = decoder.index().camera != nullptr;
+  const OdometryOptions& options = context.configuration.odometry;
   Odometry odometry(options, context.calibration.camera, context.calibration.distortion);
+  if (!decoder.index().camera) odometry.SkipClippedDepthSearch();
   odometry.SetWindowObserver(callbacks.window);
   odometry.SetWindowFactors(callbacks.window_factors);
   odometry.SetTrackingObserver(callbacks.tracking);

@@ -7,12 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
 
 #include <Eigen/Cholesky>
 
 #include "msc_vo/diagnosis/quantile.h"
-#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -161,32 +159,42 @@ std::optional<SurfacePatch> MakePatch(const QuadraticFit& fit, double reference,
   patch.bowl = -laplacian * scale + 2.0 * relative.squaredNorm();
   patch.bowl_sigma = sigma * scale;
   patch.bowl_of_ray = BowlOfRay(center, -relative);
+  patch.is_outward = fit.gradient().dot(center) > 0.0;
   return patch;
 }
 
 // Counts the patches that support a measured quantity's value under a curve, and under depth.
-void Count(double measured, double sigma, double of_curve, double of_depth,
+void Count(double measured, double sigma, double of_curve, double of_depth, bool is_outward,
            DepthCurveTest::Votes* votes) {
   const double difference = std::abs(of_curve - of_depth);
   if (!(difference > kMinSigmas * sigma)) return;
-  if (std::abs(measured - of_curve) < kTolerance * difference) ++votes->num_curve;
-  if (std::abs(measured - of_depth) < kTolerance * difference) ++votes->num_depth;
+  if (std::abs(measured - of_curve) < kTolerance * difference) {
+    ++votes->num_curve;
+    votes->num_outward_curve += is_outward;
+  }
+  if (std::abs(measured - of_depth) < kTolerance * difference) {
+    ++votes->num_depth;
+    votes->num_outward_depth += is_outward;
+  }
 }
 
 template <typename Bend>
 DepthCurveTest::Votes CountBends(const std::vector<SurfacePatch>& patches, DepthCurve curve,
                                  const Bend& bend) {
-  DepthCurveTest::Votes votes{curve};
+  DepthCurveTest::Votes votes;
+  votes.curve = curve;
   for (const SurfacePatch& patch : patches) {
-    Count(patch.bend, patch.bend_sigma, bend(patch.value), -2.0 / patch.value, &votes);
+    Count(patch.bend, patch.bend_sigma, bend(patch.value), -2.0 / patch.value, patch.is_outward,
+          &votes);
   }
   return votes;
 }
 
 DepthCurveTest::Votes CountBowls(const std::vector<SurfacePatch>& patches) {
-  DepthCurveTest::Votes votes{DepthCurve::kRayLength};
+  DepthCurveTest::Votes votes;
+  votes.curve = DepthCurve::kRayLength;
   for (const SurfacePatch& patch : patches) {
-    Count(patch.bowl, patch.bowl_sigma, patch.bowl_of_ray, 0.0, &votes);
+    Count(patch.bowl, patch.bowl_sigma, patch.bowl_of_ray, 0.0, patch.is_outward, &votes);
   }
   return votes;
 }
@@ -195,51 +203,18 @@ double Score(const DepthCurveTest::Votes& votes) {
   return (votes.num_curve - votes.num_depth) / std::sqrt(votes.num_curve + votes.num_depth + 1.0);
 }
 
-std::string NameOf(const DepthCurveTest::Votes& votes, double depth_scale) {
-  switch (votes.curve) {
-    case DepthCurve::kDepth:
-      return "depth";
-    case DepthCurve::kInverse:
-      return "inverse depth (disparity)";
-    case DepthCurve::kInverted:
-      return FormatText("inverted depth (about %.0f minus depth, in raw units)",
-                        votes.origin * depth_scale);
-    case DepthCurve::kCompressed:
-      return "compressed depth (its square root or logarithm)";
-    case DepthCurve::kStretched:
-      return "stretched depth (its square)";
-    case DepthCurve::kRayLength:
-      return "the distance from the camera (the length of the viewing ray)";
-  }
-  return "";
-}
-
-std::string FixOf(DepthCurve curve) {
-  const std::string write = "write the depth images again, with depth along the optical axis: ";
-  switch (curve) {
-    case DepthCurve::kDepth:
-      return "";
-    case DepthCurve::kInverse:
-      return write +
-             "focal length (px) times baseline (m) divided by disparity (px), times depth_scale; "
-             "for a depth buffer, invert the projection of the renderer";
-    case DepthCurve::kInverted:
-      return write + "the value at distance 0 minus each value, 0 where nothing was measured";
-    case DepthCurve::kCompressed:
-    case DepthCurve::kStretched:
-      return write + "the inverse function of what they were encoded with, times depth_scale";
-    case DepthCurve::kRayLength:
-      return write +
-             "each value divided by sqrt(1 + x^2 + y^2), with x = (u - cx) / fx and y = (v - cy) / "
-             "fy";
-  }
-  return "";
-}
-
 }  // namespace
 
 bool DepthCurveTest::Votes::ProveCurve() const {
   return num_curve >= kMinRatio * num_depth + kMinVotes;
+}
+
+bool DepthCurveTest::Votes::MayBeLens() const {
+  const auto proves = [](int num_for, int num_against) {
+    return num_for >= kMinRatio * num_against + kMinVotes / 2;
+  };
+  return !proves(num_outward_curve, num_outward_depth) ||
+         !proves(num_curve - num_outward_curve, num_depth - num_outward_depth);
 }
 
 bool DepthCurveTest::Votes::ProveDepth() const {
@@ -360,28 +335,6 @@ bool DepthCurveTest::IsDecided() const {
   const std::vector<Votes> all = AllVotes();
   const auto proves_depth = [](const Votes& votes) { return votes.ProveDepth(); };
   return Best().ProveCurve() || (!all.empty() && std::all_of(all.begin(), all.end(), proves_depth));
-}
-
-void AddDepthCurveFindings(const DepthCurveTest& test, Findings* findings) {
-  const std::string check = DepthCurveTest::kCheck;
-  const DepthCurveTest::Votes best = test.Best();
-  if (best.ProveCurve()) {
-    findings->push_back(Error(
-        check,
-        FormatText("the depth images hold %s, not depth: as such, %d surfaces are plane, as depth "
-                   "%d",
-                   NameOf(best, test.depth_scale()).c_str(), best.num_curve, best.num_depth),
-        FixOf(best.curve),
-        Measurement{static_cast<double>(best.num_depth) / best.num_curve, "ratio"}));
-    return;
-  }
-  const DepthCurveTest::Votes inverse = test.OfInverse();
-  findings->push_back(Good(
-      check,
-      inverse.ProveDepth()
-          ? FormatText("no disparity: %d inclined surfaces are plane as depth, %d as inverse depth",
-                       inverse.num_depth, inverse.num_curve)
-          : "depth against its inverse: not tested, too few inclined planes"));
 }
 
 }  // namespace msc_vo

@@ -10,7 +10,6 @@
 
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/camera/pinhole_camera.h"
-#include "msc_vo/diagnosis/finding.h"
 
 namespace msc_vo {
 
@@ -26,6 +25,7 @@ struct SurfacePatch {
   double bowl = 0.0;
   double bowl_sigma = 0.0;
   double bowl_of_ray = 0.0;  ///< the same on a plane if v is the length of the viewing ray
+  bool is_outward = false;   ///< v grows outwards from the principal point
 };
 
 /// What the values of depth images are.
@@ -57,10 +57,16 @@ class DepthCurveTest {
     int num_curve = 0;
     int num_depth = 0;
     double origin = 0.0;  ///< kInverted: the value at distance 0, metres
+    /// Those of them whose values grow outwards.
+    int num_outward_curve = 0;
+    int num_outward_depth = 0;
 
     /// Whether the surfaces prove the curve, or depth.
     bool ProveCurve() const;
     bool ProveDepth() const;
+    /// Whether an undescribed lens can look like the curve: it bends surfaces whose values grow
+    /// outwards and inwards in opposite ways, a curve bends both alike.
+    bool MayBeLens() const;
   };
 
   /// The most likely curve other than depth.
@@ -81,8 +87,5 @@ class DepthCurveTest {
   cv::Mat_<cv::Vec2d> rays_;  // undistorted points of the plane z = 1
   std::vector<SurfacePatch> patches_;
 };
-
-/// An error that names what the values are, if they are no depths.
-void AddDepthCurveFindings(const DepthCurveTest& test, Findings* findings);
 
 }  // namespace msc_vo

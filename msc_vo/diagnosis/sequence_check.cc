@@ -13,7 +13,7 @@
 #include "msc_vo/datasets/clipped_depth_search.h"
 #include "msc_vo/diagnosis/calibration_findings.h"
 #include "msc_vo/diagnosis/camera_findings.h"
-#include "msc_vo/diagnosis/depth_curve.h"
+#include "msc_vo/diagnosis/depth_curve_findings.h"
 #include "msc_vo/diagnosis/depth_quality.h"
 #include "msc_vo/diagnosis/edge_alignment.h"
 #include "msc_vo/diagnosis/file_findings.h"

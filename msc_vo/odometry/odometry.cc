@@ -97,6 +97,7 @@ struct Odometry::State {
   }
 
   OdometryOptions options;
+  bool finds_clipped_depth = true;
   PinholeCamera camera;
   FrameBuilder builder;
   DepthPreparation preparation;
@@ -267,6 +268,8 @@ void Odometry::SetTrackingObserver(TrackingObserver observer) {
   state_->tracking_observer = std::move(observer);
 }
 
+void Odometry::SkipClippedDepthSearch() { state_->finds_clipped_depth = false; }
+
 FrameResult Odometry::Process(const RgbdImage& given) {
   state_->CheckTime(given.id, given.timestamp);
   CheckDepthDelay(given.id, given.depth_delay);
@@ -274,7 +277,7 @@ FrameResult Odometry::Process(const RgbdImage& given) {
   CheckDepthUnits(given.id, given.depth);
   Stopwatch stopwatch;
   RgbdImage recorded = StandaloneImages(given);
-  if (state_->options.find_clipped_depth) recorded = state_->preparation.RemoveClipped(recorded);
+  if (state_->finds_clipped_depth) recorded = state_->preparation.RemoveClipped(recorded);
   const RgbdImage aligned = state_->Align(recorded);
   RgbdImage image = state_->preparation.Register(aligned);
   const double alignment_ms = stopwatch.Milliseconds();

@@ -123,6 +123,11 @@ class Odometry {
   /// frame, for display. Its time is not part of StageTimes. Call before the first image.
   void SetTrackingObserver(TrackingObserver observer);
 
+  /// States that depth images contain no clipped values, or 0 instead of them, as those of
+  /// RgbdDecoder: by default, the odometry finds out from the images at which depths their driver
+  /// clips. Call before the first image.
+  void SkipClippedDepthSearch();
+
   /// Tracks one image and returns its result, which may still improve until Finish().
   /// Images that are views of larger matrices are copied. Throws std::invalid_argument if the image
   /// does not match the camera, depth is not in metres or time stamps do not ascend, and the

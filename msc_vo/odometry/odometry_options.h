@@ -33,9 +33,6 @@ struct OdometryOptions {
   bool use_lines = true;
   /// Warp each depth image to the time of its colour image, by the motion between the two.
   bool align_depth = true;
-  /// Find out from the images at which depths their driver clips, and leave these out. The command
-  /// does so only with live cameras: it searches recordings as a whole before a run.
-  bool find_clipped_depth = true;
   /// 1: all stages in sequence. 2 or more: mapping in parallel with tracking, points in parallel
   /// with lines. The result does not depend on it.
   int threads = 2;

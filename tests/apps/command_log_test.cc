@@ -17,7 +17,7 @@ using testing::Not;
 class CommandLogTest : public TemporaryFolder {
  protected:
   void Synthesize() {
-    ASSERT_EQ(RunCommand({"synthesize", Path("room"), "--scene", "room", "--frames", "12",
+    ASSERT_EQ(RunCommand({"synthesize", Path("room"), "--scene", "room", "--frames", "20",
                           "--width", "160"})
                   .exit_code,
               0);
@@ -38,7 +38,7 @@ TEST_F(CommandLogTest, WritesTheEventsOfARunToAFile) {
   EXPECT_EQ(logged.exit_code, 0);
   EXPECT_EQ(logged.output, "");
   EXPECT_THAT(ReadFile(Path("log.txt")),
-              AllOf(HasSubstr("[info] sequence " + Path("room") + ": 12 images"),
+              AllOf(HasSubstr("[info] sequence " + Path("room") + ": 20 images"),
                     HasSubstr("camera.txt"), HasSubstr("mode msc-vo"),
                     HasSubstr("[debug] frame 0 is a keyframe"), HasSubstr("is tracked"),
                     HasSubstr("noise scales"), HasSubstr("results written to " + Path("logged"))));

@@ -134,7 +134,7 @@ TEST_F(ReplayCommandTest, SaysWhatContradictsTheGroundTruth) {
   WriteTrajectory(file, larger);
   const char scale[] = "the reference path is 4.0 times as long as the estimate: depth units?";
   EXPECT_THAT(Replay("larger").output, HasSubstr(scale));
-  EXPECT_EQ(Summary("larger")["error"]["warnings"].size(), 1u);
+  EXPECT_THAT(Summary("larger")["error"]["warnings"].dump(), HasSubstr(scale));
   EXPECT_THAT(ReadFile(Path("larger/report.html")), HasSubstr(scale));
   for (TimedPose& pose : larger) pose.world_from_cam.translation() /= 40.0;
   WriteTrajectory(file, larger);
@@ -337,10 +337,14 @@ TEST_F(ReplayCommandTest, ExcludesUnestimatedPosesFromCoverage) {
 
   const std::vector<std::string> evaluate = {"evaluate", Path("room/groundtruth.txt"),
                                              Path("out/trajectory.txt"), "--json"};
-  EXPECT_EQ(nlohmann::json::parse(RunCommand(evaluate).output)["matched"], 7);
+  const auto num_matched = [](const std::vector<std::string>& command) {
+    const std::string output = RunCommand(command).output;
+    return nlohmann::json::parse(output.substr(output.find('{')))["matched"].get<int>();
+  };
+  EXPECT_EQ(num_matched(evaluate), 7);
   std::vector<std::string> all = evaluate;
   all.push_back("--all-poses");
-  EXPECT_EQ(nlohmann::json::parse(RunCommand(all).output)["matched"], 10);
+  EXPECT_EQ(num_matched(all), 10);
 }
 
 TEST_F(ReplayCommandTest, WritesResultsOnInterrupt) {

@@ -136,8 +136,6 @@ TEST_F(BrokenSequenceTest, NamesValuesThatAreNoDepths) {
   ExpectError("disparity", "depth.curve", "inverse depth", disparity);
   ExpectError("inverted", "depth.curve", "inverted depth",
               Encode([](double z) { return 10000.0 - 1000.0 * z; }));
-  ExpectError("root", "depth.curve", "compressed depth",
-              Encode([](double z) { return 3000.0 * std::sqrt(z); }));
   // No other part of the calibration is blamed.
   for (const Finding& finding : Diagnose(disparity, true, "deep")) {
     if (finding.check == "depth.curve") continue;

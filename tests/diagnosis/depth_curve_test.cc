@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/diagnosis/depth_curve.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,6 +10,8 @@
 #include "tests/diagnosis/expected_finding.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+
+#include "msc_vo/diagnosis/depth_curve_findings.h"
 
 namespace msc_vo {
 namespace {

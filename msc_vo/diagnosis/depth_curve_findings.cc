@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/diagnosis/depth_curve_findings.h"
+
+#include <string>
+
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace {
+
+std::string NameOf(const DepthCurveTest::Votes& votes, double depth_scale) {
+  switch (votes.curve) {
+    case DepthCurve::kDepth:
+      return "depth";
+    case DepthCurve::kInverse:
+      return "inverse depth (disparity)";
+    case DepthCurve::kInverted:
+      return FormatText("inverted depth (about %.0f minus depth, in raw units)",
+                        votes.origin * depth_scale);
+    case DepthCurve::kCompressed:
+      return "compressed depth (its square root or logarithm)";
+    case DepthCurve::kStretched:
+      return "stretched depth (its square)";
+    case DepthCurve::kRayLength:
+      return "the distance from the camera (the length of the viewing ray)";
+  }
+  return "";
+}
+
+std::string FixOf(DepthCurve curve) {
+  const std::string write = "write the depth images again, with depth along the optical axis: ";
+  switch (curve) {
+    case DepthCurve::kDepth:
+      return "";
+    case DepthCurve::kInverse:
+      return write +
+             "focal length (px) times baseline (m) divided by disparity (px), times depth_scale; "
+             "for a depth buffer, invert the projection of the renderer";
+    case DepthCurve::kInverted:
+      return write + "the value at distance 0 minus each value, 0 where nothing was measured";
+    case DepthCurve::kCompressed:
+    case DepthCurve::kStretched:
+      return write + "the inverse function of what they were encoded with, times depth_scale";
+    case DepthCurve::kRayLength:
+      return write +
+             "each value divided by sqrt(1 + x^2 + y^2), with x = (u - cx) / fx and y = (v - cy) / "
+             "fy";
+  }
+  return "";
+}
+
+}  // namespace
+
+void AddDepthCurveFindings(const DepthCurveTest& test, Findings* findings) {
+  const std::string check = DepthCurveTest::kCheck;
+  const DepthCurveTest::Votes best = test.Best();
+  if (best.ProveCurve() && best.MayBeLens()) {
+    findings->push_back(Warning(
+        check,
+        FormatText("the depth images hold %s, or the lens is not described: as such, %d surfaces "
+                   "are plane, as depth %d",
+                   NameOf(best, test.depth_scale()).c_str(), best.num_curve, best.num_depth),
+        "give the distortion of the lens, or " + FixOf(best.curve),
+        Measurement{static_cast<double>(best.num_depth) / best.num_curve, "ratio"}));
+    return;
+  }
+  if (best.ProveCurve()) {
+    findings->push_back(Error(
+        check,
+        FormatText("the depth images hold %s, not depth: as such, %d surfaces are plane, as depth "
+                   "%d",
+                   NameOf(best, test.depth_scale()).c_str(), best.num_curve, best.num_depth),
+        FixOf(best.curve),
+        Measurement{static_cast<double>(best.num_depth) / best.num_curve, "ratio"}));
+    return;
+  }
+  const DepthCurveTest::Votes inverse = test.OfInverse();
+  findings->push_back(Good(
+      check,
+      inverse.ProveDepth()
+          ? FormatText("no disparity: %d inclined surfaces are plane as depth, %d as inverse depth",
+                       inverse.num_depth, inverse.num_curve)
+          : "depth against its inverse: not tested, too few inclined planes"));
+}
+
+}  // namespace msc_vo
