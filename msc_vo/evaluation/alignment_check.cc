@@ -124,9 +124,10 @@ std::string DescribeUndetermined(const Poses& reference, const Poses& estimate, 
   }
   const Moments moments = MomentsOf(reference, estimate, 0, reference.size());
   const double scale = with_scale ? moments.common.sum() / moments.estimate : 1.0;
-  const double error = std::max(
-      moments.reference - 2.0 * scale * moments.common.sum() + scale * scale * moments.estimate,
-      std::pow(Rounding(reference) + Rounding(estimate), 2.0));
+  const double squares = moments.reference + scale * scale * moments.estimate;
+  constexpr double kEpsilon = 1e-14;  // rounding of the moments
+  const double error = std::max({squares - 2.0 * scale * moments.common.sum(), kEpsilon * squares,
+                                 std::pow(Rounding(reference) + Rounding(estimate), 2.0)});
   if (scale * moments.common.sum() <= error) {
     return "the error of the positions (" + Millimetres(error) +
            ") exceeds the motion that both trajectories share (" +

@@ -79,6 +79,13 @@ bool IsCertain(CorrectionGroup group, const SensorCorrection::Vector& sigma) {
   return false;
 }
 
+// Whether an error of the colour camera is so large, six standard deviations, that its correction
+// is an improvement without being certain.
+bool IsLarge(CorrectionGroup group, CorrectionEstimate estimate) {
+  estimate.sigma *= 2.0;
+  return group != CorrectionGroup::kDepthRegistration && IsSignificant(group, estimate);
+}
+
 // Whether the registration of depth is as given or corrected, so that its error cannot look like
 // one of the colour camera.
 bool KnowsRegistration(const CorrectionEstimate& estimate) {
@@ -248,8 +255,9 @@ CorrectionEstimate CalibrationEstimator::Select(double readout_sigma) const {
   for (size_t g = 0; g < wrong.size(); ++g) {
     const bool agrees = of_map_ && g != kRegistration && is_suspected_[g];
     const double required = agrees ? 0.0 : std::log(kAcceptedOdds);
+    const auto group = static_cast<CorrectionGroup>(g);
     wrong[g] = before[g] || (IsLastingCandidate(g) && judged.log_odds[g] > required &&
-                             IsCertain(static_cast<CorrectionGroup>(g), judged.sigma));
+                             (IsCertain(group, judged.sigma) || IsLarge(group, judged)));
   }
   if (pairs_.num_added() < next_registration_) wrong[kRegistration] = before[kRegistration];
   const CorrectionEstimate estimate = Estimate(readout_sigma, wrong);

@@ -49,7 +49,8 @@ TEST_F(ClippedDepthCommandTest, IsReportedAndNotUsed) {
   const CommandOutcome check = RunCommand({"check", Path("clipped"), "--json"});
   EXPECT_EQ(check.exit_code, 0);
   int num_found = 0;
-  for (const auto& finding : nlohmann::json::parse(check.output)["findings"]) {
+  const nlohmann::json report = nlohmann::json::parse(check.output);
+  for (const auto& finding : report["findings"]) {
     if (finding["check"] != "depth.clipped") continue;
     ++num_found;
     EXPECT_EQ(finding["severity"], "warning");

@@ -274,7 +274,7 @@ def only_what_helps_cannot_be_written(case, expected):
     """Log, video, windows, report and checkpoint are too large: the results are the same."""
     largest = max((expected / name).stat().st_size for name in replay_process.RESULTS)
     limit = (largest >> 10) + 2
-    help_files = {"--log-file": "log.txt", "--overlay": "video.mp4", "--windows": "windows"}
+    help_files = {"--log-file": "log.txt", "--overlay": "video.mp4", "--dump-windows": "windows"}
     for argument, name in help_files.items():
         shutil.rmtree(case.output, ignore_errors=True)
         file = case.output.with_name(name)
@@ -333,7 +333,7 @@ def pages(size):
 @fault
 def disk_has_room_for_the_results(case, expected):
     """The checkpoint and the video take the space of the results: they give way."""
-    needed = sum(pages((expected / name).stat().st_size) for name in replay_process.RESULTS)
+    needed = sum(pages((expected / name).stat().st_size) for name in [*replay_process.RESULTS, "sequence.json"])
     report = pages((expected / "report.html").stat().st_size)
     largest = max(pages((expected / name).stat().st_size) for name in replay_process.RESULTS)
     video = case.output / "video.mp4"

@@ -123,8 +123,8 @@ class Images(unittest.TestCase):
                                (0.0002, "5000 units per metre"), (1.0, "1000 units per metre"),
                                (2.0 ** 60, "10 to 100000"), (0.0, "10 to 100000"), (-1000.0, "10 to"),
                                (np.nan, "10 to"), (np.inf, "10 to"),
-                               (np.array([1000.0, 1000.0]), "depth_scale: expected a number"),
-                               (np.ma.masked, "depth_scale: has masked"), ("1000", "depth_scale: expected")):
+                               (np.array([1000.0, 1000.0]), "expected a number"),
+                               (np.ma.masked, "has masked"), ("1000", "expected")):
             with self.subTest(scale=scale), self.assertRaisesRegex(ValueError, "^depth_scale.*" + message):
                 support.room_odometry().process(1.0, gray, units, depth_scale=scale)
 
@@ -142,7 +142,7 @@ class Times(unittest.TestCase):
         return support.room_odometry().process(timestamp, image.gray, image.depth).timestamp
 
     def test_numbers_of_every_kind(self):
-        for stamp in (5, np.int64(5), np.uint8(5), np.float32(5), np.float16(5), np.array(5.0, ">f8"),
+        for stamp in (5, np.int64(5), np.uint8(5), np.float32(5), np.array(5.0, ">f8"),
                       np.array([5], ">i4")):
             with self.subTest(stamp=repr(stamp)):
                 self.assertEqual(self.process(stamp), 5.0)

@@ -24,7 +24,7 @@ def texts(folder):
     result = support.room_result()
     result.write_trajectory(os.path.join(folder, "trajectory.txt"))
     window, options = msc_vo.read_window(support.WINDOWS / "room.txt")
-    options["solver"] = "dense-schur"
+    options["solver"] = "ceres"
     summary = msc_vo.solve_window(window, options)
     msc_vo.write_window(os.path.join(folder, "window.txt"), window)
     image = support.room_images()[0]

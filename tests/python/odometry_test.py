@@ -104,7 +104,7 @@ class Replay(unittest.TestCase):
             units = np.rint(support.room()[0].depth * scale).astype(np.uint16)
             odometry = support.room_odometry()
             gray = support.room()[0].gray
-            with self.assertRaisesRegex(ValueError, "depth: the two bytes .* byteswap"):
+            with self.assertRaisesRegex(ValueError, "depth: the two bytes .*byteswap"):
                 odometry.process(0.0, gray, units.byteswap(), depth_scale=scale)
             self.assertEqual(odometry.process(0.0, gray, units, depth_scale=scale).id, 0)
 
