@@ -219,7 +219,7 @@ void CheckpointFile::RemoveRemains() {
   try {
     journal_file_->Write(journal_->written(), "");
   } catch (const std::exception&) {
-    // The remains do no harm but for their space.
+    // The remains only take space.
   }
 }
 

@@ -33,7 +33,7 @@ struct TextLine {
 std::string ReadText(const std::string& path, std::uintmax_t max_bytes = kMaxTextBytes);
 
 /// Splits a line at blanks and tabs, and at commas or, if there are semicolons, at these. Nothing
-/// between two commas is an empty field, but for the end of the line.
+/// between two commas is an empty field, except at the end of the line.
 std::vector<std::string> SplitFields(const std::string& text);
 
 /// Reads the lines of a file that are neither blank nor a comment (#). Throws std::runtime_error as
