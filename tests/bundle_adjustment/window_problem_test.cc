@@ -8,6 +8,7 @@
 #include "tests/support/factor_checks.h"
 #include "tests/support/test_window.h"
 #include <ceres/loss_function.h>
+#include <ceres/solver.h>
 
 #include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
 

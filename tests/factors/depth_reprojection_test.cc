@@ -3,7 +3,11 @@
 
 #include "msc_vo/factors/depth_reprojection.h"
 
+#include <cmath>
+
 #include "tests/support/factor_checks.h"
+
+#include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
 namespace {
@@ -86,8 +90,8 @@ TEST(DepthReprojection, RecoversAPointFromThreeDirections) {
   std::vector<Rigid3> poses;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i);
-    poses.emplace_back(Eigen::Quaterniond::FromTwoVectors(axis, Eigen::Vector3d::UnitZ()),
-                       Eigen::Vector3d(0.0, 0.0, 3.0));
+    const Eigen::Vector3d across = axis.cross(Eigen::Vector3d::UnitZ());
+    poses.emplace_back(ExpSO3(0.5 * M_PI * across), Eigen::Vector3d(0.0, 0.0, 3.0));
   }
   ceres::Problem problem;
   for (Rigid3& pose : poses) {

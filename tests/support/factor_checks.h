@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <cmath>
 #include <memory>
 #include <random>
 #include <vector>
@@ -11,11 +10,9 @@
 #include "tests/support/eigen_matchers.h"
 #include <ceres/cost_function.h>
 #include <ceres/problem.h>
-#include <ceres/solver.h>
 #include <gtest/gtest.h>
 
 #include "msc_vo/factors/analytic_cost_function.h"
-#include "msc_vo/factors/jacobian_check.h"
 #include "msc_vo/factors/rigid3_manifold.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/rigid3.h"
@@ -34,23 +31,12 @@ inline std::vector<double> Block(const LineSegment3& line) {
   return {line.start.data(), line.start.data() + 6};
 }
 
-inline std::vector<const double*> Pointers(const Blocks& blocks) {
-  std::vector<const double*> pointers;
-  for (const auto& block : blocks) pointers.push_back(block.data());
-  return pointers;
-}
+std::vector<const double*> Pointers(const Blocks& blocks);
 
 // Evaluates the residual and expects success.
-inline Eigen::VectorXd Residual(const ceres::CostFunction& cost, const Blocks& blocks) {
-  Eigen::VectorXd residual(cost.num_residuals());
-  EXPECT_TRUE(cost.Evaluate(Pointers(blocks).data(), residual.data(), nullptr));
-  return residual;
-}
+Eigen::VectorXd Residual(const ceres::CostFunction& cost, const Blocks& blocks);
 
-inline bool IsDefined(const ceres::CostFunction& cost, const Blocks& blocks) {
-  Eigen::VectorXd residual(cost.num_residuals());
-  return cost.Evaluate(Pointers(blocks).data(), residual.data(), nullptr);
-}
+bool IsDefined(const ceres::CostFunction& cost, const Blocks& blocks);
 
 // Residual and Jacobians with respect to all ambient coordinates.
 struct Linearization {
@@ -58,54 +44,19 @@ struct Linearization {
   std::vector<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobians;
 };
 
-inline Linearization Linearize(const ceres::CostFunction& cost, const Blocks& blocks) {
-  Linearization at;
-  at.residual.resize(cost.num_residuals());
-  std::vector<double*> jacobians;
-  for (const auto& block : blocks) at.jacobians.emplace_back(cost.num_residuals(), block.size());
-  for (auto& jacobian : at.jacobians) jacobians.push_back(jacobian.data());
-  EXPECT_TRUE(cost.Evaluate(Pointers(blocks).data(), at.residual.data(), jacobians.data()));
-  return at;
-}
+Linearization Linearize(const ceres::CostFunction& cost, const Blocks& blocks);
 
 // Asks for the Jacobian of one block at a time, as Ceres does if the others are constant.
-inline void ExpectEachJacobianSeparately(const ceres::CostFunction& cost, const Blocks& blocks) {
-  const Linearization all = Linearize(cost, blocks);
-  for (size_t k = 0; k < blocks.size(); ++k) {
-    Linearization one = all;
-    one.jacobians[k].setZero();
-    std::vector<double*> jacobians(blocks.size(), nullptr);
-    jacobians[k] = one.jacobians[k].data();
-    EXPECT_TRUE(cost.Evaluate(Pointers(blocks).data(), one.residual.data(), jacobians.data()));
-    EXPECT_EQ(one.jacobians[k], all.jacobians[k]);
-  }
-}
+void ExpectEachJacobianSeparately(const ceres::CostFunction& cost, const Blocks& blocks);
 
 // Compares analytic with numeric derivatives in tangent space. Blocks of size 7 are poses;
 // `manifold` is that of the other blocks.
-inline void ExpectGradientsMatch(const ceres::CostFunction& cost, const Blocks& blocks,
-                                 const ceres::Manifold* manifold = nullptr) {
-  static const Rigid3Manifold pose_manifold;
-  std::vector<const ceres::Manifold*> manifolds;
-  for (const auto& block : blocks) {
-    manifolds.push_back(block.size() == 7 ? &pose_manifold : manifold);
-  }
-  const JacobianCheck check = CheckJacobians(cost, blocks, manifolds);
-  EXPECT_LT(check.deviation, 1e-7) << check.report;
-}
+void ExpectGradientsMatch(const ceres::CostFunction& cost, const Blocks& blocks,
+                          const ceres::Manifold* manifold = nullptr);
 
 // Compares a cost function with analytic derivatives with the automatically differentiated one.
-inline void ExpectSameCostFunction(const ceres::CostFunction& analytic,
-                                   const ceres::CostFunction& automatic, const Blocks& blocks) {
-  const Linearization a = Linearize(automatic, blocks);
-  const Linearization b = Linearize(analytic, blocks);
-  // Relative to the norm: the two round differently.
-  EXPECT_THAT(b.residual, IsNear(a.residual, 1e-12 * (1e3 + a.residual.norm())));
-  EXPECT_THAT(Residual(analytic, blocks), IsNear(a.residual, 1e-12));
-  for (size_t i = 0; i < blocks.size(); ++i) {
-    EXPECT_THAT(b.jacobians[i], IsNear(a.jacobians[i], 1e-12 * (1.0 + a.jacobians[i].norm())));
-  }
-}
+void ExpectSameCostFunction(const ceres::CostFunction& analytic,
+                            const ceres::CostFunction& automatic, const Blocks& blocks);
 
 template <typename Factor>
 void ExpectAnalyticMatchesAutomatic(const Factor& factor, const Blocks& blocks) {
@@ -114,41 +65,18 @@ void ExpectAnalyticMatchesAutomatic(const Factor& factor, const Blocks& blocks) 
 }
 
 // Compares the covariance of samples with the identity, within five standard errors.
-inline void ExpectIdentityCovariance(const std::vector<Eigen::VectorXd>& samples) {
-  const auto dim = samples.front().size();
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(dim, dim);
-  for (const auto& r : samples) covariance += r * r.transpose() / double(samples.size());
-  const double tolerance = 5.0 * std::sqrt(2.0 / double(samples.size()));
-  EXPECT_THAT(covariance, IsNear(Eigen::MatrixXd::Identity(dim, dim), tolerance));
-}
+void ExpectIdentityCovariance(const std::vector<Eigen::VectorXd>& samples);
 
 // Solves a small problem to machine precision.
-inline void SolveToEnd(ceres::Problem* problem) {
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = 100;
-  options.function_tolerance = 1e-30;
-  options.gradient_tolerance = 1e-14;
-  options.parameter_tolerance = 1e-14;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, problem, &summary);
-  EXPECT_TRUE(summary.IsSolutionUsable()) << summary.FullReport();
-}
+void SolveToEnd(ceres::Problem* problem);
 
 // Adds a rotation vector (radians) and a translation (metres) as Rigid3Manifold does.
-inline Rigid3 Moved(const Rigid3& pose, const Eigen::Vector3d& w, const Eigen::Vector3d& u) {
-  return {ExpSO3(w) * pose.rotation(), pose.translation() + u};
-}
+Rigid3 Moved(const Rigid3& pose, const Eigen::Vector3d& w, const Eigen::Vector3d& u);
 
 inline LineSegment3 Swapped(const LineSegment3& line) { return {line.end, line.start}; }
 
 // Norm of the difference of two poses, rotation vector (radians) and translation (metres).
-inline double Distance(const Rigid3& a, const Rigid3& b) {
-  Eigen::Matrix<double, 6, 1> difference;
-  Rigid3Manifold().Minus(a.params.data(), b.params.data(), difference.data());
-  return difference.norm();
-}
+double Distance(const Rigid3& a, const Rigid3& b);
 
 // Seeded random numbers, poses and lines.
 class RandomGeometry {
