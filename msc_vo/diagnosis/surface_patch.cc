@@ -137,21 +137,21 @@ double SurfacePatch::BowlOfRay() const {
   return (2.0 * gradient.dot(center) / (value * rho) - laplacian) / rho;
 }
 
-// Inverse depth w = 1/v is affine in u = x (1 + k1 |x|^2): its second derivative along a unit
-// vector n is that of u, k1 (2 x + 4 (x.n) n), times dw/du; the Laplacian of u is 8 k1 x.
-double SurfacePatch::BendOfLens(double k1) const {
+// Inverse depth w = 1/v is affine in u = x (1 + k |x|^2): its second derivative along a unit
+// vector n is that of u, k (2 x + 4 (x.n) n), times dw/du; the Laplacian of u is 8 k x.
+double SurfacePatch::BendOfLens(double k) const {
   const Eigen::Vector2d n = gradient.normalized();
-  const Eigen::Vector2d second = k1 * (2.0 * center + 4.0 * center.dot(n) * n);
-  return -2.0 / value - SlopeBeyondLens(k1).dot(second) / gradient.squaredNorm();
+  const Eigen::Vector2d second = k * (2.0 * center + 4.0 * center.dot(n) * n);
+  return -2.0 / value - SlopeBeyondLens(k).dot(second) / gradient.squaredNorm();
 }
 
-double SurfacePatch::BowlOfLens(double k1) const {
-  return -SlopeBeyondLens(k1).dot(8.0 * k1 * center) / value;
+double SurfacePatch::BowlOfLens(double k) const {
+  return -SlopeBeyondLens(k).dot(8.0 * k * center) / value;
 }
 
-Eigen::Vector2d SurfacePatch::SlopeBeyondLens(double k1) const {
-  const Eigen::Matrix2d du_dx = (1.0 + k1 * center.squaredNorm()) * Eigen::Matrix2d::Identity() +
-                                2.0 * k1 * center * center.transpose();
+Eigen::Vector2d SurfacePatch::SlopeBeyondLens(double k) const {
+  const Eigen::Matrix2d du_dx = (1.0 + k * center.squaredNorm()) * Eigen::Matrix2d::Identity() +
+                                2.0 * k * center * center.transpose();
   return du_dx.transpose().inverse() * gradient;
 }
 

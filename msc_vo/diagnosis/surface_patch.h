@@ -27,14 +27,14 @@ struct SurfacePatch {
   /// The bowl of a plane if v is the length of the viewing ray.
   double BowlOfRay() const;
 
-  /// The bend and the bowl of a plane if v is depth, but the lens x (1 + k1 |x|^2), which leads
-  /// from the plane z = 1 to the undistorted one, is not described.
-  double BendOfLens(double k1) const;
-  double BowlOfLens(double k1) const;
+  /// The bend and the bowl of a plane if v is depth, but the lens is not described whose
+  /// points x of the plane z = 1 are undistorted as x (1 + k |x|^2).
+  double BendOfLens(double k) const;
+  double BowlOfLens(double k) const;
 
  private:
   // The gradient with respect to points of the undistorted plane.
-  Eigen::Vector2d SlopeBeyondLens(double k1) const;
+  Eigen::Vector2d SlopeBeyondLens(double k) const;
 };
 
 /// Measures the patch in a part of an image. `values` (CV_32FC1; 0: none) and `rays` (CV_64FC2,

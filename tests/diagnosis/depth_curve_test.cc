@@ -158,6 +158,13 @@ TEST(DepthCurve, IsNoErrorBehindAnUndescribedLens) {
   }
 }
 
+TEST(DepthCurve, IsNoErrorBehindAnUndescribedFisheyeLens) {
+  LensDistortion lens;
+  lens.model = LensModel::kFisheye;
+  const DepthCurveTest test = Observe({Box, lens}, Depth, {kCamera, Lens(0.0)});
+  EXPECT_EQ(Verdict(test).find("error"), std::string::npos) << Verdict(test);
+}
+
 // Both at once: the curve is at least a warning.
 TEST(DepthCurve, IsNamedBehindAnUndescribedLens) {
   for (const Case& c : Cases()) {
