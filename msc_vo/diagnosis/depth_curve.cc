@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <optional>
-
-#include <Eigen/Cholesky>
+#include <utility>
 
 #include "msc_vo/diagnosis/quantile.h"
 
@@ -21,14 +20,8 @@ constexpr int kCellsPerRow = 160;
 // Widths of the patches, cells: small ones where surfaces are small, large ones where depth is
 // noisy. Neighbours overlap by half.
 constexpr int kPatchSizes[] = {12, 24, 40};
-// Least ratio of the cells of a patch that have a depth.
-constexpr double kMinFill = 0.8;
 // Standard deviation of rounding to whole raw units.
 constexpr double kRounding = 0.3;
-// Largest correlation of neighbouring residuals: beyond, the patch is not smooth anyway.
-constexpr double kMaxCorrelation = 0.9;
-// Largest radius on the plane z = 1 of a sample: 72 degrees.
-constexpr double kMaxRadius = 3.0;
 
 // A patch counts if the two curves differ by so many standard deviations of its measurement. It
 // supports the curve that it is nearer to than this ratio of their difference.
@@ -48,155 +41,93 @@ constexpr double kOrigins[] = {1.02, 1.05, 1.1, 1.18, 1.3, 1.5, 2.0, 3.0};
 constexpr double kCompressed[] = {2.0, 3.0};
 constexpr double kStretched[] = {0.5, 1.0 / 3.0};
 constexpr double kLogScales[] = {0.2, 0.25, 0.3, 0.4};
+// Undescribed lenses x (1 + k |x|^2), which undistort the plane z = 1: from the pincushions of
+// depth cameras (k < 0) to fisheye lenses (tan(x) / x: 0.33 near the axis, 0.8 far from it), in
+// steps that change the bend by less than its tolerance.
+constexpr double kLenses[] = {-0.25, -0.18, -0.13, -0.09, -0.06, -0.04, 0.04, 0.06, 0.09,
+                              0.13,  0.18,  0.25,  0.33,  0.43,  0.55,  0.68, 0.82};
 
-using Coefficients = Eigen::Matrix<double, 6, 1>;
+// What a patch measures if the values are a function of depth.
+using Prediction = std::function<double(const SurfacePatch&)>;
 
-// Least squares for the quadratic polynomial c0 + c1 x + c2 y + c3 x^2 + c4 x y + c5 y^2.
-class QuadraticFit {
- public:
-  static constexpr int kNumParameters = 6;
-
-  void Add(double x, double y, double value) {
-    Coefficients basis;
-    basis << 1.0, x, y, x * x, x * y, y * y;
-    matrix_.selfadjointView<Eigen::Lower>().rankUpdate(basis);
-    rhs_ += value * basis;
-    ++count_;
-  }
-  int count() const { return count_; }
-
-  // Returns false if the polynomial is not determined.
-  bool Solve() {
-    if (count_ <= rhs_.size()) return false;
-    const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> ldlt(
-        Eigen::Matrix<double, 6, 6>(matrix_.selfadjointView<Eigen::Lower>()));
-    coefficients_ = ldlt.solve(rhs_);
-    covariance_ = ldlt.solve(Eigen::Matrix<double, 6, 6>::Identity());
-    return coefficients_.allFinite() && covariance_.allFinite();
-  }
-  double At(double x, double y) const {
-    Coefficients basis;
-    basis << 1.0, x, y, x * x, x * y, y * y;
-    return basis.dot(coefficients_);
-  }
-  // Sets the variance of the values, 1 by default.
-  void SetVariance(double variance) { covariance_ *= variance; }
-
-  double value() const { return coefficients_(0); }
-  Eigen::Vector2d gradient() const { return coefficients_.segment<2>(1); }
-  // The combination w0 f_xx + w1 f_xy + w2 f_yy of second derivatives and its standard deviation.
-  double SecondDerivative(const Eigen::Vector3d& w, double* sigma) const {
-    const Eigen::Vector3d by_coefficient(2.0 * w(0), w(1), 2.0 * w(2));
-    *sigma = std::sqrt(by_coefficient.dot(covariance_.bottomRightCorner<3, 3>() * by_coefficient));
-    return by_coefficient.dot(coefficients_.tail<3>());
-  }
-
- private:
-  Eigen::Matrix<double, 6, 6> matrix_ = Eigen::Matrix<double, 6, 6>::Zero();
-  Coefficients rhs_ = Coefficients::Zero();
-  int count_ = 0;
-  Coefficients coefficients_;
-  Eigen::Matrix<double, 6, 6> covariance_;
+struct Hypothesis {
+  DepthCurve curve = DepthCurve::kDepth;
+  Prediction predict;  // the bowl if the curve is kRayLength, else the bend
+  double origin = 0.0;
 };
 
-// The variance of independent values that determine a polynomial as well as those of a patch,
-// whose residuals (NaN: no value) have it in common with their neighbours: a matcher of stereo
-// images smooths its noise, rounded disparities form steps, edges bend all values beside them.
-double VarianceOf(const cv::Mat_<double>& residuals, int num_parameters) {
-  double squares = 0.0, by_x = 0.0, by_y = 0.0;
-  int count = 0, count_x = 0, count_y = 0;
-  for (int y = 0; y < residuals.rows; ++y) {
-    for (int x = 0; x < residuals.cols; ++x) {
-      const double r = residuals(y, x);
-      if (std::isnan(r)) continue;
-      squares += r * r;
-      ++count;
-      if (x > 0 && !std::isnan(residuals(y, x - 1))) {
-        by_x += r * residuals(y, x - 1);
-        ++count_x;
-      }
-      if (y > 0 && !std::isnan(residuals(y - 1, x))) {
-        by_y += r * residuals(y - 1, x);
-        ++count_y;
-      }
-    }
+bool Proves(int num_for, int num_against) { return num_for >= kMinRatio * num_against + kMinVotes; }
+
+// Of depth behind a lens that is not described.
+Prediction DepthBehindLens(DepthCurve curve, double k) {
+  if (curve == DepthCurve::kRayLength) {
+    return [k](const SurfacePatch& patch) { return patch.BowlOfLens(k); };
   }
-  const double variance = squares / count;
-  double factor = static_cast<double>(count) / (count - num_parameters);
-  // Sum of a geometric autocorrelation along both axes.
-  for (const double covariance : {by_x / std::max(1, count_x), by_y / std::max(1, count_y)}) {
-    const double correlation = std::clamp(covariance / variance, 0.0, kMaxCorrelation);
-    factor *= (1.0 + correlation) / (1.0 - correlation);
-  }
-  return factor * variance;
+  return [k](const SurfacePatch& patch) { return patch.BendOfLens(k); };
 }
 
-// Laplacian of w = (affine function) / rho over w, where rho = sqrt(1 + |x|^2).
-double BowlOfRay(const Eigen::Vector2d& x, const Eigen::Vector2d& relative_gradient) {
-  const double squared_radius = x.squaredNorm();
-  const double rho = std::sqrt(1.0 + squared_radius);
-  const double laplacian = (2.0 + squared_radius) / (rho * rho * rho);
-  return -(2.0 * relative_gradient.dot(x) / rho + laplacian) / rho;
-}
-
-// `reference` was subtracted from the values; the coordinates of the fit are those of the plane
-// z = 1, relative to `center` and in units of `unit`. Returns std::nullopt without a slope.
-std::optional<SurfacePatch> MakePatch(const QuadraticFit& fit, double reference, double unit,
-                                      const Eigen::Vector2d& center) {
-  SurfacePatch patch;
-  patch.value = fit.value() + reference;
-  const double slope = fit.gradient().norm();
-  if (!(patch.value > 0.0) || !(slope > 0.0)) return std::nullopt;
-  const Eigen::Vector2d n = fit.gradient() / slope;
-  double sigma = 0.0;
-  const double second =
-      fit.SecondDerivative({n.x() * n.x(), 2.0 * n.x() * n.y(), n.y() * n.y()}, &sigma);
-  patch.bend = -second / (slope * slope);
-  patch.bend_sigma = sigma / (slope * slope);
-  const double laplacian = fit.SecondDerivative({1.0, 0.0, 1.0}, &sigma);
-  const double scale = 1.0 / (patch.value * unit * unit);
-  const Eigen::Vector2d relative = fit.gradient() / (patch.value * unit);
-  patch.bowl = -laplacian * scale + 2.0 * relative.squaredNorm();
-  patch.bowl_sigma = sigma * scale;
-  patch.bowl_of_ray = BowlOfRay(center, -relative);
-  patch.is_outward = fit.gradient().dot(center) > 0.0;
-  return patch;
-}
-
-// Counts the patches that support a measured quantity's value under a curve, and under depth.
-void Count(double measured, double sigma, double of_curve, double of_depth, bool is_outward,
-           DepthCurveTest::Votes* votes) {
-  const double difference = std::abs(of_curve - of_depth);
-  if (!(difference > kMinSigmas * sigma)) return;
-  if (std::abs(measured - of_curve) < kTolerance * difference) {
-    ++votes->num_curve;
-    votes->num_outward_curve += is_outward;
-  }
-  if (std::abs(measured - of_depth) < kTolerance * difference) {
-    ++votes->num_depth;
-    votes->num_outward_depth += is_outward;
-  }
-}
-
-template <typename Bend>
-DepthCurveTest::Votes CountBends(const std::vector<SurfacePatch>& patches, DepthCurve curve,
-                                 const Bend& bend) {
-  DepthCurveTest::Votes votes;
-  votes.curve = curve;
+// Numbers of patches that are as either of two predictions, of those that tell them apart.
+std::pair<int, int> Compare(const std::vector<SurfacePatch>& patches, DepthCurve curve,
+                            const Prediction& first, const Prediction& second) {
+  const bool is_bowl = curve == DepthCurve::kRayLength;
+  std::pair<int, int> support{0, 0};
   for (const SurfacePatch& patch : patches) {
-    Count(patch.bend, patch.bend_sigma, bend(patch.value), -2.0 / patch.value, patch.is_outward,
-          &votes);
+    const double measured = is_bowl ? patch.bowl : patch.bend;
+    const double of_first = first(patch);
+    const double of_second = second(patch);
+    const double difference = std::abs(of_first - of_second);
+    if (!(difference > kMinSigmas * (is_bowl ? patch.bowl_sigma : patch.bend_sigma))) continue;
+    support.first += std::abs(measured - of_first) < kTolerance * difference;
+    support.second += std::abs(measured - of_second) < kTolerance * difference;
   }
-  return votes;
+  return support;
 }
 
-DepthCurveTest::Votes CountBowls(const std::vector<SurfacePatch>& patches) {
-  DepthCurveTest::Votes votes;
-  votes.curve = DepthCurve::kRayLength;
-  for (const SurfacePatch& patch : patches) {
-    Count(patch.bowl, patch.bowl_sigma, patch.bowl_of_ray, 0.0, patch.is_outward, &votes);
+DepthCurveTest::Votes CountVotes(const std::vector<SurfacePatch>& patches,
+                                 const Hypothesis& hypothesis) {
+  const auto [num_curve, num_depth] = Compare(patches, hypothesis.curve, hypothesis.predict,
+                                              DepthBehindLens(hypothesis.curve, 0.0));
+  return {hypothesis.curve, num_curve, num_depth, hypothesis.origin, false};
+}
+
+// Whether depth behind some undescribed lens explains the patches as well, or nearly so.
+bool MayBeLens(const std::vector<SurfacePatch>& patches, const Hypothesis& hypothesis) {
+  return std::any_of(std::begin(kLenses), std::end(kLenses), [&](double k) {
+    const auto [num_curve, num_lens] = Compare(patches, hypothesis.curve, hypothesis.predict,
+                                               DepthBehindLens(hypothesis.curve, k));
+    return !Proves(num_curve, num_lens);
+  });
+}
+
+Hypothesis InverseDepth() {
+  return {DepthCurve::kInverse, [](const SurfacePatch&) { return 0.0; }};
+}
+
+// Every curve other than depth; those with a parameter once for each value.
+std::vector<Hypothesis> CurvesFor(const std::vector<SurfacePatch>& patches) {
+  std::vector<double> values;
+  for (const SurfacePatch& patch : patches) values.push_back(patch.value);
+  const double largest = *std::max_element(values.begin(), values.end());
+  const double median = Median(std::move(values));
+  std::vector<Hypothesis> curves = {InverseDepth()};
+  for (const double factor : kOrigins) {
+    const double origin = factor * largest;
+    curves.push_back({DepthCurve::kInverted,
+                      [origin](const SurfacePatch& patch) { return 2.0 / (origin - patch.value); },
+                      origin});
   }
-  return votes;
+  const auto add_power = [&](DepthCurve curve, double q) {
+    curves.push_back({curve, [q](const SurfacePatch& patch) { return -(q + 1.0) / patch.value; }});
+  };
+  for (const double q : kCompressed) add_power(DepthCurve::kCompressed, q);
+  for (const double q : kStretched) add_power(DepthCurve::kStretched, q);
+  for (const double a : kLogScales) {
+    const double bend = -1.0 / (a * median);
+    curves.push_back({DepthCurve::kCompressed, [bend](const SurfacePatch&) { return bend; }});
+  }
+  curves.push_back(
+      {DepthCurve::kRayLength, [](const SurfacePatch& patch) { return patch.BowlOfRay(); }});
+  return curves;
 }
 
 double Score(const DepthCurveTest::Votes& votes) {
@@ -205,28 +136,15 @@ double Score(const DepthCurveTest::Votes& votes) {
 
 }  // namespace
 
-bool DepthCurveTest::Votes::ProveCurve() const {
-  return num_curve >= kMinRatio * num_depth + kMinVotes;
-}
+bool DepthCurveTest::Votes::ProveCurve() const { return Proves(num_curve, num_depth); }
 
-bool DepthCurveTest::Votes::MayBeLens() const {
-  const auto proves = [](int num_for, int num_against) {
-    return num_for >= kMinRatio * num_against + kMinVotes / 2;
-  };
-  return !proves(num_outward_curve, num_outward_depth) ||
-         !proves(num_curve - num_outward_curve, num_depth - num_outward_depth);
-}
-
-bool DepthCurveTest::Votes::ProveDepth() const {
-  return num_depth >= kMinRatio * num_curve + kMinVotes;
-}
+bool DepthCurveTest::Votes::ProveDepth() const { return Proves(num_depth, num_curve); }
 
 DepthCurveTest::DepthCurveTest(const PinholeCamera& camera, const LensDistortion& distortion,
                                double depth_scale)
     : depth_scale_(depth_scale) {
   const PinholeCamera& recorded = distortion.Recorded(camera);
   step_ = std::max(1, recorded.width / kCellsPerRow);
-  cell_size_ = step_ / recorded.FocalLength();
   rays_.create((recorded.height + step_ - 1) / step_, (recorded.width + step_ - 1) / step_);
   constexpr double kRayTolerance = 1e-6;
   for (int y = 0; y < rays_.rows; ++y) {
@@ -245,96 +163,50 @@ void DepthCurveTest::Add(const cv::Mat& recorded) {
   double largest = 0.0;
   cv::minMaxLoc(depth, nullptr, &largest);
   depth.setTo(0.0f, depth >= largest);
+  cv::Mat_<float> values(rays_.size());
+  for (int y = 0; y < values.rows; ++y) {
+    for (int x = 0; x < values.cols; ++x) values(y, x) = depth.at<float>(y * step_, x * step_);
+  }
+  const double rounding = kRounding / depth_scale_;
   for (const int size : kPatchSizes) {
-    for (int y = 0; y + size <= rays_.rows; y += size / 2) {
-      for (int x = 0; x + size <= rays_.cols; x += size / 2) {
-        AddPatch(depth, {x, y, size, size});
+    for (int y = 0; y + size <= values.rows; y += size / 2) {
+      for (int x = 0; x + size <= values.cols; x += size / 2) {
+        const cv::Rect cells(x, y, size, size);
+        const std::optional<SurfacePatch> patch =
+            MeasurePatch(values(cells), rays_(cells), rounding);
+        if (patch) patches_.push_back(*patch);
       }
     }
   }
-}
-
-void DepthCurveTest::AddPatch(const cv::Mat& depth, const cv::Rect& cells) {
-  const cv::Vec2d middle = rays_(cells.y + cells.height / 2, cells.x + cells.width / 2);
-  const double unit = 0.5 * cells.width * cell_size_;  // of the coordinates of the fit
-  // Relative to a value of the patch, which keeps the digits.
-  const float reference =
-      depth.at<float>(step_ * (cells.y + cells.height / 2), step_ * (cells.x + cells.width / 2));
-  // Calls visit(cell, x, y, value) of all cells with a depth.
-  const auto for_each = [&](const auto& visit) {
-    for (int y = 0; y < cells.height; ++y) {
-      const auto* row = depth.ptr<float>((cells.y + y) * step_);
-      for (int x = 0; x < cells.width; ++x) {
-        const float value = row[(cells.x + x) * step_];
-        const cv::Vec2d& ray = rays_(cells.y + y, cells.x + x);
-        if (!(value > 0.0f) || !(std::hypot(ray[0], ray[1]) < kMaxRadius)) continue;
-        visit(cv::Point(x, y), (ray[0] - middle[0]) / unit, (ray[1] - middle[1]) / unit,
-              static_cast<double>(value) - reference);
-      }
-    }
-  };
-  QuadraticFit fit;
-  for_each([&](const cv::Point&, double x, double y, double value) { fit.Add(x, y, value); });
-  if (fit.count() < kMinFill * cells.area() || !fit.Solve()) return;
-  cv::Mat_<double> residuals(cells.size(), std::numeric_limits<double>::quiet_NaN());
-  for_each([&](const cv::Point& cell, double x, double y, double value) {
-    residuals(cell) = fit.At(x, y) - value;
-  });
-  const double rounding = kRounding / depth_scale_;
-  fit.SetVariance(
-      std::max(rounding * rounding, VarianceOf(residuals, QuadraticFit::kNumParameters)));
-  const std::optional<SurfacePatch> patch =
-      MakePatch(fit, reference, unit, Eigen::Vector2d(middle[0], middle[1]));
-  if (patch) patches_.push_back(*patch);
 }
 
 DepthCurveTest::Votes DepthCurveTest::OfInverse() const {
-  return CountBends(patches_, DepthCurve::kInverse, [](double) { return 0.0; });
-}
-
-std::vector<DepthCurveTest::Votes> DepthCurveTest::AllVotes() const {
-  std::vector<double> values;
-  for (const SurfacePatch& patch : patches_) values.push_back(patch.value);
-  if (values.empty()) return {};
-  const double largest = *std::max_element(values.begin(), values.end());
-  const double median = Median(std::move(values));
-  std::vector<Votes> all = {OfInverse()};
-  for (const double factor : kOrigins) {
-    const double origin = factor * largest;
-    all.push_back(CountBends(patches_, DepthCurve::kInverted,
-                             [origin](double v) { return 2.0 / (origin - v); }));
-    all.back().origin = origin;
-  }
-  for (const double q : kCompressed) {
-    all.push_back(
-        CountBends(patches_, DepthCurve::kCompressed, [q](double v) { return -(q + 1.0) / v; }));
-  }
-  for (const double q : kStretched) {
-    all.push_back(
-        CountBends(patches_, DepthCurve::kStretched, [q](double v) { return -(q + 1.0) / v; }));
-  }
-  for (const double a : kLogScales) {
-    const double bend = -1.0 / (a * median);
-    all.push_back(CountBends(patches_, DepthCurve::kCompressed, [bend](double) { return bend; }));
-  }
-  all.push_back(CountBowls(patches_));
-  return all;
+  return CountVotes(patches_, InverseDepth());
 }
 
 DepthCurveTest::Votes DepthCurveTest::Best() const {
   Votes best;
-  for (const Votes& votes : AllVotes()) {
+  if (patches_.empty()) return best;
+  Hypothesis best_curve;
+  for (const Hypothesis& curve : CurvesFor(patches_)) {
+    const Votes votes = CountVotes(patches_, curve);
     const double gain = best.curve == DepthCurve::kInverse && Score(best) > 0.0 ? kMinGain : 1.0;
     const bool is_first = best.curve == DepthCurve::kDepth;
-    if (is_first || Score(votes) > gain * Score(best)) best = votes;
+    if (!is_first && !(Score(votes) > gain * Score(best))) continue;
+    best = votes;
+    best_curve = curve;
   }
+  best.may_be_lens = MayBeLens(patches_, best_curve);
   return best;
 }
 
 bool DepthCurveTest::IsDecided() const {
-  const std::vector<Votes> all = AllVotes();
-  const auto proves_depth = [](const Votes& votes) { return votes.ProveDepth(); };
-  return Best().ProveCurve() || (!all.empty() && std::all_of(all.begin(), all.end(), proves_depth));
+  if (patches_.empty()) return false;
+  if (Best().ProveCurve()) return true;
+  const std::vector<Hypothesis> curves = CurvesFor(patches_);
+  return std::all_of(curves.begin(), curves.end(), [this](const Hypothesis& curve) {
+    return CountVotes(patches_, curve).ProveDepth();
+  });
 }
 
 }  // namespace msc_vo

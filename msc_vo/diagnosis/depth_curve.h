@@ -5,28 +5,13 @@
 
 #include <vector>
 
-#include <Eigen/Core>
 #include <opencv2/core.hpp>
 
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/diagnosis/surface_patch.h"
 
 namespace msc_vo {
-
-/// A smooth, inclined part of a surface in a depth image whose values v may be any function of the
-/// depth. On a plane, inverse depth g(v) is affine on the image plane z = 1, so that
-/// g'' (dv)^2 + g' d2v = 0 along every direction: the bend of the values tells g.
-struct SurfacePatch {
-  double value = 0.0;  ///< v in its middle, metres if it is a depth
-  /// - d2v / (dv)^2 along the gradient, 1/metres: g''/g' on a plane, thus -2/v if v is depth.
-  double bend = 0.0;
-  double bend_sigma = 0.0;
-  /// Laplacian of 1/v over 1/v: 0 on a plane if v is depth.
-  double bowl = 0.0;
-  double bowl_sigma = 0.0;
-  double bowl_of_ray = 0.0;  ///< the same on a plane if v is the length of the viewing ray
-  bool is_outward = false;   ///< v grows outwards from the principal point
-};
 
 /// What the values of depth images are.
 enum class DepthCurve {
@@ -56,20 +41,16 @@ class DepthCurveTest {
     DepthCurve curve = DepthCurve::kDepth;
     int num_curve = 0;
     int num_depth = 0;
-    double origin = 0.0;  ///< kInverted: the value at distance 0, metres
-    /// Those of them whose values grow outwards.
-    int num_outward_curve = 0;
-    int num_outward_depth = 0;
+    double origin = 0.0;       ///< kInverted: the value at distance 0, metres
+    bool may_be_lens = false;  ///< depth with an undescribed lens explains the surfaces as well
 
     /// Whether the surfaces prove the curve, or depth.
     bool ProveCurve() const;
     bool ProveDepth() const;
-    /// Whether an undescribed lens can look like the curve: it bends surfaces whose values grow
-    /// outwards and inwards in opposite ways, a curve bends both alike.
-    bool MayBeLens() const;
   };
 
-  /// The most likely curve other than depth.
+  /// The most likely curve other than depth. An undescribed lens bends planes, too, but by how far
+  /// and in which direction they are from the axis; a curve bends all alike.
   Votes Best() const;
   Votes OfInverse() const;
   /// Whether the surfaces prove depth, compared with every curve, or the best curve.
@@ -78,12 +59,8 @@ class DepthCurveTest {
   double depth_scale() const { return depth_scale_; }
 
  private:
-  std::vector<Votes> AllVotes() const;
-  void AddPatch(const cv::Mat& depth, const cv::Rect& cells);
-
   double depth_scale_;
   int step_;                  // pixels between the cells of rays_
-  double cell_size_;          // on the plane z = 1
   cv::Mat_<cv::Vec2d> rays_;  // undistorted points of the plane z = 1
   std::vector<SurfacePatch> patches_;
 };

@@ -57,24 +57,17 @@ std::string FixOf(DepthCurve curve) {
 void AddDepthCurveFindings(const DepthCurveTest& test, Findings* findings) {
   const std::string check = DepthCurveTest::kCheck;
   const DepthCurveTest::Votes best = test.Best();
-  if (best.ProveCurve() && best.MayBeLens()) {
-    findings->push_back(Warning(
-        check,
-        FormatText("the depth images hold %s, or the lens is not described: as such, %d surfaces "
-                   "are plane, as depth %d",
-                   NameOf(best, test.depth_scale()).c_str(), best.num_curve, best.num_depth),
-        "give the distortion of the lens, or " + FixOf(best.curve),
-        Measurement{static_cast<double>(best.num_depth) / best.num_curve, "ratio"}));
-    return;
-  }
   if (best.ProveCurve()) {
-    findings->push_back(Error(
-        check,
-        FormatText("the depth images hold %s, not depth: as such, %d surfaces are plane, as depth "
-                   "%d",
-                   NameOf(best, test.depth_scale()).c_str(), best.num_curve, best.num_depth),
-        FixOf(best.curve),
-        Measurement{static_cast<double>(best.num_depth) / best.num_curve, "ratio"}));
+    const bool may_be_lens = best.may_be_lens;
+    const std::string text = FormatText(
+        "the depth images hold %s, %s: as such, %d surfaces are plane, as depth %d",
+        NameOf(best, test.depth_scale()).c_str(),
+        may_be_lens ? "or the lens is not described" : "not depth", best.num_curve, best.num_depth);
+    const Measurement ratio{static_cast<double>(best.num_depth) / best.num_curve, "ratio"};
+    const std::string fix = FixOf(best.curve);
+    findings->push_back(
+        may_be_lens ? Warning(check, text, "give the distortion of the lens, or " + fix, ratio)
+                    : Error(check, text, fix, ratio));
     return;
   }
   const DepthCurveTest::Votes inverse = test.OfInverse();

@@ -8,6 +8,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "msc_vo/datasets/clipped_depth_search.h"
@@ -39,6 +40,7 @@ constexpr int kCurveImages = 13;
 constexpr int kDeepImages = 240;
 constexpr char kCalibrationCheck[] = "calibration";
 constexpr char kByteOrderCheck[] = "depth.byte_order";
+constexpr char kScaleCheck[] = "depth.scale";
 
 // What the images of a sample say.
 struct SampleMeasurements {
@@ -128,9 +130,14 @@ bool HasError(const Findings& findings, const std::string& check) {
 void AddSampleFindings(const SampleMeasurements& sample, const DepthCurveTest& curve,
                        const Calibration& calibration, Findings* findings) {
   AddExposureFindings(sample.exposures, calibration.camera.width, findings);
-  AddDepthFindings(sample.depths, sample.byte_order, calibration.depth_scale, findings);
-  // Swapped bytes leave no surfaces.
-  if (!HasError(*findings, kByteOrderCheck)) AddDepthCurveFindings(curve, findings);
+  Findings depths;
+  AddDepthFindings(sample.depths, sample.byte_order, calibration.depth_scale, &depths);
+  // Swapped bytes leave no surfaces, and what is not depth has no scale.
+  if (!HasError(depths, kByteOrderCheck)) AddDepthCurveFindings(curve, &depths);
+  const bool is_depth = !HasError(depths, DepthCurveTest::kCheck);
+  for (Finding& finding : depths) {
+    if (is_depth || finding.check != kScaleCheck) findings->push_back(std::move(finding));
+  }
 }
 
 void AddClippingFindings(const RgbdDecoder& decoder, Findings* findings) {
@@ -174,7 +181,7 @@ bool HoldsNoDepth(const Findings& findings) {
 // Whether no run can succeed in spite of an error.
 bool StopsRun(const Finding& finding) {
   return finding.severity == Severity::kError &&
-         (finding.check == "depth.scale" || HoldsNoDepth({finding}));
+         (finding.check == kScaleCheck || HoldsNoDepth({finding}));
 }
 
 }  // namespace

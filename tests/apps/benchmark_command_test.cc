@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -26,10 +27,8 @@ using testing::Not;
 class BenchmarkCommandTest : public TemporaryFolder {
  protected:
   void Synthesize(const std::string& scene, int num_frames, const std::string& name) {
-    const CommandOutcome outcome =
-        RunCommand({"synthesize", Path(name), "--scene", scene, "--frames",
-                    std::to_string(num_frames), "--width", "160"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    RenderSequence(Path(name),
+                   {"--scene", scene, "--frames", std::to_string(num_frames), "--width", "160"});
   }
   std::string Table() { return ReadFile(Path("out/benchmark.md")); }
   nlohmann::json Numbers() { return nlohmann::json::parse(ReadFile(Path("out/benchmark.json"))); }

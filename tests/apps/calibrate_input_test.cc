@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <opencv2/imgcodecs.hpp>
@@ -32,9 +33,7 @@ class CalibrateInputTest : public TemporaryFolder {
     EXPECT_THAT(outcome.output, AllOf(HasSubstr(message), Not(HasSubstr("round"))));
   }
   void Synthesize(const std::string& name, const std::string& num_frames) {
-    const CommandOutcome outcome =
-        RunCommand({"synthesize", Path(name), "--frames", num_frames, "--width", "160"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    RenderSequence(Path(name), {"--frames", num_frames, "--width", "160"});
   }
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -19,8 +20,7 @@ class CheckCommandTest : public TemporaryFolder {
  protected:
   void SetUp() override {
     TemporaryFolder::SetUp();
-    ASSERT_EQ(RunCommand({"synthesize", Path("room"), "--frames", "6", "--width", "160"}).exit_code,
-              0);
+    RenderSequence(Path("room"), {"--frames", "6", "--width", "160"});
   }
   // Swaps the bytes of all depth images.
   void SwapBytes() {

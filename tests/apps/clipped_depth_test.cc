@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -27,8 +28,7 @@ class ClippedDepthCommandTest : public TemporaryFolder {
  protected:
   void SetUp() override {
     TemporaryFolder::SetUp();
-    ASSERT_EQ(
-        RunCommand({"synthesize", Path("room"), "--frames", "40", "--width", "320"}).exit_code, 0);
+    RenderSequence(Path("room"), {"--frames", "40", "--width", "320"});
     CopyWith("clipped", [](cv::Mat* raw) { cv::min(*raw, kFarthest, *raw); });
   }
   void CopyWith(const std::string& name, const std::function<void(cv::Mat*)>& change) {

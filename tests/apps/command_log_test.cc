@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -17,10 +18,7 @@ using testing::Not;
 class CommandLogTest : public TemporaryFolder {
  protected:
   void Synthesize() {
-    ASSERT_EQ(RunCommand({"synthesize", Path("room"), "--scene", "room", "--frames", "20",
-                          "--width", "160"})
-                  .exit_code,
-              0);
+    RenderSequence(Path("room"), {"--scene", "room", "--frames", "20", "--width", "160"});
   }
   CommandOutcome Replay(const std::string& output, std::vector<std::string> more) {
     std::vector<std::string> arguments = {"replay", Path("room"), "--quiet", "--output",

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -62,10 +63,8 @@ class FuseCommandTest : public TemporaryFolder {
  protected:
   void SetUp() override {
     TemporaryFolder::SetUp();
-    const CommandOutcome outcome =
-        RunCommand({"synthesize", Path("room"), "--frames", std::to_string(kFrames), "--width",
-                    "160", "--fps", "4", "--image-sigma", "0"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    RenderSequence(Path("room"), {"--frames", std::to_string(kFrames), "--width", "160", "--fps",
+                                  "4", "--image-sigma", "0"});
   }
   CommandOutcome Fuse(const std::string& output, const std::vector<std::string>& more = {},
                       double voxel = kVoxel) {

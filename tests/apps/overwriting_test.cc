@@ -7,6 +7,7 @@
 #include <map>
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -24,9 +25,7 @@ using testing::HasSubstr;
 class OverwritingTest : public TemporaryFolder {
  protected:
   void Synthesize(const std::string& name) {
-    const CommandOutcome outcome =
-        RunCommand({"synthesize", Path(name), "--frames", "3", "--width", "160"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    RenderSequence(Path(name), {"--frames", "3", "--width", "160"});
   }
   void ExpectRefused(const std::vector<std::string>& arguments) {
     const CommandOutcome outcome = RunCommand(arguments);

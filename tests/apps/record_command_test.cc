@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -22,9 +23,7 @@ using testing::HasSubstr;
 class RecordCommandTest : public TemporaryFolder {
  protected:
   void Synthesize(int num_frames, const std::string& width = "160") {
-    const CommandOutcome outcome = RunCommand(
-        {"synthesize", Path("room"), "--frames", std::to_string(num_frames), "--width", width});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    RenderSequence(Path("room"), {"--frames", std::to_string(num_frames), "--width", width});
   }
   // Every list names the same number of pairs, whose files exist.
   size_t NumConsistentPairs(const std::string& folder) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
 #include "tests/support/temporary_folder.h"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -21,14 +22,12 @@ class RenderedCameraTest : public TemporaryFolder {
   // Renders a small sequence and returns the position error of its replay, metres.
   double ErrorOf(const std::string& name, const std::vector<std::string>& more,
                  const std::vector<std::string>& replay_more = {}) {
-    std::vector<std::string> arguments = {"synthesize", Path(name), "--frames",
-                                          "30",         "--width",  "240"};
+    std::vector<std::string> arguments = {"--frames", "30", "--width", "240"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    CommandOutcome outcome = RunCommand(arguments);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    RenderSequence(Path(name), arguments);
     arguments = {"replay", Path(name), "--output", Path(name + "/out"), "--quiet"};
     arguments.insert(arguments.end(), replay_more.begin(), replay_more.end());
-    outcome = RunCommand(arguments);
+    const CommandOutcome outcome = RunCommand(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     return Summary(name)["error"]["ape_rmse"];
   }

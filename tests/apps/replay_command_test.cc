@@ -7,6 +7,7 @@
 #include <csignal>
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -27,10 +28,8 @@ using testing::HasSubstr;
 class ReplayCommandTest : public TemporaryFolder {
  protected:
   void Synthesize(int num_frames) {
-    const CommandOutcome outcome =
-        RunCommand({"synthesize", Path("room"), "--scene", "room", "--frames",
-                    std::to_string(num_frames), "--width", "160"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    RenderSequence(Path("room"),
+                   {"--scene", "room", "--frames", std::to_string(num_frames), "--width", "160"});
   }
   CommandOutcome Replay(const std::string& output, std::vector<std::string> more = {}) {
     std::vector<std::string> arguments = {"replay", Path("room"), "--output", Path(output)};

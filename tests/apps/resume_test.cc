@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -29,10 +30,8 @@ class ResumeTest : public TemporaryFolder {
  protected:
   void SetUp() override {
     TemporaryFolder::SetUp();
-    const CommandOutcome outcome =
-        RunCommand({"synthesize", Path("room"), "--scene", "room", "--frames",
-                    std::to_string(kNumFrames), "--width", "160"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    RenderSequence(Path("room"),
+                   {"--scene", "room", "--frames", std::to_string(kNumFrames), "--width", "160"});
     ASSERT_EQ(RunCommand(Command("whole")).exit_code, 0);
   }
   // A new run that saves a checkpoint after every image.
@@ -130,10 +129,8 @@ TEST_F(ResumeTest, ContinuesAKilledRunToTheSameBytes) {
 TEST_F(ResumeTest, ContinuesWithTheAccelerometer) {
   // Accelerations are computed from keyframes at least a second apart.
   std::filesystem::remove_all(Path("room"));
-  ASSERT_EQ(RunCommand({"synthesize", Path("room"), "--scene", "room", "--frames",
-                        std::to_string(kNumFrames), "--width", "160", "--fps", "5"})
-                .exit_code,
-            0);
+  RenderSequence(Path("room"), {"--scene", "room", "--frames", std::to_string(kNumFrames),
+                                "--width", "160", "--fps", "5"});
   ASSERT_EQ(RunCommand(Command("whole")).exit_code, 0);
   const std::string without = ReadFile(Path("whole/trajectory.txt"));
   ASSERT_EQ(RunCommand(Command("whole", {"--gravity"})).exit_code, 0);
@@ -146,10 +143,8 @@ TEST_F(ResumeTest, ContinuesWithTheAccelerometer) {
 
 TEST_F(ResumeTest, ContinuesWithTheLensThatTheRunHasFound) {
   std::filesystem::remove_all(Path("room"));
-  const CommandOutcome outcome =
-      RunCommand({"synthesize", Path("room"), "--scene", "room", "--frames", "40", "--fps", "5",
-                  "--width", "320", "--lens", "radial-tangential:-0.3,0.1,0,0,0", "--untold"});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  RenderSequence(Path("room"), {"--scene", "room", "--frames", "40", "--fps", "5", "--width", "320",
+                                "--lens", "radial-tangential:-0.3,0.1,0,0,0", "--untold"});
   ASSERT_EQ(RunCommand(Command("whole")).exit_code, 0);
   const auto calibration = [this](const std::string& output) {
     return nlohmann::json::parse(ReadFile(Path(output + "/summary.json"))).at("self_calibration");

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -14,12 +15,10 @@ namespace {
 class SelfCalibrationTest : public TemporaryFolder {
  protected:
   void Synthesize(const std::string& name, int num_frames, const std::vector<std::string>& more) {
-    std::vector<std::string> command = {
-        "synthesize", Path(name), "--scene", "room",     "--fps",
-        "5",          "--width",  "320",     "--frames", std::to_string(num_frames)};
-    command.insert(command.end(), more.begin(), more.end());
-    const CommandOutcome outcome = RunCommand(command);
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    std::vector<std::string> arguments = {
+        "--scene", "room", "--fps", "5", "--width", "320", "--frames", std::to_string(num_frames)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    RenderSequence(Path(name), arguments);
   }
   nlohmann::json Replay(const std::string& name, const std::vector<std::string>& more = {}) {
     std::vector<std::string> command = {"replay", Path(name), "--output", Path("out")};

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -53,10 +54,7 @@ std::string PoseText(const Rigid3& cam_from_world) {
 }
 
 TEST_F(SolveWindowCommandTest, ReproducesTheMapper) {
-  ASSERT_EQ(RunCommand(
-                {"synthesize", Path("room"), "--scene", "room", "--frames", "40", "--width", "160"})
-                .exit_code,
-            0);
+  RenderSequence(Path("room"), {"--scene", "room", "--frames", "40", "--width", "160"});
   const CommandOutcome replay = RunCommand({"replay", Path("room"), "--output", Path("out"),
                                             "--quiet", "--dump-windows", Path("windows")});
   ASSERT_EQ(replay.exit_code, 0) << replay.output;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -19,9 +20,7 @@ class StandardStreamsTest : public TemporaryFolder {
  protected:
   void SetUp() override {
     TemporaryFolder::SetUp();
-    const CommandOutcome outcome =
-        RunCommand({"synthesize", Path("room"), "--frames", "3", "--width", "160"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    RenderSequence(Path("room"), {"--frames", "3", "--width", "160"});
   }
 };
 
