@@ -37,7 +37,7 @@ class Options(unittest.TestCase):
         options = msc_vo.Options(mode="pl-vo")
         values = dict(options)
         self.assertEqual(len(values), len(options))
-        self.assertGreater(len(values), 100)
+        self.assertGreater(len(values), 50)
         self.assertEqual(dict(msc_vo.Options(**values)), values)
         self.assertEqual(repr(options), "Options(mode='pl-vo')")
         self.assertIn("realtime", options)
