@@ -34,7 +34,7 @@ void CoarseAxes(benchmark::State& state) {
     normals.push_back({normal.direction, normal.sigma});
   }
   bool found = false;
-  for (auto _ : state) found = FindCoarseAxes({}, lines, normals).has_value();
+  for (auto _ : state) found = FindCoarseAxes(lines, normals).has_value();
   state.counters["found"] = found;
   state.counters["lines"] = static_cast<double>(lines.size());
   state.counters["normals"] = static_cast<double>(normals.size());
@@ -67,7 +67,7 @@ void RefineAxes(benchmark::State& state) {
   ManhattanAxesSummary summary;
   for (auto _ : state) {
     ManhattanAxesData copy = data;
-    summary = RefineManhattanAxes({}, &copy);
+    summary = RefineManhattanAxes(&copy);
   }
   state.counters["inliers"] = summary.num_inliers;
 }

@@ -68,11 +68,8 @@ cv::Mat DrawFeatures(const cv::Mat& gray, const ViewedFeatures& features) {
 }
 
 OverlayVideo::OverlayVideo(const std::string& path, double frame_rate, int width, int height,
-                           const LensDistortion& distortion, const SceneAxesOptions& axes)
-    : path_(path),
-      covered_(0, 0, width / 2 * 2, height / 2 * 2),
-      distortion_(distortion),
-      axes_(axes) {
+                           const LensDistortion& distortion)
+    : path_(path), covered_(0, 0, width / 2 * 2, height / 2 * 2), distortion_(distortion) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (!folder.empty()) MakeFolder(folder.string());
   // H.264, which browsers play, and otherwise MPEG-4.
@@ -87,8 +84,7 @@ OverlayVideo::OverlayVideo(const std::string& path, double frame_rate, int width
 }
 
 void OverlayVideo::Add(const TrackedImage& tracked) {
-  cv::Mat image =
-      DrawFeatures(tracked.image.gray, TrackedFeatures(tracked, distortion_, axes_))(covered_);
+  cv::Mat image = DrawFeatures(tracked.image.gray, TrackedFeatures(tracked, distortion_))(covered_);
   DrawLabel(tracked.result, &image);
   writer_.write(image);
   ++num_images_;

@@ -10,7 +10,6 @@
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/odometry/tracking_observer.h"
 #include "msc_vo/report/frame_view.h"
-#include "msc_vo/structure/scene_axes.h"
 
 namespace msc_vo {
 
@@ -24,7 +23,7 @@ class OverlayVideo {
   /// of the images of `width` x `height` pixels. Throws std::runtime_error naming the file if it
   /// cannot be written or OpenCV has no encoder for it.
   OverlayVideo(const std::string& path, double frame_rate, int width, int height,
-               const LensDistortion& distortion, const SceneAxesOptions& axes);
+               const LensDistortion& distortion);
 
   void Add(const TrackedImage& tracked);
 
@@ -41,7 +40,6 @@ class OverlayVideo {
   std::string path_;
   cv::Rect covered_;  // encoders need even sizes
   LensDistortion distortion_;
-  SceneAxesOptions axes_;
   cv::VideoWriter writer_;
   int num_images_ = 0;
 };

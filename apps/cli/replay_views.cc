@@ -41,10 +41,6 @@ double FrameRate(const std::vector<SequenceEntry>& entries) {
   return seconds > 0.0 ? std::clamp(rate, 1.0, 240.0) : kDefault;
 }
 
-SceneAxesOptions AxesOptions(const Configuration& configuration) {
-  return EffectiveConfiguration(configuration).odometry.mapping.axes;
-}
-
 // For a URL: an IPv6 address is written in brackets.
 std::string UrlHost(const std::string& address) {
   return address.find(':') == std::string::npos ? address : "[" + address + "]";
@@ -98,13 +94,12 @@ std::optional<int> ViewPort(const ViewArguments& arguments) {
 
 ReplayViews::ReplayViews(const ViewArguments& arguments, const RgbdDecoder& decoder,
                          const Configuration& configuration, int max_frames)
-    : collector_(NumFrames(decoder, max_frames), decoder.calibration().distortion,
-                 AxesOptions(configuration)) {
+    : collector_(NumFrames(decoder, max_frames), decoder.calibration().distortion) {
   const Calibration& calibration = decoder.calibration();
   if (!arguments.overlay.empty()) {
     video_ = std::make_unique<OverlayVideo>(arguments.overlay, FrameRate(decoder.index().entries),
                                             calibration.camera.width, calibration.camera.height,
-                                            calibration.distortion, AxesOptions(configuration));
+                                            calibration.distortion);
   }
   const std::optional<int> port = ViewPort(arguments);
   if (!port) return;
@@ -112,7 +107,6 @@ ReplayViews::ReplayViews(const ViewArguments& arguments, const RgbdDecoder& deco
   options.num_frames = NumFrames(decoder, max_frames);
   options.can_pause = !configuration.odometry.snapshots.realtime;
   options.distortion = calibration.distortion;
-  options.axes = AxesOptions(configuration);
   StartLive(arguments.address, *port, decoder, options);
 }
 

@@ -53,7 +53,7 @@ void LiveRun::Show(const TrackedImage& tracked) {
     auto view = std::make_shared<FrameView>();
     view->frame = static_cast<int>(tracked.result.id);
     view->jpeg = EncodeThumbnail(tracked.image.gray);
-    view->features = TrackedFeatures(tracked, options_.distortion, options_.axes);
+    view->features = TrackedFeatures(tracked, options_.distortion);
     view_time_ = now;
     const std::lock_guard<std::mutex> lock(mutex_);
     view_ = std::move(view);
@@ -61,7 +61,7 @@ void LiveRun::Show(const TrackedImage& tracked) {
   }
   const bool is_new = &tracked.map != shown_map_ || tracked.map.newest_keyframe != shown_keyframe_;
   if (is_new && (is_paused || now - map_time_ >= kMapInterval)) {
-    auto map = std::make_shared<ReportMap>(ViewedMap(tracked.map, options_.axes));
+    auto map = std::make_shared<ReportMap>(ViewedMap(tracked.map));
     map_time_ = now;
     shown_map_ = &tracked.map;
     shown_keyframe_ = tracked.map.newest_keyframe;

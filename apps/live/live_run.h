@@ -16,7 +16,6 @@
 #include "msc_vo/odometry/tracking_observer.h"
 #include "msc_vo/report/frame_view.h"
 #include "msc_vo/report/report.h"
-#include "msc_vo/structure/scene_axes.h"
 
 namespace msc_vo {
 
@@ -25,7 +24,6 @@ struct LiveRunOptions {
   int num_frames = 0;         ///< of the sequence
   bool can_pause = true;      ///< false in real time
   LensDistortion distortion;  ///< of the images
-  SceneAxesOptions axes;
   /// A paused run goes on if nobody has asked for data for so long.
   std::chrono::milliseconds vanished{90'000};
 };

@@ -76,8 +76,9 @@ OptionTable::OptionTable(const OdometryOptions& values, std::string prefix)
 // The options of the table, with their names in Python. Pointers are into `values_`.
 std::vector<Option> OptionTable::List() const {
   std::vector<Option> list;
-  for (Option& option : ListOptions(const_cast<OdometryOptions*>(&values_))) {
-    if (option.path.rfind(prefix_, 0) != 0) continue;
+  auto* values = const_cast<OdometryOptions*>(&values_);
+  for (Option& option :
+       prefix_.empty() ? ListOptions(values) : ListWindowOptions(&values->mapping.window)) {
     option.path.erase(0, prefix_.size());
     list.push_back(std::move(option));
   }

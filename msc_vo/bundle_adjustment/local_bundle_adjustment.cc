@@ -120,7 +120,7 @@ BundleAdjustmentSummary LocalBundleAdjustment(const BundleAdjustmentOptions& opt
 }
 
 bool BundleAdjustmentOptions::IsValid(std::string* error) const {
-  if (!CommonOptionsAreValid(*this, error) || !landmark_noise.IsValid(error)) return false;
+  if (!CommonOptionsAreValid(*this, error)) return false;
   const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
   if (!is_positive(parallel.huber) || !is_positive(perpendicular.huber) ||
       !is_positive(manhattan.huber)) {

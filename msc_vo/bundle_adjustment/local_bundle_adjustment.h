@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/window_data.h"
+#include "msc_vo/factors/chi_square.h"
 
 namespace msc_vo {
 
@@ -18,19 +19,10 @@ struct TermOptions {
   double huber = 2.0;  ///< Huber threshold, in standard deviations of the residual.
 };
 
-/// Estimation of a noise factor per landmark and a depth offset per line from their residuals. The
-/// defaults were chosen by measurement, see docs/lab/noise.md.
+/// Estimation of a noise factor per landmark and a depth offset per line from their residuals.
 struct LandmarkNoiseOptions {
   /// Off by default: covariances are then those of the given sigmas. MapperOptions enables it.
   bool enabled = false;
-  /// Weight of the prior noise factor 1, as a number of residuals: the degrees of freedom of the
-  /// Student distribution of a landmark's residuals.
-  double prior = 2.0;
-  /// Standard deviation, in metres, of the depth error that a line has in all of its observations,
-  /// as at the edge of a door casing.
-  double depth_offset_sigma = 0.005;
-
-  bool IsValid(std::string* error) const;
 };
 
 /// Solver of the nonlinear least-squares problem. All of them minimise the same functors and go to
@@ -45,16 +37,14 @@ enum class BundleAdjustmentSolver {
 
 struct BundleAdjustmentOptions {
   BundleAdjustmentSolver solver = BundleAdjustmentSolver::kBlockSchur;
-  /// The Huber thresholds are square roots of the 95 % chi-square quantile with as many degrees of
-  /// freedom as the term has rows (2 rows: 5.991, 1 row: 3.841).
-  TermOptions point_reprojection{true, 2.448};
-  TermOptions point_depth{true, 1.960};
-  TermOptions line_reprojection{true, 2.448};
-  TermOptions line_depth{true, 2.448};
+  TermOptions point_reprojection{true, kHuberThreshold[2]};
+  TermOptions point_depth{true, kHuberThreshold[1]};
+  TermOptions line_reprojection{true, kHuberThreshold[2]};
+  TermOptions line_depth{true, kHuberThreshold[2]};
   /// Parallel and alignment residuals have two degrees of freedom, perpendicular ones have one.
-  TermOptions parallel{true, 2.448};
-  TermOptions perpendicular{true, 1.960};
-  TermOptions manhattan{true, 2.448};
+  TermOptions parallel{true, kHuberThreshold[2]};
+  TermOptions perpendicular{true, kHuberThreshold[1]};
+  TermOptions manhattan{true, kHuberThreshold[2]};
   /// Prior on the end points of a line along its direction (LineEndpointPrior). Line reprojection
   /// does not constrain that motion, and inconsistent observations would shrink the line until its
   /// direction is arbitrary and its structural terms cause the step to be rejected.
@@ -63,14 +53,14 @@ struct BundleAdjustmentOptions {
   /// docs/lab/bundle_adjustment.md.
   double line_endpoint_prior_sigma = 0.01;
 
-  /// Outlier thresholds: 99 % chi-square quantiles with 1 to 4 degrees of freedom. After the first
-  /// solve, observations are tested with 2 rows without depth, with 3 (points) or 4 (lines) rows
-  /// with depth; perpendicular pairs with 1; parallel pairs and alignments with 2. The second solve
+  /// Outlier thresholds of the squared norm of residuals with 1 to 4 rows. After the first solve,
+  /// observations are tested with 2 rows without depth, with 3 (points) or 4 (lines) rows with
+  /// depth; perpendicular pairs with 1; parallel pairs and alignments with 2. The second solve
   /// excludes outliers.
-  double reject_chi2_1 = 6.635;
-  double reject_chi2_2 = 9.210;
-  double reject_chi2_3 = 11.345;
-  double reject_chi2_4 = 13.277;
+  double reject_chi2_1 = kOutlierChiSquare[1];
+  double reject_chi2_2 = kOutlierChiSquare[2];
+  double reject_chi2_3 = kOutlierChiSquare[3];
+  double reject_chi2_4 = kOutlierChiSquare[4];
 
   /// Noise factors and depth offsets are estimated after each of the two solves.
   LandmarkNoiseOptions landmark_noise;

@@ -103,10 +103,7 @@ struct FrameBuilder::State {
 };
 
 bool FrameBuilderOptions::IsValid(std::string* error) const {
-  if (!points.IsValid(error) || !lines.IsValid(error) || !noise.IsValid(error) ||
-      !line_fit.IsValid(error)) {
-    return false;
-  }
+  if (!points.IsValid(error) || !lines.IsValid(error) || !noise.IsValid(error)) return false;
   if (!(min_depth > 0.0 && max_depth > min_depth)) {
     *error = "depth range: 0 < min_depth < max_depth (metres) must hold";
     return false;

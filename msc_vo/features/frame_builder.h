@@ -25,7 +25,6 @@ struct FrameBuilderOptions {
   LineExtractorOptions lines;
   DepthSensor depth_sensor = DepthSensor::kAuto;
   SensorNoiseOptions noise;
-  LineFitOptions line_fit;
   LineDepthMethod line_depth = LineDepthMethod::kRobustFit;
   double min_depth = 0.2;  ///< metres; depth outside [min_depth, max_depth] is invalid
   double max_depth = 10.0;

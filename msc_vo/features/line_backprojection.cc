@@ -217,12 +217,11 @@ DepthSamples SampleLineDepth(const InverseDepthImage& image, const LensRemap& le
 
 }  // namespace
 
-std::optional<LineDepth> FitDepthAlongLine(const LineFitOptions& options,
-                                           const InverseDepthImage& image, const LensRemap& lens,
+std::optional<LineDepth> FitDepthAlongLine(const InverseDepthImage& image, const LensRemap& lens,
                                            const LineSegment2& segment, const DepthNoise& noise,
                                            uint32_t seed) {
   const DepthSamples samples = SampleLineDepth(image, lens, segment, noise);
-  std::optional<LineDepth> depth = FitLineDepth(options, samples.along, seed);
+  std::optional<LineDepth> depth = FitLineDepth(samples.along, seed);
   if (!depth) return std::nullopt;
   // Effective number of independent samples: n kSpacing / correlation length.
   depth->covariance *= std::max(1.0, noise.correlation_length / kSpacing);

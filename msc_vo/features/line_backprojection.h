@@ -30,8 +30,7 @@ enum class LineDepthMethod {
 /// its own slope, so the sample is the depth of the fold. The covariance includes the correlation
 /// between the noise of neighbouring depth pixels, the error common to all samples, and the
 /// possibility that the line belongs to a nearer surface beside it.
-std::optional<LineDepth> FitDepthAlongLine(const LineFitOptions& options,
-                                           const InverseDepthImage& image, const LensRemap& lens,
+std::optional<LineDepth> FitDepthAlongLine(const InverseDepthImage& image, const LensRemap& lens,
                                            const LineSegment2& segment, const DepthNoise& noise,
                                            uint32_t seed);
 

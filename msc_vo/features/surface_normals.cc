@@ -22,6 +22,8 @@ using Eigen::Vector3d;
 
 // Lengths are pixels at an image width of 640; the reduced image is not wider.
 
+// Distance between normals: 1200 normals.
+constexpr int kGridStep = 16;
 // Length over which the errors of depth are correlated: half of a structured-light sensor's
 // matching window of 9 pixels.
 constexpr double kCorrelationLength = 5.0;
@@ -59,9 +61,7 @@ struct SurfaceNormalEstimator::Window {
 };
 
 bool SurfaceNormalOptions::IsValid(std::string* error) const {
-  if (grid_step < 1) {
-    *error = "normals.grid_step must be at least 1 pixel";
-  } else if (!(min_depth > 0.0 && max_depth > min_depth)) {
+  if (!(min_depth > 0.0 && max_depth > min_depth)) {
     *error = "normals: 0 < min_depth < max_depth (metres) must hold";
   } else if (kMaxArea * max_depth > DepthSums::kMaxSum) {
     *error = FormatText(
@@ -217,7 +217,7 @@ std::vector<SurfaceNormal> SurfaceNormalEstimator::Estimate(const cv::Mat& depth
   const cv::Mat reduced = Reduce(depth);
   Integrate(reduced);
   std::vector<SurfaceNormal> normals;
-  const int step = ScaledLength(options_.grid_step, width_, 1);
+  const int step = ScaledLength(kGridStep, width_, 1);
   for (int y = step / 2; y < height_; y += step) {
     for (int x = step / 2; x < width_; x += step) {
       const double z = reduced.at<float>(y, x);

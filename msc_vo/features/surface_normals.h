@@ -15,7 +15,6 @@
 namespace msc_vo {
 
 struct SurfaceNormalOptions {
-  int grid_step = 16;      ///< pixels between normals at an image width of 640: 1200 normals
   double min_depth = 0.2;  ///< metres; depth outside [min_depth, max_depth] is invalid
   double max_depth = 10.0;
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <random>
-#include <stdexcept>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -17,6 +16,15 @@ namespace {
 // Inverse depth at both end points of the segment, (w_start, w_end).
 using Line = Eigen::Vector2d;
 
+// Largest residual of an inlier, in sigmas of the sample: 99 % quantile of a normal deviate.
+constexpr double kInlierSigmas = 2.576;
+// RANSAC iterations: 40 pairs contain a clean one with 99 % probability at 1/3 inliers.
+constexpr int kMaxIterations = 40;
+// Smallest fraction of inliers among the samples. With fewer, the segment lies on a depth edge,
+// where neither side has the majority.
+constexpr double kMinInlierRatio = 0.5;
+// Smallest number of inliers: two samples determine a line, and the others must agree with it.
+constexpr int kMinInliers = 5;
 // The inlier set of a least-squares line converges in two or three rounds; this limit ends cycles.
 constexpr int kMaxRefits = 10;
 // Smallest distance of two samples on the segment that determine a line.
@@ -37,12 +45,12 @@ struct Score {
   int num_inliers = 0;
 };
 
-Score ScoreOf(const Line& line, const std::vector<LineFitSample>& samples, double threshold) {
+Score ScoreOf(const Line& line, const std::vector<LineFitSample>& samples) {
   Score score;
   for (const LineFitSample& sample : samples) {
     const double r = NormalizedResidual(line, sample);
-    const bool inlier = std::abs(r) <= threshold;
-    score.truncated_cost += inlier ? r * r : threshold * threshold;
+    const bool inlier = std::abs(r) <= kInlierSigmas;
+    score.truncated_cost += inlier ? r * r : kInlierSigmas * kInlierSigmas;
     score.num_inliers += inlier;
   }
   return score;
@@ -69,15 +77,14 @@ struct LeastSquares {
 };
 
 // Weighted least-squares fit to the inliers of `line`.
-std::optional<LeastSquares> Refit(const Line& line, const std::vector<LineFitSample>& samples,
-                                  double threshold) {
+std::optional<LeastSquares> Refit(const Line& line, const std::vector<LineFitSample>& samples) {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   Eigen::Vector2d rhs = Eigen::Vector2d::Zero();
   double s_min = 1e9;
   double s_max = -1e9;
   LeastSquares fit;
   for (const LineFitSample& sample : samples) {
-    if (std::abs(NormalizedResidual(line, sample)) > threshold) continue;
+    if (std::abs(NormalizedResidual(line, sample)) > kInlierSigmas) continue;
     const Eigen::Vector2d a = Eigen::Vector2d(1.0 - sample.s, sample.s) / sample.sigma;
     information += a * a.transpose();
     rhs += a * (sample.inverse_depth / sample.sigma);
@@ -95,19 +102,18 @@ std::optional<LeastSquares> Refit(const Line& line, const std::vector<LineFitSam
 // fit to its inliers.
 class LineRansac {
  public:
-  LineRansac(const std::vector<LineFitSample>& samples, double threshold)
-      : samples_(samples), threshold_(threshold) {}
+  explicit LineRansac(const std::vector<LineFitSample>& samples) : samples_(samples) {}
 
-  std::optional<Line> Run(int max_iterations, uint32_t seed) {
+  std::optional<Line> Run(uint32_t seed) {
     const size_t n = samples_.size();
-    if (n * (n - 1) / 2 <= static_cast<size_t>(max_iterations)) {
+    if (n * (n - 1) / 2 <= static_cast<size_t>(kMaxIterations)) {
       for (size_t i = 0; i < n; ++i) {
         for (size_t j = i + 1; j < n; ++j) Try(i, j);
       }
       return best_;
     }
     std::minstd_rand random(seed % 2147483646u + 1u);  // the state must not be 0
-    for (int iteration = 0; iteration < std::min(max_iterations, pairs_needed_); ++iteration) {
+    for (int iteration = 0; iteration < std::min(kMaxIterations, pairs_needed_); ++iteration) {
       const size_t i = random() % n;
       const size_t j = (i + 1 + random() % (n - 1)) % n;
       Try(i, j);
@@ -119,13 +125,13 @@ class LineRansac {
   void Try(size_t i, size_t j) {
     const std::optional<Line> line = LineThrough(samples_[i], samples_[j]);
     if (!line || !UpdateBest(*line)) return;
-    const auto fit = Refit(*line, samples_, threshold_);
+    const auto fit = Refit(*line, samples_);
     if (fit) UpdateBest(fit->line);
   }
 
   // Returns true if `line` is better than the best one so far.
   bool UpdateBest(const Line& line) {
-    const Score score = ScoreOf(line, samples_, threshold_);
+    const Score score = ScoreOf(line, samples_);
     if (best_ && score.truncated_cost >= best_cost_) return false;
     best_ = line;
     best_cost_ = score.truncated_cost;
@@ -134,7 +140,6 @@ class LineRansac {
   }
 
   const std::vector<LineFitSample>& samples_;
-  double threshold_;
   std::optional<Line> best_;
   double best_cost_ = 0.0;
   int pairs_needed_ = kMaxPairs;
@@ -171,36 +176,17 @@ double DirectionSigma(const PinholeCamera& camera, const LineSegment2& segment,
   return std::sqrt(jacobian.dot(depth.covariance * jacobian)) / d.norm();
 }
 
-bool LineFitOptions::IsValid(std::string* error) const {
-  if (!(inlier_sigmas > 0.0)) {
-    *error = "line_fit.inlier_sigmas must be positive";
-  } else if (max_iterations < 1) {
-    *error = "line_fit.max_iterations must be at least 1";
-  } else if (!(min_inlier_ratio >= 0.0 && min_inlier_ratio <= 1.0)) {
-    *error = "line_fit.min_inlier_ratio must be in [0, 1]";
-  } else if (min_inliers < 2) {
-    *error = "line_fit.min_inliers must be at least 2: a line has two unknowns";
-  } else {
-    return true;
-  }
-  return false;
-}
+std::optional<LineDepth> FitLineDepth(const std::vector<LineFitSample>& samples, uint32_t seed) {
+  if (samples.size() < static_cast<size_t>(kMinInliers)) return std::nullopt;
 
-std::optional<LineDepth> FitLineDepth(const LineFitOptions& options,
-                                      const std::vector<LineFitSample>& samples, uint32_t seed) {
-  std::string error;
-  if (!options.IsValid(&error)) throw std::invalid_argument("FitLineDepth: " + error);
-  if (samples.size() < static_cast<size_t>(options.min_inliers)) return std::nullopt;
-
-  std::optional<Line> line =
-      LineRansac(samples, options.inlier_sigmas).Run(options.max_iterations, seed);
+  std::optional<Line> line = LineRansac(samples).Run(seed);
   std::optional<LeastSquares> fit;
   for (int round = 0; round < kMaxRefits && line; ++round) {
-    fit = Refit(*line, samples, options.inlier_sigmas);
+    fit = Refit(*line, samples);
     if (!fit || fit->line == *line) break;
     line = fit->line;
   }
-  if (!fit || fit->num_inliers < options.min_inliers) return std::nullopt;
+  if (!fit || fit->num_inliers < kMinInliers) return std::nullopt;
 
   LineDepth depth;
   depth.start = fit->line[0];
@@ -209,7 +195,7 @@ std::optional<LineDepth> FitLineDepth(const LineFitOptions& options,
   depth.num_inliers = fit->num_inliers;
   depth.inlier_ratio = static_cast<double>(fit->num_inliers) / samples.size();
   const bool in_front = depth.start > 0.0 && depth.end > 0.0;
-  if (!in_front || depth.inlier_ratio < options.min_inlier_ratio) return std::nullopt;
+  if (!in_front || depth.inlier_ratio < kMinInlierRatio) return std::nullopt;
   return depth;
 }
 

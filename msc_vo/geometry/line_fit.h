@@ -58,19 +58,6 @@ LineSegment3 BackProject(const PinholeCamera& camera, const LineSegment2& segmen
 double DirectionSigma(const PinholeCamera& camera, const LineSegment2& segment,
                       const LineDepth& depth);
 
-struct LineFitOptions {
-  /// Largest residual of an inlier, in sigmas of the sample: 99 % quantile of a normal deviate.
-  double inlier_sigmas = 2.576;
-  /// RANSAC iterations: 40 pairs contain a clean one with 99 % probability at 1/3 inliers.
-  int max_iterations = 40;
-  /// Smallest fraction of inliers among the samples. With fewer, the segment lies on a depth edge,
-  /// where neither side has the majority.
-  double min_inlier_ratio = 0.5;
-  int min_inliers = 5;
-
-  bool IsValid(std::string* error) const;
-};
-
 /// One depth sample along a segment.
 struct LineFitSample {
   double s = 0.0;              ///< parameter on the image segment, 0: start, 1: end
@@ -81,8 +68,7 @@ struct LineFitSample {
 /// Fits the depth of a line to samples: seeded RANSAC over pairs of samples, then iterated weighted
 /// least squares on the inliers (paper: 3D Feature Position Estimation, first step). Deterministic.
 /// Returns std::nullopt if no line has enough inliers or an end point is not in front of the
-/// camera. Throws std::invalid_argument on invalid options.
-std::optional<LineDepth> FitLineDepth(const LineFitOptions& options,
-                                      const std::vector<LineFitSample>& samples, uint32_t seed);
+/// camera.
+std::optional<LineDepth> FitLineDepth(const std::vector<LineFitSample>& samples, uint32_t seed);
 
 }  // namespace msc_vo

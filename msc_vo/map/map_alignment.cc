@@ -9,6 +9,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "msc_vo/factors/chi_square.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/geometry/so3.h"
 
@@ -18,6 +19,11 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+// Standard deviations of a pose that its covariance lacks, because that holds the landmarks for
+// exact: the error of a map within one view. Metres and radians.
+constexpr double kMapSigma = 0.01;
+constexpr double kMapRotationSigma = DegreesToRadians(0.3);
 
 // Tangent vector from `a` to `b` in Rigid3Manifold.
 Vector6 Difference(const Rigid3& b, const Rigid3& a) {
@@ -38,11 +44,10 @@ Rigid3 Mismatch(const FrameInTwoMaps& frame, const Rigid3& a_from_b) {
 }
 
 // Covariance of the mismatch of a frame.
-Matrix6 MismatchCovariance(const MapAlignmentOptions& options, const FrameInTwoMaps& frame) {
+Matrix6 MismatchCovariance(const FrameInTwoMaps& frame) {
   Vector6 map_variance;
-  map_variance << Eigen::Vector3d::Constant(
-      std::pow(DegreesToRadians(options.map_rotation_sigma), 2)),
-      Eigen::Vector3d::Constant(options.map_sigma * options.map_sigma);
+  map_variance << Eigen::Vector3d::Constant(std::pow(kMapRotationSigma, 2)),
+      Eigen::Vector3d::Constant(kMapSigma * kMapSigma);
   Matrix6 covariance = CameraCovariance(frame.cam_from_a, frame.covariance_a) +
                        CameraCovariance(frame.cam_from_b, frame.covariance_b);
   covariance.diagonal() += 2.0 * map_variance;  // both maps
@@ -54,15 +59,14 @@ Vector6 MismatchVector(const FrameInTwoMaps& frame, const Rigid3& a_from_b) {
 }
 
 // Which frames agree with the alignment by frame `chosen`, whose own errors count as well.
-std::vector<bool> FindAgreeing(const MapAlignmentOptions& options,
-                               const std::vector<FrameInTwoMaps>& frames,
+std::vector<bool> FindAgreeing(const std::vector<FrameInTwoMaps>& frames,
                                const std::vector<Matrix6>& covariances, size_t chosen) {
   const Rigid3 a_from_b = frames[chosen].cam_from_a.Inverse() * frames[chosen].cam_from_b;
   std::vector<bool> agreeing;
   for (size_t i = 0; i < frames.size(); ++i) {
     const Matrix6 covariance = covariances[i] + covariances[chosen];
     const Vector6 error = MismatchVector(frames[i], a_from_b);
-    agreeing.push_back(error.dot(covariance.ldlt().solve(error)) < options.reject_chi2_6);
+    agreeing.push_back(error.dot(covariance.ldlt().solve(error)) < kOutlierChiSquare[6]);
   }
   return agreeing;
 }
@@ -100,32 +104,20 @@ void Refine(const std::vector<FrameInTwoMaps>& frames, const std::vector<Matrix6
 
 }  // namespace
 
-bool MapAlignmentOptions::IsValid(std::string* error) const {
-  if (min_frames < 1) {
-    *error = "joining: min_frames must be at least 1";
-  } else if (!(map_sigma > 0.0 && map_rotation_sigma > 0.0 && reject_chi2_6 > 0.0)) {
-    *error = "joining: map_sigma, map_rotation_sigma and reject_chi2_6 must be positive";
-  } else {
-    return true;
-  }
-  return false;
-}
-
-std::optional<MapAlignment> AlignMaps(const MapAlignmentOptions& options,
-                                      const std::vector<FrameInTwoMaps>& frames) {
+std::optional<MapAlignment> AlignMaps(const std::vector<FrameInTwoMaps>& frames) {
   std::vector<Matrix6> covariances;
   for (const FrameInTwoMaps& frame : frames) {
-    covariances.push_back(MismatchCovariance(options, frame));
+    covariances.push_back(MismatchCovariance(frame));
   }
   MapAlignment best;
   for (size_t i = 0; i < frames.size(); ++i) {
-    std::vector<bool> agreeing = FindAgreeing(options, frames, covariances, i);
+    std::vector<bool> agreeing = FindAgreeing(frames, covariances, i);
     if (Count(agreeing) <= Count(best.inliers)) continue;
     best.inliers = std::move(agreeing);
     best.a_from_b = frames[i].cam_from_a.Inverse() * frames[i].cam_from_b;
   }
   const int num_inliers = Count(best.inliers);
-  if (num_inliers < options.min_frames || 2 * num_inliers <= static_cast<int>(frames.size())) {
+  if (num_inliers < kMinAlignedFrames || 2 * num_inliers <= static_cast<int>(frames.size())) {
     return std::nullopt;
   }
   Refine(frames, covariances, &best);

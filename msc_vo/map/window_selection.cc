@@ -17,6 +17,9 @@ namespace {
 
 // Metres; the shortest segment whose direction a sensor of 1 mm resolution can determine.
 constexpr double kMinLineLength = 0.01;
+// Smallest number of landmarks that a keyframe of the window shares with the current one; fewer
+// would link its pose too weakly.
+constexpr int kMinShared = 10;
 
 // The landmarks that the window's keyframes observe, by id; counts their observers.
 template <typename L>
@@ -43,7 +46,7 @@ std::set<KeyframeId> SelectKeyframes(const WindowSelectionOptions& options, cons
   std::set<KeyframeId> window = {keyframe};
   for (const Map::Covisible& covisible : map.FindCovisible(keyframe)) {
     if (static_cast<int>(window.size()) >= options.max_keyframes) break;
-    if (covisible.num_shared >= options.min_shared) window.insert(covisible.keyframe);
+    if (covisible.num_shared >= kMinShared) window.insert(covisible.keyframe);
   }
   return window;
 }
@@ -56,12 +59,11 @@ int NumShared(const Map& map, KeyframeId a, KeyframeId b) {
 }
 
 // Adds the keyframe before each keyframe of the window in time, if landmarks hardly link the two.
-void AddPredecessors(const WindowSelectionOptions& options, const Map& map,
-                     std::set<KeyframeId>* window) {
+void AddPredecessors(const Map& map, std::set<KeyframeId>* window) {
   for (const KeyframeId id : std::set<KeyframeId>(*window)) {
     const auto* before = map.keyframes().FindUpTo(id - 1);
     if (before == nullptr || window->count(before->first) > 0) continue;
-    if (NumShared(map, id, before->first) < options.min_shared) window->insert(before->first);
+    if (NumShared(map, id, before->first) < kMinShared) window->insert(before->first);
   }
 }
 
@@ -205,7 +207,7 @@ bool WindowSelectionOptions::IsValid(std::string* error) const {
 WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, KeyframeId keyframe,
                         WindowLinks links) {
   std::set<KeyframeId> window = SelectKeyframes(options, map, keyframe);
-  if (links == WindowLinks::kLandmarksAndTime) AddPredecessors(options, map, &window);
+  if (links == WindowLinks::kLandmarksAndTime) AddPredecessors(map, &window);
   return MakeWindow(options, map, window, map.FindKeyframe(keyframe)->frame->camera);
 }
 

@@ -16,8 +16,6 @@ struct WindowSelectionOptions {
   /// Keyframes outside the window that observe its landmarks and are held fixed, most shared
   /// landmarks first. Further ones add cost but little information.
   int max_fixed_keyframes = 10;
-  /// Smallest number of landmarks that a keyframe of the window shares with the current one.
-  int min_shared = 10;
   /// Smallest number of observations of a landmark. One observation adds as many unknowns as
   /// equations, apart from its depth.
   int min_observations = 2;
@@ -28,9 +26,9 @@ struct WindowSelectionOptions {
 /// What makes a keyframe part of a window.
 enum class WindowLinks {
   kLandmarks,
-  /// Also the keyframe before each keyframe of the window, if they share fewer than `min_shared`
-  /// landmarks: measurements of the motion link them where the map does not. The window may then
-  /// exceed `max_keyframes`.
+  /// Also the keyframe before each keyframe of the window, if they share too few landmarks:
+  /// measurements of the motion link them where the map does not. The window may then exceed
+  /// `max_keyframes`.
   kLandmarksAndTime,
 };
 

@@ -13,6 +13,11 @@ namespace msc_vo {
 
 namespace {
 
+// Observations that confirm a landmark: that of a second keyframe.
+constexpr int kMinObservations = 2;
+// Other keyframes that must observe a landmark of a redundant keyframe, as in ORB-SLAM.
+constexpr int kRedundantObservers = 3;
+
 enum class ProbationState { kPending, kPassed, kFailed };
 
 ProbationState Evaluate(const CullingOptions& options, KeyframeId newest,
@@ -22,8 +27,7 @@ ProbationState Evaluate(const CullingOptions& options, KeyframeId newest,
   if (newest - landmark.first_keyframe < options.probation_keyframes)
     return ProbationState::kPending;
   const int num_observations = static_cast<int>(landmark.observations.size());
-  return num_observations >= options.min_observations ? ProbationState::kPassed
-                                                      : ProbationState::kFailed;
+  return num_observations >= kMinObservations ? ProbationState::kPassed : ProbationState::kFailed;
 }
 
 template <typename L>
@@ -46,14 +50,14 @@ bool IsAsFine(const LineFeature& /*other*/, const LineFeature& /*feature*/) { re
 
 // Whether enough other keyframes observe the landmark of a feature as finely.
 template <typename L>
-bool IsCovered(const CullingOptions& options, const KeyframeIndex& keyframes,
-               const Keyframe& keyframe, const L& landmark, const typename L::Feature& feature) {
+bool IsCovered(const KeyframeIndex& keyframes, const Keyframe& keyframe, const L& landmark,
+               const typename L::Feature& feature) {
   int observers = 0;
   for (const Observation& observation : landmark.observations) {
     if (observation.keyframe == keyframe.id) continue;
     const Frame& other = *keyframes.Find(observation.keyframe)->frame;
     if (!IsAsFine(FeaturesOf<L>(other)[observation.feature], feature)) continue;
-    if (++observers >= options.redundant_observers) return true;
+    if (++observers >= kRedundantObservers) return true;
   }
   return false;
 }
@@ -82,7 +86,7 @@ bool IsRedundant(const CullingOptions& options, const Map& map, const KeyframeIn
     const std::vector<LandmarkId>& slots = SlotsOf<L>(keyframe);
     for (size_t i = 0; i < slots.size() && num_uncovered < allowed; ++i) {
       if (slots[i] == kNoId) continue;
-      num_uncovered += !IsCovered(options, keyframes, keyframe, *map.Find<L>(slots[i]),
+      num_uncovered += !IsCovered(keyframes, keyframe, *map.Find<L>(slots[i]),
                                   FeaturesOf<L>(*keyframe.frame)[i]);
     }
   });
@@ -92,8 +96,8 @@ bool IsRedundant(const CullingOptions& options, const Map& map, const KeyframeIn
 }  // namespace
 
 bool CullingOptions::IsValid(std::string* error) const {
-  if (probation_keyframes < 1 || min_observations < 1 || redundant_observers < 1) {
-    *error = "culling: probation_keyframes, min_observations and redundant_observers must be >= 1";
+  if (probation_keyframes < 1) {
+    *error = "culling: probation_keyframes must be at least 1";
   } else if (!(min_found_ratio >= 0.0 && min_found_ratio <= 1.0)) {
     *error = "culling: min_found_ratio must be in [0, 1]";
   } else if (!(redundant_ratio > 0.0 && redundant_ratio <= 1.0)) {

@@ -12,16 +12,14 @@ namespace msc_vo {
 
 struct CullingOptions {
   /// Number of keyframes after its creation during which a landmark is on probation. A landmark
-  /// that has fewer than min_observations observations by then is removed.
+  /// that one keyframe alone observes by then is removed.
   int probation_keyframes = 2;
-  int min_observations = 2;
   /// Smallest ratio of the frames that matched a landmark on probation to those in which it was
   /// predicted to be visible.
   double min_found_ratio = 0.25;
-  /// A keyframe is redundant if more than this fraction of its landmarks is observed by at least
-  /// redundant_observers other keyframes, points at most one pyramid level coarser.
+  /// A keyframe is redundant if more than this fraction of its landmarks is observed by three other
+  /// keyframes, points at most one pyramid level coarser.
   double redundant_ratio = 0.9;
-  int redundant_observers = 3;
 
   bool IsValid(std::string* error) const;
 };

@@ -17,8 +17,6 @@ namespace msc_vo {
 /// observations, and joins submaps.
 class KeyframeInserter {
  public:
-  explicit KeyframeInserter(const MapAlignmentOptions& joining) : joiner_(joining) {}
-
   /// The newest keyframe of the current submap; kNoId if it is empty.
   KeyframeId newest() const { return newest_; }
 

@@ -44,7 +44,7 @@ void FuseInto(const FusionOptions& options, KeyframeId source, KeyframeId target
     const L* holder = map->Find<L>(SlotsOf<L>(keyframe)[match.feature]);
     if (holder == nullptr) {
       map->Observe<L>(match.id, target, match.feature);
-    } else if (holder->id != match.id && AreDuplicates(options, keyframe, *landmark, *holder)) {
+    } else if (holder->id != match.id && AreDuplicates(keyframe, *landmark, *holder)) {
       const auto [survivor, duplicate] = SelectSurvivor(*landmark, *holder);
       map->MergeLandmarks<L>(duplicate, survivor);
     }
@@ -57,12 +57,9 @@ bool FusionOptions::IsValid(std::string* error) const {
   if (!point_matcher.IsValid(error) || !line_matcher.IsValid(error)) return false;
   if (max_neighbours < 0) {
     *error = "fusion: max_neighbours must not be negative";
-  } else if (!(radius > 0.0 && max_line_angle > 0.0 && max_line_offset > 0.0)) {
-    *error = "fusion: radius, max_line_angle and max_line_offset must be positive";
-  } else {
-    return true;
+    return false;
   }
-  return false;
+  return true;
 }
 
 void FuseLandmarks(const FusionOptions& options, KeyframeId id, Map* map) {

@@ -11,17 +11,14 @@
 
 namespace msc_vo {
 
+/// Search radius around a projected landmark, pixels at level 0. Both poses are estimated, so that
+/// the landmark's own error remains: about three sigmas of a feature.
+constexpr double kFusionRadius = 3.0;
+
 struct FusionOptions {
   PointMatcherOptions point_matcher;
   LineMatcherOptions line_matcher;
   int max_neighbours = 10;  ///< covisible keyframes that are searched; the size of the window
-  /// Search radius around a projected landmark, pixels at level 0. Both poses are estimated, so
-  /// that the landmark's own error remains: about three sigmas of a feature.
-  double radius = 3.0;
-  /// Two line landmarks are duplicates if the angle between them (degrees) and the distance of each
-  /// midpoint from the other line, relative to the distance from the camera, are below these.
-  double max_line_angle = 5.0;
-  double max_line_offset = 0.02;
 
   bool IsValid(std::string* error) const;
 };

@@ -11,6 +11,11 @@ namespace msc_vo {
 
 namespace {
 
+// Two lines are duplicates if the angle between them (radians) and the distance of each midpoint
+// from the other line, relative to the distance from the camera, are below these.
+constexpr double kMaxAngle = DegreesToRadians(5.0);
+constexpr double kMaxOffset = 0.02;
+
 std::vector<LineCandidate> LinesOf(const Map& map, const Keyframe& source, const Keyframe& target) {
   std::vector<LineCandidate> candidates;
   for (const LandmarkId id : source.lines) {
@@ -33,22 +38,22 @@ std::vector<LineMatch> MatchForFusion(LandmarkKind<LineLandmark> /*kind*/,
                                       const FusionOptions& options, const Map& map,
                                       const Keyframe& source, const Keyframe& target) {
   return MatchLines(options.line_matcher, *target.frame, LinesOf(map, source, target),
-                    options.radius, {});
+                    kFusionRadius, {});
 }
 
 bool AgreesWithDepth(const Keyframe& /*keyframe*/, int /*feature*/, const LineLandmark& /*line*/) {
   return true;  // the depth of a line has an offset of its own
 }
 
-bool AreDuplicates(const FusionOptions& options, const Keyframe& keyframe,
-                   const LineLandmark& line_a, const LineLandmark& line_b) {
+bool AreDuplicates(const Keyframe& keyframe, const LineLandmark& line_a,
+                   const LineLandmark& line_b) {
   const LineSegment3 &a = line_a.segment, &b = line_b.segment;
-  if (UndirectedAngle(a.Direction(), b.Direction()) > DegreesToRadians(options.max_line_angle)) {
+  if (UndirectedAngle(a.Direction(), b.Direction()) > kMaxAngle) {
     return false;
   }
   const double distance = (a.Midpoint() - keyframe.cam_from_world.OriginInSource()).norm();
   return std::max(a.DistanceToLine(b.Midpoint()), b.DistanceToLine(a.Midpoint())) <
-         options.max_line_offset * distance;
+         kMaxOffset * distance;
 }
 
 }  // namespace msc_vo

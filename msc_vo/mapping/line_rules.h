@@ -21,7 +21,6 @@ std::vector<LineMatch> MatchForFusion(LandmarkKind<LineLandmark> kind, const Fus
 bool AgreesWithDepth(const Keyframe& keyframe, int feature, const LineLandmark& line);
 
 /// Whether two landmarks that a feature of the keyframe was matched with are one.
-bool AreDuplicates(const FusionOptions& options, const Keyframe& keyframe, const LineLandmark& a,
-                   const LineLandmark& b);
+bool AreDuplicates(const Keyframe& keyframe, const LineLandmark& a, const LineLandmark& b);
 
 }  // namespace msc_vo

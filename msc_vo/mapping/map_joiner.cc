@@ -120,7 +120,7 @@ std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
     }
     frames.push_back(frame);
   }
-  const std::optional<MapAlignment> alignment = AlignMaps(options_, frames);
+  const std::optional<MapAlignment> alignment = AlignMaps(frames);
   if (!alignment) return std::nullopt;
   const SubMap& moved = inactive_is_kept ? current : *inactive;
   const SubMap& kept = inactive_is_kept ? *inactive : current;

@@ -33,8 +33,6 @@ struct MapJoin {
 /// Joins the current map with an inactive one when enough keyframes have been found in both.
 class MapJoiner {
  public:
-  explicit MapJoiner(const MapAlignmentOptions& options) : options_(options) {}
-
   /// Adds a keyframe of the current map that was found in an inactive one. `covariance`: of its
   /// pose in the current map.
   void Add(KeyframeId keyframe, const PoseCovariance& covariance,
@@ -59,8 +57,7 @@ class MapJoiner {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, common_keyframes, last_poses, refused] =
-        *this;  // all members, or it does not compile
+    auto& [common_keyframes, last_poses, refused] = *this;  // all members, or it does not compile
     archive(common_keyframes, last_poses, refused);
   }
 
@@ -94,7 +91,6 @@ class MapJoiner {
   // Those that were found in `map`.
   std::vector<CommonKeyframe> CommonKeyframesWith(const Map& map) const;
 
-  MapAlignmentOptions options_;
   std::vector<CommonKeyframe> common_keyframes_;
   std::vector<LastTrackedPose> last_poses_;
   int num_refused_ = 0;

@@ -33,7 +33,6 @@ Mapper::Mapper(const MapperOptions& options)
     : options_(Validated(options)),
       atlas_(options.axes, options.noise),
       calibration_(options.readout_time),
-      inserter_(options.joining),
       care_(options.culling, options.fusion),
       optimizer_(options) {}
 

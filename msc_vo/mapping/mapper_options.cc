@@ -17,8 +17,8 @@ bool MapperOptions::IsValid(std::string* error) const {
     return false;
   }
   return structure.IsValid(error) && fusion.IsValid(error) && selection.IsValid(error) &&
-         noise.IsValid(error) && axes.IsValid(error) && pairs.IsValid(error) &&
-         window.IsValid(error) && culling.IsValid(error) && joining.IsValid(error);
+         noise.IsValid(error) && pairs.IsValid(error) && window.IsValid(error) &&
+         culling.IsValid(error);
 }
 
 }  // namespace msc_vo

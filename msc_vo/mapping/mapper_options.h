@@ -7,7 +7,6 @@
 #include <string>
 
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
-#include "msc_vo/map/map_alignment.h"
 #include "msc_vo/map/window_selection.h"
 #include "msc_vo/mapping/culling.h"
 #include "msc_vo/mapping/landmark_fusion.h"
@@ -45,7 +44,6 @@ struct MapperOptions {
   /// the last window. Chosen by measurement, see docs/lab/bundle_adjustment.md.
   double min_window_interval = 0.12;
   CullingOptions culling;
-  MapAlignmentOptions joining;  ///< of the maps of two segments
   /// Whether focal length, principal point and radial distortion are corrected if the images
   /// contradict them.
   bool self_calibration = true;

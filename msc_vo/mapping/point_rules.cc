@@ -38,7 +38,7 @@ std::vector<PointMatch> MatchForFusion(LandmarkKind<PointLandmark> /*kind*/,
                                        const FusionOptions& options, const Map& map,
                                        const Keyframe& source, const Keyframe& target) {
   return MatchPoints(options.point_matcher, *target.frame, PointsOf(map, source, target),
-                     options.radius, {});
+                     kFusionRadius, {});
 }
 
 // At the 99 % quantile.
@@ -50,8 +50,8 @@ bool AgreesWithDepth(const Keyframe& keyframe, int feature, const PointLandmark&
          std::abs(1.0 / depth - measured.inverse_depth) < 2.576 * measured.inverse_depth_sigma;
 }
 
-bool AreDuplicates(const FusionOptions& /*options*/, const Keyframe& /*keyframe*/,
-                   const PointLandmark& /*a*/, const PointLandmark& /*b*/) {
+bool AreDuplicates(const Keyframe& /*keyframe*/, const PointLandmark& /*a*/,
+                   const PointLandmark& /*b*/) {
   return true;  // both project to the feature, at its depth
 }
 

@@ -21,7 +21,6 @@ std::vector<PointMatch> MatchForFusion(LandmarkKind<PointLandmark> kind,
 bool AgreesWithDepth(const Keyframe& keyframe, int feature, const PointLandmark& point);
 
 /// Whether two landmarks that a feature of the keyframe was matched with are one.
-bool AreDuplicates(const FusionOptions& options, const Keyframe& keyframe, const PointLandmark& a,
-                   const PointLandmark& b);
+bool AreDuplicates(const Keyframe& keyframe, const PointLandmark& a, const PointLandmark& b);
 
 }  // namespace msc_vo

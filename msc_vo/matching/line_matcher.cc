@@ -15,6 +15,11 @@ namespace {
 
 constexpr double kNear = 0.05;        // metres, as for points
 constexpr double kMinVisible = 10.0;  // pixels; one pixel of noise rotates this length by 6 degrees
+// Fraction of the shorter segment that must overlap with the other one.
+constexpr double kMinOverlap = 0.5;
+// Weight of a pixel of distance in the matching cost, in bits of descriptor distance. Along one
+// edge several fragments pass the gates; descriptor and position select among them together.
+constexpr double kBitsPerPixel = 5.0;
 constexpr double kNoMatch = std::numeric_limits<double>::infinity();
 
 // An image segment with its precomputed direction and length.
@@ -44,14 +49,14 @@ std::vector<MeasuredSegment> MeasureCandidates(const std::vector<LineCandidate>&
 
 // Distance, pixels, of the candidate's line to the middle of its overlap with the feature; kNoMatch
 // if the overlap is too short.
-double OverlapDistance(const LineMatcherOptions& options, const MeasuredSegment& candidate,
-                       const MeasuredSegment& feature, const LineSegment2& image) {
+double OverlapDistance(const MeasuredSegment& candidate, const MeasuredSegment& feature,
+                       const LineSegment2& image) {
   const double s = feature.Along(image.start);
   const double e = feature.Along(image.end);
   const double first = std::max(0.0, std::min(s, e));
   const double last = std::min(feature.length, std::max(s, e));
   const double shorter = std::min(feature.length, candidate.length);
-  if (last - first < options.min_overlap * shorter) return kNoMatch;
+  if (last - first < kMinOverlap * shorter) return kNoMatch;
   return candidate.Across(feature.start + 0.5 * (first + last) * feature.direction);
 }
 
@@ -60,12 +65,8 @@ double OverlapDistance(const LineMatcherOptions& options, const MeasuredSegment&
 bool LineMatcherOptions::IsValid(std::string* error) const {
   if (!(max_angle > 0.0 && max_angle <= 90.0)) {
     *error = "line matcher: max_angle must be in (0, 90] degrees";
-  } else if (!(min_overlap > 0.0 && min_overlap <= 1.0)) {
-    *error = "line matcher: min_overlap must be in (0, 1]";
   } else if (max_distance < 0 || max_distance > 256) {
     *error = "line matcher: max_distance must be between 0 and 256 bits";
-  } else if (!(bits_per_pixel >= 0.0)) {
-    *error = "line matcher: bits_per_pixel must not be negative";
   } else {
     return true;
   }
@@ -99,12 +100,11 @@ std::vector<LineMatch> MatchLines(const LineMatcherOptions& options, const Frame
     const MeasuredSegment measured(feature.segment);
     for (size_t j = 0; j < candidates.size(); ++j) {
       if (segments[j].direction.dot(measured.direction) < cos_max_angle) continue;
-      const double distance_px =
-          OverlapDistance(options, segments[j], measured, candidates[j].image);
+      const double distance_px = OverlapDistance(segments[j], measured, candidates[j].image);
       if (distance_px > radius) continue;
       const int distance = HammingDistance(candidates[j].descriptor, feature.descriptor);
       if (distance > options.max_distance) continue;
-      const double cost = distance + options.bits_per_pixel * distance_px;
+      const double cost = distance + kBitsPerPixel * distance_px;
       if (cost < claims[i].cost) claims[i] = {static_cast<int>(j), cost};
     }
   }

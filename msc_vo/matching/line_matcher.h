@@ -16,13 +16,8 @@ struct LineMatcherOptions {
   /// Largest difference of direction in the image, degrees. Segments are directed, with the
   /// brighter region always on the same side, which distinguishes the two edges of a thin bar.
   double max_angle = 8.0;
-  /// Fraction of the shorter segment that must overlap with the other one.
-  double min_overlap = 0.5;
   /// Largest Hamming distance, bits, between LBD descriptors of two observations of one line.
   int max_distance = 80;
-  /// Weight of a pixel of distance in the matching cost, in bits of descriptor distance. Along one
-  /// edge several fragments pass the gates; descriptor and position select among them together.
-  double bits_per_pixel = 5.0;
 
   bool IsValid(std::string* error) const;
 };

@@ -12,6 +12,9 @@ namespace msc_vo {
 namespace {
 
 constexpr int kNoDistance = 257;  // more than the 256 bits of a descriptor
+// Largest difference from the predicted pyramid level, in steps of kPyramidScale: the prediction is
+// rounded, and a corner may be detected on either side.
+constexpr int kMaxLevelDifference = 1;
 
 struct Best {
   int feature = -1;
@@ -31,7 +34,7 @@ Best FindBest(const PointMatcherOptions& options, const Frame& frame,
   const double scaled_radius = radius * std::pow(kPyramidScale, candidate.level);
   frame.grid.VisitNear(frame.points, candidate.pixel, scaled_radius, [&](int index) {
     const PointFeature& feature = frame.points[index];
-    if (std::abs(feature.level - candidate.level) > options.max_level_difference) return;
+    if (std::abs(feature.level - candidate.level) > kMaxLevelDifference) return;
     if (feature.dynamic || (!taken.empty() && taken[index])) return;
     const Best found{index, HammingDistance(candidate.descriptor, feature.descriptor)};
     if (found < best) {
@@ -55,8 +58,6 @@ bool PointMatcherOptions::IsValid(std::string* error) const {
     *error = "point matcher: max_distance must be between 0 and 256 bits";
   } else if (!(max_ratio > 0.0 && max_ratio <= 1.0)) {
     *error = "point matcher: max_ratio must be in (0, 1]";
-  } else if (max_level_difference < 0) {
-    *error = "point matcher: max_level_difference must not be negative";
   } else {
     return true;
   }

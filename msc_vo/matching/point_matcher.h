@@ -19,8 +19,6 @@ struct PointMatcherOptions {
   /// Largest ratio of the best to the second best distance, unless the two are on different levels
   /// (one corner detected at two scales).
   double max_ratio = 0.9;
-  /// Largest difference from the predicted pyramid level, in steps of kPyramidScale.
-  int max_level_difference = 1;
 
   bool IsValid(std::string* error) const;
 };

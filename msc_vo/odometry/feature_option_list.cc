@@ -45,17 +45,6 @@ void ListNoise(SensorNoiseOptions* noise, OptionLister* list) {
             "Initial standard deviation of a segment's end point across the line.");
 }
 
-void ListLineFit(LineFitOptions* fit, OptionLister* list) {
-  list->Add("inlier_sigmas", &fit->inlier_sigmas, {0.01, 100, "sigmas"},
-            "Largest residual of a depth sample that is an inlier.");
-  list->Add("max_iterations", &fit->max_iterations, {1, 10000, "iterations"},
-            "Largest number of RANSAC iterations.");
-  list->Add("min_inlier_ratio", &fit->min_inlier_ratio, {0, 1},
-            "Smallest ratio of inliers of a line with depth.");
-  list->Add("min_inliers", &fit->min_inliers, {2, 10000, "samples"},
-            "Smallest number of inliers of a line with depth.");
-}
-
 }  // namespace
 
 void ListFeatures(FrameBuilderOptions* features, OptionLister* list) {
@@ -77,7 +66,6 @@ void ListFeatures(FrameBuilderOptions* features, OptionLister* list) {
   list->Section("points", &features->points, ListPoints);
   list->Section("lines", &features->lines, ListLines);
   list->Section("noise", &features->noise, ListNoise);
-  list->Section("line_fit", &features->line_fit, ListLineFit);
 }
 
 }  // namespace msc_vo

@@ -39,13 +39,6 @@ void ShareLosses(OdometryOptions* options) {
   pose.reject_chi2_2 = window.reject_chi2_2;
   pose.reject_chi2_3 = window.reject_chi2_3;
   pose.reject_chi2_4 = window.reject_chi2_4;
-  ManhattanAxesOptions& axes = options->mapping.axes.refinement;
-  axes.huber = window.manhattan.huber;
-  axes.reject_chi2_2 = window.reject_chi2_2;
-}
-
-void ShareRelations(OdometryOptions* options) {
-  options->mapping.structure.max_partners = options->mapping.pairs.max_partners;
 }
 
 }  // namespace
@@ -84,14 +77,12 @@ OdometryOptions EffectiveOptions(OdometryOptions options) {
   ApplyMode(&options);
   ShareMatchers(&options);
   ShareLosses(&options);
-  ShareRelations(&options);
   return options;
 }
 
 SurfaceNormalOptions NormalOptions(const OdometryOptions& options) {
   constexpr double kMaxDepth = 25.0;  // metres; sums of larger depths overflow
   SurfaceNormalOptions normals;
-  normals.grid_step = options.normal_grid_step;
   normals.min_depth = options.features.min_depth;
   normals.max_depth = std::min(options.features.max_depth, kMaxDepth);
   return normals;

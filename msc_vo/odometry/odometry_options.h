@@ -40,7 +40,6 @@ struct OdometryOptions {
   /// Seconds after which the pose of a frame is estimated again, in the map as optimised since; 0:
   /// never. A pose that pose factors took part in remains.
   double pose_refinement_delay = 5.0;
-  int normal_grid_step = 16;  ///< pixels between surface normals at an image width of 640
   TrackerOptions tracking;
   MapperOptions mapping;
   SnapshotOptions snapshots;
@@ -51,10 +50,8 @@ struct OdometryOptions {
 /// The options in effect. Sets the fields that the mode determines, and the fields of a component
 /// that must agree with those of another one:
 /// - matchers of landmark fusion: those of tracking;
-/// - loss functions and chi-square thresholds of pose optimisation and of the refinement of
-///   Manhattan axes: those of local bundle adjustment;
-/// - thresholds of the relations of lines in a frame, and the deviation of lines from Manhattan
-///   axes: those of the pairs of the map.
+/// - terms, loss functions and chi-square thresholds of pose optimisation: those of local bundle
+///   adjustment.
 OdometryOptions EffectiveOptions(OdometryOptions options);
 
 /// Options of the surface normals: their depth range is that of the features, up to 25 metres.

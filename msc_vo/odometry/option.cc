@@ -73,9 +73,6 @@ std::vector<Option> ListOptions(OdometryOptions* options) {
   OptionLister list;
   ListGeneral(options, &list);
   list.Section("features", &options->features, ListFeatures);
-  list.Add("normals.grid_step", &options->normal_grid_step, {8, 1000, "pixels"},
-           "Distance between surface normals, which Manhattan axes are estimated from, at an image "
-           "width of 640.");
   list.Add(
       "tracking.pose_refinement_delay", &options->pose_refinement_delay, {0, 60, "seconds"},
       "Time after which the pose of a frame is estimated again, in the map as optimised since, "

@@ -47,7 +47,7 @@ struct Option {
   using Value = std::variant<bool*, int*, double*, std::string*, std::optional<int>*,
                              std::optional<double>*, NumberList, Choice>;
 
-  std::string path;  ///< name with its sections: "tracking.pose.num_rounds"
+  std::string path;  ///< name with its sections: "features.points.num_levels"
   Value value;
   std::optional<Range> range;  ///< every number has one
   std::string help;            ///< one or two sentences
@@ -65,6 +65,11 @@ std::optional<double> NumberOf(const Option& option);
 /// defines their names, ranges and help; OdometryOptions::IsValid() and all readers and writers
 /// iterate over it. Fields that EffectiveOptions() derives from others are not listed.
 std::vector<Option> ListOptions(OdometryOptions* options);
+
+/// The options of local bundle adjustment as a window file holds them: those of ListOptions(),
+/// under the same names, and the thresholds and sigmas of BundleAdjustmentOptions that are not
+/// among them, because a run leaves them at their defaults.
+std::vector<Option> ListWindowOptions(BundleAdjustmentOptions* window);
 
 /// Returns whether every number is in its range; otherwise `error` names the option, its value and
 /// the range: "features.points.num_points = -1 must be from 0 to 20000 points".

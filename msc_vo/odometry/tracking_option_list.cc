@@ -12,47 +12,22 @@ void ListPointMatcher(PointMatcherOptions* matcher, OptionLister* list) {
             "Largest descriptor distance of a match, in tracking and in fusion.");
   list->Add("max_ratio", &matcher->max_ratio, {0.001, 1},
             "Largest ratio of the best to the second best descriptor distance.");
-  list->Add("max_level_difference", &matcher->max_level_difference, {0, 32, "levels"},
-            "Largest difference from the predicted pyramid level.");
 }
 
 void ListLineMatcher(LineMatcherOptions* matcher, OptionLister* list) {
   list->Add("max_angle", &matcher->max_angle, {0.01, 90, "degrees"},
             "Largest difference of direction in the image, in tracking and in fusion.");
-  list->Add("min_overlap", &matcher->min_overlap, {0.001, 1},
-            "Smallest overlap, as a fraction of the shorter segment.");
   list->Add("max_distance", &matcher->max_distance, {0, 256, "bits"},
             "Largest descriptor distance of a match.");
-  list->Add("bits_per_pixel", &matcher->bits_per_pixel, {0, 1000, "bits/pixel"},
-            "Weight of the distance in the image relative to the descriptor distance.");
 }
 
 void ListConsensus(CellConsensusOptions* consensus, OptionLister* list) {
   list->Add(
       "enabled", &consensus->enabled,
       "Reject dynamic objects by cell consensus, and leave features in free space out of the map.");
-  list->Add("columns", &consensus->columns, {1, 64, "cells"}, "Columns of the image grid.");
-  list->Add("rows", &consensus->rows, {1, 64, "cells"}, "Rows of the image grid.");
-  list->Add("reject_chi2_6", &consensus->reject_chi2_6, {0.001, 10000},
-            "Chi-square with 6 degrees of freedom, of the inflated sigmas, above which a cell "
-            "contradicts a pose.");
-  list->Add("unconfirmed_weight", &consensus->unconfirmed_weight, {1e-6, 1},
-            "Weight of a cell without landmarks that are confirmed static.");
-  list->Add("min_cells", &consensus->min_cells, {0, 4096, "cells"},
-            "Number of cells by which another pose must be better to replace the estimate.");
 }
 
 void ListPose(PoseOptions* pose, OptionLister* list) {
-  list->Add("num_rounds", &pose->num_rounds, {1, 100, "rounds"},
-            "Rounds of optimisation and classification of all matches.");
-  list->Add("num_robust_rounds", &pose->num_robust_rounds, {0, 100, "rounds"},
-            "Number of these rounds, from the first one, with a robust loss.");
-  list->Add("iterations_per_round", &pose->iterations_per_round, {1, 100, "iterations"},
-            "Largest number of iterations of a round.");
-  list->Add(
-      "max_frame_noise", &pose->max_frame_noise, {1, 100},
-      "Largest factor by which the sigmas of a frame are inflated for the chi-square tests, of "
-      "single matches and of cells.");
   list->Section("consensus", &pose->consensus, ListConsensus);
 }
 
@@ -66,22 +41,11 @@ void ListKeyframePolicy(KeyframePolicyOptions* policy, OptionLister* list) {
       .MakeBasic("Decrease for more keyframes while the camera is at rest.");
   list->Add("min_interval", &policy->min_interval, {0, 1, "seconds"},
             "Shortest time between keyframes.");
-  list->Add("close_relative_sigma", &policy->close_relative_sigma, {1e-6, 10},
-            "A point is close if the standard deviation of its depth is below this fraction of the "
-            "depth.");
 }
 
 void ListRelocalizer(RelocalizerOptions* relocalizer, OptionLister* list) {
-  list->Add("max_distance", &relocalizer->max_distance, {0, 256, "bits"},
-            "Largest descriptor distance of a match.");
-  list->Add("max_ratio", &relocalizer->max_ratio, {0.001, 1},
-            "Largest ratio of the best to the second best descriptor distance.");
-  list->Add("max_iterations", &relocalizer->max_iterations, {1, 10000, "iterations"},
-            "Triples of points that a search tries, and half as many of a line and a point.");
   list->Add("min_inliers", &relocalizer->min_inliers, {3, 10000, "matches"},
             "Smallest number of inliers of a pose; a line counts as two points.");
-  list->Add("max_angle", &relocalizer->max_angle, {0.01, 45, "degrees"},
-            "Largest reprojection error of an inlier, as an angle.");
 }
 
 void ListSegments(SegmentOptions* segments, OptionLister* list) {
@@ -93,12 +57,6 @@ void ListSegments(SegmentOptions* segments, OptionLister* list) {
       "max_search", &segments->max_search, {0, 3600, "seconds"},
       "Longest time for which the map is searched, even if not all of its keyframes have been "
       "tried.");
-  list->Add(
-      "search_keyframes", &segments->search_keyframes, {1, 100, "keyframes"},
-      "Keyframes of older segments that are tried per 1/30 s, to join the maps; at least one per "
-      "tracked frame.");
-  list->Add("search_interval", &segments->search_interval, {0, 3600, "seconds"},
-            "Shortest time between two frames that are found in the map of an older segment.");
 }
 
 void ListStatus(TrackerOptions* tracking, OptionLister* list) {

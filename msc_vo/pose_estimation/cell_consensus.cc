@@ -17,6 +17,22 @@ namespace msc_vo {
 
 namespace {
 
+// Cells of the image; 53 pixels wide and high at 640x480. Chosen by measurement, see
+// docs/lab/dynamic_objects.md.
+constexpr int kColumns = 12;
+constexpr int kRows = 9;
+// Squared sigmas above which a cell contradicts a pose: the 99.9 % quantile of chi-square with six
+// degrees of freedom, because the cell's own best pose absorbs six. The sigmas are inflated for it,
+// see PoseOptions::max_frame_noise.
+constexpr double kRejectChiSquare = 22.458;
+// Weight of a cell without matches that are confirmed static, relative to one with confirmed
+// matches only. Landmarks of a dynamic object are rarely confirmed. The whole grid weighs as much
+// as one confirmed cell: unconfirmed landmarks cannot outvote one confirmed cell.
+constexpr double kUnconfirmedWeight = 0.01;
+// Cells by which another pose must be better to replace the estimate. Chosen by measurement, see
+// docs/lab/dynamic_objects.md.
+constexpr double kMinCells = 1.0;
+
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
@@ -92,7 +108,7 @@ CellModels MakeModels(const PoseOptions& options, const PoseData& data, int num_
   for (CellModel& model : models) {
     if (model.num_matches == 0.0) continue;
     const double confirmed = model.num_confirmed / model.num_matches;
-    model.weight = confirmed + (1.0 - confirmed) * options.consensus.unconfirmed_weight;
+    model.weight = confirmed + (1.0 - confirmed) * kUnconfirmedWeight;
     model.own_decrease = OwnDecrease(model.equations);
   }
   return models;
@@ -222,18 +238,19 @@ std::vector<Step> TrySteps(const ImageGrid& grid, const CellModels& models, doub
 
 }  // namespace
 
+ImageGrid ConsensusGrid(const PinholeCamera& camera) { return {kColumns, kRows, camera}; }
+
 std::optional<CellConsensus> FindCellConsensus(const PoseOptions& options, const PoseData& data,
                                                const Rigid3& pose) {
   constexpr int kRounds = 3;  // of linearisation
-  const double min_cells = options.consensus.min_cells;
-  double limit = options.consensus.reject_chi2_6;
-  const ImageGrid grid(options.consensus.columns, options.consensus.rows, data.camera);
+  double limit = kRejectChiSquare;
+  const ImageGrid grid = ConsensusGrid(data.camera);
   const MatchCells cells = FindCells(grid, data);
   CellModels models = MakeModels(options, data, grid.size(), cells, pose);
   const Step given = MakeStep(models, Vector6::Zero());
   // A search is pointless if fewer cells contradict the pose, even with the sigmas as they are,
   // than another pose must win.
-  if (ContradictingWeight(models, given, limit) <= min_cells) return std::nullopt;
+  if (ContradictingWeight(models, given, limit) <= kMinCells) return std::nullopt;
   const CellModels given_models = models;
   double inflation = options.max_frame_noise * options.max_frame_noise;
   Rigid3 best = pose;
@@ -245,13 +262,13 @@ std::optional<CellConsensus> FindCellConsensus(const PoseOptions& options, const
     for (size_t i = 0; i < steps.size() && inflation > 1.0; ++i) {
       inflation = std::min(inflation, VarianceInflation(models, steps[i]));
     }
-    limit = inflation * options.consensus.reject_chi2_6;
+    limit = inflation * kRejectChiSquare;
     step = *std::min_element(steps.begin(), steps.end(), [&](const Step& a, const Step& b) {
       return Score(models, a, limit) < Score(models, b, limit);
     });
     const double gain = Score(given_models, given, limit) - Score(models, step, limit);
     // Half of the required improvement is enough to go on: relinearisation may yield the rest.
-    const double required = round + 1 < kRounds ? 0.5 * min_cells : min_cells;
+    const double required = round + 1 < kRounds ? 0.5 * kMinCells : kMinCells;
     if (!(gain > required * limit)) return std::nullopt;
     const Rigid3 from = best;
     Rigid3Manifold().Plus(from.params.data(), step.d.data(), best.params.data());

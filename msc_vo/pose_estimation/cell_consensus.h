@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "msc_vo/pose_estimation/image_grid.h"
 #include "msc_vo/pose_estimation/pose_optimization.h"
 
 namespace msc_vo {
@@ -25,10 +26,13 @@ struct CellConsensus {
   std::vector<bool> dynamic_cells;  ///< one per cell of the ImageGrid: contradicts the pose
 };
 
+/// The cells of an image of the camera.
+ImageGrid ConsensusGrid(const PinholeCamera& camera);
+
 /// Searches for a better pose in the neighbourhood of `pose` where the linearised equations are
-/// valid. Returns std::nullopt unless the score of the best pose found improves by the limits of
-/// `options.consensus.min_cells` cells. The limit of a cell is inflated by the variance that the
-/// cells have in common, up to the square of `options.max_frame_noise`. Deterministic.
+/// valid. Returns std::nullopt unless the score of the best pose found improves by the limit of one
+/// cell. The limit of a cell is inflated by the variance that the cells have in common, up to the
+/// square of `options.max_frame_noise`. Deterministic.
 std::optional<CellConsensus> FindCellConsensus(const PoseOptions& options, const PoseData& data,
                                                const Rigid3& pose);
 

@@ -7,13 +7,16 @@
 #include <cstddef>
 
 #include "msc_vo/geometry/angles.h"
-#include "msc_vo/pose_estimation/relocalizer.h"
 
 namespace msc_vo {
 
 namespace {
 
 constexpr int kNoDistance = 257;  // more than the 256 bits of a descriptor
+// Bits between descriptors; stricter than for matching by projection, where the predicted position
+// excludes most wrong candidates.
+constexpr int kMaxDistance = 64;
+constexpr double kMaxRatio = 0.8;  // best over second best descriptor distance, of points
 
 // Lines with a less certain direction do not determine a rotation.
 constexpr double kMaxDirectionSigma = DegreesToRadians(5.0);
@@ -39,7 +42,7 @@ std::vector<int> LongestLines(const Frame& frame) {
 
 }  // namespace
 
-std::vector<PointMatch> MatchPointDescriptors(const RelocalizerOptions& options, const Frame& frame,
+std::vector<PointMatch> MatchPointDescriptors(const Frame& frame,
                                               const std::vector<PointCandidate>& candidates) {
   std::vector<PointMatch> matches;
   for (size_t feature = 0; feature < frame.points.size(); ++feature) {
@@ -57,14 +60,14 @@ std::vector<PointMatch> MatchPointDescriptors(const RelocalizerOptions& options,
         second_distance = distance;
       }
     }
-    if (best == nullptr || best_distance > options.max_distance) continue;
-    if (best_distance > options.max_ratio * second_distance) continue;
+    if (best == nullptr || best_distance > kMaxDistance) continue;
+    if (best_distance > kMaxRatio * second_distance) continue;
     matches.push_back({static_cast<int>(feature), best->id, best->position, true});
   }
   return matches;
 }
 
-std::vector<LinePair> MatchLineDescriptors(const RelocalizerOptions& options, const Frame& frame,
+std::vector<LinePair> MatchLineDescriptors(const Frame& frame,
                                            const std::vector<LineCandidate>& candidates) {
   std::vector<LinePair> pairs;
   for (const int feature : LongestLines(frame)) {
@@ -72,7 +75,7 @@ std::vector<LinePair> MatchLineDescriptors(const RelocalizerOptions& options, co
     for (size_t i = 0; i < candidates.size(); ++i) {
       const int distance =
           HammingDistance(candidates[i].descriptor, frame.lines[feature].descriptor);
-      if (distance > options.max_distance) continue;
+      if (distance > kMaxDistance) continue;
       nearest.push_back({feature, static_cast<int>(i), frame.LineInCamera(feature),
                          candidates[i].segment, distance});
     }

@@ -9,8 +9,6 @@
 
 namespace msc_vo {
 
-struct RelocalizerOptions;
-
 /// A line of a frame that may be a line of the map, both measured in 3-D.
 struct LinePair {
   int feature = 0;
@@ -22,12 +20,12 @@ struct LinePair {
 
 /// Matches every point of `frame` that has a depth with the candidate nearest by descriptor,
 /// unless the second nearest is about as near.
-std::vector<PointMatch> MatchPointDescriptors(const RelocalizerOptions& options, const Frame& frame,
+std::vector<PointMatch> MatchPointDescriptors(const Frame& frame,
                                               const std::vector<PointCandidate>& candidates);
 
 /// Pairs the longest lines of `frame` whose direction is known in 3-D with the few candidates that
 /// are nearest by descriptor: along one edge of a box, several lines look alike.
-std::vector<LinePair> MatchLineDescriptors(const RelocalizerOptions& options, const Frame& frame,
+std::vector<LinePair> MatchLineDescriptors(const Frame& frame,
                                            const std::vector<LineCandidate>& candidates);
 
 }  // namespace msc_vo

@@ -79,9 +79,8 @@ bool SolveRounds(const PoseOptions& options, const PoseData& data, PoseInlierMas
 }
 
 // Marks the matches in dynamic cells.
-PoseData MarkDynamicMatches(const PoseOptions& options, const PoseData& data,
-                            const std::vector<bool>& dynamic_cells) {
-  const ImageGrid grid(options.consensus.columns, options.consensus.rows, data.camera);
+PoseData MarkDynamicMatches(const PoseData& data, const std::vector<bool>& dynamic_cells) {
+  const ImageGrid grid = ConsensusGrid(data.camera);
   PoseData marked = data;
   for (PoseData::Point& point : marked.points) {
     point.dynamic = dynamic_cells[grid.CellOf(point.pixel)];
@@ -96,7 +95,7 @@ std::vector<bool> RejectDynamicObjects(const PoseOptions& options, PoseData* dat
                                        PoseInlierMask* mask, Rigid3* pose) {
   const std::optional<CellConsensus> consensus = FindCellConsensus(options, *data, *pose);
   if (!consensus) return {};
-  PoseData marked = MarkDynamicMatches(options, *data, consensus->dynamic_cells);
+  PoseData marked = MarkDynamicMatches(*data, consensus->dynamic_cells);
   Rigid3 static_pose = consensus->cam_from_world;
   PoseInlierMask static_mask = ClassifyMatches(options, marked, static_pose);
   if (!SolveRounds(options, marked, &static_mask, &static_pose)) return {};
@@ -131,21 +130,8 @@ void WriteFlags(const PoseInlierMask& mask, PoseData* data, PoseSummary* summary
 
 }  // namespace
 
-bool CellConsensusOptions::IsValid(std::string* error) const {
-  if (columns < 1 || rows < 1) {
-    *error = "consensus: columns and rows must be at least 1";
-  } else if (!(reject_chi2_6 > 0.0) || !(min_cells >= 0.0)) {
-    *error = "consensus: reject_chi2_6 must be positive, min_cells not negative";
-  } else if (!(unconfirmed_weight > 0.0 && unconfirmed_weight <= 1.0)) {
-    *error = "consensus: unconfirmed_weight must be in (0, 1]";
-  } else {
-    return true;
-  }
-  return false;
-}
-
 bool PoseOptions::IsValid(std::string* error) const {
-  if (!CommonOptionsAreValid(*this, error) || !consensus.IsValid(error)) return false;
+  if (!CommonOptionsAreValid(*this, error)) return false;
   if (num_rounds < 1 || num_robust_rounds < 0 || num_robust_rounds > num_rounds) {
     *error = "num_rounds must be at least 1, and num_robust_rounds within [0, num_rounds]";
   } else if (iterations_per_round < 1) {

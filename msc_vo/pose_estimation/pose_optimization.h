@@ -59,34 +59,16 @@ struct PoseData {
 struct CellConsensusOptions {
   /// Without it, features in free space become landmarks, too (MarkDynamicFeatures).
   bool enabled = true;
-  /// Cells of the image; 53 pixels wide and high at 640x480.
-  /// Chosen by measurement, see docs/lab/dynamic_objects.md.
-  int columns = 12;
-  int rows = 9;
-  /// Squared sigmas above which a cell contradicts a pose: the 99.9 % quantile of chi-square with
-  /// six degrees of freedom, because the cell's own best pose absorbs six. The sigmas are inflated
-  /// for it, see PoseOptions::max_frame_noise.
-  double reject_chi2_6 = 22.458;
-  /// Weight of a cell without matches that are confirmed static, relative to one with confirmed
-  /// matches only. Landmarks of a dynamic object are rarely confirmed. The whole grid weighs as
-  /// much as one confirmed cell: unconfirmed landmarks cannot outvote one confirmed cell.
-  double unconfirmed_weight = 0.01;
-  /// Cells by which another pose must be better to replace the estimate.
-  /// Chosen by measurement, see docs/lab/dynamic_objects.md.
-  double min_cells = 1.0;
-
-  bool IsValid(std::string* error) const;
 };
 
 struct PoseOptions {
-  /// Huber thresholds: as in BundleAdjustmentOptions.
-  TermOptions point_reprojection{true, 2.448};
-  TermOptions point_depth{true, 1.960};
-  TermOptions line_reprojection{true, 2.448};
-  TermOptions line_depth{true, 2.448};
-  double reject_chi2_2 = 9.210;  ///< as in BundleAdjustmentOptions
-  double reject_chi2_3 = 11.345;
-  double reject_chi2_4 = 13.277;
+  TermOptions point_reprojection{true, kHuberThreshold[2]};
+  TermOptions point_depth{true, kHuberThreshold[1]};
+  TermOptions line_reprojection{true, kHuberThreshold[2]};
+  TermOptions line_depth{true, kHuberThreshold[2]};
+  double reject_chi2_2 = kOutlierChiSquare[2];  ///< as in BundleAdjustmentOptions
+  double reject_chi2_3 = kOutlierChiSquare[3];
+  double reject_chi2_4 = kOutlierChiSquare[4];
   /// Upper bound of the factor by which the sigmas of a frame are inflated for the chi-square
   /// tests: of single matches as far as the median residual of the points requires it, because a
   /// blurred image measures all its points worse; of cells (CellConsensus) as far as their median

@@ -18,18 +18,11 @@ constexpr double kMaxRival = 0.8;
 }  // namespace
 
 bool RelocalizerOptions::IsValid(std::string* error) const {
-  if (max_distance < 0 || max_distance > 256) {
-    *error = "relocalizer: max_distance must be between 0 and 256 bits";
-  } else if (!(max_ratio > 0.0 && max_ratio <= 1.0)) {
-    *error = "relocalizer: max_ratio must be in (0, 1]";
-  } else if (max_iterations < 1 || min_inliers < 3) {
-    *error = "relocalizer: max_iterations >= 1 and min_inliers >= 3 must hold";
-  } else if (!(max_angle > 0.0 && max_angle <= 45.0)) {
-    *error = "relocalizer: max_angle must be in (0, 45] degrees";
-  } else {
-    return true;
+  if (min_inliers < 3) {
+    *error = "relocalizer: min_inliers must be at least 3";
+    return false;
   }
-  return false;
+  return true;
 }
 
 std::optional<Relocalization> Relocalize(const RelocalizerOptions& options,

@@ -13,18 +13,9 @@
 namespace msc_vo {
 
 struct RelocalizerOptions {
-  /// Bits between descriptors; stricter than for matching by projection, where the predicted
-  /// position excludes most wrong candidates.
-  int max_distance = 64;
-  double max_ratio = 0.8;  ///< best over second best descriptor distance, of points
-  /// Triples of points: with 30 % inliers, 200 contain a clean one with 99.6 % probability.
-  int max_iterations = 200;
   /// Points, and twice the lines, that support a pose: more than chance yields among some hundred
   /// wrong matches.
   int min_inliers = 12;
-  /// Reprojection error of an inlier, degrees: the error of a rotation from two lines or three
-  /// points, whose depths are noisy. 9 pixels at a focal length of 525.
-  double max_angle = 1.0;
 
   bool IsValid(std::string* error) const;
 };

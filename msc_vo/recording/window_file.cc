@@ -3,7 +3,6 @@
 
 #include "msc_vo/recording/window_file.h"
 
-#include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <type_traits>
@@ -28,16 +27,6 @@ constexpr char kPreamble[] =
     "# A window of msc_vo: keyframes, landmarks and their observations, as input or result of a\n"
     "# local bundle adjustment. One record per line; the comment above the records of each kind\n"
     "# names their fields. Numbers are exact. Solve it: msc_vo solve-window THIS_FILE\n";
-
-// Returns the options of a window with their names in a configuration.
-std::vector<Option> ListWindowOptions(Configuration* configuration) {
-  std::vector<Option> options = ListOptions(configuration);
-  const auto is_other = [](const Option& option) {
-    return option.path.rfind("mapping.window.", 0) != 0;
-  };
-  options.erase(std::remove_if(options.begin(), options.end(), is_other), options.end());
-  return options;
-}
 
 // Returns the names of the fields of a kind of record.
 template <typename Record, typename Item>
@@ -72,10 +61,9 @@ class WindowWriter {
 
  private:
   void WriteOptions(const BundleAdjustmentOptions& options) {
-    Configuration configuration;
-    configuration.odometry.mapping.window = options;
-    text_ += "# option NAME VALUE: as in a configuration (msc_vo replay --print-config)\n";
-    for (const Option& option : ListWindowOptions(&configuration)) {
+    BundleAdjustmentOptions written = options;
+    text_ += "# option NAME VALUE: of local bundle adjustment (docs/window_file.md)\n";
+    for (const Option& option : ListWindowOptions(&written)) {
       text_ += std::string(kOptionKeyword) + " " + option.path + " " + FormatOption(option) + "\n";
       ++num_records_;
     }
@@ -101,7 +89,7 @@ class WindowWriter {
 
 class WindowReader {
  public:
-  WindowReader() : options_(ListWindowOptions(&configuration_)) {}
+  WindowReader() : options_(ListWindowOptions(&window_.options)) {}
 
   RecordedWindow Read(const std::string& path) {
     const std::vector<TextLine> lines = ReadTextLines(path);
@@ -115,7 +103,6 @@ class WindowReader {
       lines.back().Fail(
           "the file ends here without an 'end' record: it is truncated; record it again");
     }
-    window_.options = configuration_.odometry.mapping.window;
     return std::move(window_);
   }
 
@@ -207,10 +194,9 @@ class WindowReader {
     ended_ = true;
   }
 
-  Configuration configuration_;
-  std::vector<Option> options_;  // into configuration_
-  std::set<std::string> keys_;   // records and options read so far that may occur only once
   RecordedWindow window_;
+  std::vector<Option> options_;  // into window_
+  std::set<std::string> keys_;   // records and options read so far that may occur only once
   bool ended_ = false;
 };
 

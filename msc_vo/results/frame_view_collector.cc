@@ -30,8 +30,8 @@ std::string EncodeThumbnail(const cv::Mat& gray) {
 }
 
 FrameViewCollector::FrameViewCollector(int num_frames, const LensDistortion& distortion,
-                                       const SceneAxesOptions& axes, const FrameViewLimits& limits)
-    : distortion_(distortion), axes_(axes), limits_(limits) {
+                                       const FrameViewLimits& limits)
+    : distortion_(distortion), limits_(limits) {
   while (num_frames / stride_ > limits.max_spaced) stride_ *= 2;
 }
 
@@ -40,7 +40,7 @@ void FrameViewCollector::Add(const TrackedImage& tracked) {
   const int keyframe = tracked.result.is_keyframe ? num_keyframes_++ : -1;
   if (!IsKept(frame, keyframe)) return;
   FrameView view = {frame, EncodeThumbnail(tracked.image.gray),
-                    TrackedFeatures(tracked, distortion_, axes_)};
+                    TrackedFeatures(tracked, distortion_)};
   num_bytes_ += NumBytes(view);
   entries_[frame] = {std::move(view), keyframe};
   while (num_bytes_ > limits_.max_bytes && Thin()) {

@@ -13,7 +13,6 @@
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/odometry/tracking_observer.h"
 #include "msc_vo/report/frame_view.h"
-#include "msc_vo/structure/scene_axes.h"
 
 namespace msc_vo {
 
@@ -32,7 +31,7 @@ struct FrameViewLimits {
 class FrameViewCollector {
  public:
   /// `num_frames`: expected frames of the run. `distortion`: of the images.
-  FrameViewCollector(int num_frames, const LensDistortion& distortion, const SceneAxesOptions& axes,
+  FrameViewCollector(int num_frames, const LensDistortion& distortion,
                      const FrameViewLimits& limits = {});
 
   void Add(const TrackedImage& tracked);
@@ -43,7 +42,7 @@ class FrameViewCollector {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [distortion, axes, limits, entries, num_bytes, num_keyframes, stride, keyframe_stride] =
+    auto& [distortion, limits, entries, num_bytes, num_keyframes, stride, keyframe_stride] =
         *this;  // all members, or it does not compile
     archive(entries, num_bytes, num_keyframes, stride, keyframe_stride);
   }
@@ -65,7 +64,6 @@ class FrameViewCollector {
   bool Thin();
 
   LensDistortion distortion_;
-  SceneAxesOptions axes_;
   FrameViewLimits limits_;
   std::map<int, Entry> entries_;  // by id of the frame
   size_t num_bytes_ = 0;

@@ -5,28 +5,27 @@
 
 #include <optional>
 
+#include "msc_vo/structure/scene_axes.h"
+
 namespace msc_vo {
 
 namespace {
 
-std::optional<int> AxisIn(const MapSnapshot& snapshot, const SceneAxesOptions& options,
-                          const LineLandmark& line) {
+std::optional<int> AxisIn(const MapSnapshot& snapshot, const LineLandmark& line) {
   if (!snapshot.axes) return std::nullopt;
-  return AxisOfLine(options, *snapshot.axes, line);
+  return AxisOfLine(*snapshot.axes, line);
 }
 
 LineColor ColorOf(const LineFeature& feature, const LineLandmark* landmark,
-                  const MapSnapshot& snapshot, const SceneAxesOptions& options) {
+                  const MapSnapshot& snapshot) {
   if (!feature.depth) return LineColor::kWithoutDepth;
-  const std::optional<int> axis =
-      landmark == nullptr ? std::nullopt : AxisIn(snapshot, options, *landmark);
+  const std::optional<int> axis = landmark == nullptr ? std::nullopt : AxisIn(snapshot, *landmark);
   return axis ? static_cast<LineColor>(*axis) : LineColor::kWithoutAxis;
 }
 
 }  // namespace
 
-ViewedFeatures TrackedFeatures(const TrackedImage& tracked, const LensDistortion& distortion,
-                               const SceneAxesOptions& axes) {
+ViewedFeatures TrackedFeatures(const TrackedImage& tracked, const LensDistortion& distortion) {
   const Frame& frame = tracked.features;
   const auto recorded = [&](const Eigen::Vector2d& pixel) -> Eigen::Vector2f {
     if (distortion.IsZero()) return pixel.cast<float>();
@@ -41,15 +40,15 @@ ViewedFeatures TrackedFeatures(const TrackedImage& tracked, const LensDistortion
     const LineFeature& line = frame.lines[match.feature];
     features.lines.push_back(
         {recorded(line.segment.start), recorded(line.segment.end),
-         ColorOf(line, tracked.map.map.Find<LineLandmark>(match.id), tracked.map, axes)});
+         ColorOf(line, tracked.map.map.Find<LineLandmark>(match.id), tracked.map)});
   }
   return features;
 }
 
-ReportMap ViewedMap(const MapSnapshot& snapshot, const SceneAxesOptions& axes) {
+ReportMap ViewedMap(const MapSnapshot& snapshot) {
   ReportMap map;
   for (const auto& [id, line] : snapshot.map.lines()) {
-    map.lines.push_back({line.segment, AxisIn(snapshot, axes, line).value_or(-1)});
+    map.lines.push_back({line.segment, AxisIn(snapshot, line).value_or(-1)});
   }
   for (const auto& [id, point] : snapshot.map.points()) map.points.push_back(point.position);
   if (snapshot.axes) map.world_from_axes = snapshot.axes->world_from_axes;

@@ -7,16 +7,14 @@
 #include "msc_vo/odometry/tracking_observer.h"
 #include "msc_vo/report/frame_view.h"
 #include "msc_vo/report/report.h"
-#include "msc_vo/structure/scene_axes.h"
 
 namespace msc_vo {
 
 /// The features of a tracked image that were matched with the map, at the pixels of the recorded
 /// image. Lines have the color of the Manhattan axes as known when the frame was tracked.
-ViewedFeatures TrackedFeatures(const TrackedImage& tracked, const LensDistortion& distortion,
-                               const SceneAxesOptions& axes);
+ViewedFeatures TrackedFeatures(const TrackedImage& tracked, const LensDistortion& distortion);
 
 /// The map that a frame was tracked in.
-ReportMap ViewedMap(const MapSnapshot& snapshot, const SceneAxesOptions& axes);
+ReportMap ViewedMap(const MapSnapshot& snapshot);
 
 }  // namespace msc_vo

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "msc_vo/text/format_text.h"
+
 namespace msc_vo {
 
 namespace {
@@ -20,6 +22,10 @@ namespace {
 // Bound of depth residuals in robust standard deviations, against single gross errors (an edge, a
 // mirror).
 constexpr double kMaxResidual = 3.0;
+// Largest weight of the past, in image quadrants: the influence of older windows decays. The
+// relative standard deviation of the estimated variance is sqrt(2 / 400) = 7 %.
+// Chosen by measurement, see docs/lab/self_calibration.md.
+constexpr double kMemory = 400.0;
 // Median of the absolute value of a standard normal variable.
 constexpr double kNormalMedian = 0.6745;
 
@@ -160,14 +166,11 @@ VarianceRatio RatioOfQuadrantSums(const Residuals& residuals) {
 }  // namespace
 
 bool NoiseEstimatorOptions::IsValid(std::string* error) const {
-  if (!(prior > 0.0 && memory >= prior)) {
-    *error = "noise: 0 < prior <= memory must hold";
-  } else if (!(max_scale >= 1.0)) {
-    *error = "noise: max_scale must be at least 1";
-  } else {
-    return true;
+  if (!(prior > 0.0 && prior <= kMemory)) {
+    *error = FormatText("noise: prior must be positive and at most %g", kMemory);
+    return false;
   }
-  return false;
+  return true;
 }
 
 NoiseEstimator::NoiseEstimator(const NoiseEstimatorOptions& options) : options_(options) {
@@ -179,7 +182,7 @@ NoiseEstimator::NoiseEstimator(const NoiseEstimatorOptions& options) : options_(
 }
 
 double NoiseEstimator::Scale(const Variance& variance) const {
-  return std::clamp(std::sqrt(variance.value), 1.0 / options_.max_scale, options_.max_scale);
+  return std::clamp(std::sqrt(variance.value), 1.0 / kMaxScale, kMaxScale);
 }
 
 NoiseScale NoiseEstimator::scale() const {
@@ -203,7 +206,7 @@ void NoiseEstimator::AddEstimate(double variance_ratio, int num_quadrants,
   const double total = variance->weight + num_quadrants;
   variance->value =
       (variance->weight * variance->value + num_quadrants * scale * scale * variance_ratio) / total;
-  variance->weight = std::min(total, options_.memory);
+  variance->weight = std::min(total, kMemory);
 }
 
 void NoiseEstimator::Update(const WindowResiduals& residuals) {

@@ -15,14 +15,6 @@ struct NoiseEstimatorOptions {
   /// Weight of the initial scale 1, in image quadrants. A window of ten free and ten fixed
   /// keyframes has up to 80 quadrants.
   double prior = 40.0;
-  /// Largest weight of the past, in image quadrants: the influence of older windows decays. The
-  /// relative standard deviation of the estimated variance is sqrt(2 / 400) = 7 %.
-  /// Chosen by measurement, see docs/lab/self_calibration.md.
-  double memory = 400.0;
-  /// Upper bound of each scale and of its inverse. If one kind of measurement had little weight,
-  /// the map would drift away from it, and its residuals would no longer reflect the sensor.
-  /// Chosen by measurement, see docs/lab/self_calibration.md.
-  double max_scale = 3.0;
 
   bool IsValid(std::string* error) const;
 };
@@ -42,6 +34,11 @@ struct NoiseEstimatorOptions {
 /// is the one for which this holds for the sums over the quadrants of the images.
 class NoiseEstimator {
  public:
+  /// Upper bound of each scale and of its inverse. If one kind of measurement had little weight,
+  /// the map would drift away from it, and its residuals would no longer reflect the sensor.
+  /// Chosen by measurement, see docs/lab/self_calibration.md.
+  static constexpr double kMaxScale = 3.0;
+
   /// Throws std::invalid_argument on invalid options.
   explicit NoiseEstimator(const NoiseEstimatorOptions& options);
 

@@ -10,6 +10,23 @@
 
 namespace msc_vo {
 
+namespace {
+
+// Keyframes in the map before the first refinement, so that lines have several views.
+constexpr int kMinKeyframes = 2;
+// Lines near the axes before a refinement: twelve equations for three unknowns.
+constexpr int kMinAxisLines = 6;
+// Factor by which the number of lines near the axes grows between refinements.
+constexpr double kMinGrowth = 1.1;
+// Smallest fraction of the map's lines on the axes; coarse axes below it fit one keyframe, not the
+// scene, and are dropped. Half of what the keyframe that they were found in had to show.
+constexpr double kMinLineRatio = 0.25;
+// Largest rotation by a refinement, radians; a larger one contradicts the axes so far. Three sigmas
+// of coarse axes with a real sensor.
+constexpr double kMaxCorrection = DegreesToRadians(4.0);
+
+}  // namespace
+
 const char* ToString(AxesState state) {
   switch (state) {
     case AxesState::kNone:
@@ -22,52 +39,28 @@ const char* ToString(AxesState state) {
   throw std::invalid_argument("ToString: not an AxesState");
 }
 
-bool AxesEstimatorOptions::IsValid(std::string* error) const {
-  if (!(coarse_sigma > 0.0)) {
-    *error = "coarse_sigma must be positive (degrees)";
-  } else if (min_keyframes < 1) {
-    *error = "min_keyframes must be at least 1";
-  } else if (min_axis_lines < 2) {
-    *error = "min_axis_lines must be at least 2: one direction does not determine a rotation";
-  } else if (!(min_growth > 1.0)) {
-    *error = "min_growth must be larger than 1";
-  } else if (!(min_line_ratio >= 0.0 && min_line_ratio <= 1.0)) {
-    *error = "min_line_ratio must lie in [0, 1]";
-  } else if (!(max_correction > 0.0)) {
-    *error = "max_correction must be positive (degrees)";
-  } else {
-    return true;
-  }
-  return false;
-}
-
-AxesEstimator::AxesEstimator(const AxesEstimatorOptions& options) : options_(options) {
-  std::string error;
-  if (!options.IsValid(&error)) throw std::invalid_argument("AxesEstimator: " + error);
-}
-
 void AxesEstimator::Propose(const Eigen::Quaterniond& world_from_axes) {
   if (state_ != AxesState::kNone) return;
   state_ = AxesState::kCoarse;
   world_from_axes_ = world_from_axes.normalized();
-  sigma_ = DegreesToRadians(options_.coarse_sigma);
+  sigma_ = kCoarseSigma;
   num_axis_lines_tried_ = 0;
 }
 
 void AxesEstimator::Update(const AxesSupport& support) {
   support_ = support;
-  const bool is_tested = support.num_keyframes >= options_.min_keyframes &&
-                         support.num_lines >= options_.min_axis_lines;
+  const bool is_tested =
+      support.num_keyframes >= kMinKeyframes && support.num_lines >= kMinAxisLines;
   if (state_ == AxesState::kCoarse && is_tested &&
-      support.num_axis_lines < options_.min_line_ratio * support.num_lines) {
+      support.num_axis_lines < kMinLineRatio * support.num_lines) {
     Drop();
   }
 }
 
 bool AxesEstimator::RefinementDue() const {
-  return state_ != AxesState::kNone && support_.num_keyframes >= options_.min_keyframes &&
-         support_.num_axis_lines >= options_.min_axis_lines &&
-         support_.num_axis_lines >= options_.min_growth * num_axis_lines_tried_;
+  return state_ != AxesState::kNone && support_.num_keyframes >= kMinKeyframes &&
+         support_.num_axis_lines >= kMinAxisLines &&
+         support_.num_axis_lines >= kMinGrowth * num_axis_lines_tried_;
 }
 
 bool AxesEstimator::Refine(const Eigen::Quaterniond& world_from_axes,
@@ -76,9 +69,8 @@ bool AxesEstimator::Refine(const Eigen::Quaterniond& world_from_axes,
   const double correction = world_from_axes_.angularDistance(world_from_axes.normalized());
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance, Eigen::EigenvaluesOnly);
   const double sigma = std::sqrt(eigen.eigenvalues().z());
-  const double max_correction = DegreesToRadians(options_.max_correction);
   // The negation also rejects NaN.
-  if (!(correction <= max_correction && sigma <= max_correction)) {
+  if (!(correction <= kMaxCorrection && sigma <= kMaxCorrection)) {
     RejectRefinement();
     return false;
   }

@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <string>
-
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -20,27 +18,6 @@ enum class AxesState {
 
 /// "none", "coarse", "refined".
 const char* ToString(AxesState state);
-
-struct AxesEstimatorOptions {
-  /// Standard deviation of coarse axes about each direction, degrees. Measured errors are 0.1
-  /// degrees in rendered rooms and 1 to 1.5 degrees with a structured-light sensor, which bends
-  /// surfaces.
-  double coarse_sigma = 1.0;
-  /// Keyframes in the map before the first refinement, so that lines have several views.
-  int min_keyframes = 2;
-  /// Lines near the axes before a refinement: twelve equations for three unknowns.
-  int min_axis_lines = 6;
-  /// Factor by which the number of lines near the axes grows between refinements.
-  double min_growth = 1.1;
-  /// Smallest fraction of the map's lines on the axes; coarse axes below it fit one keyframe, not
-  /// the scene, and are dropped. Half of CoarseAxesOptions::min_explained_ratio.
-  double min_line_ratio = 0.25;
-  /// Largest rotation by a refinement, degrees; a larger one contradicts the axes so far. Three
-  /// sigmas of coarse axes with a real sensor.
-  double max_correction = 4.0;
-
-  bool IsValid(std::string* error) const;
-};
 
 /// Support of the axes in the map, counted by the caller after each keyframe.
 struct AxesSupport {
@@ -63,8 +40,10 @@ struct AxesSupport {
 ///   if (estimator.RefinementDue()) RefineManhattanAxes(), then Refine() or RejectRefinement()
 class AxesEstimator {
  public:
-  /// Throws std::invalid_argument on options that are not valid.
-  explicit AxesEstimator(const AxesEstimatorOptions& options);
+  /// Standard deviation of coarse axes about each direction, radians. Measured errors are 0.1
+  /// degrees in rendered rooms and 1 to 1.5 degrees with a structured-light sensor, which bends
+  /// surfaces.
+  static constexpr double kCoarseSigma = DegreesToRadians(1.0);
 
   /// Sets coarse axes; no effect unless the state is kNone.
   void Propose(const Eigen::Quaterniond& world_from_axes);
@@ -90,7 +69,7 @@ class AxesEstimator {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, axes_state, refinements, rotation, rotation_sigma, support,
+    auto& [axes_state, refinements, rotation, rotation_sigma, support,
            num_axis_lines_tried] = *this;  // all members, or it does not compile
     archive(axes_state, refinements, rotation, rotation_sigma, support, num_axis_lines_tried);
   }
@@ -98,7 +77,6 @@ class AxesEstimator {
  private:
   void Drop();
 
-  AxesEstimatorOptions options_;
   AxesState state_ = AxesState::kNone;
   int num_refinements_ = 0;
   Eigen::Quaterniond world_from_axes_ = Eigen::Quaterniond::Identity();

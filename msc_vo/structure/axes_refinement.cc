@@ -14,6 +14,7 @@
 #include <ceres/solver.h>
 
 #include "msc_vo/bundle_adjustment/validation.h"
+#include "msc_vo/factors/chi_square.h"
 #include "msc_vo/factors/manhattan_rotation.h"
 #include "msc_vo/factors/rotation3_manifold.h"
 
@@ -22,6 +23,14 @@ namespace msc_vo {
 namespace {
 
 using Observation = ManhattanAxesData::Observation;
+
+// Rounds of optimisation and reclassification of all observations, outliers of earlier rounds
+// included. The first round uses all observations, so that a poor start rejects none. Stops early
+// once the classification is stable.
+constexpr int kMaxRounds = 5;
+constexpr int kIterationsPerRound = 10;
+// Smallest number of inliers: twelve equations for three unknowns.
+constexpr int kMinInliers = 6;
 
 const char* ObservationError(const Observation& o) {
   if (UnitVectorError(o.direction) != nullptr) return "direction is not a unit vector";
@@ -36,12 +45,10 @@ const char* ObservationError(const Observation& o) {
   return nullptr;
 }
 
-void Validate(const ManhattanAxesOptions& options, const ManhattanAxesData& data) {
+void Validate(const ManhattanAxesData& data) {
   const auto fail = [](const std::string& what) {
     throw std::invalid_argument("RefineManhattanAxes: " + what);
   };
-  std::string error;
-  if (!options.IsValid(&error)) fail(error);
   if (PoseError(Rigid3(data.world_from_manhattan, Eigen::Vector3d::Zero())) != nullptr) {
     fail("world_from_manhattan is not a unit quaternion");
   }
@@ -61,11 +68,11 @@ double ChiSquare(const Observation& o, const Eigen::Quaterniond& world_from_manh
   return r.squaredNorm();
 }
 
-std::vector<bool> Classify(const ManhattanAxesOptions& options, const ManhattanAxesData& data,
+std::vector<bool> Classify(const ManhattanAxesData& data,
                            const Eigen::Quaterniond& world_from_manhattan) {
   std::vector<bool> inliers;
   for (const Observation& o : data.observations) {
-    inliers.push_back(ChiSquare(o, world_from_manhattan) <= options.reject_chi2_2);
+    inliers.push_back(ChiSquare(o, world_from_manhattan) <= kOutlierChiSquare[2]);
   }
   return inliers;
 }
@@ -83,8 +90,8 @@ double Cost(const ManhattanAxesData& data, const std::vector<bool>& inliers,
 }
 
 // One round of optimisation over the inliers. The observed directions fix the gauge.
-bool Minimize(const ManhattanAxesOptions& options, const ManhattanAxesData& data,
-              const std::vector<bool>& inliers, Eigen::Quaterniond* world_from_manhattan) {
+bool Minimize(const ManhattanAxesData& data, const std::vector<bool>& inliers,
+              Eigen::Quaterniond* world_from_manhattan) {
   double* block = world_from_manhattan->coeffs().data();
   ceres::Problem problem;
   problem.AddParameterBlock(block, 4, new Rotation3Manifold);
@@ -92,10 +99,10 @@ bool Minimize(const ManhattanAxesOptions& options, const ManhattanAxesData& data
     if (!inliers[i]) continue;
     const Observation& o = data.observations[i];
     problem.AddResidualBlock(ManhattanRotation::Create(MakeFactor(o)),
-                             new ceres::HuberLoss(options.huber), block);
+                             new ceres::HuberLoss(kHuberThreshold[2]), block);
   }
   ceres::Solver::Options solver;
-  solver.max_num_iterations = options.iterations_per_round;
+  solver.max_num_iterations = kIterationsPerRound;
   solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;  // three unknowns
   solver.num_threads = 1;
   solver.logging_type = ceres::SILENT;
@@ -126,11 +133,10 @@ Eigen::Matrix3d Information(const ManhattanAxesData& data, const std::vector<boo
 
 // Fills in inliers, final cost and covariance. The result is usable if the information has full
 // rank.
-void Summarize(const ManhattanAxesOptions& options, const ManhattanAxesData& data,
-               const std::vector<bool>& inliers, const Eigen::Quaterniond& world_from_manhattan,
-               ManhattanAxesSummary* summary) {
+void Summarize(const ManhattanAxesData& data, const std::vector<bool>& inliers,
+               const Eigen::Quaterniond& world_from_manhattan, ManhattanAxesSummary* summary) {
   summary->num_inliers = static_cast<int>(std::count(inliers.begin(), inliers.end(), true));
-  if (summary->num_inliers < options.min_inliers) return;
+  if (summary->num_inliers < kMinInliers) return;
   const Eigen::Matrix3d information = Information(data, inliers, world_from_manhattan);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
   // With one axis the information is singular up to rounding. A single observation of a second axis
@@ -142,45 +148,30 @@ void Summarize(const ManhattanAxesOptions& options, const ManhattanAxesData& dat
   }
   const double inflation = std::max(1.0, chi_square / (2.0 * summary->num_inliers - 3.0));
   summary->covariance = inflation * information.inverse();
-  summary->final_cost = Cost(data, inliers, ceres::HuberLoss(options.huber), world_from_manhattan);
+  summary->final_cost =
+      Cost(data, inliers, ceres::HuberLoss(kHuberThreshold[2]), world_from_manhattan);
   summary->usable = true;
 }
 
 }  // namespace
 
-bool ManhattanAxesOptions::IsValid(std::string* error) const {
-  if (!(std::isfinite(huber) && huber > 0.0)) {
-    *error = "huber must be a positive number of sigmas";
-  } else if (!(std::isfinite(reject_chi2_2) && reject_chi2_2 > 0.0)) {
-    *error = "reject_chi2_2 must be positive";
-  } else if (num_rounds < 1 || iterations_per_round < 1) {
-    *error = "num_rounds and iterations_per_round must be at least 1";
-  } else if (min_inliers < 2) {
-    *error = "min_inliers must be at least 2: one direction does not determine a rotation";
-  } else {
-    return true;
-  }
-  return false;
-}
-
-ManhattanAxesSummary RefineManhattanAxes(const ManhattanAxesOptions& options,
-                                         ManhattanAxesData* data) {
-  Validate(options, *data);
+ManhattanAxesSummary RefineManhattanAxes(ManhattanAxesData* data) {
+  Validate(*data);
   Eigen::Quaterniond world_from_manhattan = data->world_from_manhattan;
   std::vector<bool> inliers(data->observations.size(), true);
   ManhattanAxesSummary summary;
   summary.initial_cost =
-      Cost(*data, inliers, ceres::HuberLoss(options.huber), world_from_manhattan);
+      Cost(*data, inliers, ceres::HuberLoss(kHuberThreshold[2]), world_from_manhattan);
   bool solved = true;
-  for (int round = 0; round < options.num_rounds && solved; ++round) {
-    solved = Minimize(options, *data, inliers, &world_from_manhattan);
-    std::vector<bool> next = Classify(options, *data, world_from_manhattan);
+  for (int round = 0; round < kMaxRounds && solved; ++round) {
+    solved = Minimize(*data, inliers, &world_from_manhattan);
+    std::vector<bool> next = Classify(*data, world_from_manhattan);
     const bool is_stable = next == inliers;
     inliers = std::move(next);
     if (is_stable) break;
   }
   for (size_t i = 0; i < inliers.size(); ++i) data->observations[i].inlier = inliers[i];
-  if (solved) Summarize(options, *data, inliers, world_from_manhattan, &summary);
+  if (solved) Summarize(*data, inliers, world_from_manhattan, &summary);
   if (summary.usable) data->world_from_manhattan = world_from_manhattan;
   return summary;
 }

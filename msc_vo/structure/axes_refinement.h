@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -26,21 +25,6 @@ struct ManhattanAxesData {
   std::vector<Observation> observations;
 };
 
-struct ManhattanAxesOptions {
-  double huber = 2.448;  ///< sigmas; as for the terms of the window with two rows
-  /// An observation whose chi-square exceeds this is an outlier: 99 % quantile with 2 rows.
-  double reject_chi2_2 = 9.210;
-  /// Rounds of optimisation and reclassification of all observations, outliers of earlier rounds
-  /// included. The first round uses all observations, so that a poor start rejects none. Stops
-  /// early once the classification is stable.
-  int num_rounds = 5;
-  int iterations_per_round = 10;
-  /// Smallest number of inliers of a usable result.
-  int min_inliers = 6;
-
-  bool IsValid(std::string* error) const;
-};
-
 struct ManhattanAxesSummary {
   /// False if there are too few inliers, or all belong to one axis, which leaves the rotation about
   /// it undetermined. The axes are then unchanged.
@@ -57,8 +41,7 @@ struct ManhattanAxesSummary {
 /// Refines the Manhattan axes over all observed directions (paper: Manhattan Axes Estimation, last
 /// equation), as one rotation on SO(3), and classifies the observations.
 /// Throws std::invalid_argument, naming the observation, on a direction that is not unit, an axis
-/// that is not 0, 1 or 2, a sigma <= 0, or on a start that is not unit or options not valid.
-ManhattanAxesSummary RefineManhattanAxes(const ManhattanAxesOptions& options,
-                                         ManhattanAxesData* data);
+/// that is not 0, 1 or 2, a sigma <= 0, or on a start that is not unit.
+ManhattanAxesSummary RefineManhattanAxes(ManhattanAxesData* data);
 
 }  // namespace msc_vo

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include <Eigen/Geometry>
 
@@ -15,29 +14,19 @@
 
 namespace msc_vo {
 
-struct AxisAssociationOptions {
-  /// Largest angle between a line and its axis, in sigmas of both together: square root of the 99 %
-  /// quantile of chi-square with two degrees of freedom.
-  double max_sigmas = 3.035;
-  /// Largest angle between a line and its axis, degrees. Random directions are within 5 degrees of
-  /// an axis with a probability of 1 %.
-  double max_angle = 5.0;
-  /// Largest standard deviation of a line's direction, degrees. Less certain lines would pass the
-  /// angle test by chance.
-  double max_sigma = 5.0;
-  /// Smallest probability of a line near an axis not to be there by chance.
-  double min_probability = 0.8;
-
-  bool IsValid(std::string* error) const;
-};
+/// Largest angle between a line and its axis, and largest standard deviation of the line's
+/// direction, radians. Random directions are within 5 degrees of an axis with a probability of 1 %;
+/// less certain ones would pass the test of the angle by chance.
+constexpr double kMaxAxisAngle = DegreesToRadians(5.0);
+/// Largest angle between a line and its axis, in sigmas of both together: square root of the 99 %
+/// quantile of chi-square with two degrees of freedom.
+constexpr double kMaxAxisSigmas = 3.035;
 
 /// Returns the index 0..2 of the axis that a line is parallel to (paper: Manhattan Axes
 /// Association); std::nullopt if it is parallel to none, or too uncertain. The columns of
 /// `rotation` are the axes in the frame of the line's direction; `rotation_sigma` (radians) is the
-/// standard deviation of each component of its rotation vector. Throws std::invalid_argument on
-/// invalid options.
-std::optional<int> AssociateAxis(const AxisAssociationOptions& options,
-                                 const Eigen::Quaterniond& rotation, double rotation_sigma,
+/// standard deviation of each component of its rotation vector.
+std::optional<int> AssociateAxis(const Eigen::Quaterniond& rotation, double rotation_sigma,
                                  const AxisEvidence& line);
 
 /// A line that is near to an axis, and its angle to it.
@@ -46,11 +35,10 @@ struct AxisCandidate {
   DirectionDeviation deviation;
 };
 
-/// Returns the axis that is within max_angle of a line's direction, if that is certain enough. The
-/// columns of `axes` are the axes in the world; `axes_sigma`: radians, part of the covariance of
-/// the angle.
-std::optional<AxisCandidate> NearestAxis(const AxisAssociationOptions& options,
-                                         const Eigen::Matrix3d& axes, double axes_sigma,
-                                         const DirectionEstimate& line);
+/// Returns the axis that is within `max_angle` (radians) of a line's direction, if that is certain
+/// to the same angle. The columns of `axes` are the axes in the world; `axes_sigma`: radians, part
+/// of the covariance of the angle.
+std::optional<AxisCandidate> NearestAxis(double max_angle, const Eigen::Matrix3d& axes,
+                                         double axes_sigma, const DirectionEstimate& line);
 
 }  // namespace msc_vo

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 
 #include "msc_vo/structure/internal/axes_evidence.h"
 #include "msc_vo/structure/internal/axes_gates.h"
@@ -51,45 +50,18 @@ ManhattanAxes InCanonicalOrder(const DirectionEvidence& evidence, const ScoredAx
 
 }  // namespace
 
-bool CoarseAxesOptions::IsValid(std::string* error) const {
-  if (!(max_angle > 0.0 && max_angle < 45.0)) {
-    *error = "max_angle must lie between 0 and 45 degrees: cones of two axes must not meet";
-  } else if (!(max_sigma > 0.0)) {
-    *error = "max_sigma must be positive (degrees)";
-  } else if (!(last_bandwidth > 0.0 && first_bandwidth >= last_bandwidth &&
-               first_bandwidth < 15.0)) {
-    *error = "0 < last_bandwidth <= first_bandwidth < 15 degrees must hold";
-  } else if (!(min_explained_ratio >= 0.0 && min_explained_ratio <= 1.0)) {
-    *error = "min_explained_ratio must lie in [0, 1]";
-  } else if (!(max_rival > 0.0 && max_rival <= 1.0)) {
-    *error = "max_rival must lie in (0, 1]";
-  } else if (!(min_axis_ratio >= 0.0 && min_axis_ratio <= 1.0)) {
-    *error = "min_axis_ratio must lie in [0, 1]";
-  } else if (!(max_misfit > 0.0)) {
-    *error = "max_misfit must be positive (degrees)";
-  } else if (!(max_false_alarms > 0.0)) {
-    *error = "max_false_alarms must be positive";
-  } else {
-    return true;
-  }
-  return false;
-}
-
-std::optional<ManhattanAxes> FindCoarseAxes(const CoarseAxesOptions& options,
-                                            const std::vector<AxisEvidence>& lines,
+std::optional<ManhattanAxes> FindCoarseAxes(const std::vector<AxisEvidence>& lines,
                                             const std::vector<AxisEvidence>& normals) {
-  std::string error;
-  if (!options.IsValid(&error)) throw std::invalid_argument("FindCoarseAxes: " + error);
-  const DirectionEvidence evidence = GatherEvidence(options, lines, normals);
+  const DirectionEvidence evidence = GatherEvidence(lines, normals);
   std::vector<ScoredAxes> hypotheses;
-  for (const Matrix3d& axes : FindAxesHypotheses(options, evidence)) {
-    hypotheses.push_back(ScoreAxes(options, evidence, axes));
+  for (const Matrix3d& axes : FindAxesHypotheses(evidence)) {
+    hypotheses.push_back(ScoreAxes(evidence, axes));
   }
   const auto best = std::max_element(
       hypotheses.begin(), hypotheses.end(),
       [](const ScoredAxes& a, const ScoredAxes& b) { return a.density < b.density; });
-  if (best == hypotheses.end() || !PassesGates(options, evidence, *best) ||
-      HasRival(options, evidence, hypotheses, best->axes)) {
+  if (best == hypotheses.end() || !PassesGates(evidence, *best) ||
+      HasRival(evidence, hypotheses, best->axes)) {
     return std::nullopt;
   }
   return InCanonicalOrder(evidence, *best);

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,18 +11,6 @@
 #include "msc_vo/geometry/angles.h"
 
 namespace msc_vo {
-
-struct DeviationOptions {
-  /// Median of the prior of the deviation, degrees. Floors and door frames are within 2 mm per
-  /// metre (0.1 degrees), furniture and pictures within about one degree; sensors that bend
-  /// surfaces add as much.
-  double prior = 0.7;
-  /// Largest weight of earlier windows, as a number of angles. The relative standard deviation of
-  /// the estimate is about 1 / sqrt(300) = 6 %.
-  double memory = 300.0;
-
-  bool IsValid(std::string* error) const;
-};
 
 /// Measured angle between a line and its ideal direction, in the plane perpendicular to that.
 struct DirectionDeviation {
@@ -42,8 +29,7 @@ struct AngleDeviation {
 /// two degrees of freedom; its scale is estimated from the angles of the windows.
 class DeviationEstimator {
  public:
-  /// Throws std::invalid_argument on invalid options.
-  explicit DeviationEstimator(const DeviationOptions& options);
+  DeviationEstimator();
 
   /// Updates the scale by the angles of one window.
   void Update(const std::vector<DirectionDeviation>& deviations);
@@ -65,7 +51,7 @@ class DeviationEstimator {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, scales, log_likelihoods, weight, scale] = *this;  // all members
+    auto& [scales, log_likelihoods, weight, scale] = *this;  // all members
     archive(log_likelihoods, weight, scale);
   }
 
@@ -75,7 +61,6 @@ class DeviationEstimator {
 
   void AddLogLikelihoods(const std::vector<DirectionDeviation>& deviations);
 
-  DeviationOptions options_;
   Grid scales_{};           // radians, a geometric sequence
   Grid log_likelihoods_{};  // of the angles so far
   double weight_ = 0.0;     // number of angles so far

@@ -16,6 +16,14 @@ namespace msc_vo {
 
 namespace {
 
+// Largest deviation of a pair's angle in sigmas of the measurement and of pair_sigma together: the
+// 99.7 % quantile. Has no effect while max_angle is below three times pair_sigma, as by default.
+constexpr double kGateSigmas = 3.0;
+// Huber threshold of a pair, sigmas: the 95 % quantile.
+constexpr double kHuber = 2.0;
+// Bounds the time of a keyframe; most frames converge before.
+constexpr int kMaxIterations = 10;
+
 // Two lines that pass the gates.
 struct Candidate {
   double sigma = 0.0;  // radians, of the angle between them
@@ -89,12 +97,10 @@ struct Gates {
       : max_angle(DegreesToRadians(options.max_angle)),
         cos_max_angle(std::cos(max_angle)),
         sin_max_angle(std::sin(max_angle)),
-        pair_variance(std::pow(DegreesToRadians(options.pair_sigma), 2)),
-        sigmas(options.gate_sigmas) {}
+        pair_variance(std::pow(DegreesToRadians(options.pair_sigma), 2)) {}
 
   double max_angle, cos_max_angle, sin_max_angle;
   double pair_variance;  // rad^2, of the true angle of a pair
-  double sigmas;
 };
 
 // Updates the counts of lines i and j, and adds the pair to the candidates if it passes the gates.
@@ -104,7 +110,7 @@ void EvaluatePair(const Gates& gates, const std::vector<LineDirection>& lines, i
   const double sigma = std::sqrt(lines[i].variance + lines[j].variance + gates.pair_variance);
   // A less certain angle would pass the gate by chance.
   if (sigma > gates.max_angle) return;
-  const double gate = std::min(gates.max_angle, gates.sigmas * sigma);
+  const double gate = std::min(gates.max_angle, kGateSigmas * sigma);
   const Eigen::Vector3d &a = lines[i].direction, &b = lines[j].direction;
   // Most pairs are near neither 0 nor 90 degrees; the test of their cosine saves the arc cosine.
   const double cosine = std::abs(a.dot(b));
@@ -189,20 +195,17 @@ std::vector<int> BuildFactors(const FrameStructureOptions& options,
     factors->perpendicular.push_back(
         {PerpendicularLines(sigma), position[pair.i], position[pair.j]});
   }
-  factors->huber = options.huber;
+  factors->huber = kHuber;
   return refined;
 }
 
 }  // namespace
 
 bool FrameStructureOptions::IsValid(std::string* error) const {
-  const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
   if (!(max_angle > 0.0 && max_angle < 45.0)) {
     *error = "frame_structure.max_angle must be in (0, 45) degrees";
-  } else if (!is_positive(pair_sigma) || !is_positive(gate_sigmas) || !is_positive(huber)) {
-    *error = "frame_structure.pair_sigma, gate_sigmas and huber must be positive";
-  } else if (max_partners < 1 || max_iterations < 1) {
-    *error = "frame_structure.max_partners and max_iterations must be at least 1";
+  } else if (!(std::isfinite(pair_sigma) && pair_sigma > 0.0)) {
+    *error = "frame_structure.pair_sigma must be positive";
   } else {
     return true;
   }
@@ -219,8 +222,8 @@ FrameStructureSummary RefineFrameStructure(const FrameStructureOptions& options,
   std::vector<Candidate> parallel, perpendicular;
   FindPairs(options, ComputeDirections(camera, *lines, inverse_depth_lines), &parallel,
             &perpendicular);
-  SelectMostCertain(options.max_partners, lines->size(), &parallel);
-  SelectMostCertain(options.max_partners, lines->size(), &perpendicular);
+  SelectMostCertain(lines->size(), &parallel);
+  SelectMostCertain(lines->size(), &perpendicular);
 
   FrameStructureFactors factors;
   const std::vector<int> refined =
@@ -235,8 +238,7 @@ FrameStructureSummary RefineFrameStructure(const FrameStructureOptions& options,
   StructureEquations equations;
   if (refined.empty() || !factors.Linearize(blocks, &equations)) return summary;
   summary.initial_cost = equations.cost;
-  if (!MinimizeStructure(factors, options.max_iterations, &blocks, &equations,
-                         &summary.num_iterations)) {
+  if (!MinimizeStructure(factors, kMaxIterations, &blocks, &equations, &summary.num_iterations)) {
     return summary;
   }
   summary.usable = true;

@@ -29,13 +29,6 @@ struct FrameStructureOptions {
   /// perpendicular: floors and door frames are within 2 mm per metre (0.1 degrees), furniture and
   /// pictures within about one degree.
   double pair_sigma = 0.7;
-  /// Largest deviation in sigmas of the measured angle, from both fits and pair_sigma: the 99.7 %
-  /// quantile. Has no effect while max_angle is below gate_sigmas times pair_sigma, as by default.
-  double gate_sigmas = 3.0;
-  /// Partners of each kind per line, most certain angles first.
-  int max_partners = 4;
-  double huber = 2.0;  ///< sigmas; Huber threshold of a pair
-  int max_iterations = 10;
 
   bool IsValid(std::string* error) const;
 };

@@ -32,7 +32,8 @@ std::vector<Line> KnownLines(const StructuralPairOptions& options, const WindowD
   for (size_t i = 0; i < estimates.size(); ++i) {
     if (!estimates[i]) continue;
     const double sigma = estimates[i]->Sigma();
-    if (sigma > DegreesToRadians(options.max_sigma)) continue;
+    // Three sigmas of a direction must fit into the range of angles.
+    if (sigma > DegreesToRadians(options.max_angle / 3.0)) continue;
     const int64_t id = window.lines[i].id;
     known[id] = {id, *estimates[i], sigma, {}, false};
   }
@@ -80,16 +81,9 @@ AngleDeviation PerpendicularDeviation(const DirectionEstimate& a, const Directio
 bool StructuralPairOptions::IsValid(std::string* error) const {
   if (!(max_angle > 0.0 && max_angle < 45.0)) {
     *error = "pairs.max_angle must be in (0, 45) degrees";
-  } else if (!(max_sigma > 0.0)) {
-    *error = "pairs.max_sigma must be positive (degrees)";
-  } else if (!(min_probability >= 0.0 && min_probability <= 1.0)) {
-    *error = "pairs.min_probability must be in [0, 1]";
-  } else if (max_partners < 1) {
-    *error = "pairs.max_partners must be at least 1";
-  } else {
-    return deviation.IsValid(error);
+    return false;
   }
-  return false;
+  return true;
 }
 
 PairCandidates FindPairCandidates(const StructuralPairOptions& options, const WindowData& window) {
@@ -116,8 +110,8 @@ PairCandidates FindPairCandidates(const StructuralPairOptions& options, const Wi
       }
     }
   }
-  SelectMostCertain(options.max_partners, lines.size(), &candidates.parallel);
-  SelectMostCertain(options.max_partners, lines.size(), &candidates.perpendicular);
+  SelectMostCertain(lines.size(), &candidates.parallel);
+  SelectMostCertain(lines.size(), &candidates.perpendicular);
   return candidates;
 }
 

@@ -18,13 +18,6 @@ struct StructuralPairOptions {
   /// Range around 0 and 90 degrees in which pairs are sought, degrees: wide enough to show how many
   /// pairs lie there by chance.
   double max_angle = 3.0;
-  /// Largest standard deviation of a line's direction, degrees: a third of the range.
-  double max_sigma = 1.0;
-  /// Smallest probability of a pair not to be one by chance.
-  double min_probability = 0.8;
-  int max_partners = 4;  ///< pairs of each kind per line, most certain first
-  /// Deviation of the angle between two lines from 0 or 90 degrees.
-  DeviationOptions deviation;
 
   bool IsValid(std::string* error) const;
 };

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <stdexcept>
 
 #include <Eigen/Eigenvalues>
 
@@ -17,8 +16,10 @@ namespace msc_vo {
 namespace {
 
 // Largest angle between an axis and an uncertain line, and largest standard deviation of the line,
-// degrees. Measured in docs/lab/structure.md.
-constexpr double kMaxUncertainAngle = 15.0;
+// radians. Measured in docs/lab/structure.md.
+constexpr double kMaxUncertainAngle = DegreesToRadians(15.0);
+// Smallest probability of a line near an axis not to be there by chance.
+constexpr double kMinProbability = 0.8;
 
 // Directions of the frame's lines that have a depth, camera frame.
 std::vector<AxisEvidence> LineEvidence(const Frame& frame) {
@@ -48,22 +49,9 @@ ManhattanAxesData::Observation Observe(const DirectionEstimate& line, int axis, 
 
 }  // namespace
 
-bool SceneAxesOptions::IsValid(std::string* error) const {
-  return coarse.IsValid(error) && association.IsValid(error) && refinement.IsValid(error) &&
-         estimator.IsValid(error) && deviation.IsValid(error);
-}
-
-std::optional<int> AxisOfLine(const SceneAxesOptions& options, const AxesEstimate& axes,
-                              const LineLandmark& line) {
-  return AssociateAxis(options.association, axes.world_from_axes,
-                       std::hypot(axes.sigma, axes.deviation),
+std::optional<int> AxisOfLine(const AxesEstimate& axes, const LineLandmark& line) {
+  return AssociateAxis(axes.world_from_axes, std::hypot(axes.sigma, axes.deviation),
                        {line.segment.Direction(), line.direction_sigma});
-}
-
-SceneAxes::SceneAxes(const SceneAxesOptions& options)
-    : options_(options), estimator_(options.estimator), deviation_(options.deviation) {
-  std::string error;
-  if (!options.IsValid(&error)) throw std::invalid_argument("SceneAxes: " + error);
 }
 
 void SceneAxes::Update(const Map& map, KeyframeId keyframe,
@@ -77,7 +65,7 @@ void SceneAxes::Update(const Map& map, KeyframeId keyframe,
 
 void SceneAxes::Search(const Map& map, KeyframeId id, const std::vector<AxisEvidence>& normals) {
   const Keyframe& keyframe = *map.FindKeyframe(id);
-  const auto axes = FindCoarseAxes(options_.coarse, LineEvidence(*keyframe.frame), normals);
+  const auto axes = FindCoarseAxes(LineEvidence(*keyframe.frame), normals);
   if (axes) estimator_.Propose(keyframe.cam_from_world.rotation().conjugate() * axes->rotation);
 }
 
@@ -106,11 +94,11 @@ std::optional<AxesEstimate> SceneAxes::Estimate() const {
 
 std::optional<int> SceneAxes::AxisOf(const LineLandmark& line) const {
   const std::optional<AxesEstimate> axes = Estimate();
-  return axes ? AxisOfLine(options_, *axes, line) : std::nullopt;
+  return axes ? AxisOfLine(*axes, line) : std::nullopt;
 }
 
 std::optional<AxisCandidate> SceneAxes::NearestAxis(const DirectionEstimate& line) const {
-  return msc_vo::NearestAxis(options_.association, estimator_.world_from_axes().toRotationMatrix(),
+  return msc_vo::NearestAxis(kMaxAxisAngle, estimator_.world_from_axes().toRotationMatrix(),
                              estimator_.sigma(), line);
 }
 
@@ -118,7 +106,7 @@ AxesSupport SceneAxes::CountSupport(const Map& map) const {
   AxesSupport support;
   support.num_keyframes = static_cast<int>(map.keyframes().size());
   for (const auto& [id, direction] : directions_) {
-    if (direction.Sigma() > DegreesToRadians(options_.association.max_sigma)) continue;
+    if (direction.Sigma() > kMaxAxisAngle) continue;
     ++support.num_lines;
     if (NearestAxis(direction)) ++support.num_axis_lines;
   }
@@ -134,7 +122,7 @@ void SceneAxes::Refine() {
     data.observations.push_back(
         Observe(direction, candidate->axis, deviation_.Sigma(candidate->deviation)));
   }
-  const ManhattanAxesSummary summary = RefineManhattanAxes(options_.refinement, &data);
+  const ManhattanAxesSummary summary = RefineManhattanAxes(&data);
   if (summary.usable) {
     estimator_.Refine(data.world_from_manhattan, summary.covariance);
   } else {
@@ -143,13 +131,10 @@ void SceneAxes::Refine() {
 }
 
 void SceneAxes::AddAllAlignments(WindowData* window) const {
-  AxisAssociationOptions options = options_.association;
-  options.max_angle = std::max(options.max_angle, kMaxUncertainAngle);
-  options.max_sigma = std::max(options.max_sigma, kMaxUncertainAngle);
-  AddAlignments(options, window);
+  AddAlignments(kMaxUncertainAngle, window);
 }
 
-void SceneAxes::AddAlignments(const AxisAssociationOptions& options, WindowData* window) const {
+void SceneAxes::AddAlignments(double max_angle, WindowData* window) const {
   if (estimator_.state() != AxesState::kRefined) return;
   struct Candidate {
     size_t line;
@@ -162,18 +147,17 @@ void SceneAxes::AddAlignments(const AxisAssociationOptions& options, WindowData*
   for (size_t i = 0; i < estimates.size(); ++i) {
     if (!estimates[i]) continue;
     const std::optional<AxisCandidate> near =
-        msc_vo::NearestAxis(options, axes, estimator_.sigma(), *estimates[i]);
+        msc_vo::NearestAxis(max_angle, axes, estimator_.sigma(), *estimates[i]);
     if (!near) continue;
     candidates.push_back({i, *near});
     densities.push_back(deviation_.Density(near->deviation));
   }
-  const double radius = DegreesToRadians(options.max_angle);
   const std::vector<double> probabilities =
-      RelationProbabilities(densities, 1.0 / (kPi * radius * radius));
+      RelationProbabilities(densities, 1.0 / (kPi * max_angle * max_angle));
   for (size_t i = 0; i < candidates.size(); ++i) {
     const auto& [line, near] = candidates[i];
-    if (probabilities[i] < options.min_probability ||
-        deviation_.ChiSquare(near.deviation) > options.max_sigmas * options.max_sigmas) {
+    if (probabilities[i] < kMinProbability ||
+        deviation_.ChiSquare(near.deviation) > kMaxAxisSigmas * kMaxAxisSigmas) {
       continue;
     }
     const double deviation = deviation_.Sigma(near.deviation) / std::sqrt(probabilities[i]);

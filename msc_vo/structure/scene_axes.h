@@ -5,7 +5,6 @@
 
 #include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/window_data.h"
@@ -24,33 +23,23 @@ namespace msc_vo {
 
 struct SceneAxesOptions {
   bool enabled = true;
-  CoarseAxesOptions coarse;
-  AxisAssociationOptions association;
-  ManhattanAxesOptions refinement;
-  AxesEstimatorOptions estimator;
-  /// Deviation of a line from its axis.
-  DeviationOptions deviation;
-
-  bool IsValid(std::string* error) const;
 };
 
 /// Index 0..2 of the axis that a map line is parallel to; std::nullopt if there is none.
-std::optional<int> AxisOfLine(const SceneAxesOptions& options, const AxesEstimate& axes,
-                              const LineLandmark& line);
+std::optional<int> AxisOfLine(const AxesEstimate& axes, const LineLandmark& line);
 
 /// The Manhattan axes of the map (paper: Manhattan Axes Estimation and Association): found in one
 /// keyframe, refined over the lines of all windows, and associated with the lines of a window.
 class SceneAxes {
  public:
-  /// Throws std::invalid_argument on options that are not valid.
-  explicit SceneAxes(const SceneAxesOptions& options);
+  explicit SceneAxes(const SceneAxesOptions& options) : options_(options) {}
 
   /// Call after `keyframe` was added to the map. `normals`: its surface normals, camera frame;
   /// needed only while there are no axes.
   void Update(const Map& map, KeyframeId keyframe, const std::vector<AxisEvidence>& normals);
   /// Adds alignments of the window's lines with their axes (paper: M_j), once the axes are refined:
   /// the error of coarse axes is common to all lines, and each would count it as its own.
-  void AddAlignments(WindowData* window) const { AddAlignments(options_.association, window); }
+  void AddAlignments(WindowData* window) const { AddAlignments(kMaxAxisAngle, window); }
   /// The same, and for uncertain lines as well: for a window in which no pose depends on them. They
   /// gain most from an axis, but each of them that follows none would turn the camera.
   void AddAllAlignments(WindowData* window) const;
@@ -75,7 +64,7 @@ class SceneAxes {
  private:
   void Search(const Map& map, KeyframeId keyframe, const std::vector<AxisEvidence>& normals);
   std::optional<AxisCandidate> NearestAxis(const DirectionEstimate& line) const;
-  void AddAlignments(const AxisAssociationOptions& options, WindowData* window) const;
+  void AddAlignments(double max_angle, WindowData* window) const;
   AxesSupport CountSupport(const Map& map) const;
   void Refine();
 

@@ -18,11 +18,12 @@ namespace {
 // Largest chi-square of a pair: 99.9 % quantiles with two and one degrees of freedom.
 constexpr double kMaxChiSquare2 = 13.816;
 constexpr double kMaxChiSquare1 = 10.828;
+// Smallest probability of a pair not to be one by chance.
+constexpr double kMinProbability = 0.8;
 
 // Removes pairs that may well be near to the angle by chance.
 template <typename Deviation>
-void RemoveUnlikely(const DeviationEstimator& deviation, double chance, double min_probability,
-                    double max_chi_square,
+void RemoveUnlikely(const DeviationEstimator& deviation, double chance, double max_chi_square,
                     std::vector<PairCandidates::Pair<Deviation>>* candidates) {
   std::vector<double> densities;
   for (const auto& candidate : *candidates) {
@@ -33,7 +34,7 @@ void RemoveUnlikely(const DeviationEstimator& deviation, double chance, double m
   for (size_t i = 0; i < candidates->size(); ++i) {
     PairCandidates::Pair<Deviation> candidate = (*candidates)[i];
     candidate.probability = probabilities[i];
-    if (candidate.probability < min_probability) continue;
+    if (candidate.probability < kMinProbability) continue;
     if (deviation.ChiSquare(candidate.deviation) > max_chi_square) continue;
     likely.push_back(candidate);
   }
@@ -70,8 +71,7 @@ std::vector<WindowData::LinePair> MakePairs(
 
 }  // namespace
 
-StructuralPairs::StructuralPairs(const StructuralPairOptions& options)
-    : options_(options), deviation_(options.deviation) {
+StructuralPairs::StructuralPairs(const StructuralPairOptions& options) : options_(options) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument("StructuralPairs: " + error);
 }
@@ -90,10 +90,8 @@ void StructuralPairs::Learn(const PairCandidates& candidates) {
 void StructuralPairs::Add(PairCandidates candidates, WindowData* window) const {
   if (!options_.parallel) candidates.parallel.clear();
   const double range = DegreesToRadians(options_.max_angle);
-  RemoveUnlikely(deviation_, 1.0 / (kPi * range * range), options_.min_probability, kMaxChiSquare2,
-                 &candidates.parallel);
-  RemoveUnlikely(deviation_, 1.0 / (2.0 * range), options_.min_probability, kMaxChiSquare1,
-                 &candidates.perpendicular);
+  RemoveUnlikely(deviation_, 1.0 / (kPi * range * range), kMaxChiSquare2, &candidates.parallel);
+  RemoveUnlikely(deviation_, 1.0 / (2.0 * range), kMaxChiSquare1, &candidates.perpendicular);
   const std::vector<int64_t>& lines = candidates.lines;
   const std::vector<double> partners = CountPartners(candidates, lines.size());
   window->parallel_pairs = MakePairs(lines, partners, deviation_, candidates.parallel);

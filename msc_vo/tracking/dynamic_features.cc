@@ -10,7 +10,7 @@
 
 #include "msc_vo/frame/depth_surfaces.h"
 #include "msc_vo/map/free_space.h"
-#include "msc_vo/pose_estimation/image_grid.h"
+#include "msc_vo/pose_estimation/cell_consensus.h"
 
 namespace msc_vo {
 
@@ -161,9 +161,9 @@ void MarkSurfaces(const std::vector<KeyframeView>& views, const FrameMatches& in
 }
 
 // Marks what lies in dynamic cells, except inliers.
-void MarkCells(const CellConsensusOptions& options, const TrackedFrame& tracked, Frame* frame) {
+void MarkCells(const TrackedFrame& tracked, Frame* frame) {
   if (tracked.dynamic_cells.empty()) return;
-  const ImageGrid grid(options.columns, options.rows, frame->camera);
+  const ImageGrid grid = ConsensusGrid(frame->camera);
   for (PointFeature& point : frame->points) {
     point.dynamic = tracked.dynamic_cells[grid.CellOf(point.pixel)];
   }
@@ -188,7 +188,7 @@ std::shared_ptr<const Frame> MarkDynamicFeatures(const CellConsensusOptions& opt
                                                  const Map& map, const TrackedFrame& tracked) {
   if (!options.enabled) return tracked.frame;
   auto marked = std::make_shared<Frame>(*tracked.frame);
-  MarkCells(options, tracked, marked.get());
+  MarkCells(tracked, marked.get());
   MarkSurfaces(FindViews(map, tracked), tracked.matches, marked.get());
   return HasDynamicFeatures(*marked) ? marked : tracked.frame;
 }

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "msc_vo/map/map_alignment.h"
 #include "msc_vo/pose_estimation/relocalizer.h"
 #include "msc_vo/tracking/frame_pose.h"
 #include "msc_vo/tracking/pose_support.h"
@@ -14,8 +15,10 @@ namespace msc_vo {
 
 namespace {
 
-// Twice the default of MapAlignmentOptions::min_frames.
-constexpr int kMaxSuccesses = 6;
+// In 1/30 s, and at least one per frame: bounds the cost.
+constexpr int kKeyframesToTry = 1;
+// Consecutive ones with one keyframe.
+constexpr int kMaxSuccesses = 2 * kMinAlignedFrames;
 
 size_t NumKeyframes(const InactiveMaps& maps) {
   size_t count = 0;
@@ -32,8 +35,7 @@ std::optional<MapRelocalization> InactiveMapSearch::Search(const TrackedFrame& t
   if (maps.empty() || tracked.status != TrackingStatus::kTracked) return std::nullopt;
   const double timestamp = tracked.frame->timestamp;
   if (timestamp - last_success_ < options_.segments.search_interval) return std::nullopt;
-  const int num_keyframes =
-      KeyframesToTry(options_.segments.search_keyframes, seconds, NumKeyframes(maps));
+  const int num_keyframes = KeyframesToTry(kKeyframesToTry, seconds, NumKeyframes(maps));
   for (int i = 0; i < num_keyframes; ++i) {
     const Candidate candidate = NextCandidate(maps);
     if (candidate.keyframe->id != next_) num_successes_ = 0;

@@ -19,11 +19,11 @@ class InactiveMapSearch {
   explicit InactiveMapSearch(const TrackerOptions& options) : options_(options) {}
 
   /// Tries to relocalise a frame of status kTracked in the inactive maps of `snapshot`, against
-  /// SegmentOptions::search_keyframes of their keyframes in 1/30 s, `seconds` after the frame
-  /// before (KeyframesToTry): from newest to oldest, cyclically. After a success it pauses for
-  /// SegmentOptions::search_interval, so that the next frame that is found has a different view,
-  /// and begins with the same keyframe, at most six times: if the maps have not been joined by
-  /// then, that keyframe may show another place that looks alike.
+  /// one of their keyframes in 1/30 s, `seconds` after the frame before (KeyframesToTry): from
+  /// newest to oldest, cyclically. After a success it pauses for SegmentOptions::search_interval,
+  /// so that the next frame that is found has a different view, and begins with the same keyframe,
+  /// at most six times: if the maps have not been joined by then, that keyframe may show another
+  /// place that looks alike.
   std::optional<MapRelocalization> Search(const TrackedFrame& tracked, const MapSnapshot& snapshot,
                                           double seconds);
 

@@ -13,6 +13,10 @@ namespace {
 // Longest time between two frames that counts towards the intervals of keyframes, seconds: the
 // first frame after a gap, whose pose is uncertain, is no keyframe because of the gap alone.
 constexpr double kMaxFrameInterval = 0.5;
+// A point is close if the standard deviation of its depth is below this fraction of the depth
+// (0.5 %: 3.5 m for a Kinect). Close points determine the translation, so that their ratio is
+// tested separately too.
+constexpr double kCloseRelativeSigma = 0.005;
 
 }  // namespace
 
@@ -21,8 +25,6 @@ bool KeyframePolicyOptions::IsValid(std::string* error) const {
     *error = "keyframe policy: min_tracked_ratio must be in [0, 1]";
   } else if (!(min_interval >= 0.0 && max_interval >= min_interval)) {
     *error = "keyframe policy: 0 <= min_interval <= max_interval must hold (seconds)";
-  } else if (!(close_relative_sigma > 0.0)) {
-    *error = "keyframe policy: close_relative_sigma must be positive";
   } else {
     return true;
   }
@@ -50,8 +52,7 @@ KeyframePolicy::TrackedRatios KeyframePolicy::ComputeRatios(const Frame& frame,
     ++(tracked_points[i] ? all.tracked : all.creatable);
     // Relative error of the depth z = 1/w: sigma_z / z = sigma_w / w.
     const bool is_close =
-        point.HasDepth() &&
-        point.inverse_depth_sigma < options_.close_relative_sigma * point.inverse_depth;
+        point.HasDepth() && point.inverse_depth_sigma < kCloseRelativeSigma * point.inverse_depth;
     if (is_close) ++(tracked_points[i] ? close.tracked : close.creatable);
   }
   for (size_t i = 0; i < frame.lines.size(); ++i) {

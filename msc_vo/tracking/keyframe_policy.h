@@ -19,10 +19,6 @@ struct KeyframePolicyOptions {
   /// multiples of usual intervals, so that rounding decides nothing.
   double min_interval = 0.045;
   double max_interval = 0.99;
-  /// A point is close if the standard deviation of its depth is below this fraction of the depth
-  /// (0.5 %: 3.5 m for a Kinect). Close points determine the translation, so that their ratio is
-  /// tested separately too.
-  double close_relative_sigma = 0.005;
 
   bool IsValid(std::string* error) const;
 };

@@ -8,8 +8,6 @@ namespace msc_vo {
 bool SegmentOptions::IsValid(std::string* error) const {
   if (!(min_search >= 0.0 && max_search >= 0.0)) {
     *error = "segments: min_search and max_search must not be negative";
-  } else if (search_keyframes < 1) {
-    *error = "segments: search_keyframes must be at least 1";
   } else if (!(search_interval >= 0.0)) {
     *error = "segments: search_interval must not be negative";
   } else {

@@ -23,9 +23,6 @@ struct SegmentOptions {
   /// tried once, but not longer than the maximum.
   double min_search = 1.0;
   double max_search = 5.0;
-  /// Keyframes of inactive maps that tracked frames try in 1/30 s, at least one per frame
-  /// (KeyframesToTry). It bounds the cost.
-  int search_keyframes = 1;
   /// Shortest time between two frames that are found in an inactive map, seconds: a hand-held
   /// camera then has a view of its own.
   double search_interval = 0.2;

@@ -89,14 +89,14 @@ TEST_F(SolveWindowCommandTest, PrintsATableAndAppliesOptions) {
               AllOf(HasSubstr("4 keyframes (1 fixed), "), HasSubstr("local BA: solved, "),
                     HasSubstr("point reprojection"), HasSubstr(" blocks, "), HasSubstr(" ms\n")));
 
-  WriteText("options.yaml", "mapping:\n  window:\n    line_endpoint_prior_sigma: 0.125\n");
+  WriteText("options.yaml", "mapping:\n  window:\n    second_iterations: 7\n");
   const CommandOutcome changed = RunCommand(
       {"solve-window", Path("window.txt"), "--json", "--output", Path("solved.txt"), "--config",
        Path("options.yaml"), "--set", "mapping.window.line_depth.enabled=false"});
   ASSERT_EQ(changed.exit_code, 0) << changed.output;
   EXPECT_EQ(nlohmann::json::parse(changed.output)["terms"]["line_depth"]["residual_blocks"], 0);
   const BundleAdjustmentOptions options = ReadWindow(Path("solved.txt")).options;
-  EXPECT_EQ(options.line_endpoint_prior_sigma, 0.125);
+  EXPECT_EQ(options.second_iterations, 7);
   EXPECT_FALSE(options.line_depth.enabled);
 }
 
@@ -106,8 +106,8 @@ TEST_F(SolveWindowCommandTest, ReportsErrorsWithTheFile) {
   ExpectError({"solve-window", Path("none.txt")}, "none.txt: does not exist");
   ExpectError({"solve-window", Path("good.txt"), "--set", "mode=pl-vo"},
               "is not an option of local bundle adjustment");
-  ExpectError({"solve-window", Path("good.txt"), "--set", "mapping.window.parallel.huber=-1"},
-              "mapping.window.parallel.huber must be a number from 0.01");
+  ExpectError({"solve-window", Path("good.txt"), "--set", "mapping.window.first_iterations=0"},
+              "mapping.window.first_iterations must be a whole number from 1");
   ExpectError({"solve-window", Path("good.txt"), "--output", Path("no/folder.txt")},
               "folder.txt: cannot be written");
   data.point_observations[3].point = 987;

@@ -206,18 +206,5 @@ TEST_F(LandmarkNoiseTest, IsEstimatedByLocalBundleAdjustment) {
   EXPECT_LT(error(window_), 0.5 * error(without));
 }
 
-TEST(LandmarkNoiseOptions, RejectsInvalidValues) {
-  std::string error;
-  LandmarkNoiseOptions options;
-  EXPECT_TRUE(options.IsValid(&error));
-  options.prior = 0.0;
-  EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_THAT(error, ::testing::HasSubstr("prior"));
-  options = {};
-  options.depth_offset_sigma = -1.0;
-  EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_THAT(error, ::testing::HasSubstr("depth_offset_sigma"));
-}
-
 }  // namespace
 }  // namespace msc_vo

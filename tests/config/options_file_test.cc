@@ -34,8 +34,8 @@ class OptionsFileTest : public TemporaryFolder {
 TEST_F(OptionsFileTest, KeepsOptionsThatTheFileDoesNotContain) {
   const Configuration configuration = Read(
       "# mine\nmode: pl-vo\ncamera:\n  fx: 500.5\n  width: 320\n  preset: tum-fr1\n"
-      "use_points: off\ntracking:\n  wide_radius: 80\n  pose:\n    num_rounds: 7\n"
-      "    consensus: {enabled: false}\nmapping:\n");
+      "use_points: off\ntracking:\n  wide_radius: 80\n  point_matcher: {max_distance: 70}\n"
+      "  pose:\n    consensus: {enabled: false}\nmapping:\n");
   EXPECT_EQ(configuration.odometry.mode, Mode::kPlVo);
   EXPECT_FALSE(configuration.odometry.use_points);
   EXPECT_EQ(*configuration.camera.fx, 500.5);
@@ -43,7 +43,7 @@ TEST_F(OptionsFileTest, KeepsOptionsThatTheFileDoesNotContain) {
   EXPECT_EQ(configuration.camera.preset, "tum-fr1");
   EXPECT_FALSE(configuration.camera.fy.has_value());
   EXPECT_EQ(configuration.odometry.tracking.wide_radius, 80.0);
-  EXPECT_EQ(configuration.odometry.tracking.pose.num_rounds, 7);
+  EXPECT_EQ(configuration.odometry.tracking.point_matcher.max_distance, 70);
   EXPECT_FALSE(configuration.odometry.tracking.pose.consensus.enabled);
   EXPECT_EQ(configuration.odometry.tracking.prediction_radius, TrackerOptions().prediction_radius);
 }
@@ -139,7 +139,7 @@ TEST_F(OptionsFileTest, WritesTablesInMarkdown) {
   EXPECT_EQ(all.rfind(basic, 0), 0u);
   EXPECT_THAT(all, AllOf(HasSubstr("\n### tracking\n"),
                          HasSubstr("\n| `tracking.wide_radius` | `60` | 0.1 to 1000 pixels |"),
-                         HasSubstr("\n### mapping.axes\n")));
+                         HasSubstr("\n### mapping.window\n")));
 }
 
 TEST_F(OptionsFileTest, SuggestsASimilarNameForAnUnknownOne) {
@@ -169,7 +169,8 @@ TEST_F(OptionsFileTest, RefusesNumbersOutOfRange) {
       ErrorOf("features:\n  points:\n    num_points: 2147483647\n"),
       HasSubstr("options.yaml:3: 'features.points.num_points' must be a whole number from 0 "
                 "to 20000 points, not '2147483647'"));
-  EXPECT_THAT(ErrorOf("normals: {grid_step: 1}\n"), HasSubstr("from 8 to 1000 pixels, not '1'"));
+  EXPECT_THAT(ErrorOf("tracking: {wide_radius: 0}\n"),
+              HasSubstr("from 0.1 to 1000 pixels, not '0'"));
   EXPECT_THAT(
       ErrorOf("mapping:\n  readout_time: 5\n"),
       HasSubstr("options.yaml:2: 'mapping.readout_time' must be a number from -0.99 to 0.99"));

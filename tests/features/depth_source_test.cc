@@ -52,7 +52,7 @@ TEST(DepthSource, LinesCountCorrelatedNoiseOnce) {
   DepthNoise noise = 0.003;
   const auto independent = [&](double length) {
     noise.correlation_length = length;
-    Eigen::Matrix2d covariance = FitDepthAlongLine({}, image, lens, segment, noise, 1)->covariance;
+    Eigen::Matrix2d covariance = FitDepthAlongLine(image, lens, segment, noise, 1)->covariance;
     covariance.array() -= std::pow(0.5 * 0.003, 2);  // the error that all samples have in common
     return covariance;
   };

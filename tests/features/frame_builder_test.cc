@@ -279,7 +279,6 @@ TEST(FrameBuilder, ThrowsOnInvalidCameraOrOptions) {
   invalid([](FrameBuilderOptions* o) { o->max_depth = 0.1; }, "max_depth");
   invalid([](FrameBuilderOptions* o) { o->points.num_levels = 0; }, "num_levels");
   invalid([](FrameBuilderOptions* o) { o->lines.max_lines = -1; }, "max_lines");
-  invalid([](FrameBuilderOptions* o) { o->line_fit.min_inliers = 0; }, "min_inliers");
   invalid([](FrameBuilderOptions* o) { o->noise.inverse_depth_sigma = 0.0; }, "inverse_depth");
   invalid([](FrameBuilderOptions* o) { o->noise.inverse_depth_noise = 0.0; }, "depth_noise");
   invalid([](FrameBuilderOptions* o) { o->noise.point_sigma = 0.0; }, "point_sigma");

@@ -36,7 +36,7 @@ double OccludingEdge(const Vector2d& x) { return Below(x) > 0.0 ? SlantedPlane(x
 
 std::optional<LineDepth> Fit(const cv::Mat& depth, uint32_t seed = 1) {
   const LensRemap lens(Camera(), LensDistortion());
-  return FitDepthAlongLine({}, InverseDepthImage(depth, 0.2, 10.0), lens, Segment(), kSigma, seed);
+  return FitDepthAlongLine(InverseDepthImage(depth, 0.2, 10.0), lens, Segment(), kSigma, seed);
 }
 
 std::optional<LineDepth> FromEndPoints(const cv::Mat& depth) {
@@ -221,8 +221,7 @@ TEST(LineBackprojection, SamplesAlongDistortedLine) {
   });
   const cv::Mat raw = testing::DistortImage(camera, distortion, ideal, cv::INTER_NEAREST);
   const LensRemap lens(camera, distortion);
-  const auto depth =
-      FitDepthAlongLine({}, InverseDepthImage(raw, 0.2, 10.0), lens, segment, kSigma, 1);
+  const auto depth = FitDepthAlongLine(InverseDepthImage(raw, 0.2, 10.0), lens, segment, kSigma, 1);
   ASSERT_TRUE(depth);
   EXPECT_GT(depth->inlier_ratio, 0.95);
   EXPECT_NEAR(depth->start, plane(segment.start), 1.5e-3);

@@ -101,22 +101,20 @@ class PoseChanges {
   }
 
   void ChangeOptions(PoseOptions* options) {
-    CellConsensusOptions& consensus = options->consensus;
     int* const counts[] = {&options->num_rounds, &options->num_robust_rounds,
-                           &options->iterations_per_round, &consensus.columns, &consensus.rows};
+                           &options->iterations_per_round};
     if (bytes_.Below(2) == 0) {
-      // Limits of the options: 100 rounds, 64 cells. More would only take longer.
-      int* const count = counts[bytes_.Below(5)];
+      // More rounds would only take longer.
+      int* const count = counts[bytes_.Below(3)];
       *count = static_cast<int>(bytes_.Below(66)) - 1;
       return;
     }
     Change({&options->point_reprojection.huber, &options->point_depth.huber,
             &options->line_reprojection.huber, &options->line_depth.huber, &options->reject_chi2_2,
-            &options->reject_chi2_3, &options->reject_chi2_4, &options->max_frame_noise,
-            &consensus.reject_chi2_6, &consensus.unconfirmed_weight, &consensus.min_cells});
+            &options->reject_chi2_3, &options->reject_chi2_4, &options->max_frame_noise});
     options->line_reprojection.enabled = bytes_.Below(8) != 0;
     options->point_depth.enabled = bytes_.Below(8) != 0;
-    consensus.enabled = bytes_.Below(8) != 0;
+    options->consensus.enabled = bytes_.Below(8) != 0;
   }
 
   ByteReader bytes_;

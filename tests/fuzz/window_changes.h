@@ -110,13 +110,9 @@ class WindowChanges {
                                   &options->line_reprojection,  &options->line_depth,
                                   &options->parallel,           &options->perpendicular,
                                   &options->manhattan};
-    std::vector<double*> numbers = {&options->line_endpoint_prior_sigma,
-                                    &options->reject_chi2_1,
-                                    &options->reject_chi2_2,
-                                    &options->reject_chi2_3,
-                                    &options->reject_chi2_4,
-                                    &options->landmark_noise.prior,
-                                    &options->landmark_noise.depth_offset_sigma};
+    std::vector<double*> numbers = {&options->line_endpoint_prior_sigma, &options->reject_chi2_1,
+                                    &options->reject_chi2_2, &options->reject_chi2_3,
+                                    &options->reject_chi2_4};
     std::vector<bool*> flags = {&options->landmark_noise.enabled, &options->line_endpoint_prior};
     for (TermOptions* term : terms) {
       numbers.push_back(&term->huber);

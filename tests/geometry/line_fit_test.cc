@@ -32,7 +32,7 @@ std::vector<LineFitSample> Samples(int n, double start, double end, double noise
 
 TEST(LineFit, IsExactWithoutNoise) {
   std::mt19937 random(1);
-  const auto depth = FitLineDepth({}, Samples(12, 0.5, 0.7, 0.0, &random), 3);
+  const auto depth = FitLineDepth(Samples(12, 0.5, 0.7, 0.0, &random), 3);
   ASSERT_TRUE(depth);
   EXPECT_NEAR(depth->start, 0.5, 1e-12);
   EXPECT_NEAR(depth->end, 0.7, 1e-12);
@@ -41,16 +41,14 @@ TEST(LineFit, IsExactWithoutNoise) {
 }
 
 TEST(LineFit, CovarianceMatchesLeastSquares) {
-  // Two samples of sigma q at each end: standard deviation q / sqrt(2) at each end, independent.
+  // Three samples of sigma q at each end: standard deviation q / sqrt(3) at each end, independent.
   const double q = 2e-3;
   std::vector<LineFitSample> samples;
-  for (const double s : {0.0, 0.0, 1.0, 1.0}) samples.push_back({s, 0.4, q});
-  LineFitOptions options;
-  options.min_inliers = 4;
-  const auto depth = FitLineDepth(options, samples, 0);
+  for (const double s : {0.0, 0.0, 0.0, 1.0, 1.0, 1.0}) samples.push_back({s, 0.4, q});
+  const auto depth = FitLineDepth(samples, 0);
   ASSERT_TRUE(depth);
-  EXPECT_NEAR(depth->covariance(0, 0), q * q / 2.0, 1e-15);
-  EXPECT_NEAR(depth->covariance(1, 1), q * q / 2.0, 1e-15);
+  EXPECT_NEAR(depth->covariance(0, 0), q * q / 3.0, 1e-15);
+  EXPECT_NEAR(depth->covariance(1, 1), q * q / 3.0, 1e-15);
   EXPECT_NEAR(depth->covariance(0, 1), 0.0, 1e-15);
 }
 
@@ -59,7 +57,7 @@ TEST(LineFit, IsRobustToOutliers) {
   for (uint32_t seed = 0; seed < 50; ++seed) {
     std::vector<LineFitSample> samples = Samples(30, 0.5, 0.8, 1.0, &random);
     for (size_t i = 0; i < samples.size(); i += 3) samples[i].inverse_depth = 0.2 + 0.02 * (i % 7);
-    const auto depth = FitLineDepth({}, samples, seed);
+    const auto depth = FitLineDepth(samples, seed);
     ASSERT_TRUE(depth) << seed;
     EXPECT_NEAR(depth->start, 0.5, 4.5 * std::sqrt(depth->covariance(0, 0))) << seed;
     EXPECT_NEAR(depth->end, 0.8, 4.5 * std::sqrt(depth->covariance(1, 1))) << seed;
@@ -76,7 +74,7 @@ TEST(LineFit, CovarianceIsConsistent) {
   const int trials = 1000;
   double sum = 0.0;
   for (int trial = 0; trial < trials; ++trial) {
-    const auto depth = FitLineDepth({}, Samples(20, 0.9, 0.4, 1.0, &random), trial);
+    const auto depth = FitLineDepth(Samples(20, 0.9, 0.4, 1.0, &random), trial);
     ASSERT_TRUE(depth);
     const Eigen::Vector2d error(depth->start - 0.9, depth->end - 0.4);
     sum += error.dot(depth->covariance.inverse() * error);
@@ -90,46 +88,28 @@ TEST(LineFit, RejectsSamplesWithoutLine) {
   std::uniform_real_distribution<double> uniform(0.2, 2.0);
   std::vector<LineFitSample> noise;
   for (int i = 0; i < 40; ++i) noise.push_back({i / 39.0, uniform(random), kSigma});
-  EXPECT_FALSE(FitLineDepth({}, noise, 1));
-  EXPECT_FALSE(FitLineDepth({}, {}, 1));
-  EXPECT_FALSE(FitLineDepth({}, Samples(4, 0.5, 0.5, 0.0, &random), 1));  // min_inliers is 5
+  EXPECT_FALSE(FitLineDepth(noise, 1));
+  EXPECT_FALSE(FitLineDepth({}, 1));
+  EXPECT_FALSE(FitLineDepth(Samples(4, 0.5, 0.5, 0.0, &random), 1));  // five are required
   // All samples at one position.
-  EXPECT_FALSE(FitLineDepth({}, std::vector<LineFitSample>(9, {0.5, 0.5, kSigma}), 1));
+  EXPECT_FALSE(FitLineDepth(std::vector<LineFitSample>(9, {0.5, 0.5, kSigma}), 1));
 }
 
 TEST(LineFit, RejectsLineBehindCamera) {
   std::vector<LineFitSample> samples;
   for (int i = 0; i < 10; ++i) samples.push_back({0.05 * i, 0.5 - 0.06 * i, kSigma});
-  EXPECT_FALSE(FitLineDepth({}, samples, 1));  // w(1) = -0.7
+  EXPECT_FALSE(FitLineDepth(samples, 1));  // w(1) = -0.7
 }
 
 TEST(LineFit, IsDeterministic) {
   std::mt19937 random(5);
   std::vector<LineFitSample> samples = Samples(60, 0.5, 0.8, 3.0, &random);
-  const auto a = FitLineDepth({}, samples, 11);
-  const auto b = FitLineDepth({}, samples, 11);
+  const auto a = FitLineDepth(samples, 11);
+  const auto b = FitLineDepth(samples, 11);
   ASSERT_TRUE(a && b);
   EXPECT_EQ(a->start, b->start);
   EXPECT_EQ(a->end, b->end);
   EXPECT_EQ(a->covariance, b->covariance);
-}
-
-TEST(LineFit, ThrowsOnInvalidOptions) {
-  LineFitOptions options;
-  options.min_inliers = 1;
-  EXPECT_THROW(FitLineDepth(options, {}, 0), std::invalid_argument);
-  std::string error;
-  EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_NE(error.find("min_inliers"), std::string::npos);
-  options = LineFitOptions();
-  options.inlier_sigmas = 0.0;
-  EXPECT_FALSE(options.IsValid(&error));
-  options = LineFitOptions();
-  options.max_iterations = 0;
-  EXPECT_FALSE(options.IsValid(&error));
-  options = LineFitOptions();
-  options.min_inlier_ratio = 1.5;
-  EXPECT_FALSE(options.IsValid(&error));
 }
 
 TEST(LineFit, BackProjectInvertsProjection) {

@@ -47,12 +47,11 @@ class MapAlignmentTest : public testing::Test {
   }
 
   std::mt19937 random_{1};
-  MapAlignmentOptions options_;
   const Rigid3 a_from_b_{ExpSO3({0.4, -1.2, 0.7}), {5.0, 1.0, -2.0}};
 };
 
 TEST_F(MapAlignmentTest, AlignsByFramesThatAgree) {
-  const auto alignment = AlignMaps(options_, {MakeFrame(0), MakeFrame(1), MakeFrame(2)});
+  const auto alignment = AlignMaps({MakeFrame(0), MakeFrame(1), MakeFrame(2)});
   ASSERT_TRUE(alignment.has_value());
   EXPECT_THAT(alignment->inliers, ElementsAre(true, true, true));
   EXPECT_LT(PositionError(*alignment), 0.004);
@@ -65,8 +64,7 @@ TEST_F(MapAlignmentTest, AlignsByFramesThatAgree) {
 }
 
 TEST_F(MapAlignmentTest, ExactFramesGiveTheExactAlignment) {
-  const auto alignment =
-      AlignMaps(options_, {MakeFrame(0, 0.0), MakeFrame(3, 0.0), MakeFrame(6, 0.0)});
+  const auto alignment = AlignMaps({MakeFrame(0, 0.0), MakeFrame(3, 0.0), MakeFrame(6, 0.0)});
   ASSERT_TRUE(alignment.has_value());
   EXPECT_TRUE(alignment->a_from_b.params.isApprox(a_from_b_.params, 1e-9));
 }
@@ -74,32 +72,22 @@ TEST_F(MapAlignmentTest, ExactFramesGiveTheExactAlignment) {
 TEST_F(MapAlignmentTest, LeavesOutAFrameThatWasFoundInTheWrongPlace) {
   FrameInTwoMaps wrong = MakeFrame(3);
   wrong.cam_from_b.translation().x() += 0.3;
-  const auto alignment = AlignMaps(options_, {MakeFrame(0), wrong, MakeFrame(1), MakeFrame(2)});
+  const auto alignment = AlignMaps({MakeFrame(0), wrong, MakeFrame(1), MakeFrame(2)});
   ASSERT_TRUE(alignment.has_value());
   EXPECT_THAT(alignment->inliers, ElementsAre(true, false, true, true));
   EXPECT_LT(PositionError(*alignment), 0.004);
 }
 
 TEST_F(MapAlignmentTest, NeedsEnoughFramesThatAgree) {
-  EXPECT_FALSE(AlignMaps(options_, {}).has_value());
-  EXPECT_FALSE(AlignMaps(options_, {MakeFrame(0), MakeFrame(1)}).has_value());
+  EXPECT_FALSE(AlignMaps({}).has_value());
+  EXPECT_FALSE(AlignMaps({MakeFrame(0), MakeFrame(1)}).has_value());
   std::vector<FrameInTwoMaps> frames = {MakeFrame(0), MakeFrame(1), MakeFrame(2)};
   for (int i = 0; i < 3; ++i) {
     frames.push_back(MakeFrame(3 + i));
     frames.back().cam_from_b.translation().y() += 0.5 * (i + 1);
   }
   // Three of six are not more than half.
-  EXPECT_FALSE(AlignMaps(options_, frames).has_value());
-}
-
-TEST_F(MapAlignmentTest, RefusesInvalidOptions) {
-  std::string error;
-  options_.min_frames = 0;
-  EXPECT_FALSE(options_.IsValid(&error));
-  options_.min_frames = 3;
-  options_.map_sigma = 0.0;
-  EXPECT_FALSE(options_.IsValid(&error));
-  EXPECT_THAT(error, testing::HasSubstr("map_sigma"));
+  EXPECT_FALSE(AlignMaps(frames).has_value());
 }
 
 }  // namespace

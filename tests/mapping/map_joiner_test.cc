@@ -52,7 +52,7 @@ class MapJoinerTest : public testing::Test {
   }
 
   Atlas atlas_{SceneAxesOptions(), NoiseEstimatorOptions()};
-  MapJoiner joiner_{MapAlignmentOptions()};
+  MapJoiner joiner_;
 };
 
 TEST_F(MapJoinerTest, JoinsMapsInWhichKeyframesAgree) {

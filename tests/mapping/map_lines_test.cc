@@ -44,11 +44,12 @@ double AxisError(const LineSegment3& line) {
 
 TEST(RefineMapLines, TurnsUncertainLinesToTheirAxes) {
   MapperOptions options;
-  // As in a run whose windows align certain lines only.
-  options.axes.association.max_sigma = 1.0;
+  options.window.manhattan.enabled = false;  // no window turns a line
   const Mapper mapper = MapBox(options);
   ASSERT_EQ(mapper.axes().estimator().state(), AxesState::kRefined);
-  const auto refined = mapper.RefinedLines(mapper.atlas().current());
+  options.window.manhattan.enabled = true;
+  const auto refined =
+      RefineMapLines(options, mapper.atlas().current(), StructuralPairs(options.pairs));
   ASSERT_GE(refined.size(), 20u);
   double before = 0.0, after = 0.0;
   size_t num_aligned = 0;

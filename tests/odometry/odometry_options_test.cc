@@ -38,17 +38,12 @@ TEST(EffectiveOptions, ShareSettingsBetweenComponents) {
   options.tracking.line_matcher.max_angle = 3.0;
   options.mapping.window.line_depth = {false, 1.5};
   options.mapping.window.reject_chi2_2 = 7.0;
-  options.mapping.window.manhattan.huber = 1.25;
-  options.mapping.pairs.max_partners = 3;
   const OdometryOptions effective = EffectiveOptions(options);
   EXPECT_EQ(effective.mapping.fusion.point_matcher.max_distance, 33);
   EXPECT_EQ(effective.mapping.fusion.line_matcher.max_angle, 3.0);
   EXPECT_FALSE(effective.tracking.pose.line_depth.enabled);
   EXPECT_EQ(effective.tracking.pose.line_depth.huber, 1.5);
   EXPECT_EQ(effective.tracking.pose.reject_chi2_2, 7.0);
-  EXPECT_EQ(effective.mapping.axes.refinement.reject_chi2_2, 7.0);
-  EXPECT_EQ(effective.mapping.axes.refinement.huber, 1.25);
-  EXPECT_EQ(effective.mapping.structure.max_partners, 3);
 }
 
 TEST(NormalOptions, HaveTheDepthRangeOfTheFeatures) {
@@ -57,8 +52,6 @@ TEST(NormalOptions, HaveTheDepthRangeOfTheFeatures) {
   options.features.max_depth = 4.0;
   EXPECT_EQ(NormalOptions(options).min_depth, 0.5);
   EXPECT_EQ(NormalOptions(options).max_depth, 4.0);
-  options.normal_grid_step = 8;
-  EXPECT_EQ(NormalOptions(options).grid_step, 8);
 }
 
 TEST(NormalOptions, AreValidForEveryValidDepthRange) {

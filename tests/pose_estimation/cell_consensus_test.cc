@@ -71,8 +71,7 @@ class BoardMaker {
   }
 
   void ShiftCells(PoseData* data) {
-    const CellConsensusOptions options;
-    const ImageGrid grid(options.columns, options.rows, data->camera);
+    const ImageGrid grid = ConsensusGrid(data->camera);
     std::vector<Eigen::Vector2d> shifts;
     for (int i = 0; i < grid.size(); ++i) {
       const double x = normal_(random_);
@@ -147,8 +146,7 @@ TEST(CellConsensusTest, ReportsDynamicMatchesAndCells) {
             static_cast<int>(data.points.size() + data.lines.size()) - summary.num_dynamic);
   // A match is dynamic if its cell is (lines: the cell of the midpoint). Cells without matches are
   // static.
-  const CellConsensusOptions options;
-  const ImageGrid grid(options.columns, options.rows, data.camera);
+  const ImageGrid grid = ConsensusGrid(data.camera);
   ASSERT_EQ(summary.dynamic_cells.size(), static_cast<size_t>(grid.size()));
   std::vector<bool> with_matches(grid.size());
   for (const PoseData::Point& point : data.points) {
@@ -251,21 +249,6 @@ TEST(CellConsensusTest, WeightsConfirmedLandmarksMore) {
   EXPECT_LT(PositionError(scene, PoseOptions()), 0.01);
   scene.is_board_confirmed = true;
   EXPECT_GT(PositionError(scene, PoseOptions()), 0.02);
-}
-
-TEST(CellConsensusTest, RejectsInvalidOptions) {
-  const auto is_rejected = [](void (*spoil)(CellConsensusOptions*)) {
-    CellConsensusOptions options;
-    spoil(&options);
-    std::string error;
-    return !options.IsValid(&error) && error.find("consensus: ") == 0;
-  };
-  EXPECT_TRUE(is_rejected([](CellConsensusOptions* o) { o->columns = 0; }));
-  EXPECT_TRUE(is_rejected([](CellConsensusOptions* o) { o->rows = 0; }));
-  EXPECT_TRUE(is_rejected([](CellConsensusOptions* o) { o->reject_chi2_6 = 0.0; }));
-  EXPECT_TRUE(is_rejected([](CellConsensusOptions* o) { o->min_cells = -1.0; }));
-  EXPECT_TRUE(is_rejected([](CellConsensusOptions* o) { o->unconfirmed_weight = 0.0; }));
-  EXPECT_TRUE(is_rejected([](CellConsensusOptions* o) { o->unconfirmed_weight = 1.5; }));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 // keyframe.
 std::vector<int> Kept(int num_frames, int keyframe_interval, const FrameViewLimits& limits) {
   TrackedScene scene;
-  FrameViewCollector collector(num_frames, {}, {}, limits);
+  FrameViewCollector collector(num_frames, {}, limits);
   for (int i = 0; i < num_frames; ++i) {
     scene.result.id = i;
     scene.result.is_keyframe = i % keyframe_interval == 0;
@@ -33,7 +33,7 @@ std::vector<int> Kept(int num_frames, int keyframe_interval, const FrameViewLimi
 
 size_t BytesOfOne() {
   const TrackedScene scene;
-  FrameViewCollector collector(1, {}, {}, {});
+  FrameViewCollector collector(1, {}, {});
   collector.Add(scene.View());
   return NumBytes(collector.Take().at(0));
 }

@@ -18,17 +18,17 @@ std::vector<LineColor> Colors(const ViewedFeatures& features) {
 TEST(TrackedFeatures, HaveTheColorsOfTheManhattanAxes) {
   TrackedScene scene;
   EXPECT_THAT(
-      Colors(TrackedFeatures(scene.View(), {}, {})),
+      Colors(TrackedFeatures(scene.View(), {})),
       testing::ElementsAre(LineColor::kAxis0, LineColor::kWithoutAxis, LineColor::kWithoutDepth));
   scene.map.axes.reset();
-  EXPECT_THAT(Colors(TrackedFeatures(scene.View(), {}, {})),
+  EXPECT_THAT(Colors(TrackedFeatures(scene.View(), {})),
               testing::ElementsAre(LineColor::kWithoutAxis, LineColor::kWithoutAxis,
                                    LineColor::kWithoutDepth));
 }
 
 TEST(TrackedFeatures, AreThoseWithAMatch) {
   TrackedScene scene;
-  const ViewedFeatures all = TrackedFeatures(scene.View(), {}, {});
+  const ViewedFeatures all = TrackedFeatures(scene.View(), {});
   ASSERT_EQ(all.points.size(), 2u);
   EXPECT_EQ(all.points[0].pixel, Eigen::Vector2f(100, 50));
   EXPECT_TRUE(all.points[0].has_depth);
@@ -36,7 +36,7 @@ TEST(TrackedFeatures, AreThoseWithAMatch) {
   EXPECT_EQ(all.lines[0].end, Eigen::Vector2f(300, 200));
   scene.tracked.matches.points.pop_back();
   scene.tracked.matches.lines = {scene.tracked.matches.lines[1]};
-  const ViewedFeatures some = TrackedFeatures(scene.View(), {}, {});
+  const ViewedFeatures some = TrackedFeatures(scene.View(), {});
   EXPECT_EQ(some.points.size(), 1u);
   ASSERT_EQ(some.lines.size(), 1u);
   EXPECT_EQ(some.lines[0].start, Eigen::Vector2f(100, 300));
@@ -46,14 +46,14 @@ TEST(TrackedFeatures, AreDistortedAsTheImage) {
   const TrackedScene scene;
   LensDistortion lens;
   lens.k = {0.1, 0.0, 0.0, 0.0, 0.0};
-  const Eigen::Vector2f pixel = TrackedFeatures(scene.View(), lens, {}).points[0].pixel;
+  const Eigen::Vector2f pixel = TrackedFeatures(scene.View(), lens).points[0].pixel;
   EXPECT_LT(pixel.x(), 97.0F);  // away from the centre of the image
   EXPECT_LT(pixel.y(), 48.0F);
 }
 
 TEST(ViewedMap, ContainsAllLandmarksAndAxes) {
   const TrackedScene scene;
-  const ReportMap map = ViewedMap(scene.map, {});
+  const ReportMap map = ViewedMap(scene.map);
   ASSERT_EQ(map.lines.size(), 3u);
   EXPECT_EQ(map.lines[0].axis, 0);
   EXPECT_EQ(map.lines[1].axis, -1);

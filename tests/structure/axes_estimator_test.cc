@@ -35,7 +35,7 @@ class AxesEstimatorTest : public ::testing::Test {
     Grow(10, 40);
     ASSERT_TRUE(estimator_.Refine(Turned(0.5), Covariance(sigma_degrees)));
   }
-  AxesEstimator estimator_{AxesEstimatorOptions()};
+  AxesEstimator estimator_;
 };
 
 TEST_F(AxesEstimatorTest, StartsWithoutAxes) {
@@ -47,7 +47,7 @@ TEST_F(AxesEstimatorTest, StartsWithoutAxes) {
 TEST_F(AxesEstimatorTest, AcceptsTheFirstProposalOnly) {
   estimator_.Propose(Turned(1.0));
   EXPECT_EQ(estimator_.state(), AxesState::kCoarse);
-  EXPECT_DOUBLE_EQ(RadiansToDegrees(estimator_.sigma()), AxesEstimatorOptions().coarse_sigma);
+  EXPECT_EQ(estimator_.sigma(), AxesEstimator::kCoarseSigma);
   estimator_.Propose(Turned(30.0));
   EXPECT_LT(estimator_.world_from_axes().angularDistance(Turned(1.0)), 1e-12);
 }
@@ -133,12 +133,9 @@ TEST_F(AxesEstimatorTest, DropsCoarseAxesOnANonFiniteRefinement) {
   EXPECT_EQ(estimator_.state(), AxesState::kNone);
 }
 
-TEST_F(AxesEstimatorTest, RejectsInvalidCallsAndOptions) {
+TEST_F(AxesEstimatorTest, RejectsInvalidCalls) {
   EXPECT_THROW(estimator_.Refine(Turned(0.0), Covariance(0.1)), std::invalid_argument);
   EXPECT_THROW(estimator_.RejectRefinement(), std::invalid_argument);
-  AxesEstimatorOptions options;
-  options.min_growth = 1.0;
-  EXPECT_THROW(AxesEstimator{options}, std::invalid_argument);
 }
 
 TEST(AxesState, HasNames) {

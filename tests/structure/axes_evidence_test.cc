@@ -20,7 +20,7 @@ testing::View RandomView(int num_lines, int num_normals) {
 }
 
 DirectionEvidence Gather(const testing::View& view) {
-  return GatherEvidence(CoarseAxesOptions(), view.lines, view.normals);
+  return GatherEvidence(view.lines, view.normals);
 }
 
 // Total weight of the lines; the weights of all evidence sum to 1.
@@ -56,9 +56,9 @@ TEST(DirectionEvidence, CountsLinesAndNormals) {
 
 TEST(DirectionEvidence, DropsUncertainDirections) {
   testing::View view = RandomView(10, 10);
-  view.lines[3].sigma = DegreesToRadians(CoarseAxesOptions().max_sigma + 0.1);
-  view.normals[4].sigma = DegreesToRadians(CoarseAxesOptions().max_sigma + 0.1);
-  view.normals[5].sigma = DegreesToRadians(CoarseAxesOptions().max_sigma - 0.1);
+  view.lines[3].sigma = kMaxEvidenceSigma + DegreesToRadians(0.1);
+  view.normals[4].sigma = kMaxEvidenceSigma + DegreesToRadians(0.1);
+  view.normals[5].sigma = kMaxEvidenceSigma - DegreesToRadians(0.1);
   const DirectionEvidence evidence = Gather(view);
   EXPECT_EQ(evidence.num_lines, 9u);
   EXPECT_EQ(evidence.NumNormals(), 9u);
@@ -78,7 +78,7 @@ TEST(DirectionEvidence, IsIndependentOfTheOrder) {
 
 TEST(DirectionEvidence, HasUnitDirections) {
   const testing::Evidence lines = {{Eigen::Vector3d(0.0, 3.0, 4.0), DegreesToRadians(1.0)}};
-  const DirectionEvidence evidence = GatherEvidence(CoarseAxesOptions(), lines, {});
+  const DirectionEvidence evidence = GatherEvidence(lines, {});
   ASSERT_EQ(evidence.all.size(), 1u);
   EXPECT_TRUE(evidence.all[0].direction.isApprox(Eigen::Vector3d(0.0, 0.6, 0.8)));
 }

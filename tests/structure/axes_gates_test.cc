@@ -3,6 +3,7 @@
 
 #include "msc_vo/structure/internal/axes_gates.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/angles.h"
@@ -29,7 +30,7 @@ struct Support {
     DirectionEvidence evidence;
     evidence.num_lines = num_lines;
     evidence.all.resize(num_lines + num_normals);
-    return PassesGates(CoarseAxesOptions(), evidence, axes);
+    return PassesGates(evidence, axes);
   }
 };
 
@@ -68,9 +69,9 @@ TEST(AxesGates, RequiresTheMajorityOfNumerousNormals) {
 TEST(AxesGates, LimitsTheMisfitOfEveryAxis) {
   for (int axis = 0; axis < 3; ++axis) {
     Support support = Room();
-    support.axes.misfit[axis] = DegreesToRadians(CoarseAxesOptions().max_misfit + 0.1);
+    support.axes.misfit[axis] = kMaxMisfit + DegreesToRadians(0.1);
     EXPECT_FALSE(support.Passes()) << axis;
-    support.axes.misfit[axis] = DegreesToRadians(CoarseAxesOptions().max_misfit - 0.1);
+    support.axes.misfit[axis] = kMaxMisfit - DegreesToRadians(0.1);
     EXPECT_TRUE(support.Passes()) << axis;
   }
 }
@@ -115,23 +116,21 @@ struct Building {
                     {Vector3d::UnitY(), 1.0},
                     {turn.col(0), annexe},
                     {turn.col(1), annexe}};
-    const CoarseAxesOptions options;
-    const std::vector<ScoredAxes> hypotheses = {ScoreAxes(options, evidence, Matrix3d::Identity()),
-                                                ScoreAxes(options, evidence, turn)};
-    return msc_vo::HasRival(options, evidence, hypotheses, Matrix3d::Identity());
+    const std::vector<ScoredAxes> hypotheses = {ScoreAxes(evidence, Matrix3d::Identity()),
+                                                ScoreAxes(evidence, turn)};
+    return msc_vo::HasRival(evidence, hypotheses, Matrix3d::Identity());
   }
 };
 
 TEST(AxesRival, ComparesTheEvidenceThatIsNotShared) {
-  const double max_rival = CoarseAxesOptions().max_rival;
   EXPECT_TRUE((Building{35.0, 1.0}.HasRival()));
-  EXPECT_TRUE((Building{35.0, max_rival + 0.01}.HasRival()));
+  EXPECT_TRUE((Building{35.0, kMaxRival + 0.01}.HasRival()));
   // The common vertical would make the hypotheses nearly equal.
-  EXPECT_FALSE((Building{35.0, max_rival - 0.01}.HasRival()));
+  EXPECT_FALSE((Building{35.0, kMaxRival - 0.01}.HasRival()));
 }
 
 TEST(AxesRival, IgnoresHypothesesWithOverlappingCones) {
-  const double min_angle = 2.0 * CoarseAxesOptions().max_angle;
+  const double min_angle = RadiansToDegrees(2.0 * kAxisCone);
   EXPECT_FALSE((Building{min_angle - 0.5, 1.0}.HasRival()));
   EXPECT_TRUE((Building{min_angle + 0.5, 1.0}.HasRival()));
 }

@@ -19,8 +19,7 @@ Matrix3d Yaw(double degrees) {
 }
 
 std::vector<Matrix3d> Find(const testing::Evidence& lines) {
-  const CoarseAxesOptions options;
-  return FindAxesHypotheses(options, GatherEvidence(options, lines, {}));
+  return FindAxesHypotheses(GatherEvidence(lines, {}));
 }
 
 // Angle (degrees) between `axes` and the nearest hypothesis.

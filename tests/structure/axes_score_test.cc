@@ -33,7 +33,7 @@ DirectionEvidence MakeEvidence(const std::vector<Vector3d>& lines,
 }
 
 ScoredAxes Score(const DirectionEvidence& evidence, const Matrix3d& axes = Matrix3d::Identity()) {
-  return ScoreAxes(CoarseAxesOptions(), evidence, axes);
+  return ScoreAxes(evidence, axes);
 }
 
 TEST(AxesScore, CountsTheEvidenceInEachCone) {
@@ -45,7 +45,7 @@ TEST(AxesScore, CountsTheEvidenceInEachCone) {
 }
 
 TEST(AxesScore, ExcludesEvidenceOutsideTheCones) {
-  const double max_angle = CoarseAxesOptions().max_angle;
+  const double max_angle = RadiansToDegrees(kAxisCone);
   const ScoredAxes scored =
       Score(MakeEvidence({InPlane(max_angle - 0.1), InPlane(max_angle + 0.1)}, {}));
   EXPECT_EQ(scored.num_lines, Vector3d(1.0, 0.0, 0.0));
@@ -61,8 +61,7 @@ TEST(AxesScore, MisfitIsTheAngleOfTheMeanDirection) {
 }
 
 TEST(AxesScore, DensityIsTheKernelOfTheTangentPlane) {
-  const double tangent =
-      std::tan(DegreesToRadians(3.0)) / DegreesToRadians(CoarseAxesOptions().last_bandwidth);
+  const double tangent = std::tan(DegreesToRadians(3.0)) / kLastBandwidth;
   EXPECT_NEAR(Score(MakeEvidence({InPlane(0.0)}, {})).density, 1.0, 1e-12);
   EXPECT_NEAR(Score(MakeEvidence({InPlane(3.0)}, {})).density, std::exp(-0.5 * tangent * tangent),
               1e-9);

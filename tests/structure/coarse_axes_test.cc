@@ -4,7 +4,6 @@
 #include "msc_vo/structure/coarse_axes.h"
 
 #include <cmath>
-#include <stdexcept>
 
 #include "tests/structure/evidence.h"
 #include <gtest/gtest.h>
@@ -25,7 +24,7 @@ using testing::RoomView;
 using testing::View;
 
 std::optional<ManhattanAxes> Find(const View& view) {
-  return FindCoarseAxes({}, view.lines, view.normals);
+  return FindCoarseAxes(view.lines, view.normals);
 }
 
 // Expects axes within one degree of `truth`.
@@ -252,16 +251,6 @@ TEST(CoarseAxes, ReturnsTheOrderNearestToTheIdentityWithItsSupport) {
   EXPECT_NEAR(axes->line_ratio.z(), 0.125, 0.02);
   EXPECT_NEAR(axes->normal_ratio.x(), 0.1875, 0.02);
   EXPECT_NEAR(axes->normal_ratio.z(), 0.5, 0.02);
-}
-
-TEST(CoarseAxes, RejectsInvalidOptions) {
-  CoarseAxesOptions options;
-  options.min_explained_ratio = 1.5;
-  std::string error;
-  EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_NE(error.find("min_explained_ratio"), std::string::npos);
-  EXPECT_THROW(FindCoarseAxes(options, {}, {}), std::invalid_argument);
-  EXPECT_TRUE(CoarseAxesOptions().IsValid(&error));
 }
 
 }  // namespace

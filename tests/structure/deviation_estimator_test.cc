@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <random>
-#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -30,7 +29,7 @@ std::vector<DirectionDeviation> MakeDeviations(double deviation, double noise, i
 }
 
 double LearntDegrees(double deviation, double noise) {
-  DeviationEstimator estimator{DeviationOptions()};
+  DeviationEstimator estimator;
   for (unsigned window = 0; window < 10; ++window) {
     estimator.Update(MakeDeviations(deviation, noise, 100, window));
   }
@@ -46,9 +45,9 @@ TEST(DeviationEstimator, LearnsTheDeviationBehindTheNoiseOfMeasurements) {
 }
 
 TEST(DeviationEstimator, StartsAtThePriorAndNeedsSeveralLinesToLeaveIt) {
-  DeviationEstimator estimator{DeviationOptions()};
+  DeviationEstimator estimator;
   estimator.Update({});
-  EXPECT_DOUBLE_EQ(RadiansToDegrees(estimator.scale()), DeviationOptions().prior);
+  EXPECT_EQ(estimator.scale(), DeviationEstimator().scale());
   estimator.Update(MakeDeviations(0.05, 0.02, 1, 1));
   const double after_one = estimator.scale();
   estimator.Update(MakeDeviations(0.05, 0.02, 100, 2));
@@ -56,14 +55,14 @@ TEST(DeviationEstimator, StartsAtThePriorAndNeedsSeveralLinesToLeaveIt) {
 }
 
 TEST(DeviationEstimator, ForgetsOldWindows) {
-  DeviationEstimator estimator{DeviationOptions()};
+  DeviationEstimator estimator;
   for (unsigned i = 0; i < 5; ++i) estimator.Update(MakeDeviations(1.0, 0.02, 100, i));
   for (unsigned i = 0; i < 5; ++i) estimator.Update(MakeDeviations(0.1, 0.02, 100, i));
   EXPECT_LT(RadiansToDegrees(estimator.scale()), 0.2);
 }
 
 TEST(DeviationEstimator, PullsLessOnLinesThatAreFarOff) {
-  DeviationEstimator estimator{DeviationOptions()};
+  DeviationEstimator estimator;
   const double scale = estimator.scale();
   const auto at = [&](double sigmas) {
     return DirectionDeviation{{sigmas * scale, 0.0}, Eigen::Matrix2d::Zero()};
@@ -79,7 +78,7 @@ TEST(DeviationEstimator, PullsLessOnLinesThatAreFarOff) {
 }
 
 TEST(DeviationEstimator, HasDensitiesThatIntegrateToOne) {
-  DeviationEstimator estimator{DeviationOptions()};
+  DeviationEstimator estimator;
   const double variance = 0.25 * estimator.scale() * estimator.scale();
   const double step = 0.05 * estimator.scale();
   double line = 0.0, plane = 0.0;
@@ -94,11 +93,6 @@ TEST(DeviationEstimator, HasDensitiesThatIntegrateToOne) {
   }
   EXPECT_NEAR(line, 1.0, 0.001);
   EXPECT_NEAR(plane, 1.0, 0.001);
-}
-
-TEST(DeviationEstimator, RejectsInvalidOptions) {
-  EXPECT_THROW((DeviationEstimator{DeviationOptions{0.0, 300.0}}), std::invalid_argument);
-  EXPECT_THROW((DeviationEstimator{DeviationOptions{0.7, 0.0}}), std::invalid_argument);
 }
 
 }  // namespace

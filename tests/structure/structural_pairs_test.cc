@@ -75,7 +75,8 @@ TEST_F(StructuralPairsTest, LearnsTheDeviationOfPairs) {
   StructuralPairs pairs(options_);
   for (int i = 0; i < 3; ++i) LearnAndAdd(&pairs, &window_);
   // The lines of the box are exact, and known to some tenths of a degree.
-  EXPECT_LT(RadiansToDegrees(pairs.deviation().scale()), 0.5 * options_.deviation.prior);
+  EXPECT_LT(RadiansToDegrees(pairs.deviation().scale()),
+            RadiansToDegrees(0.5 * DeviationEstimator().scale()));
 }
 
 // Lines in random directions: about every twentieth pair is within three degrees of 90 by chance.
@@ -112,7 +113,11 @@ TEST_F(StructuralPairsTest, LeavesOutPairsByChance) {
 // The deviation of a line is common to all its pairs: together they weigh no more than it is known.
 TEST_F(StructuralPairsTest, WeighsALineWithManyPartnersOnce) {
   options_.perpendicular = false;
-  options_.max_partners = 1000;
+  // A line that is known far better than all others is among the best partners of each.
+  const int64_t best_line = window_.line_observations.front().line;
+  for (WindowData::LineObservation& observation : window_.line_observations) {
+    if (observation.line == best_line) observation.depth.covariance *= 1e-4;
+  }
   StructuralPairs pairs(options_);
   LearnAndAdd(&pairs, &window_);
   std::map<int64_t, double> information;
@@ -146,11 +151,11 @@ TEST_F(StructuralPairsTest, ExcludesPairsOfAlignedLines) {
   }
   window_.axis_alignments.erase(window_.axis_alignments.begin());
   const int64_t free_line = window_.lines.front().id;
-  options_.min_probability = 0.0;  // few pairs remain, which do not show that they are related
-  Add();
-  EXPECT_FALSE(window_.perpendicular_pairs.empty());
-  for (const auto& pair : window_.perpendicular_pairs) {
-    EXPECT_TRUE(pair.a == free_line || pair.b == free_line);
+  // Candidates, because few of them do not show that they are related.
+  const PairCandidates candidates = FindPairCandidates(options_, window_);
+  EXPECT_FALSE(candidates.perpendicular.empty());
+  for (const auto& pair : candidates.perpendicular) {
+    EXPECT_TRUE(candidates.lines[pair.i] == free_line || candidates.lines[pair.j] == free_line);
   }
 }
 
@@ -184,9 +189,9 @@ TEST(StructuralPairOptions, ChecksItsOptions) {
   std::string error;
   StructuralPairOptions options;
   EXPECT_TRUE(options.IsValid(&error));
-  options.max_sigma = 0.0;
+  options.max_angle = 0.0;
   EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_THAT(error, ::testing::HasSubstr("max_sigma"));
+  EXPECT_THAT(error, ::testing::HasSubstr("max_angle"));
   EXPECT_THROW(StructuralPairs{options}, std::invalid_argument);
 }
 

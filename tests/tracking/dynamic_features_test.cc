@@ -3,17 +3,19 @@
 
 #include "msc_vo/tracking/dynamic_features.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
+
+#include "msc_vo/pose_estimation/cell_consensus.h"
 
 namespace msc_vo {
 namespace {
 
-// One point and one line in each of the two cells of the image.
+// One point and one line in each half of the image.
 class DynamicFeaturesTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    options_.columns = 2;
-    options_.rows = 1;
     auto frame = std::make_shared<Frame>();
     frame->camera.width = 200;
     frame->camera.height = 100;
@@ -21,19 +23,28 @@ class DynamicFeaturesTest : public ::testing::Test {
     frame->points[0].pixel = {50.0, 50.0};
     frame->points[1].pixel = {150.0, 50.0};
     frame->lines.resize(2);
-    frame->lines[0].segment = {{20.0, 10.0}, {170.0, 10.0}};  // midpoint in the left cell
+    frame->lines[0].segment = {{20.0, 10.0}, {170.0, 10.0}};  // midpoint in the left half
     frame->lines[1].segment = {{120.0, 10.0}, {170.0, 10.0}};
     tracked_.frame = frame;
   }
 
-  CellConsensusOptions options_;
+  // One flag per cell of the image: those of its left and of its right half.
+  std::vector<bool> DynamicHalves(bool left, bool right) const {
+    const ImageGrid grid = ConsensusGrid(tracked_.frame->camera);
+    std::vector<bool> cells;
+    for (int cell = 0; cell < grid.size(); ++cell) {
+      cells.push_back(grid.CenterOf(cell).x() < 0.5 ? left : right);
+    }
+    return cells;
+  }
+
   Map map_;
   TrackedFrame tracked_;
 };
 
 TEST_F(DynamicFeaturesTest, MarksFeaturesInDynamicCells) {
-  tracked_.dynamic_cells = {true, false};
-  const auto marked = MarkDynamicFeatures(options_, map_, tracked_);
+  tracked_.dynamic_cells = DynamicHalves(true, false);
+  const auto marked = MarkDynamicFeatures({}, map_, tracked_);
   EXPECT_TRUE(marked->points[0].dynamic);
   EXPECT_FALSE(marked->points[1].dynamic);
   EXPECT_TRUE(marked->lines[0].dynamic);
@@ -42,11 +53,11 @@ TEST_F(DynamicFeaturesTest, MarksFeaturesInDynamicCells) {
 }
 
 TEST_F(DynamicFeaturesTest, KeepsInliersOfThePoseStatic) {
-  tracked_.dynamic_cells = {true, true};
+  tracked_.dynamic_cells = DynamicHalves(true, true);
   tracked_.matches.points.resize(1);
   tracked_.matches.lines.resize(1);
   tracked_.matches.lines[0].feature = 1;
-  const auto marked = MarkDynamicFeatures(options_, map_, tracked_);
+  const auto marked = MarkDynamicFeatures({}, map_, tracked_);
   EXPECT_FALSE(marked->points[0].dynamic);
   EXPECT_TRUE(marked->points[1].dynamic);
   EXPECT_TRUE(marked->lines[0].dynamic);
@@ -54,7 +65,7 @@ TEST_F(DynamicFeaturesTest, KeepsInliersOfThePoseStatic) {
 }
 
 TEST_F(DynamicFeaturesTest, ReturnsTheSameFrameWithoutDynamicCells) {
-  EXPECT_EQ(MarkDynamicFeatures(options_, map_, tracked_), tracked_.frame);
+  EXPECT_EQ(MarkDynamicFeatures({}, map_, tracked_), tracked_.frame);
 }
 
 // A keyframe shows a wall at 3 metres; where its image has no depth, nothing is known. Then a board

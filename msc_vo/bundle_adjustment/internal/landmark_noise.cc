@@ -13,6 +13,13 @@ namespace msc_vo {
 
 namespace {
 
+// Weight of the prior noise factor 1, as a number of residuals: the degrees of freedom of the
+// Student distribution of a landmark's residuals. Chosen by measurement, see docs/lab/noise.md.
+constexpr double kPrior = 2.0;
+// Standard deviation, metres, of the depth error that a line has in all of its observations, as at
+// the edge of a door casing. Chosen by measurement, see docs/lab/noise.md.
+constexpr double kDepthOffsetSigma = 0.005;
+
 constexpr int kPointParameters = 3;
 constexpr int kLineParameters = 4;
 
@@ -92,37 +99,22 @@ double DegreesOfFreedom(const ResidualSums& sums, int num_parameters) {
   return std::max(0, sums.num_residuals - num_parameters);
 }
 
-double Noise(const LandmarkNoiseOptions& options, const ResidualSums& sums, int num_parameters) {
-  return std::sqrt((options.prior + sums.chi2) /
-                   (options.prior + DegreesOfFreedom(sums, num_parameters)));
+double Noise(const ResidualSums& sums, int num_parameters) {
+  return std::sqrt((kPrior + sums.chi2) / (kPrior + DegreesOfFreedom(sums, num_parameters)));
 }
 
 // Root of the ratio of the information of residuals whose noise is known to that of residuals whose
 // noise is estimated from them.
-double NoiseUncertainty(const LandmarkNoiseOptions& options, const ResidualSums& sums,
-                        int num_parameters) {
-  const double weight = options.prior + DegreesOfFreedom(sums, num_parameters);
+double NoiseUncertainty(const ResidualSums& sums, int num_parameters) {
+  const double weight = kPrior + DegreesOfFreedom(sums, num_parameters);
   return std::sqrt((weight + 2.0) / weight);
 }
 
-double DepthOffset(const LandmarkNoiseOptions& options, const ResidualSums& sums) {
-  const double sigma = options.depth_offset_sigma;
-  return sums.offset_sum / (sums.offset_weight + 1.0 / (sigma * sigma));
+double DepthOffset(const ResidualSums& sums) {
+  return sums.offset_sum / (sums.offset_weight + 1.0 / (kDepthOffsetSigma * kDepthOffsetSigma));
 }
 
 }  // namespace
-
-bool LandmarkNoiseOptions::IsValid(std::string* error) const {
-  const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
-  if (!is_positive(prior)) {
-    *error = "landmark_noise.prior must be positive";
-  } else if (!is_positive(depth_offset_sigma)) {
-    *error = "landmark_noise.depth_offset_sigma must be positive";
-  } else {
-    return true;
-  }
-  return false;
-}
 
 void EstimateLandmarkNoise(const LandmarkNoiseOptions& options, const WindowIndex& index,
                            const WindowInlierMask& inlier_mask, const WindowState& state,
@@ -131,12 +123,12 @@ void EstimateLandmarkNoise(const LandmarkNoiseOptions& options, const WindowInde
   const auto [points, lines] = SumResiduals(index, inlier_mask, state, *data);
   for (size_t i = 0; i < points.size(); ++i) {
     if (points[i].num_residuals == 0) continue;
-    data->points[i].noise = Noise(options, points[i], kPointParameters);
+    data->points[i].noise = Noise(points[i], kPointParameters);
   }
   for (size_t i = 0; i < lines.size(); ++i) {
     if (lines[i].num_residuals == 0) continue;
-    data->lines[i].noise = Noise(options, lines[i], kLineParameters);
-    data->lines[i].depth_offset = DepthOffset(options, lines[i]);
+    data->lines[i].noise = Noise(lines[i], kLineParameters);
+    data->lines[i].depth_offset = DepthOffset(lines[i]);
   }
 }
 
@@ -146,10 +138,10 @@ void AddNoiseUncertainty(const LandmarkNoiseOptions& options, const WindowIndex&
   if (!options.enabled) return;
   const auto [points, lines] = SumResiduals(index, inlier_mask, state, *data);
   for (size_t i = 0; i < points.size(); ++i) {
-    data->points[i].noise *= NoiseUncertainty(options, points[i], kPointParameters);
+    data->points[i].noise *= NoiseUncertainty(points[i], kPointParameters);
   }
   for (size_t i = 0; i < lines.size(); ++i) {
-    data->lines[i].noise *= NoiseUncertainty(options, lines[i], kLineParameters);
+    data->lines[i].noise *= NoiseUncertainty(lines[i], kLineParameters);
   }
 }
 

@@ -21,10 +21,9 @@ void MeasureDepth(const FrameBuilderOptions& options, const DepthSource& depth,
   const DepthNoise& noise = depth.model().noise;
   uint32_t seed = 0;
   for (LineFeature& line : *lines) {
-    line.depth =
-        options.line_depth == LineDepthMethod::kRobustFit
-            ? FitDepthAlongLine(options.line_fit, depth.image(), lens, line.segment, noise, seed)
-            : EndPointDepth(depth.image(), lens, line.segment, noise);
+    line.depth = options.line_depth == LineDepthMethod::kRobustFit
+                     ? FitDepthAlongLine(depth.image(), lens, line.segment, noise, seed)
+                     : EndPointDepth(depth.image(), lens, line.segment, noise);
     if (line.depth) {
       const double ratio = depth.model().SigmaPerNoise(line.depth->At(0.5));
       line.depth->covariance *= ratio * ratio;

@@ -5,19 +5,16 @@
 
 #include <algorithm>
 
-#include "msc_vo/geometry/angles.h"
-
 namespace msc_vo {
 
 namespace {
 
 using Eigen::Vector3d;
 
-std::vector<Vector3d> UsableDirections(const std::vector<AxisEvidence>& evidence,
-                                       double max_sigma) {
+std::vector<Vector3d> UsableDirections(const std::vector<AxisEvidence>& evidence) {
   std::vector<Vector3d> directions;
   for (const AxisEvidence& item : evidence) {
-    if (item.sigma <= max_sigma) directions.push_back(item.direction.normalized());
+    if (item.sigma <= kMaxEvidenceSigma) directions.push_back(item.direction.normalized());
   }
   // Sorted, so that sums and ties do not depend on the order of the input.
   std::sort(directions.begin(), directions.end(), [](const Vector3d& a, const Vector3d& b) {
@@ -28,12 +25,10 @@ std::vector<Vector3d> UsableDirections(const std::vector<AxisEvidence>& evidence
 
 }  // namespace
 
-DirectionEvidence GatherEvidence(const CoarseAxesOptions& options,
-                                 const std::vector<AxisEvidence>& lines,
+DirectionEvidence GatherEvidence(const std::vector<AxisEvidence>& lines,
                                  const std::vector<AxisEvidence>& normals) {
-  const double max_sigma = DegreesToRadians(options.max_sigma);
-  const std::vector<Vector3d> line_directions = UsableDirections(lines, max_sigma);
-  const std::vector<Vector3d> normal_directions = UsableDirections(normals, max_sigma);
+  const std::vector<Vector3d> line_directions = UsableDirections(lines);
+  const std::vector<Vector3d> normal_directions = UsableDirections(normals);
   const double line_total = std::min(1.0, line_directions.size() / kFullWeightLines);
   const double normal_total = std::min(1.0, normal_directions.size() / kFullWeightNormals);
   const double total = line_total + normal_total;

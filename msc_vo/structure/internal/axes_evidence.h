@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "msc_vo/structure/coarse_axes.h"
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/structure/axis_evidence.h"
 #include "msc_vo/structure/direction_modes.h"
 
 namespace msc_vo {
@@ -20,6 +21,16 @@ struct DirectionEvidence {
   bool IsLine(size_t i) const { return i < num_lines; }
 };
 
+/// Half angle, radians, of the cone around an axis in which directions support it: 3 sigmas of a
+/// normal on noisy depth. Random axes explain 3 (1 - cos) = 1.6 % of random directions.
+constexpr double kAxisCone = DegreesToRadians(6.0);
+/// Standard deviation of the Gaussian kernel of mean shift in the tangent plane, radians: initially
+/// as wide as the cone, finally the scatter of normals on noisy depth.
+constexpr double kFirstBandwidth = kAxisCone;
+constexpr double kLastBandwidth = DegreesToRadians(2.0);
+/// Largest standard deviation of a direction, radians; less certain ones are ignored, because a
+/// third of them or more lies outside the cone of their axis.
+constexpr double kMaxEvidenceSigma = DegreesToRadians(4.0);
 /// Number of lines and of normals from which a kind has its full weight: the fraction of 20
 /// directions in a cone has a standard deviation of about 0.1.
 constexpr double kFullWeightLines = 20.0;
@@ -27,8 +38,7 @@ constexpr double kFullWeightNormals = 200.0;
 
 /// Selects the directions that are certain enough and weights both kinds by their number. The
 /// result does not depend on the order of the input.
-DirectionEvidence GatherEvidence(const CoarseAxesOptions& options,
-                                 const std::vector<AxisEvidence>& lines,
+DirectionEvidence GatherEvidence(const std::vector<AxisEvidence>& lines,
                                  const std::vector<AxisEvidence>& normals);
 
 }  // namespace msc_vo

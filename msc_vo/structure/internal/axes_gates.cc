@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "msc_vo/geometry/angles.h"
 #include "msc_vo/structure/internal/axes_hypotheses.h"
 
 namespace msc_vo {
@@ -20,6 +19,15 @@ using Eigen::Matrix3d;
 constexpr double kNormalsPerObservation = 16.0;
 // Fewer lines along an axis may be a coincidence.
 constexpr double kMinLinesOfAxis = 3.0;
+// Smallest fraction of the evidence that the axes explain, of both kinds together and of each kind
+// with enough directions. A majority excludes other axes with as much support.
+constexpr double kMinExplainedRatio = 0.5;
+// Smallest fraction of the normals (lines) in the cone of an axis that has surfaces (lines): ten
+// times that of random directions.
+constexpr double kMinAxisRatio = 0.05;
+// A contrario test: largest expected number of rotations, among those spanned by two of as many
+// random directions, with at least as much support.
+constexpr double kMaxFalseAlarms = 1e-5;
 
 // Logarithm of the probability of k or more successes in n trials of probability p. Not by
 // std::lgamma(), which writes a global variable.
@@ -38,32 +46,29 @@ double LogBinomialTail(int n, int k, double p) {
 // A contrario test: the expected number of rotations, among those spanned by two of n random
 // directions, that would have as much support. The two that span a rotation are in its cones
 // always.
-bool IsUnlikelyByChance(const CoarseAxesOptions& options, const DirectionEvidence& evidence,
-                        const ScoredAxes& axes) {
+bool IsUnlikelyByChance(const DirectionEvidence& evidence, const ScoredAxes& axes) {
   const double n = evidence.num_lines + evidence.NumNormals() / kNormalsPerObservation;
   const double k = axes.num_lines.sum() + axes.num_normals.sum() / kNormalsPerObservation;
   if (k < 3.0) return false;
-  const double chance = 3.0 * (1.0 - std::cos(DegreesToRadians(options.max_angle)));
+  const double chance = 3.0 * (1.0 - std::cos(kAxisCone));
   const double log_tail = LogBinomialTail(static_cast<int>(n) - 2, static_cast<int>(k) - 2, chance);
-  return std::log(0.5 * n * (n - 1.0)) + log_tail < std::log(options.max_false_alarms);
+  return std::log(0.5 * n * (n - 1.0)) + log_tail < std::log(kMaxFalseAlarms);
 }
 
 // A kind with few directions is not tested on its own.
-bool HasMajority(const CoarseAxesOptions& options, const DirectionEvidence& evidence,
-                 const ScoredAxes& axes) {
-  const double min_lines = options.min_explained_ratio * evidence.num_lines;
-  const double min_normals = options.min_explained_ratio * evidence.NumNormals();
-  return axes.explained_ratio >= options.min_explained_ratio &&
+bool HasMajority(const DirectionEvidence& evidence, const ScoredAxes& axes) {
+  const double min_lines = kMinExplainedRatio * evidence.num_lines;
+  const double min_normals = kMinExplainedRatio * evidence.NumNormals();
+  return axes.explained_ratio >= kMinExplainedRatio &&
          (evidence.num_lines < kFullWeightLines || axes.num_lines.sum() >= min_lines) &&
          (evidence.NumNormals() < kFullWeightNormals || axes.num_normals.sum() >= min_normals);
 }
 
 // Whether the view shows surfaces across two axes or lines along three: a single rectangle has
 // lines along two axes and one normal, and may have any orientation.
-bool IsVolume(const CoarseAxesOptions& options, const DirectionEvidence& evidence,
-              const ScoredAxes& axes) {
-  const double min_normals = options.min_axis_ratio * evidence.NumNormals();
-  const double min_lines = std::max(kMinLinesOfAxis, options.min_axis_ratio * evidence.num_lines);
+bool IsVolume(const DirectionEvidence& evidence, const ScoredAxes& axes) {
+  const double min_normals = kMinAxisRatio * evidence.NumNormals();
+  const double min_lines = std::max(kMinLinesOfAxis, kMinAxisRatio * evidence.num_lines);
   int axes_with_surfaces = 0;
   int axes_with_lines = 0;
   for (int i = 0; i < 3; ++i) {
@@ -76,9 +81,8 @@ bool IsVolume(const CoarseAxesOptions& options, const DirectionEvidence& evidenc
 }
 
 // Weight of the evidence that `a` explains and `b` does not.
-double ExclusiveWeight(const CoarseAxesOptions& options, const DirectionEvidence& evidence,
-                       const Matrix3d& a, const Matrix3d& b) {
-  const double min_cosine = std::cos(DegreesToRadians(options.max_angle));
+double ExclusiveWeight(const DirectionEvidence& evidence, const Matrix3d& a, const Matrix3d& b) {
+  const double min_cosine = std::cos(kAxisCone);
   double weight = 0.0;
   for (const WeightedDirection& item : evidence.all) {
     const bool in_a = (a.transpose() * item.direction).cwiseAbs().maxCoeff() >= min_cosine;
@@ -90,21 +94,18 @@ double ExclusiveWeight(const CoarseAxesOptions& options, const DirectionEvidence
 
 }  // namespace
 
-bool PassesGates(const CoarseAxesOptions& options, const DirectionEvidence& evidence,
-                 const ScoredAxes& axes) {
-  return HasMajority(options, evidence, axes) &&
-         axes.misfit.maxCoeff() <= DegreesToRadians(options.max_misfit) &&
-         IsVolume(options, evidence, axes) && IsUnlikelyByChance(options, evidence, axes);
+bool PassesGates(const DirectionEvidence& evidence, const ScoredAxes& axes) {
+  return HasMajority(evidence, axes) && axes.misfit.maxCoeff() <= kMaxMisfit &&
+         IsVolume(evidence, axes) && IsUnlikelyByChance(evidence, axes);
 }
 
-bool HasRival(const CoarseAxesOptions& options, const DirectionEvidence& evidence,
-              const std::vector<ScoredAxes>& hypotheses, const Matrix3d& best) {
+bool HasRival(const DirectionEvidence& evidence, const std::vector<ScoredAxes>& hypotheses,
+              const Matrix3d& best) {
   return std::any_of(hypotheses.begin(), hypotheses.end(), [&](const ScoredAxes& other) {
     // Closer hypotheses have overlapping cones: they are the same axes with an error.
-    if (AngleBetweenAxes(other.axes, best) < 2.0 * DegreesToRadians(options.max_angle))
-      return false;
-    return ExclusiveWeight(options, evidence, other.axes, best) >
-           options.max_rival * ExclusiveWeight(options, evidence, best, other.axes);
+    if (AngleBetweenAxes(other.axes, best) < 2.0 * kAxisCone) return false;
+    return ExclusiveWeight(evidence, other.axes, best) >
+           kMaxRival * ExclusiveWeight(evidence, best, other.axes);
   });
 }
 

@@ -67,17 +67,15 @@ Matrix3d ShiftAxes(const DirectionEvidence& evidence, const Matrix3d& axes, doub
   return NearestRotation(shifted);
 }
 
-Matrix3d RefineByMeanShift(const CoarseAxesOptions& options, const DirectionEvidence& evidence,
-                           Matrix3d axes) {
-  const double last_bandwidth = DegreesToRadians(options.last_bandwidth);
-  double bandwidth = DegreesToRadians(options.first_bandwidth);
-  while (bandwidth > last_bandwidth) {
+Matrix3d RefineByMeanShift(const DirectionEvidence& evidence, Matrix3d axes) {
+  double bandwidth = kFirstBandwidth;
+  while (bandwidth > kLastBandwidth) {
     axes = ShiftAxes(evidence, axes, bandwidth);
     bandwidth *= kBandwidthDecay;
   }
   for (int i = 0; i < kMaxShifts; ++i) {
     const Matrix3d before = axes;
-    axes = ShiftAxes(evidence, axes, last_bandwidth);
+    axes = ShiftAxes(evidence, axes, kLastBandwidth);
     if (AngleBetweenAxes(before, axes) < kConverged) break;
   }
   return axes;
@@ -109,11 +107,10 @@ double AngleBetweenAxes(const Matrix3d& a, const Matrix3d& b) {
   return std::acos(std::min(1.0, nearest.minCoeff()));
 }
 
-std::vector<Matrix3d> FindAxesHypotheses(const CoarseAxesOptions& options,
-                                         const DirectionEvidence& evidence) {
+std::vector<Matrix3d> FindAxesHypotheses(const DirectionEvidence& evidence) {
   std::vector<Matrix3d> hypotheses;
   for (const Matrix3d& axes : SpanRotations(evidence)) {
-    hypotheses.push_back(RefineByMeanShift(options, evidence, axes));
+    hypotheses.push_back(RefineByMeanShift(evidence, axes));
   }
   return hypotheses;
 }

@@ -17,7 +17,6 @@ double AngleBetweenAxes(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
 
 /// Hypotheses of Manhattan axes: rotations spanned by pairs of perpendicular modes of the evidence,
 /// each refined by mean shift.
-std::vector<Eigen::Matrix3d> FindAxesHypotheses(const CoarseAxesOptions& options,
-                                                const DirectionEvidence& evidence);
+std::vector<Eigen::Matrix3d> FindAxesHypotheses(const DirectionEvidence& evidence);
 
 }  // namespace msc_vo

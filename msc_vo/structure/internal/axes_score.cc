@@ -12,13 +12,11 @@ namespace msc_vo {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-ScoredAxes ScoreAxes(const CoarseAxesOptions& options, const DirectionEvidence& evidence,
-                     const Matrix3d& axes) {
+ScoredAxes ScoreAxes(const DirectionEvidence& evidence, const Matrix3d& axes) {
   ScoredAxes scored;
   scored.axes = axes;
-  const double min_cosine = std::cos(DegreesToRadians(options.max_angle));
-  const double bandwidth = DegreesToRadians(options.last_bandwidth);
-  const double scale = -0.5 / (bandwidth * bandwidth);
+  const double min_cosine = std::cos(kAxisCone);
+  constexpr double kScale = -0.5 / (kLastBandwidth * kLastBandwidth);
   Matrix3d sum = Matrix3d::Zero();
   for (size_t i = 0; i < evidence.all.size(); ++i) {
     const WeightedDirection& item = evidence.all[i];
@@ -28,7 +26,7 @@ ScoredAxes ScoreAxes(const CoarseAxesOptions& options, const DirectionEvidence& 
     (evidence.IsLine(i) ? scored.num_lines : scored.num_normals)[axis] += 1.0;
     scored.explained_ratio += item.weight;
     const Vector3d in_plane = item.direction / cosines[axis] - axes.col(axis);
-    scored.density += item.weight * std::exp(scale * in_plane.squaredNorm());
+    scored.density += item.weight * std::exp(kScale * in_plane.squaredNorm());
     sum.col(axis) += std::copysign(item.weight, cosines[axis]) * item.direction;
   }
   for (int i = 0; i < 3; ++i) {

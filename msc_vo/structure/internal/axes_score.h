@@ -21,7 +21,6 @@ struct ScoredAxes {
 };
 
 /// Counts the evidence in the cones around `axes`, the columns of a rotation in its frame.
-ScoredAxes ScoreAxes(const CoarseAxesOptions& options, const DirectionEvidence& evidence,
-                     const Eigen::Matrix3d& axes);
+ScoredAxes ScoreAxes(const DirectionEvidence& evidence, const Eigen::Matrix3d& axes);
 
 }  // namespace msc_vo
