@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/map/observer_count.h"
@@ -104,14 +106,20 @@ void Map::Transform(const Rigid3& new_from_old_world) {
 
 const Keyframe* Map::FindKeyframe(KeyframeId id) const { return keyframes_.Find(id); }
 
-KeyframeId Map::AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& cam_from_world) {
+KeyframeId Map::AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& cam_from_world,
+                            KeyframeId id) {
+  if (id == kNoId) id = next_keyframe_;
+  if (id < next_keyframe_) {
+    throw std::invalid_argument("map: keyframe " + std::to_string(id) + " is not newer than " +
+                                std::to_string(next_keyframe_ - 1));
+  }
+  next_keyframe_ = id + 1;
   Keyframe keyframe;
-  keyframe.id = next_keyframe_++;
+  keyframe.id = id;
   keyframe.cam_from_world = cam_from_world;
   keyframe.points.assign(frame->points.size(), kNoId);
   keyframe.lines.assign(frame->lines.size(), kNoId);
   keyframe.frame = std::move(frame);
-  const KeyframeId id = keyframe.id;
   keyframes_.Append(id, std::move(keyframe));
   relative_poses_.Append(id, {});
   return id;

@@ -30,7 +30,7 @@ struct PointMatch {
 struct LineMatch {
   int feature = 0;
   LandmarkId id = kNoId;
-  LineSegment3 segment;  ///< metres, world
+  LineSegment3 segment{};  ///< metres, world
   bool inlier = true;
 
   template <typename Archive>
@@ -54,9 +54,9 @@ struct FrameMatches {
   }
 };
 
-/// The matches with landmarks of a kind.
-template <typename L>
-const auto& MatchesOf(const FrameMatches& matches) {
+/// The matches with landmarks of a kind. `matches`: FrameMatches, which may be const.
+template <typename L, typename Matches>
+auto& MatchesOf(Matches& matches) {
   if constexpr (std::is_same_v<L, PointLandmark>) {
     return matches.points;
   } else {

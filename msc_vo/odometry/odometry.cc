@@ -146,7 +146,7 @@ void Odometry::State::Count(const TrackedFrame& tracked) {
   ForEachLandmarkKind([&](auto kind) {
     using L = typename decltype(kind)::Landmark;
     std::map<LandmarkId, TrackingCount>& counts = packet.counts.Of<L>();
-    CountVisible(tracked.keyframe.visible.Of<L>(), &counts);
+    CountVisible(tracked.visible.Of<L>(), &counts);
     for (const auto& match : MatchesOf<L>(tracked.matches)) ++counts[match.id].num_found;
   });
 }
@@ -180,7 +180,7 @@ void Odometry::State::DiscardSegment() {
 }
 
 void Odometry::State::KeepForCalibration(const TrackedFrame& tracked, const RgbdImage& recorded) {
-  if (!NeedsImages() || tracked.keyframe.is_due || tracked.status != TrackingStatus::kTracked ||
+  if (!NeedsImages() || tracked.keyframe.is_due() || tracked.status != TrackingStatus::kTracked ||
       packet.calibration_images.size() >= kMaxCalibrationImages ||
       tracked.frame->timestamp - last_calibration_image_time < kCalibrationImageInterval) {
     return;
@@ -193,12 +193,13 @@ void Odometry::State::KeepForCalibration(const TrackedFrame& tracked, const Rgbd
 
 void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const RgbdImage& recorded,
                                      const cv::Mat& depth) {
-  const SegmentStart start = tracked.segment_start;
+  const SegmentStart start = tracked.keyframe.segment_start;
   packet.begins_map = start == SegmentStart::kAfterLoss || start == SegmentStart::kReplacing;
   packet.keeps_last_map = start != SegmentStart::kReplacing;
   packet.last_tracked = tracked.keyframe.last_tracked;
   packet.covariance = tracked.pose.covariance;
-  packet.in_inactive_map = tracked.in_inactive_map;
+  packet.in_inactive_map = tracked.keyframe.in_inactive_map;
+  packet.id = tracked.keyframe.id;
   packet.frame = tracked.frame;
   packet.reference = tracked.reference;
   packet.cam_from_reference = tracked.cam_from_reference;
@@ -292,7 +293,8 @@ FrameResult Odometry::Process(const RgbdImage& given) {
     frame = state_->Build(image);
   }
   const TrackedFrame tracked = state_->tracker.Track(frame, *state_->snapshot);
-  if (tracked.segment_start != SegmentStart::kNone) state_->BeginSegment(tracked.segment_start);
+  if (tracked.keyframe.segment_start != SegmentStart::kNone)
+    state_->BeginSegment(tracked.keyframe.segment_start);
   FrameResult result = MakeFrameResult(tracked, state_->segments.current());
   result.image = MeasureImage(image);
   result.times.features = features_ms;
@@ -303,19 +305,15 @@ FrameResult Odometry::Process(const RgbdImage& given) {
   result.times.tracking = stopwatch.Milliseconds();
 
   state_->Count(tracked);
-  if (tracked.keyframe.previous_velocity) {
-    state_->packet.last_velocity = tracked.keyframe.previous_velocity;
-  }
+  if (tracked.previous_velocity) state_->packet.last_velocity = tracked.previous_velocity;
   state_->results.push_back(result);
   state_->relative_poses.push_back({tracked.reference, tracked.cam_from_reference});
   state_->refiner.Refine(image.timestamp, *state_->snapshot, &state_->relative_poses);
-  if (!state_->tracker.had_pose_factors()) {
-    state_->refiner.Add(static_cast<int>(state_->results.size()) - 1, tracked);
-  }
+  state_->refiner.Add(static_cast<int>(state_->results.size()) - 1, tracked);
   state_->log.LogFrame(result, tracked.relocalized);
   const MapSnapshotPtr snapshot = state_->snapshot;
   state_->KeepForCalibration(tracked, aligned);
-  if (tracked.keyframe.is_due) {
+  if (tracked.keyframe.is_due()) {
     state_->SubmitKeyframe(tracked, aligned, image.depth);
     state_->snapshot = state_->schedule.SnapshotAt(image.timestamp);  // with it if latency is 0
   }

@@ -54,7 +54,10 @@ PoseRefiner::PoseRefiner(const PoseOptions& options, double delay)
     : options_(WithTwoRounds(options)), delay_(delay) {}
 
 void PoseRefiner::Add(int index, const TrackedFrame& tracked) {
-  if (delay_ == 0.0 || tracked.reference == kNoId || tracked.keyframe.is_due) return;
+  if (delay_ == 0.0 || tracked.reference == kNoId || tracked.keyframe.is_due() ||
+      tracked.has_pose_factors) {
+    return;
+  }
   if (NumObservations(tracked.matches.points.size(), tracked.matches.lines.size()) <
       kMinObservations) {
     return;

@@ -23,7 +23,7 @@ class PoseRefiner {
   PoseRefiner(const PoseOptions& options, double delay);
 
   /// Keeps what the frame with result `index` observes, unless it becomes a keyframe, whose pose
-  /// bundle adjustment estimates.
+  /// bundle adjustment estimates, or pose factors took part in its pose.
   void Add(int index, const TrackedFrame& tracked);
 
   /// Estimates the poses of kept frames that are older than the delay at `timestamp` (seconds), at

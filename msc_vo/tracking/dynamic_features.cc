@@ -162,13 +162,13 @@ void MarkSurfaces(const std::vector<KeyframeView>& views, const FrameMatches& in
 
 // Marks what lies in dynamic cells, except inliers.
 void MarkCells(const CellConsensusOptions& options, const TrackedFrame& tracked, Frame* frame) {
-  if (tracked.dynamic_cells.empty()) return;
+  if (tracked.pose.dynamic_cells.empty()) return;
   const ImageGrid grid(options.columns, options.rows, frame->camera);
   for (PointFeature& point : frame->points) {
-    point.dynamic = tracked.dynamic_cells[grid.CellOf(point.pixel)];
+    point.dynamic = tracked.pose.dynamic_cells[grid.CellOf(point.pixel)];
   }
   for (LineFeature& line : frame->lines) {
-    line.dynamic = tracked.dynamic_cells[grid.CellOf(line.segment)];
+    line.dynamic = tracked.pose.dynamic_cells[grid.CellOf(line.segment)];
   }
   for (const PointMatch& match : tracked.matches.points) {
     frame->points[match.feature].dynamic = false;

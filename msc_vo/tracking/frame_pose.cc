@@ -92,8 +92,7 @@ PoseData::Line Observe(const LineMatch& match, const Frame& frame, const Rigid3&
 
 }  // namespace
 
-LocalMap CandidatesFromFrame(const Map& map, const TrackedFrame& last,
-                             const Rigid3& last_from_world, const Rigid3& cam_from_world) {
+LocalMap CandidatesFromFrame(const Map& map, const LastFrame& last, const Rigid3& cam_from_world) {
   const Frame& frame = *last.frame;
   std::vector<LandmarkId> point_ids(frame.points.size(), kNoId);
   std::vector<LandmarkId> line_ids(frame.lines.size(), kNoId);
@@ -102,7 +101,7 @@ LocalMap CandidatesFromFrame(const Map& map, const TrackedFrame& last,
 
   LocalMap candidates;
   candidates.reference = last.reference;
-  const Rigid3 world_from_last = last_from_world.Inverse();
+  const Rigid3 world_from_last = last.CamFromWorld(map).Inverse();
   for (size_t i = 0; i < frame.points.size(); ++i) {
     const PointLandmark* landmark = map.Find<PointLandmark>(point_ids[i]);
     if (landmark == nullptr && !frame.points[i].HasDepth()) continue;
@@ -179,18 +178,18 @@ int NumMatches(const TrackerOptions& options, const Frame& frame, size_t num_poi
   return static_cast<int>(num_points + (has_points ? 1 : kPointsPerLine) * num_lines);
 }
 
-bool HasEnoughInliers(const TrackerOptions& options, const TrackedFrame& tracked) {
-  const PoseSummary& pose = tracked.pose;
+bool HasEnoughInliers(const TrackerOptions& options, const Frame& frame, const FramePose& pose) {
+  const PoseSummary& summary = pose.summary;
   const int support =
-      NumMatches(options, *tracked.frame, pose.num_inlier_points, pose.num_inlier_lines);
-  if (!pose.usable || support < options.min_matches) return false;
-  if (pose.num_confirmed >= options.min_matches) {
-    return pose.num_confirmed_inliers >= options.min_inlier_ratio * pose.num_confirmed;
+      NumMatches(options, frame, summary.num_inlier_points, summary.num_inlier_lines);
+  if (!summary.usable || support < options.min_matches) return false;
+  if (summary.num_confirmed >= options.min_matches) {
+    return summary.num_confirmed_inliers >= options.min_inlier_ratio * summary.num_confirmed;
   }
-  const int num_matches =
-      static_cast<int>(tracked.matches.points.size() + tracked.matches.lines.size());
-  const int num_static = num_matches - pose.num_dynamic;
-  return pose.num_inlier_points + pose.num_inlier_lines >= options.min_inlier_ratio * num_static;
+  const int num_matches = static_cast<int>(pose.matches.points.size() + pose.matches.lines.size());
+  const int num_static = num_matches - summary.num_dynamic;
+  return summary.num_inlier_points + summary.num_inlier_lines >=
+         options.min_inlier_ratio * num_static;
 }
 
 TrackingStatus ClassifyStatus(const TrackerOptions& options, const PoseSummary& pose) {

@@ -110,7 +110,7 @@ TEST_F(PoseRefinerTest, EstimatesAllPosesOnRequest) {
 
 TEST_F(PoseRefinerTest, LeavesKeyframesToBundleAdjustment) {
   TrackedFrame tracked = Tracked(1.0);
-  tracked.keyframe.is_due = true;
+  tracked.keyframe.id = 1;
   refiner_.Add(0, tracked);
   refiner_.RefineAll(snapshot_, &poses_);
   EXPECT_TRUE(IsUnchanged());

@@ -21,7 +21,7 @@ class TrackerTest : public ::testing::Test {
     const std::shared_ptr<const Frame> first = world_->MakeFrame(0);
     const TrackedFrame tracked = tracker_.Track(first, MapSnapshot());
     ASSERT_EQ(tracked.status, TrackingStatus::kTracked);
-    ASSERT_TRUE(tracked.keyframe.is_due);
+    ASSERT_TRUE(tracked.keyframe.is_due());
     snapshot_ = MapOfOneKeyframe(first, Rigid3());
   }
   static Rigid3 Truth(int index) {
@@ -49,20 +49,20 @@ TEST_F(TrackerTest, EstimatesThePoseOfEveryFrame) {
 TEST_F(TrackerTest, EstimatesTheVelocityAtTheFirstKeyframe) {
   Start({});
   const TrackedFrame tracked = Track(1);
-  ASSERT_TRUE(tracked.keyframe.previous_velocity.has_value());
-  const Eigen::Vector3d metres = tracked.keyframe.previous_velocity->linear / 30.0;
+  ASSERT_TRUE(tracked.previous_velocity.has_value());
+  const Eigen::Vector3d metres = tracked.previous_velocity->linear / 30.0;
   EXPECT_TRUE(metres.isApprox(tracked.cam_from_world.translation(), 1e-6));
-  EXPECT_FALSE(Track(2).keyframe.previous_velocity.has_value());
+  EXPECT_FALSE(Track(2).previous_velocity.has_value());
 }
 
 TEST_F(TrackerTest, RequestsAKeyframeToCompensateTheFirstOne) {
   Start({});
   snapshot_.readout_time = 0.026;
   const TrackedFrame second = Track(1);
-  EXPECT_TRUE(second.keyframe.is_due);
+  EXPECT_TRUE(second.keyframe.is_due());
   EXPECT_EQ(second.frame->readout_time, 0.0);  // like the map
   EXPECT_TRUE(second.frame->velocity.has_value());
-  EXPECT_FALSE(Track(2).keyframe.is_due);  // the new map is not available yet
+  EXPECT_FALSE(Track(2).keyframe.is_due());  // the new map is not available yet
   // The mapper compensates the first keyframe as soon as its velocity is known.
   auto first = std::make_shared<Frame>(*snapshot_.map.FindKeyframe(0)->frame);
   first->velocity = CameraVelocity();
@@ -128,7 +128,7 @@ TEST_F(TrackerTest, PredictsCoveredFramesAndResumes) {
   for (int i = 10; i < 15; ++i) {
     const TrackedFrame tracked = tracker_.Track(SyntheticFrames::MakeEmptyFrame(i), snapshot_);
     EXPECT_EQ(tracked.status, TrackingStatus::kPredicted) << i;
-    EXPECT_FALSE(tracked.keyframe.is_due);
+    EXPECT_FALSE(tracked.keyframe.is_due());
     // Constant velocity for a sixth of a second.
     EXPECT_LT(PositionError(tracked.cam_from_world, Truth(i)), 0.03) << i;
   }
@@ -161,13 +161,13 @@ TEST_F(TrackerTest, BeginsASegmentWhenTheMapIsNotFoundForASecond) {
   int first = 5;
   for (; first < 60; ++first) {
     tracked = tracker_.Track(other.MakeFrame(first), snapshot_);
-    if (tracked.segment_start != SegmentStart::kNone) break;
-    EXPECT_FALSE(tracked.keyframe.is_due);
+    if (tracked.keyframe.segment_start != SegmentStart::kNone) break;
+    EXPECT_FALSE(tracked.keyframe.is_due());
   }
   EXPECT_NEAR(first, 4 + 30, 1);
-  EXPECT_EQ(tracked.segment_start, SegmentStart::kAfterLoss);
+  EXPECT_EQ(tracked.keyframe.segment_start, SegmentStart::kAfterLoss);
   EXPECT_EQ(tracked.status, TrackingStatus::kTracked);
-  EXPECT_TRUE(tracked.keyframe.is_due);
+  EXPECT_TRUE(tracked.keyframe.is_due());
   EXPECT_EQ(tracked.reference, kNoId);
   // The map begins where the camera was seen last.
   EXPECT_LT(PositionError(tracked.cam_from_world, Truth(4)), 0.01);
@@ -190,10 +190,12 @@ TEST_F(TrackerTest, ReplacesAMapThatNothingWasTrackedIn) {
   elsewhere.seed = 2;
   SyntheticFrames other(elsewhere);
   for (int i = 1; i < 16; ++i) {
-    EXPECT_EQ(tracker_.Track(other.MakeFrame(i), snapshot_).segment_start, SegmentStart::kNone);
+    EXPECT_EQ(tracker_.Track(other.MakeFrame(i), snapshot_).keyframe.segment_start,
+              SegmentStart::kNone);
   }
   // max_prediction has passed.
-  EXPECT_EQ(tracker_.Track(other.MakeFrame(16), snapshot_).segment_start, SegmentStart::kReplacing);
+  EXPECT_EQ(tracker_.Track(other.MakeFrame(16), snapshot_).keyframe.segment_start,
+            SegmentStart::kReplacing);
 }
 
 // The frame as an image of a camera with the rate, Hz.
@@ -218,8 +220,9 @@ TEST_F(TrackerTest, GivesUpALargeMapAfterTheSameTimeAtAnyRate) {
     EXPECT_EQ(tracker.Track(AtRate(rate, world_->MakeFrame(1)), snapshot_).status,
               TrackingStatus::kTracked);
     int i = 2;
-    while (i < 300 && tracker.Track(AtRate(rate, other.MakeFrame(i)), snapshot_).segment_start ==
-                          SegmentStart::kNone) {
+    while (i < 300 &&
+           tracker.Track(AtRate(rate, other.MakeFrame(i)), snapshot_).keyframe.segment_start ==
+               SegmentStart::kNone) {
       ++i;
     }
     EXPECT_NEAR((i - 1) / rate, 1.5, 0.4) << rate;
@@ -237,13 +240,14 @@ TEST_F(TrackerTest, FindsFramesInAnInactiveMap) {
   std::vector<int> found;
   for (int i = 1; i < 20; ++i) {
     const TrackedFrame tracked = Track(i);
-    if (!tracked.in_inactive_map) continue;
+    if (!tracked.keyframe.in_inactive_map) continue;
     found.push_back(i);
-    EXPECT_TRUE(tracked.keyframe.is_due);
-    EXPECT_EQ(tracked.in_inactive_map->reference, 0);
+    EXPECT_TRUE(tracked.keyframe.is_due());
+    EXPECT_EQ(tracked.keyframe.in_inactive_map->reference, 0);
     // The only keyframe there is camera 0.
-    EXPECT_LT(PositionError(tracked.in_inactive_map->cam_from_reference, Truth(i)), 0.01) << i;
-    EXPECT_GT(tracked.in_inactive_map->matches.points.size(), 50u);
+    EXPECT_LT(PositionError(tracked.keyframe.in_inactive_map->cam_from_reference, Truth(i)), 0.01)
+        << i;
+    EXPECT_GT(tracked.keyframe.in_inactive_map->matches.points.size(), 50u);
   }
   // At most one in 0.2 seconds.
   ASSERT_GE(found.size(), 3u);
@@ -260,7 +264,8 @@ TEST_F(TrackerTest, SearchesOtherKeyframesOfAnInactiveMapAfterSixFrames) {
   std::vector<KeyframeId> found;
   for (int i = 1; i < 70 && found.size() < 8; ++i) {
     const TrackedFrame tracked = Track(i);
-    if (tracked.in_inactive_map) found.push_back(tracked.in_inactive_map->reference);
+    if (tracked.keyframe.in_inactive_map)
+      found.push_back(tracked.keyframe.in_inactive_map->reference);
   }
   EXPECT_THAT(found, testing::ElementsAre(1, 1, 1, 1, 1, 1, 0, 0));
 }
@@ -334,10 +339,10 @@ TEST_F(TrackerTest, WaitsForAFirstFrameWithFeatures) {
   world_ = std::make_unique<SyntheticFrames>(SyntheticFrames::Options());
   const TrackedFrame empty = tracker_.Track(SyntheticFrames::MakeEmptyFrame(0), MapSnapshot());
   EXPECT_EQ(empty.status, TrackingStatus::kLost);
-  EXPECT_FALSE(empty.keyframe.is_due);
+  EXPECT_FALSE(empty.keyframe.is_due());
   const TrackedFrame first = tracker_.Track(world_->MakeFrame(1), MapSnapshot());
   EXPECT_EQ(first.status, TrackingStatus::kTracked);
-  EXPECT_TRUE(first.keyframe.is_due);
+  EXPECT_TRUE(first.keyframe.is_due());
 }
 
 TEST_F(TrackerTest, RejectsInvalidOptions) {
