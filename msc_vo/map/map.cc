@@ -145,7 +145,7 @@ bool Map::Observe(LandmarkId id, KeyframeId keyframe_id, int feature) {
   if (landmark == nullptr || keyframe == nullptr) return false;
   if (SlotsOf<L>(*keyframe)[feature] != kNoId) return false;
   if (FindObservation(*landmark, keyframe_id) != nullptr) return false;
-  (keyframes_.FindToChange(keyframe_id)->*LandmarkKind<L>::kSlots)[feature] = id;
+  OfKind<L>(*keyframes_.FindToChange(keyframe_id))[feature] = id;
   L* const changed = Table<L>().FindToChange(id);
   std::vector<Observation>& observations = changed->observations;
   observations.insert(LowerBound(&observations, keyframe_id), {keyframe_id, feature});
@@ -159,7 +159,7 @@ void Map::RemoveObservation(LandmarkId id, KeyframeId keyframe) {
   if (landmark == nullptr) return;
   const Observation* observation = FindObservation(*landmark, keyframe);
   if (observation == nullptr) return;
-  (keyframes_.FindToChange(keyframe)->*LandmarkKind<L>::kSlots)[observation->feature] = kNoId;
+  OfKind<L>(*keyframes_.FindToChange(keyframe))[observation->feature] = kNoId;
   if (landmark->observations.size() == 1) {
     Table<L>().Erase(id);
     return;
@@ -175,7 +175,7 @@ void Map::Remove(LandmarkId id) {
   if (landmark == nullptr) return;
   for (const Observation& observation : landmark->observations) {
     Keyframe* const keyframe = keyframes_.FindToChange(observation.keyframe);
-    (keyframe->*LandmarkKind<L>::kSlots)[observation.feature] = kNoId;
+    OfKind<L>(*keyframe)[observation.feature] = kNoId;
   }
   Table<L>().Erase(id);
 }

@@ -13,7 +13,7 @@ namespace {
 void AddObservations(const KeyframePacket& packet, KeyframeId keyframe, Map* map) {
   ForEachLandmarkKind([&](auto kind) {
     using L = typename decltype(kind)::Landmark;
-    for (const auto& match : MatchesOf<L>(packet.matches)) {
+    for (const auto& match : OfKind<L>(packet.matches)) {
       map->Observe<L>(match.id, keyframe, match.feature);
     }
     for (const auto& [id, count] : packet.counts.Of<L>()) {

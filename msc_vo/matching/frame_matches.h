@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <type_traits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -53,16 +52,5 @@ struct FrameMatches {
     archive.Fields(*this, points, lines);
   }
 };
-
-/// The matches with landmarks of a kind. `matches`: FrameMatches, which may be const.
-template <typename L, typename Matches>
-auto& MatchesOf(Matches& matches) {
-  if constexpr (std::is_same_v<L, PointLandmark>) {
-    return matches.points;
-  } else {
-    static_assert(std::is_same_v<L, LineLandmark>);
-    return matches.lines;
-  }
-}
 
 }  // namespace msc_vo

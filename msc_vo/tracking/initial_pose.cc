@@ -22,104 +22,116 @@ PoseOptions InitialPoseOptions(PoseOptions options) {
   return options;
 }
 
+// A pose by matching with the last frame, and whether it is clear (IsClear).
+struct NearPose {
+  FramePose pose;
+  bool is_clear = false;
+};
+
+// The search for the initial pose of one frame.
+class InitialPoseSearch {
+ public:
+  InitialPoseSearch(const TrackerOptions& options, const Frame& frame, const LastFrame& last,
+                    const PosePrediction& prediction, PoseEstimator* estimator)
+      : options_(options),
+        pose_options_(InitialPoseOptions(options.pose)),
+        frame_(frame),
+        last_(last),
+        prediction_(prediction),
+        map_(estimator->map()),
+        estimator_(*estimator) {}
+
+  std::optional<NearPose> MatchLastFrame(const Rigid3& near, double radius) {
+    const LocalMap candidates =
+        estimator_.Search([&] { return CandidatesFromFrame(map_, last_, near); });
+    const std::optional<FramePose> pose =
+        estimator_.MatchAndEstimate(pose_options_, frame_, candidates, radius, near);
+    if (!pose) return std::nullopt;
+    return NearPose{*pose, IsClear(*pose, candidates)};
+  }
+
+  // The best of the poses by a wide search and by searches without a prediction.
+  std::optional<FramePose> FindLargeMotion() {
+    const std::vector<Relocalization> poses = estimator_.Search([&] {
+      return FindPoses(options_.relocalizer, options_.line_matcher, frame_,
+                       CandidatesFromFrame(map_, last_, last_.CamFromWorld(map_)), kMaxSearchPoses);
+    });
+    std::optional<FramePose> best;
+    const auto try_pose = [&](const Rigid3& pose, double radius) {
+      const std::optional<NearPose> found = MatchLastFrame(pose, radius);
+      if (!found) return;
+      if (!best || Support(found->pose.summary) > Support(best->summary)) best = found->pose;
+    };
+    try_pose(prediction_.cam_from_world, options_.wide_radius);
+    for (const Relocalization& pose : poses) {
+      try_pose(pose.cam_from_world, options_.prediction_radius);
+    }
+    return best;
+  }
+
+  // With the map around the pose of the custom factors, or else the neighbourhood of the reference
+  // keyframe.
+  std::optional<FramePose> MatchMap() {
+    const Rigid3& pose = prediction_.cam_from_world;
+    const LocalMap local = estimator_.Search([&] {
+      return prediction_.by_factors.usable
+                 ? SelectVisibleLandmarks(map_, frame_, pose)
+                 : SelectLocalMap(map_, frame_, pose, {}, ReferenceOrNewest(map_, last_.reference),
+                                  options_.max_local_keyframes);
+    });
+    return estimator_.MatchAndEstimate(pose_options_, frame_, local, options_.wide_radius, pose);
+  }
+
+  std::optional<FramePose> Relocalize(KeyframeCycle* keyframes) {
+    std::optional<FramePose> pose;
+    for (int i = 0; i < keyframes->num_per_frame && !pose; ++i) {
+      const auto* keyframe = map_.keyframes().FindUpTo(keyframes->next);
+      if (keyframe == nullptr) keyframe = &map_.keyframes().back();
+      keyframes->next = keyframe->first - 1;
+      const std::optional<Relocalization> hit = estimator_.Search([&] {
+        return msc_vo::Relocalize(options_.relocalizer, options_.line_matcher, frame_, map_,
+                                  keyframe->second);
+      });
+      if (hit) {
+        pose = estimator_.Estimate(pose_options_, frame_, hit->cam_from_world, hit->matches);
+      }
+    }
+    if (pose) keyframes->next = kNoId;
+    return pose;
+  }
+
+ private:
+  const TrackerOptions& options_;
+  const PoseOptions pose_options_;
+  const Frame& frame_;
+  const LastFrame& last_;
+  const PosePrediction& prediction_;
+  const Map& map_;
+  PoseEstimator& estimator_;
+};
+
 }  // namespace
 
 KeyframeId ReferenceOrNewest(const Map& map, KeyframeId id) {
   return map.FindKeyframe(id) != nullptr ? id : map.keyframes().back().first;
 }
 
-InitialPoseSearch::InitialPoseSearch(const TrackerOptions& options)
-    : options_(options), pose_options_(InitialPoseOptions(options.pose)) {}
-
-std::optional<InitialPose> InitialPoseSearch::Find(const Frame& frame, const LastFrame& last,
-                                                   const PosePrediction& prediction,
-                                                   int num_keyframes, PoseEstimator* estimator) {
-  const Rigid3& predicted = prediction.cam_from_world;
+std::optional<InitialPose> FindInitialPose(const TrackerOptions& options, const Frame& frame,
+                                           const LastFrame& last, const PosePrediction& prediction,
+                                           KeyframeCycle* keyframes, PoseEstimator* estimator) {
+  InitialPoseSearch search(options, frame, last, prediction, estimator);
   const std::optional<NearPose> near =
-      MatchLastFrame(frame, last, predicted, options_.prediction_radius, estimator);
+      search.MatchLastFrame(prediction.cam_from_world, options.prediction_radius);
   if (near && near->is_clear) return InitialPose{near->pose, PoseOrigin::kPrediction};
-  const std::optional<FramePose> far = FindLargeMotion(frame, last, predicted, estimator);
-  if (far && (!near || IsClearlyBetter(options_, far->summary, near->pose.summary))) {
+  const std::optional<FramePose> far = search.FindLargeMotion();
+  if (far && (!near || IsClearlyBetter(options, far->summary, near->pose.summary))) {
     return InitialPose{*far, PoseOrigin::kSearch};
   }
   if (near) return InitialPose{near->pose, PoseOrigin::kPrediction};
-  if (const auto pose = MatchMap(frame, last, prediction, estimator)) {
-    return InitialPose{*pose, PoseOrigin::kPrediction};
-  }
-  if (const auto pose = Relocalize(frame, num_keyframes, estimator)) {
-    return InitialPose{*pose, PoseOrigin::kAfterGap};
-  }
-  return std::nullopt;
-}
-
-std::optional<InitialPoseSearch::NearPose> InitialPoseSearch::MatchLastFrame(
-    const Frame& frame, const LastFrame& last, const Rigid3& near, double radius,
-    PoseEstimator* estimator) const {
-  const LocalMap candidates =
-      estimator->Search([&] { return CandidatesFromFrame(estimator->map(), last, near); });
-  const std::optional<FramePose> pose =
-      estimator->MatchAndEstimate(pose_options_, frame, candidates, radius, near);
+  if (const auto pose = search.MatchMap()) return InitialPose{*pose, PoseOrigin::kPrediction};
+  const std::optional<FramePose> pose = search.Relocalize(keyframes);
   if (!pose) return std::nullopt;
-  return NearPose{*pose, IsClear(*pose, candidates)};
-}
-
-std::optional<FramePose> InitialPoseSearch::FindLargeMotion(const Frame& frame,
-                                                            const LastFrame& last,
-                                                            const Rigid3& prediction,
-                                                            PoseEstimator* estimator) const {
-  const std::vector<Relocalization> poses = estimator->Search([&] {
-    const Map& map = estimator->map();
-    return FindPoses(options_.relocalizer, options_.line_matcher, frame,
-                     CandidatesFromFrame(map, last, last.CamFromWorld(map)), kMaxSearchPoses);
-  });
-  std::optional<FramePose> best;
-  const auto try_pose = [&](const Rigid3& pose, double radius) {
-    const std::optional<NearPose> found = MatchLastFrame(frame, last, pose, radius, estimator);
-    if (!found) return;
-    if (!best || Support(found->pose.summary) > Support(best->summary)) best = found->pose;
-  };
-  try_pose(prediction, options_.wide_radius);
-  for (const Relocalization& pose : poses) {
-    try_pose(pose.cam_from_world, options_.prediction_radius);
-  }
-  return best;
-}
-
-// The map around the pose of the pose factors, or else the neighbourhood of the reference keyframe.
-std::optional<FramePose> InitialPoseSearch::MatchMap(const Frame& frame, const LastFrame& last,
-                                                     const PosePrediction& prediction,
-                                                     PoseEstimator* estimator) const {
-  const Rigid3& pose = prediction.cam_from_world;
-  const LocalMap local = estimator->Search([&] {
-    const Map& map = estimator->map();
-    return prediction.by_factors.usable
-               ? SelectVisibleLandmarks(map, frame, pose)
-               : SelectLocalMap(map, frame, pose, {}, ReferenceOrNewest(map, last.reference),
-                                options_.max_local_keyframes);
-  });
-  return estimator->MatchAndEstimate(pose_options_, frame, local, options_.wide_radius, pose);
-}
-
-// From newest to oldest, a few keyframes per frame, cyclically.
-std::optional<FramePose> InitialPoseSearch::Relocalize(const Frame& frame, int num_keyframes,
-                                                       PoseEstimator* estimator) {
-  const Map& map = estimator->map();
-  for (int i = 0; i < num_keyframes; ++i) {
-    const auto* keyframe = map.keyframes().FindUpTo(next_keyframe_);
-    if (keyframe == nullptr) keyframe = &map.keyframes().back();
-    next_keyframe_ = keyframe->first - 1;
-    const std::optional<Relocalization> hit = estimator->Search([&] {
-      return msc_vo::Relocalize(options_.relocalizer, options_.line_matcher, frame, map,
-                                keyframe->second);
-    });
-    if (!hit) continue;
-    if (const auto pose =
-            estimator->Estimate(pose_options_, frame, hit->cam_from_world, hit->matches)) {
-      Restart();
-      return pose;
-    }
-  }
-  return std::nullopt;
+  return InitialPose{*pose, PoseOrigin::kAfterGap};
 }
 
 }  // namespace msc_vo

@@ -23,50 +23,19 @@ struct InitialPose {
   PoseOrigin origin = PoseOrigin::kPrediction;
 };
 
-/// Searches the initial poses of frames.
-class InitialPoseSearch {
- public:
-  explicit InitialPoseSearch(const TrackerOptions& options);
-
-  /// Searches the pose of a frame: by matching with the last frame around the predicted pose; if
-  /// few of the matches or of the visible features support it, with a wide search radius and around
-  /// poses that lines and points of the last frame determine without a prediction; then with the
-  /// map there; then by relocalisation against the next `num_keyframes` keyframes.
-  std::optional<InitialPose> Find(const Frame& frame, const LastFrame& last,
-                                  const PosePrediction& prediction, int num_keyframes,
-                                  PoseEstimator* estimator);
-  /// Relocalises against the newest keyframe next.
-  void Restart() { next_keyframe_ = kNoId; }
-
-  /// Lists the state for a checkpoint.
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    auto& [options, pose_options, next_keyframe] = *this;  // all members, or it does not compile
-    archive(next_keyframe);
-  }
-
- private:
-  // A pose near a given one, and whether it is clear (IsClear).
-  struct NearPose {
-    FramePose pose;
-    bool is_clear = false;
-  };
-  std::optional<NearPose> MatchLastFrame(const Frame& frame, const LastFrame& last,
-                                         const Rigid3& near, double radius,
-                                         PoseEstimator* estimator) const;
-  std::optional<FramePose> FindLargeMotion(const Frame& frame, const LastFrame& last,
-                                           const Rigid3& prediction,
-                                           PoseEstimator* estimator) const;
-  std::optional<FramePose> MatchMap(const Frame& frame, const LastFrame& last,
-                                    const PosePrediction& prediction,
-                                    PoseEstimator* estimator) const;
-  std::optional<FramePose> Relocalize(const Frame& frame, int num_keyframes,
-                                      PoseEstimator* estimator);
-
-  TrackerOptions options_;
-  PoseOptions pose_options_;
-  KeyframeId next_keyframe_ = kNoId;  // to relocalise against; kNoId: the newest
+/// The keyframes that relocalisation tries next, from newest to oldest, cyclically.
+struct KeyframeCycle {
+  KeyframeId next = kNoId;  ///< kNoId: the newest one
+  int num_per_frame = 0;
 };
+
+/// Finds the initial pose of a frame: by matching with the last frame around the predicted pose; if
+/// few of the matches or of the visible features support it, with a wide search radius and around
+/// poses that lines and points of the last frame determine without a prediction; then with the map
+/// there; then by relocalisation.
+std::optional<InitialPose> FindInitialPose(const TrackerOptions& options, const Frame& frame,
+                                           const LastFrame& last, const PosePrediction& prediction,
+                                           KeyframeCycle* keyframes, PoseEstimator* estimator);
 
 /// The keyframe `id`, or the newest one if it was removed from the map.
 KeyframeId ReferenceOrNewest(const Map& map, KeyframeId id);

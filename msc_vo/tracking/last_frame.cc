@@ -22,7 +22,7 @@ void LastFrame::UpdateTo(const MapSnapshot& snapshot) {
   ForEachLandmarkKind([&](auto kind) {
     using L = typename decltype(kind)::Landmark;
     const std::vector<LandmarkId>& landmarks = SlotsOf<L>(*snapshot.map.FindKeyframe(keyframe));
-    auto& of_kind = MatchesOf<L>(matches);
+    auto& of_kind = OfKind<L>(matches);
     of_kind.clear();
     for (size_t i = 0; i < landmarks.size(); ++i) {
       if (landmarks[i] != kNoId) of_kind.push_back({static_cast<int>(i), landmarks[i]});

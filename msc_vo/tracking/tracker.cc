@@ -25,8 +25,10 @@ void SetPose(const Map& map, const Rigid3& cam_from_world, KeyframeId reference,
 // The landmarks of a local map.
 PerKind<std::vector<LandmarkId>> IdsOf(const LocalMap& local) {
   PerKind<std::vector<LandmarkId>> ids;
-  for (const PointCandidate& point : local.points) ids.points.push_back(point.id);
-  for (const LineCandidate& line : local.lines) ids.lines.push_back(line.id);
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const auto& candidate : OfKind<L>(local)) ids.Of<L>().push_back(candidate.id);
+  });
   return ids;
 }
 
@@ -44,7 +46,6 @@ PoseSummary WithDynamicObjects(PoseSummary last, const PoseSummary& first) {
 Tracker::Tracker(const TrackerOptions& options)
     : options_(options),
       policy_(options.keyframes),
-      initial_pose_(options),
       segment_start_(options.segments),
       inactive_map_search_(options) {
   std::string error;
@@ -55,9 +56,9 @@ TrackedFrame Tracker::Track(const std::shared_ptr<const Frame>& raw, const MapSn
   if (snapshot.map.keyframes().empty()) return Initialize(raw);
   const Input input = Predict(raw, snapshot);
   PoseEstimator estimator(options_, snapshot.map, snapshot.noise_scale, pose_factors_);
-  const std::optional<InitialPose> initial =
-      initial_pose_.Find(*input.frame, last_, input.prediction,
-                         NumKeyframesToTry(snapshot.map, raw->timestamp), &estimator);
+  keyframe_cycle_.num_per_frame = NumKeyframesToTry(snapshot.map, raw->timestamp);
+  const std::optional<InitialPose> initial = FindInitialPose(
+      options_, *input.frame, last_, input.prediction, &keyframe_cycle_, &estimator);
   TrackedFrame tracked = initial ? TrackInMap(input, *initial, &estimator) : TrackInGap(input);
   tracked.has_pose_factors = !pose_factors_.empty();
   tracked.times = estimator.times();
@@ -123,7 +124,7 @@ void Tracker::StartSegment(SegmentStart start, TrackedFrame* tracked) {
   plausibility_ = PosePlausibility();
   in_gap_ = false;
   segment_start_.Started(timestamp);
-  initial_pose_.Restart();
+  keyframe_cycle_ = {};
   last_ = LastFrame(*tracked);
 }
 

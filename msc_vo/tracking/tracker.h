@@ -47,10 +47,10 @@ class Tracker {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, policy, motion_model, callback, factors, last, next_keyframe, initial_pose,
+    auto& [options, policy, motion_model, callback, factors, last, next_keyframe, keyframe_cycle,
            segment_start, inactive_map_search, plausibility, in_gap] =
         *this;  // all members, or it does not compile
-    archive(policy, motion_model, last, next_keyframe, initial_pose, segment_start,
+    archive(policy, motion_model, last, next_keyframe, keyframe_cycle.next, segment_start,
             inactive_map_search, plausibility, in_gap);
   }
 
@@ -117,7 +117,7 @@ class Tracker {
   std::vector<PoseFactor> pose_factors_;     // of the frame that is being tracked
   LastFrame last_;
   KeyframeId next_keyframe_ = 0;  // the id of the next keyframe
-  InitialPoseSearch initial_pose_;
+  KeyframeCycle keyframe_cycle_;
   SegmentStartPolicy segment_start_;
   InactiveMapSearch inactive_map_search_;
   PosePlausibility plausibility_;

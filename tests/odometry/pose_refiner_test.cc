@@ -74,7 +74,7 @@ class PoseRefinerTest : public testing::Test {
   std::vector<Eigen::Vector3d> positions_;  // of the landmarks, as the frame observes them
   KeyframeId keyframe_ = kNoId;
   std::vector<LandmarkId> points_;
-  std::vector<RelativePose> poses_;
+  std::vector<ReferencedPose> poses_;
 };
 
 TEST_F(PoseRefinerTest, EstimatesThePoseInThePresentMap) {

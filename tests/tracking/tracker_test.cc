@@ -70,6 +70,35 @@ TEST_F(TrackerTest, RequestsAKeyframeToCompensateTheFirstOne) {
   EXPECT_EQ(Track(3).frame->readout_time, 0.026);
 }
 
+// The mapper has moved the keyframe of the last frame; the pose is bridged from there.
+TEST_F(TrackerTest, TakesOverThePoseOfTheKeyframeWithTheProposedId) {
+  const std::shared_ptr<const Frame> first =
+      SyntheticFrames(SyntheticFrames::Options()).MakeFrame(0);
+  const Rigid3 moved(Eigen::Quaterniond::Identity(), {0.0, 0.5, 0.0});
+  auto retimed = std::make_shared<Frame>(*first);
+  retimed->timestamp += 1.0;
+  for (const bool is_same : {true, false}) {
+    Tracker tracker{TrackerOptions()};
+    const KeyframeId id = tracker.Track(first, MapSnapshot()).keyframe.id;
+    // The time stamps say the opposite of the ids.
+    const MapSnapshot snapshot =
+        is_same ? MapOfOneKeyframe(retimed, moved, id) : MapOfOneKeyframe(first, moved, id + 1);
+    const TrackedFrame bridged = tracker.Track(SyntheticFrames::MakeEmptyFrame(1), snapshot);
+    EXPECT_EQ(bridged.cam_from_world.params, (is_same ? moved : Rigid3()).params) << is_same;
+  }
+}
+
+TEST_F(TrackerTest, NumbersItsKeyframes) {
+  Start({});
+  KeyframeId last = 0;
+  for (int i = 1; i < 60; ++i) {
+    const TrackedFrame tracked = Track(i);
+    if (!tracked.keyframe.is_due()) continue;
+    EXPECT_EQ(tracked.keyframe.id, ++last) << i;
+  }
+  EXPECT_GT(last, 1);
+}
+
 TEST_F(TrackerTest, TracksFifteenLinesAndTenPoints) {
   SyntheticFrames::Options options;
   options.num_points = 14;
@@ -173,7 +202,7 @@ TEST_F(TrackerTest, BeginsASegmentWhenTheMapIsNotFoundForASecond) {
   EXPECT_LT(PositionError(tracked.cam_from_world, Truth(4)), 0.01);
 
   const Rigid3 world_from_first = tracked.cam_from_world.Inverse();
-  snapshot_ = MapOfOneKeyframe(tracked.frame, tracked.cam_from_world);
+  snapshot_ = MapOfOneKeyframe(tracked.frame, tracked.cam_from_world, tracked.keyframe.id);
   for (int i = first + 1; i < first + 10; ++i) {
     tracked = tracker_.Track(other.MakeFrame(i), snapshot_);
     EXPECT_EQ(tracked.status, TrackingStatus::kTracked) << i;
