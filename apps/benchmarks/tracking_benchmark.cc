@@ -21,12 +21,12 @@ struct Input {
     FrameBuilder builder({}, sequence.camera(), LensDistortion());
     last.frame = std::make_shared<Frame>(builder.Build(RenderImage(sequence, 40)));
     frame = builder.Build(RenderImage(sequence, 41));
-    candidates = CandidatesFromFrame(Map(), last, Rigid3(), Rigid3());
+    candidates = CandidatesFromFrame(Map(), last, Rigid3());
     matches = MatchLocalMap(options, frame, candidates, options.prediction_radius, {});
   }
 
   TrackerOptions options;
-  TrackedFrame last;  // at the origin
+  LastFrame last;  // at the origin
   Frame frame;
   LocalMap candidates;  // features of `last`
   FrameMatches matches;
@@ -41,7 +41,7 @@ void Candidates(benchmark::State& state) {
   const Input& input = SharedInput();
   const Map map;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(CandidatesFromFrame(map, input.last, Rigid3(), Rigid3()));
+    benchmark::DoNotOptimize(CandidatesFromFrame(map, input.last, Rigid3()));
   }
   state.counters["points"] = static_cast<double>(input.candidates.points.size());
   state.counters["lines"] = static_cast<double>(input.candidates.lines.size());

@@ -12,23 +12,10 @@
 
 namespace msc_vo {
 
-/// The list of the kinds of landmarks: where each has its features in a frame and its landmarks in
-/// a keyframe.
+/// A kind of landmarks, by its landmark type.
 template <typename L>
-struct LandmarkKind;
-
-template <>
-struct LandmarkKind<PointLandmark> {
-  using Landmark = PointLandmark;
-  static constexpr auto kFeatures = &Frame::points;
-  static constexpr auto kSlots = &Keyframe::points;
-};
-
-template <>
-struct LandmarkKind<LineLandmark> {
-  using Landmark = LineLandmark;
-  static constexpr auto kFeatures = &Frame::lines;
-  static constexpr auto kSlots = &Keyframe::lines;
+struct LandmarkKind {
+  using Landmark = L;
 };
 
 /// Calls visit(LandmarkKind<L>()) for every kind L, always in the same order.
@@ -36,6 +23,17 @@ template <typename Visit>
 void ForEachLandmarkKind(const Visit& visit) {
   visit(LandmarkKind<PointLandmark>());
   visit(LandmarkKind<LineLandmark>());
+}
+
+/// The member for a kind of a struct that has one for each. The struct may be const.
+template <typename L, typename Kinds>
+auto& OfKind(Kinds& kinds) {
+  if constexpr (std::is_same_v<L, PointLandmark>) {
+    return kinds.points;
+  } else {
+    static_assert(std::is_same_v<L, LineLandmark>);
+    return kinds.lines;
+  }
 }
 
 /// One value for each kind.
@@ -46,16 +44,11 @@ struct PerKind {
 
   template <typename L>
   T& Of() {
-    if constexpr (std::is_same_v<L, PointLandmark>) {
-      return points;
-    } else {
-      static_assert(std::is_same_v<L, LineLandmark>);
-      return lines;
-    }
+    return OfKind<L>(*this);
   }
   template <typename L>
   const T& Of() const {
-    return const_cast<PerKind*>(this)->template Of<L>();
+    return OfKind<L>(*this);
   }
 
   template <typename Archive>
@@ -67,13 +60,13 @@ struct PerKind {
 /// The features of a kind in a frame.
 template <typename L>
 const std::vector<typename L::Feature>& FeaturesOf(const Frame& frame) {
-  return frame.*LandmarkKind<L>::kFeatures;
+  return OfKind<L>(frame);
 }
 
 /// The landmarks that a keyframe observes, one per feature; kNoId: none.
 template <typename L>
 const std::vector<LandmarkId>& SlotsOf(const Keyframe& keyframe) {
-  return keyframe.*LandmarkKind<L>::kSlots;
+  return OfKind<L>(keyframe);
 }
 
 }  // namespace msc_vo

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/map/observer_count.h"
@@ -104,14 +106,20 @@ void Map::Transform(const Rigid3& new_from_old_world) {
 
 const Keyframe* Map::FindKeyframe(KeyframeId id) const { return keyframes_.Find(id); }
 
-KeyframeId Map::AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& cam_from_world) {
+KeyframeId Map::AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& cam_from_world,
+                            KeyframeId id) {
+  if (id == kNoId) id = next_keyframe_;
+  if (id < next_keyframe_) {
+    throw std::invalid_argument("map: keyframe " + std::to_string(id) + " is not newer than " +
+                                std::to_string(next_keyframe_ - 1));
+  }
+  next_keyframe_ = id + 1;
   Keyframe keyframe;
-  keyframe.id = next_keyframe_++;
+  keyframe.id = id;
   keyframe.cam_from_world = cam_from_world;
   keyframe.points.assign(frame->points.size(), kNoId);
   keyframe.lines.assign(frame->lines.size(), kNoId);
   keyframe.frame = std::move(frame);
-  const KeyframeId id = keyframe.id;
   keyframes_.Append(id, std::move(keyframe));
   relative_poses_.Append(id, {});
   return id;
@@ -137,7 +145,7 @@ bool Map::Observe(LandmarkId id, KeyframeId keyframe_id, int feature) {
   if (landmark == nullptr || keyframe == nullptr) return false;
   if (SlotsOf<L>(*keyframe)[feature] != kNoId) return false;
   if (FindObservation(*landmark, keyframe_id) != nullptr) return false;
-  (keyframes_.FindToChange(keyframe_id)->*LandmarkKind<L>::kSlots)[feature] = id;
+  OfKind<L>(*keyframes_.FindToChange(keyframe_id))[feature] = id;
   L* const changed = Table<L>().FindToChange(id);
   std::vector<Observation>& observations = changed->observations;
   observations.insert(LowerBound(&observations, keyframe_id), {keyframe_id, feature});
@@ -151,7 +159,7 @@ void Map::RemoveObservation(LandmarkId id, KeyframeId keyframe) {
   if (landmark == nullptr) return;
   const Observation* observation = FindObservation(*landmark, keyframe);
   if (observation == nullptr) return;
-  (keyframes_.FindToChange(keyframe)->*LandmarkKind<L>::kSlots)[observation->feature] = kNoId;
+  OfKind<L>(*keyframes_.FindToChange(keyframe))[observation->feature] = kNoId;
   if (landmark->observations.size() == 1) {
     Table<L>().Erase(id);
     return;
@@ -167,7 +175,7 @@ void Map::Remove(LandmarkId id) {
   if (landmark == nullptr) return;
   for (const Observation& observation : landmark->observations) {
     Keyframe* const keyframe = keyframes_.FindToChange(observation.keyframe);
-    (keyframe->*LandmarkKind<L>::kSlots)[observation.feature] = kNoId;
+    OfKind<L>(*keyframe)[observation.feature] = kNoId;
   }
   Table<L>().Erase(id);
 }

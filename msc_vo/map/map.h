@@ -62,8 +62,10 @@ class Map {
     return landmarks<L>().Find(id);
   }
 
-  /// Adds a keyframe without associations and returns its id.
-  KeyframeId AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& cam_from_world);
+  /// Adds a keyframe without associations and returns its id: `id`, which must be higher than those
+  /// of the keyframes so far, or the next one if it is kNoId.
+  KeyframeId AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& cam_from_world,
+                         KeyframeId id = kNoId);
   /// Adds a landmark (metres, world) and its observation by feature `feature` of `keyframe`.
   template <typename L>
   LandmarkId Add(KeyframeId keyframe, int feature, const typename L::Geometry& geometry);

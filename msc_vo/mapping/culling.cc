@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "msc_vo/map/keyframe_index.h"
+#include "msc_vo/mapping/line_rules.h"
+#include "msc_vo/mapping/point_rules.h"
 
 namespace msc_vo {
 
@@ -41,12 +43,6 @@ void CullKind(const CullingOptions& options, KeyframeId newest, std::set<Landmar
     it = state == ProbationState::kPending ? std::next(it) : probation->erase(it);
   }
 }
-
-// Whether an observation is as fine as a feature: points have levels, at most one coarser.
-bool IsAsFine(const PointFeature& other, const PointFeature& feature) {
-  return other.level <= feature.level + 1;
-}
-bool IsAsFine(const LineFeature& /*other*/, const LineFeature& /*feature*/) { return true; }
 
 // Whether enough other keyframes observe the landmark of a feature as finely.
 template <typename L>

@@ -13,7 +13,7 @@ namespace {
 void AddObservations(const KeyframePacket& packet, KeyframeId keyframe, Map* map) {
   ForEachLandmarkKind([&](auto kind) {
     using L = typename decltype(kind)::Landmark;
-    for (const auto& match : MatchesOf<L>(packet.matches)) {
+    for (const auto& match : OfKind<L>(packet.matches)) {
       map->Observe<L>(match.id, keyframe, match.feature);
     }
     for (const auto& [id, count] : packet.counts.Of<L>()) {
@@ -39,7 +39,7 @@ void KeyframeInserter::Insert(const KeyframePacket& packet, std::shared_ptr<cons
   if (packet.reference != kNoId) {
     cam_from_world = cam_from_world * map->CamFromWorld(packet.reference);
   }
-  newest_ = map->AddKeyframe(std::move(frame), cam_from_world);
+  newest_ = map->AddKeyframe(std::move(frame), cam_from_world, packet.id);
   summary->keyframe = newest_;
   summary->submap = atlas->current().id;
   AddObservations(packet, newest_, map);

@@ -35,6 +35,7 @@ struct TrackingCount {
 
 /// Plain data that tracking passes to the mapper for each keyframe; shared parts are immutable.
 struct KeyframePacket {
+  KeyframeId id = kNoId;  ///< of the keyframe; kNoId: the next one of the map
   std::shared_ptr<const Frame> frame;
   /// kNoId: the first keyframe of a map, for which cam_from_reference is cam_from_world.
   KeyframeId reference = kNoId;
@@ -63,7 +64,7 @@ struct KeyframePacket {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, frame, reference, cam_from_reference, begins_map, keeps_last_map,
+    archive.Fields(*this, id, frame, reference, cam_from_reference, begins_map, keeps_last_map,
                    last_tracked, matches, covariance, in_inactive_map, frame_interval,
                    last_velocity, normals, image, calibration_images, counts);
   }

@@ -32,10 +32,27 @@ std::pair<LandmarkId, LandmarkId> SelectSurvivor(const L& a, const L& b) {
   return a_stays ? std::make_pair(a.id, b.id) : std::make_pair(b.id, a.id);
 }
 
+// The landmarks of keyframe `source` that project into `target`, which does not observe them.
+template <typename L>
+auto CandidatesFor(const Map& map, const Keyframe& source, const Keyframe& target) {
+  std::vector<decltype(CandidateOf(std::declval<L>()))> candidates;
+  for (const LandmarkId id : SlotsOf<L>(source)) {
+    const L* landmark = map.Find<L>(id);
+    if (landmark == nullptr || FindObservation(*landmark, target.id) != nullptr) continue;
+    auto candidate = CandidateOf(*landmark);
+    SetLevel(target, *landmark, &candidate);
+    if (ProjectCandidate(target.frame->camera, target.cam_from_world, &candidate)) {
+      candidates.push_back(candidate);
+    }
+  }
+  return candidates;
+}
+
 template <typename L>
 void FuseInto(const FusionOptions& options, KeyframeId source, KeyframeId target, Map* map) {
-  const auto matches = MatchForFusion(LandmarkKind<L>(), options, *map, *map->FindKeyframe(source),
-                                      *map->FindKeyframe(target));
+  const Keyframe& shown = *map->FindKeyframe(target);
+  const auto matches = MatchForFusion(options, *shown.frame,
+                                      CandidatesFor<L>(*map, *map->FindKeyframe(source), shown));
   for (const auto& match : matches) {
     const L* landmark = map->Find<L>(match.id);
     if (landmark == nullptr) continue;                      // merged by an earlier match

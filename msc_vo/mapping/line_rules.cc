@@ -16,30 +16,15 @@ namespace {
 constexpr double kMaxAngle = DegreesToRadians(5.0);
 constexpr double kMaxOffset = 0.02;
 
-std::vector<LineCandidate> LinesOf(const Map& map, const Keyframe& source, const Keyframe& target) {
-  std::vector<LineCandidate> candidates;
-  for (const LandmarkId id : source.lines) {
-    const LineLandmark* line = map.Find<LineLandmark>(id);
-    if (line == nullptr || FindObservation(*line, target.id) != nullptr) continue;
-    LineCandidate candidate;
-    candidate.id = id;
-    candidate.segment = line->segment;
-    candidate.descriptor = line->descriptor;
-    if (ProjectCandidate(target.frame->camera, target.cam_from_world, &candidate)) {
-      candidates.push_back(candidate);
-    }
-  }
-  return candidates;
-}
-
 }  // namespace
 
-std::vector<LineMatch> MatchForFusion(LandmarkKind<LineLandmark> /*kind*/,
-                                      const FusionOptions& options, const Map& map,
-                                      const Keyframe& source, const Keyframe& target) {
-  return MatchLines(options.line_matcher, *target.frame, LinesOf(map, source, target),
-                    kFusionRadius, {});
+std::vector<LineMatch> MatchForFusion(const FusionOptions& options, const Frame& frame,
+                                      const std::vector<LineCandidate>& candidates) {
+  return MatchLines(options.line_matcher, frame, candidates, kFusionRadius, {});
 }
+
+void SetLevel(const Keyframe& /*target*/, const LineLandmark& /*line*/,
+              LineCandidate* /*candidate*/) {}
 
 bool AgreesWithDepth(const Keyframe& /*keyframe*/, int /*feature*/, const LineLandmark& /*line*/) {
   return true;  // the depth of a line has an offset of its own

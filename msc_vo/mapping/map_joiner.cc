@@ -16,7 +16,7 @@ namespace {
 // Where a feature has a landmark already, the two are one.
 template <typename L>
 void MergeMatched(KeyframeId id, const FrameMatches& matches, Map* map) {
-  for (const auto& match : MatchesOf<L>(matches)) {
+  for (const auto& match : OfKind<L>(matches)) {
     if (map->Find<L>(match.id) == nullptr) continue;  // merged by an earlier match
     const LandmarkId holder = SlotsOf<L>(*map->FindKeyframe(id))[match.feature];
     if (holder == match.id) continue;

@@ -10,35 +10,15 @@
 
 namespace msc_vo {
 
-namespace {
-
-std::vector<PointCandidate> PointsOf(const Map& map, const Keyframe& source,
-                                     const Keyframe& target) {
-  std::vector<PointCandidate> candidates;
-  const Eigen::Vector3d center = target.cam_from_world.OriginInSource();
-  for (const LandmarkId id : source.points) {
-    const PointLandmark* point = map.Find<PointLandmark>(id);
-    if (point == nullptr || FindObservation(*point, target.id) != nullptr) continue;
-    PointCandidate candidate;
-    candidate.id = id;
-    candidate.position = point->position;
-    candidate.descriptor = point->descriptor;
-    const double level = point->PredictLevel((point->position - center).norm());
-    candidate.level = CellIndex(std::round(level), std::numeric_limits<int>::max());
-    if (ProjectCandidate(target.frame->camera, target.cam_from_world, &candidate)) {
-      candidates.push_back(candidate);
-    }
-  }
-  return candidates;
+std::vector<PointMatch> MatchForFusion(const FusionOptions& options, const Frame& frame,
+                                       const std::vector<PointCandidate>& candidates) {
+  return MatchPoints(options.point_matcher, frame, candidates, kFusionRadius, {});
 }
 
-}  // namespace
-
-std::vector<PointMatch> MatchForFusion(LandmarkKind<PointLandmark> /*kind*/,
-                                       const FusionOptions& options, const Map& map,
-                                       const Keyframe& source, const Keyframe& target) {
-  return MatchPoints(options.point_matcher, *target.frame, PointsOf(map, source, target),
-                     kFusionRadius, {});
+void SetLevel(const Keyframe& target, const PointLandmark& point, PointCandidate* candidate) {
+  const Eigen::Vector3d center = target.cam_from_world.OriginInSource();
+  const double level = point.PredictLevel((point.position - center).norm());
+  candidate->level = CellIndex(std::round(level), std::numeric_limits<int>::max());
 }
 
 // At the 99 % quantile.

@@ -10,17 +10,24 @@
 
 namespace msc_vo {
 
-// What differs between the kinds of landmarks in fusion (FuseLandmarks): points.
+// What differs between the kinds of landmarks in fusion (FuseLandmarks) and culling: points.
 
-/// Matches the points of keyframe `source` with the features of keyframe `target`.
-std::vector<PointMatch> MatchForFusion(LandmarkKind<PointLandmark> kind,
-                                       const FusionOptions& options, const Map& map,
-                                       const Keyframe& source, const Keyframe& target);
+/// Matches points that project into a frame with its features.
+std::vector<PointMatch> MatchForFusion(const FusionOptions& options, const Frame& frame,
+                                       const std::vector<PointCandidate>& candidates);
+
+/// Sets the pyramid level at which the keyframe is expected to show the point.
+void SetLevel(const Keyframe& target, const PointLandmark& point, PointCandidate* candidate);
 
 /// Whether the depth of a feature of the keyframe, if it was measured, agrees with the landmark.
 bool AgreesWithDepth(const Keyframe& keyframe, int feature, const PointLandmark& point);
 
 /// Whether two landmarks that a feature of the keyframe was matched with are one.
 bool AreDuplicates(const Keyframe& keyframe, const PointLandmark& a, const PointLandmark& b);
+
+/// Whether an observation is as fine as a feature: its level is at most one coarser.
+inline bool IsAsFine(const PointFeature& other, const PointFeature& feature) {
+  return other.level <= feature.level + 1;
+}
 
 }  // namespace msc_vo

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <type_traits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,7 +29,7 @@ struct PointMatch {
 struct LineMatch {
   int feature = 0;
   LandmarkId id = kNoId;
-  LineSegment3 segment;  ///< metres, world
+  LineSegment3 segment{};  ///< metres, world
   bool inlier = true;
 
   template <typename Archive>
@@ -53,16 +52,5 @@ struct FrameMatches {
     archive.Fields(*this, points, lines);
   }
 };
-
-/// The matches with landmarks of a kind.
-template <typename L>
-const auto& MatchesOf(const FrameMatches& matches) {
-  if constexpr (std::is_same_v<L, PointLandmark>) {
-    return matches.points;
-  } else {
-    static_assert(std::is_same_v<L, LineLandmark>);
-    return matches.lines;
-  }
-}
 
 }  // namespace msc_vo

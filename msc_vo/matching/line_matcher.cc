@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "msc_vo/bundle_adjustment/observation.h"
 #include "msc_vo/geometry/angles.h"
 
 namespace msc_vo {
@@ -60,6 +61,18 @@ double OverlapDistance(const MeasuredSegment& candidate, const MeasuredSegment& 
   return candidate.Across(feature.start + 0.5 * (first + last) * feature.direction);
 }
 
+// Of a line that passes the camera, only the direction across it is compared: its middle may be
+// behind, and views along a line differ little in its descriptor.
+bool HasSimilarAngle(const Viewpoint& view, const LineLandmark& line) {
+  const Eigen::Vector3d ray = line.segment.Midpoint() - view.center;
+  if (IsInFront(view.cam_from_world * line.segment)) return Viewpoint::HasSimilarAngle(line, ray);
+  const Eigen::Vector3d along = line.segment.Direction();
+  const Eigen::Vector3d mean = line.viewing_direction;
+  const Eigen::Vector3d ray_across = ray - along.dot(ray) * along;
+  const Eigen::Vector3d mean_across = mean - along.dot(mean) * along;
+  return mean_across.dot(ray_across) >= kMinViewingCosine * mean_across.norm() * ray_across.norm();
+}
+
 }  // namespace
 
 bool LineMatcherOptions::IsValid(std::string* error) const {
@@ -73,6 +86,14 @@ bool LineMatcherOptions::IsValid(std::string* error) const {
   return false;
 }
 
+LineCandidate CandidateOf(const LineLandmark& line) {
+  LineCandidate candidate;
+  candidate.id = line.id;
+  candidate.segment = line.segment;
+  candidate.descriptor = line.descriptor;
+  return candidate;
+}
+
 bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,
                       LineCandidate* candidate) {
   LineSegment3 in_cam = cam_from_world * candidate->segment;
@@ -80,6 +101,11 @@ bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,
   candidate->image.start = camera.Project(in_cam.start);
   candidate->image.end = camera.Project(in_cam.end);
   return ClipToImage(camera, &candidate->image) && candidate->image.Length() >= kMinVisible;
+}
+
+bool IsVisible(const Viewpoint& view, const LineLandmark& line, LineCandidate* candidate) {
+  return HasSimilarAngle(view, line) &&
+         ProjectCandidate(view.frame.camera, view.cam_from_world, candidate);
 }
 
 std::vector<LineMatch> MatchLines(const LineMatcherOptions& options, const Frame& frame,

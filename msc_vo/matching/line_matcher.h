@@ -9,6 +9,7 @@
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/matching/frame_matches.h"
+#include "msc_vo/matching/viewpoint.h"
 
 namespace msc_vo {
 
@@ -30,10 +31,17 @@ struct LineCandidate {
   LineSegment2 image;  ///< projection of the visible part, pixels
 };
 
+/// The candidate of a landmark, without its projection.
+LineCandidate CandidateOf(const LineLandmark& line);
+
 /// Projects `segment` and clips it to the image. Returns false if no part is visible or the visible
 /// part is too short to have a direction.
 bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,
                       LineCandidate* candidate);
+
+/// Completes the candidate of a landmark. Returns whether it is expected to be visible: it projects
+/// into the image, and is observed from a similar direction.
+bool IsVisible(const Viewpoint& view, const LineLandmark& line, LineCandidate* candidate);
 
 /// Matches candidates with the lines of `frame` whose distance at the middle of the overlap is
 /// below `radius` pixels. A feature is matched with the candidate of lowest cost, the first one on

@@ -25,10 +25,9 @@ LocalMap LandmarksOf(const Map& map, const Keyframe& keyframe);
 
 /// Selects the local map of a frame (paper: local map tracking): the landmarks of the keyframes
 /// that share landmarks with `matches`, and of the covisible keyframes of the best of them. A
-/// landmark is included if it projects into `frame` from `cam_from_world`, is observed from a
-/// similar direction, and (points) at a scale that the pyramid covers. If no match is a landmark,
-/// the neighbourhood of keyframe `fallback` is selected. At most `max_keyframes` keyframes
-/// contribute.
+/// landmark is included if it is expected to be visible (IsVisible) in `frame` from
+/// `cam_from_world`. If no match is a landmark, the neighbourhood of keyframe `fallback` is
+/// selected. At most `max_keyframes` keyframes contribute.
 LocalMap SelectLocalMap(const Map& map, const Frame& frame, const Rigid3& cam_from_world,
                         const FrameMatches& matches, KeyframeId fallback, int max_keyframes);
 

@@ -3,6 +3,7 @@
 
 #include "msc_vo/matching/point_matcher.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <tuple>
@@ -64,6 +65,14 @@ bool PointMatcherOptions::IsValid(std::string* error) const {
   return false;
 }
 
+PointCandidate CandidateOf(const PointLandmark& point) {
+  PointCandidate candidate;
+  candidate.id = point.id;
+  candidate.position = point.position;
+  candidate.descriptor = point.descriptor;
+  return candidate;
+}
+
 bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,
                       PointCandidate* candidate) {
   // Metres: below the range of RGB-D sensors, where the projection becomes unstable.
@@ -72,6 +81,16 @@ bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,
   if (in_cam.z() < kNear) return false;
   candidate->pixel = camera.Project(in_cam);
   return camera.IsInside(candidate->pixel);
+}
+
+bool IsVisible(const Viewpoint& view, const PointLandmark& point, PointCandidate* candidate) {
+  const Eigen::Vector3d ray = point.position - view.center;
+  if (!Viewpoint::HasSimilarAngle(point, ray)) return false;
+  const double level = point.PredictLevel(ray.norm());
+  // One level of tolerance on both sides, as in the matcher.
+  if (!(level > -1.5 && level < view.highest_level + 1.5)) return false;
+  candidate->level = std::clamp(static_cast<int>(std::lround(level)), 0, view.highest_level);
+  return ProjectCandidate(view.frame.camera, view.cam_from_world, candidate);
 }
 
 std::vector<PointMatch> MatchPoints(const PointMatcherOptions& options, const Frame& frame,

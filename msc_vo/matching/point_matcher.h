@@ -9,6 +9,7 @@
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/matching/frame_matches.h"
+#include "msc_vo/matching/viewpoint.h"
 
 namespace msc_vo {
 
@@ -33,9 +34,16 @@ struct PointCandidate {
   int level = 0;                                    ///< predicted pyramid level
 };
 
+/// The candidate of a landmark, without its projection.
+PointCandidate CandidateOf(const PointLandmark& point);
+
 /// Projects `position`. Returns false if it lies outside the image or behind the camera.
 bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,
                       PointCandidate* candidate);
+
+/// Completes the candidate of a landmark. Returns whether it is expected to be visible: it projects
+/// into the image, and is observed from a similar direction, at a scale that the pyramid covers.
+bool IsVisible(const Viewpoint& view, const PointLandmark& point, PointCandidate* candidate);
 
 /// Matches candidates with the features of `frame` within `radius` pixels (at level 0; scaled with
 /// the level) by descriptor. A feature is matched with the candidate of smallest descriptor

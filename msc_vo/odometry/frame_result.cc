@@ -16,13 +16,13 @@ FrameResult MakeFrameResult(const TrackedFrame& tracked, int segment) {
   result.segment = segment;
   result.cam_from_world = tracked.cam_from_world;
   result.by_pose_factors = !IsEstimated(tracked.status) && tracked.pose.usable;
-  result.is_keyframe = tracked.keyframe.is_due;
+  result.is_keyframe = tracked.keyframe.is_due();
   result.num_points = static_cast<int>(tracked.frame->points.size());
   result.num_lines = static_cast<int>(tracked.frame->lines.size());
   result.num_with_depth = NumWithDepth(*tracked.frame);
   result.num_inlier_points = static_cast<int>(tracked.matches.points.size());
   result.num_inlier_lines = static_cast<int>(tracked.matches.lines.size());
-  result.num_dynamic = tracked.num_dynamic;
+  result.num_dynamic = tracked.pose.num_dynamic;
   result.covariance = tracked.pose.covariance;
   result.times.matching = tracked.times.matching;
   result.times.pose = tracked.times.pose;

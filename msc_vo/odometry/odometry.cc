@@ -12,106 +12,74 @@
 #include "msc_vo/checkpoint/binary_writer.h"
 #include "msc_vo/features/image_statistics.h"
 #include "msc_vo/mapping/mapper.h"
-#include "msc_vo/odometry/depth_preparation.h"
+#include "msc_vo/odometry/calibration_exchange.h"
 #include "msc_vo/odometry/event_log.h"
 #include "msc_vo/odometry/gap_filling.h"
+#include "msc_vo/odometry/image_pipeline.h"
 #include "msc_vo/odometry/input_checks.h"
 #include "msc_vo/odometry/map_result.h"
 #include "msc_vo/odometry/mapping_runner.h"
+#include "msc_vo/odometry/packet_collector.h"
 #include "msc_vo/odometry/pose_correction.h"
 #include "msc_vo/odometry/pose_refiner.h"
 #include "msc_vo/odometry/segment_log.h"
-#include "msc_vo/odometry/side_worker.h"
 #include "msc_vo/odometry/snapshot_schedule.h"
-#include "msc_vo/sensor/depth_camera_correction.h"
-#include "msc_vo/sensor/standalone_image.h"
 #include "msc_vo/timing/stopwatch.h"
 #include "msc_vo/tracking/tracker.h"
 
 namespace msc_vo {
 
-namespace {
-
-// Images between keyframes for self-calibration: least time after another or a keyframe, number.
-constexpr double kCalibrationImageInterval = 0.115;
-constexpr size_t kMaxCalibrationImages = 3;
-
-// The ids are sorted, so that each insertion point is close to the previous one.
-void CountVisible(const std::vector<LandmarkId>& ids, std::map<LandmarkId, TrackingCount>* counts) {
-  auto place = counts->begin();
-  for (const LandmarkId id : ids) {
-    place = counts->try_emplace(place, id);
-    ++place->second.num_visible;
-  }
-}
-
-}  // namespace
-
 struct Odometry::State {
-  State(const OdometryOptions& options_in, const PinholeCamera& camera_in,
+  State(const OdometryOptions& options_in, const PinholeCamera& camera,
         const LensDistortion& distortion)
       : options(ValidatedOptions(options_in)),
-        camera(ValidatedCamera(camera_in, distortion)),
-        builder(options.features, camera, distortion),
-        preparation(builder.intrinsics()),
-        normal_estimator(std::in_place, NormalOptions(options), camera, distortion),
+        images(options, ValidatedCamera(camera, distortion), distortion),
         tracker(options.tracking),
         mapper(options.mapping),
+        calibration(options.mapping.self_calibration, &images, &mapper),
         refiner(options.tracking.pose, options.pose_refinement_delay),
         schedule(options.snapshots,
                  options.threads > 1 ? MakeThreadedRunner(&mapper) : MakeInlineRunner(&mapper),
                  mapper.Snapshot(),
                  [this](int frame, const MappingStep& step) { Record(frame, step); }) {
-    if (options.mapping.self_calibration) {
-      mapper.BeginSelfCalibration(builder.intrinsics(),
-                                  preparation.MeasurementFor(options.features));
-    }
-    if (options.threads > 1) side_worker = std::make_unique<SideWorker>();
     log.LogStart(options, camera);
   }
 
   void CheckTime(int64_t id, double timestamp) const;
-  RgbdImage Align(const RgbdImage& image) const;
-  std::shared_ptr<const Frame> Build(const RgbdImage& image);
-  void Count(const TrackedFrame& tracked);
-  void BeginSegment(SegmentStart start);
-  void DiscardSegment();
-  // Whether self-calibration needs the images of this frame.
-  bool NeedsImages() const {
-    return options.mapping.self_calibration && !snapshot->calibration_is_settled;
-  }
-  void KeepForCalibration(const TrackedFrame& tracked, const RgbdImage& recorded);
-  void SubmitKeyframe(const TrackedFrame& tracked, const RgbdImage& recorded, const cv::Mat& depth);
-  void Record(int frame, const MappingStep& step);
-  bool UseIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics);
+  // The number of the last frame.
+  int last() const { return static_cast<int>(results.size()) - 1; }
 
-  // Everything that later results depend on, except what the options determine. The snapshot of the
-  // last frame is not needed between two frames.
+  // The steps of Process().
+  void Check(const RgbdImage& image) const;
+  ExtractedFrame Extract(const AlignedImage& image, StageTimes* times);
+  MapSnapshotPtr WaitForMap(double timestamp, StageTimes* times);
+  void BeginSegment(SegmentStart start);
+  void AddResult(const TrackedFrame& tracked, const RgbdImage& image, const Stopwatch& arrival,
+                 StageTimes times);
+  void RefineOlderPoses(const TrackedFrame& tracked, const MapSnapshot& map);
+  void SubmitKeyframe(const TrackedFrame& tracked, const AlignedImage& image,
+                      const ExtractedFrame& extracted, const MapSnapshot& map);
+
+  void DiscardSegment();
+  void Record(int frame, const MappingStep& step);
+
+  // Everything that later results depend on, except what the options determine.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    std::shared_ptr<const CameraIntrinsics> intrinsics = builder.intrinsics();
-    archive(intrinsics);
-    UseIntrinsics(intrinsics);  // resets what is read next
-    archive(preparation, builder, tracker, mapper, last_window, last_calibration_image_time, packet,
-            results, relative_poses, refiner, segments, log, schedule);
+    archive(images, tracker, mapper, calibration, last_window, packets, results, relative_poses,
+            refiner, segments, log, schedule);
   }
 
   OdometryOptions options;
-  bool finds_clipped_depth = true;
-  PinholeCamera camera;
-  FrameBuilder builder;
-  DepthPreparation preparation;
-  std::optional<SurfaceNormalEstimator> normal_estimator;
-  std::unique_ptr<SideWorker> side_worker;  // none with one thread
+  ImagePipeline images;
   Tracker tracker;
   TrackingObserver tracking_observer;  // may be empty
   Mapper mapper;
-  MapSnapshotPtr snapshot;  // of the last frame
+  CalibrationExchange calibration;
   BundleAdjustmentSummary last_window;
-  double last_calibration_image_time = 0.0;
-  KeyframePacket packet;  // accumulates counts until the next keyframe
+  PacketCollector packets;
   std::vector<FrameResult> results;
-  std::vector<RelativePose> relative_poses;  // one per result
+  std::vector<ReferencedPose> relative_poses;  // one per result
   PoseRefiner refiner;
   SegmentLog segments;
   EventLog log;
@@ -123,36 +91,24 @@ void Odometry::State::CheckTime(int64_t id, double timestamp) const {
                  results.empty() ? std::nullopt : std::optional(results.back().timestamp));
 }
 
-// Returns the image with its depth warped to the time of its colour image.
-RgbdImage Odometry::State::Align(const RgbdImage& image) const {
-  if (!options.align_depth) return image;
-  return preparation.Align(image, tracker.motion().VelocityAt(image.timestamp));
+void Odometry::State::Check(const RgbdImage& image) const {
+  CheckTime(image.id, image.timestamp);
+  images.Check(image);
 }
 
-std::shared_ptr<const Frame> Odometry::State::Build(const RgbdImage& image) {
-  const TaskRunner run = [this](const Tasks& tasks) {
-    side_worker ? side_worker->RunAll(tasks) : RunSequentially(tasks);
-  };
-  const auto frame = std::make_shared<Frame>(builder.Build(image, run));
-  if (!options.use_points) {
-    frame->points.clear();
-    frame->grid = FeatureGrid(frame->camera, frame->points);
-  }
-  if (!options.use_lines) frame->lines.clear();
-  return frame;
+ExtractedFrame Odometry::State::Extract(const AlignedImage& image, StageTimes* times) {
+  ExtractedFrame extracted = images.Extract(image, times);
+  log.LogDepthSensor(images.depth_sensor());
+  return extracted;
 }
 
-void Odometry::State::Count(const TrackedFrame& tracked) {
-  ForEachLandmarkKind([&](auto kind) {
-    using L = typename decltype(kind)::Landmark;
-    std::map<LandmarkId, TrackingCount>& counts = packet.counts.Of<L>();
-    CountVisible(tracked.keyframe.visible.Of<L>(), &counts);
-    for (const auto& match : MatchesOf<L>(tracked.matches)) ++counts[match.id].num_found;
-  });
+MapSnapshotPtr Odometry::State::WaitForMap(double timestamp, StageTimes* times) {
+  return Timed(&times->waiting, [&] { return schedule.SnapshotAt(timestamp); });
 }
 
-// The next result is the first one of a segment.
+// Unless it is kNone, the next result is the first one of a segment.
 void Odometry::State::BeginSegment(SegmentStart start) {
+  if (start == SegmentStart::kNone) return;
   const bool replaces_last = start == SegmentStart::kReplacing;
   if (replaces_last) DiscardSegment();
   segments.Begin(static_cast<int>(results.size()), replaces_last);
@@ -166,7 +122,7 @@ void Odometry::State::DiscardSegment() {
   FrameResult before;
   before.segment = kNoSegment;
   if (first > 0) before = results[first - 1];
-  const RelativePose pose_before = first > 0 ? relative_poses[first - 1] : RelativePose();
+  const ReferencedPose pose_before = first > 0 ? relative_poses[first - 1] : ReferencedPose();
   for (size_t i = first; i < results.size(); ++i) {
     FrameResult& result = results[i];
     if (HasImage(result.status)) result.status = TrackingStatus::kLost;
@@ -179,45 +135,34 @@ void Odometry::State::DiscardSegment() {
   }
 }
 
-void Odometry::State::KeepForCalibration(const TrackedFrame& tracked, const RgbdImage& recorded) {
-  if (!NeedsImages() || tracked.keyframe.is_due || tracked.status != TrackingStatus::kTracked ||
-      packet.calibration_images.size() >= kMaxCalibrationImages ||
-      tracked.frame->timestamp - last_calibration_image_time < kCalibrationImageInterval) {
-    return;
-  }
-  last_calibration_image_time = tracked.frame->timestamp;
-  packet.calibration_images.push_back({tracked.frame,
-                                       std::make_shared<RecordedImage>(cv::Mat(), recorded.depth),
-                                       tracked.reference, tracked.cam_from_reference});
+void Odometry::State::AddResult(const TrackedFrame& tracked, const RgbdImage& image,
+                                const Stopwatch& arrival, StageTimes times) {
+  FrameResult result = MakeFrameResult(tracked, segments.current());
+  result.image = MeasureImage(image);
+  times.matching = result.times.matching;
+  times.pose = result.times.pose;
+  times.tracking = arrival.Milliseconds();
+  result.times = times;
+  results.push_back(result);
+  relative_poses.push_back({tracked.reference, tracked.cam_from_reference});
+  log.LogFrame(result, tracked.relocalized);
 }
 
-void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const RgbdImage& recorded,
-                                     const cv::Mat& depth) {
-  const SegmentStart start = tracked.segment_start;
-  packet.begins_map = start == SegmentStart::kAfterLoss || start == SegmentStart::kReplacing;
-  packet.keeps_last_map = start != SegmentStart::kReplacing;
-  packet.last_tracked = tracked.keyframe.last_tracked;
-  packet.covariance = tracked.pose.covariance;
-  packet.in_inactive_map = tracked.in_inactive_map;
-  packet.frame = tracked.frame;
-  packet.reference = tracked.reference;
-  packet.cam_from_reference = tracked.cam_from_reference;
-  packet.matches = tracked.matches;
-  if (NeedsImages()) {
-    packet.image = std::make_shared<RecordedImage>(recorded.gray, recorded.depth);
-  }
-  if (snapshot->needs_axes || packet.begins_map) {
-    for (const SurfaceNormal& normal : normal_estimator->Estimate(depth)) {
-      packet.normals.push_back({normal.direction, normal.sigma});
-    }
-  }
-  if (results.size() > 1) {
-    packet.frame_interval = results.back().timestamp - results[results.size() - 2].timestamp;
-  }
-  last_calibration_image_time = tracked.frame->timestamp;
-  schedule.Submit(static_cast<int>(results.size()) - 1, tracked.frame->timestamp,
-                  std::move(packet));
-  packet = {};
+void Odometry::State::RefineOlderPoses(const TrackedFrame& tracked, const MapSnapshot& map) {
+  refiner.Refine(tracked.frame->timestamp, map, &relative_poses);
+  refiner.Add(last(), tracked);
+}
+
+void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const AlignedImage& image,
+                                     const ExtractedFrame& extracted, const MapSnapshot& map) {
+  const double timestamp = tracked.frame->timestamp;
+  std::optional<double> frame_interval;
+  if (last() > 0) frame_interval = timestamp - results[last() - 1].timestamp;
+  KeyframePacket packet = packets.Take(tracked, frame_interval);
+  calibration.AddImages(image, map, &packet);
+  if (map.needs_axes || packet.begins_map) packet.normals = images.Normals(extracted.image);
+  schedule.Submit(last(), timestamp, std::move(packet));
+  schedule.SnapshotAt(timestamp);  // records the keyframe's pose at once if the latency is 0
 }
 
 void Odometry::State::Record(int frame, const MappingStep& step) {
@@ -234,16 +179,6 @@ void Odometry::State::Record(int frame, const MappingStep& step) {
   if (step.summary.join) segments.RecordJoin(frame, *step.summary.join);
   log.LogMapping(step);
   if (step.summary.window) last_window = *step.summary.window;
-}
-
-// Returns whether the intrinsics have changed.
-bool Odometry::State::UseIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics) {
-  if (!intrinsics || intrinsics == builder.intrinsics()) return false;
-  builder.SetIntrinsics(intrinsics);
-  camera = intrinsics->camera;
-  preparation.SetIntrinsics(*intrinsics);
-  normal_estimator.emplace(NormalOptions(options), camera, intrinsics->distortion);
-  return true;
 }
 
 Odometry::Odometry(const OdometryOptions& options, const PinholeCamera& camera,
@@ -268,60 +203,29 @@ void Odometry::SetTrackingObserver(TrackingObserver observer) {
   state_->tracking_observer = std::move(observer);
 }
 
-void Odometry::SkipClippedDepthSearch() { state_->finds_clipped_depth = false; }
+void Odometry::SkipClippedDepthSearch() { state_->images.SkipClippedDepthSearch(); }
 
+// The path of one frame, see docs/architecture.md.
 FrameResult Odometry::Process(const RgbdImage& given) {
-  state_->CheckTime(given.id, given.timestamp);
-  CheckDepthDelay(given.id, given.depth_delay);
-  state_->builder.Check(given);
-  CheckDepthUnits(given.id, given.depth);
-  Stopwatch stopwatch;
-  RgbdImage recorded = StandaloneImages(given);
-  if (state_->finds_clipped_depth) recorded = state_->preparation.RemoveClipped(recorded);
-  const RgbdImage aligned = state_->Align(recorded);
-  RgbdImage image = state_->preparation.Register(aligned);
-  const double alignment_ms = stopwatch.Milliseconds();
-  std::shared_ptr<const Frame> frame = state_->Build(image);
-  const double features_ms = stopwatch.Milliseconds();
-  state_->log.LogDepthSensor(state_->builder.depth_sensor());
-  Stopwatch waiting;
-  state_->snapshot = state_->schedule.SnapshotAt(image.timestamp);
-  const double waiting_ms = waiting.Milliseconds();
-  if (state_->UseIntrinsics(state_->snapshot->intrinsics)) {
-    image = state_->preparation.Register(aligned);
-    frame = state_->Build(image);
-  }
-  const TrackedFrame tracked = state_->tracker.Track(frame, *state_->snapshot);
-  if (tracked.segment_start != SegmentStart::kNone) state_->BeginSegment(tracked.segment_start);
-  FrameResult result = MakeFrameResult(tracked, state_->segments.current());
-  result.image = MeasureImage(image);
-  result.times.features = features_ms;
-  result.times.points = state_->builder.times().points;
-  result.times.lines = state_->builder.times().lines;
-  result.times.depth = state_->builder.times().depth + alignment_ms;
-  result.times.waiting = waiting_ms;
-  result.times.tracking = stopwatch.Milliseconds();
-
-  state_->Count(tracked);
-  if (tracked.keyframe.previous_velocity) {
-    state_->packet.last_velocity = tracked.keyframe.previous_velocity;
-  }
-  state_->results.push_back(result);
-  state_->relative_poses.push_back({tracked.reference, tracked.cam_from_reference});
-  state_->refiner.Refine(image.timestamp, *state_->snapshot, &state_->relative_poses);
-  if (!state_->tracker.had_pose_factors()) {
-    state_->refiner.Add(static_cast<int>(state_->results.size()) - 1, tracked);
-  }
-  state_->log.LogFrame(result, tracked.relocalized);
-  const MapSnapshotPtr snapshot = state_->snapshot;
-  state_->KeepForCalibration(tracked, aligned);
-  if (tracked.keyframe.is_due) {
-    state_->SubmitKeyframe(tracked, aligned, image.depth);
-    state_->snapshot = state_->schedule.SnapshotAt(image.timestamp);  // with it if latency is 0
-  }
-  result = state_->results.back();
-  if (state_->tracking_observer) {
-    state_->tracking_observer({recorded, *frame, tracked, *snapshot, result});
+  State& run = *state_;
+  run.Check(given);
+  StageTimes times;
+  const Stopwatch arrival;
+  const AlignedImage image =
+      run.images.Align(given, run.tracker.motion().VelocityAt(given.timestamp));
+  ExtractedFrame extracted = run.Extract(image, &times);
+  const MapSnapshotPtr map = run.WaitForMap(given.timestamp, &times);
+  extracted = run.calibration.Adopt(*map, image, std::move(extracted), &times);
+  const TrackedFrame tracked = run.tracker.Track(extracted.frame, *map);
+  run.BeginSegment(tracked.keyframe.segment_start);
+  run.AddResult(tracked, extracted.image, arrival, times);
+  run.RefineOlderPoses(tracked, *map);
+  run.packets.Add(tracked);
+  run.calibration.KeepImage(tracked, image, *map);
+  if (tracked.keyframe.is_due()) run.SubmitKeyframe(tracked, image, extracted, *map);
+  const FrameResult result = run.results.back();
+  if (run.tracking_observer) {
+    run.tracking_observer({image.recorded, *extracted.frame, tracked, *map, result});
   }
   return result;
 }
@@ -333,7 +237,7 @@ FrameResult Odometry::Drop(int64_t id, double timestamp, TrackingStatus status) 
   }
   state_->CheckTime(id, timestamp);
   FrameResult result;
-  RelativePose relative_pose;
+  ReferencedPose relative_pose;
   if (!state_->results.empty()) {
     result.cam_from_world = state_->results.back().cam_from_world;
     relative_pose = state_->relative_poses.back();
@@ -367,7 +271,7 @@ OdometryResult Odometry::Finish() {
   state_->schedule.Drain();
   OdometryResult result;
   result.frames = state_->results;
-  std::vector<RelativePose> poses = state_->relative_poses;
+  std::vector<ReferencedPose> poses = state_->relative_poses;
   state_->refiner.RefineAll(*state_->mapper.Snapshot(), &poses);
   SetPoses(state_->mapper.atlas(), poses, &result.frames);
   result.segments = state_->segments.Segments(result.frames);
@@ -376,16 +280,8 @@ OdometryResult Odometry::Finish() {
   result.map_world = LargestWorld(result.segments);
   AddMap(state_->mapper, state_->segments.SubMapOf(result.map_world), &result);
   result.noise_scale = state_->mapper.noise().scale();
-  result.depth_sensor = state_->builder.depth_sensor();
-  const MapCalibration& calibration = state_->mapper.calibration();
-  result.readout_time = calibration.readout().readout_time();
-  result.readout_time_sigma = calibration.readout().sigma();
-  result.intrinsics = {state_->camera, state_->builder.intrinsics()->distortion};
-  if (calibration.intrinsics()) {
-    result.calibration = calibration.intrinsics()->estimate();
-    result.intrinsics = *calibration.intrinsics()->present();
-  }
-  result.depth_camera = DepthCameraOf(*state_->preparation.given(), result.intrinsics);
+  result.depth_sensor = state_->images.depth_sensor();
+  state_->calibration.Describe(&result);
   result.num_late_maps = state_->schedule.num_late();
   result.extra_blocks = state_->mapper.extra_blocks();
   result.last_window = state_->last_window;

@@ -57,13 +57,13 @@ Rigid3 PoseCorrection::At(double timestamp) const {
 }  // namespace
 
 void CorrectPoses(const InactiveMaps& maps_before, const MapSnapshot& after,
-                  const std::vector<FrameResult>& frames, std::vector<RelativePose>* poses) {
+                  const std::vector<FrameResult>& frames, std::vector<ReferencedPose>* poses) {
   for (const std::shared_ptr<const Map>& before : maps_before) {
     if (before->keyframes().empty()) continue;
     const KeyframeId first = before->keyframes().front().first;
     const PoseCorrection correction(*before, *after.FindMapOf(first));
     for (size_t i = 0; i < poses->size(); ++i) {
-      RelativePose& pose = (*poses)[i];
+      ReferencedPose& pose = (*poses)[i];
       if (pose.reference == kNoId || !before->KnowsKeyframe(pose.reference)) continue;
       pose.cam_from_reference =
           correction.Correct(frames[i].timestamp, pose.reference, pose.cam_from_reference);
@@ -71,10 +71,10 @@ void CorrectPoses(const InactiveMaps& maps_before, const MapSnapshot& after,
   }
 }
 
-void SetPoses(const Atlas& atlas, const std::vector<RelativePose>& poses,
+void SetPoses(const Atlas& atlas, const std::vector<ReferencedPose>& poses,
               std::vector<FrameResult>* frames) {
   for (size_t i = 0; i < frames->size(); ++i) {
-    const RelativePose& pose = poses[i];
+    const ReferencedPose& pose = poses[i];
     const SubMap* submap = pose.reference != kNoId ? atlas.FindSubMapOf(pose.reference) : nullptr;
     if (submap == nullptr) continue;
     (*frames)[i].cam_from_world =

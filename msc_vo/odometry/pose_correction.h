@@ -12,7 +12,7 @@
 namespace msc_vo {
 
 /// Pose of a frame relative to a keyframe, whose own pose may still change.
-struct RelativePose {
+struct ReferencedPose {
   KeyframeId reference = kNoId;
   Rigid3 cam_from_reference;
 
@@ -27,10 +27,10 @@ struct RelativePose {
 /// were tracked with the old calibration: their correction is interpolated between those of the
 /// keyframes. `frames`: with the time stamps, one per pose.
 void CorrectPoses(const InactiveMaps& maps_before, const MapSnapshot& after,
-                  const std::vector<FrameResult>& frames, std::vector<RelativePose>* poses);
+                  const std::vector<FrameResult>& frames, std::vector<ReferencedPose>* poses);
 
 /// Sets the poses of `frames`, one per pose, from those of their keyframes in the maps of `atlas`.
-void SetPoses(const Atlas& atlas, const std::vector<RelativePose>& poses,
+void SetPoses(const Atlas& atlas, const std::vector<ReferencedPose>& poses,
               std::vector<FrameResult>* frames);
 
 }  // namespace msc_vo

@@ -32,19 +32,17 @@ PoseOptions WithTwoRounds(PoseOptions options) {
 }
 
 // The landmarks that are still in the map, where they are now.
-FrameMatches MatchesWith(const Map& map, const std::vector<LandmarkId>& points,
-                         const std::vector<LandmarkId>& lines) {
+FrameMatches MatchesWith(const Map& map, const PerKind<std::vector<LandmarkId>>& landmarks) {
   FrameMatches matches;
-  for (size_t i = 0; i < points.size(); ++i) {
-    const PointLandmark* landmark = map.Find<PointLandmark>(points[i]);
-    if (landmark == nullptr) continue;
-    matches.points.push_back({static_cast<int>(i), points[i], landmark->position});
-  }
-  for (size_t i = 0; i < lines.size(); ++i) {
-    const LineLandmark* landmark = map.Find<LineLandmark>(lines[i]);
-    if (landmark == nullptr) continue;
-    matches.lines.push_back({static_cast<int>(i), lines[i], landmark->segment});
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    const std::vector<LandmarkId>& ids = landmarks.Of<L>();
+    for (size_t i = 0; i < ids.size(); ++i) {
+      const L* landmark = map.Find<L>(ids[i]);
+      if (landmark == nullptr) continue;
+      OfKind<L>(matches).push_back({static_cast<int>(i), ids[i], landmark->geometry()});
+    }
+  });
   return matches;
 }
 
@@ -54,7 +52,10 @@ PoseRefiner::PoseRefiner(const PoseOptions& options, double delay)
     : options_(WithTwoRounds(options)), delay_(delay) {}
 
 void PoseRefiner::Add(int index, const TrackedFrame& tracked) {
-  if (delay_ == 0.0 || tracked.reference == kNoId || tracked.keyframe.is_due) return;
+  if (delay_ == 0.0 || tracked.reference == kNoId || tracked.keyframe.is_due() ||
+      tracked.has_pose_factors) {
+    return;
+  }
   if (NumObservations(tracked.matches.points.size(), tracked.matches.lines.size()) <
       kMinObservations) {
     return;
@@ -70,20 +71,19 @@ void PoseRefiner::Add(int index, const TrackedFrame& tracked) {
   frame->intrinsics = tracked.frame->intrinsics;
   frame->velocity = tracked.frame->velocity;
   frame->readout_time = tracked.frame->readout_time;
-  for (const PointMatch& match : tracked.matches.points) {
-    frame->points.push_back(tracked.frame->points[match.feature]);
-    pending.points.push_back(match.id);
-  }
-  for (const LineMatch& match : tracked.matches.lines) {
-    frame->lines.push_back(tracked.frame->lines[match.feature]);
-    pending.lines.push_back(match.id);
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const auto& match : OfKind<L>(tracked.matches)) {
+      OfKind<L>(*frame).push_back(FeaturesOf<L>(*tracked.frame)[match.feature]);
+      pending.landmarks.Of<L>().push_back(match.id);
+    }
+  });
   pending.frame = std::move(frame);
   frames_.push_back(std::move(pending));
 }
 
 void PoseRefiner::Refine(double timestamp, const MapSnapshot& snapshot,
-                         std::vector<RelativePose>* poses) {
+                         std::vector<ReferencedPose>* poses) {
   for (int i = 0; i < kMaxFrames && !frames_.empty(); ++i) {
     if (frames_.front().frame->timestamp >= timestamp - delay_) return;
     RefineFrame(frames_.front(), snapshot, &(*poses)[frames_.front().index]);
@@ -91,7 +91,7 @@ void PoseRefiner::Refine(double timestamp, const MapSnapshot& snapshot,
   }
 }
 
-void PoseRefiner::RefineAll(const MapSnapshot& snapshot, std::vector<RelativePose>* poses) const {
+void PoseRefiner::RefineAll(const MapSnapshot& snapshot, std::vector<ReferencedPose>* poses) const {
   for (const PendingFrame& pending : frames_) {
     RefineFrame(pending, snapshot, &(*poses)[pending.index]);
   }
@@ -103,18 +103,18 @@ size_t PoseRefiner::NumExpected(const PendingFrame& pending, const Frame& frame,
                                 const FrameMatches& matches) {
   const bool is_same = pending.frame->intrinsics == frame.intrinsics ||
                        HasSameRegistration(*pending.frame->intrinsics, *frame.intrinsics);
-  return is_same ? pending.points.size() + pending.lines.size()
+  return is_same ? pending.landmarks.points.size() + pending.landmarks.lines.size()
                  : matches.points.size() + matches.lines.size();
 }
 
 void PoseRefiner::RefineFrame(const PendingFrame& pending, const MapSnapshot& snapshot,
-                              RelativePose* pose) const {
+                              ReferencedPose* pose) const {
   const Map* map = snapshot.FindMapOf(pending.reference);
   // Another reference: the segment of the frame was discarded.
   if (map == nullptr || pose->reference != pending.reference) return;
   const std::shared_ptr<const Frame> frame = ChangeIntrinsics(
       UpdateCompensation(pending.frame, snapshot.readout_time), snapshot.intrinsics);
-  FrameMatches matches = MatchesWith(*map, pending.points, pending.lines);
+  FrameMatches matches = MatchesWith(*map, pending.landmarks);
   if (NumObservations(matches.points.size(), matches.lines.size()) < kMinObservations) return;
   const size_t num_expected = NumExpected(pending, *frame, matches);
   const Rigid3 reference_from_world = map->CamFromWorld(pose->reference);

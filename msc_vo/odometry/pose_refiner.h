@@ -23,16 +23,16 @@ class PoseRefiner {
   PoseRefiner(const PoseOptions& options, double delay);
 
   /// Keeps what the frame with result `index` observes, unless it becomes a keyframe, whose pose
-  /// bundle adjustment estimates.
+  /// bundle adjustment estimates, or pose factors took part in its pose.
   void Add(int index, const TrackedFrame& tracked);
 
   /// Estimates the poses of kept frames that are older than the delay at `timestamp` (seconds), at
   /// most three of them, and forgets the frames. Keeps a pose if its map or its segment is
   /// gone, if few of the observed landmarks are left, or if fewer than half of the observations fit
   /// another pose; if depth was unregistered at the frame, only surviving landmarks count.
-  void Refine(double timestamp, const MapSnapshot& snapshot, std::vector<RelativePose>* poses);
+  void Refine(double timestamp, const MapSnapshot& snapshot, std::vector<ReferencedPose>* poses);
   /// The same for all kept frames, and keeps them.
-  void RefineAll(const MapSnapshot& snapshot, std::vector<RelativePose>* poses) const;
+  void RefineAll(const MapSnapshot& snapshot, std::vector<ReferencedPose>* poses) const;
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
@@ -46,20 +46,19 @@ class PoseRefiner {
   struct PendingFrame {
     int index = 0;
     KeyframeId reference = kNoId;
-    std::shared_ptr<const Frame> frame;  // with the matched features alone
-    std::vector<LandmarkId> points;      // one per feature
-    std::vector<LandmarkId> lines;
+    std::shared_ptr<const Frame> frame;          // with the matched features alone
+    PerKind<std::vector<LandmarkId>> landmarks;  // one per feature
 
     template <typename Archive>
     void Serialize(Archive& archive) {
-      archive.Fields(*this, index, reference, frame, points, lines);
+      archive.Fields(*this, index, reference, frame, landmarks);
     }
   };
 
   static size_t NumExpected(const PendingFrame& pending, const Frame& frame,
                             const FrameMatches& matches);
   void RefineFrame(const PendingFrame& pending, const MapSnapshot& snapshot,
-                   RelativePose* pose) const;
+                   ReferencedPose* pose) const;
 
   PoseOptions options_;
   double delay_;

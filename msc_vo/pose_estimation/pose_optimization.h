@@ -99,12 +99,6 @@ struct PoseSummary {
   /// Covariance of the estimate in the tangent of Rigid3Manifold (rotation vector in the camera
   /// frame, radians; then translation, metres): see CovarianceOfEstimate(). Zero if not usable.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, usable, num_inlier_points, num_inlier_lines, num_dynamic, num_confirmed,
-                   num_confirmed_inliers, dynamic_cells, final_cost, covariance);
-  }
 };
 
 /// Motion-only bundle adjustment: estimates the pose of one frame from its matches with map points

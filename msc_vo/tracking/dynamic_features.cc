@@ -80,24 +80,30 @@ struct Candidate {
   Evidence evidence = Evidence::kNone;
 };
 
-// The points, and the lines by their midpoints.
+Candidate CandidateOf(PointFeature* point, bool is_inlier) {
+  return {&point->dynamic, point->pixel, point->inverse_depth, point->inverse_depth_sigma,
+          is_inlier};
+}
+Candidate CandidateOf(LineFeature* line, bool is_inlier) {
+  return {&line->dynamic, line->segment.Midpoint(), line->depth->At(0.5), line->depth->SigmaAt(0.5),
+          is_inlier};
+}
+
+// The place of a feature in the grid of cells.
+const Eigen::Vector2d& PlaceOf(const PointFeature& point) { return point.pixel; }
+const LineSegment2& PlaceOf(const LineFeature& line) { return line.segment; }
+
 std::vector<Candidate> FeaturesWithDepth(const FrameMatches& inliers, Frame* frame) {
   std::vector<Candidate> candidates;
-  std::vector<bool> point_is_inlier(frame->points.size()), line_is_inlier(frame->lines.size());
-  for (const PointMatch& match : inliers.points) point_is_inlier[match.feature] = true;
-  for (const LineMatch& match : inliers.lines) line_is_inlier[match.feature] = true;
-  for (size_t i = 0; i < frame->points.size(); ++i) {
-    PointFeature& point = frame->points[i];
-    if (!point.HasDepth()) continue;
-    candidates.push_back({&point.dynamic, point.pixel, point.inverse_depth,
-                          point.inverse_depth_sigma, point_is_inlier[i]});
-  }
-  for (size_t i = 0; i < frame->lines.size(); ++i) {
-    LineFeature& line = frame->lines[i];
-    if (!line.depth) continue;
-    candidates.push_back({&line.dynamic, line.segment.Midpoint(), line.depth->At(0.5),
-                          line.depth->SigmaAt(0.5), line_is_inlier[i]});
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    auto& features = OfKind<L>(*frame);
+    std::vector<bool> is_inlier(features.size());
+    for (const auto& match : OfKind<L>(inliers)) is_inlier[match.feature] = true;
+    for (size_t i = 0; i < features.size(); ++i) {
+      if (L::HasDepth(features[i])) candidates.push_back(CandidateOf(&features[i], is_inlier[i]));
+    }
+  });
   return candidates;
 }
 
@@ -162,18 +168,16 @@ void MarkSurfaces(const std::vector<KeyframeView>& views, const FrameMatches& in
 
 // Marks what lies in dynamic cells, except inliers.
 void MarkCells(const TrackedFrame& tracked, Frame* frame) {
-  if (tracked.dynamic_cells.empty()) return;
+  if (tracked.pose.dynamic_cells.empty()) return;
   const ImageGrid grid = ConsensusGrid(frame->camera);
-  for (PointFeature& point : frame->points) {
-    point.dynamic = tracked.dynamic_cells[grid.CellOf(point.pixel)];
-  }
-  for (LineFeature& line : frame->lines) {
-    line.dynamic = tracked.dynamic_cells[grid.CellOf(line.segment)];
-  }
-  for (const PointMatch& match : tracked.matches.points) {
-    frame->points[match.feature].dynamic = false;
-  }
-  for (const LineMatch& match : tracked.matches.lines) frame->lines[match.feature].dynamic = false;
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    auto& features = OfKind<L>(*frame);
+    for (auto& feature : features) {
+      feature.dynamic = tracked.pose.dynamic_cells[grid.CellOf(PlaceOf(feature))];
+    }
+    for (const auto& match : OfKind<L>(tracked.matches)) features[match.feature].dynamic = false;
+  });
 }
 
 bool HasDynamicFeatures(const Frame& frame) {

@@ -63,8 +63,10 @@ double MapVariance(const L* landmark) {
 
 // The sigmas of the feature are multiplied by the calibrated scale and the noise of the landmark
 // (nullptr: the match is with a feature of the last frame).
-PoseData::Point Observe(const PointMatch& match, const PointFeature& feature,
-                        const PointLandmark* landmark, const NoiseScale& scale) {
+PoseData::Point Observe(const PointMatch& match, const Frame& frame,
+                        const Rigid3& /*cam_from_world*/, const PointLandmark* landmark,
+                        const NoiseScale& scale) {
+  const PointFeature& feature = frame.points[match.feature];
   const double noise = landmark != nullptr ? landmark->noise : 1.0;
   return {match.position,
           feature.pixel,
@@ -90,46 +92,44 @@ PoseData::Line Observe(const LineMatch& match, const Frame& frame, const Rigid3&
           IsConfirmed(landmark)};
 }
 
+PointCandidate MakeCandidate(const PointFeature& feature, LandmarkId id,
+                             const Eigen::Vector3d& position) {
+  return {id, position, feature.descriptor, Eigen::Vector2d::Zero(), feature.level};
+}
+LineCandidate MakeCandidate(const LineFeature& feature, LandmarkId id,
+                            const LineSegment3& segment) {
+  return {id, segment, feature.descriptor, {}};
+}
+
+template <typename L>
+void AddCandidates(const Map& map, const LastFrame& last, const Rigid3& cam_from_world,
+                   LocalMap* candidates) {
+  const Rigid3 world_from_last = last.CamFromWorld(map).Inverse();
+  const Frame& frame = *last.frame;
+  const auto& features = FeaturesOf<L>(frame);
+  std::vector<LandmarkId> ids(features.size(), kNoId);
+  for (const auto& match : OfKind<L>(last.matches)) ids[match.feature] = match.id;
+  for (size_t i = 0; i < features.size(); ++i) {
+    const L* landmark = map.Find<L>(ids[i]);
+    if (landmark == nullptr && !L::HasDepth(features[i])) continue;
+    auto candidate = landmark != nullptr
+                         ? MakeCandidate(features[i], landmark->id, landmark->geometry())
+                         : MakeCandidate(features[i], kNoId,
+                                         world_from_last * L::InCamera(frame, static_cast<int>(i)));
+    if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) {
+      OfKind<L>(*candidates).push_back(candidate);
+    }
+  }
+}
+
 }  // namespace
 
-LocalMap CandidatesFromFrame(const Map& map, const TrackedFrame& last,
-                             const Rigid3& last_from_world, const Rigid3& cam_from_world) {
-  const Frame& frame = *last.frame;
-  std::vector<LandmarkId> point_ids(frame.points.size(), kNoId);
-  std::vector<LandmarkId> line_ids(frame.lines.size(), kNoId);
-  for (const PointMatch& match : last.matches.points) point_ids[match.feature] = match.id;
-  for (const LineMatch& match : last.matches.lines) line_ids[match.feature] = match.id;
-
+LocalMap CandidatesFromFrame(const Map& map, const LastFrame& last, const Rigid3& cam_from_world) {
   LocalMap candidates;
   candidates.reference = last.reference;
-  const Rigid3 world_from_last = last_from_world.Inverse();
-  for (size_t i = 0; i < frame.points.size(); ++i) {
-    const PointLandmark* landmark = map.Find<PointLandmark>(point_ids[i]);
-    if (landmark == nullptr && !frame.points[i].HasDepth()) continue;
-    PointCandidate candidate;
-    candidate.id = landmark != nullptr ? landmark->id : kNoId;
-    candidate.position = landmark != nullptr
-                             ? landmark->position
-                             : world_from_last * frame.PointInCamera(static_cast<int>(i));
-    candidate.descriptor = frame.points[i].descriptor;
-    candidate.level = frame.points[i].level;
-    if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) {
-      candidates.points.push_back(candidate);
-    }
-  }
-  for (size_t i = 0; i < frame.lines.size(); ++i) {
-    const LineLandmark* landmark = map.Find<LineLandmark>(line_ids[i]);
-    if (landmark == nullptr && !frame.lines[i].depth) continue;
-    LineCandidate candidate;
-    candidate.id = landmark != nullptr ? landmark->id : kNoId;
-    candidate.segment = landmark != nullptr
-                            ? landmark->segment
-                            : world_from_last * frame.LineInCamera(static_cast<int>(i));
-    candidate.descriptor = frame.lines[i].descriptor;
-    if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) {
-      candidates.lines.push_back(candidate);
-    }
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    AddCandidates<typename decltype(kind)::Landmark>(map, last, cam_from_world, &candidates);
+  });
   return candidates;
 }
 
@@ -158,18 +158,20 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
   data.camera = frame.camera;
   data.cam_from_world = *cam_from_world;
   data.custom_factors = factors;
-  for (const PointMatch& match : matches->points) {
-    data.points.push_back(
-        Observe(match, frame.points[match.feature], map.Find<PointLandmark>(match.id), scale));
-  }
-  for (const LineMatch& match : matches->lines) {
-    data.lines.push_back(
-        Observe(match, frame, *cam_from_world, map.Find<LineLandmark>(match.id), scale));
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const auto& match : OfKind<L>(*matches)) {
+      OfKind<L>(data).push_back(
+          Observe(match, frame, *cam_from_world, map.Find<L>(match.id), scale));
+    }
+  });
   PoseSummary summary = OptimizePose(options, &data);
   *cam_from_world = data.cam_from_world;
-  for (size_t i = 0; i < data.points.size(); ++i) matches->points[i].inlier = data.points[i].inlier;
-  for (size_t i = 0; i < data.lines.size(); ++i) matches->lines[i].inlier = data.lines[i].inlier;
+  ForEachLandmarkKind([&](auto kind) {
+    auto& of_kind = OfKind<typename decltype(kind)::Landmark>(*matches);
+    const auto& observed = OfKind<typename decltype(kind)::Landmark>(data);
+    for (size_t i = 0; i < of_kind.size(); ++i) of_kind[i].inlier = observed[i].inlier;
+  });
   return summary;
 }
 
@@ -179,18 +181,18 @@ int NumMatches(const TrackerOptions& options, const Frame& frame, size_t num_poi
   return static_cast<int>(num_points + (has_points ? 1 : kPointsPerLine) * num_lines);
 }
 
-bool HasEnoughInliers(const TrackerOptions& options, const TrackedFrame& tracked) {
-  const PoseSummary& pose = tracked.pose;
+bool HasEnoughInliers(const TrackerOptions& options, const Frame& frame, const FramePose& pose) {
+  const PoseSummary& summary = pose.summary;
   const int support =
-      NumMatches(options, *tracked.frame, pose.num_inlier_points, pose.num_inlier_lines);
-  if (!pose.usable || support < options.min_matches) return false;
-  if (pose.num_confirmed >= options.min_matches) {
-    return pose.num_confirmed_inliers >= options.min_inlier_ratio * pose.num_confirmed;
+      NumMatches(options, frame, summary.num_inlier_points, summary.num_inlier_lines);
+  if (!summary.usable || support < options.min_matches) return false;
+  if (summary.num_confirmed >= options.min_matches) {
+    return summary.num_confirmed_inliers >= options.min_inlier_ratio * summary.num_confirmed;
   }
-  const int num_matches =
-      static_cast<int>(tracked.matches.points.size() + tracked.matches.lines.size());
-  const int num_static = num_matches - pose.num_dynamic;
-  return pose.num_inlier_points + pose.num_inlier_lines >= options.min_inlier_ratio * num_static;
+  const int num_matches = static_cast<int>(pose.matches.points.size() + pose.matches.lines.size());
+  const int num_static = num_matches - summary.num_dynamic;
+  return summary.num_inlier_points + summary.num_inlier_lines >=
+         options.min_inlier_ratio * num_static;
 }
 
 TrackingStatus ClassifyStatus(const TrackerOptions& options, const PoseSummary& pose) {

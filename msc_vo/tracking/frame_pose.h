@@ -7,7 +7,7 @@
 
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/pose_estimation/pose_optimization.h"
-#include "msc_vo/tracking/tracked_frame.h"
+#include "msc_vo/tracking/last_frame.h"
 #include "msc_vo/tracking/tracker_options.h"
 
 namespace msc_vo {
@@ -15,8 +15,7 @@ namespace msc_vo {
 /// The features of the last frame as candidates for matching from `cam_from_world`: its landmarks
 /// at their present position in the map, and its other features that have a depth at their measured
 /// position. The latter carry the tracking where the map has few landmarks.
-LocalMap CandidatesFromFrame(const Map& map, const TrackedFrame& last,
-                             const Rigid3& last_from_world, const Rigid3& cam_from_world);
+LocalMap CandidatesFromFrame(const Map& map, const LastFrame& last, const Rigid3& cam_from_world);
 
 /// Matches `frame` with the candidates of `local` within `radius` pixels, in addition to the
 /// `known` matches, whose landmarks and features are not matched again. Returns both.
@@ -25,6 +24,13 @@ FrameMatches MatchLocalMap(const TrackerOptions& options, const Frame& frame, co
 
 /// The inliers among the matches with landmarks.
 FrameMatches LandmarkInliers(const FrameMatches& matches);
+
+/// A pose of a frame in a map, and the matches that it was estimated from.
+struct FramePose {
+  Rigid3 cam_from_world;
+  FrameMatches matches;
+  PoseSummary summary;
+};
 
 /// Motion-only bundle adjustment of `frame` with `matches` and custom `factors`, starting from
 /// *cam_from_world; marks the inliers. The sigmas of the features are multiplied by `scale` and by
@@ -39,11 +45,11 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
 int NumMatches(const TrackerOptions& options, const Frame& frame, size_t num_points,
                size_t num_lines);
 
-/// Whether enough of the matches of `tracked` are inliers of its pose: at least `min_matches`, and
+/// Whether enough of the matches are inliers of the pose: at least `min_matches`, and
 /// `min_inlier_ratio` of all but the dynamic ones. If at least `min_matches` are confirmed static,
 /// the ratio is that of these: the matches of a dynamic object that was not recognised are outliers
 /// of the right pose.
-bool HasEnoughInliers(const TrackerOptions& options, const TrackedFrame& tracked);
+bool HasEnoughInliers(const TrackerOptions& options, const Frame& frame, const FramePose& pose);
 
 /// kTracked or kWeak, by the covariance of an estimated pose.
 TrackingStatus ClassifyStatus(const TrackerOptions& options, const PoseSummary& pose);

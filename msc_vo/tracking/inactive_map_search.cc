@@ -7,7 +7,7 @@
 
 #include "msc_vo/map/map_alignment.h"
 #include "msc_vo/pose_estimation/relocalizer.h"
-#include "msc_vo/tracking/frame_pose.h"
+#include "msc_vo/tracking/pose_estimator.h"
 #include "msc_vo/tracking/pose_support.h"
 #include "msc_vo/tracking/search_budget.h"
 
@@ -40,7 +40,7 @@ std::optional<MapRelocalization> InactiveMapSearch::Search(const TrackedFrame& t
     const Candidate candidate = NextCandidate(maps);
     if (candidate.keyframe->id != next_) num_successes_ = 0;
     std::optional<MapRelocalization> found =
-        Relocalize(tracked, *candidate.map, *candidate.keyframe);
+        Relocalize(tracked, snapshot.noise_scale, *candidate.map, *candidate.keyframe);
     if (found && ++num_successes_ < kMaxSuccesses) {
       next_ = candidate.keyframe->id;
     } else {
@@ -70,36 +70,32 @@ InactiveMapSearch::Candidate InactiveMapSearch::NextCandidate(const InactiveMaps
 }
 
 std::optional<MapRelocalization> InactiveMapSearch::Relocalize(const TrackedFrame& tracked,
+                                                               const NoiseScale& noise_scale,
                                                                const Map& map,
                                                                const Keyframe& keyframe) const {
   const Frame& frame = *tracked.frame;
   const std::optional<Relocalization> hit =
       msc_vo::Relocalize(options_.relocalizer, options_.line_matcher, frame, map, keyframe);
   if (!hit) return std::nullopt;
-  TrackedFrame found;
-  found.frame = tracked.frame;
-  found.noise_scale = tracked.noise_scale;
-  found.cam_from_world = hit->cam_from_world;
-  found.matches = hit->matches;
+  const std::vector<PoseFactor> no_factors;
+  PoseEstimator estimator(options_, map, noise_scale, no_factors);
+  const std::optional<FramePose> first =
+      estimator.Estimate(options_.pose, frame, hit->cam_from_world, hit->matches);
+  if (!first) return std::nullopt;
   // The local map confirms the pose with the landmarks of several keyframes.
-  const auto estimate = [&] {
-    found.pose = EstimateFramePose(options_.pose, frame, map, found.noise_scale, {},
-                                   &found.cam_from_world, &found.matches);
-    return HasEnoughInliers(options_, found);
-  };
-  if (!estimate()) return std::nullopt;
-  const LocalMap local = SelectLocalMap(map, frame, found.cam_from_world, found.matches,
+  const LocalMap local = SelectLocalMap(map, frame, first->cam_from_world, first->matches,
                                         keyframe.id, options_.max_local_keyframes);
-  found.matches = MatchLocalMap(options_, frame, local, options_.local_map_radius,
-                                LandmarkInliers(found.matches));
-  if (!estimate()) return std::nullopt;
-  if (ClassifyStatus(options_, found.pose) != TrackingStatus::kTracked) return std::nullopt;
-  found.matches = LandmarkInliers(found.matches);
-  if (!HasComparableMatchRatio(found.matches, local, tracked)) return std::nullopt;
-  const Rigid3 cam_from_reference =
-      found.cam_from_world * map.CamFromWorld(local.reference).Inverse();
-  return MapRelocalization{local.reference, cam_from_reference, found.pose.covariance,
-                           found.matches};
+  const std::optional<FramePose> pose =
+      estimator.MatchAndEstimate(options_.pose, frame, local, options_.local_map_radius,
+                                 first->cam_from_world, LandmarkInliers(first->matches));
+  if (!pose || ClassifyStatus(options_, pose->summary) != TrackingStatus::kTracked) {
+    return std::nullopt;
+  }
+  const FrameMatches matches = LandmarkInliers(pose->matches);
+  if (!HasComparableMatchRatio(matches, local, tracked)) return std::nullopt;
+  return MapRelocalization{local.reference,
+                           pose->cam_from_world * map.CamFromWorld(local.reference).Inverse(),
+                           pose->summary.covariance, matches};
 }
 
 }  // namespace msc_vo

@@ -41,7 +41,8 @@ class InactiveMapSearch {
     const Keyframe* keyframe = nullptr;
   };
   Candidate NextCandidate(const InactiveMaps& maps);
-  std::optional<MapRelocalization> Relocalize(const TrackedFrame& tracked, const Map& map,
+  std::optional<MapRelocalization> Relocalize(const TrackedFrame& tracked,
+                                              const NoiseScale& noise_scale, const Map& map,
                                               const Keyframe& keyframe) const;
 
   TrackerOptions options_;

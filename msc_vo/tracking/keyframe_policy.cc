@@ -18,6 +18,12 @@ constexpr double kMaxFrameInterval = 0.5;
 // tested separately too.
 constexpr double kCloseRelativeSigma = 0.005;
 
+bool IsClose(const PointFeature& point) {
+  // Relative error of the depth z = 1/w: sigma_z / z = sigma_w / w.
+  return point.HasDepth() && point.inverse_depth_sigma < kCloseRelativeSigma * point.inverse_depth;
+}
+bool IsClose(const LineFeature& /*line*/) { return false; }
+
 }  // namespace
 
 bool KeyframePolicyOptions::IsValid(std::string* error) const {
@@ -42,23 +48,17 @@ KeyframePolicy::TrackedRatios KeyframePolicy::ComputeRatios(const Frame& frame,
   };
   Count all;
   Count close;
-  std::vector<bool> tracked_points(frame.points.size(), false);
-  std::vector<bool> tracked_lines(frame.lines.size(), false);
-  for (const PointMatch& match : matches.points) tracked_points[match.feature] = match.inlier;
-  for (const LineMatch& match : matches.lines) tracked_lines[match.feature] = match.inlier;
-  for (size_t i = 0; i < frame.points.size(); ++i) {
-    const PointFeature& point = frame.points[i];
-    if (!point.HasDepth() && !tracked_points[i]) continue;
-    ++(tracked_points[i] ? all.tracked : all.creatable);
-    // Relative error of the depth z = 1/w: sigma_z / z = sigma_w / w.
-    const bool is_close =
-        point.HasDepth() && point.inverse_depth_sigma < kCloseRelativeSigma * point.inverse_depth;
-    if (is_close) ++(tracked_points[i] ? close.tracked : close.creatable);
-  }
-  for (size_t i = 0; i < frame.lines.size(); ++i) {
-    if (!frame.lines[i].depth && !tracked_lines[i]) continue;
-    ++(tracked_lines[i] ? all.tracked : all.creatable);
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    const auto& features = FeaturesOf<L>(frame);
+    std::vector<bool> is_tracked(features.size(), false);
+    for (const auto& match : OfKind<L>(matches)) is_tracked[match.feature] = match.inlier;
+    for (size_t i = 0; i < features.size(); ++i) {
+      if (!L::HasDepth(features[i]) && !is_tracked[i]) continue;
+      ++(is_tracked[i] ? all.tracked : all.creatable);
+      if (IsClose(features[i])) ++(is_tracked[i] ? close.tracked : close.creatable);
+    }
+  });
   return {all.Ratio(), close.Ratio()};
 }
 

@@ -14,7 +14,7 @@ namespace msc_vo {
 enum class PoseOrigin {
   kPrediction,  ///< near the prediction from the frame before
   kSearch,      ///< by the search for large motions
-  kAfterGap,    ///< after frames without a pose
+  kAfterGap,    ///< by relocalisation, or after frames without a pose
 };
 
 /// Marks poses after a gap as implausible, and those of the next seconds with them: the map that

@@ -30,16 +30,13 @@ double Support(const PoseSummary& pose) {
   return pose.num_inlier_points + kPointsPerLine * pose.num_inlier_lines;
 }
 
-PoseFit FitOf(const TrackedFrame& tracked, const LocalMap& candidates) {
-  const double support = Support(tracked.pose);
+bool IsClear(const FramePose& pose, const LocalMap& candidates) {
+  const double support = Support(pose.summary);
   // Matches on dynamic objects neither support a pose nor contradict it.
-  const double dynamic = tracked.pose.num_dynamic;
-  const FrameMatches& matches = tracked.matches;
-  const double matched = Count(matches.points.size(), matches.lines.size()) - dynamic;
+  const double dynamic = pose.summary.num_dynamic;
+  const double matched = Count(pose.matches.points.size(), pose.matches.lines.size()) - dynamic;
   const double visible = Count(candidates.points.size(), candidates.lines.size()) - dynamic;
-  const bool is_clear =
-      support >= kClearOfMatches * matched && support >= kClearOfVisible * visible;
-  return is_clear ? PoseFit::kClear : PoseFit::kPoor;
+  return support >= kClearOfMatches * matched && support >= kClearOfVisible * visible;
 }
 
 bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
@@ -58,10 +55,9 @@ bool HasComparableMatchRatio(const FrameMatches& found, const LocalMap& place,
   const auto num_features = [](const FrameMatches& matches) {
     return static_cast<double>(matches.points.size() + matches.lines.size());
   };
-  const KeyframeProposal& current = tracked.keyframe;
   const auto in_view = static_cast<double>(place.points.size() + place.lines.size());
   const auto in_view_now =
-      static_cast<double>(current.visible.points.size() + current.visible.lines.size());
+      static_cast<double>(tracked.visible.points.size() + tracked.visible.lines.size());
   return num_features(found) * in_view_now >=
          kMinRelativeRatio * num_features(tracked.matches) * in_view;
 }

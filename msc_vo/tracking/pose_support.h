@@ -3,24 +3,16 @@
 
 #pragma once
 
-#include "msc_vo/matching/local_map.h"
-#include "msc_vo/tracking/tracked_frame.h"
-#include "msc_vo/tracking/tracker_options.h"
+#include "msc_vo/tracking/frame_pose.h"
 
 namespace msc_vo {
-
-/// How well the features that should be visible support a pose.
-enum class PoseFit {
-  kNone,   ///< there is no pose
-  kPoor,   ///< weak support, which could arise from random matches
-  kClear,  ///< support by a large part of the features
-};
 
 /// Number of inliers of a pose; a line counts as kPointsPerLine points.
 double Support(const PoseSummary& pose);
 
-/// The fit of the estimated pose of `tracked`, whose matches were searched among `candidates`.
-PoseFit FitOf(const TrackedFrame& tracked, const LocalMap& candidates);
+/// Whether a large part of the features that should be visible support a pose, whose matches were
+/// searched among `candidates`. Weaker support could arise from random matches.
+bool IsClear(const FramePose& pose, const LocalMap& candidates);
 
 /// Whether a pose far from the prediction has so much more support than one near it that it
 /// replaces it. If either has `min_matches` inliers that are confirmed static, these are compared,

@@ -42,6 +42,17 @@ class MapTest : public ::testing::Test {
   LandmarkId line_ = kNoId;
 };
 
+TEST_F(MapTest, TakesTheIdOfAKeyframeUnlessItIsNotNew) {
+  const KeyframeId id = keyframes_[2] + 5;
+  EXPECT_EQ(map_.AddKeyframe(MakeFrame(1, 0), Rigid3(), id), id);
+  EXPECT_FALSE(map_.KnowsKeyframe(id - 1));
+  EXPECT_EQ(map_.AddKeyframe(MakeFrame(1, 0), Rigid3()), id + 1);
+  EXPECT_EQ(map_.Next().AddKeyframe(MakeFrame(1, 0), Rigid3()), id + 2);
+  for (const KeyframeId known : {keyframes_[1], id - 1, id + 1}) {
+    EXPECT_THROW(map_.AddKeyframe(MakeFrame(1, 0), Rigid3(), known), std::invalid_argument);
+  }
+}
+
 TEST_F(MapTest, StoresObservationsInLandmarkAndKeyframe) {
   EXPECT_TRUE(map_.Observe<PointLandmark>(a_, keyframes_[2], 3));
   EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->points[3], a_);

@@ -74,7 +74,7 @@ class PoseRefinerTest : public testing::Test {
   std::vector<Eigen::Vector3d> positions_;  // of the landmarks, as the frame observes them
   KeyframeId keyframe_ = kNoId;
   std::vector<LandmarkId> points_;
-  std::vector<RelativePose> poses_;
+  std::vector<ReferencedPose> poses_;
 };
 
 TEST_F(PoseRefinerTest, EstimatesThePoseInThePresentMap) {
@@ -110,7 +110,7 @@ TEST_F(PoseRefinerTest, EstimatesAllPosesOnRequest) {
 
 TEST_F(PoseRefinerTest, LeavesKeyframesToBundleAdjustment) {
   TrackedFrame tracked = Tracked(1.0);
-  tracked.keyframe.is_due = true;
+  tracked.keyframe.id = 1;
   refiner_.Add(0, tracked);
   refiner_.RefineAll(snapshot_, &poses_);
   EXPECT_TRUE(IsUnchanged());

@@ -10,10 +10,11 @@
 
 namespace msc_vo {
 
-// Adds a keyframe in which every feature of `frame` with a depth is a new landmark.
+// Adds a keyframe in which every feature of `frame` with a depth is a new landmark. `id`: see
+// Map::AddKeyframe().
 inline void AddKeyframe(const std::shared_ptr<const Frame>& frame, const Rigid3& cam_from_world,
-                        MapSnapshot* snapshot) {
-  const KeyframeId id = snapshot->map.AddKeyframe(frame, cam_from_world);
+                        MapSnapshot* snapshot, KeyframeId id = kNoId) {
+  id = snapshot->map.AddKeyframe(frame, cam_from_world, id);
   const Rigid3 world_from_cam = cam_from_world.Inverse();
   for (int i = 0; i < static_cast<int>(frame->points.size()); ++i) {
     if (!frame->points[i].HasDepth()) continue;
@@ -27,9 +28,9 @@ inline void AddKeyframe(const std::shared_ptr<const Frame>& frame, const Rigid3&
 }
 
 inline MapSnapshot MapOfOneKeyframe(const std::shared_ptr<const Frame>& frame,
-                                    const Rigid3& cam_from_world) {
+                                    const Rigid3& cam_from_world, KeyframeId id = kNoId) {
   MapSnapshot snapshot;
-  AddKeyframe(frame, cam_from_world, &snapshot);
+  AddKeyframe(frame, cam_from_world, &snapshot, id);
   return snapshot;
 }
 

@@ -43,7 +43,7 @@ class DynamicFeaturesTest : public ::testing::Test {
 };
 
 TEST_F(DynamicFeaturesTest, MarksFeaturesInDynamicCells) {
-  tracked_.dynamic_cells = DynamicHalves(true, false);
+  tracked_.pose.dynamic_cells = DynamicHalves(true, false);
   const auto marked = MarkDynamicFeatures({}, map_, tracked_);
   EXPECT_TRUE(marked->points[0].dynamic);
   EXPECT_FALSE(marked->points[1].dynamic);
@@ -53,7 +53,7 @@ TEST_F(DynamicFeaturesTest, MarksFeaturesInDynamicCells) {
 }
 
 TEST_F(DynamicFeaturesTest, KeepsInliersOfThePoseStatic) {
-  tracked_.dynamic_cells = DynamicHalves(true, true);
+  tracked_.pose.dynamic_cells = DynamicHalves(true, true);
   tracked_.matches.points.resize(1);
   tracked_.matches.lines.resize(1);
   tracked_.matches.lines[0].feature = 1;

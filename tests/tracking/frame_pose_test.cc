@@ -52,13 +52,14 @@ class CandidatesFromFrameTest : public ::testing::Test {
     last_.reference = map_.AddKeyframe(keyframe, Rigid3());
     point_ = map_.Add<PointLandmark>(last_.reference, 0, landmark_);
     line_ = map_.Add<LineLandmark>(last_.reference, 0, landmark_line_);
+    last_.cam_from_reference = last_from_world_;
     last_.matches.points = {{0, point_, Eigen::Vector3d::Zero(), true}};
     last_.matches.lines = {{0, line_, LineSegment3(), true}};
   }
 
   void SetFrame(const Frame& frame) { last_.frame = std::make_shared<Frame>(frame); }
   LocalMap Candidates(const Rigid3& cam_from_world = Rigid3()) const {
-    return CandidatesFromFrame(map_, last_, last_from_world_, cam_from_world);
+    return CandidatesFromFrame(map_, last_, cam_from_world);
   }
 
   const Eigen::Vector3d points_[2] = {{0.1, 0.0, 2.0}, {0.3, 0.1, 3.0}};  // metres, last camera
@@ -68,7 +69,7 @@ class CandidatesFromFrameTest : public ::testing::Test {
   const LineSegment3 landmark_line_{{0.1, -0.4, 2.1}, {0.1, 0.4, 2.1}};
   const Rigid3 last_from_world_{Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.0}};
   Map map_;
-  TrackedFrame last_;
+  LastFrame last_;
   LandmarkId point_ = kNoId, line_ = kNoId;
 };
 

@@ -68,7 +68,7 @@ TEST_F(PoseFactorTrackingTest, WheelsBridgeACoveredSecond) {
     EXPECT_EQ(bridged.status, TrackingStatus::kPredicted) << i;
     EXPECT_TRUE(bridged.pose.usable);
     EXPECT_THAT(bridged.pose.covariance(5, 5), testing::DoubleNear(4e-4, 1e-8));
-    EXPECT_FALSE(bridged.keyframe.is_due);
+    EXPECT_FALSE(bridged.keyframe.is_due());
     error_with = PositionError(bridged.cam_from_world, Truth(i));
     error_without = PositionError(TrackCovered(i, &without).cam_from_world, Truth(i));
   }
@@ -182,7 +182,7 @@ TEST_F(TurnTest, BeginsAnotherPartOfTheMapWhereItHasNone) {
   LookLeft(&tracker);
   const TrackedFrame seen = tracker.Track(world_.MakeFrame(10, TurnedBy(kRight)), snapshot_);
   EXPECT_EQ(seen.status, TrackingStatus::kPredicted);  // not from the image
-  EXPECT_TRUE(seen.keyframe.is_due);
+  EXPECT_TRUE(seen.keyframe.is_due());
   EXPECT_TRUE(seen.matches.points.empty());
   EXPECT_LT(PositionError(seen.cam_from_world, TurnedBy(kRight)), 1e-6);
   // Its features carry the next frame, even before they are landmarks.
@@ -200,7 +200,7 @@ TEST_F(TurnTest, BeginsNoOtherPartWhereTheMapHasLandmarks) {
   SyntheticFrames other(ManyPoints(7));
   const TrackedFrame seen = tracker.Track(other.MakeFrame(10, TurnedBy(kRight)), snapshot_);
   EXPECT_EQ(seen.status, TrackingStatus::kPredicted);
-  EXPECT_FALSE(seen.keyframe.is_due);
+  EXPECT_FALSE(seen.keyframe.is_due());
 }
 
 TEST_F(PoseFactorTrackingTest, ThrowsErrorsOfTheCallbackAndContinues) {

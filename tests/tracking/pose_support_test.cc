@@ -15,8 +15,8 @@ TrackedFrame FrameInCurrentMap() {
   TrackedFrame tracked;
   tracked.matches.points.resize(30);
   tracked.matches.lines.resize(10);
-  tracked.keyframe.visible.points.resize(80);
-  tracked.keyframe.visible.lines.resize(20);
+  tracked.visible.points.resize(80);
+  tracked.visible.lines.resize(20);
   return tracked;
 }
 

@@ -21,7 +21,7 @@ class TrackerTest : public ::testing::Test {
     const std::shared_ptr<const Frame> first = world_->MakeFrame(0);
     const TrackedFrame tracked = tracker_.Track(first, MapSnapshot());
     ASSERT_EQ(tracked.status, TrackingStatus::kTracked);
-    ASSERT_TRUE(tracked.keyframe.is_due);
+    ASSERT_TRUE(tracked.keyframe.is_due());
     snapshot_ = MapOfOneKeyframe(first, Rigid3());
   }
   static Rigid3 Truth(int index) {
@@ -49,25 +49,54 @@ TEST_F(TrackerTest, EstimatesThePoseOfEveryFrame) {
 TEST_F(TrackerTest, EstimatesTheVelocityAtTheFirstKeyframe) {
   Start({});
   const TrackedFrame tracked = Track(1);
-  ASSERT_TRUE(tracked.keyframe.previous_velocity.has_value());
-  const Eigen::Vector3d metres = tracked.keyframe.previous_velocity->linear / 30.0;
+  ASSERT_TRUE(tracked.previous_velocity.has_value());
+  const Eigen::Vector3d metres = tracked.previous_velocity->linear / 30.0;
   EXPECT_TRUE(metres.isApprox(tracked.cam_from_world.translation(), 1e-6));
-  EXPECT_FALSE(Track(2).keyframe.previous_velocity.has_value());
+  EXPECT_FALSE(Track(2).previous_velocity.has_value());
 }
 
 TEST_F(TrackerTest, RequestsAKeyframeToCompensateTheFirstOne) {
   Start({});
   snapshot_.readout_time = 0.026;
   const TrackedFrame second = Track(1);
-  EXPECT_TRUE(second.keyframe.is_due);
+  EXPECT_TRUE(second.keyframe.is_due());
   EXPECT_EQ(second.frame->readout_time, 0.0);  // like the map
   EXPECT_TRUE(second.frame->velocity.has_value());
-  EXPECT_FALSE(Track(2).keyframe.is_due);  // the new map is not available yet
+  EXPECT_FALSE(Track(2).keyframe.is_due());  // the new map is not available yet
   // The mapper compensates the first keyframe as soon as its velocity is known.
   auto first = std::make_shared<Frame>(*snapshot_.map.FindKeyframe(0)->frame);
   first->velocity = CameraVelocity();
   snapshot_.map.SetFrame(0, first);
   EXPECT_EQ(Track(3).frame->readout_time, 0.026);
+}
+
+// The mapper has moved the keyframe of the last frame; the pose is bridged from there.
+TEST_F(TrackerTest, TakesOverThePoseOfTheKeyframeWithTheProposedId) {
+  const std::shared_ptr<const Frame> first =
+      SyntheticFrames(SyntheticFrames::Options()).MakeFrame(0);
+  const Rigid3 moved(Eigen::Quaterniond::Identity(), {0.0, 0.5, 0.0});
+  auto retimed = std::make_shared<Frame>(*first);
+  retimed->timestamp += 1.0;
+  for (const bool is_same : {true, false}) {
+    Tracker tracker{TrackerOptions()};
+    const KeyframeId id = tracker.Track(first, MapSnapshot()).keyframe.id;
+    // The time stamps say the opposite of the ids.
+    const MapSnapshot snapshot =
+        is_same ? MapOfOneKeyframe(retimed, moved, id) : MapOfOneKeyframe(first, moved, id + 1);
+    const TrackedFrame bridged = tracker.Track(SyntheticFrames::MakeEmptyFrame(1), snapshot);
+    EXPECT_EQ(bridged.cam_from_world.params, (is_same ? moved : Rigid3()).params) << is_same;
+  }
+}
+
+TEST_F(TrackerTest, NumbersItsKeyframes) {
+  Start({});
+  KeyframeId last = 0;
+  for (int i = 1; i < 60; ++i) {
+    const TrackedFrame tracked = Track(i);
+    if (!tracked.keyframe.is_due()) continue;
+    EXPECT_EQ(tracked.keyframe.id, ++last) << i;
+  }
+  EXPECT_GT(last, 1);
 }
 
 TEST_F(TrackerTest, TracksFifteenLinesAndTenPoints) {
@@ -128,7 +157,7 @@ TEST_F(TrackerTest, PredictsCoveredFramesAndResumes) {
   for (int i = 10; i < 15; ++i) {
     const TrackedFrame tracked = tracker_.Track(SyntheticFrames::MakeEmptyFrame(i), snapshot_);
     EXPECT_EQ(tracked.status, TrackingStatus::kPredicted) << i;
-    EXPECT_FALSE(tracked.keyframe.is_due);
+    EXPECT_FALSE(tracked.keyframe.is_due());
     // Constant velocity for a sixth of a second.
     EXPECT_LT(PositionError(tracked.cam_from_world, Truth(i)), 0.03) << i;
   }
@@ -161,19 +190,19 @@ TEST_F(TrackerTest, BeginsASegmentWhenTheMapIsNotFoundForASecond) {
   int first = 5;
   for (; first < 60; ++first) {
     tracked = tracker_.Track(other.MakeFrame(first), snapshot_);
-    if (tracked.segment_start != SegmentStart::kNone) break;
-    EXPECT_FALSE(tracked.keyframe.is_due);
+    if (tracked.keyframe.segment_start != SegmentStart::kNone) break;
+    EXPECT_FALSE(tracked.keyframe.is_due());
   }
   EXPECT_NEAR(first, 4 + 30, 1);
-  EXPECT_EQ(tracked.segment_start, SegmentStart::kAfterLoss);
+  EXPECT_EQ(tracked.keyframe.segment_start, SegmentStart::kAfterLoss);
   EXPECT_EQ(tracked.status, TrackingStatus::kTracked);
-  EXPECT_TRUE(tracked.keyframe.is_due);
+  EXPECT_TRUE(tracked.keyframe.is_due());
   EXPECT_EQ(tracked.reference, kNoId);
   // The map begins where the camera was seen last.
   EXPECT_LT(PositionError(tracked.cam_from_world, Truth(4)), 0.01);
 
   const Rigid3 world_from_first = tracked.cam_from_world.Inverse();
-  snapshot_ = MapOfOneKeyframe(tracked.frame, tracked.cam_from_world);
+  snapshot_ = MapOfOneKeyframe(tracked.frame, tracked.cam_from_world, tracked.keyframe.id);
   for (int i = first + 1; i < first + 10; ++i) {
     tracked = tracker_.Track(other.MakeFrame(i), snapshot_);
     EXPECT_EQ(tracked.status, TrackingStatus::kTracked) << i;
@@ -190,10 +219,12 @@ TEST_F(TrackerTest, ReplacesAMapThatNothingWasTrackedIn) {
   elsewhere.seed = 2;
   SyntheticFrames other(elsewhere);
   for (int i = 1; i < 16; ++i) {
-    EXPECT_EQ(tracker_.Track(other.MakeFrame(i), snapshot_).segment_start, SegmentStart::kNone);
+    EXPECT_EQ(tracker_.Track(other.MakeFrame(i), snapshot_).keyframe.segment_start,
+              SegmentStart::kNone);
   }
   // max_prediction has passed.
-  EXPECT_EQ(tracker_.Track(other.MakeFrame(16), snapshot_).segment_start, SegmentStart::kReplacing);
+  EXPECT_EQ(tracker_.Track(other.MakeFrame(16), snapshot_).keyframe.segment_start,
+            SegmentStart::kReplacing);
 }
 
 // The frame as an image of a camera with the rate, Hz.
@@ -218,8 +249,9 @@ TEST_F(TrackerTest, GivesUpALargeMapAfterTheSameTimeAtAnyRate) {
     EXPECT_EQ(tracker.Track(AtRate(rate, world_->MakeFrame(1)), snapshot_).status,
               TrackingStatus::kTracked);
     int i = 2;
-    while (i < 300 && tracker.Track(AtRate(rate, other.MakeFrame(i)), snapshot_).segment_start ==
-                          SegmentStart::kNone) {
+    while (i < 300 &&
+           tracker.Track(AtRate(rate, other.MakeFrame(i)), snapshot_).keyframe.segment_start ==
+               SegmentStart::kNone) {
       ++i;
     }
     EXPECT_NEAR((i - 1) / rate, 1.5, 0.4) << rate;
@@ -237,13 +269,14 @@ TEST_F(TrackerTest, FindsFramesInAnInactiveMap) {
   std::vector<int> found;
   for (int i = 1; i < 20; ++i) {
     const TrackedFrame tracked = Track(i);
-    if (!tracked.in_inactive_map) continue;
+    if (!tracked.keyframe.in_inactive_map) continue;
     found.push_back(i);
-    EXPECT_TRUE(tracked.keyframe.is_due);
-    EXPECT_EQ(tracked.in_inactive_map->reference, 0);
+    EXPECT_TRUE(tracked.keyframe.is_due());
+    EXPECT_EQ(tracked.keyframe.in_inactive_map->reference, 0);
     // The only keyframe there is camera 0.
-    EXPECT_LT(PositionError(tracked.in_inactive_map->cam_from_reference, Truth(i)), 0.01) << i;
-    EXPECT_GT(tracked.in_inactive_map->matches.points.size(), 50u);
+    EXPECT_LT(PositionError(tracked.keyframe.in_inactive_map->cam_from_reference, Truth(i)), 0.01)
+        << i;
+    EXPECT_GT(tracked.keyframe.in_inactive_map->matches.points.size(), 50u);
   }
   // At most one in 0.2 seconds.
   ASSERT_GE(found.size(), 3u);
@@ -260,7 +293,8 @@ TEST_F(TrackerTest, SearchesOtherKeyframesOfAnInactiveMapAfterSixFrames) {
   std::vector<KeyframeId> found;
   for (int i = 1; i < 70 && found.size() < 8; ++i) {
     const TrackedFrame tracked = Track(i);
-    if (tracked.in_inactive_map) found.push_back(tracked.in_inactive_map->reference);
+    if (tracked.keyframe.in_inactive_map)
+      found.push_back(tracked.keyframe.in_inactive_map->reference);
   }
   EXPECT_THAT(found, testing::ElementsAre(1, 1, 1, 1, 1, 1, 0, 0));
 }
@@ -334,10 +368,10 @@ TEST_F(TrackerTest, WaitsForAFirstFrameWithFeatures) {
   world_ = std::make_unique<SyntheticFrames>(SyntheticFrames::Options());
   const TrackedFrame empty = tracker_.Track(SyntheticFrames::MakeEmptyFrame(0), MapSnapshot());
   EXPECT_EQ(empty.status, TrackingStatus::kLost);
-  EXPECT_FALSE(empty.keyframe.is_due);
+  EXPECT_FALSE(empty.keyframe.is_due());
   const TrackedFrame first = tracker_.Track(world_->MakeFrame(1), MapSnapshot());
   EXPECT_EQ(first.status, TrackingStatus::kTracked);
-  EXPECT_TRUE(first.keyframe.is_due);
+  EXPECT_TRUE(first.keyframe.is_due());
 }
 
 TEST_F(TrackerTest, RejectsInvalidOptions) {

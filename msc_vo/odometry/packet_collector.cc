@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/packet_collector.h"
+
+#include <utility>
+
+namespace msc_vo {
+
+namespace {
+
+// The ids are sorted, so that each insertion point is close to the previous one.
+void CountVisible(const std::vector<LandmarkId>& ids, std::map<LandmarkId, TrackingCount>* counts) {
+  auto place = counts->begin();
+  for (const LandmarkId id : ids) {
+    place = counts->try_emplace(place, id);
+    ++place->second.num_visible;
+  }
+}
+
+}  // namespace
+
+void PacketCollector::Add(const TrackedFrame& tracked) {
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    std::map<LandmarkId, TrackingCount>& counts = packet_.counts.Of<L>();
+    CountVisible(tracked.visible.Of<L>(), &counts);
+    for (const auto& match : OfKind<L>(tracked.matches)) ++counts[match.id].num_found;
+  });
+  if (tracked.previous_velocity) packet_.last_velocity = tracked.previous_velocity;
+}
+
+KeyframePacket PacketCollector::Take(const TrackedFrame& tracked,
+                                     const std::optional<double>& frame_interval) {
+  KeyframePacket packet = std::exchange(packet_, {});
+  const SegmentStart start = tracked.keyframe.segment_start;
+  packet.id = tracked.keyframe.id;
+  packet.frame = tracked.frame;
+  packet.reference = tracked.reference;
+  packet.cam_from_reference = tracked.cam_from_reference;
+  packet.begins_map = start == SegmentStart::kAfterLoss || start == SegmentStart::kReplacing;
+  packet.keeps_last_map = start != SegmentStart::kReplacing;
+  packet.last_tracked = tracked.keyframe.last_tracked;
+  packet.matches = tracked.matches;
+  packet.covariance = tracked.pose.covariance;
+  packet.in_inactive_map = tracked.keyframe.in_inactive_map;
+  packet.frame_interval = frame_interval;
+  return packet;
+}
+
+}  // namespace msc_vo

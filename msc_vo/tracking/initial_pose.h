@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <optional>
+
+#include "msc_vo/tracking/pose_estimator.h"
+#include "msc_vo/tracking/pose_plausibility.h"
+
+namespace msc_vo {
+
+/// The pose that the matches of a frame are searched around: that of the custom factors if they
+/// determine it alone (`by_factors` is usable), otherwise that of constant velocity.
+struct PosePrediction {
+  Rigid3 cam_from_world;
+  PoseSummary by_factors;
+};
+
+/// The pose of a frame that its local map is selected with. By relocalisation: kAfterGap.
+struct InitialPose {
+  FramePose pose;
+  PoseOrigin origin = PoseOrigin::kPrediction;
+};
+
+/// The keyframes that relocalisation tries next, from newest to oldest, cyclically.
+struct KeyframeCycle {
+  KeyframeId next = kNoId;  ///< kNoId: the newest one
+  int num_per_frame = 0;
+};
+
+/// Finds the initial pose of a frame: by matching with the last frame around the predicted pose; if
+/// few of the matches or of the visible features support it, with a wide search radius and around
+/// poses that lines and points of the last frame determine without a prediction; then with the map
+/// there; then by relocalisation.
+std::optional<InitialPose> FindInitialPose(const TrackerOptions& options, const Frame& frame,
+                                           const LastFrame& last, const PosePrediction& prediction,
+                                           KeyframeCycle* keyframes, PoseEstimator* estimator);
+
+/// The keyframe `id`, or the newest one if it was removed from the map.
+KeyframeId ReferenceOrNewest(const Map& map, KeyframeId id);
+
+}  // namespace msc_vo
