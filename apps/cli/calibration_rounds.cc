@@ -8,11 +8,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "apps/cli/calibration_views.h"
 #include "apps/cli/command_log.h"
 #include "apps/cli/sequence_arguments.h"
 #include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/datasets/calibration_correction.h"
+#include "msc_vo/diagnosis/calibration_views.h"
 #include "msc_vo/diagnosis/registration_edges.h"
 #include "msc_vo/self_calibration/calibration_bounds.h"
 #include "msc_vo/self_calibration/self_calibrating_bundle_adjustment.h"

@@ -47,7 +47,7 @@ int Run(const Arguments& arguments) {
   const Configuration configuration = MakeConfiguration(arguments.configuration);
   const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
   SequenceCheckOptions options = arguments.options;
-  options.depth_sensor = configuration.odometry.features.depth_sensor;
+  options.odometry = configuration.odometry;
   if (arguments.all) options.max_images = decoder.size();
   const Findings findings = CheckSequence(decoder, options);
   const auto errors = Count(findings, Severity::kError);
@@ -82,7 +82,7 @@ Command AddCheckCommand(CLI::App* app) {
       ->capture_default_str();
   command->add_flag("--all", arguments->all, "Decode every image");
   command->add_flag("--deep", arguments->options.deep,
-                    "Also track features over frames: calibration, time offsets and ground truth "
+                    "Also run the odometry: calibration, time offsets and ground truth "
                     "against motion; takes up to a minute");
   command->add_flag("--json", arguments->json, "Print JSON");
   command->footer(HelpFooter("msc_vo check my_sequence"));

@@ -70,8 +70,10 @@ class CalibrationFindings {
     }
     const double odds = std::exp(estimate_.log_odds[static_cast<size_t>(part.group)]);
     if (odds < kCandidateOdds) return " agrees with the motion, " + part.precision;
-    return FormatText(": in doubt, the odds that it is wrong are %.1f to 1 (", odds) +
-           part.precision + "); to decide it, " + kFix;
+    // Large odds without a correction: the errors of all groups together are not significant.
+    const std::string number = odds > 99.0 ? "above 99" : FormatText("%.1f", odds);
+    return ": in doubt, the odds that it is wrong are " + number + " to 1 (" + part.precision +
+           "); to decide it, " + kFix;
   }
 
   void AddFocalLength() {

@@ -70,8 +70,8 @@ class GroundTruthComparison {
 
  private:
   std::vector<MotionComparison> Compare(const Reading& reading) const {
-    return CompareMotions(track_, track_.pairs, ReadAs(reading.convention, truth_),
-                          reading.convention, reading.offset);
+    return CompareMotions(track_, ReadAs(reading.convention, truth_), reading.convention,
+                          reading.offset);
   }
 
   static double MedianRotation(const std::vector<MotionComparison>& comparisons) {
@@ -246,14 +246,20 @@ class GroundTruthComparison {
     AddOffset(free);
   }
 
+  static bool HasScale(const HandEye& hand_eye) {
+    return hand_eye.scale_sigma <= kMaxScaleSigma * hand_eye.scale;
+  }
+
+  // Without a scale, the offset explains what the scale leaves.
   static bool HasOffset(const HandEye& hand_eye) {
-    return hand_eye.offset.norm() > std::max(kMaxLever, kSigmas * hand_eye.offset_sigma);
+    return HasScale(hand_eye) &&
+           hand_eye.offset.norm() > std::max(kMaxLever, kSigmas * hand_eye.offset_sigma);
   }
 
   void AddScale(const HandEye& hand_eye) {
     const double ratio = 1.0 / hand_eye.scale;  // of the lengths from depth to the true ones
     const double sigma = hand_eye.scale_sigma / (hand_eye.scale * hand_eye.scale);
-    if (sigma > kMaxScaleSigma * ratio) {
+    if (!HasScale(hand_eye)) {
       findings_->push_back(Good("ground_truth.scale",
                                 FormatText("scale: not tested, the camera moves too little (%.2f "
                                            "+- %.2f)",
@@ -297,6 +303,12 @@ class GroundTruthComparison {
         "the body of the ground truth is at (%.3f, %.3f, %.3f) +- %.3f m in the camera's frame",
         hand_eye.offset.x(), hand_eye.offset.y(), hand_eye.offset.z(), hand_eye.offset_sigma);
     const Measurement measurement{length, "m"};
+    if (!HasScale(hand_eye)) {
+      findings_->push_back(
+          Good("ground_truth.hand_eye",
+               "body of the ground truth: not tested, the camera moves too little"));
+      return;
+    }
     if (!HasOffset(hand_eye)) {
       findings_->push_back(Good("ground_truth.hand_eye", text, measurement));
       return;

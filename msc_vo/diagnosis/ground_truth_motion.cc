@@ -81,18 +81,18 @@ std::vector<TimedPose> ReadAs(PoseConvention convention, std::vector<TimedPose> 
 }
 
 std::vector<MotionComparison> CompareMotions(const MotionTrack& track,
-                                             const std::vector<MotionPair>& pairs,
                                              const std::vector<TimedPose>& truth,
                                              PoseConvention convention, double offset) {
   std::vector<MotionComparison> comparisons;
-  for (const MotionPair& pair : pairs) {
+  for (const MotionPair& pair : track.pairs) {
     const auto from = InterpolatePose(truth, track.images[pair.from].timestamp + offset);
     const auto to = InterpolatePose(truth, track.images[pair.to].timestamp + offset);
     if (!from || !to) continue;
     const Rigid3 motion = to->Inverse() * *from;
+    const Rigid3 image_motion = track.MotionOf(pair);
     MotionComparison comparison;
-    comparison.image_rotation = LogSO3(Eigen::Quaterniond(pair.motion.to_from_from.rotation()));
-    comparison.image_translation = pair.motion.to_from_from.translation();
+    comparison.image_rotation = LogSO3(image_motion.rotation());
+    comparison.image_translation = image_motion.translation();
     comparison.true_rotation = LogSO3(Eigen::Quaterniond(motion.rotation()));
     comparison.true_translation = motion.translation();
     if (convention == PoseConvention::kMirrored) {

@@ -42,9 +42,8 @@ std::optional<Rigid3> InterpolatePose(const std::vector<TimedPose>& poses, doubl
 /// CompareMotions().
 std::vector<TimedPose> ReadAs(PoseConvention convention, std::vector<TimedPose> poses);
 
-/// Compares pairs of images with the ground truth `offset` seconds later.
+/// Compares the pairs of images with the ground truth `offset` seconds later.
 std::vector<MotionComparison> CompareMotions(const MotionTrack& track,
-                                             const std::vector<MotionPair>& pairs,
                                              const std::vector<TimedPose>& truth,
                                              PoseConvention convention, double offset);
 

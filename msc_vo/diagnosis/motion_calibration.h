@@ -11,18 +11,18 @@
 
 namespace msc_vo {
 
-/// What the motion of the images says about the calibration that they were tracked with.
+/// The calibration that the motion of the images supports, relative to the one that they were
+/// tracked with.
 struct MotionCalibration {
   /// Corrected are the groups that SensorCalibration accepts, and those of the colour camera that
-  /// are more likely wrong than right.
+  /// are significantly off and more likely wrong than right.
   CorrectionEstimate estimate;
   bool edges_contradict = false;  ///< depth edges refuse a correction of the registration
 };
 
-/// Estimates the calibration with SensorCalibration from the images of the track whose depth is
-/// kept, with the poses of the track, and without a rolling shutter if there is one. `decoder`: of
-/// the sequence, for its calibration and its depth edges. Returns std::nullopt if fewer than ten
-/// pairs of images match.
+/// Estimates the calibration with SensorCalibration from the views and maps of the track, as
+/// `msc_vo calibrate` does in its first round. `decoder`: of the sequence, for its calibration and
+/// its depth edges. Returns std::nullopt if fewer than ten pairs of images match.
 std::optional<MotionCalibration> CalibrateFromMotion(const RgbdDecoder& decoder,
                                                      const MotionTrack& track);
 

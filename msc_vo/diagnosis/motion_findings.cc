@@ -19,7 +19,7 @@ namespace {
 
 // Displacement from image to image, as a fraction of the width, that tracking bridges easily.
 constexpr double kMaxDisplacement = 0.08;
-constexpr double kMinLinkedRatio = 0.8;
+constexpr double kMinTrackedRatio = 0.8;
 
 // Latency that warrants a warning, seconds, and the standard deviations that it must exceed.
 constexpr double kMaxLatency = 0.03;
@@ -173,20 +173,19 @@ class LatencyEstimator {
 }  // namespace
 
 void AddFrameMotionFindings(const MotionTrack& track, int width, Findings* findings) {
-  if (track.num_pairs == 0) return;
+  if (track.num_images == 0) return;
   std::vector<double> displacements;
   for (const MotionImage& image : track.images) {
     if (image.linked) displacements.push_back(image.displacement);
   }
-  const double linked = static_cast<double>(track.num_linked) / track.num_pairs;
-  if (linked < kMinLinkedRatio) {
-    findings->push_back(Warning(
-        "motion.matching",
-        FormatText("only %d of %d consecutive images match by points", track.num_linked,
-                   track.num_pairs),
-        "slower motion, a higher frame rate, more light or more texture; lines (mode msc-vo) "
-        "help where points are rare",
-        Measurement{linked, "ratio"}));
+  const auto num_tracked = static_cast<int>(track.images.size());
+  const double tracked = static_cast<double>(num_tracked) / track.num_images;
+  if (tracked < kMinTrackedRatio) {
+    findings->push_back(
+        Warning("motion.matching",
+                FormatText("only %d of %d images can be tracked", num_tracked, track.num_images),
+                "slower motion, a higher frame rate, more light or more texture",
+                Measurement{tracked, "ratio"}));
   }
   if (displacements.empty()) return;
   const double median = Median(displacements);

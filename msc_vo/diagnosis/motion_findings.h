@@ -8,8 +8,8 @@
 
 namespace msc_vo {
 
-/// Whether consecutive images match, and how far features move between them compared with the image
-/// width, pixels.
+/// Whether the images can be tracked, and how far features move between them compared with the
+/// image width, pixels.
 void AddFrameMotionFindings(const MotionTrack& track, int width, Findings* findings);
 
 /// Latency of the depth images: the shift between depth and colour edges grows in proportion to the

@@ -3,54 +3,56 @@
 
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/diagnosis/edge_alignment.h"
-#include "msc_vo/diagnosis/frame_motion.h"
-#include "msc_vo/features/frame_builder.h"
-#include "msc_vo/geometry/camera_velocity.h"
-#include "msc_vo/sensor/inverse_depth_image.h"
+#include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/odometry/odometry_options.h"
+#include "msc_vo/self_calibration/sensor_calibration.h"
 
 namespace msc_vo {
 
-/// An image whose motion from its predecessor is known.
+/// An image whose pose the odometry has estimated.
 struct MotionImage {
   double timestamp = 0.0;  ///< seconds
-  std::shared_ptr<const Frame> frame;
-  /// Depth at the time of the colour image; kept of about 80 images, null in the others.
-  std::shared_ptr<const InverseDepthImage> depth;
-  /// Images of one segment are linked by motions; a segment ends where an image does not match.
+  /// Images of one segment have a common world; a segment is one of the odometry.
   int segment = 0;
-  Rigid3 cam_from_origin;     ///< origin: the camera at the begin of the segment
-  bool linked = false;        ///< to the image before; the fields below are meaningful only then
-  double displacement = 0.0;  ///< median of the points, pixels
-  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< median of the points, pixels/second
-  CameraVelocity camera_velocity;                      ///< zero if unknown
-  EdgeAlignment edges;                                 ///< of depth and colour
-  double depth_delay = 0.0;                            ///< seconds, as the stamps say
+  Rigid3 cam_from_world;
+  bool linked = false;        ///< the image before is in the same segment and shares map points
+  double displacement = 0.0;  ///< if linked: median of the map points since then, pixels
+  /// If linked: median of the map points since then, pixels/second.
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+  EdgeAlignment edges;       ///< of depth and colour
+  double depth_delay = 0.0;  ///< seconds, as the stamps say
 };
 
-/// Two images up to 1.5 s apart with their relative pose.
+/// Two images of a segment up to 1.5 s apart.
 struct MotionPair {
   int from = 0;  ///< index in MotionTrack::images
   int to = 0;
-  FrameMotion motion;
 };
 
-/// Motion of the camera over stretches of a sequence, from one image to the next: no map, no
-/// optimisation, and no assumption about the calibration beyond that points are found again.
+/// Motion of the camera over stretches of a sequence, as the odometry finds it with the given
+/// calibration.
 struct MotionTrack {
-  std::vector<MotionImage> images;
-  int num_pairs = 0;   ///< pairs of consecutive images
-  int num_linked = 0;  ///< pairs of consecutive images that match
+  int num_images = 0;               ///< that the odometry processed
+  std::vector<MotionImage> images;  ///< with an estimated pose, in order of time
   /// Pairs with as much rotation as their common view permits, in order of time.
   std::vector<MotionPair> pairs;
+  /// What a calibration is estimated from, as of CalibrationRounds: images of each stretch, and
+  /// SelfCalibratingBundleAdjustment() of their maps.
+  std::vector<CalibrationSequence> views;
+  CalibrationInformation of_maps;
+
+  /// Maps coordinates of the first camera of a pair to the second one.
+  Rigid3 MotionOf(const MotionPair& pair) const {
+    return images[pair.to].cam_from_world * images[pair.from].cam_from_world.Inverse();
+  }
 };
 
-/// Tracks at most `max_images` images in up to four stretches of consecutive images.
-MotionTrack TrackMotion(const RgbdDecoder& decoder, const FrameBuilderOptions& features,
-                        int max_images);
+/// Runs the odometry on at most `max_images` images in up to four stretches of consecutive images.
+/// Images that it refuses are left out; the check of the images reports them.
+MotionTrack TrackMotion(const RgbdDecoder& decoder, const OdometryOptions& options, int max_images);
 
 }  // namespace msc_vo

@@ -58,12 +58,6 @@ int SampleIndex(int k, int count, int size) {
   return static_cast<int>(static_cast<int64_t>(k) * (size - 1) / (count - 1));
 }
 
-FrameBuilderOptions FeatureOptions(DepthSensor depth_sensor) {
-  FrameBuilderOptions options;
-  options.depth_sensor = depth_sensor;
-  return options;
-}
-
 // Edges and features take longer than the rest and are optional.
 SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count,
                                  const std::optional<FrameBuilderOptions>& features,
@@ -157,10 +151,10 @@ bool IsCalibrated(const Findings& findings) {
   });
 }
 
-void AddMotionFindings(const RgbdDecoder& decoder, const FrameBuilderOptions& features,
+void AddMotionFindings(const RgbdDecoder& decoder, const OdometryOptions& options,
                        Findings* findings) {
   const Calibration& calibration = decoder.calibration();
-  const MotionTrack track = TrackMotion(decoder, features, kDeepImages);
+  const MotionTrack track = TrackMotion(decoder, options, kDeepImages);
   AddFrameMotionFindings(track, calibration.camera.width, findings);
   AddLatencyFindings(track, findings);
   const auto estimate = CalibrateFromMotion(decoder, track);
@@ -197,9 +191,9 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
   AddStampFindings(index, &findings);
   AddCameraFindings(calibration, index.format, &findings);
   const int count = std::min(std::max(options.max_images, 1), decoder.size());
-  const FrameBuilderOptions features = FeatureOptions(options.depth_sensor);
   DepthCurveTest curve(calibration.camera, calibration.distortion, calibration.depth_scale);
-  const SampleMeasurements sample = MeasureSample(decoder, count, features, &curve);
+  const SampleMeasurements sample =
+      MeasureSample(decoder, count, options.odometry.features, &curve);
   AddDecodingFindings(sample, count, &findings);
   AddSampleFindings(sample, curve, calibration, &findings);
   AddClippingFindings(decoder, &findings);
@@ -210,7 +204,7 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
     findings.push_back(
         Good(kCalibrationCheck, "calibration against motion: not tested, depth is not depth"));
   } else if (options.deep) {
-    AddMotionFindings(decoder, features, &findings);
+    AddMotionFindings(decoder, options.odometry, &findings);
   } else {
     findings.push_back(Good(kCalibrationCheck,
                             "calibration against motion: not tested; to test it, run msc_vo check "

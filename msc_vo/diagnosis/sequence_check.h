@@ -5,7 +5,7 @@
 
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/diagnosis/finding.h"
-#include "msc_vo/sensor/depth_sensor.h"
+#include "msc_vo/odometry/odometry_options.h"
 
 namespace msc_vo {
 
@@ -13,10 +13,10 @@ struct SequenceCheckOptions {
   /// Number of images to decode, evenly spread over the sequence; all files are tested for
   /// existence.
   int max_images = 30;
-  /// Also tracks features over frames to compare motion with calibration, time stamps and ground
-  /// truth; takes up to a minute.
+  /// Also runs the odometry to compare its motion with calibration, time stamps and ground truth;
+  /// takes up to a minute.
   bool deep = false;
-  DepthSensor depth_sensor = DepthSensor::kAuto;  ///< that measured depth
+  OdometryOptions odometry;  ///< of that run, and of the features of the decoded images
 };
 
 /// Checks a sequence before a run: files, stamps and gaps, image sizes and bit depths, exposure and

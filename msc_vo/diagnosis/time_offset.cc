@@ -33,9 +33,8 @@ std::vector<Rotation> Rotations(const MotionTrack& track) {
   for (size_t i = 0; i < images.size(); ++i) {
     for (size_t j = i + 1; j < images.size() && images[j].segment == images[i].segment; ++j) {
       if (images[j].timestamp - images[i].timestamp < kInterval - 1e-3) continue;
-      const Rigid3 motion = images[j].cam_from_origin * images[i].cam_from_origin.Inverse();
-      rotations.push_back({images[i].timestamp, images[j].timestamp,
-                           LogSO3(Eigen::Quaterniond(motion.rotation()))});
+      const Rigid3 motion = track.MotionOf({static_cast<int>(i), static_cast<int>(j)});
+      rotations.push_back({images[i].timestamp, images[j].timestamp, LogSO3(motion.rotation())});
       break;
     }
   }

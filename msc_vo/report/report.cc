@@ -12,7 +12,6 @@
 #include "msc_vo/report/report_plots.h"
 #include "msc_vo/report/report_statistics.h"
 #include "msc_vo/report/run_json.h"
-#include "msc_vo/report/scene_view.h"
 #include "msc_vo/report/trajectory_view.h"
 #include "msc_vo/report/viewer_page.h"
 
@@ -41,7 +40,8 @@ void CheckStages(const ReportData& data) {
   }
 }
 
-// `attribute`: how the script upgrades the figure, such as data-chart="error" (web/charts.js).
+// `attribute`: what the script does with the figure, such as data-chart="error": draw a plot over
+// time (web/charts.js).
 void WriteFigure(const std::string& svg, const std::vector<LegendEntry>& legend, std::ostream& out,
                  const std::string& attribute, const std::string& caption = "") {
   out << "<figure " << attribute << ">\n<figcaption>" << EscapeHtml(caption)
@@ -164,25 +164,19 @@ void WriteTrajectory(const ReportData& data, std::ostream& out) {
   out << "</div>\n";
 }
 
-void WriteScene(const ReportData& data, std::ostream& out) {
-  if (data.map.lines.empty()) return;
-  out << "<div class=\"replaced\"><h2>Map lines</h2>\n<figure>\n"
-      << DrawScene(data) << "</figure>\n</div>\n";
-}
-
 void WriteSeries(const ReportData& data, std::ostream& out) {
   const std::vector<LegendEntry> statuses = StatusLegend(data);
   if (!data.ground_truth.empty()) {
     out << "<h2>Position error over time</h2>\n";
     std::vector<LegendEntry> legend = {{Swatch::kCurve, "curve error", "position error"}};
     Append(statuses, &legend);
-    WriteFigure(PlotError(data), legend, out, "data-chart=\"error\"");
+    WriteFigure("", legend, out, "data-chart=\"error\"");
   }
   out << "<h2>Inliers and status over time</h2>\n";
   std::vector<LegendEntry> legend = {{Swatch::kCurve, "curve points", "inlier points"},
                                      {Swatch::kCurve, "curve lines", "inlier lines"}};
   Append(statuses, &legend);
-  WriteFigure(PlotInliers(data), legend, out, "data-chart=\"inliers\"");
+  WriteFigure("", legend, out, "data-chart=\"inliers\"");
 }
 
 void WriteNotTracked(const ReportData& data, std::ostream& out) {
@@ -214,10 +208,10 @@ void WriteTimes(const ReportData& data, std::ostream& out) {
     legend.push_back({Swatch::kFill, "stage-" + std::to_string(legend.size() % 6), stage.name});
   }
   legend.push_back({Swatch::kCurve, "curve whole", "tracking, total"});
-  WriteFigure(PlotStages(data), legend, out, "data-chart=\"stages\"");
+  WriteFigure("", legend, out, "data-chart=\"stages\"");
   out << "<h2>Time per keyframe</h2>\n";
-  WriteFigure(PlotMapping(data), {{Swatch::kFill, "fill-mapping", "keyframe step of the mapper"}},
-              out, "data-chart=\"mapping\"");
+  WriteFigure("", {{Swatch::kFill, "fill-mapping", "keyframe step of the mapper"}}, out,
+              "data-chart=\"mapping\"");
   out << "<h2>Stages</h2>\n<table>\n<tr><th>milliseconds</th><th>mean</th><th>median</th>"
          "<th>95 %</th><th>max</th><th>times</th></tr>\n";
   for (const StageTimeStatistics& stage : SummarizeStages(data.stages, data.frames)) {
@@ -246,7 +240,6 @@ void WriteReport(const ReportData& data, std::ostream& out) {
   if (data.frames.empty()) {
     out << "<p>No frame was processed.</p>\n";
   } else {
-    WriteScene(data, out);
     WriteTrajectory(data, out);
     WriteSeries(data, out);
     WriteNotTracked(data, out);

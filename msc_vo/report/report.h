@@ -92,16 +92,14 @@ struct ReportData {
   Eigen::Vector3d up_in_cam{0.0, -1.0, 0.0};
 };
 
-/// Whether reports are interactive: three.js was found when msc_vo was built.
+/// Whether pages show the run in three dimensions: three.js was found when msc_vo was built.
 bool HasViewer();
 
 /// Writes a self-contained HTML page that loads nothing, for light and dark screens and for print.
-/// Its plots are inline SVG, thinned to their resolution: those of 5000 frames take less than 2 MB.
-/// With HasViewer(), a script shows the run in three dimensions and replaces the plots over time by
-/// interactive ones; without scripts, and in print, the static page remains. The script, its data
-/// and the views add about 1 MB, 0.2 kB per frame and 4/3 of the bytes of the views. Values that
-/// are not finite are skipped. Throws std::invalid_argument, naming the frame, if the size of a
-/// `stage_ms` differs from that of `stages`.
+/// A script shows the run and draws the plots over time; numbers, tables and the top and side view
+/// of the trajectory need none. The page takes about 1 MB, 0.3 kB per frame and 4/3 of the bytes of
+/// the views. Values that are not finite are skipped. Throws std::invalid_argument, naming the
+/// frame, if the size of a `stage_ms` differs from that of `stages`.
 void WriteReport(const ReportData& data, std::ostream& out);
 
 }  // namespace msc_vo

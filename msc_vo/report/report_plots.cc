@@ -7,75 +7,15 @@
 #include <utility>
 #include <vector>
 
-#include "msc_vo/report/html_text.h"
 #include "msc_vo/report/svg_plot.h"
 
 namespace msc_vo {
 namespace {
 
 constexpr SvgPlot::Size kTrajectorySize{600, 460};
-constexpr SvgPlot::Size kSeriesSize{1200, 240};
 constexpr double kKeyframeRadius = 2.4;
 constexpr double kGapRadius = 2.2;
 constexpr double kStartRadius = 5.0;
-
-double TimeOf(const ReportData& data, size_t frame) {
-  return data.frames[frame].timestamp - data.frames.front().timestamp;
-}
-
-// A frame lasts until the next one, the last frame as long as the average.
-PlotRange TimeRange(const ReportData& data) {
-  const double last = TimeOf(data, data.frames.size() - 1);
-  const double mean = data.frames.size() > 1 ? last / (data.frames.size() - 1.0) : 1.0;
-  return {0.0, last + mean};
-}
-
-// From zero to a little above the largest value.
-PlotRange RangeFromZero(const std::vector<Eigen::Vector2d>& points) {
-  PlotRange range{0.0, 0.0};
-  for (const Eigen::Vector2d& point : points) Include(1.05 * point.y(), &range);
-  return range;
-}
-
-template <typename ValueOf>
-std::vector<Eigen::Vector2d> Series(const ReportData& data, const ValueOf& value_of) {
-  std::vector<Eigen::Vector2d> points;
-  for (size_t i = 0; i < data.frames.size(); ++i) {
-    points.emplace_back(TimeOf(data, i), value_of(data.frames[i]));
-  }
-  return points;
-}
-
-// The status of each frame as a strip above the plot. Stretches shorter than one drawing unit are
-// merged and get the worst status among them.
-void AddStatusStrip(const ReportData& data, SvgPlot* plot) {
-  const double resolution = plot->XResolution();
-  const size_t count = data.frames.size();
-  for (size_t first = 0; first < count;) {
-    ReportStatus status = data.frames[first].status;
-    size_t end = first + 1;
-    while (end < count && (data.frames[end].status == status ||
-                           TimeOf(data, end) - TimeOf(data, first) < resolution)) {
-      status = std::max(status, data.frames[end++].status);
-    }
-    const PlotRange span{TimeOf(data, first),
-                         end < count ? TimeOf(data, end) : plot->x_range().max};
-    plot->AddStrip(span, std::string("status-") + ToString(status),
-                   std::string(ToString(status)) + ": frames " + std::to_string(first) + " to " +
-                       std::to_string(end - 1) + ", from " + FormatFixed(span.min, 2) + " s");
-    first = end;
-  }
-}
-
-std::string PlotCurve(const ReportData& data, const std::vector<Eigen::Vector2d>& points,
-                      const std::string& css_class, const std::string& y_name,
-                      const std::string& description) {
-  SvgPlot plot(kSeriesSize, TimeRange(data), RangeFromZero(points));
-  plot.AddAxes("time, s", y_name);
-  plot.AddSeries(points, css_class);
-  AddStatusStrip(data, &plot);
-  return plot.ToString(description);
-}
 
 // Orthographic projection from the world onto the page.
 struct Projector {
@@ -185,72 +125,6 @@ std::string PlotTrajectory(const ReportData& data, const TrajectoryView& view,
   plot.AddDots(drawing.lost, kGapRadius, "status-lost");
   plot.AddMarker(drawing.estimate.front(), kStartRadius, "start", "start of the estimate");
   return plot.ToString(is_top ? "Top view of the trajectory" : "Side view of the trajectory");
-}
-
-std::string PlotError(const ReportData& data) {
-  std::vector<Eigen::Vector2d> points;
-  for (size_t i = 0; i < data.frames.size(); ++i) {
-    const std::optional<double>& error = data.frames[i].position_error;
-    if (error) points.emplace_back(TimeOf(data, i), 1000.0 * *error);
-  }
-  return PlotCurve(data, points, "curve error", "position error, mm", "Position error over time");
-}
-
-std::string PlotInliers(const ReportData& data) {
-  const auto points =
-      Series(data, [](const ReportFrame& frame) { return frame.num_inlier_points; });
-  const auto lines = Series(data, [](const ReportFrame& frame) { return frame.num_inlier_lines; });
-  PlotRange range = RangeFromZero(points);
-  Include(RangeFromZero(lines).max, &range);
-  SvgPlot plot(kSeriesSize, TimeRange(data), range);
-  plot.AddAxes("time, s", "inliers");
-  plot.AddSeries(points, "curve points");
-  plot.AddSeries(lines, "curve lines");
-  AddStatusStrip(data, &plot);
-  return plot.ToString("Inlier points and lines over time");
-}
-
-std::string PlotStages(const ReportData& data) {
-  const auto whole = Series(data, [](const ReportFrame& frame) { return frame.tracking_ms; });
-  // Sums of the stages up to each. Drawn from the highest sum down, so that lower ones stay
-  // visible.
-  std::vector<std::vector<Eigen::Vector2d>> sums;
-  for (size_t stage = 0; stage < data.stages.size(); ++stage) {
-    if (!data.stages[stage].is_stacked) continue;
-    sums.push_back(Series(data, [&data, stage](const ReportFrame& frame) {
-      double sum = 0.0;
-      for (size_t i = 0; i <= stage; ++i) {
-        if (data.stages[i].is_stacked) sum += frame.stage_ms[i];
-      }
-      return sum;
-    }));
-  }
-  PlotRange range = RangeFromZero(whole);
-  if (!sums.empty()) Include(RangeFromZero(sums.back()).max, &range);
-  SvgPlot plot(kSeriesSize, TimeRange(data), range);
-  plot.AddAxes("time, s", "tracking, ms");
-  for (size_t i = sums.size(); i-- > 0;) {
-    plot.AddArea(sums[i], "stage-" + std::to_string(i % 6));
-  }
-  plot.AddSeries(whole, "curve whole");
-  return plot.ToString("Time of the stages of tracking, over time");
-}
-
-std::string PlotMapping(const ReportData& data) {
-  std::vector<Eigen::Vector2d> steps;
-  for (size_t i = 0; i < data.frames.size(); ++i) {
-    const double ms = data.frames[i].mapping_ms;
-    if (ms > 0.0) steps.emplace_back(TimeOf(data, i), ms);
-  }
-  SvgPlot plot(kSeriesSize, TimeRange(data), RangeFromZero(steps));
-  plot.AddAxes("time, s", "mapping, ms");
-  std::vector<LineSegment2> stems;
-  for (const Eigen::Vector2d& step : steps) {
-    stems.push_back({Eigen::Vector2d(step.x(), 0.0), step});
-  }
-  plot.AddSegments(stems, "stem");
-  plot.AddDots(steps, kGapRadius, "fill-mapping");
-  return plot.ToString("Time of each keyframe step");
 }
 
 }  // namespace msc_vo

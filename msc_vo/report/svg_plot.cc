@@ -105,8 +105,6 @@ double SvgPlot::Right() const { return size_.width - margins_.right; }
 double SvgPlot::Top() const { return margins_.top; }
 double SvgPlot::Bottom() const { return size_.height - margins_.bottom; }
 
-double SvgPlot::XResolution() const { return x_.Length() / (Right() - Left()); }
-
 Eigen::Vector2d SvgPlot::ToDrawing(const Eigen::Vector2d& point) const {
   return {Left() + (point.x() - x_.min) / x_.Length() * (Right() - Left()),
           Bottom() - (point.y() - y_.min) / y_.Length() * (Bottom() - Top())};
@@ -179,14 +177,6 @@ void SvgPlot::AddSeries(const std::vector<Eigen::Vector2d>& points, const std::s
   AppendPath(ThinColumns(points), css_class, false);
 }
 
-void SvgPlot::AddArea(const std::vector<Eigen::Vector2d>& points, const std::string& css_class) {
-  std::vector<Eigen::Vector2d> outline = ThinColumns(points);
-  if (outline.empty()) return;
-  outline.insert(outline.begin(), {outline.front().x(), Bottom()});
-  outline.emplace_back(outline.back().x(), Bottom());
-  AppendPath(outline, css_class, true);
-}
-
 void SvgPlot::AddPath(const std::vector<Eigen::Vector2d>& points, const std::string& css_class) {
   std::vector<Eigen::Vector2d> thin;
   Eigen::Vector2d last = Eigen::Vector2d::Zero();
@@ -230,15 +220,6 @@ void SvgPlot::AddMarker(const Eigen::Vector2d& point, double radius, const std::
   const Eigen::Vector2d p = ToDrawing(point);
   inside_ += "<circle class=\"" + css_class + "\" cx=\"" + Unit(p.x()) + "\" cy=\"" + Unit(p.y()) +
              "\" r=\"" + Unit(radius) + "\"><title>" + EscapeHtml(tip) + "</title></circle>\n";
-}
-
-void SvgPlot::AddStrip(const PlotRange& x, const std::string& css_class, const std::string& tip) {
-  const double from = std::max(Left(), ToDrawing({x.min, y_.min}).x());
-  const double to = std::min(Right(), ToDrawing({x.max, y_.min}).x());
-  if (!(to > from)) return;
-  outside_ += "<rect class=\"" + css_class + "\" x=\"" + Unit(from) + "\" y=\"" +
-              Unit(Top() - kStripHeight - 3.0) + "\" width=\"" + Unit(to - from) + "\" height=\"" +
-              Unit(kStripHeight) + "\"><title>" + EscapeHtml(tip) + "</title></rect>\n";
 }
 
 void SvgPlot::AddLegend(const std::vector<PlotLegendEntry>& entries) {

@@ -53,8 +53,6 @@ class SvgPlot {
 
   const PlotRange& x_range() const { return x_; }
   const PlotRange& y_range() const { return y_; }
-  /// Width of one drawing unit in units of x, the finest visible detail.
-  double XResolution() const;
   Eigen::Vector2d ToDrawing(const Eigen::Vector2d& point) const;
 
   /// Grid lines, ticks with their values, and the names of the axes.
@@ -62,8 +60,6 @@ class SvgPlot {
   /// A curve y(x) with increasing x. Of the points in one column of pixels, the first, lowest,
   /// highest and last are drawn.
   void AddSeries(const std::vector<Eigen::Vector2d>& points, const std::string& css_class);
-  /// The same, filled down to the lower end of the y range.
-  void AddArea(const std::vector<Eigen::Vector2d>& points, const std::string& css_class);
   /// A path. Points closer than half a drawing unit to the previous one are skipped.
   void AddPath(const std::vector<Eigen::Vector2d>& points, const std::string& css_class);
   /// Segments, clipped at the axes.
@@ -73,9 +69,6 @@ class SvgPlot {
   /// A dot with a tool tip.
   void AddMarker(const Eigen::Vector2d& point, double radius, const std::string& css_class,
                  const std::string& tip);
-  /// A stretch of the strip above the plot, from x.min to x.max, with a tool tip.
-  void AddStrip(const PlotRange& x, const std::string& css_class, const std::string& tip);
-
   /// A row below the plot, in the bottom margin.
   void AddLegend(const std::vector<PlotLegendEntry>& entries);
 

@@ -32,8 +32,8 @@ Eigen::Matrix3d Covariance(const std::vector<Eigen::Vector3d>& positions) {
   return covariance;
 }
 
-}  // namespace
-
+// Mean over all frames of a direction given in the camera frame, in world. Its length measures how
+// well the directions agree (1: all equal).
 Eigen::Vector3d MeanDirection(const ReportData& data, const Eigen::Vector3d& direction_in_cam) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0.0;
@@ -44,6 +44,8 @@ Eigen::Vector3d MeanDirection(const ReportData& data, const Eigen::Vector3d& dir
   }
   return count > 0.0 ? Eigen::Vector3d(sum / count) : sum;
 }
+
+}  // namespace
 
 TrajectoryView ChooseTrajectoryView(const ReportData& data) {
   TrajectoryView view;

@@ -22,8 +22,4 @@ struct TrajectoryView {
 /// any), with the sign of the first camera's right.
 TrajectoryView ChooseTrajectoryView(const ReportData& data);
 
-/// Mean over all frames of a direction given in the camera frame, in world. Its length measures how
-/// well the directions agree (1: all equal).
-Eigen::Vector3d MeanDirection(const ReportData& data, const Eigen::Vector3d& direction_in_cam);
-
 }  // namespace msc_vo

@@ -18,20 +18,19 @@ void WritePageHead(const std::string& title, PageConnections connections, std::o
          "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; connect-src "
       << (connections == PageConnections::kItsServer ? "'self'" : "'none'") << "\">\n<title>"
       << EscapeHtml(title) << "</title>\n<style>" << kReportStyle;
-  if (HasViewer()) out << kViewerStyle;
-  out << "</style>\n</head>\n";
+  out << kViewerStyle << "</style>\n</head>\n";
 }
 
-void WriteViewerElements(std::ostream& out) {
-  if (HasViewer()) out << kViewerHtml;
-}
+void WriteViewerElements(std::ostream& out) { out << kViewerHtml; }
 
 void WriteViewerScripts(const std::string& run_json, std::ostream& out) {
-  if (!HasViewer()) return;
-  out << kRunDataElement << run_json << "</script>\n"
-      << "<script>\n/*\n"
-      << kThreeLicense << "*/\n"
-      << kThreeScript << "\n</script>\n"
+  out << kRunDataElement << run_json << "</script>\n<script>\n";
+  if (HasViewer()) {
+    out << "/*\n" << kThreeLicense << "*/\n" << kThreeScript;
+  } else {
+    out << "const THREE = {Mesh: Object};  // the scene then fails to start";
+  }
+  out << "\n</script>\n"
       << "<script>\n(() => {\n\"use strict\";\n"
       << kViewerScript << "})();\n</script>\n";
 }

@@ -20,11 +20,10 @@ enum class PageConnections { kNone, kItsServer };
 /// from loading anything else.
 void WritePageHead(const std::string& title, PageConnections connections, std::ostream& out);
 
-/// Writes the elements of the interactive part, hidden until its script runs. Nothing without
-/// HasViewer().
+/// Writes the elements of the interactive part, hidden until its script runs.
 void WriteViewerElements(std::ostream& out);
 
-/// Writes the data block and the scripts, at the end of <body>. Nothing without HasViewer().
+/// Writes the data block and the scripts, at the end of <body>.
 void WriteViewerScripts(const std::string& run_json, std::ostream& out);
 
 }  // namespace msc_vo

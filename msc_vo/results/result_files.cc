@@ -44,8 +44,10 @@ void TryTo(const std::function<void()>& write, std::string* problems) {
   }
 }
 
-// Writes a file even if the disk has only room for it in place of its earlier version, which a run
-// in progress has left. `num_bytes`: of this file and of those that follow.
+// Writes a file in place of its earlier version, which exists for files that are also written
+// during the run. If the disk is full, calls `make_room` with `num_bytes`, the size of this file
+// and of those that are still to be written; if there is no room, removes the earlier version,
+// provided that the file fits without it.
 void WriteResult(const std::string& path, const std::string& content, std::uintmax_t num_bytes,
                  const MakeRoom& make_room) {
   const auto make_more_room = [&](std::uintmax_t) {

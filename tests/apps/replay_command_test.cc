@@ -86,7 +86,7 @@ class ReplayCommandTest : public TemporaryFolder {
     EXPECT_THAT(ReadFile(Path(output + "/report.html")),
                 AllOf(HasSubstr("<dt>APE RMSE</dt><dd class=\"value\">" +
                                 FormatText("%.1f mm</dd>", millimetres)),
-                      HasSubstr("scene-line"), testing::EndsWith("</html>\n")));
+                      HasSubstr("map-line"), testing::EndsWith("</html>\n")));
   }
   // Waits until a running replay has written so many poses; at most a minute.
   void WaitForPoses(const std::string& output, int count) {

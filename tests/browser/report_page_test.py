@@ -46,10 +46,8 @@ class ReportPageTest(unittest.TestCase):
     def last_frame(self):
         return int(self.browser.find("#time-slider").get_property("max"))
 
-    def test_shows_the_viewer_in_place_of_the_static_scene(self):
+    def test_shows_the_viewer_and_plots(self):
         self.assertTrue(self.browser.find("#viewer").is_displayed())
-        self.assertFalse(self.browser.find("div.replaced").is_displayed())
-        self.assertFalse(self.browser.find("figure[data-chart=error] > svg").is_displayed())
         self.assertTrue(self.browser.find("figure[data-chart=error] .chart").is_displayed())
 
     def test_layers_can_be_hidden(self):
@@ -158,23 +156,24 @@ class ReportPageTest(unittest.TestCase):
         element.send_keys(Keys.ESCAPE)
         self.assertEqual(self.browser.find(curve).get_attribute("points"), whole)
 
-    def test_keeps_the_static_scene_without_webgl(self):
+    def test_has_plots_without_webgl(self):
         plain = browser.Browser("--disable-3d-apis")
         try:
             plain.driver.get(self.report.as_uri())
             plain.settle()
             self.assertFalse(plain.find("#scene-canvas").is_displayed())
-            self.assertTrue(plain.find("div.replaced").is_displayed())
+            self.assertTrue(plain.find("figure[data-chart=error] .chart").is_displayed())
+            self.assertTrue(plain.find("figure[data-zoom] > svg").is_displayed())
             plain.press(Keys.END)
             self.assertIn(f"frame {self.last_frame()}", plain.text("#time-label"))
         finally:
             plain.close()
 
-    def test_is_static_in_print(self):
+    def test_has_plots_in_print(self):
         self.browser.set_media(type="print")
         self.assertFalse(self.browser.find("#viewer").is_displayed())
-        self.assertTrue(self.browser.find("div.replaced").is_displayed())
-        self.assertTrue(self.browser.find("figure[data-chart=error] > svg").is_displayed())
+        self.assertTrue(self.browser.find("figure[data-chart=error] .chart").is_displayed())
+        self.assertTrue(self.browser.find("figure[data-zoom] > svg").is_displayed())
 
     def test_has_a_dark_theme(self):
         background = "return getComputedStyle(document.body).backgroundColor"

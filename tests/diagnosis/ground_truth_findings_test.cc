@@ -29,7 +29,7 @@ class GroundTruthTest : public TemporaryFolder {
     SequenceIndex index = OpenSequence(Folder());
     const Calibration calibration = ResolveCalibration(CameraSettings(), "", &index);
     truth_ = index.ground_truth;
-    track_ = TrackMotion(RgbdDecoder(index, calibration), FrameBuilderOptions(), kNumImages);
+    track_ = TrackMotion(RgbdDecoder(index, calibration), OdometryOptions(), kNumImages);
   }
 
   Findings Diagnose(const std::vector<TimedPose>& truth, double depth_scale = 5000.0,

@@ -152,13 +152,11 @@ TEST(SvgPlot, PlacesLegendEntriesInARow) {
 TEST(SvgPlot, EscapesNamesAndTips) {
   SvgPlot plot({960, 240}, {0.0, 1.0}, {0.0, 1.0});
   plot.AddAxes("a<b", "c&d");
-  plot.AddMarker({0.5, 0.5}, 2.0, "dot", "<tip>");
-  plot.AddStrip({0.0, 0.5}, "strip", "\"strip\"");
+  plot.AddMarker({0.5, 0.5}, 2.0, "dot", "<\"tip\">");
   const std::string svg = plot.ToString("e'f");
   EXPECT_THAT(svg, HasSubstr("a&lt;b"));
   EXPECT_THAT(svg, HasSubstr("c&amp;d"));
-  EXPECT_THAT(svg, HasSubstr("<title>&lt;tip&gt;</title>"));
-  EXPECT_THAT(svg, HasSubstr("&quot;strip&quot;"));
+  EXPECT_THAT(svg, HasSubstr("<title>&lt;&quot;tip&quot;&gt;</title>"));
   EXPECT_THAT(svg, HasSubstr("e&#39;f"));
 }
 

@@ -1,5 +1,4 @@
-// A plot over time that zooms and follows the current frame. It replaces a static figure on the
-// screen and has its colors.
+// A plot over time that zooms and follows the current frame.
 
 function svgElement(name, attributes) {
   const element = document.createElementNS("http://www.w3.org/2000/svg", name);
@@ -48,7 +47,6 @@ class Chart {
     this.svg = svgElement("svg");
     this.element.append(this.svg);
     figure.append(this.element);
-    figure.classList.add("upgraded");
     this.drag = null;
     for (const [name, listener] of [
              ["pointerdown", "onDown"], ["pointermove", "onMove"], ["pointerup", "onUp"],

@@ -48,7 +48,7 @@ function startSceneBar(model, scene) {
   return actions;
 }
 
-// The 3-D view, or null without WebGL; the static drawing then stays.
+// The 3-D view, or null without WebGL.
 function startScene(model) {
   try {
     return new SceneView(model, byId("scene-canvas"), byId("scene-image"));
@@ -105,8 +105,6 @@ function startPage() {
   startCharts(model);
   document.querySelectorAll("figure[data-zoom] > svg").forEach(makeZoomable);
   startKeys(model, timeline, scene ? startSceneBar(model, scene) : {});
-  if (scene) document.documentElement.classList.add("interactive");
-  else document.documentElement.classList.add("interactive", "without-scene");
   if (model.info.live) {
     new LiveClient(model, {
       bar: byId("live-bar"),

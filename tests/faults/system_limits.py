@@ -1,229 +1,22 @@
 #!/usr/bin/env python3
-"""Runs `msc_vo replay` and other commands with damaged input and under limits of the system.
+"""Runs `msc_vo replay` and other commands under limits of the system: memory, disk, signals, streams.
 
-    inputs_and_limits.py COMMAND [--only PART_OF_NAME]
+    system_limits.py COMMAND [--only PART_OF_NAME]
 
 Each run must complete, or end with an error that names the cause; none may end by a signal, leave a
 file that is not whole, or lose frames. Prints one line per fault; exit status 1 if any test failed.
 """
-import argparse
 import json
 import os
-import pathlib
-import random
 import resource
 import shutil
 import signal
-import struct
 import subprocess
 import sys
-import tempfile
 import time
-import zlib
 
 import replay_process
-from replay_process import Replay
-
-FRAMES = 40
-WIDTH, HEIGHT = 160, 120
-FAULTS = []
-
-
-def fault(function):
-    FAULTS.append(function)
-    return function
-
-
-def write_png(path, rows, channels, bits, width=WIDTH):
-    """`rows`: bytes of each row. 1 or 3 channels of 8 or 16 bits."""
-    def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-    header = struct.pack(">IIBBBBB", width, len(rows), bits, 2 if channels == 3 else 0, 0, 0, 0)
-    pixels = zlib.compress(b"".join(b"\0" + row for row in rows), 1)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", pixels) + chunk(b"IEND", b""))
-
-
-def write_color(path, value, width=WIDTH, height=HEIGHT):
-    write_png(path, [bytes([value]) * (3 * width)] * height, 3, 8, width)
-
-
-def write_depth(path, value):
-    write_png(path, [struct.pack(">H", value) * WIDTH] * HEIGHT, 1, 16)
-
-
-class Case:
-    """A copy of the sequence, and what is expected of runs on it."""
-
-    def __init__(self, replay, folder, source):
-        self.replay = replay
-        self.sequence = folder / "room"
-        self.output = folder / "out"
-        self.codes = []  # exit codes of the runs
-        shutil.copytree(source, self.sequence)
-
-    def images(self, kind):
-        rows = (self.sequence / f"{kind}.txt").read_text().splitlines()
-        return [self.sequence / row.split()[1] for row in rows if not row.startswith("#")]
-
-    def change_stamps(self, change):
-        """`change`: from the list of stamps to new ones, in every list but the ground truth."""
-        for name in ["rgb.txt", "depth.txt", "associations.txt"]:
-            path = self.sequence / name
-            if not path.exists():
-                continue
-            rows = [row.split() for row in path.read_text().splitlines() if not row.startswith("#")]
-            for column in (0, 2) if name == "associations.txt" else (0,):
-                stamps = change([float(row[column]) for row in rows])
-                for row, stamp in zip(rows, stamps):
-                    row[column] = f"{stamp:.6f}"
-            path.write_text("".join(" ".join(row) + "\n" for row in rows))
-
-    def arguments(self):
-        return [self.sequence, "--output", self.output, "--quiet", "--no-check", "--checkpoint-interval", "0"]
-
-    def run(self, *more, codes=(0,), says="", **options):
-        code, output = self.replay.run(*self.arguments(), *more, **options)
-        self.check(code, output, codes, says)
-        return output
-
-    def check(self, code, output, codes, says=""):
-        self.codes.append(code)
-        assert code in codes, f"exit code {code}: {output}"
-        assert says in output, f"'{says}' is missing: {output}"
-        if code == 1:
-            assert "msc_vo: error: " in output, output
-        damaged = replay_process.damaged_files(self.output)
-        assert not damaged, damaged
-
-    def check_remains(self):
-        """Nothing is left of files that could not be written."""
-        partial = [path.name for path in self.output.rglob("*.partial")]
-        assert not partial, f"{partial} remain"
-        folder = self.output / "checkpoint"
-        assert not folder.exists() or (folder / "state.bin").exists(), "a part of a checkpoint remains"
-
-    def resume(self, expected):
-        code, output = self.replay.run("--quiet", "--resume", self.output)
-        assert code == 0, f"exit code {code}: {output}"
-        different = replay_process.differences(self.output, expected)
-        assert not different, f"{different} differ"
-
-
-@fault
-def files_vanish(case, expected):
-    process = case.replay.start(*case.arguments())
-    replay_process.wait_for_frames(case.output, 5, process)
-    for path in case.images("rgb")[25:30]:
-        path.unlink()
-    output = process.communicate()[0].decode()
-    case.check(process.returncode, output, (0,), "5 of 40 images cannot be read")
-
-
-@fault
-def folder_vanishes(case, expected):
-    process = case.replay.start(*case.arguments())
-    replay_process.wait_for_frames(case.output, 5, process)
-    case.sequence.rename(case.sequence.with_name("elsewhere"))
-    output = process.communicate()[0].decode()
-    case.check(process.returncode, output, (0, 1))
-    assert replay_process.count_frames(case.output) >= 5
-
-
-@fault
-def folder_of_images_is_unreadable(case, expected):
-    # Root may read everything: run as another user.
-    user = {"user": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
-    case.output.mkdir(mode=0o777)
-    for path in [case.output, *case.output.parents[:1]]:
-        path.chmod(0o777)
-    (case.sequence / "rgb").chmod(0)
-    case.run(codes=(1,), says="cannot be read", **user)
-    (case.sequence / "rgb").chmod(0o755)
-
-
-@fault
-def clock_steps_back(case, expected):
-    case.change_stamps(lambda stamps: stamps[:20] + [stamp - 0.5 for stamp in stamps[20:]])
-    case.run(codes=(0, 3))
-
-
-@fault
-def stamps_are_equal(case, expected):
-    case.change_stamps(lambda stamps: [stamps[i - i % 2] for i in range(len(stamps))])
-    case.run(codes=(0, 3), says="warning")
-
-
-@fault
-def all_stamps_are_equal(case, expected):
-    case.change_stamps(lambda stamps: [stamps[0]] * len(stamps))
-    case.run(codes=(1,), says="only 1 of")
-
-
-@fault
-def truth_has_nan(case, expected):
-    path = case.sequence / "groundtruth.txt"
-    rows = path.read_text().splitlines()
-    rows[10] = " ".join(rows[10].split()[:1] + ["nan"] * 7)
-    path.write_text("\n".join(rows) + "\n")
-    case.run(codes=(0,), says="1 poses with nan or inf are left out")
-
-
-@fault
-def sizes_change(case, expected):
-    for path in case.images("rgb")[10:15]:
-        write_color(path, 90, 80, 60)
-    case.run(codes=(0,), says="5 of 40 images cannot be read")
-
-
-@fault
-def all_black(case, expected):
-    for path in case.images("rgb"):
-        write_color(path, 0)
-    case.run(codes=(3,), says="black or uniform")
-
-
-@fault
-def all_white(case, expected):
-    for path in case.images("rgb"):
-        write_color(path, 255)
-    case.run(codes=(3,), says="black or uniform")
-
-
-@fault
-def black_from_the_middle_on(case, expected):
-    for path in case.images("rgb")[15:]:
-        write_color(path, 0)
-    case.run(codes=(0, 3))
-
-
-@fault
-def depth_is_zero(case, expected):
-    for path in case.images("depth"):
-        write_depth(path, 0)
-    case.run(codes=(3,))
-
-
-@fault
-def depth_is_saturated(case, expected):
-    for path in case.images("depth"):
-        write_depth(path, 65535)
-    case.run(codes=(3,))
-
-
-@fault
-def images_are_noise(case, expected):
-    numbers = random.Random(1)
-    for path in case.images("rgb"):
-        write_png(path, [numbers.randbytes(3 * WIDTH) for _ in range(HEIGHT)], 3, 8)
-    for path in case.images("depth"):
-        write_png(path, [numbers.randbytes(2 * WIDTH) for _ in range(HEIGHT)], 1, 16)
-    case.run(codes=(0, 3))
-
-
-@fault
-def gap_of_ten_minutes(case, expected):
-    case.change_stamps(lambda stamps: stamps[:20] + [stamp + 600.0 for stamp in stamps[20:]])
-    case.run(codes=(0,))
+from fault_case import FRAMES, fault, run_faults
 
 
 @fault
@@ -454,35 +247,5 @@ def standard_error_is_a_full_pipe(case, expected):
     assert not replay_process.differences(case.output, expected)
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("command", type=pathlib.Path)
-    parser.add_argument("--only", default="", help="part of the name of a fault")
-    arguments = parser.parse_args()
-    replay = Replay(arguments.command)
-    failed = 0
-    with tempfile.TemporaryDirectory() as folder:
-        folder = pathlib.Path(folder)
-        folder.chmod(0o755)
-        source = folder / "room"
-        replay.synthesize(source, FRAMES)
-        expected = folder / "expected"
-        code, output = replay.run(source, "--quiet", "--no-check", "--output", expected)
-        assert code == 0, output
-        for test in FAULTS:
-            if arguments.only not in test.__name__:
-                continue
-            place = folder / test.__name__
-            try:
-                case = Case(replay, place, source)
-                note = test(case, expected)
-                print(f"{test.__name__}: {note or 'passed'}; exit codes {case.codes}", flush=True)
-            except (AssertionError, subprocess.TimeoutExpired) as error:
-                failed += 1
-                print(f"{test.__name__}: FAILED: {error}", flush=True)
-            shutil.rmtree(place, ignore_errors=True)
-    return 1 if failed else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_faults())

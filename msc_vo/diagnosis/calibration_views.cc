@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "apps/cli/calibration_views.h"
+#include "msc_vo/diagnosis/calibration_views.h"
 
 #include <memory>
 #include <optional>
@@ -16,8 +16,6 @@ namespace msc_vo {
 
 namespace {
 
-constexpr size_t kMaxViews = 80;
-
 // Velocity between two frames; std::nullopt unless both poses are estimated.
 std::optional<CameraVelocity> VelocityBetween(const FrameResult& before, const FrameResult& after) {
   if (!IsEstimated(before.status) || !IsEstimated(after.status)) return std::nullopt;
@@ -26,15 +24,15 @@ std::optional<CameraVelocity> VelocityBetween(const FrameResult& before, const F
   return CameraVelocity{LogSO3(motion.rotation()) / seconds, motion.translation() / seconds};
 }
 
-std::vector<size_t> SelectFrames(const std::vector<FrameResult>& frames) {
+std::vector<size_t> SelectFrames(const std::vector<FrameResult>& frames, size_t max_views) {
   std::vector<size_t> estimated;
   for (size_t i = 1; i + 1 < frames.size(); ++i) {
     if (frames[i].status == TrackingStatus::kTracked) estimated.push_back(i);
   }
-  if (estimated.size() <= kMaxViews) return estimated;
+  if (estimated.size() <= max_views) return estimated;
   std::vector<size_t> selected;
-  for (size_t i = 0; i < kMaxViews; ++i) {
-    selected.push_back(estimated[i * estimated.size() / kMaxViews]);
+  for (size_t i = 0; i < max_views; ++i) {
+    selected.push_back(estimated[i * estimated.size() / max_views]);
   }
   return selected;
 }
@@ -43,11 +41,11 @@ std::vector<size_t> SelectFrames(const std::vector<FrameResult>& frames) {
 
 CalibrationSequence MakeCalibrationViews(const RgbdDecoder& decoder,
                                          const FrameBuilderOptions& features,
-                                         const OdometryResult& result) {
+                                         const OdometryResult& result, size_t max_views) {
   const Calibration& calibration = decoder.calibration();
   FrameBuilder builder(features, calibration.camera, calibration.distortion);
   CalibrationSequence views;
-  for (const size_t i : SelectFrames(result.frames)) {
+  for (const size_t i : SelectFrames(result.frames, max_views)) {
     const auto velocity = VelocityBetween(result.frames[i - 1], result.frames[i + 1]);
     RgbdImage image = decoder.Decode(static_cast<int>(result.frames[i].id));
     if (velocity && image.depth_delay != 0.0) {

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstddef>
+
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/features/frame_builder.h"
 #include "msc_vo/odometry/odometry.h"
@@ -10,11 +12,11 @@
 
 namespace msc_vo {
 
-/// Decodes up to 80 evenly spaced images of a sequence whose pose was estimated, and extracts their
-/// points: with the depth at the time of the colour image, and without the rolling shutter if
+/// Decodes up to `max_views` evenly spaced images of a sequence that were tracked, and extracts
+/// their points: with the depth at the time of the colour image, and without the rolling shutter if
 /// `result` knows its readout time.
 CalibrationSequence MakeCalibrationViews(const RgbdDecoder& decoder,
                                          const FrameBuilderOptions& features,
-                                         const OdometryResult& result);
+                                         const OdometryResult& result, size_t max_views = 80);
 
 }  // namespace msc_vo
