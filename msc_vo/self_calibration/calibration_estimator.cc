@@ -21,7 +21,7 @@ namespace {
 // Pairs that are linearised again after a keyframe: more where depth images may not be registered,
 // whose large errors need several steps.
 constexpr size_t kMaxRelinearized = 2;
-constexpr size_t kMaxRelinearizedUnregistered = 4;
+constexpr size_t kMaxRelinearizedUnregistered = 2;
 // Iterations over all pairs before a correction is accepted.
 constexpr int kIterations = 3;
 // A correction in use is replaced when its standard deviation has shrunk to this ratio, and the
@@ -29,9 +29,9 @@ constexpr int kIterations = 3;
 constexpr double kSigmaRatio = 0.7;
 constexpr double kMinChange = 1.0;
 
-// Largest standard deviations with which a correction is accepted, a third of those of a wrong
-// calibration: of the logarithm of the focal length, of the principal point (focal lengths), of k1,
-// of the logarithm of the magnification of depth and of its roll. Chosen by measurement, see
+// Standard deviations up to which three of them are enough for a correction, a third of those of a
+// wrong calibration: of the logarithm of the focal length, of the principal point (focal lengths),
+// of k1, of the logarithm of the magnification of depth and of its roll. Chosen by measurement, see
 // docs/lab/self_calibration.md.
 constexpr double kMaxFocalLengthSigma = 0.01;
 constexpr double kMaxCenterSigma = 0.0067;
@@ -42,17 +42,26 @@ constexpr double kMaxRollSigma = DegreesToRadians(0.33);
 // given one is right.
 constexpr double kKnownFocalLengthSigma = 0.015;
 
+// Posterior odds above which a correction is accepted if the pairs alone hold the given value for
+// more likely wrong than right. Chosen by measurement, see docs/lab/self_calibration.md.
+constexpr double kAgreedOdds = 2.0;
+
 // Keyframes in succession at which a group has to be a candidate. Chosen by measurement, see
 // docs/lab/self_calibration.md.
 constexpr int kMinCandidacy = 3;
 
-// Pairs after which their estimation ends if the colour camera is certain; and if it is not: the
-// pairs in memory have been replaced by then, so that further ones tell as much as these.
+// Pairs after which their estimation ends if the colour camera is certain and may be wrong; and if
+// it is not certain: the pairs in memory have been replaced by then, so that further ones contain
+// as much information as these.
 constexpr size_t kSettledPairs = 150;
 constexpr size_t kLastPair = 2 * kSettledPairs;
 
 // Bundle adjustment is repeated when the map has grown by half, up to this size.
 constexpr size_t kLastSize = 60;
+// Its observations while nothing is corrected, a bound of the computing time, and afterwards.
+// Chosen by measurement, see docs/lab/self_calibration.md.
+constexpr size_t kNumCheckedObservations = 3000;
+constexpr size_t kNumRefiningObservations = 6000;
 // It replaces a correction that moves a pixel by more than this, radians: a tenth of the noise of a
 // point.
 constexpr double kMinShift = 2e-4;
@@ -60,30 +69,39 @@ constexpr double kMinShift = 2e-4;
 constexpr CorrectionGroups kAll = {true, true, true, true};
 constexpr auto kRegistration = static_cast<size_t>(CorrectionGroup::kDepthRegistration);
 
-// Whether the parameters of a group are certain enough for a correction to be an improvement. What
-// the model of the sensor leaves out looks like errors of parameters that are hardly observable.
-bool IsCertain(CorrectionGroup group, const SensorCorrection::Vector& sigma) {
+// Uncertainty of a group: its standard deviations in units of the largest ones with which it is
+// certain enough.
+double Uncertainty(CorrectionGroup group, const SensorCorrection::Vector& sigma) {
   using S = SensorCorrection;
   switch (group) {
     case CorrectionGroup::kFocalLength:
-      return sigma(S::kFocalLength) < kMaxFocalLengthSigma;
+      return sigma(S::kFocalLength) / kMaxFocalLengthSigma;
     case CorrectionGroup::kPrincipalPoint:
-      return std::max(sigma(S::kCenterX), sigma(S::kCenterY)) < kMaxCenterSigma;
+      return std::max(sigma(S::kCenterX), sigma(S::kCenterY)) / kMaxCenterSigma;
     case CorrectionGroup::kLens:
-      return sigma(S::kK1) < kMaxK1Sigma;
+      return sigma(S::kK1) / kMaxK1Sigma;
     case CorrectionGroup::kDepthRegistration:
-      return sigma(S::kDepthFocalLength) < kMaxMagnificationSigma &&
-             sigma(S::kDepthRoll) < kMaxRollSigma &&
-             sigma(S::kFocalLength) < kKnownFocalLengthSigma;
+      return std::max({sigma(S::kDepthFocalLength) / kMaxMagnificationSigma,
+                       sigma(S::kDepthRoll) / kMaxRollSigma,
+                       sigma(S::kFocalLength) / kKnownFocalLengthSigma});
   }
-  return false;
+  return 0.0;
 }
 
-// Whether an error of the colour camera is so large, six standard deviations, that its correction
-// is an improvement without being certain.
-bool IsLarge(CorrectionGroup group, CorrectionEstimate estimate) {
-  estimate.sigma *= 2.0;
-  return group != CorrectionGroup::kDepthRegistration && IsSignificant(group, estimate);
+bool IsCertain(CorrectionGroup group, const SensorCorrection::Vector& sigma) {
+  return Uncertainty(group, sigma) < 1.0;
+}
+
+// Whether a group is known well enough for its correction to be an improvement. What the model of
+// the sensor leaves out looks like errors of parameters that are hardly observable. If the colour
+// camera is not certain, its error has to exceed more than three standard deviations: as many times
+// more as it is uncertain.
+bool IsImprovement(CorrectionGroup group, CorrectionEstimate estimate) {
+  estimate.sigma = WithRegistrationErrors(estimate.sigma);
+  const double uncertainty = Uncertainty(group, estimate.sigma);
+  if (group == CorrectionGroup::kDepthRegistration && uncertainty >= 1.0) return false;
+  estimate.sigma *= std::max(1.0, uncertainty);
+  return IsSignificant(group, estimate);
 }
 
 // Whether the registration of depth is as given or corrected, so that its error cannot look like
@@ -168,12 +186,23 @@ bool CalibrationEstimator::Update(const Map& map, KeyframeId newest,
   return false;
 }
 
+CorrectionEstimate CalibrationEstimator::estimate() const {
+  CorrectionEstimate estimate = estimate_;
+  estimate.sigma = WithRegistrationErrors(estimate.sigma);
+  return estimate;
+}
+
 bool CalibrationEstimator::IsEnough(double readout_sigma) const {
   if (pairs_.num_added() >= kLastPair) return true;
-  const SensorCorrection::Vector sigma = EstimateCorrections(pairs_.Sum(readout_sigma), kAll).sigma;
-  return pairs_.num_added() >= kSettledPairs &&
-         std::all_of(kColorGroups.begin(), kColorGroups.end(),
-                     [&](CorrectionGroup group) { return IsCertain(group, sigma); });
+  const CorrectionEstimate by_pairs = Judge(pairs_.Sum(readout_sigma));
+  const bool is_certain =
+      std::all_of(kColorGroups.begin(), kColorGroups.end(),
+                  [&](CorrectionGroup group) { return IsCertain(group, by_pairs.sigma); });
+  if (!is_certain) return false;
+  const bool is_right =
+      std::all_of(by_pairs.log_odds.begin(), by_pairs.log_odds.end(),
+                  [](double log_odds) { return log_odds < -std::log(kAcceptedOdds); });
+  return is_right || pairs_.num_added() >= kSettledPairs;
 }
 
 std::shared_ptr<const CameraIntrinsics> CalibrationEstimator::MakeCorrected(
@@ -254,15 +283,13 @@ CorrectionEstimate CalibrationEstimator::Select(double readout_sigma) const {
   CorrectionGroups wrong = before;
   for (size_t g = 0; g < wrong.size(); ++g) {
     const bool agrees = of_map_ && g != kRegistration && is_suspected_[g];
-    const double required = agrees ? 0.0 : std::log(kAcceptedOdds);
-    const auto group = static_cast<CorrectionGroup>(g);
-    wrong[g] = before[g] || (IsLastingCandidate(g) && judged.log_odds[g] > required &&
-                             (IsCertain(group, judged.sigma) || IsLarge(group, judged)));
+    const double required = std::log(agrees ? kAgreedOdds : kAcceptedOdds);
+    wrong[g] = before[g] || (IsLastingCandidate(g) && judged.log_odds[g] > required);
   }
   if (pairs_.num_added() < next_registration_) wrong[kRegistration] = before[kRegistration];
   const CorrectionEstimate estimate = Estimate(readout_sigma, wrong);
   for (size_t g = 0; g < wrong.size(); ++g) {
-    wrong[g] = before[g] || (wrong[g] && IsSignificant(static_cast<CorrectionGroup>(g), estimate));
+    wrong[g] = before[g] || (wrong[g] && IsImprovement(static_cast<CorrectionGroup>(g), estimate));
   }
   const bool is_in_doubt = judged.log_odds[kRegistration] > 0.0 && !wrong[kRegistration];
   const bool is_new = wrong[kRegistration] && !before[kRegistration];
@@ -341,7 +368,10 @@ bool CalibrationEstimator::Adjust(const Map& map) {
   adjusted_size_ = map.keyframes().size();
   next_size_ =
       adjusted_size_ < kLastSize ? NextSize(adjusted_size_) : std::numeric_limits<size_t>::max();
-  const auto information = SelfCalibratingBundleAdjustment(*given_, map, estimate_.correction);
+  const size_t max_observations =
+      CorrectsColor(applied_) ? kNumRefiningObservations : kNumCheckedObservations;
+  const auto information =
+      SelfCalibratingBundleAdjustment(*given_, map, estimate_.correction, max_observations);
   if (!information) return false;
   of_map_ = information;
   is_map_corrected_ = CorrectsColor(applied_);

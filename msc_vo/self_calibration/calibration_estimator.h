@@ -32,7 +32,7 @@ class CalibrationEstimator {
   bool Update(const Map& map, KeyframeId newest,
               const std::shared_ptr<const RecordedImage>& recorded,
               const std::vector<CalibrationImage>& images, double readout_sigma);
-  /// Whether further pairs would tell nothing new: Update() needs no further images, which may be
+  /// Whether the estimation from pairs has ended: Update() needs no further images, which may be
   /// null then, and keeps none.
   bool IsSettled() const { return pairs_.is_closed(); }
   /// Reports another readout time of a rolling shutter, seconds.
@@ -47,8 +47,9 @@ class CalibrationEstimator {
   /// The calibration in use: the given one until a correction is accepted.
   const std::shared_ptr<const CameraIntrinsics>& present() const { return present_; }
   /// The estimate; nothing is corrected until a correction is accepted. Standard deviations and
-  /// odds are those of the pairs and the map, whose images have errors in common.
-  const CorrectionEstimate& estimate() const { return estimate_; }
+  /// odds are those of the pairs and the map, whose images have errors in common; see also
+  /// WithRegistrationErrors().
+  CorrectionEstimate estimate() const;
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
@@ -64,7 +65,8 @@ class CalibrationEstimator {
   // The given calibration with a correction; null if there can be no such camera.
   std::shared_ptr<const CameraIntrinsics> MakeCorrected(
       const SensorCorrection::Vector& correction) const;
-  // Whether further pairs would tell nothing new.
+  // Whether the estimation from pairs can end: the given calibration is certainly right, or further
+  // pairs would hardly add information.
   bool IsEnough(double readout_sigma) const;
   // Linearises pairs again, at the present optimum of all parameters.
   void Linearize(double readout_sigma, size_t max_pairs);
@@ -80,9 +82,9 @@ class CalibrationEstimator {
   CorrectionEstimate Select(double readout_sigma) const;
   // Accepts corrections. Returns true if there are new ones.
   bool SelectGroups(double readout_sigma);
-  // Gives up corrections of what is more likely right than wrong by now, if they are not
-  // significant any more or the odds are as clear as those that accept one. Returns true if there
-  // are any.
+  // Takes back the corrections of groups whose given value has become the more likely one, if they
+  // are no longer significant or the odds against them are as clear as those that accept one.
+  // Returns true if there are any.
   bool TakeBack(double readout_sigma);
   // Whether the estimate differs enough from the calibration in use to replace it.
   bool IsReplacementDue(bool is_adjusted) const;

@@ -184,7 +184,9 @@ bool IsObservable(int index, double sigma) {
 bool IsSignificant(CorrectionGroup group, const CorrectionEstimate& estimate) {
   const std::vector<int>& indices = IndicesOf(group);
   return std::any_of(indices.begin(), indices.end(), [&](int i) {
-    return std::abs(estimate.correction(i)) > kMinSigmas * estimate.sigma(i);
+    // A small correction of k1 with a large one of k2 stands for errors that are not in the model.
+    return i != SensorCorrection::kK2 &&
+           std::abs(estimate.correction(i)) > kMinSigmas * estimate.sigma(i);
   });
 }
 
@@ -230,6 +232,14 @@ CorrectionEstimate SelectCorrections(const CalibrationInformation& information,
   CorrectionEstimate estimate = EstimateCorrections(information, GroupsOf(best));
   estimate.log_odds = LogOddsOf(evidence);
   return estimate;
+}
+
+SensorCorrection::Vector WithRegistrationErrors(SensorCorrection::Vector sigma) {
+  for (const int i : IndicesOf(CorrectionGroup::kDepthRegistration)) {
+    sigma(i) =
+        std::min(std::hypot(sigma(i), GoodCalibrationSigma()(i)), WrongCalibrationSigma()(i));
+  }
+  return sigma;
 }
 
 std::array<double, kNumCorrectionGroups> GroupLogOdds(const CalibrationInformation& information) {

@@ -59,14 +59,18 @@ SensorCorrection::Vector WrongCalibrationSigma();
 /// `sigma` is well below the prior one.
 bool IsObservable(int index, double sigma);
 
-/// Whether a parameter of a group that is corrected differs from the given value by more than three
-/// of its standard deviations.
+/// Whether a parameter of a group that is corrected, of the lens k1, differs from the given value
+/// by more than three of its standard deviations.
 bool IsSignificant(CorrectionGroup group, const CorrectionEstimate& estimate);
 
 /// Estimates the corrections of the model in which exactly the groups `wrong` are wrong: those that
 /// go best with the given values of the colour camera's other groups.
 CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,
                                        const CorrectionGroups& wrong);
+
+/// Standard deviations with the errors of registered depth images that the model of the sensor
+/// leaves out, which all pairs of images have in common: as large as those of a good registration.
+SensorCorrection::Vector WithRegistrationErrors(SensorCorrection::Vector sigma);
 
 /// CorrectionEstimate::log_odds.
 std::array<double, kNumCorrectionGroups> GroupLogOdds(const CalibrationInformation& information);

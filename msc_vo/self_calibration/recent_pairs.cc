@@ -19,10 +19,11 @@ namespace msc_vo {
 namespace {
 
 // Bounds of memory and of computing time.
-constexpr size_t kMaxViews = 24;
+constexpr size_t kMaxViews = 16;
 constexpr size_t kMaxPairs = 160;
 constexpr size_t kMaxTries = 3;  // keyframes that an image is matched with
 constexpr size_t kMaxSamples = 300;
+constexpr size_t kRankingStep = 3;  // between the samples by which keyframes are ranked
 constexpr size_t kMaxMatches = 100;
 constexpr size_t kMaxPoints = 60;  // with surfaces
 // Displacement, radians, from which on a point tells no more about the calibration.
@@ -35,7 +36,7 @@ constexpr double kLargeReadoutChange = 0.005;
 // Distance of the linearisation point that calls for a new one, standard deviations.
 constexpr double kMaxDistance = 0.5;
 // Pairs whose images are kept: a bound of the memory.
-constexpr size_t kMaxImages = 48;
+constexpr size_t kMaxImages = 32;
 // Displacement of the depth image, pixels of an image that is 640 wide, by which a surface leaves
 // the window that it was fitted to.
 constexpr double kMaxSurfaceShift = 2.0;
@@ -153,7 +154,8 @@ void RecentPairs::AddPair(const Map& map, const Partner& partner,
     const Rigid3 b_from_a = partner.cam_from_world * keyframe->cam_from_world.Inverse();
     double sum = 0.0;
     size_t count = 0;
-    for (const Sample& sample : view.samples) {
+    for (size_t i = 0; i < view.samples.size(); i += kRankingStep) {
+      const Sample& sample = view.samples[i];
       if (!frame.points[sample.feature].HasDepth()) continue;
       const Eigen::Vector3d in_b = b_from_a * frame.PointInCamera(sample.feature);
       if (in_b.z() < kMinCameraDepth) continue;
@@ -163,7 +165,8 @@ void RecentPairs::AddPair(const Map& map, const Partner& partner,
       sum += std::min(pixels / focal_length, kMaxDisplacement);
       ++count;
     }
-    if (count >= kMinPairPoints && sum > kMinDisplacement * static_cast<double>(count)) {
+    if (kRankingStep * count >= kMinPairPoints &&
+        sum > kMinDisplacement * static_cast<double>(count)) {
       ranked.emplace_back(-sum, &view);
     }
   }
@@ -180,6 +183,7 @@ void RecentPairs::AddPair(const Map& map, const Partner& partner,
     if (pairs_.size() > kMaxImages) {
       Pair& old = pairs_[pairs_.size() - kMaxImages - 1];
       old.image_a = old.image_b = nullptr;
+      old.points = WithSurfaces(old.points);
     }
     return;
   }

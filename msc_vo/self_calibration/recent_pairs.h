@@ -95,7 +95,7 @@ class RecentPairs {
     std::vector<CalibrationPoint> points;  // some have no surface
     Rigid3 b_from_a;
     double squared_shift_rate = 0.0;  // sum over both images
-    // Null once the pair is old: surfaces are not looked for again.
+    // Null once the pair is old: surfaces are not looked for again, and points have one.
     std::shared_ptr<const RecordedImage> image_a, image_b;
     SensorCorrection::Vector surfaces_at = SensorCorrection::Vector::Zero();
     SensorCorrection::Vector at = SensorCorrection::Vector::Zero();  // of the linearisation

@@ -18,7 +18,7 @@ namespace msc_vo {
 class RecordedImages {
  public:
   /// A bound of the memory; the registration of most recordings is decided within as many.
-  static constexpr size_t kMaxImages = 24;
+  static constexpr size_t kMaxImages = 16;
 
   void Add(KeyframeId keyframe, const std::shared_ptr<const RecordedImage>& image);
   void Clear() { images_.clear(); }

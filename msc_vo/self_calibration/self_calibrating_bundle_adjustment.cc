@@ -33,7 +33,6 @@ constexpr int kColorSize = S::kColorSize;
 using ColorVector = Eigen::Matrix<double, kColorSize, 1>;
 
 // Bounds of the computing time.
-constexpr size_t kMaxObservations = 6000;
 constexpr size_t kMaxKeyframes = 100;
 constexpr int kMaxIterations = 25;
 // Relative change of the cost that ends the iteration: with thousands of residuals of size one, a
@@ -57,7 +56,7 @@ bool IsInFront(const Map& map, const PointLandmark& point, KeyframeId keyframe) 
 }
 
 // The points with most observations, in order of their ids.
-std::vector<LandmarkId> SelectPoints(const Map& map) {
+std::vector<LandmarkId> SelectPoints(const Map& map, size_t max_observations) {
   std::vector<std::pair<size_t, LandmarkId>> ranked;
   for (const auto& [id, point] : map.points()) {
     if (point.observations.size() >= 2) ranked.emplace_back(point.observations.size(), id);
@@ -68,7 +67,7 @@ std::vector<LandmarkId> SelectPoints(const Map& map) {
   size_t num_observations = 0;
   for (const auto& [count, id] : ranked) {
     num_observations += count;
-    if (num_observations > kMaxObservations) break;
+    if (num_observations > max_observations) break;
     selected.push_back(id);
   }
   std::sort(selected.begin(), selected.end());
@@ -124,9 +123,10 @@ SelfCalibratingReprojection::Measurement MeasurementOf(const Keyframe& keyframe,
 // the allocator.
 class SelfCalibrationProblem {
  public:
-  SelfCalibrationProblem(const CameraIntrinsics& given, const Map& map, const ColorVector& start)
+  SelfCalibrationProblem(const CameraIntrinsics& given, const Map& map, const ColorVector& start,
+                         size_t max_observations)
       : camera_(given.camera, given.distortion), correction_(start) {
-    const std::vector<LandmarkId> points = SelectPoints(map);
+    const std::vector<LandmarkId> points = SelectPoints(map, max_observations);
     const std::set<KeyframeId> keyframes = SelectKeyframes(map, points);
     for (const KeyframeId id : keyframes) {
       pose_index_.emplace(id, poses_.size());
@@ -272,8 +272,9 @@ class SelfCalibrationProblem {
 }  // namespace
 
 std::optional<CalibrationInformation> SelfCalibratingBundleAdjustment(
-    const CameraIntrinsics& given, const Map& map, const SensorCorrection::Vector& start) {
-  SelfCalibrationProblem problem(given, map, start.head<kColorSize>());
+    const CameraIntrinsics& given, const Map& map, const SensorCorrection::Vector& start,
+    size_t max_observations) {
+  SelfCalibrationProblem problem(given, map, start.head<kColorSize>(), max_observations);
   if (problem.num_observations() < kMinObservations || !problem.Solve()) return std::nullopt;
   return problem.Marginalize();
 }

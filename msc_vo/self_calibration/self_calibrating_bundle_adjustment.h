@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "msc_vo/camera/camera_intrinsics.h"
@@ -17,7 +18,9 @@ namespace msc_vo {
 /// All frames must know their intrinsics. Depth is down-weighted and mainly fixes the scale, so
 /// that its errors are not taken for those of the colour camera. Point errors are independent.
 /// Returns std::nullopt if there are too few observations, or the solver fails.
+/// `max_observations`: a bound of the computing time.
 std::optional<CalibrationInformation> SelfCalibratingBundleAdjustment(
-    const CameraIntrinsics& given, const Map& map, const SensorCorrection::Vector& start);
+    const CameraIntrinsics& given, const Map& map, const SensorCorrection::Vector& start,
+    size_t max_observations = 6000);
 
 }  // namespace msc_vo

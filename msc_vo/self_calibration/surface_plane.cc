@@ -26,19 +26,45 @@ constexpr double kMaxRms = 1.5;
 // Steps to the intersection of a viewing ray with the surface of an unregistered depth image.
 constexpr int kSteps = 2;
 
+// The pixels around the one that is nearest to a point, at equal distances.
 template <typename Depth>
-std::optional<InverseDepthPlane> FitPlane(const Depth& depth, int width,
-                                          const Eigen::Vector2d& pixel) {
-  // A wider image has the same number of pixels in its window, at a larger distance.
-  const int step = ReducingStep(width);
-  const int radius = ScaledLength(kRadius / step, width, 2);
-  const int center_x = cvRound(pixel.x());
-  const int center_y = cvRound(pixel.y());
+struct Neighbors;
+
+// A wide image has about as many in a window as one of 640 pixels.
+template <>
+struct Neighbors<InverseDepthImage> {
+  Neighbors(const InverseDepthImage& image, int width, const Eigen::Vector2d& point)
+      : depth(image), step(ReducingStep(width)), x(cvRound(point.x())), y(cvRound(point.y())) {}
+  Eigen::Vector2d Center() const { return Eigen::Vector2d(x, y); }
+  double At(int i, int j) const { return depth.At(x + step * i, y + step * j); }
+
+  const InverseDepthImage& depth;
+  int step, x, y;
+};
+
+// Those that are kept.
+template <>
+struct Neighbors<RecordedImage> {
+  Neighbors(const RecordedImage& image, int /*width*/, const Eigen::Vector2d& point)
+      : depth(image),
+        step(image.step()),
+        column(cvRound(point.x() / step)),
+        row(cvRound(point.y() / step)) {}
+  Eigen::Vector2d Center() const { return step * Eigen::Vector2d(column, row); }
+  double At(int i, int j) const { return depth.At(column + i, row + j); }
+
+  const RecordedImage& depth;
+  int step, column, row;
+};
+
+template <typename Depth>
+std::optional<InverseDepthPlane> FitPlane(const Neighbors<Depth>& neighbors, int width) {
+  const int radius = ScaledLength(kRadius / neighbors.step, width, 2);
   double squares = 0.0, sum_w = 0.0, sum_xw = 0.0, sum_yw = 0.0;
   int count = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0, sum_yy = 0;
   for (int y = -radius; y <= radius; ++y) {
     for (int x = -radius; x <= radius; ++x) {
-      const double w = depth.At(center_x + step * x, center_y + step * y);
+      const double w = neighbors.At(x, y);
       if (w <= 0.0) continue;
       sum_x += x;
       sum_y += y;
@@ -60,7 +86,7 @@ std::optional<InverseDepthPlane> FitPlane(const Depth& depth, int width,
   const double variance = std::max(0.0, squares - plane.dot(rhs)) / (count - 3);
   const double limit = kMaxRms * SensorNoiseOptions().inverse_depth_noise;
   if (variance > limit * limit) return std::nullopt;
-  return InverseDepthPlane{{center_x, center_y}, plane.x(), plane.tail<2>() / step};
+  return InverseDepthPlane{neighbors.Center(), plane.x(), plane.tail<2>() / neighbors.step};
 }
 
 }  // namespace
@@ -68,15 +94,16 @@ std::optional<InverseDepthPlane> FitPlane(const Depth& depth, int width,
 template <typename Depth>
 std::optional<InverseDepthPlane> FindSurface(const LinearizedCamera& camera, const Depth& depth,
                                              const Eigen::Vector2d& pixel) {
+  const int width = camera.given().width;
   const Eigen::Vector2d at_infinity = camera.DepthPixelAtInfinity(pixel);
   Eigen::Vector2d depth_pixel = at_infinity;
   if (camera.parallax().norm() > 0.0) {
     for (int i = 0; i < kSteps; ++i) {
-      const double w = depth.At(cvRound(depth_pixel.x()), cvRound(depth_pixel.y()));
+      const double w = Neighbors<Depth>(depth, width, depth_pixel).At(0, 0);
       depth_pixel = at_infinity + w * camera.parallax();
     }
   }
-  return FitPlane(depth, camera.given().width, depth_pixel);
+  return FitPlane(Neighbors<Depth>(depth, width, depth_pixel), width);
 }
 
 template std::optional<InverseDepthPlane> FindSurface(const LinearizedCamera&,

@@ -11,8 +11,8 @@
 
 namespace msc_vo {
 
-/// An RGB-D image as recorded, kept for self-calibration. Its depth has 16 bits per pixel, in
-/// quarters of a millimetre up to 16 m.
+/// An RGB-D image as recorded, reduced to about 320 pixels in width and kept for self-calibration.
+/// Its depth has 16 bits per pixel, in quarters of a millimetre up to 16 m.
 class RecordedImage {
  public:
   RecordedImage() = default;
@@ -20,27 +20,33 @@ class RecordedImage {
   /// measurement. Of equal size.
   RecordedImage(const cv::Mat& gray, const cv::Mat& depth);
 
-  /// Inverse depth of pixel (x, y), 1/metres; 0: no measurement, or outside the image.
-  double At(int x, int y) const {
-    if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return 0.0;
-    const uint16_t units = depth_[static_cast<size_t>(y) * columns_ + x];
+  /// Distance of the pixels that are kept, in pixels of the full image.
+  int step() const { return step_; }
+  /// Inverse depth, 1/metres, of the pixel whose coordinates in the full image are step() times
+  /// `column` and `row`; 0: no measurement, or outside the image.
+  double At(int column, int row) const {
+    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return 0.0;
+    const uint16_t units = depth_[static_cast<size_t>(row) * columns_ + column];
     return units > 0 ? kUnitsPerMetre / units : 0.0;
   }
-  /// CV_32FC1, metres; 0: no measurement.
+  /// CV_32FC1 of the full size, metres; 0: no measurement. Pixels that are not kept have the depth
+  /// of a neighbour.
   cv::Mat Depth() const;
-  /// CV_8UC1.
+  /// CV_8UC1 of the full size. Pixels have the mean of those that were reduced to one.
   cv::Mat Gray() const;
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [rows, columns, gray, depth] = *this;  // all members, or it does not compile
-    archive(rows, columns, gray, depth);
+    auto& [size, step, rows, columns, gray, depth] = *this;  // all members, or it does not compile
+    archive(size.width, size.height, step, rows, columns, gray, depth);
   }
 
  private:
   static constexpr double kUnitsPerMetre = 4000.0;
 
+  cv::Size size_;  // of the full image
+  int step_ = 1;
   int rows_ = 0;
   int columns_ = 0;
   std::vector<uint8_t> gray_;

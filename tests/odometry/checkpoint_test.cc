@@ -190,9 +190,9 @@ TEST(CheckpointOfSelfCalibration, ContinuesWithACorrectedCalibration) {
   SyntheticSequenceOptions room = RoomOptions();
   room.fps = 5.0;
   PinholeCamera given = SyntheticSequence(room).camera();
-  given.fx *= 1.2;
-  given.fy *= 1.2;
-  const std::vector<RgbdImage> images = RenderImages(room, 54);
+  given.fx *= 1.1;
+  given.fy *= 1.1;
+  const std::vector<RgbdImage> images = RenderImages(room, 34);
   const auto make = [&](int threads) {
     return std::make_unique<Odometry>(Options(threads), given, LensDistortion());
   };

@@ -163,28 +163,31 @@ TEST(CalibrationEstimator, AcceptsNothingThatAPathDoesNotTell) {
             0.9 * WrongCalibrationSigma()(S::kFocalLength));
 }
 
-// A run that ends as soon as a correction is accepted.
+// A run that ends as soon as a correction is accepted, or after 40 keyframes.
 struct Acceptance {
   int first_candidacy = -1;  // keyframe
   int keyframe = -1;
+  double sigma = 0.0;   // of the logarithm of the focal length
   double sigmas = 0.0;  // of the correction that is accepted
 };
 
-Acceptance FindAcceptance(double focal_length, bool has_landmarks) {
+Acceptance FindAcceptance(double focal_length, bool has_landmarks, double motion = 1.0) {
   S::Vector truth = S::Vector::Zero();
   truth(S::kFocalLength) = focal_length;
   SimulatedRun run(truth, has_landmarks);
   Acceptance acceptance;
   for (int i = 0; i < 40 && acceptance.keyframe < 0; ++i) {
-    const bool is_changed = run.Add(SimulatedCamera::PoseOf(i));
+    const Rigid3 pose = SimulatedCamera::PoseOf(i);
+    const bool is_changed =
+        run.Add({ExpSO3(motion * LogSO3(pose.rotation())), motion * pose.translation()});
     const CorrectionEstimate& estimate = run.estimator().estimate();
+    acceptance.sigma = estimate.sigma(S::kFocalLength);
     if (acceptance.first_candidacy < 0 && estimate.log_odds[0] > std::log(kCandidateOdds)) {
       acceptance.first_candidacy = i;
     }
     if (!is_changed) continue;
     acceptance.keyframe = i;
-    acceptance.sigmas =
-        std::abs(estimate.correction(S::kFocalLength)) / estimate.sigma(S::kFocalLength);
+    acceptance.sigmas = std::abs(estimate.correction(S::kFocalLength)) / acceptance.sigma;
   }
   return acceptance;
 }
@@ -206,6 +209,23 @@ TEST(CalibrationEstimator, AcceptsNoCorrectionBelowThreeSigmas) {
     EXPECT_GT(acceptance.sigmas, 3.0) << focal_length;
   }
   EXPECT_GE(num_accepted, 2);
+}
+
+// The paths leave the focal length so uncertain that three standard deviations are not enough.
+TEST(CalibrationEstimator, RequiresMoreSigmasOfWhatIsUncertain) {
+  constexpr double kMotion = 0.3;
+  constexpr double kCertain = 0.01;
+  for (const double focal_length : {-0.12, -0.2}) {
+    const Acceptance large = FindAcceptance(focal_length, false, kMotion);
+    ASSERT_GE(large.keyframe, 0) << focal_length;
+    EXPECT_GT(large.sigma, kCertain);
+    EXPECT_GT(large.sigmas, 3.0 * large.sigma / kCertain);
+  }
+  const Acceptance small = FindAcceptance(-0.05, false, kMotion);
+  EXPECT_GE(small.first_candidacy, 0);
+  EXPECT_LT(small.keyframe, 0);
+  EXPECT_GT(small.sigma, kCertain);
+  EXPECT_GT(0.05, 3.0 * small.sigma);
 }
 
 TEST(KeyframeIntrinsics, MovesFeaturesAndLandmarksTogether) {

@@ -70,6 +70,17 @@ TEST(CalibrationEvidence, IsSignificantIfOneParameterIs) {
   EXPECT_FALSE(IsSignificant(CorrectionGroup::kFocalLength, estimate));
 }
 
+// A lens that is not in the model changes k2 first.
+TEST(CalibrationEvidence, JudgesALensByK1) {
+  CorrectionEstimate estimate;
+  estimate.sigma.setConstant(0.01);
+  estimate.correction(S::kK2) = 0.1;
+  estimate.correction(S::kK1) = 0.029;
+  EXPECT_FALSE(IsSignificant(CorrectionGroup::kLens, estimate));
+  estimate.correction(S::kK1) = -0.031;
+  EXPECT_TRUE(IsSignificant(CorrectionGroup::kLens, estimate));
+}
+
 TEST(CalibrationEvidence, LeavesUnobservableParametersAtThePrior) {
   const auto estimate = SelectCorrections(Measured({{S::kFocalLength, {0.03, 0.002}}}));
   EXPECT_NEAR(estimate.sigma(S::kK1), WrongCalibrationSigma()(S::kK1), 1e-12);

@@ -23,7 +23,7 @@ namespace {
 
 using S = SensorCorrection;
 
-// The number of pairs that the estimate requires.
+// The number of pairs that the estimate requires if the given calibration may be wrong.
 constexpr int kSettledPairs = 150;
 
 // An image, its features and its pose.
@@ -146,13 +146,27 @@ class SettledRun {
 };
 
 // All images but the first one form a pair.
-TEST(SettledCalibration, NeedsEnoughPairs) {
-  SettledRun run(Record(S::Vector::Zero(), HandHeldPoses()));
+TEST(SettledCalibration, NeedsEnoughPairsOfAWrongCalibration) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kFocalLength) = -0.05;
+  SettledRun run(Record(truth, HandHeldPoses()));
   for (int i = 0; i < 5; ++i) run.Add(0);
   run.Add(kSettledPairs - 6);
   EXPECT_FALSE(run.estimator().IsSettled());
   run.Add(0);
   EXPECT_TRUE(run.estimator().IsSettled());
+}
+
+TEST(SettledCalibration, EndsEarlierIfTheGivenCalibrationIsCertainlyRight) {
+  SettledRun run(Record(S::Vector::Zero(), HandHeldPoses()));
+  run.Add(0);
+  int num_pairs = 0;
+  for (; num_pairs < kSettledPairs && !run.estimator().IsSettled(); num_pairs += 2) run.Add(1);
+  EXPECT_GT(num_pairs, 10);
+  EXPECT_LT(num_pairs, kSettledPairs / 2);
+  const CorrectionEstimate& estimate = run.estimator().estimate();
+  for (const double log_odds : estimate.log_odds) EXPECT_LT(log_odds, -std::log(kAcceptedOdds));
+  EXPECT_FALSE(estimate.IsCorrected());
 }
 
 TEST(SettledCalibration, NeedsACertainColourCamera) {

@@ -11,7 +11,8 @@
 namespace msc_vo {
 namespace {
 
-// Images of `width` pixels of a floor that ends at a wall, in the upper half of the image.
+// Images of `width` pixels of a floor that ends at a wall, in the upper half of the image; as they
+// are or as kept during a run.
 class SurfacePlaneTest : public testing::TestWithParam<int> {
  protected:
   SurfacePlaneTest()
@@ -36,6 +37,11 @@ class SurfacePlaneTest : public testing::TestWithParam<int> {
     return FindSurface(camera, InverseDepthImage(depth_, 0.1, 10.0),
                        scale_ * Eigen::Vector2d(x, y));
   }
+  std::optional<InverseDepthPlane> KeptSurfaceAt(double x, double y) const {
+    const LinearizedCamera camera(CorrectedCamera(camera_, LensDistortion()),
+                                  SensorCorrection::Vector::Zero());
+    return FindSurface(camera, RecordedImage(cv::Mat(), depth_), scale_ * Eigen::Vector2d(x, y));
+  }
 
   double scale_;
   cv::Mat depth_;
@@ -48,6 +54,19 @@ TEST_P(SurfacePlaneTest, IsThatOfTheScene) {
   EXPECT_NEAR(plane->inverse_depth, InverseDepth(plane->pixel), 1e-5);
   EXPECT_NEAR(plane->gradient.x(), 0.0, 1e-6);
   EXPECT_NEAR(plane->gradient.y(), 1.0 / camera_.fy, 1e-6);
+}
+
+TEST_P(SurfacePlaneTest, IsFoundInReducedImages) {
+  const auto plane = KeptSurfaceAt(301.0, 401.0);
+  ASSERT_TRUE(plane.has_value());
+  EXPECT_NEAR(plane->inverse_depth, InverseDepth(plane->pixel), 1e-4);
+  EXPECT_NEAR(plane->gradient.x(), 0.0, 1e-5);
+  EXPECT_NEAR(plane->gradient.y(), 1.0 / camera_.fy, 1e-2 / camera_.fy);
+  EXPECT_LE((plane->pixel - scale_ * Eigen::Vector2d(301.0, 401.0)).norm(), 2.0 * scale_ + 0.5);
+  EXPECT_FALSE(KeptSurfaceAt(300.0, 238.0).has_value());
+  EXPECT_FALSE(KeptSurfaceAt(300.0, 242.0).has_value());
+  EXPECT_TRUE(KeptSurfaceAt(300.0, 232.0).has_value());
+  EXPECT_TRUE(KeptSurfaceAt(300.0, 250.0).has_value());
 }
 
 TEST_P(SurfacePlaneTest, EndsAtTheSameAngleFromADepthEdge) {

@@ -33,6 +33,32 @@ TEST(RecordedImage, WhatIsNoDepthOrTooFarIsNoMeasurement) {
   EXPECT_EQ(cv::countNonZero(image.Depth()), 0);
 }
 
+// A plane that is inclined in both directions, in inverse depth, with grey values like it.
+TEST(RecordedImage, ReducesWideImages) {
+  for (const cv::Size size : {cv::Size(320, 240), cv::Size(641, 479), cv::Size(1280, 720)}) {
+    cv::Mat depth(size, CV_32FC1), gray(size, CV_8UC1);
+    const double scale = 1.0 / size.width;
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        depth.at<float>(y, x) = static_cast<float>(1.0 / (0.3 + 0.2 * scale * (x + y)));
+        gray.at<uint8_t>(y, x) = static_cast<uint8_t>(200.0 * scale * x);
+      }
+    }
+    const RecordedImage image(gray, depth);
+    const int step = image.step();
+    EXPECT_NEAR(size.width / step, 320, 1);
+    for (const cv::Point kept : {cv::Point(0, 0), cv::Point(17, 90), cv::Point(319, 119)}) {
+      EXPECT_NEAR(image.At(kept.x, kept.y), 0.3 + 0.2 * scale * step * (kept.x + kept.y), 1e-4);
+    }
+    EXPECT_EQ(image.At((size.width + step - 1) / step, 0), 0.0);
+    ASSERT_EQ(image.Depth().size(), size);
+    ASSERT_EQ(image.Gray().size(), size);
+    const double max_slope = 0.2 * scale * 2 * step / (0.3 * 0.3);
+    EXPECT_LE(cv::norm(image.Depth(), depth, cv::NORM_INF), max_slope);
+    EXPECT_LE(cv::norm(image.Gray(), gray, cv::NORM_INF), 200.0 * scale * step + 1.0);
+  }
+}
+
 TEST(RecordedImage, MayBeEmpty) {
   const RecordedImage image;
   EXPECT_TRUE(image.Depth().empty());
