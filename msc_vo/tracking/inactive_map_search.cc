@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "msc_vo/pose_estimation/relocalizer.h"
-#include "msc_vo/tracking/pose_estimator.h"
+#include "msc_vo/tracking/frame_pose.h"
 #include "msc_vo/tracking/pose_support.h"
 #include "msc_vo/tracking/search_budget.h"
 
