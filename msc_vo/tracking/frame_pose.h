@@ -3,10 +3,12 @@
 
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/pose_estimation/pose_optimization.h"
+#include "msc_vo/timing/stopwatch.h"
 #include "msc_vo/tracking/last_frame.h"
 #include "msc_vo/tracking/tracker_options.h"
 
@@ -53,5 +55,40 @@ bool HasEnoughInliers(const TrackerOptions& options, const Frame& frame, const F
 
 /// kTracked or kWeak, by the covariance of an estimated pose.
 TrackingStatus ClassifyStatus(const TrackerOptions& options, const PoseSummary& pose);
+
+/// Estimates poses of one frame in a map, from different matches but with the same noise and custom
+/// factors. Measures its times.
+class PoseEstimator {
+ public:
+  /// The arguments must outlive the object.
+  PoseEstimator(const TrackerOptions& options, const Map& map, const NoiseScale& noise_scale,
+                const std::vector<PoseFactor>& factors)
+      : options_(options), map_(map), noise_scale_(noise_scale), factors_(factors) {}
+
+  const Map& map() const { return map_; }
+
+  /// The pose by `matches`, from `start`; std::nullopt if too few of them support it.
+  std::optional<FramePose> Estimate(const PoseOptions& options, const Frame& frame,
+                                    const Rigid3& start, const FrameMatches& matches);
+  /// The same with the matches of the frame and the candidates within `radius` pixels, and `known`
+  /// ones (MatchLocalMap).
+  std::optional<FramePose> MatchAndEstimate(const PoseOptions& options, const Frame& frame,
+                                            const LocalMap& candidates, double radius,
+                                            const Rigid3& start, const FrameMatches& known = {});
+
+  /// Runs a search for candidates or matches, whose time is part of that of matching.
+  template <typename Step>
+  auto Search(const Step& step) {
+    return Timed(&times_.matching, step);
+  }
+  const TrackingTimes& times() const { return times_; }
+
+ private:
+  const TrackerOptions& options_;
+  const Map& map_;
+  const NoiseScale& noise_scale_;
+  const std::vector<PoseFactor>& factors_;
+  TrackingTimes times_;
+};
 
 }  // namespace msc_vo

@@ -7,7 +7,7 @@
 
 #include "msc_vo/map/map_alignment.h"
 #include "msc_vo/pose_estimation/relocalizer.h"
-#include "msc_vo/tracking/pose_estimator.h"
+#include "msc_vo/tracking/frame_pose.h"
 #include "msc_vo/tracking/pose_support.h"
 #include "msc_vo/tracking/search_budget.h"
 

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "msc_vo/tracking/pose_estimator.h"
+#include "msc_vo/tracking/frame_pose.h"
 #include "msc_vo/tracking/pose_plausibility.h"
 
 namespace msc_vo {
