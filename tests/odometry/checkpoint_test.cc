@@ -192,7 +192,7 @@ TEST(CheckpointOfSelfCalibration, ContinuesWithACorrectedCalibration) {
   PinholeCamera given = SyntheticSequence(room).camera();
   given.fx *= 1.1;
   given.fy *= 1.1;
-  const std::vector<RgbdImage> images = RenderImages(room, 34);
+  const std::vector<RgbdImage> images = RenderImages(room, 46);
   const auto make = [&](int threads) {
     return std::make_unique<Odometry>(Options(threads), given, LensDistortion());
   };
