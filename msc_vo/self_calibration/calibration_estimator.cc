@@ -97,10 +97,9 @@ bool IsCertain(CorrectionGroup group, const SensorCorrection::Vector& sigma) {
 // camera is not certain, its error has to exceed more than three standard deviations: as many times
 // more as it is uncertain.
 bool IsImprovement(CorrectionGroup group, CorrectionEstimate estimate) {
-  estimate.sigma = WithRegistrationErrors(estimate.sigma);
   const double uncertainty = Uncertainty(group, estimate.sigma);
   if (group == CorrectionGroup::kDepthRegistration && uncertainty >= 1.0) return false;
-  estimate.sigma *= std::max(1.0, uncertainty);
+  estimate.sigma = std::max(1.0, uncertainty) * WithRegistrationErrors(estimate.sigma);
   return IsSignificant(group, estimate);
 }
 
