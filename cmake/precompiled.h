@@ -27,4 +27,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#if __has_include(<opencv2/core.hpp>)  // not where a compiler refuses the precompiled headers
 #include <opencv2/core.hpp>
+#endif

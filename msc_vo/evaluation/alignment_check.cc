@@ -45,8 +45,10 @@ Moments MomentsOf(const Poses& reference, const Poses& estimate, size_t begin, s
   const Eigen::Matrix3Xd x = CentredPositions(estimate, begin, end);
   const double count = static_cast<double>(end - begin);
   const Eigen::Matrix3d correlation = y * x.transpose() / count;
-  Moments moments{y.squaredNorm() / count, x.squaredNorm() / count,
-                  Eigen::JacobiSVD<Eigen::Matrix3d>(correlation).singularValues()};
+  Moments moments{y.squaredNorm() / count, x.squaredNorm() / count};
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation);
+  // Eigen leaves the singular values undefined if the squares overflow.
+  if (svd.info() == Eigen::Success) moments.common = svd.singularValues();
   if (correlation.determinant() < 0.0) moments.common.z() *= -1.0;
   return moments;
 }
@@ -128,7 +130,7 @@ std::string DescribeUndetermined(const Poses& reference, const Poses& estimate, 
   constexpr double kEpsilon = 1e-14;  // rounding of the moments
   const double error = std::max({squares - 2.0 * scale * moments.common.sum(), kEpsilon * squares,
                                  std::pow(Rounding(reference) + Rounding(estimate), 2.0)});
-  if (scale * moments.common.sum() <= error) {
+  if (!(scale * moments.common.sum() > error)) {  // also if the squares overflow
     return "the error of the positions (" + Millimetres(error) +
            ") exceeds the motion that both trajectories share (" +
            Millimetres(scale * moments.common.sum()) + "), which determines no rotation" +

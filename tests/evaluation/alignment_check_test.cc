@@ -75,6 +75,14 @@ TEST(DescribeUndetermined, NamesPositionsThatAreTheSame) {
   }
 }
 
+TEST(DescribeUndetermined, NamesPositionsWhoseSquaresOverflow) {
+  const Poses far = Scaled(Path(), 1e200);
+  for (const bool with_scale : {false, true}) {
+    EXPECT_THAT(DescribeUndetermined(far, far, with_scale), HasSubstr("exceeds the motion"));
+  }
+  EXPECT_THAT(DescribeScaleContradiction(far, far), IsEmpty());
+}
+
 TEST(DescribeUndetermined, NamesStraightLines) {
   EXPECT_THAT(DescribeUndetermined(Straight(), Straight(), false), HasSubstr("straight line"));
   EXPECT_THAT(DescribeUndetermined(Straight(), Scaled(Straight(), 0.5), true),
