@@ -7,6 +7,7 @@
 
 #include "tests/support/factor_checks.h"
 #include "tests/support/test_window.h"
+#include <ceres/crs_matrix.h>
 #include <ceres/loss_function.h>
 
 #include "msc_vo/bundle_adjustment/observation.h"
