@@ -21,7 +21,7 @@ namespace {
 // Pairs that are linearised again after a keyframe: more where depth images may not be registered,
 // whose large errors need several steps.
 constexpr size_t kMaxRelinearized = 2;
-constexpr size_t kMaxRelinearizedUnregistered = 2;
+constexpr size_t kMaxRelinearizedUnregistered = 4;
 // Iterations over all pairs before a correction is accepted.
 constexpr int kIterations = 3;
 // A correction in use is replaced when its standard deviation has shrunk to this ratio, and the

@@ -23,7 +23,7 @@ constexpr size_t kMaxViews = 16;
 constexpr size_t kMaxPairs = 160;
 constexpr size_t kMaxTries = 3;  // keyframes that an image is matched with
 constexpr size_t kMaxSamples = 300;
-constexpr size_t kRankingStep = 3;  // between the samples by which keyframes are ranked
+constexpr size_t kRankingStep = 2;  // between the samples by which keyframes are ranked
 constexpr size_t kMaxMatches = 100;
 constexpr size_t kMaxPoints = 60;  // with surfaces
 // Displacement, radians, from which on a point tells no more about the calibration.
@@ -36,7 +36,7 @@ constexpr double kLargeReadoutChange = 0.005;
 // Distance of the linearisation point that calls for a new one, standard deviations.
 constexpr double kMaxDistance = 0.5;
 // Pairs whose images are kept: a bound of the memory.
-constexpr size_t kMaxImages = 32;
+constexpr size_t kMaxImages = 48;
 // Displacement of the depth image, pixels of an image that is 640 wide, by which a surface leaves
 // the window that it was fitted to.
 constexpr double kMaxSurfaceShift = 2.0;
