@@ -221,11 +221,12 @@ TEST(CalibrationEstimator, RequiresMoreSigmasOfWhatIsUncertain) {
     EXPECT_GT(large.sigma, kCertain);
     EXPECT_GT(large.sigmas, 3.0 * large.sigma / kCertain);
   }
-  const Acceptance small = FindAcceptance(-0.05, false, kMotion);
+  constexpr double kSmall = 0.06;
+  const Acceptance small = FindAcceptance(-kSmall, false, kMotion);
   EXPECT_GE(small.first_candidacy, 0);
   EXPECT_LT(small.keyframe, 0);
   EXPECT_GT(small.sigma, kCertain);
-  EXPECT_GT(0.05, 3.0 * small.sigma);
+  EXPECT_GT(kSmall, 3.0 * small.sigma);
 }
 
 TEST(KeyframeIntrinsics, MovesFeaturesAndLandmarksTogether) {
