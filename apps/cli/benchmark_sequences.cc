@@ -73,9 +73,9 @@ Shard ParseShardArgument(const std::string& text) {
   if (slash != std::string::npos) {
     const auto number = ParseNumber(text.substr(0, slash));
     const auto count = ParseNumber(text.substr(slash + 1));
-    const std::optional<int> k = number ? WholeNumber(*number) : std::nullopt;
-    const std::optional<int> n = count ? WholeNumber(*count) : std::nullopt;
-    if (k && n && *k >= 1 && *k <= *n) return {*k, *n};
+    const int k = number ? WholeNumber(*number).value_or(0) : 0;
+    const int n = count ? WholeNumber(*count).value_or(0) : 0;
+    if (k >= 1 && k <= n) return {k, n};
   }
   throw std::runtime_error("--shard " + text + ": expected K/N with 1 <= K <= N, for instance 2/4");
 }

@@ -105,7 +105,7 @@ std::vector<PlyElement> ReadPly(const std::string& path) {
   return elements;
 }
 
-const PlyElement& FindElement(const std::vector<PlyElement>& elements, const std::string& name,
+const PlyElement& FindElement(const std::vector<PlyElement>& elements, const char* name,
                               const std::string& path) {
   for (const PlyElement& element : elements) {
     if (element.name == name) return element;
