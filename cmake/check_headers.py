@@ -8,12 +8,12 @@ A header that names std::vector includes <vector>, itself or through headers of 
 in cmake/precompiled.h, and every header in msc_vo, apps and tests. A build without precompiled headers
 compiles every public header alone (tests/headers.cmake).
 """
-import argparse
 import functools
 import pathlib
 import re
 import sys
-import tempfile
+
+import tree_check
 
 STD = r"\bstd::(%s)\b"
 # Precompiled header -> pattern of the names that need it. Headers of one library that include each other
@@ -104,37 +104,12 @@ def self_test():
         ('#include "msc_vo/map/b.h"\nstd::string F();\n', None),
         ("// As a std::vector.\nvoid F();\n", None),
     ]
-    for contents, expected in cases:
-        with tempfile.TemporaryDirectory() as directory:
-            root = pathlib.Path(directory)
-            for name, text in (("cmake/precompiled.h", "#include <cmath>\n#include <string>\n#include <vector>\n"
-                                "#include <Eigen/Core>\n#include <opencv2/core.hpp>\n"),
-                               ("msc_vo/map/b.h", "#include <string>\n"), ("msc_vo/map/a.h", contents)):
-                (root / name).parent.mkdir(parents=True, exist_ok=True)
-                (root / name).write_text(text)
-            messages = [message for _, _, message in check_tree(root)]
-            if not (not messages if expected is None else
-                    len(messages) == 1 and expected in messages[0]):
-                print(f"self-test: {contents!r}: expected {expected!r}, got {messages}", file=sys.stderr)
-                return 1
-    print(f"self-test: all {len(cases)} cases as expected")
-    return 0
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("root", nargs="?", type=pathlib.Path)
-    parser.add_argument("--self-test", action="store_true")
-    arguments = parser.parse_args()
-    if arguments.self_test:
-        return self_test()
-    if arguments.root is None or not (arguments.root / "msc_vo").is_dir():
-        parser.error("ROOT must be the folder that holds msc_vo/")
-    violations = list(check_tree(arguments.root.resolve()))
-    for path, line, message in violations:
-        print(f"{path}:{line}: {message}", file=sys.stderr)
-    return 1 if violations else 0
+    others = {"cmake/precompiled.h": "#include <cmath>\n#include <string>\n#include <vector>\n"
+                                     "#include <Eigen/Core>\n#include <opencv2/core.hpp>\n",
+              "msc_vo/map/b.h": "#include <string>\n"}
+    return tree_check.test_rules([({**others, "msc_vo/map/a.h": contents}, expected)
+                                  for contents, expected in cases], check_tree)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(tree_check.main(__doc__.splitlines()[0], "msc_vo", check_tree, self_test))

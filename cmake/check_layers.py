@@ -8,11 +8,10 @@ Rules: a folder includes only folders of lower layers; third-party and system he
 folders that may use them; x.cc includes its own x.h first, which proves that x.h compiles alone;
 files and functions stay short.
 """
-import argparse
-import pathlib
 import re
 import sys
-import tempfile
+
+import tree_check
 
 # Lowest first. Folders of one layer do not include each other.
 LAYERS = [
@@ -213,38 +212,9 @@ def self_test():
         ("msc_vo/map/a.cc", 'const char a[] = R"x(\n' + "(){\n" * 70 + ')x";\n', None),
         ("msc_vo/map/a.cc", "int a[] = {\n" + "  1,\n" * 70 + "};\n", None),
     ]
-    for path, contents, expected in cases:
-        with tempfile.TemporaryDirectory() as directory:
-            root = pathlib.Path(directory)
-            for name in ("msc_vo/geometry/so3.h", path):
-                (root / name).parent.mkdir(parents=True, exist_ok=True)
-            (root / "msc_vo/geometry/so3.h").write_text("")
-            (root / path).write_text(contents)
-            messages = [message for _, _, message in check_tree(root)]
-            passed = (not messages if expected is None else
-                      len(messages) == 1 and expected in messages[0])
-            if not passed:
-                print(f"self-test: {path} with {contents[:60]!r}: expected {expected!r}, "
-                      f"got {messages}", file=sys.stderr)
-                return 1
-    print(f"self-test: all {len(cases)} cases as expected")
-    return 0
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("root", nargs="?", type=pathlib.Path)
-    parser.add_argument("--self-test", action="store_true")
-    arguments = parser.parse_args()
-    if arguments.self_test:
-        return self_test()
-    if arguments.root is None or not (arguments.root / "msc_vo").is_dir():
-        parser.error("ROOT must be the folder that holds msc_vo/")
-    violations = list(check_tree(arguments.root))
-    for path, number, message in violations:
-        print(f"{path}:{number}: {message}", file=sys.stderr)
-    return 1 if violations else 0
+    return tree_check.test_rules([({"msc_vo/geometry/so3.h": "", path: contents}, expected)
+                                  for path, contents, expected in cases], check_tree)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(tree_check.main(__doc__.splitlines()[0], "msc_vo", check_tree, self_test))

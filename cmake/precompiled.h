@@ -27,6 +27,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
-#if __has_include(<opencv2/core.hpp>)  // not where a compiler refuses the precompiled headers
+// A target without OpenCV reads this file as text if its compiler rejects the precompiled one.
+#if __has_include(<opencv2/core.hpp>)
 #include <opencv2/core.hpp>
 #endif

@@ -42,8 +42,8 @@ constexpr double kCompressed[] = {2.0, 3.0};
 constexpr double kStretched[] = {0.5, 1.0 / 3.0};
 constexpr double kLogScales[] = {0.2, 0.25, 0.3, 0.4};
 // Undescribed lenses x (1 + k |x|^2), which undistort the plane z = 1: from the pincushions of
-// depth cameras (k < 0) to fisheye lenses (tan(x) / x: 0.33 near the axis, 0.8 far from it), in
-// steps that change the bend by less than its tolerance.
+// depth cameras (k < 0) to fisheye lenses (tan(x) / x: 0.33 near the axis, 0.8 far from it), so
+// close that the bend of a lens between two of them is within kTolerance of one.
 constexpr double kLenses[] = {-0.25, -0.18, -0.13, -0.09, -0.06, -0.04, 0.04, 0.06, 0.09,
                               0.13,  0.18,  0.25,  0.33,  0.43,  0.55,  0.68, 0.82};
 
@@ -66,7 +66,8 @@ Prediction DepthBehindLens(DepthCurve curve, double k) {
   return [k](const SurfacePatch& patch) { return patch.BendOfLens(k); };
 }
 
-// Numbers of patches that are as either of two predictions, of those that tell them apart.
+// Numbers of patches that agree with the first and with the second prediction. Only patches count
+// whose measurement can tell the two apart.
 std::pair<int, int> Compare(const std::vector<SurfacePatch>& patches, DepthCurve curve,
                             const Prediction& first, const Prediction& second) {
   const bool is_bowl = curve == DepthCurve::kRayLength;
@@ -196,7 +197,7 @@ DepthCurveTest::Votes DepthCurveTest::Best() const {
     best = votes;
     best_curve = curve;
   }
-  best.may_be_lens = MayBeLens(patches_, best_curve);
+  best.may_be_lens = best.ProveCurve() && MayBeLens(patches_, best_curve);
   return best;
 }
 

@@ -41,16 +41,17 @@ class DepthCurveTest {
     DepthCurve curve = DepthCurve::kDepth;
     int num_curve = 0;
     int num_depth = 0;
-    double origin = 0.0;       ///< kInverted: the value at distance 0, metres
-    bool may_be_lens = false;  ///< depth with an undescribed lens explains the surfaces as well
+    double origin = 0.0;  ///< kInverted: the value at distance 0, metres
+    /// The curve is proven, but depth behind an undescribed lens explains the surfaces as well.
+    bool may_be_lens = false;
 
     /// Whether the surfaces prove the curve, or depth.
     bool ProveCurve() const;
     bool ProveDepth() const;
   };
 
-  /// The most likely curve other than depth. An undescribed lens bends planes, too, but by how far
-  /// and in which direction they are from the axis; a curve bends all alike.
+  /// The most likely curve other than depth. An undescribed lens bends planes, too: the more, the
+  /// farther they are from the optical axis. A curve bends all planes alike.
   Votes Best() const;
   Votes OfInverse() const;
   /// Whether the surfaces prove depth, compared with every curve, or the best curve.

@@ -28,8 +28,8 @@ CalibrationEffort EffortFor(size_t num_sequences) {
   return effort;
 }
 
-// Whether every new correction of `to` exceeds three of its standard deviations.
-bool IsSignificant(const CorrectionEstimate& from, const CorrectionEstimate& to) {
+// Whether every correction of `to` that `from` lacks exceeds three of its standard deviations.
+bool AreNewOnesSignificant(const CorrectionEstimate& from, const CorrectionEstimate& to) {
   for (size_t g = 0; g < to.is_corrected.size(); ++g) {
     if (!to.is_corrected[g] || from.is_corrected[g]) continue;
     if (!IsSignificant(static_cast<CorrectionGroup>(g), to)) return false;
@@ -69,7 +69,7 @@ std::optional<MotionCalibration> CalibrateFromMotion(const RgbdDecoder& decoder,
   const CorrectionGroups wrong = LikelyWrong(estimate);
   if (wrong != estimate.is_corrected) {
     const CorrectionEstimate likely = estimate_with(wrong);
-    if (IsSignificant(estimate, likely)) estimate = likely;
+    if (AreNewOnesSignificant(estimate, likely)) estimate = likely;
   }
   return MotionCalibration{estimate, right[kRegistration]};
 }

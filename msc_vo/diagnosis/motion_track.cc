@@ -25,8 +25,6 @@ constexpr int kStretches = 4;
 // Pairs: times in seconds, angles in radians.
 constexpr double kMinPairTime = 0.25, kMaxPairTime = 1.5, kMaxPairAngle = 0.45;
 constexpr int kMaxPairs = 80;
-// Images of all stretches that a calibration is estimated from: a bound of time and memory.
-constexpr size_t kMaxViews = 80;
 // Map points that two images must share for a median motion.
 constexpr size_t kMinPoints = 10;
 
@@ -125,8 +123,9 @@ class MotionTracker {
     bool was_estimated = false;
     for (const FrameResult& frame : result.frames) {
       const bool is_estimated = IsEstimated(frame.status);
-      if (is_estimated) {
-        MotionImage& image = images->at(frame.id);
+      const auto found = images->find(frame.id);
+      if (is_estimated && found != images->end()) {
+        MotionImage& image = found->second;
         image.cam_from_world = frame.cam_from_world;
         image.segment = first_segment + frame.segment;
         image.linked &= was_estimated && track_.images.back().segment == image.segment;
@@ -189,7 +188,7 @@ MotionTrack TrackMotion(const RgbdDecoder& decoder, const OdometryOptions& optio
                         int max_images) {
   const std::vector<Stretch> stretches = Stretches(decoder.size(), max_images);
   MotionTracker tracker(decoder, WithGivenCalibration(options, decoder.calibration()),
-                        kMaxViews / stretches.size());
+                        kMaxCalibrationViews / stretches.size());
   for (const Stretch& stretch : stretches) tracker.Add(stretch);
   return tracker.Finish();
 }

@@ -27,8 +27,8 @@ struct SurfacePatch {
   /// The bowl of a plane if v is the length of the viewing ray.
   double BowlOfRay() const;
 
-  /// The bend and the bowl of a plane if v is depth, but the lens is not described whose
-  /// points x of the plane z = 1 are undistorted as x (1 + k |x|^2).
+  /// The bend and the bowl of a plane if v is depth and the camera has a lens that is not
+  /// described: x (1 + k |x|^2) is the undistorted point of x on the plane z = 1.
   double BendOfLens(double k) const;
   double BowlOfLens(double k) const;
 
@@ -39,7 +39,8 @@ struct SurfacePatch {
 
 /// Measures the patch in a part of an image. `values` (CV_32FC1; 0: none) and `rays` (CV_64FC2,
 /// points of the plane z = 1) have one element per cell. `rounding`: standard deviation of rounded
-/// values. Returns std::nullopt for holes, levels and points too far from the axis.
+/// values, in units of `values`. Returns std::nullopt if a fifth of the cells have no value or are
+/// more than 72 degrees from the axis, or if the values are all equal.
 std::optional<SurfacePatch> MeasurePatch(const cv::Mat_<float>& values,
                                          const cv::Mat_<cv::Vec2d>& rays, double rounding);
 

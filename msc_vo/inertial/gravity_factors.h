@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "msc_vo/factors/chi_square.h"
 #include "msc_vo/geometry/timed_acceleration.h"
 #include "msc_vo/mapping/window_factors.h"
 
@@ -22,8 +23,8 @@ struct GravityOptions {
   /// of the lengths: the rotation between keyframes is interpolated. A sensor with a bias needs
   /// more. Chosen by measurement, see docs/lab/gravity.md.
   double min_sigma = 0.0005;
-  double huber = 2.448;  ///< threshold of the loss, in standard deviations
-  int64_t block = 0;     ///< id of the extra block with the vertical
+  double huber = kHuberThreshold[2];  ///< threshold of the loss, in standard deviations
+  int64_t block = 0;                  ///< id of the extra block with the vertical
 
   bool IsValid(std::string* error) const;
 };

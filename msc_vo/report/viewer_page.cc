@@ -28,7 +28,7 @@ void WriteViewerScripts(const std::string& run_json, std::ostream& out) {
   if (HasViewer()) {
     out << "/*\n" << kThreeLicense << "*/\n" << kThreeScript;
   } else {
-    out << "const THREE = {Mesh: Object};  // the scene then fails to start";
+    out << "const THREE = {Mesh: Object};  // lets the script load; startScene() returns null";
   }
   out << "\n</script>\n"
       << "<script>\n(() => {\n\"use strict\";\n"

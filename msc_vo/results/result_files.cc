@@ -44,10 +44,9 @@ void TryTo(const std::function<void()>& write, std::string* problems) {
   }
 }
 
-// Writes a file in place of its earlier version, which exists for files that are also written
-// during the run. If the disk is full, calls `make_room` with `num_bytes`, the size of this file
-// and of those that are still to be written; if there is no room, removes the earlier version,
-// provided that the file fits without it.
+// Replaces the earlier version of a file; files that are written during the run have one. If the
+// disk is full, asks `make_room` for `num_bytes`: the size of this file and of all files after it.
+// If that does not suffice, deletes the earlier version first, provided that the file then fits.
 void WriteResult(const std::string& path, const std::string& content, std::uintmax_t num_bytes,
                  const MakeRoom& make_room) {
   const auto make_more_room = [&](std::uintmax_t) {

@@ -68,8 +68,9 @@ bool IsSignificant(CorrectionGroup group, const CorrectionEstimate& estimate);
 CorrectionEstimate EstimateCorrections(const CalibrationInformation& information,
                                        const CorrectionGroups& wrong);
 
-/// Standard deviations with the errors of registered depth images that the model of the sensor
-/// leaves out, which all pairs of images have in common: as large as those of a good registration.
+/// Adds to the standard deviations of the registration, in squares, those of a good registration.
+/// They stand for errors of registered depth images that the model of the sensor leaves out and
+/// that all pairs of images have in common. At most those of a wrong registration are returned.
 SensorCorrection::Vector WithRegistrationErrors(SensorCorrection::Vector sigma);
 
 /// CorrectionEstimate::log_odds.

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 
 #include "msc_vo/factors/camera_factor.h"
+#include "msc_vo/factors/chi_square.h"
 #include "msc_vo/factors/robust_loss.h"
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/self_calibration/linearized_camera.h"
@@ -28,7 +29,7 @@ constexpr int kRobustIterations = 2;
 constexpr int kIterations = 4;
 // Square roots of the 95 %, 99 % and 50 % quantiles of chi-square with two, three and three degrees
 // of freedom.
-constexpr HuberLoss kLoss{2.448};
+constexpr HuberLoss kLoss{kHuberThreshold[2]};
 constexpr double kOutlierSigmas = 3.368;
 constexpr double kMedianSigmas = 1.538;
 using PoseMatrix = Eigen::Matrix<double, kPoseSize, kPoseSize>;

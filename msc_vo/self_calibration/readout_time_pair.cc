@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "msc_vo/factors/camera_factor.h"
+#include "msc_vo/factors/chi_square.h"
 #include "msc_vo/factors/robust_loss.h"
 #include "msc_vo/frame/rolling_shutter.h"
 #include "msc_vo/geometry/so3.h"
@@ -35,7 +36,7 @@ constexpr double kSearchRadius = 0.04;
 constexpr int kRobustIterations = 3;
 constexpr int kIterations = 5;
 // Square roots of the 95 %, 99 % and 50 % quantiles of chi-square with two degrees of freedom.
-constexpr HuberLoss kLoss{2.448};
+constexpr HuberLoss kLoss{kHuberThreshold[2]};
 constexpr double kOutlierSigmas = 3.035;
 constexpr double kMedianSigmas = 1.177;
 // Damping of the readout time, 1/seconds^2: keeps it unchanged if the points do not determine it.

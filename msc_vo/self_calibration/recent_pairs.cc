@@ -23,7 +23,9 @@ constexpr size_t kMaxViews = 16;
 constexpr size_t kMaxPairs = 160;
 constexpr size_t kMaxTries = 3;  // keyframes that an image is matched with
 constexpr size_t kMaxSamples = 300;
-constexpr size_t kRankingStep = 2;  // between the samples by which keyframes are ranked
+// Between the samples by which keyframes are ranked. Chosen by measurement, see
+// docs/lab/self_calibration.md.
+constexpr size_t kRankingStep = 2;
 constexpr size_t kMaxMatches = 100;
 constexpr size_t kMaxPoints = 60;  // with surfaces
 // Displacement, radians, from which on a point tells no more about the calibration.

@@ -26,11 +26,11 @@ constexpr double kMaxRms = 1.5;
 // Steps to the intersection of a viewing ray with the surface of an unregistered depth image.
 constexpr int kSteps = 2;
 
-// The pixels around the one that is nearest to a point, at equal distances.
+// The pixels around the one that is nearest to a point, `step` pixels of the full image apart.
 template <typename Depth>
 struct Neighbors;
 
-// A wide image has about as many in a window as one of 640 pixels.
+// In a full image, pixels between two of them are left out if it is wider than 640.
 template <>
 struct Neighbors<InverseDepthImage> {
   Neighbors(const InverseDepthImage& image, int width, const Eigen::Vector2d& point)
@@ -42,7 +42,7 @@ struct Neighbors<InverseDepthImage> {
   int step, x, y;
 };
 
-// Those that are kept.
+// In an image that is kept for self-calibration, all of its pixels.
 template <>
 struct Neighbors<RecordedImage> {
   Neighbors(const RecordedImage& image, int /*width*/, const Eigen::Vector2d& point)

@@ -20,7 +20,7 @@ class RecordedImage {
   /// measurement. Of equal size.
   RecordedImage(const cv::Mat& gray, const cv::Mat& depth);
 
-  /// Distance of the pixels that are kept, in pixels of the full image.
+  /// Distance between two kept pixels, in pixels of the full image.
   int step() const { return step_; }
   /// Inverse depth, 1/metres, of the pixel whose coordinates in the full image are step() times
   /// `column` and `row`; 0: no measurement, or outside the image.
@@ -32,7 +32,7 @@ class RecordedImage {
   /// CV_32FC1 of the full size, metres; 0: no measurement. Pixels that are not kept have the depth
   /// of a neighbour.
   cv::Mat Depth() const;
-  /// CV_8UC1 of the full size. Pixels have the mean of those that were reduced to one.
+  /// CV_8UC1 of the full size. All pixels of a block of step() x step() have their mean.
   cv::Mat Gray() const;
 
   /// Lists the state for a checkpoint.

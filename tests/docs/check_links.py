@@ -7,14 +7,15 @@
 Links to other sites are not followed. An anchor must be a heading of the file, as GitHub names it, or
 an element with that id.
 """
-import argparse
 import pathlib
 import re
 import sys
-import tempfile
 import urllib.parse
 
 from markdown import NOT_IN_REPOSITORY, read_blocks
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "cmake"))
+import tree_check  # noqa: E402
 
 INLINE_CODE = re.compile(r"(`+)(.+?)\1")
 # [text](target), ![text](target "title"), [name]: target
@@ -82,12 +83,12 @@ def problem_of(document, target, root):
 
 
 def check(root):
-    """Yields file:line: message."""
+    """Yields (path, line, message)."""
     for document in documents(root):
         for number, target in links(document):
             problem = problem_of(document, target, root)
             if problem:
-                yield f"{document.relative_to(root)}:{number}: {problem}"
+                yield document.relative_to(root), number, problem
 
 
 def self_test():
@@ -112,37 +113,11 @@ def self_test():
         ("[x](../../elsewhere)", "outside of the repository"),
         ("```\n# Here\n```\n[x](#here)", "a.md has no heading #here"),
     ]
-    for text, expected in cases:
-        with tempfile.TemporaryDirectory() as directory:
-            root = pathlib.Path(directory).resolve()
-            (root / "docs").mkdir()
-            (root / "README.md").write_text("# One two\n# One *two*\n## `a_b`, c\n# A (b)  c\n")
-            for name, contents in (("a.md", text), ("b.md", ""), ("i.png", "")):
-                (root / "docs" / name).write_text(contents)
-            messages = list(check(root))
-            passed = (not messages if expected is None else
-                      len(messages) == 1 and expected in messages[0])
-            if not passed:
-                print(f"self-test: {text!r}: expected {expected!r}, got {messages}",
-                      file=sys.stderr)
-                return 1
-    print(f"self-test: all {len(cases)} cases as expected")
-    return 0
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("root", nargs="?", type=pathlib.Path)
-    parser.add_argument("--self-test", action="store_true")
-    arguments = parser.parse_args()
-    if arguments.self_test:
-        return self_test()
-    if arguments.root is None or not (arguments.root / "README.md").is_file():
-        parser.error("ROOT must be the folder that holds README.md")
-    problems = list(check(arguments.root.resolve()))
-    print("\n".join(problems) or "every link resolves", file=sys.stderr if problems else sys.stdout)
-    return 1 if problems else 0
+    others = {"README.md": "# One two\n# One *two*\n## `a_b`, c\n# A (b)  c\n",
+              "docs/b.md": "", "docs/i.png": ""}
+    return tree_check.test_rules([({**others, "docs/a.md": text}, expected)
+                                  for text, expected in cases], check)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(tree_check.main(__doc__.splitlines()[0], "README.md", check, self_test))

@@ -116,7 +116,7 @@ TEST(Report, ShowsTheTrajectoryWithoutScripts) {
   EXPECT_THAT(page, HasSubstr("</footer>"));
 }
 
-// Every plot over time that the script knows has its place, but for that of the live view.
+// The page has a figure for every plot over time of the script, except the one of the live view.
 TEST(Report, HasThePlotsOfItsScript) {
   const std::string page = ReportOf(MakeFakeRun(100));
   for (const std::string name : {"error", "inliers", "stages", "mapping"}) {

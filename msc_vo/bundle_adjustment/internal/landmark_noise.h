@@ -21,8 +21,8 @@ namespace msc_vo {
 /// two sigmas in every view.
 ///
 /// The depth offset (WindowData::Line::depth_offset) is the mean depth error of a line over its
-/// observations, with a prior of zero. It is common to all views
-/// because depth edges and intensity edges are different edges.
+/// observations, with a prior of zero. It is common to all views because depth edges and intensity
+/// edges are different edges.
 void EstimateLandmarkNoise(const LandmarkNoiseOptions& options, const WindowIndex& index,
                            const WindowInlierMask& inlier_mask, const WindowState& state,
                            WindowData* data);

@@ -18,8 +18,8 @@ constexpr double kMaxMisfit = DegreesToRadians(2.0);
 /// its annexe share the vertical.
 constexpr double kMaxRival = 0.5;
 
-/// Whether the axes pass every test: majority, misfit, extent in three dimensions
-/// and the a contrario test against chance.
+/// Whether the axes pass every test: majority, misfit, extent in three dimensions, and the a
+/// contrario test against chance.
 bool PassesGates(const DirectionEvidence& evidence, const ScoredAxes& axes);
 
 /// Whether another hypothesis explains nearly as much of the evidence that it does not share with
