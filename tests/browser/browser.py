@@ -92,7 +92,8 @@ class Browser:
         self.find(selector).send_keys(keys)
 
     def click(self, selector):
-        self.script("arguments[0].click()", self.find(selector))
+        # In one step, since the page may replace the element at any time.
+        self.script("document.querySelector(arguments[0]).click()", selector)
 
     def settle(self):
         """Waits until the page has drawn what it scheduled."""
