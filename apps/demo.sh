@@ -16,7 +16,10 @@ say "Packages"
 cmake/install_packages.sh report
 
 say "Build"
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release
+options=(-DCMAKE_BUILD_TYPE=Release)
+# Compiles several files at a time, in less than half the time. A build folder keeps what it was made with.
+if [[ ! -f build/CMakeCache.txt ]]; then options+=(-DCMAKE_UNITY_BUILD=ON); fi
+cmake -S . -B build -G Ninja "${options[@]}"
 targets=(msc_vo_command)
 if cmake --build build --target help | grep --quiet '^msc_vo_fusion:'; then
   targets+=(msc_vo_fusion)

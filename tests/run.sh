@@ -101,7 +101,10 @@ case $sanitize in
     folder=build-$preset
     if [[ $preset == release ]]; then folder=build; fi
     begin "configure"
-    cmake --preset "$preset"
+    options=()
+    # Compiles several files of the library at a time, as apps/demo.sh does.
+    if [[ $preset == release && ! -f build/CMakeCache.txt ]]; then options+=(-DCMAKE_UNITY_BUILD=ON); fi
+    cmake --preset "$preset" "${options[@]}"
     begin "build"
     cmake --build "$folder" --parallel "$jobs"
     begin "test"

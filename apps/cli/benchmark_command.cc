@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct BenchmarkArguments {
   std::vector<std::string> sequences;
   SequenceArguments layout;  // without the directory
   ConfigurationArguments configuration;
@@ -62,7 +62,7 @@ std::vector<std::string> WithoutRepeats(const std::vector<std::string>& names) {
 }
 
 // One for each mode. Throws std::runtime_error on invalid options.
-std::vector<Configuration> MakeConfigurations(const Arguments& arguments,
+std::vector<Configuration> MakeConfigurations(const BenchmarkArguments& arguments,
                                               const std::vector<std::string>& modes) {
   std::vector<Configuration> configurations;
   for (const std::string& mode : modes) {
@@ -76,7 +76,7 @@ std::vector<Configuration> MakeConfigurations(const Arguments& arguments,
   return configurations;
 }
 
-Benchmark Describe(const Arguments& arguments, const std::vector<std::string>& modes) {
+Benchmark Describe(const BenchmarkArguments& arguments, const std::vector<std::string>& modes) {
   Benchmark benchmark;
   benchmark.command_line = CommandLine();
   benchmark.build = MSC_VO_BUILD;
@@ -90,7 +90,7 @@ Benchmark Describe(const Arguments& arguments, const std::vector<std::string>& m
 }
 
 // Prints the tables. Returns the exit code; throws std::runtime_error if a run failed.
-int Report(const Arguments& arguments, const Shard& shard, const Benchmark& benchmark,
+int Report(const BenchmarkArguments& arguments, const Shard& shard, const Benchmark& benchmark,
            bool is_interrupted) {
   if (arguments.run.json) {
     std::cout << FormatBenchmarkJson(benchmark) << std::flush;
@@ -108,7 +108,7 @@ int Report(const Arguments& arguments, const Shard& shard, const Benchmark& benc
                            (fs::path(arguments.output) / table).string());
 }
 
-int RunBenchmark(const Arguments& arguments) {
+int RunBenchmark(const BenchmarkArguments& arguments) {
   const std::vector<std::string> modes =
       arguments.modes.empty() ? ImplementedModes() : WithoutRepeats(arguments.modes);
   BenchmarkPlan plan;
@@ -135,7 +135,7 @@ int RunBenchmark(const Arguments& arguments) {
 }
 
 // Joins the tables of several shares.
-int Merge(const Arguments& arguments) {
+int Merge(const BenchmarkArguments& arguments) {
   std::vector<std::string> files;
   for (const std::string& folder : arguments.merge) {
     const std::vector<std::string> found = FindBenchmarkFiles(folder);
@@ -177,7 +177,7 @@ int Merge(const Arguments& arguments) {
 }  // namespace
 
 Command AddBenchmarkCommand(CLI::App* app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<BenchmarkArguments>();
   CLI::App* command = app->add_subcommand(
       "benchmark", "Replay sequences in several modes and compare them with the ground truth");
   CLI::Option* sequences =

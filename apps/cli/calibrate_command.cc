@@ -30,7 +30,7 @@ namespace msc_vo {
 
 namespace {
 
-struct Arguments {
+struct CalibrateArguments {
   SequenceArguments layout;
   std::vector<std::string> sequences;
   ConfigurationArguments configuration;
@@ -54,7 +54,7 @@ void RefuseRepeats(const std::vector<std::string>& sequences) {
 }
 
 // Opens the sequences. A readout time of the options takes precedence over that of a calibration.
-std::vector<RgbdDecoder> OpenSequences(const Arguments& arguments,
+std::vector<RgbdDecoder> OpenSequences(const CalibrateArguments& arguments,
                                        const Configuration& configuration) {
   RefuseRepeats(arguments.sequences);
   std::vector<RgbdDecoder> decoders;
@@ -78,7 +78,7 @@ std::vector<RgbdDecoder> OpenSequences(const Arguments& arguments,
   return decoders;
 }
 
-void CheckOutputs(const Arguments& arguments, const std::vector<RgbdDecoder>& decoders) {
+void CheckOutputs(const CalibrateArguments& arguments, const std::vector<RgbdDecoder>& decoders) {
   if (!arguments.output.empty() && arguments.output == arguments.plot) {
     throw std::runtime_error(arguments.plot + ": --output and --plot name the same file");
   }
@@ -91,7 +91,7 @@ void CheckOutputs(const Arguments& arguments, const std::vector<RgbdDecoder>& de
 
 // Prints the results and writes the files, first the one that counts. Throws std::runtime_error if
 // the estimate is no camera.
-void WriteResults(const Arguments& arguments, const CalibrationReport& report) {
+void WriteResults(const CalibrateArguments& arguments, const CalibrationReport& report) {
   if (arguments.run.json) {
     std::cout << FormatCalibrationJson(report) << std::flush;
   } else if (!arguments.run.quiet) {
@@ -108,7 +108,7 @@ void WriteResults(const Arguments& arguments, const CalibrationReport& report) {
   if (!report.problem.empty()) throw std::runtime_error(report.problem);
 }
 
-int Run(const Arguments& arguments) {
+int Run(const CalibrateArguments& arguments) {
   const Configuration configuration = MakeConfiguration(arguments.configuration);
   std::vector<RgbdDecoder> decoders = OpenSequences(arguments, configuration);
   CheckOutputs(arguments, decoders);
@@ -124,7 +124,7 @@ int Run(const Arguments& arguments) {
 }  // namespace
 
 Command AddCalibrateCommand(CLI::App* app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CalibrateArguments>();
   CLI::App* command = app->add_subcommand(
       "calibrate", "Estimate the calibration of an RGB-D camera from recorded sequences");
   command->add_option("sequences", arguments->sequences, "Folders with sequences of one camera")

@@ -18,7 +18,7 @@ namespace msc_vo {
 
 namespace {
 
-struct Arguments {
+struct CheckArguments {
   SequenceArguments sequence;
   ConfigurationArguments configuration;
   SequenceCheckOptions options;
@@ -43,7 +43,7 @@ std::ptrdiff_t Count(const Findings& findings, Severity severity) {
                        [severity](const Finding& finding) { return finding.severity == severity; });
 }
 
-int Run(const Arguments& arguments) {
+int Run(const CheckArguments& arguments) {
   const Configuration configuration = MakeConfiguration(arguments.configuration);
   const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
   SequenceCheckOptions options = arguments.options;
@@ -68,7 +68,7 @@ int Run(const Arguments& arguments) {
 }  // namespace
 
 Command AddCheckCommand(CLI::App* app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command = app->add_subcommand(
       "check", "Diagnose a sequence: files, time stamps, images, depth, calibration, ground truth");
   AddSequenceArguments(command, &arguments->sequence)->required();

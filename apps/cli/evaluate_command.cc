@@ -35,7 +35,7 @@ const std::map<std::string, DeltaUnit>& DeltaUnits() {
   return units;
 }
 
-struct Arguments {
+struct EvaluateArguments {
   std::string truth;
   std::string estimate;
   std::vector<std::string> formats;  // none, one for both, or one each
@@ -53,7 +53,7 @@ struct Trajectories {
   TrajectoryFile estimate;
 };
 
-Trajectories ReadTrajectories(const Arguments& arguments) {
+Trajectories ReadTrajectories(const EvaluateArguments& arguments) {
   std::optional<TrajectoryFormat> truth_format, estimate_format;
   if (!arguments.formats.empty()) {
     truth_format = TrajectoryFormatFromName(arguments.formats.front());
@@ -74,7 +74,7 @@ std::string SkippedRowsText(const std::string& path, int num_skipped) {
   return "skipped: " + std::to_string(num_skipped) + " rows of " + path + " with nan or inf\n";
 }
 
-TrajectoryError Evaluate(const Arguments& arguments, const Trajectories& trajectories,
+TrajectoryError Evaluate(const EvaluateArguments& arguments, const Trajectories& trajectories,
                          const EvaluationContext& context) {
   TrajectoryError error =
       EvaluateTrajectory(trajectories.truth.poses, trajectories.estimate.poses, arguments.options);
@@ -92,7 +92,7 @@ TrajectoryError Evaluate(const Arguments& arguments, const Trajectories& traject
   return error;
 }
 
-int Run(Arguments arguments) {
+int Run(EvaluateArguments arguments) {
   arguments.options.alignment = AlignmentFromString(arguments.alignment);
   arguments.options.rpe_delta.unit = DeltaUnits().at(arguments.delta_unit);
   std::string problem;
@@ -140,7 +140,7 @@ std::vector<std::string> NamesOf(const std::map<std::string, Value>& values) {
   return names;
 }
 
-void AddOptionsOfTheField(CLI::App* command, Arguments* arguments) {
+void AddOptionsOfTheField(CLI::App* command, EvaluateArguments* arguments) {
   command
       ->add_option("--align", arguments->alignment,
                    "Alignment of the estimate: rigid (se3), with scale (sim3), the first pose "
@@ -175,7 +175,7 @@ void AddOptionsOfTheField(CLI::App* command, Arguments* arguments) {
 }  // namespace
 
 Command AddEvaluateCommand(CLI::App* app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<EvaluateArguments>();
   CLI::App* command = app->add_subcommand(
       "evaluate", "Compare a trajectory with the ground truth (TUM, KITTI or EuRoC)");
   command->add_option("ground_truth", arguments->truth, "Reference trajectory")->required();

@@ -38,7 +38,7 @@ namespace {
 constexpr double kMaxTimeDifference = 0.005;
 constexpr size_t kMaxReportBytes = size_t{256} << 20;
 
-struct Arguments {
+struct FuseArguments {
   SequenceArguments sequence;
   ConfigurationArguments configuration;
   std::string trajectory;
@@ -75,7 +75,7 @@ void KeepLargestWorld(const std::string& path, std::vector<TimedPose>* poses) {
                " and are fused");
 }
 
-std::vector<PosedImage> SelectImages(const Arguments& arguments, const RgbdDecoder& decoder) {
+std::vector<PosedImage> SelectImages(const FuseArguments& arguments, const RgbdDecoder& decoder) {
   std::vector<double> stamps, pose_stamps;
   std::vector<TimedPose> poses;
   for (const SequenceEntry& entry : decoder.index().entries) stamps.push_back(entry.timestamp);
@@ -192,14 +192,14 @@ void UpdateReport(const std::string& path, const std::string& page, const Surfac
   WriteFile(path, AddSurfaceLayer(page, layer, pose));
 }
 
-void PrintResult(const Arguments& arguments, const ColoredMesh& mesh, int num_images) {
+void PrintResult(const FuseArguments& arguments, const ColoredMesh& mesh, int num_images) {
   std::cout << FormatText("%s: %zu vertices, %zu triangles from %d images\n",
                           arguments.output.c_str(), mesh.positions.size(), mesh.triangles.size(),
                           num_images);
   if (!arguments.report.empty()) std::cout << arguments.report << ": shows the surface\n";
 }
 
-int Run(const Arguments& arguments) {
+int Run(const FuseArguments& arguments) {
   const Configuration configuration = MakeConfiguration(arguments.configuration);
   const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
   PrintWarnings(decoder.Warnings());
@@ -228,7 +228,7 @@ int Run(const Arguments& arguments) {
   return progressed.interrupted ? kExitInterrupted : kExitSuccess;
 }
 
-void AddFusionArguments(CLI::App* command, Arguments* arguments) {
+void AddFusionArguments(CLI::App* command, FuseArguments* arguments) {
   command->add_option("--voxel", arguments->fusion.voxel_size, "Size of a voxel, metres")
       ->check(NumberFrom(0.001, 1.0))
       ->capture_default_str();
@@ -255,7 +255,7 @@ void AddFusionArguments(CLI::App* command, Arguments* arguments) {
 }  // namespace
 
 Command AddFuseCommand(CLI::App* app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<FuseArguments>();
   CLI::App* command = app->add_subcommand(
       "fuse", "Fuse the depth images along a trajectory into a coloured surface");
   AddSequenceArguments(command, &arguments->sequence)->required();

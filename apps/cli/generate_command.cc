@@ -17,7 +17,7 @@ namespace msc_vo {
 
 namespace {
 
-struct Arguments {
+struct GenerateArguments {
   std::string kind;
   std::string output;
 };
@@ -32,7 +32,7 @@ void WriteManPages(const CLI::App& app, const std::string& folder) {
   }
 }
 
-int Run(const CLI::App& app, const Arguments& arguments) {
+int Run(const CLI::App& app, const GenerateArguments& arguments) {
   if (arguments.kind == "man") {
     WriteManPages(app, arguments.output);
   } else {
@@ -44,7 +44,7 @@ int Run(const CLI::App& app, const Arguments& arguments) {
 }  // namespace
 
 Command AddGenerateCommand(CLI::App* app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<GenerateArguments>();
   CLI::App* command = app->add_subcommand(
       "generate", "Write documentation of the command line; used by the build of msc_vo");
   command->group("");  // hidden

@@ -74,6 +74,11 @@ class CameraFeed : public ImageFeed {
 
 }  // namespace
 
+int NumFrames(const RgbdDecoder& decoder, int max_frames) {
+  if (decoder.index().camera) return max_frames;
+  return max_frames > 0 ? std::min(max_frames, decoder.size()) : decoder.size();
+}
+
 std::unique_ptr<ImageFeed> MakeImageFeed(const RgbdDecoder& decoder, int first, int num_frames,
                                          bool realtime) {
   if (decoder.index().camera) return std::make_unique<CameraFeed>(decoder, num_frames);

@@ -33,6 +33,9 @@ class ImageFeed {
   virtual int num_dropped_by_camera() const { return 0; }
 };
 
+/// Number of images to process, at most `max_frames` unless it is 0; 0: a live camera without end.
+int NumFrames(const RgbdDecoder& decoder, int max_frames);
+
 /// A feed of images `first` to `num_frames` - 1. A live camera begins with 0, and 0 `num_frames`
 /// mean without end. The decoder must outlive it.
 std::unique_ptr<ImageFeed> MakeImageFeed(const RgbdDecoder& decoder, int first, int num_frames,

@@ -59,7 +59,7 @@ std::string ValueText(const CLI::Option& option) {
 }
 
 // One option with its names, value, description and default.
-std::string OptionText(const CLI::Option& option) {
+std::string OptionParagraph(const CLI::Option& option) {
   std::string names;
   if (option.nonpositional()) {
     for (const std::string& name : NamesOf(option)) {
@@ -78,7 +78,7 @@ std::string OptionText(const CLI::Option& option) {
 
 std::string OptionsSection(const CLI::App& command) {
   std::string text = ".SH OPTIONS\n";
-  for (const CLI::Option* option : VisibleOptions(command)) text += OptionText(*option);
+  for (const CLI::Option* option : VisibleOptions(command)) text += OptionParagraph(*option);
   return text;
 }
 
@@ -141,7 +141,7 @@ std::string FormatCommandPage(const CLI::App& app, const CLI::App& command) {
     const std::string shown =
         Italic(argument->get_name(true)) + (argument->get_expected_max() > 1 ? " ..." : "");
     synopsis += argument->get_required() ? " " + shown : " [" + shown + "]";
-    arguments += OptionText(*argument);
+    arguments += OptionParagraph(*argument);
   }
   return Title(name) + ".SH NAME\n" + Escape(name) + " \\- " + Escape(command.get_description()) +
          "\n.SH SYNOPSIS\n" + synopsis + "\n" +

@@ -27,7 +27,7 @@ namespace {
 // Seconds of images of a camera that wait for the disk: 40 MiB at 30 Hz.
 constexpr double kMaxWaiting = 1.0;
 
-struct Arguments {
+struct RecordArguments {
   SequenceArguments sequence;
   ConfigurationArguments configuration;
   std::string folder;
@@ -43,11 +43,11 @@ struct Recording {
   bool is_interrupted = false;
 };
 
-bool IsFull(const Arguments& arguments, int num_pairs) {
+bool IsFull(const RecordArguments& arguments, int num_pairs) {
   return arguments.max_frames > 0 && num_pairs >= arguments.max_frames;
 }
 
-void RecordSequence(const Arguments& arguments, const RgbdDecoder& decoder,
+void RecordSequence(const RecordArguments& arguments, const RgbdDecoder& decoder,
                     const InterruptGuard& interrupt, TumWriter* writer, Recording* recording) {
   Progress progress(decoder.size());
   for (int i = 0; i < decoder.size() && !IsFull(arguments, writer->num_pairs()); ++i) {
@@ -68,7 +68,7 @@ void RecordSequence(const Arguments& arguments, const RgbdDecoder& decoder,
 }
 
 // Until Ctrl-C, which is how a live recording ends.
-void RecordCamera(const Arguments& arguments, const RgbdDecoder& decoder,
+void RecordCamera(const RecordArguments& arguments, const RgbdDecoder& decoder,
                   const InterruptGuard& interrupt, TumWriter* writer, Recording* recording) {
   CameraSource source(decoder.index().camera.get(), kMaxWaiting);
   Progress progress(arguments.max_frames);
@@ -82,7 +82,7 @@ void RecordCamera(const Arguments& arguments, const RgbdDecoder& decoder,
   progress.Finish();
 }
 
-void Print(const Arguments& arguments, const TumWriter& writer, const Recording& recording) {
+void Print(const RecordArguments& arguments, const TumWriter& writer, const Recording& recording) {
   if (arguments.json) {
     const nlohmann::ordered_json json = {
         {"directory", arguments.folder},
@@ -106,7 +106,7 @@ void Print(const Arguments& arguments, const TumWriter& writer, const Recording&
   }
 }
 
-int Run(const Arguments& arguments) {
+int Run(const RecordArguments& arguments) {
   const RgbdDecoder decoder = OpenDecoder(
       arguments.sequence, MakeConfiguration(arguments.configuration), LiveCameras::kAllowed);
   PrintWarnings(decoder.Warnings());
@@ -142,7 +142,7 @@ int Run(const Arguments& arguments) {
 }  // namespace
 
 Command AddRecordCommand(CLI::App* app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<RecordArguments>();
   CLI::App* command = app->add_subcommand(
       "record", "Write a camera, a ROS bag or another sequence as a folder in TUM layout");
   AddSequenceArguments(command, &arguments->sequence)->required();

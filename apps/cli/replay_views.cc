@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/image_feed.h"
 #include "apps/cli/sequence_arguments.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/report/live_page.h"
@@ -27,10 +28,6 @@ constexpr std::chrono::seconds kLongestWaitForViewers(5);
 constexpr char kNoReport[] =
     "<!DOCTYPE html>\n<title>msc_vo</title>\n<p>The run has ended; its report cannot be "
     "read.</p>\n";
-
-int NumFrames(const RgbdDecoder& decoder, int max_frames) {
-  return max_frames > 0 ? std::min(max_frames, decoder.size()) : decoder.size();
-}
 
 // Mean rate of the images, frames per second.
 double FrameRate(const std::vector<SequenceEntry>& entries) {

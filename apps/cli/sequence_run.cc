@@ -69,12 +69,6 @@ void WarnAboutShortenedPauses(int num_frames, SequenceIndex* sequence) {
   sequence->warnings.push_back(pauses);
 }
 
-// Number of images to process; 0: a live camera without end.
-int NumFrames(const RgbdDecoder& decoder, int max_frames) {
-  if (decoder.index().camera) return max_frames;
-  return max_frames > 0 ? std::min(max_frames, decoder.size()) : decoder.size();
-}
-
 // Processes images until the end, an error or an interruption.
 void RunLoop(const RunArguments& arguments, int num_frames, const InterruptGuard& interrupt,
              const RunCallbacks& callbacks, const CostMeter& cost, Odometry* odometry,

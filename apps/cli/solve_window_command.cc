@@ -19,7 +19,7 @@ namespace msc_vo {
 
 namespace {
 
-struct Arguments {
+struct SolveWindowArguments {
   std::string file;
   std::string output;  // empty: the solution is not written
   ConfigurationArguments configuration;
@@ -59,7 +59,7 @@ void PrintSummary(const WindowData& data, const BundleAdjustmentSummary& summary
   std::printf("%s\n  %.2f ms\n", summary.BriefReport().c_str(), milliseconds);
 }
 
-int Run(const Arguments& arguments) {
+int Run(const SolveWindowArguments& arguments) {
   RefuseToOverwrite({arguments.file, arguments.configuration.config}, arguments.output);
   RecordedWindow window = ReadWindow(arguments.file);
   window.options = Options(window.options, arguments.configuration);
@@ -86,7 +86,7 @@ int Run(const Arguments& arguments) {
 }  // namespace
 
 Command AddSolveWindowCommand(CLI::App* app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SolveWindowArguments>();
   CLI::App* command = app->add_subcommand(
       "solve-window", "Run local bundle adjustment on a window recorded by replay --dump-windows");
   command->add_option("file", arguments->file, "Window file (docs/window_file.md)")->required();

@@ -13,17 +13,17 @@ namespace {
 
 // Pairs of images, of all stretches of a track together: a bound of the computing time. As many of
 // one recording take part in a SensorCalibration by default.
-constexpr size_t kMaxPairs = 150;
+constexpr size_t kMaxCalibrationPairs = 150;
 // Candidates for a pair, since some match badly.
 constexpr size_t kCandidatesPerPair = 2;
-constexpr int kMinPairs = 10;
+constexpr int kMinCalibrationPairs = 10;
 
 constexpr auto kRegistration = static_cast<size_t>(CorrectionGroup::kDepthRegistration);
 
 // The bounds of a sequence that together bound the time.
 CalibrationEffort EffortFor(size_t num_sequences) {
   CalibrationEffort effort;
-  effort.max_pairs = kMaxPairs / num_sequences;
+  effort.max_pairs = kMaxCalibrationPairs / num_sequences;
   effort.max_candidates = kCandidatesPerPair * effort.max_pairs;
   return effort;
 }
@@ -55,7 +55,7 @@ std::optional<MotionCalibration> CalibrateFromMotion(const RgbdDecoder& decoder,
   const Calibration& given = decoder.calibration();
   const SensorCalibration calibration(given.camera, given.distortion, track.views,
                                       EffortFor(track.views.size()));
-  if (calibration.num_pairs() < kMinPairs) return std::nullopt;
+  if (calibration.num_pairs() < kMinCalibrationPairs) return std::nullopt;
   CorrectionGroups right = {};
   const auto estimate_with = [&](const CorrectionGroups& wrong) {
     return calibration.MakeEstimate(wrong, right, track.of_maps).selected;

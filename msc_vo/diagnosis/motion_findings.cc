@@ -24,7 +24,7 @@ constexpr double kMinTrackedRatio = 0.8;
 // Latency that warrants a warning, seconds, and the standard deviations that it must exceed.
 constexpr double kMaxLatency = 0.03;
 constexpr double kMaxLatencySigma = 0.02;
-constexpr double kSigmas = 4.0;
+constexpr double kFindingSigmas = 4.0;
 constexpr int kMinEdges = 100;
 constexpr double kMinAgreement = 0.2;
 constexpr size_t kMinImages = 15;
@@ -227,7 +227,7 @@ void AddLatencyFindings(const MotionTrack& track, Findings* findings) {
       1e3 * std::abs(seconds), 1e3 * latency.sigma, seconds > 0.0 ? "later" : "earlier",
       latency.gain);
   const Measurement measurement{seconds, "s"};
-  if (std::abs(seconds) <= kMaxLatency || std::abs(seconds) <= kSigmas * latency.sigma ||
+  if (std::abs(seconds) <= kMaxLatency || std::abs(seconds) <= kFindingSigmas * latency.sigma ||
       latency.gain < kMinGain) {
     findings->push_back(Good(check, text, measurement));
     return;

@@ -28,11 +28,11 @@ constexpr double kCommonNoise = 0.5;
 constexpr int kReach = 5;
 // A surface reaches the line if it comes this close, pixels: one for the position of the edge, one
 // for the mixed pixel that sensors insert between two surfaces. The sensor's edge gap is added.
-constexpr int kMaxDistance = 2;
+constexpr int kMaxPixelDistance = 2;
 // There is a depth edge between two pixels of a profile if their difference exceeds those of their
 // neighbours by this many sigmas: three times the standard deviation of such a difference,
 // sqrt(3) sigma.
-constexpr double kEdgeSigmas = 5.2;
+constexpr double kLineEdgeSigmas = 5.2;
 // Smallest number of pixels of a surface; a single one is a mixed pixel.
 constexpr int kMinSurface = 2;
 // The depth of a surface at the line is fitted to its pixel nearest to the line and this many
@@ -83,7 +83,7 @@ Steps StepsOf(const Profile& profile) {
 // too, but similar to the neighbouring steps.
 bool IsDepthEdge(const Steps& steps, int i, double sigma) {
   const double usual = std::min(steps[i - 1], steps[i + 1]);
-  return steps[i] - (usual < kInfinity ? usual : 0.0) > kEdgeSigmas * sigma;
+  return steps[i] - (usual < kInfinity ? usual : 0.0) > kLineEdgeSigmas * sigma;
 }
 
 // The surfaces of a profile, in order; there are at most as many as pixels.
@@ -176,7 +176,7 @@ std::optional<DepthAtLine> NearestSurfaceDepth(const Profile& profile, double si
       nearest = depth;
     }
   }
-  if (nearest && nearest_beside - nearest->w > kEdgeSigmas * sigma) {
+  if (nearest && nearest_beside - nearest->w > kLineEdgeSigmas * sigma) {
     nearest->edge_sigma = kEdgeInflation * (nearest_beside - nearest->w);
   }
   return nearest;
@@ -205,7 +205,7 @@ DepthSamples SampleLineDepth(const InverseDepthImage& image, const LensRemap& le
     }
     const double sigma = noise.At(*std::max_element(profile.begin(), profile.end()));
     const std::optional<DepthAtLine> depth =
-        NearestSurfaceDepth(profile, sigma, kMaxDistance + noise.edge_gap);
+        NearestSurfaceDepth(profile, sigma, kMaxPixelDistance + noise.edge_gap);
     if (!depth) continue;
     samples.sigma = std::max(samples.sigma, sigma);
     samples.along.push_back({s, depth->w, depth->sigma * sigma});

@@ -16,7 +16,7 @@ namespace msc_vo {
 namespace {
 
 // Metres; the shortest segment whose direction a sensor of 1 mm resolution can determine.
-constexpr double kMinLineLength = 0.01;
+constexpr double kMinWindowLineLength = 0.01;
 // Smallest number of landmarks that a keyframe of the window shares with the current one; fewer
 // would link its pose too weakly.
 constexpr int kMinShared = 10;
@@ -239,7 +239,7 @@ LineSegment3 TrimToObservations(const Map& map, const LineLandmark& line,
   LineSegment3 cut;
   cut.start = segment.At(first);
   cut.end = segment.At(last);
-  return cut.Length() > kMinLineLength ? cut : segment;
+  return cut.Length() > kMinWindowLineLength ? cut : segment;
 }
 
 void WriteBack(const WindowData& window, Map* map) {
@@ -264,7 +264,7 @@ void WriteBack(const WindowData& window, Map* map) {
     const LineLandmark* landmark = map->Find<LineLandmark>(line.id);
     if (landmark == nullptr) continue;
     // Wrong matches may contract a line until it has no direction.
-    if (!(line.segment.Length() > kMinLineLength)) {
+    if (!(line.segment.Length() > kMinWindowLineLength)) {
       map->Remove<LineLandmark>(line.id);
       continue;
     }

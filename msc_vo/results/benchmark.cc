@@ -46,24 +46,6 @@ std::string Cell(std::string text) {
 
 std::string Millimetres(double metres) { return FormatText("%.2f", 1000.0 * metres); }
 
-// Names of the sequences in the order of the runs.
-std::vector<std::string> Sequences(const Benchmark& benchmark) {
-  std::vector<std::string> names;
-  for (const BenchmarkRun& run : benchmark.runs) {
-    if (names.empty() || names.back() != run.sequence) names.push_back(run.sequence);
-  }
-  return names;
-}
-
-// Returns null if the sequence was not run in this mode.
-const BenchmarkRun* FindRun(const Benchmark& benchmark, const std::string& sequence,
-                            const std::string& mode) {
-  for (const BenchmarkRun& run : benchmark.runs) {
-    if (run.sequence == sequence && run.mode == mode) return &run;
-  }
-  return nullptr;
-}
-
 std::string FormatHeader(const Benchmark& benchmark) {
   std::string text = "# msc_vo benchmark\n\n";
   text += "- version: msc_vo " + std::string(kVersion) + "\n";
@@ -80,7 +62,7 @@ std::string FormatHeader(const Benchmark& benchmark) {
 // Names the sequences on which a mode failed, which are excluded from the mean. Empty if none.
 std::string DescribeExcluded(const Benchmark& benchmark) {
   std::string names;
-  for (const std::string& sequence : Sequences(benchmark)) {
+  for (const std::string& sequence : SequenceNames(benchmark)) {
     const bool failed = std::any_of(
         benchmark.runs.begin(), benchmark.runs.end(),
         [&](const BenchmarkRun& run) { return run.sequence == sequence && !run.failure.empty(); });
@@ -92,7 +74,7 @@ std::string DescribeExcluded(const Benchmark& benchmark) {
 std::string FormatErrorTable(const Benchmark& benchmark) {
   std::vector<Row> rows = {{"APE RMSE, mm"}};
   rows[0].insert(rows[0].end(), benchmark.modes.begin(), benchmark.modes.end());
-  for (const std::string& sequence : Sequences(benchmark)) {
+  for (const std::string& sequence : SequenceNames(benchmark)) {
     Row row = {Cell(sequence)};
     for (const std::string& mode : benchmark.modes) {
       const BenchmarkRun* run = FindRun(benchmark, sequence, mode);
@@ -186,10 +168,28 @@ mapping: wall time per keyframe. memory: peak resident memory.
 
 }  // namespace
 
+std::vector<std::string> SequenceNames(const Benchmark& benchmark) {
+  std::vector<std::string> names;
+  for (const BenchmarkRun& run : benchmark.runs) {
+    if (std::find(names.begin(), names.end(), run.sequence) == names.end()) {
+      names.push_back(run.sequence);
+    }
+  }
+  return names;
+}
+
+const BenchmarkRun* FindRun(const Benchmark& benchmark, const std::string& sequence,
+                            const std::string& mode) {
+  for (const BenchmarkRun& run : benchmark.runs) {
+    if (run.sequence == sequence && run.mode == mode) return &run;
+  }
+  return nullptr;
+}
+
 MeanError GeometricMean(const Benchmark& benchmark) {
   MeanError mean;
   std::vector<double> log_sums(benchmark.modes.size(), 0.0);
-  for (const std::string& sequence : Sequences(benchmark)) {
+  for (const std::string& sequence : SequenceNames(benchmark)) {
     std::vector<double> logs;
     for (const std::string& mode : benchmark.modes) {
       const BenchmarkRun* run = FindRun(benchmark, sequence, mode);

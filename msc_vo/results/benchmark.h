@@ -41,6 +41,13 @@ struct Benchmark {
   std::vector<BenchmarkRun> runs;  ///< by sequence, then in the order of `modes`
 };
 
+/// Names of the sequences in the order of their first runs.
+std::vector<std::string> SequenceNames(const Benchmark& benchmark);
+
+/// Null if the sequence was not run in this mode.
+const BenchmarkRun* FindRun(const Benchmark& benchmark, const std::string& sequence,
+                            const std::string& mode);
+
 /// Geometric mean of the APE RMSE over the sequences on which no mode failed.
 struct MeanError {
   int num_sequences = 0;

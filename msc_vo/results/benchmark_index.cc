@@ -51,29 +51,11 @@ std::string RunCell(const BenchmarkRun* run, const std::string& folder) {
   return "<td" + title + ">" + text + "</td>";
 }
 
-const BenchmarkRun* FindRun(const Benchmark& benchmark, const std::string& sequence,
-                            const std::string& mode) {
-  for (const BenchmarkRun& run : benchmark.runs) {
-    if (run.sequence == sequence && run.mode == mode) return &run;
-  }
-  return nullptr;
-}
-
-std::vector<std::string> Sequences(const Benchmark& benchmark) {
-  std::vector<std::string> names;
-  for (const BenchmarkRun& run : benchmark.runs) {
-    if (std::find(names.begin(), names.end(), run.sequence) == names.end()) {
-      names.push_back(run.sequence);
-    }
-  }
-  return names;
-}
-
 std::string FormatRows(const Benchmark& benchmark, const std::string& folder) {
   std::string rows = "<tr><th>APE RMSE, mm</th>";
   for (const std::string& mode : benchmark.modes) rows += "<th>" + EscapeHtml(mode) + "</th>";
   rows += "<th>frames</th></tr>\n";
-  for (const std::string& sequence : Sequences(benchmark)) {
+  for (const std::string& sequence : SequenceNames(benchmark)) {
     rows += "<tr><td>" + EscapeHtml(sequence) + "</td>";
     int num_frames = 0;
     for (const std::string& mode : benchmark.modes) {
@@ -90,7 +72,7 @@ std::string FormatRows(const Benchmark& benchmark, const std::string& folder) {
   return rows + "<td></td></tr>\n";
 }
 
-std::string FormatFailures(const Benchmark& benchmark) {
+std::string FormatFailureList(const Benchmark& benchmark) {
   std::string items;
   for (const BenchmarkRun& run : benchmark.runs) {
     if (run.failure.empty()) continue;
@@ -117,7 +99,7 @@ std::string FormatBenchmarkIndex(const Benchmark& benchmark, const std::string& 
   html +=
       ".</p>\n<h2>Position error after alignment</h2>\n<p>Each number links to the report of its "
       "run.</p>\n<table>\n" +
-      FormatRows(benchmark, folder) + "</table>\n" + FormatFailures(benchmark);
+      FormatRows(benchmark, folder) + "</table>\n" + FormatFailureList(benchmark);
   return html + "</body>\n</html>\n";
 }
 

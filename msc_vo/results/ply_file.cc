@@ -18,7 +18,7 @@ std::string FormatVertex(const Eigen::Vector3d& x) {
 }
 
 // Colours of Fig. 1 of the paper, see FormatLinesPly.
-const char* LineColor(const MapLine& line) {
+const char* PlyLineColor(const MapLine& line) {
   if (!line.in_last_window) return "0 0 0";
   if (!line.axis) return "128 0 128";
   constexpr const char* kAxisColors[] = {"255 0 0", "0 255 0", "0 0 255"};
@@ -179,12 +179,12 @@ std::string FormatLinesPly(const std::vector<MapLine>& lines) {
       2 * lines.size(), lines.size());
   for (const MapLine& line : lines) {
     const std::string rest = " " + FormatVertex(Eigen::Vector3d::Zero() - line.viewing_direction) +
-                             FormatText(" %s %d\n", LineColor(line), line.num_observations);
+                             FormatText(" %s %d\n", PlyLineColor(line), line.num_observations);
     text += FormatVertex(line.segment.start) + rest;
     text += FormatVertex(line.segment.end) + rest;
   }
   for (size_t i = 0; i < lines.size(); ++i) {
-    text += FormatText("%zu %zu %s\n", 2 * i, 2 * i + 1, LineColor(lines[i]));
+    text += FormatText("%zu %zu %s\n", 2 * i, 2 * i + 1, PlyLineColor(lines[i]));
   }
   return text;
 }

@@ -16,7 +16,7 @@ namespace {
 
 // Smallest change of the readout time (seconds) that is applied: at 70 degrees per second a
 // millisecond shifts the first and the last row by 0.3 px, less than the sigma of a point.
-constexpr double kMinChange = 0.001;
+constexpr double kMinReadoutChange = 0.001;
 
 // Moves the landmarks of a kind that only this keyframe observes to their position in its frame.
 template <typename L>
@@ -49,7 +49,7 @@ void SetKeyframeVelocity(KeyframeId keyframe, const CameraVelocity& velocity, Ma
 
 std::shared_ptr<const Frame> UpdateCompensation(std::shared_ptr<const Frame> frame,
                                                 double readout_time) {
-  if (!frame->velocity || std::abs(frame->readout_time - readout_time) < kMinChange) {
+  if (!frame->velocity || std::abs(frame->readout_time - readout_time) < kMinReadoutChange) {
     return frame;
   }
   return std::make_shared<Frame>(CompensateRollingShutter(*frame, *frame->velocity, readout_time));

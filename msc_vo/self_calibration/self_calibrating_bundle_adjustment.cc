@@ -34,7 +34,7 @@ using ColorVector = Eigen::Matrix<double, kColorSize, 1>;
 
 // Bounds of the computing time.
 constexpr size_t kMaxKeyframes = 100;
-constexpr int kMaxIterations = 25;
+constexpr int kMaxSteps = 25;
 // Relative change of the cost that ends the iteration: with thousands of residuals of size one, a
 // change far below what a standard deviation makes.
 constexpr double kFunctionTolerance = 3e-5;
@@ -43,13 +43,13 @@ constexpr size_t kMinObservations = 300;
 // Fewest points that a keyframe must observe.
 constexpr int kMinPointsOfKeyframe = 10;
 // Square root of the 95 % quantile of chi-square with three degrees of freedom.
-constexpr double kLoss = 2.795;
+constexpr double kLossThreshold = 2.795;
 // Relative error of depth: also what a wrong registration to colour, or an error that depends on
 // the distance or the place in the image, amounts to.
 constexpr double kDepthError = 0.1;
 // Damping of poses and points when they are marginalised, relative to their information: it bounds
 // what hardly anything determines.
-constexpr double kDamping = 1e-6;
+constexpr double kMarginalDamping = 1e-6;
 
 bool IsInFront(const Map& map, const PointLandmark& point, KeyframeId keyframe) {
   return (map.CamFromWorld(keyframe) * point.position).z() > kMinCameraDepth;
@@ -147,7 +147,7 @@ class SelfCalibrationProblem {
   bool Solve() {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_SCHUR;
-    options.max_num_iterations = kMaxIterations;
+    options.max_num_iterations = kMaxSteps;
     options.function_tolerance = kFunctionTolerance;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;
@@ -233,7 +233,7 @@ class SelfCalibrationProblem {
     const Eigen::SparseMatrix<double> others = jacobian.leftCols(num_others);
     const Eigen::MatrixXd shared = jacobian.rightCols(kColorSize);
     Eigen::SparseMatrix<double> damped = others.transpose() * others;
-    damped.diagonal() *= 1.0 + kDamping;
+    damped.diagonal() *= 1.0 + kMarginalDamping;
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(damped);
     if (ldlt.info() != Eigen::Success) return std::nullopt;
     const Eigen::MatrixXd coupling = others.transpose() * shared;
@@ -258,7 +258,7 @@ class SelfCalibrationProblem {
   }
 
   CorrectedCamera camera_;
-  ceres::HuberLoss loss_{kLoss};
+  ceres::HuberLoss loss_{kLossThreshold};
   Rigid3Manifold manifold_;
   ceres::Problem problem_{ProblemOptions()};
   ColorVector correction_;

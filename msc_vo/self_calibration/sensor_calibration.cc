@@ -19,7 +19,7 @@ namespace {
 constexpr double kMaxAngle = 0.76;
 constexpr int kMaxIterations = 12;
 // Smallest change that continues the iteration, standard deviations.
-constexpr double kMinChange = 0.05;
+constexpr double kMinSigmaChange = 0.05;
 
 // Every n-th element, so that at most `limit` remain.
 template <typename T>
@@ -149,7 +149,7 @@ CorrectionEstimate SensorCalibration::Iterate(const CalibrationInformation& of_m
     const SensorCorrection::Vector change =
         (estimate.correction - at).cwiseQuotient(estimate.sigma);
     at = estimate.correction;
-    if (change.cwiseAbs().maxCoeff() < kMinChange) break;
+    if (change.cwiseAbs().maxCoeff() < kMinSigmaChange) break;
   }
   return estimate;
 }

@@ -13,7 +13,7 @@ namespace msc_vo {
 
 namespace {
 
-constexpr int kRowStep = 4;
+constexpr int kTestedRowStep = 4;
 // Pairs of random values are closer in either order with the same probability. Of measured ones,
 // 0 to 6 % are closer in the wrong order, see docs/lab/depth.md.
 constexpr double kMinSwappedRatio = 0.75;
@@ -42,7 +42,7 @@ int MedianOf(const std::array<int64_t, 256>& histogram, int64_t total) {
 void ByteOrder::Add(const cv::Mat& depth, double depth_scale) {
   depth_scale_ = depth_scale;
   const auto scale = static_cast<float>(depth_scale);
-  for (int y = 0; y < depth.rows; y += kRowStep) {
+  for (int y = 0; y < depth.rows; y += kTestedRowStep) {
     const auto* row = depth.ptr<float>(y);
     uint16_t last = 0;
     for (int x = 0; x < depth.cols; ++x) {

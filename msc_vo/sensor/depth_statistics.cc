@@ -14,7 +14,7 @@ namespace msc_vo {
 namespace {
 
 constexpr int kMinSamples = 2000;
-constexpr int kRowStep = 2;  // every second row is measured
+constexpr int kMeasuredRowStep = 2;  // every second row is measured
 // Largest number of samples of the resolution, which are sorted.
 constexpr size_t kMaxLevels = 20000;
 constexpr double kMaxDepth = 8.0;  // metres; farther away, noise is that of failing measurements
@@ -53,7 +53,7 @@ bool IsMeasured(float z) { return z > 0.0f && z < kMaxDepth; }
 
 std::vector<Difference> SecondDifferences(const cv::Mat& depth, int lag) {
   std::vector<Difference> differences;
-  for (int y = 0; y < depth.rows; y += kRowStep) {
+  for (int y = 0; y < depth.rows; y += kMeasuredRowStep) {
     const float* z = depth.ptr<float>(y);
     for (int x = lag; x + lag < depth.cols; ++x) {
       if (!IsMeasured(z[x - lag]) || !IsMeasured(z[x]) || !IsMeasured(z[x + lag])) continue;

@@ -19,7 +19,7 @@ namespace {
 // radians. Measured in docs/lab/structure.md.
 constexpr double kMaxUncertainAngle = DegreesToRadians(15.0);
 // Smallest probability of a line near an axis not to be there by chance.
-constexpr double kMinProbability = 0.8;
+constexpr double kMinAxisProbability = 0.8;
 
 // Directions of the frame's lines that have a depth, camera frame.
 std::vector<AxisEvidence> LineEvidence(const Frame& frame) {
@@ -156,7 +156,7 @@ void SceneAxes::AddAlignments(double max_angle, WindowData* window) const {
       RelationProbabilities(densities, 1.0 / (kPi * max_angle * max_angle));
   for (size_t i = 0; i < candidates.size(); ++i) {
     const auto& [line, near] = candidates[i];
-    if (probabilities[i] < kMinProbability ||
+    if (probabilities[i] < kMinAxisProbability ||
         deviation_.ChiSquare(near.deviation) > kMaxAxisSigmas * kMaxAxisSigmas) {
       continue;
     }

@@ -19,7 +19,7 @@ namespace {
 constexpr double kMaxChiSquare2 = 13.816;
 constexpr double kMaxChiSquare1 = 10.828;
 // Smallest probability of a pair not to be one by chance.
-constexpr double kMinProbability = 0.8;
+constexpr double kMinPairProbability = 0.8;
 
 // Removes pairs that may well be near to the angle by chance.
 template <typename Deviation>
@@ -34,7 +34,7 @@ void RemoveUnlikely(const DeviationEstimator& deviation, double chance, double m
   for (size_t i = 0; i < candidates->size(); ++i) {
     PairCandidates::Pair<Deviation> candidate = (*candidates)[i];
     candidate.probability = probabilities[i];
-    if (candidate.probability < kMinProbability) continue;
+    if (candidate.probability < kMinPairProbability) continue;
     if (deviation.ChiSquare(candidate.deviation) > max_chi_square) continue;
     likely.push_back(candidate);
   }

@@ -24,7 +24,7 @@ constexpr int kMinPixels = 5;
 constexpr int kPlaneParameters = 3;
 // A surface reaches the point if one of its pixels is at most this far away, pixels: the
 // neighbours of the pixel that contains the point.
-constexpr double kMaxDistance = 1.5;
+constexpr double kMaxSampleDistance = 1.5;
 // Pixels form one surface if the r.m.s. of their residuals is below this many sigmas. Pure noise
 // would allow 1.3 (chi-square, 99 %, 22 degrees of freedom); the margin covers folds and sensors
 // somewhat worse than their model. An edge of 6 sigmas (12 mm at 1 m) exceeds it.
@@ -171,7 +171,7 @@ std::optional<DepthSample> SampleDepth(const InverseDepthImage& image, const Eig
   const Parameters at_point = Basis(point.x(), point.y());
   Pixel* const begin = pixels.data();
   Pixel* const end = begin + count;
-  const double max_distance = kMaxDistance + noise.edge_gap;
+  const double max_distance = kMaxSampleDistance + noise.edge_gap;
   if (count < kMinPixels || !ReachesPoint(begin, end, max_distance)) return std::nullopt;
   const double sigma = noise.At(nearest);
   const Surface only = FitSurface(begin, end, at_point, sigma);

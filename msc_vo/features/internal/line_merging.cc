@@ -19,7 +19,7 @@ using Eigen::Vector2d;
 constexpr double kMaxAngle = 0.0873;
 // Largest distance of any of the four end points from the common line, pixels: two sigmas of an end
 // point.
-constexpr double kMaxDistance = 2.0;
+constexpr double kMaxMergeDistance = 2.0;
 // Largest gap between two pieces along the line, pixels: an object that crosses and occludes the
 // line, such as a thin bar, or another edge with its blur. Pieces that overlap have no gap.
 constexpr double kMaxGap = 15.0;
@@ -69,7 +69,7 @@ std::optional<LineSegment2> Merge(const LineSegment2& a, const LineSegment2& b) 
   const CommonLine line(a, b);
   for (const Vector2d& x :
        {Vector2d(a.start), Vector2d(a.end), Vector2d(b.start), Vector2d(b.end)}) {
-    if (line.Across(x) > kMaxDistance) return std::nullopt;
+    if (line.Across(x) > kMaxMergeDistance) return std::nullopt;
   }
   const double a0 = line.Along(a.start);
   const double a1 = line.Along(a.end);
@@ -100,7 +100,7 @@ std::vector<LineSegment2> MergeCollinear(std::vector<LineSegment2> segments) {
         // Quick rejection: if all end points are close to the common line, the midpoint is close to
         // this one.
         const double across = DistanceToLine(line.start, direction, segments[j].Midpoint());
-        if (across > 3.0 * kMaxDistance) continue;
+        if (across > 3.0 * kMaxMergeDistance) continue;
         const std::optional<LineSegment2> joined = Merge(line, segments[j]);
         if (!joined) continue;
         line = *joined;

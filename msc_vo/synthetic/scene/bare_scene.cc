@@ -8,7 +8,7 @@ namespace msc_vo {
 
 namespace {
 
-const Eigen::Vector3f kWhite(0.86f, 0.86f, 0.86f);
+const Eigen::Vector3f kPlainWhite(0.86f, 0.86f, 0.86f);
 
 // Adds `count` upright panels that zigzag at +-45 degrees from `from` in direction `along`. Their
 // visible sides face to the left of `along`.
@@ -32,8 +32,8 @@ Scene MakeBare(uint64_t seed) {
   Random& random = builder.random();
   const double x = 2.6 + random.Uniform(-0.1, 0.2), y = 2.3 + random.Uniform(-0.1, 0.2);
   const double height = 2.5;
-  const Texture white = builder.NewTexture(TextureKind::kPlain, kWhite);
-  const Texture floor = builder.NewTexture(TextureKind::kPlain, 0.75f * kWhite);
+  const Texture white = builder.NewTexture(TextureKind::kPlain, kPlainWhite);
+  const Texture floor = builder.NewTexture(TextureKind::kPlain, 0.75f * kPlainWhite);
   builder.AddHall({-x, -y, 0}, {x, y, height}, floor, white, white);
   builder.scene().ambient = 0.36;
   builder.scene().lights = {{{0.9, -0.5, 2.2}, 0.85, 2.4}, {{-1.4, 0.3, 2.2}, 0.30, 2.4}};

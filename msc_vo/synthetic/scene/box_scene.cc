@@ -11,7 +11,7 @@ namespace {
 const Eigen::Vector3f kCardboard(0.62f, 0.50f, 0.36f);
 const Eigen::Vector3f kGrey(0.70f, 0.70f, 0.68f);
 
-constexpr double kHalfHall = 4.5, kHeight = 3.0;  // metres
+constexpr double kHalfHall = 4.5, kHallHeight = 3.0;  // metres
 
 // Adds crates along a circle in front of the walls, each turned as it happens to stand.
 void AddCrates(SceneBuilder* builder) {
@@ -48,7 +48,7 @@ Scene MakeBox(uint64_t seed) {
   Random& random = builder.random();
   const Texture floor = builder.NewTexture(TextureKind::kPlaster, 0.75f * kGrey);
   const Texture walls = builder.NewTexture(TextureKind::kPlain, kGrey);
-  builder.AddHall({-kHalfHall, -kHalfHall, 0}, {kHalfHall, kHalfHall, kHeight}, floor, walls,
+  builder.AddHall({-kHalfHall, -kHalfHall, 0}, {kHalfHall, kHalfHall, kHallHeight}, floor, walls,
                   walls);
   builder.scene().ambient = 0.36;
   builder.scene().lights = {{{1.2, -0.8, 2.6}, 0.8, 2.4}, {{-1.6, 0.9, 2.6}, 0.35, 2.4}};

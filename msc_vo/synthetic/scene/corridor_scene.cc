@@ -8,7 +8,7 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kLength = 16.0, kWidth = 1.9, kHeight = 2.5;  // metres
+constexpr double kLength = 16.0, kWidth = 1.9, kCorridorHeight = 2.5;  // metres
 const Eigen::Vector3f kDoorColor(0.66f, 0.55f, 0.42f);
 
 // Adds doors along a wall and the skirting boards between them. The origin of `side_frame` is the
@@ -38,7 +38,7 @@ Scene MakeCorridor(uint64_t seed) {
   const Texture floor = builder.NewTexture(TextureKind::kPlaster, {0.42f, 0.44f, 0.46f});
   const Texture ceiling = builder.NewTexture(TextureKind::kPlain, {0.9f, 0.9f, 0.9f});
   const Texture walls = builder.NewTexture(TextureKind::kPlaster, {0.80f, 0.82f, 0.80f});
-  builder.AddHall({-x, -y, 0}, {x, y, kHeight}, floor, ceiling, walls);
+  builder.AddHall({-x, -y, 0}, {x, y, kCorridorHeight}, floor, ceiling, walls);
   builder.scene().ambient = 0.42;
 
   const Texture skirting = builder.NewTexture(TextureKind::kPlain, {0.30f, 0.31f, 0.33f});
@@ -52,8 +52,8 @@ Scene MakeCorridor(uint64_t seed) {
   const Texture handrail = builder.NewTexture(TextureKind::kPlain, {0.5f, 0.4f, 0.3f});
   for (int i = 0; i < 4; ++i) {
     const double at = -x + (i + 0.5) * kLength / 4.0;
-    AddCeilingLamp(UprightFrame({at, 0, kHeight}, 0.0), {1.2, 0.25}, &builder);
-    builder.scene().lights.push_back({{at, 0, kHeight - 0.25}, 0.75, 1.7});
+    AddCeilingLamp(UprightFrame({at, 0, kCorridorHeight}, 0.0), {1.2, 0.25}, &builder);
+    builder.scene().lights.push_back({{at, 0, kCorridorHeight - 0.25}, 0.75, 1.7});
     // A switch box on one side and a notice on the other, for a few points.
     const double beside = at + random.Uniform(-0.3, 0.3);
     builder.AddBox(UprightFrame({beside, -y, 1.1}, 0.0), {-0.04, 0, 0}, {0.04, 0.012, 0.12},

@@ -8,16 +8,16 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kHalfX = 5.0, kHalfY = 4.4, kHeight = 2.6;  // half size of the house, metres
-constexpr double kWall = 0.06;                               // half thickness of a partition
-constexpr double kDoorway = 0.55, kLintel = 2.1;             // half width and height, metres
+constexpr double kHalfX = 5.0, kHalfY = 4.4, kHouseHeight = 2.6;  // half size of the house, metres
+constexpr double kWall = 0.06;                                    // half thickness of a partition
+constexpr double kDoorway = 0.55, kLintel = 2.1;                  // half width and height, metres
 
 // Adds a partition in the plane y = 0 of `frame`, along `span`, with a doorway centred at `door`.
 void AddPartition(const Rigid3& frame, const Span& span, double door, const Texture& paint,
                   SceneBuilder* builder) {
-  builder->AddBox(frame, {span.low, -kWall, 0}, {door - kDoorway, kWall, kHeight}, paint);
-  builder->AddBox(frame, {door + kDoorway, -kWall, 0}, {span.high, kWall, kHeight}, paint);
-  builder->AddBox(frame, {door - kDoorway, -kWall, kLintel}, {door + kDoorway, kWall, kHeight},
+  builder->AddBox(frame, {span.low, -kWall, 0}, {door - kDoorway, kWall, kHouseHeight}, paint);
+  builder->AddBox(frame, {door + kDoorway, -kWall, 0}, {span.high, kWall, kHouseHeight}, paint);
+  builder->AddBox(frame, {door - kDoorway, -kWall, kLintel}, {door + kDoorway, kWall, kHouseHeight},
                   paint);
 }
 
@@ -53,8 +53,8 @@ void FurnishQuarter(const Eigen::Vector2d& center, int index, SceneBuilder* buil
   }
   AddRug(UprightFrame({center.x(), center.y(), 0}, 0.0), {1.9, 1.5}, builder);
   AddTable(UprightFrame({center.x(), center.y(), 0.008}, 0.0), {0.9, 0.6}, 0.5, builder);
-  AddCeilingLamp(UprightFrame({center.x(), center.y(), kHeight}, 0.0), {0.5, 0.5}, builder);
-  builder->scene().lights.push_back({{center.x(), center.y(), kHeight - 0.3}, 0.85, 2.4});
+  AddCeilingLamp(UprightFrame({center.x(), center.y(), kHouseHeight}, 0.0), {0.5, 0.5}, builder);
+  builder->scene().lights.push_back({{center.x(), center.y(), kHouseHeight - 0.3}, 0.85, 2.4});
 }
 
 // Adds pictures on both sides of the partitions, away from the doorways.
@@ -96,7 +96,7 @@ Scene MakeHouse(uint64_t seed) {
       builder.NewTexture(TextureKind::kPlanks, {0.62f, 0.45f, 0.28f}, {0.22f, 0.15f, 0.10f});
   const Texture ceiling = builder.NewTexture(TextureKind::kPlaster, {0.9f, 0.9f, 0.88f});
   const Texture paint = builder.NewTexture(TextureKind::kPlaster, {0.86f, 0.84f, 0.78f});
-  builder.AddHall({-kHalfX, -kHalfY, 0}, {kHalfX, kHalfY, kHeight}, floor, ceiling, paint);
+  builder.AddHall({-kHalfX, -kHalfY, 0}, {kHalfX, kHalfY, kHouseHeight}, floor, ceiling, paint);
   builder.scene().ambient = 0.36;
   const double x = 0.5 * kHalfX, y = 0.5 * kHalfY;
   const Rigid3 along_x = UprightFrame({0, 0, 0}, 0.0), along_y = UprightFrame({0, 0, 0}, 0.5 * kPi);

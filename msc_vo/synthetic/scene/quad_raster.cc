@@ -14,7 +14,7 @@ namespace {
 constexpr double kNear = 0.01;  // near clipping plane, metres; paths keep a larger distance
 // Tolerance at the border of a rectangle, pixels: closes gaps between rectangles with a common
 // edge. Rounding errors are many orders of magnitude smaller.
-constexpr double kBorder = 1e-6;
+constexpr double kTolerance = 1e-6;
 
 // Coefficients of c . ray(x, y) as a linear form in (x, y, 1).
 Eigen::Vector3d LinearForm(const PinholeCamera& camera, const Eigen::Vector3d& c) {
@@ -57,9 +57,9 @@ RowSpan SpanOfRow(const Outline& inside, int width, int y, double reach) {
     const double offset =
         form.y() * y + form.z() + reach * (std::abs(form.x()) + std::abs(form.y()));
     if (slope > 0.0) {
-      low = std::max(low, -offset / slope - kBorder);
+      low = std::max(low, -offset / slope - kTolerance);
     } else if (slope < 0.0) {
-      high = std::min(high, -offset / slope + kBorder);
+      high = std::min(high, -offset / slope + kTolerance);
     } else if (offset < 0.0) {
       return {};
     }
@@ -78,7 +78,7 @@ Outline InsideForms(const QuadView& view) {
 
 bool QuadView::Contains(const Eigen::Vector3d& pixel, double w) const {
   const double u = u_over_z.dot(pixel), v = v_over_z.dot(pixel);
-  const double slack = 1e-9 * w;  // corresponds to kBorder for rectangles of some hundred pixels
+  const double slack = 1e-9 * w;  // corresponds to kTolerance for rectangles of some hundred pixels
   return w > 0.0 && w < 1.0 / kNear && u >= -slack && v >= -slack && u <= w + slack &&
          v <= w + slack;
 }
