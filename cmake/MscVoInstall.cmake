@@ -2,6 +2,7 @@
 # set of its own, so that a component requires only the packages that it links: the
 # solver does not need OpenCV.
 include(CMakePackageConfigHelpers)
+include(MscVoInstallDocs)
 set(MSC_VO_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/msc_vo)
 
 # Lets a target that is installed to `destination` find shared libraries of msc_vo, wherever all are
@@ -70,10 +71,7 @@ function(msc_vo_install)
   endforeach()
   install(FILES ${PROJECT_BINARY_DIR}/include/msc_vo/version.h
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/msc_vo COMPONENT development)
-  install(FILES README.md CHANGELOG.md CITATION.cff LICENSE
-          DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command)
-  install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command
-          PATTERN lab EXCLUDE PATTERN Doxyfile.in EXCLUDE)
+  msc_vo_install_documents()
 
   get_property(all GLOBAL PROPERTY MSC_VO_COMPONENTS)
   set(MSC_VO_COMPONENT_TABLE "set(msc_vo_all_components ${all})\n")

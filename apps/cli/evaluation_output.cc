@@ -58,11 +58,11 @@ std::string FormatErrorTable(const TrajectoryError& error, const EvaluationConte
   table += Row("RPE " + delta, error.rpe.translation, kMillimetres, "mm");
   table += Row("RPE rot. " + delta, error.rpe.rotation, kDegrees, "deg");
   if (context.has_stamps) {
-    table += Row("RPE", error.rpe_per_second.translation, kMillimetres, "mm/s");
-    table += Row("RPE rotation", error.rpe_per_second.rotation, kDegrees, "deg/s");
+    table += Row("RPE per second", error.rpe_per_second.translation, kMillimetres, "mm/s");
+    table += Row("RPE rot. per second", error.rpe_per_second.rotation, kDegrees, "deg/s");
   }
-  table += Row("RPE", error.rpe_per_metre.translation, kMillimetres, "mm/m");
-  table += Row("RPE rotation", error.rpe_per_metre.rotation, kDegrees, "deg/m");
+  table += Row("RPE per metre", error.rpe_per_metre.translation, kMillimetres, "mm/m");
+  table += Row("RPE rot. per metre", error.rpe_per_metre.rotation, kDegrees, "deg/m");
   table += FormatText("APE SSE %.9g m^2; ", error.ape.sse) + AlignmentText(error);
   if (context.reference_format != "tum" || context.estimate_format != "tum") {
     table += "formats: ground truth " + context.reference_format + ", estimate " +

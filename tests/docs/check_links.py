@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that every link inside the repository resolves, in each of its Markdown files.
+"""Checks that every link inside a folder resolves, in each of its Markdown files: the repository, or what
+it installs.
 
     check_links.py ROOT         reports every broken link as file:line: message; exit status 1 if any
     check_links.py --self-test  proves on small files that broken links are found
@@ -74,7 +75,7 @@ def problem_of(document, target, root):
     name, _, anchor = urllib.parse.unquote(target).partition("#")
     linked = (document.parent / name).resolve() if name else document
     if root.resolve() not in (linked, *linked.parents):
-        return f"{target} is outside of the repository"
+        return f"{target} is outside of {root}"
     if not linked.exists():
         return f"{target}: there is no {linked.relative_to(root.resolve())}"
     if anchor and linked.suffix == ".md" and anchor not in anchors(linked):
@@ -84,6 +85,8 @@ def problem_of(document, target, root):
 
 def check(root):
     """Yields (path, line, message)."""
+    if not any(documents(root)):
+        yield pathlib.Path("."), 0, "no Markdown files"
     for document in documents(root):
         for number, target in links(document):
             problem = problem_of(document, target, root)
@@ -110,7 +113,7 @@ def self_test():
         ("<img src=\"none.png\">", "there is no docs/none.png"),
         ("[x](../README.md#one-two-2)", "README.md has no heading #one-two-2"),
         ("[x](#none)", "a.md has no heading #none"),
-        ("[x](../../elsewhere)", "outside of the repository"),
+        ("[x](../../elsewhere)", "is outside of "),
         ("```\n# Here\n```\n[x](#here)", "a.md has no heading #here"),
     ]
     others = {"README.md": "# One two\n# One *two*\n## `a_b`, c\n# A (b)  c\n",
@@ -120,4 +123,4 @@ def self_test():
 
 
 if __name__ == "__main__":
-    sys.exit(tree_check.main(__doc__.splitlines()[0], "README.md", check, self_test))
+    sys.exit(tree_check.main(__doc__.splitlines()[0], ".", check, self_test))

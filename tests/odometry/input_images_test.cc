@@ -62,6 +62,31 @@ TEST_F(InputImagesTest, ViewsGiveTheBitsOfCopies) {
   }
 }
 
+// As a driver does that writes every image into the same memory.
+TEST_F(InputImagesTest, MayBeOverwrittenAfterTheCall) {
+  OdometryOptions options;
+  options.mapping.self_calibration = true;
+  for (const int threads : {1, 2}) {
+    options.threads = threads;
+    for (const double delay : {0.0, 0.004}) {
+      Odometry odometry(options, camera_, {});
+      RgbdImage image;
+      for (int i = 0; i < 30; ++i) {
+        const RgbdImage& given = (*images_)[i];
+        image.id = given.id;
+        image.timestamp = given.timestamp;
+        image.depth_delay = delay;
+        given.gray.copyTo(image.gray);
+        given.depth.copyTo(image.depth);
+        odometry.Process(image);
+        image.gray = i % 2;
+        image.depth = 0.5;
+      }
+      ExpectSameBytes(Run(options, delay, false), odometry.Finish());
+    }
+  }
+}
+
 TEST_F(InputImagesTest, WrongTypesAndSizesAreRefusedBeforeTheyAreRead) {
   Odometry odometry({}, camera_, {});
   for (int i = 0; i < 3; ++i) odometry.Process((*images_)[i]);
