@@ -10,6 +10,11 @@ function(msc_vo_compile_options target)
     # Both are deliberate: loops that vectorise without branches, with a hint for GCC.
     target_compile_options(${target} PRIVATE -Wno-unknown-pragmas -Wno-bitwise-instead-of-logical)
   endif()
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # Files that are compiled together are headers to GCC, whose unnamed namespaces it warns about.
+    target_compile_options(
+      ${target} PRIVATE $<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-subobject-linkage>)
+  endif()
   if(MSC_VO_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
