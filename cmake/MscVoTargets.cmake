@@ -10,11 +10,11 @@ function(msc_vo_compile_options target)
     # Both are deliberate: loops that vectorise without branches, with a hint for GCC.
     target_compile_options(${target} PRIVATE -Wno-unknown-pragmas -Wno-bitwise-instead-of-logical)
   endif()
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # Files that are compiled together are headers to GCC, whose unnamed namespaces it warns about.
-    target_compile_options(
-      ${target} PRIVATE $<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-subobject-linkage>)
-  endif()
+  # To the compiler, files that are compiled together are one file: it warns about local names that
+  # another one has, and GCC about unnamed namespaces in headers.
+  set(together $<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>)
+  target_compile_options(${target} PRIVATE $<${together}:-Wno-shadow>
+                         $<$<AND:${together},$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>)
   if(MSC_VO_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
