@@ -82,8 +82,8 @@ void EstimatePose(benchmark::State& state) {
     summary = EstimateFramePose(input.options.pose, input.frame, Map(), {}, {}, &cam_from_world,
                                 &matches);
   }
-  state.counters["inlier_points"] = summary.num_inlier_points;
-  state.counters["inlier_lines"] = summary.num_inlier_lines;
+  state.counters["inlier_points"] = summary.num_inliers.points;
+  state.counters["inlier_lines"] = summary.num_inliers.lines;
 }
 BENCHMARK(EstimatePose)->Unit(benchmark::kMicrosecond);
 

@@ -3,24 +3,13 @@
 
 #include "msc_vo/features/depth_measurement.h"
 
-#include <algorithm>
-
 #include "msc_vo/features/internal/depth_range_builder.h"
 #include "msc_vo/features/internal/feature_depth.h"
+#include "msc_vo/frame/feature_counts.h"
 #include "msc_vo/frame/frame_intrinsics.h"
 #include "msc_vo/frame/rolling_shutter.h"
 
 namespace msc_vo {
-
-namespace {
-
-bool HasDynamicFeatures(const Frame& frame) {
-  const auto is_dynamic = [](const auto& feature) { return feature.dynamic; };
-  return std::any_of(frame.points.begin(), frame.points.end(), is_dynamic) ||
-         std::any_of(frame.lines.begin(), frame.lines.end(), is_dynamic);
-}
-
-}  // namespace
 
 std::shared_ptr<const Frame> MeasureDepthAgain(
     const FrameBuilderOptions& options, const RgbdImage& image, const Frame& frame,

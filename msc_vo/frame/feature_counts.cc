@@ -26,11 +26,20 @@ bool HasTwoDirections(const std::vector<Eigen::Vector3d>& directions) {
 }  // namespace
 
 int NumWithDepth(const Frame& frame) {
-  const auto points = std::count_if(frame.points.begin(), frame.points.end(),
-                                    [](const PointFeature& point) { return point.HasDepth(); });
-  const auto lines = std::count_if(frame.lines.begin(), frame.lines.end(),
-                                   [](const LineFeature& line) { return line.depth.has_value(); });
-  return static_cast<int>(points + lines);
+  int count = 0;
+  ForEachFeatures(frame, [&](const auto& features) {
+    for (const auto& feature : features) count += feature.HasDepth();
+  });
+  return count;
+}
+
+bool HasDynamicFeatures(const Frame& frame) {
+  bool any = false;
+  ForEachFeatures(frame, [&](const auto& features) {
+    any = any || std::any_of(features.begin(), features.end(),
+                             [](const auto& feature) { return feature.dynamic; });
+  });
+  return any;
 }
 
 bool CanBeginMap(const Frame& frame, int min_features) {

@@ -64,4 +64,11 @@ struct Frame {
   }
 };
 
+/// Calls visit(features) for the features of every kind. The frame may be const.
+template <typename FrameType, typename Visit>
+void ForEachFeatures(FrameType& frame, const Visit& visit) {
+  visit(frame.points);
+  visit(frame.lines);
+}
+
 }  // namespace msc_vo

@@ -8,11 +8,9 @@ namespace msc_vo {
 namespace {
 
 void RemoveDepths(Frame* frame) {
-  for (PointFeature& point : frame->points) {
-    point.inverse_depth = 0.0;
-    point.inverse_depth_sigma = 0.0;
-  }
-  for (LineFeature& line : frame->lines) line.depth.reset();
+  ForEachFeatures(*frame, [](auto& features) {
+    for (auto& feature : features) feature.RemoveDepth();
+  });
   frame->depth_ranges = {};
 }
 
@@ -28,14 +26,12 @@ std::shared_ptr<const Frame> ChangeIntrinsics(
   if (moved->lens) moved->lens = intrinsics->distortion;
   if (intrinsics->registration && !from.registration) RemoveDepths(&*moved);
   if (from.distortion.IsZero() && intrinsics->distortion.IsZero()) return moved;
-  const auto move = [&](const Eigen::Vector2d& pixel) {
+  const auto move = [&](const Eigen::Vector2d& pixel, double* /*inverse_depth*/) {
     return MovePixel(from, *intrinsics, pixel);
   };
-  for (PointFeature& point : moved->points) point.pixel = move(point.pixel);
-  for (LineFeature& line : moved->lines) {
-    line.segment.start = move(line.segment.start);
-    line.segment.end = move(line.segment.end);
-  }
+  ForEachFeatures(*moved, [&](auto& features) {
+    for (auto& feature : features) feature.MovePixels(move);
+  });
   moved->grid = FeatureGrid(moved->camera, moved->points);
   return moved;
 }

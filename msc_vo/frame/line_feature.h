@@ -5,6 +5,8 @@
 
 #include <optional>
 
+#include <Eigen/Core>
+
 #include "msc_vo/frame/descriptor.h"
 #include "msc_vo/geometry/line_fit.h"
 #include "msc_vo/geometry/line_segment.h"
@@ -18,6 +20,21 @@ struct LineFeature {
   bool dynamic = false;            ///< as for points
   std::optional<LineDepth> depth;  ///< none: the line stays 2-D
   Descriptor descriptor{};
+
+  bool HasDepth() const { return depth.has_value(); }
+  void RemoveDepth() { depth.reset(); }
+  /// As for points; the inverse depth exists if HasDepth().
+  Eigen::Vector2d Center() const { return segment.Midpoint(); }
+  double CenterInverseDepth() const { return depth->At(0.5); }
+  double CenterInverseDepthSigma() const { return depth->SigmaAt(0.5); }
+  /// As for points; without a depth, `inverse_depth` is zero.
+  template <typename Move>
+  void MovePixels(const Move& move) {
+    LineDepth at_infinity;
+    LineDepth& moved = depth ? *depth : at_infinity;
+    segment.start = move(segment.start, &moved.start);
+    segment.end = move(segment.end, &moved.end);
+  }
 
   template <typename Archive>
   void Serialize(Archive& archive) {

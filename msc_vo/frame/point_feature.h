@@ -25,6 +25,16 @@ struct PointFeature {
   Descriptor descriptor{};
 
   bool HasDepth() const { return inverse_depth > 0.0; }
+  void RemoveDepth() { inverse_depth = inverse_depth_sigma = 0.0; }
+  /// The pixel that stands for its place, and the inverse depth there, 1/metres, with its sigma.
+  const Eigen::Vector2d& Center() const { return pixel; }
+  double CenterInverseDepth() const { return inverse_depth; }
+  double CenterInverseDepthSigma() const { return inverse_depth_sigma; }
+  /// Replaces its pixels by move(pixel, &inverse_depth), which may change the inverse depth.
+  template <typename Move>
+  void MovePixels(const Move& move) {
+    pixel = move(pixel, &inverse_depth);
+  }
 
   template <typename Archive>
   void Serialize(Archive& archive) {

@@ -67,15 +67,12 @@ Frame CompensateRollingShutter(const Frame& frame, const CameraVelocity& velocit
   compensated.readout_time = readout_time;
   if (readout_time == 0.0 && frame.readout_time == 0.0) return compensated;
   const RowMotion motion(frame, velocity, readout_time);
-  for (PointFeature& point : compensated.points) {
-    point.pixel = motion.Moved(point.pixel, &point.inverse_depth);
-  }
-  for (LineFeature& line : compensated.lines) {
-    LineDepth at_infinity;
-    LineDepth& depth = line.depth ? *line.depth : at_infinity;
-    line.segment.start = motion.Moved(line.segment.start, &depth.start);
-    line.segment.end = motion.Moved(line.segment.end, &depth.end);
-  }
+  const auto move = [&](const Eigen::Vector2d& pixel, double* inverse_depth) {
+    return motion.Moved(pixel, inverse_depth);
+  };
+  ForEachFeatures(compensated, [&](auto& features) {
+    for (auto& feature : features) feature.MovePixels(move);
+  });
   compensated.grid = FeatureGrid(compensated.camera, compensated.points);
   return compensated;
 }

@@ -8,7 +8,7 @@
 
 #include "msc_vo/frame/frame.h"
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/map/landmark.h"
+#include "msc_vo/map/landmark_kinds.h"
 
 namespace msc_vo {
 
@@ -17,13 +17,18 @@ struct Keyframe {
   KeyframeId id = kNoId;
   std::shared_ptr<const Frame> frame;
   Rigid3 cam_from_world;
-  std::vector<LandmarkId> points;  ///< one per point feature; kNoId: none
-  std::vector<LandmarkId> lines;   ///< one per line feature
+  PerKind<std::vector<LandmarkId>> landmarks;  ///< one per feature; kNoId: none
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, id, frame, cam_from_world, points, lines);
+    archive.Fields(*this, id, frame, cam_from_world, landmarks);
   }
 };
+
+/// The landmarks of a kind that a keyframe observes, one per feature; kNoId: none.
+template <typename L>
+const std::vector<LandmarkId>& SlotsOf(const Keyframe& keyframe) {
+  return keyframe.landmarks.Of<L>();
+}
 
 }  // namespace msc_vo

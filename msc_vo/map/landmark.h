@@ -30,8 +30,8 @@ struct Observation {
 /// Common part of all kinds of landmarks.
 ///
 /// A kind is a struct that derives from Landmark (point_landmark.h, line_landmark.h) and defines
-/// its Feature, its Geometry, geometry(), SetGeometry(), Center() and Transform(). Code that is the
-/// same for all kinds is a template over that struct; landmark_kinds.h lists the kinds.
+/// what differs between kinds, with the same names in each. Code that is the same for all kinds is
+/// a template over that struct; landmark_kinds.h lists the kinds.
 struct Landmark {
   LandmarkId id = kNoId;
   KeyframeId first_keyframe = kNoId;      ///< the keyframe that created it

@@ -6,7 +6,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "msc_vo/map/keyframe.h"
 #include "msc_vo/map/line_landmark.h"
 #include "msc_vo/map/point_landmark.h"
 
@@ -25,7 +24,8 @@ void ForEachLandmarkKind(const Visit& visit) {
   visit(LandmarkKind<LineLandmark>());
 }
 
-/// The member for a kind of a struct that has one for each. The struct may be const.
+/// The member for a kind of a struct that has one for each: `points`, `lines`. The struct may be
+/// const.
 template <typename L, typename Kinds>
 auto& OfKind(Kinds& kinds) {
   if constexpr (std::is_same_v<L, PointLandmark>) {
@@ -51,6 +51,31 @@ struct PerKind {
     return OfKind<L>(*this);
   }
 
+  bool operator==(const PerKind& other) const {
+    return points == other.points && lines == other.lines;
+  }
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, points, lines);
+  }
+};
+
+/// One T<L> for each kind L.
+template <template <typename L> class T>
+struct ByKind {
+  T<PointLandmark> points;
+  T<LineLandmark> lines;
+
+  template <typename L>
+  T<L>& Of() {
+    return OfKind<L>(*this);
+  }
+  template <typename L>
+  const T<L>& Of() const {
+    return OfKind<L>(*this);
+  }
+
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive.Fields(*this, points, lines);
@@ -63,10 +88,32 @@ const std::vector<typename L::Feature>& FeaturesOf(const Frame& frame) {
   return OfKind<L>(frame);
 }
 
-/// The landmarks that a keyframe observes, one per feature; kNoId: none.
-template <typename L>
-const std::vector<LandmarkId>& SlotsOf(const Keyframe& keyframe) {
-  return OfKind<L>(keyframe);
+/// Numbers of elements of a struct that has a vector for each kind.
+template <typename Kinds>
+PerKind<int> SizesOf(const Kinds& kinds) {
+  PerKind<int> sizes;
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    sizes.Of<L>() = static_cast<int>(OfKind<L>(kinds).size());
+  });
+  return sizes;
+}
+
+/// Sum over the kinds.
+inline int Sum(const PerKind<int>& counts) {
+  int sum = 0;
+  ForEachLandmarkKind([&](auto kind) { sum += counts.Of<typename decltype(kind)::Landmark>(); });
+  return sum;
+}
+
+/// Number of points that support a pose as well as these landmarks do.
+inline int Support(const PerKind<int>& counts) {
+  int support = 0;
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    support += L::kSupport * counts.Of<L>();
+  });
+  return support;
 }
 
 }  // namespace msc_vo

@@ -4,11 +4,9 @@
 #include "msc_vo/map/map.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "msc_vo/geometry/angles.h"
 #include "msc_vo/map/observer_count.h"
 
 namespace msc_vo {
@@ -30,33 +28,6 @@ std::vector<int64_t> Ids(const Table& table) {
   return ids;
 }
 
-// Returns the descriptor with the smallest total distance to all others; the first one on ties.
-Descriptor CentralDescriptor(const std::vector<Descriptor>& descriptors) {
-  std::vector<int> totals(descriptors.size(), 0);
-  for (size_t i = 0; i < descriptors.size(); ++i) {
-    for (size_t j = i + 1; j < descriptors.size(); ++j) {
-      const int distance = HammingDistance(descriptors[i], descriptors[j]);
-      totals[i] += distance;
-      totals[j] += distance;
-    }
-  }
-  return descriptors[std::min_element(totals.begin(), totals.end()) - totals.begin()];
-}
-
-// Selects the descriptor again if the observations have changed.
-template <typename L>
-void RefreshDescriptor(const Map::KeyframeTable& keyframes, L* landmark) {
-  if (landmark->descriptor_is_current) return;
-  std::vector<Descriptor> descriptors;
-  descriptors.reserve(landmark->observations.size());
-  for (const Observation& observation : landmark->observations) {
-    const Frame& frame = *keyframes.Find(observation.keyframe)->frame;
-    descriptors.push_back(FeaturesOf<L>(frame)[observation.feature].descriptor);
-  }
-  landmark->descriptor = CentralDescriptor(descriptors);
-  landmark->descriptor_is_current = true;
-}
-
 }  // namespace
 
 const Observation* FindObservation(const Landmark& landmark, KeyframeId keyframe) {
@@ -67,8 +38,10 @@ const Observation* FindObservation(const Landmark& landmark, KeyframeId keyframe
 Map Map::Share() {
   Map map;
   map.keyframes_ = keyframes_.Share();
-  map.points_ = points_.Share();
-  map.lines_ = lines_.Share();
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    map.Table<L>() = Table<L>().Share();
+  });
   map.relative_poses_ = relative_poses_.Share();
   map.next_keyframe_ = next_keyframe_;
   map.next_landmark_ = next_landmark_;
@@ -84,8 +57,10 @@ Map Map::Next() const {
 
 void Map::Merge(const Map& other) {
   keyframes_.Merge(other.keyframes_);
-  points_.Merge(other.points_);
-  lines_.Merge(other.lines_);
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    Table<L>().Merge(other.landmarks<L>());
+  });
   relative_poses_.Merge(other.relative_poses_);
   next_keyframe_ = std::max(next_keyframe_, other.next_keyframe_);
   next_landmark_ = std::max(next_landmark_, other.next_landmark_);
@@ -117,79 +92,14 @@ KeyframeId Map::AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& ca
   Keyframe keyframe;
   keyframe.id = id;
   keyframe.cam_from_world = cam_from_world;
-  keyframe.points.assign(frame->points.size(), kNoId);
-  keyframe.lines.assign(frame->lines.size(), kNoId);
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    keyframe.landmarks.Of<L>().assign(FeaturesOf<L>(*frame).size(), kNoId);
+  });
   keyframe.frame = std::move(frame);
   keyframes_.Append(id, std::move(keyframe));
   relative_poses_.Append(id, {});
   return id;
-}
-
-template <typename L>
-LandmarkId Map::Add(KeyframeId keyframe, int feature, const typename L::Geometry& geometry) {
-  const LandmarkId id = next_landmark_++;
-  L landmark;
-  landmark.id = id;
-  landmark.first_keyframe = keyframe;
-  landmark.SetGeometry(geometry);
-  Table<L>().Append(id, std::move(landmark));
-  Observe<L>(id, keyframe, feature);
-  Refresh<L>(id);
-  return id;
-}
-
-template <typename L>
-bool Map::Observe(LandmarkId id, KeyframeId keyframe_id, int feature) {
-  const L* landmark = Find<L>(id);
-  const Keyframe* keyframe = FindKeyframe(keyframe_id);
-  if (landmark == nullptr || keyframe == nullptr) return false;
-  if (SlotsOf<L>(*keyframe)[feature] != kNoId) return false;
-  if (FindObservation(*landmark, keyframe_id) != nullptr) return false;
-  OfKind<L>(*keyframes_.FindToChange(keyframe_id))[feature] = id;
-  L* const changed = Table<L>().FindToChange(id);
-  std::vector<Observation>& observations = changed->observations;
-  observations.insert(LowerBound(&observations, keyframe_id), {keyframe_id, feature});
-  changed->descriptor_is_current = false;
-  return true;
-}
-
-template <typename L>
-void Map::RemoveObservation(LandmarkId id, KeyframeId keyframe) {
-  const L* landmark = Find<L>(id);
-  if (landmark == nullptr) return;
-  const Observation* observation = FindObservation(*landmark, keyframe);
-  if (observation == nullptr) return;
-  OfKind<L>(*keyframes_.FindToChange(keyframe))[observation->feature] = kNoId;
-  if (landmark->observations.size() == 1) {
-    Table<L>().Erase(id);
-    return;
-  }
-  L* const changed = Table<L>().FindToChange(id);
-  changed->observations.erase(LowerBound(&changed->observations, keyframe));
-  changed->descriptor_is_current = false;
-}
-
-template <typename L>
-void Map::Remove(LandmarkId id) {
-  const L* landmark = Find<L>(id);
-  if (landmark == nullptr) return;
-  for (const Observation& observation : landmark->observations) {
-    Keyframe* const keyframe = keyframes_.FindToChange(observation.keyframe);
-    OfKind<L>(*keyframe)[observation.feature] = kNoId;
-  }
-  Table<L>().Erase(id);
-}
-
-template <typename L>
-void Map::MergeLandmarks(LandmarkId from, LandmarkId into) {
-  const L source = *Find<L>(from);
-  Remove<L>(from);
-  for (const Observation& observation : source.observations) {
-    Observe<L>(into, observation.keyframe, observation.feature);
-  }
-  L* const target = Table<L>().FindToChange(into);
-  target->num_visible += source.num_visible;
-  target->num_found += source.num_found;
 }
 
 void Map::RemoveKeyframe(KeyframeId id, KeyframeId successor) {
@@ -203,6 +113,27 @@ void Map::RemoveKeyframe(KeyframeId id, KeyframeId successor) {
     }
   });
   keyframes_.Erase(id);
+}
+
+void Map::InsertObservation(const Observation& observation, Landmark* landmark) {
+  std::vector<Observation>& observations = landmark->observations;
+  observations.insert(LowerBound(&observations, observation.keyframe), observation);
+}
+
+void Map::EraseObservation(KeyframeId keyframe, Landmark* landmark) {
+  landmark->observations.erase(LowerBound(&landmark->observations, keyframe));
+}
+
+Descriptor Map::CentralDescriptor(const std::vector<Descriptor>& descriptors) {
+  std::vector<int> totals(descriptors.size(), 0);
+  for (size_t i = 0; i < descriptors.size(); ++i) {
+    for (size_t j = i + 1; j < descriptors.size(); ++j) {
+      const int distance = HammingDistance(descriptors[i], descriptors[j]);
+      totals[i] += distance;
+      totals[j] += distance;
+    }
+  }
+  return descriptors[std::min_element(totals.begin(), totals.end()) - totals.begin()];
 }
 
 bool Map::KnowsKeyframe(KeyframeId id) const { return relative_poses_.Find(id) != nullptr; }
@@ -227,52 +158,6 @@ void Map::SetPose(KeyframeId keyframe, const Rigid3& cam_from_world) {
   keyframes_.FindToChange(keyframe)->cam_from_world = cam_from_world;
 }
 
-template <typename L>
-void Map::CountTracking(LandmarkId id, int num_visible, int num_found) {
-  L* const landmark = Table<L>().FindToChange(id);
-  if (landmark == nullptr) return;
-  landmark->num_visible += num_visible;
-  landmark->num_found += num_found;
-}
-
-template <typename L>
-void Map::Refresh(LandmarkId id) {
-  L* const landmark = Table<L>().FindToChange(id);
-  RefreshDescriptor(keyframes_, landmark);
-  RefreshViews(landmark);
-}
-
-void Map::RefreshViews(PointLandmark* point) const {
-  Eigen::Vector3d directions = Eigen::Vector3d::Zero();
-  double log_reference = 0.0;
-  for (const Observation& observation : point->observations) {
-    const Keyframe& keyframe = *keyframes_.Find(observation.keyframe);
-    const PointFeature& feature = keyframe.frame->points[observation.feature];
-    const Eigen::Vector3d ray = point->position - keyframe.cam_from_world.OriginInSource();
-    directions += ray.normalized();
-    log_reference += std::log(std::max(ray.norm(), 1e-6)) + feature.level * std::log(kPyramidScale);
-  }
-  point->viewing_direction = directions.normalized();
-  point->reference_distance = std::exp(log_reference / point->observations.size());
-}
-
-void Map::RefreshViews(LineLandmark* line) const {
-  Eigen::Vector3d directions = Eigen::Vector3d::Zero();
-  line->direction_sigma = kPi;
-  for (const Observation& observation : line->observations) {
-    const Keyframe& keyframe = *keyframes_.Find(observation.keyframe);
-    const LineFeature& feature = keyframe.frame->lines[observation.feature];
-    if (feature.depth) {
-      line->direction_sigma =
-          std::min(line->direction_sigma,
-                   DirectionSigma(keyframe.frame->camera, feature.segment, *feature.depth));
-    }
-    directions +=
-        (line->segment.Midpoint() - keyframe.cam_from_world.OriginInSource()).normalized();
-  }
-  line->viewing_direction = directions.normalized();
-}
-
 std::vector<Map::Covisible> Map::FindCovisible(KeyframeId keyframe) const {
   const Keyframe& center = *keyframes_.Find(keyframe);
   ObserverCount observers(*this);
@@ -289,21 +174,5 @@ std::vector<Map::Covisible> Map::FindCovisible(KeyframeId keyframe) const {
       covisible.end());
   return covisible;
 }
-
-// The kinds of landmarks (landmark_kinds.h).
-template LandmarkId Map::Add<PointLandmark>(KeyframeId, int, const Eigen::Vector3d&);
-template bool Map::Observe<PointLandmark>(LandmarkId, KeyframeId, int);
-template void Map::RemoveObservation<PointLandmark>(LandmarkId, KeyframeId);
-template void Map::Remove<PointLandmark>(LandmarkId);
-template void Map::MergeLandmarks<PointLandmark>(LandmarkId, LandmarkId);
-template void Map::CountTracking<PointLandmark>(LandmarkId, int, int);
-template void Map::Refresh<PointLandmark>(LandmarkId);
-template LandmarkId Map::Add<LineLandmark>(KeyframeId, int, const LineSegment3&);
-template bool Map::Observe<LineLandmark>(LandmarkId, KeyframeId, int);
-template void Map::RemoveObservation<LineLandmark>(LandmarkId, KeyframeId);
-template void Map::Remove<LineLandmark>(LandmarkId);
-template void Map::MergeLandmarks<LineLandmark>(LandmarkId, LandmarkId);
-template void Map::CountTracking<LineLandmark>(LandmarkId, int, int);
-template void Map::Refresh<LineLandmark>(LandmarkId);
 
 }  // namespace msc_vo

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "msc_vo/map/keyframe.h"
@@ -27,8 +28,8 @@ class Map {
   /// one by one. Sixteen landmarks take 2 kB without observations: few neighbours are copied with
   /// one that changes, and a snapshot copies a sixteenth of the pointers.
   using KeyframeTable = SharedTable<Keyframe, 1>;
-  using PointTable = SharedTable<PointLandmark, 16>;
-  using LineTable = SharedTable<LineLandmark, 16>;
+  template <typename L>
+  using LandmarkTable = SharedTable<L, 16>;
 
   /// Another keyframe and the number of landmarks that it shares with the given one.
   struct Covisible {
@@ -47,13 +48,13 @@ class Map {
   void Transform(const Rigid3& new_from_old_world);
 
   const KeyframeTable& keyframes() const { return keyframes_; }
-  const PointTable& points() const { return points_; }
-  const LineTable& lines() const { return lines_; }
   /// The landmarks of a kind (landmark_kinds.h).
   template <typename L>
-  const SharedTable<L, 16>& landmarks() const {
-    return const_cast<Map*>(this)->Table<L>();
+  const LandmarkTable<L>& landmarks() const {
+    return landmarks_.Of<L>();
   }
+  const LandmarkTable<PointLandmark>& points() const { return landmarks<PointLandmark>(); }
+  const LandmarkTable<LineLandmark>& lines() const { return landmarks<LineLandmark>(); }
 
   /// Returns nullptr if the map does not contain the id.
   const Keyframe* FindKeyframe(KeyframeId id) const;
@@ -108,7 +109,7 @@ class Map {
   }
   /// Sets LineLandmark::depth_offset.
   void SetDepthOffset(LandmarkId line, double depth_offset) {
-    lines_.FindToChange(line)->depth_offset = depth_offset;
+    Table<LineLandmark>().FindToChange(line)->depth_offset = depth_offset;
   }
   /// Adds to Landmark::num_visible and num_found; no effect if the landmark does not exist.
   template <typename L>
@@ -125,16 +126,21 @@ class Map {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [keyframes, points, lines, relative_poses, next_keyframe, next_landmark] =
+    auto& [keyframes, landmarks, relative_poses, next_keyframe, next_landmark] =
         *this;  // all members, or it does not compile
-    archive(keyframes, points, lines, relative_poses, next_keyframe, next_landmark);
+    archive(keyframes, landmarks, relative_poses, next_keyframe, next_landmark);
   }
 
  private:
   template <typename L>
-  SharedTable<L, 16>& Table();
-  void RefreshViews(PointLandmark* point) const;
-  void RefreshViews(LineLandmark* line) const;
+  LandmarkTable<L>& Table() {
+    return landmarks_.Of<L>();
+  }
+  // Adds or removes an observation where the order by keyframes demands it.
+  static void InsertObservation(const Observation& observation, Landmark* landmark);
+  static void EraseObservation(KeyframeId keyframe, Landmark* landmark);
+  // The descriptor with the smallest total distance to all others; the first one on ties.
+  static Descriptor CentralDescriptor(const std::vector<Descriptor>& descriptors);
 
   // Pose of a removed keyframe relative to its successor; kNoId while the keyframe is in the map.
   struct RelativePose {
@@ -148,20 +154,100 @@ class Map {
   };
 
   KeyframeTable keyframes_;
-  PointTable points_;
-  LineTable lines_;
+  ByKind<LandmarkTable> landmarks_;
   SharedTable<RelativePose, 16> relative_poses_;  // of all keyframes ever added
   KeyframeId next_keyframe_ = 0;
   LandmarkId next_landmark_ = 0;
 };
 
-template <>
-inline Map::PointTable& Map::Table<PointLandmark>() {
-  return points_;
+template <typename L>
+LandmarkId Map::Add(KeyframeId keyframe, int feature, const typename L::Geometry& geometry) {
+  const LandmarkId id = next_landmark_++;
+  L landmark;
+  landmark.id = id;
+  landmark.first_keyframe = keyframe;
+  landmark.SetGeometry(geometry);
+  Table<L>().Append(id, std::move(landmark));
+  Observe<L>(id, keyframe, feature);
+  Refresh<L>(id);
+  return id;
 }
-template <>
-inline Map::LineTable& Map::Table<LineLandmark>() {
-  return lines_;
+
+template <typename L>
+bool Map::Observe(LandmarkId id, KeyframeId keyframe_id, int feature) {
+  const L* landmark = Find<L>(id);
+  const Keyframe* keyframe = FindKeyframe(keyframe_id);
+  if (landmark == nullptr || keyframe == nullptr) return false;
+  if (SlotsOf<L>(*keyframe)[feature] != kNoId) return false;
+  if (FindObservation(*landmark, keyframe_id) != nullptr) return false;
+  keyframes_.FindToChange(keyframe_id)->landmarks.Of<L>()[feature] = id;
+  L* const changed = Table<L>().FindToChange(id);
+  InsertObservation({keyframe_id, feature}, changed);
+  changed->descriptor_is_current = false;
+  return true;
+}
+
+template <typename L>
+void Map::RemoveObservation(LandmarkId id, KeyframeId keyframe) {
+  const L* landmark = Find<L>(id);
+  if (landmark == nullptr) return;
+  const Observation* observation = FindObservation(*landmark, keyframe);
+  if (observation == nullptr) return;
+  keyframes_.FindToChange(keyframe)->landmarks.Of<L>()[observation->feature] = kNoId;
+  if (landmark->observations.size() == 1) {
+    Table<L>().Erase(id);
+    return;
+  }
+  L* const changed = Table<L>().FindToChange(id);
+  EraseObservation(keyframe, changed);
+  changed->descriptor_is_current = false;
+}
+
+template <typename L>
+void Map::Remove(LandmarkId id) {
+  const L* landmark = Find<L>(id);
+  if (landmark == nullptr) return;
+  for (const Observation& observation : landmark->observations) {
+    Keyframe* const keyframe = keyframes_.FindToChange(observation.keyframe);
+    keyframe->landmarks.Of<L>()[observation.feature] = kNoId;
+  }
+  Table<L>().Erase(id);
+}
+
+template <typename L>
+void Map::MergeLandmarks(LandmarkId from, LandmarkId into) {
+  const L source = *Find<L>(from);
+  Remove<L>(from);
+  for (const Observation& observation : source.observations) {
+    Observe<L>(into, observation.keyframe, observation.feature);
+  }
+  L* const target = Table<L>().FindToChange(into);
+  target->num_visible += source.num_visible;
+  target->num_found += source.num_found;
+}
+
+template <typename L>
+void Map::CountTracking(LandmarkId id, int num_visible, int num_found) {
+  L* const landmark = Table<L>().FindToChange(id);
+  if (landmark == nullptr) return;
+  landmark->num_visible += num_visible;
+  landmark->num_found += num_found;
+}
+
+template <typename L>
+void Map::Refresh(LandmarkId id) {
+  L* const landmark = Table<L>().FindToChange(id);
+  if (!landmark->descriptor_is_current) {
+    std::vector<Descriptor> descriptors;
+    descriptors.reserve(landmark->observations.size());
+    for (const Observation& observation : landmark->observations) {
+      const Frame& frame = *keyframes_.Find(observation.keyframe)->frame;
+      descriptors.push_back(FeaturesOf<L>(frame)[observation.feature].descriptor);
+    }
+    landmark->descriptor = CentralDescriptor(descriptors);
+    landmark->descriptor_is_current = true;
+  }
+  landmark->RefreshViews(keyframes_);
 }
 
 }  // namespace msc_vo

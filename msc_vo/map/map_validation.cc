@@ -16,28 +16,6 @@ constexpr double kUnitTolerance = 1e-9;
 bool IsPositive(double x) { return std::isfinite(x) && x > 0.0; }
 bool IsUnit(double norm) { return std::abs(norm - 1.0) <= kUnitTolerance; }
 
-const std::vector<LandmarkId>& EntriesOf(const Keyframe& keyframe, const PointLandmark&) {
-  return keyframe.points;
-}
-const std::vector<LandmarkId>& EntriesOf(const Keyframe& keyframe, const LineLandmark&) {
-  return keyframe.lines;
-}
-
-std::string GeometryViolation(const PointLandmark& point) {
-  if (!point.position.allFinite()) return "its position is not finite";
-  if (!IsPositive(point.reference_distance)) return "its reference distance is not positive";
-  return "";
-}
-std::string GeometryViolation(const LineLandmark& line) {
-  if (!line.segment.start.allFinite() || !line.segment.end.allFinite()) {
-    return "its end points are not finite";
-  }
-  if (!(line.segment.Length() > 0.0)) return "it has no length";
-  if (!std::isfinite(line.depth_offset)) return "its depth offset is not finite";
-  if (!IsPositive(line.direction_sigma)) return "the sigma of its direction is not positive";
-  return "";
-}
-
 template <typename L>
 std::string ObservationViolation(const Map& map, const L& landmark) {
   if (landmark.observations.empty()) return "it has no observation";
@@ -48,7 +26,7 @@ std::string ObservationViolation(const Map& map, const L& landmark) {
     previous = observation.keyframe;
     const Keyframe* keyframe = map.FindKeyframe(observation.keyframe);
     if (keyframe == nullptr) return name + " has no keyframe";
-    const std::vector<LandmarkId>& entries = EntriesOf(*keyframe, landmark);
+    const std::vector<LandmarkId>& entries = SlotsOf<L>(*keyframe);
     const auto feature = static_cast<size_t>(observation.feature);
     if (feature >= entries.size() || entries[feature] != landmark.id) {
       return name + " is unknown to the keyframe";
@@ -62,18 +40,22 @@ std::string LandmarkViolation(const Map& map, LandmarkId id, const L& landmark) 
   if (landmark.id != id) return "its id is " + std::to_string(landmark.id);
   if (!IsPositive(landmark.noise)) return "its noise is not positive";
   if (!IsUnit(landmark.viewing_direction.norm())) return "its viewing direction is not a unit";
-  std::string geometry = GeometryViolation(landmark);
-  return geometry.empty() ? ObservationViolation(map, landmark) : geometry;
+  const char* geometry = landmark.GeometryViolation();
+  return geometry != nullptr ? geometry : ObservationViolation(map, landmark);
 }
 
-// `entries` of a keyframe; `find` returns the landmark of an id.
-template <typename Find>
-std::string EntryViolation(KeyframeId id, const std::vector<LandmarkId>& entries,
-                           const Find& find) {
+// Every landmark that the keyframe names must have the observation.
+template <typename L>
+std::string EntryViolation(const Map& map, const Keyframe& keyframe) {
+  const std::vector<LandmarkId>& entries = SlotsOf<L>(keyframe);
+  if (entries.size() != FeaturesOf<L>(*keyframe.frame).size()) {
+    return "it does not have one entry per feature";
+  }
   for (size_t feature = 0; feature < entries.size(); ++feature) {
     if (entries[feature] == kNoId) continue;
-    const Landmark* landmark = find(entries[feature]);
-    const Observation* observation = landmark == nullptr ? nullptr : FindObservation(*landmark, id);
+    const L* landmark = map.Find<L>(entries[feature]);
+    const Observation* observation =
+        landmark == nullptr ? nullptr : FindObservation(*landmark, keyframe.id);
     if (observation == nullptr || static_cast<size_t>(observation->feature) != feature) {
       return "landmark " + std::to_string(entries[feature]) + " does not know its feature " +
              std::to_string(feature);
@@ -87,15 +69,22 @@ std::string KeyframeViolation(const Map& map, KeyframeId id, const Keyframe& key
   if (keyframe.frame == nullptr) return "it has no frame";
   if (!keyframe.cam_from_world.params.allFinite()) return "its pose is not finite";
   if (!IsUnit(keyframe.cam_from_world.rotation().norm())) return "its rotation is not a unit";
-  if (keyframe.points.size() != keyframe.frame->points.size() ||
-      keyframe.lines.size() != keyframe.frame->lines.size()) {
-    return "it does not have one entry per feature";
+  std::string violation;
+  ForEachLandmarkKind([&](auto kind) {
+    if (violation.empty()) {
+      violation = EntryViolation<typename decltype(kind)::Landmark>(map, keyframe);
+    }
+  });
+  return violation;
+}
+
+template <typename L>
+std::string KindViolation(const Map& map) {
+  for (const auto& [id, landmark] : map.landmarks<L>()) {
+    const std::string violation = LandmarkViolation(map, id, landmark);
+    if (!violation.empty()) return L::kName + (" " + std::to_string(id)) + ": " + violation;
   }
-  std::string points = EntryViolation(id, keyframe.points,
-                                      [&map](LandmarkId i) { return map.Find<PointLandmark>(i); });
-  if (!points.empty()) return points;
-  return EntryViolation(id, keyframe.lines,
-                        [&map](LandmarkId i) { return map.Find<LineLandmark>(i); });
+  return "";
 }
 
 }  // namespace
@@ -105,15 +94,11 @@ std::string FirstViolation(const Map& map) {
     const std::string violation = KeyframeViolation(map, id, keyframe);
     if (!violation.empty()) return "keyframe " + std::to_string(id) + ": " + violation;
   }
-  for (const auto& [id, point] : map.points()) {
-    const std::string violation = LandmarkViolation(map, id, point);
-    if (!violation.empty()) return "point " + std::to_string(id) + ": " + violation;
-  }
-  for (const auto& [id, line] : map.lines()) {
-    const std::string violation = LandmarkViolation(map, id, line);
-    if (!violation.empty()) return "line " + std::to_string(id) + ": " + violation;
-  }
-  return "";
+  std::string violation;
+  ForEachLandmarkKind([&](auto kind) {
+    if (violation.empty()) violation = KindViolation<typename decltype(kind)::Landmark>(map);
+  });
+  return violation;
 }
 
 }  // namespace msc_vo

@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "msc_vo/map/keyframe_index.h"
-#include "msc_vo/mapping/line_rules.h"
-#include "msc_vo/mapping/point_rules.h"
 
 namespace msc_vo {
 
@@ -52,7 +50,7 @@ bool IsCovered(const KeyframeIndex& keyframes, const Keyframe& keyframe, const L
   for (const Observation& observation : landmark.observations) {
     if (observation.keyframe == keyframe.id) continue;
     const Frame& other = *keyframes.Find(observation.keyframe)->frame;
-    if (!IsAsFine(FeaturesOf<L>(other)[observation.feature], feature)) continue;
+    if (!L::IsAsFine(FeaturesOf<L>(other)[observation.feature], feature)) continue;
     if (++observers >= kRedundantObservers) return true;
   }
   return false;

@@ -13,7 +13,7 @@ void CreateKind(const Keyframe& keyframe, std::set<LandmarkId>* probation, Map* 
   const auto& features = FeaturesOf<L>(*keyframe.frame);
   for (size_t i = 0; i < features.size(); ++i) {
     const int feature = static_cast<int>(i);
-    if (SlotsOf<L>(keyframe)[i] != kNoId || !L::HasDepth(features[i]) || features[i].dynamic) {
+    if (SlotsOf<L>(keyframe)[i] != kNoId || !features[i].HasDepth() || features[i].dynamic) {
       continue;
     }
     probation->insert(

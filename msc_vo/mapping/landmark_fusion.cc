@@ -7,12 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "msc_vo/mapping/line_rules.h"
-#include "msc_vo/mapping/point_rules.h"
-
 namespace msc_vo {
 
 namespace {
+
+// Search radius around a projected landmark, pixels at level 0. Both poses are estimated, so that
+// the landmark's own error remains: about three sigmas of a feature.
+constexpr double kFusionRadius = 3.0;
 
 std::vector<KeyframeId> Neighbours(const FusionOptions& options, const Map& map, KeyframeId id) {
   std::vector<KeyframeId> neighbours;
@@ -34,13 +35,14 @@ std::pair<LandmarkId, LandmarkId> SelectSurvivor(const L& a, const L& b) {
 
 // The landmarks of keyframe `source` that project into `target`, which does not observe them.
 template <typename L>
-auto CandidatesFor(const Map& map, const Keyframe& source, const Keyframe& target) {
-  std::vector<decltype(CandidateOf(std::declval<L>()))> candidates;
+Candidates<L> CandidatesFor(const Map& map, const Keyframe& source, const Keyframe& target) {
+  const Eigen::Vector3d center = target.cam_from_world.OriginInSource();
+  Candidates<L> candidates;
   for (const LandmarkId id : SlotsOf<L>(source)) {
     const L* landmark = map.Find<L>(id);
     if (landmark == nullptr || FindObservation(*landmark, target.id) != nullptr) continue;
     auto candidate = CandidateOf(*landmark);
-    SetLevel(target, *landmark, &candidate);
+    SetLevel(center, *landmark, &candidate);
     if (ProjectCandidate(target.frame->camera, target.cam_from_world, &candidate)) {
       candidates.push_back(candidate);
     }
@@ -51,17 +53,20 @@ auto CandidatesFor(const Map& map, const Keyframe& source, const Keyframe& targe
 template <typename L>
 void FuseInto(const FusionOptions& options, KeyframeId source, KeyframeId target, Map* map) {
   const Keyframe& shown = *map->FindKeyframe(target);
-  const auto matches = MatchForFusion(options, *shown.frame,
-                                      CandidatesFor<L>(*map, *map->FindKeyframe(source), shown));
+  const Matches<L> matches =
+      MatchFeatures(options, *shown.frame,
+                    CandidatesFor<L>(*map, *map->FindKeyframe(source), shown), kFusionRadius, {});
   for (const auto& match : matches) {
     const L* landmark = map->Find<L>(match.id);
     if (landmark == nullptr) continue;                      // merged by an earlier match
     const Keyframe& keyframe = *map->FindKeyframe(target);  // earlier matches changed it
-    if (!AgreesWithDepth(keyframe, match.feature, *landmark)) continue;
+    const typename L::Feature& feature = FeaturesOf<L>(*keyframe.frame)[match.feature];
+    if (!landmark->AgreesWithDepth(keyframe.cam_from_world, feature)) continue;
     const L* holder = map->Find<L>(SlotsOf<L>(keyframe)[match.feature]);
     if (holder == nullptr) {
       map->Observe<L>(match.id, target, match.feature);
-    } else if (holder->id != match.id && AreDuplicates(keyframe, *landmark, *holder)) {
+    } else if (holder->id != match.id &&
+               L::AreDuplicates(keyframe.cam_from_world.OriginInSource(), *landmark, *holder)) {
       const auto [survivor, duplicate] = SelectSurvivor(*landmark, *holder);
       map->MergeLandmarks<L>(duplicate, survivor);
     }
@@ -71,7 +76,7 @@ void FuseInto(const FusionOptions& options, KeyframeId source, KeyframeId target
 }  // namespace
 
 bool FusionOptions::IsValid(std::string* error) const {
-  if (!point_matcher.IsValid(error) || !line_matcher.IsValid(error)) return false;
+  if (!MatcherOptions::IsValid(error)) return false;
   if (max_neighbours < 0) {
     *error = "fusion: max_neighbours must not be negative";
     return false;

@@ -6,18 +6,11 @@
 #include <string>
 
 #include "msc_vo/map/map.h"
-#include "msc_vo/matching/line_matcher.h"
-#include "msc_vo/matching/point_matcher.h"
+#include "msc_vo/matching/landmark_matchers.h"
 
 namespace msc_vo {
 
-/// Search radius around a projected landmark, pixels at level 0. Both poses are estimated, so that
-/// the landmark's own error remains: about three sigmas of a feature.
-constexpr double kFusionRadius = 3.0;
-
-struct FusionOptions {
-  PointMatcherOptions point_matcher;
-  LineMatcherOptions line_matcher;
+struct FusionOptions : MatcherOptions {
   int max_neighbours = 10;  ///< covisible keyframes that are searched; the size of the window
 
   bool IsValid(std::string* error) const;

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/map/landmark.h"
-#include "msc_vo/matching/frame_matches.h"
+#include "msc_vo/map/line_landmark.h"
 #include "msc_vo/matching/viewpoint.h"
 
 namespace msc_vo {
@@ -23,16 +22,40 @@ struct LineMatcherOptions {
   bool IsValid(std::string* error) const;
 };
 
+/// As PointMatch.
+struct LineMatch {
+  int feature = 0;
+  LandmarkId id = kNoId;
+  LineSegment3 segment{};  ///< metres, world
+  bool inlier = true;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, feature, id, segment, inlier);
+  }
+};
+
 /// A map line that is expected to be visible in a frame.
 struct LineCandidate {
+  using Match = LineMatch;
+
   LandmarkId id = kNoId;
   LineSegment3 segment;  ///< metres, world
   Descriptor descriptor{};
   LineSegment2 image;  ///< projection of the visible part, pixels
 };
 
-/// The candidate of a landmark, without its projection.
+/// The candidate of a landmark, or of a feature of another frame at `segment` (metres, world),
+/// without its projection.
 LineCandidate CandidateOf(const LineLandmark& line);
+inline LineCandidate CandidateOf(const LineFeature& feature, LandmarkId id,
+                                 const LineSegment3& segment) {
+  return {id, segment, feature.descriptor, {}};
+}
+
+/// Does nothing: lines have no pyramid level.
+inline void SetLevel(const Eigen::Vector3d& /*center*/, const LineLandmark& /*line*/,
+                     LineCandidate* /*candidate*/) {}
 
 /// Projects `segment` and clips it to the image. Returns false if no part is visible or the visible
 /// part is too short to have a direction.

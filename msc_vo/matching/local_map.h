@@ -3,20 +3,14 @@
 
 #pragma once
 
-#include <vector>
-
 #include "msc_vo/map/map.h"
 #include "msc_vo/matching/frame_matches.h"
-#include "msc_vo/matching/line_matcher.h"
-#include "msc_vo/matching/point_matcher.h"
 
 namespace msc_vo {
 
 /// The part of the map that is expected to be visible in a frame.
-struct LocalMap {
+struct LocalMap : ByKind<Candidates> {
   KeyframeId reference = kNoId;  ///< the keyframe that shares most landmarks with the frame
-  std::vector<PointCandidate> points;
-  std::vector<LineCandidate> lines;
 };
 
 /// The landmarks of a keyframe as candidates, wherever they would project to: for a search without

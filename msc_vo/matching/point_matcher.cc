@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <tuple>
+
+#include "msc_vo/geometry/cell_index.h"
 
 namespace msc_vo {
 
@@ -71,6 +74,12 @@ PointCandidate CandidateOf(const PointLandmark& point) {
   candidate.position = point.position;
   candidate.descriptor = point.descriptor;
   return candidate;
+}
+
+void SetLevel(const Eigen::Vector3d& center, const PointLandmark& point,
+              PointCandidate* candidate) {
+  const double level = point.PredictLevel((point.position - center).norm());
+  candidate->level = CellIndex(std::round(level), std::numeric_limits<int>::max());
 }
 
 bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/map/landmark.h"
-#include "msc_vo/matching/frame_matches.h"
+#include "msc_vo/map/point_landmark.h"
 #include "msc_vo/matching/viewpoint.h"
 
 namespace msc_vo {
@@ -24,9 +23,25 @@ struct PointMatcherOptions {
   bool IsValid(std::string* error) const;
 };
 
+/// The match of one feature of a frame with a landmark of the map, or with a feature of another
+/// frame that has a measured depth (id == kNoId).
+struct PointMatch {
+  int feature = 0;
+  LandmarkId id = kNoId;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, world
+  bool inlier = true;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, feature, id, position, inlier);
+  }
+};
+
 /// A point that is expected to be visible in a frame: a landmark, or a point of another frame that
 /// has a measured depth.
 struct PointCandidate {
+  using Match = PointMatch;
+
   LandmarkId id = kNoId;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, world
   Descriptor descriptor{};
@@ -34,8 +49,16 @@ struct PointCandidate {
   int level = 0;                                    ///< predicted pyramid level
 };
 
-/// The candidate of a landmark, without its projection.
+/// The candidate of a landmark, or of a feature of another frame at `position` (metres, world),
+/// without its projection. The pyramid level is that of the feature.
 PointCandidate CandidateOf(const PointLandmark& point);
+inline PointCandidate CandidateOf(const PointFeature& feature, LandmarkId id,
+                                  const Eigen::Vector3d& position) {
+  return {id, position, feature.descriptor, Eigen::Vector2d::Zero(), feature.level};
+}
+
+/// Sets the pyramid level at which a camera at `center` (world) is expected to show a landmark.
+void SetLevel(const Eigen::Vector3d& center, const PointLandmark& point, PointCandidate* candidate);
 
 /// Projects `position`. Returns false if it lies outside the image or behind the camera.
 bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,

@@ -25,8 +25,8 @@ void ApplyMode(OdometryOptions* options) {
 }
 
 void ShareMatchers(OdometryOptions* options) {
-  options->mapping.fusion.point_matcher = options->tracking.point_matcher;
-  options->mapping.fusion.line_matcher = options->tracking.line_matcher;
+  MatcherOptions& fusion_matchers = options->mapping.fusion;
+  fusion_matchers = options->tracking;
 }
 
 void ShareLosses(OdometryOptions* options) {

@@ -15,13 +15,9 @@ namespace msc_vo {
 namespace {
 
 // Fewest observations that a pose is estimated from; a line counts as two points.
-constexpr size_t kMinObservations = 15;
+constexpr int kMinObservations = 15;
 // Most poses that are estimated at once, after a pause.
 constexpr int kMaxFrames = 3;
-
-size_t NumObservations(size_t num_points, size_t num_lines) {
-  return num_points + kPointsPerLine * num_lines;
-}
 
 // The inliers are known, so that one round with the robust loss and one without it are enough.
 PoseOptions WithTwoRounds(PoseOptions options) {
@@ -56,10 +52,7 @@ void PoseRefiner::Add(int index, const TrackedFrame& tracked) {
       tracked.has_pose_factors) {
     return;
   }
-  if (NumObservations(tracked.matches.points.size(), tracked.matches.lines.size()) <
-      kMinObservations) {
-    return;
-  }
+  if (Support(SizesOf(tracked.matches)) < kMinObservations) return;
   PendingFrame pending;
   pending.index = index;
   pending.reference = tracked.reference;
@@ -99,12 +92,11 @@ void PoseRefiner::RefineAll(const MapSnapshot& snapshot, std::vector<ReferencedP
 
 // Number of observations of which half must fit another pose: all of the frame, or those whose
 // landmarks are left if its depth was not registered. Many landmarks of such a map are not.
-size_t PoseRefiner::NumExpected(const PendingFrame& pending, const Frame& frame,
-                                const FrameMatches& matches) {
+int PoseRefiner::NumExpected(const PendingFrame& pending, const Frame& frame,
+                             const FrameMatches& matches) {
   const bool is_same = pending.frame->intrinsics == frame.intrinsics ||
                        HasSameRegistration(*pending.frame->intrinsics, *frame.intrinsics);
-  return is_same ? pending.landmarks.points.size() + pending.landmarks.lines.size()
-                 : matches.points.size() + matches.lines.size();
+  return Sum(is_same ? SizesOf(pending.landmarks) : SizesOf(matches));
 }
 
 void PoseRefiner::RefineFrame(const PendingFrame& pending, const MapSnapshot& snapshot,
@@ -115,14 +107,13 @@ void PoseRefiner::RefineFrame(const PendingFrame& pending, const MapSnapshot& sn
   const std::shared_ptr<const Frame> frame = ChangeIntrinsics(
       UpdateCompensation(pending.frame, snapshot.readout_time), snapshot.intrinsics);
   FrameMatches matches = MatchesWith(*map, pending.landmarks);
-  if (NumObservations(matches.points.size(), matches.lines.size()) < kMinObservations) return;
-  const size_t num_expected = NumExpected(pending, *frame, matches);
+  if (Support(SizesOf(matches)) < kMinObservations) return;
+  const int num_expected = NumExpected(pending, *frame, matches);
   const Rigid3 reference_from_world = map->CamFromWorld(pose->reference);
   Rigid3 cam_from_world = pose->cam_from_reference * reference_from_world;
   const PoseSummary summary = EstimateFramePose(options_, *frame, *map, snapshot.noise_scale, {},
                                                 &cam_from_world, &matches);
-  const int num_inliers = summary.num_inlier_points + summary.num_inlier_lines;
-  if (!summary.usable || 2 * static_cast<size_t>(num_inliers) < num_expected) return;
+  if (!summary.usable || 2 * Sum(summary.num_inliers) < num_expected) return;
   pose->cam_from_reference = cam_from_world * reference_from_world.Inverse();
 }
 

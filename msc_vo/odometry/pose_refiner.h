@@ -55,8 +55,8 @@ class PoseRefiner {
     }
   };
 
-  static size_t NumExpected(const PendingFrame& pending, const Frame& frame,
-                            const FrameMatches& matches);
+  static int NumExpected(const PendingFrame& pending, const Frame& frame,
+                         const FrameMatches& matches);
   void RefineFrame(const PendingFrame& pending, const MapSnapshot& snapshot,
                    ReferencedPose* pose) const;
 

@@ -36,17 +36,23 @@ constexpr double kMinCells = 1.0;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// The cells that each match belongs to.
+// The cells that the matches of a kind belong to.
 struct MatchCells {
-  std::vector<int> of_points;
-  std::vector<std::vector<int>> of_lines;
+  std::vector<int> cells;    // of one match after the other
+  std::vector<size_t> ends;  // one per match, of its part of `cells`
 };
 
-MatchCells FindCells(const ImageGrid& grid, const PoseData& data) {
-  MatchCells cells;
-  for (const PoseData::Point& p : data.points) cells.of_points.push_back(grid.CellOf(p.pixel));
-  for (const PoseData::Line& l : data.lines) cells.of_lines.push_back(grid.CellsOf(l.segment));
-  return cells;
+PerKind<MatchCells> FindCells(const ImageGrid& grid, const PoseData& data) {
+  PerKind<MatchCells> found;
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    MatchCells& of_kind = found.Of<L>();
+    for (const auto& match : OfKind<L>(data)) {
+      AppendCells(grid, match, &of_kind.cells);
+      of_kind.ends.push_back(of_kind.cells.size());
+    }
+  });
+  return found;
 }
 
 // The quadratic model of the cost of one cell's matches, as a function of a step d in the tangent
@@ -84,27 +90,27 @@ double OwnDecrease(const NormalEquations& equations) {
 // Models of all cells at `pose`. Outliers of the pose are included: they may belong to the static
 // scene.
 CellModels MakeModels(const PoseOptions& options, const PoseData& data, int num_cells,
-                      const MatchCells& cells, const Rigid3& pose) {
+                      const PerKind<MatchCells>& cells, const Rigid3& pose) {
   const PoseInlierMask in_front = AllInFront(options, data, pose);
   CellModels models(num_cells);
   PoseFactors match;
   SetLosses(options, &match);
   NormalEquations equations;
-  for (size_t i = 0; i < data.points.size(); ++i) {
-    match.Clear();
-    AddFactors(options, data.camera, data.points[i], in_front.points[i], &match);
-    if (match.NumRows() == 0 || !match.Linearize(pose, &equations)) continue;
-    models[cells.of_points[i]].Add(equations, data.points[i].confirmed, 1.0);
-  }
-  for (size_t i = 0; i < data.lines.size(); ++i) {
-    match.Clear();
-    AddFactors(options, data.camera, data.lines[i], in_front.lines[i], pose, &match);
-    if (match.NumRows() == 0 || !match.Linearize(pose, &equations)) continue;
-    const double fraction = 1.0 / static_cast<double>(cells.of_lines[i].size());
-    for (const int cell : cells.of_lines[i]) {
-      models[cell].Add(equations, data.lines[i].confirmed, fraction);
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    const auto& matches = OfKind<L>(data);
+    const MatchCells& of_kind = cells.Of<L>();
+    for (size_t i = 0; i < matches.size(); ++i) {
+      match.Clear();
+      AddFactors(options, data.camera, matches[i], in_front.Of<L>()[i], pose, &match);
+      if (match.NumRows() == 0 || !match.Linearize(pose, &equations)) continue;
+      const size_t begin = i == 0 ? 0 : of_kind.ends[i - 1], end = of_kind.ends[i];
+      const double fraction = 1.0 / static_cast<double>(end - begin);
+      for (size_t k = begin; k < end; ++k) {
+        models[of_kind.cells[k]].Add(equations, matches[i].confirmed, fraction);
+      }
     }
-  }
+  });
   for (CellModel& model : models) {
     if (model.num_matches == 0.0) continue;
     const double confirmed = model.num_confirmed / model.num_matches;
@@ -245,7 +251,7 @@ std::optional<CellConsensus> FindCellConsensus(const PoseOptions& options, const
   constexpr int kRounds = 3;  // of linearisation
   double limit = kRejectChiSquare;
   const ImageGrid grid = ConsensusGrid(data.camera);
-  const MatchCells cells = FindCells(grid, data);
+  const PerKind<MatchCells> cells = FindCells(grid, data);
   CellModels models = MakeModels(options, data, grid.size(), cells, pose);
   const Step given = MakeStep(models, Vector6::Zero());
   // A search is pointless if fewer cells contradict the pose, even with the sigmas as they are,

@@ -36,35 +36,25 @@ std::optional<Matrix6> Inverse(const Matrix6& hessian) {
 PoseData WeightByMapVariance(const PoseData& data) {
   PoseData weighted = data;
   weighted.custom_factors.clear();
-  for (PoseData::Point& point : weighted.points) {
-    const double scale = 1.0 / std::sqrt(1.0 + point.map_variance);
-    point.sigma *= scale;
-    point.inverse_depth_sigma *= scale;
-  }
-  for (PoseData::Line& line : weighted.lines) {
-    const double variance_scale = 1.0 / (1.0 + line.map_variance);
-    line.sigma *= std::sqrt(variance_scale);
-    line.depth.covariance *= variance_scale;
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    for (auto& match : OfKind<typename decltype(kind)::Landmark>(weighted)) {
+      WeightByMapVariance(&match);
+    }
+  });
   return weighted;
 }
 
 // Sum of the variances 1 + v of the residuals of the inliers.
 double SumOfVariances(const PoseOptions& options, const PoseData& data,
                       const PoseInlierMask& mask) {
-  const double point_rows = options.point_reprojection.enabled ? 2.0 : 0.0;
-  const double line_rows = options.line_reprojection.enabled ? 2.0 : 0.0;
   double sum = 0.0;
-  for (size_t i = 0; i < data.points.size(); ++i) {
-    const InlierMask& inlier = mask.points[i];
-    sum += (inlier.reprojection ? point_rows : 0.0) * (1.0 + data.points[i].map_variance);
-    sum += (inlier.depth ? 1.0 : 0.0) * (1.0 + data.points[i].map_variance);
-  }
-  for (size_t i = 0; i < data.lines.size(); ++i) {
-    const InlierMask& inlier = mask.lines[i];
-    if (!inlier.reprojection) continue;
-    sum += (line_rows + (inlier.depth ? 2.0 : 0.0)) * (1.0 + data.lines[i].map_variance);
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    const auto& matches = OfKind<L>(data);
+    for (size_t i = 0; i < matches.size(); ++i) {
+      AddVariances(options, matches[i], mask.Of<L>()[i], &sum);
+    }
+  });
   return sum;
 }
 
@@ -74,16 +64,15 @@ double SumOfVariances(const PoseOptions& options, const PoseData& data,
 double VarianceFactorOfAllMatches(const PoseOptions& options, const PoseData& data,
                                   const Rigid3& pose) {
   std::vector<double> chi2;
-  chi2.reserve(data.points.size() + data.lines.size());
-  const auto collect = [&](const auto& matches) {
-    for (const auto& match : matches) {
+  chi2.reserve(Sum(SizesOf(data)));
+  ForEachLandmarkKind([&](auto kind) {
+    for (const auto& match : OfKind<typename decltype(kind)::Landmark>(data)) {
+      if (match.dynamic || !HasReprojection(options, match)) continue;
       const double squared_sigmas = PixelChiSquare(data.camera, pose, match);
-      if (match.dynamic || !std::isfinite(squared_sigmas)) continue;
-      chi2.push_back(squared_sigmas / (1.0 + match.map_variance));
+      if (std::isfinite(squared_sigmas))
+        chi2.push_back(squared_sigmas / (1.0 + match.map_variance));
     }
-  };
-  if (options.point_reprojection.enabled) collect(data.points);
-  if (options.line_reprojection.enabled) collect(data.lines);
+  });
   return MedianChiSquareRatio(std::move(chi2));
 }
 

@@ -123,28 +123,22 @@ bool PoseTerm<Factor>::AddCostTo(const Rigid3& cam_from_world, double* sum) cons
 }
 
 int PoseFactors::NumRows() const {
-  int num_rows = point_reprojection.NumRows() + point_depth.NumRows() +
-                 line_reprojection.NumRows() + line_depth.NumRows();
+  int num_rows = std::apply([](const auto&... term) { return (term.NumRows() + ...); }, terms);
   for (const PoseFactor& factor : custom) num_rows += factor.cost->num_residuals();
   return num_rows;
 }
 
 void PoseFactors::Clear() {
-  point_reprojection.blocks.clear();
-  point_depth.blocks.clear();
-  line_reprojection.blocks.clear();
-  line_depth.blocks.clear();
+  std::apply([](auto&... term) { (term.blocks.clear(), ...); }, terms);
   custom.clear();
 }
 
 bool PoseFactors::Linearize(const Rigid3& cam_from_world, NormalEquations* equations) const {
   *equations = NormalEquations();
-  if (!(point_reprojection.AddTo(cam_from_world, equations) &&
-        point_depth.AddTo(cam_from_world, equations) &&
-        line_reprojection.AddTo(cam_from_world, equations) &&
-        line_depth.AddTo(cam_from_world, equations))) {
-    return false;
-  }
+  const auto add = [&](const auto&... term) {
+    return (term.AddTo(cam_from_world, equations) && ...);
+  };
+  if (!std::apply(add, terms)) return false;
   equations->hessian.triangularView<Eigen::StrictlyUpper>() = equations->hessian.transpose();
   for (const PoseFactor& factor : custom) {
     if (!AddTo(factor, cam_from_world, equations)) return false;
@@ -154,12 +148,10 @@ bool PoseFactors::Linearize(const Rigid3& cam_from_world, NormalEquations* equat
 
 bool PoseFactors::Cost(const Rigid3& cam_from_world, double* cost) const {
   *cost = 0.0;
-  if (!(point_reprojection.AddCostTo(cam_from_world, cost) &&
-        point_depth.AddCostTo(cam_from_world, cost) &&
-        line_reprojection.AddCostTo(cam_from_world, cost) &&
-        line_depth.AddCostTo(cam_from_world, cost))) {
-    return false;
-  }
+  const auto add = [&](const auto&... term) {
+    return (term.AddCostTo(cam_from_world, cost) && ...);
+  };
+  if (!std::apply(add, terms)) return false;
   // Derivatives included: a cost function may round its residual differently without them.
   NormalEquations of_custom;
   of_custom.cost = *cost;
@@ -186,10 +178,5 @@ LevenbergMarquardtTermination MinimizePose(const PoseFactors& factors, int max_i
   if (termination != LevenbergMarquardtTermination::kFailed) *cam_from_world = problem.pose();
   return termination;
 }
-
-template struct PoseTerm<PointReprojection>;
-template struct PoseTerm<DepthReprojection>;
-template struct PoseTerm<LineReprojection>;
-template struct PoseTerm<LineDepthReprojection>;
 
 }  // namespace msc_vo

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/levenberg_marquardt.h"
@@ -49,11 +50,20 @@ struct PoseTerm {
 /// overhead per residual block exceeds the cost of the factors (docs/lab/tracking.md). A test
 /// compares them with Ceres.
 struct PoseFactors {
-  PoseTerm<PointReprojection> point_reprojection;
-  PoseTerm<DepthReprojection> point_depth;
-  PoseTerm<LineReprojection> line_reprojection;
-  PoseTerm<LineDepthReprojection> line_depth;
+  /// In the order in which they are added.
+  std::tuple<PoseTerm<PointReprojection>, PoseTerm<DepthReprojection>, PoseTerm<LineReprojection>,
+             PoseTerm<LineDepthReprojection>>
+      terms;
   std::vector<PoseFactor> custom;
+
+  template <typename Factor>
+  PoseTerm<Factor>& Of() {
+    return std::get<PoseTerm<Factor>>(terms);
+  }
+  template <typename Factor>
+  const PoseTerm<Factor>& Of() const {
+    return std::get<PoseTerm<Factor>>(terms);
+  }
 
   int NumRows() const;
   /// Removes the factors; losses and allocated memory remain.

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/observation.h"
@@ -11,14 +13,9 @@
 
 namespace msc_vo {
 
-/// The factors of every match that are active in a round of motion-only bundle adjustment.
-struct PoseInlierMask {
-  std::vector<InlierMask> points;  ///< one per point of PoseData
-  std::vector<InlierMask> lines;   ///< one per line of PoseData
-  bool operator==(const PoseInlierMask& other) const {
-    return points == other.points && lines == other.lines;
-  }
-};
+/// The factors that are active in a round of motion-only bundle adjustment, one mask per match of
+/// PoseData.
+using PoseInlierMask = PerKind<std::vector<InlierMask>>;
 
 /// Initial mask: every match in front of the camera is active.
 PoseInlierMask AllInFront(const PoseOptions& options, const PoseData& data, const Rigid3& pose);
@@ -30,19 +27,20 @@ PoseInlierMask ClassifyMatches(PoseOptions options, const PoseData& data, const 
 
 /// Squared distance of a match from its landmark in the image, in sigmas of the observation;
 /// infinite if the landmark is behind the camera.
-double PixelChiSquare(const PinholeCamera& camera, const Rigid3& pose,
-                      const PoseData::Point& point);
-double PixelChiSquare(const PinholeCamera& camera, const Rigid3& pose, const PoseData::Line& line);
+template <typename Match>
+double PixelChiSquare(const PinholeCamera& camera, const Rigid3& pose, const Match& match) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto in_cam = InCamera(pose, match);
+  if (!IsInFront(in_cam)) return kInfinity;
+  const double chi2 = PixelChiSquare(camera, match, in_cam);
+  // NaN, as of a sigma whose inverse overflows, has no place in the order of std::nth_element.
+  return std::isnan(chi2) ? kInfinity : chi2;
+}
 
 /// Ratio of the median of squared residuals of two rows each to that of chi-square with two degrees
 /// of freedom. 1 for fewer than ten, which determine no ratio.
 double MedianChiSquareRatio(std::vector<double> chi2);
 
-/// Adds the active factors of one match. Sigmas of lines are evaluated at `pose`.
-void AddFactors(const PoseOptions& options, const PinholeCamera& camera,
-                const PoseData::Point& point, const InlierMask& mask, PoseFactors* factors);
-void AddFactors(const PoseOptions& options, const PinholeCamera& camera, const PoseData::Line& line,
-                const InlierMask& mask, const Rigid3& pose, PoseFactors* factors);
 /// Sets the Huber thresholds of all terms.
 void SetLosses(const PoseOptions& options, PoseFactors* factors);
 

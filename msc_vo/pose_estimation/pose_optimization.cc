@@ -30,22 +30,15 @@ void Validate(const PoseOptions& options, const PoseData& data) {
   std::string error;
   if (!options.IsValid(&error) || !data.camera.IsValid(&error)) fail("input", error);
   if (const char* what = PoseError(data.cam_from_world)) fail("prediction", what);
-  for (size_t i = 0; i < data.points.size(); ++i) {
-    const PoseData::Point& p = data.points[i];
-    const char* what = PositionError(p.position);
-    if (what == nullptr) {
-      what = PointObservationError(p.pixel, p.sigma, p.inverse_depth, p.inverse_depth_sigma);
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    const auto& matches = OfKind<L>(data);
+    for (size_t i = 0; i < matches.size(); ++i) {
+      const char* what = MatchError(matches[i]);
+      if (what == nullptr) what = MapVarianceError(matches[i].map_variance);
+      if (what != nullptr) fail(L::kName + (" " + std::to_string(i)), what);
     }
-    if (what == nullptr) what = MapVarianceError(p.map_variance);
-    if (what != nullptr) fail("point " + std::to_string(i), what);
-  }
-  for (size_t i = 0; i < data.lines.size(); ++i) {
-    const PoseData::Line& l = data.lines[i];
-    const char* what = MapLineError(l.map_segment);
-    if (what == nullptr) what = LineObservationError(l.segment, l.sigma, l.has_depth, l.depth);
-    if (what == nullptr) what = MapVarianceError(l.map_variance);
-    if (what != nullptr) fail("line " + std::to_string(i), what);
-  }
+  });
   for (const PoseFactor& factor : data.custom_factors) {
     const std::string what = PoseFactorError(factor, data.cam_from_world);
     if (!what.empty()) fail("custom factor '" + factor.name + "'", what);
@@ -82,10 +75,11 @@ bool SolveRounds(const PoseOptions& options, const PoseData& data, PoseInlierMas
 PoseData MarkDynamicMatches(const PoseData& data, const std::vector<bool>& dynamic_cells) {
   const ImageGrid grid = ConsensusGrid(data.camera);
   PoseData marked = data;
-  for (PoseData::Point& point : marked.points) {
-    point.dynamic = dynamic_cells[grid.CellOf(point.pixel)];
-  }
-  for (PoseData::Line& line : marked.lines) line.dynamic = dynamic_cells[grid.CellOf(line.segment)];
+  ForEachLandmarkKind([&](auto kind) {
+    for (auto& match : OfKind<typename decltype(kind)::Landmark>(marked)) {
+      match.dynamic = dynamic_cells[CellOf(grid, match)];
+    }
+  });
   return marked;
 }
 
@@ -105,27 +99,21 @@ std::vector<bool> RejectDynamicObjects(const PoseOptions& options, PoseData* dat
   return consensus->dynamic_cells;
 }
 
-// Counts a match, whose flags are set; the caller counts the inliers of its kind.
-template <typename Match>
-void Count(const Match& match, PoseSummary* summary) {
-  summary->num_dynamic += match.dynamic;
-  if (match.dynamic || !match.confirmed) return;
-  ++summary->num_confirmed;
-  summary->num_confirmed_inliers += match.inlier;
-}
-
 // Writes the flags of the matches and counts them.
 void WriteFlags(const PoseInlierMask& mask, PoseData* data, PoseSummary* summary) {
-  for (size_t i = 0; i < data->points.size(); ++i) {
-    data->points[i].inlier = mask.points[i].reprojection;
-    summary->num_inlier_points += data->points[i].inlier;
-    Count(data->points[i], summary);
-  }
-  for (size_t i = 0; i < data->lines.size(); ++i) {
-    data->lines[i].inlier = mask.lines[i].reprojection;
-    summary->num_inlier_lines += data->lines[i].inlier;
-    Count(data->lines[i], summary);
-  }
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    auto& matches = OfKind<L>(*data);
+    for (size_t i = 0; i < matches.size(); ++i) {
+      auto& match = matches[i];
+      match.inlier = mask.Of<L>()[i].reprojection;
+      summary->num_inliers.Of<L>() += match.inlier;
+      summary->num_dynamic += match.dynamic;
+      if (match.dynamic || !match.confirmed) continue;
+      ++summary->num_confirmed;
+      summary->num_confirmed_inliers += match.inlier;
+    }
+  });
 }
 
 }  // namespace
@@ -148,8 +136,9 @@ PoseSummary OptimizePose(const PoseOptions& options, PoseData* data) {
   Validate(options, *data);
   Rigid3 pose = data->cam_from_world;
   PoseInlierMask mask = AllInFront(options, *data, pose);
-  for (PoseData::Point& point : data->points) point.dynamic = false;
-  for (PoseData::Line& line : data->lines) line.dynamic = false;
+  ForEachLandmarkKind([&](auto kind) {
+    for (auto& match : OfKind<typename decltype(kind)::Landmark>(*data)) match.dynamic = false;
+  });
   const bool solved = SolveRounds(options, *data, &mask, &pose);
   PoseSummary summary;
   if (solved && options.consensus.enabled) {

@@ -10,9 +10,10 @@
 
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/camera/pinhole_camera.h"
-#include "msc_vo/geometry/line_fit.h"
-#include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/map/landmark_kinds.h"
+#include "msc_vo/pose_estimation/line_pose_match.h"
+#include "msc_vo/pose_estimation/point_pose_match.h"
 #include "msc_vo/pose_estimation/pose_factor.h"
 
 namespace msc_vo {
@@ -20,31 +21,8 @@ namespace msc_vo {
 /// Input and output of motion-only bundle adjustment: the matches of one frame with a map that is
 /// held fixed (paper Eq. poseest), and factors of the caller's own.
 struct PoseData {
-  struct Point {
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, world
-    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();     ///< pixels, undistorted
-    double sigma = 1.0;                                  ///< pixels
-    double inverse_depth = 0.0;                          ///< 1/metres; 0: no depth measured
-    double inverse_depth_sigma = 0.0;                    ///< 1/metres
-    /// Variance of the landmark in the map, relative to that of this observation; 0: exact. It does
-    /// not weigh the match, but widens the covariance of the pose.
-    double map_variance = 0.0;
-    /// The landmark is confirmed static: at least two keyframes observed it at the same position.
-    bool confirmed = true;
-    bool dynamic = false;  ///< out: lies in a cell of a dynamic object, see CellConsensus
-    bool inlier = true;    ///< out
-  };
-  struct Line {
-    LineSegment3 map_segment;  ///< metres, world
-    LineSegment2 segment;      ///< pixels, undistorted
-    double sigma = 1.0;        ///< pixels, of an end point's distance to the true line
-    bool has_depth = false;
-    LineDepth depth;            ///< used if has_depth
-    double map_variance = 0.0;  ///< as for points
-    bool confirmed = true;      ///< as for points
-    bool dynamic = false;       ///< out
-    bool inlier = true;         ///< out
-  };
+  using Point = PointPoseMatch;
+  using Line = LinePoseMatch;
 
   PinholeCamera camera;
   Rigid3 cam_from_world;  ///< in: prediction, out: estimate
@@ -88,8 +66,7 @@ struct PoseOptions {
 struct PoseSummary {
   /// False if there were too few matches or the solver failed; the pose is then the prediction.
   bool usable = false;
-  int num_inlier_points = 0;
-  int num_inlier_lines = 0;
+  PerKind<int> num_inliers;
   int num_dynamic = 0;    ///< matches in cells of dynamic objects: neither inliers nor outliers
   int num_confirmed = 0;  ///< matches with confirmed static landmarks, without dynamic matches
   int num_confirmed_inliers = 0;

@@ -172,7 +172,7 @@ class PoseSearch {
     for (const LineMatch& match : MatchLines(line_matcher_, frame_, visible_lines_, radius, {})) {
       if (HasMeasuredDepth(frame_, match, cam_from_world)) matches.lines.push_back(match);
     }
-    const size_t lines = kPointsPerLine * matches.lines.size();
+    const size_t lines = LineLandmark::kSupport * matches.lines.size();
     if (matches.points.size() + lines < static_cast<size_t>(options_.min_inliers)) return;
     hypothesis.score = score + static_cast<double>(lines);
     hypotheses_.push_back(std::move(hypothesis));

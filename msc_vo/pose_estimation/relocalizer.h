@@ -24,7 +24,7 @@ struct Relocalization {
   Rigid3 cam_from_world;
   FrameMatches matches;  ///< inliers only
   /// Support by the matches: each point counts one at most, less with a larger error, and each line
-  /// kPointsPerLine.
+  /// LineLandmark::kSupport.
   double score = 0.0;
 };
 

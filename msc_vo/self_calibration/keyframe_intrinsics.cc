@@ -18,7 +18,7 @@ void MoveLandmarks(Map* map) {
   for (const auto& [id, landmark] : map->landmarks<L>()) {
     for (const Observation& observation : landmark.observations) {
       const Keyframe& keyframe = *map->FindKeyframe(observation.keyframe);
-      if (!L::HasDepth(FeaturesOf<L>(*keyframe.frame)[observation.feature])) continue;
+      if (!FeaturesOf<L>(*keyframe.frame)[observation.feature].HasDepth()) continue;
       moved.emplace_back(id, keyframe.cam_from_world.Inverse() *
                                  L::InCamera(*keyframe.frame, observation.feature));
       break;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "msc_vo/frame/depth_surfaces.h"
+#include "msc_vo/frame/feature_counts.h"
 #include "msc_vo/map/free_space.h"
 #include "msc_vo/pose_estimation/cell_consensus.h"
 
@@ -80,19 +81,6 @@ struct Candidate {
   Evidence evidence = Evidence::kNone;
 };
 
-Candidate CandidateOf(PointFeature* point, bool is_inlier) {
-  return {&point->dynamic, point->pixel, point->inverse_depth, point->inverse_depth_sigma,
-          is_inlier};
-}
-Candidate CandidateOf(LineFeature* line, bool is_inlier) {
-  return {&line->dynamic, line->segment.Midpoint(), line->depth->At(0.5), line->depth->SigmaAt(0.5),
-          is_inlier};
-}
-
-// The place of a feature in the grid of cells.
-const Eigen::Vector2d& PlaceOf(const PointFeature& point) { return point.pixel; }
-const LineSegment2& PlaceOf(const LineFeature& line) { return line.segment; }
-
 std::vector<Candidate> FeaturesWithDepth(const FrameMatches& inliers, Frame* frame) {
   std::vector<Candidate> candidates;
   ForEachLandmarkKind([&](auto kind) {
@@ -101,7 +89,10 @@ std::vector<Candidate> FeaturesWithDepth(const FrameMatches& inliers, Frame* fra
     std::vector<bool> is_inlier(features.size());
     for (const auto& match : OfKind<L>(inliers)) is_inlier[match.feature] = true;
     for (size_t i = 0; i < features.size(); ++i) {
-      if (L::HasDepth(features[i])) candidates.push_back(CandidateOf(&features[i], is_inlier[i]));
+      auto& feature = features[i];
+      if (!feature.HasDepth()) continue;
+      candidates.push_back({&feature.dynamic, feature.Center(), feature.CenterInverseDepth(),
+                            feature.CenterInverseDepthSigma(), is_inlier[i]});
     }
   });
   return candidates;
@@ -174,16 +165,10 @@ void MarkCells(const TrackedFrame& tracked, Frame* frame) {
     using L = typename decltype(kind)::Landmark;
     auto& features = OfKind<L>(*frame);
     for (auto& feature : features) {
-      feature.dynamic = tracked.pose.dynamic_cells[grid.CellOf(PlaceOf(feature))];
+      feature.dynamic = tracked.pose.dynamic_cells[grid.CellOf(feature.Center())];
     }
     for (const auto& match : OfKind<L>(tracked.matches)) features[match.feature].dynamic = false;
   });
-}
-
-bool HasDynamicFeatures(const Frame& frame) {
-  const auto is_dynamic = [](const auto& feature) { return feature.dynamic; };
-  return std::any_of(frame.points.begin(), frame.points.end(), is_dynamic) ||
-         std::any_of(frame.lines.begin(), frame.lines.end(), is_dynamic);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "msc_vo/bundle_adjustment/observation.h"
 #include "msc_vo/geometry/angles.h"
 
 namespace msc_vo {
@@ -37,15 +36,6 @@ std::vector<bool> TakenFeatures(const std::vector<M>& matches, size_t num_featur
   return taken;
 }
 
-template <typename M>
-std::vector<M> LandmarkInliersOf(const std::vector<M>& matches) {
-  std::vector<M> inliers;
-  for (const M& match : matches) {
-    if (match.inlier && match.id != kNoId) inliers.push_back(match);
-  }
-  return inliers;
-}
-
 // Whether a landmark is confirmed static: two keyframes observed it at the same position.
 template <typename L>
 bool IsConfirmed(const L* landmark) {
@@ -61,46 +51,6 @@ double MapVariance(const L* landmark) {
              : 1.0;
 }
 
-// The sigmas of the feature are multiplied by the calibrated scale and the noise of the landmark
-// (nullptr: the match is with a feature of the last frame).
-PoseData::Point Observe(const PointMatch& match, const Frame& frame,
-                        const Rigid3& /*cam_from_world*/, const PointLandmark* landmark,
-                        const NoiseScale& scale) {
-  const PointFeature& feature = frame.points[match.feature];
-  const double noise = landmark != nullptr ? landmark->noise : 1.0;
-  return {match.position,
-          feature.pixel,
-          noise * feature.sigma,
-          feature.inverse_depth,
-          noise * scale.point_depth * feature.inverse_depth_sigma,
-          MapVariance(landmark),
-          IsConfirmed(landmark)};
-}
-
-// Of a line that passes the camera at `cam_from_world`, only the visible part is observed.
-PoseData::Line Observe(const LineMatch& match, const Frame& frame, const Rigid3& cam_from_world,
-                       const LineLandmark* landmark, const NoiseScale& scale) {
-  const LineFeature& feature = frame.lines[match.feature];
-  const LinePart part = ObservedPart(frame.camera, feature.segment, cam_from_world * match.segment)
-                            .value_or(LinePart());
-  const double noise = landmark != nullptr ? landmark->noise : 1.0;
-  LineDepth depth = feature.depth.value_or(LineDepth());
-  if (landmark != nullptr) depth = Nearer(depth, landmark->depth_offset);
-  depth.covariance *= noise * noise * scale.line_depth * scale.line_depth;
-  return {part.Of(match.segment),    feature.segment, noise * scale.line_pixel * feature.sigma,
-          feature.depth.has_value(), depth,           MapVariance(landmark),
-          IsConfirmed(landmark)};
-}
-
-PointCandidate MakeCandidate(const PointFeature& feature, LandmarkId id,
-                             const Eigen::Vector3d& position) {
-  return {id, position, feature.descriptor, Eigen::Vector2d::Zero(), feature.level};
-}
-LineCandidate MakeCandidate(const LineFeature& feature, LandmarkId id,
-                            const LineSegment3& segment) {
-  return {id, segment, feature.descriptor, {}};
-}
-
 template <typename L>
 void AddCandidates(const Map& map, const LastFrame& last, const Rigid3& cam_from_world,
                    LocalMap* candidates) {
@@ -111,11 +61,11 @@ void AddCandidates(const Map& map, const LastFrame& last, const Rigid3& cam_from
   for (const auto& match : OfKind<L>(last.matches)) ids[match.feature] = match.id;
   for (size_t i = 0; i < features.size(); ++i) {
     const L* landmark = map.Find<L>(ids[i]);
-    if (landmark == nullptr && !L::HasDepth(features[i])) continue;
+    if (landmark == nullptr && !features[i].HasDepth()) continue;
     auto candidate = landmark != nullptr
-                         ? MakeCandidate(features[i], landmark->id, landmark->geometry())
-                         : MakeCandidate(features[i], kNoId,
-                                         world_from_last * L::InCamera(frame, static_cast<int>(i)));
+                         ? CandidateOf(features[i], landmark->id, landmark->geometry())
+                         : CandidateOf(features[i], kNoId,
+                                       world_from_last * L::InCamera(frame, static_cast<int>(i)));
     if (ProjectCandidate(frame.camera, cam_from_world, &candidate)) {
       OfKind<L>(*candidates).push_back(candidate);
     }
@@ -136,19 +86,26 @@ LocalMap CandidatesFromFrame(const Map& map, const LastFrame& last, const Rigid3
 FrameMatches MatchLocalMap(const TrackerOptions& options, const Frame& frame, const LocalMap& local,
                            double radius, const FrameMatches& known) {
   FrameMatches matches = known;
-  const std::vector<PointMatch> points =
-      MatchPoints(options.point_matcher, frame, Unmatched(local.points, known.points), radius,
-                  TakenFeatures(known.points, frame.points.size()));
-  matches.points.insert(matches.points.end(), points.begin(), points.end());
-  const std::vector<LineMatch> lines =
-      MatchLines(options.line_matcher, frame, Unmatched(local.lines, known.lines), radius,
-                 TakenFeatures(known.lines, frame.lines.size()));
-  matches.lines.insert(matches.lines.end(), lines.begin(), lines.end());
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    const Matches<L>& known_matches = known.Of<L>();
+    const Matches<L> found =
+        MatchFeatures(options, frame, Unmatched(local.Of<L>(), known_matches), radius,
+                      TakenFeatures(known_matches, FeaturesOf<L>(frame).size()));
+    matches.Of<L>().insert(matches.Of<L>().end(), found.begin(), found.end());
+  });
   return matches;
 }
 
 FrameMatches LandmarkInliers(const FrameMatches& matches) {
-  return {LandmarkInliersOf(matches.points), LandmarkInliersOf(matches.lines)};
+  FrameMatches inliers;
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const auto& match : matches.Of<L>()) {
+      if (match.inlier && match.id != kNoId) inliers.Of<L>().push_back(match);
+    }
+  });
+  return inliers;
 }
 
 PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, const Map& map,
@@ -160,39 +117,40 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
   data.custom_factors = factors;
   ForEachLandmarkKind([&](auto kind) {
     using L = typename decltype(kind)::Landmark;
-    for (const auto& match : OfKind<L>(*matches)) {
-      OfKind<L>(data).push_back(
-          Observe(match, frame, *cam_from_world, map.Find<L>(match.id), scale));
+    for (const auto& match : matches->Of<L>()) {
+      const L* landmark = map.Find<L>(match.id);
+      auto observed = MakePoseMatch(match, frame, *cam_from_world, landmark, scale);
+      observed.map_variance = MapVariance(landmark);
+      observed.confirmed = IsConfirmed(landmark);
+      OfKind<L>(data).push_back(observed);
     }
   });
   PoseSummary summary = OptimizePose(options, &data);
   *cam_from_world = data.cam_from_world;
   ForEachLandmarkKind([&](auto kind) {
-    auto& of_kind = OfKind<typename decltype(kind)::Landmark>(*matches);
-    const auto& observed = OfKind<typename decltype(kind)::Landmark>(data);
+    using L = typename decltype(kind)::Landmark;
+    Matches<L>& of_kind = matches->Of<L>();
+    const auto& observed = OfKind<L>(data);
     for (size_t i = 0; i < of_kind.size(); ++i) of_kind[i].inlier = observed[i].inlier;
   });
   return summary;
 }
 
-int NumMatches(const TrackerOptions& options, const Frame& frame, size_t num_points,
-               size_t num_lines) {
+int NumMatches(const TrackerOptions& options, const Frame& frame, const PerKind<int>& matches) {
   const bool has_points = frame.points.size() >= static_cast<size_t>(options.min_matches);
-  return static_cast<int>(num_points + (has_points ? 1 : kPointsPerLine) * num_lines);
+  return has_points ? Sum(matches) : Support(matches);
 }
 
 bool HasEnoughInliers(const TrackerOptions& options, const Frame& frame, const FramePose& pose) {
   const PoseSummary& summary = pose.summary;
-  const int support =
-      NumMatches(options, frame, summary.num_inlier_points, summary.num_inlier_lines);
-  if (!summary.usable || support < options.min_matches) return false;
+  if (!summary.usable || NumMatches(options, frame, summary.num_inliers) < options.min_matches) {
+    return false;
+  }
   if (summary.num_confirmed >= options.min_matches) {
     return summary.num_confirmed_inliers >= options.min_inlier_ratio * summary.num_confirmed;
   }
-  const int num_matches = static_cast<int>(pose.matches.points.size() + pose.matches.lines.size());
-  const int num_static = num_matches - summary.num_dynamic;
-  return summary.num_inlier_points + summary.num_inlier_lines >=
-         options.min_inlier_ratio * num_static;
+  const int num_static = Sum(SizesOf(pose.matches)) - summary.num_dynamic;
+  return Sum(summary.num_inliers) >= options.min_inlier_ratio * num_static;
 }
 
 TrackingStatus ClassifyStatus(const TrackerOptions& options, const PoseSummary& pose) {
@@ -206,10 +164,7 @@ TrackingStatus ClassifyStatus(const TrackerOptions& options, const PoseSummary& 
 
 std::optional<FramePose> PoseEstimator::Estimate(const PoseOptions& options, const Frame& frame,
                                                  const Rigid3& start, const FrameMatches& matches) {
-  if (NumMatches(options_, frame, matches.points.size(), matches.lines.size()) <
-      options_.min_matches) {
-    return std::nullopt;
-  }
+  if (NumMatches(options_, frame, SizesOf(matches)) < options_.min_matches) return std::nullopt;
   FramePose pose{start, matches, {}};
   pose.summary = Timed(&times_.pose, [&] {
     return EstimateFramePose(options, frame, map_, noise_scale_, factors_, &pose.cam_from_world,

@@ -44,8 +44,7 @@ PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, co
 /// Number of matches for comparison with options.min_matches. Lines count twice in an image that
 /// has fewer points than that: in others, a pose by a few lines and no point would be one by
 /// chance.
-int NumMatches(const TrackerOptions& options, const Frame& frame, size_t num_points,
-               size_t num_lines);
+int NumMatches(const TrackerOptions& options, const Frame& frame, const PerKind<int>& matches);
 
 /// Whether enough of the matches are inliers of the pose: at least `min_matches`, and
 /// `min_inlier_ratio` of all but the dynamic ones. If at least `min_matches` are confirmed static,

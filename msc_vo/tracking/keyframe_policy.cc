@@ -22,7 +22,11 @@ bool IsClose(const PointFeature& point) {
   // Relative error of the depth z = 1/w: sigma_z / z = sigma_w / w.
   return point.HasDepth() && point.inverse_depth_sigma < kCloseRelativeSigma * point.inverse_depth;
 }
-bool IsClose(const LineFeature& /*line*/) { return false; }
+// Features of other kinds have no close ones.
+template <typename F>
+bool IsClose(const F& /*feature*/) {
+  return false;
+}
 
 }  // namespace
 
@@ -54,7 +58,7 @@ KeyframePolicy::TrackedRatios KeyframePolicy::ComputeRatios(const Frame& frame,
     std::vector<bool> is_tracked(features.size(), false);
     for (const auto& match : OfKind<L>(matches)) is_tracked[match.feature] = match.inlier;
     for (size_t i = 0; i < features.size(); ++i) {
-      if (!L::HasDepth(features[i]) && !is_tracked[i]) continue;
+      if (!features[i].HasDepth() && !is_tracked[i]) continue;
       ++(is_tracked[i] ? all.tracked : all.creatable);
       if (IsClose(features[i])) ++(is_tracked[i] ? close.tracked : close.creatable);
     }

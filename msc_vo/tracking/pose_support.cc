@@ -4,7 +4,6 @@
 #include "msc_vo/tracking/pose_support.h"
 
 #include <algorithm>
-#include <cstddef>
 
 #include "msc_vo/map/free_space.h"
 
@@ -20,22 +19,16 @@ constexpr double kClearOfVisible = 0.25;
 // More than what two estimates of one pose differ by.
 constexpr double kClearlyBetter = 1.5;
 
-double Count(size_t num_points, size_t num_lines) {
-  return static_cast<double>(num_points + kPointsPerLine * num_lines);
-}
-
 }  // namespace
 
-double Support(const PoseSummary& pose) {
-  return pose.num_inlier_points + kPointsPerLine * pose.num_inlier_lines;
-}
+double Support(const PoseSummary& pose) { return Support(pose.num_inliers); }
 
 bool IsClear(const FramePose& pose, const LocalMap& candidates) {
   const double support = Support(pose.summary);
   // Matches on dynamic objects neither support a pose nor contradict it.
   const double dynamic = pose.summary.num_dynamic;
-  const double matched = Count(pose.matches.points.size(), pose.matches.lines.size()) - dynamic;
-  const double visible = Count(candidates.points.size(), candidates.lines.size()) - dynamic;
+  const double matched = Support(SizesOf(pose.matches)) - dynamic;
+  const double visible = Support(SizesOf(candidates)) - dynamic;
   return support >= kClearOfMatches * matched && support >= kClearOfVisible * visible;
 }
 
@@ -52,14 +45,10 @@ bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
 bool HasComparableMatchRatio(const FrameMatches& found, const LocalMap& place,
                              const TrackedFrame& tracked) {
   constexpr double kMinRelativeRatio = 0.5;  // the direction of view may be another
-  const auto num_features = [](const FrameMatches& matches) {
-    return static_cast<double>(matches.points.size() + matches.lines.size());
-  };
-  const auto in_view = static_cast<double>(place.points.size() + place.lines.size());
-  const auto in_view_now =
-      static_cast<double>(tracked.visible.points.size() + tracked.visible.lines.size());
-  return num_features(found) * in_view_now >=
-         kMinRelativeRatio * num_features(tracked.matches) * in_view;
+  const double in_view = Sum(SizesOf(place));
+  const double in_view_now = Sum(SizesOf(tracked.visible));
+  return Sum(SizesOf(found)) * in_view_now >=
+         kMinRelativeRatio * Sum(SizesOf(tracked.matches)) * in_view;
 }
 
 bool ContradictsDepth(const TrackedFrame& tracked, const Map& map) {

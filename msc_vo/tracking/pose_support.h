@@ -7,7 +7,7 @@
 
 namespace msc_vo {
 
-/// Number of inliers of a pose; a line counts as kPointsPerLine points.
+/// Support of a pose by its inliers, in points.
 double Support(const PoseSummary& pose);
 
 /// Whether a large part of the features that should be visible support a pose, whose matches were

@@ -179,8 +179,7 @@ bool Tracker::IsOutsideMappedArea(const Map& map, const TrackedFrame& tracked) c
   const Frame& frame = *tracked.frame;
   if (!tracked.pose.usable || !CanBeginMap(frame, options_.min_initial_features)) return false;
   const LocalMap visible = SelectVisibleLandmarks(map, frame, tracked.cam_from_world);
-  return NumMatches(options_, frame, visible.points.size(), visible.lines.size()) <
-         options_.min_matches;
+  return NumMatches(options_, frame, SizesOf(visible)) < options_.min_matches;
 }
 
 TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial,

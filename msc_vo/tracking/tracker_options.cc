@@ -17,8 +17,8 @@ bool SegmentOptions::IsValid(std::string* error) const {
 }
 
 bool TrackerOptions::IsValid(std::string* error) const {
-  if (!point_matcher.IsValid(error) || !line_matcher.IsValid(error) || !pose.IsValid(error) ||
-      !keyframes.IsValid(error) || !relocalizer.IsValid(error) || !segments.IsValid(error)) {
+  if (!MatcherOptions::IsValid(error) || !pose.IsValid(error) || !keyframes.IsValid(error) ||
+      !relocalizer.IsValid(error) || !segments.IsValid(error)) {
     return false;
   }
   if (!(prediction_radius > 0.0 && wide_radius > 0.0 && local_map_radius > 0.0)) {

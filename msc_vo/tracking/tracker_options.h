@@ -5,8 +5,7 @@
 
 #include <string>
 
-#include "msc_vo/matching/line_matcher.h"
-#include "msc_vo/matching/point_matcher.h"
+#include "msc_vo/matching/landmark_matchers.h"
 #include "msc_vo/pose_estimation/pose_optimization.h"
 #include "msc_vo/pose_estimation/relocalizer.h"
 #include "msc_vo/tracking/keyframe_policy.h"
@@ -30,9 +29,7 @@ struct SegmentOptions {
   bool IsValid(std::string* error) const;
 };
 
-struct TrackerOptions {
-  PointMatcherOptions point_matcher;
-  LineMatcherOptions line_matcher;
+struct TrackerOptions : MatcherOptions {
   PoseOptions pose;
   KeyframePolicyOptions keyframes;
   RelocalizerOptions relocalizer;

@@ -55,7 +55,7 @@ TEST_F(MapTest, TakesTheIdOfAKeyframeUnlessItIsNotNew) {
 
 TEST_F(MapTest, StoresObservationsInLandmarkAndKeyframe) {
   EXPECT_TRUE(map_.Observe<PointLandmark>(a_, keyframes_[2], 3));
-  EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->points[3], a_);
+  EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->landmarks.points[3], a_);
   ASSERT_EQ(map_.Find<PointLandmark>(a_)->observations.size(), 2u);
   EXPECT_EQ(map_.Find<PointLandmark>(a_)->observations[1].keyframe, keyframes_[2]);
   EXPECT_EQ(map_.Find<PointLandmark>(a_)->observations[1].feature, 3);
@@ -83,7 +83,7 @@ TEST_F(MapTest, RemovesTheLandmarkWithItsLastObservation) {
   EXPECT_NE(map_.Find<PointLandmark>(a_), nullptr);
   map_.RemoveObservation<PointLandmark>(a_, keyframes_[0]);
   EXPECT_EQ(map_.Find<PointLandmark>(a_), nullptr);
-  EXPECT_EQ(map_.FindKeyframe(keyframes_[0])->points[0], kNoId);
+  EXPECT_EQ(map_.FindKeyframe(keyframes_[0])->landmarks.points[0], kNoId);
 }
 
 TEST_F(MapTest, MergesObservationsWithoutCollision) {
@@ -92,9 +92,9 @@ TEST_F(MapTest, MergesObservationsWithoutCollision) {
   map_.MergeLandmarks<PointLandmark>(b_, a_);
   EXPECT_EQ(map_.Find<PointLandmark>(b_), nullptr);
   EXPECT_EQ(map_.Find<PointLandmark>(a_)->observations.size(), 3u);
-  EXPECT_EQ(map_.FindKeyframe(keyframes_[1])->points[1], a_);
-  EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->points[0], a_);
-  EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->points[1], kNoId);
+  EXPECT_EQ(map_.FindKeyframe(keyframes_[1])->landmarks.points[1], a_);
+  EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->landmarks.points[0], a_);
+  EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->landmarks.points[1], kNoId);
   EXPECT_EQ(map_.Find<PointLandmark>(a_)->num_found, 2);
 }
 

@@ -146,12 +146,12 @@ TEST_F(WindowSelectionTest, WriteBackUpdatesTheMapAndRemovesRejectedObservations
 // The positions of the landmarks that one keyframe alone observes, in its camera frame.
 std::vector<Eigen::Vector3d> ObservedByItAlone(const Map& map, const Keyframe& keyframe) {
   std::vector<Eigen::Vector3d> positions;
-  for (const LandmarkId id : keyframe.points) {
+  for (const LandmarkId id : keyframe.landmarks.points) {
     const PointLandmark* point = id == kNoId ? nullptr : map.Find<PointLandmark>(id);
     if (point == nullptr || point->observations.size() > 1) continue;
     positions.push_back(keyframe.cam_from_world * point->position);
   }
-  for (const LandmarkId id : keyframe.lines) {
+  for (const LandmarkId id : keyframe.landmarks.lines) {
     const LineLandmark* line = id == kNoId ? nullptr : map.Find<LineLandmark>(id);
     if (line == nullptr || line->observations.size() > 1) continue;
     positions.push_back(keyframe.cam_from_world * line->segment.start);
@@ -163,9 +163,10 @@ std::vector<Eigen::Vector3d> ObservedByItAlone(const Map& map, const Keyframe& k
 TEST_F(WindowSelectionTest, LandmarksOfOneKeyframeMoveWithIt) {
   for (const KeyframeId other : {0, 1, 2, 3, 4}) {
     const Keyframe keyframe = *map_.FindKeyframe(other);
-    for (const LandmarkId id : keyframe.points) map_.RemoveObservation<PointLandmark>(id, other);
-    for (size_t i = 0; i < keyframe.lines.size(); i += 2) {
-      map_.RemoveObservation<LineLandmark>(keyframe.lines[i], other);
+    for (const LandmarkId id : keyframe.landmarks.points)
+      map_.RemoveObservation<PointLandmark>(id, other);
+    for (size_t i = 0; i < keyframe.landmarks.lines.size(); i += 2) {
+      map_.RemoveObservation<LineLandmark>(keyframe.landmarks.lines[i], other);
     }
   }
   WindowData window = SelectWindow(WindowSelectionOptions(), map_, 5);

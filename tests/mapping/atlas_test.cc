@@ -102,7 +102,7 @@ TEST_F(AtlasTest, AJoinedMapCanGrowAndMergeLandmarks) {
   Map& map = atlas_.current().map;
   map.MergeLandmarks<PointLandmark>(new_.point, old_.point);
   EXPECT_EQ(map.Find<PointLandmark>(old_.point)->observations.size(), 4u);
-  EXPECT_EQ(map.FindKeyframe(new_.second)->points[1], old_.point);
+  EXPECT_EQ(map.FindKeyframe(new_.second)->landmarks.points[1], old_.point);
   map.RemoveKeyframe(new_.first, new_.second);
   EXPECT_TRUE(map.KnowsKeyframe(new_.first));
   const KeyframeId next = map.AddKeyframe(MakeFrame(), Rigid3());

@@ -55,7 +55,7 @@ TEST_F(FusionTest, MergesDuplicates) {
   // Observations and associations of the merged landmarks are consistent.
   for (const auto& [id, point] : map_.points()) {
     for (const Observation& o : point.observations) {
-      EXPECT_EQ(map_.FindKeyframe(o.keyframe)->points[o.feature], id);
+      EXPECT_EQ(map_.FindKeyframe(o.keyframe)->landmarks.points[o.feature], id);
     }
   }
 }
@@ -69,7 +69,7 @@ TEST_F(FusionTest, IgnoresDynamicFeatures) {
   for (size_t i = 1; i < marked->points.size(); ++i) marked->points[i].dynamic = i % 2 == 0;
   const KeyframeId second = map.AddKeyframe(marked, SyntheticFrames::CamFromWorld(15));
   // One shared landmark makes the keyframes covisible.
-  for (const LandmarkId id : map.FindKeyframe(first)->points) {
+  for (const LandmarkId id : map.FindKeyframe(first)->landmarks.points) {
     if (HammingDistance(map.Find<PointLandmark>(id)->descriptor, marked->points[0].descriptor) > 40)
       continue;
     map.Observe<PointLandmark>(id, second, 0);
@@ -78,7 +78,7 @@ TEST_F(FusionTest, IgnoresDynamicFeatures) {
   FuseLandmarks(FusionOptions(), second, &map);
   int num_observed = 0;
   for (size_t i = 0; i < marked->points.size(); ++i) {
-    const bool is_observed = map.FindKeyframe(second)->points[i] != kNoId;
+    const bool is_observed = map.FindKeyframe(second)->landmarks.points[i] != kNoId;
     EXPECT_FALSE(is_observed && marked->points[i].dynamic) << i;
     num_observed += is_observed;
   }

@@ -35,8 +35,8 @@ TEST(Mapper, CreatesNoLandmarksOnDynamicObjects) {
   mapper.Process(packet);
   EXPECT_EQ(mapper.map().points().size(), marked->points.size() - 1);
   EXPECT_EQ(mapper.map().lines().size(), marked->lines.size() - 1);
-  EXPECT_EQ(mapper.map().FindKeyframe(0)->points[3], kNoId);
-  EXPECT_EQ(mapper.map().FindKeyframe(0)->lines[1], kNoId);
+  EXPECT_EQ(mapper.map().FindKeyframe(0)->landmarks.points[3], kNoId);
+  EXPECT_EQ(mapper.map().FindKeyframe(0)->landmarks.lines[1], kNoId);
 }
 
 TEST(Mapper, CorrectsPoseErrorsByBundleAdjustment) {

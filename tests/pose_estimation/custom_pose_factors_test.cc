@@ -147,7 +147,7 @@ TEST(CustomPoseFactors, DetermineThePoseWithoutMatches) {
   data.custom_factors = {PriorFactor("step", mean, 0.02, 0.03)};
   const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   EXPECT_TRUE(summary.usable);
-  EXPECT_EQ(summary.num_inlier_points + summary.num_inlier_lines, 0);
+  EXPECT_EQ(summary.num_inliers.points + summary.num_inliers.lines, 0);
   EXPECT_LT(Distance(data.cam_from_world, mean), 1e-6);
   const Eigen::Matrix<double, 6, 6> expected = DiagonalPoseCovariance(0.02, 0.03);
   EXPECT_THAT(summary.covariance, IsNear(expected, 1e-9));

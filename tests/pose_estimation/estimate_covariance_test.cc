@@ -151,8 +151,8 @@ double GrowthByOutliers(const PoseData& blurred) {
   unshifted.points = Unshifted(blurred.points);
   unshifted.lines = Unshifted(blurred.lines);
   const PoseSummary all = Optimize(blurred);
-  EXPECT_EQ(all.num_inlier_points, static_cast<int>(unshifted.points.size()));
-  EXPECT_EQ(all.num_inlier_lines, static_cast<int>(unshifted.lines.size()));
+  EXPECT_EQ(all.num_inliers.points, static_cast<int>(unshifted.points.size()));
+  EXPECT_EQ(all.num_inliers.lines, static_cast<int>(unshifted.lines.size()));
   const PoseCovariance of_unshifted = Optimize(unshifted).covariance;
   const double growth = all.covariance.trace() / of_unshifted.trace();
   EXPECT_THAT(all.covariance, IsNear(growth * of_unshifted, 1e-6));

@@ -18,22 +18,22 @@ namespace {
 // Factors of all matches of one frame, including outliers, with robust losses.
 PoseFactors MakeFactors(const PoseData& data) {
   PoseFactors factors;
-  factors.point_reprojection.huber = factors.line_reprojection.huber = 2.448;
-  factors.point_depth.huber = 1.96;
-  factors.line_depth.huber = 2.448;
+  factors.Of<PointReprojection>().huber = factors.Of<LineReprojection>().huber = 2.448;
+  factors.Of<DepthReprojection>().huber = 1.96;
+  factors.Of<LineDepthReprojection>().huber = 2.448;
   for (const PoseData::Point& p : data.points) {
-    factors.point_reprojection.blocks.push_back(
+    factors.Of<PointReprojection>().blocks.push_back(
         {PointReprojection(data.camera, p.pixel, p.sigma), p.position});
-    factors.point_depth.blocks.push_back(
+    factors.Of<DepthReprojection>().blocks.push_back(
         {DepthReprojection(p.inverse_depth, p.inverse_depth_sigma), p.position});
   }
   for (const PoseData::Line& l : data.lines) {
     const LineSegment3 line = data.cam_from_world * l.map_segment;
     Eigen::Matrix<double, 6, 1> ends;
     ends << l.map_segment.start, l.map_segment.end;
-    factors.line_reprojection.blocks.push_back(
+    factors.Of<LineReprojection>().blocks.push_back(
         {MakeLineReprojection(data.camera, l.segment, l.sigma, line), ends});
-    factors.line_depth.blocks.push_back(
+    factors.Of<LineDepthReprojection>().blocks.push_back(
         {MakeLineDepthReprojection(data.camera, l.segment, l.depth, line), ends});
   }
   return factors;
@@ -44,10 +44,10 @@ class CeresForm {
  public:
   CeresForm(const PoseFactors& factors, const Rigid3& pose) : pose_(pose) {
     problem_.AddParameterBlock(pose_.params.data(), 7, new Rigid3Manifold);
-    Add(factors.point_reprojection);
-    Add(factors.point_depth);
-    Add(factors.line_reprojection);
-    Add(factors.line_depth);
+    Add(factors.Of<PointReprojection>());
+    Add(factors.Of<DepthReprojection>());
+    Add(factors.Of<LineReprojection>());
+    Add(factors.Of<LineDepthReprojection>());
   }
 
   NormalEquations Linearize() {

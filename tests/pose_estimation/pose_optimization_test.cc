@@ -49,8 +49,8 @@ TEST_P(PoseOptimizationTest, RecoversThePoseFromExactMatches) {
   PoseData data = MakePoseData(window, kFrame);
   const PoseSummary summary = OptimizePose(PoseOptions(), &data);
   EXPECT_TRUE(summary.usable);
-  EXPECT_EQ(summary.num_inlier_points, 200);
-  EXPECT_EQ(summary.num_inlier_lines, 40);
+  EXPECT_EQ(summary.num_inliers.points, 200);
+  EXPECT_EQ(summary.num_inliers.lines, 40);
   EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-7);
   EXPECT_NEAR(summary.final_cost, 0.0, 1e-8);
 }
@@ -103,7 +103,7 @@ TEST_P(PoseOptimizationTest, ToleratesNoiseAndOutliers) {
   }
   // The chi-square test rejects 1 % of the good matches.
   EXPECT_GE(kept, 0.96 * good);
-  EXPECT_EQ(kept, summary.num_inlier_points + summary.num_inlier_lines);
+  EXPECT_EQ(kept, summary.num_inliers.points + summary.num_inliers.lines);
 }
 
 TEST_P(PoseOptimizationTest, InflatesTheSigmasOfANoisyFrame) {
@@ -114,7 +114,7 @@ TEST_P(PoseOptimizationTest, InflatesTheSigmasOfANoisyFrame) {
     options.max_frame_noise = max_frame_noise;
     PoseData data = MakePoseData(window, kFrame);
     const auto num_points = static_cast<double>(data.points.size());
-    return OptimizePose(options, &data).num_inlier_points / num_points;
+    return OptimizePose(options, &data).num_inliers.points / num_points;
   };
   // With sigmas 1.8 times too small, 1 - exp(-9.21 / 2 / 1.8^2) = 0.76 of the points pass the test.
   EXPECT_NEAR(inlier_ratio(1.0), 0.76, 0.1);
@@ -158,7 +158,7 @@ TEST_P(PoseOptimizationTest, ReclassifiesEarlierOutliers) {
   ASSERT_GT(num_first_inliers, 10);
   options.num_rounds = 8;
   options.num_robust_rounds = 4;
-  EXPECT_EQ(OptimizePose(options, &data).num_inlier_points, 200);
+  EXPECT_EQ(OptimizePose(options, &data).num_inliers.points, 200);
   EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-6);
 }
 
@@ -168,8 +168,8 @@ TEST_P(PoseOptimizationTest, KeepsObservationsWithAWrongDepth) {
   for (int i = 0; i < 40; ++i) data.points[i].inverse_depth += 0.1;
   for (int i = 0; i < 8; ++i) data.lines[i].depth.start += 0.1;
   const PoseSummary summary = OptimizePose(PoseOptions(), &data);
-  EXPECT_EQ(summary.num_inlier_points, 200);
-  EXPECT_EQ(summary.num_inlier_lines, 40);
+  EXPECT_EQ(summary.num_inliers.points, 200);
+  EXPECT_EQ(summary.num_inliers.lines, 40);
   EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-7);
   EXPECT_NEAR(summary.final_cost, 0.0, 1e-8);
 }
@@ -183,8 +183,8 @@ TEST_P(PoseOptimizationTest, RejectsMatchesBehindTheCamera) {
   EXPECT_TRUE(summary.usable);
   EXPECT_FALSE(data.points[3].inlier);
   EXPECT_FALSE(data.lines[5].inlier);
-  EXPECT_EQ(summary.num_inlier_points, 199);
-  EXPECT_EQ(summary.num_inlier_lines, 39);
+  EXPECT_EQ(summary.num_inliers.points, 199);
+  EXPECT_EQ(summary.num_inliers.lines, 39);
   EXPECT_LT(Distance(data.cam_from_world, Truth(window)), 1e-7);
 }
 

@@ -14,7 +14,7 @@ class HasEnoughInliersTest : public ::testing::Test {
   HasEnoughInliersTest() {
     pose_.matches.points.resize(200);
     pose_.summary.usable = true;
-    pose_.summary.num_inlier_points = 100;
+    pose_.summary.num_inliers.points = 100;
   }
   bool HasEnough() const { return HasEnoughInliers(TrackerOptions(), Frame(), pose_); }
 
@@ -28,7 +28,7 @@ TEST_F(HasEnoughInliersTest, RequiresAUsablePose) {
 }
 
 TEST_F(HasEnoughInliersTest, RequiresARatioOfAllButTheDynamicMatches) {
-  pose_.summary.num_inlier_points = 59;
+  pose_.summary.num_inliers.points = 59;
   EXPECT_FALSE(HasEnough());
   pose_.summary.num_dynamic = 10;
   EXPECT_TRUE(HasEnough());
@@ -36,17 +36,17 @@ TEST_F(HasEnoughInliersTest, RequiresARatioOfAllButTheDynamicMatches) {
 
 TEST_F(HasEnoughInliersTest, RequiresANumberOfMatches) {
   pose_.matches.points.resize(9);
-  pose_.summary.num_inlier_points = 9;
+  pose_.summary.num_inliers.points = 9;
   EXPECT_FALSE(HasEnough());
 }
 
 // A dynamic object that was not recognised, with most of the matches.
 TEST_F(HasEnoughInliersTest, ConfirmedMatchesDecide) {
   pose_.summary.num_confirmed = 50;
-  pose_.summary.num_inlier_points = 40;
+  pose_.summary.num_inliers.points = 40;
   pose_.summary.num_confirmed_inliers = 40;
   EXPECT_TRUE(HasEnough());
-  pose_.summary.num_inlier_points = 150;
+  pose_.summary.num_inliers.points = 150;
   pose_.summary.num_confirmed_inliers = 10;
   EXPECT_FALSE(HasEnough());
 }
@@ -54,7 +54,7 @@ TEST_F(HasEnoughInliersTest, ConfirmedMatchesDecide) {
 TEST_F(HasEnoughInliersTest, AFewConfirmedMatchesDoNotDecide) {
   pose_.summary.num_confirmed = 9;
   EXPECT_TRUE(HasEnough());
-  pose_.summary.num_inlier_points = 20;
+  pose_.summary.num_inliers.points = 20;
   pose_.summary.num_confirmed_inliers = 9;
   EXPECT_FALSE(HasEnough());
 }

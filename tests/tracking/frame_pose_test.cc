@@ -251,13 +251,13 @@ class EstimateFramePoseTest : public ::testing::Test {
     frame_ = SyntheticFrames(options).MakeFrame(0);
     map_ = MapOfOneKeyframe(frame_, Rigid3()).map;
     const Keyframe& keyframe = map_.keyframes().front().second;
-    for (size_t i = 0; i < keyframe.points.size(); ++i) {
-      const LandmarkId id = keyframe.points[i];
+    for (size_t i = 0; i < keyframe.landmarks.points.size(); ++i) {
+      const LandmarkId id = keyframe.landmarks.points[i];
       matches_.points.push_back(
           {static_cast<int>(i), id, map_.Find<PointLandmark>(id)->position, true});
     }
-    for (size_t i = 0; i < keyframe.lines.size(); ++i) {
-      const LandmarkId id = keyframe.lines[i];
+    for (size_t i = 0; i < keyframe.landmarks.lines.size(); ++i) {
+      const LandmarkId id = keyframe.landmarks.lines[i];
       matches_.lines.push_back(
           {static_cast<int>(i), id, map_.Find<LineLandmark>(id)->segment, true});
     }
@@ -292,7 +292,7 @@ TEST_F(EstimateFramePoseTest, RecoversThePoseAndMarksOutliers) {
   for (size_t i = 0; i < matches_.lines.size(); ++i) {
     EXPECT_EQ(matches_.lines[i].inlier, i != 2) << i;
   }
-  EXPECT_EQ(summary.num_inlier_points, static_cast<int>(matches_.points.size()) - 1);
+  EXPECT_EQ(summary.num_inliers.points, static_cast<int>(matches_.points.size()) - 1);
 }
 
 // The information is a sum of terms, each of which is divided by the square of its scale. A very

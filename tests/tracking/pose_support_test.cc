@@ -50,9 +50,9 @@ TEST(ContradictsDepth, ComparesTheImageWithTheFeatures) {
   TrackedFrame tracked;
   tracked.reference = map.AddKeyframe(FrameAtWall(2.0), Rigid3());
   tracked.frame = FrameAtWall(3.0);
-  tracked.pose.num_inlier_points = 20;
+  tracked.pose.num_inliers.points = 20;
   EXPECT_TRUE(ContradictsDepth(tracked, map));
-  tracked.pose.num_inlier_points = 800;  // more than there are cells
+  tracked.pose.num_inliers.points = 800;  // more than there are cells
   EXPECT_FALSE(ContradictsDepth(tracked, map));
 }
 
@@ -69,7 +69,7 @@ TEST(ContradictsDepth, BelievesAPoseThatImagesAgreeWith) {
 
 PoseSummary PoseWith(int num_inliers, int num_dynamic, int num_confirmed_inliers) {
   PoseSummary pose;
-  pose.num_inlier_points = num_inliers;
+  pose.num_inliers.points = num_inliers;
   pose.num_dynamic = num_dynamic;
   pose.num_confirmed_inliers = num_confirmed_inliers;
   return pose;

@@ -42,7 +42,7 @@ TEST_F(TrackerTest, EstimatesThePoseOfEveryFrame) {
     // Landmarks of a single keyframe have the noise of its features: 0.5 px and 1e-3 1/m.
     EXPECT_LT(PositionError(tracked.cam_from_world, Truth(i)), 0.01) << i;
     EXPECT_LT(RotationError(tracked.cam_from_world, Truth(i)), 0.003) << i;
-    EXPECT_GT(tracked.pose.num_inlier_points, 100) << i;
+    EXPECT_GT(tracked.pose.num_inliers.points, 100) << i;
   }
 }
 
