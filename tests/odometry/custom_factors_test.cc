@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "tests/support/custom_pose_factors.h"
@@ -77,7 +78,8 @@ TEST_F(CustomFactorsTest, WheelsBridgeACoveredSecond) {
   for (int i = 20; i < 50; ++i) {
     EXPECT_EQ(with.frames[i].status, TrackingStatus::kPredicted) << i;
     EXPECT_TRUE(with.frames[i].by_pose_factors) << i;
-    EXPECT_GT(with.frames[i].covariance(5, 5), 0.0) << i;
+    ASSERT_TRUE(with.frames[i].covariance.has_value()) << i;
+    EXPECT_GT((*with.frames[i].covariance)(5, 5), 0.0) << i;
     EXPECT_FALSE(without.frames[i].by_pose_factors) << i;
   }
   EXPECT_TRUE(IsEstimated(with.frames[50].status));
@@ -138,23 +140,40 @@ TEST_F(CustomFactorsTest, ErrorsOfWindowFactorsReachTheCaller) {
     ASSERT_EQ(errors.size(), 2u);
     EXPECT_EQ(errors[0], "no wheel data");
     EXPECT_THAT(errors[1], HasSubstr("marker"));
-    EXPECT_EQ(odometry.Finish().frames.size(), images_->size() - 2);
+    EXPECT_EQ(odometry.Finish().frames.size(), images_->size());
   }
 }
 
-TEST_F(CustomFactorsTest, ErrorsOfPoseFactorsLeaveTheFrameOut) {
-  Odometry odometry(OdometryOptions(), camera_, LensDistortion());
-  int num_calls = 0;
-  odometry.SetPoseFactors([&](const FrameContext&) {
-    ++num_calls;
-    if (num_calls == 2) throw std::runtime_error("no wheel data");
-    return std::vector<PoseFactor>();
-  });
-  for (int i = 0; i < 2; ++i) odometry.Process((*images_)[i]);
-  EXPECT_THROW(odometry.Process((*images_)[2]), std::runtime_error);
-  // The same image may be passed again.
-  EXPECT_EQ(odometry.Process((*images_)[2]).status, TrackingStatus::kTracked);
-  EXPECT_EQ(odometry.Finish().frames.size(), 3u);
+// Extra blocks are those of the map that a frame is tracked in, at any number of threads.
+TEST_F(CustomFactorsTest, PoseFactorsSeeTheExtraBlocksOfTheirMap) {
+  const auto scales_seen = [](int threads, double latency) {
+    std::vector<double> scales;  // per frame; 0: none
+    OdometryOptions options;
+    options.threads = threads;
+    options.snapshots.latency = latency;
+    Odometry odometry(options, camera_, LensDistortion());
+    odometry.SetWindowFactors(WindowWheels);
+    odometry.SetPoseFactors([&](const FrameContext& context) {
+      EXPECT_LE(context.extra_blocks.size(), 1u);
+      scales.push_back(context.extra_blocks.empty() ? 0.0 : context.extra_blocks[0].value[0]);
+      return std::vector<PoseFactor>();
+    });
+    std::vector<double> in_map;  // of the same frames
+    odometry.SetTrackingObserver([&](const TrackedImage& image) {
+      const std::vector<ExtraBlock>& blocks = image.map.extra_blocks;
+      if (image.result.id > 0) in_map.push_back(blocks.empty() ? 0.0 : blocks[0].value[0]);
+    });
+    for (const RgbdImage& image : *images_) odometry.Process(image);
+    EXPECT_EQ(scales, in_map);
+    return scales;
+  };
+  for (const double latency : {0.0, 0.085}) {
+    const std::vector<double> scales = scales_seen(1, latency);
+    EXPECT_EQ(scales.front(), 0.0);
+    EXPECT_NEAR(scales.back(), kScale, 0.05);
+    EXPECT_GT(std::set<double>(scales.begin(), scales.end()).size(), 3u);
+    EXPECT_EQ(scales_seen(2, latency), scales);
+  }
 }
 
 }  // namespace
