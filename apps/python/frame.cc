@@ -38,7 +38,7 @@ py::dict TimesOf(const FrameResult& frame) {
   return times;
 }
 
-std::string Describe(const FrameResult& frame) {
+std::string DescribeFrame(const FrameResult& frame) {
   return FormatText("<FrameResult %lld at %.6f s: %s, %d points, %d lines>",
                     static_cast<long long>(frame.id), frame.timestamp, ToString(frame.status),
                     frame.num_inlier_points, frame.num_inlier_lines);
@@ -93,7 +93,10 @@ void BindFrame(py::module_* module) {
       .def_readonly("is_keyframe", &FrameResult::is_keyframe)
       .def_property_readonly(
           "covariance",
-          [](const FrameResult& self) -> std::optional<RowMajor6d> { return self.covariance; },
+          [](const FrameResult& self) -> std::optional<RowMajor6d> {
+            if (!self.covariance) return std::nullopt;
+            return RowMajor6d(*self.covariance);
+          },
           "6x6 of cam_from_world: rotation vector in the camera frame (radians), then translation "
           "(metres); None if nothing determines the pose, as in the frame that begins a world.")
       .def_property_readonly(
@@ -114,7 +117,7 @@ void BindFrame(py::module_* module) {
       .def_readonly("num_inlier_lines", &FrameResult::num_inlier_lines, "The same for lines.")
       .def_readonly("num_dynamic", &FrameResult::num_dynamic, "Matches on dynamic objects.")
       .def_property_readonly("times", &TimesOf, "Milliseconds by stage, as in frames.csv.")
-      .def("__repr__", &Describe);
+      .def("__repr__", &DescribeFrame);
   BindPoses(&frame);
 }
 

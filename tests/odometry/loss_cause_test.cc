@@ -99,7 +99,7 @@ TEST_F(FrameCauseTest, ComesWithTheResultOfTheFrame) {
 
 TEST_F(FrameCauseTest, IsGivenForWeakFrames) {
   OdometryOptions options;
-  options.tracking.weak_translation_sigma = 1e-9;
+  options.tracking.weak_translation_sigma = 1e-6;  // metres
   const std::vector<RgbdImage> images(images_->begin(), images_->begin() + 5);
   const auto causes = Causes(options, images);
   for (int i = 1; i < 5; ++i) EXPECT_EQ(causes[i], LossCause::kNoMatch) << i;
