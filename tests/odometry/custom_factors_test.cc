@@ -144,35 +144,42 @@ TEST_F(CustomFactorsTest, ErrorsOfWindowFactorsReachTheCaller) {
   }
 }
 
-// Extra blocks are those of the map that a frame is tracked in, at any number of threads.
+// Wheels whose scale the windows estimate: the extra block is that of the map that a frame is
+// tracked in, at any number of threads.
 TEST_F(CustomFactorsTest, PoseFactorsSeeTheExtraBlocksOfTheirMap) {
-  const auto scales_seen = [](int threads, double latency) {
-    std::vector<double> scales;  // per frame; 0: none
+  const std::vector<RgbdImage> images = CoveredSecond();
+  const auto run = [&](int threads, double latency, std::vector<double>* scales) {
     OdometryOptions options;
     options.threads = threads;
     options.snapshots.latency = latency;
     Odometry odometry(options, camera_, LensDistortion());
     odometry.SetWindowFactors(WindowWheels);
     odometry.SetPoseFactors([&](const FrameContext& context) {
-      EXPECT_LE(context.extra_blocks.size(), 1u);
-      scales.push_back(context.extra_blocks.empty() ? 0.0 : context.extra_blocks[0].value[0]);
-      return std::vector<PoseFactor>();
+      scales->push_back(context.extra_blocks.empty() ? 1.0 : context.extra_blocks[0].value[0]);
+      const Rigid3 step = Step(context.last_timestamp, context.timestamp);
+      const Rigid3 measured(step.rotation(), scales->back() / kScale * step.translation());
+      const double path = step.translation().norm();
+      return std::vector<PoseFactor>{
+          PriorFactor("wheel", measured * context.last_cam_from_world, 0.01, 0.002 + 0.05 * path)};
     });
     std::vector<double> in_map;  // of the same frames
     odometry.SetTrackingObserver([&](const TrackedImage& image) {
       const std::vector<ExtraBlock>& blocks = image.map.extra_blocks;
-      if (image.result.id > 0) in_map.push_back(blocks.empty() ? 0.0 : blocks[0].value[0]);
+      if (image.result.id > 0) in_map.push_back(blocks.empty() ? 1.0 : blocks[0].value[0]);
     });
-    for (const RgbdImage& image : *images_) odometry.Process(image);
-    EXPECT_EQ(scales, in_map);
-    return scales;
+    for (const RgbdImage& image : images) odometry.Process(image);
+    EXPECT_EQ(*scales, in_map);
+    return odometry.Finish();
   };
   for (const double latency : {0.0, 0.085}) {
-    const std::vector<double> scales = scales_seen(1, latency);
-    EXPECT_EQ(scales.front(), 0.0);
-    EXPECT_NEAR(scales.back(), kScale, 0.05);
-    EXPECT_GT(std::set<double>(scales.begin(), scales.end()).size(), 3u);
-    EXPECT_EQ(scales_seen(2, latency), scales);
+    std::vector<double> one, two;
+    const OdometryResult result = run(1, latency, &one);
+    ExpectSameBytes(run(2, latency, &two), result);
+    EXPECT_EQ(one, two);
+    EXPECT_EQ(one.front(), 1.0);
+    EXPECT_NEAR(one.back(), kScale, 0.05);
+    EXPECT_GT(std::set<double>(one.begin(), one.end()).size(), 3u);
+    EXPECT_TRUE(result.frames[40].by_pose_factors);
   }
 }
 
