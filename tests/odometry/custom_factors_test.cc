@@ -178,7 +178,8 @@ TEST_F(CustomFactorsTest, PoseFactorsSeeTheExtraBlocksOfTheirMap) {
     EXPECT_EQ(one, two);
     EXPECT_EQ(one.front(), 1.0);
     EXPECT_NEAR(one.back(), kScale, 0.05);
-    EXPECT_GT(std::set<double>(one.begin(), one.end()).size(), 3u);
+    // Before the first window, and after several ones.
+    EXPECT_GE(std::set<double>(one.begin(), one.end()).size(), 3u);
     EXPECT_TRUE(result.frames[40].by_pose_factors);
   }
 }
