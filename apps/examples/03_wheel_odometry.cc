@@ -24,8 +24,7 @@ class Wheels {
     }
   }
   // A factor between every two keyframes that follow each other.
-  msc_vo::WindowFactors ForWindow(const msc_vo::WindowContext& window) {
-    if (!window.extra_blocks.empty()) scale_ = window.extra_blocks[0].value[0];
+  msc_vo::WindowFactors ForWindow(const msc_vo::WindowContext& window) const {
     msc_vo::WindowFactors result;
     result.extra_blocks.push_back({0, Eigen::VectorXd::Ones(1), nullptr});  // Euclidean
     for (size_t i = 1; i < window.keyframes.size(); ++i) {
@@ -37,10 +36,11 @@ class Wheels {
     }
     return result;
   }
-  // The pose of a frame from the last one. Without an image there is nothing else.
+  // The pose of a frame from the last one, with the scale as the map of the frame knows it. Without
+  // an image there is nothing else.
   std::vector<msc_vo::PoseFactor> ForFrame(const msc_vo::FrameContext& frame) const {
     Rigid3 motion = Motion(frame.last_timestamp, frame.timestamp);
-    motion.translation() *= scale_;
+    if (!frame.extra_blocks.empty()) motion.translation() *= frame.extra_blocks[0].value[0];
     const auto cost = msc_vo::PosePrior::CreateShared(
         motion * frame.last_cam_from_world, Covariance(frame.timestamp - frame.last_timestamp));
     return {{"wheels", cost, loss_}};
@@ -56,8 +56,7 @@ class Wheels {
   }
 
   const msc_vo::SimulatedCamera& camera_;
-  std::vector<Rigid3> poses_;  // cam_from_start
-  double scale_ = 1.0;
+  std::vector<Rigid3> poses_;                                               // cam_from_start
   std::shared_ptr<ceres::LossFunction> loss_{new ceres::CauchyLoss(2.45)};  // sqrt(6) rows
 };
 
@@ -65,10 +64,9 @@ class Wheels {
 
 int main() {
   const msc_vo::SimulatedCamera camera(msc_vo::SceneKind::kRoom, 110, 60, 90);
-  msc_vo::OdometryOptions options;
-  options.threads = 1;  // both callbacks run in Process() and may share data
+  const msc_vo::OdometryOptions options;  // two threads: the callbacks share nothing that changes
   msc_vo::Odometry vision(options, camera.camera(), {}), both(options, camera.camera(), {});
-  Wheels wheels(camera);
+  const Wheels wheels(camera);
   both.SetWindowFactors([&](const auto& window) { return wheels.ForWindow(window); });
   both.SetPoseFactors([&](const auto& frame) { return wheels.ForFrame(frame); });
   const msc_vo::OdometryResult result = camera.Replay(&both);

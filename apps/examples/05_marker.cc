@@ -17,9 +17,10 @@ class MarkerDetector {
  public:
   explicit MarkerDetector(const msc_vo::SimulatedCamera& camera) : camera_(camera) {}
 
-  // A prior on every keyframe that observes the marker.
+  // A prior on every keyframe that observes the marker, whose place is known in the first world.
   msc_vo::WindowFactors operator()(const msc_vo::WindowContext& window) const {
     msc_vo::WindowFactors result;
+    if (window.world != 0) return result;
     for (const auto& keyframe : window.keyframes) {
       const int image = camera_.IndexAt(keyframe.timestamp);
       if (image < camera_.num_images() - 60) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <optional>
 #include <string>
 
 #include <pybind11/eigen.h>
@@ -8,7 +9,7 @@
 
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
-#include "msc_vo/odometry/frame_result.h"
+#include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -16,6 +17,12 @@ namespace msc_vo {
 namespace py = pybind11;
 
 namespace {
+
+using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+py::object NewFromOld(const WorldChange& change) {
+  return change.new_from_old ? py::cast(PoseMatrix(*change.new_from_old)) : py::none();
+}
 
 py::dict TimesOf(const FrameResult& frame) {
   py::dict times;
@@ -31,17 +38,47 @@ py::dict TimesOf(const FrameResult& frame) {
   return times;
 }
 
-std::string Describe(const FrameResult& frame) {
+std::string DescribeFrame(const FrameResult& frame) {
   return FormatText("<FrameResult %lld at %.6f s: %s, %d points, %d lines>",
                     static_cast<long long>(frame.id), frame.timestamp, ToString(frame.status),
                     frame.num_inlier_points, frame.num_inlier_lines);
 }
 
+// The poses of a frame, and what they refer to.
+void BindPoses(py::class_<FrameResult>* frame) {
+  (*frame)
+      .def_readonly("world", &FrameResult::world,
+                    "Number of the world that cam_from_world refers to: that of the segment that "
+                    "began it; -1: the frame has no pose.")
+      .def_property_readonly(
+          "world_changed",
+          [](const FrameResult& self) -> py::object {
+            if (!self.world_changed) return py::none();
+            return py::make_tuple(self.world_changed->old_world, NewFromOld(*self.world_changed));
+          },
+          "None unless cam_from_world refers to another world than in the frame before; then the "
+          "number of the old world and the 4x4 new_from_old, which is None where it is unknown.")
+      .def_property_readonly(
+          "cam_from_world", [](const FrameResult& self) { return PoseMatrix(self.cam_from_world); },
+          "4x4; world 0 is the camera of the first tracked frame.")
+      .def_property_readonly(
+          "world_from_cam",
+          [](const FrameResult& self) { return PoseMatrix(self.cam_from_world.Inverse()); }, "4x4.")
+      .def_property_readonly(
+          "cam_from_odometry",
+          [](const FrameResult& self) { return PoseMatrix(self.cam_from_odometry); },
+          "4x4 by integration of the motion between images: it drifts, but never jumps.")
+      .def_property_readonly(
+          "world_from_odometry",
+          [](const FrameResult& self) { return PoseMatrix(self.WorldFromOdometry()); },
+          "4x4; inv(cam_from_world) @ cam_from_odometry.");
+}
+
 }  // namespace
 
 void BindFrame(py::module_* module) {
-  py::class_<FrameResult>(*module, "FrameResult", "The result of one frame.")
-      .def_readonly("id", &FrameResult::id, "Position in the sequence of images, from 0.")
+  py::class_<FrameResult> frame(*module, "FrameResult", "The result of one frame.");
+  frame.def_readonly("id", &FrameResult::id, "Position in the sequence of images, from 0.")
       .def_readonly("timestamp", &FrameResult::timestamp, "Seconds.")
       .def_property_readonly(
           "status", [](const FrameResult& self) { return ToString(self.status); },
@@ -55,18 +92,22 @@ void BindFrame(py::module_* module) {
                     "Whether pose factors, not constant velocity, predict the pose.")
       .def_readonly("is_keyframe", &FrameResult::is_keyframe)
       .def_property_readonly(
-          "cam_from_world", [](const FrameResult& self) { return PoseMatrix(self.cam_from_world); },
-          "4x4; the world is the camera of the first tracked frame.")
-      .def_property_readonly(
-          "world_from_cam",
-          [](const FrameResult& self) { return PoseMatrix(self.cam_from_world.Inverse()); }, "4x4.")
-      .def_property_readonly(
           "covariance",
-          [](const FrameResult& self) {
-            return Eigen::Matrix<double, 6, 6, Eigen::RowMajor>(self.covariance);
+          [](const FrameResult& self) -> std::optional<RowMajor6d> {
+            if (!self.covariance) return std::nullopt;
+            return RowMajor6d(*self.covariance);
           },
           "6x6 of cam_from_world: rotation vector in the camera frame (radians), then translation "
-          "(metres); zero if nothing determines the pose.")
+          "(metres); None if nothing determines the pose, as in the frame that begins a world.")
+      .def_property_readonly(
+          "cause",
+          [](const FrameResult& self) -> std::optional<std::string> {
+            if (!self.cause) return std::nullopt;
+            return ToString(*self.cause);
+          },
+          "Why the pose is weak, or was not estimated from the image: 'uniform_image', "
+          "'few_features', 'no_depth', 'depth_out_of_range', 'no_match' or 'implausible'; None if "
+          "the frame is tracked or has no image.")
       .def_readonly("num_points", &FrameResult::num_points, "Points in the image.")
       .def_readonly("num_lines", &FrameResult::num_lines, "Lines in the image.")
       .def_readonly("num_with_depth", &FrameResult::num_with_depth,
@@ -76,7 +117,8 @@ void BindFrame(py::module_* module) {
       .def_readonly("num_inlier_lines", &FrameResult::num_inlier_lines, "The same for lines.")
       .def_readonly("num_dynamic", &FrameResult::num_dynamic, "Matches on dynamic objects.")
       .def_property_readonly("times", &TimesOf, "Milliseconds by stage, as in frames.csv.")
-      .def("__repr__", &Describe);
+      .def("__repr__", &DescribeFrame);
+  BindPoses(&frame);
 }
 
 }  // namespace msc_vo

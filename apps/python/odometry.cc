@@ -65,15 +65,13 @@ class PyOdometry {
   FrameResult Process(const py::object& timestamp, const py::object& gray, const py::object& depth,
                       const py::object& depth_scale, const py::object& depth_delay) {
     RgbdImage image;
-    image.id = next_id_;
+    image.id = NextId();
     image.timestamp = TimeArgument(timestamp, "timestamp");
     image.depth_delay = NumberArgument(depth_delay, "depth_delay");
     image.gray = GrayArgument(gray, "gray");
     image.depth = DepthArgument(depth, depth_scale, "depth");
-    if (!depth_scale.is_none() && next_id_ < kNumChecked) CheckByteOrder(image.depth, depth_scale);
-    const FrameResult result = Alone([&] { return odometry_->Process(image); });
-    ++next_id_;
-    return result;
+    if (!depth_scale.is_none() && image.id < kNumChecked) CheckByteOrder(image.depth, depth_scale);
+    return Alone([&] { return odometry_->Process(image); });
   }
 
   FrameResult Drop(const py::object& timestamp, const std::string& status) {
@@ -84,47 +82,55 @@ class PyOdometry {
     }
     const TrackingStatus value =
         status == "dropped" ? TrackingStatus::kDropped : TrackingStatus::kUnreadable;
-    const FrameResult result = Alone([&] { return odometry_->Drop(next_id_, time, value); });
-    ++next_id_;
-    return result;
+    const int64_t id = NextId();
+    return Alone([&] { return odometry_->Drop(id, time, value); });
   }
 
   std::shared_ptr<OdometryResult> Finish() {
     return Alone([&] { return std::make_shared<OdometryResult>(odometry_->Finish()); });
   }
 
+  std::vector<FrameResult> Frames() {
+    return Alone([&] { return odometry_->frames(); });
+  }
+
   void SetWindowFactors(const py::object& callback) {
-    CheckNotStarted();
-    if (callback.is_none()) return odometry_->SetWindowFactors({});
-    odometry_->SetWindowFactors(
-        [shared = SharedObject(callback)](const WindowContext& window) -> WindowFactors {
-          const py::gil_scoped_acquire gil;
-          FactorLists lists = FactorsArgument(shared.get()(window), "window factors");
-          return {std::move(lists.extra_blocks), std::move(lists.factors)};
-        });
+    WindowFactorCallback function;
+    if (!callback.is_none()) {
+      function = [shared = SharedObject(callback)](const WindowContext& window) -> WindowFactors {
+        const py::gil_scoped_acquire gil;
+        FactorLists lists = FactorsArgument(shared.get()(window), "window factors");
+        return {std::move(lists.extra_blocks), std::move(lists.factors)};
+      };
+    }
+    Alone([&] { odometry_->SetWindowFactors(std::move(function)); });
   }
 
   void SetPoseFactors(const py::object& callback) {
-    CheckNotStarted();
-    if (callback.is_none()) return odometry_->SetPoseFactors({});
-    odometry_->SetPoseFactors(
-        [shared = SharedObject(callback)](const FrameContext& frame) -> std::vector<PoseFactor> {
-          const py::gil_scoped_acquire gil;
-          const py::object factors = shared.get()(frame);
-          if (factors.is_none()) return {};
-          return factors.cast<std::vector<PoseFactor>>();
-        });
+    PoseFactorCallback function;
+    if (!callback.is_none()) {
+      function =
+          [shared = SharedObject(callback)](const FrameContext& frame) -> std::vector<PoseFactor> {
+        const py::gil_scoped_acquire gil;
+        const py::object factors = shared.get()(frame);
+        if (factors.is_none()) return {};
+        return factors.cast<std::vector<PoseFactor>>();
+      };
+    }
+    Alone([&] { odometry_->SetPoseFactors(std::move(function)); });
   }
 
   void SetWindowObserver(const py::object& callback) {
-    CheckNotStarted();
-    if (callback.is_none()) return odometry_->SetWindowObserver({});
-    odometry_->SetWindowObserver(
-        [shared = SharedObject(callback)](
-            KeyframeId keyframe, const BundleAdjustmentOptions& options, const WindowData& window) {
-          const py::gil_scoped_acquire gil;
-          shared.get()(keyframe, std::make_shared<WindowData>(window), WindowOptionsTable(options));
-        });
+    WindowObserver function;
+    if (!callback.is_none()) {
+      function = [shared = SharedObject(callback)](KeyframeId keyframe,
+                                                   const BundleAdjustmentOptions& options,
+                                                   const WindowData& window) {
+        const py::gil_scoped_acquire gil;
+        shared.get()(keyframe, std::make_shared<WindowData>(window), WindowOptionsTable(options));
+      };
+    }
+    Alone([&] { odometry_->SetWindowObserver(std::move(function)); });
   }
 
  private:
@@ -143,16 +149,22 @@ class PyOdometry {
     return action();
   }
 
-  void CheckNotStarted() const {
-    if (next_id_ > 0) throw std::runtime_error("callbacks must be set before the first image");
+  // The position of the next image in the sequence.
+  int64_t NextId() {
+    return Alone([&] { return static_cast<int64_t>(odometry_->frames().size()); });
   }
 
   static constexpr int64_t kNumChecked = 4;  // images whose byte order is checked
 
   std::unique_ptr<Odometry> odometry_;
-  int64_t next_id_ = 0;
   std::atomic<bool> busy_ = false;
 };
+
+py::dict BlockValues(const std::vector<ExtraBlock>& blocks) {
+  py::dict values;
+  for (const ExtraBlock& block : blocks) values[py::int_(block.id)] = block.value;
+  return values;
+}
 
 void BindContexts(py::module_* module) {
   py::class_<WindowContext::Keyframe>(*module, "WindowKeyframe", "A keyframe of a WindowContext.")
@@ -165,15 +177,9 @@ void BindContexts(py::module_* module) {
   py::class_<WindowContext>(*module, "WindowContext",
                             "A window before its local bundle adjustment.")
       .def_readonly("keyframes", &WindowContext::keyframes, "In order of time.")
+      .def_readonly("world", &WindowContext::world, "Number of the world of the poses.")
       .def_property_readonly(
-          "extra_blocks",
-          [](const WindowContext& self) {
-            py::dict blocks;
-            for (const ExtraBlock& block : self.extra_blocks) {
-              blocks[py::int_(block.id)] = block.value;
-            }
-            return blocks;
-          },
+          "extra_blocks", [](const WindowContext& self) { return BlockValues(self.extra_blocks); },
           "Present values of the extra blocks by id.");
   py::class_<FrameContext>(*module, "FrameContext", "A frame before its pose is estimated.")
       .def_readonly("timestamp", &FrameContext::timestamp)
@@ -185,7 +191,11 @@ void BindContexts(py::module_* module) {
       .def_property_readonly(
           "predicted_cam_from_world",
           [](const FrameContext& self) { return PoseMatrix(self.predicted_cam_from_world); },
-          "By constant velocity.");
+          "By constant velocity.")
+      .def_readonly("world", &FrameContext::world, "Number of the world of the poses.")
+      .def_property_readonly(
+          "extra_blocks", [](const FrameContext& self) { return BlockValues(self.extra_blocks); },
+          "Values of the extra blocks by id, as the map that the frame is tracked in knows them.");
 }
 
 }  // namespace
@@ -208,19 +218,26 @@ void BindOdometry(py::module_* module) {
            "the "
            "byte order of the machine are not copied. "
            "depth_delay: seconds from the colour image to the depth image. Raises ValueError on "
-           "arrays that do not fit; the next call may continue.")
+           "arrays that do not fit, which leave no frame. Exceptions of callbacks and of local "
+           "mapping come after the frame is complete: it is in `frames`.")
       .def("drop", &PyOdometry::Drop, py::arg("timestamp"), py::arg("status") = "dropped",
            "Records a frame without an image: 'dropped' or 'unreadable'.")
       .def("finish", &PyOdometry::Finish,
            "Waits for local mapping and returns the Result. May be called at any time.")
+      .def_property_readonly("frames", &PyOdometry::Frames,
+                             "FrameResult objects so far, with the poses as process() gave them.")
       .def("set_window_factors", &PyOdometry::SetWindowFactors, py::arg("callback"),
            "callback(WindowContext) returns CustomFactor and ExtraBlock objects for every window "
-           "of local bundle adjustment. Runs on the mapper's thread if there is one.")
-      .def("set_pose_factors", &PyOdometry::SetPoseFactors, py::arg("callback"),
-           "callback(FrameContext) returns PoseFactor objects for every frame.")
+           "of local bundle adjustment. Runs on the mapper's thread if there is one. ValueError "
+           "after "
+           "the first image.")
+      .def(
+          "set_pose_factors", &PyOdometry::SetPoseFactors, py::arg("callback"),
+          "callback(FrameContext) returns PoseFactor objects for every frame. ValueError after the "
+          "first image.")
       .def("set_window_observer", &PyOdometry::SetWindowObserver, py::arg("callback"),
            "callback(keyframe, WindowData, WindowOptions) is called with a copy of every window "
-           "before it is solved.");
+           "before it is solved. ValueError after the first image.");
 }
 
 }  // namespace msc_vo

@@ -71,22 +71,24 @@ GravityFactors::GravityFactors(std::vector<TimedAcceleration> readings,
 WindowFactors GravityFactors::operator()(const WindowContext& window) {
   const std::vector<VerticalMeasurement> measurements =
       MeasureVertical(readings_, PosesOf(window), options_.min_interval);
-  if (measurements.empty() && information_ == 0.0) return {};
+  MeasuredVertical& mean = verticals_[window.world];
+  if (measurements.empty() && mean.information == 0.0) return {};
   const double sigma =
       measurements.empty() ? options_.min_sigma : SigmaOf(measurements, options_.min_sigma);
-  const BlockId vertical = BlockId::Extra(options_.block);
+  const BlockId vertical = BlockId::Extra(options_.block + window.world);
   const auto loss = std::make_shared<ceres::HuberLoss>(options_.huber);
   WindowFactors result;
   for (const VerticalMeasurement& m : measurements) {
     const WindowContext::Keyframe& keyframe = window.keyframes[m.pose];
     const double sigma_m = sigma / std::sqrt(m.independence);
-    const auto position = std::lower_bound(measured_.begin(), measured_.end(), keyframe.id);
-    if (position == measured_.end() || *position != keyframe.id) {
-      measured_.insert(position, keyframe.id);
+    const auto position =
+        std::lower_bound(mean.keyframes.begin(), mean.keyframes.end(), keyframe.id);
+    if (position == mean.keyframes.end() || *position != keyframe.id) {
+      mean.keyframes.insert(position, keyframe.id);
       const double information = 1.0 / (sigma_m * sigma_m);
-      sum_of_verticals_ +=
+      mean.sum +=
           information * (keyframe.cam_from_world.rotation().conjugate() * m.up_in_cam.normalized());
-      information_ += information;
+      mean.information += information;
     }
     if (keyframe.fixed) continue;
     result.factors.push_back({"gravity direction",
@@ -96,11 +98,11 @@ WindowFactors GravityFactors::operator()(const WindowContext& window) {
   }
   result.factors.push_back(
       {"prior of the vertical",
-       DirectionPrior::CreateShared(sum_of_verticals_, 1.0 / std::sqrt(information_)),
+       DirectionPrior::CreateShared(mean.sum, 1.0 / std::sqrt(mean.information)),
        nullptr,
        {vertical}});
-  result.extra_blocks.push_back({options_.block, sum_of_verticals_.normalized(),
-                                 std::make_shared<ceres::SphereManifold<3>>()});
+  result.extra_blocks.push_back(
+      {vertical.id, mean.sum.normalized(), std::make_shared<ceres::SphereManifold<3>>()});
   return result;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,16 +25,17 @@ struct GravityOptions {
   /// more. Chosen by measurement, see docs/lab/gravity.md.
   double min_sigma = 0.0005;
   double huber = kHuberThreshold[2];  ///< threshold of the loss, in standard deviations
-  int64_t block = 0;                  ///< id of the extra block with the vertical
+  /// Id of the extra block with the vertical in world 0. That in world w has the id block + w.
+  int64_t block = 0;
 
   bool IsValid(std::string* error) const;
 };
 
 /// Ties roll and pitch of the keyframes of every window to an accelerometer. The vertical, a unit
-/// vector in the world that points up, is an extra block, which all windows estimate together: its
-/// prior is the mean of the verticals measured so far. The standard deviation of a measurement is
-/// estimated from the scatter of the lengths in its window: an error of the acceleration of the
-/// camera changes length and direction alike.
+/// vector in the world that points up, is an extra block, which all windows of that world estimate
+/// together: its prior is the mean of the verticals measured so far. The standard deviation of a
+/// measurement is estimated from the scatter of the lengths in its window: an error of the
+/// acceleration of the camera changes length and direction alike.
 ///
 ///   GravityFactors gravity(readings, GravityOptions());
 ///   odometry.SetWindowFactors(std::ref(gravity));
@@ -49,17 +51,26 @@ class GravityFactors {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [readings, options, measured, sum_of_verticals, information] =
-        *this;  // all members, or it does not compile
-    archive(measured, sum_of_verticals, information);
+    auto& [readings, options, verticals] = *this;  // all members, or it does not compile
+    archive(verticals);
   }
 
  private:
+  // What has been measured of the vertical in a world.
+  struct MeasuredVertical {
+    std::vector<KeyframeId> keyframes;              // ascending
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // weighted by information, world
+    double information = 0.0;                       // of the mean, 1/radians^2
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, keyframes, sum, information);
+    }
+  };
+
   std::vector<TimedAcceleration> readings_;
   GravityOptions options_;
-  std::vector<KeyframeId> measured_;                            // ascending
-  Eigen::Vector3d sum_of_verticals_ = Eigen::Vector3d::Zero();  // weighted by information, world
-  double information_ = 0.0;                                    // of the mean vertical, 1/radians^2
+  std::map<int, MeasuredVertical> verticals_;  // by world
 };
 
 }  // namespace msc_vo

@@ -5,9 +5,11 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Geometry>
 
+#include "msc_vo/bundle_adjustment/custom_factor.h"
 #include "msc_vo/map/inactive_maps.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/noise_scale.h"
@@ -29,15 +31,17 @@ struct AxesEstimate {
 /// The immutable map after one keyframe step. Any thread may read it.
 struct MapSnapshot {
   Map map;
+  int world = 0;  ///< number of the segment that began the world of the map
   KeyframeId newest_keyframe = kNoId;
   NoiseScale noise_scale;     ///< self-calibrated
   double readout_time = 0.0;  ///< seconds, of the rolling-shutter compensation of its keyframes
   /// Calibration of its keyframes, which frames must have that are tracked in it; null: unknown.
   std::shared_ptr<const CameraIntrinsics> intrinsics;
-  std::optional<AxesEstimate> axes;     ///< std::nullopt until they are found
-  bool needs_axes = false;              ///< the next keyframe packet shall contain surface normals
-  bool calibration_is_settled = false;  ///< self-calibration needs no further images
-  InactiveMaps inactive_maps;           ///< of older segments that are not joined with this map
+  std::optional<AxesEstimate> axes;      ///< std::nullopt until they are found
+  bool needs_axes = false;               ///< the next keyframe packet shall contain surface normals
+  bool calibration_is_settled = false;   ///< self-calibration needs no further images
+  InactiveMaps inactive_maps;            ///< of older segments that are not joined with this map
+  std::vector<ExtraBlock> extra_blocks;  ///< as its windows have estimated them, in order of ids
 
   /// The map that knows the keyframe; nullptr: none.
   const Map* FindMapOf(KeyframeId keyframe) const {
@@ -46,8 +50,8 @@ struct MapSnapshot {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, map, newest_keyframe, noise_scale, readout_time, intrinsics, axes,
-                   needs_axes, calibration_is_settled, inactive_maps);
+    archive.Fields(*this, map, world, newest_keyframe, noise_scale, readout_time, intrinsics, axes,
+                   needs_axes, calibration_is_settled, inactive_maps, extra_blocks);
   }
 };
 using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;

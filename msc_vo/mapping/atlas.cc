@@ -27,7 +27,7 @@ SubMap Atlas::MakeEmpty() const {
 
 void Atlas::Begin(bool keep_current) {
   SubMap next = MakeEmpty();
-  next.id = next_id_++;
+  next.id = keep_current ? next_id_++ : current_.id;
   next.map = current_.map.Next();
   next.noise = current_.noise;
   if (keep_current && !current_.map.keyframes().empty()) {

@@ -27,8 +27,8 @@ class Atlas {
   /// The maps of the other submaps, in the order in which they became inactive.
   const InactiveMaps& inactive_maps() const { return inactive_maps_; }
 
-  /// Begins a submap. The current one becomes inactive, or is discarded unless `keep_current`. The
-  /// noise, which is that of the sensor, is continued.
+  /// Begins a submap. The current one becomes inactive, or is discarded unless `keep_current`: the
+  /// new one then has its id. The noise, which is that of the sensor, is continued.
   void Begin(bool keep_current);
 
   /// Joins the current submap with the inactive one that contains keyframe `other`. The id, the

@@ -99,12 +99,14 @@ MapSnapshotPtr Mapper::Snapshot() {
   SubMap& submap = atlas_.current();
   auto snapshot = std::make_shared<MapSnapshot>();
   snapshot->map = submap.map.Share();
+  snapshot->world = submap.id;
   snapshot->inactive_maps = atlas_.inactive_maps();
   snapshot->newest_keyframe = inserter_.newest();
   snapshot->noise_scale = submap.noise.scale();
   calibration_.Describe(&*snapshot);
   snapshot->axes = submap.axes.Estimate();
   snapshot->needs_axes = options_.axes.enabled && !snapshot->axes;
+  snapshot->extra_blocks = optimizer_.extra_blocks();
   return snapshot;
 }
 

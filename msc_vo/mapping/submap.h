@@ -9,7 +9,8 @@
 
 namespace msc_vo {
 
-/// Name of a submap: the submaps of a run are numbered in the order in which they begin.
+/// Name of a submap and of its world: the number of the segment that began it. A map that replaces
+/// a discarded one takes over its number, as the segment does.
 using SubMapId = int;
 constexpr SubMapId kNoSubMap = -1;
 

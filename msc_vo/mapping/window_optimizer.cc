@@ -77,7 +77,9 @@ void WindowOptimizer::AddCustomFactors(const SubMap& submap, WindowData* window)
   if (!factor_callback_) return;
   const AxesEstimator& axes = submap.axes.estimator();
   if (axes.state() != AxesState::kNone) window->axes = {axes.world_from_axes(), true};
-  WindowFactors custom = factor_callback_(MakeWindowContext(submap.map, *window, extra_blocks()));
+  WindowContext context = MakeWindowContext(submap.map, *window, extra_blocks());
+  context.world = submap.id;
+  WindowFactors custom = factor_callback_(context);
   for (ExtraBlock& block : custom.extra_blocks) {
     const auto known = extra_blocks_.find(block.id);
     if (known == extra_blocks_.end()) continue;

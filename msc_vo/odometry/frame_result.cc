@@ -8,12 +8,13 @@
 
 namespace msc_vo {
 
-FrameResult MakeFrameResult(const TrackedFrame& tracked, int segment) {
+FrameResult MakeFrameResult(const TrackedFrame& tracked, int segment, int world) {
   FrameResult result;
   result.id = tracked.frame->id;
   result.timestamp = tracked.frame->timestamp;
   result.status = tracked.status;
   result.segment = segment;
+  result.world = world;
   result.cam_from_world = tracked.cam_from_world;
   result.by_pose_factors = !IsEstimated(tracked.status) && tracked.pose.usable;
   result.is_keyframe = tracked.keyframe.is_due();
@@ -23,7 +24,7 @@ FrameResult MakeFrameResult(const TrackedFrame& tracked, int segment) {
   result.num_inlier_points = static_cast<int>(tracked.matches.points.size());
   result.num_inlier_lines = static_cast<int>(tracked.matches.lines.size());
   result.num_dynamic = tracked.pose.num_dynamic;
-  result.covariance = tracked.pose.covariance;
+  if (tracked.pose.usable) result.covariance = tracked.pose.covariance;
   result.times.matching = tracked.times.matching;
   result.times.pose = tracked.times.pose;
   return result;

@@ -4,10 +4,10 @@
 #pragma once
 
 #include <cstdint>
-
-#include <Eigen/Core>
+#include <optional>
 
 #include "msc_vo/features/image_statistics.h"
+#include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/tracking/tracking_status.h"
@@ -44,6 +44,33 @@ struct StageTimes {
 /// FrameResult::segment of a frame without one.
 constexpr int kNoSegment = -1;
 
+/// Probable cause why a processed frame has no estimated pose, or a weak one: the first one that
+/// applies, in the order of processing.
+enum class LossCause {
+  kUniformImage,     ///< image without contrast: black, white or grey
+  kFewFeatures,      ///< image with contrast, but too few points and lines
+  kNoDepth,          ///< features, but almost no pixel with a depth
+  kDepthOutOfRange,  ///< depth image, but too few features with a depth in the valid range
+  kNoMatch,          ///< features with depth, but no or few are consistent with the map
+  kImplausible,      ///< weak: the pose follows a gap, and may be that of a place that looks alike
+};
+/// Causes of frames without an estimated pose: all but the last one.
+constexpr int kNumLossCauses = 5;
+
+/// Poses refer to another world than those of the frames before.
+struct WorldChange {
+  int old_world = 0;  ///< number of the world of the frame before
+  /// From the old world to the new one: the map has been joined with an older one.
+  /// cam_from_new = cam_from_old * new_from_old.Inverse(). std::nullopt: unknown, because a segment
+  /// begins; its world may have the number of the old one if that was discarded.
+  std::optional<Rigid3> new_from_old;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, old_world, new_from_old);
+  }
+};
+
 /// Result of one frame.
 struct FrameResult {
   int64_t id = 0;
@@ -52,7 +79,18 @@ struct FrameResult {
   /// Number of the segment of the run (OdometryResult::segments). kNoSegment: the frame precedes
   /// the first one and has no pose.
   int segment = 0;
+  /// Number of the world that `cam_from_world` refers to: that of the segment that began it.
+  /// kNoSegment: the frame has no pose.
+  int world = 0;
+  /// Set on the first frame whose pose refers to another world than that of the frame before.
+  std::optional<WorldChange> world_changed;
+  /// The pose in the map as it was known when the frame was tracked. It jumps when the map is
+  /// corrected, found again, or joined with an older one.
   Rigid3 cam_from_world;
+  /// The pose by integration of the motion between images, which never jumps, but drifts: neither
+  /// another world nor a correction of the map changes it. Motion that no image shows is missing:
+  /// after a gap, it continues from the pose before. Identity at the first tracked frame.
+  Rigid3 cam_from_odometry;
   bool by_pose_factors = false;  ///< predicted by pose factors, not by constant velocity
   bool is_keyframe = false;
   int num_points = 0;  ///< features in the image
@@ -61,23 +99,30 @@ struct FrameResult {
   int num_inlier_points = 0;  ///< matched with the map and consistent with the pose
   int num_inlier_lines = 0;
   int num_dynamic = 0;  ///< matches on dynamic objects
-  /// Covariance of the pose in the tangent of Rigid3Manifold: rotation vector in the camera frame
-  /// (radians), then translation (metres). Zero if neither the image nor pose factors determined
-  /// the pose.
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  /// Covariance of `cam_from_world` in the tangent of Rigid3Manifold: rotation vector in the camera
+  /// frame (radians), then translation (metres). std::nullopt if neither the image nor pose factors
+  /// determined the pose, as in the frame that begins a world: its pose is a definition.
+  std::optional<PoseCovariance> covariance;
+  /// Why the pose is weak, or was not estimated from the image; std::nullopt: the frame is tracked,
+  /// or has no image.
+  std::optional<LossCause> cause;
   ImageStatistics image;  ///< zero if the image was not processed
   StageTimes times;
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, id, timestamp, status, segment, cam_from_world, by_pose_factors,
-                   is_keyframe, num_points, num_lines, num_with_depth, num_inlier_points,
-                   num_inlier_lines, num_dynamic, covariance, image, times);
+    archive.Fields(*this, id, timestamp, status, segment, world, world_changed, cam_from_world,
+                   cam_from_odometry, by_pose_factors, is_keyframe, num_points, num_lines,
+                   num_with_depth, num_inlier_points, num_inlier_lines, num_dynamic, covariance,
+                   cause, image, times);
   }
+
+  /// The pose of the odometry frame in the world ("map from odom"): it takes all jumps.
+  Rigid3 WorldFromOdometry() const { return cam_from_world.Inverse() * cam_from_odometry; }
 };
 
-/// The result of a tracked frame in a segment, without statistics of its image and without times of
-/// other stages than tracking.
-FrameResult MakeFrameResult(const TrackedFrame& tracked, int segment);
+/// The result of a tracked frame in a segment and a world, without what depends on its image or on
+/// other frames, and without times of other stages than tracking.
+FrameResult MakeFrameResult(const TrackedFrame& tracked, int segment, int world);
 
 }  // namespace msc_vo

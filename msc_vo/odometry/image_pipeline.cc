@@ -23,6 +23,7 @@ ImagePipeline::ImagePipeline(const OdometryOptions& options, const PinholeCamera
 void ImagePipeline::Check(const RgbdImage& image) const {
   CheckDepthDelay(image.id, image.depth_delay);
   builder_.Check(image);
+  CheckRecordedDepth(image.id, image.recorded_depth);
   CheckDepthUnits(image.id, image.depth);
 }
 

@@ -53,6 +53,12 @@ void CheckDepthDelay(int64_t id, double delay) {
                                          kMaxDepthDelay, kMaxDepthDelay));
 }
 
+void CheckRecordedDepth(int64_t id, const cv::Mat& recorded_depth) {
+  if (recorded_depth.empty() || recorded_depth.type() == CV_32FC1) return;
+  throw std::invalid_argument("image " + std::to_string(id) +
+                              ": recorded_depth must be float (CV_32FC1, metres) or empty");
+}
+
 void CheckDepthUnits(int64_t id, const cv::Mat& depth) {
   constexpr int kStride = 8;           // pixels, along rows and columns
   constexpr float kFarthest = 100.0f;  // metres, beyond all surfaces of an indoor scene

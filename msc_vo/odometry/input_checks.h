@@ -30,6 +30,9 @@ void CheckTimestamp(int64_t id, double timestamp, const std::optional<double>& l
 /// Checks the time from the colour image to its depth image, seconds.
 void CheckDepthDelay(int64_t id, double delay);
 
+/// Checks the type of RgbdImage::recorded_depth, which may be empty.
+void CheckRecordedDepth(int64_t id, const cv::Mat& recorded_depth);
+
 /// Refuses a depth image that is not in metres but in raw units of a sensor.
 void CheckDepthUnits(int64_t id, const cv::Mat& depth);
 

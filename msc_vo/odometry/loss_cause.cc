@@ -23,6 +23,12 @@ LossCause FindLossCause(const FrameResult& frame) {
   return LossCause::kNoMatch;
 }
 
+std::optional<LossCause> FindCause(const FrameResult& frame, bool is_implausible) {
+  if (frame.status == TrackingStatus::kTracked) return std::nullopt;
+  const LossCause cause = FindLossCause(frame);
+  return is_implausible && cause == LossCause::kNoMatch ? LossCause::kImplausible : cause;
+}
+
 const char* Describe(LossCause cause) {
   switch (cause) {
     case LossCause::kUniformImage:
@@ -35,6 +41,8 @@ const char* Describe(LossCause cause) {
       return "with too few depths in range (is depth_scale right?)";
     case LossCause::kNoMatch:
       return "that do not fit the map (fast or jerky motion, blur, or a wrong camera?)";
+    case LossCause::kImplausible:
+      return "after a gap, whose place is uncertain";
   }
   return "unknown";
 }
@@ -51,6 +59,8 @@ const char* ToString(LossCause cause) {
       return "depth_out_of_range";
     case LossCause::kNoMatch:
       return "no_match";
+    case LossCause::kImplausible:
+      return "implausible";
   }
   return "unknown";
 }

@@ -3,23 +3,17 @@
 
 #pragma once
 
+#include <optional>
+
 #include "msc_vo/odometry/frame_result.h"
 
 namespace msc_vo {
 
-/// Probable cause why a processed frame has no estimated pose: the first one that applies, in the
-/// order of processing.
-enum class LossCause {
-  kUniformImage,     ///< image without contrast: black, white or grey
-  kFewFeatures,      ///< image with contrast, but too few points and lines
-  kNoDepth,          ///< features, but almost no pixel with a depth
-  kDepthOutOfRange,  ///< depth image, but too few features with a depth in the valid range
-  kNoMatch,          ///< features with depth that are not consistent with the map
-};
-constexpr int kNumLossCauses = 5;
-
-/// The cause for a predicted or lost frame.
+/// The cause for a predicted, lost or weak frame, from its numbers; never kImplausible.
 LossCause FindLossCause(const FrameResult& frame);
+/// The cause for a frame with image; std::nullopt if it is tracked. `is_implausible`:
+/// TrackedFrame::is_implausible.
+std::optional<LossCause> FindCause(const FrameResult& frame, bool is_implausible);
 
 /// An attribute of "images" for messages: "with too few points and lines".
 const char* Describe(LossCause cause);

@@ -3,6 +3,7 @@
 
 #include "msc_vo/odometry/odometry.h"
 
+#include <exception>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -14,11 +15,13 @@
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/calibration_exchange.h"
 #include "msc_vo/odometry/event_log.h"
+#include "msc_vo/odometry/first_error.h"
 #include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/odometry/image_pipeline.h"
 #include "msc_vo/odometry/input_checks.h"
 #include "msc_vo/odometry/map_result.h"
 #include "msc_vo/odometry/mapping_runner.h"
+#include "msc_vo/odometry/odometry_pose.h"
 #include "msc_vo/odometry/packet_collector.h"
 #include "msc_vo/odometry/pose_correction.h"
 #include "msc_vo/odometry/pose_refiner.h"
@@ -49,17 +52,24 @@ struct Odometry::State {
   // The number of the last frame.
   int last() const { return static_cast<int>(results.size()) - 1; }
 
+  void CheckNotStarted(const char* function) const;
+
   // The steps of Process().
   void Check(const RgbdImage& image) const;
+  void ProcessImage(const RgbdImage& given, FirstError* error);
   ExtractedFrame Extract(const AlignedImage& image, StageTimes* times);
-  MapSnapshotPtr WaitForMap(double timestamp, StageTimes* times);
+  MapSnapshotPtr MapAt(double timestamp, FirstError* error);
+  TrackedFrame Track(const std::shared_ptr<const Frame>& frame, const MapSnapshot& map,
+                     FirstError* error);
   void BeginSegment(SegmentStart start);
-  void AddResult(const TrackedFrame& tracked, const RgbdImage& image, const Stopwatch& arrival,
-                 StageTimes times);
+  void AddResult(const TrackedFrame& tracked, int world, const RgbdImage& image,
+                 const Stopwatch& arrival, StageTimes times);
   void RefineOlderPoses(const TrackedFrame& tracked, const MapSnapshot& map);
   void SubmitKeyframe(const TrackedFrame& tracked, const AlignedImage& image,
-                      const ExtractedFrame& extracted, const MapSnapshot& map);
+                      const ExtractedFrame& extracted, const MapSnapshot& map, FirstError* error);
+  void MarkWorldChange(int old_world, SegmentStart start);
 
+  void AddUntracked(int64_t id, double timestamp, TrackingStatus status);
   void DiscardSegment();
   void Record(int frame, const MappingStep& step);
 
@@ -67,9 +77,10 @@ struct Odometry::State {
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive(images, tracker, mapper, calibration, last_window, packets, results, relative_poses,
-            refiner, segments, log, schedule);
+            odometry_pose, refiner, segments, log, schedule);
   }
 
+  bool has_started = false;  // an image has been given to this object
   OdometryOptions options;
   ImagePipeline images;
   Tracker tracker;
@@ -80,6 +91,7 @@ struct Odometry::State {
   PacketCollector packets;
   std::vector<FrameResult> results;
   std::vector<ReferencedPose> relative_poses;  // one per result
+  OdometryPose odometry_pose;
   PoseRefiner refiner;
   SegmentLog segments;
   EventLog log;
@@ -89,6 +101,13 @@ struct Odometry::State {
 void Odometry::State::CheckTime(int64_t id, double timestamp) const {
   CheckTimestamp(id, timestamp,
                  results.empty() ? std::nullopt : std::optional(results.back().timestamp));
+}
+
+// The mapper may use what the function sets, on its thread, from the first image on.
+void Odometry::State::CheckNotStarted(const char* function) const {
+  if (!has_started) return;
+  throw std::invalid_argument(std::string("odometry: ") + function +
+                              "() must be called before the first image");
 }
 
 void Odometry::State::Check(const RgbdImage& image) const {
@@ -102,14 +121,29 @@ ExtractedFrame Odometry::State::Extract(const AlignedImage& image, StageTimes* t
   return extracted;
 }
 
-MapSnapshotPtr Odometry::State::WaitForMap(double timestamp, StageTimes* times) {
-  return Timed(&times->waiting, [&] { return schedule.SnapshotAt(timestamp); });
+// The map that a frame sees. Keeps the exceptions of keyframe steps whose maps would be visible.
+MapSnapshotPtr Odometry::State::MapAt(double timestamp, FirstError* error) {
+  return schedule.SnapshotAt(timestamp,
+                             [error](const std::exception_ptr& failed) { error->Add(failed); });
+}
+
+// Without the pose factors if they fail. Keeps their exception.
+TrackedFrame Odometry::State::Track(const std::shared_ptr<const Frame>& frame,
+                                    const MapSnapshot& map, FirstError* error) {
+  try {
+    return tracker.Track(frame, map);
+  } catch (...) {
+    error->Add(std::current_exception());
+  }
+  return tracker.TrackWithoutFactors(frame, map);
 }
 
 // Unless it is kNone, the next result is the first one of a segment.
 void Odometry::State::BeginSegment(SegmentStart start) {
   if (start == SegmentStart::kNone) return;
-  const bool replaces_last = start == SegmentStart::kReplacing;
+  // Another first segment: the first keyframe could not be inserted.
+  const bool replaces_last = start == SegmentStart::kReplacing ||
+                             (start == SegmentStart::kFirst && segments.current() != kNoSegment);
   if (replaces_last) DiscardSegment();
   segments.Begin(static_cast<int>(results.size()), replaces_last);
   log.LogSegment(segments.current(), start);
@@ -120,25 +154,31 @@ void Odometry::State::BeginSegment(SegmentStart start) {
 void Odometry::State::DiscardSegment() {
   const size_t first = segments.first_frame();
   FrameResult before;
-  before.segment = kNoSegment;
+  before.segment = before.world = kNoSegment;
   if (first > 0) before = results[first - 1];
   const ReferencedPose pose_before = first > 0 ? relative_poses[first - 1] : ReferencedPose();
   for (size_t i = first; i < results.size(); ++i) {
     FrameResult& result = results[i];
     if (HasImage(result.status)) result.status = TrackingStatus::kLost;
     result.segment = before.segment;
+    result.world = before.world;
+    result.world_changed.reset();
     result.cam_from_world = before.cam_from_world;
     result.by_pose_factors = false;
     result.is_keyframe = false;
-    result.covariance.setZero();
+    result.covariance.reset();
+    if (HasImage(result.status)) result.cause = FindCause(result, false);
     relative_poses[i] = pose_before;
   }
 }
 
-void Odometry::State::AddResult(const TrackedFrame& tracked, const RgbdImage& image,
+void Odometry::State::AddResult(const TrackedFrame& tracked, int world, const RgbdImage& image,
                                 const Stopwatch& arrival, StageTimes times) {
-  FrameResult result = MakeFrameResult(tracked, segments.current());
+  FrameResult result = MakeFrameResult(tracked, segments.current(), world);
+  odometry_pose.Add(tracked);
+  result.cam_from_odometry = odometry_pose.cam_from_odometry();
   result.image = MeasureImage(image);
+  result.cause = FindCause(result, tracked.is_implausible);
   times.matching = result.times.matching;
   times.pose = result.times.pose;
   times.tracking = arrival.Milliseconds();
@@ -154,15 +194,34 @@ void Odometry::State::RefineOlderPoses(const TrackedFrame& tracked, const MapSna
 }
 
 void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const AlignedImage& image,
-                                     const ExtractedFrame& extracted, const MapSnapshot& map) {
+                                     const ExtractedFrame& extracted, const MapSnapshot& map,
+                                     FirstError* error) {
   const double timestamp = tracked.frame->timestamp;
   std::optional<double> frame_interval;
   if (last() > 0) frame_interval = timestamp - results[last() - 1].timestamp;
   KeyframePacket packet = packets.Take(tracked, frame_interval);
   calibration.AddImages(image, map, &packet);
   if (map.needs_axes || packet.begins_map) packet.normals = images.Normals(extracted.image);
+  const KeyframeId id = packet.id;
   schedule.Submit(last(), timestamp, std::move(packet));
-  schedule.SnapshotAt(timestamp);  // records the keyframe's pose at once if the latency is 0
+  const MapSnapshotPtr visible = MapAt(timestamp, error);
+  if (visible->map.FindKeyframe(id) == nullptr) return;
+  // The latency is 0: its pose is that in its own map.
+  results.back().cam_from_world = visible->map.CamFromWorld(id);
+  results.back().world = visible->world;
+}
+
+// The last frame is the first one in another world than `old_world`, of which nothing is known if a
+// segment begins.
+void Odometry::State::MarkWorldChange(int old_world, SegmentStart start) {
+  FrameResult& result = results.back();
+  if (old_world == kNoSegment) return;
+  if (start != SegmentStart::kNone) {
+    result.world_changed = WorldChange{old_world, std::nullopt};
+  } else if (result.world != old_world) {
+    result.world_changed =
+        WorldChange{old_world, segments.NewFromOldWorld(old_world, result.world)};
+  }
 }
 
 void Odometry::State::Record(int frame, const MappingStep& step) {
@@ -170,7 +229,6 @@ void Odometry::State::Record(int frame, const MappingStep& step) {
   times.mapping = step.milliseconds;
   times.mapping_stages = step.summary.times;
   times.snapshot = step.snapshot_ms;
-  results[frame].cam_from_world = step.snapshot->map.CamFromWorld(step.summary.keyframe);
   relative_poses[frame] = {step.summary.keyframe, Rigid3()};
   segments.RecordKeyframe(frame, step.summary.submap);
   if (step.summary.calibration) {
@@ -188,46 +246,89 @@ Odometry::Odometry(const OdometryOptions& options, const PinholeCamera& camera,
 Odometry::~Odometry() = default;
 
 void Odometry::SetWindowObserver(WindowObserver observer) {
+  state_->CheckNotStarted("SetWindowObserver");
   state_->mapper.SetWindowObserver(std::move(observer));
 }
 
 void Odometry::SetWindowFactors(WindowFactorCallback callback) {
+  state_->CheckNotStarted("SetWindowFactors");
   state_->mapper.SetWindowFactors(std::move(callback));
 }
 
 void Odometry::SetPoseFactors(PoseFactorCallback callback) {
+  state_->CheckNotStarted("SetPoseFactors");
   state_->tracker.SetPoseFactors(std::move(callback));
 }
 
 void Odometry::SetTrackingObserver(TrackingObserver observer) {
+  state_->CheckNotStarted("SetTrackingObserver");
   state_->tracking_observer = std::move(observer);
 }
 
-void Odometry::SkipClippedDepthSearch() { state_->images.SkipClippedDepthSearch(); }
+void Odometry::SkipClippedDepthSearch() {
+  state_->CheckNotStarted("SkipClippedDepthSearch");
+  state_->images.SkipClippedDepthSearch();
+}
 
-// The path of one frame, see docs/architecture.md.
-FrameResult Odometry::Process(const RgbdImage& given) {
-  State& run = *state_;
-  run.Check(given);
+// The path of one frame, see docs/architecture.md. Exceptions of callbacks and of keyframe steps
+// are kept until the frame is complete.
+void Odometry::State::ProcessImage(const RgbdImage& given, FirstError* error) {
+  const int old_world = results.empty() ? kNoSegment : results.back().world;
   StageTimes times;
   const Stopwatch arrival;
-  const AlignedImage image =
-      run.images.Align(given, run.tracker.motion().VelocityAt(given.timestamp));
-  ExtractedFrame extracted = run.Extract(image, &times);
-  const MapSnapshotPtr map = run.WaitForMap(given.timestamp, &times);
-  extracted = run.calibration.Adopt(*map, image, std::move(extracted), &times);
-  const TrackedFrame tracked = run.tracker.Track(extracted.frame, *map);
-  run.BeginSegment(tracked.keyframe.segment_start);
-  run.AddResult(tracked, extracted.image, arrival, times);
-  run.RefineOlderPoses(tracked, *map);
-  run.packets.Add(tracked);
-  run.calibration.KeepImage(tracked, image, *map);
-  if (tracked.keyframe.is_due()) run.SubmitKeyframe(tracked, image, extracted, *map);
-  const FrameResult result = run.results.back();
-  if (run.tracking_observer) {
-    run.tracking_observer({image.recorded, *extracted.frame, tracked, *map, result});
+  const AlignedImage image = images.Align(given, tracker.motion().VelocityAt(given.timestamp));
+  ExtractedFrame extracted = Extract(image, &times);
+  const MapSnapshotPtr map = Timed(&times.waiting, [&] { return MapAt(given.timestamp, error); });
+  extracted = calibration.Adopt(*map, image, std::move(extracted), &times);
+  const TrackedFrame tracked = Track(extracted.frame, *map, error);
+  const SegmentStart start = tracked.keyframe.segment_start;
+  BeginSegment(start);
+  const bool has_map = start == SegmentStart::kNone && !map->map.keyframes().empty();
+  AddResult(tracked, has_map ? map->world : segments.current(), extracted.image, arrival, times);
+  RefineOlderPoses(tracked, *map);
+  packets.Add(tracked);
+  calibration.KeepImage(tracked, image, *map);
+  if (tracked.keyframe.is_due()) SubmitKeyframe(tracked, image, extracted, *map, error);
+  MarkWorldChange(old_world, start);
+  if (!tracking_observer) return;
+  const FrameResult result = results.back();
+  error->Catch([&] {
+    tracking_observer({image.recorded, *extracted.frame, tracked, *map, result});
+  });
+}
+
+FrameResult Odometry::Process(const RgbdImage& image) {
+  State& run = *state_;
+  run.Check(image);
+  run.has_started = true;
+  const size_t num_before = run.results.size();
+  FirstError error;
+  error.Catch([&] { run.ProcessImage(image, &error); });
+  if (run.results.size() == num_before) {
+    run.AddUntracked(image.id, image.timestamp, TrackingStatus::kLost);
   }
-  return result;
+  error.Throw();
+  return run.results.back();
+}
+
+// A frame whose image is not tracked: it has the pose of the one before.
+void Odometry::State::AddUntracked(int64_t id, double timestamp, TrackingStatus status) {
+  FrameResult result;
+  ReferencedPose relative_pose;
+  result.world = kNoSegment;
+  if (!results.empty()) {
+    result.world = results.back().world;
+    result.cam_from_world = results.back().cam_from_world;
+    relative_pose = relative_poses.back();
+  }
+  result.cam_from_odometry = odometry_pose.cam_from_odometry();
+  result.id = id;
+  result.timestamp = timestamp;
+  result.status = status;
+  result.segment = segments.current();
+  results.push_back(result);
+  relative_poses.push_back(relative_pose);
+  log.LogFrame(result, false);
 }
 
 FrameResult Odometry::Drop(int64_t id, double timestamp, TrackingStatus status) {
@@ -236,20 +337,9 @@ FrameResult Odometry::Drop(int64_t id, double timestamp, TrackingStatus status) 
                                 ToString(status));
   }
   state_->CheckTime(id, timestamp);
-  FrameResult result;
-  ReferencedPose relative_pose;
-  if (!state_->results.empty()) {
-    result.cam_from_world = state_->results.back().cam_from_world;
-    relative_pose = state_->relative_poses.back();
-  }
-  result.id = id;
-  result.timestamp = timestamp;
-  result.status = status;
-  result.segment = state_->segments.current();
-  state_->results.push_back(result);
-  state_->relative_poses.push_back(relative_pose);
-  state_->log.LogFrame(result, false);
-  return result;
+  state_->has_started = true;
+  state_->AddUntracked(id, timestamp, status);
+  return state_->results.back();
 }
 
 const std::vector<FrameResult>& Odometry::frames() const { return state_->results; }
@@ -260,7 +350,10 @@ bool Odometry::Save(BinaryWriter* archive) {
   return true;
 }
 
-void Odometry::Restore(BinaryReader* archive) { state_->Serialize(*archive); }
+void Odometry::Restore(BinaryReader* archive) {
+  state_->CheckNotStarted("Restore");
+  state_->Serialize(*archive);
+}
 
 MapSnapshotPtr Odometry::Map() {
   state_->schedule.Drain();
@@ -275,6 +368,7 @@ OdometryResult Odometry::Finish() {
   state_->refiner.RefineAll(*state_->mapper.Snapshot(), &poses);
   SetPoses(state_->mapper.atlas(), poses, &result.frames);
   result.segments = state_->segments.Segments(result.frames);
+  SetWorlds(result.segments, &result.frames);
   FillGaps(result.segments, &result.frames);
   state_->segments.PropagateCovariances(&result.frames);
   result.map_world = LargestWorld(result.segments);

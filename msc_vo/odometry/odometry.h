@@ -95,11 +95,15 @@ struct OdometryResult {
 ///   while (source.Next(&image)) odometry.Process(image);
 ///   OdometryResult result = odometry.Finish();
 ///
-/// The world frame is the camera frame of the first tracked image. When the map cannot be found
-/// again, a new segment begins with a map of its own, placed where the camera was seen last; when
-/// it meets an older map, the two are joined, and poses are in the world of the older one from then
-/// on (OdometryResult::segments). The result is deterministic: the
-/// same images give the same poses, bit by bit. Events are logged to Log() (logging/logger.h).
+/// World 0 is the camera frame of the first tracked image. When the map cannot be found again, a
+/// new segment begins with a map and a world of its own, placed where the camera was seen last;
+/// when it meets an older map, the two are joined, and poses are in the world of the older one from
+/// then on. FrameResult::world names the world of each pose, and FrameResult::world_changed the
+/// frames where it is another one. The result is deterministic: the same images give the same
+/// poses, bit by bit. Events are logged to Log() (logging/logger.h).
+///
+/// Everything that is set up must be set before the first image: Set...(), SkipClippedDepthSearch()
+/// and Restore() throw std::invalid_argument after Process() has accepted one, or Drop().
 class Odometry {
  public:
   /// Throws std::invalid_argument on invalid options or an invalid camera.
@@ -108,32 +112,38 @@ class Odometry {
   ~Odometry();
 
   /// Sets a function that is called with every window before it is solved, on the mapper's thread
-  /// if there is one. Call before the first image.
+  /// if there is one.
   void SetWindowObserver(WindowObserver observer);
 
   /// Sets a function that returns custom factors for every window of local bundle adjustment. Runs
-  /// on the mapper's thread if there is one. Call before the first image.
+  /// on the mapper's thread if there is one.
   void SetWindowFactors(WindowFactorCallback callback);
 
   /// Sets a function that returns custom factors over the pose of every frame (see
-  /// Tracker::SetPoseFactors). Runs in Process(). Call before the first image.
+  /// Tracker::SetPoseFactors). Runs in Process(). A frame whose factors fail is tracked without
+  /// them.
   void SetPoseFactors(PoseFactorCallback callback);
 
   /// Sets a function that is called with the features, the matches and the map of every tracked
-  /// frame, for display. Its time is not part of StageTimes. Call before the first image.
+  /// frame, for display. Its time is not part of StageTimes.
   void SetTrackingObserver(TrackingObserver observer);
 
   /// States that depth images contain no clipped values, or 0 instead of them, as those of
   /// RgbdDecoder: by default, the odometry finds out from the images at which depths their driver
-  /// clips. Call before the first image.
+  /// clips.
   void SkipClippedDepthSearch();
 
   /// Tracks one image and returns its result, which may still improve until Finish().
-  /// Images that are views of larger matrices are copied. Throws std::invalid_argument if the image
-  /// does not match the camera, depth is not in metres or time stamps do not ascend, and the
-  /// exception of a keyframe step of an earlier frame; the next call continues without that step;
-  /// and what the tracking observer throws. Exceptions of the callback of the pose factors, and
-  /// std::invalid_argument that names an invalid factor, leave the frame out of the result.
+  /// Images that are views of larger matrices are copied.
+  ///
+  /// An image that does not match the camera, whose depth is not in metres, or whose time stamp
+  /// does not ascend, is refused with std::invalid_argument: it is as if it had not been given, and
+  /// may be given again after it has been corrected. All other exceptions are thrown after the
+  /// frame is complete: it is the last one of frames(), and giving the image again is refused. They
+  /// are those of a keyframe step whose map would have become visible (the map before remains in
+  /// use), of the callback of the pose factors and of their evaluation, std::invalid_argument that
+  /// names an invalid factor, and those of the tracking observer. Of several in one image, the
+  /// first one is thrown, and the others are logged. If anything else fails, the frame is lost.
   FrameResult Process(const RgbdImage& image);
 
   /// Records a frame at `timestamp` (seconds) that is not processed, because its image came too
@@ -142,7 +152,8 @@ class Odometry {
   /// std::invalid_argument if time stamps do not ascend or on another status.
   FrameResult Drop(int64_t id, double timestamp, TrackingStatus status = TrackingStatus::kDropped);
 
-  /// The frames so far, with the poses as known when each was tracked.
+  /// The frames so far, as Process() and Drop() returned them, with the times of their mapping.
+  /// Frames of a start that was discarded since are lost.
   const std::vector<FrameResult>& frames() const;
 
   /// Waits for the mapper and returns the trajectory relative to the final keyframe poses, with
@@ -160,8 +171,8 @@ class Odometry {
   /// the state of their own, after this function has returned: the mapper calls them until then.
   bool Save(BinaryWriter* archive);
   /// Restores the state of a run with the same options, apart from the number of threads, and the
-  /// same camera. Call before the first image. Throws std::runtime_error if the archive has no such
-  /// state, std::invalid_argument if its camera is invalid; the object can then only be destroyed.
+  /// same camera. Throws std::runtime_error if the archive has no such state, std::invalid_argument
+  /// if its camera is invalid; the object can then only be destroyed.
   void Restore(BinaryReader* archive);
 
  private:

@@ -32,6 +32,18 @@ int LargestWorld(const std::vector<Segment>& segments) {
                           num_estimated.begin());
 }
 
+void SetWorlds(const std::vector<Segment>& segments, std::vector<FrameResult>* frames) {
+  int last_world = kNoSegment;
+  for (FrameResult& frame : *frames) {
+    frame.world = frame.segment != kNoSegment ? segments[frame.segment].world : kNoSegment;
+    frame.world_changed.reset();
+    if (last_world != kNoSegment && frame.world != last_world) {
+      frame.world_changed = WorldChange{last_world, std::nullopt};
+    }
+    last_world = frame.world;
+  }
+}
+
 void SegmentLog::Begin(int frame, bool replaces_last) {
   if (replaces_last && !entries_.empty()) entries_.pop_back();
   entries_.emplace_back();
@@ -52,6 +64,16 @@ void SegmentLog::RecordJoin(int frame, const MapJoin& join) {
     entry.submap = join.kept;
     entry.moves.push_back({frame, join});
   }
+}
+
+std::optional<Rigid3> SegmentLog::NewFromOldWorld(int old_world, int new_world) const {
+  if (old_world == kNoSegment) return std::nullopt;
+  Rigid3 new_from_old;
+  for (const Move& move : entries_[old_world].moves) {
+    new_from_old = move.join.moved_from_kept.Inverse() * new_from_old;
+    if (move.join.kept == new_world) return new_from_old;
+  }
+  return std::nullopt;
 }
 
 SubMapId SegmentLog::SubMapOf(int segment) const {
@@ -104,7 +126,8 @@ void SegmentLog::PropagateCovariances(std::vector<FrameResult>* frames) const {
       if (static_cast<int>(i) >= moves[m].frame) continue;
       const MapJoin& join = moves[m].join;
       frame.covariance =
-          ComposeCovariances(poses[m], frame.covariance, join.moved_from_kept, join.covariance);
+          ComposeCovariances(poses[m], frame.covariance.value_or(PoseCovariance::Zero()),
+                             join.moved_from_kept, join.covariance);
     }
   }
 }

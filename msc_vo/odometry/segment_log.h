@@ -34,6 +34,9 @@ struct Segment {
 /// The world with most estimated poses, the oldest one on ties; 0 without segments.
 int LargestWorld(const std::vector<Segment>& segments);
 
+/// Sets the worlds of frames with final poses, and where they change.
+void SetWorlds(const std::vector<Segment>& segments, std::vector<FrameResult>* frames);
+
 /// Keeps the segments of a run while frames are tracked and keyframes are mapped.
 class SegmentLog {
  public:
@@ -49,6 +52,10 @@ class SegmentLog {
   /// First frame of the current segment.
   int first_frame() const { return entries_.back().first_frame; }
 
+  /// Transform from the world that segment `old_world` began to `new_world`, into which joins have
+  /// moved it; std::nullopt if they have not.
+  std::optional<Rigid3> NewFromOldWorld(int old_world, int new_world) const;
+
   /// The submap that began with a segment; kNoSubMap if it was not mapped or does not exist.
   SubMapId SubMapOf(int segment) const;
 
@@ -56,7 +63,8 @@ class SegmentLog {
   std::vector<Segment> Segments(const std::vector<FrameResult>& frames) const;
 
   /// Adds the covariance of the joins to the poses that were estimated before them in maps that
-  /// were moved. `frames` have their final poses.
+  /// were moved. `frames` have their final poses. The pose of a frame that began a world has the
+  /// covariance of the join alone.
   void PropagateCovariances(std::vector<FrameResult>* frames) const;
 
   /// Lists the state for a checkpoint.

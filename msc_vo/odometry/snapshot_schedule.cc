@@ -35,7 +35,7 @@ void SnapshotSchedule::Submit(int frame, double timestamp, KeyframePacket packet
   pending_.push_back({frame, timestamp + latency});
 }
 
-MapSnapshotPtr SnapshotSchedule::SnapshotAt(double timestamp) {
+MapSnapshotPtr SnapshotSchedule::SnapshotAt(double timestamp, const ErrorHandler& on_error) {
   while (IsAnyDue(timestamp)) {
     PendingStep& next = pending_.front();
     Take(Waits(), &next);
@@ -47,7 +47,7 @@ MapSnapshotPtr SnapshotSchedule::SnapshotAt(double timestamp) {
     Record(&next);
     const MappingStep step = std::move(*next.step);
     pending_.pop_front();
-    if (step.error) std::rethrow_exception(step.error);
+    if (step.error) on_error(step.error);
     if (step.snapshot) snapshot_ = step.snapshot;
   }
   return snapshot_;

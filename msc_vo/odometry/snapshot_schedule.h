@@ -4,6 +4,7 @@
 #pragma once
 
 #include <deque>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -51,9 +52,14 @@ class SnapshotSchedule {
   /// from 0.
   void Submit(int frame, double timestamp, KeyframePacket packet);
 
-  /// The map in which the frame with time stamp `timestamp` is tracked. Throws the exception of a
-  /// failed step, once, when its map would have become visible; the previous map remains in use.
-  MapSnapshotPtr SnapshotAt(double timestamp);
+  /// Receives the exceptions of failed steps.
+  using ErrorHandler = std::function<void(const std::exception_ptr& error)>;
+
+  /// The map in which the frame with time stamp `timestamp` is tracked. Passes the exception of a
+  /// failed step to `on_error`, once, when its map would have become visible; the previous map
+  /// remains in use. By default, the exception is thrown.
+  MapSnapshotPtr SnapshotAt(double timestamp,
+                            const ErrorHandler& on_error = std::rethrow_exception);
 
   /// Waits for all keyframes. The maps of later frames do not change. Throws the exception of a
   /// failed step unless SnapshotAt() has; all other steps have been recorded by then.

@@ -37,8 +37,8 @@ ReportFrame MakeReportFrame(const FrameResult& frame) {
   row.status = ToReportStatus(frame.status);
   row.is_keyframe = frame.is_keyframe;
   row.world_from_cam = frame.cam_from_world.Inverse();
-  const Eigen::Matrix<double, 6, 1> variance = frame.covariance.diagonal();
-  if (variance.maxCoeff() > 0.0) {
+  if (frame.covariance) {
+    const Eigen::Matrix<double, 6, 1> variance = frame.covariance->diagonal();
     row.rotation_sigma_deg = RadiansToDegrees(std::sqrt(variance.head<3>().maxCoeff()));
     row.translation_sigma = std::sqrt(variance.tail<3>().maxCoeff());
   }

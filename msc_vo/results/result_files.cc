@@ -69,8 +69,9 @@ std::string FormatFrameRow(const FrameResult& frame) {
                                 frame.num_inlier_points, frame.num_inlier_lines);
   text += FormatText(",%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f", ms.points, ms.lines, ms.depth,
                      ms.waiting, ms.matching, ms.pose, ms.tracking, ms.mapping);
+  const PoseCovariance covariance = frame.covariance.value_or(PoseCovariance::Zero());
   for (int i = 0; i < 6; ++i) {
-    const double sigma = std::sqrt(frame.covariance(i, i));
+    const double sigma = std::sqrt(covariance(i, i));
     text += FormatText(",%.9g", i < 3 ? RadiansToDegrees(sigma) : sigma);
   }
   return text + FormatText(",%d,%d\n", frame.num_dynamic, frame.segment);

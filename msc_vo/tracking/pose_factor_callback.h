@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "msc_vo/bundle_adjustment/custom_factor.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/pose_estimation/pose_factor.h"
 
@@ -21,6 +22,12 @@ struct FrameContext {
   double last_timestamp = 0.0;  ///< seconds
   Rigid3 last_cam_from_world;
   Rigid3 predicted_cam_from_world;  ///< of this frame, by constant velocity
+  /// Number of the world of these poses (FrameResult::world). A factor that knows an absolute pose,
+  /// position or direction holds in one world only.
+  int world = 0;
+  /// The extra blocks of the window factors as the map that the frame is tracked in knows them, in
+  /// order of their ids; none before a window has estimated them. Their manifolds may be null.
+  std::vector<ExtraBlock> extra_blocks;
 };
 
 /// Called once for every frame, except before the first keyframe, and returns factors over its

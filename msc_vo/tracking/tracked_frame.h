@@ -57,7 +57,11 @@ struct TrackedFrame {
   KeyframeId reference = kNoId;
   Rigid3 cam_from_reference;
   Rigid3 cam_from_world;  ///< with the reference as in the snapshot
-  FrameMatches matches;   ///< inliers among the landmarks
+  /// Motion since the last frame whose pose was estimated, or that began a new part of the map, in
+  /// the snapshot; predicted if the pose is. std::nullopt: unknown, because the frame begins a map.
+  std::optional<Rigid3> cam_from_last;
+  bool is_implausible = false;  ///< the pose follows a gap, and its motion is not plausible
+  FrameMatches matches;         ///< inliers among the landmarks
   /// Its dynamic matches and cells are those of the pose optimisation that found most of them.
   PoseSummary pose;
   /// Landmarks that were predicted to be visible, matched ones included; for culling.

@@ -53,8 +53,20 @@ Tracker::Tracker(const TrackerOptions& options)
 }
 
 TrackedFrame Tracker::Track(const std::shared_ptr<const Frame>& raw, const MapSnapshot& snapshot) {
+  // Before the last evaluation of the factors, nothing else changes that later frames depend on.
+  const KeyframeCycle cycle = keyframe_cycle_;
+  try {
+    return TrackFrame(raw, snapshot, pose_factor_callback_ != nullptr);
+  } catch (...) {
+    keyframe_cycle_ = cycle;
+    throw;
+  }
+}
+
+TrackedFrame Tracker::TrackFrame(const std::shared_ptr<const Frame>& raw,
+                                 const MapSnapshot& snapshot, bool use_factors) {
   if (snapshot.map.keyframes().empty()) return Initialize(raw);
-  const Input input = Predict(raw, snapshot);
+  const Input input = Predict(raw, snapshot, use_factors);
   PoseEstimator estimator(options_, snapshot.map, snapshot.noise_scale, pose_factors_);
   keyframe_cycle_.num_per_frame = NumKeyframesToTry(snapshot.map, raw->timestamp);
   const std::optional<InitialPose> initial = FindInitialPose(
@@ -69,14 +81,14 @@ TrackedFrame Tracker::TrackInMap(const Input& input, const InitialPose& initial,
                                  PoseEstimator* estimator) {
   TrackedFrame tracked = TrackLocalMap(input, initial.pose, estimator);
   tracked.relocalized = initial.origin == PoseOrigin::kAfterGap;
-  tracked.status = ConfirmStatus(input, tracked, initial.origin);
+  ConfirmStatus(input, initial.origin, &tracked);
   tracked.keyframe = ProposeKeyframe(input, tracked, estimator);
   if (tracked.keyframe.is_due()) {
     tracked.frame = MarkDynamicFeatures(options_.pose.consensus, input.snapshot.map, tracked);
   }
   in_gap_ = false;
   segment_start_.Tracked(tracked.frame->timestamp);
-  Follow(input, &tracked);
+  Follow(&tracked);
   return tracked;
 }
 
@@ -87,7 +99,7 @@ TrackedFrame Tracker::TrackInGap(const Input& input) {
   if (IsNewSegmentDue(map, tracked)) return BeginSegment(input);
   if (IsOutsideMappedArea(map, tracked)) {
     tracked.keyframe.id = MakeKeyframe(tracked.frame->timestamp);
-    Follow(input, &tracked);
+    Follow(&tracked);
   }
   return tracked;
 }
@@ -129,7 +141,7 @@ void Tracker::StartSegment(SegmentStart start, TrackedFrame* tracked) {
 }
 
 Tracker::Input Tracker::Predict(const std::shared_ptr<const Frame>& raw,
-                                const MapSnapshot& snapshot) {
+                                const MapSnapshot& snapshot, bool use_factors) {
   last_.UpdateTo(snapshot);
   const double timestamp = raw->timestamp;
   const double readout_time = CompensationReadoutTime(snapshot);
@@ -139,9 +151,11 @@ Tracker::Input Tracker::Predict(const std::shared_ptr<const Frame>& raw,
   }
   Rigid3& predicted = input.prediction.cam_from_world;
   predicted = motion_.Predict(timestamp) * input.last_from_world;
-  if (!pose_factor_callback_) return input;
-  pose_factors_ =
-      pose_factor_callback_({timestamp, last_.frame->timestamp, input.last_from_world, predicted});
+  pose_factors_.clear();
+  if (use_factors) {
+    pose_factors_ = pose_factor_callback_({timestamp, last_.frame->timestamp, input.last_from_world,
+                                           predicted, snapshot.world, snapshot.extra_blocks});
+  }
   if (pose_factors_.empty()) return input;
   FrameMatches none;
   input.prediction.by_factors =
@@ -160,6 +174,7 @@ TrackedFrame Tracker::BridgeWithPrediction(const Input& input) const {
   tracked.pose = prediction.by_factors;
   const Map& map = input.snapshot.map;
   SetPose(map, prediction.cam_from_world, ReferenceOrNewest(map, last_.reference), &tracked);
+  tracked.cam_from_last = tracked.cam_from_world * input.last_from_world.Inverse();
   return tracked;
 }
 
@@ -204,23 +219,23 @@ TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial
   tracked.matches = LandmarkInliers(pose.matches);
   tracked.visible = IdsOf(local);
   SetPose(map, pose.cam_from_world, local.reference, &tracked);
+  tracked.cam_from_last = tracked.cam_from_world * input.last_from_world.Inverse();
   return tracked;
 }
 
-TrackingStatus Tracker::ConfirmStatus(const Input& input, const TrackedFrame& tracked,
-                                      PoseOrigin origin) {
-  const double timestamp = tracked.frame->timestamp;
+void Tracker::ConfirmStatus(const Input& input, PoseOrigin origin, TrackedFrame* tracked) {
+  const double timestamp = tracked->frame->timestamp;
   const double seconds = timestamp - last_.frame->timestamp;
-  const Rigid3 cam_from_last = tracked.cam_from_world * input.last_from_world.Inverse();
   if (in_gap_) origin = PoseOrigin::kAfterGap;
   // Pose factors measure the motion where images do not.
   if (input.prediction.by_factors.usable) origin = PoseOrigin::kPrediction;
-  plausibility_.Observe(timestamp, CameraVelocity::Of(cam_from_last, seconds), origin);
-  if (origin == PoseOrigin::kAfterGap &&
-      (tracked.status == TrackingStatus::kWeak || ContradictsDepth(tracked, input.snapshot.map))) {
+  plausibility_.Observe(timestamp, CameraVelocity::Of(*tracked->cam_from_last, seconds), origin);
+  if (origin == PoseOrigin::kAfterGap && (tracked->status == TrackingStatus::kWeak ||
+                                          ContradictsDepth(*tracked, input.snapshot.map))) {
     plausibility_.MarkImplausible(timestamp);
   }
-  return plausibility_.IsImplausible(timestamp) ? TrackingStatus::kWeak : tracked.status;
+  tracked->is_implausible = plausibility_.IsImplausible(timestamp);
+  if (tracked->is_implausible) tracked->status = TrackingStatus::kWeak;
 }
 
 KeyframeProposal Tracker::ProposeKeyframe(const Input& input, const TrackedFrame& tracked,
@@ -247,16 +262,15 @@ KeyframeId Tracker::MakeKeyframe(double timestamp) {
   return next_keyframe_++;
 }
 
-void Tracker::Follow(const Input& input, TrackedFrame* tracked) {
+void Tracker::Follow(TrackedFrame* tracked) {
   const double timestamp = tracked->frame->timestamp;
   if (timestamp - last_.frame->timestamp > options_.max_prediction) {
     motion_.Reset(timestamp);
   } else {
-    const Rigid3 cam_from_last = tracked->cam_from_world * input.last_from_world.Inverse();
     if (last_.keyframe != kNoId) {
-      tracked->previous_velocity = motion_.LastVelocity(timestamp, cam_from_last);
+      tracked->previous_velocity = motion_.LastVelocity(timestamp, *tracked->cam_from_last);
     }
-    motion_.Observe(timestamp, cam_from_last);
+    motion_.Observe(timestamp, *tracked->cam_from_last);
   }
   last_ = LastFrame(*tracked);
 }

@@ -37,9 +37,16 @@ class Tracker {
   /// Tracks the next frame, which is as the features were extracted. The returned one is
   /// compensated for the rolling shutter like the map, unless the camera's velocity is unknown, as
   /// after a gap. Frames must be in order of time, and snapshots never older than those before.
-  /// Throws what the callback of the pose factors throws, and std::invalid_argument, naming the
-  /// factor, on invalid ones (OptimizePose); the frame is then as if it had not been passed.
+  /// Throws what the callback of the pose factors and their cost functions throw, and
+  /// std::invalid_argument, naming the factor, on invalid ones (OptimizePose); the frame is then as
+  /// if it had not been passed.
   TrackedFrame Track(const std::shared_ptr<const Frame>& raw, const MapSnapshot& snapshot);
+
+  /// The same without custom factors over the pose.
+  TrackedFrame TrackWithoutFactors(const std::shared_ptr<const Frame>& raw,
+                                   const MapSnapshot& snapshot) {
+    return TrackFrame(raw, snapshot, false);
+  }
 
   /// Motion of the camera over the last tracked frames.
   const MotionModel& motion() const { return motion_; }
@@ -70,8 +77,11 @@ class Tracker {
   TrackedFrame BeginSegment(const Input& input);
   void StartSegment(SegmentStart start, TrackedFrame* tracked);
 
+  TrackedFrame TrackFrame(const std::shared_ptr<const Frame>& raw, const MapSnapshot& snapshot,
+                          bool use_factors);
   // Updates the last frame to the map, predicts the pose and asks for the pose factors.
-  Input Predict(const std::shared_ptr<const Frame>& raw, const MapSnapshot& snapshot);
+  Input Predict(const std::shared_ptr<const Frame>& raw, const MapSnapshot& snapshot,
+                bool use_factors);
   // Without an initial pose: bridges the frame, unless it begins a new segment, or a new part of
   // the map, where pose factors have moved the camera.
   TrackedFrame TrackInGap(const Input& input);
@@ -89,16 +99,16 @@ class Tracker {
   // has too few landmarks.
   TrackedFrame TrackLocalMap(const Input& input, const FramePose& initial,
                              PoseEstimator* estimator) const;
-  // The status of a tracked frame: kWeak if its pose, or one of the last five seconds, follows a
-  // gap, and is weak, takes an implausible motion, or contradicts the depth images.
-  TrackingStatus ConfirmStatus(const Input& input, const TrackedFrame& tracked, PoseOrigin origin);
+  // Makes a tracked frame kWeak and implausible if its pose, or one of the last five seconds,
+  // follows a gap, and is weak, takes an implausible motion, or contradicts the depth images.
+  void ConfirmStatus(const Input& input, PoseOrigin origin, TrackedFrame* tracked);
   // Decides whether the frame becomes a keyframe.
   KeyframeProposal ProposeKeyframe(const Input& input, const TrackedFrame& tracked,
                                    PoseEstimator* estimator);
   // Decides the id of the keyframe that a frame becomes.
   KeyframeId MakeKeyframe(double timestamp);
   // Updates the motion model, and with it the velocity at the last frame, which is replaced.
-  void Follow(const Input& input, TrackedFrame* tracked);
+  void Follow(TrackedFrame* tracked);
 
   // Keyframes of the map that relocalisation tries in a frame.
   int NumKeyframesToTry(const Map& map, double timestamp) const {

@@ -147,6 +147,27 @@ TEST(GravityFactors, AreNoneBeforeTheVerticalIsMeasured) {
   EXPECT_TRUE(factors.extra_blocks.empty());
 }
 
+// The vertical of one world says nothing about another one.
+TEST(GravityFactors, EstimateAVerticalInEveryWorld) {
+  const Eigen::Vector3d up_in_cam = Eigen::Vector3d(0.1, -1.0, 0.2).normalized();
+  std::vector<TimedAcceleration> readings;
+  for (int i = 0; i < 600; ++i) readings.push_back({0.01 * i, 9.81 * up_in_cam});
+  GravityFactors gravity(readings, GravityOptions());
+  const Rigid3 cam_from_world[] = {Rigid3(), Rigid3(ExpSO3({0.4, 0.2, -0.3}), {1.0, 0.0, 0.0})};
+  for (const int world : {0, 1, 0}) {
+    WindowContext window;
+    window.world = world;
+    for (int i = 1; i < 5; ++i) {
+      window.keyframes.push_back({10 * world + i, 1.0 * i, cam_from_world[world], false});
+    }
+    const WindowFactors factors = gravity(window);
+    ASSERT_EQ(factors.extra_blocks.size(), 1u);
+    EXPECT_EQ(factors.extra_blocks[0].id, world);
+    const Eigen::Vector3d up = cam_from_world[world].rotation().conjugate() * up_in_cam;
+    EXPECT_LT((factors.extra_blocks[0].value - up).norm(), 1e-6) << world;
+  }
+}
+
 TEST(GravityFactors, RejectInvalidOptions) {
   GravityOptions options;
   options.min_sigma = 0.0;

@@ -62,7 +62,15 @@ TEST_F(AtlasTest, DiscardsAMapThatIsNotKept) {
   EXPECT_EQ(atlas_.inactive_maps().size(), 1u);
   EXPECT_TRUE(atlas_.current().map.keyframes().empty());
   EXPECT_EQ(atlas_.FindSubMapOf(new_.first), nullptr);
-  EXPECT_EQ(atlas_.Find(1), nullptr);
+}
+
+TEST_F(AtlasTest, NumbersItsMapsAsTheSegmentsOfTheRun) {
+  EXPECT_EQ(atlas_.current().id, 1);
+  atlas_.Begin(false);  // the segment begins again
+  EXPECT_EQ(atlas_.current().id, 1);
+  Fill(&atlas_.current().map);
+  atlas_.Begin(true);
+  EXPECT_EQ(atlas_.current().id, 2);
 }
 
 TEST_F(AtlasTest, JoinKeepsTheWorldOfTheOlderMap) {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "tests/support/custom_pose_factors.h"
@@ -77,7 +78,8 @@ TEST_F(CustomFactorsTest, WheelsBridgeACoveredSecond) {
   for (int i = 20; i < 50; ++i) {
     EXPECT_EQ(with.frames[i].status, TrackingStatus::kPredicted) << i;
     EXPECT_TRUE(with.frames[i].by_pose_factors) << i;
-    EXPECT_GT(with.frames[i].covariance(5, 5), 0.0) << i;
+    ASSERT_TRUE(with.frames[i].covariance.has_value()) << i;
+    EXPECT_GT((*with.frames[i].covariance)(5, 5), 0.0) << i;
     EXPECT_FALSE(without.frames[i].by_pose_factors) << i;
   }
   EXPECT_TRUE(IsEstimated(with.frames[50].status));
@@ -138,23 +140,48 @@ TEST_F(CustomFactorsTest, ErrorsOfWindowFactorsReachTheCaller) {
     ASSERT_EQ(errors.size(), 2u);
     EXPECT_EQ(errors[0], "no wheel data");
     EXPECT_THAT(errors[1], HasSubstr("marker"));
-    EXPECT_EQ(odometry.Finish().frames.size(), images_->size() - 2);
+    EXPECT_EQ(odometry.Finish().frames.size(), images_->size());
   }
 }
 
-TEST_F(CustomFactorsTest, ErrorsOfPoseFactorsLeaveTheFrameOut) {
-  Odometry odometry(OdometryOptions(), camera_, LensDistortion());
-  int num_calls = 0;
-  odometry.SetPoseFactors([&](const FrameContext&) {
-    ++num_calls;
-    if (num_calls == 2) throw std::runtime_error("no wheel data");
-    return std::vector<PoseFactor>();
-  });
-  for (int i = 0; i < 2; ++i) odometry.Process((*images_)[i]);
-  EXPECT_THROW(odometry.Process((*images_)[2]), std::runtime_error);
-  // The same image may be passed again.
-  EXPECT_EQ(odometry.Process((*images_)[2]).status, TrackingStatus::kTracked);
-  EXPECT_EQ(odometry.Finish().frames.size(), 3u);
+// Wheels whose scale the windows estimate: the extra block is that of the map that a frame is
+// tracked in, at any number of threads.
+TEST_F(CustomFactorsTest, PoseFactorsSeeTheExtraBlocksOfTheirMap) {
+  const std::vector<RgbdImage> images = CoveredSecond();
+  const auto run = [&](int threads, double latency, std::vector<double>* scales) {
+    OdometryOptions options;
+    options.threads = threads;
+    options.snapshots.latency = latency;
+    Odometry odometry(options, camera_, LensDistortion());
+    odometry.SetWindowFactors(WindowWheels);
+    odometry.SetPoseFactors([&](const FrameContext& context) {
+      scales->push_back(context.extra_blocks.empty() ? 1.0 : context.extra_blocks[0].value[0]);
+      const Rigid3 step = Step(context.last_timestamp, context.timestamp);
+      const Rigid3 measured(step.rotation(), scales->back() / kScale * step.translation());
+      const double path = step.translation().norm();
+      return std::vector<PoseFactor>{
+          PriorFactor("wheel", measured * context.last_cam_from_world, 0.01, 0.002 + 0.05 * path)};
+    });
+    std::vector<double> in_map;  // of the same frames
+    odometry.SetTrackingObserver([&](const TrackedImage& image) {
+      const std::vector<ExtraBlock>& blocks = image.map.extra_blocks;
+      if (image.result.id > 0) in_map.push_back(blocks.empty() ? 1.0 : blocks[0].value[0]);
+    });
+    for (const RgbdImage& image : images) odometry.Process(image);
+    EXPECT_EQ(*scales, in_map);
+    return odometry.Finish();
+  };
+  for (const double latency : {0.0, 0.085}) {
+    std::vector<double> one, two;
+    const OdometryResult result = run(1, latency, &one);
+    ExpectSameBytes(run(2, latency, &two), result);
+    EXPECT_EQ(one, two);
+    EXPECT_EQ(one.front(), 1.0);
+    EXPECT_NEAR(one.back(), kScale, 0.05);
+    // Before the first window, and after several ones.
+    EXPECT_GE(std::set<double>(one.begin(), one.end()).size(), 3u);
+    EXPECT_TRUE(result.frames[40].by_pose_factors);
+  }
 }
 
 }  // namespace

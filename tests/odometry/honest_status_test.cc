@@ -41,7 +41,7 @@ FrameError ErrorOf(const TrackedImage& image, const Rigid3& true_cam_from_world)
   Eigen::Matrix<double, 6, 1> error;
   Rigid3Manifold().Minus(image.result.cam_from_world.params.data(),
                          true_cam_from_world.params.data(), error.data());
-  const double mahalanobis2 = error.dot(image.result.covariance.ldlt().solve(error));
+  const double mahalanobis2 = error.dot(image.result.covariance->ldlt().solve(error));
   FrameError result;
   result.frame = image.result.id;
   result.sigmas = std::sqrt(mahalanobis2 / 6.0);
@@ -150,7 +150,7 @@ std::vector<FrameError> ErrorsOfTrackedFrames(unsigned seed, int num_frames) {
   odometry.SetTrackingObserver([&](const TrackedImage& image) {
     const Keyframe* keyframe = image.map.map.FindKeyframe(image.tracked.reference);
     if (image.result.status != TrackingStatus::kTracked || keyframe == nullptr ||
-        image.result.covariance.isZero(0.0)) {
+        !image.result.covariance) {
       return;
     }
     const Rigid3 truth = TruePose(world_from_cam, image, *keyframe);

@@ -20,9 +20,9 @@ constexpr int kNumFrames = 30;
 void ExpectPoseWithCovariance(const FrameResult& frame) {
   EXPECT_TRUE(frame.cam_from_world.params.allFinite());
   EXPECT_NEAR(frame.cam_from_world.rotation().norm(), 1.0, 1e-9);
-  if (frame.covariance.isZero(0.0)) return;
-  EXPECT_TRUE(frame.covariance.isApprox(frame.covariance.transpose(), 1e-9));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(frame.covariance);
+  if (!frame.covariance) return;
+  EXPECT_TRUE(frame.covariance->isApprox(frame.covariance->transpose(), 1e-9));
+  const Eigen::SelfAdjointEigenSolver<PoseCovariance> eigen(*frame.covariance);
   EXPECT_GT(eigen.eigenvalues().minCoeff(), 0.0);
 }
 

@@ -275,8 +275,86 @@ class Callbacks(unittest.TestCase):
         odometry.set_pose_factors(lambda frame: odometry.finish())
         with self.assertRaisesRegex(RuntimeError, "in use"):
             support.process(odometry, support.room_images()[:4])
-        with self.assertRaisesRegex(RuntimeError, "before the first image"):
-            odometry.set_pose_factors(None)
+
+    def test_callbacks_are_set_before_the_first_image(self):
+        image = support.room_images()[0]
+        steps = [lambda odometry: odometry.process(image.timestamp, image.gray, image.depth),
+                 lambda odometry: odometry.drop(image.timestamp)]
+        for step in steps:
+            odometry = support.room_odometry()
+            step(odometry)
+            for name in ("set_pose_factors", "set_window_factors", "set_window_observer"):
+                for callback in (None, lambda *_: None):
+                    with self.assertRaisesRegex(ValueError, "before the first image"):
+                        getattr(odometry, name)(callback)
+
+    def test_a_frame_whose_callback_raises_is_complete(self):
+        for threads in (1, 2):
+            for setter in ("set_pose_factors", "set_window_factors", "set_window_observer"):
+                odometry = support.room_odometry(threads=threads)
+                calls = []
+
+                def fail_once(*_):
+                    calls.append(None)
+                    if len(calls) == 1:
+                        raise KeyError("on purpose")
+
+                getattr(odometry, setter)(fail_once)
+                num_errors = 0
+                for image in support.room_images():
+                    try:
+                        odometry.process(image.timestamp, image.gray, image.depth)
+                    except KeyError:
+                        num_errors += 1
+                        with self.assertRaisesRegex(ValueError, "not later than"):
+                            odometry.process(image.timestamp, image.gray, image.depth)
+                    self.assertEqual(odometry.frames[-1].timestamp, image.timestamp)
+                    self.assertEqual(odometry.frames[-1].status, "tracked")
+                self.assertEqual(num_errors, 1)
+                ids = [frame.id for frame in odometry.finish().frames]
+                self.assertEqual(ids, list(range(len(support.room_images()))))
+
+    def test_frames_know_their_world_and_cause(self):
+        odometry = support.room_odometry()
+        images = support.room_images()
+        black = np.zeros_like(images[0].gray)
+        frames = [odometry.process(image.timestamp, black if 5 <= i < 8 else image.gray,
+                                   image.depth) for i, image in enumerate(images[:12])]
+        self.assertIsNone(frames[0].covariance)  # it defines the world
+        self.assertEqual(frames[1].covariance.shape, (6, 6))
+        np.testing.assert_array_equal(frames[0].cam_from_odometry, np.eye(4))
+        for i, frame in enumerate(frames):
+            is_black = 5 <= i < 8
+            self.assertEqual(frame.cause, "uniform_image" if is_black else None)
+            self.assertEqual(frame.covariance is None, is_black or i == 0)
+            self.assertEqual(frame.world, 0)
+            self.assertIsNone(frame.world_changed)
+            np.testing.assert_allclose(frame.cam_from_world @ frame.world_from_odometry,
+                                       frame.cam_from_odometry, atol=1e-12)
+
+    def test_pose_factors_see_extra_blocks(self):
+        values = {}
+        for threads in (1, 2):
+            odometry = support.room_odometry(threads=threads)
+            seen = values.setdefault(threads, [])
+
+            def window_factors(window):
+                self.assertEqual(window.world, 0)
+                target = 2.0 + 0.01 * len(window.keyframes)
+                cost = msc_vo.CostFunction(lambda x: (x - target, [np.eye(1)]), 1, [1])
+                return [msc_vo.ExtraBlock(7, [1.0]),
+                        msc_vo.CustomFactor(cost, [msc_vo.BlockId.extra(7)])]
+
+            def pose_factors(frame):
+                self.assertEqual(frame.world, 0)
+                seen.append({id: tuple(value) for id, value in frame.extra_blocks.items()})
+
+            odometry.set_window_factors(window_factors)
+            odometry.set_pose_factors(pose_factors)
+            support.process(odometry, support.room_images())
+        self.assertEqual(values[1][0], {})
+        self.assertGreater(len(set(str(blocks) for blocks in values[1])), 2)
+        self.assertEqual(values[1], values[2])
 
     def test_observers_see_windows(self):
         odometry = support.room_odometry()

@@ -41,8 +41,9 @@ class ResultFilesTest : public TemporaryFolder {
     }
     result.frames[0].is_keyframe = true;
     result.frames[0].times.mapping = 40.0;
-    result.frames[1].covariance(1, 1) = std::pow(DegreesToRadians(0.5), 2);
-    result.frames[1].covariance(3, 3) = 0.04;
+    result.frames[1].covariance = PoseCovariance::Zero();
+    (*result.frames[1].covariance)(1, 1) = std::pow(DegreesToRadians(0.5), 2);
+    (*result.frames[1].covariance)(3, 3) = 0.04;
     result.frames[4].num_dynamic = 80;
     result.frames[2].status = TrackingStatus::kPredicted;
     result.frames[3].status = TrackingStatus::kLost;

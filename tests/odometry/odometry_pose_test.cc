@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/odometry_pose.h"
+
+#include <gtest/gtest.h>
+
+#include "msc_vo/geometry/so3.h"
+#include "msc_vo/tracking/tracked_frame.h"
+
+namespace msc_vo {
+namespace {
+
+// Frames at 10 Hz of a camera that moves by kStep per frame.
+class OdometryPoseTest : public testing::Test {
+ protected:
+  static Rigid3 Steps(int count) {
+    Rigid3 motion;
+    for (int i = 0; i < count; ++i) motion = step() * motion;
+    return motion;
+  }
+  static Rigid3 step() { return {ExpSO3({0.0, 0.02, 0.0}), {0.05, 0.0, 0.01}}; }
+
+  // The frame `steps` after the last one that was estimated; none: it begins a map.
+  void Add(TrackingStatus status, std::optional<int> steps, bool is_keyframe = false) {
+    TrackedFrame tracked;
+    auto frame = std::make_shared<Frame>();
+    frame->timestamp = 0.1 * index_++;
+    tracked.frame = frame;
+    tracked.status = status;
+    if (steps) tracked.cam_from_last = Steps(*steps);
+    if (is_keyframe) tracked.keyframe.id = 1;
+    const Rigid3 before = pose_.cam_from_odometry();
+    pose_.Add(tracked);
+    last_step_ = pose_.cam_from_odometry() * before.Inverse();
+  }
+  void Skip(int count) { index_ += count; }
+  void ExpectLastStep(const Rigid3& expected, double tolerance = 1e-9) const {
+    EXPECT_TRUE(last_step_.params.isApprox(expected.params, tolerance))
+        << last_step_.params.transpose();
+  }
+
+  OdometryPose pose_;
+  Rigid3 last_step_;
+  int index_ = 0;
+};
+
+TEST_F(OdometryPoseTest, IntegratesTheMotionFromTheFirstFrameOn) {
+  Add(TrackingStatus::kLost, {});
+  EXPECT_EQ(pose_.cam_from_odometry().params, Rigid3().params);
+  Add(TrackingStatus::kTracked, {}, true);
+  EXPECT_EQ(pose_.cam_from_odometry().params, Rigid3().params);
+  for (int i = 1; i < 6; ++i) {
+    Add(i % 2 == 0 ? TrackingStatus::kWeak : TrackingStatus::kTracked, 1);
+    EXPECT_TRUE(pose_.cam_from_odometry().params.isApprox(Steps(i).params, 1e-12)) << i;
+  }
+}
+
+TEST_F(OdometryPoseTest, KeepsTheMotionOfImagesThatAreMissing) {
+  Add(TrackingStatus::kTracked, {}, true);
+  Add(TrackingStatus::kTracked, 1);
+  Skip(3);
+  Add(TrackingStatus::kTracked, 4);
+  ExpectLastStep(Steps(4));
+}
+
+TEST_F(OdometryPoseTest, DoesNotJumpAfterAGap) {
+  Add(TrackingStatus::kTracked, {}, true);
+  Add(TrackingStatus::kTracked, 1);
+  Add(TrackingStatus::kPredicted, 3);  // the prediction is too fast
+  ExpectLastStep(Steps(3));
+  Add(TrackingStatus::kLost, 3);
+  ExpectLastStep(Rigid3());
+  Add(TrackingStatus::kLost, 3);
+  Add(TrackingStatus::kTracked, 4);  // found again where the camera is
+  ExpectLastStep(step(), 0.01);      // by the mean velocity over the gap
+  Add(TrackingStatus::kTracked, 1);
+  ExpectLastStep(step());
+}
+
+TEST_F(OdometryPoseTest, DoesNotJumpWhereAMapBegins) {
+  Add(TrackingStatus::kTracked, {}, true);
+  Add(TrackingStatus::kTracked, 1);
+  Add(TrackingStatus::kLost, 2);
+  Add(TrackingStatus::kTracked, {}, true);
+  ExpectLastStep(Rigid3());
+  Add(TrackingStatus::kTracked, 1);
+  ExpectLastStep(step());
+}
+
+// Pose factors move the camera on to another part of the map, which a keyframe begins.
+TEST_F(OdometryPoseTest, GoesOnFromAKeyframeWithoutImage) {
+  Add(TrackingStatus::kTracked, {}, true);
+  Add(TrackingStatus::kPredicted, 1);
+  Add(TrackingStatus::kPredicted, 2, true);
+  ExpectLastStep(step());
+  Add(TrackingStatus::kTracked, 1);
+  ExpectLastStep(step());
+}
+
+}  // namespace
+}  // namespace msc_vo
