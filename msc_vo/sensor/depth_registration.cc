@@ -39,17 +39,26 @@ inline int Index(float x, float y, float stride) {
 
 }  // namespace
 
-template <bool kDepthLens>
-void DepthRegistration::IntersectRow(const SurfaceMap& surfaces, int y, float* row) const {
-  const float* const px = geometry_.color_x.Row(y);
-  const float* const py = geometry_.color_y.Row(y);
+// Viewing rays of some colour pixels of a row, and the surfaces that they may meet. Steps that
+// compute one field after another overlap better in a processor than one that computes all.
+struct DepthRegistration::Strip {
+  static constexpr int kSize = 256;
+
+  int first, size;           // pixels
+  float x[kSize], y[kSize];  // positions at infinity in the depth image
+  float z[kSize];            // (A p)_z
+  float nearest[kSize];      // largest inverse depth around, of the depth camera
+  int index[kSize];          // of the cell of the grid, then of the plane
+};
+
+void DepthRegistration::ComputeRays(int y, Strip* strip) const {
+  const float* const px = geometry_.color_x.Row(y) + strip->first;
+  const float* const py = geometry_.color_y.Row(y) + strip->first;
   const float constant_y = geometry_.HasColorLens() ? 0.0f : static_cast<float>(y);
   const Eigen::Matrix3f& m = geometry_.matrix;
   const float xx = m(0, 0), xy = m(0, 1), x1 = m(0, 2) + m(0, 1) * constant_y;
   const float yx = m(1, 0), yy = m(1, 1), y1 = m(1, 2) + m(1, 1) * constant_y;
   const float zx = m(2, 0), zy = m(2, 1), z1 = m(2, 2) + m(2, 1) * constant_y;
-  const float ex = geometry_.epipole.x(), ey = geometry_.epipole.y(), ez = geometry_.epipole.z();
-  const float tolerance = kMaxDisplacement * geometry_.inverse_depth_per_pixel;
   const RegistrationGeometry::Grid& grid = geometry_.grid;
   const float scale = grid.cells_per_pixel;
   // Positions are limited to cells that have a right and a lower neighbour, in cells.
@@ -57,39 +66,67 @@ void DepthRegistration::IntersectRow(const SurfaceMap& surfaces, int y, float* r
   const float first_column = from_x + kFirst, first_row = from_y + kFirst;
   const float last_column = from_x + static_cast<float>(grid.width - 2);
   const float last_row = from_y + static_cast<float>(grid.height - 2);
-  const float grid_stride = static_cast<float>(grid.width);
-  const float* const nearest = surfaces.nearest.data();
+  const float stride = static_cast<float>(grid.width);
+  const int size = strip->size;
+#pragma GCC ivdep
+  for (int i = 0; i < size; ++i) {
+    const float z = zx * px[i] + zy * py[i] + z1;
+    const float inverse_z = 1.0f / z;
+    const float x_inf = (xx * px[i] + xy * py[i] + x1) * inverse_z;
+    const float y_inf = (yx * px[i] + yy * py[i] + y1) * inverse_z;
+    const float column = std::min(last_column, std::max(first_column, x_inf * scale)) - from_x;
+    const float row = std::min(last_row, std::max(first_row, y_inf * scale)) - from_y;
+    strip->x[i] = x_inf;
+    strip->y[i] = y_inf;
+    strip->z[i] = z;
+    strip->index[i] = Index(column, row, stride);
+  }
+}
+
+template <bool kDepthLens>
+void DepthRegistration::FindPlanes(const SurfaceMap& surfaces, Strip* strip) const {
+  const float ex = geometry_.epipole.x(), ey = geometry_.epipole.y(), ez = geometry_.epipole.z();
   // Positions are limited to depth pixels and the border around them; rounded.
   const float to_x = geometry_.center.x() + 1.5f, to_y = geometry_.center.y() + 1.5f;
   const float first_x = kFirst - to_x, first_y = kFirst - to_y;
   const float last_x = static_cast<float>(geometry_.width + 1) - to_x;
   const float last_y = static_cast<float>(geometry_.height + 1) - to_y;
   const float stride = static_cast<float>(geometry_.width + 2);
-  const SurfaceMap::Plane* const planes = surfaces.planes.data();
-  const int size = geometry_.color_x.values.cols;
+  const float* const nearest = surfaces.nearest.data();
+  const int size = strip->size;
 #pragma GCC ivdep
   for (int i = 0; i < size; ++i) {
-    const float z = zx * px[i] + zy * py[i] + z1;
-    const float inverse_z = 1.0f / z;
-    const float x = (xx * px[i] + xy * py[i] + x1) * inverse_z;
-    const float y_inf = (yx * px[i] + yy * py[i] + y1) * inverse_z;
-    const float cell_x = std::min(last_column, std::max(first_column, x * scale)) - from_x;
-    const float cell_y = std::min(last_row, std::max(first_row, y_inf * scale)) - from_y;
-    const float near = nearest[Index(cell_x, cell_y, grid_stride)];
-    float at_x = x + near * (x * ez - ex), at_y = y_inf + near * (y_inf * ez - ey);
+    const float near = nearest[strip->index[i]];
+    const float x = strip->x[i], y = strip->y[i];
+    float at_x = x + near * (x * ez - ex), at_y = y + near * (y * ez - ey);
     if (kDepthLens) {
       const Eigen::Vector2f offset = geometry_.DepthLensOffset(at_x, at_y);
       at_x += offset.x();
       at_y += offset.y();
     }
-    const float plane_x = std::min(last_x, std::max(first_x, at_x)) + to_x;
-    const float plane_y = std::min(last_y, std::max(first_y, at_y)) + to_y;
-    const int index = Index(plane_x, plane_y, stride);
-    const float w = planes[index].x * x + planes[index].y * y_inf + planes[index].z;
+    strip->nearest[i] = near;
+    strip->index[i] = Index(std::min(last_x, std::max(first_x, at_x)) + to_x,
+                            std::min(last_y, std::max(first_y, at_y)) + to_y, stride);
+  }
+}
+
+void DepthRegistration::MeetPlanes(const SurfaceMap& surfaces, const Strip& strip,
+                                   float* row) const {
+  const float ez = geometry_.epipole.z();
+  const float tolerance = kMaxDisplacement * geometry_.inverse_depth_per_pixel;
+  const float *plane_x = surfaces.plane_x.data(), *plane_y = surfaces.plane_y.data();
+  const float* const plane_1 = surfaces.plane_1.data();
+  const int size = strip.size;
+#pragma GCC ivdep
+  for (int i = 0; i < size; ++i) {
+    const int k = strip.index[i];
+    const float w = plane_x[k] * strip.x[i] + plane_y[k] * strip.y[i] + plane_1[k];
+    const float near = strip.nearest[i];
     // Difference to the inverse depth with which the plane was found.
     const float difference = std::abs(w * (1.0f + near * ez) - near);
-    const float found = difference <= std::min(tolerance, kMaxChange * near) ? w * z : -1.0f;
-    row[i] = near > 0.0f ? found : 0.0f;
+    const float inverse_depth = w * strip.z[i];
+    const float found = difference <= std::min(tolerance, kMaxChange * near) ? inverse_depth : -1.0f;
+    row[strip.first + i] = near > 0.0f ? found : 0.0f;
   }
 }
 
@@ -110,8 +147,8 @@ float DepthRegistration::Intersect(const SurfaceMap& surfaces, const Eigen::Vect
         const Eigen::Vector2f position =
             (at + to_plane + Eigen::Vector2f(shift_x, shift_y)).cwiseMax(kFirst).cwiseMin(last);
         const int u = static_cast<int>(position.x()), v = static_cast<int>(position.y());
-        const SurfaceMap::Plane& plane = surfaces.planes[v * (geometry_.width + 2) + u];
-        const float w = plane.x * infinity.x() + plane.y * infinity.y() + plane.z;
+        const float w =
+            surfaces.InverseDepth(v * (geometry_.width + 2) + u, infinity.x(), infinity.y());
         if (!(w > 0.0f)) continue;
         met = (infinity - w * e.head<2>()) / (1.0f - w * e.z());
         const Eigen::Vector2f offset =
@@ -184,14 +221,21 @@ cv::Mat DepthRegistration::Register(const cv::Mat& depth) const {
   const cv::Size size(geometry_.color_width, geometry_.color_height);
   HoleRemoval target(size, std::max(1, cvRound(kHoleRadius * geometry_.magnification)));
   const int step = geometry_.color_step;
-  std::vector<float> sparse(geometry_.color_x.values.cols + 1, 0.0f);
+  const int size_x = geometry_.color_x.values.cols;
+  std::vector<float> sparse(size_x + 1, 0.0f);
+  Strip strip;
   for (int y = 0; y < size.height; ++y) {
     float* const row = target.NextRow();
     float* const to = step == 1 ? row : sparse.data();
-    if (geometry_.HasDepthLens()) {
-      IntersectRow<true>(surfaces, y, to);
-    } else {
-      IntersectRow<false>(surfaces, y, to);
+    for (strip.first = 0; strip.first < size_x; strip.first += Strip::kSize) {
+      strip.size = std::min(Strip::kSize, size_x - strip.first);
+      ComputeRays(y, &strip);
+      if (geometry_.HasDepthLens()) {
+        FindPlanes<true>(surfaces, &strip);
+      } else {
+        FindPlanes<false>(surfaces, &strip);
+      }
+      MeetPlanes(surfaces, strip, to);
     }
     if (step == 2) InterpolateRow(sparse.data(), row);
     SearchRow(surfaces, y, row);

@@ -33,10 +33,13 @@ class DepthRegistration {
   cv::Mat Register(const cv::Mat& depth) const;
 
  private:
-  // Inverse depths in the colour camera of every step-th pixel of row y; 0: none; -1: they need a
-  // search.
+  struct Strip;
+
+  void ComputeRays(int y, Strip* strip) const;
   template <bool kDepthLens>
-  void IntersectRow(const SurfaceMap& surfaces, int y, float* row) const;
+  void FindPlanes(const SurfaceMap& surfaces, Strip* strip) const;
+  // Writes inverse depths in the colour camera to a row; 0: none; -1: needs a search.
+  void MeetPlanes(const SurfaceMap& surfaces, const Strip& strip, float* row) const;
   // Interpolates between every other pixel.
   void InterpolateRow(const float* sparse, float* row) const;
   // Inverse depth of a ray, divided by (A p)_z, on the surface around its position for the inverse

@@ -57,6 +57,10 @@ struct RegistrationGeometry {
   bool HasColorLens() const { return color_x.values.rows > 1; }
   /// Undistorted colour pixel.
   Eigen::Vector2f ColorPixel(int x, int y) const;
+  /// What to add to depth_y in a row.
+  float DepthRowOffset(int v) const {
+    return HasDepthLens() ? 0.0f : static_cast<float>(v) - center.y();
+  }
   /// Displacement of a position in the depth image by the lens.
   Eigen::Vector2f DepthLensOffset(float x, float y) const;
 

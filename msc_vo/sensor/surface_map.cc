@@ -12,12 +12,11 @@ namespace {
 
 // Smaller depths are no measurement, metres.
 constexpr float kMinDepth = 1e-3f;
-// Smallest depth of a surface in the colour camera, depths in the depth camera.
+// Smallest depth of a surface in the colour camera, as a ratio to that in the depth camera.
 constexpr float kMinRelativeDepth = 0.01f;
 // Smallest area of a depth pixel in the depth image at infinity, square pixels; negative if the
 // colour camera sees the surface from behind.
 constexpr float kMinArea = 1e-3f;
-
 // Inverse depth of a pixel without depth, 1/metres: further from all others than any threshold.
 constexpr float kNone = -1e9f;
 
@@ -32,60 +31,107 @@ void InvertRow(const float* depth, int width, float offset, float* to) {
   }
 }
 
-// Change of the inverse depth from pixel to pixel in one direction on a surface: central
-// difference; one-sided if only one neighbour is on the surface; 0 if none is.
-inline float Step(float before, float here, float after, float threshold) {
-  const float first = here - before, second = after - here;
-  // Factors instead of branches, so that the compiler can process several pixels at once.
-  const float with_first = std::abs(first) <= threshold ? 1.0f : 0.0f;
-  const float with_second = std::abs(second) <= threshold ? 1.0f : 0.0f;
-  return (with_first * first + with_second * second) * (1.0f - 0.5f * with_first * with_second);
-}
+// Steps of the inverse depth between neighbours.
+struct Steps {
+  explicit Steps(int size) : change(size, 0.0f), is_surface(size, 0.0f) {}
 
-// Steps to the right and down of the pixels of a row.
-void ComputeSteps(const float* above, const float* here, const float* below, int width,
-                  float* right, float* down) {
+  // From `before` to `after`.
+  void Compute(const float* before, const float* after) {
+    float* const to_change = change.data();
+    float* const to_surface = is_surface.data();
+    const int size = static_cast<int>(change.size());
 #pragma GCC ivdep
-  for (int u = 0; u < width; ++u) {
-    const float threshold = EdgeThreshold(here[u]);
-    right[u] = Step(here[u - 1], here[u], here[u + 1], threshold);
-    down[u] = Step(above[u], here[u], below[u], threshold);
+    for (int i = 0; i < size; ++i) {
+      const float step = after[i] - before[i];
+      const bool is_same = std::abs(step) <= EdgeThreshold(std::max(before[i], after[i]));
+      to_change[i] = is_same ? step : 0.0f;
+      to_surface[i] = is_same ? 1.0f : 0.0f;
+    }
+  }
+
+  std::vector<float> change;      // 0 if the two are not on one surface
+  std::vector<float> is_surface;  // 1 if they are, or else 0
+};
+
+// Derivatives of the inverse depth in one direction: central differences; one-sided ones if only
+// one neighbour is on the surface; 0 if none is.
+void Differentiate(const Steps& steps_before, int first, const Steps& steps_after, int second,
+                   std::vector<float>* derivatives) {
+  const float* const before = steps_before.change.data() + first;
+  const float* const after = steps_after.change.data() + second;
+  const float* const has_before = steps_before.is_surface.data() + first;
+  const float* const has_after = steps_after.is_surface.data() + second;
+  float* const to = derivatives->data();
+  const int size = static_cast<int>(derivatives->size());
+#pragma GCC ivdep
+  for (int u = 0; u < size; ++u) {
+    to[u] = (before[u] + after[u]) * (1.0f - 0.5f * has_before[u] * has_after[u]);
   }
 }
 
-// Turns steps between pixels into derivatives by the position.
-void CorrectSteps(const cv::Vec4f* derivative, int width, float* right, float* down) {
+// Turns derivatives by pixels into derivatives by positions.
+void CorrectDerivatives(const cv::Vec4f* matrix, int width, float* right, float* down) {
 #pragma GCC ivdep
   for (int u = 0; u < width; ++u) {
     const float x = right[u], y = down[u];
-    right[u] = derivative[u][0] * x + derivative[u][1] * y;
-    down[u] = derivative[u][2] * x + derivative[u][3] * y;
+    right[u] = matrix[u][0] * x + matrix[u][1] * y;
+    down[u] = matrix[u][2] * x + matrix[u][3] * y;
   }
 }
 
 }  // namespace
 
-// Values of the pixels of a row.
+// Values of the pixels of a row, whose first element belongs to pixel 0 unless it says otherwise.
 struct SurfaceMap::Row {
-  explicit Row(int width) : right(width), down(width), seen(width), cell(width) {}
+  explicit Row(int width)
+      : inverse_depth(width + 2, kNone),
+        next(width + 2, kNone),
+        sideways(width + 1),
+        above(width),
+        below(width),
+        right(width),
+        down(width),
+        seen(width),
+        cell(width) {}
 
-  std::vector<float> right, down;  // derivatives of the inverse depth
-  std::vector<float> seen;         // inverse depth, 0 if colour does not see the surface
-  std::vector<int> cell;
+  std::vector<float> inverse_depth, next;  // of the row and the one below, from pixel -1
+  Steps sideways;                          // to the pixel from the one on its left
+  Steps above, below;                      // from the row above, and to the one below
+  std::vector<float> right, down;          // derivatives of the inverse depth
+  std::vector<float> seen;                 // inverse depth; 0: colour does not see the surface
+  std::vector<int> cell;                   // of the grid
 };
 
-void SurfaceMap::AddRow(const RegistrationGeometry& geometry, int v, const float* above,
-                        const float* here, const float* below, Row* row) {
-  const int width = geometry.width;
-  ComputeSteps(above, here, below, width, row->right.data(), row->down.data());
-  if (geometry.HasDepthLens()) {
-    CorrectSteps(geometry.depth_derivative.ptr<cv::Vec4f>(v), width, row->right.data(),
-                 row->down.data());
-  }
+void SurfaceMap::AddRow(const RegistrationGeometry& geometry, int v, Row* row) {
   const float* const px = geometry.depth_x.Row(v);
   const float* const py = geometry.depth_y.Row(v);
-  const float offset_y = geometry.HasDepthLens() ? 0.0f : static_cast<float>(v) - geometry.center.y();
+  const float offset_y = geometry.DepthRowOffset(v);
+  const float ex = geometry.epipole.x(), ey = geometry.epipole.y(), ez = geometry.epipole.z();
+  const float* const here = row->inverse_depth.data() + 1;
   const float *right = row->right.data(), *down = row->down.data();
+  const size_t start = static_cast<size_t>(v + 1) * (geometry.width + 2) + 1;
+  float *to_x = plane_x.data() + start, *to_y = plane_y.data() + start;
+  float *to_1 = plane_1.data() + start, *seen = row->seen.data();
+  const int width = geometry.width;
+#pragma GCC ivdep
+  for (int u = 0; u < width; ++u) {
+    const float w = here[u], dx = right[u], dy = down[u];
+    const float w_center = w - dx * px[u] - dy * (py[u] + offset_y);
+    const float area = 1.0f + dx * ex + dy * ey + w_center * ez;
+    const float margin =
+        std::min(w, std::min(area - kMinArea, (1.0f - kMinRelativeDepth) + w * ez));
+    const float scale = margin > 0.0f ? 1.0f / area : 0.0f;
+    to_x[u] = dx * scale;
+    to_y[u] = dy * scale;
+    to_1[u] = w_center * scale;
+    seen[u] = margin > 0.0f ? w : 0.0f;
+  }
+}
+
+void SurfaceMap::AddToGrid(const RegistrationGeometry& geometry, int v, Row* row) {
+  const float* const px = geometry.depth_x.Row(v);
+  const float* const py = geometry.depth_y.Row(v);
+  const float offset_y = geometry.DepthRowOffset(v);
   const float ex = geometry.epipole.x(), ey = geometry.epipole.y(), ez = geometry.epipole.z();
   const RegistrationGeometry::Grid& grid = geometry.grid;
   const float scale = grid.cells_per_pixel;
@@ -94,31 +140,21 @@ void SurfaceMap::AddRow(const RegistrationGeometry& geometry, int v, const float
   const float last_x = from_x + static_cast<float>(grid.width - 1);
   const float last_y = from_y + static_cast<float>(grid.height - 1);
   const float stride = static_cast<float>(grid.width);
-  Plane* const to = planes.data() + static_cast<size_t>(v + 1) * (width + 2) + 1;
-  float* const seen = row->seen.data();
+  const float* const seen = row->seen.data();
   int* const cell = row->cell.data();
+  const int width = geometry.width;
 #pragma GCC ivdep
   for (int u = 0; u < width; ++u) {
-    const float w = here[u], at_y = py[u] + offset_y;
-    const float z = w - right[u] * px[u] - down[u] * at_y;
-    const float area = 1.0f + right[u] * ex + down[u] * ey + z * ez;
-    const float relative_depth = 1.0f + w * ez;
-    const float margin =
-        std::min(w, std::min(area - kMinArea, relative_depth - kMinRelativeDepth));
-    const float inverse_area = margin > 0.0f ? 1.0f / area : 0.0f;
-    to[u] = {right[u] * inverse_area, down[u] * inverse_area, z * inverse_area, 0.0f};
-    const float inverse_depth = scale / relative_depth;
-    const float x = (px[u] + w * ex) * inverse_depth, y = (at_y + w * ey) * inverse_depth;
-    const float column = std::min(last_x, std::max(from_x, x)) - from_x;
-    const float line = std::min(last_y, std::max(from_y, y)) - from_y;
-    cell[u] = static_cast<int>(static_cast<float>(static_cast<int>(line)) * stride +
-                               static_cast<float>(static_cast<int>(column)));
-    seen[u] = margin > 0.0f ? w : 0.0f;
+    const float w = seen[u];
+    const float inverse_depth = scale / (1.0f + w * ez);
+    const float x = (px[u] + w * ex) * inverse_depth;
+    const float y = (py[u] + offset_y + w * ey) * inverse_depth;
+    const int column = static_cast<int>(std::min(last_x, std::max(from_x, x)) - from_x);
+    const int line = static_cast<int>(std::min(last_y, std::max(from_y, y)) - from_y);
+    cell[u] = static_cast<int>(static_cast<float>(line) * stride + static_cast<float>(column));
   }
-  for (int u = 0; u < width; ++u) {
-    float& near = nearest[cell[u]];
-    near = std::max(near, seen[u]);
-  }
+  float* const to = nearest.data();
+  for (int u = 0; u < width; ++u) to[cell[u]] = std::max(to[cell[u]], seen[u]);
 }
 
 void SurfaceMap::SpreadNearest(const RegistrationGeometry::Grid& grid) {
@@ -140,31 +176,44 @@ void SurfaceMap::SpreadNearest(const RegistrationGeometry::Grid& grid) {
   }
 }
 
-void SurfaceMap::Compute(const RegistrationGeometry& geometry, const cv::Mat& depth) {
-  const int width = geometry.width, height = geometry.height;
-  planes.resize(static_cast<size_t>(width + 2) * (height + 2));
-  std::fill(planes.begin(), planes.begin() + width + 2, Plane{});
-  std::fill(planes.end() - width - 2, planes.end(), Plane{});
-  for (int v = 1; v <= height; ++v) {
-    Plane* const row = planes.data() + static_cast<size_t>(v) * (width + 2);
-    row[0] = row[width + 1] = Plane{};
+void SurfaceMap::Reset(const RegistrationGeometry& geometry) {
+  const int stride = geometry.width + 2;
+  const size_t size = static_cast<size_t>(stride) * (geometry.height + 2);
+  for (std::vector<float>* const plane : {&plane_x, &plane_y, &plane_1}) {
+    plane->resize(size);
+    std::fill(plane->begin(), plane->begin() + stride, 0.0f);
+    std::fill(plane->end() - stride, plane->end(), 0.0f);
+    for (size_t row = stride; row < size; row += stride) {
+      (*plane)[row] = (*plane)[row + stride - 1] = 0.0f;
+    }
   }
   nearest.assign(static_cast<size_t>(geometry.grid.width) * geometry.grid.height, 0.0f);
-  Row row(width);
-  // Inverse depths of rows v - 1, v and v + 1 are elements v, v + 1 and v + 2, modulo 3.
-  std::vector<float> rows[3];
-  for (std::vector<float>& values : rows) values.assign(width + 2, kNone);
+}
+
+void SurfaceMap::Compute(const RegistrationGeometry& geometry, const cv::Mat& depth) {
+  Reset(geometry);
+  const int width = geometry.width, height = geometry.height;
   const float offset = geometry.inverse_depth_offset;
-  InvertRow(depth.ptr<float>(0), width, offset, rows[1].data() + 1);
+  Row row(width);
+  InvertRow(depth.ptr<float>(0), width, offset, row.next.data() + 1);
   for (int v = 0; v < height; ++v) {
-    std::vector<float>& below = rows[(v + 2) % 3];
+    std::swap(row.inverse_depth, row.next);
+    std::swap(row.above, row.below);
     if (v + 1 < height) {
-      InvertRow(depth.ptr<float>(v + 1), width, offset, below.data() + 1);
+      InvertRow(depth.ptr<float>(v + 1), width, offset, row.next.data() + 1);
     } else {
-      std::fill(below.begin(), below.end(), kNone);
+      std::fill(row.next.begin(), row.next.end(), kNone);
     }
-    AddRow(geometry, v, rows[v % 3].data() + 1, rows[(v + 1) % 3].data() + 1, below.data() + 1,
-           &row);
+    row.sideways.Compute(row.inverse_depth.data(), row.inverse_depth.data() + 1);
+    row.below.Compute(row.inverse_depth.data() + 1, row.next.data() + 1);
+    Differentiate(row.sideways, 0, row.sideways, 1, &row.right);
+    Differentiate(row.above, 0, row.below, 0, &row.down);
+    if (geometry.HasDepthLens()) {
+      CorrectDerivatives(geometry.depth_derivative.ptr<cv::Vec4f>(v), width, row.right.data(),
+                         row.down.data());
+    }
+    AddRow(geometry, v, &row);
+    AddToGrid(geometry, v, &row);
   }
   SpreadNearest(geometry.grid);
 }

@@ -12,21 +12,21 @@
 namespace msc_vo {
 
 /// The surfaces of a depth image as the colour camera sees them: the plane of every depth pixel,
-/// and the nearest surfaces at every place of the depth image at infinity. The buffers keep their
+/// and the nearest surface at every place of the depth image at infinity. The buffers keep their
 /// memory from image to image.
 struct SurfaceMap {
-  /// Inverse depth in the colour camera, divided by (A p)_z, of the viewing ray of colour pixel p:
-  /// x q_inf,x + y q_inf,y + z, see RegistrationGeometry. All 0: no depth. Four values, so that one
-  /// cache line has all.
-  struct Plane {
-    float x, y, z, unused;
-  };
-
   /// Computes the map of a depth image (CV_32FC1, metres; 0, NaN: no measurement).
   void Compute(const RegistrationGeometry& geometry, const cv::Mat& depth);
 
-  /// Of pixel (u, v) is element (v + 1) * (width + 2) + u + 1; the border has no depth.
-  std::vector<Plane> planes;
+  /// Inverse depth of a viewing ray in the colour camera, divided by (A p)_z, see
+  /// RegistrationGeometry; 0: no depth.
+  float InverseDepth(int pixel, float x_inf, float y_inf) const {
+    return plane_x[pixel] * x_inf + plane_y[pixel] * y_inf + plane_1[pixel];
+  }
+
+  /// Coefficients of InverseDepth(). Of pixel (u, v) is element (v + 1) * (width + 2) + u + 1; the
+  /// border has no depth.
+  std::vector<float> plane_x, plane_y, plane_1;
   /// Largest inverse depth (of the depth camera, 1/metres; 0: none) of the cell of the grid, its
   /// right neighbour, and those below both.
   std::vector<float> nearest;
@@ -34,8 +34,9 @@ struct SurfaceMap {
  private:
   struct Row;
 
-  void AddRow(const RegistrationGeometry& geometry, int v, const float* above, const float* here,
-              const float* below, Row* row);
+  void Reset(const RegistrationGeometry& geometry);
+  void AddRow(const RegistrationGeometry& geometry, int v, Row* row);
+  void AddToGrid(const RegistrationGeometry& geometry, int v, Row* row);
   void SpreadNearest(const RegistrationGeometry::Grid& grid);
 };
 
