@@ -133,30 +133,29 @@ void DepthRegistration::MeetPlanes(const SurfaceMap& surfaces, const Strip& stri
 float DepthRegistration::Intersect(const SurfaceMap& surfaces, const Eigen::Vector2f& infinity,
                                    float near) const {
   const Eigen::Vector3f& e = geometry_.epipole;
-  const Eigen::Vector2f last(static_cast<float>(geometry_.width + 1),
-                             static_cast<float>(geometry_.height + 1));
+  const int stride = geometry_.width + 2;
+  const Eigen::Array2f last(static_cast<float>(geometry_.width + 1),
+                            static_cast<float>(geometry_.height + 1));
   Eigen::Vector2f at = infinity + near * (infinity * e.z() - e.head<2>());
   Eigen::Vector2f to_plane = geometry_.center + Eigen::Vector2f::Constant(1.0f);
   if (geometry_.HasDepthLens()) to_plane += geometry_.DepthLensOffset(at.x(), at.y());
-  // The pixel at the expected position, then the one where its plane is met.
+  // The pixels whose squares contain the expected position, then those around the point where the
+  // last plane is met.
   for (int k = 0; k < 2; ++k) {
-    Eigen::Vector2f met = at;
-    // The pixel itself, and those whose squares overlap its square there.
-    for (const float shift_y : {1.0f - kHalfSide, kHalfSide}) {
-      for (const float shift_x : {1.0f - kHalfSide, kHalfSide}) {
-        const Eigen::Vector2f position =
-            (at + to_plane + Eigen::Vector2f(shift_x, shift_y)).cwiseMax(kFirst).cwiseMin(last);
-        const int u = static_cast<int>(position.x()), v = static_cast<int>(position.y());
-        const float w =
-            surfaces.InverseDepth(v * (geometry_.width + 2) + u, infinity.x(), infinity.y());
+    const Eigen::Array2f position = (at + to_plane).array();
+    const Eigen::Array2i first =
+        (position + (1.0f - kHalfSide)).max(kFirst).min(last).cast<int>();
+    const Eigen::Array2i end = (position + kHalfSide).max(kFirst).min(last).cast<int>();
+    for (int v = first.y(); v <= end.y(); ++v) {
+      for (int u = first.x(); u <= end.x(); ++u) {
+        const float w = surfaces.InverseDepth(v * stride + u, infinity.x(), infinity.y());
         if (!(w > 0.0f)) continue;
-        met = (infinity - w * e.head<2>()) / (1.0f - w * e.z());
+        at = (infinity - w * e.head<2>()) / (1.0f - w * e.z());
         const Eigen::Vector2f offset =
-            met + to_plane - Eigen::Vector2f(static_cast<float>(u), static_cast<float>(v));
+            at + to_plane - Eigen::Vector2f(static_cast<float>(u), static_cast<float>(v));
         if (offset.lpNorm<Eigen::Infinity>() <= kHalfSide) return w;
       }
     }
-    at = met;
   }
   return 0.0f;
 }
