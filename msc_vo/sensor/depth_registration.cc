@@ -22,8 +22,6 @@ namespace {
 constexpr float kHalfSide = 0.6f;
 // Largest distance of a surface from where it was expected, depth pixels.
 constexpr float kMaxDisplacement = 0.25f;
-// Largest change of its inverse depth against what was expected, as a ratio.
-constexpr float kMaxChange = 0.04f;
 // Half the width of the holes through which the background is removed, depth pixels.
 constexpr double kHoleRadius = 2.0;
 // Smallest z of a viewing ray of the colour camera in the depth camera frame.
@@ -125,7 +123,7 @@ void DepthRegistration::MeetPlanes(const SurfaceMap& surfaces, const Strip& stri
     // Difference to the inverse depth with which the plane was found.
     const float difference = std::abs(w * (1.0f + near * ez) - near);
     const float inverse_depth = w * strip.z[i];
-    const float found = difference <= std::min(tolerance, kMaxChange * near) ? inverse_depth : -1.0f;
+    const float found = difference <= std::min(tolerance, kMaxSurfaceRatio * near) ? inverse_depth : -1.0f;
     row[strip.first + i] = near > 0.0f ? found : 0.0f;
   }
 }
@@ -166,14 +164,18 @@ float DepthRegistration::Search(const SurfaceMap& surfaces, int x, int y) const 
   const Eigen::Vector2f infinity = ray.head<2>() / ray.z();
   const int stride = geometry_.grid.width;
   const float* const cell = surfaces.nearest.data() + geometry_.grid.IndexAround(infinity);
-  // Around the nearest surface of the cell, then around those of its neighbours.
-  float best = Intersect(surfaces, infinity, *cell);
+  // The nearest surface of the cell, then those of its neighbours.
+  const float expected = *cell;
+  float best = Intersect(surfaces, infinity, expected);
   if (best > 0.0f) return best * ray.z();
   const float tolerance = kMaxDisplacement * geometry_.inverse_depth_per_pixel;
-  float previous = *cell;
-  for (const int offset : {-1, 1, -stride, stride, -stride - 1, -stride + 1, stride - 1, stride + 1}) {
+  float previous = expected;
+  for (const int offset : {-1, 1, -stride, stride}) {
     const float near = cell[offset];
-    if (near == 0.0f || std::abs(near - previous) <= tolerance) continue;
+    if (near == 0.0f || std::abs(near - expected) <= tolerance ||
+        std::abs(near - previous) <= tolerance) {
+      continue;
+    }
     previous = near;
     best = std::max(best, Intersect(surfaces, infinity, near));
   }

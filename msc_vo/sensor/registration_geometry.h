@@ -13,13 +13,15 @@
 
 namespace msc_vo {
 
-/// Largest difference of inverse depths on one surface, 1/metres. Two pixels lie on one surface if
-/// their inverse depths differ by less than a ratio of their value (a plane seen at 87 degrees
-/// changes by as much from pixel to pixel), or by less than the noise of a sensor.
+/// Largest difference of inverse depths on one surface, as a ratio: a plane seen at 87 degrees
+/// changes by as much from pixel to pixel.
+inline constexpr float kMaxSurfaceRatio = 0.04f;
+/// Differences of inverse depths that the noise of a sensor explains, 1/metres.
+inline constexpr float kMaxSurfaceNoise = 0.006f;
+
+/// Largest difference of inverse depths on one surface, 1/metres.
 inline float EdgeThreshold(float inverse_depth) {
-  constexpr float kMaxRatio = 0.04f;
-  constexpr float kMaxNoise = 0.006f;  // 1/metres
-  return std::max(kMaxNoise, kMaxRatio * inverse_depth);
+  return std::max(kMaxSurfaceNoise, kMaxSurfaceRatio * inverse_depth);
 }
 
 /// The two cameras of a DepthRegistration.
