@@ -35,6 +35,16 @@ inline int Index(float x, float y, float stride) {
                           static_cast<float>(static_cast<int>(x)));
 }
 
+// Inverse depth between those of two pixels: their mean on one surface; 0: both have none; -1:
+// needs a search.
+inline float Middle(float first, float second) {
+  const float gap = std::abs(first - second);
+  const bool is_surface =
+      (gap <= kMaxSurfaceNoise) | (gap <= kMaxSurfaceRatio * std::min(first, second));
+  const float mean = is_surface ? 0.5f * (first + second) : -1.0f;
+  return std::max(first, second) == 0.0f ? 0.0f : mean;
+}
+
 }  // namespace
 
 // Viewing rays of some colour pixels of a row, and the surfaces that they may meet. Steps that
@@ -49,10 +59,11 @@ struct DepthRegistration::Strip {
   int index[kSize];          // of the cell of the grid, then of the plane
 };
 
+template <bool kColorLens>
 void DepthRegistration::ComputeRays(int y, Strip* strip) const {
   const float* const px = geometry_.color_x.Row(y) + strip->first;
   const float* const py = geometry_.color_y.Row(y) + strip->first;
-  const float constant_y = geometry_.HasColorLens() ? 0.0f : static_cast<float>(y);
+  const float constant_y = kColorLens ? 0.0f : static_cast<float>(y);
   const Eigen::Matrix3f& m = geometry_.matrix;
   const float xx = m(0, 0), xy = m(0, 1), x1 = m(0, 2) + m(0, 1) * constant_y;
   const float yx = m(1, 0), yy = m(1, 1), y1 = m(1, 2) + m(1, 1) * constant_y;
@@ -68,10 +79,11 @@ void DepthRegistration::ComputeRays(int y, Strip* strip) const {
   const int size = strip->size;
 #pragma GCC ivdep
   for (int i = 0; i < size; ++i) {
-    const float z = zx * px[i] + zy * py[i] + z1;
+    // Without a lens, the row is part of the last coefficients.
+    const float z = zx * px[i] + (kColorLens ? zy * py[i] + z1 : z1);
     const float inverse_z = 1.0f / z;
-    const float x_inf = (xx * px[i] + xy * py[i] + x1) * inverse_z;
-    const float y_inf = (yx * px[i] + yy * py[i] + y1) * inverse_z;
+    const float x_inf = (xx * px[i] + (kColorLens ? xy * py[i] + x1 : x1)) * inverse_z;
+    const float y_inf = (yx * px[i] + (kColorLens ? yy * py[i] + y1 : y1)) * inverse_z;
     const float column = std::min(last_column, std::max(first_column, x_inf * scale)) - from_x;
     const float row = std::min(last_row, std::max(first_row, y_inf * scale)) - from_y;
     strip->x[i] = x_inf;
@@ -182,19 +194,22 @@ float DepthRegistration::Search(const SurfaceMap& surfaces, int x, int y) const 
   return best * ray.z();
 }
 
-void DepthRegistration::InterpolateRow(const float* sparse, float* row) const {
+void DepthRegistration::InterpolateColumns(const float* sparse, float* row) const {
   const int size = geometry_.color_width / 2;
-  // The element after the last one makes no difference if it has no depth.
 #pragma GCC ivdep
   for (int i = 0; i < size; ++i) {
-    const float left = sparse[i], right = sparse[i + 1];
-    const float gap = std::abs(left - right);
-    // The smaller one is negative or 0 if one has no depth or needs a search.
-    const float middle = gap <= EdgeThreshold(std::min(left, right)) ? 0.5f * (left + right) : -1.0f;
-    row[2 * i] = left;
-    row[2 * i + 1] = std::max(left, right) == 0.0f ? 0.0f : middle;
+    row[2 * i] = sparse[i];
+    row[2 * i + 1] = Middle(sparse[i], sparse[i + 1]);
   }
   if (geometry_.color_width % 2 == 1) row[geometry_.color_width - 1] = sparse[size];
+}
+
+void DepthRegistration::InterpolateRows(const std::vector<float>& above,
+                                        const std::vector<float>& below, float* row) const {
+  const float *first = above.data(), *second = below.data();
+  const int size = geometry_.color_width;
+#pragma GCC ivdep
+  for (int x = 0; x < size; ++x) row[x] = Middle(first[x], second[x]);
 }
 
 void DepthRegistration::SearchRow(const SurfaceMap& surfaces, int y, float* row) const {
@@ -202,13 +217,31 @@ void DepthRegistration::SearchRow(const SurfaceMap& surfaces, int y, float* row)
   const int size = geometry_.color_width;
   for (int first = 0; first < size; first += kGroup) {
     // The signs of all; the row has more elements than pixels.
-    uint64_t bits[2];
+    uint64_t bits[kGroup / 2];
     std::memcpy(bits, row + first, sizeof(bits));
     if (((bits[0] | bits[1]) & 0x8000000080000000u) == 0) continue;
     for (int x = first; x < std::min(first + kGroup, size); ++x) {
       if (row[x] < 0.0f) row[x] = Search(surfaces, x, y);
     }
   }
+}
+
+void DepthRegistration::ComputeRow(const SurfaceMap& surfaces, int y, float* sparse,
+                                   float* row) const {
+  const auto compute_rays = geometry_.HasColorLens() ? &DepthRegistration::ComputeRays<true>
+                                                     : &DepthRegistration::ComputeRays<false>;
+  const auto find_planes = geometry_.HasDepthLens() ? &DepthRegistration::FindPlanes<true>
+                                                    : &DepthRegistration::FindPlanes<false>;
+  const int size = geometry_.color_x.values.cols;
+  float* const to = geometry_.color_step == 1 ? row : sparse;
+  Strip strip;
+  for (strip.first = 0; strip.first < size; strip.first += Strip::kSize) {
+    strip.size = std::min(Strip::kSize, size - strip.first);
+    (this->*compute_rays)(y, &strip);
+    (this->*find_planes)(surfaces, &strip);
+    MeetPlanes(surfaces, strip, to);
+  }
+  if (geometry_.color_step == 2) InterpolateColumns(sparse, row);
 }
 
 cv::Mat DepthRegistration::Register(const cv::Mat& depth) const {
@@ -221,24 +254,22 @@ cv::Mat DepthRegistration::Register(const cv::Mat& depth) const {
   surfaces.Compute(geometry_, depth);
   const cv::Size size(geometry_.color_width, geometry_.color_height);
   HoleRemoval target(size, std::max(1, cvRound(kHoleRadius * geometry_.magnification)));
-  const int step = geometry_.color_step;
-  const int size_x = geometry_.color_x.values.cols;
-  std::vector<float> sparse(size_x + 1, 0.0f);
-  Strip strip;
+  // The last element, behind the last pixel, has no depth.
+  std::vector<float> sparse(geometry_.color_x.values.cols + 1, 0.0f);
+  std::vector<float> above(size.width), next(size.width);
   for (int y = 0; y < size.height; ++y) {
     float* const row = target.NextRow();
-    float* const to = step == 1 ? row : sparse.data();
-    for (strip.first = 0; strip.first < size_x; strip.first += Strip::kSize) {
-      strip.size = std::min(Strip::kSize, size_x - strip.first);
-      ComputeRays(y, &strip);
-      if (geometry_.HasDepthLens()) {
-        FindPlanes<true>(surfaces, &strip);
-      } else {
-        FindPlanes<false>(surfaces, &strip);
-      }
-      MeetPlanes(surfaces, strip, to);
+    const bool is_between = y % geometry_.color_step == 1 && y + 1 < size.height;
+    if (is_between) {
+      ComputeRow(surfaces, y + 1, sparse.data(), next.data());
+      InterpolateRows(above, next, row);
+      above.swap(next);
+    } else if (y > 0 && y % geometry_.color_step == 0 && geometry_.color_step == 2) {
+      std::copy(above.begin(), above.end(), row);
+    } else {
+      ComputeRow(surfaces, y, sparse.data(), row);
+      if (y == 0) std::copy(row, row + size.width, above.begin());
     }
-    if (step == 2) InterpolateRow(sparse.data(), row);
     SearchRow(surfaces, y, row);
     target.AddRow();
   }

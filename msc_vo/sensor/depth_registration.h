@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <vector>
+
 #include <opencv2/core.hpp>
 
 #include "msc_vo/sensor/registration_geometry.h"
@@ -35,13 +37,17 @@ class DepthRegistration {
  private:
   struct Strip;
 
+  template <bool kColorLens>
   void ComputeRays(int y, Strip* strip) const;
   template <bool kDepthLens>
   void FindPlanes(const SurfaceMap& surfaces, Strip* strip) const;
   // Writes inverse depths in the colour camera to a row; 0: none; -1: needs a search.
   void MeetPlanes(const SurfaceMap& surfaces, const Strip& strip, float* row) const;
-  // Interpolates between every other pixel.
-  void InterpolateRow(const float* sparse, float* row) const;
+  void InterpolateColumns(const float* sparse, float* row) const;
+  void InterpolateRows(const std::vector<float>& above, const std::vector<float>& below,
+                       float* row) const;
+  // Computes row y before the search; `sparse`: a buffer for every color_step-th pixel.
+  void ComputeRow(const SurfaceMap& surfaces, int y, float* sparse, float* row) const;
   // Inverse depth of a ray, divided by (A p)_z, on the surface around its position for the inverse
   // depth `near` of the depth camera; 0: none.
   float Intersect(const SurfaceMap& surfaces, const Eigen::Vector2f& infinity, float near) const;

@@ -18,7 +18,7 @@ class HoleRemoval {
   HoleRemoval(cv::Size size, int radius);
 
   /// Returns the row that is next, to be filled with inverse depths (1/metres; 0: none). It has
-  /// room for kTile - 1 elements more.
+  /// room for seven elements more.
   float* NextRow() { return Row(next_); }
   /// Takes the row that NextRow() returned.
   void AddRow();
