@@ -17,9 +17,6 @@ namespace msc_vo {
 
 namespace {
 
-// Half the side of the square that a depth pixel covers, pixels. The part above 0.5 closes the gaps
-// that noise opens between neighbours on a surface.
-constexpr float kHalfSide = 0.6f;
 // Largest distance of a surface from where it was expected, depth pixels.
 constexpr float kMaxDisplacement = 0.25f;
 // Half the width of the holes through which the background is removed, depth pixels.
@@ -135,7 +132,8 @@ void DepthRegistration::MeetPlanes(const SurfaceMap& surfaces, const Strip& stri
     // Difference to the inverse depth with which the plane was found.
     const float difference = std::abs(w * (1.0f + near * ez) - near);
     const float inverse_depth = w * strip.z[i];
-    const float found = difference <= std::min(tolerance, kMaxSurfaceRatio * near) ? inverse_depth : -1.0f;
+    const float found =
+        difference <= std::min(tolerance, kMaxSurfaceRatio * near) ? inverse_depth : -1.0f;
     row[strip.first + i] = near > 0.0f ? found : 0.0f;
   }
 }
@@ -151,10 +149,10 @@ float DepthRegistration::Intersect(const SurfaceMap& surfaces, const Eigen::Vect
   if (geometry_.HasDepthLens()) to_plane += geometry_.DepthLensOffset(at.x(), at.y());
   // The pixels whose squares contain the expected position, then those around the point where the
   // last plane is met.
+  float nearest = 0.0f;
   for (int k = 0; k < 2; ++k) {
     const Eigen::Array2f position = (at + to_plane).array();
-    const Eigen::Array2i first =
-        (position + (1.0f - kHalfSide)).max(kFirst).min(last).cast<int>();
+    const Eigen::Array2i first = (position + (1.0f - kHalfSide)).max(kFirst).min(last).cast<int>();
     const Eigen::Array2i end = (position + kHalfSide).max(kFirst).min(last).cast<int>();
     for (int v = first.y(); v <= end.y(); ++v) {
       for (int u = first.x(); u <= end.x(); ++u) {
@@ -163,11 +161,12 @@ float DepthRegistration::Intersect(const SurfaceMap& surfaces, const Eigen::Vect
         at = (infinity - w * e.head<2>()) / (1.0f - w * e.z());
         const Eigen::Vector2f offset =
             at + to_plane - Eigen::Vector2f(static_cast<float>(u), static_cast<float>(v));
-        if (offset.lpNorm<Eigen::Infinity>() <= kHalfSide) return w;
+        if (offset.lpNorm<Eigen::Infinity>() <= kHalfSide) nearest = std::max(nearest, w);
       }
     }
+    if (nearest > 0.0f) break;
   }
-  return 0.0f;
+  return nearest;
 }
 
 float DepthRegistration::Search(const SurfaceMap& surfaces, int x, int y) const {

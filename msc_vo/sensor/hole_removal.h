@@ -18,7 +18,7 @@ class HoleRemoval {
   HoleRemoval(cv::Size size, int radius);
 
   /// Returns the row that is next, to be filled with inverse depths (1/metres; 0: none). It has
-  /// room for seven elements more.
+  /// room for kTile - 1 elements more.
   float* NextRow() { return Row(next_); }
   /// Takes the row that NextRow() returned.
   void AddRow();
@@ -45,11 +45,11 @@ class HoleRemoval {
   int border_;  // columns without depth on both sides of a row
   int next_ = 0;
   cv::Mat depth_;
-  cv::Mat rows_;                             // inverse depths of the last rows
+  cv::Mat rows_;                              // inverse depths of the last rows
   std::vector<float> nearest_row_, far_row_;  // largest inverse depth and depth in the last rows
-  cv::Mat nearest_;                          // largest inverse depth of the last tiles
-  cv::Mat farthest_;                         // largest depth of the last tiles
-  std::vector<float> around_;                // largest inverse depth around every tile of a row
+  cv::Mat nearest_;                           // largest inverse depth of the last tiles
+  cv::Mat farthest_;                          // largest depth of the last tiles
+  std::vector<float> around_;                 // largest inverse depth around every tile of a row
 };
 
 }  // namespace msc_vo

@@ -55,6 +55,7 @@ RegistrationGeometry::RegistrationGeometry(const DepthCamera& depth_camera,
   const double z = color_from_infinity(2, 2);
   magnification =
       static_cast<float>(std::sqrt(std::abs(color_from_infinity.determinant() / (z * z * z))));
+  grid.cells_per_pixel = 0.5f / kHalfSide;
   color_step = magnification >= kMinInterpolated ? 2 : 1;
   SetColorPixels(color, color_distortion);
   SetDepthPixels(depth_camera);
@@ -106,7 +107,8 @@ int RegistrationGeometry::Grid::IndexAround(const Eigen::Vector2f& position) con
   const Eigen::Vector2f cell =
       (position - origin) * cells_per_pixel - Eigen::Vector2f::Constant(0.5f);
   const int x = static_cast<int>(std::min(std::max(cell.x(), 0.5f), static_cast<float>(width - 2)));
-  const int y = static_cast<int>(std::min(std::max(cell.y(), 0.5f), static_cast<float>(height - 2)));
+  const int y =
+      static_cast<int>(std::min(std::max(cell.y(), 0.5f), static_cast<float>(height - 2)));
   return y * width + x;
 }
 
@@ -123,15 +125,15 @@ void RegistrationGeometry::SetDepthLens(const DepthCamera& depth_camera) {
       Eigen::Matrix2f derivative;
       derivative.col(0) =
           (position(right, v) - position(left, v)) / static_cast<float>(std::max(1, right - left));
-      derivative.col(1) =
-          (position(u, below) - position(u, above)) / static_cast<float>(std::max(1, below - above));
+      derivative.col(1) = (position(u, below) - position(u, above)) /
+                          static_cast<float>(std::max(1, below - above));
       largest = std::max(largest, derivative.cwiseAbs().rowwise().sum().maxCoeff());
       const Eigen::Matrix2f inverse = derivative.inverse();
       depth_derivative.at<cv::Vec4f>(v, u) = {inverse(0, 0), inverse(1, 0), inverse(0, 1),
                                               inverse(1, 1)};
     }
   }
-  grid.cells_per_pixel = 1.0f / largest;
+  grid.cells_per_pixel /= largest;
   double min_x = 0.0, max_x = 0.0, min_y = 0.0, max_y = 0.0;
   cv::minMaxLoc(depth_x.values, &min_x, &max_x);
   cv::minMaxLoc(depth_y.values, &min_y, &max_y);
@@ -159,8 +161,8 @@ Eigen::Vector2f RegistrationGeometry::DepthLensOffset(float x, float y) const {
   const float a = column - static_cast<float>(u), b = row - static_cast<float>(v);
   const cv::Vec2f* const above = lens_offset_.ptr<cv::Vec2f>(v) + u;
   const cv::Vec2f* const below = lens_offset_.ptr<cv::Vec2f>(v + 1) + u;
-  const cv::Vec2f offset =
-      (1.0f - b) * ((1.0f - a) * above[0] + a * above[1]) + b * ((1.0f - a) * below[0] + a * below[1]);
+  const cv::Vec2f offset = (1.0f - b) * ((1.0f - a) * above[0] + a * above[1]) +
+                           b * ((1.0f - a) * below[0] + a * below[1]);
   return {offset[0], offset[1]};
 }
 

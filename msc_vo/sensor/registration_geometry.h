@@ -24,6 +24,10 @@ inline float EdgeThreshold(float inverse_depth) {
   return std::max(kMaxSurfaceNoise, kMaxSurfaceRatio * inverse_depth);
 }
 
+/// Half the side of the square that a depth pixel covers, pixels. The part above 0.5 closes the
+/// gaps that noise opens between neighbours on a surface.
+inline constexpr float kHalfSide = 0.6f;
+
 /// The two cameras of a DepthRegistration.
 ///
 /// Positions q in the undistorted depth image are relative to the centre of the depth image. The
@@ -41,11 +45,13 @@ struct RegistrationGeometry {
     cv::Mat values;  ///< CV_32FC1
     const float* Row(int v) const { return values.ptr<float>(values.rows > 1 ? v : 0); }
   };
-  /// Regular cells in the depth image at infinity, around all that the colour camera sees. Two
-  /// rows and columns at every border see nothing.
+  /// Regular cells in the depth image at infinity, around all that the colour camera sees. They
+  /// have the size of the square that a depth pixel covers, so that the four cells around a
+  /// position have all depth pixels that may cover it. Two rows and columns at every border see
+  /// nothing.
   struct Grid {
     Eigen::Vector2f origin = Eigen::Vector2f::Zero();  ///< of the first cell
-    float cells_per_pixel = 1.0f;
+    float cells_per_pixel = 0.0f;
     int width = 0, height = 0;
 
     /// Index of the first of the four cells around a position, not at the border.
@@ -91,7 +97,7 @@ struct RegistrationGeometry {
   void SetGrid();
 
   cv::Mat color_pixels_;  // CV_32FC2, undistorted; empty without a lens
-  cv::Mat lens_offset_;  // CV_32FC2, at every kLensStep-th position of the depth image
+  cv::Mat lens_offset_;   // CV_32FC2, at every kLensStep-th position of the depth image
   Eigen::Vector2f lens_origin_;
 };
 

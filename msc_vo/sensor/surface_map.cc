@@ -45,8 +45,8 @@ struct Steps {
       const float step = after[i] - before[i];
       const float gap = std::abs(step);
       // As EdgeThreshold() of the nearer one says.
-      const bool is_same = (gap <= kMaxSurfaceNoise) |
-                           (gap <= kMaxSurfaceRatio * std::max(before[i], after[i]));
+      const bool is_same =
+          (gap <= kMaxSurfaceNoise) | (gap <= kMaxSurfaceRatio * std::max(before[i], after[i]));
       to_change[i] = is_same ? step : 0.0f;
       to_surface[i] = is_same ? 1.0f : 0.0f;
     }
