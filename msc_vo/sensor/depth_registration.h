@@ -20,7 +20,8 @@ struct SurfaceMap;
 /// point on the viewing ray lies in the square: inverse depth is affine on every plane, so a plane
 /// is registered exactly. Where several surfaces cover a colour pixel, the nearest wins. Colour
 /// pixels that none covers have no depth, as have those that lie behind a surface on both sides of
-/// them, which see the background through a hole of the measurement.
+/// them, which see the background through a hole of the measurement. If depth pixels are larger
+/// than colour pixels, inverse depth is interpolated between colour pixels on one surface.
 class DepthRegistration {
  public:
   /// All arguments must be valid.
@@ -30,7 +31,7 @@ class DepthRegistration {
 
   /// Returns the depth (CV_32FC1, metres along the optical axis of the colour camera, 0: none) of
   /// the pixels of the colour image. `depth`: CV_32FC1, metres; 0, NaN: no measurement.
-  /// Thread-safe; every thread that calls it keeps 20 bytes per depth pixel as buffers.
+  /// Thread-safe; every thread that calls it keeps about 16 bytes per depth pixel as buffers.
   /// Throws std::invalid_argument if the size or the type of `depth` is wrong.
   cv::Mat Register(const cv::Mat& depth) const;
 

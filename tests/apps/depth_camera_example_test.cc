@@ -71,21 +71,20 @@ class DepthCameraExample : public TemporaryFolder {
  private:
   void WriteCameras(bool rotation) const {
     const auto matrix = [](const PinholeCamera& camera) {
-      return cv::Mat(cv::Mat_<double>(3, 3) << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy,
-                     0.0, 0.0, 1.0);
+      return cv::Matx33d(camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0);
     };
     const Eigen::Matrix3d r = depth_camera_.depth_from_color.rotation().toRotationMatrix();
     const Eigen::Vector3d& t = depth_camera_.depth_from_color.translation();
+    const cv::Mat no_lens = cv::Mat::zeros(1, 5, CV_64FC1);
     cv::FileStorage file(Path("cameras.yml"), cv::FileStorage::WRITE);
-    file << "M1" << matrix(color_) << "D1" << cv::Mat(cv::Mat::zeros(1, 5, CV_64F));
-    file << "M2" << matrix(depth_camera_.camera);
-    file << "D2" << cv::Mat(cv::Mat::zeros(1, 5, CV_64F));
+    file << "M1" << cv::Mat(matrix(color_)) << "D1" << no_lens;
+    file << "M2" << cv::Mat(matrix(depth_camera_.camera)) << "D2" << no_lens;
     if (rotation) {
-      file << "R"
-           << cv::Mat(cv::Mat_<double>(3, 3) << r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1),
-                      r(1, 2), r(2, 0), r(2, 1), r(2, 2));
+      const cv::Matx33d rows(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1),
+                             r(2, 2));
+      file << "R" << cv::Mat(rows);
     }
-    file << "T" << cv::Mat(cv::Mat_<double>(3, 1) << t.x(), t.y(), t.z());
+    file << "T" << cv::Mat(cv::Vec3d(t.x(), t.y(), t.z()));
   }
 
   PinholeCamera color_{910.0, 910.0, 639.5, 359.5, 1280, 720};
