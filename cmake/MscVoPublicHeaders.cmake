@@ -24,6 +24,7 @@ set(MSC_VO_PUBLIC_HEADERS
   # Other sensors
   msc_vo/inertial/gravity_factors.h
   msc_vo/inertial/vertical_measurement.h
+  msc_vo/sensor/depth_registration.h
   # Structure of the scene
   msc_vo/structure/axes_refinement.h
   msc_vo/structure/axis_association.h

@@ -4,324 +4,275 @@
 #include "msc_vo/sensor/depth_registration.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
+#include <cstdint>
+#include <cstring>
 #include <stdexcept>
 #include <vector>
 
-#include <Eigen/LU>
-
-#include "msc_vo/sensor/lens_remap.h"
-#include "msc_vo/sensor/registration_target.h"
+#include "msc_vo/sensor/hole_removal.h"
+#include "msc_vo/sensor/surface_map.h"
 
 namespace msc_vo {
 
 namespace {
 
-// Half the side of the square that a depth pixel covers, pixels. The part above 0.5 closes the gaps
-// that noise opens between neighbours on a surface.
-constexpr float kHalfSide = 0.6f;
-// Smallest area of a depth pixel in the colour image, square pixels.
-constexpr float kMinDeterminant = 1e-6f;
-// Smaller depths are no measurement, metres.
-constexpr float kMinDepth = 1e-3f;
-// Smallest z of a viewing ray of the depth camera in the colour camera frame.
-constexpr float kMinRayZ = 0.01f;
+// Largest distance of a surface from where it was expected, depth pixels.
+constexpr float kMaxDisplacement = 0.25f;
 // Half the width of the holes through which the background is removed, depth pixels.
 constexpr double kHoleRadius = 2.0;
+// Smallest z of a viewing ray of the colour camera in the depth camera frame.
+constexpr float kMinRayZ = 0.01f;
+// A position in the first row and column of the grid or of the planes, which have no depth.
+constexpr float kFirst = 0.5f;
 
-Eigen::Matrix3d Intrinsics(const PinholeCamera& camera) {
-  Eigen::Matrix3d k;
-  k << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0;
-  return k;
+// Index of a position in rows of `stride` elements; all not negative.
+inline int Index(float x, float y, float stride) {
+  return static_cast<int>(static_cast<float>(static_cast<int>(y)) * stride +
+                          static_cast<float>(static_cast<int>(x)));
 }
 
-// Values of three neighbours in a row or in a column, by element.
-struct Neighbours {
-  const float *before, *here, *after;
-};
+// Inverse depth between those of two pixels: their mean on one surface; 0: both have none; -1:
+// needs a search.
+inline float Middle(float first, float second) {
+  const float gap = std::abs(first - second);
+  const bool is_surface =
+      (gap <= kMaxSurfaceNoise) | (gap <= kMaxSurfaceRatio * std::min(first, second));
+  const float mean = is_surface ? 0.5f * (first + second) : -1.0f;
+  return std::max(first, second) == 0.0f ? 0.0f : mean;
+}
 
 }  // namespace
 
-// A row of the depth image as seen by the colour camera. Element u + 1 belongs to pixel u; the
-// first and the last element have no depth.
-struct DepthRegistration::Row {
-  explicit Row(int width)
-      : x(width + 2), y(width + 2), raw_x(width + 2), raw_y(width + 2), inverse_depth(width + 2) {}
+// Viewing rays of some colour pixels of a row, and the surfaces that they may meet. Steps that
+// compute one field after another overlap better in a processor than one that computes all.
+struct DepthRegistration::Strip {
+  static constexpr int kSize = 256;
 
-  std::vector<float> x, y;           // undistorted colour pixel
-  std::vector<float> raw_x, raw_y;   // distorted colour pixel
-  std::vector<float> inverse_depth;  // in the colour camera, 1/metres; 0: none
+  int first, size;           // pixels
+  float x[kSize], y[kSize];  // positions at infinity in the depth image
+  float z[kSize];            // (A p)_z
+  float nearest[kSize];      // largest inverse depth around, of the depth camera
+  int index[kSize];          // of the cell of the grid, then of the plane
 };
 
-// Changes from a depth pixel to its neighbours on the same surface, elements as in Row.
-struct DepthRegistration::Footprints {
-  // Changes by one pixel in one direction.
-  struct Steps {
-    explicit Steps(int size) : x(size), y(size), inverse_depth(size) {}
-
-    // Central differences; one-sided ones if only one neighbour is on the surface; `nominal` if
-    // none is.
-    void Compute(const Neighbours& px, const Neighbours& py, const Neighbours& w,
-                 const Eigen::Vector2f& nominal) {
-      const int size = static_cast<int>(x.size()) - 1;
-      const float nominal_x = nominal.x(), nominal_y = nominal.y();
-      float* const to_x = x.data();
-      float* const to_y = y.data();
-      float* const to_w = inverse_depth.data();
-#pragma GCC ivdep
-      for (int i = 1; i < size; ++i) {
-        const float here = w.here[i], before = w.before[i], after = w.after[i];
-        const float x_before = px.before[i], x_here = px.here[i], x_after = px.after[i];
-        const float y_before = py.before[i], y_here = py.here[i], y_after = py.after[i];
-        const float threshold = EdgeThreshold(here);
-        constexpr float kNone = 1e9f;  // more than any threshold
-        const float gap_before = std::abs(here - before) + (before > 0.0f ? 0.0f : kNone);
-        const float gap_after = std::abs(after - here) + (after > 0.0f ? 0.0f : kNone);
-        // Factors instead of branches, so that the compiler can process several pixels at once.
-        const float with_before = gap_before <= threshold ? 1.0f : 0.0f;
-        const float with_after = gap_after <= threshold ? 1.0f : 0.0f;
-        const float without = (1.0f - with_before) * (1.0f - with_after);
-        const float weight = 1.0f - 0.5f * with_before * with_after;
-        const float step_x = with_after * (x_after - x_here) + with_before * (x_here - x_before);
-        const float step_y = with_after * (y_after - y_here) + with_before * (y_here - y_before);
-        const float step_w = with_after * (after - here) + with_before * (here - before);
-        to_x[i] = weight * step_x + without * nominal_x;
-        to_y[i] = weight * step_y + without * nominal_y;
-        to_w[i] = weight * step_w;
-      }
-    }
-
-    std::vector<float> x, y, inverse_depth;
-  };
-
-  explicit Footprints(int width)
-      : right(width + 2),
-        down(width + 2),
-        scale(width + 2),
-        first_x(width + 2),
-        first_y(width + 2),
-        last_x(width + 2),
-        last_y(width + 2) {}
-
-  // Computes everything below `down` for a colour image of width x height pixels. `orientation`:
-  // sign of the determinant of a surface that the colour camera sees from the front. `stretch`:
-  // largest size of an undistorted pixel in the distorted image.
-  void ComputeBoxes(const Row& row, int width, int height, float orientation, float stretch);
-
-  Steps right, down;
-  std::vector<float> scale;  // reciprocal of the determinant of the two steps
-  // Colour pixels around the footprint; the first is larger than the last if there is none.
-  std::vector<int> first_x, first_y, last_x, last_y;
-};
-
-void DepthRegistration::Footprints::ComputeBoxes(const Row& row, int width, int height,
-                                                 float orientation, float stretch) {
-  // Data of the vectors, so that the compiler can process several elements at once.
-  const float *ax = right.x.data(), *ay = right.y.data(), *bx = down.x.data(), *by = down.y.data();
-  const float *px = row.raw_x.data(), *py = row.raw_y.data(), *w = row.inverse_depth.data();
-  int *to_first_x = first_x.data(), *to_first_y = first_y.data();
-  int *to_last_x = last_x.data(), *to_last_y = last_y.data();
-  float* const to_scale = scale.data();
-  const float border_x = static_cast<float>(width - 1), border_y = static_cast<float>(height - 1);
-  const float half = kHalfSide * stretch;
-  const int size = static_cast<int>(scale.size()) - 1;
-#pragma GCC ivdep
-  for (int i = 1; i < size; ++i) {
-    const float determinant = ax[i] * by[i] - ay[i] * bx[i];
-    const float size_x = half * (std::abs(ax[i]) + std::abs(bx[i]));
-    const float size_y = half * (std::abs(ay[i]) + std::abs(by[i]));
-    const float from_x = px[i] - size_x, to_x = px[i] + size_x;
-    const float from_y = py[i] - size_y, to_y = py[i] + size_y;
-    // Positive if the pixel has a depth, its surface is not seen from behind, and the box overlaps
-    // the image.
-    const float front = std::min(w[i], determinant * orientation - kMinDeterminant);
-    const float inside_x = std::min(to_x, border_x - from_x);
-    const float inside_y = std::min(to_y, border_y - from_y);
-    const float margin = std::min(front, std::min(inside_x, inside_y));
-    // The order of the arguments turns NaN, from a lens far outside the image, into a bound.
-    const float low_x = std::min(border_x, std::max(0.0f, from_x));
-    const float low_y = std::min(border_y, std::max(0.0f, from_y));
-    const float high_x = margin > 0.0f ? std::min(border_x, to_x) : -1.0f;
-    const float high_y = margin > 0.0f ? std::min(border_y, to_y) : -1.0f;
-    const int floor_x = static_cast<int>(low_x), floor_y = static_cast<int>(low_y);
-    to_first_x[i] = floor_x + (static_cast<float>(floor_x) < low_x ? 1 : 0);
-    to_first_y[i] = floor_y + (static_cast<float>(floor_y) < low_y ? 1 : 0);
-    to_last_x[i] = static_cast<int>(high_x);
-    to_last_y[i] = static_cast<int>(high_y);
-    to_scale[i] = 1.0f / (margin > 0.0f ? determinant : 1.0f);
-  }
-}
-
-DepthRegistration::DepthRegistration(const DepthCamera& depth_camera, const PinholeCamera& color,
-                                     const LensDistortion& color_distortion)
-    : depth_camera_(depth_camera), color_(color), distortion_(color_distortion) {
-  const Rigid3 color_from_depth = depth_camera.depth_from_color.Inverse();
-  const Eigen::Matrix3d k = Intrinsics(color);
-  const Eigen::Matrix3d matrix = k * color_from_depth.rotation().toRotationMatrix() *
-                                 Intrinsics(depth_camera.camera).inverse();
-  matrix_ = matrix.cast<float>();
-  shift_ = (k * color_from_depth.translation()).cast<float>();
-  const Eigen::Vector2d center(0.5 * (depth_camera.camera.width - 1),
-                               0.5 * (depth_camera.camera.height - 1));
-  const auto project = [&](double u, double v) -> Eigen::Vector2d {
-    return (matrix * Eigen::Vector3d(u, v, 1.0)).hnormalized();
-  };
-  const Eigen::Vector2d here = project(center.x(), center.y());
-  right_ = (project(center.x() + 1.0, center.y()) - here).cast<float>();
-  down_ = (project(center.x(), center.y() + 1.0) - here).cast<float>();
-  const LensDistortion& depth_lens = depth_camera.distortion;
-  if (!depth_lens.IsZero()) depth_pixels_ = UndistortedPixels(depth_camera.camera, depth_lens);
-  if (color_distortion.IsZero()) return;
-  ideal_ = UndistortedPixels(color, color_distortion);
-  stretch_ = static_cast<float>(LargestStretch(color, color_distortion));
-}
-
-void DepthRegistration::ProjectRow(const cv::Mat& depth, int v, Row* row) const {
-  if (!depth_pixels_.empty()) return ProjectDistortedRow(depth, v, row);
-  const int width = depth.cols;
-  const float* const z = depth.ptr<float>(v);
-  const Eigen::Vector3f first = matrix_.col(1) * static_cast<float>(v) + matrix_.col(2);
-  const Eigen::Vector3f step = matrix_.col(0);
-  const float first_x = first.x(), first_y = first.y(), first_z = first.z();
-  const float step_x = step.x(), step_y = step.y(), step_z = step.z();
-  const float shift_x = shift_.x(), shift_y = shift_.y(), shift_z = shift_.z();
-  const float offset = static_cast<float>(depth_camera_.inverse_depth_offset);
-  float* const to_x = row->x.data() + 1;
-  float* const to_y = row->y.data() + 1;
-  float* const to_w = row->inverse_depth.data() + 1;
-#pragma GCC ivdep
-  for (int u = 0; u < width; ++u) {
-    const float column = static_cast<float>(u);
-    const float measured = z[u];
-    const float w = 1.0f / (measured > kMinDepth ? measured : 1.0f) + offset;
-    const float denominator = first_z + column * step_z + shift_z * w;
-    // Positive if there is a depth, which the comparison denies for NaN.
-    const float margin = measured > kMinDepth ? std::min(w, denominator - kMinRayZ) : 0.0f;
-    const float scale = 1.0f / (margin > 0.0f ? denominator : 1.0f);
-    to_x[u] = (first_x + column * step_x + shift_x * w) * scale;
-    to_y[u] = (first_y + column * step_y + shift_y * w) * scale;
-    to_w[u] = margin > 0.0f ? w * scale : 0.0f;
-  }
-  DistortRow(row);
-}
-
-void DepthRegistration::ProjectDistortedRow(const cv::Mat& depth, int v, Row* row) const {
-  const float* const z = depth.ptr<float>(v);
-  const cv::Vec2f* const pixel = depth_pixels_.ptr<cv::Vec2f>(v);
-  const float offset = static_cast<float>(depth_camera_.inverse_depth_offset);
-  for (int u = 0; u < depth.cols; ++u) {
-    const float w = z[u] > kMinDepth ? 1.0f / z[u] + offset : 0.0f;
-    const Eigen::Vector3f color =
-        matrix_ * Eigen::Vector3f(pixel[u][0], pixel[u][1], 1.0f) + shift_ * w;
-    const bool is_seen = w > 0.0f && color.z() > kMinRayZ;
-    row->x[u + 1] = is_seen ? color.x() / color.z() : 0.0f;
-    row->y[u + 1] = is_seen ? color.y() / color.z() : 0.0f;
-    row->inverse_depth[u + 1] = is_seen ? w / color.z() : 0.0f;
-  }
-  DistortRow(row);
-}
-
-void DepthRegistration::DistortRow(Row* row) const {
-  if (distortion_.IsZero()) {
-    row->raw_x = row->x;
-    row->raw_y = row->y;
-    return;
-  }
-  if (distortion_.model != LensModel::kRadialTangential || distortion_.recorded) {
-    for (size_t i = 0; i < row->x.size(); ++i) {
-      const Eigen::Vector2d raw = distortion_.Distort(color_, {row->x[i], row->y[i]});
-      row->raw_x[i] = static_cast<float>(raw.x());
-      row->raw_y[i] = static_cast<float>(raw.y());
-    }
-    return;
-  }
-  // As LensDistortion::Distort(), for several pixels at once. The model has five coefficients.
-  std::array<float, 5> k;
-  std::transform(distortion_.k.begin(), distortion_.k.begin() + k.size(), k.begin(),
-                 [](double value) { return static_cast<float>(value); });
-  const float fx = static_cast<float>(color_.fx), fy = static_cast<float>(color_.fy);
-  const float cx = static_cast<float>(color_.cx), cy = static_cast<float>(color_.cy);
-  const float *from_x = row->x.data(), *from_y = row->y.data();
-  float *to_x = row->raw_x.data(), *to_y = row->raw_y.data();
-  const int size = static_cast<int>(row->x.size());
+template <bool kColorLens>
+void DepthRegistration::ComputeRays(int y, Strip* strip) const {
+  const float* const px = geometry_.color_x.Row(y) + strip->first;
+  const float* const py = geometry_.color_y.Row(y) + strip->first;
+  const float constant_y = kColorLens ? 0.0f : static_cast<float>(y);
+  const Eigen::Matrix3f& m = geometry_.matrix;
+  const float xx = m(0, 0), xy = m(0, 1), x1 = m(0, 2) + m(0, 1) * constant_y;
+  const float yx = m(1, 0), yy = m(1, 1), y1 = m(1, 2) + m(1, 1) * constant_y;
+  const float zx = m(2, 0), zy = m(2, 1), z1 = m(2, 2) + m(2, 1) * constant_y;
+  const RegistrationGeometry::Grid& grid = geometry_.grid;
+  const float scale = grid.cells_per_pixel;
+  // Positions are limited to cells that have a right and a lower neighbour, in cells.
+  const float from_x = grid.origin.x() * scale + 0.5f, from_y = grid.origin.y() * scale + 0.5f;
+  const float first_column = from_x + kFirst, first_row = from_y + kFirst;
+  const float last_column = from_x + static_cast<float>(grid.width - 2);
+  const float last_row = from_y + static_cast<float>(grid.height - 2);
+  const float stride = static_cast<float>(grid.width);
+  const int size = strip->size;
 #pragma GCC ivdep
   for (int i = 0; i < size; ++i) {
-    const float x = (from_x[i] - cx) / fx, y = (from_y[i] - cy) / fy;
-    const float r2 = x * x + y * y, xy2 = 2.0f * x * y;
-    const float radial = 1.0f + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-    to_x[i] = fx * (radial * x + k[2] * xy2 + k[3] * (r2 + 2.0f * x * x)) + cx;
-    to_y[i] = fy * (radial * y + k[3] * xy2 + k[2] * (r2 + 2.0f * y * y)) + cy;
+    // Without a lens, the row is part of the last coefficients.
+    const float z = zx * px[i] + (kColorLens ? zy * py[i] + z1 : z1);
+    const float inverse_z = 1.0f / z;
+    const float x_inf = (xx * px[i] + (kColorLens ? xy * py[i] + x1 : x1)) * inverse_z;
+    const float y_inf = (yx * px[i] + (kColorLens ? yy * py[i] + y1 : y1)) * inverse_z;
+    const float column = std::min(last_column, std::max(first_column, x_inf * scale)) - from_x;
+    const float row = std::min(last_row, std::max(first_row, y_inf * scale)) - from_y;
+    strip->x[i] = x_inf;
+    strip->y[i] = y_inf;
+    strip->z[i] = z;
+    strip->index[i] = Index(column, row, stride);
   }
 }
 
-void DepthRegistration::ComputeFootprints(const Row& above, const Row& here, const Row& below,
-                                          Footprints* footprints) const {
-  const auto along = [](const std::vector<float>& row) -> Neighbours {
-    return {row.data() - 1, row.data(), row.data() + 1};
-  };
-  footprints->right.Compute(along(here.x), along(here.y), along(here.inverse_depth), right_);
-  footprints->down.Compute(
-      {above.x.data(), here.x.data(), below.x.data()},
-      {above.y.data(), here.y.data(), below.y.data()},
-      {above.inverse_depth.data(), here.inverse_depth.data(), below.inverse_depth.data()}, down_);
-  const float determinant = right_.x() * down_.y() - right_.y() * down_.x();
-  footprints->ComputeBoxes(here, color_.width, color_.height, determinant > 0.0f ? 1.0f : -1.0f,
-                           stretch_);
+template <bool kDepthLens>
+void DepthRegistration::FindPlanes(const SurfaceMap& surfaces, Strip* strip) const {
+  const float ex = geometry_.epipole.x(), ey = geometry_.epipole.y(), ez = geometry_.epipole.z();
+  // Positions are limited to depth pixels and the border around them; rounded.
+  const float to_x = geometry_.center.x() + 1.5f, to_y = geometry_.center.y() + 1.5f;
+  const float first_x = kFirst - to_x, first_y = kFirst - to_y;
+  const float last_x = static_cast<float>(geometry_.width + 1) - to_x;
+  const float last_y = static_cast<float>(geometry_.height + 1) - to_y;
+  const float stride = static_cast<float>(geometry_.width + 2);
+  const float* const nearest = surfaces.nearest.data();
+  const int size = strip->size;
+#pragma GCC ivdep
+  for (int i = 0; i < size; ++i) {
+    const float near = nearest[strip->index[i]];
+    const float x = strip->x[i], y = strip->y[i];
+    float at_x = x + near * (x * ez - ex), at_y = y + near * (y * ez - ey);
+    if (kDepthLens) {
+      const Eigen::Vector2f offset = geometry_.DepthLensOffset(at_x, at_y);
+      at_x += offset.x();
+      at_y += offset.y();
+    }
+    strip->nearest[i] = near;
+    strip->index[i] = Index(std::min(last_x, std::max(first_x, at_x)) + to_x,
+                            std::min(last_y, std::max(first_y, at_y)) + to_y, stride);
+  }
 }
 
-void DepthRegistration::Draw(const Row& row, const Footprints& footprints,
-                             RegistrationTarget* target) const {
-  const bool is_distorted = !ideal_.empty();
-  for (size_t i = 1; i + 1 < row.x.size(); ++i) {
-    const int last_x = footprints.last_x[i], last_y = footprints.last_y[i];
-    for (int v = footprints.first_y[i]; v <= last_y; ++v) {
-      const cv::Vec2f* const ideal = is_distorted ? ideal_.ptr<cv::Vec2f>(v) : nullptr;
-      for (int u = footprints.first_x[i]; u <= last_x; ++u) {
-        const float dx = (is_distorted ? ideal[u][0] : static_cast<float>(u)) - row.x[i];
-        const float dy = (is_distorted ? ideal[u][1] : static_cast<float>(v)) - row.y[i];
-        // Position in the depth image relative to the centre of the depth pixel.
-        const float a =
-            (footprints.down.y[i] * dx - footprints.down.x[i] * dy) * footprints.scale[i];
-        const float b =
-            (footprints.right.x[i] * dy - footprints.right.y[i] * dx) * footprints.scale[i];
-        const float distance = std::max(std::abs(a), std::abs(b));
-        if (!(distance <= kHalfSide)) continue;
-        target->Offer(u, v,
-                      row.inverse_depth[i] + a * footprints.right.inverse_depth[i] +
-                          b * footprints.down.inverse_depth[i],
-                      distance);
+void DepthRegistration::MeetPlanes(const SurfaceMap& surfaces, const Strip& strip,
+                                   float* row) const {
+  const float ez = geometry_.epipole.z();
+  const float tolerance = kMaxDisplacement * geometry_.inverse_depth_per_pixel;
+  const float *plane_x = surfaces.plane_x.data(), *plane_y = surfaces.plane_y.data();
+  const float* const plane_1 = surfaces.plane_1.data();
+  const int size = strip.size;
+#pragma GCC ivdep
+  for (int i = 0; i < size; ++i) {
+    const int k = strip.index[i];
+    const float w = plane_x[k] * strip.x[i] + plane_y[k] * strip.y[i] + plane_1[k];
+    const float near = strip.nearest[i];
+    // Difference to the inverse depth with which the plane was found.
+    const float difference = std::abs(w * (1.0f + near * ez) - near);
+    const float inverse_depth = w * strip.z[i];
+    const float found =
+        difference <= std::min(tolerance, kMaxSurfaceRatio * near) ? inverse_depth : -1.0f;
+    row[strip.first + i] = near > 0.0f ? found : 0.0f;
+  }
+}
+
+float DepthRegistration::Intersect(const SurfaceMap& surfaces, const Eigen::Vector2f& infinity,
+                                   float near) const {
+  const Eigen::Vector3f& e = geometry_.epipole;
+  const int stride = geometry_.width + 2;
+  const Eigen::Array2f last(static_cast<float>(geometry_.width + 1),
+                            static_cast<float>(geometry_.height + 1));
+  Eigen::Vector2f at = infinity + near * (infinity * e.z() - e.head<2>());
+  Eigen::Vector2f to_plane = geometry_.center + Eigen::Vector2f::Constant(1.0f);
+  if (geometry_.HasDepthLens()) to_plane += geometry_.DepthLensOffset(at.x(), at.y());
+  // The pixels whose squares contain the expected position, then those around the point where the
+  // last plane is met.
+  float nearest = 0.0f;
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::Array2f position = (at + to_plane).array();
+    const Eigen::Array2i first = (position + (1.0f - kHalfSide)).max(kFirst).min(last).cast<int>();
+    const Eigen::Array2i end = (position + kHalfSide).max(kFirst).min(last).cast<int>();
+    for (int v = first.y(); v <= end.y(); ++v) {
+      for (int u = first.x(); u <= end.x(); ++u) {
+        const float w = surfaces.InverseDepth(v * stride + u, infinity.x(), infinity.y());
+        if (!(w > 0.0f)) continue;
+        at = (infinity - w * e.head<2>()) / (1.0f - w * e.z());
+        const Eigen::Vector2f offset =
+            at + to_plane - Eigen::Vector2f(static_cast<float>(u), static_cast<float>(v));
+        if (offset.lpNorm<Eigen::Infinity>() <= kHalfSide) nearest = std::max(nearest, w);
       }
     }
+    if (nearest > 0.0f) break;
   }
+  return nearest;
+}
+
+float DepthRegistration::Search(const SurfaceMap& surfaces, int x, int y) const {
+  const Eigen::Vector3f ray = geometry_.matrix * geometry_.ColorPixel(x, y).homogeneous();
+  if (ray.z() < kMinRayZ) return 0.0f;
+  const Eigen::Vector2f infinity = ray.head<2>() / ray.z();
+  const int stride = geometry_.grid.width;
+  const float* const cell = surfaces.nearest.data() + geometry_.grid.IndexAround(infinity);
+  // The nearest surface of the cell, then those of its neighbours.
+  const float expected = *cell;
+  float best = Intersect(surfaces, infinity, expected);
+  if (best > 0.0f) return best * ray.z();
+  const float tolerance = kMaxDisplacement * geometry_.inverse_depth_per_pixel;
+  float previous = expected;
+  for (const int offset : {-1, 1, -stride, stride}) {
+    const float near = cell[offset];
+    if (near == 0.0f || std::abs(near - expected) <= tolerance ||
+        std::abs(near - previous) <= tolerance) {
+      continue;
+    }
+    previous = near;
+    best = std::max(best, Intersect(surfaces, infinity, near));
+  }
+  return best * ray.z();
+}
+
+void DepthRegistration::InterpolateColumns(const float* sparse, float* row) const {
+  const int size = geometry_.color_width / 2;
+#pragma GCC ivdep
+  for (int i = 0; i < size; ++i) {
+    row[2 * i] = sparse[i];
+    row[2 * i + 1] = Middle(sparse[i], sparse[i + 1]);
+  }
+  if (geometry_.color_width % 2 == 1) row[geometry_.color_width - 1] = sparse[size];
+}
+
+void DepthRegistration::InterpolateRows(const std::vector<float>& above,
+                                        const std::vector<float>& below, float* row) const {
+  const float *first = above.data(), *second = below.data();
+  const int size = geometry_.color_width;
+#pragma GCC ivdep
+  for (int x = 0; x < size; ++x) row[x] = Middle(first[x], second[x]);
+}
+
+void DepthRegistration::SearchRow(const SurfaceMap& surfaces, int y, float* row) const {
+  constexpr int kGroup = 4;  // pixels that are tested together
+  const int size = geometry_.color_width;
+  for (int first = 0; first < size; first += kGroup) {
+    // The signs of all; the row has more elements than pixels.
+    uint64_t bits[kGroup / 2];
+    std::memcpy(bits, row + first, sizeof(bits));
+    if (((bits[0] | bits[1]) & 0x8000000080000000u) == 0) continue;
+    for (int x = first; x < std::min(first + kGroup, size); ++x) {
+      if (row[x] < 0.0f) row[x] = Search(surfaces, x, y);
+    }
+  }
+}
+
+void DepthRegistration::ComputeRow(const SurfaceMap& surfaces, int y, float* sparse,
+                                   float* row) const {
+  const auto compute_rays = geometry_.HasColorLens() ? &DepthRegistration::ComputeRays<true>
+                                                     : &DepthRegistration::ComputeRays<false>;
+  const auto find_planes = geometry_.HasDepthLens() ? &DepthRegistration::FindPlanes<true>
+                                                    : &DepthRegistration::FindPlanes<false>;
+  const int size = geometry_.color_x.values.cols;
+  float* const to = geometry_.color_step == 1 ? row : sparse;
+  Strip strip;
+  for (strip.first = 0; strip.first < size; strip.first += Strip::kSize) {
+    strip.size = std::min(Strip::kSize, size - strip.first);
+    (this->*compute_rays)(y, &strip);
+    (this->*find_planes)(surfaces, &strip);
+    MeetPlanes(surfaces, strip, to);
+  }
+  if (geometry_.color_step == 2) InterpolateColumns(sparse, row);
 }
 
 cv::Mat DepthRegistration::Register(const cv::Mat& depth) const {
-  const PinholeCamera& camera = depth_camera_.camera;
-  if (depth.type() != CV_32FC1 || depth.cols != camera.width || depth.rows != camera.height) {
+  if (depth.type() != CV_32FC1 || depth.cols != geometry_.width || depth.rows != geometry_.height) {
     throw std::invalid_argument(
         "DepthRegistration: the depth image must be CV_32FC1 and of the "
         "size of the depth camera");
   }
-  const float pixels = std::sqrt(std::abs(right_.x() * down_.y() - right_.y() * down_.x()));
-  RegistrationTarget target(color_, std::max(1, cvRound(kHoleRadius * pixels)));
-  // Rows v - 1, v and v + 1 are elements v, v + 1 and v + 2, modulo 3.
-  std::vector<Row> rows(3, Row(camera.width));
-  Footprints footprints(camera.width);
-  ProjectRow(depth, 0, &rows[1]);
-  for (int v = 0; v < camera.height; ++v) {
-    Row& below = rows[(v + 2) % 3];
-    if (v + 1 < camera.height) {
-      ProjectRow(depth, v + 1, &below);
+  static thread_local SurfaceMap surfaces;
+  surfaces.Compute(geometry_, depth);
+  const cv::Size size(geometry_.color_width, geometry_.color_height);
+  HoleRemoval target(size, std::max(1, cvRound(kHoleRadius * geometry_.magnification)));
+  // The last element, behind the last pixel, has no depth.
+  std::vector<float> sparse(geometry_.color_x.values.cols + 1, 0.0f);
+  std::vector<float> above(size.width), next(size.width);
+  for (int y = 0; y < size.height; ++y) {
+    float* const row = target.NextRow();
+    const bool is_between = y % geometry_.color_step == 1 && y + 1 < size.height;
+    if (is_between) {
+      ComputeRow(surfaces, y + 1, sparse.data(), next.data());
+      InterpolateRows(above, next, row);
+      above.swap(next);
+    } else if (y > 0 && y % geometry_.color_step == 0 && geometry_.color_step == 2) {
+      std::copy(above.begin(), above.end(), row);
     } else {
-      std::fill(below.inverse_depth.begin(), below.inverse_depth.end(), 0.0f);
+      ComputeRow(surfaces, y, sparse.data(), row);
+      if (y == 0) std::copy(row, row + size.width, above.begin());
     }
-    const Row& here = rows[(v + 1) % 3];
-    ComputeFootprints(rows[v % 3], here, below, &footprints);
-    Draw(here, footprints, &target);
+    SearchRow(surfaces, y, row);
+    target.AddRow();
   }
-  return target.Depth();
+  return target.TakeDepth();
 }
 
 cv::Mat RegisterDepth(const DepthCamera& depth_camera, const PinholeCamera& color,

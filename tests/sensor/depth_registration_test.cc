@@ -156,6 +156,67 @@ TEST(DepthRegistration, IsExactForOtherSizes) {
   }
 }
 
+TEST(DepthRegistration, IsExactWhereColorPixelsAreSmall) {
+  // The depth pixels are 1.8 and 3.2 colour pixels large; odd sizes.
+  for (const double scale : {2.0, 3.6}) {
+    PinholeCamera color = Color();
+    color = {scale * color.fx,
+             scale * color.fy,
+             scale * color.cx,
+             scale * color.cy,
+             static_cast<int>(scale * 320.0) | 1,
+             static_cast<int>(scale * 240.0) | 1};
+    for (const Vector3d& normal : kPlanes) {
+      for (const LensDistortion& lens : {LensDistortion(), Lens()}) {
+        const cv::Mat registered = RegisterDepth(Rig(), color, lens, Measure(Rig(), {{normal}}));
+        double largest = 0.0;
+        int holes = 0;
+        for (int y = 0; y < registered.rows; ++y) {
+          for (int x = 0; x < registered.cols; ++x) {
+            const double z = registered.at<float>(y, x);
+            const double w = normal.dot(color.Ray(lens.Undistort(color, {x, y})));
+            if (z > 0.0) largest = std::max(largest, std::abs(1.0 / z - w));
+            holes += z == 0.0 && std::abs(x - color.cx) < 100.0 * scale &&
+                     std::abs(y - color.cy) < 70.0 * scale;
+          }
+        }
+        // A lens bends the rows and columns along which inverse depth is interpolated.
+        EXPECT_LT(largest, lens.IsZero() ? kRounding : 2.0 * kRounding) << scale;
+        EXPECT_EQ(holes, 0) << scale;
+      }
+    }
+  }
+}
+
+TEST(DepthRegistration, KeepsThinObjectsInFrontOfAWall) {
+  // A wire of 1.2 depth pixels at one metre, at several positions relative to the pixel grids.
+  DepthCamera rig = Rig();
+  rig.depth_from_color = {Eigen::Quaterniond::Identity(), {-0.025, 0.0, 0.0}};
+  const double radius = 0.6 / rig.camera.fx;
+  for (const double scale : {1.0, 2.0}) {
+    PinholeCamera color{260.0 * scale,
+                        260.0 * scale,
+                        160.0 * scale,
+                        120.0 * scale,
+                        static_cast<int>(320 * scale),
+                        static_cast<int>(240 * scale)};
+    for (int i = 0; i < 10; ++i) {
+      const double center = 0.1 + 0.37 * i / rig.camera.fx;
+      const std::vector<Plane> planes = {
+          {{0.0, 0.0, 1.0}, [&](const Vector3d& x) { return std::abs(x.x() - center) < radius; }},
+          {{0.0, 0.0, 1.0 / 3.0}}};
+      const cv::Mat registered = RegisterDepth(rig, color, {}, Measure(rig, planes));
+      const int x = static_cast<int>(std::lround(color.cx + color.fx * center));
+      const cv::Mat around = registered(cv::Rect(x - 2, 30, 5, color.height - 60));
+      for (int y = 0; y < around.rows; ++y) {
+        const float* const row = around.ptr<float>(y);
+        EXPECT_TRUE(std::any_of(row, row + 5, [](float z) { return std::abs(z - 1.0f) < 1e-5f; }))
+            << scale << " " << i << " " << y;
+      }
+    }
+  }
+}
+
 TEST(DepthRegistration, IsExactForTurnedAndMirroredCameras) {
   DepthCamera rig = Rig();
   rig.depth_from_color = {ExpSO3({0.0, 0.0, 0.7}), {0.05, -0.02, -0.01}};
