@@ -64,7 +64,7 @@ TEST_F(FilesTest, CheckWritableLeavesNoTrace) {
   EXPECT_EQ(ReadFile(Path("old.txt")), "old");
   EXPECT_THAT(MessageOf([&] { CheckWritable(Path("no/such/folder.txt")); }),
               Names("folder.txt", "written"));
-  EXPECT_THAT(MessageOf([&] { CheckWritable(Folder()); }), Names(Folder(), "folder"));
+  EXPECT_THAT(MessageOf([&] { CheckWritable(Folder()); }), Names(Folder(), "a folder"));
 }
 
 TEST_F(FilesTest, WriteReplacesLinkAndKeepsItsTarget) {
@@ -93,7 +93,7 @@ TEST_F(FilesTest, WriteReplacesOnlyRegularFiles) {
   const std::string pipe = MakePipe("fifo");
   EXPECT_THAT(MessageOf([&] { WriteFile(pipe, "text"); }), Names(pipe, "written", "pipe"));
   EXPECT_THAT(MessageOf([&] { GrowingFile file(pipe); }), Names(pipe, "pipe"));
-  EXPECT_THAT(MessageOf([&] { WriteFile(Folder(), "text"); }), Names(Folder(), "folder"));
+  EXPECT_THAT(MessageOf([&] { WriteFile(Folder(), "text"); }), Names(Folder(), "a folder"));
   EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
