@@ -88,7 +88,7 @@ TEST_F(PlyFileTest, ReadsEdgesThatShareVertices) {
 }
 
 TEST_F(PlyFileTest, ReportsFileAndLineOfErrors) {
-  EXPECT_THAT(ErrorOf("ply", "plain"), Names("edges.ply:1", "'ply'"));
+  EXPECT_THAT(ErrorOf("ply", "plain"), Names("edges.ply:1", "'ply'", "plain"));
   EXPECT_THAT(ErrorOf("ascii", "binary_little_endian"),
               Names("edges.ply:2", "ascii", "binary_little_endian"));
   EXPECT_THAT(ErrorOf("vertex 3", "vertex 1e30"), Names("edges.ply:4", "whole number", "1e30"));
