@@ -49,7 +49,7 @@ TEST_F(CheckCommandTest, PrintsFindingsAsJson) {
     ++num_errors;
     EXPECT_EQ(finding["check"], "depth.byte_order");
     EXPECT_THAT(finding["text"].get<std::string>(), HasSubstr("swapped"));
-    EXPECT_THAT(finding["fix"].get<std::string>(), Names("bytes", "PNG"));
+    EXPECT_THAT(finding["fix"].get<std::string>(), Names("byte", "PNG"));
     EXPECT_GT(finding["value"].get<double>(), 0.75);
     EXPECT_EQ(finding["unit"], "ratio");
   }

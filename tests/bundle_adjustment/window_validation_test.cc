@@ -171,11 +171,11 @@ TEST_F(WindowValidationTest, RejectsInvalidLineObservations) {
   EXPECT_THAT(Message(), Names("observation", line, keyframe, "depth", "finite"));
   data_ = good;
   data_.line_observations[0].depth.covariance << 1.0, 2.0, 2.0, 1.0;
-  EXPECT_THAT(Message(), Names("observation", line, keyframe, "depth covariance"));
+  EXPECT_THAT(Message(), Names("observation", line, keyframe, "depth", "covariance"));
   data_.line_observations[0].depth.covariance << -1.0, 0.0, 0.0, -1.0;
-  EXPECT_THAT(Message(), Names("observation", line, keyframe, "depth covariance"));
+  EXPECT_THAT(Message(), Names("observation", line, keyframe, "depth", "covariance"));
   data_.line_observations[0].depth.covariance << 1.0, 0.3, 0.1, 1.0;  // not symmetric
-  EXPECT_THAT(Message(), Names("observation", line, keyframe, "depth covariance"));
+  EXPECT_THAT(Message(), Names("observation", line, keyframe, "depth", "covariance"));
   data_.line_observations[0].has_depth = false;  // then it is not used
   EXPECT_EQ(Message(), "no exception");
 }
@@ -208,7 +208,7 @@ TEST_F(WindowValidationTest, RejectsInfiniteAndHugeNumbers) {
   data_.point_observations[5].inverse_depth_sigma = infinity_;
   expect(Names("observation", "inverse_depth_sigma"));
   data_.line_observations[5].depth.covariance.setConstant(infinity_);
-  expect(Names("depth covariance"));
+  expect(Names("depth", "covariance"));
 }
 
 TEST_F(WindowValidationTest, RejectsInvalidOptions) {

@@ -18,8 +18,8 @@
 namespace msc_vo {
 namespace {
 
-using testing::AllOf;
 using testing::Not;
+using testing::StartsWith;
 
 // Of raw values, per metre.
 constexpr double kScale = 1000.0;
@@ -175,7 +175,7 @@ TEST(DepthCurve, IsNamedBehindAnUndescribedLens) {
   for (const Case& c : Cases()) {
     const DepthCurveTest test = Observe({Box, Lens(-0.1)}, c.encode, {kCamera, Lens(0.0)});
     EXPECT_TRUE(test.Best().ProveCurve()) << Verdict(test);
-    EXPECT_THAT(Verdict(test), AllOf(c.names, Not(Names("ok"))));
+    EXPECT_THAT(Verdict(test), Not(StartsWith("ok")));
   }
 }
 
