@@ -9,6 +9,7 @@
 
 #include "tests/apps/command_process.h"
 #include "tests/apps/rendered_sequence.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -43,11 +44,10 @@ TEST_F(BenchmarkCommandTest, ComparesModesOnSequences) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr(Table()));
   EXPECT_THAT(Table(),
-              AllOf(HasSubstr("- version: msc_vo "), HasSubstr("- processors: "),
-                    HasSubstr("defaults: `tracking.wide_radius=55`\n"), HasSubstr("\n| room "),
-                    HasSubstr("\n| corridor "), HasSubstr("\n| geometric mean of 2 "),
-                    HasSubstr("\n| ratio to pl-vo "), HasSubstr("## Mode pl-vo\n"),
-                    HasSubstr("## Mode pl-vo-depth\n"), Not(HasSubstr("failed"))));
+              AllOf(Names("version"), Names("processors"), Names("tracking.wide_radius=55"),
+                    HasSubstr("\n| room "), HasSubstr("\n| corridor "), Names("geometric mean"),
+                    Names("ratio"), HasSubstr("Mode pl-vo\n"), HasSubstr("Mode pl-vo-depth\n"),
+                    Not(HasSubstr("failed"))));
 
   const nlohmann::json numbers = Numbers();
   EXPECT_THAT(numbers["modes"], ElementsAre("pl-vo", "pl-vo-depth"));
@@ -79,10 +79,10 @@ TEST_F(BenchmarkCommandTest, ContinuesAfterFailedSequences) {
       RunCommand({"benchmark", Path("nowhere"), Path("b/room"), Path("room"), "--modes",
                   "pl-vo-depth", "--max-frames", "6", "--output", Path("out"), "--quiet"});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.output, HasSubstr("msc_vo: error: 2 of 3 runs failed, see "));
-  EXPECT_THAT(Table(), AllOf(HasSubstr("nowhere, pl-vo-depth: "), HasSubstr("does not exist"),
-                             HasSubstr("room, pl-vo-depth: "), HasSubstr("no ground truth"),
-                             HasSubstr("geometric mean of 1 ")));
+  EXPECT_THAT(outcome.output, LineNames("error:", "2", "3", "benchmark.md"));
+  EXPECT_THAT(Table(), AllOf(LineNames("nowhere, pl-vo-depth:", "exist"),
+                             LineNames("room, pl-vo-depth:", "ground truth")));
+  EXPECT_EQ(Numbers()["geometric_mean"]["sequences"], 1);
   const nlohmann::json runs = Numbers()["runs"];
   ASSERT_EQ(runs.size(), 3u);
   EXPECT_THAT(runs[0]["failure"].get<std::string>(), HasSubstr("does not exist"));
@@ -101,11 +101,11 @@ TEST_F(BenchmarkCommandTest, ExcludesRunsWithFailedTrackingFromTheMean) {
   const CommandOutcome outcome = RunCommand({"benchmark", Path("good"), Path("black"), "--modes",
                                              "pl-vo-depth", "--output", Path("out"), "--quiet"});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.output, HasSubstr("black, pl-vo-depth failed: tracking failed: 0 of 8"));
-  EXPECT_THAT(Table(), AllOf(HasSubstr("geometric mean of 1 "), HasSubstr("failed |"),
-                             HasSubstr("\nExcluded from the mean because a run failed: black.\n"),
-                             HasSubstr("- black, pl-vo-depth: tracking failed: 0 of 8 images")));
+  EXPECT_THAT(outcome.output, LineNames("black, pl-vo-depth", "0", "8"));
+  EXPECT_THAT(Table(), AllOf(Names("failed"), LineNames("black, pl-vo-depth:", "0", "8")));
+  EXPECT_THAT(LineNaming("Excluded", Table()), Names("black"));
   const nlohmann::json numbers = Numbers();
+  EXPECT_EQ(numbers["geometric_mean"]["sequences"], 1);
   EXPECT_NEAR(numbers["geometric_mean"]["ape_rmse"]["pl-vo-depth"],
               numbers["runs"][0]["error"]["ape_rmse"].get<double>(), 1e-12);
 }
@@ -117,12 +117,12 @@ TEST_F(BenchmarkCommandTest, RunsAllModesByDefaultAndRejectsInvalidOptions) {
   const CommandOutcome wrong = RunCommand({"benchmark", Path("room"), "--output", Path("no"),
                                            "--set", "use_points=0x", "--modes", "pl-vo"});
   EXPECT_EQ(wrong.exit_code, 1);
-  EXPECT_THAT(wrong.output, HasSubstr("use_points must be"));
+  EXPECT_THAT(wrong.output, LineNames("error:", "--set", "use_points", "'0x'"));
   const CommandOutcome blind =
       RunCommand({"benchmark", Path("room"), "--output", Path("no"), "--set", "use_points=false",
                   "--set", "use_lines=false"});
   EXPECT_EQ(blind.exit_code, 1);
-  EXPECT_THAT(blind.output, HasSubstr("must not both be off"));
+  EXPECT_THAT(blind.output, LineNames("error:", "use_points", "use_lines"));
   EXPECT_FALSE(std::filesystem::exists(Path("no")));
 }
 
@@ -138,7 +138,7 @@ TEST_F(BenchmarkCommandTest, WritesFinishedRunsOnInterrupt) {
   ASSERT_EQ(runs.size(), 2u);
   EXPECT_TRUE(runs[0]["failure"].is_null());
   EXPECT_EQ(runs[1]["failure"], "interrupted");
-  EXPECT_THAT(Table(), HasSubstr("room-2, pl-vo-depth: interrupted"));
+  EXPECT_THAT(Table(), LineNames("room-2, pl-vo-depth", "interrupted"));
 }
 
 class BenchmarkSharesTest : public BenchmarkCommandTest {
@@ -182,7 +182,7 @@ TEST_F(BenchmarkSharesTest, MergesToTheResultsOfOneProgram) {
 
   const CommandOutcome half = Merge({Path("shares")});
   EXPECT_EQ(half.exit_code, 1);
-  EXPECT_THAT(half.output, HasSubstr("shard 2 of 2 is missing"));
+  EXPECT_THAT(half.output, Names("error:", "shard 2"));
   ASSERT_EQ(Benchmark("elsewhere", {"--shard", "2/2"}).exit_code, 0);
   const CommandOutcome merged = Merge({Path("shares"), Path("elsewhere")});
   EXPECT_EQ(merged.exit_code, 0) << merged.output;
@@ -201,7 +201,7 @@ TEST_F(BenchmarkSharesTest, ResumesAfterAKilledRun) {
   EXPECT_EQ(benchmark.Wait(), -SIGKILL);
   nlohmann::json runs = Runs("out");
   ASSERT_EQ(runs.size(), 2u);
-  EXPECT_EQ(runs[1]["failure"], "the program was ended during this run");
+  EXPECT_TRUE(runs[1]["failure"].is_string());
 
   const CommandOutcome rest = RunCommand(
       {"benchmark", Path("list.txt"), "--modes", "pl-vo", "--output", Path("out"), "--resume"});
@@ -219,12 +219,14 @@ TEST_F(BenchmarkSharesTest, RefusesOtherSettingsAndWrongArguments) {
   ASSERT_EQ(Benchmark("out", {"--max-frames", "4"}).exit_code, 0);
   const CommandOutcome resumed = Benchmark("out", {"--resume"});
   EXPECT_EQ(resumed.exit_code, 1);
-  EXPECT_THAT(resumed.output, HasSubstr("cannot be resumed, because its settings differ: "
-                                        "--max-frames 4 and 0"));
+  EXPECT_THAT(resumed.output,
+              LineNames("error:", "benchmark.json", "--max-frames", "4", "0", "--output"));
   ASSERT_EQ(Benchmark("other", {"--max-frames", "5"}).exit_code, 0);
-  EXPECT_THAT(Merge({Path("out"), Path("other")}).output, HasSubstr("cannot be merged with"));
-  EXPECT_THAT(Merge({Path("a")}).output, HasSubstr("no results of msc_vo benchmark"));
-  EXPECT_THAT(Benchmark("out", {"--shard", "3/2"}).output, HasSubstr("expected K/N"));
+  EXPECT_THAT(Merge({Path("out"), Path("other")}).output,
+              LineNames("error:", Path("out"), Path("other"), "--max-frames", "4", "5"));
+  EXPECT_THAT(Merge({Path("a")}).output, LineNames("error:", Path("a"), "benchmark*.json"));
+  EXPECT_THAT(Benchmark("out", {"--shard", "3/2"}).output,
+              LineNames("error:", "--shard", "3/2", "K/N"));
   EXPECT_EQ(RunCommand({"benchmark"}).exit_code, 2);
   EXPECT_EQ(RunCommand({"benchmark", Path("a"), "--merge", Path("out")}).exit_code, 2);
 }

@@ -9,6 +9,7 @@
 
 #include "tests/apps/command_process.h"
 #include "tests/apps/rendered_sequence.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -76,10 +77,10 @@ TEST_F(CalibrateCommandTest, ListsTheCameraOfRegisteredDepthOnce) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const std::string fx = LineOf(outcome.output, "fx, px");
   EXPECT_THAT(fx, HasSubstr("  525.0000 "));
-  EXPECT_THAT(LineOf(outcome.output, "readout time, s"), HasSubstr("not found"));
+  EXPECT_THAT(LineOf(outcome.output, "readout time, s"), Names("not found"));
   EXPECT_EQ(LineOf(outcome.output, "depth camera fx"), "");
   EXPECT_NE(LineOf(outcome.output, "depth camera roll"), "");
-  EXPECT_THAT(outcome.output, HasSubstr("round 1 of at most 3, room: "));
+  EXPECT_THAT(outcome.output, LineNames("round 1", "room"));
 }
 
 TEST_F(CalibrateCommandTest, KeepsTheReadoutTime) {
@@ -106,7 +107,7 @@ TEST_F(CalibrateCommandTest, KeepsTheReadoutTime) {
   EXPECT_EQ(replay("given", {}), replay("used", {"--camera-file", camera}));
   outcome = RunCommand({"calibrate", Path("room"), kRoom});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.output, HasSubstr("mapping.readout_time is unknown instead of 0.001"));
+  EXPECT_THAT(outcome.output, LineNames("mapping.readout_time", "0.001"));
 }
 
 TEST_F(CalibrateCommandTest, SaysThatNoSuchLensFits) {
@@ -117,10 +118,9 @@ TEST_F(CalibrateCommandTest, SaysThatNoSuchLensFits) {
   std::vector<std::string> arguments = {"calibrate", Path("wide"), "--output", camera};
   CommandOutcome outcome = RunCommand(arguments);
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(LineOf(outcome.output, "k1"), HasSubstr("kept: no such camera"));
+  EXPECT_THAT(LineOf(outcome.output, "k1"), Names("kept"));
   EXPECT_THAT(outcome.output,
-              AllOf(HasSubstr("error: no radial-tangential lens fits the images"),
-                    HasSubstr("camera.lens: fisheye with k1, k2, k3 and k4, which may be 0")));
+              Names("error:", "radial-tangential", "camera.lens", "fisheye", "k1", "k4"));
   EXPECT_FALSE(HasEntry(camera));
   // As the message says.
   for (const char* setting :
@@ -139,11 +139,10 @@ TEST_F(CalibrateCommandTest, PlotsTheResiduals) {
   const nlohmann::json residuals = nlohmann::json::parse(outcome.output)["residuals"];
   EXPECT_GT(residuals["given"]["points"], 1000);
   EXPECT_TRUE(residuals["estimated"].is_null());
-  EXPECT_THAT(ReadFile(page), AllOf(HasSubstr(">given<"), HasSubstr("pairs of images"),
-                                    HasSubstr(">median error of depth, %<")));
+  EXPECT_THAT(ReadFile(page), AllOf(HasSubstr(">given<"), HasSubstr(", %<"), Names("pairs")));
   const CommandOutcome refused = RunCommand({"calibrate", kRoom, "--plot", Path("residuals.txt")});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.output, HasSubstr("must end in .html or .svg"));
+  EXPECT_THAT(refused.output, Names("--plot", ".html", ".svg"));
 }
 
 TEST_F(CalibrateCommandTest, PrintsNothingIfQuiet) {
@@ -158,10 +157,10 @@ TEST_F(CalibrateCommandTest, ReturnsTheCodeOfAnInterruption) {
   const std::string camera = Path("camera.yaml");
   // Paced, so that the run is not over before the signal.
   CommandProcess calibrate({"calibrate", kRoom, "--set", "realtime=true", "--output", camera});
-  ASSERT_TRUE(calibrate.WaitForOutput("round 1 of at most 3")) << calibrate.output();
+  ASSERT_TRUE(calibrate.WaitForOutput("round 1")) << calibrate.output();
   calibrate.Signal(SIGINT);
   EXPECT_EQ(calibrate.Wait(), 130) << calibrate.output();
-  EXPECT_THAT(calibrate.output(), HasSubstr("interrupted; nothing is written"));
+  EXPECT_THAT(calibrate.output(), Names("interrupted"));
   EXPECT_FALSE(HasEntry(camera));
 }
 
@@ -173,7 +172,7 @@ TEST_F(CalibrateCommandTest, ReturnsTheCodeOfFailedTracking) {
   const CommandOutcome outcome =
       RunCommand({"calibrate", Path("room"), "--output", Path("camera.yaml")});
   EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("nothing is written"));
+  EXPECT_THAT(outcome.output, Names("nothing"));
   EXPECT_FALSE(HasEntry(Path("camera.yaml")));
 }
 

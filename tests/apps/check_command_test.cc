@@ -6,6 +6,7 @@
 
 #include "tests/apps/command_process.h"
 #include "tests/apps/rendered_sequence.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 namespace msc_vo {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -47,7 +49,7 @@ TEST_F(CheckCommandTest, PrintsFindingsAsJson) {
     ++num_errors;
     EXPECT_EQ(finding["check"], "depth.byte_order");
     EXPECT_THAT(finding["text"].get<std::string>(), HasSubstr("swapped"));
-    EXPECT_THAT(finding["fix"].get<std::string>(), HasSubstr("high byte first"));
+    EXPECT_THAT(finding["fix"].get<std::string>(), Names("byte", "PNG"));
     EXPECT_GT(finding["value"].get<double>(), 0.75);
     EXPECT_EQ(finding["unit"], "ratio");
   }
@@ -55,14 +57,12 @@ TEST_F(CheckCommandTest, PrintsFindingsAsJson) {
 }
 
 TEST_F(CheckCommandTest, TestsTheCalibrationOnRequest) {
-  const std::string line =
-      "ok       calibration against motion: not tested; to test it, run msc_vo check --deep\n";
   const CommandOutcome plain = RunCommand({"check", Path("room")});
-  EXPECT_THAT(plain.output, HasSubstr(line + "0 errors"));
+  EXPECT_THAT(plain.output, AllOf(Names("--deep", "0 errors"), Not(Names("focal length"))));
   RenderSequence(Path("more"), {"--frames", "30", "--width", "160"});
   const CommandOutcome deep = RunCommand({"check", Path("more"), "--deep"});
-  EXPECT_THAT(deep.output, Not(HasSubstr(line)));
-  EXPECT_THAT(deep.output, HasSubstr("ok       focal length"));
+  EXPECT_THAT(deep.output, Not(Names("--deep")));
+  EXPECT_THAT(LineNaming("focal length", deep.output), testing::StartsWith("ok "));
 }
 
 TEST_F(CheckCommandTest, ReplayStopsBeforeAnImpossibleRun) {
@@ -70,7 +70,7 @@ TEST_F(CheckCommandTest, ReplayStopsBeforeAnImpossibleRun) {
   const CommandOutcome stopped =
       RunCommand({"replay", Path("room"), "--output", Path("out"), "--quiet"});
   EXPECT_EQ(stopped.exit_code, 1);
-  EXPECT_THAT(stopped.output, HasSubstr("the two bytes of the depth values are swapped"));
+  EXPECT_THAT(stopped.output, LineNames("error:", "bytes", "swapped"));
   EXPECT_FALSE(std::filesystem::exists(Path("out")));
   const CommandOutcome forced =
       RunCommand({"replay", Path("room"), "--output", Path("out"), "--quiet", "--no-check"});
@@ -85,7 +85,7 @@ TEST_F(CheckCommandTest, ReplayWarnsOfImagesThatShowNothing) {
   const CommandOutcome outcome =
       RunCommand({"replay", Path("room"), "--output", Path("out"), "--quiet"});
   EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_THAT(outcome.output, HasSubstr("100 % of the images are black"));
+  EXPECT_THAT(outcome.output, LineNames("warning:", "100 %", "black"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/apps/command_process.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -25,8 +26,8 @@ TEST_F(CommandLineTest, PrintsHelpForEveryCommand) {
        {"replay", "evaluate", "benchmark", "check", "synthesize", "solve-window"}) {
     const CommandOutcome outcome = RunCommand({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0) << command;
-    EXPECT_THAT(outcome.output, AllOf(HasSubstr("Example:\n  msc_vo " + std::string(command)),
-                                      HasSubstr("Exit codes:"), HasSubstr("3 tracking failed")));
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr("\n  msc_vo " + std::string(command)),
+                                      Names("Exit codes", "0", "1", "2", "3", "130")));
     EXPECT_THAT(RunCommand({"--help"}).output, HasSubstr(command));
   }
   EXPECT_THAT(RunCommand({"--version"}).output, testing::StartsWith("msc_vo "));
@@ -87,16 +88,16 @@ TEST_F(CommandLineTest, RefusesNumbersOutOfRange) {
 
 TEST_F(CommandLineTest, SuggestsSimilarCommands) {
   EXPECT_THAT(RunCommand({"repaly", "x"}).output,
-              AllOf(HasSubstr("unknown command 'repaly'; did you mean 'replay'?"),
-                    HasSubstr("Commands: replay, evaluate")));
-  EXPECT_THAT(RunCommand({"fly"}).output,
-              AllOf(HasSubstr("unknown command 'fly'"), testing::Not(HasSubstr("did you mean"))));
+              Names("error:", "'repaly'", "'replay'", "evaluate"));
+  const std::string output = RunCommand({"fly"}).output;
+  EXPECT_THAT(output, LineNames("error:", "'fly'"));
+  EXPECT_THAT(LineNaming("'fly'", output), testing::Not(HasSubstr("?")));  // no suggestion
 }
 
 TEST_F(CommandLineTest, ExplainsInvalidMaxFrames) {
   const CommandOutcome outcome = RunCommand({"replay", "x", "--max-frames", "0"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output, HasSubstr("must be at least 1, not 0; omit it"));
+  EXPECT_THAT(outcome.output, LineNames("--max-frames", "1", "0"));
 }
 
 TEST_F(CommandLineTest, WarnsAboutOptionsDeterminedByTheMode) {
@@ -105,10 +106,9 @@ TEST_F(CommandLineTest, WarnsAboutOptionsDeterminedByTheMode) {
     return RunCommand(arguments).output;
   };
   EXPECT_THAT(output({"--mode", "pl-vo", "--no-manhattan"}),
-              HasSubstr("warning: mapping.axes.enabled=false changes nothing: with mode=pl-vo it "
-                        "is always false"));
+              LineNames("warning:", "mapping.axes.enabled=false", "mode=pl-vo"));
   EXPECT_THAT(output({"--mode", "pl-vo", "--set", "mapping.axes.enabled=true"}),
-              HasSubstr("warning: mapping.axes.enabled=true is ignored: with mode=pl-vo"));
+              LineNames("warning:", "mapping.axes.enabled=true", "mode=pl-vo", "false"));
   EXPECT_THAT(output({"--no-manhattan"}), testing::Not(HasSubstr("warning")));
   EXPECT_THAT(output({"--mode", "pl-vo"}), testing::Not(HasSubstr("warning")));
 }
@@ -117,20 +117,21 @@ TEST_F(CommandLineTest, ReturnsOneForInvalidInput) {
   WriteText("bad.txt", "1 2 3\n");
   WriteText("bad.yaml", "tracking:\n  wide_raduis: 3\n");
   const auto expect_error = [](const std::vector<std::string>& arguments,
-                               const std::string& message) {
+                               const NamesMatcher& names) {
     const CommandOutcome outcome = RunCommand(arguments);
-    EXPECT_EQ(outcome.exit_code, 1) << message;
-    EXPECT_THAT(outcome.output, AllOf(HasSubstr("msc_vo: error: "), HasSubstr(message)));
+    EXPECT_EQ(outcome.exit_code, 1) << testing::PrintToString(arguments);
+    EXPECT_THAT(outcome.output, AllOf(Names("error:"), names));
   };
-  expect_error({"replay", Path("nowhere")}, "does not exist");
-  expect_error({"check", Folder()}, "no RGB-D sequence found here");
-  expect_error({"evaluate", Path("bad.txt"), Path("bad.txt")}, "bad.txt:1: expected 8 numbers");
+  expect_error({"replay", Path("nowhere")}, Names(Path("nowhere"), "exist"));
+  expect_error({"check", Folder()}, Names(Folder(), "RGB-D sequence"));
+  expect_error({"evaluate", Path("bad.txt"), Path("bad.txt")}, Names("bad.txt:1", "8"));
   expect_error({"replay", "x", "--config", Path("bad.yaml")},
-               "bad.yaml:2: unknown option 'tracking.wide_raduis'; did you mean");
-  expect_error({"replay", "x", "--set", "tracking.wide_raduis=3"}, "'tracking.wide_radius'?");
+               Names("bad.yaml:2", "tracking.wide_raduis", "tracking.wide_radius"));
+  expect_error({"replay", "x", "--set", "tracking.wide_raduis=3"},
+               Names("--set", "tracking.wide_radius"));
   expect_error({"replay", "x", "--set", "tracking.wide_radius=a"},
-               "must be a number from 0.1 to 1000 pixels, not 'a'");
-  expect_error({"replay", "x", "--set", "mode"}, "expected NAME=VALUE");
+               Names("--set", "tracking.wide_radius", "0.1", "1000", "'a'"));
+  expect_error({"replay", "x", "--set", "mode"}, Names("--set", "NAME=VALUE"));
 }
 
 TEST_F(CommandLineTest, EvaluatesATrajectory) {
@@ -145,7 +146,7 @@ TEST_F(CommandLineTest, EvaluatesATrajectory) {
   WriteText("estimate.txt", estimate);
   const CommandOutcome table = RunCommand({"evaluate", Path("truth.txt"), Path("estimate.txt")});
   EXPECT_EQ(table.exit_code, 0);
-  EXPECT_THAT(table.output, AllOf(HasSubstr("100.000"), HasSubstr("coverage 80.00 %")));
+  EXPECT_THAT(table.output, AllOf(Names("100.000"), LineNames("coverage", "80.00 %")));
   const CommandOutcome json =
       RunCommand({"evaluate", Path("truth.txt"), Path("estimate.txt"), "--json"});
   EXPECT_EQ(json.exit_code, 0);
@@ -155,7 +156,7 @@ TEST_F(CommandLineTest, EvaluatesATrajectory) {
 
   WriteText("holes.txt", "10 nan 0 0 0 0 0 1\n11 0 0 inf 0 0 0 1\n" + estimate);
   EXPECT_THAT(RunCommand({"evaluate", Path("truth.txt"), Path("holes.txt")}).output,
-              AllOf(HasSubstr("skipped: 2 rows of"), HasSubstr("holes.txt with nan")));
+              LineNames("2", "holes.txt", "nan"));
   const nlohmann::json holes = nlohmann::json::parse(
       RunCommand({"evaluate", Path("truth.txt"), Path("holes.txt"), "--json"}).output);
   EXPECT_EQ(holes["est_skipped"], 2);
@@ -170,13 +171,12 @@ TEST_F(CommandLineTest, EvaluatesATrajectory) {
   WriteText("nanoseconds.txt", nanoseconds);
   WriteText("seconds.txt", seconds);
   EXPECT_THAT(RunCommand({"evaluate", Path("nanoseconds.txt"), Path("seconds.txt")}).output,
-              AllOf(HasSubstr("nanoseconds.txt: the time stamps are nanoseconds"),
-                    HasSubstr("4 of 4 ground-truth poses matched")));
+              AllOf(LineNames("nanoseconds.txt", "are nanoseconds"), LineNames("coverage", "4")));
 
   WriteText("later.txt", "100 0 0 0 0 0 0 1\n");
   const CommandOutcome none = RunCommand({"evaluate", Path("truth.txt"), Path("later.txt")});
   EXPECT_EQ(none.exit_code, 1);
-  EXPECT_THAT(none.output, HasSubstr("only 0 of 1 estimated poses"));
+  EXPECT_THAT(none.output, LineNames("error:", "0", "1"));
 }
 
 TEST_F(CommandLineTest, PrintsAConfigurationThatCanBeRead) {
@@ -202,7 +202,7 @@ TEST_F(CommandLineTest, PrintsTheOptionsInMarkdown) {
   const CommandOutcome changed =
       RunCommand({"replay", "--print-config", "--markdown", "--no-points"});
   EXPECT_EQ(changed.exit_code, 1);
-  EXPECT_THAT(changed.output, HasSubstr("leave out --config, --set"));
+  EXPECT_THAT(changed.output, Names("--markdown", "--config", "--set"));
   EXPECT_EQ(RunCommand({"replay", "x", "--all"}).exit_code, 2);
 }
 
@@ -211,16 +211,16 @@ TEST_F(CommandLineTest, ChecksASequence) {
     WriteColor("rgb/" + std::to_string(i) + ".png");
     WriteDepth("depth/" + std::to_string(i) + ".png", 10000);
   }
-  EXPECT_THAT(RunCommand({"check", Folder()}).output, HasSubstr("the camera is not known"));
+  EXPECT_THAT(RunCommand({"check", Folder()}).output, Names("error:", "camera.txt", "--config"));
   WriteText("camera.txt", "10 10 3.5 2.5 8 6 5000\n");
   RunCommand({"synthesize", Path("room"), "--frames", "6", "--width", "320"});
   const CommandOutcome good = RunCommand({"check", Path("room")});
   EXPECT_EQ(good.exit_code, 0);
-  EXPECT_THAT(good.output, HasSubstr("0 errors, 0 warnings"));
+  EXPECT_THAT(good.output, Names("0 errors", "0 warnings"));
   WriteImage("depth/1.png", CV_8UC1, 10);
   const CommandOutcome bad = RunCommand({"check", Folder(), "--all"});
   EXPECT_EQ(bad.exit_code, 1);
-  EXPECT_THAT(bad.output, AllOf(HasSubstr("ERROR"), HasSubstr("1 channel of 8 bits")));
+  EXPECT_THAT(bad.output, LineNames("ERROR", "8 bits"));
 }
 
 }  // namespace

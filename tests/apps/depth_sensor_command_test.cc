@@ -4,6 +4,7 @@
 // Depth sensors of `synthesize` and of `replay`.
 
 #include "tests/apps/command_process.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -40,10 +41,9 @@ TEST_F(DepthSensorCommandTest, ChoosesTheSensorThatWasRendered) {
     // A scene whose first image has near and far surfaces.
     Synthesize(sensor, {"--depth-sensor", sensor, "--scene", "corridor"});
     EXPECT_EQ(SensorOf(sensor), sensor);
-    EXPECT_THAT(ReadFile(Path(sensor + "/log")),
-                HasSubstr("depth sensor: " + sensor + " (chosen from the depth images)"));
-    EXPECT_THAT(ReadFile(Path(sensor + "/out/report.html")),
-                HasSubstr(sensor + " (chosen from the depth images)"));
+    EXPECT_THAT(LineNaming("depth sensor", ReadFile(Path(sensor + "/log"))),
+                Names(sensor, "chosen"));
+    EXPECT_THAT(ReadFile(Path(sensor + "/out/report.html")), HasSubstr(sensor + " (chosen"));
   }
   Synthesize("exact", {});
   EXPECT_EQ(SensorOf("exact"), "structured-light");
@@ -52,7 +52,7 @@ TEST_F(DepthSensorCommandTest, ChoosesTheSensorThatWasRendered) {
 TEST_F(DepthSensorCommandTest, TakesTheGivenSensor) {
   Synthesize("exact", {});
   EXPECT_EQ(SensorOf("exact", {"--depth-sensor", "tof"}), "tof");
-  EXPECT_THAT(ReadFile(Path("exact/log")), HasSubstr("depth sensor: tof (given)"));
+  EXPECT_THAT(ReadFile(Path("exact/log")), Names("tof", "given"));
 }
 
 TEST_F(DepthSensorCommandTest, HasTheNamesOfReplayAndOlderOnes) {
@@ -74,7 +74,7 @@ TEST_F(DepthSensorCommandTest, HasTheNamesOfReplayAndOlderOnes) {
 TEST_F(DepthSensorCommandTest, RefusesUnknownSensorsAndTwoOfThem) {
   CommandOutcome outcome = RunCommand({"synthesize", Path("a"), "--sensor", "radar"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output, HasSubstr("'radar' is not a depth sensor; known: exact,"));
+  EXPECT_THAT(outcome.output, Names("'radar'", "exact"));
   outcome = RunCommand({"synthesize", Path("a"), "--sensor", "tof", "--noise", "kinect"});
   EXPECT_EQ(outcome.exit_code, 2);
   outcome = RunCommand({"replay", Path("a"), "--depth-sensor", "radar"});

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "tests/apps/command_process.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -60,10 +61,8 @@ TEST_F(EvaluateCommandTest, ComparesLines) {
                                           Path("edges.ply")};
   const CommandOutcome table = Evaluate(files);
   EXPECT_EQ(table.exit_code, 0) << table.output;
-  EXPECT_THAT(table.output,
-              AllOf(HasSubstr("line distance           30.000"),
-                    HasSubstr("lines: 3 in the map, 2 with enough observations and length, 1 of "
-                              "these matched with an edge; 1 of 2 edges found")));
+  EXPECT_THAT(LineNaming("line distance", table.output), Names("30.000"));
+  EXPECT_THAT(LineNaming("lines:", table.output), Names("3", "2", "1"));
   const CommandOutcome text = Evaluate({files[0], files[1], files[2], files[3], "--json"});
   EXPECT_EQ(text.exit_code, 0) << text.output;
   const nlohmann::json json = nlohmann::json::parse(text.output);
@@ -87,8 +86,7 @@ TEST_F(EvaluateCommandTest, SkipsUnestimatedPosesByDefault) {
   const CommandOutcome marked = Evaluate({});
   EXPECT_EQ(marked.exit_code, 0) << marked.output;
   EXPECT_THAT(marked.output,
-              AllOf(HasSubstr("coverage 80.00 %"),
-                    HasSubstr("skipped: 1 poses marked as not estimated (--all-poses")));
+              AllOf(LineNames("coverage", "80.00 %"), LineNames("1", "--all-poses")));
   EXPECT_NEAR(JsonOf(Evaluate({"--json"}))["ape_rmse"], 0.0, 1e-9);
   const nlohmann::json all = JsonOf(Evaluate({"--all-poses", "--json"}));
   EXPECT_EQ(all["coverage"], 1.0);
@@ -102,8 +100,9 @@ TEST_F(EvaluateCommandTest, PrintsNullForMissingNumbers) {
   const nlohmann::json lines = nlohmann::json::parse(text.output)["lines"];
   EXPECT_EQ(lines["matched"], 0);
   EXPECT_TRUE(lines["distance"]["rmse"].is_null());
-  EXPECT_THAT(Evaluate({"--lines", Path("lines.ply"), "--edges", Path("edges.ply")}).output,
-              HasSubstr("lines: 0 in the map"));
+  const std::string table =
+      Evaluate({"--lines", Path("lines.ply"), "--edges", Path("edges.ply")}).output;
+  EXPECT_THAT(LineNaming("lines:", table), Names("0"));
 }
 
 TEST_F(EvaluateCommandTest, ComparesLinesOnlyOnRequest) {
@@ -130,7 +129,7 @@ TEST_F(EvaluateCommandTest, AlignsAsRequested) {
   EXPECT_NEAR(json["scale"], 2.0, 1e-9);
   EXPECT_NEAR(json["ape_sse"], 0.0, 1e-9);
   EXPECT_EQ(json["alignment"], "sim3");
-  EXPECT_THAT(Evaluate({"--align", "sim3"}).output, HasSubstr("scale 2.000000"));
+  EXPECT_THAT(Evaluate({"--align", "sim3"}).output, LineNames("scale", "2.000000"));
   EXPECT_EQ(Evaluate({"--align", "magic"}).exit_code, 2);
 }
 
@@ -150,8 +149,8 @@ TEST_F(EvaluateCommandTest, MeasuresRelativeErrorsOverADelta) {
   EXPECT_EQ(seconds["pairs"], 2);
   EXPECT_NEAR(seconds["translation"]["rmse"], 0.5 / std::sqrt(2.0), 1e-9);
   EXPECT_THAT(Evaluate({"--delta", "4", "--delta-unit", "metres"}).output,
-              HasSubstr("RPE 4 metres          no pairs at this distance"));
-  EXPECT_THAT(Evaluate({"--delta", "1.5"}).output, HasSubstr("--delta: "));
+              LineNames("RPE", "4 metres", "no pairs"));
+  EXPECT_THAT(Evaluate({"--delta", "1.5"}).output, Names("--delta"));
   EXPECT_EQ(Evaluate({"--delta", "0"}).exit_code, 2);
 }
 
@@ -178,11 +177,11 @@ TEST_F(EvaluateCommandTest, ReadsKittiAndEuroc) {
     EXPECT_NEAR(json["ape_max"], 0.0, 1e-12);
   }
   const CommandOutcome table = RunCommand({"evaluate", Path("kitti.txt"), Path("kitti.txt")});
-  EXPECT_THAT(table.output, HasSubstr("formats: ground truth kitti, estimate kitti"));
+  EXPECT_THAT(LineNaming("formats", table.output), testing::ContainsRegex("kitti.*kitti"));
   EXPECT_THAT(table.output, testing::Not(HasSubstr("mm/s")));
   EXPECT_THAT(
       RunCommand({"evaluate", Path("kitti.txt"), Path("truth.txt"), "--format", "tum"}).output,
-      HasSubstr("kitti.txt:1: expected 8 numbers"));
+      LineNames("error:", "kitti.txt:1", "8"));
   EXPECT_EQ(RunCommand({"evaluate", Path("kitti.txt"), Path("truth.txt"), "--format", "kitti,tum"})
                 .exit_code,
             0);
@@ -213,11 +212,10 @@ TEST_F(EvaluateCommandTest, SaysWhatContradicts) {
   WriteText("estimate.txt", CurveRows(1e3, 5.0, true, ","));
   const CommandOutcome outcome = Evaluate({"--plot", Path("plot.html")});
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_THAT(outcome.output, HasSubstr("estimate.txt: the time stamps are milliseconds"));
-  const char scale[] = "the estimated path is 5.0 times as long as the reference: depth units?";
-  const char order[] = "the quaternions of the estimate seem to be in the order qw qx qy qz";
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr(scale), HasSubstr(order)));
-  EXPECT_THAT(ReadFile(Path("plot.html")), AllOf(HasSubstr(scale), HasSubstr(order)));
+  EXPECT_THAT(outcome.output, LineNames("estimate.txt", "milliseconds"));
+  EXPECT_THAT(outcome.output, Names("estimated path", "5.0", "depth_scale", "order qw qx qy qz"));
+  EXPECT_THAT(ReadFile(Path("plot.html")),
+              Names("estimated path", "5.0", "depth_scale", "order qw qx qy qz"));
   const std::string text = Evaluate({"--json", "--align", "origin"}).output;
   const nlohmann::json json = nlohmann::json::parse(text.substr(text.find('{')));
   EXPECT_EQ(json["warnings"].size(), 2u);
@@ -225,7 +223,7 @@ TEST_F(EvaluateCommandTest, SaysWhatContradicts) {
   WriteText("estimate.txt", "# time x y z qw qx qy qz\n" + CurveRows(1.0, 5.0, true, ","));
   const CommandOutcome named = Evaluate({"--align", "sim3"});
   EXPECT_THAT(named.output, testing::Not(HasSubstr("warning")));
-  EXPECT_THAT(named.output, HasSubstr("scale 0.200000"));
+  EXPECT_THAT(named.output, LineNames("scale", "0.200000"));
 }
 
 TEST_F(EvaluateCommandTest, RefusesOrNamesDegenerateAlignments) {
@@ -235,13 +233,13 @@ TEST_F(EvaluateCommandTest, RefusesOrNamesDegenerateAlignments) {
   WriteText("truth.txt", still);
   const CommandOutcome scale = Evaluate({"--align", "sim3"});
   EXPECT_EQ(scale.exit_code, 1);
-  EXPECT_THAT(scale.output, HasSubstr("all positions of the reference are the same"));
+  EXPECT_THAT(scale.output, LineNames("error:", "reference", "scale"));
   const CommandOutcome rotation = Evaluate({});
   EXPECT_EQ(rotation.exit_code, 0);
-  EXPECT_THAT(rotation.output, HasSubstr("of the reference are the same, which determines no "));
+  EXPECT_THAT(rotation.output, LineNames("reference", "rotation"));
   WriteText("estimate.txt", "0 0 0 0 0 0 0 1\n1 1 1 0 0 0 0 1\n2 2 2 0 0 0 0 1\n3 3 3 0 0 0 0 1\n");
   WriteText("truth.txt", ReadFile(Path("estimate.txt")));
-  EXPECT_THAT(Evaluate({}).output, HasSubstr("warning: the positions are on a straight line"));
+  EXPECT_THAT(Evaluate({}).output, LineNames("warning:", "straight line"));
   // Nothing is aligned.
   EXPECT_THAT(Evaluate({"--align", "none"}).output, testing::Not(HasSubstr("straight line")));
 }
@@ -260,8 +258,7 @@ TEST_F(EvaluateCommandTest, MatchesEqualStampsInOrderOfTheFile) {
 }
 
 TEST_F(EvaluateCommandTest, WritesPlots) {
-  EXPECT_THAT(Evaluate({"--plot", Path("plot.html")}).output,
-              HasSubstr("plots: " + Path("plot.html")));
+  EXPECT_THAT(Evaluate({"--plot", Path("plot.html")}).output, Names(Path("plot.html")));
   EXPECT_THAT(ReadFile(Path("plot.html")),
               AllOf(HasSubstr("<!doctype html>"), HasSubstr("APE RMSE")));
   EXPECT_EQ(Evaluate({"--plot", Path("plot.svg")}).exit_code, 0);
@@ -269,15 +266,14 @@ TEST_F(EvaluateCommandTest, WritesPlots) {
   EXPECT_EQ(Evaluate({"--plot", Path("plot.png")}).exit_code, 2);
   EXPECT_EQ(Evaluate({"--plot", Path("no/plot.svg")}).exit_code, 1);
   std::filesystem::create_symlink(Path("truth.txt"), Path("truth.svg"));
-  EXPECT_THAT(Evaluate({"--plot", Path("truth.svg")}).output, HasSubstr("msc_vo: error: "));
+  EXPECT_THAT(Evaluate({"--plot", Path("truth.svg")}).output, LineNames("error:", "truth.svg"));
 }
 
 TEST_F(EvaluateCommandTest, ReportsInvalidFiles) {
   const CommandOutcome outcome =
       Evaluate({"--lines", Path("edges.ply"), "--edges", Path("edges.ply")});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("msc_vo: error: "), HasSubstr("edges.ply:4: element "
-                                                                            "'vertex' has no")));
+  EXPECT_THAT(outcome.output, LineNames("error:", "edges.ply:4", "'vertex'"));
 }
 
 TEST_F(EvaluateCommandTest, ReadsEdgesOfASyntheticSequence) {

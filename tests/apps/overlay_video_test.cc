@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "tests/apps/command_process.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <opencv2/videoio.hpp>
@@ -15,7 +16,6 @@
 namespace msc_vo {
 namespace {
 
-using testing::AllOf;
 using testing::HasSubstr;
 
 class OverlayVideoTest : public TemporaryFolder {
@@ -71,10 +71,11 @@ TEST_F(OverlayVideoTest, RefusesPortsThatCannotBe) {
     const CommandOutcome outcome = Replay({std::string("--view=") + port});
     EXPECT_EQ(outcome.exit_code, 1) << port;
     if (outcome.output.find("built without") != std::string::npos) GTEST_SKIP() << outcome.output;
-    EXPECT_THAT(outcome.output, AllOf(HasSubstr("--view: "), HasSubstr("is not a port")));
+    EXPECT_THAT(outcome.output, LineNames("error:", "--view", "port"));
   }
   // The sequence is taken for the port.
-  EXPECT_THAT(RunCommand({"replay", "--view", Room()}).output, HasSubstr("behind the sequence"));
+  EXPECT_THAT(RunCommand({"replay", "--view", Room()}).output,
+              LineNames("error:", "--view", "port"));
   EXPECT_EQ(Replay({"--view-address", "127.0.0.1"}).exit_code, 2);  // without --view
 }
 
@@ -82,7 +83,7 @@ TEST_F(OverlayVideoTest, ShowsARunToThisMachineOnly) {
   const CommandOutcome outcome = Replay({"--view", "0"});
   if (outcome.output.find("built without") != std::string::npos) GTEST_SKIP() << outcome.output;
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("live view: http://127.0.0.1:"));
+  EXPECT_THAT(outcome.output, HasSubstr("http://127.0.0.1:"));
 }
 
 }  // namespace

@@ -8,12 +8,14 @@
 
 #include "tests/apps/command_process.h"
 #include "tests/apps/rendered_sequence.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/results/online_results.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
@@ -109,9 +111,7 @@ TEST_F(ReplayCommandTest, WritesConsistentAndRepeatableResults) {
   Synthesize(20);
   const CommandOutcome outcome = Replay("a");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output,
-              AllOf(HasSubstr("20/20"), HasSubstr("APE RMSE"),
-                    HasSubstr("100.0 % of the ground-truth poses"), HasSubstr("evo_ape tum")));
+  EXPECT_THAT(outcome.output, Names("20/20", "APE RMSE", "100.0 %", "evo_ape"));
   ExpectConsistentFiles("a", 20);
   EXPECT_EQ(Summary("a")["outcome"], "complete");
   EXPECT_TRUE(Summary("a")["realtime"].is_null());
@@ -131,22 +131,20 @@ TEST_F(ReplayCommandTest, SaysWhatContradictsTheGroundTruth) {
   std::vector<TimedPose> larger = truth;
   for (TimedPose& pose : larger) pose.world_from_cam.translation() *= 4.0;
   WriteTrajectory(file, larger);
-  const char scale[] = "the reference path is 4.0 times as long as the estimate: depth units?";
-  EXPECT_THAT(Replay("larger").output, HasSubstr(scale));
-  EXPECT_THAT(Summary("larger")["error"]["warnings"].dump(), HasSubstr(scale));
-  EXPECT_THAT(ReadFile(Path("larger/report.html")), HasSubstr(scale));
+  const NamesMatcher scale = LineNames("reference path", "4.0", "depth_scale");
+  EXPECT_THAT(Replay("larger").output, scale);
+  EXPECT_THAT(Summary("larger")["error"]["warnings"].dump(), scale);
+  EXPECT_THAT(ReadFile(Path("larger/report.html")), scale);
   for (TimedPose& pose : larger) pose.world_from_cam.translation() /= 40.0;
   WriteTrajectory(file, larger);
-  EXPECT_THAT(Replay("smaller").output,
-              HasSubstr("the estimated path is 10.0 times as long as the reference: depth units?"));
+  EXPECT_THAT(Replay("smaller").output, LineNames("estimated path", "10.0", "depth_scale"));
   std::vector<TimedPose> reordered = truth;
   for (TimedPose& pose : reordered) {
     const Eigen::Quaterniond q(pose.world_from_cam.rotation());
     pose.world_from_cam.rotation() = Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y());
   }
   WriteTrajectory(file, reordered);
-  EXPECT_THAT(Replay("reordered").output,
-              HasSubstr("quaternions of the reference seem to be in the order qw qx qy qz"));
+  EXPECT_THAT(Replay("reordered").output, LineNames("reference", "order qw qx qy qz"));
 }
 
 TEST_F(ReplayCommandTest, UsesTheAccelerometer) {
@@ -160,13 +158,13 @@ TEST_F(ReplayCommandTest, UsesTheAccelerometer) {
   std::filesystem::remove(Path("room/accelerometer.txt"));
   const CommandOutcome missing = Replay("missing", {"--gravity"});
   EXPECT_EQ(missing.exit_code, 1);
-  EXPECT_THAT(missing.output, HasSubstr(Path("room/accelerometer.txt") + ": does not exist"));
+  EXPECT_THAT(missing.output, LineNames("error:", Path("room/accelerometer.txt"), "exist"));
 }
 
 TEST_F(ReplayCommandTest, RejectsInvalidAccelerometerAxes) {
   const CommandOutcome outcome = Replay("out", {"--gravity", "--accelerometer-axes=x,y,y"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output, HasSubstr("'x,y,y' is not a right-handed set of axes"));
+  EXPECT_THAT(outcome.output, LineNames("error:", "'x,y,y'", "right-handed"));
   EXPECT_EQ(Replay("out", {"--accelerometer-axes=x,y,z"}).exit_code, 2);  // without --gravity
 }
 
@@ -174,7 +172,7 @@ TEST_F(ReplayCommandTest, FollowsTheTimeStampsInRealTime) {
   Synthesize(12);
   const CommandOutcome outcome = Replay("out", {"--realtime"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("real time"), HasSubstr("of 12 images dropped")));
+  EXPECT_THAT(outcome.output, LineNames("real time", "12", "dropped"));
   const nlohmann::json summary = Summary("out");
   EXPECT_EQ(summary["frames"]["count"], 12);
   EXPECT_EQ(summary["options"]["realtime"], true);
@@ -193,8 +191,8 @@ TEST_F(ReplayCommandTest, IgnoresTheNameOfTheFolder) {
       RunCommand({"replay", Path("fr1_room"), "--output", Path("named")});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_EQ(ReadFile(Path("plain/trajectory.txt")), ReadFile(Path("named/trajectory.txt")));
-  EXPECT_THAT(outcome.output, HasSubstr("global shutter (self-calibrated from the images)"));
-  EXPECT_EQ(Summary("named")["readout_time_origin"], "self-calibrated from the images");
+  EXPECT_THAT(outcome.output, LineNames("global shutter", "self-calibrated"));
+  EXPECT_THAT(Summary("named")["readout_time_origin"].get<std::string>(), Names("self-calibrated"));
 }
 
 TEST_F(ReplayCommandTest, ReportsTheSourceOfTheReadoutTime) {
@@ -203,11 +201,11 @@ TEST_F(ReplayCommandTest, ReportsTheSourceOfTheReadoutTime) {
   WriteText("room/camera.txt", camera + "readout_time 0.02\n");
   CommandOutcome outcome = Replay("file");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("rolling shutter, readout time 20.0 ms"));
+  EXPECT_THAT(outcome.output, LineNames("rolling shutter", "20.0 ms"));
   EXPECT_EQ(Summary("file")["readout_time"], 0.02);
   EXPECT_EQ(Summary("file")["readout_time_origin"], Path("room/camera.txt"));
   outcome = Replay("option", {"--set", "mapping.readout_time=0"});
-  EXPECT_THAT(outcome.output, HasSubstr("global shutter (mapping.readout_time)"));
+  EXPECT_THAT(outcome.output, LineNames("global shutter", "mapping.readout_time"));
   EXPECT_EQ(Summary("option")["readout_time_origin"], "mapping.readout_time");
 }
 
@@ -232,18 +230,17 @@ TEST_F(ReplayCommandTest, SkipsAndCountsUnreadableImages) {
     EXPECT_GE(num_unreadable, num_dropped == 0 ? 2 : 1);
     EXPECT_LE(num_unreadable, 2);
     const std::string count = std::to_string(num_unreadable);
-    EXPECT_THAT(outcome.output, AllOf(HasSubstr("warning: " + count + " of 12 images cannot be"),
-                                      HasSubstr(first + " (named in "), HasSubstr("truncated"),
-                                      HasSubstr(count + " unreadable")));
+    EXPECT_THAT(outcome.output,
+                AllOf(LineNames("warning:", count, "12", first, ".txt:", "truncated"),
+                      Names(count + " unreadable")));
     EXPECT_EQ(NumPoses("out"), 12u);
     EXPECT_THAT(summary["first_unreadable_image"].get<std::string>(), HasSubstr(first));
-    EXPECT_THAT(ReadFile(Path("out/report.html")),
-                AllOf(HasSubstr("Unreadable images"), HasSubstr(first)));
+    EXPECT_THAT(ReadFile(Path("out/report.html")), HasSubstr(first));
     if (num_dropped == 0) {
       EXPECT_LT(summary["error"]["ape_max"], 0.02);  // of image 5 as well
     }
   }
-  EXPECT_THAT(Replay("out", {"--quiet"}).output, HasSubstr("2 of 12 images cannot be read"));
+  EXPECT_THAT(Replay("out", {"--quiet"}).output, LineNames("warning:", "2", "12"));
 }
 
 TEST_F(ReplayCommandTest, StopsAStrictRunAtAnUnreadableImage) {
@@ -251,8 +248,7 @@ TEST_F(ReplayCommandTest, StopsAStrictRunAtAnUnreadableImage) {
   const std::string broken = BreakColor(5);
   const CommandOutcome outcome = Replay("out", {"--strict"});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("msc_vo: error: "), HasSubstr(broken),
-                                    HasSubstr("truncated"), HasSubstr("results so far are in")));
+  EXPECT_THAT(outcome.output, Names("error:", broken, "truncated", "--resume"));
   EXPECT_EQ(NumPoses("out"), 5u);
   EXPECT_THAT(Summary("out")["outcome"].get<std::string>(), HasSubstr("truncated"));
 }
@@ -265,9 +261,8 @@ TEST_F(ReplayCommandTest, FailsIfMoreThanHalfOfTheImagesAreUnreadable) {
   BreakColor(7);
   const CommandOutcome outcome = Replay("more");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("more than half of the 8 images cannot be read"),
-                                    HasSubstr(first), HasSubstr("results so far are in")));
-  EXPECT_THAT(Summary("more")["outcome"].get<std::string>(), HasSubstr("more than half"));
+  EXPECT_THAT(outcome.output, Names("error:", "half", "8", first, Path("more")));
+  EXPECT_THAT(Summary("more")["outcome"].get<std::string>(), Names("half"));
 }
 
 TEST_F(ReplayCommandTest, FailsEarlyWithoutReadableImages) {
@@ -280,8 +275,7 @@ TEST_F(ReplayCommandTest, FailsEarlyWithoutReadableImages) {
   WriteText("room/associations.txt", list);
   const CommandOutcome outcome = Replay("out");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("none of the first 30 images can be read"),
-                                    HasSubstr("none0 (named in")));
+  EXPECT_THAT(outcome.output, LineNames("error:", "30", "none0"));
   EXPECT_FALSE(std::filesystem::exists(Path("out/trajectory.txt")));
 }
 
@@ -299,7 +293,7 @@ TEST_F(ReplayCommandTest, WarnsAboutLongPausesInRealTime) {
   WriteText("room/rgb.txt", lists[0]);
   WriteText("room/depth.txt", lists[1]);
   CommandProcess replay({"replay", Path("room"), "--output", Path("out"), "--realtime"});
-  EXPECT_TRUE(replay.WaitForOutput("the longest, 86400.000 s, is before")) << replay.output();
+  EXPECT_TRUE(replay.WaitForOutput("86400.000 s")) << replay.output();
   replay.Signal(SIGTERM);
   replay.Signal(SIGTERM);
 }
@@ -309,19 +303,18 @@ TEST_F(ReplayCommandTest, FailsWithCausesWithoutEstimatedPoses) {
   Blacken("room", 0, 8);
   const CommandOutcome outcome = Replay("out");
   EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_THAT(outcome.output,
-              AllOf(HasSubstr("msc_vo: error: tracking failed: 0 of 8 images have an estimated "
-                              "pose, at least 50 % are needed; the others: 8 black or uniform\n"),
-                    testing::Not(HasSubstr("APE RMSE"))));
+  EXPECT_THAT(outcome.output, AllOf(LineNames("error:", "0", "8", "50 %", "8 black"),
+                                    testing::Not(HasSubstr("APE RMSE"))));
   EXPECT_EQ(NumPoses("out"), 8u);  // all marked as not estimated
   for (const TimedPose& pose : ReadTrajectory(Path("out/trajectory.txt"))) {
     EXPECT_FALSE(pose.is_estimated);
   }
   EXPECT_TRUE(ReadTrajectory(Path("out/keyframes.txt")).empty());
-  EXPECT_THAT(Summary("out")["outcome"].get<std::string>(), HasSubstr("tracking failed"));
+  EXPECT_THAT(Summary("out")["outcome"].get<std::string>(), Names("0", "8"));
   EXPECT_EQ(Summary("out")["frames"]["loss_causes"]["uniform_image"], 8);
   EXPECT_FALSE(Summary("out")["error"]["usable"]);
-  EXPECT_THAT(ReadFile(Path("out/report.html")), HasSubstr("tracking failed"));
+  EXPECT_THAT(ReadFile(Path("out/report.html")),
+              HasSubstr(Summary("out")["outcome"].get<std::string>()));
 }
 
 TEST_F(ReplayCommandTest, ExcludesUnestimatedPosesFromCoverage) {
@@ -329,8 +322,7 @@ TEST_F(ReplayCommandTest, ExcludesUnestimatedPosesFromCoverage) {
   Blacken("room", 7, 10);
   const CommandOutcome outcome = Replay("out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("images without a pose: 3 black or uniform"),
-                                    HasSubstr("70.0 % of the ground-truth poses")));
+  EXPECT_THAT(outcome.output, Names("3 black", "70.0 %"));
   EXPECT_EQ(Summary("out")["error"]["coverage"], 0.7);
   EXPECT_EQ(Summary("out")["error"]["not_estimated"], 3);
 
@@ -378,7 +370,8 @@ TEST_F(ReplayCommandTest, LeavesFramesOfAKilledRun) {
   WaitForPoses("out", 6);
   replay.Signal(SIGKILL);
   ASSERT_EQ(replay.Wait(), -SIGKILL) << replay.output();
-  EXPECT_THAT(ReadFile(Path("out/trajectory.txt")), testing::StartsWith("# unfinished run"));
+  EXPECT_THAT(ReadFile(Path("out/trajectory.txt")),
+              testing::StartsWith(kUnfinishedTrajectoryComment));
   EXPECT_GE(NumPoses("out"), 6u);
   const std::string frames = ReadFile(Path("out/frames.csv"));
   EXPECT_GE(std::count(frames.begin(), frames.end(), '\n'), 7);
@@ -390,7 +383,7 @@ TEST_F(ReplayCommandTest, FailsBeforeTheRunIfTheFolderCannotBeCreated) {
   WriteText("file", "");
   const CommandOutcome outcome = Replay("file/out");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.output, HasSubstr("cannot be created"));
+  EXPECT_THAT(outcome.output, LineNames("error:", "created"));
   EXPECT_THAT(outcome.output, testing::Not(HasSubstr("1/2")));  // before the first image
 }
 

@@ -7,6 +7,7 @@
 
 #include "tests/apps/command_process.h"
 #include "tests/apps/rendered_sequence.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -32,10 +33,10 @@ class SolveWindowCommandTest : public TemporaryFolder {
     options.num_lines = 10;
     return MakeSyntheticWindow(options).data;
   }
-  void ExpectError(const std::vector<std::string>& arguments, const std::string& message) {
+  void ExpectError(const std::vector<std::string>& arguments, const NamesMatcher& names) {
     const CommandOutcome outcome = RunCommand(arguments);
-    EXPECT_EQ(outcome.exit_code, 1) << message;
-    EXPECT_THAT(outcome.output, AllOf(HasSubstr("msc_vo: error: "), HasSubstr(message)));
+    EXPECT_EQ(outcome.exit_code, 1) << testing::PrintToString(arguments);
+    EXPECT_THAT(outcome.output, AllOf(Names("error:"), names));
   }
   std::vector<std::string> FilesIn(const std::string& name) {
     std::vector<std::string> files;
@@ -86,8 +87,7 @@ TEST_F(SolveWindowCommandTest, PrintsATableAndAppliesOptions) {
   const CommandOutcome table = RunCommand({"solve-window", Path("window.txt")});
   EXPECT_EQ(table.exit_code, 0);
   EXPECT_THAT(table.output,
-              AllOf(HasSubstr("4 keyframes (1 fixed), "), HasSubstr("local BA: solved, "),
-                    HasSubstr("point reprojection"), HasSubstr(" blocks, "), HasSubstr(" ms\n")));
+              Names("4 keyframes", "1 fixed", "solved", "point reprojection", "blocks", "ms"));
 
   WriteText("options.yaml", "mapping:\n  window:\n    second_iterations: 7\n");
   const CommandOutcome changed = RunCommand(
@@ -103,19 +103,18 @@ TEST_F(SolveWindowCommandTest, PrintsATableAndAppliesOptions) {
 TEST_F(SolveWindowCommandTest, ReportsErrorsWithTheFile) {
   WindowData data = SmallWindow();
   WriteWindow(Path("good.txt"), BundleAdjustmentOptions(), data);
-  ExpectError({"solve-window", Path("none.txt")}, "none.txt: does not exist");
+  ExpectError({"solve-window", Path("none.txt")}, Names("none.txt", "exist"));
   ExpectError({"solve-window", Path("good.txt"), "--set", "mode=pl-vo"},
-              "is not an option of local bundle adjustment");
+              Names("--set", "mode=pl-vo", "mapping.window"));
   ExpectError({"solve-window", Path("good.txt"), "--set", "mapping.window.first_iterations=0"},
-              "mapping.window.first_iterations must be a whole number from 1");
+              Names("--set", "mapping.window.first_iterations", "1", "'0'"));
   ExpectError({"solve-window", Path("good.txt"), "--output", Path("no/folder.txt")},
-              "folder.txt: cannot be written");
+              Names("folder.txt", "written"));
   data.point_observations[3].point = 987;
   WriteWindow(Path("unknown.txt"), BundleAdjustmentOptions(), data);
-  ExpectError({"solve-window", Path("unknown.txt")},
-              "unknown.txt: LocalBundleAdjustment: point 987 is observed but not in the window");
+  ExpectError({"solve-window", Path("unknown.txt")}, Names("unknown.txt", "point 987"));
   WriteText("other.txt", "1 2 3\n");
-  ExpectError({"solve-window", Path("other.txt")}, "other.txt:1: is not a window file");
+  ExpectError({"solve-window", Path("other.txt")}, Names("other.txt:1", "msc_vo_window 1"));
 }
 
 TEST_F(SolveWindowCommandTest, FailsOnUnsolvableWindows) {
@@ -123,7 +122,7 @@ TEST_F(SolveWindowCommandTest, FailsOnUnsolvableWindows) {
   data.point_observations[0].sigma = 1e-200;  // chi-square is not finite
   WriteWindow(Path("window.txt"), BundleAdjustmentOptions(), data);
   ExpectError({"solve-window", Path("window.txt"), "--output", Path("solved.txt")},
-              "window.txt: the solver failed");
+              Names("window.txt", "solver"));
   EXPECT_FALSE(std::filesystem::exists(Path("solved.txt")));
 }
 

@@ -8,13 +8,12 @@
 
 #include "tests/apps/command_process.h"
 #include "tests/apps/rendered_sequence.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
 namespace {
-
-using testing::HasSubstr;
 
 class StandardStreamsTest : public TemporaryFolder {
  protected:
@@ -38,7 +37,7 @@ TEST_F(StandardStreamsTest, FailsIfStandardOutputCannotBeWritten) {
   for (const std::vector<std::string>& arguments : commands) {
     const CommandOutcome outcome = RunCommand(arguments, "/dev/full");
     EXPECT_EQ(outcome.exit_code, 1) << testing::PrintToString(arguments);
-    EXPECT_THAT(outcome.output, HasSubstr("msc_vo: error: standard output cannot be written"));
+    EXPECT_THAT(outcome.output, LineNames("error:", "standard output"));
   }
   EXPECT_TRUE(std::filesystem::exists(Path("out/summary.json")));
 }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "tests/support/custom_factors.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/test_window.h"
 #include <ceres/sphere_manifold.h>
 #include <gmock/gmock.h>
@@ -16,8 +17,6 @@
 
 namespace msc_vo {
 namespace {
-
-using testing::HasSubstr;
 
 struct Undefined {
   template <typename T>
@@ -83,34 +82,29 @@ TEST_F(CustomValidationTest, AcceptsAValidFactor) {
 TEST_F(CustomValidationTest, NamesTheFactor) {
   CustomFactor factor = good_.custom_factors[0];
   factor.cost = nullptr;
-  EXPECT_THAT(ErrorOfFactor(factor), HasSubstr("custom factor 'mine': its cost function is null"));
+  EXPECT_THAT(ErrorOfFactor(factor), Names("'mine'", "null"));
   factor = good_.custom_factors[0];
   factor.blocks.pop_back();
-  EXPECT_THAT(ErrorOfFactor(factor), HasSubstr("custom factor 'mine': the number of parameter "
-                                               "blocks of its cost function is 2 instead of 1"));
+  EXPECT_THAT(ErrorOfFactor(factor), Names("'mine'", "parameter block", "2", "1"));
   factor.blocks.push_back(BlockId::Pose(good_.keyframes[0].id));
-  EXPECT_THAT(ErrorOfFactor(factor),
-              HasSubstr("custom factor 'mine': its cost function has size 3 for parameter block 1, "
-                        "but the pose of keyframe 100 has size 7"));
+  EXPECT_THAT(ErrorOfFactor(factor), Names("'mine'", "block 1", "3", "keyframe 100", "7"));
   factor.blocks[1] = factor.blocks[0];
-  EXPECT_THAT(ErrorOfFactor(factor), HasSubstr("custom factor 'mine': point 1000 is given twice"));
+  EXPECT_THAT(ErrorOfFactor(factor), Names("'mine'", "point 1000", "twice"));
   factor.blocks[1] = BlockId::Axes();
-  EXPECT_THAT(ErrorOfFactor(factor),
-              HasSubstr("custom factor 'mine': the window has no Manhattan axes"));
+  EXPECT_THAT(ErrorOfFactor(factor), Names("'mine'", "Manhattan axes"));
   factor.blocks[1] = BlockId::Extra(6);
-  EXPECT_THAT(ErrorOfFactor(factor), HasSubstr("extra block 6 is a parameter block of custom "
-                                               "factor 'mine' but not in the window"));
+  EXPECT_THAT(ErrorOfFactor(factor), Names("'mine'", "extra block", "6"));
   factor.blocks[1] = BlockId::Line(1);
-  EXPECT_THAT(ErrorOfFactor(factor), HasSubstr("line 1 is a parameter block of custom factor"));
+  EXPECT_THAT(ErrorOfFactor(factor), Names("'mine'", "line 1"));
 }
 
 TEST_F(CustomValidationTest, NamesAFactorThatCannotBeEvaluated) {
   EXPECT_THAT(ErrorOfFactor(MakeCustomFactor<1, 3>("u", Undefined(), {BlockId::Extra(5)})),
-              HasSubstr("custom factor 'u': it cannot be evaluated at the initial values"));
+              Names("'u'", "evaluated"));
   EXPECT_THAT(ErrorOfFactor(MakeCustomFactor<1, 3>("n", NotFinite(), {BlockId::Extra(5)})),
-              HasSubstr("custom factor 'n': it cannot be evaluated at the initial values"));
+              Names("'n'", "evaluated"));
   EXPECT_THAT(ErrorOfFactor(MakeCustomFactor<1, 3>("s", SquareRoot(), {BlockId::Extra(5)})),
-              HasSubstr("custom factor 's': its derivatives are not finite"));
+              Names("'s'", "derivatives"));
 }
 
 TEST_F(CustomValidationTest, IgnoresDerivativesOfFixedBlocks) {
@@ -127,14 +121,13 @@ TEST_F(CustomValidationTest, NamesTheExtraBlock) {
     return ErrorOf([&extra](WindowData* data) { data->extra_blocks.push_back(extra); });
   };
   EXPECT_THAT(error_of({5, Eigen::VectorXd::Zero(1), {}, false}),
-              HasSubstr("extra block 5: the id is given twice"));
-  EXPECT_THAT(error_of({6, Eigen::VectorXd(), {}, false}),
-              HasSubstr("extra block 6: it has no value"));
+              Names("extra block", "5", "twice"));
+  EXPECT_THAT(error_of({6, Eigen::VectorXd(), {}, false}), Names("extra block", "6", "no value"));
   EXPECT_THAT(error_of({6, Eigen::VectorXd::Constant(1, INFINITY), {}, false}),
-              HasSubstr("extra block 6: the value is not finite"));
+              Names("extra block", "6", "finite"));
   EXPECT_THAT(
       error_of({6, Eigen::VectorXd::Zero(2), std::make_shared<ceres::SphereManifold<3>>(), false}),
-      HasSubstr("extra block 6: the value has size 2, but its manifold has 3"));
+      Names("extra block", "6", "2", "manifold", "3"));
 }
 
 TEST_F(CustomValidationTest, RejectsAxesThatAreNoRotation) {
@@ -142,14 +135,14 @@ TEST_F(CustomValidationTest, RejectsAxesThatAreNoRotation) {
                 data->axes.emplace();
                 data->axes->world_from_axes.coeffs() *= 1.1;
               }),
-              HasSubstr("the Manhattan axes: rotation is not a unit quaternion"));
+              Names("Manhattan axes", "quaternion"));
 }
 
 TEST_F(CustomValidationTest, RequiresAGauge) {
   EXPECT_THAT(ErrorOf([](WindowData* data) {
                 for (auto& keyframe : data->keyframes) keyframe.fixed = false;
               }),
-              HasSubstr("the gauge is free"));
+              Names("gauge"));
 }
 
 }  // namespace

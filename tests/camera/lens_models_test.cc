@@ -9,6 +9,7 @@
 
 #include "tests/support/eigen_matchers.h"
 #include "tests/support/lenses.h"
+#include "tests/support/message_matchers.h"
 #include <gmock/gmock.h>
 
 #include "msc_vo/camera/lens_distortion.h"
@@ -19,8 +20,6 @@ namespace msc_vo {
 namespace {
 
 using Eigen::Vector2d;
-using testing::AllOf;
-using testing::HasSubstr;
 
 TEST(LensModel, NamesRoundTrip) {
   for (const LensModel model :
@@ -126,16 +125,14 @@ TEST(LensModels, FoldsAreRefused) {
   LensDistortion rational = AzureKinectLens();
   std::swap(rational.k[2], rational.k[4]);  // k3 in the place of p1
   EXPECT_FALSE(IsInvertible(rational, AzureKinectCamera(), &error));
-  EXPECT_THAT(error, AllOf(HasSubstr("k1 k2 p1 p2 k3 k4 k5 k6 = "), HasSubstr("folds over"),
-                           HasSubstr("order k1 k2 p1 p2 k3 k4 k5 k6")));
+  EXPECT_THAT(error, Names("fold", "k1 k2 p1 p2 k3 k4 k5 k6"));
 
   // theta - 0.4 theta^3 has its maximum at 52.3 degrees.
   LensDistortion fisheye{{-0.4}, LensModel::kFisheye};
   PinholeCamera camera = WideCamera();
   CropToFieldOfView(100.0, &fisheye, &camera);
   EXPECT_FALSE(IsInvertible(fisheye, camera, &error));
-  EXPECT_THAT(error, AllOf(HasSubstr("the lens k1 k2 k3 k4 = -0.4 0 0 0 folds over"),
-                           HasSubstr("give a smaller field_of_view")));
+  EXPECT_THAT(error, Names("fold", "k1 k2 k3 k4", "-0.4", "field_of_view"));
   camera = WideCamera();
   CropToFieldOfView(70.0, &fisheye, &camera);
   EXPECT_TRUE(IsInvertible(fisheye, camera, &error)) << error;
@@ -181,7 +178,7 @@ TEST(UndistortedCamera, NamesValidRange) {
   std::string error;
   EXPECT_TRUE(IsValidFieldOfView(100.0, &error));
   EXPECT_FALSE(IsValidFieldOfView(180.0, &error));
-  EXPECT_THAT(error, HasSubstr("field_of_view = 180 must be from 10 to 150 degrees"));
+  EXPECT_THAT(error, Names("field_of_view", "180", "10", "150"));
   EXPECT_FALSE(IsValidFieldOfView(std::nan(""), &error));
 }
 

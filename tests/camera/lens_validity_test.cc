@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/message_matchers.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 // Intrinsics of TUM RGB-D freiburg1: the farthest corner has radius 0.8 on the plane z = 1.
@@ -37,11 +37,9 @@ TEST(IsInvertible, AcceptsRealLenses) {
 TEST(IsInvertible, NamesFoldRadiusAndCoefficientOrder) {
   // r (1 - 0.3 r^2) has its maximum 0.703 at r = 1.054, and no recorded pixel lies beyond it.
   EXPECT_THAT(Problem({{-0.3, 0.0, 0.0, 0.0, 0.0}}),
-              AllOf(HasSubstr("folds over at radius 1.05 (545 pixels) of the undistorted image"),
-                    HasSubstr("0.703 (363 pixels) of the recorded one"),
-                    HasSubstr("order k1 k2 p1 p2 k3")));
+              Names("fold", "1.05", "545", "0.703", "363", "k1 k2 p1 p2 k3"));
   // 1 + 3 k1 r^2 + 5 k2 r^4 = 0 at r = 0.740.
-  EXPECT_THAT(Problem({{0.262383, -0.953104, 0.0, 0.0, 0.0}}), HasSubstr("at radius 0.74"));
+  EXPECT_THAT(Problem({{0.262383, -0.953104, 0.0, 0.0, 0.0}}), Names("fold", "0.741"));
 }
 
 TEST(IsInvertible, RejectsMisplacedCoefficients) {
@@ -54,7 +52,7 @@ TEST(IsInvertible, RejectsMisplacedCoefficients) {
            {{-1e6, 0.0, 0.0, 0.0, 0.0}},
            {{0.0, 0.0, 1e300, 0.0, 1e300}},
            {{-1e308, 1e308, 0.0, 0.0, 1e308}}}) {
-    EXPECT_THAT(Problem(lens), HasSubstr("folds over"));
+    EXPECT_THAT(Problem(lens), Names("fold"));
   }
   EXPECT_THAT(Problem({{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0, 0.0, 0.0}}),
               HasSubstr("finite"));

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/support/eigen_matchers.h"
+#include "tests/support/message_matchers.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
@@ -73,15 +74,15 @@ TEST(PinholeCamera, RejectsNumbersOutsidePhysicalRange) {
   EXPECT_EQ(problem({535.4, 539.2, 320.1, 247.6, 640, 480}), "");
   EXPECT_EQ(problem({481.2, -480.0, 319.5, 239.5, 640, 480}), "");  // ICL-NUIM
   EXPECT_THAT(problem({-535.4, 539.2, 320.1, 247.6, 640, 480}),
-              HasSubstr("fx = -535.4 must be from 12.8 to 128000 pixels"));
-  EXPECT_THAT(problem({5.354, 5.392, 320.1, 247.6, 640, 480}), HasSubstr("fx = 5.354"));
-  EXPECT_THAT(problem({1e9, 1e9, 320.1, 247.6, 640, 480}), HasSubstr("fx = 1e+09"));
-  EXPECT_THAT(problem({535.4, 53.92, 320.1, 247.6, 640, 480}), HasSubstr("fy = 53.92"));
-  EXPECT_THAT(problem({535.4, -5392, 320.1, 247.6, 640, 480}), HasSubstr("fy = 5392"));
-  EXPECT_THAT(problem({535.4, 539.2, 3201.0, 247.6, 640, 480}), HasSubstr("cx = 3201"));
-  EXPECT_THAT(problem({535.4, 539.2, 320.1, -1.0, 640, 480}), HasSubstr("cy = -1"));
+              Names("fx", "-535.4", "12.8", "128000"));
+  EXPECT_THAT(problem({5.354, 5.392, 320.1, 247.6, 640, 480}), Names("fx", "5.354"));
+  EXPECT_THAT(problem({1e9, 1e9, 320.1, 247.6, 640, 480}), Names("fx", "1e+09"));
+  EXPECT_THAT(problem({535.4, 53.92, 320.1, 247.6, 640, 480}), Names("fy", "53.92"));
+  EXPECT_THAT(problem({535.4, -5392, 320.1, 247.6, 640, 480}), Names("fy", "5392"));
+  EXPECT_THAT(problem({535.4, 539.2, 3201.0, 247.6, 640, 480}), Names("cx", "3201"));
+  EXPECT_THAT(problem({535.4, 539.2, 320.1, -1.0, 640, 480}), Names("cy", "-1"));
   EXPECT_THAT(problem({535.4, 539.2, 320.1, 247.6, 2147483647, 480}), HasSubstr("width"));
-  EXPECT_THAT(problem({std::nan(""), 539.2, 320.1, 247.6, 640, 480}), HasSubstr("fx = nan"));
+  EXPECT_THAT(problem({std::nan(""), 539.2, 320.1, 247.6, 640, 480}), Names("fx", "nan"));
 }
 
 }  // namespace

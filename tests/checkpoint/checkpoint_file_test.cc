@@ -3,6 +3,7 @@
 
 #include "msc_vo/checkpoint/checkpoint_file.h"
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -10,9 +11,6 @@
 
 namespace msc_vo {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
 
 using Objects = std::vector<std::shared_ptr<const std::string>>;
 
@@ -52,9 +50,7 @@ class CheckpointFileTest : public TemporaryFolder {
     return text;
   }
   void ExpectRefused(const std::string& file, const std::string& reason) const {
-    EXPECT_THAT(MessageOf([this] { Read(); }),
-                AllOf(HasSubstr(Path(file) + ": "), HasSubstr(reason),
-                      HasSubstr("start it again without --resume")));
+    EXPECT_THAT(MessageOf([this] { Read(); }), Names(Path(file), reason, "--resume"));
   }
   void Overwrite(const std::string& name, size_t position, char value) const {
     std::string bytes = ReadFile(Path(name));
@@ -129,7 +125,7 @@ TEST_F(CheckpointFileTest, KeepsTheOldCheckpointUntilTheNewOneIsWhole) {
   EXPECT_EQ(Read(), TextOf(objects));
   std::filesystem::create_directories(Path("checkpoint/state.bin.partial"));  // cannot be written
   EXPECT_THAT(MessageOf([&] { Save("new", MakeObjects(3), &next); }),
-              HasSubstr(State() + ".partial: cannot be opened"));
+              Names(State() + ".partial", "opened"));
   EXPECT_EQ(Read(), TextOf(objects));
 }
 
@@ -178,9 +174,9 @@ TEST_F(CheckpointFileTest, RefusesDamagedAndForeignFiles) {
   }
   WriteText("checkpoint/state.bin", state);
   Overwrite("checkpoint/state.bin", 8, 99);
-  ExpectRefused("checkpoint/state.bin", "has format 99, and this program reads format ");
+  ExpectRefused("checkpoint/state.bin", "format 99");
   WriteText("checkpoint/state.bin", std::string(100, 'x'));
-  ExpectRefused("checkpoint/state.bin", "is not a checkpoint");
+  ExpectRefused("checkpoint/state.bin", "not a checkpoint");
   WriteText("checkpoint/state.bin", state);
 
   const std::string journal = ReadFile(Path("checkpoint/objects-1.bin"));

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -17,6 +18,18 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
+
+// What the documentation of an option says.
+struct OptionTexts {
+  std::string value, valid, help, when;
+};
+
+OptionTexts TextsOf(const std::string& path) {
+  Configuration configuration;
+  const std::vector<Option> options = ListOptions(&configuration);
+  const Option& option = *FindByPath(options, path);
+  return {FormatOption(option), FormatValidValues(option), option.help, option.when_to_change};
+}
 
 class OptionsFileTest : public TemporaryFolder {
  protected:
@@ -61,10 +74,9 @@ TEST_F(OptionsFileTest, ReadsUtf8WithAByteOrderMarkAndNamesUtf16) {
   for (const std::string& text : {std::string("camera: {fx: 500}\n"), orb_slam}) {
     std::string wide = "\xFF\xFE";
     for (const char c : text) wide += std::string(1, c) + '\0';
-    EXPECT_THAT(ErrorOf(wide),
-                HasSubstr("options.yaml: is UTF-16 or UTF-32 text; save it as UTF-8"));
+    EXPECT_THAT(ErrorOf(wide), Names("options.yaml", "UTF-16", "UTF-8"));
     EXPECT_THAT(MessageOf([&] { ReadCamera(Path("options.yaml"), &configuration); }),
-                HasSubstr("save it as UTF-8"));
+                Names("options.yaml", "UTF-16", "UTF-8"));
   }
 }
 
@@ -79,7 +91,7 @@ TEST_F(OptionsFileTest, ReadsLists) {
     EXPECT_THAT(MessageOf([&] {
                   Read("camera:\n  depth_camera:\n    translation: " + std::string(value) + "\n");
                 }),
-                HasSubstr(":3: 'camera.depth_camera.translation' must be a list of 3 numbers"))
+                Names("options.yaml:3", "camera.depth_camera.translation", "3"))
         << value;
   }
 }
@@ -119,10 +131,9 @@ TEST_F(OptionsFileTest, ReadsBackAnyText) {
 
 TEST_F(OptionsFileTest, WritesBasicOptionsOnlyUnlessAllAreSelected) {
   const std::string basic = FormatConfiguration(Configuration(), OptionSelection::kBasic);
-  EXPECT_THAT(basic, AllOf(HasSubstr("\n  prediction_radius: 15 "),
-                           HasSubstr("# Search radius around the predicted projection of a "
-                                     "landmark. [0.1 to 1000 pixels]\n"),
-                           HasSubstr(" # Increase for fast motion"), HasSubstr("\n  # fx: ")));
+  const OptionTexts radius = TextsOf("tracking.prediction_radius");
+  EXPECT_THAT(basic, AllOf(HasSubstr("\n  prediction_radius: " + radius.value + " "),
+                           HasSubstr("\n  # fx: "), Names(radius.help, radius.valid, radius.when)));
   EXPECT_THAT(basic, Not(HasSubstr("wide_radius")));
   EXPECT_TRUE(ChangedOptions(Read(basic)).empty());
   EXPECT_THAT(FormatConfiguration(Configuration(), OptionSelection::kAll),
@@ -131,55 +142,58 @@ TEST_F(OptionsFileTest, WritesBasicOptionsOnlyUnlessAllAreSelected) {
 
 TEST_F(OptionsFileTest, WritesTablesInMarkdown) {
   const std::string basic = FormatOptionsMarkdown(OptionSelection::kBasic);
-  EXPECT_THAT(basic, HasSubstr("\n| `tracking.prediction_radius` | `15` | 0.1 to 1000 pixels | "
-                               "Search radius around the predicted projection of a landmark. | "
-                               "Increase for fast motion"));
+  const OptionTexts radius = TextsOf("tracking.prediction_radius");
+  EXPECT_THAT(basic, HasSubstr("\n| `tracking.prediction_radius` | `" + radius.value + "` | " +
+                               radius.valid + " | " + radius.help + " | " + radius.when));
   EXPECT_THAT(basic, Not(HasSubstr("wide_radius")));
   const std::string all = FormatOptionsMarkdown(OptionSelection::kAll);
+  const OptionTexts wide = TextsOf("tracking.wide_radius");
   EXPECT_EQ(all.rfind(basic, 0), 0u);
   EXPECT_THAT(all, AllOf(HasSubstr("\n### tracking\n"),
-                         HasSubstr("\n| `tracking.wide_radius` | `60` | 0.1 to 1000 pixels |"),
+                         HasSubstr("\n| `tracking.wide_radius` | `" + wide.value + "` | " +
+                                   wide.valid + " |"),
                          HasSubstr("\n### mapping.window\n")));
 }
 
 TEST_F(OptionsFileTest, SuggestsASimilarNameForAnUnknownOne) {
   EXPECT_THAT(ErrorOf("\ntracking:\n  wide_raduis: 80\n"),
-              AllOf(HasSubstr("options.yaml:3: unknown option 'tracking.wide_raduis'"),
-                    HasSubstr("did you mean 'tracking.wide_radius'?")));
-  EXPECT_THAT(ErrorOf("max_lines: 80\n"), HasSubstr("did you mean 'features.lines.max_lines'?"));
-  EXPECT_THAT(ErrorOf("xyzzy: 80\n"), HasSubstr("--print-config --all lists the known ones"));
+              Names("options.yaml:3", "tracking.wide_raduis", "tracking.wide_radius"));
+  EXPECT_THAT(ErrorOf("max_lines: 80\n"), Names("options.yaml:1", "features.lines.max_lines"));
+  EXPECT_THAT(ErrorOf("xyzzy: 80\n"), Names("options.yaml:1", "xyzzy", "--print-config --all"));
 }
 
 TEST_F(OptionsFileTest, RefusesWrongTypes) {
   EXPECT_THAT(ErrorOf("tracking:\n  wide_radius: far\n"),
-              HasSubstr("options.yaml:2: 'tracking.wide_radius' must be a number from 0.1 to 1000 "
-                        "pixels, not 'far'"));
-  EXPECT_THAT(ErrorOf("tracking:\n  min_matches: 10.5\n"), HasSubstr("a whole number"));
-  EXPECT_THAT(ErrorOf("use_points: 3\n"), HasSubstr("true or false"));
-  EXPECT_THAT(ErrorOf("mode: orb\n"), HasSubstr("one of pl-vo pl-vo-depth msc-vo, not 'orb'"));
-  EXPECT_THAT(ErrorOf("mapping:\n  window:\n    solver: ceres-dense-schur\n"),
-              HasSubstr("one of block-schur ceres ceres-suite-sparse, not 'ceres-dense-schur'"));
-  EXPECT_THAT(ErrorOf("mode: [pl-vo]\n"), HasSubstr("'mode' must be"));
-  EXPECT_THAT(ErrorOf("tracking: 5\n"), HasSubstr("'tracking' is a section"));
-  EXPECT_THAT(ErrorOf("tracking:\n  wide_radius: .inf\n"), HasSubstr("must be a number"));
+              Names("options.yaml:2", "tracking.wide_radius", "0.1", "1000", "pixels", "far"));
+  EXPECT_THAT(ErrorOf("tracking:\n  min_matches: 10.5\n"),
+              Names("options.yaml:2", "tracking.min_matches", "whole number", "'10.5'"));
+  EXPECT_THAT(ErrorOf("use_points: 3\n"),
+              Names("options.yaml:1", "use_points", "true", "false", "'3'"));
+  EXPECT_THAT(ErrorOf("mode: orb\n"),
+              Names("options.yaml:1", "mode", "pl-vo", "pl-vo-depth", "msc-vo", "orb"));
+  EXPECT_THAT(
+      ErrorOf("mapping:\n  window:\n    solver: ceres-dense-schur\n"),
+      Names("options.yaml:3", "block-schur", "ceres", "ceres-suite-sparse", "ceres-dense-schur"));
+  EXPECT_THAT(ErrorOf("mode: [pl-vo]\n"), Names("options.yaml:1", "mode", "value"));
+  EXPECT_THAT(ErrorOf("tracking: 5\n"), Names("options.yaml:1", "tracking", "section"));
+  EXPECT_THAT(ErrorOf("tracking:\n  wide_radius: .inf\n"),
+              Names("options.yaml:2", "tracking.wide_radius", "number", ".inf"));
 }
 
 TEST_F(OptionsFileTest, RefusesNumbersOutOfRange) {
-  EXPECT_THAT(
-      ErrorOf("features:\n  points:\n    num_points: 2147483647\n"),
-      HasSubstr("options.yaml:3: 'features.points.num_points' must be a whole number from 0 "
-                "to 20000 points, not '2147483647'"));
+  EXPECT_THAT(ErrorOf("features:\n  points:\n    num_points: 2147483647\n"),
+              Names("options.yaml:3", "features.points.num_points", "whole number", "0", "20000",
+                    "'2147483647'"));
   EXPECT_THAT(ErrorOf("tracking: {wide_radius: 0}\n"),
-              HasSubstr("from 0.1 to 1000 pixels, not '0'"));
-  EXPECT_THAT(
-      ErrorOf("mapping:\n  readout_time: 5\n"),
-      HasSubstr("options.yaml:2: 'mapping.readout_time' must be a number from -0.99 to 0.99"));
+              Names("options.yaml:1", "tracking.wide_radius", "0.1", "1000", "'0'"));
+  EXPECT_THAT(ErrorOf("mapping:\n  readout_time: 5\n"),
+              Names("options.yaml:2", "mapping.readout_time", "-0.99", "0.99", "'5'"));
 }
 
 TEST_F(OptionsFileTest, RefusesMalformedFiles) {
-  EXPECT_THAT(ErrorOf("mode: pl-vo\nmode: pl-vo\n"), HasSubstr("options.yaml:2: 'mode' is given"));
-  EXPECT_THAT(ErrorOf("mode: pl-vo\n  x: [1\n"), HasSubstr("malformed YAML"));
-  EXPECT_THAT(ErrorOf("- 1\n- 2\n"), HasSubstr("expected 'name: value' lines"));
+  EXPECT_THAT(ErrorOf("mode: pl-vo\nmode: pl-vo\n"), Names("options.yaml:2", "mode", "twice"));
+  EXPECT_THAT(ErrorOf("mode: pl-vo\n  x: [1\n"), Names("options.yaml:2", "malformed"));
+  EXPECT_THAT(ErrorOf("- 1\n- 2\n"), Names("options.yaml:1", "name: value"));
 }
 
 TEST_F(OptionsFileTest, RefusesTooLargeAndEndlessFiles) {
@@ -187,9 +201,9 @@ TEST_F(OptionsFileTest, RefusesTooLargeAndEndlessFiles) {
   std::filesystem::resize_file(Path("large.yaml"), kMaxOptionsBytes + 1);
   Configuration configuration;
   EXPECT_THAT(MessageOf([&] { ReadConfiguration(Path("large.yaml"), &configuration); }),
-              HasSubstr("large.yaml: has "));
+              Names("large.yaml", "MiB"));
   EXPECT_THAT(MessageOf([&] { ReadConfiguration("/dev/zero", &configuration); }),
-              HasSubstr("/dev/zero: is a device"));
+              Names("/dev/zero", "device"));
 }
 
 TEST_F(OptionsFileTest, ReadsTheCameraOfOrbSlamSettings) {

@@ -3,14 +3,12 @@
 
 #include "msc_vo/config/orb_slam_config.h"
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
 
 class OrbSlamConfigTest : public TemporaryFolder {};
 
@@ -45,8 +43,7 @@ TEST_F(OrbSlamConfigTest, RejectsFactorsThatAreNoUnitsPerMetre) {
               "%YAML:1.0\nCamera.fx: 600\nCamera.fy: 601\nCamera.cx: 320\nCamera.cy: 240\n" +
                   std::string(name) + ": 0.0002\n");
     EXPECT_THAT(MessageOf([&] { ReadOrbSlamConfig(Path("orb.yaml")); }),
-                AllOf(HasSubstr("orb.yaml:6: " + std::string(name)),
-                      HasSubstr("depth_scale = 0.0002"), HasSubstr("5000 units per metre")));
+                Names("orb.yaml:6", name, "depth_scale", "0.0002", "5000"));
   }
 }
 
@@ -59,9 +56,10 @@ TEST_F(OrbSlamConfigTest, RejectsOtherCameraModels) {
     return MessageOf([&] { ReadOrbSlamConfig(Path("orb3.yaml")); });
   };
   EXPECT_THAT(error_of("%YAML:1.0\nCamera.type: \"Omnidirectional\"\n"),
-              AllOf(HasSubstr("orb3.yaml:2: Camera.type \"Omnidirectional\" is not supported"),
-                    HasSubstr("PinHole, Rectified and KannalaBrandt8")));
-  EXPECT_THAT(error_of("Camera.type: \"KannalaBrandt8\"\n"), HasSubstr("Camera.k2 is missing"));
+              Names("orb3.yaml:2", "Camera.type", "Omnidirectional", "PinHole", "Rectified",
+                    "KannalaBrandt8"));
+  EXPECT_THAT(error_of("Camera.type: \"KannalaBrandt8\"\n"),
+              Names("orb3.yaml", "Camera.k2", "missing"));
   EXPECT_EQ(error_of("Camera.type: \"KannalaBrandt8\"\nCamera1.k2: 0.01\nCamera1.k3: 0.02\n"
                      "Camera1.k4: 0.03\n"),
             "");
@@ -69,12 +67,12 @@ TEST_F(OrbSlamConfigTest, RejectsOtherCameraModels) {
   EXPECT_EQ(fisheye.model, "fisheye");
   EXPECT_EQ(*fisheye.coefficients[4], 0.02);  // k3
   EXPECT_EQ(*fisheye.coefficients[5], 0.03);  // k4
-  EXPECT_THAT(error_of("Camera1.k4: 0.01\n"),
-              HasSubstr("orb3.yaml:1: Camera1.k4: only the distortion coefficients"));
-  EXPECT_THAT(error_of("Camera.k6: 0.01\n"), HasSubstr("Camera.k6"));
-  EXPECT_THAT(error_of("Camera.width: 640.5\n"), HasSubstr("Camera.width must be a whole number"));
+  EXPECT_THAT(error_of("Camera1.k4: 0.01\n"), Names("orb3.yaml:1", "Camera1.k4", "k1 k2 p1 p2 k3"));
+  EXPECT_THAT(error_of("Camera.k6: 0.01\n"), Names("orb3.yaml:1", "Camera.k6", "k1 k2 p1 p2 k3"));
+  EXPECT_THAT(error_of("Camera.width: 640.5\n"),
+              Names("orb3.yaml:1", "Camera.width", "whole number", "640.5"));
   EXPECT_THAT(error_of("Camera.cols: 640.5\n"),
-              HasSubstr("orb3.yaml:1: Camera.cols must be a whole number, not 640.5"));
+              Names("orb3.yaml:1", "Camera.cols", "whole number", "640.5"));
   EXPECT_EQ(error_of("Camera.k4: 0.0\n"), "");
   EXPECT_EQ(error_of("Camera.type: Pinhole\n"), "");
   EXPECT_EQ(*ReadOrbSlamConfig(Path("orb3.yaml")).lens.coefficients[0], -0.03);
@@ -85,11 +83,11 @@ TEST_F(OrbSlamConfigTest, RejectsOtherCameraModels) {
 TEST_F(OrbSlamConfigTest, ErrorsNameMissingAndInvalidValues) {
   WriteText("orb.yaml", "Camera.fx: 500\nCamera.fy: 500\nCamera.cx: 320\nCamera.cy: 240\n");
   EXPECT_THAT(MessageOf([&] { ReadOrbSlamConfig(Path("orb.yaml")); }),
-              HasSubstr("orb.yaml: DepthMapFactor is missing"));
+              Names("orb.yaml", "DepthMapFactor", "missing"));
   for (const std::string value : {"wide", "inf", "nan"}) {
     WriteText("orb.yaml", "\nCamera.fx: " + value + "\n");
     EXPECT_THAT(MessageOf([&] { ReadOrbSlamConfig(Path("orb.yaml")); }),
-                HasSubstr("orb.yaml:2: Camera.fx must be a finite number, not '" + value + "'"));
+                Names("orb.yaml:2", "Camera.fx", "'" + value + "'"));
   }
 }
 

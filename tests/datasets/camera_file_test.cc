@@ -3,6 +3,7 @@
 
 #include "msc_vo/datasets/camera_file.h"
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -14,7 +15,7 @@ namespace msc_vo {
 namespace {
 
 using testing::AllOf;
-using testing::HasSubstr;
+using testing::Not;
 
 class CameraFileTest : public TemporaryFolder {
  protected:
@@ -38,47 +39,42 @@ TEST_F(CameraFileTest, ReadsIntrinsicsAndDistortion) {
 }
 
 TEST_F(CameraFileTest, ErrorsNameLine) {
-  EXPECT_THAT(ErrorOf(""), HasSubstr("camera.txt: is empty"));
-  EXPECT_THAT(ErrorOf("#\n1 2 3\n"), HasSubstr("camera.txt:2: expected 7 or 12 numbers"));
-  EXPECT_THAT(ErrorOf("a 500 320 240 640 480 5000"), HasSubstr("'a' is not a finite"));
-  EXPECT_THAT(ErrorOf("0 500 320 240 640 480 5000"),
-              HasSubstr("camera.txt:1: camera: fx = 0 must be"));
-  EXPECT_THAT(ErrorOf("500 500 320 240 640 480 0"), HasSubstr("depth_scale"));
+  EXPECT_THAT(ErrorOf(""), Names("camera.txt", "empty"));
+  EXPECT_THAT(ErrorOf("#\n1 2 3\n"), Names("camera.txt:2", "7", "12", "3"));
+  EXPECT_THAT(ErrorOf("a 500 320 240 640 480 5000"), Names("camera.txt:1", "'a'"));
+  EXPECT_THAT(ErrorOf("0 500 320 240 640 480 5000"), Names("camera.txt:1", "fx = 0"));
+  EXPECT_THAT(ErrorOf("500 500 320 240 640 480 0"), Names("camera.txt:1", "depth_scale = 0"));
 }
 
 TEST_F(CameraFileTest, RejectsImpossibleCameras) {
   const std::string fr1 = "517.306408 516.469215 318.643040 255.313989 640 480 5000 ";
   EXPECT_EQ(ErrorOf(fr1 + "0.262383 -0.953104 -0.005358 0.002628 1.163314"), "");
   EXPECT_THAT(ErrorOf(fr1 + "0.262383 -0.953104 1.163314 -0.005358 0.002628"),
-              AllOf(HasSubstr("camera.txt:1: camera: the lens"), HasSubstr("folds over"),
-                    HasSubstr("k1 k2 p1 p2 k3")));
-  EXPECT_THAT(ErrorOf("-535 535 320 240 640 480 5000"), HasSubstr("camera: fx = -535"));
-  EXPECT_THAT(ErrorOf("535 535 3200 240 640 480 5000"), HasSubstr("camera: cx = 3200"));
-  EXPECT_THAT(ErrorOf("535 535 320 240 1e20 480 5000"), HasSubstr("whole numbers"));
-  EXPECT_THAT(ErrorOf("535 535 320 240 640.5 480 5000"), HasSubstr("whole numbers"));
-  for (const char* scale : {"-5000", "5", "1e9"}) {
+              Names("camera.txt:1", "lens", "fold", "k1 k2 p1 p2 k3"));
+  EXPECT_THAT(ErrorOf("-535 535 320 240 640 480 5000"), Names("fx", "-535"));
+  EXPECT_THAT(ErrorOf("535 535 3200 240 640 480 5000"), Names("cx", "3200"));
+  EXPECT_THAT(ErrorOf("535 535 320 240 1e20 480 5000"), Names("width", "height", "whole"));
+  EXPECT_THAT(ErrorOf("535 535 320 240 640.5 480 5000"), Names("width", "height", "whole"));
+  for (const char* scale : {"-5000", "5", "1000000000"}) {
     EXPECT_THAT(ErrorOf(std::string("535 535 320 240 640 480 ") + scale),
-                HasSubstr("camera.txt:1: camera: depth_scale = "));
+                Names("camera.txt:1", std::string("depth_scale = ") + scale));
   }
 }
 
 TEST_F(CameraFileTest, NamesTheReciprocalOfMetresPerUnit) {
   const std::string camera = "535 535 320 240 640 480 ";
-  EXPECT_THAT(ErrorOf(camera + "0.001"),
-              AllOf(HasSubstr("camera.txt:1: camera: depth_scale = 0.001"),
-                    HasSubstr("1000 units per metre")));
-  EXPECT_THAT(ErrorOf(camera + "0.00025"), HasSubstr("4000 units per metre"));
-  EXPECT_THAT(ErrorOf(camera + "1"), HasSubstr("1000 units per metre if depth is in millimetres"));
+  EXPECT_THAT(ErrorOf(camera + "0.001"), Names("camera.txt:1", "depth_scale", "0.001", "1000"));
+  EXPECT_THAT(ErrorOf(camera + "0.00025"), Names("0.00025", "4000"));
+  EXPECT_THAT(ErrorOf(camera + "1"), Names("depth_scale = 1", "1000", "millimetres"));
 }
 
 TEST(DepthScale, DecoderAndWriterRefuseMetresPerUnit) {
   Calibration calibration;
   calibration.depth_scale = 0.001;
   EXPECT_THAT(MessageOf([&] { RgbdDecoder(SequenceIndex(), calibration); }),
-              HasSubstr("1000 units per metre"));
+              Names("depth_scale", "1000"));
   const std::string folder = testing::TempDir() + "/not_written";
-  EXPECT_THAT(MessageOf([&] { TumWriter(folder, calibration, ""); }),
-              HasSubstr("1000 units per metre"));
+  EXPECT_THAT(MessageOf([&] { TumWriter(folder, calibration, ""); }), Names("depth_scale", "1000"));
   EXPECT_FALSE(HasEntry(folder));
 }
 
@@ -91,13 +87,12 @@ TEST_F(CameraFileTest, ReadsReadoutTime) {
   WriteText("camera.txt", camera);
   EXPECT_FALSE(ReadCameraFile(Path("camera.txt")).readout_time.has_value());
 
-  EXPECT_THAT(ErrorOf(camera + "readout 0.026\n"),
-              AllOf(HasSubstr("camera.txt:2: "), HasSubstr("'readout_time SECONDS'")));
-  EXPECT_THAT(ErrorOf(camera + "readout_time fast\n"), HasSubstr("camera.txt:2: "));
-  EXPECT_THAT(
-      ErrorOf(camera + "readout_time 26\n"),
-      AllOf(HasSubstr("camera.txt:2: "), HasSubstr("readout_time = 26 must be between -1 and 1")));
-  EXPECT_THAT(ErrorOf(camera + "readout_time 0\n\nreadout_time 1\n"), HasSubstr("camera.txt:4: "));
+  EXPECT_THAT(ErrorOf(camera + "readout 0.026\n"), Names("camera.txt:2", "readout_time", "lens"));
+  EXPECT_THAT(ErrorOf(camera + "readout_time fast\n"), Names("camera.txt:2", "readout_time"));
+  EXPECT_THAT(ErrorOf(camera + "readout_time 26\n"),
+              Names("camera.txt:2", "readout_time", "26", "-1", "1"));
+  EXPECT_THAT(ErrorOf(camera + "readout_time 0\n\nreadout_time 1\n"),
+              Names("camera.txt:4", "second", "readout_time"));
 }
 
 TEST_F(CameraFileTest, ReadsDepthCamera) {
@@ -118,16 +113,17 @@ TEST_F(CameraFileTest, ReadsDepthCamera) {
   EXPECT_NEAR(calibration.depth_camera->depth_from_color.rotation().z(), 0.6, 1e-12);
 
   EXPECT_THAT(ErrorOf(camera + "depth_camera 585 585 320 240 640 480\n"),
-              AllOf(HasSubstr("camera.txt:2: expected 9 or 13 numbers"), HasSubstr("[qx qy qz qw]"),
-                    HasSubstr("found 6")));
+              Names("camera.txt:2", "9", "13", "[qx qy qz qw]", "6"));
   EXPECT_THAT(ErrorOf(camera + "depth_camera 585 585 320 240 640 480 -25 0 0\n"),
-              HasSubstr("camera.txt:2: depth camera: translation is 25 long"));
+              Names("camera.txt:2", "depth camera", "translation", "25"));
   EXPECT_THAT(ErrorOf(camera + "depth_camera 0 585 320 240 640 480 0 0 0\n"),
-              HasSubstr("camera.txt:2: depth camera: fx = 0"));
-  EXPECT_THAT(ErrorOf(camera + line + " 0 0 0 2\n"), HasSubstr("must have length 1"));
-  EXPECT_THAT(ErrorOf(camera + line + " a 0 0 1\n"), HasSubstr("'a' is not a finite"));
-  EXPECT_THAT(ErrorOf(camera + line + "\n" + line + "\n"), HasSubstr("camera.txt:3: a second"));
-  EXPECT_THAT(ErrorOf(camera + "deph_camera 1\n"), HasSubstr("'depth_camera fx fy"));
+              Names("camera.txt:2", "depth camera", "fx", "0"));
+  EXPECT_THAT(ErrorOf(camera + line + " 0 0 0 2\n"), Names("camera.txt:2", "quaternion", "1"));
+  EXPECT_THAT(ErrorOf(camera + line + " a 0 0 1\n"), Names("camera.txt:2", "'a'"));
+  EXPECT_THAT(ErrorOf(camera + line + "\n" + line + "\n"),
+              Names("camera.txt:3", "second", "depth_camera"));
+  EXPECT_THAT(ErrorOf(camera + "deph_camera 1\n"),
+              Names("camera.txt:2", "depth_camera", "readout_time"));
 }
 
 TEST_F(CameraFileTest, ReadsLens) {
@@ -177,27 +173,26 @@ TEST_F(CameraFileTest, WritesTheShortestNumbersThatAreReadAsTheSame) {
 TEST_F(CameraFileTest, RejectsImpossibleLenses) {
   const std::string camera = "300 301 322 238 640 480 1000\n";
   EXPECT_THAT(ErrorOf(camera + "lens fish 0 0 0 0\n"),
-              HasSubstr("camera.txt:2: unknown lens model 'fish'; known: radial-tangential, "
-                        "rational, fisheye"));
+              Names("camera.txt:2", "'fish'", "radial-tangential", "rational", "fisheye"));
   EXPECT_THAT(ErrorOf(camera + "lens fisheye 0 0 0\n"),
-              HasSubstr("camera.txt:2: expected the 4 coefficients k1 k2 k3 k4 of the lens model "
-                        "fisheye, found 3"));
-  EXPECT_THAT(ErrorOf(camera + "lens rational 0 0 0 0 0\n"), HasSubstr("expected the 8"));
-  EXPECT_THAT(ErrorOf(camera + "lens fisheye a 0 0 0\n"), HasSubstr("'a' is not a finite"));
-  EXPECT_THAT(ErrorOf(camera + "lens\n"), HasSubstr("camera.txt:2: expected a lens"));
+              Names("camera.txt:2", "fisheye", "4", "k1 k2 k3 k4", "3"));
+  EXPECT_THAT(ErrorOf(camera + "lens rational 0 0 0 0 0\n"),
+              Names("camera.txt:2", "rational", "8", "5"));
+  EXPECT_THAT(ErrorOf(camera + "lens fisheye a 0 0 0\n"), Names("camera.txt:2", "'a'"));
+  EXPECT_THAT(ErrorOf(camera + "lens\n"), Names("camera.txt:2", "lens fisheye k1 k2 k3 k4"));
   EXPECT_THAT(ErrorOf(camera + "# wide\nlens fisheye -0.4 0 0 0\n"),
-              AllOf(HasSubstr("camera.txt:3: camera: the lens k1 k2 k3 k4"),
-                    HasSubstr("folds over"), HasSubstr("smaller field_of_view")));
+              Names("camera.txt:3", "lens", "fold", "k1 k2 k3 k4", "field_of_view"));
   EXPECT_EQ(ErrorOf(camera + "lens fisheye -0.4 0 0 0\nfield_of_view 60\n"), "");
   EXPECT_THAT(ErrorOf(camera + "field_of_view 170\n"),
-              HasSubstr("camera.txt:2: camera: field_of_view = 170 must be from 10 to 150"));
-  EXPECT_THAT(ErrorOf(camera + "field_of_view wide\n"), HasSubstr("'field_of_view DEGREES'"));
+              Names("camera.txt:2", "field_of_view", "170", "10", "150"));
+  EXPECT_THAT(ErrorOf(camera + "field_of_view wide\n"),
+              Names("camera.txt:2", "field_of_view DEGREES"));
   const std::string lens = "lens fisheye 0 0 0 0\n";
-  EXPECT_THAT(ErrorOf(camera + lens + lens), HasSubstr("camera.txt:3: a second line lens"));
+  EXPECT_THAT(ErrorOf(camera + lens + lens), Names("camera.txt:3", "second", "lens"));
   EXPECT_THAT(ErrorOf("300 301 322 238 640 480 1000 0.1 0 0 0 0\n" + lens),
-              HasSubstr("camera.txt:2: the first line gives a lens, too"));
+              Names("camera.txt:2", "first line", "lens", "k1 k2 p1 p2 k3"));
   EXPECT_THAT(ErrorOf(camera + "depth_lens fisheye 0 0 0 0\n"),
-              HasSubstr("camera.txt:2: the lens of a depth camera needs the line 'depth_camera"));
+              AllOf(Names("camera.txt:2", "lens", "depth_camera"), Not(Names("readout_time"))));
 }
 
 }  // namespace

@@ -3,14 +3,12 @@
 
 #include "msc_vo/datasets/camera_preset.h"
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
 
 TEST(CameraPresets, AreValidPublishedCalibrations) {
   EXPECT_EQ(FindCameraPreset("tum-fr2").calibration.depth_scale, 5208.0);
@@ -24,7 +22,7 @@ TEST(CameraPresets, AreValidPublishedCalibrations) {
 
 TEST(FindCameraPreset, ErrorListsKnownNames) {
   EXPECT_THAT(MessageOf([] { FindCameraPreset("tum-fr9"); }),
-              AllOf(HasSubstr("'tum-fr9'"), HasSubstr("tum-fr1, tum-fr2")));
+              Names("'tum-fr9'", "tum-fr1", "tum-fr2"));
 }
 
 TEST(GuessCameraPreset, RecognisesTumFolders) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/rendered_depth.h"
 #include <gmock/gmock.h>
 
@@ -78,8 +79,8 @@ TEST_F(ClippedDepthSearchTest, FindsBothEnds) {
   const std::vector<ClippingReport> reports = DescribeClippedDepth(clipped, 5000.0);
   ASSERT_EQ(reports.size(), 2u);
   EXPECT_NEAR(reports[0].depth, 1.8, 1e-9);
-  EXPECT_THAT(reports[0].text, AllOf(HasSubstr("1.800 m, raw value 9000"), HasSubstr("nearer")));
-  EXPECT_THAT(reports[1].text, AllOf(HasSubstr("2.600 m, raw value 13000"), HasSubstr("farther")));
+  EXPECT_THAT(reports[0].text, Names("1.800 m", "raw", "9000", "nearer"));
+  EXPECT_THAT(reports[1].text, Names("2.600 m", "raw", "13000", "farther"));
 }
 
 TEST_F(ClippedDepthSearchTest, FindsTheEndBelowAMark) {

@@ -7,6 +7,7 @@
 
 #include <functional>
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -15,7 +16,6 @@
 namespace msc_vo {
 namespace {
 
-using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -66,22 +66,19 @@ TEST_F(NamePairingTest, StreamsMayHaveTheirOwnUnits) {
   const SequenceIndex index = OpenSequence(Folder());
   ASSERT_EQ(index.entries.size(), 20u);
   EXPECT_NEAR(index.entries[7].depth_delay, 0.004, 2e-6);
-  EXPECT_THAT(index.warnings, Contains(HasSubstr("depth images: the names hold times in micro")));
+  EXPECT_THAT(index.warnings, Contains(Names("depth images", "microseconds")));
 }
 
 TEST_F(NamePairingTest, NeverPairsTimesByOrder) {
   WriteColors(0, 9, [](int i) { return Milliseconds("", i); });
   WriteDepths(0, 9, [](int i) { return std::to_string(i); });
-  EXPECT_THAT(Error(),
-              AllOf(HasSubstr("hold times from 1305031102.175 to"),
-                    HasSubstr("frame numbers from 0 to 8"), HasSubstr("associations.txt")));
+  EXPECT_THAT(Error(), Names("1305031102.175", "frame numbers", "0", "8", "associations.txt"));
 }
 
 TEST_F(NamePairingTest, NeverPairsTimesOfDifferentClocksByOrder) {
   WriteColors(0, 9, [](int i) { return Milliseconds("", i); });
   WriteDepths(0, 9, [](int i) { return FormatText("%.3f", 81.5 + i / 30.0); });
-  EXPECT_THAT(Error(), AllOf(HasSubstr("hold times from 1305031102.175 to"),
-                             HasSubstr("times from 81.500 to 81.767 s")));
+  EXPECT_THAT(Error(), Names("1305031102.175", "81.500", "81.767"));
 }
 
 TEST_F(NamePairingTest, CountersPairTimesOfDifferentClocks) {
@@ -101,14 +98,13 @@ TEST_F(NamePairingTest, PairsNumbersByNumberIfTheyShareARange) {
   ASSERT_EQ(index.entries.size(), 20u);
   EXPECT_THAT(index.entries[0].color_path, HasSubstr("img_010"));
   EXPECT_THAT(index.entries[0].depth_path, HasSubstr("img_010"));
-  EXPECT_THAT(index.warnings, Contains(HasSubstr("begin and end 10 higher")));
+  EXPECT_THAT(index.warnings, Contains(Names("10", "higher", "associations.txt")));
 }
 
 TEST_F(NamePairingTest, FailsIfOneCounterNumbersBothStreams) {
   WriteColors(0, 20, [](int i) { return std::to_string(2 * i); });
   WriteDepths(0, 20, [](int i) { return std::to_string(2 * i + 1); });
-  EXPECT_THAT(Error(), AllOf(HasSubstr("frame numbers from 0 to 38"),
-                             HasSubstr("frame numbers from 1 to 39")));
+  EXPECT_THAT(Error(), Names("0", "38", "1", "39"));
 }
 
 TEST_F(NamePairingTest, PairsSeparateNumbersByOrderAndSaysSo) {
@@ -116,11 +112,11 @@ TEST_F(NamePairingTest, PairsSeparateNumbersByOrderAndSaysSo) {
   WriteDepths(0, 20, [](int i) { return std::to_string(1000 + i); });
   const SequenceIndex index = OpenSequence(Folder());
   ASSERT_EQ(index.entries.size(), 20u);
-  EXPECT_THAT(index.warnings, Contains(HasSubstr("paired by the order of their names")));
+  EXPECT_THAT(index.warnings, Contains(Names("order")));
   std::filesystem::remove(Path("depth/1007.png"));
-  EXPECT_THAT(Error(), HasSubstr("20 colour images, but 19 depth images"));
+  EXPECT_THAT(Error(), Names("20", "19", "associations.txt"));
   WriteDepth("depth/1020.png");  // as many, but not the same steps
-  EXPECT_THAT(Error(), HasSubstr("their names do not tell the pairs"));
+  EXPECT_THAT(Error(), Names(Path("rgb"), Path("depth"), "associations.txt"));
 }
 
 TEST_F(NamePairingTest, ConstantStepsAreFramesUnlessOnlyTimesFit) {
@@ -128,7 +124,7 @@ TEST_F(NamePairingTest, ConstantStepsAreFramesUnlessOnlyTimesFit) {
   WriteDepths(0, 20, [](int i) { return std::to_string(33 * i); });
   const SequenceIndex frames = OpenSequence(Folder());
   EXPECT_NEAR(frames.entries.back().timestamp, 33 * 19 / 30.0, 1e-9);
-  EXPECT_THAT(frames.warnings, Contains(HasSubstr("count in steps of 33")));
+  EXPECT_THAT(frames.warnings, Contains(Names("steps", "33")));
 
   std::filesystem::remove_all(Path("depth"));
   WriteDepths(0, 20, [](int i) { return std::to_string(33 * i + 7); });
@@ -141,8 +137,7 @@ TEST_F(NamePairingTest, ConstantStepsAreFramesUnlessOnlyTimesFit) {
 TEST_F(NamePairingTest, FailsIfFewImagesHaveAPartner) {
   WriteColors(0, 30, [](int i) { return std::to_string(i); });
   WriteDepths(20, 50, [](int i) { return std::to_string(i); });
-  EXPECT_THAT(Error(), AllOf(HasSubstr("only 10 of 30 images can be used"),
-                             HasSubstr("40 images have no partner")));
+  EXPECT_THAT(Error(), Names("10", "30", "40", "partner"));
 }
 
 TEST_F(NamePairingTest, PlainCountersGiveNoWarning) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -13,7 +14,6 @@
 namespace msc_vo {
 namespace {
 
-using testing::AllOf;
 using testing::HasSubstr;
 
 class SequenceCalibrationTest : public TemporaryFolder {
@@ -35,11 +35,11 @@ TEST_F(SequenceCalibrationTest, RejectsInvalidSettings) {
   settings.origin = "mine.yaml";
   settings.fx = -535.0;
   EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
-              AllOf(HasSubstr("mine.yaml"), HasSubstr("fx = -535")));
+              Names("mine.yaml", "fx", "-535"));
   settings.fx.reset();
   settings.lens.coefficients[4] = 0.0;
   EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
-              AllOf(HasSubstr("mine.yaml"), HasSubstr("folds over")));
+              Names("mine.yaml", "fold"));
 }
 
 TEST_F(SequenceCalibrationTest, AppliesLens) {
@@ -50,12 +50,10 @@ TEST_F(SequenceCalibrationTest, AppliesLens) {
   settings.lens.model = "fisheye";
   const auto error = [&] { return MessageOf([&] { ResolveCalibration(settings, "", &index); }); };
   settings.lens.coefficients = {0.02, -0.01, {}, {}, 0.003, {}, {}, {}};  // k1 k2 k3
-  EXPECT_EQ(error(),
-            "mine.yaml: camera.k4 is missing; set all coefficients of the lens fisheye (k1 "
-            "k2 k3 k4)");
+  EXPECT_THAT(error(), Names("mine.yaml", "camera.k4", "missing", "fisheye"));
   settings.lens.coefficients[5] = -0.001;
   settings.lens.coefficients[2] = 0.1;  // p1
-  EXPECT_THAT(error(), HasSubstr("mine.yaml: camera.p1 is not a coefficient of the lens fisheye"));
+  EXPECT_THAT(error(), Names("mine.yaml", "camera.p1", "fisheye", "camera.lens"));
   settings.lens.coefficients[2].reset();
   Calibration calibration = ResolveCalibration(settings, "", &index);
   EXPECT_EQ(calibration.distortion.model, LensModel::kFisheye);
@@ -76,11 +74,11 @@ TEST_F(SequenceCalibrationTest, AppliesLens) {
   EXPECT_NEAR(calibration.camera.fx, 319.5 / std::tan(M_PI / 6.0), 1e-9);
 
   settings.lens.model = "wide";
-  EXPECT_THAT(error(), HasSubstr("mine.yaml: camera.lens 'wide' is unknown; known: radial-"));
+  EXPECT_THAT(error(), Names("mine.yaml", "camera.lens", "'wide'", "radial-tangential"));
   settings.lens = {};
   settings.lens.coefficients[5] = 0.1;  // k4 without a model that has it
   index.calibration = FindCameraPreset("tum-fr3").calibration;
-  EXPECT_THAT(error(), HasSubstr("set camera.lens to another model"));
+  EXPECT_THAT(error(), Names("mine.yaml", "camera.k4", "camera.lens"));
 }
 
 TEST_F(SequenceCalibrationTest, PrefersSettingsThenFolderThenPresets) {
@@ -92,7 +90,7 @@ TEST_F(SequenceCalibrationTest, PrefersSettingsThenFolderThenPresets) {
 
   index.calibration = FindCameraPreset("replica").calibration;
   EXPECT_EQ(ResolveCalibration({}, "tum-fr3", &index).camera.fx, 600.0);
-  EXPECT_THAT(index.warnings, testing::ElementsAre(HasSubstr("tum-fr3 is not used")));
+  EXPECT_THAT(index.warnings, testing::ElementsAre(Names("tum-fr3")));
 
   CameraSettings settings;
   settings.origin = "mine.yaml";
@@ -148,19 +146,17 @@ TEST_F(SequenceCalibrationTest, CompleteSettingsAreTheOnlySource) {
   scaled.depth_scale = 0.001;  // metres per unit
   scaled.origin = "options.yaml";
   EXPECT_THAT(MessageOf([&] { ResolveCalibration(scaled, "", &index); }),
-              AllOf(HasSubstr("options.yaml: camera: depth_scale = 0.001"),
-                    HasSubstr("1000 units per metre")));
+              Names("options.yaml", "depth_scale", "0.001", "1000"));
   settings.width = 0;  // not the same as not given
   settings.origin = "--set";
   EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
-              HasSubstr("--set: camera.width = 0 must be a positive number of pixels"));
+              Names("--set", "camera.width", "0"));
 }
 
 TEST_F(SequenceCalibrationTest, ErrorListsAlternatives) {
   SequenceIndex index = Index();
   EXPECT_THAT(MessageOf([&] { ResolveCalibration({}, "", &index); }),
-              AllOf(HasSubstr("camera.txt"), HasSubstr("--config"), HasSubstr("--camera"),
-                    HasSubstr("tum-fr1")));
+              Names("camera.txt", "--config", "--camera", "tum-fr1"));
 }
 
 TEST_F(SequenceCalibrationTest, KeepsReadoutTimeOfFolder) {
@@ -183,11 +179,11 @@ TEST(DepthCameraSettings, CompleteOrChangeOtherSources) {
   EXPECT_EQ(calibration.depth_camera->depth_from_color.translation().x(), 0.02);
   settings.depth_camera.rotation = {0.0, 0.0, 0.0, 2.0};
   EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
-              HasSubstr("--set: camera.depth_camera.rotation must be a quaternion"));
+              Names("--set", "camera.depth_camera.rotation", "quaternion"));
   settings.depth_camera.rotation.clear();
   settings.preset = "tum-fr3";
   EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
-              HasSubstr("--set: camera.depth_camera must give fx, fy, cx and cy"));
+              Names("--set", "camera.depth_camera", "fx", "fy", "cx", "cy"));
 }
 
 }  // namespace

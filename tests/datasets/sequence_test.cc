@@ -5,13 +5,12 @@
 
 #include "msc_vo/datasets/sequence.h"
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr char kPose[] = "1 0 0 0.5\n0 1 0 -1\n0 0 1 2\n0 0 0 1\n";
 constexpr char kLostPose[] =
@@ -64,7 +63,7 @@ TEST_F(SequenceTest, RefusesToOverwriteItsParts) {
   for (const char* name : {"seq/frame-000000.color.png", "seq/frame-000000.depth.png",
                            "seq/frame-000000.pose.txt", "camera-intrinsics.txt"}) {
     EXPECT_THAT(MessageOf([&] { RefuseToOverwriteSequence(index, Path(name)); }),
-                HasSubstr("would be written over the input"));
+                Names(Path(name), "input"));
   }
   RefuseToOverwriteSequence(index, Path("seq/camera.yaml"));
   RefuseToOverwriteSequence(index, Path("seq/result.html"));
@@ -76,7 +75,7 @@ TEST_F(SequenceTest, RefusesToWriteBesideImagesInTheirOwnFolder) {
   WriteDepth("depth/1.png");
   const SequenceIndex index = OpenSequence(Folder());
   EXPECT_THAT(MessageOf([&] { RefuseToOverwriteSequence(index, Path("rgb/camera.yaml")); }),
-              HasSubstr("lies in a folder of images"));
+              Names("rgb/camera.yaml", "images"));
   RefuseToOverwriteSequence(index, Path("camera.yaml"));
 }
 
@@ -95,7 +94,7 @@ TEST_F(SequenceTest, ReadsReplica) {
   EXPECT_EQ(index.ground_truth[1].world_from_cam.translation(), Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(index.preset, "replica");
   WriteText("traj.txt", "1 0 0\n");
-  EXPECT_THAT(ErrorOf(), HasSubstr("traj.txt:1: expected the 16 numbers"));
+  EXPECT_THAT(ErrorOf(), Names("traj.txt:1", "16"));
 }
 
 TEST_F(SequenceTest, ReadsScanNetAndScalesItsCameraToDepth) {
@@ -157,25 +156,26 @@ TEST_F(SequenceTest, PairsPlainFoldersWithoutNumbersByOrder) {
   EXPECT_DOUBLE_EQ(index.entries[1].timestamp, 1.0 / 30.0);
   EXPECT_EQ(index.entries[1].depth_path, Path("depth/b_depth.png"));
   WriteDepth("depth/c_depth.png");
-  EXPECT_THAT(ErrorOf(), HasSubstr("2 colour images, but 3 depth images"));
+  EXPECT_THAT(ErrorOf(), Names("2", "3", "associations.txt"));
 }
 
 TEST_F(SequenceTest, UsesGivenFormat) {
   WriteColor("rgb/0.png");
   WriteDepth("depth/0.png");
   WriteText("rgb.txt", "garbage\n");
-  EXPECT_THAT(ErrorOf(), HasSubstr("depth.txt: does not exist"));
+  EXPECT_THAT(ErrorOf(), Names("depth.txt", "exist"));
   EXPECT_EQ(OpenSequence(Folder(), "rgb-depth").entries.size(), 1u);
-  EXPECT_THAT(ErrorOf("replica"), HasSubstr("no pair of colour and depth image"));
-  EXPECT_THAT(ErrorOf("kitti"), HasSubstr("unknown sequence format 'kitti'; known: auto, "));
+  EXPECT_THAT(ErrorOf("replica"), Names("no pair"));
+  EXPECT_THAT(ErrorOf("kitti"), Names("'kitti'", "auto", "replica"));
 }
 
 TEST_F(SequenceTest, ErrorListsLayoutsAndSuggestsSubfolder) {
-  EXPECT_THAT(ErrorOf(), testing::AllOf(HasSubstr("no RGB-D sequence found"), HasSubstr("tum:")));
+  EXPECT_THAT(ErrorOf(), Names("RGB-D sequence", "tum:"));
   WriteText("inner/rgb.txt", "1.5 a\n");
-  EXPECT_THAT(ErrorOf(), HasSubstr("Did you mean " + Path("inner") + "?"));
-  EXPECT_THAT(MessageOf([&] { OpenSequence(Path("nowhere")); }), HasSubstr("does not exist"));
-  EXPECT_THAT(MessageOf([&] { OpenSequence(Path("inner/rgb.txt")); }), HasSubstr("is a file"));
+  EXPECT_THAT(ErrorOf(), Names(Path("inner")));
+  EXPECT_THAT(MessageOf([&] { OpenSequence(Path("nowhere")); }), Names("nowhere", "exist"));
+  EXPECT_THAT(MessageOf([&] { OpenSequence(Path("inner/rgb.txt")); }),
+              Names("inner/rgb.txt", "file"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -20,8 +21,6 @@ namespace msc_vo {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::AllOf;
-using testing::HasSubstr;
 
 class SpecialFilesTest : public TemporaryFolder {
  protected:
@@ -50,14 +49,13 @@ class SpecialFilesTest : public TemporaryFolder {
 };
 
 TEST_F(SpecialFilesTest, ReadersRefuseThem) {
-  const std::string pipe = MakePipe("pipe");
-  EXPECT_THAT(MessageOf([&] { ReadTrajectory(pipe); }), HasSubstr(pipe + ": is a pipe"));
-  EXPECT_THAT(MessageOf([&] { ReadImageSize(pipe); }), HasSubstr(pipe + ": is a pipe"));
+  const std::string pipe = MakePipe("fifo");
+  EXPECT_THAT(MessageOf([&] { ReadTrajectory(pipe); }), Names(pipe, "pipe"));
+  EXPECT_THAT(MessageOf([&] { ReadImageSize(pipe); }), Names(pipe, "pipe"));
   WriteText("i.png", "");
   fs::resize_file(Path("i.png"), kMaxImageBytes + 1);
-  EXPECT_THAT(MessageOf([&] { ReadImageSize(Path("i.png")); }), HasSubstr("i.png: has "));
-  EXPECT_THAT(MessageOf([&] { OpenSequence(MakeLoop("loop")); }),
-              HasSubstr("loop: is a symbolic link that leads back to itself; "));
+  EXPECT_THAT(MessageOf([&] { ReadImageSize(Path("i.png")); }), Names("i.png", "MiB"));
+  EXPECT_THAT(MessageOf([&] { OpenSequence(MakeLoop("loop")); }), Names("loop", "symbolic link"));
 }
 
 TEST_F(SpecialFilesTest, SequenceWithSpecialListNamesFile) {
@@ -65,13 +63,13 @@ TEST_F(SpecialFilesTest, SequenceWithSpecialListNamesFile) {
     MakeSequence();
     fs::remove(Path(name));
     const std::string path = MakeLoop(name);
-    EXPECT_THAT(MessageOf([&] { Open(); }), HasSubstr(path + ": is a symbolic link that"));
+    EXPECT_THAT(MessageOf([&] { Open(); }), Names(path, "symbolic link"));
     fs::remove(path);
     MakePipe(name);
-    EXPECT_THAT(MessageOf([&] { Open(); }), HasSubstr(path + ": is a pipe"));
+    EXPECT_THAT(MessageOf([&] { Open(); }), Names(path, "pipe"));
     fs::remove(path);
     fs::create_directory(path);
-    EXPECT_THAT(MessageOf([&] { Open(); }), HasSubstr(path + ": is a folder"));
+    EXPECT_THAT(MessageOf([&] { Open(); }), Names(path, "folder"));
     fs::remove(path);
   }
 }
@@ -82,8 +80,7 @@ TEST_F(SpecialFilesTest, SpecialImageNamesFileAndLine) {
   MakePipe("depth/2.png");
   const RgbdDecoder decoder = Open();
   EXPECT_THAT(MessageOf([&] { decoder.Decode(1); }),
-              AllOf(HasSubstr("2.png (named in " + Path("rgb.txt") + ":2 and "),
-                    HasSubstr("depth.txt:2): is a pipe")));
+              Names("2.png", Path("rgb.txt") + ":2", "depth.txt:2", "pipe"));
 }
 
 }  // namespace

@@ -3,13 +3,15 @@
 
 #include "msc_vo/datasets/trajectory_format.h"
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
 namespace {
 
-using testing::HasSubstr;
+using testing::AllOf;
+using testing::Not;
 
 constexpr char kEurocHeader[] =
     "#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], "
@@ -117,17 +119,17 @@ TEST_F(TrajectoryFormatTest, ReadsTablesWithoutTime) {
 
 TEST_F(TrajectoryFormatTest, RefusesRowsThatHeaderAndFormatDoNotExplain) {
   EXPECT_THAT(MessageOf([&] { Read("a,b,c\n1,2,3,4,5,6,7,8\n"); }),
-              HasSubstr("file:1: names no columns of a trajectory; name them as in 'time tx"));
+              AllOf(Names("file:1", "time tx ty tz qx qy qz qw"), Not(Names("quaternion"))));
   EXPECT_THAT(MessageOf([&] { Read("5 1 2 3 0 0 0 9 9\n"); }),
-              HasSubstr("found 9 fields, none of which are a quaternion; name the columns"));
+              Names("file:1", "9", "quaternion", "header"));
   EXPECT_THAT(MessageOf([&] { Read("1,5;0;0;0;0;0;0;1\n"); }),
-              HasSubstr("'1,5' is not a number"));  // decimal commas
+              Names("file:1", "'1,5'"));  // decimal commas
   EXPECT_THAT(MessageOf([&] { Read("t,x,y,z,qx,qy,qz,qw\n1,2,,3,0,0,0,1\n"); }),
-              HasSubstr("file:2: '' is not a number"));
+              Names("file:2", "''"));
   // Of two rows, one is wrong: no other columns are tried.
   EXPECT_THAT(
       MessageOf([&] { Read("# t x y z qw qx qy qz s\n1 0 0 0 1 0 0 0 5\n2 0 0 0 0.5 0 0 0 5\n"); }),
-      HasSubstr("file:3: the quaternion qw qx qy qz has length 0.500"));
+      Names("file:3", "qw qx qy qz", "0.500"));
 }
 
 TEST_F(TrajectoryFormatTest, SkipsRowsThatAreNotFinite) {
@@ -141,18 +143,15 @@ TEST_F(TrajectoryFormatTest, SkipsRowsThatAreNotFinite) {
 
 TEST_F(TrajectoryFormatTest, NamesFileAndLineOfErrors) {
   EXPECT_THAT(MessageOf([&] { Read(std::string(kKitti) + "1 2 3\n"); }),
-              HasSubstr("file:2: expected 12 numbers, the rows of [R t], found 3"));
-  EXPECT_THAT(MessageOf([&] { Read("2 -1 0 1 1 0 0 2 0 0 1 3\n"); }),
-              HasSubstr("file:1: columns 1-3, 5-7 and 9-11 are not a rotation"));
-  EXPECT_THAT(MessageOf([&] { Read("0 -1 0 x 1 0 0 2 0 0 1 3\n"); }),
-              HasSubstr("file:1: 'x' is not a number"));
+              Names("file:2", "12", "3"));
+  EXPECT_THAT(MessageOf([&] { Read("2 -1 0 1 1 0 0 2 0 0 1 3\n"); }), Names("file:1", "rotation"));
+  EXPECT_THAT(MessageOf([&] { Read("0 -1 0 x 1 0 0 2 0 0 1 3\n"); }), Names("file:1", "'x'"));
   const std::string header = kEurocHeader;
-  EXPECT_THAT(MessageOf([&] { Read(header + "1,2,3\n"); }),
-              HasSubstr("file:2: expected at least 8 fields, which the header names, found 3"));
+  EXPECT_THAT(MessageOf([&] { Read(header + "1,2,3\n"); }), Names("file:2", "8", "header", "3"));
   EXPECT_THAT(MessageOf([&] { Read(header + "1,2,3,4,5,0,0,0\n"); }),
-              HasSubstr("file:2: the quaternion qw qx qy qz has length 5.000"));
+              Names("file:2", "qw qx qy qz", "5.000"));
   // The override of the format decides how a row is read.
-  EXPECT_THAT(MessageOf([&] { Read(kTum, TrajectoryFormat::kKitti); }), HasSubstr("found 8"));
+  EXPECT_THAT(MessageOf([&] { Read(kTum, TrajectoryFormat::kKitti); }), Names("file:1", "12", "8"));
 }
 
 TEST_F(TrajectoryFormatTest, SharesStampsRowByRow) {
@@ -167,11 +166,11 @@ TEST_F(TrajectoryFormatTest, SharesStampsRowByRow) {
 
   TrajectoryFile longer = Read(std::string(kKitti) + kKitti + kKitti);
   EXPECT_THAT(MessageOf([&] { ShareStamps("a.txt", "b.txt", &tum, &longer); }),
-              HasSubstr("a.txt has 2 poses and b.txt has 3, but b.txt has no time stamps (KITTI)"));
+              Names("a.txt", "2", "b.txt", "3", "KITTI"));
   TrajectoryFile holes = Read("5 0 0 0 0 0 0 1\n6 nan 0 0 0 0 0 1\n");
   TrajectoryFile two = Read(std::string(kKitti) + kKitti);
   EXPECT_THAT(MessageOf([&] { ShareStamps("a.txt", "b.txt", &holes, &two); }),
-              HasSubstr("a.txt: has rows with nan or inf"));
+              Names("a.txt", "nan"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 // TUM-style folders: image lists, association files, frame numbers.
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -44,7 +45,7 @@ TEST_F(TumSequenceTest, PairsByNearestTime) {
   EXPECT_NEAR(index.entries[1].depth_delay, 0.005, 1e-9);
   ASSERT_EQ(index.ground_truth.size(), 1u);
   EXPECT_EQ(index.ground_truth[0].timestamp, 0.99);
-  EXPECT_THAT(index.warnings, ElementsAre(HasSubstr("1 of 3 colour images")));
+  EXPECT_THAT(index.warnings, ElementsAre(Names("1", "3", "ms")));
 }
 
 TEST_F(TumSequenceTest, PairsOneToOneClosestFirst) {
@@ -180,8 +181,8 @@ TEST_F(TumSequenceTest, ConvertsStampsToSeconds) {
   EXPECT_NEAR(index.entries[1].depth_delay, 0.005, 1e-6);
   ASSERT_EQ(index.ground_truth.size(), 2u);
   EXPECT_NEAR(index.ground_truth[1].timestamp, 1305031102.241970, 1e-6);
-  EXPECT_THAT(index.warnings, ElementsAre(HasSubstr("rgb.txt: the stamps are nanoseconds"),
-                                          HasSubstr("groundtruth.txt: the stamps are milli")));
+  EXPECT_THAT(index.warnings, ElementsAre(Names("rgb.txt", "nanoseconds"),
+                                          Names("groundtruth.txt", "milliseconds")));
 }
 
 TEST_F(TumSequenceTest, ConvertsAssociationsInMilliseconds) {
@@ -199,7 +200,8 @@ TEST_F(TumSequenceTest, WholeStampsAreSecondsUnlessLayoutUsesFrameNumbers) {
   const SequenceIndex index = OpenSequence(Folder());
   EXPECT_THAT(Stamps(index), ElementsAre(1.0, 2.0));
   EXPECT_EQ(index.ground_truth.back().timestamp, 2.0);
-  EXPECT_THAT(index.warnings, ElementsAre(HasSubstr("interpreted as seconds")));
+  EXPECT_THAT(index.warnings,
+              ElementsAre(Names("associations.txt", "seconds", "--format icl-nuim")));
   EXPECT_THAT(Stamps(OpenSequence(Folder(), "icl-nuim")), ElementsAre(1.0 / 30.0, 2.0 / 30.0));
 }
 
@@ -212,18 +214,17 @@ TEST_F(TumSequenceTest, WarnsOfClockOffsetOfDepth) {
   WriteText("rgb.txt", color);
   WriteText("depth.txt", depth);
   EXPECT_THAT(OpenSequence(Folder()).warnings,
-              ElementsAre(HasSubstr("3 of 30 colour images"), HasSubstr("0.100 s later")));
+              ElementsAre(Names("3", "30", "ms"), Names("0.100 s", "later")));
   WriteText("depth.txt", "0.90 x\n1.866667 y\n");
-  EXPECT_THAT(OpenSequence(Folder()).warnings, testing::Contains(HasSubstr("0.100 s earlier")));
+  EXPECT_THAT(OpenSequence(Folder()).warnings, testing::Contains(Names("0.100 s", "earlier")));
   WriteText("depth.txt", "6.0 x\n6.97 y\n");
-  EXPECT_THAT(ErrorOf(), testing::AllOf(HasSubstr("no pair"), HasSubstr("5.002 s later")));
+  EXPECT_THAT(ErrorOf(), Names("no pair", "5.002 s", "later"));
 }
 
 TEST_F(TumSequenceTest, CountsInvalidPoses) {
   WriteText("associations.txt", "1.5 rgb/1 1.5 depth/1\n");
   WriteText("groundtruth.txt", "1.5 0 0 0 0 0 0 1\n1.6 nan 0 0 0 0 0 1\n");
-  EXPECT_THAT(OpenSequence(Folder()).warnings,
-              ElementsAre(HasSubstr("groundtruth.txt: 1 poses with nan or inf")));
+  EXPECT_THAT(OpenSequence(Folder()).warnings, ElementsAre(Names("groundtruth.txt", "1", "nan")));
 }
 
 TEST_F(TumSequenceTest, SortsAndRemovesRepeatedStamps) {
@@ -257,17 +258,14 @@ TEST_F(TumSequenceTest, FailsIfFewerThanHalfOfTheListedImagesCanBeUsed) {
        {std::pair("lists", "rgb.txt:1: "), std::pair("pairs", "associations.txt:1: ")}) {
     SCOPED_TRACE(name);
     write("%.6e", 1604645033.1);
-    EXPECT_THAT(error(name), testing::AllOf(HasSubstr("only 1 of 32 images can be used"),
-                                            HasSubstr(list), HasSubstr("such as 1.604645e+09"),
-                                            HasSubstr("31 images have the time stamp")));
+    EXPECT_THAT(error(name), Names("1", "32", list, "1.604645e+09", "31", "time stamp"));
     write("%.0f", 1604645033.1);
-    EXPECT_THAT(error(name), testing::AllOf(HasSubstr("only 2 of 32 images can be used"),
-                                            HasSubstr("30 images have the time stamp")));
+    EXPECT_THAT(error(name), Names("2", "32", "30", "time stamp"));
     write("%.18e", 1604645033.1);
     EXPECT_EQ(OpenSequence(Path(name)).entries.size(), 32u);
     EXPECT_THAT(OpenSequence(Path(name)).warnings, IsEmpty());
     write("%.10e", 1604645033.0);  // to 0.1 s: a third of the images
-    EXPECT_THAT(error(name), HasSubstr("tell only steps of 0.1 s"));
+    EXPECT_THAT(error(name), Names("0.1 s"));
   }
 }
 
@@ -279,28 +277,26 @@ TEST_F(TumSequenceTest, NamesClocksThatDiffer) {
   }
   WriteText("rgb.txt", color);
   WriteText("depth.txt", depth);
-  EXPECT_THAT(ErrorOf(), testing::AllOf(HasSubstr("depth images from 81.500 to 81.764 s"),
-                                        HasSubstr("write associations.txt")));
+  EXPECT_THAT(ErrorOf(), Names("depth images", "81.500", "81.764", "associations.txt"));
 }
 
 TEST_F(TumSequenceTest, ErrorsNameFileLineAndFix) {
   WriteText("rgb.txt", "1.0 rgb/1.png\n");
-  EXPECT_THAT(ErrorOf(), testing::AllOf(HasSubstr("depth.txt: does not exist"),
-                                        HasSubstr("--format rgb-depth")));
+  EXPECT_THAT(ErrorOf(), Names("depth.txt", "exist", "--format rgb-depth"));
   WriteText("depth.txt", "\n1.0\n");
-  EXPECT_THAT(ErrorOf(), HasSubstr("depth.txt:2: expected 2 fields 'time path', found 1"));
+  EXPECT_THAT(ErrorOf(), Names("depth.txt:2", "2", "time path", "1"));
   WriteText("depth.txt", "now depth/1.png\n");
-  EXPECT_THAT(ErrorOf(), HasSubstr("depth.txt:1: 'now' is not a time stamp"));
+  EXPECT_THAT(ErrorOf(), Names("depth.txt:1", "'now'"));
   WriteText("depth.txt", "# nothing\n");
-  EXPECT_THAT(ErrorOf(), HasSubstr("depth.txt: lists no image"));
+  EXPECT_THAT(ErrorOf(), Names("depth.txt", "no image"));
   WriteText("depth.txt", "9.0 depth/1.png\n");
-  EXPECT_THAT(ErrorOf(), HasSubstr("no pair of colour and depth image"));
+  EXPECT_THAT(ErrorOf(), Names("no pair"));
   WriteText("associations.txt", "1.0 rgb/1.png 1.0\n");
-  EXPECT_THAT(ErrorOf(), HasSubstr("associations.txt:1: expected 4 fields"));
+  EXPECT_THAT(ErrorOf(), Names("associations.txt:1", "4 fields", "3"));
   WriteText("associations.txt", "1.0 rgb/1.png 1.0 0.5\n");
-  EXPECT_THAT(ErrorOf(), HasSubstr("'0.5' should be the path of an image"));
+  EXPECT_THAT(ErrorOf(), Names("'0.5'", "path"));
   WriteText("associations.txt", "1.0 rgb/1 1.0 depth/1 1.0 0 0 0 0 0 0 1\n");
-  EXPECT_THAT(ErrorOf(), HasSubstr("ground-truth poses?"));
+  EXPECT_THAT(ErrorOf(), Names("associations.txt:1", "12", "ground-truth"));
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <sstream>
 #include <string>
 
+#include "tests/support/message_matchers.h"
 #include <gtest/gtest.h>
 
 #include "msc_vo/diagnosis/finding.h"
@@ -21,18 +23,21 @@ inline std::string Text(const Findings& findings) {
   return text;
 }
 
-// Expects a finding of `check` with this severity whose text or fix contains `words`.
-inline void ExpectFinding(const Findings& findings, Severity severity, const std::string& check,
-                          const std::string& words, const std::string& name) {
+// Expects a finding of `check` with this severity whose text and fix match `names`, and returns it.
+inline Finding ExpectFinding(const Findings& findings, Severity severity, const std::string& check,
+                             const NamesMatcher& names, const std::string& name) {
   for (const Finding& finding : findings) {
     if (finding.severity == severity && finding.check == check &&
-        Describe(finding).find(words) != std::string::npos) {
-      return;
+        names.MatchAndExplain(Describe(finding), nullptr)) {
+      return finding;
     }
   }
-  ADD_FAILURE() << name << ": no " << ToString(severity) << " of " << check << " with '" << words
-                << "' in\n"
+  std::ostringstream expected;
+  names.DescribeTo(&expected);
+  ADD_FAILURE() << name << ": no " << ToString(severity) << " of " << check << " that "
+                << expected.str() << " in\n"
                 << Text(findings);
+  return {};
 }
 
 }  // namespace msc_vo

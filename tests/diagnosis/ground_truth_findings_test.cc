@@ -39,12 +39,12 @@ class GroundTruthTest : public TemporaryFolder {
     return findings;
   }
 
-  void ExpectWarning(const std::string& check, const std::string& words,
-                     const std::function<void(TimedPose*)>& change,
-                     double depth_scale = 5000.0) const {
+  Finding ExpectWarning(const std::string& check, const NamesMatcher& names,
+                        const std::function<void(TimedPose*)>& change,
+                        double depth_scale = 5000.0) const {
     std::vector<TimedPose> truth = truth_;
     for (TimedPose& pose : truth) change(&pose);
-    ExpectFinding(Diagnose(truth, depth_scale), Severity::kWarning, check, words, words);
+    return ExpectFinding(Diagnose(truth, depth_scale), Severity::kWarning, check, names, check);
   }
 
   // Poses of a body whose origin and axes in the camera frame are given.
@@ -61,40 +61,43 @@ TEST_F(GroundTruthTest, FindsWrongPoses) {
   for (const Finding& finding : Diagnose(truth_)) {
     EXPECT_EQ(finding.severity, Severity::kGood) << finding.check << ": " << Describe(finding);
   }
-  ExpectWarning("ground_truth.convention", "inverse poses",
+  ExpectWarning("ground_truth.convention", Names("inverse"),
                 [](TimedPose* p) { p->world_from_cam = p->world_from_cam.Inverse(); });
-  ExpectWarning("ground_truth.convention", "w x y z", [](TimedPose* p) {
+  ExpectWarning("ground_truth.convention", Names("w x y z"), [](TimedPose* p) {
     const Eigen::Quaterniond q(p->world_from_cam.rotation());
     p->world_from_cam.params.head<4>() << q.w(), q.x(), q.y(), q.z();
   });
-  ExpectWarning("ground_truth.convention", "x, y, z are z, -x, -y", [](TimedPose* p) {
+  ExpectWarning("ground_truth.convention", Names("z, -x, -y"), [](TimedPose* p) {
     const Eigen::Matrix3d axes = (Eigen::Matrix3d() << 0, -1, 0, 0, 0, -1, 1, 0, 0).finished();
     p->world_from_cam =
         WithBody(p->world_from_cam, {Eigen::Quaterniond(axes), Eigen::Vector3d::Zero()});
   });
-  ExpectWarning("ground_truth.positions", "swapped", [](TimedPose* p) {
+  ExpectWarning("ground_truth.positions", Names("axes"), [](TimedPose* p) {
     const Eigen::Vector3d t = p->world_from_cam.translation();
     p->world_from_cam.translation() = Eigen::Vector3d(t.x(), t.z(), t.y());
   });
   // Times and scales.
-  ExpectWarning("ground_truth.time_offset", "later than the images",
+  ExpectWarning("ground_truth.time_offset", Names("later", "subtract"),
                 [](TimedPose* p) { p->timestamp += 0.15; });
-  ExpectWarning("ground_truth.time_offset", "earlier than the images",
+  ExpectWarning("ground_truth.time_offset", Names("earlier", "add"),
                 [](TimedPose* p) { p->timestamp -= 0.15; });
   // Depth that is 3 % too long has the same effect as a world that is 3 % too small.
-  ExpectWarning("ground_truth.scale", "depth_scale is probably 51",
-                [](TimedPose* p) { p->world_from_cam.translation() /= 1.03; });
+  const Finding small =
+      ExpectWarning("ground_truth.scale", Names("depth_scale", "5000.0"),
+                    [](TimedPose* p) { p->world_from_cam.translation() /= 1.03; });
+  EXPECT_NEAR(small.value.value_or(0.0), 1.03, 0.01);
   ExpectWarning(
-      "ground_truth.scale", "probably 5000",
+      "ground_truth.scale", Names("depth_scale", "5000"),
       [](TimedPose* p) { p->world_from_cam.translation() *= 5.0; }, 25000.0);
   ExpectWarning(
-      "ground_truth.scale", "probably 5000",
+      "ground_truth.scale", Names("depth_scale", "5000"),
       [](TimedPose* p) { p->world_from_cam.translation() /= 5.0; }, 1000.0);
   // With another error of the calibration.
   std::vector<TimedPose> scaled = truth_;
   for (TimedPose& pose : scaled) pose.world_from_cam.translation() /= 1.1;
   const Findings uncalibrated = Diagnose(scaled, 5000.0, false);
-  ExpectFinding(uncalibrated, Severity::kGood, "ground_truth.scale", "not tested", "uncalibrated");
+  ExpectFinding(uncalibrated, Severity::kGood, "ground_truth.scale", Names("not tested"),
+                "uncalibrated");
   EXPECT_EQ(Text(uncalibrated).find("depth_scale"), std::string::npos) << Text(uncalibrated);
   // Another sequence.
   SyntheticSequenceOptions other_options = SmallRoom();
@@ -103,7 +106,7 @@ TEST_F(GroundTruthTest, FindsWrongPoses) {
   const SyntheticSequence other(other_options);
   std::vector<TimedPose> truth;
   for (int i = 0; i < kNumImages; ++i) truth.push_back(other.PoseAt(i));
-  ExpectFinding(Diagnose(truth), Severity::kWarning, "ground_truth.convention", "does not describe",
+  ExpectFinding(Diagnose(truth), Severity::kWarning, "ground_truth.convention", Names("motion"),
                 "other sequence");
 }
 
@@ -111,7 +114,7 @@ TEST_F(GroundTruthTest, FindsAnotherBody) {
   SyntheticSequenceOptions options = SmallRoom();
   options.path.shake = 3.0;
   Track(options);
-  ExpectWarning("ground_truth.hand_eye", "hand-eye", [](TimedPose* p) {
+  ExpectWarning("ground_truth.hand_eye", Names("hand-eye"), [](TimedPose* p) {
     p->world_from_cam = WithBody(p->world_from_cam,
                                  {Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, -0.3, 0.0)});
   });

@@ -6,11 +6,13 @@
 #include <random>
 
 #include "tests/evaluation/curved_path.h"
+#include "tests/support/message_matchers.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
 namespace {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using Poses = std::vector<Rigid3>;
@@ -62,23 +64,23 @@ TEST(DescribeUndetermined, AcceptsCurvedPaths) {
 }
 
 TEST(DescribeUndetermined, NamesPositionsThatAreTheSame) {
-  EXPECT_THAT(DescribeUndetermined(Still(Path()), Path(), false), HasSubstr("of the reference"));
-  EXPECT_THAT(DescribeUndetermined(Path(), Still(Path()), false), HasSubstr("of the estimate"));
+  EXPECT_THAT(DescribeUndetermined(Still(Path()), Path(), false), Names("reference"));
+  EXPECT_THAT(DescribeUndetermined(Path(), Still(Path()), false), Names("estimate"));
   EXPECT_TRUE(IsStatic(Still(Path())));
   EXPECT_FALSE(IsStatic(Path()));
   // A tripod, measured with noise.
   const Poses tripod = WithNoise(Still(Path()), 1e-3, 0.0, 1);
   for (const bool with_scale : {false, true}) {
-    EXPECT_THAT(DescribeUndetermined(tripod, Path(), with_scale), HasSubstr("exceeds the motion"));
+    EXPECT_THAT(DescribeUndetermined(tripod, Path(), with_scale), Names("error", "motion"));
     EXPECT_THAT(DescribeUndetermined(tripod, WithNoise(Still(Path()), 1e-3, 0.0, 2), with_scale),
-                HasSubstr("exceeds the motion"));
+                Names("error", "motion"));
   }
 }
 
 TEST(DescribeUndetermined, NamesPositionsWhoseSquaresOverflow) {
   const Poses far = Scaled(Path(), 1e200);
   for (const bool with_scale : {false, true}) {
-    EXPECT_THAT(DescribeUndetermined(far, far, with_scale), HasSubstr("exceeds the motion"));
+    EXPECT_THAT(DescribeUndetermined(far, far, with_scale), Names("error", "motion"));
   }
   EXPECT_THAT(DescribeScaleContradiction(far, far), IsEmpty());
 }
@@ -97,13 +99,13 @@ TEST(DescribeUndetermined, NamesStraightLines) {
 
 TEST(DescribeScaleContradiction, NamesTheFactorOfWrongUnits) {
   EXPECT_THAT(DescribeScaleContradiction(Scaled(Path(), 5.0), Path()),
-              HasSubstr("the reference path is 5.0 times as long as the estimate: depth units?"));
+              Names("reference path", "5.0", "depth_scale"));
   EXPECT_THAT(DescribeScaleContradiction(Path(), Scaled(Path(), 5.0)),
-              HasSubstr("the estimated path is 5.0 times as long as the reference: depth units?"));
+              Names("estimated path", "5.0", "depth_scale"));
   EXPECT_THAT(DescribeScaleContradiction(Scaled(Path(), 1000.0), Path()), HasSubstr("1000 times"));
   for (int seed = 0; seed < 20; ++seed) {
     EXPECT_THAT(DescribeScaleContradiction(Path(), WithNoise(Scaled(Path(), 0.25), 2e-3, 0, seed)),
-                HasSubstr("times as long"));
+                Names("reference path", "depth_scale"));
   }
 }
 
@@ -152,11 +154,11 @@ Poses Misread(Poses poses, bool scalar_is_first) {
 TEST(DescribeQuaternionOrder, NamesTheTrajectoryAndItsOrder) {
   const Poses estimate = WithNoise(Path(), 0.01, 0.01, 1);
   EXPECT_THAT(DescribeQuaternionOrder(Misread(Path(), true), estimate),
-              HasSubstr("quaternions of the reference seem to be in the order qw qx qy qz"));
+              ContainsRegex("reference[^,]*qw qx qy qz"));
   EXPECT_THAT(DescribeQuaternionOrder(Path(), Misread(estimate, true)),
-              HasSubstr("quaternions of the estimate seem to be in the order qw qx qy qz"));
+              ContainsRegex("estimate[^,]*qw qx qy qz"));
   EXPECT_THAT(DescribeQuaternionOrder(Path(), Misread(estimate, false)),
-              HasSubstr("of the estimate seem to be in the order qx qy qz qw, if qw was"));
+              ContainsRegex("estimate[^,]*qx qy qz qw"));
 }
 
 TEST(DescribeQuaternionOrder, IsSilentIfTheOrderMakesNoDifference) {

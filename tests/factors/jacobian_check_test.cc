@@ -3,6 +3,7 @@
 
 #include "msc_vo/factors/jacobian_check.h"
 
+#include "tests/support/message_matchers.h"
 #include <ceres/sized_cost_function.h>
 #include <gmock/gmock.h>
 
@@ -62,7 +63,7 @@ TEST(JacobianCheck, AcceptsRightDerivatives) {
 TEST(JacobianCheck, FindsTheBlockWithAWrongDerivative) {
   const JacobianCheck check = CheckJacobians(Product(0.25), {{2.0}, {3.0}}, {nullptr, nullptr});
   EXPECT_NEAR(check.deviation, 0.25 / (1.0 + 2.25), 1e-9);
-  EXPECT_THAT(check.report, HasSubstr("parameter block 1"));
+  EXPECT_THAT(check.report, Names("block 1"));
   EXPECT_THAT(check.report, HasSubstr("2.25"));
 }
 
@@ -88,13 +89,10 @@ TEST(JacobianCheck, IsInfiniteWhereTheFactorIsUndefined) {
 
 TEST(JacobianCheck, RejectsParametersThatDoNotFit) {
   const Rigid3Manifold pose;
-  EXPECT_THAT(MessageOf({{1.0}}, {nullptr, nullptr}),
-              HasSubstr("the number of parameter blocks is 1; the cost function requires 2"));
-  EXPECT_THAT(MessageOf({{1.0}, {1.0}}, {}), HasSubstr("the number of manifolds is 0"));
-  EXPECT_THAT(MessageOf({{1.0}, {1.0, 2.0}}, {nullptr, nullptr}),
-              HasSubstr("the size of block 1 is 2"));
-  EXPECT_THAT(MessageOf({{1.0}, {1.0}}, {&pose, nullptr}),
-              HasSubstr("the ambient size of the manifold of block 0 is 7"));
+  EXPECT_THAT(MessageOf({{1.0}}, {nullptr, nullptr}), Names("parameter blocks", "1", "2"));
+  EXPECT_THAT(MessageOf({{1.0}, {1.0}}, {}), Names("manifolds", "0"));
+  EXPECT_THAT(MessageOf({{1.0}, {1.0, 2.0}}, {nullptr, nullptr}), Names("block 1", "2"));
+  EXPECT_THAT(MessageOf({{1.0}, {1.0}}, {&pose, nullptr}), Names("manifold", "block 0", "7"));
 }
 
 }  // namespace

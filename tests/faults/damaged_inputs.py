@@ -42,7 +42,7 @@ def files_vanish(case, expected):
     for path in case.images("rgb")[25:30]:
         path.unlink()
     output = process.communicate()[0].decode()
-    case.check(process.returncode, output, (0,), "5 of 40 images cannot be read")
+    case.check(process.returncode, output, (0,), ("5", "40", "read"))
 
 
 @fault
@@ -63,7 +63,7 @@ def folder_of_images_is_unreadable(case, expected):
     for path in [case.output, *case.output.parents[:1]]:
         path.chmod(0o777)
     (case.sequence / "rgb").chmod(0)
-    case.run(codes=(1,), says="cannot be read", **user)
+    case.run(codes=(1,), says=("rgb", "read"), **user)
     (case.sequence / "rgb").chmod(0o755)
 
 
@@ -76,13 +76,13 @@ def clock_steps_back(case, expected):
 @fault
 def stamps_are_equal(case, expected):
     case.change_stamps(lambda stamps: [stamps[i - i % 2] for i in range(len(stamps))])
-    case.run(codes=(0, 3), says="warning")
+    case.run(codes=(0, 3), says=("warning",))
 
 
 @fault
 def all_stamps_are_equal(case, expected):
     case.change_stamps(lambda stamps: [stamps[0]] * len(stamps))
-    case.run(codes=(1,), says="only 1 of")
+    case.run(codes=(1,), says=("1", "40"))
 
 
 @fault
@@ -91,28 +91,28 @@ def truth_has_nan(case, expected):
     rows = path.read_text().splitlines()
     rows[10] = " ".join(rows[10].split()[:1] + ["nan"] * 7)
     path.write_text("\n".join(rows) + "\n")
-    case.run(codes=(0,), says="1 poses with nan or inf are left out")
+    case.run(codes=(0,), says=("groundtruth.txt", "1", "nan"))
 
 
 @fault
 def sizes_change(case, expected):
     for path in case.images("rgb")[10:15]:
         write_color(path, 90, 80, 60)
-    case.run(codes=(0,), says="5 of 40 images cannot be read")
+    case.run(codes=(0,), says=("5", "40", "read"))
 
 
 @fault
 def all_black(case, expected):
     for path in case.images("rgb"):
         write_color(path, 0)
-    case.run(codes=(3,), says="black or uniform")
+    case.run(codes=(3,), says=("black",))
 
 
 @fault
 def all_white(case, expected):
     for path in case.images("rgb"):
         write_color(path, 255)
-    case.run(codes=(3,), says="black or uniform")
+    case.run(codes=(3,), says=("black",))
 
 
 @fault

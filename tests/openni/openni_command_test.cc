@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "tests/openni/fake_camera_file.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -21,8 +22,6 @@ namespace msc_vo {
 namespace {
 
 namespace fs = std::filesystem;
-
-using testing::HasSubstr;
 
 constexpr int kNumImages = 45;
 
@@ -127,10 +126,10 @@ TEST_F(OpenNiCommandTest, ReadsARecording) {
 TEST_F(OpenNiCommandTest, SaysThatThereIsNoCamera) {
   fs::remove(Path("lib/OpenNI2/Drivers/libFakeCamera.so.0"));
   EXPECT_EQ(Run(MSC_VO_COMMAND " replay openni2: --output " + Path("out")), 1);
-  EXPECT_THAT(Log(), HasSubstr("openni2:: opening the camera failed"));
+  EXPECT_THAT(Log(), Names("openni2:", "camera"));
   WriteText("bad.oni", "this is no recording");
   EXPECT_EQ(Run(MSC_VO_COMMAND " replay " + Path("bad.oni")), 1);
-  EXPECT_THAT(Log(), HasSubstr("bad.oni: opening the recording failed"));
+  EXPECT_THAT(Log(), Names("bad.oni", "recording"));
 }
 
 }  // namespace

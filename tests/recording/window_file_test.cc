@@ -9,6 +9,7 @@
 #include <random>
 #include <tuple>
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -19,6 +20,7 @@
 namespace msc_vo {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -221,57 +223,56 @@ TEST_F(WindowFileTest, AcceptsHandEditedFile) {
 
 TEST_F(WindowFileTest, ErrorsNameLineAndFix) {
   const std::string text = FormatWindow(BundleAdjustmentOptions(), AwkwardWindow());
-  const auto expect = [&](const std::string& from, const std::string& to, const std::string& what) {
+  const auto expect = [&](const std::string& from, const std::string& to,
+                          const NamesMatcher& names) {
     const std::string where = "window.txt:" + std::to_string(LineOf(text, from)) + ": ";
-    const std::string error = ErrorOf(Replaced(text, from, to));
-    EXPECT_THAT(error, StartsWith(where)) << to;
-    EXPECT_THAT(error, HasSubstr(what)) << to;
+    EXPECT_THAT(ErrorOf(Replaced(text, from, to)), AllOf(StartsWith(where), names)) << to;
   };
-  expect("msc_vo_window 1", "msc_vo_window 2",
-         "version 2 of the window file is not supported, only 1;");
-  expect("msc_vo_window 1", "msc_vo_window 0", "version 0");
-  expect("msc_vo_window 1", "msc_vo_window x", "'x' should be VERSION, a whole number");
-  expect("msc_vo_window 1", "map 1",
-         "is not a window file: its first record must be 'msc_vo_window");
-  expect("point 3 ", "pint 3 ", "unknown record 'pint'; known are option camera keyframe point");
+  expect("msc_vo_window 1", "msc_vo_window 2", Names("version", "2", "1"));
+  expect("msc_vo_window 1", "msc_vo_window 0", Names("version", "0", "1"));
+  expect("msc_vo_window 1", "msc_vo_window x", Names("'x'", "VERSION", "whole number"));
+  expect("msc_vo_window 1", "map 1", Names("first record", "msc_vo_window 1"));
+  expect("point 3 ", "pint 3 ", Names("'pint'", "option", "camera", "keyframe", "point"));
   expect("point 3 fixed", "point 3 held",
-         "'held' should be 'free' or 'fixed'; correct the line to "
-         "'point ID free|fixed X Y Z [NOISE]'");
-  expect("point 3 fixed", "point 3.5 fixed", "'3.5' should be ID, a whole number");
-  expect("point 3 fixed", "point 99999999999999999999 fixed", "should be ID, a whole number");
-  expect("481.2", "nan", "'nan' should be FX, a finite number; correct the line to 'camera FX FY");
-  expect("481.2", "-inf", "'-inf' should be FX");
-  expect("481.2", "1e999", "'1e999' should be FX");
-  expect("481.2", "48l.2", "'48l.2' should be FX");
-  expect(" 641 ", " 99999999999 ",
-         "should be WIDTH, a whole number from -2147483648 to 2147483647");
-  expect(" 641 ", " ", "found 5 fields after 'camera'; correct the line");
-  expect(" 641 ", " 641 1 ", "expected 'camera FX FY CX CY WIDTH HEIGHT', found 7 fields");
-  expect("parallel.huber", "paralel.huber", "did you mean 'mapping.window.parallel.huber'?");
-  expect("line_endpoint_prior ", "line_anchor ",
-         "unknown option 'mapping.window.line_anchor'; remove the line to take the defaults");
-  expect("option mapping", "option x mapping", "expected 'option NAME VALUE'");
-  expect("reject_chi2_2 ", "reject_chi2_2 x", "must be a number from 0.001 to 10000, not 'x9.21'");
+         Names("'held'", "'free'", "'fixed'", "point ID free|fixed X Y Z [NOISE]"));
+  expect("point 3 fixed", "point 3.5 fixed", Names("'3.5'", "ID", "whole number"));
+  expect("point 3 fixed", "point 99999999999999999999 fixed",
+         Names("99999999999999999999", "ID", "whole number"));
+  expect("481.2", "nan", Names("'nan'", "FX", "finite", "camera FX FY CX CY WIDTH HEIGHT"));
+  expect("481.2", "-inf", Names("'-inf'", "FX"));
+  expect("481.2", "1e999", Names("'1e999'", "FX"));
+  expect("481.2", "48l.2", Names("'48l.2'", "FX"));
+  expect(" 641 ", " 99999999999 ", Names("99999999999", "WIDTH", "whole number", "2147483647"));
+  expect(" 641 ", " ", Names("5", "camera FX FY CX CY WIDTH HEIGHT"));
+  expect(" 641 ", " 641 1 ", Names("7", "camera FX FY CX CY WIDTH HEIGHT"));
+  expect("parallel.huber", "paralel.huber",
+         Names("mapping.window.paralel.huber", "mapping.window.parallel.huber"));
+  expect("line_endpoint_prior ", "line_anchor ", Names("mapping.window.line_anchor", "remove"));
+  expect("option mapping", "option x mapping", Names("option NAME VALUE"));
+  expect("reject_chi2_2 ", "reject_chi2_2 x",
+         Names("mapping.window.reject_chi2_2", "0.001", "10000", "'x9.21'"));
   const std::string end = text.substr(text.rfind("end "));
-  expect(end, "end -3\n", "'end' gives -3");
-  expect(end, "end 1000\n", "correct the number if you edited the file");
+  expect(end, "end -3\n", Names("'end'", "-3"));
+  expect(end, "end 1000\n", Names("'end'", "1000", end.substr(4, end.size() - 5)));
 }
 
 TEST_F(WindowFileTest, ReportsErrorsOfWholeFile) {
   const std::string text = FormatWindow(BundleAdjustmentOptions(), AwkwardWindow());
   const std::string camera = "camera 1 1 1 1 1 1\n";
-  EXPECT_EQ(ErrorOf(""), "window.txt: is empty; a window file is needed");
+  EXPECT_THAT(ErrorOf(""), Names("window.txt", "empty"));
   EXPECT_THAT(ErrorOf("msc_vo_window 1\nend 0\n"),
-              StartsWith("window.txt:2: the window has no cam"));
+              Names("window.txt:2", "camera FX FY CX CY WIDTH HEIGHT"));
   EXPECT_THAT(ErrorOf("msc_vo_window 1\n" + camera + camera + "end 2\n"),
-              StartsWith("window.txt:3: a second camera"));
+              Names("window.txt:3", "second", "camera"));
   EXPECT_THAT(ErrorOf("msc_vo_window 1\noption mapping.window.line_endpoint_prior true\n"
                       "option mapping.window.line_endpoint_prior true\n" +
                       camera + "end 3\n"),
-              StartsWith("window.txt:3: 'mapping.window.line_endpoint_prior' is given twice"));
-  EXPECT_THAT(ErrorOf(text + camera), HasSubstr("is after the 'end' record"));
-  EXPECT_THAT(MessageOf([&] { ReadWindow(Path("none.txt")); }), HasSubstr("none.txt: does not"));
-  EXPECT_THAT(MessageOf([&] { ReadWindow(Folder()); }), HasSubstr("is a folder"));
+              Names("window.txt:3", "mapping.window.line_endpoint_prior", "twice"));
+  EXPECT_THAT(ErrorOf(text + camera),
+              Names("window.txt:" + std::to_string(std::count(text.begin(), text.end(), '\n') + 1),
+                    "'end'"));
+  EXPECT_THAT(MessageOf([&] { ReadWindow(Path("none.txt")); }), Names("none.txt", "exist"));
+  EXPECT_THAT(MessageOf([&] { ReadWindow(Folder()); }), Names(Folder(), "folder"));
 }
 
 TEST_F(WindowFileTest, OptionalFieldsHaveDefaults) {
@@ -288,8 +289,9 @@ TEST_F(WindowFileTest, OptionalFieldsHaveDefaults) {
   EXPECT_EQ(data.lines[1].depth_offset, 0.0);
   EXPECT_EQ(data.lines[2].depth_offset, -0.01);
   EXPECT_THAT(ErrorOf(start + "point 3 free 1 2 3 4 5\nend 2\n"),
-              HasSubstr("expected 'point ID free|fixed X Y Z [NOISE]', found 7 fields"));
-  EXPECT_THAT(ErrorOf(start + "point 3 free 1 2 3 x\nend 2\n"), HasSubstr("'x' should be NOISE"));
+              Names("window.txt:3", "point ID free|fixed X Y Z [NOISE]", "7"));
+  EXPECT_THAT(ErrorOf(start + "point 3 free 1 2 3 x\nend 2\n"),
+              Names("window.txt:3", "'x'", "NOISE"));
 }
 
 TEST_F(WindowFileTest, WritesButRejectsNonFiniteNumbers) {
@@ -297,7 +299,7 @@ TEST_F(WindowFileTest, WritesButRejectsNonFiniteNumbers) {
   data.points = {{7, {0.0, std::nan(""), 1.0}}};
   const std::string text = FormatWindow(BundleAdjustmentOptions(), data);
   EXPECT_THAT(text, HasSubstr("point 7 free 0 nan 1 1\n"));
-  EXPECT_THAT(ErrorOf(text), HasSubstr("'nan' should be Y, a finite number"));
+  EXPECT_THAT(ErrorOf(text), Names("'nan'", "Y", "finite"));
 }
 
 TEST_F(WindowFileTest, RejectsFileTruncatedAnywhere) {

@@ -30,8 +30,8 @@ TEST(CalibrationPlots, ShowsPixelsAndDepth) {
     EXPECT_THAT(figure.svg,
                 AllOf(HasSubstr(">given<"), HasSubstr(">estimated<"), Not(HasSubstr("nan"))));
   }
-  EXPECT_THAT(figures[1].svg, HasSubstr(">distance from the centre, px<"));
-  EXPECT_THAT(figures[3].svg, HasSubstr(">median error of depth, %<"));
+  EXPECT_THAT(figures[1].svg, HasSubstr(", px<"));
+  EXPECT_THAT(figures[3].svg, HasSubstr(", %<"));
 }
 
 TEST(CalibrationPlots, ShowsTheGivenCalibrationAloneIfNothingIsCorrected) {

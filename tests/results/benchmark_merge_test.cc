@@ -4,6 +4,7 @@
 #include "msc_vo/results/benchmark_merge.h"
 
 #include "tests/results/benchmark_runs.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -58,11 +59,10 @@ TEST_F(BenchmarkMergeTest, ReadsWhatItWrites) {
 TEST_F(BenchmarkMergeTest, NamesTheFileThatItCannotRead) {
   WriteText("benchmark.json", "{\"version\": \"0.0.1\"}");
   EXPECT_THAT(MessageOf([&] { ReadBenchmarkJson(Path("benchmark.json")); }),
-              AllOf(HasSubstr("benchmark.json: cannot be read as results of msc_vo benchmark"),
-                    HasSubstr("written by msc_vo 0.0.1")));
+              Names("benchmark.json", "0.0.1"));
   WriteText("benchmark.json", "no JSON");
   EXPECT_THAT(MessageOf([&] { ReadBenchmarkJson(Path("benchmark.json")); }),
-              HasSubstr("benchmark.json: cannot be read"));
+              Names("benchmark.json", "read"));
 }
 
 TEST_F(BenchmarkMergeTest, PrefersRunsThatSucceeded) {
@@ -95,13 +95,13 @@ TEST_F(BenchmarkMergeTest, DescribesDifferentSettings) {
   const Benchmark benchmark = MakeBenchmark({});
   Benchmark other = benchmark;
   other.changed_options = {};
-  EXPECT_EQ(DescribeDifference(benchmark, other), "options use_lines=false and none");
+  EXPECT_THAT(DescribeDifference(benchmark, other), Names("options", "use_lines=false"));
   other = benchmark;
   other.modes = {"new"};
-  EXPECT_EQ(DescribeDifference(benchmark, other), "modes new old and new");
+  EXPECT_THAT(DescribeDifference(benchmark, other), Names("modes", "new", "old"));
   other = benchmark;
   other.max_frames = 10;
-  EXPECT_EQ(DescribeDifference(benchmark, other), "--max-frames 0 and 10 (0: all)");
+  EXPECT_THAT(DescribeDifference(benchmark, other), Names("--max-frames", "0", "10"));
 }
 
 TEST_F(BenchmarkMergeTest, LinksReports) {

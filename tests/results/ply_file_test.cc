@@ -3,6 +3,7 @@
 
 #include "msc_vo/results/ply_file.h"
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -87,40 +88,34 @@ TEST_F(PlyFileTest, ReadsEdgesThatShareVertices) {
 }
 
 TEST_F(PlyFileTest, ReportsFileAndLineOfErrors) {
-  EXPECT_THAT(ErrorOf("ply", "plain"), HasSubstr("edges.ply:1: expected 'ply'"));
+  EXPECT_THAT(ErrorOf("ply", "plain"), Names("edges.ply:1", "'ply'", "plain"));
   EXPECT_THAT(ErrorOf("ascii", "binary_little_endian"),
-              AllOf(HasSubstr("edges.ply:2: expected 'format ascii 1.0'"),
-                    HasSubstr("found 'format binary_little_endian 1.0'")));
-  EXPECT_THAT(ErrorOf("vertex 3", "vertex 1e30"), HasSubstr("edges.ply:4: expected a whole"));
-  EXPECT_THAT(ErrorOf("vertex 3", "vertex three"), HasSubstr("edges.ply:4: expected a whole"));
+              Names("edges.ply:2", "ascii", "binary_little_endian"));
+  EXPECT_THAT(ErrorOf("vertex 3", "vertex 1e30"), Names("edges.ply:4", "whole number", "1e30"));
+  EXPECT_THAT(ErrorOf("vertex 3", "vertex three"), Names("edges.ply:4", "whole number", "three"));
   EXPECT_THAT(ErrorOf("property float x", "property list uchar int x"),
-              HasSubstr("edges.ply:5: expected 'comment', 'element NAME COUNT'"));
-  EXPECT_THAT(ErrorOf("float z", "float w"), HasSubstr("edges.ply:4: element 'vertex' has no "
-                                                       "property 'z'"));
-  EXPECT_THAT(ErrorOf("element edge", "element face"),
-              HasSubstr("edges.ply: has no element 'edge'"));
-  EXPECT_THAT(ErrorOf("end_header\n", ""), HasSubstr("edges.ply:11: expected 'comment'"));
-  EXPECT_THAT(ErrorOf("1 0 0", "1 0"), HasSubstr("edges.ply:13: expected 3 numbers"));
-  EXPECT_THAT(ErrorOf("1 0 0", "1 0 nan"), HasSubstr("edges.ply:13: 'nan' is not a finite"));
-  EXPECT_THAT(ErrorOf("2 1\n", "2 3\n"), HasSubstr("edges.ply:16: expected two of the 3 vertices"));
-  EXPECT_THAT(ErrorOf("2 1\n", "2 0.5\n"),
-              HasSubstr("edges.ply:16: expected two of the 3 vertices"));
-  EXPECT_THAT(ErrorOf("2 1\n", "2 2\n"), HasSubstr("edges.ply:16: expected an edge between two"));
-  EXPECT_THAT(ErrorOf("2 1\n", "2 1\n2 1\n"), HasSubstr("edges.ply:17: expected the end of"));
-  EXPECT_THAT(ErrorOf("2 1\n", ""), HasSubstr("edges.ply:15: the file ends after 1 of 2 rows of "
-                                              "element 'edge'"));
-  EXPECT_THAT(ErrorOf(kEdges, ""), HasSubstr("edges.ply:1: the file is empty"));
-  EXPECT_THAT(ErrorOf(kEdges, "ply\n"), HasSubstr("edges.ply:1: expected 'format ascii 1.0'"));
-  EXPECT_THAT(ErrorOf(kEdges, "ply\nformat ascii 1.0\n"),
-              HasSubstr("edges.ply:2: the file ends before 'end_header'"));
-  EXPECT_THAT(MessageOf([&] { ReadEdgesPly(Path("none.ply")); }), HasSubstr("does not exist"));
+              Names("edges.ply:5", "comment", "element", "property"));
+  EXPECT_THAT(ErrorOf("float z", "float w"), Names("edges.ply:4", "'vertex'", "'z'"));
+  EXPECT_THAT(ErrorOf("element edge", "element face"), Names("edges.ply", "no element", "'edge'"));
+  EXPECT_THAT(ErrorOf("end_header\n", ""), Names("edges.ply:11", "comment", "element", "property"));
+  EXPECT_THAT(ErrorOf("1 0 0", "1 0"), Names("edges.ply:13", "3", "'vertex'", "'1 0'"));
+  EXPECT_THAT(ErrorOf("1 0 0", "1 0 nan"), Names("edges.ply:13", "'nan'"));
+  EXPECT_THAT(ErrorOf("2 1\n", "2 3\n"), Names("edges.ply:16", "3", "'2 3'"));
+  EXPECT_THAT(ErrorOf("2 1\n", "2 0.5\n"), Names("edges.ply:16", "3", "'2 0.5'"));
+  EXPECT_THAT(ErrorOf("2 1\n", "2 2\n"), Names("edges.ply:16", "different", "'2 2'"));
+  EXPECT_THAT(ErrorOf("2 1\n", "2 1\n2 1\n"), Names("edges.ply:17", "end", "'2 1'"));
+  EXPECT_THAT(ErrorOf("2 1\n", ""), Names("edges.ply:15", "1", "2", "'edge'"));
+  EXPECT_THAT(ErrorOf(kEdges, ""), Names("edges.ply:1", "empty"));
+  EXPECT_THAT(ErrorOf(kEdges, "ply\n"), Names("edges.ply:1", "ascii"));
+  EXPECT_THAT(ErrorOf(kEdges, "ply\nformat ascii 1.0\n"), Names("edges.ply:2", "end_header"));
+  EXPECT_THAT(MessageOf([&] { ReadEdgesPly(Path("none.ply")); }), Names("none.ply", "exist"));
   WriteText("edges.ply", kEdges);
   EXPECT_THAT(MessageOf([&] { ReadLinesPly(Path("edges.ply")); }),
-              HasSubstr("edges.ply:4: element 'vertex' has no property 'nx'"));
+              Names("edges.ply:4", "'vertex'", "'nx'"));
   std::string lines = FormatLinesPly(kLines);
   WriteText("lines.ply", lines.replace(lines.find(" 5\n"), 2, " 5.5"));
   EXPECT_THAT(MessageOf([&] { ReadLinesPly(Path("lines.ply")); }),
-              HasSubstr("lines.ply:22: expected a whole number of observations"));
+              Names("lines.ply:22", "whole number", "observations"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "tests/ros_bag/bag_writer.h"
 #include "tests/ros_bag/message_bytes.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -20,7 +21,6 @@ namespace {
 
 using testing::AllOf;
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 class BagSequenceTest : public TemporaryFolder {
@@ -72,12 +72,11 @@ class BagSequenceTest : public TemporaryFolder {
     }
     return OpenBag(Path("stamped.bag"));
   }
-  static void ExpectReceiveTimes(const SequenceIndex& index, const std::string& reason) {
+  static void ExpectReceiveTimes(const SequenceIndex& index, const NamesMatcher& reason) {
     ASSERT_EQ(index.entries.size(), 10u);
     EXPECT_NEAR(index.entries[9].timestamp, 50.3, 1e-6);
     EXPECT_NEAR(index.entries[9].depth_delay, 0.003, 1e-6);
-    EXPECT_THAT(index.warnings,
-                ElementsAre(AllOf(HasSubstr(reason), HasSubstr("were recorded are used"))));
+    EXPECT_THAT(index.warnings, ElementsAre(AllOf(reason, Names("recorded"))));
   }
 
   static RgbdDecoder Decoder(SequenceIndex index) {
@@ -133,11 +132,10 @@ TEST_F(BagSequenceTest, TakesTheTopicsThatAreNamed) {
   EXPECT_THAT(MessageOf([&] {
                 OpenBag(Path("x.bag"), {"/no", ""});
               }),
-              AllOf(HasSubstr("x.bag: no images in the topic /no (--color-topic)"),
-                    HasSubstr("/camera/rgb/image_color")));
+              Names("x.bag", "/no", "--color-topic", "/camera/rgb/image_color"));
   const SequenceIndex infrared = OpenBag(Path("x.bag"), {"/camera/ir/image", ""});
   ASSERT_EQ(infrared.entries.size(), 1u);
-  EXPECT_THAT(infrared.entries[0].color_path, HasSubstr("x.bag:/camera/ir/image, message 0"));
+  EXPECT_THAT(infrared.entries[0].color_path, Names("x.bag:/camera/ir/image", "0"));
 }
 
 TEST_F(BagSequenceTest, PrefersThePresetThatTheNameSuggests) {
@@ -153,20 +151,20 @@ TEST_F(BagSequenceTest, PrefersThePresetThatTheNameSuggests) {
 uint32_t At30Hz(int i) { return static_cast<uint32_t>(33333333 * i); }
 
 TEST_F(BagSequenceTest, FallsBackToTheTimesOfRecording) {
-  ExpectReceiveTimes(OpenStamped([](int, bool) { return Stamp(0, 0); }), "colour images are zero");
+  ExpectReceiveTimes(OpenStamped([](int, bool) { return Stamp(0, 0); }), Names("colour", "zero"));
   ExpectReceiveTimes(OpenStamped([](int, bool) { return Stamp(1604645033, 7); }),
-                     "colour images repeat");
+                     Names("colour", "repeat"));
   ExpectReceiveTimes(OpenStamped([](int i, bool is_depth) {
                        return is_depth ? Stamp(0, 0) : Stamp(1604645033, At30Hz(i));
                      }),
-                     "depth images are zero");
+                     Names("depth", "zero"));
   ExpectReceiveTimes(OpenStamped([](int i, bool is_depth) {
                        return Stamp(is_depth ? 1604645033 : 812, At30Hz(i));
                      }),
-                     "are of different clocks");
+                     Names("clocks"));
   ExpectReceiveTimes(
       OpenStamped([](int i, bool) { return Stamp(i < 5 ? 1604645033 : 1604645013, At30Hz(i)); }),
-      "go back by 20.0 s");
+      Names("20.0 s"));
 }
 
 TEST_F(BagSequenceTest, LeavesOutMessagesWithoutStamps) {
@@ -176,8 +174,7 @@ TEST_F(BagSequenceTest, LeavesOutMessagesWithoutStamps) {
   });
   ASSERT_EQ(index.entries.size(), 8u);
   EXPECT_NEAR(index.entries[0].timestamp, 1604645033.066667, 1e-6);
-  EXPECT_THAT(index.warnings, ElementsAre(HasSubstr("2 of 10 colour images are left out"),
-                                          HasSubstr("2 of 10 depth images are left out")));
+  EXPECT_THAT(index.warnings, ElementsAre(Names("2", "10", "colour"), Names("2", "10", "depth")));
 }
 
 TEST_F(BagSequenceTest, SaysWhyTopicsAreNotUsed) {
@@ -186,9 +183,7 @@ TEST_F(BagSequenceTest, SaysWhyTopicsAreNotUsed) {
   };
   EXPECT_EQ(OpenStamped(stamp_of, "/iris/camera/image_raw").entries.size(), 10u);
   EXPECT_THAT(MessageOf([&] { OpenStamped(stamp_of, "/camera/ir/image_raw"); }),
-              AllOf(HasSubstr("no topic with colour images found"),
-                    HasSubstr("/camera/ir/image_raw (colour, infrared)"),
-                    HasSubstr("--color-topic names one")));
+              Names("no topic", "/camera/ir/image_raw", "infrared", "--color-topic"));
   WriteBag("x.bag", BagCompression::kNone, "16UC1");
   EXPECT_THAT(OpenBag(Path("x.bag")).warnings, IsEmpty());
 }
@@ -196,21 +191,20 @@ TEST_F(BagSequenceTest, SaysWhyTopicsAreNotUsed) {
 TEST_F(BagSequenceTest, NamesFilesThatAreNoBags) {
   WriteText("ros2.bag", std::string("SQLite format 3\0", 16) + std::string(100, 'x'));
   EXPECT_THAT(MessageOf([&] { OpenBag(Path("ros2.bag")); }),
-              AllOf(HasSubstr("ros2.bag is a bag of ROS 2"), HasSubstr("rosbags-convert")));
+              Names("ros2.bag", "ROS 2", "rosbags-convert"));
 }
 
 TEST_F(BagSequenceTest, NamesWhatIsWrong) {
   WriteText("text.bag", "this is no bag");
-  EXPECT_THAT(MessageOf([&] { OpenBag(Path("text.bag")); }),
-              HasSubstr("text.bag: cannot be read as a bag of ROS 1"));
-  EXPECT_THAT(MessageOf([&] { OpenBag(Path("no.bag")); }), HasSubstr("no.bag: does not exist"));
+  EXPECT_THAT(MessageOf([&] { OpenBag(Path("text.bag")); }), Names("text.bag", "read", "ROS 1"));
+  EXPECT_THAT(MessageOf([&] { OpenBag(Path("no.bag")); }), Names("no.bag", "exist"));
   { const BagWriter empty(Path("empty.bag"), BagCompression::kNone); }
   EXPECT_THAT(MessageOf([&] { OpenBag(Path("empty.bag")); }),
-              HasSubstr("no topic with depth images found; topics with images: none"));
+              Names("empty.bag", "no topic", "depth", "none"));
   WriteBag("cut.bag", BagCompression::kNone, "16UC1");
   const std::string bytes = ReadFile(Path("cut.bag"));
   WriteText("cut.bag", bytes.substr(0, bytes.size() / 2));
-  EXPECT_THAT(MessageOf([&] { OpenBag(Path("cut.bag")); }), HasSubstr("cut.bag: "));
+  EXPECT_THAT(MessageOf([&] { OpenBag(Path("cut.bag")); }), Names("cut.bag"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tests/ros_bag/message_bytes.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
@@ -48,14 +49,14 @@ TEST(RosImage, ConvertsColours) {
   EXPECT_EQ(convert(cv::Mat(4, 4, CV_8UC1), "bayer_grbg8").type(), CV_8UC3);
   EXPECT_EQ(convert(cv::Mat(2, 3, CV_16UC1), "16UC1").type(), CV_16UC1);
   EXPECT_EQ(convert(cv::Mat(2, 3, CV_32FC1), "32FC1").type(), CV_32FC1);
-  EXPECT_THAT(MessageOf([&] { convert(bgr, "yuv422"); }), HasSubstr("encoding yuv422"));
+  EXPECT_THAT(MessageOf([&] { convert(bgr, "yuv422"); }), Names("yuv422"));
   EXPECT_THAT(MessageOf([&] { convert(cv::Mat(2, 3, CV_8UC1), "bgr8"); }),
-              HasSubstr("does not fit its data"));
+              Names("damaged", "size"));
   const std::string bytes = ImageMessage(1, 0, cv::Mat(2, 3, CV_32FC1), "32FC1");
   RosImage image = ParseRosImage(bytes);
   image.height = 1;
   ++image.step;  // no whole number of values
-  EXPECT_THAT(MessageOf([&] { ConvertRosImage(image); }), HasSubstr("does not fit its data"));
+  EXPECT_THAT(MessageOf([&] { ConvertRosImage(image); }), Names("damaged", "size"));
 }
 
 TEST(RosImage, ReadsEitherByteOrder) {

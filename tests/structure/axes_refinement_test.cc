@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/support/factor_checks.h"
+#include "tests/support/message_matchers.h"
 #include <Eigen/LU>
 #include <gmock/gmock.h>
 
@@ -15,8 +16,6 @@
 
 namespace msc_vo {
 namespace {
-
-using ::testing::HasSubstr;
 
 // Directions along the axes of `truth` with angular noise `noise` and sigmas `sigma`, radians.
 ManhattanAxesData Observe(const Eigen::Quaterniond& truth, int count, double sigma, double noise,
@@ -179,17 +178,17 @@ TEST_F(ManhattanAxesTest, NamesTheInvalidObservation) {
   };
   using Data = ManhattanAxesData;
   EXPECT_THAT(message([](Data* d) { d->observations[4].direction *= 2.0; }),
-              HasSubstr("observation 4: direction is not a unit vector"));
+              Names("observation 4", "direction", "unit"));
   EXPECT_THAT(message([](Data* d) { d->observations[4].axis = 3; }),
-              HasSubstr("observation 4: axis must be 0, 1 or 2"));
+              Names("observation 4", "axis", "0", "1", "2"));
   EXPECT_THAT(message([](Data* d) { d->observations[4].sigma = 0.0; }),
-              HasSubstr("observation 4: sigma must be positive"));
+              Names("observation 4", "sigma"));
   EXPECT_THAT(message([](Data* d) { d->world_from_manhattan.coeffs() *= 2.0; }),
-              HasSubstr("world_from_manhattan is not a unit quaternion"));
+              Names("world_from_manhattan", "quaternion"));
   EXPECT_THAT(message([](Data* d) {
                 d->observations[2].direction.x() = std::numeric_limits<double>::quiet_NaN();
               }),
-              HasSubstr("observation 2: direction"));
+              Names("observation 2", "direction"));
 }
 
 }  // namespace

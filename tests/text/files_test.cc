@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <filesystem>
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -16,7 +17,6 @@ namespace msc_vo {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 class FilesTest : public TemporaryFolder {
  protected:
@@ -33,24 +33,23 @@ class FilesTest : public TemporaryFolder {
 };
 
 TEST_F(FilesTest, ReadRefusesEndlessFiles) {
-  EXPECT_THAT(MessageOf([&] { ReadFile(MakePipe("pipe")); }),
-              HasSubstr(Path("pipe") + ": is a pipe, which may be endless"));
-  EXPECT_THAT(MessageOf([&] { ReadFile("/dev/zero"); }), HasSubstr("/dev/zero: is a device"));
+  EXPECT_THAT(MessageOf([&] { ReadFile(MakePipe("fifo")); }), Names(Path("fifo"), "pipe"));
+  EXPECT_THAT(MessageOf([&] { ReadFile("/dev/zero"); }), Names("/dev/zero", "device"));
 }
 
 TEST_F(FilesTest, ReadRefusesTooLargeFiles) {
   EXPECT_THAT(MessageOf([&] { ReadFile(MakeSparse("t.txt", kMaxTextBytes + (2 << 20))); }),
-              HasSubstr("t.txt: has 258 MiB, more than the 256 MiB"));
+              Names("t.txt", "258 MiB", "256 MiB"));
   EXPECT_EQ(ReadFile(MakeSparse("largest.txt", 4096), 4096).size(), 4096u);
 }
 
 TEST_F(FilesTest, ReadNamesBrokenLinks) {
   fs::create_symlink(Path("loop.txt"), Path("loop.txt"));
   EXPECT_THAT(MessageOf([&] { ReadFile(Path("loop.txt")); }),
-              HasSubstr("loop.txt: is a symbolic link that leads back to itself"));
+              Names("loop.txt", "symbolic link", "itself"));
   fs::create_symlink(Path("missing"), Path("dangling.txt"));
   EXPECT_THAT(MessageOf([&] { ReadFile(Path("dangling.txt")); }),
-              HasSubstr("dangling.txt: is a symbolic link to a file that does not exist"));
+              Names("dangling.txt", "symbolic link", "exist"));
   EXPECT_TRUE(HasEntry(Path("loop.txt")));
   EXPECT_TRUE(HasEntry(Path("dangling.txt")));
   EXPECT_FALSE(HasEntry(Path("missing")));
@@ -64,8 +63,8 @@ TEST_F(FilesTest, CheckWritableLeavesNoTrace) {
   CheckWritable(Path("old.txt"));
   EXPECT_EQ(ReadFile(Path("old.txt")), "old");
   EXPECT_THAT(MessageOf([&] { CheckWritable(Path("no/such/folder.txt")); }),
-              HasSubstr("folder.txt: cannot be written"));
-  EXPECT_THAT(MessageOf([&] { CheckWritable(Folder()); }), HasSubstr("is a folder; give a file"));
+              Names("folder.txt", "written"));
+  EXPECT_THAT(MessageOf([&] { CheckWritable(Folder()); }), Names(Folder(), "a folder"));
 }
 
 TEST_F(FilesTest, WriteReplacesLinkAndKeepsItsTarget) {
@@ -91,17 +90,16 @@ TEST_F(FilesTest, GrowingFileIsOnDiskAfterEachAppend) {
 }
 
 TEST_F(FilesTest, WriteReplacesOnlyRegularFiles) {
-  const std::string pipe = MakePipe("pipe");
-  EXPECT_THAT(MessageOf([&] { WriteFile(pipe, "text"); }),
-              HasSubstr("pipe: cannot be written: is a pipe"));
-  EXPECT_THAT(MessageOf([&] { GrowingFile file(pipe); }), HasSubstr("is a pipe"));
-  EXPECT_THAT(MessageOf([&] { WriteFile(Folder(), "text"); }), HasSubstr("is a folder"));
+  const std::string pipe = MakePipe("fifo");
+  EXPECT_THAT(MessageOf([&] { WriteFile(pipe, "text"); }), Names(pipe, "written", "pipe"));
+  EXPECT_THAT(MessageOf([&] { GrowingFile file(pipe); }), Names(pipe, "pipe"));
+  EXPECT_THAT(MessageOf([&] { WriteFile(Folder(), "text"); }), Names(Folder(), "a folder"));
   EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
 TEST_F(FilesTest, WriteErrorsNameTheCause) {
   EXPECT_THAT(MessageOf([&] { WriteFile(Path("no/folder.txt"), "text"); }),
-              HasSubstr("folder.txt: cannot be written: No such file or directory"));
+              Names("folder.txt", "written", std::strerror(ENOENT)));
   for (const auto& [cause, lacks_space] :
        {std::pair(ENOSPC, true), {EDQUOT, true}, {EROFS, false}, {EFBIG, false}, {0, false}}) {
     EXPECT_EQ(WriteError("file", cause).LacksSpace(), lacks_space) << cause;
