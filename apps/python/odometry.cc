@@ -48,6 +48,23 @@ void CheckByteOrder(const cv::Mat& depth, const py::object& depth_scale) {
       "with the high byte first");
 }
 
+// What a callback of window factors gets: the context, and the window while the callback runs.
+struct PyWindowContext {
+  explicit PyWindowContext(const WindowContext& context_in) : context(context_in) {}
+
+  // A copy, made when it is first asked for.
+  std::shared_ptr<WindowData> Data() {
+    if (!data && context.data == nullptr) {
+      throw std::runtime_error("data: the window is known during the callback only");
+    }
+    if (!data) data = std::make_shared<WindowData>(*context.data);
+    return data;
+  }
+
+  WindowContext context;
+  std::shared_ptr<WindowData> data;
+};
+
 // The odometry without the GIL, and the numbering of its images.
 class PyOdometry {
  public:
@@ -99,7 +116,12 @@ class PyOdometry {
     odometry_->SetWindowFactors(
         [shared = SharedObject(callback)](const WindowContext& window) -> WindowFactors {
           const py::gil_scoped_acquire gil;
-          FactorLists lists = FactorsArgument(shared.get()(window), "window factors");
+          const auto context = std::make_shared<PyWindowContext>(window);
+          struct Guard {  // Python may keep the context
+            PyWindowContext* context;
+            ~Guard() { context->context.data = nullptr; }
+          } const guard{context.get()};
+          FactorLists lists = FactorsArgument(shared.get()(context), "window factors");
           return {std::move(lists.extra_blocks), std::move(lists.factors)};
         });
   }
@@ -162,19 +184,26 @@ void BindContexts(py::module_* module) {
       .def_property_readonly("cam_from_world", [](const WindowContext::Keyframe& self) {
         return PoseMatrix(self.cam_from_world);
       });
-  py::class_<WindowContext>(*module, "WindowContext",
-                            "A window before its local bundle adjustment.")
-      .def_readonly("keyframes", &WindowContext::keyframes, "In order of time.")
+  py::class_<PyWindowContext, std::shared_ptr<PyWindowContext>>(
+      *module, "WindowContext", "A window before its local bundle adjustment.")
+      .def_property_readonly(
+          "keyframes", [](const PyWindowContext& self) { return self.context.keyframes; },
+          "In order of time.")
       .def_property_readonly(
           "extra_blocks",
-          [](const WindowContext& self) {
+          [](const PyWindowContext& self) {
             py::dict blocks;
-            for (const ExtraBlock& block : self.extra_blocks) {
+            for (const ExtraBlock& block : self.context.extra_blocks) {
               blocks[py::int_(block.id)] = block.value;
             }
             return blocks;
           },
-          "Present values of the extra blocks by id.");
+          "Present values of the extra blocks by id.")
+      .def_property_readonly(
+          "data", &PyWindowContext::Data,
+          "WindowData with the points and lines of the window and their observations, a copy. "
+          "Factors may use the ids of any of them. Raises RuntimeError after the callback, unless "
+          "it was asked for before.");
   py::class_<FrameContext>(*module, "FrameContext", "A frame before its pose is estimated.")
       .def_readonly("timestamp", &FrameContext::timestamp)
       .def_readonly("last_timestamp", &FrameContext::last_timestamp,

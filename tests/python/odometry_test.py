@@ -249,6 +249,33 @@ class Callbacks(unittest.TestCase):
             blocks = odometry.finish().extra_blocks
             self.assertAlmostEqual(blocks[7][0], 2.0, places=6)
 
+    def test_window_factors_use_landmarks(self):
+        for threads in (1, 2):
+            odometry = support.room_odometry(threads=threads)
+            kept, unread, counts = [], [], []
+
+            def factors(window):
+                points = window.data
+                counts.append(len(points.point_ids))
+                kept.append(window)
+                known = points.points[0]
+                cost = msc_vo.CostFunction(lambda x: ((x - known) / 0.01, [np.eye(3) / 0.01]), 3,
+                                           [3])
+                return [msc_vo.CustomFactor(cost, [msc_vo.BlockId.point(points.point_ids[0])])]
+
+            odometry.set_window_factors(factors)
+            support.process(odometry, support.room_images()[:16])
+            odometry.finish()
+            self.assertGreater(min(counts), 20)
+            self.assertEqual(len(kept[0].data.point_ids), counts[0])  # was read in the callback
+            odometry = support.room_odometry(threads=threads)
+            odometry.set_window_factors(unread.append)  # returns None: no factors
+            support.process(odometry, support.room_images()[:16])
+            odometry.finish()
+            with self.assertRaisesRegex(RuntimeError, "during the callback"):
+                unread[0].data
+            self.assertTrue(unread[0].keyframes)
+
     def test_exceptions_arrive_as_they_are(self):
         class Broken(Exception):
             pass
