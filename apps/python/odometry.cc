@@ -106,6 +106,15 @@ class PyOdometry {
     return result;
   }
 
+  bool MappingPending() {
+    return Alone([&] { return odometry_->MappingPending(); });
+  }
+
+  bool RunMapping(const py::object& budget) {
+    const double seconds = NumberArgument(budget, "budget");
+    return Alone([&] { return odometry_->RunMapping(seconds); });
+  }
+
   std::shared_ptr<OdometryResult> Finish() {
     return Alone([&] { return std::make_shared<OdometryResult>(odometry_->Finish()); });
   }
@@ -240,6 +249,11 @@ void BindOdometry(py::module_* module) {
            "arrays that do not fit; the next call may continue.")
       .def("drop", &PyOdometry::Drop, py::arg("timestamp"), py::arg("status") = "dropped",
            "Records a frame without an image: 'dropped' or 'unreadable'.")
+      .def_property_readonly("mapping_pending", &PyOdometry::MappingPending,
+                             "Whether run_mapping() has work to do.")
+      .def("run_mapping", &PyOdometry::RunMapping, py::arg("budget"),
+           "With Options(external_mapping=True): runs local mapping in this thread for about "
+           "`budget` seconds and returns mapping_pending. Results do not depend on the budget.")
       .def("finish", &PyOdometry::Finish,
            "Waits for local mapping and returns the Result. May be called at any time.")
       .def("set_window_factors", &PyOdometry::SetWindowFactors, py::arg("callback"),

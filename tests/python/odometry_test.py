@@ -198,6 +198,38 @@ class Arrays(unittest.TestCase):
             self.odometry.drop(1.2, "tracked")
 
 
+class ExternalMapping(unittest.TestCase):
+    def test_the_budget_does_not_change_the_result(self):
+        images = support.room_images()[:16]
+        expected = support.room_odometry(threads=1)
+        support.process(expected, images)
+        odometry = support.room_odometry(threads=1, external_mapping=True)
+        threads, num_pending = set(), 0
+        odometry.set_window_observer(lambda *_: threads.add(threading.get_ident()))
+        for image in images:
+            odometry.process(image.timestamp, image.gray, image.depth)
+            num_pending += odometry.mapping_pending
+            odometry.run_mapping(0.005)
+        np.testing.assert_array_equal(odometry.finish().trajectory, expected.finish().trajectory)
+        self.assertGreater(num_pending, 0)
+        self.assertFalse(odometry.mapping_pending)
+        self.assertEqual(threads, {threading.get_ident()})
+
+    def test_misuse_is_named(self):
+        with self.assertRaisesRegex(ValueError, "external_mapping"):
+            support.room_odometry().run_mapping(0.005)
+        with self.assertRaisesRegex(ValueError, "budget"):
+            support.room_odometry(external_mapping=True).run_mapping(-1.0)
+
+    def test_callbacks_cannot_run_the_mapping(self):
+        odometry = support.room_odometry(threads=1, external_mapping=True)
+        odometry.set_window_observer(lambda *_: odometry.run_mapping(1.0))
+        with self.assertRaisesRegex(RuntimeError, "in use"):
+            for image in support.room_images():
+                odometry.process(image.timestamp, image.gray, image.depth)
+                odometry.run_mapping(1.0)
+
+
 class Callbacks(unittest.TestCase):
     def test_the_gil_is_released_while_images_are_processed(self):
         odometry = support.room_odometry()
