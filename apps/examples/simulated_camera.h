@@ -29,6 +29,9 @@ class SimulatedCamera {
 
   const PinholeCamera& camera() const { return sequence_.camera(); }
   int num_images() const { return num_images_; }
+  const Scene& scene() const { return sequence_.scene(); }
+  /// The pose of the scene's frame in the world of the odometry.
+  Rigid3 WorldFromScene() const { return sequence_.PoseAt(0).world_from_cam.Inverse(); }
   std::vector<TimedAcceleration> AccelerometerReadings() const {
     return sequence_.AccelerometerReadings(num_images_);
   }
@@ -38,6 +41,23 @@ class SimulatedCamera {
     return sequence_.PoseAt(index).world_from_cam.rotation().conjugate() * Eigen::Vector3d::UnitZ();
   }
 
+  /// Takes image `index`.
+  RgbdImage Grab(int index) const {
+    RgbdImage image;
+    image.id = index;
+    image.timestamp = sequence_.PoseAt(index).timestamp;
+    const cv::Size size(camera().width, camera().height);
+    if (index >= begin_covered_ && index < end_covered_) {
+      image.gray = cv::Mat::zeros(size, CV_8UC1);
+      image.depth = cv::Mat::zeros(size, CV_32FC1);
+      return image;
+    }
+    SyntheticFrame frame = sequence_.Render(index);
+    std::vector<uint8_t> gray = frame.image.Gray();
+    image.gray = cv::Mat(size, CV_8UC1, gray.data()).clone();
+    image.depth = cv::Mat(size, CV_32FC1, frame.image.depth.data()).clone();
+    return image;
+  }
   /// Passes all images to the odometry.
   OdometryResult Replay(Odometry* odometry) const {
     for (int i = 0; i < num_images_; ++i) odometry->Process(Grab(i));
@@ -63,22 +83,6 @@ class SimulatedCamera {
   }
 
  private:
-  RgbdImage Grab(int index) const {
-    RgbdImage image;
-    image.id = index;
-    image.timestamp = sequence_.PoseAt(index).timestamp;
-    const cv::Size size(camera().width, camera().height);
-    if (index >= begin_covered_ && index < end_covered_) {
-      image.gray = cv::Mat::zeros(size, CV_8UC1);
-      image.depth = cv::Mat::zeros(size, CV_32FC1);
-      return image;
-    }
-    SyntheticFrame frame = sequence_.Render(index);
-    std::vector<uint8_t> gray = frame.image.Gray();
-    image.gray = cv::Mat(size, CV_8UC1, gray.data()).clone();
-    image.depth = cv::Mat(size, CV_32FC1, frame.image.depth.data()).clone();
-    return image;
-  }
   static SyntheticSequenceOptions Options(SceneKind scene) {
     SyntheticSequenceOptions options;
     options.scene = scene;

@@ -48,6 +48,23 @@ void CheckByteOrder(const cv::Mat& depth, const py::object& depth_scale) {
       "with the high byte first");
 }
 
+// What a callback of window factors gets: the context, and the window while the callback runs.
+struct PyWindowContext {
+  explicit PyWindowContext(const WindowContext& context_in) : context(context_in) {}
+
+  // A copy, made when it is first asked for.
+  std::shared_ptr<WindowData> Data() {
+    if (!data && context.data == nullptr) {
+      throw std::runtime_error("data: the window is known during the callback only");
+    }
+    if (!data) data = std::make_shared<WindowData>(*context.data);
+    return data;
+  }
+
+  WindowContext context;
+  std::shared_ptr<WindowData> data;
+};
+
 // The odometry without the GIL, and the numbering of its images.
 class PyOdometry {
  public:
@@ -86,6 +103,15 @@ class PyOdometry {
     return Alone([&] { return odometry_->Drop(id, time, value); });
   }
 
+  bool MappingPending() {
+    return Alone([&] { return odometry_->MappingPending(); });
+  }
+
+  bool RunMapping(const py::object& budget) {
+    const double seconds = NumberArgument(budget, "budget");
+    return Alone([&] { return odometry_->RunMapping(seconds); });
+  }
+
   std::shared_ptr<OdometryResult> Finish() {
     return Alone([&] { return std::make_shared<OdometryResult>(odometry_->Finish()); });
   }
@@ -99,7 +125,12 @@ class PyOdometry {
     if (!callback.is_none()) {
       function = [shared = SharedObject(callback)](const WindowContext& window) -> WindowFactors {
         const py::gil_scoped_acquire gil;
-        FactorLists lists = FactorsArgument(shared.get()(window), "window factors");
+        const auto context = std::make_shared<PyWindowContext>(window);
+        struct Guard {  // Python may keep the context
+          PyWindowContext* context;
+          ~Guard() { context->context.data = nullptr; }
+        } const guard{context.get()};
+        FactorLists lists = FactorsArgument(shared.get()(context), "window factors");
         return {std::move(lists.extra_blocks), std::move(lists.factors)};
       };
     }
@@ -174,13 +205,23 @@ void BindContexts(py::module_* module) {
       .def_property_readonly("cam_from_world", [](const WindowContext::Keyframe& self) {
         return PoseMatrix(self.cam_from_world);
       });
-  py::class_<WindowContext>(*module, "WindowContext",
-                            "A window before its local bundle adjustment.")
-      .def_readonly("keyframes", &WindowContext::keyframes, "In order of time.")
-      .def_readonly("world", &WindowContext::world, "Number of the world of the poses.")
+  py::class_<PyWindowContext, std::shared_ptr<PyWindowContext>>(
+      *module, "WindowContext", "A window before its local bundle adjustment.")
       .def_property_readonly(
-          "extra_blocks", [](const WindowContext& self) { return BlockValues(self.extra_blocks); },
-          "Present values of the extra blocks by id.");
+          "keyframes", [](const PyWindowContext& self) { return self.context.keyframes; },
+          "In order of time.")
+      .def_property_readonly(
+          "world", [](const PyWindowContext& self) { return self.context.world; },
+          "Number of the world of the poses.")
+      .def_property_readonly(
+          "extra_blocks",
+          [](const PyWindowContext& self) { return BlockValues(self.context.extra_blocks); },
+          "Present values of the extra blocks by id.")
+      .def_property_readonly(
+          "data", &PyWindowContext::Data,
+          "WindowData with the points and lines of the window and their observations, a copy. "
+          "Factors may use the ids of any of them. Raises RuntimeError after the callback, unless "
+          "it was asked for before.");
   py::class_<FrameContext>(*module, "FrameContext", "A frame before its pose is estimated.")
       .def_readonly("timestamp", &FrameContext::timestamp)
       .def_readonly("last_timestamp", &FrameContext::last_timestamp,
@@ -222,6 +263,11 @@ void BindOdometry(py::module_* module) {
            "mapping come after the frame is complete: it is in `frames`.")
       .def("drop", &PyOdometry::Drop, py::arg("timestamp"), py::arg("status") = "dropped",
            "Records a frame without an image: 'dropped' or 'unreadable'.")
+      .def_property_readonly("mapping_pending", &PyOdometry::MappingPending,
+                             "Whether run_mapping() has work to do.")
+      .def("run_mapping", &PyOdometry::RunMapping, py::arg("budget"),
+           "With Options(external_mapping=True): runs local mapping in this thread for about "
+           "`budget` seconds and returns mapping_pending. Results do not depend on the budget.")
       .def("finish", &PyOdometry::Finish,
            "Waits for local mapping and returns the Result. May be called at any time.")
       .def_property_readonly("frames", &PyOdometry::Frames,

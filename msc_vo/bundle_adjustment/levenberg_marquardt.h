@@ -30,7 +30,7 @@ struct LevenbergMarquardtSummary {
 ///   // whether it moved. The loop needs no derivatives after the last step.
 ///   bool TakeStep(bool is_last);
 ///
-/// Local bundle adjustment has a loop of its own (MinimizeWithBlockSchur): it follows the
+/// Local bundle adjustment has a loop of its own (BlockSchurMinimizer): it follows the
 /// trust-region rules of Ceres, which accept a step by the ratio of actual to predicted decrease
 /// and stop at a small decrease of the cost, so that all of its solvers take the same steps.
 template <typename Problem>

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "msc_vo/map/map_validation.h"
 #include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
@@ -36,57 +37,133 @@ Mapper::Mapper(const MapperOptions& options)
       care_(options.culling, options.fusion),
       optimizer_(options) {}
 
-InsertedKeyframe Mapper::Insert(const KeyframePacket& packet) {
-  InsertedKeyframe inserted(packet);
-  MappingSummary& summary = inserted.summary_;
+void Mapper::Advance(KeyframeTask* task) {
+  const auto next = [task] {
+    task->stage_ = static_cast<MappingStage>(static_cast<int>(task->stage_) + 1);
+  };
+  switch (task->stage_) {
+    case MappingStage::kStructure:
+      PrepareFrame(task);
+      return next();
+    case MappingStage::kCreation:
+      Create(task);
+      return next();
+    case MappingStage::kFusion:
+      Fuse(task);
+      return next();
+    case MappingStage::kAxes:
+      UpdateAxes(task);
+      return next();
+    case MappingStage::kWindow:
+      BeginWindow(task);
+      return next();
+    case MappingStage::kSolve:
+      if (!Solve(task)) next();
+      return;
+    case MappingStage::kReadout:
+      Timed(&task->summary_.times.readout,
+            [&] { calibration_.UpdateReadoutTime(task->packet_, map(), task->summary_.keyframe); });
+      return next();
+    case MappingStage::kCalibration:
+      Calibrate(task);
+      return next();
+    case MappingStage::kCulling:
+      Cull(task);
+      return next();
+    case MappingStage::kDone:
+      return;
+  }
+}
+
+KeyframeTask Mapper::Insert(const KeyframePacket& packet) {
+  KeyframeTask task(packet);
+  while (!task.IsInserted()) Advance(&task);
+  return task;
+}
+
+MappingSummary Mapper::Refine(KeyframeTask inserted) {
+  while (!inserted.IsDone()) Advance(&inserted);
+  return inserted.summary();
+}
+
+void Mapper::PrepareFrame(KeyframeTask* task) {
+  const KeyframePacket& packet = task->packet_;
+  MappingTimes& times = task->summary_.times;
   SubMap& submap = atlas_.current();
-  std::shared_ptr<const Frame> frame = Timed(&summary.times.creation, [&] {
+  Timed(&times.creation, [&] {
     if (packet.last_velocity) {
       SetKeyframeVelocity(inserter_.newest(), *packet.last_velocity, &submap.map);
     }
     if (packet.begins_map) BeginMap(packet);
     calibration_.CompensateMap(&submap.map);
-    return calibration_.BringUpToDate(packet);
+    task->frame_ = calibration_.BringUpToDate(packet);
   });
-  if (options_.frame_structure) {
-    frame = Timed(&summary.times.structure, [&] {
-      return RefineStructure(options_.structure, submap.noise.scale(), options_.MapHasStructure(),
-                             frame);
-    });
-  }
+  if (!options_.frame_structure) return;
+  Timed(&times.structure, [&] {
+    task->frame_ = RefineStructure(options_.structure, submap.noise.scale(),
+                                   options_.MapHasStructure(), task->frame_);
+  });
+}
+
+void Mapper::Create(KeyframeTask* task) {
+  MappingSummary& summary = task->summary_;
   Timed(&summary.times.creation, [&] {
-    inserter_.Insert(packet, frame, &atlas_, &summary);
-    care_.Renew(summary.keyframe, &submap.map);
+    inserter_.Insert(task->packet_, std::exchange(task->frame_, nullptr), &atlas_, &summary);
+    care_.Renew(summary.keyframe, &atlas_.current().map);
   });
+}
+
+void Mapper::Fuse(KeyframeTask* task) {
+  MappingSummary& summary = task->summary_;
+  SubMap& submap = atlas_.current();
   Timed(&summary.times.fusion, [&] { care_.Fuse(summary.keyframe, &submap.map); });
   DescribeAxes(submap.axes.estimator(), &summary);
   assert(FirstViolation(map()).empty());
-  return inserted;
 }
 
-MappingSummary Mapper::Refine(InsertedKeyframe inserted) {
-  const KeyframePacket& packet = *inserted.packet_;
-  MappingSummary& summary = inserted.summary_;
+void Mapper::UpdateAxes(KeyframeTask* task) {
+  MappingSummary& summary = task->summary_;
   SubMap& submap = atlas_.current();
   Timed(&summary.times.axes,
-        [&] { submap.axes.Update(submap.map, summary.keyframe, packet.normals); });
+        [&] { submap.axes.Update(submap.map, summary.keyframe, task->packet_.normals); });
   DescribeAxes(submap.axes.estimator(), &summary);
-  double window_ms = 0.0;
-  summary.window =
-      Timed(&window_ms, [&] { return optimizer_.OptimizeWindow(summary.keyframe, &submap); });
-  if (summary.window) summary.times.window = window_ms;
-  Timed(&summary.times.readout,
-        [&] { calibration_.UpdateReadoutTime(packet, submap.map, summary.keyframe); });
+}
+
+void Mapper::BeginWindow(KeyframeTask* task) {
+  MappingSummary& summary = task->summary_;
+  double milliseconds = 0.0;
+  task->window_ = Timed(
+      &milliseconds, [&] { return optimizer_.BeginWindow(summary.keyframe, &atlas_.current()); });
+  if (task->window_) summary.times.window = milliseconds;
+}
+
+bool Mapper::Solve(KeyframeTask* task) {
+  if (task->window_ == nullptr) return false;
+  MappingSummary& summary = task->summary_;
+  return Timed(&*summary.times.window, [&] {
+    if (task->window_->Advance()) return true;
+    const std::unique_ptr<WindowTask> window = std::move(task->window_);
+    summary.window = optimizer_.EndWindow(summary.keyframe, *window, &atlas_.current());
+    return false;
+  });
+}
+
+void Mapper::Calibrate(KeyframeTask* task) {
+  MappingSummary& summary = task->summary_;
   Timed(&summary.times.calibration, [&] {
-    if (!calibration_.UpdateIntrinsics(packet, submap.map, summary.keyframe)) return;
+    if (!calibration_.UpdateIntrinsics(task->packet_, map(), summary.keyframe)) return;
     summary.calibration = std::make_shared<CalibrationChange>(
         CalibrationChange{calibration_.intrinsics()->estimate(), atlas_.ShareAll()});
     ApplyCalibration(summary.keyframe);
   });
-  summary.num_culled_keyframes = Timed(
-      &summary.times.culling, [&] { return care_.CullKeyframes(summary.keyframe, &submap.map); });
+}
+
+void Mapper::Cull(KeyframeTask* task) {
+  MappingSummary& summary = task->summary_;
+  summary.num_culled_keyframes = Timed(&summary.times.culling, [&] {
+    return care_.CullKeyframes(summary.keyframe, &atlas_.current().map);
+  });
   assert(FirstViolation(map()).empty());
-  return std::move(summary);
 }
 
 void Mapper::BeginMap(const KeyframePacket& packet) {

@@ -21,18 +21,40 @@
 
 namespace msc_vo {
 
-/// A keyframe that is in the map and waits for its optimisation. Only Mapper::Insert() makes one.
-class InsertedKeyframe {
+/// Stages of the mapper's work on a keyframe, in their order. Those up to kFusion insert it, the
+/// others refine the map with it.
+enum class MappingStage {
+  kStructure,  ///< the frame is brought up to date, and its lines refine each other
+  kCreation,   ///< insertion, landmark culling and creation
+  kFusion,
+  kAxes,
+  kWindow,  ///< selection of the window and callbacks of the caller
+  kSolve,   ///< local bundle adjustment, in several slices
+  kReadout,
+  kCalibration,
+  kCulling,
+  kDone,
+};
+constexpr int kNumMappingStages = static_cast<int>(MappingStage::kDone);
+
+/// The mapper's work on one keyframe. Mapper::Advance() runs its slices.
+class KeyframeTask {
  public:
-  InsertedKeyframe(InsertedKeyframe&&) = default;
+  explicit KeyframeTask(KeyframePacket packet) : packet_(std::move(packet)) {}
+
+  MappingStage stage() const { return stage_; }  ///< of the next slice
+  bool IsInserted() const { return stage_ >= MappingStage::kAxes; }
+  bool IsDone() const { return stage_ == MappingStage::kDone; }
   const MappingSummary& summary() const { return summary_; }
 
  private:
   friend class Mapper;
-  explicit InsertedKeyframe(const KeyframePacket& packet) : packet_(&packet) {}
 
-  const KeyframePacket* packet_;
+  KeyframePacket packet_;
+  MappingStage stage_ = MappingStage::kStructure;
   MappingSummary summary_;
+  std::shared_ptr<const Frame> frame_;  // of the packet, up to date
+  std::unique_ptr<WindowTask> window_;
 };
 
 /// Local mapping (paper): owns the submaps of all segments and is the only one to change them.
@@ -58,12 +80,16 @@ class Mapper {
     calibration_.Begin(given, std::move(measure_depth));
   }
 
+  /// Runs the next slice of the work on a keyframe: a stage, apart from kSolve, which has a slice
+  /// for each step of the solver. Work on the next keyframe begins when this one is done; a task
+  /// whose slice has thrown is given up.
+  void Advance(KeyframeTask* task);
   /// A keyframe is processed in two steps. Insert() adds it to the map with its observations and
   /// new landmarks and fuses duplicates; frames can be tracked against them from then on. Refine()
   /// updates the Manhattan axes, runs local bundle adjustment if it is due, and culls keyframes; it
-  /// takes several times as long. The packet must outlive both.
-  InsertedKeyframe Insert(const KeyframePacket& packet);
-  MappingSummary Refine(InsertedKeyframe inserted);
+  /// takes several times as long.
+  KeyframeTask Insert(const KeyframePacket& packet);
+  MappingSummary Refine(KeyframeTask inserted);
   /// Insert() and Refine().
   MappingSummary Process(const KeyframePacket& packet) { return Refine(Insert(packet)); }
 
@@ -92,6 +118,16 @@ class Mapper {
   }
 
  private:
+  // The stages. All but Solve() consist of one slice; that returns whether slices are left.
+  void PrepareFrame(KeyframeTask* task);
+  void Create(KeyframeTask* task);
+  void Fuse(KeyframeTask* task);
+  void UpdateAxes(KeyframeTask* task);
+  void BeginWindow(KeyframeTask* task);
+  bool Solve(KeyframeTask* task);
+  void Calibrate(KeyframeTask* task);
+  void Cull(KeyframeTask* task);
+
   void BeginMap(const KeyframePacket& packet);
   // Brings all submaps up to date with changed intrinsics; `newest` is the newest keyframe.
   void ApplyCalibration(KeyframeId newest);

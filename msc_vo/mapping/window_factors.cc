@@ -5,56 +5,78 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
+#include <utility>
 
 namespace msc_vo {
 
 namespace {
 
-// Groups of keyframes that are linked, directly or through others (union-find).
+// Groups of keyframes that observations or custom factors link, directly or through landmarks and
+// other keyframes (union-find). Extra blocks and axes link nothing.
 class KeyframeGroups {
  public:
-  explicit KeyframeGroups(const WindowData& window) : parent_(window.keyframes.size()) {
-    std::iota(parent_.begin(), parent_.end(), size_t{0});
-    for (size_t i = 0; i < window.keyframes.size(); ++i) index_[window.keyframes[i].id] = i;
-    std::map<int64_t, int64_t> first_of_point, first_of_line;  // observers of each landmark
+  explicit KeyframeGroups(const WindowData& window) {
+    for (const auto& keyframe : window.keyframes) NodeOf(BlockId::Pose(keyframe.id));
     for (const auto& o : window.point_observations) {
-      Link(first_of_point.try_emplace(o.point, o.keyframe).first->second, o.keyframe);
+      Link(BlockId::Pose(o.keyframe), BlockId::Point(o.point));
     }
     for (const auto& o : window.line_observations) {
-      Link(first_of_line.try_emplace(o.line, o.keyframe).first->second, o.keyframe);
+      Link(BlockId::Pose(o.keyframe), BlockId::Line(o.line));
     }
-    for (const CustomFactor& factor : window.custom_factors) LinkPoses(factor.blocks);
+    for (const CustomFactor& factor : window.custom_factors) LinkAll(factor.blocks);
   }
 
-  // The keyframe, by its index in the window, that stands for the group of another one.
-  size_t RootOf(size_t keyframe) const {
-    while (parent_[keyframe] != keyframe) keyframe = parent_[keyframe];
-    return keyframe;
+  // The keyframe or landmark that stands for the group of a keyframe, by its index in the window.
+  size_t RootOf(size_t node) {
+    while (parent_[node] != node) {
+      parent_[node] = parent_[parent_[node]];
+      node = parent_[node];
+    }
+    return node;
   }
 
  private:
-  void Link(int64_t a, int64_t b) {
-    const auto at_a = index_.find(a), at_b = index_.find(b);
-    // LocalBundleAdjustment reports unknown ids.
-    if (at_a == index_.end() || at_b == index_.end()) return;
-    parent_[RootOf(at_a->second)] = RootOf(at_b->second);
+  static bool IsLinking(const BlockId& block) {
+    return block.kind == BlockId::Kind::kPose || block.kind == BlockId::Kind::kPoint ||
+           block.kind == BlockId::Kind::kLine;
   }
-  void LinkPoses(const std::vector<BlockId>& blocks) {
-    std::optional<int64_t> first;
+  size_t NodeOf(const BlockId& block) {
+    const auto [node, is_new] = nodes_.try_emplace({block.kind, block.id}, parent_.size());
+    if (is_new) parent_.push_back(node->second);
+    return node->second;
+  }
+  void Link(const BlockId& a, const BlockId& b) { parent_[RootOf(NodeOf(b))] = RootOf(NodeOf(a)); }
+  void LinkAll(const std::vector<BlockId>& blocks) {
+    std::optional<BlockId> first;
     for (const BlockId& block : blocks) {
-      if (block.kind != BlockId::Kind::kPose) continue;
-      if (!first) first = block.id;
-      Link(*first, block.id);
+      if (!IsLinking(block)) continue;
+      if (first) Link(*first, block);
+      first = block;
     }
   }
 
-  std::map<int64_t, size_t> index_;
+  std::map<std::pair<BlockKind, int64_t>, size_t> nodes_;
   std::vector<size_t> parent_;
 };
 
+template <typename Landmark>
+const Landmark* Find(const std::vector<Landmark>& landmarks, int64_t id) {
+  const auto found =
+      std::lower_bound(landmarks.begin(), landmarks.end(), id,
+                       [](const Landmark& landmark, int64_t x) { return landmark.id < x; });
+  return found == landmarks.end() || found->id != id ? nullptr : &*found;
+}
+
 }  // namespace
+
+const WindowData::Point* WindowContext::FindPoint(int64_t id) const {
+  return data == nullptr ? nullptr : Find(data->points, id);
+}
+
+const WindowData::Line* WindowContext::FindLine(int64_t id) const {
+  return data == nullptr ? nullptr : Find(data->lines, id);
+}
 
 WindowContext MakeWindowContext(const Map& map, const WindowData& window,
                                 const std::vector<ExtraBlock>& extra_blocks) {
@@ -67,11 +89,12 @@ WindowContext MakeWindowContext(const Map& map, const WindowData& window,
             [](const auto& a, const auto& b) { return a.timestamp < b.timestamp; });
   context.extra_blocks = extra_blocks;
   if (window.axes) context.world_from_axes = window.axes->world_from_axes;
+  context.data = &window;
   return context;
 }
 
 void FixUnlinkedKeyframes(WindowData* window) {
-  const KeyframeGroups groups(*window);
+  KeyframeGroups groups(*window);  // its first nodes are the keyframes of the window
   std::set<size_t> with_fixed;
   for (size_t i = 0; i < window->keyframes.size(); ++i) {
     if (window->keyframes[i].fixed) with_fixed.insert(groups.RootOf(i));

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -34,6 +35,18 @@ struct WindowContext {
   /// The present values of all blocks that windows have used so far, in order of their ids.
   std::vector<ExtraBlock> extra_blocks;
   std::optional<Eigen::Quaterniond> world_from_axes;  ///< the Manhattan axes, if found
+  /// The window itself, before the factors of the caller are added: its points and lines, in
+  /// ascending order of their ids, with their present values, and all observations. Valid during
+  /// the call of WindowFactorCallback only. Factors may use any landmark in it, with
+  /// BlockId::Point(id) and BlockId::Line(id). The ids are those of the map that frames are tracked
+  /// in, and are never used again for another landmark. A landmark of the map is absent if no
+  /// keyframe that the window optimises observes it, or one keyframe alone does, and for good if it
+  /// was culled or fused with another one (the one with more observations keeps its id).
+  const WindowData* data = nullptr;
+
+  /// The landmark of `data` with this id; nullptr if the window does not contain it.
+  const WindowData::Point* FindPoint(int64_t id) const;
+  const WindowData::Line* FindLine(int64_t id) const;
 };
 
 /// The custom factors of a window and the extra blocks that they use. An extra block whose id was
@@ -48,7 +61,7 @@ struct WindowFactors {
 /// ends the keyframe step.
 using WindowFactorCallback = std::function<WindowFactors(const WindowContext&)>;
 
-/// Describes `window`, whose keyframes are in `map`.
+/// Describes `window`, whose keyframes are in `map`, and refers to it.
 WindowContext MakeWindowContext(const Map& map, const WindowData& window,
                                 const std::vector<ExtraBlock>& extra_blocks);
 

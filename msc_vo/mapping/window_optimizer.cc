@@ -23,33 +23,43 @@ void WindowOptimizer::BeginMap() {
   last_lines_.clear();
 }
 
-std::optional<BundleAdjustmentSummary> WindowOptimizer::OptimizeWindow(KeyframeId keyframe,
-                                                                       SubMap* submap) {
-  const double timestamp = submap->map.FindKeyframe(keyframe)->frame->timestamp;
-  // The absolute value lets an interval of 0 mean every keyframe even if time stamps do not ascend.
-  if (!(std::abs(timestamp - last_time_) >= options_.min_window_interval)) return std::nullopt;
+// The absolute value lets an interval of 0 mean every keyframe even if time stamps do not ascend.
+bool WindowOptimizer::IsDue(double timestamp) const {
+  return std::abs(timestamp - last_time_) >= options_.min_window_interval;
+}
+
+std::unique_ptr<WindowTask> WindowOptimizer::BeginWindow(KeyframeId keyframe, SubMap* submap) {
+  if (!IsDue(submap->map.FindKeyframe(keyframe)->frame->timestamp)) return nullptr;
   const WindowLinks links =
       factor_callback_ ? WindowLinks::kLandmarksAndTime : WindowLinks::kLandmarks;
-  const std::optional<BundleAdjustmentSummary> summary =
-      Solve(options_.window, keyframe,
-            SelectWindow(options_.selection, submap->map, keyframe, links), submap);
-  if (summary) last_time_ = timestamp;
-  return summary;
+  return Begin(options_.window, keyframe,
+               SelectWindow(options_.selection, submap->map, keyframe, links), submap);
+}
+
+BundleAdjustmentSummary WindowOptimizer::EndWindow(KeyframeId keyframe, const WindowTask& task,
+                                                   SubMap* submap) {
+  WriteResult(task, submap);
+  last_time_ = submap->map.FindKeyframe(keyframe)->frame->timestamp;
+  return task.solve_.summary();
 }
 
 void WindowOptimizer::OptimizeMap(KeyframeId keyframe, SubMap* submap) {
   BundleAdjustmentOptions options = options_.window;
   options.first_iterations = kCalibrationIterations;
   options.second_iterations = kCalibrationIterations;
-  Solve(options, keyframe, SelectWholeMap(options_.selection, submap->map), submap);
+  const std::unique_ptr<WindowTask> task =
+      Begin(options, keyframe, SelectWholeMap(options_.selection, submap->map), submap);
+  if (task == nullptr) return;
+  while (task->Advance()) continue;
+  WriteResult(*task, submap);
 }
 
-std::optional<BundleAdjustmentSummary> WindowOptimizer::Solve(
-    const BundleAdjustmentOptions& options, KeyframeId keyframe, WindowData window,
-    SubMap* submap) {
+std::unique_ptr<WindowTask> WindowOptimizer::Begin(const BundleAdjustmentOptions& options,
+                                                   KeyframeId keyframe, WindowData window,
+                                                   SubMap* submap) {
   last_lines_.clear();
   for (const WindowData::Line& line : window.lines) last_lines_.insert(line.id);
-  if (window.keyframes.size() < 2) return std::nullopt;
+  if (window.keyframes.size() < 2) return nullptr;
   submap->noise.Apply(&window);
   submap->axes.AddAlignments(&window);
   const PairCandidates pairs = pairs_.Find(window);
@@ -57,14 +67,16 @@ std::optional<BundleAdjustmentSummary> WindowOptimizer::Solve(
   pairs_.Add(pairs, &window);
   AddCustomFactors(*submap, &window);
   if (observer_) observer_(keyframe, options, window);
-  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options, &window);
-  if (summary.usable) {
-    submap->noise.Update(WindowResiduals(window));
-    WriteBack(window, &submap->map);
-    submap->axes.Learn(submap->map, window);
-    for (const ExtraBlock& block : window.extra_blocks) extra_blocks_[block.id] = block;
-  }
-  return summary;
+  return std::unique_ptr<WindowTask>(new WindowTask(options, std::move(window)));
+}
+
+void WindowOptimizer::WriteResult(const WindowTask& task, SubMap* submap) {
+  if (!task.solve_.summary().usable) return;
+  const WindowData& window = task.window_;
+  submap->noise.Update(WindowResiduals(window));
+  WriteBack(window, &submap->map);
+  submap->axes.Learn(submap->map, window);
+  for (const ExtraBlock& block : window.extra_blocks) extra_blocks_[block.id] = block;
 }
 
 std::vector<ExtraBlock> WindowOptimizer::extra_blocks() const {

@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "msc_vo/bundle_adjustment/stepwise_bundle_adjustment.h"
 #include "msc_vo/mapping/map_lines.h"
 #include "msc_vo/mapping/mapper_options.h"
 #include "msc_vo/mapping/submap.h"
@@ -18,6 +20,21 @@
 #include "msc_vo/mapping/window_observer.h"
 
 namespace msc_vo {
+
+/// A window whose bundle adjustment has begun.
+class WindowTask {
+ public:
+  /// Runs the next slice of the solver. Returns whether slices are left.
+  bool Advance() { return solve_.Advance(); }
+
+ private:
+  friend class WindowOptimizer;
+  WindowTask(const BundleAdjustmentOptions& options, WindowData window)
+      : window_(std::move(window)), solve_(options, &window_) {}
+
+  WindowData window_;
+  StepwiseBundleAdjustment solve_;
+};
 
 /// Local bundle adjustment of a submap: selects a sliding window of keyframes, adds structural
 /// pairs, axis alignments and the factors of the caller, solves it, and writes the result back.
@@ -32,9 +49,11 @@ class WindowOptimizer {
   /// Another submap begins.
   void BeginMap();
 
-  /// Optimises the window around `keyframe`, the newest one, if it is due. std::nullopt if it is
-  /// not, or has a single keyframe.
-  std::optional<BundleAdjustmentSummary> OptimizeWindow(KeyframeId keyframe, SubMap* submap);
+  /// Begins to optimise the window around `keyframe`, the newest one, if it is due. nullptr if it
+  /// is not, or has a single keyframe. The submap must not change until EndWindow().
+  std::unique_ptr<WindowTask> BeginWindow(KeyframeId keyframe, SubMap* submap);
+  /// Writes the result of all slices back.
+  BundleAdjustmentSummary EndWindow(KeyframeId keyframe, const WindowTask& task, SubMap* submap);
   /// Bundle adjustment of all keyframes of a submap after a change of its calibration; the newest
   /// one is `keyframe`.
   void OptimizeMap(KeyframeId keyframe, SubMap* submap);
@@ -57,9 +76,11 @@ class WindowOptimizer {
   }
 
  private:
-  std::optional<BundleAdjustmentSummary> Solve(const BundleAdjustmentOptions& options,
-                                               KeyframeId keyframe, WindowData window,
-                                               SubMap* submap);
+  bool IsDue(double timestamp) const;
+  // nullptr if the window has a single keyframe.
+  std::unique_ptr<WindowTask> Begin(const BundleAdjustmentOptions& options, KeyframeId keyframe,
+                                    WindowData window, SubMap* submap);
+  void WriteResult(const WindowTask& task, SubMap* submap);
   // Adds the factors of the callback, the extra blocks and the axes that they may use.
   void AddCustomFactors(const SubMap& submap, WindowData* window) const;
 

@@ -3,13 +3,16 @@
 
 #include "msc_vo/odometry/mapping_runner.h"
 
+#include <algorithm>
+#include <array>
 #include <condition_variable>
 #include <deque>
-#include <functional>
+#include <limits>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "msc_vo/timing/stopwatch.h"
 
@@ -17,40 +20,49 @@ namespace msc_vo {
 
 namespace {
 
-using MappingCall = std::function<MappingSummary()>;
+// The work of the mapper on one keyframe, and its two steps.
+class KeyframeRun {
+ public:
+  KeyframeRun(KeyframePacket packet, Mapper* mapper) : mapper_(mapper), task_(std::move(packet)) {}
 
-// Runs a call of the mapper and returns `step`, the previous one of the keyframe, updated.
-MappingStep RunStep(const MappingCall& call, Mapper* mapper, MappingStep step) {
-  const Stopwatch stopwatch;
-  const double milliseconds_before = step.milliseconds;
-  try {
-    step.summary = call();
-    const Stopwatch snapshot;
-    step.snapshot = mapper->Snapshot();
-    step.snapshot_ms += snapshot.Milliseconds();
-  } catch (...) {
-    step = {};
-    step.error = std::current_exception();
+  bool IsDone() const { return is_done_; }
+  MappingStage stage() const { return task_.stage(); }
+
+  // Runs the next slice and returns the steps that it ends. If insertion fails, it ends both; the
+  // second one is empty.
+  std::vector<MappingStep> Advance() {
+    const Stopwatch stopwatch;
+    const bool was_inserted = task_.IsInserted();
+    bool ends_step = true;
+    MappingStep failed;
+    try {
+      mapper_->Advance(&task_);
+      ends_step = task_.IsInserted() != was_inserted || task_.IsDone();
+      if (ends_step) AddMap();
+      is_done_ = task_.IsDone();
+    } catch (...) {
+      failed.error = std::current_exception();
+      is_done_ = true;
+    }
+    step_.milliseconds += stopwatch.Milliseconds();
+    if (!ends_step) return {};
+    if (!failed.error) return {step_};
+    failed.milliseconds = step_.milliseconds;
+    return was_inserted ? std::vector<MappingStep>{failed}
+                        : std::vector<MappingStep>{failed, MappingStep()};
   }
-  step.milliseconds = milliseconds_before + stopwatch.Milliseconds();
-  return step;
-}
 
-// Delivers each of the two steps of a keyframe when it is done. If the first one fails, the second
-// one is empty.
-void RunKeyframe(const KeyframePacket& packet, Mapper* mapper,
-                 const std::function<void(MappingStep)>& deliver) {
-  std::optional<InsertedKeyframe> keyframe;
-  const MappingStep inserted = RunStep(
-      [&] {
-        keyframe.emplace(mapper->Insert(packet));
-        return keyframe->summary();
-      },
-      mapper, MappingStep());
-  deliver(inserted);
-  if (inserted.error) return deliver(MappingStep());
-  deliver(RunStep([&] { return mapper->Refine(*std::move(keyframe)); }, mapper, inserted));
-}
+ private:
+  void AddMap() {
+    step_.summary = task_.summary();
+    step_.snapshot = Timed(&step_.snapshot_ms, [this] { return mapper_->Snapshot(); });
+  }
+
+  Mapper* mapper_;
+  KeyframeTask task_;
+  MappingStep step_;
+  bool is_done_ = false;
+};
 
 MappingStep PopFront(std::deque<MappingStep>* steps) {
   MappingStep step = std::move(steps->front());
@@ -62,14 +74,41 @@ MappingStep PopFront(std::deque<MappingStep>* steps) {
   throw std::logic_error("mapping: a step was requested, but no keyframe is pending");
 }
 
-class InlineRunner : public MappingRunner {
+// A slice of the work on a keyframe: its stage, and its number in it.
+struct Slice {
+  MappingStage stage = MappingStage::kStructure;
+  size_t number = 0;
+};
+
+// Longest recent times of slices, milliseconds.
+class SliceTimes {
  public:
-  explicit InlineRunner(Mapper* mapper) : mapper_(mapper) {}
+  double Expected(const Slice& slice) const { return longest_[Index(slice)]; }
+  // A time that was exceptional is forgotten by half with every later one.
+  void Add(const Slice& slice, double milliseconds) {
+    double& longest = longest_[Index(slice)];
+    longest = std::max(milliseconds, 0.5 * (longest + milliseconds));
+  }
+
+ private:
+  // Later ones of a stage share an entry. A window of the mapper has about a dozen.
+  static constexpr size_t kMaxSlices = 16;
+  static size_t Index(const Slice& slice) {
+    return kMaxSlices * static_cast<size_t>(slice.stage) + std::min(slice.number, kMaxSlices - 1);
+  }
+  std::array<double, kMaxSlices * kNumMappingStages> longest_{};
+};
+
+class CalledRunner : public MappingRunner {
+ public:
+  explicit CalledRunner(Mapper* mapper) : mapper_(mapper) {}
 
   void Submit(KeyframePacket packet) override {
-    RunKeyframe(packet, mapper_, [this](MappingStep step) { done_.push_back(std::move(step)); });
+    while (waiting_.size() >= kMaxWaiting) RunSlice();
+    waiting_.push_back(std::move(packet));
   }
   MappingStep Take() override {
+    while (done_.empty() && HasWork()) RunSlice();
     if (done_.empty()) ThrowNothingPending();
     return PopFront(&done_);
   }
@@ -77,10 +116,58 @@ class InlineRunner : public MappingRunner {
     if (done_.empty()) return std::nullopt;
     return PopFront(&done_);
   }
+  bool HasWork() const override { return run_ || !waiting_.empty(); }
+  void Run(double seconds) override {
+    const Stopwatch stopwatch;
+    while (HasWork()) {
+      const double left = 1000.0 * seconds - stopwatch.Milliseconds();
+      if (!(left > 0.0) || times_.Expected(next_) > left) return;
+      RunSlice();
+    }
+  }
 
  private:
+  void RunSlice() {
+    // Callbacks of a slice are part of it.
+    if (std::exchange(is_running_, true)) {
+      throw std::logic_error("mapping: a callback must not run the mapper that has called it");
+    }
+    struct Guard {
+      bool* is_running;
+      ~Guard() { *is_running = false; }
+    } const guard{&is_running_};
+    if (!run_) {
+      run_.emplace(std::move(waiting_.front()), mapper_);
+      waiting_.pop_front();
+    }
+    const Stopwatch stopwatch;
+    for (MappingStep& step : run_->Advance()) done_.push_back(std::move(step));
+    times_.Add(next_, stopwatch.Milliseconds());
+    if (run_->IsDone()) {
+      run_.reset();
+      next_ = {};
+    } else {
+      const bool is_same_stage = run_->stage() == next_.stage;
+      next_ = {run_->stage(), is_same_stage ? next_.number + 1 : 0};
+    }
+  }
+
   Mapper* mapper_;
+  std::deque<KeyframePacket> waiting_;
+  std::optional<KeyframeRun> run_;  // the keyframe that has been begun
   std::deque<MappingStep> done_;
+  Slice next_;
+  SliceTimes times_;
+  bool is_running_ = false;
+};
+
+class InlineRunner : public CalledRunner {
+ public:
+  using CalledRunner::CalledRunner;
+  void Submit(KeyframePacket packet) override {
+    CalledRunner::Submit(std::move(packet));
+    Run(std::numeric_limits<double>::infinity());
+  }
 };
 
 class ThreadedRunner : public MappingRunner {
@@ -127,11 +214,13 @@ class ThreadedRunner : public MappingRunner {
     for (;;) {
       changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
       if (stopping_) return;
-      const KeyframePacket packet = std::move(waiting_.front());
+      KeyframeRun run(std::move(waiting_.front()), mapper_);
       waiting_.pop_front();
       lock.unlock();
       changed_.notify_all();  // Submit() may be waiting for space in the queue
-      RunKeyframe(packet, mapper_, [this](MappingStep step) { Deliver(std::move(step)); });
+      while (!run.IsDone()) {
+        for (MappingStep& step : run.Advance()) Deliver(std::move(step));
+      }
       lock.lock();
     }
   }
@@ -158,6 +247,10 @@ class ThreadedRunner : public MappingRunner {
 
 std::unique_ptr<MappingRunner> MakeInlineRunner(Mapper* mapper) {
   return std::make_unique<InlineRunner>(mapper);
+}
+
+std::unique_ptr<MappingRunner> MakeCalledRunner(Mapper* mapper) {
+  return std::make_unique<CalledRunner>(mapper);
 }
 
 std::unique_ptr<MappingRunner> MakeThreadedRunner(Mapper* mapper) {

@@ -26,8 +26,8 @@ struct MappingStep {
   }
 };
 
-/// Runs the mapper, either synchronously or on a thread of its own, with identical results. For
-/// use by one thread at a time.
+/// Runs the mapper: synchronously, on a thread of its own, or when the caller says, with identical
+/// results. For use by one thread at a time.
 ///
 /// Steps run sequentially in the order of their keyframes. A step that throws does not affect the
 /// next keyframes.
@@ -45,6 +45,12 @@ class MappingRunner {
   /// The same without waiting; std::nullopt if the step is not ready.
   virtual std::optional<MappingStep> TryTake() = 0;
 
+  /// Whether Run() has work to do.
+  virtual bool HasWork() const { return false; }
+  /// Runs slices of the work as long as the next one is expected to end within `seconds` of wall
+  /// clock time. The time of a slice is expected from the same slice of earlier keyframes.
+  virtual void Run(double /*seconds*/) {}
+
   /// Largest number of queued keyframes besides the one that is processed. A longer queue would
   /// only make maps older.
   static constexpr int kMaxWaiting = 2;
@@ -54,5 +60,7 @@ class MappingRunner {
 /// (submitted, and its steps not yet taken).
 std::unique_ptr<MappingRunner> MakeInlineRunner(Mapper* mapper);
 std::unique_ptr<MappingRunner> MakeThreadedRunner(Mapper* mapper);
+/// Works in Run(), and in Take() and Submit() where these would have to wait.
+std::unique_ptr<MappingRunner> MakeCalledRunner(Mapper* mapper);
 
 }  // namespace msc_vo

@@ -32,6 +32,15 @@
 
 namespace msc_vo {
 
+namespace {
+
+std::unique_ptr<MappingRunner> MakeRunner(const OdometryOptions& options, Mapper* mapper) {
+  if (options.external_mapping) return MakeCalledRunner(mapper);
+  return options.threads > 1 ? MakeThreadedRunner(mapper) : MakeInlineRunner(mapper);
+}
+
+}  // namespace
+
 struct Odometry::State {
   State(const OdometryOptions& options_in, const PinholeCamera& camera,
         const LensDistortion& distortion)
@@ -41,9 +50,7 @@ struct Odometry::State {
         mapper(options.mapping),
         calibration(options.mapping.self_calibration, &images, &mapper),
         refiner(options.tracking.pose, options.pose_refinement_delay),
-        schedule(options.snapshots,
-                 options.threads > 1 ? MakeThreadedRunner(&mapper) : MakeInlineRunner(&mapper),
-                 mapper.Snapshot(),
+        schedule(options.snapshots, MakeRunner(options, &mapper), mapper.Snapshot(),
                  [this](int frame, const MappingStep& step) { Record(frame, step); }) {
     log.LogStart(options, camera);
   }
@@ -340,6 +347,19 @@ FrameResult Odometry::Drop(int64_t id, double timestamp, TrackingStatus status) 
   state_->has_started = true;
   state_->AddUntracked(id, timestamp, status);
   return state_->results.back();
+}
+
+bool Odometry::MappingPending() const { return state_->schedule.HasWork(); }
+
+bool Odometry::RunMapping(double budget) {
+  if (!state_->options.external_mapping) {
+    throw std::invalid_argument("odometry: RunMapping() needs the option external_mapping");
+  }
+  if (!(budget >= 0.0)) {
+    throw std::invalid_argument("odometry: the budget of RunMapping() must not be negative");
+  }
+  state_->schedule.RunMapper(budget);
+  return MappingPending();
 }
 
 const std::vector<FrameResult>& Odometry::frames() const { return state_->results; }

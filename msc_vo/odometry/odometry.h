@@ -152,6 +152,17 @@ class Odometry {
   /// std::invalid_argument if time stamps do not ascend or on another status.
   FrameResult Drop(int64_t id, double timestamp, TrackingStatus status = TrackingStatus::kDropped);
 
+  /// Whether RunMapping() has work to do; false unless OdometryOptions::external_mapping.
+  bool MappingPending() const;
+  /// Runs local mapping of earlier keyframes, in slices, as long as the next slice is expected to
+  /// end within `budget` seconds. Returns MappingPending(). The budget decides when the work runs,
+  /// not which map a frame sees: an unfinished map that a frame needs is finished in Process(), or
+  /// counts as late with SnapshotOptions::realtime. Callbacks of windows run here or there; their
+  /// exceptions are those of the keyframe step, which Process() throws. Throws
+  /// std::invalid_argument without OdometryOptions::external_mapping, and if the budget is negative
+  /// or not a number.
+  bool RunMapping(double budget);
+
   /// The frames so far, as Process() and Drop() returned them, with the times of their mapping.
   /// Frames of a start that was discarded since are lost.
   const std::vector<FrameResult>& frames() const;

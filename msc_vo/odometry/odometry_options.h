@@ -36,6 +36,9 @@ struct OdometryOptions {
   /// 1: all stages in sequence. 2 or more: mapping in parallel with tracking, points in parallel
   /// with lines. The result does not depend on it.
   int threads = 2;
+  /// Local mapping runs in Odometry::RunMapping(), in the thread that calls it; what is unfinished
+  /// when a frame needs its map runs in Process(). The result does not depend on it.
+  bool external_mapping = false;
   FrameBuilderOptions features;
   /// Seconds after which the pose of a frame is estimated again, in the map as optimised since; 0:
   /// never. A pose that pose factors took part in remains.

@@ -65,6 +65,10 @@ class SnapshotSchedule {
   /// failed step unless SnapshotAt() has; all other steps have been recorded by then.
   void Drain();
 
+  /// Whether RunMapper() has work to do, and runs it (MappingRunner::Run).
+  bool HasWork() const { return runner_->HasWork(); }
+  void RunMapper(double seconds) { runner_->Run(seconds); }
+
   /// Waits until the mapper is idle. Its maps become visible when they are due nevertheless.
   /// Returns whether all steps have succeeded.
   bool WaitForMapper();

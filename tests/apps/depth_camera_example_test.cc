@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// The example 06_depth_camera on images with 1280x720 colour and 640x480 depth pixels.
+// The example 08_depth_camera on images with 1280x720 colour and 640x480 depth pixels.
 
 #include <cstdlib>
 #include <filesystem>

@@ -96,7 +96,7 @@ TEST_P(BundleAdjustmentSolverTest, SolvesWithoutDepth) {
 
 TEST_P(BundleAdjustmentSolverTest, SolvesWithReprojectionOrDepthOnly) {
   // A step may move an outlier line without depth behind a camera, where block Schur differs from
-  // Ceres (MinimizeWithBlockSchur).
+  // Ceres (BlockSchurMinimizer).
   scene_.outlier_ratio = 0.0;
   for (BundleAdjustmentOptions* options : {&options_, &reference_}) {
     options->point_reprojection.enabled = false;

@@ -65,6 +65,23 @@ struct LineAlongAxis {
   }
 };
 
+// Distances of `Points` points from a known plane, normal * x = offset.
+template <int Points>
+struct PlaneDistance {
+  Eigen::Vector3d normal;
+  double offset, sigma;
+
+  template <typename T>
+  bool operator()(const T* points, T* residual) const {
+    for (int k = 0; k < Points; ++k) {
+      residual[k] = T(-offset);
+      for (int i = 0; i < 3; ++i) residual[k] += normal[i] * points[3 * k + i];
+      residual[k] /= sigma;
+    }
+    return true;
+  }
+};
+
 struct AxisPrior {
   template <typename T>
   bool operator()(const T* axes, T* residual) const {
@@ -145,7 +162,20 @@ class CustomFactorTest : public ::testing::TestWithParam<BundleAdjustmentSolver>
         "axis", LineAlongAxis{0.01}, {BlockId::Line(Line(3)), BlockId::Axes(), BlockId::Extra(9)}));
     data_.custom_factors.push_back(
         MakeCustomFactor<3, 4>("axis prior", AxisPrior(), {BlockId::Axes()}));
+    for (const int i : {1, 5, 6}) AddPlane(i, /*line=*/4 + i);
     AddPairs();
+  }
+  // A known plane through a point, and one that contains a line.
+  void AddPlane(int point, int line) {
+    const Eigen::Vector3d x = window_.truth.points[point].position;
+    data_.custom_factors.push_back(
+        MakeCustomFactor<1, 3>("plane", PlaneDistance<1>{Eigen::Vector3d::UnitX(), x.x(), 0.0005},
+                               {BlockId::Point(Point(point))}));
+    const LineSegment3 segment = window_.truth.lines[line].segment;
+    const Eigen::Vector3d normal = (segment.end - segment.start).unitOrthogonal();
+    data_.custom_factors.push_back(MakeCustomFactor<2, 6>(
+        "plane", PlaneDistance<2>{normal, normal.dot(Eigen::Vector3d(segment.start)), 0.002},
+        {BlockId::Line(Line(line))}));
   }
   // Some of the lines of custom factors are in pairs, with lines in the reduced system and not.
   void AddPairs() {
@@ -242,6 +272,27 @@ TEST_P(CustomFactorTest, KeepsUnusedExtraBlocks) {
   data_.extra_blocks.clear();
   EXPECT_TRUE(SameState(data_, without));
   EXPECT_FALSE(EstimateCovariance(options_, window_.data, {}).extra_blocks.size());
+}
+
+TEST_P(CustomFactorTest, PullsLandmarksOntoAKnownPlane) {
+  for (int i = 0; i < scene_.num_points; ++i) AddPlane(i, i % scene_.num_lines);
+  const auto squared_offsets = [this](const WindowData& data) {
+    double sum = 0.0;
+    for (size_t i = 0; i < data.points.size(); ++i) {
+      sum += std::pow(data.points[i].position.x() - window_.truth.points[i].position.x(), 2);
+    }
+    return sum;
+  };
+  WindowData without = window_.data;
+  ASSERT_TRUE(LocalBundleAdjustment(options_, &without).usable);
+  const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &data_);
+  ASSERT_TRUE(summary.usable);
+  EXPECT_LT(squared_offsets(data_), 0.25 * squared_offsets(without));
+  if (options_.solver != BundleAdjustmentSolver::kBlockSchur) return;
+  // Factors on single landmarks leave these eliminated: only free poses are in the reduced system.
+  EXPECT_EQ(summary.schur_structure, "block Schur, " +
+                                         std::to_string(scene_.num_keyframes - scene_.num_fixed) +
+                                         " poses, 0 line directions");
 }
 
 TEST_P(CustomFactorTest, RobustLossResistsAnOutlier) {

@@ -243,8 +243,8 @@ TEST_F(OptionLimitsRun, WorksWithWindowOptionsAtTheirLimits) {
 }
 
 TEST_F(OptionLimitsRun, WorksWithGeneralOptionsAtTheirLimits) {
-  for (const char* name :
-       {"mode", "use_points", "use_lines", "align_depth", "threads", "realtime"}) {
+  for (const char* name : {"mode", "use_points", "use_lines", "align_depth", "threads",
+                           "external_mapping", "realtime"}) {
     CheckSection(name);
   }
   EXPECT_GT(num_runs_, 10);

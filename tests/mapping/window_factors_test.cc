@@ -11,6 +11,8 @@
 #include "tests/support/synthetic_map.h"
 #include <gmock/gmock.h>
 
+#include "msc_vo/factors/cost_functor.h"
+
 namespace msc_vo {
 namespace {
 
@@ -34,6 +36,20 @@ std::vector<CustomFactor> WheelSteps(const WindowContext& context, double scale)
   }
   return factors;
 }
+
+// x coordinates of points, metres, against that of a plane; sigma 1 mm.
+template <int Points>
+struct OnPlaneFactor : CostFunctor<OnPlaneFactor<Points>, Points, 3 * Points> {
+  explicit OnPlaneFactor(double x_in) : x(x_in) {}
+
+  template <typename T>
+  bool operator()(const T* points, T* residuals) const {
+    for (int k = 0; k < Points; ++k) residuals[k] = (points[3 * k] - x) / 0.001;
+    return true;
+  }
+
+  double x;
+};
 
 class WindowFactorsTest : public ::testing::Test {
  protected:
@@ -71,6 +87,90 @@ TEST_F(WindowFactorsTest, ContextDescribesTheWindow) {
   EXPECT_EQ(contexts.back().keyframes.back().id, newest.id);
   ASSERT_TRUE(contexts.back().world_from_axes.has_value());  // the box
   EXPECT_TRUE(windows.back().axes->fixed);
+}
+
+// What the solver gets, apart from what the callback adds.
+TEST_F(WindowFactorsTest, ContextContainsTheLandmarksOfTheWindow) {
+  std::vector<WindowData> seen, solved;
+  mapper_.SetWindowFactors([&](const WindowContext& context) {
+    seen.push_back(*context.data);
+    for (const WindowData::Point& point : context.data->points) {
+      EXPECT_EQ(context.FindPoint(point.id), &point);
+      EXPECT_EQ(mapper_.map().Find<PointLandmark>(point.id)->position, point.position);
+    }
+    for (const WindowData::Line& line : context.data->lines) {
+      EXPECT_EQ(context.FindLine(line.id), &line);
+    }
+    EXPECT_EQ(context.FindPoint(1000000), nullptr);
+    EXPECT_EQ(context.FindLine(-1), nullptr);
+    return WindowFactors();
+  });
+  mapper_.SetWindowObserver([&](KeyframeId, const BundleAdjustmentOptions&,
+                                const WindowData& window) { solved.push_back(window); });
+  for (int index = 0; index <= 60; index += 10) Process(index);
+  ASSERT_EQ(seen.size(), 6u);
+  ASSERT_EQ(solved.size(), seen.size());
+  for (size_t i = 0; i < seen.size(); ++i) {
+    EXPECT_GT(seen[i].points.size(), 20u);
+    ASSERT_EQ(seen[i].points.size(), solved[i].points.size());
+    ASSERT_EQ(seen[i].lines.size(), solved[i].lines.size());
+    EXPECT_EQ(seen[i].point_observations.size(), solved[i].point_observations.size());
+    EXPECT_EQ(seen[i].line_observations.size(), solved[i].line_observations.size());
+    EXPECT_TRUE(seen[i].custom_factors.empty());
+  }
+  EXPECT_EQ(WindowContext().FindPoint(0), nullptr);
+}
+
+// Pulls all landmarks of a window onto the plane at `x`.
+WindowFactors OnPlane(const WindowContext& context, double x) {
+  WindowFactors custom;
+  for (const WindowData::Point& point : context.data->points) {
+    custom.factors.push_back(
+        {"point on plane", OnPlaneFactor<1>::CreateShared(x), nullptr, {BlockId::Point(point.id)}});
+  }
+  for (const WindowData::Line& line : context.data->lines) {
+    custom.factors.push_back(
+        {"line on plane", OnPlaneFactor<2>::CreateShared(x), nullptr, {BlockId::Line(line.id)}});
+  }
+  return custom;
+}
+
+// The wrong plane, so that only the factors can have moved the landmarks.
+TEST_F(WindowFactorsTest, LandmarkFactorsActInEveryWindow) {
+  int num_windows = 0;
+  mapper_.SetWindowFactors([&](const WindowContext& context) {
+    ++num_windows;
+    return OnPlane(context, 0.3);
+  });
+  mapper_.SetWindowObserver(
+      [&](KeyframeId, const BundleAdjustmentOptions&, const WindowData& window) {
+        EXPECT_EQ(window.custom_factors.size(), window.points.size() + window.lines.size());
+      });
+  for (int index = 0; index <= 60; index += 10) {
+    const MappingSummary summary = Process(index);
+    if (index == 0) continue;
+    ASSERT_TRUE(summary.window && summary.window->usable) << index;
+    EXPECT_LT(summary.window->custom.final_cost, 0.1 * summary.window->custom.initial_cost);
+  }
+  EXPECT_EQ(num_windows, 6);
+}
+
+TEST_F(WindowFactorsTest, AnAbsentLandmarkIsNamed) {
+  mapper_.SetWindowFactors([](const WindowContext&) {
+    return WindowFactors{{},
+                         {{"corner of the marker",
+                           OnPlaneFactor<1>::CreateShared(0.0),
+                           nullptr,
+                           {BlockId::Point(4711)}}}};
+  });
+  Process(0);
+  try {
+    Process(10);
+    FAIL() << "nothing was thrown";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("corner of the marker"));
+    EXPECT_THAT(error.what(), HasSubstr("4711"));
+  }
 }
 
 TEST_F(WindowFactorsTest, ACallbackWithoutFactorsChangesNothing) {
@@ -217,6 +317,14 @@ TEST_F(GapTest, HoldsTheGaugeWithoutALink) {
   EXPECT_EQ(mapper_.map().CamFromWorld(5).params, packet.cam_from_reference.params);
 }
 
+std::vector<int64_t> FixedKeyframes(const WindowData& window) {
+  std::vector<int64_t> fixed;
+  for (const WindowData::Keyframe& keyframe : window.keyframes) {
+    if (keyframe.fixed) fixed.push_back(keyframe.id);
+  }
+  return fixed;
+}
+
 TEST(FixUnlinkedKeyframes, FixesTheOldestOfEveryGroup) {
   WindowData window;
   for (int id = 0; id < 8; ++id) window.keyframes.push_back({10 + id, Rigid3(), id == 1});
@@ -239,11 +347,30 @@ TEST(FixUnlinkedKeyframes, FixesTheOldestOfEveryGroup) {
       {"b", nullptr, nullptr, {BlockId::Extra(0), BlockId::Pose(15)}},
       {"c", nullptr, nullptr, {BlockId::Pose(14)}}};
   FixUnlinkedKeyframes(&window);
-  std::vector<int64_t> fixed;
-  for (const WindowData::Keyframe& keyframe : window.keyframes) {
-    if (keyframe.fixed) fixed.push_back(keyframe.id);
-  }
-  EXPECT_THAT(fixed, ElementsAre(11, 13, 14, 17));
+  EXPECT_THAT(FixedKeyframes(window), ElementsAre(11, 13, 14, 17));
+}
+
+// A factor links keyframes through the landmarks that it is about as well.
+TEST(FixUnlinkedKeyframes, FollowsFactorsOnLandmarks) {
+  WindowData window;
+  for (int id = 0; id < 8; ++id) window.keyframes.push_back({id, Rigid3(), id == 0});
+  const auto observe = [&](int64_t keyframe, int64_t point) {
+    window.point_observations.emplace_back();
+    window.point_observations.back().keyframe = keyframe;
+    window.point_observations.back().point = point;
+  };
+  for (int id = 0; id < 6; ++id) observe(id, 100 + id);
+  window.line_observations.emplace_back();
+  window.line_observations.back().keyframe = 6;
+  window.line_observations.back().line = 102;  // the id of a point too
+  window.custom_factors = {
+      {"pose and point", nullptr, nullptr, {BlockId::Pose(1), BlockId::Point(100)}},
+      {"points", nullptr, nullptr, {BlockId::Point(102), BlockId::Point(101)}},
+      {"plane", nullptr, nullptr, {BlockId::Point(103), BlockId::Extra(0)}},
+      {"plane", nullptr, nullptr, {BlockId::Point(104), BlockId::Extra(0)}},
+      {"line", nullptr, nullptr, {BlockId::Line(102), BlockId::Axes(), BlockId::Pose(5)}}};
+  FixUnlinkedKeyframes(&window);
+  EXPECT_THAT(FixedKeyframes(window), ElementsAre(0, 3, 4, 5, 7));
 }
 
 }  // namespace

@@ -16,14 +16,24 @@
 namespace msc_vo {
 namespace {
 
-// Keyframes of a synthetic world for both kinds of runner. Local bundle adjustment runs from the
+enum class RunnerKind { kInline, kThreaded, kCalled };
+
+// Keyframes of a synthetic world for all kinds of runner. Local bundle adjustment runs from the
 // second keyframe on; the tests use the window observer to intervene in a step.
-class MappingRunnerTest : public testing::TestWithParam<bool> {
+class MappingRunnerTest : public testing::TestWithParam<RunnerKind> {
  protected:
-  static bool IsThreaded() { return GetParam(); }
+  static bool IsThreaded() { return GetParam() == RunnerKind::kThreaded; }
 
   std::unique_ptr<MappingRunner> MakeRunner() {
-    return IsThreaded() ? MakeThreadedRunner(&mapper_) : MakeInlineRunner(&mapper_);
+    switch (GetParam()) {
+      case RunnerKind::kInline:
+        return MakeInlineRunner(&mapper_);
+      case RunnerKind::kThreaded:
+        return MakeThreadedRunner(&mapper_);
+      case RunnerKind::kCalled:
+        break;
+    }
+    return MakeCalledRunner(&mapper_);
   }
   // Matched with the points of keyframe 0, which become landmarks in their order, so that there is
   // a window from keyframe 1 on.
@@ -51,10 +61,21 @@ class MappingRunnerTest : public testing::TestWithParam<bool> {
   Mapper mapper_{MapperOptions()};
 };
 
-std::string RunnerName(const testing::TestParamInfo<bool>& info) {
-  return info.param ? "Threaded" : "Inline";
+std::string RunnerName(const testing::TestParamInfo<RunnerKind>& info) {
+  switch (info.param) {
+    case RunnerKind::kInline:
+      return "Inline";
+    case RunnerKind::kThreaded:
+      return "Threaded";
+    case RunnerKind::kCalled:
+      break;
+  }
+  return "Called";
 }
-INSTANTIATE_TEST_SUITE_P(Both, MappingRunnerTest, testing::Bool(), RunnerName);
+INSTANTIATE_TEST_SUITE_P(All, MappingRunnerTest,
+                         testing::Values(RunnerKind::kInline, RunnerKind::kThreaded,
+                                         RunnerKind::kCalled),
+                         RunnerName);
 
 TEST_P(MappingRunnerTest, ReturnsTwoStepsPerKeyframeInOrder) {
   const std::thread::id caller = std::this_thread::get_id();
@@ -136,7 +157,8 @@ class BusyRunnerTest : public MappingRunnerTest {
   std::promise<void> gate_;
   std::atomic<int> num_windows_{0};
 };
-INSTANTIATE_TEST_SUITE_P(Threads, BusyRunnerTest, testing::Values(true), RunnerName);
+INSTANTIATE_TEST_SUITE_P(Threads, BusyRunnerTest, testing::Values(RunnerKind::kThreaded),
+                         RunnerName);
 
 TEST_P(BusyRunnerTest, BlocksWhenTheQueueIsFull) {
   const std::unique_ptr<MappingRunner> runner = MakeRunner();
@@ -167,6 +189,74 @@ TEST_P(BusyRunnerTest, DiscardsTheQueueOnDestruction) {
   gate_.set_value();
   end.get();
   EXPECT_EQ(mapper_.map().keyframes().size(), 2u);
+}
+
+// Works when it is called.
+class CalledRunnerTest : public MappingRunnerTest {};
+INSTANTIATE_TEST_SUITE_P(Budget, CalledRunnerTest, testing::Values(RunnerKind::kCalled),
+                         RunnerName);
+
+TEST_P(CalledRunnerTest, WorksInRunAlone) {
+  const std::unique_ptr<MappingRunner> runner = MakeRunner();
+  EXPECT_FALSE(runner->HasWork());
+  runner->Submit(Packet(0));
+  EXPECT_TRUE(runner->HasWork());
+  EXPECT_FALSE(runner->TryTake().has_value());
+  runner->Run(0.0);
+  EXPECT_TRUE(mapper_.map().keyframes().empty());
+  runner->Run(1e3);
+  EXPECT_FALSE(runner->HasWork());
+  for (int step = 0; step < 2; ++step) EXPECT_EQ(runner->TryTake()->summary.keyframe, 0);
+}
+
+TEST_P(CalledRunnerTest, DoesNotBeginASliceThatExceedsTheBudget) {
+  const std::chrono::milliseconds slow(200);  // the observer belongs to a slice
+  int num_windows = 0;
+  mapper_.SetWindowObserver([&](KeyframeId, const BundleAdjustmentOptions&, const WindowData&) {
+    ++num_windows;
+    std::this_thread::sleep_for(slow);
+  });
+  const std::unique_ptr<MappingRunner> runner = MakeRunner();
+  for (int i = 0; i < 2; ++i) {
+    runner->Submit(Packet(i));
+    runner->Run(1e3);
+    for (int step = 0; step < 2; ++step) EXPECT_EQ(runner->Take().error, nullptr);
+  }
+  EXPECT_EQ(num_windows, 1);
+  runner->Submit(Packet(2));
+  for (int i = 0; i < 100; ++i) runner->Run(0.1);
+  EXPECT_EQ(num_windows, 1);
+  EXPECT_TRUE(runner->HasWork());
+  EXPECT_TRUE(runner->TryTake().has_value());  // insertion fits
+  EXPECT_FALSE(runner->TryTake().has_value());
+  EXPECT_TRUE(runner->Take().summary.window.has_value());  // has to wait
+  EXPECT_EQ(num_windows, 2);
+  EXPECT_FALSE(runner->HasWork());
+}
+
+TEST_P(CalledRunnerTest, RefusesCallsFromCallbacks) {
+  std::unique_ptr<MappingRunner> runner;
+  mapper_.SetWindowObserver(
+      [&](KeyframeId, const BundleAdjustmentOptions&, const WindowData&) { runner->Run(1e3); });
+  runner = MakeRunner();
+  for (int i = 0; i < 2; ++i) runner->Submit(Packet(i));
+  runner->Run(1e3);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(runner->Take().error, nullptr);
+  EXPECT_THROW(std::rethrow_exception(runner->Take().error), std::logic_error);
+}
+
+TEST_P(CalledRunnerTest, BoundsTheKeyframesThatWait) {
+  const std::unique_ptr<MappingRunner> runner = MakeRunner();
+  constexpr int kNumKeyframes = MappingRunner::kMaxWaiting + 3;
+  for (int i = 0; i < kNumKeyframes; ++i) {
+    runner->Submit(Packet(i));
+    // Of those that were submitted, the last ones wait, and the one before them may be unfinished.
+    EXPECT_GE(static_cast<int>(mapper_.map().keyframes().size()), i - MappingRunner::kMaxWaiting);
+  }
+  for (int i = 0; i < kNumKeyframes; ++i) {
+    for (int step = 0; step < 2; ++step) EXPECT_EQ(runner->Take().summary.keyframe, i);
+  }
+  EXPECT_THROW(runner->Take(), std::logic_error);
 }
 
 }  // namespace

@@ -198,6 +198,38 @@ class Arrays(unittest.TestCase):
             self.odometry.drop(1.2, "tracked")
 
 
+class ExternalMapping(unittest.TestCase):
+    def test_the_budget_does_not_change_the_result(self):
+        images = support.room_images()[:16]
+        expected = support.room_odometry(threads=1)
+        support.process(expected, images)
+        odometry = support.room_odometry(threads=1, external_mapping=True)
+        threads, num_pending = set(), 0
+        odometry.set_window_observer(lambda *_: threads.add(threading.get_ident()))
+        for image in images:
+            odometry.process(image.timestamp, image.gray, image.depth)
+            num_pending += odometry.mapping_pending
+            odometry.run_mapping(0.005)
+        np.testing.assert_array_equal(odometry.finish().trajectory, expected.finish().trajectory)
+        self.assertGreater(num_pending, 0)
+        self.assertFalse(odometry.mapping_pending)
+        self.assertEqual(threads, {threading.get_ident()})
+
+    def test_misuse_is_named(self):
+        with self.assertRaisesRegex(ValueError, "external_mapping"):
+            support.room_odometry().run_mapping(0.005)
+        with self.assertRaisesRegex(ValueError, "budget"):
+            support.room_odometry(external_mapping=True).run_mapping(-1.0)
+
+    def test_callbacks_cannot_run_the_mapping(self):
+        odometry = support.room_odometry(threads=1, external_mapping=True)
+        odometry.set_window_observer(lambda *_: odometry.run_mapping(1.0))
+        with self.assertRaisesRegex(RuntimeError, "in use"):
+            for image in support.room_images():
+                odometry.process(image.timestamp, image.gray, image.depth)
+                odometry.run_mapping(1.0)
+
+
 class Callbacks(unittest.TestCase):
     def test_the_gil_is_released_while_images_are_processed(self):
         odometry = support.room_odometry()
@@ -248,6 +280,33 @@ class Callbacks(unittest.TestCase):
             support.process(odometry, support.room_images()[:16])
             blocks = odometry.finish().extra_blocks
             self.assertAlmostEqual(blocks[7][0], 2.0, places=6)
+
+    def test_window_factors_use_landmarks(self):
+        for threads in (1, 2):
+            odometry = support.room_odometry(threads=threads)
+            kept, unread, counts = [], [], []
+
+            def factors(window):
+                points = window.data
+                counts.append(len(points.point_ids))
+                kept.append(window)
+                known = points.points[0]
+                cost = msc_vo.CostFunction(lambda x: ((x - known) / 0.01, [np.eye(3) / 0.01]), 3,
+                                           [3])
+                return [msc_vo.CustomFactor(cost, [msc_vo.BlockId.point(points.point_ids[0])])]
+
+            odometry.set_window_factors(factors)
+            support.process(odometry, support.room_images()[:16])
+            odometry.finish()
+            self.assertGreater(min(counts), 20)
+            self.assertEqual(len(kept[0].data.point_ids), counts[0])  # was read in the callback
+            odometry = support.room_odometry(threads=threads)
+            odometry.set_window_factors(unread.append)  # returns None: no factors
+            support.process(odometry, support.room_images()[:16])
+            odometry.finish()
+            with self.assertRaisesRegex(RuntimeError, "during the callback"):
+                unread[0].data
+            self.assertTrue(unread[0].keyframes)
 
     def test_exceptions_arrive_as_they_are(self):
         class Broken(Exception):

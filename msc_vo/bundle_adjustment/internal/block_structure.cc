@@ -74,10 +74,12 @@ PoseLandmarkBlocks CreateBlocks(const std::vector<int>& pose, const std::vector<
 }  // namespace
 
 template <typename Action>
-void BlockStructure::ForEachCustomUnknown(BlockKind kind, const Action& action) const {
+void BlockStructure::ForEachCoupledUnknown(BlockKind kind, const Action& action) const {
+  const auto is_unknown = [](const StateBlock& block) { return block.position >= 0; };
   for (const std::vector<StateBlock>& blocks : custom_factors) {
+    if (std::count_if(blocks.begin(), blocks.end(), is_unknown) < 2) continue;
     for (const StateBlock& block : blocks) {
-      if (block.kind == kind && block.position >= 0) action(block.position);
+      if (block.kind == kind && is_unknown(block)) action(block.position);
     }
   }
 }
@@ -99,7 +101,7 @@ BlockStructure::BlockStructure(const WindowData& data, const WindowTerms& terms,
   NumberExtraBlocks(data, terms, state);
   NumberCustomFactors(terms);
   std::vector<bool> in_reduced_system = LinesInReducedSystem(num_lines, line_pairs);
-  ForEachCustomUnknown(BlockKind::kLine, [&](int i) { in_reduced_system[i] = true; });
+  ForEachCoupledUnknown(BlockKind::kLine, [&](int i) { in_reduced_system[i] = true; });
   for (const bool is_reduced : in_reduced_system) {
     reduced_line.push_back(is_reduced ? num_reduced_lines++ : -1);
   }
@@ -150,8 +152,9 @@ void BlockStructure::AssignRows() {
   point_row.assign(num_points, -1);
   position_row.assign(num_reduced_lines, -1);
   extra_row.assign(extra_size.size(), -1);
-  ForEachCustomUnknown(BlockKind::kPoint, [&](int i) { assign(3, &point_row[i]); });
-  ForEachCustomUnknown(BlockKind::kLine, [&](int i) { assign(4, &position_row[reduced_line[i]]); });
+  ForEachCoupledUnknown(BlockKind::kPoint, [&](int i) { assign(3, &point_row[i]); });
+  ForEachCoupledUnknown(BlockKind::kLine,
+                        [&](int i) { assign(4, &position_row[reduced_line[i]]); });
   for (size_t i = 0; i < extra_size.size(); ++i) assign(extra_size[i], &extra_row[i]);
 }
 

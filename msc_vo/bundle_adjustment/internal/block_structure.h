@@ -75,7 +75,8 @@ struct BlockStructure {
   /// Parameter blocks of each custom factor: their kinds and their numbers among the unknowns.
   std::vector<std::vector<StateBlock>> custom_factors;
 
-  /// First rows in the reduced system of unknowns that custom factors keep there; -1: eliminated.
+  /// First rows in the reduced system of unknowns that custom factors keep there because they
+  /// couple them with other unknowns; -1: eliminated.
   /// Of points, of the coordinates of reduced lines other than the direction (ReducedLine), and of
   /// the tangent spaces of extra blocks.
   std::vector<int> point_row, position_row, extra_row;
@@ -91,9 +92,10 @@ struct BlockStructure {
   void NumberExtraBlocks(const WindowData& data, const WindowTerms& terms,
                          const WindowState& state);
   void NumberCustomFactors(const WindowTerms& terms);
-  // Calls action(number) for every unknown of a kind in every custom factor.
+  // Calls action(number) for every unknown of a kind that a custom factor couples with another one.
+  // A factor with one unknown adds to the block of that unknown alone, which can be eliminated.
   template <typename Action>
-  void ForEachCustomUnknown(BlockKind kind, const Action& action) const;
+  void ForEachCoupledUnknown(BlockKind kind, const Action& action) const;
 };
 
 }  // namespace msc_vo

@@ -52,7 +52,7 @@ std::tuple<WindowTerm<typename Terms::Factor>...> BlocksOf(const std::tuple<Term
 ///     + rho(|CustomFactor|^2)
 ///
 /// with n the multiplicity of a pair (WindowData::LinePair). It holds values, except that custom
-/// factors are those of the data, and is minimised by WindowProblem or MinimizeWithBlockSchur.
+/// factors are those of the data, and is minimised by WindowProblem or BlockSchurMinimizer.
 struct WindowTerms {
   decltype(BlocksOf(kTerms)) all;
 

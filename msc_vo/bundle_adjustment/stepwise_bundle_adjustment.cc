@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/bundle_adjustment/stepwise_bundle_adjustment.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
+#include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
+#include "msc_vo/bundle_adjustment/internal/landmark_noise.h"
+#include "msc_vo/bundle_adjustment/internal/window_validation.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Writes the cost of every term to `member` of its summary. Returns the sum.
+double WriteCosts(const WindowTerms& terms, const WindowState& state, double TermSummary::*member,
+                  BundleAdjustmentSummary* summary) {
+  double sum = 0.0;
+  ForEachTerm(terms, [&](const auto& term, const auto& of_term) {
+    (summary->*term.summary).*member = Cost(of_term, state);
+    sum += (summary->*term.summary).*member;
+  });
+  return sum;
+}
+
+void WriteCounts(const WindowTerms& terms, BundleAdjustmentSummary* summary) {
+  ForEachTerm(terms, [summary](const auto& term, const auto& of_term) {
+    (summary->*term.summary).num_residual_blocks = static_cast<int>(of_term.blocks.size());
+  });
+}
+
+// Writes the solution and the rejection marks. Keyframes and landmarks without residual blocks in
+// the second solve keep their initial values.
+void WriteBack(const WindowTerms& terms, const WindowInlierMask& inlier_mask,
+               const WindowState& state, WindowData* data) {
+  const auto is_constrained = [&terms](const StateBlock& block) {
+    return terms.Constrained(block.kind)[block.position];
+  };
+  WriteState(state, is_constrained, data);
+  for (size_t i = 0; i < inlier_mask.points.size(); ++i) {
+    data->point_observations[i].rejected = !inlier_mask.points[i].reprojection;
+  }
+  for (size_t i = 0; i < inlier_mask.lines.size(); ++i) {
+    data->line_observations[i].rejected = !inlier_mask.lines[i].reprojection;
+  }
+  ForEachRelation([&](const auto& term) {
+    auto& records = data->*term.records;
+    for (size_t i = 0; i < records.size(); ++i) {
+      records[i].rejected = !(inlier_mask.*term.inliers)[i];
+    }
+  });
+}
+
+}  // namespace
+
+class StepwiseBundleAdjustment::Solver {
+ public:
+  Solver(const BundleAdjustmentOptions& options, WindowData* data,
+         const WindowStageObserver& enter_stage)
+      : options_(options), data_(data), enter_stage_(enter_stage) {}
+
+  bool Advance() {
+    switch (phase_) {
+      case Phase::kBegin:
+        Begin();
+        return GoTo(Phase::kFirstTerms);
+      case Phase::kFirstTerms:
+        BuildTerms(*data_);
+        summary_.initial_cost = WriteCosts(terms_, *state_, &TermSummary::initial_cost, &summary_);
+        StartMinimizer(options_.first_iterations);
+        return GoTo(Phase::kFirstSolve);
+      case Phase::kFirstSolve:
+        if (Minimize()) return true;
+        return GoTo(is_usable_ ? Phase::kRejection : Phase::kDone);
+      case Phase::kRejection:
+        RejectAndEstimateNoise();
+        return GoTo(Phase::kSecondTerms);
+      case Phase::kSecondTerms:
+        BuildTerms(with_noise_);
+        StartMinimizer(options_.second_iterations);
+        return GoTo(Phase::kSecondSolve);
+      case Phase::kSecondSolve:
+        if (Minimize()) return true;
+        return GoTo(is_usable_ ? Phase::kEnd : Phase::kDone);
+      case Phase::kEnd:
+        End();
+        break;
+      case Phase::kDone:
+        break;
+    }
+    return GoTo(Phase::kDone);
+  }
+  const BundleAdjustmentSummary& summary() const { return summary_; }
+
+ private:
+  enum class Phase {
+    kBegin,
+    kFirstTerms,
+    kFirstSolve,
+    kRejection,
+    kSecondTerms,
+    kSecondSolve,
+    kEnd,
+    kDone,
+  };
+
+  bool GoTo(Phase phase) {
+    phase_ = phase;
+    return phase != Phase::kDone;
+  }
+  void Enter(WindowStage stage) const {
+    if (enter_stage_) enter_stage_(stage);
+  }
+
+  void Begin() {
+    Enter(WindowStage::kBuild);
+    index_ = ValidateWindow(options_, *data_);
+    inlier_mask_ = InitialInlierMask(options_, index_, *data_, &summary_.num_behind_camera);
+    state_.emplace(*data_);
+  }
+
+  void BuildTerms(const WindowData& data) {
+    terms_ = MakeWindowTerms(options_, data, index_, inlier_mask_, *state_);
+  }
+
+  void RejectAndEstimateNoise() {
+    RejectOutliers(options_, terms_, *state_, &inlier_mask_, &summary_);
+    // A copy: *data_ must stay unchanged if the second solve fails.
+    with_noise_ = *data_;
+    EstimateLandmarkNoise(options_.landmark_noise, index_, inlier_mask_, *state_, &with_noise_);
+  }
+
+  void StartMinimizer(int max_iterations) {
+    max_iterations_ = max_iterations;
+    if (options_.solver != BundleAdjustmentSolver::kBlockSchur) return;
+    minimizer_.emplace(BlockStructure(*data_, terms_, *state_), terms_, max_iterations,
+                       enter_stage_, &*state_);
+  }
+
+  // Returns true if the minimisation goes on; otherwise is_usable_ says whether it succeeded.
+  bool Minimize() {
+    if (minimizer_ && minimizer_->Advance()) return true;
+    MinimizerReport report;
+    if (minimizer_) {
+      report = minimizer_->report();
+      minimizer_.reset();
+    } else {
+      Enter(WindowStage::kStep);
+      report = MinimizeWithCeres(options_, *data_, terms_, max_iterations_, &*state_);
+    }
+    Enter(WindowStage::kBuild);
+    summary_.num_iterations += report.num_iterations;
+    summary_.num_accepted += report.num_accepted;
+    summary_.schur_structure = report.schur_structure;
+    summary_.message = report.message;
+    is_usable_ = report.usable && state_->AllFinite();
+    return false;
+  }
+
+  void End() {
+    WriteCounts(terms_, &summary_);
+    summary_.final_cost = WriteCosts(terms_, *state_, &TermSummary::final_cost, &summary_);
+    if (!std::isfinite(summary_.initial_cost) || !std::isfinite(summary_.final_cost)) {
+      summary_.message = "the cost is not finite";
+      return;
+    }
+    Enter(WindowStage::kWriteBack);
+    EstimateLandmarkNoise(options_.landmark_noise, index_, inlier_mask_, *state_, &with_noise_);
+    WriteBack(terms_, inlier_mask_, *state_, &with_noise_);
+    // A result that a later bundle adjustment would refuse is none.
+    summary_.usable = HasValidState(with_noise_, &summary_.message);
+    if (summary_.usable) *data_ = std::move(with_noise_);
+    Enter(WindowStage::kDone);
+  }
+
+  const BundleAdjustmentOptions options_;
+  WindowData* data_;
+  WindowData with_noise_;  // of the second solve
+  const WindowStageObserver enter_stage_;
+  Phase phase_ = Phase::kBegin;
+  WindowIndex index_;
+  WindowInlierMask inlier_mask_;
+  std::optional<WindowState> state_;
+  WindowTerms terms_;                             // of the present solve
+  std::optional<BlockSchurMinimizer> minimizer_;  // of the present solve, unless it is one of Ceres
+  int max_iterations_ = 0;
+  bool is_usable_ = false;  // the last solve succeeded
+  BundleAdjustmentSummary summary_;
+};
+
+StepwiseBundleAdjustment::StepwiseBundleAdjustment(const BundleAdjustmentOptions& options,
+                                                   WindowData* data,
+                                                   const WindowStageObserver& enter_stage)
+    : solver_(std::make_unique<Solver>(options, data, enter_stage)) {}
+
+StepwiseBundleAdjustment::~StepwiseBundleAdjustment() = default;
+
+bool StepwiseBundleAdjustment::Advance() { return solver_->Advance(); }
+
+const BundleAdjustmentSummary& StepwiseBundleAdjustment::summary() const {
+  return solver_->summary();
+}
+
+}  // namespace msc_vo
