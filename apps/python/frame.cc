@@ -40,7 +40,9 @@ std::string Describe(const FrameResult& frame) {
 }  // namespace
 
 void BindFrame(py::module_* module) {
-  py::class_<FrameResult>(*module, "FrameResult", "The result of one frame.")
+  py::class_<FrameResult>(*module, "FrameResult",
+                          "The result of one frame. Equal if all numbers but the measured "
+                          "times are, bit by bit.")
       .def_readonly("id", &FrameResult::id, "Position in the sequence of images, from 0.")
       .def_readonly("timestamp", &FrameResult::timestamp, "Seconds.")
       .def_property_readonly(
@@ -53,7 +55,7 @@ void BindFrame(py::module_* module) {
                     "Number of its segment; -1: it precedes the first one and has no pose.")
       .def_readonly("by_pose_factors", &FrameResult::by_pose_factors,
                     "Whether pose factors, not constant velocity, predict the pose.")
-      .def_readonly("is_keyframe", &FrameResult::is_keyframe)
+      .def_readonly("is_keyframe", &FrameResult::is_keyframe, "Whether it became a keyframe.")
       .def_property_readonly(
           "cam_from_world", [](const FrameResult& self) { return PoseMatrix(self.cam_from_world); },
           "4x4; the world is the camera of the first tracked frame.")

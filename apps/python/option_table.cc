@@ -179,8 +179,7 @@ void BindOptions(py::module_* module) {
           "read",
           [](const py::object& path) {
             Configuration configuration;
-            ReadConfiguration(py::module_::import("os").attr("fspath")(path).cast<std::string>(),
-                              &configuration);
+            ReadConfiguration(PathArgument(path), &configuration);
             return OptionsTable(configuration.odometry);
           },
           py::arg("path"),
