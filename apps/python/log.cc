@@ -31,7 +31,7 @@ constexpr Level kLevels[] = {{"debug", spdlog::level::debug, 10},
 
 // Hands messages to logging.getLogger("msc_vo"). It has no lock of its own: a thread that held one
 // while it waits for the GIL would block those that log with the GIL.
-class PythonSink : public spdlog::sinks::sink {
+class PythonSink final : public spdlog::sinks::sink {
  public:
   void log(const spdlog::details::log_msg& message) override {
     int number = kLevels[0].number;

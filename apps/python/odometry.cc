@@ -70,8 +70,7 @@ class PyOdometry {
 
   void Restore(const py::object& folder) {
     const std::string path = PathArgument(folder);
-    if (next_id_ > 0)
-      throw std::invalid_argument("restore() must be called before the first image");
+    if (next_id_ > 0) throw std::invalid_argument("restore() must precede the first image");
     Alone([&] {
       is_usable_ = false;
       checkpoint_.Restore(path, odometry_.get());

@@ -162,7 +162,6 @@ py::class_<Table> BindTable(py::module_* module, const char* name, const char* d
       .def("__len__", [](const Table& self) { return self.Names().size(); })
       .def("__iter__", [](const Table& self) { return py::iter(py::cast(self.Names())); })
       .def("keys", &Table::Names, "The names of all options.")
-      .def("__copy__", [](const Table& self) { return Table(self); })
       .def("__repr__", [name](const Table& self) { return self.Describe(name, Table()); });
   table.attr("__hash__") = py::none();
   return table;

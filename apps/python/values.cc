@@ -117,7 +117,8 @@ PinholeCamera CameraFromState(const py::tuple& state) {
 }
 
 py::tuple LensState(const LensDistortion& lens) {
-  const py::object recorded = lens.recorded ? CameraState(*lens.recorded) : py::object(py::none());
+  py::object recorded = py::none();
+  if (lens.recorded) recorded = CameraState(*lens.recorded);
   return py::make_tuple(LensModelName(lens.model), py::tuple(py::cast(lens.Coefficients())),
                         recorded);
 }

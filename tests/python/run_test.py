@@ -134,7 +134,7 @@ class Checkpoints(Scratch):
             refused.process(image.timestamp, image.gray, image.depth)
         with self.assertRaisesRegex(ValueError, "lens was"):
             msc_vo.Odometry(None, support.room().camera, [0.1, 0, 0, 0]).restore(self.folder)
-        with self.assertRaisesRegex(ValueError, "before the first image"):
+        with self.assertRaisesRegex(ValueError, "precede the first image"):
             odometry.restore(self.folder)
 
     def test_files_that_are_missing_or_damaged_are_named(self):
