@@ -125,6 +125,14 @@ py::array FixedOf(const Items& items) {
   return std::move(fixed);
 }
 
+// One number per item.
+template <typename Items, typename Get>
+py::array NumbersOf(const Items& items, const Get& get) {
+  py::array_t<double> numbers(static_cast<py::ssize_t>(items.size()));
+  for (size_t i = 0; i < items.size(); ++i) numbers.mutable_at(i) = get(items[i]);
+  return std::move(numbers);
+}
+
 void SetKeyframeFixed(WindowData* window, int64_t keyframe, bool fixed) {
   for (WindowData::Keyframe& candidate : window->keyframes) {
     if (candidate.id != keyframe) continue;
@@ -164,9 +172,13 @@ void BindAdders(WindowClass* window) {
   window->def("add_keyframes", &AddKeyframes, py::arg("ids"), py::arg("cam_from_world"),
               py::arg("fixed") = none, "cam_from_world: (N, 4, 4). fixed: held constant.");
   window->def("add_points", &AddPoints, py::arg("ids"), py::arg("positions"),
-              py::arg("fixed") = none, "positions: (N, 3), metres, world.");
+              py::arg("fixed") = none, py::arg("noise") = 1.0,
+              "positions: (N, 3), metres, world. noise: factor on the sigmas of its observations, "
+              "one number or N.");
   window->def("add_lines", &AddLines, py::arg("ids"), py::arg("segments"), py::arg("fixed") = none,
-              "segments: (N, 6), start and end, metres, world.");
+              py::arg("noise") = 1.0, py::arg("depth_offsets") = 0.0,
+              "segments: (N, 6), start and end, metres, world. noise: as for points. "
+              "depth_offsets: measured minus true depth in all observations of a line, metres.");
   window->def("add_point_observations", &AddPointObservations, py::arg("keyframes"),
               py::arg("points"), py::arg("pixels"), py::arg("sigmas") = 1.0,
               py::arg("inverse_depths") = 0.0, py::arg("inverse_depth_sigmas") = 0.0,
@@ -221,12 +233,30 @@ void BindState(WindowClass* window) {
           "point_fixed", [](const WindowData& self) { return FixedOf(self.points); },
           "(N,) whether each point is held constant.")
       .def_property_readonly(
+          "point_noise",
+          [](const WindowData& self) {
+            return NumbersOf(self.points, [](const WindowData::Point& p) { return p.noise; });
+          },
+          "(N,) factors on the sigmas of the observations of each point.")
+      .def_property_readonly(
           "line_ids", [](const WindowData& self) { return IdsOf(self.lines); },
           "(N,) ids in the order of lines.")
       .def_property_readonly("lines", &LinesOf, "(N, 6) start and end, metres, world.")
       .def_property_readonly(
           "line_fixed", [](const WindowData& self) { return FixedOf(self.lines); },
           "(N,) whether each line is held constant.")
+      .def_property_readonly(
+          "line_noise",
+          [](const WindowData& self) {
+            return NumbersOf(self.lines, [](const WindowData::Line& l) { return l.noise; });
+          },
+          "(N,) factors on the sigmas of the observations of each line.")
+      .def_property_readonly(
+          "line_depth_offsets",
+          [](const WindowData& self) {
+            return NumbersOf(self.lines, [](const WindowData::Line& l) { return l.depth_offset; });
+          },
+          "(N,) metres, measured minus true depth in all observations of each line.")
       .def_property_readonly(
           "world_from_axes",
           [](const WindowData& self) -> std::optional<Eigen::Matrix3d> {

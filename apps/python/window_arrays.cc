@@ -45,23 +45,28 @@ void AddKeyframes(WindowData* window, py::handle ids, py::handle cam_from_world,
   for (int i = 0; i < size; ++i) window->keyframes.push_back({names[i], poses[i], is_fixed[i]});
 }
 
-void AddPoints(WindowData* window, py::handle ids, py::handle positions, py::handle fixed) {
+void AddPoints(WindowData* window, py::handle ids, py::handle positions, py::handle fixed,
+               py::handle noise) {
   const RowMajorMatrix rows = MatrixArgument(positions, "positions", -1, 3);
   const int size = static_cast<int>(rows.rows());
   const std::vector<int64_t> names = IdsArgument(ids, "ids", size);
   const std::vector<bool> is_fixed = FlagsArgument(fixed, "fixed", size);
+  const Eigen::VectorXd factor = PerRowArgument(noise, "noise", size);
   for (int i = 0; i < size; ++i) {
-    window->points.push_back({names[i], rows.row(i).transpose(), is_fixed[i]});
+    window->points.push_back({names[i], rows.row(i).transpose(), is_fixed[i], factor[i]});
   }
 }
 
-void AddLines(WindowData* window, py::handle ids, py::handle segments, py::handle fixed) {
+void AddLines(WindowData* window, py::handle ids, py::handle segments, py::handle fixed,
+              py::handle noise, py::handle depth_offsets) {
   const RowMajorMatrix rows = MatrixArgument(segments, "segments", -1, 6);
   const int size = static_cast<int>(rows.rows());
   const std::vector<int64_t> names = IdsArgument(ids, "ids", size);
   const std::vector<bool> is_fixed = FlagsArgument(fixed, "fixed", size);
+  const Eigen::VectorXd factor = PerRowArgument(noise, "noise", size);
+  const Eigen::VectorXd offset = PerRowArgument(depth_offsets, "depth_offsets", size);
   for (int i = 0; i < size; ++i) {
-    window->lines.push_back({names[i], SegmentOf(rows, i), is_fixed[i]});
+    window->lines.push_back({names[i], SegmentOf(rows, i), is_fixed[i], factor[i], offset[i]});
   }
 }
 

@@ -261,8 +261,9 @@ class Windows(unittest.TestCase):
         self.assertTrue(np.isnan(depths).all(axis=1).any() or not np.isnan(depths).any())
         copy = msc_vo.WindowData(window.camera)
         copy.add_keyframes(window.keyframe_ids, window.cam_from_world, window.keyframe_fixed)
-        copy.add_points(window.point_ids, window.points, window.point_fixed)
-        copy.add_lines(window.line_ids, window.lines, window.line_fixed)
+        copy.add_points(window.point_ids, window.points, window.point_fixed, window.point_noise)
+        copy.add_lines(window.line_ids, window.lines, window.line_fixed, window.line_noise,
+                       window.line_depth_offsets)
         copy.add_point_observations(**window.point_observations)
         copy.add_line_observations(**window.line_observations)
         copy.add_parallel_pairs(**window.parallel_pairs)
@@ -270,9 +271,9 @@ class Windows(unittest.TestCase):
         copy.add_axis_alignments(**window.axis_alignments)
         for prior in window.pose_priors:
             copy.add_pose_prior(**prior)
-        options["landmark_noise.enabled"] = False
         solved = [msc_vo.solve_window(part, options) for part in (window, copy)]
-        self.assertAlmostEqual(solved[0].initial_cost, solved[1].initial_cost, delta=1e-6 * solved[0].initial_cost)
+        self.assertAlmostEqual(solved[0].initial_cost / solved[1].initial_cost, 1.0, places=9)
+        np.testing.assert_allclose(copy.lines, window.lines, atol=1e-6)
 
     def test_lines_may_lack_their_depth(self):
         window, _ = msc_vo.read_window(support.WINDOWS / "room.txt")

@@ -42,7 +42,7 @@ def contexts():
 
     odometry.set_window_factors(keep("WindowContext"))
     odometry.set_pose_factors(keep("FrameContext"))
-    support.process(odometry, support.room_images()[:16])
+    support.process(odometry, support.room_images())
     found["WindowKeyframe"] = found["WindowContext"][-1].keyframes
     return {name: (values[0], values[-1]) for name, values in found.items()}
 
