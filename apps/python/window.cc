@@ -373,13 +373,14 @@ void BindWindow(py::module_* module) {
   BindSummary(module);
   BindFiles(module);
   module->def(
-      "solve_window", &Solve, py::arg("window"), py::arg("options") = py::none(),
+      "solve_window", &Solve, py::arg("window").none(false), py::arg("options") = py::none(),
       "Local bundle adjustment: refines the window in place. Raises ValueError that names "
       "the offending item, and exceptions of cost functions as they are; the window is then "
       "unchanged.");
-  module->def("window_covariance", &Covariances, py::arg("window"), py::arg("options") = py::none(),
-              py::kw_only(), py::arg("keyframes") = py::tuple(), py::arg("points") = py::tuple(),
-              py::arg("lines") = py::tuple(), py::arg("extra_blocks") = py::tuple(),
+  module->def("window_covariance", &Covariances, py::arg("window").none(false),
+              py::arg("options") = py::none(), py::kw_only(), py::arg("keyframes") = py::tuple(),
+              py::arg("points") = py::tuple(), py::arg("lines") = py::tuple(),
+              py::arg("extra_blocks") = py::tuple(),
               "Covariances of a solved window for the given ids, as dictionaries by kind and id; "
               "None where the window does not determine an item.");
 }

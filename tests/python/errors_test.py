@@ -73,7 +73,7 @@ def calls():
     yield lambda: msc_vo.evaluate(rows, rows, max_dt=-1.0), "max_dt"
     yield lambda: window.add_keyframes([0], [pose, pose]), "ids: expected shape"
     yield lambda: window.add_keyframes([0.5], [pose]), "ids: expected whole numbers"
-    yield lambda: window.add_keyframes([0], [2 * pose]), r"cam_from_world\[0\]: the upper left"
+    yield lambda: window.add_keyframes([0], [np.diag([2.0, 2.0, 2.0, 1.0])]), r"cam_from_world\[0\]: the upper left"
     yield lambda: window.add_points([0], [[1, 2]]), r"positions: expected shape \(N, 3\)"
     yield lambda: window.add_points([0], [[1, 2, 3]], fixed=[1]), "fixed: expected 1 truth values"
     yield lambda: window.add_line_observations([0], [0], [[0, 0, 1, 1]], inverse_depths=[[1, 1]]), "give both"
@@ -112,6 +112,7 @@ class Errors(unittest.TestCase):
         for call in (lambda: msc_vo.Camera("wide", 1, 1, 1, 640, 480),
                      lambda: msc_vo.Odometry({"mode": "pl-vo"}, camera),
                      lambda: msc_vo.Odometry(None, 5), lambda: msc_vo.solve_window(None),
+                     lambda: msc_vo.window_covariance(None), lambda: msc_vo.write_window("file", None),
                      lambda: msc_vo.BlockId.pose("first"), lambda: msc_vo.Sequence(5),
                      lambda: msc_vo.DepthCamera(None, np.eye(4)), lambda: msc_vo.read_window(5),
                      lambda: support.room()["first"], lambda: msc_vo.replay(5)):

@@ -210,7 +210,7 @@ class Registration(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "depth: must be float32"):
             registration.register(np.zeros((240, 320)))
         with self.assertRaisesRegex(ValueError, "depth_from_color: the upper left"):
-            msc_vo.DepthCamera(small, 2 * np.eye(4))
+            msc_vo.DepthCamera(small, np.diag([2.0, 2.0, 2.0, 1.0]))
         with self.assertRaisesRegex(ValueError, "distortion: expected k1"):
             msc_vo.DepthRegistration(msc_vo.DepthCamera(small, np.eye(4)), color, [0.1])
         with self.assertRaises(ValueError):

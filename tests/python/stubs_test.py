@@ -30,7 +30,8 @@ def public_objects():
         if isinstance(value, type):
             for member in public(vars(value)):
                 if not issubclass(value, Exception):
-                    yield f"{name}.{member}", inspect.getattr_static(value, member)
+                    found = inspect.getattr_static(value, member)
+                    yield f"{name}.{member}", getattr(found, "__func__", found)
 
 
 class Stubs(unittest.TestCase):
