@@ -47,7 +47,7 @@ class TrackingObserver(unittest.TestCase):
             kept[0].points
 
     def test_pixels_and_depths_are_those_of_the_landmarks(self):
-        odometry, errors = support.room_odometry(), []
+        odometry, errors, depth_errors = support.room_odometry(), [], []
 
         def observe(tracked):
             landmarks = tracked.map.window
@@ -60,12 +60,14 @@ class TrackingObserver(unittest.TestCase):
                 projected = support.room().camera.matrix @ (x / x[2])
                 errors.append(np.hypot(*(projected[:2] - pixel)))
                 if not np.isnan(depth):
-                    self.assertLess(abs(depth - x[2]), 0.2 * x[2])
+                    depth_errors.append(abs(depth - x[2]) / x[2])
 
         odometry.set_tracking_observer(observe)
         support.process(odometry, support.room_images()[:6])
         self.assertGreater(len(errors), 100)
         self.assertLess(np.median(errors), 2.0)
+        self.assertGreater(len(depth_errors), 100)
+        self.assertLess(np.median(depth_errors), 0.05)
 
 
 class Maps(unittest.TestCase):
@@ -89,13 +91,17 @@ class Maps(unittest.TestCase):
                                - found.window.cam_from_world[:, :3, 3]).max(), 0.02)
 
     def test_axes_reach_the_callbacks(self):
-        odometry, axes = support.room_odometry(), []
-        odometry.set_window_factors(lambda window: axes.append(window.world_from_axes))
-        support.process(odometry, support.room_images())
-        result = odometry.finish()
-        self.assertIsNone(axes[0])
-        np.testing.assert_allclose(axes[-1] @ axes[-1].T, np.eye(3), atol=1e-9)
-        np.testing.assert_allclose(axes[-1], result.world_from_axes, atol=0.02)
+        for mode, found in (("msc-vo", True), ("pl-vo", False)):
+            odometry, axes = support.room_odometry(mode=mode), []
+            odometry.set_window_factors(lambda window: axes.append(window.world_from_axes))
+            support.process(odometry, support.room_images())
+            result = odometry.finish()
+            self.assertEqual(axes[-1] is not None, found)
+            if found:
+                np.testing.assert_allclose(axes[-1] @ axes[-1].T, np.eye(3), atol=1e-9)
+                np.testing.assert_allclose(axes[-1], result.world_from_axes, atol=0.02)
+            else:
+                self.assertIsNone(result.world_from_axes)
 
 
 class Checkpoints(Scratch):
