@@ -7,7 +7,7 @@ import msc_vo
 import support
 
 # Words of the code behind the module.
-FOREIGN = r"OpenCV|CV_\d|FrameBuilder|Eigen|std::|::|\bcv\b|pybind11|PYBIND11|C\+\+|k[A-Z][a-z]+\b"
+FOREIGN = r"OpenCV|CV_\d|FrameBuilder|Eigen|std::|::|\bcv\b|pybind11|PYBIND11|C\+\+|\bk[A-Z][a-z]+\b"
 
 
 def calls():
@@ -41,7 +41,7 @@ def calls():
 
     def with_cost(function, numeric=False):
         made = msc_vo.CostFunction(function, 1, [7], numeric)
-        return solve(msc_vo.CustomFactor(made, [msc_vo.BlockId.pose(solved.keyframe_ids[-1])]))
+        return solve(msc_vo.CustomFactor(made, [msc_vo.BlockId.pose(solved.keyframe_ids[~solved.keyframe_fixed][0])]))
 
     yield process(g=gray[:240]), "gray: image is 640x240, camera is 640x480"
     yield process(g=np.zeros((480, 641, 3), np.uint8)), "gray: image is 641x480, camera is 640x480"
