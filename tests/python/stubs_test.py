@@ -116,7 +116,7 @@ window = msc_vo.WindowData(sequence.camera)
 window.add_point_observations(**odometry.map().window.point_observations)
 '''
 WRONG = [("msc_vo.Camera('wide')", "Camera"), ("odometry.process(0.0)", "process"),
-         ("result.covariance", "covariance"), ("hash(window)", "WindowData"),
+         ("result.covariance", "covariance"), ("window.add_points([1])", "add_points"),
          ("msc_vo.Lens('wide', [])", "Lens")]
 
 
