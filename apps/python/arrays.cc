@@ -64,6 +64,8 @@ bool HasType(const py::array& array, char kind, int bytes) {
   return array.dtype().kind() == kind && array.itemsize() == bytes;
 }
 
+std::string TypeText(const py::array& array) { return py::str(array.dtype()); }
+
 // The pixels of the array, or a copy if `value` is something else, from which the array was made.
 cv::Mat ImageOf(const py::array& array, py::handle value, int type) {
   // OpenCV has no read-only images; msc_vo does not write to its input.
@@ -171,8 +173,9 @@ cv::Mat GrayArgument(py::handle value, const std::string& name) {
   const py::array array = PlainArray(value, name);
   const bool is_gray = array.ndim() == 2;
   const bool is_rgb = array.ndim() == 3 && array.shape(2) == 3;
-  if (!HasType(array, 'u', 1) || !(is_gray || is_rgb)) {
-    Fail(name, "expected uint8 of shape (height, width) or, RGB, (height, width, 3), not " +
+  if (!HasType(array, 'u', 1)) Fail(name, "must be uint8, is " + TypeText(array));
+  if (!(is_gray || is_rgb)) {
+    Fail(name, "must be of shape (height, width) or, RGB, (height, width, 3), is " +
                    DescribeArray(array));
   }
   CheckImage(array, name);
@@ -188,11 +191,11 @@ cv::Mat DepthArgument(py::handle value, py::handle depth_scale, const std::strin
   const py::array array = PlainArray(filled, name);
   const bool is_metric = HasType(array, 'f', 4);
   const bool is_raw = HasType(array, 'u', 2);
-  if (array.ndim() != 2 || !(is_metric || is_raw)) {
-    Fail(name,
-         "expected shape (height, width) of float32, metres, or of uint16 with depth_scale, "
-         "not " +
-             DescribeArray(array));
+  if (!(is_metric || is_raw)) {
+    Fail(name, "must be float32 in metres, or uint16 with depth_scale, is " + TypeText(array));
+  }
+  if (array.ndim() != 2) {
+    Fail(name, "must be of shape (height, width), is " + DescribeArray(array));
   }
   CheckImage(array, name);
   if (is_metric) {

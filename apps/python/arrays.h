@@ -69,4 +69,12 @@ pybind11::array ArrayView(const T* data, const std::vector<pybind11::ssize_t>& s
   return array;
 }
 
+/// A copy of an image with one channel.
+template <typename T>
+pybind11::array ImageArray(const cv::Mat& image) {
+  const std::vector<pybind11::ssize_t> strides = {static_cast<pybind11::ssize_t>(image.step[0]),
+                                                  sizeof(T)};
+  return pybind11::array_t<T>({image.rows, image.cols}, strides, image.ptr<T>());
+}
+
 }  // namespace msc_vo

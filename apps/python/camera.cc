@@ -56,6 +56,14 @@ LensDistortion MakeLens(const std::string& model, const py::object& coefficients
   return lens;
 }
 
+std::string DescribeLens(const LensDistortion& lens) {
+  std::string numbers;
+  for (const double k : lens.Coefficients()) {
+    numbers += FormatText("%s%.10g", numbers.empty() ? "" : ", ", k);
+  }
+  return "Lens('" + std::string(LensModelName(lens.model)) + "', [" + numbers + "])";
+}
+
 std::pair<PinholeCamera, LensDistortion> CroppedCamera(PinholeCamera camera, LensDistortion lens,
                                                        const std::optional<double>& field_of_view) {
   std::string error;
@@ -72,11 +80,14 @@ void BindLens(py::module_* module) {
       .def(py::init(&MakeLens), py::arg("model"), py::arg("coefficients"),
            "model: radial-tangential (k1 k2 p1 p2 k3), rational (k1 k2 p1 p2 k3 k4 k5 k6) or "
            "fisheye (k1 k2 k3 k4). Raises ValueError on another model or number of coefficients.")
-      .def_property_readonly("model",
-                             [](const LensDistortion& lens) { return LensModelName(lens.model); })
-      .def_property_readonly("coefficients", &LensDistortion::Coefficients)
+      .def_property_readonly(
+          "model", [](const LensDistortion& lens) { return LensModelName(lens.model); },
+          "'radial-tangential', 'rational' or 'fisheye'.")
+      .def_property_readonly("coefficients", &LensDistortion::Coefficients,
+                             "Coefficients of the model.")
       .def_readonly("recorded", &LensDistortion::recorded,
-                    "Camera of the recorded images, None if it is that of the undistorted ones.");
+                    "Camera of the recorded images, None if it is that of the undistorted ones.")
+      .def("__repr__", &DescribeLens);
   module->def("undistorted_camera", &CroppedCamera, py::arg("camera"), py::arg("lens"),
               py::arg("field_of_view") = py::none(),
               "Returns (camera, lens) for Odometry from those of the recorded images: a fisheye "
@@ -92,12 +103,12 @@ void BindCamera(py::module_* module) {
                             "pixel at (0, 0). fy may be negative (mirrored images).")
       .def(py::init(&MakeCamera), py::arg("fx"), py::arg("fy"), py::arg("cx"), py::arg("cy"),
            py::arg("width"), py::arg("height"), "Raises ValueError on impossible numbers.")
-      .def_readonly("fx", &PinholeCamera::fx)
-      .def_readonly("fy", &PinholeCamera::fy)
-      .def_readonly("cx", &PinholeCamera::cx)
-      .def_readonly("cy", &PinholeCamera::cy)
-      .def_readonly("width", &PinholeCamera::width)
-      .def_readonly("height", &PinholeCamera::height)
+      .def_readonly("fx", &PinholeCamera::fx, "Horizontal focal length, pixels.")
+      .def_readonly("fy", &PinholeCamera::fy, "Vertical focal length, pixels.")
+      .def_readonly("cx", &PinholeCamera::cx, "Column of the principal point, pixels.")
+      .def_readonly("cy", &PinholeCamera::cy, "Row of the principal point, pixels.")
+      .def_readonly("width", &PinholeCamera::width, "Columns of the image.")
+      .def_readonly("height", &PinholeCamera::height, "Rows of the image.")
       .def_property_readonly("matrix", &MatrixOf, "The 3x3 intrinsic matrix.")
       .def("__repr__", &Describe);
   BindLens(module);

@@ -42,10 +42,6 @@ std::vector<TimedPose> PosesOfRows(const RowMajorMatrix& rows, const std::string
   return poses;
 }
 
-std::string PathOf(const py::object& value) {
-  return py::module_::import("os").attr("fspath")(value).cast<std::string>();
-}
-
 void Warn(const std::string& text) {
   if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
@@ -53,7 +49,7 @@ void Warn(const std::string& text) {
 // A Result, a file, or an (N, 8) array.
 TrajectoryFile TrajectoryArgument(const py::object& value, const std::string& name) {
   if (py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__")) {
-    return ReadTrajectoryFile(PathOf(value));
+    return ReadTrajectoryFile(PathArgument(value));
   }
   TrajectoryFile trajectory;
   trajectory.unit = TimeUnit::kSeconds;
@@ -63,12 +59,24 @@ TrajectoryFile TrajectoryArgument(const py::object& value, const std::string& na
   return trajectory;
 }
 
+DeltaUnit UnitArgument(const std::string& name) {
+  if (name == "frames") return DeltaUnit::kFrames;
+  if (name == "metres") return DeltaUnit::kMetres;
+  if (name == "seconds") return DeltaUnit::kSeconds;
+  throw std::invalid_argument("rpe_unit: must be 'frames', 'metres' or 'seconds', not '" + name +
+                              "'");
+}
+
 TrajectoryError Evaluate(const py::object& gt, const py::object& est, const std::string& align,
-                         double max_dt, bool all_poses) {
+                         double max_dt, bool all_poses, double rpe_delta,
+                         const std::string& rpe_unit, bool rpe_all_pairs) {
   EvaluationOptions options;
   options.max_time_difference = max_dt;
   options.alignment = AlignmentFromString(align);
   options.all_poses = all_poses;
+  options.rpe_delta = {rpe_delta, UnitArgument(rpe_unit), rpe_all_pairs};
+  std::string problem;
+  if (!options.IsValid(&problem)) throw std::invalid_argument("max_dt, rpe_delta: " + problem);
   TrajectoryFile reference = TrajectoryArgument(gt, "gt");
   TrajectoryFile estimate = TrajectoryArgument(est, "est");
   std::vector<std::string> warnings;
@@ -100,23 +108,23 @@ std::string Describe(const ErrorStatistics& statistics) {
 
 void BindStatistics(py::module_* module) {
   py::class_<ErrorStatistics>(*module, "ErrorStatistics", "Statistics of errors.")
-      .def_readonly("count", &ErrorStatistics::count)
-      .def_readonly("rmse", &ErrorStatistics::rmse)
-      .def_readonly("mean", &ErrorStatistics::mean)
-      .def_readonly("median", &ErrorStatistics::median)
+      .def_readonly("count", &ErrorStatistics::count, "Number of errors.")
+      .def_readonly("rmse", &ErrorStatistics::rmse, "Root of the mean square.")
+      .def_readonly("mean", &ErrorStatistics::mean, "Mean.")
+      .def_readonly("median", &ErrorStatistics::median, "Median.")
       .def_readonly("p95", &ErrorStatistics::p95, "95th percentile.")
-      .def_readonly("max", &ErrorStatistics::max)
+      .def_readonly("min", &ErrorStatistics::min, "Smallest error.")
+      .def_readonly("max", &ErrorStatistics::max, "Largest error.")
+      .def_readonly("std", &ErrorStatistics::std, "Standard deviation about the mean.")
+      .def_readonly("sse", &ErrorStatistics::sse, "Sum of squares.")
       .def("__repr__", &Describe);
   py::class_<RelativeError>(*module, "RelativeError",
                             "Relative pose error (RPE) over a fixed interval or path length.")
-      .def_readonly("translation", &RelativeError::translation, "Metres per second or metre.")
-      .def_readonly("rotation", &RelativeError::rotation, "Radians per second or metre.");
+      .def_readonly("translation", &RelativeError::translation, "Metres, or metres per metre.")
+      .def_readonly("rotation", &RelativeError::rotation, "Radians, or radians per metre.");
 }
 
-}  // namespace
-
-void BindEvaluation(py::module_* module) {
-  BindStatistics(module);
+void BindTrajectoryError(py::module_* module) {
   py::class_<TrajectoryError>(*module, "TrajectoryError",
                               "Errors of a trajectory; read them together with the coverage.")
       .def_readonly("ape", &TrajectoryError::ape, "Absolute position error, metres.")
@@ -124,16 +132,37 @@ void BindEvaluation(py::module_* module) {
           "rotation", &TrajectoryError::rotation,
           "Radians, after alignment of the orientations; with 'origin' and 'none' as ape_rotation.")
       .def_readonly("ape_rotation", &TrajectoryError::ape_rotation, "Radians, after `align`.")
-      .def_readonly("rpe_per_second", &TrajectoryError::rpe_per_second)
-      .def_readonly("rpe_per_metre", &TrajectoryError::rpe_per_metre)
-      .def_readonly("num_reference", &TrajectoryError::num_reference)
-      .def_readonly("num_estimate", &TrajectoryError::num_estimate)
+      .def_readonly(
+          "rpe", &TrajectoryError::rpe,
+          "Relative pose error over pairs of poses rpe_delta apart, by default from frame "
+          "to frame.")
+      .def_readonly("rpe_per_second", &TrajectoryError::rpe_per_second,
+                    "Relative pose error over pairs of poses one second apart.")
+      .def_readonly("rpe_per_metre", &TrajectoryError::rpe_per_metre,
+                    "Relative pose error over pairs of poses one metre of path apart, divided by "
+                    "their distance.")
+      .def_readonly("num_reference", &TrajectoryError::num_reference, "Poses of the ground truth.")
+      .def_readonly("num_estimate", &TrajectoryError::num_estimate,
+                    "Poses of the estimate that are compared.")
       .def_readonly("num_not_estimated", &TrajectoryError::num_not_estimated,
                     "Poses that are left out because they are marked as not estimated.")
-      .def_readonly("num_matched", &TrajectoryError::num_matched)
+      .def_readonly("num_matched", &TrajectoryError::num_matched,
+                    "Poses of the estimate with a reference pose at their time.")
       .def_readonly("coverage", &TrajectoryError::coverage, "Matched / reference poses, 0..1.")
-      .def_readonly("coverage_in_range", &TrajectoryError::coverage_in_range)
-      .def_readonly("path_length", &TrajectoryError::path_length, "Metres.")
+      .def_readonly("coverage_in_range", &TrajectoryError::coverage_in_range,
+                    "Matched / reference poses between the first and the last estimate, 0..1.")
+      .def_readonly("scale", &TrajectoryError::scale,
+                    "Factor of the estimate's positions; 1 unless align is 'sim3'.")
+      .def_property_readonly(
+          "matched_reference",
+          [](const TrajectoryError& self) { return TrajectoryRows(self.matched_reference); },
+          "(M, 8) rows t tx ty tz qx qy qz qw, the matched poses of the ground truth.")
+      .def_property_readonly(
+          "matched_estimate",
+          [](const TrajectoryError& self) { return TrajectoryRows(self.matched_estimate); },
+          "(M, 8), the matched poses of the estimate, aligned.")
+      .def_readonly("path_length", &TrajectoryError::path_length,
+                    "Metres, along the matched reference poses.")
       .def_readonly(
           "warnings", &TrajectoryError::warnings,
           "What makes the errors doubtful: an undetermined alignment, contradicting scales "
@@ -148,12 +177,21 @@ void BindEvaluation(py::module_* module) {
         return FormatText("<TrajectoryError: APE RMSE %.6g m over %d poses, coverage %.4g>",
                           self.ape.rmse, self.num_matched, self.coverage);
       });
+}
+
+}  // namespace
+
+void BindEvaluation(py::module_* module) {
+  BindStatistics(module);
+  BindTrajectoryError(module);
   module->def(
       "evaluate", &Evaluate, py::arg("gt"), py::arg("est"), py::kw_only(), py::arg("align") = "se3",
-      py::arg("max_dt") = 0.02, py::arg("all_poses") = false,
+      py::arg("max_dt") = 0.02, py::arg("all_poses") = false, py::arg("rpe_delta") = 1.0,
+      py::arg("rpe_unit") = "frames", py::arg("rpe_all_pairs") = false,
       "Compares trajectories: a file, an (N, 8) array of rows t tx ty tz qx qy qz qw, or a Result. "
       "align: 'se3' (Umeyama), 'sim3' (with scale), 'origin' (first poses) or 'none'. max_dt: "
-      "seconds. "
+      "seconds. rpe_delta, rpe_unit ('frames', 'metres', 'seconds'), rpe_all_pairs: the pairs of "
+      "TrajectoryError.rpe, as --delta, --delta-unit and --all-pairs of `msc_vo evaluate`. "
       "Raises ValueError if fewer than three poses match or the alignment has no scale, and warns "
       "of "
       "what is in TrajectoryError.warnings.");

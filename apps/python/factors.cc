@@ -53,6 +53,18 @@ std::shared_ptr<const ceres::LossFunction> HuberLoss(const std::optional<double>
   return std::make_shared<ceres::HuberLoss>(*huber);
 }
 
+[[noreturn]] void RefuseItems(py::handle found, const std::string& name, const char* expected) {
+  throw std::invalid_argument(name + ": expected " + expected + " objects, not " +
+                              std::string(py::repr(found)));
+}
+
+// The items of an iterable; none of None.
+py::list ItemsOf(py::handle items, const std::string& name, const char* expected) {
+  if (items.is_none()) return py::list();
+  if (!py::isinstance<py::iterable>(items)) RefuseItems(items, name, expected);
+  return py::list(py::reinterpret_borrow<py::iterable>(items));
+}
+
 // Residuals and Jacobians at the given blocks, None where the cost function is not defined.
 py::object Evaluate(const PyCost& self, const py::args& blocks) {
   const std::vector<int32_t>& sizes = self.cost->parameter_block_sizes();
@@ -85,21 +97,6 @@ PyCost MakePythonCost(const py::function& callable, int num_residuals,
   return {std::make_shared<PythonCostFunction>(callable, num_residuals, block_sizes)};
 }
 
-ExtraBlock MakeExtraBlock(int64_t id, const py::object& value, const std::string& manifold,
-                          bool fixed) {
-  ExtraBlock block{id, VectorArgument(value, "value", -1), nullptr, fixed};
-  if (manifold == "sphere") {
-    if (block.value.size() != 3) {
-      throw std::invalid_argument("value: manifold 'sphere' is for unit vectors of three numbers");
-    }
-    block.manifold = std::make_shared<ceres::SphereManifold<3>>();
-  } else if (manifold != "euclidean") {
-    throw std::invalid_argument("manifold: must be 'euclidean' or 'sphere', not '" + manifold +
-                                "'");
-  }
-  return block;
-}
-
 void BindCosts(py::module_* module) {
   py::class_<PyCost>(*module, "CostFunction",
                      "A Ceres cost function. The Python callable gets the values of the parameter "
@@ -110,10 +107,12 @@ void BindCosts(py::module_* module) {
                      "7: quaternion x y z w and translation of cam_from_world.")
       .def(py::init(&MakePythonCost), py::arg("callable"), py::arg("num_residuals"),
            py::arg("block_sizes"), py::arg("numeric") = false)
-      .def_property_readonly("num_residuals",
-                             [](const PyCost& self) { return self.cost->num_residuals(); })
-      .def_property_readonly("block_sizes",
-                             [](const PyCost& self) { return self.cost->parameter_block_sizes(); })
+      .def_property_readonly(
+          "num_residuals", [](const PyCost& self) { return self.cost->num_residuals(); },
+          "Number of residuals.")
+      .def_property_readonly(
+          "block_sizes", [](const PyCost& self) { return self.cost->parameter_block_sizes(); },
+          "Number of values of each parameter block.")
       .def("evaluate", &Evaluate, "(residuals, jacobians) at the given blocks, or None.");
   module->def(
       "pose_prior",
@@ -166,32 +165,64 @@ void BindBlocks(py::module_* module) {
       .def_static("line", &BlockId::Line, py::arg("line"), "Both end points, size 6.")
       .def_static("axes", &BlockId::Axes, "Quaternion world_from_axes, size 4.")
       .def_static("extra", &BlockId::Extra, py::arg("id"), "An ExtraBlock.")
-      .def("__eq__", [](const BlockId& a, const BlockId& b) { return a == b; });
+      .def("__repr__", [](const BlockId& self) {
+        constexpr const char* kKinds[] = {"pose", "point", "line", "axes", "extra"};
+        const std::string id = self.kind == BlockKind::kAxes ? "" : std::to_string(self.id);
+        return "BlockId." + std::string(kKinds[static_cast<int>(self.kind)]) + "(" + id + ")";
+      });
   py::class_<ExtraBlock>(*module, "ExtraBlock", "A parameter block of your own.")
       .def(py::init(&MakeExtraBlock), py::arg("id"), py::arg("value"),
            py::arg("manifold") = "euclidean", py::arg("fixed") = false,
            "manifold: 'euclidean', or 'sphere' for unit vectors.")
-      .def_readonly("id", &ExtraBlock::id)
-      .def_property_readonly("value", [](const ExtraBlock& self) { return self.value; })
-      .def_readonly("fixed", &ExtraBlock::fixed);
+      .def_readonly("id", &ExtraBlock::id, "Id for BlockId.extra().")
+      .def_property_readonly(
+          "value", [](const ExtraBlock& self) { return self.value; }, "The initial value.")
+      .def_property_readonly("manifold", &ManifoldName, "'euclidean' or 'sphere'.")
+      .def_readonly("fixed", &ExtraBlock::fixed, "Whether the value is held constant.");
 }
 
 }  // namespace
 
+ExtraBlock MakeExtraBlock(int64_t id, const py::object& value, const std::string& manifold,
+                          bool fixed) {
+  ExtraBlock block{id, VectorArgument(value, "value", -1), nullptr, fixed};
+  if (manifold == "sphere") {
+    if (block.value.size() != 3) {
+      throw std::invalid_argument("value: manifold 'sphere' is for unit vectors of three numbers");
+    }
+    block.manifold = std::make_shared<ceres::SphereManifold<3>>();
+  } else if (manifold != "euclidean") {
+    throw std::invalid_argument("manifold: must be 'euclidean' or 'sphere', not '" + manifold +
+                                "'");
+  }
+  return block;
+}
+
+const char* ManifoldName(const ExtraBlock& block) {
+  return block.manifold == nullptr ? "euclidean" : "sphere";
+}
+
 FactorLists FactorsArgument(py::handle items, const std::string& name) {
   FactorLists lists;
-  if (items.is_none()) return lists;
-  for (const py::handle item : py::reinterpret_borrow<py::iterable>(items)) {
+  for (const py::handle item : ItemsOf(items, name, "CustomFactor and ExtraBlock")) {
     if (py::isinstance<CustomFactor>(item)) {
       lists.factors.push_back(item.cast<CustomFactor>());
     } else if (py::isinstance<ExtraBlock>(item)) {
       lists.extra_blocks.push_back(item.cast<ExtraBlock>());
     } else {
-      throw std::invalid_argument(name + ": expected CustomFactor and ExtraBlock objects, not " +
-                                  std::string(py::repr(item)));
+      RefuseItems(item, name, "CustomFactor and ExtraBlock");
     }
   }
   return lists;
+}
+
+std::vector<PoseFactor> PoseFactorsArgument(py::handle items, const std::string& name) {
+  std::vector<PoseFactor> factors;
+  for (const py::handle item : ItemsOf(items, name, "PoseFactor")) {
+    if (!py::isinstance<PoseFactor>(item)) RefuseItems(item, name, "PoseFactor");
+    factors.push_back(item.cast<PoseFactor>());
+  }
+  return factors;
 }
 
 void BindFactors(py::module_* module) {
@@ -206,15 +237,17 @@ void BindFactors(py::module_* module) {
            py::arg("name") = "factor",
            "huber: threshold of a Huber loss in standard deviations; None: no loss. name: for "
            "error messages.")
-      .def_readonly("name", &CustomFactor::name)
-      .def_readonly("blocks", &CustomFactor::blocks);
+      .def_readonly("name", &CustomFactor::name, "Name for error messages.")
+      .def_readonly("blocks", &CustomFactor::blocks,
+                    "The blocks of the window, one per parameter block of the cost function.");
   py::class_<PoseFactor>(*module, "PoseFactor", "A cost function over the pose of one frame.")
       .def(py::init(
                [](const PyCost& cost, const std::optional<double>& huber, const std::string& name) {
                  return PoseFactor{name, cost.cost, HuberLoss(huber)};
                }),
-           py::arg("cost"), py::arg("huber") = py::none(), py::arg("name") = "factor")
-      .def_readonly("name", &PoseFactor::name);
+           py::arg("cost"), py::arg("huber") = py::none(), py::arg("name") = "factor",
+           "cost: over one block, the pose. huber, name: as for CustomFactor.")
+      .def_readonly("name", &PoseFactor::name, "Name for error messages.");
 }
 
 }  // namespace msc_vo

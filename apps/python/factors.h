@@ -26,5 +26,13 @@ struct FactorLists {
   std::vector<ExtraBlock> extra_blocks;
 };
 FactorLists FactorsArgument(pybind11::handle items, const std::string& name);
+/// The PoseFactor objects of an iterable; none if it is None. Throws as FactorsArgument() does.
+std::vector<PoseFactor> PoseFactorsArgument(pybind11::handle items, const std::string& name);
+
+/// `manifold`: the name of one, see ManifoldName().
+ExtraBlock MakeExtraBlock(int64_t id, const pybind11::object& value, const std::string& manifold,
+                          bool fixed);
+/// "euclidean" or "sphere".
+const char* ManifoldName(const ExtraBlock& block);
 
 }  // namespace msc_vo

@@ -77,7 +77,9 @@ void BindPoses(py::class_<FrameResult>* frame) {
 }  // namespace
 
 void BindFrame(py::module_* module) {
-  py::class_<FrameResult> frame(*module, "FrameResult", "The result of one frame.");
+  py::class_<FrameResult> frame(*module, "FrameResult",
+                                "The result of one frame. Equal if all numbers but the measured "
+                                "times are, bit by bit.");
   frame.def_readonly("id", &FrameResult::id, "Position in the sequence of images, from 0.")
       .def_readonly("timestamp", &FrameResult::timestamp, "Seconds.")
       .def_property_readonly(
@@ -90,7 +92,7 @@ void BindFrame(py::module_* module) {
                     "Number of its segment; -1: it precedes the first one and has no pose.")
       .def_readonly("by_pose_factors", &FrameResult::by_pose_factors,
                     "Whether pose factors, not constant velocity, predict the pose.")
-      .def_readonly("is_keyframe", &FrameResult::is_keyframe)
+      .def_readonly("is_keyframe", &FrameResult::is_keyframe, "Whether it became a keyframe.")
       .def_property_readonly(
           "covariance",
           [](const FrameResult& self) -> std::optional<RowMajor6d> {

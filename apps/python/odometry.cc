@@ -3,9 +3,9 @@
 
 #include "msc_vo/odometry/odometry.h"
 
-#include <algorithm>
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -14,9 +14,14 @@
 
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
+#include "apps/python/checkpoint.h"
 #include "apps/python/factors.h"
+#include "apps/python/fork_guard.h"
+#include "apps/python/lens_argument.h"
+#include "apps/python/map.h"
 #include "apps/python/option_table.h"
 #include "apps/python/shared_object.h"
+#include "apps/python/tracked_image.h"
 #include "msc_vo/sensor/byte_order.h"
 
 namespace msc_vo {
@@ -24,19 +29,6 @@ namespace msc_vo {
 namespace py = pybind11;
 
 namespace {
-
-LensDistortion DistortionArgument(const py::object& value) {
-  LensDistortion distortion;
-  if (value.is_none()) return distortion;
-  if (py::isinstance<LensDistortion>(value)) return value.cast<LensDistortion>();
-  const Eigen::VectorXd k = VectorArgument(value, "distortion", -1);
-  if (k.size() != 0 && k.size() != 4 && k.size() != 5) {
-    throw std::invalid_argument("distortion: expected k1 k2 p1 p2 [k3], not " +
-                                std::to_string(k.size()) + " numbers");
-  }
-  std::copy(k.begin(), k.end(), distortion.k.begin());
-  return distortion;
-}
 
 // Throws std::invalid_argument if the bytes of raw depth, here in metres, are swapped.
 void CheckByteOrder(const cv::Mat& depth, const py::object& depth_scale) {
@@ -69,15 +61,44 @@ struct PyWindowContext {
 class PyOdometry {
  public:
   PyOdometry(const OptionsTable* options, const PinholeCamera& camera, const py::object& distortion)
-      : odometry_(std::make_unique<Odometry>(options ? options->values() : OdometryOptions(),
-                                             camera, DistortionArgument(distortion))) {}
-  // The mapper's thread, which is joined, may wait for the GIL.
+      : PyOdometry(options ? options->values() : OdometryOptions(), camera,
+                   LensArgument(distortion, "distortion")) {}
+  // The mapper's thread, which is joined, may wait for the GIL. In a forked process there is none
+  // to join, and what it was changing is not valid: the memory is left as it is.
   ~PyOdometry() {
+    if (IsInherited()) {
+      static_cast<void>(odometry_.release());
+      return;
+    }
     const py::gil_scoped_release release;
     odometry_.reset();
   }
   PyOdometry(const PyOdometry&) = delete;
   PyOdometry& operator=(const PyOdometry&) = delete;
+
+  PyMap CopyOfMap() {
+    return Alone([&] { return CopyMap(*odometry_->Map()); });
+  }
+
+  void Save(const py::object& folder) {
+    const std::string path = PathArgument(folder);
+    Alone([&] { checkpoint_.Save(path, odometry_.get()); });
+  }
+
+  void Restore(const py::object& folder) {
+    const std::string path = PathArgument(folder);
+    Alone([&] {
+      is_usable_ = false;
+      checkpoint_.Restore(path, odometry_.get());
+      is_usable_ = true;
+    });
+  }
+
+  void SetTrackingObserver(const py::object& callback) {
+    TrackingObserver observer;
+    if (!callback.is_none()) observer = MakeTrackingObserver(callback);
+    Alone([&] { odometry_->SetTrackingObserver(std::move(observer)); });
+  }
 
   FrameResult Process(const py::object& timestamp, const py::object& gray, const py::object& depth,
                       const py::object& depth_scale, const py::object& depth_delay) {
@@ -143,9 +164,7 @@ class PyOdometry {
       function =
           [shared = SharedObject(callback)](const FrameContext& frame) -> std::vector<PoseFactor> {
         const py::gil_scoped_acquire gil;
-        const py::object factors = shared.get()(frame);
-        if (factors.is_none()) return {};
-        return factors.cast<std::vector<PoseFactor>>();
+        return PoseFactorsArgument(shared.get()(frame), "pose factors");
       };
     }
     Alone([&] { odometry_->SetPoseFactors(std::move(function)); });
@@ -165,9 +184,26 @@ class PyOdometry {
   }
 
  private:
+  PyOdometry(const OdometryOptions& options, const PinholeCamera& camera,
+             const LensDistortion& distortion)
+      : odometry_(std::make_unique<Odometry>(options, camera, distortion)),
+        checkpoint_(options, camera, distortion),
+        has_threads_(options.threads > 1) {}
+
+  bool IsInherited() const { return has_threads_ && process_.IsInherited(); }
+
   // Calls `action` without the GIL and while nobody else uses the odometry.
   template <typename Action>
   auto Alone(const Action& action) -> decltype(action()) {
+    if (IsInherited()) {
+      throw std::runtime_error(
+          "the odometry was made before this process was forked, and its threads stay in the "
+          "parent: "
+          "make it in this process, or with threads=1");
+    }
+    if (!is_usable_) {
+      throw std::runtime_error("restore() has failed: make another Odometry to continue");
+    }
     if (busy_.exchange(true)) {
       throw std::runtime_error(
           "the odometry is in use: neither a second thread nor a callback may call it");
@@ -188,6 +224,10 @@ class PyOdometry {
   static constexpr int64_t kNumChecked = 4;  // images whose byte order is checked
 
   std::unique_ptr<Odometry> odometry_;
+  RunCheckpoint checkpoint_;
+  ForkGuard process_;
+  bool has_threads_;
+  bool is_usable_ = true;  // a checkpoint has not been read in part
   std::atomic<bool> busy_ = false;
 };
 
@@ -199,12 +239,14 @@ py::dict BlockValues(const std::vector<ExtraBlock>& blocks) {
 
 void BindContexts(py::module_* module) {
   py::class_<WindowContext::Keyframe>(*module, "WindowKeyframe", "A keyframe of a WindowContext.")
-      .def_readonly("id", &WindowContext::Keyframe::id)
-      .def_readonly("timestamp", &WindowContext::Keyframe::timestamp)
-      .def_readonly("fixed", &WindowContext::Keyframe::fixed)
-      .def_property_readonly("cam_from_world", [](const WindowContext::Keyframe& self) {
-        return PoseMatrix(self.cam_from_world);
-      });
+      .def_readonly("id", &WindowContext::Keyframe::id, "Id for BlockId.pose().")
+      .def_readonly("timestamp", &WindowContext::Keyframe::timestamp, "Seconds.")
+      .def_readonly("fixed", &WindowContext::Keyframe::fixed,
+                    "Whether the pose is held constant in this window.")
+      .def_property_readonly(
+          "cam_from_world",
+          [](const WindowContext::Keyframe& self) { return PoseMatrix(self.cam_from_world); },
+          "4x4.");
   py::class_<PyWindowContext, std::shared_ptr<PyWindowContext>>(
       *module, "WindowContext", "A window before its local bundle adjustment.")
       .def_property_readonly(
@@ -213,6 +255,13 @@ void BindContexts(py::module_* module) {
       .def_property_readonly(
           "world", [](const PyWindowContext& self) { return self.context.world; },
           "Number of the world of the poses.")
+      .def_property_readonly(
+          "world_from_axes",
+          [](const PyWindowContext& self) -> std::optional<Eigen::Matrix3d> {
+            if (!self.context.world_from_axes) return std::nullopt;
+            return self.context.world_from_axes->toRotationMatrix();
+          },
+          "3x3 rotation, the block BlockId.axes(); None while no Manhattan axes are found.")
       .def_property_readonly(
           "extra_blocks",
           [](const PyWindowContext& self) { return BlockValues(self.context.extra_blocks); },
@@ -223,16 +272,17 @@ void BindContexts(py::module_* module) {
           "Factors may use the ids of any of them. Raises RuntimeError after the callback, unless "
           "it was asked for before.");
   py::class_<FrameContext>(*module, "FrameContext", "A frame before its pose is estimated.")
-      .def_readonly("timestamp", &FrameContext::timestamp)
+      .def_readonly("timestamp", &FrameContext::timestamp, "Seconds.")
       .def_readonly("last_timestamp", &FrameContext::last_timestamp,
                     "Of the last frame whose pose was estimated from its image.")
       .def_property_readonly(
           "last_cam_from_world",
-          [](const FrameContext& self) { return PoseMatrix(self.last_cam_from_world); })
+          [](const FrameContext& self) { return PoseMatrix(self.last_cam_from_world); },
+          "4x4, the pose at last_timestamp.")
       .def_property_readonly(
           "predicted_cam_from_world",
           [](const FrameContext& self) { return PoseMatrix(self.predicted_cam_from_world); },
-          "By constant velocity.")
+          "4x4, by constant velocity.")
       .def_readonly("world", &FrameContext::world, "Number of the world of the poses.")
       .def_property_readonly(
           "extra_blocks", [](const FrameContext& self) { return BlockValues(self.extra_blocks); },
@@ -283,7 +333,22 @@ void BindOdometry(py::module_* module) {
           "first image.")
       .def("set_window_observer", &PyOdometry::SetWindowObserver, py::arg("callback"),
            "callback(keyframe, WindowData, WindowOptions) is called with a copy of every window "
-           "before it is solved. ValueError after the first image.");
+           "before it is solved. ValueError after the first image.")
+      .def("set_tracking_observer", &PyOdometry::SetTrackingObserver, py::arg("callback"),
+           "callback(TrackedImage) is called with every frame that process() has tracked, for "
+           "display. ValueError after the first image.")
+      .def("map", &PyOdometry::CopyOfMap,
+           "Waits for local mapping and returns a copy of the present Map.")
+      .def(
+          "save", &PyOdometry::Save, py::arg("folder"),
+          "Waits for local mapping and writes a checkpoint of the run, which replaces an earlier "
+          "one in the folder. An Odometry that restores it continues with the same results, bit by "
+          "bit. Callbacks are not part of it.")
+      .def(
+          "restore", &PyOdometry::Restore, py::arg("folder"),
+          "Continues the run of a checkpoint, before the first image, with the same options (but "
+          "threads), camera and lens: ValueError on others, RuntimeError on files that are missing "
+          "or damaged. After an error, only another Odometry can be used.");
 }
 
 }  // namespace msc_vo

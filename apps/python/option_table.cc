@@ -162,7 +162,6 @@ py::class_<Table> BindTable(py::module_* module, const char* name, const char* d
       .def("__len__", [](const Table& self) { return self.Names().size(); })
       .def("__iter__", [](const Table& self) { return py::iter(py::cast(self.Names())); })
       .def("keys", &Table::Names, "The names of all options.")
-      .def("__copy__", [](const Table& self) { return Table(self); })
       .def("__repr__", [name](const Table& self) { return self.Describe(name, Table()); });
   table.attr("__hash__") = py::none();
   return table;
@@ -179,8 +178,7 @@ void BindOptions(py::module_* module) {
           "read",
           [](const py::object& path) {
             Configuration configuration;
-            ReadConfiguration(py::module_::import("os").attr("fspath")(path).cast<std::string>(),
-                              &configuration);
+            ReadConfiguration(PathArgument(path), &configuration);
             return OptionsTable(configuration.odometry);
           },
           py::arg("path"),

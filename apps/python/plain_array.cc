@@ -81,6 +81,10 @@ py::array NumberArray(py::handle value, const std::string& name) {
   return array;
 }
 
+std::string PathArgument(py::handle value) {
+  return py::module_::import("os").attr("fspath")(value).cast<std::string>();
+}
+
 double NumberArgument(py::handle value, const std::string& name) {
   const py::array array = PlainArray(value, name);
   if (array.size() != 1 || !HasKind(array, "fiuO")) {

@@ -9,7 +9,7 @@
 
 namespace msc_vo {
 
-// Python values as arrays of plain numbers. All functions but IsMasked() throw
+// Python values as arrays of plain numbers, numbers and paths. All functions but IsMasked() throw
 // std::invalid_argument, in Python ValueError, that names the argument.
 
 /// "(480, 640, 3) of uint8", for messages.
@@ -24,6 +24,9 @@ pybind11::array PlainArray(pybind11::handle value, const std::string& name);
 
 /// Returns the value as a PlainArray() of integers or floating-point numbers.
 pybind11::array NumberArray(pybind11::handle value, const std::string& name);
+
+/// A path as str, bytes or os.PathLike.
+std::string PathArgument(pybind11::handle value);
 
 /// A number.
 double NumberArgument(pybind11::handle value, const std::string& name);

@@ -78,6 +78,12 @@ bool PythonCostFunction::Evaluate(double const* const* parameters, double* resid
   }
   const py::tuple pair = result;
   CopyNumbers(pair[0], "cost function: residuals", num_residuals(), -1, residuals);
+  if (!py::isinstance<py::sequence>(pair[1])) {
+    throw std::invalid_argument(
+        "cost function: Jacobians: expected a list with one array per "
+        "parameter block, not " +
+        std::string(py::str(py::type::of(pair[1]))));
+  }
   const py::sequence list = pair[1];
   if (list.size() != sizes.size()) {
     throw std::invalid_argument("cost function: expected " + std::to_string(sizes.size()) +

@@ -82,6 +82,29 @@ RowMajorMatrix AllRows(const OdometryResult& result) {
   return rows;
 }
 
+// One per frame; nan where nothing determines the pose.
+py::array CovariancesOf(const OdometryResult& result) {
+  const auto size = static_cast<py::ssize_t>(result.frames.size());
+  py::array_t<double> covariances({size, py::ssize_t{6}, py::ssize_t{6}});
+  double* to = covariances.mutable_data();
+  for (const FrameResult& frame : result.frames) {
+    Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> matrix(to);
+    if (frame.covariance) {
+      matrix = *frame.covariance;
+    } else {
+      matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+    to += matrix.size();
+  }
+  return std::move(covariances);
+}
+
+py::object StatusOf(const OdometryResult& result) {
+  py::list names;
+  for (const FrameResult& frame : result.frames) names.append(ToString(frame.status));
+  return py::module_::import("numpy").attr("array")(names, "U10");  // also if there are none
+}
+
 py::array SegmentOf(const OdometryResult& result) {
   py::array_t<int> segments(static_cast<py::ssize_t>(result.frames.size()));
   for (size_t i = 0; i < result.frames.size(); ++i) {
@@ -114,6 +137,14 @@ py::dict ExtraBlocksOf(const OdometryResult& result) {
   return blocks;
 }
 
+py::dict NoiseScaleOf(const OdometryResult& result) {
+  py::dict scale;
+  scale["point_depth"] = result.noise_scale.point_depth;
+  scale["line_pixel"] = result.noise_scale.line_pixel;
+  scale["line_depth"] = result.noise_scale.line_depth;
+  return scale;
+}
+
 std::string DescribeResult(const OdometryResult& result) {
   return FormatText("<Result: %zu frames, %zu keyframes, %zu points, %zu lines>",
                     result.frames.size(), result.keyframes.size(), result.points.size(),
@@ -121,19 +152,66 @@ std::string DescribeResult(const OdometryResult& result) {
 }
 
 void Write(const OdometryResult& result, const py::object& path) {
-  WriteTrajectory(py::module_::import("os").attr("fspath")(path).cast<std::string>(),
-                  TrajectoryOf(result));
+  WriteTrajectory(PathArgument(path), TrajectoryOf(result));
+}
+
+using ResultClass = py::class_<OdometryResult, std::shared_ptr<OdometryResult>>;
+
+void BindCalibrationOf(ResultClass* result) {
+  using Result = OdometryResult;
+  result->def_readonly("calibration", &Result::calibration, "What self-calibration found.")
+      .def_property_readonly(
+          "camera", [](const Result& self) { return self.intrinsics.camera; },
+          "Camera of the undistorted images at the end of the run: as given, or corrected.")
+      .def_property_readonly(
+          "lens", [](const Result& self) { return self.intrinsics.distortion; },
+          "Lens at the end of the run: as given, or corrected.")
+      .def_readonly(
+          "depth_camera", &Result::depth_camera,
+          "DepthCamera of the depth images that were given; the colour camera if they are "
+          "registered.")
+      .def_readonly("readout_time", &Result::readout_time,
+                    "Seconds, of the rolling shutter, given or estimated; 0: global shutter.")
+      .def_readonly("readout_time_sigma", &Result::readout_time_sigma,
+                    "Standard deviation of readout_time, seconds; 0 if it was given.")
+      .def_property_readonly("noise_scale", &NoiseScaleOf,
+                             "Estimated errors of 'point_depth', 'line_pixel' and 'line_depth' "
+                             "relative to the sigmas of the features.")
+      .def_property_readonly(
+          "depth_sensor", [](const Result& self) { return ToString(self.depth_sensor); },
+          "'structured-light', 'tof', 'stereo' or 'lidar'; 'auto': too little depth to tell.");
+}
+
+void BindAxesOf(ResultClass* result) {
+  using Result = OdometryResult;
+  result
+      ->def_property_readonly(
+          "axes_state", [](const Result& self) { return ToString(self.axes.state); },
+          "'none', 'coarse' or 'refined' Manhattan axes.")
+      .def_property_readonly("world_from_axes", &WorldFromAxes,
+                             "3x3 rotation; None without Manhattan axes.")
+      .def_property_readonly(
+          "axes_sigma", [](const Result& self) { return self.axes.sigma; },
+          "Standard deviation of the least certain axis, radians.");
 }
 
 }  // namespace
 
 void BindResult(py::module_* module) {
-  py::class_<OdometryResult, std::shared_ptr<OdometryResult>>(
-      *module, "Result", "The result of a run. Lengths in metres, in the world.")
+  ResultClass result(*module, "Result",
+                     "The result of a run. Lengths in metres, in the world. Equal if all numbers "
+                     "but the measured times are, bit by bit.");
+  BindCalibrationOf(&result);
+  BindAxesOf(&result);
+  result
       .def_property_readonly("trajectory", &AllRows,
                              "(N, 8) rows t tx ty tz qx qy qz qw, one per frame, camera in world; "
                              "nan in frames before "
                              "the first segment, which have no pose.")
+      .def_property_readonly("covariances", &CovariancesOf,
+                             "(N, 6, 6), one per frame, of cam_from_world as "
+                             "FrameResult.covariance; nan where nothing determines the pose.")
+      .def_property_readonly("status", &StatusOf, "(N,) str, FrameResult.status of every frame.")
       .def_property_readonly("segment", &SegmentOf,
                              "(N,) number of the segment that each frame belongs to; -1: none.")
       .def_property_readonly("segments", &SegmentsOf,
@@ -149,20 +227,15 @@ void BindResult(py::module_* module) {
                              "(P,) number of keyframes that observe each point.")
       .def_property_readonly("lines", &LinesOf,
                              "(L, 6) start and end of map lines; read-only, not a copy.")
-      .def_property_readonly("line_observations", &LineObservationsOf, "(L,)")
+      .def_property_readonly("line_observations", &LineObservationsOf,
+                             "(L,) number of keyframes that observe each line.")
       .def_property_readonly(
           "line_axes", &LineAxesOf,
           "(L,) the Manhattan axis (0, 1, 2) that a line is parallel to; -1: none.")
-      .def_property_readonly(
-          "axes_state", [](const OdometryResult& self) { return ToString(self.axes.state); },
-          "'none', 'coarse' or 'refined' Manhattan axes.")
-      .def_property_readonly("world_from_axes", &WorldFromAxes,
-                             "3x3 rotation; None without Manhattan axes.")
-      .def_readonly("readout_time", &OdometryResult::readout_time,
-                    "Seconds, of the rolling shutter, given or estimated; 0: global shutter.")
-      .def_property_readonly(
-          "depth_sensor", [](const OdometryResult& self) { return ToString(self.depth_sensor); },
-          "'structured-light', 'tof', 'stereo' or 'lidar'; 'auto': too little depth to tell.")
+      .def_readonly("map_world", &OdometryResult::map_world,
+                    "Number of the world of keyframes, points, lines and axes.")
+      .def_readonly("last_window", &OdometryResult::last_window,
+                    "WindowSummary of the last local bundle adjustment.")
       .def_readonly("num_late_maps", &OdometryResult::num_late_maps,
                     "Maps that were late in real time.")
       .def_property_readonly("extra_blocks", &ExtraBlocksOf, "Estimates of the extra blocks by id.")

@@ -22,10 +22,6 @@ namespace py = pybind11;
 
 namespace {
 
-std::string PathArgument(const py::object& path) {
-  return py::module_::import("os").attr("fspath")(path).cast<std::string>();
-}
-
 RgbdDecoder Open(const py::object& directory, const std::string& format, const std::string& camera,
                  const py::object& config) {
   Configuration configuration;
@@ -53,6 +49,14 @@ py::array DepthOf(const py::object& self) {
   const cv::Mat& depth = self.cast<const RgbdImage&>().depth;
   return ArrayView(depth.ptr<float>(), {depth.rows, depth.cols},
                    {static_cast<py::ssize_t>(depth.step[0]), sizeof(float)}, self);
+}
+
+py::array StampsOf(const RgbdDecoder& sequence) {
+  py::array_t<double> stamps(sequence.size());
+  for (int i = 0; i < sequence.size(); ++i) {
+    stamps.mutable_at(i) = sequence.index().entries[i].timestamp;
+  }
+  return std::move(stamps);
 }
 
 void BindImage(py::module_* module) {
@@ -85,8 +89,17 @@ void BindSequence(py::module_* module) {
            "RuntimeError naming file, line and fix.")
       .def("__len__", &RgbdDecoder::size)
       .def("__getitem__", &ImageAt, py::arg("index"))
-      .def_property_readonly("camera",
-                             [](const RgbdDecoder& self) { return self.calibration().camera; })
+      .def("__iter__",
+           [](const py::object& self) {
+             return py::reinterpret_steal<py::object>(PySeqIter_New(self.ptr()));  // by __getitem__
+           })
+      .def_property_readonly(
+          "camera", [](const RgbdDecoder& self) { return self.calibration().camera; },
+          "Camera of the undistorted images.")
+      .def_property_readonly(
+          "depth_camera", [](const RgbdDecoder& self) { return self.calibration().depth_camera; },
+          "DepthCamera of the recorded depth images, which sequence[i] has registered; None if "
+          "they are recorded as registered.")
       .def_property_readonly(
           "distortion",
           [](const RgbdDecoder& self) { return self.calibration().distortion.Coefficients(); },
@@ -100,22 +113,23 @@ void BindSequence(py::module_* module) {
       .def_property_readonly(
           "readout_time", [](const RgbdDecoder& self) { return self.calibration().readout_time; },
           "Seconds from the first row to the last, 0: global shutter, None: unknown.")
-      .def_property_readonly("timestamps",
-                             [](const RgbdDecoder& self) {
-                               py::array_t<double> stamps(self.size());
-                               for (int i = 0; i < self.size(); ++i) {
-                                 stamps.mutable_at(i) = self.index().entries[i].timestamp;
-                               }
-                               return stamps;
-                             })
+      .def_property_readonly("timestamps", &StampsOf, "(N,) seconds, of the colour images.")
       .def_property_readonly(
           "groundtruth",
           [](const RgbdDecoder& self) { return TrajectoryRows(self.index().ground_truth); },
           "(N, 8) rows t tx ty tz qx qy qz qw; no rows without ground truth.")
-      .def_property_readonly("directory",
-                             [](const RgbdDecoder& self) { return self.index().directory; })
-      .def_property_readonly("format", [](const RgbdDecoder& self) { return self.index().format; })
-      .def_property_readonly("warnings", &RgbdDecoder::Warnings);
+      .def_property_readonly(
+          "directory", [](const RgbdDecoder& self) { return self.index().directory; },
+          "The folder.")
+      .def_property_readonly(
+          "format", [](const RgbdDecoder& self) { return self.index().format; },
+          "Name of its layout, see --format of `msc_vo replay`.")
+      .def_property_readonly("warnings", &RgbdDecoder::Warnings,
+                             "What is doubtful about the sequence.")
+      .def("__repr__", [](const RgbdDecoder& self) {
+        return "<Sequence '" + self.index().directory + "': " + std::to_string(self.size()) +
+               " images>";
+      });
 }
 
 }  // namespace msc_vo

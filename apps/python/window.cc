@@ -12,6 +12,7 @@
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "apps/python/factors.h"
+#include "apps/python/observations.h"
 #include "apps/python/option_table.h"
 #include "apps/python/window_arrays.h"
 #include "msc_vo/bundle_adjustment/window_covariance.h"
@@ -23,10 +24,6 @@ namespace msc_vo {
 namespace py = pybind11;
 
 namespace {
-
-std::string PathText(const py::object& path) {
-  return py::module_::import("os").attr("fspath")(path).cast<std::string>();
-}
 
 BundleAdjustmentOptions OptionsOf(const WindowOptionsTable* options) {
   return options ? options->window() : BundleAdjustmentOptions();
@@ -121,6 +118,53 @@ void AddFactors(WindowData* window, const py::object& items) {
                               lists.extra_blocks.end());
 }
 
+template <typename Items>
+py::array FixedOf(const Items& items) {
+  py::array_t<bool> fixed(static_cast<py::ssize_t>(items.size()));
+  for (size_t i = 0; i < items.size(); ++i) fixed.mutable_at(i) = items[i].fixed;
+  return std::move(fixed);
+}
+
+// One number per item.
+template <typename Items, typename Get>
+py::array NumbersOf(const Items& items, const Get& get) {
+  py::array_t<double> numbers(static_cast<py::ssize_t>(items.size()));
+  for (size_t i = 0; i < items.size(); ++i) numbers.mutable_at(i) = get(items[i]);
+  return std::move(numbers);
+}
+
+void SetKeyframeFixed(WindowData* window, int64_t keyframe, bool fixed) {
+  for (WindowData::Keyframe& candidate : window->keyframes) {
+    if (candidate.id != keyframe) continue;
+    candidate.fixed = fixed;
+    return;
+  }
+  throw std::invalid_argument("keyframe: " + std::to_string(keyframe) + " is not in the window");
+}
+
+py::list PosePriorsOf(const WindowData& window) {
+  py::list priors;
+  for (const WindowData::PosePrior& prior : window.pose_priors) {
+    py::dict fields;
+    fields["keyframe"] = prior.keyframe;
+    fields["cam_from_world"] = PoseMatrix(prior.cam_from_world);
+    fields["covariance"] = RowMajorMatrix(prior.covariance);
+    priors.append(fields);
+  }
+  return priors;
+}
+
+py::dict ExtraBlocksOf(const WindowData& window) {
+  py::dict blocks;
+  for (const ExtraBlock& block : window.extra_blocks) blocks[py::int_(block.id)] = block.value;
+  return blocks;
+}
+
+std::string Describe(const WindowData& window) {
+  return FormatText("<WindowData: %zu keyframes, %zu points, %zu lines>", window.keyframes.size(),
+                    window.points.size(), window.lines.size());
+}
+
 using WindowClass = py::class_<WindowData, std::shared_ptr<WindowData>>;
 
 void BindAdders(WindowClass* window) {
@@ -128,9 +172,13 @@ void BindAdders(WindowClass* window) {
   window->def("add_keyframes", &AddKeyframes, py::arg("ids"), py::arg("cam_from_world"),
               py::arg("fixed") = none, "cam_from_world: (N, 4, 4). fixed: held constant.");
   window->def("add_points", &AddPoints, py::arg("ids"), py::arg("positions"),
-              py::arg("fixed") = none, "positions: (N, 3), metres, world.");
+              py::arg("fixed") = none, py::arg("noise") = 1.0,
+              "positions: (N, 3), metres, world. noise: factor on the sigmas of its observations, "
+              "one number or N.");
   window->def("add_lines", &AddLines, py::arg("ids"), py::arg("segments"), py::arg("fixed") = none,
-              "segments: (N, 6), start and end, metres, world.");
+              py::arg("noise") = 1.0, py::arg("depth_offsets") = 0.0,
+              "segments: (N, 6), start and end, metres, world. noise: as for points. "
+              "depth_offsets: measured minus true depth in all observations of a line, metres.");
   window->def("add_point_observations", &AddPointObservations, py::arg("keyframes"),
               py::arg("points"), py::arg("pixels"), py::arg("sigmas") = 1.0,
               py::arg("inverse_depths") = 0.0, py::arg("inverse_depth_sigmas") = 0.0,
@@ -140,7 +188,7 @@ void BindAdders(WindowClass* window) {
               py::arg("segments"), py::arg("sigmas") = 1.0, py::arg("inverse_depths") = none,
               py::arg("depth_covariances") = none,
               "segments: (N, 4), undistorted end points. inverse_depths: (N, 2) at the end points, "
-              "with covariances (N, 2, 2).");
+              "with covariances (N, 2, 2); rows of nan: not measured.");
   window->def(
       "add_parallel_pairs",
       [](WindowData* self, const py::object& a, const py::object& b, const py::object& sigmas,
@@ -153,9 +201,10 @@ void BindAdders(WindowClass* window) {
          const py::object& counts) {
         AddLinePairs(&self->perpendicular_pairs, a, b, sigmas, counts);
       },
-      py::arg("a"), py::arg("b"), py::arg("sigmas") = 0.03, py::arg("counts") = none);
+      py::arg("a"), py::arg("b"), py::arg("sigmas") = 0.03, py::arg("counts") = none,
+      "The same for perpendicular lines.");
   window->def("add_axis_alignments", &AddAxisAlignments, py::arg("lines"), py::arg("axes"),
-              py::arg("sigmas") = 0.03, "axes: (N, 3) unit vectors, world.");
+              py::arg("sigmas") = 0.03, "axes: (N, 3) unit vectors, world. sigmas: radians.");
   window->def("add_pose_prior", &AddPosePrior, py::arg("keyframe"), py::arg("cam_from_world"),
               py::arg("covariance"),
               "covariance: 6x6 of rotation vector (radians, camera frame), translation (metres).");
@@ -164,15 +213,120 @@ void BindAdders(WindowClass* window) {
   window->def("add", &AddFactors, py::arg("items"), "CustomFactor and ExtraBlock objects.");
 }
 
+void BindState(WindowClass* window) {
+  (*window)
+      .def_readonly("camera", &WindowData::camera, "Camera of all keyframes.")
+      .def_property_readonly(
+          "keyframe_ids", [](const WindowData& self) { return IdsOf(self.keyframes); },
+          "(N,) ids in the order of the other arrays of keyframes.")
+      .def_property_readonly("cam_from_world", &PosesOf, "(N, 4, 4) poses of the keyframes.")
+      .def_property_readonly(
+          "keyframe_fixed", [](const WindowData& self) { return FixedOf(self.keyframes); },
+          "(N,) whether each keyframe is held constant.")
+      .def("set_keyframe_fixed", &SetKeyframeFixed, py::arg("keyframe"), py::arg("fixed") = true,
+           "Holds a keyframe constant, or not.")
+      .def_property_readonly(
+          "point_ids", [](const WindowData& self) { return IdsOf(self.points); },
+          "(N,) ids in the order of points.")
+      .def_property_readonly("points", &PointsOf, "(N, 3) metres, world.")
+      .def_property_readonly(
+          "point_fixed", [](const WindowData& self) { return FixedOf(self.points); },
+          "(N,) whether each point is held constant.")
+      .def_property_readonly(
+          "point_noise",
+          [](const WindowData& self) {
+            return NumbersOf(self.points, [](const WindowData::Point& p) { return p.noise; });
+          },
+          "(N,) factors on the sigmas of the observations of each point.")
+      .def_property_readonly(
+          "line_ids", [](const WindowData& self) { return IdsOf(self.lines); },
+          "(N,) ids in the order of lines.")
+      .def_property_readonly("lines", &LinesOf, "(N, 6) start and end, metres, world.")
+      .def_property_readonly(
+          "line_fixed", [](const WindowData& self) { return FixedOf(self.lines); },
+          "(N,) whether each line is held constant.")
+      .def_property_readonly(
+          "line_noise",
+          [](const WindowData& self) {
+            return NumbersOf(self.lines, [](const WindowData::Line& l) { return l.noise; });
+          },
+          "(N,) factors on the sigmas of the observations of each line.")
+      .def_property_readonly(
+          "line_depth_offsets",
+          [](const WindowData& self) {
+            return NumbersOf(self.lines, [](const WindowData::Line& l) { return l.depth_offset; });
+          },
+          "(N,) metres, measured minus true depth in all observations of each line.")
+      .def_property_readonly(
+          "world_from_axes",
+          [](const WindowData& self) -> std::optional<Eigen::Matrix3d> {
+            if (!self.axes) return std::nullopt;
+            return self.axes->world_from_axes.toRotationMatrix();
+          },
+          "3x3 rotation of set_axes(); None without.")
+      .def_property_readonly("extra_blocks", &ExtraBlocksOf, "Values of the extra blocks by id.");
+}
+
+void BindMeasurements(WindowClass* window) {
+  (*window)
+      .def_property_readonly(
+          "point_observations",
+          [](const WindowData& self) { return PointObservationArrays(self.point_observations); },
+          "The arguments of add_point_observations() as a dict of arrays.")
+      .def_property_readonly(
+          "line_observations",
+          [](const WindowData& self) { return LineObservationArrays(self.line_observations); },
+          "The arguments of add_line_observations() as a dict of arrays; depths that are not "
+          "measured are nan.")
+      .def_property_readonly(
+          "parallel_pairs",
+          [](const WindowData& self) { return LinePairArrays(self.parallel_pairs); },
+          "The arguments of add_parallel_pairs() as a dict of arrays.")
+      .def_property_readonly(
+          "perpendicular_pairs",
+          [](const WindowData& self) { return LinePairArrays(self.perpendicular_pairs); },
+          "The arguments of add_perpendicular_pairs() as a dict of arrays.")
+      .def_property_readonly(
+          "axis_alignments",
+          [](const WindowData& self) { return AxisAlignmentArrays(self.axis_alignments); },
+          "The arguments of add_axis_alignments() as a dict of arrays.")
+      .def_property_readonly("pose_priors", &PosePriorsOf,
+                             "A dict with the arguments of add_pose_prior() for each prior.")
+      .def_property_readonly(
+          "point_observation_rejected",
+          [](const WindowData& self) { return RejectedOf(self.point_observations); },
+          "Whether the solver took each observation for an outlier.")
+      .def_property_readonly(
+          "line_observation_rejected",
+          [](const WindowData& self) { return RejectedOf(self.line_observations); },
+          "The same for the observations of lines.")
+      .def_property_readonly(
+          "parallel_rejected",
+          [](const WindowData& self) { return RejectedOf(self.parallel_pairs); },
+          "The same for pairs of parallel lines.")
+      .def_property_readonly(
+          "perpendicular_rejected",
+          [](const WindowData& self) { return RejectedOf(self.perpendicular_pairs); },
+          "The same for pairs of perpendicular lines.")
+      .def_property_readonly(
+          "axis_alignment_rejected",
+          [](const WindowData& self) { return RejectedOf(self.axis_alignments); },
+          "The same for lines along an axis.");
+}
+
 void BindSummary(py::module_* module) {
   py::class_<BundleAdjustmentSummary>(*module, "WindowSummary", "What solve_window did.")
       .def_readonly("usable", &BundleAdjustmentSummary::usable,
                     "False: the solver failed and the window is unchanged.")
-      .def_readonly("num_iterations", &BundleAdjustmentSummary::num_iterations)
-      .def_readonly("num_accepted", &BundleAdjustmentSummary::num_accepted)
-      .def_readonly("initial_cost", &BundleAdjustmentSummary::initial_cost)
-      .def_readonly("final_cost", &BundleAdjustmentSummary::final_cost)
-      .def_readonly("message", &BundleAdjustmentSummary::message)
+      .def_readonly("num_iterations", &BundleAdjustmentSummary::num_iterations,
+                    "Steps of both solves.")
+      .def_readonly("num_accepted", &BundleAdjustmentSummary::num_accepted,
+                    "Steps that were taken, because they decreased the cost.")
+      .def_readonly("initial_cost", &BundleAdjustmentSummary::initial_cost,
+                    "Half the sum of robust squares before the first solve.")
+      .def_readonly("final_cost", &BundleAdjustmentSummary::final_cost,
+                    "The same after the second solve, without outliers.")
+      .def_readonly("message", &BundleAdjustmentSummary::message, "Why the solver ended.")
       .def_property_readonly("terms", &TermsOf,
                              "Residual blocks, rejections and costs of every term.")
       .def("report", &BundleAdjustmentSummary::BriefReport, "Text of several lines.")
@@ -187,7 +341,7 @@ void BindFiles(py::module_* module) {
   module->def(
       "read_window",
       [](const py::object& path) {
-        RecordedWindow window = ReadWindow(PathText(path));
+        RecordedWindow window = ReadWindow(PathArgument(path));
         return py::make_tuple(std::make_shared<WindowData>(std::move(window.data)),
                               WindowOptionsTable(window.options));
       },
@@ -195,7 +349,7 @@ void BindFiles(py::module_* module) {
   module->def(
       "write_window",
       [](const py::object& path, const WindowData& window, const WindowOptionsTable* options) {
-        WriteWindow(PathText(path), OptionsOf(options), window);
+        WriteWindow(PathArgument(path), OptionsOf(options), window);
       },
       py::arg("path"), py::arg("window"), py::arg("options") = py::none(),
       "Writes a window file, without custom factors.");
@@ -211,38 +365,22 @@ void BindWindow(py::module_* module) {
                data->camera = camera;
                return data;
              }),
-             py::arg("camera"));
+             py::arg("camera"), "A window without keyframes.");
+  window.def("__repr__", &Describe);
   BindAdders(&window);
-  window.def_readonly("camera", &WindowData::camera)
-      .def_property_readonly("keyframe_ids",
-                             [](const WindowData& self) { return IdsOf(self.keyframes); })
-      .def_property_readonly("cam_from_world", &PosesOf, "(N, 4, 4) poses of the keyframes.")
-      .def_property_readonly("point_ids", [](const WindowData& self) { return IdsOf(self.points); })
-      .def_property_readonly("points", &PointsOf, "(N, 3) metres, world.")
-      .def_property_readonly("line_ids", [](const WindowData& self) { return IdsOf(self.lines); })
-      .def_property_readonly("lines", &LinesOf, "(N, 6) start and end, metres, world.")
-      .def_property_readonly(
-          "point_observation_rejected",
-          [](const WindowData& self) { return RejectedOf(self.point_observations); },
-          "Whether the solver took each observation for an outlier.")
-      .def_property_readonly(
-          "line_observation_rejected",
-          [](const WindowData& self) { return RejectedOf(self.line_observations); })
-      .def_property_readonly("extra_blocks", [](const WindowData& self) {
-        py::dict blocks;
-        for (const ExtraBlock& block : self.extra_blocks) blocks[py::int_(block.id)] = block.value;
-        return blocks;
-      });
+  BindState(&window);
+  BindMeasurements(&window);
   BindSummary(module);
   BindFiles(module);
   module->def(
-      "solve_window", &Solve, py::arg("window"), py::arg("options") = py::none(),
+      "solve_window", &Solve, py::arg("window").none(false), py::arg("options") = py::none(),
       "Local bundle adjustment: refines the window in place. Raises ValueError that names "
       "the offending item, and exceptions of cost functions as they are; the window is then "
       "unchanged.");
-  module->def("window_covariance", &Covariances, py::arg("window"), py::arg("options") = py::none(),
-              py::kw_only(), py::arg("keyframes") = py::tuple(), py::arg("points") = py::tuple(),
-              py::arg("lines") = py::tuple(), py::arg("extra_blocks") = py::tuple(),
+  module->def("window_covariance", &Covariances, py::arg("window").none(false),
+              py::arg("options") = py::none(), py::kw_only(), py::arg("keyframes") = py::tuple(),
+              py::arg("points") = py::tuple(), py::arg("lines") = py::tuple(),
+              py::arg("extra_blocks") = py::tuple(),
               "Covariances of a solved window for the given ids, as dictionaries by kind and id; "
               "None where the window does not determine an item.");
 }

@@ -30,7 +30,9 @@ RowMajorMatrix CovarianceRows(py::handle value, const std::string& name, int siz
     throw std::invalid_argument(name + ": expected shape (" + std::to_string(size) +
                                 ", 2, 2), not " + DescribeArray(array));
   }
-  return MatrixArgument(array.attr("reshape")(size, 4), name, size, 4);
+  RowMajorMatrix rows(size, 4);
+  CopyNumbers(array.attr("reshape")(size, 4), name, size, 4, rows.data());
+  return rows;
 }
 
 }  // namespace
@@ -43,23 +45,28 @@ void AddKeyframes(WindowData* window, py::handle ids, py::handle cam_from_world,
   for (int i = 0; i < size; ++i) window->keyframes.push_back({names[i], poses[i], is_fixed[i]});
 }
 
-void AddPoints(WindowData* window, py::handle ids, py::handle positions, py::handle fixed) {
+void AddPoints(WindowData* window, py::handle ids, py::handle positions, py::handle fixed,
+               py::handle noise) {
   const RowMajorMatrix rows = MatrixArgument(positions, "positions", -1, 3);
   const int size = static_cast<int>(rows.rows());
   const std::vector<int64_t> names = IdsArgument(ids, "ids", size);
   const std::vector<bool> is_fixed = FlagsArgument(fixed, "fixed", size);
+  const Eigen::VectorXd factor = PerRowArgument(noise, "noise", size);
   for (int i = 0; i < size; ++i) {
-    window->points.push_back({names[i], rows.row(i).transpose(), is_fixed[i]});
+    window->points.push_back({names[i], rows.row(i).transpose(), is_fixed[i], factor[i]});
   }
 }
 
-void AddLines(WindowData* window, py::handle ids, py::handle segments, py::handle fixed) {
+void AddLines(WindowData* window, py::handle ids, py::handle segments, py::handle fixed,
+              py::handle noise, py::handle depth_offsets) {
   const RowMajorMatrix rows = MatrixArgument(segments, "segments", -1, 6);
   const int size = static_cast<int>(rows.rows());
   const std::vector<int64_t> names = IdsArgument(ids, "ids", size);
   const std::vector<bool> is_fixed = FlagsArgument(fixed, "fixed", size);
+  const Eigen::VectorXd factor = PerRowArgument(noise, "noise", size);
+  const Eigen::VectorXd offset = PerRowArgument(depth_offsets, "depth_offsets", size);
   for (int i = 0; i < size; ++i) {
-    window->lines.push_back({names[i], SegmentOf(rows, i), is_fixed[i]});
+    window->lines.push_back({names[i], SegmentOf(rows, i), is_fixed[i], factor[i], offset[i]});
   }
 }
 
@@ -94,7 +101,8 @@ void AddLineObservations(WindowData* window, py::handle keyframes, py::handle li
   }
   RowMajorMatrix depth, covariance;
   if (has_depth) {
-    depth = MatrixArgument(inverse_depths, "inverse_depths", size, 2);
+    depth.resize(size, 2);
+    CopyNumbers(inverse_depths, "inverse_depths", size, 2, depth.data());
     covariance = CovarianceRows(depth_covariances, "depth_covariances", size);
   }
   for (int i = 0; i < size; ++i) {
@@ -103,8 +111,11 @@ void AddLineObservations(WindowData* window, py::handle keyframes, py::handle li
     observation.line = line[i];
     observation.segment = {rows.row(i).head<2>().transpose(), rows.row(i).tail<2>().transpose()};
     observation.sigma = sigma[i];
-    observation.has_depth = has_depth;
-    if (has_depth) {
+    // Rows of nan are depths that are not measured; the solver refuses other numbers that are not
+    // finite.
+    observation.has_depth = has_depth && !(depth.row(i).array().isNaN().all() &&
+                                           covariance.row(i).array().isNaN().all());
+    if (observation.has_depth) {
       observation.depth.start = depth(i, 0);
       observation.depth.end = depth(i, 1);
       observation.depth.covariance << covariance(i, 0), covariance(i, 1), covariance(i, 2),

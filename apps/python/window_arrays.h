@@ -18,9 +18,9 @@ namespace msc_vo {
 void AddKeyframes(WindowData* window, pybind11::handle ids, pybind11::handle cam_from_world,
                   pybind11::handle fixed);
 void AddPoints(WindowData* window, pybind11::handle ids, pybind11::handle positions,
-               pybind11::handle fixed);
+               pybind11::handle fixed, pybind11::handle noise);
 void AddLines(WindowData* window, pybind11::handle ids, pybind11::handle segments,
-              pybind11::handle fixed);
+              pybind11::handle fixed, pybind11::handle noise, pybind11::handle depth_offsets);
 void AddPointObservations(WindowData* window, pybind11::handle keyframes, pybind11::handle points,
                           pybind11::handle pixels, pybind11::handle sigmas,
                           pybind11::handle inverse_depths, pybind11::handle inverse_depth_sigmas);

@@ -21,14 +21,15 @@ namespace msc_vo {
 
 namespace {
 
-void CheckImage(const cv::Mat& image, int type, const PinholeCamera& camera, const char* name,
-                const char* type_name) {
-  if (image.type() == type && image.cols == camera.width && image.rows == camera.height) return;
-  throw std::invalid_argument("FrameBuilder: the " + std::string(name) + " image must be " +
-                              type_name + " of " + std::to_string(camera.width) + "x" +
-                              std::to_string(camera.height) + " pixels, like the camera; it is " +
-                              std::to_string(image.cols) + "x" + std::to_string(image.rows) +
-                              ", OpenCV type " + std::to_string(image.type()));
+void CheckImage(const cv::Mat& image, int type, const PinholeCamera& camera, const char* name) {
+  if (image.type() != type) {
+    throw std::invalid_argument(std::string(name) + ": image must be " + cv::typeToString(type) +
+                                ", is " + cv::typeToString(image.type()));
+  }
+  if (image.cols == camera.width && image.rows == camera.height) return;
+  throw std::invalid_argument(std::string(name) + ": image is " + std::to_string(image.cols) + "x" +
+                              std::to_string(image.rows) + ", camera is " +
+                              std::to_string(camera.width) + "x" + std::to_string(camera.height));
 }
 
 }  // namespace
@@ -124,8 +125,8 @@ FrameBuilder::FrameBuilder(const FrameBuilderOptions& options, const PinholeCame
 FrameBuilder::~FrameBuilder() = default;
 
 void FrameBuilder::Check(const RgbdImage& image) const {
-  CheckImage(image.gray, CV_8UC1, state_->camera, "grey", "8-bit grey (CV_8UC1)");
-  CheckImage(image.depth, CV_32FC1, state_->camera, "depth", "float (CV_32FC1, metres)");
+  CheckImage(image.gray, CV_8UC1, state_->camera, "gray");
+  CheckImage(image.depth, CV_32FC1, state_->camera, "depth");
 }
 
 Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {

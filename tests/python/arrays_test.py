@@ -106,14 +106,14 @@ class Images(unittest.TestCase):
         for kind in (np.float16, np.float64, np.longdouble, np.int16, np.int32, np.uint8, np.uint32, bool,
                      np.complex64, object, "U8"):
             with self.subTest(kind=kind):
-                refuse("^depth: expected", depth=image.depth.astype(kind))
-                refuse("^depth: expected", depth=image.depth.astype(kind), depth_scale=1000.0)
+                refuse("^depth: must be float32", depth=image.depth.astype(kind))
+                refuse("^depth: must be float32", depth=image.depth.astype(kind), depth_scale=1000.0)
         for kind in (np.int8, np.uint16, np.float32, bool, object):
             with self.subTest(kind=kind):
-                refuse("^gray: expected", gray=image.gray.astype(kind))
+                refuse("^gray: must be uint8, is", gray=image.gray.astype(kind))
         refuse("^gray: has masked elements", gray=np.ma.masked_equal(image.gray, image.gray[0, 0]))
         refuse("^depth: has a unit", depth=Foreign(image.depth, unit="mm"))
-        refuse("^depth: .*records|^depth: expected",
+        refuse("^depth: .*records|^depth: must be float32",
                depth=image.depth.view([("z", np.float32)]))
 
     def test_impossible_depth_scales_are_refused_with_the_right_one(self):

@@ -175,17 +175,18 @@ class Arrays(unittest.TestCase):
 
     def test_arrays_that_do_not_fit_are_refused(self):
         gray, depth = self.image.gray, self.image.depth
-        self.refuse(r"gray: expected uint8 .* not \(480, 640\) of float64", gray=gray / 255.0)
+        self.refuse("gray: must be uint8, is float64$", gray=gray / 255.0)
         self.refuse(r"gray: .*\(480, 640, 4\)", gray=np.zeros((480, 640, 4), np.uint8))
         self.refuse("gray: the array is not C-contiguous.*ascontiguousarray", gray=gray[:, ::-1])
         self.refuse("gray: the image is empty", gray=gray[:0])
-        self.refuse("depth: expected shape .* float64", depth=depth.astype(np.float64))
+        self.refuse("depth: must be float32 .* is float64$", depth=depth.astype(np.float64))
         self.refuse("depth: the array is not C-contiguous", depth=depth[:, ::2])
         self.refuse("depth: uint16 needs depth_scale", depth=np.zeros((480, 640), np.uint16))
         self.refuse("depth_scale is for uint16", depth_scale=5000.0)
         self.refuse("depth_scale", depth=np.zeros((480, 640), np.uint16), depth_scale=0.0)
-        self.refuse("640x480|640|camera", gray=gray[:240], depth=depth[:240])
-        self.refuse("gray: expected", gray="image")
+        self.refuse("gray: image is 640x240, camera is 640x480$", gray=gray[:240], depth=depth[:240])
+        self.refuse("depth: image is 640x240, camera is 640x480$", depth=depth[:240])
+        self.refuse("gray: must be uint8", gray="image")
 
     def test_continues_after_an_error(self):
         self.refuse("gray", gray=self.image.depth)

@@ -13,16 +13,20 @@ from ._msc_vo import *  # noqa: F401,F403
 from ._msc_vo import __version__  # noqa: F401
 
 
-def replay(sequence, options=None, on_frame=None):
-    """Runs the odometry over a Sequence as `msc_vo replay` does and returns its Result.
+def replay(sequence, options=None, on_frame=None, on_tracked=None):
+    """Runs the odometry over a sequence as `msc_vo replay` does and returns its Result.
 
-    Images that cannot be read are bridged (status 'unreadable'). on_frame(FrameResult) is called
-    after every image.
+    sequence: a Sequence, or the path of its folder. Images that cannot be read are bridged (status
+    'unreadable'). on_frame(FrameResult) is called after every image, on_tracked(TrackedImage) as
+    Odometry.set_tracking_observer says.
     """
+    if not isinstance(sequence, Sequence):  # noqa: F405
+        sequence = Sequence(sequence)  # noqa: F405
     values = Options(**dict(options or {}))  # noqa: F405
     if values["mapping.readout_time"] is None:
         values["mapping.readout_time"] = sequence.readout_time
     odometry = Odometry(values, sequence.camera, sequence.lens)  # noqa: F405
+    odometry.set_tracking_observer(on_tracked)
     for i, timestamp in enumerate(sequence.timestamps):
         try:
             image = sequence[i]

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/python/tracked_image.h"
+
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include <pybind11/eigen.h>
+
+#include "apps/python/arrays.h"
+#include "apps/python/bindings.h"
+#include "apps/python/map.h"
+#include "apps/python/shared_object.h"
+
+namespace msc_vo {
+
+namespace py = pybind11;
+
+namespace {
+
+// A tracked image during the call of its observer. Its properties are copies.
+struct PyTrackedImage {
+  const TrackedImage* image;  // null after the call
+
+  const TrackedImage& Get() const {
+    if (image != nullptr) return *image;
+    throw std::runtime_error(
+        "a TrackedImage can be read during the call of the tracking observer only; copy what you "
+        "need");
+  }
+};
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+RowMajorMatrix PointsOf(const PyTrackedImage& self) {
+  const auto& points = self.Get().features.points;
+  RowMajorMatrix rows(points.size(), 2);
+  for (size_t i = 0; i < points.size(); ++i) rows.row(i) = points[i].pixel.transpose();
+  return rows;
+}
+
+Eigen::VectorXd PointDepthsOf(const PyTrackedImage& self) {
+  const auto& points = self.Get().features.points;
+  Eigen::VectorXd depths(points.size());
+  for (size_t i = 0; i < points.size(); ++i) {
+    depths[i] = points[i].HasDepth() ? 1.0 / points[i].inverse_depth : kNone;
+  }
+  return depths;
+}
+
+RowMajorMatrix LinesOf(const PyTrackedImage& self) {
+  const auto& lines = self.Get().features.lines;
+  RowMajorMatrix rows(lines.size(), 4);
+  for (size_t i = 0; i < lines.size(); ++i) {
+    rows.row(i) << lines[i].segment.start.transpose(), lines[i].segment.end.transpose();
+  }
+  return rows;
+}
+
+RowMajorMatrix LineDepthsOf(const PyTrackedImage& self) {
+  const auto& lines = self.Get().features.lines;
+  RowMajorMatrix depths = RowMajorMatrix::Constant(lines.size(), 2, kNone);
+  for (size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].depth) depths.row(i) << 1.0 / lines[i].depth->start, 1.0 / lines[i].depth->end;
+  }
+  return depths;
+}
+
+// The landmark that each feature is matched with.
+template <typename Match>
+py::array LandmarksOf(const std::vector<Match>& matches, size_t num_features) {
+  py::array_t<int64_t> landmarks(static_cast<py::ssize_t>(num_features));
+  for (size_t i = 0; i < num_features; ++i) landmarks.mutable_at(i) = kNoId;
+  for (const Match& match : matches) {
+    if (match.inlier) landmarks.mutable_at(match.feature) = match.id;
+  }
+  return std::move(landmarks);
+}
+
+}  // namespace
+
+TrackingObserver MakeTrackingObserver(const py::object& callback) {
+  return [shared = SharedObject(callback)](const TrackedImage& image) {
+    const py::gil_scoped_acquire gil;
+    const auto view = std::make_shared<PyTrackedImage>(PyTrackedImage{&image});
+    struct Guard {
+      PyTrackedImage* view;
+      ~Guard() { view->image = nullptr; }
+    } const guard{view.get()};
+    shared.get()(view);
+  };
+}
+
+void BindTrackedImage(py::module_* module) {
+  using Image = PyTrackedImage;
+  py::class_<Image, std::shared_ptr<Image>>(
+      *module, "TrackedImage",
+      "A frame that has just been tracked, for display; can be read during the call of the "
+      "tracking observer. Pixels are undistorted. All arrays are copies.")
+      .def_property_readonly(
+          "frame", [](const Image& self) { return FrameResult(self.Get().result); },
+          "The FrameResult.")
+      .def_property_readonly(
+          "gray", [](const Image& self) { return ImageArray<uint8_t>(self.Get().image.gray); },
+          "(height, width) uint8, as given to process().")
+      .def_property_readonly(
+          "depth", [](const Image& self) { return ImageArray<float>(self.Get().image.depth); },
+          "(height, width) float32, metres, as given to process().")
+      .def_property_readonly("points", &PointsOf, "(N, 2) pixels of the point features.")
+      .def_property_readonly("point_depths", &PointDepthsOf, "(N,) metres, nan: not measured.")
+      .def_property_readonly(
+          "point_landmarks",
+          [](const Image& self) {
+            const TrackedImage& image = self.Get();
+            return LandmarksOf(image.tracked.matches.points, image.features.points.size());
+          },
+          "(N,) ids in the map of the landmarks that the points observe; -1: none.")
+      .def_property_readonly("lines", &LinesOf, "(M, 4) pixels, both ends of the line features.")
+      .def_property_readonly("line_depths", &LineDepthsOf,
+                             "(M, 2) metres at both ends, nan: not measured.")
+      .def_property_readonly(
+          "line_landmarks",
+          [](const Image& self) {
+            const TrackedImage& image = self.Get();
+            return LandmarksOf(image.tracked.matches.lines, image.features.lines.size());
+          },
+          "(M,) ids in the map of the landmarks that the lines observe; -1: none.")
+      .def_property_readonly(
+          "map", [](const Image& self) { return CopyMap(self.Get().map); },
+          "A copy of the Map that the frame was tracked in.");
+}
+
+}  // namespace msc_vo

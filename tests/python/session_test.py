@@ -1,0 +1,76 @@
+"""What a new user does in one session, from a folder to an own camera."""
+import multiprocessing
+import pathlib
+import pickle
+import tempfile
+import unittest
+
+import numpy as np
+
+import msc_vo
+import support
+
+
+class Session(unittest.TestCase):
+    def test_a_session(self):
+        # A folder: replay, arrays, errors.
+        sequence = msc_vo.Sequence(support.ROOM)
+        result = msc_vo.replay(str(support.ROOM))
+        poses, covariances, status = result.trajectory, result.covariances, result.status
+        self.assertEqual((poses.shape, covariances.shape, status.shape),
+                         ((len(sequence), 8), (len(sequence), 6, 6), (len(sequence),)))
+        self.assertTrue(np.all(status == "tracked"))
+        sigmas = np.sqrt(np.diagonal(covariances[1:], axis1=1, axis2=2))
+        self.assertTrue(np.all((sigmas > 0.0) & (sigmas < 0.1)))
+        error = msc_vo.evaluate(sequence.groundtruth, result)
+        self.assertLess(error.ape.rmse, 0.01)
+        self.assertLess(error.rpe.translation.rmse, 0.01)
+
+        # Results go to another process and to a file, and are the same there.
+        self.assertEqual(pickle.loads(pickle.dumps(result)), result)
+        with multiprocessing.get_context("spawn").Pool(1) as pool:
+            self.assertEqual(pool.apply(first_pose, (result,)), poses[0].tolist())
+
+        # An own camera: depth of a second camera is registered, each pose is used as it comes.
+        camera = msc_vo.Camera(*(getattr(sequence.camera, name) for name in
+                                 ("fx", "fy", "cx", "cy", "width", "height")))
+        self.assertEqual(camera, sequence.camera)
+        registration = msc_vo.DepthRegistration(msc_vo.DepthCamera(camera, np.eye(4)), camera)
+        options = msc_vo.Options(mode="msc-vo")
+        odometry, seen = msc_vo.Odometry(options, camera, sequence.lens), []
+        odometry.set_tracking_observer(lambda tracked: seen.append(len(tracked.points)))
+        with tempfile.TemporaryDirectory() as folder:
+            half = len(sequence) // 2
+            for i, image in enumerate(sequence):
+                raw = np.rint(image.depth * 1000).astype(np.uint16)
+                frame = odometry.process(image.timestamp, image.gray.copy(),
+                                         registration.register(raw, depth_scale=1000))
+                self.assertTrue(frame.is_estimated)
+                if i + 1 == half:
+                    odometry.save(pathlib.Path(folder, "run"))
+            live = odometry.finish()
+            self.assertLess(msc_vo.evaluate(sequence.groundtruth, live).ape.rmse, 0.01)
+            self.assertEqual(len(seen), len(sequence))
+
+            # The same from the middle on.
+            again = msc_vo.Odometry(options, camera, sequence.lens)
+            again.restore(pathlib.Path(folder, "run"))
+            for image in list(sequence)[half:]:
+                raw = np.rint(image.depth * 1000).astype(np.uint16)
+                again.process(image.timestamp, image.gray, registration.register(raw, depth_scale=1000))
+            self.assertEqual(again.finish(), live)
+
+        # The map, and how well its newest keyframe is known.
+        window = again.map().window
+        window.set_keyframe_fixed(window.keyframe_ids[0])
+        newest = int(window.keyframe_ids[-1])
+        known = msc_vo.window_covariance(window, keyframes=[newest])["keyframes"][newest]
+        self.assertTrue(np.all(np.linalg.eigvalsh(known) > 0.0))
+
+
+def first_pose(result):
+    return result.trajectory[0].tolist()
+
+
+if __name__ == "__main__":
+    unittest.main()
