@@ -29,12 +29,12 @@ class FusionTest : public ::testing::Test {
     MergeOnePoint(*map_.FindKeyframe(ids[0]), *map_.FindKeyframe(ids[1]));
   }
   void MergeOnePoint(const Keyframe& a, const Keyframe& b) {
-    for (size_t i = 0; i < a.points.size(); ++i) {
-      for (size_t j = 0; j < b.points.size(); ++j) {
+    for (size_t i = 0; i < a.landmarks.points.size(); ++i) {
+      for (size_t j = 0; j < b.landmarks.points.size(); ++j) {
         if (HammingDistance(a.frame->points[i].descriptor, b.frame->points[j].descriptor) > 40) {
           continue;
         }
-        map_.MergeLandmarks<PointLandmark>(b.points[j], a.points[i]);
+        map_.MergeLandmarks<PointLandmark>(b.landmarks.points[j], a.landmarks.points[i]);
         return;
       }
     }

@@ -101,9 +101,9 @@ TEST(Mapper, MovesLandmarksWithTheCompensationOfTheFirstKeyframe) {
   mapper.Insert(packet);
   const Keyframe& first = *mapper.map().FindKeyframe(0);
   double largest_move = 0.0;
-  for (size_t i = 0; i < first.points.size(); ++i) {
+  for (size_t i = 0; i < first.landmarks.points.size(); ++i) {
     const int feature = static_cast<int>(i);
-    const PointLandmark* point = mapper.map().Find<PointLandmark>(first.points[i]);
+    const PointLandmark* point = mapper.map().Find<PointLandmark>(first.landmarks.points[i]);
     if (point == nullptr) continue;
     EXPECT_EQ(point->position, first.frame->PointInCamera(feature)) << i;
     largest_move = std::max(largest_move, (point->position - raw->PointInCamera(feature)).norm());
