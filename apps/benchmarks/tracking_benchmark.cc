@@ -53,8 +53,8 @@ void PointMatching(benchmark::State& state) {
   const Input& input = SharedInput();
   size_t num_matches = 0;
   for (auto _ : state) {
-    num_matches = MatchPoints(input.options.point_matcher, input.frame, input.candidates.points,
-                              static_cast<double>(state.range(0)), {})
+    num_matches = MatchPoints(input.options.matchers.point_matcher, input.frame,
+                              input.candidates.points, static_cast<double>(state.range(0)), {})
                       .size();
   }
   state.counters["matches"] = static_cast<double>(num_matches);
@@ -65,8 +65,8 @@ void LineMatching(benchmark::State& state) {
   const Input& input = SharedInput();
   size_t num_matches = 0;
   for (auto _ : state) {
-    num_matches = MatchLines(input.options.line_matcher, input.frame, input.candidates.lines,
-                             static_cast<double>(state.range(0)), {})
+    num_matches = MatchLines(input.options.matchers.line_matcher, input.frame,
+                             input.candidates.lines, static_cast<double>(state.range(0)), {})
                       .size();
   }
   state.counters["matches"] = static_cast<double>(num_matches);

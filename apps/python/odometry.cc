@@ -144,7 +144,9 @@ class PyOdometry {
   void SetWindowFactors(const py::object& callback) {
     WindowFactorCallback function;
     if (!callback.is_none()) {
-      function = [shared = SharedObject(callback)](const WindowContext& window) -> WindowFactors {
+      function = [this,
+                  shared = SharedObject(callback)](const WindowContext& window) -> WindowFactors {
+        const CallbackGuard guard_of_callback(this);
         const py::gil_scoped_acquire gil;
         const auto context = std::make_shared<PyWindowContext>(window);
         struct Guard {  // Python may keep the context
@@ -173,9 +175,10 @@ class PyOdometry {
   void SetWindowObserver(const py::object& callback) {
     WindowObserver function;
     if (!callback.is_none()) {
-      function = [shared = SharedObject(callback)](KeyframeId keyframe,
-                                                   const BundleAdjustmentOptions& options,
-                                                   const WindowData& window) {
+      function = [this, shared = SharedObject(callback)](KeyframeId keyframe,
+                                                         const BundleAdjustmentOptions& options,
+                                                         const WindowData& window) {
+        const CallbackGuard guard_of_callback(this);
         const py::gil_scoped_acquire gil;
         shared.get()(keyframe, std::make_shared<WindowData>(window), WindowOptionsTable(options));
       };
@@ -189,6 +192,20 @@ class PyOdometry {
       : odometry_(std::make_unique<Odometry>(options, camera, distortion)),
         checkpoint_(options, camera, distortion),
         has_threads_(options.threads > 1) {}
+
+  // While a callback runs on this thread, which may be the mapper's: a call would wait for itself.
+  class CallbackGuard {
+   public:
+    explicit CallbackGuard(const PyOdometry* odometry)
+        : before_(std::exchange(calling_, odometry)) {}
+    ~CallbackGuard() { calling_ = before_; }
+    CallbackGuard(const CallbackGuard&) = delete;
+    CallbackGuard& operator=(const CallbackGuard&) = delete;
+
+   private:
+    const PyOdometry* before_;
+  };
+  static inline thread_local const PyOdometry* calling_ = nullptr;
 
   bool IsInherited() const { return has_threads_ && process_.IsInherited(); }
 
@@ -204,7 +221,7 @@ class PyOdometry {
     if (!is_usable_) {
       throw std::runtime_error("restore() has failed: make another Odometry to continue");
     }
-    if (busy_.exchange(true)) {
+    if (calling_ == this || busy_.exchange(true)) {
       throw std::runtime_error(
           "the odometry is in use: neither a second thread nor a callback may call it");
     }

@@ -54,7 +54,7 @@ template <typename L>
 void FuseInto(const FusionOptions& options, KeyframeId source, KeyframeId target, Map* map) {
   const Keyframe& shown = *map->FindKeyframe(target);
   const Matches<L> matches =
-      MatchFeatures(options, *shown.frame,
+      MatchFeatures(options.matchers, *shown.frame,
                     CandidatesFor<L>(*map, *map->FindKeyframe(source), shown), kFusionRadius, {});
   for (const auto& match : matches) {
     const L* landmark = map->Find<L>(match.id);
@@ -76,7 +76,7 @@ void FuseInto(const FusionOptions& options, KeyframeId source, KeyframeId target
 }  // namespace
 
 bool FusionOptions::IsValid(std::string* error) const {
-  if (!MatcherOptions::IsValid(error)) return false;
+  if (!matchers.IsValid(error)) return false;
   if (max_neighbours < 0) {
     *error = "fusion: max_neighbours must not be negative";
     return false;

@@ -10,7 +10,8 @@
 
 namespace msc_vo {
 
-struct FusionOptions : MatcherOptions {
+struct FusionOptions {
+  MatcherOptions matchers;
   int max_neighbours = 10;  ///< covisible keyframes that are searched; the size of the window
 
   bool IsValid(std::string* error) const;

@@ -29,8 +29,8 @@ struct WindowContext {
   /// be missing in the next: factors refer to these ids only, and a factor of the motion covers the
   /// time between two keyframes of this list.
   std::vector<Keyframe> keyframes;
-  /// Number of the world of the poses (FrameResult::world). A factor that knows an absolute pose,
-  /// position or direction holds in one world only.
+  /// Number of the world of the poses (FrameResult::world). A factor that constrains an absolute
+  /// pose, position or direction holds in one world only.
   int world = 0;
   /// The present values of all blocks that windows have used so far, in order of their ids.
   std::vector<ExtraBlock> extra_blocks;

@@ -4,6 +4,7 @@
 #include "msc_vo/odometry/frame_result.h"
 
 #include "msc_vo/frame/feature_counts.h"
+#include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/tracking/tracked_frame.h"
 
 namespace msc_vo {
@@ -28,6 +29,21 @@ FrameResult MakeFrameResult(const TrackedFrame& tracked, int segment, int world)
   result.times.matching = tracked.times.matching;
   result.times.pose = tracked.times.pose;
   return result;
+}
+
+void Discard(const FrameResult& before, FrameResult* result) {
+  // A frame without a cause whose image was lost has failed before its image was measured.
+  const bool is_measured =
+      HasImage(result->status) && (result->cause || result->status != TrackingStatus::kLost);
+  if (HasImage(result->status)) result->status = TrackingStatus::kLost;
+  result->segment = before.segment;
+  result->world = before.world;
+  result->world_changed.reset();
+  result->cam_from_world = before.cam_from_world;
+  result->by_pose_factors = false;
+  result->is_keyframe = false;
+  result->covariance.reset();
+  if (is_measured) result->cause = FindCause(*result, false);
 }
 
 }  // namespace msc_vo

@@ -125,4 +125,8 @@ struct FrameResult {
 /// other frames, and without times of other stages than tracking.
 FrameResult MakeFrameResult(const TrackedFrame& tracked, int segment, int world);
 
+/// Makes `result` a frame of a segment that is discarded: if it has an image, it is lost since
+/// `before`.
+void Discard(const FrameResult& before, FrameResult* result);
+
 }  // namespace msc_vo

@@ -165,16 +165,7 @@ void Odometry::State::DiscardSegment() {
   if (first > 0) before = results[first - 1];
   const ReferencedPose pose_before = first > 0 ? relative_poses[first - 1] : ReferencedPose();
   for (size_t i = first; i < results.size(); ++i) {
-    FrameResult& result = results[i];
-    if (HasImage(result.status)) result.status = TrackingStatus::kLost;
-    result.segment = before.segment;
-    result.world = before.world;
-    result.world_changed.reset();
-    result.cam_from_world = before.cam_from_world;
-    result.by_pose_factors = false;
-    result.is_keyframe = false;
-    result.covariance.reset();
-    if (HasImage(result.status)) result.cause = FindCause(result, false);
+    Discard(before, &results[i]);
     relative_poses[i] = pose_before;
   }
 }

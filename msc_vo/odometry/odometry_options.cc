@@ -25,8 +25,7 @@ void ApplyMode(OdometryOptions* options) {
 }
 
 void ShareMatchers(OdometryOptions* options) {
-  MatcherOptions& fusion_matchers = options->mapping.fusion;
-  fusion_matchers = options->tracking;
+  options->mapping.fusion.matchers = options->tracking.matchers;
 }
 
 void ShareLosses(OdometryOptions* options) {

@@ -97,8 +97,8 @@ void ListTracking(TrackerOptions* tracking, OptionLister* list) {
       "min_initial_features", &tracking->min_initial_features, {3, 10000, "features"},
       "Smallest number of features with depth of the first frame; five lines in two directions "
       "suffice as well.");
-  list->Section("point_matcher", &tracking->point_matcher, ListPointMatcher);
-  list->Section("line_matcher", &tracking->line_matcher, ListLineMatcher);
+  list->Section("point_matcher", &tracking->matchers.point_matcher, ListPointMatcher);
+  list->Section("line_matcher", &tracking->matchers.line_matcher, ListLineMatcher);
   list->Section("pose", &tracking->pose, ListPose);
   list->Section("keyframes", &tracking->keyframes, ListKeyframePolicy);
   list->Section("relocalizer", &tracking->relocalizer, ListRelocalizer);

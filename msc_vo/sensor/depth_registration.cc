@@ -18,7 +18,7 @@ namespace msc_vo {
 namespace {
 
 // Largest distance of a surface from where it was expected, depth pixels.
-constexpr float kMaxDisplacement = 0.25f;
+constexpr float kMaxPlaneDisplacement = 0.25f;
 // Half the width of the holes through which the background is removed, depth pixels.
 constexpr double kHoleRadius = 2.0;
 // Smallest z of a viewing ray of the colour camera in the depth camera frame.
@@ -32,8 +32,8 @@ inline int Index(float x, float y, float stride) {
                           static_cast<float>(static_cast<int>(x)));
 }
 
-// Inverse depth between those of two pixels: their mean on one surface; 0: both have none; -1:
-// needs a search.
+// Inverse depth between those of two pixels: their mean on one surface; 0: none of them has a depth
+// (-1: it needs a search itself); -1: needs a search.
 inline float Middle(float first, float second) {
   const float gap = std::abs(first - second);
   const bool is_surface =
@@ -120,7 +120,7 @@ void DepthRegistration::FindPlanes(const SurfaceMap& surfaces, Strip* strip) con
 void DepthRegistration::MeetPlanes(const SurfaceMap& surfaces, const Strip& strip,
                                    float* row) const {
   const float ez = geometry_.epipole.z();
-  const float tolerance = kMaxDisplacement * geometry_.inverse_depth_per_pixel;
+  const float tolerance = kMaxPlaneDisplacement * geometry_.inverse_depth_per_pixel;
   const float *plane_x = surfaces.plane_x.data(), *plane_y = surfaces.plane_y.data();
   const float* const plane_1 = surfaces.plane_1.data();
   const int size = strip.size;
@@ -179,7 +179,7 @@ float DepthRegistration::Search(const SurfaceMap& surfaces, int x, int y) const 
   const float expected = *cell;
   float best = Intersect(surfaces, infinity, expected);
   if (best > 0.0f) return best * ray.z();
-  const float tolerance = kMaxDisplacement * geometry_.inverse_depth_per_pixel;
+  const float tolerance = kMaxPlaneDisplacement * geometry_.inverse_depth_per_pixel;
   float previous = expected;
   for (const int offset : {-1, 1, -stride, stride}) {
     const float near = cell[offset];
@@ -248,6 +248,9 @@ cv::Mat DepthRegistration::Register(const cv::Mat& depth) const {
     throw std::invalid_argument(
         "DepthRegistration: the depth image must be CV_32FC1 and of the "
         "size of the depth camera");
+  }
+  if (geometry_.grid.width == 0) {  // the cameras look past each other
+    return cv::Mat::zeros(geometry_.color_height, geometry_.color_width, CV_32FC1);
   }
   static thread_local SurfaceMap surfaces;
   surfaces.Compute(geometry_, depth);

@@ -18,7 +18,7 @@ namespace {
 // pixels. It is interpolated between them.
 constexpr float kLensStep = 4.0f;
 // Surfaces that are displaced in the depth image by more than its size are not seen.
-constexpr float kMaxDisplacement = 1.0f;
+constexpr float kMaxRelativeDisplacement = 1.0f;
 // Smallest magnification at which every other colour pixel is interpolated: those that are not are
 // at most 4/3 of a depth pixel apart.
 constexpr float kMinInterpolated = 1.5f;
@@ -106,9 +106,9 @@ void RegistrationGeometry::SetDepthPixels(const DepthCamera& depth_camera) {
 int RegistrationGeometry::Grid::IndexAround(const Eigen::Vector2f& position) const {
   const Eigen::Vector2f cell =
       (position - origin) * cells_per_pixel - Eigen::Vector2f::Constant(0.5f);
-  const int x = static_cast<int>(std::min(std::max(cell.x(), 0.5f), static_cast<float>(width - 2)));
+  const int x = static_cast<int>(std::min(std::max(cell.x(), 1.0f), static_cast<float>(width - 2)));
   const int y =
-      static_cast<int>(std::min(std::max(cell.y(), 0.5f), static_cast<float>(height - 2)));
+      static_cast<int>(std::min(std::max(cell.y(), 1.0f), static_cast<float>(height - 2)));
   return y * width + x;
 }
 
@@ -185,7 +185,7 @@ void RegistrationGeometry::SetGrid() {
   if (HasDepthLens()) cv::minMaxLoc(depth_y.values, &min_y, &max_y);
   depth.extend(Eigen::Vector2d(min_x, min_y).cast<float>().eval());
   depth.extend(Eigen::Vector2d(max_x, max_y).cast<float>().eval());
-  const Eigen::Vector2f margin = kMaxDisplacement * depth.sizes();
+  const Eigen::Vector2f margin = kMaxRelativeDisplacement * depth.sizes();
   const Eigen::AlignedBox2f box =
       color.intersection(Eigen::AlignedBox2f(depth.min() - margin, depth.max() + margin));
   if (box.isEmpty()) return;

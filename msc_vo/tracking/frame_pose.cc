@@ -90,7 +90,7 @@ FrameMatches MatchLocalMap(const TrackerOptions& options, const Frame& frame, co
     using L = typename decltype(kind)::Landmark;
     const Matches<L>& known_matches = known.Of<L>();
     const Matches<L> found =
-        MatchFeatures(options, frame, Unmatched(local.Of<L>(), known_matches), radius,
+        MatchFeatures(options.matchers, frame, Unmatched(local.Of<L>(), known_matches), radius,
                       TakenFeatures(known_matches, FeaturesOf<L>(frame).size()));
     matches.Of<L>().insert(matches.Of<L>().end(), found.begin(), found.end());
   });

@@ -74,8 +74,8 @@ std::optional<MapRelocalization> InactiveMapSearch::Relocalize(const TrackedFram
                                                                const Map& map,
                                                                const Keyframe& keyframe) const {
   const Frame& frame = *tracked.frame;
-  const std::optional<Relocalization> hit =
-      msc_vo::Relocalize(options_.relocalizer, options_.line_matcher, frame, map, keyframe);
+  const std::optional<Relocalization> hit = msc_vo::Relocalize(
+      options_.relocalizer, options_.matchers.line_matcher, frame, map, keyframe);
   if (!hit) return std::nullopt;
   const std::vector<PoseFactor> no_factors;
   PoseEstimator estimator(options_, map, noise_scale, no_factors);

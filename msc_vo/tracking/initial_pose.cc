@@ -53,7 +53,7 @@ class InitialPoseSearch {
   // The best of the poses by a wide search and by searches without a prediction.
   std::optional<FramePose> FindLargeMotion() {
     const std::vector<Relocalization> poses = estimator_.Search([&] {
-      return FindPoses(options_.relocalizer, options_.line_matcher, frame_,
+      return FindPoses(options_.relocalizer, options_.matchers.line_matcher, frame_,
                        CandidatesFromFrame(map_, last_, last_.CamFromWorld(map_)), kMaxSearchPoses);
     });
     std::optional<FramePose> best;
@@ -89,8 +89,8 @@ class InitialPoseSearch {
       if (keyframe == nullptr) keyframe = &map_.keyframes().back();
       keyframes->next = keyframe->first - 1;
       const std::optional<Relocalization> hit = estimator_.Search([&] {
-        return msc_vo::Relocalize(options_.relocalizer, options_.line_matcher, frame_, map_,
-                                  keyframe->second);
+        return msc_vo::Relocalize(options_.relocalizer, options_.matchers.line_matcher, frame_,
+                                  map_, keyframe->second);
       });
       if (hit) {
         pose = estimator_.Estimate(pose_options_, frame_, hit->cam_from_world, hit->matches);

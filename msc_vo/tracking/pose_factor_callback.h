@@ -22,8 +22,8 @@ struct FrameContext {
   double last_timestamp = 0.0;  ///< seconds
   Rigid3 last_cam_from_world;
   Rigid3 predicted_cam_from_world;  ///< of this frame, by constant velocity
-  /// Number of the world of these poses (FrameResult::world). A factor that knows an absolute pose,
-  /// position or direction holds in one world only.
+  /// Number of the world of these poses (FrameResult::world). A factor that constrains an absolute
+  /// pose, position or direction holds in one world only.
   int world = 0;
   /// The extra blocks of the window factors as the map that the frame is tracked in knows them, in
   /// order of their ids; none before a window has estimated them. Their manifolds may be null.

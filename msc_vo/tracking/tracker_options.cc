@@ -17,7 +17,7 @@ bool SegmentOptions::IsValid(std::string* error) const {
 }
 
 bool TrackerOptions::IsValid(std::string* error) const {
-  if (!MatcherOptions::IsValid(error) || !pose.IsValid(error) || !keyframes.IsValid(error) ||
+  if (!matchers.IsValid(error) || !pose.IsValid(error) || !keyframes.IsValid(error) ||
       !relocalizer.IsValid(error) || !segments.IsValid(error)) {
     return false;
   }

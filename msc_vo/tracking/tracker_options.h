@@ -29,7 +29,8 @@ struct SegmentOptions {
   bool IsValid(std::string* error) const;
 };
 
-struct TrackerOptions : MatcherOptions {
+struct TrackerOptions {
+  MatcherOptions matchers;
   PoseOptions pose;
   KeyframePolicyOptions keyframes;
   RelocalizerOptions relocalizer;

@@ -56,7 +56,7 @@ TEST_F(OptionsFileTest, KeepsOptionsThatTheFileDoesNotContain) {
   EXPECT_EQ(configuration.camera.preset, "tum-fr1");
   EXPECT_FALSE(configuration.camera.fy.has_value());
   EXPECT_EQ(configuration.odometry.tracking.wide_radius, 80.0);
-  EXPECT_EQ(configuration.odometry.tracking.point_matcher.max_distance, 70);
+  EXPECT_EQ(configuration.odometry.tracking.matchers.point_matcher.max_distance, 70);
   EXPECT_FALSE(configuration.odometry.tracking.pose.consensus.enabled);
   EXPECT_EQ(configuration.odometry.tracking.prediction_radius, TrackerOptions().prediction_radius);
 }

@@ -87,8 +87,7 @@ class LocaleTest : public TemporaryFolder {
       frame.cam_from_world.translation() = Eigen::Vector3d(-0.0015 * i, 0.25, 0.0);
       frame.num_points = 1000 + i;
       frame.times.tracking = 10.25 + i % 7;
-      frame.covariance.setIdentity();
-      frame.covariance *= 1e-6;
+      frame.covariance = 1e-6 * Eigen::Matrix<double, 6, 6>::Identity();
       result.frames.push_back(frame);
     }
     result.frames[0].is_keyframe = true;

@@ -34,13 +34,13 @@ TEST(EffectiveOptions, DisableWhatTheModeDoesNotInclude) {
 
 TEST(EffectiveOptions, ShareSettingsBetweenComponents) {
   OdometryOptions options;
-  options.tracking.point_matcher.max_distance = 33;
-  options.tracking.line_matcher.max_angle = 3.0;
+  options.tracking.matchers.point_matcher.max_distance = 33;
+  options.tracking.matchers.line_matcher.max_angle = 3.0;
   options.mapping.window.line_depth = {false, 1.5};
   options.mapping.window.reject_chi2_2 = 7.0;
   const OdometryOptions effective = EffectiveOptions(options);
-  EXPECT_EQ(effective.mapping.fusion.point_matcher.max_distance, 33);
-  EXPECT_EQ(effective.mapping.fusion.line_matcher.max_angle, 3.0);
+  EXPECT_EQ(effective.mapping.fusion.matchers.point_matcher.max_distance, 33);
+  EXPECT_EQ(effective.mapping.fusion.matchers.line_matcher.max_angle, 3.0);
   EXPECT_FALSE(effective.tracking.pose.line_depth.enabled);
   EXPECT_EQ(effective.tracking.pose.line_depth.huber, 1.5);
   EXPECT_EQ(effective.tracking.pose.reject_chi2_2, 7.0);
