@@ -330,6 +330,15 @@ class Callbacks(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "not a factor"):
             support.process(odometry, support.room_images())
 
+    def test_callbacks_of_the_mapper_cannot_use_the_odometry(self):
+        # It would wait for the thread that it runs on.
+        for use in (lambda odometry: odometry.map(), lambda odometry: odometry.frames):
+            odometry = support.room_odometry(threads=2)
+            odometry.set_window_observer(lambda *_: use(odometry))
+            with self.assertRaisesRegex(RuntimeError, "in use"):
+                support.process(odometry, support.room_images())
+                odometry.finish()
+
     def test_callbacks_cannot_use_the_odometry(self):
         odometry = support.room_odometry(threads=1)
         odometry.set_pose_factors(lambda frame: odometry.finish())

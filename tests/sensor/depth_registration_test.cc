@@ -232,6 +232,19 @@ TEST(DepthRegistration, IsExactForTurnedAndMirroredCameras) {
   EXPECT_GT(coverage, 0.8);
 }
 
+TEST(DepthRegistration, IsEmptyForCamerasThatLookPastEachOther) {
+  DepthCamera rig = Rig();
+  for (const double angle : {1.2, 1.4, 1.5}) {
+    for (const Vector3d& axis : {Vector3d::UnitX().eval(), Vector3d::UnitY().eval()}) {
+      rig.depth_from_color = {ExpSO3(angle * axis), {-0.025, 0.004, 0.003}};
+      const cv::Mat depth(rig.camera.height, rig.camera.width, CV_32FC1, cv::Scalar(2.0f));
+      for (const LensDistortion& lens : {LensDistortion(), Lens()}) {
+        EXPECT_EQ(cv::countNonZero(RegisterDepth(rig, Color(), lens, depth)), 0) << angle;
+      }
+    }
+  }
+}
+
 TEST(DepthRegistration, AddsInverseDepthOffset) {
   DepthCamera rig = Rig();
   cv::Mat depth = Measure(rig, {{kPlanes[1]}});
