@@ -88,6 +88,9 @@ class PyOdometry {
   void Restore(const py::object& folder) {
     const std::string path = PathArgument(folder);
     Alone([&] {
+      if (!odometry_->frames().empty()) {
+        throw std::invalid_argument("restore() must precede the first image");
+      }
       is_usable_ = false;
       checkpoint_.Restore(path, odometry_.get());
       is_usable_ = true;

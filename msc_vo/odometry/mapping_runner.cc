@@ -89,7 +89,8 @@ class SliceTimes {
     double& longest = longest_[Index(slice)];
     longest = std::max(milliseconds, 0.5 * (longest + milliseconds));
   }
-  // A slice that never fits would hold up all that follow: it is expected to take less every time.
+  // A slice that never fits would hold up all that follow: with every keyframe that comes before it
+  // has run, it is expected to take less.
   void Skip(const Slice& slice) { longest_[Index(slice)] *= 0.8; }
 
  private:
@@ -106,6 +107,7 @@ class CalledRunner : public MappingRunner {
   explicit CalledRunner(Mapper* mapper) : mapper_(mapper) {}
 
   void Submit(KeyframePacket packet) override {
+    if (HasWork()) times_.Skip(next_);
     while (waiting_.size() >= kMaxWaiting) RunSlice();
     waiting_.push_back(std::move(packet));
   }
@@ -123,8 +125,7 @@ class CalledRunner : public MappingRunner {
     const Stopwatch stopwatch;
     while (HasWork()) {
       const double left = 1000.0 * seconds - stopwatch.Milliseconds();
-      if (!(left > 0.0)) return;
-      if (times_.Expected(next_) > left) return times_.Skip(next_);
+      if (!(left > 0.0) || times_.Expected(next_) > left) return;
       RunSlice();
     }
   }

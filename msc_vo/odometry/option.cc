@@ -43,8 +43,7 @@ void ListGeneral(OdometryOptions* options, OptionLister* list) {
       .MakeBasic("Set to 1 if the process may use one processor only.");
   list->Add("external_mapping", &options->external_mapping,
             "Local mapping runs when the program that embeds the odometry calls RunMapping(), and "
-            "when a frame needs its map. The result does not depend on it.")
-      .MakeBasic("Enable to place the work in the gaps of a control loop; no use in the command.");
+            "when a frame needs its map. The result does not depend on it.");
   list->Add("realtime", &options->snapshots.realtime,
             "Process images at the pace of their time stamps, drop late images, and never wait for "
             "a late map. A run is repeatable as long as no map is late.")

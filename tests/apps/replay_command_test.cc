@@ -164,7 +164,7 @@ TEST_F(ReplayCommandTest, UsesTheAccelerometer) {
 TEST_F(ReplayCommandTest, RejectsInvalidAccelerometerAxes) {
   const CommandOutcome outcome = Replay("out", {"--gravity", "--accelerometer-axes=x,y,y"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output, LineNames("error:", "'x,y,y'", "right-handed"));
+  EXPECT_THAT(outcome.output, LineNames("--accelerometer-axes", "'x,y,y'", "right-handed"));
   EXPECT_EQ(Replay("out", {"--accelerometer-axes=x,y,z"}).exit_code, 2);  // without --gravity
 }
 
