@@ -6,6 +6,7 @@ set(MSC_VO_PUBLIC_HEADERS
   msc_vo/checkpoint/checkpoint_file.h
   msc_vo/logging/logger.h
   msc_vo/config/options_file.h
+  msc_vo/camera/undistorted_camera.h
   # Sequences and results
   msc_vo/datasets/accelerometer.h
   msc_vo/datasets/paced_source.h
@@ -19,6 +20,7 @@ set(MSC_VO_PUBLIC_HEADERS
   msc_vo/bundle_adjustment/custom_factor.h
   msc_vo/bundle_adjustment/local_bundle_adjustment.h
   msc_vo/bundle_adjustment/window_covariance.h
+  msc_vo/bundle_adjustment/window_problem.h
   msc_vo/pose_estimation/pose_optimization.h
   msc_vo/recording/window_file.h
   # Other sensors
