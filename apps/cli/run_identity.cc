@@ -63,8 +63,7 @@ RunIdentity IdentifyRun(const RgbdDecoder& decoder, const Configuration& configu
   identity.program = DescribeProgram();
   Configuration copy = configuration;
   for (const Option& option : ListOptions(&copy)) {
-    if (option.path == "threads" || option.path == "external_mapping") continue;
-    identity.facts["option " + option.path] = FormatOption(option);
+    if (option.AffectsResults()) identity.facts["option " + option.path] = FormatOption(option);
   }
   AddImages(decoder.index(), &identity.facts);
   identity.facts["camera"] = FormatCameraFile(decoder.calibration(), "camera");

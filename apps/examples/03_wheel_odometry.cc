@@ -36,8 +36,8 @@ class Wheels {
     }
     return result;
   }
-  // The pose of a frame from the last one, with the scale as the map of the frame knows it. Without
-  // an image there is nothing else.
+  // The pose of a frame from the last one, with the scale as estimated in the map of the frame.
+  // Without an image there is nothing else.
   std::vector<msc_vo::PoseFactor> ForFrame(const msc_vo::FrameContext& frame) const {
     Rigid3 motion = Motion(frame.last_timestamp, frame.timestamp);
     if (!frame.extra_blocks.empty()) motion.translation() *= frame.extra_blocks[0].value[0];

@@ -106,7 +106,7 @@ bool Run(const std::string& folder) {
     image.gray = ReadImage(folder + "/" + color_file, cv::IMREAD_GRAYSCALE, CV_8UC1);
     const cv::Mat raw = ReadImage(folder + "/" + depth_file, cv::IMREAD_UNCHANGED, CV_16UC1);
     raw.convertTo(image.recorded_depth, CV_32F, 0.001);
-    if (odometry == nullptr) {  // the first image tells the sizes
+    if (odometry == nullptr) {  // the sizes are those of the first image
       const Cameras cameras = ReadCameras(folder + "/cameras.yml", image.gray.size(), raw.size());
       registration =
           std::make_unique<msc_vo::DepthRegistration>(cameras.depth, cameras.color, cameras.lens);

@@ -39,8 +39,7 @@ RunCheckpoint::RunCheckpoint(const OdometryOptions& options, const PinholeCamera
                              const LensDistortion& distortion) {
   OdometryOptions copy = options;
   for (const Option& option : ListOptions(&copy)) {
-    if (option.path == "threads" || option.path == "external_mapping") continue;  // same results
-    facts_["option " + option.path] = FormatOption(option);
+    if (option.AffectsResults()) facts_["option " + option.path] = FormatOption(option);
   }
   AddCamera("camera", camera, &facts_);
   AddCamera("camera of the recorded images", distortion.Recorded(camera), &facts_);

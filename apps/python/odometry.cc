@@ -306,7 +306,8 @@ void BindContexts(py::module_* module) {
       .def_readonly("world", &FrameContext::world, "Number of the world of the poses.")
       .def_property_readonly(
           "extra_blocks", [](const FrameContext& self) { return BlockValues(self.extra_blocks); },
-          "Values of the extra blocks by id, as the map that the frame is tracked in knows them.");
+          "Values of the extra blocks by id, as estimated in the map that the frame is tracked "
+          "in.");
 }
 
 }  // namespace
@@ -364,11 +365,11 @@ void BindOdometry(py::module_* module) {
           "Waits for local mapping and writes a checkpoint of the run, which replaces an earlier "
           "one in the folder. An Odometry that restores it continues with the same results, bit by "
           "bit. Callbacks are not part of it.")
-      .def(
-          "restore", &PyOdometry::Restore, py::arg("folder"),
-          "Continues the run of a checkpoint, before the first image, with the same options (but "
-          "threads), camera and lens: ValueError on others, RuntimeError on files that are missing "
-          "or damaged. After an error, only another Odometry can be used.");
+      .def("restore", &PyOdometry::Restore, py::arg("folder"),
+           "Continues the run of a checkpoint, before the first image, with the same options (but "
+           "threads and external_mapping), camera and lens: ValueError on others, RuntimeError on "
+           "files that are missing "
+           "or damaged. After an error, only another Odometry can be used.");
 }
 
 }  // namespace msc_vo

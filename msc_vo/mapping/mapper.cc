@@ -75,15 +75,10 @@ void Mapper::Advance(KeyframeTask* task) {
   }
 }
 
-KeyframeTask Mapper::Insert(const KeyframePacket& packet) {
+MappingSummary Mapper::Process(const KeyframePacket& packet) {
   KeyframeTask task(packet);
-  while (!task.IsInserted()) Advance(&task);
-  return task;
-}
-
-MappingSummary Mapper::Refine(KeyframeTask inserted) {
-  while (!inserted.IsDone()) Advance(&inserted);
-  return inserted.summary();
+  while (!task.IsDone()) Advance(&task);
+  return task.summary();
 }
 
 void Mapper::PrepareFrame(KeyframeTask* task) {

@@ -21,8 +21,9 @@
 
 namespace msc_vo {
 
-/// Stages of the mapper's work on a keyframe, in their order. Those up to kFusion insert it, the
-/// others refine the map with it.
+/// Stages of the mapper's work on a keyframe, in their order. Those up to kFusion insert it: they
+/// add it to the map with its observations and new landmarks, against which frames can be tracked
+/// from then on. The others refine the map with it and take several times as long.
 enum class MappingStage {
   kStructure,  ///< the frame is brought up to date, and its lines refine each other
   kCreation,   ///< insertion, landmark culling and creation
@@ -84,14 +85,8 @@ class Mapper {
   /// for each step of the solver. Work on the next keyframe begins when this one is done; a task
   /// whose slice has thrown is given up.
   void Advance(KeyframeTask* task);
-  /// A keyframe is processed in two steps. Insert() adds it to the map with its observations and
-  /// new landmarks and fuses duplicates; frames can be tracked against them from then on. Refine()
-  /// updates the Manhattan axes, runs local bundle adjustment if it is due, and culls keyframes; it
-  /// takes several times as long.
-  KeyframeTask Insert(const KeyframePacket& packet);
-  MappingSummary Refine(KeyframeTask inserted);
-  /// Insert() and Refine().
-  MappingSummary Process(const KeyframePacket& packet) { return Refine(Insert(packet)); }
+  /// Runs all slices.
+  MappingSummary Process(const KeyframePacket& packet);
 
   /// The map after the last step.
   MapSnapshotPtr Snapshot();

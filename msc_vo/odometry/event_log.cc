@@ -67,8 +67,8 @@ void EventLog::LogStatus(const FrameResult& frame, bool relocalized) {
   const int64_t num_before = frame.id - std::exchange(status_since_, frame.id);
   if (!Log().should_log(LevelOf(frame.status))) return;
   std::string event = "is " + std::string(ToString(frame.status));
-  if (HasLossCause(frame.status)) {
-    event += std::string(", image ") + Describe(FindLossCause(frame));
+  if (HasLossCause(frame.status) && frame.cause) {
+    event += std::string(", image ") + Describe(*frame.cause);
   }
   if (last_status) {
     event += "; the " + std::to_string(num_before) + " before it: " + ToString(*last_status);

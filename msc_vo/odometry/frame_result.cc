@@ -43,7 +43,7 @@ void Discard(const FrameResult& before, FrameResult* result) {
   result->by_pose_factors = false;
   result->is_keyframe = false;
   result->covariance.reset();
-  if (is_measured) result->cause = FindCause(*result, false);
+  if (is_measured) result->cause = FindLossCause(*result, false);
 }
 
 }  // namespace msc_vo

@@ -12,9 +12,7 @@ namespace {
 constexpr double kMinContrast = 2.0;        // grey values; noise of a sensor in the dark
 constexpr double kMinMeasuredDepth = 0.05;  // fraction of the pixels
 
-}  // namespace
-
-LossCause FindLossCause(const FrameResult& frame) {
+LossCause FirstCause(const FrameResult& frame) {
   const int min_features = TrackerOptions().min_initial_features;
   if (frame.image.contrast < kMinContrast) return LossCause::kUniformImage;
   if (frame.num_points + frame.num_lines < min_features) return LossCause::kFewFeatures;
@@ -23,9 +21,11 @@ LossCause FindLossCause(const FrameResult& frame) {
   return LossCause::kNoMatch;
 }
 
-std::optional<LossCause> FindCause(const FrameResult& frame, bool is_implausible) {
+}  // namespace
+
+std::optional<LossCause> FindLossCause(const FrameResult& frame, bool is_implausible) {
   if (frame.status == TrackingStatus::kTracked) return std::nullopt;
-  const LossCause cause = FindLossCause(frame);
+  const LossCause cause = FirstCause(frame);
   return is_implausible && cause == LossCause::kNoMatch ? LossCause::kImplausible : cause;
 }
 

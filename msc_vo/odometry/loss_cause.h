@@ -9,11 +9,9 @@
 
 namespace msc_vo {
 
-/// The cause for a predicted, lost or weak frame, from its numbers; never kImplausible.
-LossCause FindLossCause(const FrameResult& frame);
-/// The cause for a frame with image; std::nullopt if it is tracked. `is_implausible`:
-/// TrackedFrame::is_implausible.
-std::optional<LossCause> FindCause(const FrameResult& frame, bool is_implausible);
+/// The cause for a frame with image, from its numbers; std::nullopt if it is tracked.
+/// `is_implausible`: TrackedFrame::is_implausible.
+std::optional<LossCause> FindLossCause(const FrameResult& frame, bool is_implausible);
 
 /// An attribute of "images" for messages: "with too few points and lines".
 const char* Describe(LossCause cause);

@@ -12,7 +12,7 @@
 namespace msc_vo {
 
 /// Result of one of the two steps of a keyframe: the map with the keyframe inserted
-/// (Mapper::Insert), then the map refined with it (Mapper::Refine).
+/// (KeyframeTask::IsInserted), then the map refined with it.
 struct MappingStep {
   MappingSummary summary;
   MapSnapshotPtr snapshot;    ///< the map after the step; null if it or the first step failed
@@ -26,8 +26,8 @@ struct MappingStep {
   }
 };
 
-/// Runs the mapper: synchronously, on a thread of its own, or when the caller says, with identical
-/// results. For use by one thread at a time.
+/// Runs the mapper: synchronously, on a thread of its own, or on request of the caller (Run), with
+/// identical results. For use by one thread at a time.
 ///
 /// Steps run sequentially in the order of their keyframes. A step that throws does not affect the
 /// next keyframes.

@@ -19,6 +19,7 @@
 #include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/odometry/image_pipeline.h"
 #include "msc_vo/odometry/input_checks.h"
+#include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/odometry/map_result.h"
 #include "msc_vo/odometry/mapping_runner.h"
 #include "msc_vo/odometry/odometry_pose.h"
@@ -176,7 +177,7 @@ void Odometry::State::AddResult(const TrackedFrame& tracked, int world, const Rg
   odometry_pose.Add(tracked);
   result.cam_from_odometry = odometry_pose.cam_from_odometry();
   result.image = MeasureImage(image);
-  result.cause = FindCause(result, tracked.is_implausible);
+  result.cause = FindLossCause(result, tracked.is_implausible);
   times.matching = result.times.matching;
   times.pose = result.times.pose;
   times.tracking = arrival.Milliseconds();

@@ -181,9 +181,9 @@ class Odometry {
   /// if a keyframe step has failed and its exception is not thrown yet. Custom factors have to save
   /// the state of their own, after this function has returned: the mapper calls them until then.
   bool Save(BinaryWriter* archive);
-  /// Restores the state of a run with the same options, apart from the number of threads, and the
-  /// same camera. Throws std::runtime_error if the archive has no such state, std::invalid_argument
-  /// if its camera is invalid; the object can then only be destroyed.
+  /// Restores the state of a run with the same options, apart from `threads` and
+  /// `external_mapping`, and the same camera. Throws std::runtime_error if the archive has no such
+  /// state, std::invalid_argument if its camera is invalid; the object can then only be destroyed.
   void Restore(BinaryReader* archive);
 
  private:

@@ -56,6 +56,8 @@ struct Option {
   /// Basic options are those that a user may want to change for a camera or a scene.
   bool IsBasic() const { return !when_to_change.empty(); }
   void MakeBasic(const std::string& when) { when_to_change = when; }
+  /// Whether runs with another value may have other results: not if it only says where work runs.
+  bool AffectsResults() const { return path != "threads" && path != "external_mapping"; }
 };
 
 /// The value if the option is a number and set.

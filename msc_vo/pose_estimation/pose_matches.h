@@ -33,7 +33,7 @@ double PixelChiSquare(const PinholeCamera& camera, const Rigid3& pose, const Mat
   const auto in_cam = InCamera(pose, match);
   if (!IsInFront(in_cam)) return kInfinity;
   const double chi2 = PixelChiSquare(camera, match, in_cam);
-  // NaN, as of a sigma whose inverse overflows, has no place in the order of std::nth_element.
+  // NaN, from a sigma whose inverse overflows, cannot be sorted.
   return std::isnan(chi2) ? kInfinity : chi2;
 }
 

@@ -57,8 +57,8 @@ RunSummary Summarize(const OdometryResult& result) {
     ++summary.status_counts.at(static_cast<size_t>(frame.status));
     summary.num_frames_with_dynamic_objects += frame.num_dynamic > 0 ? 1 : 0;
     summary.num_estimated += IsEstimated(frame.status) ? 1 : 0;
-    if (HasImage(frame.status) && !IsEstimated(frame.status)) {
-      ++summary.loss_causes.at(static_cast<size_t>(FindLossCause(frame)));
+    if (frame.cause && !IsEstimated(frame.status)) {
+      ++summary.loss_causes.at(static_cast<size_t>(*frame.cause));
     }
   }
   summary.tracked_ratio =

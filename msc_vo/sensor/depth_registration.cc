@@ -21,8 +21,6 @@ namespace {
 constexpr float kMaxPlaneDisplacement = 0.25f;
 // Half the width of the holes through which the background is removed, depth pixels.
 constexpr double kHoleRadius = 2.0;
-// Smallest z of a viewing ray of the colour camera in the depth camera frame.
-constexpr float kMinRayZ = 0.01f;
 // A position in the first row and column of the grid or of the planes, which have no depth.
 constexpr float kFirst = 0.5f;
 
@@ -32,14 +30,14 @@ inline int Index(float x, float y, float stride) {
                           static_cast<float>(static_cast<int>(x)));
 }
 
-// Inverse depth between those of two pixels: their mean on one surface; 0: none of them has a depth
-// (-1: it needs a search itself); -1: needs a search.
+// Inverse depth between those of two pixels: their mean on one surface; 0: both have none; -1:
+// needs a search.
 inline float Middle(float first, float second) {
   const float gap = std::abs(first - second);
   const bool is_surface =
       (gap <= kMaxSurfaceNoise) | (gap <= kMaxSurfaceRatio * std::min(first, second));
   const float mean = is_surface ? 0.5f * (first + second) : -1.0f;
-  return std::max(first, second) == 0.0f ? 0.0f : mean;
+  return (first == 0.0f) & (second == 0.0f) ? 0.0f : mean;
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ struct SurfaceMap;
 /// is registered exactly. Where several surfaces cover a colour pixel, the nearest wins. Colour
 /// pixels that none covers have no depth, as have those that lie behind a surface on both sides of
 /// them, which see the background through a hole of the measurement. If depth pixels are larger
-/// than colour pixels, inverse depth is interpolated between colour pixels on one surface.
+/// than colour pixels, inverse depth is interpolated between colour pixels on one surface, also
+/// over a missing depth pixel between them.
 class DepthRegistration {
  public:
   /// All arguments must be valid.

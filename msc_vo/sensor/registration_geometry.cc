@@ -22,8 +22,6 @@ constexpr float kMaxRelativeDisplacement = 1.0f;
 // Smallest magnification at which every other colour pixel is interpolated: those that are not are
 // at most 4/3 of a depth pixel apart.
 constexpr float kMinInterpolated = 1.5f;
-// Smallest z of a viewing ray of the colour camera in the depth camera frame.
-constexpr float kMinRayZ = 0.01f;
 
 Eigen::Matrix3d Intrinsics(const PinholeCamera& camera) {
   Eigen::Matrix3d k;

@@ -28,6 +28,9 @@ inline float EdgeThreshold(float inverse_depth) {
 /// gaps that noise opens between neighbours on a surface.
 inline constexpr float kHalfSide = 0.6f;
 
+/// Smallest z of a viewing ray of the colour camera in the depth camera frame.
+inline constexpr float kMinRayZ = 0.01f;
+
 /// The two cameras of a DepthRegistration.
 ///
 /// Positions q in the undistorted depth image are relative to the centre of the depth image. The

@@ -84,7 +84,7 @@ void CorrectDerivatives(const cv::Vec4f* matrix, int width, float* right, float*
 
 }  // namespace
 
-// Values of the pixels of a row, whose first element belongs to pixel 0 unless it says otherwise.
+// Values of the pixels of a row, whose first element belongs to pixel 0 unless stated otherwise.
 struct SurfaceMap::Row {
   explicit Row(int width)
       : inverse_depth(width + 2, kNone),

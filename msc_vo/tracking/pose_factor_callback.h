@@ -25,8 +25,8 @@ struct FrameContext {
   /// Number of the world of these poses (FrameResult::world). A factor that constrains an absolute
   /// pose, position or direction holds in one world only.
   int world = 0;
-  /// The extra blocks of the window factors as the map that the frame is tracked in knows them, in
-  /// order of their ids; none before a window has estimated them. Their manifolds may be null.
+  /// The extra blocks of the window factors as estimated in the map that the frame is tracked in,
+  /// in order of their ids; none before a window has estimated them. Their manifolds may be null.
   std::vector<ExtraBlock> extra_blocks;
 };
 

@@ -197,18 +197,23 @@ TEST(MapperCalibration, BringsPacketsThatAreOlderThanTheCalibrationUpToDate) {
   EXPECT_GT(LargestMove(frame, *old.frame), 2.0);
 }
 
+void Insert(const KeyframePacket& packet, Mapper* mapper) {
+  KeyframeTask task(packet);
+  while (!task.IsInserted()) mapper->Advance(&task);
+}
+
 TEST(MapperCalibration, MeasuresDepthsOfOlderPacketsInTheirImages) {
   CalibratingMapper run(With(S::kDepthFocalLength, 0.1));
   run.ProcessUntilChange(3);
   ASSERT_TRUE(run.present()->registration);
   const KeyframePacket with_image = run.NextPacket();
-  run.mapper().Insert(with_image);
+  Insert(with_image, &run.mapper());
   const Frame& measured = run.FrameOf(run.mapper().Snapshot()->newest_keyframe);
   EXPECT_EQ(measured.intrinsics, run.present());
   ExpectSameDepths(measured, *MeasureSimulatedDepth(*with_image.frame, with_image.image->Depth(),
                                                     run.present()));
   const KeyframePacket without_image = run.NextPacketWithoutImage();
-  run.mapper().Insert(without_image);
+  Insert(without_image, &run.mapper());
   const Frame& unmeasured = run.FrameOf(run.mapper().Snapshot()->newest_keyframe);
   EXPECT_EQ(unmeasured.intrinsics, run.present());
   EXPECT_EQ(CountDepths(unmeasured), 0);  // they would be those of other pixels

@@ -98,7 +98,8 @@ TEST(Mapper, MovesLandmarksWithTheCompensationOfTheFirstKeyframe) {
   const std::shared_ptr<const Frame> raw = mapper.map().FindKeyframe(0)->frame;
   KeyframePacket packet = Packet(&world, 10, &random);
   packet.last_velocity = CameraVelocity{{0.5, 0.0, 0.0}, {0.0, 0.1, 0.0}};
-  mapper.Insert(packet);
+  KeyframeTask task(packet);
+  while (!task.IsInserted()) mapper.Advance(&task);
   const Keyframe& first = *mapper.map().FindKeyframe(0);
   double largest_move = 0.0;
   for (size_t i = 0; i < first.landmarks.points.size(); ++i) {

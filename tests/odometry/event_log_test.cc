@@ -36,6 +36,7 @@ class EventLogTest : public testing::Test {
     frame.id = id;
     frame.timestamp = 0.5 * static_cast<double>(id);
     frame.status = status;
+    if (status == TrackingStatus::kLost) frame.cause = LossCause::kUniformImage;
     return frame;
   }
   static MappingStep Step(AxesState axes, int num_refinements, double readout_time) {

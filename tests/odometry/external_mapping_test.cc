@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Mapping when the caller says (Odometry::RunMapping).
+// Mapping on request of the caller (Odometry::RunMapping).
 
 #include <cmath>
 #include <limits>

@@ -28,29 +28,29 @@ FrameResult Unmatched() {
 
 TEST(FindLossCause, ReturnsTheFirstCauseThatApplies) {
   FrameResult frame = Unmatched();
-  EXPECT_EQ(FindLossCause(frame), LossCause::kNoMatch);
+  EXPECT_EQ(FindLossCause(frame, false), LossCause::kNoMatch);
   frame.num_with_depth = 3;
-  EXPECT_EQ(FindLossCause(frame), LossCause::kDepthOutOfRange);
+  EXPECT_EQ(FindLossCause(frame, false), LossCause::kDepthOutOfRange);
   frame.image.measured_depth = 0.0;
-  EXPECT_EQ(FindLossCause(frame), LossCause::kNoDepth);
+  EXPECT_EQ(FindLossCause(frame, false), LossCause::kNoDepth);
   frame.num_points = frame.num_lines = 4;
-  EXPECT_EQ(FindLossCause(frame), LossCause::kFewFeatures);
+  EXPECT_EQ(FindLossCause(frame, false), LossCause::kFewFeatures);
   frame.image.contrast = 0.5;
-  EXPECT_EQ(FindLossCause(frame), LossCause::kUniformImage);
+  EXPECT_EQ(FindLossCause(frame, false), LossCause::kUniformImage);
 }
 
-TEST(FindCause, IsThatOfFramesThatAreNotTracked) {
+TEST(FindLossCause, IsThatOfFramesThatAreNotTracked) {
   FrameResult frame = Unmatched();
   frame.status = TrackingStatus::kTracked;
-  EXPECT_EQ(FindCause(frame, false), std::nullopt);
+  EXPECT_EQ(FindLossCause(frame, false), std::nullopt);
   for (const TrackingStatus status :
        {TrackingStatus::kWeak, TrackingStatus::kPredicted, TrackingStatus::kLost}) {
     frame.status = status;
-    EXPECT_EQ(FindCause(frame, false), LossCause::kNoMatch);
-    EXPECT_EQ(FindCause(frame, true), LossCause::kImplausible);
+    EXPECT_EQ(FindLossCause(frame, false), LossCause::kNoMatch);
+    EXPECT_EQ(FindLossCause(frame, true), LossCause::kImplausible);
   }
   frame.num_with_depth = 3;  // explains more
-  EXPECT_EQ(FindCause(frame, true), LossCause::kDepthOutOfRange);
+  EXPECT_EQ(FindLossCause(frame, true), LossCause::kDepthOutOfRange);
 }
 
 class FrameCauseTest : public RoomTest {

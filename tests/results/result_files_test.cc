@@ -47,7 +47,9 @@ class ResultFilesTest : public TemporaryFolder {
     (*result.frames[1].covariance)(3, 3) = 0.04;
     result.frames[4].num_dynamic = 80;
     result.frames[2].status = TrackingStatus::kPredicted;
+    result.frames[2].cause = LossCause::kNoDepth;
     result.frames[3].status = TrackingStatus::kLost;
+    result.frames[3].cause = LossCause::kUniformImage;
     result.frames[4].status = TrackingStatus::kWeak;
     result.keyframes = {{10.0, Rigid3()}};
     result.points = {{{1.0, 2.0, 3.0}, 4}};
@@ -80,10 +82,7 @@ TEST_F(ResultFilesTest, SummarizesStatusesSpansAndStages) {
 }
 
 TEST_F(ResultFilesTest, CountsCausesOfMissingPoses) {
-  OdometryResult result = Result();
-  result.frames[2].num_lines = 0;
-  result.frames[2].image = {90.0, 40.0, 0.0};
-  const RunSummary summary = Summarize(result);
+  const RunSummary summary = Summarize(Result());
   EXPECT_EQ(summary.num_estimated, 3);
   EXPECT_FALSE(TrackingFailed(summary));
   EXPECT_EQ(DescribeLosses(summary), "1 black or uniform, 1 without depth");

@@ -108,6 +108,8 @@ Accuracies Measure(SceneKind scene, bool is_noisy, const PinholeCamera& color, d
   return {ratios(counts[0]), ratios(counts[1])};
 }
 
+// The bounds are the ratios that drawing every depth pixel as a parallelogram reaches, with a tenth
+// more wrong and missing pixels, and 15 % more pixels that are not accurate.
 struct Case {
   std::string name;
   SceneKind scene;

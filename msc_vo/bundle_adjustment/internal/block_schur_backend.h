@@ -48,8 +48,8 @@ class BlockSchurMinimizer {
   BlockSchurMinimizer(BlockStructure structure, const WindowTerms& terms, int max_iterations,
                       WindowStageObserver enter_stage, WindowState* state);
 
-  /// Evaluates the initial state first; then computes a step and evaluates the state after it in
-  /// turn. Returns whether to go on.
+  /// Evaluates the initial state at the first call; then alternately computes a step and evaluates
+  /// the state after it. Returns whether to go on.
   bool Advance();
   const MinimizerReport& report() const { return report_; }
 
