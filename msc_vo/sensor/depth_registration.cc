@@ -30,14 +30,14 @@ inline int Index(float x, float y, float stride) {
                           static_cast<float>(static_cast<int>(x)));
 }
 
-// Inverse depth between those of two pixels: their mean on one surface; 0: both have none; -1:
-// needs a search.
+// Inverse depth between those of two pixels: their mean on one surface; 0: none of them has a depth,
+// also beside one that needs a search (a pixel in a thousand of those at edges); -1: needs a search.
 inline float Middle(float first, float second) {
   const float gap = std::abs(first - second);
   const bool is_surface =
       (gap <= kMaxSurfaceNoise) | (gap <= kMaxSurfaceRatio * std::min(first, second));
   const float mean = is_surface ? 0.5f * (first + second) : -1.0f;
-  return (first == 0.0f) & (second == 0.0f) ? 0.0f : mean;
+  return std::max(first, second) == 0.0f ? 0.0f : mean;
 }
 
 }  // namespace

@@ -95,8 +95,9 @@ TEST_F(ResultFilesTest, CountsCausesOfMissingPoses) {
 TEST_F(ResultFilesTest, FailsARunWithLessThanHalfOfItsImagesTracked) {
   OdometryResult result = Result();
   result.frames[4].status = TrackingStatus::kLost;  // two of five are left
+  result.frames[4].cause = LossCause::kUniformImage;
   EXPECT_TRUE(TrackingFailed(Summarize(result)));
-  EXPECT_THAT(DescribeFailure(Summarize(result)), Names("2", "5", "50 %", "3 black"));
+  EXPECT_THAT(DescribeFailure(Summarize(result)), Names("2", "5", "50 %", "2 black", "1 without"));
   result.frames[3].status = TrackingStatus::kDropped;  // not processed: two of four
   EXPECT_FALSE(TrackingFailed(Summarize(result)));
   for (FrameResult& frame : result.frames) frame.status = TrackingStatus::kDropped;
