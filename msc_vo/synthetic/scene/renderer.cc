@@ -25,11 +25,19 @@ using Color = Eigen::Vector3f;
 constexpr float kFlatContrast = 2.0f / 255.0f;
 constexpr float kSharpContrast = 20.0f / 255.0f;
 
+// A point light prepared for shading.
+struct Lamp {
+  Eigen::Vector3f position;
+  float intensity = 0.0f, squared_reach = 0.0f;
+  int zone = 0;
+};
+
 // A rectangle prepared for shading.
 struct Surface {
   const Texture* texture = nullptr;
   Eigen::Vector3f origin, edge_u, edge_v, normal;
   float width = 0.0f, height = 0.0f;
+  int zone = 0;
 };
 
 // Computes the colours of surface points.
@@ -41,7 +49,12 @@ class Shader {
       surfaces_.push_back({&quad.texture, quad.origin.cast<float>(), quad.edge_u.cast<float>(),
                            quad.edge_v.cast<float>(), quad.Normal().cast<float>(),
                            static_cast<float>(quad.edge_u.norm()),
-                           static_cast<float>(quad.edge_v.norm())});
+                           static_cast<float>(quad.edge_v.norm()), quad.zone});
+    }
+    for (const PointLight& light : scene.lights) {
+      const float reach = static_cast<float>(light.reach);
+      lamps_.push_back({light.position.cast<float>(), static_cast<float>(light.intensity),
+                        reach * reach, light.zone});
     }
   }
 
@@ -52,7 +65,7 @@ class Shader {
     const Surface& surface = surfaces_[index];
     const SurfacePoint point{u * surface.width, v * surface.height, surface.width, surface.height};
     const Eigen::Vector3f x = surface.origin + u * surface.edge_u + v * surface.edge_v;
-    return EvaluateTexture(*surface.texture, point) * Brightness(x, surface.normal);
+    return EvaluateTexture(*surface.texture, point) * Brightness(x, surface);
   }
 
   // Colour of the nearest of `candidates` at a pixel; `background` if none is hit.
@@ -71,19 +84,18 @@ class Shader {
   }
 
  private:
-  // Ambient light and Lambertian reflection of every lamp, without cast shadows.
-  float Brightness(const Eigen::Vector3f& x, const Eigen::Vector3f& normal) const {
-    // Directional daylight, so the faces of a white box differ in brightness.
-    const Eigen::Vector3f daylight(0.30f, 0.16f, 0.22f);
-    float brightness = static_cast<float>(scene_.ambient) * (1.0f + normal.dot(daylight));
-    for (const PointLight& light : scene_.lights) {
-      const Eigen::Vector3f to_light = light.position.cast<float>() - x;
-      const float cosine_times_distance = normal.dot(to_light);
+  // Ambient light and Lambertian reflection of every lamp of the zone, without cast shadows.
+  float Brightness(const Eigen::Vector3f& x, const Surface& surface) const {
+    float brightness =
+        static_cast<float>(scene_.ambient) * (1.0f + surface.normal.dot(scene_.daylight));
+    for (const Lamp& lamp : lamps_) {
+      if (lamp.zone != surface.zone) continue;
+      const Eigen::Vector3f to_light = lamp.position - x;
+      const float cosine_times_distance = surface.normal.dot(to_light);
       if (cosine_times_distance <= 0.0f) continue;
       const float squared = to_light.squaredNorm();
-      const float reach = static_cast<float>(light.reach);
-      brightness += static_cast<float>(light.intensity) * cosine_times_distance /
-                    (std::sqrt(squared) * (1.0f + squared / (reach * reach)));
+      brightness += lamp.intensity * cosine_times_distance /
+                    (std::sqrt(squared) * (1.0f + squared / lamp.squared_reach));
     }
     return brightness;
   }
@@ -91,6 +103,7 @@ class Shader {
   const Scene& scene_;
   const std::vector<QuadView>& views_;
   std::vector<Surface> surfaces_;
+  std::vector<Lamp> lamps_;
 };
 
 // The distinct views that may be visible in a pixel's square.
