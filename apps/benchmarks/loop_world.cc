@@ -25,6 +25,7 @@ SyntheticSequenceOptions SequenceOptionsOf(const LoopWorldOptions& options) {
   sequence.height = 240;
   sequence.fps = 10.0;
   sequence.kinect_depth = true;
+  sequence.quick = true;
   sequence.path.speed = 0.55;                        // metres/second
   sequence.path.turn_rate = DegreesToRadians(55.0);  // radians/second
   return sequence;

@@ -27,7 +27,7 @@ Scene MakeDeskPlace(uint64_t seed) {
   const Texture paint = builder.NewTexture(TextureKind::kPlaster, kOfficePaint);
   builder.AddQuad({{-x, 0, 0}, {2 * x, 0, 0}, {0, kDepth, 0}, floor});
   builder.AddQuad({{x, 0, kOfficeHeight}, {-2 * x, 0, 0}, {0, kDepth, 0}, ceiling});
-  builder.AddQuad({{x, kDepth, 0}, {-2 * x, 0, 0}, {0, 0, kOfficeHeight}, paint});
+  builder.AddQuad({{-x, kDepth, 0}, {2 * x, 0, 0}, {0, 0, kOfficeHeight}, paint});
 
   const double desk = 1.75 + random.Uniform(-0.05, 0.05);
   const Rigid3 facing_aisle = UprightFrame({0, desk, 0}, kPi);

@@ -33,8 +33,8 @@ Scene MakeEnds(const RoomPlan& plan, uint64_t seed) {
   SceneBuilder builder(seed, 2);
   const Texture paint = builder.NewTexture(TextureKind::kPlaster, kEndWallColor);
   const double low = -plan.wall - plan.corridor, width = plan.corridor;
-  builder.AddQuad({{-0.5 * plan.pitch, -plan.wall, 0}, {0, -width, 0}, {0, 0, plan.height}, paint});
-  builder.AddQuad({{1.5 * plan.pitch, low, 0}, {0, width, 0}, {0, 0, plan.height}, paint});
+  builder.AddQuad({{-0.5 * plan.pitch, low, 0}, {0, width, 0}, {0, 0, plan.height}, paint});
+  builder.AddQuad({{1.5 * plan.pitch, -plan.wall, 0}, {0, -width, 0}, {0, 0, plan.height}, paint});
   return builder.scene();
 }
 

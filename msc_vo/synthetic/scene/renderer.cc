@@ -149,7 +149,7 @@ std::vector<Color> ShadeCenters(const Shader& shader, const HitBuffer& hits) {
 
 // Colour of a pixel; the number of samples depends on the contrast of its neighbourhood.
 Color FilterPixel(const Shader& shader, const HitBuffer& hits, const BorderBuffer& borders,
-                  const std::vector<Color>& centers, int x, int y) {
+                  const std::vector<Color>& centers, int largest_side, int x, int y) {
   const size_t here = hits.Index(x, y);
   Candidates views;
   views.Add(hits.view[here]);
@@ -164,7 +164,7 @@ Color FilterPixel(const Shader& shader, const HitBuffer& hits, const BorderBuffe
   const bool has_border = borders.begin(here) != borders.end(here);
   for (const int* view = borders.begin(here); view != borders.end(here); ++view) views.Add(*view);
   if (!has_border && contrast < kFlatContrast) return centers[here];
-  const int side = has_border || contrast > kSharpContrast ? 4 : 2;
+  const int side = has_border || contrast > kSharpContrast ? largest_side : 2;
   return SampleSquare(shader, views, x, y, side, centers[here]);
 }
 
@@ -178,8 +178,8 @@ std::vector<uint8_t> RenderedImage::Gray() const {
   return gray;
 }
 
-Renderer::Renderer(Scene scene, const PinholeCamera& camera)
-    : scene_(std::move(scene)), camera_(camera) {
+Renderer::Renderer(Scene scene, const PinholeCamera& camera, RenderQuality quality)
+    : scene_(std::move(scene)), camera_(camera), quality_(quality) {
   std::string error;
   if (!camera.IsValid(&error)) throw std::invalid_argument("Renderer: " + error);
 }
@@ -210,7 +210,10 @@ void Renderer::DrawBand(const Rigid3& cam_from_world, const RowBand& band,
                         RenderedImage* image) const {
   // The filter needs the neighbours of a pixel from the same pose.
   const RowBand padded{std::max(band.first - 1, 0), std::min(band.last + 1, camera_.height - 1)};
-  const std::vector<QuadView> views = ViewQuads(scene_, camera_, cam_from_world, padded);
+  const bool is_quick = quality_ == RenderQuality::kQuick;
+  const int largest_side = is_quick ? 2 : 4;
+  std::vector<QuadView> views = ViewQuads(scene_, camera_, cam_from_world, padded);
+  if (is_quick) RemoveInvisible(scene_, camera_, cam_from_world, &views);
   const HitBuffer hits = Rasterize(views, padded, camera_.width);
   const BorderBuffer borders(views, hits);
   const Shader shader(scene_, views);
@@ -218,7 +221,7 @@ void Renderer::DrawBand(const Rigid3& cam_from_world, const RowBand& band,
   for (int y = band.first; y <= band.last; ++y) {
     for (int x = 0; x < camera_.width; ++x) {
       const size_t pixel = static_cast<size_t>(y) * camera_.width + x, hit = hits.Index(x, y);
-      const Color color = FilterPixel(shader, hits, borders, centers, x, y);
+      const Color color = FilterPixel(shader, hits, borders, centers, largest_side, x, y);
       for (int k = 0; k < 3; ++k) image->rgb[3 * pixel + k] = ToGrayValue(255.0f * color[k]);
       if (hits.view[hit] < 0) continue;
       image->depth[pixel] = static_cast<float>(1.0 / hits.inverse_depth[hit]);

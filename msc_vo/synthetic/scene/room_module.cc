@@ -39,7 +39,6 @@ void FurnishSide(const Rigid3& frame, SceneBuilder* builder) {
   switch (builder->random().Index(3)) {
     case 0:
       AddBookcase(Along(frame, -0.1), {1.5, 2.0}, builder);
-      AddPicture(Along(frame, 1.15), {0.5, 0.7}, 1.5, builder);
       return;
     case 1: {
       const Texture oak = builder->NewTexture(TextureKind::kWood, kCupboardWood);
@@ -101,8 +100,11 @@ Scene MakeRoomModule(const RoomPlan& plan, uint64_t seed) {
   builder.scene().lights = {{{0, 0.5 * plan.depth, plan.height - 0.3}, 0.85, 2.4}};
   AddCeilingLamp(UprightFrame({0, 0.5 * plan.depth, plan.height}, 0.0), {0.5, 0.5}, &builder);
   FurnishBack(UprightFrame({0, plan.depth, 0}, 2.0 * kRightAngle), &builder);
-  FurnishSide(UprightFrame({-x, 0.5 * plan.depth, 0}, -kRightAngle), &builder);
-  FurnishSide(UprightFrame({x, 0.5 * plan.depth, 0}, kRightAngle), &builder);
+  for (const double side : {-1.0, 1.0}) {
+    const auto frame = [&](double y) { return UprightFrame({side * x, y, 0}, side * kRightAngle); };
+    FurnishSide(frame(0.5 * plan.depth + 0.1), &builder);
+    AddPicture(frame(0.5), {0.5, 0.7}, 1.4, &builder);  // where a camera turns to the door
+  }
   AddPicture(UprightFrame({-0.15, 0, 0}, 0.0), {0.5, 0.7}, 1.5, &builder);
   return builder.scene();
 }

@@ -119,9 +119,11 @@ SyntheticSequence::SyntheticSequence(const SyntheticSequenceOptions& options)
       camera_(ColorCameraOf(options)),
       warp_(WarpOf(options, camera_)),
       renderer_(MakeScene(options.scene, options.seed, options.walk),
-                warp_ ? warp_->source() : camera_),
+                warp_ ? warp_->source() : camera_,
+                options.quick ? RenderQuality::kQuick : RenderQuality::kFine),
       path_(renderer_.scene(), SeededPath(options)) {
   if (options.depth_rig) depth_renderer_.emplace(renderer_.scene(), DepthCameraOf(options));
+  if (options.quick) noise_table_.emplace(options.kinect, depth_camera(), walk_seed_);
 }
 
 TimedPose SyntheticSequence::PoseAt(int index) const {
@@ -232,7 +234,9 @@ void SyntheticSequence::DisturbColor(int index, RenderedImage* image) const {
   if (options_.photon_noise) {
     AddPhotonNoise(*options_.photon_noise, walk_seed_, kPhotonStream + frame, image);
   }
-  if (options_.image_sigma > 0.0) {
+  if (options_.image_sigma > 0.0 && noise_table_) {
+    noise_table_->AddImageNoise(options_.image_sigma, 2 * frame, image);
+  } else if (options_.image_sigma > 0.0) {
     AddImageNoise(options_.image_sigma, walk_seed_, 2 * frame, image);
   }
 }
@@ -249,6 +253,9 @@ void SyntheticSequence::AddDepthNoise(uint64_t stream, std::vector<float>* depth
     case SyntheticDepth::kExact:
       return;
     case SyntheticDepth::kStructuredLight:
+      if (noise_table_) {
+        return noise_table_->AddKinectNoise(options_.kinect, depth_camera(), stream, depth);
+      }
       return AddKinectNoise(options_.kinect, depth_camera(), seed, stream, depth);
     case SyntheticDepth::kTimeOfFlight:
       return AddTimeOfFlightNoise(options_.time_of_flight, depth_camera(), seed, stream, depth);
