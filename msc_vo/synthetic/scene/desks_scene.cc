@@ -42,7 +42,7 @@ Scene MakeDeskPlace(uint64_t seed) {
   const Texture fabric =
       builder.NewTexture(TextureKind::kSpeckle, {0.45f, 0.5f, 0.55f}, {0.2f, 0.2f, 0.25f}, 2.0f);
   builder.AddBox(UprightFrame({0, desk + 0.45, 0}, kPi), {-0.95, 0, 0}, {0.95, 0.04, 1.35}, fabric);
-  AddPicture(UprightFrame({random.Uniform(-0.3, 0.3), kDepth, 0}, kPi), {0.9, 0.6}, 1.85, &builder);
+  AddPicture(UprightFrame({random.Uniform(-0.3, 0.1), kDepth, 0}, kPi), {0.9, 0.6}, 1.85, &builder);
   AddCeilingLamp(UprightFrame({0, 0.5 * kDepth, kOfficeHeight}, 0.0), {1.2, 0.3}, &builder);
   builder.scene().lights = {{{0, 0.5 * kDepth, kOfficeHeight - 0.3}, 0.85, 2.2}};
   return builder.scene();
@@ -51,7 +51,7 @@ Scene MakeDeskPlace(uint64_t seed) {
 // A note on the wall, with which a desk differs from others.
 Scene MakeDeskMark(uint64_t seed) {
   SceneBuilder builder(seed);
-  AddPicture(UprightFrame({0.95, kDepth, 0}, kPi), {0.22, 0.3}, 1.75, &builder);
+  AddPicture(UprightFrame({0.75, kDepth, 0}, kPi), {0.22, 0.3}, 1.75, &builder);
   return builder.scene();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <algorithm>
+
 #include "msc_vo/synthetic/scene/furniture.h"
 #include "msc_vo/synthetic/scene/room_module.h"
 #include "msc_vo/synthetic/scene/room_steps.h"
@@ -10,7 +12,7 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kStorey = 2.9;                   // height from floor to floor, metres
+constexpr double kStorey = 2.8;                   // height from floor to floor, metres
 constexpr double kShaft = 1.8, kHalfShaft = 0.9;  // side of the lift shaft, metres
 
 // One storey: a room whose right door opens into the shaft, and whose left door is closed.
@@ -59,16 +61,14 @@ Scene MakeShaftEnds(const RoomPlan& plan, uint64_t seed, double top) {
 // The ride between the storeys, with a view of the back of the shaft, and the turn to its door.
 std::vector<Step> RideSteps(const RoomPlan& plan, bool up) {
   const double x = plan.door, y = -plan.wall - 0.48 * kShaft;
+  const double start = up ? 0.0 : kStorey, end = kStorey - start;
   std::vector<Step> steps;
-  constexpr int kCount = 6;
-  for (int i = 0; i <= kCount; ++i) {
-    const double ratio = static_cast<double>(i) / kCount;
-    steps.push_back({x, y, -90, kStorey * (up ? ratio : 1.0 - ratio)});
+  // The turn begins before the end of the ride.
+  const double headings[] = {-90, -90, -90, -90, -75, -45, -10, 25, 60, 90};
+  for (int i = 0; i < 10; ++i) {
+    steps.push_back({x, y, headings[i], start + (end - start) * std::min(1.0, i / 7.0)});
   }
-  for (const double heading : {-45.0, 0.0, 45.0, 90.0}) {
-    steps.push_back({x, y, heading, up ? kStorey : 0.0});
-  }
-  steps.push_back({x, -0.4, 90, up ? kStorey : 0.0});
+  steps.push_back({x, -0.4, 90, end});
   return steps;
 }
 
@@ -91,7 +91,8 @@ Scene MakeFloors(uint64_t seed, const WalkOptions& walk) {
     writer.Add(upper, MirrorSteps(steps.TurnBackToLeft()));
     writer.Add(lower, RideSteps(plan, false));
     writer.Add(lower, MirrorSteps(steps.EnterByLeft()));
-    writer.Add(lower, steps.LookAtBack());
+    const std::vector<Step> back = steps.LookAtBack();
+    writer.Add(lower, {back.begin(), back.begin() + 3});
   } else {
     writer.Add(upper, MirrorSteps(steps.StayAtLeft()));
   }

@@ -78,9 +78,9 @@ TEST_P(LookAlikesTest, CopiesLookIdenticalInEvenSeeds) {
 
 TEST_P(LookAlikesTest, CopiesDifferInASmallThingInOddSeeds) {
   const Waypoint camera = GetParam() == SceneKind::kDesks
-                              ? Waypoint{{0.4, 1.3, 1.6}, {0.95, 2.9, 1.75}}
+                              ? Waypoint{{0.4, 1.9, 1.75}, {0.5, 2.9, 1.75}}
                               : Waypoint{{0.3, 1.6, 1.5}, {0.4, 0.0, 1.5}};
-  const Scene scene = MakeScene(GetParam(), 3), identical = MakeScene(GetParam(), 2);
+  const Scene scene = MakeScene(GetParam(), 3);
   for (size_t i = 1; i < scene.look_alikes.size(); ++i) {
     const double difference = Difference(View(scene, scene.look_alikes[0], camera),
                                          View(scene, scene.look_alikes[i], camera));
