@@ -106,7 +106,7 @@ TEST_F(SynthesizeCommandTest, RecordsOtherPathsThroughAScene) {
 
 TEST_F(SynthesizeCommandTest, RecordsAWalkToItsEnd) {
   const CommandOutcome outcome =
-      RunCommand({"synthesize", Path("walk"), "--scene", "floors", "--width", "32", "--fps", "0.5",
+      RunCommand({"synthesize", Path("walk"), "--scene", "floors", "--width", "64", "--fps", "0.5",
                   "--speed", "1", "--turn-rate", "90", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const std::string truth = ReadFile(Path("walk/groundtruth.txt"));
