@@ -174,16 +174,27 @@ void AddCalibrationErrors(CLI::App* command, SynthesizeArguments* arguments) {
 void AddSequenceArguments(CLI::App* command, SynthesizeArguments* arguments) {
   command->add_option("out_dir", arguments->folder, "Folder to write")->required();
   command->add_option("--scene", arguments->scene, "Scene to render")
-      ->check(CLI::IsMember({"room", "corridor", "bare", "slanted", "house", "box"}))
+      ->check(CLI::IsMember(SceneKindNames()))
       ->capture_default_str();
-  command->add_option("--frames", arguments->frames, "Number of frames")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+  command
+      ->add_option("--frames", arguments->frames,
+                   "Number of frames; default: 260, or until the end of a walk that is no loop")
+      ->check(CLI::Range(1, 1000000));
   command
       ->add_option("--seed", arguments->options.seed,
                    "Seed of the scene, the trajectory and the noise")
       ->check(NumberFrom(0.0, 1e15))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--path", arguments->options.walk.path,
+          "Number of the path through the scene of this seed, 1 for the first: other paths "
+          "have other noise, too")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{1000000}))
+      ->capture_default_str();
+  command->add_flag("--returns", arguments->options.walk.returns,
+                    "Come back to a place at the end of the path; needs a scene with places that "
+                    "look alike: rooms, mirrored, floors, desks");
   command
       ->add_option("--width", arguments->options.width,
                    "Image width, pixels; the focal length is proportional")
@@ -204,6 +215,10 @@ void AddSequenceArguments(CLI::App* command, SynthesizeArguments* arguments) {
       ->add_option("--speed", arguments->options.path.speed, "Speed of the camera, metres/second")
       ->check(NumberFrom(0.001, 100.0))
       ->capture_default_str();
+  command
+      ->add_option("--turn-rate", arguments->turn_rate,
+                   "Turn rate of the camera, degrees/second; default: 26")
+      ->check(NumberFrom(0.1, 10000.0));
 }
 
 // What is written, and how.
@@ -248,6 +263,12 @@ SyntheticSequenceOptions SequenceOptions(const SynthesizeArguments& arguments) {
   if (arguments.hunting_exposure) options.hunting_exposure.emplace();
   options.depth_rig = MakeRig(arguments.rig);
   options.lens = ParseLens(arguments.lens);
+  if (arguments.turn_rate > 0.0) options.path.turn_rate = DegreesToRadians(arguments.turn_rate);
+  if (options.walk.returns && !HasLookAlikes(options.scene)) {
+    throw std::runtime_error(
+        "--returns needs a scene with places that look alike: give --scene "
+        "rooms, mirrored, floors or desks");
+  }
   std::string error;
   if (!options.IsValid(&error)) throw std::runtime_error(error);
   return options;

@@ -17,7 +17,7 @@ struct SynthesizeArguments {
   std::string folder;
   std::string scene = "room";
   std::string depth_sensor = "exact";
-  int frames = 260;
+  int frames = 0;  ///< 0: 260, or until the end of a walk
   int stride = 1;
   int height = 0;  ///< pixels; 0: three quarters of the width
   ColorEncoding encoding;
@@ -25,6 +25,7 @@ struct SynthesizeArguments {
   bool json = false;
   std::vector<double> rig;   ///< focal length, x, y, roll; empty: registered depth
   std::string lens;          ///< MODEL:COEFFICIENTS; empty: none
+  double turn_rate = 0.0;    ///< degrees/second; 0: that of the path
   double depth_bias = -1.0;  ///< metres; negative: that of the sensor
   double light = 0.0;        ///< fraction; 0: no photon noise
   bool hunting_exposure = false;

@@ -64,12 +64,14 @@ void WriteAccelerometer(const fs::path& folder, const std::vector<TimedAccelerat
   WriteFile((folder / "accelerometer.txt").string(), text);
 }
 
-void PrintJson(const SynthesizeArguments& arguments, const Calibration& truth, int num_frames) {
+void PrintJson(const SynthesizeArguments& arguments, const Calibration& truth, int num_done,
+               int num_frames) {
   const nlohmann::ordered_json json = {{"directory", arguments.folder},
                                        {"scene", arguments.scene},
                                        {"seed", arguments.options.seed},
-                                       {"frames", num_frames},
-                                       {"complete", num_frames == arguments.frames},
+                                       {"path", arguments.options.walk.path},
+                                       {"frames", num_done},
+                                       {"complete", num_done == num_frames},
                                        {"camera", CalibrationToJson(truth)}};
   std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
 }
@@ -82,9 +84,14 @@ void WriteEdges(const fs::path& folder, const Scene& scene) {
   WriteFile((folder / "edges.ply").string(), FormatEdgesPly(edges));
 }
 
+int NumFrames(const SynthesizeArguments& arguments, const SyntheticSequence& sequence) {
+  return arguments.frames > 0 ? arguments.frames : sequence.WalkLength().value_or(260);
+}
+
 int Run(const SynthesizeArguments& arguments) {
   const SyntheticSequenceOptions options = SequenceOptions(arguments);
   const SyntheticSequence sequence(options);
+  const int num_frames = NumFrames(arguments, sequence);
   const Calibration true_calibration = TrueCalibration(options, sequence);
   const Calibration given = GivenCalibration(arguments, true_calibration);
 
@@ -93,7 +100,7 @@ int Run(const SynthesizeArguments& arguments) {
   WriteFile((folder / "camera.txt").string(), FormatCameraFile(given, kMark));
   WriteFile((folder / "truth.json").string(),
             FormatTruthJson(arguments, options, true_calibration, given));
-  WriteAccelerometer(folder, sequence.AccelerometerReadings(arguments.frames));
+  WriteAccelerometer(folder, sequence.AccelerometerReadings(num_frames));
   WriteEdges(folder, sequence.scene());
   GrowingFile rgb_list((folder / "rgb.txt").string());
   GrowingFile depth_list((folder / "depth.txt").string());
@@ -102,10 +109,10 @@ int Run(const SynthesizeArguments& arguments) {
   for (GrowingFile* list : {&rgb_list, &depth_list}) list->Append("# timestamp filename\n");
   truth.Append("# timestamp tx ty tz qx qy qz qw (camera in world)\n");
   const InterruptGuard guard;
-  Progress progress(arguments.frames);
-  RenderedFrames frames(sequence, arguments.encoding, arguments.frames);
+  Progress progress(num_frames);
+  RenderedFrames frames(sequence, arguments.encoding, num_frames);
   int num_done = 0;
-  for (int i = 0; i < arguments.frames && !guard.IsInterrupted(); ++i) {
+  for (int i = 0; i < num_frames && !guard.IsInterrupted(); ++i) {
     const EncodedFrame frame = frames.Next();
     const std::string stamp = FormatText("%.6f", frame.pose.timestamp);
     const std::string rgb = "rgb/" + stamp + (arguments.encoding.jpeg ? ".jpg" : ".png");
@@ -120,7 +127,7 @@ int Run(const SynthesizeArguments& arguments) {
     progress.Update(++num_done, "");
   }
   progress.Finish();
-  if (arguments.json) PrintJson(arguments, true_calibration, num_done);
+  if (arguments.json) PrintJson(arguments, true_calibration, num_done, num_frames);
   return guard.IsInterrupted() ? kExitInterrupted : kExitSuccess;
 }
 

@@ -81,6 +81,8 @@ std::string FormatTruthJson(const SynthesizeArguments& arguments,
   const bool is_time_of_flight = options.depth == SyntheticDepth::kTimeOfFlight;
   const Json json = {{"scene", arguments.scene},
                      {"seed", options.seed},
+                     {"path", options.walk.path},
+                     {"returns", options.walk.returns},
                      {"camera", CalibrationToJson(truth)},
                      {"given", CalibrationToJson(given)},
                      {"depth_sensor", ToString(options.depth)},

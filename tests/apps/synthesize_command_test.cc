@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <algorithm>
+
 #include "tests/apps/command_process.h"
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
@@ -86,6 +88,31 @@ TEST_F(SynthesizeCommandTest, WritesTheTruth) {
   EXPECT_TRUE(truth["light"].is_null());
   EXPECT_EQ(truth["hunting_exposure"], false);
   EXPECT_EQ(truth["motion_blur"], 0.0);
+}
+
+TEST_F(SynthesizeCommandTest, RecordsOtherPathsThroughAScene) {
+  const nlohmann::json first = Truth("first", {"--scene", "desks"});
+  const nlohmann::json other = Truth("other", {"--scene", "desks", "--path", "2", "--returns"});
+  EXPECT_EQ(first["path"], 1);
+  EXPECT_EQ(first["returns"], false);
+  EXPECT_EQ(other["path"], 2);
+  EXPECT_EQ(other["returns"], true);
+  EXPECT_EQ(ReadFile(Path("first/edges.ply")), ReadFile(Path("other/edges.ply")));
+  EXPECT_NE(ReadFile(Path("first/groundtruth.txt")), ReadFile(Path("other/groundtruth.txt")));
+  const CommandOutcome outcome = Synthesize("room", {"--scene", "room", "--returns"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("--returns"), HasSubstr("rooms")));
+}
+
+TEST_F(SynthesizeCommandTest, RecordsAWalkToItsEnd) {
+  const CommandOutcome outcome =
+      RunCommand({"synthesize", Path("walk"), "--scene", "floors", "--width", "64", "--fps", "0.5",
+                  "--speed", "1", "--turn-rate", "90", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string truth = ReadFile(Path("walk/groundtruth.txt"));
+  const auto count = std::count(truth.begin(), truth.end(), '\n') - 1;  // a header
+  EXPECT_GT(count, 4);
+  EXPECT_LT(count, 30);
 }
 
 TEST_F(SynthesizeCommandTest, WritesTheTrueCamerasThatAreUntold) {

@@ -12,6 +12,7 @@
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/synthetic/scene/random.h"
+#include "msc_vo/synthetic/scene/tour.h"
 
 namespace msc_vo {
 
@@ -31,15 +32,6 @@ constexpr double kTurnSlow = 0.35 * kPi / 180, kTurnFast = 0.15 * kPi / 180;  //
 // Pace: the path is followed up to a third faster or slower than nominal.
 constexpr double kPaceFrequency[2] = {0.11, 0.173};  // hertz
 constexpr double kPaceAmplitude = 0.15;              // of each of the two sines
-
-// Uniform cubic B-spline at fraction f between the two middle ones of four control points.
-Eigen::Vector3d CubicBSpline(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                             const Eigen::Vector3d& c, const Eigen::Vector3d& d, double f) {
-  const double g = 1.0 - f;
-  return (g * g * g * a + (3 * f * f * f - 6 * f * f + 4) * b +
-          (3 * g * g * g - 6 * g * g + 4) * c + f * f * f * d) /
-         6.0;
-}
 
 // Sum of the two sines of an axis with amplitudes `slow` and `fast`.
 double Shake(double slow, double fast, int axis, double seconds, const double* phases) {
@@ -61,24 +53,26 @@ bool PathOptions::IsValid(std::string* error) const {
 }
 
 CameraPath::CameraPath(const Scene& scene, const PathOptions& options)
-    : tour_(scene.tour), options_(options) {
+    : control_points_(ControlPoints(scene)), is_loop_(scene.tour_is_loop), options_(options) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument("CameraPath: " + error);
-  if (tour_.size() < 4) {
+  if (control_points_.size() < 4) {
     throw std::invalid_argument("CameraPath: the scene's tour needs at least 4 waypoints");
   }
   Random random(options.seed, 0x70617468);
   for (double& phase : phases_) phase = random.Uniform(0.0, 2.0 * kPi);
   BuildTimetable();
-  start_seconds_ = random.Uniform(0.0, LoopSeconds());
+  if (is_loop_) start_seconds_ = random.Uniform(0.0, LoopSeconds());
 }
 
 void CameraPath::BuildTimetable() {
-  const int steps = kStepsPerWaypoint * static_cast<int>(tour_.size());
+  const size_t num_pieces = control_points_.size() - (is_loop_ ? 0 : 3);
+  const int steps = kStepsPerWaypoint * static_cast<int>(num_pieces);
   seconds_at_.assign(1, 0.0);
-  Waypoint last = WaypointAt(0.0);
+  Waypoint last = SplineWaypoint(control_points_, 0.0);
   for (int i = 1; i <= steps; ++i) {
-    const Waypoint next = WaypointAt(static_cast<double>(i) / kStepsPerWaypoint);
+    const Waypoint next =
+        SplineWaypoint(control_points_, static_cast<double>(i) / kStepsPerWaypoint);
     const double move = (next.position - last.position).norm() / options_.speed;
     const Eigen::Vector3d from = last.target - last.position, to = next.target - next.position;
     const double turn = std::atan2(from.cross(to).norm(), from.dot(to)) / options_.turn_rate;
@@ -88,22 +82,16 @@ void CameraPath::BuildTimetable() {
   }
 }
 
-Waypoint CameraPath::WaypointAt(double parameter) const {
-  const size_t count = tour_.size();
-  const size_t knot = static_cast<size_t>(parameter);
-  const double f = parameter - static_cast<double>(knot);
-  const Waypoint* w[4];
-  for (size_t k = 0; k < 4; ++k) w[k] = &tour_[(knot + k) % count];
-  return {CubicBSpline(w[0]->position, w[1]->position, w[2]->position, w[3]->position, f),
-          CubicBSpline(w[0]->target, w[1]->target, w[2]->target, w[3]->target, f)};
+double CameraPath::ParameterAt(double seconds) const {
+  if (!is_loop_) return ParameterInTour(std::clamp(seconds, 0.0, LoopSeconds()));
+  const double remainder = std::fmod(seconds, LoopSeconds());
+  return ParameterInTour(remainder < 0.0 ? remainder + LoopSeconds() : remainder);
 }
 
-double CameraPath::ParameterAt(double seconds) const {
-  const double remainder = std::fmod(seconds, LoopSeconds());
-  const double in_loop = remainder < 0.0 ? remainder + LoopSeconds() : remainder;
-  const auto after = std::upper_bound(seconds_at_.begin(), seconds_at_.end() - 1, in_loop);
+double CameraPath::ParameterInTour(double seconds) const {
+  const auto after = std::upper_bound(seconds_at_.begin(), seconds_at_.end() - 1, seconds);
   const size_t i = static_cast<size_t>(after - seconds_at_.begin()) - 1;
-  const double f = (in_loop - seconds_at_[i]) / (seconds_at_[i + 1] - seconds_at_[i]);
+  const double f = (seconds - seconds_at_[i]) / (seconds_at_[i + 1] - seconds_at_[i]);
   return (static_cast<double>(i) + f) / kStepsPerWaypoint;
 }
 
@@ -113,7 +101,7 @@ Rigid3 CameraPath::CamFromWorld(double seconds) const {
     const double rate = 2.0 * kPi * kPaceFrequency[k], phase = phases_[12 + k];
     path_seconds += kPaceAmplitude / rate * (std::sin(rate * seconds + phase) - std::sin(phase));
   }
-  const Waypoint nominal = WaypointAt(ParameterAt(path_seconds));
+  const Waypoint nominal = SplineWaypoint(control_points_, ParameterAt(path_seconds));
   Eigen::Vector3d shift, turn;
   for (int axis = 0; axis < 3; ++axis) {
     shift[axis] = Shake(kShiftSlow, kShiftFast, axis, seconds, &phases_[2 * axis]);

@@ -23,7 +23,8 @@ struct PathOptions {
   bool IsValid(std::string* error) const;
 };
 
-/// Trajectory of a hand-held camera along the tour of a scene, an endless loop: uniform cubic
+/// Trajectory of a hand-held camera along the tour of a scene, an endless loop or a walk from its
+/// beginning to its end, where the camera stays: uniform cubic
 /// B-splines through positions and targets (continuous acceleration, within the convex hull of four
 /// waypoints), a pace that slows down in turns, and a shake of incommensurate sines, so rounds do
 /// not repeat.
@@ -35,15 +36,17 @@ class CameraPath {
   /// Pose (camera frame from world frame) at `seconds` after the start; may be negative.
   Rigid3 CamFromWorld(double seconds) const;
 
-  /// Duration of one round, seconds.
+  /// Duration of one round, or of a walk that is no loop, seconds; the pace changes it by up to
+  /// half a second.
   double LoopSeconds() const { return seconds_at_.back(); }
 
  private:
-  Waypoint WaypointAt(double parameter) const;
   double ParameterAt(double seconds) const;
+  double ParameterInTour(double seconds) const;  // 0 to LoopSeconds()
   void BuildTimetable();
 
-  std::vector<Waypoint> tour_;
+  std::vector<Waypoint> control_points_;
+  bool is_loop_ = true;
   PathOptions options_;
   std::vector<double> seconds_at_;  // at equally spaced spline parameters, without pace and shake
   double start_seconds_ = 0.0;

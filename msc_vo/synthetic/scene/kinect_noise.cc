@@ -38,6 +38,45 @@ float ShiftedDepth(const PinholeCamera& camera, const std::vector<float>& depth,
   return depth[static_cast<size_t>(j) * camera.width + i];
 }
 
+// Random numbers of a pixel.
+struct PixelDraw {
+  Eigen::Vector2d shift;  // standard normal
+  double uniform = 0.0;   // in [0, 1)
+  float noise = 0.0f;     // standard normal, correlated between pixels
+};
+
+void Check(const KinectNoiseOptions& options, const PinholeCamera& camera,
+           const std::vector<float>& depth) {
+  std::string error;
+  if (!options.IsValid(&error)) throw std::invalid_argument("AddKinectNoise: " + error);
+  if (depth.size() != static_cast<size_t>(camera.width) * camera.height) {
+    throw std::invalid_argument(
+        "AddKinectNoise: depth must have camera.width * camera.height values");
+  }
+}
+
+// Applies the noise; `draw_of` returns the random numbers of each pixel, in order.
+template <typename DrawOf>
+void Apply(const KinectNoiseOptions& options, const PinholeCamera& camera,
+           std::vector<float>* depth, const DrawOf& draw_of) {
+  const double lateral = options.lateral_sigma * (camera.FocalLength() / options.focal_length);
+  const double depth_times_disparity = options.focal_length * options.baseline;
+  const std::vector<float> exact = *depth;
+  for (size_t i = 0; i < exact.size(); ++i) {
+    const int x = static_cast<int>(i % camera.width), y = static_cast<int>(i / camera.width);
+    const PixelDraw draw = draw_of(i);
+    const double z = ShiftedDepth(camera, exact, x, y, lateral * draw.shift);
+    const double loss = (Slope(camera, exact, x, y) - options.keep_slope) /
+                        (options.lose_slope - options.keep_slope);
+    (*depth)[i] = 0.0f;
+    if (z < options.min_depth || z > options.max_depth) continue;
+    if (draw.uniform < std::min(loss, 0.95)) continue;
+    const double disparity = depth_times_disparity / z + options.disparity_sigma * draw.noise;
+    const double rounded = options.disparity_step * std::round(disparity / options.disparity_step);
+    if (rounded > 0.0) (*depth)[i] = static_cast<float>(depth_times_disparity / rounded);
+  }
+}
+
 }  // namespace
 
 bool KinectNoiseOptions::IsValid(std::string* error) const {
@@ -57,31 +96,48 @@ bool KinectNoiseOptions::IsValid(std::string* error) const {
 
 void AddKinectNoise(const KinectNoiseOptions& options, const PinholeCamera& camera, uint64_t seed,
                     uint64_t frame, std::vector<float>* depth) {
-  std::string error;
-  if (!options.IsValid(&error)) throw std::invalid_argument("AddKinectNoise: " + error);
-  if (depth->size() != static_cast<size_t>(camera.width) * camera.height) {
-    throw std::invalid_argument(
-        "AddKinectNoise: depth must have camera.width * camera.height values");
-  }
+  Check(options, camera, *depth);
   Random random(seed, frame);
   const double pixels_per_sensor_pixel = camera.FocalLength() / options.focal_length;
-  const double lateral = options.lateral_sigma * pixels_per_sensor_pixel;
   const std::vector<float> noise = SmoothNoise(
       camera.width, camera.height, options.correlation * pixels_per_sensor_pixel, &random);
-  const double depth_times_disparity = options.focal_length * options.baseline;
-  const std::vector<float> exact = *depth;
-  for (size_t i = 0; i < exact.size(); ++i) {
-    const int x = static_cast<int>(i % camera.width), y = static_cast<int>(i / camera.width);
-    // Always drawn, so the noise of a pixel does not depend on other pixels.
-    const double z = ShiftedDepth(camera, exact, x, y, lateral * random.Normal2());
-    const double draw = random.Uniform();
-    const double loss = (Slope(camera, exact, x, y) - options.keep_slope) /
-                        (options.lose_slope - options.keep_slope);
-    (*depth)[i] = 0.0f;
-    if (z < options.min_depth || z > options.max_depth || draw < std::min(loss, 0.95)) continue;
-    const double disparity = depth_times_disparity / z + options.disparity_sigma * noise[i];
-    const double rounded = options.disparity_step * std::round(disparity / options.disparity_step);
-    if (rounded > 0.0) (*depth)[i] = static_cast<float>(depth_times_disparity / rounded);
+  // Always drawn, so the noise of a pixel does not depend on other pixels.
+  Apply(options, camera, depth, [&](size_t pixel) {
+    const Eigen::Vector2d shift = random.Normal2();
+    return PixelDraw{shift, random.Uniform(), noise[pixel]};
+  });
+}
+
+NoiseTable::NoiseTable(const KinectNoiseOptions& options, const PinholeCamera& camera,
+                       uint64_t seed)
+    : width_(camera.width), height_(camera.height), seed_(seed) {
+  Random random(seed, 0x7461626c65);
+  normals_.resize(kSize);
+  for (float& value : normals_) value = static_cast<float>(random.Normal());
+  smooth_ = SmoothNoise(width_, height_,
+                        options.correlation * camera.FocalLength() / options.focal_length, &random);
+}
+
+void NoiseTable::AddKinectNoise(const KinectNoiseOptions& options, const PinholeCamera& camera,
+                                uint64_t frame, std::vector<float>* depth) const {
+  Check(options, camera, *depth);
+  Random random(seed_, frame);
+  const size_t start = static_cast<size_t>(random.Next());
+  const size_t shift = static_cast<size_t>(random.Index(width_ * height_));
+  Apply(options, camera, depth, [&](size_t pixel) {
+    const size_t at = start + 2 * pixel;
+    const double uniform = static_cast<double>(MixBits(at) >> 11) * 0x1p-53;
+    return PixelDraw{{normals_[at % kSize], normals_[(at + 1) % kSize]},
+                     uniform,
+                     smooth_[(pixel + shift) % smooth_.size()]};
+  });
+}
+
+void NoiseTable::AddImageNoise(double sigma, uint64_t frame, RenderedImage* image) const {
+  size_t at = static_cast<size_t>(Random(seed_, frame).Next());
+  for (size_t i = 0; i < image->rgb.size(); i += 3, ++at) {
+    const float noise = static_cast<float>(sigma) * normals_[at % kSize];
+    for (size_t k = i; k < i + 3; ++k) image->rgb[k] = ToGrayValue(image->rgb[k] + noise);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/synthetic/scene/renderer.h"
 
 namespace msc_vo {
 
@@ -40,5 +41,24 @@ struct KinectNoiseOptions {
 /// invalid options or a buffer of the wrong size.
 void AddKinectNoise(const KinectNoiseOptions& options, const PinholeCamera& camera, uint64_t seed,
                     uint64_t frame, std::vector<float>* depth);
+
+/// Noise of all images of a sequence from one table of random numbers, which each image reads from
+/// another place: the same noise in a tenth of the time, but not independent between images.
+class NoiseTable {
+ public:
+  NoiseTable(const KinectNoiseOptions& options, const PinholeCamera& camera, uint64_t seed);
+
+  void AddKinectNoise(const KinectNoiseOptions& options, const PinholeCamera& camera,
+                      uint64_t frame, std::vector<float>* depth) const;
+  /// Normal noise of `sigma` grey values, the same deviate to the three colours of a pixel.
+  void AddImageNoise(double sigma, uint64_t frame, RenderedImage* image) const;
+
+ private:
+  static constexpr size_t kSize = size_t{1} << 17;
+
+  int width_, height_;
+  uint64_t seed_;
+  std::vector<float> normals_, smooth_;
+};
 
 }  // namespace msc_vo

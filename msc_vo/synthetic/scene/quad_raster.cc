@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace msc_vo {
 
@@ -105,6 +106,25 @@ std::vector<QuadView> ViewQuads(const Scene& scene, const PinholeCamera& camera,
     views.push_back(view);
   }
   return views;
+}
+
+void RemoveInvisible(const Scene& scene, const PinholeCamera& camera, const Rigid3& cam_from_world,
+                     std::vector<QuadView>* views) {
+  // Half-spaces beside the image, one pixel further out: n . x < 0 is outside.
+  const Eigen::Vector3d inside[] = {{0.0, 0.0, 1.0},
+                                    {camera.fx, 0.0, camera.cx + 1.0},
+                                    {-camera.fx, 0.0, camera.width - camera.cx}};
+  const auto is_outside = [&](const QuadView& view) {
+    const Quad& quad = scene.quads[view.quad];
+    const Eigen::Vector3d corners[] = {
+        cam_from_world * quad.At(0, 0), cam_from_world * quad.At(1, 0),
+        cam_from_world * quad.At(1, 1), cam_from_world * quad.At(0, 1)};
+    return std::any_of(std::begin(inside), std::end(inside), [&](const Eigen::Vector3d& n) {
+      return std::all_of(std::begin(corners), std::end(corners),
+                         [&](const Eigen::Vector3d& x) { return n.dot(x) < 0.0; });
+    });
+  };
+  views->erase(std::remove_if(views->begin(), views->end(), is_outside), views->end());
 }
 
 HitBuffer Rasterize(const std::vector<QuadView>& views, const RowBand& band, int width) {

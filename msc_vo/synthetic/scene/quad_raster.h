@@ -36,6 +36,11 @@ struct QuadView {
 std::vector<QuadView> ViewQuads(const Scene& scene, const PinholeCamera& camera,
                                 const Rigid3& cam_from_world, const RowBand& band);
 
+/// Removes views of rectangles that are behind the camera, or to the left or right of the image.
+/// They touch no pixel, but their extended planes may take time.
+void RemoveInvisible(const Scene& scene, const PinholeCamera& camera, const Rigid3& cam_from_world,
+                     std::vector<QuadView>* views);
+
 /// The surfaces visible at the pixel centres of a band, row by row: index into the views (-1: none)
 /// and inverse depth.
 struct HitBuffer {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -19,29 +20,48 @@ namespace {
 
 using Color = Eigen::Vector3f;
 
-// Contrast between neighbouring pixels (range 0..1). Below kFlatContrast, two grey values and thus
-// the noise of a camera, one sample at the pixel's centre suffices. Above kSharpContrast, the error
-// of the mean of four samples, about an eighth of the contrast, would exceed the noise.
-constexpr float kFlatContrast = 2.0f / 255.0f;
-constexpr float kSharpContrast = 20.0f / 255.0f;
+// Contrast between neighbouring pixels (range 0..1).
+struct Sampling {
+  // Below, one sample at the pixel's centre suffices: two grey values, the noise of a camera.
+  float flat_contrast = 2.0f / 255.0f;
+  // Above, the error of the mean of four samples, about an eighth of the contrast, would exceed the
+  // noise.
+  float sharp_contrast = 20.0f / 255.0f;
+  int largest_side = 4;  // of the grid of samples at sharp contrasts and borders
+};
+
+// The errors of quick images are a few grey values.
+constexpr Sampling kQuickSampling = {6.0f / 255.0f, 20.0f / 255.0f, 2};
+
+// A point light prepared for shading.
+struct Lamp {
+  Eigen::Vector3f position;
+  float intensity = 0.0f, squared_reach = 0.0f;
+};
 
 // A rectangle prepared for shading.
 struct Surface {
   const Texture* texture = nullptr;
   Eigen::Vector3f origin, edge_u, edge_v, normal;
   float width = 0.0f, height = 0.0f;
+  const std::vector<Lamp>* lamps = nullptr;  // of its zone
 };
 
 // Computes the colours of surface points.
 class Shader {
  public:
   Shader(const Scene& scene, const std::vector<QuadView>& views) : scene_(scene), views_(views) {
+    for (const PointLight& light : scene.lights) {
+      const float reach = static_cast<float>(light.reach);
+      lamps_[light.zone].push_back(
+          {light.position.cast<float>(), static_cast<float>(light.intensity), reach * reach});
+    }
     for (const QuadView& view : views) {
       const Quad& quad = scene.quads[view.quad];
       surfaces_.push_back({&quad.texture, quad.origin.cast<float>(), quad.edge_u.cast<float>(),
                            quad.edge_v.cast<float>(), quad.Normal().cast<float>(),
                            static_cast<float>(quad.edge_u.norm()),
-                           static_cast<float>(quad.edge_v.norm())});
+                           static_cast<float>(quad.edge_v.norm()), &lamps_[quad.zone]});
     }
   }
 
@@ -52,7 +72,7 @@ class Shader {
     const Surface& surface = surfaces_[index];
     const SurfacePoint point{u * surface.width, v * surface.height, surface.width, surface.height};
     const Eigen::Vector3f x = surface.origin + u * surface.edge_u + v * surface.edge_v;
-    return EvaluateTexture(*surface.texture, point) * Brightness(x, surface.normal);
+    return EvaluateTexture(*surface.texture, point) * Brightness(x, surface);
   }
 
   // Colour of the nearest of `candidates` at a pixel; `background` if none is hit.
@@ -71,19 +91,17 @@ class Shader {
   }
 
  private:
-  // Ambient light and Lambertian reflection of every lamp, without cast shadows.
-  float Brightness(const Eigen::Vector3f& x, const Eigen::Vector3f& normal) const {
-    // Directional daylight, so the faces of a white box differ in brightness.
-    const Eigen::Vector3f daylight(0.30f, 0.16f, 0.22f);
-    float brightness = static_cast<float>(scene_.ambient) * (1.0f + normal.dot(daylight));
-    for (const PointLight& light : scene_.lights) {
-      const Eigen::Vector3f to_light = light.position.cast<float>() - x;
-      const float cosine_times_distance = normal.dot(to_light);
+  // Ambient light and Lambertian reflection of every lamp of the zone, without cast shadows.
+  float Brightness(const Eigen::Vector3f& x, const Surface& surface) const {
+    float brightness =
+        static_cast<float>(scene_.ambient) * (1.0f + surface.normal.dot(scene_.daylight));
+    for (const Lamp& lamp : *surface.lamps) {
+      const Eigen::Vector3f to_light = lamp.position - x;
+      const float cosine_times_distance = surface.normal.dot(to_light);
       if (cosine_times_distance <= 0.0f) continue;
       const float squared = to_light.squaredNorm();
-      const float reach = static_cast<float>(light.reach);
-      brightness += static_cast<float>(light.intensity) * cosine_times_distance /
-                    (std::sqrt(squared) * (1.0f + squared / (reach * reach)));
+      brightness += lamp.intensity * cosine_times_distance /
+                    (std::sqrt(squared) * (1.0f + squared / lamp.squared_reach));
     }
     return brightness;
   }
@@ -91,6 +109,7 @@ class Shader {
   const Scene& scene_;
   const std::vector<QuadView>& views_;
   std::vector<Surface> surfaces_;
+  std::map<int, std::vector<Lamp>> lamps_;  // by zone
 };
 
 // The distinct views that may be visible in a pixel's square.
@@ -136,7 +155,7 @@ std::vector<Color> ShadeCenters(const Shader& shader, const HitBuffer& hits) {
 
 // Colour of a pixel; the number of samples depends on the contrast of its neighbourhood.
 Color FilterPixel(const Shader& shader, const HitBuffer& hits, const BorderBuffer& borders,
-                  const std::vector<Color>& centers, int x, int y) {
+                  const std::vector<Color>& centers, const Sampling& sampling, int x, int y) {
   const size_t here = hits.Index(x, y);
   Candidates views;
   views.Add(hits.view[here]);
@@ -150,8 +169,8 @@ Color FilterPixel(const Shader& shader, const HitBuffer& hits, const BorderBuffe
   }
   const bool has_border = borders.begin(here) != borders.end(here);
   for (const int* view = borders.begin(here); view != borders.end(here); ++view) views.Add(*view);
-  if (!has_border && contrast < kFlatContrast) return centers[here];
-  const int side = has_border || contrast > kSharpContrast ? 4 : 2;
+  if (!has_border && contrast < sampling.flat_contrast) return centers[here];
+  const int side = has_border || contrast > sampling.sharp_contrast ? sampling.largest_side : 2;
   return SampleSquare(shader, views, x, y, side, centers[here]);
 }
 
@@ -165,8 +184,8 @@ std::vector<uint8_t> RenderedImage::Gray() const {
   return gray;
 }
 
-Renderer::Renderer(Scene scene, const PinholeCamera& camera)
-    : scene_(std::move(scene)), camera_(camera) {
+Renderer::Renderer(Scene scene, const PinholeCamera& camera, RenderQuality quality)
+    : scene_(std::move(scene)), camera_(camera), quality_(quality) {
   std::string error;
   if (!camera.IsValid(&error)) throw std::invalid_argument("Renderer: " + error);
 }
@@ -197,7 +216,10 @@ void Renderer::DrawBand(const Rigid3& cam_from_world, const RowBand& band,
                         RenderedImage* image) const {
   // The filter needs the neighbours of a pixel from the same pose.
   const RowBand padded{std::max(band.first - 1, 0), std::min(band.last + 1, camera_.height - 1)};
-  const std::vector<QuadView> views = ViewQuads(scene_, camera_, cam_from_world, padded);
+  const bool is_quick = quality_ == RenderQuality::kQuick;
+  const Sampling sampling = is_quick ? kQuickSampling : Sampling();
+  std::vector<QuadView> views = ViewQuads(scene_, camera_, cam_from_world, padded);
+  if (is_quick) RemoveInvisible(scene_, camera_, cam_from_world, &views);
   const HitBuffer hits = Rasterize(views, padded, camera_.width);
   const BorderBuffer borders(views, hits);
   const Shader shader(scene_, views);
@@ -205,7 +227,7 @@ void Renderer::DrawBand(const Rigid3& cam_from_world, const RowBand& band,
   for (int y = band.first; y <= band.last; ++y) {
     for (int x = 0; x < camera_.width; ++x) {
       const size_t pixel = static_cast<size_t>(y) * camera_.width + x, hit = hits.Index(x, y);
-      const Color color = FilterPixel(shader, hits, borders, centers, x, y);
+      const Color color = FilterPixel(shader, hits, borders, centers, sampling, x, y);
       for (int k = 0; k < 3; ++k) image->rgb[3 * pixel + k] = ToGrayValue(255.0f * color[k]);
       if (hits.view[hit] < 0) continue;
       image->depth[pixel] = static_cast<float>(1.0 / hits.inverse_depth[hit]);

@@ -26,12 +26,18 @@ struct RenderedImage {
   std::vector<uint8_t> Gray() const;
 };
 
+/// How exactly the colours of a pixel are averaged. The depth is exact.
+enum class RenderQuality {
+  kFine,   ///< up to 16 samples per pixel
+  kQuick,  ///< up to 4 samples per pixel, for benchmarks
+};
+
 /// Renders a scene: rectangles with a depth buffer, one exact hit per pixel centre, then colour by
 /// box-filtered samples, with more samples where neighbouring pixels differ.
 class Renderer {
  public:
   /// Throws std::invalid_argument if the camera is invalid.
-  Renderer(Scene scene, const PinholeCamera& camera);
+  Renderer(Scene scene, const PinholeCamera& camera, RenderQuality quality = RenderQuality::kFine);
 
   RenderedImage Render(const Rigid3& cam_from_world) const;
 
@@ -47,6 +53,7 @@ class Renderer {
 
   Scene scene_;
   PinholeCamera camera_;
+  RenderQuality quality_;
 };
 
 /// Camera with the focal length of a Kinect, 525 px at a width of 640 px, scaled with the width;

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "msc_vo/synthetic/scene/scene_kinds.h"
+#include "msc_vo/synthetic/scene/tour.h"
 
 namespace msc_vo {
 
@@ -57,17 +58,28 @@ std::optional<double> Scene::CastRay(const Eigen::Vector3d& origin,
   return nearest;
 }
 
-std::optional<SceneKind> SceneKindFromName(const std::string& name) {
-  if (name == "room") return SceneKind::kRoom;
-  if (name == "corridor") return SceneKind::kCorridor;
-  if (name == "bare") return SceneKind::kBare;
-  if (name == "slanted") return SceneKind::kSlanted;
-  if (name == "house") return SceneKind::kHouse;
-  if (name == "box") return SceneKind::kBox;
-  return std::nullopt;
+const std::vector<std::string>& SceneKindNames() {
+  static const std::vector<std::string> names = {"room",   "corridor", "bare",  "slanted",
+                                                 "house",  "box",      "rooms", "mirrored",
+                                                 "floors", "desks"};
+  return names;
 }
 
-Scene MakeScene(SceneKind kind, uint64_t seed) {
+std::optional<SceneKind> SceneKindFromName(const std::string& name) {
+  const std::vector<std::string>& names = SceneKindNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<SceneKind>(found - names.begin());
+}
+
+bool HasLookAlikes(SceneKind kind) {
+  return kind == SceneKind::kRooms || kind == SceneKind::kMirrored || kind == SceneKind::kFloors ||
+         kind == SceneKind::kDesks;
+}
+
+namespace {
+
+Scene MakeWithTour(SceneKind kind, uint64_t seed, const WalkOptions& walk) {
   switch (kind) {
     case SceneKind::kRoom:
       return MakeRoom(seed);
@@ -81,8 +93,24 @@ Scene MakeScene(SceneKind kind, uint64_t seed) {
       return MakeHouse(seed);
     case SceneKind::kBox:
       return MakeBox(seed);
+    case SceneKind::kRooms:
+      return MakeRooms(seed, walk);
+    case SceneKind::kMirrored:
+      return MakeMirrored(seed, walk);
+    case SceneKind::kFloors:
+      return MakeFloors(seed, walk);
+    case SceneKind::kDesks:
+      return MakeDesks(seed, walk);
   }
   return {};
+}
+
+}  // namespace
+
+Scene MakeScene(SceneKind kind, uint64_t seed, const WalkOptions& walk) {
+  Scene scene = MakeWithTour(kind, seed, walk);
+  if (!HasLookAlikes(kind) && walk.path != 1) scene.tour = OtherTour(scene, seed, walk.path);
+  return scene;
 }
 
 }  // namespace msc_vo

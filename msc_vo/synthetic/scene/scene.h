@@ -25,6 +25,7 @@ struct Quad {
   Eigen::Vector3d edge_u = Eigen::Vector3d::UnitX();  ///< perpendicular to edge_v
   Eigen::Vector3d edge_v = Eigen::Vector3d::UnitY();
   Texture texture;
+  int zone = 0;  ///< the lights of the same zone light it
 
   Eigen::Vector3d Normal() const { return edge_u.cross(edge_v).normalized(); }
   double Area() const { return edge_u.norm() * edge_v.norm(); }
@@ -37,6 +38,8 @@ struct PointLight {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, world frame
   double intensity = 1.0;  ///< brightness of a white surface close to the light and facing it
   double reach = 3.0;      ///< distance of half that brightness, metres
+  /// Surfaces cast no shadows: a light shines through the walls of its zone, but not beyond.
+  int zone = 0;
 };
 
 /// A camera position of a tour, which the spline approximates, and the point that the camera
@@ -46,13 +49,34 @@ struct Waypoint {
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
 };
 
+/// Where a part of a scene is repeated: x_in_world = linear * x_in_part + offset.
+struct Placement {
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();  ///< rotation, or reflection
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();      ///< metres
+};
+
+/// Which walk through a scene its tour is.
+struct WalkOptions {
+  /// Number of the walk, from 1. Other numbers give other walks through the same surfaces.
+  uint64_t path = 1;
+  /// Of scenes with places that look alike: the walk comes back to one of them.
+  bool returns = false;
+};
+
 /// A scene of textured rectangles; z is up.
 struct Scene {
   std::vector<Quad> quads;
   std::vector<PointLight> lights;
-  double ambient = 0.35;            ///< brightness without any light
+  double ambient = 0.35;  ///< brightness without any light
+  /// Daylight from one side: surfaces with a normal n have the ambient brightness times
+  /// 1 + n . daylight, so that the faces of a white box differ.
+  Eigen::Vector3f daylight{0.30f, 0.16f, 0.22f};
   std::vector<LineSegment3> edges;  ///< edges of walls and boxes, metres, at least kMinEdge long
-  std::vector<Waypoint> tour;       ///< closed loop through free space
+  std::vector<Waypoint> tour;       ///< path through free space
+  bool tour_is_loop = true;         ///< else, it ends at its last waypoint
+  /// The places that look alike, as copies of one part; in odd seeds, each has a small object of
+  /// its own.
+  std::vector<Placement> look_alikes;
 
   /// The straight edges that textures draw on the rectangles (TextureEdges), metres, at least
   /// kMinEdge long.
@@ -72,12 +96,23 @@ enum class SceneKind {
   kSlanted,   ///< attic with sloped walls and furniture at arbitrary angles: no Manhattan frame
   kHouse,     ///< four furnished rooms connected in a ring: for long trajectories, Manhattan
   kBox,       ///< an orbit around one box on a plain floor, crates far off: few lines
+  // Places that look alike; the tour is no loop.
+  kRooms,     ///< identical rooms along a corridor
+  kMirrored,  ///< rooms that mirror each other across a corridor and along it
+  kFloors,    ///< two identical floors, connected by a lift shaft
+  kDesks,     ///< identical desks with identical objects in one hall
 };
 
-/// "room", "corridor", "bare", "slanted", "house" or "box"; std::nullopt for any other name.
+/// The names of all kinds, in their order: "room", "corridor", ...
+const std::vector<std::string>& SceneKindNames();
+/// The kind with this name; std::nullopt if there is none.
 std::optional<SceneKind> SceneKindFromName(const std::string& name);
 
-/// Builds a scene. Deterministic; the seed determines sizes, colours and furniture.
-Scene MakeScene(SceneKind kind, uint64_t seed);
+/// True if a scene of this kind consists of places that look alike.
+bool HasLookAlikes(SceneKind kind);
+
+/// Builds a scene. Deterministic; the seed determines sizes, colours and furniture, and with `walk`
+/// the tour.
+Scene MakeScene(SceneKind kind, uint64_t seed, const WalkOptions& walk = {});
 
 }  // namespace msc_vo

@@ -14,7 +14,8 @@ namespace msc_vo {
 /// Adds walls and boxes to a scene, and their edges.
 class SceneBuilder {
  public:
-  explicit SceneBuilder(uint64_t seed) : random_(seed) {}
+  /// The streams of one seed are independent.
+  explicit SceneBuilder(uint64_t seed, uint64_t stream = 0) : random_(seed, stream) {}
 
   Scene& scene() { return scene_; }
   Random& random() { return random_; }

@@ -16,5 +16,9 @@ Scene MakeBare(uint64_t seed);
 Scene MakeSlanted(uint64_t seed);
 Scene MakeHouse(uint64_t seed);
 Scene MakeBox(uint64_t seed);
+Scene MakeRooms(uint64_t seed, const WalkOptions& walk);
+Scene MakeMirrored(uint64_t seed, const WalkOptions& walk);
+Scene MakeFloors(uint64_t seed, const WalkOptions& walk);
+Scene MakeDesks(uint64_t seed, const WalkOptions& walk);
 
 }  // namespace msc_vo

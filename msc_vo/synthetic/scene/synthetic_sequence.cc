@@ -54,9 +54,15 @@ PinholeCamera DepthCameraOf(const SyntheticSequenceOptions& options) {
   return camera;
 }
 
+// The first walk has the seed of the scene.
+uint64_t WalkSeed(const SyntheticSequenceOptions& options) {
+  const uint64_t path = options.walk.path;
+  return path == 1 ? options.seed : MixBits(options.seed ^ MixBits(path));
+}
+
 PathOptions SeededPath(const SyntheticSequenceOptions& options) {
   PathOptions path = options.path;
-  path.seed = options.seed;
+  path.seed = WalkSeed(options);
   return path;
 }
 
@@ -97,6 +103,10 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
     *error = "accelerometer_sigma must not be negative";
   } else if (!(accelerometer_rate > 0.0)) {
     *error = "accelerometer_rate must be positive";
+  } else if (walk.returns && !HasLookAlikes(scene)) {
+    *error = "walk.returns needs a scene with places that look alike";
+  } else if (walk.path < 1) {
+    *error = "walk.path must be at least 1";
   } else {
     return kinect.IsValid(error) && path.IsValid(error);
   }
@@ -105,16 +115,30 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
 
 SyntheticSequence::SyntheticSequence(const SyntheticSequenceOptions& options)
     : options_(Checked(options)),
+      walk_seed_(WalkSeed(options)),
       camera_(ColorCameraOf(options)),
       warp_(WarpOf(options, camera_)),
-      renderer_(MakeScene(options.scene, options.seed), warp_ ? warp_->source() : camera_),
+      renderer_(MakeScene(options.scene, options.seed, options.walk),
+                warp_ ? warp_->source() : camera_,
+                options.quick ? RenderQuality::kQuick : RenderQuality::kFine),
       path_(renderer_.scene(), SeededPath(options)) {
   if (options.depth_rig) depth_renderer_.emplace(renderer_.scene(), DepthCameraOf(options));
+  if (options.quick) noise_table_.emplace(options.kinect, depth_camera(), walk_seed_);
 }
 
 TimedPose SyntheticSequence::PoseAt(int index) const {
   const double seconds = index / options_.fps;
   return {kFirstTime + seconds, path_.CamFromWorld(seconds).Inverse()};
+}
+
+std::optional<int> SyntheticSequence::WalkLength() const {
+  if (scene().tour_is_loop) return std::nullopt;
+  return static_cast<int>(std::floor(path_.LoopSeconds() * options_.fps)) + 1;
+}
+
+SurfaceView SyntheticSequence::SurfacesAt(int index, int width) const {
+  return ViewSurfaces(scene(), ScaledCamera(camera_, width),
+                      PoseAt(index).world_from_cam.Inverse());
 }
 
 Eigen::Vector3d SyntheticSequence::AccelerationAt(double seconds) const {
@@ -128,7 +152,7 @@ Eigen::Vector3d SyntheticSequence::AccelerationAt(double seconds) const {
 
 std::vector<TimedAcceleration> SyntheticSequence::AccelerometerReadings(int num_frames) const {
   const double duration = (num_frames - 1) / options_.fps;
-  Random random(options_.seed, 0x616363656c);
+  Random random(walk_seed_, 0x616363656c);
   std::vector<TimedAcceleration> readings;
   for (int i = 0; i / options_.accelerometer_rate <= duration; ++i) {
     const double seconds = i / options_.accelerometer_rate;
@@ -208,10 +232,12 @@ void SyntheticSequence::DisturbColor(int index, RenderedImage* image) const {
     ApplyHuntingExposure(*options_.hunting_exposure, index / options_.fps, image);
   }
   if (options_.photon_noise) {
-    AddPhotonNoise(*options_.photon_noise, options_.seed, kPhotonStream + frame, image);
+    AddPhotonNoise(*options_.photon_noise, walk_seed_, kPhotonStream + frame, image);
   }
-  if (options_.image_sigma > 0.0) {
-    AddImageNoise(options_.image_sigma, options_.seed, 2 * frame, image);
+  if (options_.image_sigma > 0.0 && noise_table_) {
+    noise_table_->AddImageNoise(options_.image_sigma, 2 * frame, image);
+  } else if (options_.image_sigma > 0.0) {
+    AddImageNoise(options_.image_sigma, walk_seed_, 2 * frame, image);
   }
 }
 
@@ -222,11 +248,14 @@ void SyntheticSequence::DisturbDepth(uint64_t stream, std::vector<float>* depth)
 }
 
 void SyntheticSequence::AddDepthNoise(uint64_t stream, std::vector<float>* depth) const {
-  const uint64_t seed = options_.seed;
+  const uint64_t seed = walk_seed_;
   switch (options_.kinect_depth ? SyntheticDepth::kStructuredLight : options_.depth) {
     case SyntheticDepth::kExact:
       return;
     case SyntheticDepth::kStructuredLight:
+      if (noise_table_) {
+        return noise_table_->AddKinectNoise(options_.kinect, depth_camera(), stream, depth);
+      }
       return AddKinectNoise(options_.kinect, depth_camera(), seed, stream, depth);
     case SyntheticDepth::kTimeOfFlight:
       return AddTimeOfFlightNoise(options_.time_of_flight, depth_camera(), seed, stream, depth);

@@ -21,6 +21,7 @@
 #include "msc_vo/synthetic/scene/photon_noise.h"
 #include "msc_vo/synthetic/scene/renderer.h"
 #include "msc_vo/synthetic/scene/scene.h"
+#include "msc_vo/synthetic/scene/surface_view.h"
 #include "msc_vo/synthetic/scene/synthetic_depth.h"
 
 namespace msc_vo {
@@ -35,7 +36,9 @@ struct DepthRig {
 struct SyntheticSequenceOptions {
   SceneKind scene = SceneKind::kRoom;
   uint64_t seed = 1;  ///< of the scene, the path and the noise
-  int width = 640;    ///< pixels
+  /// Which walk through the scene is recorded; other paths have other noise, too.
+  WalkOptions walk;
+  int width = 640;  ///< pixels
   int height = 480;
   /// Focal length, pixels; 0: that of KinectCamera().
   double focal_length = 0.0;
@@ -70,6 +73,9 @@ struct SyntheticSequenceOptions {
   double accelerometer_sigma = 0.05;
   double accelerometer_rate = 100.0;  ///< readings per second
   PathOptions path;                   ///< its seed is ignored
+  /// Renders in a fraction of the time, for benchmarks: RenderQuality::kQuick, and the noise of
+  /// image_sigma and of structured light from a NoiseTable.
+  bool quick = false;
 
   bool IsValid(std::string* error) const;
 };
@@ -99,6 +105,10 @@ class SyntheticSequence {
     return depth_renderer_ ? depth_renderer_->camera() : camera_;
   }
   const Scene& scene() const { return renderer_.scene(); }
+  /// Number of images until the end of a tour that is no loop; std::nullopt for loops.
+  std::optional<int> WalkLength() const;
+  /// The surfaces in frame `index`, sampled by `width` pixels per row.
+  SurfaceView SurfacesAt(int index, int width = 64) const;
 
  private:
   // Acceleration of the optical centre in the world, metres/second^2.
@@ -124,11 +134,13 @@ class SyntheticSequence {
   RenderedImage RenderDepth(double seconds) const;
 
   SyntheticSequenceOptions options_;
+  uint64_t walk_seed_;  // of the path and the noise
   PinholeCamera camera_;
   std::optional<LensWarp> warp_;  // none: no lens distortion
   Renderer renderer_;
   std::optional<Renderer> depth_renderer_;  // of the rig
   CameraPath path_;
+  std::optional<NoiseTable> noise_table_;  // if quick
 };
 
 }  // namespace msc_vo

@@ -293,7 +293,9 @@ void CollectRug(EdgeCollector* edges) {
 
 }  // namespace
 
-Eigen::Vector3f EvaluateTexture(const Texture& texture, const SurfacePoint& point) {
+Eigen::Vector3f EvaluateTexture(const Texture& texture, const SurfacePoint& at) {
+  SurfacePoint point = at;
+  if (texture.mirrored) point.s = point.width - point.s;
   switch (texture.kind) {
     case TextureKind::kPlain:
       return texture.color;
@@ -325,7 +327,14 @@ std::vector<LineSegment2> TextureEdges(const Texture& texture, float width, floa
   if (texture.kind == TextureKind::kTiles) CollectTiles(texture, &edges);
   if (texture.kind == TextureKind::kPoster) CollectPoster(texture, &edges);
   if (texture.kind == TextureKind::kRug) CollectRug(&edges);
-  return edges.edges();
+  std::vector<LineSegment2> found = edges.edges();
+  if (texture.mirrored) {
+    for (LineSegment2& edge : found) {
+      edge.start.x() = width - edge.start.x();
+      edge.end.x() = width - edge.end.x();
+    }
+  }
+  return found;
 }
 
 }  // namespace msc_vo

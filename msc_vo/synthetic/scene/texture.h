@@ -32,6 +32,7 @@ struct Texture {
   Eigen::Vector3f accent{0.3f, 0.3f, 0.3f};  ///< of grout, joints, motifs
   float scale = 1.0f;                        ///< size of the pattern's elements; 1: life size
   uint32_t seed = 0;
+  bool mirrored = false;  ///< the pattern runs from the far end of the side s to its start
 };
 
 /// A point on a rectangle: coordinates along its sides, and the lengths of the sides; metres.

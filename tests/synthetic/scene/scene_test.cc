@@ -19,9 +19,10 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-constexpr std::array<SceneKind, 6> kKinds = {SceneKind::kRoom,  SceneKind::kCorridor,
-                                             SceneKind::kBare,  SceneKind::kSlanted,
-                                             SceneKind::kHouse, SceneKind::kBox};
+constexpr std::array<SceneKind, 10> kKinds = {
+    SceneKind::kRoom,   SceneKind::kCorridor, SceneKind::kBare,  SceneKind::kSlanted,
+    SceneKind::kHouse,  SceneKind::kBox,      SceneKind::kRooms, SceneKind::kMirrored,
+    SceneKind::kFloors, SceneKind::kDesks};
 
 // True if a direction is one of the world's axes, to 1e-6 radians.
 bool IsAxis(const Vec& direction) {
@@ -86,6 +87,11 @@ TEST(SceneTest, ParsesNamesOfScenes) {
   EXPECT_EQ(SceneKindFromName("slanted"), SceneKind::kSlanted);
   EXPECT_EQ(SceneKindFromName("house"), SceneKind::kHouse);
   EXPECT_EQ(SceneKindFromName("box"), SceneKind::kBox);
+  EXPECT_EQ(SceneKindFromName("rooms"), SceneKind::kRooms);
+  EXPECT_EQ(SceneKindFromName("mirrored"), SceneKind::kMirrored);
+  EXPECT_EQ(SceneKindFromName("floors"), SceneKind::kFloors);
+  EXPECT_EQ(SceneKindFromName("desks"), SceneKind::kDesks);
+  EXPECT_EQ(SceneKindNames().size(), kKinds.size());
   EXPECT_FALSE(SceneKindFromName("garden").has_value());
 }
 

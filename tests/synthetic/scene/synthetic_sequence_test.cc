@@ -297,6 +297,51 @@ TEST(SyntheticSequenceTest, AccelerometerAgreesWithTheTrajectory) {
   EXPECT_NEAR(gravity.z(), 9.81, 0.02);
 }
 
+TEST(SyntheticSequenceTest, OtherPathsShowTheSameSceneWithOtherNoise) {
+  for (const SceneKind scene : {SceneKind::kRoom, SceneKind::kDesks}) {
+    SyntheticSequenceOptions options = Small();
+    options.scene = scene;
+    options.image_sigma = 0.0;
+    const SyntheticSequence first(options);
+    options.walk.path = 2;
+    const SyntheticSequence other(options);
+    EXPECT_GT(
+        (first.PoseAt(30).world_from_cam.params - other.PoseAt(30).world_from_cam.params).norm(),
+        0.02);
+    ASSERT_EQ(first.scene().quads.size(), other.scene().quads.size());
+    EXPECT_EQ(first.scene().quads[9].origin, other.scene().quads[9].origin);
+    // Noise of a wall that is alike in both images: none but the seed differs.
+    options.image_sigma = 3.0;
+    const RenderedImage exact = other.Render(0).image;
+    const RenderedImage noisy = SyntheticSequence(options).Render(0).image;
+    options.walk.path = 1;
+    const RenderedImage first_noisy = SyntheticSequence(options).Render(0).image;
+    const RenderedImage first_exact = first.Render(0).image;
+    int num_different = 0;
+    for (size_t i = 0; i < exact.rgb.size(); i += 3) {
+      num_different += noisy.rgb[i] - exact.rgb[i] != first_noisy.rgb[i] - first_exact.rgb[i];
+    }
+    EXPECT_GT(num_different, static_cast<int>(exact.rgb.size() / 6));
+  }
+}
+
+TEST(SyntheticSequenceTest, LoopsHaveNoLength) {
+  SyntheticSequenceOptions options = Small();
+  EXPECT_FALSE(SyntheticSequence(options).WalkLength().has_value());
+  options.scene = SceneKind::kRooms;
+  const int length = *SyntheticSequence(options).WalkLength();
+  options.fps *= 0.5;
+  EXPECT_NEAR(*SyntheticSequence(options).WalkLength(), 0.5 * length, 1.0);
+}
+
+TEST(SyntheticSequenceTest, RefusesReturnsWithoutLookAlikes) {
+  SyntheticSequenceOptions options = Small();
+  options.walk.returns = true;
+  EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
+  options.scene = SceneKind::kFloors;
+  EXPECT_NO_THROW(SyntheticSequence{options});
+}
+
 TEST(SyntheticSequenceTest, AccelerometerHasTheGivenNoise) {
   SyntheticSequenceOptions options = Small();
   options.accelerometer_sigma = 0.0;

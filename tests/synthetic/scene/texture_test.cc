@@ -159,5 +159,23 @@ TEST(TextureTest, OtherPatternsHaveNoEdges) {
   }
 }
 
+TEST(TextureTest, MirroredPatternRunsBackwards) {
+  Texture texture{TextureKind::kPoster, {0.8f, 0.8f, 0.8f}, {0.3f, 0.3f, 0.3f}, 1.0f, 7};
+  Texture mirrored = texture;
+  mirrored.mirrored = true;
+  for (const float s : {0.125f, 0.25f, 0.75f}) {
+    EXPECT_EQ(EvaluateTexture(texture, {s, 0.5f, 1.0f, 1.0f}),
+              EvaluateTexture(mirrored, {1.0f - s, 0.5f, 1.0f, 1.0f}));
+  }
+  const std::vector<LineSegment2> edges = TextureEdges(texture, 1.0f, 1.0f);
+  const std::vector<LineSegment2> reflected = TextureEdges(mirrored, 1.0f, 1.0f);
+  ASSERT_FALSE(edges.empty());
+  ASSERT_EQ(edges.size(), reflected.size());
+  for (size_t i = 0; i < edges.size(); ++i) {
+    EXPECT_NEAR(reflected[i].start.x(), 1.0 - edges[i].start.x(), 1e-6);
+    EXPECT_EQ(reflected[i].start.y(), edges[i].start.y());
+  }
+}
+
 }  // namespace
 }  // namespace msc_vo
