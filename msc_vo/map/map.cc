@@ -55,6 +55,11 @@ Map Map::Next() const {
   return map;
 }
 
+void Map::ContinueIds(KeyframeId next_keyframe, LandmarkId next_landmark) {
+  next_keyframe_ = std::max(next_keyframe_, next_keyframe);
+  next_landmark_ = std::max(next_landmark_, next_landmark);
+}
+
 void Map::Merge(const Map& other) {
   keyframes_.Merge(other.keyframes_);
   ForEachLandmarkKind([&](auto kind) {
