@@ -47,6 +47,10 @@ class Map {
   LandmarkId next_landmark() const { return next_landmark_; }
   /// Lets the next ids be at least these, so that ids of other maps are not used again.
   void ContinueIds(KeyframeId next_keyframe, LandmarkId next_landmark);
+  /// Declares all present keyframes to be of earlier sessions. Keyframes to come, also of maps that
+  /// Next() makes, are of the present one. Time stamps of different sessions cannot be compared.
+  void BeginSession() { session_begin_ = next_keyframe_; }
+  bool IsOfEarlierSession(KeyframeId id) const { return id < session_begin_; }
   /// Adds the keyframes and landmarks of `other`, which must be in the same world and have ids that
   /// differ from those of this map.
   void Merge(const Map& other);
@@ -138,9 +142,9 @@ class Map {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [keyframes, landmarks, relative_poses, next_keyframe, next_landmark] =
+    auto& [keyframes, landmarks, relative_poses, next_keyframe, next_landmark, session_begin] =
         *this;  // all members, or it does not compile
-    archive(keyframes, landmarks, relative_poses, next_keyframe, next_landmark);
+    archive(keyframes, landmarks, relative_poses, next_keyframe, next_landmark, session_begin);
   }
 
  private:
@@ -170,6 +174,7 @@ class Map {
   SharedTable<RelativePose, 16> relative_poses_;  // of all keyframes ever added
   KeyframeId next_keyframe_ = 0;
   LandmarkId next_landmark_ = 0;
+  KeyframeId session_begin_ = 0;
 };
 
 template <typename L>

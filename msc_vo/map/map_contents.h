@@ -21,6 +21,11 @@ struct MapSession {
   /// different sessions cannot be compared.
   KeyframeId first_keyframe = 0;
   std::string name;  ///< for people, such as the name of the sequence
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, first_keyframe, name);
+  }
 };
 
 /// A map in a world of its own, as it outlives a run.
@@ -38,6 +43,11 @@ struct LoopEdge {
   Rigid3 to_from_from;  ///< camera to camera
   /// Of `to_from_from`, in the tangent of Rigid3Manifold.
   PoseCovariance covariance = PoseCovariance::Zero();
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, from, to, to_from_from, covariance);
+  }
 };
 
 /// All that is kept of the runs that have built a map. Ids of keyframes and landmarks are unique

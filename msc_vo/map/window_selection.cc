@@ -217,6 +217,14 @@ WindowData SelectWholeMap(const WindowSelectionOptions& options, const Map& map)
   return MakeWindow(options, map, window, map.keyframes().back().second.frame->camera);
 }
 
+WindowData SelectSession(const WindowSelectionOptions& options, const Map& map) {
+  std::set<KeyframeId> window;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    if (!map.IsOfEarlierSession(id)) window.insert(id);
+  }
+  return MakeWindow(options, map, window, map.keyframes().back().second.frame->camera);
+}
+
 LineSegment3 TrimToObservations(const Map& map, const LineLandmark& line,
                                 const LineSegment3& segment) {
   double first = 0.0;

@@ -62,7 +62,8 @@ MapFileSummary SummarizeMap(const std::string& path) {
   return ReadFrom(path, [](const SqliteDatabase& database) {
     MapFileSummary summary;
     summary.version = static_cast<int>(database.Integer("PRAGMA user_version"));
-    summary.num_bytes = database.Integer("PRAGMA page_count") * database.Integer("PRAGMA page_size");
+    summary.num_bytes =
+        database.Integer("PRAGMA page_count") * database.Integer("PRAGMA page_size");
     summary.num_loops = database.Integer("SELECT count(*) FROM loop");
     SqliteStatement program = database.Prepare("SELECT program FROM map");
     if (program.Step()) summary.program = program.Bytes(0);

@@ -30,9 +30,8 @@ const Keyframe* FindKeyframe(const MapContents& contents, KeyframeId id) {
 
 template <typename L>
 bool Contains(const MapContents& contents, LandmarkId id) {
-  return std::any_of(
-      contents.submaps.begin(), contents.submaps.end(),
-      [id](const SavedSubMap& submap) { return submap.map.Find<L>(id) != nullptr; });
+  return std::any_of(contents.submaps.begin(), contents.submaps.end(),
+                     [id](const SavedSubMap& submap) { return submap.map.Find<L>(id) != nullptr; });
 }
 
 void AddPose(const Rigid3& pose, RowWriter* row) {
@@ -142,8 +141,8 @@ void TableWriter::WriteKeyframe(int submap, const Keyframe& keyframe) {
   AddPose(keyframe.cam_from_world, &row);
   row.Execute();
   const Keyframe* const was = FindKeyframe(before_, keyframe.id);
-  const bool has_same_features = was != nullptr && was->frame == keyframe.frame &&
-                                 was->landmarks == keyframe.landmarks;
+  const bool has_same_features =
+      was != nullptr && was->frame == keyframe.frame && was->landmarks == keyframe.landmarks;
   if (!has_same_features) WriteFeatures(keyframe);
 }
 

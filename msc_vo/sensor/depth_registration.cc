@@ -30,8 +30,9 @@ inline int Index(float x, float y, float stride) {
                           static_cast<float>(static_cast<int>(x)));
 }
 
-// Inverse depth between those of two pixels: their mean on one surface; 0: none of them has a depth,
-// also beside one that needs a search (a pixel in a thousand of those at edges); -1: needs a search.
+// Inverse depth between those of two pixels: their mean on one surface; 0: none of them has a
+// depth, also beside one that needs a search (a pixel in a thousand of those at edges); -1: needs a
+// search.
 inline float Middle(float first, float second) {
   const float gap = std::abs(first - second);
   const bool is_surface =

@@ -33,7 +33,15 @@ TEST(BlobTest, ReadsWhatWasWritten) {
 }
 
 TEST(BlobTest, VarintsHoldAllNumbers) {
-  const int64_t values[] = {0,   -1,    1,      63, 64, -64, -65, 300, int64_t{1} << 40,
+  const int64_t values[] = {0,
+                            -1,
+                            1,
+                            63,
+                            64,
+                            -64,
+                            -65,
+                            300,
+                            int64_t{1} << 40,
                             std::numeric_limits<int64_t>::max(),
                             std::numeric_limits<int64_t>::min()};
   BlobWriter writer;

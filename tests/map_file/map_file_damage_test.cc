@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include <sqlite3.h>
-
 #include <filesystem>
 #include <fstream>
 #include <limits>
 
-#include <gmock/gmock.h>
-
 #include "tests/map_file/random_map.h"
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <sqlite3.h>
 
 #include "msc_vo/map_file/map_reader.h"
 #include "msc_vo/map_file/map_writer.h"
@@ -102,20 +100,28 @@ TEST_F(MapFileDamageTest, RefusesOtherTables) {
 
 TEST_F(MapFileDamageTest, RefusesRowsThatDoNotFit) {
   const std::string valid = Read();
-  for (const char* sql :
-       {"UPDATE point SET x = x + 1 WHERE id = 3", "UPDATE point SET id = 100000 WHERE id = 3",
-        "UPDATE point SET noise = 'much' WHERE id = 3", "DELETE FROM point WHERE id = 3",
-        "DELETE FROM line WHERE id = (SELECT min(id) FROM line)", "DELETE FROM keyframe WHERE id = 1",
-        "DELETE FROM features WHERE keyframe = 1", "DELETE FROM features WHERE keyframe = 3",
-        "DELETE FROM submap", "DELETE FROM map", "DELETE FROM calibration",
-        "UPDATE keyframe SET submap = 4", "UPDATE keyframe SET qx = 1e400 WHERE id = 1",
-        "UPDATE features SET points = substr(points, 1, 30) WHERE keyframe = 1",
-        "UPDATE features SET points = x'' WHERE keyframe = 2",
-        "UPDATE features SET lines = zeroblob(length(lines)) WHERE keyframe = 1",
-        "UPDATE features SET timestamp = timestamp + 1 WHERE keyframe = 1",
-        "UPDATE session SET first_keyframe = 2", "UPDATE map SET next_keyframe = 1",
-        "UPDATE submap SET point_depth_noise = 2.0", "UPDATE calibration SET fx = fx + 1",
-        "UPDATE calibration SET lens = 'glass'"}) {
+  for (const char* sql : {"UPDATE point SET x = x + 1 WHERE id = 3",
+                          "UPDATE point SET id = 100000 WHERE id = 3",
+                          "UPDATE point SET noise = 'much' WHERE id = 3",
+                          "DELETE FROM point WHERE id = 3",
+                          "DELETE FROM line WHERE id = (SELECT min(id) FROM line)",
+                          "DELETE FROM keyframe WHERE id = 1",
+                          "DELETE FROM features WHERE keyframe = 1",
+                          "DELETE FROM features WHERE keyframe = 3",
+                          "DELETE FROM submap",
+                          "DELETE FROM map",
+                          "DELETE FROM calibration",
+                          "UPDATE keyframe SET submap = 4",
+                          "UPDATE keyframe SET qx = 1e400 WHERE id = 1",
+                          "UPDATE features SET points = substr(points, 1, 30) WHERE keyframe = 1",
+                          "UPDATE features SET points = x'' WHERE keyframe = 2",
+                          "UPDATE features SET lines = zeroblob(length(lines)) WHERE keyframe = 1",
+                          "UPDATE features SET timestamp = timestamp + 1 WHERE keyframe = 1",
+                          "UPDATE session SET first_keyframe = 2",
+                          "UPDATE map SET next_keyframe = 1",
+                          "UPDATE submap SET point_depth_noise = 2.0",
+                          "UPDATE calibration SET fx = fx + 1",
+                          "UPDATE calibration SET lens = 'glass'"}) {
     Write(valid);
     Change(sql);
     EXPECT_THAT(Problem(), Names(path_, "damaged")) << sql;

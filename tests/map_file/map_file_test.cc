@@ -3,11 +3,10 @@
 
 #include <filesystem>
 
-#include <gmock/gmock.h>
-
 #include "tests/map_file/random_map.h"
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
 
 #include "msc_vo/map/map_validation.h"
 #include "msc_vo/map_file/map_reader.h"
@@ -71,8 +70,9 @@ void ExpectSameLandmarks(const Map& loaded, const Map& saved) {
     for (size_t i = 0; i < landmark.observations.size(); ++i) {
       const KeyframeId keyframe = landmark.observations[i].keyframe;
       ASSERT_EQ(found->observations[i].keyframe, keyframe);
-      ExpectEqual(FeaturesOf<L>(*loaded.FindKeyframe(keyframe)->frame)[found->observations[i].feature],
-                  FeaturesOf<L>(*saved.FindKeyframe(keyframe)->frame)[landmark.observations[i].feature]);
+      ExpectEqual(
+          FeaturesOf<L>(*loaded.FindKeyframe(keyframe)->frame)[found->observations[i].feature],
+          FeaturesOf<L>(*saved.FindKeyframe(keyframe)->frame)[landmark.observations[i].feature]);
     }
   }
 }
@@ -91,9 +91,8 @@ void ExpectSameMap(const Map& loaded, const Map& saved) {
     EXPECT_EQ(found->frame->intrinsics->distortion.k, keyframe.frame->intrinsics->distortion.k);
     EXPECT_EQ(found->frame->depth_ranges.cells[5].max_inverse_depth, 0.5f);
   }
-  ForEachLandmarkKind([&](auto kind) {
-    ExpectSameLandmarks<typename decltype(kind)::Landmark>(loaded, saved);
-  });
+  ForEachLandmarkKind(
+      [&](auto kind) { ExpectSameLandmarks<typename decltype(kind)::Landmark>(loaded, saved); });
 }
 
 class MapFileTest : public TemporaryFolder {

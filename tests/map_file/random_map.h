@@ -25,9 +25,7 @@ class RandomMap {
     return std::uniform_real_distribution<double>(from, to)(random_);
   }
   Eigen::Vector2d Pixel() { return {Uniform(0.0, 639.0), Uniform(0.0, 479.0)}; }
-  Eigen::Vector3d Position() {
-    return {Uniform(-2.0, 2.0), Uniform(-2.0, 2.0), Uniform(1.0, 5.0)};
-  }
+  Eigen::Vector3d Position() { return {Uniform(-2.0, 2.0), Uniform(-2.0, 2.0), Uniform(1.0, 5.0)}; }
   Rigid3 Pose() {
     const Eigen::Vector4d q(Uniform(-1, 1), Uniform(-1, 1), Uniform(-1, 1), Uniform(-1, 1));
     return {Eigen::Quaterniond(q.normalized()), 10.0 * Position()};

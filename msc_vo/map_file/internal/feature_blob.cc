@@ -13,9 +13,10 @@ namespace msc_vo {
 
 namespace {
 
-constexpr uint8_t kDynamic = 0x80;  // in the byte of the level of a point and of the flags of a line
+constexpr uint8_t kDynamic =
+    0x80;  // in the byte of the level of a point and of the flags of a line
 constexpr uint8_t kHasDepth = 0x01;
-constexpr double kTurn = 256.0;     // units of an angle in the image
+constexpr double kTurn = 256.0;  // units of an angle in the image
 constexpr double kCorrelationUnits = 32767.0;
 // Smallest positive number of 16 bits: a sigma must not become zero.
 constexpr double kSmallest = 6e-8;
@@ -49,8 +50,8 @@ void Put(const LineDepth& depth, BlobWriter* blob) {
   blob->F32(depth.end);
   PutSigma(sigma.x(), blob);
   PutSigma(sigma.y(), blob);
-  blob->U16(static_cast<uint16_t>(
-      std::lround(std::clamp(correlation, -1.0, 1.0) * kCorrelationUnits)));
+  blob->U16(
+      static_cast<uint16_t>(std::lround(std::clamp(correlation, -1.0, 1.0) * kCorrelationUnits)));
   blob->U16(static_cast<uint16_t>(std::clamp(depth.num_inliers, 0, 0xffff)));
   blob->F16(depth.inlier_ratio);
 }

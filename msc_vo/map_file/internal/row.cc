@@ -3,11 +3,11 @@
 
 #include "msc_vo/map_file/internal/row.h"
 
-#include <sqlite3.h>
-
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+
+#include <sqlite3.h>
 
 namespace msc_vo {
 

@@ -3,12 +3,12 @@
 
 #include "msc_vo/map_file/internal/sqlite_database.h"
 
-#include <sqlite3.h>
-
 #include <cerrno>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+
+#include <sqlite3.h>
 
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/write_error.h"
@@ -25,7 +25,8 @@ std::string Describe(sqlite3* database, int result) {
   switch (result & 0xff) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      return "is in use by another run of msc_vo; wait until that has ended, or choose another file";
+      return "is in use by another run of msc_vo; wait until that has ended, or choose another "
+             "file";
     case SQLITE_NOTADB:
       return "is no map of msc_vo (" + text + "); choose another file";
     case SQLITE_CORRUPT:
@@ -34,7 +35,8 @@ std::string Describe(sqlite3* database, int result) {
     case SQLITE_SCHEMA:
       return "is damaged (" + text + "); restore a copy, or record the map again";
     default:
-      return "cannot be used as a map (" + text + "); check the file, its folder and its permissions";
+      return "cannot be used as a map (" + text +
+             "); check the file, its folder and its permissions";
   }
 }
 
@@ -124,7 +126,9 @@ bool SqliteStatement::Step() {
   return false;
 }
 
-int SqliteStatement::Type(int column) const { return sqlite3_column_type(statement_.get(), column); }
+int SqliteStatement::Type(int column) const {
+  return sqlite3_column_type(statement_.get(), column);
+}
 
 int64_t SqliteStatement::Integer(int column) const {
   return sqlite3_column_int64(statement_.get(), column);

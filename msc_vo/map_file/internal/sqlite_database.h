@@ -59,9 +59,7 @@ class SqliteDatabase {
   SqliteDatabase(const std::string& path, Access access);
 
   const std::string& path() const { return path_; }
-  SqliteStatement Prepare(const std::string& sql) const {
-    return {database_.get(), path_, sql};
-  }
+  SqliteStatement Prepare(const std::string& sql) const { return {database_.get(), path_, sql}; }
   void Execute(const std::string& sql) const;
   /// The first column of the first row.
   int64_t Integer(const std::string& sql) const;

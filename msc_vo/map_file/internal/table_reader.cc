@@ -83,9 +83,8 @@ class TableReader {
   void ReadLoops();
 
   SavedSubMap* FindSubMap(int64_t id) {
-    const auto place =
-        std::find_if(contents_.submaps.begin(), contents_.submaps.end(),
-                     [id](const SavedSubMap& submap) { return submap.id == id; });
+    const auto place = std::find_if(contents_.submaps.begin(), contents_.submaps.end(),
+                                    [id](const SavedSubMap& submap) { return submap.id == id; });
     return place != contents_.submaps.end() ? &*place : nullptr;
   }
 
@@ -265,7 +264,8 @@ void TableReader::ReadLandmark(RowReader* row) {
        i < observations.size() && observations[i].landmark == landmark.id; ++i) {
     const KeyframeId keyframe = observations[i].keyframe;
     if (submap->map.FindKeyframe(keyframe) == nullptr) row->Fail("a keyframe is in another submap");
-    if (FindObservation(landmark, keyframe) != nullptr) row->Fail("two features observe it at once");
+    if (FindObservation(landmark, keyframe) != nullptr)
+      row->Fail("two features observe it at once");
     landmark.observations.push_back({keyframe, observations[i].feature});
   }
   if (landmark.observations.empty()) row->Fail("no keyframe observes it");
