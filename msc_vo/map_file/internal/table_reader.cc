@@ -114,7 +114,7 @@ void TableReader::ReadIds() {
 
 void TableReader::ReadSessions() {
   SqliteStatement rows = database_.Prepare("SELECT * FROM session ORDER BY id");
-  KeyframeId last = -1;
+  KeyframeId last = 0;
   while (rows.Step()) {
     RowReader row(rows, database_.path(), "session");
     row.Integer();
@@ -122,7 +122,7 @@ void TableReader::ReadSessions() {
     session.first_keyframe = row.Integer();
     session.name = row.Text();
     row.Finish();
-    if (session.first_keyframe < last || session.first_keyframe < 0) {
+    if (session.first_keyframe < last || session.first_keyframe > next_keyframe_) {
       row.Fail("it is out of order");
     }
     last = session.first_keyframe;
@@ -153,6 +153,10 @@ void TableReader::ReadSubMaps() {
       }
     }
     submap.noise_scale = {row.Real(), row.Real(), row.Real()};
+    const NoiseScale& noise = submap.noise_scale;
+    if (!(noise.point_depth > 0.0 && noise.line_pixel > 0.0 && noise.line_depth > 0.0)) {
+      row.Fail("its noise is not positive");
+    }
     row.Finish();
     contents_.submaps.push_back(std::move(submap));
   }
