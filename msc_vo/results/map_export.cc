@@ -26,8 +26,8 @@ constexpr int kMinShared = 20;
 constexpr double kSigma = 1e-3;  // of an edge of one shared landmark, metres and radians
 
 std::string FormatPose(const Rigid3& pose) {
-  const Eigen::Vector3d t = pose.translation();
-  const Eigen::Vector4d q = pose.rotation().coeffs();
+  const Eigen::Vector3d t = pose.translation().array() + 0.0;  // no negative zeros
+  const Eigen::Vector4d q = pose.rotation().coeffs().array() + 0.0;
   return FormatText("%.9g %.9g %.9g %.9g %.9g %.9g %.9g", t.x(), t.y(), t.z(), q.x(), q.y(), q.z(),
                     q.w());
 }

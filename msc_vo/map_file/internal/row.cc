@@ -13,7 +13,8 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kMicrometres = 1e6;  // per metre
+constexpr double kMicrometres = 1e6;      // per metre
+constexpr double kMaxMicrometres = 1e15;  // a million kilometres
 
 }  // namespace
 
@@ -57,8 +58,8 @@ RowWriter& RowWriter::Real(double value) {
 
 RowWriter& RowWriter::Metres(double value) {
   const double micrometres = std::round(kMicrometres * value);
-  if (!(std::abs(micrometres) < 1e18)) {
-    throw std::invalid_argument("map file: a position is not finite");
+  if (!(std::abs(micrometres) <= kMaxMicrometres)) {
+    throw std::invalid_argument("map file: a position is too far away to be stored");
   }
   return Integer(static_cast<int64_t>(micrometres));
 }
@@ -105,7 +106,11 @@ double RowReader::Real() {
   return value;
 }
 
-double RowReader::Metres() { return static_cast<double>(Integer()) / kMicrometres; }
+double RowReader::Metres() {
+  const auto micrometres = static_cast<double>(Integer());
+  if (!(std::abs(micrometres) <= kMaxMicrometres)) Fail("a position is too far away");
+  return micrometres / kMicrometres;
+}
 
 std::string_view RowReader::Text() {
   const std::string_view text = statement_.Bytes(Next(SQLITE_TEXT));
