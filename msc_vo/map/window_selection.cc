@@ -63,6 +63,7 @@ void AddPredecessors(const Map& map, std::set<KeyframeId>* window) {
   for (const KeyframeId id : std::set<KeyframeId>(*window)) {
     const auto* before = map.keyframes().FindUpTo(id - 1);
     if (before == nullptr || window->count(before->first) > 0) continue;
+    if (map.IsOfEarlierSession(before->first)) continue;  // no factor of this run links it
     if (NumShared(map, id, before->first) < kMinShared) window->insert(before->first);
   }
 }
