@@ -87,11 +87,11 @@ TEST(ChangeCamera, ScalesPyramidLevels) {
 TEST(ChangeCamera, TakesDepthRangesFromTheSameRays) {
   auto frame = std::make_shared<Frame>(*FrameWith(Intrinsics(0.0, false)));
   frame->depth_ranges.cells.resize(DepthRanges::kColumns * DepthRanges::kRows);
-  frame->depth_ranges.cells[DepthRanges::CellOf(kCamera, {350.0, 250.0})] = {0.5f, 1.0f};
-  // Twice the field of view, the same centre.
-  const PinholeCamera wide{250.0, 250.0, 320.0, 240.0, 640, 480};
+  frame->depth_ranges.cells[DepthRanges::CellOf(kCamera, {418.0, 338.0})] = {0.5f, 1.0f};
+  // Twice the field of view: the centre of the cell of pixel (370, 290) is on that ray.
+  const PinholeCamera wide{250.0, 250.0, 321.0, 241.0, 640, 480};
   const auto changed = ChangeCamera(frame, wide);
-  EXPECT_TRUE(changed->depth_ranges.cells[DepthRanges::CellOf(wide, {335.0, 245.0})].HasDepth());
+  EXPECT_TRUE(changed->depth_ranges.cells[DepthRanges::CellOf(wide, {370.0, 290.0})].HasDepth());
   EXPECT_FALSE(changed->depth_ranges.At(0, 0).HasDepth());
 }
 
