@@ -73,6 +73,24 @@ class SessionsTest : public RoomTest {
   static inline OdometryResult* first_result_ = nullptr;
 };
 
+// At the same time stamps as the first run, but at the other end of its path: nothing can be
+// concluded from that.
+TEST_F(SessionsTest, MayBeElsewhereAtTheTimesOfTheFirstRun) {
+  for (const double offset : {0.0, 0.011, 0.022}) {
+    Odometry odometry(Options(), camera_, LensDistortion());
+    odometry.SetMap(Map());
+    for (int i = 0; i < kNumFrames; ++i) {
+      RgbdImage image = (*images_)[kNumFrames - 1 - i];
+      image.id = i;
+      image.timestamp = (*images_)[i].timestamp + offset;
+      odometry.Process(image);
+    }
+    const OdometryResult result = odometry.Finish();
+    ASSERT_EQ(result.segments.size(), 2u);
+    EXPECT_EQ(result.segments[1].world, 0) << offset;
+  }
+}
+
 // Time stamps of another session mean nothing: earlier, the same ones, later.
 TEST_F(SessionsTest, FindsItselfInTheMapWhateverTheClockSays) {
   for (const double time : {-1000.0, 0.0, 0.33, 1e9}) {
